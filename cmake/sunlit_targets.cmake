@@ -1,0 +1,44 @@
+# How every library, program and test of this package is made.
+
+# Flags that all our targets share.
+add_library(sunlit_flags INTERFACE)
+target_compile_options(sunlit_flags INTERFACE
+  -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  # One rounding per operation, so that results do not depend on how a compiler fuses them.
+  -ffp-contract=off)
+if(SUNLIT_WERROR)
+  target_compile_options(sunlit_flags INTERFACE -Werror)
+endif()
+
+# sunlit_library(MODULE SOURCES file... [PUBLIC library...] [PRIVATE library...])
+# The library sunlit_MODULE of src/MODULE, with headers in include/sunlit/MODULE.
+function(sunlit_library module)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(sunlit_${module} SHARED ${ARG_SOURCES})
+  target_include_directories(sunlit_${module} PUBLIC ${PROJECT_SOURCE_DIR}/include)
+  target_link_libraries(sunlit_${module} PUBLIC Eigen3::Eigen ${ARG_PUBLIC} PRIVATE sunlit_flags ${ARG_PRIVATE})
+  install(TARGETS sunlit_${module} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+endfunction()
+
+# sunlit_program(NAME SOURCES file... [LIBRARIES library...])
+# A program that `rosrun sunlit NAME` finds, from build and install space.
+function(sunlit_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(sunlit_${name} ${ARG_SOURCES})
+  set_target_properties(sunlit_${name} PROPERTIES
+    OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+  target_link_libraries(sunlit_${name} PRIVATE sunlit_flags ${ARG_LIBRARIES})
+  install(TARGETS sunlit_${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+endfunction()
+
+# sunlit_test(MODULE NAME [LIBRARIES library...])
+# The unit test NAME.cpp of the current folder, run by `run_tests`. SUNLIT_SOURCE_DIR and SUNLIT_SHARED_DIR (real test
+# input, which may be absent) are defined for it.
+function(sunlit_test module name)
+  cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
+  catkin_add_gtest(test_${module}_${name} ${name}.cpp TIMEOUT 300)
+  target_compile_definitions(test_${module}_${name} PRIVATE
+    SUNLIT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" SUNLIT_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
+  target_include_directories(test_${module}_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test)
+  target_link_libraries(test_${module}_${name} sunlit_flags sunlit_${module} ${ARG_LIBRARIES} gtest_main)
+endfunction()

@@ -1,0 +1,32 @@
+/// From scene luminance to the 8-bit picture: exposure, and the one conversion to sRGB.
+#pragma once
+
+#include "sunlit/image/images.h"
+
+namespace sunlit::image {
+
+enum class ExposureMode { kFixed, kAuto };
+
+struct ExposureOptions {
+  ExposureMode mode = ExposureMode::kAuto;
+  double ev100 = 13.0;          ///< fixed: exposure value at ISO 100, −16 … 24
+  double compensation_ev = 0.0;  ///< auto: added brightness in stops, −8 … 8
+  double min_ev100 = -8.0;      ///< auto: darkest scene that the camera adapts to
+  double max_ev100 = 17.0;      ///< auto: brightest scene that the camera adapts to, ≥ min_ev100
+};
+
+/// Throws std::invalid_argument naming key, value and range.
+void validate(const ExposureOptions& options);
+
+/// EV100 with which to develop `image` (cd/m²). Auto metering depends on the image alone, and gives the same bits for
+/// any thread count. An all-black image gives min_ev100.
+double chooseEv100(const LinearImage& image, const ExposureOptions& options);
+
+/// Luminance that just saturates the picture at `ev100`: L = 1.2 · 2^EV100 cd/m² (ISO 12232 saturation-based speed with
+/// lens and vignetting factor q = 0.65: 78 / (100 · 0.65)).
+double saturationLuminance(double ev100);
+
+/// Scale by saturationLuminance, clip, encode by the sRGB curve (IEC 61966-2-1), round to 8 bit.
+Rgb8Image develop(const LinearImage& image, double ev100);
+
+}  // namespace sunlit::image

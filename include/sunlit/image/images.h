@@ -1,0 +1,35 @@
+/// The pictures that pass between modules, as plain arrays: row-major, top row first, no padding.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sunlit::image {
+
+/// A width × height picture of `channels` interleaved values a pixel.
+template <typename Value, int kChannels>
+struct Picture {
+  int width = 0;   ///< px
+  int height = 0;  ///< px
+  std::vector<Value> data;
+
+  Picture() = default;
+  Picture(int width_px, int height_px)
+      : width(width_px),
+        height(height_px),
+        data(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * kChannels) {}
+  Value* at(int x, int y) { return data.data() + offset(x, y); }
+  const Value* at(int x, int y) const { return data.data() + offset(x, y); }
+
+ private:
+  std::size_t offset(int x, int y) const {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * kChannels;
+  }
+};
+
+using LinearImage = Picture<float, 3>;   ///< linear RGB (see LinearRgb), cd/m²
+using Rgb8Image = Picture<std::uint8_t, 3>;  ///< display-referred sRGB, 8 bit
+using DepthImage = Picture<float, 1>;    ///< m along the optical axis (z); NaN where nothing was hit
+
+}  // namespace sunlit::image

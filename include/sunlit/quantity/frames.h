@@ -1,0 +1,17 @@
+/// Rigid transforms between named frames. A transform is called destination_from_source.
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace sunlit {
+
+/// `camera_link` (x forward, y left, z up; REP-103) from `camera_optical_frame` (z forward, x right, y down).
+inline Eigen::Isometry3d linkFromOptical() {
+  Eigen::Isometry3d link_from_optical = Eigen::Isometry3d::Identity();
+  link_from_optical.linear() << 0, 0, 1,  //
+      -1, 0, 0,                           //
+      0, -1, 0;
+  return link_from_optical;
+}
+
+}  // namespace sunlit

@@ -1,0 +1,28 @@
+/// A scene from a name or a file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sunlit/scene/scene.h"
+
+namespace sunlit::scene {
+
+/// The name of the built-in world.
+constexpr const char* kRaceTrack = "race_track";
+
+/// Where model:// and relative file:// addresses are looked for, in this order, after the folder of the file that names
+/// them and its parents.
+struct SearchPath {
+  std::vector<std::string> folders;
+  /// `folders`, then those of the environment variables SUNLIT_MODEL_PATH, GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and
+  /// SDF_PATH (colon-separated), then ~/.gazebo/models.
+  static SearchPath withEnvironment(std::vector<std::string> folders);
+};
+
+/// `world` is "race_track" or the path of a file, by its ending: .world .sdf (SDF), .dae, .gltf .glb, .obj.
+/// Throws std::runtime_error naming the file and place, and for a missing file where it was looked for.
+/// A missing texture is a line in Scene::warnings and a neutral material.
+Scene load(const std::string& world, const SearchPath& search_path);
+
+}  // namespace sunlit::scene

@@ -1,0 +1,85 @@
+/// What there is to see: textured triangle meshes in the `map` frame.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sunlit/quantity/photometry.h"
+
+namespace sunlit::scene {
+
+/// 8-bit RGBA: colour sRGB-encoded, alpha linear. Row-major, top row first; texture coordinate (0, 0) is the top left
+/// corner (glTF). Repeats in both directions.
+struct Texture {
+  std::string name;
+  int width = 0;   ///< px, > 0
+  int height = 0;  ///< px, > 0
+  std::vector<std::uint8_t> rgba;
+};
+
+/// Fractal variation of the albedo, computed from the position in `map` and therefore never repeated. Octaves of noise
+/// from `coarsest_m` to `finest_m` wavelength; each finer octave has `gain` times the contrast of the one before.
+/// No contrast, no detail. Octaves finer than a pixel fade out.
+struct Detail {
+  float contrast = 0.0f;    ///< standard deviation of the summed noise, relative to the albedo, 0 … 1
+  float coarsest_m = 8.0f;  ///< > finest_m
+  float finest_m = 0.01f;   ///< > 0
+  float gain = 0.8f;        ///< 0 … 1.5
+  Eigen::Array3f tint{1.0f, 1.0f, 1.0f};  ///< contrast per channel, 0 … 2; unequal values vary the hue
+};
+
+enum class AlphaMode {
+  kOpaque,  ///< alpha is ignored
+  kMask,    ///< cut out where alpha < alpha_cutoff, in the image and in the shadows alike
+};
+
+/// Metallic-roughness material as in glTF 2.0.
+struct Material {
+  static constexpr int kNoTexture = -1;
+
+  std::string name;
+  LinearRgb base_color{0.5f, 0.5f, 0.5f};  ///< reflectance, 0 … 1; multiplies texture and vertex colour
+  int base_texture = kNoTexture;           ///< index into Scene::textures
+  float roughness = 0.9f;                  ///< perceptual, 0.03 … 1
+  float metalness = 0.0f;                  ///< 0 … 1
+  LinearRgb emission;                      ///< luminance that the surface gives off by itself, cd/m²
+  AlphaMode alpha_mode = AlphaMode::kOpaque;
+  float alpha_cutoff = 0.5f;  ///< 0 … 1
+  bool double_sided = true;   ///< false: invisible from behind; still casts shadows
+  Detail detail;
+};
+
+/// Triangles of one material. Positions and unit normals in `map`, m. Front faces run counter-clockwise.
+struct Mesh {
+  std::string name;
+  int material = 0;  ///< index into Scene::materials
+  std::vector<Eigen::Vector3f> positions;
+  std::vector<Eigen::Vector3f> normals;             ///< one a vertex
+  std::vector<Eigen::Vector2f> texture_coordinates;  ///< one a vertex, or empty
+  std::vector<Eigen::Array3f> colors;               ///< linear, one a vertex, or empty for white
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+struct Scene {
+  std::string name;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<std::string> warnings;  ///< what was amiss in its files and how it was made good, a line each
+
+  std::size_t triangleCount() const {
+    std::size_t count = 0;
+    for (const Mesh& mesh : meshes) count += mesh.triangles.size();
+    return count;
+  }
+};
+
+/// Throws std::invalid_argument naming mesh or material and what is wrong: an index out of range, arrays of unequal
+/// length, a value that is not finite or out of the range given above.
+void validate(const Scene& scene);
+
+}  // namespace sunlit::scene
