@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+"""sunlit builds in a user's ordinary catkin workspace, and its launch files run from the install space."""
+import os
+import pathlib
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import rosunit
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+POSES = 2
+
+
+def free_port():
+    with socket.socket() as listener:
+        listener.bind(("localhost", 0))
+        return listener.getsockname()[1]
+
+
+class Workspace(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="sunlit_workspace_"))
+        (cls.folder / "src").mkdir()
+        (cls.folder / "src" / "sunlit").symlink_to(SOURCE)
+        cls.environment = {key: value for key, value in os.environ.items()
+                           if not key.startswith(("ROS_", "CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "PYTHONPATH"))}
+        cls.environment.update(ROS_HOSTNAME="localhost", ROS_HOME=str(cls.folder / "ros_home"))
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder, ignore_errors=True)
+
+    def run_in_workspace(self, command, setup=None):
+        """Runs `command` through bash with the workspace's `setup` sourced; its output stands in the failure."""
+        source = f". {self.folder}/{setup}/setup.bash && " if setup else ""
+        done = subprocess.run(["bash", "-c", f"cd {self.folder} && {source}{command}"], env=self.environment,
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout[-4000:]}")
+        return done.stdout
+
+    def experiment(self, setup):
+        """The two hours are noon against itself an hour later: enough to see that all parts run together."""
+        port = free_port()
+        self.environment["ROS_MASTER_URI"] = f"http://localhost:{port}"
+        output = self.folder / f"output_{setup}"
+        self.run_in_workspace(f"roslaunch -p {port} sunlit experiment.launch poses:={POSES} hours:='[12, 13]' "
+                              f"differences:='[boolean_rgb, orb]' output:={output}", setup)
+        self.assertIn("h12,h13,boolean_rgb", (output / "summary.csv").read_text())
+        self.assertTrue((output / "report.html").exists())
+
+    def test_builds_installs_and_runs(self):
+        # Little optimisation: this test is about files and names, and the build is most of its time.
+        self.run_in_workspace(f"catkin_make install -j{os.cpu_count()} -DPYTHON_EXECUTABLE=/usr/bin/python3 "
+                              "-DCATKIN_ENABLE_TESTING=OFF -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1")
+        self.experiment("devel")
+        shutil.move(str(self.folder / "src"), str(self.folder / "src_gone"))  # the install space stands alone
+        shutil.rmtree(self.folder / "devel")
+        shutil.rmtree(self.folder / "build")
+        self.experiment("install")
+
+
+if __name__ == "__main__":
+    rosunit.unitrun("sunlit", "package_workspace", Workspace, sysargs=sys.argv)

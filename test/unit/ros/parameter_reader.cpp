@@ -1,0 +1,134 @@
+#include "sunlit/ros/parameter_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "sunlit/ros/conditions.h"
+
+namespace sunlit::ros_interface {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+XmlRpcValue exampleTree() {
+  XmlRpcValue tree;
+  tree["site"]["latitude"] = 55.79;
+  tree["site"]["elevation"] = 90;
+  tree["earth"]["delta_t"] = std::string("auto");
+  tree["mode"] = std::string("fixed");
+  tree["loop"] = true;
+  return tree;
+}
+
+/// The message of the exception that `call` throws, or an empty one.
+template <typename Call>
+std::string messageOf(const Call& call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ParameterReader, ReadsValuesAndFallsBackToDefaults) {
+  const ParameterReader reader(exampleTree(), "/node");
+  EXPECT_EQ(reader.number("site/latitude", 0.0, {-90, 90}), 55.79);
+  EXPECT_EQ(reader.number("site/elevation", 0.0), 90.0);  // a whole number is a number
+  EXPECT_EQ(reader.number("site/longitude", 49.1), 49.1);
+  EXPECT_EQ(reader.choice("mode", "auto", {"auto", "fixed"}), "fixed");
+  EXPECT_TRUE(reader.flag("loop", false));
+  EXPECT_FALSE(reader.numberOr("earth/delta_t", "auto", 69.0).has_value());
+  EXPECT_EQ(reader.numberOr("earth/delta_ut1", "auto", 0.5).value(), 0.5);
+  EXPECT_NO_THROW(reader.rejectUnknown());
+}
+
+TEST(ParameterReader, NamesKeyValueAndRangeOfABadValue) {
+  XmlRpcValue tree = exampleTree();
+  tree["site"]["latitude"] = 91.0;
+  const ParameterReader reader(tree, "/node");
+  EXPECT_EQ(messageOf([&] { reader.number("site/latitude", 0.0, {-90, 90}); }),
+            "parameter /node/site/latitude is 91, but must be a number from -90 to 90");
+  EXPECT_EQ(messageOf([&] { reader.choice("mode", "auto", {"auto", "manual"}); }),
+            "parameter /node/mode is \"fixed\", but must be one of auto, manual");
+  EXPECT_NE(messageOf([&] { reader.integer("mode", 1); }), "");
+  EXPECT_NE(messageOf([&] { reader.flag("site/elevation", true); }), "");
+}
+
+TEST(ParameterReader, NanAndInfinityAreNeverNumbers) {
+  XmlRpcValue tree;
+  tree["a"] = std::numeric_limits<double>::quiet_NaN();
+  tree["b"] = std::numeric_limits<double>::infinity();
+  const ParameterReader reader(tree, "/node");
+  EXPECT_THROW(reader.number("a", 0.0), std::invalid_argument);
+  EXPECT_THROW(reader.number("b", 0.0), std::invalid_argument);
+}
+
+TEST(ParameterReader, AnUnknownKeyIsAnErrorThatListsTheKnownOnes) {
+  XmlRpcValue tree = exampleTree();
+  tree["site"]["lattitude"] = 1.0;
+  const ParameterReader reader(tree, "/node");
+  reader.value("earth");
+  reader.text("mode", "");
+  reader.flag("loop", true);
+  reader.number("site/latitude", 0.0);
+  reader.number("site/elevation", 0.0);
+  EXPECT_EQ(messageOf([&] { reader.rejectUnknown(); }),
+            "parameter /node/site/lattitude is unknown; known are earth, loop, mode, site/elevation, site/latitude");
+}
+
+TEST(ParameterReader, OverridesAreNamedByWholeKeyOrLastPart) {
+  XmlRpcValue overrides;
+  overrides["latitude"] = 10.0;
+  const ParameterReader base(exampleTree(), "/node");
+  const ParameterReader reader = base.withOverrides(overrides, "/node/conditions/south");
+  EXPECT_EQ(reader.number("site/latitude", 0.0), 10.0);
+  EXPECT_EQ(reader.number("site/elevation", 0.0), 90.0);
+  EXPECT_EQ(base.number("site/latitude", 0.0), 55.79);
+  EXPECT_NO_THROW(reader.rejectUnknown());
+
+  XmlRpcValue mistyped;
+  mistyped["hours"] = 4;
+  const ParameterReader wrong = base.withOverrides(mistyped, "/node/conditions/south");
+  wrong.integer("date_time/hour", 12);
+  EXPECT_NE(messageOf([&] { wrong.rejectUnknown(); }).find("/node/conditions/south/hours"), std::string::npos);
+}
+
+TEST(Conditions, AreAListOfNamesOrAMapOrASingleUnnamedOne) {
+  XmlRpcValue list;
+  list["conditions"][0] = std::string("noon");
+  list["conditions"][1] = std::string("dusk");
+  const auto named = readConditions(ParameterReader(list, "/node"));
+  ASSERT_EQ(named.size(), 2u);
+  EXPECT_EQ(named[0].name, "noon");
+  EXPECT_EQ(named[1].frame("sun"), "dusk/sun");
+
+  XmlRpcValue map;
+  map["conditions"]["h04"]["hour"] = 4;
+  map["conditions"]["h12"]["hour"] = 12;
+  const auto hours = readConditions(ParameterReader(map, "/node"));
+  ASSERT_EQ(hours.size(), 2u);
+  EXPECT_EQ(hours[0].parameters.integer("date_time/hour", 0), 4);
+  EXPECT_EQ(hours[1].parameters.integer("date_time/hour", 0), 12);
+
+  const auto single = readConditions(ParameterReader(exampleTree(), "/node"));
+  ASSERT_EQ(single.size(), 1u);
+  EXPECT_EQ(single[0].frame("sun"), "sun");
+}
+
+TEST(Conditions, BadNamesAreRefused) {
+  for (const char* name : {"", "4h", "a/b", "a b"}) {
+    XmlRpcValue tree;
+    tree["conditions"][0] = std::string(name);
+    EXPECT_THROW(readConditions(ParameterReader(tree, "/node")), std::invalid_argument) << name;
+  }
+  XmlRpcValue twice;
+  twice["conditions"][0] = std::string("a");
+  twice["conditions"][1] = std::string("a");
+  EXPECT_THROW(readConditions(ParameterReader(twice, "/node")), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace sunlit::ros_interface

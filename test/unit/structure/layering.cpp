@@ -1,0 +1,130 @@
+// The rules of the house: who may include whom, which library is used where, how long a file may be.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Modules = std::set<std::string>;
+
+const std::map<std::string, Modules> kMayInclude = {
+    {"quantity", {}},
+    {"astronomy", {"quantity"}},
+    {"sky", {"quantity"}},
+    {"image", {"quantity"}},
+    {"scene", {"image", "quantity"}},
+    {"path", {"image", "quantity"}},
+    {"light", {"scene", "sky", "image", "quantity"}},
+    {"render", {"light", "scene", "sky", "image", "quantity"}},
+    {"evaluate", {"image", "quantity"}},
+    {"ros",
+     {"astronomy", "sky", "image", "scene", "path", "light", "render", "evaluate", "quantity"}},
+};
+
+struct LibraryRule {
+  std::regex include;
+  Modules modules;
+};
+
+std::vector<LibraryRule> libraryRules() {
+  const std::regex ros(
+      R"((ros|tf2|tf2_ros|sensor_msgs|geometry_msgs|nav_msgs|std_msgs|std_srvs|cv_bridge|image_transport|rosbag|)"
+      R"(visualization_msgs|diagnostic_updater|xmlrpcpp|nodelet|rosgraph_msgs|diagnostic_msgs)/.*)");
+  return {
+      {ros, {"ros"}},
+      {std::regex("opencv2/.*"), {"image", "evaluate", "ros"}},
+      {std::regex("GL/.*"), {"render"}},
+      {std::regex("embree3/.*"), {"light"}},
+      {std::regex("(sdf|assimp)/.*"), {"scene"}},
+      {std::regex("tbb/.*"), {"sky", "image", "scene", "light", "render", "evaluate", "ros"}},
+  };
+}
+
+struct SourceFile {
+  fs::path path;
+  std::string module;
+  std::vector<std::string> lines;
+};
+
+std::vector<SourceFile> sources() {
+  std::vector<SourceFile> files;
+  for (const char* root : {"include/sunlit", "src"}) {
+    const fs::path base = fs::path(SUNLIT_SOURCE_DIR) / root;
+    for (const auto& entry : fs::recursive_directory_iterator(base)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".h" && extension != ".cpp") continue;
+      SourceFile file{entry.path(), entry.path().lexically_relative(base).begin()->string(), {}};
+      std::ifstream stream(entry.path());
+      for (std::string line; std::getline(stream, line);) file.lines.push_back(line);
+      files.push_back(std::move(file));
+    }
+  }
+  return files;
+}
+
+std::vector<std::string> includesOf(const SourceFile& file) {
+  static const std::regex directive(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"].*)");
+  std::vector<std::string> includes;
+  for (const std::string& line : file.lines) {
+    std::smatch match;
+    if (std::regex_match(line, match, directive)) includes.push_back(match[1]);
+  }
+  return includes;
+}
+
+TEST(Structure, EveryFileBelongsToAModule) {
+  ASSERT_GT(sources().size(), 20u);
+  for (const SourceFile& file : sources()) EXPECT_EQ(kMayInclude.count(file.module), 1u) << file.path;
+}
+
+TEST(Structure, DependenciesPointOneWay) {
+  const std::regex ours(R"(sunlit/([a-z_]+)/.*)");
+  for (const SourceFile& file : sources()) {
+    const Modules& allowed = kMayInclude.at(file.module);
+    for (const std::string& include : includesOf(file)) {
+      std::smatch match;
+      if (!std::regex_match(include, match, ours)) continue;
+      EXPECT_TRUE(match[1] == file.module || allowed.count(match[1]) == 1) << file.path << " includes " << include;
+    }
+  }
+}
+
+TEST(Structure, LibrariesStayInTheirModules) {
+  const auto rules = libraryRules();
+  for (const SourceFile& file : sources()) {
+    for (const std::string& include : includesOf(file)) {
+      for (const LibraryRule& rule : rules) {
+        if (!std::regex_match(include, rule.include)) continue;
+        EXPECT_EQ(rule.modules.count(file.module), 1u) << file.path << " includes " << include;
+      }
+    }
+  }
+}
+
+TEST(Structure, OneFileKnowsOsMesa) {
+  int count = 0;
+  for (const SourceFile& file : sources()) {
+    const auto includes = includesOf(file);
+    count += static_cast<int>(std::count(includes.begin(), includes.end(), "GL/osmesa.h"));
+  }
+  EXPECT_EQ(count, 1);
+}
+
+// Tables of published constants are exempt: a file that is one says so in its name.
+TEST(Structure, FilesAreShort) {
+  for (const SourceFile& file : sources()) {
+    if (file.path.stem().string().find("table") != std::string::npos) continue;
+    const std::size_t limit = file.path.extension() == ".h" ? 200 : 400;
+    EXPECT_LE(file.lines.size(), limit) << file.path;
+  }
+}
+
+}  // namespace
