@@ -9,21 +9,27 @@ enum class ExposureMode { kFixed, kAuto };
 
 struct ExposureOptions {
   ExposureMode mode = ExposureMode::kAuto;
-  double ev100 = 13.0;          ///< fixed: exposure value at ISO 100, −16 … 24
+  double ev100 = 13.0;           ///< fixed: exposure value at ISO 100, −16 … 24
   double compensation_ev = 0.0;  ///< auto: added brightness in stops, −8 … 8
-  double min_ev100 = -8.0;      ///< auto: darkest scene that the camera adapts to
-  double max_ev100 = 17.0;      ///< auto: brightest scene that the camera adapts to, ≥ min_ev100
+  double min_ev100 = -8.0;       ///< auto: darkest scene that the camera adapts to
+  double max_ev100 = 17.0;       ///< auto: brightest scene that the camera adapts to, ≥ min_ev100
 };
 
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const ExposureOptions& options);
 
-/// EV100 with which to develop `image` (cd/m²). Auto metering depends on the image alone, and gives the same bits for
-/// any thread count. An all-black image gives min_ev100.
+/// EV100 with which to develop `image` (cd/m²). Auto metering depends on the image alone, and gives the same
+/// bits for any thread count. An all-black image gives min_ev100.
+///
+/// Auto: the mean of log luminance becomes 18 % of saturation, level 118 (standard output sensitivity, ISO
+/// 12232). The mean is weighted towards the centre and the lower 60 % of the picture, so that a bright sky
+/// does not darken the ground, and leaves out the darkest and brightest 5 % of the weight, so that the sun's
+/// disc, a lamp or a black hole that enters the picture does not make the exposure jump. Black and NaN count
+/// as darkest.
 double chooseEv100(const LinearImage& image, const ExposureOptions& options);
 
-/// Luminance that just saturates the picture at `ev100`: L = 1.2 · 2^EV100 cd/m² (ISO 12232 saturation-based speed with
-/// lens and vignetting factor q = 0.65: 78 / (100 · 0.65)).
+/// Luminance that just saturates the picture at `ev100`: L = 1.2 · 2^EV100 cd/m² (ISO 12232 saturation-based
+/// speed with lens and vignetting factor q = 0.65: 78 / (100 · 0.65)).
 double saturationLuminance(double ev100);
 
 /// Scale by saturationLuminance, clip, encode by the sRGB curve (IEC 61966-2-1), round to 8 bit.

@@ -60,7 +60,7 @@ struct Mesh {
   std::vector<Eigen::Vector3f> positions;
   std::vector<Eigen::Vector3f> normals;             ///< one a vertex
   std::vector<Eigen::Vector2f> texture_coordinates;  ///< one a vertex, or empty
-  std::vector<Eigen::Array3f> colors;               ///< linear, one a vertex, or empty for white
+  std::vector<Eigen::Array3f> colors;  ///< linear factor, 0 … 2 (above 1 lightens a texture), one a vertex, or empty for 1
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 

@@ -12,9 +12,10 @@ namespace sunlit::sky {
 
 /// A distant light of visible size, such as the sun.
 struct DiscLight {
-  Direction towards;                                      ///< apparent centre, may lie below the horizon
-  Angle angular_radius = Angle::degrees(0.2666);          ///< true angular radius of the disc
-  LinearRgb illuminance;  ///< lx on a plane facing it, at the ground, its unobscured disc; zero when the whole disc is set
+  Direction towards;                              ///< apparent centre, may lie below the horizon
+  Angle angular_radius = Angle::degrees(0.2666);  ///< true angular radius of the disc
+  LinearRgb illuminance;  ///< lx on a plane facing it, at the ground, its unobscured disc; zero when the
+                          ///< whole disc is set
 };
 
 /// Tabulated sky; see atmosphere.h for how it is computed.
@@ -29,8 +30,8 @@ class Daylight {
   /// Luminance of the sky behind the scene, cd/m², without the discs. Below the horizon: the luminance of the
   /// ground far away, continuous at the horizon.
   LinearRgb skyLuminance(const Eigen::Vector3f& towards) const;
-  /// Illuminance, lx, of an unoccluded surface facing `normal`: from the sky above the horizon and from ground of the
-  /// model's albedo below it; without the discs' direct light.
+  /// Illuminance, lx, of an unoccluded surface facing `normal`: from the sky above the horizon and from
+  /// ground of the model's albedo below it; without the discs' direct light.
   LinearRgb skyIlluminance(const Eigen::Vector3f& normal) const;
   const DiscLight& sun() const;
   /// Illuminance of level, open ground, sun and sky together, lx.

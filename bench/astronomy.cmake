@@ -1,0 +1,1 @@
+sunlit_bench(astronomy LIBRARIES sunlit_astronomy)

@@ -1,0 +1,1 @@
+sunlit_bench(evaluate LIBRARIES sunlit_evaluate)

@@ -1,0 +1,145 @@
+/// A whole evaluation: images of several streams come in, in any order; result files come out.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sunlit/evaluate/comparer.h"
+#include "sunlit/evaluate/frames_file.h"
+
+namespace sunlit::evaluate {
+
+/// Two streams to compare; the first gives the queries of the matching.
+struct PairSpec {
+  std::string a;
+  std::string b;
+  int every = 1;  ///< only poses 0, every, 2·every, … are compared; ≥ 1
+};
+
+/// Which images are kept as PNG, for reports.
+enum class KeptImages { kNone, kSamples, kAll };
+
+struct EvaluationOptions {
+  std::vector<std::string> streams;  ///< distinct names
+  std::vector<PairSpec> pairs;       ///< of streams; empty: all
+  ComparerOptions comparer;
+  std::string output_dir;  ///< made where it does not exist
+  std::size_t poses = 0;   ///< expected along the path; 0: unknown
+  KeptImages images =
+      KeptImages::kSamples;  ///< samples: five evenly spread poses, or every 200th of an unknown number
+  double frame_rate = 0.0;   ///< Hz; 0: poses are numbered by captures, or else by the order of the stamps
+  std::int64_t stamp_start_ns = 0;  ///< stamp of pose 0, where a frame rate is given
+  std::size_t max_waiting_images =
+      3000;  ///< that wait for a partner; beyond, the oldest stamp is given up and named
+  std::vector<std::pair<std::string, std::string>> about;  ///< of the experiment, for run.yaml and reports
+};
+
+/// All ordered pairs of streams (first before second), each pose.
+std::vector<PairSpec> allPairs(const std::vector<std::string>& streams);
+
+/// How an image was taken.
+struct CaptureRecord {
+  std::int64_t pose = 0;
+  std::int64_t stamp_ns = 0;
+  double ev100 = 0.0;
+  double sun_azimuth_deg = 0.0;    ///< clockwise from north
+  double sun_elevation_deg = 0.0;  ///< apparent
+  double scene_illuminance_lx = 0.0;
+};
+
+/// Where the camera stood, in `map`.
+struct PlaceRecord {
+  std::int64_t stamp_ns = 0;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double z_m = 0.0;
+  double yaw_deg = 0.0;  ///< of the camera's x axis, counter-clockwise from east
+};
+
+struct StreamCounts {
+  std::size_t received = 0;
+  std::size_t duplicate = 0;     ///< stamp had come before
+  std::size_t out_of_order = 0;  ///< used all the same
+  std::size_t undecodable = 0;
+  std::size_t late = 0;  ///< came after its stamp had been given up
+};
+
+/// evaluated + resumed + the others = pairs asked for.
+struct PairCounts {
+  std::size_t evaluated = 0;        ///< in this run; undefined values included
+  std::size_t resumed = 0;          ///< taken over from an earlier run
+  std::size_t missing_partner = 0;  ///< one image never came, or both
+  std::size_t undecodable = 0;
+  std::size_t size_mismatch = 0;
+  std::size_t dropped = 0;   ///< given up to bound the memory
+  std::size_t failed = 0;    ///< the comparison itself failed
+  std::size_t unplaced = 0;  ///< no capture said which pose it is
+  std::size_t notEvaluated() const {
+    return missing_partner + undecodable + size_mismatch + dropped + failed + unplaced;
+  }
+};
+
+struct Counts {
+  std::vector<StreamCounts> streams;  ///< in the order of the options
+  std::vector<PairCounts> pairs;
+  std::size_t completed_poses = 0;  ///< all their pairs are accounted for
+  std::size_t waiting_images = 0;   ///< for a partner
+  std::size_t queued_poses = 0;     ///< whole, but not compared yet
+};
+
+/// What finish() found.
+struct Outcome {
+  Counts counts;
+  std::vector<SummaryRow> summary;
+  std::size_t absent_poses = 0;  ///< of the expected number, no image at all came
+  bool isWhole() const;          ///< every pair of every pose was evaluated (or is undefined)
+};
+
+/// Called from worker threads, one at a time.
+struct EvaluationCallbacks {
+  std::function<void(const PairRecord& record, const cv::Mat& a, const cv::Mat& b)> pair_done;
+  std::function<void(std::size_t completed_poses)> progress;
+  std::function<void(const std::string& line)> note;  ///< something a person should read
+};
+
+/// Thread-safe. Images are shared, not copied, and must not change afterwards.
+///
+/// Files in output_dir: frames.csv (grows by one write per pose and pair; sorted at the end), summary.csv,
+/// run.yaml, problems.csv, captures.csv, path.csv, images/. A folder that holds an unfinished run with the
+/// same settings is taken up again: pairs that it holds are not evaluated twice.
+class Evaluation {
+ public:
+  /// Throws std::invalid_argument for bad options, and where output_dir holds a run with other settings
+  /// (naming the first); std::runtime_error for a folder that cannot be written.
+  Evaluation(const EvaluationOptions& options, EvaluationCallbacks callbacks);
+  ~Evaluation();
+
+  /// An image of options().streams[stream], CV_8UC3, red first.
+  void addImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb);
+  /// An image that could not be decoded, and why.
+  void addBadImage(std::size_t stream, std::int64_t stamp_ns, const std::string& fault);
+  void addCapture(std::size_t stream, const CaptureRecord& capture);
+  void addPlace(const PlaceRecord& place);
+
+  const EvaluationOptions& options() const;
+  Counts counts() const;
+  /// All expected poses are accounted for; never true where their number is unknown. Rethrows what stopped a
+  /// worker, such as a full disk.
+  bool isComplete() const;
+  /// Blocks until at most `queued_poses` wait for being compared: for sources that can wait.
+  void waitForRoom(std::size_t queued_poses) const;
+  /// Accounts for everything that still waits, writes all files and stops. Once.
+  Outcome finish();
+
+ private:
+  class State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,31 @@
+/// Pictures in files. Every writer leaves either the whole new file or what was there before, even if the
+/// process is killed; every failure throws std::runtime_error "path: what failed: why".
+#pragma once
+
+#include <string>
+
+#include "sunlit/image/images.h"
+
+namespace sunlit::image {
+
+/// Writes `bytes` beside `path` under another name, makes them durable (fsync), then renames. The folder must
+/// exist.
+void writeFileAtomically(const std::string& path, const std::string& bytes);
+
+/// 8-bit sRGB PNG. The picture must not be empty (std::invalid_argument).
+void writePng(const std::string& path, const Rgb8Image& picture);
+/// The file in memory, as writePng() would write it.
+std::string encodePng(const Rgb8Image& picture);
+/// Any PNG of 8 bits a channel; grey becomes three equal channels, alpha is dropped. Deeper ones are an
+/// error, since rounding them would lose data silently.
+Rgb8Image readPng(const std::string& path);
+
+/// Portable float map, exact to the bit (NaN included): little-endian, bottom row first, as the format has
+/// it.
+void writePfm(const std::string& path, const LinearImage& image);
+void writePfm(const std::string& path, const DepthImage& image);
+/// Little-endian three-channel ("PF") and one-channel ("Pf") maps.
+LinearImage readLinearPfm(const std::string& path);
+DepthImage readDepthPfm(const std::string& path);
+
+}  // namespace sunlit::image

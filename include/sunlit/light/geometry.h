@@ -1,0 +1,47 @@
+/// All triangles of a scene in one list, ordered so that neighbours in the list share a material and a place.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "sunlit/scene/scene.h"
+
+namespace sunlit::light {
+
+/// The plane that a triangle lies in: points p with normal · p = offset.
+struct Plane {
+  Eigen::Vector3f normal;  ///< unit, to the front side, in `map`
+  double offset = 0.0;     ///< m; of the rounded normal, so that the plane goes through the triangle exactly
+};
+
+/// Consecutive triangles of one material within one cell of a square grid over the map: the unit of culling.
+struct Chunk {
+  int material = 0;          ///< index into Scene::materials
+  std::uint32_t first = 0;   ///< first triangle
+  std::uint32_t count = 0;   ///< triangles, > 0
+  Eigen::AlignedBox3f box;   ///< around all of them, m in `map`
+};
+
+/// Triangles without area are left out: they can neither be seen nor cast a shadow.
+struct Geometry {
+  explicit Geometry(std::shared_ptr<const scene::Scene> scene);
+
+  std::shared_ptr<const scene::Scene> scene;  ///< whose materials and textures the indices below mean
+
+  std::vector<Eigen::Vector3f> positions;            ///< m in `map`
+  std::vector<Eigen::Vector3f> normals;              ///< of the file, in `map`; unit, or zero where the file's is unusable
+  std::vector<Eigen::Vector2f> texture_coordinates;  ///< one a vertex; zero where the mesh has none
+  std::vector<Eigen::Array3f> colors;                ///< linear, one a vertex
+
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Plane> planes;              ///< one a triangle
+  std::vector<std::int32_t> materials;    ///< one a triangle
+  std::vector<Chunk> chunks;              ///< cover all triangles, in order
+
+  static constexpr float kCellSize_m = 64.0f;
+};
+
+}  // namespace sunlit::light

@@ -1,0 +1,44 @@
+/// What a camera sees, ready to be lit: independent of sun and sky, made once per pose.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace sunlit::light {
+
+/// One surface within one pixel: the part of the pixel's samples that look alike, and are shaded together.
+struct Surface {
+  Eigen::Vector3f position;          ///< mean of its samples, m in `map`
+  Eigen::Vector3f to_eye;            ///< unit vector from there to the camera
+  Eigen::Vector3f geometric_normal;  ///< unit, of the triangle, on the side of the camera
+  Eigen::Vector3f shading_normal;    ///< unit, interpolated, in the hemisphere of geometric_normal
+  Eigen::Array3f albedo;             ///< linear base colour, 0 … 1
+  std::int32_t material = 0;         ///< index into Scene::materials
+  std::uint32_t pixel = 0;           ///< y · width + x
+  std::uint32_t first_sample = 0;    ///< into Tile::origin_x …
+  std::uint32_t samples = 0;         ///< how many of the pixel's samples see it, > 0
+};
+
+/// A square of neighbouring pixels: the unit of parallel work. Always the same pixels, so that no result depends on
+/// the number of threads.
+struct Tile {
+  int x = 0, y = 0;           ///< top left pixel
+  int width = 0, height = 0;  ///< px
+  std::vector<Surface> surfaces;  ///< in pixel order
+  /// Where each sample's rays start, m in `map`: on the visible side of the triangle, clear of rounding.
+  std::vector<float> origin_x, origin_y, origin_z;
+  std::vector<std::uint8_t> sky;  ///< samples of each pixel of the tile (row-major) that see no surface
+};
+
+struct Surfaces {
+  static constexpr int kTileSize = 16;  ///< px
+
+  int width = 0, height = 0;   ///< px
+  int samples_per_pixel = 1;   ///< > 0
+  /// Pixel (u, v) looks along pixel_origin + u · pixel_right + v · pixel_down in `map`, of depth 1 m.
+  Eigen::Vector3f pixel_origin, pixel_right, pixel_down;
+  std::vector<Tile> tiles;
+};
+
+}  // namespace sunlit::light

@@ -1,0 +1,1 @@
+"""Turns the output folder of an evaluation into one self-contained page, report.html."""

@@ -1,0 +1,258 @@
+"""Reads the files of an output folder. Only frames.csv must be there; what is absent stays None or empty."""
+
+import csv
+import dataclasses
+import glob
+import math
+import os
+import re
+
+import numpy as np
+import yaml
+
+DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "brisk", "orb"]
+FEATURES = {"sift", "surf", "orb", "brisk"}
+
+FRAMES = "pose,stamp,a,b,difference,value,features_a,features_b,matches,zero_second"
+SUMMARY = "a,b,difference,n,undefined,mean,sd,ci_low,ci_high"
+CAPTURES = "stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,scene_illuminance"
+PATH = "pose,stamp,x,y,z,yaw_deg"
+PROBLEMS = "kind,pose,stamp,where,reason"
+TIMING = "stage,what,count,seconds"
+
+
+class ReportError(Exception):
+    """A folder or file that cannot be used; says which and where."""
+
+
+@dataclasses.dataclass
+class Series:
+    """One difference of one pair along the path, by rising pose. `value` is NaN where it is undefined."""
+
+    pose: np.ndarray
+    value: np.ndarray
+    features_a: np.ndarray
+    features_b: np.ndarray
+    matches: np.ndarray
+    zero_second: np.ndarray
+
+
+@dataclasses.dataclass
+class Summary:
+    """Statistics of a series; NaN where there is none."""
+
+    n: int
+    undefined: int
+    mean: float
+    sd: float
+    ci_low: float = math.nan
+    ci_high: float = math.nan
+
+
+@dataclasses.dataclass
+class Output:
+    """All that an output folder holds. Keys of `series` and `summary` are (a, b, difference)."""
+
+    folder: str
+    series: dict
+    summary: dict
+    has_summary_file: bool
+    run: dict
+    captures: dict  # stream -> {column: array}
+    path: dict  # column -> array
+    map_picture: str
+    map_extent: dict
+    images: dict  # condition -> {pose: file}
+    problems: list
+    timing: list
+
+    @property
+    def pairs(self):
+        """Pairs of different conditions, in the order of the file."""
+        return [pair for pair in self.all_pairs if not is_self_test(*pair)]
+
+    @property
+    def self_pairs(self):
+        return [pair for pair in self.all_pairs if is_self_test(*pair)]
+
+    @property
+    def all_pairs(self):
+        return list(dict.fromkeys((a, b) for a, b, _ in self.summary))
+
+    @property
+    def differences(self):
+        """Those evaluated: the known ones in the paper's order, then others."""
+        found = list(dict.fromkeys(difference for _, _, difference in self.summary))
+        return [d for d in DIFFERENCES if d in found] + [d for d in found if d not in DIFFERENCES]
+
+    @property
+    def conditions(self):
+        if self.pairs:
+            return list(dict.fromkeys(name for pair in self.pairs for name in pair))
+        return list(dict.fromkeys(a for a, _ in self.self_pairs))
+
+
+def is_self_test(a, b):
+    """The experiment calls the second rendering of a condition self_test/<condition>."""
+    return a == b or b == f"self_test/{a}"
+
+
+def read_output(folder):
+    """Raises ReportError naming the file, and the line where it is one."""
+    if not os.path.isdir(folder):
+        raise ReportError(f"{folder}: no such folder")
+    frames = os.path.join(folder, "frames.csv")
+    if not os.path.isfile(frames):
+        raise ReportError(f"{frames}: no such file; is {folder} the output of an evaluation?")
+    series = read_frames(frames)
+    summary = read_summary(os.path.join(folder, "summary.csv"))
+    return Output(
+        folder=os.path.abspath(folder),
+        series=series,
+        summary=summary or {key: summarise(one) for key, one in series.items()},
+        has_summary_file=bool(summary),
+        run=read_yaml(os.path.join(folder, "run.yaml")),
+        captures=read_captures(os.path.join(folder, "captures.csv")),
+        path=read_path(os.path.join(folder, "path.csv")),
+        map_picture=existing(os.path.join(folder, "map.png")),
+        map_extent=read_extent(os.path.join(folder, "map.yaml")),
+        images=find_images(os.path.join(folder, "images")),
+        problems=list(rows(os.path.join(folder, "problems.csv"), PROBLEMS, {"pose": optional_whole})),
+        timing=[row for file in sorted(glob.glob(os.path.join(glob.escape(folder), "timing*.csv")))
+                for row in rows(file, TIMING, {"count": whole, "seconds": number})],
+    )
+
+
+def whole(text):
+    return int(text)
+
+
+def optional_whole(text):
+    return int(text) if text else None
+
+
+def number(text):
+    """Infinity is not a result of anything we read."""
+    value = float(text)
+    if math.isinf(value):
+        raise ValueError
+    return value
+
+
+def rows(path, header, kinds):
+    """Dictionaries of a CSV file's rows; `kinds` are the columns that are no text. Nothing where there is no file."""
+    if not os.path.exists(path):
+        return
+    names = header.split(",")
+    with open(path, newline="", encoding="utf-8", errors="replace") as file:
+        lines = csv.reader(file, strict=True)
+        try:
+            if next(lines, None) != names:
+                raise ReportError(f"{path}:1: the first line must be {header}")
+            for fields in lines:
+                if len(fields) != len(names):
+                    raise ReportError(
+                        f"{path}:{lines.line_num}: {len(fields)} fields, but must be {len(names)}: {header}")
+                row = dict(zip(names, fields))
+                for name, kind in kinds.items():
+                    row[name] = converted(row[name], kind, f"{path}:{lines.line_num}: {name}")
+                yield row
+        except csv.Error as error:
+            raise ReportError(f"{path}:{lines.line_num}: {error}") from None
+
+
+def converted(text, kind, where):
+    try:
+        return kind(text)
+    except ValueError:
+        article = "a whole number" if kind in (whole, optional_whole) else "a finite number or nan"
+        raise ReportError(f"{where} is {text!r}, but must be {article}") from None
+
+
+def read_frames(path):
+    counts = ("features_a", "features_b", "matches", "zero_second")
+    collected = {}
+    seen = {}
+    kinds = {"pose": whole, "value": number, **{name: whole for name in counts}}
+    for line, row in enumerate(rows(path, FRAMES, kinds), start=2):
+        key = (row["a"], row["b"], row["difference"])
+        if (first := seen.setdefault((key, row["pose"]), line)) != line:
+            raise ReportError(
+                f"{path}:{line}: pose {row['pose']} of {', '.join(key)} was given on line {first} already")
+        collected.setdefault(key, []).append((row["pose"], row["value"], *(row[name] for name in counts)))
+    if not collected:
+        raise ReportError(f"{path}: holds no results")
+    return {key: Series(*(np.array(column) for column in zip(*sorted(values)))) for key, values in collected.items()}
+
+
+def summarise(series):
+    """Equations (1) and (2) of the paper, without an interval."""
+    defined = series.value[~np.isnan(series.value)]
+    mean = float(np.mean(defined)) if len(defined) else math.nan
+    sd = float(np.std(defined, ddof=1)) if len(defined) > 1 else math.nan
+    return Summary(len(defined), len(series.value) - len(defined), mean, sd)
+
+
+def read_summary(path):
+    kinds = {"n": whole, "undefined": whole, "mean": number, "sd": number, "ci_low": number, "ci_high": number}
+    return {(row["a"], row["b"], row["difference"]): Summary(**{name: row[name] for name in kinds})
+            for row in rows(path, SUMMARY, kinds)}
+
+
+def columns(found, names):
+    return {name: np.array([row[name] for row in found]) for name in names}
+
+
+def read_captures(path):
+    names = ["pose", "ev100", "sun_azimuth_deg", "sun_elevation_deg", "scene_illuminance"]
+    streams = {}
+    for row in rows(path, CAPTURES, {name: whole if name == "pose" else number for name in names}):
+        streams.setdefault(row["stream"], []).append(row)
+    return {stream: columns(found, names) for stream, found in streams.items()}
+
+
+def read_path(path):
+    names = ["pose", "x", "y", "z", "yaw_deg"]
+    found = list(rows(path, PATH, {name: whole if name == "pose" else number for name in names}))
+    found.sort(key=lambda row: row["pose"])
+    return columns(found, names) if found else {}
+
+
+def read_yaml(path):
+    if not os.path.exists(path):
+        return {}
+    try:
+        with open(path, encoding="utf-8") as file:
+            content = yaml.safe_load(file)
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        raise ReportError(f"{path}:{mark.line + 1 if mark else 1}: {getattr(error, 'problem', 'is no YAML')}") from None
+    if not isinstance(content, dict):
+        raise ReportError(f"{path}:1: must hold keys and values")
+    return content
+
+
+def read_extent(path):
+    extent = read_yaml(path)
+    if not extent:
+        return {}
+    for key in ("x_min", "x_max", "y_min", "y_max"):
+        if not isinstance(extent.get(key), (int, float)):
+            raise ReportError(f"{path}: {key} is {extent.get(key)!r}, but must be a number of metres")
+    if not (extent["x_min"] < extent["x_max"] and extent["y_min"] < extent["y_max"]):
+        raise ReportError(f"{path}: x_min must be below x_max, and y_min below y_max")
+    return extent
+
+
+def existing(path):
+    return path if os.path.exists(path) else ""
+
+
+def find_images(folder):
+    """Pictures by condition, whose name may hold a slash."""
+    found = {}
+    for file in sorted(glob.glob(os.path.join(glob.escape(folder), "**", "*.png"), recursive=True)):
+        if re.fullmatch(r"\d{6,}\.png", os.path.basename(file)):
+            condition = os.path.relpath(os.path.dirname(file), folder)
+            found.setdefault(condition, {})[int(os.path.basename(file)[:-4])] = file
+    return found

@@ -1,0 +1,136 @@
+"""The path on the world from above, like the paper's Fig. 2."""
+
+import math
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib import patheffects
+from PIL import Image
+
+from . import names
+from .files import ReportError
+from .figures import STYLE, _colour, _svg, distance_along
+
+LARGEST_SIDE = 1400  # px of the picture of the world
+HALO = [patheffects.withStroke(linewidth=2.5, foreground="white")]
+
+
+def path_on_map(output):
+    """SVG text; needs a path. Without a picture of the world the path stands on white."""
+    x, y = output.path["x"], output.path["y"]
+    with plt.rc_context({**STYLE, "axes.grid": False}):
+        left, right, bottom, top = _extent(output, x, y)
+        width, height = right - left, top - bottom
+        scale = min(8.0 / width, 6.5 / height)
+        figure, axis = plt.subplots(figsize=(width * scale + 0.5, height * scale + 0.5))
+        if output.map_picture and output.map_extent:
+            axis.imshow(_picture(output.map_picture), extent=(left, right, bottom, top), interpolation="none")
+        axis.set_xlim(left, right)
+        axis.set_ylim(bottom, top)
+        _draw_path(axis, x, y, distance_along(output.path))
+        axis.set_aspect("equal")
+        axis.set_xlabel("x, east / m")
+        axis.set_ylabel("y, north / m")
+        _draw_scale_bar(axis, width)
+        _draw_compass(axis, output)
+        return _svg(figure)
+
+
+def _picture(file):
+    try:
+        with Image.open(file) as image:
+            picture = image.convert("RGB")
+    except OSError as error:
+        raise ReportError(f"{file}: cannot be read as a picture: {error}") from None
+    picture.thumbnail((LARGEST_SIDE, LARGEST_SIDE), Image.LANCZOS)
+    return np.asarray(picture)
+
+
+def _extent(output, x, y):
+    if output.map_picture and output.map_extent:
+        return tuple(float(output.map_extent[key]) for key in ("x_min", "x_max", "y_min", "y_max"))
+    margin = 0.08 * max(np.ptp(x), np.ptp(y), 10.0)
+    return x.min() - margin, x.max() + margin, y.min() - margin, y.max() + margin
+
+
+def _draw_path(axis, x, y, along):
+    axis.plot(x, y, color="white", linewidth=3.2, alpha=0.9, solid_joinstyle="round")
+    axis.plot(x, y, color="#C1121F", linewidth=1.5, solid_joinstyle="round")
+    extent = max(np.ptp(axis.get_xlim()), np.ptp(axis.get_ylim()))
+    arrows = min(12, int(along[-1] / (0.08 * extent)))
+    for at in np.linspace(0, along[-1], arrows + 2)[1:-1]:
+        k = min(max(int(np.searchsorted(along, at)), 1), len(x) - 1)
+        heading = math.degrees(math.atan2(y[k] - y[k - 1], x[k] - x[k - 1]))
+        axis.plot(x[k], y[k], marker=(3, 0, heading - 90), color="#C1121F", markersize=9, markeredgecolor="white",
+                  markeredgewidth=0.8)
+    is_right = x[0] > np.mean(axis.get_xlim())
+    gap = math.hypot(x[-1] - x[0], y[-1] - y[0])
+    if gap < 0.03 * max(np.ptp(x), np.ptp(y)):
+        _mark(axis, (x[0], y[0]), "start and end", "o", is_right)
+        return
+    _mark(axis, (x[0], y[0]), "start", "o", is_right)
+    is_near = gap < 0.15 * extent
+    _mark(axis, (x[-1], y[-1]), "end", "s", not is_right if is_near else x[-1] > np.mean(axis.get_xlim()))
+
+
+def _mark(axis, at, label, marker, label_is_left):
+    axis.plot(*at, marker, color="#C1121F", markeredgecolor="white", markersize=8, markeredgewidth=1.2)
+    axis.annotate(label, at, textcoords="offset points", xytext=(-9 if label_is_left else 9, 0), fontsize=9,
+                  fontweight="bold", ha="right" if label_is_left else "left", va="center", path_effects=HALO)
+
+
+def round_length(limit):
+    """The largest of 1, 2, 5 times a power of ten that does not exceed the limit."""
+    power = 10.0 ** math.floor(math.log10(limit))
+    return max(step * power for step in (1, 2, 5) if step * power <= limit)
+
+
+def _draw_scale_bar(axis, width):
+    length = round_length(width / 4)
+    fraction = length / width
+    at = axis.transAxes
+    axis.plot([0.04, 0.04 + fraction], [0.05, 0.05], transform=at, color="black", linewidth=3, solid_capstyle="butt",
+              path_effects=HALO)
+    axis.text(0.04 + fraction / 2, 0.065, f"{length:g} m", transform=at, ha="center", va="bottom", path_effects=HALO)
+
+
+def _draw_compass(axis, output):
+    """North, and where the sun stood for each condition (solid above the horizon, dotted below)."""
+    figure = axis.figure
+    figure.canvas.draw()
+    box = axis.get_window_extent()
+    radius = 0.075 * min(box.width, box.height) + 12
+    size = np.array([3 * radius / box.width, 3 * radius / box.height])
+    inset = axis.inset_axes([*_emptiest_corner(axis, output, size), *size])
+    inset.set_xlim(-1.5, 1.5)
+    inset.set_ylim(-1.5, 1.5)
+    inset.set_aspect("equal")
+    inset.axis("off")
+    inset.add_patch(plt.Circle((0, 0), 1.48, facecolor="white", edgecolor="none", alpha=0.78))
+    inset.annotate("", xy=(0, 1.0), xytext=(0, -0.8),
+                   arrowprops={"arrowstyle": "-|>,head_width=0.3,head_length=0.6", "color": "black", "lw": 1.1})
+    inset.text(0, 1.2, "N", ha="center", va="center", fontsize=8, fontweight="bold")
+    for index, stream in enumerate(output.conditions):
+        capture = output.captures.get(stream)
+        if capture is None or np.isnan(capture["sun_azimuth_deg"][0]):
+            continue
+        azimuth = math.radians(capture["sun_azimuth_deg"][0])
+        end = np.array([math.sin(azimuth), math.cos(azimuth)])
+        style = "-" if capture["sun_elevation_deg"][0] > 0 else ":"
+        inset.plot([0, 0.8 * end[0]], [0, 0.8 * end[1]], style, color="#E69F00", linewidth=1.6, zorder=1)
+        inset.plot(*(0.8 * end), "o", color="#E69F00", markersize=4)
+        inset.text(*(1.18 * end), names.condition(stream), ha="center", va="center", fontsize=6.5)
+
+
+def _emptiest_corner(axis, output, size):
+    """Lower left corner, as a fraction of the axis, where a box of this size hides least of the path. The scale bar has
+    the lower left one."""
+    (left, right), (bottom, top) = axis.get_xlim(), axis.get_ylim()
+    x = (output.path["x"] - left) / (right - left)
+    y = (output.path["y"] - bottom) / (top - bottom)
+    corners = [(0.99 - size[0], 0.99 - size[1]), (0.01, 0.99 - size[1]), (0.99 - size[0], 0.01)]
+
+    def hidden(corner):
+        return int(((np.abs(x - corner[0] - size[0] / 2) < size[0] / 2)
+                    & (np.abs(y - corner[1] - size[1] / 2) < size[1] / 2)).sum())
+    return min(corners, key=hidden)

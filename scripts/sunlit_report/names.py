@@ -1,0 +1,42 @@
+"""How conditions, pairs and differences are called on the page."""
+
+import re
+
+_DIFFERENCES = {
+    "boolean_rgb": "Boolean RGB", "boolean_grey": "Boolean grey",
+    "euclidean_rgb": "Euclidean RGB", "euclidean_grey": "Euclidean grey",
+    "sift": "SIFT", "surf": "SURF", "orb": "ORB", "brisk": "BRISK",
+}
+
+
+def difference(name):
+    return _DIFFERENCES.get(name, name)
+
+
+def _hour(name):
+    """'h04' -> '4', 'h04_30' -> '4:30'; None for other names."""
+    match = re.fullmatch(r"h(\d\d)(?:_(\d\d))?(?:_(\d\d))?", name)
+    if not match:
+        return None
+    minutes = [part for part in match.groups()[1:] if part]
+    return ":".join([str(int(match.group(1)))] + minutes)
+
+
+def condition(name):
+    hour = _hour(name)
+    return f"{hour} h" if hour else name
+
+
+def conditions(several):
+    """'4, 12 and 20 h', or the names as they are."""
+    hours = [_hour(name) for name in several]
+    shown = hours if all(hours) else list(several)
+    listed = ", ".join(shown[:-1]) + " and " + shown[-1] if len(shown) > 1 else shown[0]
+    return listed + " h" if all(hours) else listed
+
+
+def pair(a, b):
+    """'4–12 h', or the names with a dash where they are no hours. A self-test is called by its condition twice."""
+    b = re.sub("^self_test/", "", b)
+    hours = [_hour(a), _hour(b)]
+    return f"{hours[0]}–{hours[1]} h" if all(hours) else f"{a} – {b}"

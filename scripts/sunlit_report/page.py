@@ -1,0 +1,105 @@
+"""Puts the page together."""
+
+import math
+import os
+
+import jinja2
+import numpy as np
+
+from . import figures, map_figure, names, paper, pictures, tables
+from . import findings as judge
+from .files import summarise
+
+SHOWN_PROBLEMS = 100
+PAIRS_PER_PLOT = 6  # as many lines can be told apart
+TEMPLATES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "templates")
+
+
+def render(output, findings):
+    """HTML text with everything in it."""
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    return environment.get_template("report.html").render(
+        output=output, findings=findings, reproduced=judge.count(findings),
+        not_judged=judge.count(findings, judge.NOT_JUDGED), citation=paper.CITATION,
+        title=title(output), facts=facts(output), warnings=warnings(output), verdict_class=_verdict_class,
+        main_tables=tables.main_tables(output), self_tables=tables.self_tables(output), counts=tables.counts(output),
+        conditions=tables.conditions(output), timing=tables.timing(output), problems=tables.problems(output),
+        shown_problems=output.problems[:SHOWN_PROBLEMS], counters=tables.counters(output.run),
+        settings=settings(output.run), versions=tables.flattened(tables.mapping(output.run, "versions")),
+        grid=pictures.grid(output), smoothed_over=figures.SMOOTHED_OVER, **plots(output))
+
+
+def _verdict_class(verdict):
+    return {judge.REPRODUCED: "yes", judge.NOT_REPRODUCED: "no"}.get(verdict, "open")
+
+
+def plots(output):
+    """The figures; pairs of different conditions, or the self-tests where there is nothing else."""
+    pairs = output.pairs or output.self_pairs
+    return {
+        "along_path": [pictures.svg_uri(figures.along_path(output, few))
+                       for few in tables.chunks(pairs, PAIRS_PER_PLOT)],
+        "boxes": pictures.svg_uri(figures.boxes(output, pairs)),
+        "map": pictures.svg_uri(map_figure.path_on_map(output)) if output.path else None,
+    }
+
+
+def title(output):
+    listed = names.conditions(output.conditions)
+    if output.pairs:
+        return f"How far images of one place drift apart between {listed}"
+    return f"How far images of one place at {listed} differ from themselves"
+
+
+def facts(output):
+    """(number, what it counts) for the first lines."""
+    poses = len(np.unique(np.concatenate([one.pose for one in output.series.values()])))
+    undefined = sum(row.undefined for row in output.summary.values())
+    values = f"{sum(row.n for row in output.summary.values()):,}".replace(",", "\u202f")
+    found = [(f"{poses}", "poses"), (f"{len(output.conditions)}", "conditions"),
+             (f"{len(output.differences)}", "differences"),
+             (values, "values"), (f"{undefined}", "undefined values")]
+    if output.path:
+        found.insert(1, (f"{figures.distance_along(output.path)[-1]:.0f} m", "driven"))
+    return found
+
+
+def settings(run):
+    """Settings in groups by what stands before the first slash: [(group, [(key, value)])]."""
+    groups = {}
+    top = {key: value for key, value in run.items() if key not in ("settings", "versions", "counters")}
+    for key, value in tables.flattened(tables.mapping(run, "settings")) + tables.flattened(top):
+        group, _, rest = key.rpartition("/")
+        groups.setdefault(group or "general", []).append((rest, value))
+    return sorted(groups.items(), key=lambda item: (item[0] != "general", not item[0].startswith("about"), item[0]))
+
+
+def _same(a, b):
+    return (math.isnan(a) and math.isnan(b)) or math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-12)
+
+
+def warnings(output):
+    """What a reader must know before the numbers."""
+    found = []
+    if not output.has_summary_file:
+        found.append("summary.csv is missing: E and s were computed from frames.csv and have no confidence intervals.")
+    for key, row in output.summary.items():
+        series = output.series.get(key)
+        again = summarise(series) if series else None
+        if again is None:
+            if row.n or row.undefined:
+                found.append(f"summary.csv has {names.pair(*key[:2])}, {names.difference(key[2])}, frames.csv has not.")
+        elif (again.n, again.undefined) != (row.n, row.undefined) or not (
+                _same(again.mean, row.mean) and _same(again.sd, row.sd)):
+            found.append(f"summary.csv disagrees with frames.csv on {names.pair(*key[:2])}, "
+                         f"{names.difference(key[2])}: n {row.n} and {again.n}, E {row.mean:.6f} and "
+                         f"{again.mean:.6f}. It was made from other frames.")
+    for key in output.series:
+        if key not in output.summary:
+            found.append(f"frames.csv has {names.pair(*key[:2])}, {names.difference(key[2])}, summary.csv has not.")
+    outcome = tables.mapping(output.run, "outcome")
+    if outcome.get("whole") is False:
+        found.append(f"The run is not whole: {outcome.get('completed_poses', '?')} poses were completed, "
+                     f"{outcome.get('absent_poses', '?')} are absent. See counters and problems.")
+    return found

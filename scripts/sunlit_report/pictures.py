@@ -1,0 +1,57 @@
+"""The picture grid like the paper's Fig. 1: five poses, each under every condition."""
+
+import base64
+import io
+
+from PIL import Image  # matplotlib needs it as well
+
+from . import names
+from .files import ReportError
+
+POSES = 5
+LARGEST_WIDTH = 640  # px on the page
+QUALITY = 88
+
+
+def data_uri(kind, content):
+    return f"data:{kind};base64,{base64.b64encode(content).decode()}"
+
+
+def svg_uri(text):
+    return data_uri("image/svg+xml", text.encode())
+
+
+def _embedded(file):
+    try:
+        with Image.open(file) as image:
+            picture = image.convert("RGB")
+    except OSError as error:
+        raise ReportError(f"{file}: cannot be read as a picture: {error}") from None
+    if picture.width > LARGEST_WIDTH:
+        height = round(picture.height * LARGEST_WIDTH / picture.width)
+        picture = picture.resize((LARGEST_WIDTH, height), Image.LANCZOS)
+    content = io.BytesIO()
+    picture.save(content, "JPEG", quality=QUALITY, subsampling=0)
+    return data_uri("image/jpeg", content.getvalue())
+
+
+def evenly_spread(poses, count):
+    """`count` of the sorted poses, first and last included."""
+    if len(poses) <= count:
+        return list(poses)
+    return [poses[round(k * (len(poses) - 1) / (count - 1))] for k in range(count)]
+
+
+def grid(output):
+    """Columns (captions) and rows (pose, pictures by column); None where no pose has a picture of two conditions."""
+    conditions = [name for name in output.conditions if output.images.get(name)]
+    if not conditions:
+        return None
+    common = sorted(set.intersection(*(set(output.images[name]) for name in conditions)))
+    if not common:
+        return None
+    poses = evenly_spread(common, POSES)
+    return {
+        "columns": [names.condition(name) for name in conditions],
+        "rows": [(pose, [_embedded(output.images[name][pose]) for name in conditions]) for pose in poses],
+    }

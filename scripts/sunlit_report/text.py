@@ -1,0 +1,36 @@
+"""The tables for the terminal."""
+
+from . import findings as judge
+from . import tables
+
+
+def _aligned(header, rows):
+    widths = [max(len(str(row[k])) for row in [header] + rows) for k in range(len(header))]
+    lines = []
+    for row in [header] + rows:
+        cells = [str(row[0]).ljust(widths[0])] + [str(cell).rjust(width) for cell, width in zip(row[1:], widths[1:])]
+        lines.append("  ".join(cells).rstrip())
+    lines.insert(1, "-" * len(lines[0]))
+    return "\n".join(lines)
+
+
+def _of_table(table):
+    header = ["difference"] + [f"E {pair}" for pair in table["pairs"]] + [f"s {pair}" for pair in table["pairs"]]
+    rows = []
+    for row in table["rows"]:
+        rows.append([row["name"]] + row["e"] + row["s"])
+        if any(row["paper_e"]):
+            rows.append(["  paper"] + row["paper_e"] + row["paper_s"])
+    return _aligned(header, rows)
+
+
+def whole(output, findings):
+    """Everything that the terminal shows."""
+    parts = ["Mean difference E and standard deviation s along the path"]
+    parts += [_of_table(table) for table in tables.main_tables(output)]
+    self_tables = tables.self_tables(output)
+    if self_tables:
+        parts += ["Each hour against itself (two independent renderings)"] + [_of_table(table) for table in self_tables]
+    lines = [f"{number}. {finding.verdict}: {finding.claim}" for number, finding in enumerate(findings, start=1)]
+    parts.append(f"The paper's findings: {judge.count(findings)} of {len(findings)} reproduced\n" + "\n".join(lines))
+    return "\n\n".join(parts)

@@ -1,0 +1,50 @@
+#include "evaluate/distance_rows.h"
+
+#include "evaluate/vector_clones.h"
+
+// As SUNLIT_VECTOR_CLONES, for the instruction that counts bits.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__) && !defined(SUNLIT_PLAIN_LOOPS)
+#define SUNLIT_POPCOUNT_CLONES __attribute__((target_clones("popcnt", "default")))
+#else
+#define SUNLIT_POPCOUNT_CLONES
+#endif
+
+namespace sunlit::evaluate {
+SUNLIT_VECTOR_CLONES
+void dotRows(const std::int16_t* const queries[kQueriesAtOnce], const RowsOf<std::int16_t>& train,
+             std::int32_t* out) {
+  const std::int16_t* q0 = queries[0];
+  const std::int16_t* q1 = queries[1];
+  const std::int16_t* q2 = queries[2];
+  const std::int16_t* q3 = queries[3];
+  for (std::size_t j = 0; j < train.rows; ++j) {
+    const std::int16_t* t = train.row(j);
+    std::int32_t s0 = 0;
+    std::int32_t s1 = 0;
+    std::int32_t s2 = 0;
+    std::int32_t s3 = 0;
+    for (std::size_t k = 0; k < train.width; ++k) {
+      s0 += q0[k] * t[k];
+      s1 += q1[k] * t[k];
+      s2 += q2[k] * t[k];
+      s3 += q3[k] * t[k];
+    }
+    out[j] = s0;
+    out[train.rows + j] = s1;
+    out[2 * train.rows + j] = s2;
+    out[3 * train.rows + j] = s3;
+  }
+}
+
+SUNLIT_POPCOUNT_CLONES
+void hammingRow(const std::uint64_t* query, const RowsOf<std::uint64_t>& train, std::int32_t* out) {
+  for (std::size_t j = 0; j < train.rows; ++j) {
+    const std::uint64_t* t = train.row(j);
+    int bits = 0;
+    for (std::size_t k = 0; k < train.width; ++k) bits += __builtin_popcountll(query[k] ^ t[k]);
+    out[j] = bits;
+  }
+}
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,27 @@
+/// Distances of a few queries to all train descriptors: the inner loops of matching.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace sunlit::evaluate {
+
+/// Queries taken at once, so that a train row is loaded once for all of them.
+constexpr int kQueriesAtOnce = 4;
+
+/// A train set, or a set of queries: `rows` rows of `width` values.
+template <typename Value>
+struct RowsOf {
+  const Value* data = nullptr;
+  std::size_t rows = 0;
+  std::size_t width = 0;
+  const Value* row(std::size_t i) const { return data + i * width; }
+};
+
+/// out[q · train.rows + j] = Σ_k queries[q][k] · train[j][k]. Exact while every sum fits.
+void dotRows(const std::int16_t* const queries[kQueriesAtOnce], const RowsOf<std::int16_t>& train,
+             std::int32_t* out);
+/// out[j] = number of bits in which `query` and train[j] differ. Width in words of 64 bit.
+void hammingRow(const std::uint64_t* query, const RowsOf<std::uint64_t>& train, std::int32_t* out);
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,351 @@
+#include "evaluate/evaluation_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "evaluate/run_file.h"
+
+namespace sunlit::evaluate {
+namespace {
+
+// Two poses at a time: while one waits for its slowest detector, the other keeps the processors busy.
+constexpr int kPosesAtOnce = 2;
+constexpr std::int64_t kSampleStride = 200;  // of a path of unknown length
+constexpr int kSamples = 5;                  // rows of the paper's Fig. 1
+
+std::size_t streamNamed(const std::vector<std::string>& streams, const std::string& name) {
+  const auto found = std::find(streams.begin(), streams.end(), name);
+  if (found == streams.end()) throw std::invalid_argument("pairs: " + name + " is not one of the streams");
+  return static_cast<std::size_t>(found - streams.begin());
+}
+
+EvaluationOptions completed(EvaluationOptions options) {
+  if (options.streams.empty()) throw std::invalid_argument("streams: at least one is needed");
+  for (std::size_t i = 0; i < options.streams.size(); ++i) {
+    const std::string& name = options.streams[i];
+    if (name.empty() || name.find_first_of(",\"'\n ") != std::string::npos) {
+      throw std::invalid_argument("streams: \"" + name + "\" is not a name (no commas, quotes or spaces)");
+    }
+    if (std::count(options.streams.begin(), options.streams.end(), name) > 1) {
+      throw std::invalid_argument("streams: " + name + " is listed twice");
+    }
+  }
+  if (options.pairs.empty()) options.pairs = allPairs(options.streams);
+  if (options.pairs.empty())
+    throw std::invalid_argument("pairs: two streams at least are needed to make one");
+  if (options.output_dir.empty()) throw std::invalid_argument("output_dir: a folder is needed");
+  for (const PairSpec& pair : options.pairs) {
+    if (pair.every < 1)
+      throw std::invalid_argument("pairs: every = " + std::to_string(pair.every) + "; allowed: 1 or more");
+    const auto is_same = [&](const PairSpec& other) { return other.a == pair.a && other.b == pair.b; };
+    if (std::count_if(options.pairs.begin(), options.pairs.end(), is_same) > 1) {
+      throw std::invalid_argument("pairs: " + pair.a + ", " + pair.b + " is listed twice");
+    }
+  }
+  if (!(options.frame_rate >= 0.0)) throw std::invalid_argument("frame_rate: 0 or more is needed");
+  return options;
+}
+
+FramesLayout layoutOf(const EvaluationOptions& options) {
+  FramesLayout layout;
+  for (const PairSpec& pair : options.pairs) layout.pairs.emplace_back(pair.a, pair.b);
+  layout.differences = options.comparer.differences;
+  return layout;
+}
+
+void makeFolder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error || !std::filesystem::is_directory(path)) {
+    throw std::runtime_error("output_dir " + path + ": cannot be made: " + error.message());
+  }
+}
+
+}  // namespace
+
+Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks callbacks)
+    : options_(completed(options)),
+      callbacks_(std::move(callbacks)),
+      comparer_(options_.comparer),
+      layout_(layoutOf(options_)),
+      poses_(options_.frame_rate, options_.stamp_start_ns),
+      sets_(options_.streams.size()),
+      queue_(kPosesAtOnce) {
+  for (const PairSpec& pair : options_.pairs) {
+    pair_streams_.emplace_back(streamNamed(options_.streams, pair.a), streamNamed(options_.streams, pair.b));
+  }
+  counts_.streams.resize(options_.streams.size());
+  counts_.pairs.resize(options_.pairs.size());
+  if (options_.poses > 0) {
+    const double last = static_cast<double>(options_.poses - 1);
+    for (int i = 0; i < kSamples; ++i) sampled_.insert(std::llround(last * i / (kSamples - 1)));
+  }
+  makeFolder(options_.output_dir);
+  requireSameSettings(file("run.yaml"), settingsOf(options_));
+  writeRunFile(file("run.yaml"), options_, nullptr);
+  takeUpEarlierRun();
+  problems_ = std::make_unique<ProblemFile>(options_.output_dir);
+  if (options_.images != KeptImages::kNone) pictures_ = std::make_unique<PictureWriter>(file("images"));
+}
+
+void Evaluation::State::takeUpEarlierRun() {
+  LoadedFrames loaded = loadFrames(file("frames.csv"), layout_);
+  record_files_ = std::make_unique<RecordFiles>(options_.output_dir, poses_);
+  records_ = std::move(loaded.records);
+  for (PairRecord& record : records_) {
+    record.pose = poses_.settled(record.stamp_ns, record.pose);  // a capture may have come after the row
+    recorded_.emplace(record.pose, record.pair);
+    poses_.remember(record.stamp_ns, record.pose);
+  }
+  for (const PairRecord& record : records_) {
+    bool is_whole = true;
+    for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
+      is_whole = is_whole && (!isWanted(p, record.pose) || isRecorded(p, record.pose));
+    }
+    if (is_whole) completed_.insert(record.pose);
+  }
+  for (const auto& item : recorded_) ++counts_.pairs[item.second].resumed;
+  if (loaded.dropped_lines > 0) writeFrames(file("frames.csv"), layout_, records_);
+  frames_file_.open(file("frames.csv"), framesHeader());
+  if (!callbacks_.note || (records_.empty() && loaded.dropped_lines == 0)) return;
+  callbacks_.note(options_.output_dir + " holds " + std::to_string(recorded_.size()) +
+                  " evaluated pairs of " + std::to_string(completed_.size()) +
+                  " whole poses: not evaluated again" +
+                  (loaded.dropped_lines == 0
+                       ? ""
+                       : "; " + std::to_string(loaded.dropped_lines) + " lines of a torn end were left out"));
+}
+
+bool Evaluation::State::isWanted(std::size_t pair, std::int64_t pose) const {
+  return pose % options_.pairs[pair].every == 0;
+}
+
+bool Evaluation::State::isRecorded(std::size_t pair, std::int64_t pose) const {
+  return recorded_.count({pose, pair}) != 0;
+}
+
+std::vector<char> Evaluation::State::neededStreams(std::int64_t pose) const {
+  std::vector<char> is_needed(options_.streams.size(), 0);
+  for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
+    if (isWanted(p, pose)) is_needed[pair_streams_[p].first] = is_needed[pair_streams_[p].second] = 1;
+  }
+  return is_needed;
+}
+
+void Evaluation::State::add(std::size_t stream, std::int64_t stamp_ns, Arrival arrival) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  StreamCounts& counts = counts_.streams.at(stream);
+  const std::string& name = options_.streams[stream];
+  const std::optional<std::int64_t> pose = poses_.of(stamp_ns);
+  ++counts.received;
+  if (!arrival.fault.empty()) {
+    ++counts.undecodable;
+    report({"undecodable", pose, stamp_ns, name, arrival.fault});
+  }
+  if (sets_.isOutOfOrder(stream, stamp_ns)) {
+    ++counts.out_of_order;
+    report({"out_of_order", pose, stamp_ns, name, "came after a later image; used all the same"});
+  }
+  switch (sets_.add(stream, stamp_ns, std::move(arrival))) {
+    case StampSets::Outcome::kKept:
+      break;
+    case StampSets::Outcome::kDuplicate:
+      ++counts.duplicate;
+      report({"duplicate", pose, stamp_ns, name, "this stamp had come before; the first image counts"});
+      break;
+    case StampSets::Outcome::kClosed:
+      if (pose && neededStreams(*pose)[stream] == 0) return;
+      ++counts.late;
+      report({"late", pose, stamp_ns, name, "its stamp had been given up to bound the memory"});
+      return;
+  }
+  closeIfWhole(stamp_ns);
+  while (sets_.waitingImages() > options_.max_waiting_images) {
+    const std::int64_t oldest = *sets_.oldest();
+    close(oldest, poses_.of(oldest), Reason::kMemory);
+  }
+}
+
+void Evaluation::State::add(std::size_t stream, const CaptureRecord& capture) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  poses_.learn(capture.stamp_ns, capture.pose);
+  record_files_->add(options_.streams.at(stream), capture);
+  closeIfWhole(capture.stamp_ns);
+}
+
+void Evaluation::State::add(const PlaceRecord& place) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  record_files_->add(place);
+}
+
+bool Evaluation::State::isWhole(const StampSet& set, std::int64_t pose) const {
+  const std::vector<char> is_needed = neededStreams(pose);
+  for (std::size_t s = 0; s < is_needed.size(); ++s) {
+    if (is_needed[s] && !set.streams[s].has_come) return false;
+  }
+  return true;
+}
+
+void Evaluation::State::closeIfWhole(std::int64_t stamp_ns) {
+  const StampSet* set = sets_.find(stamp_ns);
+  if (set == nullptr) return;
+  const std::optional<std::int64_t> pose = poses_.of(stamp_ns);
+  if (pose && isWhole(*set, *pose)) close(stamp_ns, pose, Reason::kWhole);
+}
+
+// Counts and names a pair that cannot be compared.
+bool Evaluation::State::canCompare(const StampSet& set, std::size_t pair, std::optional<std::int64_t> pose,
+                                   Reason reason) {
+  const std::size_t ia = pair_streams_[pair].first;
+  const std::size_t ib = pair_streams_[pair].second;
+  const Arrival& a = set.streams[ia];
+  const Arrival& b = set.streams[ib];
+  const std::string where = options_.pairs[pair].a + "-" + options_.pairs[pair].b;
+  PairCounts& counts = counts_.pairs[pair];
+  if (!a.has_come || !b.has_come) {
+    const std::string& absent = options_.streams[a.has_come ? ib : ia];
+    const bool is_dropped = reason == Reason::kMemory;
+    ++(is_dropped ? counts.dropped : counts.missing_partner);
+    report({is_dropped ? "dropped" : "missing_partner", pose, set.stamp_ns, where,
+            "no image of " + absent + (is_dropped ? " before max_waiting_images was reached" : "")});
+    return false;
+  }
+  if (a.rgb.empty() || b.rgb.empty()) {
+    ++counts.undecodable;
+    const Arrival& bad = a.rgb.empty() ? a : b;
+    report({"undecodable", pose, set.stamp_ns, where,
+            "image of " + options_.streams[a.rgb.empty() ? ia : ib] + ": " + bad.fault});
+    return false;
+  }
+  if (a.rgb.size() != b.rgb.size()) {
+    ++counts.size_mismatch;
+    const auto size = [](const cv::Mat& image) {
+      return std::to_string(image.cols) + "x" + std::to_string(image.rows);
+    };
+    report({"size_mismatch", pose, set.stamp_ns, where, size(a.rgb) + " against " + size(b.rgb)});
+    return false;
+  }
+  if (!pose) {
+    ++counts.unplaced;
+    report({"unplaced", pose, set.stamp_ns, where, "no capture of this stamp says which pose it is"});
+    return false;
+  }
+  return true;
+}
+
+void Evaluation::State::close(std::int64_t stamp_ns, std::optional<std::int64_t> pose, Reason reason) {
+  const StampSet set = sets_.take(stamp_ns);
+  Work work;
+  work.stamp_ns = stamp_ns;
+  for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
+    if (pose && (!isWanted(p, *pose) || isRecorded(p, *pose))) continue;
+    if (canCompare(set, p, pose, reason)) work.pairs.push_back(p);
+  }
+  if (!pose) return;
+  work.pose = *pose;
+  keepPictures(set, *pose);
+  if (work.pairs.empty()) {
+    complete(*pose);
+    return;
+  }
+  for (const Arrival& arrival : set.streams) work.images.push_back(arrival.rgb);
+  queue_.add([this, work] { compare(work); });
+}
+
+void Evaluation::State::keepPictures(const StampSet& set, std::int64_t pose) {
+  if (!pictures_) return;
+  const bool is_sample = options_.poses > 0 ? sampled_.count(pose) != 0 : pose % kSampleStride == 0;
+  if (options_.images == KeptImages::kSamples && !is_sample) return;
+  for (std::size_t s = 0; s < set.streams.size(); ++s) {
+    if (!set.streams[s].rgb.empty())
+      pictures_->write(options_.streams[s], pose, set.stamp_ns, set.streams[s].rgb);
+  }
+}
+
+void Evaluation::State::complete(std::int64_t pose) {
+  completed_.insert(pose);
+  if (callbacks_.progress) callbacks_.progress(completed_.size());
+}
+
+void Evaluation::State::compare(const Work& work) {
+  std::vector<ImagePair> pairs;
+  for (const std::size_t p : work.pairs) pairs.push_back(pair_streams_[p]);
+  std::vector<std::vector<DifferenceValue>> values;
+  std::string fault;
+  try {
+    values = comparer_.compare(work.images, pairs);
+  } catch (const std::exception& error) {
+    fault = error.what();
+  }
+  for (std::size_t i = 0; i < work.pairs.size(); ++i) {
+    const std::size_t p = work.pairs[i];
+    if (!fault.empty()) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ++counts_.pairs[p].failed;
+      report({"failed", work.pose, work.stamp_ns, options_.pairs[p].a + "-" + options_.pairs[p].b, fault});
+      continue;
+    }
+    const PairRecord record{work.pose, work.stamp_ns, p, values[i]};
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      frames_file_.append(framesText(layout_, record));
+      records_.push_back(record);
+      recorded_.emplace(record.pose, p);
+      ++counts_.pairs[p].evaluated;
+    }
+    const std::lock_guard<std::mutex> lock(callback_mutex_);
+    if (callbacks_.pair_done)
+      callbacks_.pair_done(record, work.images[pairs[i].first], work.images[pairs[i].second]);
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  complete(work.pose);
+}
+
+Counts Evaluation::State::counts() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Counts counts = counts_;
+  counts.completed_poses = completed_.size();
+  counts.waiting_images = sets_.waitingImages();
+  counts.queued_poses = queue_.size();
+  return counts;
+}
+
+bool Evaluation::State::isComplete() const {
+  queue_.rethrow();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return options_.poses > 0 && completed_.size() >= options_.poses;
+}
+
+Outcome Evaluation::State::finish() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const std::int64_t stamp : sets_.openStamps()) close(stamp, poses_.of(stamp), Reason::kEnd);
+  }
+  queue_.waitForAtMost(0);
+  queue_.rethrow();
+  Outcome outcome;
+  outcome.counts = counts();
+  if (options_.poses > completed_.size()) outcome.absent_poses = options_.poses - completed_.size();
+  settleAndWrite(outcome);
+  return outcome;
+}
+
+void Evaluation::State::settleAndWrite(Outcome& outcome) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (PairRecord& record : records_) record.pose = poses_.settled(record.stamp_ns, record.pose);
+  sortRecords(records_);
+  if (pictures_) {
+    pictures_->finish([this](std::int64_t stamp, std::int64_t pose) { return poses_.settled(stamp, pose); });
+  }
+  frames_file_.close();
+  writeFrames(file("frames.csv"), layout_, records_);
+  outcome.summary = summarise(layout_, records_);
+  writeSummary(file("summary.csv"), outcome.summary);
+  record_files_->finish(options_.streams, poses_);
+  problems_->finish();
+  writeRunFile(file("run.yaml"), options_, &outcome);
+}
+
+}  // namespace sunlit::evaluate

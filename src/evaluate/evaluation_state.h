@@ -1,0 +1,85 @@
+/// The workings of Evaluation.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "evaluate/files.h"
+#include "evaluate/picture_writer.h"
+#include "evaluate/pose_index.h"
+#include "evaluate/record_files.h"
+#include "evaluate/stamp_sets.h"
+#include "evaluate/work_queue.h"
+#include "sunlit/evaluate/evaluation.h"
+
+namespace sunlit::evaluate {
+
+/// Images go from `sets_` (waiting for partners) to `queue_` (being compared) to `records_` and frames.csv.
+/// `mutex_` guards everything but the queue; comparing runs outside of it.
+class Evaluation::State {
+ public:
+  State(const EvaluationOptions& options, EvaluationCallbacks callbacks);
+
+  const EvaluationOptions& options() const { return options_; }
+  void add(std::size_t stream, std::int64_t stamp_ns, Arrival arrival);
+  void add(std::size_t stream, const CaptureRecord& capture);
+  void add(const PlaceRecord& place);
+  Counts counts() const;
+  bool isComplete() const;
+  void waitForRoom(std::size_t queued_poses) const { queue_.waitForAtMost(queued_poses); }
+  Outcome finish();
+
+ private:
+  enum class Reason { kWhole, kEnd, kMemory };
+  /// Images of one set that go to the comparer.
+  struct Work {
+    std::int64_t pose = 0;
+    std::int64_t stamp_ns = 0;
+    std::vector<cv::Mat> images;  // by stream
+    std::vector<std::size_t> pairs;
+  };
+
+  std::string file(const std::string& name) const { return options_.output_dir + "/" + name; }
+  void takeUpEarlierRun();
+  bool isWanted(std::size_t pair, std::int64_t pose) const;
+  bool isRecorded(std::size_t pair, std::int64_t pose) const;
+  std::vector<char> neededStreams(std::int64_t pose) const;
+  bool isWhole(const StampSet& set, std::int64_t pose) const;
+  void closeIfWhole(std::int64_t stamp_ns);
+  void close(std::int64_t stamp_ns, std::optional<std::int64_t> pose, Reason reason);
+  bool canCompare(const StampSet& set, std::size_t pair, std::optional<std::int64_t> pose, Reason reason);
+  void keepPictures(const StampSet& set, std::int64_t pose);
+  void compare(const Work& work);
+  void complete(std::int64_t pose);
+  void report(const Problem& problem) { problems_->add(problem); }
+  void settleAndWrite(Outcome& outcome);
+
+  EvaluationOptions options_;
+  EvaluationCallbacks callbacks_;
+  Comparer comparer_;
+  FramesLayout layout_;
+  std::vector<std::pair<std::size_t, std::size_t>> pair_streams_;
+
+  mutable std::mutex mutex_;
+  mutable std::mutex callback_mutex_;
+  PoseIndex poses_;
+  StampSets sets_;
+  Counts counts_;
+  std::vector<PairRecord> records_;
+  std::set<std::pair<std::int64_t, std::size_t>> recorded_;  // pose and pair
+  std::set<std::int64_t> completed_;                         // poses
+  std::set<std::int64_t> sampled_;                           // poses whose images are kept
+  std::unique_ptr<RecordFiles> record_files_;
+  std::unique_ptr<ProblemFile> problems_;
+  std::unique_ptr<PictureWriter> pictures_;
+  AppendFile frames_file_;
+  WorkQueue queue_;  // last, so that its threads end before what they use
+};
+
+}  // namespace sunlit::evaluate

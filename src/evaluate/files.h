@@ -1,0 +1,53 @@
+/// Small text files that survive a crash.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sunlit::evaluate {
+
+/// Replaces the file at `path` by `text` in one step: readers see the old file or the new one, never a part.
+/// Throws std::runtime_error with path and reason.
+void writeAtomically(const std::string& path, const std::string& text);
+
+/// A text file that only grows. Each text is handed over in one write(), so a crash can tear only the last
+/// one.
+class AppendFile {
+ public:
+  AppendFile() = default;
+  AppendFile(const AppendFile&) = delete;
+  AppendFile& operator=(const AppendFile&) = delete;
+  ~AppendFile();
+  /// Starts with `header` (a line) where the file is new or empty. Throws std::runtime_error with path and
+  /// reason.
+  void open(const std::string& path, const std::string& header);
+  void append(const std::string& text);
+  void close();
+
+ private:
+  std::string path_;
+  int descriptor_ = -1;
+};
+
+/// The lines of a CSV file after its header, cut at the commas.
+struct CsvLines {
+  std::vector<std::vector<std::string>> rows;
+  std::size_t torn = 0;  ///< 1 where the file ends within a line, which is left out
+};
+/// Nothing where the file does not exist. Throws std::runtime_error, with path and line, for another header
+/// or number of fields.
+CsvLines readCsv(const std::string& path, const std::string& header);
+
+/// 17 digits, so that reading gives the same number back; "nan" for NaN.
+std::string formatNumber(double value);
+/// Reads formatNumber() and any other decimal number. Throws std::runtime_error.
+double parseNumber(const std::string& text);
+/// "secs.nsecs" with nine digits after the point.
+std::string formatStamp(std::int64_t nanoseconds);
+std::int64_t parseStamp(const std::string& text);
+/// A field of a CSV file: in quotes where it has commas, quotes or line ends.
+std::string csvField(const std::string& text);
+
+}  // namespace sunlit::evaluate

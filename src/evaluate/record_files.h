@@ -1,0 +1,58 @@
+/// captures.csv, path.csv and problems.csv: what is known of the images beside their differences.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "evaluate/files.h"
+#include "evaluate/pose_index.h"
+#include "sunlit/evaluate/evaluation.h"
+
+namespace sunlit::evaluate {
+
+/// captures.csv and path.csv. Both grow while images come in and are sorted, without doubles, at the end.
+class RecordFiles {
+ public:
+  /// Reads what an earlier run left in `folder`, tells `poses`, and goes on from there.
+  RecordFiles(const std::string& folder, PoseIndex& poses);
+  void add(const std::string& stream, const CaptureRecord& capture);
+  void add(const PlaceRecord& place);
+  void finish(const std::vector<std::string>& streams, const PoseIndex& poses);
+
+ private:
+  std::string folder_;
+  AppendFile captures_file_;
+  AppendFile path_file_;
+  std::map<std::pair<std::string, std::int64_t>, CaptureRecord> captures_;  // by stream and pose
+  std::map<std::int64_t, PlaceRecord> places_;                              // by stamp
+};
+
+/// One thing that did not go as it should.
+struct Problem {
+  std::string kind;                  ///< missing_partner, undecodable, …: a column name of the counters
+  std::optional<std::int64_t> pose;  ///< where it is known
+  std::int64_t stamp_ns = 0;
+  std::string where;  ///< a stream, or a pair as "a-b"
+  std::string reason;
+};
+
+/// problems.csv of this run.
+class ProblemFile {
+ public:
+  explicit ProblemFile(const std::string& folder);
+  void add(const Problem& problem);
+  /// Sorted by stamp, kind and place.
+  void finish();
+
+ private:
+  std::string path_;
+  AppendFile file_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,24 @@
+/// run.yaml: what was asked for, with which versions, and what came of it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sunlit/evaluate/evaluation.h"
+
+namespace sunlit::evaluate {
+
+/// Everything that decides what a value in frames.csv is, as key and value. The keys are the evaluator's
+/// parameters.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+Settings settingsOf(const EvaluationOptions& options);
+
+/// Throws std::invalid_argument, naming key and both values, where the run.yaml at `path` has other settings.
+/// Nothing where there is none.
+void requireSameSettings(const std::string& path, const Settings& settings);
+
+/// `outcome` may be null: the run is still going on.
+void writeRunFile(const std::string& path, const EvaluationOptions& options, const Outcome* outcome);
+
+}  // namespace sunlit::evaluate

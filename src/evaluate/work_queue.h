@@ -1,0 +1,38 @@
+/// Threads that take tasks in order.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace sunlit::evaluate {
+
+class WorkQueue {
+ public:
+  explicit WorkQueue(int threads);
+  ~WorkQueue();  ///< drops tasks that have not begun
+  void add(std::function<void()> task);
+  /// Waiting and running tasks.
+  std::size_t size() const;
+  /// Blocks until at most `tasks` wait or run, or a task has thrown.
+  void waitForAtMost(std::size_t tasks) const;
+  /// Throws what a task threw.
+  void rethrow() const;
+
+ private:
+  void run();
+
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  std::deque<std::function<void()>> tasks_;
+  std::size_t running_ = 0;
+  bool is_closed_ = false;
+  std::exception_ptr fault_;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace sunlit::evaluate

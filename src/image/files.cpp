@@ -1,0 +1,161 @@
+#include "sunlit/image/files.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+#include "read_file.h"
+
+namespace sunlit::image {
+namespace {
+
+[[noreturn]] void fail(const std::string& path, const char* what) {
+  throw std::runtime_error(path + ": " + what + ": " + std::strerror(errno));
+}
+
+/// An open file that is removed again unless it was kept.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& target) {
+    static std::atomic<unsigned> count{0};  // two threads may write the same picture
+    path_ = target + "." + std::to_string(::getpid()) + "." + std::to_string(count++) + ".part";
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) {
+      fail(target, "create");
+    }
+  }
+  ~TemporaryFile() {
+    if (descriptor_ >= 0) {
+      ::close(descriptor_);
+    }
+    if (!kept_) {
+      ::unlink(path_.c_str());
+    }
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  void write(const std::string& target, const std::string& bytes) const {
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+      const ssize_t written = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
+      if (written < 0 && errno != EINTR) {
+        fail(target, "write");
+      }
+      done += written > 0 ? static_cast<std::size_t>(written) : 0;
+    }
+    if (::fsync(descriptor_) != 0) {
+      fail(target, "fsync");
+    }
+  }
+
+  void moveTo(const std::string& target) {
+    const int descriptor = descriptor_;
+    descriptor_ = -1;
+    if (::close(descriptor) != 0) {
+      fail(target, "close");
+    }
+    if (::rename(path_.c_str(), target.c_str()) != 0) {
+      fail(target, "rename");
+    }
+    kept_ = true;
+  }
+
+ private:
+  std::string path_;
+  int descriptor_ = -1;
+  bool kept_ = false;
+};
+
+template <int kChannels>
+void writeMap(const std::string& path, const Picture<float, kChannels>& image) {
+  std::ostringstream header;
+  header << (kChannels == 3 ? "PF" : "Pf") << "\n" << image.width << " " << image.height << "\n-1.0\n";
+  std::string bytes = header.str();
+  const std::size_t row_bytes = static_cast<std::size_t>(image.width) * kChannels * sizeof(float);
+  for (int y = image.height - 1; y >= 0; --y) {
+    bytes.append(reinterpret_cast<const char*>(image.at(0, y)), row_bytes);
+  }
+  writeFileAtomically(path, bytes);
+}
+
+template <int kChannels>
+Picture<float, kChannels> readMap(const std::string& path) {
+  const std::string bytes = readWholeFile(path);
+  std::istringstream in(bytes);
+  std::string kind;
+  int width = 0;
+  int height = 0;
+  double scale = 0.0;
+  in >> kind >> width >> height >> scale;
+  const std::string wanted = kChannels == 3 ? "PF" : "Pf";
+  constexpr int kLargest = 65535;
+  if (!in || kind != wanted || width < 1 || width > kLargest || height < 1 || height > kLargest ||
+      scale >= 0.0) {
+    throw std::runtime_error(path + ": read: not a little-endian \"" + wanted + "\" float map");
+  }
+  const std::size_t start = static_cast<std::size_t>(in.tellg()) + 1;  // one white space ends the header
+  const std::size_t row_bytes = static_cast<std::size_t>(width) * kChannels * sizeof(float);
+  if (bytes.size() != start + row_bytes * static_cast<std::size_t>(height)) {
+    throw std::runtime_error(path + ": read: " + std::to_string(bytes.size()) + " bytes do not hold " +
+                             std::to_string(width) + "×" + std::to_string(height) + " pixels");
+  }
+  Picture<float, kChannels> image(width, height);
+  for (int y = 0; y < height; ++y) {
+    std::memcpy(image.at(0, y), bytes.data() + start + row_bytes * static_cast<std::size_t>(height - 1 - y),
+                row_bytes);
+  }
+  return image;
+}
+
+}  // namespace
+
+std::string readWholeFile(const std::string& path) {
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) {
+    fail(path, "open");
+  }
+  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (in.bad()) {
+    fail(path, "read");
+  }
+  return bytes;
+}
+
+void writeFileAtomically(const std::string& path, const std::string& bytes) {
+  TemporaryFile file(path);
+  file.write(path, bytes);
+  file.moveTo(path);
+  // The new name must last as well. Some file systems cannot sync a folder; the file itself is safe by then.
+  const std::size_t slash = path.find_last_of('/');
+  const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor >= 0) {
+    static_cast<void>(::fsync(descriptor));
+    ::close(descriptor);
+  }
+}
+
+void writePfm(const std::string& path, const LinearImage& image) {
+  writeMap(path, image);
+}
+void writePfm(const std::string& path, const DepthImage& image) {
+  writeMap(path, image);
+}
+LinearImage readLinearPfm(const std::string& path) {
+  return readMap<3>(path);
+}
+DepthImage readDepthPfm(const std::string& path) {
+  return readMap<1>(path);
+}
+
+}  // namespace sunlit::image

@@ -1,0 +1,61 @@
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "read_file.h"
+#include "sunlit/image/files.h"
+
+namespace sunlit::image {
+
+std::string encodePng(const Rgb8Image& picture) {
+  if (picture.width < 1 || picture.height < 1) {
+    throw std::invalid_argument("picture: " + std::to_string(picture.width) + "×" +
+                                std::to_string(picture.height) + " is outside 1×1 …");
+  }
+  const cv::Mat rgb(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.data.data()));
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  std::vector<std::uint8_t> bytes;
+  // Level 3 is near the knee of size against time for rendered pictures.
+  if (!cv::imencode(".png", bgr, bytes, {cv::IMWRITE_PNG_COMPRESSION, 3})) {
+    throw std::runtime_error("PNG encoder failed");
+  }
+  return {bytes.begin(), bytes.end()};
+}
+
+void writePng(const std::string& path, const Rgb8Image& picture) {
+  writeFileAtomically(path, encodePng(picture));
+}
+
+Rgb8Image readPng(const std::string& path) {
+  const std::string bytes = readWholeFile(path);
+  static const std::string kSignature = "\x89PNG\r\n\x1a\n";
+  if (bytes.compare(0, kSignature.size(), kSignature) != 0) {
+    throw std::runtime_error(path + ": read: not a PNG file");
+  }
+  // The decoder fills what a cut-off file lacks with black, so look for the closing chunk first.
+  if (bytes.size() < 12 || bytes.compare(bytes.size() - 8, 4, "IEND") != 0) {
+    throw std::runtime_error(path + ": read: the file is cut off");
+  }
+  const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
+  cv::Mat decoded;
+  try {
+    decoded = cv::imdecode(raw, cv::IMREAD_ANYDEPTH | cv::IMREAD_COLOR);
+  } catch (const cv::Exception& error) {
+    throw std::runtime_error(path + ": read: " + error.what());
+  }
+  if (decoded.empty()) {
+    throw std::runtime_error(path + ": read: damaged PNG");
+  }
+  if (decoded.depth() != CV_8U) {
+    throw std::runtime_error(path + ": read: more than 8 bits a channel");
+  }
+  Rgb8Image picture(decoded.cols, decoded.rows);
+  cv::Mat rgb(picture.height, picture.width, CV_8UC3, picture.data.data());
+  cv::cvtColor(decoded, rgb, cv::COLOR_BGR2RGB);
+  return picture;
+}
+
+}  // namespace sunlit::image

@@ -1,0 +1,94 @@
+#include "sunlit/light/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunlit::light {
+namespace {
+
+/// A triangle on its way into the list, with the key that it is ordered by.
+struct Placed {
+  int material;
+  int cell_x, cell_y;
+  std::array<std::uint32_t, 3> vertices;
+  Plane plane;
+
+  bool sameChunk(const Placed& other) const {
+    return material == other.material && cell_x == other.cell_x && cell_y == other.cell_y;
+  }
+};
+
+void appendVertices(const scene::Mesh& mesh, Geometry* geometry) {
+  geometry->positions.insert(geometry->positions.end(), mesh.positions.begin(), mesh.positions.end());
+  const std::size_t count = geometry->positions.size();
+  for (const Eigen::Vector3f& normal : mesh.normals) {
+    const float length = normal.norm();
+    geometry->normals.push_back(std::isfinite(length) && length > 1e-6f ? Eigen::Vector3f(normal / length)
+                                                                        : Eigen::Vector3f(Eigen::Vector3f::Zero()));
+  }
+  geometry->normals.resize(count, Eigen::Vector3f::Zero());
+  geometry->texture_coordinates.insert(geometry->texture_coordinates.end(), mesh.texture_coordinates.begin(),
+                                       mesh.texture_coordinates.end());
+  geometry->texture_coordinates.resize(count, Eigen::Vector2f::Zero());
+  geometry->colors.insert(geometry->colors.end(), mesh.colors.begin(), mesh.colors.end());
+  geometry->colors.resize(count, Eigen::Array3f::Ones());
+}
+
+/// False for a triangle without area.
+bool place(const Geometry& geometry, Placed* triangle) {
+  const Eigen::Vector3d a = geometry.positions[triangle->vertices[0]].cast<double>();
+  const Eigen::Vector3d b = geometry.positions[triangle->vertices[1]].cast<double>();
+  const Eigen::Vector3d c = geometry.positions[triangle->vertices[2]].cast<double>();
+  const Eigen::Vector3d cross = (b - a).cross(c - a);
+  const double double_area = cross.norm();
+  if (!(double_area > 1e-14)) return false;
+  triangle->plane.normal = (cross / double_area).cast<float>();
+  const Eigen::Vector3d centre = (a + b + c) / 3.0;
+  triangle->plane.offset = triangle->plane.normal.cast<double>().dot(centre);
+  triangle->cell_x = static_cast<int>(std::floor(centre.x() / Geometry::kCellSize_m));
+  triangle->cell_y = static_cast<int>(std::floor(centre.y() / Geometry::kCellSize_m));
+  return true;
+}
+
+void appendTriangle(const Placed& triangle, bool starts_chunk, Geometry* geometry) {
+  if (starts_chunk) {
+    Chunk chunk;
+    chunk.material = triangle.material;
+    chunk.first = static_cast<std::uint32_t>(geometry->triangles.size());
+    geometry->chunks.push_back(chunk);
+  }
+  Chunk& chunk = geometry->chunks.back();
+  ++chunk.count;
+  for (std::uint32_t vertex : triangle.vertices) chunk.box.extend(geometry->positions[vertex]);
+  geometry->triangles.push_back(triangle.vertices);
+  geometry->planes.push_back(triangle.plane);
+  geometry->materials.push_back(triangle.material);
+}
+
+}  // namespace
+
+Geometry::Geometry(std::shared_ptr<const scene::Scene> scene_to_flatten) : scene(std::move(scene_to_flatten)) {
+  std::vector<Placed> placed;
+  placed.reserve(scene->triangleCount());
+  for (const scene::Mesh& mesh : scene->meshes) {
+    const auto base = static_cast<std::uint32_t>(positions.size());
+    appendVertices(mesh, this);
+    for (const auto& t : mesh.triangles) {
+      Placed triangle{mesh.material, 0, 0, {base + t[0], base + t[1], base + t[2]}, {}};
+      if (place(*this, &triangle)) placed.push_back(triangle);
+    }
+  }
+  std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
+    if (a.material != b.material) return a.material < b.material;
+    if (a.cell_x != b.cell_x) return a.cell_x < b.cell_x;
+    return a.cell_y < b.cell_y;
+  });
+  triangles.reserve(placed.size());
+  planes.reserve(placed.size());
+  materials.reserve(placed.size());
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    appendTriangle(placed[i], i == 0 || !placed[i].sameChunk(placed[i - 1]), this);
+  }
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,186 @@
+#include "sunlit/light/visibility.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "light/cutout.h"
+
+namespace sunlit::light {
+namespace {
+
+enum GeometryNumber : unsigned { kOpaque = 0, kMasked = 1 };
+
+constexpr int kPacket = 8;  ///< rays a query; the fastest width for coherent rays here, and present on every CPU
+
+void fail(const std::string& what, RTCDevice device) {
+  throw std::runtime_error("ray library (Embree): " + what + ", error code " +
+                           std::to_string(static_cast<int>(rtcGetDeviceError(device))));
+}
+
+/// Lets a ray pass where the surface is cut out.
+void passCutouts(const RTCFilterFunctionNArguments* arguments) {
+  const auto& cutouts = *static_cast<const Cutouts*>(arguments->geometryUserPtr);
+  for (unsigned i = 0; i < arguments->N; ++i) {
+    if (arguments->valid[i] != -1) continue;
+    const float u = RTCHitN_u(arguments->hit, arguments->N, i);
+    const float v = RTCHitN_v(arguments->hit, arguments->N, i);
+    if (!cutouts.solid(RTCHitN_primID(arguments->hit, arguments->N, i), u, v)) arguments->valid[i] = 0;
+  }
+}
+
+/// What a query for the first visible triangle needs to know, beside Embree's own context (which must come first).
+struct SeeingContext {
+  RTCIntersectContext embree;
+  const Geometry* geometry;
+  const std::vector<std::uint32_t>* triangles[2];  ///< by Embree's geometry number: opaque, masked
+};
+
+/// Lets a camera's ray pass where there is nothing to see: cut out, or the back of a one-sided triangle.
+void passInvisible(const RTCFilterFunctionNArguments* arguments) {
+  if (arguments->geometryUserPtr) passCutouts(arguments);
+  const auto& context = *reinterpret_cast<const SeeingContext*>(arguments->context);
+  for (unsigned i = 0; i < arguments->N; ++i) {
+    if (arguments->valid[i] != -1) continue;
+    const std::uint32_t triangle = (*context.triangles[RTCHitN_geomID(arguments->hit, arguments->N, i)])
+        [RTCHitN_primID(arguments->hit, arguments->N, i)];
+    const auto material = static_cast<std::size_t>(context.geometry->materials[triangle]);
+    if (context.geometry->scene->materials[material].double_sided) continue;
+    const Eigen::Vector3f direction(RTCRayN_dir_x(arguments->ray, arguments->N, i),
+                                    RTCRayN_dir_y(arguments->ray, arguments->N, i),
+                                    RTCRayN_dir_z(arguments->ray, arguments->N, i));
+    if (context.geometry->planes[triangle].normal.dot(direction) > 0.0f) arguments->valid[i] = 0;
+  }
+}
+
+}  // namespace
+
+class Visibility::Implementation {
+ public:
+  explicit Implementation(std::shared_ptr<const Geometry> geometry);
+  ~Implementation() {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
+  void occluded(const Rays& rays, std::uint8_t* blocked) const;
+  std::optional<std::uint32_t> firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+                                         float near) const;
+
+ private:
+  void attach(const std::vector<std::uint32_t>& triangles, unsigned number);
+
+  std::shared_ptr<const Geometry> geometry_;
+  Cutouts cutouts_;
+  RTCDevice device_ = nullptr;
+  RTCScene scene_ = nullptr;
+};
+
+Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geometry)
+    : geometry_(std::move(geometry)), cutouts_(*geometry_) {
+  device_ = rtcNewDevice(nullptr);
+  if (!device_) fail("no device", nullptr);
+  scene_ = rtcNewScene(device_);
+  // Without ROBUST, a ray may slip through the edge between two triangles, depending on how the tree was built.
+  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
+  attach(cutouts_.opaqueTriangles(), kOpaque);
+  attach(cutouts_.maskedTriangles(), kMasked);
+  rtcCommitScene(scene_);
+  const RTCError error = rtcGetDeviceError(device_);
+  if (error != RTC_ERROR_NONE) {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+    throw std::runtime_error("ray library (Embree): cannot build the scene, error code " +
+                             std::to_string(static_cast<int>(error)));
+  }
+}
+
+void Visibility::Implementation::attach(const std::vector<std::uint32_t>& triangles, unsigned number) {
+  if (triangles.empty()) return;
+  RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const std::size_t vertex_count = geometry_->positions.size();
+  auto* vertices = static_cast<Eigen::Vector3f*>(rtcSetNewGeometryBuffer(
+      mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Eigen::Vector3f), vertex_count));
+  auto* indices = static_cast<std::array<std::uint32_t, 3>*>(rtcSetNewGeometryBuffer(
+      mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles.size()));
+  if (!vertices || !indices) fail("out of memory", device_);
+  std::copy(geometry_->positions.begin(), geometry_->positions.end(), vertices);
+  for (std::size_t i = 0; i < triangles.size(); ++i) indices[i] = geometry_->triangles[triangles[i]];
+  if (number == kMasked) {
+    rtcSetGeometryUserData(mesh, &cutouts_);
+    rtcSetGeometryOccludedFilterFunction(mesh, passCutouts);
+  }
+  rtcSetGeometryIntersectFilterFunction(mesh, passInvisible);
+  rtcCommitGeometry(mesh);
+  rtcAttachGeometryByID(scene_, mesh, number);
+  rtcReleaseGeometry(mesh);
+}
+
+void Visibility::Implementation::occluded(const Rays& rays, std::uint8_t* blocked) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(32) RTCRay8 packet{};
+  alignas(32) int valid[kPacket];
+  for (std::size_t begin = 0; begin < rays.count; begin += kPacket) {
+    const int in_use = static_cast<int>(std::min<std::size_t>(kPacket, rays.count - begin));
+    for (int i = 0; i < kPacket; ++i) {
+      const std::size_t ray = begin + static_cast<std::size_t>(std::min(i, in_use - 1));
+      valid[i] = i < in_use ? -1 : 0;
+      packet.org_x[i] = rays.origin_x[ray];
+      packet.org_y[i] = rays.origin_y[ray];
+      packet.org_z[i] = rays.origin_z[ray];
+      packet.dir_x[i] = rays.direction_x[ray];
+      packet.dir_y[i] = rays.direction_y[ray];
+      packet.dir_z[i] = rays.direction_z[ray];
+      packet.tnear[i] = 0.0f;
+      packet.tfar[i] = std::numeric_limits<float>::infinity();
+      packet.mask[i] = ~0u;
+    }
+    rtcOccluded8(valid, scene_, &context, &packet);
+    for (int i = 0; i < in_use; ++i) {
+      blocked[begin + static_cast<std::size_t>(i)] = packet.tfar[i] < 0.0f ? 1 : 0;  // −∞ marks a hit
+    }
+  }
+}
+
+std::optional<std::uint32_t> Visibility::Implementation::firstSeen(const Eigen::Vector3f& origin,
+                                                                   const Eigen::Vector3f& direction,
+                                                                   float near) const {
+  SeeingContext context{{}, geometry_.get(), {&cutouts_.opaqueTriangles(), &cutouts_.maskedTriangles()}};
+  rtcInitIntersectContext(&context.embree);
+  RTCRayHit query{};
+  query.ray.org_x = origin.x();
+  query.ray.org_y = origin.y();
+  query.ray.org_z = origin.z();
+  query.ray.dir_x = direction.x();
+  query.ray.dir_y = direction.y();
+  query.ray.dir_z = direction.z();
+  query.ray.tnear = near;
+  query.ray.tfar = std::numeric_limits<float>::infinity();
+  query.ray.mask = ~0u;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene_, &context.embree, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return (*context.triangles[query.hit.geomID])[query.hit.primID];
+}
+
+Visibility::Visibility(std::shared_ptr<const Geometry> geometry)
+    : implementation_(std::make_unique<Implementation>(std::move(geometry))) {}
+Visibility::~Visibility() = default;
+
+void Visibility::occluded(const Rays& rays, std::uint8_t* blocked) const {
+  implementation_->occluded(rays, blocked);
+}
+
+std::optional<std::uint32_t> Visibility::firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+                                                   float near) const {
+  return implementation_->firstSeen(origin, direction, near);
+}
+
+}  // namespace sunlit::light

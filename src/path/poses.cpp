@@ -1,0 +1,70 @@
+#include <cmath>
+#include <stdexcept>
+
+#include "path/waypoint_check.h"
+#include "sunlit/path/path.h"
+
+namespace sunlit::path {
+namespace {
+
+/// Waypoints nearer than this to each other in plan view, m, give no heading worth the name.
+constexpr double kNearest_m = 1e-3;
+
+/// A pose that would lie within this part of the spacing before a segment's end, or beyond, is the next segment's start:
+/// a length of exactly n spacings must not get an (n+1)th pose by the rounding of its square root.
+constexpr double kEndTolerance = 1e-6;
+
+void checkRange(const char* key, double value, double low, double high) {
+  if (value >= low && value <= high) return;  // false for NaN too
+  throw std::invalid_argument(std::string(key) + " is " + std::to_string(value) + ", must be " + std::to_string(low) +
+                              " … " + std::to_string(high) + " m");
+}
+
+}  // namespace
+
+std::optional<std::string> faultOf(const Eigen::Vector3d& point, const Eigen::Vector3d* previous) {
+  if (!point.allFinite()) return "a coordinate is not a finite number";
+  if (previous != nullptr && (point - *previous).head<2>().norm() < kNearest_m) {
+    return "it is less than 1 mm from the waypoint before it in plan view";
+  }
+  return std::nullopt;
+}
+
+std::string tooFew(std::size_t count) {
+  return "a path needs two waypoints or more, there " +
+         (count == 1 ? std::string("is 1") : "are " + std::to_string(count));
+}
+
+void validate(const PathOptions& options) {
+  checkRange("spacing_m", options.spacing_m, 0.001, 1000.0);
+  checkRange("height_m", options.height_m, -1000.0, 1000.0);
+}
+
+std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const PathOptions& options) {
+  validate(options);
+  if (waypoints.size() < 2) throw std::invalid_argument(tooFew(waypoints.size()));
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    if (const auto fault = faultOf(waypoints[i], i == 0 ? nullptr : &waypoints[i - 1])) {
+      throw std::invalid_argument("waypoint " + std::to_string(i) + ": " + *fault);
+    }
+  }
+
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
+    const Eigen::Vector3d along = waypoints[i + 1] - waypoints[i];
+    const double length = along.norm();
+    const double yaw = std::atan2(along.y(), along.x());
+    const auto count = static_cast<std::size_t>(std::ceil(length / options.spacing_m - kEndTolerance));
+    for (std::size_t k = 0; k == 0 || k < count; ++k) {
+      const double distance = static_cast<double>(k) * options.spacing_m;
+      Eigen::Isometry3d map_from_camera_link = Eigen::Isometry3d::Identity();
+      map_from_camera_link.translation() =
+          waypoints[i] + along * (distance / length) + Eigen::Vector3d(0.0, 0.0, options.height_m);
+      map_from_camera_link.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      poses.push_back(map_from_camera_link);
+    }
+  }
+  return poses;
+}
+
+}  // namespace sunlit::path

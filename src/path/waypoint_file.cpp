@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+
+#include "path/waypoint_check.h"
+#include "sunlit/path/path.h"
+
+namespace sunlit::path {
+namespace {
+
+constexpr std::size_t kTumColumns = 8;
+
+std::string trimmed(const std::string& text) {
+  const char* blanks = " \t\r\xEF\xBB\xBF";  // with the bytes of the mark that some editors put at the start
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+using Fields = std::vector<std::string>;
+
+Fields splitAtCommas(const std::string& line) {
+  Fields fields;
+  std::size_t begin = 0;
+  while (begin <= line.size()) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    fields.push_back(trimmed(line.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return fields;
+}
+
+Fields splitAtBlanks(const std::string& line) {
+  Fields fields;
+  std::istringstream words(line);
+  for (std::string word; words >> word;) fields.push_back(word);
+  return fields;
+}
+
+bool isHeader(const Fields& fields) {
+  Fields lower = fields;
+  for (std::string& field : lower) {
+    std::transform(field.begin(), field.end(), field.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  }
+  return lower == Fields{"x", "y"} || lower == Fields{"x", "y", "z"};
+}
+
+/// A waypoint file being read.
+class Reader {
+ public:
+  explicit Reader(const std::string& file) : file_(file) {}
+
+  Waypoints read() {
+    std::ifstream stream(file_);
+    if (!stream) throw std::runtime_error(file_ + ": cannot open this waypoint file");
+    for (std::string line; std::getline(stream, line);) {
+      ++line_number_;
+      line = trimmed(line.substr(0, line.find('#')));
+      if (!line.empty()) readLine(line);
+    }
+    if (stream.bad()) fail("cannot read on");
+    if (waypoints_.size() < 2) fail(tooFew(waypoints_.size()));
+    return std::move(waypoints_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& wrong) const {
+    throw std::runtime_error(file_ + ":" + std::to_string(line_number_) + ": " + wrong);
+  }
+
+  double number(const std::string& text) const {
+    std::istringstream stream(text);
+    stream.imbue(std::locale::classic());  // a decimal point, whatever the user's language
+    double value = 0.0;
+    // Streams take neither "nan" nor "inf", so those end up here as well.
+    if (!(stream >> value) || stream.peek() != std::char_traits<char>::eof() || !std::isfinite(value)) {
+      fail("'" + text + "' is not a finite number");
+    }
+    return value;
+  }
+
+  void readLine(const std::string& line) {
+    const bool is_first = columns_ == 0;
+    if (is_first) is_csv_ = line.find(',') != std::string::npos;
+    const Fields fields = is_csv_ ? splitAtCommas(line) : splitAtBlanks(line);
+    if (is_first) {
+      columns_ = fields.size();
+      const bool known = is_csv_ ? columns_ == 2 || columns_ == 3 : columns_ == kTumColumns;
+      if (!known) {
+        fail("expected x,y,z or x,y with commas, or the eight columns of a TUM trajectory with blanks, found " +
+             std::to_string(columns_) + (columns_ == 1 ? " column" : " columns"));
+      }
+      if (is_csv_ && isHeader(fields)) return;
+    }
+    if (fields.size() != columns_) {
+      fail("expected " + std::to_string(columns_) + " columns as above, found " + std::to_string(fields.size()));
+    }
+    std::vector<double> values;
+    for (const std::string& field : fields) values.push_back(number(field));
+    add(is_csv_ ? Eigen::Vector3d(values[0], values[1], columns_ == 3 ? values[2] : 0.0)
+                : Eigen::Vector3d(values[1], values[2], values[3]));
+  }
+
+  void add(const Eigen::Vector3d& point) {
+    if (const auto fault = faultOf(point, waypoints_.empty() ? nullptr : &waypoints_.back())) fail(*fault);
+    waypoints_.push_back(point);
+  }
+
+  std::string file_;
+  Waypoints waypoints_;
+  std::size_t line_number_ = 0;
+  std::size_t columns_ = 0;  ///< 0 until the first line
+  bool is_csv_ = false;
+};
+
+}  // namespace
+
+Waypoints readWaypoints(const std::string& file) { return Reader(file).read(); }
+
+}  // namespace sunlit::path

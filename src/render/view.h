@@ -1,0 +1,23 @@
+/// A camera at a place.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "sunlit/image/camera.h"
+
+namespace sunlit::render {
+
+struct View {
+  image::PinholeCamera camera;
+  int supersampling = 1;
+  double near_m = 0.05, far_m = 20000.0;
+  Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
+
+  Eigen::Vector3d eye() const { return map_from_optical.translation(); }
+  /// What pixel (u, v) looks along in `map`; of depth 1 m, so times a depth plus eye() is a point.
+  Eigen::Vector3d ray(double u, double v) const { return map_from_optical.linear() * camera.unproject({u, v}); }
+  /// Pixel coordinate of sample `i` of a row or column of samples.
+  double pixelOfSample(int i) const { return (i + 0.5) / supersampling - 0.5; }
+};
+
+}  // namespace sunlit::render

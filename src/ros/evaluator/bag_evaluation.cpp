@@ -1,0 +1,117 @@
+#include "ros/evaluator/bag_evaluation.h"
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <set>
+#include <stdexcept>
+
+#include "ros/evaluator/image_conversion.h"
+#include "ros/evaluator/progress_log.h"
+
+namespace sunlit::ros_interface {
+namespace {
+
+// Enough to keep all processors busy, few enough to keep the memory flat.
+constexpr std::size_t kPosesInWork = 8;
+
+class BagSource {
+ public:
+  explicit BagSource(const BagEvaluationOptions& options) {
+    std::string root = options.name_space;
+    if (root.empty() || root.back() != '/') root += '/';
+    if (root.front() != '/') root = "/" + root;
+    place_topic_ = root + "camera/pose";
+    for (std::size_t s = 0; s < options.evaluation.streams.size(); ++s) {
+      images_[root + options.evaluation.streams[s] + "/camera/image_raw"] = s;
+      captures_[root + options.evaluation.streams[s] + "/camera/capture"] = s;
+    }
+    std::vector<std::string> topics = {place_topic_};
+    for (const auto& item : images_) topics.push_back(item.first);
+    for (const auto& item : captures_) topics.push_back(item.first);
+    for (const std::string& path : options.bags) {
+      bags_.push_back(std::make_unique<rosbag::Bag>());
+      try {
+        bags_.back()->open(path, rosbag::bagmode::Read);
+      } catch (const rosbag::BagException& error) {
+        throw std::runtime_error(path + ": is not a bag that can be read: " + error.what());
+      }
+      view_.addQuery(*bags_.back(), rosbag::TopicQuery(topics));
+    }
+    requireImages();
+  }
+
+  void feed(evaluate::Evaluation& evaluation) {
+    for (const rosbag::MessageInstance& instance : view_) {
+      if (const auto found = images_.find(instance.getTopic()); found != images_.end()) {
+        feedImage(evaluation, found->second, instance);
+      } else if (const auto capture = captures_.find(instance.getTopic()); capture != captures_.end()) {
+        if (const auto message = instance.instantiate<Capture>()) {
+          evaluation.addCapture(capture->second, captureOf(*message));
+        }
+      } else if (const auto message = instance.instantiate<geometry_msgs::PoseStamped>()) {
+        evaluation.addPlace(placeOf(*message));
+      }
+      evaluation.waitForRoom(kPosesInWork);
+      log_.update(evaluation.options(), evaluation.counts());
+    }
+  }
+
+ private:
+  void requireImages() {
+    std::set<std::string> topics;
+    std::string held;
+    for (const rosbag::ConnectionInfo* connection : view_.getConnections()) topics.insert(connection->topic);
+    for (const std::string& topic : topics) held += (held.empty() ? "" : ", ") + topic;
+    for (const auto& item : images_) {
+      if (topics.count(item.first) == 0) {
+        throw std::runtime_error("the bags hold no " + item.first +
+                                 "; of what is asked for they hold: " + (held.empty() ? "nothing" : held));
+      }
+    }
+  }
+
+  static void feedImage(evaluate::Evaluation& evaluation, std::size_t stream,
+                        const rosbag::MessageInstance& instance) {
+    const auto message = instance.instantiate<sensor_msgs::Image>();
+    if (!message)
+      throw std::runtime_error(instance.getTopic() + " is " + instance.getDataType() +
+                               ", not sensor_msgs/Image");
+    const DecodedImage decoded = decode(*message);
+    const std::int64_t stamp_ns = nanosecondsOf(message->header.stamp);
+    if (decoded.fault.empty()) {
+      evaluation.addImage(stream, stamp_ns, decoded.rgb);
+    } else {
+      evaluation.addBadImage(stream, stamp_ns, decoded.fault);
+    }
+  }
+
+  std::vector<std::unique_ptr<rosbag::Bag>> bags_;
+  rosbag::View view_;
+  std::map<std::string, std::size_t> images_;
+  std::map<std::string, std::size_t> captures_;
+  std::string place_topic_;
+  ProgressLog log_;
+};
+
+}  // namespace
+
+int evaluateBags(const BagEvaluationOptions& options) {
+  BagSource source(options);
+  evaluate::EvaluationCallbacks callbacks;
+  callbacks.note = [](const std::string& line) { std::printf("%s\n", line.c_str()); };
+  evaluate::Evaluation evaluation(options.evaluation, callbacks);
+  source.feed(evaluation);
+  const evaluate::Outcome outcome = evaluation.finish();
+  std::printf("%zu poses in %s\n%s\n", outcome.counts.completed_poses, options.evaluation.output_dir.c_str(),
+              summaryTable(outcome.summary).c_str());
+  const std::string faults = faultsOf(evaluation.options(), outcome);
+  if (faults.empty()) return 0;
+  std::fprintf(stderr, "%s\n", faults.c_str());
+  return kNotWholeStatus;
+}
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,26 @@
+/// The parameters of the evaluator, from a parameter server or a file.
+#pragma once
+
+#include <string>
+
+#include "sunlit/evaluate/evaluation.h"
+#include "sunlit/ros/parameter_reader.h"
+
+namespace sunlit::ros_interface {
+
+struct EvaluatorOptions {
+  evaluate::EvaluationOptions evaluation;
+  double idle_timeout_s =
+      0.0;  ///< without any image, after which the node ends with what is missing named; 0: never
+  bool exit_when_done = false;  ///< end the process when all expected poses are accounted for
+};
+
+/// Reads every key and rejects unknown ones. Throws std::invalid_argument naming key, value and what is
+/// allowed.
+EvaluatorOptions readEvaluatorOptions(const ParameterReader& parameters);
+
+/// A YAML file as parameters, for programs without a master. Maps, lists, numbers, true, false and text; no
+/// anchors or tags. Throws std::runtime_error with path and line.
+ParameterReader parametersOfFile(const std::string& path);
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,98 @@
+#include "ros/evaluator/progress_log.h"
+
+#include <ros/console.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+namespace sunlit::ros_interface {
+namespace {
+
+constexpr double kSecondsBetweenLines = 10.0;
+
+std::string minutesAndSeconds(double seconds) {
+  const long whole = std::lround(seconds);
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%ld:%02ld min", whole / 60, whole % 60);
+  return buffer;
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text + std::string(text.size() < width ? width - text.size() : 1, ' ');
+}
+
+}  // namespace
+
+void ProgressLog::update(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts) {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (!has_begun_ && counts.completed_poses > 0) {
+    has_begun_ = true;
+    first_progress_ = now;
+    first_completed_ = counts.completed_poses;
+  }
+  if ((now - last_line_).toSec() < kSecondsBetweenLines) return;
+  last_line_ = now;
+  const std::size_t done = counts.completed_poses;
+  std::string line = "evaluated " + std::to_string(done);
+  if (options.poses > 0) {
+    line += " of " + std::to_string(options.poses) + " poses (" + std::to_string(100 * done / options.poses) +
+            " %)";
+    const double elapsed_s = has_begun_ ? (now - first_progress_).toSec() : 0.0;
+    if (done > first_completed_ && done < options.poses) {
+      const double each_s = elapsed_s / static_cast<double>(done - first_completed_);
+      line += ", " + minutesAndSeconds(each_s * static_cast<double>(options.poses - done)) + " left";
+    }
+  } else {
+    line += " poses";
+  }
+  line += "; " + std::to_string(counts.queued_poses) + " in work, " + std::to_string(counts.waiting_images) +
+          " images wait for a partner";
+  ROS_INFO("%s", line.c_str());
+}
+
+std::string summaryTable(const std::vector<evaluate::SummaryRow>& rows) {
+  constexpr std::size_t kNameWidth = 16;
+  constexpr std::size_t kColumnWidth = 24;
+  std::vector<std::string> pairs;
+  std::vector<std::string> names;
+  std::map<std::string, std::map<std::string, std::string>> cells;
+  for (const evaluate::SummaryRow& row : rows) {
+    const std::string pair = row.a + "-" + row.b;
+    const std::string name = evaluate::nameOf(row.difference);
+    if (pairs.empty() || pairs.back() != pair) pairs.push_back(pair);
+    if (cells.count(name) == 0) names.push_back(name);
+    char buffer[80];
+    std::snprintf(buffer, sizeof buffer, "%.5f (s %.5f)", row.statistics.mean, row.statistics.sd);
+    cells[name][pair] = buffer;
+  }
+  std::string table = padded("mean D", kNameWidth);
+  for (const std::string& pair : pairs) table += padded(pair, kColumnWidth);
+  for (const std::string& name : names) {
+    table += "\n" + padded(name, kNameWidth);
+    for (const std::string& pair : pairs) table += padded(cells[name][pair], kColumnWidth);
+  }
+  return table;
+}
+
+std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate::Outcome& outcome) {
+  if (outcome.isWhole()) return "";
+  std::string line;
+  const auto add = [&](const std::string& name, std::size_t count) {
+    if (count > 0) line += (line.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+  };
+  add("expected poses never came", outcome.absent_poses);
+  for (std::size_t p = 0; p < options.pairs.size(); ++p) {
+    const evaluate::PairCounts& c = outcome.counts.pairs[p];
+    const std::string pair = " (" + options.pairs[p].a + "-" + options.pairs[p].b + ")";
+    add("missing_partner" + pair, c.missing_partner);
+    add("undecodable" + pair, c.undecodable);
+    add("size_mismatch" + pair, c.size_mismatch);
+    add("dropped" + pair, c.dropped);
+    add("failed" + pair, c.failed);
+    add("unplaced" + pair, c.unplaced);
+  }
+  return "not evaluated: " + line + "; each is named in " + options.output_dir + "/problems.csv";
+}
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,33 @@
+/// What a person in front of the terminal reads.
+#pragma once
+
+#include <ros/time.h>
+
+#include <string>
+
+#include "sunlit/evaluate/evaluation.h"
+
+namespace sunlit::ros_interface {
+
+/// Exit status of a program that could not evaluate some pairs.
+constexpr int kNotWholeStatus = 3;
+
+/// A line of progress about every ten seconds.
+class ProgressLog {
+ public:
+  /// Logs if it is time to.
+  void update(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts);
+
+ private:
+  ros::SteadyTime last_line_ = ros::SteadyTime::now();
+  ros::SteadyTime first_progress_;
+  std::size_t first_completed_ = 0;
+  bool has_begun_ = false;
+};
+
+/// Means and standard deviations, one line a difference, one column a pair.
+std::string summaryTable(const std::vector<evaluate::SummaryRow>& rows);
+/// One line of counts of what could not be evaluated; empty where everything was.
+std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate::Outcome& outcome);
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,30 @@
+#include <tbb/global_control.h>
+
+#include <cstdlib>
+#include <thread>
+
+#include "ros/render/render_node.h"
+#include "sunlit/ros/node_main.h"
+
+namespace {
+
+using namespace sunlit::ros_interface;
+
+int run() {
+  const ros::NodeHandle node;
+  const ros::NodeHandle private_node("~");
+  const ParameterReader parameters(private_node);
+  const RenderNodeOptions options = readRenderNodeOptions(parameters);
+  const std::vector<Condition> conditions = readConditions(parameters);
+  for (const Condition& condition : conditions) condition.parameters.rejectUnknown();  // only the sun differs
+  parameters.rejectUnknown();
+  const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
+  // llvmpipe has threads of its own.
+  if (options.threads > 0) setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  return RenderNode(node, private_node, options, conditions).run();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return runNode(argc, argv, "render", run); }

@@ -1,0 +1,46 @@
+/// The camera poses of a run, with their indices and stamps.
+#pragma once
+
+#include <nav_msgs/Path.h>
+#include <ros/node_handle.h>
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "ros/render/options.h"
+
+namespace sunlit::ros_interface {
+
+/// Stamp of pose `index`: start + index / frame_rate, to the nanosecond, whatever came before.
+ros::Time stampOfPose(const ros::Time& start, int index, double frame_rate);
+
+/// Poses from a file, a topic or the built-in path.
+class PathSource {
+ public:
+  /// A file or the built-in path is there at once; a topic's comes with its first message.
+  /// Throws what path.h throws, and std::invalid_argument where `first` and `count` ask for more than the path has.
+  PathSource(ros::NodeHandle node, const PathSourceOptions& options);
+
+  bool ready() const { return !map_from_camera_.empty(); }
+  /// The topic that the path is expected from; empty where it comes from elsewhere.
+  std::string topic() const { return subscriber_ ? subscriber_.getTopic() : std::string(); }
+
+  /// map_from_camera_link of pose `index`, 0 ≤ index < size().
+  const Eigen::Isometry3d& mapFromCamera(int index) const { return map_from_camera_[static_cast<std::size_t>(index)]; }
+  int size() const { return static_cast<int>(map_from_camera_.size()); }
+  /// The indices to render are first(), first() + stride(), … below end().
+  int first() const { return options_.first; }
+  int stride() const { return options_.stride; }
+  int end() const { return options_.count == 0 ? size() : options_.first + options_.count; }
+
+ private:
+  void onPath(const nav_msgs::Path& message);
+  void sample(const path::Waypoints& waypoints);
+
+  PathSourceOptions options_;
+  std::vector<Eigen::Isometry3d> map_from_camera_;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace sunlit::ros_interface

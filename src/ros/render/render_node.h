@@ -1,0 +1,56 @@
+/// The render node: a camera on its way through the scene, under any number of suns at once.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <std_srvs/Trigger.h>
+
+#include <memory>
+#include <vector>
+
+#include "ros/render/options.h"
+#include "ros/render/path_source.h"
+#include "ros/render/run.h"
+#include "ros/render/run_files.h"
+#include "ros/render/run_log.h"
+#include "ros/render/streams.h"
+#include "ros/render/studio.h"
+#include "sunlit/RenderView.h"
+#include "sunlit/ros/conditions.h"
+
+namespace sunlit::ros_interface {
+
+/// One thread does everything: it holds the OpenGL context, and ROS callbacks have their turn between two frames.
+class RenderNode {
+ public:
+  RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const RenderNodeOptions& options,
+             const std::vector<Condition>& conditions);
+
+  /// Until ROS shuts down, or all is rendered and the options say to end then. The exit status.
+  int run();
+
+ private:
+  bool onStart(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool onPause(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool onView(RenderView::Request& request, RenderView::Response& response);
+  Step step();
+  void writeMap();
+  void finish();
+
+  ros::NodeHandle node_;
+  ros::NodeHandle private_node_;
+  RenderNodeOptions options_;
+  std::unique_ptr<RunFiles> files_;  // before the scene: an unwritable folder should not cost its loading
+  Studio studio_;
+  std::unique_ptr<PathSource> path_;  // not where a TF frame is followed
+  Streams streams_;
+  PathRun* path_run_ = nullptr;  // run_ where it follows a path
+  std::unique_ptr<Run> run_;
+  ProgressLog progress_log_;
+  WaitLog wait_log_;
+  bool paused_;
+  bool drawn_ = false;     // the map is written
+  bool finished_ = false;  // all is rendered
+  std::vector<ros::ServiceServer> services_;
+};
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,82 @@
+/// The two ways to move the camera: along a path, and after a TF frame.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <memory>
+#include <string>
+
+#include "ros/render/pacer.h"
+#include "ros/render/path_source.h"
+#include "ros/render/streams.h"
+
+namespace sunlit::ros_interface {
+
+/// What became of one step.
+enum class Step {
+  kTook,   ///< one pose was rendered
+  kWaits,  ///< see Run::waitsFor()
+  kDone,   ///< there is nothing left to render
+};
+
+/// Renders one pose a step, when it may.
+class Run {
+ public:
+  virtual ~Run() = default;
+  /// Makes known what is known before the start. Call it before each step, also while paused.
+  virtual void announce() {}
+  virtual Step step() = 0;
+  /// Why the latest step waited, in words; empty where that needs no words.
+  virtual std::string waitsFor() const = 0;
+};
+
+class PathRun : public Run {
+ public:
+  /// `path` and `streams` outlive this.
+  PathRun(ros::NodeHandle node, const PacingOptions& options, const PathSource& path, Streams& streams);
+  void announce() override;
+  Step step() override;
+  std::string waitsFor() const override { return waits_for_; }
+
+  /// Stamp of pose 0; zero until path and time are known.
+  const ros::Time& start() const { return start_; }
+  /// Poses from the first of the run up to the one to be rendered next, and all of them.
+  int position() const { return position_; }
+  int positions() const { return path_.end() - path_.first(); }
+
+ private:
+  bool begin();
+  std::string missing() const;
+
+  PacingOptions options_;
+  const PathSource& path_;
+  Streams& streams_;
+  Pacer pacer_;
+  ros::Time start_;
+  bool began_ = false;
+  int position_ = 0;
+  std::string waits_for_;
+};
+
+class FollowRun : public Run {
+ public:
+  /// `streams` outlives this.
+  FollowRun(const std::string& frame, double frame_rate, Streams& streams);
+  Step step() override;
+  std::string waitsFor() const override { return waits_for_; }
+
+ private:
+  std::string frame_;
+  ros::Duration period_;
+  Streams& streams_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+  ros::Time next_;
+  ros::Time latest_;
+  int taken_ = 0;
+  std::string waits_for_;
+};
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,67 @@
+#include "ros/render/run_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iomanip>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+namespace sunlit::ros_interface {
+
+namespace {
+
+/// Writes beside the target and renames, so that a reader never meets half a file.
+void writeWhole(const std::string& file, const std::function<void(std::ostream&)>& write) {
+  const std::string unfinished = file + ".part";
+  std::ofstream out(unfinished);
+  write(out);
+  out.close();
+  std::error_code error;
+  if (out) std::filesystem::rename(unfinished, file, error);
+  if (!out || error) throw std::runtime_error(file + ": cannot be written");
+}
+
+}  // namespace
+
+RunFiles::RunFiles(const std::string& folder) : folder_(folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) throw std::runtime_error(folder_ + ": the folder cannot be made: " + error.message());
+  writeTiming(Stopwatch());
+}
+
+void RunFiles::writeMap(const image::Rgb8Image& map, const MapExtent& extent) const {
+  const std::string file = folder_ + "/map.png";
+  const cv::Mat rgb(map.height, map.width, CV_8UC3, const_cast<std::uint8_t*>(map.data.data()));
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  if (!cv::imwrite(file, bgr)) throw std::runtime_error(file + ": cannot be written");
+  writeWhole(folder_ + "/map.yaml", [&](std::ostream& out) {
+    out << std::setprecision(10) << "x_min: " << extent.x_min << "\nx_max: " << extent.x_max
+        << "\ny_min: " << extent.y_min << "\ny_max: " << extent.y_max << '\n';
+  });
+}
+
+void RunFiles::writeTiming(const Stopwatch& stopwatch) const {
+  writeWhole(folder_ + "/timing.csv", [&](std::ostream& out) { stopwatch.write(out); });
+}
+
+MapExtent extentOf(const PathSource& path) {
+  constexpr double kMarginM = 40.0;
+  const Eigen::Vector3d begin = path.mapFromCamera(path.first()).translation();
+  MapExtent extent{begin.x(), begin.x(), begin.y(), begin.y()};
+  for (int index = path.first(); index < path.end(); ++index) {
+    const Eigen::Vector3d at = path.mapFromCamera(index).translation();
+    extent.x_min = std::min(extent.x_min, at.x());
+    extent.x_max = std::max(extent.x_max, at.x());
+    extent.y_min = std::min(extent.y_min, at.y());
+    extent.y_max = std::max(extent.y_max, at.y());
+  }
+  return {extent.x_min - kMarginM, extent.x_max + kMarginM, extent.y_min - kMarginM, extent.y_max + kMarginM};
+}
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,61 @@
+/// All streams of a camera: for each condition its sun in and its images out, and what all conditions share.
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ros/render/condition_output.h"
+#include "ros/render/pose_output.h"
+#include "ros/render/studio.h"
+#include "ros/render/sun_input.h"
+#include "sunlit/ros/conditions.h"
+
+namespace sunlit::ros_interface {
+
+/// One place and moment to be photographed.
+struct Shot {
+  int pose_index = 0;
+  ros::Time stamp;
+  Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
+};
+
+struct StreamOptions {
+  PoseOutputOptions pose;
+  std::string sun_namespace;  ///< of the topics c/sun; empty: the node's own
+  WantedSubscribers wanted_subscribers;
+};
+
+class Streams {
+ public:
+  /// `studio` outlives this.
+  Streams(const std::vector<Condition>& conditions, const StreamOptions& options, Studio& studio);
+
+  /// Renders the shot under every condition's sun and publishes all of it with its stamp. Only when every sun is there.
+  void take(const Shot& shot);
+  /// One image of `condition`. Throws std::invalid_argument naming what is wrong with the condition.
+  Photograph view(const Shot& shot, const std::string& condition);
+
+  const PoseOutput& poseOutput() const { return pose_output_; }
+  /// What is missing before a first image can be taken, in words; empty if nothing is.
+  std::string waitsForSun() const;
+  /// What is missing before a first image would reach everybody, in words; empty if nothing is.
+  std::string waitsForSubscribers() const;
+
+ private:
+  struct Stream {
+    std::string name;
+    SunInput sun;
+    ConditionOutput output;
+  };
+  Stream& find(const std::string& condition);
+
+  Studio& studio_;
+  WantedSubscribers wanted_;
+  PoseOutput pose_output_;
+  std::vector<std::unique_ptr<Stream>> streams_;
+};
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,144 @@
+#include "ros/sun_position/sun_position_node.h"
+
+#include <stdexcept>
+
+#include "sunlit/astronomy/civil_time.h"
+#include "sunlit/astronomy/delta_t.h"
+#include "sunlit/astronomy/limits.h"
+
+namespace sunlit::ros_interface {
+namespace {
+
+constexpr char kPolynomials[] = "from the polynomials of Espenak and Meeus (2006)";
+const ros::WallDuration kJumpWatchPeriod(0.05);
+
+/// A bad request changes nothing and is answered in words.
+template <typename Response, typename Action>
+bool answered(Response& response, const Action& action) {
+  try {
+    response.message = action();
+    response.success = true;
+  } catch (const std::invalid_argument& error) {
+    response = Response();
+    response.message = error.what();
+  }
+  return true;
+}
+
+}  // namespace
+
+SunPositionNode::SunPositionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                                 const SunPositionOptions& options)
+    : options_(options),
+      clock_(astronomy::instantOf(options.date_time), options.rate),
+      node_(node),
+      private_node_(private_node),
+      sun_publisher_(node_.advertise<SunPosition>("sun", 10, true)),
+      marker_publisher_(node_.advertise<visualization_msgs::Marker>("sun_marker", 10, true)),
+      diagnostics_(node, ros::NodeHandle("~"), private_node.getNamespace()) {
+  diagnostics_.setHardwareID("none");
+  diagnostics_.add("sun", this, &SunPositionNode::describe);
+  advertiseServices();
+  ROS_INFO("%s starts at %s, rate %g, at latitude %g, longitude %g; delta_t %s", options_.sun_frame.c_str(),
+           printed(options_.date_time).c_str(), options_.rate, options_.site.latitude.deg(),
+           options_.site.longitude.deg(), options_.earth.delta_t_s ? "as given" : kPolynomials);
+  publish();
+  timer_ = node_.createTimer(ros::Duration(1.0 / options_.publish_rate_hz), [this](const ros::TimerEvent&) {
+    if (ros::Time::now() != last_now_) publish();
+  });
+  // After a jump back a timer waits for a whole period of ROS time, which may be paused.
+  jump_watch_ = node_.createWallTimer(kJumpWatchPeriod, [this](const ros::WallTimerEvent&) {
+    if (ros::Time::now() < last_now_) publish();
+  });
+}
+
+void SunPositionNode::advertiseServices() {
+  services_ = {private_node_.advertiseService("set_date_time", &SunPositionNode::onSetDateTime, this),
+               private_node_.advertiseService("set_site", &SunPositionNode::onSetSite, this),
+               private_node_.advertiseService("get_sun_position", &SunPositionNode::onGetSunPosition, this),
+               private_node_.advertiseService("get_sun_times", &SunPositionNode::onGetSunTimes, this)};
+}
+
+ros::Time SunPositionNode::nextStamp(const ros::Time& now) {
+  // TF ignores a second transform of one stamp. Where ROS time stands still, a new sun is 1 ns younger than
+  // the last.
+  last_stamp_ = now == last_now_ ? last_stamp_ + ros::Duration(0, 1) : now;
+  last_now_ = now;
+  return last_stamp_;
+}
+
+void SunPositionNode::publish() {
+  const ros::Time now = ros::Time::now();
+  const bool jumped_back = now < last_now_;
+  sun_time_ = clock_.at(now);
+  sun_ = toMessage(computeSun(sun_time_, options_.earth, options_.site, options_.air), nextStamp(now));
+  sun_publisher_.publish(sun_);
+  transform_broadcaster_.sendTransform(toTransform(sun_, options_.sun_frame, options_.tf_distance_m));
+  marker_publisher_.publish(toMarker(sun_, options_.sun_frame, options_.tf_distance_m));
+  if (clock_.atLimit()) {
+    ROS_ERROR_THROTTLE(60.0, "The clock of %s has left the years %g to %g; it is held there",
+                       options_.sun_frame.c_str(), astronomy::kYearLimits.min, astronomy::kYearLimits.max);
+  }
+  // The updater waits for its next time, which a jump back may have put far ahead.
+  jumped_back ? diagnostics_.force_update() : diagnostics_.update();
+}
+
+bool SunPositionNode::onSetDateTime(SetDateTime::Request& request, SetDateTime::Response& response) {
+  return answered(response, [&] {
+    const CivilDateTime civil = dateTimeOf(request);
+    astronomy::require(astronomy::kRateLimits, request.rate);
+    clock_ = SunClock(astronomy::instantOf(civil), request.rate);
+    options_.date_time = civil;
+    publish();
+    return "the sun's clock is set to " + printed(civil);
+  });
+}
+
+bool SunPositionNode::onSetSite(SetSite::Request& request, SetSite::Response& response) {
+  return answered(response, [&] {
+    const Site site = siteOf(request);
+    const Air air = airOf(request, options_.air);
+    options_.site = site;
+    options_.air = air;
+    publish();
+    return std::string("the scene is moved");
+  });
+}
+
+bool SunPositionNode::onGetSunPosition(GetSunPosition::Request& request, GetSunPosition::Response& response) {
+  return answered(response, [&] {
+    answer(request, ros::Time::now(), &response);
+    return std::string();
+  });
+}
+
+bool SunPositionNode::onGetSunTimes(GetSunTimes::Request& request, GetSunTimes::Response& response) {
+  return answered(response, [&] {
+    // A given delta_t belongs to the node's own date; the request may be of any year.
+    answer(request, options_.air, {options_.earth.delta_ut1_s, std::nullopt}, &response);
+    return std::string();
+  });
+}
+
+void SunPositionNode::describe(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  if (clock_.atLimit()) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::ERROR,
+                   "the clock is held at the end of the supported years");
+  } else {
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK,
+                   clock_.rate() == 0.0 ? "the sun stands still" : "the sun moves");
+  }
+  status.add("date and time", printed(astronomy::civilOf(sun_time_, options_.date_time.timezone)));
+  status.addf("rate", "%g", clock_.rate());
+  status.addf("azimuth, deg", "%.6f", sun_.azimuth / kRadPerDeg);
+  status.addf("apparent elevation, deg", "%.6f", sun_.elevation / kRadPerDeg);
+  status.addf("latitude, deg", "%.6f", options_.site.latitude.deg());
+  status.addf("longitude, deg", "%.6f", options_.site.longitude.deg());
+  if (options_.earth.delta_t_s) {
+    status.addf("delta_t, s", "%.3f, as given", *options_.earth.delta_t_s);
+  } else {
+    status.addf("delta_t, s", "%.3f, %s", astronomy::deltaT(sun_time_), kPolynomials);
+  }
+}
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,171 @@
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "scene/glb_file.h"
+#include "sunlit/image/files.h"
+#include "sunlit/image/texture_files.h"
+#include "sunlit/scene/export.h"
+
+namespace sunlit::scene {
+namespace {
+
+// Names of numbers in glTF 2.0, section 3.6.2.2 and 5.25.
+constexpr int kUnsignedInt = 5125;
+constexpr int kFloat = 5126;
+
+/// Enough digits to give a float back unchanged.
+std::string number(float value) {
+  std::ostringstream text;
+  text.precision(9);
+  text << value;
+  return text.str();
+}
+
+std::string vector3(const Eigen::Array3f& value) {
+  return jsonArray({number(value[0]), number(value[1]), number(value[2])});
+}
+
+/// +Y up from z up.
+Eigen::Vector3f yUp(const Eigen::Vector3f& map) { return {map.x(), map.z(), -map.y()}; }
+
+class Writer {
+ public:
+  explicit Writer(const Scene& scene) : scene_(scene) {}
+
+  std::string glb() {
+    addTextures();
+    for (const Material& material : scene_.materials) addMaterial(material);
+    for (const Mesh& mesh : scene_.meshes) addMesh(mesh);
+    std::vector<std::string> roots;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) roots.push_back(std::to_string(i));
+    std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"sunlit\"}";
+    if (emits_) json += ",\"extensionsUsed\":[\"KHR_materials_emissive_strength\"]";
+    json += ",\"scene\":0,\"scenes\":[{\"nodes\":" + jsonArray(roots) + "}]";
+    append(json, "nodes", nodes_);
+    append(json, "meshes", meshes_);
+    append(json, "materials", materials_);
+    append(json, "textures", textures_);
+    append(json, "images", images_);
+    append(json, "accessors", accessors_);
+    append(json, "bufferViews", buffer_.views());
+    json += ",\"buffers\":[{\"byteLength\":" + std::to_string(buffer_.bytes().size()) + "}]}";
+    return glbFile(json, buffer_);
+  }
+
+ private:
+  static void append(std::string& json, const char* key, const std::vector<std::string>& items) {
+    if (!items.empty()) json += ",\"" + std::string(key) + "\":" + jsonArray(items);
+  }
+
+  void addTextures() {
+    std::vector<std::string> pngs(scene_.textures.size());
+    tbb::parallel_for(std::size_t{0}, pngs.size(), [&](std::size_t i) {
+      image::Rgba8Image picture;
+      picture.width = scene_.textures[i].width;
+      picture.height = scene_.textures[i].height;
+      picture.data = scene_.textures[i].rgba;
+      pngs[i] = image::encodePng(picture);
+    });
+    for (std::size_t i = 0; i < pngs.size(); ++i) {
+      const std::size_t view = buffer_.add(pngs[i].data(), pngs[i].size());
+      images_.push_back("{\"mimeType\":\"image/png\",\"name\":" + jsonString(scene_.textures[i].name) +
+                        ",\"bufferView\":" + std::to_string(view) + "}");
+      textures_.push_back("{\"source\":" + std::to_string(i) + "}");
+    }
+  }
+
+  void addMaterial(const Material& material) {
+    const Eigen::Array3f base = material.base_color.value;
+    std::string json = "{\"name\":" + jsonString(material.name) + ",\"pbrMetallicRoughness\":{\"baseColorFactor\":" +
+                       jsonArray({number(base[0]), number(base[1]), number(base[2]), "1"}) +
+                       ",\"metallicFactor\":" + number(material.metalness) +
+                       ",\"roughnessFactor\":" + number(material.roughness);
+    if (material.base_texture != Material::kNoTexture) {
+      json += ",\"baseColorTexture\":{\"index\":" + std::to_string(material.base_texture) + "}";
+    }
+    json += std::string("},\"doubleSided\":") + (material.double_sided ? "true" : "false");
+    if (material.alpha_mode == AlphaMode::kMask) {
+      json += ",\"alphaMode\":\"MASK\",\"alphaCutoff\":" + number(material.alpha_cutoff);
+    }
+    const float strength = material.emission.value.maxCoeff();
+    if (strength > 0.0f) {
+      emits_ = true;
+      json += ",\"emissiveFactor\":" + vector3(material.emission.value / strength) +
+              ",\"extensions\":{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":" + number(strength) + "}}";
+    }
+    if (material.detail.contrast > 0.0f) json += ",\"extras\":{\"sunlit_detail\":" + detailJson(material.detail) + "}";
+    materials_.push_back(json + "}");
+  }
+
+  static std::string detailJson(const Detail& detail) {
+    return "{\"contrast\":" + number(detail.contrast) + ",\"coarsest_m\":" + number(detail.coarsest_m) +
+           ",\"finest_m\":" + number(detail.finest_m) + ",\"gain\":" + number(detail.gain) +
+           ",\"tint\":" + vector3(detail.tint) + "}";
+  }
+
+  /// Index of an accessor over `data`; `more` is put into its entry.
+  template <typename Value>
+  std::string addAccessor(const std::vector<Value>& data, const std::string& type, const std::string& more = "") {
+    const std::size_t view = buffer_.add(data.data(), data.size() * sizeof(Value));
+    const bool scalar = type == "SCALAR";
+    const std::size_t count = scalar ? data.size() * sizeof(Value) / sizeof(std::uint32_t) : data.size();
+    accessors_.push_back("{\"bufferView\":" + std::to_string(view) +
+                         ",\"componentType\":" + std::to_string(scalar ? kUnsignedInt : kFloat) +
+                         ",\"count\":" + std::to_string(count) + ",\"type\":\"" + type + "\"" + more + "}");
+    return std::to_string(accessors_.size() - 1);
+  }
+
+  void addMesh(const Mesh& mesh) {
+    if (mesh.triangles.empty()) return;
+    std::vector<Eigen::Vector3f> positions(mesh.positions.size());
+    std::vector<Eigen::Vector3f> normals(mesh.normals.size());
+    std::transform(mesh.positions.begin(), mesh.positions.end(), positions.begin(), yUp);
+    std::transform(mesh.normals.begin(), mesh.normals.end(), normals.begin(), yUp);
+    Eigen::AlignedBox3f box;
+    for (const Eigen::Vector3f& position : positions) box.extend(position);
+    std::string attributes =
+        "\"POSITION\":" +
+        addAccessor(positions, "VEC3", ",\"min\":" + vector3(box.min()) + ",\"max\":" + vector3(box.max())) +
+        ",\"NORMAL\":" + addAccessor(normals, "VEC3");
+    if (!mesh.texture_coordinates.empty()) {
+      attributes += ",\"TEXCOORD_0\":" + addAccessor(mesh.texture_coordinates, "VEC2");
+    }
+    if (!mesh.colors.empty()) {
+      std::vector<Eigen::Array3f> colors = mesh.colors;
+      for (Eigen::Array3f& color : colors) color = color.min(1.0f);  // glTF 2.0, section 3.7.2.1
+      attributes += ",\"COLOR_0\":" + addAccessor(colors, "VEC3");
+    }
+    const std::string name = jsonString(mesh.name);
+    nodes_.push_back("{\"name\":" + name + ",\"mesh\":" + std::to_string(meshes_.size()) + "}");
+    meshes_.push_back("{\"name\":" + name + ",\"primitives\":[{\"attributes\":{" + attributes +
+                      "},\"indices\":" + addAccessor(mesh.triangles, "SCALAR") +
+                      ",\"material\":" + std::to_string(mesh.material) + "}]}");
+  }
+
+  const Scene& scene_;
+  GlbBuffer buffer_;
+  std::vector<std::string> nodes_, meshes_, materials_, textures_, images_, accessors_;
+  bool emits_ = false;
+};
+
+static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(Eigen::Array3f) == 12 && sizeof(Eigen::Vector2f) == 8,
+              "glTF wants tightly packed floats");
+
+}  // namespace
+
+void writeGltf(const Scene& scene, const std::string& file) {
+  validate(scene);
+  std::string glb;
+  try {
+    glb = Writer(scene).glb();
+  } catch (const std::length_error& error) {
+    throw std::runtime_error(file + ": " + error.what());
+  }
+  image::writeFileAtomically(file, glb);
+}
+
+}  // namespace sunlit::scene

@@ -1,0 +1,73 @@
+#include "scene/glb_file.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+namespace sunlit::scene {
+namespace {
+
+constexpr std::uint32_t kMagic = 0x46546C67;      // "glTF"
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
+constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN"
+
+std::size_t paddedTo4(std::size_t size) { return (size + 3) / 4 * 4; }
+
+/// Little-endian, whatever the machine.
+void appendWord(std::string& text, std::size_t value) {
+  for (int shift = 0; shift < 32; shift += 8) text += static_cast<char>((value >> shift) & 0xFF);
+}
+
+}  // namespace
+
+std::size_t GlbBuffer::add(const void* data, std::size_t size) {
+  const std::size_t offset = bytes_.size();
+  bytes_.resize(offset + paddedTo4(size));
+  std::memcpy(bytes_.data() + offset, data, size);
+  views_.push_back("{\"buffer\":0,\"byteOffset\":" + std::to_string(offset) + ",\"byteLength\":" + std::to_string(size) +
+                   "}");
+  return views_.size() - 1;
+}
+
+std::string jsonString(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char letter : text) {
+    if (letter == '"' || letter == '\\') {
+      quoted += std::string("\\") + letter;
+    } else if (static_cast<unsigned char>(letter) < 0x20) {
+      char escape[8];
+      std::snprintf(escape, sizeof(escape), "\\u%04x", static_cast<unsigned>(letter));
+      quoted += escape;
+    } else {
+      quoted += letter;
+    }
+  }
+  return quoted + "\"";
+}
+
+std::string jsonArray(const std::vector<std::string>& items) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < items.size(); ++i) text += (i == 0 ? "" : ",") + items[i];
+  return text + "]";
+}
+
+std::string glbFile(std::string json, const GlbBuffer& buffer) {
+  json.resize(paddedTo4(json.size()), ' ');
+  const std::size_t total = 12 + 8 + json.size() + 8 + buffer.bytes().size();
+  if (total > std::numeric_limits<std::uint32_t>::max()) {
+    throw std::length_error("the scene is larger than the 4 GiB that binary glTF can hold");
+  }
+  std::string text;
+  text.reserve(total);
+  for (const std::size_t word : {std::size_t{kMagic}, std::size_t{2}, total}) appendWord(text, word);
+  appendWord(text, json.size());
+  appendWord(text, kJsonChunk);
+  text += json;
+  appendWord(text, buffer.bytes().size());
+  appendWord(text, kBinChunk);
+  return text + buffer.bytes();
+}
+
+}  // namespace sunlit::scene

@@ -1,0 +1,153 @@
+#include "scene/mesh_file.h"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <regex>
+#include <stdexcept>
+
+#include "scene/mesh_material.h"
+
+namespace sunlit::scene {
+namespace {
+
+constexpr unsigned kSteps = aiProcess_Triangulate |           // polygons to triangles
+                            aiProcess_JoinIdenticalVertices |  // COLLADA and OBJ index each array apart
+                            aiProcess_GenSmoothNormals |       // where the file has none
+                            aiProcess_SortByPType |            // so that points and lines can be left out
+                            aiProcess_FlipUVs;                 // texture coordinates from the top left corner
+
+/// glTF's +Y up (x right, z towards the viewer) to z up.
+Eigen::Affine3d zUpFromYUp() {
+  Eigen::Affine3d rotation = Eigen::Affine3d::Identity();
+  rotation.linear() << 1, 0, 0,  //
+      0, 0, -1,                  //
+      0, 1, 0;
+  return rotation;
+}
+
+Eigen::Affine3d toEigen(const aiMatrix4x4& matrix) {
+  Eigen::Affine3d affine = Eigen::Affine3d::Identity();
+  affine.matrix() << matrix.a1, matrix.a2, matrix.a3, matrix.a4, matrix.b1, matrix.b2, matrix.b3, matrix.b4, matrix.c1,
+      matrix.c2, matrix.c3, matrix.c4, 0.0, 0.0, 0.0, 1.0;
+  return affine;
+}
+
+Mesh toMesh(const aiMesh& source) {
+  Mesh mesh;
+  mesh.positions.reserve(source.mNumVertices);
+  for (unsigned i = 0; i < source.mNumVertices; ++i) {
+    const aiVector3D& position = source.mVertices[i];
+    mesh.positions.emplace_back(position.x, position.y, position.z);
+    if (source.HasNormals()) {
+      const aiVector3D& normal = source.mNormals[i];
+      mesh.normals.emplace_back(normal.x, normal.y, normal.z);
+    }
+    if (source.HasTextureCoords(0)) {
+      const aiVector3D& coordinate = source.mTextureCoords[0][i];
+      mesh.texture_coordinates.emplace_back(coordinate.x, coordinate.y);
+    }
+    if (source.HasVertexColors(0)) {
+      const aiColor4D& color = source.mColors[0][i];
+      mesh.colors.emplace_back(color.r, color.g, color.b);
+    }
+  }
+  mesh.triangles.reserve(source.mNumFaces);
+  for (unsigned i = 0; i < source.mNumFaces; ++i) {
+    const aiFace& face = source.mFaces[i];
+    if (face.mNumIndices == 3) mesh.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
+  }
+  return mesh;
+}
+
+/// The parts below `node`, in the order of the file.
+struct Collector {
+  const aiScene& scene;
+  const std::vector<std::optional<int>>& material_indices;
+  std::vector<MeshPart> parts;
+
+  void collect(const aiNode& node, const Eigen::Affine3d& up_from_parent) {
+    const Eigen::Affine3d up_from_node = up_from_parent * toEigen(node.mTransformation);
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      const aiMesh& source = *scene.mMeshes[node.mMeshes[i]];
+      const std::optional<int> material = material_indices[source.mMaterialIndex];
+      if (!material || (source.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) continue;
+      MeshPart part{node.mName.C_Str(), source.mName.C_Str(), {}, up_from_node};
+      part.mesh = toMesh(source);
+      part.mesh.name = part.node.empty() ? part.geometry : part.node;
+      part.mesh.material = *material;
+      parts.push_back(std::move(part));
+    }
+    for (unsigned i = 0; i < node.mNumChildren; ++i) collect(*node.mChildren[i], up_from_node);
+  }
+};
+
+/// By their index in `scene`; none for those that no mesh uses, which Assimp adds of its own too.
+std::vector<std::optional<int>> addMaterials(const aiScene& scene, const MeshFileContext& context) {
+  std::vector<std::optional<int>> indices(scene.mNumMaterials);
+  std::vector<bool> used(scene.mNumMaterials, false);
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) used[scene.mMeshes[i]->mMaterialIndex] = true;
+  for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
+    if (used[i]) indices[i] = addMeshMaterial(*scene.mMaterials[i], scene, context);
+  }
+  return indices;
+}
+
+/// Assimp leaves out extensions that it does not know without a word.
+void warnAboutExtensions(const std::string& file, SceneBuilder& builder) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::size_t key = text.find("\"extensionsUsed\"");
+  if (key == std::string::npos) return;
+  const std::size_t begin = text.find('[', key);
+  const std::string list = text.substr(begin, text.find(']', begin) - begin);
+  const std::regex quoted("\"([^\"]*)\"");
+  for (std::sregex_iterator name(list.begin(), list.end(), quoted), end; name != end; ++name) {
+    builder.warn(file + ": glTF extension " + (*name)[1].str() + " is not read");
+  }
+}
+
+std::string extensionOf(const std::string& file) {
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return extension;
+}
+
+}  // namespace
+
+std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, const ResourceFinder& finder,
+                                   SceneBuilder& builder) {
+  const std::string extension = extensionOf(file);
+  const bool collada = extension == ".dae";
+  const bool gltf = extension == ".gltf" || extension == ".glb";
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up_axis == UpAxis::kZ);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+  // Lines and points have no surface to light.
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  const aiScene* scene = importer.ReadFile(file, kSteps);
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    throw std::runtime_error(file + ": cannot read this mesh: " + importer.GetErrorString());
+  }
+
+  if (gltf) warnAboutExtensions(file, builder);
+  const std::vector<std::optional<int>> material_indices =
+      addMaterials(*scene, MeshFileContext{file, finder, builder});
+  // Assimp turns a COLLADA file whose up_axis it honours to +Y up.
+  const bool y_up = gltf || (collada && up_axis == UpAxis::kAsDeclared);
+  Collector collector{*scene, material_indices, {}};
+  collector.collect(*scene->mRootNode, y_up ? zUpFromYUp() : Eigen::Affine3d::Identity());
+  return std::move(collector.parts);
+}
+
+}  // namespace sunlit::scene

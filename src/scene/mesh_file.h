@@ -1,0 +1,32 @@
+/// Mesh files (COLLADA, glTF, OBJ) by Assimp.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "scene/resource_finder.h"
+#include "scene/scene_builder.h"
+
+namespace sunlit::scene {
+
+/// Who decides which axis of a COLLADA file is up. A glTF file's is +Y by definition; an OBJ file says nothing and is
+/// taken as z up, as ROS tools do.
+enum class UpAxis {
+  kAsDeclared,  ///< the file's up_axis
+  kZ,           ///< z, whatever the file declares: what Gazebo does with the meshes of its models
+};
+
+/// One piece of a mesh file: its triangles in the frame of their node, and where that stands in the file.
+struct MeshPart {
+  std::string node;      ///< name of its node in the file
+  std::string geometry;  ///< name of the mesh in the file
+  Mesh mesh;             ///< `material` is an index into the builder's materials
+  Eigen::Affine3d file_from_node = Eigen::Affine3d::Identity();  ///< to z up, m
+};
+
+/// Reads `file`; its materials and textures go to `builder`. Throws std::runtime_error naming the file and what is wrong.
+std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, const ResourceFinder& finder,
+                                   SceneBuilder& builder);
+
+}  // namespace sunlit::scene

@@ -1,0 +1,127 @@
+#include "scene/primitives.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <vector>
+
+#include "sunlit/quantity/angle.h"
+
+namespace sunlit::scene {
+namespace {
+
+/// Segments around a round solid: its outline departs from the circle by 0.2 % of the radius.
+constexpr int kSegments = 48;
+constexpr int kRings = kSegments / 2;
+
+std::uint32_t addVertex(Mesh& mesh, const Eigen::Vector3d& position, const Eigen::Vector3d& normal,
+                        const Eigen::Vector2d& coordinate) {
+  mesh.positions.push_back(position.cast<float>());
+  mesh.normals.push_back(normal.normalized().cast<float>());
+  mesh.texture_coordinates.push_back(coordinate.cast<float>());
+  return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+}
+
+/// The rectangle centre ± half_u ± half_v, seen from the side where u × v points.
+void addRectangle(Mesh& mesh, const Eigen::Vector3d& centre, const Eigen::Vector3d& half_u, const Eigen::Vector3d& half_v) {
+  const Eigen::Vector3d normal = half_u.cross(half_v);
+  const std::uint32_t a = addVertex(mesh, centre - half_u - half_v, normal, {0.0, 1.0});
+  const std::uint32_t b = addVertex(mesh, centre + half_u - half_v, normal, {1.0, 1.0});
+  const std::uint32_t c = addVertex(mesh, centre + half_u + half_v, normal, {1.0, 0.0});
+  const std::uint32_t d = addVertex(mesh, centre - half_u + half_v, normal, {0.0, 0.0});
+  mesh.triangles.push_back({a, b, c});
+  mesh.triangles.push_back({a, c, d});
+}
+
+/// One ring of a solid of revolution.
+struct Ring {
+  double radius, height;                 ///< of its vertices, before scaling
+  double normal_out, normal_up;          ///< their normal, before scaling
+  double texture_v;
+};
+
+/// Joins `rings`, given from top to bottom, all around; x, y and z are scaled by `scale`.
+void addRevolution(Mesh& mesh, const std::vector<Ring>& rings, const Eigen::Vector3d& scale) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const Ring& ring : rings) {
+    for (int i = 0; i <= kSegments; ++i) {
+      const double turn = static_cast<double>(i) / kSegments;
+      const double c = std::cos(2.0 * kPi * turn);
+      const double s = std::sin(2.0 * kPi * turn);
+      const Eigen::Vector3d position(ring.radius * c, ring.radius * s, ring.height);
+      const Eigen::Vector3d normal(ring.normal_out * c, ring.normal_out * s, ring.normal_up);
+      addVertex(mesh, position.cwiseProduct(scale), normal.cwiseQuotient(scale), {turn, ring.texture_v});
+    }
+  }
+  constexpr std::uint32_t kStride = kSegments + 1;
+  for (std::uint32_t ring = 0; ring + 1 < rings.size(); ++ring) {
+    for (std::uint32_t i = 0; i < kSegments; ++i) {
+      const std::uint32_t upper = first + ring * kStride + i;
+      const std::uint32_t lower = upper + kStride;
+      if (rings[ring].radius > 0.0) mesh.triangles.push_back({upper, lower, upper + 1});
+      if (rings[ring + 1].radius > 0.0) mesh.triangles.push_back({upper + 1, lower, lower + 1});
+    }
+  }
+}
+
+/// Rings of a unit sphere from polar angle `begin` to `end`, rad, lifted by `lift`.
+void appendSphereRings(std::vector<Ring>& rings, double begin, double end, double lift) {
+  const int steps = static_cast<int>(std::lround(kRings * (end - begin) / kPi));
+  for (int i = 0; i <= steps; ++i) {
+    const double polar = begin + (end - begin) * i / steps;
+    const bool pole = std::abs(std::sin(polar)) < 1e-9;
+    const double out = pole ? 0.0 : std::sin(polar);
+    rings.push_back({out, std::cos(polar) + lift, out, std::cos(polar), polar / kPi});
+  }
+}
+
+}  // namespace
+
+Mesh makeBox(const Eigen::Vector3d& size) {
+  Mesh mesh;
+  const Eigen::Vector3d half = 0.5 * size;
+  const Eigen::Vector3d x(half.x(), 0, 0), y(0, half.y(), 0), z(0, 0, half.z());
+  addRectangle(mesh, x, y, z);
+  addRectangle(mesh, -x, -y, z);
+  addRectangle(mesh, y, -x, z);
+  addRectangle(mesh, -y, x, z);
+  addRectangle(mesh, z, x, y);
+  addRectangle(mesh, -z, x, -y);
+  return mesh;
+}
+
+Mesh makeEllipsoid(const Eigen::Vector3d& radii) {
+  Mesh mesh;
+  std::vector<Ring> rings;
+  appendSphereRings(rings, 0.0, kPi, 0.0);
+  addRevolution(mesh, rings, radii);
+  return mesh;
+}
+
+Mesh makeCylinder(double radius, double length) {
+  Mesh mesh;
+  const Eigen::Vector3d scale(radius, radius, 0.5 * length);
+  addRevolution(mesh, {{0, 1, 0, 1, 0}, {1, 1, 0, 1, 1}}, scale);
+  addRevolution(mesh, {{1, 1, 1, 0, 0}, {1, -1, 1, 0, 1}}, scale);
+  addRevolution(mesh, {{1, -1, 0, -1, 0}, {0, -1, 0, -1, 1}}, scale);
+  return mesh;
+}
+
+Mesh makeCapsule(double radius, double length) {
+  Mesh mesh;
+  const double lift = 0.5 * length / radius;
+  std::vector<Ring> rings;
+  appendSphereRings(rings, 0.0, 0.5 * kPi, lift);
+  appendSphereRings(rings, 0.5 * kPi, kPi, -lift);
+  addRevolution(mesh, rings, Eigen::Vector3d::Constant(radius));
+  return mesh;
+}
+
+Mesh makePlane(const Eigen::Vector2d& size, const Eigen::Vector3d& normal) {
+  Mesh mesh;
+  const Eigen::Quaterniond turned = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal);
+  addRectangle(mesh, Eigen::Vector3d::Zero(), turned * Eigen::Vector3d(0.5 * size.x(), 0, 0),
+               turned * Eigen::Vector3d(0, 0.5 * size.y(), 0));
+  return mesh;
+}
+
+}  // namespace sunlit::scene

@@ -1,0 +1,79 @@
+#include "scene/race_track/noise.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunlit::scene::race_track {
+namespace {
+
+float lattice(int x, int y, std::uint32_t seed) {
+  const std::uint32_t h = mix(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), seed);
+  return static_cast<float>(h >> 8) * (2.0f / 16777216.0f) - 1.0f;
+}
+
+}  // namespace
+
+std::uint32_t mix(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  std::uint32_t h = a * 0x9E3779B1u ^ (b * 0x85EBCA77u + 0x165667B1u) ^ (c * 0xC2B2AE3Du + 0x27D4EB2Fu);
+  h ^= h >> 16;
+  h *= 0x7FEB352Du;
+  h ^= h >> 15;
+  h *= 0x846CA68Bu;
+  h ^= h >> 16;
+  return h;
+}
+
+float noise(float x, float y, std::uint32_t seed) {
+  const float fx = std::floor(x);
+  const float fy = std::floor(y);
+  const int ix = static_cast<int>(fx);
+  const int iy = static_cast<int>(fy);
+  const float u = x - fx;
+  const float v = y - fy;
+  const float su = u * u * u * (u * (u * 6.0f - 15.0f) + 10.0f);
+  const float sv = v * v * v * (v * (v * 6.0f - 15.0f) + 10.0f);
+  const float low = lattice(ix, iy, seed) * (1.0f - su) + lattice(ix + 1, iy, seed) * su;
+  const float high = lattice(ix, iy + 1, seed) * (1.0f - su) + lattice(ix + 1, iy + 1, seed) * su;
+  return low * (1.0f - sv) + high * sv;
+}
+
+float fractal(float x, float y, int octaves, std::uint32_t seed) {
+  float sum = 0.0f;
+  float strength = 0.6f;
+  for (int i = 0; i < octaves; ++i) {
+    sum += strength * noise(x, y, seed + 101u * static_cast<std::uint32_t>(i));
+    // Turned between octaves, so that their lattices do not line up.
+    const float turned = 1.6f * x - 1.2f * y + 17.3f;
+    y = 1.2f * x + 1.6f * y - 5.1f;
+    x = turned;
+    strength *= 0.5f;
+  }
+  return sum;
+}
+
+Cell cellular(float x, float y, std::uint32_t seed) {
+  const int ix = static_cast<int>(std::floor(x));
+  const int iy = static_cast<int>(std::floor(y));
+  Cell cell{9.0f, 9.0f, 0u};
+  for (int j = iy - 1; j <= iy + 1; ++j) {
+    for (int i = ix - 1; i <= ix + 1; ++i) {
+      const std::uint32_t h = mix(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), seed);
+      const float dx = static_cast<float>(i) + static_cast<float>(h & 0xFFFFu) / 65536.0f - x;
+      const float dy = static_cast<float>(j) + static_cast<float>(h >> 16) / 65536.0f - y;
+      const float distance = std::sqrt(dx * dx + dy * dy);
+      if (distance < cell.nearest) {
+        cell = {distance, cell.nearest, h};
+      } else {
+        cell.second = std::min(cell.second, distance);
+      }
+    }
+  }
+  return cell;
+}
+
+float smoothStep(float low, float high, float value) {
+  const float t = std::clamp((value - low) / (high - low), 0.0f, 1.0f);
+  return t * t * (3.0f - 2.0f * t);
+}
+
+}  // namespace sunlit::scene::race_track

@@ -1,0 +1,27 @@
+# The built-in world.
+set(race_track_sources
+  race_track/assembly.cpp
+  race_track/barriers.cpp
+  race_track/buildings.cpp
+  race_track/canvas.cpp
+  race_track/course.cpp
+  race_track/facade.cpp
+  race_track/fence.cpp
+  race_track/foliage.cpp
+  race_track/furniture.cpp
+  race_track/grandstand.cpp
+  race_track/grass.cpp
+  race_track/ground.cpp
+  race_track/layout.cpp
+  race_track/lettering.cpp
+  race_track/noise.cpp
+  race_track/paddock.cpp
+  race_track/poster.cpp
+  race_track/race_track.cpp
+  race_track/road.cpp
+  race_track/road_markings.cpp
+  race_track/road_paint.cpp
+  race_track/road_wear.cpp
+  race_track/shapes.cpp
+  race_track/trees.cpp
+  race_track/vehicles.cpp)

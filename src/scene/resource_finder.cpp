@@ -1,0 +1,154 @@
+#include "scene/resource_finder.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <utility>
+
+namespace sunlit::scene {
+namespace fs = std::filesystem;
+namespace {
+
+std::string lowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+bool isFile(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+/// The entry of `path`'s folder whose name differs from path's in case only.
+std::optional<fs::path> inOtherCase(const fs::path& path) {
+  std::error_code error;
+  const std::string wanted = lowerCase(path.filename().string());
+  std::vector<fs::path> matches;
+  for (fs::directory_iterator entry(path.parent_path(), error), end; !error && entry != end; entry.increment(error)) {
+    if (lowerCase(entry->path().filename().string()) == wanted) matches.push_back(entry->path());
+  }
+  if (matches.empty()) return std::nullopt;
+  return *std::min_element(matches.begin(), matches.end());  // folders are listed in no order
+}
+
+/// Tries `candidates` as written, then ignoring the case of the file name.
+Found firstOf(const std::vector<fs::path>& candidates) {
+  Found found;
+  for (const fs::path& candidate : candidates) {
+    const std::string place = candidate.lexically_normal().string();
+    if (std::find(found.tried.begin(), found.tried.end(), place) != found.tried.end()) continue;
+    found.tried.push_back(place);
+    if (isFile(candidate)) {
+      found.file = place;
+      return found;
+    }
+  }
+  for (const std::string& place : found.tried) {
+    if (const auto other = inOtherCase(place)) {
+      found.file = other->string();
+      found.other_case = true;
+      return found;
+    }
+  }
+  return found;
+}
+
+/// The folder of `file` and all its parents, nearest first.
+std::vector<std::string> folderAndParents(const std::string& file) {
+  std::vector<std::string> folders;
+  std::error_code error;
+  fs::path folder = fs::absolute(file, error).lexically_normal().parent_path();
+  while (!folder.empty()) {
+    folders.push_back(folder.string());
+    if (folder == folder.root_path()) break;
+    folder = folder.parent_path();
+  }
+  return folders;
+}
+
+/// Turns %20 and its like into the characters that they stand for.
+std::string withoutEscapes(const std::string& text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool escape = text[i] == '%' && i + 2 < text.size() && std::isxdigit(static_cast<unsigned char>(text[i + 1])) &&
+                        std::isxdigit(static_cast<unsigned char>(text[i + 2]));
+    if (!escape) {
+      plain += text[i];
+      continue;
+    }
+    plain += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
+    i += 2;
+  }
+  return plain;
+}
+
+std::string withoutScheme(const std::string& uri) {
+  const std::size_t end = uri.find("://");
+  return end == std::string::npos ? uri : uri.substr(end + 3);
+}
+
+}  // namespace
+
+ResourceFinder::ResourceFinder(const SearchPath& search_path, const std::string& scene_file)
+    : roots_(folderAndParents(scene_file)) {
+  roots_.insert(roots_.end(), search_path.folders.begin(), search_path.folders.end());
+}
+
+Found ResourceFinder::find(const std::string& uri, const std::string& from_file) const {
+  const fs::path path = withoutScheme(uri);
+  if (path.is_absolute()) return firstOf({path});
+  std::vector<std::string> roots = folderAndParents(from_file);
+  roots.insert(roots.end(), roots_.begin(), roots_.end());
+  std::vector<fs::path> candidates;
+  for (const std::string& root : roots) {
+    candidates.push_back(fs::path(root) / path);
+    candidates.push_back(fs::path(root) / "models" / path);
+  }
+  return firstOf(candidates);
+}
+
+Found ResourceFinder::findTexture(const std::string& name, const std::string& mesh_file) const {
+  std::string plain = withoutScheme(name);
+  std::replace(plain.begin(), plain.end(), '\\', '/');
+  const fs::path folder = fs::absolute(mesh_file).parent_path();
+  std::vector<fs::path> candidates;
+  for (const fs::path& path : {fs::path(plain), fs::path(withoutEscapes(plain))}) {
+    candidates.push_back(folder / path);  // path alone if it is absolute
+    for (const char* place : {".", "textures", "../materials/textures", "../textures", "../materials"}) {
+      candidates.push_back(folder / place / path.filename());
+    }
+    if (path.is_absolute()) continue;
+    for (const std::string& root : roots_) candidates.push_back(fs::path(root) / path);
+  }
+  return firstOf(candidates);
+}
+
+std::string placesTried(const Found& found) {
+  std::ostringstream text;
+  for (std::size_t i = 0; i < found.tried.size(); ++i) {
+    if (i > 0) text << (i + 1 == found.tried.size() ? " and " : ", ");
+    text << found.tried[i];
+  }
+  return text.str();
+}
+
+SearchPath SearchPath::withEnvironment(std::vector<std::string> folders) {
+  SearchPath search_path{std::move(folders)};
+  constexpr std::array<const char*, 4> kVariables = {"SUNLIT_MODEL_PATH", "GAZEBO_MODEL_PATH", "GAZEBO_RESOURCE_PATH",
+                                                     "SDF_PATH"};
+  for (const char* variable : kVariables) {
+    const char* value = std::getenv(variable);
+    std::istringstream list(value == nullptr ? "" : value);
+    for (std::string folder; std::getline(list, folder, ':');) {
+      if (!folder.empty()) search_path.folders.push_back(folder);
+    }
+  }
+  if (const char* home = std::getenv("HOME")) search_path.folders.push_back(std::string(home) + "/.gazebo/models");
+  return search_path;
+}
+
+}  // namespace sunlit::scene

@@ -1,0 +1,171 @@
+#include "scene/scene_builder.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "sunlit/image/texture_files.h"
+
+namespace sunlit::scene {
+namespace {
+
+/// A texture whose alpha is below one half in more than this share of its texels is a cut-out. Formats without an alpha
+/// mode carry the channel by accident often enough (smooth edges, unused channels) for a stray texel not to count.
+constexpr double kTransparentShare = 0.01;
+
+/// Twice the area, m², below which a triangle is taken for none: no camera sees a hundredth of a square millimetre.
+constexpr double kNoArea_m2 = 1e-12;
+
+bool isCutOut(const Texture& texture) {
+  const std::size_t texels = texture.rgba.size() / 4;
+  std::size_t transparent = 0;
+  for (std::size_t i = 0; i < texels; ++i) transparent += texture.rgba[4 * i + 3] < 128 ? 1 : 0;
+  return static_cast<double>(transparent) > kTransparentShare * static_cast<double>(texels);
+}
+
+Eigen::Vector3d faceVector(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  const Eigen::Vector3d a = mesh.positions[triangle[0]].cast<double>();
+  const Eigen::Vector3d b = mesh.positions[triangle[1]].cast<double>();
+  const Eigen::Vector3d c = mesh.positions[triangle[2]].cast<double>();
+  return (b - a).cross(c - a);
+}
+
+/// Normals that are missing, zero or not finite are replaced by the mean of the adjoining faces.
+void repairNormals(Mesh& mesh) {
+  mesh.normals.resize(mesh.positions.size(), Eigen::Vector3f::Zero());
+  const auto broken = [](const Eigen::Vector3f& normal) { return !(normal.norm() > 1e-6f) || !normal.allFinite(); };
+  std::vector<Eigen::Vector3d> sums;
+  if (std::any_of(mesh.normals.begin(), mesh.normals.end(), broken)) {
+    sums.assign(mesh.positions.size(), Eigen::Vector3d::Zero());
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t corner : triangle) sums[corner] += faceVector(mesh, triangle);
+    }
+  }
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+    if (broken(mesh.normals[i])) {
+      const Eigen::Vector3d mean = sums[i].norm() > 0.0 ? sums[i].normalized() : Eigen::Vector3d(0.0, 0.0, 1.0);
+      mesh.normals[i] = mean.cast<float>();
+    }
+    mesh.normals[i].normalize();
+  }
+}
+
+}  // namespace
+
+int SceneBuilder::textureFromFile(const std::string& file) {
+  std::error_code error;
+  const std::filesystem::path canonical = std::filesystem::weakly_canonical(file, error);
+  const std::string key = error ? file : canonical.string();
+  return addTexture(key, TextureSource{key, {}, false});
+}
+
+int SceneBuilder::textureFromBytes(const std::string& name, std::vector<std::uint8_t> bytes) {
+  return addTexture(name, TextureSource{name, std::move(bytes), true});
+}
+
+int SceneBuilder::addTexture(const std::string& key, TextureSource source) {
+  const auto [place, is_new] = texture_by_key_.emplace(key, static_cast<int>(sources_.size()));
+  if (is_new) sources_.push_back(std::move(source));
+  return place->second;
+}
+
+int SceneBuilder::addMaterial(const Material& material, AlphaRule rule) {
+  scene_.materials.push_back(material);
+  alpha_rules_.push_back(rule);
+  return static_cast<int>(scene_.materials.size()) - 1;
+}
+
+void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mesh) {
+  Mesh moved = mesh;
+  const Eigen::Matrix3d linear = map_from_mesh.linear();
+  // Normals go by the cofactors of the linear part, which are defined for flattening scales too.
+  Eigen::Matrix3d normals_linear;
+  normals_linear << linear.col(1).cross(linear.col(2)), linear.col(2).cross(linear.col(0)),
+      linear.col(0).cross(linear.col(1));
+  const bool mirrored = linear.determinant() < 0.0;
+  if (mirrored) normals_linear = -normals_linear;
+  for (Eigen::Vector3f& position : moved.positions) {
+    position = (map_from_mesh * position.cast<double>()).cast<float>();
+  }
+  for (Eigen::Vector3f& normal : moved.normals) {
+    const Eigen::Vector3d turned = normals_linear * normal.cast<double>();
+    normal = turned.normalized().cast<float>();  // Eigen leaves a zero vector as it is; see repairNormals
+  }
+
+  std::vector<std::array<std::uint32_t, 3>> kept;
+  kept.reserve(moved.triangles.size());
+  for (const auto& triangle : moved.triangles) {
+    const double area = faceVector(moved, triangle).norm();
+    if (!std::isfinite(area)) {
+      count("triangles with coordinates that are not finite were left out");
+    } else if (area < kNoArea_m2) {
+      count("triangles without area were left out");
+    } else {
+      kept.push_back(mirrored ? std::array<std::uint32_t, 3>{triangle[0], triangle[2], triangle[1]} : triangle);
+    }
+  }
+  if (kept.empty()) return;
+  moved.triangles = std::move(kept);
+  for (Eigen::Vector3f& position : moved.positions) {
+    if (!position.allFinite()) position.setZero();  // of a vertex that no triangle uses any more
+  }
+  for (Eigen::Vector2f& coordinate : moved.texture_coordinates) {
+    if (!coordinate.allFinite()) {
+      coordinate.setZero();
+      count("texture coordinates that are not finite were set to 0");
+    }
+  }
+  for (Eigen::Array3f& color : moved.colors) color = color.max(0.0f).min(1.0f);
+  repairNormals(moved);
+  scene_.meshes.push_back(std::move(moved));
+}
+
+void SceneBuilder::warn(const std::string& line) {
+  std::vector<std::string>& lines = scene_.warnings;
+  if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+}
+
+void SceneBuilder::decodeTextures() {
+  scene_.textures.resize(sources_.size());
+  std::vector<std::string> errors(sources_.size());
+  tbb::parallel_for(std::size_t{0}, sources_.size(), [&](std::size_t i) {
+    const TextureSource& source = sources_[i];
+    try {
+      image::Rgba8Image picture = source.embedded
+                                      ? image::decodeRgba(source.bytes.data(), source.bytes.size(), source.name)
+                                      : image::readRgba(source.name);
+      scene_.textures[i] = Texture{source.name, picture.width, picture.height, std::move(picture.data)};
+    } catch (const std::runtime_error& error) {
+      errors[i] = error.what();
+    }
+  });
+  for (const std::string& error : errors) {
+    if (!error.empty()) throw std::runtime_error(error);
+  }
+}
+
+void SceneBuilder::settleAlpha() {
+  std::vector<bool> cut_out(scene_.textures.size());
+  for (std::size_t i = 0; i < cut_out.size(); ++i) cut_out[i] = isCutOut(scene_.textures[i]);
+  for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+    Material& material = scene_.materials[i];
+    if (alpha_rules_[i] != AlphaRule::kFromTexture || material.base_texture == Material::kNoTexture) continue;
+    if (cut_out[static_cast<std::size_t>(material.base_texture)]) material.alpha_mode = AlphaMode::kMask;
+  }
+}
+
+Scene SceneBuilder::finish() {
+  decodeTextures();
+  settleAlpha();
+  for (const auto& [what, times] : counted_) warn(std::to_string(times) + " " + what);
+  validate(scene_);
+  Scene finished = std::move(scene_);
+  *this = SceneBuilder("");
+  return finished;
+}
+
+}  // namespace sunlit::scene

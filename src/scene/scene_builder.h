@@ -1,0 +1,62 @@
+/// Puts a Scene together from what the importers find.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sunlit/scene/scene.h"
+
+namespace sunlit::scene {
+
+/// How a material's cut-outs are told.
+enum class AlphaRule {
+  kDeclared,     ///< the file says so
+  kFromTexture,  ///< the file's format cannot say: cut out if the texture has a considerable transparent share
+};
+
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(const std::string& name) { scene_.name = name; }
+
+  /// Index of the texture in `file`; the same for the same file. It is decoded in finish().
+  int textureFromFile(const std::string& file);
+  /// Index of a texture inside another file, known as `name`; the same for the same name.
+  int textureFromBytes(const std::string& name, std::vector<std::uint8_t> bytes);
+
+  int addMaterial(const Material& material, AlphaRule rule);
+  const Material& material(int index) const { return scene_.materials.at(static_cast<std::size_t>(index)); }
+
+  /// `mesh` moved by `map_from_mesh`, without its broken triangles (counted for a warning of finish()).
+  void addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mesh);
+
+  /// Adds a line to Scene::warnings, once for equal lines.
+  void warn(const std::string& line);
+  /// One line for all of one kind: "<count> <what>".
+  void count(const std::string& what, std::size_t times = 1) { counted_[what] += times; }
+
+  /// Decodes the textures, settles the cut-outs and checks the scene. Throws std::runtime_error naming a texture that
+  /// cannot be decoded. The builder is empty afterwards.
+  Scene finish();
+
+ private:
+  struct TextureSource {
+    std::string name;                 ///< path of the file, unless `bytes`
+    std::vector<std::uint8_t> bytes;  ///< of an embedded picture
+    bool embedded = false;
+  };
+  int addTexture(const std::string& key, TextureSource source);
+  void decodeTextures();
+  void settleAlpha();
+
+  Scene scene_;
+  std::vector<TextureSource> sources_;
+  std::map<std::string, int> texture_by_key_;
+  std::vector<AlphaRule> alpha_rules_;
+  std::map<std::string, std::size_t> counted_;
+};
+
+}  // namespace sunlit::scene

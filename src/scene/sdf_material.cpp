@@ -1,0 +1,135 @@
+#include "scene/sdf_material.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sdf/Pbr.hh>
+#include <vector>
+
+#include "scene/color.h"
+#include "scene/gazebo_material.h"
+
+namespace sunlit::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+LinearRgb toLinear(const ignition::math::Color& color) { return linearFromSrgb({color.R(), color.G(), color.B()}); }
+
+/// The .material files that `uri` names: itself, or all in that folder and its scripts.
+std::vector<std::string> scriptFiles(const std::string& place) {
+  std::vector<std::string> files;
+  std::error_code error;
+  if (fs::is_regular_file(place, error)) files.push_back(place);
+  for (const char* folder : {".", "scripts", "materials/scripts"}) {
+    for (fs::directory_iterator entry(fs::path(place) / folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      if (entry->path().extension() == ".material") files.push_back(entry->path().string());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string contentOf(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+int SdfMaterials::texture(const std::string& name, const std::string& from_file) {
+  Found found = finder_.findTexture(name, from_file);
+  if (!found.file) found = finder_.find(name, from_file);
+  if (!found.file) {
+    builder_.warn(from_file + ": texture " + name + " is missing, a neutral material takes its place");
+    return Material::kNoTexture;
+  }
+  return builder_.textureFromFile(*found.file);
+}
+
+Material SdfMaterials::fromScript(const sdf::Material& source) {
+  Material material;
+  material.name = source.ScriptName();
+  material.base_color = kNeutral;
+  if (const auto color = gazeboColor(material.name)) {
+    material.base_color = *color;
+    return material;
+  }
+  // <script> may hold several <uri>; sdf::Material keeps the first only.
+  std::vector<std::string> uris{source.ScriptUri()};
+  const sdf::ElementPtr script = source.Element() ? source.Element()->FindElement("script") : nullptr;
+  for (sdf::ElementPtr uri = script ? script->FindElement("uri") : nullptr; uri; uri = uri->GetNextElement("uri")) {
+    uris.push_back(uri->Get<std::string>());
+  }
+  for (const std::string& uri : uris) {
+    const Found found = finder_.find(uri, source.FilePath());
+    if (!found.file) continue;
+    for (const std::string& file : scriptFiles(*found.file)) {
+      const auto parsed = parseMaterialScript(contentOf(file), material.name);
+      if (!parsed) continue;
+      if (parsed->texture) material.base_texture = texture(*parsed->texture, file);
+      const bool textured = material.base_texture != Material::kNoTexture;
+      if (textured) material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
+      if (parsed->diffuse && !parsed->texture) material.base_color = *parsed->diffuse;
+      if (parsed->alpha_rejection && textured) material.alpha_mode = AlphaMode::kMask;
+      return material;
+    }
+  }
+  builder_.warn("material script " + material.name + " is not known, a neutral material takes its place");
+  return material;
+}
+
+void SdfMaterials::readPbr(const sdf::Material& source, Material& material) {
+  const sdf::PbrWorkflow* metal = source.PbrMaterial()->Workflow(sdf::PbrWorkflowType::METAL);
+  if (metal == nullptr) {
+    builder_.warn("PBR material " + material.name + " is not of the metal workflow; its diffuse colour is used alone");
+    return;
+  }
+  material.roughness = std::clamp(static_cast<float>(metal->Roughness()), 0.03f, 1.0f);
+  material.metalness = std::clamp(static_cast<float>(metal->Metalness()), 0.0f, 1.0f);
+  if (!metal->AlbedoMap().empty()) {
+    material.base_texture = texture(metal->AlbedoMap(), source.FilePath());
+    if (material.base_texture == Material::kNoTexture) material.base_color = kNeutral;
+  }
+}
+
+std::optional<int> SdfMaterials::add(const sdf::Material* source) {
+  const sdf::ElementPtr element = source != nullptr ? source->Element() : nullptr;
+  if (!element) return std::nullopt;
+  const bool plain = element->HasElement("diffuse") || element->HasElement("ambient");
+  const bool scripted = !source->ScriptName().empty() && element->HasElement("script");
+  const bool pbr = source->PbrMaterial() != nullptr;
+  if (!plain && !scripted && !pbr) return std::nullopt;
+
+  const std::string content = source->FilePath() + element->ToString("");
+  const auto known = index_by_content_.find(content);
+  if (known != index_by_content_.end()) return known->second;
+  Material material;
+  if (scripted && !pbr) {
+    material = fromScript(*source);
+  } else {
+    material.name = "plain";
+    // Ambient alone is how some files give a colour; the light around is computed here, not given by the material.
+    material.base_color = toLinear(element->HasElement("diffuse") ? source->Diffuse() : source->Ambient());
+    const ignition::math::Color specular = source->Specular();
+    if (std::max({specular.R(), specular.G(), specular.B()}) > 0.3f) material.roughness = 0.5f;
+  }
+  if (pbr) {
+    if (!plain) material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
+    readPbr(*source, material);
+  }
+  return index_by_content_[content] = builder_.addMaterial(material, AlphaRule::kFromTexture);
+}
+
+int SdfMaterials::neutral() {
+  const auto known = index_by_content_.find("");
+  if (known != index_by_content_.end()) return known->second;
+  Material material;
+  material.name = "neutral";
+  material.base_color = kNeutral;
+  return index_by_content_[""] = builder_.addMaterial(material, AlphaRule::kDeclared);
+}
+
+}  // namespace sunlit::scene

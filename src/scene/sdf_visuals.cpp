@@ -1,0 +1,138 @@
+#include "scene/sdf_visuals.h"
+
+#include <optional>
+#include <sdf/Box.hh>
+#include <sdf/Capsule.hh>
+#include <sdf/Cylinder.hh>
+#include <sdf/Ellipsoid.hh>
+#include <sdf/Link.hh>
+#include <sdf/Mesh.hh>
+#include <sdf/Plane.hh>
+#include <sdf/Sphere.hh>
+#include <stdexcept>
+
+#include "scene/primitives.h"
+#include "scene/sdf_pose.h"
+
+namespace sunlit::scene {
+namespace {
+
+/// More transparent than this and a visual is left out: we have surfaces and holes, nothing in between.
+constexpr float kSeenThrough = 0.5f;
+
+/// The pose of a model, link or visual in the frame that SDF means by default: its parent's.
+template <typename Element>
+Eigen::Isometry3d parentFrom(const Element& element, const std::string& name) {
+  ignition::math::Pose3d pose;
+  const sdf::Errors errors = element.SemanticPose().Resolve(pose);
+  if (!errors.empty()) throw std::runtime_error(name + ": its pose cannot be resolved: " + errors[0].Message());
+  return toEigen(pose);
+}
+
+std::optional<Mesh> primitive(const sdf::Geometry& geometry) {
+  switch (geometry.Type()) {
+    case sdf::GeometryType::BOX:
+      return makeBox(toEigen(geometry.BoxShape()->Size()));
+    case sdf::GeometryType::SPHERE:
+      return makeEllipsoid(Eigen::Vector3d::Constant(geometry.SphereShape()->Radius()));
+    case sdf::GeometryType::ELLIPSOID:
+      return makeEllipsoid(toEigen(geometry.EllipsoidShape()->Radii()));
+    case sdf::GeometryType::CYLINDER:
+      return makeCylinder(geometry.CylinderShape()->Radius(), geometry.CylinderShape()->Length());
+    case sdf::GeometryType::CAPSULE:
+      return makeCapsule(geometry.CapsuleShape()->Radius(), geometry.CapsuleShape()->Length());
+    case sdf::GeometryType::PLANE: {
+      const ignition::math::Vector2d size = geometry.PlaneShape()->Size();
+      return makePlane({size.X(), size.Y()}, toEigen(geometry.PlaneShape()->Normal()));
+    }
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
+void SdfVisuals::addModel(const sdf::Model& model, const Eigen::Isometry3d& map_from_parent, const std::string& scope) {
+  const std::string name = scope + model.Name();
+  addModelAt(model, map_from_parent * parentFrom(model, name), name);
+}
+
+void SdfVisuals::addModelAt(const sdf::Model& model, const Eigen::Isometry3d& map_from_model, const std::string& name) {
+  for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
+    const sdf::Link& link = *model.LinkByIndex(i);
+    const std::string link_name = name + "::" + link.Name();
+    const Eigen::Isometry3d map_from_link = map_from_model * parentFrom(link, link_name);
+    if (link.LightCount() > 0) builder_.count("lights of models were not read", link.LightCount());
+    for (std::uint64_t j = 0; j < link.VisualCount(); ++j) {
+      addVisual(*link.VisualByIndex(j), map_from_link, link_name + "::");
+    }
+  }
+  for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
+    addModel(*model.ModelByIndex(i), map_from_model, name + "::");
+  }
+}
+
+void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Isometry3d& map_from_link, const std::string& scope) {
+  const std::string name = scope + visual.Name();
+  if (visual.Transparency() > kSeenThrough) {
+    builder_.warn("visual " + name + " was left out: it is more than half transparent");
+    return;
+  }
+  if (visual.Transparency() > 0.0f) builder_.warn("visual " + name + " is drawn opaque: it is less than half transparent");
+  if (!visual.CastShadows()) builder_.count("visuals cast shadows although their files say that they should not");
+  const Eigen::Isometry3d map_from_visual = map_from_link * parentFrom(visual, name);
+  if (visual.Geom() == nullptr || visual.Geom()->Type() == sdf::GeometryType::EMPTY) {
+    builder_.warn("visual " + name + " has no shape that can be drawn");
+  } else if (visual.Geom()->Type() == sdf::GeometryType::MESH) {
+    addMeshShape(visual, map_from_visual, name);
+  } else if (std::optional<Mesh> shape = primitive(*visual.Geom())) {
+    shape->name = name;
+    const std::optional<int> material = materials_.add(visual.Material());
+    shape->material = material ? *material : materials_.neutral();
+    builder_.addMesh(*shape, Eigen::Affine3d(map_from_visual));
+  } else {
+    builder_.warn("visual " + name + " was left out: height maps are not supported");
+  }
+}
+
+const std::vector<MeshPart>& SdfVisuals::partsOf(const sdf::Mesh& mesh, const std::string& name) {
+  const Found found = finder_.find(mesh.Uri(), mesh.FilePath().empty() ? file_ : mesh.FilePath());
+  if (!found.file) {
+    throw std::runtime_error((mesh.FilePath().empty() ? file_ : mesh.FilePath()) + ": visual " + name + ": there is no mesh " +
+                             mesh.Uri() + "; it was looked for as " + placesTried(found));
+  }
+  if (found.other_case) builder_.warn("mesh " + mesh.Uri() + " is spelt " + *found.file + " on disk");
+  const auto known = parts_by_file_.find(*found.file);
+  if (known != parts_by_file_.end()) return known->second;
+  return parts_by_file_[*found.file] = readMeshFile(*found.file, UpAxis::kZ, finder_, builder_);
+}
+
+void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Isometry3d& map_from_visual,
+                              const std::string& name) {
+  const sdf::Mesh& mesh = *visual.Geom()->MeshShape();
+  const std::optional<int> material = materials_.add(visual.Material());
+  std::vector<MeshPart> parts;
+  for (const MeshPart& part : partsOf(mesh, name)) {
+    const bool wanted = mesh.Submesh().empty() || mesh.Submesh() == part.node || mesh.Submesh() == part.geometry;
+    if (wanted) parts.push_back(part);
+  }
+  if (parts.empty()) {
+    builder_.warn("visual " + name + ": there is nothing to draw in " + mesh.Uri() +
+                  (mesh.Submesh().empty() ? "" : " by the name of " + mesh.Submesh()));
+  }
+  Eigen::Affine3d map_from_file = Eigen::Affine3d(map_from_visual) * Eigen::Scaling(toEigen(mesh.Scale()));
+  if (!mesh.Submesh().empty() && mesh.CenterSubmesh()) {
+    Eigen::AlignedBox3d box;
+    for (const MeshPart& part : parts) {
+      for (const Eigen::Vector3f& position : part.mesh.positions) box.extend(part.file_from_node * position.cast<double>());
+    }
+    if (!box.isEmpty()) map_from_file.translate(-box.center());
+  }
+  for (MeshPart& part : parts) {
+    part.mesh.name = name + "/" + part.mesh.name;
+    if (material) part.mesh.material = *material;
+    builder_.addMesh(part.mesh, map_from_file * part.file_from_node);
+  }
+}
+
+}  // namespace sunlit::scene

@@ -1,0 +1,27 @@
+#include "sunlit/sky/daylight.h"
+
+#include <utility>
+
+#include "sky_table.h"
+
+namespace sunlit::sky {
+
+Daylight::Daylight(std::shared_ptr<const SkyTable> table) : table_(std::move(table)) {}
+
+LinearRgb Daylight::skyLuminance(const Eigen::Vector3f& towards) const {
+  return LinearRgb(table_->luminance(towards));
+}
+
+LinearRgb Daylight::skyIlluminance(const Eigen::Vector3f& normal) const {
+  return LinearRgb(table_->illuminanceOn(normal));
+}
+
+const DiscLight& Daylight::sun() const {
+  return table_->sun;
+}
+
+LinearRgb Daylight::groundIlluminance() const {
+  return LinearRgb(table_->ground_illuminance);
+}
+
+}  // namespace sunlit::sky

@@ -1,0 +1,82 @@
+/// What the air does to light at each height: molecules, aerosol, ozone.
+#pragma once
+
+#include <vector>
+
+#include "spectrum.h"
+
+namespace sunlit::sky {
+
+constexpr double kEarthRadius_km = 6371.0;      // IUGG mean radius
+constexpr double kAtmosphereHeight_km = 100.0;  // above it less than a millionth of the air remains
+
+/// All that the light depends on besides the sun; tests turn parts off.
+struct MediumParameters {
+  double turbidity = 3.0;        ///< see aerosolOpticalDepth()
+  double aerosol_albedo = 0.92;  ///< single-scattering albedo of a continental aerosol
+  double ozone_du = 300.0;       ///< Dobson units
+  double ground_albedo = 0.2;    ///< Lambertian
+};
+
+/// Vertical aerosol optical depth β λ^−1.3 (λ in µm), β = 0.04608 T − 0.04586: Preetham et al. 1999,
+/// appendix 1.
+Spectrum aerosolOpticalDepth(double turbidity);
+
+/// Rayleigh's phase function, 1/sr; integrates to 1 over the sphere.
+inline float rayleighPhase(float cos_angle) {
+  constexpr float kScale = static_cast<float>(3.0 / (16.0 * 3.14159265358979323846));
+  return kScale * (1.0F + cos_angle * cos_angle);
+}
+
+/// The part of what aerosol scatters that goes so nearly straight ahead that the scaled medium lets it pass.
+/// Near the square of the mean cosine, as in the delta-Eddington method (Joseph et al. 1976); chosen against
+/// light paths traced through the real medium: more brightens a hazy horizon, less the sky opposite to the
+/// sun.
+constexpr float kAerosolForwardPart = 0.45F;
+
+/// Aerosol phase function, 1/sr: two Henyey-Greenstein lobes, one for the aureole and one for the rest.
+float aerosolPhase(float cos_angle);
+
+/// The same after two or more such scatterings that go on towards the front: broader.
+float aerosolAgainPhase(float cos_angle);
+
+/// The part of aerosolPhase() that the scaled medium takes as scattered, cut off ahead: integrates to
+/// 1 − kAerosolForwardPart.
+float aerosolWidePhase(float cos_angle);
+
+/// Mean cosine of aerosolPhase().
+float aerosolAsymmetry();
+
+/// Coefficients at one height, 1/km. "Scaled" is the equivalent medium of the similarity relation: aerosol
+/// that scatters a part straight ahead does not scatter that part at all, and the rest equally to all sides
+/// (van de Hulst 1980, 14.1).
+struct LocalMedium {
+  Spectrum rayleigh_scattering;
+  Spectrum aerosol_scattering;
+  Spectrum scaled_scattering;
+  Spectrum scaled_extinction;
+  Spectrum extinction;
+};
+
+class Medium {
+ public:
+  explicit Medium(const MediumParameters& parameters);
+
+  /// `altitude_km` is clamped to 0 … kAtmosphereHeight_km.
+  LocalMedium at(double altitude_km) const;
+  /// Aerosol at one height, 1 at sea level.
+  float aerosolDensity(double altitude_km) const;
+  /// Optical depth a km of sea level aerosol of what it scatters straight ahead (see LocalMedium).
+  Spectrum forwardAtSeaLevel() const { return aerosol_scattering_ * kAerosolForwardPart; }
+  const MediumParameters& parameters() const { return parameters_; }
+
+ private:
+  struct Density {
+    float air, aerosol, ozone;  // 1 at sea level; 1 at sea level; 1/km, integral 1
+  };
+  MediumParameters parameters_;
+  Spectrum rayleigh_, aerosol_scattering_, aerosol_extinction_, ozone_;
+  std::vector<Density> densities_;
+};
+
+}  // namespace sunlit::sky

@@ -1,0 +1,41 @@
+/// Light in wavelength bands, and what bands look like to an eye.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "sunlit/quantity/photometry.h"
+
+namespace sunlit::sky {
+
+/// 380 … 740 nm in 30 nm steps: narrow enough that Rayleigh's λ⁻⁴ is nearly straight within one.
+constexpr int kBands = 12;
+constexpr double kFirstBandEdge_nm = 380.0;
+constexpr double kBandWidth_nm = 30.0;
+
+/// One value a band. A radiance or irradiance is relative to the sun's irradiance above the atmosphere at 1
+/// AU.
+using Spectrum = Eigen::Array<float, kBands, 1>;
+
+constexpr double bandCentre_nm(int band) {
+  return kFirstBandEdge_nm + (band + 0.5) * kBandWidth_nm;
+}
+
+/// Optical depth of the molecules of a whole vertical column at 1013.25 hPa: Bodhaine et al. 1999, eq. 30.
+Spectrum rayleighOpticalDepth();
+
+/// Absorption cross-section of ozone at 233 K, m² a molecule (Chappuis bands; band means of Serdyuchenko et
+/// al. 2014).
+Spectrum ozoneCrossSection_m2();
+
+/// The linear colour of light that holds `relative` times the sun's light of each band: lx for an irradiance,
+/// cd/m² for a radiance. Unit input gives kLuminousSolarConstant_lx. May lie outside the gamut (negative
+/// parts).
+LinearRgb colourOf(const Spectrum& relative);
+
+/// The nearest colour of the same luminance and hue without negative parts.
+LinearRgb inGamut(const LinearRgb& colour);
+
+/// Illuminance of a plane facing the sun above the atmosphere at 1 AU.
+constexpr double kLuminousSolarConstant_lx = 126000.0;
+
+}  // namespace sunlit::sky

@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""Live topics, a played bag and evaluate_bags give the same bytes in summary.csv."""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import rosbag
+import rospy
+import rostest
+from geometry_msgs.msg import PoseStamped
+from sunlit.msg import Capture
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from evaluator_runs import Evaluator, Streams, image_message, picture, program, read, rows, stamp_of  # noqa: E402
+
+POSES = 60
+STREAMS = ['h04', 'h12', 'h20']
+DIFFERENCES = ['boolean_rgb', 'euclidean_grey', 'sift', 'orb']
+CONFIG = '''# of the test
+streams: [h04, h12, h20]
+pairs:
+  - [h04, h12]
+  - {a: h12, b: h20, every: 10}
+differences: [boolean_rgb, euclidean_grey, sift, orb]
+ratio: 0.5
+output_dir: unused
+inclusive: false
+'''
+
+
+class TestBags(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.config = self.path('config.yaml')
+        with open(self.config, 'w') as file:
+            file.write(CONFIG)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def path(self, name):
+        return self.folder.name + '/' + name
+
+    def write_bags(self, names):
+        """Stream by stream, so that one lags by a whole bag."""
+        for name, streams in names.items():
+            with rosbag.Bag(self.path(name), 'w') as bag:
+                for pose in range(POSES):
+                    place = PoseStamped()
+                    place.header.stamp = stamp_of(pose)
+                    place.pose.position.x = pose
+                    place.pose.orientation.w = 1.0
+                    bag.write('/camera/pose', place, stamp_of(pose))
+                    for stream in streams:
+                        capture = Capture(pose_index=pose, ev100=14.5)
+                        capture.header.stamp = stamp_of(pose)
+                        topic = '/%s/camera/' % STREAMS[stream]
+                        bag.write(topic + 'image_raw', image_message(stamp_of(pose), picture(pose, stream, 160, 120)),
+                                  stamp_of(pose))
+                        bag.write(topic + 'capture', capture, stamp_of(pose))
+
+    def evaluate_bags(self, *arguments):
+        return subprocess.run([program('evaluate_bags')] + list(arguments), stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, timeout=100)
+
+    def evaluator(self, name):
+        return Evaluator({'streams': STREAMS, 'pairs': [['h04', 'h12'], {'a': 'h12', 'b': 'h20', 'every': 10}],
+                          'differences': DIFFERENCES, 'output_dir': self.path(name), 'poses': POSES,
+                          'exit_when_done': True})
+
+    def test_bags_give_the_same_bytes_as_live(self):
+        self.write_bags({'all.bag': [0, 1, 2], 'two.bag': [0, 1], 'one.bag': [2]})
+
+        streams = Streams(STREAMS)
+        live = self.evaluator('live')
+        streams.wait_for(live)
+        for pose in range(POSES):
+            for stream in range(3):
+                streams.send_capture(stream, stamp_of(pose), pose)
+                streams.send(stream, stamp_of(pose), picture(pose, stream, 160, 120))
+        status, output = live.wait()
+        self.assertEqual(status, 0, output)
+        streams.close()
+        expected = read(self.path('live'), 'summary.csv')
+        counts = {(row['a'], row['b']): int(row['n']) for row in rows(self.path('live'), 'summary.csv')}
+        self.assertEqual(counts, {('h04', 'h12'): POSES, ('h12', 'h20'): POSES // 10})
+
+        played = self.evaluator('played')
+        player = subprocess.Popen(['rosbag', 'play', '--wait-for-subscribers', '--rate=20', '--quiet', '--topics'] +
+                                  ['/%s/camera/%s' % (s, t) for s in STREAMS for t in ('image_raw', 'capture')] +
+                                  ['--bags', self.path('all.bag')], stdout=subprocess.DEVNULL)
+        status, output = played.wait()
+        player.wait(timeout=100)
+        self.assertEqual(status, 0, output)
+        self.assertEqual(read(self.path('played'), 'summary.csv'), expected)
+
+        for out, bags in {'offline': ['all.bag'], 'offline_two': ['one.bag', 'two.bag']}.items():
+            done = self.evaluate_bags('--config', self.config, '--out', self.path(out), *[self.path(b) for b in bags])
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertEqual(read(self.path(out), 'summary.csv'), expected)
+            self.assertEqual(rows(self.path(out), 'path.csv')[59]['x'], '59')
+        self.assertEqual(len(rows(self.path('offline'), 'captures.csv')), 3 * POSES)
+
+    def test_bad_bags_and_arguments_are_one_clear_line(self):
+        self.write_bags({'one.bag': [2]})
+        with open(self.path('no.bag'), 'w') as file:
+            file.write('not a bag')
+        with open(self.path('wrong.yaml'), 'w') as file:
+            file.write(CONFIG + 'ratoi: 0.4\n')
+        start = ['--config', self.config, '--out', self.path('out')]
+        cases = [(start + [self.path('no.bag')], 'no.bag: is not a bag'),
+                 (start + [self.path('absent.bag')], 'absent.bag'),
+                 (start + [self.path('one.bag')], 'the bags hold no /h04/camera/image_raw'),
+                 (['--config', self.path('wrong.yaml'), '--out', self.path('out'), self.path('one.bag')], 'ratoi'),
+                 (['--config', self.path('no.yaml'), '--out', self.path('out'), self.path('one.bag')], 'no.yaml'),
+                 (['--config', self.config, '--out', '/proc/out', self.path('one.bag')], 'h04'),
+                 (start, 'no bag given'),
+                 (['--colour'], '--colour')]
+        for arguments, expected in cases:
+            done = self.evaluate_bags(*arguments)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn(expected, done.stdout)
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_evaluator_bags')
+    rostest.rosrun('sunlit', 'test_evaluator_bags', TestBags)

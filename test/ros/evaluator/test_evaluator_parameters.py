@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Wrong parameters stop the node with one line; topics and services beside the images."""
+import os
+import signal
+import sys
+import tempfile
+import unittest
+
+import rospkg
+import rospy
+import rostest
+import yaml
+from sensor_msgs.msg import Image
+from std_srvs.srv import Trigger
+from sunlit.msg import PairDifference, Summary
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from evaluator_runs import Evaluator, Streams, picture, rows, stamp_of, wait_until  # noqa: E402
+
+
+class TestParameters(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.settings = {'streams': ['h04', 'h12'], 'output_dir': self.folder.name + '/out',
+                         'differences': ['boolean_grey', 'orb']}
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_a_wrong_parameter_stops_the_node_with_key_value_and_what_is_allowed(self):
+        cases = [({'ratoi': 0.4}, ['ratoi']),
+                 ({'ratio': 'half'}, ['ratio', 'half']),
+                 ({'ratio': 1.5}, ['ratio', '1.5', '1']),
+                 ({'streams': []}, ['streams']),
+                 ({'streams': ['h04']}, ['pairs']),
+                 ({'pairs': [['h04', 'h05']]}, ['pairs', 'h05']),
+                 ({'pairs': [['h04']]}, ['pairs', '[a, b]']),
+                 ({'pairs': [{'a': 'h04', 'b': 'h12', 'evry': 3}]}, ['pairs', 'every']),
+                 ({'differences': ['sfit']}, ['differences', 'sfit', 'boolean_rgb']),
+                 ({'features': {'orb': {'n_features': 0}}}, ['features/orb/n_features', '0']),
+                 ({'features': {'akaze': {'threshold': 1}}}, ['features/akaze']),
+                 ({'images': 'some'}, ['images', 'some', 'samples']),
+                 ({'stamp_start': 'noon'}, ['stamp_start', 'noon']),
+                 ({'output_dir': '/proc/sunlit'}, ['/proc/sunlit'])]
+        for change, expected in cases:
+            evaluator = Evaluator(dict(self.settings, **change))
+            status, output = evaluator.wait()
+            self.assertEqual(status, 1, output)
+            fatal = [line for line in output.splitlines() if 'FATAL' in line]
+            self.assertEqual(len(fatal), 1, output)
+            for text in expected:
+                self.assertIn(text, fatal[0])
+
+    def test_the_shipped_file_is_accepted_and_states_the_defaults(self):
+        with open(os.path.join(rospkg.RosPack().get_path('sunlit'), 'config', 'evaluator.yaml')) as file:
+            shipped = yaml.safe_load(file)
+        streams = Streams(shipped['streams'])
+        runs = []
+        for name, parameters in (('shipped', shipped), ('plain', {'streams': shipped['streams']})):
+            evaluator = Evaluator(dict(parameters, output_dir=self.folder.name + '/' + name))
+            streams.wait_for(evaluator)
+            evaluator.process.send_signal(signal.SIGINT)  # Ctrl-C
+            status, output = evaluator.wait()
+            self.assertEqual(status, 0, output)
+            with open(self.folder.name + '/' + name + '/run.yaml') as file:
+                runs.append(yaml.safe_load(file)['settings'])
+        streams.close()
+        self.assertEqual(runs[0], runs[1])
+
+    def test_values_summary_and_drawn_matches_are_published(self):
+        streams = Streams(['h04', 'h12'])
+        evaluator = Evaluator(self.settings)
+        values, images = [], []
+        subscribers = [rospy.Subscriber('/%s/pair_difference' % evaluator.name, PairDifference, values.append),
+                       rospy.Subscriber('/%s/matches_image' % evaluator.name, Image, images.append)]
+        streams.wait_for(evaluator)
+        wait_until(lambda: all(s.get_num_connections() > 0 for s in subscribers), 'connections')
+        for pose in range(10):
+            for stream in range(2):
+                streams.send(stream, stamp_of(pose), picture(pose // 2, 0, 160, 120))
+        wait_until(lambda: evaluator.progress == 10 and len(values) == 10 and images, 'ten poses')
+        finish = rospy.ServiceProxy('/%s/finish' % evaluator.name, Trigger)
+        self.assertTrue(finish().success)
+        summary = rospy.wait_for_message('/%s/summary' % evaluator.name, Summary, 60)
+        self.assertEqual(summary.poses, 10)
+        self.assertEqual([(r.a, r.b, r.difference, r.n) for r in summary.rows],
+                         [('h04', 'h12', 'boolean_grey', 10), ('h04', 'h12', 'orb', 10)])
+        by_pose = sorted(values, key=lambda v: v.pose)
+        self.assertEqual([v.pose for v in by_pose], list(range(10)))
+        self.assertEqual([v.header.stamp for v in by_pose], [stamp_of(p) for p in range(10)])
+        self.assertEqual([d.difference for d in by_pose[0].differences], ['boolean_grey', 'orb'])
+        self.assertEqual((images[0].width, images[0].height, images[0].encoding), (320, 120, 'rgb8'))
+        frames = rows(self.folder.name + '/out', 'frames.csv')
+        self.assertEqual([float(r['value']) for r in frames if r['difference'] == 'orb'],
+                         [v.differences[1].value for v in by_pose])
+        for subscriber in subscribers:
+            subscriber.unregister()
+        evaluator.process.send_signal(signal.SIGINT)  # Ctrl-C
+        status, output = evaluator.wait()
+        self.assertEqual(status, 0, output)
+        streams.close()
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_evaluator_parameters')
+    rostest.rosrun('sunlit', 'test_evaluator_parameters', TestParameters)

@@ -1,0 +1,154 @@
+#!/usr/bin/python3
+"""Start, pause, single views, following a TF frame, and what the node says while it waits."""
+import math
+import struct
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import Pose, PoseStamped, TransformStamped
+from nav_msgs.msg import Path
+from rendering import BOX_FACE_M, Reader, RenderNode, Sun, TIMEOUT_S, parameters
+from std_srvs.srv import Trigger
+from sunlit.srv import RenderView
+from tf2_msgs.msg import TFMessage
+
+
+def service(name, kind):
+    rospy.wait_for_service(name, TIMEOUT_S)
+    return rospy.ServiceProxy(name, kind)
+
+
+def camera_at(x):
+    pose = Pose()
+    pose.position.x, pose.position.z, pose.orientation.w = x, 1.0, 1.0
+    return pose
+
+
+class RenderControl(unittest.TestCase):
+
+    def setUp(self):
+        self.suns = [Sun("/a/sun"), Sun("/b/sun", up=0.6, north=0.8)]
+
+    def test_nothing_is_rendered_before_start_and_while_paused(self):
+        reader = Reader(["a"], node="/controlled")
+        tree = parameters(conditions=["a"], autostart=False, wait_for=["/reader/progress"], max_ahead=3,
+                          subscribers={"images": 1})
+        with RenderNode("controlled", tree):
+            view = service("/controlled/render_view", RenderView)
+            reader.wait("/path", 1)  # known before the start
+            for _ in range(3):
+                view(condition="a")
+            self.assertEqual(reader.of("/a/camera/image_raw"), [])
+
+            self.assertTrue(service("/controlled/start", Trigger)().success)
+            reader.wait_progress("/controlled/progress", 3)
+            self.assertTrue(service("/controlled/pause", Trigger)().success)
+            reader.done(20)  # it may go on, but for the pause
+            for _ in range(3):
+                self.assertTrue(view(pose=camera_at(2.0), condition="a").success)
+            self.assertEqual(reader.of("/controlled/progress")[-1].data, 3)
+
+            service("/controlled/start", Trigger)()
+            images = reader.wait("/a/camera/image_raw", 20)
+            self.assertEqual([image.header.stamp.to_nsec() for image in images],
+                             [1000 * 10**9 + pose * 125 * 10**6 for pose in range(20)])
+        reader.close()
+
+    def test_view_is_the_image_of_the_path_at_the_same_pose(self):
+        reader = Reader(["a", "b"], node="/viewed")
+        with RenderNode("viewed", parameters(conditions=["a", "b"], subscribers={"images": 1, "poses": 1})):
+            pose = reader.wait("/camera/pose", 5)[4].pose
+            expected = {c: reader.wait("/%s/camera/image_raw" % c, 5)[4] for c in ("a", "b")}
+            view = service("/viewed/render_view", RenderView)
+            for condition in ("a", "b"):
+                answer = view(pose=pose, condition=condition)
+                self.assertTrue(answer.success, answer.message)
+                self.assertEqual(answer.image.data, expected[condition].data)
+                self.assertEqual(answer.camera_info.K, reader.of("/%s/camera/camera_info" % condition)[0].K)
+
+            for pose, condition, part in ((pose, "c", "one of a, b"), (pose, "", "one of a, b"), (Pose(), "a", "quaternion"),
+                                          (camera_at(math.nan), "a", "finite")):
+                answer = view(pose=pose, condition=condition)
+                self.assertFalse(answer.success)
+                self.assertIn(part, answer.message)
+        reader.close()
+
+    def test_follows_a_frame_with_its_stamps(self):
+        reader = Reader(["a"], node="/follower")
+        sender = rospy.Publisher("/tf", TFMessage, queue_size=10)
+        tree = parameters(conditions=["a"], frame_rate=1000.0, camera={"follow": "tf", "follow_frame": "robot"})
+        stamps = [rospy.Time(2000 + second) for second in range(5)]
+        with RenderNode("follower", tree) as node:
+            node.line_with("Waiting for the TF frame robot")
+            for index, stamp in enumerate(stamps):
+                transform = TransformStamped()
+                transform.header.frame_id, transform.child_frame_id, transform.header.stamp = "map", "robot", stamp
+                transform.transform.translation.x, transform.transform.translation.z = 2.0 * index, 1.0
+                transform.transform.rotation.w = 1.0
+                sender.publish(TFMessage([transform]))
+                reader.wait("/camera/depth/image_raw", index + 1)
+            self.assertEqual([i.header.stamp for i in reader.wait("/a/camera/image_raw", 5)], stamps)
+            for index, depth in enumerate(reader.of("/camera/depth/image_raw")):
+                centre = struct.unpack_from("<f", depth.data, 36 * depth.step + 48 * 4)[0]
+                # Single precision and the interpolation of a depth buffer.
+                self.assertAlmostEqual(centre, BOX_FACE_M - 2.0 * index, delta=1e-3)
+            sent = [t for m in reader.of("/tf") for t in m.transforms if t.child_frame_id == "camera_optical_frame"]
+            self.assertEqual({t.header.frame_id for t in sent}, {"robot"})
+        reader.close()
+
+    def test_says_which_sun_it_waits_for(self):
+        with RenderNode("sunless", parameters(conditions=["a", "never"])) as node:
+            self.assertIn("a sun on /never/sun", node.line_with("Waiting for"))
+            answer = service("/sunless/render_view", RenderView)(pose=camera_at(0.0), condition="never")
+            self.assertFalse(answer.success)
+            self.assertIn("/never/sun", answer.message)
+        self.assertEqual(node.status, 0)  # SIGINT is no failure
+
+    def test_says_which_reader_it_waits_for(self):
+        with RenderNode("unread", parameters(conditions=["a"], wait_for=["/nobody/progress"])) as node:
+            self.assertIn("progress on /nobody/progress", node.line_with("Waiting for"))
+
+    def test_takes_a_path_from_a_topic(self):
+        sender = rospy.Publisher("/route", Path, queue_size=1, latch=True)
+        reader = Reader(["a"], node="/routed")
+        with RenderNode("routed", parameters(conditions=["a"], path={"file": "", "topic": "route", "spacing": 1.0},
+                                             subscribers={"images": 1})) as node:
+            node.line_with("Waiting for a path on /route")
+            route = Path()
+            route.header.frame_id = "map"
+            for x in (0.0, 3.0, 4.5):
+                route.poses.append(PoseStamped(pose=camera_at(x)))
+                route.poses[-1].pose.position.z = 0.0
+            sender.publish(route)
+            # 0, 1, 2, then the start of the next segment and 1 m from there.
+            path = reader.wait("/path", 1)[0]
+            self.assertEqual([round(p.pose.position.x, 9) for p in path.poses], [0.0, 1.0, 2.0, 3.0, 4.0])
+            reader.wait("/a/camera/image_raw", 5)
+        sender.unregister()
+        reader.close()
+
+    def test_only_every_third_pose_keeps_index_and_stamp(self):
+        reader = Reader(["a"], node="/strider")
+        tree = parameters(conditions=["a"], path={"first": 2, "count": 10, "stride": 3}, subscribers={"images": 1})
+        with RenderNode("strider", tree):
+            captures = reader.wait("/a/camera/capture", 4)
+            self.assertEqual([capture.pose_index for capture in captures], [2, 5, 8, 11])
+            self.assertEqual([capture.header.stamp.to_nsec() for capture in captures],
+                             [1000 * 10**9 + pose * 125 * 10**6 for pose in (2, 5, 8, 11)])
+            reader.wait_progress("/strider/progress", 10)
+        reader.close()
+
+    def test_any_number_of_threads_gives_the_same_bits(self):
+        pictures = []
+        for threads in (1, 3):
+            reader = Reader(["a"], node="/threaded")
+            with RenderNode("threaded", parameters(conditions=["a"], threads=threads, subscribers={"images": 1})):
+                pictures.append([image.data for image in reader.wait("/a/camera/image_raw", 3)])
+            reader.close()
+        self.assertEqual(pictures[0], pictures[1])
+
+
+if __name__ == "__main__":
+    rospy.init_node("render_control")
+    rostest.rosrun("sunlit", "render_control", RenderControl)

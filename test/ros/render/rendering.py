@@ -1,0 +1,131 @@
+"""A render node under test: its process, its suns, and a reader of all its streams."""
+import os
+import subprocess
+import threading
+
+import rospkg
+import rospy
+from geometry_msgs.msg import PoseStamped
+from nav_msgs.msg import Path
+from sensor_msgs.msg import CameraInfo, Image
+from std_msgs.msg import UInt32
+from sunlit.msg import Capture, SunPosition
+from tf2_msgs.msg import TFMessage
+
+TIMEOUT_S = 60.0  # how long a machine under load may take for what should be seconds
+SUPPORT = os.path.join(rospkg.RosPack().get_path("sunlit"), "test", "support", "worlds")
+WORLD = os.path.join(SUPPORT, "two_boxes.world")
+WAYPOINTS = os.path.join(SUPPORT, "straight.csv")
+BOX_FACE_M = 12.0  # x of the face that the camera drives towards
+
+
+def parameters(**changes):
+    """A small camera on the way to the box."""
+    tree = {"world": WORLD, "path": {"file": WAYPOINTS, "spacing": 0.5}, "start_stamp": 1000.0, "frame_rate": 8.0,
+            "camera": {"width": 96, "height": 72, "supersampling": 1}}
+    for key, value in changes.items():
+        tree[key] = dict(tree[key], **value) if isinstance(tree.get(key), dict) else value
+    return tree
+
+
+class RenderNode:
+    """The process, with these private parameters, until the end of the block."""
+
+    def __init__(self, name, tree):
+        self.name = "/" + name
+        self.tree = tree
+
+    def __enter__(self):
+        rospy.set_param(self.name, self.tree)
+        self.process = subprocess.Popen(["rosrun", "sunlit", "render_node", "__name:=" + self.name[1:]],
+                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.send_signal(2)  # as roslaunch does
+        self.status = self.process.wait(TIMEOUT_S)
+        self.process.stdout.close()
+        rospy.delete_param(self.name)
+
+    def line_with(self, part):
+        """Reads what the node says until a line holds `part`."""
+        said = []
+        for line in self.process.stdout:
+            said.append(line)
+            if part in line:
+                return line
+        raise AssertionError("never said %r, but %s" % (part, "".join(said)))
+
+    def end(self):
+        """Status and lines of a node that ends by itself."""
+        output, _ = self.process.communicate(timeout=TIMEOUT_S)
+        return self.process.returncode, [line for line in output.splitlines() if line.strip()]
+
+
+class Sun:
+    """A sun that stands still."""
+
+    def __init__(self, topic, east=0.0, north=0.6, up=0.8):
+        self.publisher = rospy.Publisher(topic, SunPosition, queue_size=1, latch=True)
+        message = SunPosition(distance_au=1.0)
+        message.header.frame_id = "map"
+        message.direction.x, message.direction.y, message.direction.z = east, north, up
+        self.publisher.publish(message)
+
+
+class Reader:
+    """Keeps every message of every stream, and tells the node how many poses it is done with."""
+
+    def __init__(self, conditions, node="/render", prefix="", says_progress=True):
+        self.changed = threading.Condition()
+        self.messages = {}
+        self.subscribers = []
+        self.progress = rospy.Publisher("/reader/progress", UInt32, queue_size=1, latch=True)
+        for condition in conditions:
+            topic = prefix + (condition + "/" if condition else "") + "camera/"
+            for name, kind in (("image_raw", Image), ("camera_info", CameraInfo), ("capture", Capture)):
+                self._subscribe(topic + name, kind)
+        for name, kind in (("depth/image_raw", Image), ("pose", PoseStamped)):
+            self._subscribe(prefix + "camera/" + name, kind)
+        self._subscribe("/tf", TFMessage)
+        self._subscribe(prefix + "path", Path)
+        self._subscribe(node + "/progress", UInt32)
+        if says_progress:
+            self.done(0)
+
+    def _subscribe(self, topic, kind):
+        topic = rospy.resolve_name(topic if topic.startswith("/") else "/" + topic)
+        self.messages[topic] = []
+        # No limit to the queue: a test should lose nothing by itself.
+        self.subscribers.append(rospy.Subscriber(topic, kind, self._keep, topic, queue_size=None))
+
+    def _keep(self, message, topic):
+        with self.changed:
+            self.messages[topic].append(message)
+            self.changed.notify_all()
+
+    def of(self, topic):
+        with self.changed:
+            return list(self.messages[topic])
+
+    def wait(self, topic, count):
+        """The first `count` messages of a topic."""
+        with self.changed:
+            if not self.changed.wait_for(lambda: len(self.messages[topic]) >= count, TIMEOUT_S):
+                raise AssertionError("%s: %d of %d messages" % (topic, len(self.messages[topic]), count))
+            return self.messages[topic][:count]
+
+    def wait_progress(self, topic, poses):
+        with self.changed:
+            reached = lambda: self.messages[topic] and self.messages[topic][-1].data >= poses
+            if not self.changed.wait_for(reached, TIMEOUT_S):
+                raise AssertionError("%s: %s, never %d" % (topic, self.messages[topic][-1:], poses))
+
+    def done(self, poses):
+        self.progress.publish(UInt32(data=poses))
+
+    def close(self):
+        for subscriber in self.subscribers:
+            subscriber.unregister()
+        self.progress.unregister()

@@ -1,0 +1,81 @@
+#!/usr/bin/python3
+"""The sun follows /clock: at its rate, through a pause and back in time. This test is the clock."""
+import unittest
+
+import rospy
+import rostest
+import tf2_ros
+from rosgraph_msgs.msg import Clock
+from sun_reading import Latest
+from sunlit.msg import SunPosition
+from sunlit.srv import GetSunPosition, SetDateTime
+from tf2_msgs.msg import TFMessage
+
+START_S = 1000
+RATE = 60
+
+
+def vector(direction):
+    return (direction.x, direction.y, direction.z)
+
+
+class SunFollowsClock(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.clock = rospy.Publisher("/clock", Clock, queue_size=1, latch=True)
+        cls.sun = Latest("/sun", SunPosition)
+        cls.tf = tf2_ros.Buffer()
+        # Not a TransformListener: its waiting needs a clock that runs.
+        cls.transforms = Latest("/tf", TFMessage, lambda message: [cls.tf.set_transform(transform, "test")
+                                                                   for transform in message.transforms])
+        rospy.wait_for_service("/sun_position/get_sun_position")
+        cls.get_position = rospy.ServiceProxy("/sun_position/get_sun_position", GetSunPosition)
+        cls.set_date_time = rospy.ServiceProxy("/sun_position/set_date_time", SetDateTime)
+
+    def direction_at(self, sun_second):
+        """Where the sun stands that many seconds after 4 h, by the service that changes nothing."""
+        hour, rest = divmod(4 * 3600 + sun_second, 3600)
+        answer = self.get_position(
+            year=2024, month=7, day=1, hour=hour, minute=rest // 60, second=rest % 60, timezone=3.0,
+            latitude=55.792115, longitude=49.122254, elevation=90.0, pressure=1013.25, temperature=0.0,
+            atmospheric_refraction=0.5667, delta_ut1=0.0, delta_t=float("nan"))
+        self.assertTrue(answer.success, answer.message)
+        return vector(answer.position.direction)
+
+    def go_to(self, ros_second):
+        """Sets /clock, and returns the sun of that moment."""
+        now = rospy.Time(ros_second)
+        tick = lambda: self.clock.publish(Clock(now))
+        tick()
+        return self.sun.wait(lambda sun: sun.header.stamp.secs == ros_second, tick)
+
+    def test_rate_pause_and_jump_back(self):
+        # Before any clock the sun stands at its date_time.
+        self.assertEqual(vector(self.sun.wait().direction), self.direction_at(0))
+        self.assertEqual(vector(self.go_to(START_S).direction), self.direction_at(0))
+        for ros_second in (START_S + 10, START_S + 300):
+            self.assertEqual(vector(self.go_to(ros_second).direction), self.direction_at(RATE * (ros_second - START_S)))
+
+        # Paused: a request is still answered by a new sun at once, on the topic and in TF, although time stands still.
+        ros_second = START_S + 300
+        answer = self.set_date_time(year=2024, month=7, day=1, hour=5, minute=0, second=0.0, timezone=3.0, rate=RATE)
+        self.assertTrue(answer.success, answer.message)
+        moved = self.direction_at(3600)
+        sun = self.sun.wait(lambda message: vector(message.direction) == moved)
+        self.assertEqual(sun.header.stamp.secs, ros_second)
+        self.transforms.wait(lambda message: message.transforms[0].header.stamp == sun.header.stamp)
+        at = self.tf.lookup_transform("map", "sun", sun.header.stamp)
+        self.assertAlmostEqual(at.transform.translation.x, 100.0 * moved[0], delta=1e-9)
+
+        self.transforms.subscriber.unregister()
+
+        # On, and back in time, also to before the start of the sun's clock.
+        for later in (ros_second + 20, ros_second + 5, ros_second - 7, ros_second + 40):
+            sun = self.go_to(later)
+            self.assertEqual(vector(sun.direction), self.direction_at(3600 + RATE * (later - ros_second)))
+
+
+if __name__ == "__main__":
+    rospy.init_node("sun_follows_clock")
+    rostest.rosrun("sunlit", "sun_follows_clock", SunFollowsClock)

@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+#include <tf2/LinearMath/Matrix3x3.h>
+#include <tf2/LinearMath/Quaternion.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "ros/sun_position/messages.h"
+#include "ros/sun_position/options.h"
+#include "sunlit/astronomy/civil_time.h"
+
+namespace sunlit::ros_interface {
+namespace {
+
+SunPosition sunAt(int hour) {
+  const SunPositionOptions options;
+  CivilDateTime civil = options.date_time;
+  civil.hour = hour;
+  return toMessage(computeSun(astronomy::instantOf(civil), options.earth, options.site, options.air),
+                   ros::Time(7, 9));
+}
+
+/// The worked example of Reda & Andreas (2008) as a request.
+GetSunPosition::Request workedExample() {
+  GetSunPosition::Request request;
+  request.year = 2003;
+  request.month = 10;
+  request.day = 17;
+  request.hour = 12;
+  request.minute = 30;
+  request.second = 30.0;
+  request.timezone = -7.0;
+  request.latitude = 39.742476;
+  request.longitude = -105.1786;
+  request.elevation = 1830.14;
+  request.pressure = 820.0;
+  request.temperature = 11.0;
+  request.atmospheric_refraction = 0.5667;
+  request.delta_t = 67.0;
+  request.slope = 30.0;
+  request.azm_rotation = -10.0;
+  return request;
+}
+
+std::string complaint(const GetSunPosition::Request& request) {
+  GetSunPosition::Response response;
+  try {
+    answer(request, ros::Time(), &response);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(SunTransform, xPointsTowardsTheSunAndYIsLevel) {
+  for (int hour = 0; hour < 24; ++hour) {
+    const SunPosition sun = sunAt(hour);
+    const geometry_msgs::TransformStamped map_from_sun = toTransform(sun, "h/sun", 250.0);
+    const auto& q = map_from_sun.transform.rotation;
+    const tf2::Matrix3x3 rotation(tf2::Quaternion(q.x, q.y, q.z, q.w));
+    const tf2::Vector3 x = rotation.getColumn(0);
+    EXPECT_NEAR(x.x(), sun.direction.x, 1e-12);
+    EXPECT_NEAR(x.y(), sun.direction.y, 1e-12);
+    EXPECT_NEAR(x.z(), sun.direction.z, 1e-12);
+    EXPECT_NEAR(rotation.getColumn(1).z(), 0.0, 1e-12);
+    EXPECT_NEAR(map_from_sun.transform.translation.x, 250.0 * sun.direction.x, 1e-9);
+    EXPECT_EQ(map_from_sun.header.stamp, ros::Time(7, 9));
+    EXPECT_EQ(map_from_sun.header.frame_id, "map");
+    EXPECT_EQ(map_from_sun.child_frame_id, "h/sun");
+  }
+}
+
+TEST(SunMessage, itsFieldsAgree) {
+  const SunPosition sun = sunAt(20);
+  EXPECT_NEAR(sun.zenith + sun.elevation, kPi / 2.0, 1e-15);
+  EXPECT_NEAR(std::atan2(sun.direction.x, sun.direction.y) + 2.0 * kPi, sun.azimuth, 1e-12);
+  EXPECT_NEAR(std::asin(sun.direction.z), sun.elevation, 1e-12);
+  EXPECT_LT(sun.elevation_geometric, sun.elevation);
+}
+
+TEST(SunMessage, aSunBelowTheHorizonIsDark) {
+  EXPECT_LT(toMarker(sunAt(0), "sun", 100.0).color.r, toMarker(sunAt(12), "sun", 100.0).color.r);
+}
+
+TEST(GetSunPosition, answersTheWorkedExample) {
+  GetSunPosition::Response response;
+  answer(workedExample(), ros::Time(), &response);
+  EXPECT_NEAR(response.position.zenith / kRadPerDeg, 50.111622, 1e-6);
+  EXPECT_NEAR(response.position.azimuth / kRadPerDeg, 194.340241, 1e-6);
+  EXPECT_NEAR(response.incidence / kRadPerDeg, 25.187000, 1e-6);
+  EXPECT_NEAR(response.position.equation_of_time, 14.6415 * 60.0, 1e-4 * 60.0);
+}
+
+TEST(GetSunPosition, everyBadFieldIsNamed) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto with = [](auto member, auto value) {
+    GetSunPosition::Request request = workedExample();
+    request.*member = value;
+    return complaint(request);
+  };
+  using Request = GetSunPosition::Request;
+  EXPECT_EQ(with(&Request::year, 7000), "year is 7000, but must be from -2000 to 6000");
+  EXPECT_EQ(with(&Request::month, 13), "month is 13, but must be from 1 to 12");
+  EXPECT_EQ(with(&Request::day, 32), "day is 32, but must be from 1 to 31 in month 10 of year 2003");
+  EXPECT_EQ(with(&Request::hour, 24), "hour is 24, but must be from 0 to 23 h");
+  EXPECT_EQ(with(&Request::minute, -1), "minute is -1, but must be from 0 to 59 min");
+  EXPECT_EQ(with(&Request::second, nan), "second is nan, but must be from 0 to 60 s");
+  EXPECT_EQ(with(&Request::timezone, 18.5), "timezone is 18.5, but must be from -18 to 18 h");
+  EXPECT_EQ(with(&Request::latitude, 91.0), "latitude is 91, but must be from -90 to 90 deg");
+  EXPECT_EQ(with(&Request::longitude, nan), "longitude is nan, but must be from -180 to 180 deg");
+  EXPECT_EQ(with(&Request::elevation, -501.0), "elevation is -501, but must be from -500 to 12000 m");
+  EXPECT_EQ(with(&Request::pressure, -1.0), "pressure is -1, but must be from 0 to 1200 hPa");
+  EXPECT_EQ(with(&Request::temperature, 99.0), "temperature is 99, but must be from -100 to 60 deg C");
+  EXPECT_EQ(with(&Request::atmospheric_refraction, 6.0),
+            "atmospheric_refraction is 6, but must be from 0 to 5 deg");
+  EXPECT_EQ(with(&Request::delta_ut1, 1.5), "delta_ut1 is 1.5, but must be from -1 to 1 s");
+  EXPECT_EQ(with(&Request::delta_t, 1e6), "delta_t is 1000000, but must be from -100000 to 100000 s");
+  EXPECT_EQ(with(&Request::slope, 361.0), "slope is 361, but must be from -360 to 360 deg");
+  EXPECT_EQ(with(&Request::azm_rotation, nan), "azm_rotation is nan, but must be from -360 to 360 deg");
+  EXPECT_EQ(complaint(workedExample()), "none");
+}
+
+TEST(GetSunPosition, deltaTOfNanIsAutomatic) {
+  GetSunPosition::Request request = workedExample();
+  GetSunPosition::Response given, automatic;
+  answer(request, ros::Time(), &given);
+  request.delta_t = std::numeric_limits<double>::quiet_NaN();
+  answer(request, ros::Time(), &automatic);
+  EXPECT_NE(given.position.azimuth, automatic.position.azimuth);
+  EXPECT_NEAR(given.position.azimuth, automatic.position.azimuth, 1e-6);  // 64.5 s, not 67 s
+}
+
+}  // namespace
+}  // namespace sunlit::ros_interface

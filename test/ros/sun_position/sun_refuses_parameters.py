@@ -1,0 +1,53 @@
+#!/usr/bin/python3
+"""A bad or unknown parameter stops the node with one clear line and a non-zero exit status."""
+import subprocess
+import unittest
+
+import rospy
+import rostest
+from sun_reading import TIMEOUT_S
+
+
+def start(parameters):
+    """Runs the node with these private parameters until it gives up."""
+    rospy.set_param("/bad_sun", parameters)
+    try:
+        return subprocess.run(["rosrun", "sunlit", "sun_position_node", "__name:=bad_sun"], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT_S)
+    finally:
+        rospy.delete_param("/bad_sun")
+
+
+class SunRefusesParameters(unittest.TestCase):
+
+    def check(self, parameters, *parts):
+        done = start(parameters)
+        self.assertNotEqual(done.returncode, 0)
+        lines = [line for line in (done.stdout + done.stderr).splitlines() if line.strip()]
+        self.assertEqual(len(lines), 1, lines)
+        for part in parts:
+            self.assertIn(part, lines[0])
+
+    def test_unknown_keys(self):
+        self.check({"site": {"lattitude": 5.0}}, "/bad_sun/site/lattitude", "unknown", "site/latitude")
+        self.check({"colour": "red"}, "/bad_sun/colour", "unknown")
+        self.check({"conditions": {"h04": {"huor": 4}}}, "h04/huor", "unknown")
+
+    def test_values_out_of_range(self):
+        self.check({"site": {"latitude": 91.0}}, "/bad_sun/site/latitude", "91", "from -90 to 90")
+        self.check({"date_time": {"month": 13}}, "/bad_sun/date_time/month", "13", "from 1 to 12")
+        self.check({"date_time": {"month": 2, "day": 31}}, "/bad_sun/date_time/day", "31", "from 1 to 29")
+        self.check({"date_time": {"second": 60.0}}, "/bad_sun/date_time/second", "60")
+        self.check({"earth": {"delta_t": "soon"}}, "/bad_sun/earth/delta_t", "soon", "auto")
+        self.check({"publish_rate": 0}, "/bad_sun/publish_rate", "0", "from 0.01 to 1000")
+        self.check({"conditions": {"h04": {"hour": 25}}}, "h04/hour", "25", "from 0 to 23")
+
+    def test_bad_conditions(self):
+        self.check({"conditions": ["a", "a"]}, "/bad_sun/conditions", "twice")
+        self.check({"conditions": 7}, "/bad_sun/conditions")
+        self.check({"conditions": {"4h": {"hour": 4}}}, "/bad_sun/conditions", "4h")
+
+
+if __name__ == "__main__":
+    rospy.init_node("sun_refuses_parameters")
+    rostest.rosrun("sunlit", "sun_refuses_parameters", SunRefusesParameters)

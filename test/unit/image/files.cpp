@@ -1,0 +1,152 @@
+#include "sunlit/image/files.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sunlit::image {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public testing::Test {
+ protected:
+  Files() {
+    std::string pattern = testing::TempDir() + "sunlit_files_XXXXXX";
+    folder_ = ::mkdtemp(pattern.data());
+  }
+  ~Files() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  std::size_t fileCount() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+  void put(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path(name), std::ios::binary) << bytes;
+  }
+
+  std::string folder_;
+};
+
+template <typename Action>
+std::string errorOf(const Action& action) {
+  try {
+    action();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+Rgb8Image pattern() {
+  Rgb8Image picture(37, 21);
+  for (std::size_t i = 0; i < picture.data.size(); ++i) {
+    picture.data[i] = static_cast<std::uint8_t>((i * 7919) >> 3);
+  }
+  return picture;
+}
+
+TEST_F(Files, PngReturnsTheSamePixels) {
+  writePng(path("a.png"), pattern());
+  const Rgb8Image back = readPng(path("a.png"));
+  EXPECT_EQ(back.width, 37);
+  EXPECT_EQ(back.height, 21);
+  EXPECT_EQ(back.data, pattern().data);
+}
+
+TEST_F(Files, RedStaysRed) {
+  // One red pixel: signature, IHDR 1×1 8-bit RGB, IDAT holding filter 0 and ff 00 00, IEND.
+  static const unsigned char kRedPng[] = {
+      0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48,
+      0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00,
+      0x00, 0x90, 0x77, 0x53, 0xde, 0x00, 0x00, 0x00, 0x0c, 0x49, 0x44, 0x41, 0x54, 0x08,
+      0xd7, 0x63, 0xf8, 0xcf, 0xc0, 0x00, 0x00, 0x03, 0x01, 0x01, 0x00, 0x18, 0xdd, 0x8d,
+      0xb0, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+  put("red.png", std::string(reinterpret_cast<const char*>(kRedPng), sizeof kRedPng));
+  const Rgb8Image red = readPng(path("red.png"));
+  EXPECT_EQ(red.data, (std::vector<std::uint8_t>{255, 0, 0}));
+  writePng(path("again.png"), red);  // the reader is right, so it may judge the writer
+  EXPECT_EQ(readPng(path("again.png")).data, red.data);
+}
+
+TEST_F(Files, TheSamePictureGivesTheSameBytes) {
+  EXPECT_EQ(encodePng(pattern()), encodePng(pattern()));
+}
+
+TEST_F(Files, WritingReplacesTheOldFileAndLeavesNothingElse) {
+  put("a.png", "old");
+  writePng(path("a.png"), pattern());
+  EXPECT_EQ(readPng(path("a.png")).data, pattern().data);
+  EXPECT_EQ(fileCount(), 1U);
+}
+
+TEST_F(Files, AFailedWriteNamesThePathAndLeavesNothing) {
+  const std::string missing = path("no_such_folder/a.png");
+  EXPECT_EQ(errorOf([&] { writePng(missing, pattern()); }), missing + ": create: No such file or directory");
+  fs::create_directory(path("taken"));  // a file cannot replace a folder
+  EXPECT_EQ(errorOf([&] { writePng(path("taken"), pattern()); }), path("taken") + ": rename: Is a directory");
+  EXPECT_EQ(fileCount(), 1U);
+}
+
+TEST_F(Files, AnEmptyPictureIsRefused) {
+  EXPECT_THROW(writePng(path("a.png"), Rgb8Image()), std::invalid_argument);
+  EXPECT_EQ(fileCount(), 0U);
+}
+
+TEST_F(Files, UnreadablePngsSayWhichAndWhy) {
+  EXPECT_EQ(errorOf([&] { readPng(path("none.png")); }),
+            path("none.png") + ": open: No such file or directory");
+  put("text.png", "not a picture");
+  EXPECT_EQ(errorOf([&] { readPng(path("text.png")); }), path("text.png") + ": read: not a PNG file");
+  const std::string whole = encodePng(pattern());
+  put("cut.png", whole.substr(0, whole.size() / 2));
+  EXPECT_EQ(errorOf([&] { readPng(path("cut.png")); }), path("cut.png") + ": read: the file is cut off");
+}
+
+TEST_F(Files, FloatMapsAreExactToTheBit) {
+  LinearImage image(5, 3);
+  for (std::size_t i = 0; i < image.data.size(); ++i) {
+    image.data[i] = 0.1F * static_cast<float>(i) - 0.3F;
+  }
+  writePfm(path("a.pfm"), image);
+  EXPECT_EQ(readLinearPfm(path("a.pfm")).data, image.data);
+  DepthImage depth(3, 2);
+  depth.data = {1.5F, std::numeric_limits<float>::quiet_NaN(), 3.0F, 4.0F, 5.0F, 1e-40F};
+  writePfm(path("d.pfm"), depth);
+  const DepthImage back = readDepthPfm(path("d.pfm"));
+  ASSERT_EQ(back.data.size(), depth.data.size());
+  EXPECT_EQ(std::memcmp(back.data.data(), depth.data.data(), depth.data.size() * sizeof(float)), 0);
+}
+
+TEST_F(Files, TheBottomRowOfAFloatMapComesFirst) {
+  DepthImage depth(1, 2);
+  depth.data = {1.0F, 2.0F};
+  writePfm(path("d.pfm"), depth);
+  std::ifstream in(path("d.pfm"), std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  float first = 0.0F;
+  std::memcpy(&first, bytes.data() + bytes.size() - 2 * sizeof(float), sizeof first);
+  EXPECT_EQ(first, 2.0F);
+}
+
+TEST_F(Files, BadFloatMapsSayWhichAndWhy) {
+  writePfm(path("d.pfm"), DepthImage(4, 4));
+  EXPECT_EQ(errorOf([&] { readLinearPfm(path("d.pfm")); }),
+            path("d.pfm") + ": read: not a little-endian \"PF\" float map");
+  fs::resize_file(path("d.pfm"), 40);
+  EXPECT_EQ(errorOf([&] { readDepthPfm(path("d.pfm")); }),
+            path("d.pfm") + ": read: 40 bytes do not hold 4×4 pixels");
+}
+
+}  // namespace
+}  // namespace sunlit::image

@@ -1,0 +1,115 @@
+// Pictures of every kind become 8-bit RGBA.
+#include "sunlit/image/texture_files.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sunlit::image {
+namespace {
+
+/// Cyclic redundancy check of PNG (ISO/IEC 15948, annex D).
+std::uint32_t checksum(const std::string& text) {
+  std::uint32_t sum = 0xFFFFFFFFu;
+  for (const char letter : text) {
+    sum ^= static_cast<std::uint8_t>(letter);
+    for (int bit = 0; bit < 8; ++bit) sum = (sum & 1u) != 0 ? 0xEDB88320u ^ (sum >> 1) : sum >> 1;
+  }
+  return ~sum;
+}
+
+std::string word(std::uint32_t value) {
+  std::string text;
+  for (int shift = 24; shift >= 0; shift -= 8) text += static_cast<char>(value >> shift & 0xFF);
+  return text;
+}
+
+std::string chunk(const std::string& name, const std::string& data) {
+  return word(static_cast<std::uint32_t>(data.size())) + name + data + word(checksum(name + data));
+}
+
+std::string bytes(std::initializer_list<int> values) {
+  std::string text;
+  for (const int value : values) text += static_cast<char>(value);
+  return text;
+}
+
+/// A PNG of 1 × 1 px whose samples are `samples`; `color_type` as in PNG (0 grey, 2 RGB, 4 grey and alpha, 6 RGBA).
+std::string onePixel(int bit_depth, int color_type, const std::string& samples, const std::string& more = "") {
+  const std::string row = std::string(1, '\0') + samples;  // filter type 0
+  std::uint32_t a = 1;
+  std::uint32_t b = 0;
+  for (const char letter : row) {
+    a = (a + static_cast<std::uint8_t>(letter)) % 65521;
+    b = (b + a) % 65521;
+  }
+  const int size = static_cast<int>(row.size());
+  // One stored (uncompressed) block of zlib, RFC 1950 and 1951.
+  const std::string packed =
+      bytes({0x78, 0x01, 0x01, size & 0xFF, size >> 8, ~size & 0xFF, ~size >> 8 & 0xFF}) + row + word(b << 16 | a);
+  return bytes({0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'}) +
+         chunk("IHDR", word(1) + word(1) + bytes({bit_depth, color_type, 0, 0, 0})) + more + chunk("IDAT", packed) +
+         chunk("IEND", "");
+}
+
+std::vector<int> texelOf(const std::string& file) {
+  const Rgba8Image picture = decodeRgba(reinterpret_cast<const std::uint8_t*>(file.data()), file.size(), "test");
+  return {picture.data.begin(), picture.data.end()};
+}
+
+TEST(DecodeRgba, KeepsTheOrderOfChannels) {
+  EXPECT_EQ(texelOf(onePixel(8, 6, bytes({10, 20, 30, 40}))), (std::vector<int>{10, 20, 30, 40}));
+  EXPECT_EQ(texelOf(onePixel(8, 2, bytes({10, 20, 30}))), (std::vector<int>{10, 20, 30, 255}));
+}
+
+TEST(DecodeRgba, GreyBecomesThreeEqualChannels) {
+  EXPECT_EQ(texelOf(onePixel(8, 0, bytes({77}))), (std::vector<int>{77, 77, 77, 255}));
+  EXPECT_EQ(texelOf(onePixel(8, 4, bytes({77, 5}))), (std::vector<int>{77, 77, 77, 5}));
+}
+
+TEST(DecodeRgba, SixteenBitsAreRoundedToEight) {
+  // 65535 is white and 0x8000 = 32768 of it is 127.5 of 255.
+  const std::vector<int> texel = texelOf(onePixel(16, 2, bytes({0xFF, 0xFF, 0x80, 0x00, 0x00, 0x00})));
+  EXPECT_EQ(texel[0], 255);
+  EXPECT_EQ(texel[1], 128);
+  EXPECT_EQ(texel[2], 0);
+  EXPECT_EQ(texel[3], 255);
+}
+
+TEST(DecodeRgba, AColourProfileIsIgnoredInSilence) {
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(texelOf(onePixel(8, 2, bytes({10, 20, 30}), chunk("iCCP", "nonsense"))), (std::vector<int>{10, 20, 30, 255}));
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(DecodeRgba, NamesWhatCannotBeDecoded) {
+  for (const std::string& broken : {std::string(), std::string("GIF89a"), onePixel(8, 2, bytes({1, 2, 3})).substr(0, 20)}) {
+    try {
+      texelOf(broken);
+      FAIL() << "it was decoded";
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(std::string(error.what()).find("test: cannot decode this picture"), 0u) << error.what();
+    }
+  }
+}
+
+TEST(EncodePng, LosesNothing) {
+  Rgba8Image picture(3, 2);
+  for (std::size_t i = 0; i < picture.data.size(); ++i) picture.data[i] = static_cast<std::uint8_t>(11 * i);
+  const std::string file = encodePng(picture);
+  const Rgba8Image back = decodeRgba(reinterpret_cast<const std::uint8_t*>(file.data()), file.size(), "test");
+  EXPECT_EQ(back.width, 3);
+  EXPECT_EQ(back.height, 2);
+  EXPECT_EQ(back.data, picture.data);
+}
+
+TEST(ReadRgba, NamesAMissingFile) {
+  EXPECT_THROW(readRgba("/nowhere/leaf.png"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace sunlit::image

@@ -1,0 +1,113 @@
+// The paper's rule on paths whose poses can be worked out with pencil and paper.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "sunlit/path/path.h"
+#include "sunlit/quantity/angle.h"
+
+namespace sunlit::path {
+namespace {
+
+// Positions are sums and products of a few doubles below 1000: rounding stays below 1e-12 m.
+constexpr double kRounding = 1e-12;
+
+void expectAt(const Eigen::Isometry3d& pose, const Eigen::Vector3d& position) {
+  EXPECT_NEAR((pose.translation() - position).norm(), 0.0, kRounding) << pose.translation().transpose();
+}
+
+double yawOf(const Eigen::Isometry3d& pose) { return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)); }
+
+std::string messageOf(const Waypoints& waypoints, const PathOptions& options = {}) {
+  try {
+    posesAlong(waypoints, options);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(PosesAlong, StartAgainAtEachWaypoint) {
+  // 2.5 m east, then 1.2 m north: at 0, 1, 2 m of the first segment and at 0, 1 m of the second.
+  const auto poses = posesAlong({{0, 0, 0}, {2.5, 0, 0}, {2.5, 1.2, 0}}, {1.0, 1.5});
+  ASSERT_EQ(poses.size(), 5u);
+  expectAt(poses[0], {0, 0, 1.5});
+  expectAt(poses[1], {1, 0, 1.5});
+  expectAt(poses[2], {2, 0, 1.5});
+  expectAt(poses[3], {2.5, 0, 1.5});
+  expectAt(poses[4], {2.5, 1, 1.5});
+}
+
+TEST(PosesAlong, FaceTheNextWaypoint) {
+  const auto poses = posesAlong({{0, 0, 0}, {1.5, 0, 0}, {1.5, 1.5, 0}, {0, 1.5, 0}, {-1, 0.5, 0}}, {});
+  ASSERT_EQ(poses.size(), 8u);
+  EXPECT_NEAR(yawOf(poses[1]), 0.0, kRounding);                      // the last before the turn still looks east
+  EXPECT_NEAR(yawOf(poses[2]), 0.5 * kPi, kRounding);                // at the turn already north
+  EXPECT_NEAR(std::abs(yawOf(poses[4])), kPi, kRounding);            // west
+  EXPECT_NEAR(yawOf(poses[6]), -0.75 * kPi, kRounding);              // south-west
+}
+
+TEST(PosesAlong, NeverReachTheLastWaypoint) {
+  // Exactly 10 m: the tenth metre is the end, which has no next segment to start.
+  const auto poses = posesAlong({{0, 0, 0}, {10, 0, 0}}, {});
+  ASSERT_EQ(poses.size(), 10u);
+  expectAt(poses.back(), {9, 0, 1});
+}
+
+TEST(PosesAlong, CountIsExactWhereTheLengthIsAMultipleOfTheSpacing) {
+  // 0.1 and 10 / 0.1 are not exact in binary; the count must not depend on which way they round.
+  EXPECT_EQ(posesAlong({{0, 0, 0}, {10, 0, 0}}, {0.1, 0.0}).size(), 100u);
+  EXPECT_EQ(posesAlong({{0, 0, 0}, {0.3, 0, 0}}, {0.1, 0.0}).size(), 3u);
+  EXPECT_EQ(posesAlong({{0, 0, 0}, {3, 4, 0}}, {}).size(), 5u);
+  for (int degrees = 0; degrees < 360; ++degrees) {
+    const Angle heading = Angle::degrees(degrees);
+    const Eigen::Vector3d end(100.0 + 7.0 * cos(heading), 200.0 + 7.0 * sin(heading), 0.0);
+    EXPECT_EQ(posesAlong({{100, 200, 0}, end}, {}).size(), 7u) << degrees;
+    EXPECT_EQ(posesAlong({{100, 200, 0}, end}, {0.7, 0.0}).size(), 10u) << degrees;
+  }
+}
+
+TEST(PosesAlong, AnyRestBeyondTheSpacingGivesAPose) {
+  EXPECT_EQ(posesAlong({{0, 0, 0}, {10.001, 0, 0}}, {}).size(), 11u);
+  EXPECT_EQ(posesAlong({{0, 0, 0}, {9.999, 0, 0}}, {}).size(), 10u);
+}
+
+TEST(PosesAlong, ASegmentShorterThanTheSpacingHasItsStart) {
+  const auto poses = posesAlong({{0, 0, 0}, {0.002, 0, 0}, {0.002, 0.5, 0}}, {1.0, 0.0});
+  ASSERT_EQ(poses.size(), 2u);
+  expectAt(poses[1], {0.002, 0, 0});
+}
+
+TEST(PosesAlong, StayLevelOnASlope) {
+  // 4 m east and 3 m up: 5 m along the road, so each metre of road is 0.8 m east and 0.6 m up.
+  const auto poses = posesAlong({{0, 0, 0}, {4, 0, 3}}, {1.0, 2.0});
+  ASSERT_EQ(poses.size(), 5u);
+  expectAt(poses[1], {0.8, 0, 2.6});
+  for (const auto& pose : poses) {
+    EXPECT_EQ((pose.linear().col(2) - Eigen::Vector3d::UnitZ()).norm(), 0.0);  // up stays up
+    EXPECT_EQ(pose.linear()(2, 0), 0.0);                                       // forward stays horizontal
+  }
+}
+
+TEST(PosesAlong, RefusesWhatIsNoPath) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(messageOf({}), "a path needs two waypoints or more, there are 0");
+  EXPECT_EQ(messageOf({{1, 2, 3}}), "a path needs two waypoints or more, there is 1");
+  EXPECT_EQ(messageOf({{0, 0, 0}, {1, nan, 0}}), "waypoint 1: a coordinate is not a finite number");
+  // Straight above each other is no direction to look in, either.
+  EXPECT_EQ(messageOf({{0, 0, 0}, {1, 0, 0}, {1, 0.0009, 5}}),
+            "waypoint 2: it is less than 1 mm from the waypoint before it in plan view");
+}
+
+TEST(PathOptions, NameKeyValueAndRange) {
+  const Waypoints waypoints{{0, 0, 0}, {1, 0, 0}};
+  EXPECT_EQ(messageOf(waypoints, {0.0, 1.0}), "spacing_m is 0.000000, must be 0.001000 … 1000.000000 m");
+  EXPECT_EQ(messageOf(waypoints, {1.0, 2e3}), "height_m is 2000.000000, must be -1000.000000 … 1000.000000 m");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(validate(PathOptions{nan, 1.0}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace sunlit::path

@@ -1,0 +1,102 @@
+// Waypoint files, good and broken.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "sunlit/path/path.h"
+
+namespace sunlit::path {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file that goes when the test ends.
+class WaypointFile : public ::testing::Test {
+ protected:
+  void TearDown() override { fs::remove(path_); }
+
+  Waypoints read(const std::string& content) {
+    std::ofstream(path_) << content;
+    return readWaypoints(path_.string());
+  }
+  /// The error without the path, which it must start with.
+  std::string errorOf(const std::string& content) {
+    try {
+      read(content);
+    } catch (const std::runtime_error& error) {
+      const std::string text = error.what();
+      EXPECT_EQ(text.compare(0, path_.string().size(), path_.string()), 0) << text;
+      return text.substr(path_.string().size());
+    }
+    return "no error";
+  }
+
+  const fs::path path_ =
+      fs::temp_directory_path() / ("sunlit_waypoints_" + std::to_string(getpid()) + ".txt");
+};
+
+TEST_F(WaypointFile, CsvWithCommentsHeaderAndBlankLines) {
+  const Waypoints waypoints = read("# a centre line\nx,y,z\n1,2,3\n\n 4.5 , -5e1,6 # a bend\r\n");
+  ASSERT_EQ(waypoints.size(), 2u);
+  EXPECT_EQ(waypoints[0], Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(waypoints[1], Eigen::Vector3d(4.5, -50, 6));
+}
+
+TEST_F(WaypointFile, CsvWithoutHeight) {
+  const Waypoints waypoints = read("1,2\n3,4\n");
+  ASSERT_EQ(waypoints.size(), 2u);
+  EXPECT_EQ(waypoints[1], Eigen::Vector3d(3, 4, 0));
+}
+
+TEST_F(WaypointFile, TumTrajectory) {
+  const Waypoints waypoints = read("# timestamp tx ty tz qx qy qz qw\n0.0 1 2 3 0 0 0 1\n0.1\t4 5 6 0 0 0 1\n");
+  ASSERT_EQ(waypoints.size(), 2u);
+  EXPECT_EQ(waypoints[0], Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(waypoints[1], Eigen::Vector3d(4, 5, 6));
+}
+
+TEST_F(WaypointFile, NamesTheLineOfWhatIsNoNumber) {
+  EXPECT_EQ(errorOf("x,y,z\n1,2,3\n4,nan,6\n"), ":3: 'nan' is not a finite number");
+  EXPECT_EQ(errorOf("1,2,3\n4,inf,6\n"), ":2: 'inf' is not a finite number");
+  EXPECT_EQ(errorOf("1,2,3\n4,five,6\n"), ":2: 'five' is not a finite number");
+  EXPECT_EQ(errorOf("1,2,3\n4,5m,6\n"), ":2: '5m' is not a finite number");
+  EXPECT_EQ(errorOf("1,2,3\n4,,6\n"), ":2: '' is not a finite number");
+  EXPECT_EQ(errorOf("a,b,c\n1,2,3\n4,5,6\n"), ":1: 'a' is not a finite number");
+  EXPECT_EQ(errorOf("0 1 2 3 0 0 0 1\n1 x 2 3 0 0 0 1\n"), ":2: 'x' is not a finite number");
+}
+
+TEST_F(WaypointFile, NamesTheLineOfWrongColumns) {
+  const std::string expected = ": expected x,y,z or x,y with commas, or the eight columns of a TUM trajectory with blanks, found ";
+  EXPECT_EQ(errorOf("1,2,3,4\n"), ":1" + expected + "4 columns");
+  EXPECT_EQ(errorOf("#\n1;2;3\n"), ":2" + expected + "1 column");
+  EXPECT_EQ(errorOf("1 2 3\n"), ":1" + expected + "3 columns");
+  EXPECT_EQ(errorOf("1,2,3\n4,5\n"), ":2: expected 3 columns as above, found 2");
+}
+
+TEST_F(WaypointFile, NeedsTwoDifferentPoints) {
+  EXPECT_EQ(errorOf(""), ":0: a path needs two waypoints or more, there are 0");
+  EXPECT_EQ(errorOf("x,y,z\n"), ":1: a path needs two waypoints or more, there are 0");
+  EXPECT_EQ(errorOf("1,2,3\n"), ":1: a path needs two waypoints or more, there is 1");
+  EXPECT_EQ(errorOf("1,2,3\n4,5,6\n4,5,6\n"), ":3: it is less than 1 mm from the waypoint before it in plan view");
+}
+
+TEST(WaypointFiles, AMissingOneIsNamed) {
+  try {
+    readWaypoints("/nowhere/track.csv");
+    FAIL() << "it was read";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "/nowhere/track.csv: cannot open this waypoint file");
+  }
+}
+
+TEST(WaypointFiles, TheCentreLineOfForzaIsRead) {
+  const std::string file = SUNLIT_SHARED_DIR "/worlds/forza/waypoints.csv";
+  if (!fs::exists(file)) GTEST_SKIP() << file << " is not here";
+  EXPECT_EQ(readWaypoints(file).size(), 486u);  // its lines less a comment and a header
+}
+
+}  // namespace
+}  // namespace sunlit::path

@@ -1,0 +1,120 @@
+// The same bits whatever the number of threads, from run to run, and with or without culling.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+
+#include "test_scenes.h"
+
+namespace sunlit::test {
+namespace {
+
+/// A few hundred boxes over some hundred metres, textured, cut out and detailed, with a sun low enough for penumbrae.
+scene::Scene town() {
+  scene::Scene scene;
+  std::minstd_rand random(1);
+  const auto uniform = [&random] { return static_cast<float>(random()) / static_cast<float>(std::minstd_rand::max()); };
+  scene::Texture texture{"leaves", 64, 64, {}};
+  for (int i = 0; i < 64 * 64; ++i) {
+    for (int c = 0; c < 4; ++c) texture.rgba.push_back(static_cast<std::uint8_t>(255.0f * uniform()));
+  }
+  scene.textures.push_back(texture);
+  const int plain = addMaterial(&scene, {0.4f, 0.3f, 0.2f});
+  const int leaves = addMaterial(&scene, {0.8f, 0.9f, 0.8f});
+  scene.materials[1].base_texture = 0;
+  scene.materials[1].alpha_mode = scene::AlphaMode::kMask;
+  const int rough = addMaterial(&scene, {0.3f, 0.3f, 0.3f});
+  scene.materials[2].detail.contrast = 0.3f;
+  scene.materials[2].roughness = 0.3f;
+  addGround(&scene, rough, 300.0f);
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector3f low(300.0f * uniform() - 150.0f, 300.0f * uniform() - 150.0f, 0.0f);
+    const Eigen::Vector3f high = low + Eigen::Vector3f(1.0f + 5.0f * uniform(), 1.0f + 5.0f * uniform(), 1.0f + 9.0f * uniform());
+    addBox(&scene, i % 3 == 0 ? leaves : plain, low, high);
+  }
+  return scene;
+}
+
+const Eigen::Isometry3d kPose = lookingAt({-20.0, 30.0, 2.0}, {40.0, 10.0, 1.0});
+
+std::vector<float> rendered(int threads) {
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  render::Renderer renderer(shared(town()), smallCamera(200, 150, 80.0));
+  renderer.look(kPose);
+  std::vector<float> values = renderer.light(daylightAt(100.0, 12.0)).data;
+  const image::DepthImage depth = renderer.depth();
+  values.insert(values.end(), depth.data.begin(), depth.data.end());
+  return values;
+}
+
+/// Compares representations, so that NaN equals NaN.
+bool sameBits(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+TEST(Picture, HasTheSameBitsForAnyNumberOfThreads) {
+  const std::vector<float> one = rendered(1);
+  EXPECT_TRUE(sameBits(rendered(2), one));
+  EXPECT_TRUE(sameBits(rendered(4), one));
+  EXPECT_TRUE(sameBits(rendered(4), one)) << "in a second run";
+}
+
+/// The number of threads of the software rasteriser is read once a process, so each number has a process of its own.
+TEST(Picture, HasTheSameBitsForAnyNumberOfRasteriserThreads) {
+  const char* counted = std::getenv("SUNLIT_TEST_HASH");
+  if (counted) {
+    std::uint64_t hash = 14695981039346656037ull;  // FNV-1a
+    for (float value : rendered(4)) {
+      std::uint32_t bits;
+      std::memcpy(&bits, &value, sizeof(bits));
+      hash = (hash ^ bits) * 1099511628211ull;
+    }
+    std::printf("hash %016llx\n", static_cast<unsigned long long>(hash));
+    return;
+  }
+  std::vector<std::string> hashes;
+  for (const char* threads : {"0", "1", "2", "4"}) {
+    const std::string command = std::string("SUNLIT_TEST_HASH=1 LP_NUM_THREADS=") + threads +
+                                " /proc/" + std::to_string(getpid()) +
+                                "/exe --gtest_filter=Picture.HasTheSameBitsForAnyNumberOfRasteriserThreads";
+    FILE* pipe = popen(command.c_str(), "r");
+    ASSERT_NE(pipe, nullptr);
+    char line[256];
+    while (std::fgets(line, sizeof(line), pipe)) {
+      if (std::strncmp(line, "hash ", 5) == 0) hashes.emplace_back(line);
+    }
+    EXPECT_EQ(pclose(pipe), 0);
+  }
+  ASSERT_EQ(hashes.size(), 4u);
+  for (const std::string& hash : hashes) EXPECT_EQ(hash, hashes.front());
+}
+
+TEST(Picture, DoesNotChangeWhenALookIsRepeatedAfterOthers) {
+  render::Renderer renderer(shared(town()), smallCamera(200, 150, 80.0));
+  const sky::Daylight day = daylightAt(100.0, 12.0);
+  renderer.look(kPose);
+  const std::vector<float> first = renderer.light(day).data;
+  renderer.look(lookingAt({3.0, 3.0, 40.0}, {0.0, 0.0, 0.0}));
+  renderer.light(day);
+  renderer.look(kPose);
+  EXPECT_TRUE(sameBits(renderer.light(day).data, first));
+}
+
+TEST(Picture, IsTheSameFromTwoRenderersOfOneThread) {
+  render::Renderer a(shared(town()), smallCamera(200, 150, 80.0));
+  render::Renderer b(shared(town()), smallCamera(200, 150, 80.0));
+  const sky::Daylight day = daylightAt(100.0, 12.0);
+  a.look(kPose);
+  b.look(lookingAt({3.0, 3.0, 40.0}, {0.0, 0.0, 0.0}));
+  const std::vector<float> first = a.light(day).data;
+  b.look(kPose);
+  EXPECT_TRUE(sameBits(b.light(day).data, first));
+}
+
+}  // namespace
+}  // namespace sunlit::test

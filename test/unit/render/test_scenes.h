@@ -1,0 +1,93 @@
+/// Hand-made scenes with answers that can be worked out on paper.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <string>
+
+#include "sunlit/quantity/frames.h"
+#include "sunlit/render/renderer.h"
+#include "sunlit/scene/scene.h"
+#include "sunlit/sky/atmosphere.h"
+
+namespace sunlit::test {
+
+inline int addMaterial(scene::Scene* scene, const Eigen::Array3f& base_color) {
+  scene::Material material;
+  material.name = "material " + std::to_string(scene->materials.size());
+  material.base_color = LinearRgb(base_color);
+  material.roughness = 1.0f;
+  scene->materials.push_back(material);
+  return static_cast<int>(scene->materials.size()) - 1;
+}
+
+/// The parallelogram origin + s·a + t·b, s and t in [0, 1]; its front is to the side of a × b. Texture coordinates
+/// (s, t).
+inline void addPatch(scene::Scene* scene, int material, const Eigen::Vector3f& origin, const Eigen::Vector3f& a,
+                     const Eigen::Vector3f& b) {
+  scene::Mesh mesh;
+  mesh.name = "patch";
+  mesh.material = material;
+  mesh.positions = {origin, origin + a, origin + a + b, origin + b};
+  mesh.normals.assign(4, a.cross(b).normalized());
+  mesh.texture_coordinates = {{0.0f, 0.0f}, {1.0f, 0.0f}, {1.0f, 1.0f}, {0.0f, 1.0f}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  scene->meshes.push_back(mesh);
+}
+
+/// Level ground at z = 0, `half` m to each side of the origin.
+inline void addGround(scene::Scene* scene, int material, float half) {
+  addPatch(scene, material, {-half, -half, 0.0f}, {2.0f * half, 0.0f, 0.0f}, {0.0f, 2.0f * half, 0.0f});
+}
+
+/// A closed box, seen from outside.
+inline void addBox(scene::Scene* scene, int material, const Eigen::Vector3f& low, const Eigen::Vector3f& high) {
+  const Eigen::Vector3f x((high - low).x(), 0.0f, 0.0f);
+  const Eigen::Vector3f y(0.0f, (high - low).y(), 0.0f);
+  const Eigen::Vector3f z(0.0f, 0.0f, (high - low).z());
+  addPatch(scene, material, low, y, x);
+  addPatch(scene, material, low + z, x, y);
+  addPatch(scene, material, low, x, z);
+  addPatch(scene, material, low + y, z, x);
+  addPatch(scene, material, low, z, y);
+  addPatch(scene, material, low + x, y, z);
+}
+
+/// A camera at `eye` whose optical axis points at `target`, upright.
+inline Eigen::Isometry3d lookingAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
+  const Eigen::Vector3d z = (target - eye).normalized();
+  const Eigen::Vector3d world_up = std::abs(z.z()) > 0.999 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d x = z.cross(world_up).normalized();
+  Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
+  map_from_optical.linear().col(0) = x;
+  map_from_optical.linear().col(1) = z.cross(x);
+  map_from_optical.linear().col(2) = z;
+  map_from_optical.translation() = eye;
+  return map_from_optical;
+}
+
+inline render::RenderOptions smallCamera(int width = 160, int height = 120, double fov_deg = 60.0) {
+  render::RenderOptions options;
+  options.camera = image::PinholeCamera::fromFieldOfView(width, height, Angle::degrees(fov_deg));
+  return options;
+}
+
+inline sky::Daylight daylightAt(double azimuth_deg, double elevation_deg) {
+  static const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
+  return atmosphere.daylight({Direction(Azimuth::degrees(azimuth_deg), Angle::degrees(elevation_deg)), 1.0});
+}
+
+inline std::shared_ptr<const scene::Scene> shared(scene::Scene scene) {
+  return std::make_shared<const scene::Scene>(std::move(scene));
+}
+
+inline Eigen::Array3f at(const image::LinearImage& image, int x, int y) {
+  return Eigen::Map<const Eigen::Array3f>(image.at(x, y));
+}
+
+/// What skylight alone makes of a rough dielectric, relative error allowed to what uses it: see each test.
+inline Eigen::Array3f skyPart(const sky::Daylight& day, const Eigen::Vector3f& normal, const Eigen::Array3f& albedo) {
+  return albedo / static_cast<float>(kPi) * day.skyIlluminance(normal).value;
+}
+
+}  // namespace sunlit::test

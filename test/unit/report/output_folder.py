@@ -1,0 +1,88 @@
+"""Output folders made up for the tests: frames with a known mean and spread, and the files beside them."""
+
+import math
+import os
+
+from PIL import Image
+
+DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "orb", "brisk"]
+FEATURES = DIFFERENCES[4:]
+HOURS = ["h04", "h12", "h20"]
+PAIRS = [("h04", "h12"), ("h04", "h20"), ("h12", "h20")]
+SELF_PAIRS = [(hour, f"self_test/{hour}") for hour in HOURS]
+POSES = 40
+
+# (E, s) of the three pairs for which all of the paper's findings hold.
+HOLDING = {
+    "boolean_rgb": ((0.70, 0.06), (0.69, 0.07), (0.701, 0.06)),
+    "boolean_grey": ((0.70, 0.06), (0.66, 0.10), (0.702, 0.06)),
+    "euclidean_rgb": ((0.064, 0.009), (0.003, 0.002), (0.071, 0.010)),
+    "euclidean_grey": ((0.063, 0.009), (0.003, 0.002), (0.070, 0.010)),
+    "sift": ((0.84, 0.05), (0.63, 0.14), (0.83, 0.05)),
+    "surf": ((0.94, 0.02), (0.75, 0.11), (0.93, 0.02)),
+    "brisk": ((0.95, 0.02), (0.80, 0.10), (0.96, 0.02)),
+    "orb": ((0.97, 0.01), (0.85, 0.10), (0.97, 0.02)),
+}
+
+FRAMES_HEADER = "pose,stamp,a,b,difference,value,features_a,features_b,matches,zero_second"
+
+
+def alternating(mean, sd, count=POSES):
+    """Values of exactly this mean and sample standard deviation: half above it, half below."""
+    step = sd * math.sqrt((count - 1) / count)
+    return [mean + step if k % 2 else mean - step for k in range(count)]
+
+
+def frame(pose, a, b, difference, value, twins=0):
+    counts = (500, 400, 50) if difference in FEATURES else (0, 0, 0)
+    fields = [pose, f"{pose / 10:.9f}", a, b, difference, repr(value), *counts, twins]
+    return ",".join(str(field) for field in fields)
+
+
+def frames(statistics=None, differences=None, pairs=None):
+    """Lines of frames.csv."""
+    statistics = statistics or HOLDING
+    lines = [FRAMES_HEADER]
+    for difference in differences or DIFFERENCES:
+        for index, (a, b) in enumerate(PAIRS):
+            if pairs is None or (a, b) in pairs:
+                lines += [frame(pose, a, b, difference, value)
+                          for pose, value in enumerate(alternating(*statistics[difference][index]))]
+    return lines
+
+
+def self_frames(value=0.0, twins=0, difference=None):
+    """Lines of self-tests; `value` and `twins` are those of one difference, all others are 0."""
+    return [frame(pose, a, b, name, value if name == difference else 0.0, twins if name == difference else 0)
+            for a, b in SELF_PAIRS for name in DIFFERENCES for pose in range(0, POSES, 10)]
+
+
+def write(folder, name, lines):
+    path = os.path.join(folder, name)
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")
+    return path
+
+
+def write_all(folder):
+    """Every file that a report reads."""
+    write(folder, "frames.csv", frames() + self_frames())
+    write(folder, "path.csv",
+          ["pose,stamp,x,y,z,yaw_deg"] + [f"{k},{k / 10},{k},{k % 7},1.0,0" for k in range(POSES)])
+    write(folder, "captures.csv",
+          ["stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,scene_illuminance"]
+          + [f"{hour},{k},{k / 10},12.5,{90 + 10 * n},{5 - 4 * n},4321"
+             for n, hour in enumerate(HOURS) for k in range(POSES)])
+    write(folder, "run.yaml",
+          ["settings:", "  ratio: '0.5'", "  about/world: 'race_track'", "versions:", "  sunlit: '9.8.7'",
+           "counters:", "  streams:", "    'h04': {received: 40, late: 17}"])
+    write(folder, "problems.csv", ["kind,pose,stamp,where,reason", "undecodable,,1.5,h12,\"cut <short>, it seems\""])
+    write(folder, "timing.csv", ["stage,what,count,seconds", "render,geometry,40,0.8"])
+    write(folder, "map.yaml", ["x_min: -10", "x_max: 60", "y_min: -20", "y_max: 30"])
+    Image.new("RGB", (70, 50), (90, 120, 90)).save(os.path.join(folder, "map.png"))
+    for hour in HOURS:
+        for pose in range(0, POSES, 5):
+            path = os.path.join(folder, "images", hour, f"{pose:06d}.png")
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            Image.new("RGB", (64, 48), (pose, 60, 60)).save(path)

@@ -1,0 +1,290 @@
+#!/usr/bin/env python3
+"""What must hold of the report, on output folders made up here (output_folder.py)."""
+
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+HERE = os.path.dirname(os.path.abspath(__file__))
+SCRIPTS = os.path.join(HERE, "..", "..", "..", "scripts")
+sys.path[:0] = [HERE, SCRIPTS]
+
+import output_folder as made  # noqa: E402
+from sunlit_report import files, findings, names, page, pictures, tables  # noqa: E402
+from sunlit_report import figures, map_figure  # noqa: E402
+
+REPORT = os.path.join(SCRIPTS, "report")
+ALL_HOLD = [findings.REPRODUCED] * 5
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        kept = tempfile.TemporaryDirectory()
+        self.addCleanup(kept.cleanup)
+        self.folder = kept.name
+
+    def write(self, name, lines):
+        return made.write(self.folder, name, lines)
+
+    def read(self):
+        return files.read_output(self.folder)
+
+    def verdicts(self):
+        return [finding.verdict for finding in findings.judge(self.read())]
+
+    def assert_refused(self, *parts):
+        with self.assertRaises(files.ReportError) as caught:
+            self.read()
+        for part in parts:
+            self.assertIn(part, str(caught.exception))
+
+
+def changed(difference, pair, e=None, s=None):
+    """The holding statistics, but for one difference of one pair (0: 4-12, 1: 4-20, 2: 12-20)."""
+    statistics = {name: list(rows) for name, rows in made.HOLDING.items()}
+    old_e, old_s = statistics[difference][pair]
+    statistics[difference][pair] = (old_e if e is None else e, old_s if s is None else s)
+    return statistics
+
+
+class Findings(InFolder):
+    def verdicts_of(self, statistics):
+        self.write("frames.csv", made.frames(statistics))
+        return self.verdicts()[:5]
+
+    def assert_breaks_only(self, number, statistics):
+        expected = list(ALL_HOLD)
+        expected[number - 1] = findings.NOT_REPRODUCED
+        self.assertEqual(self.verdicts_of(statistics), expected)
+
+    def test_all_hold_where_they_hold(self):
+        self.assertEqual(self.verdicts_of(made.HOLDING), ALL_HOLD)
+
+    def test_first_breaks_where_one_algorithm_sets_evening_further_from_morning_than_noon(self):
+        self.assert_breaks_only(1, changed("boolean_rgb", 1, e=0.7005))
+
+    def test_second_breaks_where_evening_is_as_bright_as_morning(self):
+        self.assert_breaks_only(2, changed("euclidean_grey", 2, e=0.0629))
+
+    def test_second_breaks_where_evening_is_not_just_slightly_further(self):
+        self.assert_breaks_only(2, changed("euclidean_rgb", 2, e=0.0961))
+
+    def test_third_breaks_where_boolean_differences_are_apart(self):
+        self.assert_breaks_only(3, changed("boolean_grey", 2, e=0.7101))
+
+    def test_third_holds_up_to_its_limit(self):
+        self.assertEqual(self.verdicts_of(changed("boolean_grey", 2, e=0.7099)), ALL_HOLD)
+
+    def test_fourth_breaks_where_one_pair_has_another_order(self):
+        self.assert_breaks_only(4, changed("brisk", 1, e=0.86))
+
+    def test_fifth_breaks_where_a_feature_varies_more_against_noon(self):
+        self.assert_breaks_only(5, changed("orb", 2, s=0.11))
+
+    def test_fifth_breaks_where_a_euclidean_difference_does_not_vary_least(self):
+        self.assert_breaks_only(5, changed("euclidean_rgb", 1, s=0.0095))
+
+    def test_numbers_name_what_broke(self):
+        self.write("frames.csv", made.frames(changed("boolean_rgb", 1, e=0.7005)))
+        first = findings.judge(self.read())[0]
+        self.assertEqual([row[0] for row in first.rows if row[-1]], ["Boolean RGB"])
+        self.assertEqual(first.rows[0][1:4], ["0.70000", "0.70050", "0.70100"])
+
+    def test_other_hours_cannot_be_judged(self):
+        self.write("frames.csv", [line.replace("h04", "h06") for line in made.frames()])
+        judged = findings.judge(self.read())
+        self.assertEqual([one.verdict for one in judged], [findings.NOT_JUDGED] * 6)
+        self.assertIn("h04", judged[0].reason)
+
+    def test_missing_algorithms_cannot_be_judged(self):
+        self.write("frames.csv", made.frames(differences=["boolean_rgb", "orb"]))
+        self.assertEqual(self.verdicts()[1:4], [findings.NOT_JUDGED, findings.REPRODUCED, findings.NOT_JUDGED])
+
+    def test_undefined_means_cannot_be_judged(self):
+        lines = [re.sub(r"(h04,h20,sift),[^,]*", r"\1,nan", line) for line in made.frames()]
+        self.write("frames.csv", lines)
+        self.assertEqual(self.verdicts()[0], findings.NOT_JUDGED)
+
+
+class SelfTests(InFolder):
+    def verdict_of(self, **self_test):
+        self.write("frames.csv", made.frames() + made.self_frames(**self_test))
+        return self.verdicts()[5]
+
+    def test_zeros_are_what_the_paper_found(self):
+        self.assertEqual(self.verdict_of(), findings.REPRODUCED)
+
+    def test_small_residues_of_twins_are_too(self):
+        self.assertEqual(self.verdict_of(difference="brisk", value=0.012, twins=3), findings.REPRODUCED)
+
+    def test_residues_without_twins_are_not(self):
+        self.assertEqual(self.verdict_of(difference="brisk", value=0.012), findings.NOT_REPRODUCED)
+
+    def test_large_residues_are_not(self):
+        self.assertEqual(self.verdict_of(difference="brisk", value=0.03, twins=3), findings.NOT_REPRODUCED)
+
+    def test_direct_differences_must_be_exactly_zero(self):
+        self.assertEqual(self.verdict_of(difference="euclidean_rgb", value=1e-12), findings.NOT_REPRODUCED)
+
+    def test_absent_self_tests_cannot_be_judged(self):
+        self.write("frames.csv", made.frames())
+        self.assertEqual(self.verdicts()[5], findings.NOT_JUDGED)
+
+    def test_they_stand_apart_from_pairs_of_conditions(self):
+        self.write("frames.csv", made.frames() + made.self_frames())
+        output = self.read()
+        self.assertEqual(output.pairs, made.PAIRS)
+        self.assertEqual(output.self_pairs, made.SELF_PAIRS)
+        self.assertEqual(output.conditions, made.HOURS)
+
+
+class Files(InFolder):
+    def test_mean_and_spread_follow_the_papers_equations(self):
+        self.write("frames.csv", [made.FRAMES_HEADER] + [made.frame(k, "a", "b", "sift", v)
+                                                         for k, v in enumerate([0.1, 0.2, math.nan, 0.6])])
+        row = self.read().summary["a", "b", "sift"]
+        # By hand: (0.1 + 0.2 + 0.6) / 3, and sqrt((0.04 + 0.01 + 0.09) / 2).
+        self.assertEqual((row.n, row.undefined), (3, 1))
+        self.assertAlmostEqual(row.mean, 0.3, places=12)
+        self.assertAlmostEqual(row.sd, math.sqrt(0.07), places=12)
+
+    def test_summary_file_is_taken_as_it_is(self):
+        self.write("frames.csv", made.frames())
+        self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.84,0.05,0.83,0.85"])
+        self.assertEqual(self.read().summary["h04", "h12", "sift"].ci_high, 0.85)
+
+    def test_summary_of_other_frames_is_pointed_out(self):
+        self.write("frames.csv", made.frames(differences=["sift"], pairs=made.PAIRS[:1]))
+        self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.84,0.05,0.83,0.85"])
+        self.assertEqual(page.warnings(self.read()), [])
+        self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.85,0.05,0.83,0.85"])
+        self.assertEqual(len(page.warnings(self.read())), 1)
+
+    def test_missing_folder_and_frames_are_named(self):
+        with self.assertRaisesRegex(files.ReportError, "nowhere: no such folder"):
+            files.read_output(os.path.join(self.folder, "nowhere"))
+        self.assert_refused(os.path.join(self.folder, "frames.csv"), "no such file")
+
+    def test_malformed_lines_are_named(self):
+        good = made.frames()[:3]
+        for bad, what in [("1,2,3", "3 fields"), (good[2].replace(",h04", ",h04,h04"), "11 fields"),
+                          ("x" + good[2], "pose is 'x1'"),
+                          (good[2].replace(",0,0,0,", ",0,0.5,0,"), "features_b is '0.5'"),
+                          (re.sub(r"boolean_rgb,[^,]*", "boolean_rgb,inf", good[2]), "value is 'inf'"),
+                          (good[1], "pose 0 of h04, h12, boolean_rgb was given on line 2")]:
+            path = self.write("frames.csv", good[:2] + [bad])
+            self.assert_refused(f"{path}:3", what)
+        path = self.write("frames.csv", ["pose,value"] + good[1:])
+        self.assert_refused(f"{path}:1", files.FRAMES)
+        self.write("frames.csv", good[:1])
+        self.assert_refused("no results")
+
+    def test_malformed_other_files_are_named(self):
+        self.write("frames.csv", made.frames())
+        for name, lines, where in [("path.csv", [files.PATH, "0,0,east,0,0,0"], ":2: x is 'east'"),
+                                   ("captures.csv", [files.CAPTURES, "h04,0,0,bright,0,0,0"], ":2: ev100"),
+                                   ("timing.csv", ["stage,seconds"], ":1"),
+                                   ("run.yaml", ["settings:", "  a: [1,"], "run.yaml:"),
+                                   ("map.yaml", ["x_min: 0"], "x_max"),
+                                   ("map.yaml", ["x_min: 0", "x_max: 0", "y_min: 0", "y_max: 1"], "below")]:
+            path = self.write(name, lines)
+            self.assert_refused(path, where)
+            os.remove(path)
+
+
+class Parts(unittest.TestCase):
+    def test_hours_are_called_by_number(self):
+        self.assertEqual(names.pair("h04", "h12"), "4–12 h")
+        self.assertEqual(names.pair("h04_30", "self_test/h04_30"), "4:30–4:30 h")
+        self.assertEqual(names.pair("summer", "winter"), "summer – winter")
+        self.assertEqual(names.conditions(["h04", "h12", "h20"]), "4, 12 and 20 h")
+
+    def test_pictures_are_spread_from_end_to_end(self):
+        self.assertEqual(pictures.evenly_spread(list(range(991)), 5), [0, 248, 495, 742, 990])
+        self.assertEqual(pictures.evenly_spread([3, 4], 5), [3, 4])
+
+    def test_running_median_skips_undefined_values(self):
+        import numpy as np
+        got = figures.running_median(np.array([1.0, math.nan, 3.0, 100.0, 5.0, math.nan, math.nan, math.nan]), 3)
+        np.testing.assert_array_equal(got, [1.0, 2.0, 51.5, 5.0, 52.5, 5.0, math.nan, math.nan])
+
+    def test_scale_bars_have_round_lengths(self):
+        self.assertEqual([map_figure.round_length(v) for v in (7.3, 1.99, 499.0, 500.0, 0.3)], [5, 1, 200, 500, 0.2])
+
+    def test_many_pairs_are_told_three_at_a_time(self):
+        self.assertEqual(tables.chunks(list("abcdefg"), 3), [["a", "b", "c"], ["d", "e", "f"], ["g"]])
+
+
+class Page(InFolder):
+    def run_report(self, *arguments):
+        return subprocess.run([sys.executable, REPORT, *arguments], capture_output=True, text=True, check=False)
+
+    def page(self):
+        with open(os.path.join(self.folder, "report.html"), encoding="utf-8") as file:
+            return file.read()
+
+    def test_whole_folder_gives_one_self_contained_page(self):
+        made.write_all(self.folder)
+        done = self.run_report(self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        html = self.page()
+        self.assertEqual(set(re.findall(r'(?:src|href)="([^:"]*):', html)), {"data"})
+        self.assertNotRegex(html, r"url\(|@import|<script|<link")
+        self.assertEqual(html.count("data:image/svg+xml"), 3)
+        self.assertEqual(html.count("data:image/jpeg"), 5 * 3)
+        for text in ("0.84000", "0.84577", "9.8.7", "race_track", "4321", "geometry", "20.00",
+                     "cut &lt;short&gt;, it seems", "<td>17</td>"):
+            self.assertIn(text, html)
+        self.assertNotIn('class="absent"', html)
+        self.assertIn("6 of 6", done.stdout)
+        self.assertRegex(done.stdout, r"SIFT +0\.84000 +0\.63000 +0\.83000 +0\.05000 +0\.14000 +0\.05000")
+        self.assertRegex(done.stdout, r"paper +0\.84577 +0\.63501")
+
+    def test_every_absent_file_is_named_in_place(self):
+        self.write("frames.csv", made.frames())
+        self.assertEqual(self.run_report(self.folder).returncode, 0)
+        html = self.page()
+        for name in ("captures.csv", "path.csv", "timing.csv", "run.yaml", "images", "summary.csv"):
+            self.assertIn(name, html)
+
+    def test_the_same_folder_gives_the_same_bytes(self):
+        made.write_all(self.folder)
+        self.run_report(self.folder)
+        first = self.page()
+        self.run_report(self.folder)
+        self.assertEqual(self.page(), first)
+
+    def test_one_condition_against_itself_is_enough(self):
+        self.write("frames.csv", [made.FRAMES_HEADER] + made.self_frames())
+        self.assertEqual(self.run_report(self.folder).returncode, 0)
+        self.assertIn("No two different conditions were compared", self.page())
+
+    def test_another_file_is_written_where_asked(self):
+        self.write("frames.csv", made.frames())
+        target = os.path.join(self.folder, "elsewhere.html")
+        self.assertEqual(self.run_report(self.folder, "--out", target).returncode, 0)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["elsewhere.html", "frames.csv"])
+
+    def test_failures_end_with_one_line_and_a_status(self):
+        unwritable = os.path.join(self.folder, "no", "such", "place.html")
+        for prepare, arguments, what in [
+                (lambda: None, [self.folder], "frames.csv: no such file"),
+                (lambda: self.write("frames.csv", made.frames()[:5] + ["torn,lin"]), [self.folder],
+                 "frames.csv:6: 2 fields"),
+                (lambda: self.write("frames.csv", made.frames()), [self.folder, "--out", unwritable],
+                 "cannot be written")]:
+            prepare()
+            done = self.run_report(*arguments)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(what, done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+
+if __name__ == "__main__":
+    import rosunit
+    rosunit.unitrun("sunlit", "report", "report_test")

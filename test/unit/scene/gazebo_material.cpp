@@ -1,0 +1,61 @@
+// Gazebo's material names and OGRE scripts.
+#include "scene/gazebo_material.h"
+
+#include <gtest/gtest.h>
+
+namespace sunlit::scene {
+namespace {
+
+constexpr const char* kScript = R"(
+// material Sand { diffuse 1 1 1 }
+material Base
+{
+  technique
+  {
+    pass
+    {
+      ambient 0.1 0.1 0.1 1
+      diffuse 1.0 0.0 0.0 1.0
+      alpha_rejection greater 128
+    }
+  }
+}
+material Sand : Base {
+  technique { pass {
+    texture_unit { 
+      texture sand.png
+      filtering anisotropic } } }
+}
+material Other
+{ technique { pass { diffuse 0 1 0 } } }
+)";
+
+TEST(GazeboMaterial, KnowsTheColoursByName) {
+  ASSERT_TRUE(gazeboColor("Gazebo/Red"));
+  EXPECT_EQ(gazeboColor("Gazebo/Red")->value[0], 1.0f);
+  EXPECT_EQ(gazeboColor("Gazebo/Red")->value[1], 0.0f);
+  // 0.7 of a display's range is ((0.7 + 0.055) / 1.055)^2.4 = 0.448 of its light.
+  EXPECT_NEAR(gazeboColor("Gazebo/Grey")->value[0], 0.448f, 0.0005f);
+  EXPECT_FALSE(gazeboColor("Gazebo/Plaid"));
+  EXPECT_FALSE(gazeboColor("Red"));
+}
+
+TEST(GazeboMaterial, ReadsOneMaterialOfAScript) {
+  const auto base = parseMaterialScript(kScript, "Base");
+  ASSERT_TRUE(base && base->diffuse);
+  EXPECT_EQ(base->diffuse->value[0], 1.0f);
+  EXPECT_TRUE(base->alpha_rejection);
+  EXPECT_FALSE(base->texture);
+  EXPECT_FALSE(parseMaterialScript(kScript, "Gravel"));
+}
+
+TEST(GazeboMaterial, InheritsWhatItDoesNotSet) {
+  const auto sand = parseMaterialScript(kScript, "Sand");
+  ASSERT_TRUE(sand && sand->texture && sand->diffuse);
+  EXPECT_EQ(*sand->texture, "sand.png");
+  EXPECT_EQ(sand->diffuse->value[0], 1.0f);
+  EXPECT_TRUE(sand->alpha_rejection);
+}
+
+}  // namespace
+}  // namespace sunlit::scene

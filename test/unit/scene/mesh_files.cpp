@@ -1,0 +1,169 @@
+// COLLADA, glTF and OBJ files: size, orientation, textures, and what is done about broken ones.
+#include <gtest/gtest.h>
+
+#include "unit/scene/measure.h"
+#include "unit/scene/temporary_folder.h"
+
+namespace sunlit::scene {
+namespace {
+
+/// A triangle whose corners are 1, 2 and 3 units along x, y and z, in a COLLADA file.
+std::string collada(const std::string& asset, const std::string& image = "", const std::string& positions =
+                                                                                "1 0 0 0 2 0 0 0 3") {
+  const std::string texture =
+      image.empty() ? "<color>1 0 0 1</color>" : "<texture texture='picture-sampler' texcoord='uv'/>";
+  const std::string parameters =
+      image.empty() ? ""
+                    : "<newparam sid='picture-surface'><surface type='2D'><init_from>picture</init_from></surface></newparam>"
+                      "<newparam sid='picture-sampler'><sampler2D><source>picture-surface</source></sampler2D></newparam>";
+  const std::string images = image.empty() ? ""
+                                           : "<library_images><image id='picture' name='picture'><init_from>" + image +
+                                                 "</init_from></image></library_images>";
+  return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'><asset>" +
+         asset + "</asset>" + images +
+         "<library_effects><effect id='paint-fx'><profile_COMMON>" + parameters +
+         "<technique sid='common'><lambert><diffuse>" + texture +
+         "</diffuse></lambert></technique></profile_COMMON></effect></library_effects>"
+         "<library_materials><material id='paint' name='paint'><instance_effect url='#paint-fx'/></material>"
+         "</library_materials><library_geometries><geometry id='g' name='g'><mesh>"
+         "<source id='p'><float_array id='pa' count='9'>" + positions +
+         "</float_array><technique_common><accessor source='#pa' count='3' stride='3'><param name='X' type='float'/>"
+         "<param name='Y' type='float'/><param name='Z' type='float'/></accessor></technique_common></source>"
+         "<source id='t'><float_array id='ta' count='6'>0 0 1 0 0.25 0.75</float_array><technique_common>"
+         "<accessor source='#ta' count='3' stride='2'><param name='S' type='float'/><param name='T' type='float'/>"
+         "</accessor></technique_common></source>"
+         "<vertices id='v'><input semantic='POSITION' source='#p'/></vertices>"
+         "<triangles material='m' count='1'><input semantic='VERTEX' source='#v' offset='0'/>"
+         "<input semantic='TEXCOORD' source='#t' offset='1' set='0'/><p>0 0 1 1 2 2</p></triangles></mesh></geometry>"
+         "</library_geometries><library_visual_scenes><visual_scene id='s'><node id='n' name='n'>"
+         "<instance_geometry url='#g'><bind_material><technique_common><instance_material symbol='m' target='#paint'>"
+         "<bind_vertex_input semantic='uv' input_semantic='TEXCOORD' input_set='0'/></instance_material>"
+         "</technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>"
+         "<scene><instance_visual_scene url='#s'/></scene></COLLADA>";
+}
+
+const std::string kCentimetresZUp = "<unit meter='0.01' name='centimeter'/><up_axis>Z_UP</up_axis>";
+
+class MeshFile : public TemporaryFolder {
+ protected:
+  void expectOneWarning(const Scene& scene, const std::string& part) {
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find(part), std::string::npos) << scene.warnings[0];
+  }
+};
+
+TEST_F(MeshFile, ColladaUnitsAndUpAxisAreHonoured) {
+  const Scene z_up = load(write("z.dae", collada(kCentimetresZUp)), {});
+  // 1, 2 and 3 cm along x, y and z; 1e-7 is float rounding of 0.03.
+  EXPECT_LT((boundsOf(z_up).max() - Eigen::Vector3f(0.01f, 0.02f, 0.03f)).norm(), 1e-7f);
+  EXPECT_TRUE(z_up.warnings.empty());
+
+  const Scene y_up = load(write("y.dae", collada("<unit meter='1'/><up_axis>Y_UP</up_axis>")), {});
+  // y up: 2 m along y is height, 3 m along z points to the south.
+  EXPECT_LT((boundsOf(y_up).max() - Eigen::Vector3f(1.0f, 0.0f, 2.0f)).norm(), 1e-6f);
+  EXPECT_LT((boundsOf(y_up).min() - Eigen::Vector3f(0.0f, -3.0f, 0.0f)).norm(), 1e-6f);
+}
+
+TEST_F(MeshFile, TextureCoordinatesStartAtTheTopLeft) {
+  writeTexture("paint.png");
+  const Scene scene = load(write("t.dae", collada(kCentimetresZUp, "paint.png")), {});
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  // COLLADA's t runs upwards: the corner with s, t = 0.25, 0.75 is a quarter from the left and from the top.
+  const Mesh& mesh = scene.meshes[0];
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (mesh.positions[i].z() > 0.02f) {
+      EXPECT_LT((mesh.texture_coordinates[i] - Eigen::Vector2f(0.25f, 0.25f)).norm(), 1e-6f);
+    }
+  }
+  EXPECT_EQ(scene.materials[0].base_color.value[0], 1.0f);  // the texture alone is the colour
+  EXPECT_EQ(scene.textures[0].rgba[0], 200);
+  EXPECT_EQ(scene.textures[0].rgba[2], 50);
+}
+
+TEST_F(MeshFile, ColoursAreTakenForDisplayValues) {
+  const Scene scene = load(write("c.dae", collada(kCentimetresZUp)), {});
+  EXPECT_EQ(scene.materials[0].name, "paint");
+  EXPECT_NEAR(scene.materials[0].base_color.value[0], 1.0f, 1e-6f);
+  EXPECT_EQ(scene.materials[0].base_color.value[1], 0.0f);
+  EXPECT_EQ(scene.materials[0].base_texture, Material::kNoTexture);
+}
+
+TEST_F(MeshFile, TexturesAreLookedForInTheUsualPlaces) {
+  const std::string mesh = write("model/meshes/t.dae", collada(kCentimetresZUp, "C:\\artist\\paint.png"));
+  writeTexture("model/materials/textures/paint.png");
+  EXPECT_TRUE(load(mesh, {}).warnings.empty());
+}
+
+TEST_F(MeshFile, TexturesAreFoundInTheSearchPath) {
+  const std::string mesh = write("t.dae", collada(kCentimetresZUp, "pictures/paint.png"));
+  writeTexture("elsewhere/pictures/paint.png");
+  EXPECT_EQ(load(mesh, {}).warnings.size(), 1u);
+  EXPECT_TRUE(load(mesh, SearchPath{{pathOf("elsewhere")}}).warnings.empty());
+}
+
+TEST_F(MeshFile, ATextureInOtherCaseIsFoundWithAWarning) {
+  writeTexture("PAINT.png");
+  const Scene scene = load(write("t.dae", collada(kCentimetresZUp, "paint.png")), {});
+  expectOneWarning(scene, "texture paint.png is spelt " + pathOf("PAINT.png") + " on disk");
+  EXPECT_EQ(scene.textures.size(), 1u);
+}
+
+TEST_F(MeshFile, AMissingTextureIsANamedWarningAndANeutralMaterial) {
+  const Scene scene = load(write("t.dae", collada(kCentimetresZUp, "gone.png")), {});
+  expectOneWarning(scene, "t.dae: texture gone.png is missing, a neutral material takes its place");
+  EXPECT_TRUE(scene.textures.empty());
+  EXPECT_EQ(scene.materials[0].base_color.value[0], 0.18f);
+}
+
+TEST_F(MeshFile, ATextureWithHolesIsCutOut) {
+  writeTexture("paint.png", 1);
+  const Scene holes = load(write("t.dae", collada(kCentimetresZUp, "paint.png")), {});
+  EXPECT_EQ(holes.materials[0].alpha_mode, AlphaMode::kMask);
+  writeTexture("paint.png", 0);
+  EXPECT_EQ(load(pathOf("t.dae"), {}).materials[0].alpha_mode, AlphaMode::kOpaque);
+}
+
+TEST_F(MeshFile, ABrokenTextureIsAnErrorNamingIt) {
+  const std::string mesh = write("t.dae", collada(kCentimetresZUp, "paint.png"));
+  write("paint.png", "this is not a picture");
+  EXPECT_EQ(errorOf(mesh).find(pathOf("paint.png") + ": cannot decode this picture"), 0u) << errorOf(mesh);
+  write("paint.png", "");
+  EXPECT_EQ(errorOf(mesh).find(pathOf("paint.png") + ": cannot decode this picture"), 0u) << errorOf(mesh);
+}
+
+TEST_F(MeshFile, ObjIsTakenAsZUpAndGetsNormals) {
+  const Scene scene = load(write("roof.obj", "v 0 0 1\nv 2 0 1\nv 2 3 1\nv 0 3 1\nf 1 2 3 4\n"), {});
+  EXPECT_EQ(scene.triangleCount(), 2u);  // the quadrilateral cut in two
+  EXPECT_EQ(boundsOf(scene).max(), Eigen::Vector3f(2, 3, 1));
+  for (const Eigen::Vector3f& normal : scene.meshes[0].normals) EXPECT_EQ(normal, Eigen::Vector3f(0, 0, 1));
+}
+
+TEST_F(MeshFile, BrokenTrianglesAreLeftOutAndCounted) {
+  const Scene scene =
+      load(write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n"), {});
+  EXPECT_EQ(scene.triangleCount(), 1u);
+  ASSERT_EQ(scene.warnings.size(), 2u);
+  EXPECT_EQ(scene.warnings[0], "1 triangles with coordinates that are not finite were left out");
+  EXPECT_EQ(scene.warnings[1], "1 triangles without area were left out");
+}
+
+TEST_F(MeshFile, ABrokenFileIsAnErrorNamingIt) {
+  for (const char* name : {"b.dae", "b.glb", "b.gltf", "b.obj"}) {
+    const std::string file = write(name, "<COLLADA this is nonsense");
+    EXPECT_EQ(errorOf(file).find(file + ": "), 0u) << errorOf(file);
+  }
+}
+
+TEST_F(MeshFile, AMissingFileNamesThePlaces) {
+  const std::string error = errorOf("worlds/nowhere.dae", SearchPath{{"/some/folder"}});
+  EXPECT_EQ(error.find("there is no world worlds/nowhere.dae; it was looked for as "), 0u) << error;
+  EXPECT_NE(error.find("/some/folder/worlds/nowhere.dae"), std::string::npos) << error;
+}
+
+TEST_F(MeshFile, AnUnknownEndingIsAnError) {
+  const std::string file = write("world.blend", "");
+  EXPECT_EQ(errorOf(file).find(file + ": cannot tell its format"), 0u) << errorOf(file);
+}
+
+}  // namespace
+}  // namespace sunlit::scene

@@ -1,0 +1,248 @@
+#include "sunlit/scene/race_track.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "scene/race_track/course.h"
+#include "scene/race_track/noise.h"
+#include "sunlit/path/path.h"
+
+namespace sunlit::scene {
+namespace {
+
+const Scene& world() {
+  static const Scene scene = raceTrack();
+  return scene;
+}
+
+class Fingerprint {
+ public:
+  template <typename T>
+  void add(const std::vector<T>& values) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
+    for (std::size_t i = 0; i < values.size() * sizeof(T); ++i) hash_ = (hash_ ^ bytes[i]) * 1099511628211ull;  // FNV-1a
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 14695981039346656037ull;
+};
+
+std::uint64_t fingerprint(const Scene& scene) {
+  Fingerprint print;
+  for (const Texture& texture : scene.textures) print.add(texture.rgba);
+  for (const Mesh& mesh : scene.meshes) {
+    print.add(mesh.positions);
+    print.add(mesh.normals);
+    print.add(mesh.texture_coordinates);
+    print.add(mesh.colors);
+    print.add(mesh.triangles);
+  }
+  return print.value();
+}
+
+/// Height of the highest surface of the asphalt below (x, y, ∞), if there is any.
+std::optional<double> roadHeight(double x, double y) {
+  std::optional<double> height;
+  for (const Mesh& mesh : world().meshes) {
+    if (world().materials[static_cast<std::size_t>(mesh.material)].name != "asphalt") continue;
+    for (const auto& t : mesh.triangles) {
+      const Eigen::Vector3d a = mesh.positions[t[0]].cast<double>();
+      const Eigen::Vector3d b = mesh.positions[t[1]].cast<double>();
+      const Eigen::Vector3d c = mesh.positions[t[2]].cast<double>();
+      const double area = (b.x() - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (b.y() - a.y());
+      const double u = ((x - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (y - a.y())) / area;
+      const double v = ((b.x() - a.x()) * (y - a.y()) - (x - a.x()) * (b.y() - a.y())) / area;
+      if (u < 0.0 || v < 0.0 || u + v > 1.0) continue;
+      const double z = a.z() + u * (b.z() - a.z()) + v * (c.z() - a.z());
+      height = std::max(height.value_or(z), z);
+    }
+  }
+  return height;
+}
+
+TEST(RaceTrack, isTheSameBitsAtEveryCall) { EXPECT_EQ(fingerprint(world()), fingerprint(raceTrack())); }
+
+TEST(RaceTrack, isAValidScene) {
+  EXPECT_NO_THROW(validate(world()));
+  EXPECT_TRUE(world().warnings.empty());
+  EXPECT_EQ(world().name, "race_track");
+}
+
+TEST(RaceTrack, hasEnoughTrianglesAndModestTextures) {
+  EXPECT_GE(world().triangleCount(), 200000u);
+  EXPECT_LE(world().triangleCount(), 700000u);
+  std::size_t bytes = 0;
+  for (const Texture& texture : world().textures) bytes += texture.rgba.size();
+  EXPECT_LE(bytes, 150000000u);
+}
+
+TEST(RaceTrack, normalsAreOfUnitLength) {
+  for (const Mesh& mesh : world().meshes) {
+    for (const Eigen::Vector3f& normal : mesh.normals) {
+      // Single precision: a few roundings of 6e-8.
+      ASSERT_NEAR(normal.norm(), 1.0f, 1e-5f) << mesh.name;
+    }
+  }
+}
+
+TEST(RaceTrack, trianglesLieWithinTheirVertices) {
+  for (const Mesh& mesh : world().meshes) {
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t index : triangle) ASSERT_LT(index, mesh.positions.size()) << mesh.name;
+    }
+  }
+}
+
+TEST(RaceTrack, meshesNearTheTrackAreCompact) {
+  for (const Mesh& mesh : world().meshes) {
+    Eigen::AlignedBox3f box;
+    for (const Eigen::Vector3f& p : mesh.positions) box.extend(p);
+    if (std::max(box.min().head<2>().cwiseAbs().maxCoeff(), box.max().head<2>().cwiseAbs().maxCoeff()) > 230.0f) continue;
+    EXPECT_LE(box.sizes().head<2>().maxCoeff(), 110.0f) << mesh.name;
+  }
+}
+
+TEST(RaceTrack, albedosAreReal) {
+  // Nothing outdoors but fresh snow reflects more than 0.9; vertex colour times material colour stays below.
+  for (const Mesh& mesh : world().meshes) {
+    const Material& material = world().materials[static_cast<std::size_t>(mesh.material)];
+    if (material.base_texture != Material::kNoTexture) continue;
+    for (const Eigen::Array3f& color : mesh.colors) {
+      const float brightest = (color * material.base_color.value).maxCoeff();
+      ASSERT_LE(brightest, 0.9f) << mesh.name;
+      ASSERT_GE((color * material.base_color.value).minCoeff(), 0.0f) << mesh.name;
+    }
+  }
+}
+
+TEST(RaceTrackCourse, isClosedAndAtLeastAKilometreLong) {
+  const race_track::Course& course = race_track::course();
+  EXPECT_GE(course.length(), 1000.0);
+  // The same place, reached after one lap; the line is sampled every half metre and linear between.
+  EXPECT_LT((course.point({0.0, 0.0}) - course.point({course.length(), 0.0})).norm(), 1e-9);
+}
+
+TEST(RaceTrackCourse, nearestUndoesPoint) {
+  const race_track::Course& course = race_track::course();
+  for (double along = 3.0; along < course.length(); along += 7.3) {
+    for (const double left : {-6.0, -1.0, 0.0, 4.0}) {
+      const race_track::TrackPlace place = course.nearest(course.point({along, left}));
+      // Three steps of Newton's method on a line made of half-metre chords: some centimetres along, less across.
+      EXPECT_NEAR(std::remainder(place.along - along, course.length()), 0.0, 0.05);
+      EXPECT_NEAR(place.left, left, 0.01);
+    }
+  }
+}
+
+TEST(RaceTrackPath, gives991Poses) {
+  EXPECT_EQ(path::posesAlong(raceTrackWaypoints(), path::PathOptions()).size(), 991u);
+}
+
+TEST(RaceTrackPath, segmentsStayClearOfWholeMetres) {
+  // Else rounding would decide how many poses a segment has.
+  const std::vector<Eigen::Vector3d> waypoints = raceTrackWaypoints();
+  for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
+    const double plan = (waypoints[i + 1] - waypoints[i]).head<2>().norm();
+    const double space = (waypoints[i + 1] - waypoints[i]).norm();
+    EXPECT_GT(std::abs(plan - std::round(plan)), 0.05);
+    EXPECT_EQ(std::ceil(plan), std::ceil(space)) << "slope changes the number of poses of segment " << i;
+  }
+}
+
+TEST(RaceTrackPath, liesOnTheAsphalt) {
+  for (const Eigen::Vector3d& waypoint : raceTrackWaypoints()) {
+    const std::optional<double> height = roadHeight(waypoint.x(), waypoint.y());
+    ASSERT_TRUE(height.has_value()) << waypoint.transpose();
+    // The mesh is made of flat cells 2 m long; on the road's swells that leaves millimetres.
+    EXPECT_NEAR(*height, waypoint.z(), 0.01);
+  }
+}
+
+TEST(RaceTrackPath, drivesOnceRound) {
+  const race_track::Course& course = race_track::course();
+  double travelled = 0.0;
+  const std::vector<Eigen::Vector3d> waypoints = raceTrackWaypoints();
+  for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
+    const double from = course.nearest(waypoints[i].head<2>()).along;
+    const double to = course.nearest(waypoints[i + 1].head<2>()).along;
+    const double step = std::remainder(to - from, course.length());
+    EXPECT_GT(step, 0.0);
+    travelled += step;
+  }
+  EXPECT_GT(travelled, 0.9 * course.length());
+  EXPECT_LT(travelled, course.length());
+}
+
+TEST(RaceTrackPictures, noTwoAreAlike) {
+  std::set<std::uint64_t> seen;
+  for (const Texture& texture : world().textures) {
+    Fingerprint print;
+    print.add(texture.rgba);
+    EXPECT_TRUE(seen.insert(print.value()).second) << texture.name;
+  }
+}
+
+/// Copies of one patch in the picture of the road: blocks of 16×16 px (64×32 cm) that equal another one.
+TEST(RaceTrackPictures, theRoadRepeatsNowhere) {
+  constexpr int kBlock = 16;
+  std::map<std::uint64_t, std::string> seen;
+  int repeated = 0;
+  int blocks = 0;
+  for (const Texture& texture : world().textures) {
+    if (texture.name.rfind("road", 0) != 0) continue;
+    for (int y = 0; y + kBlock <= texture.height; y += kBlock) {
+      for (int x = 0; x + kBlock <= texture.width; x += kBlock) {
+        Fingerprint print;
+        for (int row = 0; row < kBlock; ++row) {
+          const auto first = texture.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(y + row) * texture.width + x);
+          print.add(std::vector<std::uint8_t>(first, first + 4 * kBlock));
+        }
+        ++blocks;
+        repeated += seen.emplace(print.value(), texture.name).second ? 0 : 1;
+      }
+    }
+  }
+  EXPECT_GT(blocks, 50000);
+  EXPECT_EQ(repeated, 0);
+}
+
+/// A picture that is shown once only makes no twins. Leaves, grass, people and wire are shown many times, each time cut,
+/// turned or tinted anew; all other pictures are unique.
+TEST(RaceTrackPictures, opaqueOnesAreShownOnce) {
+  std::map<int, std::set<std::array<float, 4>>> places;
+  int repeated = 0;
+  int quads = 0;
+  for (const Mesh& mesh : world().meshes) {
+    const Material& material = world().materials[static_cast<std::size_t>(mesh.material)];
+    if (material.name.rfind("pictures", 0) != 0) continue;
+    for (std::size_t i = 0; i + 3 < mesh.texture_coordinates.size(); i += 4) {
+      const Eigen::Vector2f& a = mesh.texture_coordinates[i];
+      const Eigen::Vector2f& b = mesh.texture_coordinates[i + 2];
+      ++quads;
+      repeated += places[mesh.material].insert({a.x(), a.y(), b.x(), b.y()}).second ? 0 : 1;
+    }
+  }
+  EXPECT_GT(quads, 300);
+  EXPECT_EQ(repeated, 0);
+}
+
+TEST(RaceTrackNoise, isSmoothAndBounded) {
+  for (int i = 0; i < 2000; ++i) {
+    const float x = 0.037f * static_cast<float>(i) - 20.0f;
+    const float here = race_track::noise(x, 1.7f, 5u);
+    EXPECT_LE(std::abs(here), 1.0f);
+    // Its steepest slope is 15/8 of the step between lattice values, at most 2.
+    EXPECT_LE(std::abs(race_track::noise(x + 0.001f, 1.7f, 5u) - here), 0.001f * 3.75f + 1e-5f);
+  }
+}
+
+}  // namespace
+}  // namespace sunlit::scene

@@ -1,0 +1,1 @@
+sunlit_test(scene race_track LIBRARIES sunlit_path)

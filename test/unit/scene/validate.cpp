@@ -1,0 +1,91 @@
+// A scene that is not sound is refused, by name.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "sunlit/scene/scene.h"
+
+namespace sunlit::scene {
+namespace {
+
+Scene triangle() {
+  Scene scene;
+  scene.textures.push_back(Texture{"bricks", 1, 2, std::vector<std::uint8_t>(8, 255)});
+  Material material;
+  material.name = "wall";
+  material.base_texture = 0;
+  scene.materials.push_back(material);
+  Mesh mesh;
+  mesh.name = "house";
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.normals.assign(3, Eigen::Vector3f::UnitZ());
+  mesh.texture_coordinates.assign(3, Eigen::Vector2f::Zero());
+  mesh.colors.assign(3, Eigen::Array3f::Ones());
+  mesh.triangles = {{0, 1, 2}};
+  scene.meshes.push_back(mesh);
+  return scene;
+}
+
+std::string errorAfter(const std::function<void(Scene&)>& change) {
+  Scene scene = triangle();
+  change(scene);
+  try {
+    validate(scene);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+const float kNan = std::numeric_limits<float>::quiet_NaN();
+
+TEST(Validate, AcceptsASoundScene) {
+  EXPECT_EQ(errorAfter([](Scene&) {}), "no error");
+  EXPECT_EQ(errorAfter([](Scene& scene) {
+              scene.meshes[0].texture_coordinates.clear();
+              scene.meshes[0].colors.clear();
+            }),
+            "no error");
+}
+
+TEST(Validate, NamesTheMesh) {
+  EXPECT_EQ(errorAfter([](Scene& s) { s.meshes[0].material = 1; }), "mesh 'house': there is no material 1");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.meshes[0].triangles[0][2] = 3; }),
+            "mesh 'house': triangle 0: there is no vertex 3");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.meshes[0].normals.pop_back(); }),
+            "mesh 'house': it must have one normal a vertex");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.meshes[0].normals[1] *= 2.0f; }),
+            "mesh 'house': vertex 1: normal is not of length 1");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.meshes[0].normals[1].x() = kNan; }),
+            "mesh 'house': vertex 1: normal is not of length 1");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.meshes[0].positions[2].y() = kNan; }),
+            "mesh 'house': vertex 2: position is not finite");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.meshes[0].colors[0][1] = 2.5f; }),
+            "mesh 'house': vertex 0: colour is outside 0 … 2");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.meshes[0].texture_coordinates.pop_back(); }),
+            "mesh 'house': it must have one texture coordinate a vertex, or none");
+}
+
+TEST(Validate, NamesTheMaterialKeyValueAndRange) {
+  EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].roughness = 0.0f; }),
+            "material 'wall': roughness is 0.000000, must be 0.030000 … 1.000000");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].base_color.value[2] = kNan; }),
+            "material 'wall': base_color is nan, must be 0.000000 … 1.000000");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].base_texture = 1; }), "material 'wall': there is no texture 1");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].base_texture = -2; }), "material 'wall': there is no texture -2");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].detail.finest_m = 9.0f; }),
+            "material 'wall': detail must have 0 < finest_m < coarsest_m");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].emission.value[0] = -1.0f; }),
+            "material 'wall': emission must be 0 or more");
+}
+
+TEST(Validate, NamesTheTexture) {
+  EXPECT_EQ(errorAfter([](Scene& s) { s.textures[0].height = 3; }), "texture 'bricks': it holds 8 bytes, not 12");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.textures[0].width = 0; }), "texture 'bricks': it has no pixels");
+}
+
+}  // namespace
+}  // namespace sunlit::scene

@@ -1,0 +1,86 @@
+#include "sunlit/sky/atmosphere.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace sunlit::sky {
+namespace {
+
+template <typename Action>
+std::string messageOf(const Action& action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+AtmosphereOptions withTurbidity(double turbidity) {
+  AtmosphereOptions options;
+  options.turbidity = turbidity;
+  return options;
+}
+
+SunInSky sunAt(double elevation_deg) {
+  return {Direction(Azimuth::degrees(200.0), Angle::degrees(elevation_deg)), 1.0};
+}
+
+TEST(AtmosphereOptions, BadValuesAreNamedWithTheirRange) {
+  EXPECT_EQ(messageOf([] { validate(AtmosphereOptions{}); }), "");
+  EXPECT_EQ(messageOf([] { validate(withTurbidity(0.5)); }), "turbidity: 0.5 is outside 1 … 10");
+  EXPECT_EQ(messageOf([] { Atmosphere{withTurbidity(11.0)}; }), "turbidity: 11 is outside 1 … 10");
+  AtmosphereOptions options;
+  options.ground_albedo = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(messageOf([&] { validate(options); }), "ground_albedo: nan is outside 0 … 1");
+  options = {};
+  options.observer_height_m = -1.0;
+  EXPECT_EQ(messageOf([&] { validate(options); }), "observer_height_m: -1 is outside 0 … 8000");
+}
+
+TEST(Atmosphere, ASunAtAnImpossibleDistanceIsRefused) {
+  const Atmosphere atmosphere{AtmosphereOptions{}};
+  EXPECT_EQ(messageOf([&] {
+              atmosphere.daylight({Direction(), 1.5});
+            }),
+            "distance_au: 1.5 is outside 0.97 … 1.03");
+}
+
+TEST(Atmosphere, HazeTakesFromTheSunAndGivesToTheSky) {
+  const Daylight clear = Atmosphere(withTurbidity(2.0)).daylight(sunAt(40.0));
+  const Daylight hazy = Atmosphere(withTurbidity(6.0)).daylight(sunAt(40.0));
+  EXPECT_LT(hazy.sun().illuminance.luminance(), 0.8F * clear.sun().illuminance.luminance());
+  const Eigen::Vector3f up(0, 0, 1);
+  EXPECT_GT(hazy.skyIlluminance(up).luminance(), 1.3F * clear.skyIlluminance(up).luminance());
+  // Haze is whiter than air.
+  const auto blueness = [&](const Daylight& daylight) {
+    const LinearRgb zenith = daylight.skyLuminance(up);
+    return zenith.value[2] / zenith.value[0];
+  };
+  EXPECT_LT(blueness(hazy), blueness(clear));
+}
+
+TEST(Atmosphere, OnAMountainTheSunIsStrongerAndTheSkyDarker) {
+  AtmosphereOptions high;
+  high.observer_height_m = 4000.0;
+  const Daylight mountain = Atmosphere(high).daylight(sunAt(50.0));
+  const Daylight valley = Atmosphere(AtmosphereOptions{}).daylight(sunAt(50.0));
+  EXPECT_GT(mountain.sun().illuminance.luminance(), valley.sun().illuminance.luminance());
+  const Eigen::Vector3f up(0, 0, 1);
+  EXPECT_LT(mountain.skyLuminance(up).luminance(), valley.skyLuminance(up).luminance());
+}
+
+TEST(Atmosphere, BrightLandBrightensTheSky) {
+  AtmosphereOptions snow;
+  snow.ground_albedo = 0.8;
+  const Eigen::Vector3f up(0, 0, 1);
+  EXPECT_GT(Atmosphere(snow).daylight(sunAt(30.0)).skyIlluminance(up).luminance(),
+            1.05F * Atmosphere(AtmosphereOptions{}).daylight(sunAt(30.0)).skyIlluminance(up).luminance());
+}
+
+}  // namespace
+}  // namespace sunlit::sky
