@@ -36,7 +36,7 @@ endfunction()
 # input, which may be absent) are defined for it.
 function(sunlit_test module name)
   cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
-  catkin_add_gtest(test_${module}_${name} ${name}.cpp TIMEOUT 300)
+  catkin_add_gtest(test_${module}_${name} ${name}.cpp)
   target_compile_definitions(test_${module}_${name} PRIVATE
     SUNLIT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" SUNLIT_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
   target_include_directories(test_${module}_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test)

@@ -63,14 +63,15 @@ def _draw_path(axis, x, y, along):
         heading = math.degrees(math.atan2(y[k] - y[k - 1], x[k] - x[k - 1]))
         axis.plot(x[k], y[k], marker=(3, 0, heading - 90), color="#C1121F", markersize=9, markeredgecolor="white",
                   markeredgewidth=0.8)
-    is_right = x[0] > np.mean(axis.get_xlim())
+    middle = np.mean(axis.get_xlim())
     gap = math.hypot(x[-1] - x[0], y[-1] - y[0])
     if gap < 0.03 * max(np.ptp(x), np.ptp(y)):
-        _mark(axis, (x[0], y[0]), "start and end", "o", is_right)
+        _mark(axis, (x[0], y[0]), "start and end", "o", x[0] > middle)
         return
-    _mark(axis, (x[0], y[0]), "start", "o", is_right)
+    # Labels of near marks point away from each other, others towards the middle.
     is_near = gap < 0.15 * extent
-    _mark(axis, (x[-1], y[-1]), "end", "s", not is_right if is_near else x[-1] > np.mean(axis.get_xlim()))
+    _mark(axis, (x[0], y[0]), "start", "o", x[0] < x[-1] if is_near else x[0] > middle)
+    _mark(axis, (x[-1], y[-1]), "end", "s", x[0] >= x[-1] if is_near else x[-1] > middle)
 
 
 def _mark(axis, at, label, marker, label_is_left):

@@ -13,11 +13,12 @@ std::vector<PairSpec> allPairs(const std::vector<std::string>& streams) {
 }
 
 bool Outcome::isWhole() const {
-  if (absent_poses > 0) return false;
+  std::size_t evaluated = 0;
   for (const PairCounts& pair : counts.pairs) {
     if (pair.notEvaluated() > 0) return false;
+    evaluated += pair.evaluated + pair.resumed;
   }
-  return true;
+  return absent_poses == 0 && evaluated > 0;
 }
 
 Evaluation::Evaluation(const EvaluationOptions& options, EvaluationCallbacks callbacks)

@@ -85,19 +85,34 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
   makeFolder(options_.output_dir);
   requireSameSettings(file("run.yaml"), settingsOf(options_));
   writeRunFile(file("run.yaml"), options_, nullptr);
-  takeUpEarlierRun();
+  takeUpEarlierRuns();
   problems_ = std::make_unique<ProblemFile>(options_.output_dir);
   if (options_.images != KeptImages::kNone) pictures_ = std::make_unique<PictureWriter>(file("images"));
 }
 
-void Evaluation::State::takeUpEarlierRun() {
-  LoadedFrames loaded = loadFrames(file("frames.csv"), layout_);
-  record_files_ = std::make_unique<RecordFiles>(options_.output_dir, poses_);
-  records_ = std::move(loaded.records);
-  for (PairRecord& record : records_) {
+// Reads what a run left in `folder`; the lines of a torn end that it had to leave out.
+std::size_t Evaluation::State::takeUp(const std::string& folder) {
+  LoadedFrames loaded = loadFrames(folder + "/frames.csv", layout_);
+  if (folder != options_.output_dir) record_files_->merge(folder, poses_);
+  for (PairRecord& record : loaded.records) {
     record.pose = poses_.settled(record.stamp_ns, record.pose);  // a capture may have come after the row
-    recorded_.emplace(record.pose, record.pair);
     poses_.remember(record.stamp_ns, record.pose);
+    recorded_.emplace(record.pose, record.pair);
+    ++counts_.pairs[record.pair].resumed;
+    records_.push_back(std::move(record));
+  }
+  return loaded.dropped_lines;
+}
+
+void Evaluation::State::takeUpEarlierRuns() {
+  record_files_ = std::make_unique<RecordFiles>(options_.output_dir, poses_);
+  std::size_t dropped_lines = takeUp(options_.output_dir);
+  for (const std::string& folder : options_.merge) {
+    if (!std::filesystem::exists(folder + "/run.yaml")) {
+      throw std::invalid_argument("merge: " + folder + " holds no run (no run.yaml)");
+    }
+    requireSameSettings(folder + "/run.yaml", settingsOf(options_));
+    dropped_lines += takeUp(folder);
   }
   for (const PairRecord& record : records_) {
     bool is_whole = true;
@@ -106,16 +121,13 @@ void Evaluation::State::takeUpEarlierRun() {
     }
     if (is_whole) completed_.insert(record.pose);
   }
-  for (const auto& item : recorded_) ++counts_.pairs[item.second].resumed;
-  if (loaded.dropped_lines > 0) writeFrames(file("frames.csv"), layout_, records_);
+  if (dropped_lines > 0 || !options_.merge.empty()) writeFrames(file("frames.csv"), layout_, records_);
   frames_file_.open(file("frames.csv"), framesHeader());
-  if (!callbacks_.note || (records_.empty() && loaded.dropped_lines == 0)) return;
-  callbacks_.note(options_.output_dir + " holds " + std::to_string(recorded_.size()) +
-                  " evaluated pairs of " + std::to_string(completed_.size()) +
-                  " whole poses: not evaluated again" +
-                  (loaded.dropped_lines == 0
-                       ? ""
-                       : "; " + std::to_string(loaded.dropped_lines) + " lines of a torn end were left out"));
+  if (!callbacks_.note || (records_.empty() && dropped_lines == 0)) return;
+  std::string line = options_.output_dir + " holds " + std::to_string(records_.size()) + " evaluated pairs of " +
+                     std::to_string(completed_.size()) + " whole poses: not evaluated again";
+  if (dropped_lines > 0) line += "; " + std::to_string(dropped_lines) + " lines of a torn end were left out";
+  callbacks_.note(line);
 }
 
 bool Evaluation::State::isWanted(std::size_t pair, std::int64_t pose) const {
@@ -328,8 +340,16 @@ Outcome Evaluation::State::finish() {
   Outcome outcome;
   outcome.counts = counts();
   if (options_.poses > completed_.size()) outcome.absent_poses = options_.poses - completed_.size();
+  nameAbsentPoses();
   settleAndWrite(outcome);
   return outcome;
+}
+
+void Evaluation::State::nameAbsentPoses() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (std::int64_t pose = 0; pose < static_cast<std::int64_t>(options_.poses); ++pose) {
+    if (completed_.count(pose) == 0) report({"absent", pose, std::nullopt, "", "no image of this pose came"});
+  }
 }
 
 void Evaluation::State::settleAndWrite(Outcome& outcome) {

@@ -46,7 +46,9 @@ class Evaluation::State {
   };
 
   std::string file(const std::string& name) const { return options_.output_dir + "/" + name; }
-  void takeUpEarlierRun();
+  void takeUpEarlierRuns();
+  std::size_t takeUp(const std::string& folder);
+  void nameAbsentPoses();
   bool isWanted(std::size_t pair, std::int64_t pose) const;
   bool isRecorded(std::size_t pair, std::int64_t pose) const;
   std::vector<char> neededStreams(std::int64_t pose) const;

@@ -23,13 +23,17 @@ std::string lineOf(std::int64_t pose, const PlaceRecord& p) {
 }
 
 std::string lineOf(const Problem& p) {
-  return p.kind + "," + (p.pose ? std::to_string(*p.pose) : "") + "," + formatStamp(p.stamp_ns) + "," +
+  return p.kind + "," + (p.pose ? std::to_string(*p.pose) : "") + "," + (p.stamp_ns ? formatStamp(*p.stamp_ns) : "") + "," +
          csvField(p.where) + "," + csvField(p.reason) + "\n";
 }
 
 }  // namespace
 
-RecordFiles::RecordFiles(const std::string& folder, PoseIndex& poses) : folder_(folder) {
+RecordFiles::RecordFiles(const std::string& folder, PoseIndex& poses) : folder_(folder) { read(folder, poses); }
+
+void RecordFiles::merge(const std::string& other_folder, PoseIndex& poses) { read(other_folder, poses); }
+
+void RecordFiles::read(const std::string& folder, PoseIndex& poses) {
   for (const auto& f : readCsv(folder + "/captures.csv", kCapturesHeader).rows) {
     const CaptureRecord capture{std::stoll(f[1]),  parseStamp(f[2]),  parseNumber(f[3]),
                                 parseNumber(f[4]), parseNumber(f[5]), parseNumber(f[6])};

@@ -20,11 +20,14 @@ class RecordFiles {
  public:
   /// Reads what an earlier run left in `folder`, tells `poses`, and goes on from there.
   RecordFiles(const std::string& folder, PoseIndex& poses);
+  /// Adds what a run in another folder left.
+  void merge(const std::string& other_folder, PoseIndex& poses);
   void add(const std::string& stream, const CaptureRecord& capture);
   void add(const PlaceRecord& place);
   void finish(const std::vector<std::string>& streams, const PoseIndex& poses);
 
  private:
+  void read(const std::string& folder, PoseIndex& poses);
   std::string folder_;
   AppendFile captures_file_;
   AppendFile path_file_;
@@ -36,7 +39,7 @@ class RecordFiles {
 struct Problem {
   std::string kind;                  ///< missing_partner, undecodable, …: a column name of the counters
   std::optional<std::int64_t> pose;  ///< where it is known
-  std::int64_t stamp_ns = 0;
+  std::optional<std::int64_t> stamp_ns;
   std::string where;  ///< a stream, or a pair as "a-b"
   std::string reason;
 };

@@ -1,13 +1,12 @@
 #include "light/cutout.h"
 
-#include <cmath>
-
 namespace sunlit::light {
 namespace {
 
-int wrapped(int index, int size) {
-  const int rest = index % size;
-  return rest < 0 ? rest + size : rest;
+/// std::floor, which without newer instructions than every x86-64 has is a function call: it took a third of the query.
+inline int floorOf(float value) {
+  const int truncated = static_cast<int>(value);
+  return truncated - (value < static_cast<float>(truncated) ? 1 : 0);
 }
 
 }  // namespace
@@ -45,20 +44,20 @@ bool Cutouts::solid(std::uint32_t masked_triangle, float u, float v) const {
   const auto& t = triangle.texture_coordinates;
   const Eigen::Vector2f at = (1.0f - u - v) * t[0] + u * t[1] + v * t[2];
   // Repeats by whole turns; texel centres lie at half-integers.
-  const float x = (at.x() - std::floor(at.x())) * static_cast<float>(plane.width) - 0.5f;
-  const float y = (at.y() - std::floor(at.y())) * static_cast<float>(plane.height) - 0.5f;
-  const float floor_x = std::floor(x);
-  const float floor_y = std::floor(y);
-  const int x0 = wrapped(static_cast<int>(floor_x), plane.width);
-  const int y0 = wrapped(static_cast<int>(floor_y), plane.height);
+  const float x = (at.x() - static_cast<float>(floorOf(at.x()))) * static_cast<float>(plane.width) - 0.5f;
+  const float y = (at.y() - static_cast<float>(floorOf(at.y()))) * static_cast<float>(plane.height) - 0.5f;
+  const int left = floorOf(x);
+  const int above = floorOf(y);
+  const int x0 = left < 0 ? plane.width - 1 : left;
+  const int y0 = above < 0 ? plane.height - 1 : above;
   const int x1 = x0 + 1 == plane.width ? 0 : x0 + 1;
   const int y1 = y0 + 1 == plane.height ? 0 : y0 + 1;
   const auto alpha = [&plane](int column, int row) {
     return static_cast<float>(plane.alpha[static_cast<std::size_t>(row) * static_cast<std::size_t>(plane.width) +
                                           static_cast<std::size_t>(column)]);
   };
-  const float fx = x - floor_x;
-  const float fy = y - floor_y;
+  const float fx = x - static_cast<float>(left);
+  const float fy = y - static_cast<float>(above);
   const float top = alpha(x0, y0) + fx * (alpha(x1, y0) - alpha(x0, y0));
   const float bottom = alpha(x0, y1) + fx * (alpha(x1, y1) - alpha(x0, y1));
   return top + fy * (bottom - top) >= triangle.cutoff;

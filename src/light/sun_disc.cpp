@@ -59,8 +59,10 @@ struct SunDisc::Tally {
   bool mixed() const { return lit > 0 && lit < cast; }
 };
 
-SunDisc::SunDisc(const sky::DiscLight& sun, const Visibility& visibility, int samples_per_pixel)
+SunDisc::SunDisc(const sky::DiscLight& sun, const Visibility& visibility, const scene::Scene& scene,
+                 int samples_per_pixel)
     : visibility_(visibility),
+      scene_(scene),
       samples_per_pixel_(samples_per_pixel),
       shines_(sun.illuminance.value.maxCoeff() > 0.0f),
       towards_(sun.towards.vector().cast<float>()),
@@ -69,6 +71,12 @@ SunDisc::SunDisc(const sky::DiscLight& sun, const Visibility& visibility, int sa
       std::abs(towards_.z()) < 0.9f ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX();
   right_ = across.cross(towards_).normalized() * std::tan(radius_rad_);
   up_ = towards_.cross(right_);
+}
+
+/// Foliage shades itself leaf by leaf: more rays cost much there, and what they would smooth is hidden in the leaves.
+bool SunDisc::worthRefining(const Surface& surface, const Tally& tally) const {
+  return tally.mixed() &&
+         scene_.materials[static_cast<std::size_t>(surface.material)].alpha_mode == scene::AlphaMode::kOpaque;
 }
 
 int SunDisc::firstRays(const Surface& surface) const {
@@ -108,7 +116,7 @@ void SunDisc::cast(const Tile& tile, bool refine, std::vector<Tally>* tallies) c
   rays.clear();
   for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
     const Surface& surface = tile.surfaces[i];
-    if (refine && !(*tallies)[i].mixed()) continue;
+    if (refine && !worthRefining(surface, (*tallies)[i])) continue;
     if (surface.geometric_normal.dot(towards_) < -std::sin(radius_rad_)) continue;  // the whole disc is behind it
     appendRays(tile, surface, refine, &rays);
   }

@@ -13,7 +13,7 @@ namespace sunlit::light {
 class SunDisc {
  public:
   /// Keeps references.
-  SunDisc(const sky::DiscLight& sun, const Visibility& visibility, int samples_per_pixel);
+  SunDisc(const sky::DiscLight& sun, const Visibility& visibility, const scene::Scene& scene, int samples_per_pixel);
 
   /// False when it gives no light at all.
   bool shines() const { return shines_; }
@@ -27,11 +27,13 @@ class SunDisc {
  private:
   struct RayList;
   struct Tally;
+  bool worthRefining(const Surface& surface, const Tally& tally) const;
   int firstRays(const Surface& surface) const;
   void appendRays(const Tile& tile, const Surface& surface, bool refine, RayList* rays) const;
   void cast(const Tile& tile, bool refine, std::vector<Tally>* tallies) const;
 
   const Visibility& visibility_;
+  const scene::Scene& scene_;
   int samples_per_pixel_;
   bool shines_;
   Eigen::Vector3f towards_;

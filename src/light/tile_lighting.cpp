@@ -11,7 +11,7 @@ namespace sunlit::light {
 
 TileLighting::TileLighting(const Surfaces& surfaces, const scene::Scene& scene, const Visibility& visibility,
                            const sky::Daylight& day)
-    : surfaces_(surfaces), scene_(scene), daylight_(day), sun_(day.sun(), visibility, surfaces.samples_per_pixel) {}
+    : surfaces_(surfaces), scene_(scene), daylight_(day), sun_(day.sun(), visibility, scene, surfaces.samples_per_pixel) {}
 
 void TileLighting::light(const Tile& tile, image::LinearImage* image) const {
   addSky(tile, image);

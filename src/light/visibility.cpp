@@ -87,7 +87,7 @@ Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geome
   scene_ = rtcNewScene(device_);
   // Without ROBUST, a ray may slip through the edge between two triangles, depending on how the tree was built.
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
+  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
   attach(cutouts_.opaqueTriangles(), kOpaque);
   attach(cutouts_.maskedTriangles(), kMasked);
   rtcCommitScene(scene_);

@@ -10,14 +10,15 @@ namespace {
 /// Waypoints nearer than this to each other in plan view, m, give no heading worth the name.
 constexpr double kNearest_m = 1e-3;
 
-/// A pose that would lie within this part of the spacing before a segment's end, or beyond, is the next segment's start:
-/// a length of exactly n spacings must not get an (n+1)th pose by the rounding of its square root.
+/// A pose that would lie within this part of the spacing before a segment's end, or beyond, is the next
+/// segment's start: a length of exactly n spacings must not get an (n+1)th pose by the rounding of its square
+/// root.
 constexpr double kEndTolerance = 1e-6;
 
 void checkRange(const char* key, double value, double low, double high) {
   if (value >= low && value <= high) return;  // false for NaN too
-  throw std::invalid_argument(std::string(key) + " is " + std::to_string(value) + ", must be " + std::to_string(low) +
-                              " … " + std::to_string(high) + " m");
+  throw std::invalid_argument(std::string(key) + " is " + std::to_string(value) + ", must be " +
+                              std::to_string(low) + " … " + std::to_string(high) + " m");
 }
 
 }  // namespace

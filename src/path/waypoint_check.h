@@ -8,7 +8,8 @@
 
 namespace sunlit::path {
 
-/// What is wrong with `point`, which follows `previous` (null for the first): nothing, or a sentence about it.
+/// What is wrong with `point`, which follows `previous` (null for the first): nothing, or a sentence about
+/// it.
 std::optional<std::string> faultOf(const Eigen::Vector3d& point, const Eigen::Vector3d* previous);
 
 /// What a list of `count` waypoints, too few, is told.

@@ -92,13 +92,16 @@ class Reader {
       columns_ = fields.size();
       const bool known = is_csv_ ? columns_ == 2 || columns_ == 3 : columns_ == kTumColumns;
       if (!known) {
-        fail("expected x,y,z or x,y with commas, or the eight columns of a TUM trajectory with blanks, found " +
-             std::to_string(columns_) + (columns_ == 1 ? " column" : " columns"));
+        fail(
+            "expected x,y,z or x,y with commas, or the eight columns of a TUM trajectory with blanks, "
+            "found " +
+            std::to_string(columns_) + (columns_ == 1 ? " column" : " columns"));
       }
       if (is_csv_ && isHeader(fields)) return;
     }
     if (fields.size() != columns_) {
-      fail("expected " + std::to_string(columns_) + " columns as above, found " + std::to_string(fields.size()));
+      fail("expected " + std::to_string(columns_) + " columns as above, found " +
+           std::to_string(fields.size()));
     }
     std::vector<double> values;
     for (const std::string& field : fields) values.push_back(number(field));
@@ -120,6 +123,8 @@ class Reader {
 
 }  // namespace
 
-Waypoints readWaypoints(const std::string& file) { return Reader(file).read(); }
+Waypoints readWaypoints(const std::string& file) {
+  return Reader(file).read();
+}
 
 }  // namespace sunlit::path

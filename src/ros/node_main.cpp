@@ -10,8 +10,9 @@ namespace sunlit::ros_interface {
 
 int runNode(int argc, char** argv, const std::string& name, const std::function<int()>& node) {
   ros::init(argc, argv, name);
-  // ROS and its log end with the last handle, which would be before the fatal line is written.
-  const ros::NodeHandle keeps_ros_alive;
+  // roscpp and its console end with the last handle: without this one, an exception that destroys the node's own
+  // handles on its way here could no longer be printed.
+  const ros::NodeHandle alive;
   try {
     return node();
   } catch (const std::exception& error) {

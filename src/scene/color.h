@@ -9,7 +9,8 @@
 
 namespace sunlit::scene {
 
-/// Reflectance where a file should give a colour and does not: a photographer's grey card, about the mean of outdoor scenes.
+/// Reflectance where a file should give a colour and does not: a photographer's grey card, about the mean of
+/// outdoor scenes.
 inline const LinearRgb kNeutral(0.18f, 0.18f, 0.18f);
 
 /// One display-encoded channel, 0 … 1, to linear (IEC 61966-2-1).
@@ -17,7 +18,8 @@ inline float linearFromSrgb(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-/// Colours in COLLADA, OBJ and SDF files are picked on a screen, so they are display values. Clamped to 0 … 1.
+/// Colours in COLLADA, OBJ and SDF files are picked on a screen, so they are display values. Clamped to 0
+/// … 1.
 inline LinearRgb linearFromSrgb(const std::array<float, 3>& encoded) {
   LinearRgb linear;
   for (int i = 0; i < 3; ++i) {
@@ -26,8 +28,8 @@ inline LinearRgb linearFromSrgb(const std::array<float, 3>& encoded) {
   return linear;
 }
 
-/// Perceptual roughness whose GGX lobe is about as wide as Blinn and Phong's of the exponent `shininess`, > 0:
-/// α² = 2 / (n + 2) (Walter et al. 2007, section 5.2, after Beckmann), roughness = √α.
+/// Perceptual roughness whose GGX lobe is about as wide as Blinn and Phong's of the exponent `shininess`, >
+/// 0: α² = 2 / (n + 2) (Walter et al. 2007, section 5.2, after Beckmann), roughness = √α.
 inline float roughnessOfPhong(float shininess) {
   const float alpha = std::sqrt(2.0f / (shininess + 2.0f));
   return std::clamp(std::sqrt(alpha), 0.03f, 1.0f);

@@ -30,7 +30,9 @@ std::string vector3(const Eigen::Array3f& value) {
 }
 
 /// +Y up from z up.
-Eigen::Vector3f yUp(const Eigen::Vector3f& map) { return {map.x(), map.z(), -map.y()}; }
+Eigen::Vector3f yUp(const Eigen::Vector3f& map) {
+  return {map.x(), map.z(), -map.y()};
+}
 
 class Writer {
  public:
@@ -80,7 +82,8 @@ class Writer {
 
   void addMaterial(const Material& material) {
     const Eigen::Array3f base = material.base_color.value;
-    std::string json = "{\"name\":" + jsonString(material.name) + ",\"pbrMetallicRoughness\":{\"baseColorFactor\":" +
+    std::string json = "{\"name\":" + jsonString(material.name) +
+                       ",\"pbrMetallicRoughness\":{\"baseColorFactor\":" +
                        jsonArray({number(base[0]), number(base[1]), number(base[2]), "1"}) +
                        ",\"metallicFactor\":" + number(material.metalness) +
                        ",\"roughnessFactor\":" + number(material.roughness);
@@ -94,10 +97,13 @@ class Writer {
     const float strength = material.emission.value.maxCoeff();
     if (strength > 0.0f) {
       emits_ = true;
-      json += ",\"emissiveFactor\":" + vector3(material.emission.value / strength) +
-              ",\"extensions\":{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":" + number(strength) + "}}";
+      json +=
+          ",\"emissiveFactor\":" + vector3(material.emission.value / strength) +
+          ",\"extensions\":{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":" + number(strength) +
+          "}}";
     }
-    if (material.detail.contrast > 0.0f) json += ",\"extras\":{\"sunlit_detail\":" + detailJson(material.detail) + "}";
+    if (material.detail.contrast > 0.0f)
+      json += ",\"extras\":{\"sunlit_detail\":" + detailJson(material.detail) + "}";
     materials_.push_back(json + "}");
   }
 
@@ -109,7 +115,8 @@ class Writer {
 
   /// Index of an accessor over `data`; `more` is put into its entry.
   template <typename Value>
-  std::string addAccessor(const std::vector<Value>& data, const std::string& type, const std::string& more = "") {
+  std::string addAccessor(const std::vector<Value>& data, const std::string& type,
+                          const std::string& more = "") {
     const std::size_t view = buffer_.add(data.data(), data.size() * sizeof(Value));
     const bool scalar = type == "SCALAR";
     const std::size_t count = scalar ? data.size() * sizeof(Value) / sizeof(std::uint32_t) : data.size();

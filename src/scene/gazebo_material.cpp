@@ -98,8 +98,8 @@ void readLine(const Words& line, ScriptMaterial& material) {
   }
 }
 
-/// The material `name` of the first `end` lines. OGRE wants a parent before its child, so it is looked for above only, and
-/// a circle cannot be.
+/// The material `name` of the first `end` lines. OGRE wants a parent before its child, so it is looked for
+/// above only, and a circle cannot be.
 std::optional<ScriptMaterial> materialIn(const Lines& lines, std::size_t end, const std::string& name) {
   std::optional<ScriptMaterial> material;
   std::optional<ScriptMaterial> inherited;

@@ -8,8 +8,8 @@
 
 namespace sunlit::scene {
 
-/// The look of a material that comes with Gazebo, such as "Gazebo/Grey"; textured ones by their mean colour. None for a
-/// name that Gazebo does not have.
+/// The look of a material that comes with Gazebo, such as "Gazebo/Grey"; textured ones by their mean colour.
+/// None for a name that Gazebo does not have.
 std::optional<LinearRgb> gazeboColor(const std::string& name);
 
 /// What of an OGRE material matters here.
@@ -19,8 +19,9 @@ struct ScriptMaterial {
   bool alpha_rejection = false;        ///< cut out where transparent
 };
 
-/// The material `name` in the text of a .material script, from its first technique and pass. None if it is not there.
-/// A material that inherits (`material A : B`) takes what it does not set from B in the same script.
+/// The material `name` in the text of a .material script, from its first technique and pass. None if it is
+/// not there. A material that inherits (`material A : B`) takes what it does not set from B in the same
+/// script.
 std::optional<ScriptMaterial> parseMaterialScript(const std::string& text, const std::string& name);
 
 }  // namespace sunlit::scene

@@ -13,7 +13,9 @@ constexpr std::uint32_t kMagic = 0x46546C67;      // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN"
 
-std::size_t paddedTo4(std::size_t size) { return (size + 3) / 4 * 4; }
+std::size_t paddedTo4(std::size_t size) {
+  return (size + 3) / 4 * 4;
+}
 
 /// Little-endian, whatever the machine.
 void appendWord(std::string& text, std::size_t value) {
@@ -26,8 +28,8 @@ std::size_t GlbBuffer::add(const void* data, std::size_t size) {
   const std::size_t offset = bytes_.size();
   bytes_.resize(offset + paddedTo4(size));
   std::memcpy(bytes_.data() + offset, data, size);
-  views_.push_back("{\"buffer\":0,\"byteOffset\":" + std::to_string(offset) + ",\"byteLength\":" + std::to_string(size) +
-                   "}");
+  views_.push_back("{\"buffer\":0,\"byteOffset\":" + std::to_string(offset) +
+                   ",\"byteLength\":" + std::to_string(size) + "}");
   return views_.size() - 1;
 }
 

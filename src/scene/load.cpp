@@ -49,12 +49,14 @@ Scene load(const std::string& world, const SearchPath& search_path) {
     throw std::runtime_error("there is no world " + world + "; it was looked for as " + placesTried(found));
   }
   const std::string extension = extensionOf(*found.file);
-  if (isOneOf(extension, {".world", ".sdf"})) return loadSdf(*found.file, ResourceFinder(search_path, *found.file));
+  if (isOneOf(extension, {".world", ".sdf"}))
+    return loadSdf(*found.file, ResourceFinder(search_path, *found.file));
   if (isOneOf(extension, {".dae", ".gltf", ".glb", ".obj"})) {
     return loadMeshFile(*found.file, ResourceFinder(search_path, *found.file));
   }
-  throw std::runtime_error(*found.file + ": cannot tell its format; its name must end in .world, .sdf, .dae, .gltf, .glb "
-                                         "or .obj");
+  throw std::runtime_error(*found.file +
+                           ": cannot tell its format; its name must end in .world, .sdf, .dae, .gltf, .glb "
+                           "or .obj");
 }
 
 }  // namespace sunlit::scene

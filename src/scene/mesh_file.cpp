@@ -20,7 +20,7 @@
 namespace sunlit::scene {
 namespace {
 
-constexpr unsigned kSteps = aiProcess_Triangulate |           // polygons to triangles
+constexpr unsigned kSteps = aiProcess_Triangulate |            // polygons to triangles
                             aiProcess_JoinIdenticalVertices |  // COLLADA and OBJ index each array apart
                             aiProcess_GenSmoothNormals |       // where the file has none
                             aiProcess_SortByPType |            // so that points and lines can be left out
@@ -37,8 +37,8 @@ Eigen::Affine3d zUpFromYUp() {
 
 Eigen::Affine3d toEigen(const aiMatrix4x4& matrix) {
   Eigen::Affine3d affine = Eigen::Affine3d::Identity();
-  affine.matrix() << matrix.a1, matrix.a2, matrix.a3, matrix.a4, matrix.b1, matrix.b2, matrix.b3, matrix.b4, matrix.c1,
-      matrix.c2, matrix.c3, matrix.c4, 0.0, 0.0, 0.0, 1.0;
+  affine.matrix() << matrix.a1, matrix.a2, matrix.a3, matrix.a4, matrix.b1, matrix.b2, matrix.b3, matrix.b4,
+      matrix.c1, matrix.c2, matrix.c3, matrix.c4, 0.0, 0.0, 0.0, 1.0;
   return affine;
 }
 
@@ -64,7 +64,8 @@ Mesh toMesh(const aiMesh& source) {
   mesh.triangles.reserve(source.mNumFaces);
   for (unsigned i = 0; i < source.mNumFaces; ++i) {
     const aiFace& face = source.mFaces[i];
-    if (face.mNumIndices == 3) mesh.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
+    if (face.mNumIndices == 3)
+      mesh.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
   }
   return mesh;
 }

@@ -10,8 +10,8 @@
 
 namespace sunlit::scene {
 
-/// Who decides which axis of a COLLADA file is up. A glTF file's is +Y by definition; an OBJ file says nothing and is
-/// taken as z up, as ROS tools do.
+/// Who decides which axis of a COLLADA file is up. A glTF file's is +Y by definition; an OBJ file says
+/// nothing and is taken as z up, as ROS tools do.
 enum class UpAxis {
   kAsDeclared,  ///< the file's up_axis
   kZ,           ///< z, whatever the file declares: what Gazebo does with the meshes of its models
@@ -25,7 +25,8 @@ struct MeshPart {
   Eigen::Affine3d file_from_node = Eigen::Affine3d::Identity();  ///< to z up, m
 };
 
-/// Reads `file`; its materials and textures go to `builder`. Throws std::runtime_error naming the file and what is wrong.
+/// Reads `file`; its materials and textures go to `builder`. Throws std::runtime_error naming the file and
+/// what is wrong.
 std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, const ResourceFinder& finder,
                                    SceneBuilder& builder);
 

@@ -32,17 +32,20 @@ std::optional<std::string> textureName(const aiMaterial& source) {
 int addTexture(const std::string& name, const aiScene& scene, const MeshFileContext& context) {
   if (const aiTexture* embedded = scene.GetEmbeddedTexture(name.c_str())) {
     if (embedded->mHeight != 0) {
-      context.builder.warn(context.file + ": texture " + name + " is embedded as raw texels, which is not supported");
+      context.builder.warn(context.file + ": texture " + name +
+                           " is embedded as raw texels, which is not supported");
       return Material::kNoTexture;
     }
     const auto* begin = reinterpret_cast<const std::uint8_t*>(embedded->pcData);
     const std::string label = embedded->mFilename.length > 0 ? embedded->mFilename.C_Str() : "";
-    return context.builder.textureFromBytes(context.file + ": texture " + name + (label.empty() ? "" : " " + label),
-                                            {begin, begin + embedded->mWidth});
+    return context.builder.textureFromBytes(
+        context.file + ": texture " + name + (label.empty() ? "" : " " + label),
+        {begin, begin + embedded->mWidth});
   }
   const Found found = context.finder.findTexture(name, context.file);
   if (!found.file) {
-    context.builder.warn(context.file + ": texture " + name + " is missing, a neutral material takes its place");
+    context.builder.warn(context.file + ": texture " + name +
+                         " is missing, a neutral material takes its place");
     return Material::kNoTexture;
   }
   if (found.other_case) {
@@ -79,7 +82,8 @@ void readGltfAlpha(const aiMaterial& source, Material& material, const MeshFileC
   if (std::strcmp(mode.C_Str(), "BLEND") == 0) {
     material.alpha_mode = AlphaMode::kMask;
     material.alpha_cutoff = 0.5f;
-    context.builder.warn(context.file + ": material " + material.name + " is blended; it is cut out at alpha 0.5");
+    context.builder.warn(context.file + ": material " + material.name +
+                         " is blended; it is cut out at alpha 0.5");
   }
 }
 
@@ -97,8 +101,8 @@ void readPhong(const aiMaterial& source, Material& material) {
   if (shines) material.roughness = roughnessOfPhong(shininess);
 }
 
-/// An opacity of exactly 0 would make a material pointless; exporters write it when they take COLLADA's transparency the
-/// wrong way round.
+/// An opacity of exactly 0 would make a material pointless; exporters write it when they take COLLADA's
+/// transparency the wrong way round.
 bool isSeenThrough(const aiMaterial& source) {
   float opacity = 1.0f;
   source.Get(AI_MATKEY_OPACITY, opacity);
@@ -107,7 +111,8 @@ bool isSeenThrough(const aiMaterial& source) {
 
 }  // namespace
 
-std::optional<int> addMeshMaterial(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context) {
+std::optional<int> addMeshMaterial(const aiMaterial& source, const aiScene& scene,
+                                   const MeshFileContext& context) {
   Material material;
   material.name = source.GetName().C_Str();
   const bool gltf = isGltf(context);

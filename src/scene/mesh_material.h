@@ -18,8 +18,10 @@ struct MeshFileContext {
   SceneBuilder& builder;
 };
 
-/// Adds `source`, a material of `scene`, to the builder and gives its index there. A missing texture is a warning and a
-/// neutral grey. None, with a warning, if it is more than half transparent: we have surfaces and holes, nothing between.
-std::optional<int> addMeshMaterial(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context);
+/// Adds `source`, a material of `scene`, to the builder and gives its index there. A missing texture is a
+/// warning and a neutral grey. None, with a warning, if it is more than half transparent: we have surfaces
+/// and holes, nothing between.
+std::optional<int> addMeshMaterial(const aiMaterial& source, const aiScene& scene,
+                                   const MeshFileContext& context);
 
 }  // namespace sunlit::scene

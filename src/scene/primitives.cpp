@@ -22,7 +22,8 @@ std::uint32_t addVertex(Mesh& mesh, const Eigen::Vector3d& position, const Eigen
 }
 
 /// The rectangle centre ± half_u ± half_v, seen from the side where u × v points.
-void addRectangle(Mesh& mesh, const Eigen::Vector3d& centre, const Eigen::Vector3d& half_u, const Eigen::Vector3d& half_v) {
+void addRectangle(Mesh& mesh, const Eigen::Vector3d& centre, const Eigen::Vector3d& half_u,
+                  const Eigen::Vector3d& half_v) {
   const Eigen::Vector3d normal = half_u.cross(half_v);
   const std::uint32_t a = addVertex(mesh, centre - half_u - half_v, normal, {0.0, 1.0});
   const std::uint32_t b = addVertex(mesh, centre + half_u - half_v, normal, {1.0, 1.0});
@@ -34,8 +35,8 @@ void addRectangle(Mesh& mesh, const Eigen::Vector3d& centre, const Eigen::Vector
 
 /// One ring of a solid of revolution.
 struct Ring {
-  double radius, height;                 ///< of its vertices, before scaling
-  double normal_out, normal_up;          ///< their normal, before scaling
+  double radius, height;         ///< of its vertices, before scaling
+  double normal_out, normal_up;  ///< their normal, before scaling
   double texture_v;
 };
 

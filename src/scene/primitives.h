@@ -1,4 +1,5 @@
-/// Simple solids as meshes: centred on the origin, outward normals, texture coordinates that cover each face once.
+/// Simple solids as meshes: centred on the origin, outward normals, texture coordinates that cover each face
+/// once.
 #pragma once
 
 #include <Eigen/Core>

@@ -28,7 +28,8 @@ std::optional<fs::path> inOtherCase(const fs::path& path) {
   std::error_code error;
   const std::string wanted = lowerCase(path.filename().string());
   std::vector<fs::path> matches;
-  for (fs::directory_iterator entry(path.parent_path(), error), end; !error && entry != end; entry.increment(error)) {
+  for (fs::directory_iterator entry(path.parent_path(), error), end; !error && entry != end;
+       entry.increment(error)) {
     if (lowerCase(entry->path().filename().string()) == wanted) matches.push_back(entry->path());
   }
   if (matches.empty()) return std::nullopt;
@@ -74,7 +75,8 @@ std::vector<std::string> folderAndParents(const std::string& file) {
 std::string withoutEscapes(const std::string& text) {
   std::string plain;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool escape = text[i] == '%' && i + 2 < text.size() && std::isxdigit(static_cast<unsigned char>(text[i + 1])) &&
+    const bool escape = text[i] == '%' && i + 2 < text.size() &&
+                        std::isxdigit(static_cast<unsigned char>(text[i + 1])) &&
                         std::isxdigit(static_cast<unsigned char>(text[i + 2]));
     if (!escape) {
       plain += text[i];
@@ -138,8 +140,8 @@ std::string placesTried(const Found& found) {
 
 SearchPath SearchPath::withEnvironment(std::vector<std::string> folders) {
   SearchPath search_path{std::move(folders)};
-  constexpr std::array<const char*, 4> kVariables = {"SUNLIT_MODEL_PATH", "GAZEBO_MODEL_PATH", "GAZEBO_RESOURCE_PATH",
-                                                     "SDF_PATH"};
+  constexpr std::array<const char*, 4> kVariables = {"SUNLIT_MODEL_PATH", "GAZEBO_MODEL_PATH",
+                                                     "GAZEBO_RESOURCE_PATH", "SDF_PATH"};
   for (const char* variable : kVariables) {
     const char* value = std::getenv(variable);
     std::istringstream list(value == nullptr ? "" : value);
@@ -147,7 +149,8 @@ SearchPath SearchPath::withEnvironment(std::vector<std::string> folders) {
       if (!folder.empty()) search_path.folders.push_back(folder);
     }
   }
-  if (const char* home = std::getenv("HOME")) search_path.folders.push_back(std::string(home) + "/.gazebo/models");
+  if (const char* home = std::getenv("HOME"))
+    search_path.folders.push_back(std::string(home) + "/.gazebo/models");
   return search_path;
 }
 

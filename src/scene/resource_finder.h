@@ -18,16 +18,17 @@ struct Found {
 
 class ResourceFinder {
  public:
-  /// `scene_file` is the file that is loaded; its folder and that folder's parents are looked through as well.
+  /// `scene_file` is the file that is loaded; its folder and that folder's parents are looked through as
+  /// well.
   ResourceFinder(const SearchPath& search_path, const std::string& scene_file);
 
-  /// What `uri` means where it is written in `from_file`: model://name/…, file://…, package://name/… or a plain path.
-  /// A relative one is looked for in from_file's folder and its parents, beside the scene file and its parents, and in
-  /// the search path, each with and without a "models" folder.
+  /// What `uri` means where it is written in `from_file`: model://name/…, file://…, package://name/… or a
+  /// plain path. A relative one is looked for in from_file's folder and its parents, beside the scene file
+  /// and its parents, and in the search path, each with and without a "models" folder.
   Found find(const std::string& uri, const std::string& from_file) const;
 
-  /// The picture that the mesh in `mesh_file` calls `name`: beside it, in the textures folders that models usually have,
-  /// then as find() does. The folder part of a path from another machine is dropped if need be.
+  /// The picture that the mesh in `mesh_file` calls `name`: beside it, in the textures folders that models
+  /// usually have, then as find() does. The folder part of a path from another machine is dropped if need be.
   Found findTexture(const std::string& name, const std::string& mesh_file) const;
 
  private:

@@ -19,8 +19,8 @@ void checkRange(const Material& material, const char* key, float value, float lo
 
 void checkTexture(const Texture& texture) {
   if (texture.width <= 0 || texture.height <= 0) fail("texture", texture.name, "it has no pixels");
-  const std::size_t expected = std::size_t{4} * static_cast<std::size_t>(texture.width) *
-                               static_cast<std::size_t>(texture.height);
+  const std::size_t expected =
+      std::size_t{4} * static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
   if (texture.rgba.size() != expected) {
     fail("texture", texture.name,
          "it holds " + std::to_string(texture.rgba.size()) + " bytes, not " + std::to_string(expected));
@@ -32,22 +32,26 @@ void checkDetail(const Material& material) {
   checkRange(material, "detail.contrast", detail.contrast, 0.0f, 1.0f);
   checkRange(material, "detail.gain", detail.gain, 0.0f, 1.5f);
   for (const float tint : detail.tint) checkRange(material, "detail.tint", tint, 0.0f, 2.0f);
-  if (!(detail.finest_m > 0.0f) || !(detail.coarsest_m > detail.finest_m) || !std::isfinite(detail.coarsest_m)) {
+  if (!(detail.finest_m > 0.0f) || !(detail.coarsest_m > detail.finest_m) ||
+      !std::isfinite(detail.coarsest_m)) {
     fail("material", material.name, "detail must have 0 < finest_m < coarsest_m");
   }
 }
 
 void checkMaterial(const Material& material, std::size_t texture_count) {
-  for (const float channel : material.base_color.value) checkRange(material, "base_color", channel, 0.0f, 1.0f);
+  for (const float channel : material.base_color.value)
+    checkRange(material, "base_color", channel, 0.0f, 1.0f);
   checkRange(material, "roughness", material.roughness, 0.03f, 1.0f);
   checkRange(material, "metalness", material.metalness, 0.0f, 1.0f);
   checkRange(material, "alpha_cutoff", material.alpha_cutoff, 0.0f, 1.0f);
   checkDetail(material);
   for (const float channel : material.emission.value) {
-    if (!std::isfinite(channel) || channel < 0.0f) fail("material", material.name, "emission must be 0 or more");
+    if (!std::isfinite(channel) || channel < 0.0f)
+      fail("material", material.name, "emission must be 0 or more");
   }
-  const bool known = material.base_texture == Material::kNoTexture ||
-                     (material.base_texture >= 0 && static_cast<std::size_t>(material.base_texture) < texture_count);
+  const bool known =
+      material.base_texture == Material::kNoTexture ||
+      (material.base_texture >= 0 && static_cast<std::size_t>(material.base_texture) < texture_count);
   if (!known) fail("material", material.name, "there is no texture " + std::to_string(material.base_texture));
 }
 
@@ -67,7 +71,8 @@ void checkMesh(const Mesh& mesh, std::size_t material_count) {
     const std::string vertex = "vertex " + std::to_string(i);
     if (!mesh.positions[i].allFinite()) fail("mesh", mesh.name, vertex + ": position is not finite");
     // Written so that a NaN fails; 1e-3 is far above what rounding and transforms do to a unit float vector.
-    if (!(std::abs(mesh.normals[i].norm() - 1.0f) < 1e-3f)) fail("mesh", mesh.name, vertex + ": normal is not of length 1");
+    if (!(std::abs(mesh.normals[i].norm() - 1.0f) < 1e-3f))
+      fail("mesh", mesh.name, vertex + ": normal is not of length 1");
     if (!mesh.texture_coordinates.empty() && !mesh.texture_coordinates[i].allFinite()) {
       fail("mesh", mesh.name, vertex + ": texture coordinate is not finite");
     }
@@ -78,7 +83,8 @@ void checkMesh(const Mesh& mesh, std::size_t material_count) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (const std::uint32_t corner : mesh.triangles[i]) {
       if (corner >= count) {
-        fail("mesh", mesh.name, "triangle " + std::to_string(i) + ": there is no vertex " + std::to_string(corner));
+        fail("mesh", mesh.name,
+             "triangle " + std::to_string(i) + ": there is no vertex " + std::to_string(corner));
       }
     }
   }

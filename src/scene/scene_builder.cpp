@@ -13,11 +13,13 @@
 namespace sunlit::scene {
 namespace {
 
-/// A texture whose alpha is below one half in more than this share of its texels is a cut-out. Formats without an alpha
-/// mode carry the channel by accident often enough (smooth edges, unused channels) for a stray texel not to count.
+/// A texture whose alpha is below one half in more than this share of its texels is a cut-out. Formats
+/// without an alpha mode carry the channel by accident often enough (smooth edges, unused channels) for a
+/// stray texel not to count.
 constexpr double kTransparentShare = 0.01;
 
-/// Twice the area, m², below which a triangle is taken for none: no camera sees a hundredth of a square millimetre.
+/// Twice the area, m², below which a triangle is taken for none: no camera sees a hundredth of a square
+/// millimetre.
 constexpr double kNoArea_m2 = 1e-12;
 
 bool isCutOut(const Texture& texture) {
@@ -37,7 +39,9 @@ Eigen::Vector3d faceVector(const Mesh& mesh, const std::array<std::uint32_t, 3>&
 /// Normals that are missing, zero or not finite are replaced by the mean of the adjoining faces.
 void repairNormals(Mesh& mesh) {
   mesh.normals.resize(mesh.positions.size(), Eigen::Vector3f::Zero());
-  const auto broken = [](const Eigen::Vector3f& normal) { return !(normal.norm() > 1e-6f) || !normal.allFinite(); };
+  const auto broken = [](const Eigen::Vector3f& normal) {
+    return !(normal.norm() > 1e-6f) || !normal.allFinite();
+  };
   std::vector<Eigen::Vector3d> sums;
   if (std::any_of(mesh.normals.begin(), mesh.normals.end(), broken)) {
     sums.assign(mesh.positions.size(), Eigen::Vector3d::Zero());
@@ -47,7 +51,8 @@ void repairNormals(Mesh& mesh) {
   }
   for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
     if (broken(mesh.normals[i])) {
-      const Eigen::Vector3d mean = sums[i].norm() > 0.0 ? sums[i].normalized() : Eigen::Vector3d(0.0, 0.0, 1.0);
+      const Eigen::Vector3d mean =
+          sums[i].norm() > 0.0 ? sums[i].normalized() : Eigen::Vector3d(0.0, 0.0, 1.0);
       mesh.normals[i] = mean.cast<float>();
     }
     mesh.normals[i].normalize();
@@ -105,7 +110,8 @@ void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mes
     } else if (area < kNoArea_m2) {
       count("triangles without area were left out");
     } else {
-      kept.push_back(mirrored ? std::array<std::uint32_t, 3>{triangle[0], triangle[2], triangle[1]} : triangle);
+      kept.push_back(mirrored ? std::array<std::uint32_t, 3>{triangle[0], triangle[2], triangle[1]}
+                              : triangle);
     }
   }
   if (kept.empty()) return;
@@ -135,9 +141,9 @@ void SceneBuilder::decodeTextures() {
   tbb::parallel_for(std::size_t{0}, sources_.size(), [&](std::size_t i) {
     const TextureSource& source = sources_[i];
     try {
-      image::Rgba8Image picture = source.embedded
-                                      ? image::decodeRgba(source.bytes.data(), source.bytes.size(), source.name)
-                                      : image::readRgba(source.name);
+      image::Rgba8Image picture =
+          source.embedded ? image::decodeRgba(source.bytes.data(), source.bytes.size(), source.name)
+                          : image::readRgba(source.name);
       scene_.textures[i] = Texture{source.name, picture.width, picture.height, std::move(picture.data)};
     } catch (const std::runtime_error& error) {
       errors[i] = error.what();

@@ -15,7 +15,8 @@ namespace sunlit::scene {
 /// How a material's cut-outs are told.
 enum class AlphaRule {
   kDeclared,     ///< the file says so
-  kFromTexture,  ///< the file's format cannot say: cut out if the texture has a considerable transparent share
+  kFromTexture,  ///< the file's format cannot say: cut out if the texture has a considerable transparent
+                 ///< share
 };
 
 class SceneBuilder {
@@ -38,8 +39,8 @@ class SceneBuilder {
   /// One line for all of one kind: "<count> <what>".
   void count(const std::string& what, std::size_t times = 1) { counted_[what] += times; }
 
-  /// Decodes the textures, settles the cut-outs and checks the scene. Throws std::runtime_error naming a texture that
-  /// cannot be decoded. The builder is empty afterwards.
+  /// Decodes the textures, settles the cut-outs and checks the scene. Throws std::runtime_error naming a
+  /// texture that cannot be decoded. The builder is empty afterwards.
   Scene finish();
 
  private:

@@ -16,21 +16,23 @@
 
 namespace sunlit::scene {
 
-/// libsdformat copies its whole schema for every <include>, 35 ms each. It lets other formats join in by interface models
-/// (libsdformat's composition interface): the user of the library reads the included file, libsdformat puts its frames
-/// into the tree of poses. Here that is used for SDF models themselves, so that a model included 70 times is read once.
+/// libsdformat copies its whole schema for every <include>, 35 ms each. It lets other formats join in by
+/// interface models (libsdformat's composition interface): the user of the library reads the included file,
+/// libsdformat puts its frames into the tree of poses. Here that is used for SDF models themselves, so that a
+/// model included 70 times is read once.
 class SdfIncludes {
  public:
   struct Instance {
-    std::string name;               ///< in full, with those of the models that it is in
-    const sdf::Model* model;        ///< what was included
-    ignition::math::Pose3d pose;    ///< of the model's frame in the world
+    std::string name;             ///< in full, with those of the models that it is in
+    const sdf::Model* model;      ///< what was included
+    ignition::math::Pose3d pose;  ///< of the model's frame in the world
   };
 
   /// `file` is the SDF file that is loaded.
   SdfIncludes(const std::string& file, const ResourceFinder& finder) : file_(file), finder_(finder) {}
 
-  /// For sdf::Root::Load; afterwards instances() holds what was included. Refers to this object.
+  /// For sdf::Root::Load; afterwards instances() holds what was included. Refers to this object. Loading with
+  /// it may fail where plainConfig() does not.
   sdf::ParserConfig sharingConfig();
   /// Leaves the includes to libsdformat.
   sdf::ParserConfig plainConfig();
@@ -42,9 +44,10 @@ class SdfIncludes {
 
  private:
   std::string find(const std::string& uri);
-  /// The root of the model in `folder`; null if there is none, or only libsdformat can tell what is wrong with it.
+  /// The root of the model in `folder`; null if there is none, or only libsdformat can tell what is wrong
+  /// with it.
   const sdf::Root* modelIn(const std::string& folder);
-  sdf::InterfaceModelPtr interfaceOf(const sdf::NestedInclude& include);
+  sdf::InterfaceModelPtr interfaceOf(const sdf::NestedInclude& include, sdf::Errors& errors);
 
   std::string file_;
   const ResourceFinder& finder_;

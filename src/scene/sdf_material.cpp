@@ -15,7 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-LinearRgb toLinear(const ignition::math::Color& color) { return linearFromSrgb({color.R(), color.G(), color.B()}); }
+LinearRgb toLinear(const ignition::math::Color& color) {
+  return linearFromSrgb({color.R(), color.G(), color.B()});
+}
 
 /// The .material files that `uri` names: itself, or all in that folder and its scripts.
 std::vector<std::string> scriptFiles(const std::string& place) {
@@ -60,7 +62,8 @@ Material SdfMaterials::fromScript(const sdf::Material& source) {
   // <script> may hold several <uri>; sdf::Material keeps the first only.
   std::vector<std::string> uris{source.ScriptUri()};
   const sdf::ElementPtr script = source.Element() ? source.Element()->FindElement("script") : nullptr;
-  for (sdf::ElementPtr uri = script ? script->FindElement("uri") : nullptr; uri; uri = uri->GetNextElement("uri")) {
+  for (sdf::ElementPtr uri = script ? script->FindElement("uri") : nullptr; uri;
+       uri = uri->GetNextElement("uri")) {
     uris.push_back(uri->Get<std::string>());
   }
   for (const std::string& uri : uris) {
@@ -84,7 +87,8 @@ Material SdfMaterials::fromScript(const sdf::Material& source) {
 void SdfMaterials::readPbr(const sdf::Material& source, Material& material) {
   const sdf::PbrWorkflow* metal = source.PbrMaterial()->Workflow(sdf::PbrWorkflowType::METAL);
   if (metal == nullptr) {
-    builder_.warn("PBR material " + material.name + " is not of the metal workflow; its diffuse colour is used alone");
+    builder_.warn("PBR material " + material.name +
+                  " is not of the metal workflow; its diffuse colour is used alone");
     return;
   }
   material.roughness = std::clamp(static_cast<float>(metal->Roughness()), 0.03f, 1.0f);
@@ -111,7 +115,8 @@ std::optional<int> SdfMaterials::add(const sdf::Material* source) {
     material = fromScript(*source);
   } else {
     material.name = "plain";
-    // Ambient alone is how some files give a colour; the light around is computed here, not given by the material.
+    // Ambient alone is how some files give a colour; the light around is computed here, not given by the
+    // material.
     material.base_color = toLinear(element->HasElement("diffuse") ? source->Diffuse() : source->Ambient());
     const ignition::math::Color specular = source->Specular();
     if (std::max({specular.R(), specular.G(), specular.B()}) > 0.3f) material.roughness = 0.5f;

@@ -16,8 +16,8 @@ class SdfMaterials {
  public:
   SdfMaterials(const ResourceFinder& finder, SceneBuilder& builder) : finder_(finder), builder_(builder) {}
 
-  /// Index of the material in the builder. None if `source` is null or says nothing about the look (a bare shader, say):
-  /// a mesh then keeps its own.
+  /// Index of the material in the builder. None if `source` is null or says nothing about the look (a bare
+  /// shader, say): a mesh then keeps its own.
   std::optional<int> add(const sdf::Material* source);
 
   /// What a shape without any material gets.

@@ -7,7 +7,9 @@
 
 namespace sunlit::scene {
 
-inline Eigen::Vector3d toEigen(const ignition::math::Vector3d& vector) { return {vector.X(), vector.Y(), vector.Z()}; }
+inline Eigen::Vector3d toEigen(const ignition::math::Vector3d& vector) {
+  return {vector.X(), vector.Y(), vector.Z()};
+}
 
 inline Eigen::Isometry3d toEigen(const ignition::math::Pose3d& pose) {
   const ignition::math::Quaterniond& q = pose.Rot();

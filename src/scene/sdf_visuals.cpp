@@ -25,7 +25,8 @@ template <typename Element>
 Eigen::Isometry3d parentFrom(const Element& element, const std::string& name) {
   ignition::math::Pose3d pose;
   const sdf::Errors errors = element.SemanticPose().Resolve(pose);
-  if (!errors.empty()) throw std::runtime_error(name + ": its pose cannot be resolved: " + errors[0].Message());
+  if (!errors.empty())
+    throw std::runtime_error(name + ": its pose cannot be resolved: " + errors[0].Message());
   return toEigen(pose);
 }
 
@@ -52,12 +53,14 @@ std::optional<Mesh> primitive(const sdf::Geometry& geometry) {
 
 }  // namespace
 
-void SdfVisuals::addModel(const sdf::Model& model, const Eigen::Isometry3d& map_from_parent, const std::string& scope) {
+void SdfVisuals::addModel(const sdf::Model& model, const Eigen::Isometry3d& map_from_parent,
+                          const std::string& scope) {
   const std::string name = scope + model.Name();
   addModelAt(model, map_from_parent * parentFrom(model, name), name);
 }
 
-void SdfVisuals::addModelAt(const sdf::Model& model, const Eigen::Isometry3d& map_from_model, const std::string& name) {
+void SdfVisuals::addModelAt(const sdf::Model& model, const Eigen::Isometry3d& map_from_model,
+                            const std::string& name) {
   for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
     const sdf::Link& link = *model.LinkByIndex(i);
     const std::string link_name = name + "::" + link.Name();
@@ -72,14 +75,17 @@ void SdfVisuals::addModelAt(const sdf::Model& model, const Eigen::Isometry3d& ma
   }
 }
 
-void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Isometry3d& map_from_link, const std::string& scope) {
+void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Isometry3d& map_from_link,
+                           const std::string& scope) {
   const std::string name = scope + visual.Name();
   if (visual.Transparency() > kSeenThrough) {
     builder_.warn("visual " + name + " was left out: it is more than half transparent");
     return;
   }
-  if (visual.Transparency() > 0.0f) builder_.warn("visual " + name + " is drawn opaque: it is less than half transparent");
-  if (!visual.CastShadows()) builder_.count("visuals cast shadows although their files say that they should not");
+  if (visual.Transparency() > 0.0f)
+    builder_.warn("visual " + name + " is drawn opaque: it is less than half transparent");
+  if (!visual.CastShadows())
+    builder_.count("visuals cast shadows although their files say that they should not");
   const Eigen::Isometry3d map_from_visual = map_from_link * parentFrom(visual, name);
   if (visual.Geom() == nullptr || visual.Geom()->Type() == sdf::GeometryType::EMPTY) {
     builder_.warn("visual " + name + " has no shape that can be drawn");
@@ -98,8 +104,9 @@ void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Isometry3d& m
 const std::vector<MeshPart>& SdfVisuals::partsOf(const sdf::Mesh& mesh, const std::string& name) {
   const Found found = finder_.find(mesh.Uri(), mesh.FilePath().empty() ? file_ : mesh.FilePath());
   if (!found.file) {
-    throw std::runtime_error((mesh.FilePath().empty() ? file_ : mesh.FilePath()) + ": visual " + name + ": there is no mesh " +
-                             mesh.Uri() + "; it was looked for as " + placesTried(found));
+    throw std::runtime_error((mesh.FilePath().empty() ? file_ : mesh.FilePath()) + ": visual " + name +
+                             ": there is no mesh " + mesh.Uri() + "; it was looked for as " +
+                             placesTried(found));
   }
   if (found.other_case) builder_.warn("mesh " + mesh.Uri() + " is spelt " + *found.file + " on disk");
   const auto known = parts_by_file_.find(*found.file);
@@ -113,7 +120,8 @@ void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Isometry3d
   const std::optional<int> material = materials_.add(visual.Material());
   std::vector<MeshPart> parts;
   for (const MeshPart& part : partsOf(mesh, name)) {
-    const bool wanted = mesh.Submesh().empty() || mesh.Submesh() == part.node || mesh.Submesh() == part.geometry;
+    const bool wanted =
+        mesh.Submesh().empty() || mesh.Submesh() == part.node || mesh.Submesh() == part.geometry;
     if (wanted) parts.push_back(part);
   }
   if (parts.empty()) {
@@ -124,7 +132,8 @@ void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Isometry3d
   if (!mesh.Submesh().empty() && mesh.CenterSubmesh()) {
     Eigen::AlignedBox3d box;
     for (const MeshPart& part : parts) {
-      for (const Eigen::Vector3f& position : part.mesh.positions) box.extend(part.file_from_node * position.cast<double>());
+      for (const Eigen::Vector3f& position : part.mesh.positions)
+        box.extend(part.file_from_node * position.cast<double>());
     }
     if (!box.isEmpty()) map_from_file.translate(-box.center());
   }

@@ -20,7 +20,8 @@ class SdfVisuals {
   SdfVisuals(const std::string& file, const ResourceFinder& finder, SceneBuilder& builder)
       : file_(file), finder_(finder), builder_(builder), materials_(finder, builder) {}
 
-  /// Everything to see of `model`, whose parent frame stands at `map_from_parent`. `scope` names what it is in.
+  /// Everything to see of `model`, whose parent frame stands at `map_from_parent`. `scope` names what it is
+  /// in.
   void addModel(const sdf::Model& model, const Eigen::Isometry3d& map_from_parent, const std::string& scope);
 
   /// The same with the model's own frame at `map_from_model` and another full name.
@@ -28,7 +29,8 @@ class SdfVisuals {
 
  private:
   void addVisual(const sdf::Visual& visual, const Eigen::Isometry3d& map_from_link, const std::string& scope);
-  void addMeshShape(const sdf::Visual& visual, const Eigen::Isometry3d& map_from_visual, const std::string& name);
+  void addMeshShape(const sdf::Visual& visual, const Eigen::Isometry3d& map_from_visual,
+                    const std::string& name);
   const std::vector<MeshPart>& partsOf(const sdf::Mesh& mesh, const std::string& name);
 
   std::string file_;

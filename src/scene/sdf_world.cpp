@@ -26,8 +26,8 @@
 namespace sunlit::scene {
 namespace {
 
-/// Keeps what libsdformat would print, for as long as it lives. What it cannot read it tries as a robot description; the
-/// complaints about that are of no use to anyone and go nowhere.
+/// Keeps what libsdformat would print, for as long as it lives. What it cannot read it tries as a robot
+/// description; the complaints about that are of no use to anyone and go nowhere.
 class SdfConsole {
  public:
   SdfConsole() : before_(stream().GetStream()) {
@@ -63,12 +63,14 @@ std::vector<std::string> printedLines(const std::string& text) {
 }
 
 /// One line about the first of `errors`, which for broken XML says less than what was printed.
-[[noreturn]] void fail(const std::string& file, const sdf::Error& error, const std::vector<std::string>& printed) {
+[[noreturn]] void fail(const std::string& file, const sdf::Error& error,
+                       const std::vector<std::string>& printed) {
   const std::regex broken_xml("Error parsing XML in file \\[(.*)\\]: Error=(\\S+) .*Line number=([0-9]+).*");
   std::smatch match;
   for (const std::string& line : printed) {
     if (!std::regex_match(line, match, broken_xml)) continue;
-    throw std::runtime_error(match[1].str() + ":" + match[3].str() + ": the XML is broken here (" + match[2].str() + ")");
+    throw std::runtime_error(match[1].str() + ":" + match[3].str() + ": the XML is broken here (" +
+                             match[2].str() + ")");
   }
   std::ostringstream text;
   text << error.FilePath().value_or(file);
@@ -78,11 +80,13 @@ std::vector<std::string> printedLines(const std::string& text) {
   throw std::runtime_error(text.str());
 }
 
-[[noreturn]] void failMissing(const std::string& file, const sdf::Error& error, const std::map<std::string, std::string>& missing) {
+[[noreturn]] void failMissing(const std::string& file, const sdf::Error& error,
+                              const std::map<std::string, std::string>& missing) {
   std::ostringstream text;
   text << error.FilePath().value_or(file);
   if (error.LineNumber()) text << ":" << *error.LineNumber();
-  for (const auto& [uri, places] : missing) text << ": there is no " << uri << "; it was looked for as " << places;
+  for (const auto& [uri, places] : missing)
+    text << ": there is no " << uri << "; it was looked for as " << places;
   throw std::runtime_error(text.str());
 }
 
@@ -104,8 +108,8 @@ void addWorld(const sdf::World& world, SdfVisuals& visuals, SceneBuilder& builde
   if (world.ActorCount() > 0) builder.count("actors of the world were not read", world.ActorCount());
 }
 
-/// Reads `file`, sharing what it includes more than once; what cannot be shared is left to libsdformat alone, whose errors
-/// are then the true ones.
+/// Reads `file`, sharing what it includes more than once; what cannot be shared is left to libsdformat alone,
+/// whose errors are then the true ones.
 void read(const std::string& file, SdfIncludes& includes, sdf::Root& root, SceneBuilder& builder) {
   const SdfConsole console;
   sdf::Errors errors = root.Load(file, includes.sharingConfig());

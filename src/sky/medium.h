@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "spectrum.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::sky {
 
@@ -24,7 +25,7 @@ Spectrum aerosolOpticalDepth(double turbidity);
 
 /// Rayleigh's phase function, 1/sr; integrates to 1 over the sphere.
 inline float rayleighPhase(float cos_angle) {
-  constexpr float kScale = static_cast<float>(3.0 / (16.0 * 3.14159265358979323846));
+  constexpr float kScale = static_cast<float>(3.0 / (16.0 * kPi));
   return kScale * (1.0F + cos_angle * cos_angle);
 }
 

@@ -11,12 +11,12 @@ namespace sunlit::scene {
 /// The name of the built-in world.
 constexpr const char* kRaceTrack = "race_track";
 
-/// Where model:// and relative file:// addresses are looked for, in this order, after the folder of the file that names
-/// them and its parents.
+/// Where model:// and relative file:// addresses are looked for, in this order, after the folder of the file
+/// that names them and its parents.
 struct SearchPath {
   std::vector<std::string> folders;
-  /// `folders`, then those of the environment variables SUNLIT_MODEL_PATH, GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and
-  /// SDF_PATH (colon-separated), then ~/.gazebo/models.
+  /// `folders`, then those of the environment variables SUNLIT_MODEL_PATH, GAZEBO_MODEL_PATH,
+  /// GAZEBO_RESOURCE_PATH and SDF_PATH (colon-separated), then ~/.gazebo/models.
   static SearchPath withEnvironment(std::vector<std::string> folders);
 };
 

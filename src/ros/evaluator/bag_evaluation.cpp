@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -100,11 +101,12 @@ class BagSource {
 }  // namespace
 
 int evaluateBags(const BagEvaluationOptions& options) {
-  BagSource source(options);
+  std::optional<BagSource> source;
+  if (!options.bags.empty()) source.emplace(options);
   evaluate::EvaluationCallbacks callbacks;
   callbacks.note = [](const std::string& line) { std::printf("%s\n", line.c_str()); };
   evaluate::Evaluation evaluation(options.evaluation, callbacks);
-  source.feed(evaluation);
+  if (source) source->feed(evaluation);
   const evaluate::Outcome outcome = evaluation.finish();
   std::printf("%zu poses in %s\n%s\n", outcome.counts.completed_poses, options.evaluation.output_dir.c_str(),
               summaryTable(outcome.summary).c_str());

@@ -10,7 +10,7 @@ namespace sunlit::ros_interface {
 
 struct BagEvaluationOptions {
   evaluate::EvaluationOptions evaluation;
-  std::vector<std::string> bags;  ///< read together, in the order of their times
+  std::vector<std::string> bags;  ///< read together, in the order of their times; none where only runs are merged
   std::string name_space = "/";   ///< of the topics: <name_space>/<stream>/camera/image_raw
 };
 

@@ -10,17 +10,19 @@ namespace {
 using namespace sunlit::ros_interface;
 
 const char* const kUsage =
-    "usage: evaluate_bags --config FILE.yaml [--namespace NAME] --out DIR BAG...\n"
+    "usage: evaluate_bags --config FILE.yaml [--namespace NAME] [--merge DIR]... --out DIR [BAG...]\n"
     "  Evaluates images recorded under NAME/<stream>/camera/image_raw as evaluator_node would.\n"
     "  --config     parameters as in config/evaluator.yaml; streams are needed\n"
     "  --out        folder for the results (output_dir); an unfinished run in it is taken up again\n"
     "  --namespace  of the topics; default /\n"
+    "  --merge      takes over the values of a run of other poses with the same parameters, made on another machine, say\n"
     "exit status: 0 all evaluated, 3 some pairs could not be, 1 error\n";
 
 BagEvaluationOptions optionsOf(int argc, char** argv) {
   BagEvaluationOptions options;
   std::string config;
   std::string output;
+  std::string merged;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word.rfind("--", 0) != 0) {
@@ -30,16 +32,20 @@ BagEvaluationOptions optionsOf(int argc, char** argv) {
     std::string* target = nullptr;
     if (word == "--config") target = &config;
     if (word == "--out") target = &output;
+    if (word == "--merge") target = &merged;
     if (word == "--namespace") target = &options.name_space;
     if (target == nullptr) throw std::invalid_argument("unknown option " + word + "\n" + kUsage);
     if (++i == argc) throw std::invalid_argument(word + " needs a value\n" + kUsage);
     *target = argv[i];
+    if (word == "--merge") options.evaluation.merge.push_back(merged);
   }
-  if (options.bags.empty()) throw std::invalid_argument(std::string("no bag given\n") + kUsage);
+  if (options.bags.empty() && options.evaluation.merge.empty()) throw std::invalid_argument(std::string("no bag given\n") + kUsage);
   if (output.empty()) throw std::invalid_argument(std::string("--out is missing\n") + kUsage);
   if (config.empty()) throw std::invalid_argument(std::string("--config is missing\n") + kUsage);
+  const std::vector<std::string> folders = options.evaluation.merge;
   options.evaluation = readEvaluatorOptions(parametersOfFile(config)).evaluation;
   options.evaluation.output_dir = output;
+  options.evaluation.merge = folders;
   return options;
 }
 

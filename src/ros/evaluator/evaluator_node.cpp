@@ -124,7 +124,6 @@ int EvaluatorNode::run() {
       finish("asked to finish");
     } else if (isIdle()) {
       finish("no image for " + std::to_string(static_cast<int>(options_.idle_timeout_s)) + " s");
-      if (options_.evaluation.poses == 0) status_ = 0;
     }
     if (is_finished_ && options_.exit_when_done) {
       ros::WallDuration(0.3).sleep();  // roscpp cannot tell when the last message has left the socket

@@ -92,6 +92,7 @@ std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate:
     add("failed" + pair, c.failed);
     add("unplaced" + pair, c.unplaced);
   }
+  if (line.empty()) return "no pair of images came at all";
   return "not evaluated: " + line + "; each is named in " + options.output_dir + "/problems.csv";
 }
 

@@ -1,6 +1,7 @@
-// count_poses WORLD WAYPOINT_FILE SPACING_M POSES: prints how many poses an experiment has, which is POSES, or all of the
-// path where POSES is 0. WAYPOINT_FILE is empty for the path of the built-in world. What cannot be is one line on stderr
-// and exit status 1, so that a launch file that asks stops before it has started anything.
+// count_poses WORLD WAYPOINT_FILE SPACING_M POSES: prints how many poses an experiment has, which is POSES,
+// or all of the path where POSES is 0. WAYPOINT_FILE is empty for the path of the built-in world. What cannot
+// be is one line on stderr and exit status 1, so that a launch file that asks stops before it has started
+// anything.
 #include <exception>
 #include <iostream>
 #include <stdexcept>
@@ -29,13 +30,15 @@ std::size_t countPoses(const std::string& world, const std::string& file, const 
   }
   path::validate(options);
   if (file.empty() && world != scene::kRaceTrack) {
-    throw std::invalid_argument("argument path is empty, but only the world " + std::string(scene::kRaceTrack) +
+    throw std::invalid_argument("argument path is empty, but only the world " +
+                                std::string(scene::kRaceTrack) +
                                 " has a path of its own; give a waypoint file");
   }
   const path::Waypoints waypoints = file.empty() ? scene::raceTrackWaypoints() : path::readWaypoints(file);
   const std::size_t all = path::posesAlong(waypoints, options).size();
   if (wanted > all) {
-    throw std::invalid_argument("argument poses is " + poses + ", but the path has only " + std::to_string(all));
+    throw std::invalid_argument("argument poses is " + poses + ", but the path has only " +
+                                std::to_string(all));
   }
   return wanted == 0 ? all : wanted;
 }

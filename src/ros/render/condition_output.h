@@ -35,7 +35,8 @@ class ConditionOutput {
  private:
   image::PinholeCamera camera_;
   image_transport::ImageTransport transport_;
-  // The two halves of an image_transport::CameraPublisher, apart, so that the subscribers of each can be counted.
+  // The two halves of an image_transport::CameraPublisher, apart, so that the subscribers of each can be
+  // counted.
   image_transport::Publisher image_;
   ros::Publisher camera_info_;
   ros::Publisher capture_;

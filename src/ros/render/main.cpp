@@ -18,13 +18,17 @@ int run() {
   const std::vector<Condition> conditions = readConditions(parameters);
   for (const Condition& condition : conditions) condition.parameters.rejectUnknown();  // only the sun differs
   parameters.rejectUnknown();
-  const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
+  const int threads =
+      options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
   // llvmpipe has threads of its own.
   if (options.threads > 0) setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
   return RenderNode(node, private_node, options, conditions).run();
 }
 
 }  // namespace
 
-int main(int argc, char** argv) { return runNode(argc, argv, "render", run); }
+int main(int argc, char** argv) {
+  return runNode(argc, argv, "render", run);
+}

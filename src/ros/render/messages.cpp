@@ -80,8 +80,9 @@ geometry_msgs::Pose toPose(const Eigen::Isometry3d& frame_from_body) {
   return pose;
 }
 
-geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& parent_from_child, const std::string& parent,
-                                            const std::string& child, const ros::Time& stamp) {
+geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& parent_from_child,
+                                            const std::string& parent, const std::string& child,
+                                            const ros::Time& stamp) {
   const geometry_msgs::Pose pose = toPose(parent_from_child);
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = stamp;
@@ -96,7 +97,8 @@ geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& parent_from
 
 Eigen::Isometry3d fromPose(const geometry_msgs::Pose& pose) {
   const Eigen::Vector3d position(pose.position.x, pose.position.y, pose.position.z);
-  const Eigen::Quaterniond rotation(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
+  const Eigen::Quaterniond rotation(pose.orientation.w, pose.orientation.x, pose.orientation.y,
+                                    pose.orientation.z);
   if (!position.allFinite()) throw std::invalid_argument("pose.position must be finite");
   // Written so that NaN fails too. Hand-typed quaternions carry a few digits.
   if (!(std::abs(rotation.norm() - 1.0) < 0.01)) {

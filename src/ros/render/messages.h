@@ -11,12 +11,9 @@
 
 #include "sunlit/image/camera.h"
 #include "sunlit/image/images.h"
+#include "sunlit/ros/frame_names.h"
 
 namespace sunlit::ros_interface {
-
-constexpr const char* kMapFrame = "map";
-constexpr const char* kCameraFrame = "camera_link";
-constexpr const char* kOpticalFrame = "camera_optical_frame";
 
 /// An image of the optical frame, taken at `stamp`.
 std_msgs::Header opticalHeader(const ros::Time& stamp);
@@ -29,8 +26,9 @@ sensor_msgs::ImagePtr toImageMessage(const image::DepthImage& depth, const std_m
 sensor_msgs::CameraInfo toCameraInfo(const image::PinholeCamera& camera, const std_msgs::Header& header);
 
 geometry_msgs::Pose toPose(const Eigen::Isometry3d& frame_from_body);
-geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& parent_from_child, const std::string& parent,
-                                            const std::string& child, const ros::Time& stamp);
+geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& parent_from_child,
+                                            const std::string& parent, const std::string& child,
+                                            const ros::Time& stamp);
 /// Throws std::invalid_argument where the pose holds what is not finite or a quaternion far from unit length.
 Eigen::Isometry3d fromPose(const geometry_msgs::Pose& pose);
 Eigen::Isometry3d fromTransform(const geometry_msgs::Transform& transform);

@@ -21,7 +21,8 @@ PathSourceOptions readPath(const ParameterReader& parameters) {
   path.stride = parameters.integer("path/stride", path.stride, {1, kLargestCount});
   if (!path.file.empty() && !path.topic.empty()) {
     throw std::invalid_argument("parameters " + parameters.fullName("path/file") + " and " +
-                                parameters.fullName("path/topic") + " are both given, but the path has one source");
+                                parameters.fullName("path/topic") +
+                                " are both given, but the path has one source");
   }
   return path;
 }
@@ -43,7 +44,8 @@ image::ExposureOptions readExposure(const ParameterReader& parameters) {
   const bool fixed = parameters.choice("exposure/mode", "auto", {"auto", "fixed"}) == "fixed";
   exposure.mode = fixed ? image::ExposureMode::kFixed : image::ExposureMode::kAuto;
   exposure.ev100 = parameters.number("exposure/ev100", exposure.ev100, {-16.0, 24.0});
-  exposure.compensation_ev = parameters.number("exposure/compensation", exposure.compensation_ev, {-8.0, 8.0});
+  exposure.compensation_ev =
+      parameters.number("exposure/compensation", exposure.compensation_ev, {-8.0, 8.0});
   exposure.min_ev100 = parameters.number("exposure/min_ev100", exposure.min_ev100, {-16.0, 24.0});
   exposure.max_ev100 =
       parameters.number("exposure/max_ev100", exposure.max_ev100, {exposure.min_ev100, 24.0});
@@ -53,7 +55,8 @@ image::ExposureOptions readExposure(const ParameterReader& parameters) {
 sky::AtmosphereOptions readAtmosphere(const ParameterReader& parameters) {
   sky::AtmosphereOptions atmosphere;
   atmosphere.turbidity = parameters.number("atmosphere/turbidity", atmosphere.turbidity, {1.0, 10.0});
-  atmosphere.ground_albedo = parameters.number("atmosphere/ground_albedo", atmosphere.ground_albedo, {0.0, 1.0});
+  atmosphere.ground_albedo =
+      parameters.number("atmosphere/ground_albedo", atmosphere.ground_albedo, {0.0, 1.0});
   atmosphere.observer_height_m =
       parameters.number("atmosphere/observer_height", atmosphere.observer_height_m, {0.0, 8000.0});
   return atmosphere;
@@ -99,8 +102,9 @@ RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {
   options.threads = parameters.integer("threads", options.threads, {0, 1024});
   if (options.world != scene::kRaceTrack && options.path.file.empty() && options.path.topic.empty() &&
       !options.camera.follow_tf) {
-    throw std::invalid_argument("parameter " + parameters.fullName("path/file") + " is empty, but only the world " +
-                                scene::kRaceTrack + " has a path of its own; give path/file or path/topic");
+    throw std::invalid_argument("parameter " + parameters.fullName("path/file") +
+                                " is empty, but only the world " + scene::kRaceTrack +
+                                " has a path of its own; give path/file or path/topic");
   }
   return options;
 }

@@ -16,12 +16,13 @@ namespace sunlit::ros_interface {
 
 /// Where the waypoints come from and which poses along them are rendered.
 struct PathSourceOptions {
-  std::string file;            ///< CSV or TUM; empty: not from a file
-  std::string topic;           ///< nav_msgs/Path; empty: not from a topic. Neither: the built-in path of the built-in world
+  std::string file;  ///< CSV or TUM; empty: not from a file
+  std::string
+      topic;  ///< nav_msgs/Path; empty: not from a topic. Neither: the built-in path of the built-in world
   path::PathOptions sampling;  ///< spacing and camera height
   int first = 0;               ///< index of the first pose, ≥ 0
   int count = 0;               ///< indices from there, 0: to the end
-  int stride = 1;              ///< only every n-th of them, ≥ 1; index and stamp stay those of the whole path
+  int stride = 1;  ///< only every n-th of them, ≥ 1; index and stamp stay those of the whole path
 };
 
 struct CameraOptions {
@@ -42,14 +43,14 @@ struct WantedSubscribers {
 
 /// When a pose may be rendered.
 struct PacingOptions {
-  double frame_rate = 10.0;              ///< Hz: stamps of consecutive poses differ by its inverse, 0.001 … 1000
-  std::optional<double> start_stamp_s;   ///< stamp of pose 0, s; nothing: ROS time at the start
-  int max_ahead = 8;                     ///< poses ahead of the slowest of wait_for, 1 … 10000
-  std::vector<std::string> wait_for;     ///< progress topics (std_msgs/UInt32): poses done since the first
-  WantedSubscribers subscribers;         ///< start only when each topic has as many
-  int resume_at = 0;                     ///< poses since the first that an earlier run has done, ≥ 0
-  bool autostart = true;                 ///< false: wait for ~start
-  bool exit_when_done = false;           ///< end with status 0 once all poses are rendered and wait_for has them
+  double frame_rate = 10.0;  ///< Hz: stamps of consecutive poses differ by its inverse, 0.001 … 1000
+  std::optional<double> start_stamp_s;  ///< stamp of pose 0, s; nothing: ROS time at the start
+  int max_ahead = 8;                    ///< poses ahead of the slowest of wait_for, 1 … 10000
+  std::vector<std::string> wait_for;    ///< progress topics (std_msgs/UInt32): poses done since the first
+  WantedSubscribers subscribers;        ///< start only when each topic has as many
+  int resume_at = 0;                    ///< poses since the first that an earlier run has done, ≥ 0
+  bool autostart = true;                ///< false: wait for ~start
+  bool exit_when_done = false;  ///< end with status 0 once all poses are rendered and wait_for has them
 };
 
 struct RenderNodeOptions {

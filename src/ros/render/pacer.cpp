@@ -4,7 +4,8 @@
 
 namespace sunlit::ros_interface {
 
-Pacer::Pacer(ros::NodeHandle node, const std::vector<std::string>& topics, int max_ahead) : max_ahead_(max_ahead) {
+Pacer::Pacer(ros::NodeHandle node, const std::vector<std::string>& topics, int max_ahead)
+    : max_ahead_(max_ahead) {
   for (const std::string& topic : topics) {
     auto reader = std::make_shared<Reader>();
     // Only the newest count matters.

@@ -46,7 +46,8 @@ Step PathRun::step() {
     streams_.poseOutput().publishProgress(std::min(position_, positions()));
     return Step::kTook;
   }
-  waits_for_ = "progress on " + pacer_.slowestTopic() + ", which stands at " + std::to_string(pacer_.slowest());
+  waits_for_ =
+      "progress on " + pacer_.slowestTopic() + ", which stands at " + std::to_string(pacer_.slowest());
   return Step::kWaits;
 }
 

@@ -15,8 +15,9 @@ ros::Time stampOfPose(const ros::Time& start, int index, double frame_rate) {
   const double whole_seconds = std::floor(seconds);
   const auto rest = static_cast<std::int64_t>(std::llround((seconds - whole_seconds) * 1e9));
   ros::Time stamp;
-  stamp.fromNSec(start.toNSec() +
-                 static_cast<std::uint64_t>(static_cast<std::int64_t>(whole_seconds) * kNanosecondsPerSecond + rest));
+  stamp.fromNSec(
+      start.toNSec() +
+      static_cast<std::uint64_t>(static_cast<std::int64_t>(whole_seconds) * kNanosecondsPerSecond + rest));
   return stamp;
 }
 
@@ -38,7 +39,8 @@ void PathSource::onPath(const nav_msgs::Path& message) {
   }
   try {
     if (!message.header.frame_id.empty() && message.header.frame_id != kMapFrame) {
-      throw std::invalid_argument("its frame_id is \"" + message.header.frame_id + "\", but must be " + kMapFrame);
+      throw std::invalid_argument("its frame_id is \"" + message.header.frame_id + "\", but must be " +
+                                  kMapFrame);
     }
     sample(waypoints);
   } catch (const std::invalid_argument& error) {

@@ -19,7 +19,8 @@ ros::Time stampOfPose(const ros::Time& start, int index, double frame_rate);
 class PathSource {
  public:
   /// A file or the built-in path is there at once; a topic's comes with its first message.
-  /// Throws what path.h throws, and std::invalid_argument where `first` and `count` ask for more than the path has.
+  /// Throws what path.h throws, and std::invalid_argument where `first` and `count` ask for more than the
+  /// path has.
   PathSource(ros::NodeHandle node, const PathSourceOptions& options);
 
   bool ready() const { return !map_from_camera_.empty(); }
@@ -27,7 +28,9 @@ class PathSource {
   std::string topic() const { return subscriber_ ? subscriber_.getTopic() : std::string(); }
 
   /// map_from_camera_link of pose `index`, 0 ≤ index < size().
-  const Eigen::Isometry3d& mapFromCamera(int index) const { return map_from_camera_[static_cast<std::size_t>(index)]; }
+  const Eigen::Isometry3d& mapFromCamera(int index) const {
+    return map_from_camera_[static_cast<std::size_t>(index)];
+  }
   int size() const { return static_cast<int>(map_from_camera_.size()); }
   /// The indices to render are first(), first() + stride(), … below end().
   int first() const { return options_.first; }

@@ -15,7 +15,8 @@ PoseOutput::PoseOutput(ros::NodeHandle node, ros::NodeHandle private_node, const
       pose_(node.advertise<geometry_msgs::PoseStamped>("camera/pose", options.queue_size)),
       path_(node.advertise<nav_msgs::Path>("path", 1, true)),
       progress_(private_node.advertise<std_msgs::UInt32>("progress", 1, true)) {
-  // A publisher of our own, and not a tf2_ros::TransformBroadcaster, for the sake of its queue and subscriber count.
+  // A publisher of our own, and not a tf2_ros::TransformBroadcaster, for the sake of its queue and subscriber
+  // count.
   if (options_.publish_tf) tf_ = node.advertise<tf2_msgs::TFMessage>("/tf", options.queue_size);
 }
 
@@ -61,7 +62,8 @@ void PoseOutput::publishProgress(int poses) const {
 std::string PoseOutput::lonelyTopic(const WantedSubscribers& wanted) const {
   if (static_cast<int>(pose_.getNumSubscribers()) < wanted.poses) return pose_.getTopic();
   for (const ros::Publisher* publisher : {&depth_, &tf_}) {
-    if (*publisher && static_cast<int>(publisher->getNumSubscribers()) < wanted.others) return publisher->getTopic();
+    if (*publisher && static_cast<int>(publisher->getNumSubscribers()) < wanted.others)
+      return publisher->getTopic();
   }
   return std::string();
 }

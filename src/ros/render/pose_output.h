@@ -14,7 +14,8 @@ namespace sunlit::ros_interface {
 
 struct PoseOutputOptions {
   bool publish_tf = true;
-  /// Parent of camera_optical_frame on TF: camera_link, which then is published too, or a frame that others publish.
+  /// Parent of camera_optical_frame on TF: camera_link, which then is published too, or a frame that others
+  /// publish.
   std::string followed_frame;
   std::uint32_t queue_size = 10;
 };

@@ -19,11 +19,12 @@
 
 namespace sunlit::ros_interface {
 
-/// One thread does everything: it holds the OpenGL context, and ROS callbacks have their turn between two frames.
+/// One thread does everything: it holds the OpenGL context, and ROS callbacks have their turn between two
+/// frames.
 class RenderNode {
  public:
-  RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const RenderNodeOptions& options,
-             const std::vector<Condition>& conditions);
+  RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+             const RenderNodeOptions& options, const std::vector<Condition>& conditions);
 
   /// Until ROS shuts down, or all is rendered and the options say to end then. The exit status.
   int run();

@@ -29,7 +29,8 @@ void ProgressLog::report(int position, int positions) {
   const bool last = position >= positions;
   if (position == begin_position_ || (now - latest_ < kInterval && !last)) return;
   latest_ = now;
-  const double per_pose_s = std::chrono::duration<double>(now - begin_).count() / (position - begin_position_);
+  const double per_pose_s =
+      std::chrono::duration<double>(now - begin_).count() / (position - begin_position_);
   ROS_INFO("pose %d of %d (%d %%), %.0f ms a pose, %s left", position, positions, 100 * position / positions,
            1e3 * per_pose_s, printedDuration(per_pose_s * (positions - position)).c_str());
 }

@@ -11,7 +11,8 @@ namespace sunlit::ros_interface {
 /// Sums the wall time of named stages.
 class Stopwatch {
  public:
-  /// Runs `work` on the account of `stage` (geometry, light …) of `what` (a condition, or pose), and hands on its result.
+  /// Runs `work` on the account of `stage` (geometry, light …) of `what` (a condition, or pose), and hands on
+  /// its result.
   template <typename Work>
   auto measure(const std::string& stage, const std::string& what, Work&& work) {
     const Charge charge{*this, stage, what, std::chrono::steady_clock::now()};

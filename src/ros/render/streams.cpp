@@ -33,10 +33,11 @@ void Streams::take(const Shot& shot) {
   Stopwatch& stopwatch = studio_.stopwatch();
   studio_.look(shot.map_from_camera);
   const image::DepthImage depth = studio_.depth();
-  stopwatch.measure("transport", "pose", [&] { pose_output_.publish(shot.map_from_camera, depth, shot.stamp); });
+  stopwatch.measure("transport", "pose",
+                    [&] { pose_output_.publish(shot.map_from_camera, depth, shot.stamp); });
   for (const auto& stream : streams_) {
-    const sky::Daylight& daylight =
-        stopwatch.measure("daylight", stream->name, [&]() -> const sky::Daylight& { return stream->sun.daylight(); });
+    const sky::Daylight& daylight = stopwatch.measure(
+        "daylight", stream->name, [&]() -> const sky::Daylight& { return stream->sun.daylight(); });
     Developed developed = studio_.photograph(daylight, stream->name);
     const Photograph photograph{shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture)};
     stopwatch.measure("transport", stream->name, [&] { stream->output.publish(photograph, daylight); });

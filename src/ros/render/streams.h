@@ -33,7 +33,8 @@ class Streams {
   /// `studio` outlives this.
   Streams(const std::vector<Condition>& conditions, const StreamOptions& options, Studio& studio);
 
-  /// Renders the shot under every condition's sun and publishes all of it with its stamp. Only when every sun is there.
+  /// Renders the shot under every condition's sun and publishes all of it with its stamp. Only when every sun
+  /// is there.
   void take(const Shot& shot);
   /// One image of `condition`. Throws std::invalid_argument naming what is wrong with the condition.
   Photograph view(const Shot& shot, const std::string& condition);

@@ -15,7 +15,8 @@ namespace {
 std::shared_ptr<const scene::Scene> loadScene(const RenderNodeOptions& options) {
   auto scene = std::make_shared<scene::Scene>(
       scene::load(options.world, scene::SearchPath::withEnvironment(options.model_path)));
-  for (const std::string& warning : scene->warnings) ROS_WARN("%s: %s", options.world.c_str(), warning.c_str());
+  for (const std::string& warning : scene->warnings)
+    ROS_WARN("%s: %s", options.world.c_str(), warning.c_str());
   ROS_INFO("World %s: %zu triangles, %zu textures", options.world.c_str(), scene->triangleCount(),
            scene->textures.size());
   return scene;
@@ -36,7 +37,8 @@ Studio::Studio(const RenderNodeOptions& options)
     : options_(options.renderOptions()),
       exposure_(options.exposure),
       scene_(stopwatch_.measure("load", "world", [&] { return loadScene(options); })),
-      atmosphere_(stopwatch_.measure("load", "atmosphere", [&] { return sky::Atmosphere(options.atmosphere); })),
+      atmosphere_(
+          stopwatch_.measure("load", "atmosphere", [&] { return sky::Atmosphere(options.atmosphere); })),
       renderer_(stopwatch_.measure("load", "renderer",
                                    [&] { return std::make_unique<render::Renderer>(scene_, options_); })) {
   image::validate(exposure_);
@@ -61,12 +63,14 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent) {
   options.far_m = 2.0 * distance_m;
 
   Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
-  map_from_optical.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();  // right east, down south, forward down
-  map_from_optical.translation() = Eigen::Vector3d(0.5 * (extent.x_min + extent.x_max),
-                                                   0.5 * (extent.y_min + extent.y_max), topOf(*scene_) + distance_m);
+  map_from_optical.linear() =
+      Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();  // right east, down south, forward down
+  map_from_optical.translation() = Eigen::Vector3d(
+      0.5 * (extent.x_min + extent.x_max), 0.5 * (extent.y_min + extent.y_max), topOf(*scene_) + distance_m);
   render::Renderer from_above(scene_, options);
   from_above.look(map_from_optical);
-  const sky::Daylight noon = atmosphere_.daylight({Direction(Azimuth::degrees(160.0), Angle::degrees(55.0)), 1.0});
+  const sky::Daylight noon =
+      atmosphere_.daylight({Direction(Azimuth::degrees(160.0), Angle::degrees(55.0)), 1.0});
   const image::LinearImage light = from_above.light(noon);
   return image::develop(light, image::chooseEv100(light, image::ExposureOptions{}));
 }
@@ -76,7 +80,8 @@ void Studio::look(const Eigen::Isometry3d& map_from_camera) {
 }
 
 Developed Studio::photograph(const sky::Daylight& daylight, const std::string& what) {
-  const image::LinearImage light = stopwatch_.measure("light", what, [&] { return renderer_->light(daylight); });
+  const image::LinearImage light =
+      stopwatch_.measure("light", what, [&] { return renderer_->light(daylight); });
   return stopwatch_.measure("develop", what, [&] {
     const double ev100 = image::chooseEv100(light, exposure_);
     return Developed{image::develop(light, ev100), ev100};

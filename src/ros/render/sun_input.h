@@ -11,7 +11,8 @@
 
 namespace sunlit::ros_interface {
 
-/// Keeps the latest sun and the daylight that belongs to it, which is computed anew only when the sun has moved.
+/// Keeps the latest sun and the daylight that belongs to it, which is computed anew only when the sun has
+/// moved.
 class SunInput {
  public:
   /// Subscribes to `topic`. `atmosphere` outlives this.

@@ -2,7 +2,6 @@
 #include <ros/init.h>
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "ros/sun_position/options.h"
@@ -11,11 +10,7 @@
 
 int main(int argc, char** argv) {
   using namespace sunlit::ros_interface;
-  // Outlives an exception: the last handle to go shuts ROS down, and its console before the fatal line is
-  // out.
-  std::optional<ros::NodeHandle> ros_stays_up;
-  return runNode(argc, argv, "sun_position", [&] {
-    ros_stays_up.emplace();
+  return runNode(argc, argv, "sun_position", [] {
     std::vector<std::unique_ptr<SunPositionNode>> suns;
     for (const NamedSun& sun : readSuns(ParameterReader(ros::NodeHandle("~")))) {
       suns.push_back(

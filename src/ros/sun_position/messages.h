@@ -13,10 +13,9 @@
 
 #include "sunlit/astronomy/sun_position.h"
 #include "sunlit/astronomy/sun_times.h"
+#include "sunlit/ros/frame_names.h"
 
 namespace sunlit::ros_interface {
-
-constexpr char kMapFrame[] = "map";
 
 /// A sun, computed but not yet sent.
 struct ComputedSun {

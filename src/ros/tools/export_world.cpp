@@ -48,7 +48,8 @@ ExportOptions parse(int argc, char** argv) {
       throw std::invalid_argument("there is no option " + key + "; --help lists all");
     }
   }
-  if (options.output.empty()) throw std::invalid_argument("--out names the file to write, and is missing; --help lists all options");
+  if (options.output.empty())
+    throw std::invalid_argument("--out names the file to write, and is missing; --help lists all options");
   return options;
 }
 
@@ -57,8 +58,8 @@ void exportWorld(const ExportOptions& options) {
       scene::load(options.world, scene::SearchPath::withEnvironment(options.model_folders));
   for (const std::string& warning : world.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   scene::writeGltf(world, options.output);
-  std::printf("%s: %zu triangles, %zu materials, %zu textures\n", options.output.c_str(), world.triangleCount(),
-              world.materials.size(), world.textures.size());
+  std::printf("%s: %zu triangles, %zu materials, %zu textures\n", options.output.c_str(),
+              world.triangleCount(), world.materials.size(), world.textures.size());
 }
 
 }  // namespace

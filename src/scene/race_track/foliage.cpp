@@ -62,7 +62,7 @@ Canvas paintLeaves(Species species, std::uint32_t variant) {
     if ((place.array() < 0.03f * kSize).any() || (place.array() > 0.97f * kSize).any()) continue;
     // Later leaves lie on top and catch more light.
     const float lit = 0.35f + 0.65f * static_cast<float>(i) / static_cast<float>(style.count);
-    const Color color = (style.dark + lit * random.unit() * (style.light - style.dark)) * random.range(0.8f, 1.35f);
+    const Color color = (style.dark + lit * random.unit() * (style.light - style.dark)) * random.range(1.0f, 1.7f);
     const float length = style.length_px * random.range(0.6f, 1.2f);
     const float outwards = std::atan2(place.y() - 0.5f * kSize, place.x() - 0.5f * kSize);
     const float turn = style.slimness < 0.2f ? outwards + 0.5f * random.bell() : random.range(0.0f, kPi);

@@ -34,7 +34,7 @@ double hills(const Eigen::Vector2d& p) {
   const double rise = smoothStep(280.0f, 1100.0f, static_cast<float>(distance));
   const double ridges = 0.62 + 0.42 * fractal(x / 420.0f, y / 420.0f, 4, 21u);
   const double rolling = 4.0 * smoothStep(220.0f, 420.0f, static_cast<float>(distance)) * noise(x / 120.0f, y / 120.0f, 22u);
-  return rolling + 95.0 * rise * std::max(0.05, ridges) * skyline(d);
+  return rolling + 125.0 * rise * std::max(0.05, ridges) * skyline(d);
 }
 
 // Earth banks behind the barriers, here and there.
@@ -164,7 +164,7 @@ Color turfColor(const Eigen::Vector2d& point) {
 
 void addLand(Assembly& assembly) {
   const LandGrid grid = makeLand();
-  constexpr std::size_t kBlock = 20;
+  constexpr std::size_t kBlock = 16;
   for (std::size_t j = 0; j + 1 < grid.rows; j += kBlock) {
     for (std::size_t i = 0; i + 1 < grid.columns; i += kBlock) {
       Mesh mesh = landBlock(grid, {i, std::min(i + kBlock, grid.columns - 1)}, {j, std::min(j + kBlock, grid.rows - 1)});

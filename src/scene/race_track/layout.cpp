@@ -49,6 +49,29 @@ const std::vector<Site>& sites() {
   return table;
 }
 
+bool shadesOpenStretch(const Eigen::Vector2d& point, double height_m) {
+  constexpr double kStretches[][2] = {{-40, 70}, {150, 200}, {300, 350}, {450, 530}, {600, 640}, {720, 760}, {830, 900}};
+  // Azimuth of the sun there, and the half width that its path takes in an hour around it, rad; the tangent of 3°.
+  constexpr double kMorning = 1.0472;
+  constexpr double kEvening = -0.9599;
+  constexpr double kHalfWidth_rad = 0.10;
+  constexpr double kSlope = 0.0524;
+  constexpr double kCrown_m = 4.0;
+  for (const auto& stretch : kStretches) {
+    for (double s = stretch[0]; s <= stretch[1]; s += 12.0) {
+      const Eigen::Vector2d d = point - course().point({s, 0.0});
+      const double distance = d.norm();
+      if (kSlope * distance > height_m) continue;
+      const double azimuth = std::atan2(d.x(), d.y());
+      const double wide = kHalfWidth_rad + kCrown_m / distance;
+      // One of the two suns for each stretch is enough.
+      const double sun = static_cast<int>(stretch[0] / 50.0) % 2 == 0 ? kMorning : kEvening;
+      if (std::abs(std::remainder(azimuth - sun, 2.0 * M_PI)) < wide) return true;
+    }
+  }
+  return false;
+}
+
 bool isFree(const Eigen::Vector2d& point, double radius) {
   const TrackPlace place = course().nearest(point);
   const int side = place.left > 0.0 ? 1 : -1;

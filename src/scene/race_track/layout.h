@@ -32,6 +32,10 @@ struct Site {
 };
 const std::vector<Site>& sites();
 
+/// Whether something so high at `point` would keep the low sun of summer mornings (from azimuth 60°) or evenings (305°)
+/// off the stretches of the track that are meant to lie open to it. The rest of the track lies in long shadows then.
+bool shadesOpenStretch(const Eigen::Vector2d& point, double height_m);
+
 /// Whether something `radius` m wide at `point` is clear of the track, its barriers and all sites.
 bool isFree(const Eigen::Vector2d& point, double radius);
 

@@ -6,8 +6,13 @@
 namespace sunlit::scene::race_track {
 namespace {
 
-float lattice(int x, int y, std::uint32_t seed) {
-  const std::uint32_t h = mix(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), seed);
+// The final mixing of a hash, as a number in −1 … 1.
+float spread(std::uint32_t h) {
+  h ^= h >> 16;
+  h *= 0x7FEB352Du;
+  h ^= h >> 15;
+  h *= 0x846CA68Bu;
+  h ^= h >> 16;
   return static_cast<float>(h >> 8) * (2.0f / 16777216.0f) - 1.0f;
 }
 
@@ -26,15 +31,17 @@ std::uint32_t mix(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 float noise(float x, float y, std::uint32_t seed) {
   const float fx = std::floor(x);
   const float fy = std::floor(y);
-  const int ix = static_cast<int>(fx);
-  const int iy = static_cast<int>(fy);
   const float u = x - fx;
   const float v = y - fy;
   const float su = u * u * u * (u * (u * 6.0f - 15.0f) + 10.0f);
   const float sv = v * v * v * (v * (v * 6.0f - 15.0f) + 10.0f);
-  const float low = lattice(ix, iy, seed) * (1.0f - su) + lattice(ix + 1, iy, seed) * su;
-  const float high = lattice(ix, iy + 1, seed) * (1.0f - su) + lattice(ix + 1, iy + 1, seed) * su;
-  return low * (1.0f - sv) + high * sv;
+  constexpr std::uint32_t kX = 0x9E3779B1u;
+  constexpr std::uint32_t kY = 0x85EBCA77u;
+  const std::uint32_t left = static_cast<std::uint32_t>(static_cast<int>(fx)) * kX;
+  const std::uint32_t low = static_cast<std::uint32_t>(static_cast<int>(fy)) * kY + seed * 0xC2B2AE3Du;
+  const float below = spread(left ^ low) * (1.0f - su) + spread((left + kX) ^ low) * su;
+  const float above = spread(left ^ (low + kY)) * (1.0f - su) + spread((left + kX) ^ (low + kY)) * su;
+  return below * (1.0f - sv) + above * sv;
 }
 
 float fractal(float x, float y, int octaves, std::uint32_t seed) {

@@ -54,7 +54,7 @@ void weather(Canvas& canvas, Random& random) {
 Color paintColor(Random& random) {
   const std::array<Color, 14> colors = {srgb(200, 30, 28), srgb(20, 70, 160), srgb(245, 200, 30), srgb(30, 120, 60), srgb(235, 235, 228), srgb(28, 28, 30), srgb(235, 120, 25), srgb(90, 45, 130), srgb(60, 165, 190), srgb(190, 195, 200), srgb(120, 20, 40), srgb(150, 190, 50), srgb(230, 130, 150), srgb(15, 45, 80)};
   const Color base = colors[static_cast<std::size_t>(random.below(14))];
-  return base * random.range(0.75f, 1.1f);
+  return (base * random.range(0.7f, 1.0f)).min(0.8f);
 }
 
 Canvas paintPoster(const PosterSize& size, std::uint32_t seed) {

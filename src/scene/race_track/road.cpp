@@ -12,7 +12,7 @@ namespace sunlit::scene::race_track {
 namespace {
 
 constexpr int kStretches = 26;
-constexpr double kPixel_m = 0.04;
+constexpr double kPixel_m = 0.0425;
 // Painted beyond both ends, so that filtering does not reach round to the other end.
 constexpr int kMargin_px = 12;
 constexpr float kKerbHeight_m = 0.055f;

@@ -67,7 +67,7 @@ void addWords(Canvas& canvas, const StretchMap& map) {
     const LetterFrame frame{map.at(word.along + word.height, word.left),
                             {0.0f, 0.5f * word.height * map.perMetreLeft()},
                             {-word.height * map.perMetreAlong(), 0.0f}};
-    canvas.text(word.letters, frame, {word.along < 300 ? kWhite : kYellow, 0.6f});
+    canvas.text(word.letters, frame, {(word.along < 300 ? kWhite : kYellow) * 0.75f, 0.97f});
   }
 }
 

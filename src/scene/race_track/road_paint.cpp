@@ -21,6 +21,7 @@ struct Slice {
   float line;      // driving line, left
   float rubber;    // strength of the tyre tracks
   float tone;      // of this surfacing
+  float seam;      // how far its seams have wandered
   float edge[2];   // where the asphalt ends: right, left
   float kerb[2];   // width of kerbs: right, left
   Color kerb_color[2];
@@ -49,6 +50,7 @@ Slice sliceAt(double along) {
   const float joint = s / 88.0f + 0.4f * noise(s / 88.0f, 1.0f, 64u);
   const std::uint32_t piece = mix(static_cast<std::uint32_t>(static_cast<int>(std::floor(joint))), 65u);
   slice.tone = 0.080f + 0.055f * static_cast<float>(piece & 1023u) / 1023.0f;
+  slice.seam = 0.15f * noise(s / 9.0f, 1.0f, 72u);
   for (int k = 0; k < 2; ++k) {
     const int side = k == 0 ? -1 : 1;
     slice.edge[k] = static_cast<float>(kHalfWidth) + 0.16f * fractal(s / 1.4f, 3.0f * k, 4, 66u);
@@ -61,9 +63,9 @@ Slice sliceAt(double along) {
 
 Color asphalt(const Slice& slice, float left, float x, float y) {
   const float s = static_cast<float>(slice.along);
-  float tone = slice.tone * (1.0f + 0.22f * fractal(x / 4.5f, y / 4.5f, 4, 71u));
+  float tone = slice.tone * (1.0f + 0.24f * fractal(x / 3.5f, y / 3.5f, 3, 71u));
   // Longitudinal seams of the paver, and lanes laid on different days.
-  tone *= 1.0f + 0.07f * noise(left * 0.6f + 0.15f * noise(s / 9.0f, 1.0f, 72u), s / 160.0f, 73u);
+  tone *= 1.0f + 0.07f * noise(left * 0.6f + slice.seam, s / 160.0f, 73u);
   // Grains of stone.
   const std::uint32_t grain = mix(static_cast<std::uint32_t>(static_cast<int>(std::floor(x * 25.0f))),
                                   static_cast<std::uint32_t>(static_cast<int>(std::floor(y * 25.0f))), 74u);
@@ -74,9 +76,9 @@ Color asphalt(const Slice& slice, float left, float x, float y) {
   tone *= 1.0f - slice.rubber * std::min(1.0f, track) * (0.75f + 0.4f * noise(s / 3.0f, left * 2.5f, 75u));
   Color color = tone * Color(1.03f, 1.0f, 0.95f);
   // Dust gathers off the line.
+  if (std::abs(left) < 2.6f) return color;
   const float dust = 0.5f * smoothStep(2.6f, 4.6f, std::abs(left)) * (0.6f + 0.5f * fractal(x / 1.6f, y / 1.6f, 3, 76u));
-  color += std::max(0.0f, dust) * (Color(0.19f, 0.16f, 0.12f) - color);
-  return color;
+  return color + std::max(0.0f, dust) * (Color(0.19f, 0.16f, 0.12f) - color);
 }
 
 Color turf(const Slice& slice, float left, float x, float y) {

@@ -194,8 +194,10 @@ void addForest(Assembly& assembly, const Foliage& foliage) {
     if (wood < 0.02f + 0.12f * random.bell() || std::abs(course().nearest(p).left) < 62.0) continue;
     Random own(seed);
     const Species species = pick(own, grove);
+    const float height = 1.15f * heightOf(species, own);
+    if (shadesOpenStretch(p, height)) continue;
     ++planted;
-    addFarTree(assembly, foliage, {groundPoint(p) - Point(0, 0, 0.5f), species, 1.15f * heightOf(species, own), 0.0f, seed});
+    addFarTree(assembly, foliage, {groundPoint(p) - Point(0, 0, 0.5f), species, height, 0.0f, seed});
   }
 }
 
@@ -213,11 +215,13 @@ void addTrees(Assembly& assembly, const Foliage& foliage) {
     bool crowded = false;
     for (const Eigen::Vector2d& other : planted) crowded = crowded || (other - p).squaredNorm() < 3.4 * 3.4;
     if (crowded) continue;
-    planted.push_back(p);
     Random own(seed);
-    const double aside = std::abs(course().nearest(p).left);
     const Species species = pick(own, noise(x / 70.0f, y / 70.0f, 403u));
-    addTree(assembly, foliage, {groundPoint(p), species, heightOf(species, own), aside < 26.0 ? 1.0f : 0.3f, seed});
+    const float height = heightOf(species, own);
+    if (shadesOpenStretch(p, height)) continue;
+    planted.push_back(p);
+    const double aside = std::abs(course().nearest(p).left);
+    addTree(assembly, foliage, {groundPoint(p), species, height, aside < 26.0 ? 1.0f : 0.3f, seed});
   }
   for (int i = 0; i < 330; ++i) {
     const TrackPlace place{random.unit() * course().length(), (random.chance(0.5f) ? 1.0 : -1.0) * random.range(9.0f, 30.0f)};

@@ -43,11 +43,10 @@ class TestBags(unittest.TestCase):
     def path(self, name):
         return self.folder.name + '/' + name
 
-    def write_bags(self, names):
-        """Stream by stream, so that one lags by a whole bag."""
+    def write_bags(self, names, poses=range(POSES)):
         for name, streams in names.items():
             with rosbag.Bag(self.path(name), 'w') as bag:
-                for pose in range(POSES):
+                for pose in poses:
                     place = PoseStamped()
                     place.header.stamp = stamp_of(pose)
                     place.pose.position.x = pose
@@ -103,6 +102,17 @@ class TestBags(unittest.TestCase):
             self.assertEqual(rows(self.path(out), 'path.csv')[59]['x'], '59')
         self.assertEqual(len(rows(self.path('offline'), 'captures.csv')), 3 * POSES)
 
+        self.write_bags({'start.bag': [0, 1, 2]}, range(23))
+        self.write_bags({'end.bag': [0, 1, 2]}, range(23, POSES))
+        for shard in ('start', 'end'):
+            done = self.evaluate_bags('--config', self.config, '--out', self.path(shard), self.path(shard + '.bag'))
+            self.assertEqual(done.returncode, 0, done.stdout)
+        done = self.evaluate_bags('--config', self.config, '--out', self.path('merged'), '--merge', self.path('end'),
+                                  '--merge', self.path('start'))
+        self.assertEqual(done.returncode, 0, done.stdout)
+        for name in ('summary.csv', 'frames.csv', 'captures.csv', 'path.csv'):
+            self.assertEqual(read(self.path('merged'), name), read(self.path('offline'), name))
+
     def test_bad_bags_and_arguments_are_one_clear_line(self):
         self.write_bags({'one.bag': [2]})
         with open(self.path('no.bag'), 'w') as file:
@@ -117,6 +127,7 @@ class TestBags(unittest.TestCase):
                  (['--config', self.path('no.yaml'), '--out', self.path('out'), self.path('one.bag')], 'no.yaml'),
                  (['--config', self.config, '--out', '/proc/out', self.path('one.bag')], 'h04'),
                  (start, 'no bag given'),
+                 (start + ['--merge', self.folder.name], 'holds no run'),
                  (['--colour'], '--colour')]
         for arguments, expected in cases:
             done = self.evaluate_bags(*arguments)

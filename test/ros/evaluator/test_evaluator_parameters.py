@@ -61,7 +61,8 @@ class TestParameters(unittest.TestCase):
             streams.wait_for(evaluator)
             evaluator.process.send_signal(signal.SIGINT)  # Ctrl-C
             status, output = evaluator.wait()
-            self.assertEqual(status, 0, output)
+            self.assertEqual(status, 3, output)
+            self.assertIn('no pair of images came at all', output)
             with open(self.folder.name + '/' + name + '/run.yaml') as file:
                 runs.append(yaml.safe_load(file)['settings'])
         streams.close()

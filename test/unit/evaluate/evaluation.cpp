@@ -76,6 +76,7 @@ TEST(Evaluation, NamesAPoseThatNeverCame) {
   feedPose(evaluation, 0);
   const Outcome outcome = evaluation.finish();
   EXPECT_EQ(outcome.absent_poses, 2u);
+  EXPECT_TRUE(hasLine(contentOf(folder.file("out/problems.csv")), "absent,2,,,no image of this pose came"));
   EXPECT_FALSE(outcome.isWhole());
 }
 

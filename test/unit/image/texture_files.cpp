@@ -38,8 +38,10 @@ std::string bytes(std::initializer_list<int> values) {
   return text;
 }
 
-/// A PNG of 1 × 1 px whose samples are `samples`; `color_type` as in PNG (0 grey, 2 RGB, 4 grey and alpha, 6 RGBA).
-std::string onePixel(int bit_depth, int color_type, const std::string& samples, const std::string& more = "") {
+/// A PNG of 1 × 1 px whose samples are `samples`; `color_type` as in PNG (0 grey, 2 RGB, 4 grey and alpha, 6
+/// RGBA).
+std::string onePixel(int bit_depth, int color_type, const std::string& samples,
+                     const std::string& more = "") {
   const std::string row = std::string(1, '\0') + samples;  // filter type 0
   std::uint32_t a = 1;
   std::uint32_t b = 0;
@@ -50,14 +52,16 @@ std::string onePixel(int bit_depth, int color_type, const std::string& samples, 
   const int size = static_cast<int>(row.size());
   // One stored (uncompressed) block of zlib, RFC 1950 and 1951.
   const std::string packed =
-      bytes({0x78, 0x01, 0x01, size & 0xFF, size >> 8, ~size & 0xFF, ~size >> 8 & 0xFF}) + row + word(b << 16 | a);
+      bytes({0x78, 0x01, 0x01, size & 0xFF, size >> 8, ~size & 0xFF, ~size >> 8 & 0xFF}) + row +
+      word(b << 16 | a);
   return bytes({0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'}) +
-         chunk("IHDR", word(1) + word(1) + bytes({bit_depth, color_type, 0, 0, 0})) + more + chunk("IDAT", packed) +
-         chunk("IEND", "");
+         chunk("IHDR", word(1) + word(1) + bytes({bit_depth, color_type, 0, 0, 0})) + more +
+         chunk("IDAT", packed) + chunk("IEND", "");
 }
 
 std::vector<int> texelOf(const std::string& file) {
-  const Rgba8Image picture = decodeRgba(reinterpret_cast<const std::uint8_t*>(file.data()), file.size(), "test");
+  const Rgba8Image picture =
+      decodeRgba(reinterpret_cast<const std::uint8_t*>(file.data()), file.size(), "test");
   return {picture.data.begin(), picture.data.end()};
 }
 
@@ -82,12 +86,14 @@ TEST(DecodeRgba, SixteenBitsAreRoundedToEight) {
 
 TEST(DecodeRgba, AColourProfileIsIgnoredInSilence) {
   ::testing::internal::CaptureStderr();
-  EXPECT_EQ(texelOf(onePixel(8, 2, bytes({10, 20, 30}), chunk("iCCP", "nonsense"))), (std::vector<int>{10, 20, 30, 255}));
+  EXPECT_EQ(texelOf(onePixel(8, 2, bytes({10, 20, 30}), chunk("iCCP", "nonsense"))),
+            (std::vector<int>{10, 20, 30, 255}));
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(DecodeRgba, NamesWhatCannotBeDecoded) {
-  for (const std::string& broken : {std::string(), std::string("GIF89a"), onePixel(8, 2, bytes({1, 2, 3})).substr(0, 20)}) {
+  for (const std::string& broken :
+       {std::string(), std::string("GIF89a"), onePixel(8, 2, bytes({1, 2, 3})).substr(0, 20)}) {
     try {
       texelOf(broken);
       FAIL() << "it was decoded";

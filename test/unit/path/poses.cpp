@@ -18,7 +18,9 @@ void expectAt(const Eigen::Isometry3d& pose, const Eigen::Vector3d& position) {
   EXPECT_NEAR((pose.translation() - position).norm(), 0.0, kRounding) << pose.translation().transpose();
 }
 
-double yawOf(const Eigen::Isometry3d& pose) { return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)); }
+double yawOf(const Eigen::Isometry3d& pose) {
+  return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0));
+}
 
 std::string messageOf(const Waypoints& waypoints, const PathOptions& options = {}) {
   try {
@@ -43,10 +45,10 @@ TEST(PosesAlong, StartAgainAtEachWaypoint) {
 TEST(PosesAlong, FaceTheNextWaypoint) {
   const auto poses = posesAlong({{0, 0, 0}, {1.5, 0, 0}, {1.5, 1.5, 0}, {0, 1.5, 0}, {-1, 0.5, 0}}, {});
   ASSERT_EQ(poses.size(), 8u);
-  EXPECT_NEAR(yawOf(poses[1]), 0.0, kRounding);                      // the last before the turn still looks east
-  EXPECT_NEAR(yawOf(poses[2]), 0.5 * kPi, kRounding);                // at the turn already north
-  EXPECT_NEAR(std::abs(yawOf(poses[4])), kPi, kRounding);            // west
-  EXPECT_NEAR(yawOf(poses[6]), -0.75 * kPi, kRounding);              // south-west
+  EXPECT_NEAR(yawOf(poses[1]), 0.0, kRounding);            // the last before the turn still looks east
+  EXPECT_NEAR(yawOf(poses[2]), 0.5 * kPi, kRounding);      // at the turn already north
+  EXPECT_NEAR(std::abs(yawOf(poses[4])), kPi, kRounding);  // west
+  EXPECT_NEAR(yawOf(poses[6]), -0.75 * kPi, kRounding);    // south-west
 }
 
 TEST(PosesAlong, NeverReachTheLastWaypoint) {
@@ -104,7 +106,8 @@ TEST(PosesAlong, RefusesWhatIsNoPath) {
 TEST(PathOptions, NameKeyValueAndRange) {
   const Waypoints waypoints{{0, 0, 0}, {1, 0, 0}};
   EXPECT_EQ(messageOf(waypoints, {0.0, 1.0}), "spacing_m is 0.000000, must be 0.001000 … 1000.000000 m");
-  EXPECT_EQ(messageOf(waypoints, {1.0, 2e3}), "height_m is 2000.000000, must be -1000.000000 … 1000.000000 m");
+  EXPECT_EQ(messageOf(waypoints, {1.0, 2e3}),
+            "height_m is 2000.000000, must be -1000.000000 … 1000.000000 m");
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(validate(PathOptions{nan, 1.0}), std::invalid_argument);
 }

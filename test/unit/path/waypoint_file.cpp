@@ -52,7 +52,8 @@ TEST_F(WaypointFile, CsvWithoutHeight) {
 }
 
 TEST_F(WaypointFile, TumTrajectory) {
-  const Waypoints waypoints = read("# timestamp tx ty tz qx qy qz qw\n0.0 1 2 3 0 0 0 1\n0.1\t4 5 6 0 0 0 1\n");
+  const Waypoints waypoints =
+      read("# timestamp tx ty tz qx qy qz qw\n0.0 1 2 3 0 0 0 1\n0.1\t4 5 6 0 0 0 1\n");
   ASSERT_EQ(waypoints.size(), 2u);
   EXPECT_EQ(waypoints[0], Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(waypoints[1], Eigen::Vector3d(4, 5, 6));
@@ -69,7 +70,8 @@ TEST_F(WaypointFile, NamesTheLineOfWhatIsNoNumber) {
 }
 
 TEST_F(WaypointFile, NamesTheLineOfWrongColumns) {
-  const std::string expected = ": expected x,y,z or x,y with commas, or the eight columns of a TUM trajectory with blanks, found ";
+  const std::string expected =
+      ": expected x,y,z or x,y with commas, or the eight columns of a TUM trajectory with blanks, found ";
   EXPECT_EQ(errorOf("1,2,3,4\n"), ":1" + expected + "4 columns");
   EXPECT_EQ(errorOf("#\n1;2;3\n"), ":2" + expected + "1 column");
   EXPECT_EQ(errorOf("1 2 3\n"), ":1" + expected + "3 columns");
@@ -80,7 +82,8 @@ TEST_F(WaypointFile, NeedsTwoDifferentPoints) {
   EXPECT_EQ(errorOf(""), ":0: a path needs two waypoints or more, there are 0");
   EXPECT_EQ(errorOf("x,y,z\n"), ":1: a path needs two waypoints or more, there are 0");
   EXPECT_EQ(errorOf("1,2,3\n"), ":1: a path needs two waypoints or more, there is 1");
-  EXPECT_EQ(errorOf("1,2,3\n4,5,6\n4,5,6\n"), ":3: it is less than 1 mm from the waypoint before it in plan view");
+  EXPECT_EQ(errorOf("1,2,3\n4,5,6\n4,5,6\n"),
+            ":3: it is less than 1 mm from the waypoint before it in plan view");
 }
 
 TEST(WaypointFiles, AMissingOneIsNamed) {

@@ -32,7 +32,8 @@ Scene sample() {
   Mesh mesh;
   mesh.name = "tree\\1";
   mesh.material = 0;
-  mesh.positions = {{0.1f, -2.3f, 4.5f}, {1.7f, 0.2f, 0.3f}, {-7.1f, 8.9f, 1e-3f}, {1234.567f, -765.4321f, 88.8f}};
+  mesh.positions = {
+      {0.1f, -2.3f, 4.5f}, {1.7f, 0.2f, 0.3f}, {-7.1f, 8.9f, 1e-3f}, {1234.567f, -765.4321f, 88.8f}};
   for (int i = 0; i < 4; ++i) {
     mesh.normals.push_back(Eigen::Vector3f(0.1f * static_cast<float>(i), 0.5f, 1.0f).normalized());
     mesh.texture_coordinates.emplace_back(0.3f * static_cast<float>(i), -1.7f * static_cast<float>(i));
@@ -111,7 +112,8 @@ TEST_F(ExportGltf, EmissionKeepsItsColourAndSaysThatItLostItsStrength) {
   writeGltf(sample(), pathOf("scene.glb"));
   const Scene back = load(pathOf("scene.glb"), {});
   EXPECT_LT((back.materials[1].emission.value - Eigen::Array3f(0.25f, 1.0f, 0.125f)).abs().maxCoeff(), 1e-6f);
-  EXPECT_EQ(back.warnings.at(0), pathOf("scene.glb") + ": glTF extension KHR_materials_emissive_strength is not read");
+  EXPECT_EQ(back.warnings.at(0),
+            pathOf("scene.glb") + ": glTF extension KHR_materials_emissive_strength is not read");
 }
 
 TEST_F(ExportGltf, WritesTheSameBytesEachTime) {

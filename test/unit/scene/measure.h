@@ -64,7 +64,8 @@ inline std::optional<Hit> nearestOnVertical(const Scene& scene, const Eigen::Vec
       const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
       if (!inside || u + v + w == 0.0) continue;
       const double height = (u * a.z() + v * b.z() + w * c.z()) / (u + v + w);
-      if (!nearest || std::abs(height) < std::abs(nearest->z - point.z())) nearest = Hit{point.z() + height, &mesh};
+      if (!nearest || std::abs(height) < std::abs(nearest->z - point.z()))
+        nearest = Hit{point.z() + height, &mesh};
     }
   }
   return nearest;

@@ -8,37 +8,47 @@ namespace sunlit::scene {
 namespace {
 
 /// A triangle whose corners are 1, 2 and 3 units along x, y and z, in a COLLADA file.
-std::string collada(const std::string& asset, const std::string& image = "", const std::string& positions =
-                                                                                "1 0 0 0 2 0 0 0 3") {
+std::string collada(const std::string& asset, const std::string& image = "",
+                    const std::string& positions = "1 0 0 0 2 0 0 0 3") {
   const std::string texture =
       image.empty() ? "<color>1 0 0 1</color>" : "<texture texture='picture-sampler' texcoord='uv'/>";
   const std::string parameters =
-      image.empty() ? ""
-                    : "<newparam sid='picture-surface'><surface type='2D'><init_from>picture</init_from></surface></newparam>"
-                      "<newparam sid='picture-sampler'><sampler2D><source>picture-surface</source></sampler2D></newparam>";
-  const std::string images = image.empty() ? ""
-                                           : "<library_images><image id='picture' name='picture'><init_from>" + image +
-                                                 "</init_from></image></library_images>";
-  return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'><asset>" +
-         asset + "</asset>" + images +
-         "<library_effects><effect id='paint-fx'><profile_COMMON>" + parameters +
-         "<technique sid='common'><lambert><diffuse>" + texture +
+      image.empty()
+          ? ""
+          : "<newparam sid='picture-surface'><surface "
+            "type='2D'><init_from>picture</init_from></surface></newparam>"
+            "<newparam "
+            "sid='picture-sampler'><sampler2D><source>picture-surface</source></sampler2D></newparam>";
+  const std::string images = image.empty()
+                                 ? ""
+                                 : "<library_images><image id='picture' name='picture'><init_from>" + image +
+                                       "</init_from></image></library_images>";
+  return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
+         "version='1.4.1'><asset>" +
+         asset + "</asset>" + images + "<library_effects><effect id='paint-fx'><profile_COMMON>" +
+         parameters + "<technique sid='common'><lambert><diffuse>" + texture +
          "</diffuse></lambert></technique></profile_COMMON></effect></library_effects>"
          "<library_materials><material id='paint' name='paint'><instance_effect url='#paint-fx'/></material>"
          "</library_materials><library_geometries><geometry id='g' name='g'><mesh>"
-         "<source id='p'><float_array id='pa' count='9'>" + positions +
-         "</float_array><technique_common><accessor source='#pa' count='3' stride='3'><param name='X' type='float'/>"
+         "<source id='p'><float_array id='pa' count='9'>" +
+         positions +
+         "</float_array><technique_common><accessor source='#pa' count='3' stride='3'><param name='X' "
+         "type='float'/>"
          "<param name='Y' type='float'/><param name='Z' type='float'/></accessor></technique_common></source>"
          "<source id='t'><float_array id='ta' count='6'>0 0 1 0 0.25 0.75</float_array><technique_common>"
-         "<accessor source='#ta' count='3' stride='2'><param name='S' type='float'/><param name='T' type='float'/>"
+         "<accessor source='#ta' count='3' stride='2'><param name='S' type='float'/><param name='T' "
+         "type='float'/>"
          "</accessor></technique_common></source>"
          "<vertices id='v'><input semantic='POSITION' source='#p'/></vertices>"
          "<triangles material='m' count='1'><input semantic='VERTEX' source='#v' offset='0'/>"
-         "<input semantic='TEXCOORD' source='#t' offset='1' set='0'/><p>0 0 1 1 2 2</p></triangles></mesh></geometry>"
+         "<input semantic='TEXCOORD' source='#t' offset='1' set='0'/><p>0 0 1 1 2 "
+         "2</p></triangles></mesh></geometry>"
          "</library_geometries><library_visual_scenes><visual_scene id='s'><node id='n' name='n'>"
-         "<instance_geometry url='#g'><bind_material><technique_common><instance_material symbol='m' target='#paint'>"
+         "<instance_geometry url='#g'><bind_material><technique_common><instance_material symbol='m' "
+         "target='#paint'>"
          "<bind_vertex_input semantic='uv' input_semantic='TEXCOORD' input_set='0'/></instance_material>"
-         "</technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>"
+         "</technique_common></bind_material></instance_geometry></node></visual_scene></"
+         "library_visual_scenes>"
          "<scene><instance_visual_scene url='#s'/></scene></COLLADA>";
 }
 

@@ -9,8 +9,8 @@
 namespace sunlit::scene {
 namespace {
 
-/// With a step of h = 2π/48 the polygon around a round solid has h²/6 = 0.29 % less area than its circle, and straight
-/// lines between the rings of a sphere cost h²/4 = 0.43 % more.
+/// With a step of h = 2π/48 the polygon around a round solid has h²/6 = 0.29 % less area than its circle, and
+/// straight lines between the rings of a sphere cost h²/4 = 0.43 % more.
 constexpr double kFacets = 0.0075;
 constexpr double kFloat = 1e-6;  // relative rounding of float positions of size 1, summed over a few faces
 
@@ -57,7 +57,8 @@ TEST(Primitives, CapsuleIsACylinderBetweenHalfSpheres) {
 }
 
 TEST(Primitives, PlaneFacesItsNormal) {
-  for (const Eigen::Vector3d& normal : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(3, 0, 4)}) {
+  for (const Eigen::Vector3d& normal :
+       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(3, 0, 4)}) {
     const Mesh plane = makePlane({2.0, 3.0}, normal);
     EXPECT_NEAR(areaOf(plane), 6.0, 6.0 * kFloat);
     EXPECT_NEAR(faceVector(plane, plane.triangles[0]).normalized().dot(normal.normalized()), 1.0, kFloat);

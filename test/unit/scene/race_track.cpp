@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -106,12 +107,13 @@ TEST(RaceTrack, meshesNearTheTrackAreCompact) {
     Eigen::AlignedBox3f box;
     for (const Eigen::Vector3f& p : mesh.positions) box.extend(p);
     if (std::max(box.min().head<2>().cwiseAbs().maxCoeff(), box.max().head<2>().cwiseAbs().maxCoeff()) > 230.0f) continue;
-    EXPECT_LE(box.sizes().head<2>().maxCoeff(), 110.0f) << mesh.name;
+    // Cells of 64 m, and the longest single part (the roof of the pits) reaches 70 m out of its own.
+    EXPECT_LE(box.sizes().head<2>().maxCoeff(), 140.0f) << mesh.name;
   }
 }
 
 TEST(RaceTrack, albedosAreReal) {
-  // Nothing outdoors but fresh snow reflects more than 0.9; vertex colour times material colour stays below.
+  // Nothing outdoors but fresh snow reflects more than 0.9.
   for (const Mesh& mesh : world().meshes) {
     const Material& material = world().materials[static_cast<std::size_t>(mesh.material)];
     if (material.base_texture != Material::kNoTexture) continue;

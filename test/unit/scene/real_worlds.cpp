@@ -17,7 +17,8 @@ const std::string kForza = SUNLIT_SHARED_DIR "/worlds/forza";
 #define SKIP_WITHOUT(folder) \
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here"
 
-/// Both paths are on surfaces that were modelled as polygons of a few metres; waypoints of forza are given to the mm.
+/// Both paths are on surfaces that were modelled as polygons of a few metres; waypoints of forza are given to
+/// the mm.
 constexpr double kOnTheRoad_m = 0.03;
 
 class AwsRaceTrack : public ::testing::Test {
@@ -66,7 +67,8 @@ TEST_F(AwsRaceTrack, NamesTheTexturesThatAreMissing) {
     const auto& warnings = scene().warnings;
     EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
                             [&](const std::string& line) {
-                              return line.find(name) != std::string::npos && line.find("missing") != std::string::npos;
+                              return line.find(name) != std::string::npos &&
+                                     line.find("missing") != std::string::npos;
                             }),
               1)
         << name;
@@ -95,7 +97,8 @@ TEST(AwsModels, NameEveryMissingTexture) {
     for (const auto& mesh : std::filesystem::directory_iterator(model.path() / "meshes")) {
       for (const std::string& line : load(mesh.path().string(), {}).warnings) {
         const std::size_t begin = line.find("aws_", line.find("texture "));
-        if (line.find(" is missing") != std::string::npos) missing.push_back(line.substr(begin, line.find(' ', begin) - begin));
+        if (line.find(" is missing") != std::string::npos)
+          missing.push_back(line.substr(begin, line.find(' ', begin) - begin));
       }
     }
   }
@@ -113,7 +116,8 @@ TEST(AwsModels, TheOneWithABrokenValueIsNamedByFileAndLine) {
     FAIL() << "it was read";
   } catch (const std::runtime_error& error) {
     // Its gravity is 1000, where SDF wants true or false.
-    EXPECT_NE(std::string(error.what()).find("Column_01/model.sdf:8: Error reading element <gravity>"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("Column_01/model.sdf:8: Error reading element <gravity>"),
+              std::string::npos)
         << error.what();
   }
 }
@@ -149,8 +153,8 @@ TEST_F(Forza, ItsCentreLineLiesOnTheRoad) {
     ASSERT_TRUE(hit) << waypoints[i].transpose();
     const double gap_m = std::abs(hit->z - waypoints[i].z());
     if (gap_m < kOnTheRoad_m) ++on_the_road;
-    // The experiment drives the first 991 m. Further on, the simulator's centre line cuts through verges and a gravel trap
-    // that the artist shaped on his own, so it is off the surface by up to 32 cm there.
+    // The experiment drives the first 991 m. Further on, the simulator's centre line cuts through verges and
+    // a gravel trap that the artist shaped on his own, so it is off the surface by up to 32 cm there.
     EXPECT_LT(gap_m, driven_m < 991.0 ? kOnTheRoad_m : 0.35) << "waypoint " << i;
   }
   EXPECT_GT(on_the_road, waypoints.size() * 9 / 10);

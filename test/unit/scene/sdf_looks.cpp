@@ -11,10 +11,13 @@ class SdfLook : public TemporaryFolder {
  protected:
   Scene loaded(const std::string& material, const std::string& more = "",
                const std::string& geometry = "<sphere><radius>1</radius></sphere>") {
-    return load(write("test.world", "<?xml version='1.0'?><sdf version='1.9'><world name='w'><model name='m'><link name='l'>"
-                                    "<visual name='v'>" + more + "<geometry>" + geometry + "</geometry>" + material +
-                                        "</visual></link></model></world></sdf>"),
-                {});
+    return load(
+        write("test.world",
+              "<?xml version='1.0'?><sdf version='1.9'><world name='w'><model name='m'><link name='l'>"
+              "<visual name='v'>" +
+                  more + "<geometry>" + geometry + "</geometry>" + material +
+                  "</visual></link></model></world></sdf>"),
+        {});
   }
   static const Material& look(const Scene& scene) {
     return scene.materials.at(static_cast<std::size_t>(scene.meshes.at(0).material));
@@ -34,25 +37,29 @@ TEST_F(SdfLook, WithoutMaterialIsNeutral) {
 }
 
 TEST_F(SdfLook, KnownScriptsHaveTheirColour) {
-  const Scene scene = loaded("<material><script><uri>file://media/materials/scripts/gazebo.material</uri>"
-                             "<name>Gazebo/Red</name></script></material>");
+  const Scene scene = loaded(
+      "<material><script><uri>file://media/materials/scripts/gazebo.material</uri>"
+      "<name>Gazebo/Red</name></script></material>");
   EXPECT_EQ(look(scene).base_color.value[0], 1.0f);
   EXPECT_EQ(look(scene).base_color.value[2], 0.0f);
   EXPECT_TRUE(scene.warnings.empty());
 }
 
 TEST_F(SdfLook, UnknownScriptsAreANamedWarning) {
-  const Scene scene = loaded("<material><script><uri>file://x.material</uri><name>Plaid</name></script></material>");
+  const Scene scene =
+      loaded("<material><script><uri>file://x.material</uri><name>Plaid</name></script></material>");
   ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_EQ(scene.warnings[0], "material script Plaid is not known, a neutral material takes its place");
 }
 
 TEST_F(SdfLook, ScriptsOfModelsAreRead) {
   write("models/field/materials/scripts/field.material",
-        "material Field/Sand\n{\n  technique\n  {\n    pass\n    {\n      texture_unit\n      {\n        texture sand.png\n      }\n    }\n  }\n}\n");
+        "material Field/Sand\n{\n  technique\n  {\n    pass\n    {\n      texture_unit\n      {\n        "
+        "texture sand.png\n      }\n    }\n  }\n}\n");
   writeTexture("models/field/materials/textures/sand.png");
-  const Scene scene = loaded("<material><script><uri>model://field/materials/scripts</uri>"
-                             "<uri>model://field/materials/textures</uri><name>Field/Sand</name></script></material>");
+  const Scene scene = loaded(
+      "<material><script><uri>model://field/materials/scripts</uri>"
+      "<uri>model://field/materials/textures</uri><name>Field/Sand</name></script></material>");
   EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
   ASSERT_EQ(scene.textures.size(), 1u);
   EXPECT_EQ(look(scene).base_texture, 0);
@@ -60,8 +67,9 @@ TEST_F(SdfLook, ScriptsOfModelsAreRead) {
 
 TEST_F(SdfLook, PbrMetalIsRead) {
   writeTexture("metal.png");
-  const Scene scene = loaded("<material><pbr><metal><albedo_map>metal.png</albedo_map><roughness>0.25</roughness>"
-                             "<metalness>0.75</metalness></metal></pbr></material>");
+  const Scene scene = loaded(
+      "<material><pbr><metal><albedo_map>metal.png</albedo_map><roughness>0.25</roughness>"
+      "<metalness>0.75</metalness></metal></pbr></material>");
   EXPECT_FLOAT_EQ(look(scene).roughness, 0.25f);
   EXPECT_FLOAT_EQ(look(scene).metalness, 0.75f);
   EXPECT_EQ(look(scene).base_texture, 0);
@@ -74,14 +82,17 @@ TEST_F(SdfLook, AMeshKeepsItsOwnMaterialUnlessTheVisualHasOne) {
   const std::string mesh = "<mesh><uri>t.obj</uri></mesh>";
   EXPECT_EQ(look(loaded("", "", mesh)).base_color.value[1], 0.0f);
   // A bare shader, as many models have, says nothing about the colour.
-  const std::string shader = "<material><shader type='pixel'><normal_map>__default__</normal_map></shader></material>";
+  const std::string shader =
+      "<material><shader type='pixel'><normal_map>__default__</normal_map></shader></material>";
   EXPECT_EQ(look(loaded(shader, "", mesh)).base_color.value[1], 0.0f);
-  EXPECT_EQ(look(loaded("<material><diffuse>0 1 0 1</diffuse></material>", "", mesh)).base_color.value[1], 1.0f);
+  EXPECT_EQ(look(loaded("<material><diffuse>0 1 0 1</diffuse></material>", "", mesh)).base_color.value[1],
+            1.0f);
 }
 
 TEST_F(SdfLook, MostlyTransparentVisualsAreLeftOut) {
   const std::string two =
-      "<transparency>0.9</transparency><geometry><box><size>9 9 9</size></box></geometry></visual><visual name='w'>";
+      "<transparency>0.9</transparency><geometry><box><size>9 9 9</size></box></geometry></visual><visual "
+      "name='w'>";
   const Scene scene = loaded("", two);
   EXPECT_EQ(scene.meshes.size(), 1u);
   ASSERT_EQ(scene.warnings.size(), 1u);
@@ -90,12 +101,15 @@ TEST_F(SdfLook, MostlyTransparentVisualsAreLeftOut) {
 
 TEST_F(SdfLook, WarningsOfTheParserAreCollected) {
   // The old name of model.config is something that the parser warns about.
-  write("models/old/manifest.xml", "<?xml version='1.0'?><model><name>old</name><sdf version='1.6'>model.sdf</sdf></model>");
-  write("models/old/model.sdf", "<?xml version='1.0'?><sdf version='1.6'><model name='old'><link name='l'><visual name='v'>"
-                                "<geometry><box><size>1 1 1</size></box></geometry></visual></link></model></sdf>");
-  const std::string file =
-      write("test.world", "<?xml version='1.0'?><sdf version='1.6'><world name='w'><include><uri>model://old</uri></include>"
-                          "<include><uri>model://old</uri><name>b</name></include></world></sdf>");
+  write("models/old/manifest.xml",
+        "<?xml version='1.0'?><model><name>old</name><sdf version='1.6'>model.sdf</sdf></model>");
+  write("models/old/model.sdf",
+        "<?xml version='1.0'?><sdf version='1.6'><model name='old'><link name='l'><visual name='v'>"
+        "<geometry><box><size>1 1 1</size></box></geometry></visual></link></model></sdf>");
+  const std::string file = write(
+      "test.world",
+      "<?xml version='1.0'?><sdf version='1.6'><world name='w'><include><uri>model://old</uri></include>"
+      "<include><uri>model://old</uri><name>b</name></include></world></sdf>");
   ::testing::internal::CaptureStderr();
   const Scene scene = load(file, {});
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");

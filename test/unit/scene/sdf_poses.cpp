@@ -33,8 +33,10 @@ class Sdf : public TemporaryFolder {
 };
 
 TEST_F(Sdf, PosesOfModelLinkAndVisualAddUp) {
-  const Scene scene = loaded(world("<model name='m'><pose>10 0 0 0 0 1.5707963267948966</pose><link name='l'>"
-                                   "<pose>0 0 5 0 0 0</pose>" + boxVisual("1 0 0 0 0 0") + "</link></model>"));
+  const Scene scene =
+      loaded(world("<model name='m'><pose>10 0 0 0 0 1.5707963267948966</pose><link name='l'>"
+                   "<pose>0 0 5 0 0 0</pose>" +
+                   boxVisual("1 0 0 0 0 0") + "</link></model>"));
   // The quarter turn carries the visual's metre east to the north and swaps the box's sides.
   expectBounds(scene, {8, 0, 2}, {12, 2, 8});
   EXPECT_EQ(scene.meshes[0].name, "m::l::v");
@@ -42,28 +44,36 @@ TEST_F(Sdf, PosesOfModelLinkAndVisualAddUp) {
 }
 
 TEST_F(Sdf, PosesRelativeToFramesAreResolved) {
-  const Scene scene = loaded(world("<frame name='f'><pose>100 0 0 0 0 0</pose></frame><model name='m'>"
-                                   "<pose relative_to='f'>0 10 0 0 0 0</pose><frame name='g'><pose>0 0 50 0 0 0</pose>"
-                                   "</frame><link name='l'><pose relative_to='g'>0 0 1 0 0 0</pose>" +
-                                   boxVisual() + "</link></model>"));
+  const Scene scene =
+      loaded(world("<frame name='f'><pose>100 0 0 0 0 0</pose></frame><model name='m'>"
+                   "<pose relative_to='f'>0 10 0 0 0 0</pose><frame name='g'><pose>0 0 50 0 0 0</pose>"
+                   "</frame><link name='l'><pose relative_to='g'>0 0 1 0 0 0</pose>" +
+                   boxVisual() + "</link></model>"));
   expectBounds(scene, {99, 8, 48}, {101, 12, 54});
 }
 
 TEST_F(Sdf, NestedModelsMoveWithTheirParents) {
-  const Scene scene = loaded(world("<model name='outer'><pose>1 0 0 0 0 0</pose><model name='inner'>"
-                                   "<pose>0 1 0 0 0 0</pose><link name='l'>" + boxVisual() + "</link></model></model>"));
+  const Scene scene =
+      loaded(world("<model name='outer'><pose>1 0 0 0 0 0</pose><model name='inner'>"
+                   "<pose>0 1 0 0 0 0</pose><link name='l'>" +
+                   boxVisual() + "</link></model></model>"));
   expectBounds(scene, {0, -1, -3}, {2, 3, 3});
   EXPECT_EQ(scene.meshes[0].name, "outer::inner::l::v");
 }
 
 TEST_F(Sdf, IncludesAreFoundAndPlaced) {
-  write("models/crate/model.config", "<?xml version='1.0'?><model><name>crate</name><sdf version='1.6'>model.sdf</sdf></model>");
-  write("models/crate/model.sdf", "<?xml version='1.0'?><sdf version='1.6'><model name='crate'><link name='l'>" + boxVisual() +
-                                      "</link></model></sdf>");
-  const std::string include = "<include><uri>model://crate</uri><name>a</name><pose>0 0 3 0 0 0</pose></include>";
+  write("models/crate/model.config",
+        "<?xml version='1.0'?><model><name>crate</name><sdf version='1.6'>model.sdf</sdf></model>");
+  write("models/crate/model.sdf",
+        "<?xml version='1.0'?><sdf version='1.6'><model name='crate'><link name='l'>" + boxVisual() +
+            "</link></model></sdf>");
+  const std::string include =
+      "<include><uri>model://crate</uri><name>a</name><pose>0 0 3 0 0 0</pose></include>";
   // Once in the world, once in a model as SDF 1.6 worlds do it.
-  const std::string text = world(include + "<model name='b'><include><uri>model://crate</uri></include>"
-                                           "<pose>20 0 3 0 0 0</pose></model>", "1.6");
+  const std::string text = world(include +
+                                     "<model name='b'><include><uri>model://crate</uri></include>"
+                                     "<pose>20 0 3 0 0 0</pose></model>",
+                                 "1.6");
   const Scene beside = loaded(text);
   expectBounds(beside, {-1, -2, 0}, {21, 2, 6});
   EXPECT_EQ(beside.meshes.size(), 2u);
@@ -73,71 +83,93 @@ TEST_F(Sdf, IncludesAreFoundAndPlaced) {
 }
 
 TEST_F(Sdf, IncludesKeepToTheRulesOfPoses) {
-  write("models/crate/model.config", "<?xml version='1.0'?><model><name>crate</name><sdf version='1.9'>model.sdf</sdf></model>");
-  write("models/crate/model.sdf", "<?xml version='1.0'?><sdf version='1.9'><model name='crate'><pose>0 0 100 0 0 0</pose>"
-                                  "<frame name='top'><pose>0 0 3 0 0 0</pose></frame><link name='l'>" + boxVisual() +
-                                      "</link></model></sdf>");
+  write("models/crate/model.config",
+        "<?xml version='1.0'?><model><name>crate</name><sdf version='1.9'>model.sdf</sdf></model>");
+  write("models/crate/model.sdf",
+        "<?xml version='1.0'?><sdf version='1.9'><model name='crate'><pose>0 0 100 0 0 0</pose>"
+        "<frame name='top'><pose>0 0 3 0 0 0</pose></frame><link name='l'>" +
+            boxVisual() + "</link></model></sdf>");
   const auto include = [](const std::string& more) {
     return world("<include><uri>model://crate</uri>" + more + "</include>");
   };
-  expectBounds(loaded(include("")), {-1, -2, 97}, {1, 2, 103});                          // its own pose
-  expectBounds(loaded(include("<pose>5 0 0 0 0 0</pose>")), {4, -2, -3}, {6, 2, 3});  // which the include's replaces
+  expectBounds(loaded(include("")), {-1, -2, 97}, {1, 2, 103});  // its own pose
+  expectBounds(loaded(include("<pose>5 0 0 0 0 0</pose>")), {4, -2, -3},
+               {6, 2, 3});  // which the include's replaces
   // The named frame is put at the pose, so the crate hangs below it.
-  expectBounds(loaded(include("<placement_frame>top</placement_frame><pose>0 0 0 0 0 0</pose>")), {-1, -2, -6}, {1, 2, 0});
+  expectBounds(loaded(include("<placement_frame>top</placement_frame><pose>0 0 0 0 0 0</pose>")),
+               {-1, -2, -6}, {1, 2, 0});
   // Something else stands on a frame of what is included.
-  const Scene two = loaded(world("<include><uri>model://crate</uri><name>a</name><pose>0 0 3 0 0 0</pose></include>"
-                                 "<model name='b'><pose relative_to='a::top'>0 0 3 0 0 0</pose><link name='l'>" +
-                                 boxVisual() + "</link></model>"));
+  const Scene two =
+      loaded(world("<include><uri>model://crate</uri><name>a</name><pose>0 0 3 0 0 0</pose></include>"
+                   "<model name='b'><pose relative_to='a::top'>0 0 3 0 0 0</pose><link name='l'>" +
+                   boxVisual() + "</link></model>"));
   expectBounds(two, {-1, -2, 0}, {1, 2, 12});
 }
 
 TEST_F(Sdf, IncludesWithinIncludesAndInModelsAloneAreFound) {
-  write("models/crate/model.config", "<?xml version='1.0'?><model><name>crate</name><sdf version='1.9'>model.sdf</sdf></model>");
-  write("models/crate/model.sdf", "<?xml version='1.0'?><sdf version='1.9'><model name='crate'><link name='l'>" + boxVisual() +
-                                      "</link></model></sdf>");
-  write("models/stack/model.config", "<?xml version='1.0'?><model><name>stack</name><sdf version='1.9'>model.sdf</sdf></model>");
+  write("models/crate/model.config",
+        "<?xml version='1.0'?><model><name>crate</name><sdf version='1.9'>model.sdf</sdf></model>");
+  write("models/crate/model.sdf",
+        "<?xml version='1.0'?><sdf version='1.9'><model name='crate'><link name='l'>" + boxVisual() +
+            "</link></model></sdf>");
+  write("models/stack/model.config",
+        "<?xml version='1.0'?><model><name>stack</name><sdf version='1.9'>model.sdf</sdf></model>");
   write("models/stack/model.sdf",
-        "<?xml version='1.0'?><sdf version='1.9'><model name='stack'><pose>0 0 1 0 0 0</pose><include><uri>model://crate</uri>"
-        "<name>upper</name><pose>0 0 6 0 0 0</pose></include><include><uri>model://crate</uri><name>lower</name></include>"
+        "<?xml version='1.0'?><sdf version='1.9'><model name='stack'><pose>0 0 1 0 0 "
+        "0</pose><include><uri>model://crate</uri>"
+        "<name>upper</name><pose>0 0 6 0 0 "
+        "0</pose></include><include><uri>model://crate</uri><name>lower</name></include>"
         "</model></sdf>");
   const Scene alone = load(pathOf("models/stack/model.sdf"), {});
   expectBounds(alone, {-1, -2, -2}, {1, 2, 10});
   EXPECT_EQ(alone.meshes.size(), 2u);
-  const Scene included = loaded(world("<include><uri>model://stack</uri><name>s</name><pose>10 0 3 0 0 0</pose></include>"));
+  const Scene included =
+      loaded(world("<include><uri>model://stack</uri><name>s</name><pose>10 0 3 0 0 0</pose></include>"));
   expectBounds(included, {9, -2, 0}, {11, 2, 12});
   ASSERT_EQ(included.meshes.size(), 2u);
   EXPECT_EQ(included.meshes[0].name, "s::upper::l::v");
 }
 
 TEST_F(Sdf, MeshesAreScaledAndChosenByName) {
-  write("models/two/meshes/two.obj", "o left\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no right\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 4 5 6\n");
+  write("models/two/meshes/two.obj",
+        "o left\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no right\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 4 5 6\n");
   const auto visual = [](const std::string& more) {
-    return world("<model name='m'><link name='l'><visual name='v'><geometry><mesh><uri>model://two/meshes/two.obj</uri>" +
-                 more + "</mesh></geometry></visual></link></model>");
+    return world(
+        "<model name='m'><link name='l'><visual "
+        "name='v'><geometry><mesh><uri>model://two/meshes/two.obj</uri>" +
+        more + "</mesh></geometry></visual></link></model>");
   };
   expectBounds(loaded(visual("<scale>2 3 1</scale>")), {0, 0, 0}, {12, 3, 0});
   expectBounds(loaded(visual("<submesh><name>right</name></submesh>")), {5, 0, 0}, {6, 1, 0});
-  expectBounds(loaded(visual("<submesh><name>right</name><center>true</center></submesh>")), {-0.5, -0.5, 0}, {0.5, 0.5, 0});
+  expectBounds(loaded(visual("<submesh><name>right</name><center>true</center></submesh>")), {-0.5, -0.5, 0},
+               {0.5, 0.5, 0});
 }
 
 TEST_F(Sdf, AMirroredMeshStillFacesOutwards) {
   write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  const Scene scene = loaded(world("<model name='m'><link name='l'><visual name='v'><geometry><mesh><uri>t.obj</uri>"
-                                   "<scale>-1 1 1</scale></mesh></geometry></visual></link></model>"));
+  const Scene scene =
+      loaded(world("<model name='m'><link name='l'><visual name='v'><geometry><mesh><uri>t.obj</uri>"
+                   "<scale>-1 1 1</scale></mesh></geometry></visual></link></model>"));
   const Mesh& mesh = scene.meshes.at(0);
   EXPECT_GT(faceVector(mesh, mesh.triangles[0]).z(), 0.0);
   EXPECT_GT(mesh.normals[0].z(), 0.0f);
 }
 
 TEST_F(Sdf, AModelAloneIsAWorld) {
-  const Scene scene = load(write("model.sdf", "<?xml version='1.0'?><sdf version='1.9'><model name='m'><pose>1 0 0 0 0 0</pose>"
-                                              "<link name='l'>" + boxVisual() + "</link></model></sdf>"), {});
+  const Scene scene =
+      load(write("model.sdf",
+                 "<?xml version='1.0'?><sdf version='1.9'><model name='m'><pose>1 0 0 0 0 0</pose>"
+                 "<link name='l'>" +
+                     boxVisual() + "</link></model></sdf>"),
+           {});
   expectBounds(scene, {0, -2, -3}, {2, 2, 3});
 }
 
 TEST_F(Sdf, CollisionsAreNotSeen) {
-  const Scene scene = loaded(world("<model name='m'><static>true</static><link name='l'><collision name='c'><geometry><box>"
-                                   "<size>9 9 9</size></box></geometry></collision>" + boxVisual() + "</link></model>"));
+  const Scene scene =
+      loaded(world("<model name='m'><static>true</static><link name='l'><collision name='c'><geometry><box>"
+                   "<size>9 9 9</size></box></geometry></collision>" +
+                   boxVisual() + "</link></model>"));
   expectBounds(scene, {-1, -2, -3}, {1, 2, 3});
 }
 
@@ -145,27 +177,39 @@ TEST_F(Sdf, AMissingIncludeNamesTheFileAndThePlaces) {
   const std::string file = write("test.world", world("<include><uri>model://nowhere</uri></include>"));
   const std::string error = errorOf(file, SearchPath{{"/some/folder"}});
   EXPECT_EQ(error.find(file), 0u) << error;
-  EXPECT_NE(error.find("there is no model://nowhere; it was looked for as " + pathOf("nowhere")), std::string::npos) << error;
+  EXPECT_NE(error.find("there is no model://nowhere; it was looked for as " + pathOf("nowhere")),
+            std::string::npos)
+      << error;
   EXPECT_NE(error.find("/some/folder/nowhere"), std::string::npos) << error;
 }
 
 TEST_F(Sdf, AMissingMeshNamesTheVisualAndThePlaces) {
-  const std::string file = write("test.world", world("<model name='m'><link name='l'><visual name='v'><geometry><mesh>"
-                                                     "<uri>model://house/house.dae</uri></mesh></geometry></visual></link></model>"));
+  const std::string file = write(
+      "test.world", world("<model name='m'><link name='l'><visual name='v'><geometry><mesh>"
+                          "<uri>model://house/house.dae</uri></mesh></geometry></visual></link></model>"));
   const std::string error = errorOf(file);
-  EXPECT_EQ(error.find(file + ": visual m::l::v: there is no mesh model://house/house.dae; it was looked for as " +
-                       pathOf("house/house.dae")), 0u) << error;
+  EXPECT_EQ(
+      error.find(file + ": visual m::l::v: there is no mesh model://house/house.dae; it was looked for as " +
+                 pathOf("house/house.dae")),
+      0u)
+      << error;
 }
 
 TEST_F(Sdf, BrokenXmlNamesTheLine) {
-  const std::string file = write("test.world", "<?xml version='1.0'?>\n<sdf version='1.9'>\n<world name='w'>\n<model>\n</world>\n</sdf>");
+  const std::string file =
+      write("test.world",
+            "<?xml version='1.0'?>\n<sdf version='1.9'>\n<world name='w'>\n<model>\n</world>\n</sdf>");
   EXPECT_EQ(errorOf(file), file + ":4: the XML is broken here (XML_ERROR_MISMATCHED_ELEMENT)");
 }
 
 TEST_F(Sdf, AWrongValueNamesTheLine) {
-  const std::string file = write("test.world", world("\n<model name='m'><link name='l'><visual name='v'><geometry><box><size>1 1 x</size>"
-                                                     "</box></geometry></visual></link></model>"));
-  EXPECT_EQ(errorOf(file), file + ":2: Error reading element <size> (Unknown error. Unable to set value [1 1 x ] for key[size])");
+  const std::string file =
+      write("test.world",
+            world("\n<model name='m'><link name='l'><visual name='v'><geometry><box><size>1 1 x</size>"
+                  "</box></geometry></visual></link></model>"));
+  EXPECT_EQ(
+      errorOf(file),
+      file + ":2: Error reading element <size> (Unknown error. Unable to set value [1 1 x ] for key[size])");
 }
 
 TEST_F(Sdf, AnythingElseIsNoWorld) {

@@ -74,8 +74,10 @@ TEST(Validate, NamesTheMaterialKeyValueAndRange) {
             "material 'wall': roughness is 0.000000, must be 0.030000 … 1.000000");
   EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].base_color.value[2] = kNan; }),
             "material 'wall': base_color is nan, must be 0.000000 … 1.000000");
-  EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].base_texture = 1; }), "material 'wall': there is no texture 1");
-  EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].base_texture = -2; }), "material 'wall': there is no texture -2");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].base_texture = 1; }),
+            "material 'wall': there is no texture 1");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].base_texture = -2; }),
+            "material 'wall': there is no texture -2");
   EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].detail.finest_m = 9.0f; }),
             "material 'wall': detail must have 0 < finest_m < coarsest_m");
   EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].emission.value[0] = -1.0f; }),
@@ -83,7 +85,8 @@ TEST(Validate, NamesTheMaterialKeyValueAndRange) {
 }
 
 TEST(Validate, NamesTheTexture) {
-  EXPECT_EQ(errorAfter([](Scene& s) { s.textures[0].height = 3; }), "texture 'bricks': it holds 8 bytes, not 12");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.textures[0].height = 3; }),
+            "texture 'bricks': it holds 8 bytes, not 12");
   EXPECT_EQ(errorAfter([](Scene& s) { s.textures[0].width = 0; }), "texture 'bricks': it has no pixels");
 }
 

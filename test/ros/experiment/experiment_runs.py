@@ -1,0 +1,117 @@
+#!/usr/bin/python3
+"""experiment.launch from end to end: its results, its exit status, and that it leaves nothing behind."""
+import csv
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import rosbag
+import rospy
+import rostest
+from launching import Launched, TIMEOUT_S, WORLD, WAYPOINTS, small_experiment
+
+
+class ExperimentRuns(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        """One undisturbed run, recorded, that others are compared with."""
+        cls.folder = tempfile.mkdtemp()
+        cls.output = os.path.join(cls.folder, "undisturbed")
+        cls.undisturbed = small_experiment(cls.output, record="true", report="true", images="true")
+        cls.status = cls.undisturbed.end()
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def bytes_of(self, folder, name="summary.csv"):
+        with open(os.path.join(folder, name), "rb") as file:
+            return file.read()
+
+    def test_ends_with_status_0_and_nothing_left_running(self):
+        self.assertEqual(self.status, 0, self.undisturbed.said())
+        self.assertEqual(self.undisturbed.left_running(), [])
+
+    def test_results_are_whole(self):
+        with open(os.path.join(self.output, "summary.csv")) as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual({(row["a"], row["b"]) for row in rows},
+                         {("h10", "h12"), ("h10", "self_test/h10"), ("h12", "self_test/h12")})
+        for row in rows:
+            is_self_test = row["b"].startswith("self_test")
+            self.assertEqual(int(row["n"]) + int(row["undefined"]), 4 if is_self_test else 20)
+            if row["difference"] in ("boolean_rgb", "euclidean_grey"):
+                # Two processes, one sun: to the bit. Two suns: not.
+                self.assertEqual(float(row["mean"]) == 0.0, is_self_test, row)
+        for name in ("frames.csv", "captures.csv", "path.csv", "run.yaml", "map.png", "map.yaml", "timing.csv",
+                     "report.html", "images/h10/000000.png", "images/h12/000019.png"):
+            self.assertTrue(os.path.exists(os.path.join(self.output, name)), name)
+
+    def recording(self):
+        return [os.path.join(self.output, name) for name in os.listdir(self.output) if name.endswith(".bag")]
+
+    def test_recording_holds_every_message(self):
+        bags = self.recording()
+        self.assertEqual(len(bags), 1)
+        with rosbag.Bag(bags[0]) as bag:
+            for topic in ("/h10/camera/image_raw", "/h12/camera/image_raw", "/h10/camera/camera_info", "/camera/pose",
+                          "/h12/camera/capture", "/camera/depth/image_raw"):
+                stamps = [message.header.stamp.to_nsec() for _, message, _ in bag.read_messages(topic)]
+                self.assertEqual(stamps, [1000 * 10**9 + pose * 10**8 for pose in range(20)], topic)
+            self.assertGreaterEqual(bag.get_message_count("/h10/sun"), 1)
+
+    def test_resumed_after_sigkill_it_gives_the_same_bytes(self):
+        output = os.path.join(self.folder, "killed")
+        frames = os.path.join(output, "frames.csv")
+        run = small_experiment(output, max_ahead=1)  # slowly
+        rows = lambda: self.bytes_of(output, "frames.csv").count(b"\n") if os.path.exists(frames) else 0
+        run.wait_for(lambda: rows() > 3, "evaluated a pose")
+        run.kill()
+        self.assertEqual(run.left_running(), [])
+        self.assertFalse(os.path.exists(os.path.join(output, "summary.csv")), "killed too late to be a test")
+
+        again = small_experiment(output)
+        self.assertEqual(again.end(), 0, again.said())
+        self.assertEqual(self.bytes_of(output), self.bytes_of(self.output))
+
+    def test_a_renderer_that_dies_is_a_failure_with_a_reason(self):
+        run = small_experiment(os.path.join(self.folder, "dying"), self_test="false")
+        run.wait_for(lambda: any("render_node" in command for _, command in run.running()), "started the renderer")
+        run.kill("render_node")
+        self.assertNotEqual(run.end(), 0)
+        self.assertIn("experiment: FAILED: render ended before everything was evaluated", run.said())
+        self.assertEqual(run.left_running(), [])
+
+    def test_ctrl_c_is_a_failure_too_and_leaves_nothing_running(self):
+        run = small_experiment(os.path.join(self.folder, "interrupted"))
+        run.wait_for(lambda: "World " in run.said(), "loaded the world")
+        self.assertNotEqual(run.interrupt(), 0)
+        self.assertIn("experiment: FAILED: interrupted", run.said())
+        self.assertEqual(run.left_running(), [])
+
+    def test_bad_arguments_stop_it_before_it_starts(self):
+        for arguments, part in ((dict(hours="[4, x]"), "argument hours is '[4, x]'"),
+                                (dict(date="2024-02-31"), "argument date is '2024-02-31'"),
+                                (dict(site="[91]"), "argument site is '[91]'"),
+                                (dict(poses=1000), "argument poses is 1000, but the path has only 20"),
+                                (dict(path="/nowhere.csv"), "/nowhere.csv"),
+                                (dict(output="/dev/null/x"), "/dev/null/x: cannot be written")):
+            run = small_experiment(**dict(dict(output=os.path.join(self.folder, "bad")), **arguments))
+            self.assertEqual(run.end(), 1, run.said())
+            self.assertIn("experiment: ", run.said())
+            self.assertIn(part, run.said())
+            self.assertEqual(run.left_running(), [])
+
+    def test_a_world_that_cannot_be_loaded_is_a_failure_with_a_reason(self):
+        run = small_experiment(os.path.join(self.folder, "worldless"), world="/nowhere.world")
+        self.assertNotEqual(run.end(), 0)
+        self.assertIn("/nowhere.world", run.said())
+        self.assertEqual(run.left_running(), [])
+
+
+if __name__ == "__main__":
+    rospy.init_node("experiment_runs")
+    rostest.rosrun("sunlit", "experiment_runs", ExperimentRuns)

@@ -1,0 +1,108 @@
+"""roslaunch under test: started on a master of its own, watched, and counted for what it leaves running."""
+import os
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+import uuid
+
+import rospkg
+
+TIMEOUT_S = 240.0  # for runs that take seconds on an idle machine
+PACKAGE = rospkg.RosPack().get_path("sunlit")
+WORLD = os.path.join(PACKAGE, "test", "support", "worlds", "two_boxes.world")
+WAYPOINTS = os.path.join(PACKAGE, "test", "support", "worlds", "straight.csv")
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("localhost", 0))
+        return probe.getsockname()[1]
+
+
+class Launched:
+    """One roslaunch, with everything that it started known by a mark in their environment."""
+
+    def __init__(self, launch_file, **arguments):
+        self.mark = "SUNLIT_TEST_RUN=" + uuid.uuid4().hex
+        self.port = free_port()
+        key, value = self.mark.split("=")
+        self.environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % self.port,
+                                ROS_HOSTNAME="localhost", **{key: value})
+        self.log = tempfile.TemporaryFile(mode="w+")
+        command = ["roslaunch", "-p", str(self.port), "sunlit", launch_file]
+        command += ["%s:=%s" % (name, value) for name, value in arguments.items()]
+        self.process = subprocess.Popen(command, env=self.environment, stdin=subprocess.DEVNULL, stdout=self.log,
+                                        stderr=subprocess.STDOUT)
+
+    def said(self):
+        self.log.seek(0)
+        return self.log.read()
+
+    def end(self):
+        """Its status, once it has ended."""
+        try:
+            return self.process.wait(TIMEOUT_S)
+        except subprocess.TimeoutExpired:
+            self.kill()
+            raise AssertionError("never ended:\n" + self.said())
+
+    def interrupt(self):
+        self.process.send_signal(signal.SIGINT)
+        return self.end()
+
+    def running(self):
+        """(pid, command line) of all that is alive of what was started, roslaunch and master included."""
+        alive = []
+        for entry in os.listdir("/proc"):
+            if not entry.isdigit():
+                continue
+            try:
+                with open("/proc/%s/environ" % entry, "rb") as environ:
+                    if self.mark.encode() not in environ.read():
+                        continue
+                with open("/proc/%s/cmdline" % entry, "rb") as cmdline:
+                    alive.append((int(entry), cmdline.read().replace(b"\0", b" ").decode()))
+            except OSError:
+                continue  # ended while we looked
+        return alive
+
+    def left_running(self):
+        """What does not end in the wake of roslaunch."""
+        deadline = time.monotonic() + 10.0
+        while self.running() and time.monotonic() < deadline:
+            time.sleep(0.02)
+        return self.running()
+
+    def kill(self, part=""):
+        """As the kernel does when memory runs out: all whose command line holds `part`, without a chance to react."""
+        for pid, command in self.running():
+            if part in command:
+                os.kill(pid, signal.SIGKILL)
+        if not part:
+            self.process.wait(TIMEOUT_S)
+
+    def wait_for(self, condition, what):
+        """Polls something that nobody would wake us for, such as the growth of a file."""
+        deadline = time.monotonic() + TIMEOUT_S
+        while not condition():
+            if self.process.poll() is not None:
+                raise AssertionError("ended before %s:\n%s" % (what, self.said()))
+            if time.monotonic() > deadline:
+                self.kill()
+                raise AssertionError("never %s:\n%s" % (what, self.said()))
+            time.sleep(0.02)
+
+    def ros(self, *command):
+        """A ROS command line tool on the master of this launch."""
+        return subprocess.run(command, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              universal_newlines=True, timeout=TIMEOUT_S)
+
+
+def small_experiment(output, **changes):
+    """Two hours, a few tiny images of a tiny world."""
+    arguments = dict(world=WORLD, path=WAYPOINTS, spacing=0.5, poses=20, hours="[10, 12]", width=96, height=72,
+                     differences="[boolean_rgb, euclidean_grey, orb]", self_test_every=5, output=output, report="false")
+    arguments.update(changes)
+    return Launched("experiment.launch", **arguments)

@@ -1,0 +1,133 @@
+// Triangles in order, and rays that meet exactly what is there.
+#include "sunlit/light/visibility.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace sunlit::light {
+namespace {
+
+scene::Material plain(bool double_sided = true) {
+  scene::Material material;
+  material.double_sided = double_sided;
+  return material;
+}
+
+/// A level square sheet of 2 m about (x, y), at height z, facing up.
+scene::Mesh sheet(int material, float x, float y, float z) {
+  scene::Mesh mesh;
+  mesh.material = material;
+  mesh.positions = {{x - 1, y - 1, z}, {x + 1, y - 1, z}, {x + 1, y + 1, z}, {x - 1, y + 1, z}};
+  mesh.normals.assign(4, Eigen::Vector3f::UnitZ());
+  mesh.texture_coordinates = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+std::shared_ptr<const Geometry> geometryOf(scene::Scene scene) {
+  return std::make_shared<const Geometry>(std::make_shared<const scene::Scene>(std::move(scene)));
+}
+
+bool blocked(const Visibility& visibility, const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) {
+  std::uint8_t answer = 2;
+  visibility.occluded({&origin.x(), &origin.y(), &origin.z(), &direction.x(), &direction.y(), &direction.z(), 1}, &answer);
+  return answer == 1;
+}
+
+TEST(Geometry, ChunksHoldEachTriangleOnceByMaterialAndPlace) {
+  scene::Scene scene;
+  scene.materials = {plain(), plain()};
+  for (int i = 0; i < 10; ++i) scene.meshes.push_back(sheet(i % 2, 40.0f * static_cast<float>(i), 0.0f, 0.0f));
+  const auto geometry = geometryOf(scene);
+  EXPECT_EQ(geometry->triangles.size(), 20u);
+  std::uint32_t next = 0;
+  for (const Chunk& chunk : geometry->chunks) {
+    EXPECT_EQ(chunk.first, next);
+    next += chunk.count;
+    for (std::uint32_t t = chunk.first; t < next; ++t) {
+      EXPECT_EQ(geometry->materials[t], chunk.material);
+      for (std::uint32_t v : geometry->triangles[t]) EXPECT_TRUE(chunk.box.contains(geometry->positions[v]));
+    }
+  }
+  EXPECT_EQ(next, 20u);
+}
+
+TEST(Geometry, LeavesOutTrianglesWithoutAreaAndMarksUnusableNormals) {
+  scene::Scene scene;
+  scene.materials = {plain()};
+  scene.meshes = {sheet(0, 0.0f, 0.0f, 0.0f)};
+  scene.meshes[0].triangles.push_back({0, 1, 1});
+  scene.meshes[0].normals[0] = Eigen::Vector3f::Zero();
+  scene.meshes[0].normals[1] = {std::nanf(""), 0.0f, 1.0f};
+  scene.meshes[0].normals[2] = {0.0f, 0.0f, 7.0f};
+  const auto geometry = geometryOf(scene);
+  EXPECT_EQ(geometry->triangles.size(), 2u);
+  EXPECT_EQ(geometry->normals[0].norm(), 0.0f);
+  EXPECT_EQ(geometry->normals[1].norm(), 0.0f);
+  EXPECT_EQ(geometry->normals[2], Eigen::Vector3f(0.0f, 0.0f, 1.0f));
+}
+
+TEST(Rays, AreStoppedFromBothSidesEvenByOneSidedTriangles) {
+  scene::Scene scene;
+  scene.materials = {plain(false)};
+  scene.meshes = {sheet(0, 0.0f, 0.0f, 5.0f)};
+  const Visibility visibility(geometryOf(scene));
+  EXPECT_TRUE(blocked(visibility, {0.3f, 0.2f, 0.0f}, {0.0f, 0.0f, 1.0f}));
+  EXPECT_TRUE(blocked(visibility, {0.3f, 0.2f, 9.0f}, {0.0f, 0.0f, -1.0f}));
+  EXPECT_FALSE(blocked(visibility, {1.3f, 0.2f, 0.0f}, {0.0f, 0.0f, 1.0f}));
+  EXPECT_FALSE(blocked(visibility, {0.3f, 0.2f, 6.0f}, {0.0f, 0.0f, 1.0f}));
+}
+
+TEST(Rays, PassWhereAMaskIsCutOut) {
+  scene::Scene scene;
+  scene.materials = {plain()};
+  scene.materials[0].base_texture = 0;
+  scene.materials[0].alpha_mode = scene::AlphaMode::kMask;
+  scene::Texture texture{"corner", 4, 4, std::vector<std::uint8_t>(64, 0)};
+  texture.rgba[4 * (4 * 0 + 3) + 3] = 255;  // only the top right texel is solid: s near 1, t near 0
+  scene.textures = {texture};
+  scene.meshes = {sheet(0, 0.0f, 0.0f, 5.0f)};
+  const Visibility visibility(geometryOf(scene));
+  // That texel's centre: s = 7/8, t = 1/8, or x = 0.75, y = −0.75.
+  EXPECT_TRUE(blocked(visibility, {0.75f, -0.75f, 0.0f}, {0.0f, 0.0f, 1.0f}));
+  EXPECT_FALSE(blocked(visibility, {-0.75f, -0.75f, 0.0f}, {0.0f, 0.0f, 1.0f}));
+  EXPECT_FALSE(blocked(visibility, {0.75f, 0.75f, 0.0f}, {0.0f, 0.0f, 1.0f}));
+  EXPECT_FALSE(visibility.firstSeen({0.75f, 0.75f, 0.0f}, {0.0f, 0.0f, 1.0f}, 0.05f));
+  EXPECT_TRUE(visibility.firstSeen({0.75f, -0.75f, 0.0f}, {0.0f, 0.0f, 1.0f}, 0.05f));
+}
+
+TEST(Rays, OfAnyNumberAreAnsweredInOrder) {
+  scene::Scene scene;
+  scene.materials = {plain()};
+  scene.meshes = {sheet(0, 0.0f, 0.0f, 5.0f)};
+  const Visibility visibility(geometryOf(scene));
+  for (const std::size_t count : {0u, 1u, 7u, 8u, 9u, 100u}) {
+    std::vector<float> x(count), y(count, 0.1f), zero(count, 0.0f), up(count, 1.0f);
+    for (std::size_t i = 0; i < count; ++i) x[i] = i % 3 == 0 ? 0.2f : 3.0f;
+    std::vector<std::uint8_t> answer(count + 1, 7);
+    visibility.occluded({x.data(), y.data(), zero.data(), zero.data(), zero.data(), up.data(), count}, answer.data());
+    for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(answer[i], i % 3 == 0 ? 1 : 0) << i << " of " << count;
+    EXPECT_EQ(answer[count], 7);
+  }
+}
+
+TEST(FirstSeen, IsTheNearestVisibleTriangle) {
+  scene::Scene scene;
+  scene.materials = {plain(false), plain(true)};
+  scene.meshes = {sheet(0, 0.0f, 0.0f, 5.0f), sheet(1, 0.0f, 0.0f, 8.0f)};  // the lower one faces up
+  const auto geometry = geometryOf(scene);
+  const Visibility visibility(geometry);
+  const auto height = [&](const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near) {
+    const auto triangle = visibility.firstSeen(origin, direction, near);
+    return triangle ? geometry->positions[geometry->triangles[*triangle][0]].z() : -1.0f;
+  };
+  EXPECT_EQ(height({0.1f, 0.2f, 0.0f}, {0.0f, 0.0f, 1.0f}, 0.05f), 8.0f);  // through the back of the lower one
+  EXPECT_EQ(height({0.1f, 0.2f, 9.0f}, {0.0f, 0.0f, -1.0f}, 0.05f), 8.0f);
+  EXPECT_EQ(height({0.1f, 0.2f, 9.0f}, {0.0f, 0.0f, -1.0f}, 2.0f), 5.0f);
+  EXPECT_EQ(height({5.0f, 0.2f, 9.0f}, {0.0f, 0.0f, -1.0f}, 0.05f), -1.0f);
+}
+
+}  // namespace
+}  // namespace sunlit::light
