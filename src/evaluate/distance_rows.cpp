@@ -37,8 +37,30 @@ void dotRows(const std::int16_t* const queries[kQueriesAtOnce], const RowsOf<std
   }
 }
 
+namespace {
+
+// A width that the compiler knows lets it unroll the loop. Inlined by force, or it would not be compiled with its caller's
+// instruction set.
+template <std::size_t kWidth>
+[[gnu::always_inline]] inline void hammingRowOf(const std::uint64_t* query, const RowsOf<std::uint64_t>& train,
+                                                std::int32_t* out) {
+  for (std::size_t j = 0; j < train.rows; ++j) {
+    const std::uint64_t* t = train.data + j * kWidth;
+    int bits = 0;
+    for (std::size_t k = 0; k < kWidth; ++k) bits += __builtin_popcountll(query[k] ^ t[k]);
+    out[j] = bits;
+  }
+}
+
+constexpr std::size_t kOrbWords = 4;
+constexpr std::size_t kBriskWords = 8;
+
+}  // namespace
+
 SUNLIT_POPCOUNT_CLONES
 void hammingRow(const std::uint64_t* query, const RowsOf<std::uint64_t>& train, std::int32_t* out) {
+  if (train.width == kBriskWords) return hammingRowOf<kBriskWords>(query, train, out);
+  if (train.width == kOrbWords) return hammingRowOf<kOrbWords>(query, train, out);
   for (std::size_t j = 0; j < train.rows; ++j) {
     const std::uint64_t* t = train.row(j);
     int bits = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sunlit/quantity/frames.h"
+#include "sunlit/ros/world_search.h"
 #include "sunlit/scene/load.h"
 
 namespace sunlit::ros_interface {
@@ -14,7 +15,7 @@ namespace {
 
 std::shared_ptr<const scene::Scene> loadScene(const RenderNodeOptions& options) {
   auto scene = std::make_shared<scene::Scene>(
-      scene::load(options.world, scene::SearchPath::withEnvironment(options.model_path)));
+      scene::load(options.world, worldSearchPath(options.model_path)));
   for (const std::string& warning : scene->warnings)
     ROS_WARN("%s: %s", options.world.c_str(), warning.c_str());
   ROS_INFO("World %s: %zu triangles, %zu textures", options.world.c_str(), scene->triangleCount(),

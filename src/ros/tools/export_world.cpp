@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sunlit/scene/export.h"
+#include "sunlit/ros/world_search.h"
 #include "sunlit/scene/load.h"
 
 namespace sunlit::tools {
@@ -55,7 +56,7 @@ ExportOptions parse(int argc, char** argv) {
 
 void exportWorld(const ExportOptions& options) {
   const scene::Scene world =
-      scene::load(options.world, scene::SearchPath::withEnvironment(options.model_folders));
+      scene::load(options.world, ros_interface::worldSearchPath(options.model_folders));
   for (const std::string& warning : world.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   scene::writeGltf(world, options.output);
   std::printf("%s: %zu triangles, %zu materials, %zu textures\n", options.output.c_str(),

@@ -24,9 +24,8 @@ usage: snapshot --out FILE.png [options]
   --size WxH                     px (default 640x480)
   --fov DEG                      horizontal field of view (default 90)
   --supersampling N              samples per pixel and axis, 1 ... 4 (default 2)
-  --depth FILE                   depth too: .png 16 bit, mm, 0 where there is none or it exceeds 65.535 m;
-                                 .tiff or .exr 32-bit float, m
-  --out FILE                     .png or any other format that OpenCV writes
+  --depth FILE.pfm               depth too: portable float map, m along the optical axis, NaN where there is none
+  --out FILE.png                 the picture
 )";
 
 namespace {
@@ -36,11 +35,12 @@ namespace {
 }
 
 /// `text` as between `least` and `most` numbers separated by `separator`.
-std::vector<double> numbers(const std::string& option, const std::string& text, std::pair<std::size_t, std::size_t> count,
-                            char separator = ',') {
-  const std::string wanted = (count.first == count.second ? std::to_string(count.first)
-                                                          : std::to_string(count.first) + " to " + std::to_string(count.second)) +
-                             " number(s) separated by '" + separator + "'";
+std::vector<double> numbers(const std::string& option, const std::string& text,
+                            std::pair<std::size_t, std::size_t> count, char separator = ',') {
+  const std::string wanted =
+      (count.first == count.second ? std::to_string(count.first)
+                                   : std::to_string(count.first) + " to " + std::to_string(count.second)) +
+      " number(s) separated by '" + separator + "'";
   std::vector<double> values;
   std::istringstream parts(text);
   for (std::string part; std::getline(parts, part, separator);) {
@@ -95,7 +95,8 @@ void placeTopDown(const CameraWords& words, SnapshotOptions* options) {
   // From so far up that the picture is close to a map: parallel rays within 3 degrees.
   const double height = 10.0 * t[2];
   image::PinholeCamera& camera = options->render.camera;
-  camera = image::PinholeCamera::fromFieldOfView(words.width, words.height, Angle::radians(2.0 * std::atan(0.05)));
+  camera =
+      image::PinholeCamera::fromFieldOfView(words.width, words.height, Angle::radians(2.0 * std::atan(0.05)));
   options->top_down_height_m = height;
   options->render.near_m = 0.5 * height;
   options->render.far_m = 2.0 * height;
@@ -115,7 +116,8 @@ void placeCamera(const CameraWords& words, SnapshotOptions* options) {
   const Eigen::Vector3d eye(pose[0], pose[1], pose[2]);
   double yaw = pose[3] * kRadPerDeg, pitch = pose[4] * kRadPerDeg;
   if (!words.look_at.empty()) {
-    const Eigen::Vector3d towards = Eigen::Vector3d(words.look_at[0], words.look_at[1], words.look_at[2]) - eye;
+    const Eigen::Vector3d towards =
+        Eigen::Vector3d(words.look_at[0], words.look_at[1], words.look_at[2]) - eye;
     if (towards.norm() < 1e-6) throw std::invalid_argument("--look-at is where the camera stands");
     yaw = std::atan2(towards.y(), towards.x());
     pitch = std::atan2(towards.z(), towards.head<2>().norm());
@@ -124,7 +126,8 @@ void placeCamera(const CameraWords& words, SnapshotOptions* options) {
   options->map_from_optical.translation() = eye;
 }
 
-void readOption(const std::string& key, const std::string& value, CameraWords* words, SnapshotOptions* options) {
+void readOption(const std::string& key, const std::string& value, CameraWords* words,
+                SnapshotOptions* options) {
   if (key == "--world") {
     options->world = value;
   } else if (key == "--model-path") {
@@ -167,7 +170,8 @@ std::optional<SnapshotOptions> parseSnapshotOptions(const std::vector<std::strin
   CameraWords words;
   for (std::size_t i = 0; i < arguments.size(); i += 2) {
     if (arguments[i] == "--help" || arguments[i] == "-h") return std::nullopt;
-    if (i + 1 == arguments.size()) throw std::invalid_argument(arguments[i] + " needs a value; --help lists all options");
+    if (i + 1 == arguments.size())
+      throw std::invalid_argument(arguments[i] + " needs a value; --help lists all options");
     readOption(arguments[i], arguments[i + 1], &words, &options);
   }
   if (options.output.empty()) throw std::invalid_argument("--out FILE is missing; --help lists all options");

@@ -65,7 +65,8 @@ void Assembly::openSheet(Sheet* sheet) {
   texture.width = sheet->width_px;
   texture.height = sheet->height_px;
   texture.rgba.resize(static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height) * 4);
-  Material material = plain(texture.name.c_str(), 0.8f, sheet->masked ? Detail() : grain(0.07f, 1.0f, 0.01f, 0.8f));
+  Material material =
+      plain(texture.name.c_str(), 0.8f, sheet->masked ? Detail() : grain(0.07f, 1.0f, 0.01f, 0.8f));
   sheet->texture = addTexture(std::move(texture));
   material.base_texture = sheet->texture;
   if (sheet->masked) material.alpha_mode = AlphaMode::kMask;
@@ -81,7 +82,8 @@ Assembly::Shelf* Assembly::findShelf(Sheet* sheet, int width, int height) {
   for (Shelf& shelf : sheet->shelves) {
     free_y = shelf.y + shelf.height;
     const bool fits = shelf.height >= height && 4 * shelf.height <= 5 * height + 32;
-    if (fits && shelf.filled + width <= sheet->width_px && (!best || shelf.height < best->height)) best = &shelf;
+    if (fits && shelf.filled + width <= sheet->width_px && (!best || shelf.height < best->height))
+      best = &shelf;
   }
   if (best) return best;
   if (free_y + height > sheet->height_px) {
@@ -99,14 +101,17 @@ Picture Assembly::place(const Canvas& canvas, Sheet* sheet) {
   const std::ptrdiff_t row = 4 * canvas.width();
   for (int y = 0; y < canvas.height(); ++y) {
     const auto from = picture.rgba.begin() + row * y;
-    std::copy(from, from + row, page.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(shelf->y + y) * page.width + shelf->filled));
+    std::copy(
+        from, from + row,
+        page.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(shelf->y + y) * page.width + shelf->filled));
   }
   const Eigen::Array2f corner(static_cast<float>(shelf->filled), static_cast<float>(shelf->y));
   const Eigen::Array2f extent(static_cast<float>(canvas.width()), static_cast<float>(canvas.height()));
   const Eigen::Array2f sheet_size(static_cast<float>(page.width), static_cast<float>(page.height));
   shelf->filled += canvas.width();
   // Half a pixel inside, so that filtering stays within.
-  return {sheet->material, {((corner + 0.5f) / sheet_size).matrix(), ((corner + extent - 0.5f) / sheet_size).matrix()}};
+  return {sheet->material,
+          {((corner + 0.5f) / sheet_size).matrix(), ((corner + extent - 0.5f) / sheet_size).matrix()}};
 }
 
 Mesh& Assembly::mesh(int material, const Eigen::Vector3f& place) {

@@ -33,9 +33,9 @@ struct Picture {
 
 /// The materials that have no picture of their own; each is tinted by its Paint.
 struct Palette {
-  int matte = 0;     ///< house paint, plastic
-  int satin = 0;     ///< car paint, smooth plastic
-  int metal = 0;     ///< galvanised steel
+  int matte = 0;  ///< house paint, plastic
+  int satin = 0;  ///< car paint, smooth plastic
+  int metal = 0;  ///< galvanised steel
   int concrete = 0;
   int plaster = 0;
   int roof = 0;
@@ -97,7 +97,7 @@ class Assembly {
   Sheet cut_outs_{"cut-outs", 1536, 1280, true, true};
   Sheet one_sided_{"one-sided cut-outs", 1024, 512, true, false};
   Palette palette_;
-  std::vector<Mesh> whole_;  // added as such
+  std::vector<Mesh> whole_;                           // added as such
   std::map<std::tuple<int, int, int>, Mesh> meshes_;  // by material and cell
 };
 

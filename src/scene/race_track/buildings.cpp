@@ -29,7 +29,10 @@ void addWall(Assembly& assembly, const Frame& frame, const FacadePlan& plan) {
   const std::vector<Opening> openings = planOpenings(plan);
   const Picture picture = assembly.addPicture(paintFacade(plan, openings));
   const float x = 0.5f * plan.width_m;
-  addQuad(assembly, {picture.material, Color::Ones()}, {frame * Point(-x, 0, 0), frame * Point(x, 0, 0), frame * Point(x, 0, plan.height_m), frame * Point(-x, 0, plan.height_m)}, picture.rect);
+  addQuad(assembly, {picture.material, Color::Ones()},
+          {frame * Point(-x, 0, 0), frame * Point(x, 0, 0), frame * Point(x, 0, plan.height_m),
+           frame * Point(-x, 0, plan.height_m)},
+          picture.rect);
   const Paint trim{assembly.palette().concrete, {0.42f, 0.40f, 0.37f}};
   const Paint wood{assembly.palette().matte, {0.50f, 0.48f, 0.44f}};
   for (const Opening& o : openings) {
@@ -41,7 +44,9 @@ void addWall(Assembly& assembly, const Frame& frame, const FacadePlan& plan) {
     }
     addBox(assembly, trim, shifted(frame, {middle, -0.07f, o.z - 0.1f}), {o.width + 0.24f, 0.14f, 0.07f});
     addBox(assembly, wood, shifted(frame, {middle, -0.03f, o.z + o.height}), {o.width + 0.12f, 0.06f, 0.08f});
-    for (const float side : {-0.5f, 0.5f}) addBox(assembly, wood, shifted(frame, {middle + side * (o.width + 0.06f), -0.03f, o.z}), {0.06f, 0.06f, o.height});
+    for (const float side : {-0.5f, 0.5f})
+      addBox(assembly, wood, shifted(frame, {middle + side * (o.width + 0.06f), -0.03f, o.z}),
+             {0.06f, 0.06f, o.height});
   }
 }
 
@@ -57,13 +62,16 @@ Canvas paintTiles(const Color& tile, std::uint32_t seed) {
       canvas.rectangle({x, y}, {x + 1.2f, y + 5.6f}, {0.5f * tile, 0.7f});
     }
   }
-  for (int i = 0; i < 14; ++i) canvas.ellipse({random.range(0, 224), random.range(0, 112)}, {random.range(3, 16), random.range(2, 9)}, 0.0f, {{0.10f, 0.12f, 0.05f}, 0.4f});
+  for (int i = 0; i < 14; ++i)
+    canvas.ellipse({random.range(0, 224), random.range(0, 112)}, {random.range(3, 16), random.range(2, 9)},
+                   0.0f, {{0.10f, 0.12f, 0.05f}, 0.4f});
   canvas.mottle(40.0f, 0.2f, random.bits());
   return canvas;
 }
 
 void addGableRoof(Assembly& assembly, const House& house, Random& random) {
-  const Color tiles[] = {{0.26f, 0.085f, 0.045f}, {0.085f, 0.085f, 0.09f}, {0.20f, 0.12f, 0.07f}, {0.15f, 0.16f, 0.15f}};
+  const Color tiles[] = {
+      {0.26f, 0.085f, 0.045f}, {0.085f, 0.085f, 0.09f}, {0.20f, 0.12f, 0.07f}, {0.15f, 0.16f, 0.15f}};
   const Color tile = tiles[random.below(4)] * random.range(0.8f, 1.2f);
   const float x = 0.5f * house.width + 0.35f;
   const float y = 0.5f * house.depth + 0.45f;
@@ -73,15 +81,24 @@ void addGableRoof(Assembly& assembly, const House& house, Random& random) {
   const float ridge = house.height + rise;
   const Picture front = assembly.addPicture(paintTiles(tile, random.bits()));
   const Picture back = assembly.addPicture(paintTiles(tile, random.bits()));
-  addQuad(assembly, {front.material, Color::Ones()}, {f * Point(-x, -y, low), f * Point(x, -y, low), f * Point(x, 0, ridge), f * Point(-x, 0, ridge)}, front.rect);
-  addQuad(assembly, {back.material, Color::Ones()}, {f * Point(x, y, low), f * Point(-x, y, low), f * Point(-x, 0, ridge), f * Point(x, 0, ridge)}, back.rect);
+  addQuad(assembly, {front.material, Color::Ones()},
+          {f * Point(-x, -y, low), f * Point(x, -y, low), f * Point(x, 0, ridge), f * Point(-x, 0, ridge)},
+          front.rect);
+  addQuad(assembly, {back.material, Color::Ones()},
+          {f * Point(x, y, low), f * Point(-x, y, low), f * Point(-x, 0, ridge), f * Point(x, 0, ridge)},
+          back.rect);
   const float wx = 0.5f * house.width;
   const float wy = 0.5f * house.depth;
   const Paint gable{assembly.palette().plaster, house.wall * 0.9f};
-  addTriangle(assembly, gable, {f * Point(wx, -wy, house.height), f * Point(wx, wy, house.height), f * Point(wx, 0, ridge - 0.05f)});
-  addTriangle(assembly, gable, {f * Point(-wx, wy, house.height), f * Point(-wx, -wy, house.height), f * Point(-wx, 0, ridge - 0.05f)});
+  addTriangle(
+      assembly, gable,
+      {f * Point(wx, -wy, house.height), f * Point(wx, wy, house.height), f * Point(wx, 0, ridge - 0.05f)});
+  addTriangle(assembly, gable,
+              {f * Point(-wx, wy, house.height), f * Point(-wx, -wy, house.height),
+               f * Point(-wx, 0, ridge - 0.05f)});
   const Paint gutter{assembly.palette().metal, {0.22f, 0.22f, 0.21f}};
-  for (const float side : {-y, y}) addBar(assembly, gutter, {f * Point(-x, side, low), 0.06f}, {f * Point(x, side, low), 0.06f});
+  for (const float side : {-y, y})
+    addBar(assembly, gutter, {f * Point(-x, side, low), 0.06f}, {f * Point(x, side, low), 0.06f});
   const Paint brick{assembly.palette().roof, {0.22f, 0.09f, 0.06f}};
   const Point stack(random.range(-0.6f, 0.6f) * wx, 0.4f * wy, house.height + 0.4f * rise);
   addBox(assembly, brick, shifted(f, stack), {0.6f, 0.5f, 0.6f * rise + 0.8f});
@@ -91,13 +108,17 @@ void addHouse(Assembly& assembly, const House& house) {
   Random random(house.seed);
   const float w = house.width;
   const float d = house.depth;
-  const Frame turned[] = {shifted(house.frame, {0, -0.5f * d, 0}), shifted(house.frame, {0.5f * w, 0, 0}), shifted(house.frame, {0, 0.5f * d, 0}), shifted(house.frame, {-0.5f * w, 0, 0})};
+  const Frame turned[] = {shifted(house.frame, {0, -0.5f * d, 0}), shifted(house.frame, {0.5f * w, 0, 0}),
+                          shifted(house.frame, {0, 0.5f * d, 0}), shifted(house.frame, {-0.5f * w, 0, 0})};
   for (int k = 0; k < 4; ++k) {
     Frame wall = turned[k];
     wall.rotate(Eigen::AngleAxisf(0.5f * kPi * static_cast<float>(k), Point::UnitZ()));
-    addWall(assembly, wall, {k % 2 == 0 ? w : d, house.height, house.floors, house.kind, house.wall, k == 0, house.seed + static_cast<std::uint32_t>(k)});
+    addWall(assembly, wall,
+            {k % 2 == 0 ? w : d, house.height, house.floors, house.kind, house.wall, k == 0,
+             house.seed + static_cast<std::uint32_t>(k)});
   }
-  addBox(assembly, {assembly.palette().concrete, {0.25f, 0.24f, 0.22f}}, shifted(house.frame, {0, 0, -1.2f}), {w + 0.12f, d + 0.12f, 1.4f});
+  addBox(assembly, {assembly.palette().concrete, {0.25f, 0.24f, 0.22f}}, shifted(house.frame, {0, 0, -1.2f}),
+         {w + 0.12f, d + 0.12f, 1.4f});
   addGableRoof(assembly, house, random);
 }
 
@@ -110,7 +131,9 @@ Frame facingTrackFrame(const TrackPlace& place, float twist) {
 
 void addHouseAt(Assembly& assembly, const Site& site, std::uint32_t seed) {
   Random random(seed);
-  const Color walls[] = {{0.52f, 0.48f, 0.38f}, {0.55f, 0.54f, 0.50f}, {0.28f, 0.10f, 0.065f}, {0.46f, 0.30f, 0.14f}, {0.20f, 0.26f, 0.30f}, {0.35f, 0.38f, 0.25f}, {0.50f, 0.33f, 0.26f}};
+  const Color walls[] = {{0.52f, 0.48f, 0.38f}, {0.55f, 0.54f, 0.50f}, {0.28f, 0.10f, 0.065f},
+                         {0.46f, 0.30f, 0.14f}, {0.20f, 0.26f, 0.30f}, {0.35f, 0.38f, 0.25f},
+                         {0.50f, 0.33f, 0.26f}};
   const bool barn = site.kind == Site::Kind::kBarn;
   House house;
   house.frame = facingTrackFrame(site.place, barn ? 0.1f : 0.35f * random.bell());
@@ -119,8 +142,13 @@ void addHouseAt(Assembly& assembly, const Site& site, std::uint32_t seed) {
   house.floors = barn ? 1 : 1 + random.below(2);
   house.height = barn ? 4.6f : 2.9f * static_cast<float>(house.floors) + 0.3f;
   const int kind = random.below(100);
-  house.kind = barn ? WallKind::kTimber : kind < 50 ? WallKind::kPlaster : kind < 80 ? WallKind::kBrick : WallKind::kTimber;
-  house.wall = barn ? Color(0.22f, 0.055f, 0.04f) : house.kind == WallKind::kBrick ? Color(0.27f, 0.11f, 0.07f) : walls[random.below(7)];
+  house.kind = barn        ? WallKind::kTimber
+               : kind < 50 ? WallKind::kPlaster
+               : kind < 80 ? WallKind::kBrick
+                           : WallKind::kTimber;
+  house.wall = barn                             ? Color(0.22f, 0.055f, 0.04f)
+               : house.kind == WallKind::kBrick ? Color(0.27f, 0.11f, 0.07f)
+                                                : walls[random.below(7)];
   house.wall *= random.range(0.85f, 1.1f);
   house.seed = random.bits();
   addHouse(assembly, house);
@@ -136,25 +164,43 @@ void addPits(Assembly& assembly, const Site& site) {
   for (int i = 0; i < kBays; ++i) {
     Random random(651u, static_cast<std::uint32_t>(i));
     const float x = (static_cast<float>(i) - 0.5f * (kBays - 1)) * kBay_m;
-    const FacadePlan upper{kBay_m, 3.3f, 1, WallKind::kSheet, Color(0.48f, 0.49f, 0.50f) * random.range(0.85f, 1.1f), false, random.bits()};
+    const FacadePlan upper{
+        kBay_m, 3.3f,         1, WallKind::kSheet, Color(0.48f, 0.49f, 0.50f) * random.range(0.85f, 1.1f),
+        false,  random.bits()};
     addWall(assembly, shifted(frame, {x, -0.5f * kDepth_m, 4.0f}), upper);
     // The door, some of them half open, and the dark behind it.
     const float open = random.chance(0.45f) ? random.range(0.8f, 2.6f) : 0.0f;
     const Picture door = assembly.addPicture(paintPoster({224, 110}, random.bits()));
     const float half = 0.5f * kBay_m - 0.45f;
     const float front = -0.5f * kDepth_m;
-    addQuad(assembly, {door.material, Color::Ones()}, {frame * Point(x - half, front + 0.3f, open), frame * Point(x + half, front + 0.3f, open), frame * Point(x + half, front + 0.3f, 3.4f), frame * Point(x - half, front + 0.3f, 3.4f)}, door.rect);
-    addBox(assembly, {p.concrete, Color(0.36f, 0.35f, 0.33f) * random.range(0.8f, 1.1f)}, shifted(frame, {x - 0.5f * kBay_m, front + 0.2f, -0.5f}), {0.9f, 0.5f, 4.5f});
-    addBox(assembly, {p.matte, paintColor(random)}, shifted(frame, {x, front + 0.1f, 3.4f}), {kBay_m, 0.45f, 0.6f});
-    const Picture number = assembly.addPicture(paintSign({64, 40}, std::to_string(i + 1), {paintColor(random), {0.7f, 0.7f, 0.66f}, random.bits()}));
-    addQuad(assembly, {number.material, Color::Ones()}, {frame * Point(x - 0.5f, front - 0.14f, 3.45f), frame * Point(x + 0.5f, front - 0.14f, 3.45f), frame * Point(x + 0.5f, front - 0.14f, 3.95f), frame * Point(x - 0.5f, front - 0.14f, 3.95f)}, number.rect);
-    addBox(assembly, {p.matte, Color(0.40f, 0.40f, 0.42f) * random.range(0.5f, 1.2f)}, shifted(frame, {x + random.range(-2.0f, 2.0f), random.range(-3.0f, 3.0f), 7.6f}), {random.range(0.8f, 2.0f), 1.2f, random.range(0.6f, 1.4f)});
+    addQuad(assembly, {door.material, Color::Ones()},
+            {frame * Point(x - half, front + 0.3f, open), frame * Point(x + half, front + 0.3f, open),
+             frame * Point(x + half, front + 0.3f, 3.4f), frame * Point(x - half, front + 0.3f, 3.4f)},
+            door.rect);
+    addBox(assembly, {p.concrete, Color(0.36f, 0.35f, 0.33f) * random.range(0.8f, 1.1f)},
+           shifted(frame, {x - 0.5f * kBay_m, front + 0.2f, -0.5f}), {0.9f, 0.5f, 4.5f});
+    addBox(assembly, {p.matte, paintColor(random)}, shifted(frame, {x, front + 0.1f, 3.4f}),
+           {kBay_m, 0.45f, 0.6f});
+    const Picture number = assembly.addPicture(
+        paintSign({64, 40}, std::to_string(i + 1), {paintColor(random), {0.7f, 0.7f, 0.66f}, random.bits()}));
+    addQuad(assembly, {number.material, Color::Ones()},
+            {frame * Point(x - 0.5f, front - 0.14f, 3.45f), frame * Point(x + 0.5f, front - 0.14f, 3.45f),
+             frame * Point(x + 0.5f, front - 0.14f, 3.95f), frame * Point(x - 0.5f, front - 0.14f, 3.95f)},
+            number.rect);
+    addBox(assembly, {p.matte, Color(0.40f, 0.40f, 0.42f) * random.range(0.5f, 1.2f)},
+           shifted(frame, {x + random.range(-2.0f, 2.0f), random.range(-3.0f, 3.0f), 7.6f}),
+           {random.range(0.8f, 2.0f), 1.2f, random.range(0.6f, 1.4f)});
   }
   const float width = kBays * kBay_m;
-  addBox(assembly, {p.concrete, {0.34f, 0.33f, 0.31f}}, shifted(frame, {0, -0.2f, 7.3f}), {width + 1.0f, kDepth_m + 2.2f, 0.35f});
-  addBox(assembly, {p.concrete, {0.16f, 0.155f, 0.15f}}, shifted(frame, {0, 0, -0.6f}), {width + 0.6f, kDepth_m + 0.8f, 0.62f});
-  addBox(assembly, {p.plaster, {0.42f, 0.41f, 0.38f}}, shifted(frame, {0, 0.5f * kDepth_m - 0.2f, 0.0f}), {width, 0.3f, 7.3f});
-  for (const float side : {-0.5f, 0.5f}) addBox(assembly, {p.plaster, {0.44f, 0.42f, 0.39f}}, shifted(frame, {side * width, 0, 0.0f}), {0.3f, kDepth_m, 7.3f});
+  addBox(assembly, {p.concrete, {0.34f, 0.33f, 0.31f}}, shifted(frame, {0, -0.2f, 7.3f}),
+         {width + 1.0f, kDepth_m + 2.2f, 0.35f});
+  addBox(assembly, {p.concrete, {0.16f, 0.155f, 0.15f}}, shifted(frame, {0, 0, -0.6f}),
+         {width + 0.6f, kDepth_m + 0.8f, 0.62f});
+  addBox(assembly, {p.plaster, {0.42f, 0.41f, 0.38f}}, shifted(frame, {0, 0.5f * kDepth_m - 0.2f, 0.0f}),
+         {width, 0.3f, 7.3f});
+  for (const float side : {-0.5f, 0.5f})
+    addBox(assembly, {p.plaster, {0.44f, 0.42f, 0.39f}}, shifted(frame, {side * width, 0, 0.0f}),
+           {0.3f, kDepth_m, 7.3f});
 }
 
 void addTower(Assembly& assembly, const Site& site) {
@@ -164,12 +210,22 @@ void addTower(Assembly& assembly, const Site& site) {
   for (int k = 0; k < 4; ++k) {
     Frame wall = frame;
     wall.rotate(Eigen::AngleAxisf(0.5f * kPi * static_cast<float>(k), Point::UnitZ()));
-    addWall(assembly, shifted(wall, {0, -2.5f, -0.2f}), {5.0f, 10.5f, 3, WallKind::kPlaster, shaft.wall, k == 0, shaft.seed + static_cast<std::uint32_t>(k)});
-    addWall(assembly, shifted(wall, {0, -3.4f, 10.4f}), {6.8f, 3.0f, 1, WallKind::kSheet, {0.35f, 0.06f, 0.05f}, false, 671u + static_cast<std::uint32_t>(k)});
+    addWall(
+        assembly, shifted(wall, {0, -2.5f, -0.2f}),
+        {5.0f, 10.5f, 3, WallKind::kPlaster, shaft.wall, k == 0, shaft.seed + static_cast<std::uint32_t>(k)});
+    addWall(assembly, shifted(wall, {0, -3.4f, 10.4f}),
+            {6.8f,
+             3.0f,
+             1,
+             WallKind::kSheet,
+             {0.35f, 0.06f, 0.05f},
+             false,
+             671u + static_cast<std::uint32_t>(k)});
   }
   addBox(assembly, {p.concrete, {0.35f, 0.34f, 0.32f}}, shifted(frame, {0, 0, 10.2f}), {7.2f, 7.2f, 0.2f});
   addBox(assembly, {p.concrete, {0.30f, 0.29f, 0.28f}}, shifted(frame, {0, 0, 13.4f}), {7.8f, 7.8f, 0.3f});
-  addTube(assembly, {p.metal, {0.4f, 0.4f, 0.4f}}, {{frame * Point(1, 1, 13.5f), 0.06f}, {frame * Point(1, 1, 19.0f), 0.03f}}, 6);
+  addTube(assembly, {p.metal, {0.4f, 0.4f, 0.4f}},
+          {{frame * Point(1, 1, 13.5f), 0.06f}, {frame * Point(1, 1, 19.0f), 0.03f}}, 6);
 }
 
 }  // namespace
@@ -178,7 +234,8 @@ void addBuildings(Assembly& assembly) {
   std::uint32_t index = 0;
   for (const Site& site : sites()) {
     ++index;
-    if (site.kind == Site::Kind::kHouse || site.kind == Site::Kind::kBarn) addHouseAt(assembly, site, mix(681u, index));
+    if (site.kind == Site::Kind::kHouse || site.kind == Site::Kind::kBarn)
+      addHouseAt(assembly, site, mix(681u, index));
     if (site.kind == Site::Kind::kPits) addPits(assembly, site);
     if (site.kind == Site::Kind::kTower) addTower(assembly, site);
   }

@@ -36,7 +36,8 @@ bool inside(const std::vector<Pixel>& corners, const Pixel& p) {
   for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
     const Pixel& a = corners[i];
     const Pixel& b = corners[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
+    if ((a.y() > p.y()) != (b.y() > p.y()) &&
+        p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
       in = !in;
   }
   return in;
@@ -96,7 +97,8 @@ void Canvas::polygon(const std::vector<Pixel>& corners, const Ink& ink) {
   for (int y = static_cast<int>(low.y()); y <= high.y(); ++y) {
     for (int x = static_cast<int>(low.x()); x <= high.x(); ++x) {
       int hits = 0;
-      for (int k = 0; k < 4; ++k) hits += inside(corners, {x + 0.25f + 0.5f * (k % 2), y + 0.25f + 0.5f * (k / 2)});
+      for (int k = 0; k < 4; ++k)
+        hits += inside(corners, {x + 0.25f + 0.5f * (k % 2), y + 0.25f + 0.5f * (k / 2)});
       if (hits > 0) blend(x, y, {ink.color, ink.opacity * 0.25f * hits});
     }
   }
@@ -137,7 +139,8 @@ void Canvas::streaks(int count, float opacity, Random& random) {
     for (int y = 0; y < end; ++y) {
       const float fade = strength * (1.0f - y / end);
       const float shift = 2.0f * noise(0.03f * y, static_cast<float>(i), 5u);
-      rectangle({x + shift, static_cast<float>(y)}, {x + shift + width, y + 1.0f}, {{0.05f, 0.045f, 0.035f}, fade});
+      rectangle({x + shift, static_cast<float>(y)}, {x + shift + width, y + 1.0f},
+                {{0.05f, 0.045f, 0.035f}, fade});
     }
   }
 }
@@ -150,7 +153,8 @@ Texture Canvas::texture(const std::string& name) const {
   texture.rgba.resize(colors_.size() * 4);
   for (std::size_t i = 0; i < colors_.size(); ++i) {
     for (int c = 0; c < 3; ++c) texture.rgba[4 * i + c] = encode(colors_[i][c]);
-    texture.rgba[4 * i + 3] = static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(alphas_[i], 0.0f, 1.0f)));
+    texture.rgba[4 * i + 3] =
+        static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(alphas_[i], 0.0f, 1.0f)));
   }
   return texture;
 }

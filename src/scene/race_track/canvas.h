@@ -10,8 +10,8 @@
 
 namespace sunlit::scene::race_track {
 
-using Color = Eigen::Array3f;     ///< linear reflectance
-using Pixel = Eigen::Vector2f;    ///< x to the right, y down, px; pixel centres at halves
+using Color = Eigen::Array3f;   ///< linear reflectance
+using Pixel = Eigen::Vector2f;  ///< x to the right, y down, px; pixel centres at halves
 
 struct Ink {
   Color color;
@@ -40,7 +40,8 @@ class Canvas {
   void polygon(const std::vector<Pixel>& corners, const Ink& ink);
   /// A line through the points, soft-edged, of the given width.
   void line(const std::vector<Pixel>& points, float width, const Ink& ink);
-  /// Capitals, digits and a few signs; anything else is a gap. `place` is the top left corner; letters are `height` px high.
+  /// Capitals, digits and a few signs; anything else is a gap. `place` is the top left corner; letters are
+  /// `height` px high.
   void text(const std::string& letters, const Pixel& place, float height, const Ink& ink);
   void text(const std::string& letters, const LetterFrame& frame, const Ink& ink);
   /// Multiplies every colour by 1 + strength · fractal noise of the given wavelength.

@@ -8,10 +8,11 @@ namespace sunlit::scene::race_track {
 namespace {
 
 // The control polygon, to be scaled to m. Start line near the origin, straight to the east, then left round.
-constexpr double kControl[][2] = {
-    {-62, 0},  {0, 0},     {62, 0},     {122, -2},  {172, 10},   {190, 55},  {160, 92},   {112, 86},  {80, 70},
-    {52, 92},  {60, 136},  {92, 160},   {98, 198},  {60, 222},   {8, 214},   {-30, 190},  {-34, 146}, {-54, 108},
-    {-94, 98}, {-118, 128}, {-148, 156}, {-192, 146}, {-212, 104}, {-196, 66}, {-206, 30}, {-180, 2},  {-126, -4}};
+constexpr double kControl[][2] = {{-62, 0},   {0, 0},      {62, 0},     {122, -2},   {172, 10},   {190, 55},
+                                  {160, 92},  {112, 86},   {80, 70},    {52, 92},    {60, 136},   {92, 160},
+                                  {98, 198},  {60, 222},   {8, 214},    {-30, 190},  {-34, 146},  {-54, 108},
+                                  {-94, 98},  {-118, 128}, {-148, 156}, {-192, 146}, {-212, 104}, {-196, 66},
+                                  {-206, 30}, {-180, 2},   {-126, -4}};
 constexpr double kScale = 0.88;
 constexpr int kControls = static_cast<int>(sizeof(kControl) / sizeof(kControl[0]));
 
@@ -53,7 +54,8 @@ Course::Course() {
     samples_.push_back({(1 - t) * fine[k] + t * fine[k + 1], Eigen::Vector2d::Zero()});
   }
   for (int i = 0; i < count; ++i) {
-    samples_[i].tangent = (samples_[(i + 1) % count].point - samples_[(i + count - 1) % count].point).normalized();
+    samples_[i].tangent =
+        (samples_[(i + 1) % count].point - samples_[(i + count - 1) % count].point).normalized();
   }
 }
 
@@ -73,7 +75,9 @@ Eigen::Vector2d Course::point(const TrackPlace& place) const {
   return s.point + place.left * leftOf(s.tangent);
 }
 
-Eigen::Vector2d Course::tangent(double along) const { return sample(along).tangent; }
+Eigen::Vector2d Course::tangent(double along) const {
+  return sample(along).tangent;
+}
 
 double Course::curvature(double along) const {
   constexpr double kReach = 2.0;

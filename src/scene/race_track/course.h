@@ -9,8 +9,8 @@ namespace sunlit::scene::race_track {
 /// Half the width of the asphalt, m.
 constexpr double kHalfWidth = 4.5;
 
-/// A place by the track: `along` m from the start line in driving direction (cyclic), `left` m to the left of the centre
-/// line (negative: right).
+/// A place by the track: `along` m from the start line in driving direction (cyclic), `left` m to the left of
+/// the centre line (negative: right).
 struct TrackPlace {
   double along = 0.0;
   double left = 0.0;
@@ -49,6 +49,8 @@ class Course {
 const Course& course();
 
 /// Unit vector to the left of `tangent`.
-inline Eigen::Vector2d leftOf(const Eigen::Vector2d& tangent) { return {-tangent.y(), tangent.x()}; }
+inline Eigen::Vector2d leftOf(const Eigen::Vector2d& tangent) {
+  return {-tangent.y(), tangent.x()};
+}
 
 }  // namespace sunlit::scene::race_track

@@ -14,7 +14,8 @@ void layBricks(Canvas& canvas, const FacadePlan& plan, Random& random) {
   for (int row = 0; row * kCourse_px < canvas.height(); ++row) {
     const float y = row * kCourse_px;
     for (float x = (row % 2) * -0.5f * kBrick_px; x < canvas.width(); x += kBrick_px) {
-      const Color tone = plan.wall * random.range(0.65f, 1.3f) * Color(1.0f, random.range(0.85f, 1.1f), random.range(0.8f, 1.1f));
+      const Color tone = plan.wall * random.range(0.65f, 1.3f) *
+                         Color(1.0f, random.range(0.85f, 1.1f), random.range(0.8f, 1.1f));
       canvas.rectangle({x, y}, {x + kBrick_px, y + kCourse_px}, {mortar, 0.9f});
       canvas.rectangle({x, y}, {x + kBrick_px - 1.0f, y + kCourse_px - 0.7f}, {tone, 1.0f});
     }
@@ -28,8 +29,10 @@ void layBoards(Canvas& canvas, const FacadePlan& plan, Random& random) {
   const float h = static_cast<float>(canvas.height());
   for (float u = 0.0f; u < (upright ? w : h); u += pitch) {
     const Color tone = plan.wall * (upright ? random.range(0.88f, 1.08f) : random.range(0.7f, 1.25f));
-    canvas.rectangle(upright ? Pixel(u, 0) : Pixel(0, u), upright ? Pixel(u + pitch, h) : Pixel(w, u + pitch), {tone, 1.0f});
-    canvas.rectangle(upright ? Pixel(u, 0) : Pixel(0, u), upright ? Pixel(u + 1.2f, h) : Pixel(w, u + 1.0f), {0.5f * tone, 0.9f});
+    canvas.rectangle(upright ? Pixel(u, 0) : Pixel(0, u), upright ? Pixel(u + pitch, h) : Pixel(w, u + pitch),
+                     {tone, 1.0f});
+    canvas.rectangle(upright ? Pixel(u, 0) : Pixel(0, u), upright ? Pixel(u + 1.2f, h) : Pixel(w, u + 1.0f),
+                     {0.5f * tone, 0.9f});
   }
 }
 
@@ -69,7 +72,8 @@ void paintOpening(Canvas& canvas, const FacadePlan& plan, const Opening& opening
     const Color leaf = plan.wall.mean() > 0.3f ? Color(0.20f, 0.07f, 0.04f) : Color(0.06f, 0.16f, 0.20f);
     canvas.rectangle(low + Pixel(2, 2), high - Pixel(2, 0), {leaf * random.range(0.6f, 1.4f), 1.0f});
     glaze(canvas, low + Pixel(5, 5), {high.x() - 5, low.y() + 0.35f * (high.y() - low.y())}, random);
-    canvas.rectangle({high.x() - 7, 0.5f * (low.y() + high.y())}, {high.x() - 4, 0.5f * (low.y() + high.y()) + 2}, {{0.6f, 0.55f, 0.4f}, 1.0f});
+    canvas.rectangle({high.x() - 7, 0.5f * (low.y() + high.y())},
+                     {high.x() - 4, 0.5f * (low.y() + high.y()) + 2}, {{0.6f, 0.55f, 0.4f}, 1.0f});
     return;
   }
   const int panes = opening.width > 1.6f ? 3 : 2;
@@ -78,20 +82,24 @@ void paintOpening(Canvas& canvas, const FacadePlan& plan, const Opening& opening
     const Pixel a(low.x() + i * step + 1.5f, low.y() + 2.0f);
     const Pixel b(low.x() + (i + 1) * step - 1.5f, high.y() - 2.0f);
     glaze(canvas, a, b, random);
-    if (style.chance(0.5f)) canvas.rectangle({a.x(), 0.5f * (a.y() + b.y())}, {b.x(), 0.5f * (a.y() + b.y()) + 1.5f}, {frame, 1.0f});
+    if (style.chance(0.5f))
+      canvas.rectangle({a.x(), 0.5f * (a.y() + b.y())}, {b.x(), 0.5f * (a.y() + b.y()) + 1.5f},
+                       {frame, 1.0f});
   }
   if (style.chance(0.35f)) {
     const Color shutter = Color(0.05f, 0.14f, 0.09f) * style.range(0.5f, 3.0f);
     for (const float x : {low.x() - 4.0f - 0.5f * step, high.x() + 4.0f}) {
       canvas.rectangle({x, low.y()}, {x + 0.5f * step, high.y()}, {shutter, 1.0f});
-      for (float y = low.y(); y < high.y(); y += 3.0f) canvas.rectangle({x + 1, y}, {x + 0.5f * step - 1, y + 1}, {0.5f * shutter, 1.0f});
+      for (float y = low.y(); y < high.y(); y += 3.0f)
+        canvas.rectangle({x + 1, y}, {x + 0.5f * step - 1, y + 1}, {0.5f * shutter, 1.0f});
     }
   }
   // Rain has washed dirt off the sill.
   for (int i = 0; i < 3; ++i) {
     const float x = random.range(low.x(), high.x());
     const float drop = random.range(6.0f, 26.0f);
-    canvas.rectangle({x, high.y() + 4}, {x + random.range(1.0f, 3.0f), high.y() + 4 + drop}, {{0.06f, 0.055f, 0.045f}, 0.35f});
+    canvas.rectangle({x, high.y() + 4}, {x + random.range(1.0f, 3.0f), high.y() + 4 + drop},
+                     {{0.06f, 0.055f, 0.045f}, 0.35f});
   }
 }
 
@@ -111,7 +119,8 @@ std::vector<Opening> planOpenings(const FacadePlan& plan) {
       if (f == 0 && c == door) {
         openings.push_back({x - 0.5f, 0.05f, 1.0f, 2.1f, true});
       } else if (random.chance(0.85f)) {
-        openings.push_back({x - 0.5f * width, f * storey + 0.95f, width, std::min(1.35f, storey - 1.35f), false});
+        openings.push_back(
+            {x - 0.5f * width, f * storey + 0.95f, width, std::min(1.35f, storey - 1.35f), false});
       }
     }
   }
@@ -130,7 +139,9 @@ Canvas paintFacade(const FacadePlan& plan, const std::vector<Opening>& openings)
   // A darker foot, splashed by rain.
   for (int y = static_cast<int>(h - 0.7f * kScale); y < h; ++y) {
     const float wet = smoothStep(h - 0.7f * kScale, h, static_cast<float>(y));
-    for (int x = 0; x < w; ++x) canvas.blend(x, y, {{0.11f, 0.10f, 0.085f}, 0.7f * wet * (0.6f + 0.4f * noise(0.06f * x, 0.1f * y, 635u))});
+    for (int x = 0; x < w; ++x)
+      canvas.blend(x, y,
+                   {{0.11f, 0.10f, 0.085f}, 0.7f * wet * (0.6f + 0.4f * noise(0.06f * x, 0.1f * y, 635u))});
   }
   canvas.streaks(7, 0.3f, random);
   for (const Opening& opening : openings) paintOpening(canvas, plan, opening, random);

@@ -28,7 +28,10 @@ int wireMaterial(Assembly& assembly) {
           return Pixel(pitch * static_cast<float>(i) + (slope > 0 ? y : kSize - y), y);
         };
         const float rust = smoothStep(0.2f, 0.7f, fractal(0.01f * at(k).x(), 0.01f * at(k).y(), 3, 621u));
-        canvas.line({at(k), at(k + 1)}, 2.0f, {Color(0.34f, 0.35f, 0.35f) + rust * (Color(0.20f, 0.11f, 0.06f) - Color(0.34f, 0.35f, 0.35f)), 1.0f});
+        canvas.line(
+            {at(k), at(k + 1)}, 2.0f,
+            {Color(0.34f, 0.35f, 0.35f) + rust * (Color(0.20f, 0.11f, 0.06f) - Color(0.34f, 0.35f, 0.35f)),
+             1.0f});
       }
     }
   }
@@ -59,8 +62,10 @@ void addNet(Assembly& assembly, int wire, const Bay& bay, Random& random) {
     const bool end = i == 0 || i == kSteps;
     for (int k = 0; k < 2; ++k) {
       const float sag = end ? 0.0f : 0.04f * random.bell();
-      points[k][i] = bay.from + t * (bay.to - bay.from) + sag * across + Point(0, 0, k * kHeight_m + (end ? 0.0f : 0.03f * random.bell()));
-      places[k][i] = {(bay.along + t * kBay_m + 0.03f * random.bell()) / kPicture_m, (k == 0 ? 0.0f : -kHeight_m) / kPicture_m + 0.01f * random.bell()};
+      points[k][i] = bay.from + t * (bay.to - bay.from) + sag * across +
+                     Point(0, 0, k * kHeight_m + (end ? 0.0f : 0.03f * random.bell()));
+      places[k][i] = {(bay.along + t * kBay_m + 0.03f * random.bell()) / kPicture_m,
+                      (k == 0 ? 0.0f : -kHeight_m) / kPicture_m + 0.01f * random.bell()};
     }
   }
   for (int i = 0; i < kSteps; ++i) {
@@ -79,7 +84,8 @@ void addBanner(Assembly& assembly, const Bay& bay, int side, Random& random) {
   const Point up(0, 0, low);
   const Point rise(0, 0, 1.15f);
   // Its front looks at the track.
-  const Corners face = side < 0 ? Corners{b + up, a + up, a + up + rise, b + up + rise} : Corners{a + up, b + up, b + up + rise, a + up + rise};
+  const Corners face = side < 0 ? Corners{b + up, a + up, a + up + rise, b + up + rise}
+                                : Corners{a + up, b + up, b + up + rise, a + up + rise};
   addQuad(assembly, {picture.material, Color::Ones()}, face, picture.rect);
 }
 
@@ -92,11 +98,17 @@ void addFences(Assembly& assembly) {
     Random random(622u, index++);
     if (!stretch.fence) continue;
     for (double s = stretch.from; s + kBay_m < stretch.to; s += kBay_m) {
-      const auto at = [&](double along) { return groundPoint(TrackPlace{along, stretch.side * (barrierOffset(along, stretch.side) + 0.9)}); };
+      const auto at = [&](double along) {
+        return groundPoint(TrackPlace{along, stretch.side * (barrierOffset(along, stretch.side) + 0.9)});
+      };
       const Bay bay{at(s), at(s + kBay_m), static_cast<float>(s) * 1.037f};
       const Paint post{assembly.palette().metal, Color(0.30f, 0.31f, 0.31f) * random.range(0.6f, 1.2f)};
-      addTube(assembly, post, {{bay.from - Point(0, 0, 0.3f), 0.035f}, {bay.from + Point(0, 0, kHeight_m + 0.1f * random.unit()), 0.035f}}, 6);
-      addBar(assembly, post, {bay.from + Point(0, 0, kHeight_m), 0.02f}, {bay.to + Point(0, 0, kHeight_m), 0.02f});
+      addTube(assembly, post,
+              {{bay.from - Point(0, 0, 0.3f), 0.035f},
+               {bay.from + Point(0, 0, kHeight_m + 0.1f * random.unit()), 0.035f}},
+              6);
+      addBar(assembly, post, {bay.from + Point(0, 0, kHeight_m), 0.02f},
+             {bay.to + Point(0, 0, kHeight_m), 0.02f});
       addNet(assembly, wire, bay, random);
       if (random.chance(0.28f)) addBanner(assembly, bay, stretch.side, random);
     }

@@ -19,13 +19,20 @@ struct LeafStyle {
 
 LeafStyle leafStyle(Species species) {
   switch (species) {
-    case Species::kOak: return {{0.020f, 0.048f, 0.012f}, {0.085f, 0.135f, 0.030f}, 17.0f, 0.50f, 1150};
-    case Species::kBirch: return {{0.040f, 0.075f, 0.018f}, {0.150f, 0.190f, 0.045f}, 11.0f, 0.60f, 1500};
-    case Species::kMaple: return {{0.030f, 0.062f, 0.012f}, {0.130f, 0.165f, 0.028f}, 21.0f, 0.75f, 700};
-    case Species::kLime: return {{0.026f, 0.060f, 0.016f}, {0.100f, 0.170f, 0.050f}, 15.0f, 0.80f, 1050};
-    case Species::kCopperBeech: return {{0.035f, 0.014f, 0.014f}, {0.130f, 0.045f, 0.038f}, 14.0f, 0.6f, 1200};
-    case Species::kSpruce: return {{0.014f, 0.034f, 0.018f}, {0.050f, 0.085f, 0.040f}, 20.0f, 0.09f, 4600};
-    case Species::kPine: return {{0.022f, 0.042f, 0.018f}, {0.085f, 0.110f, 0.045f}, 34.0f, 0.06f, 2600};
+    case Species::kOak:
+      return {{0.020f, 0.048f, 0.012f}, {0.085f, 0.135f, 0.030f}, 17.0f, 0.50f, 1150};
+    case Species::kBirch:
+      return {{0.040f, 0.075f, 0.018f}, {0.150f, 0.190f, 0.045f}, 11.0f, 0.60f, 1500};
+    case Species::kMaple:
+      return {{0.030f, 0.062f, 0.012f}, {0.130f, 0.165f, 0.028f}, 21.0f, 0.75f, 700};
+    case Species::kLime:
+      return {{0.026f, 0.060f, 0.016f}, {0.100f, 0.170f, 0.050f}, 15.0f, 0.80f, 1050};
+    case Species::kCopperBeech:
+      return {{0.035f, 0.014f, 0.014f}, {0.130f, 0.045f, 0.038f}, 14.0f, 0.6f, 1200};
+    case Species::kSpruce:
+      return {{0.014f, 0.034f, 0.018f}, {0.050f, 0.085f, 0.040f}, 20.0f, 0.09f, 4600};
+    case Species::kPine:
+      return {{0.022f, 0.042f, 0.018f}, {0.085f, 0.110f, 0.045f}, 34.0f, 0.06f, 2600};
   }
   return {};
 }
@@ -52,7 +59,8 @@ Canvas paintLeaves(Species species, std::uint32_t variant) {
   std::vector<Pixel> clumps;
   for (int i = 0; i < kClumps; ++i) {
     const float angle = 2.39996f * static_cast<float>(i) + 0.5f * random.bell();
-    const float radius = 0.40f * kSize * std::sqrt((static_cast<float>(i) + 0.5f) / kClumps) * random.range(0.75f, 1.05f);
+    const float radius =
+        0.40f * kSize * std::sqrt((static_cast<float>(i) + 0.5f) / kClumps) * random.range(0.75f, 1.05f);
     clumps.push_back(Pixel(0.5f * kSize, 0.5f * kSize) + radius * Pixel(std::cos(angle), std::sin(angle)));
   }
   for (int i = 0; i < style.count; ++i) {
@@ -62,11 +70,13 @@ Canvas paintLeaves(Species species, std::uint32_t variant) {
     if ((place.array() < 0.03f * kSize).any() || (place.array() > 0.97f * kSize).any()) continue;
     // Later leaves lie on top and catch more light.
     const float lit = 0.35f + 0.65f * static_cast<float>(i) / static_cast<float>(style.count);
-    const Color color = (style.dark + lit * random.unit() * (style.light - style.dark)) * random.range(1.0f, 1.7f);
+    const Color color =
+        (style.dark + lit * random.unit() * (style.light - style.dark)) * random.range(1.0f, 1.7f);
     const float length = style.length_px * random.range(0.6f, 1.2f);
     const float outwards = std::atan2(place.y() - 0.5f * kSize, place.x() - 0.5f * kSize);
     const float turn = style.slimness < 0.2f ? outwards + 0.5f * random.bell() : random.range(0.0f, kPi);
-    const Pixel radii(0.5f * length, std::max(0.9f, 0.5f * length * style.slimness * random.range(0.6f, 1.1f)));
+    const Pixel radii(0.5f * length,
+                      std::max(0.9f, 0.5f * length * style.slimness * random.range(0.6f, 1.1f)));
     canvas.ellipse(place, radii, turn, {color, 1.0f});
     if (style.slimness < 0.2f) continue;
     const Pixel rib = 0.4f * length * Pixel(std::cos(turn), std::sin(turn));
@@ -89,16 +99,20 @@ Canvas paintTuft(std::uint32_t which) {
     const Ink ink{tone * random.range(0.6f, 1.5f), 1.0f};
     constexpr int kSteps = 7;
     for (int k = 0; k < kSteps; ++k) {
-      const auto at = [&](float t) { return Pixel(root + lean * t * t, kSize - height * (t - 0.18f * t * t * std::abs(lean) / height)); };
+      const auto at = [&](float t) {
+        return Pixel(root + lean * t * t, kSize - height * (t - 0.18f * t * t * std::abs(lean) / height));
+      };
       const float t = static_cast<float>(k) / kSteps;
       canvas.line({at(t), at(t + 1.0f / kSteps)}, 1.2f + 5.0f * (1.0f - t), ink);
     }
   }
-  const Color petals[] = {{0.75f, 0.72f, 0.65f}, {0.70f, 0.48f, 0.03f}, {0.35f, 0.12f, 0.40f}, {0.55f, 0.06f, 0.05f}};
+  const Color petals[] = {
+      {0.75f, 0.72f, 0.65f}, {0.70f, 0.48f, 0.03f}, {0.35f, 0.12f, 0.40f}, {0.55f, 0.06f, 0.05f}};
   if (which >= 4) {
     for (int i = 0; i < 4 + random.below(6); ++i) {
       const Pixel head(kSize * random.range(0.2f, 0.8f), kSize * random.range(0.05f, 0.5f));
-      canvas.line({head, {0.5f * (head.x() + 0.5f * kSize), static_cast<float>(kSize)}}, 2.5f, {{0.09f, 0.12f, 0.04f}, 1.0f});
+      canvas.line({head, {0.5f * (head.x() + 0.5f * kSize), static_cast<float>(kSize)}}, 2.5f,
+                  {{0.09f, 0.12f, 0.04f}, 1.0f});
       for (int k = 0; k < 6; ++k) {
         const Pixel off = 6.0f * Pixel(std::cos(1.05f * k), std::sin(1.05f * k));
         canvas.ellipse(head + off, {6.0f, 4.0f}, 1.05f * k, {petals[which % 4], 1.0f});
@@ -117,11 +131,13 @@ Foliage paintFoliage(Assembly& assembly) {
   std::vector<Canvas> canvases(kCount, Canvas(1, 1, Color::Zero()));
   tbb::parallel_for(0, kCount, [&](int i) {
     const auto n = static_cast<std::uint32_t>(i);
-    canvases[i] = i < kLeafCount ? paintLeaves(static_cast<Species>(i / kVariants), n) : paintTuft(n - kLeafCount);
+    canvases[i] =
+        i < kLeafCount ? paintLeaves(static_cast<Species>(i / kVariants), n) : paintTuft(n - kLeafCount);
   });
   Foliage foliage;
   for (int i = 0; i < kCount; ++i) {
-    const Picture picture = i < kLeafCount ? assembly.addCutOut(canvases[i]) : assembly.addOneSidedCutOut(canvases[i]);
+    const Picture picture =
+        i < kLeafCount ? assembly.addCutOut(canvases[i]) : assembly.addOneSidedCutOut(canvases[i]);
     (i < kLeafCount ? foliage.leaves[i / kVariants][i % kVariants] : foliage.tufts[i - kLeafCount]) = picture;
   }
   return foliage;

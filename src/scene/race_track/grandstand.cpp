@@ -63,7 +63,9 @@ void addSteps(Assembly& assembly, const Stand& stand) {
     for (float x = -0.5f * stand.width; x < 0.5f * stand.width - 0.1f; x += 5.0f) {
       const Paint paint{assembly.palette().concrete, Color(0.32f, 0.31f, 0.29f) * random.range(0.75f, 1.15f)};
       const float piece = std::min(5.0f, 0.5f * stand.width - x);
-      addBox(assembly, paint, shifted(stand.frame, {x + 0.5f * piece, kRow_m * (static_cast<float>(r) + 0.5f), -0.5f}), {piece - 0.03f, kRow_m, top + 0.5f});
+      addBox(assembly, paint,
+             shifted(stand.frame, {x + 0.5f * piece, kRow_m * (static_cast<float>(r) + 0.5f), -0.5f}),
+             {piece - 0.03f, kRow_m, top + 0.5f});
     }
   }
 }
@@ -77,19 +79,27 @@ void addSeats(Assembly& assembly, const Stand& stand, const std::vector<Picture>
       const Point s = seatPoint(r, x);
       const int block = static_cast<int>(std::floor((x + 100.0f) / 9.0f));
       const Color colors[] = {srgb(30, 70, 150), srgb(190, 40, 35), srgb(220, 215, 205), srgb(225, 165, 30)};
-      const Paint paint{assembly.palette().satin, colors[(block + (r > stand.rows / 2 ? 1 : 0)) % 4] * random.range(0.55f, 1.05f)};
+      const Paint paint{assembly.palette().satin,
+                        colors[(block + (r > stand.rows / 2 ? 1 : 0)) % 4] * random.range(0.55f, 1.05f)};
       const float w = 0.22f;
       const auto at = [&](float dx, float dy, float dz) { return Point(f * Point(s + Point(dx, dy, dz))); };
-      addQuad(assembly, paint, {at(-w, -0.15f, 0.40f), at(w, -0.15f, 0.40f), at(w, 0.22f, 0.38f), at(-w, 0.22f, 0.38f)});
-      addQuad(assembly, paint, {at(-w, 0.22f, 0.38f), at(w, 0.22f, 0.38f), at(w, 0.30f, 0.80f), at(-w, 0.30f, 0.80f)});
+      addQuad(assembly, paint,
+              {at(-w, -0.15f, 0.40f), at(w, -0.15f, 0.40f), at(w, 0.22f, 0.38f), at(-w, 0.22f, 0.38f)});
+      addQuad(assembly, paint,
+              {at(-w, 0.22f, 0.38f), at(w, 0.22f, 0.38f), at(w, 0.30f, 0.80f), at(-w, 0.30f, 0.80f)});
       if (!random.chance(0.34f)) continue;
       const Picture& person = crowd[static_cast<std::size_t>(random.below(static_cast<int>(crowd.size())))];
       const float h = random.chance(0.2f) ? random.range(1.5f, 1.8f) : random.range(1.1f, 1.3f);
       const float half = 0.26f * h;
       const float turn = 0.12f * random.bell();
-      Card card{{at(-half, turn, 0.02f), at(half, -turn, 0.02f), at(half, -turn, h), at(-half, turn, h)}, person.rect, f.linear() * Point(0.0f, -0.8f, 0.6f)};
+      Card card{{at(-half, turn, 0.02f), at(half, -turn, 0.02f), at(half, -turn, h), at(-half, turn, h)},
+                person.rect,
+                f.linear() * Point(0.0f, -0.8f, 0.6f)};
       if (random.chance(0.5f)) std::swap(card.rect.top_left.x(), card.rect.bottom_right.x());
-      addCard(assembly, {person.material, Color(random.range(0.6f, 1.2f), random.range(0.6f, 1.2f), random.range(0.6f, 1.2f))}, card);
+      addCard(assembly,
+              {person.material,
+               Color(random.range(0.6f, 1.2f), random.range(0.6f, 1.2f), random.range(0.6f, 1.2f))},
+              card);
     }
   }
 }
@@ -103,24 +113,32 @@ void addRoof(Assembly& assembly, const Stand& stand) {
   constexpr float kBay_m = 7.0f;
   for (float x = -0.5f * stand.width; x <= 0.5f * stand.width + 0.1f; x += kBay_m) {
     const Paint steel{p.metal, Color(0.50f, 0.51f, 0.52f) * random.range(0.75f, 1.05f)};
-    addTube(assembly, steel, {{f * Point(x, depth - 0.4f, -0.5f), 0.16f}, {f * Point(x, depth - 0.4f, top), 0.14f}}, 8);
-    addBar(assembly, steel, {f * Point(x, depth - 0.4f, top), 0.10f}, {f * Point(x, -1.0f, top + 0.9f), 0.07f});
-    addBar(assembly, steel, {f * Point(x, depth - 0.4f, top - 1.6f), 0.07f}, {f * Point(x, 0.35f * depth, top + 0.5f), 0.06f});
+    addTube(assembly, steel,
+            {{f * Point(x, depth - 0.4f, -0.5f), 0.16f}, {f * Point(x, depth - 0.4f, top), 0.14f}}, 8);
+    addBar(assembly, steel, {f * Point(x, depth - 0.4f, top), 0.10f},
+           {f * Point(x, -1.0f, top + 0.9f), 0.07f});
+    addBar(assembly, steel, {f * Point(x, depth - 0.4f, top - 1.6f), 0.07f},
+           {f * Point(x, 0.35f * depth, top + 0.5f), 0.06f});
   }
   for (float x = -0.5f * stand.width - 0.6f; x < 0.5f * stand.width + 0.5f; x += 1.2f) {
     const Paint sheet{p.roof, Color(0.46f, 0.47f, 0.48f) * random.range(0.7f, 1.1f)};
     const auto slab = [&](float lift) {
-      return Corners{f * Point(x, -1.6f, top + 1.1f + lift), f * Point(x + 1.2f, -1.6f, top + 1.1f + lift), f * Point(x + 1.2f, depth + 0.6f, top + lift), f * Point(x, depth + 0.6f, top + lift)};
+      return Corners{f * Point(x, -1.6f, top + 1.1f + lift), f * Point(x + 1.2f, -1.6f, top + 1.1f + lift),
+                     f * Point(x + 1.2f, depth + 0.6f, top + lift), f * Point(x, depth + 0.6f, top + lift)};
     };
     addQuad(assembly, sheet, slab(0.12f));
   }
   for (float x = -0.5f * stand.width; x < 0.5f * stand.width - 1.0f; x += 6.0f) {
     const Picture picture = assembly.addPicture(paintPoster({224, 40}, random.bits()));
     const float end = std::min(x + 5.6f, 0.5f * stand.width);
-    addQuad(assembly, {picture.material, Color::Ones()}, {f * Point(x, -1.66f, top + 0.55f), f * Point(end, -1.66f, top + 0.55f), f * Point(end, -1.66f, top + 1.45f), f * Point(x, -1.66f, top + 1.45f)}, picture.rect);
+    addQuad(assembly, {picture.material, Color::Ones()},
+            {f * Point(x, -1.66f, top + 0.55f), f * Point(end, -1.66f, top + 0.55f),
+             f * Point(end, -1.66f, top + 1.45f), f * Point(x, -1.66f, top + 1.45f)},
+            picture.rect);
   }
   for (float x = -0.5f * stand.width; x < 0.5f * stand.width - 0.1f; x += 6.0f) {
-    addBox(assembly, {p.plaster, Color(0.40f, 0.40f, 0.41f) * random.range(0.8f, 1.1f)}, shifted(f, {x + 3.0f, depth + 0.15f, -0.5f}), {5.97f, 0.2f, top - 1.2f});
+    addBox(assembly, {p.plaster, Color(0.40f, 0.40f, 0.41f) * random.range(0.8f, 1.1f)},
+           shifted(f, {x + 3.0f, depth + 0.15f, -0.5f}), {5.97f, 0.2f, top - 1.2f});
   }
 }
 
@@ -128,8 +146,11 @@ void addRailing(Assembly& assembly, const Stand& stand) {
   const Paint steel{assembly.palette().metal, {0.45f, 0.45f, 0.44f}};
   const Frame& f = stand.frame;
   for (float x = -0.5f * stand.width; x < 0.5f * stand.width; x += 2.0f) {
-    addBar(assembly, steel, {f * Point(x, -0.1f, kFoot_m - 0.2f), 0.025f}, {f * Point(x, -0.1f, kFoot_m + 0.95f), 0.025f});
-    for (const float z : {0.5f, 0.95f}) addBar(assembly, steel, {f * Point(x, -0.1f, kFoot_m + z), 0.02f}, {f * Point(std::min(x + 2.0f, 0.5f * stand.width), -0.1f, kFoot_m + z), 0.02f});
+    addBar(assembly, steel, {f * Point(x, -0.1f, kFoot_m - 0.2f), 0.025f},
+           {f * Point(x, -0.1f, kFoot_m + 0.95f), 0.025f});
+    for (const float z : {0.5f, 0.95f})
+      addBar(assembly, steel, {f * Point(x, -0.1f, kFoot_m + z), 0.02f},
+             {f * Point(std::min(x + 2.0f, 0.5f * stand.width), -0.1f, kFoot_m + z), 0.02f});
   }
 }
 
@@ -138,7 +159,8 @@ Stand standAt(const Site& site, std::uint32_t seed) {
   Stand stand;
   const float side = site.place.left > 0.0 ? 1.0f : -1.0f;
   const Eigen::Vector2d t = course().tangent(site.place.along);
-  const float yaw = std::atan2(static_cast<float>(t.y()), static_cast<float>(t.x())) + (side > 0 ? 0.0f : kPi);
+  const float yaw =
+      std::atan2(static_cast<float>(t.y()), static_cast<float>(t.x())) + (side > 0 ? 0.0f : kPi);
   stand.rows = main ? 12 : 6;
   stand.width = main ? 63.0f : 22.0f;
   stand.roof = main;

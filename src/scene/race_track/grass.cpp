@@ -17,8 +17,8 @@ struct Tuft {
   Color tint;
 };
 
-// Two cards that lean apart, each seen from above only: so whoever looks sees the side that the sky lights, and the turf
-// does not turn black when one looks towards the sun.
+// Two cards that lean apart, each seen from above only: so whoever looks sees the side that the sky lights,
+// and the turf does not turn black when one looks towards the sun.
 void addTuft(Assembly& assembly, const Picture& picture, const Tuft& tuft, Random& random) {
   const float width = tuft.height * random.range(1.3f, 2.4f);
   const float turn = random.range(0.0f, 2.0f * kPi);
@@ -49,7 +49,8 @@ void addGrass(Assembly& assembly, const Foliage& foliage) {
     const Eigen::Vector2d p = course().point({s, left});
     const float lush = noise(static_cast<float>(p.x()) / 2.2f, static_cast<float>(p.y()) / 2.2f, 502u);
     if (lush < -0.35f + 0.5f * random.bell() * 0.3f) continue;
-    const float size = (0.07f + 0.12f * smoothStep(0.0f, 3.0f, out)) * (1.0f + 0.7f * lush) * random.range(0.6f, 1.6f);
+    const float size =
+        (0.07f + 0.12f * smoothStep(0.0f, 3.0f, out)) * (1.0f + 0.7f * lush) * random.range(0.6f, 1.6f);
     const Color turf = turfColor(p);
     const Color tint = (0.45f + 4.5f * turf) * random.range(0.75f, 1.25f);
     const bool flower = random.chance(0.12f + 0.2f * std::max(0.0f, lush));
@@ -75,8 +76,10 @@ void addStones(Assembly& assembly) {
     const Eigen::Vector2d p = course().point({s, left});
     if (!near && !isFree(p, size)) continue;
     const Color tone = Color(0.24f, 0.22f, 0.195f) * random.range(0.55f, 1.4f);
-    const Point radii(size * random.range(0.7f, 1.3f), size * random.range(0.7f, 1.3f), size * random.range(0.45f, 0.8f));
-    addLump(assembly, {assembly.palette().stone, tone}, {groundPoint(p) + Point(0, 0, 0.2f * size), radii, 0.35f, seed});
+    const Point radii(size * random.range(0.7f, 1.3f), size * random.range(0.7f, 1.3f),
+                      size * random.range(0.45f, 0.8f));
+    addLump(assembly, {assembly.palette().stone, tone},
+            {groundPoint(p) + Point(0, 0, 0.2f * size), radii, 0.35f, seed});
   }
 }
 

@@ -33,7 +33,8 @@ double hills(const Eigen::Vector2d& p) {
   const float y = static_cast<float>(p.y());
   const double rise = smoothStep(280.0f, 1100.0f, static_cast<float>(distance));
   const double ridges = 0.62 + 0.42 * fractal(x / 420.0f, y / 420.0f, 4, 21u);
-  const double rolling = 4.0 * smoothStep(220.0f, 420.0f, static_cast<float>(distance)) * noise(x / 120.0f, y / 120.0f, 22u);
+  const double rolling =
+      4.0 * smoothStep(220.0f, 420.0f, static_cast<float>(distance)) * noise(x / 120.0f, y / 120.0f, 22u);
   return rolling + 125.0 * rise * std::max(0.05, ridges) * skyline(d);
 }
 
@@ -51,7 +52,8 @@ double heightAt(const Eigen::Vector2d& point, const TrackPlace& place) {
   const double road = swell(course().point({place.along, 0.0}));
   const float x = static_cast<float>(point.x());
   const float y = static_cast<float>(point.y());
-  const double rough = 0.05 * fractal(x / 1.7f, y / 1.7f, 2, 41u) + 0.16 * fractal(x / 9.0f, y / 9.0f, 2, 42u);
+  const double rough =
+      0.05 * fractal(x / 1.7f, y / 1.7f, 2, 41u) + 0.16 * fractal(x / 9.0f, y / 9.0f, 2, 42u);
   const double blend = smoothStep(7.0f, 20.0f, side);
   const double bumps = rough * smoothStep(static_cast<float>(kHalfWidth) + 1.4f, 9.0f, side);
   // A shallow ditch beside the asphalt.
@@ -64,9 +66,11 @@ double heightAt(const Eigen::Vector2d& point, const TrackPlace& place) {
 std::vector<double> gridLines(double low, double high, double fine, double reach) {
   std::vector<double> lines;
   for (double x = low; x <= high; x += fine) lines.push_back(x);
-  for (double step = fine * 1.3, x = lines.back() + step; x < high + reach; step *= 1.16, x += step) lines.push_back(x);
+  for (double step = fine * 1.3, x = lines.back() + step; x < high + reach; step *= 1.16, x += step)
+    lines.push_back(x);
   std::vector<double> before;
-  for (double step = fine * 1.3, x = low - step; x > low - reach; step *= 1.16, x -= step) before.push_back(x);
+  for (double step = fine * 1.3, x = low - step; x > low - reach; step *= 1.16, x -= step)
+    before.push_back(x);
   lines.insert(lines.begin(), before.rbegin(), before.rend());
   return lines;
 }
@@ -127,9 +131,13 @@ Mesh landBlock(const LandGrid& grid, const Span& is, const Span& js) {
 
 }  // namespace
 
-double groundHeight(const Eigen::Vector2d& point) { return heightAt(point, course().nearest(point)); }
+double groundHeight(const Eigen::Vector2d& point) {
+  return heightAt(point, course().nearest(point));
+}
 
-double groundHeight(const TrackPlace& place) { return heightAt(course().point(place), place); }
+double groundHeight(const TrackPlace& place) {
+  return heightAt(course().point(place), place);
+}
 
 Eigen::Vector3f groundPoint(const Eigen::Vector2d& point) {
   return Eigen::Vector3d(point.x(), point.y(), groundHeight(point)).cast<float>();
@@ -167,7 +175,8 @@ void addLand(Assembly& assembly) {
   constexpr std::size_t kBlock = 16;
   for (std::size_t j = 0; j + 1 < grid.rows; j += kBlock) {
     for (std::size_t i = 0; i + 1 < grid.columns; i += kBlock) {
-      Mesh mesh = landBlock(grid, {i, std::min(i + kBlock, grid.columns - 1)}, {j, std::min(j + kBlock, grid.rows - 1)});
+      Mesh mesh = landBlock(grid, {i, std::min(i + kBlock, grid.columns - 1)},
+                            {j, std::min(j + kBlock, grid.rows - 1)});
       mesh.name = "land " + std::to_string(i / kBlock) + " " + std::to_string(j / kBlock);
       mesh.material = assembly.palette().grass;
       assembly.add(std::move(mesh));

@@ -8,20 +8,39 @@ namespace sunlit::scene::race_track {
 
 const std::vector<BarrierStretch>& barriers() {
   using K = BarrierKind;
-  static const std::vector<BarrierStretch> table = {
-      // Left of the track.
-      {-92, 118, 1, K::kConcrete, true}, {118, 196, 1, K::kHay, false},       {196, 262, 1, K::kGuardRail, false},
-      {262, 282, 1, K::kConcrete, false}, {282, 322, 1, K::kTyres, true},     {322, 392, 1, K::kGuardRail, true},
-      {392, 452, 1, K::kTimber, false},  {452, 560, 1, K::kGuardRail, false}, {560, 618, 1, K::kConcrete, false},
-      {618, 654, 1, K::kTyres, true},    {654, 700, 1, K::kGuardRail, false}, {700, 772, 1, K::kTimber, false},
-      {772, 818, 1, K::kConcrete, true}, {818, 880, 1, K::kHay, false},       {880, 938, 1, K::kGuardRail, true},
-      // Right of it.
-      {-70, 62, -1, K::kConcrete, true}, {62, 142, -1, K::kGuardRail, true},  {142, 178, -1, K::kTyres, true},
-      {178, 250, -1, K::kConcrete, true}, {250, 330, -1, K::kTimber, false},  {330, 396, -1, K::kGuardRail, false},
-      {396, 428, -1, K::kTyres, true},   {428, 506, -1, K::kGuardRail, true}, {506, 566, -1, K::kConcrete, false},
-      {566, 640, -1, K::kGuardRail, false}, {640, 688, -1, K::kTimber, false}, {688, 726, -1, K::kTyres, true},
-      {726, 806, -1, K::kGuardRail, false}, {806, 838, -1, K::kConcrete, true}, {838, 868, -1, K::kTyres, true},
-      {868, 960, -1, K::kGuardRail, true}};
+  static const std::vector<BarrierStretch> table = {// Left of the track.
+                                                    {-92, 118, 1, K::kConcrete, true},
+                                                    {118, 196, 1, K::kHay, false},
+                                                    {196, 262, 1, K::kGuardRail, false},
+                                                    {262, 282, 1, K::kConcrete, false},
+                                                    {282, 322, 1, K::kTyres, true},
+                                                    {322, 392, 1, K::kGuardRail, true},
+                                                    {392, 452, 1, K::kTimber, false},
+                                                    {452, 560, 1, K::kGuardRail, false},
+                                                    {560, 618, 1, K::kConcrete, false},
+                                                    {618, 654, 1, K::kTyres, true},
+                                                    {654, 700, 1, K::kGuardRail, false},
+                                                    {700, 772, 1, K::kTimber, false},
+                                                    {772, 818, 1, K::kConcrete, true},
+                                                    {818, 880, 1, K::kHay, false},
+                                                    {880, 938, 1, K::kGuardRail, true},
+                                                    // Right of it.
+                                                    {-70, 62, -1, K::kConcrete, true},
+                                                    {62, 142, -1, K::kGuardRail, true},
+                                                    {142, 178, -1, K::kTyres, true},
+                                                    {178, 250, -1, K::kConcrete, true},
+                                                    {250, 330, -1, K::kTimber, false},
+                                                    {330, 396, -1, K::kGuardRail, false},
+                                                    {396, 428, -1, K::kTyres, true},
+                                                    {428, 506, -1, K::kGuardRail, true},
+                                                    {506, 566, -1, K::kConcrete, false},
+                                                    {566, 640, -1, K::kGuardRail, false},
+                                                    {640, 688, -1, K::kTimber, false},
+                                                    {688, 726, -1, K::kTyres, true},
+                                                    {726, 806, -1, K::kGuardRail, false},
+                                                    {806, 838, -1, K::kConcrete, true},
+                                                    {838, 868, -1, K::kTyres, true},
+                                                    {868, 960, -1, K::kGuardRail, true}};
   return table;
 }
 
@@ -32,26 +51,29 @@ double barrierOffset(double along, int side) {
   double bend = 0.0;
   for (int i = -4; i <= 4; ++i) bend += course().curvature(along + 5.0 * i) / 9.0;
   const double outside = std::max(0.0, -side * bend);
-  return 8.3 + 60.0 * outside + 0.5 * std::sin(7.0 * angle + side) + 0.3 * std::sin(19.0 * angle + 2.0 * side);
+  return 8.3 + 60.0 * outside + 0.5 * std::sin(7.0 * angle + side) +
+         0.3 * std::sin(19.0 * angle + 2.0 * side);
 }
 
 const std::vector<Site>& sites() {
   using K = Site::Kind;
   static const std::vector<Site> table = {
-      {K::kPits, {-26, 27}, 40},      {K::kTower, {30, 24}, 8},       {K::kStand, {12, -25}, 36},
-      {K::kPaddock, {66, 26}, 22},    {K::kHouse, {158, -27}, 10},    {K::kHouse, {182, -30}, 10},
-      {K::kHouse, {210, -25}, 10},    {K::kHouse, {236, -29}, 10},    {K::kHouse, {300, 27}, 10},
-      {K::kBleachers, {352, 20}, 14}, {K::kHouse, {398, -28}, 10},    {K::kHouse, {424, -25}, 10},
-      {K::kBarn, {468, -30}, 14},     {K::kHouse, {520, -26}, 10},    {K::kHouse, {548, -32}, 10},
-      {K::kHouse, {636, 26}, 10},     {K::kPaddock, {586, 25}, 16},   {K::kBleachers, {700, -21}, 14},
-      {K::kHouse, {748, -27}, 10},    {K::kBarn, {790, -30}, 14},     {K::kHouse, {842, -28}, 10},
-      {K::kHouse, {864, -30}, 10},    {K::kHouse, {905, -27}, 10},    {K::kPaddock, {846, 26}, 16}};
+      {K::kPits, {-26, 27}, 40},      {K::kTower, {30, 24}, 8},     {K::kStand, {12, -25}, 36},
+      {K::kPaddock, {66, 26}, 22},    {K::kHouse, {158, -27}, 10},  {K::kHouse, {182, -30}, 10},
+      {K::kHouse, {210, -25}, 10},    {K::kHouse, {236, -29}, 10},  {K::kHouse, {300, 27}, 10},
+      {K::kBleachers, {352, 20}, 14}, {K::kHouse, {398, -28}, 10},  {K::kHouse, {424, -25}, 10},
+      {K::kBarn, {468, -30}, 14},     {K::kHouse, {520, -26}, 10},  {K::kHouse, {548, -32}, 10},
+      {K::kHouse, {636, 26}, 10},     {K::kPaddock, {586, 25}, 16}, {K::kBleachers, {700, -21}, 14},
+      {K::kHouse, {748, -27}, 10},    {K::kBarn, {790, -30}, 14},   {K::kHouse, {842, -28}, 10},
+      {K::kHouse, {864, -30}, 10},    {K::kHouse, {905, -27}, 10},  {K::kPaddock, {846, 26}, 16}};
   return table;
 }
 
 bool shadesOpenStretch(const Eigen::Vector2d& point, double height_m) {
-  constexpr double kStretches[][2] = {{-40, 70}, {150, 200}, {300, 350}, {450, 530}, {600, 640}, {720, 760}, {830, 900}};
-  // Azimuth of the sun there, and the half width that its path takes in an hour around it, rad; the tangent of 3°.
+  constexpr double kStretches[][2] = {{-40, 70},  {150, 200}, {300, 350}, {450, 530},
+                                      {600, 640}, {720, 760}, {830, 900}};
+  // Azimuth of the sun there, and the half width that its path takes in an hour around it, rad; the tangent
+  // of 3°.
   constexpr double kMorning = 1.0472;
   constexpr double kEvening = -0.9599;
   constexpr double kHalfWidth_rad = 0.10;

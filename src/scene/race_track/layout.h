@@ -16,7 +16,7 @@ struct BarrierStretch {
   double to;    ///< along, m
   int side;     ///< +1 left, −1 right
   BarrierKind kind;
-  bool fence;   ///< chain-link fence behind it
+  bool fence;  ///< chain-link fence behind it
 };
 /// Both sides all round, in order of `from`.
 const std::vector<BarrierStretch>& barriers();
@@ -27,13 +27,14 @@ double barrierOffset(double along, int side);
 /// A building or yard.
 struct Site {
   enum class Kind { kHouse, kPits, kStand, kTower, kPaddock, kBleachers, kBarn } kind;
-  TrackPlace place;   ///< of its middle
-  double radius;      ///< m, kept free around it
+  TrackPlace place;  ///< of its middle
+  double radius;     ///< m, kept free around it
 };
 const std::vector<Site>& sites();
 
-/// Whether something so high at `point` would keep the low sun of summer mornings (from azimuth 60°) or evenings (305°)
-/// off the stretches of the track that are meant to lie open to it. The rest of the track lies in long shadows then.
+/// Whether something so high at `point` would keep the low sun of summer mornings (from azimuth 60°) or
+/// evenings (305°) off the stretches of the track that are meant to lie open to it. The rest of the track
+/// lies in long shadows then.
 bool shadesOpenStretch(const Eigen::Vector2d& point, double height_m);
 
 /// Whether something `radius` m wide at `point` is clear of the track, its barriers and all sites.

@@ -1,5 +1,5 @@
-/// Pseudo-random numbers and noise from integer hashes: the same bits on every platform, unlike the distributions of
-/// the standard library.
+/// Pseudo-random numbers and noise from integer hashes: the same bits on every platform, unlike the
+/// distributions of the standard library.
 #pragma once
 
 #include <cstdint>
@@ -34,10 +34,12 @@ class Random {
 /// Smooth noise of wavelength 1 in −1 … 1.
 float noise(float x, float y, std::uint32_t seed);
 
-/// Sum of `octaves` of noise, each of half the wavelength and half the strength of the one before; about −1 … 1.
+/// Sum of `octaves` of noise, each of half the wavelength and half the strength of the one before; about −1
+/// … 1.
 float fractal(float x, float y, int octaves, std::uint32_t seed);
 
-/// Distances to the nearest and second-nearest of points scattered one a unit cell, and the nearest one's hash.
+/// Distances to the nearest and second-nearest of points scattered one a unit cell, and the nearest one's
+/// hash.
 struct Cell {
   float nearest;
   float second;

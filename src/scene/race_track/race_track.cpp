@@ -35,8 +35,8 @@ Scene raceTrack() {
 std::vector<Eigen::Vector3d> raceTrackWaypoints() {
   using race_track::course;
   using race_track::TrackPlace;
-  // 123 segments of 8 poses and one of 7: the paper's rule gives a segment as many poses as its length in metres, rounded
-  // up. The lengths stay clear of whole metres, so that rounding decides nothing.
+  // 123 segments of 8 poses and one of 7: the paper's rule gives a segment as many poses as its length in
+  // metres, rounded up. The lengths stay clear of whole metres, so that rounding decides nothing.
   constexpr int kSegments = 124;
   constexpr double kSegment_m = 7.9;
   constexpr double kLastSegment_m = 6.9;

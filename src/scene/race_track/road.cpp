@@ -23,12 +23,13 @@ struct Column {
   bool painted;  ///< towards the next column
 };
 // From right to left, so that faces look up.
-constexpr Column kColumns[] = {
-    {-14.0, false, false}, {-12.0, false, false}, {-10.0, false, false}, {-8.5, false, false}, {-6.98, false, true},
-    {-6.2, false, true},   {-5.7, false, true},   {-5.1, false, true},   {-4.5, true, true},   {-2.2, true, true},
-    {0.0, true, true},     {2.2, true, true},     {4.5, false, true},    {5.1, false, true},   {5.7, false, true},
-    {6.2, false, true},    {6.98, false, false},  {8.5, false, false},   {10.0, false, false}, {12.0, false, false},
-    {14.0, false, false}};
+constexpr Column kColumns[] = {{-14.0, false, false}, {-12.0, false, false}, {-10.0, false, false},
+                               {-8.5, false, false},  {-6.98, false, true},  {-6.2, false, true},
+                               {-5.7, false, true},   {-5.1, false, true},   {-4.5, true, true},
+                               {-2.2, true, true},    {0.0, true, true},     {2.2, true, true},
+                               {4.5, false, true},    {5.1, false, true},    {5.7, false, true},
+                               {6.2, false, true},    {6.98, false, false},  {8.5, false, false},
+                               {10.0, false, false},  {12.0, false, false},  {14.0, false, false}};
 constexpr int kColumnCount = static_cast<int>(sizeof(kColumns) / sizeof(kColumns[0]));
 
 Eigen::Vector3f stripPoint(double along, double left) {
@@ -50,8 +51,10 @@ Eigen::Vector3f stripPoint(double along, double left) {
 
 Eigen::Vector3f stripNormal(double along, double left) {
   constexpr double kStep = 0.3;
-  const Eigen::Vector3f ahead = groundPoint(TrackPlace{along + kStep, left}) - groundPoint(TrackPlace{along - kStep, left});
-  const Eigen::Vector3f across = groundPoint(TrackPlace{along, left + kStep}) - groundPoint(TrackPlace{along, left - kStep});
+  const Eigen::Vector3f ahead =
+      groundPoint(TrackPlace{along + kStep, left}) - groundPoint(TrackPlace{along - kStep, left});
+  const Eigen::Vector3f across =
+      groundPoint(TrackPlace{along, left + kStep}) - groundPoint(TrackPlace{along, left - kStep});
   return ahead.cross(across).normalized();
 }
 
@@ -76,7 +79,8 @@ Mesh stretchMesh(const Stretch& stretch, bool asphalt, bool painted) {
         mesh.positions.push_back(stripPoint(along, left));
         mesh.normals.push_back(stripNormal(along, left));
         const float v = static_cast<float>((kPaintedHalfWidth - left) / (2.0 * kPaintedHalfWidth));
-        if (painted) mesh.texture_coordinates.emplace_back(stretch.margin + t * (1.0f - 2.0f * stretch.margin), v);
+        if (painted)
+          mesh.texture_coordinates.emplace_back(stretch.margin + t * (1.0f - 2.0f * stretch.margin), v);
         if (!painted) mesh.colors.push_back(turfColor(course().point({along, left})));
       }
       if (i == stretch.cells) continue;

@@ -22,7 +22,8 @@ void addStripe(Canvas& canvas, const StretchMap& map, const Stripe& stripe, cons
   const Pixel high = map.at(stripe.to, stripe.right);
   for (int y = static_cast<int>(low.y()); y < high.y(); ++y) {
     for (int x = static_cast<int>(low.x()); x < high.x(); ++x) {
-      const float worn = smoothStep(0.05f, 0.6f, fractal(0.05f * x + static_cast<float>(stripe.from), 0.03f * y, 4, 221u));
+      const float worn =
+          smoothStep(0.05f, 0.6f, fractal(0.05f * x + static_cast<float>(stripe.from), 0.03f * y, 4, 221u));
       canvas.blend(x, y, {color, 0.88f - 0.75f * worn});
     }
   }
@@ -35,7 +36,8 @@ void addStartLine(Canvas& canvas, const StretchMap& map) {
       const float right = -4.1f + 0.683f * k;
       const bool white = (row + k) % 2 == 0;
       const double from = 0.5 + 0.5 * row;
-      addStripe(canvas, map, {from, from + 0.5, right, right + 0.683f}, white ? kWhite : Color(0.03f, 0.03f, 0.03f));
+      addStripe(canvas, map, {from, from + 0.5, right, right + 0.683f},
+                white ? kWhite : Color(0.03f, 0.03f, 0.03f));
     }
   }
   // Grid places: a bracket and its number each.
@@ -47,7 +49,8 @@ void addStartLine(Canvas& canvas, const StretchMap& map) {
     addStripe(canvas, map, {s - 1.4, s, right + 2.45f, right + 2.6f}, kWhite);
     if (!map.sees(s - 4.0, s)) continue;
     const float m = map.perMetreLeft();
-    const LetterFrame frame{map.at(s - 0.7, right + 1.9), {0.0f, 1.1f * m}, {-1.6f * map.perMetreAlong(), 0.0f}};
+    const LetterFrame frame{
+        map.at(s - 0.7, right + 1.9), {0.0f, 1.1f * m}, {-1.6f * map.perMetreAlong(), 0.0f}};
     canvas.text(std::to_string(k + 1), frame, {kYellow, 0.75f});
   }
 }
@@ -59,9 +62,10 @@ void addWords(Canvas& canvas, const StretchMap& map) {
     float left;
     float height;
     const char* letters;
-  } words[] = {{118.0, 2.4f, 3.0f, "100"}, {138.0, 2.0f, 3.0f, "50"},   {289.0, 3.2f, 2.4f, "SLOW"},  {402.0, 1.4f, 2.6f, "T5"},
-               {508.0, 3.3f, 2.6f, "VIA SOLIS"}, {566.0, -1.0f, 2.4f, "T7"}, {655.0, 3.0f, 2.6f, "LUX 66"}, {742.0, 0.2f, 2.5f, "T9"},
-               {795.0, 2.4f, 2.8f, "BRAKE"}, {866.0, 1.0f, 2.5f, "T11"}, {930.0, -0.6f, 2.5f, "PIT >"}};
+  } words[] = {{118.0, 2.4f, 3.0f, "100"},    {138.0, 2.0f, 3.0f, "50"},        {289.0, 3.2f, 2.4f, "SLOW"},
+               {402.0, 1.4f, 2.6f, "T5"},     {508.0, 3.3f, 2.6f, "VIA SOLIS"}, {566.0, -1.0f, 2.4f, "T7"},
+               {655.0, 3.0f, 2.6f, "LUX 66"}, {742.0, 0.2f, 2.5f, "T9"},        {795.0, 2.4f, 2.8f, "BRAKE"},
+               {866.0, 1.0f, 2.5f, "T11"},    {930.0, -0.6f, 2.5f, "PIT >"}};
   for (const auto& word : words) {
     if (!map.sees(word.along - 4.0, word.along + 4.0)) continue;
     const LetterFrame frame{map.at(word.along + word.height, word.left),
@@ -73,7 +77,8 @@ void addWords(Canvas& canvas, const StretchMap& map) {
 
 // Sprayed by surveyors: crosses, digits, arrows, in many colours, all over the track.
 void addSurveyMarks(Canvas& canvas, const StretchMap& map) {
-  const Color colors[] = {{0.55f, 0.10f, 0.03f}, {0.05f, 0.20f, 0.45f}, kWhite, kYellow, {0.10f, 0.40f, 0.12f}};
+  const Color colors[] = {
+      {0.55f, 0.10f, 0.03f}, {0.05f, 0.20f, 0.45f}, kWhite, kYellow, {0.10f, 0.40f, 0.12f}};
   for (std::uint32_t i = 0; i < 260; ++i) {
     Random random(222u, i);
     const double s = random.unit() * course().length();
@@ -84,7 +89,8 @@ void addSurveyMarks(Canvas& canvas, const StretchMap& map) {
     const float turn = random.range(-3.1f, 3.1f);
     const float size = random.range(0.15f, 0.5f);
     const auto at = [&](float u, float v) {
-      return map.at(s + size * (std::cos(turn) * u - std::sin(turn) * v), left + size * (std::sin(turn) * u + std::cos(turn) * v));
+      return map.at(s + size * (std::cos(turn) * u - std::sin(turn) * v),
+                    left + size * (std::sin(turn) * u + std::cos(turn) * v));
     };
     if (kind == 0) {
       canvas.line({at(-1, 0), at(1, 0)}, 1.8f, ink);

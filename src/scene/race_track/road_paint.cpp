@@ -18,14 +18,14 @@ struct Slice {
   double along;
   Eigen::Vector2d centre;
   Eigen::Vector2d left;
-  float line;      // driving line, left
-  float rubber;    // strength of the tyre tracks
-  float tone;      // of this surfacing
-  float seam;      // how far its seams have wandered
-  float edge[2];   // where the asphalt ends: right, left
-  float kerb[2];   // width of kerbs: right, left
+  float line;     // driving line, left
+  float rubber;   // strength of the tyre tracks
+  float tone;     // of this surfacing
+  float seam;     // how far its seams have wandered
+  float edge[2];  // where the asphalt ends: right, left
+  float kerb[2];  // width of kerbs: right, left
   Color kerb_color[2];
-  Color turf[2];   // at 5.5 m
+  Color turf[2];  // at 5.5 m
 };
 
 Color kerbBlock(double along, int side) {
@@ -44,8 +44,9 @@ Slice sliceAt(double along) {
   slice.left = leftOf(course().tangent(along));
   slice.line = static_cast<float>(course().drivingLine(along));
   const float s = static_cast<float>(along);
-  slice.rubber = 0.20f + 0.35f * std::min(1.0f, 30.0f * static_cast<float>(std::abs(course().curvature(along + 8.0)))) +
-                 0.12f * noise(s / 17.0f, 5.0f, 63u);
+  slice.rubber =
+      0.20f + 0.35f * std::min(1.0f, 30.0f * static_cast<float>(std::abs(course().curvature(along + 8.0)))) +
+      0.12f * noise(s / 17.0f, 5.0f, 63u);
   // Surfaced piecewise, over the years.
   const float joint = s / 88.0f + 0.4f * noise(s / 88.0f, 1.0f, 64u);
   const std::uint32_t piece = mix(static_cast<std::uint32_t>(static_cast<int>(std::floor(joint))), 65u);
@@ -69,15 +70,18 @@ Color asphalt(const Slice& slice, float left, float x, float y) {
   // Grains of stone.
   const std::uint32_t grain = mix(static_cast<std::uint32_t>(static_cast<int>(std::floor(x * 25.0f))),
                                   static_cast<std::uint32_t>(static_cast<int>(std::floor(y * 25.0f))), 74u);
-  tone *= 0.88f + 0.24f * static_cast<float>(grain & 255u) / 255.0f + ((grain >> 8) % 61u == 0u ? 0.5f : 0.0f);
+  tone *=
+      0.88f + 0.24f * static_cast<float>(grain & 255u) / 255.0f + ((grain >> 8) % 61u == 0u ? 0.5f : 0.0f);
   // Rubber where the wheels run.
   const float off = std::abs(left - slice.line) - 0.75f;
-  const float track = std::exp(-off * off / 0.18f) + 0.45f * std::exp(-(left - slice.line) * (left - slice.line) / 3.0f);
+  const float track =
+      std::exp(-off * off / 0.18f) + 0.45f * std::exp(-(left - slice.line) * (left - slice.line) / 3.0f);
   tone *= 1.0f - slice.rubber * std::min(1.0f, track) * (0.75f + 0.4f * noise(s / 3.0f, left * 2.5f, 75u));
   Color color = tone * Color(1.03f, 1.0f, 0.95f);
   // Dust gathers off the line.
   if (std::abs(left) < 2.6f) return color;
-  const float dust = 0.5f * smoothStep(2.6f, 4.6f, std::abs(left)) * (0.6f + 0.5f * fractal(x / 1.6f, y / 1.6f, 3, 76u));
+  const float dust =
+      0.5f * smoothStep(2.6f, 4.6f, std::abs(left)) * (0.6f + 0.5f * fractal(x / 1.6f, y / 1.6f, 3, 76u));
   return color + std::max(0.0f, dust) * (Color(0.19f, 0.16f, 0.12f) - color);
 }
 
@@ -93,7 +97,8 @@ Color turf(const Slice& slice, float left, float x, float y) {
   color += 0.85f * bare * (Color(0.17f, 0.135f, 0.10f) * (1.0f + 0.4f * clump) - color);
   const std::uint32_t pebble = mix(static_cast<std::uint32_t>(static_cast<int>(std::floor(x * 22.0f))),
                                    static_cast<std::uint32_t>(static_cast<int>(std::floor(y * 22.0f))), 84u);
-  if (static_cast<float>(pebble & 1023u) < 140.0f * bare) color = Color(0.26f, 0.24f, 0.21f) * (0.5f + (pebble >> 24) / 255.0f);
+  if (static_cast<float>(pebble & 1023u) < 140.0f * bare)
+    color = Color(0.26f, 0.24f, 0.21f) * (0.5f + (pebble >> 24) / 255.0f);
   return color;
 }
 
@@ -101,7 +106,8 @@ Color edgeLine(const Slice& slice, float left, const Color& below) {
   const float inset = std::abs(left) - 4.14f;
   if (inset < 0.0f || inset > 0.16f) return below;
   const float s = static_cast<float>(slice.along);
-  const float worn = smoothStep(-0.1f, 0.6f, fractal(s / 1.1f, left * 4.0f, 4, 85u) + 0.5f * fractal(s / 13.0f, left, 2, 86u));
+  const float worn = smoothStep(
+      -0.1f, 0.6f, fractal(s / 1.1f, left * 4.0f, 4, 85u) + 0.5f * fractal(s / 13.0f, left, 2, 86u));
   return below + (0.92f - 0.85f * worn) * (kWhitePaint - below);
 }
 

@@ -18,7 +18,8 @@ void addPatches(Canvas& canvas, const StretchMap& map) {
     const float tone = random.range(0.045f, 0.17f);
     std::vector<Pixel> corners;
     for (const auto& [u, v] : {std::pair{0.f, 0.f}, {1.f, 0.f}, {1.f, 1.f}, {0.f, 1.f}})
-      corners.push_back(map.at(s + length * u + random.range(-.15f, .15f), left + width * v + random.range(-.1f, .1f)));
+      corners.push_back(
+          map.at(s + length * u + random.range(-.15f, .15f), left + width * v + random.range(-.1f, .1f)));
     canvas.polygon(corners, {tone * Color(1.0f, 0.99f, 0.96f), random.range(0.45f, 0.85f)});
     corners.push_back(corners.front());
     canvas.line(corners, random.range(1.5f, 4.0f), {kBitumen, random.range(0.3f, 0.9f)});
@@ -62,8 +63,11 @@ void addSkids(Canvas& canvas, const StretchMap& map) {
     for (int wheel = 0; wheel < (random.chance(0.7f) ? 2 : 1); ++wheel) {
       const float width = random.range(0.12f, 0.26f) * map.perMetreLeft();
       for (float u = 0.0f; u < length; u += 0.5f) {
-        const auto place = [&](float v) { return map.at(s + v, start + wheel * gauge + drift * v + bend * v * v); };
-        const float fade = std::sin(3.1416f * (u + 0.25f) / length) * (0.7f + 0.3f * noise(u, static_cast<float>(i), 204u));
+        const auto place = [&](float v) {
+          return map.at(s + v, start + wheel * gauge + drift * v + bend * v * v);
+        };
+        const float fade =
+            std::sin(3.1416f * (u + 0.25f) / length) * (0.7f + 0.3f * noise(u, static_cast<float>(i), 204u));
         canvas.line({place(u), place(u + 0.5f)}, width, {kBitumen, strength * fade});
       }
     }
@@ -81,7 +85,8 @@ void addStains(Canvas& canvas, const StretchMap& map) {
     const float opacity = random.range(0.2f, 0.7f);
     for (int k = 0; k < 4; ++k) {
       const Pixel centre = map.at(s + radius * random.bell() * 0.6f, left + radius * random.bell() * 0.4f);
-      const Pixel radii(radius * map.perMetreAlong() * random.range(0.3f, 1.0f), radius * map.perMetreLeft() * random.range(0.3f, 0.8f));
+      const Pixel radii(radius * map.perMetreAlong() * random.range(0.3f, 1.0f),
+                        radius * map.perMetreLeft() * random.range(0.3f, 0.8f));
       canvas.ellipse(centre, radii, 0.0f, {color, 0.5f * opacity});
     }
   }
@@ -92,10 +97,16 @@ void addDebris(Canvas& canvas, const StretchMap& map) {
     Random random(206u, i);
     const double s = random.unit() * course().length();
     if (!map.sees(s - 0.5, s + 0.5)) continue;
-    const float left = random.chance(0.6f) ? (random.chance(0.5f) ? 1.0f : -1.0f) * random.range(3.2f, 6.5f) : random.range(-4.0f, 4.0f);
-    const Color leaf[] = {{0.25f, 0.17f, 0.06f}, {0.12f, 0.14f, 0.04f}, {0.30f, 0.28f, 0.25f}, {0.02f, 0.02f, 0.02f}, {0.18f, 0.10f, 0.05f}};
+    const float left = random.chance(0.6f) ? (random.chance(0.5f) ? 1.0f : -1.0f) * random.range(3.2f, 6.5f)
+                                           : random.range(-4.0f, 4.0f);
+    const Color leaf[] = {{0.25f, 0.17f, 0.06f},
+                          {0.12f, 0.14f, 0.04f},
+                          {0.30f, 0.28f, 0.25f},
+                          {0.02f, 0.02f, 0.02f},
+                          {0.18f, 0.10f, 0.05f}};
     const Pixel radii(random.range(0.5f, 1.3f), random.range(0.8f, 2.6f));
-    canvas.ellipse(map.at(s, left), radii, random.range(0.0f, 3.0f), {leaf[random.below(5)], random.range(0.4f, 0.9f)});
+    canvas.ellipse(map.at(s, left), radii, random.range(0.0f, 3.0f),
+                   {leaf[random.below(5)], random.range(0.4f, 0.9f)});
   }
 }
 
@@ -110,7 +121,8 @@ void addCovers(Canvas& canvas, const StretchMap& map) {
     canvas.ellipse(centre, 0.42f * metre, 0.0f, {{0.16f, 0.155f, 0.15f}, 0.9f});
     canvas.ellipse(centre, 0.33f * metre, 0.0f, {{0.05f, 0.048f, 0.046f}, 0.9f});
     for (int k = 0; k < 5; ++k)
-      canvas.ellipse(map.at(s + random.range(-.2f, .2f), left + random.range(-.2f, .2f)), 0.05f * metre, 0.0f, {{0.14f, 0.13f, 0.12f}, 0.9f});
+      canvas.ellipse(map.at(s + random.range(-.2f, .2f), left + random.range(-.2f, .2f)), 0.05f * metre, 0.0f,
+                     {{0.14f, 0.13f, 0.12f}, 0.9f});
   }
 }
 
@@ -123,7 +135,8 @@ StretchMap::StretchMap(const Canvas& canvas, const RoadStretch& stretch)
       left_px_(static_cast<float>(canvas.height() / (2.0 * kPaintedHalfWidth))) {}
 
 Pixel StretchMap::at(double along, double left) const {
-  return {static_cast<float>(along - from_) * along_px_, static_cast<float>(kPaintedHalfWidth - left) * left_px_};
+  return {static_cast<float>(along - from_) * along_px_,
+          static_cast<float>(kPaintedHalfWidth - left) * left_px_};
 }
 
 void addWear(Canvas& canvas, const RoadStretch& stretch) {

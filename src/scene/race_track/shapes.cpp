@@ -61,10 +61,13 @@ void addBox(Assembly& assembly, const Paint& paint, const Frame& frame, const Po
   const float x = 0.5f * size.x();
   const float y = 0.5f * size.y();
   const float z = size.z();
-  const Point p[8] = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}, {-x, -y, z}, {x, -y, z}, {x, y, z}, {-x, y, z}};
-  constexpr int kFaces[6][4] = {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}, {3, 2, 1, 0}};
+  const Point p[8] = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0},
+                      {-x, -y, z}, {x, -y, z}, {x, y, z}, {-x, y, z}};
+  constexpr int kFaces[6][4] = {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6},
+                                {3, 0, 4, 7}, {4, 5, 6, 7}, {3, 2, 1, 0}};
   for (const auto& face : kFaces)
-    addQuad(assembly, paint, {frame * p[face[0]], frame * p[face[1]], frame * p[face[2]], frame * p[face[3]]});
+    addQuad(assembly, paint,
+            {frame * p[face[0]], frame * p[face[1]], frame * p[face[2]], frame * p[face[3]]});
 }
 
 void addTube(Assembly& assembly, const Paint& paint, const std::vector<Ring>& rings, int sides) {

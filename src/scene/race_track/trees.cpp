@@ -55,7 +55,7 @@ void addSpray(Assembly& assembly, const Leaves& leaves, const Spray& spray, Rand
 
 Color barkColor(Species species) {
   if (species == Species::kBirch) return {0.42f, 0.40f, 0.36f};
-  if (species == Species::kPine) return {0.19f, 0.10f, 0.06f};
+  if (species == Species::kPine) return {0.165f, 0.108f, 0.072f};
   return {0.11f, 0.085f, 0.065f};
 }
 
@@ -67,27 +67,47 @@ void addBroadLeaf(Assembly& assembly, const Foliage& foliage, const Tree& tree) 
   const float girth = 0.013f * h * random.range(0.8f, 1.3f);
   const Point fork = tree.root + 0.5f * lean + Point(0, 0, random.range(0.20f, 0.34f) * h);
   const Point top = tree.root + lean + Point(0, 0, 0.82f * h);
-  addTube(assembly, bark, {{tree.root - Point(0, 0, 0.3f), 1.5f * girth}, {tree.root + Point(0, 0, 0.05f * h), girth}, {fork, 0.8f * girth}, {top, 0.15f * girth}}, tree.detail > 0.5f ? 8 : 5);
-  const float spread = h * (tree.species == Species::kBirch ? 0.21f : tree.species == Species::kLime ? 0.28f : 0.34f) * random.range(0.85f, 1.15f);
+  addTube(assembly, bark,
+          {{tree.root - Point(0, 0, 0.3f), 1.5f * girth},
+           {tree.root + Point(0, 0, 0.05f * h), girth},
+           {fork, 0.8f * girth},
+           {top, 0.15f * girth}},
+          tree.detail > 0.5f ? 8 : 5);
+  const float spread = h *
+                       (tree.species == Species::kBirch  ? 0.21f
+                        : tree.species == Species::kLime ? 0.28f
+                                                         : 0.34f) *
+                       random.range(0.85f, 1.15f);
   const Point middle = 0.5f * (fork + top) + Point(0, 0, 0.10f * h);
   const int blobs = tree.detail > 0.5f ? 12 : 7;
   const int sprays = static_cast<int>((tree.detail > 0.5f ? 270.0f : 100.0f) / blobs * (0.7f + 0.04f * h));
-  const Color tint = Color(1.0f + 0.14f * random.bell(), 1.0f, 1.0f + 0.1f * random.bell()).max(0.4f) * random.range(0.8f, 1.2f);
+  const Color tint = Color(1.0f + 0.14f * random.bell(), 1.0f, 1.0f + 0.1f * random.bell()).max(0.4f) *
+                     random.range(0.8f, 1.2f);
   for (int i = 0; i < blobs; ++i) {
     Point out = direction(random);
     out.z() = 0.25f + 0.75f * out.z();
-    const Point blob = middle + out.cwiseProduct(Point(spread, spread, 0.34f * h)) * random.range(0.3f, 0.72f);
+    const Point blob =
+        middle + out.cwiseProduct(Point(spread, spread, 0.34f * h)) * random.range(0.3f, 0.72f);
     const float radius = spread * random.range(0.48f, 0.72f);
-    if (tree.detail > 0.5f) addTube(assembly, bark, {{fork + 0.3f * i / blobs * (top - fork), 0.45f * girth}, {0.5f * (fork + blob) + Point(0, 0, -0.03f * h), 0.3f * girth}, {blob, 0.08f * girth}}, 5);
+    if (tree.detail > 0.5f)
+      addTube(assembly, bark,
+              {{fork + 0.3f * i / blobs * (top - fork), 0.45f * girth},
+               {0.5f * (fork + blob) + Point(0, 0, -0.03f * h), 0.3f * girth},
+               {blob, 0.08f * girth}},
+              5);
     for (int k = 0; k < sprays; ++k) {
       const Point way = direction(random);
       const Point place = blob + radius * way * std::cbrt(random.range(0.25f, 1.0f));
       if (place.z() < tree.root.z() + 0.16f * h) continue;
       // Dark inside and below, light at the top.
-      const float shade = 0.62f + 0.30f * (place.z() - middle.z()) / (0.4f * h) + 0.16f * way.z() + 0.10f * random.bell();
-      const Leaves leaves{foliage.leaves[static_cast<int>(tree.species)][random.below(kVariants)], tint * std::clamp(shade, 0.35f, 1.25f)};
+      const float shade =
+          0.62f + 0.30f * (place.z() - middle.z()) / (0.4f * h) + 0.16f * way.z() + 0.10f * random.bell();
+      const Leaves leaves{foliage.leaves[static_cast<int>(tree.species)][random.below(kVariants)],
+                          tint * std::clamp(shade, 0.35f, 1.25f)};
       const Point normal = ((place - middle).normalized() + 0.6f * way + Point(0, 0, 0.35f)).normalized();
-      addSpray(assembly, leaves, {place, normal, radius * random.range(0.6f, 1.0f) * (tree.detail > 0.5f ? 0.9f : 1.4f)}, random);
+      addSpray(assembly, leaves,
+               {place, normal, radius * random.range(0.6f, 1.0f) * (tree.detail > 0.5f ? 0.9f : 1.4f)},
+               random);
     }
   }
 }
@@ -98,15 +118,21 @@ void addConifer(Assembly& assembly, const Foliage& foliage, const Tree& tree) {
   const Paint bark{assembly.palette().bark, barkColor(tree.species) * random.range(0.75f, 1.2f)};
   const float h = tree.height;
   const Point top = tree.root + Point(0.02f * h * random.bell(), 0.02f * h * random.bell(), h);
-  addTube(assembly, bark, {{tree.root - Point(0, 0, 0.3f), 0.022f * h}, {0.5f * (tree.root + top), 0.012f * h}, {top, 0.001f * h}}, 6);
+  addTube(assembly, bark,
+          {{tree.root - Point(0, 0, 0.3f), 0.022f * h},
+           {0.5f * (tree.root + top), 0.012f * h},
+           {top, 0.001f * h}},
+          6);
   const bool pine = tree.species == Species::kPine;
   const float bare = pine ? random.range(0.40f, 0.58f) : random.range(0.05f, 0.14f);
   const int whorls = tree.detail > 0.5f ? 19 : 10;
-  const Color tint = Color::Constant(random.range(0.8f, 1.25f)) * Color(1.0f + 0.1f * random.bell(), 1.0f, 1.0f).max(0.5f);
+  const Color tint =
+      Color::Constant(random.range(0.8f, 1.25f)) * Color(1.0f + 0.1f * random.bell(), 1.0f, 1.0f).max(0.5f);
   for (int i = 0; i < whorls; ++i) {
     const float t = (static_cast<float>(i) + random.unit()) / static_cast<float>(whorls);
     const float level = bare + (1.0f - bare) * t;
-    const float reach = h * (pine ? 0.24f * std::sqrt(std::max(0.05f, 1.0f - t * t)) : 0.22f * (1.03f - t)) * random.range(0.8f, 1.15f);
+    const float reach = h * (pine ? 0.24f * std::sqrt(std::max(0.05f, 1.0f - t * t)) : 0.22f * (1.03f - t)) *
+                        random.range(0.8f, 1.15f);
     const int arms = tree.detail > 0.5f ? 9 : 6;
     for (int k = 0; k < arms; ++k) {
       const float angle = 2.0f * kPi * (k + random.unit()) / arms;
@@ -118,10 +144,13 @@ void addConifer(Assembly& assembly, const Foliage& foliage, const Tree& tree) {
       const Point end = start + length * (out + Point(0, 0, droop));
       const Point half = 0.38f * length * (side + Point(0, 0, 0.35f * random.bell()));
       const Color color = tint * (0.60f + 0.45f * t + 0.12f * random.bell());
-      const Leaves leaves{foliage.leaves[static_cast<int>(tree.species)][random.below(kVariants)], color.max(0.3f)};
+      const Leaves leaves{foliage.leaves[static_cast<int>(tree.species)][random.below(kVariants)],
+                          color.max(0.3f)};
       const Point normal = (out + Point(0, 0, 0.9f)).normalized();
-      addCard(assembly, {leaves.picture.material, leaves.tint}, {{start - half, end - half, end + half, start + half}, leaves.picture.rect, normal});
-      if (tree.detail > 0.5f) addSpray(assembly, leaves, {start + 0.75f * (end - start), normal, 0.8f * length + 0.2f}, random);
+      addCard(assembly, {leaves.picture.material, leaves.tint},
+              {{start - half, end - half, end + half, start + half}, leaves.picture.rect, normal});
+      if (tree.detail > 0.5f)
+        addSpray(assembly, leaves, {start + 0.75f * (end - start), normal, 0.8f * length + 0.2f}, random);
     }
   }
 }
@@ -134,16 +163,19 @@ void addTree(Assembly& assembly, const Foliage& foliage, const Tree& tree) {
 void addBush(Assembly& assembly, const Foliage& foliage, const Point& root, std::uint32_t seed) {
   Random random(seed);
   const float radius = random.range(0.5f, 1.5f);
-  const Species kinds[] = {Species::kOak, Species::kBirch, Species::kMaple, Species::kLime, Species::kCopperBeech};
+  const Species kinds[] = {Species::kOak, Species::kBirch, Species::kMaple, Species::kLime,
+                           Species::kCopperBeech};
   const int kind = static_cast<int>(kinds[random.below(random.chance(0.15f) ? 5 : 4)]);
   const Color tint = Color(1.0f + 0.15f * random.bell(), 1.0f, 1.0f).max(0.5f) * random.range(0.7f, 1.2f);
   const int sprays = 26 + static_cast<int>(16.0f * radius);
   for (int i = 0; i < sprays; ++i) {
     Point way = direction(random);
     way.z() = std::abs(way.z());
-    const Point place = root + radius * way.cwiseProduct(Point(1.0f, 1.0f, 0.9f)) * random.range(0.4f, 1.0f) + Point(0, 0, 0.12f);
+    const Point place = root + radius * way.cwiseProduct(Point(1.0f, 1.0f, 0.9f)) * random.range(0.4f, 1.0f) +
+                        Point(0, 0, 0.12f);
     const Leaves leaves{foliage.leaves[kind][random.below(kVariants)], tint * (0.6f + 0.45f * way.z())};
-    addSpray(assembly, leaves, {place, (way + Point(0, 0, 0.3f)).normalized(), radius * random.range(0.5f, 0.8f)}, random);
+    addSpray(assembly, leaves,
+             {place, (way + Point(0, 0, 0.3f)).normalized(), radius * random.range(0.5f, 0.8f)}, random);
   }
 }
 
@@ -151,7 +183,11 @@ Species pick(Random& random, float grove) {
   const int roll = random.below(100);
   if (grove > 0.12f) return roll < 55 ? Species::kSpruce : roll < 85 ? Species::kPine : Species::kBirch;
   if (grove < -0.12f) return roll < 45 ? Species::kBirch : roll < 75 ? Species::kLime : Species::kMaple;
-  return roll < 35 ? Species::kOak : roll < 60 ? Species::kMaple : roll < 78 ? Species::kLime : roll < 86 ? Species::kCopperBeech : Species::kBirch;
+  return roll < 35   ? Species::kOak
+         : roll < 60 ? Species::kMaple
+         : roll < 78 ? Species::kLime
+         : roll < 86 ? Species::kCopperBeech
+                     : Species::kBirch;
 }
 
 float heightOf(Species species, Random& random) {
@@ -163,16 +199,20 @@ float heightOf(Species species, Random& random) {
 void addFarTree(Assembly& assembly, const Foliage& foliage, const Tree& tree) {
   Random random(tree.seed);
   const bool conifer = tree.species == Species::kSpruce || tree.species == Species::kPine;
-  const Color tint = Color(1.0f + 0.18f * random.bell(), 1.0f, 1.0f + 0.1f * random.bell()).max(0.4f) * random.range(0.75f, 1.3f);
+  const Color tint = Color(1.0f + 0.18f * random.bell(), 1.0f, 1.0f + 0.1f * random.bell()).max(0.4f) *
+                     random.range(0.75f, 1.3f);
   const int sprays = conifer ? 6 : 7;
   for (int i = 0; i < sprays; ++i) {
     const float t = (static_cast<float>(i) + 0.5f) / static_cast<float>(sprays);
     const Point way = direction(random);
     const float reach = tree.height * (conifer ? 0.05f : 0.16f);
-    const Point place = tree.root + Point(reach * way.x(), reach * way.y(), tree.height * (0.12f + 0.72f * t));
-    const float size = tree.height * (conifer ? 0.62f * (1.08f - t) : 0.52f * (1.1f - 0.5f * std::abs(t - 0.4f)));
+    const Point place =
+        tree.root + Point(reach * way.x(), reach * way.y(), tree.height * (0.12f + 0.72f * t));
+    const float size =
+        tree.height * (conifer ? 0.62f * (1.08f - t) : 0.52f * (1.1f - 0.5f * std::abs(t - 0.4f)));
     const Point normal = (Point(way.x(), way.y(), 0.35f + 0.5f * t)).normalized();
-    const Leaves leaves{foliage.leaves[static_cast<int>(tree.species)][random.below(kVariants)], tint * (0.55f + 0.5f * t)};
+    const Leaves leaves{foliage.leaves[static_cast<int>(tree.species)][random.below(kVariants)],
+                        tint * (0.55f + 0.5f * t)};
     addSpray(assembly, leaves, {place, normal, size}, random);
   }
 }
@@ -205,7 +245,8 @@ void addTrees(Assembly& assembly, const Foliage& foliage) {
   std::vector<Eigen::Vector2d> planted;
   Random random(401u);
   for (int i = 0; i < 5200 && planted.size() < 430; ++i) {
-    const TrackPlace place{random.unit() * course().length(), (random.chance(0.5f) ? 1.0 : -1.0) * random.range(10.0f, 60.0f)};
+    const TrackPlace place{random.unit() * course().length(),
+                           (random.chance(0.5f) ? 1.0 : -1.0) * random.range(10.0f, 60.0f)};
     const Eigen::Vector2d p = course().point(place);
     const float x = static_cast<float>(p.x());
     const float y = static_cast<float>(p.y());
@@ -224,7 +265,8 @@ void addTrees(Assembly& assembly, const Foliage& foliage) {
     addTree(assembly, foliage, {groundPoint(p), species, height, aside < 26.0 ? 1.0f : 0.3f, seed});
   }
   for (int i = 0; i < 330; ++i) {
-    const TrackPlace place{random.unit() * course().length(), (random.chance(0.5f) ? 1.0 : -1.0) * random.range(9.0f, 30.0f)};
+    const TrackPlace place{random.unit() * course().length(),
+                           (random.chance(0.5f) ? 1.0 : -1.0) * random.range(9.0f, 30.0f)};
     const Eigen::Vector2d p = course().point(place);
     const std::uint32_t seed = random.bits();
     if (isFree(p, 0.6)) addBush(assembly, foliage, groundPoint(p), seed);

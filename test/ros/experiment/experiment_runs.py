@@ -3,14 +3,13 @@
 import csv
 import os
 import shutil
-import subprocess
 import tempfile
 import unittest
 
 import rosbag
 import rospy
 import rostest
-from launching import Launched, TIMEOUT_S, WORLD, WAYPOINTS, small_experiment
+from launching import DIFFERENCES, POSES, Launched, small_experiment
 
 
 class ExperimentRuns(unittest.TestCase):
@@ -42,7 +41,7 @@ class ExperimentRuns(unittest.TestCase):
                          {("h10", "h12"), ("h10", "self_test/h10"), ("h12", "self_test/h12")})
         for row in rows:
             is_self_test = row["b"].startswith("self_test")
-            self.assertEqual(int(row["n"]) + int(row["undefined"]), 4 if is_self_test else 20)
+            self.assertEqual(int(row["n"]) + int(row["undefined"]), 4 if is_self_test else POSES)
             if row["difference"] in ("boolean_rgb", "euclidean_grey"):
                 # Two processes, one sun: to the bit. Two suns: not.
                 self.assertEqual(float(row["mean"]) == 0.0, is_self_test, row)
@@ -60,8 +59,21 @@ class ExperimentRuns(unittest.TestCase):
             for topic in ("/h10/camera/image_raw", "/h12/camera/image_raw", "/h10/camera/camera_info", "/camera/pose",
                           "/h12/camera/capture", "/camera/depth/image_raw"):
                 stamps = [message.header.stamp.to_nsec() for _, message, _ in bag.read_messages(topic)]
-                self.assertEqual(stamps, [1000 * 10**9 + pose * 10**8 for pose in range(20)], topic)
+                self.assertEqual(stamps, [1000 * 10**9 + pose * 10**8 for pose in range(POSES)], topic)
             self.assertGreaterEqual(bag.get_message_count("/h10/sun"), 1)
+
+    def test_replayed_recording_gives_the_same_bytes(self):
+        output = os.path.join(self.folder, "replayed")
+        evaluator = Launched("evaluator.launch", streams="[h10, h12]", differences=DIFFERENCES, poses=POSES, output=output,
+                             exit_when_done="true")
+        evaluator.wait_for(lambda: "/h10/camera/image_raw" in evaluator.ros("rosnode", "info", "/evaluator").stdout,
+                           "subscribed")
+        played = evaluator.ros("rosbag", "play", "--quiet", "--wait-for-subscribers", *self.recording())
+        self.assertEqual(played.returncode, 0, played.stdout)
+        self.assertEqual(evaluator.end(), 0, evaluator.said())
+        # The recording holds no self-test.
+        expected = [line for line in self.bytes_of(self.output).splitlines() if b"self_test" not in line]
+        self.assertEqual(self.bytes_of(output).splitlines(), expected)
 
     def test_resumed_after_sigkill_it_gives_the_same_bytes(self):
         output = os.path.join(self.folder, "killed")

@@ -13,6 +13,8 @@ TIMEOUT_S = 240.0  # for runs that take seconds on an idle machine
 PACKAGE = rospkg.RosPack().get_path("sunlit")
 WORLD = os.path.join(PACKAGE, "test", "support", "worlds", "two_boxes.world")
 WAYPOINTS = os.path.join(PACKAGE, "test", "support", "worlds", "straight.csv")
+POSES = 20
+DIFFERENCES = "[boolean_rgb, euclidean_grey, orb]"
 
 
 def free_port():
@@ -102,7 +104,7 @@ class Launched:
 
 def small_experiment(output, **changes):
     """Two hours, a few tiny images of a tiny world."""
-    arguments = dict(world=WORLD, path=WAYPOINTS, spacing=0.5, poses=20, hours="[10, 12]", width=96, height=72,
-                     differences="[boolean_rgb, euclidean_grey, orb]", self_test_every=5, output=output, report="false")
+    arguments = dict(world=WORLD, path=WAYPOINTS, spacing=0.5, poses=POSES, hours="[10, 12]", width=96, height=72,
+                     differences=DIFFERENCES, self_test_every=5, output=output, report="false")
     arguments.update(changes)
     return Launched("experiment.launch", **arguments)

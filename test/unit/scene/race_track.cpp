@@ -28,7 +28,8 @@ class Fingerprint {
   template <typename T>
   void add(const std::vector<T>& values) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
-    for (std::size_t i = 0; i < values.size() * sizeof(T); ++i) hash_ = (hash_ ^ bytes[i]) * 1099511628211ull;  // FNV-1a
+    for (std::size_t i = 0; i < values.size() * sizeof(T); ++i)
+      hash_ = (hash_ ^ bytes[i]) * 1099511628211ull;  // FNV-1a
   }
   std::uint64_t value() const { return hash_; }
 
@@ -69,7 +70,9 @@ std::optional<double> roadHeight(double x, double y) {
   return height;
 }
 
-TEST(RaceTrack, isTheSameBitsAtEveryCall) { EXPECT_EQ(fingerprint(world()), fingerprint(raceTrack())); }
+TEST(RaceTrack, isTheSameBitsAtEveryCall) {
+  EXPECT_EQ(fingerprint(world()), fingerprint(raceTrack()));
+}
 
 TEST(RaceTrack, isAValidScene) {
   EXPECT_NO_THROW(validate(world()));
@@ -106,7 +109,9 @@ TEST(RaceTrack, meshesNearTheTrackAreCompact) {
   for (const Mesh& mesh : world().meshes) {
     Eigen::AlignedBox3f box;
     for (const Eigen::Vector3f& p : mesh.positions) box.extend(p);
-    if (std::max(box.min().head<2>().cwiseAbs().maxCoeff(), box.max().head<2>().cwiseAbs().maxCoeff()) > 230.0f) continue;
+    if (std::max(box.min().head<2>().cwiseAbs().maxCoeff(), box.max().head<2>().cwiseAbs().maxCoeff()) >
+        230.0f)
+      continue;
     // Cells of 64 m, and the longest single part (the roof of the pits) reaches 70 m out of its own.
     EXPECT_LE(box.sizes().head<2>().maxCoeff(), 140.0f) << mesh.name;
   }
@@ -137,7 +142,8 @@ TEST(RaceTrackCourse, nearestUndoesPoint) {
   for (double along = 3.0; along < course.length(); along += 7.3) {
     for (const double left : {-6.0, -1.0, 0.0, 4.0}) {
       const race_track::TrackPlace place = course.nearest(course.point({along, left}));
-      // Three steps of Newton's method on a line made of half-metre chords: some centimetres along, less across.
+      // Three steps of Newton's method on a line made of half-metre chords: some centimetres along, less
+      // across.
       EXPECT_NEAR(std::remainder(place.along - along, course.length()), 0.0, 0.05);
       EXPECT_NEAR(place.left, left, 0.01);
     }
@@ -204,7 +210,8 @@ TEST(RaceTrackPictures, theRoadRepeatsNowhere) {
       for (int x = 0; x + kBlock <= texture.width; x += kBlock) {
         Fingerprint print;
         for (int row = 0; row < kBlock; ++row) {
-          const auto first = texture.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(y + row) * texture.width + x);
+          const auto first =
+              texture.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(y + row) * texture.width + x);
           print.add(std::vector<std::uint8_t>(first, first + 4 * kBlock));
         }
         ++blocks;
@@ -216,8 +223,8 @@ TEST(RaceTrackPictures, theRoadRepeatsNowhere) {
   EXPECT_EQ(repeated, 0);
 }
 
-/// A picture that is shown once only makes no twins. Leaves, grass, people and wire are shown many times, each time cut,
-/// turned or tinted anew; all other pictures are unique.
+/// A picture that is shown once only makes no twins. Leaves, grass, people and wire are shown many times,
+/// each time cut, turned or tinted anew; all other pictures are unique.
 TEST(RaceTrackPictures, opaqueOnesAreShownOnce) {
   std::map<int, std::set<std::array<float, 4>>> places;
   int repeated = 0;
