@@ -1,6 +1,7 @@
-// What one pose and one condition cost, stage by stage, at 640×480 with four samples a pixel. Poses are spread over the
-// path; each iteration takes the next. Arguments: world (0 the built-in one, 1 a real circuit from the shared input, if
-// present) and, for light, the sun's elevation in degrees.
+// What one pose and one condition cost, stage by stage, at 640×480 with four samples a pixel. Poses are
+// spread over the path; each iteration takes the next. Arguments: world (0 the built-in one, 1 a real circuit
+// from the shared input if present, 2 the built-in one without fractal detail) and, for light, the sun's
+// elevation in degrees. Beside the time stands the processor time of all threads.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -24,6 +25,7 @@ namespace {
 
 using namespace sunlit;
 
+enum World { kBuiltInWorld = 0, kCircuitWorld = 1, kPlainWorld = 2 };
 constexpr std::size_t kPoses = 24;
 const std::string kCircuit = std::string(SUNLIT_SHARED_DIR) + "/worlds/forza/forza.glb";
 
@@ -49,9 +51,13 @@ std::vector<Eigen::Vector3d> circuitPoints() {
 
 /// One world with everything that looks at it.
 struct Stage {
-  explicit Stage(bool circuit) {
-    const auto scene = std::make_shared<const scene::Scene>(
-        scene::load(circuit ? kCircuit : scene::kRaceTrack, scene::SearchPath{}));
+  explicit Stage(int world) {
+    const bool circuit = world == kCircuitWorld;
+    scene::Scene loaded = scene::load(circuit ? kCircuit : scene::kRaceTrack, scene::SearchPath{});
+    if (world == kPlainWorld) {
+      for (scene::Material& material : loaded.materials) material.detail.contrast = 0.0f;
+    }
+    const auto scene = std::make_shared<const scene::Scene>(std::move(loaded));
     const auto points = circuit ? circuitPoints() : scene::raceTrackWaypoints();
     for (std::size_t i = 0; i < kPoses; ++i) poses.push_back(poseAt(points, i * points.size() / kPoses));
     view.camera = image::PinholeCamera::fromFieldOfView(640, 480, Angle::degrees(60.0));
@@ -77,13 +83,13 @@ struct Stage {
 };
 
 Stage* stage(benchmark::State& state) {
-  static std::unique_ptr<Stage> stages[2];
+  static std::unique_ptr<Stage> stages[3];
   const auto world = static_cast<std::size_t>(state.range(0));
-  if (world == 1 && !std::ifstream(kCircuit)) {
+  if (world == kCircuitWorld && !std::ifstream(kCircuit)) {
     state.SkipWithError("no shared input");
     return nullptr;
   }
-  if (!stages[world]) stages[world] = std::make_unique<Stage>(world == 1);
+  if (!stages[world]) stages[world] = std::make_unique<Stage>(static_cast<int>(world));
   stages[world]->context.makeCurrent();
   return stages[world].get();
 }
@@ -129,7 +135,9 @@ void resolve(benchmark::State& state) {
 }
 
 void depth(benchmark::State& state) {
-  onPoses(state, false, [](Stage& s) { benchmark::DoNotOptimize(render::resolveDepth({s.view, *s.geometry, s.samples}, *s.visibility)); });
+  onPoses(state, false, [](Stage& s) {
+    benchmark::DoNotOptimize(render::resolveDepth({s.view, *s.geometry, s.samples}, *s.visibility));
+  });
 }
 
 void light(benchmark::State& state) {
@@ -140,7 +148,8 @@ void light(benchmark::State& state) {
 }
 
 void rays(benchmark::State& state) {
-  const Eigen::Vector3f sun = daylightAt(static_cast<double>(state.range(1))).sun().towards.vector().cast<float>();
+  const Eigen::Vector3f sun =
+      daylightAt(static_cast<double>(state.range(1))).sun().towards.vector().cast<float>();
   std::size_t count = 0;
   onPoses(state, true, [&](Stage& s) {
     std::vector<std::uint8_t> blocked;
@@ -148,9 +157,9 @@ void rays(benchmark::State& state) {
     for (const light::Tile& tile : s.surfaces.tiles) {
       const std::size_t n = tile.origin_x.size();
       x.assign(n, sun.x()), y.assign(n, sun.y()), z.assign(n, sun.z()), blocked.resize(n);
-      s.visibility->occluded({tile.origin_x.data(), tile.origin_y.data(), tile.origin_z.data(), x.data(), y.data(),
-                              z.data(), n},
-                             blocked.data());
+      s.visibility->occluded(
+          {tile.origin_x.data(), tile.origin_y.data(), tile.origin_z.data(), x.data(), y.data(), z.data(), n},
+          blocked.data());
       count += n;
     }
   });
@@ -169,13 +178,52 @@ void develop(benchmark::State& state) {
 }
 
 constexpr int kRuns = 24;  // each pose once
-BENCHMARK(drawAndReadBack)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->Iterations(kRuns)->MeasureProcessCPUTime()->UseRealTime();
-BENCHMARK(readBack)->Arg(0)->Unit(benchmark::kMillisecond)->Iterations(kRuns)->MeasureProcessCPUTime()->UseRealTime();
-BENCHMARK(resolve)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->Iterations(kRuns)->MeasureProcessCPUTime()->UseRealTime();
-BENCHMARK(depth)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->Iterations(kRuns)->MeasureProcessCPUTime()->UseRealTime();
-BENCHMARK(light)->ArgsProduct({{0, 1}, {60, 20, 5, -10}})->Unit(benchmark::kMillisecond)->Iterations(kRuns)->MeasureProcessCPUTime()->UseRealTime();
-BENCHMARK(rays)->ArgsProduct({{0, 1}, {60, 5}})->Unit(benchmark::kMillisecond)->Iterations(kRuns)->MeasureProcessCPUTime()->UseRealTime();
-BENCHMARK(develop)->Arg(0)->Unit(benchmark::kMillisecond)->Iterations(kRuns)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(drawAndReadBack)
+    ->Arg(0)
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(kRuns)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(readBack)
+    ->Arg(0)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(kRuns)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(resolve)
+    ->Arg(0)
+    ->Arg(1)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(kRuns)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(depth)
+    ->Arg(0)
+    ->Arg(1)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(kRuns)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(light)
+    ->ArgsProduct({{0, 1}, {60, 20, 5, -10}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(kRuns)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(rays)
+    ->ArgsProduct({{0, 1}, {60, 5}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(kRuns)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(develop)
+    ->Arg(0)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(kRuns)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 }  // namespace
 

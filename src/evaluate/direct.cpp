@@ -39,8 +39,8 @@ inline std::uint64_t sumOfBytes(const cv::v_uint8x16& bytes) {
 }
 #endif
 
-// At most 255 steps of 16 pixels: byte counters cannot overflow, nor can 32 bit sums (255 · 3 · 4 · 2 · 255²
-// < 2³²).
+// At most 255 steps of 16 pixels: byte counters cannot overflow, nor can the 32 bit sum of all lanes
+// (255 steps · 16 pixels · 3 channels · 255² < 2³²).
 constexpr int kStep = 16;
 constexpr int kBlock = 255 * kStep;
 

@@ -39,11 +39,11 @@ void dotRows(const std::int16_t* const queries[kQueriesAtOnce], const RowsOf<std
 
 namespace {
 
-// A width that the compiler knows lets it unroll the loop. Inlined by force, or it would not be compiled with its caller's
-// instruction set.
+// A width that the compiler knows lets it unroll the loop. Inlined by force, or it would not be compiled with
+// its caller's instruction set.
 template <std::size_t kWidth>
-[[gnu::always_inline]] inline void hammingRowOf(const std::uint64_t* query, const RowsOf<std::uint64_t>& train,
-                                                std::int32_t* out) {
+[[gnu::always_inline]] inline void hammingRowOf(const std::uint64_t* query,
+                                                const RowsOf<std::uint64_t>& train, std::int32_t* out) {
   for (std::size_t j = 0; j < train.rows; ++j) {
     const std::uint64_t* t = train.data + j * kWidth;
     int bits = 0;

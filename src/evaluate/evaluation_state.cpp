@@ -124,8 +124,9 @@ void Evaluation::State::takeUpEarlierRuns() {
   if (dropped_lines > 0 || !options_.merge.empty()) writeFrames(file("frames.csv"), layout_, records_);
   frames_file_.open(file("frames.csv"), framesHeader());
   if (!callbacks_.note || (records_.empty() && dropped_lines == 0)) return;
-  std::string line = options_.output_dir + " holds " + std::to_string(records_.size()) + " evaluated pairs of " +
-                     std::to_string(completed_.size()) + " whole poses: not evaluated again";
+  std::string line = options_.output_dir + " holds " + std::to_string(records_.size()) +
+                     " evaluated pairs of " + std::to_string(completed_.size()) +
+                     " whole poses: not evaluated again";
   if (dropped_lines > 0) line += "; " + std::to_string(dropped_lines) + " lines of a torn end were left out";
   callbacks_.note(line);
 }

@@ -23,15 +23,20 @@ std::string lineOf(std::int64_t pose, const PlaceRecord& p) {
 }
 
 std::string lineOf(const Problem& p) {
-  return p.kind + "," + (p.pose ? std::to_string(*p.pose) : "") + "," + (p.stamp_ns ? formatStamp(*p.stamp_ns) : "") + "," +
-         csvField(p.where) + "," + csvField(p.reason) + "\n";
+  return p.kind + "," + (p.pose ? std::to_string(*p.pose) : "") + "," +
+         (p.stamp_ns ? formatStamp(*p.stamp_ns) : "") + "," + csvField(p.where) + "," + csvField(p.reason) +
+         "\n";
 }
 
 }  // namespace
 
-RecordFiles::RecordFiles(const std::string& folder, PoseIndex& poses) : folder_(folder) { read(folder, poses); }
+RecordFiles::RecordFiles(const std::string& folder, PoseIndex& poses) : folder_(folder) {
+  read(folder, poses);
+}
 
-void RecordFiles::merge(const std::string& other_folder, PoseIndex& poses) { read(other_folder, poses); }
+void RecordFiles::merge(const std::string& other_folder, PoseIndex& poses) {
+  read(other_folder, poses);
+}
 
 void RecordFiles::read(const std::string& folder, PoseIndex& poses) {
   for (const auto& f : readCsv(folder + "/captures.csv", kCapturesHeader).rows) {

@@ -3,7 +3,8 @@
 namespace sunlit::light {
 namespace {
 
-/// std::floor, which without newer instructions than every x86-64 has is a function call: it took a third of the query.
+/// std::floor, which without newer instructions than every x86-64 has is a function call: it took a third of
+/// the query.
 inline int floorOf(float value) {
   const int truncated = static_cast<int>(value);
   return truncated - (value < static_cast<float>(truncated) ? 1 : 0);
@@ -53,8 +54,9 @@ bool Cutouts::solid(std::uint32_t masked_triangle, float u, float v) const {
   const int x1 = x0 + 1 == plane.width ? 0 : x0 + 1;
   const int y1 = y0 + 1 == plane.height ? 0 : y0 + 1;
   const auto alpha = [&plane](int column, int row) {
-    return static_cast<float>(plane.alpha[static_cast<std::size_t>(row) * static_cast<std::size_t>(plane.width) +
-                                          static_cast<std::size_t>(column)]);
+    return static_cast<float>(
+        plane.alpha[static_cast<std::size_t>(row) * static_cast<std::size_t>(plane.width) +
+                    static_cast<std::size_t>(column)]);
   };
   const float fx = x - static_cast<float>(left);
   const float fy = y - static_cast<float>(above);

@@ -23,8 +23,9 @@ void appendVertices(const scene::Mesh& mesh, Geometry* geometry) {
   const std::size_t count = geometry->positions.size();
   for (const Eigen::Vector3f& normal : mesh.normals) {
     const float length = normal.norm();
-    geometry->normals.push_back(std::isfinite(length) && length > 1e-6f ? Eigen::Vector3f(normal / length)
-                                                                        : Eigen::Vector3f(Eigen::Vector3f::Zero()));
+    geometry->normals.push_back(std::isfinite(length) && length > 1e-6f
+                                    ? Eigen::Vector3f(normal / length)
+                                    : Eigen::Vector3f(Eigen::Vector3f::Zero()));
   }
   geometry->normals.resize(count, Eigen::Vector3f::Zero());
   geometry->texture_coordinates.insert(geometry->texture_coordinates.end(), mesh.texture_coordinates.begin(),
@@ -67,7 +68,8 @@ void appendTriangle(const Placed& triangle, bool starts_chunk, Geometry* geometr
 
 }  // namespace
 
-Geometry::Geometry(std::shared_ptr<const scene::Scene> scene_to_flatten) : scene(std::move(scene_to_flatten)) {
+Geometry::Geometry(std::shared_ptr<const scene::Scene> scene_to_flatten)
+    : scene(std::move(scene_to_flatten)) {
   std::vector<Placed> placed;
   placed.reserve(scene->triangleCount());
   for (const scene::Mesh& mesh : scene->meshes) {

@@ -7,8 +7,8 @@
 
 namespace sunlit::light {
 
-image::LinearImage illuminate(const Surfaces& surfaces, const scene::Scene& scene, const Visibility& visibility,
-                              const sky::Daylight& day) {
+image::LinearImage illuminate(const Surfaces& surfaces, const scene::Scene& scene,
+                              const Visibility& visibility, const sky::Daylight& day) {
   image::LinearImage image(surfaces.width, surfaces.height);
   const TileLighting lighting(surfaces, scene, visibility, day);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, surfaces.tiles.size()),

@@ -23,7 +23,8 @@ float fifthPower(float x) {
 
 }  // namespace
 
-Eigen::Array3f directReflectance(const Reflection& r, const Eigen::Vector3f& to_light, float source_radius_rad) {
+Eigen::Array3f directReflectance(const Reflection& r, const Eigen::Vector3f& to_light,
+                                 float source_radius_rad) {
   const float n_l = r.normal.dot(to_light);
   if (n_l <= 0.0f) return Eigen::Array3f::Zero();
   // A shading normal may turn away from the eye near silhouettes; the surface is seen all the same.
@@ -32,7 +33,8 @@ Eigen::Array3f directReflectance(const Reflection& r, const Eigen::Vector3f& to_
   const float n_h = std::clamp(r.normal.dot(half), 0.0f, 1.0f);
   const float v_h = std::clamp(r.to_eye.dot(half), 0.0f, 1.0f);
 
-  // Half the source's radius adds to the half vector's spread: the lobe is that of the surface blurred by the source.
+  // Half the source's radius adds to the half vector's spread: the lobe is that of the surface blurred by the
+  // source.
   const float alpha = std::min(1.0f, r.roughness * r.roughness + 0.5f * source_radius_rad);
   const float a2 = alpha * alpha;
   const float d_base = (n_h * a2 - n_h) * n_h + 1.0f;

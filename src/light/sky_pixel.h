@@ -22,8 +22,8 @@ class SkyPixel {
   const Surfaces& surfaces_;
   const sky::Daylight& daylight_;
   Eigen::Vector3f towards_sun_;
-  float disc_cosine_;            ///< of the disc's radius
-  float near_cosine_;            ///< of the angle beyond which no pixel touches the disc
+  float disc_cosine_;              ///< of the disc's radius
+  float near_cosine_;              ///< of the angle beyond which no pixel touches the disc
   Eigen::Array3f disc_luminance_;  ///< cd/m²
 };
 

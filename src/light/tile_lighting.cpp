@@ -11,7 +11,7 @@ namespace sunlit::light {
 
 TileLighting::TileLighting(const Surfaces& surfaces, const scene::Scene& scene, const Visibility& visibility,
                            const sky::Daylight& day)
-    : surfaces_(surfaces), scene_(scene), daylight_(day), sun_(day.sun(), visibility, scene, surfaces.samples_per_pixel) {}
+    : surfaces_(surfaces), scene_(scene), daylight_(day), sun_(day.sun(), visibility, scene, surfaces) {}
 
 void TileLighting::light(const Tile& tile, image::LinearImage* image) const {
   addSky(tile, image);
@@ -44,7 +44,8 @@ Eigen::Array3f TileLighting::luminance(const Surface& surface, float sun_share) 
   const Eigen::Array3f spread = irradiance / static_cast<float>(kPi);
   const float smooth = std::max(0.0f, 1.0f - material.roughness * material.roughness * 1.5f);
   if (smooth <= 0.0f) return sum + ambient.specular * spread;
-  const Eigen::Array3f point = daylight_.skyLuminance(mirrored(surface.to_eye, surface.shading_normal).normalized()).value;
+  const Eigen::Array3f point =
+      daylight_.skyLuminance(mirrored(surface.to_eye, surface.shading_normal).normalized()).value;
   return sum + ambient.specular * (smooth * point + (1.0f - smooth) * spread);
 }
 

@@ -16,7 +16,8 @@ namespace {
 
 enum GeometryNumber : unsigned { kOpaque = 0, kMasked = 1 };
 
-constexpr int kPacket = 8;  ///< rays a query; the fastest width for coherent rays here, and present on every CPU
+constexpr int kPacket =
+    8;  ///< rays a query; the fastest width for coherent rays here, and present on every CPU
 
 void fail(const std::string& what, RTCDevice device) {
   throw std::runtime_error("ray library (Embree): " + what + ", error code " +
@@ -34,7 +35,8 @@ void passCutouts(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
-/// What a query for the first visible triangle needs to know, beside Embree's own context (which must come first).
+/// What a query for the first visible triangle needs to know, beside Embree's own context (which must come
+/// first).
 struct SeeingContext {
   RTCIntersectContext embree;
   const Geometry* geometry;
@@ -47,8 +49,8 @@ void passInvisible(const RTCFilterFunctionNArguments* arguments) {
   const auto& context = *reinterpret_cast<const SeeingContext*>(arguments->context);
   for (unsigned i = 0; i < arguments->N; ++i) {
     if (arguments->valid[i] != -1) continue;
-    const std::uint32_t triangle = (*context.triangles[RTCHitN_geomID(arguments->hit, arguments->N, i)])
-        [RTCHitN_primID(arguments->hit, arguments->N, i)];
+    const std::uint32_t triangle = (*context.triangles[RTCHitN_geomID(
+        arguments->hit, arguments->N, i)])[RTCHitN_primID(arguments->hit, arguments->N, i)];
     const auto material = static_cast<std::size_t>(context.geometry->materials[triangle]);
     if (context.geometry->scene->materials[material].double_sided) continue;
     const Eigen::Vector3f direction(RTCRayN_dir_x(arguments->ray, arguments->N, i),
@@ -85,7 +87,8 @@ Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geome
   device_ = rtcNewDevice(nullptr);
   if (!device_) fail("no device", nullptr);
   scene_ = rtcNewScene(device_);
-  // Without ROBUST, a ray may slip through the edge between two triangles, depending on how the tree was built.
+  // Without ROBUST, a ray may slip through the edge between two triangles, depending on how the tree was
+  // built.
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
   attach(cutouts_.opaqueTriangles(), kOpaque);
@@ -178,8 +181,8 @@ void Visibility::occluded(const Rays& rays, std::uint8_t* blocked) const {
   implementation_->occluded(rays, blocked);
 }
 
-std::optional<std::uint32_t> Visibility::firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
-                                                   float near) const {
+std::optional<std::uint32_t> Visibility::firstSeen(const Eigen::Vector3f& origin,
+                                                   const Eigen::Vector3f& direction, float near) const {
   return implementation_->firstSeen(origin, direction, near);
 }
 

@@ -19,7 +19,8 @@ int octaveCount(const scene::Detail& detail) {
 
 }  // namespace
 
-DetailOctaves::DetailOctaves(const scene::Detail& detail, const Eigen::Vector3d& eye) : count(octaveCount(detail)) {
+DetailOctaves::DetailOctaves(const scene::Detail& detail, const Eigen::Vector3d& eye)
+    : count(octaveCount(detail)) {
   double energy = 0.0;
   for (int k = 0; k < count; ++k) energy += std::pow(static_cast<double>(detail.gain), 2.0 * k);
   const Eigen::Vector3d axis = Eigen::Vector3d(1.0, 2.0, 3.0).normalized();
@@ -33,13 +34,15 @@ DetailOctaves::DetailOctaves(const scene::Detail& detail, const Eigen::Vector3d&
     const Eigen::Vector3d cell = 3.0 * (place / 3.0).array().floor().matrix();
     const Eigen::Vector3d skewed = cell.array() + cell.sum() / 3.0;
     for (int c = 0; c < 3; ++c) {
-      eye_cell[i][c] = static_cast<GLint>(static_cast<std::int64_t>(skewed[c]));  // the hash wraps, and so may this
+      eye_cell[i][c] =
+          static_cast<GLint>(static_cast<std::int64_t>(skewed[c]));  // the hash wraps, and so may this
     }
     eye_fraction[i] = (place - cell).cast<float>();
     lattice_from_map[i] = lattice.cast<float>();
     wavelength_m[i] = static_cast<float>(wavelength);
     weight[i] = static_cast<float>(static_cast<double>(detail.contrast) *
-                                   std::pow(static_cast<double>(detail.gain), k) / std::sqrt(energy) / kNoiseDeviation);
+                                   std::pow(static_cast<double>(detail.gain), k) / std::sqrt(energy) /
+                                   kNoiseDeviation);
   }
 }
 
@@ -63,8 +66,8 @@ void DetailUniforms::set(const scene::Detail& detail, const Eigen::Vector3d& eye
   glUniform3fv(tint_, 1, detail.tint.data());
 }
 
-// Simplex noise: K. Perlin, "Noise hardware", 2001, with a hash in place of the permutation table, so that it does not
-// repeat.
+// Simplex noise: K. Perlin, "Noise hardware", 2001, with a hash in place of the permutation table, so that it
+// does not repeat.
 const char* const kDetailShader = R"(
 uniform int detail_count;
 uniform mat3 detail_lattice_from_map[16];
@@ -109,7 +112,8 @@ vec3 detailFactor(vec3 relative) {
   float footprint = sqrt(max(dot(dFdx(relative), dFdx(relative)), dot(dFdy(relative), dFdy(relative))));
   float sum = 0.0;
   for (int k = 0; k < detail_count; ++k) {
-    float fade = clamp((detail_wavelength_m[k] / footprint - 0.75) / 1.25, 0.0, 1.0);
+    // With two samples a pixel and axis, a pixel's average leaves little of waves shorter than 1.5 samples.
+    float fade = clamp((detail_wavelength_m[k] / footprint - 1.5) / 1.5, 0.0, 1.0);
     if (fade <= 0.0) break;
     vec3 p = detail_lattice_from_map[k] * relative + detail_eye_fraction[k];
     sum += fade * detail_weight[k] * simplexNoise(p, detail_eye_cell[k]);

@@ -20,7 +20,8 @@ struct Vertex {
 
 void attribute(GLuint index, GLint size, std::size_t offset) {
   glEnableVertexAttribArray(index);
-  glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(Vertex), reinterpret_cast<const void*>(offset));
+  glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                        reinterpret_cast<const void*>(offset));
 }
 
 enum VariantBit { kTextured = 1, kMasked = 2, kDetailed = 4 };
@@ -28,12 +29,13 @@ enum VariantBit { kTextured = 1, kMasked = 2, kDetailed = 4 };
 int variantOf(const scene::Material& material) {
   const bool textured = material.base_texture != scene::Material::kNoTexture;
   const bool masked = textured && material.alpha_mode == scene::AlphaMode::kMask;
-  return (textured ? kTextured : 0) | (masked ? kMasked : 0) | (material.detail.contrast > 0.0f ? kDetailed : 0);
+  return (textured ? kTextured : 0) | (masked ? kMasked : 0) |
+         (material.detail.contrast > 0.0f ? kDetailed : 0);
 }
 
 std::string definitions(int variant) {
-  return std::string(variant & kTextured ? "#define TEXTURED\n" : "") + (variant & kMasked ? "#define MASKED\n" : "") +
-         (variant & kDetailed ? "#define DETAIL\n" : "");
+  return std::string(variant & kTextured ? "#define TEXTURED\n" : "") +
+         (variant & kMasked ? "#define MASKED\n" : "") + (variant & kDetailed ? "#define DETAIL\n" : "");
 }
 
 }  // namespace
@@ -54,12 +56,14 @@ struct GeometryPass::Variant {
         detail(program) {}
 
   GlProgram program;
-  GLint optical_from_map, eye_high, eye_low, projection, depth_range, base_color, alpha_cutoff, first_triangle;
+  GLint optical_from_map, eye_high, eye_low, projection, depth_range, base_color, alpha_cutoff,
+      first_triangle;
   DetailUniforms detail;
 };
 
 GeometryPass::GeometryPass(std::shared_ptr<const light::Geometry> geometry, const View& view, double lod_bias)
-    : geometry_(std::move(geometry)), textures_(*geometry_->scene, lod_bias),
+    : geometry_(std::move(geometry)),
+      textures_(*geometry_->scene, lod_bias),
       clip_control_(reinterpret_cast<PFNGLCLIPCONTROLPROC>(GlContext::function("glClipControl"))) {
   uploadVertices();
   createTarget(view);
@@ -145,10 +149,11 @@ void GeometryPass::setView(const Variant& variant, const View& view) const {
   const Eigen::Vector3f low = (view.eye() - high.cast<double>()).cast<float>();
   glUniform3fv(variant.eye_high, 1, high.data());
   glUniform3fv(variant.eye_low, 1, low.data());
-  // GL counts from the edge of a pixel, the camera from its centre. Row 0 of the buffer is the top one: GL's y points
-  // down here, like the camera's.
+  // GL counts from the edge of a pixel, the camera from its centre. Row 0 of the buffer is the top one: GL's
+  // y points down here, like the camera's.
   const image::PinholeCamera& c = view.camera;
-  glUniform4f(variant.projection, static_cast<float>(2.0 * c.fx / c.width), static_cast<float>(2.0 * c.fy / c.height),
+  glUniform4f(variant.projection, static_cast<float>(2.0 * c.fx / c.width),
+              static_cast<float>(2.0 * c.fy / c.height),
               static_cast<float>((2.0 * c.cx + 1.0) / c.width - 1.0),
               static_cast<float>((2.0 * c.cy + 1.0) / c.height - 1.0));
   glUniform2f(variant.depth_range, static_cast<float>(view.near_m), static_cast<float>(view.far_m));
@@ -196,8 +201,9 @@ void GeometryPass::draw(const View& view, std::vector<PackedSample>* samples) {
       in_use = &wanted;
     }
     glUniform1ui(in_use->first_triangle, chunk->first + 1);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * chunk->count), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(static_cast<std::size_t>(chunk->first) * 3 * sizeof(GLuint)));
+    glDrawElements(
+        GL_TRIANGLES, static_cast<GLsizei>(3 * chunk->count), GL_UNSIGNED_INT,
+        reinterpret_cast<const void*>(static_cast<std::size_t>(chunk->first) * 3 * sizeof(GLuint)));
   }
   samples->resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   glReadBuffer(GL_COLOR_ATTACHMENT0);

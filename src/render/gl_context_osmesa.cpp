@@ -18,25 +18,34 @@ struct GlContext::Handle {
 };
 
 GlContext::GlContext() : handle_(std::make_unique<Handle>()) {
-  const int attributes[] = {OSMESA_FORMAT,        OSMESA_RGBA,
-                            OSMESA_DEPTH_BITS,    0,
-                            OSMESA_STENCIL_BITS,  0,
-                            OSMESA_PROFILE,       OSMESA_CORE_PROFILE,
-                            OSMESA_CONTEXT_MAJOR_VERSION, 4,
-                            OSMESA_CONTEXT_MINOR_VERSION, 5,
+  const int attributes[] = {OSMESA_FORMAT,
+                            OSMESA_RGBA,
+                            OSMESA_DEPTH_BITS,
+                            0,
+                            OSMESA_STENCIL_BITS,
+                            0,
+                            OSMESA_PROFILE,
+                            OSMESA_CORE_PROFILE,
+                            OSMESA_CONTEXT_MAJOR_VERSION,
+                            4,
+                            OSMESA_CONTEXT_MINOR_VERSION,
+                            5,
                             0};
   handle_->context = OSMesaCreateContextAttribs(attributes, nullptr);
   if (!handle_->context) throw std::runtime_error("OSMesa gives no OpenGL 4.5 core context");
   makeCurrent();
 }
 
-GlContext::~GlContext() { OSMesaDestroyContext(handle_->context); }
+GlContext::~GlContext() {
+  OSMesaDestroyContext(handle_->context);
+}
 
 void GlContext::makeCurrent() {
   if (handle_->thread != std::this_thread::get_id()) {
     throw std::logic_error("an OpenGL context was used on a thread that did not construct it");
   }
-  if (!OSMesaMakeCurrent(handle_->context, handle_->pixels.data(), GL_UNSIGNED_BYTE, Handle::kSize, Handle::kSize)) {
+  if (!OSMesaMakeCurrent(handle_->context, handle_->pixels.data(), GL_UNSIGNED_BYTE, Handle::kSize,
+                         Handle::kSize)) {
     throw std::runtime_error("OSMesa cannot make its context current");
   }
 }

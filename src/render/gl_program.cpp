@@ -42,6 +42,8 @@ GlProgram::GlProgram(const std::string& definitions, const std::string& vertex_s
   throw std::logic_error(std::string("shader: ") + log.data());
 }
 
-GlProgram::~GlProgram() { glDeleteProgram(program_); }
+GlProgram::~GlProgram() {
+  glDeleteProgram(program_);
+}
 
 }  // namespace sunlit::render

@@ -10,7 +10,8 @@ namespace sunlit::render {
 class GlProgram {
  public:
   /// `definitions` (#define lines) go before both sources. Throws std::logic_error with the compiler's log.
-  GlProgram(const std::string& definitions, const std::string& vertex_source, const std::string& fragment_source);
+  GlProgram(const std::string& definitions, const std::string& vertex_source,
+            const std::string& fragment_source);
   ~GlProgram();
   GlProgram(const GlProgram&) = delete;
   GlProgram& operator=(const GlProgram&) = delete;

@@ -21,7 +21,8 @@ const std::array<float, 256>& linearOfSrgb() {
     std::array<float, 256> values{};
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double encoded = static_cast<double>(i) / 255.0;
-      values[i] = static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+      values[i] =
+          static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
     }
     return values;
   }();
@@ -65,8 +66,9 @@ LinearLevel halved(const LinearLevel& larger, bool weigh_by_alpha) {
       int count = 0;
       for (int j = rows.first; j < rows.second; ++j) {
         for (int i = columns.first; i < columns.second; ++i, ++count) {
-          const float* texel = &larger.rgba[4 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(larger.width) +
-                                                 static_cast<std::size_t>(i))];
+          const float* texel =
+              &larger.rgba[4 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(larger.width) +
+                                static_cast<std::size_t>(i))];
           // A little weight for the invisible ones gives fully transparent regions a colour, too.
           const float w = weigh_by_alpha ? texel[3] + 1e-4f : 1.0f;
           color += w * Eigen::Array3f(texel[0], texel[1], texel[2]);
@@ -89,8 +91,8 @@ double shareAbove(const LinearLevel& level, float threshold) {
   return 4.0 * static_cast<double>(above) / static_cast<double>(level.rgba.size());
 }
 
-/// The factor on alpha that brings the share of `level` above `cutoff` nearest to `share`: cutoff over the alpha that just
-/// this share of texels reaches.
+/// The factor on alpha that brings the share of `level` above `cutoff` nearest to `share`: cutoff over the
+/// alpha that just this share of texels reaches.
 float alphaScale(const LinearLevel& level, float cutoff, double share) {
   std::vector<float> alphas;
   for (std::size_t i = 3; i < level.rgba.size(); i += 4) alphas.push_back(level.rgba[i]);
@@ -111,7 +113,8 @@ MipLevel encoded(const LinearLevel& level, float alpha_scale) {
   MipLevel mip{level.width, level.height, std::vector<std::uint8_t>(level.rgba.size())};
   for (std::size_t i = 0; i < level.rgba.size(); i += 4) {
     for (std::size_t c = 0; c < 3; ++c) mip.rgba[i + c] = srgbOfLinear(level.rgba[i + c]);
-    mip.rgba[i + 3] = static_cast<std::uint8_t>(std::lround(std::min(1.0f, level.rgba[i + 3] * alpha_scale) * 255.0f));
+    mip.rgba[i + 3] =
+        static_cast<std::uint8_t>(std::lround(std::min(1.0f, level.rgba[i + 3] * alpha_scale) * 255.0f));
   }
   return mip;
 }

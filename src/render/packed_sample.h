@@ -10,9 +10,9 @@
 namespace sunlit::render {
 
 struct PackedSample {
-  std::uint32_t albedo;     ///< 10 bit each of r, g, b (lowest bits first), square root of the linear value
-  std::uint32_t normal;     ///< shading normal, octahedral, two signed 16-bit numbers; kNoNormal
-  std::uint32_t triangle;   ///< index into light::Geometry::triangles plus 1; 0 for sky
+  std::uint32_t albedo;      ///< 10 bit each of r, g, b (lowest bits first), square root of the linear value
+  std::uint32_t normal;      ///< shading normal, octahedral, two signed 16-bit numbers; kNoNormal
+  std::uint32_t triangle;    ///< index into light::Geometry::triangles plus 1; 0 for sky
   std::uint32_t depth_bits;  ///< float, m along the optical axis
 
   static constexpr std::uint32_t kNoNormal = 0x80008000u;

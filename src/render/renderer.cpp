@@ -72,9 +72,17 @@ Renderer::Renderer(std::shared_ptr<const scene::Scene> scene, const RenderOption
     : implementation_(std::make_unique<Implementation>(std::move(scene), options)) {}
 Renderer::~Renderer() = default;
 
-void Renderer::look(const Eigen::Isometry3d& map_from_optical) { implementation_->look(map_from_optical); }
-image::LinearImage Renderer::light(const sky::Daylight& day) const { return implementation_->light(day); }
-image::DepthImage Renderer::depth() const { return implementation_->depth(); }
-const RenderOptions& Renderer::options() const { return implementation_->options(); }
+void Renderer::look(const Eigen::Isometry3d& map_from_optical) {
+  implementation_->look(map_from_optical);
+}
+image::LinearImage Renderer::light(const sky::Daylight& day) const {
+  return implementation_->light(day);
+}
+image::DepthImage Renderer::depth() const {
+  return implementation_->depth();
+}
+const RenderOptions& Renderer::options() const {
+  return implementation_->options();
+}
 
 }  // namespace sunlit::render

@@ -25,14 +25,16 @@ struct Seen {
   }
 };
 
-/// Depth along `ray` (see View::ray) at which it meets the plane of `triangle`; not finite if it runs within it.
+/// Depth along `ray` (see View::ray) at which it meets the plane of `triangle`; not finite if it runs within
+/// it.
 double planeDepth(const Seen& seen, std::uint32_t triangle, const Eigen::Vector3d& ray);
 
 /// Samples of a pixel that look alike become one surface. Reuses the memory of `surfaces`.
 void resolveSurfaces(const Seen& seen, light::Surfaces* surfaces);
 
-/// Depth at the pixel centres, where no sample lies if supersampling is even: of the nearest triangle among those that the
-/// pixel's samples see and that contains the centre; if none does, of what a ray through the centre meets first.
+/// Depth at the pixel centres, where no sample lies if supersampling is even: of the nearest triangle among
+/// those that the pixel's samples see and that contains the centre; if none does, of what a ray through the
+/// centre meets first.
 image::DepthImage resolveDepth(const Seen& seen, const light::Visibility& visibility);
 
 }  // namespace sunlit::render

@@ -9,8 +9,8 @@
 namespace sunlit::render {
 namespace {
 
-/// Whether `ray` from the eye passes through the triangle: it then lies on the same side of all three edges. Exact on
-/// shared edges up to rounding, which counts as inside.
+/// Whether `ray` from the eye passes through the triangle: it then lies on the same side of all three edges.
+/// Exact on shared edges up to rounding, which counts as inside.
 bool passesThrough(const Seen& seen, std::uint32_t triangle, const Eigen::Vector3d& ray) {
   const Eigen::Vector3d eye = seen.view.eye();
   const auto& vertices = seen.geometry.triangles[triangle];
@@ -25,7 +25,8 @@ bool passesThrough(const Seen& seen, std::uint32_t triangle, const Eigen::Vector
   return positive == 0 || negative == 0;
 }
 
-/// Of all triangles that the pixel's samples see, the nearest one's depth at the centre; infinite if none contains it.
+/// Of all triangles that the pixel's samples see, the nearest one's depth at the centre; infinite if none
+/// contains it.
 double nearestThrough(const Seen& seen, int x, int y, const Eigen::Vector3d& ray) {
   const int size = seen.view.supersampling;
   double nearest = std::numeric_limits<double>::infinity();
@@ -36,7 +37,8 @@ double nearestThrough(const Seen& seen, int x, int y, const Eigen::Vector3d& ray
       if (sample.sky() || sample.triangle == last) continue;
       last = sample.triangle;
       const double depth = planeDepth(seen, sample.triangle - 1, ray);
-      if (depth >= seen.view.near_m && depth < nearest && passesThrough(seen, sample.triangle - 1, ray)) nearest = depth;
+      if (depth >= seen.view.near_m && depth < nearest && passesThrough(seen, sample.triangle - 1, ray))
+        nearest = depth;
     }
   }
   return nearest;

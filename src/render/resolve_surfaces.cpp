@@ -28,7 +28,8 @@ struct Cluster {
   std::array<Eigen::Vector3f, 16> origins;
 
   bool alike(const Seeing& s) const {
-    return s.material == first.material && s.geometric_normal.dot(first.geometric_normal) > kSameNormalCosine &&
+    return s.material == first.material &&
+           s.geometric_normal.dot(first.geometric_normal) > kSameNormalCosine &&
            s.shading_normal.dot(first.shading_normal) > kSameNormalCosine &&
            std::abs(s.depth - first.depth) < kSameDepthRatio * first.depth;
   }
@@ -48,8 +49,8 @@ struct Cluster {
   }
 };
 
-/// How far off its triangle a ray starts, m: above what single precision does to the point and to the distance that the
-/// ray query computes, and well below what could let light through a wall.
+/// How far off its triangle a ray starts, m: above what single precision does to the point and to the
+/// distance that the ray query computes, and well below what could let light through a wall.
 float clearance(const Eigen::Vector3f& position, float depth) {
   return 2e-4f + 5e-7f * position.cwiseAbs().maxCoeff() + 1e-6f * depth;
 }
@@ -64,7 +65,8 @@ class TileResolver {
     tile_.sky.assign(static_cast<std::size_t>(tile_.width * tile_.height), 0);
     for (int row = 0; row < tile_.height; ++row) {
       for (int column = 0; column < tile_.width; ++column) {
-        tile_.sky[static_cast<std::size_t>(row * tile_.width + column)] = pixel(tile_.x + column, tile_.y + row);
+        tile_.sky[static_cast<std::size_t>(row * tile_.width + column)] =
+            pixel(tile_.x + column, tile_.y + row);
       }
     }
   }
@@ -99,9 +101,10 @@ class TileResolver {
   Seeing unpack(const PackedSample& packed, int column, int row) const {
     Seeing seeing;
     const std::uint32_t triangle = packed.triangle - 1;
-    const Eigen::Vector3d ray = seen_.view.ray(seen_.view.pixelOfSample(column), seen_.view.pixelOfSample(row));
-    // The triangle's own plane is more exact than the rasteriser's depth; but on a sliver seen from the side the sample
-    // may lie off its plane's visible part by any distance.
+    const Eigen::Vector3d ray =
+        seen_.view.ray(seen_.view.pixelOfSample(column), seen_.view.pixelOfSample(row));
+    // The triangle's own plane is more exact than the rasteriser's depth; but on a sliver seen from the side
+    // the sample may lie off its plane's visible part by any distance.
     double depth = planeDepth(seen_, triangle, ray);
     const double rasterised = packed.depth();
     if (!(std::abs(depth - rasterised) < 0.05 * rasterised)) depth = rasterised;

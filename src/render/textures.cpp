@@ -11,7 +11,9 @@ namespace {
 std::vector<float> cutoffs(const scene::Scene& scene) {
   std::vector<float> values(scene.textures.size(), kNoCutoff);
   for (const scene::Material& material : scene.materials) {
-    if (material.alpha_mode != scene::AlphaMode::kMask || material.base_texture == scene::Material::kNoTexture) continue;
+    if (material.alpha_mode != scene::AlphaMode::kMask ||
+        material.base_texture == scene::Material::kNoTexture)
+      continue;
     float& value = values[static_cast<std::size_t>(material.base_texture)];
     if (value == kNoCutoff) value = material.alpha_cutoff;
   }
@@ -47,7 +49,8 @@ void Textures::upload(const scene::Scene& scene) {
                    texture.height);
     uploadLevel(0, texture.width, texture.height, texture.rgba.data());
     int number = 1;
-    for (const MipLevel& level : levels[i]) uploadLevel(number++, level.width, level.height, level.rgba.data());
+    for (const MipLevel& level : levels[i])
+      uploadLevel(number++, level.width, level.height, level.rgba.data());
   }
   const std::uint8_t white[4] = {255, 255, 255, 255};
   glBindTexture(GL_TEXTURE_2D, names_.back());
@@ -55,12 +58,15 @@ void Textures::upload(const scene::Scene& scene) {
   uploadLevel(0, 1, 1, white);
 }
 
-Textures::~Textures() { glDeleteTextures(static_cast<GLsizei>(names_.size()), names_.data()); }
+Textures::~Textures() {
+  glDeleteTextures(static_cast<GLsizei>(names_.size()), names_.data());
+}
 
 void Textures::bind(int index) const {
   glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D,
-                index == scene::Material::kNoTexture ? names_.back() : names_[static_cast<std::size_t>(index)]);
+  glBindTexture(GL_TEXTURE_2D, index == scene::Material::kNoTexture
+                                   ? names_.back()
+                                   : names_[static_cast<std::size_t>(index)]);
 }
 
 }  // namespace sunlit::render

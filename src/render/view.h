@@ -15,7 +15,9 @@ struct View {
 
   Eigen::Vector3d eye() const { return map_from_optical.translation(); }
   /// What pixel (u, v) looks along in `map`; of depth 1 m, so times a depth plus eye() is a point.
-  Eigen::Vector3d ray(double u, double v) const { return map_from_optical.linear() * camera.unproject({u, v}); }
+  Eigen::Vector3d ray(double u, double v) const {
+    return map_from_optical.linear() * camera.unproject({u, v});
+  }
   /// Pixel coordinate of sample `i` of a row or column of samples.
   double pixelOfSample(int i) const { return (i + 0.5) / supersampling - 0.5; }
 };

@@ -37,7 +37,8 @@ struct EvaluationOptions {
   std::int64_t stamp_start_ns = 0;  ///< stamp of pose 0, where a frame rate is given
   std::size_t max_waiting_images =
       3000;  ///< that wait for a partner; beyond, the oldest stamp is given up and named
-  std::vector<std::string> merge;         ///< folders of other runs with the same settings, whose values are taken over
+  std::vector<std::string>
+      merge;  ///< folders of other runs with the same settings, whose values are taken over
   std::vector<std::pair<std::string, std::string>> about;  ///< of the experiment, for run.yaml and reports
 };
 
@@ -99,7 +100,7 @@ struct Outcome {
   Counts counts;
   std::vector<SummaryRow> summary;
   std::size_t absent_poses = 0;  ///< of the expected number, no image at all came
-  bool isWhole() const;          ///< every pair of every pose was evaluated (or is undefined), and there was one
+  bool isWhole() const;  ///< every pair of every pose was evaluated (or is undefined), and there was one
 };
 
 /// Called from worker threads, one at a time.

@@ -19,10 +19,10 @@ struct Plane {
 
 /// Consecutive triangles of one material within one cell of a square grid over the map: the unit of culling.
 struct Chunk {
-  int material = 0;          ///< index into Scene::materials
-  std::uint32_t first = 0;   ///< first triangle
-  std::uint32_t count = 0;   ///< triangles, > 0
-  Eigen::AlignedBox3f box;   ///< around all of them, m in `map`
+  int material = 0;         ///< index into Scene::materials
+  std::uint32_t first = 0;  ///< first triangle
+  std::uint32_t count = 0;  ///< triangles, > 0
+  Eigen::AlignedBox3f box;  ///< around all of them, m in `map`
 };
 
 /// Triangles without area are left out: they can neither be seen nor cast a shadow.
@@ -31,15 +31,16 @@ struct Geometry {
 
   std::shared_ptr<const scene::Scene> scene;  ///< whose materials and textures the indices below mean
 
-  std::vector<Eigen::Vector3f> positions;            ///< m in `map`
-  std::vector<Eigen::Vector3f> normals;              ///< of the file, in `map`; unit, or zero where the file's is unusable
+  std::vector<Eigen::Vector3f> positions;  ///< m in `map`
+  std::vector<Eigen::Vector3f>
+      normals;  ///< of the file, in `map`; unit, or zero where the file's is unusable
   std::vector<Eigen::Vector2f> texture_coordinates;  ///< one a vertex; zero where the mesh has none
   std::vector<Eigen::Array3f> colors;                ///< linear, one a vertex
 
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<Plane> planes;              ///< one a triangle
-  std::vector<std::int32_t> materials;    ///< one a triangle
-  std::vector<Chunk> chunks;              ///< cover all triangles, in order
+  std::vector<Plane> planes;            ///< one a triangle
+  std::vector<std::int32_t> materials;  ///< one a triangle
+  std::vector<Chunk> chunks;            ///< cover all triangles, in order
 
   static constexpr float kCellSize_m = 64.0f;
 };

@@ -8,9 +8,10 @@
 
 namespace sunlit::light {
 
-/// Luminance of each pixel, cd/m²: the sun's disc where rays reach it, light of the open sky by surface direction,
-/// emission, and the sky and sun themselves where no surface is seen. Parallel; the same bits for any thread count.
-image::LinearImage illuminate(const Surfaces& surfaces, const scene::Scene& scene, const Visibility& visibility,
-                              const sky::Daylight& day);
+/// Luminance of each pixel, cd/m²: the sun's disc where rays reach it, light of the open sky by surface
+/// direction, emission, and the sky and sun themselves where no surface is seen. Parallel; the same bits for
+/// any thread count.
+image::LinearImage illuminate(const Surfaces& surfaces, const scene::Scene& scene,
+                              const Visibility& visibility, const sky::Daylight& day);
 
 }  // namespace sunlit::light

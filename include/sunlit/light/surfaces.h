@@ -20,11 +20,11 @@ struct Surface {
   std::uint32_t samples = 0;         ///< how many of the pixel's samples see it, > 0
 };
 
-/// A square of neighbouring pixels: the unit of parallel work. Always the same pixels, so that no result depends on
-/// the number of threads.
+/// A square of neighbouring pixels: the unit of parallel work. Always the same pixels, so that no result
+/// depends on the number of threads.
 struct Tile {
-  int x = 0, y = 0;           ///< top left pixel
-  int width = 0, height = 0;  ///< px
+  int x = 0, y = 0;               ///< top left pixel
+  int width = 0, height = 0;      ///< px
   std::vector<Surface> surfaces;  ///< in pixel order
   /// Where each sample's rays start, m in `map`: on the visible side of the triangle, clear of rounding.
   std::vector<float> origin_x, origin_y, origin_z;
@@ -34,8 +34,8 @@ struct Tile {
 struct Surfaces {
   static constexpr int kTileSize = 16;  ///< px
 
-  int width = 0, height = 0;   ///< px
-  int samples_per_pixel = 1;   ///< > 0
+  int width = 0, height = 0;  ///< px
+  int samples_per_pixel = 1;  ///< > 0
   /// Pixel (u, v) looks along pixel_origin + u · pixel_right + v · pixel_down in `map`, of depth 1 m.
   Eigen::Vector3f pixel_origin, pixel_right, pixel_down;
   std::vector<Tile> tiles;

@@ -21,8 +21,9 @@ struct Rays {
   std::size_t count;
 };
 
-/// Materials of AlphaMode::kMask let light through where the image shows them cut out. Surfaces stop light from both
-/// sides. Immutable after construction; queries may run on many threads at once and give the same bits on any number.
+/// Materials of AlphaMode::kMask let light through where the image shows them cut out. Surfaces stop light
+/// from both sides. Immutable after construction; queries may run on many threads at once and give the same
+/// bits on any number.
 class Visibility {
  public:
   /// Keeps `geometry` alive. Throws std::runtime_error if the ray library fails.
@@ -31,12 +32,15 @@ class Visibility {
   Visibility(const Visibility&) = delete;
   Visibility& operator=(const Visibility&) = delete;
 
-  /// Sets blocked[i] to 1 where anything lies along ray i at any distance, else to 0. Fastest for similar neighbours.
+  /// Sets blocked[i] to 1 where anything lies along ray i at any distance, else to 0. Fastest for similar
+  /// neighbours.
   void occluded(const Rays& rays, std::uint8_t* blocked) const;
 
-  /// The triangle (index into Geometry::triangles) that a camera at `origin` sees first along `direction`, at least
-  /// `near` times its length away; a one-sided triangle is invisible from behind. Empty if there is none.
-  std::optional<std::uint32_t> firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near) const;
+  /// The triangle (index into Geometry::triangles) that a camera at `origin` sees first along `direction`, at
+  /// least `near` times its length away; a one-sided triangle is invisible from behind. Empty if there is
+  /// none.
+  std::optional<std::uint32_t> firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+                                         float near) const;
 
  private:
   class Implementation;

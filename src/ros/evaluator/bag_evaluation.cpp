@@ -19,27 +19,39 @@ namespace {
 // Enough to keep all processors busy, few enough to keep the memory flat.
 constexpr std::size_t kPosesInWork = 8;
 
+const std::string kImageTopic = "/camera/image_raw";
+
+std::unique_ptr<rosbag::Bag> opened(const std::string& path) {
+  auto bag = std::make_unique<rosbag::Bag>();
+  try {
+    bag->open(path, rosbag::bagmode::Read);
+  } catch (const rosbag::BagException& error) {
+    throw std::runtime_error(path + ": is not a bag that can be read: " + error.what());
+  }
+  return bag;
+}
+
+// "/" or "/name/…/".
+std::string rootOf(const std::string& name_space) {
+  std::string root = name_space;
+  if (root.empty() || root.back() != '/') root += '/';
+  return root.front() == '/' ? root : "/" + root;
+}
+
 class BagSource {
  public:
   explicit BagSource(const BagEvaluationOptions& options) {
-    std::string root = options.name_space;
-    if (root.empty() || root.back() != '/') root += '/';
-    if (root.front() != '/') root = "/" + root;
+    const std::string root = rootOf(options.name_space);
     place_topic_ = root + "camera/pose";
     for (std::size_t s = 0; s < options.evaluation.streams.size(); ++s) {
-      images_[root + options.evaluation.streams[s] + "/camera/image_raw"] = s;
+      images_[root + options.evaluation.streams[s] + kImageTopic] = s;
       captures_[root + options.evaluation.streams[s] + "/camera/capture"] = s;
     }
     std::vector<std::string> topics = {place_topic_};
     for (const auto& item : images_) topics.push_back(item.first);
     for (const auto& item : captures_) topics.push_back(item.first);
     for (const std::string& path : options.bags) {
-      bags_.push_back(std::make_unique<rosbag::Bag>());
-      try {
-        bags_.back()->open(path, rosbag::bagmode::Read);
-      } catch (const rosbag::BagException& error) {
-        throw std::runtime_error(path + ": is not a bag that can be read: " + error.what());
-      }
+      bags_.push_back(opened(path));
       view_.addQuery(*bags_.back(), rosbag::TopicQuery(topics));
     }
     requireImages();
@@ -99,6 +111,24 @@ class BagSource {
 };
 
 }  // namespace
+
+std::vector<std::string> streamsIn(const std::vector<std::string>& bags, const std::string& name_space) {
+  const std::string root = rootOf(name_space);
+  std::set<std::string> streams;
+  for (const std::string& path : bags) {
+    const auto bag = opened(path);
+    rosbag::View view(*bag);
+    for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+      const std::string& topic = connection->topic;
+      const bool is_long_enough = topic.size() > root.size() + kImageTopic.size();
+      if (!is_long_enough || topic.compare(0, root.size(), root) != 0) continue;
+      const std::size_t end = topic.size() - kImageTopic.size();
+      if (topic.compare(end, std::string::npos, kImageTopic) != 0) continue;
+      streams.insert(topic.substr(root.size(), end - root.size()));
+    }
+  }
+  return {streams.begin(), streams.end()};
+}
 
 int evaluateBags(const BagEvaluationOptions& options) {
   std::optional<BagSource> source;

@@ -10,9 +10,14 @@ namespace sunlit::ros_interface {
 
 struct BagEvaluationOptions {
   evaluate::EvaluationOptions evaluation;
-  std::vector<std::string> bags;  ///< read together, in the order of their times; none where only runs are merged
-  std::string name_space = "/";   ///< of the topics: <name_space>/<stream>/camera/image_raw
+  std::vector<std::string>
+      bags;  ///< read together, in the order of their times; none where only runs are merged
+  std::string name_space = "/";  ///< of the topics: <name_space>/<stream>/camera/image_raw
 };
+
+/// Names, in alphabetical order, of which the bags hold <name_space>/<name>/camera/image_raw. Throws
+/// std::runtime_error for a bag that cannot be read.
+std::vector<std::string> streamsIn(const std::vector<std::string>& bags, const std::string& name_space);
 
 /// Reads all bags, writes the result files and a table to standard output. The exit status of the program: 0
 /// where every pair was evaluated or is undefined, 3 where one could not be. Throws std::runtime_error for a

@@ -4,15 +4,24 @@
 #include <ros/console.h>
 #include <std_msgs/UInt32.h>
 
+#include <csignal>
+
 #include "ros/evaluator/image_conversion.h"
 #include "sunlit/evaluate/draw.h"
 
 namespace sunlit::ros_interface {
 namespace {
 
-// roscpp drops silently at a full queue; 0 is no limit. What bounds the memory is that senders pace on
-// ~progress.
+// roscpp drops silently at a full queue; 0 is no limit. Memory is bounded since senders pace on ~progress.
 constexpr std::uint32_t kNoLimit = 0;
+
+// roscpp's own handler ends the log and all topics before results could be written and told.
+volatile std::sig_atomic_t is_interrupted = 0;
+
+void onInterrupt(int) {
+  is_interrupted = 1;
+  std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends the process at once; nothing evaluated is lost
+}
 
 }  // namespace
 
@@ -114,7 +123,8 @@ void EvaluatorNode::finish(const std::string& reason) {
 
 int EvaluatorNode::run() {
   const ros::WallDuration kPatience(0.05);  // how late the end may be noticed
-  while (ros::ok()) {
+  std::signal(SIGINT, onInterrupt);
+  while (ros::ok() && !is_interrupted) {
     ros::getGlobalCallbackQueue()->callAvailable(kPatience);
     if (is_finished_) continue;
     log_.update(options_.evaluation, evaluation_->counts());
@@ -130,7 +140,7 @@ int EvaluatorNode::run() {
       return status_;
     }
   }
-  if (!is_finished_) finish("shut down");
+  if (!is_finished_) finish(is_interrupted ? "interrupted" : "shut down");
   return status_;
 }
 

@@ -1,7 +1,8 @@
 #include <tbb/global_control.h>
 
 #include <cstdlib>
-#include <thread>
+#include <optional>
+#include <string>
 
 #include "ros/render/render_node.h"
 #include "sunlit/ros/node_main.h"
@@ -18,12 +19,12 @@ int run() {
   const std::vector<Condition> conditions = readConditions(parameters);
   for (const Condition& condition : conditions) condition.parameters.rejectUnknown();  // only the sun differs
   parameters.rejectUnknown();
-  const int threads =
-      options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
-  // llvmpipe has threads of its own.
-  if (options.threads > 0) setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
+  std::optional<tbb::global_control> limit;
+  if (options.threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+    // llvmpipe has threads of its own.
+    setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
+  }
   return RenderNode(node, private_node, options, conditions).run();
 }
 

@@ -3,6 +3,7 @@
 #include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/init.h>
+#include <sys/resource.h>
 
 #include <stdexcept>
 
@@ -88,7 +89,9 @@ void RenderNode::writeMap() {
 void RenderNode::finish() {
   finished_ = true;
   if (files_) files_->writeTiming(studio_.stopwatch());
-  ROS_INFO("All poses are rendered");
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  ROS_INFO("All poses are rendered; at its peak this process held %ld MiB", usage.ru_maxrss / 1024);
 }
 
 bool RenderNode::onStart(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {

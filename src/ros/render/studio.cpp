@@ -14,8 +14,8 @@ namespace sunlit::ros_interface {
 namespace {
 
 std::shared_ptr<const scene::Scene> loadScene(const RenderNodeOptions& options) {
-  auto scene = std::make_shared<scene::Scene>(
-      scene::load(options.world, worldSearchPath(options.model_path)));
+  auto scene =
+      std::make_shared<scene::Scene>(scene::load(options.world, worldSearchPath(options.model_path)));
   for (const std::string& warning : scene->warnings)
     ROS_WARN("%s: %s", options.world.c_str(), warning.c_str());
   ROS_INFO("World %s: %zu triangles, %zu textures", options.world.c_str(), scene->triangleCount(),

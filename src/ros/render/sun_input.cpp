@@ -16,12 +16,12 @@ void SunInput::onSun(const SunPosition& message) {
                     message.distance_au <= 1.03 && std::abs(message.elevation_geometric) <= 0.5 * kPi &&
                     message.header.frame_id == kMapFrame;
   if (!good) {
-    ROS_ERROR_THROTTLE(
-        5.0,
-        "Refused a sun on %s: direction of length %g, distance_au %g, elevation_geometric %g, frame_id \"%s\"; "
-        "wanted are a unit vector, 0.97 to 1.03, at most a quarter turn and \"%s\"",
-        topic().c_str(), towards.norm(), message.distance_au, message.elevation_geometric,
-        message.header.frame_id.c_str(), kMapFrame);
+    ROS_ERROR_THROTTLE(5.0,
+                       "Refused a sun on %s: direction of length %g, distance_au %g, elevation_geometric %g, "
+                       "frame_id \"%s\"; "
+                       "wanted are a unit vector, 0.97 to 1.03, at most a quarter turn and \"%s\"",
+                       topic().c_str(), towards.norm(), message.distance_au, message.elevation_geometric,
+                       message.header.frame_id.c_str(), kMapFrame);
     return;
   }
   const Direction apparent(towards);

@@ -129,8 +129,8 @@ Frame facingTrackFrame(const TrackPlace& place, float twist) {
   return standing(groundPoint(place) + Point(0, 0, 0.15f), along + (place.left > 0.0 ? 0.0f : kPi) + twist);
 }
 
-void addHouseAt(Assembly& assembly, const Site& site, std::uint32_t seed) {
-  Random random(seed);
+void addHouseAt(Assembly& assembly, const Site& site, std::uint32_t seed_index) {
+  Random random(681u, seed_index);
   const Color walls[] = {{0.52f, 0.48f, 0.38f}, {0.55f, 0.54f, 0.50f}, {0.28f, 0.10f, 0.065f},
                          {0.46f, 0.30f, 0.14f}, {0.20f, 0.26f, 0.30f}, {0.35f, 0.38f, 0.25f},
                          {0.50f, 0.33f, 0.26f}};
@@ -141,14 +141,15 @@ void addHouseAt(Assembly& assembly, const Site& site, std::uint32_t seed) {
   house.depth = barn ? 9.0f : random.range(6.5f, 8.5f);
   house.floors = barn ? 1 : 1 + random.below(2);
   house.height = barn ? 4.6f : 2.9f * static_cast<float>(house.floors) + 0.3f;
-  const int kind = random.below(100);
+  // So that neighbours differ.
+  const int kind = static_cast<int>(seed_index * 37u % 100u);
   house.kind = barn        ? WallKind::kTimber
                : kind < 50 ? WallKind::kPlaster
                : kind < 80 ? WallKind::kBrick
                            : WallKind::kTimber;
   house.wall = barn                             ? Color(0.22f, 0.055f, 0.04f)
                : house.kind == WallKind::kBrick ? Color(0.27f, 0.11f, 0.07f)
-                                                : walls[random.below(7)];
+                                                : walls[seed_index % 7u];
   house.wall *= random.range(0.85f, 1.1f);
   house.seed = random.bits();
   addHouse(assembly, house);
@@ -234,8 +235,7 @@ void addBuildings(Assembly& assembly) {
   std::uint32_t index = 0;
   for (const Site& site : sites()) {
     ++index;
-    if (site.kind == Site::Kind::kHouse || site.kind == Site::Kind::kBarn)
-      addHouseAt(assembly, site, mix(681u, index));
+    if (site.kind == Site::Kind::kHouse || site.kind == Site::Kind::kBarn) addHouseAt(assembly, site, index);
     if (site.kind == Site::Kind::kPits) addPits(assembly, site);
     if (site.kind == Site::Kind::kTower) addTower(assembly, site);
   }

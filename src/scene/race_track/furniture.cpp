@@ -204,6 +204,25 @@ void addFlag(Assembly& assembly, const Point& root, std::uint32_t seed) {
   }
 }
 
+// A portable cabin with a picture on its door.
+void addCabin(Assembly& assembly, const Frame& frame, Random& random) {
+  const Palette& p = assembly.palette();
+  const Color color = paintColor(random) * random.range(0.4f, 1.0f);
+  const Point size(random.range(1.0f, 2.2f), random.range(1.0f, 1.4f), random.range(1.9f, 2.4f));
+  addBox(assembly, {p.matte, color}, frame, size);
+  addBox(assembly, {p.matte, Color::Constant(random.range(0.2f, 0.6f))}, shifted(frame, {0, 0, size.z()}),
+         {size.x() + 0.1f, size.y() + 0.1f, 0.12f});
+  for (const float side : {-1.0f, 1.0f}) {
+    const Picture picture = assembly.addPicture(paintPoster({72, 64}, random.bits()));
+    const float y = side * (0.5f * size.y() + 0.012f);
+    const float x = 0.4f * size.x() * -side;
+    addQuad(assembly, {picture.material, Color::Ones()},
+            {frame * Point(x, y, 0.7f), frame * Point(-x, y, 0.7f), frame * Point(-x, y, 1.6f),
+             frame * Point(x, y, 1.6f)},
+            picture.rect);
+  }
+}
+
 void addClutter(Assembly& assembly) {
   for (std::uint32_t i = 0; i < 70; ++i) {
     Random random(841u, i);
@@ -224,10 +243,7 @@ void addClutter(Assembly& assembly) {
     } else if (kind == 2) {
       addTyreStack(assembly, place, 1 + random.below(5), random);
     } else if (kind == 3) {
-      addBox(assembly, {p.matte, {0.05f, 0.16f, 0.30f}}, frame, {1.1f, 1.1f, 2.2f});
-      addBox(assembly, {p.matte, {0.50f, 0.50f, 0.48f}}, shifted(frame, {0, 0, 2.2f}), {1.2f, 1.2f, 0.12f});
-      addBox(assembly, {p.matte, Color(0.04f, 0.12f, 0.25f) * random.range(0.7f, 1.5f)},
-             shifted(frame, {0, -0.54f, 0.15f}), {0.7f, 0.06f, 1.8f});
+      addCabin(assembly, frame, random);
     } else {
       addFlag(assembly, place, random.bits());
     }

@@ -39,7 +39,7 @@ void addTuft(Assembly& assembly, const Picture& picture, const Tuft& tuft, Rando
 
 void addGrass(Assembly& assembly, const Foliage& foliage) {
   Random random(501u);
-  constexpr int kTuftCount = 26000;
+  constexpr int kTuftCount = 31000;
   for (int i = 0; i < kTuftCount; ++i) {
     const int side = random.chance(0.5f) ? 1 : -1;
     const double s = random.unit() * course().length();
@@ -50,7 +50,7 @@ void addGrass(Assembly& assembly, const Foliage& foliage) {
     const float lush = noise(static_cast<float>(p.x()) / 2.2f, static_cast<float>(p.y()) / 2.2f, 502u);
     if (lush < -0.35f + 0.5f * random.bell() * 0.3f) continue;
     const float size =
-        (0.07f + 0.12f * smoothStep(0.0f, 3.0f, out)) * (1.0f + 0.7f * lush) * random.range(0.6f, 1.6f);
+        (0.05f + 0.11f * smoothStep(0.0f, 3.0f, out)) * (1.0f + 0.7f * lush) * random.range(0.6f, 1.6f);
     const Color turf = turfColor(p);
     const Color tint = (0.45f + 4.5f * turf) * random.range(0.75f, 1.25f);
     const bool flower = random.chance(0.12f + 0.2f * std::max(0.0f, lush));

@@ -70,24 +70,27 @@ const std::vector<Site>& sites() {
 }
 
 bool shadesOpenStretch(const Eigen::Vector2d& point, double height_m) {
-  constexpr double kStretches[][2] = {{-40, 70},  {150, 200}, {300, 350}, {450, 530},
-                                      {600, 640}, {720, 760}, {830, 900}};
-  // Azimuth of the sun there, and the half width that its path takes in an hour around it, rad; the tangent
+  struct OpenStretch {
+    double from, to;
+    bool morning;
+  };
+  constexpr OpenStretch kStretches[] = {{-30, 50, true},   {160, 190, false}, {305, 340, true},
+                                        {480, 520, false}, {610, 640, true},  {840, 890, false}};
+  // Azimuth of the sun, and the half width that its path takes in an hour around it, rad; the tangent
   // of 3°.
   constexpr double kMorning = 1.0472;
   constexpr double kEvening = -0.9599;
-  constexpr double kHalfWidth_rad = 0.10;
+  constexpr double kHalfWidth_rad = 0.07;
   constexpr double kSlope = 0.0524;
-  constexpr double kCrown_m = 4.0;
-  for (const auto& stretch : kStretches) {
-    for (double s = stretch[0]; s <= stretch[1]; s += 12.0) {
+  constexpr double kCrown_m = 3.0;
+  for (const OpenStretch& stretch : kStretches) {
+    for (double s = stretch.from; s <= stretch.to; s += 12.0) {
       const Eigen::Vector2d d = point - course().point({s, 0.0});
       const double distance = d.norm();
       if (kSlope * distance > height_m) continue;
       const double azimuth = std::atan2(d.x(), d.y());
       const double wide = kHalfWidth_rad + kCrown_m / distance;
-      // One of the two suns for each stretch is enough.
-      const double sun = static_cast<int>(stretch[0] / 50.0) % 2 == 0 ? kMorning : kEvening;
+      const double sun = stretch.morning ? kMorning : kEvening;
       if (std::abs(std::remainder(azimuth - sun, 2.0 * M_PI)) < wide) return true;
     }
   }

@@ -30,7 +30,6 @@ void addStripe(Canvas& canvas, const StretchMap& map, const Stripe& stripe, cons
 }
 
 void addStartLine(Canvas& canvas, const StretchMap& map) {
-  const double length = course().length();
   for (int row = 0; row < 3; ++row) {
     for (int k = 0; k < 12; ++k) {
       const float right = -4.1f + 0.683f * k;
@@ -42,7 +41,7 @@ void addStartLine(Canvas& canvas, const StretchMap& map) {
   }
   // Grid places: a bracket and its number each.
   for (int k = 0; k < 10; ++k) {
-    const double s = length - 5.0 - 7.0 * k;
+    const double s = map.near(-5.0 - 7.0 * k);
     const float right = k % 2 == 0 ? 0.7f : -3.3f;
     addStripe(canvas, map, {s, s + 0.22, right, right + 2.6f}, kWhite);
     addStripe(canvas, map, {s - 1.4, s, right, right + 0.15f}, kWhite);
@@ -62,9 +61,9 @@ void addWords(Canvas& canvas, const StretchMap& map) {
     float left;
     float height;
     const char* letters;
-  } words[] = {{118.0, 2.4f, 3.0f, "100"},    {138.0, 2.0f, 3.0f, "50"},        {289.0, 3.2f, 2.4f, "SLOW"},
-               {402.0, 1.4f, 2.6f, "T5"},     {508.0, 3.3f, 2.6f, "VIA SOLIS"}, {566.0, -1.0f, 2.4f, "T7"},
-               {655.0, 3.0f, 2.6f, "LUX 66"}, {742.0, 0.2f, 2.5f, "T9"},        {795.0, 2.4f, 2.8f, "BRAKE"},
+  } words[] = {{118.0, 2.4f, 3.0f, "100"},    {138.0, 2.0f, 3.0f, "50"},    {289.0, 3.2f, 2.4f, "SLOW"},
+               {402.0, 1.4f, 2.6f, "T5"},     {508.0, 3.3f, 2.6f, "SOLIS"}, {566.0, -1.0f, 2.4f, "T7"},
+               {655.0, 3.7f, 2.6f, "LUX 66"}, {742.0, 0.2f, 2.5f, "T9"},    {795.0, 3.3f, 2.8f, "BRAKE"},
                {866.0, 1.0f, 2.5f, "T11"},    {930.0, -0.6f, 2.5f, "PIT >"}};
   for (const auto& word : words) {
     if (!map.sees(word.along - 4.0, word.along + 4.0)) continue;
@@ -81,7 +80,7 @@ void addSurveyMarks(Canvas& canvas, const StretchMap& map) {
       {0.55f, 0.10f, 0.03f}, {0.05f, 0.20f, 0.45f}, kWhite, kYellow, {0.10f, 0.40f, 0.12f}};
   for (std::uint32_t i = 0; i < 260; ++i) {
     Random random(222u, i);
-    const double s = random.unit() * course().length();
+    const double s = map.near(random.unit() * course().length());
     if (!map.sees(s - 2.0, s + 2.0)) continue;
     const float left = random.range(-4.0f, 4.0f);
     const Ink ink{colors[random.below(5)], random.range(0.25f, 0.7f)};

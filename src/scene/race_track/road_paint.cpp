@@ -25,7 +25,8 @@ struct Slice {
   float edge[2];  // where the asphalt ends: right, left
   float kerb[2];  // width of kerbs: right, left
   Color kerb_color[2];
-  Color turf[2];  // at 5.5 m
+  Color turf[2];      // at the asphalt
+  Color far_turf[2];  // where the picture ends
 };
 
 Color kerbBlock(double along, int side) {
@@ -57,7 +58,8 @@ Slice sliceAt(double along) {
     slice.edge[k] = static_cast<float>(kHalfWidth) + 0.16f * fractal(s / 1.4f, 3.0f * k, 4, 66u);
     slice.kerb[k] = static_cast<float>(kerbWidth(along, side));
     slice.kerb_color[k] = kerbBlock(along, side);
-    slice.turf[k] = turfColor(slice.centre + 5.6 * side * slice.left);
+    slice.turf[k] = turfColor(slice.centre + kHalfWidth * side * slice.left);
+    slice.far_turf[k] = turfColor(slice.centre + kPaintedHalfWidth * side * slice.left);
   }
   return slice;
 }
@@ -86,13 +88,18 @@ Color asphalt(const Slice& slice, float left, float x, float y) {
 }
 
 Color turf(const Slice& slice, float left, float x, float y) {
-  Color color = slice.turf[left > 0.0f];
-  const float clump = fractal(x / 0.35f, y / 0.35f, 3, 81u);
+  const int k = left > 0.0f;
+  const float out = std::abs(left) - static_cast<float>(kHalfWidth);
+  const float outermost = static_cast<float>(kPaintedHalfWidth - kHalfWidth);
+  const float way = std::min(1.0f, out / outermost);
+  Color color = slice.turf[k] + way * (slice.far_turf[k] - slice.turf[k]);
+  // Fades out towards the rim, where plain turf takes over.
+  const float strength = 1.0f - smoothStep(0.6f, 1.0f, way);
+  const float clump = strength * fractal(x / 0.35f, y / 0.35f, 3, 81u);
   color *= 1.0f + 0.55f * clump;
-  const float hue = noise(x / 0.8f, y / 0.8f, 82u);
+  const float hue = strength * noise(x / 0.8f, y / 0.8f, 82u);
   color *= Color(1.0f + 0.22f * hue, 1.0f, 1.0f - 0.12f * hue);
   // Trodden soil and stones next to the asphalt.
-  const float out = std::abs(left) - static_cast<float>(kHalfWidth);
   const float bare = (1.0f - smoothStep(0.1f, 1.1f, out + 0.7f * fractal(x / 1.3f, y / 1.3f, 3, 83u)));
   color += 0.85f * bare * (Color(0.17f, 0.135f, 0.10f) * (1.0f + 0.4f * clump) - color);
   const std::uint32_t pebble = mix(static_cast<std::uint32_t>(static_cast<int>(std::floor(x * 22.0f))),

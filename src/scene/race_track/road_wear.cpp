@@ -10,7 +10,7 @@ const Color kBitumen(0.030f, 0.029f, 0.028f);
 void addPatches(Canvas& canvas, const StretchMap& map) {
   for (std::uint32_t i = 0; i < 70; ++i) {
     Random random(201u, i);
-    const double s = random.unit() * course().length();
+    const double s = map.near(random.unit() * course().length());
     const float length = random.range(0.7f, 6.0f);
     const float width = random.range(0.5f, 2.6f);
     const float left = random.range(-3.9f, 3.9f - width);
@@ -29,7 +29,7 @@ void addPatches(Canvas& canvas, const StretchMap& map) {
 void addCracks(Canvas& canvas, const StretchMap& map) {
   for (std::uint32_t i = 0; i < 620; ++i) {
     Random random(202u, i);
-    double s = random.unit() * course().length();
+    double s = map.near(random.unit() * course().length());
     double left = random.range(-4.3f, 4.3f);
     if (!map.sees(s - 16.0, s + 16.0)) continue;
     float heading = random.chance(0.5f) ? random.range(-0.4f, 0.4f) : random.range(1.2f, 1.9f);
@@ -52,7 +52,7 @@ void addCracks(Canvas& canvas, const StretchMap& map) {
 void addSkids(Canvas& canvas, const StretchMap& map) {
   for (std::uint32_t i = 0; i < 260; ++i) {
     Random random(203u, i);
-    const double s = random.unit() * course().length();
+    const double s = map.near(random.unit() * course().length());
     const float length = random.range(5.0f, 34.0f);
     if (!map.sees(s - 1.0, s + length + 1.0)) continue;
     const float start = static_cast<float>(course().drivingLine(s)) + 1.1f * random.bell();
@@ -77,7 +77,7 @@ void addSkids(Canvas& canvas, const StretchMap& map) {
 void addStains(Canvas& canvas, const StretchMap& map) {
   for (std::uint32_t i = 0; i < 520; ++i) {
     Random random(205u, i);
-    const double s = random.unit() * course().length();
+    const double s = map.near(random.unit() * course().length());
     if (!map.sees(s - 3.0, s + 3.0)) continue;
     const float left = random.range(-4.2f, 4.2f);
     const float radius = 0.05f + 0.7f * std::pow(random.unit(), 3.0f);
@@ -95,7 +95,7 @@ void addStains(Canvas& canvas, const StretchMap& map) {
 void addDebris(Canvas& canvas, const StretchMap& map) {
   for (std::uint32_t i = 0; i < 9000; ++i) {
     Random random(206u, i);
-    const double s = random.unit() * course().length();
+    const double s = map.near(random.unit() * course().length());
     if (!map.sees(s - 0.5, s + 0.5)) continue;
     const float left = random.chance(0.6f) ? (random.chance(0.5f) ? 1.0f : -1.0f) * random.range(3.2f, 6.5f)
                                            : random.range(-4.0f, 4.0f);
@@ -113,7 +113,7 @@ void addDebris(Canvas& canvas, const StretchMap& map) {
 void addCovers(Canvas& canvas, const StretchMap& map) {
   for (std::uint32_t i = 0; i < 14; ++i) {
     Random random(207u, i);
-    const double s = (i + random.unit()) / 14.0 * course().length();
+    const double s = map.near((i + random.unit()) / 14.0 * course().length());
     if (!map.sees(s - 1.0, s + 1.0)) continue;
     const float left = (random.chance(0.5f) ? 1.0f : -1.0f) * random.range(2.6f, 3.7f);
     const Pixel centre = map.at(s, left);
@@ -133,6 +133,11 @@ StretchMap::StretchMap(const Canvas& canvas, const RoadStretch& stretch)
       to_(stretch.to),
       along_px_(static_cast<float>(canvas.width() / (stretch.to - stretch.from))),
       left_px_(static_cast<float>(canvas.height() / (2.0 * kPaintedHalfWidth))) {}
+
+double StretchMap::near(double along) const {
+  const double length = course().length();
+  return along - length * std::round((along - 0.5 * (from_ + to_)) / length);
+}
 
 Pixel StretchMap::at(double along, double left) const {
   return {static_cast<float>(along - from_) * along_px_,

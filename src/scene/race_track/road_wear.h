@@ -15,7 +15,9 @@ class StretchMap {
  public:
   StretchMap(const Canvas& canvas, const RoadStretch& stretch);
   Pixel at(double along, double left) const;
-  /// Whether any of from … to is in the picture, at its place or one lap before or after.
+  /// The same place, counted in the lap in which it comes nearest to the picture.
+  double near(double along) const;
+  /// Whether any of from … to is in the picture.
   bool sees(double from, double to) const { return to > from_ && from < to_; }
   float perMetreAlong() const { return along_px_; }
   float perMetreLeft() const { return left_px_; }

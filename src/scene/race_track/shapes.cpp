@@ -104,8 +104,8 @@ void addBar(Assembly& assembly, const Paint& paint, const Ring& from, const Ring
 }
 
 void addLump(Assembly& assembly, const Paint& paint, const Lump& lump) {
-  constexpr int kRings = 6;
-  constexpr int kSides = 9;
+  constexpr int kRings = 5;
+  constexpr int kSides = 7;
   std::array<std::array<Point, kSides>, kRings + 1> grid;
   for (int i = 0; i <= kRings; ++i) {
     for (int k = 0; k < kSides; ++k) {

@@ -59,6 +59,30 @@ Color barkColor(Species species) {
   return {0.11f, 0.085f, 0.065f};
 }
 
+struct FoliageBlob {
+  Point centre;
+  float radius;
+  Point crown;  // middle of the whole crown
+  int sprays;
+  const std::array<Picture, kVariants>& pictures;
+  Color tint;
+};
+
+void addFoliageBlob(Assembly& assembly, const Tree& tree, const FoliageBlob& blob, Random& random) {
+  for (int k = 0; k < blob.sprays; ++k) {
+    const Point way = direction(random);
+    const Point place = blob.centre + blob.radius * way * std::cbrt(random.range(0.25f, 1.0f));
+    if (place.z() < tree.root.z() + 0.16f * tree.height) continue;
+    // Dark inside and below, light at the top.
+    const float shade =
+        0.62f + 0.75f * (place.z() - blob.crown.z()) / tree.height + 0.16f * way.z() + 0.10f * random.bell();
+    const Leaves leaves{blob.pictures[random.below(kVariants)], blob.tint * std::clamp(shade, 0.35f, 1.25f)};
+    const Point normal = ((place - blob.crown).normalized() + 0.6f * way + Point(0, 0, 0.35f)).normalized();
+    const float size = blob.radius * random.range(0.65f, 1.1f) * (tree.detail > 0.5f ? 1.0f : 1.5f);
+    addSpray(assembly, leaves, {place, normal, size}, random);
+  }
+}
+
 void addBroadLeaf(Assembly& assembly, const Foliage& foliage, const Tree& tree) {
   Random random(tree.seed);
   const Paint bark{assembly.palette().bark, barkColor(tree.species) * random.range(0.75f, 1.2f)};
@@ -79,8 +103,9 @@ void addBroadLeaf(Assembly& assembly, const Foliage& foliage, const Tree& tree) 
                                                          : 0.34f) *
                        random.range(0.85f, 1.15f);
   const Point middle = 0.5f * (fork + top) + Point(0, 0, 0.10f * h);
+  const auto& pictures = foliage.leaves[static_cast<int>(tree.species)];
   const int blobs = tree.detail > 0.5f ? 12 : 7;
-  const int sprays = static_cast<int>((tree.detail > 0.5f ? 270.0f : 100.0f) / blobs * (0.7f + 0.04f * h));
+  const int sprays = static_cast<int>((tree.detail > 0.5f ? 180.0f : 75.0f) / blobs * (0.7f + 0.04f * h));
   const Color tint = Color(1.0f + 0.14f * random.bell(), 1.0f, 1.0f + 0.1f * random.bell()).max(0.4f) *
                      random.range(0.8f, 1.2f);
   for (int i = 0; i < blobs; ++i) {
@@ -89,26 +114,13 @@ void addBroadLeaf(Assembly& assembly, const Foliage& foliage, const Tree& tree) 
     const Point blob =
         middle + out.cwiseProduct(Point(spread, spread, 0.34f * h)) * random.range(0.3f, 0.72f);
     const float radius = spread * random.range(0.48f, 0.72f);
-    if (tree.detail > 0.5f)
+    if (tree.detail > 0.5f && i % 2 == 0)
       addTube(assembly, bark,
               {{fork + 0.3f * i / blobs * (top - fork), 0.45f * girth},
                {0.5f * (fork + blob) + Point(0, 0, -0.03f * h), 0.3f * girth},
                {blob, 0.08f * girth}},
               5);
-    for (int k = 0; k < sprays; ++k) {
-      const Point way = direction(random);
-      const Point place = blob + radius * way * std::cbrt(random.range(0.25f, 1.0f));
-      if (place.z() < tree.root.z() + 0.16f * h) continue;
-      // Dark inside and below, light at the top.
-      const float shade =
-          0.62f + 0.30f * (place.z() - middle.z()) / (0.4f * h) + 0.16f * way.z() + 0.10f * random.bell();
-      const Leaves leaves{foliage.leaves[static_cast<int>(tree.species)][random.below(kVariants)],
-                          tint * std::clamp(shade, 0.35f, 1.25f)};
-      const Point normal = ((place - middle).normalized() + 0.6f * way + Point(0, 0, 0.35f)).normalized();
-      addSpray(assembly, leaves,
-               {place, normal, radius * random.range(0.6f, 1.0f) * (tree.detail > 0.5f ? 0.9f : 1.4f)},
-               random);
-    }
+    addFoliageBlob(assembly, tree, {blob, radius, middle, sprays, pictures, tint}, random);
   }
 }
 
@@ -201,7 +213,7 @@ void addFarTree(Assembly& assembly, const Foliage& foliage, const Tree& tree) {
   const bool conifer = tree.species == Species::kSpruce || tree.species == Species::kPine;
   const Color tint = Color(1.0f + 0.18f * random.bell(), 1.0f, 1.0f + 0.1f * random.bell()).max(0.4f) *
                      random.range(0.75f, 1.3f);
-  const int sprays = conifer ? 6 : 7;
+  const int sprays = conifer ? 5 : 6;
   for (int i = 0; i < sprays; ++i) {
     const float t = (static_cast<float>(i) + 0.5f) / static_cast<float>(sprays);
     const Point way = direction(random);
@@ -222,7 +234,7 @@ void addFarTree(Assembly& assembly, const Foliage& foliage, const Tree& tree) {
 void addForest(Assembly& assembly, const Foliage& foliage) {
   Random random(521u);
   int planted = 0;
-  for (int i = 0; i < 30000 && planted < 4600; ++i) {
+  for (int i = 0; i < 60000 && planted < 5600; ++i) {
     const float angle = random.range(0.0f, 2.0f * kPi);
     const float distance = 190.0f + 1300.0f * random.unit() * random.unit();
     const Eigen::Vector2d p(-10.0 + distance * std::cos(angle), 90.0 + 0.9 * distance * std::sin(angle));
@@ -244,25 +256,27 @@ void addForest(Assembly& assembly, const Foliage& foliage) {
 void addTrees(Assembly& assembly, const Foliage& foliage) {
   std::vector<Eigen::Vector2d> planted;
   Random random(401u);
-  for (int i = 0; i < 5200 && planted.size() < 430; ++i) {
-    const TrackPlace place{random.unit() * course().length(),
-                           (random.chance(0.5f) ? 1.0 : -1.0) * random.range(10.0f, 60.0f)};
+  for (int i = 0; i < 14000 && planted.size() < 560; ++i) {
+    const TrackPlace place{
+        random.unit() * course().length(),
+        (random.chance(0.5f) ? 1.0 : -1.0) * (9.5f + 50.0f * random.unit() * random.unit())};
     const Eigen::Vector2d p = course().point(place);
     const float x = static_cast<float>(p.x());
     const float y = static_cast<float>(p.y());
-    const float density = smoothStep(-0.25f, 0.45f, noise(x / 34.0f, y / 34.0f, 402u)) + 0.10f;
+    const float density = smoothStep(-0.30f, 0.40f, noise(x / 34.0f, y / 34.0f, 402u)) + 0.12f;
     const std::uint32_t seed = random.bits();
     if (!random.chance(density) || !isFree(p, 1.8)) continue;
     bool crowded = false;
-    for (const Eigen::Vector2d& other : planted) crowded = crowded || (other - p).squaredNorm() < 3.4 * 3.4;
+    for (const Eigen::Vector2d& other : planted) crowded = crowded || (other - p).squaredNorm() < 3.1 * 3.1;
     if (crowded) continue;
     Random own(seed);
     const Species species = pick(own, noise(x / 70.0f, y / 70.0f, 403u));
-    const float height = heightOf(species, own);
+    // Taller in the middle of groves.
+    const float height = heightOf(species, own) * (0.95f + 0.4f * density);
     if (shadesOpenStretch(p, height)) continue;
     planted.push_back(p);
     const double aside = std::abs(course().nearest(p).left);
-    addTree(assembly, foliage, {groundPoint(p), species, height, aside < 26.0 ? 1.0f : 0.3f, seed});
+    addTree(assembly, foliage, {groundPoint(p), species, height, aside < 24.0 ? 1.0f : 0.3f, seed});
   }
   for (int i = 0; i < 330; ++i) {
     const TrackPlace place{random.unit() * course().length(),

@@ -113,6 +113,15 @@ class TestBags(unittest.TestCase):
         for name in ('summary.csv', 'frames.csv', 'captures.csv', 'path.csv'):
             self.assertEqual(read(self.path('merged'), name), read(self.path('offline'), name))
 
+    def test_without_a_config_all_streams_of_the_bags_are_compared_by_all_differences(self):
+        self.write_bags({'all.bag': [2, 0, 1]}, range(2))
+        done = self.evaluate_bags('--out', self.path('out'), self.path('all.bag'))
+        self.assertEqual(done.returncode, 0, done.stdout)
+        summary = rows(self.path('out'), 'summary.csv')
+        self.assertEqual(sorted({(r['a'], r['b']) for r in summary}), [('h04', 'h12'), ('h04', 'h20'), ('h12', 'h20')])
+        self.assertTrue({'boolean_rgb', 'boolean_grey', 'euclidean_rgb', 'euclidean_grey', 'sift', 'orb', 'brisk'} <=
+                        {r['difference'] for r in summary})
+
     def test_bad_bags_and_arguments_are_one_clear_line(self):
         self.write_bags({'one.bag': [2]})
         with open(self.path('no.bag'), 'w') as file:

@@ -2,6 +2,7 @@
 """Wrong parameters stop the node with one line; topics and services beside the images."""
 import os
 import signal
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -15,7 +16,7 @@ from std_srvs.srv import Trigger
 from sunlit.msg import PairDifference, Summary
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from evaluator_runs import Evaluator, Streams, picture, rows, stamp_of, wait_until  # noqa: E402
+from evaluator_runs import LONGEST_WAIT_S, Evaluator, Streams, picture, rows, stamp_of, wait_until  # noqa: E402
 
 
 class TestParameters(unittest.TestCase):
@@ -67,6 +68,23 @@ class TestParameters(unittest.TestCase):
                 runs.append(yaml.safe_load(file)['settings'])
         streams.close()
         self.assertEqual(runs[0], runs[1])
+
+    def test_the_launch_file_passes_its_arguments_and_ends_by_itself(self):
+        out = self.folder.name + '/launched'
+        launch = subprocess.Popen(['roslaunch', 'sunlit', 'evaluator.launch', 'streams:=[h04, h12]', 'output:=' + out,
+                                   'pairs:=[[h12, h04]]', 'differences:=[orb, boolean_grey]', 'poses:=3', 'images:=all',
+                                   'exit_when_done:=true'], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        streams = Streams(['h04', 'h12'])
+        wait_until(lambda: all(p.get_num_connections() > 0 for p in streams.images), 'connections')
+        for pose in range(3):
+            for stream in range(2):
+                streams.send(stream, stamp_of(pose), picture(pose, stream, 160, 120))
+        output, _ = launch.communicate(timeout=LONGEST_WAIT_S)
+        streams.close()
+        self.assertIn('3 poses in ' + out, output)
+        self.assertEqual([(r['a'], r['b'], r['difference'], r['n']) for r in rows(out, 'summary.csv')],
+                         [('h12', 'h04', 'orb', '3'), ('h12', 'h04', 'boolean_grey', '3')])
+        self.assertEqual(sorted(os.listdir(out + '/images/h04')), ['000000.png', '000001.png', '000002.png'])
 
     def test_values_summary_and_drawn_matches_are_published(self):
         streams = Streams(['h04', 'h12'])

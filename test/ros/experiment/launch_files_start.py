@@ -4,10 +4,14 @@ import unittest
 
 import rospy
 import rostest
-from launching import Launched, WAYPOINTS, WORLD
+from launching import WAYPOINTS, WORLD, Launched, kill_leftovers
 
 
 class LaunchFilesStart(unittest.TestCase):
+
+    @classmethod
+    def tearDownClass(cls):
+        kill_leftovers()
 
     def check(self, launched, *topics):
         """Each topic gets a message."""

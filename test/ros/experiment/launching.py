@@ -26,7 +26,10 @@ def free_port():
 class Launched:
     """One roslaunch, with everything that it started known by a mark in their environment."""
 
+    all_of_them = []
+
     def __init__(self, launch_file, **arguments):
+        self.all_of_them.append(self)
         self.mark = "SUNLIT_TEST_RUN=" + uuid.uuid4().hex
         self.port = free_port()
         key, value = self.mark.split("=")
@@ -100,6 +103,12 @@ class Launched:
         """A ROS command line tool on the master of this launch."""
         return subprocess.run(command, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               universal_newlines=True, timeout=TIMEOUT_S)
+
+
+def kill_leftovers():
+    """What a failed test did not end."""
+    for launched in Launched.all_of_them:
+        launched.kill()
 
 
 def small_experiment(output, **changes):

@@ -1,13 +1,15 @@
 #!/usr/bin/python3
 """What cannot work ends the node with one clear line, which names file and place, and a status that is not 0."""
 import os
+import re
 import shutil
 import tempfile
 import unittest
 
 import rospy
 import rostest
-from rendering import RenderNode, parameters
+import yaml
+from rendering import PACKAGE, RenderNode, parameters
 
 BOX = """<sdf version="1.6"><world name="w"><model name="m"><link name="l"><visual name="v"><geometry>
 <mesh><uri>file://%s</uri></mesh></geometry></visual></link></model></world></sdf>"""
@@ -47,6 +49,20 @@ class RenderRefuses(unittest.TestCase):
         self.check(parameters(path={"file": ""}), "/refused/path/file", "race_track")
         self.check(parameters(path={"count": 1000}), "path/count", "1000", "20 poses")
         self.check(parameters(path={"topic": "route"}), "path/file", "path/topic")
+
+    def test_every_parameter_is_explained_in_the_shipped_file(self):
+        def keys(tree, prefix=""):
+            for key, value in tree.items():
+                yield from keys(value, prefix + key + "/") if isinstance(value, dict) else [prefix + key]
+
+        with open(os.path.join(PACKAGE, "config", "render.yaml")) as file:
+            shipped = yaml.safe_load(file)
+        with RenderNode("refused", dict(shipped, unknown_key=1)) as node:  # all but that one are accepted
+            _, lines = node.end()
+        fatal = [line for line in lines if "FATAL" in line][0]
+        self.assertIn("/refused/unknown_key is unknown", fatal)
+        known = re.search("known are ([a-z0-9_/, ]*)", fatal).group(1).split(", ")
+        self.assertEqual(sorted(set(known) - {"conditions"}), sorted(keys(shipped)))
 
     def test_worlds(self):
         missing = os.path.join(self.folder, "missing.world")

@@ -13,7 +13,8 @@ from sunlit.msg import Capture, SunPosition
 from tf2_msgs.msg import TFMessage
 
 TIMEOUT_S = 60.0  # how long a machine under load may take for what should be seconds
-SUPPORT = os.path.join(rospkg.RosPack().get_path("sunlit"), "test", "support", "worlds")
+PACKAGE = rospkg.RosPack().get_path("sunlit")
+SUPPORT = os.path.join(PACKAGE, "test", "support", "worlds")
 WORLD = os.path.join(SUPPORT, "two_boxes.world")
 WAYPOINTS = os.path.join(SUPPORT, "straight.csv")
 BOX_FACE_M = 12.0  # x of the face that the camera drives towards

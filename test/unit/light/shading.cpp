@@ -25,7 +25,8 @@ double reflectedShare(float albedo, float roughness, float metalness, const Eige
   double sum = 0.0;
   for (int i = 0; i < kZenith; ++i) {
     const double zenith = (i + 0.5) * 90.0 / kZenith;
-    const double ring = std::sin(zenith * kRadPerDeg) * std::cos(zenith * kRadPerDeg) * (0.5 * kPi / kZenith) * (2.0 * kPi / kAzimuth);
+    const double ring = std::sin(zenith * kRadPerDeg) * std::cos(zenith * kRadPerDeg) *
+                        (0.5 * kPi / kZenith) * (2.0 * kPi / kAzimuth);
     for (int j = 0; j < kAzimuth; ++j) {
       const Eigen::Vector3f to_eye = towards(zenith, (j + 0.5) * 360.0 / kAzimuth);
       sum += ring * directReflectance(surface(to_eye, albedo, roughness, metalness), to_light, 0.0f)[0];
@@ -38,9 +39,11 @@ TEST(Reflection, NeverGivesBackMoreThanArrives) {
   for (const float roughness : {0.2f, 0.5f, 1.0f}) {
     for (const float metalness : {0.0f, 1.0f}) {
       for (const double zenith : {5.0, 45.0, 70.0}) {
-        // The sum over the hemisphere is exact to 0.1 % for these lobes. Albedo 0.8, fresh snow, is the most that a world
-        // should have: the model's diffuse part takes no notice of grazing light, and for 1.0 would give back 11 % too much.
-        EXPECT_LT(reflectedShare(metalness > 0.0f ? 1.0f : 0.8f, roughness, metalness, towards(zenith, 0.0)), 1.001)
+        // The sum over the hemisphere is exact to 0.1 % for these lobes. Albedo 0.8, fresh snow, is the most
+        // that a world should have: the model's diffuse part takes no notice of grazing light, and for 1.0
+        // would give back 11 % too much.
+        EXPECT_LT(reflectedShare(metalness > 0.0f ? 1.0f : 0.8f, roughness, metalness, towards(zenith, 0.0)),
+                  1.001)
             << "roughness " << roughness << ", metalness " << metalness << ", zenith " << zenith;
       }
     }
@@ -62,7 +65,9 @@ TEST(Reflection, IsReciprocal) {
 }
 
 TEST(Reflection, IsNoneForLightFromBehind) {
-  EXPECT_EQ(directReflectance(surface(towards(30.0, 0.0), 0.5f, 0.5f, 0.0f), towards(91.0, 0.0), 0.0f).maxCoeff(), 0.0f);
+  EXPECT_EQ(
+      directReflectance(surface(towards(30.0, 0.0), 0.5f, 0.5f, 0.0f), towards(91.0, 0.0), 0.0f).maxCoeff(),
+      0.0f);
 }
 
 TEST(Highlight, IsBrightestInTheMirroredDirectionAndBlurredByTheSource) {
@@ -76,7 +81,8 @@ TEST(Highlight, IsBrightestInTheMirroredDirectionAndBlurredByTheSource) {
   EXPECT_GT(at(50.0, 0.05f), at(50.0, 0.0f));
 }
 
-/// The directional albedo of the lobe in truth: an eye's light to all sides is by reciprocity that of all sides to it.
+/// The directional albedo of the lobe in truth: an eye's light to all sides is by reciprocity that of all
+/// sides to it.
 TEST(Ambient, LobeAgreesWithTheSumOverTheHemisphere) {
   for (const float roughness : {0.3f, 0.6f, 1.0f}) {
     for (const double zenith : {10.0, 45.0, 70.0}) {
@@ -93,7 +99,8 @@ TEST(Ambient, NeverGivesBackMoreThanArrives) {
   for (const float roughness : {0.03f, 0.5f, 1.0f}) {
     for (const float metalness : {0.0f, 1.0f}) {
       for (const double zenith : {0.0, 60.0, 89.0}) {
-        const AmbientReflectance a = ambientReflectance(surface(towards(zenith, 0.0), 1.0f, roughness, metalness));
+        const AmbientReflectance a =
+            ambientReflectance(surface(towards(zenith, 0.0), 1.0f, roughness, metalness));
         // A uniform sky of 1 cd/m² gives π lx.
         EXPECT_LE((a.diffuse * static_cast<float>(kPi) + a.specular).maxCoeff(), 1.0001f);
       }

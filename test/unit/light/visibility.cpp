@@ -32,14 +32,16 @@ std::shared_ptr<const Geometry> geometryOf(scene::Scene scene) {
 
 bool blocked(const Visibility& visibility, const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) {
   std::uint8_t answer = 2;
-  visibility.occluded({&origin.x(), &origin.y(), &origin.z(), &direction.x(), &direction.y(), &direction.z(), 1}, &answer);
+  visibility.occluded(
+      {&origin.x(), &origin.y(), &origin.z(), &direction.x(), &direction.y(), &direction.z(), 1}, &answer);
   return answer == 1;
 }
 
 TEST(Geometry, ChunksHoldEachTriangleOnceByMaterialAndPlace) {
   scene::Scene scene;
   scene.materials = {plain(), plain()};
-  for (int i = 0; i < 10; ++i) scene.meshes.push_back(sheet(i % 2, 40.0f * static_cast<float>(i), 0.0f, 0.0f));
+  for (int i = 0; i < 10; ++i)
+    scene.meshes.push_back(sheet(i % 2, 40.0f * static_cast<float>(i), 0.0f, 0.0f));
   const auto geometry = geometryOf(scene);
   EXPECT_EQ(geometry->triangles.size(), 20u);
   std::uint32_t next = 0;
@@ -107,7 +109,8 @@ TEST(Rays, OfAnyNumberAreAnsweredInOrder) {
     std::vector<float> x(count), y(count, 0.1f), zero(count, 0.0f), up(count, 1.0f);
     for (std::size_t i = 0; i < count; ++i) x[i] = i % 3 == 0 ? 0.2f : 3.0f;
     std::vector<std::uint8_t> answer(count + 1, 7);
-    visibility.occluded({x.data(), y.data(), zero.data(), zero.data(), zero.data(), up.data(), count}, answer.data());
+    visibility.occluded({x.data(), y.data(), zero.data(), zero.data(), zero.data(), up.data(), count},
+                        answer.data());
     for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(answer[i], i % 3 == 0 ? 1 : 0) << i << " of " << count;
     EXPECT_EQ(answer[count], 7);
   }
@@ -123,7 +126,8 @@ TEST(FirstSeen, IsTheNearestVisibleTriangle) {
     const auto triangle = visibility.firstSeen(origin, direction, near);
     return triangle ? geometry->positions[geometry->triangles[*triangle][0]].z() : -1.0f;
   };
-  EXPECT_EQ(height({0.1f, 0.2f, 0.0f}, {0.0f, 0.0f, 1.0f}, 0.05f), 8.0f);  // through the back of the lower one
+  EXPECT_EQ(height({0.1f, 0.2f, 0.0f}, {0.0f, 0.0f, 1.0f}, 0.05f),
+            8.0f);  // through the back of the lower one
   EXPECT_EQ(height({0.1f, 0.2f, 9.0f}, {0.0f, 0.0f, -1.0f}, 0.05f), 8.0f);
   EXPECT_EQ(height({0.1f, 0.2f, 9.0f}, {0.0f, 0.0f, -1.0f}, 2.0f), 5.0f);
   EXPECT_EQ(height({5.0f, 0.2f, 9.0f}, {0.0f, 0.0f, -1.0f}, 0.05f), -1.0f);

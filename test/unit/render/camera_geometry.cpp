@@ -1,4 +1,5 @@
-// Depth, pose and camera model agree; pixels are where the camera says; textures and faces are the right way round.
+// Depth, pose and camera model agree; pixels are where the camera says; textures and faces are the right way
+// round.
 #include <gtest/gtest.h>
 
 #include "test_scenes.h"
@@ -6,7 +7,8 @@
 namespace sunlit::test {
 namespace {
 
-/// Hills of 64 × 64 patches far from the origin of `map`, where single precision is a quarter of a millimetre.
+/// Hills of 64 × 64 patches far from the origin of `map`, where single precision is a quarter of a
+/// millimetre.
 scene::Scene hills(const Eigen::Vector3f& centre) {
   scene::Scene scene;
   const int material = addMaterial(&scene, Eigen::Array3f(0.5f, 0.5f, 0.5f));
@@ -17,7 +19,8 @@ scene::Scene hills(const Eigen::Vector3f& centre) {
   for (int j = 0; j < kSide; ++j) {
     for (int i = 0; i < kSide; ++i) {
       const float x = static_cast<float>(i - kSide / 2), y = static_cast<float>(j - kSide / 2);
-      mesh.positions.push_back(centre + Eigen::Vector3f(x, y, 0.8f * std::sin(0.5f * x) * std::cos(0.4f * y)));
+      mesh.positions.push_back(centre +
+                               Eigen::Vector3f(x, y, 0.8f * std::sin(0.5f * x) * std::cos(0.4f * y)));
       mesh.normals.push_back(Eigen::Vector3f::UnitZ());
     }
   }
@@ -32,7 +35,8 @@ scene::Scene hills(const Eigen::Vector3f& centre) {
   return scene;
 }
 
-/// Depth at which the pixel's ray meets the mesh first, by brute force in double precision; infinite for none.
+/// Depth at which the pixel's ray meets the mesh first, by brute force in double precision; infinite for
+/// none.
 double trueDepth(const scene::Mesh& mesh, const Eigen::Vector3d& eye, const Eigen::Vector3d& ray) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& t : mesh.triangles) {
@@ -98,9 +102,11 @@ TEST(Depth, IsNotANumberForSky) {
 TEST(Depth, ReachesFromCentimetresToTheHorizon) {
   scene::Scene scene;
   const int material = addMaterial(&scene, Eigen::Array3f::Ones());
-  addPatch(&scene, material, {0.06f, 0.0f, -1.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 2.0f});  // left half, at 6 cm
+  addPatch(&scene, material, {0.06f, 0.0f, -1.0f}, {0.0f, 1.0f, 0.0f},
+           {0.0f, 0.0f, 2.0f});  // left half, at 6 cm
   addPatch(&scene, material, {15000.0f, -9e4f, -9e4f}, {0.0f, 1.8e5f, 0.0f}, {0.0f, 0.0f, 1.8e5f});
-  addPatch(&scene, material, {15001.0f, -9e4f, -9e4f}, {0.0f, 1.8e5f, 0.0f}, {0.0f, 0.0f, 1.8e5f});  // 1 m behind
+  addPatch(&scene, material, {15001.0f, -9e4f, -9e4f}, {0.0f, 1.8e5f, 0.0f},
+           {0.0f, 0.0f, 1.8e5f});  // 1 m behind
   render::Renderer renderer(shared(scene), smallCamera());
   renderer.look(lookingAt({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}));
   const image::DepthImage depth = renderer.depth();
@@ -109,7 +115,8 @@ TEST(Depth, ReachesFromCentimetresToTheHorizon) {
 }
 
 TEST(Pixel, CentreIsWhereTheCameraModelSaysIt) {
-  // A small square whose projection covers exactly pixels 100 … 103 × 40 … 42, edges half a pixel beyond the centres.
+  // A small square whose projection covers exactly pixels 100 … 103 × 40 … 42, edges half a pixel beyond the
+  // centres.
   render::RenderOptions options = smallCamera(160, 120, 60.0);
   options.supersampling = 2;
   options.camera.cx += 3.25;  // off-centre, so that mirrored or shifted conventions show
@@ -149,8 +156,10 @@ TEST(Texture, OriginIsItsTopLeftCornerAndItIsNotMirrored) {
   render::Renderer renderer(shared(scene), smallCamera());
   renderer.look(lookingAt({0.0, 0.0, 0.0}, {0.0, 5.0, 0.0}));
   const image::LinearImage image = renderer.light(daylightAt(180.0, 30.0));
-  // 1 m at 5 m is 27.7 px; texel centres lie half of that from the middle, where bilinear filtering leaves them pure.
-  const Eigen::Array3f red = at(image, 66, 46), green = at(image, 93, 46), blue = at(image, 66, 73), white = at(image, 93, 73);
+  // 1 m at 5 m is 27.7 px; texel centres lie half of that from the middle, where bilinear filtering leaves
+  // them pure.
+  const Eigen::Array3f red = at(image, 66, 46), green = at(image, 93, 46), blue = at(image, 66, 73),
+                       white = at(image, 93, 73);
   EXPECT_GT(red[0], 5.0f * red[1]);
   EXPECT_GT(red[0], 5.0f * red[2]);
   EXPECT_GT(green[1], 5.0f * green[0]);
@@ -163,7 +172,8 @@ TEST(Face, SeenFromBehindIsInvisibleUnlessDoubleSided) {
     scene::Scene scene;
     const int material = addMaterial(&scene, Eigen::Array3f::Ones());
     scene.materials[0].double_sided = double_sided;
-    addPatch(&scene, material, {-1.0f, 5.0f, -1.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 2.0f});  // front to the south
+    addPatch(&scene, material, {-1.0f, 5.0f, -1.0f}, {2.0f, 0.0f, 0.0f},
+             {0.0f, 0.0f, 2.0f});  // front to the south
     render::Renderer renderer(shared(scene), smallCamera());
     renderer.look(lookingAt({0.0, 0.0, 0.0}, {0.0, 5.0, 0.0}));
     EXPECT_TRUE(std::isfinite(*renderer.depth().at(80, 60)));
@@ -225,7 +235,8 @@ TEST(Renderer, SeesOnlySkyInAnEmptyScene) {
   const image::LinearImage image = renderer.light(day);
   const Eigen::Vector3d ray = pose.linear() * renderer.options().camera.unproject({20.0, 30.0});
   const Eigen::Array3f sky = day.skyLuminance(ray.normalized().cast<float>()).value;
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(image, 20, 30)[c], sky[c], 1e-3f * sky[c]);  // direction in single precision
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(at(image, 20, 30)[c], sky[c], 1e-3f * sky[c]);  // direction in single precision
 }
 
 TEST(SunDisc, InViewGivesTheEyeTheSunsIlluminance) {

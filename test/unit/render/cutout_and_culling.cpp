@@ -1,4 +1,5 @@
-// Masks cut the same holes into picture and shadow, at any distance; culling never takes away what is in view.
+// Masks cut the same holes into picture and shadow, at any distance; culling never takes away what is in
+// view.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -43,7 +44,8 @@ TEST(Mask, CutsTheSameHolesIntoPictureAndShadow) {
   map.look(lookingAt({0.0, 0.0, 52.0}, {0.0, 0.0, 0.0}));  // 10 px a metre at the sheet's height
   const image::DepthImage depth = map.depth();
   const auto height = [&](double east, double north) {
-    return 52.0f - *depth.at(static_cast<int>(std::lround(49.5 + 10.0 * east)), static_cast<int>(std::lround(49.5 - 10.0 * north)));
+    return 52.0f - *depth.at(static_cast<int>(std::lround(49.5 + 10.0 * east)),
+                             static_cast<int>(std::lround(49.5 - 10.0 * north)));
   };
   EXPECT_NEAR(height(-2.0, 2.0), 2.0, 1e-3);
   EXPECT_NEAR(height(-2.0, -1.0), 2.0, 1e-3);
@@ -64,15 +66,18 @@ TEST(Mask, CutsTheSameHolesIntoPictureAndShadow) {
 
 double solidShare(const std::vector<std::uint8_t>& rgba, float cutoff) {
   std::size_t solid = 0;
-  for (std::size_t i = 3; i < rgba.size(); i += 4) solid += static_cast<float>(rgba[i]) >= 255.0f * cutoff ? 1 : 0;
+  for (std::size_t i = 3; i < rgba.size(); i += 4)
+    solid += static_cast<float>(rgba[i]) >= 255.0f * cutoff ? 1 : 0;
   return 4.0 * static_cast<double>(solid) / static_cast<double>(rgba.size());
 }
 
 TEST(Mipmap, OfAMaskLetsAsMuchThroughAsTheFullTexture) {
-  // A fifth is solid, strewn at random. Averages tend to the middle: without care all of it vanishes by the third level.
+  // A fifth is solid, strewn at random. Averages tend to the middle: without care all of it vanishes by the
+  // third level.
   scene::Texture hedge{"hedge", 128, 128, std::vector<std::uint8_t>(128 * 128 * 4, 200)};
   std::minstd_rand random(3);
-  for (std::size_t i = 0; i < 128 * 128; ++i) hedge.rgba[4 * i + 3] = static_cast<std::uint8_t>(random() % 256);
+  for (std::size_t i = 0; i < 128 * 128; ++i)
+    hedge.rgba[4 * i + 3] = static_cast<std::uint8_t>(random() % 256);
   const double share = solidShare(hedge.rgba, 0.8f);
   const auto levels = render::smallerLevels(hedge, 0.8f);
   ASSERT_EQ(levels.size(), 7u);
@@ -119,8 +124,11 @@ TEST(Frustum, KeepsEveryBoxThatHasAPointInView) {
   int culled = 0;
   for (int i = 0; i < 2000; ++i) {
     // A box about a point that is in view, at any depth.
-    const Eigen::Vector3d point = view.map_from_optical * (uniform(0.1, 500.0) * view.camera.unproject({uniform(-0.4, 159.4), uniform(-0.4, 119.4)}));
-    const Eigen::Vector3d low(uniform(0.0, 9.0), uniform(0.0, 9.0), uniform(0.0, 9.0)), high(uniform(0.0, 9.0), uniform(0.0, 9.0), uniform(0.0, 9.0));
+    const Eigen::Vector3d point =
+        view.map_from_optical *
+        (uniform(0.1, 500.0) * view.camera.unproject({uniform(-0.4, 159.4), uniform(-0.4, 119.4)}));
+    const Eigen::Vector3d low(uniform(0.0, 9.0), uniform(0.0, 9.0), uniform(0.0, 9.0)),
+        high(uniform(0.0, 9.0), uniform(0.0, 9.0), uniform(0.0, 9.0));
     EXPECT_TRUE(frustum.touches({(point - low).cast<float>(), (point + high).cast<float>()}));
     const Eigen::Vector3d anywhere(uniform(-300.0, 300.0), uniform(-300.0, 300.0), uniform(-9.0, 9.0));
     culled += frustum.touches({anywhere.cast<float>(), (anywhere + high).cast<float>()}) ? 0 : 1;
@@ -130,14 +138,17 @@ TEST(Frustum, KeepsEveryBoxThatHasAPointInView) {
 }
 
 TEST(Picture, IsTheSameWhetherAnObjectIsOneMeshOrSpreadOverCells) {
-  // The same patches in many cells and in one: a wide mesh is split into cells of its own, here by moving all by 32 m.
+  // The same patches in many cells and in one: a wide mesh is split into cells of its own, here by moving all
+  // by 32 m.
   const auto scene = [](float shift) {
     scene::Scene s;
     const int material = addMaterial(&s, {0.5f, 0.4f, 0.3f});
     std::minstd_rand random(7);
     for (int i = 0; i < 400; ++i) {
-      const auto x = static_cast<float>(random() % 400) - 200.0f, y = static_cast<float>(random() % 400) - 200.0f;
-      addPatch(&s, material, {x + shift, y + shift, 0.01f * static_cast<float>(i)}, {8.0f, 0.0f, 0.0f}, {0.0f, 8.0f, 1.0f});
+      const auto x = static_cast<float>(random() % 400) - 200.0f,
+                 y = static_cast<float>(random() % 400) - 200.0f;
+      addPatch(&s, material, {x + shift, y + shift, 0.01f * static_cast<float>(i)}, {8.0f, 0.0f, 0.0f},
+               {0.0f, 8.0f, 1.0f});
     }
     return s;
   };

@@ -47,8 +47,8 @@ TEST(Detail, HasTheContrastThatTheMaterialAsksFor) {
   const Albedos plain = relative(fromAbove(detailedGround(0.0f, 0.32f, 0.08f), {700.0, -300.0, 256.0}));
   const Albedos detailed = relative(fromAbove(detailedGround(0.15f, 0.32f, 0.08f), {700.0, -300.0, 256.0}));
   EXPECT_LT(plain.deviation, 0.002);  // nothing but rounding of the albedo
-  // 64 cells of the coarsest octave: their mean wanders by an eighth of their deviation. The mirror part of the light
-  // does not vary and takes 1 % away.
+  // 64 cells of the coarsest octave: their mean wanders by an eighth of their deviation. The mirror part of
+  // the light does not vary and takes 1 % away.
   EXPECT_NEAR(detailed.deviation, 0.15, 0.02);
   EXPECT_NEAR(detailed.mean, plain.mean, 0.03 * plain.mean);
 }
@@ -59,7 +59,8 @@ TEST(Detail, StandsStillInTheMapWhenTheCameraMoves) {
   const image::LinearImage there = fromAbove(scene, {3000.10, -2000.0, 256.0});  // 10 px to the right
   double worst = 0.0;
   for (int y = 0; y < 256; ++y) {
-    for (int x = 10; x < 256; ++x) worst = std::max(worst, std::abs(1.0 - at(there, x - 10, y)[1] / at(here, x, y)[1]));
+    for (int x = 10; x < 256; ++x)
+      worst = std::max(worst, std::abs(1.0 - at(there, x - 10, y)[1] / at(here, x, y)[1]));
   }
   // Single precision of a place 2 km off moves the finest octave, 8 cm, by 1/600 of its wavelength at most.
   EXPECT_LT(worst, 0.02);

@@ -8,8 +8,9 @@ namespace {
 
 constexpr float kPiFloat = static_cast<float>(kPi);
 
-/// Reflectance of the ground for one light at normal view, by hand: Lambert with what Fresnel leaves, and a GGX lobe of
-/// roughness 1, whose distribution is 1 / π everywhere and whose visibility term is 1 / (2 (n·l + n·v)).
+/// Reflectance of the ground for one light at normal view, by hand: Lambert with what Fresnel leaves, and a
+/// GGX lobe of roughness 1, whose distribution is 1 / π everywhere and whose visibility term is 1 / (2 (n·l +
+/// n·v)).
 Eigen::Array3f byHand(const Eigen::Array3f& albedo, float n_l, float n_v, float v_h) {
   const float fresnel = 0.04f + 0.96f * std::pow(1.0f - v_h, 5.0f);
   return (albedo / kPiFloat * (1.0f - fresnel) + fresnel / kPiFloat * 0.5f / (n_l + n_v)) * n_l;
@@ -28,13 +29,14 @@ TEST(Ground, IsAsBrightAsItsAlbedoTimesTheSunsCosine) {
     // Half way between the eye (straight up) and the sun.
     const auto v_h = static_cast<float>(std::cos(0.5 * (90.0 - elevation_deg) * kRadPerDeg));
     const Eigen::Array3f sun = byHand(albedo, sine, 1.0f, v_h) * day.sun().illuminance.value;
-    // The sky's mirror part depends on a fitted lobe: of 4 % reflectance it can add 0.04 / π, or take that share of the
-    // diffuse part.
+    // The sky's mirror part depends on a fitted lobe: of 4 % reflectance it can add 0.04 / π, or take that
+    // share of the diffuse part.
     const Eigen::Array3f sky = skyPart(day, Eigen::Vector3f::UnitZ(), albedo);
     const Eigen::Array3f lobe = 0.04f / kPiFloat * day.skyIlluminance(Eigen::Vector3f::UnitZ()).value;
     for (int c = 0; c < 3; ++c) {
       // 0.3 %: albedo is stored in 10 bits of its square root, 0.2 % of 0.1 is half a step.
-      EXPECT_NEAR(seen[c], sun[c] + sky[c], 0.003f * sun[c] + lobe[c]) << elevation_deg << " deg, channel " << c;
+      EXPECT_NEAR(seen[c], sun[c] + sky[c], 0.003f * sun[c] + lobe[c])
+          << elevation_deg << " deg, channel " << c;
     }
   }
 }
@@ -94,14 +96,17 @@ TEST(Shadow, LiesOppositeTheSunInMapCoordinates) {
   // Sun in the north-east at 45°: the shadow reaches 4 m to the south-west, (−2.83, −2.83) m.
   const sky::Daylight day = daylightAt(45.0, 45.0);
   const image::LinearImage image = renderer.light(day);
-  const auto ground = [&](double east, double north) { return at(image, MapView::column(east), MapView::row(north))[1]; };
+  const auto ground = [&](double east, double north) {
+    return at(image, MapView::column(east), MapView::row(north))[1];
+  };
   const float lit = ground(-10.0, 10.0);
   const float shaded = ground(5.0 - 2.0, 2.0 - 2.0);
   EXPECT_LT(shaded, 0.5f * lit);
   EXPECT_NEAR(ground(5.0 + 2.0, 2.0 + 2.0), lit, 0.01f * lit);  // towards the sun
   EXPECT_NEAR(ground(5.0 - 2.0, 2.0 + 2.0), lit, 0.01f * lit);
   EXPECT_NEAR(ground(5.0 + 2.0, 2.0 - 2.0), lit, 0.01f * lit);
-  EXPECT_NEAR(ground(5.0 - 4.2, 2.0 - 4.2), lit, 0.01f * lit);  // beyond its end: 2.83 + half the pole's diagonal 0.71
+  EXPECT_NEAR(ground(5.0 - 4.2, 2.0 - 4.2), lit,
+              0.01f * lit);  // beyond its end: 2.83 + half the pole's diagonal 0.71
 }
 
 /// Width of the run of ground from which the sun goes from 10 % to 90 % visible, m.
@@ -113,7 +118,8 @@ double penumbraWidth(double edge_height_m) {
   addPatch(&scene, material, {-200.0f, -200.0f, static_cast<float>(edge_height_m)}, {200.0f, 0.0f, 0.0f},
            {0.0f, 400.0f, 0.0f});
   render::RenderOptions options;
-  options.camera = image::PinholeCamera{400, 16, 2000.0, 2000.0, 199.5, 7.5};  // 2.5 mm a pixel on the ground 5 m below
+  options.camera =
+      image::PinholeCamera{400, 16, 2000.0, 2000.0, 199.5, 7.5};  // 2.5 mm a pixel on the ground 5 m below
   options.supersampling = 4;
   render::Renderer renderer(shared(scene), options);
   renderer.look(lookingAt({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}));
@@ -135,8 +141,8 @@ double penumbraWidth(double edge_height_m) {
 }
 
 TEST(Penumbra, IsAsWideAsTheSunsDiscMakesIt) {
-  // A straight edge at height h hides a disc of radius r gradually over 2 h tan r; a disc is cut to 10 % and to 90 % of its area by
-  // lines 0.687 r from its centre. h = 20 m, r = 0.2666°: 0.128 m.
+  // A straight edge at height h hides a disc of radius r gradually over 2 h tan r; a disc is cut to 10 % and
+  // to 90 % of its area by lines 0.687 r from its centre. h = 20 m, r = 0.2666°: 0.128 m.
   const double expected = 2.0 * 20.0 * std::tan(0.2666 * kRadPerDeg) * 0.687;
   // 16 points of the disc and 16 rows of pixels leave some 5 %.
   EXPECT_NEAR(penumbraWidth(20.0), expected, 0.1 * expected);
@@ -185,7 +191,8 @@ float contrast(const image::LinearImage& image, int x0, int y0, int x1, int y1) 
 }
 
 TEST(Walls, LetNoSunThroughTheirSeams) {
-  for (const double offset : {0.0, 3000.0}) {  // near the origin of `map`, and where single precision is 0.2 mm
+  for (const double offset :
+       {0.0, 3000.0}) {  // near the origin of `map`, and where single precision is 0.2 mm
     scene::Scene scene;
     const int material = addMaterial(&scene, Eigen::Array3f(0.5f, 0.5f, 0.5f));
     const auto o = static_cast<float>(offset);
@@ -205,7 +212,13 @@ TEST(Walls, LetNoSunThroughTheirSeams) {
         const float ground = 0.6f / kPiFloat * day.skyIlluminance(-Eigen::Vector3f::UnitZ()).value.maxCoeff();
         float side = 0.0f;
         for (int k = 0; k < 4; ++k) {
-          const Eigen::Vector3f n(k == 0 ? 1.0f : k == 1 ? -1.0f : 0.0f, k == 2 ? 1.0f : k == 3 ? -1.0f : 0.0f, 0.0f);
+          const Eigen::Vector3f n(k == 0   ? 1.0f
+                                  : k == 1 ? -1.0f
+                                           : 0.0f,
+                                  k == 2   ? 1.0f
+                                  : k == 3 ? -1.0f
+                                           : 0.0f,
+                                  0.0f);
           side = std::max(side, 0.6f / kPiFloat * day.skyIlluminance(n).value.maxCoeff());
         }
         EXPECT_LT(brightest, std::max({sky, ground, side}) + one_leak)
@@ -221,14 +234,15 @@ TEST(Ground, HasNoAcneUnderALowSunFarFromTheOrigin) {
   // Uneven facets by the hundred; all face the sun.
   for (int j = 0; j < 12; ++j) {
     for (int i = 0; i < 12; ++i) {
-      addPatch(&scene, material, {4000.0f + 2.0f * i, 4000.0f + 2.0f * j, 7.3f}, {2.0f, 0.0f, 0.0f}, {0.0f, 2.0f, 0.0f});
+      addPatch(&scene, material, {4000.0f + 2.0f * i, 4000.0f + 2.0f * j, 7.3f}, {2.0f, 0.0f, 0.0f},
+               {0.0f, 2.0f, 0.0f});
     }
   }
   render::Renderer renderer(shared(scene), smallCamera(160, 120, 60.0));
   renderer.look(lookingAt({4012.0, 4004.0, 8.5}, {4012.0, 4012.0, 7.3}));
   const image::LinearImage image = renderer.light(daylightAt(140.0, 2.0));
-  // The lower part sees nothing but level ground. The mirror part of the sky varies with the angle of view, a shadowed
-  // sample would take away a quarter at least.
+  // The lower part sees nothing but level ground. The mirror part of the sky varies with the angle of view, a
+  // shadowed sample would take away a quarter at least.
   for (int y = 70; y < 119; ++y) {
     for (int x = 0; x < 159; ++x) {
       ASSERT_LT(contrast(image, x, y, x + 2, y + 2), 1.05f) << "pixel " << x << ", " << y;

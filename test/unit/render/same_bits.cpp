@@ -14,11 +14,14 @@
 namespace sunlit::test {
 namespace {
 
-/// A few hundred boxes over some hundred metres, textured, cut out and detailed, with a sun low enough for penumbrae.
+/// A few hundred boxes over some hundred metres, textured, cut out and detailed, with a sun low enough for
+/// penumbrae.
 scene::Scene town() {
   scene::Scene scene;
   std::minstd_rand random(1);
-  const auto uniform = [&random] { return static_cast<float>(random()) / static_cast<float>(std::minstd_rand::max()); };
+  const auto uniform = [&random] {
+    return static_cast<float>(random()) / static_cast<float>(std::minstd_rand::max());
+  };
   scene::Texture texture{"leaves", 64, 64, {}};
   for (int i = 0; i < 64 * 64; ++i) {
     for (int c = 0; c < 4; ++c) texture.rgba.push_back(static_cast<std::uint8_t>(255.0f * uniform()));
@@ -34,7 +37,8 @@ scene::Scene town() {
   addGround(&scene, rough, 300.0f);
   for (int i = 0; i < 300; ++i) {
     const Eigen::Vector3f low(300.0f * uniform() - 150.0f, 300.0f * uniform() - 150.0f, 0.0f);
-    const Eigen::Vector3f high = low + Eigen::Vector3f(1.0f + 5.0f * uniform(), 1.0f + 5.0f * uniform(), 1.0f + 9.0f * uniform());
+    const Eigen::Vector3f high =
+        low + Eigen::Vector3f(1.0f + 5.0f * uniform(), 1.0f + 5.0f * uniform(), 1.0f + 9.0f * uniform());
     addBox(&scene, i % 3 == 0 ? leaves : plain, low, high);
   }
   return scene;
@@ -64,7 +68,8 @@ TEST(Picture, HasTheSameBitsForAnyNumberOfThreads) {
   EXPECT_TRUE(sameBits(rendered(4), one)) << "in a second run";
 }
 
-/// The number of threads of the software rasteriser is read once a process, so each number has a process of its own.
+/// The number of threads of the software rasteriser is read once a process, so each number has a process of
+/// its own.
 TEST(Picture, HasTheSameBitsForAnyNumberOfRasteriserThreads) {
   const char* counted = std::getenv("SUNLIT_TEST_HASH");
   if (counted) {
@@ -79,8 +84,8 @@ TEST(Picture, HasTheSameBitsForAnyNumberOfRasteriserThreads) {
   }
   std::vector<std::string> hashes;
   for (const char* threads : {"0", "1", "2", "4"}) {
-    const std::string command = std::string("SUNLIT_TEST_HASH=1 LP_NUM_THREADS=") + threads +
-                                " /proc/" + std::to_string(getpid()) +
+    const std::string command = std::string("SUNLIT_TEST_HASH=1 LP_NUM_THREADS=") + threads + " /proc/" +
+                                std::to_string(getpid()) +
                                 "/exe --gtest_filter=Picture.HasTheSameBitsForAnyNumberOfRasteriserThreads";
     FILE* pipe = popen(command.c_str(), "r");
     ASSERT_NE(pipe, nullptr);

@@ -21,10 +21,10 @@ inline int addMaterial(scene::Scene* scene, const Eigen::Array3f& base_color) {
   return static_cast<int>(scene->materials.size()) - 1;
 }
 
-/// The parallelogram origin + s·a + t·b, s and t in [0, 1]; its front is to the side of a × b. Texture coordinates
-/// (s, t).
-inline void addPatch(scene::Scene* scene, int material, const Eigen::Vector3f& origin, const Eigen::Vector3f& a,
-                     const Eigen::Vector3f& b) {
+/// The parallelogram origin + s·a + t·b, s and t in [0, 1]; its front is to the side of a × b. Texture
+/// coordinates (s, t).
+inline void addPatch(scene::Scene* scene, int material, const Eigen::Vector3f& origin,
+                     const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
   scene::Mesh mesh;
   mesh.name = "patch";
   mesh.material = material;
@@ -41,7 +41,8 @@ inline void addGround(scene::Scene* scene, int material, float half) {
 }
 
 /// A closed box, seen from outside.
-inline void addBox(scene::Scene* scene, int material, const Eigen::Vector3f& low, const Eigen::Vector3f& high) {
+inline void addBox(scene::Scene* scene, int material, const Eigen::Vector3f& low,
+                   const Eigen::Vector3f& high) {
   const Eigen::Vector3f x((high - low).x(), 0.0f, 0.0f);
   const Eigen::Vector3f y(0.0f, (high - low).y(), 0.0f);
   const Eigen::Vector3f z(0.0f, 0.0f, (high - low).z());
@@ -56,7 +57,8 @@ inline void addBox(scene::Scene* scene, int material, const Eigen::Vector3f& low
 /// A camera at `eye` whose optical axis points at `target`, upright.
 inline Eigen::Isometry3d lookingAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
   const Eigen::Vector3d z = (target - eye).normalized();
-  const Eigen::Vector3d world_up = std::abs(z.z()) > 0.999 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d world_up =
+      std::abs(z.z()) > 0.999 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d x = z.cross(world_up).normalized();
   Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
   map_from_optical.linear().col(0) = x;
@@ -86,7 +88,8 @@ inline Eigen::Array3f at(const image::LinearImage& image, int x, int y) {
 }
 
 /// What skylight alone makes of a rough dielectric, relative error allowed to what uses it: see each test.
-inline Eigen::Array3f skyPart(const sky::Daylight& day, const Eigen::Vector3f& normal, const Eigen::Array3f& albedo) {
+inline Eigen::Array3f skyPart(const sky::Daylight& day, const Eigen::Vector3f& normal,
+                              const Eigen::Array3f& albedo) {
   return albedo / static_cast<float>(kPi) * day.skyIlluminance(normal).value;
 }
 

@@ -1,0 +1,72 @@
+#!/usr/bin/python3
+"""What the arguments of experiment.launch become."""
+import os
+import subprocess
+import tempfile
+import unittest
+
+import rosunit
+import yaml
+
+SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "scripts", "experiment_parameters")
+
+
+def tell(*words):
+    """What the script prints, or the line that it gives up with."""
+    done = subprocess.run(["/usr/bin/python3", SCRIPT] + list(words), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          universal_newlines=True)
+    return yaml.safe_load(done.stdout) if done.returncode == 0 else done.stderr
+
+
+class ExperimentArguments(unittest.TestCase):
+
+    def test_hours_are_named_by_the_clock(self):
+        self.assertEqual(tell("hour_names", "[4, 12, 20]"), ["h04", "h12", "h20"])
+        self.assertEqual(tell("hour_names", "[4.5, 0, 23.9997222]"), ["h04_30", "h00", "h23_59_59"])
+        self.assertEqual(tell("conditions", "12.25"), {"h12_15": {"hour": 12, "minute": 15, "second": 0.0}})
+        # The last half second of a day does not spill into the next.
+        self.assertEqual(tell("hour_names", "[23.99999]"), ["h23_59_59"])
+
+    def test_bad_hours_are_refused(self):
+        for hours in ("[]", "[24]", "[-1]", "[4, 4.0]", "[true]", "[.nan]", "{4: 5}", "[4", "noon"):
+            self.assertIn("argument hours is", tell("conditions", hours), hours)
+
+    def test_all_pairs_and_each_hour_with_itself(self):
+        self.assertEqual(tell("pairs", "[4, 12, 20]", "true", "10"),
+                         [{"a": "h04", "b": "h12"}, {"a": "h04", "b": "h20"}, {"a": "h12", "b": "h20"},
+                          {"a": "h04", "b": "self_test/h04", "every": 10},
+                          {"a": "h12", "b": "self_test/h12", "every": 10},
+                          {"a": "h20", "b": "self_test/h20", "every": 10}])
+        self.assertEqual(tell("pairs", "[4, 12]", "false", "10"), [{"a": "h04", "b": "h12"}])
+        self.assertIn("two hours or more", tell("pairs", "[4]", "false", "10"))
+
+    def test_an_earlier_run_is_taken_up_where_it_has_a_gap(self):
+        with tempfile.TemporaryDirectory() as folder:
+            words = ("resume_at", folder, "[4, 12]", "true", "2", "[boolean_rgb, orb]")
+            self.assertEqual(tell(*words), 0)
+            rows = ["pose,stamp,a,b,difference,value,features_a,features_b,matches,zero_second"]
+            pairs = {0: (("h04", "h12"), ("h04", "self_test/h04"), ("h12", "self_test/h12")), 1: (("h04", "h12"),),
+                     2: (("h04", "h12"), ("h04", "self_test/h04")), 3: (("h04", "h12"),)}
+            for pose, here in pairs.items():
+                rows += ["%d,1000.0,%s,%s,%s,0.5,0,0,0,0" % (pose, a, b, difference)
+                         for a, b in here for difference in ("boolean_rgb", "orb")]
+            with open(os.path.join(folder, "frames.csv"), "w") as frames:
+                frames.write("\n".join(rows) + "\n4,1000.4,h04,h1")  # torn by a crash
+            self.assertEqual(tell(*words), 2)  # one self-test of pose 2 is missing
+
+    def test_dates_and_places(self):
+        self.assertEqual(tell("date_time", "2024-07-01", "3"),
+                         {"year": 2024, "month": 7, "day": 1, "timezone": 3.0, "rate": 0.0})
+        self.assertIn("argument date is '2024-02-31'", tell("date_time", "2024-02-31", "3"))
+        self.assertIn("argument timezone is", tell("date_time", "2024-07-01", "19"))
+        self.assertEqual(tell("site", "[55.5, 49, 90]"), {"latitude": 55.5, "longitude": 49.0, "elevation": 90.0})
+        self.assertIn("argument site is", tell("site", "[55.5, 49]"))
+
+    def test_files_are_seen_from_where_roslaunch_was_started(self):
+        self.assertEqual(tell("file", "race_track"), "race_track")
+        self.assertEqual(tell("file", "some.world"), os.path.join(os.getcwd(), "some.world"))
+        self.assertEqual(tell("file", ""), "")
+
+
+if __name__ == "__main__":
+    rosunit.unitrun("sunlit", "experiment_arguments", ExperimentArguments)
