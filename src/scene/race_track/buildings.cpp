@@ -155,6 +155,17 @@ void addHouseAt(Assembly& assembly, const Site& site, std::uint32_t seed_index) 
   addHouse(assembly, house);
 }
 
+// The ground in front of the pits, cast in slabs.
+void addApron(Assembly& assembly, const Frame& frame, float width, float depth) {
+  for (int i = 0; i < 12; ++i) {
+    Random random(652u, static_cast<std::uint32_t>(i));
+    const float slab = width / 12.0f;
+    addBox(assembly, {assembly.palette().concrete, Color(0.27f, 0.26f, 0.245f) * random.range(0.75f, 1.15f)},
+           shifted(frame, {(static_cast<float>(i) - 5.5f) * slab, -0.5f * depth - 4.4f, -0.9f}),
+           {slab - 0.03f, 7.8f, 0.9f});
+  }
+}
+
 // Garages with offices above and a flat roof.
 void addPits(Assembly& assembly, const Site& site) {
   constexpr int kBays = 9;
@@ -197,6 +208,7 @@ void addPits(Assembly& assembly, const Site& site) {
          {width + 1.0f, kDepth_m + 2.2f, 0.35f});
   addBox(assembly, {p.concrete, {0.16f, 0.155f, 0.15f}}, shifted(frame, {0, 0, -0.6f}),
          {width + 0.6f, kDepth_m + 0.8f, 0.62f});
+  addApron(assembly, frame, width, kDepth_m);
   addBox(assembly, {p.plaster, {0.42f, 0.41f, 0.38f}}, shifted(frame, {0, 0.5f * kDepth_m - 0.2f, 0.0f}),
          {width, 0.3f, 7.3f});
   for (const float side : {-0.5f, 0.5f})

@@ -31,6 +31,9 @@ class Random {
   std::uint32_t count_ = 0;
 };
 
+/// The hash of the square of the given grid that (x, y) lies in.
+std::uint32_t squareHash(float x, float y, std::uint32_t seed);
+
 /// Smooth noise of wavelength 1 in −1 … 1.
 float noise(float x, float y, std::uint32_t seed);
 

@@ -1,6 +1,7 @@
 #include "scene/race_track/road_paint.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scene/race_track/ground.h"
@@ -64,20 +65,32 @@ Slice sliceAt(double along) {
   return slice;
 }
 
+// How much rubber lies so far from the driving line, m: most under the wheels, some between them. From a
+// table, which is cheaper than exponentials for every pixel.
+float wheelTrack(float distance) {
+  constexpr int kPerMetre = 64;
+  static const std::array<float, 10 * kPerMetre> table = [] {
+    std::array<float, 10 * kPerMetre> values;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const float d = static_cast<float>(i) / kPerMetre;
+      values[i] = std::exp(-(d - 0.75f) * (d - 0.75f) / 0.18f) + 0.45f * std::exp(-d * d / 3.0f);
+    }
+    return values;
+  }();
+  return table[std::min(static_cast<std::size_t>(distance * kPerMetre), table.size() - 1)];
+}
+
 Color asphalt(const Slice& slice, float left, float x, float y) {
   const float s = static_cast<float>(slice.along);
   float tone = slice.tone * (1.0f + 0.24f * fractal(x / 3.5f, y / 3.5f, 3, 71u));
   // Longitudinal seams of the paver, and lanes laid on different days.
   tone *= 1.0f + 0.07f * noise(left * 0.6f + slice.seam, s / 160.0f, 73u);
   // Grains of stone.
-  const std::uint32_t grain = mix(static_cast<std::uint32_t>(static_cast<int>(std::floor(x * 25.0f))),
-                                  static_cast<std::uint32_t>(static_cast<int>(std::floor(y * 25.0f))), 74u);
+  const std::uint32_t grain = squareHash(25.0f * x, 25.0f * y, 74u);
   tone *=
       0.88f + 0.24f * static_cast<float>(grain & 255u) / 255.0f + ((grain >> 8) % 61u == 0u ? 0.5f : 0.0f);
   // Rubber where the wheels run.
-  const float off = std::abs(left - slice.line) - 0.75f;
-  const float track =
-      std::exp(-off * off / 0.18f) + 0.45f * std::exp(-(left - slice.line) * (left - slice.line) / 3.0f);
+  const float track = wheelTrack(std::abs(left - slice.line));
   tone *= 1.0f - slice.rubber * std::min(1.0f, track) * (0.75f + 0.4f * noise(s / 3.0f, left * 2.5f, 75u));
   Color color = tone * Color(1.03f, 1.0f, 0.95f);
   // Dust gathers off the line.
@@ -102,8 +115,7 @@ Color turf(const Slice& slice, float left, float x, float y) {
   // Trodden soil and stones next to the asphalt.
   const float bare = (1.0f - smoothStep(0.1f, 1.1f, out + 0.7f * fractal(x / 1.3f, y / 1.3f, 3, 83u)));
   color += 0.85f * bare * (Color(0.17f, 0.135f, 0.10f) * (1.0f + 0.4f * clump) - color);
-  const std::uint32_t pebble = mix(static_cast<std::uint32_t>(static_cast<int>(std::floor(x * 22.0f))),
-                                   static_cast<std::uint32_t>(static_cast<int>(std::floor(y * 22.0f))), 84u);
+  const std::uint32_t pebble = squareHash(22.0f * x, 22.0f * y, 84u);
   if (static_cast<float>(pebble & 1023u) < 140.0f * bare)
     color = Color(0.26f, 0.24f, 0.21f) * (0.5f + (pebble >> 24) / 255.0f);
   return color;

@@ -14,7 +14,7 @@ struct RoadStretch {
 };
 /// The picture reaches so far to each side of the centre line, m.
 constexpr double kPaintedHalfWidth = 7.0;
-constexpr int kPaintedHeight_px = 700;
+constexpr int kPaintedHeight_px = 620;
 
 Canvas paintRoad(const RoadStretch& stretch);
 
