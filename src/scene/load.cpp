@@ -9,9 +9,7 @@
 #include "scene/resource_finder.h"
 #include "scene/scene_builder.h"
 #include "scene/sdf_world.h"
-#ifdef SUNLIT_HAS_RACE_TRACK
 #include "sunlit/scene/race_track.h"
-#endif
 
 namespace sunlit::scene {
 namespace {
@@ -40,9 +38,7 @@ Scene loadMeshFile(const std::string& file, const ResourceFinder& finder) {
 }  // namespace
 
 Scene load(const std::string& world, const SearchPath& search_path) {
-#ifdef SUNLIT_HAS_RACE_TRACK
   if (world == kRaceTrack) return raceTrack();
-#endif
   const ResourceFinder finder(search_path, world);
   const Found found = finder.find(world, world);
   if (!found.file || std::filesystem::is_directory(*found.file)) {

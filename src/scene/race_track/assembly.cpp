@@ -40,7 +40,7 @@ Assembly::Assembly() {
   palette_.glass = addMaterial(plain("glass", 0.08f, grain(0.20f, 1.5f, 0.05f, 0.8f)));
   palette_.bark = addMaterial(plain("bark", 0.95f, grain(0.35f, 0.6f, 0.01f, 0.9f)));
   palette_.stone = addMaterial(plain("stone", 0.9f, grain(0.30f, 1.0f, 0.01f, 0.9f)));
-  Detail turf = grain(0.38f, 9.0f, 0.01f, 0.95f);
+  Detail turf = grain(0.38f, 6.0f, 0.012f, 0.95f);
   turf.tint = {1.1f, 0.9f, 0.9f};
   palette_.grass = addMaterial(plain("grass", 1.0f, turf));
   palette_.gravel = addMaterial(plain("gravel", 0.95f, grain(0.35f, 2.0f, 0.015f, 1.1f)));

@@ -159,7 +159,7 @@ void addTyreStack(Assembly& assembly, const Eigen::Vector3f& place, int count, R
     std::vector<Ring> rings = {ring(0.02f, 0.86f * r), ring(0.45f, r), ring(0.98f, 0.86f * r)};
     // The hole shows on the uppermost only.
     if (k + 1 == count) rings.insert(rings.end(), {ring(0.99f, 0.6f * r), ring(0.55f, 0.55f * r)});
-    addTube(assembly, {assembly.palette().rubber, color}, rings, 9);
+    addTube(assembly, {assembly.palette().rubber, color}, rings, 8);
     z += thickness;
   }
 }

@@ -39,7 +39,7 @@ void addTuft(Assembly& assembly, const Picture& picture, const Tuft& tuft, Rando
 
 void addGrass(Assembly& assembly, const Foliage& foliage) {
   Random random(501u);
-  constexpr int kTuftCount = 31000;
+  constexpr int kTuftCount = 25000;
   for (int i = 0; i < kTuftCount; ++i) {
     const int side = random.chance(0.5f) ? 1 : -1;
     const double s = random.unit() * course().length();

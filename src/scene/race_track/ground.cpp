@@ -84,7 +84,7 @@ struct LandGrid {
 };
 
 LandGrid makeLand() {
-  constexpr double kFine_m = 4.0;
+  constexpr double kFine_m = 4.6;
   constexpr double kReach_m = 2600.0;
   constexpr float kSunk_m = 0.5f;
   const std::vector<double> xs = gridLines(-260.0, 232.0, kFine_m, kReach_m);

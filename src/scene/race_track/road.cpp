@@ -99,8 +99,8 @@ int roadMaterial(Assembly& assembly, int texture, bool asphalt) {
   material.base_texture = texture;
   material.roughness = asphalt ? 0.85f : 1.0f;
   material.detail.contrast = asphalt ? 0.22f : 0.38f;
-  material.detail.coarsest_m = asphalt ? 0.6f : 9.0f;
-  material.detail.finest_m = asphalt ? 0.006f : 0.01f;
+  material.detail.coarsest_m = asphalt ? 0.6f : 6.0f;
+  material.detail.finest_m = asphalt ? 0.009f : 0.012f;
   material.detail.gain = 0.95f;
   // As the open turf has it, so that no seam shows.
   if (!asphalt) material.detail.tint = {1.1f, 0.9f, 0.9f};

@@ -78,7 +78,7 @@ void addFoliageBlob(Assembly& assembly, const Tree& tree, const FoliageBlob& blo
         0.62f + 0.75f * (place.z() - blob.crown.z()) / tree.height + 0.16f * way.z() + 0.10f * random.bell();
     const Leaves leaves{blob.pictures[random.below(kVariants)], blob.tint * std::clamp(shade, 0.35f, 1.25f)};
     const Point normal = ((place - blob.crown).normalized() + 0.6f * way + Point(0, 0, 0.35f)).normalized();
-    const float size = blob.radius * random.range(0.65f, 1.1f) * (tree.detail > 0.5f ? 1.0f : 1.5f);
+    const float size = blob.radius * random.range(0.65f, 1.1f) * (tree.detail > 0.5f ? 1.1f : 1.6f);
     addSpray(assembly, leaves, {place, normal, size}, random);
   }
 }
@@ -96,7 +96,7 @@ void addBroadLeaf(Assembly& assembly, const Foliage& foliage, const Tree& tree) 
            {tree.root + Point(0, 0, 0.05f * h), girth},
            {fork, 0.8f * girth},
            {top, 0.15f * girth}},
-          tree.detail > 0.5f ? 8 : 5);
+          tree.detail > 0.5f ? 7 : 4);
   const float spread = h *
                        (tree.species == Species::kBirch  ? 0.21f
                         : tree.species == Species::kLime ? 0.28f
@@ -105,7 +105,7 @@ void addBroadLeaf(Assembly& assembly, const Foliage& foliage, const Tree& tree) 
   const Point middle = 0.5f * (fork + top) + Point(0, 0, 0.10f * h);
   const auto& pictures = foliage.leaves[static_cast<int>(tree.species)];
   const int blobs = tree.detail > 0.5f ? 12 : 7;
-  const int sprays = static_cast<int>((tree.detail > 0.5f ? 180.0f : 75.0f) / blobs * (0.7f + 0.04f * h));
+  const int sprays = static_cast<int>((tree.detail > 0.5f ? 142.0f : 62.0f) / blobs * (0.7f + 0.04f * h));
   const Color tint = Color(1.0f + 0.14f * random.bell(), 1.0f, 1.0f + 0.1f * random.bell()).max(0.4f) *
                      random.range(0.8f, 1.2f);
   for (int i = 0; i < blobs; ++i) {
@@ -119,7 +119,7 @@ void addBroadLeaf(Assembly& assembly, const Foliage& foliage, const Tree& tree) 
               {{fork + 0.3f * i / blobs * (top - fork), 0.45f * girth},
                {0.5f * (fork + blob) + Point(0, 0, -0.03f * h), 0.3f * girth},
                {blob, 0.08f * girth}},
-              5);
+              4);
     addFoliageBlob(assembly, tree, {blob, radius, middle, sprays, pictures, tint}, random);
   }
 }

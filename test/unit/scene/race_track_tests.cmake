@@ -1,1 +1,0 @@
-sunlit_test(scene race_track LIBRARIES sunlit_path)
