@@ -62,6 +62,7 @@ class Workspace(unittest.TestCase):
         shutil.rmtree(self.folder / "devel")
         shutil.rmtree(self.folder / "build")
         self.experiment("install")
+        self.run_in_workspace(f"/usr/bin/python3 {SOURCE}/test/ros/experiment/launch_files_start.py --text", "install")
 
 
 if __name__ == "__main__":

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """Every launch file starts, does its work and ends with status 0 at Ctrl-C."""
+import sys
+import tempfile
 import unittest
 
-import rospy
-import rostest
+import rosunit
 from launching import WAYPOINTS, WORLD, Launched, kill_leftovers
 
 
@@ -20,6 +21,9 @@ class LaunchFilesStart(unittest.TestCase):
             heard = launched.ros("rostopic", "echo", "-n", "1", "--noarr", topic)
             self.assertEqual(heard.returncode, 0, heard.stdout)
             self.assertIn("header", heard.stdout)
+        self.finish(launched)
+
+    def finish(self, launched):
         self.assertEqual(launched.interrupt(), 0, launched.said())
         self.assertEqual(launched.left_running(), [])
 
@@ -33,7 +37,14 @@ class LaunchFilesStart(unittest.TestCase):
     def test_demo(self):
         self.check(Launched("demo.launch", world=WORLD, path=WAYPOINTS), "/sun", "/path")
 
+    def test_evaluator(self):
+        with tempfile.TemporaryDirectory() as output:
+            launched = Launched("evaluator.launch", streams="[a, b]", output=output)
+            launched.wait_for(lambda: "data: 0" in launched.ros("rostopic", "echo", "-n", "1",
+                                                                "/evaluator/progress").stdout, "said its progress")
+            self.finish(launched)
+
 
 if __name__ == "__main__":
-    rospy.init_node("launch_files_start")
-    rostest.rosrun("sunlit", "launch_files_start", LaunchFilesStart)
+    # Each launch file has a master of its own, so this needs none; also run from an install space.
+    rosunit.unitrun("sunlit", "launch_files_start", LaunchFilesStart, sysargs=sys.argv)

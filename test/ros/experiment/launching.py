@@ -7,12 +7,10 @@ import tempfile
 import time
 import uuid
 
-import rospkg
-
 TIMEOUT_S = 240.0  # for runs that take seconds on an idle machine
-PACKAGE = rospkg.RosPack().get_path("sunlit")
-WORLD = os.path.join(PACKAGE, "test", "support", "worlds", "two_boxes.world")
-WAYPOINTS = os.path.join(PACKAGE, "test", "support", "worlds", "straight.csv")
+WORLDS = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support", "worlds")
+WORLD = os.path.join(WORLDS, "two_boxes.world")
+WAYPOINTS = os.path.join(WORLDS, "straight.csv")
 POSES = 20
 DIFFERENCES = "[boolean_rgb, euclidean_grey, orb]"
 
