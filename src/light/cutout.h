@@ -24,16 +24,30 @@ class Cutouts {
  private:
   struct Triangle {
     std::array<Eigen::Vector2f, 3> texture_coordinates;
-    std::int32_t texture;
-    float cutoff;  ///< of alpha, 0 … 255
+    std::int32_t mask;  ///< index into masks_
   };
-  struct AlphaPlane {
-    int width = 0, height = 0;
+  /// A texture's alpha with one cutoff. Most queries fall between four texels that are all solid or all clear:
+  /// two bits for each such square answer them, in far less memory than the texels, which would not stay in a
+  /// core's cache.
+  struct Mask {
+    Mask(const scene::Texture& source, float alpha_cutoff);
+
+    enum Square : unsigned { kClear = 0, kSolid = 1, kMixed = 2 };
+    /// Of the square whose top left corner is the centre of texel (x, y).
+    unsigned square(int x, int y) const;
+    float interpolated(int x0, int y0, float fx, float fy) const;
+
+    const scene::Texture* texture;  ///< only to tell masks apart
+    int width, height;
+    float cutoff;  ///< of alpha, 0 … 255
     std::vector<std::uint8_t> alpha;
+    /// Blocks of 16 × 16 squares, one word a row of a block, so that neighbours share a cache line.
+    std::vector<std::uint32_t> squares;
+    int blocks_a_row;
   };
   std::vector<std::uint32_t> opaque_, masked_;
   std::vector<Triangle> triangles_;  ///< parallel to masked_
-  std::vector<AlphaPlane> planes_;   ///< one a texture of the scene; empty where no mask uses it
+  std::vector<Mask> masks_;          ///< one a texture and cutoff
 };
 
 }  // namespace sunlit::light

@@ -16,9 +16,6 @@ namespace {
 
 enum GeometryNumber : unsigned { kOpaque = 0, kMasked = 1 };
 
-constexpr int kPacket =
-    8;  ///< rays a query; the fastest width for coherent rays here, and present on every CPU
-
 void fail(const std::string& what, RTCDevice device) {
   throw std::runtime_error("ray library (Embree): " + what + ", error code " +
                            std::to_string(static_cast<int>(rtcGetDeviceError(device))));
@@ -60,6 +57,43 @@ void passInvisible(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
+void occludedPacket(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay8* packet) {
+  rtcOccluded8(valid, scene, context, packet);
+}
+void occludedPacket(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay16* packet) {
+  rtcOccluded16(valid, scene, context, packet);
+}
+
+/// `Packet` holds kWidth rays.
+template <typename Packet, int kWidth>
+void occludedInPackets(RTCScene scene, const Rays& rays, std::uint8_t* blocked) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(64) Packet packet{};
+  alignas(64) int valid[kWidth];
+  for (std::size_t begin = 0; begin < rays.count; begin += kWidth) {
+    const int in_use = static_cast<int>(std::min<std::size_t>(kWidth, rays.count - begin));
+    for (int i = 0; i < kWidth; ++i) {
+      const std::size_t ray = begin + static_cast<std::size_t>(std::min(i, in_use - 1));
+      valid[i] = i < in_use ? -1 : 0;
+      packet.org_x[i] = rays.origin_x[ray];
+      packet.org_y[i] = rays.origin_y[ray];
+      packet.org_z[i] = rays.origin_z[ray];
+      packet.dir_x[i] = rays.direction_x[ray];
+      packet.dir_y[i] = rays.direction_y[ray];
+      packet.dir_z[i] = rays.direction_z[ray];
+      packet.tnear[i] = 0.0f;
+      packet.tfar[i] = std::numeric_limits<float>::infinity();
+      packet.mask[i] = ~0u;
+    }
+    occludedPacket(valid, scene, &context, &packet);
+    for (int i = 0; i < in_use; ++i) {
+      blocked[begin + static_cast<std::size_t>(i)] = packet.tfar[i] < 0.0f ? 1 : 0;  // −∞ marks a hit
+    }
+  }
+}
+
 }  // namespace
 
 class Visibility::Implementation {
@@ -80,12 +114,14 @@ class Visibility::Implementation {
   Cutouts cutouts_;
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
+  bool wide_ = false;  ///< the CPU takes 16 rays at once
 };
 
 Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geometry)
     : geometry_(std::move(geometry)), cutouts_(*geometry_) {
   device_ = rtcNewDevice(nullptr);
   if (!device_) fail("no device", nullptr);
+  wide_ = rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   scene_ = rtcNewScene(device_);
   // Without ROBUST, a ray may slip through the edge between two triangles, depending on how the tree was
   // built.
@@ -125,30 +161,10 @@ void Visibility::Implementation::attach(const std::vector<std::uint32_t>& triang
 }
 
 void Visibility::Implementation::occluded(const Rays& rays, std::uint8_t* blocked) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  alignas(32) RTCRay8 packet{};
-  alignas(32) int valid[kPacket];
-  for (std::size_t begin = 0; begin < rays.count; begin += kPacket) {
-    const int in_use = static_cast<int>(std::min<std::size_t>(kPacket, rays.count - begin));
-    for (int i = 0; i < kPacket; ++i) {
-      const std::size_t ray = begin + static_cast<std::size_t>(std::min(i, in_use - 1));
-      valid[i] = i < in_use ? -1 : 0;
-      packet.org_x[i] = rays.origin_x[ray];
-      packet.org_y[i] = rays.origin_y[ray];
-      packet.org_z[i] = rays.origin_z[ray];
-      packet.dir_x[i] = rays.direction_x[ray];
-      packet.dir_y[i] = rays.direction_y[ray];
-      packet.dir_z[i] = rays.direction_z[ray];
-      packet.tnear[i] = 0.0f;
-      packet.tfar[i] = std::numeric_limits<float>::infinity();
-      packet.mask[i] = ~0u;
-    }
-    rtcOccluded8(valid, scene_, &context, &packet);
-    for (int i = 0; i < in_use; ++i) {
-      blocked[begin + static_cast<std::size_t>(i)] = packet.tfar[i] < 0.0f ? 1 : 0;  // −∞ marks a hit
-    }
+  if (wide_) {
+    occludedInPackets<RTCRay16, 16>(scene_, rays, blocked);
+  } else {
+    occludedInPackets<RTCRay8, 8>(scene_, rays, blocked);
   }
 }
 

@@ -29,7 +29,7 @@ class WaitLog {
   using Clock = std::chrono::steady_clock;
   Clock::time_point begin_;
   Clock::time_point latest_;
-  bool waits_ = false;
+  std::string waits_for_;
 };
 
 /// "1 min 14 s"
