@@ -1,9 +1,11 @@
 #include "sunlit/evaluate/direct.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <string>
 
 namespace sunlit::evaluate {
 namespace {
@@ -101,12 +103,17 @@ Sums sumsOver(const cv::Mat& a, const cv::Mat& b, AddBlock addBlock) {
   return sums;
 }
 
+std::string sizeOf(const cv::Mat& image) {
+  return std::to_string(image.cols) + "×" + std::to_string(image.rows);
+}
+
 }  // namespace
 
 View makeView(const cv::Mat& rgb) {
   if (rgb.empty() || rgb.type() != CV_8UC3) {
-    throw std::invalid_argument(
-        "an image to evaluate must have three channels of 8 bit and at least one pixel");
+    throw std::invalid_argument("an image to evaluate is " + sizeOf(rgb) + " px of OpenCV type " +
+                                cv::typeToString(rgb.type()) +
+                                ", but must be CV_8UC3 with at least one pixel");
   }
   View view;
   view.rgb = rgb;
@@ -116,7 +123,8 @@ View makeView(const cv::Mat& rgb) {
 
 DirectDifferences directDifferences(const View& a, const View& b) {
   if (a.rgb.size() != b.rgb.size())
-    throw std::invalid_argument("images of different sizes have no direct difference");
+    throw std::invalid_argument("images of different sizes, " + sizeOf(a.rgb) + " and " + sizeOf(b.rgb) +
+                                " px, have no direct difference");
   const Sums rgb = sumsOver(a.rgb, b.rgb, addRgbBlock);
   const Sums grey = sumsOver(a.grey, b.grey, addGreyBlock);
   const double pixels = static_cast<double>(a.rgb.total());

@@ -44,7 +44,10 @@ EvaluationOptions completed(EvaluationOptions options) {
       throw std::invalid_argument("pairs: " + pair.a + ", " + pair.b + " is listed twice");
     }
   }
-  if (!(options.frame_rate >= 0.0)) throw std::invalid_argument("frame_rate: 0 or more is needed");
+  if (!(options.frame_rate >= 0.0)) {
+    throw std::invalid_argument("frame_rate: " + std::to_string(options.frame_rate) +
+                                "; allowed: 0 Hz or more");
+  }
   return options;
 }
 
@@ -341,7 +344,7 @@ Outcome Evaluation::State::finish() {
   Outcome outcome;
   outcome.counts = counts();
   if (options_.poses > completed_.size()) outcome.absent_poses = options_.poses - completed_.size();
-  nameAbsentPoses();
+  if (outcome.absent_poses > 0) nameAbsentPoses();
   settleAndWrite(outcome);
   return outcome;
 }

@@ -12,10 +12,19 @@ namespace {
 
 std::uint32_t parseCount(const std::string& text) {
   const double value = parseNumber(text);
-  if (value < 0.0 || value > 4294967295.0 || value != std::floor(value)) {
+  if (!(value >= 0.0 && value <= 4294967295.0) || value != std::floor(value)) {
     throw std::runtime_error("\"" + text + "\" is not a count");
   }
   return static_cast<std::uint32_t>(value);
+}
+
+std::int64_t parsePose(const std::string& text) {
+  const double value = parseNumber(text);
+  constexpr double kExact = 9007199254740992.0;  // 2⁵³: doubles beyond are not all the whole numbers
+  if (!(std::abs(value) <= kExact) || value != std::floor(value)) {
+    throw std::runtime_error("\"" + text + "\" is not a pose number");
+  }
+  return static_cast<std::int64_t>(value);
 }
 
 std::size_t pairNamed(const FramesLayout& layout, const std::string& a, const std::string& b) {
@@ -50,7 +59,7 @@ void addRow(const FramesLayout& layout, const std::vector<std::string>& fields, 
     entry.has_value.assign(layout.differences.size(), 0);
     entry.record.values.resize(layout.differences.size());
   }
-  entry.record.pose = static_cast<std::int64_t>(parseNumber(fields[0]));
+  entry.record.pose = parsePose(fields[0]);
   entry.record.stamp_ns = stamp;
   entry.record.pair = pair;
   entry.record.values[column] = {parseNumber(fields[5]), parseCount(fields[6]), parseCount(fields[7]),

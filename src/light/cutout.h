@@ -26,9 +26,9 @@ class Cutouts {
     std::array<Eigen::Vector2f, 3> texture_coordinates;
     std::int32_t mask;  ///< index into masks_
   };
-  /// A texture's alpha with one cutoff. Most queries fall between four texels that are all solid or all clear:
-  /// two bits for each such square answer them, in far less memory than the texels, which would not stay in a
-  /// core's cache.
+  /// A texture's alpha with one cutoff. Most queries fall between four texels that are all solid or all
+  /// clear: two bits for each such square answer them, in far less memory than the texels, which would not
+  /// stay in a core's cache.
   struct Mask {
     Mask(const scene::Texture& source, float alpha_cutoff);
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 #include "path/waypoint_check.h"
@@ -15,6 +16,13 @@ constexpr double kNearest_m = 1e-3;
 /// root.
 constexpr double kEndTolerance = 1e-6;
 
+/// Coordinates beyond this, m, are a mistake of units or of frame; a float, as rendering uses, resolves 0.5 m
+/// there. Also keeps lengths and counts far from overflow.
+constexpr double kFarthest_m = 1e7;
+
+/// More poses than this are a mistake of spacing, and would fill the memory.
+constexpr double kMostPoses = 1e7;
+
 void checkRange(const char* key, double value, double low, double high) {
   if (value >= low && value <= high) return;  // false for NaN too
   throw std::invalid_argument(std::string(key) + " is " + std::to_string(value) + ", must be " +
@@ -24,7 +32,19 @@ void checkRange(const char* key, double value, double low, double high) {
 }  // namespace
 
 std::optional<std::string> faultOf(const Eigen::Vector3d& point, const Eigen::Vector3d* previous) {
-  if (!point.allFinite()) return "a coordinate is not a finite number";
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(point[axis]) <= kFarthest_m) continue;  // false for NaN
+    std::ostringstream fault;
+    fault << "xyz"[axis] << " is ";
+    // The sign of a NaN means nothing.
+    if (std::isnan(point[axis])) {
+      fault << "nan";
+    } else {
+      fault << point[axis];
+    }
+    fault << ", must be " << -kFarthest_m << " … " << kFarthest_m << " m";
+    return fault.str();
+  }
   if (previous != nullptr && (point - *previous).head<2>().norm() < kNearest_m) {
     return "it is less than 1 mm from the waypoint before it in plan view";
   }
@@ -55,7 +75,12 @@ std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const Path
     const Eigen::Vector3d along = waypoints[i + 1] - waypoints[i];
     const double length = along.norm();
     const double yaw = std::atan2(along.y(), along.x());
-    const auto count = static_cast<std::size_t>(std::ceil(length / options.spacing_m - kEndTolerance));
+    const double wanted = std::ceil(length / options.spacing_m - kEndTolerance);
+    if (static_cast<double>(poses.size()) + wanted > kMostPoses) {
+      throw std::invalid_argument("waypoint " + std::to_string(i) + ": from here to the next are " +
+                                  std::to_string(length) + " m, more poses than the 10 million allowed");
+    }
+    const auto count = static_cast<std::size_t>(wanted);
     for (std::size_t k = 0; k == 0 || k < count; ++k) {
       const double distance = static_cast<double>(k) * options.spacing_m;
       Eigen::Isometry3d map_from_camera_link = Eigen::Isometry3d::Identity();

@@ -1,11 +1,11 @@
-/// Fractal detail of a material, prepared for the shader.
+/// Fractal detail of a material as a camera at one place sees it.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
-#include <string>
+#include <cstddef>
+#include <cstdint>
 
-#include "render/gl_program.h"
 #include "sunlit/scene/scene.h"
 
 namespace sunlit::render {
@@ -20,25 +20,29 @@ struct DetailOctaves {
   DetailOctaves(const scene::Detail& detail, const Eigen::Vector3d& eye);
 
   int count = 0;
-  std::array<Eigen::Matrix3f, kMax> lattice_from_map;     ///< turns, and divides by the wavelength
-  std::array<Eigen::Vector3f, kMax> eye_fraction;         ///< the camera within its cell
-  std::array<Eigen::Matrix<GLint, 3, 1>, kMax> eye_cell;  ///< in the skewed lattice
-  std::array<float, kMax> weight;                         ///< standard deviation 1 of the noise becomes this
+  std::array<Eigen::Matrix3f, kMax> lattice_from_map;             ///< turns, and divides by the wavelength
+  std::array<Eigen::Vector3f, kMax> eye_fraction;                 ///< the camera within its cell
+  std::array<Eigen::Matrix<std::uint32_t, 3, 1>, kMax> eye_cell;  ///< in the skewed lattice, modulo 2^32
+  std::array<float, kMax> weight;  ///< standard deviation 1 of the noise becomes this
   std::array<float, kMax> wavelength_m;
 };
 
-/// Where the shader's uniforms are.
-class DetailUniforms {
- public:
-  explicit DetailUniforms(const GlProgram& program);
-  /// For the program in use.
-  void set(const scene::Detail& detail, const Eigen::Vector3d& eye) const;
-
- private:
-  GLint count_, lattice_from_map_, eye_fraction_, eye_cell_, weight_, wavelength_m_, tint_;
+/// Points to evaluate at once. Neighbours should be alike in footprint.
+struct DetailPoints {
+  static constexpr int kCount = 16;
+  std::array<float, kCount> x, y, z;    ///< from the camera, along the axes of `map`, m
+  std::array<float, kCount> footprint;  ///< what one sample covers there, along its longer side, m
 };
 
-/// The shader's side: defines `vec3 detailFactor(vec3 relative)`, to multiply the albedo with.
-extern const char* const kDetailShader;
+/// Wavelengths by the number of samples that they span.
+enum class DetailBand {
+  kCoarse,  ///< many: hardly vary within a pixel
+  kFine,    ///< few: a pixel needs all its samples, to average what it cannot show
+};
+
+/// The noise of those octaves of `band` that a sample can show: factor 1 + tint · sum of both bands goes to
+/// the albedo.
+void sumOctaves(const DetailOctaves& octaves, DetailBand band, const DetailPoints& points,
+                std::array<float, DetailPoints::kCount>* sums);
 
 }  // namespace sunlit::render

@@ -5,7 +5,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "render/detail.h"
 #include "render/gl_context.h"
 #include "render/shaders.h"
 
@@ -24,18 +23,17 @@ void attribute(GLuint index, GLint size, std::size_t offset) {
                         reinterpret_cast<const void*>(offset));
 }
 
-enum VariantBit { kTextured = 1, kMasked = 2, kDetailed = 4 };
+enum VariantBit { kTextured = 1, kMasked = 2 };
 
 int variantOf(const scene::Material& material) {
   const bool textured = material.base_texture != scene::Material::kNoTexture;
   const bool masked = textured && material.alpha_mode == scene::AlphaMode::kMask;
-  return (textured ? kTextured : 0) | (masked ? kMasked : 0) |
-         (material.detail.contrast > 0.0f ? kDetailed : 0);
+  return (textured ? kTextured : 0) | (masked ? kMasked : 0);
 }
 
 std::string definitions(int variant) {
   return std::string(variant & kTextured ? "#define TEXTURED\n" : "") +
-         (variant & kMasked ? "#define MASKED\n" : "") + (variant & kDetailed ? "#define DETAIL\n" : "");
+         (variant & kMasked ? "#define MASKED\n" : "");
 }
 
 }  // namespace
@@ -43,8 +41,7 @@ std::string definitions(int variant) {
 /// One combination of what materials need, and where its uniforms are.
 struct GeometryPass::Variant {
   explicit Variant(int bits)
-      : program(definitions(bits), kVertexShader,
-                (bits & kDetailed ? kDetailShader : std::string()) + kFragmentShader),
+      : program(definitions(bits), kVertexShader, kFragmentShader),
         optical_from_map(program.uniform("optical_from_map")),
         eye_high(program.uniform("eye_high")),
         eye_low(program.uniform("eye_low")),
@@ -52,13 +49,11 @@ struct GeometryPass::Variant {
         depth_range(program.uniform("depth_range")),
         base_color(program.uniform("base_color")),
         alpha_cutoff(program.uniform("alpha_cutoff")),
-        first_triangle(program.uniform("first_triangle")),
-        detail(program) {}
+        first_triangle(program.uniform("first_triangle")) {}
 
   GlProgram program;
   GLint optical_from_map, eye_high, eye_low, projection, depth_range, base_color, alpha_cutoff,
       first_triangle;
-  DetailUniforms detail;
 };
 
 GeometryPass::GeometryPass(std::shared_ptr<const light::Geometry> geometry, const View& view, double lod_bias)
@@ -159,12 +154,10 @@ void GeometryPass::setView(const Variant& variant, const View& view) const {
   glUniform2f(variant.depth_range, static_cast<float>(view.near_m), static_cast<float>(view.far_m));
 }
 
-void GeometryPass::setMaterial(const Variant& variant, const scene::Material& material,
-                               const View& view) const {
+void GeometryPass::setMaterial(const Variant& variant, const scene::Material& material) const {
   textures_.bind(material.base_texture);
   glUniform3fv(variant.base_color, 1, material.base_color.value.data());
   glUniform1f(variant.alpha_cutoff, material.alpha_cutoff);
-  if (material.detail.contrast > 0.0f) variant.detail.set(material.detail, view.eye());
   if (material.double_sided) {
     glDisable(GL_CULL_FACE);
   } else {
@@ -196,7 +189,7 @@ void GeometryPass::draw(const View& view, std::vector<PackedSample>* samples) {
       const Variant& wanted = variant(material);
       wanted.program.use();
       if (ready.insert(&wanted).second) setView(wanted, view);
-      setMaterial(wanted, material, view);
+      setMaterial(wanted, material);
       material_in_use = chunk->material;
       in_use = &wanted;
     }

@@ -33,7 +33,7 @@ class GeometryPass {
   std::vector<const light::Chunk*> visibleChunks(const View& view) const;
   const Variant& variant(const scene::Material& material);
   void setView(const Variant& variant, const View& view) const;
-  void setMaterial(const Variant& variant, const scene::Material& material, const View& view) const;
+  void setMaterial(const Variant& variant, const scene::Material& material) const;
 
   std::shared_ptr<const light::Geometry> geometry_;
   Textures textures_;

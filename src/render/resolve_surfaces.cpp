@@ -1,8 +1,11 @@
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "render/resolve.h"
+#include "render/tile_detail.h"
 
 namespace sunlit::render {
 namespace {
@@ -17,15 +20,16 @@ struct Seeing {
   float depth;
   std::int32_t material;
   Eigen::Vector3f ray_origin;
+  Eigen::Vector3f relative;  ///< to the camera, along the axes of `map`
 };
 
 /// The sum of alike samples.
 struct Cluster {
   Seeing first;
   Eigen::Vector3f position, shading_normal;
-  Eigen::Array3f albedo;
   std::uint32_t samples = 0;
-  std::array<Eigen::Vector3f, 16> origins;
+  std::array<Eigen::Vector3f, 16> origins, relatives;
+  std::array<Eigen::Array3f, 16> albedos;
 
   bool alike(const Seeing& s) const {
     return s.material == first.material &&
@@ -37,15 +41,19 @@ struct Cluster {
     first = s;
     position = s.position;
     shading_normal = s.shading_normal;
-    albedo = s.albedo;
-    origins[0] = s.ray_origin;
-    samples = 1;
+    samples = 0;
+    keep(s);
   }
   void add(const Seeing& s) {
     position += s.position;
     shading_normal += s.shading_normal;
-    albedo += s.albedo;
-    origins[samples++] = s.ray_origin;
+    keep(s);
+  }
+  void keep(const Seeing& s) {
+    origins[samples] = s.ray_origin;
+    relatives[samples] = s.relative;
+    albedos[samples] = s.albedo;
+    ++samples;
   }
 };
 
@@ -57,7 +65,8 @@ float clearance(const Eigen::Vector3f& position, float depth) {
 
 class TileResolver {
  public:
-  TileResolver(const Seen& seen, light::Tile* tile) : seen_(seen), tile_(*tile), eye_(seen.view.eye()) {}
+  TileResolver(const Seen& seen, const SceneDetail& scene_detail, TileDetail* detail, light::Tile* tile)
+      : seen_(seen), scene_detail_(scene_detail), detail_(*detail), tile_(*tile), eye_(seen.view.eye()) {}
 
   void resolve() {
     tile_.surfaces.clear();
@@ -69,6 +78,7 @@ class TileResolver {
             pixel(tile_.x + column, tile_.y + row);
       }
     }
+    detail_.apply(scene_detail_, &tile_.surfaces);
   }
 
  private:
@@ -110,6 +120,7 @@ class TileResolver {
     if (!(std::abs(depth - rasterised) < 0.05 * rasterised)) depth = rasterised;
     seeing.depth = static_cast<float>(depth);
     seeing.position = (eye_ + depth * ray).cast<float>();
+    seeing.relative = (depth * ray).cast<float>();
     seeing.material = seen_.geometry.materials[triangle];
     const Eigen::Vector3f& front = seen_.geometry.planes[triangle].normal;
     seeing.geometric_normal = front.dot(ray.cast<float>()) > 0.0f ? Eigen::Vector3f(-front) : front;
@@ -126,6 +137,20 @@ class TileResolver {
     return seeing;
   }
 
+  /// What one sample covers of the cluster's plane, along its longer side, m: how far the point seen moves
+  /// from one sample to the next.
+  float footprint(const Cluster& cluster) const {
+    const Eigen::Vector3f& point = cluster.first.relative;
+    const Eigen::Vector3f& normal = cluster.first.geometric_normal;
+    const Eigen::Vector3f along = point / normal.dot(point);
+    float longest = 0.0f;
+    for (const Eigen::Vector3f& step : {scene_detail_.sample_right, scene_detail_.sample_down}) {
+      const Eigen::Vector3f across = step * cluster.first.depth;
+      longest = std::max(longest, (across - along * normal.dot(across)).squaredNorm());
+    }
+    return std::sqrt(longest);
+  }
+
   void append(const Cluster& cluster, int x, int y) {
     const float share = 1.0f / static_cast<float>(cluster.samples);
     light::Surface surface;
@@ -133,11 +158,17 @@ class TileResolver {
     surface.to_eye = (eye_.cast<float>() - surface.position).normalized();
     surface.geometric_normal = cluster.first.geometric_normal;
     surface.shading_normal = cluster.shading_normal.normalized();
-    surface.albedo = cluster.albedo * share;
+    surface.albedo = Eigen::Array3f::Zero();
+    for (std::uint32_t i = 0; i < cluster.samples; ++i) surface.albedo += cluster.albedos[i];
+    surface.albedo *= share;
     surface.material = cluster.first.material;
     surface.pixel = static_cast<std::uint32_t>(y * seen_.view.camera.width + x);
     surface.first_sample = static_cast<std::uint32_t>(tile_.origin_x.size());
     surface.samples = cluster.samples;
+    if (scene_detail_.has(surface.material)) {
+      detail_.add({static_cast<std::uint32_t>(tile_.surfaces.size()), surface.material, footprint(cluster),
+                   cluster.samples, cluster.relatives.data(), cluster.albedos.data()});
+    }
     tile_.surfaces.push_back(surface);
     for (std::uint32_t i = 0; i < cluster.samples; ++i) {
       tile_.origin_x.push_back(cluster.origins[i].x());
@@ -147,6 +178,8 @@ class TileResolver {
   }
 
   const Seen& seen_;
+  const SceneDetail& scene_detail_;
+  TileDetail& detail_;
   light::Tile& tile_;
   Eigen::Vector3d eye_;
   std::array<Cluster, 16> clusters_;
@@ -182,8 +215,11 @@ double planeDepth(const Seen& seen, std::uint32_t triangle, const Eigen::Vector3
 
 void resolveSurfaces(const Seen& seen, light::Surfaces* surfaces) {
   layOutTiles(seen.view, surfaces);
-  tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(),
-                    [&](std::size_t i) { TileResolver(seen, &surfaces->tiles[i]).resolve(); });
+  const SceneDetail scene_detail(*seen.geometry.scene, seen.view);
+  tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(), [&](std::size_t i) {
+    thread_local TileDetail detail;  // keeps its memory
+    TileResolver(seen, scene_detail, &detail, &surfaces->tiles[i]).resolve();
+  });
 }
 
 }  // namespace sunlit::render

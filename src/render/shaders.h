@@ -16,7 +16,6 @@ uniform vec3 eye_low;
 uniform vec4 projection;   // x and y scale, x and y shift, per unit of depth
 uniform vec2 depth_range;  // near, far, m
 
-out vec3 v_relative;  // from the camera, along the axes of map, m
 out vec3 v_normal;
 out vec2 v_texture_coordinate;
 out vec3 v_color;
@@ -29,7 +28,6 @@ void main() {
   // Depth runs from 1 at the near to 0 at the far plane, where floating point numbers are densest.
   gl_Position = vec4(projection.xy * optical.xy + projection.zw * optical.z,
                      near * (far - optical.z) / (far - near), optical.z);
-  v_relative = relative;
   v_normal = normal;
   v_texture_coordinate = texture_coordinate;
   v_color = color;
@@ -38,7 +36,6 @@ void main() {
 
 /// Writes one packed sample; see packed_sample.h for the layout.
 constexpr const char* kFragmentShader = R"(
-in vec3 v_relative;
 in vec3 v_normal;
 in vec2 v_texture_coordinate;
 in vec3 v_color;
@@ -72,9 +69,6 @@ void main() {
   if (texel.a < alpha_cutoff) discard;
 #endif
   albedo *= texel.rgb;
-#endif
-#ifdef DETAIL
-  albedo *= detailFactor(v_relative);  // of kDetailShader
 #endif
   packed_sample = uvec4(packedAlbedo(albedo), packedNormal(v_normal), first_triangle + uint(gl_PrimitiveID),
                         floatBitsToUint(1.0 / gl_FragCoord.w));

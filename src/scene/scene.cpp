@@ -68,16 +68,17 @@ void checkMesh(const Mesh& mesh, std::size_t material_count) {
     fail("mesh", mesh.name, "it must have one colour a vertex, or none");
   }
   for (std::size_t i = 0; i < count; ++i) {
-    const std::string vertex = "vertex " + std::to_string(i);
-    if (!mesh.positions[i].allFinite()) fail("mesh", mesh.name, vertex + ": position is not finite");
+    const auto failHere = [&](const std::string& wrong) {
+      fail("mesh", mesh.name, "vertex " + std::to_string(i) + ": " + wrong);
+    };
+    if (!mesh.positions[i].allFinite()) failHere("position is not finite");
     // Written so that a NaN fails; 1e-3 is far above what rounding and transforms do to a unit float vector.
-    if (!(std::abs(mesh.normals[i].norm() - 1.0f) < 1e-3f))
-      fail("mesh", mesh.name, vertex + ": normal is not of length 1");
+    if (!(std::abs(mesh.normals[i].norm() - 1.0f) < 1e-3f)) failHere("normal is not of length 1");
     if (!mesh.texture_coordinates.empty() && !mesh.texture_coordinates[i].allFinite()) {
-      fail("mesh", mesh.name, vertex + ": texture coordinate is not finite");
+      failHere("texture coordinate is not finite");
     }
     if (!mesh.colors.empty() && !(mesh.colors[i] >= 0.0f && mesh.colors[i] <= 2.0f).all()) {
-      fail("mesh", mesh.name, vertex + ": colour is outside 0 … 2");
+      failHere("colour is outside 0 … 2");
     }
   }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

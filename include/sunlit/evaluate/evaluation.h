@@ -103,7 +103,8 @@ struct Outcome {
   bool isWhole() const;  ///< every pair of every pose was evaluated (or is undefined), and there was one
 };
 
-/// Called from worker threads, one at a time.
+/// Called from the threads that add images and from workers. Each of them is called one at a time, but one may be called
+/// while another still runs. `progress` must not call the Evaluation back: it is told under its lock.
 struct EvaluationCallbacks {
   std::function<void(const PairRecord& record, const cv::Mat& a, const cv::Mat& b)> pair_done;
   std::function<void(std::size_t completed_poses)> progress;

@@ -22,10 +22,10 @@ void validate(const ExposureOptions& options);
 /// bits for any thread count. An all-black image gives min_ev100.
 ///
 /// Auto: the mean of log luminance becomes 18 % of saturation, level 118 (standard output sensitivity, ISO
-/// 12232). The mean is weighted towards the centre and the lower 60 % of the picture, so that a bright sky
-/// does not darken the ground, and leaves out the darkest and brightest 5 % of the weight, so that the sun's
-/// disc, a lamp or a black hole that enters the picture does not make the exposure jump. Black and NaN count
-/// as darkest.
+/// 12232). The mean is weighted towards the centre column and, from a fifth at the top edge, towards the rows
+/// 60 % down and below, so that a bright sky does not darken the ground; it leaves out the darkest and
+/// brightest 5 % of the weight, so that the sun's disc, a lamp or a black hole that enters the picture does
+/// not make the exposure jump. Black and NaN count as darkest.
 double chooseEv100(const LinearImage& image, const ExposureOptions& options);
 
 /// Luminance that just saturates the picture at `ev100`: L = 1.2 · 2^EV100 cd/m² (ISO 12232 saturation-based

@@ -21,8 +21,8 @@ void validate(const PathOptions& options);
 /// map_from_camera_link of every pose, by the paper's rule: poses every `spacing_m` from the start of each segment between two
 /// waypoints, while short of its end; then the start of the next segment. The camera is level (parallel to the ground
 /// plane) and points at the next waypoint in plan view.
-/// Throws std::invalid_argument naming the waypoint for fewer than two points, a coordinate that is not finite, or two
-/// consecutive points less than 1 mm apart in plan view.
+/// Throws std::invalid_argument naming the waypoint for fewer than two points, a coordinate that is not within
+/// ±10,000 km, two consecutive points less than 1 mm apart in plan view, or more than 10 million poses.
 std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const PathOptions& options);
 
 /// Waypoints from a file: CSV (x,y,z or x,y a line, m; an optional header line; # comments) or TUM trajectory

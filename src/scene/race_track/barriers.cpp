@@ -50,8 +50,9 @@ void addGuardRail(Assembly& assembly, const BarrierStretch& stretch, Random& ran
     }
     const Paint post{assembly.palette().metal, Color(0.28f, 0.28f, 0.28f) * random.range(0.7f, 1.2f)};
     const float yaw = std::atan2(in.y(), in.x());
+    const float height = 1.08f + 0.04f * random.unit();
     addBox(assembly, post, standing(a - 0.10f * in - Point(0, 0, 0.3f), yaw + 0.05f * random.bell()),
-           {0.10f, 0.08f, 1.08f + 0.04f * random.unit()});
+           {0.10f, 0.08f, height});
   }
 }
 
@@ -97,8 +98,7 @@ void addConcrete(Assembly& assembly, const BarrierStretch& stretch, Random& rand
 void addTyres(Assembly& assembly, const BarrierStretch& stretch, Random& random) {
   constexpr double kPitch_m = 0.66;
   for (double s = stretch.from; s < stretch.to; s += kPitch_m) {
-    const Point place =
-        barrierPoint(s, stretch.side) + Point(0.02f * random.bell(), 0.02f * random.bell(), 0.0f);
+    const Point place = barrierPoint(s, stretch.side) + sway(0.02f, random);
     addTyreStack(assembly, place, random.chance(0.85f) ? 4 : 3, random);
   }
 }
@@ -126,10 +126,9 @@ void addTimber(Assembly& assembly, const BarrierStretch& stretch, Random& random
     const Point a = barrierPoint(s, stretch.side);
     const Point b = barrierPoint(std::min(s + 2.4, stretch.to), stretch.side);
     const Paint wood{assembly.palette().wood, Color(0.23f, 0.16f, 0.10f) * random.range(0.6f, 1.4f)};
-    addTube(assembly, wood,
-            {{a - Point(0, 0, 0.3f), 0.07f},
-             {a + Point(0.02f * random.bell(), 0.02f * random.bell(), random.range(1.05f, 1.2f)), 0.06f}},
-            7);
+    const Point up(0, 0, random.range(1.05f, 1.2f));
+    const Point top = a + (sway(0.02f, random) + up);
+    addTube(assembly, wood, {{a - Point(0, 0, 0.3f), 0.07f}, {top, 0.06f}}, 7);
     for (const float z : {0.45f, 0.95f}) {
       const Paint rail{assembly.palette().wood, Color(0.26f, 0.19f, 0.12f) * random.range(0.6f, 1.3f)};
       addTube(assembly, rail,
@@ -151,7 +150,7 @@ void addTyreStack(Assembly& assembly, const Eigen::Vector3f& place, int count, R
                         : roll < 0.93f ? Color(0.40f, 0.04f, 0.03f) * random.range(0.6f, 1.1f)
                                        : paintColor(random);
     const float thickness = random.range(0.19f, 0.23f);
-    const Point middle = place + Point(0.02f * random.bell(), 0.02f * random.bell(), 0.0f);
+    const Point middle = place + sway(0.02f, random);
     const float r = random.range(0.29f, 0.32f);
     const auto ring = [&](float up, float radius) {
       return Ring{middle + Point(0, 0, z + up * thickness), radius};

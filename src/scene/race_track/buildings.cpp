@@ -62,9 +62,13 @@ Canvas paintTiles(const Color& tile, std::uint32_t seed) {
       canvas.rectangle({x, y}, {x + 1.2f, y + 5.6f}, {0.5f * tile, 0.7f});
     }
   }
-  for (int i = 0; i < 14; ++i)
-    canvas.ellipse({random.range(0, 224), random.range(0, 112)}, {random.range(3, 16), random.range(2, 9)},
-                   0.0f, {{0.10f, 0.12f, 0.05f}, 0.4f});
+  for (int i = 0; i < 14; ++i) {
+    const float width = random.range(3, 16);
+    const float height = random.range(2, 9);
+    const float x = random.range(0, 224);
+    const float y = random.range(0, 112);
+    canvas.ellipse({x, y}, {width, height}, 0.0f, {{0.10f, 0.12f, 0.05f}, 0.4f});
+  }
   canvas.mottle(40.0f, 0.2f, random.bits());
   return canvas;
 }
@@ -72,7 +76,8 @@ Canvas paintTiles(const Color& tile, std::uint32_t seed) {
 void addGableRoof(Assembly& assembly, const House& house, Random& random) {
   const Color tiles[] = {
       {0.26f, 0.085f, 0.045f}, {0.085f, 0.085f, 0.09f}, {0.20f, 0.12f, 0.07f}, {0.15f, 0.16f, 0.15f}};
-  const Color tile = tiles[random.below(4)] * random.range(0.8f, 1.2f);
+  const float shade = random.range(0.8f, 1.2f);
+  const Color tile = tiles[random.below(4)] * shade;
   const float x = 0.5f * house.width + 0.35f;
   const float y = 0.5f * house.depth + 0.45f;
   const float rise = house.depth * random.range(0.30f, 0.48f);
@@ -199,9 +204,12 @@ void addPits(Assembly& assembly, const Site& site) {
             {frame * Point(x - 0.5f, front - 0.14f, 3.45f), frame * Point(x + 0.5f, front - 0.14f, 3.45f),
              frame * Point(x + 0.5f, front - 0.14f, 3.95f), frame * Point(x - 0.5f, front - 0.14f, 3.95f)},
             number.rect);
-    addBox(assembly, {p.matte, Color(0.40f, 0.40f, 0.42f) * random.range(0.5f, 1.2f)},
-           shifted(frame, {x + random.range(-2.0f, 2.0f), random.range(-3.0f, 3.0f), 7.6f}),
-           {random.range(0.8f, 2.0f), 1.2f, random.range(0.6f, 1.4f)});
+    const float width = random.range(0.8f, 2.0f);
+    const float height = random.range(0.6f, 1.4f);
+    const float aside = random.range(-2.0f, 2.0f);
+    const float forward = random.range(-3.0f, 3.0f);
+    const Color tone = Color(0.40f, 0.40f, 0.42f) * random.range(0.5f, 1.2f);
+    addBox(assembly, {p.matte, tone}, shifted(frame, {x + aside, forward, 7.6f}), {width, 1.2f, height});
   }
   const float width = kBays * kBay_m;
   addBox(assembly, {p.concrete, {0.34f, 0.33f, 0.31f}}, shifted(frame, {0, -0.2f, 7.3f}),

@@ -159,6 +159,12 @@ Texture Canvas::texture(const std::string& name) const {
   return texture;
 }
 
+Pixel scatter(Random& random) {
+  const float y = random.bell();
+  const float x = random.bell();
+  return {x, y};
+}
+
 Color srgb(int red, int green, int blue) {
   const auto decode = [](int value) {
     const float e = static_cast<float>(value) / 255.0f;

@@ -59,6 +59,9 @@ class Canvas {
   std::vector<float> alphas_;
 };
 
+/// A random offset, of standard deviation 1 px along either axis.
+Pixel scatter(Random& random);
+
 /// The width of `letters` as Canvas::text draws them `height` px high, px.
 float textWidth(const std::string& letters, float height);
 

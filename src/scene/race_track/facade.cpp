@@ -14,8 +14,9 @@ void layBricks(Canvas& canvas, const FacadePlan& plan, Random& random) {
   for (int row = 0; row * kCourse_px < canvas.height(); ++row) {
     const float y = row * kCourse_px;
     for (float x = (row % 2) * -0.5f * kBrick_px; x < canvas.width(); x += kBrick_px) {
-      const Color tone = plan.wall * random.range(0.65f, 1.3f) *
-                         Color(1.0f, random.range(0.85f, 1.1f), random.range(0.8f, 1.1f));
+      const float blue = random.range(0.8f, 1.1f);
+      const float green = random.range(0.85f, 1.1f);
+      const Color tone = plan.wall * random.range(0.65f, 1.3f) * Color(1.0f, green, blue);
       canvas.rectangle({x, y}, {x + kBrick_px, y + kCourse_px}, {mortar, 0.9f});
       canvas.rectangle({x, y}, {x + kBrick_px - 1.0f, y + kCourse_px - 0.7f}, {tone, 1.0f});
     }

@@ -43,7 +43,7 @@ void addTwigs(Canvas& canvas, Random& random) {
     const float angle = random.range(0.0f, 2.0f * kPi);
     const Pixel middle(0.5f * size, 0.5f * size);
     const Pixel out = 0.45f * size * random.range(0.5f, 1.0f) * Pixel(std::cos(angle), std::sin(angle));
-    const Pixel bent = middle + 0.5f * out + 20.0f * Pixel(random.bell(), random.bell());
+    const Pixel bent = middle + 0.5f * out + 20.0f * scatter(random);
     canvas.line({middle, bent, middle + out}, random.range(1.5f, 3.5f), {{0.07f, 0.055f, 0.04f}, 1.0f});
   }
 }
@@ -65,13 +65,13 @@ Canvas paintLeaves(Species species, std::uint32_t variant) {
   }
   for (int i = 0; i < style.count; ++i) {
     const int k = random.below(kClumps);
-    const Pixel off = 0.052f * kSize * Pixel(random.bell(), random.bell());
+    const Pixel off = 0.052f * kSize * scatter(random);
     const Pixel place = clumps[k] + off;
     if ((place.array() < 0.03f * kSize).any() || (place.array() > 0.97f * kSize).any()) continue;
     // Later leaves lie on top and catch more light.
     const float lit = 0.35f + 0.65f * static_cast<float>(i) / static_cast<float>(style.count);
-    const Color color =
-        (style.dark + lit * random.unit() * (style.light - style.dark)) * random.range(1.0f, 1.7f);
+    const float gloss = random.range(1.0f, 1.7f);
+    const Color color = (style.dark + lit * random.unit() * (style.light - style.dark)) * gloss;
     const float length = style.length_px * random.range(0.6f, 1.2f);
     const float outwards = std::atan2(place.y() - 0.5f * kSize, place.x() - 0.5f * kSize);
     const float turn = style.slimness < 0.2f ? outwards + 0.5f * random.bell() : random.range(0.0f, kPi);
@@ -110,7 +110,8 @@ Canvas paintTuft(std::uint32_t which) {
       {0.75f, 0.72f, 0.65f}, {0.70f, 0.48f, 0.03f}, {0.35f, 0.12f, 0.40f}, {0.55f, 0.06f, 0.05f}};
   if (which >= 4) {
     for (int i = 0; i < 4 + random.below(6); ++i) {
-      const Pixel head(kSize * random.range(0.2f, 0.8f), kSize * random.range(0.05f, 0.5f));
+      const float y = kSize * random.range(0.05f, 0.5f);
+      const Pixel head(kSize * random.range(0.2f, 0.8f), y);
       canvas.line({head, {0.5f * (head.x() + 0.5f * kSize), static_cast<float>(kSize)}}, 2.5f,
                   {{0.09f, 0.12f, 0.04f}, 1.0f});
       for (int k = 0; k < 6; ++k) {

@@ -56,7 +56,7 @@ void addLamp(Assembly& assembly, const TrackPlace& place, std::uint32_t seed) {
   const Point root = groundPoint(place);
   const float height = random.range(7.0f, 8.5f);
   const Paint steel{assembly.palette().metal, Color(0.33f, 0.34f, 0.34f) * random.range(0.6f, 1.15f)};
-  const Point lean(0.08f * random.bell(), 0.08f * random.bell(), 0.0f);
+  const Point lean = sway(0.08f, random);
   const Point top = root + lean + Point(0, 0, height);
   addTube(assembly, steel,
           {{root - Point(0, 0, 0.3f), 0.11f},
@@ -151,7 +151,7 @@ void addCone(Assembly& assembly, const Point& place, Random& random) {
   const Palette& p = assembly.palette();
   const Color orange = Color(0.60f, 0.14f, 0.02f) * random.range(0.6f, 1.1f);
   const Color white = Color(0.62f, 0.61f, 0.58f) * random.range(0.6f, 1.0f);
-  const Point lean(0.03f * random.bell(), 0.03f * random.bell(), 1.0f);
+  const Point lean = sway(0.03f, random) + Point::UnitZ();
   const float h = random.chance(0.3f) ? 0.45f : 0.7f;
   addBox(assembly, {p.rubber, 0.6f * orange}, standing(place - Point(0, 0, 0.01f), random.range(0.0f, kPi)),
          {0.55f * h, 0.55f * h, 0.05f});
@@ -207,8 +207,11 @@ void addFlag(Assembly& assembly, const Point& root, std::uint32_t seed) {
 // A portable cabin with a picture on its door.
 void addCabin(Assembly& assembly, const Frame& frame, Random& random) {
   const Palette& p = assembly.palette();
-  const Color color = paintColor(random) * random.range(0.4f, 1.0f);
-  const Point size(random.range(1.0f, 2.2f), random.range(1.0f, 1.4f), random.range(1.9f, 2.4f));
+  const float shade = random.range(0.4f, 1.0f);
+  const Color color = paintColor(random) * shade;
+  const float height = random.range(1.9f, 2.4f);
+  const float depth = random.range(1.0f, 1.4f);
+  const Point size(random.range(1.0f, 2.2f), depth, height);
   addBox(assembly, {p.matte, color}, frame, size);
   addBox(assembly, {p.matte, Color::Constant(random.range(0.2f, 0.6f))}, shifted(frame, {0, 0, size.z()}),
          {size.x() + 0.1f, size.y() + 0.1f, 0.12f});
@@ -236,10 +239,12 @@ void addClutter(Assembly& assembly) {
       addTube(assembly, {p.metal, paintColor(random) * 0.7f},
               {{place - Point(0, 0, 0.05f), 0.29f}, {place + Point(0, 0, 0.88f), 0.29f}}, 12);
     } else if (kind == 1) {
-      for (int k = 0; k < 1 + random.below(4); ++k)
-        addBox(assembly, {p.wood, Color(0.28f, 0.20f, 0.12f) * random.range(0.7f, 1.3f)},
-               shifted(frame, {0.05f * random.bell(), 0.05f * random.bell(), 0.14f * k}),
-               {1.2f, 0.8f, 0.13f});
+      for (int k = 0; k < 1 + random.below(4); ++k) {
+        const float x = 0.05f * random.bell();
+        const float y = 0.05f * random.bell();
+        const Color tone = Color(0.28f, 0.20f, 0.12f) * random.range(0.7f, 1.3f);
+        addBox(assembly, {p.wood, tone}, shifted(frame, {x, y, 0.14f * k}), {1.2f, 0.8f, 0.13f});
+      }
     } else if (kind == 2) {
       addTyreStack(assembly, place, 1 + random.below(5), random);
     } else if (kind == 3) {

@@ -37,7 +37,10 @@ Canvas paintPerson(std::uint32_t seed) {
   const float arm = random.chance(0.25f) ? -26.0f : 14.0f;
   canvas.line({{11, 32}, {6, 40}, {8.0f, 40.0f + arm}}, 5.0f, {shirt * 0.8f, 1.0f});
   canvas.line({{33, 32}, {38, 40}, {36, 54}}, 5.0f, {shirt * 0.75f, 1.0f});
-  if (random.chance(0.4f)) canvas.rectangle({11, 36}, {33, random.range(39, 46)}, {paintColor(random), 1.0f});
+  if (random.chance(0.4f)) {
+    const Color belt = paintColor(random);
+    canvas.rectangle({11, 36}, {33, random.range(39, 46)}, {belt, 1.0f});
+  }
   canvas.ellipse({22, 14}, {7, 9}, 0.0f, {skin, 1.0f});
   const Color hair = Color(0.06f, 0.04f, 0.025f) * random.range(0.4f, 5.0f);
   canvas.ellipse({22, 8}, {8, 6}, 0.0f, {random.chance(0.35f) ? paintColor(random) : hair, 1.0f});
@@ -96,10 +99,10 @@ void addSeats(Assembly& assembly, const Stand& stand, const std::vector<Picture>
                 person.rect,
                 f.linear() * Point(0.0f, -0.8f, 0.6f)};
       if (random.chance(0.5f)) std::swap(card.rect.top_left.x(), card.rect.bottom_right.x());
-      addCard(assembly,
-              {person.material,
-               Color(random.range(0.6f, 1.2f), random.range(0.6f, 1.2f), random.range(0.6f, 1.2f))},
-              card);
+      const float blue = random.range(0.6f, 1.2f);
+      const float green = random.range(0.6f, 1.2f);
+      const float red = random.range(0.6f, 1.2f);
+      addCard(assembly, {person.material, {red, green, blue}}, card);
     }
   }
 }

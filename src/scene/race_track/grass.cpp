@@ -44,7 +44,8 @@ void addGrass(Assembly& assembly, const Foliage& foliage) {
     const int side = random.chance(0.5f) ? 1 : -1;
     const double s = random.unit() * course().length();
     // Denser towards the track.
-    const float out = 0.15f + 9.0f * random.unit() * random.unit();
+    const float reach = 9.0f * random.unit();
+    const float out = 0.15f + reach * random.unit();
     const double left = side * (kHalfWidth + kerbWidth(s, side) + out);
     const Eigen::Vector2d p = course().point({s, left});
     const float lush = noise(static_cast<float>(p.x()) / 2.2f, static_cast<float>(p.y()) / 2.2f, 502u);
@@ -76,8 +77,9 @@ void addStones(Assembly& assembly) {
     const Eigen::Vector2d p = course().point({s, left});
     if (!near && !isFree(p, size)) continue;
     const Color tone = Color(0.24f, 0.22f, 0.195f) * random.range(0.55f, 1.4f);
-    const Point radii(size * random.range(0.7f, 1.3f), size * random.range(0.7f, 1.3f),
-                      size * random.range(0.45f, 0.8f));
+    const float height = size * random.range(0.45f, 0.8f);
+    const float depth = size * random.range(0.7f, 1.3f);
+    const Point radii(size * random.range(0.7f, 1.3f), depth, height);
     addLump(assembly, {assembly.palette().stone, tone},
             {groundPoint(p) + Point(0, 0, 0.2f * size), radii, 0.35f, seed});
   }

@@ -9,7 +9,9 @@ namespace sunlit::scene::race_track {
 /// A well-mixed 32-bit hash of up to three integers.
 std::uint32_t mix(std::uint32_t a, std::uint32_t b = 0, std::uint32_t c = 0);
 
-/// A stream of pseudo-random numbers; equal seeds give equal streams.
+/// A stream of pseudo-random numbers; equal seeds give equal streams. The order of draws is part of the
+/// picture, so there is at most one draw where the language leaves the order of evaluation open (arguments,
+/// operands).
 class Random {
  public:
   explicit Random(std::uint32_t seed) : seed_(seed) {}
@@ -24,7 +26,11 @@ class Random {
   int below(int count) { return static_cast<int>(bits() % static_cast<std::uint32_t>(count)); }
   bool chance(float probability) { return unit() < probability; }
   /// Bell-shaped, mean 0, standard deviation 1, within ±3.5 (sum of four uniforms).
-  float bell() { return (unit() + unit() + unit() + unit() - 2.0f) * 1.7320508f; }
+  float bell() {
+    float sum = unit();
+    for (int i = 0; i < 3; ++i) sum += unit();
+    return (sum - 2.0f) * 1.7320508f;
+  }
 
  private:
   std::uint32_t seed_;

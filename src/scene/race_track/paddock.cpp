@@ -170,7 +170,8 @@ void addYard(Assembly& assembly, const Site& site, std::uint32_t seed) {
                              side * (near + 7.5 * row + 0.5 * random.bell())};
       const Eigen::Vector2d t = course().tangent(place.along);
       const float yaw = std::atan2(static_cast<float>(t.y()), static_cast<float>(t.x()));
-      const float turned = yaw + (random.chance(0.5f) ? kPi : 0.0f) + 0.15f * random.bell();
+      const float parked = yaw + (random.chance(0.5f) ? kPi : 0.0f);
+      const float turned = parked + 0.15f * random.bell();
       const Frame frame = standing(groundPoint(place) - Point(0, 0, 0.03f), turned);
       const int kind = random.below(10);
       const std::uint32_t own = random.bits();

@@ -19,7 +19,8 @@ constexpr const char* kWords[] = {"RACING",         "SINCE 1924",  "BETTER BY DA
 
 std::string name(Random& random) {
   const std::string head = kHeads[random.below(20)];
-  return head + (random.chance(0.3f) ? "-" : "") + kTails[random.below(20)];
+  const char* const tail = kTails[random.below(20)];
+  return head + (random.chance(0.3f) ? "-" : "") + tail;
 }
 
 void addShapes(Canvas& canvas, Random& random) {
@@ -31,28 +32,35 @@ void addShapes(Canvas& canvas, Random& random) {
     const float x = w * random.range(0.05f, 0.9f);
     canvas.polygon({{x, 0.0f}, {x + 0.3f * w, 0.0f}, {x + 0.3f * w - h, h}, {x - h, h}}, {color, 1.0f});
   } else if (kind == 1) {
-    for (int i = 0; i < 4; ++i)
-      canvas.ellipse({w * random.unit(), h * random.unit()}, Pixel::Constant(h * random.range(0.15f, 0.7f)),
-                     0.0f, {paintColor(random), 0.8f});
+    for (int i = 0; i < 4; ++i) {
+      const Ink ink{paintColor(random), 0.8f};
+      const Pixel radii = Pixel::Constant(h * random.range(0.15f, 0.7f));
+      canvas.ellipse({w * random.unit(), h * random.unit()}, radii, 0.0f, ink);
+    }
   } else if (kind == 2) {
     canvas.rectangle({0.0f, 0.0f}, {w, 0.16f * h}, {color, 1.0f});
     canvas.rectangle({0.0f, 0.84f * h}, {w, h}, {paintColor(random), 1.0f});
   } else if (kind == 3) {
-    for (int i = 0; i < 9; ++i)
-      canvas.line({{w * random.unit(), -5.0f}, {w * random.unit(), h + 5.0f}}, h * random.range(0.03f, 0.15f),
-                  {i % 2 ? color : paintColor(random), 0.85f});
+    for (int i = 0; i < 9; ++i) {
+      const Ink ink{i % 2 ? color : paintColor(random), 0.85f};
+      const float width = h * random.range(0.03f, 0.15f);
+      canvas.line({{w * random.unit(), -5.0f}, {w * random.unit(), h + 5.0f}}, width, ink);
+    }
   } else if (kind == 4) {
     // A sun with rays.
-    const Pixel middle(w * random.range(0.1f, 0.9f), h * random.range(0.3f, 0.7f));
+    const float y = h * random.range(0.3f, 0.7f);
+    const Pixel middle(w * random.range(0.1f, 0.9f), y);
     for (int i = 0; i < 12; ++i)
       canvas.line({middle, middle + h * Pixel(std::cos(0.5236f * i), std::sin(0.5236f * i))}, 0.05f * h,
                   {color, 1.0f});
     canvas.ellipse(middle, Pixel::Constant(0.3f * h), 0.0f, {paintColor(random), 1.0f});
   } else {
     for (int i = 0; i < 40; ++i) {
-      const Pixel corner(w * random.unit(), h * random.unit());
-      canvas.rectangle(corner, corner + Pixel(h * random.range(0.05f, 0.25f), h * random.range(0.05f, 0.25f)),
-                       {i % 3 ? color : paintColor(random), 0.7f});
+      const float y = h * random.unit();
+      const Pixel corner(w * random.unit(), y);
+      const Ink ink{i % 3 ? color : paintColor(random), 0.7f};
+      const float height = h * random.range(0.05f, 0.25f);
+      canvas.rectangle(corner, corner + Pixel(h * random.range(0.05f, 0.25f), height), ink);
     }
   }
 }
@@ -86,8 +94,8 @@ Canvas paintPoster(const PosterSize& size, std::uint32_t seed) {
   float letter = h * random.range(0.32f, 0.52f);
   letter *= std::min(1.0f, 0.9f * w / textWidth(title, letter));
   const bool plate = random.chance(0.6f);
-  const Pixel corner((w - textWidth(title, letter)) * random.range(0.2f, 0.8f),
-                     (h - letter) * random.range(0.25f, 0.6f));
+  const float top = (h - letter) * random.range(0.25f, 0.6f);
+  const Pixel corner((w - textWidth(title, letter)) * random.range(0.2f, 0.8f), top);
   if (plate)
     canvas.rectangle(corner - Pixel::Constant(0.22f * letter),
                      corner + Pixel(textWidth(title, letter), 1.25f * letter), {ground, 0.9f});
@@ -96,8 +104,8 @@ Canvas paintPoster(const PosterSize& size, std::uint32_t seed) {
     const std::string motto = kWords[random.below(16)];
     float small = 0.14f * h;
     small *= std::min(1.0f, 0.8f * w / textWidth(motto, small));
-    canvas.text(motto, {0.08f * w * random.range(0.5f, 3.0f), h - 1.5f * small}, small,
-                {random.chance(0.5f) ? ink : paintColor(random), 1.0f});
+    const Color color = random.chance(0.5f) ? ink : paintColor(random);
+    canvas.text(motto, {0.08f * w * random.range(0.5f, 3.0f), h - 1.5f * small}, small, {color, 1.0f});
   }
   weather(canvas, random);
   return canvas;

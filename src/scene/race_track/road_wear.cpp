@@ -17,12 +17,14 @@ void addPatches(Canvas& canvas, const StretchMap& map) {
     if (!map.sees(s - 1.0, s + length + 1.0)) continue;
     const float tone = random.range(0.045f, 0.17f);
     std::vector<Pixel> corners;
-    for (const auto& [u, v] : {std::pair{0.f, 0.f}, {1.f, 0.f}, {1.f, 1.f}, {0.f, 1.f}})
-      corners.push_back(
-          map.at(s + length * u + random.range(-.15f, .15f), left + width * v + random.range(-.1f, .1f)));
+    for (const auto& [u, v] : {std::pair{0.f, 0.f}, {1.f, 0.f}, {1.f, 1.f}, {0.f, 1.f}}) {
+      const float aside = left + width * v + random.range(-.1f, .1f);
+      corners.push_back(map.at(s + length * u + random.range(-.15f, .15f), aside));
+    }
     canvas.polygon(corners, {tone * Color(1.0f, 0.99f, 0.96f), random.range(0.45f, 0.85f)});
     corners.push_back(corners.front());
-    canvas.line(corners, random.range(1.5f, 4.0f), {kBitumen, random.range(0.3f, 0.9f)});
+    const float opacity = random.range(0.3f, 0.9f);
+    canvas.line(corners, random.range(1.5f, 4.0f), {kBitumen, opacity});
   }
 }
 
@@ -84,9 +86,10 @@ void addStains(Canvas& canvas, const StretchMap& map) {
     const Color color = random.chance(0.75f) ? Color(0.04f, 0.038f, 0.036f) : Color(0.22f, 0.20f, 0.17f);
     const float opacity = random.range(0.2f, 0.7f);
     for (int k = 0; k < 4; ++k) {
-      const Pixel centre = map.at(s + radius * random.bell() * 0.6f, left + radius * random.bell() * 0.4f);
-      const Pixel radii(radius * map.perMetreAlong() * random.range(0.3f, 1.0f),
-                        radius * map.perMetreLeft() * random.range(0.3f, 0.8f));
+      const float aside = left + radius * random.bell() * 0.4f;
+      const Pixel centre = map.at(s + radius * random.bell() * 0.6f, aside);
+      const float across = radius * map.perMetreLeft() * random.range(0.3f, 0.8f);
+      const Pixel radii(radius * map.perMetreAlong() * random.range(0.3f, 1.0f), across);
       canvas.ellipse(centre, radii, 0.0f, {color, 0.5f * opacity});
     }
   }
@@ -97,16 +100,18 @@ void addDebris(Canvas& canvas, const StretchMap& map) {
     Random random(206u, i);
     const double s = map.near(random.unit() * course().length());
     if (!map.sees(s - 0.5, s + 0.5)) continue;
-    const float left = random.chance(0.6f) ? (random.chance(0.5f) ? 1.0f : -1.0f) * random.range(3.2f, 6.5f)
-                                           : random.range(-4.0f, 4.0f);
+    const bool verge = random.chance(0.6f);
+    const float side = !verge || random.chance(0.5f) ? 1.0f : -1.0f;
+    const float left = side * (verge ? random.range(3.2f, 6.5f) : random.range(-4.0f, 4.0f));
     const Color leaf[] = {{0.25f, 0.17f, 0.06f},
                           {0.12f, 0.14f, 0.04f},
                           {0.30f, 0.28f, 0.25f},
                           {0.02f, 0.02f, 0.02f},
                           {0.18f, 0.10f, 0.05f}};
-    const Pixel radii(random.range(0.5f, 1.3f), random.range(0.8f, 2.6f));
-    canvas.ellipse(map.at(s, left), radii, random.range(0.0f, 3.0f),
-                   {leaf[random.below(5)], random.range(0.4f, 0.9f)});
+    const float across = random.range(0.8f, 2.6f);
+    const Pixel radii(random.range(0.5f, 1.3f), across);
+    const Ink ink{leaf[random.below(5)], random.range(0.4f, 0.9f)};
+    canvas.ellipse(map.at(s, left), radii, random.range(0.0f, 3.0f), ink);
   }
 }
 
@@ -115,14 +120,17 @@ void addCovers(Canvas& canvas, const StretchMap& map) {
     Random random(207u, i);
     const double s = map.near((i + random.unit()) / 14.0 * course().length());
     if (!map.sees(s - 1.0, s + 1.0)) continue;
-    const float left = (random.chance(0.5f) ? 1.0f : -1.0f) * random.range(2.6f, 3.7f);
+    const float side = random.chance(0.5f) ? 1.0f : -1.0f;
+    const float left = side * random.range(2.6f, 3.7f);
     const Pixel centre = map.at(s, left);
     const Pixel metre(map.perMetreAlong(), map.perMetreLeft());
     canvas.ellipse(centre, 0.42f * metre, 0.0f, {{0.16f, 0.155f, 0.15f}, 0.9f});
     canvas.ellipse(centre, 0.33f * metre, 0.0f, {{0.05f, 0.048f, 0.046f}, 0.9f});
-    for (int k = 0; k < 5; ++k)
-      canvas.ellipse(map.at(s + random.range(-.2f, .2f), left + random.range(-.2f, .2f)), 0.05f * metre, 0.0f,
+    for (int k = 0; k < 5; ++k) {
+      const float aside = left + random.range(-.2f, .2f);
+      canvas.ellipse(map.at(s + random.range(-.2f, .2f), aside), 0.05f * metre, 0.0f,
                      {{0.14f, 0.13f, 0.12f}, 0.9f});
+    }
   }
 }
 

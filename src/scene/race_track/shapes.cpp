@@ -125,6 +125,12 @@ void addLump(Assembly& assembly, const Paint& paint, const Lump& lump) {
   }
 }
 
+Point sway(float spread, Random& random) {
+  const float y = spread * random.bell();
+  const float x = spread * random.bell();
+  return {x, y, 0.0f};
+}
+
 Frame standing(const Point& place, float yaw) {
   Frame frame = Frame::Identity();
   frame.translate(place);

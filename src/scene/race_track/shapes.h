@@ -43,6 +43,8 @@ struct Lump {
 };
 void addLump(Assembly& assembly, const Paint& paint, const Lump& lump);
 
+/// A random horizontal offset, of standard deviation `spread` along either axis, m.
+Point sway(float spread, Random& random);
 /// A frame standing at `place`, its x axis turned by `yaw` from east.
 Frame standing(const Point& place, float yaw);
 /// `frame` moved by `offset` in its own axes.

@@ -25,6 +25,13 @@ Point direction(Random& random) {
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
+// A tint whose red varies by this standard deviation, and its blue by 0.1.
+Color leafHue(float red_spread, Random& random) {
+  const float blue = 1.0f + 0.1f * random.bell();
+  const float red = 1.0f + red_spread * random.bell();
+  return Color(red, 1.0f, blue).max(0.4f);
+}
+
 struct Leaves {
   Picture picture;
   Color tint;
@@ -87,7 +94,7 @@ void addBroadLeaf(Assembly& assembly, const Foliage& foliage, const Tree& tree) 
   Random random(tree.seed);
   const Paint bark{assembly.palette().bark, barkColor(tree.species) * random.range(0.75f, 1.2f)};
   const float h = tree.height;
-  const Point lean(0.05f * h * random.bell(), 0.05f * h * random.bell(), 0.0f);
+  const Point lean = sway(0.05f * h, random);
   const float girth = 0.013f * h * random.range(0.8f, 1.3f);
   const Point fork = tree.root + 0.5f * lean + Point(0, 0, random.range(0.20f, 0.34f) * h);
   const Point top = tree.root + lean + Point(0, 0, 0.82f * h);
@@ -106,8 +113,8 @@ void addBroadLeaf(Assembly& assembly, const Foliage& foliage, const Tree& tree) 
   const auto& pictures = foliage.leaves[static_cast<int>(tree.species)];
   const int blobs = tree.detail > 0.5f ? 12 : 7;
   const int sprays = static_cast<int>((tree.detail > 0.5f ? 142.0f : 62.0f) / blobs * (0.7f + 0.04f * h));
-  const Color tint = Color(1.0f + 0.14f * random.bell(), 1.0f, 1.0f + 0.1f * random.bell()).max(0.4f) *
-                     random.range(0.8f, 1.2f);
+  const float shade = random.range(0.8f, 1.2f);
+  const Color tint = leafHue(0.14f, random) * shade;
   for (int i = 0; i < blobs; ++i) {
     Point out = direction(random);
     out.z() = 0.25f + 0.75f * out.z();
@@ -129,7 +136,7 @@ void addConifer(Assembly& assembly, const Foliage& foliage, const Tree& tree) {
   Random random(tree.seed);
   const Paint bark{assembly.palette().bark, barkColor(tree.species) * random.range(0.75f, 1.2f)};
   const float h = tree.height;
-  const Point top = tree.root + Point(0.02f * h * random.bell(), 0.02f * h * random.bell(), h);
+  const Point top = tree.root + (sway(0.02f * h, random) + Point(0, 0, h));
   addTube(assembly, bark,
           {{tree.root - Point(0, 0, 0.3f), 0.022f * h},
            {0.5f * (tree.root + top), 0.012f * h},
@@ -138,8 +145,8 @@ void addConifer(Assembly& assembly, const Foliage& foliage, const Tree& tree) {
   const bool pine = tree.species == Species::kPine;
   const float bare = pine ? random.range(0.40f, 0.58f) : random.range(0.05f, 0.14f);
   const int whorls = tree.detail > 0.5f ? 19 : 10;
-  const Color tint =
-      Color::Constant(random.range(0.8f, 1.25f)) * Color(1.0f + 0.1f * random.bell(), 1.0f, 1.0f).max(0.5f);
+  const Color hue = Color(1.0f + 0.1f * random.bell(), 1.0f, 1.0f).max(0.5f);
+  const Color tint = random.range(0.8f, 1.25f) * hue;
   for (int i = 0; i < whorls; ++i) {
     const float t = (static_cast<float>(i) + random.unit()) / static_cast<float>(whorls);
     const float level = bare + (1.0f - bare) * t;
@@ -178,7 +185,8 @@ void addBush(Assembly& assembly, const Foliage& foliage, const Point& root, std:
   const Species kinds[] = {Species::kOak, Species::kBirch, Species::kMaple, Species::kLime,
                            Species::kCopperBeech};
   const int kind = static_cast<int>(kinds[random.below(random.chance(0.15f) ? 5 : 4)]);
-  const Color tint = Color(1.0f + 0.15f * random.bell(), 1.0f, 1.0f).max(0.5f) * random.range(0.7f, 1.2f);
+  const float shade = random.range(0.7f, 1.2f);
+  const Color tint = Color(1.0f + 0.15f * random.bell(), 1.0f, 1.0f).max(0.5f) * shade;
   const int sprays = 26 + static_cast<int>(16.0f * radius);
   for (int i = 0; i < sprays; ++i) {
     Point way = direction(random);
@@ -211,8 +219,8 @@ float heightOf(Species species, Random& random) {
 void addFarTree(Assembly& assembly, const Foliage& foliage, const Tree& tree) {
   Random random(tree.seed);
   const bool conifer = tree.species == Species::kSpruce || tree.species == Species::kPine;
-  const Color tint = Color(1.0f + 0.18f * random.bell(), 1.0f, 1.0f + 0.1f * random.bell()).max(0.4f) *
-                     random.range(0.75f, 1.3f);
+  const float shade = random.range(0.75f, 1.3f);
+  const Color tint = leafHue(0.18f, random) * shade;
   const int sprays = conifer ? 5 : 6;
   for (int i = 0; i < sprays; ++i) {
     const float t = (static_cast<float>(i) + 0.5f) / static_cast<float>(sprays);
@@ -236,7 +244,8 @@ void addForest(Assembly& assembly, const Foliage& foliage) {
   int planted = 0;
   for (int i = 0; i < 60000 && planted < 5600; ++i) {
     const float angle = random.range(0.0f, 2.0f * kPi);
-    const float distance = 190.0f + 1300.0f * random.unit() * random.unit();
+    const float reach = 1300.0f * random.unit();
+    const float distance = 190.0f + reach * random.unit();
     const Eigen::Vector2d p(-10.0 + distance * std::cos(angle), 90.0 + 0.9 * distance * std::sin(angle));
     const float x = static_cast<float>(p.x());
     const float y = static_cast<float>(p.y());
@@ -257,9 +266,10 @@ void addTrees(Assembly& assembly, const Foliage& foliage) {
   std::vector<Eigen::Vector2d> planted;
   Random random(401u);
   for (int i = 0; i < 14000 && planted.size() < 560; ++i) {
-    const TrackPlace place{
-        random.unit() * course().length(),
-        (random.chance(0.5f) ? 1.0 : -1.0) * (9.5f + 50.0f * random.unit() * random.unit())};
+    const double along = random.unit() * course().length();
+    const double side = random.chance(0.5f) ? 1.0 : -1.0;
+    const float reach = 50.0f * random.unit();
+    const TrackPlace place{along, side * (9.5f + reach * random.unit())};
     const Eigen::Vector2d p = course().point(place);
     const float x = static_cast<float>(p.x());
     const float y = static_cast<float>(p.y());
@@ -279,8 +289,9 @@ void addTrees(Assembly& assembly, const Foliage& foliage) {
     addTree(assembly, foliage, {groundPoint(p), species, height, aside < 24.0 ? 1.0f : 0.3f, seed});
   }
   for (int i = 0; i < 330; ++i) {
-    const TrackPlace place{random.unit() * course().length(),
-                           (random.chance(0.5f) ? 1.0 : -1.0) * random.range(9.0f, 30.0f)};
+    const double along = random.unit() * course().length();
+    const double side = random.chance(0.5f) ? 1.0 : -1.0;
+    const TrackPlace place{along, side * random.range(9.0f, 30.0f)};
     const Eigen::Vector2d p = course().point(place);
     const std::uint32_t seed = random.bits();
     if (isFree(p, 0.6)) addBush(assembly, foliage, groundPoint(p), seed);

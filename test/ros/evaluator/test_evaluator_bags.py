@@ -123,7 +123,7 @@ class TestBags(unittest.TestCase):
                         {r['difference'] for r in summary})
 
     def test_bad_bags_and_arguments_are_one_clear_line(self):
-        self.write_bags({'one.bag': [2]})
+        self.write_bags({'one.bag': [2], 'all.bag': [0, 1, 2]}, range(2))
         with open(self.path('no.bag'), 'w') as file:
             file.write('not a bag')
         with open(self.path('wrong.yaml'), 'w') as file:
@@ -134,7 +134,7 @@ class TestBags(unittest.TestCase):
                  (start + [self.path('one.bag')], 'the bags hold no /h04/camera/image_raw'),
                  (['--config', self.path('wrong.yaml'), '--out', self.path('out'), self.path('one.bag')], 'ratoi'),
                  (['--config', self.path('no.yaml'), '--out', self.path('out'), self.path('one.bag')], 'no.yaml'),
-                 (['--config', self.config, '--out', '/proc/out', self.path('one.bag')], 'h04'),
+                 (['--config', self.config, '--out', '/proc/out', self.path('all.bag')], '/proc/out'),
                  (start, 'no bag given'),
                  (start + ['--merge', self.folder.name], 'holds no run'),
                  (['--colour'], '--colour')]

@@ -5,10 +5,12 @@ import subprocess
 import tempfile
 import unittest
 
+import roslib.packages
 import rosunit
 import yaml
 
-SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "scripts", "experiment_parameters")
+SOURCE = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", ".."))
+SCRIPT = os.path.join(SOURCE, "scripts", "experiment_parameters")
 
 
 def tell(*words):
@@ -26,6 +28,41 @@ class ExperimentArguments(unittest.TestCase):
         self.assertEqual(tell("conditions", "12.25"), {"h12_15": {"hour": 12, "minute": 15, "second": 0.0}})
         # The last half second of a day does not spill into the next.
         self.assertEqual(tell("hour_names", "[23.99999]"), ["h23_59_59"])
+
+    def test_every_shipped_parameter_file_is_under_test(self):
+        """Each is loaded by the test named here, so that a bad key fails; a new one needs a test first."""
+        config = os.path.join(SOURCE, "config")
+        self.assertEqual(sorted(name for name in os.listdir(config) if name.endswith(".yaml")),
+                         ["evaluator.yaml",      # test_evaluator_parameters.py
+                          "experiment.yaml",     # experiment_runs.py
+                          "render.yaml",         # render_refuses.py
+                          "sun_position.yaml"])  # sun_refuses_parameters.py
+
+    def test_every_shipped_waypoint_file_is_a_path(self):
+        count_poses = roslib.packages.find_node("sunlit", "count_poses")[0]
+        paths = os.path.join(SOURCE, "config", "paths")
+        self.assertTrue(os.listdir(paths))
+        for name in os.listdir(paths):
+            poses = subprocess.check_output([count_poses, "some.world", os.path.join(paths, name), "1.0", "0"])
+            self.assertGreater(int(poses), 100, name)
+
+    def test_rviz_shows_each_condition(self):
+        with tempfile.TemporaryDirectory() as folder:
+            rviz = os.path.join(folder, "rviz")
+            with open(rviz, "w") as fake:
+                fake.write("#!/bin/sh\ncat \"$2\"\n")
+            os.chmod(rviz, 0o755)
+            for config in ("sunlit.rviz", "sun_position.rviz"):
+                for action, text, names in (("hour_names", "[4, 20]", ["h04/", "h20/"]), ("names", "{a: {}}", ["a/"]),
+                                            ("names", "", [""])):
+                    shown = yaml.safe_load(subprocess.check_output(
+                        ["/usr/bin/python3", os.path.join(SOURCE, "scripts", "conditions_rviz"),
+                         os.path.join(SOURCE, "rviz", config), action, text],
+                        env=dict(os.environ, PATH=folder + ":" + os.environ["PATH"])))
+                    displays = shown["Visualization Manager"]["Displays"]
+                    self.assertEqual([d["Marker Topic"] for d in displays if "Marker Topic" in d],
+                                     [name + "sun_marker" for name in names])
+                    self.assertEqual(len({d["Name"] for d in displays}), len(displays))
 
     def test_bad_hours_are_refused(self):
         for hours in ("[]", "[24]", "[-1]", "[4, 4.0]", "[true]", "[.nan]", "{4: 5}", "[4", "noon"):

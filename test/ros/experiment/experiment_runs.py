@@ -101,6 +101,45 @@ class ExperimentRuns(unittest.TestCase):
         self.assertIn("experiment: FAILED: render ended before everything was evaluated", run.said())
         self.assertEqual(run.left_running(), [])
 
+    def test_the_watcher_itself_dies_and_nothing_is_left_running(self):
+        run = small_experiment(os.path.join(self.folder, "unwatched"), record="true", max_ahead=1)
+        run.wait_for(lambda: any("recorder" in command for _, command in run.running()), "started the recorder")
+        run.kill("experiment_node")
+        run.end()
+        self.assertEqual(run.left_running(), [])
+
+    def test_roslaunch_itself_dies_and_nothing_is_left_running(self):
+        run = small_experiment(os.path.join(self.folder, "orphaned"), record="true", max_ahead=1)
+        run.wait_for(lambda: any("recorder" in command for _, command in run.running()), "started the recorder")
+        run.process.kill()
+        run.process.wait()
+        self.assertEqual(run.left_running(), [])
+        self.assertIn("experiment: FAILED: roslaunch has gone", run.said())
+
+    def test_what_an_earlier_run_left_on_the_master_does_not_matter(self):
+        # The master of this test. Each of these would change the run or end it.
+        rospy.set_param("/experiment/record", ["/camera/pose"])
+        rospy.set_param("/evaluator/ratio", 0.9)
+        rospy.set_param("/render/camera/follow", "tf")
+        rospy.set_param("/self_test/render/no_such_key", 1)
+        output = os.path.join(self.folder, "second_on_a_master")
+        run = small_experiment(output, {"ROS_MASTER_URI": os.environ["ROS_MASTER_URI"]})
+        self.assertEqual(run.end(), 0, run.said())
+        self.assertEqual(self.bytes_of(output), self.bytes_of(self.output))
+        self.assertEqual([name for name in os.listdir(output) if name.endswith(".bag")], [])
+
+    def test_a_namespace_of_the_user_does_not_matter(self):
+        output = os.path.join(self.folder, "with space")
+        run = small_experiment(output, {"ROS_NAMESPACE": "robot"})
+        self.assertEqual(run.end(), 0, run.said())
+        self.assertEqual(self.bytes_of(output), self.bytes_of(self.output))
+
+    def test_started_again_when_finished_it_only_says_so(self):
+        before = self.bytes_of(self.output, "frames.csv")
+        again = small_experiment(self.output)
+        self.assertEqual(again.end(), 0, again.said())
+        self.assertEqual(self.bytes_of(self.output, "frames.csv"), before)
+
     def test_ctrl_c_is_a_failure_too_and_leaves_nothing_running(self):
         run = small_experiment(os.path.join(self.folder, "interrupted"))
         run.wait_for(lambda: "World " in run.said(), "loaded the world")
@@ -111,6 +150,9 @@ class ExperimentRuns(unittest.TestCase):
     def test_bad_arguments_stop_it_before_it_starts(self):
         for arguments, part in ((dict(hours="[4, x]"), "argument hours is '[4, x]'"),
                                 (dict(date="2024-02-31"), "argument date is '2024-02-31'"),
+                                (dict(differences="[sfit]"), "argument differences is '[sfit]'"),
+                                (dict(self_test_every=0), "argument self_test_every is 0"),
+                                (dict(hours="[12]", self_test="false"), "two hours or more"),
                                 (dict(site="[91]"), "argument site is '[91]'"),
                                 (dict(poses=1000), "argument poses is 1000, but the path has only 20"),
                                 (dict(path="/nowhere.csv"), "/nowhere.csv"),

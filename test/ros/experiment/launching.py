@@ -26,15 +26,17 @@ class Launched:
 
     all_of_them = []
 
-    def __init__(self, launch_file, **arguments):
+    def __init__(self, launch_file, surroundings=None, **arguments):
+        """`surroundings`: environment variables of this launch, such as the ROS_MASTER_URI of a master that runs already."""
         self.all_of_them.append(self)
         self.mark = "SUNLIT_TEST_RUN=" + uuid.uuid4().hex
-        self.port = free_port()
         key, value = self.mark.split("=")
-        self.environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % self.port,
+        self.environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % free_port(),
                                 ROS_HOSTNAME="localhost", **{key: value})
+        self.environment.update(surroundings or {})
         self.log = tempfile.TemporaryFile(mode="w+")
-        command = ["roslaunch", "-p", str(self.port), "sunlit", launch_file]
+        port = self.environment["ROS_MASTER_URI"].rsplit(":", 1)[1]
+        command = ["roslaunch", "-p", port, "sunlit", launch_file]
         command += ["%s:=%s" % (name, value) for name, value in arguments.items()]
         self.process = subprocess.Popen(command, env=self.environment, stdin=subprocess.DEVNULL, stdout=self.log,
                                         stderr=subprocess.STDOUT)
@@ -109,9 +111,9 @@ def kill_leftovers():
         launched.kill()
 
 
-def small_experiment(output, **changes):
+def small_experiment(output, surroundings=None, **changes):
     """Two hours, a few tiny images of a tiny world."""
     arguments = dict(world=WORLD, path=WAYPOINTS, spacing=0.5, poses=POSES, hours="[10, 12]", width=96, height=72,
                      differences=DIFFERENCES, self_test_every=5, output=output, report="false")
     arguments.update(changes)
-    return Launched("experiment.launch", **arguments)
+    return Launched("experiment.launch", surroundings, **arguments)

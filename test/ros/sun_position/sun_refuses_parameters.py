@@ -1,10 +1,14 @@
 #!/usr/bin/python3
 """A bad or unknown parameter stops the node with one clear line and a non-zero exit status."""
+import os
+import re
 import subprocess
 import unittest
 
+import rospkg
 import rospy
 import rostest
+import yaml
 from sun_reading import TIMEOUT_S
 
 
@@ -32,6 +36,18 @@ class SunRefusesParameters(unittest.TestCase):
         self.check({"site": {"lattitude": 5.0}}, "/bad_sun/site/lattitude", "unknown", "site/latitude")
         self.check({"colour": "red"}, "/bad_sun/colour", "unknown")
         self.check({"conditions": {"h04": {"huor": 4}}}, "h04/huor", "unknown")
+
+    def test_every_parameter_is_explained_in_the_shipped_file(self):
+        def keys(tree, prefix=""):
+            for key, value in tree.items():
+                yield from keys(value, prefix + key + "/") if isinstance(value, dict) else [prefix + key]
+
+        with open(os.path.join(rospkg.RosPack().get_path("sunlit"), "config", "sun_position.yaml")) as file:
+            shipped = yaml.safe_load(file)
+        done = start(dict(shipped, unknown_key=1))  # all but that one are accepted
+        self.assertIn("/bad_sun/unknown_key is unknown", done.stdout + done.stderr)
+        known = re.search("known are ([a-z0-9_/, ]*)", done.stdout + done.stderr).group(1).split(", ")
+        self.assertEqual(sorted(set(known) - {"conditions", "diagnostic_period"}), sorted(keys(shipped)))
 
     def test_values_out_of_range(self):
         self.check({"site": {"latitude": 91.0}}, "/bad_sun/site/latitude", "91", "from -90 to 90")

@@ -97,7 +97,10 @@ TEST(PosesAlong, RefusesWhatIsNoPath) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(messageOf({}), "a path needs two waypoints or more, there are 0");
   EXPECT_EQ(messageOf({{1, 2, 3}}), "a path needs two waypoints or more, there is 1");
-  EXPECT_EQ(messageOf({{0, 0, 0}, {1, nan, 0}}), "waypoint 1: a coordinate is not a finite number");
+  EXPECT_EQ(messageOf({{0, 0, 0}, {1, nan, 0}}), "waypoint 1: y is nan, must be -1e+07 … 1e+07 m");
+  EXPECT_EQ(messageOf({{0, 0, 0}, {1, 0, -1e300}}), "waypoint 1: z is -1e+300, must be -1e+07 … 1e+07 m");
+  EXPECT_EQ(messageOf({{0, 0, 0}, {20000, 0, 0}}, {0.001, 0.0}),
+            "waypoint 0: from here to the next are 20000.000000 m, more poses than the 10 million allowed");
   // Straight above each other is no direction to look in, either.
   EXPECT_EQ(messageOf({{0, 0, 0}, {1, 0, 0}, {1, 0.0009, 5}}),
             "waypoint 2: it is less than 1 mm from the waypoint before it in plan view");

@@ -1,6 +1,7 @@
 #include "sunlit/scene/race_track.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -70,8 +71,10 @@ std::optional<double> roadHeight(double x, double y) {
   return height;
 }
 
-TEST(RaceTrack, isTheSameBitsAtEveryCall) {
-  EXPECT_EQ(fingerprint(world()), fingerprint(raceTrack()));
+TEST(RaceTrack, isTheSameBitsAtEveryCallAndForAnyThreadCount) {
+  const std::uint64_t with_all_threads = fingerprint(world());
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_EQ(with_all_threads, fingerprint(raceTrack()));
 }
 
 TEST(RaceTrack, isAValidScene) {

@@ -1,0 +1,57 @@
+/// Fractal detail on the surfaces of one tile.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "render/detail.h"
+#include "render/view.h"
+#include "sunlit/light/surfaces.h"
+
+namespace sunlit::render {
+
+/// What all tiles of a view share.
+struct SceneDetail {
+  SceneDetail(const scene::Scene& scene, const View& view);
+  bool has(std::int32_t material) const { return octaves[static_cast<std::size_t>(material)].has_value(); }
+
+  std::vector<std::optional<DetailOctaves>> octaves;  ///< by material; empty for one without detail
+  std::vector<Eigen::Array3f> tints;                  ///< by material
+  Eigen::Vector3f sample_right, sample_down;          ///< from one sample to the next, in `map`, at depth 1 m
+};
+
+/// Collects the surfaces that have detail, and evaluates it for many of one material together.
+class TileDetail {
+ public:
+  struct Entry {
+    std::uint32_t surface;  ///< index into Tile::surfaces
+    std::int32_t material;
+    float footprint;                   ///< of one sample, m
+    std::uint32_t samples;             ///< > 0
+    const Eigen::Vector3f* relatives;  ///< where the samples are, from the camera; copied
+    const Eigen::Array3f* albedos;     ///< theirs without detail; copied
+  };
+  void add(const Entry& entry);
+
+  /// Sets the albedo of the surfaces added: the mean of their samples with detail. Forgets them.
+  void apply(const SceneDetail& scene, std::vector<light::Surface>* surfaces);
+
+ private:
+  struct Item {
+    std::uint32_t surface;
+    std::int32_t material;
+    float footprint;
+    std::uint32_t samples, first_sample;
+    float coarse;
+  };
+  void evaluate(const DetailOctaves& octaves, std::size_t begin, std::size_t end);
+
+  std::vector<Item> items_;
+  std::vector<Eigen::Vector3f> relatives_;
+  std::vector<Eigen::Array3f> albedos_;
+  std::vector<float> fine_;  ///< one a sample
+};
+
+}  // namespace sunlit::render
