@@ -32,7 +32,10 @@ class Evaluation::State {
   void add(const PlaceRecord& place);
   Counts counts() const;
   bool isComplete() const;
-  void waitForRoom(std::size_t queued_poses) const { queue_.waitForAtMost(queued_poses); }
+  void waitForRoom(std::size_t queued_poses) const {
+    queue_.waitForAtMost(queued_poses);
+    queue_.rethrow();
+  }
   Outcome finish();
 
  private:

@@ -1,6 +1,7 @@
 #include "sunlit/render/renderer.h"
 
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "render/geometry_pass.h"
@@ -34,38 +35,56 @@ class Renderer::Implementation {
   ~Implementation() { context_.makeCurrent(); }
 
   void look(const Eigen::Isometry3d& map_from_optical) {
-    if (!map_from_optical.matrix().allFinite()) throw std::invalid_argument("map_from_optical is not finite");
-    context_.makeCurrent();
-    view_.map_from_optical = map_from_optical;
-    pass_.draw(view_, &samples_);
-    resolveSurfaces({view_, *geometry_, samples_}, &surfaces_);
+    const bool drawn_ahead =
+        !ahead_.samples.empty() && ahead_.view.map_from_optical.matrix() == map_from_optical.matrix();
+    if (!drawn_ahead) draw(map_from_optical, ahead_);
+    std::swap(seen_, ahead_);
+    ahead_.samples.clear();
   }
+
+  void lookAhead(const Eigen::Isometry3d& map_from_optical) { draw(map_from_optical, ahead_); }
 
   image::LinearImage light(const sky::Daylight& day) const {
     requireLook();
-    return light::illuminate(surfaces_, *geometry_->scene, visibility_, day);
+    return light::illuminate(seen_.surfaces, *geometry_->scene, visibility_, day);
   }
 
   image::DepthImage depth() const {
     requireLook();
-    return resolveDepth({view_, *geometry_, samples_}, visibility_);
+    return resolveDepth({seen_.view, *geometry_, seen_.samples}, visibility_);
   }
 
   const RenderOptions& options() const { return options_; }
 
  private:
+  /// One pose, drawn.
+  struct Seen {
+    View view;
+    std::vector<PackedSample> samples;
+    light::Surfaces surfaces;
+  };
+
+  void draw(const Eigen::Isometry3d& map_from_optical, Seen& seen) {
+    if (!map_from_optical.matrix().allFinite()) throw std::invalid_argument("map_from_optical is not finite");
+    context_.makeCurrent();
+    seen.view = view_;
+    seen.view.map_from_optical = map_from_optical;
+    pass_.draw(seen.view, &seen.samples);
+    resolveSurfaces({seen.view, *geometry_, seen.samples}, &seen.surfaces);
+  }
+
   void requireLook() const {
-    if (samples_.empty()) throw std::logic_error("look() must be called before light() and depth()");
+    if (seen_.samples.empty()) throw std::logic_error("look() must be called before light() and depth()");
   }
 
   RenderOptions options_;
-  View view_;
+  View view_;  // without a pose
   std::shared_ptr<const light::Geometry> geometry_;
   light::Visibility visibility_;
   GlContext context_;  // before what lives in it
   GeometryPass pass_;
-  std::vector<PackedSample> samples_;
-  light::Surfaces surfaces_;
+  Seen seen_;
+  Seen ahead_;
 };
 
 Renderer::Renderer(std::shared_ptr<const scene::Scene> scene, const RenderOptions& options)
@@ -74,6 +93,9 @@ Renderer::~Renderer() = default;
 
 void Renderer::look(const Eigen::Isometry3d& map_from_optical) {
   implementation_->look(map_from_optical);
+}
+void Renderer::lookAhead(const Eigen::Isometry3d& map_from_optical) {
+  implementation_->lookAhead(map_from_optical);
 }
 image::LinearImage Renderer::light(const sky::Daylight& day) const {
   return implementation_->light(day);

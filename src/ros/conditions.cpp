@@ -16,14 +16,17 @@ void requireName(const std::string& name, const std::string& parameter) {
   bool good = !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) != 0;
   for (const char c : name) good = good && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_');
   if (!good) {
-    throw std::invalid_argument("parameter " + parameter + " has the name \"" + name +
-                                "\", but a condition must be called by letters, digits and _, a letter first");
+    throw std::invalid_argument(
+        "parameter " + parameter + " has the name \"" + name +
+        "\", but a condition must be called by letters, digits and _, a letter first");
   }
 }
 
 }  // namespace
 
-ros::NodeHandle Condition::node() const { return name.empty() ? ros::NodeHandle() : ros::NodeHandle(name); }
+ros::NodeHandle Condition::node() const {
+  return name.empty() ? ros::NodeHandle() : ros::NodeHandle(name);
+}
 
 ros::NodeHandle Condition::privateNode() const {
   if (name.empty()) return ros::NodeHandle("~");
@@ -60,9 +63,10 @@ std::vector<Condition> readConditions(const ParameterReader& parameters) {
     for (auto& member : value) add(member.first, member.second);
   }
   if (conditions.empty()) {
-    throw std::invalid_argument("parameter " + parameter +
-                                " must be a list of names, [morning, noon], or a map from names to what differs, "
-                                "{h04: {hour: 4}, h12: {hour: 12}}");
+    throw std::invalid_argument(
+        "parameter " + parameter +
+        " must be a list of names, [morning, noon], or a map from names to what differs, "
+        "{h04: {hour: 4}, h12: {hour: 12}}");
   }
   return conditions;
 }

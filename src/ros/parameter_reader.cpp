@@ -13,9 +13,9 @@ using XmlRpc::XmlRpcValue;
 
 struct ParameterReader::Layer {
   XmlRpcValue tree;
-  std::string name;                // before the keys in messages
-  bool by_last_part = false;       // overrides may name a key by its last part
-  std::set<std::string> asked;     // keys looked for, whether there or not
+  std::string name;             // before the keys in messages
+  bool by_last_part = false;    // overrides may name a key by its last part
+  std::set<std::string> asked;  // keys looked for, whether there or not
 };
 
 namespace {
@@ -136,11 +136,15 @@ std::string ParameterReader::fullName(const std::string& key) const {
   return layers_.back()->name + "/" + key;
 }
 
-void ParameterReader::reject(const std::string& key, const XmlRpcValue& value, const std::string& allowed) const {
-  throw std::invalid_argument("parameter " + fullName(key) + " is " + printed(value) + ", but must be " + allowed);
+void ParameterReader::reject(const std::string& key, const XmlRpcValue& value,
+                             const std::string& allowed) const {
+  throw std::invalid_argument("parameter " + fullName(key) + " is " + printed(value) + ", but must be " +
+                              allowed);
 }
 
-bool ParameterReader::has(const std::string& key) const { return find(key) != nullptr; }
+bool ParameterReader::has(const std::string& key) const {
+  return find(key) != nullptr;
+}
 
 double ParameterReader::number(const std::string& key, double fallback, Range range) const {
   const XmlRpcValue* value = find(key);
@@ -166,7 +170,8 @@ std::optional<double> ParameterReader::numberOr(const std::string& key, const st
 int ParameterReader::integer(const std::string& key, int fallback, Range range) const {
   const XmlRpcValue* value = find(key);
   if (value == nullptr) return fallback;
-  if (value->getType() != XmlRpcValue::TypeInt || as<int>(*value) < range.min || as<int>(*value) > range.max) {
+  if (value->getType() != XmlRpcValue::TypeInt || as<int>(*value) < range.min ||
+      as<int>(*value) > range.max) {
     reject(key, *value, "a whole number " + printed(range));
   }
   return as<int>(*value);
@@ -221,7 +226,8 @@ void ParameterReader::rejectUnknown() const {
   const auto unknown = firstUnknown(layer.tree, "", layer.asked);
   if (!unknown) return;
   const std::vector<std::string> known(layer.asked.begin(), layer.asked.end());
-  throw std::invalid_argument("parameter " + layer.name + "/" + *unknown + " is unknown; known are " + joined(known));
+  const std::string choice = known.empty() ? "nothing can differ here" : "known are " + joined(known);
+  throw std::invalid_argument("parameter " + layer.name + "/" + *unknown + " is unknown; " + choice);
 }
 
 }  // namespace sunlit::ros_interface

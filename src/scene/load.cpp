@@ -1,7 +1,6 @@
 #include "sunlit/scene/load.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <stdexcept>
 
@@ -13,13 +12,6 @@
 
 namespace sunlit::scene {
 namespace {
-
-std::string extensionOf(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return extension;
-}
 
 bool isOneOf(const std::string& extension, std::initializer_list<const char*> known) {
   return std::find(known.begin(), known.end(), extension) != known.end();

@@ -110,6 +110,7 @@ void warnAboutExtensions(const std::string& file, SceneBuilder& builder) {
   const std::size_t key = text.find("\"extensionsUsed\"");
   if (key == std::string::npos) return;
   const std::size_t begin = text.find('[', key);
+  if (begin == std::string::npos) return;
   const std::string list = text.substr(begin, text.find(']', begin) - begin);
   const std::regex quoted("\"([^\"]*)\"");
   for (std::sregex_iterator name(list.begin(), list.end(), quoted), end; name != end; ++name) {
@@ -117,14 +118,14 @@ void warnAboutExtensions(const std::string& file, SceneBuilder& builder) {
   }
 }
 
+}  // namespace
+
 std::string extensionOf(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   return extension;
 }
-
-}  // namespace
 
 std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, const ResourceFinder& finder,
                                    SceneBuilder& builder) {
@@ -143,7 +144,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
 
   if (gltf) warnAboutExtensions(file, builder);
   const std::vector<std::optional<int>> material_indices =
-      addMaterials(*scene, MeshFileContext{file, finder, builder});
+      addMaterials(*scene, MeshFileContext{file, gltf, finder, builder});
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up.
   const bool y_up = gltf || (collada && up_axis == UpAxis::kAsDeclared);
   Collector collector{*scene, material_indices, {}};

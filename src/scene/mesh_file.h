@@ -25,6 +25,9 @@ struct MeshPart {
   Eigen::Affine3d file_from_node = Eigen::Affine3d::Identity();  ///< to z up, m
 };
 
+/// The ending of a file's name in lower case, with its dot; empty if it has none.
+std::string extensionOf(const std::string& file);
+
 /// Reads `file`; its materials and textures go to `builder`. Throws std::runtime_error naming the file and
 /// what is wrong.
 std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, const ResourceFinder& finder,

@@ -15,11 +15,6 @@ namespace {
 
 constexpr float kSmoothest = 0.03f;  ///< the lowest roughness that Material allows
 
-bool isGltf(const MeshFileContext& context) {
-  return context.file.size() > 4 && (context.file.compare(context.file.size() - 4, 4, ".glb") == 0 ||
-                                     context.file.compare(context.file.size() - 5, 5, ".gltf") == 0);
-}
-
 std::optional<std::string> textureName(const aiMaterial& source) {
   for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
     aiString name;
@@ -115,7 +110,7 @@ std::optional<int> addMeshMaterial(const aiMaterial& source, const aiScene& scen
                                    const MeshFileContext& context) {
   Material material;
   material.name = source.GetName().C_Str();
-  const bool gltf = isGltf(context);
+  const bool gltf = context.is_gltf;
   if (isSeenThrough(source)) {
     context.builder.warn(context.file + ": what has material " + material.name +
                          " was left out: it is more than half transparent");

@@ -14,6 +14,7 @@ namespace sunlit::scene {
 /// A mesh file being read.
 struct MeshFileContext {
   std::string file;
+  bool is_gltf;  ///< else COLLADA or OBJ, whose materials mean other things
   const ResourceFinder& finder;
   SceneBuilder& builder;
 };

@@ -10,8 +10,6 @@
 namespace sunlit::sky {
 namespace {
 
-constexpr double kSunRadiusAtOneAu_rad = 0.2666 * kRadPerDeg;  // Astronomical Almanac: 959.63″
-
 void requireWithin(const char* key, double value, double low, double high) {
   if (!(value >= low && value <= high)) {
     std::ostringstream message;
@@ -71,7 +69,7 @@ Daylight Atmosphere::daylight(const SunInSky& sun) const {
   const double altitude_km = tables_->options.observer_height_m * 1e-3;
   DiscLight disc;
   disc.towards = sun.apparent;
-  disc.angular_radius = Angle::radians(std::asin(std::sin(kSunRadiusAtOneAu_rad) / sun.distance_au));
+  disc.angular_radius = Angle::radians(std::asin(sin(kSunRadiusAtOneAu) / sun.distance_au));
   const Spectrum arriving = sunlightAtGround(tables_->transport, altitude_km, sun.apparent.elevation().rad(),
                                              disc.angular_radius.rad());
   disc.illuminance =

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sunlit/quantity/angle.h"
+#include "table_place.h"
 
 namespace sunlit::sky {
 namespace {
@@ -144,16 +145,6 @@ float arcCosine(float x) {
   return std::sqrt(1.0F - x) * sum;
 }
 
-struct Cell {
-  int index;
-  float fraction;
-};
-Cell cell(float coordinate, int count) {
-  const float x = std::clamp(coordinate, 0.0F, static_cast<float>(count - 1));
-  const int index = std::min(static_cast<int>(x), count - 2);
-  return {index, x - static_cast<float>(index)};
-}
-
 }  // namespace
 
 Eigen::Array3f SkyTable::luminance(const Eigen::Vector3f& towards) const {
@@ -164,8 +155,8 @@ Eigen::Array3f SkyTable::luminance(const Eigen::Vector3f& towards) const {
   const float from_side = arcCosine(std::min(std::abs(ahead), 1.0F));
   const float azimuth = ahead >= 0.0F ? from_side : 2.0F * kHalfPi - from_side;
   const float elevation = std::max(0.0F, kHalfPi - arcCosine(std::clamp(towards.z(), 0.0F, 1.0F)));
-  const Cell row = cell(std::sqrt(elevation / kHalfPi) * (kRows - 1), kRows);
-  const Cell column = cell(azimuth * static_cast<float>((kColumns - 1) / kPi), kColumns);
+  const TablePlace row = placeAt(std::sqrt(elevation / kHalfPi) * (kRows - 1), kRows);
+  const TablePlace column = placeAt(azimuth * static_cast<float>((kColumns - 1) / kPi), kColumns);
   const Node* low = &sky[nodeIndex(row.index, column.index, kColumns)];
   const Node* high = low + kColumns;
   const float u = column.fraction;
@@ -191,8 +182,8 @@ Eigen::Array3f SkyTable::luminance(const Eigen::Vector3f& towards) const {
 
 Eigen::Array3f SkyTable::illuminanceOn(const Eigen::Vector3f& normal) const {
   const Eigen::Vector2f place = (square(normal).array() + 1.0F) * (0.5F * (kNormals - 1));
-  const Cell column = cell(place.x(), kNormals);
-  const Cell row = cell(place.y(), kNormals);
+  const TablePlace column = placeAt(place.x(), kNormals);
+  const TablePlace row = placeAt(place.y(), kNormals);
   const Eigen::Array4f* low = &illuminance[nodeIndex(row.index, column.index, kNormals)];
   const Eigen::Array4f* high = low + kNormals;
   const float u = column.fraction;

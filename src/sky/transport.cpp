@@ -9,12 +9,13 @@
 #include "quadrature.h"
 #include "ray_path.h"
 #include "sunlit/quantity/angle.h"
+#include "sunlit/sky/daylight.h"
+#include "table_place.h"
 
 namespace sunlit::sky {
 namespace {
 
 constexpr float kIsotropic = static_cast<float>(1.0 / (4.0 * kPi));
-constexpr double kSunRadius_rad = 0.2666 * kRadPerDeg;  // at 1 AU; softens the Earth's shadow
 
 // Heights of both tables lie closer near the ground: index = √(altitude / top) · (count − 1).
 constexpr int kSunlightHeights = 48;
@@ -44,18 +45,7 @@ double altitudeOf(int index, int count) {
   return kAtmosphereHeight_km * x * x;
 }
 
-struct Place {
-  int index;
-  float fraction;
-};
-/// The cell of a table with `count` nodes, and the place within it.
-Place placeAt(float coordinate, int count) {
-  const float x = std::clamp(coordinate, 0.0F, static_cast<float>(count - 1));
-  const int index = std::min(static_cast<int>(x), count - 2);
-  return {index, x - static_cast<float>(index)};
-}
-
-Place altitudePlace(double altitude_km, int count) {
+TablePlace altitudePlace(double altitude_km, int count) {
   const double x = std::sqrt(std::clamp(altitude_km / kAtmosphereHeight_km, 0.0, 1.0));
   return placeAt(static_cast<float>(x * (count - 1)), count);
 }
@@ -91,9 +81,9 @@ struct Corners {
   std::array<float, 4> weights;
 };
 Corners sunlightCorners(double altitude_km, double above_horizon, double whole_range) {
-  const Place height = altitudePlace(altitude_km, kSunlightHeights);
+  const TablePlace height = altitudePlace(altitude_km, kSunlightHeights);
   const double x = std::sqrt(std::max(0.0, above_horizon) / whole_range);
-  const Place angle = placeAt(static_cast<float>(x * (kSunlightAngles - 1)), kSunlightAngles);
+  const TablePlace angle = placeAt(static_cast<float>(x * (kSunlightAngles - 1)), kSunlightAngles);
   const float u = angle.fraction;
   const float v = height.fraction;
   return {at(height.index, angle.index, kSunlightAngles),
@@ -146,7 +136,7 @@ Spectrum Transport::scaledSunlight(double altitude_km, double sun_cos_zenith) co
   const double horizon = horizonCosZenith(altitude_km);
   const double above = sun_cos_zenith - horizon;
   const auto part =
-      static_cast<float>(visiblePart(above / (kSunRadius_rad * std::sqrt(1.0 - horizon * horizon))));
+      static_cast<float>(visiblePart(above / (kSunRadiusAtOneAu.rad() * std::sqrt(1.0 - horizon * horizon))));
   if (part <= 0.0F) {
     return Spectrum::Zero();
   }
@@ -166,7 +156,7 @@ float Transport::aerosolTowardsSun(double altitude_km, double sun_cos_zenith) co
 }
 
 Spectrum Transport::interpolateMean(int altitude_index, float altitude_fraction, float sun_coordinate) const {
-  const Place sun = placeAt(sun_coordinate, kMeanSuns);
+  const TablePlace sun = placeAt(sun_coordinate, kMeanSuns);
   const Spectrum* low = &mean_[at(altitude_index, sun.index, kMeanSuns)];
   const Spectrum* high = low + kMeanSuns;
   const float u = sun.fraction;
@@ -176,12 +166,12 @@ Spectrum Transport::interpolateMean(int altitude_index, float altitude_fraction,
 }
 
 Spectrum Transport::meanRadiance(double altitude_km, double sun_cos_zenith) const {
-  const Place height = altitudePlace(altitude_km, kMeanHeights);
+  const TablePlace height = altitudePlace(altitude_km, kMeanHeights);
   return interpolateMean(height.index, height.fraction, sunCoordinate(static_cast<float>(sun_cos_zenith)));
 }
 
 Spectrum Transport::groundRadiance(double sun_cos_zenith) const {
-  const Place sun = placeAt(sunCoordinate(static_cast<float>(sun_cos_zenith)), kMeanSuns);
+  const TablePlace sun = placeAt(sunCoordinate(static_cast<float>(sun_cos_zenith)), kMeanSuns);
   const Spectrum* ground = &ground_[static_cast<std::size_t>(sun.index)];
   return ground[0] * (1.0F - sun.fraction) + ground[1] * sun.fraction;
 }
@@ -203,7 +193,7 @@ Transport::Ray Transport::makeRay(double altitude_km, double cos_zenith, double 
     step.eye_part = static_cast<float>(r / (kEarthRadius_km + there_km));
     step.sight_part = static_cast<float>(distance_km / (kEarthRadius_km + there_km));
     step.altitude_km = static_cast<float>(there_km);
-    const Place place = altitudePlace(there_km, kMeanHeights);
+    const TablePlace place = altitudePlace(there_km, kMeanHeights);
     step.altitude_index = place.index;
     step.altitude_fraction = place.fraction;
     ray.steps.push_back(step);

@@ -103,8 +103,9 @@ struct Outcome {
   bool isWhole() const;  ///< every pair of every pose was evaluated (or is undefined), and there was one
 };
 
-/// Called from the threads that add images and from workers. Each of them is called one at a time, but one may be called
-/// while another still runs. `progress` must not call the Evaluation back: it is told under its lock.
+/// Called from the threads that add images and from workers. Each of them is called one at a time, but one
+/// may be called while another still runs. `progress` must not call the Evaluation back: it is told under its
+/// lock.
 struct EvaluationCallbacks {
   std::function<void(const PairRecord& record, const cv::Mat& a, const cv::Mat& b)> pair_done;
   std::function<void(std::size_t completed_poses)> progress;
@@ -135,7 +136,8 @@ class Evaluation {
   /// All expected poses are accounted for; never true where their number is unknown. Rethrows what stopped a
   /// worker, such as a full disk.
   bool isComplete() const;
-  /// Blocks until at most `queued_poses` wait for being compared: for sources that can wait.
+  /// Blocks until at most `queued_poses` wait for being compared: for sources that can wait. Rethrows as
+  /// isComplete().
   void waitForRoom(std::size_t queued_poses) const;
   /// Accounts for everything that still waits, writes all files and stops. Once.
   Outcome finish();

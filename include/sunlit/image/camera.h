@@ -8,8 +8,8 @@
 
 namespace sunlit::image {
 
-/// An ideal pinhole camera without distortion. Pixel (u, v): u right, v down; the centre of the top left pixel is
-/// (0, 0), as in OpenCV and sensor_msgs/CameraInfo. Optical frame: z forward, x right, y down.
+/// An ideal pinhole camera without distortion. Pixel (u, v): u right, v down; the centre of the top left
+/// pixel is (0, 0), as in OpenCV and sensor_msgs/CameraInfo. Optical frame: z forward, x right, y down.
 struct PinholeCamera {
   int width = 640;   ///< px, 16 … 8192
   int height = 480;  ///< px, 16 … 8192

@@ -24,12 +24,13 @@ struct Picture {
 
  private:
   std::size_t offset(int x, int y) const {
-    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * kChannels;
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+           kChannels;
   }
 };
 
-using LinearImage = Picture<float, 3>;   ///< linear RGB (see LinearRgb), cd/m²
+using LinearImage = Picture<float, 3>;       ///< linear RGB (see LinearRgb), cd/m²
 using Rgb8Image = Picture<std::uint8_t, 3>;  ///< display-referred sRGB, 8 bit
-using DepthImage = Picture<float, 1>;    ///< m along the optical axis (z); NaN where nothing was hit
+using DepthImage = Picture<float, 1>;        ///< m along the optical axis (z); NaN where nothing was hit
 
 }  // namespace sunlit::image

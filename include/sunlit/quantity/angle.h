@@ -35,9 +35,15 @@ class Angle {
   double rad_ = 0.0;
 };
 
-inline double sin(Angle angle) { return std::sin(angle.rad()); }
-inline double cos(Angle angle) { return std::cos(angle.rad()); }
-inline double tan(Angle angle) { return std::tan(angle.rad()); }
+inline double sin(Angle angle) {
+  return std::sin(angle.rad());
+}
+inline double cos(Angle angle) {
+  return std::cos(angle.rad());
+}
+inline double tan(Angle angle) {
+  return std::tan(angle.rad());
+}
 
 /// Compass azimuth: clockwise from true north as seen from above, in [0, 2π).
 /// Not a ROS yaw, which runs counter-clockwise from east; see Direction for vectors in `map`.

@@ -6,7 +6,8 @@
 namespace sunlit {
 
 /// A date and clock time in a fixed time zone, as in the paper's Table 1. Proleptic: Gregorian from
-/// 15 October 1582, Julian until 4 October 1582; astronomical years (0 is 1 BC). The ten days between do not exist.
+/// 15 October 1582, Julian until 4 October 1582; astronomical years (0 is 1 BC). The ten days between do not
+/// exist.
 struct CivilDateTime {
   int year = 2024;        ///< −2000 … 6000
   int month = 7;          ///< 1 … 12
@@ -30,7 +31,7 @@ class Instant {
       : day_(julian_day + floorDays(nanoseconds)),
         nanoseconds_(nanoseconds - floorDays(nanoseconds) * kNanosecondsPerDay) {}
 
-  constexpr std::int64_t julianDay() const { return day_; }               ///< of the noon at or before
+  constexpr std::int64_t julianDay() const { return day_; }                 ///< of the noon at or before
   constexpr std::int64_t nanosecondsOfDay() const { return nanoseconds_; }  ///< since that noon, [0, 1 day)
   constexpr double dayFraction() const { return static_cast<double>(nanoseconds_) / kNanosecondsPerDay; }
   /// One double: resolves about 40 µs.
@@ -40,14 +41,17 @@ class Instant {
   constexpr Instant plusSeconds(double s) const {
     const auto whole_days = static_cast<std::int64_t>(s / 86400.0);
     const double rest_s = s - static_cast<double>(whole_days) * 86400.0;
-    return Instant(day_ + whole_days, nanoseconds_ + static_cast<std::int64_t>(rest_s * 1e9 + (rest_s < 0 ? -0.5 : 0.5)));
+    return Instant(day_ + whole_days,
+                   nanoseconds_ + static_cast<std::int64_t>(rest_s * 1e9 + (rest_s < 0 ? -0.5 : 0.5)));
   }
   /// this − other, s.
   constexpr double secondsSince(const Instant& other) const {
     return static_cast<double>(day_ - other.day_) * 86400.0 +
            static_cast<double>(nanoseconds_ - other.nanoseconds_) * 1e-9;
   }
-  constexpr bool operator==(const Instant& o) const { return day_ == o.day_ && nanoseconds_ == o.nanoseconds_; }
+  constexpr bool operator==(const Instant& o) const {
+    return day_ == o.day_ && nanoseconds_ == o.nanoseconds_;
+  }
   constexpr bool operator!=(const Instant& o) const { return !(*this == o); }
   constexpr bool operator<(const Instant& o) const {
     return day_ != o.day_ ? day_ < o.day_ : nanoseconds_ < o.nanoseconds_;

@@ -5,8 +5,8 @@
 
 namespace sunlit {
 
-/// Linear RGB with sRGB (Rec. 709) primaries and D65 white. Of what (reflectance, cd/m², lx) is said where it is used;
-/// scaled so that luminance() is the photometric quantity: white of 100 cd/m² is (100, 100, 100).
+/// Linear RGB with sRGB (Rec. 709) primaries and D65 white. Of what (reflectance, cd/m², lx) is said where it
+/// is used; scaled so that luminance() is the photometric quantity: white of 100 cd/m² is (100, 100, 100).
 /// Never holds display values: those are 8-bit and live in image::Rgb8Image.
 struct LinearRgb {
   Eigen::Array3f value = Eigen::Array3f::Zero();

@@ -13,17 +13,17 @@ namespace sunlit::render {
 
 struct RenderOptions {
   image::PinholeCamera camera;
-  int supersampling = 2;     ///< geometry samples per pixel and axis, 1 … 4; 2 is four samples a pixel
-  double near_m = 0.05;      ///< nearest visible depth, > 0
-  double far_m = 20000.0;    ///< farthest visible depth, > near_m
+  int supersampling = 2;          ///< geometry samples per pixel and axis, 1 … 4; 2 is four samples a pixel
+  double near_m = 0.05;           ///< nearest visible depth, > 0
+  double far_m = 20000.0;         ///< farthest visible depth, > near_m
   double texture_lod_bias = 0.0;  ///< mipmap bias in levels, −4 … 4
 };
 
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const RenderOptions& options);
 
-/// Holds one OpenGL context, bound to the thread that constructs it: construct, look() and destroy on one thread.
-/// light() is parallel inside, and gives the same bits for any thread count.
+/// Holds one OpenGL context, bound to the thread that constructs it: construct, look(), lookAhead() and
+/// destroy on one thread. light() is parallel inside, and gives the same bits for any thread count.
 class Renderer {
  public:
   Renderer(std::shared_ptr<const scene::Scene> scene, const RenderOptions& options);
@@ -31,8 +31,12 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Draws the geometry seen from `map_from_optical` (z forward, x right, y down). All later calls speak of this pose.
+  /// Draws the geometry seen from `map_from_optical` (z forward, x right, y down). All later calls speak of
+  /// this pose.
   void look(const Eigen::Isometry3d& map_from_optical);
+  /// Draws a pose that look() will be called with later, which then costs nothing. light() and depth() still
+  /// speak of the present pose, and other threads may be in them meanwhile.
+  void lookAhead(const Eigen::Isometry3d& map_from_optical);
   /// Luminance of each pixel under `daylight`, cd/m².
   image::LinearImage light(const sky::Daylight& daylight) const;
   /// Depth of what the centre of each pixel sees, m along the optical axis; NaN for sky.

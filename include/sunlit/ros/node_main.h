@@ -6,8 +6,8 @@
 
 namespace sunlit::ros_interface {
 
-/// Initialises ROS under `name` and runs `node`, whose result is the exit status of the process. An exception becomes
-/// one fatal line and exit status 1.
+/// Initialises ROS under `name` and runs `node`, whose result is the exit status of the process. An exception
+/// becomes one fatal line and exit status 1.
 int runNode(int argc, char** argv, const std::string& name, const std::function<int()>& node);
 
 }  // namespace sunlit::ros_interface

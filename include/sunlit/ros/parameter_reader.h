@@ -18,9 +18,9 @@ struct Range {
   double max = std::numeric_limits<double>::infinity();
 };
 
-/// The parameters of one node, fetched once. Every getter takes the key below the private namespace (`site/latitude`) and
-/// the default, and throws std::invalid_argument with full name, value and what is allowed. A number never is NaN or
-/// infinite. After the last getter call rejectUnknown().
+/// The parameters of one node, fetched once. Every getter takes the key below the private namespace
+/// (`site/latitude`) and the default, and throws std::invalid_argument with full name, value and what is
+/// allowed. A number never is NaN or infinite. After the last getter call rejectUnknown().
 ///
 /// Copies share the record of which keys were asked for.
 class ParameterReader {
@@ -30,15 +30,15 @@ class ParameterReader {
   /// Parameters at hand, such as a file's; `name` stands before the keys in messages.
   ParameterReader(const XmlRpc::XmlRpcValue& tree, const std::string& name);
 
-  /// A reader that looks into `overrides` first, by the whole key (`site/latitude`) or its last part (`latitude`), and
-  /// here where they say nothing. Its rejectUnknown() speaks of the overrides.
+  /// A reader that looks into `overrides` first, by the whole key (`site/latitude`) or its last part
+  /// (`latitude`), and here where they say nothing. Its rejectUnknown() speaks of the overrides.
   ParameterReader withOverrides(const XmlRpc::XmlRpcValue& overrides, const std::string& name) const;
 
   bool has(const std::string& key) const;
   double number(const std::string& key, double fallback, Range range = {}) const;
   /// A number, or the word `word`: then nothing.
-  std::optional<double> numberOr(const std::string& key, const std::string& word, std::optional<double> fallback,
-                                 Range range = {}) const;
+  std::optional<double> numberOr(const std::string& key, const std::string& word,
+                                 std::optional<double> fallback, Range range = {}) const;
   int integer(const std::string& key, int fallback, Range range = {}) const;
   bool flag(const std::string& key, bool fallback) const;
   std::string text(const std::string& key, const std::string& fallback) const;
@@ -46,7 +46,8 @@ class ParameterReader {
   std::string choice(const std::string& key, const std::string& fallback,
                      const std::vector<std::string>& allowed) const;
   std::vector<std::string> texts(const std::string& key, const std::vector<std::string>& fallback) const;
-  /// A value of any type, with all below it; an invalid XmlRpcValue where there is none. The caller checks it.
+  /// A value of any type, with all below it; an invalid XmlRpcValue where there is none. The caller checks
+  /// it.
   XmlRpc::XmlRpcValue value(const std::string& key) const;
 
   /// Throws naming the first key that nobody asked for, and the keys that are known.
@@ -61,7 +62,8 @@ class ParameterReader {
   [[noreturn]] void reject(const std::string& key, const XmlRpc::XmlRpcValue& value,
                            const std::string& allowed) const;
 
-  std::vector<std::shared_ptr<Layer>> layers_;  // searched in order; the first is the one rejectUnknown() checks
+  std::vector<std::shared_ptr<Layer>>
+      layers_;  // searched in order; the first is the one rejectUnknown() checks
 };
 
 }  // namespace sunlit::ros_interface

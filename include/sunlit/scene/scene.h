@@ -12,8 +12,8 @@
 
 namespace sunlit::scene {
 
-/// 8-bit RGBA: colour sRGB-encoded, alpha linear. Row-major, top row first; texture coordinate (0, 0) is the top left
-/// corner (glTF). Repeats in both directions.
+/// 8-bit RGBA: colour sRGB-encoded, alpha linear. Row-major, top row first; texture coordinate (0, 0) is the
+/// top left corner (glTF). Repeats in both directions.
 struct Texture {
   std::string name;
   int width = 0;   ///< px, > 0
@@ -21,9 +21,9 @@ struct Texture {
   std::vector<std::uint8_t> rgba;
 };
 
-/// Fractal variation of the albedo, computed from the position in `map` and therefore never repeated. Octaves of noise
-/// from `coarsest_m` to `finest_m` wavelength; each finer octave has `gain` times the contrast of the one before.
-/// No contrast, no detail. Octaves finer than a pixel fade out.
+/// Fractal variation of the albedo, computed from the position in `map` and therefore never repeated. Octaves
+/// of noise from `coarsest_m` to `finest_m` wavelength; each finer octave has `gain` times the contrast of
+/// the one before. No contrast, no detail. Octaves finer than a pixel fade out.
 struct Detail {
   float contrast = 0.0f;    ///< standard deviation of the summed noise, relative to the albedo, 0 … 1
   float coarsest_m = 8.0f;  ///< > finest_m
@@ -58,9 +58,10 @@ struct Mesh {
   std::string name;
   int material = 0;  ///< index into Scene::materials
   std::vector<Eigen::Vector3f> positions;
-  std::vector<Eigen::Vector3f> normals;             ///< one a vertex
+  std::vector<Eigen::Vector3f> normals;              ///< one a vertex
   std::vector<Eigen::Vector2f> texture_coordinates;  ///< one a vertex, or empty
-  std::vector<Eigen::Array3f> colors;  ///< linear factor, 0 … 2 (above 1 lightens a texture), one a vertex, or empty for 1
+  std::vector<Eigen::Array3f>
+      colors;  ///< linear factor, 0 … 2 (above 1 lightens a texture), one a vertex, or empty for 1
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
@@ -78,8 +79,8 @@ struct Scene {
   }
 };
 
-/// Throws std::invalid_argument naming mesh or material and what is wrong: an index out of range, arrays of unequal
-/// length, a value that is not finite or out of the range given above.
+/// Throws std::invalid_argument naming mesh or material and what is wrong: an index out of range, arrays of
+/// unequal length, a value that is not finite or out of the range given above.
 void validate(const Scene& scene);
 
 }  // namespace sunlit::scene

@@ -10,10 +10,13 @@
 
 namespace sunlit::sky {
 
+/// Angular radius of the sun seen from 1 AU: 959.63″ (Astronomical Almanac).
+constexpr Angle kSunRadiusAtOneAu = Angle::degrees(0.2666);
+
 /// A distant light of visible size, such as the sun.
 struct DiscLight {
-  Direction towards;                              ///< apparent centre, may lie below the horizon
-  Angle angular_radius = Angle::degrees(0.2666);  ///< true angular radius of the disc
+  Direction towards;                         ///< apparent centre, may lie below the horizon
+  Angle angular_radius = kSunRadiusAtOneAu;  ///< true angular radius of the disc
   LinearRgb illuminance;  ///< lx on a plane facing it, at the ground, its unobscured disc; zero when the
                           ///< whole disc is set
 };

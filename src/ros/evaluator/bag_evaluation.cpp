@@ -10,6 +10,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "ros/evaluator/folder_lock.h"
 #include "ros/evaluator/image_conversion.h"
 #include "ros/evaluator/progress_log.h"
 
@@ -135,6 +136,7 @@ int evaluateBags(const BagEvaluationOptions& options) {
   if (!options.bags.empty()) source.emplace(options);
   evaluate::EvaluationCallbacks callbacks;
   callbacks.note = [](const std::string& line) { std::printf("%s\n", line.c_str()); };
+  const FolderLock lock(options.evaluation.output_dir);
   evaluate::Evaluation evaluation(options.evaluation, callbacks);
   if (source) source->feed(evaluation);
   const evaluate::Outcome outcome = evaluation.finish();

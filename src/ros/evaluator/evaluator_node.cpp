@@ -27,7 +27,7 @@ void onInterrupt(int) {
 
 EvaluatorNode::EvaluatorNode(ros::NodeHandle node, ros::NodeHandle private_node,
                              const EvaluatorOptions& options)
-    : node_(node), options_(options) {
+    : node_(node), options_(options), lock_(options.evaluation.output_dir) {
   pair_difference_ = private_node.advertise<PairDifference>("pair_difference", 100);
   summary_ = private_node.advertise<Summary>("summary", 1, true);
   progress_ = private_node.advertise<std_msgs::UInt32>("progress", 1, true);
@@ -114,8 +114,10 @@ void EvaluatorNode::finish(const std::string& reason) {
   Summary message = messageOf(outcome.summary, outcome.counts.completed_poses);
   message.header.stamp = ros::Time::now();
   summary_.publish(message);
-  ROS_INFO("%zu poses in %s\n%s", outcome.counts.completed_poses, options_.evaluation.output_dir.c_str(),
-           summaryTable(outcome.summary).c_str());
+  // A table of nothing would only hide the reason that stands above it.
+  const std::string table = outcome.counts.completed_poses > 0 ? "\n" + summaryTable(outcome.summary) : "";
+  ROS_INFO("%zu poses in %s%s", outcome.counts.completed_poses, options_.evaluation.output_dir.c_str(),
+           table.c_str());
   const std::string faults = faultsOf(evaluation_->options(), outcome);
   if (!faults.empty()) ROS_ERROR("%s", faults.c_str());
   status_ = faults.empty() ? 0 : kNotWholeStatus;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ros/evaluator/evaluator_options.h"
+#include "ros/evaluator/folder_lock.h"
 #include "ros/evaluator/progress_log.h"
 
 namespace sunlit::ros_interface {
@@ -35,6 +36,7 @@ class EvaluatorNode {
 
   ros::NodeHandle node_;
   EvaluatorOptions options_;
+  FolderLock lock_;  // before the evaluation, which mends an unfinished run as it starts
   ros::Publisher pair_difference_;
   ros::Publisher summary_;
   ros::Publisher progress_;

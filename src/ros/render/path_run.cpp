@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "ros/render/run.h"
 
@@ -41,8 +42,10 @@ Step PathRun::step() {
     if (pacer_.allHave(positions())) return Step::kDone;
   } else if (pacer_.mayRender(position_)) {
     const int index = path_.first() + position_;
-    streams_.take({index, stampOfPose(start_, index, options_.frame_rate), path_.mapFromCamera(index)});
     position_ += path_.stride();
+    std::optional<Eigen::Isometry3d> next;
+    if (position_ < positions()) next = path_.mapFromCamera(path_.first() + position_);
+    streams_.take({index, stampOfPose(start_, index, options_.frame_rate), path_.mapFromCamera(index)}, next);
     streams_.poseOutput().publishProgress(std::min(position_, positions()));
     return Step::kTook;
   }

@@ -37,7 +37,8 @@ void ProgressLog::report(int position, int positions) {
 
 void WaitLog::report(const std::string& waits_for) {
   const Clock::time_point now = Clock::now();
-  if (waits_for != waits_for_) begin_ = now;  // a reader that makes progress, however slowly, is no reason to wonder
+  if (waits_for != waits_for_)
+    begin_ = now;  // a reader that makes progress, however slowly, is no reason to wonder
   waits_for_ = waits_for;
   if (waits_for.empty() || now - begin_ < kPatience || now - latest_ < kInterval) return;
   latest_ = now;

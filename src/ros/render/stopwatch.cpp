@@ -3,6 +3,7 @@
 namespace sunlit::ros_interface {
 
 Stopwatch::Charge::~Charge() {
+  const std::lock_guard<std::mutex> lock(watch.mutex_);
   Entry& account = watch.entry(stage, what);
   account.count += 1;
   account.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <chrono>
+#include <mutex>
 #include <ostream>
 #include <string>
 #include <vector>
 
 namespace sunlit::ros_interface {
 
-/// Sums the wall time of named stages.
+/// Sums the wall time of named stages, which may run at the same time on several threads.
 class Stopwatch {
  public:
   /// Runs `work` on the account of `stage` (geometry, light …) of `what` (a condition, or pose), and hands on
@@ -25,7 +26,7 @@ class Stopwatch {
     int count = 0;
     double seconds = 0.0;
   };
-  /// In the order in which they were first measured.
+  /// In the order in which they were first measured. Only while no stage is being measured.
   const std::vector<Entry>& entries() const { return entries_; }
   /// CSV: stage,what,count,seconds.
   void write(std::ostream& out) const;
@@ -39,6 +40,7 @@ class Stopwatch {
     ~Charge();
   };
   Entry& entry(const std::string& stage, const std::string& what);
+  std::mutex mutex_;  // of entries_
   std::vector<Entry> entries_;
 };
 

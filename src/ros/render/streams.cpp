@@ -2,6 +2,7 @@
 
 #include <ros/names.h>
 
+#include <future>
 #include <stdexcept>
 
 namespace sunlit::ros_interface {
@@ -29,9 +30,15 @@ Streams::Streams(const std::vector<Condition>& conditions, const StreamOptions& 
   }
 }
 
-void Streams::take(const Shot& shot) {
-  Stopwatch& stopwatch = studio_.stopwatch();
+void Streams::take(const Shot& shot, const std::optional<Eigen::Isometry3d>& next_map_from_camera) {
   studio_.look(shot.map_from_camera);
+  std::future<void> exposed = std::async(std::launch::async, [&] { expose(shot); });
+  if (next_map_from_camera) studio_.lookAhead(*next_map_from_camera);
+  exposed.get();
+}
+
+void Streams::expose(const Shot& shot) {
+  Stopwatch& stopwatch = studio_.stopwatch();
   const image::DepthImage depth = studio_.depth();
   stopwatch.measure("transport", "pose",
                     [&] { pose_output_.publish(shot.map_from_camera, depth, shot.stamp); });

@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,9 @@ class Streams {
   Streams(const std::vector<Condition>& conditions, const StreamOptions& options, Studio& studio);
 
   /// Renders the shot under every condition's sun and publishes all of it with its stamp. Only when every sun
-  /// is there.
-  void take(const Shot& shot);
+  /// is there. Meanwhile draws the geometry of the next shot, if there is one, since drawing leaves cores
+  /// idle.
+  void take(const Shot& shot, const std::optional<Eigen::Isometry3d>& next_map_from_camera = std::nullopt);
   /// One image of `condition`. Throws std::invalid_argument naming what is wrong with the condition.
   Photograph view(const Shot& shot, const std::string& condition);
 
@@ -51,6 +53,8 @@ class Streams {
     SunInput sun;
     ConditionOutput output;
   };
+  /// Lights and publishes what the studio looks at.
+  void expose(const Shot& shot);
   Stream& find(const std::string& condition);
 
   Studio& studio_;

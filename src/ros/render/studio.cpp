@@ -80,6 +80,10 @@ void Studio::look(const Eigen::Isometry3d& map_from_camera) {
   stopwatch_.measure("geometry", "pose", [&] { renderer_->look(map_from_camera * linkFromOptical()); });
 }
 
+void Studio::lookAhead(const Eigen::Isometry3d& map_from_camera) {
+  stopwatch_.measure("geometry", "ahead", [&] { renderer_->lookAhead(map_from_camera * linkFromOptical()); });
+}
+
 Developed Studio::photograph(const sky::Daylight& daylight, const std::string& what) {
   const image::LinearImage light =
       stopwatch_.measure("light", what, [&] { return renderer_->light(daylight); });

@@ -38,6 +38,8 @@ class Studio {
   image::Rgb8Image mapFromAbove(const MapExtent& extent);
 
   void look(const Eigen::Isometry3d& map_from_camera);
+  /// Draws what look() will look at later. Another thread may photograph() meanwhile.
+  void lookAhead(const Eigen::Isometry3d& map_from_camera);
   /// What look() looks at under `daylight`; `what` names it on the time sheet.
   Developed photograph(const sky::Daylight& daylight, const std::string& what);
   image::DepthImage depth();

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sunlit/scene/export.h"
 #include "sunlit/ros/world_search.h"
+#include "sunlit/scene/export.h"
 #include "sunlit/scene/load.h"
 
 namespace sunlit::tools {

@@ -43,12 +43,12 @@ std::uint32_t squareHash(float x, float y, std::uint32_t seed);
 /// Smooth noise of wavelength 1 in −1 … 1.
 float noise(float x, float y, std::uint32_t seed);
 
-/// Sum of `octaves` of noise, each of half the wavelength and half the strength of the one before; about −1
-/// … 1.
+/// Sum of `octaves` of noise, each of half the wavelength and half the strength of the one before; about
+/// −1 … 1.
 float fractal(float x, float y, int octaves, std::uint32_t seed);
 
-/// Distances to the nearest and second-nearest of points scattered one a unit cell, and the nearest one's
-/// hash.
+/// Distances to the nearest and second-nearest of points scattered one a unit cell, and the hash of the
+/// nearest.
 struct Cell {
   float nearest;
   float second;

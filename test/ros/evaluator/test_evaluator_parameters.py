@@ -69,6 +69,17 @@ class TestParameters(unittest.TestCase):
         streams.close()
         self.assertEqual(runs[0], runs[1])
 
+    def test_a_folder_is_written_by_one_at_a_time(self):
+        first = Evaluator(self.settings)
+        rospy.wait_for_service('/%s/finish' % first.name, LONGEST_WAIT_S)
+        status, output = Evaluator(self.settings).wait()
+        self.assertEqual(status, 1, output)
+        self.assertIn(self.settings['output_dir'] + ': another evaluation is writing into this folder', output)
+        first.kill()  # which gives the folder back
+        again = Evaluator(self.settings)
+        rospy.wait_for_service('/%s/finish' % again.name, LONGEST_WAIT_S)
+        again.kill()
+
     def test_the_launch_file_passes_its_arguments_and_ends_by_itself(self):
         out = self.folder.name + '/launched'
         launch = subprocess.Popen(['roslaunch', 'sunlit', 'evaluator.launch', 'streams:=[h04, h12]', 'output:=' + out,

@@ -45,7 +45,7 @@ class RenderRefuses(unittest.TestCase):
         self.check(parameters(exposure={"mode": "bright"}), "/refused/exposure/mode", "bright", "auto, fixed")
         self.check(parameters(start_stamp="soon"), "/refused/start_stamp", "soon", "now")
         self.check(parameters(conditions=["a", "a"]), "/refused/conditions", "twice")
-        self.check(parameters(conditions={"a": {"turbidity": 3}}), "turbidity", "unknown")
+        self.check(parameters(conditions={"a": {"turbidity": 3}}), "turbidity", "unknown; nothing can differ here")
         self.check(parameters(path={"file": ""}), "/refused/path/file", "race_track")
         self.check(parameters(path={"count": 1000}), "path/count", "1000", "20 poses")
         self.check(parameters(path={"topic": "route"}), "path/file", "path/topic")

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <future>
 #include <random>
 
 #include "test_scenes.h"
@@ -108,6 +109,31 @@ TEST(Picture, DoesNotChangeWhenALookIsRepeatedAfterOthers) {
   renderer.light(day);
   renderer.look(kPose);
   EXPECT_TRUE(sameBits(renderer.light(day).data, first));
+}
+
+TEST(Picture, IsTheSameWhenItsPoseWasDrawnAhead) {
+  const Eigen::Isometry3d other = lookingAt({3.0, 3.0, 40.0}, {0.0, 0.0, 0.0});
+  const sky::Daylight day = daylightAt(100.0, 12.0);
+  render::Renderer plain(shared(town()), smallCamera(200, 150, 80.0));
+  plain.look(other);
+  const std::vector<float> other_light = plain.light(day).data;
+  const std::vector<float> other_depth = plain.depth().data;
+
+  render::Renderer renderer(shared(town()), smallCamera(200, 150, 80.0));
+  renderer.look(kPose);
+  const std::vector<float> first = renderer.light(day).data;
+  std::future<std::vector<float>> meanwhile =
+      std::async(std::launch::async, [&] { return renderer.light(day).data; });
+  renderer.lookAhead(other);
+  EXPECT_TRUE(sameBits(meanwhile.get(), first)) << "lit while the next pose was drawn";
+  EXPECT_TRUE(sameBits(renderer.light(day).data, first)) << "lit after the next pose was drawn";
+  renderer.look(other);
+  EXPECT_TRUE(sameBits(renderer.light(day).data, other_light));
+  EXPECT_TRUE(sameBits(renderer.depth().data, other_depth));
+
+  renderer.lookAhead(kPose);  // drawn ahead, but somewhere else is looked at
+  renderer.look(other);
+  EXPECT_TRUE(sameBits(renderer.light(day).data, other_light));
 }
 
 TEST(Picture, IsTheSameFromTwoRenderersOfOneThread) {

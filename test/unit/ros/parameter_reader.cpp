@@ -49,9 +49,13 @@ TEST(ParameterReader, NamesKeyValueAndRangeOfABadValue) {
   XmlRpcValue tree = exampleTree();
   tree["site"]["latitude"] = 91.0;
   const ParameterReader reader(tree, "/node");
-  EXPECT_EQ(messageOf([&] { reader.number("site/latitude", 0.0, {-90, 90}); }),
+  EXPECT_EQ(messageOf([&] {
+              reader.number("site/latitude", 0.0, {-90, 90});
+            }),
             "parameter /node/site/latitude is 91, but must be a number from -90 to 90");
-  EXPECT_EQ(messageOf([&] { reader.choice("mode", "auto", {"auto", "manual"}); }),
+  EXPECT_EQ(messageOf([&] {
+              reader.choice("mode", "auto", {"auto", "manual"});
+            }),
             "parameter /node/mode is \"fixed\", but must be one of auto, manual");
   EXPECT_NE(messageOf([&] { reader.integer("mode", 1); }), "");
   EXPECT_NE(messageOf([&] { reader.flag("site/elevation", true); }), "");
@@ -76,7 +80,8 @@ TEST(ParameterReader, AnUnknownKeyIsAnErrorThatListsTheKnownOnes) {
   reader.number("site/latitude", 0.0);
   reader.number("site/elevation", 0.0);
   EXPECT_EQ(messageOf([&] { reader.rejectUnknown(); }),
-            "parameter /node/site/lattitude is unknown; known are earth, loop, mode, site/elevation, site/latitude");
+            "parameter /node/site/lattitude is unknown; known are earth, loop, mode, site/elevation, "
+            "site/latitude");
 }
 
 TEST(ParameterReader, OverridesAreNamedByWholeKeyOrLastPart) {
@@ -93,7 +98,8 @@ TEST(ParameterReader, OverridesAreNamedByWholeKeyOrLastPart) {
   mistyped["hours"] = 4;
   const ParameterReader wrong = base.withOverrides(mistyped, "/node/conditions/south");
   wrong.integer("date_time/hour", 12);
-  EXPECT_NE(messageOf([&] { wrong.rejectUnknown(); }).find("/node/conditions/south/hours"), std::string::npos);
+  EXPECT_NE(messageOf([&] { wrong.rejectUnknown(); }).find("/node/conditions/south/hours"),
+            std::string::npos);
 }
 
 TEST(Conditions, AreAListOfNamesOrAMapOrASingleUnnamedOne) {

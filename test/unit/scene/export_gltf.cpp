@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "unit/scene/measure.h"
 #include "unit/scene/temporary_folder.h"
 
@@ -106,6 +108,15 @@ TEST_F(ExportGltf, MaterialsAndTexturesComeBack) {
   ASSERT_EQ(back.textures.size(), 1u);
   EXPECT_EQ(back.textures[0].width, 3);
   EXPECT_EQ(back.textures[0].rgba, scene.textures[0].rgba);
+}
+
+TEST_F(ExportGltf, MaterialsComeBackWhateverTheCaseOfTheEnding) {
+  writeGltf(sample(), pathOf("scene.glb"));
+  std::filesystem::rename(pathOf("scene.glb"), pathOf("SCENE.GLB"));
+  const Scene back = load(pathOf("SCENE.GLB"), {});
+  ASSERT_EQ(back.materials.size(), 2u);
+  EXPECT_FLOAT_EQ(back.materials[1].roughness, 0.25f);
+  EXPECT_FLOAT_EQ(back.materials[1].metalness, 0.75f);
 }
 
 TEST_F(ExportGltf, EmissionKeepsItsColourAndSaysThatItLostItsStrength) {

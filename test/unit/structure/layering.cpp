@@ -25,8 +25,7 @@ const std::map<std::string, Modules> kMayInclude = {
     {"light", {"scene", "sky", "image", "quantity"}},
     {"render", {"light", "scene", "sky", "image", "quantity"}},
     {"evaluate", {"image", "quantity"}},
-    {"ros",
-     {"astronomy", "sky", "image", "scene", "path", "light", "render", "evaluate", "quantity"}},
+    {"ros", {"astronomy", "sky", "image", "scene", "path", "light", "render", "evaluate", "quantity"}},
 };
 
 struct LibraryRule {
@@ -92,7 +91,8 @@ TEST(Structure, DependenciesPointOneWay) {
     for (const std::string& include : includesOf(file)) {
       std::smatch match;
       if (!std::regex_match(include, match, ours)) continue;
-      EXPECT_TRUE(match[1] == file.module || allowed.count(match[1]) == 1) << file.path << " includes " << include;
+      EXPECT_TRUE(match[1] == file.module || allowed.count(match[1]) == 1)
+          << file.path << " includes " << include;
     }
   }
 }
