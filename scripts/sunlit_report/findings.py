@@ -32,6 +32,14 @@ class Finding:
     rows: list = dataclasses.field(default_factory=list)
     reason: str = ""
 
+    @property
+    def extent(self):
+        """How far a finding that is not reproduced holds all the same, in words; else empty."""
+        if self.verdict != NOT_REPRODUCED:
+            return ""
+        broken = [row[0] for row in self.rows if row[-1]]
+        return f"holds in {len(self.rows) - len(broken)} of {len(self.rows)}, not for {', '.join(broken)}"
+
 
 class NotJudged(Exception):
     """Why a finding cannot be judged."""

@@ -31,6 +31,7 @@ def whole(output, findings):
     self_tables = tables.self_tables(output)
     if self_tables:
         parts += ["Each hour against itself (two independent renderings)"] + [_of_table(table) for table in self_tables]
-    lines = [f"{number}. {finding.verdict}: {finding.claim}" for number, finding in enumerate(findings, start=1)]
+    lines = [f"{number}. {finding.verdict}: {finding.claim}" + (f" It {finding.extent}." if finding.extent else "")
+             for number, finding in enumerate(findings, start=1)]
     parts.append(f"The paper's findings: {judge.count(findings)} of {len(findings)} reproduced\n" + "\n".join(lines))
     return "\n\n".join(parts)

@@ -5,6 +5,7 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -43,7 +44,7 @@ class PathRun : public Run {
   /// Stamp of pose 0; zero until path and time are known.
   const ros::Time& start() const { return start_; }
   /// Poses from the first of the run up to the one to be rendered next, and all of them.
-  int position() const { return position_; }
+  int position() const { return std::min(position_, positions()); }
   int positions() const { return path_.end() - path_.first(); }
 
  private:
