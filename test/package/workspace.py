@@ -52,6 +52,7 @@ class Workspace(unittest.TestCase):
                               f"differences:='[boolean_rgb, orb]' output:={output}", setup)
         self.assertIn("h12,h13,boolean_rgb", (output / "summary.csv").read_text())
         self.assertTrue((output / "report.html").exists())
+        self.run_in_workspace("rosrun sunlit report --help", setup)
 
     def test_builds_installs_and_runs(self):
         # Little optimisation: this test is about files and names, and the build is most of its time.
