@@ -26,7 +26,7 @@ float fifthPower(float x) {
 Eigen::Array3f directReflectance(const Reflection& r, const Eigen::Vector3f& to_light,
                                  float source_radius_rad) {
   const float n_l = r.normal.dot(to_light);
-  if (n_l <= 0.0f) return Eigen::Array3f::Zero();
+  if (n_l <= 0.0f) return (1.0f - r.metalness) * r.transmission / kPiFloat * -n_l * r.albedo;
   // A shading normal may turn away from the eye near silhouettes; the surface is seen all the same.
   const float n_v = std::max(r.normal.dot(r.to_eye), 1e-3f);
   const Eigen::Vector3f half = (to_light + r.to_eye).normalized();
@@ -45,7 +45,8 @@ Eigen::Array3f directReflectance(const Reflection& r, const Eigen::Vector3f& to_
 
   const Eigen::Array3f f0 = normalReflectance(r);
   const Eigen::Array3f fresnel = f0 + (1.0f - f0) * fifthPower(1.0f - v_h);
-  const Eigen::Array3f diffuse = (1.0f - r.metalness) / kPiFloat * r.albedo * (1.0f - fresnel);
+  const Eigen::Array3f diffuse =
+      (1.0f - r.metalness) * (1.0f - r.transmission) / kPiFloat * r.albedo * (1.0f - fresnel);
   return (diffuse + fresnel * (d * visible)) * n_l;
 }
 
@@ -59,7 +60,8 @@ AmbientReflectance ambientReflectance(const Reflection& r) {
   const float scale = -1.04f * a004 + rz;
   const float offset = 1.04f * a004 + rw;
   const Eigen::Array3f lobe = (normalReflectance(r) * scale + offset).max(0.0f).min(1.0f);
-  return {(1.0f - r.metalness) / kPiFloat * r.albedo * (1.0f - lobe), lobe};
+  const Eigen::Array3f lambert = (1.0f - r.metalness) / kPiFloat * r.albedo;
+  return {(1.0f - r.transmission) * lambert * (1.0f - lobe), r.transmission * lambert, lobe};
 }
 
 }  // namespace sunlit::light

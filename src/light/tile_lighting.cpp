@@ -10,8 +10,8 @@
 namespace sunlit::light {
 
 TileLighting::TileLighting(const Surfaces& surfaces, const scene::Scene& scene, const Visibility& visibility,
-                           const sky::Daylight& day)
-    : surfaces_(surfaces), scene_(scene), daylight_(day), sun_(day.sun(), visibility, scene, surfaces) {}
+                           const Illumination& light)
+    : surfaces_(surfaces), scene_(scene), light_(light), sun_(light.day.sun(), visibility, scene, surfaces) {}
 
 void TileLighting::light(const Tile& tile, image::LinearImage* image) const {
   addSky(tile, image);
@@ -35,22 +35,22 @@ Eigen::Array3f TileLighting::luminance(const Surface& surface, float sun_share) 
   Eigen::Array3f sum = material.emission.value;
   if (sun_share > 0.0f) {
     sum += directReflectance(reflection, sun_.towards(), sun_.radius_rad()) *
-           (sun_share * daylight_.sun().illuminance.value);
+           (sun_share * light_.day.sun().illuminance.value);
   }
   const AmbientReflectance ambient = ambientReflectance(reflection);
-  const Eigen::Array3f irradiance = daylight_.skyIlluminance(surface.shading_normal).value;
+  const Eigen::Array3f irradiance = light_.day.skyIlluminance(surface.shading_normal).value;
   sum += ambient.diffuse * irradiance;
   // A rough lobe spreads over the hemisphere, a smooth one mirrors a point of the sky.
   const Eigen::Array3f spread = irradiance / static_cast<float>(kPi);
   const float smooth = std::max(0.0f, 1.0f - material.roughness * material.roughness * 1.5f);
   if (smooth <= 0.0f) return sum + ambient.specular * spread;
   const Eigen::Array3f point =
-      daylight_.skyLuminance(mirrored(surface.to_eye, surface.shading_normal).normalized()).value;
+      light_.day.skyLuminance(mirrored(surface.to_eye, surface.shading_normal).normalized()).value;
   return sum + ambient.specular * (smooth * point + (1.0f - smooth) * spread);
 }
 
 void TileLighting::addSky(const Tile& tile, image::LinearImage* image) const {
-  const SkyPixel sky(surfaces_, daylight_);
+  const SkyPixel sky(surfaces_, light_.day);
   for (int row = 0; row < tile.height; ++row) {
     for (int column = 0; column < tile.width; ++column) {
       const std::uint8_t samples = tile.sky[static_cast<std::size_t>(row * tile.width + column)];

@@ -5,6 +5,7 @@
 
 #include "light/sun_disc.h"
 #include "sunlit/image/images.h"
+#include "sunlit/light/illumination.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/visibility.h"
 #include "sunlit/sky/daylight.h"
@@ -15,7 +16,7 @@ class TileLighting {
  public:
   /// Keeps references to all four.
   TileLighting(const Surfaces& surfaces, const scene::Scene& scene, const Visibility& visibility,
-               const sky::Daylight& day);
+               const Illumination& light);
 
   /// Writes the pixels of `tile`, and no others.
   void light(const Tile& tile, image::LinearImage* image) const;
@@ -27,7 +28,7 @@ class TileLighting {
 
   const Surfaces& surfaces_;
   const scene::Scene& scene_;
-  const sky::Daylight& daylight_;
+  const Illumination& light_;
   SunDisc sun_;
 };
 

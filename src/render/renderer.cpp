@@ -26,12 +26,11 @@ View viewOf(const RenderOptions& options) {
 
 class Renderer::Implementation {
  public:
-  Implementation(std::shared_ptr<const scene::Scene> scene, const RenderOptions& options)
+  Implementation(const light::World& world, const RenderOptions& options)
       : options_(options),
         view_(viewOf(options)),
-        geometry_(std::make_shared<light::Geometry>(std::move(scene))),
-        visibility_(geometry_),
-        pass_(geometry_, view_, options.texture_lod_bias) {}
+        world_(world),
+        pass_(world.geometry, view_, options.texture_lod_bias) {}
   ~Implementation() { context_.makeCurrent(); }
 
   void look(const Eigen::Isometry3d& map_from_optical) {
@@ -44,14 +43,14 @@ class Renderer::Implementation {
 
   void lookAhead(const Eigen::Isometry3d& map_from_optical) { draw(map_from_optical, ahead_); }
 
-  image::LinearImage light(const sky::Daylight& day) const {
+  image::LinearImage light(const light::Illumination& light) const {
     requireLook();
-    return light::illuminate(seen_.surfaces, *geometry_->scene, visibility_, day);
+    return light::illuminate(seen_.surfaces, *world_.geometry->scene, *world_.visibility, light);
   }
 
   image::DepthImage depth() const {
     requireLook();
-    return resolveDepth({seen_.view, *geometry_, seen_.samples}, visibility_);
+    return resolveDepth({seen_.view, *world_.geometry, seen_.samples}, *world_.visibility);
   }
 
   const RenderOptions& options() const { return options_; }
@@ -70,7 +69,7 @@ class Renderer::Implementation {
     seen.view = view_;
     seen.view.map_from_optical = map_from_optical;
     pass_.draw(seen.view, &seen.samples);
-    resolveSurfaces({seen.view, *geometry_, seen.samples}, &seen.surfaces);
+    resolveSurfaces({seen.view, *world_.geometry, seen.samples}, &seen.surfaces);
   }
 
   void requireLook() const {
@@ -79,16 +78,17 @@ class Renderer::Implementation {
 
   RenderOptions options_;
   View view_;  // without a pose
-  std::shared_ptr<const light::Geometry> geometry_;
-  light::Visibility visibility_;
+  light::World world_;
   GlContext context_;  // before what lives in it
   GeometryPass pass_;
   Seen seen_;
   Seen ahead_;
 };
 
+Renderer::Renderer(const light::World& world, const RenderOptions& options)
+    : implementation_(std::make_unique<Implementation>(world, options)) {}
 Renderer::Renderer(std::shared_ptr<const scene::Scene> scene, const RenderOptions& options)
-    : implementation_(std::make_unique<Implementation>(std::move(scene), options)) {}
+    : Renderer(light::World(std::move(scene)), options) {}
 Renderer::~Renderer() = default;
 
 void Renderer::look(const Eigen::Isometry3d& map_from_optical) {
@@ -97,8 +97,8 @@ void Renderer::look(const Eigen::Isometry3d& map_from_optical) {
 void Renderer::lookAhead(const Eigen::Isometry3d& map_from_optical) {
   implementation_->lookAhead(map_from_optical);
 }
-image::LinearImage Renderer::light(const sky::Daylight& day) const {
-  return implementation_->light(day);
+image::LinearImage Renderer::light(const light::Illumination& light) const {
+  return implementation_->light(light);
 }
 image::DepthImage Renderer::depth() const {
   return implementation_->depth();

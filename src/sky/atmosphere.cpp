@@ -64,7 +64,7 @@ Atmosphere::~Atmosphere() = default;
 Atmosphere::Atmosphere(Atmosphere&&) noexcept = default;
 Atmosphere& Atmosphere::operator=(Atmosphere&&) noexcept = default;
 
-Daylight Atmosphere::daylight(const SunInSky& sun) const {
+Daylight Atmosphere::daylight(const SunInSky& sun, const NightSky&) const {
   requireWithin("distance_au", sun.distance_au, 0.97, 1.03);
   const double altitude_km = tables_->options.observer_height_m * 1e-3;
   DiscLight disc;

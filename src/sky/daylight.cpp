@@ -20,6 +20,18 @@ const DiscLight& Daylight::sun() const {
   return table_->sun;
 }
 
+const DiscLight& Daylight::moon() const {
+  return table_->moon;
+}
+
+const std::vector<PointLight>& Daylight::stars() const {
+  return table_->stars;
+}
+
+AirColumn Daylight::airOver(const Eigen::Vector3f&, float) const {
+  return {Eigen::Array3f::Ones(), Eigen::Array3f::Zero()};
+}
+
 LinearRgb Daylight::groundIlluminance() const {
   return LinearRgb(table_->ground_illuminance);
 }

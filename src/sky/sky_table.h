@@ -29,6 +29,8 @@ struct SkyTable {
   Eigen::Vector3f towards_sun = Eigen::Vector3f::UnitZ();
   Eigen::Vector2f sun_heading = Eigen::Vector2f::UnitY();  // horizontal, unit
   DiscLight sun;
+  DiscLight moon;
+  std::vector<PointLight> stars;
   Eigen::Array3f ground_luminance = Eigen::Array3f::Zero();    // cd/m²
   Eigen::Array3f ground_illuminance = Eigen::Array3f::Zero();  // lx
   Eigen::Array3f haze_per_km = Eigen::Array3f::Zero();         // extinction near the ground

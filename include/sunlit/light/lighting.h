@@ -2,9 +2,9 @@
 #pragma once
 
 #include "sunlit/image/images.h"
+#include "sunlit/light/illumination.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/visibility.h"
-#include "sunlit/sky/daylight.h"
 
 namespace sunlit::light {
 
@@ -12,6 +12,6 @@ namespace sunlit::light {
 /// direction, emission, and the sky and sun themselves where no surface is seen. Parallel; the same bits for
 /// any thread count.
 image::LinearImage illuminate(const Surfaces& surfaces, const scene::Scene& scene,
-                              const Visibility& visibility, const sky::Daylight& day);
+                              const Visibility& visibility, const Illumination& light);
 
 }  // namespace sunlit::light

@@ -11,21 +11,23 @@ namespace sunlit::light {
 struct Reflection {
   Eigen::Vector3f normal;  ///< shading normal
   Eigen::Vector3f to_eye;
-  Eigen::Array3f albedo;   ///< base colour, 0 … 1
-  float roughness = 1.0f;  ///< perceptual, 0.03 … 1
-  float metalness = 0.0f;  ///< 0 … 1
+  Eigen::Array3f albedo;      ///< base colour, 0 … 1
+  float roughness = 1.0f;     ///< perceptual, 0.03 … 1
+  float metalness = 0.0f;     ///< 0 … 1
+  float transmission = 0.0f;  ///< share of the diffuse light that comes out on the other side, 0 … 1
 };
 
 /// Luminance (cd/m²) towards the eye for 1 lx on a plane facing a small source in direction `to_light`; that
 /// is, the BRDF times the cosine. Lambert plus GGX with the height-correlated Smith term and Schlick's
 /// Fresnel, as in glTF 2.0, appendix B. `source_radius_rad` widens the highlight of smooth surfaces to the
-/// source's size. Zero below the horizon of the surface.
+/// source's size. Below the horizon of the surface: the transmitted light of a thin sheet, else zero.
 Eigen::Array3f directReflectance(const Reflection& reflection, const Eigen::Vector3f& to_light,
                                  float source_radius_rad);
 
 /// What a surface does with light from all around, split into its Lambert and its mirror-like part.
 struct AmbientReflectance {
   Eigen::Array3f diffuse;   ///< luminance for 1 lx of irradiance over the hemisphere
+  Eigen::Array3f through;   ///< luminance for 1 lx of irradiance on the other side
   Eigen::Array3f specular;  ///< luminance for 1 cd/m² about the mirrored direction
 };
 /// The directional albedo of the GGX lobe by the fit of Karis, "Physically Based Shading on Mobile" (2014),

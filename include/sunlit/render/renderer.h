@@ -6,8 +6,9 @@
 
 #include "sunlit/image/camera.h"
 #include "sunlit/image/images.h"
+#include "sunlit/light/illumination.h"
+#include "sunlit/light/world.h"
 #include "sunlit/scene/scene.h"
-#include "sunlit/sky/daylight.h"
 
 namespace sunlit::render {
 
@@ -26,6 +27,8 @@ void validate(const RenderOptions& options);
 /// destroy on one thread. light() is parallel inside, and gives the same bits for any thread count.
 class Renderer {
  public:
+  Renderer(const light::World& world, const RenderOptions& options);
+  /// A world of its own, in which surfaces see the whole sky that they face.
   Renderer(std::shared_ptr<const scene::Scene> scene, const RenderOptions& options);
   ~Renderer();
   Renderer(const Renderer&) = delete;
@@ -37,8 +40,8 @@ class Renderer {
   /// Draws a pose that look() will be called with later, which then costs nothing. light() and depth() still
   /// speak of the present pose, and other threads may be in them meanwhile.
   void lookAhead(const Eigen::Isometry3d& map_from_optical);
-  /// Luminance of each pixel under `daylight`, cd/m².
-  image::LinearImage light(const sky::Daylight& daylight) const;
+  /// Luminance of each pixel, cd/m². `light` is of this renderer's world, or just a sky::Daylight.
+  image::LinearImage light(const light::Illumination& light) const;
   /// Depth of what the centre of each pixel sees, m along the optical axis; NaN for sky.
   image::DepthImage depth() const;
 

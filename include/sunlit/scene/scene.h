@@ -49,7 +49,9 @@ struct Material {
   LinearRgb emission;                      ///< luminance that the surface gives off by itself, cd/m²
   AlphaMode alpha_mode = AlphaMode::kOpaque;
   float alpha_cutoff = 0.5f;  ///< 0 … 1
-  bool double_sided = true;   ///< false: invisible from behind; still casts shadows
+  /// A thin sheet such as a leaf: the share of its diffuse light that comes out on the other side, 0 … 1.
+  float transmission = 0.0f;
+  bool double_sided = true;  ///< false: invisible from behind; still casts shadows
   Detail detail;
 };
 

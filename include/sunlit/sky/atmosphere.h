@@ -44,7 +44,7 @@ class Atmosphere {
   Atmosphere& operator=(Atmosphere&&) noexcept;
 
   /// Throws std::invalid_argument for a distance outside its range.
-  Daylight daylight(const SunInSky& sun) const;
+  Daylight daylight(const SunInSky& sun, const NightSky& night = {}) const;
 
  private:
   struct Tables;

@@ -3,10 +3,13 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/direction.h"
 #include "sunlit/quantity/photometry.h"
+#include "sunlit/sky/night.h"
 
 namespace sunlit::sky {
 
@@ -19,6 +22,16 @@ struct DiscLight {
   Angle angular_radius = kSunRadiusAtOneAu;  ///< true angular radius of the disc
   LinearRgb illuminance;  ///< lx on a plane facing it, at the ground, its unobscured disc; zero when the
                           ///< whole disc is set
+  /// What lights the disc itself: for the moon the direction of the sun as seen from it, of which it shows
+  /// the phase. Empty for the sun, which shines all over.
+  std::optional<Direction> lit_from = std::nullopt;
+};
+
+/// What the air between the eye and a surface does to the surface's luminance L: L · transmittance +
+/// airlight.
+struct AirColumn {
+  Eigen::Array3f transmittance;  ///< 0 … 1
+  Eigen::Array3f airlight;       ///< cd/m²
 };
 
 /// Tabulated sky; see atmosphere.h for how it is computed.
@@ -37,7 +50,13 @@ class Daylight {
   /// ground of the model's albedo below it; without the discs' direct light.
   LinearRgb skyIlluminance(const Eigen::Vector3f& normal) const;
   const DiscLight& sun() const;
-  /// Illuminance of level, open ground, sun and sky together, lx.
+  /// Without illuminance where there is no moon, or it is set or new.
+  const DiscLight& moon() const;
+  /// Stars above the horizon, brightest first; their light is not in skyLuminance().
+  const std::vector<PointLight>& stars() const;
+  /// The air on the first `distance_m` metres of the way `towards`, seen from the observer.
+  AirColumn airOver(const Eigen::Vector3f& towards, float distance_m) const;
+  /// Illuminance of level, open ground: sun, moon and sky together, lx.
   LinearRgb groundIlluminance() const;
 
  private:

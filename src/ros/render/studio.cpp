@@ -37,11 +37,11 @@ double topOf(const scene::Scene& scene) {
 Studio::Studio(const RenderNodeOptions& options)
     : options_(options.renderOptions()),
       exposure_(options.exposure),
-      scene_(stopwatch_.measure("load", "world", [&] { return loadScene(options); })),
+      world_(stopwatch_.measure("load", "world", [&] { return light::World(loadScene(options)); })),
       atmosphere_(
           stopwatch_.measure("load", "atmosphere", [&] { return sky::Atmosphere(options.atmosphere); })),
       renderer_(stopwatch_.measure("load", "renderer",
-                                   [&] { return std::make_unique<render::Renderer>(scene_, options_); })) {
+                                   [&] { return std::make_unique<render::Renderer>(world_, options_); })) {
   image::validate(exposure_);
 }
 
@@ -66,9 +66,10 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent) {
   Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
   map_from_optical.linear() =
       Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();  // right east, down south, forward down
-  map_from_optical.translation() = Eigen::Vector3d(
-      0.5 * (extent.x_min + extent.x_max), 0.5 * (extent.y_min + extent.y_max), topOf(*scene_) + distance_m);
-  render::Renderer from_above(scene_, options);
+  map_from_optical.translation() =
+      Eigen::Vector3d(0.5 * (extent.x_min + extent.x_max), 0.5 * (extent.y_min + extent.y_max),
+                      topOf(*world_.geometry->scene) + distance_m);
+  render::Renderer from_above(world_, options);
   from_above.look(map_from_optical);
   const sky::Daylight noon =
       atmosphere_.daylight({Direction(Azimuth::degrees(160.0), Angle::degrees(55.0)), 1.0});

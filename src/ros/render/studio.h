@@ -52,7 +52,7 @@ class Studio {
   Stopwatch stopwatch_;
   render::RenderOptions options_;
   image::ExposureOptions exposure_;
-  std::shared_ptr<const scene::Scene> scene_;
+  light::World world_;
   sky::Atmosphere atmosphere_;
   std::unique_ptr<render::Renderer> renderer_;
 };
