@@ -245,7 +245,9 @@ bool Evaluation::State::canCompare(const StampSet& set, std::size_t pair, std::o
   }
   if (!pose) {
     ++counts.unplaced;
-    report({"unplaced", pose, set.stamp_ns, where, "no capture of this stamp says which pose it is"});
+    report({"unplaced", pose, set.stamp_ns, where,
+            options_.frame_rate > 0.0 ? "its stamp lies before stamp_start"
+                                      : "no capture of this stamp says which pose it is"});
     return false;
   }
   return true;

@@ -43,22 +43,6 @@ constexpr std::int64_t kNanosecondsPerSecond = 1000000000;
 
 }  // namespace
 
-void writeAtomically(const std::string& path, const std::string& text) {
-  const std::string draft = path + ".draft";
-  const int descriptor = ::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (descriptor < 0) failWith(draft, "cannot be opened");
-  try {
-    writeAll(descriptor, text, draft);
-    // The name must not point to content that has not reached the disk.
-    if (::fsync(descriptor) != 0) failWith(draft, "cannot be written to the disk");
-  } catch (...) {
-    ::close(descriptor);
-    throw;
-  }
-  if (::close(descriptor) != 0) failWith(draft, "cannot be closed");
-  if (std::rename(draft.c_str(), path.c_str()) != 0) failWith(path, "cannot be replaced");
-}
-
 AppendFile::~AppendFile() {
   close();
 }

@@ -8,10 +8,6 @@
 
 namespace sunlit::evaluate {
 
-/// Replaces the file at `path` by `text` in one step: readers see the old file or the new one, never a part.
-/// Throws std::runtime_error with path and reason.
-void writeAtomically(const std::string& path, const std::string& text);
-
 /// A text file that only grows. Each text is handed over in one write(), so a crash can tear only the last
 /// one.
 class AppendFile {

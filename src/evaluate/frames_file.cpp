@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "evaluate/files.h"
+#include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -126,7 +127,7 @@ void writeFrames(const std::string& path, const FramesLayout& layout,
                  const std::vector<PairRecord>& records) {
   std::string text = framesHeader() + "\n";
   for (const PairRecord& record : records) text += framesText(layout, record);
-  writeAtomically(path, text);
+  image::writeFileAtomically(path, text);
 }
 
 std::vector<SummaryRow> summarise(const FramesLayout& layout, const std::vector<PairRecord>& sorted_records) {
@@ -152,7 +153,7 @@ void writeSummary(const std::string& path, const std::vector<SummaryRow>& rows) 
             std::to_string(s.undefined) + "," + formatNumber(s.mean) + "," + formatNumber(s.sd) + "," +
             formatNumber(s.ci_low) + "," + formatNumber(s.ci_high) + "\n";
   }
-  writeAtomically(path, text);
+  image::writeFileAtomically(path, text);
 }
 
 }  // namespace sunlit::evaluate

@@ -18,9 +18,15 @@ void PoseIndex::remember(std::int64_t stamp_ns, std::int64_t pose) {
   next_ = std::max(next_, pose + 1);
 }
 
+std::optional<std::int64_t> PoseIndex::byRate(std::int64_t stamp_ns) const {
+  const std::int64_t pose =
+      std::llround(static_cast<double>(stamp_ns - stamp_start_ns_) * 1e-9 * frame_rate_);
+  if (pose < 0) return std::nullopt;
+  return pose;
+}
+
 std::optional<std::int64_t> PoseIndex::of(std::int64_t stamp_ns) {
-  if (frame_rate_ > 0.0)
-    return std::llround(static_cast<double>(stamp_ns - stamp_start_ns_) * 1e-9 * frame_rate_);
+  if (frame_rate_ > 0.0) return byRate(stamp_ns);
   if (!learnt_.empty()) {
     const auto found = learnt_.find(stamp_ns);
     if (found == learnt_.end()) return std::nullopt;
@@ -32,8 +38,7 @@ std::optional<std::int64_t> PoseIndex::of(std::int64_t stamp_ns) {
 }
 
 std::int64_t PoseIndex::settled(std::int64_t stamp_ns, std::int64_t fallback) const {
-  if (frame_rate_ > 0.0)
-    return std::llround(static_cast<double>(stamp_ns - stamp_start_ns_) * 1e-9 * frame_rate_);
+  if (frame_rate_ > 0.0) return byRate(stamp_ns).value_or(fallback);
   if (!learnt_.empty()) {
     const auto found = learnt_.find(stamp_ns);
     return found == learnt_.end() ? fallback : found->second;

@@ -18,13 +18,15 @@ class PoseIndex {
   void learn(std::int64_t stamp_ns, std::int64_t pose);
   /// An earlier run said so; only used where neither rate nor capture does.
   void remember(std::int64_t stamp_ns, std::int64_t pose);
-  /// The pose, or nothing while it is still to be learnt from a capture. By order, stamps are numbered as
-  /// they first appear here; settled() puts that right.
+  /// The pose, or nothing while it is still to be learnt from a capture, and for a stamp before the start. By
+  /// order, stamps are numbered as they first appear here; settled() puts that right.
   std::optional<std::int64_t> of(std::int64_t stamp_ns);
   /// The pose once all stamps are known; by order: the rank of the stamp.
   std::int64_t settled(std::int64_t stamp_ns, std::int64_t fallback) const;
 
  private:
+  std::optional<std::int64_t> byRate(std::int64_t stamp_ns) const;
+
   double frame_rate_;
   std::int64_t stamp_start_ns_;
   std::map<std::int64_t, std::int64_t> learnt_;

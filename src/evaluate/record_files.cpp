@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "sunlit/image/files.h"
+
 namespace sunlit::evaluate {
 namespace {
 
@@ -79,7 +81,7 @@ void RecordFiles::finish(const std::vector<std::string>& streams, const PoseInde
     });
     std::string text = std::string(kCapturesHeader) + "\n";
     for (const auto& item : sorted) text += lineOf(item.first, item.second);
-    writeAtomically(folder_ + "/captures.csv", text);
+    image::writeFileAtomically(folder_ + "/captures.csv", text);
     captures_file_.open(folder_ + "/captures.csv", kCapturesHeader);
   }
   if (!places_.empty()) {
@@ -89,7 +91,7 @@ void RecordFiles::finish(const std::vector<std::string>& streams, const PoseInde
     for (const auto& item : places_) by_pose[poses.settled(item.first, rank++)] = item.second;
     std::string text = std::string(kPathHeader) + "\n";
     for (const auto& item : by_pose) text += lineOf(item.first, item.second);
-    writeAtomically(folder_ + "/path.csv", text);
+    image::writeFileAtomically(folder_ + "/path.csv", text);
     path_file_.open(folder_ + "/path.csv", kPathHeader);
   }
 }
@@ -111,7 +113,7 @@ void ProblemFile::finish() {
                    [&](const Problem& l, const Problem& r) { return key(l) < key(r); });
   std::string text = std::string(kProblemsHeader) + "\n";
   for (const Problem& problem : problems_) text += lineOf(problem);
-  writeAtomically(path_, text);
+  image::writeFileAtomically(path_, text);
 }
 
 }  // namespace sunlit::evaluate

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "evaluate/files.h"
+#include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -152,7 +153,7 @@ void writeRunFile(const std::string& path, const EvaluationOptions& options, con
   text += std::string("versions:\n  sunlit: ") + quoted(SUNLIT_VERSION) +
           "\n  opencv: " + quoted(CV_VERSION) + "\n";
   if (outcome != nullptr) text += countersText(options, *outcome);
-  writeAtomically(path, text);
+  image::writeFileAtomically(path, text);
 }
 
 }  // namespace sunlit::evaluate

@@ -70,18 +70,25 @@ Mesh toMesh(const aiMesh& source) {
   return mesh;
 }
 
+/// Lines and points have no surface to light.
+bool hasSurface(const aiMesh& mesh) {
+  return (mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) != 0;
+}
+
 /// The parts below `node`, in the order of the file.
 struct Collector {
   const aiScene& scene;
   const std::vector<std::optional<int>>& material_indices;
   std::vector<MeshPart> parts;
+  std::size_t lines_and_points = 0;  ///< left out
 
   void collect(const aiNode& node, const Eigen::Affine3d& up_from_parent) {
     const Eigen::Affine3d up_from_node = up_from_parent * toEigen(node.mTransformation);
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       const aiMesh& source = *scene.mMeshes[node.mMeshes[i]];
       const std::optional<int> material = material_indices[source.mMaterialIndex];
-      if (!material || (source.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) continue;
+      if (!hasSurface(source)) lines_and_points += source.mNumFaces;
+      if (!material || !hasSurface(source)) continue;
       MeshPart part{node.mName.C_Str(), source.mName.C_Str(), {}, up_from_node};
       part.mesh = toMesh(source);
       part.mesh.name = part.node.empty() ? part.geometry : part.node;
@@ -96,7 +103,9 @@ struct Collector {
 std::vector<std::optional<int>> addMaterials(const aiScene& scene, const MeshFileContext& context) {
   std::vector<std::optional<int>> indices(scene.mNumMaterials);
   std::vector<bool> used(scene.mNumMaterials, false);
-  for (unsigned i = 0; i < scene.mNumMeshes; ++i) used[scene.mMeshes[i]->mMaterialIndex] = true;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    if (hasSurface(*scene.mMeshes[i])) used[scene.mMeshes[i]->mMaterialIndex] = true;
+  }
   for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
     if (used[i]) indices[i] = addMeshMaterial(*scene.mMaterials[i], scene, context);
   }
@@ -135,8 +144,6 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up_axis == UpAxis::kZ);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
-  // Lines and points have no surface to light.
-  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* scene = importer.ReadFile(file, kSteps);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw std::runtime_error(file + ": cannot read this mesh: " + importer.GetErrorString());
@@ -149,6 +156,10 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   const bool y_up = gltf || (collada && up_axis == UpAxis::kAsDeclared);
   Collector collector{*scene, material_indices, {}};
   collector.collect(*scene->mRootNode, y_up ? zUpFromYUp() : Eigen::Affine3d::Identity());
+  if (collector.lines_and_points > 0) {
+    builder.warn(file + ": " + std::to_string(collector.lines_and_points) +
+                 " lines and points have no surface and are left out");
+  }
   return std::move(collector.parts);
 }
 

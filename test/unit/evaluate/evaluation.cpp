@@ -258,6 +258,25 @@ TEST(Evaluation, NumbersPosesByTheFrameRate) {
   EXPECT_TRUE(hasLine(contentOf(folder.file("out/frames.csv")), "12,501.200000000,h04,h12,"));
 }
 
+TEST(Evaluation, CountsAndNamesStampsBeforeTheFirstPose) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = optionsFor(folder);
+  options.frame_rate = 10.0;
+  options.stamp_start_ns = stampOf(0);
+  options.poses = 2;
+  Evaluation evaluation(options, {});
+  feedPose(evaluation, -1);
+  feedPose(evaluation, 0);
+  evaluation.waitForRoom(0);
+  EXPECT_FALSE(evaluation.isComplete());  // what lies before the path is not one of its two poses
+  feedPose(evaluation, 1);
+  const Outcome outcome = evaluation.finish();
+  EXPECT_FALSE(outcome.isWhole());
+  EXPECT_EQ(outcome.counts.pairs[0].unplaced, 1u);
+  EXPECT_EQ(outcome.summary[0].statistics.n, 2u);
+  EXPECT_TRUE(hasLine(contentOf(folder.file("out/problems.csv")), "unplaced,,"));
+}
+
 TEST(Evaluation, KeepsFiveEvenlySpreadPicturesUnderTheirFinalNumbers) {
   const TemporaryFolder folder;
   EvaluationOptions options = optionsFor(folder);

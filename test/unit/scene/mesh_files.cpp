@@ -157,6 +157,13 @@ TEST_F(MeshFile, BrokenTrianglesAreLeftOutAndCounted) {
   EXPECT_EQ(scene.warnings[1], "1 triangles without area were left out");
 }
 
+TEST_F(MeshFile, LinesAndPointsAreLeftOutAndCounted) {
+  const Scene scene = load(write("wires.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\nl 2 3\np 1\n"), {});
+  EXPECT_EQ(scene.triangleCount(), 1u);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("wires.obj: 3 lines and points"), std::string::npos) << scene.warnings[0];
+}
+
 TEST_F(MeshFile, ABrokenFileIsAnErrorNamingIt) {
   for (const char* name : {"b.dae", "b.glb", "b.gltf", "b.obj"}) {
     const std::string file = write(name, "<COLLADA this is nonsense");
