@@ -1,11 +1,14 @@
-/// Sun positions per second on one core. items_per_second is the number to read; the ratios between the lines
-/// of one run say what the split into time-only and per-place terms is worth.
+/// Positions of sun and moon per second on one core. items_per_second is the number to read; the ratios
+/// between the lines of one run say what the split into time-only and per-place terms is worth.
 #include <benchmark/benchmark.h>
 
 #include <random>
 #include <vector>
 
+#include "sunlit/astronomy/celestial.h"
 #include "sunlit/astronomy/civil_time.h"
+#include "sunlit/astronomy/moon_position.h"
+#include "sunlit/astronomy/star_catalogue.h"
 #include "sunlit/astronomy/sun_position.h"
 #include "sunlit/astronomy/sun_times.h"
 
@@ -78,6 +81,35 @@ void timeOnlyTerms(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(timeOnlyTerms);
+
+/// A new instant each time, one place, the sun known already: what the moon adds to a sun.
+void singleMoons(benchmark::State& state) {
+  Instant instant = kStart;
+  const SolarCoordinates sun = solarCoordinates(kStart, kEarth);
+  for (auto _ : state) {
+    instant = instant.plusSeconds(kStep_s);
+    benchmark::DoNotOptimize(moonPosition(lunarCoordinates(instant, kEarth), sun, kTrack, kAir));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(singleMoons);
+
+/// What the stars add.
+void celestialAxes(benchmark::State& state) {
+  Instant instant = kStart;
+  for (auto _ : state) {
+    instant = instant.plusSeconds(kStep_s);
+    benchmark::DoNotOptimize(mapFromCelestial(instant, kEarth, kTrack));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(celestialAxes);
+
+/// At the start of a renderer. Fast where the files are not installed.
+void starCatalogue(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(readStarCatalogue());
+}
+BENCHMARK(starCatalogue)->Unit(benchmark::kMillisecond);
 
 void sunTimesOfADay(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(sunTimes({2024, 7, 1, 3.0}, kTrack, kAir, kEarth));

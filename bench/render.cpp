@@ -3,16 +3,20 @@
 // from the shared input if present, 2 the built-in one without fractal detail) and, for light, the sun's
 // elevation in degrees. Beside the time stands the processor time of all threads.
 #include <benchmark/benchmark.h>
+#include <tbb/combinable.h>
+#include <tbb/parallel_for.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "render/geometry_pass.h"
-#include "render/gl_context.h"
+#include "render/frustum.h"
+#include "render/rasteriser.h"
 #include "render/resolve.h"
 #include "sunlit/image/exposure.h"
 #include "sunlit/light/lighting.h"
@@ -64,21 +68,23 @@ struct Stage {
     view.supersampling = 2;
     geometry = std::make_shared<const light::Geometry>(scene);
     visibility = std::make_unique<light::Visibility>(geometry);
-    pass = std::make_unique<render::GeometryPass>(geometry, view, 0.0);
+    pyramids = render::texturePyramids(*scene);
+    rasteriser = std::make_unique<render::Rasteriser>(geometry, pyramids, 0.0);
   }
   void look(std::size_t pose) {
     view.map_from_optical = poses[pose % poses.size()];
-    pass->draw(view, &samples);
+    rasteriser->draw(view, nullptr, &samples);
   }
-  void resolve() { render::resolveSurfaces({view, *geometry, samples}, &surfaces); }
+  render::Seen seen() const { return {view, *geometry, nullptr, pyramids, 0.0f, samples}; }
+  void resolve() { render::resolveSurfaces(seen(), &surfaces); }
 
   std::vector<Eigen::Isometry3d> poses;
   render::View view;
   std::shared_ptr<const light::Geometry> geometry;
   std::unique_ptr<light::Visibility> visibility;
-  render::GlContext context;
-  std::unique_ptr<render::GeometryPass> pass;
-  std::vector<render::PackedSample> samples;
+  std::vector<render::TexturePyramid> pyramids;
+  std::unique_ptr<render::Rasteriser> rasteriser;
+  std::vector<render::Sample> samples;
   light::Surfaces surfaces;
 };
 
@@ -90,7 +96,6 @@ Stage* stage(benchmark::State& state) {
     return nullptr;
   }
   if (!stages[world]) stages[world] = std::make_unique<Stage>(static_cast<int>(world));
-  stages[world]->context.makeCurrent();
   return stages[world].get();
 }
 
@@ -99,20 +104,21 @@ sky::Daylight daylightAt(double elevation_deg) {
   return atmosphere.daylight({Direction(Azimuth::degrees(120.0), Angle::degrees(elevation_deg)), 1.0});
 }
 
-void drawAndReadBack(benchmark::State& state) {
+void draw(benchmark::State& state) {
   Stage* s = stage(state);
   if (!s) return;
-  std::size_t pose = 0;
+  std::size_t pose = 0, triangles = 0;
   for (auto _ : state) s->look(pose++);
-}
-
-void readBack(benchmark::State& state) {
-  Stage* s = stage(state);
-  if (!s) return;
-  s->look(0);
-  for (auto _ : state) {
-    glReadPixels(0, 0, 1280, 960, GL_RGBA_INTEGER, GL_UNSIGNED_INT, s->samples.data());
+  for (std::size_t i = 0; i < pose; ++i) {
+    s->view.map_from_optical = s->poses[i % s->poses.size()];
+    const render::Frustum frustum(s->view);
+    for (const light::Chunk& chunk : s->geometry->chunks)
+      triangles += frustum.touches(chunk.box) ? chunk.count : 0;
   }
+  state.counters["triangles_in_view"] =
+      benchmark::Counter(static_cast<double>(triangles), benchmark::Counter::kAvgIterations);
+  state.counters["triangles_per_second"] =
+      benchmark::Counter(static_cast<double>(triangles), benchmark::Counter::kIsRate);
 }
 
 /// Runs `work` on pose after pose, seen and resolved outside the clock.
@@ -135,9 +141,8 @@ void resolve(benchmark::State& state) {
 }
 
 void depth(benchmark::State& state) {
-  onPoses(state, false, [](Stage& s) {
-    benchmark::DoNotOptimize(render::resolveDepth({s.view, *s.geometry, s.samples}, *s.visibility));
-  });
+  onPoses(state, false,
+          [](Stage& s) { benchmark::DoNotOptimize(render::resolveDepth(s.seen(), *s.visibility)); });
 }
 
 void light(benchmark::State& state) {
@@ -147,24 +152,69 @@ void light(benchmark::State& state) {
   });
 }
 
-void rays(benchmark::State& state) {
-  const Eigen::Vector3f sun =
-      daylightAt(static_cast<double>(state.range(1))).sun().towards.vector().cast<float>();
+/// What a pose costs with the light of `state.range(1)` conditions, sun high and low in turn.
+void pose(benchmark::State& state) {
+  Stage* s = stage(state);
+  if (!s) return;
+  const std::array<sky::Daylight, 2> days = {daylightAt(50.0), daylightAt(15.0)};
+  std::size_t number = 0;
+  for (auto _ : state) {
+    s->look(number++);
+    s->resolve();
+    for (std::int64_t i = 0; i < state.range(1); ++i) {
+      benchmark::DoNotOptimize(light::illuminate(s->surfaces, *s->geometry->scene, *s->visibility,
+                                                 days[(number + static_cast<std::size_t>(i)) % 2]));
+    }
+  }
+  state.counters["images_per_second"] = benchmark::Counter(
+      static_cast<double>(number) * static_cast<double>(state.range(1)), benchmark::Counter::kIsRate);
+}
+
+/// Rays from every sample to the middle of the sun, or the camera's own: what bounds the light and what could
+/// stand in for the rasteriser.
+void castRays(benchmark::State& state, bool from_camera) {
+  const Eigen::Vector3f sun = daylightAt(from_camera ? 60.0 : static_cast<double>(state.range(1)))
+                                  .sun()
+                                  .towards.vector()
+                                  .cast<float>();
   std::size_t count = 0;
   onPoses(state, true, [&](Stage& s) {
-    std::vector<std::uint8_t> blocked;
-    std::vector<float> x, y, z;
-    for (const light::Tile& tile : s.surfaces.tiles) {
+    tbb::combinable<std::size_t> rays([] { return std::size_t{0}; });
+    tbb::parallel_for(std::size_t{0}, s.surfaces.tiles.size(), [&](std::size_t i) {
+      const light::Tile& tile = s.surfaces.tiles[i];
       const std::size_t n = tile.origin_x.size();
-      x.assign(n, sun.x()), y.assign(n, sun.y()), z.assign(n, sun.z()), blocked.resize(n);
-      s.visibility->occluded(
-          {tile.origin_x.data(), tile.origin_y.data(), tile.origin_z.data(), x.data(), y.data(), z.data(), n},
-          blocked.data());
-      count += n;
-    }
+      const Eigen::Vector3f eye = s.surfaces.eye;
+      std::vector<float> x(n, sun.x()), y(n, sun.y()), z(n, sun.z());
+      std::vector<float> from_x = tile.origin_x, from_y = tile.origin_y, from_z = tile.origin_z;
+      if (from_camera) {
+        for (std::size_t k = 0; k < n; ++k) {
+          x[k] = from_x[k] - eye.x(), y[k] = from_y[k] - eye.y(), z[k] = from_z[k] - eye.z();
+          from_x[k] = eye.x(), from_y[k] = eye.y(), from_z[k] = eye.z();
+        }
+      }
+      const light::Rays all{from_x.data(), from_y.data(), from_z.data(), x.data(), y.data(), z.data(), n};
+      if (from_camera) {
+        std::vector<light::Hit> hits(n);
+        s.visibility->closest(all, hits.data());
+        benchmark::DoNotOptimize(hits.data());
+      } else {
+        std::vector<std::uint8_t> blocked(n);
+        s.visibility->occluded(all, blocked.data());
+        benchmark::DoNotOptimize(blocked.data());
+      }
+      rays.local() += n;
+    });
+    count += rays.combine(std::plus<>());
   });
-  state.counters["rays_per_second_on_one_core"] =
+  state.counters["rays_per_second"] =
       benchmark::Counter(static_cast<double>(count), benchmark::Counter::kIsRate);
+}
+
+void sunRays(benchmark::State& state) {
+  castRays(state, false);
+}
+void cameraRays(benchmark::State& state) {
+  castRays(state, true);
 }
 
 void develop(benchmark::State& state) {
@@ -177,53 +227,20 @@ void develop(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(image::develop(image, image::chooseEv100(image, {})));
 }
 
-constexpr int kRuns = 24;  // each pose once
-BENCHMARK(drawAndReadBack)
-    ->Arg(0)
-    ->Arg(1)
-    ->Arg(2)
-    ->Unit(benchmark::kMillisecond)
-    ->Iterations(kRuns)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK(readBack)
-    ->Arg(0)
-    ->Unit(benchmark::kMillisecond)
-    ->Iterations(kRuns)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK(resolve)
-    ->Arg(0)
-    ->Arg(1)
-    ->Unit(benchmark::kMillisecond)
-    ->Iterations(kRuns)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK(depth)
-    ->Arg(0)
-    ->Arg(1)
-    ->Unit(benchmark::kMillisecond)
-    ->Iterations(kRuns)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK(light)
-    ->ArgsProduct({{0, 1}, {60, 20, 5, -10}})
-    ->Unit(benchmark::kMillisecond)
-    ->Iterations(kRuns)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK(rays)
-    ->ArgsProduct({{0, 1}, {60, 5}})
-    ->Unit(benchmark::kMillisecond)
-    ->Iterations(kRuns)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK(develop)
-    ->Arg(0)
-    ->Unit(benchmark::kMillisecond)
-    ->Iterations(kRuns)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+void eachPose(benchmark::internal::Benchmark* line) {
+  line->Unit(benchmark::kMillisecond)
+      ->Iterations(static_cast<std::int64_t>(kPoses))
+      ->MeasureProcessCPUTime()
+      ->UseRealTime();
+}
+BENCHMARK(draw)->Arg(0)->Arg(1)->Apply(eachPose);
+BENCHMARK(resolve)->Arg(0)->Arg(1)->Arg(2)->Apply(eachPose);
+BENCHMARK(depth)->Arg(0)->Arg(1)->Apply(eachPose);
+BENCHMARK(light)->ArgsProduct({{0, 1}, {60, 20, 5, -10}})->Apply(eachPose);
+BENCHMARK(pose)->ArgsProduct({{0, 1}, {1, 2, 3}})->Apply(eachPose);
+BENCHMARK(sunRays)->ArgsProduct({{0, 1}, {60, 5}})->Apply(eachPose);
+BENCHMARK(cameraRays)->Arg(0)->Arg(1)->Apply(eachPose);
+BENCHMARK(develop)->Arg(0)->Apply(eachPose);
 
 }  // namespace
 

@@ -10,17 +10,6 @@ namespace {
 
 constexpr double kSecondsPerDay = 86400.0;
 
-JulianTimes julianTimes(const Instant& instant, const EarthRotation& earth) {
-  const Instant ut1 = instant.plusSeconds(earth.delta_ut1_s);
-  const double delta_t_s = earth.delta_t_s ? *earth.delta_t_s : deltaT(instant);
-  JulianTimes times;
-  times.day_fraction = ut1.dayFraction();
-  times.jd_since_2000 = static_cast<double>(ut1.julianDay() - 2451545) + times.day_fraction;
-  times.jce = (times.jd_since_2000 + delta_t_s / kSecondsPerDay) / 36525.0;
-  times.jme = times.jce / 10.0;
-  return times;
-}
-
 /// Eq. 28. The 360° a day come from the fraction alone, so that whole days cost no digits.
 double meanSiderealTime(const JulianTimes& times) {
   const double jc = times.jd_since_2000 / 36525.0;
@@ -36,6 +25,17 @@ double meanLongitude(double jme) {
 }
 
 }  // namespace
+
+JulianTimes julianTimes(const Instant& instant, const EarthRotation& earth) {
+  const Instant ut1 = instant.plusSeconds(earth.delta_ut1_s);
+  const double delta_t_s = earth.delta_t_s ? *earth.delta_t_s : deltaT(instant);
+  JulianTimes times;
+  times.day_fraction = ut1.dayFraction();
+  times.jd_since_2000 = static_cast<double>(ut1.julianDay() - 2451545) + times.day_fraction;
+  times.jce = (times.jd_since_2000 + delta_t_s / kSecondsPerDay) / 36525.0;
+  times.jme = times.jce / 10.0;
+  return times;
+}
 
 GeocentricSun geocentricSun(const Instant& instant, const EarthRotation& earth) {
   GeocentricSun sun;

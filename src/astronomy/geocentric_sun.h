@@ -18,6 +18,8 @@ struct JulianTimes {
   double jde() const { return 2451545.0 + jce * 36525.0; }
 };
 
+JulianTimes julianTimes(const Instant& instant, const EarthRotation& earth);
+
 /// Angles in degrees. Steps 3.2 to 3.10 and A.1 of Reda & Andreas (2008).
 struct GeocentricSun {
   JulianTimes times;

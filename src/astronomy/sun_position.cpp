@@ -20,19 +20,6 @@ double inTurn(double rad) {
 
 }  // namespace
 
-Observer::Observer(const Site& site)
-    : longitude_rad(site.longitude.rad()),
-      sin_latitude(sin(site.latitude)),
-      cos_latitude(cos(site.latitude)) {
-  // Eq. 34 to 36: the flattened Earth. u = atan(0.99664719 tan φ), written so that it holds at the poles.
-  constexpr double kPolarRadius = 0.99664719;
-  constexpr double kEquatorialRadius_m = 6378140.0;
-  const double height = site.elevation_m / kEquatorialRadius_m;
-  const double u = std::atan2(kPolarRadius * sin_latitude, cos_latitude);
-  x = std::cos(u) + height * cos_latitude;
-  y = kPolarRadius * std::sin(u) + height * sin_latitude;
-}
-
 SunPosition sunPosition(const SolarCoordinates& sun, const Observer& observer, const Air& air) {
   // Eq. 33 and 38 to 40: parallax.
   const double sin_parallax = std::sin(8.794 / (3600.0 * sun.distance_au) * kRadPerDeg);

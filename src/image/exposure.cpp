@@ -7,26 +7,24 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <sstream>
-#include <stdexcept>
 #include <vector>
 
 #include "display_curve.h"
+#include "require_within.h"
 
 namespace sunlit::image {
 namespace {
 
-void requireWithin(const char* key, double value, double low, double high) {
-  if (!(value >= low && value <= high)) {
-    std::ostringstream message;
-    message << key << ": " << value << " is outside " << low << " … " << high;
-    throw std::invalid_argument(message.str());
-  }
-}
-
 // The metered mean becomes 18 % of saturation, which is level 118 of 255: standard output sensitivity, ISO
 // 12232:2019.
 constexpr double kMeteredPart = 0.18;
+/// Metered luminance, log2 of cd/m², below which a picture is to look like dusk, and how dark it may get.
+constexpr double kDuskLogLuminance = 6.0;
+constexpr double kLargestDarkening = 3.5;  // stops
+/// Part of saturation at which a channel begins to burn out: sky that is closer loses its colour.
+constexpr double kBurningPart = 0.7;
+/// Stops above that beyond which a pixel, such as of the sun's disc, is not missed any more.
+constexpr double kLargestBurn = 4.0;
 
 /// Luminances counted by the leading bits of their float: 256 steps an octave, without a logarithm a pixel.
 /// Counts are integers, so the order of pixels does not matter.
@@ -35,6 +33,20 @@ class LuminanceHistogram {
   LuminanceHistogram() : counts_(kSteps, 0) {}
 
   void add(float luminance, std::int64_t weight) { counts_[step(luminance)] += weight; }
+
+  /// Mean over the whole weight of the octaves by which luminances exceed 2^`log_limit`, each counted up to
+  /// `most`.
+  double meanExcess(double log_limit, double most) const {
+    double total = 0.0;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kSteps; ++i) {
+      if (counts_[i] == 0) continue;
+      const auto count = static_cast<double>(counts_[i]);
+      total += count;
+      sum += count * std::clamp(logMiddle(i) - log_limit, 0.0, most);
+    }
+    return sum / total;
+  }
 
   /// Mean of log2(luminance) of the weight between the two parts of the whole. At least one pixel was added.
   double trimmedLogMean(double low_part, double high_part) const {
@@ -47,7 +59,7 @@ class LuminanceHistogram {
       const double after = before + static_cast<double>(counts_[i]);
       const double inside = std::min(after, high) - std::max(before, low);
       if (inside > 0.0) {
-        sum += inside * std::log2(middle(i));
+        sum += inside * logMiddle(i);
       }
       before = after;
     }
@@ -65,9 +77,10 @@ class LuminanceHistogram {
     const float x = luminance > kDarkest ? std::min(luminance, kBrightest) : kDarkest;
     return (floatBits(x) - floatBits(kDarkest)) >> kShift;
   }
-  static double middle(std::size_t step_index) {
+  static double logMiddle(std::size_t step_index) {
     const auto bits = floatBits(kDarkest) + static_cast<std::uint32_t>(step_index << kShift);
-    return 0.5 * (static_cast<double>(floatOf(bits)) + static_cast<double>(floatOf(bits + (1U << kShift))));
+    return std::log2(
+        0.5 * (static_cast<double>(floatOf(bits)) + static_cast<double>(floatOf(bits + (1U << kShift)))));
   }
 
   std::vector<std::int64_t> counts_;
@@ -94,11 +107,26 @@ std::vector<std::int64_t> columnWeights(int width) {
   return weights;
 }
 
+/// By how many stops an exposure of `ev100` is to be cut: d = strength · (mean burn at ev100 + d). The burn
+/// falls as d grows, so there is one answer, and it moves continuously with every pixel's light.
+double highlightCut(const LuminanceHistogram& histogram, double ev100, double strength) {
+  const double log_limit = std::log2(kBurningPart * saturationLuminance(ev100));
+  double low = 0.0;
+  double high = strength * histogram.meanExcess(log_limit, kLargestBurn);
+  for (int i = 0; i < 30 && high - low > 1e-4; ++i) {
+    const double middle = 0.5 * (low + high);
+    (strength * histogram.meanExcess(log_limit + middle, kLargestBurn) > middle ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 }  // namespace
 
 void validate(const ExposureOptions& options) {
   requireWithin("ev100", options.ev100, -16.0, 24.0);
   requireWithin("compensation_ev", options.compensation_ev, -8.0, 8.0);
+  requireWithin("night_darkening", options.night_darkening, 0.0, 0.5);
+  requireWithin("highlight_protection", options.highlight_protection, 0.0, 20.0);
   requireWithin("min_ev100", options.min_ev100, -16.0, 24.0);
   requireWithin("max_ev100", options.max_ev100, options.min_ev100, 24.0);
 }
@@ -114,22 +142,26 @@ double chooseEv100(const LinearImage& image, const ExposureOptions& options) {
   if (image.data.empty()) {
     return options.min_ev100;
   }
-  LuminanceHistogram histogram;
+  LuminanceHistogram metered;
+  LuminanceHistogram whole;
   const std::vector<std::int64_t> row_weights = rowWeights(image.height);
   const std::vector<std::int64_t> column_weights = columnWeights(image.width);
   for (int y = 0; y < image.height; ++y) {
     const float* p = image.at(0, y);
     const std::int64_t row_weight = row_weights[static_cast<std::size_t>(y)];
     for (int x = 0; x < image.width; ++x, p += 3) {
-      histogram.add(0.2126F * p[0] + 0.7152F * p[1] + 0.0722F * p[2],
-                    row_weight * column_weights[static_cast<std::size_t>(x)]);
+      const float luminance = 0.2126F * p[0] + 0.7152F * p[1] + 0.0722F * p[2];
+      metered.add(luminance, row_weight * column_weights[static_cast<std::size_t>(x)]);
+      whole.add(std::max({p[0], p[1], p[2]}), 1);
     }
   }
   // The sun's disc, a lamp or a black hole in the picture lies in the ends cut off here.
-  const double log_mean = histogram.trimmedLogMean(0.05, 0.95);
-  const double ev100 =
-      log_mean - std::log2(kMeteredPart * saturationLuminance(0.0)) - options.compensation_ev;
-  return std::clamp(ev100, options.min_ev100, options.max_ev100);
+  const double log_mean = metered.trimmedLogMean(0.05, 0.95);
+  const double darkening =
+      std::clamp(options.night_darkening * (kDuskLogLuminance - log_mean), 0.0, kLargestDarkening);
+  const double ev100 = log_mean - std::log2(kMeteredPart * saturationLuminance(0.0)) + darkening;
+  const double cut = highlightCut(whole, ev100, options.highlight_protection);
+  return std::clamp(ev100 + cut - options.compensation_ev, options.min_ev100, options.max_ev100);
 }
 
 Rgb8Image develop(const LinearImage& image, double ev100) {

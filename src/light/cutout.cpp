@@ -63,9 +63,12 @@ float Cutouts::Mask::interpolated(int x0, int y0, float fx, float fy) const {
 Cutouts::Cutouts(const Geometry& geometry) {
   const scene::Scene& scene = *geometry.scene;
   std::vector<std::int32_t> mask_of(scene.materials.size(), kNoMask);
+  // Bodies share the materials of the whole scene and use few of them.
+  std::vector<bool> used(scene.materials.size(), false);
+  for (const std::int32_t material : geometry.materials) used[static_cast<std::size_t>(material)] = true;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const scene::Material& material = scene.materials[m];
-    if (material.alpha_mode != scene::AlphaMode::kMask ||
+    if (!used[m] || material.alpha_mode != scene::AlphaMode::kMask ||
         material.base_texture == scene::Material::kNoTexture)
       continue;
     const scene::Texture& texture = scene.textures[static_cast<std::size_t>(material.base_texture)];

@@ -35,17 +35,19 @@ void appendVertices(const scene::Mesh& mesh, Geometry* geometry) {
   geometry->colors.resize(count, Eigen::Array3f::Ones());
 }
 
+Eigen::Vector3d centreOf(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
+  return (a.cast<double>() + b.cast<double>() + c.cast<double>()) / 3.0;
+}
+
 /// False for a triangle without area.
 bool place(const Geometry& geometry, Placed* triangle) {
-  const Eigen::Vector3d a = geometry.positions[triangle->vertices[0]].cast<double>();
-  const Eigen::Vector3d b = geometry.positions[triangle->vertices[1]].cast<double>();
-  const Eigen::Vector3d c = geometry.positions[triangle->vertices[2]].cast<double>();
-  const Eigen::Vector3d cross = (b - a).cross(c - a);
-  const double double_area = cross.norm();
-  if (!(double_area > 1e-14)) return false;
-  triangle->plane.normal = (cross / double_area).cast<float>();
-  const Eigen::Vector3d centre = (a + b + c) / 3.0;
-  triangle->plane.offset = triangle->plane.normal.cast<double>().dot(centre);
+  const Eigen::Vector3f& a = geometry.positions[triangle->vertices[0]];
+  const Eigen::Vector3f& b = geometry.positions[triangle->vertices[1]];
+  const Eigen::Vector3f& c = geometry.positions[triangle->vertices[2]];
+  const std::optional<Plane> plane = planeThrough(a, b, c);
+  if (!plane) return false;
+  triangle->plane = *plane;
+  const Eigen::Vector3d centre = centreOf(a, b, c);
   triangle->cell_x = static_cast<int>(std::floor(centre.x() / Geometry::kCellSize_m));
   triangle->cell_y = static_cast<int>(std::floor(centre.y() / Geometry::kCellSize_m));
   return true;
@@ -67,6 +69,18 @@ void appendTriangle(const Placed& triangle, bool starts_chunk, Geometry* geometr
 }
 
 }  // namespace
+
+std::optional<Plane> planeThrough(const Eigen::Vector3f& a, const Eigen::Vector3f& b,
+                                  const Eigen::Vector3f& c) {
+  const Eigen::Vector3d first = a.cast<double>();
+  const Eigen::Vector3d cross = (b.cast<double>() - first).cross(c.cast<double>() - first);
+  const double double_area = cross.norm();
+  if (!(double_area > 1e-14)) return std::nullopt;
+  Plane plane;
+  plane.normal = (cross / double_area).cast<float>();
+  plane.offset = plane.normal.cast<double>().dot(centreOf(a, b, c));
+  return plane;
+}
 
 Geometry::Geometry(std::shared_ptr<const scene::Scene> scene_to_flatten)
     : scene(std::move(scene_to_flatten)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/mirror_lobe.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
@@ -51,17 +52,13 @@ Eigen::Array3f directReflectance(const Reflection& r, const Eigen::Vector3f& to_
 }
 
 AmbientReflectance ambientReflectance(const Reflection& r) {
-  const float n_v = std::clamp(r.normal.dot(r.to_eye), 0.0f, 1.0f);
-  const float rx = 1.0f - r.roughness;
-  const float ry = -0.0275f * r.roughness + 0.0425f;
-  const float rz = -0.572f * r.roughness + 1.04f;
-  const float rw = 0.022f * r.roughness - 0.04f;
-  const float a004 = std::min(rx * rx, std::exp2(-9.28f * n_v)) * rx + ry;
-  const float scale = -1.04f * a004 + rz;
-  const float offset = 1.04f * a004 + rw;
-  const Eigen::Array3f lobe = (normalReflectance(r) * scale + offset).max(0.0f).min(1.0f);
+  const float n_v = std::clamp(r.normal.dot(r.to_eye), 1e-3f, 1.0f);
+  const Eigen::Array3f f0 = normalReflectance(r);
+  const MirrorAlbedo mirror = mirrorAlbedo(r.roughness, n_v);
+  const Eigen::Array3f lobe = f0 * mirror.plain + mirror.grazing;
+  const Eigen::Array3f taken = f0 + (1.0f - f0) * meanGrazing(n_v);  // by Fresnel, from the Lambert part
   const Eigen::Array3f lambert = (1.0f - r.metalness) / kPiFloat * r.albedo;
-  return {(1.0f - r.transmission) * lambert * (1.0f - lobe), r.transmission * lambert, lobe};
+  return {(1.0f - r.transmission) * lambert * (1.0f - taken), r.transmission * lambert, lobe};
 }
 
 }  // namespace sunlit::light

@@ -1,8 +1,11 @@
-/// The sky and the sun's disc as a pixel sees them.
+/// The sky with sun, moon and stars as a camera's pixels see it.
 #pragma once
 
 #include <Eigen/Core>
 
+#include "light/disc_in_view.h"
+#include "light/star_field.h"
+#include "sunlit/image/images.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/sky/daylight.h"
 
@@ -13,18 +16,18 @@ class SkyPixel {
   /// Keeps references.
   SkyPixel(const Surfaces& surfaces, const sky::Daylight& day);
 
-  /// Mean over pixel (x, y), cd/m².
+  /// Mean over pixel (x, y) of the sky with sun and moon, cd/m²; without the stars.
   Eigen::Array3f luminance(int x, int y) const;
+  /// Adds to the pixels of `tile` what their samples see of the sky, stars included.
+  void addTo(const Tile& tile, image::LinearImage* image) const;
 
  private:
-  float discShare(int x, int y) const;
+  float skyShare(const Tile& tile, int x, int y) const;
 
   const Surfaces& surfaces_;
   const sky::Daylight& daylight_;
-  Eigen::Vector3f towards_sun_;
-  float disc_cosine_;              ///< of the disc's radius
-  float near_cosine_;              ///< of the angle beyond which no pixel touches the disc
-  Eigen::Array3f disc_luminance_;  ///< cd/m²
+  DiscInView sun_, moon_;
+  StarField stars_;
 };
 
 }  // namespace sunlit::light

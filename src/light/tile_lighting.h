@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "light/sun_disc.h"
+#include "light/disc_visibility.h"
+#include "light/sky_pixel.h"
 #include "sunlit/image/images.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/surfaces.h"
@@ -14,7 +15,7 @@ namespace sunlit::light {
 
 class TileLighting {
  public:
-  /// Keeps references to all four.
+  /// Keeps references to all four. Casts the rays to sun and moon, in parallel.
   TileLighting(const Surfaces& surfaces, const scene::Scene& scene, const Visibility& visibility,
                const Illumination& light);
 
@@ -23,13 +24,17 @@ class TileLighting {
 
  private:
   void addSurfaces(const Tile& tile, image::LinearImage* image) const;
-  void addSky(const Tile& tile, image::LinearImage* image) const;
-  Eigen::Array3f luminance(const Surface& surface, float sun_share) const;
+  /// Shares of the discs of sun and moon that a surface sees.
+  struct DiscShares {
+    float sun, moon;
+  };
+  Eigen::Array3f luminance(const Surface& surface, const DiscShares& shares) const;
 
   const Surfaces& surfaces_;
   const scene::Scene& scene_;
   const Illumination& light_;
-  SunDisc sun_;
+  DiscVisibility sun_, moon_;
+  SkyPixel sky_;
 };
 
 }  // namespace sunlit::light

@@ -32,11 +32,10 @@ void passCutouts(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
-/// What a query for the first visible triangle needs to know, beside Embree's own context (which must come
-/// first).
+/// What a query for the first triangle needs to know, beside Embree's own context (which must come first).
 struct SeeingContext {
   RTCIntersectContext embree;
-  const Geometry* geometry;
+  const Geometry* geometry;                        ///< null: one-sided triangles are met from both sides
   const std::vector<std::uint32_t>* triangles[2];  ///< by Embree's geometry number: opaque, masked
 };
 
@@ -44,6 +43,7 @@ struct SeeingContext {
 void passInvisible(const RTCFilterFunctionNArguments* arguments) {
   if (arguments->geometryUserPtr) passCutouts(arguments);
   const auto& context = *reinterpret_cast<const SeeingContext*>(arguments->context);
+  if (!context.geometry) return;
   for (unsigned i = 0; i < arguments->N; ++i) {
     if (arguments->valid[i] != -1) continue;
     const std::uint32_t triangle = (*context.triangles[RTCHitN_geomID(
@@ -99,15 +99,19 @@ void occludedInPackets(RTCScene scene, const Rays& rays, std::uint8_t* blocked) 
 class Visibility::Implementation {
  public:
   explicit Implementation(std::shared_ptr<const Geometry> geometry);
+  /// Shares the device of `other`.
+  Implementation(std::shared_ptr<const Geometry> geometry, const Implementation& other);
   ~Implementation() {
     rtcReleaseScene(scene_);
     rtcReleaseDevice(device_);
   }
   void occluded(const Rays& rays, std::uint8_t* blocked) const;
-  std::optional<std::uint32_t> firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
-                                         float near) const;
+  void closest(const Rays& rays, Hit* hits) const;
+  Hit firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near) const;
+  std::uint32_t triangleCount() const { return static_cast<std::uint32_t>(geometry_->triangles.size()); }
 
  private:
+  void build(RTCBuildQuality quality);
   void attach(const std::vector<std::uint32_t>& triangles, unsigned number);
 
   std::shared_ptr<const Geometry> geometry_;
@@ -122,11 +126,22 @@ Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geome
   device_ = rtcNewDevice(nullptr);
   if (!device_) fail("no device", nullptr);
   wide_ = rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
+  build(RTC_BUILD_QUALITY_HIGH);
+}
+
+Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geometry,
+                                           const Implementation& other)
+    : geometry_(std::move(geometry)), cutouts_(*geometry_), device_(other.device_), wide_(other.wide_) {
+  rtcRetainDevice(device_);
+  build(RTC_BUILD_QUALITY_LOW);  // it is for one pose
+}
+
+void Visibility::Implementation::build(RTCBuildQuality quality) {
   scene_ = rtcNewScene(device_);
   // Without ROBUST, a ray may slip through the edge between two triangles, depending on how the tree was
   // built.
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
+  rtcSetSceneBuildQuality(scene_, quality);
   attach(cutouts_.opaqueTriangles(), kOpaque);
   attach(cutouts_.maskedTriangles(), kMasked);
   rtcCommitScene(scene_);
@@ -168,9 +183,32 @@ void Visibility::Implementation::occluded(const Rays& rays, std::uint8_t* blocke
   }
 }
 
-std::optional<std::uint32_t> Visibility::Implementation::firstSeen(const Eigen::Vector3f& origin,
-                                                                   const Eigen::Vector3f& direction,
-                                                                   float near) const {
+void Visibility::Implementation::closest(const Rays& rays, Hit* hits) const {
+  SeeingContext context{{}, nullptr, {&cutouts_.opaqueTriangles(), &cutouts_.maskedTriangles()}};
+  rtcInitIntersectContext(&context.embree);
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    RTCRayHit query{};
+    query.ray.org_x = rays.origin_x[i];
+    query.ray.org_y = rays.origin_y[i];
+    query.ray.org_z = rays.origin_z[i];
+    query.ray.dir_x = rays.direction_x[i];
+    query.ray.dir_y = rays.direction_y[i];
+    query.ray.dir_z = rays.direction_z[i];
+    query.ray.tfar = std::numeric_limits<float>::infinity();
+    query.ray.mask = ~0u;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &context.embree, &query);
+    hits[i] = Hit();
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
+    hits[i].triangle = (*context.triangles[query.hit.geomID])[query.hit.primID];
+    hits[i].u = query.hit.u;
+    hits[i].v = query.hit.v;
+    hits[i].distance = query.ray.tfar;
+  }
+}
+
+Hit Visibility::Implementation::firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+                                          float near) const {
   SeeingContext context{{}, geometry_.get(), {&cutouts_.opaqueTriangles(), &cutouts_.maskedTriangles()}};
   rtcInitIntersectContext(&context.embree);
   RTCRayHit query{};
@@ -185,21 +223,68 @@ std::optional<std::uint32_t> Visibility::Implementation::firstSeen(const Eigen::
   query.ray.mask = ~0u;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(scene_, &context.embree, &query);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return (*context.triangles[query.hit.geomID])[query.hit.primID];
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Hit();
+  return {(*context.triangles[query.hit.geomID])[query.hit.primID], query.hit.u, query.hit.v, query.ray.tfar};
 }
+
+namespace {
+
+/// The nearer of two hits, the second of which counts its triangles from `first_triangle` on.
+Hit nearer(const Hit& fixed, Hit moving, std::uint32_t first_triangle) {
+  if (moving.triangle == Hit::kMiss) return fixed;
+  if (fixed.triangle != Hit::kMiss && fixed.distance <= moving.distance) return fixed;
+  moving.triangle += first_triangle;
+  return moving;
+}
+
+}  // namespace
 
 Visibility::Visibility(std::shared_ptr<const Geometry> geometry)
     : implementation_(std::make_unique<Implementation>(std::move(geometry))) {}
+Visibility::Visibility(std::shared_ptr<const Visibility> fixed, std::shared_ptr<const Geometry> moving)
+    : fixed_(std::move(fixed)),
+      implementation_(std::make_unique<Implementation>(std::move(moving), *fixed_->implementation_)) {}
 Visibility::~Visibility() = default;
 
 void Visibility::occluded(const Rays& rays, std::uint8_t* blocked) const {
   implementation_->occluded(rays, blocked);
+  if (!fixed_) return;
+  thread_local std::vector<std::uint8_t> by_moving;
+  by_moving.assign(blocked, blocked + rays.count);
+  fixed_->occluded(rays, blocked);
+  for (std::size_t i = 0; i < rays.count; ++i) blocked[i] |= by_moving[i];
+}
+
+void Visibility::occludedByMoving(const Rays& rays, std::uint8_t* blocked) const {
+  if (fixed_) {
+    implementation_->occluded(rays, blocked);
+  } else {
+    std::fill(blocked, blocked + rays.count, std::uint8_t{0});
+  }
+}
+
+std::uint32_t Visibility::fixedTriangles() const {
+  return (fixed_ ? *fixed_ : *this).implementation_->triangleCount();
+}
+
+void Visibility::closest(const Rays& rays, Hit* hits) const {
+  implementation_->closest(rays, hits);
+  if (!fixed_) return;
+  const std::vector<Hit> moving(hits, hits + rays.count);
+  fixed_->closest(rays, hits);
+  for (std::size_t i = 0; i < rays.count; ++i)
+    hits[i] = nearer(hits[i], moving[i], fixed_->implementation_->triangleCount());
 }
 
 std::optional<std::uint32_t> Visibility::firstSeen(const Eigen::Vector3f& origin,
                                                    const Eigen::Vector3f& direction, float near) const {
-  return implementation_->firstSeen(origin, direction, near);
+  Hit hit = implementation_->firstSeen(origin, direction, near);
+  if (fixed_) {
+    hit = nearer(fixed_->implementation_->firstSeen(origin, direction, near), hit,
+                 fixed_->implementation_->triangleCount());
+  }
+  if (hit.triangle == Hit::kMiss) return std::nullopt;
+  return hit.triangle;
 }
 
 }  // namespace sunlit::light

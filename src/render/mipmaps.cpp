@@ -7,15 +7,7 @@
 #include <utility>
 
 namespace sunlit::render {
-namespace {
 
-/// One level in linear light: r g b a a texel.
-struct LinearLevel {
-  int width, height;
-  std::vector<float> rgba;
-};
-
-/// IEC 61966-2-1.
 const std::array<float, 256>& linearOfSrgb() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> values{};
@@ -28,6 +20,14 @@ const std::array<float, 256>& linearOfSrgb() {
   }();
   return table;
 }
+
+namespace {
+
+/// One level in linear light: r g b a a texel.
+struct LinearLevel {
+  int width, height;
+  std::vector<float> rgba;
+};
 
 /// The nearest 8-bit code: found in the table of the decoder, so that both agree to the bit.
 std::uint8_t srgbOfLinear(float linear) {

@@ -1,6 +1,8 @@
 /// Ever smaller versions of a texture, averaged in linear light.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "sunlit/scene/scene.h"
@@ -11,6 +13,9 @@ struct MipLevel {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;  ///< as scene::Texture
 };
+
+/// Linear value of each 8-bit code of an sRGB channel, IEC 61966-2-1.
+const std::array<float, 256>& linearOfSrgb();
 
 /// No mask: alpha is averaged like a colour.
 constexpr float kNoCutoff = -1.0f;

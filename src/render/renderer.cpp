@@ -1,13 +1,15 @@
 #include "sunlit/render/renderer.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "render/geometry_pass.h"
-#include "render/gl_context.h"
+#include "render/rasteriser.h"
 #include "render/resolve.h"
+#include "sunlit/light/body_light.h"
 #include "sunlit/light/lighting.h"
+#include "sunlit/light/transport.h"
 
 namespace sunlit::render {
 namespace {
@@ -22,6 +24,11 @@ View viewOf(const RenderOptions& options) {
   return view;
 }
 
+bool same(const BodyPlaces& a, const BodyPlaces& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& x, const auto& y) { return x.matrix() == y.matrix(); });
+}
+
 }  // namespace
 
 class Renderer::Implementation {
@@ -30,59 +37,109 @@ class Renderer::Implementation {
       : options_(options),
         view_(viewOf(options)),
         world_(world),
-        pass_(world.geometry, view_, options.texture_lod_bias) {}
-  ~Implementation() { context_.makeCurrent(); }
+        pyramids_(texturePyramids(*world.geometry->scene)),
+        rasteriser_(world.geometry, pyramids_, options.texture_lod_bias) {
+    if (world_.bodies) body_light_ = std::make_unique<light::BodyLight>(world_);
+  }
 
-  void look(const Eigen::Isometry3d& map_from_optical) {
-    const bool drawn_ahead =
-        !ahead_.samples.empty() && ahead_.view.map_from_optical.matrix() == map_from_optical.matrix();
-    if (!drawn_ahead) draw(map_from_optical, ahead_);
+  void look(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {
+    const bool drawn_ahead = !ahead_.samples.empty() &&
+                             ahead_.view.map_from_optical.matrix() == map_from_optical.matrix() &&
+                             same(ahead_.map_from_body, map_from_body);
+    if (!drawn_ahead) draw(map_from_optical, map_from_body, ahead_);
     std::swap(seen_, ahead_);
     ahead_.samples.clear();
   }
 
-  void lookAhead(const Eigen::Isometry3d& map_from_optical) { draw(map_from_optical, ahead_); }
+  void lookAhead(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {
+    draw(map_from_optical, map_from_body, ahead_);
+  }
 
   image::LinearImage light(const light::Illumination& light) const {
     requireLook();
-    return light::illuminate(seen_.surfaces, *world_.geometry->scene, *world_.visibility, light);
+    if (seen_.body_views) {
+      light::Illumination here = light;
+      here.bodies =
+          std::make_shared<std::vector<light::AroundLight>>(body_light_->around(*seen_.body_views, light));
+      return light::illuminate(seen_.surfaces, *world_.geometry->scene, *seen_.visibility, here);
+    }
+    return light::illuminate(seen_.surfaces, *world_.geometry->scene, *seen_.visibility, light);
   }
 
   image::DepthImage depth() const {
     requireLook();
-    return resolveDepth({seen_.view, *world_.geometry, seen_.samples}, *world_.visibility);
+    return resolveDepth(bufferOf(seen_), *seen_.visibility);
+  }
+
+  const light::Surfaces& surfaces() const {
+    requireLook();
+    return seen_.surfaces;
   }
 
   const RenderOptions& options() const { return options_; }
 
  private:
   /// One pose, drawn.
-  struct Seen {
+  struct Pose {
     View view;
-    std::vector<PackedSample> samples;
+    BodyPlaces map_from_body;
+    std::shared_ptr<const light::Geometry> bodies;  ///< at these places; null: none
+    std::shared_ptr<const light::Visibility> visibility;
+    std::shared_ptr<const light::BodyLight::Views> body_views;  ///< null: no bodies
+    std::vector<Sample> samples;
     light::Surfaces surfaces;
   };
 
-  void draw(const Eigen::Isometry3d& map_from_optical, Seen& seen) {
+  void place(const BodyPlaces& map_from_body, Pose& seen) const {
+    seen.map_from_body = map_from_body;
+    if (map_from_body.empty()) {
+      seen.bodies = nullptr;
+      seen.visibility = world_.visibility;
+      return;
+    }
+    if (!world_.bodies) throw std::invalid_argument("map_from_body is given, but this world has no bodies");
+    seen.bodies = world_.bodies->placed(map_from_body);
+    seen.visibility = std::make_shared<light::Visibility>(world_.visibility, seen.bodies);
+  }
+
+  void draw(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body, Pose& seen) {
     if (!map_from_optical.matrix().allFinite()) throw std::invalid_argument("map_from_optical is not finite");
-    context_.makeCurrent();
+    seen.samples.clear();  // so that nobody takes a pose that failed for one that was drawn
+    place(map_from_body, seen);
     seen.view = view_;
     seen.view.map_from_optical = map_from_optical;
-    pass_.draw(seen.view, &seen.samples);
-    resolveSurfaces({seen.view, *world_.geometry, seen.samples}, &seen.surfaces);
+    rasteriser_.draw(seen.view, seen.bodies.get(), &seen.samples);
+    resolveSurfaces(bufferOf(seen), &seen.surfaces);
+    if (world_.transport) world_.transport->locate(&seen.surfaces);
+    seen.body_views = nullptr;
+    if (seen.bodies) {
+      seen.body_views = body_light_->look(*seen.bodies, seen.visibility);
+      body_light_->hide(*seen.bodies, *seen.visibility, &seen.surfaces);
+    }
+  }
+
+  Seen bufferOf(const Pose& pose) const {
+    return {pose.view,
+            *world_.geometry,
+            pose.bodies.get(),
+            pyramids_,
+            static_cast<float>(options_.texture_lod_bias),
+            pose.samples};
   }
 
   void requireLook() const {
-    if (seen_.samples.empty()) throw std::logic_error("look() must be called before light() and depth()");
+    if (seen_.samples.empty())
+      throw std::logic_error("look() must be called before light(), depth() and surfaces()");
   }
 
   RenderOptions options_;
   View view_;  // without a pose
   light::World world_;
-  GlContext context_;  // before what lives in it
-  GeometryPass pass_;
-  Seen seen_;
-  Seen ahead_;
+  std::vector<TexturePyramid> pyramids_;  // before the rasteriser, which refers to them
+  Rasteriser rasteriser_;
+  std::unique_ptr<const light::BodyLight> body_light_;  // where there are bodies
+  Pose seen_;
+  Pose ahead_;
 };
 
 Renderer::Renderer(const light::World& world, const RenderOptions& options)
@@ -91,17 +148,20 @@ Renderer::Renderer(std::shared_ptr<const scene::Scene> scene, const RenderOption
     : Renderer(light::World(std::move(scene)), options) {}
 Renderer::~Renderer() = default;
 
-void Renderer::look(const Eigen::Isometry3d& map_from_optical) {
-  implementation_->look(map_from_optical);
+void Renderer::look(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {
+  implementation_->look(map_from_optical, map_from_body);
 }
-void Renderer::lookAhead(const Eigen::Isometry3d& map_from_optical) {
-  implementation_->lookAhead(map_from_optical);
+void Renderer::lookAhead(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {
+  implementation_->lookAhead(map_from_optical, map_from_body);
 }
 image::LinearImage Renderer::light(const light::Illumination& light) const {
   return implementation_->light(light);
 }
 image::DepthImage Renderer::depth() const {
   return implementation_->depth();
+}
+const light::Surfaces& Renderer::surfaces() const {
+  return implementation_->surfaces();
 }
 const RenderOptions& Renderer::options() const {
   return implementation_->options();

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "render/packed_sample.h"
+#include "render/sample.h"
+#include "render/texture_pyramid.h"
 #include "render/view.h"
 #include "sunlit/image/images.h"
 #include "sunlit/light/geometry.h"
@@ -16,12 +17,35 @@ namespace sunlit::render {
 struct Seen {
   const View& view;
   const light::Geometry& geometry;
-  const std::vector<PackedSample>& samples;
+  const light::Geometry* bodies;  ///< what moves, its triangles numbered after those of `geometry`; or null
+  const std::vector<TexturePyramid>& pyramids;  ///< of the scene's textures
+  float lod_bias;                               ///< levels
+  const std::vector<Sample>& samples;
 
-  const PackedSample& sample(int column, int row) const {
+  const light::Plane& plane(std::uint32_t triangle) const {
+    return of(triangle).planes[triangle - before(triangle)];
+  }
+  std::int32_t material(std::uint32_t triangle) const {
+    return of(triangle).materials[triangle - before(triangle)];
+  }
+  /// Materials are those of the fixed scene, also of what moves.
+  const scene::Material& look(std::int32_t of_material) const {
+    return geometry.scene->materials[static_cast<std::size_t>(of_material)];
+  }
+  const Eigen::Vector3f& corner(std::uint32_t triangle, std::size_t i) const {
+    return of(triangle).positions[of(triangle).triangles[triangle - before(triangle)][i]];
+  }
+  bool moves(std::uint32_t triangle) const { return triangle >= geometry.triangles.size(); }
+
+  const Sample& sample(int column, int row) const {
     return samples[static_cast<std::size_t>(row) *
                        static_cast<std::size_t>(view.camera.width * view.supersampling) +
                    static_cast<std::size_t>(column)];
+  }
+
+  const light::Geometry& of(std::uint32_t triangle) const { return moves(triangle) ? *bodies : geometry; }
+  std::uint32_t before(std::uint32_t triangle) const {
+    return moves(triangle) ? static_cast<std::uint32_t>(geometry.triangles.size()) : 0;
   }
 };
 

@@ -13,9 +13,8 @@ namespace {
 /// Exact on shared edges up to rounding, which counts as inside.
 bool passesThrough(const Seen& seen, std::uint32_t triangle, const Eigen::Vector3d& ray) {
   const Eigen::Vector3d eye = seen.view.eye();
-  const auto& vertices = seen.geometry.triangles[triangle];
   std::array<Eigen::Vector3d, 3> corners;
-  for (std::size_t i = 0; i < 3; ++i) corners[i] = seen.geometry.positions[vertices[i]].cast<double>() - eye;
+  for (std::size_t i = 0; i < 3; ++i) corners[i] = seen.corner(triangle, i).cast<double>() - eye;
   int positive = 0, negative = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const double side = corners[i].cross(corners[(i + 1) % 3]).dot(ray);
@@ -33,7 +32,7 @@ double nearestThrough(const Seen& seen, int x, int y, const Eigen::Vector3d& ray
   std::uint32_t last = 0;
   for (int row = y * size; row < (y + 1) * size; ++row) {
     for (int column = x * size; column < (x + 1) * size; ++column) {
-      const PackedSample& sample = seen.sample(column, row);
+      const Sample& sample = seen.sample(column, row);
       if (sample.sky() || sample.triangle == last) continue;
       last = sample.triangle;
       const double depth = planeDepth(seen, sample.triangle - 1, ray);

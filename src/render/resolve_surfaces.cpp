@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/resolve.h"
+#include "render/seen_triangle.h"
 #include "render/tile_detail.h"
 
 namespace sunlit::render {
@@ -12,24 +13,27 @@ namespace {
 
 constexpr float kSameNormalCosine = 0.985f;  ///< 10°: shading changes by little more than its cosine, 1.5 %
 constexpr float kSameDepthRatio = 0.1f;
+constexpr std::size_t kMostSamples = 16;  ///< of a pixel
 
-/// One sample, unpacked.
+/// What some samples of a pixel see of one triangle.
 struct Seeing {
-  Eigen::Vector3f position, geometric_normal, shading_normal;
-  Eigen::Array3f albedo;
-  float depth;
+  std::uint32_t triangle;
   std::int32_t material;
-  Eigen::Vector3f ray_origin;
-  Eigen::Vector3f relative;  ///< to the camera, along the axes of `map`
+  Eigen::Vector3f geometric_normal, shading_normal;
+  Eigen::Array3f albedo;
+  float depth;      ///< of the first sample
+  float footprint;  ///< of one sample, m
+  std::uint32_t samples = 0;
+  const Eigen::Vector3f* relatives;  ///< where its samples are: to the camera, along the axes of `map`
 };
 
-/// The sum of alike samples.
+/// Alike parts of a pixel.
 struct Cluster {
   Seeing first;
-  Eigen::Vector3f position, shading_normal;
+  Eigen::Vector3f shading_normal;  ///< sum over the samples
   std::uint32_t samples = 0;
-  std::array<Eigen::Vector3f, 16> origins, relatives;
-  std::array<Eigen::Array3f, 16> albedos;
+  std::array<Eigen::Vector3f, kMostSamples> relatives;
+  std::array<Eigen::Array3f, kMostSamples> albedos;
 
   bool alike(const Seeing& s) const {
     return s.material == first.material &&
@@ -39,21 +43,16 @@ struct Cluster {
   }
   void start(const Seeing& s) {
     first = s;
-    position = s.position;
-    shading_normal = s.shading_normal;
+    shading_normal.setZero();
     samples = 0;
-    keep(s);
+    add(s);
   }
   void add(const Seeing& s) {
-    position += s.position;
-    shading_normal += s.shading_normal;
-    keep(s);
-  }
-  void keep(const Seeing& s) {
-    origins[samples] = s.ray_origin;
-    relatives[samples] = s.relative;
-    albedos[samples] = s.albedo;
-    ++samples;
+    shading_normal += static_cast<float>(s.samples) * s.shading_normal;
+    for (std::uint32_t i = 0; i < s.samples; ++i, ++samples) {
+      relatives[samples] = s.relatives[i];
+      albedos[samples] = s.albedo;
+    }
   }
 };
 
@@ -63,126 +62,166 @@ float clearance(const Eigen::Vector3f& position, float depth) {
   return 2e-4f + 5e-7f * position.cwiseAbs().maxCoeff() + 1e-6f * depth;
 }
 
+/// The triangles that were looked at last.
+class TriangleCache {
+ public:
+  void forget() { numbers_.fill(kNone); }
+  const SeenTriangle& at(const Seen& seen, std::uint32_t number) {
+    const std::size_t slot = number % kSlots;
+    if (numbers_[slot] != number) {
+      numbers_[slot] = number;
+      triangles_[slot] = SeenTriangle(seen, number);
+    }
+    return triangles_[slot];
+  }
+
+ private:
+  static constexpr std::size_t kSlots = 64;
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  std::array<std::uint32_t, kSlots> numbers_;
+  std::array<SeenTriangle, kSlots> triangles_;
+};
+
 class TileResolver {
  public:
-  TileResolver(const Seen& seen, const SceneDetail& scene_detail, TileDetail* detail, light::Tile* tile)
-      : seen_(seen), scene_detail_(scene_detail), detail_(*detail), tile_(*tile), eye_(seen.view.eye()) {}
+  /// What stays from tile to tile, one a thread.
+  struct Memory {
+    TileDetail detail;
+    TriangleCache triangles;
+    std::array<Cluster, kMostSamples> clusters;
+  };
+  TileResolver(const Seen& seen, const SceneDetail& scene_detail, Memory* memory, light::Tile* tile)
+      : seen_(seen),
+        scene_detail_(scene_detail),
+        memory_(*memory),
+        tile_(*tile),
+        ray_(seen.view.ray(seen.view.pixelOfSample(0), seen.view.pixelOfSample(0)).cast<float>()),
+        eye_high_(seen.view.eye().cast<float>()),
+        eye_low_((seen.view.eye() - eye_high_.cast<double>()).cast<float>()) {}
 
   void resolve() {
+    memory_.triangles.forget();
     tile_.surfaces.clear();
-    for (auto* origin : {&tile_.origin_x, &tile_.origin_y, &tile_.origin_z}) origin->clear();
-    tile_.sky.assign(static_cast<std::size_t>(tile_.width * tile_.height), 0);
+    const auto pixels = static_cast<std::size_t>(tile_.width * tile_.height);
+    const auto per_pixel = static_cast<std::size_t>(seen_.view.supersampling * seen_.view.supersampling);
+    for (auto* origin : {&tile_.origin_x, &tile_.origin_y, &tile_.origin_z})
+      origin->resize(pixels * per_pixel);
+    tile_.sky.assign(pixels, 0);
     for (int row = 0; row < tile_.height; ++row) {
       for (int column = 0; column < tile_.width; ++column) {
         tile_.sky[static_cast<std::size_t>(row * tile_.width + column)] =
             pixel(tile_.x + column, tile_.y + row);
       }
     }
-    detail_.apply(scene_detail_, &tile_.surfaces);
+    for (auto* origin : {&tile_.origin_x, &tile_.origin_y, &tile_.origin_z}) origin->resize(origins_);
+    memory_.detail.apply(scene_detail_, &tile_.surfaces);
   }
 
  private:
   /// Returns the number of samples that see the sky.
   std::uint8_t pixel(int x, int y) {
     const int s = seen_.view.supersampling;
+    std::array<Sample, kMostSamples> samples;
+    std::size_t count = 0;
+    for (int j = 0; j < s; ++j)
+      for (int i = 0; i < s; ++i) samples[count++] = seen_.sample(x * s + i, y * s + j);
     std::size_t clusters = 0;
     std::uint8_t sky = 0;
-    for (int j = 0; j < s; ++j) {
-      for (int i = 0; i < s; ++i) {
-        const PackedSample& packed = seen_.sample(x * s + i, y * s + j);
-        if (packed.sky()) {
-          ++sky;
-          continue;
-        }
-        const Seeing seeing = unpack(packed, x * s + i, y * s + j);
-        std::size_t k = 0;
-        while (k < clusters && !clusters_[k].alike(seeing)) ++k;
-        if (k < clusters) {
-          clusters_[k].add(seeing);
-        } else {
-          clusters_[clusters++].start(seeing);
-        }
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t triangle = samples[i].triangle;
+      if (triangle == 0) ++sky;
+      if (triangle == 0 || triangle == kTaken) continue;
+      std::array<Eigen::Vector3f, kMostSamples> relatives;
+      Seeing seeing;
+      seeing.depth = samples[i].depth;
+      seeing.relatives = relatives.data();
+      for (std::size_t k = i; k < count; ++k) {
+        if (samples[k].triangle != triangle) continue;
+        samples[k].triangle = kTaken;
+        const int column = x * s + static_cast<int>(k) % s, row = y * s + static_cast<int>(k) / s;
+        relatives[seeing.samples++] =
+            samples[k].depth * (ray_ + static_cast<float>(column) * scene_detail_.sample_right +
+                                static_cast<float>(row) * scene_detail_.sample_down);
+      }
+      look(triangle - 1, &seeing);
+      std::size_t k = 0;
+      while (k < clusters && !memory_.clusters[k].alike(seeing)) ++k;
+      if (k < clusters) {
+        memory_.clusters[k].add(seeing);
+      } else {
+        memory_.clusters[clusters++].start(seeing);
       }
     }
-    for (std::size_t k = 0; k < clusters; ++k) append(clusters_[k], x, y);
+    for (std::size_t k = 0; k < clusters; ++k) append(memory_.clusters[k], x, y);
     return sky;
   }
 
-  Seeing unpack(const PackedSample& packed, int column, int row) const {
-    Seeing seeing;
-    const std::uint32_t triangle = packed.triangle - 1;
-    const Eigen::Vector3d ray =
-        seen_.view.ray(seen_.view.pixelOfSample(column), seen_.view.pixelOfSample(row));
-    // The triangle's own plane is more exact than the rasteriser's depth; but on a sliver seen from the side
-    // the sample may lie off its plane's visible part by any distance.
-    double depth = planeDepth(seen_, triangle, ray);
-    const double rasterised = packed.depth();
-    if (!(std::abs(depth - rasterised) < 0.05 * rasterised)) depth = rasterised;
-    seeing.depth = static_cast<float>(depth);
-    seeing.position = (eye_ + depth * ray).cast<float>();
-    seeing.relative = (depth * ray).cast<float>();
-    seeing.material = seen_.geometry.materials[triangle];
-    const Eigen::Vector3f& front = seen_.geometry.planes[triangle].normal;
-    seeing.geometric_normal = front.dot(ray.cast<float>()) > 0.0f ? Eigen::Vector3f(-front) : front;
-    seeing.ray_origin = seeing.position + clearance(seeing.position, seeing.depth) * seeing.geometric_normal;
-    seeing.albedo = packed.linearAlbedo();
-    const std::optional<Eigen::Vector3f> normal = packed.shadingNormal();
-    if (!normal) {
-      seeing.shading_normal = seeing.geometric_normal;
-    } else {
-      // Files get the side of normals wrong; the side that is seen is the one to light.
-      const Eigen::Vector3f unit = normal->normalized();
-      seeing.shading_normal = unit.dot(seeing.geometric_normal) < 0.0f ? Eigen::Vector3f(-unit) : unit;
-    }
-    return seeing;
-  }
-
-  /// What one sample covers of the cluster's plane, along its longer side, m: how far the point seen moves
-  /// from one sample to the next.
-  float footprint(const Cluster& cluster) const {
-    const Eigen::Vector3f& point = cluster.first.relative;
-    const Eigen::Vector3f& normal = cluster.first.geometric_normal;
-    const Eigen::Vector3f along = point / normal.dot(point);
-    float longest = 0.0f;
-    for (const Eigen::Vector3f& step : {scene_detail_.sample_right, scene_detail_.sample_down}) {
-      const Eigen::Vector3f across = step * cluster.first.depth;
-      longest = std::max(longest, (across - along * normal.dot(across)).squaredNorm());
-    }
-    return std::sqrt(longest);
+  /// Fills in what follows from the triangle and the points seen.
+  void look(std::uint32_t number, Seeing* seeing) {
+    const SeenTriangle& triangle = memory_.triangles.at(seen_, number);
+    Eigen::Vector3f middle = Eigen::Vector3f::Zero();
+    for (std::uint32_t i = 0; i < seeing->samples; ++i) middle += seeing->relatives[i];
+    middle /= static_cast<float>(seeing->samples);
+    seeing->triangle = number;
+    seeing->material = triangle.material();
+    seeing->geometric_normal = triangle.geometricNormal();
+    const Eigen::Array2f shares = triangle.sharesAt(middle);
+    seeing->shading_normal = triangle.shadingNormal(shares);
+    Footprint step =
+        triangle.footprint(middle, seeing->depth, scene_detail_.sample_right, scene_detail_.sample_down);
+    seeing->footprint = std::sqrt(std::max(step.right.squaredNorm(), step.down.squaredNorm()));
+    // All of these samples together span so many along each side.
+    const float side = std::sqrt(static_cast<float>(seeing->samples));
+    step.right *= side;
+    step.down *= side;
+    seeing->albedo = triangle.albedo(seen_, shares, step);
   }
 
   void append(const Cluster& cluster, int x, int y) {
     const float share = 1.0f / static_cast<float>(cluster.samples);
     light::Surface surface;
-    surface.position = cluster.position * share;
-    surface.to_eye = (eye_.cast<float>() - surface.position).normalized();
     surface.geometric_normal = cluster.first.geometric_normal;
     surface.shading_normal = cluster.shading_normal.normalized();
+    Eigen::Vector3f middle = Eigen::Vector3f::Zero();
     surface.albedo = Eigen::Array3f::Zero();
-    for (std::uint32_t i = 0; i < cluster.samples; ++i) surface.albedo += cluster.albedos[i];
+    for (std::uint32_t i = 0; i < cluster.samples; ++i) {
+      middle += cluster.relatives[i];
+      surface.albedo += cluster.albedos[i];
+    }
+    middle *= share;
     surface.albedo *= share;
+    surface.position = eye_high_ + (middle + eye_low_);
+    surface.to_eye = -middle.normalized();
     surface.material = cluster.first.material;
+    surface.clearance_m = clearance(surface.position, cluster.first.depth);
+    surface.triangle = cluster.first.triangle;
     surface.pixel = static_cast<std::uint32_t>(y * seen_.view.camera.width + x);
-    surface.first_sample = static_cast<std::uint32_t>(tile_.origin_x.size());
+    surface.first_sample = static_cast<std::uint32_t>(origins_);
     surface.samples = cluster.samples;
     if (scene_detail_.has(surface.material)) {
-      detail_.add({static_cast<std::uint32_t>(tile_.surfaces.size()), surface.material, footprint(cluster),
-                   cluster.samples, cluster.relatives.data(), cluster.albedos.data()});
+      memory_.detail.add({static_cast<std::uint32_t>(tile_.surfaces.size()), surface.material,
+                          cluster.first.footprint, cluster.samples, cluster.relatives.data(),
+                          cluster.albedos.data()});
     }
     tile_.surfaces.push_back(surface);
-    for (std::uint32_t i = 0; i < cluster.samples; ++i) {
-      tile_.origin_x.push_back(cluster.origins[i].x());
-      tile_.origin_y.push_back(cluster.origins[i].y());
-      tile_.origin_z.push_back(cluster.origins[i].z());
+    const Eigen::Vector3f to_origin = eye_low_ + surface.clearance_m * surface.geometric_normal;
+    for (std::uint32_t i = 0; i < cluster.samples; ++i, ++origins_) {
+      const Eigen::Vector3f origin = eye_high_ + (cluster.relatives[i] + to_origin);
+      tile_.origin_x[origins_] = origin.x();
+      tile_.origin_y[origins_] = origin.y();
+      tile_.origin_z[origins_] = origin.z();
     }
   }
 
+  static constexpr std::uint32_t kTaken = 0xffffffffu;  ///< a sample that is dealt with
+
   const Seen& seen_;
   const SceneDetail& scene_detail_;
-  TileDetail& detail_;
+  Memory& memory_;
   light::Tile& tile_;
-  Eigen::Vector3d eye_;
-  std::array<Cluster, 16> clusters_;
+  std::size_t origins_ = 0;             ///< written so far
+  Eigen::Vector3f ray_;                 ///< of sample (0, 0), of depth 1 m
+  Eigen::Vector3f eye_high_, eye_low_;  ///< whose sum is the eye
 };
 
 void layOutTiles(const View& view, light::Surfaces* surfaces) {
@@ -190,6 +229,7 @@ void layOutTiles(const View& view, light::Surfaces* surfaces) {
   surfaces->width = view.camera.width;
   surfaces->height = view.camera.height;
   surfaces->samples_per_pixel = view.supersampling * view.supersampling;
+  surfaces->eye = view.eye().cast<float>();
   surfaces->pixel_origin = view.ray(0.0, 0.0).cast<float>();
   surfaces->pixel_right = (view.ray(1.0, 0.0) - view.ray(0.0, 0.0)).cast<float>();
   surfaces->pixel_down = (view.ray(0.0, 1.0) - view.ray(0.0, 0.0)).cast<float>();
@@ -208,7 +248,7 @@ void layOutTiles(const View& view, light::Surfaces* surfaces) {
 }  // namespace
 
 double planeDepth(const Seen& seen, std::uint32_t triangle, const Eigen::Vector3d& ray) {
-  const light::Plane& plane = seen.geometry.planes[triangle];
+  const light::Plane& plane = seen.plane(triangle);
   const Eigen::Vector3d normal = plane.normal.cast<double>();
   return (plane.offset - normal.dot(seen.view.eye())) / normal.dot(ray);
 }
@@ -217,8 +257,8 @@ void resolveSurfaces(const Seen& seen, light::Surfaces* surfaces) {
   layOutTiles(seen.view, surfaces);
   const SceneDetail scene_detail(*seen.geometry.scene, seen.view);
   tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(), [&](std::size_t i) {
-    thread_local TileDetail detail;  // keeps its memory
-    TileResolver(seen, scene_detail, &detail, &surfaces->tiles[i]).resolve();
+    thread_local TileResolver::Memory memory;
+    TileResolver(seen, scene_detail, &memory, &surfaces->tiles[i]).resolve();
   });
 }
 

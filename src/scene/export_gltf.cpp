@@ -45,7 +45,10 @@ class Writer {
     std::vector<std::string> roots;
     for (std::size_t i = 0; i < nodes_.size(); ++i) roots.push_back(std::to_string(i));
     std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"sunlit\"}";
-    if (emits_) json += ",\"extensionsUsed\":[\"KHR_materials_emissive_strength\"]";
+    std::vector<std::string> used;
+    if (transmits_) used.push_back("\"KHR_materials_diffuse_transmission\"");
+    if (emits_) used.push_back("\"KHR_materials_emissive_strength\"");
+    append(json, "extensionsUsed", used);
     json += ",\"scene\":0,\"scenes\":[{\"nodes\":" + jsonArray(roots) + "}]";
     append(json, "nodes", nodes_);
     append(json, "meshes", meshes_);
@@ -97,14 +100,26 @@ class Writer {
     const float strength = material.emission.value.maxCoeff();
     if (strength > 0.0f) {
       emits_ = true;
-      json +=
-          ",\"emissiveFactor\":" + vector3(material.emission.value / strength) +
-          ",\"extensions\":{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":" + number(strength) +
-          "}}";
+      json += ",\"emissiveFactor\":" + vector3(material.emission.value / strength);
     }
+    json += extensionsJson(material, strength);
+    transmits_ = transmits_ || material.transmission > 0.0f;
     if (material.detail.contrast > 0.0f)
       json += ",\"extras\":{\"sunlit_detail\":" + detailJson(material.detail) + "}";
     materials_.push_back(json + "}");
+  }
+
+  static std::string extensionsJson(const Material& material, float emissive_strength) {
+    std::string json;
+    if (material.transmission > 0.0f) {
+      json += ",\"KHR_materials_diffuse_transmission\":{\"diffuseTransmissionFactor\":" +
+              number(material.transmission) +
+              ",\"diffuseTransmissionColorFactor\":" + vector3(material.base_color.value) + "}";
+    }
+    if (emissive_strength > 0.0f) {
+      json += ",\"KHR_materials_emissive_strength\":{\"emissiveStrength\":" + number(emissive_strength) + "}";
+    }
+    return json.empty() ? json : ",\"extensions\":{" + json.substr(1) + "}";
   }
 
   static std::string detailJson(const Detail& detail) {
@@ -157,6 +172,7 @@ class Writer {
   GlbBuffer buffer_;
   std::vector<std::string> nodes_, meshes_, materials_, textures_, images_, accessors_;
   bool emits_ = false;
+  bool transmits_ = false;
 };
 
 static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(Eigen::Array3f) == 12 && sizeof(Eigen::Vector2f) == 8,

@@ -12,6 +12,8 @@ namespace sunlit::scene {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* kPackageScheme = "package://";
+
 std::string lowerCase(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
@@ -96,7 +98,7 @@ std::string withoutScheme(const std::string& uri) {
 }  // namespace
 
 ResourceFinder::ResourceFinder(const SearchPath& search_path, const std::string& scene_file)
-    : roots_(folderAndParents(scene_file)) {
+    : roots_(folderAndParents(scene_file)), package_folder_(search_path.package_folder) {
   roots_.insert(roots_.end(), search_path.folders.begin(), search_path.folders.end());
 }
 
@@ -106,6 +108,10 @@ Found ResourceFinder::find(const std::string& uri, const std::string& from_file)
   std::vector<std::string> roots = folderAndParents(from_file);
   roots.insert(roots.end(), roots_.begin(), roots_.end());
   std::vector<fs::path> candidates;
+  if (package_folder_ && uri.rfind(kPackageScheme, 0) == 0) {
+    const std::string folder = package_folder_(path.begin()->string());
+    if (!folder.empty()) candidates.push_back(folder / path.lexically_relative(*path.begin()));
+  }
   for (const std::string& root : roots) {
     candidates.push_back(fs::path(root) / path);
     candidates.push_back(fs::path(root) / "models" / path);

@@ -1,6 +1,7 @@
 /// Finds the files that scene files name.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +34,7 @@ class ResourceFinder {
 
  private:
   std::vector<std::string> roots_;
+  std::function<std::string(const std::string& package)> package_folder_;
 };
 
 /// "a, b and c", for messages about where something was looked for.

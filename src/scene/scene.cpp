@@ -44,6 +44,7 @@ void checkMaterial(const Material& material, std::size_t texture_count) {
   checkRange(material, "roughness", material.roughness, 0.03f, 1.0f);
   checkRange(material, "metalness", material.metalness, 0.0f, 1.0f);
   checkRange(material, "alpha_cutoff", material.alpha_cutoff, 0.0f, 1.0f);
+  checkRange(material, "transmission", material.transmission, 0.0f, 1.0f);
   checkDetail(material);
   for (const float channel : material.emission.value) {
     if (!std::isfinite(channel) || channel < 0.0f)

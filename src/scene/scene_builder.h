@@ -34,6 +34,8 @@ class SceneBuilder {
   /// `mesh` moved by `map_from_mesh`, without its broken triangles (counted for a warning of finish()).
   void addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mesh);
 
+  std::size_t meshCount() const { return scene_.meshes.size(); }
+
   /// Adds a line to Scene::warnings, once for equal lines.
   void warn(const std::string& line);
   /// One line for all of one kind: "<count> <what>".

@@ -37,6 +37,7 @@ class SdfIncludes {
   /// Leaves the includes to libsdformat.
   sdf::ParserConfig plainConfig();
 
+  const std::string& file() const { return file_; }
   const std::vector<Instance>& instances() const { return instances_; }
   void forgetInstances() { instances_.clear(); }
   /// Addresses that were looked for in vain, and where.

@@ -5,7 +5,6 @@
 #include <sdf/Capsule.hh>
 #include <sdf/Cylinder.hh>
 #include <sdf/Ellipsoid.hh>
-#include <sdf/Link.hh>
 #include <sdf/Mesh.hh>
 #include <sdf/Plane.hh>
 #include <sdf/Sphere.hh>
@@ -65,13 +64,18 @@ void SdfVisuals::addModelAt(const sdf::Model& model, const Eigen::Isometry3d& ma
     const sdf::Link& link = *model.LinkByIndex(i);
     const std::string link_name = name + "::" + link.Name();
     const Eigen::Isometry3d map_from_link = map_from_model * parentFrom(link, link_name);
-    if (link.LightCount() > 0) builder_.count("lights of models were not read", link.LightCount());
-    for (std::uint64_t j = 0; j < link.VisualCount(); ++j) {
-      addVisual(*link.VisualByIndex(j), map_from_link, link_name + "::");
-    }
+    addLink(link, map_from_link, link_name);
   }
   for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
     addModel(*model.ModelByIndex(i), map_from_model, name + "::");
+  }
+}
+
+void SdfVisuals::addLink(const sdf::Link& link, const Eigen::Isometry3d& map_from_link,
+                         const std::string& name) {
+  if (link.LightCount() > 0) builder_.count("lights of models were not read", link.LightCount());
+  for (std::uint64_t i = 0; i < link.VisualCount(); ++i) {
+    addVisual(*link.VisualByIndex(i), map_from_link, name + "::");
   }
 }
 

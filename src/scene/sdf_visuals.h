@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <map>
 #include <sdf/Geometry.hh>
+#include <sdf/Link.hh>
 #include <sdf/Model.hh>
 #include <sdf/Visual.hh>
 #include <string>
@@ -26,6 +27,9 @@ class SdfVisuals {
 
   /// The same with the model's own frame at `map_from_model` and another full name.
   void addModelAt(const sdf::Model& model, const Eigen::Isometry3d& map_from_model, const std::string& name);
+
+  /// The visuals of one link at `map_from_link`; `name` is its full name.
+  void addLink(const sdf::Link& link, const Eigen::Isometry3d& map_from_link, const std::string& name);
 
  private:
   void addVisual(const sdf::Visual& visual, const Eigen::Isometry3d& map_from_link, const std::string& scope);

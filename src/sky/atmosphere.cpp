@@ -2,25 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
+#include <utility>
 
+#include "moonlight.h"
+#include "require.h"
 #include "sky_table.h"
+#include "stars.h"
 
 namespace sunlit::sky {
 namespace {
 
-void requireWithin(const char* key, double value, double low, double high) {
-  if (!(value >= low && value <= high)) {
-    std::ostringstream message;
-    message << key << ": " << value << " is outside " << low << " … " << high;
-    throw std::invalid_argument(message.str());
-  }
-}
-
 /// The disc in level slices: each is dimmed by its own air, and the horizon cuts it off.
-Spectrum sunlightAtGround(const Transport& transport, double altitude_km, double elevation_rad,
-                          double radius_rad) {
+Spectrum passedOfDisc(const Transport& transport, double altitude_km, const DiscLight& disc) {
+  const double elevation_rad = disc.towards.elevation().rad();
+  const double radius_rad = disc.angular_radius.rad();
   constexpr int kSlices = 16;
   Spectrum sum = Spectrum::Zero();
   double area = 0.0;
@@ -39,11 +34,37 @@ Spectrum sunlightAtGround(const Transport& transport, double altitude_km, double
   return sum / static_cast<float>(area);
 }
 
+LinearRgb discIlluminance(const Transport& transport, double altitude_km, const DiscLight& disc,
+                          const Spectrum& strength) {
+  return inGamut(colourOf(passedOfDisc(transport, altitude_km, disc) * strength));
+}
+
+// By day the moon's sky is at most 3e-5 of the sun's, and the night's glow at most 3e-6.
+constexpr double kMoonSkyDrowned = 0.17;  // sine of 10°
+constexpr double kGlowDrowned = 0.0;
+
 }  // namespace
 
 struct Atmosphere::Tables {
-  AtmosphereOptions options;
+  explicit Tables(const AtmosphereOptions& options)
+      : altitude_km(options.observer_height_m * 1e-3),
+        transport(mediumOf(options)),
+        extinction(transport, altitude_km),
+        glow(transport, extinction),
+        sights(std::make_shared<AirSights>(transport, altitude_km)) {}
+
+  static MediumParameters mediumOf(const AtmosphereOptions& options) {
+    MediumParameters parameters;
+    parameters.turbidity = options.turbidity;
+    parameters.ground_albedo = options.ground_albedo;
+    return parameters;
+  }
+
+  double altitude_km;
   Transport transport;
+  Extinction extinction;
+  NightGlow glow;
+  std::shared_ptr<const AirSights> sights;
 };
 
 void validate(const AtmosphereOptions& options) {
@@ -54,28 +75,61 @@ void validate(const AtmosphereOptions& options) {
 
 Atmosphere::Atmosphere(const AtmosphereOptions& options) {
   validate(options);
-  MediumParameters parameters;
-  parameters.turbidity = options.turbidity;
-  parameters.ground_albedo = options.ground_albedo;
-  tables_.reset(new Tables{options, Transport(parameters)});
+  tables_ = std::make_unique<const Tables>(options);
 }
 
 Atmosphere::~Atmosphere() = default;
 Atmosphere::Atmosphere(Atmosphere&&) noexcept = default;
 Atmosphere& Atmosphere::operator=(Atmosphere&&) noexcept = default;
 
-Daylight Atmosphere::daylight(const SunInSky& sun, const NightSky&) const {
+Daylight Atmosphere::daylight(const SunInSky& sun, const NightSky& night) const {
   requireWithin("distance_au", sun.distance_au, 0.97, 1.03);
-  const double altitude_km = tables_->options.observer_height_m * 1e-3;
-  DiscLight disc;
-  disc.towards = sun.apparent;
-  disc.angular_radius = Angle::radians(std::asin(sin(kSunRadiusAtOneAu) / sun.distance_au));
-  const Spectrum arriving = sunlightAtGround(tables_->transport, altitude_km, sun.apparent.elevation().rad(),
-                                             disc.angular_radius.rad());
-  disc.illuminance =
-      inGamut(colourOf(arriving * static_cast<float>(1.0 / (sun.distance_au * sun.distance_au))));
-  const SkyScene scene{altitude_km, disc, sun.geometric.value_or(sun.apparent), sun.distance_au};
-  return Daylight(std::make_shared<SkyTable>(makeSkyTable(tables_->transport, scene)));
+  const Tables& tables = *tables_;
+  const Direction sun_lights = sun.geometric.value_or(sun.apparent);
+  const double sun_height = sun_lights.vector().z();
+  auto table = std::make_shared<SkyTable>();
+  table->sights = tables.sights;
+
+  table->sun.towards = sun.apparent;
+  table->sun.angular_radius = Angle::radians(std::asin(sin(kSunRadiusAtOneAu) / sun.distance_au));
+  const Spectrum sun_strength =
+      Spectrum::Constant(static_cast<float>(1.0 / (sun.distance_au * sun.distance_au)));
+  table->sun.illuminance = discIlluminance(tables.transport, tables.altitude_km, table->sun, sun_strength);
+  if (sun_height > DiffuseLight::kLowestSun) {
+    const AirLamp lamp{sun.apparent, sun_lights, sun_strength};
+    table->sun_sky.emplace(tables.transport, tables.altitude_km, lamp);
+    table->sun_air.emplace(tables.transport, *tables.sights, lamp);
+  }
+  if (night.moon) {
+    addMoon(*night.moon, sun, table.get());
+  }
+  if (sun_height < kGlowDrowned) {
+    table->glow = tables.glow.sky(night, sun_lights);
+  }
+  table->stars = starsAbove(night, tables.extinction);
+  const LocalMedium air = tables.transport.medium().at(tables.altitude_km);
+  const LinearRgb clear = colourOf((air.extinction * -1.0F).exp());
+  const LinearRgb white = colourOf(Spectrum::Ones());
+  table->haze_per_km = -(clear.value / white.value).log();
+  gatherIlluminance(static_cast<float>(tables.transport.medium().parameters().ground_albedo), table.get());
+  return Daylight(std::move(table));
+}
+
+void Atmosphere::addMoon(const MoonInSky& moon, const SunInSky& sun, SkyTable* table) const {
+  validate(moon);
+  const Direction sun_lights = sun.geometric.value_or(sun.apparent);
+  const Direction lights = moon.geometric.value_or(moon.apparent);
+  const Spectrum strength = moonStrength(moon, sun.distance_au);
+  table->moon.towards = moon.apparent;
+  table->moon.angular_radius = moonAngularRadius(moon);
+  table->moon.lit_from = moonLitFrom(moon, sun_lights);
+  table->moon.illuminance = discIlluminance(tables_->transport, tables_->altitude_km, table->moon, strength);
+  if (strength.maxCoeff() > 0.0F && lights.vector().z() > DiffuseLight::kLowestSun &&
+      sun_lights.vector().z() < kMoonSkyDrowned) {
+    const AirLamp lamp{moon.apparent, lights, strength};
+    table->moon_sky.emplace(tables_->transport, tables_->altitude_km, lamp);
+    table->moon_air.emplace(tables_->transport, *tables_->sights, lamp);
+  }
 }
 
 }  // namespace sunlit::sky

@@ -28,8 +28,8 @@ const std::vector<PointLight>& Daylight::stars() const {
   return table_->stars;
 }
 
-AirColumn Daylight::airOver(const Eigen::Vector3f&, float) const {
-  return {Eigen::Array3f::Ones(), Eigen::Array3f::Zero()};
+AirColumn Daylight::airOver(const Eigen::Vector3f& towards, float distance_m) const {
+  return table_->airOver(towards, distance_m);
 }
 
 LinearRgb Daylight::groundIlluminance() const {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sunlit/quantity/angle.h"
+#include "table_place.h"
 
 namespace sunlit::sky {
 namespace {
@@ -76,6 +77,76 @@ float widePhaseLimit() {
   return low;
 }
 
+/// Legendre moments of a phase function, from degree 0 on.
+template <typename Phase>
+std::vector<double> legendreMoments(const Phase& phase, int degrees) {
+  constexpr int kSteps = 4000;
+  std::vector<double> moments(static_cast<std::size_t>(degrees), 0.0);
+  for (int k = 0; k < kSteps; ++k) {
+    const double cosine = -1.0 + 2.0 * (k + 0.5) / kSteps;
+    const double part = static_cast<double>(phase(static_cast<float>(cosine))) * 4.0 * kPi / kSteps;
+    double before = 0.0;
+    double now = 1.0;
+    for (int l = 0; l < degrees; ++l) {
+      moments[static_cast<std::size_t>(l)] += part * now;
+      const double next = ((2.0 * l + 1.0) * cosine * now - l * before) / (l + 1.0);
+      before = now;
+      now = next;
+    }
+  }
+  return moments;
+}
+
+/// Light scattered n ≥ 2 times by the part of aerosolPhase() above aerosolWidePhase(). Each scattering
+/// multiplies the Legendre moments, and n is distributed as along a path whose optical depth of that part is
+/// kDepth, which is what a line of sight near the horizon has.
+class PhaseTable {
+ public:
+  PhaseTable() {
+    const std::vector<double> moments = momentsOfMany();
+    for (int i = 0; i < kNodes; ++i) {
+      const double x = static_cast<double>(i) / (kNodes - 1);
+      const double cosine = 1.0 - 2.0 * x * x;
+      double before = 1.0;
+      double now = cosine;
+      double sum = moments[0] + 3.0 * moments[1] * cosine;
+      for (std::size_t l = 2; l < moments.size(); ++l) {
+        const double degree = static_cast<double>(l);
+        const double next = ((2.0 * degree - 1.0) * cosine * now - (degree - 1.0) * before) / degree;
+        before = now;
+        now = next;
+        sum += (2.0 * degree + 1.0) * moments[l] * now;
+      }
+      values_[static_cast<std::size_t>(i)] = {aerosolPhase(static_cast<float>(cosine)),
+                                              static_cast<float>(std::max(0.0, sum / (4.0 * kPi)))};
+    }
+  }
+  AerosolPhases operator()(float cos_angle) const {
+    const TablePlace place =
+        placeAt(std::sqrt(std::max(0.0F, 0.5F * (1.0F - cos_angle))) * (kNodes - 1), kNodes);
+    const AerosolPhases& low = values_[static_cast<std::size_t>(place.index)];
+    const AerosolPhases& high = values_[static_cast<std::size_t>(place.index) + 1];
+    return {low.once + (high.once - low.once) * place.fraction,
+            low.again + (high.again - low.again) * place.fraction};
+  }
+
+ private:
+  static constexpr int kNodes = 256;  // even in the sine of half the angle
+  static constexpr double kDepth = 0.6;
+  static std::vector<double> momentsOfMany() {
+    std::vector<double> moments =
+        legendreMoments([](float cosine) { return aerosolPhase(cosine) - aerosolWidePhase(cosine); }, 60);
+    const double never = std::exp(-kDepth);
+    const double once = never * kDepth;
+    for (double& moment : moments) {
+      const double one = moment / kAerosolForwardPart;
+      moment = (std::exp(kDepth * (one - 1.0)) - never - once * one) / (1.0 - never - once);
+    }
+    return moments;
+  }
+  std::array<AerosolPhases, kNodes> values_ = {};
+};
+
 }  // namespace
 
 Spectrum aerosolOpticalDepth(double turbidity) {
@@ -95,15 +166,25 @@ float aerosolPhase(float cos_angle) {
   return sum;
 }
 
+AerosolPhases aerosolPhases(float cos_angle) {
+  static const PhaseTable table;
+  return table(cos_angle);
+}
+
 float aerosolAgainPhase(float cos_angle) {
-  // Chosen against light paths traced through the real medium.
-  constexpr float kAsymmetry = 0.7F;
-  return henyeyGreenstein(cos_angle, kAsymmetry);
+  return aerosolPhases(cos_angle).again;
 }
 
 float aerosolWidePhase(float cos_angle) {
   static const float limit = widePhaseLimit();
   return std::min(aerosolPhase(cos_angle), limit);
+}
+
+std::array<float, 5> aerosolWideMoments() {
+  std::array<float, 5> moments;
+  const std::vector<double> sums = legendreMoments(aerosolWidePhase, 5);
+  std::transform(sums.begin(), sums.end(), moments.begin(), [](double m) { return static_cast<float>(m); });
+  return moments;
 }
 
 float aerosolAsymmetry() {
@@ -133,12 +214,14 @@ Medium::Medium(const MediumParameters& parameters) : parameters_(parameters), de
            static_cast<float>(parameters.ozone_du * kMoleculesPerDobson_m2 * 1e-25);
 }
 
-LocalMedium Medium::at(double altitude_km) const {
+Medium::Layer Medium::layerAt(double altitude_km) const {
   const double x = std::clamp(altitude_km / kLayer_km, 0.0, static_cast<double>(kLayers));
   const auto i = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(kLayers - 1));
-  const float t = static_cast<float>(x - static_cast<double>(i));
-  const Density& a = densities_[i];
-  const Density& b = densities_[i + 1];
+  return {densities_[i], densities_[i + 1], static_cast<float>(x - static_cast<double>(i))};
+}
+
+LocalMedium Medium::at(double altitude_km) const {
+  const auto [a, b, t] = layerAt(altitude_km);
   LocalMedium local;
   local.rayleigh_scattering = rayleigh_ * (a.air + t * (b.air - a.air));
   const float aerosol = a.aerosol + t * (b.aerosol - a.aerosol);
@@ -152,10 +235,18 @@ LocalMedium Medium::at(double altitude_km) const {
 }
 
 float Medium::aerosolDensity(double altitude_km) const {
-  const double x = std::clamp(altitude_km / kLayer_km, 0.0, static_cast<double>(kLayers));
-  const auto i = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(kLayers - 1));
-  const float t = static_cast<float>(x - static_cast<double>(i));
-  return densities_[i].aerosol + t * (densities_[i + 1].aerosol - densities_[i].aerosol);
+  const auto [a, b, t] = layerAt(altitude_km);
+  return a.aerosol + t * (b.aerosol - a.aerosol);
+}
+
+double Medium::refractivity(double altitude_km) const {
+  const auto [a, b, t] = layerAt(altitude_km);
+  return parameters_.refractivity * static_cast<double>(a.air + t * (b.air - a.air));
+}
+
+double Medium::refractionPerKm(double altitude_km) const {
+  const auto [a, b, t] = layerAt(altitude_km);
+  return parameters_.refractivity * static_cast<double>(b.air - a.air) / kLayer_km;
 }
 
 }  // namespace sunlit::sky

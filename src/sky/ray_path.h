@@ -1,14 +1,16 @@
-/// Straight rays through the air of a spherical Earth, in steps.
+/// Rays through the air of a spherical Earth, bent by it, in steps.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "medium.h"
 
 namespace sunlit::sky {
 
-/// Of a ray that just grazes the ground, at `altitude_km`.
+/// Of a straight ray that just grazes the ground, at `altitude_km`.
 inline double horizonCosZenith(double altitude_km) {
   const double ratio = kEarthRadius_km / (kEarthRadius_km + altitude_km);
   return -std::sqrt(std::max(0.0, 1.0 - ratio * ratio));
@@ -18,7 +20,7 @@ struct Segment {
   double length_km;
   bool hits_ground;
 };
-/// From `altitude_km` to the ground or the top of the atmosphere.
+/// From `altitude_km` straight to the ground or the top of the atmosphere.
 inline Segment segment(double altitude_km, double cos_zenith) {
   const double r = kEarthRadius_km + altitude_km;
   const double b = r * cos_zenith;
@@ -32,42 +34,43 @@ inline Segment segment(double altitude_km, double cos_zenith) {
   return {-b + std::sqrt(std::max(0.0, to_top)), false};
 }
 
-inline double altitudeAlong(double altitude_km, double cos_zenith, double distance_km) {
-  const double r = kEarthRadius_km + altitude_km;
-  return std::sqrt(r * r + distance_km * (distance_km + 2.0 * r * cos_zenith)) - kEarthRadius_km;
-}
+/// Whether a ray from `altitude_km` ends at the ground: n r sin ζ is the same all along (Bouguer).
+bool hitsGround(const Medium& medium, double altitude_km, double cos_zenith);
 
-/// Calls step(distance, length) for `count` steps from `from_km` to `to_km` along a ray, the shorter the
-/// nearer to `from_km`.
-template <typename Step>
-void march(double from_km, double to_km, int count, const Step& step) {
-  const auto edge = [&](int i) {
-    const double t = static_cast<double>(i) / count;
-    return from_km + (to_km - from_km) * t * t;
+/// Distances from the eye that part a line of sight into about `count` steps, short where the air is densest.
+std::vector<double> sightEdges(const Medium& medium, double altitude_km, double cos_zenith, int count);
+
+/// A place on a ray, in its plane: x along its azimuth, y up at the eye, km from the Earth's centre.
+struct RayPoint {
+  Eigen::Vector2d up;         ///< unit
+  Eigen::Vector2d direction;  ///< unit; bends
+  double altitude_km;
+};
+
+/// Follows a ray from the eye over `edges_km`, calls visit(middle, length) for each step, and gives its end.
+/// Each step is straight, bent in its middle (exact without refraction, second order with it).
+template <typename Visit>
+RayPoint followRay(const Medium& medium, double altitude_km, double cos_zenith,
+                   const std::vector<double>& edges_km, const Visit& visit) {
+  Eigen::Vector2d place(0.0, kEarthRadius_km + altitude_km);
+  Eigen::Vector2d direction(std::sqrt(std::max(0.0, 1.0 - cos_zenith * cos_zenith)), cos_zenith);
+  const auto pointAt = [&] {
+    const double r = place.norm();
+    return RayPoint{place / r, direction, r - kEarthRadius_km};
   };
-  // A range that runs backwards is visited backwards, so that steps always lead away from the eye.
-  const bool forwards = to_km >= from_km;
-  for (int i = 0; i < count; ++i) {
-    const double near_km = forwards ? edge(i) : edge(count - i);
-    const double far_km = forwards ? edge(i + 1) : edge(count - i - 1);
-    step(0.5 * (near_km + far_km), far_km - near_km);
+  for (std::size_t i = 0; i + 1 < edges_km.size(); ++i) {
+    const double step_km = edges_km[i + 1] - edges_km[i];
+    place += direction * (0.5 * step_km);
+    const RayPoint middle = pointAt();
+    visit(middle, step_km);
+    const double bend = medium.refractionPerKm(middle.altitude_km) * step_km;
+    if (bend != 0.0) {
+      direction += bend * (middle.up - middle.up.dot(direction) * direction);
+      direction.normalize();
+    }
+    place += direction * (0.5 * step_km);
   }
-}
-
-/// Steps along a line of sight from the eye on, short where it is lowest and the air densest.
-template <typename Step>
-Segment marchSight(double altitude_km, double cos_zenith, int count, const Step& step) {
-  const Segment path = segment(altitude_km, cos_zenith);
-  const double lowest_km = path.hits_ground ? path.length_km : -(kEarthRadius_km + altitude_km) * cos_zenith;
-  if (cos_zenith >= 0.0) {
-    march(0.0, path.length_km, count, step);
-  } else if (path.hits_ground) {
-    march(lowest_km, 0.0, count, step);
-  } else {
-    march(lowest_km, 0.0, count / 2, step);
-    march(lowest_km, path.length_km, count / 2, step);
-  }
-  return path;
+  return pointAt();
 }
 
 }  // namespace sunlit::sky

@@ -5,46 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sphere.h"
 #include "sunlit/quantity/angle.h"
 #include "table_place.h"
 
 namespace sunlit::sky {
 namespace {
 
-constexpr float kHalfPi = static_cast<float>(0.5 * kPi);
-
 std::size_t nodeIndex(int row, int column, int columns) {
   return static_cast<std::size_t>(row * columns + column);
 }
 
-Eigen::Array4f padded(const LinearRgb& colour) {
-  return {colour.value[0], colour.value[1], colour.value[2], 0.0F};
-}
-
-float rowElevation(float row) {
-  const float t = row / static_cast<float>(SkyTable::kRows - 1);
-  return kHalfPi * t * t;
-}
-
-void fillSky(const Transport& transport, const SkyScene& scene, SkyTable* table) {
-  table->sky.resize(static_cast<std::size_t>(SkyTable::kRows * SkyTable::kColumns));
-  const double sun_cos_zenith = scene.geometric_sun.vector().z();
-  const auto strength = static_cast<float>(1.0 / (scene.distance_au * scene.distance_au));
-  const double sun_sin_zenith = std::sqrt(std::max(0.0, 1.0 - sun_cos_zenith * sun_cos_zenith));
-  tbb::parallel_for(0, SkyTable::kRows, [&](int row) {
-    const double elevation = rowElevation(static_cast<float>(row));
-    for (int column = 0; column < SkyTable::kColumns; ++column) {
-      const double azimuth = kPi * column / (SkyTable::kColumns - 1);
-      const double cos_zenith = std::sin(elevation);
-      const double cos_angle =
-          cos_zenith * sun_cos_zenith + std::cos(elevation) * sun_sin_zenith * std::cos(azimuth);
-      const Scattered light = transport.scattered({scene.altitude_km, cos_zenith, sun_cos_zenith, cos_angle});
-      table->sky[nodeIndex(row, column, SkyTable::kColumns)] = {
-          padded(inGamut(colourOf(light.smooth * strength))),
-          padded(inGamut(colourOf(light.aerosol * strength))),
-          padded(inGamut(colourOf(light.aerosol_again * strength)))};
-    }
-  });
+Eigen::Array4f padded(const Eigen::Array3f& colour) {
+  return {colour[0], colour[1], colour[2], 0.0F};
 }
 
 /// Octahedral map of the sphere onto the square [−1, 1]²: Cigolle et al. 2014, listing 1. Upper hemisphere in
@@ -83,6 +56,7 @@ std::vector<Patch, Eigen::aligned_allocator<Patch>> patches(const SkyTable& tabl
   constexpr int kBelts = 40;
   constexpr int kSectors = 64;
   std::vector<Patch, Eigen::aligned_allocator<Patch>> result;
+  const Eigen::Vector2f heading = headingOf(table.sun.towards.vector().cast<float>());
   for (int belt = 0; belt < kBelts; ++belt) {
     // The midpoint in the sine of elevation has the patch's mean cosine on level ground.
     const float low = std::sin(beltEdge(static_cast<float>(belt) / kBelts));
@@ -94,10 +68,9 @@ std::vector<Patch, Eigen::aligned_allocator<Patch>> patches(const SkyTable& tabl
       const double azimuth = 2.0 * kPi * (sector + 0.5) / kSectors;
       const auto along = static_cast<float>(std::cos(azimuth)) * across;
       const auto aside = static_cast<float>(std::sin(azimuth)) * across;
-      const Eigen::Vector2f& heading = table.sun_heading;
       const Eigen::Vector3f towards(heading.x() * along - heading.y() * aside,
                                     heading.y() * along + heading.x() * aside, z);
-      result.push_back({towards, padded(LinearRgb(table.luminance(towards) * solid_angle))});
+      result.push_back({towards, padded(table.skyLuminance(towards) * solid_angle)});
     }
   }
   return result;
@@ -112,11 +85,17 @@ Eigen::Array4f gather(const std::vector<Patch, Eigen::aligned_allocator<Patch>>&
   return sum;
 }
 
-void fillIlluminance(float ground_albedo, SkyTable* table) {
+/// Direct light of a disc on level ground.
+Eigen::Array3f onLevelGround(const DiscLight& disc) {
+  return disc.illuminance.value * static_cast<float>(std::max(0.0, disc.towards.vector().z()));
+}
+
+}  // namespace
+
+void gatherIlluminance(float ground_albedo, SkyTable* table) {
   const auto sky = patches(*table);
   const Eigen::Array4f from_sky = gather(sky, Eigen::Vector3f::UnitZ());
-  table->ground_illuminance =
-      from_sky.head<3>() + table->sun.illuminance.value * std::max(0.0F, table->towards_sun.z());
+  table->ground_illuminance = from_sky.head<3>() + onLevelGround(table->sun) + onLevelGround(table->moon);
   table->ground_luminance = table->ground_illuminance * (ground_albedo / static_cast<float>(kPi));
   constexpr int kSide = SkyTable::kNormals;
   table->illuminance.resize(static_cast<std::size_t>(kSide * kSide));
@@ -128,56 +107,58 @@ void fillIlluminance(float ground_albedo, SkyTable* table) {
       // Level ground of even brightness fills (1 − n_z) / 2 of what a surface sees.
       const Eigen::Array3f from_ground =
           table->ground_illuminance * (ground_albedo * 0.5F * (1.0F - normal.z()));
-      table->illuminance[nodeIndex(row, column, kSide)] =
-          gather(sky, normal) + padded(LinearRgb(from_ground));
+      table->illuminance[nodeIndex(row, column, kSide)] = gather(sky, normal) + padded(from_ground);
     }
   });
 }
 
-/// Arc cosine of x in [0, 1] within 2e-8: Abramowitz and Stegun 1964, 4.4.46. Inlined, and
-/// the same bits with every maths library.
-float arcCosine(float x) {
-  float sum = -0.0012624911F;
-  for (const float coefficient : {0.0066700901F, -0.0170881256F, 0.0308918810F, -0.0501743046F, 0.0889789874F,
-                                  -0.2145988016F, 1.5707963050F}) {
-    sum = sum * x + coefficient;
+Eigen::Array3f SkyTable::skyLuminance(const Eigen::Vector3f& towards) const {
+  Eigen::Array3f sum = even;
+  if (sun_sky) {
+    sum += sun_sky->luminance(towards);
   }
-  return std::sqrt(1.0F - x) * sum;
+  if (moon_sky) {
+    sum += moon_sky->luminance(towards);
+  }
+  if (glow) {
+    sum += glow->luminance(towards);
+  }
+  return sum;
 }
 
-}  // namespace
-
 Eigen::Array3f SkyTable::luminance(const Eigen::Vector3f& towards) const {
-  const float across = std::sqrt(towards.x() * towards.x() + towards.y() * towards.y());
-  // Straight up or down every azimuth is the same sky.
-  const float ahead =
-      across > 0.0F ? (towards.x() * sun_heading.x() + towards.y() * sun_heading.y()) / across : 1.0F;
-  const float from_side = arcCosine(std::min(std::abs(ahead), 1.0F));
-  const float azimuth = ahead >= 0.0F ? from_side : 2.0F * kHalfPi - from_side;
-  const float elevation = std::max(0.0F, kHalfPi - arcCosine(std::clamp(towards.z(), 0.0F, 1.0F)));
-  const TablePlace row = placeAt(std::sqrt(elevation / kHalfPi) * (kRows - 1), kRows);
-  const TablePlace column = placeAt(azimuth * static_cast<float>((kColumns - 1) / kPi), kColumns);
-  const Node* low = &sky[nodeIndex(row.index, column.index, kColumns)];
-  const Node* high = low + kColumns;
-  const float u = column.fraction;
-  const float v = row.fraction;
-  const float cos_angle = towards.dot(towards_sun);
-  const float once = aerosolPhase(cos_angle);
-  const float again = aerosolAgainPhase(cos_angle);
-  const auto blend = [&](const Node& node, float weight) -> Eigen::Array4f {
-    return (node.smooth + node.aerosol * once + node.aerosol_again * again) * weight;
-  };
-  const Eigen::Array4f above = blend(low[0], (1.0F - u) * (1.0F - v)) + blend(low[1], u * (1.0F - v)) +
-                               blend(high[0], (1.0F - u) * v) + blend(high[1], u * v);
+  Eigen::Array3f above = skyLuminance(towards);
   if (towards.z() >= 0.0F) {
-    return above.head<3>();
+    return above;
   }
   // Ground seen from a hill of this height, through haze that takes on the colour of the horizon (Koschmieder
   // 1924).
   constexpr float kEye_km = 0.1F;
+  const float across = std::sqrt(towards.x() * towards.x() + towards.y() * towards.y());
   const float distance_km = kEye_km * across / -towards.z();
   const Eigen::Array3f clear = (haze_per_km * -distance_km).exp();
-  return above.head<3>() * (1.0F - clear) + ground_luminance * clear;
+  return above * (1.0F - clear) + ground_luminance * clear;
+}
+
+AirColumn SkyTable::airOver(const Eigen::Vector3f& towards, float distance_m) const {
+  if (!sights) {
+    return {Eigen::Array3f::Ones(), Eigen::Array3f::Zero()};
+  }
+  const AirSights::Place place = AirSights::placeOf(towards.z(), std::clamp(distance_m, 0.0F, 1e9F) * 1e-3F);
+  const Eigen::Array4f passed = sights->transmittance(place);
+  Eigen::Array4f light = Eigen::Array4f::Zero();
+  if (sun_air) {
+    light += sun_air->airlight(towards, place);
+  }
+  if (moon_air) {
+    light += moon_air->airlight(towards, place);
+  }
+  AirColumn air{passed.head<3>(), light.head<3>()};
+  if (glow) {
+    // The glow lights the air from all sides alike: as much as it takes out, it puts in.
+    air.airlight += glow->luminance(towards) * (1.0F - air.transmittance);
+  }
+  return air;
 }
 
 Eigen::Array3f SkyTable::illuminanceOn(const Eigen::Vector3f& normal) const {
@@ -191,21 +172,6 @@ Eigen::Array3f SkyTable::illuminanceOn(const Eigen::Vector3f& normal) const {
   const Eigen::Array4f sum = low[0] * ((1.0F - u) * (1.0F - v)) + low[1] * (u * (1.0F - v)) +
                              high[0] * ((1.0F - u) * v) + high[1] * (u * v);
   return sum.head<3>();
-}
-
-SkyTable makeSkyTable(const Transport& transport, const SkyScene& scene) {
-  SkyTable table;
-  table.sun = scene.sun;
-  table.towards_sun = scene.sun.towards.vector().cast<float>();
-  const Eigen::Vector2f heading = table.towards_sun.head<2>();
-  table.sun_heading = heading.norm() > 1e-6F ? heading.normalized() : Eigen::Vector2f::UnitY();
-  const LocalMedium air = transport.medium().at(scene.altitude_km);
-  const LinearRgb clear = colourOf((air.extinction * -1.0F).exp());
-  const LinearRgb white = colourOf(Spectrum::Ones());
-  table.haze_per_km = -(clear.value / white.value).log();
-  fillSky(transport, scene, &table);
-  fillIlluminance(static_cast<float>(transport.medium().parameters().ground_albedo), &table);
-  return table;
 }
 
 }  // namespace sunlit::sky

@@ -68,6 +68,25 @@ LinearRgb colourOf(const Spectrum& relative) {
   return LinearRgb(rgb);
 }
 
+Spectrum asBrightAsTheSun(const Spectrum& power) {
+  Spectrum relative;
+  for (int band = 0; band < kBands; ++band) {
+    relative[band] = power[band] / static_cast<float>(kSunIrradiance[static_cast<std::size_t>(band)]);
+  }
+  return relative * (colourOf(Spectrum::Ones()).luminance() / colourOf(relative).luminance());
+}
+
+Spectrum blackBody(double temperature_k) {
+  constexpr double kSecondRadiation_um_k = 1.438777e4;  // CODATA 2018
+  Spectrum power;
+  for (int band = 0; band < kBands; ++band) {
+    const double um = bandCentre_nm(band) * 1e-3;
+    power[band] =
+        static_cast<float>(std::pow(um, -5.0) / std::expm1(kSecondRadiation_um_k / (um * temperature_k)));
+  }
+  return asBrightAsTheSun(power);
+}
+
 LinearRgb inGamut(const LinearRgb& colour) {
   const float lowest = colour.value.minCoeff();
   const float grey = colour.luminance();

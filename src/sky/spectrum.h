@@ -38,4 +38,14 @@ LinearRgb inGamut(const LinearRgb& colour);
 /// Illuminance of a plane facing the sun above the atmosphere at 1 AU.
 constexpr double kLuminousSolarConstant_lx = 126000.0;
 
+/// Illuminance of a star of visual magnitude 0 above the atmosphere: Allen's Astrophysical Quantities, 4th
+/// ed. (2000), 2.4.
+constexpr double kZeroMagnitude_lx = 2.54e-6;
+
+/// Light of `power` by band (any unit of energy), scaled to the luminance of the sun at 1 AU.
+Spectrum asBrightAsTheSun(const Spectrum& power);
+
+/// Light of a black body, scaled likewise.
+Spectrum blackBody(double temperature_k);
+
 }  // namespace sunlit::sky

@@ -6,7 +6,7 @@ import unittest
 
 import rosunit
 
-PROGRAMS = ("snapshot", "export_world", "evaluate_bags", "report")
+PROGRAMS = ("snapshot", "timelapse", "export_world", "compare_light", "evaluate_bags", "report")
 
 
 class Programs(unittest.TestCase):

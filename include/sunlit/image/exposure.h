@@ -11,8 +11,13 @@ struct ExposureOptions {
   ExposureMode mode = ExposureMode::kAuto;
   double ev100 = 13.0;           ///< fixed: exposure value at ISO 100, −16 … 24
   double compensation_ev = 0.0;  ///< auto: added brightness in stops, −8 … 8
-  double min_ev100 = -8.0;       ///< auto: darkest scene that the camera adapts to
-  double max_ev100 = 17.0;       ///< auto: brightest scene that the camera adapts to, ≥ min_ev100
+  /// auto: stops darker for each stop that the metered luminance lies below 64 cd/m², 0 … 0.5, 3.5 stops at
+  /// most in all: so that dusk looks like dusk, and night like night.
+  double night_darkening = 0.15;
+  /// auto: how hard burnt out parts pull the exposure down, 0 (not at all) … 20.
+  double highlight_protection = 10.0;
+  double min_ev100 = -8.0;  ///< auto: darkest scene that the camera adapts to
+  double max_ev100 = 17.0;  ///< auto: brightest scene that the camera adapts to, ≥ min_ev100
 };
 
 /// Throws std::invalid_argument naming key, value and range.
@@ -25,7 +30,11 @@ void validate(const ExposureOptions& options);
 /// 12232). The mean is weighted towards the centre column and, from a fifth at the top edge, towards the rows
 /// 60 % down and below, so that a bright sky does not darken the ground; it leaves out the darkest and
 /// brightest 5 % of the weight, so that the sun's disc, a lamp or a black hole that enters the picture does
-/// not make the exposure jump. Black and NaN count as darkest.
+/// not make the exposure jump. Black and NaN count as darkest. Less than daylight is shown darker than 18 %,
+/// by night_darkening. What would burn out cuts the exposure by d stops, where d is highlight_protection
+/// times the mean over all pixels of the stops by which the brightest channel is then above 70 % of
+/// saturation (4 at most for each pixel). All of it is continuous: a small change of the light changes the
+/// exposure by little.
 double chooseEv100(const LinearImage& image, const ExposureOptions& options);
 
 /// Luminance that just saturates the picture at `ev100`: L = 1.2 · 2^EV100 cd/m² (ISO 12232 saturation-based

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "sunlit/scene/scene.h"
@@ -16,6 +17,10 @@ struct Plane {
   Eigen::Vector3f normal;  ///< unit, to the front side, in `map`
   double offset = 0.0;     ///< m; of the rounded normal, so that the plane goes through the triangle exactly
 };
+
+/// The plane of a triangle, whose front runs counter-clockwise; none if it has no area.
+std::optional<Plane> planeThrough(const Eigen::Vector3f& a, const Eigen::Vector3f& b,
+                                  const Eigen::Vector3f& c);
 
 /// Consecutive triangles of one material within one cell of a square grid over the map: the unit of culling.
 struct Chunk {

@@ -10,14 +10,27 @@
 
 namespace sunlit::light {
 
+class AroundLight;
+class MirrorSky;
+
 struct Illumination {
   /// Without `irradiance`: every surface sees the whole sky that it faces, and no light is bounced.
   Illumination(const sky::Daylight& day_to_use)
       : day(day_to_use) {}  // NOLINT: a Daylight is an open-sky Illumination
 
   sky::Daylight day;
-  /// Of the sky and of what surfaces pass on, at each sample of the Transport that made it; null: open sky.
+  /// Of the sky and of what surfaces pass on, lx, at each node of the Transport that made it; null: open sky.
   std::shared_ptr<const std::vector<Eigen::Array3f>> irradiance;
+  /// What is seen in mirrors: of the sky, and of the surfaces around each node, cd/m²; null as `irradiance`.
+  std::shared_ptr<const MirrorSky> mirror_sky;
+  std::shared_ptr<const std::vector<Eigen::Array3f>> surroundings;
+  /// At each body that moves, for the pose that a renderer looks at, which sets it; null: open sky.
+  std::shared_ptr<const std::vector<AroundLight>> bodies;
 };
+
+struct World;
+
+/// The light of `day` in `world`: relights its transport, if it has one.
+Illumination illumination(const World& world, const sky::Daylight& day);
 
 }  // namespace sunlit::light

@@ -30,8 +30,7 @@ struct AmbientReflectance {
   Eigen::Array3f through;   ///< luminance for 1 lx of irradiance on the other side
   Eigen::Array3f specular;  ///< luminance for 1 cd/m² about the mirrored direction
 };
-/// The directional albedo of the GGX lobe by the fit of Karis, "Physically Based Shading on Mobile" (2014),
-/// within about 0.02 of the integral; diffuse gets what the lobe leaves.
+/// All are directReflectance() summed over a hemisphere of even light, from tables, within 2 %.
 AmbientReflectance ambientReflectance(const Reflection& reflection);
 
 /// Mirror of `to_eye` at `normal`.

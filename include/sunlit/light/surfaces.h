@@ -2,10 +2,27 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace sunlit::light {
+
+/// Where a surface finds its sky light and bounced light: the weighted mean of three nodes of the Transport.
+struct LightPlace {
+  static constexpr std::uint32_t kNowhere = 0xffffffffu;
+  std::array<std::uint32_t, 3> node = {kNowhere, kNowhere, kNowhere};  ///< all or none kNowhere
+  std::array<float, 3> weight = {1.0f, 0.0f, 0.0f};                    ///< sum 1
+
+  bool known() const { return node[0] != kNowhere; }
+};
+
+/// What a surface mirrors: parts of equal weight, each about one direction.
+struct MirrorView {
+  static constexpr std::size_t kParts = 16;
+  std::array<std::uint16_t, kParts> place = {};  ///< the direction, as an index into MirrorSky
+  std::array<std::uint8_t, kParts> open = {};    ///< how much of the sky there is not hidden, 255 for all
+};
 
 /// One surface within one pixel: the part of the pixel's samples that look alike, and are shaded together.
 struct Surface {
@@ -14,10 +31,18 @@ struct Surface {
   Eigen::Vector3f geometric_normal;  ///< unit, of the triangle, on the side of the camera
   Eigen::Vector3f shading_normal;    ///< unit, interpolated, in the hemisphere of geometric_normal
   Eigen::Array3f albedo;             ///< linear base colour, 0 … 1
+  float clearance_m = 0.0f;          ///< how far off its triangle its rays start, along geometric_normal
   std::int32_t material = 0;         ///< index into Scene::materials
   std::uint32_t pixel = 0;           ///< y · width + x
   std::uint32_t first_sample = 0;    ///< into Tile::origin_x …
   std::uint32_t samples = 0;         ///< how many of the pixel's samples see it, > 0
+  std::uint32_t triangle = 0;  ///< one that it lies on: index into Geometry::triangles, beyond them bodies
+  LightPlace light;            ///< set by Transport::locate()
+  MirrorView mirror;           ///< likewise, where `light` is known
+  LightPlace behind;           ///< likewise, on the other side of a thin sheet
+  static constexpr std::int32_t kNoBody = -1;
+  std::int32_t body = kNoBody;  ///< that moves, which it belongs to; set by BodyLight::hide()
+  float unhidden = 1.0f;  ///< share of the light from all around that bodies leave to it; 0 … 1, as above
 };
 
 /// A square of neighbouring pixels: the unit of parallel work. Always the same pixels, so that no result
@@ -38,6 +63,7 @@ struct Surfaces {
   int samples_per_pixel = 1;  ///< > 0
   /// Pixel (u, v) looks along pixel_origin + u · pixel_right + v · pixel_down in `map`, of depth 1 m.
   Eigen::Vector3f pixel_origin, pixel_right, pixel_down;
+  Eigen::Vector3f eye = Eigen::Vector3f::Zero();  ///< the camera, m in `map`
   std::vector<Tile> tiles;
 };
 

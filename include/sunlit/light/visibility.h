@@ -1,4 +1,4 @@
-/// What stands in the way of light: ray queries on the static scene.
+/// What stands in the way of light: ray queries on the scene.
 #pragma once
 
 #include <cstddef>
@@ -21,6 +21,14 @@ struct Rays {
   std::size_t count;
 };
 
+/// Where a ray meets the scene first.
+struct Hit {
+  static constexpr std::uint32_t kMiss = 0xffffffffu;
+  std::uint32_t triangle = kMiss;  ///< index into Geometry::triangles; kMiss: nothing along the ray
+  float u = 0.0f, v = 0.0f;        ///< the point is (1 − u − v) · a + u · b + v · c of its corners
+  float distance = 0.0f;           ///< in lengths of the ray's direction
+};
+
 /// Materials of AlphaMode::kMask let light through where the image shows them cut out. Surfaces stop light
 /// from both sides. Immutable after construction; queries may run on many threads at once and give the same
 /// bits on any number.
@@ -28,6 +36,9 @@ class Visibility {
  public:
   /// Keeps `geometry` alive. Throws std::runtime_error if the ray library fails.
   explicit Visibility(std::shared_ptr<const Geometry> geometry);
+  /// All that `fixed` knows, with `moving` beside it, whose triangles are numbered after those of `fixed`.
+  /// Quickly made for a few thousand triangles. `fixed` is none of this kind itself.
+  Visibility(std::shared_ptr<const Visibility> fixed, std::shared_ptr<const Geometry> moving);
   ~Visibility();
   Visibility(const Visibility&) = delete;
   Visibility& operator=(const Visibility&) = delete;
@@ -35,6 +46,13 @@ class Visibility {
   /// Sets blocked[i] to 1 where anything lies along ray i at any distance, else to 0. Fastest for similar
   /// neighbours.
   void occluded(const Rays& rays, std::uint8_t* blocked) const;
+  /// The same of what moves alone; nothing, where there is nothing that moves.
+  void occludedByMoving(const Rays& rays, std::uint8_t* blocked) const;
+  /// Triangles that stand still: the number of the first one that moves.
+  std::uint32_t fixedTriangles() const;
+
+  /// Sets hits[i] to what ray i meets first, from whichever side.
+  void closest(const Rays& rays, Hit* hits) const;
 
   /// The triangle (index into Geometry::triangles) that a camera at `origin` sees first along `direction`, at
   /// least `near` times its length away; a one-sided triangle is invisible from behind. Empty if there is
@@ -44,6 +62,7 @@ class Visibility {
 
  private:
   class Implementation;
+  std::shared_ptr<const Visibility> fixed_;  ///< null: there is nothing else
   std::unique_ptr<Implementation> implementation_;
 };
 

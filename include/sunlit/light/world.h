@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
+#include "sunlit/light/bodies.h"
 #include "sunlit/light/geometry.h"
 #include "sunlit/light/visibility.h"
 
@@ -12,11 +14,13 @@ class Transport;
 
 /// Cheap to copy.
 struct World {
-  /// Flattens `scene` and builds its ray structure; bakes nothing.
-  explicit World(std::shared_ptr<const scene::Scene> scene);
+  /// Flattens `scene` and builds its ray structure; bakes nothing. `meshes_of_bodies` as Bodies takes them.
+  explicit World(std::shared_ptr<const scene::Scene> scene,
+                 const std::vector<std::vector<scene::Mesh>>& meshes_of_bodies = {});
 
   std::shared_ptr<const Geometry> geometry;
   std::shared_ptr<const Visibility> visibility;
+  std::shared_ptr<const Bodies> bodies;        ///< what moves in it; null: nothing
   std::shared_ptr<const Transport> transport;  ///< of sky and bounced light; null: an open sky is assumed
 };
 

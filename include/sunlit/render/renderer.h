@@ -3,10 +3,12 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <vector>
 
 #include "sunlit/image/camera.h"
 #include "sunlit/image/images.h"
 #include "sunlit/light/illumination.h"
+#include "sunlit/light/surfaces.h"
 #include "sunlit/light/world.h"
 #include "sunlit/scene/scene.h"
 
@@ -23,8 +25,11 @@ struct RenderOptions {
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const RenderOptions& options);
 
-/// Holds one OpenGL context, bound to the thread that constructs it: construct, look(), lookAhead() and
-/// destroy on one thread. light() is parallel inside, and gives the same bits for any thread count.
+/// map_from_body of each of light::World::bodies, in their order; or none, and they are not there.
+using BodyPlaces = std::vector<Eigen::Isometry3d>;
+
+/// One thread at a time may call look() or lookAhead(). All calls are parallel inside, and give the same bits
+/// for any thread count.
 class Renderer {
  public:
   Renderer(const light::World& world, const RenderOptions& options);
@@ -35,15 +40,18 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   /// Draws the geometry seen from `map_from_optical` (z forward, x right, y down). All later calls speak of
-  /// this pose.
-  void look(const Eigen::Isometry3d& map_from_optical);
+  /// this pose. `map_from_body` says where each of the world's bodies stands; without it they are not there.
+  void look(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body = {});
   /// Draws a pose that look() will be called with later, which then costs nothing. light() and depth() still
   /// speak of the present pose, and other threads may be in them meanwhile.
-  void lookAhead(const Eigen::Isometry3d& map_from_optical);
+  void lookAhead(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body = {});
   /// Luminance of each pixel, cd/m². `light` is of this renderer's world, or just a sky::Daylight.
   image::LinearImage light(const light::Illumination& light) const;
   /// Depth of what the centre of each pixel sees, m along the optical axis; NaN for sky.
   image::DepthImage depth() const;
+
+  /// What light() lights: valid until the next look().
+  const light::Surfaces& surfaces() const;
 
   const RenderOptions& options() const;
 

@@ -1,6 +1,7 @@
 /// A scene from a name or a file.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ constexpr const char* kRaceTrack = "race_track";
 /// that names them and its parents.
 struct SearchPath {
   std::vector<std::string> folders;
+  /// The folder of a package, where package://name/… is looked for first; empty text for one that is not
+  /// known. Unset: packages are looked for in `folders` alone.
+  std::function<std::string(const std::string& package)> package_folder = {};
   /// `folders`, then those of the environment variables SUNLIT_MODEL_PATH, GAZEBO_MODEL_PATH,
   /// GAZEBO_RESOURCE_PATH and SDF_PATH (colon-separated), then ~/.gazebo/models.
   static SearchPath withEnvironment(std::vector<std::string> folders);

@@ -43,8 +43,8 @@ class Daylight {
  public:
   explicit Daylight(std::shared_ptr<const SkyTable> table);
 
-  /// Luminance of the sky behind the scene, cd/m², without the discs. Below the horizon: the luminance of the
-  /// ground far away, continuous at the horizon.
+  /// Luminance of the sky behind the scene by sun, moon and night glow, cd/m², without the discs and stars.
+  /// Below the horizon: the luminance of the ground far away, continuous at the horizon.
   LinearRgb skyLuminance(const Eigen::Vector3f& towards) const;
   /// Illuminance, lx, of an unoccluded surface facing `normal`: from the sky above the horizon and from
   /// ground of the model's albedo below it; without the discs' direct light.
@@ -54,7 +54,9 @@ class Daylight {
   const DiscLight& moon() const;
   /// Stars above the horizon, brightest first; their light is not in skyLuminance().
   const std::vector<PointLight>& stars() const;
-  /// The air on the first `distance_m` metres of the way `towards`, seen from the observer.
+  /// The air on the first `distance_m` ≥ 0 metres of the way `towards`, seen from the observer: within 5 % of
+  /// small steps through the same air; far away at the horizon it becomes skyLuminance(). No surface shades
+  /// it. Below the observer's sea level the air goes on as there. A table look-up of some 40 ns.
   AirColumn airOver(const Eigen::Vector3f& towards, float distance_m) const;
   /// Illuminance of level, open ground: sun, moon and sky together, lx.
   LinearRgb groundIlluminance() const;

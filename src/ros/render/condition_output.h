@@ -8,6 +8,7 @@
 #include <string>
 
 #include "ros/render/options.h"
+#include "ros/render/sky_moments.h"
 #include "sunlit/image/camera.h"
 #include "sunlit/image/images.h"
 #include "sunlit/sky/daylight.h"
@@ -22,13 +23,19 @@ struct Photograph {
   image::Rgb8Image picture;
 };
 
+/// The sky that it was taken under.
+struct SkyMoment {
+  const SkyBodies& bodies;
+  const sky::Daylight& light;
+};
+
 /// Publishes camera/image_raw, camera/camera_info and camera/capture of one condition.
 class ConditionOutput {
  public:
   /// `queue_size` messages are kept for a subscriber that is slow to read.
   ConditionOutput(const ros::NodeHandle& node, const image::PinholeCamera& camera, std::uint32_t queue_size);
 
-  void publish(const Photograph& photograph, const sky::Daylight& daylight) const;
+  void publish(const Photograph& photograph, const SkyMoment& sky) const;
   /// The first topic with too few subscribers; empty if there is none.
   std::string lonelyTopic(const WantedSubscribers& wanted) const;
 

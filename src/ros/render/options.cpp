@@ -46,10 +46,24 @@ image::ExposureOptions readExposure(const ParameterReader& parameters) {
   exposure.ev100 = parameters.number("exposure/ev100", exposure.ev100, {-16.0, 24.0});
   exposure.compensation_ev =
       parameters.number("exposure/compensation", exposure.compensation_ev, {-8.0, 8.0});
+  exposure.night_darkening =
+      parameters.number("exposure/night_darkening", exposure.night_darkening, {0.0, 0.5});
+  exposure.highlight_protection =
+      parameters.number("exposure/highlight_protection", exposure.highlight_protection, {0.0, 20.0});
   exposure.min_ev100 = parameters.number("exposure/min_ev100", exposure.min_ev100, {-16.0, 24.0});
   exposure.max_ev100 =
       parameters.number("exposure/max_ev100", exposure.max_ev100, {exposure.min_ev100, 24.0});
   return exposure;
+}
+
+image::NoiseOptions readNoise(const ParameterReader& parameters) {
+  image::NoiseOptions noise;
+  noise.enabled = parameters.flag("noise/enabled", noise.enabled);
+  noise.full_well_e = parameters.number("noise/full_well_e", noise.full_well_e, {100.0, 1e6});
+  noise.read_e = parameters.number("noise/read_e", noise.read_e, {0.0, 1000.0});
+  noise.gain_ev100 = parameters.number("noise/gain_ev100", noise.gain_ev100, {-16.0, 24.0});
+  noise.seed = parameters.integer("noise/seed", noise.seed, {0, kLargestCount});
+  return noise;
 }
 
 sky::AtmosphereOptions readAtmosphere(const ParameterReader& parameters) {
@@ -60,6 +74,18 @@ sky::AtmosphereOptions readAtmosphere(const ParameterReader& parameters) {
   atmosphere.observer_height_m =
       parameters.number("atmosphere/observer_height", atmosphere.observer_height_m, {0.0, 8000.0});
   return atmosphere;
+}
+
+BakeOptions readBake(const ParameterReader& parameters) {
+  BakeOptions bake;
+  bake.enabled = parameters.flag("transport/enabled", bake.enabled);
+  light::TransportOptions& transport = bake.transport;
+  transport.rays_per_patch = parameters.integer("transport/rays", transport.rays_per_patch, {1, 64});
+  transport.bounces = parameters.integer("transport/bounces", transport.bounces, {0, 8});
+  transport.finest_m = parameters.number("transport/finest", transport.finest_m, {0.02, 10.0});
+  transport.samples = parameters.integer("transport/samples", transport.samples, {1000, 1e7});
+  bake.cache_dir = parameters.text("transport/cache_dir", bake.cache_dir);
+  return bake;
 }
 
 PacingOptions readPacing(const ParameterReader& parameters) {
@@ -93,8 +119,12 @@ RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {
   options.model_path = parameters.texts("model_path", {});
   options.path = readPath(parameters);
   options.camera = readCamera(parameters);
+  options.robot = readRobotOptions(parameters, options.camera.follow_tf);
   options.exposure = readExposure(parameters);
+  options.noise = readNoise(parameters);
   options.atmosphere = readAtmosphere(parameters);
+  options.bake = readBake(parameters);
+  options.night = parameters.flag("night/enabled", options.night);
   options.pacing = readPacing(parameters);
   options.sun_namespace = parameters.text("sun_namespace", options.sun_namespace);
   options.output_dir = parameters.text("output_dir", options.output_dir);

@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "ros/render/robot_options.h"
 #include "sunlit/image/exposure.h"
+#include "sunlit/image/sensor_noise.h"
+#include "sunlit/light/transport.h"
 #include "sunlit/path/path.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/render/renderer.h"
@@ -53,15 +56,26 @@ struct PacingOptions {
   bool exit_when_done = false;  ///< end with status 0 once all poses are rendered and wait_for has them
 };
 
+/// Sky light and bounced light, baked once per world.
+struct BakeOptions {
+  bool enabled = true;  ///< false: every surface sees the open sky, and passes no light on
+  light::TransportOptions transport;
+  std::string cache_dir;  ///< empty: as light::Transport::usualFolder()
+};
+
 struct RenderNodeOptions {
   std::string world;                    ///< as scene::load() takes it
   std::vector<std::string> model_path;  ///< folders searched first for model:// and relative addresses
   PathSourceOptions path;
   CameraOptions camera;
+  RobotOptions robot;
   image::ExposureOptions exposure;
+  image::NoiseOptions noise;
   sky::AtmosphereOptions atmosphere;
+  BakeOptions bake;
   PacingOptions pacing;
-  std::string sun_namespace;  ///< of the topics c/sun; empty: the node's own
+  bool night = true;          ///< moon and stars too: waits for c/moon and c/celestial
+  std::string sun_namespace;  ///< of the topics c/sun, c/moon and c/celestial; empty: the node's own
   std::string output_dir;     ///< map and timing are written there; empty: nowhere
   bool publish_tf = true;
   int threads = 0;  ///< 0: as many as there are cores

@@ -5,14 +5,22 @@
 
 namespace sunlit::ros_interface {
 
-PathRun::PathRun(ros::NodeHandle node, const PacingOptions& options, const PathSource& path, Streams& streams)
-    : options_(options), path_(path), streams_(streams), pacer_(node, options.wait_for, options.max_ahead) {}
+PathRun::PathRun(ros::NodeHandle node, const PacingOptions& options, const PathSource& path, Streams& streams,
+                 RobotPlaces* robot)
+    : options_(options),
+      path_(path),
+      streams_(streams),
+      robot_(robot),
+      pacer_(node, options.wait_for, options.max_ahead) {
+  if (robot_ && robot_->jointsByTf()) tf_.emplace();
+}
 
-std::string PathRun::missing() const {
+std::string PathRun::missing() {
   if (!path_.ready()) return "a path on " + path_.topic();
   if (start_.isZero()) return "a time on /clock";
-  std::string missing = streams_.waitsForSun();
+  std::string missing = streams_.waitsForSky();
   if (missing.empty() && !pacer_.connected()) missing = "progress on " + pacer_.silentTopic();
+  if (missing.empty() && tf_ && !robot_->knowsJoints(tf_->buffer)) missing = robot_->waitsFor();
   if (missing.empty()) missing = streams_.waitsForSubscribers();
   return missing;
 }
@@ -36,16 +44,29 @@ bool PathRun::begin() {
   return true;
 }
 
+Shot PathRun::shotAt(int position) {
+  const int index = path_.first() + position;
+  Shot shot{index, stampOfPose(start_, index, options_.frame_rate), path_.mapFromCamera(index)};
+  if (robot_) shot.map_from_links = robot_->onPath(shot.map_from_camera, tf_ ? &tf_->buffer : nullptr);
+  return shot;
+}
+
+render::BodyPlaces PathRun::mapFromLinks() {
+  if (map_from_links_.empty() && path_.ready()) map_from_links_ = shotAt(0).map_from_links;
+  return map_from_links_;
+}
+
 Step PathRun::step() {
   if (!begin()) return Step::kWaits;
   if (position_ >= positions()) {
     if (pacer_.allHave(positions())) return Step::kDone;
   } else if (pacer_.mayRender(position_)) {
-    const int index = path_.first() + position_;
+    const Shot shot = next_ ? *next_ : shotAt(position_);
+    map_from_links_ = shot.map_from_links;
     position_ += path_.stride();
-    std::optional<Eigen::Isometry3d> next;
-    if (position_ < positions()) next = path_.mapFromCamera(path_.first() + position_);
-    streams_.take({index, stampOfPose(start_, index, options_.frame_rate), path_.mapFromCamera(index)}, next);
+    next_.reset();
+    if (position_ < positions()) next_ = shotAt(position_);
+    streams_.take(shot, next_);
     streams_.poseOutput().publishProgress(std::min(position_, positions()));
     return Step::kTook;
   }

@@ -5,6 +5,7 @@
 #include <ros/init.h>
 #include <sys/resource.h>
 
+#include <cstdio>
 #include <stdexcept>
 
 #include "ros/render/messages.h"
@@ -19,6 +20,7 @@ StreamOptions streamOptions(const RenderNodeOptions& options) {
   if (options.camera.follow_tf) streams.pose.followed_frame = options.camera.follow_frame;
   // A reader that is paced can never be further behind than this, so roscpp has no reason to drop a message.
   streams.pose.queue_size = static_cast<std::uint32_t>(options.pacing.max_ahead + 2);
+  streams.night = options.night;
   streams.sun_namespace = options.sun_namespace;
   streams.wanted_subscribers = options.pacing.subscribers;
   return streams;
@@ -36,12 +38,18 @@ RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
       path_(options.camera.follow_tf ? nullptr : std::make_unique<PathSource>(node, options.path)),
       streams_(conditions, streamOptions(options), studio_),
       paused_(!options.pacing.autostart) {
+  if (studio_.robot()) {
+    robot_ = std::make_unique<RobotPlaces>(
+        *studio_.robot(), options_.robot,
+        path_ ? std::optional<double>(options_.path.sampling.height_m) : std::nullopt);
+  }
   if (path_) {
-    auto run = std::make_unique<PathRun>(node_, options_.pacing, *path_, streams_);
+    auto run = std::make_unique<PathRun>(node_, options_.pacing, *path_, streams_, robot_.get());
     path_run_ = run.get();
     run_ = std::move(run);
   } else {
-    run_ = std::make_unique<FollowRun>(options_.camera.follow_frame, options_.pacing.frame_rate, streams_);
+    run_ = std::make_unique<FollowRun>(options_.camera.follow_frame, options_.pacing.frame_rate, streams_,
+                                       robot_.get());
   }
   services_ = {private_node_.advertiseService("start", &RenderNode::onStart, this),
                private_node_.advertiseService("pause", &RenderNode::onPause, this),
@@ -57,10 +65,16 @@ int RenderNode::run() {
     callbacks.callAvailable(latest == Step::kTook ? ros::WallDuration() : patience);
     latest = step();
     if (latest == Step::kDone && !finished_) finish();
-    if (finished_ && options_.pacing.exit_when_done) return 0;
+    if (finished_ && options_.pacing.exit_when_done) break;
   }
   if (files_) files_->writeTiming(studio_.stopwatch());
+  reportRobot();
   return 0;
+}
+
+void RenderNode::reportRobot() const {
+  // Not through the log, which a signal has closed already.
+  if (robot_ && !robot_->missingLinks().empty()) std::fprintf(stderr, "%s\n", robot_->missingLinks().c_str());
 }
 
 Step RenderNode::step() {
@@ -111,7 +125,7 @@ bool RenderNode::onPause(std_srvs::Trigger::Request& /*request*/, std_srvs::Trig
 bool RenderNode::onView(RenderView::Request& request, RenderView::Response& response) {
   try {
     const Photograph photograph =
-        streams_.view({0, ros::Time::now(), fromPose(request.pose)}, request.condition);
+        streams_.view({0, ros::Time::now(), fromPose(request.pose), run_->mapFromLinks()}, request.condition);
     const std_msgs::Header header = opticalHeader(photograph.stamp);
     response.image = *toImageMessage(photograph.picture, header);
     response.camera_info = toCameraInfo(studio_.camera(), header);

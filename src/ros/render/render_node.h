@@ -36,6 +36,7 @@ class RenderNode {
   Step step();
   void writeMap();
   void finish();
+  void reportRobot() const;
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
@@ -44,7 +45,8 @@ class RenderNode {
   Studio studio_;
   std::unique_ptr<PathSource> path_;  // not where a TF frame is followed
   Streams streams_;
-  PathRun* path_run_ = nullptr;  // run_ where it follows a path
+  std::unique_ptr<RobotPlaces> robot_;  // where there is one
+  PathRun* path_run_ = nullptr;         // run_ where it follows a path
   std::unique_ptr<Run> run_;
   ProgressLog progress_log_;
   WaitLog wait_log_;

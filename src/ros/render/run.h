@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "ros/render/pacer.h"
 #include "ros/render/path_source.h"
+#include "ros/render/robot_places.h"
 #include "ros/render/streams.h"
 
 namespace sunlit::ros_interface {
@@ -31,15 +33,25 @@ class Run {
   virtual Step step() = 0;
   /// Why the latest step waited, in words; empty where that needs no words.
   virtual std::string waitsFor() const = 0;
+  /// Of the robot at the latest pose, or the first one, as far as known; empty: there is none.
+  virtual render::BodyPlaces mapFromLinks() = 0;
+};
+
+/// What is heard on TF.
+struct TfInput {
+  tf2_ros::Buffer buffer;
+  tf2_ros::TransformListener listener{buffer};
 };
 
 class PathRun : public Run {
  public:
-  /// `path` and `streams` outlive this.
-  PathRun(ros::NodeHandle node, const PacingOptions& options, const PathSource& path, Streams& streams);
+  /// `path`, `streams` and `robot`, which may be null, outlive this.
+  PathRun(ros::NodeHandle node, const PacingOptions& options, const PathSource& path, Streams& streams,
+          RobotPlaces* robot);
   void announce() override;
   Step step() override;
   std::string waitsFor() const override { return waits_for_; }
+  render::BodyPlaces mapFromLinks() override;
 
   /// Stamp of pose 0; zero until path and time are known.
   const ros::Time& start() const { return start_; }
@@ -49,34 +61,41 @@ class PathRun : public Run {
 
  private:
   bool begin();
-  std::string missing() const;
+  std::string missing();
+  Shot shotAt(int position);
 
   PacingOptions options_;
   const PathSource& path_;
   Streams& streams_;
+  RobotPlaces* robot_;
+  std::optional<TfInput> tf_;  ///< where joints move
   Pacer pacer_;
   ros::Time start_;
   bool began_ = false;
   int position_ = 0;
+  std::optional<Shot> next_;           ///< drawn ahead
+  render::BodyPlaces map_from_links_;  ///< of the latest shot
   std::string waits_for_;
 };
 
 class FollowRun : public Run {
  public:
-  /// `streams` outlives this.
-  FollowRun(const std::string& frame, double frame_rate, Streams& streams);
+  /// `streams` and `robot`, which may be null, outlive this.
+  FollowRun(const std::string& frame, double frame_rate, Streams& streams, RobotPlaces* robot);
   Step step() override;
   std::string waitsFor() const override { return waits_for_; }
+  render::BodyPlaces mapFromLinks() override { return map_from_links_; }
 
  private:
   std::string frame_;
   ros::Duration period_;
   Streams& streams_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
+  RobotPlaces* robot_;
+  TfInput tf_;
   ros::Time next_;
   ros::Time latest_;
   int taken_ = 0;
+  render::BodyPlaces map_from_links_;  ///< of the latest shot
   std::string waits_for_;
 };
 

@@ -1,6 +1,7 @@
 #include "ros/render/studio.h"
 
 #include <ros/console.h>
+#include <ros/time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +14,41 @@ namespace sunlit::ros_interface {
 
 namespace {
 
-std::shared_ptr<const scene::Scene> loadScene(const RenderNodeOptions& options) {
+light::World makeWorld(const RenderNodeOptions& options, const std::optional<scene::Robot>& robot) {
   auto scene =
       std::make_shared<scene::Scene>(scene::load(options.world, worldSearchPath(options.model_path)));
   for (const std::string& warning : scene->warnings)
     ROS_WARN("%s: %s", options.world.c_str(), warning.c_str());
   ROS_INFO("World %s: %zu triangles, %zu textures", options.world.c_str(), scene->triangleCount(),
            scene->textures.size());
-  return scene;
+  std::vector<std::vector<scene::Mesh>> meshes_of_links;
+  if (robot) meshes_of_links = scene::addLooks(*robot, scene.get());
+  return light::World(std::move(scene), meshes_of_links);
+}
+
+/// Says every few seconds how far a bake is.
+class BakeLog {
+ public:
+  void operator()(double share, double seconds_left) {
+    constexpr double kPause_s = 3.0;
+    const ros::WallTime now = ros::WallTime::now();
+    if ((now - last_).toSec() < kPause_s) return;
+    last_ = now;
+    ROS_INFO("Baking sky light and bounced light: %.0f %%, %.0f s left", 100.0 * share, seconds_left);
+  }
+
+ private:
+  ros::WallTime last_ = ros::WallTime::now();
+};
+
+std::shared_ptr<const light::Transport> makeTransport(const BakeOptions& options, const light::World& world) {
+  if (!options.enabled) return nullptr;
+  const std::string folder = options.cache_dir.empty() ? light::Transport::usualFolder() : options.cache_dir;
+  auto transport = light::Transport::cached(world.geometry, options.transport, folder, BakeLog(),
+                                            [](const std::string& line) { ROS_WARN("%s", line.c_str()); });
+  ROS_INFO("Sky light and bounced light at %zu samples, kept in %s", transport->sampleCount(),
+           folder.c_str());
+  return transport;
 }
 
 /// The highest point of the scene.
@@ -37,12 +65,18 @@ double topOf(const scene::Scene& scene) {
 Studio::Studio(const RenderNodeOptions& options)
     : options_(options.renderOptions()),
       exposure_(options.exposure),
-      world_(stopwatch_.measure("load", "world", [&] { return light::World(loadScene(options)); })),
+      noise_(options.noise),
+      robot_(loadRobot(options.robot, options.model_path)),
+      world_(stopwatch_.measure("load", "world", [&] { return makeWorld(options, robot_); })),
       atmosphere_(
           stopwatch_.measure("load", "atmosphere", [&] { return sky::Atmosphere(options.atmosphere); })),
-      renderer_(stopwatch_.measure("load", "renderer",
-                                   [&] { return std::make_unique<render::Renderer>(world_, options_); })) {
+      renderer_(stopwatch_.measure("load", "renderer", [&] {
+        world_.transport =
+            stopwatch_.measure("load", "transport", [&] { return makeTransport(options.bake, world_); });
+        return std::make_unique<render::Renderer>(world_, options_);
+      })) {
   image::validate(exposure_);
+  image::validate(noise_);
 }
 
 image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent) {
@@ -73,24 +107,31 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent) {
   from_above.look(map_from_optical);
   const sky::Daylight noon =
       atmosphere_.daylight({Direction(Azimuth::degrees(160.0), Angle::degrees(55.0)), 1.0});
-  const image::LinearImage light = from_above.light(noon);
+  const image::LinearImage light = from_above.light(illumination(noon));
   return image::develop(light, image::chooseEv100(light, image::ExposureOptions{}));
 }
 
-void Studio::look(const Eigen::Isometry3d& map_from_camera) {
-  stopwatch_.measure("geometry", "pose", [&] { renderer_->look(map_from_camera * linkFromOptical()); });
+void Studio::look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links) {
+  stopwatch_.measure("geometry", "pose",
+                     [&] { renderer_->look(map_from_camera * linkFromOptical(), map_from_links); });
 }
 
-void Studio::lookAhead(const Eigen::Isometry3d& map_from_camera) {
-  stopwatch_.measure("geometry", "ahead", [&] { renderer_->lookAhead(map_from_camera * linkFromOptical()); });
+void Studio::lookAhead(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links) {
+  stopwatch_.measure("geometry", "ahead",
+                     [&] { renderer_->lookAhead(map_from_camera * linkFromOptical(), map_from_links); });
 }
 
-Developed Studio::photograph(const sky::Daylight& daylight, const std::string& what) {
-  const image::LinearImage light =
-      stopwatch_.measure("light", what, [&] { return renderer_->light(daylight); });
-  return stopwatch_.measure("develop", what, [&] {
-    const double ev100 = image::chooseEv100(light, exposure_);
-    return Developed{image::develop(light, ev100), ev100};
+light::Illumination Studio::illumination(const sky::Daylight& daylight) const {
+  return light::illumination(world_, daylight);
+}
+
+Developed Studio::photograph(const light::Illumination& light, const image::PictureName& name) {
+  image::LinearImage luminance =
+      stopwatch_.measure("light", name.series, [&] { return renderer_->light(light); });
+  return stopwatch_.measure("develop", name.series, [&] {
+    const double ev100 = image::chooseEv100(luminance, exposure_);
+    if (noise_.enabled) image::addSensorNoise(ev100, noise_, name, &luminance);
+    return Developed{image::develop(luminance, ev100), ev100};
   });
 }
 

@@ -3,11 +3,13 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "ros/render/options.h"
 #include "ros/render/stopwatch.h"
 #include "sunlit/image/exposure.h"
+#include "sunlit/image/sensor_noise.h"
 #include "sunlit/render/renderer.h"
 #include "sunlit/scene/scene.h"
 #include "sunlit/sky/atmosphere.h"
@@ -31,19 +33,24 @@ struct MapExtent {
 /// Construct, use and destroy on one thread: it holds the OpenGL context. Times its stages.
 class Studio {
  public:
-  /// Loads the world; its warnings go to the log. Throws what scene::load() throws.
+  /// Loads world and robot; their warnings go to the log. Throws what scene::load() and loadRobot() throw.
   explicit Studio(const RenderNodeOptions& options);
 
   /// A picture from above, north up, close to orthographic, under a high sun. Replaces what look() looked at.
   image::Rgb8Image mapFromAbove(const MapExtent& extent);
 
-  void look(const Eigen::Isometry3d& map_from_camera);
+  /// `map_from_links`: of the robot; empty: it is not there.
+  void look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links);
   /// Draws what look() will look at later. Another thread may photograph() meanwhile.
-  void lookAhead(const Eigen::Isometry3d& map_from_camera);
-  /// What look() looks at under `daylight`; `what` names it on the time sheet.
-  Developed photograph(const sky::Daylight& daylight, const std::string& what);
+  void lookAhead(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links);
+  /// What does not depend on the camera.
+  light::Illumination illumination(const sky::Daylight& daylight) const;
+  /// What look() looks at under `light`; the picture's series names it on the time sheet too.
+  Developed photograph(const light::Illumination& light, const image::PictureName& name);
   image::DepthImage depth();
 
+  /// None if the options name none.
+  const std::optional<scene::Robot>& robot() const { return robot_; }
   const sky::Atmosphere& atmosphere() const { return atmosphere_; }
   const image::PinholeCamera& camera() const { return options_.camera; }
   Stopwatch& stopwatch() { return stopwatch_; }
@@ -52,6 +59,8 @@ class Studio {
   Stopwatch stopwatch_;
   render::RenderOptions options_;
   image::ExposureOptions exposure_;
+  image::NoiseOptions noise_;
+  std::optional<scene::Robot> robot_;
   light::World world_;
   sky::Atmosphere atmosphere_;
   std::unique_ptr<render::Renderer> renderer_;

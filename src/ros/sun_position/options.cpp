@@ -91,6 +91,8 @@ std::vector<NamedSun> readSuns(const ParameterReader& parameters) {
     SunPositionOptions options = readSunPositionOptions(condition.parameters);
     condition.parameters.rejectUnknown();
     options.sun_frame = condition.frame(options.sun_frame);
+    options.moon_frame = condition.frame(options.moon_frame);
+    options.celestial_frame = condition.frame(options.celestial_frame);
     suns.push_back({condition, options});
   }
   parameters.rejectUnknown();

@@ -20,11 +20,13 @@ struct SunPositionOptions {
   Air air;                                      ///< 1013.25 hPa, 0 °C, 0.5667°
   astronomy::EarthRotation earth{0.0, 69.184};  ///< s; delta_t without a value: from published polynomials
   double publish_rate_hz = 10.0;                ///< Hz, 0.01 … 1000
-  double tf_distance_m = 100.0;   ///< m, 0.001 … 1e9: from the origin of `map` to that of `sun`
-  std::string sun_frame = "sun";  ///< TF name
+  double tf_distance_m = 100.0;   ///< m, 0.001 … 1e9: from the origin of `map` to those of `sun` and `moon`
+  std::string sun_frame = "sun";  ///< TF names
+  std::string moon_frame = "moon";
+  std::string celestial_frame = "celestial";
 };
 
-/// Reads everything but the TF name. Throws std::invalid_argument naming parameter, value and range.
+/// Reads everything but the TF names. Throws std::invalid_argument naming parameter, value and range.
 SunPositionOptions readSunPositionOptions(const ParameterReader& parameters);
 
 /// A condition and its sun.

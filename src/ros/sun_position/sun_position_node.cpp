@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "sunlit/astronomy/celestial.h"
 #include "sunlit/astronomy/civil_time.h"
 #include "sunlit/astronomy/delta_t.h"
 #include "sunlit/astronomy/limits.h"
@@ -34,7 +35,10 @@ SunPositionNode::SunPositionNode(const ros::NodeHandle& node, const ros::NodeHan
       node_(node),
       private_node_(private_node),
       sun_publisher_(node_.advertise<SunPosition>("sun", 10, true)),
-      marker_publisher_(node_.advertise<visualization_msgs::Marker>("sun_marker", 10, true)),
+      moon_publisher_(node_.advertise<MoonPosition>("moon", 10, true)),
+      celestial_publisher_(node_.advertise<geometry_msgs::QuaternionStamped>("celestial", 10, true)),
+      sun_marker_publisher_(node_.advertise<visualization_msgs::Marker>("sun_marker", 10, true)),
+      moon_marker_publisher_(node_.advertise<visualization_msgs::Marker>("moon_marker", 10, true)),
       diagnostics_(node, ros::NodeHandle("~"), private_node.getNamespace()) {
   diagnostics_.setHardwareID("none");
   diagnostics_.add("sun", this, &SunPositionNode::describe);
@@ -56,6 +60,7 @@ void SunPositionNode::advertiseServices() {
   services_ = {private_node_.advertiseService("set_date_time", &SunPositionNode::onSetDateTime, this),
                private_node_.advertiseService("set_site", &SunPositionNode::onSetSite, this),
                private_node_.advertiseService("get_sun_position", &SunPositionNode::onGetSunPosition, this),
+               private_node_.advertiseService("get_moon_position", &SunPositionNode::onGetMoonPosition, this),
                private_node_.advertiseService("get_sun_times", &SunPositionNode::onGetSunTimes, this)};
 }
 
@@ -71,10 +76,23 @@ void SunPositionNode::publish() {
   const ros::Time now = ros::Time::now();
   const bool jumped_back = now < last_now_;
   sun_time_ = clock_.at(now);
-  sun_ = toMessage(computeSun(sun_time_, options_.earth, options_.site, options_.air), nextStamp(now));
+  const ros::Time stamp = nextStamp(now);
+  const ComputedSun sun = computeSun(sun_time_, options_.earth, options_.site, options_.air);
+  sun_ = toMessage(sun, stamp);
+  moon_ = toMessage(astronomy::moonPosition(astronomy::lunarCoordinates(sun_time_, options_.earth),
+                                            sun.coordinates, options_.site, options_.air),
+                    stamp);
+  const geometry_msgs::QuaternionStamped celestial =
+      toMessage(astronomy::mapFromCelestial(sun_time_, options_.earth, options_.site), stamp);
+  // The sun last: who has it, as a rule has moon and stars of its hour too.
+  moon_publisher_.publish(moon_);
+  celestial_publisher_.publish(celestial);
   sun_publisher_.publish(sun_);
-  transform_broadcaster_.sendTransform(toTransform(sun_, options_.sun_frame, options_.tf_distance_m));
-  marker_publisher_.publish(toMarker(sun_, options_.sun_frame, options_.tf_distance_m));
+  transform_broadcaster_.sendTransform({toTransform(sun_, options_.sun_frame, options_.tf_distance_m),
+                                        toTransform(moon_, options_.moon_frame, options_.tf_distance_m),
+                                        toTransform(celestial, options_.celestial_frame)});
+  sun_marker_publisher_.publish(toMarker(sun_, options_.sun_frame, options_.tf_distance_m));
+  moon_marker_publisher_.publish(toMarker(moon_, options_.moon_frame, options_.tf_distance_m));
   if (clock_.atLimit()) {
     ROS_ERROR_THROTTLE(60.0, "The clock of %s has left the years %g to %g; it is held there",
                        options_.sun_frame.c_str(), astronomy::kYearLimits.min, astronomy::kYearLimits.max);
@@ -112,6 +130,14 @@ bool SunPositionNode::onGetSunPosition(GetSunPosition::Request& request, GetSunP
   });
 }
 
+bool SunPositionNode::onGetMoonPosition(GetMoonPosition::Request& request,
+                                        GetMoonPosition::Response& response) {
+  return answered(response, [&] {
+    answer(request, ros::Time::now(), &response);
+    return std::string();
+  });
+}
+
 bool SunPositionNode::onGetSunTimes(GetSunTimes::Request& request, GetSunTimes::Response& response) {
   return answered(response, [&] {
     // A given delta_t belongs to the node's own date; the request may be of any year.
@@ -132,6 +158,9 @@ void SunPositionNode::describe(diagnostic_updater::DiagnosticStatusWrapper& stat
   status.addf("rate", "%g", clock_.rate());
   status.addf("azimuth, deg", "%.6f", sun_.azimuth / kRadPerDeg);
   status.addf("apparent elevation, deg", "%.6f", sun_.elevation / kRadPerDeg);
+  status.addf("moon's azimuth, deg", "%.6f", moon_.azimuth / kRadPerDeg);
+  status.addf("moon's apparent elevation, deg", "%.6f", moon_.elevation / kRadPerDeg);
+  status.addf("moon, lit fraction", "%.4f", moon_.illuminated_fraction);
   status.addf("latitude, deg", "%.6f", options_.site.latitude.deg());
   status.addf("longitude, deg", "%.6f", options_.site.longitude.deg());
   if (options_.earth.delta_t_s) {

@@ -1,33 +1,36 @@
 // One picture of a world under a given sun.
 #include <cstdio>
 #include <exception>
-#include <memory>
 
+#include "ros/tools/lit_world.h"
 #include "ros/tools/snapshot_options.h"
 #include "sunlit/image/files.h"
-#include "sunlit/ros/world_search.h"
-#include "sunlit/scene/load.h"
-#include "sunlit/sky/atmosphere.h"
 
 namespace sunlit::tools {
 namespace {
 
-void takeSnapshot(const SnapshotOptions& options) {
-  const auto scene = std::make_shared<const scene::Scene>(
-      scene::load(options.world, ros_interface::worldSearchPath(options.model_folders)));
-  for (const std::string& warning : scene->warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
-  const sky::Daylight day =
-      atmosphere.daylight({Direction(Azimuth(options.sun_azimuth), options.sun_elevation), 1.0});
+sky::Daylight daylightOf(const SnapshotOptions& options) {
+  if (options.hour) return SkyOfInstant(options.place).at(*options.hour).day;
+  sky::AtmosphereOptions air;
+  air.turbidity = options.place.turbidity;
+  return sky::Atmosphere(air).daylight({Direction(Azimuth(options.sun_azimuth), options.sun_elevation), 1.0});
+}
 
-  render::Renderer renderer(scene, options.render);
-  renderer.look(options.map_from_optical);
-  const image::LinearImage luminance = renderer.light(day);
-  const double ev100 = image::chooseEv100(luminance, options.exposure);
+void takeSnapshot(const SnapshotOptions& options) {
+  const ViewOptions& view = options.view;
+  const light::World world = loadWorld(view);
+  const sky::Daylight day = daylightOf(options);
+
+  render::Renderer renderer(world, view.render);
+  renderer.look(view.map_from_optical);
+  image::LinearImage luminance = renderer.light(light::illumination(world, day));
+  const double ev100 = image::chooseEv100(luminance, view.exposure);
+  if (view.noise.enabled) image::addSensorNoise(ev100, view.noise, {}, &luminance);
   image::writePng(options.output, image::develop(luminance, ev100));
   if (!options.depth_output.empty()) image::writePfm(options.depth_output, renderer.depth());
-  std::printf("%s: %zu triangles, EV100 %.2f, %.0f lx on level ground\n", options.output.c_str(),
-              scene->triangleCount(), ev100, static_cast<double>(day.groundIlluminance().luminance()));
+  std::printf("%s: %zu triangles, EV100 %.2f, %.3g lx on level ground\n", options.output.c_str(),
+              world.geometry->scene->triangleCount(), ev100,
+              static_cast<double>(day.groundIlluminance().luminance()));
 }
 
 }  // namespace
@@ -37,7 +40,7 @@ int main(int argc, char** argv) {
   try {
     const auto options = sunlit::tools::parseSnapshotOptions({argv + 1, argv + argc});
     if (!options) {
-      std::fputs(sunlit::tools::kSnapshotHelp, stdout);
+      sunlit::tools::printSnapshotHelp();
       return 0;
     }
     sunlit::tools::takeSnapshot(*options);

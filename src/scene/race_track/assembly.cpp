@@ -71,6 +71,7 @@ void Assembly::openSheet(Sheet* sheet) {
   material.base_texture = sheet->texture;
   if (sheet->masked) material.alpha_mode = AlphaMode::kMask;
   material.double_sided = sheet->double_sided;
+  material.transmission = sheet->transmission;
   sheet->material = addMaterial(std::move(material));
   sheet->shelves.clear();
 }

@@ -61,8 +61,10 @@ class Assembly {
   Picture addPicture(const Canvas& canvas) { return place(canvas, &pictures_); }
   /// Puts a picture with holes on a sheet.
   Picture addCutOut(const Canvas& canvas) { return place(canvas, &cut_outs_); }
+  /// The same, of something thin that light shines through.
+  Picture addLeaves(const Canvas& canvas) { return place(canvas, &leaves_); }
   /// The same, but to be seen from the front only.
-  Picture addOneSidedCutOut(const Canvas& canvas) { return place(canvas, &one_sided_); }
+  Picture addBlades(const Canvas& canvas) { return place(canvas, &blades_); }
 
   /// The mesh of that material in which parts near `place` are gathered.
   Mesh& mesh(int material, const Eigen::Vector3f& place);
@@ -83,6 +85,7 @@ class Assembly {
     int height_px;
     bool masked;
     bool double_sided;
+    float transmission = 0.0f;
     int texture = -1;
     int material = -1;
     std::vector<Shelf> shelves{};
@@ -95,7 +98,9 @@ class Assembly {
   Scene scene_;
   Sheet pictures_{"pictures", 2048, 1024, false, true};
   Sheet cut_outs_{"cut-outs", 1536, 1280, true, true};
-  Sheet one_sided_{"one-sided cut-outs", 1024, 512, true, false};
+  // Leaves send on about as much light as they reflect; blades of grass, which stand close, less.
+  Sheet leaves_{"leaves", 1728, 1024, true, true, 0.45f};
+  Sheet blades_{"blades", 1024, 512, true, false, 0.3f};
   Palette palette_;
   std::vector<Mesh> whole_;                           // added as such
   std::map<std::tuple<int, int, int>, Mesh> meshes_;  // by material and cell

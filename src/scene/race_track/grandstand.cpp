@@ -97,7 +97,7 @@ void addSeats(Assembly& assembly, const Stand& stand, const std::vector<Picture>
       const float turn = 0.12f * random.bell();
       Card card{{at(-half, turn, 0.02f), at(half, -turn, 0.02f), at(half, -turn, h), at(-half, turn, h)},
                 person.rect,
-                f.linear() * Point(0.0f, -0.8f, 0.6f)};
+                even(f.linear() * Point(0.0f, -0.8f, 0.6f))};
       if (random.chance(0.5f)) std::swap(card.rect.top_left.x(), card.rect.bottom_right.x());
       const float blue = random.range(0.6f, 1.2f);
       const float green = random.range(0.6f, 1.2f);

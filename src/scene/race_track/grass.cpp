@@ -20,7 +20,7 @@ struct Tuft {
 // Two cards that lean apart, each seen from above only: so whoever looks sees the side that the sky lights,
 // and the turf does not turn black when one looks towards the sun.
 void addTuft(Assembly& assembly, const Picture& picture, const Tuft& tuft, Random& random) {
-  const float width = tuft.height * random.range(1.3f, 2.4f);
+  const float width = tuft.height * random.range(1.7f, 3.0f);
   const float turn = random.range(0.0f, 2.0f * kPi);
   for (int i = 0; i < 2; ++i) {
     const float angle = turn + kPi * static_cast<float>(i) + random.range(-0.3f, 0.3f);
@@ -29,7 +29,8 @@ void addTuft(Assembly& assembly, const Picture& picture, const Tuft& tuft, Rando
     const Point back(-std::sin(angle), std::cos(angle), 0.0f);
     const Point up = 1.2f * tuft.height * (std::cos(lean) * Point::UnitZ() + std::sin(lean) * back);
     const Point& root = tuft.root;
-    Card card{{root - half, root + half, root + half + up, root - half + up}, picture.rect, Point::UnitZ()};
+    Card card{
+        {root - half, root + half, root + half + up, root - half + up}, picture.rect, even(Point::UnitZ())};
     if (random.chance(0.5f)) std::swap(card.rect.top_left.x(), card.rect.bottom_right.x());
     addCard(assembly, {picture.material, tuft.tint}, card);
   }
@@ -39,7 +40,7 @@ void addTuft(Assembly& assembly, const Picture& picture, const Tuft& tuft, Rando
 
 void addGrass(Assembly& assembly, const Foliage& foliage) {
   Random random(501u);
-  constexpr int kTuftCount = 25000;
+  constexpr int kTuftCount = 15500;
   for (int i = 0; i < kTuftCount; ++i) {
     const int side = random.chance(0.5f) ? 1 : -1;
     const double s = random.unit() * course().length();

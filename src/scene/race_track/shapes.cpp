@@ -40,7 +40,7 @@ void addTriangle(Assembly& assembly, const Paint& paint, const std::array<Point,
 void addCard(Assembly& assembly, const Paint& paint, const Card& card) {
   Mesh& mesh = assembly.mesh(paint.material, card.corners[0]);
   const std::uint32_t first = static_cast<std::uint32_t>(mesh.positions.size());
-  for (const Point& corner : card.corners) addVertex(mesh, paint, corner, card.normal);
+  for (std::size_t i = 0; i < 4; ++i) addVertex(mesh, paint, card.corners[i], card.normals[i]);
   const Eigen::Vector2f& a = card.rect.top_left;
   const Eigen::Vector2f& b = card.rect.bottom_right;
   mesh.texture_coordinates[first] = {a.x(), b.y()};
@@ -54,7 +54,7 @@ void addCard(Assembly& assembly, const Paint& paint, const Card& card) {
 void addQuad(Assembly& assembly, const Paint& paint, const Corners& corners, const PictureRect& rect) {
   const Point diagonal = corners[2] - corners[0];
   const Point normal = faceNormal(Point::Zero(), diagonal, corners[3] - corners[1]);
-  addCard(assembly, paint, {corners, rect, normal});
+  addCard(assembly, paint, {corners, rect, even(normal)});
 }
 
 void addBox(Assembly& assembly, const Paint& paint, const Frame& frame, const Point& size) {

@@ -15,12 +15,16 @@ using Corners = std::array<Point, 4>;
 
 void addTriangle(Assembly& assembly, const Paint& paint, const std::array<Point, 3>& corners);
 void addQuad(Assembly& assembly, const Paint& paint, const Corners& corners, const PictureRect& rect = {});
-/// As addQuad, with a normal of one's own for shading (leaves, blades).
+/// As addQuad, with normals of one's own for shading (leaves, blades).
 struct Card {
   Corners corners;
   PictureRect rect;
-  Point normal;
+  Corners normals;  ///< unit, one a corner
 };
+/// The same normal at all corners.
+inline Corners even(const Point& normal) {
+  return {normal, normal, normal, normal};
+}
 void addCard(Assembly& assembly, const Paint& paint, const Card& card);
 
 /// Standing on the origin of `frame`, centred in x and y. Every face shows the whole picture.

@@ -41,9 +41,11 @@ struct Spray {
   Point centre;
   Point normal;
   float size;
+  Point crown;  // what its leaves turn away from
 };
 
-// One card of leaves: any part of the picture, any way round.
+// One card of leaves: any part of the picture, any way round. Its normals spread from the middle of the
+// crown, so that cards share in the shading of one round crown instead of each showing as a plate.
 void addSpray(Assembly& assembly, const Leaves& leaves, const Spray& spray, Random& random) {
   const Point facing = (spray.normal + 0.6f * direction(random)).normalized();
   const Point u0 = facing.unitOrthogonal();
@@ -53,7 +55,10 @@ void addSpray(Assembly& assembly, const Leaves& leaves, const Spray& spray, Rand
   const Point u = half * (std::cos(turn) * u0 + std::sin(turn) * v0);
   const Point v = half * random.range(0.75f, 1.1f) * (std::cos(turn) * v0 - std::sin(turn) * u0);
   const Point& c = spray.centre;
-  Card card{{c - u - v, c + u - v, c + u + v, c - u + v}, {}, spray.normal};
+  Card card{{c - u - v, c + u - v, c + u + v, c - u + v}, {}, {}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    card.normals[i] = ((card.corners[i] - spray.crown).normalized() + 0.7f * spray.normal).normalized();
+  }
   const Eigen::Vector2f& a = leaves.picture.rect.top_left;
   const Eigen::Vector2f& b = leaves.picture.rect.bottom_right;
   card.rect = random.chance(0.5f) ? PictureRect{a, b} : PictureRect{{b.x(), a.y()}, {a.x(), b.y()}};
@@ -86,7 +91,7 @@ void addFoliageBlob(Assembly& assembly, const Tree& tree, const FoliageBlob& blo
     const Leaves leaves{blob.pictures[random.below(kVariants)], blob.tint * std::clamp(shade, 0.35f, 1.25f)};
     const Point normal = ((place - blob.crown).normalized() + 0.6f * way + Point(0, 0, 0.35f)).normalized();
     const float size = blob.radius * random.range(0.65f, 1.1f) * (tree.detail > 0.5f ? 1.1f : 1.6f);
-    addSpray(assembly, leaves, {place, normal, size}, random);
+    addSpray(assembly, leaves, {place, normal, size, blob.crown}, random);
   }
 }
 
@@ -112,7 +117,7 @@ void addBroadLeaf(Assembly& assembly, const Foliage& foliage, const Tree& tree) 
   const Point middle = 0.5f * (fork + top) + Point(0, 0, 0.10f * h);
   const auto& pictures = foliage.leaves[static_cast<int>(tree.species)];
   const int blobs = tree.detail > 0.5f ? 12 : 7;
-  const int sprays = static_cast<int>((tree.detail > 0.5f ? 142.0f : 62.0f) / blobs * (0.7f + 0.04f * h));
+  const int sprays = static_cast<int>((tree.detail > 0.5f ? 84.0f : 38.0f) / blobs * (0.7f + 0.04f * h));
   const float shade = random.range(0.8f, 1.2f);
   const Color tint = leafHue(0.14f, random) * shade;
   for (int i = 0; i < blobs; ++i) {
@@ -152,7 +157,7 @@ void addConifer(Assembly& assembly, const Foliage& foliage, const Tree& tree) {
     const float level = bare + (1.0f - bare) * t;
     const float reach = h * (pine ? 0.24f * std::sqrt(std::max(0.05f, 1.0f - t * t)) : 0.22f * (1.03f - t)) *
                         random.range(0.8f, 1.15f);
-    const int arms = tree.detail > 0.5f ? 9 : 6;
+    const int arms = tree.detail > 0.5f ? 8 : 5;
     for (int k = 0; k < arms; ++k) {
       const float angle = 2.0f * kPi * (k + random.unit()) / arms;
       const Point out(std::cos(angle), std::sin(angle), 0.0f);
@@ -167,9 +172,10 @@ void addConifer(Assembly& assembly, const Foliage& foliage, const Tree& tree) {
                           color.max(0.3f)};
       const Point normal = (out + Point(0, 0, 0.9f)).normalized();
       addCard(assembly, {leaves.picture.material, leaves.tint},
-              {{start - half, end - half, end + half, start + half}, leaves.picture.rect, normal});
-      if (tree.detail > 0.5f)
-        addSpray(assembly, leaves, {start + 0.75f * (end - start), normal, 0.8f * length + 0.2f}, random);
+              {{start - half, end - half, end + half, start + half}, leaves.picture.rect, even(normal)});
+      if (tree.detail > 0.5f && k % 2 == 0)
+        addSpray(assembly, leaves, {start + 0.75f * (end - start), normal, 0.8f * length + 0.2f, start},
+                 random);
     }
   }
 }
@@ -187,7 +193,7 @@ void addBush(Assembly& assembly, const Foliage& foliage, const Point& root, std:
   const int kind = static_cast<int>(kinds[random.below(random.chance(0.15f) ? 5 : 4)]);
   const float shade = random.range(0.7f, 1.2f);
   const Color tint = Color(1.0f + 0.15f * random.bell(), 1.0f, 1.0f).max(0.5f) * shade;
-  const int sprays = 26 + static_cast<int>(16.0f * radius);
+  const int sprays = 17 + static_cast<int>(10.0f * radius);
   for (int i = 0; i < sprays; ++i) {
     Point way = direction(random);
     way.z() = std::abs(way.z());
@@ -195,7 +201,8 @@ void addBush(Assembly& assembly, const Foliage& foliage, const Point& root, std:
                         Point(0, 0, 0.12f);
     const Leaves leaves{foliage.leaves[kind][random.below(kVariants)], tint * (0.6f + 0.45f * way.z())};
     addSpray(assembly, leaves,
-             {place, (way + Point(0, 0, 0.3f)).normalized(), radius * random.range(0.5f, 0.8f)}, random);
+             {place, (way + Point(0, 0, 0.3f)).normalized(), radius * random.range(0.55f, 0.85f), root},
+             random);
   }
 }
 
@@ -221,7 +228,7 @@ void addFarTree(Assembly& assembly, const Foliage& foliage, const Tree& tree) {
   const bool conifer = tree.species == Species::kSpruce || tree.species == Species::kPine;
   const float shade = random.range(0.75f, 1.3f);
   const Color tint = leafHue(0.18f, random) * shade;
-  const int sprays = conifer ? 5 : 6;
+  const int sprays = conifer ? 4 : 5;
   for (int i = 0; i < sprays; ++i) {
     const float t = (static_cast<float>(i) + 0.5f) / static_cast<float>(sprays);
     const Point way = direction(random);
@@ -233,7 +240,7 @@ void addFarTree(Assembly& assembly, const Foliage& foliage, const Tree& tree) {
     const Point normal = (Point(way.x(), way.y(), 0.35f + 0.5f * t)).normalized();
     const Leaves leaves{foliage.leaves[static_cast<int>(tree.species)][random.below(kVariants)],
                         tint * (0.55f + 0.5f * t)};
-    addSpray(assembly, leaves, {place, normal, size}, random);
+    addSpray(assembly, leaves, {place, normal, size, tree.root + Point(0, 0, 0.5f * tree.height)}, random);
   }
 }
 

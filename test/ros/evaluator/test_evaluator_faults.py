@@ -10,9 +10,11 @@ import numpy
 import rospy
 import rostest
 import yaml
+from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from evaluator_runs import DIRECT, Evaluator, Streams, image_message, picture, read, rows, stamp_of  # noqa: E402
+from evaluator_runs import (DIRECT, Evaluator, Streams, image_message, picture, read, rows, stamp_of,  # noqa: E402
+                            wait_until)
 
 POSES = 991
 STREAMS = ['h04', 'h12', 'h20']
@@ -32,13 +34,18 @@ class TestFaults(unittest.TestCase):
         self.streams.close()
         self.folder.cleanup()
 
+    def settings(self, **parameters):
+        return dict({'streams': STREAMS, 'differences': DIRECT, 'output_dir': self.folder.name + '/out',
+                     'images': 'none', 'exit_when_done': True}, **parameters)
+
     def start(self, **parameters):
-        settings = {'streams': STREAMS, 'differences': DIRECT, 'output_dir': self.folder.name + '/out',
-                    'images': 'none', 'exit_when_done': True}
-        settings.update(parameters)
-        evaluator = Evaluator(settings)
+        evaluator = Evaluator(self.settings(**parameters))
         self.streams.wait_for(evaluator)
         return evaluator
+
+    def wait_for_progress(self, evaluator, poses):
+        wait_until(lambda: evaluator.progress == poses or evaluator.process.poll() is not None, '%d poses' % poses)
+        self.assertIsNone(evaluator.process.poll(), 'the evaluator ended by itself')
 
     def run_file(self):
         return yaml.safe_load(read(self.folder.name + '/out', 'run.yaml'))
@@ -93,10 +100,13 @@ class TestFaults(unittest.TestCase):
         self.assertEqual(len(self.problems('duplicate')), 99 + 98)
 
     def test_missing_partners_are_named_and_all_other_pairs_evaluated(self):
-        lost = {1: {7, 500, 990}, 2: {7, 8}}
-        evaluator = self.start(poses=POSES, idle_timeout=5.0)
+        lost = {1: {7, 500, 900}, 2: {7, 8}}
+        evaluator = self.start(poses=POSES)
         for pose in range(POSES):
             send_pose(self.streams, pose, [s for s in range(3) if pose not in lost.get(s, ())])
+        # The last pose is whole, and each stream keeps its order: with it, all that was sent has come.
+        self.wait_for_progress(evaluator, POSES - len({7, 8, 500, 900}))
+        self.assertTrue(rospy.ServiceProxy('/%s/finish' % evaluator.name, Trigger)().success)
         status, output = evaluator.wait()
         self.assertEqual(status, 3, output)
         self.assertIn('3 missing_partner (h04-h12), 2 missing_partner (h04-h20), 4 missing_partner (h12-h20)', output)
@@ -105,8 +115,20 @@ class TestFaults(unittest.TestCase):
         self.assertEqual(counters['h04-h20']['evaluated'], POSES - 2)
         self.assertEqual(counters['h12-h20']['evaluated'], POSES - 4)
         named = {(int(row['pose']), row['where']) for row in self.problems('missing_partner')}
-        self.assertEqual(named, {(7, 'h04-h12'), (500, 'h04-h12'), (990, 'h04-h12'), (7, 'h04-h20'), (8, 'h04-h20'),
-                                 (7, 'h12-h20'), (500, 'h12-h20'), (990, 'h12-h20'), (8, 'h12-h20')})
+        self.assertEqual(named, {(7, 'h04-h12'), (500, 'h04-h12'), (900, 'h04-h12'), (7, 'h04-h20'), (8, 'h04-h20'),
+                                 (7, 'h12-h20'), (500, 'h12-h20'), (900, 'h12-h20'), (8, 'h12-h20')})
+
+    def test_silence_ends_a_run_and_what_it_has_is_written(self):
+        first = self.start(poses=4)
+        for pose in range(3):
+            send_pose(self.streams, pose)
+        self.wait_for_progress(first, 3)
+        first.kill()
+        # Taken up again, and now nobody sends anything: a slow machine only ends later.
+        status, output = Evaluator(self.settings(poses=4, idle_timeout=1.0)).wait()
+        self.assertEqual(status, 3, output)
+        self.assertIn('no image for 1 s', output)
+        self.assertEqual({row['n'] for row in rows(self.folder.name + '/out', 'summary.csv')}, {'3'})
 
     def test_unusable_images_are_named_and_the_node_ends_with_status_3(self):
         evaluator = self.start(poses=POSES)

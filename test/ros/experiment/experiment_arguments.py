@@ -61,8 +61,17 @@ class ExperimentArguments(unittest.TestCase):
                         env=dict(os.environ, PATH=folder + ":" + os.environ["PATH"])))
                     displays = shown["Visualization Manager"]["Displays"]
                     self.assertEqual([d["Marker Topic"] for d in displays if "Marker Topic" in d],
-                                     [name + "sun_marker" for name in names])
+                                     [name + marker for marker in ("sun_marker", "moon_marker") for name in names])
                     self.assertEqual(len({d["Name"] for d in displays}), len(displays))
+
+    def test_robots_are_ours_by_name_or_files(self):
+        robots = os.path.join(SOURCE, "worlds", "robots")
+        self.assertEqual(tell("robot", "", robots), "")
+        self.assertEqual(tell("robot", "some.urdf", robots), os.path.join(os.getcwd(), "some.urdf"))
+        self.assertIn("argument robot is 'cat', but must be empty, one of our own (rover), or a file",
+                      tell("robot", "cat", robots))
+        for name in os.listdir(robots):
+            self.assertTrue(os.path.isfile(tell("robot", name, robots)), name)
 
     def test_bad_hours_are_refused(self):
         for hours in ("[]", "[24]", "[-1]", "[4, 4.0]", "[true]", "[.nan]", "{4: 5}", "[4", "noon"):

@@ -34,6 +34,12 @@ class LaunchFilesStart(unittest.TestCase):
         self.check(Launched("render.launch", world=WORLD, path=WAYPOINTS, conditions="{a: {hour: 9}, b: {hour: 12}}"),
                    "/a/sun", "/b/sun", "/path")
 
+    def test_render_with_a_robot(self):
+        launched = Launched("render.launch", world=WORLD, path=WAYPOINTS, robot="rover")
+        launched.wait_for(lambda: "Robot rover" in launched.said(), "loaded the robot")
+        launched.wait_for(lambda: "All poses are rendered" in launched.said(), "rendered the path")
+        self.finish(launched)
+
     def test_demo(self):
         self.check(Launched("demo.launch", world=WORLD, path=WAYPOINTS), "/sun", "/path")
 

@@ -12,6 +12,7 @@ WORLDS = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "
 WORLD = os.path.join(WORLDS, "two_boxes.world")
 WAYPOINTS = os.path.join(WORLDS, "straight.csv")
 POSES = 20
+LONG = dict(spacing=0.05, poses=200)  # for runs that are disturbed, so that none is over before, however slow the machine
 DIFFERENCES = "[boolean_rgb, euclidean_grey, orb]"
 
 
@@ -75,7 +76,7 @@ class Launched:
 
     def left_running(self):
         """What does not end in the wake of roslaunch."""
-        deadline = time.monotonic() + 10.0
+        deadline = time.monotonic() + TIMEOUT_S
         while self.running() and time.monotonic() < deadline:
             time.sleep(0.02)
         return self.running()

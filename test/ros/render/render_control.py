@@ -143,7 +143,8 @@ class RenderControl(unittest.TestCase):
         pictures = []
         for threads in (1, 3):
             reader = Reader(["a"], node="/threaded")
-            with RenderNode("threaded", parameters(conditions=["a"], threads=threads, subscribers={"images": 1})):
+            tree = parameters(conditions=["a"], threads=threads, noise={"enabled": True}, subscribers={"images": 1})
+            with RenderNode("threaded", tree):
                 pictures.append([image.data for image in reader.wait("/a/camera/image_raw", 3)])
             reader.close()
         self.assertEqual(pictures[0], pictures[1])

@@ -1,12 +1,17 @@
 // The parts of the render node that need no master.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "ros/render/messages.h"
 #include "ros/render/options.h"
 #include "ros/render/path_source.h"
 #include "ros/render/run_log.h"
+#include "ros/render/sky_messages.h"
+#include "ros/render/sky_moments.h"
 #include "ros/render/stopwatch.h"
 
 namespace sunlit::ros_interface {
@@ -66,6 +71,121 @@ TEST(Messages, RefuseWhatIsNoPose) {
   EXPECT_NO_THROW(fromPose(pose));
   pose.position.y = std::numeric_limits<double>::infinity();
   EXPECT_THROW(fromPose(pose), std::invalid_argument);
+}
+
+SunPosition sunMessage() {
+  SunPosition message;
+  message.header.frame_id = "map";
+  message.distance_au = 1.0;
+  message.direction.z = 1.0;
+  message.elevation_geometric = 1.5;
+  return message;
+}
+
+MoonPosition moonMessage() {
+  MoonPosition message;
+  message.header.frame_id = "map";
+  message.distance = 3.844e8;
+  message.direction.y = 1.0;
+  message.elevation_geometric = -0.01;
+  message.phase_angle = 2.0;
+  return message;
+}
+
+geometry_msgs::QuaternionStamped celestialMessage() {
+  geometry_msgs::QuaternionStamped message;
+  message.header.frame_id = "map";
+  message.quaternion.w = message.quaternion.x = std::sqrt(0.5);
+  return message;
+}
+
+TEST(SkyMessages, AreWhatTheySay) {
+  const sky::MoonInSky moon = fromMessage(moonMessage());
+  EXPECT_EQ(moon.apparent.vector(), Eigen::Vector3d::UnitY());
+  EXPECT_NEAR(moon.geometric->elevation().rad(), -0.01, 1e-15);  // rounding
+  EXPECT_NEAR(moon.geometric->azimuth().rad(), 0.0, 1e-15);
+  EXPECT_EQ(moon.distance_m, 3.844e8);
+  EXPECT_EQ(moon.phase_angle.rad(), 2.0);
+  // A quarter turn about x takes y to z.
+  EXPECT_LT((fromMessage(celestialMessage()) * Eigen::Vector3d::UnitY() - Eigen::Vector3d::UnitZ()).norm(),
+            1e-15);
+  EXPECT_NEAR(fromMessage(sunMessage()).geometric->elevation().rad(), 1.5, 1e-8);  // asin near its end
+}
+
+template <typename Message>
+std::string refusal(const Message& message) {
+  try {
+    fromMessage(message);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SkyMessages, ThatCannotBeAreRefusedInWords) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refusal(moonMessage()), "");
+  MoonPosition moon = moonMessage();
+  moon.header.frame_id = "base_link";
+  EXPECT_EQ(refusal(moon), "frame_id is \"base_link\", but must be \"map\"");
+  moon = moonMessage();
+  moon.direction.x = 1.0;
+  EXPECT_EQ(refusal(moon), "direction is of length 1.41421, but must be of length 1");
+  moon = moonMessage();
+  moon.distance = nan;
+  EXPECT_EQ(refusal(moon), "distance is nan, but must be 3.4e+08 to 4.2e+08");
+  moon = moonMessage();
+  moon.phase_angle = -0.1;
+  EXPECT_EQ(refusal(moon), "phase_angle is -0.1, but must be 0 to 3.14159");
+  moon = moonMessage();
+  moon.elevation_geometric = 2.0;
+  EXPECT_EQ(refusal(moon), "elevation_geometric is 2, but must be -1.5708 to 1.5708");
+  SunPosition sun = sunMessage();
+  sun.distance_au = 0.5;
+  EXPECT_EQ(refusal(sun), "distance_au is 0.5, but must be 0.97 to 1.03");
+  geometry_msgs::QuaternionStamped celestial = celestialMessage();
+  celestial.quaternion.w = nan;
+  EXPECT_EQ(refusal(celestial), "quaternion is of length nan, but must be of length 1");
+}
+
+TEST(SkyMoments, AreWholeOnlyWithAllThreeOfOneStamp) {
+  SkyMoments moments(true);
+  moments.put(ros::Time(1), fromMessage(sunMessage()));
+  moments.put(ros::Time(1), fromMessage(moonMessage()));
+  moments.put(ros::Time(2), fromMessage(celestialMessage()));
+  EXPECT_FALSE(moments.latest());
+  moments.put(ros::Time(1), fromMessage(celestialMessage()));
+  ASSERT_TRUE(moments.latest());
+  EXPECT_EQ(moments.version(), 1);
+}
+
+TEST(SkyMoments, KeepOneMomentUntilTheNextIsWhole) {
+  SkyMoments moments(true);
+  SunPosition sun = sunMessage();
+  for (const int second : {1, 2}) {
+    sun.distance_au = second == 1 ? 1.0 : 1.01;
+    moments.put(ros::Time(second), fromMessage(sun));
+    EXPECT_EQ(moments.version(), second - 1);
+    moments.put(ros::Time(second), fromMessage(moonMessage()));
+    moments.put(ros::Time(second), fromMessage(celestialMessage()));
+    EXPECT_EQ(moments.version(), second);
+  }
+  EXPECT_EQ(moments.latest()->sun->distance_au, 1.01);
+}
+
+TEST(SkyMoments, OfASkyThatStandsStillAreOneVersion) {
+  SkyMoments moments(false);
+  for (int second = 1; second < 5; ++second) moments.put(ros::Time(second), fromMessage(sunMessage()));
+  EXPECT_EQ(moments.version(), 1);
+}
+
+TEST(SkyMoments, FollowAClockThatJumpsBack) {
+  SkyMoments moments(false);
+  SunPosition sun = sunMessage();
+  moments.put(ros::Time(100), fromMessage(sun));
+  sun.distance_au = 1.02;
+  moments.put(ros::Time(1), fromMessage(sun));
+  EXPECT_EQ(moments.latest()->sun->distance_au, 1.02);
 }
 
 TEST(Options, WithoutParametersAreTheDefaultsOfTheBuiltInWorld) {

@@ -5,11 +5,11 @@ import threading
 
 import rospkg
 import rospy
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import PoseStamped, QuaternionStamped
 from nav_msgs.msg import Path
 from sensor_msgs.msg import CameraInfo, Image
 from std_msgs.msg import UInt32
-from sunlit.msg import Capture, SunPosition
+from sunlit.msg import Capture, MoonPosition, SunPosition
 from tf2_msgs.msg import TFMessage
 
 TIMEOUT_S = 60.0  # how long a machine under load may take for what should be seconds
@@ -23,22 +23,23 @@ BOX_FACE_M = 12.0  # x of the face that the camera drives towards
 def parameters(**changes):
     """A small camera on the way to the box."""
     tree = {"world": WORLD, "path": {"file": WAYPOINTS, "spacing": 0.5}, "start_stamp": 1000.0, "frame_rate": 8.0,
-            "camera": {"width": 96, "height": 72, "supersampling": 1}}
+            "camera": {"width": 96, "height": 72, "supersampling": 1}, "night": {"enabled": False}}
     for key, value in changes.items():
         tree[key] = dict(tree[key], **value) if isinstance(tree.get(key), dict) else value
     return tree
 
 
-class RenderNode:
-    """The process, with these private parameters, until the end of the block."""
+class Process:
+    """A node with these private parameters, until the end of the block."""
 
-    def __init__(self, name, tree):
+    def __init__(self, name, tree, program):
         self.name = "/" + name
         self.tree = tree
+        self.program = program
 
     def __enter__(self):
         rospy.set_param(self.name, self.tree)
-        self.process = subprocess.Popen(["rosrun", "sunlit", "render_node", "__name:=" + self.name[1:]],
+        self.process = subprocess.Popen(["rosrun", "sunlit", self.program, "__name:=" + self.name[1:]],
                                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
         return self
 
@@ -64,6 +65,12 @@ class RenderNode:
         return self.process.returncode, [line for line in output.splitlines() if line.strip()]
 
 
+class RenderNode(Process):
+
+    def __init__(self, name, tree):
+        super().__init__(name, tree, "render_node")
+
+
 class Sun:
     """A sun that stands still."""
 
@@ -73,6 +80,34 @@ class Sun:
         message.header.frame_id = "map"
         message.direction.x, message.direction.y, message.direction.z = east, north, up
         self.publisher.publish(message)
+
+
+class Sky:
+    """Sun, moon and stars that stand still; each is sent when asked for."""
+
+    def __init__(self, prefix):
+        self.publishers = [rospy.Publisher(prefix + name, kind, queue_size=1, latch=True)
+                           for name, kind in (("sun", SunPosition), ("moon", MoonPosition), ("celestial", QuaternionStamped))]
+
+    def _send(self, index, message, stamp):
+        message.header.frame_id = message.header.frame_id or "map"
+        message.header.stamp = rospy.Time.from_sec(stamp)
+        self.publishers[index].publish(message)
+
+    def send_sun(self, stamp=1.0):
+        message = SunPosition(distance_au=1.0)
+        message.direction.y, message.direction.z = 0.6, 0.8
+        self._send(0, message, stamp)
+
+    def send_moon(self, stamp=1.0, distance=3.844e8):
+        message = MoonPosition(distance=distance)
+        message.direction.y, message.direction.z = -0.6, 0.8
+        self._send(1, message, stamp)
+
+    def send_celestial(self, stamp=1.0):
+        message = QuaternionStamped()
+        message.quaternion.w = 1.0
+        self._send(2, message, stamp)
 
 
 class Reader:

@@ -1,14 +1,15 @@
 #!/usr/bin/python3
-"""The sun follows /clock: at its rate, through a pause and back in time. This test is the clock."""
+"""Sun, moon and stars follow /clock: at its rate, through a pause and back in time. This test is the clock."""
 import unittest
 
 import rospy
 import rostest
 import tf2_ros
+from geometry_msgs.msg import QuaternionStamped
 from rosgraph_msgs.msg import Clock
 from sun_reading import Latest
-from sunlit.msg import SunPosition
-from sunlit.srv import GetSunPosition, SetDateTime
+from sunlit.msg import MoonPosition, SunPosition
+from sunlit.srv import GetMoonPosition, GetSunPosition, SetDateTime
 from tf2_msgs.msg import TFMessage
 
 START_S = 1000
@@ -25,18 +26,21 @@ class SunFollowsClock(unittest.TestCase):
     def setUpClass(cls):
         cls.clock = rospy.Publisher("/clock", Clock, queue_size=1, latch=True)
         cls.sun = Latest("/sun", SunPosition)
+        cls.moon = Latest("/moon", MoonPosition)
+        cls.celestial = Latest("/celestial", QuaternionStamped)
         cls.tf = tf2_ros.Buffer()
         # Not a TransformListener: its waiting needs a clock that runs.
         cls.transforms = Latest("/tf", TFMessage, lambda message: [cls.tf.set_transform(transform, "test")
                                                                    for transform in message.transforms])
         rospy.wait_for_service("/sun_position/get_sun_position")
         cls.get_position = rospy.ServiceProxy("/sun_position/get_sun_position", GetSunPosition)
+        cls.get_moon = rospy.ServiceProxy("/sun_position/get_moon_position", GetMoonPosition)
         cls.set_date_time = rospy.ServiceProxy("/sun_position/set_date_time", SetDateTime)
 
-    def direction_at(self, sun_second):
+    def direction_at(self, sun_second, get=None):
         """Where the sun stands that many seconds after 4 h, by the service that changes nothing."""
         hour, rest = divmod(4 * 3600 + sun_second, 3600)
-        answer = self.get_position(
+        answer = (get or self.get_position)(
             year=2024, month=7, day=1, hour=hour, minute=rest // 60, second=rest % 60, timezone=3.0,
             latitude=55.792115, longitude=49.122254, elevation=90.0, pressure=1013.25, temperature=0.0,
             atmospheric_refraction=0.5667, delta_ut1=0.0, delta_t=float("nan"))
@@ -48,7 +52,14 @@ class SunFollowsClock(unittest.TestCase):
         now = rospy.Time(ros_second)
         tick = lambda: self.clock.publish(Clock(now))
         tick()
-        return self.sun.wait(lambda sun: sun.header.stamp.secs == ros_second, tick)
+        sun = self.sun.wait(lambda message: message.header.stamp.secs == ros_second, tick)
+        self.check_company(sun)
+        return sun
+
+    def check_company(self, sun):
+        """Moon and stars of the same stamp, and so of the same hour."""
+        self.moon.wait(lambda moon: moon.header.stamp == sun.header.stamp)
+        self.celestial.wait(lambda celestial: celestial.header.stamp == sun.header.stamp)
 
     def test_rate_pause_and_jump_back(self):
         # Before any clock the sun stands at its date_time.
@@ -64,16 +75,24 @@ class SunFollowsClock(unittest.TestCase):
         moved = self.direction_at(3600)
         sun = self.sun.wait(lambda message: vector(message.direction) == moved)
         self.assertEqual(sun.header.stamp.secs, ros_second)
-        self.transforms.wait(lambda message: message.transforms[0].header.stamp == sun.header.stamp)
-        at = self.tf.lookup_transform("map", "sun", sun.header.stamp)
-        self.assertAlmostEqual(at.transform.translation.x, 100.0 * moved[0], delta=1e-9)
+        self.check_company(sun)
+        moon = vector(self.moon.message.direction)
+        self.assertEqual(moon, self.direction_at(3600, self.get_moon))
+        self.transforms.wait(lambda message: {t.header.stamp for t in message.transforms} == {sun.header.stamp})
+        for frame, direction in (("sun", moved), ("moon", moon)):
+            at = self.tf.lookup_transform("map", frame, sun.header.stamp)
+            self.assertAlmostEqual(at.transform.translation.x, 100.0 * direction[0], delta=1e-9)
+        at = self.tf.lookup_transform("map", "celestial", sun.header.stamp)
+        self.assertEqual(at.transform.rotation, self.celestial.message.quaternion)
 
         self.transforms.subscriber.unregister()
 
         # On, and back in time, also to before the start of the sun's clock.
         for later in (ros_second + 20, ros_second + 5, ros_second - 7, ros_second + 40):
             sun = self.go_to(later)
-            self.assertEqual(vector(sun.direction), self.direction_at(3600 + RATE * (later - ros_second)))
+            sun_second = 3600 + RATE * (later - ros_second)
+            self.assertEqual(vector(sun.direction), self.direction_at(sun_second))
+            self.assertEqual(vector(self.moon.message.direction), self.direction_at(sun_second, self.get_moon))
 
 
 if __name__ == "__main__":

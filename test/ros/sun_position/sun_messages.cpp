@@ -2,12 +2,14 @@
 #include <tf2/LinearMath/Matrix3x3.h>
 #include <tf2/LinearMath/Quaternion.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "ros/sun_position/messages.h"
 #include "ros/sun_position/options.h"
+#include "sunlit/astronomy/celestial.h"
 #include "sunlit/astronomy/civil_time.h"
 
 namespace sunlit::ros_interface {
@@ -81,6 +83,41 @@ TEST(SunMessage, itsFieldsAgree) {
 
 TEST(SunMessage, aSunBelowTheHorizonIsDark) {
   EXPECT_LT(toMarker(sunAt(0), "sun", 100.0).color.r, toMarker(sunAt(12), "sun", 100.0).color.r);
+}
+
+TEST(MoonMessage, itsFieldsAreThoseOfThePosition) {
+  const SunPositionOptions options;
+  const astronomy::MoonPosition moon = astronomy::moonPosition(astronomy::instantOf(options.date_time),
+                                                               options.earth, options.site, options.air);
+  const MoonPosition message = toMessage(moon, ros::Time(7, 9));
+  EXPECT_EQ(message.header.frame_id, "map");
+  EXPECT_EQ(message.header.stamp, ros::Time(7, 9));
+  EXPECT_EQ(message.azimuth, moon.azimuth.rad());
+  EXPECT_EQ(message.elevation_geometric, moon.elevation_geometric.rad());
+  EXPECT_EQ(message.right_ascension, moon.right_ascension.rad());
+  EXPECT_EQ(message.declination, moon.declination.rad());
+  EXPECT_EQ(message.distance, moon.distance_m);
+  EXPECT_EQ(message.phase_angle, moon.phase_angle.rad());
+  EXPECT_EQ(message.illuminated_fraction, moon.illuminated_fraction);
+  EXPECT_EQ(message.bright_limb_angle, moon.bright_limb.rad());
+  const geometry_msgs::TransformStamped transform = toTransform(message, "h/moon", 250.0);
+  EXPECT_EQ(transform.child_frame_id, "h/moon");
+  EXPECT_NEAR(transform.transform.translation.z, 250.0 * message.direction.z, 1e-9);
+  EXPECT_GT(toMarker(message, "moon", 100.0).scale.x, 0.0);
+}
+
+TEST(CelestialMessage, itsQuaternionIsTheRotation) {
+  const SunPositionOptions options;
+  const Eigen::Matrix3d rotation =
+      astronomy::mapFromCelestial(astronomy::instantOf(options.date_time), options.earth, options.site);
+  const geometry_msgs::QuaternionStamped message = toMessage(rotation, ros::Time(7, 9));
+  const auto& q = message.quaternion;
+  EXPECT_LT((Eigen::Quaterniond(q.w, q.x, q.y, q.z).toRotationMatrix() - rotation).norm(), 1e-13);
+  const geometry_msgs::TransformStamped transform = toTransform(message, "h/celestial");
+  EXPECT_EQ(transform.header.frame_id, "map");
+  EXPECT_EQ(transform.child_frame_id, "h/celestial");
+  EXPECT_EQ(transform.header.stamp, ros::Time(7, 9));
+  EXPECT_EQ(transform.transform.rotation.w, q.w);
 }
 
 TEST(GetSunPosition, answersTheWorkedExample) {

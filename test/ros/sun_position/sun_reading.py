@@ -5,7 +5,7 @@ import threading
 import rospy
 import yaml
 
-TIMEOUT_S = 20.0
+TIMEOUT_S = 60.0  # how long a machine under load may take for what should be moments
 
 
 class Latest:

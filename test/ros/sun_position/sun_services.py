@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The four services, by hand and from a program, on three suns at once; topic, TF and service agree."""
+"""The services, by hand and from a program, on three suns at once; topics, TF and services agree."""
 import math
 import unittest
 
@@ -7,9 +7,10 @@ import rospy
 import rostest
 import tf2_ros
 from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import QuaternionStamped
 from sun_reading import Latest, TIMEOUT_S, by_hand
-from sunlit.msg import SunPosition
-from sunlit.srv import GetSunPosition, GetSunTimes, SetDateTime, SetSite
+from sunlit.msg import MoonPosition, SunPosition
+from sunlit.srv import GetMoonPosition, GetSunPosition, GetSunTimes, SetDateTime, SetSite
 from visualization_msgs.msg import Marker
 
 # The worked example of Reda & Andreas (2008).
@@ -17,6 +18,7 @@ GOLDEN = ("{year: 2003, month: 10, day: 17, hour: 12, minute: 30, second: 30, ti
           "longitude: -105.1786, elevation: 1830.14, pressure: 820, temperature: 11, atmospheric_refraction: 0.5667, "
           "delta_ut1: 0, delta_t: 67, slope: 30, azm_rotation: -10}")
 TRACK = dict(latitude=55.792115, longitude=49.122254, elevation=90.0, pressure=1013.25, temperature=0.0)
+AU_M = 149597870700.0
 FIRST_OF_JULY = dict(year=2024, month=7, day=1, minute=0, second=0.0, timezone=3.0)
 
 
@@ -29,14 +31,33 @@ def vector(direction):
     return (direction.x, direction.y, direction.z)
 
 
+def axes(q):
+    """Columns of the rotation of a quaternion."""
+    x, y, z, w = q.x, q.y, q.z, q.w
+    return ((1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)),
+            (2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)),
+            (2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)))
+
+
+def dot(a, b):
+    return sum(p * q for p, q in zip(a, b))
+
+
+def on_sphere(longitude, latitude):
+    return (math.cos(latitude) * math.cos(longitude), math.cos(latitude) * math.sin(longitude), math.sin(latitude))
+
+
 class SunServices(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
         cls.suns = {name: Latest("/%s/sun" % name, SunPosition) for name in ("h04", "h12", "h20")}
+        cls.moons = {name: Latest("/%s/moon" % name, MoonPosition) for name in cls.suns}
+        cls.celestials = {name: Latest("/%s/celestial" % name, QuaternionStamped) for name in cls.suns}
         cls.tf = tf2_ros.Buffer()
         cls.listener = tf2_ros.TransformListener(cls.tf)
         cls.get_position = service("/h12/sun_position/get_sun_position", GetSunPosition)
+        cls.get_moon = service("/h12/sun_position/get_moon_position", GetMoonPosition)
 
     def setUp(self):
         for name, hour in (("h04", 4), ("h12", 12), ("h20", 20)):
@@ -47,16 +68,30 @@ class SunServices(unittest.TestCase):
 
     def asked(self, hour, **changes):
         """The sun of that hour at the track, from the service that changes nothing."""
-        request = dict(FIRST_OF_JULY, hour=hour, atmospheric_refraction=0.5667, delta_ut1=0.0, delta_t=69.184,
-                       slope=0.0, azm_rotation=0.0, **TRACK)
+        return self.answer(self.get_position, hour, dict(dict(slope=0.0, azm_rotation=0.0), **changes))
+
+    def asked_moon(self, hour, **changes):
+        return self.answer(self.get_moon, hour, changes)
+
+    def answer(self, get, hour, changes):
+        request = dict(FIRST_OF_JULY, hour=hour, atmospheric_refraction=0.5667, delta_ut1=0.0, delta_t=69.184, **TRACK)
         request.update(changes)
-        answer = self.get_position(**request)
+        answer = get(**request)
         self.assertTrue(answer.success, answer.message)
         return answer.position
 
     def wait_for_hour(self, name, hour, **changes):
+        moon = vector(self.asked_moon(hour, **changes).direction)
+        self.moons[name].wait(lambda message: vector(message.direction) == moon)
         expected = vector(self.asked(hour, **changes).direction)
         return self.suns[name].wait(lambda sun: vector(sun.direction) == expected)
+
+    def looked_up(self, frame, stamp):
+        return self.tf.lookup_transform("map", frame, stamp, rospy.Duration(TIMEOUT_S)).transform
+
+    def assert_vectors(self, ours, expected, delta):
+        for a, b in zip(ours, expected):
+            self.assertAlmostEqual(a, b, delta=delta)
 
     def test_position_by_hand_is_the_worked_example(self):
         answer = by_hand("/h04/sun_position/get_sun_position", GOLDEN)
@@ -121,6 +156,7 @@ class SunServices(unittest.TestCase):
         golden = dict(date, **place)
         golden.update(atmospheric_refraction=0.5667, delta_ut1=0, delta_t=67, slope=0, azm_rotation=0)
         del golden["rate"]
+        moon = {key: value for key, value in golden.items() if key not in ("slope", "azm_rotation")}
         day = dict(year=2024, month=7, day=1, timezone=3, latitude=0, longitude=0, elevation=0)
         wrong = [
             ("set_date_time", date, dict(month=2, day=31), "day is 31, but must be from 1 to 29 in month 2 of year 2024"),
@@ -134,6 +170,8 @@ class SunServices(unittest.TestCase):
             ("set_site", place, dict(latitude=91), "latitude is 91, but must be from -90 to 90 deg"),
             ("set_site", place, dict(longitude=nan), "longitude is nan, but must be from -180 to 180 deg"),
             ("set_site", place, dict(pressure=-5), "pressure is -5, but must be from 0 to 1200 hPa"),
+            ("get_moon_position", moon, dict(elevation=12001), "elevation is 12001, but must be from -500 to 12000 m"),
+            ("get_moon_position", moon, dict(delta_t=200000), "delta_t is 200000, but must be from -100000 to 100000 s"),
             ("get_sun_position", golden, dict(slope=400), "slope is 400, but must be from -360 to 360 deg"),
             ("get_sun_position", golden, dict(delta_ut1=2), "delta_ut1 is 2, but must be from -1 to 1 s"),
             ("get_sun_times", day, dict(month=0), "month is 0, but must be from 1 to 12"),
@@ -153,17 +191,60 @@ class SunServices(unittest.TestCase):
         for name, hour in (("h04", 4), ("h12", 12), ("h20", 20)):
             sun = self.wait_for_hour(name, hour)
             # TF of the very stamp of the topic.
-            at = self.tf.lookup_transform("map", name + "/sun", sun.header.stamp, rospy.Duration(TIMEOUT_S)).transform
-            for axis in "xyz":
-                self.assertAlmostEqual(getattr(at.translation, axis), 100.0 * getattr(sun.direction, axis), delta=1e-9)
-            q = at.rotation
-            x_axis = (1 - 2 * (q.y ** 2 + q.z ** 2), 2 * (q.x * q.y + q.z * q.w), 2 * (q.x * q.z - q.y * q.w))
-            for ours, topic in zip(x_axis, vector(sun.direction)):
-                self.assertAlmostEqual(ours, topic, delta=1e-9)
+            at = self.looked_up(name + "/sun", sun.header.stamp)
+            self.assert_vectors(vector(at.translation), [100.0 * part for part in vector(sun.direction)], 1e-9)
+            self.assert_vectors(axes(at.rotation)[0], vector(sun.direction), 1e-9)
             self.assertEqual(sun.header.frame_id, "map")
             self.assertAlmostEqual(math.asin(sun.direction.z), sun.elevation, delta=1e-9)
             self.assertAlmostEqual(math.atan2(sun.direction.x, sun.direction.y) % (2 * math.pi), sun.azimuth, delta=1e-9)
         self.assertEqual(marker.wait().pose.position.x, 100.0 * self.suns["h20"].message.direction.x)
+
+    def test_moon_topic_tf_marker_and_service_agree(self):
+        markers = {name: Latest("/%s/moon_marker" % name, Marker) for name in self.moons}
+        for name, hour in (("h04", 4), ("h12", 12), ("h20", 20)):
+            sun = self.wait_for_hour(name, hour)
+            moon = self.moons[name].next()
+            self.assertEqual(moon.header.frame_id, "map")
+            at = self.looked_up(name + "/moon", moon.header.stamp)
+            self.assert_vectors(vector(at.translation), [100.0 * part for part in vector(moon.direction)], 1e-9)
+            self.assert_vectors(axes(at.rotation)[0], vector(moon.direction), 1e-9)
+            self.assertAlmostEqual(math.asin(moon.direction.z), moon.elevation, delta=1e-9)
+            self.assertAlmostEqual(moon.zenith + moon.elevation, math.pi / 2, delta=1e-12)
+            azimuth = math.atan2(moon.direction.x, moon.direction.y)
+            self.assertAlmostEqual(math.remainder(azimuth - moon.azimuth, 2 * math.pi), 0.0, delta=1e-9)
+            self.assert_vectors(vector(markers[name].wait().pose.position), vector(at.translation), 0.0)
+            self.assertAlmostEqual(math.sin(moon.angular_radius) * moon.distance, 1737.4e3, delta=1e-3)
+
+            # The phase from where topics say that sun and moon stand: both without air.
+            seen = [on_sphere(math.pi / 2 - body.azimuth, body.elevation_geometric) for body in (sun, moon)]
+            elongation, sun_m = math.acos(dot(*seen)), sun.distance_au * AU_M
+            phase = math.atan2(sun_m * math.sin(elongation), moon.distance - sun_m * math.cos(elongation))
+            # The sun's distance is that from the centre of the Earth: 1/23,000 of it.
+            self.assertAlmostEqual(moon.phase_angle, phase, delta=1e-4)
+            self.assertAlmostEqual(moon.illuminated_fraction, 0.5 * (1 + math.cos(phase)), delta=1e-4)
+        self.assertNotEqual(vector(self.moons["h04"].message.direction), vector(self.moons["h20"].message.direction))
+
+    def test_celestial_topic_and_tf_agree_and_hold_the_sun(self):
+        for name, hour in (("h04", 4), ("h12", 12), ("h20", 20)):
+            sun = self.wait_for_hour(name, hour)
+            celestial = self.celestials[name].next()
+            self.assertEqual(celestial.header.frame_id, "map")
+            at = self.looked_up(name + "/celestial", celestial.header.stamp)
+            self.assertEqual(vector(at.translation), (0.0, 0.0, 0.0))
+            self.assertEqual(at.rotation, celestial.quaternion)
+            x, y, z = axes(celestial.quaternion)
+            # The pole, which precession has moved by 0.14 deg since 2000.
+            self.assert_vectors(z, on_sphere(math.pi / 2, math.radians(55.792115)), 0.0025)
+            # The sun, whose equinox of date has moved by 0.34 deg since 2000.
+            of_date = on_sphere(sun.right_ascension, sun.declination)
+            in_map = [dot(row, of_date) for row in zip(x, y, z)]
+            self.assert_vectors(in_map, on_sphere(math.pi / 2 - sun.azimuth, sun.elevation_geometric), 0.007)
+
+    def test_the_moon_of_a_full_moon_is_full(self):
+        # 21 July 2024, 10:17 UTC; seen about midnight, high in the south Pacific.
+        moon = self.asked_moon(13, day=21, minute=17, latitude=-20.0, longitude=-155.0)
+        self.assertGreater(moon.illuminated_fraction, 0.995)
+        self.assertGreater(moon.elevation, math.radians(60))
 
     def test_diagnostics_tell_each_sun(self):
         for name in self.suns:

@@ -111,7 +111,7 @@ TEST(Exposure, FixedIsWhatWasAskedFor) {
 }
 
 TEST(Exposure, EvenGreyBecomesMiddleGrey) {
-  for (const float luminance : {0.02F, 1.0F, 300.0F, 9000.0F}) {
+  for (const float luminance : {70.0F, 300.0F, 9000.0F}) {
     const LinearImage image = grey(64, 48, luminance);
     const double ev100 = chooseEv100(image, {});
     // One histogram step is 1/256 octave: half of it is 0.003 stops.
@@ -120,18 +120,61 @@ TEST(Exposure, EvenGreyBecomesMiddleGrey) {
   }
 }
 
+TEST(Exposure, DuskLooksDarkerThanDay) {
+  // 0.15 stops for each stop below 64 cd/m², but no more than 3.5.
+  const struct {
+    float luminance;
+    double darker;
+  } cases[] = {{64.0F, 0.0}, {32.0F, 0.15}, {1.0F, 0.9}, {0x1p-10F, 2.4}, {0x1p-18F, 3.5}};
+  ExposureOptions options;
+  options.min_ev100 = -16.0;
+  ExposureOptions plain = options;
+  plain.night_darkening = 0.0;
+  for (const auto& c : cases) {
+    const LinearImage image = grey(64, 48, c.luminance);
+    // One histogram step is 1/256 octave: half of it counts 0.15 · 0.002.
+    EXPECT_NEAR(chooseEv100(image, options) - chooseEv100(image, plain), c.darker, 0.001) << c.luminance;
+  }
+}
+
+TEST(Exposure, NothingJumpsWhileTheLightFades) {
+  double before = chooseEv100(landscape(20000.0F, 200.0F), {});
+  for (double stops = 0.02; stops < 30.0; stops += 0.02) {
+    const auto light = static_cast<float>(std::exp2(-stops));
+    // The sky fades faster than the ground, so that it stops burning out on the way.
+    const double now = chooseEv100(landscape(20000.0F * light, 200.0F * std::sqrt(light)), {});
+    // 0.02 stops of light, once more for what the highlights do.
+    ASSERT_NEAR(now, before, 0.04) << stops;
+    before = now;
+  }
+}
+
+TEST(Exposure, ABurningSkyIsHeldBack) {
+  // A shaded ground, and behind it a sky 30 times as bright in 46 % of the picture.
+  const LinearImage image = landscape(6000.0F, 200.0F);
+  ExposureOptions plain;
+  plain.highlight_protection = 0.0;
+  const double burning = chooseEv100(image, plain);
+  const double held = chooseEv100(image, {});
+  EXPECT_GT(6000.0, 2.0 * saturationLuminance(burning));
+  // d = 10 · 0.46 · (over − d) has d = 0.82 over; the texture of the sky, ± 30 %, moves it a little.
+  const double over = std::log2(6000.0 / (0.7 * saturationLuminance(burning)));
+  EXPECT_NEAR(held - burning, 0.82 * over, 0.1 * over);
+}
+
 TEST(Exposure, FollowsTheLightStopByStop) {
   const double dim = chooseEv100(landscape(500.0F, 90.0F), {});
   const double bright = chooseEv100(landscape(2000.0F, 360.0F), {});
-  EXPECT_NEAR(bright - dim, 2.0, 1e-9);  // powers of two shift the histogram by whole steps
+  EXPECT_NEAR(bright - dim, 2.0, 2e-4);  // the cut for highlights is found within 1e-4
 }
 
-TEST(Exposure, ASkyTenTimesBrighterCostsTheGroundLessThanAStop) {
-  // The sky fills 46 % of the picture but holds 26 % of the metering weight, and log2(10) · 0.26 < 1.
+TEST(Exposure, ASkyTenTimesBrighterCostsTheGroundLessThanAStopAndAHalf) {
+  // The sky fills 46 % of the picture but holds 26 % of the metering weight: log2(10) · 0.26 = 0.86. By that
+  // it comes near to burning out, which is worth half a stop more.
   const double plain = chooseEv100(landscape(1000.0F, 1000.0F), {});
   const double contrast = chooseEv100(landscape(10000.0F, 1000.0F), {});
   EXPECT_GT(contrast, plain);
-  EXPECT_LT(contrast - plain, 1.0);
+  EXPECT_LT(contrast - plain, 1.5);
 }
 
 TEST(Exposure, TheSunsDiscInThePictureChangesNearlyNothing) {
@@ -144,8 +187,9 @@ TEST(Exposure, TheSunsDiscInThePictureChangesNearlyNothing) {
       }
     }
   }
-  // 0.2 % of the picture, 18 stops brighter: untrimmed it would be 0.03 stops or, by a plain mean, 11 stops.
-  EXPECT_NEAR(chooseEv100(image, {}), without, 0.01);
+  // 0.19 % of the picture, 18 stops brighter: by a plain mean it would be 11 stops. What is left is the cut
+  // for highlights, 10 · 0.19 % · 4 stops.
+  EXPECT_NEAR(chooseEv100(image, {}), without, 0.08);
 }
 
 TEST(Exposure, StaysWithinItsLimits) {
@@ -153,6 +197,7 @@ TEST(Exposure, StaysWithinItsLimits) {
   EXPECT_EQ(chooseEv100(grey(8, 8, 0.0F), options), options.min_ev100);
   EXPECT_EQ(chooseEv100(grey(8, 8, 1e12F), options), options.max_ev100);
   EXPECT_EQ(chooseEv100(grey(8, 8, std::numeric_limits<float>::quiet_NaN()), options), options.min_ev100);
+  EXPECT_EQ(chooseEv100(grey(8, 8, std::numeric_limits<float>::infinity()), options), options.max_ev100);
   EXPECT_EQ(chooseEv100(LinearImage(), options), options.min_ev100);
 }
 
@@ -171,6 +216,12 @@ TEST(ExposureOptions, BadValuesAreNamedWithTheirRange) {
   options = {};
   options.compensation_ev = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(messageOf(options), "compensation_ev: nan is outside -8 … 8");
+  options = {};
+  options.night_darkening = 0.6;
+  EXPECT_EQ(messageOf(options), "night_darkening: 0.6 is outside 0 … 0.5");
+  options = {};
+  options.highlight_protection = -1.0;
+  EXPECT_EQ(messageOf(options), "highlight_protection: -1 is outside 0 … 20");
   options = {};
   options.max_ev100 = -9.0;
   EXPECT_EQ(messageOf(options), "max_ev100: -9 is outside -8 … 24");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -113,6 +114,33 @@ TEST(Rays, OfAnyNumberAreAnsweredInOrder) {
                         answer.data());
     for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(answer[i], i % 3 == 0 ? 1 : 0) << i << " of " << count;
     EXPECT_EQ(answer[count], 7);
+  }
+}
+
+TEST(Closest, TellsTriangleAndPlaceFromEitherSideAndPassesCutOuts) {
+  scene::Scene scene;
+  scene.materials = {plain(false), plain()};
+  scene.materials[1].base_texture = 0;
+  scene.materials[1].alpha_mode = scene::AlphaMode::kMask;
+  scene.textures = {{"clear", 1, 1, {255, 255, 255, 0}}};
+  scene.meshes = {sheet(0, 0.0f, 0.0f, 5.0f), sheet(1, 0.0f, 0.0f, 3.0f)};
+  const auto geometry = geometryOf(scene);
+  const Visibility visibility(geometry);
+  // From below (its back, through the sheet that is all cut out), from above, and past it.
+  const std::array<float, 3> x = {0.3f, -0.6f, 4.0f}, y = {-0.2f, 0.1f, 0.0f}, z = {1.0f, 9.0f, 0.0f};
+  const std::array<float, 3> dx = {0.0f, 0.0f, 0.0f}, dy = dx, dz = {2.0f, -1.0f, 1.0f};
+  std::array<Hit, 3> hits;
+  visibility.closest({x.data(), y.data(), z.data(), dx.data(), dy.data(), dz.data(), 3}, hits.data());
+  EXPECT_FLOAT_EQ(hits[0].distance, 2.0f);  // 4 m, in lengths of the direction
+  EXPECT_FLOAT_EQ(hits[1].distance, 4.0f);
+  EXPECT_EQ(hits[2].triangle, Hit::kMiss);
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_NE(hits[i].triangle, Hit::kMiss);
+    const auto& corners = geometry->triangles[hits[i].triangle];
+    const Eigen::Vector3f point = (1.0f - hits[i].u - hits[i].v) * geometry->positions[corners[0]] +
+                                  hits[i].u * geometry->positions[corners[1]] +
+                                  hits[i].v * geometry->positions[corners[2]];
+    EXPECT_NEAR((point - Eigen::Vector3f(x[i], y[i], 5.0f)).norm(), 0.0f, 1e-5f);  // single precision
   }
 }
 

@@ -2,10 +2,6 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include <unistd.h>
-
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <future>
 #include <random>
@@ -67,37 +63,6 @@ TEST(Picture, HasTheSameBitsForAnyNumberOfThreads) {
   EXPECT_TRUE(sameBits(rendered(2), one));
   EXPECT_TRUE(sameBits(rendered(4), one));
   EXPECT_TRUE(sameBits(rendered(4), one)) << "in a second run";
-}
-
-/// The number of threads of the software rasteriser is read once a process, so each number has a process of
-/// its own.
-TEST(Picture, HasTheSameBitsForAnyNumberOfRasteriserThreads) {
-  const char* counted = std::getenv("SUNLIT_TEST_HASH");
-  if (counted) {
-    std::uint64_t hash = 14695981039346656037ull;  // FNV-1a
-    for (float value : rendered(4)) {
-      std::uint32_t bits;
-      std::memcpy(&bits, &value, sizeof(bits));
-      hash = (hash ^ bits) * 1099511628211ull;
-    }
-    std::printf("hash %016llx\n", static_cast<unsigned long long>(hash));
-    return;
-  }
-  std::vector<std::string> hashes;
-  for (const char* threads : {"0", "1", "2", "4"}) {
-    const std::string command = std::string("SUNLIT_TEST_HASH=1 LP_NUM_THREADS=") + threads + " /proc/" +
-                                std::to_string(getpid()) +
-                                "/exe --gtest_filter=Picture.HasTheSameBitsForAnyNumberOfRasteriserThreads";
-    FILE* pipe = popen(command.c_str(), "r");
-    ASSERT_NE(pipe, nullptr);
-    char line[256];
-    while (std::fgets(line, sizeof(line), pipe)) {
-      if (std::strncmp(line, "hash ", 5) == 0) hashes.emplace_back(line);
-    }
-    EXPECT_EQ(pclose(pipe), 0);
-  }
-  ASSERT_EQ(hashes.size(), 4u);
-  for (const std::string& hash : hashes) EXPECT_EQ(hash, hashes.front());
 }
 
 TEST(Picture, DoesNotChangeWhenALookIsRepeatedAfterOthers) {

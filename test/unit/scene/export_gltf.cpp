@@ -127,6 +127,20 @@ TEST_F(ExportGltf, EmissionKeepsItsColourAndSaysThatItLostItsStrength) {
             pathOf("scene.glb") + ": glTF extension KHR_materials_emissive_strength is not read");
 }
 
+TEST_F(ExportGltf, WritesTransmissionAndSaysThatItIsNotReadBack) {
+  Scene scene = sample();
+  scene.materials[0].transmission = 0.25f;
+  writeGltf(scene, pathOf("scene.glb"));
+  std::ifstream stream(pathOf("scene.glb"), std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  EXPECT_NE(text.find("\"KHR_materials_diffuse_transmission\":{\"diffuseTransmissionFactor\":0.25"),
+            std::string::npos);
+  const Scene back = load(pathOf("scene.glb"), {});
+  ASSERT_FALSE(back.warnings.empty());
+  EXPECT_EQ(back.warnings.front(),
+            pathOf("scene.glb") + ": glTF extension KHR_materials_diffuse_transmission is not read");
+}
+
 TEST_F(ExportGltf, WritesTheSameBytesEachTime) {
   const auto bytes = [&](const std::string& name) {
     writeGltf(sample(), pathOf(name));

@@ -72,6 +72,8 @@ TEST(Validate, NamesTheMesh) {
 TEST(Validate, NamesTheMaterialKeyValueAndRange) {
   EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].roughness = 0.0f; }),
             "material 'wall': roughness is 0.000000, must be 0.030000 … 1.000000");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].transmission = 1.5f; }),
+            "material 'wall': transmission is 1.500000, must be 0.000000 … 1.000000");
   EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].base_color.value[2] = kNan; }),
             "material 'wall': base_color is nan, must be 0.000000 … 1.000000");
   EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].base_texture = 1; }),

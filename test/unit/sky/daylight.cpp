@@ -58,28 +58,6 @@ Eigen::Array3d gathered(const Daylight& daylight, const Eigen::Vector3f& normal)
   return sum;
 }
 
-TEST(Daylight, HighSunGivesTheIlluminanceOfAClearNoon) {
-  // 100-110 klx is what is published for a clear noon in summer (sun at 60-70°); air differs by 15 %.
-  EXPECT_NEAR(groundLux(65.0), 105e3, 0.15 * 105e3);
-}
-
-TEST(Daylight, SunsetAndTwilightHaveThePublishedLevels) {
-  // Sunset (centre 0.83° below, without refraction): 410-585 lx; clear air differs by 30 %.
-  EXPECT_GT(groundLux(-0.83), 0.7 * 410.0);
-  EXPECT_LT(groundLux(-0.83), 1.3 * 585.0);
-  // End of civil twilight: 2-3.5 lx. A degree of sun is a factor of 3 here, so 50 % is a third of a degree.
-  EXPECT_GT(groundLux(-6.0), 0.5 * 2.0);
-  EXPECT_LT(groundLux(-6.0), 1.5 * 3.5);
-  // End of nautical twilight: 0.008 lx, of which 0.001 lx is the moonless night's own light, not modelled
-  // here.
-  EXPECT_GT(groundLux(-12.0), 0.008 / 2.0);
-  EXPECT_LT(groundLux(-12.0), 0.008 * 2.0);
-  // End of astronomical twilight: the sun adds little to the 6e-4 lx of the night.
-  EXPECT_LT(groundLux(-18.0), 1e-4);
-  EXPECT_GE(groundLux(-60.0), 0.0);
-  EXPECT_LT(groundLux(-60.0), 1e-6);
-}
-
 TEST(Daylight, RefractionLiftsTheDiscButNotTheLightOfTheSky) {
   // As the last bit of the sun is seen, its centre appears at −0.27° and is at −0.83°.
   const auto at = [](double elevation_deg) {
@@ -89,6 +67,44 @@ TEST(Daylight, RefractionLiftsTheDiscButNotTheLightOfTheSky) {
   EXPECT_GT(seen.sun().illuminance.luminance(), 0.0F);
   EXPECT_NEAR(seen.groundIlluminance().luminance(), groundLux(-0.83), 0.01 * groundLux(-0.83));
   EXPECT_LT(groundLux(-0.83), 0.8 * groundLux(-0.26));
+}
+
+/// CIE 1931 chromaticity and correlated colour temperature (McCamy 1992) of a linear sRGB colour.
+struct Chromaticity {
+  explicit Chromaticity(const LinearRgb& colour) {
+    Eigen::Matrix3d xyz_from_rgb;  // IEC 61966-2-1
+    xyz_from_rgb << 0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505;
+    const Eigen::Vector3d xyz = xyz_from_rgb * colour.value.matrix().cast<double>();
+    x = xyz.x() / xyz.sum();
+    y = xyz.y() / xyz.sum();
+    const double n = (x - 0.3320) / (0.1858 - y);
+    kelvin = 437.0 * n * n * n + 3601.0 * n * n + 6861.0 * n + 5517.0;
+  }
+  double x, y, kelvin;
+};
+
+TEST(Daylight, ItsColoursLieOnTheDaylightLocus) {
+  // y = −3.000 x² + 2.870 x − 0.275 (CIE 15, D illuminants), on which measured daylight and clear sky lie
+  // within 0.01 (Hernández-Andrés et al. 2001): together 5,500-6,500 K from 15° up, the clear zenith
+  // 9,000-40,000 K.
+  for (const double elevation_deg : {60.0, 45.0, 30.0, 20.0}) {
+    const Daylight daylight = daylightAt(elevation_deg);
+    const Chromaticity ground(daylight.groundIlluminance());
+    const Chromaticity zenith(daylight.skyLuminance({0.0F, 0.0F, 1.0F}));
+    for (const Chromaticity& colour : {ground, zenith}) {
+      EXPECT_NEAR(colour.y, -3.0 * colour.x * colour.x + 2.87 * colour.x - 0.275, 0.01) << elevation_deg;
+    }
+    EXPECT_GT(ground.kelvin, 5300.0) << elevation_deg;
+    EXPECT_LT(ground.kelvin, 6500.0) << elevation_deg;
+    EXPECT_GT(zenith.kelvin, 9000.0) << elevation_deg;
+    EXPECT_LT(zenith.kelvin, 40000.0) << elevation_deg;
+  }
+  // In civil twilight all light is as blue as a clear sky by day: above 12,000 K (Lee & Hernández-Andrés
+  // 2003, clear twilights).
+  EXPECT_GT(Chromaticity(daylightAt(-6.0).groundIlluminance()).kelvin, 12000.0);
+  // The low sun itself is orange: 2,000-3,500 K between 3° and 8°.
+  EXPECT_GT(Chromaticity(daylightAt(5.0).sun().illuminance).kelvin, 2000.0);
+  EXPECT_LT(Chromaticity(daylightAt(5.0).sun().illuminance).kelvin, 3500.0);
 }
 
 TEST(Daylight, ZenithIsBlueAndOfThePublishedBrightness) {

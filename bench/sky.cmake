@@ -1,0 +1,1 @@
+sunlit_bench(sky LIBRARIES sunlit_sky)

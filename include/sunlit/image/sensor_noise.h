@@ -1,0 +1,41 @@
+/// The grain of a camera: light comes in single photons, and reading them out adds some.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "sunlit/image/images.h"
+
+namespace sunlit::image {
+
+/// Electrons are counted per pixel and channel, as by a camera with a sensor for each colour. Down to
+/// `gain_ev100` the camera exposes so long that saturation fills the well, at its base sensitivity; in less
+/// light its shutter and aperture are at their end, and the gain (ISO) rises: a picture that is white at
+/// EV100 then holds full_well_e · 2^(EV100 − gain_ev100) electrons where it is white.
+struct NoiseOptions {
+  bool enabled = false;
+  double full_well_e = 20000.0;  ///< electrons of a white pixel at base sensitivity, 100 … 1e6
+  double read_e = 3.0;           ///< rms of reading out a pixel, electrons, 0 … 1000
+  /// Below this the gain rises, −16 … 24. Default: f/1.4 and 1/30 s, log2(1.4² · 30) = 5.9.
+  double gain_ev100 = 5.9;
+  int seed = 0;  ///< 0 … 2147483647: another one gives other grain of the same strength
+};
+
+/// Throws std::invalid_argument naming key, value and range.
+void validate(const NoiseOptions& options);
+
+/// Which picture of a series it is: pictures that differ in either have grain that is independent.
+struct PictureName {
+  std::int64_t index = 0;
+  std::string series;
+};
+
+/// Electrons that a pixel holds where a picture of this EV100 is just white.
+double electronsAtSaturation(double ev100, const NoiseOptions& options);
+
+/// Adds shot noise (Poisson: its variance is the number of electrons) and read noise (Gaussian) to `picture`
+/// (cd/m², to be developed at `ev100`). The mean stays; values below zero may come out, as from a camera's
+/// raw data. Depends on the arguments alone, with the same bits for any thread count.
+void addSensorNoise(double ev100, const NoiseOptions& options, const PictureName& name, LinearImage* picture);
+
+}  // namespace sunlit::image

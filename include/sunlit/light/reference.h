@@ -1,0 +1,43 @@
+/// The slow truth that the fast picture is measured against: every path of light is traced, nothing is baked,
+/// interpolated or filtered. Same surfaces, same reflection, same sun, moon and sky as illuminate().
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sunlit/image/images.h"
+#include "sunlit/light/surfaces.h"
+#include "sunlit/light/world.h"
+#include "sunlit/sky/daylight.h"
+
+namespace sunlit::light {
+
+struct ReferenceOptions {
+  int samples_per_pixel = 256;  ///< paths, 2 … 65536
+  /// Reflections beyond the surface that is seen, 0 … 64. From the fourth on a path goes on by chance
+  /// (Russian roulette), which costs no accuracy.
+  int bounces = 16;
+  std::uint32_t seed = 0;
+};
+
+/// Throws std::invalid_argument naming key, value and range.
+void validate(const ReferenceOptions& options);
+
+/// A picture and how far to trust it.
+struct Traced {
+  image::LinearImage luminance;  ///< cd/m², as from illuminate()
+  /// Standard error of each pixel's luminance, cd/m²: half the difference of two halves of the paths, which
+  /// share no random numbers. One pixel's value is itself a guess; averages over many are good.
+  image::Picture<float, 1> noise;
+};
+
+/// One picture for each of `days`, which all use the same paths: more suns cost only their shadow rays.
+///
+/// What surfaces beyond the first add: texture at full resolution, vertex colours, interpolated normals;
+/// light meets one-sided triangles from both sides; Material::detail, whose mean is none, is left out. Air
+/// lies between the eye and the first surface only. Random numbers are counted, not drawn: the same bits for
+/// any thread count.
+std::vector<Traced> traceReference(const Surfaces& surfaces, const World& world,
+                                   const std::vector<sky::Daylight>& days, const ReferenceOptions& options);
+
+}  // namespace sunlit::light

@@ -1,0 +1,76 @@
+/// Sky light and bounced light, computed once per scene for every sky.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sunlit/light/geometry.h"
+#include "sunlit/light/illumination.h"
+#include "sunlit/light/surfaces.h"
+#include "sunlit/sky/daylight.h"
+
+namespace sunlit::light {
+
+struct TransportOptions {
+  int rays_per_patch = 3;  ///< of the 175 patches of the sky, 1 … 64
+  int bounces = 3;         ///< 0 … 8
+  double finest_m = 0.25;  ///< distance of samples where light changes fastest, 0.02 … 10 m
+  int samples = 350000;    ///< at most about as many on large triangles, 1000 … 10000000
+};
+
+/// Throws std::invalid_argument naming key, value and range.
+void validate(const TransportOptions& options);
+
+/// How far a bake is: share done, 0 … 1, and seconds left by the time taken so far. Never called by two
+/// threads at once.
+using BakeProgress = std::function<void(double share, double seconds_left)>;
+
+struct TransportData;
+
+/// Daylight coefficients (Tregenza & Waters 1983) at samples of the scene's surfaces: how much light arrives
+/// for each patch of the sky, directly and passed on by surfaces. Linear in sky, sun and moon, so that
+/// another sky costs a product per sample. Immutable; may be read by many threads.
+class Transport {
+ public:
+  /// Traces the scene, which takes seconds to a minute. Parallel; the same bits for any number of threads.
+  /// Throws std::runtime_error if the ray library fails.
+  static std::shared_ptr<const Transport> bake(std::shared_ptr<const Geometry> geometry,
+                                               const TransportOptions& options,
+                                               const BakeProgress& progress = nullptr);
+  /// As bake(), but reads the result from `folder` where an equal bake has left it, and leaves it there. A
+  /// file that is broken or of another scene is named by one line to `log` and replaced; if the folder can't
+  /// be written, that is logged too. Of several processes that want the same bake, one computes it.
+  static std::shared_ptr<const Transport> cached(
+      std::shared_ptr<const Geometry> geometry, const TransportOptions& options, const std::string& folder,
+      const BakeProgress& progress = nullptr, const std::function<void(const std::string&)>& log = nullptr);
+
+  /// SUNLIT_CACHE_DIR, or sunlit in XDG_CACHE_HOME, or .cache/sunlit in HOME, or else in the system's
+  /// temporary folder.
+  static std::string usualFolder();
+
+  explicit Transport(std::shared_ptr<const Geometry> geometry, std::unique_ptr<const TransportData> data);
+  ~Transport();
+
+  /// Sets Surface::light and Surface::mirror of all surfaces.
+  void locate(Surfaces* surfaces) const;
+  /// Where a point of a triangle of the scene finds its light, on the front or the back.
+  LightPlace placeOf(std::uint32_t triangle, bool front, const Eigen::Vector3f& position) const;
+
+  /// Illuminance, lx, of each node: from the sky, and from sun, moon and sky by way of other surfaces.
+  /// Without the direct light of sun and moon.
+  std::vector<Eigen::Array3f> irradiance(const sky::Daylight& day) const;
+  /// The same with all else that `day` means at the nodes: Illumination but for its bodies.
+  Illumination illumination(const sky::Daylight& day) const;
+
+  std::size_t sampleCount() const;
+  std::size_t nodeCount() const;
+
+ private:
+  std::shared_ptr<const Geometry> geometry_;
+  std::unique_ptr<const TransportData> data_;
+};
+
+}  // namespace sunlit::light

@@ -1,0 +1,105 @@
+#include "sunlit/astronomy/moon_position.h"
+
+#include <erfa.h>
+#include <erfam.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "astronomy/degrees.h"
+#include "astronomy/geocentric_sun.h"
+#include "astronomy/observer.h"
+#include "sunlit/astronomy/celestial.h"
+#include "sunlit/astronomy/refraction.h"
+#include "sunlit/quantity/moon.h"
+
+namespace sunlit::astronomy {
+namespace {
+
+struct Spherical {
+  Angle right_ascension;
+  Angle declination;
+};
+
+Spherical sphericalOf(const Eigen::Vector3d& vector) {
+  return {Angle::degrees(inTurn(std::atan2(vector.y(), vector.x()) / kRadPerDeg)),
+          Angle::radians(std::atan2(vector.z(), std::hypot(vector.x(), vector.y())))};
+}
+
+Angle between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return Angle::radians(std::atan2(a.cross(b).norm(), a.dot(b)));
+}
+
+/// Meeus, eq. 48.5.
+Angle brightLimb(const Spherical& moon, const Spherical& sun) {
+  const Angle ahead = sun.right_ascension - moon.right_ascension;
+  const double east = cos(sun.declination) * sin(ahead);
+  const double north = sin(sun.declination) * cos(moon.declination) -
+                       cos(sun.declination) * sin(moon.declination) * cos(ahead);
+  return Angle::degrees(inTurn(std::atan2(east, north) / kRadPerDeg));
+}
+
+}  // namespace
+
+Angle MoonPosition::angularRadius() const {
+  return Angle::radians(std::asin(kMoonRadius_m / distance_m));
+}
+
+LunarCoordinates lunarCoordinates(const Instant& instant, const EarthRotation& earth) {
+  constexpr double kJ2000 = 2451545.0;
+  const JulianTimes times = julianTimes(instant, earth);
+  const double tt_days = times.jce * 36525.0;
+  double moon_au[2][3];
+  eraMoon98(kJ2000, tt_days, moon_au);
+  // ERFA left out the light time that Meeus has in his mean longitude.
+  const double light_time_days = eraPm(moon_au[0]) * ERFA_AULT / ERFA_DAYSEC;
+  double seen_au[3];
+  eraPpsp(moon_au[0], -light_time_days, moon_au[1], seen_au);
+
+  // The same precession by which eraMoon98 came from the ecliptic of date, so that its errors in a far year
+  // cancel.
+  const Nutation wobble = nutation(times.jce);
+  double obliquity, bias[3][3], precession[3][3], both[3][3], nutation_matrix[3][3],
+      true_from_celestial[3][3];
+  eraPn06(kJ2000, tt_days, wobble.longitude_deg * kRadPerDeg, wobble.obliquity_deg * kRadPerDeg, &obliquity,
+          bias, precession, both, nutation_matrix, true_from_celestial);
+  double of_date_au[3];
+  eraRxp(true_from_celestial, seen_au, of_date_au);
+  const Eigen::Vector3d of_date(of_date_au[0], of_date_au[1], of_date_au[2]);
+  const Spherical spherical = sphericalOf(of_date);
+  return {spherical.right_ascension, spherical.declination, of_date.norm() * ERFA_DAU};
+}
+
+MoonPosition moonPosition(const LunarCoordinates& moon, const SolarCoordinates& sun, const Site& site,
+                          const Air& air) {
+  const Observer observer(site);
+  const double local = sun.apparent_sidereal_time.rad() + observer.longitude_rad;
+  const Eigen::Vector3d from_centre =
+      kEquatorialRadius_m *
+      Eigen::Vector3d(observer.x * std::cos(local), observer.x * std::sin(local), observer.y);
+  const Eigen::Vector3d to_moon =
+      moon.distance_m * equatorial(moon.right_ascension, moon.declination) - from_centre;
+  const Eigen::Vector3d to_sun =
+      sun.distance_au * ERFA_DAU * equatorial(sun.right_ascension, sun.declination) - from_centre;
+  const Eigen::Vector3d in_map = mapFromEquator(sun.apparent_sidereal_time, observer) * to_moon;
+  const Spherical seen = sphericalOf(to_moon);
+
+  MoonPosition position;
+  position.azimuth = Azimuth(Angle::radians(std::atan2(in_map.x(), in_map.y())));
+  position.elevation_geometric = Angle::radians(std::atan2(in_map.z(), std::hypot(in_map.x(), in_map.y())));
+  position.elevation = position.elevation_geometric + refraction(position.elevation_geometric, air);
+  position.right_ascension = seen.right_ascension;
+  position.declination = seen.declination;
+  position.distance_m = to_moon.norm();
+  position.phase_angle = between(-to_moon, to_sun - to_moon);
+  position.illuminated_fraction = 0.5 * (1.0 + cos(position.phase_angle));
+  position.bright_limb = brightLimb(seen, sphericalOf(to_sun));
+  return position;
+}
+
+MoonPosition moonPosition(const Instant& instant, const EarthRotation& earth, const Site& site,
+                          const Air& air) {
+  return moonPosition(lunarCoordinates(instant, earth), solarCoordinates(instant, earth), site, air);
+}
+
+}  // namespace sunlit::astronomy

@@ -1,0 +1,96 @@
+#include "sunlit/light/bodies.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace sunlit::light {
+namespace {
+
+Geometry geometryOf(std::shared_ptr<const scene::Scene> scene,
+                    const std::vector<std::vector<scene::Mesh>>& meshes_of_bodies) {
+  auto meshes_only = std::make_shared<scene::Scene>();
+  for (const auto& meshes : meshes_of_bodies)
+    meshes_only->meshes.insert(meshes_only->meshes.end(), meshes.begin(), meshes.end());
+  Geometry geometry(meshes_only);
+  geometry.scene = std::move(scene);
+  return geometry;
+}
+
+std::vector<std::uint32_t> firstVertices(const std::vector<std::vector<scene::Mesh>>& meshes_of_bodies) {
+  std::vector<std::uint32_t> first;
+  std::uint32_t count = 0;
+  for (const auto& meshes : meshes_of_bodies) {
+    first.push_back(count);
+    for (const scene::Mesh& mesh : meshes) count += static_cast<std::uint32_t>(mesh.positions.size());
+  }
+  first.push_back(count);
+  return first;
+}
+
+/// The plane that the corners of triangle `t` lie in; `before` turned by `rotation` where rounding has left
+/// it no area.
+Plane placedPlane(const Geometry& geometry, std::size_t t, const Eigen::Vector3f& before,
+                  const Eigen::Matrix3d& rotation) {
+  const auto& corners = geometry.triangles[t];
+  const Eigen::Vector3f& a = geometry.positions[corners[0]];
+  if (const auto plane = planeThrough(a, geometry.positions[corners[1]], geometry.positions[corners[2]]))
+    return *plane;
+  Plane plane;
+  plane.normal = (rotation * before.cast<double>()).cast<float>().normalized();
+  plane.offset = plane.normal.cast<double>().dot(a.cast<double>());
+  return plane;
+}
+
+}  // namespace
+
+Bodies::Bodies(std::shared_ptr<const scene::Scene> scene,
+               const std::vector<std::vector<scene::Mesh>>& meshes_of_bodies)
+    : at_home_(geometryOf(std::move(scene), meshes_of_bodies)),
+      first_vertices_(firstVertices(meshes_of_bodies)) {
+  for (std::size_t body = 0; body < count(); ++body)
+    body_of_vertex_.resize(first_vertices_[body + 1], static_cast<std::uint32_t>(body));
+  surfaces_m2_.assign(count(), 0.0f);
+  for (std::uint32_t t = 0; t < at_home_.triangles.size(); ++t) {
+    const auto& corners = at_home_.triangles[t];
+    const Eigen::Vector3f& a = at_home_.positions[corners[0]];
+    const Eigen::Vector3f b = at_home_.positions[corners[1]] - a, c = at_home_.positions[corners[2]] - a;
+    surfaces_m2_[bodyOf(t)] += 0.5f * b.cross(c).norm();
+  }
+}
+
+Eigen::AlignedBox3f Bodies::boxOf(std::size_t body, const Geometry& placed) const {
+  Eigen::AlignedBox3f box;
+  for (std::uint32_t i = first_vertices_[body]; i < first_vertices_[body + 1]; ++i)
+    box.extend(placed.positions[i]);
+  return box;
+}
+
+std::shared_ptr<const Geometry> Bodies::placed(const std::vector<Eigen::Isometry3d>& map_from_body) const {
+  if (map_from_body.size() != count()) {
+    throw std::invalid_argument("map_from_body holds " + std::to_string(map_from_body.size()) +
+                                " transforms, but there are " + std::to_string(count()) + " bodies");
+  }
+  auto geometry = std::make_shared<Geometry>(at_home_);
+  for (std::size_t body = 0; body < count(); ++body) {
+    const Eigen::Isometry3d& place = map_from_body[body];
+    if (!place.matrix().allFinite())
+      throw std::invalid_argument("map_from_body[" + std::to_string(body) + "] is not finite");
+    for (std::uint32_t i = first_vertices_[body]; i < first_vertices_[body + 1]; ++i) {
+      geometry->positions[i] = (place * at_home_.positions[i].cast<double>()).cast<float>();
+      geometry->normals[i] = (place.linear() * at_home_.normals[i].cast<double>()).cast<float>();
+    }
+  }
+  for (std::size_t t = 0; t < geometry->triangles.size(); ++t) {
+    const Eigen::Isometry3d& place = map_from_body[bodyOf(static_cast<std::uint32_t>(t))];
+    geometry->planes[t] = placedPlane(*geometry, t, at_home_.planes[t].normal, place.linear());
+  }
+  for (Chunk& chunk : geometry->chunks) {
+    chunk.box.setEmpty();
+    for (std::uint32_t t = chunk.first; t < chunk.first + chunk.count; ++t) {
+      for (const std::uint32_t vertex : geometry->triangles[t]) chunk.box.extend(geometry->positions[vertex]);
+    }
+  }
+  return geometry;
+}
+
+}  // namespace sunlit::light

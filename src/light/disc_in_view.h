@@ -1,0 +1,44 @@
+/// The visible disc of a distant light, with its phase.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "sunlit/light/surfaces.h"
+#include "sunlit/sky/daylight.h"
+
+namespace sunlit::light {
+
+/// The sun shines evenly, the moon by the Lommel-Seeliger law µ0 / (µ0 + µ) over its lit part: dark, rough
+/// ground is as bright towards its rim as in the middle. Either way what all pixels together receive is
+/// DiscLight::illuminance. What of the disc is below the level horizon is not shown.
+class DiscInView {
+ public:
+  /// Keeps a reference to `surfaces`.
+  DiscInView(const Surfaces& surfaces, const sky::DiscLight& disc);
+
+  /// False where pixels that look `towards` (unit) cannot touch the disc.
+  bool near(const Eigen::Vector3f& towards) const { return shines_ && towards.dot(towards_) > near_cosine_; }
+  /// Whether what lies far away in direction `towards` (unit) is behind the disc.
+  bool hides(const Eigen::Vector3f& towards) const { return shines_ && towards.dot(towards_) > disc_cosine_; }
+  /// Its part of the mean luminance of pixel (x, y), cd/m².
+  Eigen::Array3f luminance(int x, int y) const;
+
+ private:
+  double brightness(const Eigen::Vector3d& towards) const;
+
+  const Surfaces& surfaces_;
+  bool shines_;
+  Eigen::Vector3f towards_;
+  float disc_cosine_;  ///< of the disc's radius
+  float near_cosine_;  ///< of the angle beyond which no pixel touches the disc
+  // Double: the disc is small, and a crescent a small part of it.
+  Eigen::Vector3d centre_;                   ///< unit
+  double disc_sine_;                         ///< of the disc's radius
+  std::optional<Eigen::Vector3d> lit_from_;  ///< unit; empty: shines all over
+  Eigen::Array3f mean_luminance_;            ///< cd/m², over the part of the disc above the horizon
+  double brightness_scale_ = 1.0;            ///< so that brightness() has a mean of 1 over the disc
+  int grid_;                                 ///< points a pixel and axis
+};
+
+}  // namespace sunlit::light

@@ -1,0 +1,98 @@
+/// How much of a distant disc, the sun or the moon, each surface of a picture sees.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sunlit/light/surfaces.h"
+#include "sunlit/light/visibility.h"
+#include "sunlit/sky/daylight.h"
+
+namespace sunlit::light {
+
+class DiscVisibility {
+ public:
+  /// Casts all rays, in parallel, unless the disc gives less than `least_lx` on a plane facing it. Keeps
+  /// references.
+  DiscVisibility(const sky::DiscLight& disc, float least_lx, const Visibility& visibility,
+                 const scene::Scene& scene, const Surfaces& surfaces);
+
+  /// False when it gives no light worth casting rays for.
+  bool shines() const { return shines_; }
+  const Eigen::Vector3f& towards() const { return towards_; }
+  float radius_rad() const { return radius_rad_; }
+
+  /// For each surface of Surfaces::tiles[tile] the share of the disc, 0 … 1, that is not hidden, averaged
+  /// over its samples; also behind a thin sheet that light shines through. 0 where the surface is turned
+  /// away.
+  const std::vector<float>& visibleShares(std::size_t tile) const { return shares_[tile]; }
+
+ private:
+  /// What the rays of one surface met, and what the later steps need to know of it: surfaces are large, and
+  /// going through all of them again takes as long as their rays.
+  struct Tally {
+    std::uint32_t pixel = 0;
+    std::uint8_t cast = 0, lit = 0;
+    bool leaves = false;  ///< it has holes, as foliage
+    bool mixed() const { return lit > 0 && lit < cast; }
+  };
+  /// Each step casts more rays, where those of the step before found an edge.
+  enum class Step {
+    kProbe,   ///< one ray a surface
+    kSample,  ///< as many as it has samples, where probes within two pixels met both light and dark
+    kRefine,  ///< many over the disc, in penumbrae
+  };
+  struct RayList;
+  /// One byte a pixel, with a margin, so that each has neighbours all around.
+  class PixelMap {
+   public:
+    PixelMap(int width, int height)
+        : stride_(static_cast<std::size_t>(width) + 2 * kMargin),
+          width_(static_cast<std::uint32_t>(width)),
+          values_(stride_ * (static_cast<std::size_t>(height) + 2 * kMargin) + sizeof(std::uint64_t), 0) {}
+    std::uint8_t& at(std::uint32_t pixel) { return values_[place(pixel)]; }
+    /// All bits of the 5 × 5 pixels about this one.
+    std::uint8_t anyAround(std::uint32_t pixel) const;
+    /// How many of the pixel and its eight neighbours are not 0.
+    int countAround(std::uint32_t pixel) const;
+
+   private:
+    static constexpr std::size_t kMargin = 2;
+    std::size_t place(std::uint32_t pixel) const {
+      return (pixel / width_ + kMargin) * stride_ + pixel % width_ + kMargin;
+    }
+    std::size_t stride_;
+    std::uint32_t width_;
+    std::vector<std::uint8_t> values_;
+  };
+
+  void castAll();
+  void castTile(std::size_t tile, Step step);
+  bool facesDisc(const Surface& surface) const;
+  bool wantsMore(const Tally& tally, Step step) const;
+  void appendRays(const Tile& tile, std::uint32_t surface, Step step, RayList* rays);
+  void note(std::size_t tile, Step step);
+  /// How many rays `surface` has had once `step` is done.
+  int raysAfter(Step step, const Surface& surface) const;
+  const scene::Material& materialOf(const Surface& surface) const {
+    return scene_.materials[static_cast<std::size_t>(surface.material)];
+  }
+
+  const Visibility& visibility_;
+  const scene::Scene& scene_;
+  const Surfaces& surfaces_;
+  bool shines_;
+  Eigen::Vector3f towards_;
+  float radius_rad_;
+  static constexpr int kPoints = 16;
+  std::array<Eigen::Vector3f, kPoints>
+      directions_;  ///< to points all over the disc, in the order of their use
+  std::vector<std::vector<Tally>> tallies_;
+  std::vector<std::vector<float>> shares_;
+  PixelMap met_;    ///< by the probes: kLit, kDark or both
+  PixelMap mixed_;  ///< 1 where rays of one surface disagree
+};
+
+}  // namespace sunlit::light

@@ -1,0 +1,30 @@
+/// The mirror-like part of a surface's reflection.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace sunlit::light {
+
+/// The GGX lobe of one roughness and angle of view in parts of equal weight (those of a dielectric), each
+/// seen as one direction: along the view, to the left of it, along the normal; about unit length.
+struct MirrorLobe {
+  static constexpr int kParts = 16;
+  std::array<Eigen::Vector3f, kParts> towards;
+};
+
+/// Interpolated in a table, made at the first call. `n_v`: cosine between normal and eye.
+MirrorLobe mirrorLobe(float roughness, float n_v);
+
+/// Sums over the lobe: with 1 cd/m² from everywhere the mirror-like part shows F0 · plain + grazing, where F
+/// = F0 (1 − c) + c is Schlick's Fresnel with c = (1 − v·h)^5.
+struct MirrorAlbedo {
+  float plain, grazing;
+};
+MirrorAlbedo mirrorAlbedo(float roughness, float n_v);
+
+/// The mean of (1 − v·h)^5 over a hemisphere of even light, by cosine: what Fresnel takes from the Lambert
+/// part.
+float meanGrazing(float n_v);
+
+}  // namespace sunlit::light

@@ -1,0 +1,212 @@
+#include "light/reference/paths.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sunlit/quantity/angle.h"
+
+namespace sunlit::light {
+namespace {
+
+/// Random numbers of one bounce: three for the direction, two for the place on the disc, two for the place in
+/// the sky, one for its survival.
+enum Dimension : std::size_t { kDirection = 0, kOnDisc = 3, kInSky = 5, kSurvival = 7, kPerBounce = 8 };
+constexpr int kSureBounces = 3;
+
+void appendDisc(const sky::DiscLight& light, std::size_t day, std::vector<Disc>* discs) {
+  if (!(light.illuminance.value.maxCoeff() > 0.0f)) return;
+  Disc disc;
+  disc.day = day;
+  disc.towards = light.towards.vector().cast<float>();
+  const Eigen::Vector3f across =
+      std::abs(disc.towards.z()) < 0.9f ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX();
+  disc.right =
+      across.cross(disc.towards).normalized() * static_cast<float>(std::tan(light.angular_radius.rad()));
+  disc.up = disc.towards.cross(disc.right);
+  disc.illuminance = light.illuminance.value;
+  discs->push_back(disc);
+}
+
+}  // namespace
+
+PathScene::PathScene(const World& world_to_trace, const std::vector<sky::Daylight>& days_to_trace,
+                     const ReferenceOptions& options_to_use, int samples_in_pixel)
+    : world(world_to_trace),
+      days(days_to_trace),
+      options(options_to_use),
+      samples_per_pixel(samples_in_pixel),
+      vertices(*world_to_trace.geometry) {
+  for (std::size_t day = 0; day < days.size(); ++day) {
+    appendDisc(days[day].sun(), day, &discs);
+    appendDisc(days[day].moon(), day, &discs);
+    skies.emplace_back(days[day]);
+  }
+}
+
+void Paths::Bundle::clear() {
+  for (auto* list : {&ox, &oy, &oz, &dx, &dy, &dz}) list->clear();
+  path.clear();
+}
+
+void Paths::Bundle::add(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+                        std::size_t of_path) {
+  ox.push_back(origin.x());
+  oy.push_back(origin.y());
+  oz.push_back(origin.z());
+  dx.push_back(direction.x());
+  dy.push_back(direction.y());
+  dz.push_back(direction.z());
+  path.push_back(static_cast<std::uint32_t>(of_path));
+}
+
+Rays Paths::Bundle::rays() const {
+  return {ox.data(), oy.data(), oz.data(), dx.data(), dy.data(), dz.data(), path.size()};
+}
+
+void Paths::start(const Tile& tile, const Surface& surface) {
+  const std::uint64_t place = scrambled((std::uint64_t{scene_.options.seed} << 32) ^ surface.pixel) ^
+                              scrambled(~std::uint64_t{surface.first_sample});
+  // Rounded up, so that each of the surface's samples counts as much as the next.
+  const auto wanted = static_cast<std::uint32_t>(scene_.options.samples_per_pixel / 2);
+  const auto in_pixel = static_cast<std::uint32_t>(scene_.samples_per_pixel);
+  const std::uint32_t count = (wanted + in_pixel - 1) / in_pixel * surface.samples;
+  even_.clear();
+  paths_.clear();
+  for (int half = 0; half < 2; ++half) {
+    const std::uint64_t key = scrambled(place + static_cast<std::uint64_t>(half));
+    even_.emplace_back(key);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      paths_.push_back({seenVertex(tile, surface, *scene_.world.geometry->scene, i % surface.samples),
+                        Eigen::Array3f::Ones(), scrambled(key + 1 + i), i, half});
+    }
+  }
+  for (Radiances& sums : sums_) sums.assign(scene_.days.size(), Eigen::Array3f::Zero());
+}
+
+std::array<Radiances, 2> Paths::luminance(const Tile& tile, const Surface& surface) {
+  start(tile, surface);
+  const auto per_half = static_cast<float>(paths_.size() / 2);
+  for (int bounce = 0; !paths_.empty(); ++bounce) {
+    addEmission();
+    for (const Disc& disc : scene_.discs) addDisc(disc, bounce);
+    for (std::size_t day = 0; day < scene_.days.size(); ++day) addSkyOf(day, bounce);
+    advance(bounce);
+  }
+  for (Radiances& sums : sums_) {
+    for (Eigen::Array3f& sum : sums) sum /= per_half;
+  }
+  return sums_;
+}
+
+float Paths::random(const Path& path, int bounce, std::size_t dimension) const {
+  if (bounce == 0 && dimension < EvenPoints::kDimensions) {
+    return even_[static_cast<std::size_t>(path.half)].at(path.index, dimension);
+  }
+  return uniform(path.key, static_cast<std::uint64_t>(bounce) * kPerBounce + dimension);
+}
+
+void Paths::addEmission() {
+  for (const Path& path : paths_) {
+    const Eigen::Array3f& emission = path.vertex.material->emission.value;
+    if (!(emission.maxCoeff() > 0.0f)) continue;
+    for (Eigen::Array3f& sum : sums_[static_cast<std::size_t>(path.half)]) sum += path.throughput * emission;
+  }
+}
+
+void Paths::addDisc(const Disc& disc, int bounce) {
+  bundle_.clear();
+  weights_.clear();
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    const Vertex& vertex = paths_[i].vertex;
+    const float radius = std::sqrt(random(paths_[i], bounce, kOnDisc));
+    const float angle = static_cast<float>(2.0 * kPi) * random(paths_[i], bounce, kOnDisc + 1);
+    const Eigen::Vector3f towards =
+        (disc.towards + radius * (std::cos(angle) * disc.right + std::sin(angle) * disc.up)).normalized();
+    if (!vertex.faces(towards)) continue;
+    const Eigen::Array3f weight = directReflectance(vertex.reflection, towards, 0.0f);
+    if (!(weight.maxCoeff() > 0.0f)) continue;
+    bundle_.add(vertex.origin(towards), towards, i);
+    weights_.push_back(paths_[i].throughput * weight * disc.illuminance);
+  }
+  castAndAdd(disc.day);
+}
+
+void Paths::castAndAdd(std::size_t day) {
+  blocked_.resize(bundle_.path.size());
+  scene_.world.visibility->occluded(bundle_.rays(), blocked_.data());
+  for (std::size_t i = 0; i < blocked_.size(); ++i) {
+    if (blocked_[i]) continue;
+    sums_[static_cast<std::size_t>(paths_[bundle_.path[i]].half)][day] += weights_[i];
+  }
+}
+
+// Both ways of choosing a direction are weighed by the balance heuristic (Veach 1997, eq. 9.8): together they
+// count a direction by the sum of their densities.
+void Paths::addSkyOf(std::size_t day, int bounce) {
+  bundle_.clear();
+  weights_.clear();
+  const SkySampler& sky = scene_.skies[day];
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    const Path& path = paths_[i];
+    const Eigen::Vector3f towards =
+        sky.sample(random(path, bounce, kInSky), random(path, bounce, kInSky + 1));
+    if (!path.vertex.faces(towards)) continue;
+    const Eigen::Array3f reflectance = directReflectance(path.vertex.reflection, towards, 0.0f);
+    if (!(reflectance.maxCoeff() > 0.0f)) continue;
+    const float density = sky.density(towards) + scatterDensity(path.vertex.reflection, towards);
+    bundle_.add(path.vertex.origin(towards), towards, i);
+    weights_.push_back(path.throughput * reflectance * scene_.days[day].skyLuminance(towards).value /
+                       density);
+  }
+  castAndAdd(day);
+}
+
+void Paths::addSkyMet(const Path& path, const Scattered& scattered) {
+  Radiances& sums = sums_[static_cast<std::size_t>(path.half)];
+  for (std::size_t day = 0; day < sums.size(); ++day) {
+    const float density = scattered.density + scene_.skies[day].density(scattered.towards);
+    sums[day] += path.throughput * scattered.reflectance *
+                 scene_.days[day].skyLuminance(scattered.towards).value / density;
+  }
+}
+
+void Paths::advance(int bounce) {
+  bundle_.clear();
+  scattered_.clear();
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    const Path& path = paths_[i];
+    const Scattered scattered = scatter(
+        path.vertex.reflection, {random(path, bounce, kDirection), random(path, bounce, kDirection + 1),
+                                 random(path, bounce, kDirection + 2)});
+    if (!path.vertex.faces(scattered.towards) || !(scattered.density > 0.0f)) continue;
+    if (!((path.throughput * scattered.reflectance).maxCoeff() > 0.0f)) continue;
+    bundle_.add(path.vertex.origin(scattered.towards), scattered.towards, i);
+    scattered_.push_back(scattered);
+  }
+  hits_.resize(bundle_.path.size());
+  scene_.world.visibility->closest(bundle_.rays(), hits_.data());
+  next_.clear();
+  for (std::size_t i = 0; i < hits_.size(); ++i) {
+    Path& path = paths_[bundle_.path[i]];
+    if (hits_[i].triangle == Hit::kMiss) {
+      addSkyMet(path, scattered_[i]);
+      continue;
+    }
+    path.throughput *= scattered_[i].reflectance / scattered_[i].density;
+    if (bounce >= scene_.options.bounces || !survives(bounce, &path)) continue;
+    path.vertex = scene_.vertices.at(hits_[i], scattered_[i].towards);
+    next_.push_back(path);
+  }
+  paths_.swap(next_);
+}
+
+/// The odds follow what is left of the light; survivors make up for the dead.
+bool Paths::survives(int bounce, Path* path) const {
+  if (bounce < kSureBounces) return true;
+  const float odds = std::clamp(path->throughput.maxCoeff(), 0.05f, 0.95f);
+  if (random(*path, bounce, kSurvival) >= odds) return false;
+  path->throughput /= odds;
+  return true;
+}
+
+}  // namespace sunlit::light

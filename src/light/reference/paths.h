@@ -1,0 +1,90 @@
+/// All paths of light that end in one surface of the picture, traced side by side.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "light/reference/random.h"
+#include "light/reference/scatter.h"
+#include "light/reference/sky_sampler.h"
+#include "light/reference/vertex.h"
+#include "sunlit/light/reference.h"
+
+namespace sunlit::light {
+
+/// A sun or moon that shines.
+struct Disc {
+  std::size_t day;
+  Eigen::Vector3f towards;
+  Eigen::Vector3f right, up;  ///< span it; as long as the tangent of its radius
+  Eigen::Array3f illuminance;
+};
+
+/// What all pixels share.
+struct PathScene {
+  PathScene(const World& world_to_trace, const std::vector<sky::Daylight>& days_to_trace,
+            const ReferenceOptions& options_to_use, int samples_in_pixel);
+
+  const World& world;
+  const std::vector<sky::Daylight>& days;
+  ReferenceOptions options;
+  int samples_per_pixel;  ///< Surfaces::samples_per_pixel
+  SceneVertices vertices;
+  std::vector<Disc> discs;
+  std::vector<SkySampler> skies;  ///< one a day
+};
+
+/// Of one half of the paths, one a day.
+using Radiances = std::vector<Eigen::Array3f>;
+
+class Paths {
+ public:
+  explicit Paths(const PathScene& scene) : scene_(scene) {}
+
+  /// Mean luminance of `surface` by each half of its paths, without the air before it.
+  std::array<Radiances, 2> luminance(const Tile& tile, const Surface& surface);
+
+ private:
+  struct Path {
+    Vertex vertex;
+    Eigen::Array3f throughput;
+    std::uint64_t key;    ///< of its random numbers
+    std::uint32_t index;  ///< within its half
+    int half;
+  };
+  /// Rays as arrays, and the path that each belongs to.
+  struct Bundle {
+    std::vector<float> ox, oy, oz, dx, dy, dz;
+    std::vector<std::uint32_t> path;
+    void clear();
+    void add(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, std::size_t of_path);
+    Rays rays() const;
+  };
+
+  void start(const Tile& tile, const Surface& surface);
+  float random(const Path& path, int bounce, std::size_t dimension) const;
+  void addEmission();
+  void addDisc(const Disc& disc, int bounce);
+  /// Sky by directions chosen for its brightness, ...
+  void addSkyOf(std::size_t day, int bounce);
+  /// ... and where a ray chosen by the surface meets it.
+  void addSkyMet(const Path& path, const Scattered& scattered);
+  void castAndAdd(std::size_t day);
+  /// To the next surfaces. Paths that reach the sky or die are gone afterwards.
+  void advance(int bounce);
+  bool survives(int bounce, Path* path) const;
+
+  const PathScene& scene_;
+  std::vector<Path> paths_, next_;
+  std::vector<EvenPoints> even_;  ///< one a half
+  std::array<Radiances, 2> sums_;
+  Bundle bundle_;
+  std::vector<std::uint8_t> blocked_;
+  std::vector<Eigen::Array3f> weights_;  ///< what each ray of the bundle adds if nothing stops it
+  std::vector<Scattered> scattered_;
+  std::vector<Hit> hits_;
+};
+
+}  // namespace sunlit::light

@@ -1,0 +1,90 @@
+#include "sunlit/light/reference.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "light/reference/paths.h"
+#include "light/sky_pixel.h"
+
+namespace sunlit::light {
+namespace {
+
+void require(bool good, const char* key, int value, const char* range) {
+  if (!good) {
+    throw std::invalid_argument(std::string(key) + " is " + std::to_string(value) + ", must be " + range);
+  }
+}
+
+/// Adds one surface's light to its pixel, by halves.
+using Halves = std::array<std::vector<image::LinearImage>, 2>;
+
+void traceTile(const Surfaces& surfaces, const Tile& tile, const PathScene& scene, Halves* halves) {
+  Paths paths(scene);
+  for (const Surface& surface : tile.surfaces) {
+    const float share = static_cast<float>(surface.samples) / static_cast<float>(surfaces.samples_per_pixel);
+    const float distance = (surface.position - surfaces.eye).norm();
+    const std::array<Radiances, 2> traced = paths.luminance(tile, surface);
+    for (std::size_t day = 0; day < scene.days.size(); ++day) {
+      const sky::AirColumn air = scene.days[day].airOver(-surface.to_eye, distance);
+      for (std::size_t half = 0; half < 2; ++half) {
+        float* data = (*halves)[half][day].data.data() + 3 * static_cast<std::size_t>(surface.pixel);
+        Eigen::Map<Eigen::Array3f> pixel(data);
+        pixel += share * (traced[half][day] * air.transmittance + air.airlight);
+      }
+    }
+  }
+}
+
+float luminanceAt(const image::LinearImage& image, std::size_t pixel) {
+  return LinearRgb(Eigen::Array3f(Eigen::Map<const Eigen::Array3f>(image.data.data() + 3 * pixel)))
+      .luminance();
+}
+
+Traced combined(const image::LinearImage& first, const image::LinearImage& second) {
+  Traced traced{image::LinearImage(first.width, first.height),
+                image::Picture<float, 1>(first.width, first.height)};
+  for (std::size_t i = 0; i < first.data.size(); ++i) {
+    traced.luminance.data[i] = 0.5f * (first.data[i] + second.data[i]);
+  }
+  for (std::size_t p = 0; p < traced.noise.data.size(); ++p) {
+    traced.noise.data[p] = 0.5f * std::abs(luminanceAt(first, p) - luminanceAt(second, p));
+  }
+  return traced;
+}
+
+}  // namespace
+
+void validate(const ReferenceOptions& options) {
+  require(options.samples_per_pixel >= 2 && options.samples_per_pixel <= 65536, "samples_per_pixel",
+          options.samples_per_pixel, "2 ... 65536");
+  require(options.bounces >= 0 && options.bounces <= 64, "bounces", options.bounces, "0 ... 64");
+}
+
+std::vector<Traced> traceReference(const Surfaces& surfaces, const World& world,
+                                   const std::vector<sky::Daylight>& days, const ReferenceOptions& options) {
+  validate(options);
+  const PathScene scene(world, days, options, surfaces.samples_per_pixel);
+  Halves halves;
+  for (auto& half : halves) half.assign(days.size(), image::LinearImage(surfaces.width, surfaces.height));
+  std::vector<SkyPixel> skies;
+  skies.reserve(days.size());
+  for (const sky::Daylight& day : days) skies.emplace_back(surfaces, day);
+  tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(), [&](std::size_t i) {
+    const Tile& tile = surfaces.tiles[i];
+    for (auto& half : halves) {
+      for (std::size_t day = 0; day < days.size(); ++day) skies[day].addTo(tile, &half[day]);
+    }
+    traceTile(surfaces, tile, scene, &halves);
+  });
+  std::vector<Traced> traced;
+  for (std::size_t day = 0; day < days.size(); ++day) {
+    traced.push_back(combined(halves[0][day], halves[1][day]));
+  }
+  return traced;
+}
+
+}  // namespace sunlit::light

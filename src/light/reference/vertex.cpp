@@ -1,0 +1,111 @@
+#include "light/reference/vertex.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunlit::light {
+namespace {
+
+/// How far off its triangle a ray starts, m; see render's clearance().
+float clearance(const Eigen::Vector3f& position, float distance) {
+  return 2e-4f + 5e-7f * position.cwiseAbs().maxCoeff() + 1e-6f * distance;
+}
+
+/// The four texels about a texture coordinate, repeating.
+struct Texels {
+  int x0, x1, y0, y1;
+  float fx, fy;
+  Texels(const scene::Texture& texture, const Eigen::Vector2f& at) {
+    const float x = (at.x() - std::floor(at.x())) * static_cast<float>(texture.width) - 0.5f;
+    const float y = (at.y() - std::floor(at.y())) * static_cast<float>(texture.height) - 0.5f;
+    const int left = static_cast<int>(std::floor(x));
+    const int above = static_cast<int>(std::floor(y));
+    fx = x - static_cast<float>(left);
+    fy = y - static_cast<float>(above);
+    x0 = (left + texture.width) % texture.width;
+    x1 = (left + 1) % texture.width;
+    y0 = (above + texture.height) % texture.height;
+    y1 = (above + 1) % texture.height;
+  }
+};
+
+template <typename Value>
+Value interpolated(const std::vector<Value>& of_vertices, const std::array<std::uint32_t, 3>& corners,
+                   const Hit& hit) {
+  return (1.0f - hit.u - hit.v) * of_vertices[corners[0]] + hit.u * of_vertices[corners[1]] +
+         hit.v * of_vertices[corners[2]];
+}
+
+}  // namespace
+
+Vertex seenVertex(const Tile& tile, const Surface& surface, const scene::Scene& scene, std::uint32_t sample) {
+  Vertex vertex;
+  vertex.material = &scene.materials[static_cast<std::size_t>(surface.material)];
+  vertex.reflection = {surface.shading_normal,
+                       surface.to_eye,
+                       surface.albedo,
+                       vertex.material->roughness,
+                       vertex.material->metalness,
+                       vertex.material->transmission};
+  vertex.geometric_normal = surface.geometric_normal;
+  const std::size_t at = surface.first_sample + sample;
+  vertex.front = {tile.origin_x[at], tile.origin_y[at], tile.origin_z[at]};
+  vertex.behind = vertex.front - 2.0f * surface.clearance_m * surface.geometric_normal;
+  return vertex;
+}
+
+SceneVertices::SceneVertices(const Geometry& geometry) : geometry_(geometry) {
+  for (std::size_t code = 0; code < linear_.size(); ++code) {
+    const double encoded = static_cast<double>(code) / 255.0;  // IEC 61966-2-1
+    linear_[code] =
+        static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+  }
+}
+
+Vertex SceneVertices::at(const Hit& hit, const Eigen::Vector3f& direction) const {
+  const auto& corners = geometry_.triangles[hit.triangle];
+  Vertex vertex;
+  vertex.material = &geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[hit.triangle])];
+  const Eigen::Vector3f& front = geometry_.planes[hit.triangle].normal;
+  vertex.geometric_normal = front.dot(direction) > 0.0f ? Eigen::Vector3f(-front) : front;
+  Eigen::Vector3f normal = interpolated(geometry_.normals, corners, hit);
+  const float length = normal.norm();
+  normal = length > 1e-6f ? Eigen::Vector3f(normal / length) : vertex.geometric_normal;
+  if (normal.dot(vertex.geometric_normal) < 0.0f) normal = -normal;
+  vertex.reflection = {normal,
+                       -direction,
+                       albedo(hit, *vertex.material),
+                       vertex.material->roughness,
+                       vertex.material->metalness,
+                       vertex.material->transmission};
+  // Of the corners: far from where the ray started, they tell the place better than its length.
+  const Eigen::Vector3f position = interpolated(geometry_.positions, corners, hit);
+  const Eigen::Vector3f step = clearance(position, 0.0f) * vertex.geometric_normal;
+  vertex.front = position + step;
+  vertex.behind = position - step;
+  return vertex;
+}
+
+Eigen::Array3f SceneVertices::albedo(const Hit& hit, const scene::Material& material) const {
+  const auto& corners = geometry_.triangles[hit.triangle];
+  Eigen::Array3f product = material.base_color.value * interpolated(geometry_.colors, corners, hit);
+  if (material.base_texture != scene::Material::kNoTexture) {
+    const scene::Texture& texture =
+        geometry_.scene->textures[static_cast<std::size_t>(material.base_texture)];
+    const Texels texels(texture, interpolated(geometry_.texture_coordinates, corners, hit));
+    const auto texel = [&](int x, int y) {
+      const std::uint8_t* rgba =
+          texture.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width) +
+                                     static_cast<std::size_t>(x));
+      return Eigen::Array3f(linear_[rgba[0]], linear_[rgba[1]], linear_[rgba[2]]);
+    };
+    const Eigen::Array3f top =
+        texel(texels.x0, texels.y0) * (1.0f - texels.fx) + texel(texels.x1, texels.y0) * texels.fx;
+    const Eigen::Array3f bottom =
+        texel(texels.x0, texels.y1) * (1.0f - texels.fx) + texel(texels.x1, texels.y1) * texels.fx;
+    product *= top * (1.0f - texels.fy) + bottom * texels.fy;
+  }
+  return product.max(0.0f).min(1.0f);
+}
+
+}  // namespace sunlit::light

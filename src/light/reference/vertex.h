@@ -1,0 +1,48 @@
+/// A point of a path of light, where it meets a surface.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "sunlit/light/geometry.h"
+#include "sunlit/light/shading.h"
+#include "sunlit/light/surfaces.h"
+#include "sunlit/light/visibility.h"
+
+namespace sunlit::light {
+
+struct Vertex {
+  Reflection reflection;
+  Eigen::Vector3f geometric_normal;  ///< unit, on the side of the eye
+  Eigen::Vector3f front, behind;     ///< where rays on either side start, m in `map`
+  const scene::Material* material;
+
+  /// Whether light can come from `towards` at all, as far as this surface itself is concerned.
+  bool faces(const Eigen::Vector3f& towards) const {
+    return reflection.transmission > 0.0f || geometric_normal.dot(towards) > 0.0f;
+  }
+  const Eigen::Vector3f& origin(const Eigen::Vector3f& towards) const {
+    return geometric_normal.dot(towards) > 0.0f ? front : behind;
+  }
+};
+
+/// Surface of the picture, seen by its sample number `sample`.
+Vertex seenVertex(const Tile& tile, const Surface& surface, const scene::Scene& scene, std::uint32_t sample);
+
+/// What bounced light meets.
+class SceneVertices {
+ public:
+  explicit SceneVertices(const Geometry& geometry);
+
+  /// Where a ray that came along unit vector `direction` ends.
+  Vertex at(const Hit& hit, const Eigen::Vector3f& direction) const;
+
+ private:
+  Eigen::Array3f albedo(const Hit& hit, const scene::Material& material) const;
+
+  const Geometry& geometry_;
+  std::array<float, 256> linear_;  ///< of an sRGB-encoded byte
+};
+
+}  // namespace sunlit::light

@@ -1,0 +1,42 @@
+/// What rays of the bake meet first.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "sunlit/light/geometry.h"
+
+namespace sunlit::light {
+
+/// Rays that leave together: alike in direction, or in place.
+struct RayPacket {
+  static constexpr int kSize = 16;
+  alignas(64) float origin_x[kSize], origin_y[kSize], origin_z[kSize];  ///< m in `map`
+  alignas(64) float towards_x[kSize], towards_y[kSize], towards_z[kSize];
+  alignas(64) int valid[kSize];  ///< −1: cast it; 0: leave it out
+};
+
+struct HitPacket {
+  static constexpr std::uint32_t kNothing = 0xffffffffu;
+  std::uint32_t triangle[RayPacket::kSize];        ///< index into Geometry::triangles, or kNothing
+  float u[RayPacket::kSize], v[RayPacket::kSize];  ///< shares of the triangle's second and third corner
+  float distance[RayPacket::kSize];                ///< in lengths of the direction
+};
+
+/// Surfaces stop light from both sides; masked ones let it through where they are cut out.
+class BakeRays {
+ public:
+  /// Keeps `geometry` alive. Throws std::runtime_error if the ray library fails.
+  explicit BakeRays(std::shared_ptr<const Geometry> geometry);
+  ~BakeRays();
+  BakeRays(const BakeRays&) = delete;
+  BakeRays& operator=(const BakeRays&) = delete;
+
+  void cast(const RayPacket& rays, HitPacket* hits) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace sunlit::light

@@ -1,0 +1,176 @@
+#include "light/transport/cache_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <set>
+#include <stdexcept>
+#include <system_error>
+
+namespace sunlit::light {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Goes up whenever the bake or the layout below changes.
+constexpr std::uint32_t kVersion = 2;
+constexpr char kMagic[8] = {'s', 'u', 'n', 'l', 'i', 't', 'T', '\n'};
+
+struct Header {
+  char magic[8];
+  std::uint32_t version;
+  std::uint32_t patches;
+  std::uint64_t key[2];
+  std::uint64_t counts[10];   ///< of the arrays, in the order of visitArrays()
+  std::uint64_t checksum[2];  ///< of all that follows
+};
+static_assert(sizeof(Header) == 128, "no padding goes to the file");
+
+[[noreturn]] void fail(const fs::path& file, const std::string& what) {
+  throw std::runtime_error(file.string() + ": " + what);
+}
+
+template <typename Data, typename Visit>
+void visitArrays(Data& data, const Visit& visit) {
+  visit(data.mesh.roots);
+  visit(data.mesh.cells);
+  visit(data.mesh.first_share);
+  visit(data.mesh.shares);
+  visit(data.direct.rows);
+  visit(data.direct.scales);
+  visit(data.bounced.rows);
+  visit(data.bounced.scales);
+  visit(data.tints);
+  visit(data.glows);
+}
+
+void addMaterial(const scene::Material& material, ContentHash* hash) {
+  for (const float channel : material.base_color.value) hash->add(channel);
+  for (const float channel : material.emission.value) hash->add(channel);
+  hash->add(material.base_texture);
+  hash->add(material.roughness);
+  hash->add(material.metalness);
+  hash->add(material.transmission);
+  hash->add(material.alpha_mode);
+  hash->add(material.alpha_cutoff);
+  hash->add(static_cast<int>(material.double_sided));
+}
+
+}  // namespace
+
+ContentHash bakeKey(const Geometry& geometry, const TransportOptions& options) {
+  ContentHash hash;
+  hash.add(kVersion);
+  hash.add(options.rays_per_patch);
+  hash.add(options.bounces);
+  hash.add(options.finest_m);
+  hash.add(options.samples);
+  hash.add(geometry.positions);
+  hash.add(geometry.normals);
+  hash.add(geometry.texture_coordinates);
+  hash.add(geometry.colors);
+  hash.add(geometry.triangles);
+  hash.add(geometry.materials);
+  // Only what the geometry uses: materials of bodies that move follow after those of the scene.
+  std::size_t materials = 0, textures = 0;
+  for (const std::int32_t used : geometry.materials)
+    materials = std::max(materials, static_cast<std::size_t>(used) + 1);
+  for (std::size_t i = 0; i < materials; ++i) {
+    const scene::Material& material = geometry.scene->materials[i];
+    addMaterial(material, &hash);
+    textures = std::max(textures, static_cast<std::size_t>(material.base_texture + 1));
+  }
+  for (std::size_t i = 0; i < textures; ++i) {
+    const scene::Texture& texture = geometry.scene->textures[i];
+    hash.add(texture.width);
+    hash.add(texture.height);
+    hash.add(texture.rgba);
+  }
+  return hash;
+}
+
+std::unique_ptr<TransportData> readBake(const fs::path& file, const ContentHash& key) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail(file, "cannot be read");
+  Header header;
+  if (!stream.read(reinterpret_cast<char*>(&header), sizeof(header)) ||
+      std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0)
+    fail(file, "is no baked light");
+  if (header.version != kVersion || header.patches != SkyPatches::kCount) fail(file, "is of another version");
+  if (header.key[0] != key.first() || header.key[1] != key.second()) fail(file, "is of another scene");
+  auto data = std::make_unique<TransportData>();
+  const std::uint64_t size = fs::file_size(file);
+  std::uint64_t expected = sizeof(header);
+  std::size_t array = 0;
+  visitArrays(*data, [&](auto& values) {
+    const std::uint64_t count = header.counts[array++];
+    if (count >> 40 != 0) fail(file, "is damaged");  // and the sum of sizes would overflow
+    expected += count * sizeof(values[0]);
+  });
+  if (size != expected) fail(file, size < expected ? "is cut short" : "is longer than it should be");
+  ContentHash checksum;
+  array = 0;
+  visitArrays(*data, [&](auto& values) {
+    values.resize(header.counts[array++]);
+    stream.read(reinterpret_cast<char*>(values.data()),
+                static_cast<std::streamsize>(values.size() * sizeof(values[0])));
+    checksum.add(values);
+  });
+  if (!stream) fail(file, "cannot be read to its end");
+  if (checksum.first() != header.checksum[0] || checksum.second() != header.checksum[1])
+    fail(file, "is damaged");
+  return data;
+}
+
+void writeBake(const fs::path& file, const ContentHash& key, const TransportData& data) {
+  Header header{};
+  std::memcpy(header.magic, kMagic, sizeof(kMagic));
+  header.version = kVersion;
+  header.patches = SkyPatches::kCount;
+  header.key[0] = key.first();
+  header.key[1] = key.second();
+  ContentHash checksum;
+  std::size_t array = 0;
+  visitArrays(data, [&](const auto& values) {
+    header.counts[array++] = values.size();
+    checksum.add(values);
+  });
+  header.checksum[0] = checksum.first();
+  header.checksum[1] = checksum.second();
+  const fs::path unfinished = file.string() + "." + std::to_string(getpid()) + ".part";
+  std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
+  stream.write(reinterpret_cast<const char*>(&header), sizeof(header));
+  visitArrays(data, [&](const auto& values) {
+    stream.write(reinterpret_cast<const char*>(values.data()),
+                 static_cast<std::streamsize>(values.size() * sizeof(values[0])));
+  });
+  stream.close();
+  std::error_code error;
+  if (stream) fs::rename(unfinished, file, error);
+  if (!stream || error) {
+    fs::remove(unfinished, error);
+    fail(file, "cannot be written");
+  }
+}
+
+BakeLock::BakeLock(const fs::path& file)
+    : descriptor_(open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) fail(file, std::strerror(errno));
+  while (flock(descriptor_, LOCK_EX) != 0) {
+    if (errno == EINTR) continue;
+    const std::string why = std::strerror(errno);
+    close(descriptor_);
+    fail(file, why);
+  }
+}
+
+BakeLock::~BakeLock() {
+  close(descriptor_);
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,38 @@
+/// A bake on disk.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "light/transport/content_hash.h"
+#include "light/transport/transport_data.h"
+#include "sunlit/light/geometry.h"
+#include "sunlit/light/transport.h"
+
+namespace sunlit::light {
+
+/// Of everything that a bake depends on.
+ContentHash bakeKey(const Geometry& geometry, const TransportOptions& options);
+
+/// Throws std::runtime_error with the path and what is wrong: it can't be read, is cut short, is damaged, is
+/// of another version, or is of another bake than `key`.
+std::unique_ptr<TransportData> readBake(const std::filesystem::path& file, const ContentHash& key);
+
+/// Complete or not at all: written beside `file` first. Throws std::runtime_error with the path.
+void writeBake(const std::filesystem::path& file, const ContentHash& key, const TransportData& data);
+
+/// Held by one process at a time, as long as it lives. Waits for its turn; given back by the system when a
+/// process dies.
+class BakeLock {
+ public:
+  /// Throws std::runtime_error with the path if the file can't be made.
+  explicit BakeLock(const std::filesystem::path& file);
+  ~BakeLock();
+  BakeLock(const BakeLock&) = delete;
+  BakeLock& operator=(const BakeLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace sunlit::light

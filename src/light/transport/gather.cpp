@@ -1,0 +1,228 @@
+#include "light/transport/gather.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <mutex>
+
+#include "light/transport/probe.h"
+#include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/photometry.h"
+
+namespace sunlit::light {
+namespace {
+
+constexpr int kPatches = SkyPatches::kCount;
+constexpr std::uint32_t kDirectionShift = 24;  ///< a hit: the sample there, and above it the coarse direction
+constexpr std::uint32_t kSampleMask = (1u << kDirectionShift) - 1;
+constexpr std::size_t kPacket = RayPacket::kSize;
+constexpr float kMostInside = 0.6f;  ///< share of rays that may end inside bodies
+constexpr float kPiFloat = static_cast<float>(kPi);
+
+using Row = std::array<float, kPatches>;
+
+float luminanceOf(const Eigen::Array3f& rgb) {
+  return LinearRgb(rgb).luminance();
+}
+
+class Gatherer {
+ public:
+  Gatherer(const BakeScene& scene, const SceneSamples& samples, const GatherOptions& options)
+      : geometry_(scene.geometry),
+        rays_(scene.rays),
+        traits_(scene.traits),
+        samples_(samples),
+        options_(options),
+        patches_(options.rays_per_patch),
+        count_(samples.sites.size()) {}
+
+  std::vector<bool> gather(TransportData* data) {
+    data->direct.resize(count_);
+    data->bounced.resize(count_);
+    data->tints.assign(count_, {1.0f, 1.0f, 1.0f});
+    data->glows.assign(count_, {0.0f, 0.0f, 0.0f});
+    seen_.resize(count_);
+    const std::size_t packets = (count_ + kPacket - 1) / kPacket;
+    const double direct_share = options_.bounces > 0 ? 0.7 : 1.0;
+    tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
+      lookAround(p * kPacket, data);
+      step(direct_share / static_cast<double>(packets));
+    });
+    for (int bounce = 0; bounce < options_.bounces; ++bounce)
+      passOn(data, (1.0 - direct_share) / options_.bounces);
+    std::vector<bool> inside(count_);
+    for (std::size_t i = 0; i < count_; ++i) inside[i] = seen_[i].inside;
+    return inside;
+  }
+
+ private:
+  /// What a sample's coarse rays hit.
+  struct Seen {
+    std::vector<std::uint32_t> hits;
+    float scale_up = 0.0f, scale_down = 0.0f;  ///< of the hits' weights, by direction
+    bool inside = false;                       ///< of a body
+  };
+  /// Sums over the rays of one sample.
+  struct Sums {
+    float all = 0.0f, inside = 0.0f, blocked_up = 0.0f;
+    float coarse_blocked_up = 0.0f;
+  };
+
+  void step(double share) {
+    const std::lock_guard<std::mutex> lock(progress_mutex_);
+    done_ += share;
+    if (options_.progress) options_.progress(std::min(done_, 1.0));
+  }
+
+  /// Whose light a ray meets: a cell tree, or kNone for the inside of a body.
+  std::uint32_t rootAt(const HitPacket& hits, int lane, const Eigen::Vector3f& towards) const {
+    const std::uint32_t t = hits.triangle[lane];
+    const std::size_t side = geometry_.planes[t].normal.dot(towards) > 0.0f ? 1 : 0;
+    if (side == 1 && traits_[t].solid) return LightMesh::kNone;
+    const std::uint32_t root = samples_.mesh.roots[t][side];
+    return root == LightMesh::kNone ? samples_.mesh.roots[t][1 - side] : root;
+  }
+
+  /// The sample nearest to where a ray hit.
+  std::uint32_t sampleAt(std::uint32_t root, float u, float v) const {
+    const LightMesh::Place place = samples_.mesh.locate(root, {1.0f - u - v, u, v});
+    const auto largest = std::max_element(place.weight.begin(), place.weight.end()) - place.weight.begin();
+    return samples_.nearest_sample[place.node[static_cast<std::size_t>(largest)]];
+  }
+
+  void lookAround(std::size_t first, TransportData* data) {
+    const int count = static_cast<int>(std::min(kPacket, count_ - first));
+    std::array<Row, kPacket> rows{};
+    std::array<Sums, kPacket> sums{};
+    const auto& rays = patches_.rays();
+    probe(rays_, rays, samples_.sites.data() + first, count,
+          [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
+            const auto i = static_cast<std::size_t>(lane);
+            sums[i].all += weight;
+            if (hits.triangle[lane] == HitPacket::kNothing) {
+              rows[i][static_cast<std::size_t>(rays[r].patch)] += weight;
+              return;
+            }
+            const std::uint32_t root = rootAt(hits, lane, rays[r].towards);
+            if (root == LightMesh::kNone) {
+              sums[i].inside += weight;
+              return;
+            }
+            const bool up = rays[r].patch != SkyPatches::kBelow;
+            if (up) sums[i].blocked_up += weight;
+            if (rays[r].coarse == SkyPatches::Ray::kFineOnly) return;
+            if (up) sums[i].coarse_blocked_up += weight;
+            const std::uint32_t sample = sampleAt(root, hits.u[lane], hits.v[lane]);
+            seen_[first + i].hits.push_back(static_cast<std::uint32_t>(rays[r].coarse) << kDirectionShift |
+                                            sample);
+          });
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      // The quadrature of a cosine over the hemisphere is π; rays that end inside bodies tell nothing.
+      const float told = std::max(sums[i].all - sums[i].inside, 0.05f * sums[i].all);
+      const float scale = kPiFloat / told;
+      for (float& value : rows[i]) value *= scale;
+      data->direct.set(first + i, rows[i].data());
+      Seen& seen = seen_[first + i];
+      seen.inside = sums[i].inside > kMostInside * sums[i].all;
+      seen.scale_down = scale;
+      seen.scale_up = scale;
+      if (sums[i].coarse_blocked_up > 0.0f && !samples_.sites[first + i].coarse) {
+        // The coarse rays stand for all that hit something.
+        const float stand_for = sums[i].coarse_blocked_up * static_cast<float>(options_.rays_per_patch);
+        seen.scale_up *= std::clamp(sums[i].blocked_up / stand_for, 0.25f, 4.0f);
+      }
+    }
+  }
+
+  /// Adds one bounce: what every sample passes on of all that it has by now.
+  void passOn(TransportData* data, double share) {
+    Coefficients sent;  // luminance × π
+    sent.resize(count_);
+    std::vector<Sent> others(count_);
+    constexpr std::size_t kBlock = 256;
+    const std::size_t blocks = (count_ + kBlock - 1) / kBlock;
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      for (std::size_t i = block * kBlock; i < std::min(count_, (block + 1) * kBlock); ++i)
+        others[i] = send(*data, i, &sent);
+    });
+    step(0.2 * share);
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      for (std::size_t i = block * kBlock; i < std::min(count_, (block + 1) * kBlock); ++i)
+        receive(sent, others, i, data);
+      step(0.8 * share / static_cast<double>(blocks));
+    });
+  }
+
+  /// What a sample passes on beside its coefficients, each as luminance × π.
+  struct Sent {
+    Eigen::Array3f color;  ///< of the coefficients, times their sum
+    Eigen::Array3f glow;
+  };
+
+  Sent send(const TransportData& data, std::size_t i, Coefficients* sent) const {
+    const Eigen::Array3f& reflectance = samples_.reflectances[i];
+    const Eigen::Array3f tint = Eigen::Map<const Eigen::Array3f>(data.tints[i].data());
+    const float direct_factor = luminanceOf(reflectance) * data.direct.scales[i];
+    const float bounced_factor = luminanceOf(reflectance * tint) * data.bounced.scales[i];
+    const std::uint8_t* direct = data.direct.row(i);
+    const std::uint8_t* bounced = data.bounced.row(i);
+    Row row;
+    float direct_sum = 0.0f, bounced_sum = 0.0f;
+    for (std::size_t p = 0; p < kPatches; ++p) {
+      row[p] = direct_factor * direct[p] + bounced_factor * bounced[p];
+      direct_sum += direct[p];
+      bounced_sum += bounced[p];
+    }
+    sent->set(i, row.data());
+    const Eigen::Array3f glow = Eigen::Map<const Eigen::Array3f>(data.glows[i].data());
+    return {reflectance * (data.direct.scales[i] * direct_sum + data.bounced.scales[i] * bounced_sum * tint),
+            samples_.emissions[i] * kPiFloat + reflectance * glow};
+  }
+
+  void receive(const Coefficients& sent, const std::vector<Sent>& others, std::size_t i,
+               TransportData* data) const {
+    const Seen& seen = seen_[i];
+    Row row{};
+    Eigen::Array3f color = Eigen::Array3f::Zero(), glow = Eigen::Array3f::Zero();
+    for (const std::uint32_t hit : seen.hits) {
+      const std::uint32_t direction = hit >> kDirectionShift;
+      const std::uint32_t from = hit & kSampleMask;
+      const SkyPatches::Ray& ray = patches_.coarseRays()[direction];  // its weight is in the scales
+      const float weight = ray.solid_angle * samples_.sites[i].weight(ray.towards) *
+                           (direction < SkyPatches::kAbove ? seen.scale_up : seen.scale_down) / kPiFloat;
+      const float factor = weight * sent.scales[from];
+      const std::uint8_t* other = sent.row(from);
+      for (std::size_t p = 0; p < kPatches; ++p) row[p] += factor * other[p];
+      color += weight * others[from].color;
+      glow += weight * others[from].glow;
+    }
+    data->bounced.set(i, row.data());
+    data->glows[i] = {glow[0], glow[1], glow[2]};
+    const float luminance = luminanceOf(color);
+    if (luminance > 0.0f) color /= luminance;
+    data->tints[i] = luminance > 0.0f ? std::array<float, 3>{color[0], color[1], color[2]}
+                                      : std::array<float, 3>{1.0f, 1.0f, 1.0f};
+  }
+
+  const Geometry& geometry_;
+  const BakeRays& rays_;
+  const std::vector<TriangleTraits>& traits_;
+  const SceneSamples& samples_;
+  const GatherOptions& options_;
+  SkyPatches patches_;
+  std::size_t count_;
+  std::vector<Seen> seen_;
+  std::mutex progress_mutex_;
+  double done_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<bool> gatherLight(const BakeScene& scene, const SceneSamples& samples,
+                              const GatherOptions& options, TransportData* data) {
+  return Gatherer(scene, samples, options).gather(data);
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,299 @@
+#include "light/transport/mesh_builder.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunlit::light {
+namespace {
+
+constexpr float kClear_m = 5e-3f;    ///< of a site above its surface
+constexpr float kInwards_m = 0.02f;  ///< of a site on an open edge, away from the edge
+constexpr float kMergeCosine = 0.92f;
+constexpr float kCoarsest_m = 16.0f;   ///< so that no car lies unseen amid a cell,
+constexpr float kEmptiest_m = 128.0f;  ///< where there are none
+constexpr float kReachShare = 0.6f;    ///< longest edge of a cell, in harmonic mean distances
+constexpr float kNearShare = 0.7f;     ///< … in distances of the closest thing,
+constexpr float kNearLimit_m = 2.0f;   ///< as far as that matters
+constexpr float kFinerAtWalls = 4.0f;  ///< times, than elsewhere
+constexpr std::size_t kNodesAtOnce = RayPacket::kSize;
+
+std::uint64_t pairKey(std::uint32_t a, std::uint32_t b) {
+  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
+}
+
+std::uint64_t placeKey(const Eigen::Vector3f& position) {
+  std::uint64_t key = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto step = static_cast<std::int64_t>(std::lround(static_cast<double>(position[axis]) * 1000.0));
+    key = (key ^ static_cast<std::uint64_t>(step & 0x1fffffffffff)) * 0x9e3779b97f4a7c15ull;
+    key ^= key >> 29;
+  }
+  return key;
+}
+
+}  // namespace
+
+Site MeshNode::site() const {
+  const Eigen::Vector3f pull = inwards * (kInwards_m / static_cast<float>(std::max(cells, 1)));
+  const Eigen::Vector3f origin = position + pull;
+  Site site;
+  site.origins.fill(origin);
+  site.lifts.fill(kClear_m * normal);
+  site.normal = normal;
+  return site;
+}
+
+std::uint32_t NodeIndex::at(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) {
+  const auto added = static_cast<std::uint32_t>(nodes.size());
+  const auto [entry, fresh] = first_.try_emplace(placeKey(position), added);
+  std::uint32_t last = entry->second;
+  if (!fresh) {
+    for (std::uint32_t at = entry->second; at != LightMesh::kNone; at = next_[at]) {
+      if (nodes[at].normal.dot(normal) > kMergeCosine) return at;
+      last = at;
+    }
+    next_[last] = added;
+  }
+  MeshNode node;
+  node.position = position;
+  node.normal = normal;
+  nodes.push_back(node);
+  next_.push_back(LightMesh::kNone);
+  return added;
+}
+
+Occupancy::Occupancy(const Geometry& geometry, const std::vector<TriangleTraits>& traits) {
+  constexpr float kTerrain_m2 = 60.0f;  ///< larger triangles are no things on the ground, but the ground
+  for (std::uint32_t t = 0; t < traits.size(); ++t) {
+    if (isLeaf(traits[t].kind)) continue;
+    const auto& corners = geometry.triangles[t];
+    const Eigen::Vector3f a = geometry.positions[corners[0]];
+    const Eigen::Vector3f b = geometry.positions[corners[1]], c = geometry.positions[corners[2]];
+    if (0.5f * (b - a).cross(c - a).norm() > kTerrain_m2) continue;
+    const Eigen::Vector3f middle = (a + b + c) / 3.0f;
+    squares_.insert(square(step(middle.x()), step(middle.y())));
+  }
+}
+
+bool Occupancy::near(const std::vector<MeshNode>& nodes, const LightMesh::Cell& cell) const {
+  Eigen::AlignedBox3f box;
+  for (std::uint32_t node : cell.corner) box.extend(nodes[node].position);
+  constexpr int kMost = 32;  // squares an axis; larger cells are halved in any case
+  const int left = step(box.min().x()) - 1, right = std::min(step(box.max().x()) + 1, left + kMost);
+  const int low = step(box.min().y()) - 1, high = std::min(step(box.max().y()) + 1, low + kMost);
+  for (int x = left; x <= right; ++x) {
+    for (int y = low; y <= high; ++y) {
+      if (squares_.count(square(x, y)) != 0) return true;
+    }
+  }
+  return false;
+}
+
+MeshBuilder::MeshBuilder(const Geometry& geometry, const BakeRays& rays,
+                         const std::vector<TriangleTraits>& traits)
+    : geometry_(geometry), rays_(rays), traits_(traits), occupied_(geometry, traits) {
+  mesh.roots.assign(geometry.triangles.size(), {LightMesh::kNone, LightMesh::kNone});
+}
+
+void MeshBuilder::plant(std::uint32_t triangle, int side) {
+  const Eigen::Vector3f flat = sideNormal(geometry_, triangle, side);
+  LightMesh::Cell cell;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t v = geometry_.triangles[triangle][k];
+    // Smooth normals where the file's are sensible.
+    Eigen::Vector3f normal = geometry_.normals[v];
+    if (normal.dot(flat) < 0.0f) normal = -normal;
+    if (normal.dot(flat) < 0.7f) normal = flat;
+    cell.corner[k] = index.at(geometry_.positions[v], normal);
+  }
+  const auto number = static_cast<std::uint32_t>(mesh.cells.size());
+  mesh.roots[triangle][static_cast<std::size_t>(side)] = number;
+  mesh.cells.push_back(cell);
+  addLeaf(number);
+}
+
+void MeshBuilder::addLeaf(std::uint32_t number) {
+  const LightMesh::Cell& cell = mesh.cells[number];
+  Eigen::Vector3f centre = Eigen::Vector3f::Zero();
+  for (std::uint32_t node : cell.corner) centre += index.nodes[node].position / 3.0f;
+  for (std::uint32_t n : cell.corner) {
+    MeshNode& node = index.nodes[n];
+    node.inwards += (centre - node.position).normalized();
+    ++node.cells;
+  }
+  active_.push_back(number);
+}
+
+void MeshBuilder::lookAround(std::size_t first_node) {
+  std::vector<MeshNode>& nodes = index.nodes;
+  const std::size_t packets = (nodes.size() - first_node + kNodesAtOnce - 1) / kNodesAtOnce;
+  tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
+    const std::size_t begin = first_node + p * kNodesAtOnce;
+    const int count = static_cast<int>(std::min(kNodesAtOnce, nodes.size() - begin));
+    std::array<Site, kNodesAtOnce> sites;
+    std::array<float, kNodesAtOnce> all{}, inside{}, near{}, nearest;
+    nearest.fill(1e9f);
+    for (int i = 0; i < count; ++i)
+      sites[static_cast<std::size_t>(i)] = nodes[begin + static_cast<std::size_t>(i)].site();
+    probe(rays_, patches_.coarseRays(), sites.data(), count,
+          [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
+            const auto i = static_cast<std::size_t>(lane);
+            all[i] += weight;
+            const std::uint32_t hit = hits.triangle[i];
+            if (hit == HitPacket::kNothing) return;
+            const bool back = geometry_.planes[hit].normal.dot(patches_.coarseRays()[r].towards) > 0.0f;
+            if (back && traits_[hit].solid) inside[i] += weight;
+            if (isLeaf(traits_[hit].kind)) return;
+            near[i] += weight / std::max(hits.distance[i], 0.05f);
+            nearest[i] = std::min(nearest[i], hits.distance[i]);
+          });
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      MeshNode& node = nodes[begin + i];
+      node.valid = inside[i] < 0.5f * all[i];
+      node.reach_m = near[i] > 0.0f ? all[i] / near[i] : 1e9f;
+      node.nearest_m = nearest[i];
+    }
+  });
+}
+
+/// Above 1 where the cell must be halved.
+float MeshBuilder::urgency(const LightMesh::Cell& cell, float finest_m) const {
+  float longest = 0.0f, reach = 1e9f, nearest = 1e9f;
+  int valid = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const MeshNode& node = index.nodes[cell.corner[k]];
+    longest = std::max(longest, (node.position - index.nodes[cell.corner[(k + 1) % 3]].position).norm());
+    if (!node.valid) continue;
+    ++valid;
+    reach = std::min(reach, node.reach_m);
+    nearest = std::min(nearest, node.nearest_m);
+  }
+  if (longest <= finest_m) return 0.0f;
+  const float coarse = longest / (occupied_.near(index.nodes, cell) ? kCoarsest_m : kEmptiest_m);
+  if (valid == 0) return coarse;
+  if (valid < 3) reach = std::min(reach, finest_m * 2.0f);
+  return std::max({coarse, longest / std::max(finest_m, kReachShare * reach),
+                   longest / std::max(kNearLimit_m, kNearShare * nearest)});
+}
+
+/// Whether a wall stands between the corners of a small cell: light on both its sides would be mixed there.
+bool MeshBuilder::cut(const LightMesh::Cell& cell, float finest_m) const {
+  constexpr float kAbove_m = 0.03f;  // over bumps of the ground
+  float longest = 0.0f, nearest = 1e9f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const MeshNode& node = index.nodes[cell.corner[k]];
+    longest = std::max(longest, (node.position - index.nodes[cell.corner[(k + 1) % 3]].position).norm());
+    nearest = std::min(nearest, node.nearest_m);
+  }
+  if (longest <= finest_m / kFinerAtWalls || nearest > 2.0f * longest) return false;
+  RayPacket packet;
+  HitPacket hits;
+  for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
+    const MeshNode& from = index.nodes[cell.corner[i % 3]];
+    const MeshNode& to = index.nodes[cell.corner[(i + 1) % 3]];
+    const Eigen::Vector3f origin = from.position + kAbove_m * from.normal;
+    const Eigen::Vector3f way = to.position + kAbove_m * to.normal - origin;
+    packet.valid[i] = i < 3 ? -1 : 0;
+    packet.origin_x[i] = origin.x(), packet.origin_y[i] = origin.y(), packet.origin_z[i] = origin.z();
+    packet.towards_x[i] = way.x(), packet.towards_y[i] = way.y(), packet.towards_z[i] = way.z();
+  }
+  rays_.cast(packet, &hits);
+  for (int i = 0; i < 3; ++i) {
+    const std::uint32_t hit = hits.triangle[i];
+    if (hit != HitPacket::kNothing && hits.distance[i] < 1.0f && !isLeaf(traits_[hit].kind)) return true;
+  }
+  return false;
+}
+
+std::uint32_t MeshBuilder::middle(std::uint32_t a, std::uint32_t b) {
+  const auto [entry, fresh] = middles_.try_emplace(pairKey(a, b), 0u);
+  if (fresh) {
+    const MeshNode& from = index.nodes[a];
+    const MeshNode& to = index.nodes[b];
+    const Eigen::Vector3f position = 0.5f * (from.position + to.position);
+    const Eigen::Vector3f normal = (from.normal + to.normal).normalized();
+    entry->second = index.at(position, normal);
+  }
+  return entry->second;
+}
+
+void MeshBuilder::split(std::uint32_t number) {
+  const std::array<std::uint32_t, 3> corner = mesh.cells[number].corner;
+  std::size_t longest = 0;
+  float length = 0.0f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float edge =
+        (index.nodes[corner[k]].position - index.nodes[corner[(k + 1) % 3]].position).squaredNorm();
+    if (edge > length) {
+      length = edge;
+      longest = k;
+    }
+  }
+  const std::uint32_t from = corner[longest], to = corner[(longest + 1) % 3],
+                      apex = corner[(longest + 2) % 3];
+  const std::uint32_t between = middle(from, to);
+  const auto child = static_cast<std::uint32_t>(mesh.cells.size());
+  mesh.cells.push_back({{from, between, apex}});
+  mesh.cells.push_back({{between, to, apex}});
+  mesh.cells[number].corner = {LightMesh::kInner | child, static_cast<std::uint32_t>(longest), 0};
+  addLeaf(child);
+  addLeaf(child + 1);
+}
+
+void MeshBuilder::refine(const RefineLimits& limits, const std::function<void(double)>& progress) {
+  for (std::uint32_t t = 0; t < geometry_.triangles.size(); ++t) {
+    if (traits_[t].kind != TriangleKind::kLarge) continue;
+    for (int side = 0; side < 2; ++side) {
+      if (traits_[t].used[side]) plant(t, side);
+    }
+  }
+  std::size_t looked = 0;
+  while (!active_.empty()) {
+    lookAround(looked);
+    looked = index.nodes.size();
+    progress(std::min(1.0, static_cast<double>(looked) / static_cast<double>(limits.nodes)));
+    std::vector<float> urgencies(active_.size());
+    tbb::parallel_for(std::size_t{0}, active_.size(), [&](std::size_t i) {
+      const LightMesh::Cell& cell = mesh.cells[active_[i]];
+      urgencies[i] = urgency(cell, limits.finest_m);
+      if (urgencies[i] <= 1.0f && cut(cell, limits.finest_m)) urgencies[i] = 1.01f;
+    });
+    std::vector<Split> splits;
+    for (std::size_t i = 0; i < active_.size(); ++i) {
+      if (urgencies[i] > 1.0f) splits.push_back({active_[i], urgencies[i]});
+    }
+    active_.clear();
+    // Every halving makes at most one node.
+    const std::size_t room = limits.nodes > looked ? limits.nodes - looked : 0;
+    if (splits.size() > room) {
+      std::sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) {
+        return a.urgency != b.urgency ? a.urgency > b.urgency : a.cell < b.cell;
+      });
+      splits.resize(room);
+    }
+    for (const Split& s : splits) split(s.cell);
+  }
+  findHanging();
+}
+
+void MeshBuilder::hang(std::uint32_t a, std::uint32_t b) {
+  const auto entry = middles_.find(pairKey(a, b));
+  if (entry == middles_.end()) return;
+  const std::uint32_t between = entry->second;
+  if (hangs_between[between][0] != LightMesh::kNone) return;
+  hangs_between[between] = {a, b};
+  hang(a, between);
+  hang(between, b);
+}
+
+void MeshBuilder::findHanging() {
+  hangs_between.assign(index.nodes.size(), {LightMesh::kNone, LightMesh::kNone});
+  for (const LightMesh::Cell& cell : mesh.cells) {
+    if (cell.inner()) continue;
+    for (std::size_t k = 0; k < 3; ++k) hang(cell.corner[k], cell.corner[(k + 1) % 3]);
+  }
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,101 @@
+/// Refines large triangles until light may be interpolated between their nodes.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "light/transport/probe.h"
+#include "light/transport/transport_data.h"
+#include "light/transport/triangle_kinds.h"
+
+namespace sunlit::light {
+
+/// A point at which light is wanted, and what is found there on first sight.
+struct MeshNode {
+  Eigen::Vector3f position;
+  Eigen::Vector3f normal;                             ///< unit, on the lit side
+  Eigen::Vector3f inwards = Eigen::Vector3f::Zero();  ///< sum of unit vectors to middles of cells around
+  int cells = 0;                                      ///< how many
+  float reach_m = 0.0f;                               ///< harmonic mean distance of what is seen
+  float nearest_m = 0.0f;                             ///< the closest of it
+  bool valid = true;                                  ///< not inside a body
+
+  Site site() const;
+};
+
+/// Nodes of equal place and similar normal are one.
+class NodeIndex {
+ public:
+  /// Index of the node at `position`, made if there is none yet.
+  std::uint32_t at(const Eigen::Vector3f& position, const Eigen::Vector3f& normal);
+  std::vector<MeshNode> nodes;
+
+ private:
+  std::unordered_map<std::uint64_t, std::uint32_t> first_;  ///< by place
+  std::vector<std::uint32_t> next_;                         ///< of the same place
+};
+
+/// Where things stand, on a map of squares.
+class Occupancy {
+ public:
+  Occupancy(const Geometry& geometry, const std::vector<TriangleTraits>& traits);
+  /// Whether anything stands on or beside the cell.
+  bool near(const std::vector<MeshNode>& nodes, const LightMesh::Cell& cell) const;
+
+ private:
+  static constexpr float kSquare_m = 32.0f;
+  static int step(float coordinate) { return static_cast<int>(std::floor(coordinate / kSquare_m)); }
+  static std::uint64_t square(int x, int y) {
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 | static_cast<std::uint32_t>(y);
+  }
+  std::unordered_set<std::uint64_t> squares_;
+};
+
+struct RefineLimits {
+  float finest_m = 0.25f;
+  std::size_t nodes = 350000;
+};
+
+class MeshBuilder {
+ public:
+  /// Keeps references.
+  MeshBuilder(const Geometry& geometry, const BakeRays& rays, const std::vector<TriangleTraits>& traits);
+
+  /// `progress` gets the share done, 0 … 1, about.
+  void refine(const RefineLimits& limits, const std::function<void(double)>& progress);
+
+  /// Cells and roots; roots of other than large triangles are kNone.
+  LightMesh mesh;
+  NodeIndex index;
+  /// For each node the ends of the undivided edge that it lies in the middle of, or kNone.
+  std::vector<std::array<std::uint32_t, 2>> hangs_between;
+
+ private:
+  struct Split {
+    std::uint32_t cell;
+    float urgency;
+  };
+  void plant(std::uint32_t triangle, int side);
+  void addLeaf(std::uint32_t cell);
+  void lookAround(std::size_t first_node);
+  float urgency(const LightMesh::Cell& cell, float finest_m) const;
+  bool cut(const LightMesh::Cell& cell, float finest_m) const;
+  void split(std::uint32_t cell);
+  std::uint32_t middle(std::uint32_t a, std::uint32_t b);
+  void hang(std::uint32_t a, std::uint32_t b);
+  void findHanging();
+
+  const Geometry& geometry_;
+  const BakeRays& rays_;
+  const std::vector<TriangleTraits>& traits_;
+  Occupancy occupied_;
+  SkyPatches patches_{1};
+  std::unordered_map<std::uint64_t, std::uint32_t> middles_;  ///< of halved edges
+  std::vector<std::uint32_t> active_;                         ///< leaves that may still be halved
+};
+
+}  // namespace sunlit::light

@@ -1,0 +1,39 @@
+/// Samples that many small triangles share.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "light/transport/probe.h"
+#include "light/transport/transport_data.h"
+
+namespace sunlit::light {
+
+/// Points at least `spacing` apart among those of similar normal.
+class SampleCloud {
+ public:
+  /// Normals are similar whose product is at least `cosine`.
+  SampleCloud(float spacing_m, float cosine) : spacing_m_(spacing_m), cosine_(cosine) {}
+
+  /// Adds a site where none is near enough; else lets one that is near gather from the new origin too.
+  void cover(const Eigen::Vector3f& position, const Site& site);
+  /// Up to four sites about `position`, indices into sites(), the near ones weighing most; weights sum to 1.
+  std::vector<LightMesh::Share> around(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const;
+
+  const std::vector<Site>& sites() const { return sites_; }
+
+ private:
+  std::uint64_t key(int x, int y, int z) const;
+  template <typename Visit>
+  void visitNear(const Eigen::Vector3f& position, const Visit& visit) const;
+
+  float spacing_m_;
+  float cosine_;
+  std::vector<Site> sites_;
+  std::vector<Eigen::Vector3f> positions_;
+  std::vector<std::size_t> covered_;  ///< how often each site was found near enough
+  std::vector<std::uint32_t> next_;
+  std::unordered_map<std::uint64_t, std::uint32_t> first_;
+};
+
+}  // namespace sunlit::light

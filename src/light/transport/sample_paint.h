@@ -1,0 +1,11 @@
+/// What the surfaces around each sample send back and give off.
+#pragma once
+
+#include "light/transport/scene_samples.h"
+
+namespace sunlit::light {
+
+/// Fills the parts of `samples` that follow from its mesh.
+void paintSamples(const Geometry& geometry, SceneSamples* samples);
+
+}  // namespace sunlit::light

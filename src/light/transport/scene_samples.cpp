@@ -1,0 +1,257 @@
+#include "light/transport/scene_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "light/transport/sample_cloud.h"
+#include "light/transport/sample_order.h"
+#include "light/transport/sample_paint.h"
+
+namespace sunlit::light {
+namespace {
+
+using Shares = std::vector<LightMesh::Share>;
+
+/// How samples are spread over small triangles.
+struct CloudRule {
+  TriangleKind kind;
+  float spacing_m;
+  float cosine;   ///< of normals that may share a sample
+  float merge_m;  ///< vertices in a cube of this size share a node
+};
+constexpr CloudRule kSmallRule{TriangleKind::kSmall, 0.5f, 0.8f, 0.1f};
+constexpr CloudRule kFoliageRule{TriangleKind::kFoliage, 1.0f, 0.5f, 0.4f};
+constexpr CloudRule kCanopyRule{TriangleKind::kCanopy, 8.0f, 0.5f, 2.5f};
+constexpr float kClear_m = 5e-3f;
+constexpr std::size_t kMostShares = 6;
+
+/// Equal samples put together, the smallest shares dropped, sum 1.
+void tidy(Shares* shares) {
+  std::sort(shares->begin(), shares->end(),
+            [](const LightMesh::Share& a, const LightMesh::Share& b) { return a.sample < b.sample; });
+  Shares merged;
+  for (const LightMesh::Share& share : *shares) {
+    if (!merged.empty() && merged.back().sample == share.sample) {
+      merged.back().weight += share.weight;
+    } else {
+      merged.push_back(share);
+    }
+  }
+  std::stable_sort(merged.begin(), merged.end(),
+                   [](const LightMesh::Share& a, const LightMesh::Share& b) { return a.weight > b.weight; });
+  if (merged.size() > kMostShares) merged.resize(kMostShares);
+  float sum = 0.0f;
+  for (const LightMesh::Share& share : merged) sum += share.weight;
+  for (LightMesh::Share& share : merged) share.weight /= sum;
+  *shares = std::move(merged);
+}
+
+class Sampler {
+ public:
+  Sampler(const Geometry& geometry, const BakeRays& rays, const std::vector<TriangleTraits>& traits)
+      : geometry_(geometry), traits_(traits), builder_(geometry, rays, traits) {}
+
+  SceneSamples sample(const RefineLimits& limits, const std::function<void(double)>& progress) {
+    builder_.refine(limits, progress);
+    sampleTrees();
+    fillInvalid();
+    hang();
+    sampleSmall();
+    SceneSamples samples = finish();
+    orderSamples(&samples);
+    paintSamples(geometry_, &samples);
+    return samples;
+  }
+
+ private:
+  void sampleTrees() {
+    const std::vector<MeshNode>& nodes = builder_.index.nodes;
+    shares_.resize(nodes.size());
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      if (!nodes[n].valid || builder_.hangs_between[n][0] != LightMesh::kNone) continue;
+      shares_[n] = {{static_cast<std::uint32_t>(sites_.size()), 1.0f}};
+      sites_.push_back(nodes[n].site());
+    }
+  }
+
+  /// Nodes inside bodies take the light of their neighbours, ring by ring: it is interpolated towards them.
+  void fillInvalid() {
+    constexpr int kRings = 4;
+    for (int ring = 0; ring < kRings; ++ring) {
+      std::vector<std::pair<std::uint32_t, Shares>> found;
+      std::vector<std::uint32_t> slot(shares_.size(), LightMesh::kNone);
+      for (const LightMesh::Cell& cell : builder_.mesh.cells) {
+        if (cell.inner()) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::uint32_t n = cell.corner[k];
+          if (!shares_[n].empty() || builder_.hangs_between[n][0] != LightMesh::kNone) continue;
+          if (slot[n] == LightMesh::kNone) {
+            slot[n] = static_cast<std::uint32_t>(found.size());
+            found.push_back({n, {}});
+          }
+          for (std::uint32_t from : {cell.corner[(k + 1) % 3], cell.corner[(k + 2) % 3]}) {
+            const Shares& other = shares_[from];
+            Shares& to = found[slot[n]].second;
+            to.insert(to.end(), other.begin(), other.end());
+          }
+        }
+      }
+      for (auto& [n, shares] : found) {
+        if (shares.empty()) continue;
+        tidy(&shares);
+        shares_[n] = std::move(shares);
+      }
+    }
+    const std::vector<MeshNode>& nodes = builder_.index.nodes;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      if (!shares_[n].empty() || builder_.hangs_between[n][0] != LightMesh::kNone) continue;
+      shares_[n] = {{static_cast<std::uint32_t>(sites_.size()), 1.0f}};
+      sites_.push_back(nodes[n].site());
+    }
+  }
+
+  /// A node amid an undivided edge has the mean light of the edge's ends, so that light is continuous there.
+  void hang() {
+    for (std::uint32_t n = 0; n < shares_.size(); ++n) hang(n);
+  }
+  void hang(std::uint32_t n) {
+    if (!shares_[n].empty()) return;
+    Shares mean;
+    for (std::uint32_t end : builder_.hangs_between[n]) {
+      hang(end);
+      mean.insert(mean.end(), shares_[end].begin(), shares_[end].end());
+    }
+    tidy(&mean);
+    shares_[n] = std::move(mean);
+  }
+
+  struct Corner {
+    Eigen::Vector3f position, normal;
+    Site site;
+  };
+  Corner cornerOf(std::uint32_t t, int side, std::size_t k) const {
+    const Eigen::Vector3f flat = sideNormal(geometry_, t, side);
+    Eigen::Vector3f centre = Eigen::Vector3f::Zero();
+    for (std::uint32_t v : geometry_.triangles[t]) centre += geometry_.positions[v] / 3.0f;
+    const std::uint32_t v = geometry_.triangles[t][k];
+    Eigen::Vector3f normal = geometry_.normals[v];
+    if (normal.dot(flat) < 0.0f) normal = -normal;
+    if (normal.squaredNorm() < 0.5f) normal = flat;
+    const Eigen::Vector3f& position = geometry_.positions[v];
+    Site site;
+    site.origins.fill(isLeaf(traits_[t].kind) ? centre
+                                              : Eigen::Vector3f(position + 0.4f * (centre - position)));
+    site.lifts.fill(kClear_m * flat);
+    site.normal = normal;
+    site.coarse = isLeaf(traits_[t].kind);
+    site.transmission =
+        geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[t])].transmission;
+    return {position, normal, site};
+  }
+
+  /// Visits each corner of each lit side of the triangles of `kind`.
+  template <typename Visit>
+  void visitCorners(TriangleKind kind, const Visit& visit) const {
+    for (std::uint32_t t = 0; t < traits_.size(); ++t) {
+      if (traits_[t].kind != kind) continue;
+      for (int side = 0; side < 2; ++side) {
+        if (!traits_[t].used[side]) continue;
+        for (std::size_t k = 0; k < 3; ++k) visit(t, side, k, cornerOf(t, side, k));
+      }
+    }
+  }
+
+  void sampleSmall() {
+    sampleCloud(kSmallRule);
+    sampleCloud(kFoliageRule);
+    sampleCloud(kCanopyRule);
+    sampleSprays();
+  }
+
+  void sampleCloud(const CloudRule& rule) {
+    SampleCloud cloud(rule.spacing_m, rule.cosine);
+    visitCorners(rule.kind, [&](std::uint32_t, int, std::size_t, const Corner& corner) {
+      cloud.cover(corner.position, corner.site);
+    });
+    const auto base = static_cast<std::uint32_t>(sites_.size());
+    sites_.insert(sites_.end(), cloud.sites().begin(), cloud.sites().end());
+    std::unordered_map<std::uint64_t, std::uint32_t> node_of;
+    std::array<std::uint32_t, 3> nodes;
+    visitCorners(rule.kind, [&](std::uint32_t t, int side, std::size_t k, const Corner& corner) {
+      std::uint64_t key = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto place =
+            static_cast<std::uint64_t>(std::lround(corner.position[axis] / rule.merge_m)) & 0x3ffff;
+        const auto tilt = static_cast<std::uint64_t>(std::lround(corner.normal[axis] * 1.5f) + 2) & 7;
+        key = (key << 18 | place) * 31 + tilt;
+      }
+      const auto [entry, fresh] = node_of.try_emplace(key, static_cast<std::uint32_t>(shares_.size()));
+      if (fresh) {
+        Shares shares = cloud.around(corner.position, corner.normal);
+        for (LightMesh::Share& share : shares) share.sample += base;
+        shares_.push_back(std::move(shares));
+      }
+      nodes[k] = entry->second;
+      if (k < 2) return;
+      builder_.mesh.roots[t][static_cast<std::size_t>(side)] =
+          static_cast<std::uint32_t>(builder_.mesh.cells.size());
+      builder_.mesh.cells.push_back({nodes});
+    });
+  }
+
+  /// One sample a corner of a card, for both its sides: leaves let about half of the light through.
+  void sampleSprays() {
+    std::vector<std::uint32_t> node_of(geometry_.positions.size(), LightMesh::kNone);
+    for (std::uint32_t t = 0; t < traits_.size(); ++t) {
+      if (traits_[t].kind != TriangleKind::kSpray) continue;
+      std::array<std::uint32_t, 3> nodes;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = geometry_.triangles[t][k];
+        Site site = cornerOf(t, 0, k).site;  // with the triangle's middle as its origin
+        const Eigen::Vector3f out = geometry_.positions[v] - site.origins[0];
+        for (std::size_t i = 0; i < Site::kOrigins; ++i)
+          site.origins[i] += (0.3f + 0.15f * static_cast<float>(i)) * out;
+        site.transmission = 0.5f;
+        if (node_of[v] == LightMesh::kNone) {
+          node_of[v] = static_cast<std::uint32_t>(shares_.size());
+          shares_.push_back({{static_cast<std::uint32_t>(sites_.size()), 1.0f}});
+          sites_.push_back(site);
+        } else {  // the other half of the card
+          Site& first = sites_[shares_[node_of[v]][0].sample];
+          for (std::size_t i = 1; i < Site::kOrigins; i += 2) first.origins[i] = site.origins[i];
+        }
+        nodes[k] = node_of[v];
+      }
+      const auto cell = static_cast<std::uint32_t>(builder_.mesh.cells.size());
+      builder_.mesh.cells.push_back({nodes});
+      builder_.mesh.roots[t] = {cell, cell};
+    }
+  }
+
+  SceneSamples finish() {
+    SceneSamples samples;
+    samples.mesh = std::move(builder_.mesh);
+    samples.sites = std::move(sites_);
+    samples.mesh.first_share.push_back(0);
+    for (const Shares& shares : shares_) {
+      samples.mesh.shares.insert(samples.mesh.shares.end(), shares.begin(), shares.end());
+      samples.mesh.first_share.push_back(static_cast<std::uint32_t>(samples.mesh.shares.size()));
+    }
+    return samples;
+  }
+
+  const Geometry& geometry_;
+  const std::vector<TriangleTraits>& traits_;
+  MeshBuilder builder_;
+  std::vector<Site> sites_;
+  std::vector<Shares> shares_;  ///< of each node
+};
+
+}  // namespace
+
+SceneSamples sampleScene(const BakeScene& scene, const RefineLimits& limits,
+                         const std::function<void(double)>& progress) {
+  return Sampler(scene.geometry, scene.rays, scene.traits).sample(limits, progress);
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,34 @@
+/// Where in a scene transport is sampled, and how surfaces find their samples.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "light/transport/mesh_builder.h"
+#include "light/transport/probe.h"
+#include "light/transport/reflectances.h"
+#include "light/transport/transport_data.h"
+#include "light/transport/triangle_kinds.h"
+
+namespace sunlit::light {
+
+struct SceneSamples {
+  LightMesh mesh;
+  std::vector<Site> sites;                    ///< of each sample, neighbours close together
+  std::vector<Eigen::Array3f> reflectances;   ///< of the surfaces around each sample, 0 … 1
+  std::vector<Eigen::Array3f> emissions;      ///< … and what they give off by themselves, cd/m²
+  std::vector<std::uint32_t> nearest_sample;  ///< the one of most weight, of each node
+};
+
+/// What a bake works on.
+struct BakeScene {
+  const Geometry& geometry;
+  const BakeRays& rays;
+  const std::vector<TriangleTraits>& traits;
+};
+
+/// `progress` gets the share done, 0 … 1, about.
+SceneSamples sampleScene(const BakeScene& scene, const RefineLimits& limits,
+                         const std::function<void(double)>& progress);
+
+}  // namespace sunlit::light

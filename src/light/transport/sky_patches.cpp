@@ -1,0 +1,127 @@
+#include "light/transport/sky_patches.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sunlit/quantity/angle.h"
+
+namespace sunlit::light {
+namespace {
+
+struct Ring {
+  double low_deg, high_deg;  ///< elevation
+  int patches;
+  int first;  ///< index of its first patch
+};
+constexpr std::array<Ring, 9> kRings = {{{0, 4, 30, 0},
+                                         {4, 12, 30, 30},
+                                         {12, 24, 30, 60},
+                                         {24, 36, 24, 90},
+                                         {36, 48, 24, 114},
+                                         {48, 60, 18, 138},
+                                         {60, 72, 12, 156},
+                                         {72, 84, 6, 168},
+                                         {84, 90, 1, 174}}};
+constexpr double kGoldenRatioPart = 0.61803398874989485;
+
+double middle(const Ring& ring) {
+  return ring.patches == 1 ? 90.0 : 0.5 * (ring.low_deg + ring.high_deg);
+}
+
+double sine(double deg) {
+  return std::sin(deg * kRadPerDeg);
+}
+
+const Ring& ringOf(int patch) {
+  std::size_t r = 0;
+  while (patch >= kRings[r].first + kRings[r].patches) ++r;
+  return kRings[r];
+}
+
+/// The point of a patch at shares (u, v) of its azimuth and of the sine of its elevation.
+Eigen::Vector3f pointIn(int patch, double u, double v) {
+  const Ring& ring = ringOf(patch);
+  const double z = sine(ring.low_deg) + v * (sine(ring.high_deg) - sine(ring.low_deg));
+  const double azimuth = 2.0 * kPi * (patch - ring.first + u) / ring.patches;
+  const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
+  return Eigen::Vector3d(r * std::cos(azimuth), r * std::sin(azimuth), z).cast<float>();
+}
+
+/// Directions below the horizon, evenly spread along a Fibonacci spiral.
+Eigen::Vector3f pointBelow(int i) {
+  const double z = -(i + 0.5) / SkyPatches::kDown;
+  const double azimuth = 2.0 * kPi * std::fmod(i * kGoldenRatioPart, 1.0);
+  const double r = std::sqrt(1.0 - z * z);
+  return Eigen::Vector3d(r * std::cos(azimuth), r * std::sin(azimuth), z).cast<float>();
+}
+
+/// Divides `share` between the two patches of `ring` on both sides of an azimuth, given in turns.
+void divide(const Ring& ring, double turns, double share, PatchShare* shares) {
+  const double place = turns * ring.patches - 0.5;
+  const double floor = std::floor(place);
+  const int left = (static_cast<int>(floor) + ring.patches) % ring.patches;
+  const double part = place - floor;
+  shares[0] = {ring.first + left, static_cast<float>(share * (1.0 - part))};
+  shares[1] = {ring.first + (left + 1) % ring.patches, static_cast<float>(share * part)};
+}
+
+}  // namespace
+
+SkyPatches::SkyPatches(int rays_per_patch) {
+  for (int patch = 0; patch < kAbove; ++patch) {
+    const float part = solidAngle(patch) / static_cast<float>(rays_per_patch);
+    for (int i = 0; i < rays_per_patch; ++i) {
+      // A lattice, shifted from patch to patch so that no rows of directions line up.
+      const double u = std::fmod((i + 0.5) * kGoldenRatioPart + patch * 0.3819660112501051, 1.0);
+      const double v = (i + 0.5) / rays_per_patch;
+      const bool coarse = i == rays_per_patch / 2;
+      rays_.push_back({pointIn(patch, u, v), part, patch, coarse ? patch : Ray::kFineOnly});
+      if (coarse) coarse_.push_back({rays_.back().towards, solidAngle(patch), patch, patch});
+    }
+  }
+  for (int i = 0; i < kDown; ++i) {
+    const Ray ray{pointBelow(i), static_cast<float>(2.0 * kPi / kDown), kBelow, kAbove + i};
+    coarse_.push_back(ray);
+    rays_.push_back(ray);
+  }
+}
+
+float SkyPatches::solidAngle(int patch) {
+  const Ring& ring = ringOf(patch);
+  return static_cast<float>(2.0 * kPi * (sine(ring.high_deg) - sine(ring.low_deg)) / ring.patches);
+}
+
+std::array<Eigen::Array3f, SkyPatches::kCount> SkyPatches::luminances(const sky::Daylight& day) {
+  constexpr int kAcross = 4;  // points a patch and axis
+  std::array<Eigen::Array3f, kCount> means;
+  for (int patch = 0; patch < kAbove; ++patch) {
+    Eigen::Array3f sum = Eigen::Array3f::Zero();
+    for (int i = 0; i < kAcross * kAcross; ++i) {
+      const double u = (i % kAcross + 0.5) / kAcross;
+      const double v = (i / kAcross + 0.5) / kAcross;
+      sum += day.skyLuminance(pointIn(patch, u, v)).value;
+    }
+    means[static_cast<std::size_t>(patch)] = sum / static_cast<float>(kAcross * kAcross);
+  }
+  Eigen::Array3f below = Eigen::Array3f::Zero();
+  for (int i = 0; i < kDown; ++i) below += day.skyLuminance(pointBelow(i)).value;
+  means[kBelow] = below / static_cast<float>(kDown);
+  return means;
+}
+
+std::array<PatchShare, 4> SkyPatches::around(const Eigen::Vector3f& towards) {
+  const double elevation = std::asin(std::clamp<double>(towards.z(), -1.0, 1.0)) / kRadPerDeg;
+  double turns = std::atan2(static_cast<double>(towards.y()), static_cast<double>(towards.x())) / (2.0 * kPi);
+  if (turns < 0.0) turns += 1.0;
+  std::size_t low = 0;
+  while (low + 2 < kRings.size() && middle(kRings[low + 1]) < elevation) ++low;
+  const double from = middle(kRings[low]);
+  const double to = middle(kRings[low + 1]);
+  const double up = std::clamp((elevation - from) / (to - from), 0.0, 1.0);
+  std::array<PatchShare, 4> shares;
+  divide(kRings[low], turns, 1.0 - up, shares.data());
+  divide(kRings[low + 1], turns, up, shares.data() + 2);
+  return shares;
+}
+
+}  // namespace sunlit::light

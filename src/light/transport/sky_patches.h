@@ -1,0 +1,58 @@
+/// The sphere in patches, each taken as of one luminance.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sunlit/quantity/direction.h"
+#include "sunlit/sky/daylight.h"
+
+namespace sunlit::light {
+
+/// Share of a patch.
+struct PatchShare {
+  int patch;
+  float share;
+};
+
+/// The division of Tregenza (1987) with its lowest ring cut at 4°, where a low sun's height over the ground
+/// matters most: 175 patches above the horizon, and one below it.
+class SkyPatches {
+ public:
+  static constexpr int kAbove = 175;
+  static constexpr int kBelow = kAbove;  ///< index of the patch below the horizon
+  static constexpr int kCount = 176;
+  static constexpr int kDown = 80;                ///< directions below the horizon
+  static constexpr int kCoarse = kAbove + kDown;  ///< one a patch above the horizon, and those below it
+
+  /// One direction that stands for a part of the sphere.
+  struct Ray {
+    Eigen::Vector3f towards;  ///< unit
+    float solid_angle;        ///< sr
+    int patch;
+    int coarse;  ///< its index among the coarse rays, or kFineOnly
+    static constexpr int kFineOnly = -1;
+  };
+
+  /// `rays_per_patch` > 0.
+  explicit SkyPatches(int rays_per_patch);
+
+  /// Sample the sphere finely above the horizon, and at the coarse directions below it.
+  const std::vector<Ray>& rays() const { return rays_; }
+  /// Those of them that sample the whole sphere coarsely; index k < kAbove stands for patch k.
+  const std::vector<Ray>& coarseRays() const { return coarse_; }
+
+  /// Mean luminance of each patch, cd/m², without the discs.
+  static std::array<Eigen::Array3f, kCount> luminances(const sky::Daylight& day);
+  /// Between which patches a small light is divided; shares sum to 1 and change continuously with direction.
+  static std::array<PatchShare, 4> around(const Eigen::Vector3f& towards);
+  /// Solid angle of a patch above the horizon, sr.
+  static float solidAngle(int patch);
+
+ private:
+  std::vector<Ray> rays_, coarse_;
+};
+
+}  // namespace sunlit::light

@@ -1,0 +1,48 @@
+#include "light/transport/transport_data.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunlit::light {
+
+LightMesh::Place LightMesh::locate(std::uint32_t root, std::array<float, 3> barycentric) const {
+  std::uint32_t at = root;
+  while (cells[at].inner()) {
+    const std::size_t k = cells[at].corner[1];
+    const float from = barycentric[k];
+    const float to = barycentric[(k + 1) % 3];
+    const float apex = barycentric[(k + 2) % 3];
+    // The children are (from, middle, apex) and (middle, to, apex).
+    const bool first = from >= to;
+    barycentric = first ? std::array<float, 3>{from - to, 2.0f * to, apex}
+                        : std::array<float, 3>{2.0f * from, to - from, apex};
+    at = cells[at].child() + (first ? 0u : 1u);
+  }
+  return {cells[at].corner, barycentric};
+}
+
+void LightMesh::drop(const std::vector<bool>& useless) {
+  for (std::size_t n = 0; n < nodeCount(); ++n) {
+    float useful = 0.0f;
+    for (std::uint32_t s = first_share[n]; s < first_share[n + 1]; ++s)
+      useful += useless[shares[s].sample] ? 0.0f : shares[s].weight;
+    if (useful <= 0.0f) continue;
+    for (std::uint32_t s = first_share[n]; s < first_share[n + 1]; ++s)
+      shares[s].weight *= useless[shares[s].sample] ? 0.0f : 1.0f / useful;
+  }
+}
+
+void Coefficients::resize(std::size_t samples) {
+  rows.assign(samples * SkyPatches::kCount, 0);
+  scales.assign(samples, 0.0f);
+}
+
+void Coefficients::set(std::size_t sample, const float* row) {
+  const float largest = *std::max_element(row, row + SkyPatches::kCount);
+  scales[sample] = largest / 255.0f;
+  const float inverse = largest > 0.0f ? 255.0f / largest : 0.0f;
+  std::uint8_t* to = rows.data() + sample * SkyPatches::kCount;
+  for (int p = 0; p < SkyPatches::kCount; ++p) to[p] = static_cast<std::uint8_t>(row[p] * inverse + 0.5f);
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,70 @@
+/// What a bake leaves behind, and its cache file holds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "light/transport/sky_patches.h"
+
+namespace sunlit::light {
+
+/// Places on the scene's triangles. Each side of a triangle that can be lit has a tree of cells: the
+/// triangle, halved again and again at its longest edge. At the corners of the leaves lie nodes, between
+/// which light is interpolated; a node's light is that of one or several samples.
+struct LightMesh {
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kInner = 0x80000000u;
+
+  /// Leaf: three nodes. Inner cell: kInner | first of its two children, and which edge was halved (0 … 2,
+  /// from that corner to the next).
+  struct Cell {
+    std::array<std::uint32_t, 3> corner;
+    bool inner() const { return (corner[0] & kInner) != 0; }
+    std::uint32_t child() const { return corner[0] & ~kInner; }
+  };
+  struct Share {
+    std::uint32_t sample;
+    float weight;
+  };
+
+  std::vector<std::array<std::uint32_t, 2>> roots;  ///< of each triangle's front and back: a cell, or kNone
+  std::vector<Cell> cells;
+  std::vector<std::uint32_t> first_share;  ///< of each node, and the end
+  std::vector<Share> shares;               ///< weights of a node sum to 1
+
+  std::size_t nodeCount() const { return first_share.size() - 1; }
+
+  /// Three nodes and their weights.
+  struct Place {
+    std::array<std::uint32_t, 3> node;
+    std::array<float, 3> weight;
+  };
+  /// Of a point within the leaf tree of `root`, given by its barycentric coordinates.
+  Place locate(std::uint32_t root, std::array<float, 3> barycentric) const;
+
+  /// Takes samples that are of no use out of nodes that have others.
+  void drop(const std::vector<bool>& useless);
+};
+
+/// Illuminance of each sample for 1 cd/m² of each sky patch, lx.
+struct Coefficients {
+  /// One row of SkyPatches::kCount bytes a sample; times the sample's scale.
+  std::vector<std::uint8_t> rows;
+  std::vector<float> scales;
+
+  void resize(std::size_t samples);
+  /// Stores `row` of SkyPatches::kCount values ≥ 0.
+  void set(std::size_t sample, const float* row);
+  const std::uint8_t* row(std::size_t sample) const { return rows.data() + sample * SkyPatches::kCount; }
+};
+
+struct TransportData {
+  LightMesh mesh;
+  Coefficients direct;                      ///< straight from the sky
+  Coefficients bounced;                     ///< luminance of it, after surfaces passed it on
+  std::vector<std::array<float, 3>> tints;  ///< colour of the bounced part, of luminance 1
+  std::vector<std::array<float, 3>> glows;  ///< illuminance, lx, from surfaces that shine by themselves
+};
+
+}  // namespace sunlit::light

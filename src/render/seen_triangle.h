@@ -1,0 +1,47 @@
+/// A triangle as a camera at one place sees it.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "render/resolve.h"
+
+namespace sunlit::render {
+
+/// How far the point seen moves on the triangle's plane from one sample to the next, m. Seen exactly from the
+/// side it is not finite.
+struct Footprint {
+  Eigen::Vector3f right, down;
+};
+
+/// Points are counted from the camera, along the axes of `map`.
+class SeenTriangle {
+ public:
+  SeenTriangle() = default;
+  SeenTriangle(const Seen& seen, std::uint32_t number);
+
+  std::int32_t material() const { return material_; }
+  /// Towards the camera.
+  const Eigen::Vector3f& geometricNormal() const { return normal_; }
+
+  /// Shares of the second and the third corner.
+  Eigen::Array2f sharesAt(const Eigen::Vector3f& point) const;
+  /// Unit, in the hemisphere of geometricNormal(): files get the side of normals wrong, and the side that is
+  /// seen is the one to light.
+  Eigen::Vector3f shadingNormal(const Eigen::Array2f& shares) const;
+  /// `right` and `down` lead to the neighbouring samples at depth 1 m.
+  Footprint footprint(const Eigen::Vector3f& point, float depth, const Eigen::Vector3f& right,
+                      const Eigen::Vector3f& down) const;
+  /// Linear, 0 … 1: the mean over the area that `step`, such as a footprint, spans.
+  Eigen::Array3f albedo(const Seen& seen, const Eigen::Array2f& shares, const Footprint& step) const;
+
+ private:
+  std::int32_t material_ = 0;
+  Eigen::Vector3f normal_, corner_;
+  Eigen::Vector3f towards_b_, towards_c_;  ///< (point − corner) · these are the shares
+  Eigen::Vector3f normal_a_, normal_b_, normal_c_;
+  Eigen::Array3f color_a_, color_b_, color_c_;  ///< with the material's; b and c less a
+  Eigen::Array2f texture_a_, texture_b_, texture_c_;
+};
+
+}  // namespace sunlit::render

@@ -1,0 +1,55 @@
+/// A texture at all its sizes, as the picture looks it up.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "render/mipmaps.h"
+#include "sunlit/scene/scene.h"
+
+namespace sunlit::render {
+
+/// ⌊value⌋, which without newer instructions than every x86-64 has is a function call.
+inline int floorOf(float value) {
+  const int truncated = static_cast<int>(value);
+  return truncated - (value < static_cast<float>(truncated) ? 1 : 0);
+}
+
+class TexturePyramid {
+ public:
+  /// `alpha_cutoff` 0 … 1, or kNoCutoff for a texture that masks nothing.
+  TexturePyramid(const scene::Texture& texture, float alpha_cutoff);
+
+  /// Of the full size, in texels.
+  Eigen::Array2f size() const { return size_; }
+
+  /// Linear colour about texture coordinate `at`, repeating: bilinear within a level and linear between two.
+  /// `level` 0 is the full size, each next one half of it.
+  Eigen::Array3f color(const Eigen::Array2f& at, float level) const;
+
+  /// Whether a masked texture is solid at (u, v), in the smallest level whose texels are not wider than the
+  /// way from one sample to the next: of the full size so many texels, squared, lie on it. In smaller levels
+  /// by the nearest texel, of which as many are solid as there is to show; at full size between texels, so
+  /// that edges stay smooth.
+  bool solid(float u, float v, float texels_squared) const;
+
+ private:
+  struct Level {
+    int width, height;
+    std::vector<std::uint8_t> rgba;
+    std::vector<std::uint8_t>
+        alpha;  ///< of a mask, once more by itself: a quarter of the memory to go through
+  };
+  static std::size_t nearest(const Level& level, float u, float v);
+  Eigen::Array3f bilinear(const Level& level, const Eigen::Array2f& at) const;
+
+  std::vector<Level> levels_;
+  Eigen::Array2f size_;
+  float cutoff_;  ///< of alpha, 0 … 255
+};
+
+/// Of all textures of a scene.
+std::vector<TexturePyramid> texturePyramids(const scene::Scene& scene);
+
+}  // namespace sunlit::render

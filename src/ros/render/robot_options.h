@@ -1,0 +1,39 @@
+/// The robot that carries the camera, as parameters tell of it.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sunlit/ros/parameter_reader.h"
+#include "sunlit/scene/robot.h"
+
+namespace sunlit::ros_interface {
+
+struct RobotOptions {
+  std::string description;  ///< name of a parameter that holds a URDF; empty: none
+  std::string file;         ///< URDF or SDF; empty: none. Neither: no robot
+  std::string base_frame;   ///< the link that is placed; empty: the root
+
+  /// On a path: where the camera is in the base frame, m; or on which link; neither: see RobotPlaces.
+  std::optional<Eigen::Vector3d> camera_in_base;
+  std::string camera_link;
+
+  bool joints_by_tf = false;   ///< else in rest position
+  double tf_patience_s = 1.0;  ///< how long a link's transform is waited for before it is given up, 0 … 60 s
+
+  bool none() const { return description.empty() && file.empty(); }
+};
+
+/// `follows_tf`: the camera follows a TF frame, and so do joints unless told otherwise. Throws
+/// std::invalid_argument with name, value and what is allowed.
+RobotOptions readRobotOptions(const ParameterReader& parameters, bool follows_tf);
+
+/// The robot that `options` name; none if they name none. Meshes are looked for in `model_path` and where
+/// worldSearchPath() does. Throws std::invalid_argument for a parameter that does not hold a text, or a link
+/// that the robot does not have, and what scene::loadRobot() throws.
+std::optional<scene::Robot> loadRobot(const RobotOptions& options,
+                                      const std::vector<std::string>& model_path);
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,185 @@
+#include "ros/render/robot_places.h"
+
+#include <ros/console.h>
+#include <tf2/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ros/render/messages.h"
+#include "sunlit/ros/frame_names.h"
+
+namespace sunlit::ros_interface {
+
+namespace {
+
+/// Of what is to be seen, m above the base frame.
+double lowestPoint(const scene::Robot& robot, const std::vector<Eigen::Isometry3d>& base_from_links) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < robot.links.size(); ++i) {
+    for (const scene::Mesh& mesh : robot.links[i].meshes) {
+      for (const Eigen::Vector3f& position : mesh.positions)
+        lowest = std::min(lowest, (base_from_links[i] * position.cast<double>()).z());
+    }
+  }
+  return lowest;
+}
+
+/// None where TF does not say.
+std::optional<Eigen::Isometry3d> lookUpOne(const tf2_ros::Buffer& tf, const std::string& parent,
+                                           const std::string& child, const ros::Time& stamp) {
+  try {
+    return fromTransform(tf.lookupTransform(parent, child, stamp).transform);
+  } catch (const tf2::TransformException&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+RobotPlaces::RobotPlaces(const scene::Robot& robot, const RobotOptions& options,
+                         std::optional<double> camera_height_m)
+    : base_(options.base_frame.empty() ? 0 : robot.indexOf(options.base_frame).value()),
+      joints_by_tf_(options.joints_by_tf),
+      patience_(options.tf_patience_s) {
+  for (std::size_t i = 0; i < robot.links.size(); ++i) {
+    const scene::RobotLink& link = robot.links[i];
+    links_.push_back({link.name, link.parent < 0 ? i : static_cast<std::size_t>(link.parent),
+                      link.parent_from_link, !link.meshes.empty()});
+  }
+  base_from_rest_ = robot.baseFromLinks(base_);
+  if (camera_height_m) placeCamera(robot, options, *camera_height_m);
+}
+
+void RobotPlaces::placeCamera(const scene::Robot& robot, const RobotOptions& options,
+                              double camera_height_m) {
+  /// A wheel that sinks in or hovers by more than this is worth a word.
+  constexpr double kUnevenness_m = 0.05;
+  const double lowest_m = lowestPoint(robot, base_from_rest_);
+  const std::string link = options.camera_link.empty() ? kCameraFrame : options.camera_link;
+  const std::optional<std::size_t> carrier = robot.indexOf(link);
+  if (options.camera_in_base) {
+    camera_in_base_ = *options.camera_in_base;
+  } else if (carrier) {
+    camera_in_base_ = base_from_rest_[*carrier].translation();
+  } else {
+    camera_in_base_ = {0.0, 0.0, lowest_m + camera_height_m};
+  }
+  const double above_path_m = camera_height_m - camera_in_base_.z() + lowest_m;
+  if (std::abs(above_path_m) > kUnevenness_m) {
+    ROS_WARN(
+        "The lowest point of robot %s is %.2f m above the path: the camera is %.2f m above the path and %.2f "
+        "m "
+        "above the robot's base",
+        robot.name.c_str(), above_path_m, camera_height_m, camera_in_base_.z());
+  }
+}
+
+/// Links that are not known hang from their parents as at rest.
+render::BodyPlaces RobotPlaces::place(
+    const Eigen::Isometry3d& map_from_base,
+    const std::vector<std::optional<Eigen::Isometry3d>>& map_from_known) const {
+  render::BodyPlaces map_from_links(links_.size());
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (map_from_known[i]) {
+      map_from_links[i] = *map_from_known[i];
+    } else if (i == base_ || links_[i].parent == i) {
+      map_from_links[i] = map_from_base * base_from_rest_[i];
+    } else {
+      map_from_links[i] = map_from_links[links_[i].parent] * links_[i].parent_from_link;
+    }
+  }
+  return map_from_links;
+}
+
+std::vector<std::optional<Eigen::Isometry3d>> RobotPlaces::lookUp(const tf2_ros::Buffer& tf,
+                                                                  const std::string& frame,
+                                                                  const ros::Time& stamp) const {
+  std::vector<std::optional<Eigen::Isometry3d>> frame_from_links(links_.size());
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    frame_from_links[i] = lookUpOne(tf, frame, links_[i].name, stamp);
+  }
+  return frame_from_links;
+}
+
+render::BodyPlaces RobotPlaces::onPath(const Eigen::Isometry3d& map_from_camera, const tf2_ros::Buffer* tf) {
+  const Eigen::Isometry3d map_from_base =
+      map_from_camera * Eigen::Isometry3d(Eigen::Translation3d(-camera_in_base_));
+  std::vector<std::optional<Eigen::Isometry3d>> known(links_.size());
+  if (tf) {
+    known = lookUp(*tf, links_[base_].name, ros::Time(0));
+    for (auto& base_from_link : known) {
+      if (base_from_link) base_from_link = map_from_base * *base_from_link;
+    }
+    known[base_] = map_from_base;
+    countMissing(known);
+  }
+  return place(map_from_base, known);
+}
+
+bool RobotPlaces::knowsJoints(const tf2_ros::Buffer& tf) {
+  std::vector<std::optional<Eigen::Isometry3d>> known = lookUp(tf, links_[base_].name, ros::Time(0));
+  known[base_] = Eigen::Isometry3d::Identity();
+  return !worthWaiting(known);
+}
+
+std::optional<render::BodyPlaces> RobotPlaces::byTf(const tf2_ros::Buffer& tf, const ros::Time& stamp) {
+  std::vector<std::optional<Eigen::Isometry3d>> known = lookUp(tf, kMapFrame, stamp);
+  if (!known[base_]) {
+    waits_for_ = "the TF frame " + links_[base_].name + " of the robot's base";
+    return std::nullopt;
+  }
+  const Eigen::Isometry3d map_from_base = *known[base_];
+  if (!joints_by_tf_) known.assign(links_.size(), std::nullopt);
+  known[base_] = map_from_base;
+  if (joints_by_tf_) {
+    if (worthWaiting(known)) return std::nullopt;
+    countMissing(known);
+  }
+  return place(map_from_base, known);
+}
+
+/// Whether a link that is to be seen is not known, and has not been waited for long enough.
+bool RobotPlaces::worthWaiting(const std::vector<std::optional<Eigen::Isometry3d>>& known) {
+  std::string missing;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (links_[i].visible && !known[i] && !links_[i].given_up) missing = links_[i].name;
+  }
+  if (missing.empty()) {
+    waiting_since_.reset();
+    return false;
+  }
+  if (!waiting_since_) waiting_since_ = Clock::now();
+  waits_for_ = "the TF frame " + missing + " of the robot";
+  if (Clock::now() - *waiting_since_ < patience_) return true;
+  waiting_since_.reset();
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (links_[i].visible && !known[i]) links_[i].given_up = true;
+  }
+  return false;
+}
+
+void RobotPlaces::countMissing(const std::vector<std::optional<Eigen::Isometry3d>>& known) {
+  ++poses_;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (known[i]) links_[i].given_up = false;
+    if (!links_[i].visible || known[i]) continue;
+    if (links_[i].missed++ == 0) {
+      ROS_WARN("No transform of the robot's link %s on TF: it is drawn in rest position",
+               links_[i].name.c_str());
+    }
+  }
+}
+
+std::string RobotPlaces::missingLinks() const {
+  std::string text;
+  for (const Link& link : links_) {
+    if (link.missed == 0) continue;
+    text += (text.empty() ? "Links of the robot in rest position for want of a transform on TF: " : ", ") +
+            link.name + " in " + std::to_string(link.missed) + " of " + std::to_string(poses_) + " poses";
+  }
+  return text;
+}
+
+}  // namespace sunlit::ros_interface

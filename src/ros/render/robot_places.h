@@ -1,0 +1,70 @@
+/// Where the links of the robot stand when a picture is taken.
+#pragma once
+
+#include <ros/time.h>
+#include <tf2_ros/buffer.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ros/render/robot_options.h"
+#include "sunlit/render/renderer.h"
+#include "sunlit/scene/robot.h"
+
+namespace sunlit::ros_interface {
+
+/// On a path the robot moves with the camera, level as it is, and the joints rest, or move as TF says. After
+/// a TF frame it stands where TF says. A link whose transform does not come stays in rest position relative
+/// to its parent; that is said once and counted.
+class RobotPlaces {
+ public:
+  /// `camera_height_m`: of the camera above the path; nothing where there is no path. Without a
+  /// camera_in_base the camera is on the link camera_link, if there is one; else above the base, so that the
+  /// robot's lowest point is on the path.
+  RobotPlaces(const scene::Robot& robot, const RobotOptions& options, std::optional<double> camera_height_m);
+
+  /// map_from_link of each link for a camera on a path. `tf`: where joints move; null: they rest.
+  render::BodyPlaces onPath(const Eigen::Isometry3d& map_from_camera, const tf2_ros::Buffer* tf);
+  /// Whether all links that are to be seen were heard of, or waited for long enough.
+  bool knowsJoints(const tf2_ros::Buffer& tf);
+  /// By TF at `stamp`; zero: the latest. None while a transform is worth waiting for; see waitsFor().
+  std::optional<render::BodyPlaces> byTf(const tf2_ros::Buffer& tf, const ros::Time& stamp);
+
+  std::string waitsFor() const { return waits_for_; }
+  /// Which links had no transform in how many poses, in one line; empty if there is none.
+  std::string missingLinks() const;
+  bool jointsByTf() const { return joints_by_tf_; }
+
+ private:
+  struct Link {
+    std::string name;
+    std::size_t parent;  ///< the link's own index for the root
+    Eigen::Isometry3d parent_from_link;
+    bool visible;
+    bool given_up = false;  ///< nobody waits for its transform any more
+    int missed = 0;         ///< poses without its transform
+  };
+  using Clock = std::chrono::steady_clock;
+
+  void placeCamera(const scene::Robot& robot, const RobotOptions& options, double camera_height_m);
+  render::BodyPlaces place(const Eigen::Isometry3d& map_from_base,
+                           const std::vector<std::optional<Eigen::Isometry3d>>& map_from_known) const;
+  bool worthWaiting(const std::vector<std::optional<Eigen::Isometry3d>>& known);
+  std::vector<std::optional<Eigen::Isometry3d>> lookUp(const tf2_ros::Buffer& tf, const std::string& frame,
+                                                       const ros::Time& stamp) const;
+  void countMissing(const std::vector<std::optional<Eigen::Isometry3d>>& known);
+
+  std::vector<Link> links_;
+  std::vector<Eigen::Isometry3d> base_from_rest_;  ///< base_from_link in rest position
+  std::size_t base_;
+  Eigen::Vector3d camera_in_base_ = Eigen::Vector3d::Zero();
+  bool joints_by_tf_;
+  std::chrono::duration<double> patience_;
+  std::optional<Clock::time_point> waiting_since_;
+  int poses_ = 0;  ///< by TF
+  std::string waits_for_;
+};
+
+}  // namespace sunlit::ros_interface

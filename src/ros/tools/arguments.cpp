@@ -1,0 +1,60 @@
+#include "ros/tools/arguments.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace sunlit::tools {
+
+void reject(const std::string& option, const std::string& value, const std::string& allowed) {
+  throw std::invalid_argument(option + " is \"" + value + "\", must be " + allowed);
+}
+
+void rejectMissingValue(const std::string& option) {
+  throw std::invalid_argument(option + " needs a value; --help lists all options");
+}
+
+void rejectUnknown(const std::string& option) {
+  throw std::invalid_argument("unknown option " + option + "; --help lists all");
+}
+
+std::vector<double> numbers(const std::string& option, const std::string& text,
+                            std::pair<std::size_t, std::size_t> count, char separator) {
+  const std::string wanted =
+      (count.first == count.second ? std::to_string(count.first)
+                                   : std::to_string(count.first) + " to " + std::to_string(count.second)) +
+      " number(s) separated by '" + separator + "'";
+  std::vector<double> values;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, separator);) {
+    std::size_t used = 0;
+    double value = 0.0;
+    try {
+      value = std::stod(part, &used);
+    } catch (const std::exception&) {
+      reject(option, text, wanted);
+    }
+    if (used != part.size() || !std::isfinite(value)) reject(option, text, wanted);
+    values.push_back(value);
+  }
+  if (values.size() < count.first || values.size() > count.second) reject(option, text, wanted);
+  return values;
+}
+
+double numberWithin(const std::string& option, const std::string& text, double low, double high) {
+  const double value = numbers(option, text, {1, 1})[0];
+  if (value < low || value > high) {
+    std::ostringstream range;
+    range << low << " ... " << high;
+    reject(option, text, range.str());
+  }
+  return value;
+}
+
+int wholeWithin(const std::string& option, const std::string& text, int low, int high) {
+  const double value = numberWithin(option, text, low, high);
+  if (value != std::floor(value)) reject(option, text, "a whole number");
+  return static_cast<int>(value);
+}
+
+}  // namespace sunlit::tools

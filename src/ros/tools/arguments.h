@@ -1,0 +1,39 @@
+/// Reading of command line options.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sunlit::tools {
+
+/// Throws std::invalid_argument naming option, value and what is allowed.
+[[noreturn]] void reject(const std::string& option, const std::string& value, const std::string& allowed);
+
+/// `text` as from `count.first` to `count.second` finite numbers separated by `separator`. All of these throw
+/// as reject() does.
+std::vector<double> numbers(const std::string& option, const std::string& text,
+                            std::pair<std::size_t, std::size_t> count, char separator = ',');
+double numberWithin(const std::string& option, const std::string& text, double low, double high);
+int wholeWithin(const std::string& option, const std::string& text, int low, int high);
+
+/// Calls `take` for each pair of option and value. False if help was asked for. Throws
+/// std::invalid_argument for an option without a value, and one for which `take` says false.
+template <typename Take>
+bool readArguments(const std::vector<std::string>& arguments, const Take& take);
+
+[[noreturn]] void rejectMissingValue(const std::string& option);
+[[noreturn]] void rejectUnknown(const std::string& option);
+
+template <typename Take>
+bool readArguments(const std::vector<std::string>& arguments, const Take& take) {
+  for (std::size_t i = 0; i < arguments.size(); i += 2) {
+    if (arguments[i] == "--help" || arguments[i] == "-h") return false;
+    if (i + 1 == arguments.size()) rejectMissingValue(arguments[i]);
+    if (!take(arguments[i], arguments[i + 1])) rejectUnknown(arguments[i]);
+  }
+  return true;
+}
+
+}  // namespace sunlit::tools

@@ -1,0 +1,31 @@
+/// The folder that a time-lapse is made in, frame by frame, over any number of runs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sunlit/image/images.h"
+
+namespace sunlit::tools {
+
+class FrameFolder {
+ public:
+  /// Throws std::runtime_error if the folder's frames were made by another `recipe`.
+  FrameFolder(const std::string& folder, const std::vector<std::string>& recipe);
+
+  /// Whether the frame is there, whole, and of this size.
+  bool has(int frame, int width, int height) const;
+  image::Rgb8Image read(int frame) const;
+  /// The whole frame, or nothing. The first one makes the folder, and notes the recipe in it. Throws
+  /// std::runtime_error where nothing can be written.
+  void write(int frame, const image::Rgb8Image& picture);
+
+ private:
+  std::string file(int frame) const;
+  std::string recipeFile() const { return folder_ + "/timelapse.txt"; }
+
+  std::string folder_;
+  std::vector<std::string> recipe_;
+};
+
+}  // namespace sunlit::tools

@@ -1,0 +1,98 @@
+#include "scene/robot/urdf_text.h"
+
+#include <console_bridge/console.h>
+#include <tinyxml.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <stdexcept>
+
+namespace sunlit::scene {
+namespace {
+
+/// Keeps what urdfdom would print, for as long as it lives.
+class Listener : public console_bridge::OutputHandler {
+ public:
+  Listener() { console_bridge::useOutputHandler(this); }
+  ~Listener() override { console_bridge::restorePreviousOutputHandler(); }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) {
+      errors.push_back(text);
+    } else if (level >= console_bridge::CONSOLE_BRIDGE_LOG_WARN) {
+      warnings.push_back(text);
+    }
+  }
+
+  std::vector<std::string> errors, warnings;
+};
+
+std::string oneLine(std::string text) {
+  for (char& letter : text) {
+    if (letter == '\n') letter = ' ';
+  }
+  return text;
+}
+
+}  // namespace
+
+UrdfText::UrdfText(const std::string& text, const std::string& origin) : origin_(origin) {
+  readLines(text);
+  Listener listener;
+  try {
+    model_ = urdf::parseURDF(text);
+  } catch (const std::exception& error) {  // of a number, say
+    listener.errors.emplace_back(error.what());
+  }
+  // Some errors urdfdom passes over, and drops the link's visuals without another word.
+  if (!model_ || !listener.errors.empty()) fail(listener.errors);
+  oddities_ = listener.warnings;
+}
+
+void UrdfText::readLines(const std::string& text) {
+  TiXmlDocument document;
+  document.Parse(text.c_str(), nullptr, TIXML_ENCODING_UTF8);
+  if (document.Error()) {
+    throw std::runtime_error(origin_ + ":" + std::to_string(document.ErrorRow()) +
+                             ": the XML is broken here (" + document.ErrorDesc() + ")");
+  }
+  const TiXmlElement* robot = document.FirstChildElement("robot");
+  if (robot == nullptr) throw std::runtime_error(origin_ + ":1: there is no <robot> element in this text");
+  for (const TiXmlElement* element = robot->FirstChildElement(); element != nullptr;
+       element = element->NextSiblingElement()) {
+    const std::string kind = element->Value();
+    if (kind.rfind("xacro:", 0) == 0) {
+      throw std::runtime_error(origin_ + ":" + std::to_string(element->Row()) + ": <" + kind +
+                               "> is a macro; turn this text into a URDF first, by xacro");
+    }
+    const char* name = element->Attribute("name");
+    if (name == nullptr) continue;
+    lines_.emplace(std::make_pair(kind, std::string(name)), element->Row());
+    if (kind == "link") links_.emplace_back(name);
+  }
+}
+
+std::string UrdfText::place(const std::string& kind, const std::string& name) const {
+  const auto line = lines_.find({kind, name});
+  return origin_ + (line == lines_.end() ? "" : ":" + std::to_string(line->second)) + ": " + kind + " " +
+         name;
+}
+
+/// The first complaint is the cause, later ones are its consequences and say where it is.
+void UrdfText::fail(const std::vector<std::string>& complaints) const {
+  std::string text;
+  int line = 0;
+  for (const std::string& complaint : complaints) {
+    text += (text.empty() ? "" : "; ") + oneLine(complaint);
+    for (const auto& [what, row] : lines_) {
+      for (const auto& [open, close] : {std::pair{'[', ']'}, {'\'', '\''}, {'"', '"'}}) {
+        if (line == 0 && complaint.find(open + what.second + close) != std::string::npos) line = row;
+      }
+    }
+  }
+  throw std::runtime_error(origin_ + (line > 0 ? ":" + std::to_string(line) : "") +
+                           ": this is no URDF: " + (text.empty() ? "its parser gives no reason" : text));
+}
+
+}  // namespace sunlit::scene

@@ -1,0 +1,38 @@
+/// A URDF as urdfdom reads it, with places for messages.
+#pragma once
+
+#include <urdf_model/model.h>
+#include <urdf_world/types.h>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sunlit::scene {
+
+class UrdfText {
+ public:
+  /// `origin` names the text in messages. Throws std::runtime_error with line and reason if it is no URDF.
+  UrdfText(const std::string& text, const std::string& origin);
+
+  const urdf::ModelInterface& model() const { return *model_; }
+  /// What urdfdom found odd, but passed.
+  const std::vector<std::string>& oddities() const { return oddities_; }
+  /// Names of the links in the order of the text.
+  const std::vector<std::string>& links() const { return links_; }
+  /// "<origin>:<line>: <kind> <name>"; `kind` is link or joint.
+  std::string place(const std::string& kind, const std::string& name) const;
+
+ private:
+  void readLines(const std::string& text);
+  [[noreturn]] void fail(const std::vector<std::string>& complaints) const;
+
+  std::string origin_;
+  urdf::ModelInterfaceSharedPtr model_;
+  std::vector<std::string> oddities_;
+  std::vector<std::string> links_;
+  std::map<std::pair<std::string, std::string>, int> lines_;  ///< by kind and name
+};
+
+}  // namespace sunlit::scene

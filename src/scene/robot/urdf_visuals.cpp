@@ -1,0 +1,143 @@
+#include "scene/robot/urdf_visuals.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "scene/color.h"
+#include "scene/primitives.h"
+
+namespace sunlit::scene {
+namespace {
+
+/// What Assimp calls the material of a mesh whose file has none.
+constexpr const char* kNoMaterial = "DefaultMaterial";
+
+/// Less opaque than this and a visual is left out: we have surfaces and holes, nothing in between.
+constexpr float kSeenThrough = 0.5f;
+
+void checkPositive(double value, const std::string& what, const std::string& place) {
+  if (std::isfinite(value) && value > 0.0) return;
+  std::ostringstream text;
+  text << place << ": its " << what << " is " << value << ", but must be above 0 m";
+  throw std::runtime_error(text.str());
+}
+
+Mesh primitive(const urdf::Geometry& geometry, const std::string& place) {
+  if (geometry.type == urdf::Geometry::BOX) {
+    const urdf::Vector3& size = static_cast<const urdf::Box&>(geometry).dim;
+    for (const double side : {size.x, size.y, size.z}) checkPositive(side, "box's side", place);
+    return makeBox({size.x, size.y, size.z});
+  }
+  if (geometry.type == urdf::Geometry::SPHERE) {
+    const double radius = static_cast<const urdf::Sphere&>(geometry).radius;
+    checkPositive(radius, "sphere's radius", place);
+    return makeEllipsoid(Eigen::Vector3d::Constant(radius));
+  }
+  const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
+  checkPositive(cylinder.radius, "cylinder's radius", place);
+  checkPositive(cylinder.length, "cylinder's length", place);
+  return makeCylinder(cylinder.radius, cylinder.length);
+}
+
+bool isLeftOut(const urdf::Visual& visual) {
+  return visual.material && visual.material->texture_filename.empty() &&
+         visual.material->color.a < kSeenThrough;
+}
+
+}  // namespace
+
+void UrdfVisuals::add(const urdf::Link& link, const std::string& place) {
+  for (std::size_t i = 0; i < link.visual_array.size(); ++i) {
+    const urdf::Visual& visual = *link.visual_array[i];
+    const std::string name = visual.name.empty() ? std::to_string(i + 1) : visual.name;
+    addVisual(visual, link.name + "::" + name, place + ", visual " + name);
+  }
+}
+
+void UrdfVisuals::addVisual(const urdf::Visual& visual, const std::string& name, const std::string& place) {
+  if (isLeftOut(visual)) {
+    builder_.warn(place + " was left out: it is more than half transparent");
+    return;
+  }
+  const std::optional<int> own_material = material(visual, place);
+  const Eigen::Isometry3d link_from_visual = toEigen(visual.origin);
+  if (!visual.geometry) throw std::runtime_error(place + ": it has no geometry");
+  if (visual.geometry->type == urdf::Geometry::MESH) {
+    addMeshShape(static_cast<const urdf::Mesh&>(*visual.geometry), own_material, link_from_visual, name,
+                 place);
+    return;
+  }
+  Mesh mesh = primitive(*visual.geometry, place);
+  mesh.name = name;
+  mesh.material = *own_material;
+  builder_.addMesh(mesh, Eigen::Affine3d(link_from_visual));
+}
+
+/// None where the visual has none and is a mesh, which may bring its own.
+std::optional<int> UrdfVisuals::material(const urdf::Visual& visual, const std::string& place) {
+  const urdf::Material* source = visual.material.get();
+  if (source == nullptr && !visual.material_name.empty()) {
+    builder_.warn(place + ": there is no material " + visual.material_name +
+                  ", a neutral one takes its place");
+  }
+  if (source == nullptr && visual.geometry && visual.geometry->type == urdf::Geometry::MESH)
+    return std::nullopt;
+  std::ostringstream content;
+  if (source != nullptr) {
+    const urdf::Color& c = source->color;
+    content << source->name << '\n' << source->texture_filename << '\n' << c.r << ' ' << c.g << ' ' << c.b;
+  }
+  const auto known = material_by_content_.find(content.str());
+  if (known != material_by_content_.end()) return known->second;
+
+  Material looks;
+  looks.name = source != nullptr ? source->name : "neutral";
+  looks.base_color = kNeutral;
+  if (source != nullptr && source->texture_filename.empty()) {
+    looks.base_color = linearFromSrgb({source->color.r, source->color.g, source->color.b});
+  } else if (source != nullptr) {
+    Found found = finder_.find(source->texture_filename, origin_);
+    if (!found.file) found = finder_.findTexture(source->texture_filename, origin_);
+    if (found.file) {
+      looks.base_texture = builder_.textureFromFile(*found.file);
+      looks.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
+    } else {
+      builder_.warn(place + ": texture " + source->texture_filename +
+                    " is missing, a neutral material takes its place");
+    }
+  }
+  return material_by_content_[content.str()] = builder_.addMaterial(looks, AlphaRule::kFromTexture);
+}
+
+const std::vector<MeshPart>& UrdfVisuals::partsOf(const urdf::Mesh& shape, const std::string& place) {
+  const Found found = finder_.find(shape.filename, origin_);
+  if (!found.file) {
+    throw std::runtime_error(place + ": there is no mesh " + shape.filename + "; it was looked for as " +
+                             placesTried(found));
+  }
+  if (found.other_case) builder_.warn("mesh " + shape.filename + " is spelt " + *found.file + " on disk");
+  const auto known = parts_by_file_.find(*found.file);
+  if (known != parts_by_file_.end()) return known->second;
+  // As RViz and Gazebo do, the up axis of COLLADA files is ignored.
+  return parts_by_file_[*found.file] = readMeshFile(*found.file, UpAxis::kZ, finder_, builder_);
+}
+
+void UrdfVisuals::addMeshShape(const urdf::Mesh& shape, std::optional<int> own_material,
+                               const Eigen::Isometry3d& link_from_visual, const std::string& name,
+                               const std::string& place) {
+  const Eigen::Affine3d link_from_file =
+      Eigen::Affine3d(link_from_visual) * Eigen::Scaling(shape.scale.x, shape.scale.y, shape.scale.z);
+  const std::vector<MeshPart>& parts = partsOf(shape, place);
+  if (parts.empty()) builder_.warn(place + ": there is nothing to draw in " + shape.filename);
+  for (MeshPart part : parts) {
+    part.mesh.name = name + "/" + part.mesh.name;
+    // As RViz does: the material of the URDF is for meshes that bring none.
+    if (own_material && builder_.material(part.mesh.material).name == kNoMaterial) {
+      part.mesh.material = *own_material;
+    }
+    builder_.addMesh(part.mesh, link_from_file * part.file_from_node);
+  }
+}
+
+}  // namespace sunlit::scene

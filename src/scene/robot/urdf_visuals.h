@@ -1,0 +1,50 @@
+/// The visuals of URDF links as meshes.
+#pragma once
+
+#include <urdf_model/link.h>
+
+#include <Eigen/Geometry>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/mesh_file.h"
+#include "scene/resource_finder.h"
+#include "scene/scene_builder.h"
+
+namespace sunlit::scene {
+
+inline Eigen::Isometry3d toEigen(const urdf::Pose& pose) {
+  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+  transform.translate(Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z));
+  transform.rotate(
+      Eigen::Quaterniond(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z).normalized());
+  return transform;
+}
+
+class UrdfVisuals {
+ public:
+  /// `origin` is the file of the text, or what stands for it.
+  UrdfVisuals(const std::string& origin, const ResourceFinder& finder, SceneBuilder& builder)
+      : origin_(origin), finder_(finder), builder_(builder) {}
+
+  /// Adds everything to see of `link`, in its frame. `place` names the link in messages.
+  void add(const urdf::Link& link, const std::string& place);
+
+ private:
+  void addVisual(const urdf::Visual& visual, const std::string& name, const std::string& place);
+  void addMeshShape(const urdf::Mesh& shape, std::optional<int> material,
+                    const Eigen::Isometry3d& link_from_visual, const std::string& name,
+                    const std::string& place);
+  std::optional<int> material(const urdf::Visual& visual, const std::string& place);
+  const std::vector<MeshPart>& partsOf(const urdf::Mesh& shape, const std::string& place);
+
+  std::string origin_;
+  const ResourceFinder& finder_;
+  SceneBuilder& builder_;
+  std::map<std::string, int> material_by_content_;
+  std::map<std::string, std::vector<MeshPart>> parts_by_file_;
+};
+
+}  // namespace sunlit::scene

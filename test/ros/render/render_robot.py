@@ -1,0 +1,147 @@
+#!/usr/bin/python3
+"""A robot in the picture: its shadow lies where the sun throws it, moves with TF, and errors of its file are named."""
+import os
+import shutil
+import tempfile
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import TransformStamped
+from rendering import SUPPORT, Reader, RenderNode, Sun, parameters
+from tf2_msgs.msg import TFMessage
+
+POLE = os.path.join(SUPPORT, "pole.urdf")
+POLE_HEIGHT_M, POLE_BEHIND_M = 3.0, 0.5
+CAMERA_HEIGHT_M = 1.0
+FOCAL_PX = 48 * 3 ** 0.5  # half the width over the tangent of half of 60 degrees
+# Behind the camera, which looks along x: the shadow of a height h reaches 4/3 h forward.
+SUN = dict(east=-0.8, north=0.0, up=0.6)
+SHADOW_END_M = POLE_HEIGHT_M * 4.0 / 3.0 - POLE_BEHIND_M
+FIXED = {"mode": "fixed", "ev100": 13.5}
+
+
+def transform(parent, child, stamp, x=0.0, y=0.0, z=0.0):
+    message = TransformStamped()
+    message.header.frame_id, message.child_frame_id, message.header.stamp = parent, child, stamp
+    message.transform.translation.x, message.transform.translation.y, message.transform.translation.z = x, y, z
+    message.transform.rotation.w = 1.0
+    return message
+
+
+def brightness(image, forward, left):
+    """Of the ground so many metres before and beside the camera."""
+    column = round(47.5 - FOCAL_PX * left / forward)
+    row = round(35.5 + FOCAL_PX * CAMERA_HEIGHT_M / forward)
+    return sum(image.data[row * image.step + 3 * column:][:3])
+
+
+class RenderRobot(unittest.TestCase):
+
+    def setUp(self):
+        self.suns = [Sun("/a/sun", **SUN)]
+        self.folder = tempfile.mkdtemp()
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def tree(self, **changes):
+        return parameters(**dict(dict(conditions=["a"], exposure=FIXED, subscribers={"images": 1}, exit_when_done=True),
+                                 **changes))
+
+    def images(self, name, count, **changes):
+        """The first images along the path, and what the node said."""
+        reader = Reader(["a"], node="/" + name)
+        with RenderNode(name, self.tree(**changes)) as node:
+            images = reader.wait("/a/camera/image_raw", count)
+            status, said = node.end()
+        reader.close()
+        self.assertEqual(status, 0, said)
+        return images, said
+
+    def shaded(self, image, without, forward, left):
+        """Whether the ground there has lost the sun; that it has neither lost nor kept all is a failure."""
+        share = brightness(image, forward, left) / brightness(without, forward, left)
+        self.assertTrue(share < 0.7 or 0.97 < share < 1.03, share)
+        return share < 0.7
+
+    def test_its_shadow_falls_where_the_sun_throws_it(self):
+        bare, _ = self.images("bare", 4, path={"count": 4})
+        seen, said = self.images("robot", 4, path={"count": 4}, robot={"file": POLE})
+        self.assertTrue(any("Robot pole: 3 links" in line for line in said), said)
+        self.assertFalse(any("above the path" in line for line in said), said)
+        for image, without in zip(seen, bare):  # it moves with the camera
+            for forward in (2.5, 3.0, SHADOW_END_M - 0.15):
+                self.assertTrue(self.shaded(image, without, forward, 0.0), forward)
+                self.assertTrue(self.shaded(image, without, forward, 0.22), forward)
+                self.assertFalse(self.shaded(image, without, forward, 0.4), forward)
+                self.assertFalse(self.shaded(image, without, forward, -0.4), forward)
+            self.assertFalse(self.shaded(image, without, SHADOW_END_M + 0.2, 0.0))
+
+    def test_a_description_on_the_parameter_server_is_the_same_as_a_file(self):
+        with open(POLE) as file:
+            rospy.set_param("/robot_description", file.read())
+        from_file, _ = self.images("filed", 2, path={"count": 2}, robot={"file": POLE})
+        described, _ = self.images("described", 2, path={"count": 2}, robot={"description": "robot_description"})
+        self.assertEqual([image.data for image in described], [image.data for image in from_file])
+        # Half a metre to the right of where it was.
+        moved, _ = self.images("moved", 2, path={"count": 2}, robot={"file": POLE, "camera_in_base": [0, 0.5, 1]})
+        self.assertLess(brightness(moved[0], 3.0, -0.5), 0.7 * brightness(from_file[0], 3.0, -0.5))
+        self.assertGreater(brightness(moved[0], 3.0, 0.1), 1.4 * brightness(from_file[0], 3.0, 0.1))
+
+    def test_one_that_hovers_is_told_of(self):
+        _, said = self.images("hovering", 1, path={"count": 1}, robot={"file": POLE, "camera_in_base": [0, 0, 0.4]})
+        self.assertTrue(any("WARN" in line and "0.60 m above the path" in line for line in said), said)
+
+    def test_its_shadow_moves_with_tf_and_links_without_tf_are_counted(self):
+        bare, _ = self.images("bare", 1, path={"count": 1})
+        reader = Reader(["a"], node="/followed")
+        sender = rospy.Publisher("/tf", TFMessage, queue_size=10)
+        tree = self.tree(frame_rate=1000.0, camera={"follow": "tf", "follow_frame": "eye"},
+                         robot={"file": POLE, "tf_patience": 0.2})
+        with RenderNode("followed", tree) as node:
+            node.line_with("Waiting for the TF frame eye")
+            for index, left in enumerate((0.0, 0.8, -0.8)):
+                stamp = rospy.Time(2000 + index)
+                # The pole goes aside; the weight is not heard of.
+                sender.publish(TFMessage([transform("map", "eye", stamp, z=CAMERA_HEIGHT_M),
+                                          transform("map", "base_link", stamp),
+                                          transform("base_link", "pole", stamp, x=-POLE_BEHIND_M, y=left)]))
+                image = reader.wait("/a/camera/image_raw", index + 1)[index]
+                for place in (-0.8, 0.0, 0.8):
+                    self.assertEqual(self.shaded(image, bare[0], 3.0, place), place == left, (left, place))
+            node.process.send_signal(2)
+            status, said = node.end()
+        self.assertEqual(status, 0, said)
+        warnings = [line for line in said if "weight" in line and "Waiting" not in line]
+        self.assertEqual(len(warnings), 2, said)
+        self.assertIn("No transform of the robot's link weight on TF", warnings[0])
+        self.assertIn("weight in 3 of 3 poses", warnings[1])
+        reader.close()
+
+    def refused(self, robot, *parts):
+        with RenderNode("refused", self.tree(robot=robot)) as node:
+            status, lines = node.end()
+        self.assertNotEqual(status, 0)
+        fatal = [line for line in lines if "FATAL" in line]
+        self.assertEqual(len(fatal), 1, lines)
+        for part in parts:
+            self.assertIn(part, fatal[0])
+
+    def test_what_is_wrong_is_one_clear_line(self):
+        broken = os.path.join(self.folder, "broken.urdf")
+        with open(broken, "w") as file:
+            file.write("<robot name='r'>\n<link name='a'>\n</robot>")
+        self.refused({"file": broken}, broken + ":", "XML")
+        self.refused({"file": "/none.urdf"}, "there is no robot /none.urdf")
+        self.refused({"file": POLE, "base_frame": "head"}, 'robot/base_frame is "head"', "base_link, pole, weight")
+        self.refused({"file": POLE, "camera_in_base": "head"}, 'robot/camera_in_base is "head"')
+        self.refused({"file": POLE, "camera_in_base": [1, 2]}, "/refused/robot/camera_in_base", "[x, y, z]")
+        self.refused({"file": POLE, "description": "x"}, "robot/description", "robot/file", "one source")
+        self.refused({"description": "nowhere"}, "/nowhere does not exist")
+        self.refused({"file": POLE, "joints": "loose"}, "/refused/robot/joints", "loose", "auto, rest, tf")
+
+
+if __name__ == "__main__":
+    rospy.init_node("render_robot")
+    rostest.rosrun("sunlit", "render_robot", RenderRobot)

@@ -1,0 +1,110 @@
+// Light from all around a body, in surroundings whose light can be worked out on paper.
+#include "sunlit/light/body_light.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sunlit/sky/atmosphere.h"
+
+namespace sunlit::light {
+namespace {
+
+constexpr float kPiFloat = static_cast<float>(kPi);
+
+/// `luminance(direction)` from all around, in small parts.
+template <typename Luminance>
+AroundLight surroundings(const Luminance& luminance) {
+  AroundLight light;
+  constexpr int kParts = 20000;
+  for (int i = 0; i < kParts; ++i) {
+    const float z = 1.0f - (2.0f * static_cast<float>(i) + 1.0f) / kParts;
+    const float r = std::sqrt(1.0f - z * z), turn = 2.39996323f * static_cast<float>(i);
+    const Eigen::Vector3f towards(r * std::cos(turn), r * std::sin(turn), z);
+    light.add(towards, 4.0f * kPiFloat / kParts, luminance(towards));
+  }
+  return light;
+}
+
+TEST(AroundLight, OfUniformLuminanceIsPiTimesThatOnEverySide) {
+  const AroundLight light =
+      surroundings([](const Eigen::Vector3f&) { return Eigen::Array3f(1.0f, 2.0f, 3.0f); });
+  for (const Eigen::Vector3f& normal : {Eigen::Vector3f(0, 0, 1), Eigen::Vector3f(0.6f, 0, -0.8f)}) {
+    // Rounding of a sum of 20,000 parts.
+    EXPECT_LT((light.illuminance(normal) / Eigen::Array3f(1, 2, 3) - kPiFloat).abs().maxCoeff(), 2e-3f);
+  }
+}
+
+TEST(AroundLight, OfAHalfLitSphereIsHalfOnTheEdge) {
+  const AroundLight light = surroundings([](const Eigen::Vector3f& towards) {
+    return Eigen::Array3f::Constant(towards.z() > 0.0f ? 1.0f : 0.0f);
+  });
+  // (1 + cos) / 2 of π: on paper for a surface tilted from the lit side; the second order is within 3 % of π
+  // of it.
+  for (const float cosine : {1.0f, 0.5f, 0.0f, -0.5f, -1.0f}) {
+    const Eigen::Vector3f normal(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
+    EXPECT_NEAR(light.illuminance(normal)[0], 0.5f * kPiFloat * (1.0f + cosine), 0.03f * kPiFloat) << cosine;
+  }
+}
+
+scene::Mesh square(const Eigen::Vector3f& centre, float half) {
+  scene::Mesh mesh;
+  for (const auto& [x, y] : {std::pair{-1.0f, -1.0f}, {1.0f, -1.0f}, {1.0f, 1.0f}, {-1.0f, 1.0f}})
+    mesh.positions.push_back(centre + Eigen::Vector3f(half * x, half * y, 0.0f));
+  mesh.normals.assign(4, Eigen::Vector3f::UnitZ());
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+TEST(BodyLight, BelowABodyIsTheLightThatTheGroundSendsBack) {
+  auto scene = std::make_shared<scene::Scene>();
+  scene->materials.resize(1);
+  const Eigen::Array3f albedo(0.5f, 0.4f, 0.3f);
+  scene->materials[0].base_color = LinearRgb(albedo);
+  scene->materials[0].roughness = 1.0f;
+  scene->meshes = {square(Eigen::Vector3f::Zero(), 500.0f)};
+  const World world(scene, {{square(Eigen::Vector3f::Zero(), 0.1f)}});
+  const BodyLight body_light(world);
+  // So high that its own shadow is small; sun at 60°.
+  const auto placed = world.bodies->placed({Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 5.0))});
+  const auto views = body_light.look(*placed, std::make_shared<Visibility>(world.visibility, placed));
+  const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
+  const sky::Daylight day =
+      atmosphere.daylight({Direction(Azimuth::degrees(100.0), Angle::degrees(60.0)), 1.0});
+  const std::vector<AroundLight> around = body_light.around(*views, day);
+  ASSERT_EQ(around.size(), 1u);
+  const Eigen::Array3f below = around[0].illuminance(-Eigen::Vector3f::UnitZ());
+  // Over boundless ground it is the ground's own illuminance times its albedo. 8 %: that of the second order,
+  // 3 % of what comes from above too, and what the fitted mirror part of the reflectance adds.
+  const Eigen::Array3f expected = albedo * day.groundIlluminance().value;
+  EXPECT_LT((below / expected - 1.0f).abs().maxCoeff(), 0.08f) << below.transpose() << "\n"
+                                                               << expected.transpose();
+  // From above the open sky.
+  const Eigen::Array3f above = around[0].illuminance(Eigen::Vector3f::UnitZ());
+  const Eigen::Array3f sky = day.skyIlluminance(Eigen::Vector3f::UnitZ()).value;
+  EXPECT_LT((above / sky - 1.0f).abs().maxCoeff(), 0.12f) << above.transpose() << "\n" << sky.transpose();
+}
+
+TEST(Bodies, NumberTheirTrianglesAlikeWhereverTheyStand) {
+  auto scene = std::make_shared<scene::Scene>();
+  scene->materials.resize(1);
+  const Bodies bodies(scene,
+                      {{}, {square(Eigen::Vector3f::Zero(), 1.0f)}, {square(Eigen::Vector3f::Zero(), 2.0f)}});
+  ASSERT_EQ(bodies.count(), 3u);
+  for (const double far_m : {0.0, 5000.0}) {
+    std::vector<Eigen::Isometry3d> places(3, Eigen::Isometry3d(Eigen::Translation3d(far_m, -far_m, 7.0)));
+    places[2].rotate(Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitX()));
+    const auto placed = bodies.placed(places);
+    ASSERT_EQ(placed->triangles.size(), 4u);
+    EXPECT_TRUE(bodies.boxOf(0, *placed).isEmpty());
+    EXPECT_EQ(bodies.surfaceOf(2), 16.0f);
+    for (std::uint32_t t = 0; t < 4; ++t) {
+      const bool flat_side_up = bodies.bodyOf(t) == 1;
+      EXPECT_NEAR(placed->planes[t].normal.z(), flat_side_up ? 1.0f : -1.0f, 1e-6f);
+      EXPECT_NEAR(placed->planes[t].normal.z() * placed->planes[t].offset, 7.0, 1e-5);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sunlit::light

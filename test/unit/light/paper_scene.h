@@ -1,0 +1,151 @@
+/// Scenes whose light can be worked out on paper, and points of them to look at, without a renderer.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sunlit/light/lighting.h"
+#include "sunlit/light/reference.h"
+#include "sunlit/light/shading.h"
+#include "sunlit/light/world.h"
+#include "sunlit/quantity/angle.h"
+#include "sunlit/sky/uniform_sky.h"
+
+namespace sunlit::light {
+
+inline scene::Material paint(float albedo, float emission = 0.0f) {
+  scene::Material material;
+  material.base_color = LinearRgb(albedo, albedo, albedo);
+  material.roughness = 1.0f;
+  material.emission = LinearRgb(emission, emission, emission);
+  return material;
+}
+
+/// The parallelogram origin + s·a + t·b, s and t in [0, 1], with a × b in front.
+inline void addPatch(scene::Scene* scene, int material, const Eigen::Vector3f& origin,
+                     const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  scene::Mesh mesh;
+  mesh.name = "patch " + std::to_string(scene->meshes.size());
+  mesh.material = material;
+  mesh.positions = {origin, origin + a, origin + a + b, origin + b};
+  mesh.normals.assign(4, a.cross(b).normalized());
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  scene->meshes.push_back(mesh);
+}
+
+inline void addGround(scene::Scene* scene, int material, float half) {
+  addPatch(scene, material, {-half, -half, 0.0f}, {2.0f * half, 0.0f, 0.0f}, {0.0f, 2.0f * half, 0.0f});
+}
+
+inline World worldOf(scene::Scene scene) {
+  return World(std::make_shared<const scene::Scene>(std::move(scene)));
+}
+
+/// A point of a surface, and from where it is looked at.
+struct Looked {
+  Eigen::Vector3f position;
+  Eigen::Vector3f normal;
+  Eigen::Vector3f to_eye;
+  int material = 0;
+};
+
+/// A picture of one row, a point a pixel.
+inline Surfaces rowOf(const std::vector<Looked>& points, const scene::Scene& scene) {
+  Surfaces surfaces;
+  surfaces.width = static_cast<int>(points.size());
+  surfaces.height = 1;
+  surfaces.pixel_origin = Eigen::Vector3f::UnitX();
+  surfaces.pixel_right = Eigen::Vector3f(0.0f, -1e-3f, 0.0f);
+  surfaces.pixel_down = Eigen::Vector3f(0.0f, 0.0f, -1e-3f);
+  for (std::size_t i = 0; i < points.size(); i += Surfaces::kTileSize) {
+    Tile tile;
+    tile.x = static_cast<int>(i);
+    tile.width = std::min(Surfaces::kTileSize, surfaces.width - tile.x);
+    tile.height = 1;
+    tile.sky.assign(static_cast<std::size_t>(tile.width), 0);
+    for (std::size_t k = i; k < i + static_cast<std::size_t>(tile.width); ++k) {
+      Surface surface;
+      surface.position = points[k].position;
+      surface.to_eye = points[k].to_eye.normalized();
+      surface.geometric_normal = surface.shading_normal = points[k].normal;
+      surface.material = points[k].material;
+      surface.albedo = scene.materials[static_cast<std::size_t>(surface.material)].base_color.value;
+      surface.clearance_m = 3e-4f;
+      surface.pixel = static_cast<std::uint32_t>(k);
+      surface.first_sample = static_cast<std::uint32_t>(tile.origin_x.size());
+      surface.samples = 1;
+      const Eigen::Vector3f origin = surface.position + surface.clearance_m * surface.geometric_normal;
+      tile.origin_x.push_back(origin.x());
+      tile.origin_y.push_back(origin.y());
+      tile.origin_z.push_back(origin.z());
+      tile.surfaces.push_back(surface);
+    }
+    surfaces.tiles.push_back(tile);
+  }
+  return surfaces;
+}
+
+/// The green of each pixel of a row, cd/m².
+inline std::vector<double> rowValues(const image::LinearImage& image) {
+  std::vector<double> values;
+  for (int x = 0; x < image.width; ++x) values.push_back(static_cast<double>(image.at(x, 0)[1]));
+  return values;
+}
+
+inline std::vector<double> traced(const World& world, const std::vector<Looked>& points,
+                                  const sky::Daylight& day, int samples, int bounces = 64) {
+  const Surfaces surfaces = rowOf(points, *world.geometry->scene);
+  ReferenceOptions options;
+  options.samples_per_pixel = samples;
+  options.bounces = bounces;
+  return rowValues(traceReference(surfaces, world, {day}, options)[0].luminance);
+}
+
+inline sky::Daylight uniformDay(float luminance, double ground_albedo = 0.0) {
+  sky::UniformSky sky;
+  sky.luminance = LinearRgb(luminance, luminance, luminance);
+  sky.ground_albedo = ground_albedo;
+  return sky::uniformDaylight(sky);
+}
+
+/// A sun of 1 lx and nothing else.
+inline sky::Daylight onlySun(double azimuth_deg, double elevation_deg) {
+  sky::UniformSky sky;
+  sky.sun.towards = Direction(Azimuth::degrees(azimuth_deg), Angle::degrees(elevation_deg));
+  sky.sun.illuminance = LinearRgb(1.0f, 1.0f, 1.0f);
+  return sky::uniformDaylight(sky);
+}
+
+/// Luminance that `material` shows in the direction of `to_eye` where light of 1 cd/m² comes from all
+/// directions that `open` lets through, by a sum over the sphere. Frame: z along the normal.
+template <typename Open>
+double underSky(const scene::Material& material, const Eigen::Vector3f& to_eye, const Open& open) {
+  constexpr int kRings = 400, kSectors = 800;
+  const Reflection reflection{Eigen::Vector3f::UnitZ(), to_eye.normalized(), material.base_color.value,
+                              material.roughness,       material.metalness,  material.transmission};
+  double sum = 0.0;
+  for (int i = 0; i < kRings; ++i) {
+    const double z = 2.0 * (i + 0.5) / kRings - 1.0;
+    const double across = std::sqrt(1.0 - z * z);
+    for (int k = 0; k < kSectors; ++k) {
+      const double turn = 2.0 * kPi * (k + 0.5) / kSectors;
+      const Eigen::Vector3f towards =
+          Eigen::Vector3d(across * std::cos(turn), across * std::sin(turn), z).cast<float>();
+      if (open(towards)) sum += static_cast<double>(directReflectance(reflection, towards, 0.0f)[1]);
+    }
+  }
+  return sum * 4.0 * kPi / (kRings * kSectors);
+}
+
+inline bool everywhere(const Eigen::Vector3f&) {
+  return true;
+}
+
+inline double albedoTowards(const scene::Material& material, const Eigen::Vector3f& to_eye) {
+  return underSky(material, to_eye, everywhere);
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,312 @@
+// Baked sky light and bounced light by scenes with pencil-and-paper answers.
+#include "sunlit/light/transport.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <array>
+
+#include "light/transport/sky_patches.h"
+#include "paper_scene.h"
+#include "sunlit/light/illumination.h"
+#include "sunlit/sky/atmosphere.h"
+
+namespace sunlit::light {
+namespace {
+
+constexpr float kPiFloat = static_cast<float>(kPi);
+const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ();
+
+World baked(scene::Scene scene, const TransportOptions& options = {}) {
+  World world = worldOf(std::move(scene));
+  world.transport = Transport::bake(world.geometry, options);
+  return world;
+}
+
+/// The triangle whose plane and outline hold `point`.
+std::uint32_t triangleAt(const Geometry& geometry, const Eigen::Vector3f& point,
+                         const Eigen::Vector3f& normal) {
+  for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
+    const Plane& plane = geometry.planes[t];
+    if (std::abs(plane.normal.dot(normal)) < 0.99f) continue;
+    if (std::abs(static_cast<double>(plane.normal.dot(point)) - plane.offset) > 1e-3) continue;
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3f& a = geometry.positions[geometry.triangles[t][k]];
+      const Eigen::Vector3f& b = geometry.positions[geometry.triangles[t][(k + 1) % 3]];
+      inside = inside && plane.normal.dot((b - a).cross(point - a)) >= -1e-4f;
+    }
+    if (inside) return t;
+  }
+  throw std::logic_error("no triangle there");
+}
+
+/// Illuminance of the sky light and bounced light at points, lx.
+std::vector<Eigen::Array3f> illuminances(const World& world, const sky::Daylight& day,
+                                         const std::vector<Looked>& points) {
+  Surfaces surfaces = rowOf(points, *world.geometry->scene);
+  for (Tile& tile : surfaces.tiles) {
+    for (Surface& surface : tile.surfaces)
+      surface.triangle = triangleAt(*world.geometry, surface.position, surface.geometric_normal);
+  }
+  world.transport->locate(&surfaces);
+  const Illumination light = illumination(world, day);
+  std::vector<Eigen::Array3f> values;
+  for (const Tile& tile : surfaces.tiles) {
+    for (const Surface& surface : tile.surfaces) {
+      EXPECT_TRUE(surface.light.known());
+      Eigen::Array3f sum = Eigen::Array3f::Zero();
+      for (std::size_t k = 0; k < 3; ++k)
+        sum += surface.light.weight[k] * (*light.irradiance)[surface.light.node[k]];
+      values.push_back(sum);
+    }
+  }
+  return values;
+}
+
+double illuminance(const World& world, const sky::Daylight& day, const Eigen::Vector3f& position,
+                   const Eigen::Vector3f& normal = kUp) {
+  return static_cast<double>(illuminances(world, day, {{position, normal, normal}})[0][1]);
+}
+
+TEST(SkyPatches, FillTheSphere) {
+  const SkyPatches patches(3);
+  double fine = 0.0, coarse = 0.0, above = 0.0, level = 0.0;
+  for (const SkyPatches::Ray& ray : patches.rays()) {
+    fine += static_cast<double>(ray.solid_angle);
+    level += static_cast<double>(ray.solid_angle * std::max(ray.towards.z(), 0.0f));
+  }
+  for (const SkyPatches::Ray& ray : patches.coarseRays()) coarse += static_cast<double>(ray.solid_angle);
+  for (int patch = 0; patch < SkyPatches::kAbove; ++patch)
+    above += static_cast<double>(SkyPatches::solidAngle(patch));
+  EXPECT_NEAR(fine, 4.0 * kPi, 1e-4);
+  EXPECT_NEAR(coarse, 4.0 * kPi, 1e-4);
+  EXPECT_NEAR(above, 2.0 * kPi, 1e-4);
+  EXPECT_NEAR(level, kPi, 1e-4);  // equal areas are equally spaced in z, so this sum is exact
+}
+
+TEST(SkyPatches, DivideASmallLightWithoutJumps) {
+  std::array<float, SkyPatches::kCount> before{};
+  for (int i = 0; i <= 20000; ++i) {
+    const double elevation = 89.0 * std::sin(i * 0.0003), azimuth = i * 0.001;
+    const Eigen::Vector3f towards = Eigen::Vector3d(std::cos(azimuth) * std::cos(elevation * kRadPerDeg),
+                                                    std::sin(azimuth) * std::cos(elevation * kRadPerDeg),
+                                                    std::sin(elevation * kRadPerDeg))
+                                        .cast<float>();
+    std::array<float, SkyPatches::kCount> now{};
+    float sum = 0.0f;
+    for (const PatchShare& share : SkyPatches::around(towards)) {
+      ASSERT_GE(share.share, 0.0f);
+      now[static_cast<std::size_t>(share.patch)] += share.share;
+      sum += share.share;
+    }
+    ASSERT_NEAR(sum, 1.0f, 1e-5f);
+    // Steps of 0.06° in azimuth and up to 0.03° in elevation, patches at least 6° apart: 0.01 + 0.005.
+    for (std::size_t p = 0; i > 0 && p < now.size(); ++p) ASSERT_NEAR(now[p], before[p], 0.02f) << i;
+    before = now;
+  }
+}
+
+TEST(BakedLight, APlaneUnderAnEvenSkyGetsPiTimesItsLuminance) {
+  scene::Scene scene;
+  scene.materials = {paint(0.5f)};
+  addGround(&scene, 0, 30.0f);
+  const World world = baked(std::move(scene));
+  // Coefficients are bytes, rounded to 1/510 of the largest: patches of one ring alike, so rings are off by
+  // up to that, and eight rings by a third of it together.
+  EXPECT_NEAR(illuminance(world, uniformDay(100.0f), {3.3f, 1.7f, 0.0f}), kPi * 100.0, 0.0015 * kPi * 100.0);
+}
+
+TEST(BakedLight, BesideALongHighWallHalfTheSkyIsLeft) {
+  scene::Scene scene;
+  scene.materials = {paint(0.0f)};
+  addGround(&scene, 0, 40.0f);
+  addPatch(&scene, 0, {0.0f, -4000.0f, 0.0f}, {0.0f, 8000.0f, 0.0f}, {0.0f, 0.0f, 2000.0f});
+  TransportOptions options;
+  options.rays_per_patch = 8;
+  const World world = baked(std::move(scene), options);
+  // From the foot of an endless wall of height h, at distance d: E = πL (1 + sin(elevation)) / 2 seen from
+  // the open side, of which the wall takes (1 − cos) / 2 … here h ≫ d, so half is left.
+  for (const float d : {0.3f, 1.0f, 5.0f, 20.0f}) {
+    // The paint mirrors a few percent; 2 % is the quadrature over patches that the wall's plane cuts.
+    const double expected = 0.5 * kPi * 100.0;
+    EXPECT_NEAR(illuminance(world, uniformDay(100.0f), {d, 2.2f, 0.0f}), expected, 0.06 * expected) << d;
+  }
+}
+
+/// Share of an endless wall of height `h` in what level ground at distance `d` from it sees: (1 − cos γ) / 2
+/// with γ the angle at which its top stands (Howell, configuration factor B-5, both sides endless).
+double wallShare(double h, double d) {
+  return 0.5 * (1.0 - d / std::hypot(h, d));
+}
+
+TEST(BakedLight, GroundBeforeABlackWallLosesTheWallsShareOfTheSky) {
+  scene::Scene scene;
+  scene.materials = {paint(0.0f)};
+  scene.materials[0].roughness = 1.0f;
+  addGround(&scene, 0, 30.0f);
+  addPatch(&scene, 0, {0.0f, -400.0f, 0.0f}, {0.0f, 800.0f, 0.0f}, {0.0f, 0.0f, 3.0f});
+  TransportOptions options;
+  options.bounces = 0;  // black paint still mirrors 4 %
+  const World world = baked(std::move(scene), options);
+  for (const float d : {0.2f, 0.5f, 1.0f, 2.0f, 4.0f, 8.0f}) {
+    const double expected = (1.0 - wallShare(3.0, static_cast<double>(d))) * kPi * 100.0;
+    // Interpolation between samples 0.25 m apart at the wall, and a sky cut into 700 parts.
+    EXPECT_NEAR(illuminance(world, uniformDay(100.0f), {d, 2.2f, 0.0f}), expected, 0.02 * kPi * 100.0) << d;
+  }
+}
+
+TEST(BakedLight, ARoomThatGlowsFillsUp) {
+  scene::Scene scene;
+  scene.materials = {paint(0.5f, 100.0f)};
+  const Eigen::Vector3f low(-2.0f, -2.0f, 0.0f), x(4, 0, 0), y(0, 4, 0), z(0, 0, 4);
+  addPatch(&scene, 0, low, x, y);
+  addPatch(&scene, 0, low + z, y, x);
+  addPatch(&scene, 0, low, z, x);
+  addPatch(&scene, 0, low + y, x, z);
+  addPatch(&scene, 0, low, y, z);
+  addPatch(&scene, 0, low + x, z, y);
+  TransportOptions options;
+  options.bounces = 8;
+  const World world = baked(std::move(scene), options);
+  const Reflection reflection{kUp, Eigen::Vector3f(0.77f, 0.0f, 0.64f), Eigen::Array3f::Constant(0.5f), 1.0f,
+                              0.0f};
+  const AmbientReflectance ambient = ambientReflectance(reflection);
+  const double albedo = static_cast<double>(ambient.diffuse[1] * kPiFloat + ambient.specular[1]);
+  // E = π e / (1 − ρ), less what comes after eight reflections: ρ⁸ of it.
+  const double expected = kPi * 100.0 * (1.0 - std::pow(albedo, 8.0)) / (1.0 - albedo);
+  for (const Eigen::Vector3f& place : {Eigen::Vector3f(0.1f, 0.2f, 0.0f), Eigen::Vector3f(1.9f, -1.9f, 0.0f)})
+    EXPECT_NEAR(illuminance(world, uniformDay(0.0f), place), expected, 0.02 * expected);
+}
+
+TEST(BakedLight, BetweenTwoPlatesLightGoesBackAndForth) {
+  // A wide plate above the ground, lit only from the sides, is hard on paper; a grey ground under a grey
+  // canopy that leaves a known share open is not: two endless plates, of which the lower glows.
+  scene::Scene scene;
+  scene.materials = {paint(0.6f, 10.0f), paint(0.3f)};
+  addGround(&scene, 0, 200.0f);
+  addPatch(&scene, 1, {-200.0f, -200.0f, 2.0f}, {0.0f, 400.0f, 0.0f}, {400.0f, 0.0f, 0.0f});
+  TransportOptions options;
+  options.bounces = 8;
+  options.samples = 20000;
+  const World world = baked(std::move(scene), options);
+  const auto albedo = [](float base) {
+    const Reflection r{kUp, Eigen::Vector3f(0.77f, 0.0f, 0.64f), Eigen::Array3f::Constant(base), 1.0f, 0.0f};
+    const AmbientReflectance ambient = ambientReflectance(r);
+    return static_cast<double>(ambient.diffuse[1] * kPiFloat + ambient.specular[1]);
+  };
+  const double low = albedo(0.6f), high = albedo(0.3f);
+  // E of the upper plate: π e + ρ_low E_low, with E_low = ρ_high E_high.
+  const double up = kPi * 10.0 / (1.0 - low * high);
+  // 1 %: the plates end 100 heights away.
+  EXPECT_NEAR(illuminance(world, uniformDay(0.0f), {3.1f, 2.3f, 2.0f}, -kUp), up, 0.015 * up);
+  EXPECT_NEAR(illuminance(world, uniformDay(0.0f), {3.1f, 2.3f, 0.0f}), high * up, 0.015 * up);
+}
+
+/// A closed shed of 4 m on the ground, walls 5 cm thick.
+scene::Scene shed() {
+  scene::Scene scene;
+  scene.materials = {paint(0.5f)};
+  addGround(&scene, 0, 20.0f);
+  const auto block = [&](const Eigen::Vector3f& low, const Eigen::Vector3f& size) {
+    const Eigen::Vector3f x(size.x(), 0, 0), y(0, size.y(), 0), z(0, 0, size.z());
+    addPatch(&scene, 0, low + z, x, y);
+    addPatch(&scene, 0, low, y, x);
+    addPatch(&scene, 0, low, x, z);
+    addPatch(&scene, 0, low + y, z, x);
+    addPatch(&scene, 0, low, z, y);
+    addPatch(&scene, 0, low + x, y, z);
+  };
+  block({-2, -2, 0}, {0.05f, 4, 2.5f});
+  block({1.95f, -2, 0}, {0.05f, 4, 2.5f});
+  block({-2, -2, 0}, {4, 0.05f, 2.5f});
+  block({-2, 1.95f, 0}, {4, 0.05f, 2.5f});
+  block({-2, -2, 2.5f}, {4, 4, 0.05f});
+  return scene;
+}
+
+TEST(BakedLight, DoesNotLeakIntoAShed) {
+  const World world = baked(shed());
+  const sky::Daylight day = uniformDay(100.0f);
+  const double open = illuminance(world, day, {12.0f, 0.4f, 0.0f});
+  for (const float x : {0.0f, 1.0f, 1.5f}) {
+    // 0.25 m is the finest distance of samples: the strip nearer to the wall shares one with the outside.
+    EXPECT_LT(illuminance(world, day, {x, 0.3f, 0.0f}), 0.002 * open) << x;
+  }
+  EXPECT_LT(illuminance(world, day, {1.95f, 0.3f, 0.6f}, -Eigen::Vector3f::UnitX()), 0.002 * open);
+}
+
+TEST(BakedLight, IsNotDarkenedFromInsideWalls) {
+  const World world = baked(shed());
+  const sky::Daylight day = uniformDay(100.0f);
+  // The wall takes 48 % of the sky at its very foot and gives back less than half of what it gets.
+  for (const float x : {2.02f, 2.05f, 2.1f, 2.2f})
+    EXPECT_GT(illuminance(world, day, {x, 0.3f, 0.0f}), 0.5 * kPi * 100.0) << x;
+}
+
+TEST(BakedLight, IsContinuousOverCellsOfUnequalSize) {
+  scene::Scene scene;
+  scene.materials = {paint(0.3f)};
+  addGround(&scene, 0, 25.0f);
+  addPatch(&scene, 0, {0.0f, -1.0f, 0.0f}, {0.0f, 2.0f, 0.0f}, {0.0f, 0.0f, 2.0f});
+  const World world = baked(std::move(scene));
+  std::vector<Looked> points;
+  constexpr int kSteps = 4000;
+  for (int i = 0; i <= kSteps; ++i) {
+    const float t = static_cast<float>(i) / kSteps;
+    points.push_back({{0.3f + 7.0f * t, -3.0f + 6.1f * t, 0.0f}, kUp, kUp});
+  }
+  const auto values = illuminances(world, uniformDay(100.0f), points);
+  // Steps of 2.3 mm. The steepest true gradient, right behind the wall, is below π L / 0.3 m.
+  for (std::size_t i = 1; i < values.size(); ++i) ASSERT_NEAR(values[i][1], values[i - 1][1], 2.5f) << i;
+}
+
+TEST(BakedLight, BendsSmoothlyWithTheSun) {
+  const World world = baked(shed());
+  const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
+  const std::vector<Looked> points = {{{2.3f, 0.3f, 0.0f}, kUp, kUp}, {{-2.5f, 0.1f, 0.0f}, kUp, kUp}};
+  std::vector<Eigen::Array3f> before;
+  for (int i = 0; i < 60; ++i) {
+    // 10 s of the sun's way: 0.04°, across the border of two rings of patches at 18° of elevation.
+    const double angle = 17.4 + i * 0.0417 / 2;
+    const auto now = illuminances(
+        world,
+        atmosphere.daylight({Direction(Azimuth::degrees(120.0 + i * 0.0417), Angle::degrees(angle)), 1.0}),
+        points);
+    for (std::size_t k = 0; i > 0 && k < now.size(); ++k) {
+      // The light of day itself grows by 0.15 % a step here.
+      ASSERT_NEAR(now[k][1] / before[k][1], 1.0f, 0.006f) << i;
+    }
+    before = now;
+  }
+}
+
+TEST(BakedLight, HasTheSameBitsOnAnyNumberOfThreads) {
+  TransportOptions options;
+  options.rays_per_patch = 2;
+  std::vector<std::vector<Eigen::Array3f>> results;
+  for (const std::size_t threads : {1u, 4u}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    const World world = baked(shed(), options);
+    results.push_back(world.transport->irradiance(uniformDay(77.0f)));
+  }
+  ASSERT_EQ(results[0].size(), results[1].size());
+  for (std::size_t i = 0; i < results[0].size(); ++i)
+    ASSERT_TRUE((results[0][i] == results[1][i]).all()) << i;
+}
+
+TEST(BakedLight, RefusesOptionsOutOfRange) {
+  const World world = worldOf(shed());
+  TransportOptions options;
+  options.finest_m = 0.0;
+  try {
+    Transport::bake(world.geometry, options);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("finest_m: 0 is outside 0.02 … 10"), std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace sunlit::light
