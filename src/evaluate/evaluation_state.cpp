@@ -58,6 +58,10 @@ FramesLayout layoutOf(const EvaluationOptions& options) {
   return layout;
 }
 
+std::string nameOf(const PairSpec& pair) {
+  return pair.a + "-" + pair.b;
+}
+
 void makeFolder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
@@ -218,7 +222,7 @@ bool Evaluation::State::canCompare(const StampSet& set, std::size_t pair, std::o
   const std::size_t ib = pair_streams_[pair].second;
   const Arrival& a = set.streams[ia];
   const Arrival& b = set.streams[ib];
-  const std::string where = options_.pairs[pair].a + "-" + options_.pairs[pair].b;
+  const std::string where = nameOf(options_.pairs[pair]);
   PairCounts& counts = counts_.pairs[pair];
   if (!a.has_come || !b.has_come) {
     const std::string& absent = options_.streams[a.has_come ? ib : ia];
@@ -302,7 +306,7 @@ void Evaluation::State::compare(const Work& work) {
     if (!fault.empty()) {
       const std::lock_guard<std::mutex> lock(mutex_);
       ++counts_.pairs[p].failed;
-      report({"failed", work.pose, work.stamp_ns, options_.pairs[p].a + "-" + options_.pairs[p].b, fault});
+      report({"failed", work.pose, work.stamp_ns, nameOf(options_.pairs[p]), fault});
       continue;
     }
     const PairRecord record{work.pose, work.stamp_ns, p, values[i]};
@@ -358,9 +362,23 @@ void Evaluation::State::nameAbsentPoses() {
   }
 }
 
+// By an image that came after all, as an earlier run was taken up.
+bool Evaluation::State::isMended(const Problem& problem, const EvaluatedPairs& evaluated) const {
+  if (!problem.pose) return false;
+  for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
+    const bool is_meant = problem.kind == "absent" || problem.where == nameOf(options_.pairs[p]);
+    if (is_meant && evaluated.count({*problem.pose, p}) != 0) return true;
+  }
+  return false;
+}
+
 void Evaluation::State::settleAndWrite(Outcome& outcome) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (PairRecord& record : records_) record.pose = poses_.settled(record.stamp_ns, record.pose);
+  EvaluatedPairs evaluated;
+  for (PairRecord& record : records_) {
+    record.pose = poses_.settled(record.stamp_ns, record.pose);
+    evaluated.emplace(record.pose, record.pair);
+  }
   sortRecords(records_);
   if (pictures_) {
     pictures_->finish([this](std::int64_t stamp, std::int64_t pose) { return poses_.settled(stamp, pose); });
@@ -370,7 +388,7 @@ void Evaluation::State::settleAndWrite(Outcome& outcome) {
   outcome.summary = summarise(layout_, records_);
   writeSummary(file("summary.csv"), outcome.summary);
   record_files_->finish(options_.streams, poses_);
-  problems_->finish();
+  problems_->finish(poses_, [&](const Problem& problem) { return isMended(problem, evaluated); });
   writeRunFile(file("run.yaml"), options_, &outcome);
 }
 

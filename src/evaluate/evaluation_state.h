@@ -40,6 +40,7 @@ class Evaluation::State {
 
  private:
   enum class Reason { kWhole, kEnd, kMemory };
+  using EvaluatedPairs = std::set<std::pair<std::int64_t, std::size_t>>;  // pose and pair
   /// Images of one set that go to the comparer.
   struct Work {
     std::int64_t pose = 0;
@@ -63,6 +64,7 @@ class Evaluation::State {
   void compare(const Work& work);
   void complete(std::int64_t pose);
   void report(const Problem& problem) { problems_->add(problem); }
+  bool isMended(const Problem& problem, const EvaluatedPairs& evaluated) const;
   void settleAndWrite(Outcome& outcome);
 
   EvaluationOptions options_;
@@ -77,9 +79,9 @@ class Evaluation::State {
   StampSets sets_;
   Counts counts_;
   std::vector<PairRecord> records_;
-  std::set<std::pair<std::int64_t, std::size_t>> recorded_;  // pose and pair
-  std::set<std::int64_t> completed_;                         // poses
-  std::set<std::int64_t> sampled_;                           // poses whose images are kept
+  EvaluatedPairs recorded_;
+  std::set<std::int64_t> completed_;  // poses
+  std::set<std::int64_t> sampled_;    // poses whose images are kept
   std::unique_ptr<RecordFiles> record_files_;
   std::unique_ptr<ProblemFile> problems_;
   std::unique_ptr<PictureWriter> pictures_;

@@ -1,7 +1,6 @@
 #include "evaluate/record_files.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "sunlit/image/files.h"
 
@@ -97,23 +96,47 @@ void RecordFiles::finish(const std::vector<std::string>& streams, const PoseInde
 }
 
 ProblemFile::ProblemFile(const std::string& folder) : path_(folder + "/problems.csv") {
-  std::filesystem::remove(path_);
+  for (const auto& f : readCsv(path_, kProblemsHeader).rows) {
+    Problem problem{f[0], std::nullopt, std::nullopt, f[3], f[4]};
+    if (!f[1].empty()) problem.pose = std::stoll(f[1]);
+    if (!f[2].empty()) problem.stamp_ns = parseStamp(f[2]);
+    if (isNew(problem)) problems_.push_back(problem);
+  }
+  image::writeFileAtomically(path_, text());  // without a torn end, before going on
   file_.open(path_, kProblemsHeader);
 }
 
+bool ProblemFile::isNew(const Problem& problem) {
+  // Where there is a stamp, it tells problems apart: the pose may have become known, or settled, meanwhile.
+  const std::string place =
+      problem.stamp_ns ? formatStamp(*problem.stamp_ns) : "pose " + std::to_string(problem.pose.value_or(-1));
+  return known_
+      .insert(problem.kind + "," + place + "," + csvField(problem.where) + "," + csvField(problem.reason))
+      .second;
+}
+
 void ProblemFile::add(const Problem& problem) {
+  if (!isNew(problem)) return;
   problems_.push_back(problem);
   file_.append(lineOf(problem));
 }
 
-void ProblemFile::finish() {
-  file_.close();
-  const auto key = [](const Problem& p) { return std::tie(p.stamp_ns, p.kind, p.where, p.reason); };
-  std::stable_sort(problems_.begin(), problems_.end(),
-                   [&](const Problem& l, const Problem& r) { return key(l) < key(r); });
+std::string ProblemFile::text() const {
   std::string text = std::string(kProblemsHeader) + "\n";
   for (const Problem& problem : problems_) text += lineOf(problem);
-  image::writeFileAtomically(path_, text);
+  return text;
+}
+
+void ProblemFile::finish(const PoseIndex& poses, const std::function<bool(const Problem&)>& is_mended) {
+  file_.close();
+  for (Problem& problem : problems_) {
+    if (problem.pose && problem.stamp_ns) problem.pose = poses.settled(*problem.stamp_ns, *problem.pose);
+  }
+  problems_.erase(std::remove_if(problems_.begin(), problems_.end(), is_mended), problems_.end());
+  const auto key = [](const Problem& p) { return std::tie(p.stamp_ns, p.kind, p.where, p.reason, p.pose); };
+  std::stable_sort(problems_.begin(), problems_.end(),
+                   [&](const Problem& l, const Problem& r) { return key(l) < key(r); });
+  image::writeFileAtomically(path_, text());
 }
 
 }  // namespace sunlit::evaluate

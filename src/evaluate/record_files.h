@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -44,18 +46,23 @@ struct Problem {
   std::string reason;
 };
 
-/// problems.csv of this run.
+/// problems.csv of this run and of those that it takes up. Each problem stands there once, however often it
+/// was met.
 class ProblemFile {
  public:
   explicit ProblemFile(const std::string& folder);
   void add(const Problem& problem);
-  /// Sorted by stamp, kind and place.
-  void finish();
+  /// Sorted by stamp, kind and place; each pose as `poses` has settled it; without those of which `is_mended`
+  /// says that another run mended them.
+  void finish(const PoseIndex& poses, const std::function<bool(const Problem&)>& is_mended);
 
  private:
+  bool isNew(const Problem& problem);
+  std::string text() const;
   std::string path_;
   AppendFile file_;
   std::vector<Problem> problems_;
+  std::set<std::string> known_;
 };
 
 }  // namespace sunlit::evaluate

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <opencv2/core.hpp>
 #include <random>
 
@@ -101,6 +102,20 @@ TEST(Evaluation, GivesTheSameSummaryInAnyOrderOfArrival) {
                       "39," + std::string("503.900000000,h12,h20,euclidean_grey")));
 }
 
+TEST(Evaluation, NamesProblemsByThePlaceOfTheirStampAndNotByItsArrival) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(optionsFor(folder), {});
+  for (const int pose : {2, 1, 0}) {
+    for (std::size_t s = 0; s < 3; ++s) {
+      if (pose != 2 || s != 1) evaluation.addImage(s, stampOf(pose), picture(pose, s));
+    }
+  }
+  evaluation.finish();
+  const std::string problems = contentOf(folder.file("out/problems.csv"));
+  EXPECT_TRUE(hasLine(problems, "missing_partner,2,500.200000000,h04-h12,no image of h12"));
+  EXPECT_TRUE(hasLine(problems, "out_of_order,0,500.000000000,h04,"));
+}
+
 TEST(Evaluation, CountsAndNamesEverythingThatCannotBeEvaluated) {
   const TemporaryFolder folder;
   Evaluation evaluation(optionsFor(folder), {});
@@ -182,6 +197,49 @@ TEST(Evaluation, TakesUpARunThatWasCutOff) {
   EXPECT_NE(notes[0].find("50 evaluated pairs of 16 whole poses"), std::string::npos) << notes[0];
   EXPECT_NE(notes[0].find("torn end"), std::string::npos) << notes[0];
   EXPECT_EQ(contentOf(folder.file("out/summary.csv")), expected);
+}
+
+TEST(Evaluation, KeepsTheProblemsOfTheRunsThatItTakesUpOnceEach) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = optionsFor(folder);
+  options.frame_rate = 10.0;
+  options.stamp_start_ns = stampOf(0);
+  options.poses = 4;
+  // Pose 1 lacks an image that never comes; the second run sees what pose 2 lacked, and pose 3; a bad image
+  // of pose 0 beside a good one cannot be mended.
+  const auto feed = [&](Evaluation& evaluation, bool is_second) {
+    feedPose(evaluation, 0);
+    if (!is_second) evaluation.addBadImage(0, stampOf(0), "cut \"short\", it seems");
+    for (const std::int64_t pose : {1, 2, 3}) {
+      if (pose == 3 && !is_second) continue;
+      evaluation.addImage(0, stampOf(pose), picture(pose, 0));
+      evaluation.addImage(2, stampOf(pose), picture(pose, 2));
+      if (is_second && pose > 1) evaluation.addImage(1, stampOf(pose), picture(pose, 1));
+    }
+  };
+  const auto problemsAfter = [&](bool is_second) {
+    Evaluation evaluation(options, {});
+    feed(evaluation, is_second);
+    evaluation.finish();
+    return contentOf(folder.file("out/problems.csv"));
+  };
+  const std::string first = problemsAfter(false);
+  for (const char* line :
+       {"missing_partner,1,500.100000000,h04-h12,", "missing_partner,2,500.200000000,h12-h20,", "absent,3,,,",
+        "undecodable,0,500.000000000,h04,\"cut \"\"short\"\", it seems\""}) {
+    EXPECT_TRUE(hasLine(first, line)) << line << "\n" << first;
+  }
+  // Killed while it wrote the last line.
+  std::ofstream(folder.file("out/problems.csv"), std::ios::app) << "missing_partner,1,500.1000";
+  const std::string second = problemsAfter(true);
+  for (const char* line :
+       {"missing_partner,1,500.100000000,h04-h12,", "missing_partner,1,500.100000000,h12-h20,",
+        "undecodable,0,500.000000000,h04,\"cut \"\"short\"\", it seems\""}) {
+    EXPECT_TRUE(hasLine(second, line)) << line << "\n" << second;
+  }
+  EXPECT_EQ(second.find("missing_partner,2"), std::string::npos) << second;
+  EXPECT_EQ(second.find("absent"), std::string::npos) << second;
+  EXPECT_EQ(problemsAfter(true), second);  // nothing new, nothing twice
 }
 
 TEST(Evaluation, IsCompleteAtOnceOnAFinishedFolder) {
