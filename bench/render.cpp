@@ -1,11 +1,13 @@
 // What one pose and one condition cost, stage by stage, at 640×480 with four samples a pixel. Poses are
 // spread over the path; each iteration takes the next. Arguments: world (0 the built-in one, 1 a real circuit
 // from the shared input if present, 2 the built-in one without fractal detail) and, for light, the sun's
-// elevation in degrees. Beside the time stands the processor time of all threads.
+// elevation in degrees. Beside the time stands the processor time of all threads. Where baked light is part
+// of it, the bake is taken from the usual cache, or made there first.
 #include <benchmark/benchmark.h>
 #include <tbb/combinable.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -20,6 +22,7 @@
 #include "render/resolve.h"
 #include "sunlit/image/exposure.h"
 #include "sunlit/light/lighting.h"
+#include "sunlit/light/transport.h"
 #include "sunlit/quantity/frames.h"
 #include "sunlit/scene/load.h"
 #include "sunlit/scene/race_track.h"
@@ -77,11 +80,16 @@ struct Stage {
   }
   render::Seen seen() const { return {view, *geometry, nullptr, pyramids, 0.0f, samples}; }
   void resolve() { render::resolveSurfaces(seen(), &surfaces); }
+  const light::Transport& baked() {
+    if (!transport) transport = light::Transport::cached(geometry, {}, light::Transport::usualFolder());
+    return *transport;
+  }
 
   std::vector<Eigen::Isometry3d> poses;
   render::View view;
   std::shared_ptr<const light::Geometry> geometry;
   std::unique_ptr<light::Visibility> visibility;
+  std::shared_ptr<const light::Transport> transport;  ///< see baked()
   std::vector<render::TexturePyramid> pyramids;
   std::unique_ptr<render::Rasteriser> rasteriser;
   std::vector<render::Sample> samples;
@@ -119,6 +127,24 @@ void draw(benchmark::State& state) {
       benchmark::Counter(static_cast<double>(triangles), benchmark::Counter::kAvgIterations);
   state.counters["triangles_per_second"] =
       benchmark::Counter(static_cast<double>(triangles), benchmark::Counter::kIsRate);
+  state.counters["samples_per_second"] =
+      benchmark::Counter(static_cast<double>(pose * s->samples.size()), benchmark::Counter::kIsRate);
+}
+
+/// Writing a picture's samples and nothing else: what memory allows the rasteriser.
+void writeSamples(benchmark::State& state) {
+  constexpr int kRows = 2 * 480, kColumns = 2 * 640;
+  std::vector<render::Sample> samples(static_cast<std::size_t>(kRows * kColumns));
+  std::uint32_t number = 0;
+  for (auto _ : state) {
+    ++number;
+    tbb::parallel_for(0, kRows, [&](int row) {
+      std::fill_n(samples.begin() + row * kColumns, kColumns, render::Sample{number, 1.0f});
+    });
+    benchmark::DoNotOptimize(samples.data());
+  }
+  state.counters["samples_per_second"] =
+      benchmark::Counter(static_cast<double>(number) * kRows * kColumns, benchmark::Counter::kIsRate);
 }
 
 /// Runs `work` on pose after pose, seen and resolved outside the clock.
@@ -140,6 +166,10 @@ void resolve(benchmark::State& state) {
   onPoses(state, false, [](Stage& s) { s.resolve(); });
 }
 
+void locate(benchmark::State& state) {
+  onPoses(state, true, [](Stage& s) { s.baked().locate(&s.surfaces); });
+}
+
 void depth(benchmark::State& state) {
   onPoses(state, false,
           [](Stage& s) { benchmark::DoNotOptimize(render::resolveDepth(s.seen(), *s.visibility)); });
@@ -152,18 +182,23 @@ void light(benchmark::State& state) {
   });
 }
 
-/// What a pose costs with the light of `state.range(1)` conditions, sun high and low in turn.
+/// What a pose costs with its depth and the light, baked light included, of `state.range(1)` conditions, sun
+/// high and low in turn.
 void pose(benchmark::State& state) {
   Stage* s = stage(state);
   if (!s) return;
-  const std::array<sky::Daylight, 2> days = {daylightAt(50.0), daylightAt(15.0)};
+  const light::Transport& transport = s->baked();
+  const std::array<light::Illumination, 2> lights = {transport.illumination(daylightAt(50.0)),
+                                                     transport.illumination(daylightAt(15.0))};
   std::size_t number = 0;
   for (auto _ : state) {
     s->look(number++);
     s->resolve();
+    transport.locate(&s->surfaces);
+    benchmark::DoNotOptimize(render::resolveDepth(s->seen(), *s->visibility));
     for (std::int64_t i = 0; i < state.range(1); ++i) {
       benchmark::DoNotOptimize(light::illuminate(s->surfaces, *s->geometry->scene, *s->visibility,
-                                                 days[(number + static_cast<std::size_t>(i)) % 2]));
+                                                 lights[(number + static_cast<std::size_t>(i)) % 2]));
     }
   }
   state.counters["images_per_second"] = benchmark::Counter(
@@ -234,10 +269,12 @@ void eachPose(benchmark::internal::Benchmark* line) {
       ->UseRealTime();
 }
 BENCHMARK(draw)->Arg(0)->Arg(1)->Apply(eachPose);
+BENCHMARK(writeSamples)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(resolve)->Arg(0)->Arg(1)->Arg(2)->Apply(eachPose);
+BENCHMARK(locate)->Arg(0)->Apply(eachPose);
 BENCHMARK(depth)->Arg(0)->Arg(1)->Apply(eachPose);
 BENCHMARK(light)->ArgsProduct({{0, 1}, {60, 20, 5, -10}})->Apply(eachPose);
-BENCHMARK(pose)->ArgsProduct({{0, 1}, {1, 2, 3}})->Apply(eachPose);
+BENCHMARK(pose)->ArgsProduct({{0}, {1, 2, 3}})->Apply(eachPose);
 BENCHMARK(sunRays)->ArgsProduct({{0, 1}, {60, 5}})->Apply(eachPose);
 BENCHMARK(cameraRays)->Arg(0)->Arg(1)->Apply(eachPose);
 BENCHMARK(develop)->Arg(0)->Apply(eachPose);

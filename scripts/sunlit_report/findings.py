@@ -54,6 +54,15 @@ def count(findings, verdict=REPRODUCED):
     return sum(finding.verdict == verdict for finding in findings)
 
 
+def verdict_of_all(findings):
+    """How many hold, in words; those that this run cannot tell anything of are not held against it."""
+    not_judged = count(findings, NOT_JUDGED)
+    if not_judged == len(findings):
+        return f"none of the {len(findings)} can be judged from these conditions"
+    text = f"{count(findings)} of {len(findings)} reproduced"
+    return f"{text}, {not_judged} cannot be judged" if not_judged else text
+
+
 def _judged(output, claim, criterion, rule):
     try:
         header, rows = rule(output)

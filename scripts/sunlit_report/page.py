@@ -20,8 +20,7 @@ def render(output, findings):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     return environment.get_template("report.html").render(
-        output=output, findings=findings, reproduced=judge.count(findings),
-        not_judged=judge.count(findings, judge.NOT_JUDGED), citation=paper.CITATION,
+        output=output, findings=findings, verdict_of_all=judge.verdict_of_all(findings), citation=paper.CITATION,
         title=title(output), facts=facts(output), warnings=warnings(output), verdict_class=_verdict_class,
         main_tables=tables.main_tables(output), self_tables=tables.self_tables(output), counts=tables.counts(output),
         conditions=tables.conditions(output), timing=tables.timing(output), problems=tables.problems(output),

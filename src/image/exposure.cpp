@@ -11,6 +11,7 @@
 
 #include "display_curve.h"
 #include "require_within.h"
+#include "sunlit/quantity/photometry.h"
 
 namespace sunlit::image {
 namespace {
@@ -150,7 +151,7 @@ double chooseEv100(const LinearImage& image, const ExposureOptions& options) {
     const float* p = image.at(0, y);
     const std::int64_t row_weight = row_weights[static_cast<std::size_t>(y)];
     for (int x = 0; x < image.width; ++x, p += 3) {
-      const float luminance = 0.2126F * p[0] + 0.7152F * p[1] + 0.0722F * p[2];
+      const float luminance = LinearRgb(p[0], p[1], p[2]).luminance();
       metered.add(luminance, row_weight * column_weights[static_cast<std::size_t>(x)]);
       whole.add(std::max({p[0], p[1], p[2]}), 1);
     }

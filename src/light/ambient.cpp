@@ -15,37 +15,52 @@ Eigen::Array3f atPlace(const LightPlace& place, const std::vector<Eigen::Array3f
   return sum;
 }
 
+/// Of the nodes; but what leaves hide of the sky, or leave open, varies within less than their distance.
+Eigen::Array3f irradianceAt(const LightPlace& place, const Illumination& light) {
+  const Eigen::Array3f nodes = atPlace(place, *light.irradiance);
+  if (place.open == 1.0f) return nodes;
+  // What hides the sky is as bright as what the nodes have around them.
+  const Eigen::Array3f hidden = atPlace(place, *light.surroundings) * static_cast<float>(kPi);
+  return (hidden + place.open * (nodes - hidden)).max(0.0f);
+}
+
 /// Mean luminance of what the mirror-like lobe looks at.
-Eigen::Array3f mirrored(const Surface& surface, const Illumination& light) {
-  Eigen::Array4f sky = Eigen::Array4f::Zero();
-  float open = 0.0f;
-  for (std::size_t k = 0; k < MirrorView::kParts; ++k) {
-    const auto share = static_cast<float>(surface.mirror.open[k]);
-    sky += light.mirror_sky->luminance(surface.mirror.place[k]) * share;
-    open += share;
-  }
-  constexpr float kAll = 255.0f * MirrorView::kParts;
-  return sky.head<3>() / kAll + atPlace(surface.light, *light.surroundings) * (1.0f - open / kAll);
+Eigen::Array3f mirrored(const Surface& surface, const Eigen::Array4f& sky, const Illumination& light) {
+  return sky.head<3>() + atPlace(surface.light, *light.surroundings) * (1.0f - sky[3]);
 }
 
 }  // namespace
 
+Eigen::Array4f mirroredSky(const MirrorView& view, const MirrorSky& sky) {
+  Eigen::Array4f sum = Eigen::Array4f::Zero();
+  float open = 0.0f;
+  for (std::size_t k = 0; k < MirrorView::kParts; ++k) {
+    const auto share = static_cast<float>(view.open[k]);
+    sum += sky.luminance(view.place[k]) * share;
+    open += share;
+  }
+  sum[3] = open;
+  constexpr float kAll = 255.0f * MirrorView::kParts;
+  return sum / kAll;
+}
+
 Eigen::Array3f ambientLuminance(const Surface& surface, const Reflection& reflection,
-                                const Illumination& light) {
-  const AmbientReflectance ambient = ambientReflectance(reflection);
-  const Eigen::Array3f open = light.day.skyIlluminance(surface.shading_normal).value;
+                                const AmbientParts& parts, const Illumination& light) {
+  const AmbientReflectance& ambient = parts.reflectance;
   const bool baked = light.irradiance && surface.light.known();
   const bool moves = light.bodies && surface.body != Surface::kNoBody;
-  Eigen::Array3f irradiance = baked ? atPlace(surface.light, *light.irradiance) : open;
+  const Eigen::Array3f open = baked && !moves ? Eigen::Array3f(Eigen::Array3f::Zero())
+                                              : light.day.skyIlluminance(surface.shading_normal).value;
+  Eigen::Array3f irradiance = baked ? irradianceAt(surface.light, light) : open;
   if (moves)
     irradiance = (*light.bodies)[static_cast<std::size_t>(surface.body)].illuminance(surface.shading_normal);
   irradiance *= surface.unhidden;
-  const Eigen::Array3f behind =
-      baked && !moves && surface.behind.known()
-          ? Eigen::Array3f(atPlace(surface.behind, *light.irradiance) * surface.unhidden)
-          : irradiance;
+  const Eigen::Array3f behind = baked && !moves && surface.behind.known()
+                                    ? Eigen::Array3f(irradianceAt(surface.behind, light) * surface.unhidden)
+                                    : irradiance;
   Eigen::Array3f sum = ambient.diffuse * irradiance + ambient.through * behind;
-  if (baked && !moves) return sum + ambient.specular * surface.unhidden * mirrored(surface, light);
+  if (baked && !moves)
+    return sum + ambient.specular * surface.unhidden * mirrored(surface, parts.mirrored_sky, light);
   // A rough lobe spreads over the hemisphere, a smooth one mirrors a point of the sky.
   const Eigen::Array3f spread = irradiance / static_cast<float>(kPi);
   const float smooth = std::max(0.0f, 1.0f - reflection.roughness * reflection.roughness * 1.5f);

@@ -7,8 +7,17 @@
 
 namespace sunlit::light {
 
+/// The part of the sky that a mirror-like lobe looks at, cd/m², mean over the whole lobe; fourth: how much of
+/// the lobe looks at sky, 0 … 1.
+Eigen::Array4f mirroredSky(const MirrorView& view, const MirrorSky& sky);
+
+/// What is known of a surface before it is lit.
+struct AmbientParts {
+  const AmbientReflectance& reflectance;
+  const Eigen::Array4f& mirrored_sky;  ///< where the light is baked
+};
 /// Luminance, cd/m², without what sun and moon add directly.
 Eigen::Array3f ambientLuminance(const Surface& surface, const Reflection& reflection,
-                                const Illumination& light);
+                                const AmbientParts& parts, const Illumination& light);
 
 }  // namespace sunlit::light

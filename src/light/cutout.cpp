@@ -90,22 +90,27 @@ Cutouts::Cutouts(const Geometry& geometry) {
   }
 }
 
-bool Cutouts::solid(std::uint32_t masked_triangle, float u, float v) const {
-  const Triangle& triangle = triangles_[masked_triangle];
-  const Mask& mask = masks_[static_cast<std::size_t>(triangle.mask)];
-  const auto& t = triangle.texture_coordinates;
-  const Eigen::Vector2f at = (1.0f - u - v) * t[0] + u * t[1] + v * t[2];
+Cutouts::Query::Query(const Cutouts& cutouts, std::uint32_t masked_triangle)
+    : mask_(cutouts.masks_[static_cast<std::size_t>(cutouts.triangles_[masked_triangle].mask)]) {
+  const auto& t = cutouts.triangles_[masked_triangle].texture_coordinates;
+  origin_ = t[0];
+  along_u_ = t[1] - t[0];
+  along_v_ = t[2] - t[0];
+}
+
+bool Cutouts::Query::solid(float u, float v) const {
+  const Eigen::Vector2f at = origin_ + u * along_u_ + v * along_v_;
   // Repeats by whole turns; texel centres lie at half-integers.
-  const float x = (at.x() - static_cast<float>(floorOf(at.x()))) * static_cast<float>(mask.width) - 0.5f;
-  const float y = (at.y() - static_cast<float>(floorOf(at.y()))) * static_cast<float>(mask.height) - 0.5f;
+  const float x = (at.x() - static_cast<float>(floorOf(at.x()))) * static_cast<float>(mask_.width) - 0.5f;
+  const float y = (at.y() - static_cast<float>(floorOf(at.y()))) * static_cast<float>(mask_.height) - 0.5f;
   const int left = floorOf(x);
   const int above = floorOf(y);
-  const int x0 = left < 0 ? mask.width - 1 : left;
-  const int y0 = above < 0 ? mask.height - 1 : above;
-  const unsigned square = mask.square(x0, y0);
+  const int x0 = left < 0 ? mask_.width - 1 : left;
+  const int y0 = above < 0 ? mask_.height - 1 : above;
+  const unsigned square = mask_.square(x0, y0);
   if (square != Mask::kMixed) return square == Mask::kSolid;
-  return mask.interpolated(x0, y0, x - static_cast<float>(left), y - static_cast<float>(above)) >=
-         mask.cutoff;
+  return mask_.interpolated(x0, y0, x - static_cast<float>(left), y - static_cast<float>(above)) >=
+         mask_.cutoff;
 }
 
 }  // namespace sunlit::light

@@ -12,6 +12,8 @@ namespace sunlit::light {
 /// Sorts a scene's triangles into opaque and masked ones, and answers for the latter by their texture's full
 /// resolution, bilinearly filtered as in the image.
 class Cutouts {
+  struct Mask;
+
  public:
   explicit Cutouts(const Geometry& geometry);
 
@@ -19,7 +21,19 @@ class Cutouts {
   const std::vector<std::uint32_t>& opaqueTriangles() const { return opaque_; }
   const std::vector<std::uint32_t>& maskedTriangles() const { return masked_; }
   /// Whether light stops at barycentric (u, v) of the masked triangle with this index into maskedTriangles().
-  bool solid(std::uint32_t masked_triangle, float u, float v) const;
+  bool solid(std::uint32_t masked_triangle, float u, float v) const {
+    return Query(*this, masked_triangle).solid(u, v);
+  }
+  /// The same of one triangle, for many points.
+  class Query {
+   public:
+    Query(const Cutouts& cutouts, std::uint32_t masked_triangle);
+    bool solid(float u, float v) const;
+
+   private:
+    const Mask& mask_;
+    Eigen::Vector2f origin_, along_u_, along_v_;  ///< in widths and heights of the texture
+  };
 
  private:
   struct Triangle {

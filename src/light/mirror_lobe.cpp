@@ -79,9 +79,13 @@ float weightOf(Iterator begin, Iterator end) {
 }
 
 Eigen::Vector3f meanOf(std::vector<Sample>::const_iterator begin, std::vector<Sample>::const_iterator end) {
-  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-  for (auto sample = begin; sample != end; ++sample) mean += sample->towards * sample->weight();
-  return mean.norm() > 0.0f ? Eigen::Vector3f(mean.normalized()) : Eigen::Vector3f(Eigen::Vector3f::UnitX());
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  float weights = 0.0f;
+  for (auto sample = begin; sample != end; ++sample) {
+    sum += sample->towards * sample->weight();
+    weights += sample->weight();
+  }
+  return weights > 0.0f ? Eigen::Vector3f(sum / weights) : Eigen::Vector3f(Eigen::Vector3f::UnitX());
 }
 
 MirrorLobe makeLobe(std::vector<Sample> samples) {

@@ -7,7 +7,8 @@
 namespace sunlit::light {
 
 /// The GGX lobe of one roughness and angle of view in parts of equal weight (those of a dielectric), each
-/// seen as one direction: along the view, to the left of it, along the normal; about unit length.
+/// given by the mean of its unit vectors: along the view, to the left of it, along the normal. The wider the
+/// part, the shorter its mean.
 struct MirrorLobe {
   static constexpr int kParts = 16;
   std::array<Eigen::Vector3f, kParts> towards;

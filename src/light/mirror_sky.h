@@ -1,4 +1,4 @@
-/// The sky as rough mirrors see it: a table by direction, as coarse as the patches that transport knows.
+/// The sky as rough mirrors see it: tables by direction, each blurred over a cap of another size.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,9 +18,11 @@ class MirrorSky {
  public:
   explicit MirrorSky(const sky::Daylight& day);
 
-  /// Of a unit vector: its place in the table, an octahedral map of the sphere.
+  /// Place in the tables, octahedral maps of the sphere, of what MirrorLobe::towards says: a direction, and
+  /// by its length the size of the cap.
   static std::uint16_t placeOf(const Eigen::Vector3f& towards);
-  /// cd/m², the fourth is padding.
+  /// Mean over the part of the cap that is above the horizon, cd/m², the fourth is padding; zero where the
+  /// cap's middle is below.
   const Eigen::Array4f& luminance(std::uint16_t place) const { return table_[place]; }
 
  private:

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "light/ambient.h"
-#include "light/tile_air.h"
 #include "sunlit/light/shading.h"
 
 namespace sunlit::light {
@@ -18,14 +17,15 @@ float leastDisc_lx(const sky::Daylight& day) {
 
 }  // namespace
 
-TileLighting::TileLighting(const Surfaces& surfaces, const scene::Scene& scene, const Visibility& visibility,
-                           const Illumination& light)
-    : surfaces_(surfaces),
-      scene_(scene),
+TileLighting::TileLighting(const Subject& subject, const Illumination& light)
+    : surfaces_(subject.surfaces),
+      table_(subject.table),
+      scene_(subject.scene),
       light_(light),
-      sun_(light.day.sun(), leastDisc_lx(light.day), visibility, scene, surfaces),
-      moon_(light.day.moon(), leastDisc_lx(light.day), visibility, scene, surfaces),
-      sky_(surfaces, light.day) {}
+      sun_(light.day.sun(), leastDisc_lx(light.day), subject.visibility, table_, surfaces_),
+      moon_(light.day.moon(), leastDisc_lx(light.day), subject.visibility, table_, surfaces_),
+      air_(surfaces_, table_, light.day),
+      sky_(surfaces_, light.day) {}
 
 void TileLighting::light(const Tile& tile, image::LinearImage* image) const {
   sky_.addTo(tile, image);
@@ -36,22 +36,29 @@ void TileLighting::addSurfaces(const Tile& tile, image::LinearImage* image) cons
   const auto number = static_cast<std::size_t>(&tile - surfaces_.tiles.data());
   const std::vector<float>& sun_shares = sun_.visibleShares(number);
   const std::vector<float>& moon_shares = moon_.visibleShares(number);
-  TileAir air(surfaces_, light_.day, tile);
+  const LightTable::Rows& rows = table_.tile(number);
+  thread_local std::vector<Eigen::Array4f, Eigen::aligned_allocator<Eigen::Array4f>> mirrored;
+  mirrored.assign(rows.views.size(), Eigen::Array4f::Zero());
+  if (light_.mirror_sky) {
+    for (std::size_t i = 0; i < rows.views.size(); ++i)
+      mirrored[i] = mirroredSky(rows.views[i], *light_.mirror_sky);
+  }
   const float weight = 1.0f / static_cast<float>(surfaces_.samples_per_pixel);
   for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
     const Surface& surface = tile.surfaces[i];
     Eigen::Map<Eigen::Array3f> pixel(image->data.data() + 3 * static_cast<std::size_t>(surface.pixel));
-    const sky::AirColumn before = air.before(surface);
-    const Eigen::Array3f arriving =
-        luminance(surface, {sun_shares[i], moon_shares[i]}) * before.transmittance + before.airlight;
+    const sky::AirColumn before = air_.before(number, i);
+    const Eigen::Array3f leaving =
+        luminance(surface, {sun_shares[i], moon_shares[i]}, {rows.ambient[i], mirrored[rows.view[i]]});
+    const Eigen::Array3f arriving = leaving * before.transmittance + before.airlight;
     pixel += arriving * (weight * static_cast<float>(surface.samples));
   }
 }
 
-Eigen::Array3f TileLighting::luminance(const Surface& surface, const DiscShares& shares) const {
+Eigen::Array3f TileLighting::luminance(const Surface& surface, const DiscShares& shares,
+                                       const AmbientParts& parts) const {
   const scene::Material& material = scene_.materials[static_cast<std::size_t>(surface.material)];
-  const Reflection reflection{surface.shading_normal, surface.to_eye,     surface.albedo,
-                              material.roughness,     material.metalness, material.transmission};
+  const Reflection reflection = reflectionOf(surface, material);
   Eigen::Array3f sum = material.emission.value;
   if (shares.sun > 0.0f) {
     sum += directReflectance(reflection, sun_.towards(), sun_.radius_rad()) *
@@ -61,7 +68,7 @@ Eigen::Array3f TileLighting::luminance(const Surface& surface, const DiscShares&
     sum += directReflectance(reflection, moon_.towards(), moon_.radius_rad()) *
            (shares.moon * light_.day.moon().illuminance.value);
   }
-  return sum + ambientLuminance(surface, reflection, light_);
+  return sum + ambientLuminance(surface, reflection, parts, light_);
 }
 
 }  // namespace sunlit::light

@@ -3,7 +3,10 @@
 
 #include <vector>
 
+#include "light/ambient.h"
 #include "light/disc_visibility.h"
+#include "light/light_table.h"
+#include "light/picture_air.h"
 #include "light/sky_pixel.h"
 #include "sunlit/image/images.h"
 #include "sunlit/light/illumination.h"
@@ -15,9 +18,15 @@ namespace sunlit::light {
 
 class TileLighting {
  public:
-  /// Keeps references to all four. Casts the rays to sun and moon, in parallel.
-  TileLighting(const Surfaces& surfaces, const scene::Scene& scene, const Visibility& visibility,
-               const Illumination& light);
+  /// What is lit, and what stands in the way.
+  struct Subject {
+    const Surfaces& surfaces;
+    const LightTable& table;  ///< of `surfaces`
+    const scene::Scene& scene;
+    const Visibility& visibility;
+  };
+  /// Keeps references. Casts the rays to sun and moon, in parallel.
+  TileLighting(const Subject& subject, const Illumination& light);
 
   /// Writes the pixels of `tile`, and no others.
   void light(const Tile& tile, image::LinearImage* image) const;
@@ -28,12 +37,14 @@ class TileLighting {
   struct DiscShares {
     float sun, moon;
   };
-  Eigen::Array3f luminance(const Surface& surface, const DiscShares& shares) const;
+  Eigen::Array3f luminance(const Surface& surface, const DiscShares& shares, const AmbientParts& parts) const;
 
   const Surfaces& surfaces_;
+  const LightTable& table_;
   const scene::Scene& scene_;
   const Illumination& light_;
   DiscVisibility sun_, moon_;
+  PictureAir air_;
   SkyPixel sky_;
 };
 

@@ -14,6 +14,9 @@
 namespace sunlit::light {
 namespace {
 
+/// Marks, while the others are looked at, a ray that has been stopped.
+constexpr int kAccepted = 1;
+
 enum GeometryNumber : unsigned { kOpaque = 0, kMasked = 1 };
 
 void fail(const std::string& what, RTCDevice device) {
@@ -24,12 +27,25 @@ void fail(const std::string& what, RTCDevice device) {
 /// Lets a ray pass where the surface is cut out.
 void passCutouts(const RTCFilterFunctionNArguments* arguments) {
   const auto& cutouts = *static_cast<const Cutouts*>(arguments->geometryUserPtr);
-  for (unsigned i = 0; i < arguments->N; ++i) {
-    if (arguments->valid[i] != -1) continue;
-    const float u = RTCHitN_u(arguments->hit, arguments->N, i);
-    const float v = RTCHitN_v(arguments->hit, arguments->N, i);
-    if (!cutouts.solid(RTCHitN_primID(arguments->hit, arguments->N, i), u, v)) arguments->valid[i] = 0;
+  const unsigned count = arguments->N;
+  int* const valid = arguments->valid;
+  unsigned i = 0;
+  while (i < count && valid[i] != -1) ++i;
+  while (i < count) {
+    // Rays of a packet mostly meet one triangle.
+    const unsigned triangle = RTCHitN_primID(arguments->hit, count, i);
+    const Cutouts::Query query(cutouts, triangle);
+    for (unsigned next = i; next < count; ++next) {
+      if (valid[next] != -1 || RTCHitN_primID(arguments->hit, count, next) != triangle) continue;
+      if (!query.solid(RTCHitN_u(arguments->hit, count, next), RTCHitN_v(arguments->hit, count, next)))
+        valid[next] = 0;
+      else
+        valid[next] = kAccepted;
+    }
+    while (i < count && valid[i] != -1) ++i;
   }
+  for (i = 0; i < count; ++i)
+    if (valid[i] == kAccepted) valid[i] = -1;
 }
 
 /// What a query for the first triangle needs to know, beside Embree's own context (which must come first).

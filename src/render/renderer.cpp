@@ -116,6 +116,7 @@ class Renderer::Implementation {
       seen.body_views = body_light_->look(*seen.bodies, seen.visibility);
       body_light_->hide(*seen.bodies, *seen.visibility, &seen.surfaces);
     }
+    light::prepare(*world_.geometry->scene, &seen.surfaces);
   }
 
   Seen bufferOf(const Pose& pose) const {

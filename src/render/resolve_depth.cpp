@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "render/resolve.h"
 
@@ -43,20 +44,28 @@ double nearestThrough(const Seen& seen, int x, int y, const Eigen::Vector3d& ray
   return nearest;
 }
 
-bool allSky(const Seen& seen, int x, int y) {
+/// What all samples of a pixel see; none if they differ.
+std::optional<std::uint32_t> sameTriangle(const Seen& seen, int x, int y) {
   const int size = seen.view.supersampling;
+  const std::uint32_t first = seen.sample(x * size, y * size).triangle;
   for (int row = y * size; row < (y + 1) * size; ++row) {
     for (int column = x * size; column < (x + 1) * size; ++column) {
-      if (!seen.sample(column, row).sky()) return false;
+      if (seen.sample(column, row).triangle != first) return std::nullopt;
     }
   }
-  return true;
+  return first;
 }
 
 float centreDepth(const Seen& seen, const light::Visibility& visibility, int x, int y) {
   constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
-  if (allSky(seen, x, y)) return kNothing;
+  const std::optional<std::uint32_t> same = sameTriangle(seen, x, y);
+  if (same == 0u) return kNothing;
   const Eigen::Vector3d ray = seen.view.ray(x, y);
+  // Between samples of one triangle lies that triangle.
+  if (same) {
+    const double depth = planeDepth(seen, *same - 1, ray);
+    if (depth >= seen.view.near_m) return static_cast<float>(depth);
+  }
   const double through = nearestThrough(seen, x, y, ray);
   if (std::isfinite(through)) return static_cast<float>(through);
   // The centre sees what no sample sees, as at the edges of small triangles: ask for it.

@@ -21,8 +21,8 @@ struct Seeing {
   std::int32_t material;
   Eigen::Vector3f geometric_normal, shading_normal;
   Eigen::Array3f albedo;
-  float depth;      ///< of the first sample
-  float footprint;  ///< of one sample, m
+  float depth;             ///< of the first sample
+  float footprint = 0.0f;  ///< of one sample, m; of materials with detail
   std::uint32_t samples = 0;
   const Eigen::Vector3f* relatives;  ///< where its samples are: to the camera, along the axes of `map`
 };
@@ -97,15 +97,18 @@ class TileResolver {
         tile_(*tile),
         ray_(seen.view.ray(seen.view.pixelOfSample(0), seen.view.pixelOfSample(0)).cast<float>()),
         eye_high_(seen.view.eye().cast<float>()),
-        eye_low_((seen.view.eye() - eye_high_.cast<double>()).cast<float>()) {}
+        eye_low_((seen.view.eye() - eye_high_.cast<double>()).cast<float>()),
+        kept_(1.0f - scene_detail.sample_right.norm() / 16.0f),
+        per_pixel_(static_cast<std::uint32_t>(seen.view.supersampling * seen.view.supersampling)) {
+    for (std::size_t i = 0; i < sides_.size(); ++i) sides_[i] = std::sqrt(static_cast<float>(i));
+  }
 
   void resolve() {
     memory_.triangles.forget();
     tile_.surfaces.clear();
     const auto pixels = static_cast<std::size_t>(tile_.width * tile_.height);
-    const auto per_pixel = static_cast<std::size_t>(seen_.view.supersampling * seen_.view.supersampling);
     for (auto* origin : {&tile_.origin_x, &tile_.origin_y, &tile_.origin_z})
-      origin->resize(pixels * per_pixel);
+      origin->resize(pixels * per_pixel_);
     tile_.sky.assign(pixels, 0);
     for (int row = 0; row < tile_.height; ++row) {
       for (int column = 0; column < tile_.width; ++column) {
@@ -118,6 +121,30 @@ class TileResolver {
   }
 
  private:
+  Eigen::Vector3f relative(const Sample& sample, int column, int row) const {
+    return sample.depth * (ray_ + static_cast<float>(column) * scene_detail_.sample_right +
+                           static_cast<float>(row) * scene_detail_.sample_down);
+  }
+
+  /// All samples of the pixel see one triangle.
+  void wholePixel(const std::array<Sample, kMostSamples>& samples, int x, int y) {
+    const int s = seen_.view.supersampling;
+    Cluster& cluster = memory_.clusters[0];
+    cluster.samples = 0;
+    for (int row = y * s; row < (y + 1) * s; ++row) {
+      for (int column = x * s; column < (x + 1) * s; ++column, ++cluster.samples)
+        cluster.relatives[cluster.samples] = relative(samples[cluster.samples], column, row);
+    }
+    Seeing& seeing = cluster.first;
+    seeing.depth = samples[0].depth;
+    seeing.relatives = cluster.relatives.data();
+    seeing.samples = cluster.samples;
+    look(samples[0].triangle - 1, &seeing);
+    std::fill_n(cluster.albedos.begin(), cluster.samples, seeing.albedo);
+    cluster.shading_normal = seeing.shading_normal;
+    append(cluster, x, y);
+  }
+
   /// Returns the number of samples that see the sky.
   std::uint8_t pixel(int x, int y) {
     const int s = seen_.view.supersampling;
@@ -125,6 +152,13 @@ class TileResolver {
     std::size_t count = 0;
     for (int j = 0; j < s; ++j)
       for (int i = 0; i < s; ++i) samples[count++] = seen_.sample(x * s + i, y * s + j);
+    bool same = true;
+    for (std::size_t i = 1; i < count; ++i) same &= samples[i].triangle == samples[0].triangle;
+    if (same && samples[0].sky()) return static_cast<std::uint8_t>(count);
+    if (same) {
+      wholePixel(samples, x, y);
+      return 0;
+    }
     std::size_t clusters = 0;
     std::uint8_t sky = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -139,9 +173,7 @@ class TileResolver {
         if (samples[k].triangle != triangle) continue;
         samples[k].triangle = kTaken;
         const int column = x * s + static_cast<int>(k) % s, row = y * s + static_cast<int>(k) / s;
-        relatives[seeing.samples++] =
-            samples[k].depth * (ray_ + static_cast<float>(column) * scene_detail_.sample_right +
-                                static_cast<float>(row) * scene_detail_.sample_down);
+        relatives[seeing.samples++] = relative(samples[k], column, row);
       }
       look(triangle - 1, &seeing);
       std::size_t k = 0;
@@ -169,17 +201,19 @@ class TileResolver {
     seeing->shading_normal = triangle.shadingNormal(shares);
     Footprint step =
         triangle.footprint(middle, seeing->depth, scene_detail_.sample_right, scene_detail_.sample_down);
-    seeing->footprint = std::sqrt(std::max(step.right.squaredNorm(), step.down.squaredNorm()));
+    if (scene_detail_.has(seeing->material))
+      seeing->footprint = std::sqrt(std::max(step.right.squaredNorm(), step.down.squaredNorm()));
     // All of these samples together span so many along each side.
-    const float side = std::sqrt(static_cast<float>(seeing->samples));
+    const float side = sides_[seeing->samples];
     step.right *= side;
     step.down *= side;
-    seeing->albedo = triangle.albedo(seen_, shares, step);
+    seeing->albedo = triangle.albedo(seen_, shares, step, 4 * seeing->samples <= per_pixel_);
   }
 
   void append(const Cluster& cluster, int x, int y) {
     const float share = 1.0f / static_cast<float>(cluster.samples);
-    light::Surface surface;
+    const auto number = static_cast<std::uint32_t>(tile_.surfaces.size());
+    light::Surface& surface = tile_.surfaces.emplace_back();
     surface.geometric_normal = cluster.first.geometric_normal;
     surface.shading_normal = cluster.shading_normal.normalized();
     Eigen::Vector3f middle = Eigen::Vector3f::Zero();
@@ -199,14 +233,13 @@ class TileResolver {
     surface.first_sample = static_cast<std::uint32_t>(origins_);
     surface.samples = cluster.samples;
     if (scene_detail_.has(surface.material)) {
-      memory_.detail.add({static_cast<std::uint32_t>(tile_.surfaces.size()), surface.material,
-                          cluster.first.footprint, cluster.samples, cluster.relatives.data(),
-                          cluster.albedos.data()});
+      memory_.detail.add({number, surface.material, cluster.first.footprint, cluster.samples,
+                          cluster.relatives.data(), cluster.albedos.data()});
     }
-    tile_.surfaces.push_back(surface);
     const Eigen::Vector3f to_origin = eye_low_ + surface.clearance_m * surface.geometric_normal;
+    const float kept = seen_.look(surface.material).transmission > 0.0f ? 1.0f : kept_;
     for (std::uint32_t i = 0; i < cluster.samples; ++i, ++origins_) {
-      const Eigen::Vector3f origin = eye_high_ + (cluster.relatives[i] + to_origin);
+      const Eigen::Vector3f origin = eye_high_ + (kept * cluster.relatives[i] + to_origin);
       tile_.origin_x[origins_] = origin.x();
       tile_.origin_y[origins_] = origin.y();
       tile_.origin_z[origins_] = origin.z();
@@ -222,6 +255,13 @@ class TileResolver {
   std::size_t origins_ = 0;             ///< written so far
   Eigen::Vector3f ray_;                 ///< of sample (0, 0), of depth 1 m
   Eigen::Vector3f eye_high_, eye_low_;  ///< whose sum is the eye
+  /// Part of the way from the eye at which shadow rays start. Rounded corners let a sample at an edge be
+  /// taken for the surface beside it, and its ray start beyond that edge, where the sun may shine. A
+  /// sixteenth of a sample towards the eye, which sees both surfaces, brings it back. Thin sheets send rays
+  /// to both sides: for them 1.
+  float kept_;
+  std::uint32_t per_pixel_;                    ///< samples
+  std::array<float, kMostSamples + 1> sides_;  ///< of a square of so many samples
 };
 
 void layOutTiles(const View& view, light::Surfaces* surfaces) {

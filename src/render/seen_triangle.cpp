@@ -36,6 +36,8 @@ SeenTriangle::SeenTriangle(const Seen& seen, std::uint32_t number) {
   normal_a_ = geometry.normals[vertices[0]];
   normal_b_ = geometry.normals[vertices[1]];
   normal_c_ = geometry.normals[vertices[2]];
+  flat_ = normal_a_ == normal_b_ && normal_a_ == normal_c_;
+  if (flat_) flat_normal_ = normalFrom(normal_a_);
   const Eigen::Array3f base = seen.look(material_).base_color.value;
   color_a_ = base * geometry.colors[vertices[0]];
   color_b_ = base * geometry.colors[vertices[1]] - color_a_;
@@ -54,9 +56,7 @@ Eigen::Array2f SeenTriangle::sharesAt(const Eigen::Vector3f& point) const {
   return shares;
 }
 
-Eigen::Vector3f SeenTriangle::shadingNormal(const Eigen::Array2f& shares) const {
-  const Eigen::Vector3f sum =
-      (1.0f - shares.sum()) * normal_a_ + shares[0] * normal_b_ + shares[1] * normal_c_;
+Eigen::Vector3f SeenTriangle::normalFrom(const Eigen::Vector3f& sum) const {
   const float length = sum.norm();
   if (!(length > 1e-6f)) return normal_;  // the file gave none
   return sum * ((sum.dot(normal_) < 0.0f ? -1.0f : 1.0f) / length);
@@ -72,8 +72,8 @@ Footprint SeenTriangle::footprint(const Eigen::Vector3f& point, float depth, con
   return {moved(right), moved(down)};
 }
 
-Eigen::Array3f SeenTriangle::albedo(const Seen& seen, const Eigen::Array2f& shares,
-                                    const Footprint& step) const {
+Eigen::Array3f SeenTriangle::albedo(const Seen& seen, const Eigen::Array2f& shares, const Footprint& step,
+                                    bool small) const {
   const Eigen::Array3f color = color_a_ + shares[0] * color_b_ + shares[1] * color_c_;
   const int texture = seen.look(material_).base_texture;
   if (texture == scene::Material::kNoTexture) return color.max(0.0f).min(1.0f);
@@ -95,14 +95,15 @@ Eigen::Array3f SeenTriangle::albedo(const Seen& seen, const Eigen::Array2f& shar
   // it covers its part of the area in a level whose texels are half as wide.
   const int taps = most < 2.25f * least ? 1 : most < 9.0f * least ? 2 : 4;
   const float part = taps == 1 ? 1.0f : taps == 2 ? 2.0f : 3.0f;
-  const float level = 0.5f * roughLog2(std::max(most, 1e-12f)) - part + seen.lod_bias;
+  float level = 0.5f * roughLog2(std::max(most, 1e-12f)) - part + seen.lod_bias;
+  if (small) level = static_cast<float>(floorOf(level + 0.5f));
   if (level <= 0.0f && most < 1.0f) return (color * pyramid.color(at, 0.0f)).max(0.0f).min(1.0f);
   Eigen::Array3f sum = Eigen::Array3f::Zero();
   for (int i = 0; i < taps; ++i) {
     const float place = (static_cast<float>(i) + 0.5f) / static_cast<float>(taps) - 0.5f;
     sum += pyramid.color(most < kMost ? Eigen::Array2f(at + place * longer) : at, level);
   }
-  return (color * sum / static_cast<float>(taps)).max(0.0f).min(1.0f);
+  return (color * sum * (1.0f / static_cast<float>(taps))).max(0.0f).min(1.0f);
 }
 
 }  // namespace sunlit::render

@@ -28,18 +28,28 @@ class SeenTriangle {
   Eigen::Array2f sharesAt(const Eigen::Vector3f& point) const;
   /// Unit, in the hemisphere of geometricNormal(): files get the side of normals wrong, and the side that is
   /// seen is the one to light.
-  Eigen::Vector3f shadingNormal(const Eigen::Array2f& shares) const;
+  Eigen::Vector3f shadingNormal(const Eigen::Array2f& shares) const {
+    return flat_ ? flat_normal_
+                 : normalFrom((1.0f - shares.sum()) * normal_a_ + shares[0] * normal_b_ +
+                              shares[1] * normal_c_);
+  }
   /// `right` and `down` lead to the neighbouring samples at depth 1 m.
   Footprint footprint(const Eigen::Vector3f& point, float depth, const Eigen::Vector3f& right,
                       const Eigen::Vector3f& down) const;
-  /// Linear, 0 … 1: the mean over the area that `step`, such as a footprint, spans.
-  Eigen::Array3f albedo(const Seen& seen, const Eigen::Array2f& shares, const Footprint& step) const;
+  /// Linear, 0 … 1: the mean over the area that `step`, such as a footprint, spans. What is `small`, as the
+  /// quarter of a pixel, is looked up in one size of the texture, not between two.
+  Eigen::Array3f albedo(const Seen& seen, const Eigen::Array2f& shares, const Footprint& step,
+                        bool small) const;
 
  private:
+  Eigen::Vector3f normalFrom(const Eigen::Vector3f& sum) const;
+
   std::int32_t material_ = 0;
   Eigen::Vector3f normal_, corner_;
   Eigen::Vector3f towards_b_, towards_c_;  ///< (point − corner) · these are the shares
   Eigen::Vector3f normal_a_, normal_b_, normal_c_;
+  bool flat_ = false;  ///< the same shading normal everywhere
+  Eigen::Vector3f flat_normal_;
   Eigen::Array3f color_a_, color_b_, color_c_;  ///< with the material's; b and c less a
   Eigen::Array2f texture_a_, texture_b_, texture_c_;
 };

@@ -51,60 +51,93 @@ std::vector<float> cutoffs(const scene::Scene& scene) {
 
 }  // namespace
 
+/// Each row ends with its first texel once more, so that neighbours always lie side by side.
+TexturePyramid::Level::Level(MipLevel mip, bool masked) : width(mip.width), height(mip.height) {
+  static const std::array<std::uint16_t, 256> codes = [] {
+    std::array<std::uint16_t, 256> values{};
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = static_cast<std::uint16_t>(std::lround(linearOfSrgb()[i] * 65535.0f));
+    return values;
+  }();
+  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+  linear.resize(4 * (columns + 1) * rows);
+  if (masked) alpha.resize(columns * rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::uint16_t* const out = &linear[4 * row * (columns + 1)];
+    for (std::size_t column = 0; column < columns; ++column) {
+      const std::uint8_t* const texel = &mip.rgba[4 * (row * columns + column)];
+      for (std::size_t c = 0; c < 3; ++c) out[4 * column + c] = codes[texel[c]];
+      if (masked) alpha[row * columns + column] = texel[3];
+    }
+    std::copy_n(out, 4, out + 4 * columns);
+  }
+}
+
 TexturePyramid::TexturePyramid(const scene::Texture& texture, float alpha_cutoff)
     : size_(static_cast<float>(texture.width), static_cast<float>(texture.height)),
       cutoff_(alpha_cutoff * 255.0f) {
-  levels_.push_back({texture.width, texture.height, texture.rgba, {}});
-  for (MipLevel& level : smallerLevels(texture, alpha_cutoff))
-    levels_.push_back({level.width, level.height, std::move(level.rgba), {}});
-  if (alpha_cutoff == kNoCutoff) return;
-  for (Level& level : levels_) {
-    level.alpha.resize(level.rgba.size() / 4);
-    for (std::size_t i = 0; i < level.alpha.size(); ++i) level.alpha[i] = level.rgba[4 * i + 3];
-  }
+  const bool masked = alpha_cutoff != kNoCutoff;
+  levels_.emplace_back(MipLevel{texture.width, texture.height, texture.rgba}, masked);
+  for (MipLevel& level : smallerLevels(texture, alpha_cutoff)) levels_.emplace_back(std::move(level), masked);
 }
 
-Eigen::Array3f TexturePyramid::bilinear(const Level& level, const Eigen::Array2f& at) const {
-  const Neighbours n(level.width, level.height, at.x(), at.y());
-  const auto& linear = linearOfSrgb();
-  const std::uint8_t *const a = &level.rgba[4 * n.top_left], *const b = &level.rgba[4 * n.top_right],
-                            *const c = &level.rgba[4 * n.bottom_left],
-                            *const d = &level.rgba[4 * n.bottom_right];
-  Eigen::Array3f color;
-  for (int i = 0; i < 3; ++i) {
-    const float top = linear[a[i]] + n.right * (linear[b[i]] - linear[a[i]]);
-    const float bottom = linear[c[i]] + n.right * (linear[d[i]] - linear[c[i]]);
-    color[i] = top + n.down * (bottom - top);
-  }
-  return color;
+namespace {
+
+using Texel = Eigen::Array4f;
+
+/// Between the four texels of `linear` about a point, `u` and `v` of a whole turn, in units of 1 / 65535.
+Texel bilinear(const std::vector<std::uint16_t>& linear, int width, int height, float u, float v) {
+  // Texel centres lie at half-integers; half a texel less and one more keeps what is rounded positive.
+  const float x = u * static_cast<float>(width) + 0.5f, y = v * static_cast<float>(height) + 0.5f;
+  const int left = static_cast<int>(x), above = static_cast<int>(y);
+  const float right = x - static_cast<float>(left), down = y - static_cast<float>(above);
+  // Rounding may take a coordinate just below a whole number to the end of the row.
+  const int x0 = left == 0 ? width - 1 : std::min(left, width) - 1;
+  const int y0 = above == 0 ? height - 1 : std::min(above, height) - 1;
+  const int y1 = y0 + 1 == height ? 0 : y0 + 1;
+  const auto at = [&](int row) {
+    return &linear[4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width + 1) +
+                        static_cast<std::size_t>(x0))];
+  };
+  const std::uint16_t *const upper = at(y0), *const lower = at(y1);
+  // Two texels at once, in a form that compilers turn into vector code.
+  alignas(16) float column[8], beside[8];
+  for (int i = 0; i < 8; ++i) column[i] = static_cast<float>(upper[i]);
+  for (int i = 0; i < 8; ++i) beside[i] = static_cast<float>(lower[i]);
+  const Eigen::Map<const Texel, Eigen::Aligned16> a(column), b(column + 4), c(beside), d(beside + 4);
+  const Texel first = a + down * (c - a), second = b + down * (d - b);
+  return first + right * (second - first);
 }
+
+}  // namespace
 
 Eigen::Array3f TexturePyramid::color(const Eigen::Array2f& at, float level) const {
+  // Repeats by whole turns.
+  const float u = at.x() - static_cast<float>(floorOf(at.x()));
+  const float v = at.y() - static_cast<float>(floorOf(at.y()));
   const float last = static_cast<float>(levels_.size() - 1);
   const float clamped = level > 0.0f ? std::min(level, last) : 0.0f;
   const auto lower = static_cast<std::size_t>(clamped);
   const float share = clamped - static_cast<float>(lower);
-  const Eigen::Array3f fine = bilinear(levels_[lower], at);
-  if (share == 0.0f) return fine;
-  return fine + share * (bilinear(levels_[lower + 1], at) - fine);
+  const auto look = [&](const Level& l) { return bilinear(l.linear, l.width, l.height, u, v); };
+  Texel sum = look(levels_[lower]);
+  if (share > 0.0f) sum += share * (look(levels_[lower + 1]) - sum);
+  return sum.head<3>() * (1.0f / 65535.0f);
 }
 
-std::size_t TexturePyramid::nearest(const Level& level, float u, float v) {
-  const int x = static_cast<int>((u - static_cast<float>(floorOf(u))) * static_cast<float>(level.width));
-  const int y = static_cast<int>((v - static_cast<float>(floorOf(v))) * static_cast<float>(level.height));
-  // Rounding may take a coordinate just below a whole number to the end of the row.
-  return static_cast<std::size_t>(std::min(y, level.height - 1)) * static_cast<std::size_t>(level.width) +
-         static_cast<std::size_t>(std::min(x, level.width - 1));
-}
-
-bool TexturePyramid::solid(float u, float v, float texels_squared) const {
+TexturePyramid::Mask TexturePyramid::mask(float texels_squared) const {
   // The binary exponent of a number is its logarithm rounded down, half of it that of its root.
   std::uint32_t bits;
   std::memcpy(&bits, &texels_squared, sizeof(bits));
   const int logarithm = (static_cast<int>(bits >> 23) - 127) >> 1;
-  const Level& level =
-      levels_[static_cast<std::size_t>(std::clamp(logarithm, 0, static_cast<int>(levels_.size()) - 1))];
-  if (logarithm > 0) return static_cast<float>(level.alpha[nearest(level, u, v)]) >= cutoff_;
+  const int number = std::clamp(logarithm, 0, static_cast<int>(levels_.size()) - 1);
+  const Level& level = levels_[static_cast<std::size_t>(number)];
+  return {level.alpha.data(), level.width, level.height, logarithm <= 0,
+          static_cast<std::uint8_t>(std::ceil(cutoff_))};
+}
+
+bool TexturePyramid::solid(float u, float v) const {
+  const Level& level = levels_.front();
   const Neighbours n(level.width, level.height, u, v);
   const auto alpha = [&](std::size_t texel) { return static_cast<float>(level.alpha[texel]); };
   const float top = alpha(n.top_left) + n.right * (alpha(n.top_right) - alpha(n.top_left));

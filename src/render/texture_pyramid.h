@@ -28,21 +28,27 @@ class TexturePyramid {
   /// `level` 0 is the full size, each next one half of it.
   Eigen::Array3f color(const Eigen::Array2f& at, float level) const;
 
-  /// Whether a masked texture is solid at (u, v), in the smallest level whose texels are not wider than the
-  /// way from one sample to the next: of the full size so many texels, squared, lie on it. In smaller levels
-  /// by the nearest texel, of which as many are solid as there is to show; at full size between texels, so
-  /// that edges stay smooth.
-  bool solid(float u, float v, float texels_squared) const;
+  /// A masked texture at one size.
+  struct Mask {
+    const std::uint8_t* alpha;
+    int width, height;
+    bool full;           ///< the full size
+    std::uint8_t least;  ///< alpha of what is solid
+  };
+  /// The smallest size whose texels are not wider than the way from one sample to the next: of the full size
+  /// so many texels, squared, lie on it. In smaller sizes the nearest texel decides what is solid: as many
+  /// are as there is to show.
+  Mask mask(float texels_squared) const;
+  /// Whether it is solid at (u, v) of the full size: between texels, so that edges stay smooth.
+  bool solid(float u, float v) const;
 
  private:
   struct Level {
     int width, height;
-    std::vector<std::uint8_t> rgba;
-    std::vector<std::uint8_t>
-        alpha;  ///< of a mask, once more by itself: a quarter of the memory to go through
+    std::vector<std::uint16_t> linear;  ///< r g b and padding of each texel, in linear light, 65535 for 1
+    std::vector<std::uint8_t> alpha;    ///< of a mask
+    Level(MipLevel mip, bool masked);
   };
-  static std::size_t nearest(const Level& level, float u, float v);
-  Eigen::Array3f bilinear(const Level& level, const Eigen::Array2f& at) const;
 
   std::vector<Level> levels_;
   Eigen::Array2f size_;

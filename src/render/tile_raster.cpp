@@ -13,28 +13,41 @@ int floorOf(double value) {
 
 }  // namespace
 
-/// Where a row crosses an edge, and on which side of there the triangle lies.
-struct TileRaster::Edge {
-  enum Side { kLeft, kRight, kAllOrNothing } inside;
-  double per_row, constant;  ///< the column of the crossing; or, of a level edge, what is negative outside
+/// Where the rows of a triangle begin and end: after the greatest of three columns, and at or before the
+/// least of three others. Each edge bounds one side and leaves the other to the rest; with no branch on
+/// which, short rows cost little.
+struct TileRaster::Edges {
+  std::array<double, 3> after_per_row, after, until_per_row, until;
+  int top, bottom;
 
   /// In steps, a sample is inside where along · (row − y) − down · (column − x) ≥ 0, and all of these are
   /// whole numbers. On the edge it belongs to one of the two triangles beside it. With half a unit on top no
   /// sample lies on the edge, and all are far enough from it for rounding in double precision to decide
   /// nothing: products stay below 2^50.
-  Edge(const ScreenTriangle& triangle, std::size_t from) {
-    const std::size_t to = (from + 1) % 3;
-    const double x = triangle.x[from], y = triangle.y[from];
-    const double along = triangle.x[to] - x, down = triangle.y[to] - y;
-    const bool owned = down < 0.0 || (down == 0.0 && along > 0.0);
-    const double offset = down * x - along * y + (owned ? 0.5 : -0.5);
-    const double scale = down == 0.0 ? 1.0 : 1.0 / (down * ScreenTriangle::kSteps);
-    inside = down == 0.0 ? kAllOrNothing : down > 0.0 ? kLeft : kRight;
-    per_row = along * ScreenTriangle::kSteps * scale;
-    constant = offset * scale;
+  Edges(const ScreenTriangle& triangle, int first_row, int last_row) : top(first_row), bottom(last_row) {
+    constexpr double kFar = 1e9;  // columns
+    for (std::size_t from = 0; from < 3; ++from) {
+      const std::size_t to = from == 2 ? 0 : from + 1;
+      const double x = triangle.x[from], y = triangle.y[from];
+      const double along = triangle.x[to] - x, down = triangle.y[to] - y;
+      const bool owned = down < 0.0 || (down == 0.0 && along > 0.0);
+      const double offset = down * x - along * y + (owned ? 0.5 : -0.5);
+      const double scale = 1.0 / (down * ScreenTriangle::kSteps);
+      const double per_row = along * ScreenTriangle::kSteps * scale, constant = offset * scale;
+      const bool ends = down > 0.0, begins = down < 0.0;
+      after_per_row[from] = begins ? per_row : 0.0;
+      after[from] = begins ? constant : -kFar;
+      until_per_row[from] = ends ? per_row : 0.0;
+      until[from] = ends ? constant : kFar;
+      if (down == 0.0) cutLevel(along * ScreenTriangle::kSteps, offset);
+    }
   }
 
-  double at(int row) const { return per_row * row + constant; }
+  /// Leaves only the rows on the inner side of a level edge.
+  void cutLevel(double per_row, double constant) {
+    while (top <= bottom && per_row * top + constant < 0.0) ++top;
+    while (top <= bottom && per_row * bottom + constant < 0.0) --bottom;
+  }
 };
 
 void TileRaster::start(const Place& place, float far_m) {
@@ -63,20 +76,13 @@ void TileRaster::draw(const ScreenTriangle& triangle, const std::vector<MaskPlan
                       float texels_factor) {
   if (triangle.nearness_greatest <= farthest_) return;
   updateFarthest();
-  const std::array<Edge, 3> edges = {Edge(triangle, 0), Edge(triangle, 1), Edge(triangle, 2)};
   const int left = std::max(triangle.left, place_.left), right = std::min(triangle.right, place_.right);
-  const int bottom = std::min(triangle.bottom, place_.bottom);
-  for (int row = std::max(triangle.top, place_.top); row <= bottom; ++row) {
+  const Edges edges(triangle, std::max(triangle.top, place_.top), std::min(triangle.bottom, place_.bottom));
+  for (int row = edges.top; row <= edges.bottom; ++row) {
     double before = left - 1, last = right;  // the span begins after the one and ends at or before the other
-    for (const Edge& edge : edges) {
-      const double at = edge.at(row);
-      if (edge.inside == Edge::kLeft) {
-        last = std::min(last, at);
-      } else if (edge.inside == Edge::kRight) {
-        before = std::max(before, at);
-      } else if (at < 0.0) {
-        last = before;
-      }
+    for (std::size_t i = 0; i < 3; ++i) {
+      before = std::max(before, edges.after_per_row[i] * row + edges.after[i]);
+      last = std::min(last, edges.until_per_row[i] * row + edges.until[i]);
     }
     if (!(before < last)) continue;
     const Span span{row, floorOf(before) + 1, floorOf(last)};
@@ -107,34 +113,101 @@ void TileRaster::fill(const ScreenTriangle& triangle, const Span& span) {
   }
 }
 
-void TileRaster::fillMasked(const ScreenTriangle& triangle, const Span& span, const MaskPlanes& mask,
-                            float texels_factor) {
-  const auto value = [&](const Linear& linear) { return static_cast<float>(linear(span.left, span.row)); };
-  const auto across = [](const Linear& linear) { return static_cast<float>(linear.per_column); };
-  const auto downwards = [](const Linear& linear) { return static_cast<float>(linear.per_row); };
-  const float w = value(triangle.nearness), w_x = across(triangle.nearness),
-              w_y = downwards(triangle.nearness);
-  const float u = value(mask.u_per_depth), u_x = across(mask.u_per_depth), u_y = downwards(mask.u_per_depth);
-  const float v = value(mask.v_per_depth), v_x = across(mask.v_per_depth), v_y = downwards(mask.v_per_depth);
-  const float width = mask.texture->size().x(), height = mask.texture->size().y();
-  float* const nearness = &nearness_[index(span.left, span.row)];
-  std::uint32_t* const numbers = &number_[index(span.left, span.row)];
-  for (int i = 0; i <= span.right - span.left; ++i) {
-    const float here =
-        std::clamp(w + w_x * static_cast<float>(i), triangle.nearness_least, triangle.nearness_greatest);
-    if (here <= nearness[i]) continue;
-    const float depth = 1.0f / here;
-    const float u_here = depth * (u + u_x * static_cast<float>(i));
-    const float v_here = depth * (v + v_x * static_cast<float>(i));
-    // How many texels lie to the next sample right and down: the derivatives of quotients.
-    const float factor_x = width * depth, factor_y = height * depth;
+/// A row of a masked triangle: along it nearness w, and u / depth and v / depth less those of the eye.
+struct TileRaster::MaskedRow {
+  const TexturePyramid& texture;
+  std::uint32_t number;
+  float least, greatest;  ///< nearness
+  float u_eye, v_eye;
+  float w, w_x, w_y, u, u_x, u_y, v, v_x, v_y;  ///< at its first sample, and by column and row
+  float texels_factor;
+
+  MaskedRow(const ScreenTriangle& triangle, const Span& span, const MaskPlanes& mask, float factor)
+      : texture(*mask.texture),
+        number(triangle.number),
+        least(triangle.nearness_least),
+        greatest(triangle.nearness_greatest),
+        u_eye(mask.u_eye),
+        v_eye(mask.v_eye),
+        texels_factor(factor) {
+    const auto set = [&](const Linear& linear, float* at, float* across, float* downwards) {
+      *at = static_cast<float>(linear(span.left, span.row));
+      *across = static_cast<float>(linear.per_column);
+      *downwards = static_cast<float>(linear.per_row);
+    };
+    set(triangle.nearness, &w, &w_x, &w_y);
+    set(mask.u_per_depth, &u, &u_x, &u_y);
+    set(mask.v_per_depth, &v, &v_x, &v_y);
+  }
+
+  /// How many texels, squared, lie to the next sample right or down: the derivatives of quotients.
+  float texelsSquared(float column) const {
+    const float depth = 1.0f / std::clamp(w + w_x * column, least, greatest);
+    const float u_here = depth * (u + u_x * column), v_here = depth * (v + v_x * column);
+    const float factor_x = texture.size().x() * depth, factor_y = texture.size().y() * depth;
     const float right_u = factor_x * (u_x - u_here * w_x), right_v = factor_y * (v_x - v_here * w_x);
     const float down_u = factor_x * (u_y - u_here * w_y), down_v = factor_y * (v_y - v_here * w_y);
-    const float texels =
-        texels_factor * std::max(right_u * right_u + right_v * right_v, down_u * down_u + down_v * down_v);
-    if (!mask.texture->solid(mask.u_eye + u_here, mask.v_eye + v_here, texels)) continue;
-    nearness[i] = here;
-    numbers[i] = triangle.number;
+    return texels_factor * std::max(right_u * right_u + right_v * right_v, down_u * down_u + down_v * down_v);
+  }
+};
+
+namespace {
+
+/// Samples of a row that look a mask up together, in one size.
+constexpr int kLanes = 8;
+using Lanes = std::array<float, kLanes>;
+
+/// The texel of a side of `size` that the coordinate falls into, repeating.
+inline int texelOf(float coordinate, int size) {
+  const int truncated = static_cast<int>(coordinate);
+  const int floor = truncated - (coordinate < static_cast<float>(truncated) ? 1 : 0);
+  const int texel = static_cast<int>((coordinate - static_cast<float>(floor)) * static_cast<float>(size));
+  return texel < size ? texel : size - 1;  // rounding may take it to the end of the row
+}
+
+}  // namespace
+
+void TileRaster::fillMasked(const ScreenTriangle& triangle, const Span& span, const MaskPlanes& mask,
+                            float texels_factor) {
+  const MaskedRow row(triangle, span, mask, texels_factor);
+  const std::size_t begin = index(span.left, span.row);
+  const int count = span.right - span.left + 1;
+  for (int first = 0; first < count; first += kLanes) {
+    const std::size_t at = begin + static_cast<std::size_t>(first);
+    fillMaskedPart(row, first, std::min(kLanes, count - first), &nearness_[at], &number_[at]);
+  }
+}
+
+void TileRaster::fillMaskedPart(const MaskedRow& row, int first, int count, float* nearness,
+                                std::uint32_t* numbers) {
+  Lanes here, u, v;
+  for (int i = 0; i < kLanes; ++i) {
+    const float w = row.w + row.w_x * static_cast<float>(first + i);
+    const float raised = w > row.least ? w : row.least;
+    here[static_cast<std::size_t>(i)] = raised < row.greatest ? raised : row.greatest;
+  }
+  unsigned nearer = 0;
+  for (int i = 0; i < count; ++i) nearer |= (here[static_cast<std::size_t>(i)] > nearness[i] ? 1u : 0u) << i;
+  if (nearer == 0) return;
+  for (int i = 0; i < kLanes; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const float column = static_cast<float>(first + i), depth = 1.0f / here[k];
+    u[k] = row.u_eye + depth * (row.u + row.u_x * column);
+    v[k] = row.v_eye + depth * (row.v + row.v_x * column);
+  }
+  const float middle = static_cast<float>(first) + 0.5f * static_cast<float>(count - 1);
+  const TexturePyramid::Mask mask = row.texture.mask(row.texelsSquared(middle));
+  std::array<int, kLanes> x, y;
+  for (std::size_t i = 0; i < kLanes; ++i) x[i] = texelOf(u[i], mask.width);
+  for (std::size_t i = 0; i < kLanes; ++i) y[i] = texelOf(v[i], mask.height);
+  for (int i = 0; i < count; ++i) {
+    if ((nearer >> i & 1u) == 0) continue;
+    const auto k = static_cast<std::size_t>(i);
+    const bool solid =
+        mask.full ? row.texture.solid(u[k], v[k]) : mask.alpha[y[k] * mask.width + x[k]] >= mask.least;
+    if (!solid) continue;
+    nearness[i] = here[k];
+    numbers[i] = row.number;
   }
 }
 

@@ -27,13 +27,15 @@ class TileRaster {
   void write(std::size_t stride, Sample* samples) const;
 
  private:
-  struct Edge;
+  struct Edges;
   struct Span {
     int row, left, right;
   };
   void fill(const ScreenTriangle& triangle, const Span& span);
   void fillMasked(const ScreenTriangle& triangle, const Span& span, const MaskPlanes& mask,
                   float texels_factor);
+  struct MaskedRow;
+  void fillMaskedPart(const MaskedRow& row, int first, int count, float* nearness, std::uint32_t* numbers);
   std::size_t index(int column, int row) const {
     return static_cast<std::size_t>((row - place_.top) * kLargest + column - place_.left);
   }

@@ -20,11 +20,6 @@ double cosZenithOf(int row) {
   return x < 0.0 ? -x * x : x * x;
 }
 
-Eigen::Array4f rgbOf(const Spectrum& light) {
-  const LinearRgb colour = inGamut(colourOf(light));
-  return {colour.value[0], colour.value[1], colour.value[2], 0.0F};
-}
-
 /// Steps even in u, and of the last cut even in the root of distance.
 std::vector<double> edgesWithCuts(double length_km, std::vector<std::size_t>* steps_to_cut) {
   std::vector<double> edges_km = {0.0};
@@ -110,8 +105,8 @@ LitAir::LitAir(const Transport& transport, const AirSights& sights, const AirLam
         for (; step < cut; ++step) {
           transport.addStep(sight.path.steps[step], sun, cos_angle, &light);
         }
-        *node++ = {rgbOf((light.smooth + light.aerosol_again * again) * lamp.strength),
-                   rgbOf(light.aerosol * lamp.strength)};
+        *node++ = {paddedColourOf((light.smooth + light.aerosol_again * again) * lamp.strength),
+                   paddedColourOf(light.aerosol * lamp.strength)};
       }
     }
   });

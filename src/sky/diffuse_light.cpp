@@ -288,17 +288,6 @@ Spectrum DiffuseLight::towardsEye(const SightStep& step, const SunAlong& sun) co
                                        degree(6, 10) * wide[3] + degree(10, 15) * wide[4]);
 }
 
-Spectrum DiffuseLight::meanRadiance(double altitude_km, double sun_cos_zenith) const {
-  const TablePlace height = heightPlace(altitude_km, kHeights);
-  const TablePlace sun = placeAt(sunCoordinate(static_cast<float>(sun_cos_zenith)), kSuns);
-  const Moments* low = &field_[at(height.index, sun.index)];
-  const Moments* high = low + kSuns;
-  const float u = sun.fraction;
-  const float v = height.fraction;
-  return low[0][0] * ((1.0F - u) * (1.0F - v)) + low[1][0] * (u * (1.0F - v)) +
-         high[0][0] * ((1.0F - u) * v) + high[1][0] * (u * v);
-}
-
 Spectrum DiffuseLight::ground(double sun_cos_zenith) const {
   const TablePlace sun = placeAt(sunCoordinate(static_cast<float>(sun_cos_zenith)), kSuns);
   const Spectrum* low = &ground_[static_cast<std::size_t>(sun.index)];

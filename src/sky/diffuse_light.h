@@ -29,8 +29,6 @@ class DiffuseLight {
   /// What one step of a line of sight scatters towards the eye of light scattered before; relative to the
   /// sun's irradiance, 1/sr.
   Spectrum towardsEye(const SightStep& step, const SunAlong& sun) const;
-  /// Mean over all directions of the diffuse radiance, 1/sr.
-  Spectrum meanRadiance(double altitude_km, double sun_cos_zenith) const;
   /// Radiance of the ground, 1/sr.
   Spectrum ground(double sun_cos_zenith) const;
 

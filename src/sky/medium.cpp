@@ -12,7 +12,9 @@ namespace {
 
 constexpr int kLayers = 1000;
 constexpr double kLayer_km = kAtmosphereHeight_km / kLayers;
-constexpr double kAerosolScaleHeight_km = 1.2;
+/// As in 6S (Vermote et al. 1997). At the horizon the aerosol's air mass is then 77; Gueymard 1995 (SMARTS)
+/// has 68.
+constexpr double kAerosolScaleHeight_km = 2.0;
 
 struct AirDensity {
   double altitude_km, kg_per_m3;
@@ -50,7 +52,8 @@ double ozoneDensity(double altitude_km) {
 struct Lobe {
   float weight, asymmetry;
 };
-/// Mean cosine 0.69, about that of continental aerosol in the visible (Hess et al. 1998, OPAC: 0.64-0.70).
+/// Mean cosine 0.69, about that of continental aerosol in the visible (Hess et al. 1998, OPAC: 0.70 at 550
+/// nm).
 constexpr std::array<Lobe, 2> kAerosolLobes = {{{0.6F, 0.82F}, {0.4F, 0.5F}}};
 
 /// Henyey and Greenstein 1941, 1/sr.
@@ -187,14 +190,6 @@ std::array<float, 5> aerosolWideMoments() {
   return moments;
 }
 
-float aerosolAsymmetry() {
-  float mean = 0.0F;
-  for (const Lobe& lobe : kAerosolLobes) {
-    mean += lobe.weight * lobe.asymmetry;
-  }
-  return mean;
-}
-
 Medium::Medium(const MediumParameters& parameters) : parameters_(parameters), densities_(kLayers + 1) {
   double air_column_km = 0.0;
   for (int i = 0; i <= kLayers; ++i) {
@@ -229,7 +224,6 @@ LocalMedium Medium::at(double altitude_km) const {
   local.extinction = local.rayleigh_scattering + aerosol_extinction_ * aerosol +
                      ozone_ * (a.ozone + t * (b.ozone - a.ozone));
   const Spectrum straight_ahead = local.aerosol_scattering * kAerosolForwardPart;
-  local.scaled_scattering = local.rayleigh_scattering + local.aerosol_scattering - straight_ahead;
   local.scaled_extinction = local.extinction - straight_ahead;
   return local;
 }

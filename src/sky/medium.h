@@ -14,15 +14,16 @@ constexpr double kAtmosphereHeight_km = 100.0;  // above it less than a milliont
 
 /// All that the light depends on besides the sun; tests turn parts off.
 struct MediumParameters {
-  double turbidity = 3.0;         ///< see aerosolOpticalDepth()
-  double aerosol_albedo = 0.92;   ///< single-scattering albedo of a continental aerosol
+  double turbidity = 2.0;         ///< see aerosolOpticalDepth()
+  double aerosol_albedo = 0.92;   ///< single-scattering albedo of a continental aerosol (OPAC: 0.925)
   double ozone_du = 300.0;        ///< Dobson units
   double ground_albedo = 0.2;     ///< Lambertian
   double refractivity = 2.78e-4;  ///< n − 1 at sea level (15 °C, 550 nm; Edlén 1966); 0: rays are straight
 };
 
 /// Vertical aerosol optical depth β λ^−1.3 (λ in µm), β = 0.04608 T − 0.04586: Preetham et al. 1999,
-/// appendix 1.
+/// appendix 1. At 550 nm 0.10 for T = 2, 0.20 for 3, 0.50 for 6: T is the depth of air and aerosol over that
+/// of air alone (in the visible, without water vapour: not Linke's).
 Spectrum aerosolOpticalDepth(double turbidity);
 
 /// Rayleigh's phase function, 1/sr; integrates to 1 over the sphere.
@@ -56,16 +57,12 @@ float aerosolWidePhase(float cos_angle);
 /// times it, and so on.
 std::array<float, 5> aerosolWideMoments();
 
-/// Mean cosine of aerosolPhase().
-float aerosolAsymmetry();
-
 /// Coefficients at one height, 1/km. "Scaled" is the equivalent medium of the similarity relation: aerosol
 /// that scatters a part straight ahead does not scatter that part at all, and the rest equally to all sides
 /// (van de Hulst 1980, 14.1).
 struct LocalMedium {
   Spectrum rayleigh_scattering;
   Spectrum aerosol_scattering;
-  Spectrum scaled_scattering;
   Spectrum scaled_extinction;
   Spectrum extinction;
 };

@@ -6,12 +6,11 @@
 #include <cmath>
 
 #include "require.h"
+#include "sunlit/quantity/moon.h"
 
 namespace sunlit::sky {
 namespace {
 
-constexpr double kMeanDistance_m = 384400e3;
-constexpr double kRadius_m = 1737.4e3;
 constexpr double kRedness = 1.1;
 
 /// Albedo by band, scaled so that sunlight of one lux gives one lux.
@@ -35,14 +34,14 @@ Spectrum moonStrength(const MoonInSky& moon, double sun_distance_au) {
   const double magnitude = -12.73 + 0.026 * alpha + 4e-9 * std::pow(alpha, 4);
   const double t = std::clamp((180.0 - alpha) / 30.0, 0.0, 1.0);
   const double fade = t * t * (3.0 - 2.0 * t);
-  const double nearness = kMeanDistance_m / (moon.distance_m * sun_distance_au);
+  const double nearness = kMeanMoonDistance_m / (moon.distance_m * sun_distance_au);
   const double lux = kZeroMagnitude_lx * std::pow(10.0, -0.4 * magnitude) * fade * nearness * nearness;
   static const Spectrum colour = albedoColour();
   return colour * static_cast<float>(lux / kLuminousSolarConstant_lx);
 }
 
 Angle moonAngularRadius(const MoonInSky& moon) {
-  return Angle::radians(std::asin(kRadius_m / moon.distance_m));
+  return Angle::radians(std::asin(kMoonRadius_m / moon.distance_m));
 }
 
 Direction moonLitFrom(const MoonInSky& moon, const Direction& sun) {

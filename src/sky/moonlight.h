@@ -17,7 +17,7 @@ void validate(const MoonInSky& moon);
 /// moon and 0.65 of the sun.
 Spectrum moonStrength(const MoonInSky& moon, double sun_distance_au);
 
-/// Radius 1737.4 km (IAU).
+/// Of kMoonRadius_m.
 Angle moonAngularRadius(const MoonInSky& moon);
 
 /// The direction of the sun seen from the moon: at the phase angle from the observer, on the sun's side.

@@ -18,10 +18,14 @@ constexpr double kS10_cd_per_m2 = kZeroMagnitude_lx * 1e-4 / (kRadPerDeg * kRadP
 
 constexpr double kAirglowHeight_km = 90.0;
 
-/// Photons a band: a continuum of 0.3 R/Å, O I 557.7 nm 250 R, Na D 30 R, O I 630.0 and 636.4 nm 80 R
-/// (Leinert et al. 1998, table 13), and OH, which grows towards the infrared.
-constexpr std::array<double, kBands> kAirglowPhotons = {90,  90,  90,  90,  90,  340,
-                                                        130, 110, 180, 140, 240, 330};
+/// Photons a band, R: a continuum that grows from 0.23 R/Å at 395 nm over 0.28 at 515 nm and 0.40 at 575 nm
+/// to 0.48 from 620 nm on; O I 557.7 nm 220 R, Na D 30 R, O I 630.0 and 636.4 nm 107 R, OH 290 R from 640 to
+/// 740 nm. Lines are as in Leinert et al. 1998, table 13, each shared by the two bands whose middles are next
+/// to it, or else that of 557.7 nm would be green instead of yellow-green. The continuum is what zodiacal
+/// light and stars leave of the dark sky over Kitt Peak (Neugent & Massey 2010); over La Palma it has 0.44
+/// R/Å at 672 nm (Viuho et al. 2025).
+constexpr std::array<double, kBands> kAirglowPhotons = {69,  78,  84,  84,  84,  226,
+                                                        229, 166, 256, 189, 206, 320};
 
 Spectrum unitLuminance(const Spectrum& light) {
   return light / colourOf(light).luminance();
@@ -35,15 +39,30 @@ Spectrum airglowSpectrum() {
   return unitLuminance(asBrightAsTheSun(light));
 }
 
-Eigen::Array4f rgbOf(const Spectrum& light) {
-  const LinearRgb colour = inGamut(colourOf(light));
-  return {colour.value[0], colour.value[1], colour.value[2], 0.0F};
-}
-
 /// Brightening of a thin luminous layer away from the zenith (van Rhijn 1921).
 double vanRhijn(double elevation) {
   const double s = std::cos(elevation) * kEarthRadius_km / (kEarthRadius_km + kAirglowHeight_km);
   return 1.0 / std::sqrt(1.0 - s * s);
+}
+
+/// Of what the whole air takes from a vertical beam: the part that it scatters.
+Spectrum scatteredPart(const Medium& medium) {
+  Spectrum scattered = Spectrum::Zero();
+  Spectrum taken = Spectrum::Zero();
+  for (double altitude_km = 0.25; altitude_km < kAtmosphereHeight_km; altitude_km += 0.5) {
+    const LocalMedium air = medium.at(altitude_km);
+    scattered += air.rayleigh_scattering + air.aerosol_scattering;
+    taken += air.extinction;
+  }
+  return scattered / taken;
+}
+
+/// Mean light from all sides within air that is lit evenly from above with 1. Air that lets a part T through
+/// in all sends 1 − T back, so the means at its top and bottom are (2 − T) / 2 and T (1 + albedo) / 2; T is
+/// 0.7-0.9.
+float lightWithin(float ground_albedo) {
+  constexpr float kThrough = 0.8F;
+  return 0.5F + 0.25F * kThrough * ground_albedo;
 }
 
 /// In J2000 equatorial coordinates, as the other directions of the celestial frame.
@@ -78,26 +97,23 @@ NightGlow::NightGlow(const Transport& transport, const Extinction& extinction) {
   const Spectrum airglow = airglowSpectrum() * static_cast<float>(kAirglowZenith_cd_per_m2);
   const Spectrum sun = unitLuminance(Spectrum::Ones());
   const Spectrum starlight = unitLuminance(blackBody(5000.0));
-  const Spectrum from_beyond = sun * static_cast<float>(kMeanZodiacal_cd_per_m2) +
-                               starlight * static_cast<float>(kMeanMilkyWay_cd_per_m2);
-  // Mean over the upper hemisphere of what comes down; rows are even in √elevation.
-  Spectrum mean = Spectrum::Zero();
+  // Mean over the upper hemisphere of what comes in from above; rows are even in √elevation.
+  Spectrum mean = sun * static_cast<float>(kMeanZodiacal_cd_per_m2) +
+                  starlight * static_cast<float>(kMeanMilkyWay_cd_per_m2);
   for (int row = 0; row < Extinction::kRows; ++row) {
     const double elevation = Extinction::elevationOf(row);
     const double t = static_cast<double>(row) / (Extinction::kRows - 1);
     const double share = std::cos(elevation) * kPi * t / (Extinction::kRows - 1);
-    mean += (airglow * static_cast<float>(vanRhijn(elevation)) + from_beyond) *
-            extinction.transmittance(row) * static_cast<float>(share);
+    mean += airglow * static_cast<float>(vanRhijn(elevation) * share);
   }
-  // Air lit from one side, and by the ground's share from the other, scatters half of what it takes out.
-  constexpr float kScatteredPart = 0.9F;
-  const Spectrum air = mean * (0.5F * kScatteredPart *
-                               (1.0F + static_cast<float>(transport.medium().parameters().ground_albedo)));
+  const Medium& medium = transport.medium();
+  const auto albedo = static_cast<float>(medium.parameters().ground_albedo);
+  const Spectrum air = mean * scatteredPart(medium) * lightWithin(albedo);
   for (int row = 0; row < Extinction::kRows; ++row) {
     const Spectrum& passed = extinction.transmittance(row);
     const auto longer = static_cast<float>(vanRhijn(Extinction::elevationOf(row)));
-    rows_.push_back({rgbOf(airglow * longer * passed + air * (1.0F - passed)), rgbOf(sun * passed),
-                     rgbOf(starlight * passed)});
+    rows_.push_back({paddedColourOf(airglow * longer * passed + air * (1.0F - passed)),
+                     paddedColourOf(sun * passed), paddedColourOf(starlight * passed)});
   }
 }
 

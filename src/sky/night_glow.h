@@ -25,8 +25,8 @@ class GlowSky {
 };
 
 /// Zodiacal light above the air, cd/m², towards a direction `elongation` from the sun, whose ecliptic
-/// latitude has the sine `sin_latitude`. Own fit to table 17 of Leinert et al. 1998 (A&AS 127, 1): rms 9 %,
-/// worst 26 %, from 15° of elongation; nearer to the sun as at 15°.
+/// latitude has the sine `sin_latitude`. Own fit to tables 16 and 17 of Leinert et al. 1998 (A&AS 127, 1):
+/// rms 9 %, worst 25 %, from 15° of elongation; nearer to the sun as at 15°.
 double zodiacalLight_cd_per_m2(Angle elongation, double sin_latitude);
 
 /// Light of stars too faint to be drawn (V > 6.5) and starlight on dust, cd/m², by galactic latitude and the
@@ -39,8 +39,10 @@ constexpr double kMeanZodiacal_cd_per_m2 = 1.0e-4;
 constexpr double kMeanMilkyWay_cd_per_m2 = 4.5e-5;
 
 /// Airglow at the zenith, above the air; varies by a factor of 2 with the sun's activity (Leinert et al.
-/// 1998, section 6). With the zodiacal light and the stars away from their bands it makes 2e-4 cd/m².
-constexpr double kAirglowZenith_cd_per_m2 = 1.5e-4;
+/// 1998, section 6). With the zodiacal light and the stars away from their bands it makes 2e-4 cd/m², 21.8
+/// mag a square arc second, of the colour of measured dark skies: CIE xy (0.36, 0.365), 4,600 K, B − V = 0.9.
+/// That is a pale brown, as a camera balanced for daylight has it; an eye sees no colour at this level.
+constexpr double kAirglowZenith_cd_per_m2 = 1.3e-4;
 
 /// What does not change with the hour: how each part of the glow comes through the air, by elevation.
 class NightGlow {

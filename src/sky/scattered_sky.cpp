@@ -9,13 +9,6 @@
 #include "table_place.h"
 
 namespace sunlit::sky {
-namespace {
-
-Eigen::Array4f padded(const LinearRgb& colour) {
-  return {colour.value[0], colour.value[1], colour.value[2], 0.0F};
-}
-
-}  // namespace
 
 ScatteredSky::ScatteredSky(const Transport& transport, double altitude_km, const AirLamp& lamp)
     : towards_(lamp.apparent.vector().cast<float>()),
@@ -34,9 +27,8 @@ ScatteredSky::ScatteredSky(const Transport& transport, double altitude_km, const
           cos_zenith * lamp_cos_zenith + std::cos(elevation) * lamp_sin_zenith * std::cos(azimuth);
       const Scattered light = transport.scattered(path, lamp_cos_zenith, cos_angle);
       nodes_[static_cast<std::size_t>(row * kColumns + column)] = {
-          padded(inGamut(colourOf(light.smooth * lamp.strength))),
-          padded(inGamut(colourOf(light.aerosol * lamp.strength))),
-          padded(inGamut(colourOf(light.aerosol_again * lamp.strength)))};
+          paddedColourOf(light.smooth * lamp.strength), paddedColourOf(light.aerosol * lamp.strength),
+          paddedColourOf(light.aerosol_again * lamp.strength)};
     }
   });
 }

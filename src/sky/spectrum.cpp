@@ -68,6 +68,11 @@ LinearRgb colourOf(const Spectrum& relative) {
   return LinearRgb(rgb);
 }
 
+Eigen::Array4f paddedColourOf(const Spectrum& light) {
+  const LinearRgb colour = inGamut(colourOf(light));
+  return {colour.value[0], colour.value[1], colour.value[2], 0.0F};
+}
+
 Spectrum asBrightAsTheSun(const Spectrum& power) {
   Spectrum relative;
   for (int band = 0; band < kBands; ++band) {

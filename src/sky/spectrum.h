@@ -35,7 +35,12 @@ LinearRgb colourOf(const Spectrum& relative);
 /// The nearest colour of the same luminance and hue without negative parts.
 LinearRgb inGamut(const LinearRgb& colour);
 
-/// Illuminance of a plane facing the sun above the atmosphere at 1 AU.
+/// The colour of `light` in gamut, and a zero: tables hold four floats, which processors add at once.
+Eigen::Array4f paddedColourOf(const Spectrum& light);
+
+/// Illuminance of a plane facing the sun above the atmosphere at 1 AU. The spectrum that the bands are taken
+/// from has 133,100 lx (683 lm/W and V(λ) over ASTM G173-03); 126,000 lx is the published value that goes
+/// with a sun of V = −26.74 and the zero magnitude below, and measured daylight lies nearer to it.
 constexpr double kLuminousSolarConstant_lx = 126000.0;
 
 /// Illuminance of a star of visual magnitude 0 above the atmosphere: Allen's Astrophysical Quantities, 4th

@@ -13,6 +13,16 @@ import rosunit
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 POSES = 2
+WAYPOINTS = SOURCE / "test" / "support" / "worlds" / "straight.csv"
+# Of models that come with the package. The built-in world needs no files, but minutes for its light as it is built here.
+WORLD = """<sdf version="1.6"><world name="yard">
+  <include><uri>model://ground_plane</uri></include>
+  <include><uri>model://sun</uri></include>
+  <model name="box"><static>true</static><pose>6 1 0.5 0 0 0</pose>
+    <link name="link"><visual name="visual"><geometry><box><size>1 1 1</size></box></geometry></visual></link>
+  </model>
+</world></sdf>
+"""
 
 
 def free_port():
@@ -27,6 +37,7 @@ class Workspace(unittest.TestCase):
         cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="sunlit_workspace_"))
         (cls.folder / "src").mkdir()
         (cls.folder / "src" / "sunlit").symlink_to(SOURCE)
+        (cls.folder / "yard.world").write_text(WORLD)
         cls.environment = {key: value for key, value in os.environ.items()
                            if not key.startswith(("ROS_", "CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "PYTHONPATH"))}
         cls.environment.update(ROS_HOSTNAME="localhost", ROS_HOME=str(cls.folder / "ros_home"))
@@ -44,12 +55,14 @@ class Workspace(unittest.TestCase):
         return done.stdout
 
     def experiment(self, setup):
-        """The two hours are noon against itself an hour later: enough to see that all parts run together."""
+        """The two hours are noon against itself an hour later: enough to see that all parts run together,
+        and that our models, the rover and its meshes are found."""
         port = free_port()
         self.environment["ROS_MASTER_URI"] = f"http://localhost:{port}"
         output = self.folder / f"output_{setup}"
-        self.run_in_workspace(f"roslaunch -p {port} sunlit experiment.launch poses:={POSES} hours:='[12, 13]' "
-                              f"differences:='[boolean_rgb, orb]' output:={output}", setup)
+        self.run_in_workspace(f"roslaunch -p {port} sunlit experiment.launch world:=yard.world path:={WAYPOINTS} "
+                              f"poses:={POSES} hours:='[12, 13]' differences:='[boolean_rgb, orb]' robot:=rover "
+                              f"output:={output}", setup)
         self.assertIn("h12,h13,boolean_rgb", (output / "summary.csv").read_text())
         self.assertTrue((output / "report.html").exists())
         self.run_in_workspace("rosrun sunlit report --help", setup)

@@ -5,6 +5,7 @@
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/direction.h"
 #include "sunlit/quantity/instant.h"
+#include "sunlit/quantity/moon.h"
 #include "sunlit/quantity/site.h"
 
 namespace sunlit::astronomy {
@@ -13,7 +14,7 @@ namespace sunlit::astronomy {
 struct LunarCoordinates {
   Angle right_ascension;  ///< α, [0°, 360°)
   Angle declination;      ///< δ
-  double distance_m = 384400e3;
+  double distance_m = kMeanMoonDistance_m;
 };
 
 /// Meeus, Astronomical Algorithms (2nd ed. 1998), chapter 47, as ERFA's eraMoon98 computes it, with light
@@ -31,9 +32,9 @@ struct MoonPosition {
   Angle elevation_geometric;  ///< without refraction
   Angle right_ascension;      ///< [0°, 360°)
   Angle declination;
-  double distance_m = 384400e3;       ///< from the observer
-  Angle phase_angle;                  ///< at the moon between sun and observer: 0° full, 180° new
-  double illuminated_fraction = 1.0;  ///< of the disc's area: 0 new, 1 full
+  double distance_m = kMeanMoonDistance_m;  ///< from the observer
+  Angle phase_angle;                        ///< at the moon between sun and observer: 0° full, 180° new
+  double illuminated_fraction = 1.0;        ///< of the disc's area: 0 new, 1 full
   Angle bright_limb;  ///< position angle of the middle of the bright limb, from celestial north through east,
                       ///< [0°, 360°)
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace sunlit::light {
@@ -13,6 +14,8 @@ struct LightPlace {
   static constexpr std::uint32_t kNowhere = 0xffffffffu;
   std::array<std::uint32_t, 3> node = {kNowhere, kNowhere, kNowhere};  ///< all or none kNowhere
   std::array<float, 3> weight = {1.0f, 0.0f, 0.0f};                    ///< sum 1
+  /// How much of the sky is open there, in parts of what is open at the nodes: leaves are finer than those.
+  float open = 1.0f;
 
   bool known() const { return node[0] != kNowhere; }
 };
@@ -56,6 +59,8 @@ struct Tile {
   std::vector<std::uint8_t> sky;  ///< samples of each pixel of the tile (row-major) that see no surface
 };
 
+class LightTable;
+
 struct Surfaces {
   static constexpr int kTileSize = 16;  ///< px
 
@@ -65,6 +70,7 @@ struct Surfaces {
   Eigen::Vector3f pixel_origin, pixel_right, pixel_down;
   Eigen::Vector3f eye = Eigen::Vector3f::Zero();  ///< the camera, m in `map`
   std::vector<Tile> tiles;
+  std::shared_ptr<const LightTable> table;  ///< set by prepare(); null: made anew for each light
 };
 
 }  // namespace sunlit::light

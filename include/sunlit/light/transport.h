@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sunlit/light/geometry.h"
@@ -18,7 +20,7 @@ struct TransportOptions {
   int rays_per_patch = 3;  ///< of the 175 patches of the sky, 1 … 64
   int bounces = 3;         ///< 0 … 8
   double finest_m = 0.25;  ///< distance of samples where light changes fastest, 0.02 … 10 m
-  int samples = 350000;    ///< at most about as many on large triangles, 1000 … 10000000
+  int samples = 700000;    ///< at most about as many on large triangles, 1000 … 10000000
 };
 
 /// Throws std::invalid_argument naming key, value and range.
@@ -27,6 +29,18 @@ void validate(const TransportOptions& options);
 /// How far a bake is: share done, 0 … 1, and seconds left by the time taken so far. Never called by two
 /// threads at once.
 using BakeProgress = std::function<void(double share, double seconds_left)>;
+
+/// Where bakes are kept, and how much of the disk they may take.
+struct BakeCache {
+  static constexpr std::uintmax_t kUsualLimit_bytes = 2'000'000'000;
+  /// Also from the folder alone.
+  BakeCache(std::string folder_, std::uintmax_t limit_bytes_ = kUsualLimit_bytes)
+      : folder(std::move(folder_)), limit_bytes(limit_bytes_) {}
+
+  std::string folder;
+  /// Beyond it those go that have not been used for longest, but none that a process uses now.
+  std::uintmax_t limit_bytes;
+};
 
 struct TransportData;
 
@@ -40,11 +54,12 @@ class Transport {
   static std::shared_ptr<const Transport> bake(std::shared_ptr<const Geometry> geometry,
                                                const TransportOptions& options,
                                                const BakeProgress& progress = nullptr);
-  /// As bake(), but reads the result from `folder` where an equal bake has left it, and leaves it there. A
-  /// file that is broken or of another scene is named by one line to `log` and replaced; if the folder can't
-  /// be written, that is logged too. Of several processes that want the same bake, one computes it.
+  /// As bake(), but reads the result from the folder of `cache` where an equal bake has left it, and leaves
+  /// it there. A file that is broken or of another scene is named by one line to `log` and replaced; if the
+  /// folder can't be written, that is logged too. Of several processes that want the same bake, one computes
+  /// it.
   static std::shared_ptr<const Transport> cached(
-      std::shared_ptr<const Geometry> geometry, const TransportOptions& options, const std::string& folder,
+      std::shared_ptr<const Geometry> geometry, const TransportOptions& options, const BakeCache& cache,
       const BakeProgress& progress = nullptr, const std::function<void(const std::string&)>& log = nullptr);
 
   /// SUNLIT_CACHE_DIR, or sunlit in XDG_CACHE_HOME, or .cache/sunlit in HOME, or else in the system's
@@ -71,6 +86,7 @@ class Transport {
  private:
   std::shared_ptr<const Geometry> geometry_;
   std::unique_ptr<const TransportData> data_;
+  std::vector<float> open_;  ///< share of the sphere's half that is open sky at each node; empty: no leaves
 };
 
 }  // namespace sunlit::light

@@ -1,11 +1,12 @@
 /// A clear atmosphere: what sun, moon and the night's own glow become on their way to the ground.
 ///
 /// Molecules, aerosol and ozone around a spherical Earth, in twelve wavelength bands; light scattered any
-/// number of times, and bent by refraction. Illuminance of level ground is within 15 % of published values
-/// (Janiczek & DeYoung 1987) for a sun of 90-30°, within 25 % down to −12°, and within a factor of 2 below,
-/// where the glow of the night takes over (8e-4 lx): 98 klx at 60°, 518 lx at −0.83°, 3.1 lx at −6°, 0.0069
-/// lx at −12°; 0.29 lx under a full moon overhead. Luminance is within 10 % of light paths traced through the
-/// same air, 12 % at the very horizon.
+/// number of times, and bent by refraction. Sunlight and daylight of a clear day are within 5 % of lighting
+/// practice (IES 1984) for a sun of 90-10°. Illuminance of level ground is within 15 % of Janiczek & DeYoung
+/// 1987 for a sun of 90-30°, within 25 % down to −12°, and within a factor of 2 below, where the glow of the
+/// night takes over (1e-3 lx): 100 klx at 60°, 542 lx at −0.83°, 3.2 lx at −6°, 0.0072 lx at −12°; 0.29 lx
+/// under a full moon overhead. Luminance is within 10 % of light paths traced through the same air, 12 % at
+/// the very horizon.
 #pragma once
 
 #include <memory>
@@ -17,7 +18,9 @@
 namespace sunlit::sky {
 
 struct AtmosphereOptions {
-  double turbidity = 3.0;          ///< Linke-like haziness of the aerosol, 1 (pure air) … 10 (haze)
+  /// Optical depth of air and aerosol over that of air alone (Preetham et al. 1999), 1 (pure air) … 10
+  /// (haze): 2 is a clear day, with an aerosol optical depth of 0.10 at 550 nm; 3 has 0.20, 6 has 0.50.
+  double turbidity = 2.0;
   double ground_albedo = 0.2;      ///< of the land around the scene, 0 … 1
   double observer_height_m = 0.0;  ///< above sea level, 0 … 8000 m
 };

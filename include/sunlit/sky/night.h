@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sunlit/quantity/direction.h"
+#include "sunlit/quantity/moon.h"
 #include "sunlit/quantity/photometry.h"
 
 namespace sunlit::sky {
@@ -15,8 +16,9 @@ namespace sunlit::sky {
 struct MoonInSky {
   Direction apparent;                                 ///< with refraction: where the disc is seen
   std::optional<Direction> geometric = std::nullopt;  ///< without; default: as `apparent`
-  double distance_m = 384400e3;  ///< from the observer, 3.4e8 … 4.2e8 m; sets disc size and strength
-  Angle phase_angle;             ///< at the moon between sun and observer: 0 full, 180° new
+  double distance_m =
+      kMeanMoonDistance_m;  ///< from the observer, 3.4e8 … 4.2e8 m; sets disc size and strength
+  Angle phase_angle;        ///< at the moon between sun and observer: 0 full, 180° new
 };
 
 /// A star outside the atmosphere.

@@ -1,11 +1,8 @@
 #include "light/transport/cache_file.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <set>
@@ -18,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Goes up whenever the bake or the layout below changes.
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 5;
 constexpr char kMagic[8] = {'s', 'u', 'n', 'l', 'i', 't', 'T', '\n'};
 
 struct Header {
@@ -26,10 +23,10 @@ struct Header {
   std::uint32_t version;
   std::uint32_t patches;
   std::uint64_t key[2];
-  std::uint64_t counts[10];   ///< of the arrays, in the order of visitArrays()
+  std::uint64_t counts[12];   ///< of the arrays, in the order of visitArrays()
   std::uint64_t checksum[2];  ///< of all that follows
 };
-static_assert(sizeof(Header) == 128, "no padding goes to the file");
+static_assert(sizeof(Header) == 144, "no padding goes to the file");
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what) {
   throw std::runtime_error(file.string() + ": " + what);
@@ -47,6 +44,8 @@ void visitArrays(Data& data, const Visit& visit) {
   visit(data.bounced.scales);
   visit(data.tints);
   visit(data.glows);
+  visit(data.leaves.first);
+  visit(data.leaves.grids);
 }
 
 void addMaterial(const scene::Material& material, ContentHash* hash) {
@@ -156,21 +155,6 @@ void writeBake(const fs::path& file, const ContentHash& key, const TransportData
     fs::remove(unfinished, error);
     fail(file, "cannot be written");
   }
-}
-
-BakeLock::BakeLock(const fs::path& file)
-    : descriptor_(open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666)) {
-  if (descriptor_ < 0) fail(file, std::strerror(errno));
-  while (flock(descriptor_, LOCK_EX) != 0) {
-    if (errno == EINTR) continue;
-    const std::string why = std::strerror(errno);
-    close(descriptor_);
-    fail(file, why);
-  }
-}
-
-BakeLock::~BakeLock() {
-  close(descriptor_);
 }
 
 }  // namespace sunlit::light

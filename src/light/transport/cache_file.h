@@ -21,18 +21,4 @@ std::unique_ptr<TransportData> readBake(const std::filesystem::path& file, const
 /// Complete or not at all: written beside `file` first. Throws std::runtime_error with the path.
 void writeBake(const std::filesystem::path& file, const ContentHash& key, const TransportData& data);
 
-/// Held by one process at a time, as long as it lives. Waits for its turn; given back by the system when a
-/// process dies.
-class BakeLock {
- public:
-  /// Throws std::runtime_error with the path if the file can't be made.
-  explicit BakeLock(const std::filesystem::path& file);
-  ~BakeLock();
-  BakeLock(const BakeLock&) = delete;
-  BakeLock& operator=(const BakeLock&) = delete;
-
- private:
-  int descriptor_;
-};
-
 }  // namespace sunlit::light

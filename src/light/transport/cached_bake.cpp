@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "light/transport/cache_file.h"
+#include "light/transport/cache_folder.h"
 #include "sunlit/light/transport.h"
 
 namespace sunlit::light {
@@ -24,7 +25,7 @@ std::unique_ptr<TransportData> readIfThere(const fs::path& file, const ContentHa
   }
 }
 
-/// The turn of this process; empty if the folder can't be used.
+/// Empty if the folder can't be used.
 std::optional<fs::path> usableFolder(const std::string& folder, const Log& log) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -32,6 +33,29 @@ std::optional<fs::path> usableFolder(const std::string& folder, const Log& log) 
   if (log) log("baked light is not kept: " + folder + ": " + error.message());
   return std::nullopt;
 }
+
+std::optional<BakeTurn> turnFor(const fs::path& file, const Log& log) {
+  try {
+    return BakeTurn::await(file);
+  } catch (const std::exception& problem) {
+    if (log) log(std::string("baked light is not kept: ") + problem.what());
+    return std::nullopt;
+  }
+}
+
+void keep(const fs::path& file, const ContentHash& key, const TransportData& data, const Log& log) {
+  try {
+    writeBake(file, key, data);
+  } catch (const std::exception& problem) {
+    if (log) log(std::string("baked light is not kept: ") + problem.what());
+  }
+}
+
+/// What cached() gives away: as long as it is used, its file stays.
+struct KeptTransport {
+  std::optional<BakeInUse> in_use;
+  std::shared_ptr<const Transport> transport;
+};
 
 }  // namespace
 
@@ -46,33 +70,32 @@ std::string Transport::usualFolder() {
 }
 
 std::shared_ptr<const Transport> Transport::cached(std::shared_ptr<const Geometry> geometry,
-                                                   const TransportOptions& options, const std::string& folder,
+                                                   const TransportOptions& options, const BakeCache& cache,
                                                    const BakeProgress& progress, const Log& log) {
   validate(options);
-  const std::optional<fs::path> place = usableFolder(folder, log);
-  if (!place) return bake(std::move(geometry), options, progress);
+  const std::optional<fs::path> folder = usableFolder(cache.folder, log);
+  if (!folder) return bake(std::move(geometry), options, progress);
   const ContentHash key = bakeKey(*geometry, options);
-  const fs::path file = *place / (key.text() + ".light");
+  const fs::path file = *folder / (key.text() + ".light");
+  auto kept = std::make_shared<KeptTransport>();
+  kept->in_use.emplace(file);  // from here on nobody removes it
   std::unique_ptr<TransportData> data = readIfThere(file, key, nullptr);
-  std::unique_ptr<BakeLock> turn;
+  std::optional<BakeTurn> turn;
   if (!data) {
-    try {
-      turn = std::make_unique<BakeLock>(file.string() + ".lock");
-    } catch (const std::exception& problem) {
-      if (log) log(std::string("baked light is not kept: ") + problem.what());
-      return bake(std::move(geometry), options, progress);
-    }
-    // Another process may have finished it meanwhile.
-    data = readIfThere(file, key, log);
+    turn = turnFor(file, log);
+    if (!turn) return bake(std::move(geometry), options, progress);
+    data = readIfThere(file, key, log);  // another process may have finished it meanwhile
   }
-  if (data) return std::make_shared<const Transport>(std::move(geometry), std::move(data));
-  std::shared_ptr<const Transport> baked = bake(std::move(geometry), options, progress);
-  try {
-    writeBake(file, key, *baked->data_);
-  } catch (const std::exception& problem) {
-    if (log) log(std::string("baked light is not kept: ") + problem.what());
+  if (data) {
+    kept->transport = std::make_shared<const Transport>(std::move(geometry), std::move(data));
+  } else {
+    kept->transport = bake(std::move(geometry), options, progress);
+    keep(file, key, *kept->transport->data_, log);
   }
-  return baked;
+  kept->in_use.emplace(file);  // which may have come only now
+  turn.reset();
+  tidyCache(*folder, cache.limit_bytes, log);
+  return {kept, kept->transport.get()};
 }
 
 }  // namespace sunlit::light

@@ -50,8 +50,12 @@ class Gatherer {
       lookAround(p * kPacket, data);
       step(direct_share / static_cast<double>(packets));
     });
-    for (int bounce = 0; bounce < options_.bounces; ++bounce)
+    std::vector<std::vector<Amount>> received;
+    for (int bounce = 0; bounce < options_.bounces; ++bounce) {
       passOn(data, (1.0 - direct_share) / options_.bounces);
+      received.push_back(bouncedAmounts(*data));
+    }
+    addLaterBounces(received, data);
     std::vector<bool> inside(count_);
     for (std::size_t i = 0; i < count_; ++i) inside[i] = seen_[i].inside;
     return inside;
@@ -152,6 +156,41 @@ class Gatherer {
       for (std::size_t i = block * kBlock; i < std::min(count_, (block + 1) * kBlock); ++i)
         receive(sent, others, i, data);
       step(0.8 * share / static_cast<double>(blocks));
+    });
+  }
+
+  /// Of bounced light at a sample: that of the sky, and that of what shines by itself.
+  struct Amount {
+    float sky, glow;
+  };
+  std::vector<Amount> bouncedAmounts(const TransportData& data) const {
+    std::vector<Amount> amounts(count_);
+    tbb::parallel_for(std::size_t{0}, count_, [&](std::size_t i) {
+      const std::uint8_t* row = data.bounced.row(i);
+      std::uint32_t sum = 0;
+      for (std::size_t p = 0; p < kPatches; ++p) sum += row[p];
+      amounts[i] = {static_cast<float>(sum) * data.bounced.scales[i],
+                    luminanceOf(Eigen::Map<const Eigen::Array3f>(data.glows[i].data()))};
+    });
+    return amounts;
+  }
+
+  /// Factor from the light after three bounces to that after all: each adds the same share of the one before.
+  static float withAllBounces(float first, float second, float third) {
+    constexpr float kMostShare = 0.8f;
+    const float before = second - first, last = third - second;
+    if (!(before > 0.0f && last > 0.0f)) return 1.0f;
+    const float share = std::min(last / before, kMostShare);
+    return 1.0f + last * share / ((1.0f - share) * third);
+  }
+
+  void addLaterBounces(const std::vector<std::vector<Amount>>& received, TransportData* data) const {
+    if (received.size() < 3) return;
+    const auto *first = &received[received.size() - 3], *second = first + 1, *third = second + 1;
+    tbb::parallel_for(std::size_t{0}, count_, [&](std::size_t i) {
+      const Amount &a = (*first)[i], &b = (*second)[i], &c = (*third)[i];
+      data->bounced.scales[i] *= withAllBounces(a.sky, b.sky, c.sky);
+      for (float& glow : data->glows[i]) glow *= withAllBounces(a.glow, b.glow, c.glow);
     });
   }
 

@@ -17,6 +17,7 @@ constexpr float kReachShare = 0.6f;    ///< longest edge of a cell, in harmonic 
 constexpr float kNearShare = 0.7f;     ///< … in distances of the closest thing,
 constexpr float kNearLimit_m = 2.0f;   ///< as far as that matters
 constexpr float kFinerAtWalls = 4.0f;  ///< times, than elsewhere
+constexpr float kCutUrgency = 4.0f;    ///< of a cell with a wall amid it: light leaks there
 constexpr std::size_t kNodesAtOnce = RayPacket::kSize;
 
 std::uint64_t pairKey(std::uint32_t a, std::uint32_t b) {
@@ -258,7 +259,7 @@ void MeshBuilder::refine(const RefineLimits& limits, const std::function<void(do
     tbb::parallel_for(std::size_t{0}, active_.size(), [&](std::size_t i) {
       const LightMesh::Cell& cell = mesh.cells[active_[i]];
       urgencies[i] = urgency(cell, limits.finest_m);
-      if (urgencies[i] <= 1.0f && cut(cell, limits.finest_m)) urgencies[i] = 1.01f;
+      if (urgencies[i] <= 1.0f && cut(cell, limits.finest_m)) urgencies[i] = kCutUrgency;
     });
     std::vector<Split> splits;
     for (std::size_t i = 0; i < active_.size(); ++i) {

@@ -19,9 +19,8 @@ struct CloudRule {
   float cosine;   ///< of normals that may share a sample
   float merge_m;  ///< vertices in a cube of this size share a node
 };
-constexpr CloudRule kSmallRule{TriangleKind::kSmall, 0.5f, 0.8f, 0.1f};
+constexpr CloudRule kSmallRule{TriangleKind::kSmall, 0.12f, 0.9f, 0.03f};
 constexpr CloudRule kFoliageRule{TriangleKind::kFoliage, 1.0f, 0.5f, 0.4f};
-constexpr CloudRule kCanopyRule{TriangleKind::kCanopy, 8.0f, 0.5f, 2.5f};
 constexpr float kClear_m = 5e-3f;
 constexpr std::size_t kMostShares = 6;
 
@@ -164,8 +163,7 @@ class Sampler {
   void sampleSmall() {
     sampleCloud(kSmallRule);
     sampleCloud(kFoliageRule);
-    sampleCloud(kCanopyRule);
-    sampleSprays();
+    sampleCards();
   }
 
   void sampleCloud(const CloudRule& rule) {
@@ -199,33 +197,51 @@ class Sampler {
     });
   }
 
-  /// One sample a corner of a card, for both its sides: leaves let about half of the light through.
-  void sampleSprays() {
-    std::vector<std::uint32_t> node_of(geometry_.positions.size(), LightMesh::kNone);
+  /// One sample a card, for both its sides: leaves let about half of the light through, and LeafOpenness
+  /// knows what lies open of the card.
+  void sampleCards() {
+    struct Card {
+      std::uint32_t node = LightMesh::kNone;
+      int triangles = 0;
+    };
+    std::vector<std::uint32_t> card_at(geometry_.positions.size(), LightMesh::kNone);
+    std::vector<Card> cards;
     for (std::uint32_t t = 0; t < traits_.size(); ++t) {
-      if (traits_[t].kind != TriangleKind::kSpray) continue;
-      std::array<std::uint32_t, 3> nodes;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t v = geometry_.triangles[t][k];
-        Site site = cornerOf(t, 0, k).site;  // with the triangle's middle as its origin
-        const Eigen::Vector3f out = geometry_.positions[v] - site.origins[0];
-        for (std::size_t i = 0; i < Site::kOrigins; ++i)
-          site.origins[i] += (0.3f + 0.15f * static_cast<float>(i)) * out;
-        site.transmission = 0.5f;
-        if (node_of[v] == LightMesh::kNone) {
-          node_of[v] = static_cast<std::uint32_t>(shares_.size());
-          shares_.push_back({{static_cast<std::uint32_t>(sites_.size()), 1.0f}});
-          sites_.push_back(site);
-        } else {  // the other half of the card
-          Site& first = sites_[shares_[node_of[v]][0].sample];
-          for (std::size_t i = 1; i < Site::kOrigins; i += 2) first.origins[i] = site.origins[i];
-        }
-        nodes[k] = node_of[v];
+      if (traits_[t].kind != TriangleKind::kSpray && traits_[t].kind != TriangleKind::kCanopy) continue;
+      std::uint32_t number = LightMesh::kNone;
+      for (const std::uint32_t v : geometry_.triangles[t]) {
+        if (card_at[v] != LightMesh::kNone && cards[card_at[v]].triangles < 2) number = card_at[v];
       }
+      Site site = middleOf(t);
+      if (number == LightMesh::kNone) {
+        number = static_cast<std::uint32_t>(cards.size());
+        cards.push_back({static_cast<std::uint32_t>(shares_.size()), 0});
+        shares_.push_back({{static_cast<std::uint32_t>(sites_.size()), 1.0f}});
+        sites_.push_back(site);
+      } else {  // the other half of the card
+        Site& first = sites_[shares_[cards[number].node][0].sample];
+        for (std::size_t i = 1; i < Site::kOrigins; i += 2) first.origins[i] = site.origins[i];
+        first.normal = (first.normal + site.normal).normalized();
+      }
+      ++cards[number].triangles;
+      for (const std::uint32_t v : geometry_.triangles[t]) card_at[v] = number;
+      const std::uint32_t node = cards[number].node;
       const auto cell = static_cast<std::uint32_t>(builder_.mesh.cells.size());
-      builder_.mesh.cells.push_back({nodes});
+      builder_.mesh.cells.push_back({{node, node, node}});
       builder_.mesh.roots[t] = {cell, cell};
     }
+  }
+
+  /// Looks from four points of a card's triangle.
+  Site middleOf(std::uint32_t t) const {
+    Site site = cornerOf(t, 0, 0).site;  // with the triangle's middle as its origin
+    Eigen::Vector3f normal = site.normal;
+    for (std::size_t k = 1; k < 3; ++k) normal += cornerOf(t, 0, k).site.normal;
+    site.normal = normal.normalized();
+    for (std::size_t i = 0; i < 3; ++i)
+      site.origins[i] += 0.5f * (geometry_.positions[geometry_.triangles[t][i]] - site.origins[3]);
+    site.transmission = 0.5f;
+    return site;
   }
 
   SceneSamples finish() {

@@ -96,12 +96,15 @@ std::array<Eigen::Array3f, SkyPatches::kCount> SkyPatches::luminances(const sky:
   std::array<Eigen::Array3f, kCount> means;
   for (int patch = 0; patch < kAbove; ++patch) {
     Eigen::Array3f sum = Eigen::Array3f::Zero();
+    float weights = 0.0f;
     for (int i = 0; i < kAcross * kAcross; ++i) {
       const double u = (i % kAcross + 0.5) / kAcross;
       const double v = (i / kAcross + 0.5) / kAcross;
-      sum += day.skyLuminance(pointIn(patch, u, v)).value;
+      const Eigen::Vector3f towards = pointIn(patch, u, v);
+      sum += towards.z() * day.skyLuminance(towards).value;
+      weights += towards.z();
     }
-    means[static_cast<std::size_t>(patch)] = sum / static_cast<float>(kAcross * kAcross);
+    means[static_cast<std::size_t>(patch)] = sum / weights;
   }
   Eigen::Array3f below = Eigen::Array3f::Zero();
   for (int i = 0; i < kDown; ++i) below += day.skyLuminance(pointBelow(i)).value;

@@ -23,6 +23,10 @@ void requireWithin(const char* key, double value, double low, double high) {
   throw std::invalid_argument(message.str());
 }
 
+/// Where the nodes are all but shut, their light tells little of an open place nearby.
+constexpr float kLeastOpen = 0.02f;
+constexpr float kMostOpen = 8.0f;
+
 /// Barycentric coordinates in triangle `t` of the point of its plane nearest to `position`, within it.
 std::array<float, 3> barycentric(const Geometry& geometry, std::uint32_t t, const Eigen::Vector3f& position) {
   const auto& corners = geometry.triangles[t];
@@ -64,9 +68,11 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   limits.finest_m = static_cast<float>(options.finest_m);
   limits.nodes = static_cast<std::size_t>(options.samples);
   const BakeScene scene{*geometry, rays, traits};
-  constexpr double kSampled = 0.25;
-  SceneSamples samples = sampleScene(scene, limits, [&](double share) { report(kSampled * share); });
+  constexpr double kLeaves = 0.2, kSampled = 0.4;
   auto data = std::make_unique<TransportData>();
+  data->leaves = leafOpenness(geometry, traits, [&](double share) { report(kLeaves * share); });
+  SceneSamples samples =
+      sampleScene(scene, limits, [&](double share) { report(kLeaves + (kSampled - kLeaves) * share); });
   const GatherOptions gather{options.rays_per_patch, options.bounces,
                              [&](double share) { report(kSampled + (1.0 - kSampled) * share); }};
   samples.mesh.drop(gatherLight(scene, samples, gather, data.get()));
@@ -75,16 +81,24 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
 }
 
 Transport::Transport(std::shared_ptr<const Geometry> geometry, std::unique_ptr<const TransportData> data)
-    : geometry_(std::move(geometry)), data_(std::move(data)) {}
+    : geometry_(std::move(geometry)), data_(std::move(data)) {
+  if (!data_->leaves.first.empty()) open_ = nodeOpenness(*data_);
+}
 Transport::~Transport() = default;
 
 LightPlace Transport::placeOf(std::uint32_t triangle, bool front, const Eigen::Vector3f& position) const {
   LightPlace light;
   const std::uint32_t root = data_->mesh.roots[triangle][front ? 0 : 1];
   if (root == LightMesh::kNone) return light;
-  const LightMesh::Place place = data_->mesh.locate(root, barycentric(*geometry_, triangle, position));
+  const std::array<float, 3> within = barycentric(*geometry_, triangle, position);
+  const LightMesh::Place place = data_->mesh.locate(root, within);
   light.node = place.node;
   light.weight = place.weight;
+  if (!data_->leaves.known(triangle)) return light;
+  float at_nodes = 0.0f;
+  for (std::size_t k = 0; k < 3; ++k) at_nodes += place.weight[k] * open_[place.node[k]];
+  const float here = data_->leaves.at(triangle, front ? 0 : 1, within);
+  light.open = std::min(here / std::max(at_nodes, kLeastOpen), kMostOpen);
   return light;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "light/transport/leaf_openness.h"
 #include "light/transport/sky_patches.h"
 
 namespace sunlit::light {
@@ -65,6 +66,7 @@ struct TransportData {
   Coefficients bounced;                     ///< luminance of it, after surfaces passed it on
   std::vector<std::array<float, 3>> tints;  ///< colour of the bounced part, of luminance 1
   std::vector<std::array<float, 3>> glows;  ///< illuminance, lx, from surfaces that shine by themselves
+  LeafOpenness leaves;
 };
 
 }  // namespace sunlit::light

@@ -32,18 +32,42 @@ struct Outlook {
 
 using Outlooks = std::array<Outlook, RayPacket::kSize>;
 
+/// Places on a triangle, by the shares of its corners.
+const std::array<Eigen::Vector3f, 10> kPlaces = {{{0.3333f, 0.3333f, 0.3334f},
+                                                  {0.9f, 0.05f, 0.05f},
+                                                  {0.05f, 0.9f, 0.05f},
+                                                  {0.05f, 0.05f, 0.9f},
+                                                  {0.48f, 0.48f, 0.04f},
+                                                  {0.04f, 0.48f, 0.48f},
+                                                  {0.48f, 0.04f, 0.48f},
+                                                  {0.7f, 0.15f, 0.15f},
+                                                  {0.15f, 0.7f, 0.15f},
+                                                  {0.15f, 0.15f, 0.7f}}};
+constexpr std::size_t kPlacesOfSmall = 4;
+
+struct Side {
+  std::uint32_t triangle;
+  int side;
+};
+
+/// Whether a camera may see the side at all.
+bool seen(const Geometry& geometry, const Side& side) {
+  const auto material = static_cast<std::size_t>(geometry.materials[side.triangle]);
+  return side.side == 0 || geometry.scene->materials[material].double_sided;
+}
+
+/// Of up to a packet of sides from `first` on, each seen from one place on its triangle.
 Outlooks outlooks(const Geometry& geometry, const BakeRays& rays, const std::vector<SkyPatches::Ray>& pattern,
-                  const std::vector<std::uint32_t>& triangles, std::size_t first, int side) {
-  const int count = static_cast<int>(std::min<std::size_t>(RayPacket::kSize, triangles.size() - first));
+                  const Side* first, int count, const Eigen::Vector3f& place) {
   std::array<Site, RayPacket::kSize> sites;
   for (int i = 0; i < count; ++i) {
-    const std::uint32_t t = triangles[first + static_cast<std::size_t>(i)];
     Site& site = sites[static_cast<std::size_t>(i)];
-    site.normal = sideNormal(geometry, t, side);
+    site.normal = sideNormal(geometry, first[i].triangle, first[i].side);
     site.lifts.fill(kClear_m * site.normal);
-    Eigen::Vector3f middle = Eigen::Vector3f::Zero();
-    for (std::uint32_t v : geometry.triangles[t]) middle += geometry.positions[v] / 3.0f;
-    site.origins.fill(middle);
+    const auto& corners = geometry.triangles[first[i].triangle];
+    Eigen::Vector3f origin = Eigen::Vector3f::Zero();
+    for (std::size_t k = 0; k < 3; ++k) origin += place[static_cast<int>(k)] * geometry.positions[corners[k]];
+    site.origins.fill(origin);
   }
   Outlooks result;
   probe(rays, pattern, sites.data(), count, [&](int i, std::size_t r, float weight, const HitPacket& hits) {
@@ -82,31 +106,45 @@ TriangleKind triangleKind(const Geometry& geometry, std::uint32_t t) {
 
 std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeRays& rays) {
   std::vector<TriangleTraits> traits(geometry.triangles.size());
-  std::vector<std::uint32_t> opaque;
+  std::vector<Side> sides;
   for (std::uint32_t t = 0; t < traits.size(); ++t) {
     traits[t].kind = triangleKind(geometry, t);
-    if (!isLeaf(traits[t].kind)) opaque.push_back(t);
+    if (isLeaf(traits[t].kind)) continue;
+    sides.push_back({t, 0});
+    sides.push_back({t, 1});
   }
+  std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.side < b.side; });
   std::vector<SkyPatches::Ray> pattern;
   const SkyPatches patches(1);
   for (std::size_t i = 0; i < patches.coarseRays().size(); i += 6) pattern.push_back(patches.coarseRays()[i]);
-  const std::size_t packets = (opaque.size() + RayPacket::kSize - 1) / RayPacket::kSize;
-  tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
-    const std::size_t first = p * RayPacket::kSize;
-    const std::size_t end = std::min(first + RayPacket::kSize, opaque.size());
-    for (int side = 0; side < 2; ++side) {
-      const Outlooks seen = outlooks(geometry, rays, pattern, opaque, first, side);
+  for (std::size_t place = 0; place < kPlaces.size() && !sides.empty(); ++place) {
+    std::vector<std::uint8_t> useless(sides.size());
+    const std::size_t packets = (sides.size() + RayPacket::kSize - 1) / RayPacket::kSize;
+    tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
+      const std::size_t first = p * RayPacket::kSize;
+      const std::size_t end = std::min(first + RayPacket::kSize, sides.size());
+      const Outlooks from_there = outlooks(geometry, rays, pattern, sides.data() + first,
+                                           static_cast<int>(end - first), kPlaces[place]);
       for (std::size_t i = first; i < end; ++i) {
-        const Outlook& outlook = seen[i - first];
-        TriangleTraits& to = traits[opaque[i]];
-        if (side == 1) to.solid = outlook.inside();
-        to.used[side] = !outlook.sealed() && !outlook.buried();
+        const Outlook& outlook = from_there[i - first];
+        if (place == 0 && sides[i].side == 1) traits[sides[i].triangle].solid = outlook.inside();
+        useless[i] = outlook.sealed() || outlook.buried() ? 1 : 0;
       }
+    });
+    // What is hidden in one place may be seen in another: a slab half sunk into the ground.
+    std::vector<Side> left;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      TriangleTraits& to = traits[sides[i].triangle];
+      to.used[sides[i].side] = useless[i] == 0;
+      const bool large = to.kind == TriangleKind::kLarge;
+      if (useless[i] != 0 && (large || place + 1 < kPlacesOfSmall) && seen(geometry, sides[i]))
+        left.push_back(sides[i]);
     }
-  });
+    sides.swap(left);
+  }
   for (std::uint32_t t = 0; t < traits.size(); ++t) {
-    const auto material = static_cast<std::size_t>(geometry.materials[t]);
-    if (!geometry.scene->materials[material].double_sided) traits[t].used[1] = false;
+    for (int side = 0; side < 2; ++side)
+      traits[t].used[side] = traits[t].used[side] && seen(geometry, {t, side});
   }
   return traits;
 }

@@ -14,7 +14,7 @@ enum class TriangleKind : std::uint8_t {
   kSmall,    ///< shares samples with its neighbours
   kFoliage,  ///< small and cut out: shares coarser samples
   kSpray,    ///< a leaf card as large as a twig: what hides it differs from card to card, so each has its own
-  kCanopy,   ///< the larger leaf cards of distant trees: the coarsest
+  kCanopy,   ///< a larger one, of distant trees: likewise
 };
 
 inline bool isLeaf(TriangleKind kind) {

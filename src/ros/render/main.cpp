@@ -1,6 +1,5 @@
 #include <tbb/global_control.h>
 
-#include <cstdlib>
 #include <optional>
 #include <string>
 
@@ -20,11 +19,8 @@ int run() {
   for (const Condition& condition : conditions) condition.parameters.rejectUnknown();  // only the sun differs
   parameters.rejectUnknown();
   std::optional<tbb::global_control> limit;
-  if (options.threads > 0) {
+  if (options.threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
-    // llvmpipe has threads of its own.
-    setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
-  }
   return RenderNode(node, private_node, options, conditions).run();
 }
 

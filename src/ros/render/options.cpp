@@ -85,6 +85,7 @@ BakeOptions readBake(const ParameterReader& parameters) {
   transport.finest_m = parameters.number("transport/finest", transport.finest_m, {0.02, 10.0});
   transport.samples = parameters.integer("transport/samples", transport.samples, {1000, 1e7});
   bake.cache_dir = parameters.text("transport/cache_dir", bake.cache_dir);
+  bake.cache_limit_gb = parameters.number("transport/cache_limit", bake.cache_limit_gb, {0.0, 1e6});
   return bake;
 }
 

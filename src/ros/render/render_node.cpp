@@ -5,6 +5,7 @@
 #include <ros/init.h>
 #include <sys/resource.h>
 
+#include <chrono>
 #include <cstdio>
 #include <stdexcept>
 
@@ -33,9 +34,11 @@ RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
     : node_(node),
       private_node_(private_node),
       options_(options),
-      files_(options.output_dir.empty() ? nullptr : std::make_unique<RunFiles>(options.output_dir)),
-      studio_(options),
+      files_(options.output_dir.empty()
+                 ? nullptr
+                 : std::make_unique<RunFiles>(options.output_dir, options.pacing.resume_at > 0)),
       path_(options.camera.follow_tf ? nullptr : std::make_unique<PathSource>(node, options.path)),
+      studio_(options),
       streams_(conditions, streamOptions(options), studio_),
       paused_(!options.pacing.autostart) {
   if (studio_.robot()) {
@@ -87,10 +90,20 @@ Step RenderNode::step() {
   }
   const Step step = run_->step();
   wait_log_.report(step == Step::kWaits ? run_->waitsFor() : std::string());
-  if (step == Step::kTook && path_run_ != nullptr) {
-    progress_log_.report(path_run_->position(), path_run_->positions());
+  if (step == Step::kTook) {
+    keepTiming();
+    if (path_run_ != nullptr) progress_log_.report(path_run_->position(), path_run_->positions());
   }
   return step;
+}
+
+void RenderNode::keepTiming() {
+  // A kill costs the time sheet no more than this; the disk may be slow to make each of them last.
+  constexpr std::chrono::seconds kInterval(5);
+  const auto now = std::chrono::steady_clock::now();
+  if (!files_ || (timing_kept_ && now - *timing_kept_ < kInterval)) return;
+  files_->writeTiming(studio_.stopwatch());
+  timing_kept_ = now;
 }
 
 void RenderNode::writeMap() {

@@ -4,7 +4,9 @@
 #include <ros/node_handle.h>
 #include <std_srvs/Trigger.h>
 
+#include <chrono>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "ros/render/options.h"
@@ -19,8 +21,8 @@
 
 namespace sunlit::ros_interface {
 
-/// One thread does everything: it holds the OpenGL context, and ROS callbacks have their turn between two
-/// frames.
+/// ROS callbacks have their turn between two frames, on the thread that renders: what they change never
+/// changes within a frame.
 class RenderNode {
  public:
   RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
@@ -34,6 +36,7 @@ class RenderNode {
   bool onPause(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onView(RenderView::Request& request, RenderView::Response& response);
   Step step();
+  void keepTiming();
   void writeMap();
   void finish();
   void reportRobot() const;
@@ -41,9 +44,10 @@ class RenderNode {
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   RenderNodeOptions options_;
-  std::unique_ptr<RunFiles> files_;  // before the scene: an unwritable folder should not cost its loading
-  Studio studio_;
+  // Before the scene: an unwritable folder or a bad waypoint should not cost its loading.
+  std::unique_ptr<RunFiles> files_;
   std::unique_ptr<PathSource> path_;  // not where a TF frame is followed
+  Studio studio_;
   Streams streams_;
   std::unique_ptr<RobotPlaces> robot_;  // where there is one
   PathRun* path_run_ = nullptr;         // run_ where it follows a path
@@ -51,8 +55,9 @@ class RenderNode {
   ProgressLog progress_log_;
   WaitLog wait_log_;
   bool paused_;
-  bool drawn_ = false;     // the map is written
-  bool finished_ = false;  // all is rendered
+  std::optional<std::chrono::steady_clock::time_point> timing_kept_;  // when it was written last
+  bool drawn_ = false;                                                // the map is written
+  bool finished_ = false;                                             // all is rendered
   std::vector<ros::ServiceServer> services_;
 };
 

@@ -3,34 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <functional>
 #include <iomanip>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <sstream>
 #include <stdexcept>
+
+#include "sunlit/image/files.h"
 
 namespace sunlit::ros_interface {
 
-namespace {
-
-/// Writes beside the target and renames, so that a reader never meets half a file.
-void writeWhole(const std::string& file, const std::function<void(std::ostream&)>& write) {
-  const std::string unfinished = file + ".part";
-  std::ofstream out(unfinished);
-  write(out);
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(unfinished, file, error);
-  if (!out || error) throw std::runtime_error(file + ": cannot be written");
-}
-
-}  // namespace
-
-RunFiles::RunFiles(const std::string& folder) : folder_(folder) {
+RunFiles::RunFiles(const std::string& folder, bool goes_on) : folder_(folder) {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) throw std::runtime_error(folder_ + ": the folder cannot be made: " + error.message());
+  if (goes_on) earlier_ = readTimeSheet(folder_ + "/timing.csv");
   writeTiming(Stopwatch());
 }
 
@@ -40,14 +27,19 @@ void RunFiles::writeMap(const image::Rgb8Image& map, const MapExtent& extent) co
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   if (!cv::imwrite(file, bgr)) throw std::runtime_error(file + ": cannot be written");
-  writeWhole(folder_ + "/map.yaml", [&](std::ostream& out) {
-    out << std::setprecision(10) << "x_min: " << extent.x_min << "\nx_max: " << extent.x_max
-        << "\ny_min: " << extent.y_min << "\ny_max: " << extent.y_max << '\n';
-  });
+  std::ostringstream out;
+  out << std::setprecision(10) << "x_min: " << extent.x_min << "\nx_max: " << extent.x_max
+      << "\ny_min: " << extent.y_min << "\ny_max: " << extent.y_max << '\n';
+  image::writeFileAtomically(folder_ + "/map.yaml", out.str());
 }
 
 void RunFiles::writeTiming(const Stopwatch& stopwatch) const {
-  writeWhole(folder_ + "/timing.csv", [&](std::ostream& out) { stopwatch.write(out); });
+  Stopwatch whole;
+  whole.add(earlier_);
+  whole.add(stopwatch.entries());
+  std::ostringstream out;
+  writeTimeSheet(whole.entries(), out);
+  image::writeFileAtomically(folder_ + "/timing.csv", out.str());
 }
 
 MapExtent extentOf(const PathSource& path) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "ros/render/path_source.h"
 #include "ros/render/studio.h"
@@ -11,16 +12,18 @@ namespace sunlit::ros_interface {
 /// Files in one folder. Everything here throws std::runtime_error naming the file that cannot be written.
 class RunFiles {
  public:
-  /// Makes the folder where it is missing, and makes sure that it can be written to.
-  explicit RunFiles(const std::string& folder);
+  /// Makes the folder where it is missing, and makes sure that it can be written to. `goes_on`: with a run
+  /// that was broken off, whose times count too.
+  RunFiles(const std::string& folder, bool goes_on);
 
   /// map.png, north up, and map.yaml, which says what ground it shows: x_min, x_max, y_min, y_max in m.
   void writeMap(const image::Rgb8Image& map, const MapExtent& extent) const;
-  /// timing.csv: stage,what,count,seconds.
+  /// timing.csv: stage,what,count,seconds; with the times of the run that this one goes on with.
   void writeTiming(const Stopwatch& stopwatch) const;
 
  private:
   std::string folder_;
+  std::vector<Stopwatch::Entry> earlier_;
 };
 
 /// The ground around a path, with a margin.

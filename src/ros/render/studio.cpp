@@ -44,7 +44,8 @@ class BakeLog {
 std::shared_ptr<const light::Transport> makeTransport(const BakeOptions& options, const light::World& world) {
   if (!options.enabled) return nullptr;
   const std::string folder = options.cache_dir.empty() ? light::Transport::usualFolder() : options.cache_dir;
-  auto transport = light::Transport::cached(world.geometry, options.transport, folder, BakeLog(),
+  const light::BakeCache cache(folder, static_cast<std::uintmax_t>(1e9 * options.cache_limit_gb));
+  auto transport = light::Transport::cached(world.geometry, options.transport, cache, BakeLog(),
                                             [](const std::string& line) { ROS_WARN("%s", line.c_str()); });
   ROS_INFO("Sky light and bounced light at %zu samples, kept in %s", transport->sampleCount(),
            folder.c_str());
@@ -69,14 +70,13 @@ Studio::Studio(const RenderNodeOptions& options)
       robot_(loadRobot(options.robot, options.model_path)),
       world_(stopwatch_.measure("load", "world", [&] { return makeWorld(options, robot_); })),
       atmosphere_(
-          stopwatch_.measure("load", "atmosphere", [&] { return sky::Atmosphere(options.atmosphere); })),
-      renderer_(stopwatch_.measure("load", "renderer", [&] {
-        world_.transport =
-            stopwatch_.measure("load", "transport", [&] { return makeTransport(options.bake, world_); });
-        return std::make_unique<render::Renderer>(world_, options_);
-      })) {
+          stopwatch_.measure("load", "atmosphere", [&] { return sky::Atmosphere(options.atmosphere); })) {
   image::validate(exposure_);
   image::validate(noise_);
+  world_.transport =
+      stopwatch_.measure("load", "transport", [&] { return makeTransport(options.bake, world_); });
+  renderer_ = stopwatch_.measure("load", "renderer",
+                                 [&] { return std::make_unique<render::Renderer>(world_, options_); });
 }
 
 image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent) {

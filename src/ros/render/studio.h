@@ -30,7 +30,7 @@ struct MapExtent {
   double y_max = 0.0;
 };
 
-/// Construct, use and destroy on one thread: it holds the OpenGL context. Times its stages.
+/// One thread at a time may use it, except where a function says otherwise. Times its stages.
 class Studio {
  public:
   /// Loads world and robot; their warnings go to the log. Throws what scene::load() and loadRobot() throw.

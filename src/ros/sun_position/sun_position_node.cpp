@@ -1,5 +1,7 @@
 #include "ros/sun_position/sun_position_node.h"
 
+#include <iomanip>
+#include <sstream>
 #include <stdexcept>
 
 #include "sunlit/astronomy/celestial.h"
@@ -12,6 +14,13 @@ namespace {
 
 constexpr char kPolynomials[] = "from the polynomials of Espenak and Meeus (2006)";
 const ros::WallDuration kJumpWatchPeriod(0.05);
+
+/// "16.5"
+std::string printed(double number) {
+  std::ostringstream text;
+  text << std::setprecision(10) << number;
+  return text.str();
+}
 
 /// A bad request changes nothing and is answered in words.
 template <typename Response, typename Action>
@@ -108,7 +117,7 @@ bool SunPositionNode::onSetDateTime(SetDateTime::Request& request, SetDateTime::
     clock_ = SunClock(astronomy::instantOf(civil), request.rate);
     options_.date_time = civil;
     publish();
-    return "the sun's clock is set to " + printed(civil);
+    return "the sun's clock is set to " + printed(civil) + ", rate " + printed(request.rate);
   });
 }
 
@@ -119,7 +128,9 @@ bool SunPositionNode::onSetSite(SetSite::Request& request, SetSite::Response& re
     options_.site = site;
     options_.air = air;
     publish();
-    return std::string("the scene is moved");
+    return "the scene is moved to latitude " + printed(site.latitude.deg()) + " deg, longitude " +
+           printed(site.longitude.deg()) + " deg, elevation " + printed(site.elevation_m) +
+           " m, with air of " + printed(air.pressure_hpa) + " hPa, " + printed(air.temperature_c) + " deg C";
   });
 }
 

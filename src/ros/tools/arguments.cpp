@@ -18,12 +18,25 @@ void rejectUnknown(const std::string& option) {
   throw std::invalid_argument("unknown option " + option + "; --help lists all");
 }
 
+namespace {
+
+std::string wantedNumbers(std::pair<std::size_t, std::size_t> count, char separator) {
+  if (count.second == 1) return "a number";
+  const std::string least = count.first == count.second ? "" : std::to_string(count.first) + " to ";
+  return least + std::to_string(count.second) + " numbers separated by '" + separator + "'";
+}
+
+}  // namespace
+
+void requireEnding(const std::string& option, const std::string& file, const std::string& ending) {
+  const bool ends = file.size() > ending.size() &&
+                    file.compare(file.size() - ending.size(), std::string::npos, ending) == 0;
+  if (!ends) reject(option, file, "a name that ends in " + ending);
+}
+
 std::vector<double> numbers(const std::string& option, const std::string& text,
                             std::pair<std::size_t, std::size_t> count, char separator) {
-  const std::string wanted =
-      (count.first == count.second ? std::to_string(count.first)
-                                   : std::to_string(count.first) + " to " + std::to_string(count.second)) +
-      " number(s) separated by '" + separator + "'";
+  const std::string wanted = wantedNumbers(count, separator);
   std::vector<double> values;
   std::istringstream parts(text);
   for (std::string part; std::getline(parts, part, separator);) {

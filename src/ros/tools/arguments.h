@@ -15,6 +15,8 @@ namespace sunlit::tools {
 /// as reject() does.
 std::vector<double> numbers(const std::string& option, const std::string& text,
                             std::pair<std::size_t, std::size_t> count, char separator = ',');
+/// `file` ends in `ending`, such as ".png": what is written is of that kind, whatever the name.
+void requireEnding(const std::string& option, const std::string& file, const std::string& ending);
 double numberWithin(const std::string& option, const std::string& text, double low, double high);
 int wholeWithin(const std::string& option, const std::string& text, int low, int high);
 

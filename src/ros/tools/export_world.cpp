@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/tools/arguments.h"
 #include "sunlit/ros/world_search.h"
 #include "sunlit/scene/export.h"
 #include "sunlit/scene/load.h"
@@ -42,6 +43,7 @@ ExportOptions parse(int argc, char** argv) {
     if (key == "--world") {
       options.world = value;
     } else if (key == "--out") {
+      requireEnding(key, value, ".glb");
       options.output = value;
     } else if (key == "--model-path") {
       options.model_folders = splitAtColons(value);

@@ -17,7 +17,7 @@ const char* const kPlaceHelp =
     R"(  --site LAT,LON[,ELEVATION]     deg, deg and m (default 55.792115,49.122254,90)
   --date YYYY-MM-DD              (default 2024-07-01)
   --timezone HOURS               east of UTC, -18 ... 18 (default 3)
-  --turbidity NUMBER             haziness of the air, 1 ... 10 (default 3)
+  --turbidity NUMBER             haziness of the air, 1 ... 10 (default 2)
 )";
 
 namespace {

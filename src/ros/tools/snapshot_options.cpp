@@ -41,8 +41,10 @@ bool takeOwn(const std::string& key, const std::string& value, SnapshotOptions* 
   } else if (key == "--time") {
     options->hour = hourOf(value);
   } else if (key == "--depth") {
+    requireEnding(key, value, ".pfm");
     options->depth_output = value;
   } else if (key == "--out") {
+    requireEnding(key, value, ".png");
     options->output = value;
   } else {
     return false;

@@ -65,6 +65,7 @@ bool takeOutput(const std::string& key, const std::string& value, TimelapseOptio
   } else if (key == "--fps") {
     options->frame_rate = numberWithin(key, value, 1.0, 120.0);
   } else if (key == "--contact-sheet") {
+    requireEnding(key, value, ".png");
     options->contact_sheet = value;
   } else if (key == "--columns") {
     options->columns = wholeWithin(key, value, 1, 100);

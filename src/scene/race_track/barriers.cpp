@@ -5,6 +5,7 @@
 #include "scene/race_track/fence.h"
 #include "scene/race_track/ground.h"
 #include "scene/race_track/layout.h"
+#include "scene/race_track/pi.h"
 #include "scene/race_track/poster.h"
 #include "scene/race_track/shapes.h"
 
@@ -106,7 +107,7 @@ void addTyres(Assembly& assembly, const BarrierStretch& stretch, Random& random)
 void addHay(Assembly& assembly, const BarrierStretch& stretch, Random& random) {
   for (double s = stretch.from; s < stretch.to; s += 1.16) {
     const Point in = inward(s, stretch.side);
-    const float yaw = std::atan2(in.y(), in.x()) + 0.5f * 3.14159265f;
+    const float yaw = std::atan2(in.y(), in.x()) + 0.5f * kPiFloat;
     const int layers = 1 + random.below(2);
     for (int k = 0; k < layers; ++k) {
       const Color tone = Color(0.34f, 0.26f, 0.11f) * random.range(0.6f, 1.25f);

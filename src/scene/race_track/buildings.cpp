@@ -5,13 +5,12 @@
 #include "scene/race_track/facade.h"
 #include "scene/race_track/ground.h"
 #include "scene/race_track/layout.h"
+#include "scene/race_track/pi.h"
 #include "scene/race_track/poster.h"
 #include "scene/race_track/shapes.h"
 
 namespace sunlit::scene::race_track {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 struct House {
   Frame frame;  // x along its front, which looks to −y; on the ground
@@ -117,7 +116,7 @@ void addHouse(Assembly& assembly, const House& house) {
                           shifted(house.frame, {0, 0.5f * d, 0}), shifted(house.frame, {-0.5f * w, 0, 0})};
   for (int k = 0; k < 4; ++k) {
     Frame wall = turned[k];
-    wall.rotate(Eigen::AngleAxisf(0.5f * kPi * static_cast<float>(k), Point::UnitZ()));
+    wall.rotate(Eigen::AngleAxisf(0.5f * kPiFloat * static_cast<float>(k), Point::UnitZ()));
     addWall(assembly, wall,
             {k % 2 == 0 ? w : d, house.height, house.floors, house.kind, house.wall, k == 0,
              house.seed + static_cast<std::uint32_t>(k)});
@@ -131,7 +130,8 @@ void addHouse(Assembly& assembly, const House& house) {
 Frame facingTrackFrame(const TrackPlace& place, float twist) {
   const Eigen::Vector2d t = course().tangent(place.along);
   const float along = std::atan2(static_cast<float>(t.y()), static_cast<float>(t.x()));
-  return standing(groundPoint(place) + Point(0, 0, 0.15f), along + (place.left > 0.0 ? 0.0f : kPi) + twist);
+  return standing(groundPoint(place) + Point(0, 0, 0.15f),
+                  along + (place.left > 0.0 ? 0.0f : kPiFloat) + twist);
 }
 
 void addHouseAt(Assembly& assembly, const Site& site, std::uint32_t seed_index) {
@@ -230,7 +230,7 @@ void addTower(Assembly& assembly, const Site& site) {
   House shaft{frame, 5.0f, 5.0f, 10.5f, 3, WallKind::kPlaster, {0.55f, 0.53f, 0.48f}, 661u};
   for (int k = 0; k < 4; ++k) {
     Frame wall = frame;
-    wall.rotate(Eigen::AngleAxisf(0.5f * kPi * static_cast<float>(k), Point::UnitZ()));
+    wall.rotate(Eigen::AngleAxisf(0.5f * kPiFloat * static_cast<float>(k), Point::UnitZ()));
     addWall(
         assembly, shifted(wall, {0, -2.5f, -0.2f}),
         {5.0f, 10.5f, 3, WallKind::kPlaster, shaft.wall, k == 0, shaft.seed + static_cast<std::uint32_t>(k)});

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "scene/race_track/pi.h"
+
 namespace sunlit::scene::race_track {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 struct LeafStyle {
   Color dark;
@@ -40,7 +40,7 @@ LeafStyle leafStyle(Species species) {
 void addTwigs(Canvas& canvas, Random& random) {
   const float size = static_cast<float>(canvas.width());
   for (int i = 0; i < 14; ++i) {
-    const float angle = random.range(0.0f, 2.0f * kPi);
+    const float angle = random.range(0.0f, 2.0f * kPiFloat);
     const Pixel middle(0.5f * size, 0.5f * size);
     const Pixel out = 0.45f * size * random.range(0.5f, 1.0f) * Pixel(std::cos(angle), std::sin(angle));
     const Pixel bent = middle + 0.5f * out + 20.0f * scatter(random);
@@ -113,7 +113,7 @@ Canvas paintLeaves(Species species, std::uint32_t variant) {
     const float gloss = random.range(1.0f, 1.7f);
     const Color color = (style.dark + lit * random.unit() * (style.light - style.dark)) * gloss;
     const float length = style.length_px * random.range(0.6f, 1.2f);
-    const float turn = random.range(0.0f, kPi);
+    const float turn = random.range(0.0f, kPiFloat);
     const Pixel radii(0.5f * length,
                       std::max(0.9f, 0.5f * length * style.slimness * random.range(0.6f, 1.1f)));
     canvas.ellipse(place, radii, turn, {color, 1.0f});

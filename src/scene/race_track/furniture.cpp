@@ -6,6 +6,7 @@
 #include "scene/race_track/barriers.h"
 #include "scene/race_track/ground.h"
 #include "scene/race_track/layout.h"
+#include "scene/race_track/pi.h"
 #include "scene/race_track/poster.h"
 #include "scene/race_track/road.h"
 #include "scene/race_track/shapes.h"
@@ -13,13 +14,11 @@
 namespace sunlit::scene::race_track {
 namespace {
 
-constexpr float kPi = 3.14159265f;
-
 // A frame whose −y looks at drivers who come along, turned a little towards the track.
 Frame facingDrivers(const TrackPlace& place, float turn_in) {
   const Eigen::Vector2d t = course().tangent(place.along);
   const float along = std::atan2(static_cast<float>(t.y()), static_cast<float>(t.x()));
-  return standing(groundPoint(place), along - 0.5f * kPi + (place.left > 0.0 ? turn_in : -turn_in));
+  return standing(groundPoint(place), along - 0.5f * kPiFloat + (place.left > 0.0 ? turn_in : -turn_in));
 }
 
 double behindBarrier(double along, int side, double distance) {
@@ -153,8 +152,8 @@ void addCone(Assembly& assembly, const Point& place, Random& random) {
   const Color white = Color(0.62f, 0.61f, 0.58f) * random.range(0.6f, 1.0f);
   const Point lean = sway(0.03f, random) + Point::UnitZ();
   const float h = random.chance(0.3f) ? 0.45f : 0.7f;
-  addBox(assembly, {p.rubber, 0.6f * orange}, standing(place - Point(0, 0, 0.01f), random.range(0.0f, kPi)),
-         {0.55f * h, 0.55f * h, 0.05f});
+  addBox(assembly, {p.rubber, 0.6f * orange},
+         standing(place - Point(0, 0, 0.01f), random.range(0.0f, kPiFloat)), {0.55f * h, 0.55f * h, 0.05f});
   const float cuts[] = {0.04f, 0.45f, 0.68f, 1.0f};
   for (int k = 0; k < 3; ++k) {
     const auto ring = [&](float t) { return Ring{place + t * h * lean, h * (0.20f * (1.0f - t) + 0.035f)}; };
@@ -234,7 +233,7 @@ void addClutter(Assembly& assembly) {
     const Point place = groundPoint(TrackPlace{s, behindBarrier(s, side, random.range(1.6f, 3.2f))});
     const Palette& p = assembly.palette();
     const int kind = random.below(5);
-    const Frame frame = standing(place - Point(0, 0, 0.05f), random.range(0.0f, kPi));
+    const Frame frame = standing(place - Point(0, 0, 0.05f), random.range(0.0f, kPiFloat));
     if (kind == 0) {
       addTube(assembly, {p.metal, paintColor(random) * 0.7f},
               {{place - Point(0, 0, 0.05f), 0.29f}, {place + Point(0, 0, 0.88f), 0.29f}}, 12);

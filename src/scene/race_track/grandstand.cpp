@@ -4,13 +4,12 @@
 
 #include "scene/race_track/ground.h"
 #include "scene/race_track/layout.h"
+#include "scene/race_track/pi.h"
 #include "scene/race_track/poster.h"
 #include "scene/race_track/shapes.h"
 
 namespace sunlit::scene::race_track {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 struct Stand {
   Frame frame;  // its front looks to −y; x along it
@@ -163,7 +162,7 @@ Stand standAt(const Site& site, std::uint32_t seed) {
   const float side = site.place.left > 0.0 ? 1.0f : -1.0f;
   const Eigen::Vector2d t = course().tangent(site.place.along);
   const float yaw =
-      std::atan2(static_cast<float>(t.y()), static_cast<float>(t.x())) + (side > 0 ? 0.0f : kPi);
+      std::atan2(static_cast<float>(t.y()), static_cast<float>(t.x())) + (side > 0 ? 0.0f : kPiFloat);
   stand.rows = main ? 12 : 6;
   stand.width = main ? 63.0f : 22.0f;
   stand.roof = main;

@@ -2,14 +2,13 @@
 
 #include "scene/race_track/ground.h"
 #include "scene/race_track/layout.h"
+#include "scene/race_track/pi.h"
 #include "scene/race_track/plants.h"
 #include "scene/race_track/road.h"
 #include "scene/race_track/shapes.h"
 
 namespace sunlit::scene::race_track {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 struct Tuft {
   Point root;
@@ -21,9 +20,9 @@ struct Tuft {
 // and the turf does not turn black when one looks towards the sun.
 void addTuft(Assembly& assembly, const Picture& picture, const Tuft& tuft, Random& random) {
   const float width = tuft.height * random.range(1.7f, 3.0f);
-  const float turn = random.range(0.0f, 2.0f * kPi);
+  const float turn = random.range(0.0f, 2.0f * kPiFloat);
   for (int i = 0; i < 2; ++i) {
-    const float angle = turn + kPi * static_cast<float>(i) + random.range(-0.3f, 0.3f);
+    const float angle = turn + kPiFloat * static_cast<float>(i) + random.range(-0.3f, 0.3f);
     const float lean = random.range(0.62f, 0.85f);
     const Point half(0.5f * width * std::cos(angle), 0.5f * width * std::sin(angle), 0.0f);
     const Point back(-std::sin(angle), std::cos(angle), 0.0f);

@@ -3,19 +3,18 @@
 #include "scene/race_track/furniture.h"
 #include "scene/race_track/ground.h"
 #include "scene/race_track/layout.h"
+#include "scene/race_track/pi.h"
 #include "scene/race_track/poster.h"
 #include "scene/race_track/vehicles.h"
 
 namespace sunlit::scene::race_track {
 namespace {
 
-constexpr float kPi = 3.14159265f;
-
 // Axes of a crossing at `along`: x to the left, y onwards.
 Frame crossing(double along) {
   const Eigen::Vector2d t = course().tangent(along);
   return standing(groundPoint(TrackPlace{along, 0.0}),
-                  std::atan2(static_cast<float>(t.y()), static_cast<float>(t.x())) + 0.5f * kPi);
+                  std::atan2(static_cast<float>(t.y()), static_cast<float>(t.x())) + 0.5f * kPiFloat);
 }
 
 struct Span {
@@ -116,7 +115,7 @@ void addArch(Assembly& assembly, double along) {
   constexpr int kParts = 22;
   Random random(911u);
   const auto at = [&](int k, float radius, float y) {
-    const float angle = kPi * static_cast<float>(k) / kParts;
+    const float angle = kPiFloat * static_cast<float>(k) / kParts;
     return Point(frame * Point(1.45f * radius * std::cos(angle), y, radius * std::sin(angle) - 0.3f));
   };
   for (int k = 0; k < kParts; ++k) {
@@ -170,13 +169,14 @@ void addYard(Assembly& assembly, const Site& site, std::uint32_t seed) {
                              side * (near + 7.5 * row + 0.5 * random.bell())};
       const Eigen::Vector2d t = course().tangent(place.along);
       const float yaw = std::atan2(static_cast<float>(t.y()), static_cast<float>(t.x()));
-      const float parked = yaw + (random.chance(0.5f) ? kPi : 0.0f);
+      const float parked = yaw + (random.chance(0.5f) ? kPiFloat : 0.0f);
       const float turned = parked + 0.15f * random.bell();
       const Frame frame = standing(groundPoint(place) - Point(0, 0, 0.03f), turned);
       const int kind = random.below(10);
       const std::uint32_t own = random.bits();
       if (kind < 4) {
-        addTent(assembly, standing(groundPoint(place), yaw + (side > 0 ? 0.0f : kPi) + 0.1f * random.bell()),
+        addTent(assembly,
+                standing(groundPoint(place), yaw + (side > 0 ? 0.0f : kPiFloat) + 0.1f * random.bell()),
                 random);
       } else if (kind < 7) {
         addCar(assembly, frame, own);
@@ -209,7 +209,8 @@ void addPaddocks(Assembly& assembly) {
     const int side = site.place.left > 0.0 ? 1 : -1;
     const TrackPlace place{site.place.along + (random.chance(0.5f) ? 8.5 : -8.5),
                            site.place.left - 4.0 * side};
-    const Frame frame = standing(groundPoint(place) - Point(0, 0, 0.02f), random.range(0.0f, 2.0f * kPi));
+    const Frame frame =
+        standing(groundPoint(place) - Point(0, 0, 0.02f), random.range(0.0f, 2.0f * kPiFloat));
     (random.chance(0.6f) ? addCar : addVan)(assembly, frame, random.bits());
   }
 }

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "scene/race_track/pi.h"
+
 namespace sunlit::scene::race_track {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 std::uint32_t addVertex(Mesh& mesh, const Paint& paint, const Point& position, const Point& normal) {
   mesh.positions.push_back(position);
@@ -79,7 +79,7 @@ void addTube(Assembly& assembly, const Paint& paint, const std::vector<Ring>& ri
     const Point& after = rings[i + 1 < rings.size() ? i + 1 : i].centre;
     const auto [u, v] = across((after - before).normalized());
     for (int k = 0; k < sides; ++k) {
-      const float angle = 2.0f * kPi * static_cast<float>(k) / static_cast<float>(sides);
+      const float angle = 2.0f * kPiFloat * static_cast<float>(k) / static_cast<float>(sides);
       const Point out = std::cos(angle) * u + std::sin(angle) * v;
       addVertex(mesh, paint, rings[i].centre + rings[i].radius * out, out.normalized());
     }
@@ -109,8 +109,8 @@ void addLump(Assembly& assembly, const Paint& paint, const Lump& lump) {
   std::array<std::array<Point, kSides>, kRings + 1> grid;
   for (int i = 0; i <= kRings; ++i) {
     for (int k = 0; k < kSides; ++k) {
-      const float polar = kPi * static_cast<float>(i) / kRings;
-      const float angle = 2.0f * kPi * static_cast<float>(k) / kSides;
+      const float polar = kPiFloat * static_cast<float>(i) / kRings;
+      const float angle = 2.0f * kPiFloat * static_cast<float>(k) / kSides;
       const Point out(std::sin(polar) * std::cos(angle), std::sin(polar) * std::sin(angle), std::cos(polar));
       const float bump = fractal(2.0f * out.x() + 3.0f * out.z(), 2.0f * out.y() - out.z(), 2, lump.seed);
       grid[i][k] = lump.centre + (1.0f + lump.roughness * bump) * out.cwiseProduct(lump.radii);

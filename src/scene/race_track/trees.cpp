@@ -2,13 +2,12 @@
 
 #include "scene/race_track/ground.h"
 #include "scene/race_track/layout.h"
+#include "scene/race_track/pi.h"
 #include "scene/race_track/plants.h"
 #include "scene/race_track/shapes.h"
 
 namespace sunlit::scene::race_track {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 struct Tree {
   Point root;
@@ -20,7 +19,7 @@ struct Tree {
 
 Point direction(Random& random) {
   const float z = random.range(-1.0f, 1.0f);
-  const float angle = random.range(0.0f, 2.0f * kPi);
+  const float angle = random.range(0.0f, 2.0f * kPiFloat);
   const float r = std::sqrt(1.0f - z * z);
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
@@ -50,7 +49,7 @@ void addSpray(Assembly& assembly, const Leaves& leaves, const Spray& spray, Rand
   const Point facing = (spray.normal + 0.6f * direction(random)).normalized();
   const Point u0 = facing.unitOrthogonal();
   const Point v0 = facing.cross(u0);
-  const float turn = random.range(0.0f, 2.0f * kPi);
+  const float turn = random.range(0.0f, 2.0f * kPiFloat);
   const float half = 0.5f * spray.size;
   const Point u = half * (std::cos(turn) * u0 + std::sin(turn) * v0);
   const Point v = half * random.range(0.75f, 1.1f) * (std::cos(turn) * v0 - std::sin(turn) * u0);
@@ -159,7 +158,7 @@ void addConifer(Assembly& assembly, const Foliage& foliage, const Tree& tree) {
                         random.range(0.8f, 1.15f);
     const int arms = tree.detail > 0.5f ? 8 : 5;
     for (int k = 0; k < arms; ++k) {
-      const float angle = 2.0f * kPi * (k + random.unit()) / arms;
+      const float angle = 2.0f * kPiFloat * (k + random.unit()) / arms;
       const Point out(std::cos(angle), std::sin(angle), 0.0f);
       const Point side(-out.y(), out.x(), 0.0f);
       const float droop = pine ? random.range(-0.15f, 0.35f) : random.range(-0.5f, -0.15f);
@@ -250,7 +249,7 @@ void addForest(Assembly& assembly, const Foliage& foliage) {
   Random random(521u);
   int planted = 0;
   for (int i = 0; i < 60000 && planted < 5600; ++i) {
-    const float angle = random.range(0.0f, 2.0f * kPi);
+    const float angle = random.range(0.0f, 2.0f * kPiFloat);
     const float reach = 1300.0f * random.unit();
     const float distance = 190.0f + reach * random.unit();
     const Eigen::Vector2d p(-10.0 + distance * std::cos(angle), 90.0 + 0.9 * distance * std::sin(angle));

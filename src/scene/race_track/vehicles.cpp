@@ -1,15 +1,14 @@
 #include "scene/race_track/vehicles.h"
 
+#include "scene/race_track/pi.h"
 #include "scene/race_track/poster.h"
 
 namespace sunlit::scene::race_track {
 namespace {
 
-constexpr float kPi = 3.14159265f;
-
 void addWheel(Assembly& assembly, const Frame& body, const Point& hub, float radius) {
   Frame frame = shifted(body, hub);
-  frame.rotate(Eigen::AngleAxisf(0.5f * kPi, Point::UnitX()));
+  frame.rotate(Eigen::AngleAxisf(0.5f * kPiFloat, Point::UnitX()));
   const Palette& p = assembly.palette();
   const auto ring = [&](float z, float r) { return Ring{frame * Point(0, 0, z), r}; };
   addTube(

@@ -77,6 +77,37 @@ class ExperimentArguments(unittest.TestCase):
         for hours in ("[]", "[24]", "[-1]", "[4, 4.0]", "[true]", "[.nan]", "{4: 5}", "[4", "noon"):
             self.assertIn("argument hours is", tell("conditions", hours), hours)
 
+    def parameters(self, *arguments):
+        """What experiment.launch would set, without starting anything."""
+        with tempfile.TemporaryDirectory() as folder:
+            return yaml.safe_load(subprocess.check_output(["roslaunch", "--dump-params", "sunlit", "experiment.launch",
+                                                           "output:=" + folder, *arguments]))
+
+    def test_camera_and_night_of_the_published_experiment_are_the_defaults_of_the_renderer(self):
+        with open(os.path.join(SOURCE, "config", "render.yaml")) as file:
+            shipped = yaml.safe_load(file)
+        found = self.parameters()
+        for renderer in ("/render/", "/self_test/render/"):
+            self.assertEqual(found[renderer + "exposure/mode"], "fixed")  # the one that differs, with its value
+            for group, key in (("night", "enabled"), ("noise", "enabled"), ("noise", "seed"), ("camera", "horizontal_fov"),
+                               ("exposure", "highlight_protection"), ("atmosphere", "turbidity")):
+                self.assertEqual(found[renderer + group + "/" + key], shipped[group][key], renderer + group + "/" + key)
+
+    def test_camera_and_night_reach_both_renderers(self):
+        found = self.parameters("night:=false", "noise:=true", "noise_seed:=7", "exposure:=auto", "highlight_protection:=0")
+        for renderer in ("/render/", "/self_test/render/"):
+            self.assertEqual([found[renderer + key] for key in ("night/enabled", "noise/enabled", "noise/seed", "exposure/mode",
+                                                                "exposure/highlight_protection")],
+                             [False, True, 7, "auto", 0.0])
+        self.assertEqual(found["/experiment/arguments"]["noise_seed"], "7")
+
+    def test_the_recording_holds_what_each_image_was_made_under(self):
+        topics = tell("recorded_topics", "[4]")
+        self.assertEqual(sorted(topic for topic in topics if topic.startswith("/h04/")),
+                         ["/h04/camera/camera_info", "/h04/camera/capture", "/h04/camera/image_raw", "/h04/celestial",
+                          "/h04/moon", "/h04/sun"])
+        self.assertEqual(len(topics), len(set(topics)))
+
     def test_all_pairs_and_each_hour_with_itself(self):
         self.assertEqual(tell("pairs", "[4, 12, 20]", "true", "10"),
                          [{"a": "h04", "b": "h12"}, {"a": "h04", "b": "h20"}, {"a": "h12", "b": "h20"},

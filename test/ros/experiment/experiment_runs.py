@@ -9,6 +9,7 @@ import unittest
 import rosbag
 import rospy
 import rostest
+import yaml
 from launching import DIFFERENCES, LONG, POSES, Launched, kill_leftovers, small_experiment
 
 
@@ -61,7 +62,8 @@ class ExperimentRuns(unittest.TestCase):
                           "/h12/camera/capture", "/camera/depth/image_raw"):
                 stamps = [message.header.stamp.to_nsec() for _, message, _ in bag.read_messages(topic)]
                 self.assertEqual(stamps, [1000 * 10**9 + pose * 10**8 for pose in range(POSES)], topic)
-            self.assertGreaterEqual(bag.get_message_count("/h10/sun"), 1)
+            for topic in ("/h10/sun", "/h10/moon", "/h12/celestial"):
+                self.assertGreaterEqual(bag.get_message_count(topic), 1, topic)
 
     def test_replayed_recording_gives_the_same_bytes(self):
         output = os.path.join(self.folder, "replayed")
@@ -85,7 +87,8 @@ class ExperimentRuns(unittest.TestCase):
             frames = os.path.join(output, "frames.csv")
             run = small_experiment(output, max_ahead=1)  # slowly
             rows = lambda: self.bytes_of(output, "frames.csv").count(b"\n") if os.path.exists(frames) else 0
-            run.wait_for(lambda: rows() > 3, "evaluated a pose")
+            # The time sheet is written after the first pose.
+            run.wait_for(lambda: rows() > 12 and b"geometry" in self.bytes_of(output, "timing.csv"), "evaluated poses")
             run.kill()
             self.assertEqual(run.left_running(), [])
             if not os.path.exists(os.path.join(output, "summary.csv")):
@@ -95,6 +98,11 @@ class ExperimentRuns(unittest.TestCase):
         again = small_experiment(output)
         self.assertEqual(again.end(), 0, again.said())
         self.assertEqual(self.bytes_of(output), self.bytes_of(self.output))
+        # The world was loaded by both runs.
+        self.assertIn("Going on at pose", again.said())
+        with open(os.path.join(output, "timing.csv")) as file:
+            counts = {(row["stage"], row["what"]): int(row["count"]) for row in csv.DictReader(file)}
+        self.assertEqual(counts["load", "world"], 2)
 
     def test_a_renderer_that_dies_is_a_failure_with_a_reason(self):
         run = small_experiment(os.path.join(self.folder, "dying"), self_test="false", **LONG)
@@ -107,8 +115,14 @@ class ExperimentRuns(unittest.TestCase):
     def test_the_watcher_itself_dies_and_nothing_is_left_running(self):
         run = small_experiment(os.path.join(self.folder, "unwatched"), record="true", max_ahead=1, **LONG)
         run.wait_for(lambda: any("recorder" in command for _, command in run.running()), "started the recorder")
+        guards = lambda: {pid for pid, command in run.running() if "sunlit_experiment.guard" in command}
+        first = guards()
+        self.assertEqual(len(first), 1)
+        run.kill("sunlit_experiment.guard")
+        run.wait_for(lambda: guards() - first, "given a new guard to its watcher")
         run.kill("experiment_node")
-        run.end()
+        self.assertNotEqual(run.end(), 0)
+        self.assertIn("experiment: FAILED: the node that watches over it was killed", run.said())
         self.assertEqual(run.left_running(), [])
 
     def test_roslaunch_itself_dies_and_nothing_is_left_running(self):
@@ -149,6 +163,17 @@ class ExperimentRuns(unittest.TestCase):
         name = "images/h10/000000.png"
         self.assertNotEqual(self.bytes_of(output, name), self.bytes_of(self.output, name))
 
+    def test_noise_is_the_same_in_both_renderers(self):
+        output = os.path.join(self.folder, "noise")
+        run = small_experiment(output, poses=2, self_test_every=1, images="true", differences="[boolean_rgb]", noise="true",
+                               noise_seed=7)
+        self.assertEqual(run.end(), 0, run.said())  # not 0 where a self-test of a direct difference is not exactly 0
+        name = "images/h10/000000.png"
+        self.assertNotEqual(self.bytes_of(output, name), self.bytes_of(self.output, name))
+        with open(os.path.join(output, "run.yaml")) as file:
+            settings = yaml.safe_load(file)["settings"]
+        self.assertEqual((settings["about/noise"], settings["about/noise_seed"]), ("true", "7"))
+
     def test_started_again_when_finished_it_only_says_so(self):
         before = self.bytes_of(self.output, "frames.csv")
         again = small_experiment(self.output)
@@ -172,6 +197,8 @@ class ExperimentRuns(unittest.TestCase):
                                 (dict(poses=1000), "argument poses is 1000, but the path has only 20"),
                                 (dict(path="/nowhere.csv"), "/nowhere.csv"),
                                 (dict(robot="cat"), "argument robot is 'cat'"),
+                                (dict(nosie="true"), "argument nosie is 'true', but must be one of the arguments of "
+                                                     "experiment.launch; noise is one"),
                                 (dict(output="/dev/null/x"), "/dev/null/x: cannot be written")):
             run = small_experiment(**dict(dict(output=os.path.join(self.folder, "bad")), **arguments))
             self.assertEqual(run.end(), 1, run.said())

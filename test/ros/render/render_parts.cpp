@@ -2,13 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string>
 
 #include "ros/render/messages.h"
 #include "ros/render/options.h"
 #include "ros/render/path_source.h"
+#include "ros/render/run_files.h"
 #include "ros/render/run_log.h"
 #include "ros/render/sky_messages.h"
 #include "ros/render/sky_moments.h"
@@ -210,6 +214,69 @@ TEST(Stopwatch, CountsEachCallOfAStage) {
   ASSERT_EQ(stopwatch.entries().size(), 2u);
   EXPECT_EQ(stopwatch.entries()[0].count, 2);
   EXPECT_EQ(stopwatch.entries()[1].what, "night");
+}
+
+TEST(Stopwatch, CountsAStageWithinAnotherOnce) {
+  double now_s = 0.0;
+  Stopwatch stopwatch([&now_s] { return now_s; });
+  stopwatch.measure("load", "all", [&] {
+    now_s += 1.0;
+    for (int i = 0; i < 2; ++i)
+      stopwatch.measure("load", "part", [&] {
+        now_s += 4.0;
+        stopwatch.measure("load", "piece", [&] { now_s += 16.0; });
+      });
+    now_s += 2.0;
+  });
+  std::map<std::string, double> seconds;
+  for (const Stopwatch::Entry& entry : stopwatch.entries()) seconds[entry.what] = entry.seconds;
+  EXPECT_EQ(seconds, (std::map<std::string, double>{{"all", 3.0}, {"part", 8.0}, {"piece", 32.0}}));
+}
+
+class TimeSheet : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "sunlit_timing_XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  /// What is in the folder after a run of `count` poses of 2 s each.
+  std::string after(int count, bool goes_on) {
+    double now_s = 0.0;
+    Stopwatch stopwatch([&now_s] { return now_s; });
+    const RunFiles files(folder_, goes_on);
+    for (int i = 0; i < count; ++i) {
+      stopwatch.measure("geometry", "pose", [&] { now_s += 2.0; });
+      files.writeTiming(stopwatch);  // each time the whole run so far
+    }
+    std::ifstream file(folder_ + "/timing.csv");
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  std::string folder_;
+};
+
+TEST_F(TimeSheet, CountsTheRunsThatItTookOnceEach) {
+  EXPECT_EQ(after(3, true), "stage,what,count,seconds\ngeometry,pose,3,6\n");  // nothing to go on with
+  EXPECT_EQ(after(4, true), "stage,what,count,seconds\ngeometry,pose,7,14\n");
+  EXPECT_EQ(after(0, true), "stage,what,count,seconds\ngeometry,pose,7,14\n");
+  EXPECT_EQ(after(1, false), "stage,what,count,seconds\ngeometry,pose,1,2\n");  // from the beginning
+}
+
+TEST_F(TimeSheet, NamesTheLineThatItCannotRead) {
+  for (const char* bad : {"stage\n", "stage,what,count,seconds\ngeometry,pose,x,1\n",
+                          "stage,what,count,seconds\ngeometry,pose,1,1,1\n",
+                          "stage,what,count,seconds\ngeometry,pose,1,-1\n"}) {
+    std::ofstream(folder_ + "/timing.csv", std::ios::trunc) << bad;
+    const std::string line = std::string(bad) == "stage\n" ? ":1:" : ":2:";
+    try {
+      RunFiles(folder_, true);
+      ADD_FAILURE() << bad;
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(folder_ + "/timing.csv" + line), std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 }  // namespace

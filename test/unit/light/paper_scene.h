@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,24 @@ struct Looked {
   Eigen::Vector3f to_eye;
   int material = 0;
 };
+
+/// The triangle whose plane and outline hold `point`.
+inline std::uint32_t triangleAt(const Geometry& geometry, const Eigen::Vector3f& point,
+                                const Eigen::Vector3f& normal) {
+  for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
+    const Plane& plane = geometry.planes[t];
+    if (std::abs(plane.normal.dot(normal)) < 0.99f) continue;
+    if (std::abs(static_cast<double>(plane.normal.dot(point)) - plane.offset) > 1e-3) continue;
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3f& a = geometry.positions[geometry.triangles[t][k]];
+      const Eigen::Vector3f& b = geometry.positions[geometry.triangles[t][(k + 1) % 3]];
+      inside = inside && plane.normal.dot((b - a).cross(point - a)) >= -1e-4f;
+    }
+    if (inside) return t;
+  }
+  throw std::logic_error("no triangle there");
+}
 
 /// A picture of one row, a point a pixel.
 inline Surfaces rowOf(const std::vector<Looked>& points, const scene::Scene& scene) {

@@ -23,24 +23,6 @@ World baked(scene::Scene scene, const TransportOptions& options = {}) {
   return world;
 }
 
-/// The triangle whose plane and outline hold `point`.
-std::uint32_t triangleAt(const Geometry& geometry, const Eigen::Vector3f& point,
-                         const Eigen::Vector3f& normal) {
-  for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
-    const Plane& plane = geometry.planes[t];
-    if (std::abs(plane.normal.dot(normal)) < 0.99f) continue;
-    if (std::abs(static_cast<double>(plane.normal.dot(point)) - plane.offset) > 1e-3) continue;
-    bool inside = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Eigen::Vector3f& a = geometry.positions[geometry.triangles[t][k]];
-      const Eigen::Vector3f& b = geometry.positions[geometry.triangles[t][(k + 1) % 3]];
-      inside = inside && plane.normal.dot((b - a).cross(point - a)) >= -1e-4f;
-    }
-    if (inside) return t;
-  }
-  throw std::logic_error("no triangle there");
-}
-
 /// Illuminance of the sky light and bounced light at points, lx.
 std::vector<Eigen::Array3f> illuminances(const World& world, const sky::Daylight& day,
                                          const std::vector<Looked>& points) {

@@ -2,12 +2,15 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
 #include "light/transport/cache_file.h"
+#include "light/transport/cache_folder.h"
 #include "paper_scene.h"
 #include "sunlit/light/transport.h"
 
@@ -47,9 +50,8 @@ class TransportCache : public testing::Test {
 
   std::vector<fs::path> files() const {
     std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(folder_)) {
-      if (entry.path().extension() != ".lock") found.push_back(entry.path());
-    }
+    for (const auto& entry : fs::directory_iterator(folder_)) found.push_back(entry.path());
+    std::sort(found.begin(), found.end());
     return found;
   }
   std::string content(const fs::path& file) const {
@@ -115,7 +117,7 @@ TEST_F(TransportCache, RebuildsWhatIsDamagedCutShortOrForeign) {
   write(file, damaged);
   expectRebuilt(world, "is damaged", expected);
 
-  for (const std::size_t size : {good.size() - 1, good.size() / 2, std::size_t{130}}) {
+  for (const std::size_t size : {good.size() - 1, good.size() / 2, std::size_t{200}}) {
     write(file, good.substr(0, size));
     expectRebuilt(world, "is cut short", expected);
   }
@@ -139,8 +141,7 @@ TEST_F(TransportCache, RefusesTheBakeOfAnotherSceneUnderThisName) {
   fs::create_directory(folder_ / "other");
   Transport::cached(other.geometry, {}, (folder_ / "other").string());
   for (const auto& entry : fs::directory_iterator(folder_ / "other")) {
-    if (entry.path().extension() != ".lock")
-      fs::copy_file(entry.path(), file, fs::copy_options::overwrite_existing);
+    fs::copy_file(entry.path(), file, fs::copy_options::overwrite_existing);
   }
   fs::remove_all(folder_ / "other");
   expectRebuilt(world, "is of another scene", expected);
@@ -173,6 +174,84 @@ TEST_F(TransportCache, IsBakedOnceByThoseWhoWantItTogether) {
   third.join();
   EXPECT_EQ(bakes, 1);
   EXPECT_EQ(files().size(), 1u);
+}
+
+// Bakes of rooms whose walls differ in colour, all of one size.
+class CacheLimit : public TransportCache {
+ protected:
+  /// The bake of the room with walls of `albedo`, which is in use as long as the result lives.
+  std::shared_ptr<const Transport> use(float albedo, std::uintmax_t limit_bytes) {
+    return Transport::cached(worldOf(wallOnGround(albedo)).geometry, {}, {folder_.string(), limit_bytes});
+  }
+  /// The file that use() leaves behind, last used so many hours ago.
+  fs::path keep(float albedo, int hours_ago) {
+    const std::vector<fs::path> before = files();
+    use(albedo, kMuch);
+    for (const fs::path& file : files()) {
+      if (std::count(before.begin(), before.end(), file) > 0) continue;
+      fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(hours_ago));
+      return file;
+    }
+    ADD_FAILURE() << "no bake was kept";
+    return {};
+  }
+  static constexpr std::uintmax_t kMuch = 1'000'000'000;
+};
+
+TEST_F(CacheLimit, RemovesWhatHasNotBeenUsedForLongest) {
+  const fs::path a = keep(0.1f, 3), b = keep(0.2f, 2), c = keep(0.3f, 1);
+  const std::uintmax_t each = fs::file_size(a);
+  use(0.1f, kMuch);  // the oldest, but used again
+  use(0.4f, 3 * each);
+  EXPECT_EQ(files().size(), 3u);
+  EXPECT_TRUE(fs::exists(a));
+  EXPECT_FALSE(fs::exists(b));
+  EXPECT_TRUE(fs::exists(c));
+  use(0.1f, each);  // also where nothing new comes in
+  EXPECT_EQ(files(), std::vector<fs::path>{a});
+}
+
+TEST_F(CacheLimit, NeverRemovesWhatIsInUse) {
+  const fs::path a = keep(0.1f, 3);
+  auto user = use(0.1f, kMuch), other_user = use(0.1f, kMuch);
+  fs::last_write_time(a, fs::file_time_type::clock::now() - std::chrono::hours(3));
+  { const auto newest = use(0.2f, 0); }  // in use itself while the folder is tidied
+  EXPECT_EQ(files().size(), 2u);
+  user.reset();
+  use(0.2f, 0);
+  EXPECT_TRUE(fs::exists(a));
+  other_user.reset();
+  use(0.2f, 0);
+  EXPECT_FALSE(fs::exists(a));
+  EXPECT_EQ(files().size(), 1u);
+}
+
+TEST_F(CacheLimit, RemovesWhatTheDeadLeftAndNothingOfStrangers) {
+  const std::string key(32, 'a');
+  for (const std::string& left : {key + ".light.4711.part", key + ".light.lock"})
+    write(folder_ / left, "left");
+  std::vector<fs::path> strangers;
+  for (const std::string& name : {std::string("film.part"), std::string("notes.light"), key + ".light.part",
+                                  key + ".lighter", "x" + key + ".light", std::string("apt.lock")}) {
+    strangers.push_back(folder_ / name);
+    write(strangers.back(), "mine");
+  }
+  fs::create_directory(folder_ / (std::string(32, 'b') + ".light"));
+  strangers.push_back(folder_ / (std::string(32, 'b') + ".light"));
+  const fs::path bake = keep(0.1f, 0);
+  std::vector<fs::path> expected = strangers;
+  expected.push_back(bake);
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(files(), expected);
+}
+
+TEST_F(CacheLimit, LeavesABakeThatIsBeingMadeAlone) {
+  const std::string bake = (folder_ / (std::string(32, 'c') + ".light")).string();
+  const BakeTurn turn = BakeTurn::await(bake);
+  write(bake + ".4711.part", "half");
+  use(0.1f, 0);
+  EXPECT_TRUE(fs::exists(bake + ".4711.part"));
+  EXPECT_TRUE(fs::exists(bake + ".lock"));
 }
 
 TEST(TransportFolder, FollowsTheEnvironment) {

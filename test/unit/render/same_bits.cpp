@@ -6,6 +6,7 @@
 #include <future>
 #include <random>
 
+#include "sunlit/light/lighting.h"
 #include "test_scenes.h"
 
 namespace sunlit::test {
@@ -99,6 +100,21 @@ TEST(Picture, IsTheSameWhenItsPoseWasDrawnAhead) {
   renderer.lookAhead(kPose);  // drawn ahead, but somewhere else is looked at
   renderer.look(other);
   EXPECT_TRUE(sameBits(renderer.light(day).data, other_light));
+}
+
+TEST(Picture, IsTheSameWithAndWithoutWhatAPoseKeepsForItsConditions) {
+  const light::World world(shared(town()));
+  render::Renderer renderer(world, smallCamera(200, 150, 80.0));
+  renderer.look(kPose);
+  light::Surfaces bare = renderer.surfaces();
+  ASSERT_TRUE(bare.table);
+  bare.table = nullptr;
+  for (const double elevation_deg : {12.0, -8.0}) {
+    const sky::Daylight day = daylightAt(100.0, elevation_deg);
+    EXPECT_TRUE(sameBits(light::illuminate(bare, *world.geometry->scene, *world.visibility, day).data,
+                         renderer.light(day).data))
+        << "sun at " << elevation_deg;
+  }
 }
 
 TEST(Picture, IsTheSameFromTwoRenderersOfOneThread) {

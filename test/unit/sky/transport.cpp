@@ -51,7 +51,7 @@ Spectrum irradiance(const Transport& transport, double altitude_km, double sun_c
 
 TEST(Transport, ATransparentVerticalBeamFollowsBeersLaw) {
   const Transport& transport = clearAir();
-  const Spectrum depth = rayleighOpticalDepth() + aerosolOpticalDepth(3.0) +
+  const Spectrum depth = rayleighOpticalDepth() + aerosolOpticalDepth(MediumParameters{}.turbidity) +
                          (ozoneCrossSection_m2() * 1e25F) * static_cast<float>(300.0 * 2.6867e20 * 1e-25);
   const Spectrum passed = transport.transmittance(0.0, 1.0);
   for (int band = 0; band < kBands; ++band) {

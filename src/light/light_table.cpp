@@ -1,0 +1,89 @@
+#include "light/light_table.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sunlit::light {
+namespace {
+
+LightTable::AirPlace airPlace(float distance_m) {
+  int node = 0;
+  if (distance_m >= 1.0f) {
+    int exponent = 0;
+    const float mantissa = std::frexp(distance_m, &exponent);  // 0.5 … 1
+    node = std::min(1 + 2 * (exponent - 1) + (mantissa >= 0.70710678f ? 1 : 0), kAirNodes - 2);
+  }
+  const float near = airDistance_m(node);
+  return {node, std::min((distance_m - near) / (airDistance_m(node + 1) - near), 1.0f)};
+}
+
+/// Numbers views that differ; neighbours often share theirs.
+class ViewNumbers {
+ public:
+  explicit ViewNumbers(std::vector<MirrorView>* views) : views_(*views) { heads_.fill(kNone); }
+
+  std::uint16_t of(const MirrorView& view) {
+    std::uint32_t hash = 0;
+    for (std::size_t k = 0; k < MirrorView::kParts; ++k)
+      hash = hash * 31u + view.place[k] + 0x10000u * view.open[k];
+    std::uint16_t& head = heads_[(hash * 0x9e3779b1u) >> (32 - kBits)];
+    std::uint16_t number = head;
+    while (number != kNone && (views_[number].place != view.place || views_[number].open != view.open))
+      number = next_[number];
+    if (number != kNone) return number;
+    views_.push_back(view);
+    next_.push_back(head);
+    head = static_cast<std::uint16_t>(views_.size() - 1);
+    return head;
+  }
+
+ private:
+  static constexpr int kBits = 9;
+  static constexpr std::uint16_t kNone = 0xffff;  // a tile has at most 256 pixels of 16 surfaces
+  std::vector<MirrorView>& views_;
+  std::vector<std::uint16_t> next_;
+  std::array<std::uint16_t, 1u << kBits> heads_;
+};
+
+LightTable::Rows rowsOf(const Surfaces& surfaces, const Tile& tile, const scene::Scene& scene) {
+  LightTable::Rows rows;
+  rows.sites.reserve(tile.surfaces.size());
+  rows.air.reserve(tile.surfaces.size());
+  rows.ambient.reserve(tile.surfaces.size());
+  rows.view.reserve(tile.surfaces.size());
+  ViewNumbers views(&rows.views);
+  for (const Surface& surface : tile.surfaces) {
+    const scene::Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
+    rows.sites.push_back({surface.geometric_normal, surface.shading_normal, surface.clearance_m,
+                          surface.pixel, surface.first_sample, static_cast<std::uint16_t>(surface.samples),
+                          material.transmission > 0.0f, material.alpha_mode == scene::AlphaMode::kMask});
+    rows.air.push_back(airPlace((surfaces.eye - surface.position).norm()));
+    rows.air_nodes |= std::uint64_t{3} << rows.air.back().node;
+    rows.ambient.push_back(ambientReflectance(reflectionOf(surface, material)));
+    rows.view.push_back(views.of(surface.mirror));
+  }
+  return rows;
+}
+
+}  // namespace
+
+float airDistance_m(int node) {
+  if (node == 0) return 0.0f;
+  const float octave = std::ldexp(1.0f, (node - 1) / 2);
+  return node % 2 == 1 ? octave : octave * 1.41421356f;
+}
+
+Reflection reflectionOf(const Surface& surface, const scene::Material& material) {
+  return {surface.shading_normal, surface.to_eye,     surface.albedo,
+          material.roughness,     material.metalness, material.transmission};
+}
+
+LightTable::LightTable(const Surfaces& surfaces, const scene::Scene& scene) : tiles_(surfaces.tiles.size()) {
+  tbb::parallel_for(std::size_t{0}, tiles_.size(),
+                    [&](std::size_t i) { tiles_[i] = rowsOf(surfaces, surfaces.tiles[i], scene); });
+}
+
+}  // namespace sunlit::light

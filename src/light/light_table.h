@@ -1,0 +1,58 @@
+/// What lighting needs of a picture's surfaces that does not depend on the light: made once a pose, used for
+/// all its conditions.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "sunlit/light/shading.h"
+#include "sunlit/light/surfaces.h"
+#include "sunlit/scene/scene.h"
+
+namespace sunlit::light {
+
+/// Distances at which PictureAir asks for the air: node 0 is at none, where there is no air; beyond the last
+/// one, 4096 km, lies nothing.
+constexpr int kAirNodes = 46;
+float airDistance_m(int node);
+
+class LightTable {
+ public:
+  /// What a surface shows to a distant disc. Apart from Surface, which is so large that going through all of
+  /// them takes as long as their rays.
+  struct Site {
+    Eigen::Vector3f geometric_normal, shading_normal;
+    float clearance_m;
+    std::uint32_t pixel, first_sample;
+    std::uint16_t samples;
+    bool thin;    ///< light shines through it
+    bool leaves;  ///< it has holes, as foliage
+  };
+  /// Between which distances a surface lies.
+  struct AirPlace {
+    std::int32_t node;  ///< the last one that is not beyond
+    float beyond;       ///< 0 … 1, of the way from there to the next
+  };
+  /// In the order of Tile::surfaces.
+  struct Rows {
+    std::vector<Site> sites;
+    std::vector<AirPlace> air;
+    std::vector<AmbientReflectance> ambient;
+    std::vector<MirrorView> views;    ///< that differ
+    std::vector<std::uint16_t> view;  ///< of each surface, into `views`; all 0 without baked light
+    std::uint64_t air_nodes = 0;      ///< that the tile needs, one bit each
+  };
+
+  LightTable(const Surfaces& surfaces, const scene::Scene& scene);
+
+  const Rows& tile(std::size_t number) const { return tiles_[number]; }
+
+ private:
+  std::vector<Rows> tiles_;
+};
+
+/// How `surface` of `material` reflects light.
+Reflection reflectionOf(const Surface& surface, const scene::Material& material);
+
+}  // namespace sunlit::light

@@ -1,0 +1,66 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "render/mipmaps.h"
+#include "render/texture_pyramid.h"
+
+namespace sunlit {
+namespace {
+
+/// Five by three texels of many colours.
+scene::Texture someTexture() {
+  scene::Texture texture;
+  texture.width = 5;
+  texture.height = 3;
+  for (int i = 0; i < 4 * 5 * 3; ++i) texture.rgba.push_back(static_cast<std::uint8_t>(i * 97 % 256));
+  return texture;
+}
+
+/// Linear value of a texel of a texture that repeats.
+double texel(const scene::Texture& texture, int x, int y, int channel) {
+  const int column = (x % texture.width + texture.width) % texture.width;
+  const int row = (y % texture.height + texture.height) % texture.height;
+  const auto at = static_cast<std::size_t>(4 * (row * texture.width + column) + channel);
+  return static_cast<double>(render::linearOfSrgb()[texture.rgba[at]]);
+}
+
+double between(const scene::Texture& texture, double u, double v, int channel) {
+  const double x = u * texture.width - 0.5, y = v * texture.height - 0.5;
+  const int left = static_cast<int>(std::floor(x)), above = static_cast<int>(std::floor(y));
+  const auto along = [&](int row) {
+    const double a = texel(texture, left, row, channel), b = texel(texture, left + 1, row, channel);
+    return a + (x - left) * (b - a);
+  };
+  return along(above) + (y - above) * (along(above + 1) - along(above));
+}
+
+TEST(Textures, AreInterpolatedInLinearLightAndRepeat) {
+  const scene::Texture texture = someTexture();
+  const render::TexturePyramid pyramid(texture, render::kNoCutoff);
+  for (int i = -60; i <= 60; ++i) {
+    const double u = 0.0371 * i, v = 0.0593 * i;
+    const Eigen::Array3f color =
+        pyramid.color(Eigen::Array2f(static_cast<float>(u), static_cast<float>(v)), 0.0f);
+    for (int c = 0; c < 3; ++c) {
+      // Half a step of the 16 bits that texels are kept in, and single precision of a coordinate up to 4
+      // times 5 texels.
+      EXPECT_NEAR(color[c], between(texture, u, v, c), 0.5 / 65535.0 + 5e-6) << u << ' ' << v;
+    }
+  }
+}
+
+TEST(Textures, AreMixedBetweenTwoSizes) {
+  const render::TexturePyramid pyramid(someTexture(), render::kNoCutoff);
+  const Eigen::Array2f at(0.3f, 0.8f);
+  const Eigen::Array3f fine = pyramid.color(at, 0.0f), coarse = pyramid.color(at, 1.0f);
+  ASSERT_GT((fine - coarse).abs().maxCoeff(), 0.01f);  // else nothing is shown
+  const Eigen::Array3f mixed = pyramid.color(at, 0.25f);
+  EXPECT_LT((mixed - (0.75f * fine + 0.25f * coarse)).abs().maxCoeff(), 1e-6f);  // rounding
+  EXPECT_TRUE((pyramid.color(at, 40.0f) == pyramid.color(at, 41.0f)).all());     // beyond the smallest
+}
+
+}  // namespace
+}  // namespace sunlit
