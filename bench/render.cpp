@@ -10,51 +10,29 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "drive.h"
 #include "render/frustum.h"
 #include "render/rasteriser.h"
 #include "render/resolve.h"
 #include "sunlit/image/exposure.h"
 #include "sunlit/light/lighting.h"
 #include "sunlit/light/transport.h"
-#include "sunlit/quantity/frames.h"
 #include "sunlit/scene/load.h"
 #include "sunlit/scene/race_track.h"
-#include "sunlit/sky/atmosphere.h"
 
 namespace {
 
 using namespace sunlit;
+using bench::circuitPoints, bench::daylightAt, bench::kCircuit, bench::poseAt;
 
 enum World { kBuiltInWorld = 0, kCircuitWorld = 1, kPlainWorld = 2 };
 constexpr std::size_t kPoses = 24;
-const std::string kCircuit = std::string(SUNLIT_SHARED_DIR) + "/worlds/forza/forza.glb";
-
-/// A camera 1 m above `points[at]`, level, towards the next.
-Eigen::Isometry3d poseAt(const std::vector<Eigen::Vector3d>& points, std::size_t at) {
-  const Eigen::Vector3d towards = points[(at + 1) % points.size()] - points[at];
-  Eigen::Isometry3d map_from_link = Eigen::Isometry3d::Identity();
-  map_from_link.linear() =
-      Eigen::AngleAxisd(std::atan2(towards.y(), towards.x()), Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  map_from_link.translation() = points[at] + Eigen::Vector3d::UnitZ();
-  return map_from_link * linkFromOptical();
-}
-
-std::vector<Eigen::Vector3d> circuitPoints() {
-  std::ifstream file(std::string(SUNLIT_SHARED_DIR) + "/worlds/forza/waypoints.csv");
-  std::vector<Eigen::Vector3d> points;
-  for (std::string line; std::getline(file, line);) {
-    Eigen::Vector3d p;
-    if (std::sscanf(line.c_str(), "%lf,%lf,%lf", &p.x(), &p.y(), &p.z()) == 3) points.push_back(p);
-  }
-  return points;
-}
 
 /// One world with everything that looks at it.
 struct Stage {
@@ -105,11 +83,6 @@ Stage* stage(benchmark::State& state) {
   }
   if (!stages[world]) stages[world] = std::make_unique<Stage>(static_cast<int>(world));
   return stages[world].get();
-}
-
-sky::Daylight daylightAt(double elevation_deg) {
-  static const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
-  return atmosphere.daylight({Direction(Azimuth::degrees(120.0), Angle::degrees(elevation_deg)), 1.0});
 }
 
 void draw(benchmark::State& state) {

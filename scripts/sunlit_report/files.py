@@ -15,7 +15,8 @@ FEATURES = {"sift", "surf", "orb", "brisk"}
 
 FRAMES = "pose,stamp,a,b,difference,value,features_a,features_b,matches,zero_second"
 SUMMARY = "a,b,difference,n,undefined,mean,sd,ci_low,ci_high"
-CAPTURES = "stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,scene_illuminance"
+CAPTURES = ("stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,"
+            "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance")
 PATH = "pose,stamp,x,y,z,yaw_deg"
 PROBLEMS = "kind,pose,stamp,where,reason"
 TIMING = "stage,what,count,seconds"
@@ -204,7 +205,8 @@ def columns(found, names):
 
 
 def read_captures(path):
-    names = ["pose", "ev100", "sun_azimuth_deg", "sun_elevation_deg", "scene_illuminance"]
+    names = ["pose", "ev100", "sun_azimuth_deg", "sun_elevation_deg", "moon_azimuth_deg", "moon_elevation_deg",
+             "moon_illuminated_fraction", "scene_illuminance"]
     streams = {}
     for row in rows(path, CAPTURES, {name: whole if name == "pose" else number for name in names}):
         streams.setdefault(row["stream"], []).append(row)

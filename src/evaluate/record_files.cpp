@@ -8,14 +8,17 @@ namespace sunlit::evaluate {
 namespace {
 
 const char* const kCapturesHeader =
-    "stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,scene_illuminance";
+    "stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,"
+    "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance";
 const char* const kPathHeader = "pose,stamp,x,y,z,yaw_deg";
 const char* const kProblemsHeader = "kind,pose,stamp,where,reason";
 
 std::string lineOf(const std::string& stream, const CaptureRecord& c) {
   return csvField(stream) + "," + std::to_string(c.pose) + "," + formatStamp(c.stamp_ns) + "," +
          formatNumber(c.ev100) + "," + formatNumber(c.sun_azimuth_deg) + "," +
-         formatNumber(c.sun_elevation_deg) + "," + formatNumber(c.scene_illuminance_lx) + "\n";
+         formatNumber(c.sun_elevation_deg) + "," + formatNumber(c.moon_azimuth_deg) + "," +
+         formatNumber(c.moon_elevation_deg) + "," + formatNumber(c.moon_illuminated_fraction) + "," +
+         formatNumber(c.scene_illuminance_lx) + "\n";
 }
 
 std::string lineOf(std::int64_t pose, const PlaceRecord& p) {
@@ -42,7 +45,8 @@ void RecordFiles::merge(const std::string& other_folder, PoseIndex& poses) {
 void RecordFiles::read(const std::string& folder, PoseIndex& poses) {
   for (const auto& f : readCsv(folder + "/captures.csv", kCapturesHeader).rows) {
     const CaptureRecord capture{std::stoll(f[1]),  parseStamp(f[2]),  parseNumber(f[3]),
-                                parseNumber(f[4]), parseNumber(f[5]), parseNumber(f[6])};
+                                parseNumber(f[4]), parseNumber(f[5]), parseNumber(f[6]),
+                                parseNumber(f[7]), parseNumber(f[8]), parseNumber(f[9])};
     captures_[{f[0], capture.pose}] = capture;
     poses.learn(capture.stamp_ns, capture.pose);
   }

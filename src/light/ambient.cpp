@@ -25,7 +25,7 @@ Eigen::Array3f irradianceAt(const LightPlace& place, const Illumination& light) 
 }
 
 /// Mean luminance of what the mirror-like lobe looks at.
-Eigen::Array3f mirrored(const Surface& surface, const Eigen::Array4f& sky, const Illumination& light) {
+Eigen::Array3f seenInMirror(const Surface& surface, const Eigen::Array4f& sky, const Illumination& light) {
   return sky.head<3>() + atPlace(surface.light, *light.surroundings) * (1.0f - sky[3]);
 }
 
@@ -60,7 +60,7 @@ Eigen::Array3f ambientLuminance(const Surface& surface, const Reflection& reflec
                                     : irradiance;
   Eigen::Array3f sum = ambient.diffuse * irradiance + ambient.through * behind;
   if (baked && !moves)
-    return sum + ambient.specular * surface.unhidden * mirrored(surface, parts.mirrored_sky, light);
+    return sum + ambient.specular * surface.unhidden * seenInMirror(surface, parts.mirrored_sky, light);
   // A rough lobe spreads over the hemisphere, a smooth one mirrors a point of the sky.
   const Eigen::Array3f spread = irradiance / static_cast<float>(kPi);
   const float smooth = std::max(0.0f, 1.0f - reflection.roughness * reflection.roughness * 1.5f);

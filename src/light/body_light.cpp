@@ -5,21 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/angles.h"
 #include "light/body_shade.h"
 #include "light/transport/reflectances.h"
 #include "sunlit/light/transport.h"
-#include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
 namespace {
 
-constexpr float kPiFloat = static_cast<float>(kPi);
 constexpr int kDirections = 256;
 
 /// Evenly over the sphere, by a Fibonacci spiral. They stand still in `map`, so that a body that turns sees
 /// the same.
 std::vector<Eigen::Vector3f> directions() {
-  constexpr double kGoldenAngle = 2.39996322972865332;  // rad; π (3 − √5)
   std::vector<Eigen::Vector3f> all;
   for (int i = 0; i < kDirections; ++i) {
     const double z = 1.0 - (2.0 * i + 1.0) / kDirections;

@@ -4,12 +4,11 @@
 #include <array>
 #include <cmath>
 
-#include "sunlit/quantity/angle.h"
+#include "light/angles.h"
 
 namespace sunlit::light {
 namespace {
 
-constexpr float kPiFloat = static_cast<float>(kPi);
 constexpr int kRays = 32;
 /// One in so many is cast first; the others only where one of those met a body.
 constexpr std::size_t kFirst = 4;
@@ -21,7 +20,6 @@ constexpr float kNegligible = 0.01f;
 struct Spiral {
   std::array<float, kRays> height, right, up;
   Spiral() {
-    constexpr double kGoldenAngle = 2.39996322972865332;  // rad; π (3 − √5)
     for (std::size_t i = 0; i < kRays; ++i) {
       height[i] = (static_cast<float>(i) + 0.5f) / kRays;
       right[i] = static_cast<float>(std::cos(kGoldenAngle * static_cast<double>(i)));

@@ -7,16 +7,16 @@
 #include <cstring>
 #include <limits>
 
+#include "light/angles.h"
+
 namespace sunlit::light {
 namespace {
 
 /// What probes met, as bits of one byte.
 constexpr std::uint8_t kLit = 1, kDark = 2;
 
-/// Points of a Fibonacci spiral fill the disc evenly: point i of n at radius sqrt((i + ½) / n), i golden
-/// angles round.
-constexpr double kGoldenAngle = 2.39996322972865332;  ///< rad; π (3 − √5)
-/// The order in which they are used, the same for every pixel of the same parity: a penumbra then consists of
+/// Points of a Fibonacci spiral fill the disc evenly: point i of n at radius sqrt((i + ½) / n). This is the
+/// order in which they are used, the same for every pixel of the same parity: a penumbra then consists of
 /// fine steps that lie still in the world. Points at random would turn it into grain that clings to the
 /// screen, and feature detectors find grain. The first four lie near the rim, about 90° apart, so that hardly
 /// any shadow edge can cross the disc without their telling; neighbouring pixels probe different ones.

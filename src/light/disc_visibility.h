@@ -21,8 +21,6 @@ class DiscVisibility {
   DiscVisibility(const sky::DiscLight& disc, float least_lx, const Visibility& visibility,
                  const LightTable& table, const Surfaces& surfaces);
 
-  /// False when it gives no light worth casting rays for.
-  bool shines() const { return shines_; }
   const Eigen::Vector3f& towards() const { return towards_; }
   float radius_rad() const { return radius_rad_; }
 
@@ -89,7 +87,7 @@ class DiscVisibility {
   const Visibility& visibility_;
   const LightTable& table_;
   const Surfaces& surfaces_;
-  bool shines_;
+  bool shines_;  ///< false when it gives no light worth casting rays for
   Eigen::Vector3f towards_;
   float radius_rad_;
   Eigen::Vector3f across_, up_;  ///< unit, at right angles to `towards_`

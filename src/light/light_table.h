@@ -12,8 +12,8 @@
 
 namespace sunlit::light {
 
-/// Distances at which PictureAir asks for the air: node 0 is at none, where there is no air; beyond the last
-/// one, 4096 km, lies nothing.
+/// Distances at which PictureAir asks for the air: node 0 is at none, where there is no air; what lies beyond
+/// the last one, 4194 km, is taken as there.
 constexpr int kAirNodes = 46;
 float airDistance_m(int node);
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/angles.h"
 #include "light/mirror_lobe.h"
+#include "sunlit/sky/octahedral.h"
 
 namespace sunlit::light {
 namespace {
@@ -28,12 +30,7 @@ Eigen::Vector3f directionOf(const Level& level, std::size_t cell) {
   const auto side = static_cast<std::size_t>(level.side);
   const float x = (2.0f * static_cast<float>(cell % side) + 1.0f) / static_cast<float>(level.side) - 1.0f;
   const float y = (2.0f * static_cast<float>(cell / side) + 1.0f) / static_cast<float>(level.side) - 1.0f;
-  Eigen::Vector3f n(x, y, 1.0f - std::abs(x) - std::abs(y));
-  if (n.z() < 0.0f) {
-    n.x() = std::copysign(1.0f - std::abs(y), x);
-    n.y() = std::copysign(1.0f - std::abs(x), y);
-  }
-  return n.normalized();
+  return sky::octahedralDirection(x, y);
 }
 
 /// The cap, evenly filled, whose mean direction has a length (1 + cos radius) / 2: number of its level.
@@ -44,8 +41,8 @@ inline std::int32_t levelFor(float squared_length) {
          (squared_length < kShorter(0.0338f) ? 1 : 0) + (squared_length < kShorter(0.0956f) ? 1 : 0);
 }
 
-/// Cell of a map of `side` cells an axis. Without a branch, so that compilers may treat several directions at
-/// once.
+/// Cell of a map of `side` cells an axis: sky::octahedralPlace() without a branch, so that compilers may
+/// treat several directions at once.
 inline std::int32_t cellIn(std::int32_t side, float x, float y, float z) {
   const float scale = 1.0f / (std::abs(x) + std::abs(y) + std::abs(z));
   x *= scale;
@@ -75,7 +72,6 @@ inline std::int32_t placeIn(float x, float y, float z) {
 /// Points evenly spread over a cap.
 template <std::size_t kCount>
 std::array<Eigen::Vector3f, kCount> capAround(const Eigen::Vector3f& middle, float radius_rad) {
-  constexpr double kGoldenAngle = 2.39996322972865332;
   const float depth = 1.0f - std::cos(radius_rad);
   const Eigen::Vector3f right = middle.unitOrthogonal(), up = middle.cross(right);
   std::array<Eigen::Vector3f, kCount> points;
@@ -264,7 +260,7 @@ Parts partsOf(const Surface& surface, float roughness) {
   return parts;
 }
 
-/// MirrorSky::placeOf() of all of them at once.
+/// placeIn() of all of them at once.
 std::array<std::uint16_t, MirrorView::kParts> placesOf(const Parts& parts) {
   constexpr std::size_t kCount = MirrorView::kParts;
   std::array<float, kCount> x, y, z;
@@ -337,10 +333,6 @@ MirrorSky::MirrorSky(const sky::Daylight& day) : table_(kPlaces, Eigen::Array4f:
       if (above > 0.0f) table_[place] = sum / above;
     });
   }
-}
-
-std::uint16_t MirrorSky::placeOf(const Eigen::Vector3f& towards) {
-  return static_cast<std::uint16_t>(placeIn(towards.x(), towards.y(), towards.z()));
 }
 
 void findMirrorViews(const TransportData& data, const scene::Scene& scene, int picture_width, Tile* tile) {

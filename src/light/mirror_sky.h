@@ -18,11 +18,9 @@ class MirrorSky {
  public:
   explicit MirrorSky(const sky::Daylight& day);
 
-  /// Place in the tables, octahedral maps of the sphere, of what MirrorLobe::towards says: a direction, and
-  /// by its length the size of the cap.
-  static std::uint16_t placeOf(const Eigen::Vector3f& towards);
-  /// Mean over the part of the cap that is above the horizon, cd/m², the fourth is padding; zero where the
-  /// cap's middle is below.
+  /// Mean over the part of a cap that is above the horizon, cd/m², the fourth is padding; zero where the
+  /// cap's middle is below. `place`, of MirrorView, is one in the tables, octahedral maps of the sphere, and
+  /// stands for what MirrorLobe::towards says: a direction, and by its length the size of the cap.
   const Eigen::Array4f& luminance(std::uint16_t place) const { return table_[place]; }
 
  private:

@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
 namespace sunlit::light {
 
 PictureAir::PictureAir(const Surfaces& surfaces, const LightTable& table, const sky::Daylight& day)

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/angles.h"
 #include "light/mirror_lobe.h"
-#include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
 namespace {
 
-constexpr float kPiFloat = static_cast<float>(kPi);
 /// Reflectance of a dielectric of index 1.5 at normal incidence, as glTF 2.0 fixes it.
 constexpr float kDielectricF0 = 0.04f;
 

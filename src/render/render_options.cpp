@@ -6,7 +6,8 @@
 namespace sunlit::render {
 namespace {
 
-/// What software GL can draw into at once, samples a side.
+/// Samples a side: products of two places in the picture then stay exact, see ScreenProjection and
+/// TileRaster.
 constexpr int kMaxSamples = 16384;
 
 void require(bool good, const std::string& key, double value, const std::string& range) {

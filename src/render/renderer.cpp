@@ -108,7 +108,16 @@ class Renderer::Implementation {
     place(map_from_body, seen);
     seen.view = view_;
     seen.view.map_from_optical = map_from_optical;
-    rasteriser_.draw(seen.view, seen.bodies.get(), &seen.samples);
+    try {
+      rasteriser_.draw(seen.view, seen.bodies.get(), &seen.samples);
+      resolve(seen);
+    } catch (...) {
+      seen.samples.clear();
+      throw;
+    }
+  }
+
+  void resolve(Pose& seen) {
     resolveSurfaces(bufferOf(seen), &seen.surfaces);
     if (world_.transport) world_.transport->locate(&seen.surfaces);
     seen.body_views = nullptr;

@@ -75,8 +75,10 @@ void checkMesh(const Mesh& mesh, std::size_t material_count) {
     if (!mesh.positions[i].allFinite()) failHere("position is not finite");
     // Written so that a NaN fails; 1e-3 is far above what rounding and transforms do to a unit float vector.
     if (!(std::abs(mesh.normals[i].norm() - 1.0f) < 1e-3f)) failHere("normal is not of length 1");
-    if (!mesh.texture_coordinates.empty() && !mesh.texture_coordinates[i].allFinite()) {
-      failHere("texture coordinate is not finite");
+    // Written so that a NaN fails.
+    if (!mesh.texture_coordinates.empty() &&
+        !(mesh.texture_coordinates[i].array().abs() <= kLargestTextureCoordinate).all()) {
+      failHere("texture coordinate is outside -1e6 … 1e6");
     }
     if (!mesh.colors.empty() && !(mesh.colors[i] >= 0.0f && mesh.colors[i] <= 2.0f).all()) {
       failHere("colour is outside 0 … 2");

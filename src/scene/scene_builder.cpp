@@ -123,6 +123,9 @@ void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mes
     if (!coordinate.allFinite()) {
       coordinate.setZero();
       count("texture coordinates that are not finite were set to 0");
+    } else if (!(coordinate.array().abs() <= kLargestTextureCoordinate).all()) {
+      coordinate.setZero();
+      count("texture coordinates outside -1e6 … 1e6 were set to 0");
     }
   }
   for (Eigen::Array3f& color : moved.colors) color = color.max(0.0f).min(1.0f);

@@ -7,6 +7,7 @@
 
 #include "sphere.h"
 #include "sunlit/quantity/angle.h"
+#include "sunlit/sky/octahedral.h"
 #include "table_place.h"
 
 namespace sunlit::sky {
@@ -18,27 +19,6 @@ std::size_t nodeIndex(int row, int column, int columns) {
 
 Eigen::Array4f padded(const Eigen::Array3f& colour) {
   return {colour[0], colour[1], colour[2], 0.0F};
-}
-
-/// Octahedral map of the sphere onto the square [−1, 1]²: Cigolle et al. 2014, listing 1. Upper hemisphere in
-/// the middle.
-Eigen::Vector2f square(const Eigen::Vector3f& n) {
-  const float scale = 1.0F / (std::abs(n.x()) + std::abs(n.y()) + std::abs(n.z()));
-  const float x = n.x() * scale;
-  const float y = n.y() * scale;
-  if (n.z() >= 0.0F) {
-    return {x, y};
-  }
-  return {std::copysign(1.0F - std::abs(y), x), std::copysign(1.0F - std::abs(x), y)};
-}
-
-Eigen::Vector3f sphere(float x, float y) {
-  Eigen::Vector3f n(x, y, 1.0F - std::abs(x) - std::abs(y));
-  if (n.z() < 0.0F) {
-    n.x() = std::copysign(1.0F - std::abs(y), x);
-    n.y() = std::copysign(1.0F - std::abs(x), y);
-  }
-  return n.normalized();
 }
 
 struct Patch {
@@ -102,8 +82,8 @@ void gatherIlluminance(float ground_albedo, SkyTable* table) {
   tbb::parallel_for(0, kSide, [&](int row) {
     for (int column = 0; column < kSide; ++column) {
       const float step = 2.0F / (kSide - 1);
-      const Eigen::Vector3f normal =
-          sphere(static_cast<float>(column) * step - 1.0F, static_cast<float>(row) * step - 1.0F);
+      const Eigen::Vector3f normal = octahedralDirection(static_cast<float>(column) * step - 1.0F,
+                                                         static_cast<float>(row) * step - 1.0F);
       // Level ground of even brightness fills (1 − n_z) / 2 of what a surface sees.
       const Eigen::Array3f from_ground =
           table->ground_illuminance * (ground_albedo * 0.5F * (1.0F - normal.z()));
@@ -162,7 +142,7 @@ AirColumn SkyTable::airOver(const Eigen::Vector3f& towards, float distance_m) co
 }
 
 Eigen::Array3f SkyTable::illuminanceOn(const Eigen::Vector3f& normal) const {
-  const Eigen::Vector2f place = (square(normal).array() + 1.0F) * (0.5F * (kNormals - 1));
+  const Eigen::Vector2f place = (octahedralPlace(normal).array() + 1.0F) * (0.5F * (kNormals - 1));
   const TablePlace column = placeAt(place.x(), kNormals);
   const TablePlace row = placeAt(place.y(), kNormals);
   const Eigen::Array4f* low = &illuminance[nodeIndex(row.index, column.index, kNormals)];

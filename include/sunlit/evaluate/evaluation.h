@@ -50,8 +50,11 @@ struct CaptureRecord {
   std::int64_t pose = 0;
   std::int64_t stamp_ns = 0;
   double ev100 = 0.0;
-  double sun_azimuth_deg = 0.0;    ///< clockwise from north
-  double sun_elevation_deg = 0.0;  ///< apparent
+  double sun_azimuth_deg = 0.0;            ///< clockwise from north
+  double sun_elevation_deg = 0.0;          ///< apparent
+  double moon_azimuth_deg = 0.0;           ///< clockwise from north; NaN, as the next two, without a night
+  double moon_elevation_deg = 0.0;         ///< apparent
+  double moon_illuminated_fraction = 0.0;  ///< 0 new … 1 full
   double scene_illuminance_lx = 0.0;
 };
 

@@ -34,8 +34,9 @@ struct Traced {
 /// One picture for each of `days`, which all use the same paths: more suns cost only their shadow rays.
 ///
 /// What surfaces beyond the first add: texture at full resolution, vertex colours, interpolated normals;
-/// light meets one-sided triangles from both sides; Material::detail, whose mean is none, is left out. Air
-/// lies between the eye and the first surface only. Random numbers are counted, not drawn: the same bits for
+/// light meets one-sided triangles from both sides; Material::detail, whose mean is none, is left out. Bodies
+/// that move are lit where `surfaces` shows them, but hide and pass on nothing. Air lies between the eye and
+/// the first surface only. Random numbers are counted, not drawn: the same bits for
 /// any thread count.
 std::vector<Traced> traceReference(const Surfaces& surfaces, const World& world,
                                    const std::vector<sky::Daylight>& days, const ReferenceOptions& options);

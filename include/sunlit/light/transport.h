@@ -50,7 +50,8 @@ struct TransportData;
 class Transport {
  public:
   /// Traces the scene, which takes seconds to a minute. Parallel; the same bits for any number of threads.
-  /// Throws std::runtime_error if the ray library fails.
+  /// Throws std::invalid_argument for options out of range, std::runtime_error if the ray library fails or
+  /// the scene takes more than 2^24 samples.
   static std::shared_ptr<const Transport> bake(std::shared_ptr<const Geometry> geometry,
                                                const TransportOptions& options,
                                                const BakeProgress& progress = nullptr);
@@ -69,7 +70,7 @@ class Transport {
   explicit Transport(std::shared_ptr<const Geometry> geometry, std::unique_ptr<const TransportData> data);
   ~Transport();
 
-  /// Sets Surface::light and Surface::mirror of all surfaces.
+  /// Sets Surface::light, Surface::behind and Surface::mirror of all surfaces but those of bodies that move.
   void locate(Surfaces* surfaces) const;
   /// Where a point of a triangle of the scene finds its light, on the front or the back.
   LightPlace placeOf(std::uint32_t triangle, bool front, const Eigen::Vector3f& position) const;

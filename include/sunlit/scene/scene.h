@@ -55,13 +55,18 @@ struct Material {
   Detail detail;
 };
 
+/// Beyond it a float hardly tells the texels of one repeat apart, and far beyond it the number of repeats is
+/// no whole number any more.
+constexpr float kLargestTextureCoordinate = 1e6f;
+
 /// Triangles of one material. Positions and unit normals in `map`, m. Front faces run counter-clockwise.
 struct Mesh {
   std::string name;
   int material = 0;  ///< index into Scene::materials
   std::vector<Eigen::Vector3f> positions;
-  std::vector<Eigen::Vector3f> normals;              ///< one a vertex
-  std::vector<Eigen::Vector2f> texture_coordinates;  ///< one a vertex, or empty
+  std::vector<Eigen::Vector3f> normals;  ///< one a vertex
+  std::vector<Eigen::Vector2f>
+      texture_coordinates;  ///< one a vertex within ±kLargestTextureCoordinate, or empty
   std::vector<Eigen::Array3f>
       colors;  ///< linear factor, 0 … 2 (above 1 lightens a texture), one a vertex, or empty for 1
   std::vector<std::array<std::uint32_t, 3>> triangles;

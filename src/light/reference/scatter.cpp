@@ -5,12 +5,10 @@
 #include <cmath>
 #include <optional>
 
-#include "sunlit/quantity/angle.h"
+#include "light/angles.h"
 
 namespace sunlit::light {
 namespace {
-
-constexpr float kPiFloat = static_cast<float>(kPi);
 
 /// Unit vectors that make a right-handed frame with `normal`.
 struct Frame {

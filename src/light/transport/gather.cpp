@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <mutex>
+#include <stdexcept>
+#include <string>
 
+#include "light/angles.h"
 #include "light/transport/probe.h"
-#include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/photometry.h"
 
 namespace sunlit::light {
@@ -17,9 +18,9 @@ namespace {
 constexpr int kPatches = SkyPatches::kCount;
 constexpr std::uint32_t kDirectionShift = 24;  ///< a hit: the sample there, and above it the coarse direction
 constexpr std::uint32_t kSampleMask = (1u << kDirectionShift) - 1;
+static_assert(SkyPatches::kCoarse <= 256, "a coarse direction fits above a sample");
 constexpr std::size_t kPacket = RayPacket::kSize;
 constexpr float kMostInside = 0.6f;  ///< share of rays that may end inside bodies
-constexpr float kPiFloat = static_cast<float>(kPi);
 
 using Row = std::array<float, kPatches>;
 
@@ -125,7 +126,7 @@ class Gatherer {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       // The quadrature of a cosine over the hemisphere is π; rays that end inside bodies tell nothing.
       const float told = std::max(sums[i].all - sums[i].inside, 0.05f * sums[i].all);
-      const float scale = kPiFloat / told;
+      const float scale = told > 0.0f ? kPiFloat / told : 0.0f;
       for (float& value : rows[i]) value *= scale;
       data->direct.set(first + i, rows[i].data());
       Seen& seen = seen_[first + i];
@@ -261,6 +262,10 @@ class Gatherer {
 
 std::vector<bool> gatherLight(const BakeScene& scene, const SceneSamples& samples,
                               const GatherOptions& options, TransportData* data) {
+  if (samples.sites.size() > std::size_t{kSampleMask} + 1) {
+    throw std::runtime_error("bake of light: the scene takes " + std::to_string(samples.sites.size()) +
+                             " samples, of at most " + std::to_string(std::size_t{kSampleMask} + 1));
+  }
   return Gatherer(scene, samples, options).gather(data);
 }
 

@@ -18,7 +18,8 @@ struct GatherOptions {
 };
 
 /// Fills `data` but for its mesh. Returns for each sample whether it lies inside a body, where its light is
-/// of no use. Parallel; the same bits for any number of threads.
+/// of no use. Parallel; the same bits for any number of threads. Throws std::runtime_error for more than 2^24
+/// samples.
 std::vector<bool> gatherLight(const BakeScene& scene, const SceneSamples& samples,
                               const GatherOptions& options, TransportData* data);
 

@@ -221,7 +221,9 @@ class Sampler {
       } else {  // the other half of the card
         Site& first = sites_[shares_[cards[number].node][0].sample];
         for (std::size_t i = 1; i < Site::kOrigins; i += 2) first.origins[i] = site.origins[i];
-        first.normal = (first.normal + site.normal).normalized();
+        // Halves back to back have no mean normal: that of the first then stands for both.
+        const Eigen::Vector3f sum = first.normal + site.normal;
+        if (sum.squaredNorm() > 1e-6f) first.normal = sum.normalized();
       }
       ++cards[number].triangles;
       for (const std::uint32_t v : geometry_.triangles[t]) card_at[v] = number;

@@ -76,6 +76,9 @@ evaluate::CaptureRecord captureOf(const Capture& message) {
   record.ev100 = message.ev100;
   record.sun_azimuth_deg = message.sun_azimuth / kRadPerDeg;
   record.sun_elevation_deg = message.sun_elevation / kRadPerDeg;
+  record.moon_azimuth_deg = message.moon_azimuth / kRadPerDeg;
+  record.moon_elevation_deg = message.moon_elevation / kRadPerDeg;
+  record.moon_illuminated_fraction = message.moon_illuminated_fraction;
   record.scene_illuminance_lx = message.scene_illuminance;
   return record;
 }

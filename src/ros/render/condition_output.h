@@ -1,4 +1,4 @@
-/// What leaves the node: per condition the image and how it was taken, per pose depth, pose, TF and progress.
+/// What leaves the node once per pose and condition: the image and how it was taken.
 #pragma once
 
 #include <image_transport/image_transport.h>

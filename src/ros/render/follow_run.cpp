@@ -5,6 +5,13 @@
 
 namespace sunlit::ros_interface {
 
+namespace {
+
+/// How long one moment of the frame is kept for the robot's links to follow; far less than TF remembers.
+constexpr std::chrono::seconds kHold(1);
+
+}  // namespace
+
 FollowRun::FollowRun(const std::string& frame, double frame_rate, Streams& streams, RobotPlaces* robot)
     : frame_(frame), period_(1.0 / frame_rate), streams_(streams), robot_(robot) {}
 
@@ -16,17 +23,22 @@ Step FollowRun::step() {
   if (next_ > now + period_) next_ = now;
   if (now < next_) return Step::kWaits;
 
-  geometry_msgs::TransformStamped map_from_frame;
   try {
-    map_from_frame = tf_.buffer.lookupTransform(kMapFrame, frame_, ros::Time(0));
+    if (!held_ || Clock::now() - held_since_ > kHold) {
+      held_ = tf_.buffer.lookupTransform(kMapFrame, frame_, ros::Time(0));
+      held_since_ = Clock::now();
+    }
   } catch (const tf2::TransformException& error) {
+    held_.reset();
     waits_for_ = "the TF frame " + frame_ + ": " + error.what();
     return Step::kWaits;
   }
+  const geometry_msgs::TransformStamped map_from_frame = *held_;
   // Static transforms carry no time. All others: the image belongs to the very moment of its pose.
   const bool is_static = map_from_frame.header.stamp.isZero();
   const ros::Time stamp = is_static ? now : map_from_frame.header.stamp;
   if (stamp == latest_) {
+    held_.reset();
     waits_for_ = "the TF frame " + frame_ + " to be sent again";
     return Step::kWaits;
   }
@@ -38,6 +50,7 @@ Step FollowRun::step() {
     }
     map_from_links_ = std::move(*places);
   }
+  held_.reset();
   // Keeps the mean rate, but does not hurry after a long wait.
   next_ = next_ + period_ < now ? now + period_ : next_ + period_;
   latest_ = stamp;

@@ -69,9 +69,8 @@ void RobotPlaces::placeCamera(const scene::Robot& robot, const RobotOptions& opt
   const double above_path_m = camera_height_m - camera_in_base_.z() + lowest_m;
   if (std::abs(above_path_m) > kUnevenness_m) {
     ROS_WARN(
-        "The lowest point of robot %s is %.2f m above the path: the camera is %.2f m above the path and %.2f "
-        "m "
-        "above the robot's base",
+        "The lowest point of robot %s is %.2f m above the path: the camera is %.2f m above the path and "
+        "%.2f m above the robot's base",
         robot.name.c_str(), above_path_m, camera_height_m, camera_in_base_.z());
   }
 }

@@ -1,11 +1,13 @@
 /// The two ways to move the camera: along a path, and after a TF frame.
 #pragma once
 
+#include <geometry_msgs/TransformStamped.h>
 #include <ros/node_handle.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -92,6 +94,11 @@ class FollowRun : public Run {
   Streams& streams_;
   RobotPlaces* robot_;
   TfInput tf_;
+  // The frame's newest moment, kept while the robot's links of that moment are on their way: where links are
+  // sent later than the frame, those of its newest moment would never be there.
+  using Clock = std::chrono::steady_clock;
+  std::optional<geometry_msgs::TransformStamped> held_;
+  Clock::time_point held_since_;
   ros::Time next_;
   ros::Time latest_;
   int taken_ = 0;

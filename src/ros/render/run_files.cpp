@@ -4,8 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -22,11 +20,7 @@ RunFiles::RunFiles(const std::string& folder, bool goes_on) : folder_(folder) {
 }
 
 void RunFiles::writeMap(const image::Rgb8Image& map, const MapExtent& extent) const {
-  const std::string file = folder_ + "/map.png";
-  const cv::Mat rgb(map.height, map.width, CV_8UC3, const_cast<std::uint8_t*>(map.data.data()));
-  cv::Mat bgr;
-  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  if (!cv::imwrite(file, bgr)) throw std::runtime_error(file + ": cannot be written");
+  image::writePng(folder_ + "/map.png", map);
   std::ostringstream out;
   out << std::setprecision(10) << "x_min: " << extent.x_min << "\nx_max: " << extent.x_max
       << "\ny_min: " << extent.y_min << "\ny_max: " << extent.y_max << '\n';

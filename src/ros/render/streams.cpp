@@ -85,7 +85,9 @@ Streams::Stream& Streams::find(const std::string& condition) {
     if (stream->name == condition || (condition.empty() && streams_.size() == 1)) return *stream;
     names += (names.empty() ? "" : ", ") + stream->name;
   }
-  throw std::invalid_argument("condition is \"" + condition + "\", but must be one of " + names);
+  throw std::invalid_argument(
+      "condition is \"" + condition + "\", but must be " +
+      (names.empty() ? "empty: there is one sun, without a name" : "one of " + names));
 }
 
 Photograph Streams::view(const Shot& shot, const std::string& condition) {

@@ -63,6 +63,7 @@ SunPositionOptions readSunPositionOptions(const ParameterReader& parameters) {
   const GroupReader date_time(parameters, "date_time");
   options.date_time = readDateTime(date_time, options.date_time);
   options.rate = date_time.number(astronomy::kRateLimits, options.rate);
+  options.wait_for_subscriber = parameters.flag("date_time/wait_for_subscriber", options.wait_for_subscriber);
 
   const GroupReader site(parameters, "site");
   options.site.latitude = site.degrees(astronomy::kLatitudeLimits, options.site.latitude);

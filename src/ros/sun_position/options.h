@@ -16,6 +16,7 @@ namespace sunlit::ros_interface {
 struct SunPositionOptions {
   CivilDateTime date_time{2024, 7, 1, 12, 0, 0.0, 3.0};
   double rate = 1.0;  ///< s of sun time a second of ROS time, −1e8 … 1e8; 0 freezes the sun
+  bool wait_for_subscriber = false;  ///< of `sun`: until the first one comes, its clock stands at date_time
   Site site{Angle::degrees(55.792115), Angle::degrees(49.122254), 90.0};
   Air air;                                      ///< 1013.25 hPa, 0 °C, 0.5667°
   astronomy::EarthRotation earth{0.0, 69.184};  ///< s; delta_t without a value: from published polynomials

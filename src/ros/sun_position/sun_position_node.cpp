@@ -41,6 +41,7 @@ SunPositionNode::SunPositionNode(const ros::NodeHandle& node, const ros::NodeHan
                                  const SunPositionOptions& options)
     : options_(options),
       clock_(astronomy::instantOf(options.date_time), options.rate),
+      waiting_(options.wait_for_subscriber),
       node_(node),
       private_node_(private_node),
       sun_publisher_(node_.advertise<SunPosition>("sun", 10, true)),
@@ -84,7 +85,8 @@ ros::Time SunPositionNode::nextStamp(const ros::Time& now) {
 void SunPositionNode::publish() {
   const ros::Time now = ros::Time::now();
   const bool jumped_back = now < last_now_;
-  sun_time_ = clock_.at(now);
+  waiting_ = waiting_ && sun_publisher_.getNumSubscribers() == 0;
+  sun_time_ = clock_.at(waiting_ ? ros::Time() : now);
   const ros::Time stamp = nextStamp(now);
   const ComputedSun sun = computeSun(sun_time_, options_.earth, options_.site, options_.air);
   sun_ = toMessage(sun, stamp);
@@ -162,8 +164,9 @@ void SunPositionNode::describe(diagnostic_updater::DiagnosticStatusWrapper& stat
     status.summary(diagnostic_msgs::DiagnosticStatus::ERROR,
                    "the clock is held at the end of the supported years");
   } else {
+    const char* motion = clock_.rate() == 0.0 ? "the sun stands still" : "the sun moves";
     status.summary(diagnostic_msgs::DiagnosticStatus::OK,
-                   clock_.rate() == 0.0 ? "the sun stands still" : "the sun moves");
+                   waiting_ ? "the sun waits for its first subscriber" : motion);
   }
   status.add("date and time", printed(astronomy::civilOf(sun_time_, options_.date_time.timezone)));
   status.addf("rate", "%g", clock_.rate());

@@ -32,6 +32,7 @@ class SunPositionNode {
 
   SunPositionOptions options_;
   SunClock clock_;
+  bool waiting_;      ///< for the first subscriber of the sun, before the clock starts
   Instant sun_time_;  ///< of what was published last
   SunPosition sun_;   ///< published last
   MoonPosition moon_;

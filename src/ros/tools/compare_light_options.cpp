@@ -1,8 +1,12 @@
 #include "ros/tools/compare_light_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
+
+#include "ros/tools/arguments.h"
 
 namespace sunlit::tools {
 
@@ -21,7 +25,7 @@ usage: compare_light --out DIR [options]
   --sun AZIMUTH,ELEVATION        deg, azimuth clockwise from north; may be repeated. Default: suns at 60, 20, 4,
                                  -4 and -9, and a moon at 45 degrees
   --moon AZIMUTH,ELEVATION,PHASE deg, phase angle 0 is full; the sun is at -40 degrees; may be repeated
-  --size WxH                     px (default 96x72)
+  --size WxH                     px, 16 ... 8192 (default 96x72)
   --fov DEG                      horizontal field of view (default 90)
   --supersampling N              geometry samples per pixel and axis, 1 ... 4 (default 2)
   --bake yes|no                  whether the fast picture's light is baked (default yes)
@@ -33,41 +37,6 @@ usage: compare_light --out DIR [options]
 )";
 
 namespace {
-
-[[noreturn]] void reject(const std::string& option, const std::string& value, const std::string& allowed) {
-  throw std::invalid_argument(option + " is \"" + value + "\", must be " + allowed);
-}
-
-/// `text` as `least` to `most` finite numbers between commas (or another separator).
-std::vector<double> numbers(const std::string& option, const std::string& text,
-                            std::pair<std::size_t, std::size_t> count, char separator = ',') {
-  const std::string wanted = std::to_string(count.first) + " to " + std::to_string(count.second) +
-                             " number(s) separated by '" + separator + "'";
-  std::vector<double> values;
-  std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, separator);) {
-    std::istringstream number(part);
-    double value = 0.0;
-    if (!(number >> value) || !number.eof() || !std::isfinite(value)) reject(option, text, wanted);
-    values.push_back(value);
-  }
-  if (values.size() < count.first || values.size() > count.second) reject(option, text, wanted);
-  return values;
-}
-
-double numberWithin(const std::string& option, const std::string& text, double low, double high) {
-  const double value = numbers(option, text, {1, 1})[0];
-  std::ostringstream range;
-  range << low << " ... " << high;
-  if (value < low || value > high) reject(option, text, range.str());
-  return value;
-}
-
-int wholeWithin(const std::string& option, const std::string& text, int low, int high) {
-  const double value = numberWithin(option, text, low, high);
-  if (value != std::floor(value)) reject(option, text, "a whole number");
-  return static_cast<int>(value);
-}
 
 Eigen::Isometry3d viewFrom(const std::vector<double>& pose) {
   const double pitch = pose.size() > 4 ? pose[4] : 0.0;
@@ -93,6 +62,21 @@ SkyToCompare skyFrom(const std::string& key, const std::string& text) {
   return sky;
 }
 
+/// Pictures and tables know a sky by its name: by its azimuth too, where another has its elevation.
+void add(SkyToCompare sky, std::vector<SkyToCompare>* skies) {
+  const auto isThere = [&] {
+    return std::any_of(skies->begin(), skies->end(),
+                       [&](const SkyToCompare& other) { return other.name == sky.name; });
+  };
+  if (isThere()) {
+    std::ostringstream azimuth;
+    azimuth << sky.azimuth_deg;
+    sky.name += "_at_" + azimuth.str();
+  }
+  if (isThere()) throw std::invalid_argument("two skies would both be called " + sky.name);
+  skies->push_back(std::move(sky));
+}
+
 /// What must be known in full before the camera can be made.
 struct CameraWords {
   int width = 96, height = 72;
@@ -114,17 +98,21 @@ bool readScene(const std::string& key, const std::string& value, CompareLightOpt
   } else if (key == "--view") {
     options->map_from_camera.push_back(viewFrom(numbers(key, value, {4, 5})));
   } else if (key == "--sun" || key == "--moon") {
-    options->skies.push_back(skyFrom(key, value));
+    add(skyFrom(key, value), &options->skies);
   } else {
     return false;
   }
   return true;
 }
 
-void readPicture(const std::string& key, const std::string& value, CameraWords* words,
+bool readPicture(const std::string& key, const std::string& value, CameraWords* words,
                  CompareLightOptions* options) {
   if (key == "--size") {
     const std::vector<double> size = numbers(key, value, {2, 2}, 'x');
+    for (const double side : size) {
+      if (side != std::floor(side) || side < 16 || side > 8192)
+        reject(key, value, "WIDTHxHEIGHT, whole numbers of 16 ... 8192 px");
+    }
     words->width = static_cast<int>(size[0]);
     words->height = static_cast<int>(size[1]);
   } else if (key == "--fov") {
@@ -143,8 +131,9 @@ void readPicture(const std::string& key, const std::string& value, CameraWords* 
   } else if (key == "--out") {
     options->output = value;
   } else {
-    throw std::invalid_argument("unknown option " + key + "; --help lists all");
+    return false;
   }
+  return true;
 }
 
 }  // namespace
@@ -152,13 +141,10 @@ void readPicture(const std::string& key, const std::string& value, CameraWords* 
 std::optional<CompareLightOptions> parseCompareLightOptions(const std::vector<std::string>& arguments) {
   CompareLightOptions options;
   CameraWords words;
-  for (std::size_t i = 0; i < arguments.size(); i += 2) {
-    const std::string& key = arguments[i];
-    if (key == "--help" || key == "-h") return std::nullopt;
-    if (i + 1 == arguments.size())
-      throw std::invalid_argument(key + " needs a value; --help lists all options");
-    if (!readScene(key, arguments[i + 1], &options)) readPicture(key, arguments[i + 1], &words, &options);
-  }
+  const bool go = readArguments(arguments, [&](const std::string& key, const std::string& value) {
+    return readScene(key, value, &options) || readPicture(key, value, &words, &options);
+  });
+  if (!go) return std::nullopt;
   if (options.output.empty()) throw std::invalid_argument("--out DIR is missing; --help lists all options");
   if (options.path.empty() && options.map_from_camera.empty() && options.world != "race_track")
     throw std::invalid_argument("--path FILE or --view is missing: only race_track has a path of its own");

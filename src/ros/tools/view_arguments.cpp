@@ -147,6 +147,8 @@ ViewOptions ViewArguments::options() const {
   if (path_pose_ && !(pose_.empty() && look_at_.empty() && top_down_.empty()))
     throw std::invalid_argument(
         "--path-pose places the camera already; leave out --pose, --look-at and --top-down");
+  if (!top_down_.empty() && !(pose_.empty() && look_at_.empty()))
+    throw std::invalid_argument("--top-down places the camera already; leave out --pose and --look-at");
   if (!path_pose_ && !path_file_.empty()) throw std::invalid_argument("--path needs --path-pose N");
   ViewOptions options = options_;
   options.render.camera = image::PinholeCamera::fromFieldOfView(width_, height_, Angle::degrees(fov_deg_));

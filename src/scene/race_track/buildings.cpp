@@ -171,6 +171,17 @@ void addApron(Assembly& assembly, const Frame& frame, float width, float depth) 
   }
 }
 
+// A box of machinery on the roof over the bay at `x`.
+void addRoofUnit(Assembly& assembly, const Frame& frame, float x, Random& random) {
+  const float width = random.range(0.8f, 2.0f);
+  const float height = random.range(0.6f, 1.4f);
+  const float aside = random.range(-2.0f, 2.0f);
+  const float forward = random.range(-3.0f, 3.0f);
+  const Color tone = Color(0.40f, 0.40f, 0.42f) * random.range(0.5f, 1.2f);
+  addBox(assembly, {assembly.palette().matte, tone}, shifted(frame, {x + aside, forward, 7.6f}),
+         {width, 1.2f, height});
+}
+
 // Garages with offices above and a flat roof.
 void addPits(Assembly& assembly, const Site& site) {
   constexpr int kBays = 9;
@@ -204,12 +215,7 @@ void addPits(Assembly& assembly, const Site& site) {
             {frame * Point(x - 0.5f, front - 0.14f, 3.45f), frame * Point(x + 0.5f, front - 0.14f, 3.45f),
              frame * Point(x + 0.5f, front - 0.14f, 3.95f), frame * Point(x - 0.5f, front - 0.14f, 3.95f)},
             number.rect);
-    const float width = random.range(0.8f, 2.0f);
-    const float height = random.range(0.6f, 1.4f);
-    const float aside = random.range(-2.0f, 2.0f);
-    const float forward = random.range(-3.0f, 3.0f);
-    const Color tone = Color(0.40f, 0.40f, 0.42f) * random.range(0.5f, 1.2f);
-    addBox(assembly, {p.matte, tone}, shifted(frame, {x + aside, forward, 7.6f}), {width, 1.2f, height});
+    addRoofUnit(assembly, frame, x, random);
   }
   const float width = kBays * kBay_m;
   addBox(assembly, {p.concrete, {0.34f, 0.33f, 0.31f}}, shifted(frame, {0, -0.2f, 7.3f}),

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Live topics, a played bag and evaluate_bags give the same bytes in summary.csv."""
+import math
 import os
 import subprocess
 import sys
@@ -53,7 +54,7 @@ class TestBags(unittest.TestCase):
                     place.pose.orientation.w = 1.0
                     bag.write('/camera/pose', place, stamp_of(pose))
                     for stream in streams:
-                        capture = Capture(pose_index=pose, ev100=14.5)
+                        capture = Capture(pose_index=pose, ev100=14.5, moon_azimuth=math.nan, moon_elevation=0.5)
                         capture.header.stamp = stamp_of(pose)
                         topic = '/%s/camera/' % STREAMS[stream]
                         bag.write(topic + 'image_raw', image_message(stamp_of(pose), picture(pose, stream, 160, 120)),
@@ -100,7 +101,10 @@ class TestBags(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stdout)
             self.assertEqual(read(self.path(out), 'summary.csv'), expected)
             self.assertEqual(rows(self.path(out), 'path.csv')[59]['x'], '59')
-        self.assertEqual(len(rows(self.path('offline'), 'captures.csv')), 3 * POSES)
+        captures = rows(self.path('offline'), 'captures.csv')
+        self.assertEqual(len(captures), 3 * POSES)
+        self.assertEqual(captures[0]['moon_azimuth_deg'], 'nan')
+        self.assertAlmostEqual(float(captures[0]['moon_elevation_deg']), math.degrees(0.5), 9)
 
         self.write_bags({'start.bag': [0, 1, 2]}, range(23))
         self.write_bags({'end.bag': [0, 1, 2]}, range(23, POSES))

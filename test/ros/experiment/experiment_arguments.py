@@ -73,6 +73,11 @@ class ExperimentArguments(unittest.TestCase):
         for name in os.listdir(robots):
             self.assertTrue(os.path.isfile(tell("robot", name, robots)), name)
 
+    def test_conditions_are_a_list_or_a_map(self):
+        self.assertEqual(tell("names", "{a: {hour: 4}, b: {}}"), ["a", "b"])
+        for text in ("morning", "5"):  # not the letters m, o, r ...
+            self.assertIn("argument conditions is '%s', but must be a list of names" % text, tell("names", text))
+
     def test_bad_hours_are_refused(self):
         for hours in ("[]", "[24]", "[-1]", "[4, 4.0]", "[true]", "[.nan]", "{4: 5}", "[4", "noon"):
             self.assertIn("argument hours is", tell("conditions", hours), hours)

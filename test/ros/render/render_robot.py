@@ -8,7 +8,7 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import TransformStamped
-from rendering import SUPPORT, Reader, RenderNode, Sun, parameters
+from rendering import SUPPORT, TIMEOUT_S, Reader, RenderNode, Sun, parameters
 from tf2_msgs.msg import TFMessage
 
 POLE = os.path.join(SUPPORT, "pole.urdf")
@@ -117,6 +117,29 @@ class RenderRobot(unittest.TestCase):
         self.assertEqual(len(warnings), 2, said)
         self.assertIn("No transform of the robot's link weight on TF", warnings[0])
         self.assertIn("weight in 3 of 3 poses", warnings[1])
+        reader.close()
+
+    def test_links_that_are_always_sent_later_than_the_frame_are_waited_for(self):
+        reader = Reader(["a"], node="/lagging")
+        sender = rospy.Publisher("/tf", TFMessage, queue_size=10)
+        tree = self.tree(frame_rate=1000.0, camera={"follow": "tf", "follow_frame": "eye"},
+                         robot={"file": POLE, "tf_patience": TIMEOUT_S})
+        arrived = lambda: reader.messages["/a/camera/image_raw"]
+        with RenderNode("lagging", tree) as node:
+            node.line_with("Waiting for the TF frame eye")
+            with reader.changed:
+                for second in range(2000, 2000 + int(10 * TIMEOUT_S)):
+                    now, late = rospy.Time(second), rospy.Time.from_sec(second - 0.5)
+                    sender.publish(TFMessage([transform("base_link", "pole", late), transform("pole", "weight", late),
+                                              transform("map", "eye", now, z=CAMERA_HEIGHT_M),
+                                              transform("map", "base_link", now)]))
+                    if reader.changed.wait_for(arrived, 0.1):
+                        break
+            self.assertTrue(arrived(), "the links of the newest moment are never there")
+            node.process.send_signal(2)
+            status, said = node.end()
+        self.assertEqual(status, 0, said)
+        self.assertFalse(any("No transform" in line for line in said), said)
         reader.close()
 
     def refused(self, robot, *parts):

@@ -94,6 +94,20 @@ class SunFollowsClock(unittest.TestCase):
             self.assertEqual(vector(sun.direction), self.direction_at(sun_second))
             self.assertEqual(vector(self.moon.message.direction), self.direction_at(sun_second, self.get_moon))
 
+    def test_waits_for_its_first_subscriber_where_told_to(self):
+        # Later than all of the other test, which runs first, since it needs a time without a clock.
+        now = START_S + 5000
+        tick = lambda: self.clock.publish(Clock(rospy.Time(now)))
+        # Who hears of the moon alone does not start the clock.
+        moon = Latest("/patient/moon", MoonPosition)
+        still = moon.wait(lambda message: message.header.stamp.secs == now, tick)
+        self.assertEqual(vector(still.direction), self.direction_at(0, self.get_moon))
+        sun = Latest("/patient/sun", SunPosition)
+        self.assertEqual(vector(sun.wait().direction), self.direction_at(0))
+        for now, sun_second in ((now + 100, 0), (now + 140, RATE * 40)):
+            moved = sun.wait(lambda message: message.header.stamp.secs == now, tick)
+            self.assertEqual(vector(moved.direction), self.direction_at(sun_second))
+
 
 if __name__ == "__main__":
     rospy.init_node("sun_follows_clock")

@@ -115,7 +115,7 @@ class Timelapse(unittest.TestCase):
                                  (out + ["--site", "91,0"], ["--site", "91", "latitude"]),
                                  (out + ["--video", "film.gif"], ["--video", "film.gif", ".mp4"]),
                                  (out + ["--contact-sheet", "day.jpg"], ["--contact-sheet", "day.jpg", ".png"]),
-                                (out + ["--caption", "big"], ["--caption", "big", "hour"]),
+                                 (out + ["--caption", "big"], ["--caption", "big", "hour"]),
                                  (out + ["--path-pose", "100000"], ["--path-pose", "100000", "991"]),
                                  (out + ["--world", self.path("none.world")], ["none.world"])):
             done = run("timelapse", *arguments)
@@ -135,6 +135,7 @@ class Timelapse(unittest.TestCase):
                          pathlib.Path(self.path("c"), "frame_00000.png").read_bytes())
         for arguments, part in ((["--time", "18:30", "--sun", "180,30"], "--sun and --time"),
                                 (["--date", "2024-12-16"], "needs --time"), (["--time", "25:00"], "25:00"),
+                                (["--top-down", "0,0,9"], "leave out --pose"),
                                 (["--fov", "wide"], "must be a number"), (["--sun", "4"], "must be 2 numbers"),
                                 (["--depth", "depth.png"], "must be a name that ends in .pfm"),
                                 (["--out", "picture.jpg"], "must be a name that ends in .png")):

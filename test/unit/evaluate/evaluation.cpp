@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/core.hpp>
@@ -293,6 +294,9 @@ TEST(Evaluation, NumbersPosesByTheirCaptures) {
     CaptureRecord capture;
     capture.pose = pose;
     capture.stamp_ns = stampOf(7 * pose);
+    capture.moon_azimuth_deg = std::nan("");  // as without a night
+    capture.moon_elevation_deg = -12.5;
+    capture.moon_illuminated_fraction = 0.75;
     for (std::size_t s = 0; s < 2; ++s) {
       evaluation.addCapture(s, capture);
       evaluation.addImage(s, capture.stamp_ns, picture(pose, s));
@@ -302,7 +306,8 @@ TEST(Evaluation, NumbersPosesByTheirCaptures) {
   EXPECT_TRUE(outcome.isWhole());
   EXPECT_EQ(outcome.counts.pairs[0].evaluated, 4u);  // 0, 10, 20, 30
   EXPECT_TRUE(hasLine(contentOf(folder.file("out/frames.csv")), "30,521.000000000,h04,h12,boolean_rgb"));
-  EXPECT_TRUE(hasLine(contentOf(folder.file("out/captures.csv")), "h12,35,524.500000000,0,"));
+  EXPECT_TRUE(
+      hasLine(contentOf(folder.file("out/captures.csv")), "h12,35,524.500000000,0,0,0,nan,-12.5,0.75,0"));
 }
 
 TEST(Evaluation, NumbersPosesByTheFrameRate) {

@@ -153,6 +153,22 @@ TEST(LeafOpenness, IsNotKeptWhereThereAreNoLeaves) {
   EXPECT_TRUE(leaves.first.empty());
 }
 
+// Whose two halves, as the bake sees them, have opposite normals.
+TEST(LeafOpenness, LightIsFiniteAroundALeafMadeOfAFrontAndABack) {
+  scene::Scene scene = leafScene();
+  addGround(&scene, kBoard, 4.0f);
+  addPatch(&scene, kLeaf, {-0.5f, -0.5f, 1.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.5f});
+  scene.meshes.back().triangles = {{0, 1, 2}, {0, 2, 1}};
+  TransportOptions options;
+  options.samples = 1000;
+  const World world = worldOf(std::move(scene));
+  const auto transport = Transport::bake(world.geometry, options);
+  for (const Eigen::Array3f& irradiance : transport->irradiance(uniformDay(1.0f))) {
+    EXPECT_TRUE(irradiance.allFinite());
+    EXPECT_GE(irradiance.minCoeff(), 0.0f);
+  }
+}
+
 TEST(LeafOpenness, LightsACrownAsTracedPathsDo) {
   std::vector<Looked> points;
   World world = worldOf(crown(&points));

@@ -71,8 +71,9 @@ def write_all(folder):
     write(folder, "path.csv",
           ["pose,stamp,x,y,z,yaw_deg"] + [f"{k},{k / 10},{k},{k % 7},1.0,0" for k in range(POSES)])
     write(folder, "captures.csv",
-          ["stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,scene_illuminance"]
-          + [f"{hour},{k},{k / 10},12.5,{90 + 10 * n},{5 - 4 * n},4321"
+          ["stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,"
+           "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance"]
+          + [f"{hour},{k},{k / 10},12.5,{90 + 10 * n},{5 - 4 * n},nan,nan,nan,4321"
              for n, hour in enumerate(HOURS) for k in range(POSES)])
     write(folder, "run.yaml",
           ["settings:", "  ratio: '0.5'", "  about/world: 'race_track'", "versions:", "  sunlit: '9.8.7'",

@@ -188,7 +188,7 @@ class Files(InFolder):
     def test_malformed_other_files_are_named(self):
         self.write("frames.csv", made.frames())
         for name, lines, where in [("path.csv", [files.PATH, "0,0,east,0,0,0"], ":2: x is 'east'"),
-                                   ("captures.csv", [files.CAPTURES, "h04,0,0,bright,0,0,0"], ":2: ev100"),
+                                   ("captures.csv", [files.CAPTURES, "h04,0,0,bright,0,0,0,0,0,0"], ":2: ev100"),
                                    ("timing.csv", ["stage,seconds"], ":1"),
                                    ("run.yaml", ["settings:", "  a: [1,"], "run.yaml:"),
                                    ("map.yaml", ["x_min: 0"], "x_max"),

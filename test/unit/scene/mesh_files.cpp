@@ -157,6 +157,14 @@ TEST_F(MeshFile, BrokenTrianglesAreLeftOutAndCounted) {
   EXPECT_EQ(scene.warnings[1], "1 triangles without area were left out");
 }
 
+TEST_F(MeshFile, TextureCoordinatesOutOfAllRangeAreSetToZeroAndCounted) {
+  const Scene scene =
+      load(write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1e12 0\nvt 0 0.5\nvt 0 -2e6\nf 1/1 2/2 3/3\n"), {});
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0], "2 texture coordinates outside -1e6 … 1e6 were set to 0");
+  EXPECT_NO_THROW(validate(scene));
+}
+
 TEST_F(MeshFile, LinesAndPointsAreLeftOutAndCounted) {
   const Scene scene = load(write("wires.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\nl 2 3\np 1\n"), {});
   EXPECT_EQ(scene.triangleCount(), 1u);

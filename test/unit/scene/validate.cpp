@@ -67,6 +67,10 @@ TEST(Validate, NamesTheMesh) {
             "mesh 'house': vertex 0: colour is outside 0 … 2");
   EXPECT_EQ(errorAfter([](Scene& s) { s.meshes[0].texture_coordinates.pop_back(); }),
             "mesh 'house': it must have one texture coordinate a vertex, or none");
+  for (const float wrong : {kNan, 3e12f, -1.1e6f}) {
+    EXPECT_EQ(errorAfter([&](Scene& s) { s.meshes[0].texture_coordinates[1].y() = wrong; }),
+              "mesh 'house': vertex 1: texture coordinate is outside -1e6 … 1e6");
+  }
 }
 
 TEST(Validate, NamesTheMaterialKeyValueAndRange) {
