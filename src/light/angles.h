@@ -1,11 +1,7 @@
 /// Angles that light is computed with.
 #pragma once
 
-#include "sunlit/quantity/angle.h"
-
 namespace sunlit::light {
-
-constexpr float kPiFloat = static_cast<float>(kPi);
 
 /// rad; π (3 − √5). Point i of n of a Fibonacci spiral lies i golden angles round: the points fill a disc, a
 /// cap or the sphere evenly.

@@ -9,6 +9,7 @@
 #include "light/body_shade.h"
 #include "light/transport/reflectances.h"
 #include "sunlit/light/transport.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
 namespace {

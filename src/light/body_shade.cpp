@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "light/angles.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
 namespace {

@@ -2,17 +2,12 @@
 
 #include <algorithm>
 
+#include "sunlit/quantity/whole.h"
+
 namespace sunlit::light {
 namespace {
 
 constexpr int kNoMask = -1;
-
-/// std::floor, which without newer instructions than every x86-64 has is a function call: it took a third of
-/// the query.
-inline int floorOf(float value) {
-  const int truncated = static_cast<int>(value);
-  return truncated - (value < static_cast<float>(truncated) ? 1 : 0);
-}
 
 std::size_t blockWord(int x, int y, int blocks_a_row) {
   return static_cast<std::size_t>(((y >> 4) * blocks_a_row + (x >> 4)) * 16 + (y & 15));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "light/schlick.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
@@ -15,11 +16,6 @@ static_assert(2 * kSectors * kHeights == MirrorLobe::kParts, "two sides alike");
 constexpr float kSmoothest = 0.03f;
 /// What a dielectric weighs its lobe's parts by.
 constexpr float kUsualF0 = 0.04f;
-
-float fifthPower(float x) {
-  const float square = x * x;
-  return square * square * x;
-}
 
 struct Sample {
   Eigen::Vector3f towards;
@@ -57,7 +53,7 @@ std::vector<Sample> leftHalf(float alpha, float n_v) {
     if (towards.z() <= 1e-4f) continue;
     const float unshadowed = (1.0f + lambda(n_v)) / (1.0f + lambda(n_v) + lambda(towards.z()));
     const float weight = unshadowed / (kAcross * kAcross);
-    const float grazing = fifthPower(1.0f - v_h);
+    const float grazing = schlick(v_h);
     samples.push_back({towards, weight * (1.0f - grazing), weight * grazing});
   }
   return samples;
@@ -120,7 +116,7 @@ float meanGrazingOf(float n_v) {
       const float turn = static_cast<float>(kPi) * (static_cast<float>(k) + 0.5f) / kTurns;
       const float cosine =
           std::sqrt(1.0f - sine2) * n_v + std::sqrt(sine2) * sine * std::cos(turn);  // between light and eye
-      sum += fifthPower(1.0f - std::sqrt(std::max(0.0f, 0.5f * (1.0f + cosine))));
+      sum += schlick(std::sqrt(std::max(0.0f, 0.5f * (1.0f + cosine))));
     }
   }
   return sum / (kRings * kTurns);

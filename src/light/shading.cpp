@@ -5,6 +5,8 @@
 
 #include "light/angles.h"
 #include "light/mirror_lobe.h"
+#include "light/schlick.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
 namespace {
@@ -14,11 +16,6 @@ constexpr float kDielectricF0 = 0.04f;
 
 Eigen::Array3f normalReflectance(const Reflection& r) {
   return kDielectricF0 + (r.albedo - kDielectricF0) * r.metalness;
-}
-
-float fifthPower(float x) {
-  const float square = x * x;
-  return square * square * x;
 }
 
 }  // namespace
@@ -44,7 +41,7 @@ Eigen::Array3f directReflectance(const Reflection& r, const Eigen::Vector3f& to_
   const float visible = 0.5f / (smith_l + smith_v);
 
   const Eigen::Array3f f0 = normalReflectance(r);
-  const Eigen::Array3f fresnel = f0 + (1.0f - f0) * fifthPower(1.0f - v_h);
+  const Eigen::Array3f fresnel = f0 + (1.0f - f0) * schlick(v_h);
   const Eigen::Array3f diffuse =
       (1.0f - r.metalness) * (1.0f - r.transmission) / kPiFloat * r.albedo * (1.0f - fresnel);
   return (diffuse + fresnel * (d * visible)) * n_l;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "light/cutout.h"
+#include "light/triangle_mesh.h"
 
 namespace sunlit::light {
 namespace {
@@ -18,11 +19,6 @@ namespace {
 constexpr int kAccepted = 1;
 
 enum GeometryNumber : unsigned { kOpaque = 0, kMasked = 1 };
-
-void fail(const std::string& what, RTCDevice device) {
-  throw std::runtime_error("ray library (Embree): " + what + ", error code " +
-                           std::to_string(static_cast<int>(rtcGetDeviceError(device))));
-}
 
 /// Lets a ray pass where the surface is cut out.
 void passCutouts(const RTCFilterFunctionNArguments* arguments) {
@@ -140,7 +136,10 @@ class Visibility::Implementation {
 Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geometry)
     : geometry_(std::move(geometry)), cutouts_(*geometry_) {
   device_ = rtcNewDevice(nullptr);
-  if (!device_) fail("no device", nullptr);
+  if (!device_) {
+    throw std::runtime_error("ray library (Embree): no device, error code " +
+                             std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))));
+  }
   wide_ = rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   build(RTC_BUILD_QUALITY_HIGH);
 }
@@ -172,23 +171,13 @@ void Visibility::Implementation::build(RTCBuildQuality quality) {
 
 void Visibility::Implementation::attach(const std::vector<std::uint32_t>& triangles, unsigned number) {
   if (triangles.empty()) return;
-  RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-  const std::size_t vertex_count = geometry_->positions.size();
-  auto* vertices = static_cast<Eigen::Vector3f*>(rtcSetNewGeometryBuffer(
-      mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Eigen::Vector3f), vertex_count));
-  auto* indices = static_cast<std::array<std::uint32_t, 3>*>(rtcSetNewGeometryBuffer(
-      mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles.size()));
-  if (!vertices || !indices) fail("out of memory", device_);
-  std::copy(geometry_->positions.begin(), geometry_->positions.end(), vertices);
-  for (std::size_t i = 0; i < triangles.size(); ++i) indices[i] = geometry_->triangles[triangles[i]];
+  const TriangleMesh mesh = newTriangleMesh(device_, *geometry_, triangles);
   if (number == kMasked) {
-    rtcSetGeometryUserData(mesh, &cutouts_);
-    rtcSetGeometryOccludedFilterFunction(mesh, passCutouts);
+    rtcSetGeometryUserData(mesh.handle, &cutouts_);
+    rtcSetGeometryOccludedFilterFunction(mesh.handle, passCutouts);
   }
-  rtcSetGeometryIntersectFilterFunction(mesh, passInvisible);
-  rtcCommitGeometry(mesh);
-  rtcAttachGeometryByID(scene_, mesh, number);
-  rtcReleaseGeometry(mesh);
+  rtcSetGeometryIntersectFilterFunction(mesh.handle, passInvisible);
+  light::attach(mesh, scene_, number);
 }
 
 void Visibility::Implementation::occluded(const Rays& rays, std::uint8_t* blocked) const {

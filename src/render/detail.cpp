@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sunlit/quantity/whole.h"
+
 namespace sunlit::render {
 namespace {
 
@@ -78,11 +80,6 @@ inline __attribute__((always_inline)) float corner(float x, float y, float z, st
   near = near > 0.0f ? near : 0.0f;
   near *= near;
   return near * near * (component(h) * x + component(h >> 10) * y + component(h >> 20) * z);
-}
-
-inline __attribute__((always_inline)) std::int32_t floorOf(float value) {
-  const auto truncated = static_cast<std::int32_t>(value);
-  return truncated - (value < static_cast<float>(truncated) ? 1 : 0);
 }
 
 /// Simplex noise: K. Perlin, "Noise hardware", 2001, with a hash in place of the permutation table, so that

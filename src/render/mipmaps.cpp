@@ -6,20 +6,9 @@
 #include <functional>
 #include <utility>
 
-namespace sunlit::render {
+#include "sunlit/image/srgb.h"
 
-const std::array<float, 256>& linearOfSrgb() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double encoded = static_cast<double>(i) / 255.0;
-      values[i] =
-          static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
-    }
-    return values;
-  }();
-  return table;
-}
+namespace sunlit::render {
 
 namespace {
 
@@ -31,7 +20,7 @@ struct LinearLevel {
 
 /// The nearest 8-bit code: found in the table of the decoder, so that both agree to the bit.
 std::uint8_t srgbOfLinear(float linear) {
-  const auto& table = linearOfSrgb();
+  const auto& table = image::linearOfSrgb();
   const auto above = std::lower_bound(table.begin(), table.end(), linear);
   if (above == table.begin()) return 0;
   if (above == table.end()) return 255;
@@ -42,7 +31,7 @@ std::uint8_t srgbOfLinear(float linear) {
 LinearLevel linearised(const scene::Texture& texture) {
   LinearLevel level{texture.width, texture.height, std::vector<float>(texture.rgba.size())};
   for (std::size_t i = 0; i < texture.rgba.size(); i += 4) {
-    for (std::size_t c = 0; c < 3; ++c) level.rgba[i + c] = linearOfSrgb()[texture.rgba[i + c]];
+    for (std::size_t c = 0; c < 3; ++c) level.rgba[i + c] = image::linearOfSrgb()[texture.rgba[i + c]];
     level.rgba[i + 3] = static_cast<float>(texture.rgba[i + 3]) / 255.0f;
   }
   return level;

@@ -14,9 +14,6 @@ struct MipLevel {
   std::vector<std::uint8_t> rgba;  ///< as scene::Texture
 };
 
-/// Linear value of each 8-bit code of an sRGB channel, IEC 61966-2-1.
-const std::array<float, 256>& linearOfSrgb();
-
 /// No mask: alpha is averaged like a colour.
 constexpr float kNoCutoff = -1.0f;
 

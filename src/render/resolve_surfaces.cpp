@@ -56,12 +56,6 @@ struct Cluster {
   }
 };
 
-/// How far off its triangle a ray starts, m: above what single precision does to the point and to the
-/// distance that the ray query computes, and well below what could let light through a wall.
-float clearance(const Eigen::Vector3f& position, float depth) {
-  return 2e-4f + 5e-7f * position.cwiseAbs().maxCoeff() + 1e-6f * depth;
-}
-
 /// The triangles that were looked at last.
 class TriangleCache {
  public:
@@ -227,7 +221,7 @@ class TileResolver {
     surface.position = eye_high_ + (middle + eye_low_);
     surface.to_eye = -middle.normalized();
     surface.material = cluster.first.material;
-    surface.clearance_m = clearance(surface.position, cluster.first.depth);
+    surface.clearance_m = light::rayClearance_m(surface.position, cluster.first.depth);
     surface.triangle = cluster.first.triangle;
     surface.pixel = static_cast<std::uint32_t>(y * seen_.view.camera.width + x);
     surface.first_sample = static_cast<std::uint32_t>(origins_);

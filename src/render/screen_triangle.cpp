@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sunlit/quantity/whole.h"
+
 namespace sunlit::render {
 namespace {
 

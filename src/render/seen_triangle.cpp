@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "sunlit/quantity/whole.h"
+
 namespace sunlit::render {
 namespace {
 

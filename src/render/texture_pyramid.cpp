@@ -8,6 +8,9 @@
 #include <cstring>
 #include <optional>
 
+#include "sunlit/image/srgb.h"
+#include "sunlit/quantity/whole.h"
+
 namespace sunlit::render {
 namespace {
 
@@ -56,7 +59,7 @@ TexturePyramid::Level::Level(MipLevel mip, bool masked) : width(mip.width), heig
   static const std::array<std::uint16_t, 256> codes = [] {
     std::array<std::uint16_t, 256> values{};
     for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = static_cast<std::uint16_t>(std::lround(linearOfSrgb()[i] * 65535.0f));
+      values[i] = static_cast<std::uint16_t>(std::lround(image::linearOfSrgb()[i] * 65535.0f));
     return values;
   }();
   const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);

@@ -10,12 +10,6 @@
 
 namespace sunlit::render {
 
-/// ⌊value⌋, which without newer instructions than every x86-64 has is a function call.
-inline int floorOf(float value) {
-  const int truncated = static_cast<int>(value);
-  return truncated - (value < static_cast<float>(truncated) ? 1 : 0);
-}
-
 class TexturePyramid {
  public:
   /// `alpha_cutoff` 0 … 1, or kNoCutoff for a texture that masks nothing.

@@ -3,16 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "sunlit/quantity/whole.h"
+
 namespace sunlit::render {
-namespace {
-
-int floorOf(double value) {
-  const int truncated = static_cast<int>(value);
-  return truncated - (value < static_cast<double>(truncated) ? 1 : 0);
-}
-
-}  // namespace
-
 /// Where the rows of a triangle begin and end: after the greatest of three columns, and at or before the
 /// least of three others. Each edge bounds one side and leaves the other to the rest; with no branch on
 /// which, short rows cost little.
@@ -159,9 +152,8 @@ using Lanes = std::array<float, kLanes>;
 
 /// The texel of a side of `size` that the coordinate falls into, repeating.
 inline int texelOf(float coordinate, int size) {
-  const int truncated = static_cast<int>(coordinate);
-  const int floor = truncated - (coordinate < static_cast<float>(truncated) ? 1 : 0);
-  const int texel = static_cast<int>((coordinate - static_cast<float>(floor)) * static_cast<float>(size));
+  const float within = coordinate - static_cast<float>(floorOf(coordinate));
+  const int texel = static_cast<int>(within * static_cast<float>(size));
   return texel < size ? texel : size - 1;  // rounding may take it to the end of the row
 }
 

@@ -4,6 +4,9 @@
 #include <Eigen/Geometry>
 #include <ignition/math/Pose3.hh>
 #include <ignition/math/Vector3.hh>
+#include <sdf/sdf.hh>
+#include <stdexcept>
+#include <string>
 
 namespace sunlit::scene {
 
@@ -17,6 +20,17 @@ inline Eigen::Isometry3d toEigen(const ignition::math::Pose3d& pose) {
   transform.translate(toEigen(pose.Pos()));
   transform.rotate(Eigen::Quaterniond(q.W(), q.X(), q.Y(), q.Z()));
   return transform;
+}
+
+/// The pose of a model, link or visual in the frame that SDF means by default: its parent's. Throws
+/// std::runtime_error with `name` where it cannot be resolved.
+template <typename Element>
+Eigen::Isometry3d parentFrom(const Element& element, const std::string& name) {
+  ignition::math::Pose3d pose;
+  const sdf::Errors errors = element.SemanticPose().Resolve(pose);
+  if (!errors.empty())
+    throw std::runtime_error(name + ": its pose cannot be resolved: " + errors[0].Message());
+  return toEigen(pose);
 }
 
 }  // namespace sunlit::scene

@@ -19,16 +19,6 @@ namespace {
 /// More transparent than this and a visual is left out: we have surfaces and holes, nothing in between.
 constexpr float kSeenThrough = 0.5f;
 
-/// The pose of a model, link or visual in the frame that SDF means by default: its parent's.
-template <typename Element>
-Eigen::Isometry3d parentFrom(const Element& element, const std::string& name) {
-  ignition::math::Pose3d pose;
-  const sdf::Errors errors = element.SemanticPose().Resolve(pose);
-  if (!errors.empty())
-    throw std::runtime_error(name + ": its pose cannot be resolved: " + errors[0].Message());
-  return toEigen(pose);
-}
-
 std::optional<Mesh> primitive(const sdf::Geometry& geometry) {
   switch (geometry.Type()) {
     case sdf::GeometryType::BOX:

@@ -27,6 +27,13 @@ struct MirrorView {
   std::array<std::uint8_t, kParts> open = {};    ///< how much of the sky there is not hidden, 255 for all
 };
 
+/// How far off its triangle a ray starts, m, at `position` in `map` and `distance_m` from where it is seen:
+/// above what single precision does to the point and to the distance that a ray query computes, and well
+/// below what could let light through a wall.
+inline float rayClearance_m(const Eigen::Vector3f& position, float distance_m) {
+  return 2e-4f + 5e-7f * position.cwiseAbs().maxCoeff() + 1e-6f * distance_m;
+}
+
 /// One surface within one pixel: the part of the pixel's samples that look alike, and are shaded together.
 struct Surface {
   Eigen::Vector3f position;          ///< mean of its samples, m in `map`

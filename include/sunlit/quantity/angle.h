@@ -6,6 +6,7 @@
 namespace sunlit {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr float kPiFloat = static_cast<float>(kPi);
 constexpr double kRadPerDeg = kPi / 180.0;
 
 /// A plain angle of any size and sign. The unit is named where one is made or read.

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "light/angles.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
 namespace {

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sunlit/image/srgb.h"
+#include "sunlit/light/surfaces.h"
+
 namespace sunlit::light {
 namespace {
-
-/// How far off its triangle a ray starts, m; see render's clearance().
-float clearance(const Eigen::Vector3f& position, float distance) {
-  return 2e-4f + 5e-7f * position.cwiseAbs().maxCoeff() + 1e-6f * distance;
-}
 
 /// The four texels about a texture coordinate, repeating.
 struct Texels {
@@ -54,13 +52,7 @@ Vertex seenVertex(const Tile& tile, const Surface& surface, const scene::Scene& 
   return vertex;
 }
 
-SceneVertices::SceneVertices(const Geometry& geometry) : geometry_(geometry) {
-  for (std::size_t code = 0; code < linear_.size(); ++code) {
-    const double encoded = static_cast<double>(code) / 255.0;  // IEC 61966-2-1
-    linear_[code] =
-        static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
-  }
-}
+SceneVertices::SceneVertices(const Geometry& geometry) : geometry_(geometry) {}
 
 Vertex SceneVertices::at(const Hit& hit, const Eigen::Vector3f& direction) const {
   const auto& corners = geometry_.triangles[hit.triangle];
@@ -80,7 +72,7 @@ Vertex SceneVertices::at(const Hit& hit, const Eigen::Vector3f& direction) const
                        vertex.material->transmission};
   // Of the corners: far from where the ray started, they tell the place better than its length.
   const Eigen::Vector3f position = interpolated(geometry_.positions, corners, hit);
-  const Eigen::Vector3f step = clearance(position, 0.0f) * vertex.geometric_normal;
+  const Eigen::Vector3f step = rayClearance_m(position, 0.0f) * vertex.geometric_normal;
   vertex.front = position + step;
   vertex.behind = position - step;
   return vertex;
@@ -93,11 +85,12 @@ Eigen::Array3f SceneVertices::albedo(const Hit& hit, const scene::Material& mate
     const scene::Texture& texture =
         geometry_.scene->textures[static_cast<std::size_t>(material.base_texture)];
     const Texels texels(texture, interpolated(geometry_.texture_coordinates, corners, hit));
+    const std::array<float, 256>& linear = image::linearOfSrgb();
     const auto texel = [&](int x, int y) {
       const std::uint8_t* rgba =
           texture.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width) +
                                      static_cast<std::size_t>(x));
-      return Eigen::Array3f(linear_[rgba[0]], linear_[rgba[1]], linear_[rgba[2]]);
+      return Eigen::Array3f(linear[rgba[0]], linear[rgba[1]], linear[rgba[2]]);
     };
     const Eigen::Array3f top =
         texel(texels.x0, texels.y0) * (1.0f - texels.fx) + texel(texels.x1, texels.y0) * texels.fx;

@@ -42,7 +42,6 @@ class SceneVertices {
   Eigen::Array3f albedo(const Hit& hit, const scene::Material& material) const;
 
   const Geometry& geometry_;
-  std::array<float, 256> linear_;  ///< of an sRGB-encoded byte
 };
 
 }  // namespace sunlit::light

@@ -13,6 +13,7 @@
 
 #include "light/cutout.h"
 #include "light/transport/triangle_kinds.h"
+#include "light/triangle_mesh.h"
 
 namespace sunlit::light {
 namespace {
@@ -128,20 +129,12 @@ struct BakeRays::Implementation {
   void attachWhole(GeometryNumber number) {
     const std::vector<std::uint32_t>& chosen = triangles[number];
     if (chosen.empty()) return;
-    RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<Eigen::Vector3f*>(
-        rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Eigen::Vector3f),
-                                geometry->positions.size()));
-    auto* indices = static_cast<std::array<std::uint32_t, 3>*>(rtcSetNewGeometryBuffer(
-        mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), chosen.size()));
-    requireFine(device, "out of memory");
-    std::copy(geometry->positions.begin(), geometry->positions.end(), vertices);
-    for (std::size_t i = 0; i < chosen.size(); ++i) indices[i] = geometry->triangles[chosen[i]];
+    const TriangleMesh mesh = newTriangleMesh(device, *geometry, chosen);
     if (number == kMasked) {
-      rtcSetGeometryUserData(mesh, &masked_group);
-      rtcSetGeometryIntersectFilterFunction(mesh, passCutouts);
+      rtcSetGeometryUserData(mesh.handle, &masked_group);
+      rtcSetGeometryIntersectFilterFunction(mesh.handle, passCutouts);
     }
-    attach(mesh, number);
+    attach(mesh, scene, number);
   }
 
   /// A leaf card becomes smaller, solid triangles of as much area as its mask leaves: the same light gets
@@ -157,28 +150,18 @@ struct BakeRays::Implementation {
       triangles[kLeaves].resize(leaf_parts.size(), cutouts.maskedTriangles()[leaves[i]]);
     }
     if (leaf_parts.empty()) return;
-    RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<Eigen::Vector3f*>(rtcSetNewGeometryBuffer(
-        mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Eigen::Vector3f), 3 * leaf_parts.size()));
-    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), leaf_parts.size()));
-    requireFine(device, "out of memory");
+    const TriangleMesh mesh = newTriangleMesh(device, 3 * leaf_parts.size(), leaf_parts.size());
     for (std::size_t i = 0; i < leaf_parts.size(); ++i) {
       const auto& card = geometry->triangles[triangles[kLeaves][i]];
       for (std::size_t k = 0; k < 3; ++k) {
         const Eigen::Vector2f& uv = leaf_parts[i].corner[k];
-        vertices[3 * i + k] = (1.0f - uv.x() - uv.y()) * geometry->positions[card[0]] +
-                              uv.x() * geometry->positions[card[1]] + uv.y() * geometry->positions[card[2]];
-        indices[3 * i + k] = static_cast<std::uint32_t>(3 * i + k);
+        mesh.vertices[3 * i + k] = (1.0f - uv.x() - uv.y()) * geometry->positions[card[0]] +
+                                   uv.x() * geometry->positions[card[1]] +
+                                   uv.y() * geometry->positions[card[2]];
+        mesh.triangles[i][k] = static_cast<std::uint32_t>(3 * i + k);
       }
     }
-    attach(mesh, kLeaves);
-  }
-
-  void attach(RTCGeometry mesh, GeometryNumber number) {
-    rtcCommitGeometry(mesh);
-    rtcAttachGeometryByID(scene, mesh, number);
-    rtcReleaseGeometry(mesh);
+    attach(mesh, scene, kLeaves);
   }
 
   std::shared_ptr<const Geometry> geometry;

@@ -10,6 +10,7 @@
 
 #include "light/angles.h"
 #include "light/transport/probe.h"
+#include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/photometry.h"
 
 namespace sunlit::light {

@@ -6,20 +6,12 @@
 #include <array>
 #include <cmath>
 
+#include "sunlit/image/srgb.h"
 #include "sunlit/light/shading.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
 namespace {
-
-std::array<float, 256> linearOfSrgb() {
-  std::array<float, 256> table;
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    const double v = static_cast<double>(i) / 255.0;
-    table[i] = static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
-  }
-  return table;
-}
 
 int wrapped(float coordinate) {
   const float part = coordinate - std::floor(coordinate);
@@ -29,7 +21,7 @@ int wrapped(float coordinate) {
 }  // namespace
 
 Reflectances::Thumbnail Reflectances::shrink(const scene::Texture& texture) {
-  static const std::array<float, 256> linear = linearOfSrgb();
+  const std::array<float, 256>& linear = image::linearOfSrgb();
   Thumbnail small;
   small.pixels.resize(Thumbnail::kSize * Thumbnail::kSize);
   Eigen::Array3f all = Eigen::Array3f::Zero();

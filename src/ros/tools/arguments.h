@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
+#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,6 +38,24 @@ bool readArguments(const std::vector<std::string>& arguments, const Take& take) 
     if (!take(arguments[i], arguments[i + 1])) rejectUnknown(arguments[i]);
   }
   return true;
+}
+
+/// The main() of a tool. `parse` makes an optional of its options from the arguments, empty if help was asked
+/// for. Status 1 and one line with the tool's name for what `parse` or `run` throws.
+template <typename Parse, typename Help, typename Run>
+int runTool(const char* name, int argc, char** argv, const Parse& parse, const Help& help, const Run& run) {
+  try {
+    const auto options = parse(std::vector<std::string>(argv + 1, argv + argc));
+    if (options) {
+      run(*options);
+    } else {
+      help();
+    }
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", name, error.what());
+    return 1;
+  }
 }
 
 }  // namespace sunlit::tools

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "ros/tools/arguments.h"
 #include "ros/tools/compare_light_options.h"
 #include "ros/tools/comparison_files.h"
 #include "sunlit/image/files.h"
@@ -129,16 +130,8 @@ void run(const CompareLightOptions& options) {
 }  // namespace sunlit::tools
 
 int main(int argc, char** argv) {
-  try {
-    const auto options = sunlit::tools::parseCompareLightOptions({argv + 1, argv + argc});
-    if (!options) {
-      std::fputs(sunlit::tools::kCompareLightHelp, stdout);
-      return 0;
-    }
-    sunlit::tools::run(*options);
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "compare_light: %s\n", error.what());
-    return 1;
-  }
+  using namespace sunlit::tools;
+  return runTool(
+      "compare_light", argc, argv, parseCompareLightOptions, [] { std::fputs(kCompareLightHelp, stdout); },
+      run);
 }

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "ros/tools/arguments.h"
 #include "ros/tools/lit_world.h"
 #include "ros/tools/snapshot_options.h"
 #include "sunlit/image/files.h"
@@ -37,16 +38,6 @@ void takeSnapshot(const SnapshotOptions& options) {
 }  // namespace sunlit::tools
 
 int main(int argc, char** argv) {
-  try {
-    const auto options = sunlit::tools::parseSnapshotOptions({argv + 1, argv + argc});
-    if (!options) {
-      sunlit::tools::printSnapshotHelp();
-      return 0;
-    }
-    sunlit::tools::takeSnapshot(*options);
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "snapshot: %s\n", error.what());
-    return 1;
-  }
+  using namespace sunlit::tools;
+  return runTool("snapshot", argc, argv, parseSnapshotOptions, printSnapshotHelp, takeSnapshot);
 }

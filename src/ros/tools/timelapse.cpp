@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "ros/tools/arguments.h"
 #include "ros/tools/frame_folder.h"
 #include "ros/tools/lit_world.h"
 #include "ros/tools/pictures_of_day.h"
@@ -117,16 +118,6 @@ void makeTimelapse(const TimelapseOptions& options) {
 }  // namespace sunlit::tools
 
 int main(int argc, char** argv) {
-  try {
-    const auto options = sunlit::tools::parseTimelapseOptions({argv + 1, argv + argc});
-    if (!options) {
-      sunlit::tools::printTimelapseHelp();
-      return 0;
-    }
-    sunlit::tools::makeTimelapse(*options);
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "timelapse: %s\n", error.what());
-    return 1;
-  }
+  using namespace sunlit::tools;
+  return runTool("timelapse", argc, argv, parseTimelapseOptions, printTimelapseHelp, makeTimelapse);
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "scene/color.h"
+
 namespace sunlit::scene::race_track {
 namespace {
 
@@ -166,10 +168,7 @@ Pixel scatter(Random& random) {
 }
 
 Color srgb(int red, int green, int blue) {
-  const auto decode = [](int value) {
-    const float e = static_cast<float>(value) / 255.0f;
-    return e <= 0.04045f ? e / 12.92f : std::pow((e + 0.055f) / 1.055f, 2.4f);
-  };
+  const auto decode = [](int value) { return linearFromSrgb(static_cast<float>(value) / 255.0f); };
   return {decode(red), decode(green), decode(blue)};
 }
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "scene/race_track/pi.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::scene::race_track {
 namespace {

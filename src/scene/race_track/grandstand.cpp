@@ -4,9 +4,9 @@
 
 #include "scene/race_track/ground.h"
 #include "scene/race_track/layout.h"
-#include "scene/race_track/pi.h"
 #include "scene/race_track/poster.h"
 #include "scene/race_track/shapes.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::scene::race_track {
 namespace {

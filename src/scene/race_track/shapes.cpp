@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scene/race_track/pi.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::scene::race_track {
 namespace {

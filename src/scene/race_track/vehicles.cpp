@@ -1,7 +1,7 @@
 #include "scene/race_track/vehicles.h"
 
-#include "scene/race_track/pi.h"
 #include "scene/race_track/poster.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::scene::race_track {
 namespace {

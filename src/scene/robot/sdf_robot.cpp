@@ -14,15 +14,6 @@
 namespace sunlit::scene {
 namespace {
 
-template <typename Element>
-Eigen::Isometry3d parentFrom(const Element& element, const std::string& name) {
-  ignition::math::Pose3d pose;
-  const sdf::Errors errors = element.SemanticPose().Resolve(pose);
-  if (!errors.empty())
-    throw std::runtime_error(name + ": its pose cannot be resolved: " + errors[0].Message());
-  return toEigen(pose);
-}
-
 /// Links of `model`, whose frame is links[parent], and of the models within it.
 void appendLinks(const sdf::Model& model, int parent, const std::string& scope, SdfVisuals& visuals,
                  LinkMeshes& meshes, Robot* robot) {

@@ -9,13 +9,13 @@ import unittest
 import rospy
 import rostest
 import yaml
-from rendering import PACKAGE, RenderNode, parameters
+from rendering import PACKAGE, RefusalTest, RenderNode, parameters
 
 BOX = """<sdf version="1.6"><world name="w"><model name="m"><link name="l"><visual name="v"><geometry>
 <mesh><uri>file://%s</uri></mesh></geometry></visual></link></model></world></sdf>"""
 
 
-class RenderRefuses(unittest.TestCase):
+class RenderRefuses(RefusalTest):
 
     def setUp(self):
         self.folder = tempfile.mkdtemp()
@@ -29,26 +29,17 @@ class RenderRefuses(unittest.TestCase):
             out.write(text)
         return path
 
-    def check(self, tree, *parts):
-        with RenderNode("refused", tree) as node:
-            status, lines = node.end()
-        self.assertNotEqual(status, 0)
-        fatal = [line for line in lines if "FATAL" in line]
-        self.assertEqual(len(fatal), 1, lines)
-        for part in parts:
-            self.assertIn(part, fatal[0])
-
     def test_parameters(self):
-        self.check(parameters(wrold="x"), "/refused/wrold", "unknown", "world")
-        self.check(parameters(camera={"widht": 96}), "/refused/camera/widht", "unknown")
-        self.check(parameters(camera={"width": 8}), "/refused/camera/width", "8", "16")
-        self.check(parameters(exposure={"mode": "bright"}), "/refused/exposure/mode", "bright", "auto, fixed")
-        self.check(parameters(start_stamp="soon"), "/refused/start_stamp", "soon", "now")
-        self.check(parameters(conditions=["a", "a"]), "/refused/conditions", "twice")
-        self.check(parameters(conditions={"a": {"turbidity": 3}}), "turbidity", "unknown; nothing can differ here")
-        self.check(parameters(path={"file": ""}), "/refused/path/file", "race_track")
-        self.check(parameters(path={"count": 1000}), "path/count", "1000", "20 poses")
-        self.check(parameters(path={"topic": "route"}), "path/file", "path/topic")
+        self.assert_refused(parameters(wrold="x"), "/refused/wrold", "unknown", "world")
+        self.assert_refused(parameters(camera={"widht": 96}), "/refused/camera/widht", "unknown")
+        self.assert_refused(parameters(camera={"width": 8}), "/refused/camera/width", "8", "16")
+        self.assert_refused(parameters(exposure={"mode": "bright"}), "/refused/exposure/mode", "bright", "auto, fixed")
+        self.assert_refused(parameters(start_stamp="soon"), "/refused/start_stamp", "soon", "now")
+        self.assert_refused(parameters(conditions=["a", "a"]), "/refused/conditions", "twice")
+        self.assert_refused(parameters(conditions={"a": {"turbidity": 3}}), "turbidity", "unknown; nothing can differ here")
+        self.assert_refused(parameters(path={"file": ""}), "/refused/path/file", "race_track")
+        self.assert_refused(parameters(path={"count": 1000}), "path/count", "1000", "20 poses")
+        self.assert_refused(parameters(path={"topic": "route"}), "path/file", "path/topic")
 
     def test_every_parameter_is_explained_in_the_shipped_file(self):
         def keys(tree, prefix=""):
@@ -66,24 +57,24 @@ class RenderRefuses(unittest.TestCase):
 
     def test_worlds(self):
         missing = os.path.join(self.folder, "missing.world")
-        self.check(parameters(world=missing), missing)
+        self.assert_refused(parameters(world=missing), missing)
         broken = self.file("broken.world", "<sdf version='1.6'>\n<world name='w'>\n<model>\n</sdf>")
-        self.check(parameters(world=broken), broken)
+        self.assert_refused(parameters(world=broken), broken)
         mesh = self.file("broken.dae", "<COLLADA>\n<library")
-        self.check(parameters(world=self.file("mesh.world", BOX % mesh)), "broken.dae")
+        self.assert_refused(parameters(world=self.file("mesh.world", BOX % mesh)), "broken.dae")
         absent = os.path.join(self.folder, "absent.dae")
-        self.check(parameters(world=self.file("absent.world", BOX % absent)), "absent.dae")
-        self.check(parameters(world=self.file("world.txt", "")), "world.txt")
+        self.assert_refused(parameters(world=self.file("absent.world", BOX % absent)), "absent.dae")
+        self.assert_refused(parameters(world=self.file("world.txt", "")), "world.txt")
 
     def test_waypoints(self):
         for text, place in (("0,0,0\nnan,1,0\n", ":2"), ("0,0,0\n", "two"), ("0,0,0\n1,0,0\n1,0,0\n", ":3"),
                             ("0,0,0\n1,O,0\n", ":2")):
             waypoints = self.file("waypoints.csv", text)
-            self.check(parameters(path={"file": waypoints}), waypoints, place)
+            self.assert_refused(parameters(path={"file": waypoints}), waypoints, place)
 
     def test_output(self):
         below_a_file = os.path.join(self.file("a_file", ""), "output")
-        self.check(parameters(output_dir=below_a_file), below_a_file)
+        self.assert_refused(parameters(output_dir=below_a_file), below_a_file)
 
 
 if __name__ == "__main__":

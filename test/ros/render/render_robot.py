@@ -8,7 +8,7 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import TransformStamped
-from rendering import SUPPORT, TIMEOUT_S, Reader, RenderNode, Sun, parameters
+from rendering import SUPPORT, TIMEOUT_S, Reader, RefusalTest, RenderNode, Sun, parameters
 from tf2_msgs.msg import TFMessage
 
 POLE = os.path.join(SUPPORT, "pole.urdf")
@@ -36,7 +36,7 @@ def brightness(image, forward, left):
     return sum(image.data[row * image.step + 3 * column:][:3])
 
 
-class RenderRobot(unittest.TestCase):
+class RenderRobot(RefusalTest):
 
     def setUp(self):
         self.suns = [Sun("/a/sun", **SUN)]
@@ -143,13 +143,7 @@ class RenderRobot(unittest.TestCase):
         reader.close()
 
     def refused(self, robot, *parts):
-        with RenderNode("refused", self.tree(robot=robot)) as node:
-            status, lines = node.end()
-        self.assertNotEqual(status, 0)
-        fatal = [line for line in lines if "FATAL" in line]
-        self.assertEqual(len(fatal), 1, lines)
-        for part in parts:
-            self.assertIn(part, fatal[0])
+        self.assert_refused(self.tree(robot=robot), *parts)
 
     def test_what_is_wrong_is_one_clear_line(self):
         broken = os.path.join(self.folder, "broken.urdf")

@@ -2,6 +2,7 @@
 import os
 import subprocess
 import threading
+import unittest
 
 import rospkg
 import rospy
@@ -69,6 +70,20 @@ class RenderNode(Process):
 
     def __init__(self, name, tree):
         super().__init__(name, tree, "render_node")
+
+
+class RefusalTest(unittest.TestCase):
+    """For tests of what ends a render node at once."""
+
+    def assert_refused(self, tree, *parts):
+        """Its status is not 0, and its one fatal line holds all `parts`."""
+        with RenderNode("refused", tree) as node:
+            status, lines = node.end()
+        self.assertNotEqual(status, 0)
+        fatal = [line for line in lines if "FATAL" in line]
+        self.assertEqual(len(fatal), 1, lines)
+        for part in parts:
+            self.assertIn(part, fatal[0])
 
 
 class Sun:

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "image/display_curve.h"
+#include "support/message_of.h"
 
 namespace sunlit::image {
 namespace {
@@ -39,12 +40,7 @@ LinearImage landscape(float sky, float ground) {
 }
 
 std::string messageOf(const ExposureOptions& options) {
-  try {
-    validate(options);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return sunlit::messageOf([&] { validate(options); });
 }
 
 TEST(DisplayCurve, EqualsTheExactCurveAtEveryStepAndBetween) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "sunlit/image/exposure.h"
+#include "support/message_of.h"
 
 namespace sunlit::image {
 namespace {
@@ -138,12 +139,7 @@ TEST(SensorNoise, WhatIsNoLightIsBlack) {
 }
 
 std::string messageOf(const NoiseOptions& options) {
-  try {
-    validate(options);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return sunlit::messageOf([&] { validate(options); });
 }
 
 TEST(NoiseOptions, BadValuesAreNamedWithTheirRange) {

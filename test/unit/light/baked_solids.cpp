@@ -122,13 +122,7 @@ TEST(BakedSolids, ATunnelIsAsDarkAsItIs) {
   addGround(&scene, 0, 60.0f);
   const float half = 5.0f, length = 24.0f, height = 5.0f, thick = 0.4f;
   const auto block = [&](const Eigen::Vector3f& low, const Eigen::Vector3f& size) {
-    const Eigen::Vector3f x(size.x(), 0, 0), y(0, size.y(), 0), z(0, 0, size.z());
-    addPatch(&scene, 1, low + z, x, y);
-    addPatch(&scene, 1, low, y, x);
-    addPatch(&scene, 1, low, x, z);
-    addPatch(&scene, 1, low + y, z, x);
-    addPatch(&scene, 1, low, z, y);
-    addPatch(&scene, 1, low + x, y, z);
+    addBlock(&scene, 1, low, size);
   };
   block({-half - thick, -length / 2, 0.0f}, {thick, length, height});
   block({half, -length / 2, 0.0f}, {thick, length, height});
@@ -154,13 +148,7 @@ TEST(BakedSolids, ASlabSunkIntoTheGroundIsLitWhereItLooksOut) {
   scene::Scene scene;
   scene.materials = {paint(0.0f)};
   const auto block = [&](const Eigen::Vector3f& low, const Eigen::Vector3f& size) {
-    const Eigen::Vector3f x(size.x(), 0, 0), y(0, size.y(), 0), z(0, 0, size.z());
-    addPatch(&scene, 0, low + z, x, y);
-    addPatch(&scene, 0, low, y, x);
-    addPatch(&scene, 0, low, x, z);
-    addPatch(&scene, 0, low + y, z, x);
-    addPatch(&scene, 0, low, z, y);
-    addPatch(&scene, 0, low + x, y, z);
+    addBlock(&scene, 0, low, size);
   };
   block({-20, -20, -6}, {40, 40, 6});
   block({-0.1f, -4, -5}, {0.2f, 8, 5.5f});

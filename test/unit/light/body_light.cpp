@@ -5,12 +5,11 @@
 
 #include <cmath>
 
+#include "sunlit/quantity/angle.h"
 #include "sunlit/sky/atmosphere.h"
 
 namespace sunlit::light {
 namespace {
-
-constexpr float kPiFloat = static_cast<float>(kPi);
 
 /// `luminance(direction)` from all around, in small parts.
 template <typename Luminance>

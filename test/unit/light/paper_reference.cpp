@@ -18,14 +18,7 @@ Eigen::Vector3f tilted(double zenith_deg, double azimuth_deg = 30.0) {
 scene::Scene room(const scene::Material& material) {
   scene::Scene scene;
   scene.materials = {material};
-  const Eigen::Vector3f x(4.0f, 0.0f, 0.0f), y(0.0f, 4.0f, 0.0f), z(0.0f, 0.0f, 4.0f);
-  const Eigen::Vector3f low(-2.0f, -2.0f, -2.0f);
-  addPatch(&scene, 0, low, x, y);
-  addPatch(&scene, 0, low + z, y, x);
-  addPatch(&scene, 0, low, z, x);
-  addPatch(&scene, 0, low + y, x, z);
-  addPatch(&scene, 0, low, y, z);
-  addPatch(&scene, 0, low + x, z, y);
+  addRoom(&scene, 0, {-2.0f, -2.0f, -2.0f}, {4.0f, 4.0f, 4.0f});
   return scene;
 }
 

@@ -41,6 +41,30 @@ inline void addGround(scene::Scene* scene, int material, float half) {
   addPatch(scene, material, {-half, -half, 0.0f}, {2.0f * half, 0.0f, 0.0f}, {0.0f, 2.0f * half, 0.0f});
 }
 
+/// The sides of the box from `low` to `low` + `size`, seen from inside.
+inline void addRoom(scene::Scene* scene, int material, const Eigen::Vector3f& low,
+                    const Eigen::Vector3f& size) {
+  const Eigen::Vector3f x(size.x(), 0, 0), y(0, size.y(), 0), z(0, 0, size.z());
+  addPatch(scene, material, low, x, y);
+  addPatch(scene, material, low + z, y, x);
+  addPatch(scene, material, low, z, x);
+  addPatch(scene, material, low + y, x, z);
+  addPatch(scene, material, low, y, z);
+  addPatch(scene, material, low + x, z, y);
+}
+
+/// The same box, seen from outside.
+inline void addBlock(scene::Scene* scene, int material, const Eigen::Vector3f& low,
+                     const Eigen::Vector3f& size) {
+  const Eigen::Vector3f x(size.x(), 0, 0), y(0, size.y(), 0), z(0, 0, size.z());
+  addPatch(scene, material, low + z, x, y);
+  addPatch(scene, material, low, y, x);
+  addPatch(scene, material, low, x, z);
+  addPatch(scene, material, low + y, z, x);
+  addPatch(scene, material, low, z, y);
+  addPatch(scene, material, low + x, y, z);
+}
+
 inline World worldOf(scene::Scene scene) {
   return World(std::make_shared<const scene::Scene>(std::move(scene)));
 }

@@ -9,12 +9,12 @@
 #include "light/transport/sky_patches.h"
 #include "paper_scene.h"
 #include "sunlit/light/illumination.h"
+#include "sunlit/quantity/angle.h"
 #include "sunlit/sky/atmosphere.h"
 
 namespace sunlit::light {
 namespace {
 
-constexpr float kPiFloat = static_cast<float>(kPi);
 const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ();
 
 World baked(scene::Scene scene, const TransportOptions& options = {}) {
@@ -141,13 +141,7 @@ TEST(BakedLight, GroundBeforeABlackWallLosesTheWallsShareOfTheSky) {
 TEST(BakedLight, ARoomThatGlowsFillsUp) {
   scene::Scene scene;
   scene.materials = {paint(0.5f, 100.0f)};
-  const Eigen::Vector3f low(-2.0f, -2.0f, 0.0f), x(4, 0, 0), y(0, 4, 0), z(0, 0, 4);
-  addPatch(&scene, 0, low, x, y);
-  addPatch(&scene, 0, low + z, y, x);
-  addPatch(&scene, 0, low, z, x);
-  addPatch(&scene, 0, low + y, x, z);
-  addPatch(&scene, 0, low, y, z);
-  addPatch(&scene, 0, low + x, z, y);
+  addRoom(&scene, 0, {-2.0f, -2.0f, 0.0f}, {4.0f, 4.0f, 4.0f});
   TransportOptions options;
   options.bounces = 8;
   const World world = baked(std::move(scene), options);
@@ -191,13 +185,7 @@ scene::Scene shed() {
   scene.materials = {paint(0.5f)};
   addGround(&scene, 0, 20.0f);
   const auto block = [&](const Eigen::Vector3f& low, const Eigen::Vector3f& size) {
-    const Eigen::Vector3f x(size.x(), 0, 0), y(0, size.y(), 0), z(0, 0, size.z());
-    addPatch(&scene, 0, low + z, x, y);
-    addPatch(&scene, 0, low, y, x);
-    addPatch(&scene, 0, low, x, z);
-    addPatch(&scene, 0, low + y, z, x);
-    addPatch(&scene, 0, low, z, y);
-    addPatch(&scene, 0, low + x, y, z);
+    addBlock(&scene, 0, low, size);
   };
   block({-2, -2, 0}, {0.05f, 4, 2.5f});
   block({1.95f, -2, 0}, {0.05f, 4, 2.5f});

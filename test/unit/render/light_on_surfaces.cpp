@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "sunlit/quantity/angle.h"
 #include "test_scenes.h"
 
 namespace sunlit::test {
 namespace {
-
-constexpr float kPiFloat = static_cast<float>(kPi);
 
 /// Reflectance of the ground for one light at normal view, by hand: Lambert with what Fresnel leaves, and a
 /// GGX lobe of roughness 1, whose distribution is 1 / π everywhere and whose visibility term is 1 / (2 (n·l +

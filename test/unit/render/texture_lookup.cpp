@@ -6,6 +6,7 @@
 
 #include "render/mipmaps.h"
 #include "render/texture_pyramid.h"
+#include "sunlit/image/srgb.h"
 
 namespace sunlit {
 namespace {
@@ -24,7 +25,7 @@ double texel(const scene::Texture& texture, int x, int y, int channel) {
   const int column = (x % texture.width + texture.width) % texture.width;
   const int row = (y % texture.height + texture.height) % texture.height;
   const auto at = static_cast<std::size_t>(4 * (row * texture.width + column) + channel);
-  return static_cast<double>(render::linearOfSrgb()[texture.rgba[at]]);
+  return static_cast<double>(image::linearOfSrgb()[texture.rgba[at]]);
 }
 
 double between(const scene::Texture& texture, double u, double v, int channel) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "sunlit/ros/conditions.h"
+#include "support/message_of.h"
 
 namespace sunlit::ros_interface {
 namespace {
@@ -23,16 +24,6 @@ XmlRpcValue exampleTree() {
 }
 
 /// The message of the exception that `call` throws, or an empty one.
-template <typename Call>
-std::string messageOf(const Call& call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(ParameterReader, ReadsValuesAndFallsBackToDefaults) {
   const ParameterReader reader(exampleTree(), "/node");
   EXPECT_EQ(reader.number("site/latitude", 0.0, {-90, 90}), 55.79);

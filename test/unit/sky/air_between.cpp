@@ -6,20 +6,12 @@
 #include <limits>
 #include <vector>
 
+#include "clear_air.h"
 #include "sky/transport.h"
 #include "sunlit/sky/atmosphere.h"
 
 namespace sunlit::sky {
 namespace {
-
-const Atmosphere& clearAir() {
-  static const Atmosphere atmosphere{AtmosphereOptions{}};
-  return atmosphere;
-}
-
-Direction at(double azimuth_deg, double elevation_deg) {
-  return Direction(Azimuth::degrees(azimuth_deg), Angle::degrees(elevation_deg));
-}
 
 /// Airlight by small steps through the same air.
 LinearRgb slowAirlight(const Transport& transport, const Direction& sun, const Direction& sight,

@@ -7,18 +7,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "support/message_of.h"
+
 namespace sunlit::sky {
 namespace {
-
-template <typename Action>
-std::string messageOf(const Action& action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
 
 AtmosphereOptions withTurbidity(double turbidity) {
   AtmosphereOptions options;

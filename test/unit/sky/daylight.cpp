@@ -8,17 +8,13 @@
 #include <thread>
 #include <vector>
 
+#include "clear_air.h"
 #include "sunlit/sky/atmosphere.h"
 
 namespace sunlit::sky {
 namespace {
 
 constexpr double kSunAzimuth_deg = 137.0;
-
-const Atmosphere& clearAir() {
-  static const Atmosphere atmosphere{AtmosphereOptions{}};
-  return atmosphere;
-}
 
 Daylight daylightAt(double elevation_deg, double distance_au = 1.0) {
   return clearAir().daylight(

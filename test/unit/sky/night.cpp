@@ -9,21 +9,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "clear_air.h"
 #include "sky/night_glow.h"
 #include "sky/spectrum.h"
 #include "sunlit/sky/atmosphere.h"
+#include "support/message_of.h"
 
 namespace sunlit::sky {
 namespace {
-
-const Atmosphere& clearAir() {
-  static const Atmosphere atmosphere{AtmosphereOptions{}};
-  return atmosphere;
-}
-
-Direction at(double azimuth_deg, double elevation_deg) {
-  return Direction(Azimuth::degrees(azimuth_deg), Angle::degrees(elevation_deg));
-}
 
 const SunInSky kSetSun{at(300.0, -40.0), 1.0};
 
@@ -34,16 +27,6 @@ NightSky withMoon(const Direction& towards, double phase_angle_deg, double dista
 
 DiscLight moonAt(const Direction& towards, double phase_angle_deg, double distance_m = 384400e3) {
   return clearAir().daylight(kSetSun, withMoon(towards, phase_angle_deg, distance_m)).moon();
-}
-
-template <typename Action>
-std::string messageOf(const Action& action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(Moon, ItsDiscIsAsLargeAsItIsNear) {

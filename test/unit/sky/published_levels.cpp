@@ -5,19 +5,11 @@
 #include <cmath>
 #include <vector>
 
+#include "clear_air.h"
 #include "sunlit/sky/atmosphere.h"
 
 namespace sunlit::sky {
 namespace {
-
-const Atmosphere& clearAir() {
-  static const Atmosphere atmosphere{AtmosphereOptions{}};
-  return atmosphere;
-}
-
-Direction at(double azimuth_deg, double elevation_deg) {
-  return Direction(Azimuth::degrees(azimuth_deg), Angle::degrees(elevation_deg));
-}
 
 struct Piece {
   double lowest_deg;

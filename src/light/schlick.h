@@ -1,0 +1,14 @@
+/// Schlick 1994, eq. 15.
+#pragma once
+
+namespace sunlit::light {
+
+/// How far the reflectance has gone from that at normal incidence to 1: (1 − cosine)⁵, cosine that of the
+/// angle of incidence, 0 … 1.
+inline float schlick(float cosine) {
+  const float x = 1.0f - cosine;
+  const float square = x * x;
+  return square * square * x;
+}
+
+}  // namespace sunlit::light

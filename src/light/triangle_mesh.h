@@ -1,0 +1,31 @@
+/// Triangles for the ray library.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "sunlit/light/geometry.h"
+
+namespace sunlit::light {
+
+/// A mesh of Embree, not yet committed; whoever makes it releases it.
+struct TriangleMesh {
+  RTCGeometry handle = nullptr;
+  Eigen::Vector3f* vertices = nullptr;                ///< to be filled
+  std::array<std::uint32_t, 3>* triangles = nullptr;  ///< to be filled: three indices into `vertices` each
+};
+
+/// Throws std::runtime_error where memory runs out.
+TriangleMesh newTriangleMesh(RTCDevice device, std::size_t vertices, std::size_t triangles);
+/// Filled with the triangles `chosen` of `geometry`, in their order.
+TriangleMesh newTriangleMesh(RTCDevice device, const Geometry& geometry,
+                             const std::vector<std::uint32_t>& chosen);
+/// Commits the mesh, hands it over to `scene` under `number`, and releases it.
+void attach(const TriangleMesh& mesh, RTCScene scene, unsigned number);
+
+}  // namespace sunlit::light
