@@ -1,6 +1,7 @@
 #include "astronomy/cosines.h"
 
 #include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::astronomy {
 namespace {
@@ -29,11 +30,7 @@ inline double sine(double x) {
 
 }  // namespace
 
-// Wider registers where the processor has them, chosen when the library is loaded. Every operation is rounded
-// once in either version, so the bits are the same.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-__attribute__((target_clones("avx2", "default")))
-#endif
+SUNLIT_VECTOR_CLONES
 void cosines(double* values, int count) {
   for (int i = 0; i < count; ++i) {
     const double turns = (values[i] * (0.5 / kPi) + kRounder) - kRounder;

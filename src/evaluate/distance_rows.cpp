@@ -1,6 +1,6 @@
 #include "evaluate/distance_rows.h"
 
-#include "evaluate/vector_clones.h"
+#include "sunlit/quantity/vector_clones.h"
 
 // As SUNLIT_VECTOR_CLONES, for the instruction that counts bits.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \

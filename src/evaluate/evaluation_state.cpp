@@ -90,7 +90,7 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
     for (int i = 0; i < kSamples; ++i) sampled_.insert(std::llround(last * i / (kSamples - 1)));
   }
   makeFolder(options_.output_dir);
-  requireSameSettings(file("run.yaml"), settingsOf(options_));
+  claimFolder(options_.output_dir, settingsOf(options_));
   writeRunFile(file("run.yaml"), options_, nullptr);
   takeUpEarlierRuns();
   problems_ = std::make_unique<ProblemFile>(options_.output_dir);

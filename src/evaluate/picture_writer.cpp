@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "sunlit/image/files.h"
+
 namespace sunlit::evaluate {
 namespace {
 
@@ -16,9 +18,11 @@ void writePng(const std::string& path, const cv::Mat& rgb) {
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-  const std::string draft = path + ".draft.png";  // OpenCV chooses the format by the name's end
-  if (!cv::imwrite(draft, bgr)) throw std::runtime_error("cannot be written");
-  std::filesystem::rename(draft, path);
+  // In memory first: OpenCV does not notice where the last of a file finds no room on the disk.
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".png", bgr, bytes))
+    throw std::runtime_error(path + ": OpenCV cannot encode this picture");
+  image::writeFileAtomically(path, std::string(bytes.begin(), bytes.end()));
 }
 
 }  // namespace
@@ -64,7 +68,7 @@ void PictureWriter::run() {
     try {
       writePng(task.path, task.rgb);
     } catch (const std::exception& error) {
-      fault = task.path + ": " + error.what();
+      fault = error.what();
     }
     lock.lock();
     if (fault_.empty()) fault_ = fault;

@@ -1,5 +1,6 @@
 #include "evaluate/run_file.h"
 
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <opencv2/core/version.hpp>
@@ -142,6 +143,37 @@ void requireSameSettings(const std::string& path, const Settings& settings) {
   }
   for (const auto& item : old_settings) {
     if (current.count(item.first) == 0) refuse(item.first, item.second, "not given");
+  }
+}
+
+namespace {
+
+bool hasRows(const std::string& csv) {
+  std::ifstream file(csv);
+  std::string heading, row;
+  return std::getline(file, heading) && std::getline(file, row);
+}
+
+bool holdsFiles(const std::string& folder) {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, none)) {
+    if (!entry.is_directory()) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void claimFolder(const std::string& folder, const Settings& settings) {
+  try {
+    requireSameSettings(folder + "/run.yaml", settings);
+  } catch (const std::invalid_argument&) {
+    for (const char* name : {"/frames.csv", "/captures.csv", "/path.csv"}) {
+      if (hasRows(folder + name)) throw;
+    }
+    if (holdsFiles(folder + "/images")) throw;
+    for (const char* name : {"/run.yaml", "/problems.csv", "/summary.csv"})
+      std::filesystem::remove(folder + name);
   }
 }
 

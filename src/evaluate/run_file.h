@@ -18,6 +18,10 @@ Settings settingsOf(const EvaluationOptions& options);
 /// Nothing where there is none.
 void requireSameSettings(const std::string& path, const Settings& settings);
 
+/// The same of `folder`/run.yaml, but a run that ended before anything came binds nobody to its settings:
+/// what it left is removed.
+void claimFolder(const std::string& folder, const Settings& settings);
+
 /// `outcome` may be null: the run is still going on.
 void writeRunFile(const std::string& path, const EvaluationOptions& options, const Outcome* outcome);
 

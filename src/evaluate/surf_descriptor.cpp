@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "evaluate/vector_clones.h"
+#include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::evaluate::surf {
 namespace {

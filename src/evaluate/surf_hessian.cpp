@@ -3,7 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "evaluate/vector_clones.h"
+#include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::evaluate::surf {
 namespace {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <tuple>
 
-#include "evaluate/vector_clones.h"
+#include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::evaluate::surf {
 namespace {

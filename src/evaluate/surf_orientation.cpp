@@ -3,7 +3,7 @@
 #include <opencv2/core/hal/hal.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "evaluate/vector_clones.h"
+#include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::evaluate::surf {
 namespace {

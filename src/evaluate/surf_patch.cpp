@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "evaluate/surf_orientation.h"
-#include "evaluate/vector_clones.h"
+#include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::evaluate::surf {
 namespace {

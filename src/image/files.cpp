@@ -52,9 +52,6 @@ class TemporaryFile {
       }
       done += written > 0 ? static_cast<std::size_t>(written) : 0;
     }
-    if (::fsync(descriptor_) != 0) {
-      fail(target, "fsync");
-    }
   }
 
   void moveTo(const std::string& target) {
@@ -63,9 +60,7 @@ class TemporaryFile {
     if (::close(descriptor) != 0) {
       fail(target, "close");
     }
-    if (::rename(path_.c_str(), target.c_str()) != 0) {
-      fail(target, "rename");
-    }
+    moveIntoPlace(path_, target);
     kept_ = true;
   }
 
@@ -131,10 +126,20 @@ std::string readWholeFile(const std::string& path) {
   return bytes;
 }
 
-void writeFileAtomically(const std::string& path, const std::string& bytes) {
-  TemporaryFile file(path);
-  file.write(path, bytes);
-  file.moveTo(path);
+void moveIntoPlace(const std::string& finished, const std::string& path) {
+  const int file = ::open(finished.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) {
+    fail(path, "open");
+  }
+  const int error = ::fsync(file) == 0 ? 0 : errno;
+  ::close(file);
+  if (error != 0) {
+    errno = error;
+    fail(path, "fsync");
+  }
+  if (::rename(finished.c_str(), path.c_str()) != 0) {
+    fail(path, "rename");
+  }
   // The new name must last as well. Some file systems cannot sync a folder; the file itself is safe by then.
   const std::size_t slash = path.find_last_of('/');
   const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
@@ -143,6 +148,12 @@ void writeFileAtomically(const std::string& path, const std::string& bytes) {
     static_cast<void>(::fsync(descriptor));
     ::close(descriptor);
   }
+}
+
+void writeFileAtomically(const std::string& path, const std::string& bytes) {
+  TemporaryFile file(path);
+  file.write(path, bytes);
+  file.moveTo(path);
 }
 
 void writePfm(const std::string& path, const LinearImage& image) {

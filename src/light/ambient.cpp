@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "light/mirror_sky.h"
+#include "light/sky_sectors.h"
 #include "sunlit/light/body_light.h"
 #include "sunlit/quantity/angle.h"
 
@@ -15,13 +16,13 @@ Eigen::Array3f atPlace(const LightPlace& place, const std::vector<Eigen::Array3f
   return sum;
 }
 
-/// Of the nodes; but what leaves hide of the sky, or leave open, varies within less than their distance.
-Eigen::Array3f irradianceAt(const LightPlace& place, const Illumination& light) {
-  const Eigen::Array3f nodes = atPlace(place, *light.irradiance);
-  if (place.open == 1.0f) return nodes;
+/// What arrives about `normal`, at the surface or behind it.
+Eigen::Array3f irradianceAt(const LightPlace& place, const SkyView& sky, const Eigen::Vector3f& normal,
+                            const Illumination& light) {
+  if (!sky.known || !light.sky_sectors) return atPlace(place, *light.irradiance);
   // What hides the sky is as bright as what the nodes have around them.
-  const Eigen::Array3f hidden = atPlace(place, *light.surroundings) * static_cast<float>(kPi);
-  return (hidden + place.open * (nodes - hidden)).max(0.0f);
+  const Eigen::Array4f open = light.sky_sectors->irradiance(sky, normal);
+  return open.head<3>() + atPlace(place, *light.surroundings) * (kPiFloat * (1.0f - open[3]));
 }
 
 /// Mean luminance of what the mirror-like lobe looks at.
@@ -51,18 +52,21 @@ Eigen::Array3f ambientLuminance(const Surface& surface, const Reflection& reflec
   const bool moves = light.bodies && surface.body != Surface::kNoBody;
   const Eigen::Array3f open = baked && !moves ? Eigen::Array3f(Eigen::Array3f::Zero())
                                               : light.day.skyIlluminance(surface.shading_normal).value;
-  Eigen::Array3f irradiance = baked ? irradianceAt(surface.light, light) : open;
+  Eigen::Array3f irradiance =
+      baked ? irradianceAt(surface.light, surface.sky, surface.shading_normal, light) : open;
   if (moves)
     irradiance = (*light.bodies)[static_cast<std::size_t>(surface.body)].illuminance(surface.shading_normal);
   irradiance *= surface.unhidden;
-  const Eigen::Array3f behind = baked && !moves && surface.behind.known()
-                                    ? Eigen::Array3f(irradianceAt(surface.behind, light) * surface.unhidden)
-                                    : irradiance;
+  const Eigen::Array3f behind =
+      baked && !moves && surface.behind.known()
+          ? Eigen::Array3f(irradianceAt(surface.behind, surface.sky, -surface.shading_normal, light) *
+                           surface.unhidden)
+          : irradiance;
   Eigen::Array3f sum = ambient.diffuse * irradiance + ambient.through * behind;
   if (baked && !moves)
     return sum + ambient.specular * surface.unhidden * seenInMirror(surface, parts.mirrored_sky, light);
   // A rough lobe spreads over the hemisphere, a smooth one mirrors a point of the sky.
-  const Eigen::Array3f spread = irradiance / static_cast<float>(kPi);
+  const Eigen::Array3f spread = irradiance / kPiFloat;
   const float smooth = std::max(0.0f, 1.0f - reflection.roughness * reflection.roughness * 1.5f);
   if (smooth <= 0.0f) return sum + ambient.specular * spread;
   Eigen::Array3f point =

@@ -61,6 +61,10 @@ class BodyLight::Implementation {
 
  private:
   void castFrom(std::uint32_t body, const Eigen::Vector3f& middle, Views* views) const;
+  Eigen::Array3f reflectanceAt(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const {
+    const Reflectance mean = reflectance(reflectances_.at(triangle, barycentric), kMeanView);
+    return (mean.diffuse + mean.mirrored).min(0.98f);
+  }
   void keep(std::uint32_t body, std::uint32_t direction, const Hit& hit, Views* views) const;
   static Eigen::Array3f arriving(const Met& met, const Illumination& light);
   /// Adds the light of a disc to the illuminance of each place that it reaches.
@@ -88,7 +92,7 @@ void BodyLight::Implementation::keep(std::uint32_t body, std::uint32_t direction
   LightPlace light;
   if (world_.transport) light = world_.transport->placeOf(hit.triangle, front, position);
   views->met.push_back({body, direction, static_cast<std::size_t>(geometry.materials[hit.triangle]),
-                        reflectances_.at(hit.triangle, weights), normal, position + clear * normal, light});
+                        reflectanceAt(hit.triangle, weights), normal, position + clear * normal, light});
 }
 
 void BodyLight::Implementation::castFrom(std::uint32_t body, const Eigen::Vector3f& middle,

@@ -1,17 +1,12 @@
 #include "light/cutout.h"
 
 #include <algorithm>
-
-#include "sunlit/quantity/whole.h"
+#include <cmath>
 
 namespace sunlit::light {
 namespace {
 
 constexpr int kNoMask = -1;
-
-std::size_t blockWord(int x, int y, int blocks_a_row) {
-  return static_cast<std::size_t>(((y >> 4) * blocks_a_row + (x >> 4)) * 16 + (y & 15));
-}
 
 }  // namespace
 
@@ -34,13 +29,9 @@ Cutouts::Mask::Mask(const scene::Texture& source, float alpha_cutoff)
     for (int x = 0; x < width; ++x) {
       const int corners = solid(x, y) + solid(x + 1, y) + solid(x, y + 1) + solid(x + 1, y + 1);
       const unsigned kind = corners == 0 ? kClear : corners == 4 ? kSolid : kMixed;
-      squares[blockWord(x, y, blocks_a_row)] |= kind << (2 * (x & 15));
+      squares[word(x, y)] |= kind << (2 * (x & 15));
     }
   }
-}
-
-unsigned Cutouts::Mask::square(int x, int y) const {
-  return squares[blockWord(x, y, blocks_a_row)] >> (2 * (x & 15)) & 3u;
 }
 
 float Cutouts::Mask::interpolated(int x0, int y0, float fx, float fy) const {
@@ -53,6 +44,25 @@ float Cutouts::Mask::interpolated(int x0, int y0, float fx, float fy) const {
   const float top = at(x0, y0) + fx * (at(x1, y0) - at(x0, y0));
   const float bottom = at(x0, y1) + fx * (at(x1, y1) - at(x0, y1));
   return top + fy * (bottom - top);
+}
+
+Cutouts::Triangle Cutouts::Mask::place(const std::array<Eigen::Vector2f, 3>& texture_coordinates) const {
+  const Eigen::Array2f size(static_cast<float>(width), static_cast<float>(height));
+  const Eigen::Array2f low =
+      texture_coordinates[0].cwiseMin(texture_coordinates[1]).cwiseMin(texture_coordinates[2]);
+  const Eigen::Array2f high =
+      texture_coordinates[0].cwiseMax(texture_coordinates[1]).cwiseMax(texture_coordinates[2]);
+  // By whole turns near to 0, where texels are told apart best.
+  const Eigen::Array2f turns(std::floor(low.x()), std::floor(low.y()));
+  const auto texels = [&](const Eigen::Vector2f& at) {
+    return Eigen::Vector2f((at.array() - turns) * size - 0.5f);
+  };
+  Triangle triangle;
+  triangle.origin = texels(texture_coordinates[0]);
+  triangle.along_u = texels(texture_coordinates[1]) - triangle.origin;
+  triangle.along_v = texels(texture_coordinates[2]) - triangle.origin;
+  triangle.repeats = (high - turns > 1.0f).any();
+  return triangle;
 }
 
 Cutouts::Cutouts(const Geometry& geometry) {
@@ -74,38 +84,15 @@ Cutouts::Cutouts(const Geometry& geometry) {
     if (same == masks_.end()) masks_.emplace_back(texture, material.alpha_cutoff);
   }
   for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
-    Triangle triangle;
-    triangle.mask = mask_of[static_cast<std::size_t>(geometry.materials[i])];
-    (triangle.mask != kNoMask ? masked_ : opaque_).push_back(i);
-    if (triangle.mask == kNoMask) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      triangle.texture_coordinates[k] = geometry.texture_coordinates[geometry.triangles[i][k]];
-    }
-    triangles_.push_back(triangle);
+    const std::int32_t mask = mask_of[static_cast<std::size_t>(geometry.materials[i])];
+    (mask != kNoMask ? masked_ : opaque_).push_back(i);
+    if (mask == kNoMask) continue;
+    std::array<Eigen::Vector2f, 3> texture_coordinates;
+    for (std::size_t k = 0; k < 3; ++k)
+      texture_coordinates[k] = geometry.texture_coordinates[geometry.triangles[i][k]];
+    triangles_.push_back(masks_[static_cast<std::size_t>(mask)].place(texture_coordinates));
+    triangles_.back().mask = mask;
   }
-}
-
-Cutouts::Query::Query(const Cutouts& cutouts, std::uint32_t masked_triangle)
-    : mask_(cutouts.masks_[static_cast<std::size_t>(cutouts.triangles_[masked_triangle].mask)]) {
-  const auto& t = cutouts.triangles_[masked_triangle].texture_coordinates;
-  origin_ = t[0];
-  along_u_ = t[1] - t[0];
-  along_v_ = t[2] - t[0];
-}
-
-bool Cutouts::Query::solid(float u, float v) const {
-  const Eigen::Vector2f at = origin_ + u * along_u_ + v * along_v_;
-  // Repeats by whole turns; texel centres lie at half-integers.
-  const float x = (at.x() - static_cast<float>(floorOf(at.x()))) * static_cast<float>(mask_.width) - 0.5f;
-  const float y = (at.y() - static_cast<float>(floorOf(at.y()))) * static_cast<float>(mask_.height) - 0.5f;
-  const int left = floorOf(x);
-  const int above = floorOf(y);
-  const int x0 = left < 0 ? mask_.width - 1 : left;
-  const int y0 = above < 0 ? mask_.height - 1 : above;
-  const unsigned square = mask_.square(x0, y0);
-  if (square != Mask::kMixed) return square == Mask::kSolid;
-  return mask_.interpolated(x0, y0, x - static_cast<float>(left), y - static_cast<float>(above)) >=
-         mask_.cutoff;
 }
 
 }  // namespace sunlit::light

@@ -1,17 +1,21 @@
 /// Where alpha-masked triangles are solid.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "sunlit/light/geometry.h"
+#include "sunlit/quantity/whole.h"
 
 namespace sunlit::light {
 
 /// Sorts a scene's triangles into opaque and masked ones, and answers for the latter by their texture's full
 /// resolution, bilinearly filtered as in the image.
 class Cutouts {
+  struct Triangle;
   struct Mask;
 
  public:
@@ -27,18 +31,22 @@ class Cutouts {
   /// The same of one triangle, for many points.
   class Query {
    public:
-    Query(const Cutouts& cutouts, std::uint32_t masked_triangle);
+    Query(const Cutouts& cutouts, std::uint32_t masked_triangle)
+        : triangle_(cutouts.triangles_[masked_triangle]),
+          mask_(cutouts.masks_[static_cast<std::size_t>(triangle_.mask)]) {}
     bool solid(float u, float v) const;
 
    private:
+    const Triangle& triangle_;
     const Mask& mask_;
-    Eigen::Vector2f origin_, along_u_, along_v_;  ///< in widths and heights of the texture
   };
 
  private:
+  /// The texture on a triangle, in texels from the centre of the top left one.
   struct Triangle {
-    std::array<Eigen::Vector2f, 3> texture_coordinates;
+    Eigen::Vector2f origin, along_u, along_v;
     std::int32_t mask;  ///< index into masks_
+    bool repeats;       ///< it goes beyond the texture's edge
   };
   /// A texture's alpha with one cutoff. Most queries fall between four texels that are all solid or all
   /// clear: two bits for each such square answer them, in far less memory than the texels, which would not
@@ -47,9 +55,13 @@ class Cutouts {
     Mask(const scene::Texture& source, float alpha_cutoff);
 
     enum Square : unsigned { kClear = 0, kSolid = 1, kMixed = 2 };
-    /// Of the square whose top left corner is the centre of texel (x, y).
-    unsigned square(int x, int y) const;
+    /// Where the square stands whose top left corner is the centre of texel (x, y).
+    std::size_t word(int x, int y) const {
+      return static_cast<std::size_t>(((y >> 4) * blocks_a_row + (x >> 4)) * 16 + (y & 15));
+    }
+    unsigned square(int x, int y) const { return squares[word(x, y)] >> (2 * (x & 15)) & 3u; }
     float interpolated(int x0, int y0, float fx, float fy) const;
+    Triangle place(const std::array<Eigen::Vector2f, 3>& texture_coordinates) const;
 
     const scene::Texture* texture;  ///< only to tell masks apart
     int width, height;
@@ -63,5 +75,23 @@ class Cutouts {
   std::vector<Triangle> triangles_;  ///< parallel to masked_
   std::vector<Mask> masks_;          ///< one a texture and cutoff
 };
+
+// Inlined: asked for every ray that meets a card.
+inline bool Cutouts::Query::solid(float u, float v) const {
+  float x = triangle_.origin.x() + u * triangle_.along_u.x() + v * triangle_.along_v.x();
+  float y = triangle_.origin.y() + u * triangle_.along_u.y() + v * triangle_.along_v.y();
+  if (triangle_.repeats) {
+    x -= static_cast<float>(mask_.width * floorOf((x + 0.5f) / static_cast<float>(mask_.width)));
+    y -= static_cast<float>(mask_.height * floorOf((y + 0.5f) / static_cast<float>(mask_.height)));
+  }
+  const int left = floorOf(x), above = floorOf(y);
+  // Rounding may take a point on the texture's edge beyond it.
+  const int x0 = left < 0 ? mask_.width - 1 : std::min(left, mask_.width - 1);
+  const int y0 = above < 0 ? mask_.height - 1 : std::min(above, mask_.height - 1);
+  const unsigned square = mask_.square(x0, y0);
+  if (square != Mask::kMixed) return square == Mask::kSolid;
+  return mask_.interpolated(x0, y0, x - static_cast<float>(left), y - static_cast<float>(above)) >=
+         mask_.cutoff;
+}
 
 }  // namespace sunlit::light

@@ -37,7 +37,7 @@ DiscInView::DiscInView(const Surfaces& surfaces, const sky::DiscLight& disc)
   disc_sine_ = std::sin(radius);
   // No pixel spans a larger angle than at the image centre, where it is its size at depth 1.
   const double pixel = std::hypot(surfaces.pixel_right.norm(), surfaces.pixel_down.norm());
-  near_cosine_ = static_cast<float>(std::cos(std::min(radius + pixel, kPi)));
+  near_cosine_ = static_cast<float>(std::cos(std::min(radius + 2.0 * pixel, kPi)));
   const double above = areaAbove(-disc.towards.elevation().rad() / radius);
   double lit = 1.0;
   double points_per_radius = kPointsPerRadius;

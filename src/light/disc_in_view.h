@@ -17,7 +17,8 @@ class DiscInView {
   /// Keeps a reference to `surfaces`.
   DiscInView(const Surfaces& surfaces, const sky::DiscLight& disc);
 
-  /// False where pixels that look `towards` (unit) cannot touch the disc.
+  /// False where pixels that look `towards` (unit), or pixels up to two diagonals farther, cannot touch
+  /// the disc.
   bool near(const Eigen::Vector3f& towards) const { return shines_ && towards.dot(towards_) > near_cosine_; }
   /// Whether what lies far away in direction `towards` (unit) is behind the disc.
   bool hides(const Eigen::Vector3f& towards) const { return shines_ && towards.dot(towards_) > disc_cosine_; }
@@ -31,7 +32,7 @@ class DiscInView {
   bool shines_;
   Eigen::Vector3f towards_;
   float disc_cosine_;  ///< of the disc's radius
-  float near_cosine_;  ///< of the angle beyond which no pixel touches the disc
+  float near_cosine_;  ///< of the angle beyond which none of those touches the disc
   // Double: the disc is small, and a crescent a small part of it.
   Eigen::Vector3d centre_;                   ///< unit
   double disc_sine_;                         ///< of the disc's radius

@@ -20,50 +20,26 @@ LightTable::AirPlace airPlace(float distance_m) {
   return {node, std::min((distance_m - near) / (airDistance_m(node + 1) - near), 1.0f)};
 }
 
-/// Numbers views that differ; neighbours often share theirs.
-class ViewNumbers {
- public:
-  explicit ViewNumbers(std::vector<MirrorView>* views) : views_(*views) { heads_.fill(kNone); }
-
-  std::uint16_t of(const MirrorView& view) {
-    std::uint32_t hash = 0;
-    for (std::size_t k = 0; k < MirrorView::kParts; ++k)
-      hash = hash * 31u + view.place[k] + 0x10000u * view.open[k];
-    std::uint16_t& head = heads_[(hash * 0x9e3779b1u) >> (32 - kBits)];
-    std::uint16_t number = head;
-    while (number != kNone && (views_[number].place != view.place || views_[number].open != view.open))
-      number = next_[number];
-    if (number != kNone) return number;
-    views_.push_back(view);
-    next_.push_back(head);
-    head = static_cast<std::uint16_t>(views_.size() - 1);
-    return head;
-  }
-
- private:
-  static constexpr int kBits = 9;
-  static constexpr std::uint16_t kNone = 0xffff;  // a tile has at most 256 pixels of 16 surfaces
-  std::vector<MirrorView>& views_;
-  std::vector<std::uint16_t> next_;
-  std::array<std::uint16_t, 1u << kBits> heads_;
-};
-
 LightTable::Rows rowsOf(const Surfaces& surfaces, const Tile& tile, const scene::Scene& scene) {
   LightTable::Rows rows;
   rows.sites.reserve(tile.surfaces.size());
   rows.air.reserve(tile.surfaces.size());
   rows.ambient.reserve(tile.surfaces.size());
   rows.view.reserve(tile.surfaces.size());
-  ViewNumbers views(&rows.views);
+  rows.views = tile.views;
+  if (rows.views.empty()) rows.views.emplace_back();
+  const auto width = static_cast<std::uint32_t>(surfaces.width);
   for (const Surface& surface : tile.surfaces) {
     const scene::Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
     rows.sites.push_back({surface.geometric_normal, surface.shading_normal, surface.clearance_m,
-                          surface.pixel, surface.first_sample, static_cast<std::uint16_t>(surface.samples),
-                          material.transmission > 0.0f, material.alpha_mode == scene::AlphaMode::kMask});
+                          surface.first_sample, static_cast<std::uint16_t>(surface.pixel % width),
+                          static_cast<std::uint16_t>(surface.pixel / width),
+                          static_cast<std::uint16_t>(surface.samples), material.transmission > 0.0f,
+                          material.alpha_mode == scene::AlphaMode::kMask});
     rows.air.push_back(airPlace((surfaces.eye - surface.position).norm()));
     rows.air_nodes |= std::uint64_t{3} << rows.air.back().node;
     rows.ambient.push_back(ambientReflectance(reflectionOf(surface, material)));
-    rows.view.push_back(views.of(surface.mirror));
+    rows.view.push_back(surface.view);
   }
   return rows;
 }

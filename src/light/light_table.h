@@ -24,7 +24,8 @@ class LightTable {
   struct Site {
     Eigen::Vector3f geometric_normal, shading_normal;
     float clearance_m;
-    std::uint32_t pixel, first_sample;
+    std::uint32_t first_sample;
+    std::uint16_t x, y;  ///< of its pixel
     std::uint16_t samples;
     bool thin;    ///< light shines through it
     bool leaves;  ///< it has holes, as foliage

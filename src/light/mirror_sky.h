@@ -27,8 +27,8 @@ class MirrorSky {
   std::vector<Eigen::Array4f, Eigen::aligned_allocator<Eigen::Array4f>> table_;
 };
 
-/// Sets Surface::mirror of those surfaces of `tile` whose Surface::light is known: where they look, and how
-/// much of the sky there `data` has open.
+/// Sets Tile::views, and Surface::view of those surfaces of `tile` whose Surface::light is known: where they
+/// look, and how much of the sky there `data` has open.
 void findMirrorViews(const TransportData& data, const scene::Scene& scene, int picture_width, Tile* tile);
 
 }  // namespace sunlit::light

@@ -40,14 +40,13 @@ void PictureAir::find(const sky::Daylight& day, int column, int row) {
 }
 
 sky::AirColumn PictureAir::before(std::size_t number, std::size_t index) const {
-  const auto width = static_cast<std::uint32_t>(surfaces_.width);
   const auto size = static_cast<float>(Surfaces::kTileSize);
   const Tile& tile = surfaces_.tiles[number];
   const LightTable::Rows& rows = table_.tile(number);
-  const std::uint32_t pixel = rows.sites[index].pixel;
+  const LightTable::Site& site = rows.sites[index];
   const LightTable::AirPlace& distance = rows.air[index];
-  const float right = (static_cast<float>(pixel % width) + 0.5f - static_cast<float>(tile.x)) / size;
-  const float down = (static_cast<float>(pixel / width) + 0.5f - static_cast<float>(tile.y)) / size;
+  const float right = (static_cast<float>(site.x) + 0.5f - static_cast<float>(tile.x)) / size;
+  const float down = (static_cast<float>(site.y) + 0.5f - static_cast<float>(tile.y)) / size;
   const int column = tile.x / Surfaces::kTileSize, row = tile.y / Surfaces::kTileSize;
   const Six* const top = &nodes_[place(column, row)] + distance.node;
   const Six* const bottom = &nodes_[place(column, row + 1)] + distance.node;

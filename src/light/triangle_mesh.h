@@ -7,11 +7,23 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "sunlit/light/geometry.h"
 
 namespace sunlit::light {
+
+struct ReleaseDevice {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+/// Released also where a constructor throws.
+using DevicePointer = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
+using ScenePointer = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 
 /// A mesh of Embree, not yet committed; whoever makes it releases it.
 struct TriangleMesh {

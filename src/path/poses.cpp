@@ -25,8 +25,9 @@ constexpr double kMostPoses = 1e7;
 
 void checkRange(const char* key, double value, double low, double high) {
   if (value >= low && value <= high) return;  // false for NaN too
-  throw std::invalid_argument(std::string(key) + " is " + std::to_string(value) + ", must be " +
-                              std::to_string(low) + " … " + std::to_string(high) + " m");
+  std::ostringstream message;
+  message << key << " is " << value << ", must be " << low << " … " << high << " m";
+  throw std::invalid_argument(message.str());
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/vector_clones.h"
 #include "sunlit/quantity/whole.h"
 
 namespace sunlit::render {
@@ -12,9 +14,6 @@ namespace {
 /// Standard deviation of the noise before weighting, measured over 400,000 random points.
 constexpr double kNoiseDeviation = 0.003614;
 
-/// Samples that a wave of the coarse band spans at least: with two samples a pixel and axis, the middle of a
-/// pixel then differs from the mean of its samples by at most 7 % of the wave.
-constexpr float kCoarseSamples = 8.0f;
 /// With two samples a pixel and axis, a pixel's average leaves little of waves shorter than this.
 constexpr float kHiddenSamples = 1.5f;
 
@@ -62,11 +61,6 @@ namespace {
 
 // The loops below are plain C++ for one point after another; compilers turn them into vector code. Where the
 // CPU has wider vectors than every x86-64, a copy compiled for those runs, operation by operation the same.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define SUNLIT_WIDE_VECTORS __attribute__((target_clones("avx2", "default")))
-#else
-#define SUNLIT_WIDE_VECTORS
-#endif
 
 /// One corner of a simplex: a gradient by hash `h`, faded with the distance.
 inline __attribute__((always_inline)) float corner(float x, float y, float z, std::uint32_t h) {
@@ -117,7 +111,7 @@ struct Octave {
   std::uint32_t hash;
 };
 
-SUNLIT_WIDE_VECTORS
+SUNLIT_VECTOR_CLONES
 void addOctave(const Octave& octave, const DetailPoints& points, const Lanes& weights, float* sums) {
   const Eigen::Matrix3f m = octave.lattice_from_map;
   const float* const l = m.data();  // by columns
@@ -136,20 +130,26 @@ void addOctave(const Octave& octave, const DetailPoints& points, const Lanes& we
 
 }  // namespace
 
-void sumOctaves(const DetailOctaves& octaves, DetailBand band, const DetailPoints& points, Lanes* sums) {
+float detailSpread_m(std::uint32_t samples, float longer_m, float shorter_m) {
+  // k² samples have a variance of (k² − 1) / 12 steps² along each side. A wave loses exp(−½ (2π /
+  // wavelength)² · variance) along its direction; over all directions the two sides count half each.
+  const float variance = static_cast<float>(samples - 1) / 12.0f;
+  return kPiFloat * std::sqrt(variance * (longer_m * longer_m + shorter_m * shorter_m));
+}
+
+void sumOctaves(const DetailOctaves& octaves, const DetailPoints& points, Lanes* sums) {
   sums->fill(0.0f);
-  const auto [least, most] = std::minmax_element(points.footprint.begin(), points.footprint.end());
+  const float least = *std::min_element(points.footprint.begin(), points.footprint.end());
   for (std::size_t k = 0; k < static_cast<std::size_t>(octaves.count); ++k) {
     const float wavelength = octaves.wavelength_m[k];
-    if (wavelength <= kHiddenSamples * *least) break;
-    if (band == DetailBand::kCoarse && wavelength < kCoarseSamples * *least) break;
-    if (band == DetailBand::kFine && wavelength >= kCoarseSamples * *most) continue;
+    if (wavelength <= kHiddenSamples * least) break;
     Lanes weights;
     for (std::size_t i = 0; i < kLanes; ++i) {
-      const bool coarse = wavelength >= kCoarseSamples * points.footprint[i];
       const float fade = (wavelength / points.footprint[i] - kHiddenSamples) / kHiddenSamples;
-      const float share = coarse == (band == DetailBand::kCoarse) ? std::clamp(fade, 0.0f, 1.0f) : 0.0f;
-      weights[i] = octaves.weight[k] * share;
+      const float within = points.spread[i] / wavelength, squared = within * within;
+      // exp(−squared) to within 0.02.
+      weights[i] =
+          octaves.weight[k] * std::clamp(fade, 0.0f, 1.0f) / (1.0f + squared * (1.0f + 0.5f * squared));
     }
     const auto& cell = octaves.eye_cell[k];
     addOctave({octaves.lattice_from_map[k], octaves.eye_fraction[k],

@@ -27,22 +27,21 @@ struct DetailOctaves {
   std::array<float, kMax> wavelength_m;
 };
 
-/// Points to evaluate at once. Neighbours should be alike in footprint.
+/// Places to evaluate at once. Neighbours should be alike in footprint.
 struct DetailPoints {
   static constexpr int kCount = 16;
-  std::array<float, kCount> x, y, z;    ///< from the camera, along the axes of `map`, m
+  std::array<float, kCount> x, y, z;    ///< middle, from the camera, along the axes of `map`, m
   std::array<float, kCount> footprint;  ///< what one sample covers there, along its longer side, m
+  std::array<float, kCount> spread;     ///< of the place's samples, see detailSpread_m()
 };
 
-/// Wavelengths by the number of samples that they span.
-enum class DetailBand {
-  kCoarse,  ///< many: hardly vary within a pixel
-  kFine,    ///< few: a pixel needs all its samples, to average what it cannot show
-};
+/// How far the samples of a place lie from their middle, m, as the mean over them weighs waves:
+/// `samples` in a square, of which each is `longer_m` by `shorter_m`.
+float detailSpread_m(std::uint32_t samples, float longer_m, float shorter_m);
 
-/// The noise of those octaves of `band` that a sample can show: factor 1 + tint · sum of both bands goes to
-/// the albedo.
-void sumOctaves(const DetailOctaves& octaves, DetailBand band, const DetailPoints& points,
+/// The noise, in the mean over each place's samples, of those octaves that a sample can show: factor 1 + tint
+/// · sum goes to the albedo.
+void sumOctaves(const DetailOctaves& octaves, const DetailPoints& points,
                 std::array<float, DetailPoints::kCount>* sums);
 
 }  // namespace sunlit::render

@@ -25,6 +25,10 @@ bool passesThrough(const Seen& seen, std::uint32_t triangle, const Eigen::Vector
   return positive == 0 || negative == 0;
 }
 
+bool inReach(const Seen& seen, double depth) {
+  return depth >= seen.view.near_m && depth <= seen.view.far_m;
+}
+
 /// Of all triangles that the pixel's samples see, the nearest one's depth at the centre; infinite if none
 /// contains it.
 double nearestThrough(const Seen& seen, int x, int y, const Eigen::Vector3d& ray) {
@@ -37,7 +41,7 @@ double nearestThrough(const Seen& seen, int x, int y, const Eigen::Vector3d& ray
       if (sample.sky() || sample.triangle == last) continue;
       last = sample.triangle;
       const double depth = planeDepth(seen, sample.triangle - 1, ray);
-      if (depth >= seen.view.near_m && depth < nearest && passesThrough(seen, sample.triangle - 1, ray))
+      if (inReach(seen, depth) && depth < nearest && passesThrough(seen, sample.triangle - 1, ray))
         nearest = depth;
     }
   }
@@ -64,7 +68,7 @@ float centreDepth(const Seen& seen, const light::Visibility& visibility, int x, 
   // Between samples of one triangle lies that triangle.
   if (same) {
     const double depth = planeDepth(seen, *same - 1, ray);
-    if (depth >= seen.view.near_m) return static_cast<float>(depth);
+    if (inReach(seen, depth)) return static_cast<float>(depth);
   }
   const double through = nearestThrough(seen, x, y, ray);
   if (std::isfinite(through)) return static_cast<float>(through);
@@ -73,7 +77,7 @@ float centreDepth(const Seen& seen, const light::Visibility& visibility, int x, 
                                              static_cast<float>(seen.view.near_m));
   if (!triangle) return kNothing;
   const double depth = planeDepth(seen, *triangle, ray);
-  return depth >= seen.view.near_m && depth <= seen.view.far_m ? static_cast<float>(depth) : kNothing;
+  return inReach(seen, depth) ? static_cast<float>(depth) : kNothing;
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ struct Seeing {
   Eigen::Vector3f geometric_normal, shading_normal;
   Eigen::Array3f albedo;
   float depth;             ///< of the first sample
-  float footprint = 0.0f;  ///< of one sample, m; of materials with detail
+  float footprint = 0.0f;  ///< of one sample, longer side, m; of materials with detail
+  float shorter_m = 0.0f;  ///< likewise
   std::uint32_t samples = 0;
   const Eigen::Vector3f* relatives;  ///< where its samples are: to the camera, along the axes of `map`
 };
@@ -30,10 +31,10 @@ struct Seeing {
 /// Alike parts of a pixel.
 struct Cluster {
   Seeing first;
-  Eigen::Vector3f shading_normal;  ///< sum over the samples
+  Eigen::Vector3f shading_normal;  ///< sum over the samples, and later unit
+  Eigen::Array3f albedo;           ///< sum over the samples
   std::uint32_t samples = 0;
   std::array<Eigen::Vector3f, kMostSamples> relatives;
-  std::array<Eigen::Array3f, kMostSamples> albedos;
 
   bool alike(const Seeing& s) const {
     return s.material == first.material &&
@@ -44,15 +45,14 @@ struct Cluster {
   void start(const Seeing& s) {
     first = s;
     shading_normal.setZero();
+    albedo.setZero();
     samples = 0;
     add(s);
   }
   void add(const Seeing& s) {
     shading_normal += static_cast<float>(s.samples) * s.shading_normal;
-    for (std::uint32_t i = 0; i < s.samples; ++i, ++samples) {
-      relatives[samples] = s.relatives[i];
-      albedos[samples] = s.albedo;
-    }
+    albedo += static_cast<float>(s.samples) * s.albedo;
+    for (std::uint32_t i = 0; i < s.samples; ++i) relatives[samples++] = s.relatives[i];
   }
 };
 
@@ -134,7 +134,7 @@ class TileResolver {
     seeing.relatives = cluster.relatives.data();
     seeing.samples = cluster.samples;
     look(samples[0].triangle - 1, &seeing);
-    std::fill_n(cluster.albedos.begin(), cluster.samples, seeing.albedo);
+    cluster.albedo = static_cast<float>(cluster.samples) * seeing.albedo;
     cluster.shading_normal = seeing.shading_normal;
     append(cluster, x, y);
   }
@@ -178,7 +178,10 @@ class TileResolver {
         memory_.clusters[clusters++].start(seeing);
       }
     }
-    for (std::size_t k = 0; k < clusters; ++k) append(memory_.clusters[k], x, y);
+    for (std::size_t k = 0; k < clusters; ++k) {
+      memory_.clusters[k].shading_normal.normalize();
+      append(memory_.clusters[k], x, y);
+    }
     return sky;
   }
 
@@ -195,8 +198,11 @@ class TileResolver {
     seeing->shading_normal = triangle.shadingNormal(shares);
     Footprint step =
         triangle.footprint(middle, seeing->depth, scene_detail_.sample_right, scene_detail_.sample_down);
-    if (scene_detail_.has(seeing->material))
-      seeing->footprint = std::sqrt(std::max(step.right.squaredNorm(), step.down.squaredNorm()));
+    if (scene_detail_.has(seeing->material)) {
+      const float right = step.right.norm(), down = step.down.norm();
+      seeing->footprint = std::max(right, down);
+      seeing->shorter_m = std::min(right, down);
+    }
     // All of these samples together span so many along each side.
     const float side = sides_[seeing->samples];
     step.right *= side;
@@ -207,17 +213,14 @@ class TileResolver {
   void append(const Cluster& cluster, int x, int y) {
     const float share = 1.0f / static_cast<float>(cluster.samples);
     const auto number = static_cast<std::uint32_t>(tile_.surfaces.size());
-    light::Surface& surface = tile_.surfaces.emplace_back();
+    tile_.surfaces.push_back(blank_);
+    light::Surface& surface = tile_.surfaces.back();
     surface.geometric_normal = cluster.first.geometric_normal;
-    surface.shading_normal = cluster.shading_normal.normalized();
+    surface.shading_normal = cluster.shading_normal;
     Eigen::Vector3f middle = Eigen::Vector3f::Zero();
-    surface.albedo = Eigen::Array3f::Zero();
-    for (std::uint32_t i = 0; i < cluster.samples; ++i) {
-      middle += cluster.relatives[i];
-      surface.albedo += cluster.albedos[i];
-    }
+    for (std::uint32_t i = 0; i < cluster.samples; ++i) middle += cluster.relatives[i];
     middle *= share;
-    surface.albedo *= share;
+    surface.albedo = share * cluster.albedo;
     surface.position = eye_high_ + (middle + eye_low_);
     surface.to_eye = -middle.normalized();
     surface.material = cluster.first.material;
@@ -227,8 +230,9 @@ class TileResolver {
     surface.first_sample = static_cast<std::uint32_t>(origins_);
     surface.samples = cluster.samples;
     if (scene_detail_.has(surface.material)) {
-      memory_.detail.add({number, surface.material, cluster.first.footprint, cluster.samples,
-                          cluster.relatives.data(), cluster.albedos.data()});
+      const Seeing& seeing = cluster.first;
+      memory_.detail.add({number, surface.material, seeing.footprint,
+                          detailSpread_m(cluster.samples, seeing.footprint, seeing.shorter_m), middle});
     }
     const Eigen::Vector3f to_origin = eye_low_ + surface.clearance_m * surface.geometric_normal;
     const float kept = seen_.look(surface.material).transmission > 0.0f ? 1.0f : kept_;
@@ -254,6 +258,7 @@ class TileResolver {
   /// sixteenth of a sample towards the eye, which sees both surfaces, brings it back. Thin sheets send rays
   /// to both sides: for them 1.
   float kept_;
+  const light::Surface blank_{};               ///< copied faster than made
   std::uint32_t per_pixel_;                    ///< samples
   std::array<float, kMostSamples + 1> sides_;  ///< of a square of so many samples
 };

@@ -49,31 +49,6 @@ SeenTriangle::SeenTriangle(const Seen& seen, std::uint32_t number) {
   texture_c_ = geometry.texture_coordinates[vertices[2]].array() - texture_a_;
 }
 
-Eigen::Array2f SeenTriangle::sharesAt(const Eigen::Vector3f& point) const {
-  const Eigen::Vector3f from_corner = point - corner_;
-  Eigen::Array2f shares(from_corner.dot(towards_b_), from_corner.dot(towards_c_));
-  shares = shares.max(0.0f).min(1.0f);  // a sample may lie a rounding error beside it
-  const float sum = shares.sum();
-  if (sum > 1.0f) shares /= sum;
-  return shares;
-}
-
-Eigen::Vector3f SeenTriangle::normalFrom(const Eigen::Vector3f& sum) const {
-  const float length = sum.norm();
-  if (!(length > 1e-6f)) return normal_;  // the file gave none
-  return sum * ((sum.dot(normal_) < 0.0f ? -1.0f : 1.0f) / length);
-}
-
-Footprint SeenTriangle::footprint(const Eigen::Vector3f& point, float depth, const Eigen::Vector3f& right,
-                                  const Eigen::Vector3f& down) const {
-  const Eigen::Vector3f along = point / normal_.dot(point);
-  const auto moved = [&](const Eigen::Vector3f& step) {
-    const Eigen::Vector3f across = step * depth;
-    return Eigen::Vector3f(across - along * normal_.dot(across));
-  };
-  return {moved(right), moved(down)};
-}
-
 Eigen::Array3f SeenTriangle::albedo(const Seen& seen, const Eigen::Array2f& shares, const Footprint& step,
                                     bool small) const {
   const Eigen::Array3f color = color_a_ + shares[0] * color_b_ + shares[1] * color_c_;

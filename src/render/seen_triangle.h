@@ -54,4 +54,30 @@ class SeenTriangle {
   Eigen::Array2f texture_a_, texture_b_, texture_c_;
 };
 
+// What every pixel asks for.
+inline Eigen::Array2f SeenTriangle::sharesAt(const Eigen::Vector3f& point) const {
+  const Eigen::Vector3f from_corner = point - corner_;
+  Eigen::Array2f shares(from_corner.dot(towards_b_), from_corner.dot(towards_c_));
+  shares = shares.max(0.0f).min(1.0f);  // a sample may lie a rounding error beside it
+  const float sum = shares.sum();
+  if (sum > 1.0f) shares /= sum;
+  return shares;
+}
+
+inline Eigen::Vector3f SeenTriangle::normalFrom(const Eigen::Vector3f& sum) const {
+  const float length = sum.norm();
+  if (!(length > 1e-6f)) return normal_;  // the file gave none
+  return sum * ((sum.dot(normal_) < 0.0f ? -1.0f : 1.0f) / length);
+}
+
+inline Footprint SeenTriangle::footprint(const Eigen::Vector3f& point, float depth,
+                                         const Eigen::Vector3f& right, const Eigen::Vector3f& down) const {
+  const Eigen::Vector3f along = point / normal_.dot(point);
+  const auto moved = [&](const Eigen::Vector3f& step) {
+    const Eigen::Vector3f across = step * depth;
+    return Eigen::Vector3f(across - along * normal_.dot(across));
+  };
+  return {moved(right), moved(down)};
+}
+
 }  // namespace sunlit::render

@@ -121,10 +121,13 @@ Eigen::Array3f TexturePyramid::color(const Eigen::Array2f& at, float level) cons
   const float last = static_cast<float>(levels_.size() - 1);
   const float clamped = level > 0.0f ? std::min(level, last) : 0.0f;
   const auto lower = static_cast<std::size_t>(clamped);
-  const float share = clamped - static_cast<float>(lower);
+  // Each size for itself near its own level, and between two in the half about their middle: a quarter of a
+  // level does not show, and half of all look-ups need but one size.
+  const float between = clamped - static_cast<float>(lower);
+  const float share = std::clamp(2.0f * between - 0.5f, 0.0f, 1.0f);
   const auto look = [&](const Level& l) { return bilinear(l.linear, l.width, l.height, u, v); };
-  Texel sum = look(levels_[lower]);
-  if (share > 0.0f) sum += share * (look(levels_[lower + 1]) - sum);
+  Texel sum = look(levels_[share < 1.0f ? lower : lower + 1]);
+  if (share > 0.0f && share < 1.0f) sum += share * (look(levels_[lower + 1]) - sum);
   return sum.head<3>() * (1.0f / 65535.0f);
 }
 

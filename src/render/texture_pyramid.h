@@ -18,8 +18,8 @@ class TexturePyramid {
   /// Of the full size, in texels.
   Eigen::Array2f size() const { return size_; }
 
-  /// Linear colour about texture coordinate `at`, repeating: bilinear within a level and linear between two.
-  /// `level` 0 is the full size, each next one half of it.
+  /// Linear colour about texture coordinate `at`, repeating: bilinear within a level, linear between two in
+  /// the half about their middle. `level` 0 is the full size, each next one half of it.
   Eigen::Array3f color(const Eigen::Array2f& at, float level) const;
 
   /// A masked texture at one size.

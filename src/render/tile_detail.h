@@ -28,30 +28,16 @@ class TileDetail {
   struct Entry {
     std::uint32_t surface;  ///< index into Tile::surfaces
     std::int32_t material;
-    float footprint;                   ///< of one sample, m
-    std::uint32_t samples;             ///< > 0
-    const Eigen::Vector3f* relatives;  ///< where the samples are, from the camera; copied
-    const Eigen::Array3f* albedos;     ///< theirs without detail; copied
+    float footprint, spread;  ///< see DetailPoints
+    Eigen::Vector3f middle;   ///< of its samples, from the camera
   };
   void add(const Entry& entry);
 
-  /// Sets the albedo of the surfaces added: the mean of their samples with detail. Forgets them.
+  /// Gives detail to the albedo of the surfaces added. Forgets them.
   void apply(const SceneDetail& scene, std::vector<light::Surface>* surfaces);
 
  private:
-  struct Item {
-    std::uint32_t surface;
-    std::int32_t material;
-    float footprint;
-    std::uint32_t samples, first_sample;
-    float coarse;
-  };
-  void evaluate(const DetailOctaves& octaves, std::size_t begin, std::size_t end);
-
-  std::vector<Item> items_;
-  std::vector<Eigen::Vector3f> relatives_;
-  std::vector<Eigen::Array3f> albedos_;
-  std::vector<float> fine_;  ///< one a sample
+  std::vector<std::vector<Entry>> entries_;  ///< by material
 };
 
 }  // namespace sunlit::render

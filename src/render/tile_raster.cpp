@@ -6,6 +6,12 @@
 #include "sunlit/quantity/whole.h"
 
 namespace sunlit::render {
+namespace {
+
+constexpr int kSmall = 32;  ///< samples of a box
+
+}  // namespace
+
 /// Where the rows of a triangle begin and end: after the greatest of three columns, and at or before the
 /// least of three others. Each edge bounds one side and leaves the other to the rest; with no branch on
 /// which, short rows cost little.
@@ -36,6 +42,23 @@ struct TileRaster::Edges {
     }
   }
 
+  /// The first column of each row less one, and the last, within `left` to `right`; of all rows at once,
+  /// which compilers turn into vector code.
+  void spans(const Box& box, double* before, double* last) const {
+    const double left = box.left - 1, right = box.right;
+    for (int i = 0; i <= bottom - top; ++i) {
+      const double row = top + i;
+      const double a = after_per_row[0] * row + after[0], b = after_per_row[1] * row + after[1],
+                   c = after_per_row[2] * row + after[2];
+      const double d = until_per_row[0] * row + until[0], e = until_per_row[1] * row + until[1],
+                   f = until_per_row[2] * row + until[2];
+      const double ab = a > b ? a : b, cl = c > left ? c : left, de = d < e ? d : e,
+                   fr = f < right ? f : right;
+      before[i] = ab > cl ? ab : cl;
+      last[i] = de < fr ? de : fr;
+    }
+  }
+
   /// Leaves only the rows on the inner side of a level edge.
   void cutLevel(double per_row, double constant) {
     while (top <= bottom && per_row * top + constant < 0.0) ++top;
@@ -45,10 +68,10 @@ struct TileRaster::Edges {
 
 void TileRaster::start(const Place& place, float far_m) {
   place_ = place;
-  farthest_ = 1.0f / far_m;
+  farthest_.fill(1.0f / far_m);
   drawn_since_update_ = 0;
   for (int row = place.top; row <= place.bottom; ++row) {
-    std::fill_n(&nearness_[index(place.left, row)], place.right - place.left + 1, farthest_);
+    std::fill_n(&nearness_[index(place.left, row)], place.right - place.left + 1, 1.0f / far_m);
     std::fill_n(&number_[index(place.left, row)], place.right - place.left + 1, 0u);
   }
 }
@@ -57,28 +80,48 @@ void TileRaster::updateFarthest() {
   constexpr int kInterval = 32;
   if (++drawn_since_update_ < kInterval) return;
   drawn_since_update_ = 0;
-  farthest_ = std::numeric_limits<float>::infinity();
+  farthest_.fill(std::numeric_limits<float>::infinity());
   for (int row = place_.top; row <= place_.bottom; ++row) {
     const float* const begin = &nearness_[index(place_.left, row)];
+    float* const blocks = &farthest_[static_cast<std::size_t>((row - place_.top) / kBlock * kBlocks)];
     for (int i = 0; i <= place_.right - place_.left; ++i)
-      farthest_ = begin[i] < farthest_ ? begin[i] : farthest_;
+      blocks[i / kBlock] = begin[i] < blocks[i / kBlock] ? begin[i] : blocks[i / kBlock];
   }
+}
+
+/// Whether all that is in the box, if not more, is nearer than anything of a triangle.
+bool TileRaster::hides(const Box& box, float nearness_greatest) const {
+  const int left = (box.left - place_.left) / kBlock, right = (box.right - place_.left) / kBlock;
+  const int top = (box.top - place_.top) / kBlock, bottom = (box.bottom - place_.top) / kBlock;
+  bool nearer = false;
+  for (int y = top; y <= bottom; ++y) {
+    for (int x = left; x <= right; ++x)
+      nearer |= nearness_greatest > farthest_[static_cast<std::size_t>(y * kBlocks + x)];
+  }
+  if (!nearer) return true;
+  // Of small triangles, as most are, the samples are sooner looked at than the edges found.
+  if ((box.right - box.left + 1) * (box.bottom - box.top + 1) > kSmall) return false;
+  nearer = false;
+  for (int row = box.top; row <= box.bottom; ++row) {
+    const float* const begin = &nearness_[index(box.left, row)];
+    for (int i = 0; i <= box.right - box.left; ++i) nearer |= nearness_greatest > begin[i];
+  }
+  return !nearer;
 }
 
 void TileRaster::draw(const ScreenTriangle& triangle, const std::vector<MaskPlanes>& masks,
                       float texels_factor) {
-  if (triangle.nearness_greatest <= farthest_) return;
+  const Box box{std::max(triangle.left, place_.left), std::min(triangle.right, place_.right),
+                std::max(triangle.top, place_.top), std::min(triangle.bottom, place_.bottom)};
+  if (hides(box, triangle.nearness_greatest)) return;
   updateFarthest();
-  const int left = std::max(triangle.left, place_.left), right = std::min(triangle.right, place_.right);
-  const Edges edges(triangle, std::max(triangle.top, place_.top), std::min(triangle.bottom, place_.bottom));
+  const Edges edges(triangle, box.top, box.bottom);
+  std::array<double, kLargest> before, last;  // spans begin after the one and end at or before the other
+  edges.spans(box, before.data(), last.data());
   for (int row = edges.top; row <= edges.bottom; ++row) {
-    double before = left - 1, last = right;  // the span begins after the one and ends at or before the other
-    for (std::size_t i = 0; i < 3; ++i) {
-      before = std::max(before, edges.after_per_row[i] * row + edges.after[i]);
-      last = std::min(last, edges.until_per_row[i] * row + edges.until[i]);
-    }
-    if (!(before < last)) continue;
-    const Span span{row, floorOf(before) + 1, floorOf(last)};
+    const auto i = static_cast<std::size_t>(row - edges.top);
+    if (!(before[i] < last[i])) continue;
+    const Span span{row, floorOf(before[i]) + 1, floorOf(last[i])};
     if (span.left > span.right) continue;
     if (triangle.mask == ScreenTriangle::kNoMask) {
       fill(triangle, span);

@@ -39,11 +39,17 @@ class TileRaster {
   std::size_t index(int column, int row) const {
     return static_cast<std::size_t>((row - place_.top) * kLargest + column - place_.left);
   }
+  /// The part of the tile that a triangle may cover.
+  struct Box {
+    int left, right, top, bottom;  ///< inclusive
+  };
+  bool hides(const Box& box, float nearness_greatest) const;
   void updateFarthest();
 
   Place place_;
-  /// Nothing in the tile is farther: what is, is hidden. Updated now and then.
-  float farthest_ = 0.0f;
+  static constexpr int kBlock = 8, kBlocks = kLargest / kBlock;  ///< samples a side, blocks a side
+  /// Nothing in each block is farther: what is, is hidden. Updated now and then.
+  std::array<float, kBlocks * kBlocks> farthest_;
   int drawn_since_update_ = 0;
   std::array<float, kLargest * kLargest> nearness_;  ///< 1 / depth, 1/m
   std::array<std::uint32_t, kLargest * kLargest> number_;

@@ -4,12 +4,27 @@
 #include <ros/init.h>
 #include <ros/node_handle.h>
 
+#include <cstdio>
 #include <exception>
 
 namespace sunlit::ros_interface {
 
+namespace {
+
+int refuse(const std::string& word, const std::string& name) {
+  const bool help = word == "--help" || word == "-h";
+  if (!help) std::fprintf(stderr, "%s: there is no option %s\n", name.c_str(), word.c_str());
+  std::fprintf(help ? stdout : stderr,
+               "%s_node takes ROS parameters; config/%s.yaml explains them, launch/%s.launch sets them\n",
+               name.c_str(), name.c_str(), name.c_str());
+  return help ? 0 : 1;
+}
+
+}  // namespace
+
 int runNode(int argc, char** argv, const std::string& name, const std::function<int()>& node) {
   ros::init(argc, argv, name);
+  if (argc > 1) return refuse(argv[1], name);  // ROS has taken what it knows
   // roscpp and its console end with the last handle: without this one, an exception that destroys the node's
   // own handles on its way here could no longer be printed.
   const ros::NodeHandle alive;

@@ -2,7 +2,9 @@
 
 #include <ros/names.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -69,6 +71,35 @@ std::string joined(const std::vector<std::string>& words) {
   std::string line;
   for (const std::string& word : words) line += (line.empty() ? "" : ", ") + word;
   return line;
+}
+
+/// How many letters must be changed, added or left out to make `b` of `a` (Levenshtein 1966).
+std::size_t changes(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+/// " (did you mean KEY?)" where one of `known` is near; else nothing.
+std::string suggestion(const std::string& unknown, const std::set<std::string>& known) {
+  const std::size_t far = 1 + unknown.size() / 4;  // more than a slip or two
+  std::size_t least = far + 1;
+  std::string nearest;
+  for (const std::string& key : known) {
+    const std::size_t distance = changes(unknown, key);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = key;
+  }
+  return nearest.empty() ? "" : " (did you mean " + nearest + "?)";
 }
 
 /// The first leaf of `tree` that no asked key equals or contains.
@@ -206,6 +237,8 @@ std::vector<std::string> ParameterReader::texts(const std::string& key,
   const XmlRpcValue* found = find(key);
   if (found == nullptr) return fallback;
   XmlRpcValue list = *found;
+  if (list.getType() == XmlRpcValue::TypeString)
+    reject(key, list, "a list of words, [a, b], not a text (as which rosrun passes on _name:=value)");
   if (list.getType() != XmlRpcValue::TypeArray) reject(key, list, "a list of words, [a, b]");
   std::vector<std::string> words;
   for (int i = 0; i < list.size(); ++i) {
@@ -227,7 +260,8 @@ void ParameterReader::rejectUnknown() const {
   if (!unknown) return;
   const std::vector<std::string> known(layer.asked.begin(), layer.asked.end());
   const std::string choice = known.empty() ? "nothing can differ here" : "known are " + joined(known);
-  throw std::invalid_argument("parameter " + layer.name + "/" + *unknown + " is unknown; " + choice);
+  throw std::invalid_argument("parameter " + layer.name + "/" + *unknown + " is unknown" +
+                              suggestion(*unknown, layer.asked) + "; " + choice);
 }
 
 }  // namespace sunlit::ros_interface

@@ -56,6 +56,7 @@ struct Atmosphere::Tables {
   static MediumParameters mediumOf(const AtmosphereOptions& options) {
     MediumParameters parameters;
     parameters.turbidity = options.turbidity;
+    parameters.ozone_du = options.ozone_du;
     parameters.ground_albedo = options.ground_albedo;
     return parameters;
   }
@@ -69,6 +70,7 @@ struct Atmosphere::Tables {
 
 void validate(const AtmosphereOptions& options) {
   requireWithin("turbidity", options.turbidity, 1.0, 10.0);
+  requireWithin("ozone_du", options.ozone_du, 0.0, 600.0);
   requireWithin("ground_albedo", options.ground_albedo, 0.0, 1.0);
   requireWithin("observer_height_m", options.observer_height_m, 0.0, 8000.0);
 }

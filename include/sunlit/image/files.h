@@ -12,6 +12,10 @@ namespace sunlit::image {
 /// exist.
 void writeFileAtomically(const std::string& path, const std::string& bytes);
 
+/// Makes `finished`, a whole file that nobody writes to any more, durable (fsync), gives it the name `path`
+/// in the same folder, and makes that name durable too. Where that fails `finished` is still there.
+void moveIntoPlace(const std::string& finished, const std::string& path);
+
 /// 8-bit sRGB PNG. The picture must not be empty (std::invalid_argument).
 void writePng(const std::string& path, const Rgb8Image& picture);
 /// The file in memory, as writePng() would write it.

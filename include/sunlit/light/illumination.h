@@ -12,6 +12,7 @@ namespace sunlit::light {
 
 class AroundLight;
 class MirrorSky;
+class SkySectors;
 
 struct Illumination {
   /// Without `irradiance`: every surface sees the whole sky that it faces, and no light is bounced.
@@ -21,6 +22,8 @@ struct Illumination {
   sky::Daylight day;
   /// Of the sky and of what surfaces pass on, lx, at each node of the Transport that made it; null: open sky.
   std::shared_ptr<const std::vector<Eigen::Array3f>> irradiance;
+  /// Of the sky alone, by what of it is open; null as `irradiance`.
+  std::shared_ptr<const SkySectors> sky_sectors;
   /// What is seen in mirrors: of the sky, and of the surfaces around each node, cd/m²; null as `irradiance`.
   std::shared_ptr<const MirrorSky> mirror_sky;
   std::shared_ptr<const std::vector<Eigen::Array3f>> surroundings;

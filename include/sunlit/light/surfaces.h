@@ -14,10 +14,16 @@ struct LightPlace {
   static constexpr std::uint32_t kNowhere = 0xffffffffu;
   std::array<std::uint32_t, 3> node = {kNowhere, kNowhere, kNowhere};  ///< all or none kNowhere
   std::array<float, 3> weight = {1.0f, 0.0f, 0.0f};                    ///< sum 1
-  /// How much of the sky is open there, in parts of what is open at the nodes: leaves are finer than those.
-  float open = 1.0f;
 
   bool known() const { return node[0] != kNowhere; }
+};
+
+/// How much of the sky a point sees, by sectors of it: for leaves, which differ within less than the distance
+/// of nodes.
+struct SkyView {
+  static constexpr std::size_t kSectors = 24;    ///< SkySectors tells where they lie
+  std::array<std::uint8_t, kSectors> open = {};  ///< share that is not hidden, 255 for all
+  bool known = false;                            ///< else the nodes tell
 };
 
 /// What a surface mirrors: parts of equal weight, each about one direction.
@@ -47,9 +53,10 @@ struct Surface {
   std::uint32_t first_sample = 0;    ///< into Tile::origin_x …
   std::uint32_t samples = 0;         ///< how many of the pixel's samples see it, > 0
   std::uint32_t triangle = 0;  ///< one that it lies on: index into Geometry::triangles, beyond them bodies
+  std::uint16_t view = 0;      ///< what it mirrors: index into Tile::views, where `light` is known
   LightPlace light;            ///< set by Transport::locate()
-  MirrorView mirror;           ///< likewise, where `light` is known
   LightPlace behind;           ///< likewise, on the other side of a thin sheet
+  SkyView sky;                 ///< likewise, on leaves
   static constexpr std::int32_t kNoBody = -1;
   std::int32_t body = kNoBody;  ///< that moves, which it belongs to; set by BodyLight::hide()
   float unhidden = 1.0f;  ///< share of the light from all around that bodies leave to it; 0 … 1, as above
@@ -63,6 +70,7 @@ struct Tile {
   std::vector<Surface> surfaces;  ///< in pixel order
   /// Where each sample's rays start, m in `map`: on the visible side of the triangle, clear of rounding.
   std::vector<float> origin_x, origin_y, origin_z;
+  std::vector<MirrorView> views;  ///< of its surfaces; set by Transport::locate()
   std::vector<std::uint8_t> sky;  ///< samples of each pixel of the tile (row-major) that see no surface
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -70,7 +71,8 @@ class Transport {
   explicit Transport(std::shared_ptr<const Geometry> geometry, std::unique_ptr<const TransportData> data);
   ~Transport();
 
-  /// Sets Surface::light, Surface::behind and Surface::mirror of all surfaces but those of bodies that move.
+  /// Sets Surface::light, Surface::behind, Surface::sky and Surface::view of all surfaces but those of bodies
+  /// that move, and Tile::views.
   void locate(Surfaces* surfaces) const;
   /// Where a point of a triangle of the scene finds its light, on the front or the back.
   LightPlace placeOf(std::uint32_t triangle, bool front, const Eigen::Vector3f& position) const;
@@ -85,9 +87,11 @@ class Transport {
   std::size_t nodeCount() const;
 
  private:
+  /// Of a point given by its barycentric coordinates.
+  LightPlace placeWithin(std::uint32_t triangle, bool front, const std::array<float, 3>& within) const;
+
   std::shared_ptr<const Geometry> geometry_;
   std::unique_ptr<const TransportData> data_;
-  std::vector<float> open_;  ///< share of the sphere's half that is open sky at each node; empty: no leaves
 };
 
 }  // namespace sunlit::light

@@ -98,18 +98,14 @@ struct BakeRays::Implementation {
   explicit Implementation(std::shared_ptr<const Geometry> geometry_to_use)
       : geometry(std::move(geometry_to_use)), cutouts(*geometry), device(rtcNewDevice(nullptr)) {
     if (!device) throw std::runtime_error("ray library (Embree): no device");
-    scene = rtcNewScene(device);
-    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+    scene.reset(rtcNewScene(device.get()));
+    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
     sortTriangles();
     attachWhole(kOpaque);
     attachWhole(kMasked);
     attachLeaves();
-    rtcCommitScene(scene);
-    requireFine(device, "cannot build the scene");
-  }
-  ~Implementation() {
-    rtcReleaseScene(scene);
-    rtcReleaseDevice(device);
+    rtcCommitScene(scene.get());
+    requireFine(device.get(), "cannot build the scene");
   }
 
   void sortTriangles() {
@@ -129,12 +125,12 @@ struct BakeRays::Implementation {
   void attachWhole(GeometryNumber number) {
     const std::vector<std::uint32_t>& chosen = triangles[number];
     if (chosen.empty()) return;
-    const TriangleMesh mesh = newTriangleMesh(device, *geometry, chosen);
+    const TriangleMesh mesh = newTriangleMesh(device.get(), *geometry, chosen);
     if (number == kMasked) {
       rtcSetGeometryUserData(mesh.handle, &masked_group);
       rtcSetGeometryIntersectFilterFunction(mesh.handle, passCutouts);
     }
-    attach(mesh, scene, number);
+    attach(mesh, scene.get(), number);
   }
 
   /// A leaf card becomes smaller, solid triangles of as much area as its mask leaves: the same light gets
@@ -150,7 +146,7 @@ struct BakeRays::Implementation {
       triangles[kLeaves].resize(leaf_parts.size(), cutouts.maskedTriangles()[leaves[i]]);
     }
     if (leaf_parts.empty()) return;
-    const TriangleMesh mesh = newTriangleMesh(device, 3 * leaf_parts.size(), leaf_parts.size());
+    const TriangleMesh mesh = newTriangleMesh(device.get(), 3 * leaf_parts.size(), leaf_parts.size());
     for (std::size_t i = 0; i < leaf_parts.size(); ++i) {
       const auto& card = geometry->triangles[triangles[kLeaves][i]];
       for (std::size_t k = 0; k < 3; ++k) {
@@ -161,7 +157,7 @@ struct BakeRays::Implementation {
         mesh.triangles[i][k] = static_cast<std::uint32_t>(3 * i + k);
       }
     }
-    attach(mesh, scene, kLeaves);
+    attach(mesh, scene.get(), kLeaves);
   }
 
   std::shared_ptr<const Geometry> geometry;
@@ -170,8 +166,8 @@ struct BakeRays::Implementation {
   std::vector<std::uint32_t> leaves;        ///< index into Cutouts::maskedTriangles()
   LeafParts leaf_parts;                     ///< those attached, by Embree's number
   std::vector<std::uint32_t> triangles[3];  ///< index into Geometry::triangles, by Embree's numbers
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
+  DevicePointer device;
+  ScenePointer scene;
 };
 
 BakeRays::BakeRays(std::shared_ptr<const Geometry> geometry)
@@ -199,7 +195,7 @@ void BakeRays::cast(const RayPacket& rays, HitPacket* hits) const {
     packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  rtcIntersect16(rays.valid, implementation_->scene, &context, &packet);
+  rtcIntersect16(rays.valid, implementation_->scene.get(), &context, &packet);
   for (int i = 0; i < n; ++i) {
     const unsigned number = packet.hit.geomID[i];
     if (!rays.valid[i] || number == RTC_INVALID_GEOMETRY_ID) {

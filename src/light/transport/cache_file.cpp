@@ -8,13 +8,15 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "sunlit/image/files.h"
+
 namespace sunlit::light {
 namespace {
 
 namespace fs = std::filesystem;
 
 /// Goes up whenever the bake or the layout below changes.
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 7;
 constexpr char kMagic[8] = {'s', 'u', 'n', 'l', 'i', 't', 'T', '\n'};
 
 struct Header {
@@ -148,11 +150,16 @@ void writeBake(const fs::path& file, const ContentHash& key, const TransportData
                  static_cast<std::streamsize>(values.size() * sizeof(values[0])));
   });
   stream.close();
-  std::error_code error;
-  if (stream) fs::rename(unfinished, file, error);
-  if (!stream || error) {
-    fs::remove(unfinished, error);
+  std::error_code ignored;
+  if (!stream) {
+    fs::remove(unfinished, ignored);
     fail(file, "cannot be written");
+  }
+  try {
+    image::moveIntoPlace(unfinished, file);
+  } catch (const std::runtime_error&) {
+    fs::remove(unfinished, ignored);
+    throw;
   }
 }
 

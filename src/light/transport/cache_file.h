@@ -18,7 +18,8 @@ ContentHash bakeKey(const Geometry& geometry, const TransportOptions& options);
 /// of another version, or is of another bake than `key`.
 std::unique_ptr<TransportData> readBake(const std::filesystem::path& file, const ContentHash& key);
 
-/// Complete or not at all: written beside `file` first. Throws std::runtime_error with the path.
+/// Complete or not at all, also where the power fails: written beside `file` first, and durable before it
+/// gets that name. Throws std::runtime_error with the path.
 void writeBake(const std::filesystem::path& file, const ContentHash& key, const TransportData& data);
 
 }  // namespace sunlit::light

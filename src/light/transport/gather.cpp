@@ -9,6 +9,9 @@
 #include <string>
 
 #include "light/angles.h"
+#include "light/mirror_lobe.h"
+#include "light/transport/ground_mirror.h"
+#include "light/transport/hidden.h"
 #include "light/transport/probe.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/photometry.h"
@@ -21,7 +24,10 @@ constexpr std::uint32_t kDirectionShift = 24;  ///< a hit: the sample there, and
 constexpr std::uint32_t kSampleMask = (1u << kDirectionShift) - 1;
 static_assert(SkyPatches::kCoarse <= 256, "a coarse direction fits above a sample");
 constexpr std::size_t kPacket = RayPacket::kSize;
-constexpr float kMostInside = 0.6f;  ///< share of rays that may end inside bodies
+constexpr float kMostReflected = 0.98f;  ///< of what arrives, so that light dies out
+constexpr float kMostInside = 0.6f;      ///< share of rays that may end inside bodies
+
+constexpr std::size_t kBlock = 256;  ///< samples, of one task
 
 using Row = std::array<float, kPatches>;
 
@@ -52,6 +58,7 @@ class Gatherer {
       lookAround(p * kPacket, data);
       step(direct_share / static_cast<double>(packets));
     });
+    if (options_.bounces > 0) lookIntoGround(*data);
     std::vector<std::vector<Amount>> received;
     for (int bounce = 0; bounce < options_.bounces; ++bounce) {
       passOn(data, (1.0 - direct_share) / options_.bounces);
@@ -91,6 +98,13 @@ class Gatherer {
     return root == LightMesh::kNone ? samples_.mesh.roots[t][1 - side] : root;
   }
 
+  void note(const HitPacket& hits, int lane, const SkyPatches::Ray& ray, float weight, Hidden* hidden) const {
+    const std::uint32_t t = hits.triangle[lane];
+    if (t == HitPacket::kNothing) return hidden->addFree(weight, ray.towards.z() > 0.0f);
+    const bool back = geometry_.planes[t].normal.dot(ray.towards) > 0.0f;
+    hidden->addHit(weight, traits_[t], back, hits.distance[lane]);
+  }
+
   /// The sample nearest to where a ray hit.
   std::uint32_t sampleAt(std::uint32_t root, float u, float v) const {
     const LightMesh::Place place = samples_.mesh.locate(root, {1.0f - u - v, u, v});
@@ -102,11 +116,13 @@ class Gatherer {
     const int count = static_cast<int>(std::min(kPacket, count_ - first));
     std::array<Row, kPacket> rows{};
     std::array<Sums, kPacket> sums{};
+    std::array<Hidden, kPacket> hidden;
     const auto& rays = patches_.rays();
     probe(rays_, rays, samples_.sites.data() + first, count,
           [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
             const auto i = static_cast<std::size_t>(lane);
             sums[i].all += weight;
+            note(hits, lane, rays[r], weight, &hidden[i]);
             if (hits.triangle[lane] == HitPacket::kNothing) {
               rows[i][static_cast<std::size_t>(rays[r].patch)] += weight;
               return;
@@ -131,7 +147,8 @@ class Gatherer {
       for (float& value : rows[i]) value *= scale;
       data->direct.set(first + i, rows[i].data());
       Seen& seen = seen_[first + i];
-      seen.inside = sums[i].inside > kMostInside * sums[i].all;
+      const bool thin = samples_.sites[first + i].transmission > 0.0f;
+      seen.inside = sums[i].inside > kMostInside * sums[i].all || (!thin && hidden[i].buried());
       seen.scale_down = scale;
       seen.scale_up = scale;
       if (sums[i].coarse_blocked_up > 0.0f && !samples_.sites[first + i].coarse) {
@@ -142,12 +159,58 @@ class Gatherer {
     }
   }
 
+  /// The sky that each sample sees mirrored by the ground.
+  void lookIntoGround(const TransportData& data) {
+    const GroundMirror mirror(patches_);
+    mirrored_.resize(count_);
+    mirrored_sums_.assign(count_, 0.0f);
+    tbb::parallel_for(std::size_t{0}, (count_ + kBlock - 1) / kBlock, [&](std::size_t block) {
+      for (std::size_t i = block * kBlock; i < std::min(count_, (block + 1) * kBlock); ++i) {
+        Row row{};
+        for (const std::uint32_t hit : seen_[i].hits) addMirrored(data, mirror, i, hit, &row);
+        mirrored_.set(i, row.data());
+        for (const float value : row) mirrored_sums_[i] += value;
+      }
+    });
+  }
+
+  /// A ray from a sample to one that it sees.
+  struct RaySeen {
+    Eigen::Vector3f towards;
+    float weight;  ///< of the luminance × π that arrives along it, in the sample's illuminance
+  };
+  RaySeen raySeen(std::size_t i, std::uint32_t hit) const {
+    const std::uint32_t direction = hit >> kDirectionShift;
+    const SkyPatches::Ray& ray = patches_.coarseRays()[direction];  // its weight is in the scales
+    return {ray.towards, ray.solid_angle * samples_.sites[i].weight(ray.towards) *
+                             (direction < SkyPatches::kAbove ? seen_[i].scale_up : seen_[i].scale_down) /
+                             kPiFloat};
+  }
+
+  /// Whether a sample mirrors as GroundMirror says.
+  bool isGround(std::uint32_t sample) const {
+    constexpr float kLevel = 0.97f;  // within 14°, half a patch
+    const Site& site = samples_.sites[sample];
+    return site.normal.z() > kLevel && site.transmission <= 0.0f && samples_.paints[sample].metalness < 0.5f;
+  }
+
+  void addMirrored(const TransportData& data, const GroundMirror& mirror, std::size_t i, std::uint32_t hit,
+                   Row* row) const {
+    const std::uint32_t direction = hit >> kDirectionShift;
+    const std::uint32_t from = hit & kSampleMask;
+    if (direction < SkyPatches::kAbove || !isGround(from)) return;
+    const GroundMirror::Row& shares =
+        mirror.towards(direction - SkyPatches::kAbove, samples_.paints[from].roughness);
+    const std::uint8_t* light = data.direct.row(from);
+    const float factor = raySeen(i, hit).weight * data.direct.scales[from];
+    for (std::size_t p = 0; p < kPatches; ++p) (*row)[p] += factor * shares[p] * light[p];
+  }
+
   /// Adds one bounce: what every sample passes on of all that it has by now.
   void passOn(TransportData* data, double share) {
     Coefficients sent;  // luminance × π
     sent.resize(count_);
     std::vector<Sent> others(count_);
-    constexpr std::size_t kBlock = 256;
     const std::size_t blocks = (count_ + kBlock - 1) / kBlock;
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
       for (std::size_t i = block * kBlock; i < std::min(count_, (block + 1) * kBlock); ++i)
@@ -203,10 +266,13 @@ class Gatherer {
   };
 
   Sent send(const TransportData& data, std::size_t i, Coefficients* sent) const {
-    const Eigen::Array3f& reflectance = samples_.reflectances[i];
+    const Reflectance mean = reflectance(samples_.paints[i], kMeanView);
+    const Eigen::Array3f all = (mean.diffuse + mean.mirrored).min(kMostReflected);
+    // The sky that the ground mirrors has gone its own way.
+    const Eigen::Array3f spread = isGround(static_cast<std::uint32_t>(i)) ? mean.diffuse : all;
     const Eigen::Array3f tint = Eigen::Map<const Eigen::Array3f>(data.tints[i].data());
-    const float direct_factor = luminanceOf(reflectance) * data.direct.scales[i];
-    const float bounced_factor = luminanceOf(reflectance * tint) * data.bounced.scales[i];
+    const float direct_factor = luminanceOf(spread) * data.direct.scales[i];
+    const float bounced_factor = luminanceOf(all * tint) * data.bounced.scales[i];
     const std::uint8_t* direct = data.direct.row(i);
     const std::uint8_t* bounced = data.bounced.row(i);
     Row row;
@@ -218,21 +284,29 @@ class Gatherer {
     }
     sent->set(i, row.data());
     const Eigen::Array3f glow = Eigen::Map<const Eigen::Array3f>(data.glows[i].data());
-    return {reflectance * (data.direct.scales[i] * direct_sum + data.bounced.scales[i] * bounced_sum * tint),
-            samples_.emissions[i] * kPiFloat + reflectance * glow};
+    return {
+        spread * (data.direct.scales[i] * direct_sum) + all * (data.bounced.scales[i] * bounced_sum) * tint,
+        samples_.emissions[i] * kPiFloat + all * glow};
+  }
+
+  /// Ground scatters less towards a glancing ray than towards the mean one: Fresnel's share is larger there.
+  float scattered(std::uint32_t from, const Eigen::Vector3f& towards) const {
+    if (towards.z() >= 0.0f || !isGround(from)) return 1.0f;
+    static const float mean = 1.0f - meanGrazing(kMeanView);
+    return (1.0f - meanGrazing(-towards.z())) / mean;
   }
 
   void receive(const Coefficients& sent, const std::vector<Sent>& others, std::size_t i,
                TransportData* data) const {
     const Seen& seen = seen_[i];
-    Row row{};
-    Eigen::Array3f color = Eigen::Array3f::Zero(), glow = Eigen::Array3f::Zero();
+    Row row;
+    for (std::size_t p = 0; p < kPatches; ++p)
+      row[p] = static_cast<float>(mirrored_.row(i)[p]) * mirrored_.scales[i];
+    Eigen::Array3f color = Eigen::Array3f::Constant(mirrored_sums_[i]), glow = Eigen::Array3f::Zero();
     for (const std::uint32_t hit : seen.hits) {
-      const std::uint32_t direction = hit >> kDirectionShift;
       const std::uint32_t from = hit & kSampleMask;
-      const SkyPatches::Ray& ray = patches_.coarseRays()[direction];  // its weight is in the scales
-      const float weight = ray.solid_angle * samples_.sites[i].weight(ray.towards) *
-                           (direction < SkyPatches::kAbove ? seen.scale_up : seen.scale_down) / kPiFloat;
+      const RaySeen ray = raySeen(i, hit);
+      const float weight = ray.weight * scattered(from, ray.towards);
       const float factor = weight * sent.scales[from];
       const std::uint8_t* other = sent.row(from);
       for (std::size_t p = 0; p < kPatches; ++p) row[p] += factor * other[p];
@@ -255,6 +329,8 @@ class Gatherer {
   SkyPatches patches_;
   std::size_t count_;
   std::vector<Seen> seen_;
+  Coefficients mirrored_;             ///< sky by way of the ground as a mirror, without colour
+  std::vector<float> mirrored_sums_;  ///< of its coefficients
   std::mutex progress_mutex_;
   double done_ = 0.0;
 };

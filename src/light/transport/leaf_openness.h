@@ -9,27 +9,26 @@
 
 #include "light/transport/triangle_kinds.h"
 #include "sunlit/light/geometry.h"
+#include "sunlit/light/surfaces.h"
 
 namespace sunlit::light {
 
 /// Cards of leaves cross each other: within a hand's breadth, one may lie open or deep in the shade of the
-/// next. So each has a grid of its own, of the share of an even sky, by cosine about the shading normal, that
-/// either side sees.
+/// next. So each has a grid of its own, of how much of each sector of the sky is open.
 struct LeafOpenness {
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
   std::vector<std::uint32_t> first;  ///< of each triangle, into `grids`; kNone: it has none. Or empty
-  /// For each grid the number of steps along an edge, and two shares for each node, front and back, 255 for
-  /// all of the sphere's half: node after node along the third corner's edge, row after row towards the
-  /// second.
+  /// For each grid the number of steps along an edge, and SkyView::open of each node: node after node along
+  /// the third corner's edge, row after row towards the second.
   std::vector<std::uint8_t> grids;
 
   bool known(std::uint32_t triangle) const { return !first.empty() && first[triangle] != kNone; }
-  /// Share of the half sphere that is open sky; `side` is 0 for the front, 1 for the back.
-  float at(std::uint32_t triangle, int side, const std::array<float, 3>& barycentric) const;
+  SkyView at(std::uint32_t triangle, const std::array<float, 3>& barycentric) const;
 };
 
-/// Parallel; the same for any number of threads. Throws std::runtime_error if the ray library fails.
+/// Parallel; the same for any number of threads. Throws std::runtime_error if the ray library fails or the
+/// grids take more than 4 GB.
 LeafOpenness leafOpenness(const std::shared_ptr<const Geometry>& geometry,
                           const std::vector<TriangleTraits>& traits,
                           const std::function<void(double)>& progress);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/transport/hidden.h"
+
 namespace sunlit::light {
 namespace {
 
@@ -18,6 +20,8 @@ constexpr float kNearShare = 0.7f;     ///< … in distances of the closest thin
 constexpr float kNearLimit_m = 2.0f;   ///< as far as that matters
 constexpr float kFinerAtWalls = 4.0f;  ///< times, than elsewhere
 constexpr float kCutUrgency = 4.0f;    ///< of a cell with a wall amid it: light leaks there
+/// Height of normals: below it, as on trunks, leaves nearby count as walls do; ground has too many above it.
+constexpr float kSteep = 0.5f;
 constexpr std::size_t kNodesAtOnce = RayPacket::kSize;
 
 std::uint64_t pairKey(std::uint32_t a, std::uint32_t b) {
@@ -95,6 +99,12 @@ bool Occupancy::near(const std::vector<MeshNode>& nodes, const LightMesh::Cell& 
 MeshBuilder::MeshBuilder(const Geometry& geometry, const BakeRays& rays,
                          const std::vector<TriangleTraits>& traits)
     : geometry_(geometry), rays_(rays), traits_(traits), occupied_(geometry, traits) {
+  const SkyPatches patches(1);
+  const std::vector<SkyPatches::Ray>& all = patches.coarseRays();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    // Half of the directions tell distances well enough; every other ring begins with another one.
+    if ((i + i / 30) % 2 == 0) directions_.push_back(all[i]);
+  }
   mesh.roots.assign(geometry.triangles.size(), {LightMesh::kNone, LightMesh::kNone});
 }
 
@@ -134,25 +144,27 @@ void MeshBuilder::lookAround(std::size_t first_node) {
     const std::size_t begin = first_node + p * kNodesAtOnce;
     const int count = static_cast<int>(std::min(kNodesAtOnce, nodes.size() - begin));
     std::array<Site, kNodesAtOnce> sites;
-    std::array<float, kNodesAtOnce> all{}, inside{}, near{}, nearest;
+    std::array<float, kNodesAtOnce> all{}, near{}, nearest;
+    std::array<Hidden, kNodesAtOnce> hidden;
     nearest.fill(1e9f);
     for (int i = 0; i < count; ++i)
       sites[static_cast<std::size_t>(i)] = nodes[begin + static_cast<std::size_t>(i)].site();
-    probe(rays_, patches_.coarseRays(), sites.data(), count,
+    probe(rays_, directions_, sites.data(), count,
           [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
             const auto i = static_cast<std::size_t>(lane);
             all[i] += weight;
             const std::uint32_t hit = hits.triangle[i];
-            if (hit == HitPacket::kNothing) return;
-            const bool back = geometry_.planes[hit].normal.dot(patches_.coarseRays()[r].towards) > 0.0f;
-            if (back && traits_[hit].solid) inside[i] += weight;
-            if (isLeaf(traits_[hit].kind)) return;
+            const Eigen::Vector3f& towards = directions_[r].towards;
+            if (hit == HitPacket::kNothing) return hidden[i].addFree(weight, towards.z() > 0.0f);
+            const bool back = geometry_.planes[hit].normal.dot(towards) > 0.0f;
+            hidden[i].addHit(weight, traits_[hit], back, hits.distance[i]);
+            if (isLeaf(traits_[hit].kind) && sites[i].normal.z() > kSteep) return;
             near[i] += weight / std::max(hits.distance[i], 0.05f);
             nearest[i] = std::min(nearest[i], hits.distance[i]);
           });
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       MeshNode& node = nodes[begin + i];
-      node.valid = inside[i] < 0.5f * all[i];
+      node.valid = !hidden[i].buried();
       node.reach_m = near[i] > 0.0f ? all[i] / near[i] : 1e9f;
       node.nearest_m = nearest[i];
     }

@@ -22,7 +22,7 @@ struct MeshNode {
   int cells = 0;                                      ///< how many
   float reach_m = 0.0f;                               ///< harmonic mean distance of what is seen
   float nearest_m = 0.0f;                             ///< the closest of it
-  bool valid = true;                                  ///< not inside a body
+  bool valid = true;                                  ///< not where no camera looks
 
   Site site() const;
 };
@@ -93,7 +93,7 @@ class MeshBuilder {
   const BakeRays& rays_;
   const std::vector<TriangleTraits>& traits_;
   Occupancy occupied_;
-  SkyPatches patches_{1};
+  std::vector<SkyPatches::Ray> directions_;                   ///< in which nodes look around
   std::unordered_map<std::uint64_t, std::uint32_t> middles_;  ///< of halved edges
   std::vector<std::uint32_t> active_;                         ///< leaves that may still be halved
 };

@@ -58,7 +58,7 @@ Reflectances::Reflectances(const Geometry& geometry) : geometry_(geometry) {
                     [&](std::size_t i) { thumbnails_[i] = shrink(textures[i]); });
 }
 
-Eigen::Array3f Reflectances::at(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const {
+Paint Reflectances::at(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const {
   const scene::Material& material =
       geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[triangle])];
   Eigen::Array3f albedo = Eigen::Array3f::Zero();
@@ -74,15 +74,30 @@ Eigen::Array3f Reflectances::at(std::uint32_t triangle, const Eigen::Vector3f& b
     albedo *=
         thumbnail.pixels[static_cast<std::size_t>(wrapped(uv.y()) * Thumbnail::kSize + wrapped(uv.x()))];
   }
-  // Seen at 50° from the normal, about the mean of a hemisphere.
+  return {albedo.max(0.0f).min(1.0f), material.roughness, material.metalness};
+}
+
+void Paint::add(float area, const Paint& other) {
+  albedo += area * other.albedo;
+  roughness += area * other.roughness;
+  metalness += area * other.metalness;
+}
+
+void Paint::divide(float areas) {
+  albedo /= areas;
+  roughness /= areas;
+  metalness /= areas;
+}
+
+Reflectance reflectance(const Paint& paint, float n_v) {
   Reflection reflection;
   reflection.normal = Eigen::Vector3f::UnitZ();
-  reflection.to_eye = Eigen::Vector3f(0.77f, 0.0f, 0.64f);
-  reflection.albedo = albedo.max(0.0f).min(1.0f);
-  reflection.roughness = material.roughness;
-  reflection.metalness = material.metalness;
+  reflection.to_eye = Eigen::Vector3f(std::sqrt(1.0f - n_v * n_v), 0.0f, n_v);
+  reflection.albedo = paint.albedo;
+  reflection.roughness = paint.roughness;
+  reflection.metalness = paint.metalness;
   const AmbientReflectance ambient = ambientReflectance(reflection);
-  return (ambient.diffuse * static_cast<float>(kPi) + ambient.specular).min(0.98f);
+  return {ambient.diffuse * kPiFloat, ambient.specular};
 }
 
 }  // namespace sunlit::light

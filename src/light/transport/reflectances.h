@@ -8,13 +8,30 @@
 
 namespace sunlit::light {
 
+/// What of a surface decides how it reflects, by itself or as a mean by area.
+struct Paint {
+  Eigen::Array3f albedo = Eigen::Array3f::Zero();
+  float roughness = 0.0f, metalness = 0.0f;
+
+  void add(float area, const Paint& other);
+  void divide(float areas);
+};
+
+/// Share of the arriving light that leaves again towards an eye.
+struct Reflectance {
+  Eigen::Array3f diffuse, mirrored;
+};
+/// `n_v`: cosine between normal and eye. Without transmission.
+Reflectance reflectance(const Paint& paint, float n_v);
+/// Seen at 50° from the normal, which is about the mean of a hemisphere.
+constexpr float kMeanView = 0.64f;
+
 class Reflectances {
  public:
   /// Keeps a reference.
   explicit Reflectances(const Geometry& geometry);
-  /// Share of the arriving light that leaves again, diffuse and mirrored, at a point of a triangle; of masked
-  /// surfaces the solid part.
-  Eigen::Array3f at(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const;
+  /// At a point of a triangle; of masked surfaces the solid part.
+  Paint at(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const;
 
  private:
   /// A texture averaged over kSize × kSize squares, linear.

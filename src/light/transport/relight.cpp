@@ -97,18 +97,6 @@ NodeLight sampleLight(const TransportData& data, const sky::Daylight& day) {
 
 }  // namespace
 
-std::vector<float> nodeOpenness(const TransportData& data) {
-  const LightMesh& mesh = data.mesh;
-  std::vector<float> samples(data.tints.size()), nodes(mesh.nodeCount(), 0.0f);
-  tbb::parallel_for(std::size_t{0}, samples.size(),
-                    [&](std::size_t i) { samples[i] = 1.0f - hiddenShare(data.direct, i); });
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    for (std::uint32_t s = mesh.first_share[n]; s < mesh.first_share[n + 1]; ++s)
-      nodes[n] += mesh.shares[s].weight * samples[mesh.shares[s].sample];
-  }
-  return nodes;
-}
-
 NodeLight relight(const TransportData& data, const sky::Daylight& day) {
   const NodeLight samples = sampleLight(data, day);
   const LightMesh& mesh = data.mesh;

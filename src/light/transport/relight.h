@@ -17,9 +17,6 @@ struct NodeLight {
   std::vector<Eigen::Array3f> surroundings;
 };
 
-/// Share of the half sphere that is open sky at each node.
-std::vector<float> nodeOpenness(const TransportData& data);
-
 /// Parallel; the same bits for any number of threads.
 NodeLight relight(const TransportData& data, const sky::Daylight& day);
 

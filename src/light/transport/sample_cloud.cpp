@@ -6,6 +6,7 @@
 namespace sunlit::light {
 namespace {
 constexpr std::size_t kMostShares = 4;
+constexpr float kDeepest = 1.5f;  ///< times the depth that sites are shared over, one may still have a part
 }  // namespace
 
 std::uint64_t SampleCloud::key(int x, int y, int z) const {
@@ -13,6 +14,10 @@ std::uint64_t SampleCloud::key(int x, int y, int z) const {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(value)) & 0x1fffffu;
   };
   return part(x) << 42 | part(y) << 21 | part(z);
+}
+
+float SampleCloud::depth(std::uint32_t site, const Eigen::Vector3f& position) const {
+  return std::abs(sites_[site].normal.dot(position - positions_[site]));
 }
 
 /// All sites within twice the spacing of `position`, and some beyond.
@@ -35,6 +40,7 @@ void SampleCloud::cover(const Eigen::Vector3f& position, const Site& site) {
   float nearest_m = spacing_m_;
   visitNear(position, [&](std::uint32_t at, float distance) {
     if (distance >= nearest_m || sites_[at].normal.dot(site.normal) < cosine_) return;
+    if (depth(at, position) > depth_m_) return;
     nearest = at;
     nearest_m = distance;
   });
@@ -65,7 +71,7 @@ std::vector<LightMesh::Share> SampleCloud::around(const Eigen::Vector3f& positio
   visitNear(position, [&](std::uint32_t at, float distance) {
     const float cosine = sites_[at].normal.dot(normal);
     const float least = cosine_ - 0.2f;
-    if (cosine < least) return;
+    if (cosine < least || depth(at, position) > kDeepest * depth_m_) return;
     const float close = 1.0f - 0.5f * distance / spacing_m_;
     shares.push_back({at, close * close * close * close * (cosine - least + 0.05f)});
   });

@@ -12,8 +12,10 @@ namespace sunlit::light {
 /// Points at least `spacing` apart among those of similar normal.
 class SampleCloud {
  public:
-  /// Normals are similar whose product is at least `cosine`.
-  SampleCloud(float spacing_m, float cosine) : spacing_m_(spacing_m), cosine_(cosine) {}
+  /// Normals are similar whose product is at least `cosine`. Points share a site that lie at most `depth_m`
+  /// off its plane.
+  SampleCloud(float spacing_m, float cosine, float depth_m)
+      : spacing_m_(spacing_m), cosine_(cosine), depth_m_(depth_m) {}
 
   /// Adds a site where none is near enough; else lets one that is near gather from the new origin too.
   void cover(const Eigen::Vector3f& position, const Site& site);
@@ -24,11 +26,13 @@ class SampleCloud {
 
  private:
   std::uint64_t key(int x, int y, int z) const;
+  float depth(std::uint32_t site, const Eigen::Vector3f& position) const;
   template <typename Visit>
   void visitNear(const Eigen::Vector3f& position, const Visit& visit) const;
 
   float spacing_m_;
   float cosine_;
+  float depth_m_;
   std::vector<Site> sites_;
   std::vector<Eigen::Vector3f> positions_;
   std::vector<std::size_t> covered_;  ///< how often each site was found near enough

@@ -46,7 +46,7 @@ void paintSamples(const Geometry& geometry, SceneSamples* samples) {
   const LightMesh& mesh = samples->mesh;
   findNearest(samples);
   const Reflectances reflectances(geometry);
-  samples->reflectances.assign(samples->sites.size(), Eigen::Array3f::Zero());
+  samples->paints.assign(samples->sites.size(), Paint());
   samples->emissions.assign(samples->sites.size(), Eigen::Array3f::Zero());
   std::vector<float> areas(samples->sites.size(), 0.0f);
   for (std::uint32_t t = 0; t < mesh.roots.size(); ++t) {
@@ -59,11 +59,11 @@ void paintSamples(const Geometry& geometry, SceneSamples* samples) {
       if (root == LightMesh::kNone) continue;
       visitLeaves(mesh, root, Eigen::Matrix3f::Identity(),
                   [&](const LightMesh::Cell& cell, const Eigen::Matrix3f& corners) {
-                    const Eigen::Array3f color = reflectances.at(t, corners.rowwise().mean());
+                    const Paint paint = reflectances.at(t, corners.rowwise().mean());
                     const float area = whole * std::abs(corners.determinant());
                     for (std::uint32_t node : cell.corner) {
                       const std::uint32_t sample = samples->nearest_sample[node];
-                      samples->reflectances[sample] += area * color;
+                      samples->paints[sample].add(area, paint);
                       samples->emissions[sample] += area * emission;
                       areas[sample] += area;
                     }
@@ -72,7 +72,7 @@ void paintSamples(const Geometry& geometry, SceneSamples* samples) {
   }
   for (std::size_t i = 0; i < areas.size(); ++i) {
     if (areas[i] <= 0.0f) continue;
-    samples->reflectances[i] /= areas[i];
+    samples->paints[i].divide(areas[i]);
     samples->emissions[i] /= areas[i];
   }
 }

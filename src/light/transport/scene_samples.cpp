@@ -17,10 +17,11 @@ struct CloudRule {
   TriangleKind kind;
   float spacing_m;
   float cosine;   ///< of normals that may share a sample
+  float depth_m;  ///< how far off its plane such may lie
   float merge_m;  ///< vertices in a cube of this size share a node
 };
-constexpr CloudRule kSmallRule{TriangleKind::kSmall, 0.12f, 0.9f, 0.03f};
-constexpr CloudRule kFoliageRule{TriangleKind::kFoliage, 1.0f, 0.5f, 0.4f};
+constexpr CloudRule kSmallRule{TriangleKind::kSmall, 0.12f, 0.9f, 0.04f, 0.03f};
+constexpr CloudRule kFoliageRule{TriangleKind::kFoliage, 1.0f, 0.5f, 2.0f, 0.4f};
 constexpr float kClear_m = 5e-3f;
 constexpr std::size_t kMostShares = 6;
 
@@ -167,7 +168,7 @@ class Sampler {
   }
 
   void sampleCloud(const CloudRule& rule) {
-    SampleCloud cloud(rule.spacing_m, rule.cosine);
+    SampleCloud cloud(rule.spacing_m, rule.cosine, rule.depth_m);
     visitCorners(rule.kind, [&](std::uint32_t, int, std::size_t, const Corner& corner) {
       cloud.cover(corner.position, corner.site);
     });

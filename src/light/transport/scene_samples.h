@@ -15,7 +15,7 @@ namespace sunlit::light {
 struct SceneSamples {
   LightMesh mesh;
   std::vector<Site> sites;                    ///< of each sample, neighbours close together
-  std::vector<Eigen::Array3f> reflectances;   ///< of the surfaces around each sample, 0 … 1
+  std::vector<Paint> paints;                  ///< of the surfaces around each sample
   std::vector<Eigen::Array3f> emissions;      ///< … and what they give off by themselves, cd/m²
   std::vector<std::uint32_t> nearest_sample;  ///< the one of most weight, of each node
 };

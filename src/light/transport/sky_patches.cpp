@@ -38,15 +38,6 @@ const Ring& ringOf(int patch) {
   return kRings[r];
 }
 
-/// The point of a patch at shares (u, v) of its azimuth and of the sine of its elevation.
-Eigen::Vector3f pointIn(int patch, double u, double v) {
-  const Ring& ring = ringOf(patch);
-  const double z = sine(ring.low_deg) + v * (sine(ring.high_deg) - sine(ring.low_deg));
-  const double azimuth = 2.0 * kPi * (patch - ring.first + u) / ring.patches;
-  const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
-  return Eigen::Vector3d(r * std::cos(azimuth), r * std::sin(azimuth), z).cast<float>();
-}
-
 /// Directions below the horizon, evenly spread along a Fibonacci spiral.
 Eigen::Vector3f pointBelow(int i) {
   const double z = -(i + 0.5) / SkyPatches::kDown;
@@ -66,6 +57,14 @@ void divide(const Ring& ring, double turns, double share, PatchShare* shares) {
 }
 
 }  // namespace
+
+Eigen::Vector3f SkyPatches::pointIn(int patch, double u, double v) {
+  const Ring& ring = ringOf(patch);
+  const double z = sine(ring.low_deg) + v * (sine(ring.high_deg) - sine(ring.low_deg));
+  const double azimuth = 2.0 * kPi * (patch - ring.first + u) / ring.patches;
+  const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
+  return Eigen::Vector3d(r * std::cos(azimuth), r * std::sin(azimuth), z).cast<float>();
+}
 
 SkyPatches::SkyPatches(int rays_per_patch) {
   for (int patch = 0; patch < kAbove; ++patch) {

@@ -49,6 +49,8 @@ class SkyPatches {
   static std::array<Eigen::Array3f, kCount> luminances(const sky::Daylight& day);
   /// Between which patches a small light is divided; shares sum to 1 and change continuously with direction.
   static std::array<PatchShare, 4> around(const Eigen::Vector3f& towards);
+  /// The point of a patch above the horizon at shares (u, v) of its azimuth and of the sine of its elevation.
+  static Eigen::Vector3f pointIn(int patch, double u, double v);
   /// Solid angle of a patch above the horizon, sr.
   static float solidAngle(int patch);
 

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
 #include "light/mirror_sky.h"
+#include "light/sky_sectors.h"
 #include "light/transport/gather.h"
 #include "light/transport/relight.h"
 #include "light/transport/scene_samples.h"
@@ -23,26 +25,31 @@ void requireWithin(const char* key, double value, double low, double high) {
   throw std::invalid_argument(message.str());
 }
 
-/// Where the nodes are all but shut, their light tells little of an open place nearby.
-constexpr float kLeastOpen = 0.02f;
-constexpr float kMostOpen = 8.0f;
+/// A triangle, ready for points on it.
+class Corners {
+ public:
+  Corners(const Geometry& geometry, std::uint32_t triangle)
+      : first_(geometry.positions[geometry.triangles[triangle][0]]) {
+    const auto& corners = geometry.triangles[triangle];
+    const Eigen::Vector3f ab = geometry.positions[corners[1]] - first_;
+    const Eigen::Vector3f ac = geometry.positions[corners[2]] - first_;
+    const float bb = ab.squaredNorm(), cc = ac.squaredNorm(), bc = ab.dot(ac);
+    const float scale = 1.0f / std::max(bb * cc - bc * bc, 1e-30f);
+    towards_second_ = scale * (cc * ab - bc * ac);
+    towards_third_ = scale * (bb * ac - bc * ab);
+  }
+  /// Barycentric coordinates of the point of its plane nearest to `position`, within it.
+  std::array<float, 3> within(const Eigen::Vector3f& position) const {
+    const Eigen::Vector3f along = position - first_;
+    float v = std::max(along.dot(towards_second_), 0.0f), w = std::max(along.dot(towards_third_), 0.0f);
+    const float sum = v + w;
+    if (sum > 1.0f) v /= sum, w /= sum;
+    return {std::max(1.0f - v - w, 0.0f), v, w};
+  }
 
-/// Barycentric coordinates in triangle `t` of the point of its plane nearest to `position`, within it.
-std::array<float, 3> barycentric(const Geometry& geometry, std::uint32_t t, const Eigen::Vector3f& position) {
-  const auto& corners = geometry.triangles[t];
-  const Eigen::Vector3f a = geometry.positions[corners[0]];
-  const Eigen::Vector3f ab = geometry.positions[corners[1]] - a;
-  const Eigen::Vector3f ac = geometry.positions[corners[2]] - a;
-  const Eigen::Vector3f ap = position - a;
-  const float bb = ab.squaredNorm(), cc = ac.squaredNorm(), bc = ab.dot(ac);
-  const float pb = ap.dot(ab), pc = ap.dot(ac);
-  const float determinant = std::max(bb * cc - bc * bc, 1e-30f);
-  float v = std::max((cc * pb - bc * pc) / determinant, 0.0f);
-  float w = std::max((bb * pc - bc * pb) / determinant, 0.0f);
-  const float sum = v + w;
-  if (sum > 1.0f) v /= sum, w /= sum;
-  return {std::max(1.0f - v - w, 0.0f), v, w};
-}
+ private:
+  Eigen::Vector3f first_, towards_second_, towards_third_;
+};
 
 }  // namespace
 
@@ -81,37 +88,40 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
 }
 
 Transport::Transport(std::shared_ptr<const Geometry> geometry, std::unique_ptr<const TransportData> data)
-    : geometry_(std::move(geometry)), data_(std::move(data)) {
-  if (!data_->leaves.first.empty()) open_ = nodeOpenness(*data_);
-}
+    : geometry_(std::move(geometry)), data_(std::move(data)) {}
 Transport::~Transport() = default;
 
 LightPlace Transport::placeOf(std::uint32_t triangle, bool front, const Eigen::Vector3f& position) const {
+  return placeWithin(triangle, front, Corners(*geometry_, triangle).within(position));
+}
+
+LightPlace Transport::placeWithin(std::uint32_t triangle, bool front,
+                                  const std::array<float, 3>& within) const {
   LightPlace light;
   const std::uint32_t root = data_->mesh.roots[triangle][front ? 0 : 1];
   if (root == LightMesh::kNone) return light;
-  const std::array<float, 3> within = barycentric(*geometry_, triangle, position);
   const LightMesh::Place place = data_->mesh.locate(root, within);
   light.node = place.node;
   light.weight = place.weight;
-  if (!data_->leaves.known(triangle)) return light;
-  float at_nodes = 0.0f;
-  for (std::size_t k = 0; k < 3; ++k) at_nodes += place.weight[k] * open_[place.node[k]];
-  const float here = data_->leaves.at(triangle, front ? 0 : 1, within);
-  light.open = std::min(here / std::max(at_nodes, kLeastOpen), kMostOpen);
   return light;
 }
 
 void Transport::locate(Surfaces* surfaces) const {
   const scene::Scene& scene = *geometry_->scene;
   tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(), [&](std::size_t i) {
+    std::uint32_t last = 0xffffffffu;  // neighbours often lie on one triangle
+    std::optional<Corners> corners;
     for (Surface& surface : surfaces->tiles[i].surfaces) {
       surface.light = surface.behind = LightPlace();
+      surface.sky = SkyView();
       if (surface.triangle >= geometry_->triangles.size()) continue;  // a body that moves: see BodyLight
       const bool front = geometry_->planes[surface.triangle].normal.dot(surface.geometric_normal) > 0.0f;
-      surface.light = placeOf(surface.triangle, front, surface.position);
+      if (surface.triangle != last) corners.emplace(*geometry_, last = surface.triangle);
+      const std::array<float, 3> within = corners->within(surface.position);
+      surface.light = placeWithin(surface.triangle, front, within);
       if (scene.materials[static_cast<std::size_t>(surface.material)].transmission > 0.0f)
-        surface.behind = placeOf(surface.triangle, !front, surface.position);
+        surface.behind = placeWithin(surface.triangle, !front, within);
+      if (data_->leaves.known(surface.triangle)) surface.sky = data_->leaves.at(surface.triangle, within);
     }
     findMirrorViews(*data_, scene, surfaces->width, &surfaces->tiles[i]);
   });
@@ -126,6 +136,7 @@ Illumination Transport::illumination(const sky::Daylight& day) const {
   Illumination light(day);
   light.irradiance = std::make_shared<const std::vector<Eigen::Array3f>>(std::move(nodes.irradiance));
   light.surroundings = std::make_shared<const std::vector<Eigen::Array3f>>(std::move(nodes.surroundings));
+  light.sky_sectors = std::make_shared<const SkySectors>(day);
   light.mirror_sky = std::make_shared<const MirrorSky>(day);
   return light;
 }

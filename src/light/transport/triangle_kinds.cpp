@@ -11,7 +11,7 @@
 namespace sunlit::light {
 namespace {
 
-constexpr float kLargeEdge_m = 6.0f;
+constexpr float kLargeEdge_m = 1.0f;  ///< posts stand half in the open, half behind a board
 constexpr float kLargeArea_m2 = 0.3f;
 constexpr float kLargestLeaf_m2 = 2.0f;
 constexpr float kSmallestSpray_m2 = 0.3f;

@@ -1,24 +1,33 @@
 /// evaluate_bags: the evaluator on recorded bags, without a master. See README.md.
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "ros/evaluator/bag_evaluation.h"
+#include "ros/tools/arguments.h"
 
 namespace {
 
 using namespace sunlit::ros_interface;
+namespace tools = sunlit::tools;
 
-const char* const kUsage =
-    "usage: evaluate_bags [--config FILE.yaml] [--namespace NAME] [--merge DIR]... --out DIR [BAG...]\n"
-    "  Evaluates images recorded under NAME/<stream>/camera/image_raw as evaluator_node would.\n"
-    "  --config     parameters as in config/evaluator.yaml; without: its defaults, and all streams that the "
-    "bags hold\n"
-    "  --out        folder for the results (output_dir); an unfinished run in it is taken up again\n"
-    "  --namespace  of the topics; default /\n"
-    "  --merge      takes over the values of a run of other poses with the same parameters, made on another "
-    "machine, say\n"
-    "exit status: 0 all evaluated, 3 some pairs could not be, 1 error\n";
+constexpr const char* kHelp =
+    R"(evaluate_bags: evaluates images recorded under NAME/<stream>/camera/image_raw as evaluator_node would. Needs no ROS master.
+
+usage: evaluate_bags --out DIR [options] [BAG...]
+
+  --out DIR                      folder for the results (output_dir); an unfinished run in it is taken up again
+  --config FILE.yaml             parameters as in config/evaluator.yaml; without: its defaults, and all streams that the
+                                 bags hold
+  --namespace NAME               of the topics (default /)
+  --merge DIR                    takes over the values of a run of other poses with the same parameters, made on another
+                                 machine, say; may be repeated
+
+exit status: 0 all evaluated, 3 some pairs could not be, 1 error
+)";
 
 ParameterReader defaultsFor(const BagEvaluationOptions& options) {
   const std::vector<std::string> streams = streamsIn(options.bags, options.name_space);
@@ -30,13 +39,15 @@ ParameterReader defaultsFor(const BagEvaluationOptions& options) {
   return ParameterReader(tree, "defaults");
 }
 
-BagEvaluationOptions optionsOf(int argc, char** argv) {
+/// Empty if help was asked for.
+std::optional<BagEvaluationOptions> optionsOf(const std::vector<std::string>& arguments) {
   BagEvaluationOptions options;
   std::string config;
   std::string output;
   std::string merged;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& word = arguments[i];
+    if (word == "--help" || word == "-h") return std::nullopt;
     if (word.rfind("--", 0) != 0) {
       options.bags.push_back(word);
       continue;
@@ -46,15 +57,14 @@ BagEvaluationOptions optionsOf(int argc, char** argv) {
     if (word == "--out") target = &output;
     if (word == "--merge") target = &merged;
     if (word == "--namespace") target = &options.name_space;
-    if (target == nullptr) throw std::invalid_argument("unknown option " + word + "\n" + kUsage);
-    if (++i == argc) throw std::invalid_argument(word + " needs a value\n" + kUsage);
-    *target = argv[i];
+    if (target == nullptr) tools::rejectUnknown(word);
+    if (i + 1 == arguments.size() || arguments[i + 1].empty()) tools::rejectMissingValue(word);
+    *target = arguments[++i];
     if (word == "--merge") options.evaluation.merge.push_back(merged);
   }
-  if (options.bags.empty() && (options.evaluation.merge.empty() || config.empty())) {
-    throw std::invalid_argument(std::string("no bag given\n") + kUsage);
-  }
-  if (output.empty()) throw std::invalid_argument(std::string("--out is missing\n") + kUsage);
+  if (options.bags.empty() && (options.evaluation.merge.empty() || config.empty()))
+    throw std::invalid_argument("no bag given, nor --merge with --config; --help lists all options");
+  if (output.empty()) throw std::invalid_argument("--out DIR is missing; --help lists all options");
   const std::vector<std::string> folders = options.evaluation.merge;
   const ParameterReader parameters = config.empty() ? defaultsFor(options) : parametersOfFile(config);
   options.evaluation = readEvaluatorOptions(parameters).evaluation;
@@ -66,12 +76,11 @@ BagEvaluationOptions optionsOf(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 2 && std::string(argv[1]) == "--help") {
-    std::fputs(kUsage, stdout);
-    return 0;
-  }
   try {
-    return evaluateBags(optionsOf(argc, argv));
+    const auto options = optionsOf(std::vector<std::string>(argv + 1, argv + argc));
+    if (options) return evaluateBags(*options);
+    std::fputs(kHelp, stdout);
+    return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "evaluate_bags: %s\n", error.what());
     return 1;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "ros/tools/arguments.h"
 #include "sunlit/path/path.h"
 #include "sunlit/scene/load.h"
 #include "sunlit/scene/race_track.h"
@@ -18,17 +19,8 @@ using namespace sunlit;
 std::size_t countPoses(const std::string& world, const std::string& file, const std::string& spacing,
                        const std::string& poses) {
   path::PathOptions options;
-  std::size_t wanted = 0;
-  try {
-    options.spacing_m = std::stod(spacing);
-    const int number = std::stoi(poses);
-    if (number < 0 || std::to_string(number) != poses) throw std::out_of_range(poses);
-    wanted = static_cast<std::size_t>(number);
-  } catch (const std::logic_error&) {
-    throw std::invalid_argument("argument spacing is \"" + spacing + "\" and poses is \"" + poses +
-                                "\", but they must be a number of metres and a whole number of at least 0");
-  }
-  path::validate(options);
+  options.spacing_m = tools::numberWithin("argument spacing", spacing, 0.001, 1000.0);
+  const auto wanted = static_cast<std::size_t>(tools::wholeWithin("argument poses", poses, 0, 1000000000));
   if (file.empty() && world != scene::kRaceTrack) {
     throw std::invalid_argument("argument path is empty, but only the world " +
                                 std::string(scene::kRaceTrack) +
@@ -54,7 +46,7 @@ int main(int argc, char** argv) {
     std::cout << countPoses(argv[1], argv[2], argv[3], argv[4]) << '\n';
     return 0;
   } catch (const std::exception& error) {
-    std::cerr << "experiment: " << error.what() << '\n';
+    std::cerr << "sunlit: " << error.what() << '\n';
     return 1;
   }
 }

@@ -69,6 +69,7 @@ image::NoiseOptions readNoise(const ParameterReader& parameters) {
 sky::AtmosphereOptions readAtmosphere(const ParameterReader& parameters) {
   sky::AtmosphereOptions atmosphere;
   atmosphere.turbidity = parameters.number("atmosphere/turbidity", atmosphere.turbidity, {1.0, 10.0});
+  atmosphere.ozone_du = parameters.number("atmosphere/ozone", atmosphere.ozone_du, {0.0, 600.0});
   atmosphere.ground_albedo =
       parameters.number("atmosphere/ground_albedo", atmosphere.ground_albedo, {0.0, 1.0});
   atmosphere.observer_height_m =

@@ -1,10 +1,13 @@
 #include "ros/render/sky_moments.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace sunlit::ros_interface {
 
 namespace {
 
-/// How many moments may wait for their other parts; of more the oldest is forgotten.
+/// How many moments may wait for their other parts; of more the one that began to arrive first is forgotten.
 constexpr std::size_t kMostMoments = 100;
 
 bool same(const Direction& a, const Direction& b) {
@@ -23,32 +26,48 @@ bool same(const SkyBodies& a, const SkyBodies& b) {
 
 }  // namespace
 
+template <typename Part>
+void SkyMoments::put(Arrival<Part>* topic, const ros::Time& stamp, const Part& value) {
+  if (stamp < topic->newest) forget(topic->part);
+  topic->newest = stamp;
+  auto moment = std::find_if(arriving_.begin(), arriving_.end(),
+                             [&](const Moment& other) { return other.stamp == stamp; });
+  if (moment == arriving_.end()) moment = arriving_.insert(moment, Moment{stamp, {}});
+  moment->bodies.*topic->part = value;
+  completed(moment);
+}
+
 void SkyMoments::put(const ros::Time& stamp, const sky::SunInSky& sun) {
-  arriving_[stamp].sun = sun;
-  completed(stamp);
+  put(&sun_, stamp, sun);
 }
 
 void SkyMoments::put(const ros::Time& stamp, const sky::MoonInSky& moon) {
-  arriving_[stamp].moon = moon;
-  completed(stamp);
+  put(&moon_, stamp, moon);
 }
 
 void SkyMoments::put(const ros::Time& stamp, const Eigen::Matrix3d& map_from_celestial) {
-  arriving_[stamp].map_from_celestial = map_from_celestial;
-  completed(stamp);
+  put(&celestial_, stamp, map_from_celestial);
 }
 
-void SkyMoments::completed(const ros::Time& stamp) {
-  const auto at = arriving_.find(stamp);
-  const SkyBodies& bodies = at->second;
+template <typename Part>
+void SkyMoments::forget(std::optional<Part> SkyBodies::*part) {
+  for (Moment& moment : arriving_) (moment.bodies.*part).reset();
+  const auto isEmpty = [](const Moment& moment) {
+    return !moment.bodies.sun && !moment.bodies.moon && !moment.bodies.map_from_celestial;
+  };
+  arriving_.erase(std::remove_if(arriving_.begin(), arriving_.end(), isEmpty), arriving_.end());
+}
+
+void SkyMoments::completed(std::vector<Moment>::iterator moment) {
+  const SkyBodies& bodies = moment->bodies;
   const bool whole = bodies.sun && (!night_ || (bodies.moon && bodies.map_from_celestial));
   if (whole) {
     if (!latest_ || !same(*latest_, bodies)) {
       latest_ = bodies;
       ++version_;
     }
-    // Earlier moments that still lack something are overtaken.
-    arriving_.erase(arriving_.begin(), std::next(at));
+    // Those that began to arrive earlier and still lack something are overtaken.
+    arriving_.erase(arriving_.begin(), std::next(moment));
   } else if (arriving_.size() > kMostMoments) {
     arriving_.erase(arriving_.begin());
   }

@@ -3,8 +3,8 @@
 
 #include <ros/time.h>
 
-#include <map>
 #include <optional>
+#include <vector>
 
 #include "sunlit/sky/atmosphere.h"
 
@@ -18,7 +18,8 @@ struct SkyBodies {
 };
 
 /// Sun, moon and stars belong together if they carry the same stamp: moments are never mixed, however late
-/// one of the three arrives.
+/// one of the three arrives. Each of the three comes in the order of its stamps, but for a clock that jumps
+/// back: what came before the jump is forgotten.
 class SkyMoments {
  public:
   /// Without `night` the sun alone makes a moment.
@@ -34,10 +35,27 @@ class SkyMoments {
   int version() const { return version_; }
 
  private:
-  void completed(const ros::Time& stamp);
+  struct Moment {
+    ros::Time stamp;
+    SkyBodies bodies;
+  };
+  /// One of the three.
+  template <typename Part>
+  struct Arrival {
+    std::optional<Part> SkyBodies::*part;
+    ros::Time newest = {};
+  };
+  template <typename Part>
+  void put(Arrival<Part>* topic, const ros::Time& stamp, const Part& value);
+  template <typename Part>
+  void forget(std::optional<Part> SkyBodies::*part);
+  void completed(std::vector<Moment>::iterator moment);
 
   bool night_;
-  std::map<ros::Time, SkyBodies> arriving_;
+  Arrival<sky::SunInSky> sun_{&SkyBodies::sun};
+  Arrival<sky::MoonInSky> moon_{&SkyBodies::moon};
+  Arrival<Eigen::Matrix3d> celestial_{&SkyBodies::map_from_celestial};
+  std::vector<Moment> arriving_;  ///< in the order in which their first parts came
   std::optional<SkyBodies> latest_;
   int version_ = 0;
 };

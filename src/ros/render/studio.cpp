@@ -61,18 +61,26 @@ double topOf(const scene::Scene& scene) {
   return static_cast<double>(top);
 }
 
+/// Before anything that takes time. Throws std::invalid_argument.
+render::RenderOptions checked(const RenderNodeOptions& options) {
+  image::validate(options.exposure);
+  image::validate(options.noise);
+  sky::validate(options.atmosphere);
+  const render::RenderOptions render = options.renderOptions();
+  render::validate(render);
+  return render;
+}
+
 }  // namespace
 
 Studio::Studio(const RenderNodeOptions& options)
-    : options_(options.renderOptions()),
+    : options_(checked(options)),
       exposure_(options.exposure),
       noise_(options.noise),
       robot_(loadRobot(options.robot, options.model_path)),
       world_(stopwatch_.measure("load", "world", [&] { return makeWorld(options, robot_); })),
       atmosphere_(
           stopwatch_.measure("load", "atmosphere", [&] { return sky::Atmosphere(options.atmosphere); })) {
-  image::validate(exposure_);
-  image::validate(noise_);
   world_.transport =
       stopwatch_.measure("load", "transport", [&] { return makeTransport(options.bake, world_); });
   renderer_ = stopwatch_.measure("load", "renderer",

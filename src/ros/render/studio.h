@@ -33,7 +33,8 @@ struct MapExtent {
 /// One thread at a time may use it, except where a function says otherwise. Times its stages.
 class Studio {
  public:
-  /// Loads world and robot; their warnings go to the log. Throws what scene::load() and loadRobot() throw.
+  /// Loads world and robot; their warnings go to the log. Throws what scene::load() and loadRobot() throw,
+  /// and before that std::invalid_argument for options out of range.
   explicit Studio(const RenderNodeOptions& options);
 
   /// A picture from above, north up, close to orthographic, under a high sun. Replaces what look() looked at.

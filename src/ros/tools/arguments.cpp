@@ -1,6 +1,8 @@
 #include "ros/tools/arguments.h"
 
 #include <cmath>
+#include <filesystem>
+#include <iomanip>
 #include <sstream>
 #include <stdexcept>
 
@@ -15,7 +17,7 @@ void rejectMissingValue(const std::string& option) {
 }
 
 void rejectUnknown(const std::string& option) {
-  throw std::invalid_argument("unknown option " + option + "; --help lists all");
+  throw std::invalid_argument("there is no option " + option + "; --help lists all");
 }
 
 namespace {
@@ -28,10 +30,18 @@ std::string wantedNumbers(std::pair<std::size_t, std::size_t> count, char separa
 
 }  // namespace
 
-void requireEnding(const std::string& option, const std::string& file, const std::string& ending) {
+void requireFile(const std::string& option, const std::string& file, const std::string& ending) {
   const bool ends = file.size() > ending.size() &&
                     file.compare(file.size() - ending.size(), std::string::npos, ending) == 0;
   if (!ends) reject(option, file, "a name that ends in " + ending);
+  requireFolderOf(option, file);
+}
+
+void requireFolderOf(const std::string& option, const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  std::error_code error;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, error))
+    reject(option, file, "in a folder that exists");
 }
 
 std::vector<double> numbers(const std::string& option, const std::string& text,
@@ -58,7 +68,7 @@ double numberWithin(const std::string& option, const std::string& text, double l
   const double value = numbers(option, text, {1, 1})[0];
   if (value < low || value > high) {
     std::ostringstream range;
-    range << low << " ... " << high;
+    range << std::setprecision(10) << low << " ... " << high;
     reject(option, text, range.str());
   }
   return value;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,13 +18,16 @@ namespace sunlit::tools {
 /// as reject() does.
 std::vector<double> numbers(const std::string& option, const std::string& text,
                             std::pair<std::size_t, std::size_t> count, char separator = ',');
-/// `file` ends in `ending`, such as ".png": what is written is of that kind, whatever the name.
-void requireEnding(const std::string& option, const std::string& file, const std::string& ending);
+/// `file` can be written: it ends in `ending`, such as ".png", since what is written is of that kind,
+/// whatever the name; and its folder is there, which is better known before the work than after it.
+void requireFile(const std::string& option, const std::string& file, const std::string& ending);
+void requireFolderOf(const std::string& option, const std::string& file);
 double numberWithin(const std::string& option, const std::string& text, double low, double high);
 int wholeWithin(const std::string& option, const std::string& text, int low, int high);
 
 /// Calls `take` for each pair of option and value. False if help was asked for. Throws
-/// std::invalid_argument for an option without a value, and one for which `take` says false.
+/// std::invalid_argument for an option without a value, or with an empty one, and one for which `take` says
+/// false.
 template <typename Take>
 bool readArguments(const std::vector<std::string>& arguments, const Take& take);
 
@@ -34,8 +38,15 @@ template <typename Take>
 bool readArguments(const std::vector<std::string>& arguments, const Take& take) {
   for (std::size_t i = 0; i < arguments.size(); i += 2) {
     if (arguments[i] == "--help" || arguments[i] == "-h") return false;
-    if (i + 1 == arguments.size()) rejectMissingValue(arguments[i]);
-    if (!take(arguments[i], arguments[i + 1])) rejectUnknown(arguments[i]);
+    const bool has_value = i + 1 < arguments.size() && !arguments[i + 1].empty();
+    bool known = true;
+    try {
+      known = take(arguments[i], has_value ? arguments[i + 1] : std::string());
+    } catch (const std::invalid_argument&) {
+      if (has_value) throw;
+    }
+    if (!known) rejectUnknown(arguments[i]);
+    if (!has_value) rejectMissingValue(arguments[i]);
   }
   return true;
 }

@@ -2,19 +2,18 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <memory>
 
 #include "ros/tools/arguments.h"
 #include "ros/tools/compare_light_options.h"
 #include "ros/tools/comparison_files.h"
+#include "ros/tools/every_nth_pixel.h"
+#include "ros/tools/lit_world.h"
+#include "ros/tools/output_folder.h"
 #include "sunlit/image/files.h"
 #include "sunlit/image/flip.h"
-#include "sunlit/light/transport.h"
 #include "sunlit/path/path.h"
 #include "sunlit/quantity/frames.h"
-#include "sunlit/ros/world_search.h"
-#include "sunlit/scene/load.h"
 #include "sunlit/scene/race_track.h"
 #include "sunlit/sky/atmosphere.h"
 
@@ -54,20 +53,6 @@ sky::Daylight daylightOf(const SkyToCompare& what, const sky::Atmosphere& atmosp
   return atmosphere.daylight({sun, 1.0}, night);
 }
 
-light::World worldOf(const CompareLightOptions& options) {
-  light::World world(std::make_shared<const scene::Scene>(
-      scene::load(options.world, ros_interface::worldSearchPath(options.model_folders))));
-  if (!options.bake) return world;
-  const auto start = Clock::now();
-  const light::TransportOptions transport;
-  const auto log = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
-  world.transport = options.cache.empty()
-                        ? light::Transport::bake(world.geometry, transport)
-                        : light::Transport::cached(world.geometry, transport, options.cache, nullptr, log);
-  std::printf("light baked in %.1f s\n", secondsSince(start));
-  return world;
-}
-
 class Comparer {
  public:
   Comparer(const CompareLightOptions& options, const light::World& world)
@@ -78,7 +63,8 @@ class Comparer {
 
   void compare(int view, const Eigen::Isometry3d& map_from_camera) {
     renderer_.look(map_from_camera * linkFromOptical());
-    const light::Surfaces& surfaces = renderer_.surfaces();
+    const EveryNthPixel chosen(options_.every);
+    const light::Surfaces surfaces = chosen.of(renderer_.surfaces());
     const std::vector<light::Traced> traced =
         light::traceReference(surfaces, world_, days_, options_.reference);
     for (std::size_t i = 0; i < days_.size(); ++i) {
@@ -87,10 +73,10 @@ class Comparer {
       const std::string& name = options_.skies[i].name;
       rows_.push_back({view, name, static_cast<double>(days_[i].groundIlluminance().luminance()),
                        light::luminanceError(fast, traced[i], surfaces),
-                       image::meanOf(image::hdrFlip(traced[i].luminance, fast))});
+                       image::meanOf(image::hdrFlip(chosen.of(traced[i].luminance), chosen.of(fast)))});
       by_material_.add(surfaces, errors);
       image::writePng(options_.output + "/view_" + std::to_string(view) + "_" + name + ".png",
-                      sideBySide(fast, traced[i].luminance, errors));
+                      sideBySide(chosen.of(fast), chosen.of(traced[i].luminance), chosen.of(errors)));
     }
     by_material_.write(options_.output, *world_.geometry->scene);
     writeTables(options_.output, rows_);
@@ -108,8 +94,10 @@ class Comparer {
 };
 
 void run(const CompareLightOptions& options) {
-  std::filesystem::create_directories(options.output);
-  const light::World world = worldOf(options);
+  makeFolder(options.output);
+  const auto load_start = Clock::now();
+  const light::World world = loadWorld(options.world);
+  std::printf("world loaded and its light baked or read in %.1f s\n", secondsSince(load_start));
   const std::vector<Eigen::Isometry3d> views = viewsOf(options);
   Comparer comparer(options, world);
   const auto start = Clock::now();
@@ -131,7 +119,5 @@ void run(const CompareLightOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace sunlit::tools;
-  return runTool(
-      "compare_light", argc, argv, parseCompareLightOptions, [] { std::fputs(kCompareLightHelp, stdout); },
-      run);
+  return runTool("compare_light", argc, argv, parseCompareLightOptions, printCompareLightHelp, run);
 }

@@ -2,51 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "ros/tools/arguments.h"
+#include "ros/tools/camera_arguments.h"
 
 namespace sunlit::tools {
 
-const char* const kCompareLightHelp =
+namespace {
+
+constexpr const char* kOwnHelp =
     R"(compare_light: how far the fast picture's light is from path-traced light. Needs no ROS master.
 
 usage: compare_light --out DIR [options]
 
-  --world race_track|FILE        built-in world (default), or .world .sdf .dae .gltf .glb .obj
-  --model-path DIR               where model:// is looked for; may be repeated
-  --path FILE                    waypoints to place views along (default: the built-in world's)
+  --out DIR                      folder for table.csv, table.md, and a picture of each view and sun:
+                                 fast | traced | relative error (red too bright, blue too dark, full at 50 %)
+  --path FILE                    waypoints to place views along: CSV or TUM; without it the path of race_track
   --views N                      how many views along the path, 1 ... 1000 (default 10)
-  --height M                     of the camera above the waypoints (default 1)
-  --view X,Y,Z,YAW[,PITCH]       a view instead of the path, m and deg, yaw counter-clockwise from east, pitch up
+  --height M                     of the camera above the waypoints, -1000 ... 1000 (default 1)
+  --view X,Y,Z[,YAW[,PITCH]]     a view instead of the path, m and deg, yaw counter-clockwise from east, pitch up
                                  is positive; may be repeated
   --sun AZIMUTH,ELEVATION        deg, azimuth clockwise from north; may be repeated. Default: suns at 60, 20, 4,
                                  -4 and -9, and a moon at 45 degrees
   --moon AZIMUTH,ELEVATION,PHASE deg, phase angle 0 is full; the sun is at -40 degrees; may be repeated
-  --size WxH                     px, 16 ... 8192 (default 96x72)
-  --fov DEG                      horizontal field of view (default 90)
-  --supersampling N              geometry samples per pixel and axis, 1 ... 4 (default 2)
-  --bake yes|no                  whether the fast picture's light is baked (default yes)
-  --cache DIR                    keeps the bake for the next time
-  --samples N                    traced paths a pixel (default 256)
+  --every N                      px: compares every Nth pixel across and down, 1 ... 64 (default 8), so that pixels
+                                 are as small as in use and the tracing takes no hours
+  --samples N                    traced paths a pixel, 2 ... 65536 (default 256)
   --bounces N                    reflections beyond the surface that is seen, 0 ... 64 (default 16)
-  --out DIR                      folder for table.csv, table.md, and a picture of each view and sun:
-                                 fast | traced | relative error (red too bright, blue too dark, full at 50 %)
 )";
-
-namespace {
-
-Eigen::Isometry3d viewFrom(const std::vector<double>& pose) {
-  const double pitch = pose.size() > 4 ? pose[4] : 0.0;
-  Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
-  map_from_camera.linear() = (Eigen::AngleAxisd(pose[3] * kRadPerDeg, Eigen::Vector3d::UnitZ()) *
-                              Eigen::AngleAxisd(-pitch * kRadPerDeg, Eigen::Vector3d::UnitY()))
-                                 .toRotationMatrix();
-  map_from_camera.translation() = Eigen::Vector3d(pose[0], pose[1], pose[2]);
-  return map_from_camera;
-}
 
 SkyToCompare skyFrom(const std::string& key, const std::string& text) {
   const std::size_t count = key == "--moon" ? 3 : 2;
@@ -77,26 +64,16 @@ void add(SkyToCompare sky, std::vector<SkyToCompare>* skies) {
   skies->push_back(std::move(sky));
 }
 
-/// What must be known in full before the camera can be made.
-struct CameraWords {
-  int width = 96, height = 72;
-  double fov_deg = 90.0;
-};
-
 /// False for a key of no kind that it knows.
 bool readScene(const std::string& key, const std::string& value, CompareLightOptions* options) {
-  if (key == "--world") {
-    options->world = value;
-  } else if (key == "--model-path") {
-    options->model_folders.push_back(value);
-  } else if (key == "--path") {
+  if (key == "--path") {
     options->path = value;
   } else if (key == "--views") {
     options->views = wholeWithin(key, value, 1, 1000);
   } else if (key == "--height") {
     options->height_m = numberWithin(key, value, -1000.0, 1000.0);
   } else if (key == "--view") {
-    options->map_from_camera.push_back(viewFrom(numbers(key, value, {4, 5})));
+    options->map_from_camera.push_back(mapFromCamera(numbers(key, value, {3, 5})));
   } else if (key == "--sun" || key == "--moon") {
     add(skyFrom(key, value), &options->skies);
   } else {
@@ -105,25 +82,9 @@ bool readScene(const std::string& key, const std::string& value, CompareLightOpt
   return true;
 }
 
-bool readPicture(const std::string& key, const std::string& value, CameraWords* words,
-                 CompareLightOptions* options) {
-  if (key == "--size") {
-    const std::vector<double> size = numbers(key, value, {2, 2}, 'x');
-    for (const double side : size) {
-      if (side != std::floor(side) || side < 16 || side > 8192)
-        reject(key, value, "WIDTHxHEIGHT, whole numbers of 16 ... 8192 px");
-    }
-    words->width = static_cast<int>(size[0]);
-    words->height = static_cast<int>(size[1]);
-  } else if (key == "--fov") {
-    words->fov_deg = numberWithin(key, value, 0.1, 170.0);
-  } else if (key == "--supersampling") {
-    options->render.supersampling = wholeWithin(key, value, 1, 4);
-  } else if (key == "--bake") {
-    if (value != "yes" && value != "no") reject(key, value, "yes or no");
-    options->bake = value == "yes";
-  } else if (key == "--cache") {
-    options->cache = value;
+bool readTracing(const std::string& key, const std::string& value, CompareLightOptions* options) {
+  if (key == "--every") {
+    options->every = wholeWithin(key, value, 1, 64);
   } else if (key == "--samples") {
     options->reference.samples_per_pixel = wholeWithin(key, value, 2, 65536);
   } else if (key == "--bounces") {
@@ -138,23 +99,33 @@ bool readPicture(const std::string& key, const std::string& value, CameraWords* 
 
 }  // namespace
 
+void printCompareLightHelp() {
+  for (const char* help : {kOwnHelp, kWorldHelp, kCameraHelp, kBouncedHelp}) std::fputs(help, stdout);
+}
+
 std::optional<CompareLightOptions> parseCompareLightOptions(const std::vector<std::string>& arguments) {
   CompareLightOptions options;
-  CameraWords words;
+  CameraWords camera;
+  std::string of_path;  // an option that only views along a path give sense to
   const bool go = readArguments(arguments, [&](const std::string& key, const std::string& value) {
-    return readScene(key, value, &options) || readPicture(key, value, &words, &options);
+    if (key == "--path" || key == "--views" || key == "--height") of_path = key;
+    return takeWorld(key, value, &options.world) || takeBounced(key, value, &options.world) ||
+           takeCamera(key, value, &camera) || readScene(key, value, &options) ||
+           readTracing(key, value, &options);
   });
   if (!go) return std::nullopt;
   if (options.output.empty()) throw std::invalid_argument("--out DIR is missing; --help lists all options");
-  if (options.path.empty() && options.map_from_camera.empty() && options.world != "race_track")
+  if (!of_path.empty() && !options.map_from_camera.empty())
+    throw std::invalid_argument(of_path + " and --view are both given; one of them");
+  if (options.path.empty() && options.map_from_camera.empty() && options.world.name != scene::kRaceTrack)
     throw std::invalid_argument("--path FILE or --view is missing: only race_track has a path of its own");
   if (options.skies.empty()) {
     for (const char* sun : {"170,60", "250,20", "285,4", "290,-4", "295,-9"})
       options.skies.push_back(skyFrom("--sun", sun));
     options.skies.push_back(skyFrom("--moon", "150,45,10"));
   }
-  options.render.camera =
-      image::PinholeCamera::fromFieldOfView(words.width, words.height, Angle::degrees(words.fov_deg));
+  options.render.camera = camera.camera();
+  options.render.supersampling = camera.supersampling;
   render::validate(options.render);
   light::validate(options.reference);
   return options;

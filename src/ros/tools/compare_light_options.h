@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/tools/world_arguments.h"
 #include "sunlit/light/reference.h"
 #include "sunlit/render/renderer.h"
 
@@ -20,22 +21,20 @@ struct SkyToCompare {
 };
 
 struct CompareLightOptions {
-  std::string world = "race_track";
-  std::vector<std::string> model_folders;
-  std::string path;  ///< waypoint file; empty: the built-in path
-  int views = 10;    ///< evenly along the path
+  WorldOptions world;  ///< without bounced light the fast picture's sky is open
+  std::string path;    ///< waypoint file; empty: the built-in path
+  int views = 10;      ///< evenly along the path
   double height_m = 1.0;
   std::vector<Eigen::Isometry3d> map_from_camera;  ///< not empty: instead of a path
   std::vector<SkyToCompare> skies;
   render::RenderOptions render;
+  int every = 8;  ///< px: only one pixel of so many, across and down, is traced and compared
   light::ReferenceOptions reference;
-  bool bake = true;    ///< false: the fast picture's sky is open, and nothing is bounced
-  std::string cache;   ///< folder for the bake; empty: it is not kept
   std::string output;  ///< folder
 };
 
-/// What `--help` prints.
-extern const char* const kCompareLightHelp;
+/// Prints what `--help` asks for.
+void printCompareLightHelp();
 
 /// Empty if help was asked for. Throws std::invalid_argument naming the option, its value and what is
 /// allowed.

@@ -66,8 +66,9 @@ std::string markdown(const std::vector<ComparisonRow>& rows) {
   for (const ComparisonRow& row : rows) all.push_back(&row);
   if (!all.empty()) {
     ComparisonRow mean = meanOf(all);
-    mean.illuminance_lx = NAN;
-    text += "| **all** | **all**" + line(kCells, mean);
+    mean.illuminance_lx = NAN;  // of different skies: no mean is told
+    std::string cells = line(kCells, mean);
+    text += "| **all** | **all**" + cells.replace(cells.find("nan"), 3, "–");
   }
   return text;
 }

@@ -1,12 +1,12 @@
 // A world as binary glTF, for other programs.
-#include <algorithm>
 #include <cstdio>
-#include <exception>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "ros/tools/arguments.h"
+#include "ros/tools/world_arguments.h"
 #include "sunlit/ros/world_search.h"
 #include "sunlit/scene/export.h"
 #include "sunlit/scene/load.h"
@@ -14,51 +14,41 @@
 namespace sunlit::tools {
 namespace {
 
-constexpr const char* kUsage =
-    "usage: export_world --world WORLD --out FILE.glb [--model-path FOLDER:FOLDER...]\n"
-    "  WORLD  race_track, or a file: .world .sdf .dae .gltf .glb .obj\n";
+constexpr const char* kOwnHelp =
+    R"(export_world: a world as binary glTF, for other programs. Needs no ROS master.
+
+usage: export_world --out FILE.glb [options]
+
+  --out FILE.glb                 geometry, materials and textures
+)";
 
 struct ExportOptions {
-  std::string world = scene::kRaceTrack;
+  WorldOptions world;
   std::string output;
-  std::vector<std::string> model_folders;
 };
 
-std::vector<std::string> splitAtColons(const std::string& text) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(':', begin), text.size());
-    if (end > begin) parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
+void printHelp() {
+  std::fputs(kOwnHelp, stdout);
+  std::fputs(kWorldHelp, stdout);
 }
 
-ExportOptions parse(int argc, char** argv) {
+std::optional<ExportOptions> parse(const std::vector<std::string>& arguments) {
   ExportOptions options;
-  for (int i = 1; i < argc; i += 2) {
-    const std::string key = argv[i];
-    if (i + 1 >= argc) throw std::invalid_argument(key + " needs a value");
-    const std::string value = argv[i + 1];
-    if (key == "--world") {
-      options.world = value;
-    } else if (key == "--out") {
-      requireEnding(key, value, ".glb");
-      options.output = value;
-    } else if (key == "--model-path") {
-      options.model_folders = splitAtColons(value);
-    } else {
-      throw std::invalid_argument("there is no option " + key + "; --help lists all");
-    }
-  }
+  const bool go = readArguments(arguments, [&](const std::string& key, const std::string& value) {
+    if (key != "--out") return takeWorld(key, value, &options.world);
+    requireFile(key, value, ".glb");
+    options.output = value;
+    return true;
+  });
+  if (!go) return std::nullopt;
   if (options.output.empty())
-    throw std::invalid_argument("--out names the file to write, and is missing; --help lists all options");
+    throw std::invalid_argument("--out FILE.glb is missing; --help lists all options");
   return options;
 }
 
 void exportWorld(const ExportOptions& options) {
   const scene::Scene world =
-      scene::load(options.world, ros_interface::worldSearchPath(options.model_folders));
+      scene::load(options.world.name, ros_interface::worldSearchPath(options.world.model_folders));
   for (const std::string& warning : world.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   scene::writeGltf(world, options.output);
   std::printf("%s: %zu triangles, %zu materials, %zu textures\n", options.output.c_str(),
@@ -69,15 +59,6 @@ void exportWorld(const ExportOptions& options) {
 }  // namespace sunlit::tools
 
 int main(int argc, char** argv) {
-  if (argc == 2 && (std::string(argv[1]) == "--help" || std::string(argv[1]) == "-h")) {
-    std::fputs(sunlit::tools::kUsage, stdout);
-    return 0;
-  }
-  try {
-    sunlit::tools::exportWorld(sunlit::tools::parse(argc, argv));
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "export_world: %s\n", error.what());
-  }
-  return 1;
+  using namespace sunlit::tools;
+  return runTool("export_world", argc, argv, parse, printHelp, exportWorld);
 }

@@ -4,9 +4,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <regex>
 #include <stdexcept>
+#include <system_error>
 
+#include "ros/tools/output_folder.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::tools {
@@ -25,23 +27,51 @@ std::vector<std::string> linesOf(const std::string& file) {
   return lines;
 }
 
-/// The first line of `a` that `b` lacks; empty if there is none. Both sorted.
+/// The first line of `a` that `b` lacks; empty if there is none.
 std::string missing(const std::vector<std::string>& a, const std::vector<std::string>& b) {
-  std::vector<std::string> only;
-  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only));
-  return only.empty() ? std::string() : only.front();
+  const auto lacks = [&](const std::string& line) { return std::find(b.begin(), b.end(), line) == b.end(); };
+  const auto found = std::find_if(a.begin(), a.end(), lacks);
+  return found == a.end() ? std::string() : *found;
+}
+
+/// How `before` differs from `now`, in words.
+std::string difference(const std::vector<std::string>& before, const std::vector<std::string>& now) {
+  const std::string was = missing(before, now), is = missing(now, before);
+  if (!was.empty()) return "with " + was;
+  return is.empty() ? "in another order" : "without " + is;
+}
+
+bool isFrame(const std::string& name) {
+  static const std::regex frame("frame_[0-9]{5,}\\.png");
+  return std::regex_match(name, frame);
+}
+
+/// The first picture in `folder` that has the name of a frame; empty if there is none.
+std::string anyFrame(const std::string& folder) {
+  std::error_code error;  // no such folder: no frame
+  std::string first;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (isFrame(name) && (first.empty() || name < first)) first = name;
+  }
+  return first;
 }
 
 }  // namespace
 
 FrameFolder::FrameFolder(const std::string& folder, const std::vector<std::string>& recipe)
     : folder_(folder), recipe_(recipe) {
-  if (!std::filesystem::exists(recipeFile())) return;
+  requireFolderCanBeMade(folder_);
+  if (!std::filesystem::exists(recipeFile())) {
+    const std::string stranger = anyFrame(folder_);
+    if (stranger.empty()) return;
+    throw std::runtime_error(folder_ + ": holds " + stranger +
+                             ", but no timelapse.txt that says how it was made; take another folder");
+  }
   const std::vector<std::string> before = linesOf(recipeFile());
   if (before == recipe) return;
-  const std::string was = missing(before, recipe), is = missing(recipe, before);
   throw std::runtime_error(folder_ + ": its frames were made with other options (" +
-                           (was.empty() ? "without " + is : "with " + was) + "); take another folder");
+                           difference(before, recipe) + "); take another folder");
 }
 
 std::string FrameFolder::file(int frame) const {
@@ -66,9 +96,7 @@ image::Rgb8Image FrameFolder::read(int frame) const {
 
 void FrameFolder::write(int frame, const image::Rgb8Image& picture) {
   if (!std::filesystem::exists(recipeFile())) {
-    std::error_code error;
-    std::filesystem::create_directories(folder_, error);
-    if (error) throw std::runtime_error(folder_ + ": the folder cannot be made: " + error.message());
+    makeFolder(folder_);
     std::string text = kHeading;
     for (const std::string& line : recipe_) text += line + '\n';
     image::writeFileAtomically(recipeFile(), text);

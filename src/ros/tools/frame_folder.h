@@ -10,7 +10,8 @@ namespace sunlit::tools {
 
 class FrameFolder {
  public:
-  /// Throws std::runtime_error if the folder's frames were made by another `recipe`.
+  /// Throws std::runtime_error if the folder's frames were made by another `recipe`, or by nobody knows
+  /// which; or if it cannot be made.
   FrameFolder(const std::string& folder, const std::vector<std::string>& recipe);
 
   /// Whether the frame is there, whole, and of this size.

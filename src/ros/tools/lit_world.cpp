@@ -37,15 +37,15 @@ void warn(const std::string& text) {
 
 }  // namespace
 
-light::World loadWorld(const ViewOptions& view) {
+light::World loadWorld(const WorldOptions& options) {
   const auto scene = std::make_shared<const scene::Scene>(
-      scene::load(view.world, ros_interface::worldSearchPath(view.model_folders)));
+      scene::load(options.name, ros_interface::worldSearchPath(options.model_folders)));
   for (const std::string& warning : scene->warnings) warn(warning);
   light::World world(scene);
-  if (!view.bounced) return world;
+  if (!options.bounced) return world;
   ProgressLine line;
   const auto progress = [&line](double share, double seconds_left) { line.show(share, seconds_left); };
-  const std::string folder = view.cache.empty() ? light::Transport::usualFolder() : view.cache;
+  const std::string folder = options.cache.empty() ? light::Transport::usualFolder() : options.cache;
   world.transport = light::Transport::cached(world.geometry, {}, folder, progress, warn);
   return world;
 }

@@ -18,6 +18,7 @@ const char* const kPlaceHelp =
   --date YYYY-MM-DD              (default 2024-07-01)
   --timezone HOURS               east of UTC, -18 ... 18 (default 3)
   --turbidity NUMBER             haziness of the air, 1 ... 10 (default 2)
+  --ozone DU                     in the air, Dobson units, 0 ... 600 (default 300)
 )";
 
 namespace {
@@ -50,8 +51,7 @@ Site siteOf(const std::string& text, double fallback_elevation_m) {
 }
 
 sky::AtmosphereOptions airOver(const PlaceOptions& place) {
-  sky::AtmosphereOptions options;
-  options.turbidity = place.turbidity;
+  sky::AtmosphereOptions options = place.air;
   options.observer_height_m = std::clamp(place.site.elevation_m, 0.0, 8000.0);
   return options;
 }
@@ -66,7 +66,9 @@ bool PlaceArguments::take(const std::string& key, const std::string& value) {
   } else if (key == "--timezone") {
     options_.date.timezone = numberWithin(key, value, -18.0, 18.0);
   } else if (key == "--turbidity") {
-    options_.turbidity = numberWithin(key, value, 1.0, 10.0);
+    options_.air.turbidity = numberWithin(key, value, 1.0, 10.0);
+  } else if (key == "--ozone") {
+    options_.air.ozone_du = numberWithin(key, value, 0.0, 600.0);
   } else {
     return false;
   }

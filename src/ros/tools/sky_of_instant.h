@@ -16,7 +16,7 @@ namespace sunlit::tools {
 struct PlaceOptions {
   Site site{Angle::degrees(55.792115), Angle::degrees(49.122254), 90.0};  ///< of the experiment
   astronomy::CivilDate date{2024, 7, 1, 3.0};                             ///< with the time zone, h
-  double turbidity = sky::AtmosphereOptions{}.turbidity;
+  sky::AtmosphereOptions air;  ///< but for the observer's height, which is the site's
 };
 
 /// Help for the options that PlaceArguments takes.

@@ -12,14 +12,13 @@ namespace {
 
 sky::Daylight daylightOf(const SnapshotOptions& options) {
   if (options.hour) return SkyOfInstant(options.place).at(*options.hour).day;
-  sky::AtmosphereOptions air;
-  air.turbidity = options.place.turbidity;
-  return sky::Atmosphere(air).daylight({Direction(Azimuth(options.sun_azimuth), options.sun_elevation), 1.0});
+  return sky::Atmosphere(options.place.air)
+      .daylight({Direction(Azimuth(options.sun_azimuth), options.sun_elevation), 1.0});
 }
 
 void takeSnapshot(const SnapshotOptions& options) {
   const ViewOptions& view = options.view;
-  const light::World world = loadWorld(view);
+  const light::World world = loadWorld(view.world);
   const sky::Daylight day = daylightOf(options);
 
   render::Renderer renderer(world, view.render);

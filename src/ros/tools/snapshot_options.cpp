@@ -41,10 +41,10 @@ bool takeOwn(const std::string& key, const std::string& value, SnapshotOptions* 
   } else if (key == "--time") {
     options->hour = hourOf(value);
   } else if (key == "--depth") {
-    requireEnding(key, value, ".pfm");
+    requireFile(key, value, ".pfm");
     options->depth_output = value;
   } else if (key == "--out") {
-    requireEnding(key, value, ".png");
+    requireFile(key, value, ".png");
     options->output = value;
   } else {
     return false;
@@ -57,7 +57,7 @@ bool takeOwn(const std::string& key, const std::string& value, SnapshotOptions* 
 void printSnapshotHelp() {
   std::fputs(kOwnHelp, stdout);
   std::fputs(kPlaceHelp, stdout);
-  std::fputs(kViewHelp, stdout);
+  std::fputs(viewHelp().c_str(), stdout);
 }
 
 std::optional<SnapshotOptions> parseSnapshotOptions(const std::vector<std::string>& arguments) {
@@ -70,7 +70,7 @@ std::optional<SnapshotOptions> parseSnapshotOptions(const std::vector<std::strin
     has_sun = has_sun || key == "--sun";
     if (view.take(key, value) || takeOwn(key, value, &options)) return true;
     if (!place.take(key, value)) return false;
-    if (key != "--turbidity") of_time = key;
+    if (key != "--turbidity" && key != "--ozone") of_time = key;
     return true;
   });
   if (!go) return std::nullopt;

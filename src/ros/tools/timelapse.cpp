@@ -40,7 +40,7 @@ class Camera {
  public:
   explicit Camera(const TimelapseOptions& options)
       : options_(options),
-        world_(loadWorld(options.view)),
+        world_(loadWorld(options.view.world)),
         sky_(options.place),
         renderer_(world_, options.view.render) {
     renderer_.look(options.view.map_from_optical);
@@ -95,22 +95,12 @@ void makeFrames(const TimelapseOptions& options, FrameFolder* folder) {
   }
 }
 
-/// A world's file may change while its name stays.
-std::vector<std::string> recipeOf(const TimelapseOptions& options) {
-  std::vector<std::string> recipe = options.recipe;
-  std::error_code error;
-  const auto bytes = std::filesystem::file_size(options.view.world, error);
-  if (!error) recipe.push_back("world of " + std::to_string(bytes) + " bytes");
-  return recipe;
-}
-
 void makeTimelapse(const TimelapseOptions& options) {
-  FrameFolder folder(options.output, recipeOf(options));
+  FrameFolder folder(options.output, options.recipe);
   makeFrames(options, &folder);
   const Frames frames{options.frames, [&](int frame) { return folder.read(frame); }};
   if (!options.video.empty()) writeVideo(options.video, options.frame_rate, frames);
-  if (!options.contact_sheet.empty())
-    writeContactSheet(options.contact_sheet, options.columns, options.thumbnail_width, frames);
+  if (!options.contact_sheet.empty()) writeContactSheet(options.contact_sheet, options.sheet, frames);
   std::printf("%s: %d frames\n", options.output.c_str(), options.frames);
 }
 

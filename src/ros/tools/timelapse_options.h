@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/tools/pictures_of_day.h"
 #include "ros/tools/sky_of_instant.h"
 #include "ros/tools/view_arguments.h"
 
@@ -20,13 +21,12 @@ struct TimelapseOptions {
   double step_hours = 0.5;  ///< > 0
   int frames = 48;          ///< > 0
   Caption caption = Caption::kNone;
-  std::string output;               ///< folder
-  std::string video;                ///< empty: none
-  double frame_rate = 25.0;         ///< Hz, of the video
-  std::string contact_sheet;        ///< empty: none
-  int columns = 6;                  ///< of the sheet
-  int thumbnail_width = 320;        ///< px, of the sheet
-  std::vector<std::string> recipe;  ///< the options that decide how frames look, sorted
+  std::string output;         ///< folder
+  std::string video;          ///< empty: none
+  double frame_rate = 25.0;   ///< Hz, of the video
+  std::string contact_sheet;  ///< empty: none
+  SheetLayout sheet;
+  std::vector<std::string> recipe;  ///< what decides how frames look: options, contents of files
 
   double hourOf(int frame) const { return from_hour + frame * step_hours; }
 };

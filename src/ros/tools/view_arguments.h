@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "ros/tools/camera_arguments.h"
+#include "ros/tools/world_arguments.h"
 #include "sunlit/image/exposure.h"
 #include "sunlit/image/sensor_noise.h"
 #include "sunlit/render/renderer.h"
@@ -14,18 +16,15 @@
 namespace sunlit::tools {
 
 struct ViewOptions {
-  std::string world = "race_track";
-  std::vector<std::string> model_folders;
+  WorldOptions world;
   render::RenderOptions render;
   Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
   image::ExposureOptions exposure;
   image::NoiseOptions noise;
-  bool bounced = true;  ///< surfaces hide the sky from each other and pass light on; false: an open sky
-  std::string cache;    ///< folder for what that takes; empty: light::Transport::usualFolder()
 };
 
 /// Help for all of them.
-extern const char* const kViewHelp;
+std::string viewHelp();
 
 /// Collects words until the camera can be placed.
 class ViewArguments {
@@ -37,8 +36,10 @@ class ViewArguments {
   ViewOptions options() const;
 
  private:
-  bool takeCamera(const std::string& key, const std::string& value);
+  bool takePlace(const std::string& key, const std::string& value);
   bool takeSensor(const std::string& key, const std::string& value);
+  /// Throws for an option that another one makes meaningless.
+  void requireThatAllCount() const;
   void placeTopDown(ViewOptions* options) const;
   void placeOnPath(ViewOptions* options) const;
   void placeFree(ViewOptions* options) const;
@@ -47,8 +48,8 @@ class ViewArguments {
   std::vector<double> pose_, look_at_, top_down_;  ///< empty if not given
   std::optional<int> path_pose_;
   std::string path_file_;
-  int width_ = 640, height_ = 480;  ///< px
-  double fov_deg_ = 90.0;
+  CameraWords camera_;
+  bool has_compensation_ = false;
 };
 
 }  // namespace sunlit::tools

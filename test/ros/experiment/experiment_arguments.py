@@ -95,7 +95,8 @@ class ExperimentArguments(unittest.TestCase):
         for renderer in ("/render/", "/self_test/render/"):
             self.assertEqual(found[renderer + "exposure/mode"], "fixed")  # the one that differs, with its value
             for group, key in (("night", "enabled"), ("noise", "enabled"), ("noise", "seed"), ("camera", "horizontal_fov"),
-                               ("exposure", "highlight_protection"), ("atmosphere", "turbidity")):
+                               ("exposure", "highlight_protection"), ("atmosphere", "turbidity"),
+                               ("atmosphere", "ozone")):
                 self.assertEqual(found[renderer + group + "/" + key], shipped[group][key], renderer + group + "/" + key)
 
     def test_camera_and_night_reach_both_renderers(self):

@@ -202,7 +202,7 @@ class ExperimentRuns(unittest.TestCase):
                                 (dict(output="/dev/null/x"), "/dev/null/x: cannot be written")):
             run = small_experiment(**dict(dict(output=os.path.join(self.folder, "bad")), **arguments))
             self.assertEqual(run.end(), 1, run.said())
-            self.assertIn("experiment: ", run.said())
+            self.assertIn("sunlit: ", run.said())
             self.assertIn(part, run.said())
             self.assertEqual(run.left_running(), [])
 

@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 """Every launch file starts, does its work and ends with status 0 at Ctrl-C."""
 import os
+import subprocess
 import sys
 import tempfile
 import unittest
 
 import rospkg
 import rosunit
+import yaml
 from launching import WAYPOINTS, WORLD, Launched, kill_leftovers
 
 
@@ -25,6 +27,11 @@ class LaunchFilesStart(unittest.TestCase):
             self.assertIn("header", heard.stdout)
         self.finish(launched)
 
+    def folder(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        return folder.name
+
     def finish(self, launched):
         self.assertEqual(launched.interrupt(), 0, launched.said())
         self.assertEqual(launched.left_running(), [])
@@ -42,7 +49,17 @@ class LaunchFilesStart(unittest.TestCase):
             needed = dict(output="results") if name == "evaluator" else {}
             launched = Launched(name + ".launch", rivz="true", **needed)
             self.assertEqual(launched.end(), 1, launched.said())
-            self.assertIn("argument rivz is 'true', but must be one of the arguments of " + name + ".launch", launched.said())
+            self.assertIn("sunlit: argument rivz is 'true', but must be one of the arguments of " + name + ".launch",
+                          launched.said())
+
+    def test_all_parameters_belong_to_a_node_or_to_roslaunch(self):
+        for name in ("demo", "evaluator", "render", "sun_position"):
+            needed = ["output:=" + self.folder()] if name == "evaluator" else []
+            words = ["roslaunch", "--dump-params", "sunlit", name + ".launch"] + needed
+            nodes = ("/sun_position/", "/render/", "/evaluator/")
+            keys = yaml.safe_load(subprocess.check_output(words))
+            self.assertTrue([key for key in keys if key.startswith(nodes)], name)
+            self.assertEqual([key for key in keys if not key.startswith(nodes + ("/roslaunch/", "/ros"))], [], name)
 
     def test_sun_position(self):
         self.check(Launched("sun_position.launch"), "/sun")
@@ -62,11 +79,10 @@ class LaunchFilesStart(unittest.TestCase):
         self.check(Launched("demo.launch", world=os.path.relpath(WORLD), path=os.path.relpath(WAYPOINTS)), "/sun", "/path")
 
     def test_evaluator(self):
-        with tempfile.TemporaryDirectory() as output:
-            launched = Launched("evaluator.launch", streams="[a, b]", output=output)
-            launched.wait_for(lambda: "data: 0" in launched.ros("rostopic", "echo", "-n", "1",
-                                                                "/evaluator/progress").stdout, "said its progress")
-            self.finish(launched)
+        launched = Launched("evaluator.launch", streams="[a, b]", output=self.folder())
+        launched.wait_for(lambda: "data: 0" in launched.ros("rostopic", "echo", "-n", "1",
+                                                            "/evaluator/progress").stdout, "said its progress")
+        self.finish(launched)
 
 
 if __name__ == "__main__":

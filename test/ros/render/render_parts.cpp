@@ -17,6 +17,7 @@
 #include "ros/render/sky_messages.h"
 #include "ros/render/sky_moments.h"
 #include "ros/render/stopwatch.h"
+#include "ros/render/studio.h"
 
 namespace sunlit::ros_interface {
 namespace {
@@ -190,6 +191,59 @@ TEST(SkyMoments, FollowAClockThatJumpsBack) {
   sun.distance_au = 1.02;
   moments.put(ros::Time(1), fromMessage(sun));
   EXPECT_EQ(moments.latest()->sun->distance_au, 1.02);
+}
+
+TEST(SkyMoments, ForgetWhatCameBeforeTheClockJumpedBack) {
+  SkyMoments moments(true);
+  SunPosition sun = sunMessage();
+  sun.distance_au = 0.99;
+  // More moments without stars than may wait, and all later than those that come after the jump.
+  for (int second = 1000; second < 1200; ++second) {
+    moments.put(ros::Time(second), fromMessage(sun));
+    moments.put(ros::Time(second), fromMessage(moonMessage()));
+  }
+  moments.put(ros::Time(1200), fromMessage(sun));
+  sun.distance_au = 1.01;
+  moments.put(ros::Time(10), fromMessage(sun));
+  moments.put(ros::Time(10), fromMessage(moonMessage()));
+  moments.put(ros::Time(1200), fromMessage(moonMessage()));
+  moments.put(ros::Time(1200), fromMessage(celestialMessage()));
+  EXPECT_FALSE(moments.latest());  // that sun of 1200 was of the time before the jump
+  sun.distance_au = 1.02;
+  moments.put(ros::Time(1200), fromMessage(sun));
+  ASSERT_TRUE(moments.latest());
+  EXPECT_EQ(moments.latest()->sun->distance_au, 1.02);
+}
+
+TEST(SkyMoments, OfAnEarlierTimeBecomeWholeWhileManyOfALaterOneWait) {
+  SkyMoments moments(true);
+  for (int second = 1000; second < 1200; ++second) moments.put(ros::Time(second), fromMessage(sunMessage()));
+  moments.put(ros::Time(10), fromMessage(moonMessage()));
+  moments.put(ros::Time(10), fromMessage(sunMessage()));
+  moments.put(ros::Time(10), fromMessage(celestialMessage()));
+  EXPECT_TRUE(moments.latest());
+}
+
+TEST(Studio, RefusesBadOptionsBeforeItLoadsTheWorld) {
+  RenderNodeOptions options;
+  options.world = "no_such.world";
+  const auto refusal = [&] {
+    try {
+      Studio studio(options);
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal().find("no_such.world"), std::string::npos);
+  options.noise.read_e = -1.0;
+  EXPECT_NE(refusal().find("read_e"), std::string::npos) << refusal();
+  options.noise.read_e = 3.0;
+  options.exposure.max_ev100 = options.exposure.min_ev100 - 1.0;
+  EXPECT_NE(refusal().find("ev100"), std::string::npos) << refusal();
+  options.exposure = {};
+  options.atmosphere.turbidity = 0.5;
+  EXPECT_NE(refusal().find("turbidity"), std::string::npos) << refusal();
 }
 
 TEST(Options, WithoutParametersAreTheDefaultsOfTheBuiltInWorld) {

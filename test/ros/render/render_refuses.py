@@ -30,7 +30,7 @@ class RenderRefuses(RefusalTest):
         return path
 
     def test_parameters(self):
-        self.assert_refused(parameters(wrold="x"), "/refused/wrold", "unknown", "world")
+        self.assert_refused(parameters(wrold="x"), "/refused/wrold", "unknown", "did you mean world?")
         self.assert_refused(parameters(camera={"widht": 96}), "/refused/camera/widht", "unknown")
         self.assert_refused(parameters(camera={"width": 8}), "/refused/camera/width", "8", "16")
         self.assert_refused(parameters(exposure={"mode": "bright"}), "/refused/exposure/mode", "bright", "auto, fixed")

@@ -265,7 +265,11 @@ TEST(Evaluation, RefusesAFolderOfOtherSettingsNamingThem) {
   const TemporaryFolder folder;
   EvaluationOptions options = optionsFor(folder);
   options.about = {{"date", "2024-07-01"}};
-  { const Evaluation evaluation(options, {}); }
+  {
+    Evaluation evaluation(options, {});
+    feedPose(evaluation, 0);
+    evaluation.finish();
+  }
   const auto refusal = [](const EvaluationOptions& other) -> std::string {
     try {
       const Evaluation evaluation(other, {});
@@ -282,6 +286,23 @@ TEST(Evaluation, RefusesAFolderOfOtherSettingsNamingThem) {
   other.about = {{"date", "it's another"}};
   EXPECT_NE(refusal(other).find("about/date was 2024-07-01, now it's another"), std::string::npos)
       << refusal(other);
+}
+
+TEST(Evaluation, TakesAFolderOfOtherSettingsInWhichNothingWasEvaluatedYet) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = optionsFor(folder);
+  options.poses = 1;
+  options.about = {{"width", "0"}};
+  EXPECT_FALSE(Evaluation(options, {}).finish().isWhole());  // as where the renderer refused that width
+  EXPECT_TRUE(hasLine(contentOf(folder.file("out/problems.csv")), "absent,0,"));
+  options.about = {{"width", "640"}};
+  {
+    Evaluation evaluation(options, {});
+    feedPose(evaluation, 0);
+    EXPECT_TRUE(evaluation.finish().isWhole());
+  }
+  EXPECT_FALSE(hasLine(contentOf(folder.file("out/problems.csv")), "absent,0,"));
+  EXPECT_NE(contentOf(folder.file("out/run.yaml")).find("about/width: '640'"), std::string::npos);
 }
 
 TEST(Evaluation, NumbersPosesByTheirCaptures) {

@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "image/read_file.h"
+
 namespace sunlit::image {
 namespace {
 
@@ -96,6 +98,20 @@ TEST_F(Files, AFailedWriteNamesThePathAndLeavesNothing) {
   fs::create_directory(path("taken"));  // a file cannot replace a folder
   EXPECT_EQ(errorOf([&] { writePng(path("taken"), pattern()); }), path("taken") + ": rename: Is a directory");
   EXPECT_EQ(fileCount(), 1U);
+}
+
+TEST_F(Files, AFinishedFileMovesIntoPlaceOrStays) {
+  put("film.part", "new");
+  put("film", "old");
+  moveIntoPlace(path("film.part"), path("film"));
+  EXPECT_EQ(readWholeFile(path("film")), "new");
+  EXPECT_EQ(fileCount(), 1U);
+  fs::create_directory(path("taken"));
+  EXPECT_EQ(errorOf([&] { moveIntoPlace(path("film"), path("taken")); }),
+            path("taken") + ": rename: Is a directory");
+  EXPECT_EQ(readWholeFile(path("film")), "new");
+  EXPECT_EQ(errorOf([&] { moveIntoPlace(path("none"), path("a")); }),
+            path("a") + ": open: No such file or directory");
 }
 
 TEST_F(Files, AnEmptyPictureIsRefused) {

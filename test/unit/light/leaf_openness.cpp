@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "light/sky_sectors.h"
 #include "light/transport/bake_rays.h"
 #include "paper_scene.h"
 #include "sunlit/light/illumination.h"
@@ -42,8 +43,8 @@ LeafOpenness opennessOf(scene::Scene scene, std::shared_ptr<const Geometry>* geo
   return leafOpenness(*geometry, traits, [](double) {});
 }
 
-/// At `point` of the first leaf's two triangles.
-float openAt(const Geometry& geometry, const LeafOpenness& leaves, int side, const Eigen::Vector3f& point) {
+/// What is seen from `point` of the first leaf's two triangles.
+SkyView viewAt(const Geometry& geometry, const LeafOpenness& leaves, const Eigen::Vector3f& point) {
   for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
     if (geometry.materials[t] != kLeaf) continue;
     const auto& corners = geometry.triangles[t];
@@ -51,20 +52,29 @@ float openAt(const Geometry& geometry, const LeafOpenness& leaves, int side, con
     for (int k = 0; k < 3; ++k) of_corners.col(k) = geometry.positions[corners[static_cast<std::size_t>(k)]];
     const Eigen::Vector3f within =
         of_corners.inverse() * point;  // as no leaf's plane goes through the origin
-    if (within.minCoeff() >= -1e-4f) return leaves.at(t, side, {within[0], within[1], within[2]});
+    if (within.minCoeff() >= -1e-4f) return leaves.at(t, {within[0], within[1], within[2]});
   }
   throw std::logic_error("no leaf there");
 }
 
-constexpr float kStep = 1.0f / 255.0f;  // of the stored shares
+/// Share of the half sphere about `normal`, by cosine, that is open sky.
+float openAround(const SkyView& view, const Eigen::Vector3f& normal) {
+  return SkySectors(uniformDay(1.0f)).irradiance(view, normal)[3];
+}
+
+// Of a share: normals to within 2°, of which half counts towards a half sphere cut by the horizon, the sum
+// over directions, 0.3 %, and the step of stored shares.
+constexpr float kExact = 0.025f;
 
 TEST(LeafOpenness, OpenLeavesSeeTheSkyAboveThemAndNoneBelow) {
   scene::Scene scene = leafScene();
   addPatch(&scene, kLeaf, {-1.0f, -1.0f, 2.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 2.0f, 0.0f});
   std::shared_ptr<const Geometry> geometry;
   const LeafOpenness leaves = opennessOf(scene, &geometry);
-  EXPECT_NEAR(openAt(*geometry, leaves, 0, {0.3f, -0.2f, 2.0f}), 1.0f, kStep);
-  EXPECT_NEAR(openAt(*geometry, leaves, 1, {0.3f, -0.2f, 2.0f}), 0.0f, kStep);
+  const SkyView view = viewAt(*geometry, leaves, {0.3f, -0.2f, 2.0f});
+  EXPECT_TRUE(view.known);
+  EXPECT_NEAR(openAround(view, Eigen::Vector3f::UnitZ()), 1.0f, kExact);
+  EXPECT_NEAR(openAround(view, -Eigen::Vector3f::UnitZ()), 0.0f, kExact);
 }
 
 TEST(LeafOpenness, UprightLeavesSeeHalfTheSkyOnEitherSide) {
@@ -72,8 +82,22 @@ TEST(LeafOpenness, UprightLeavesSeeHalfTheSkyOnEitherSide) {
   addPatch(&scene, kLeaf, {1.0f, -1.0f, 2.0f}, {0.0f, 2.0f, 0.0f}, {0.0f, 0.0f, 2.0f});
   std::shared_ptr<const Geometry> geometry;
   const LeafOpenness leaves = opennessOf(scene, &geometry);
-  for (int side = 0; side < 2; ++side)
-    EXPECT_NEAR(openAt(*geometry, leaves, side, {1.0f, 0.2f, 3.1f}), 0.5f, kStep);
+  const SkyView view = viewAt(*geometry, leaves, {1.0f, 0.2f, 3.1f});
+  for (const float side : {-1.0f, 1.0f})
+    EXPECT_NEAR(openAround(view, side * Eigen::Vector3f::UnitX()), 0.5f, kExact);
+}
+
+TEST(LeafOpenness, TellsTheSideOfTheSkyThatAWallHides) {
+  scene::Scene scene = leafScene();
+  addPatch(&scene, kLeaf, {-1.0f, -1.0f, 2.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 2.0f, 0.0f});
+  addPatch(&scene, kBoard, {1.5f, -200.0f, 0.0f}, {0.0f, 400.0f, 0.0f}, {0.0f, 0.0f, 200.0f});
+  std::shared_ptr<const Geometry> geometry;
+  const LeafOpenness leaves = opennessOf(scene, &geometry);
+  const SkyView view = viewAt(*geometry, leaves, {0.3f, -0.2f, 2.0f});
+  // 0.06: as kExact, and a wall that ends in the north and south: its last 0.4° of azimuth lie in sectors of
+  // 36 and 60°, which are one number each.
+  EXPECT_NEAR(openAround(view, Eigen::Vector3f::UnitX()), 0.0f, 0.06f);
+  EXPECT_NEAR(openAround(view, -Eigen::Vector3f::UnitX()), 0.5f, 0.06f);
 }
 
 TEST(LeafOpenness, ChangesWithinALeafThatAWallCutsInTwo) {
@@ -87,8 +111,9 @@ TEST(LeafOpenness, ChangesWithinALeafThatAWallCutsInTwo) {
   for (const float x : {-0.9f, -0.55f, -0.2f, 0.2f, 0.55f, 0.9f}) {
     const float distance = std::abs(x);
     const float open = 0.5f * (1.0f + distance / std::hypot(distance, 0.5f));
-    // 0.06: three nodes of 35 directions each, on a grid of 0.29 m.
-    EXPECT_NEAR(openAt(*geometry, leaves, 0, {x, 0.1f, 2.0f}), open, 0.06f) << x;
+    // 0.1: three nodes of 58 directions each, on a grid of 0.5 m.
+    EXPECT_NEAR(openAround(viewAt(*geometry, leaves, {x, 0.1f, 2.0f}), Eigen::Vector3f::UnitZ()), open, 0.1f)
+        << x;
   }
 }
 

@@ -1,10 +1,12 @@
 // A bake comes back from disk as it went there, and nothing else does.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -158,6 +160,24 @@ TEST_F(TransportCache, WorksWithoutAFolder) {
   EXPECT_EQ(transport->irradiance(uniformDay(100.0f)).size(), expected.size());
   ASSERT_EQ(log.size(), 1u);
   EXPECT_NE(log[0].find("a_file"), std::string::npos) << log[0];
+}
+
+TEST_F(TransportCache, LeavesNothingHalfWrittenWhereTheDiskIsFull) {
+  const World world = worldOf(wallOnGround());
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit little = before;
+  little.rlim_cur = 1000;
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);  // so that writing fails as on a full disk
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &little), 0);
+  const std::vector<float> values = light(world);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  ASSERT_EQ(log_.size(), 1u);
+  EXPECT_NE(log_[0].find("cannot be written"), std::string::npos) << log_[0];
+  EXPECT_TRUE(files().empty());
+  EXPECT_EQ(light(world), values);
+  EXPECT_TRUE(baked_);
 }
 
 TEST_F(TransportCache, IsBakedOnceByThoseWhoWantItTogether) {

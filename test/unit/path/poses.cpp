@@ -108,9 +108,8 @@ TEST(PosesAlong, RefusesWhatIsNoPath) {
 
 TEST(PathOptions, NameKeyValueAndRange) {
   const Waypoints waypoints{{0, 0, 0}, {1, 0, 0}};
-  EXPECT_EQ(messageOf(waypoints, {0.0, 1.0}), "spacing_m is 0.000000, must be 0.001000 … 1000.000000 m");
-  EXPECT_EQ(messageOf(waypoints, {1.0, 2e3}),
-            "height_m is 2000.000000, must be -1000.000000 … 1000.000000 m");
+  EXPECT_EQ(messageOf(waypoints, {0.0, 1.0}), "spacing_m is 0, must be 0.001 … 1000 m");
+  EXPECT_EQ(messageOf(waypoints, {1.0, 2e3}), "height_m is 2000, must be -1000 … 1000 m");
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(validate(PathOptions{nan, 1.0}), std::invalid_argument);
 }

@@ -114,6 +114,26 @@ TEST(Depth, ReachesFromCentimetresToTheHorizon) {
   EXPECT_NEAR(*depth.at(140, 60), 15000.0f, 0.01f);
 }
 
+TEST(Depth, EndsWhereThePictureEnds) {
+  scene::Scene scene;
+  addGround(&scene, addMaterial(&scene, {0.5f, 0.5f, 0.5f}), 500.0f);
+  const auto ground = shared(scene);
+  // A row of pixels there is 8 m of ground: some end between its samples and their middle.
+  for (double far_m = 50.0; far_m < 58.0; far_m += 1.0) {
+    render::RenderOptions options;
+    options.camera = image::PinholeCamera::fromFieldOfView(160, 120, Angle::degrees(60.0));
+    options.far_m = far_m;
+    render::Renderer renderer(ground, options);
+    renderer.look(lookingAt({0.0, 0.0, 2.0}, {50.0, 3.0, 0.0}));
+    float farthest = 0.0f;
+    for (const float depth : renderer.depth().data) {
+      if (depth > farthest) farthest = depth;
+    }
+    EXPECT_LE(farthest, static_cast<float>(far_m));
+    EXPECT_GT(farthest, static_cast<float>(far_m) - 12.0f);
+  }
+}
+
 TEST(Pixel, CentreIsWhereTheCameraModelSaysIt) {
   // A small square whose projection covers exactly pixels 100 … 103 × 40 … 42, edges half a pixel beyond the
   // centres.

@@ -22,10 +22,10 @@ scene::Scene detailedGround(float contrast, float coarsest_m, float finest_m) {
 }
 
 /// Straight down from `height` m on 1 m a pixel times height / 100.
-image::LinearImage fromAbove(const scene::Scene& scene, const Eigen::Vector3d& eye) {
+image::LinearImage fromAbove(const scene::Scene& scene, const Eigen::Vector3d& eye, int supersampling = 1) {
   render::RenderOptions options;
   options.camera = image::PinholeCamera{256, 256, 25600.0, 25600.0, 127.5, 127.5};  // rays nearly parallel
-  options.supersampling = 1;
+  options.supersampling = supersampling;
   render::Renderer renderer(shared(scene), options);
   renderer.look(lookingAt(eye, {eye.x(), eye.y(), 0.0}));
   return renderer.light(daylightAt(180.0, 60.0));
@@ -70,6 +70,30 @@ TEST(Detail, FinerThanAPixelFadesToItsMean) {
   const scene::Scene scene = detailedGround(0.3f, 0.04f, 0.01f);
   const Albedos far = relative(fromAbove(scene, {0.0, 0.0, 2560.0}));  // 10 cm a pixel
   EXPECT_LT(far.deviation, 0.002);
+}
+
+TEST(Detail, OfAPixelIsTheMeanOverItsSamples) {
+  // Octaves of 32, 16 and 8 px of 1 cm, then of 4 and 2 px.
+  for (const float coarsest_m : {0.32f, 0.04f}) {
+    const scene::Scene scene = detailedGround(0.15f, coarsest_m, coarsest_m / 4.0f);
+    // Four samples a pixel of 2 cm cover the same places as four pixels of 1 cm with a sample each.
+    const image::LinearImage fine = fromAbove(scene, {0.0, 0.0, 256.0}, 1);
+    const image::LinearImage coarse = fromAbove(scene, {0.0, 0.0, 512.0}, 2);
+    double difference = 0.0, deviation = 0.0;
+    const double mean = relative(fine).mean;
+    for (int y = 0; y < 128; ++y) {
+      for (int x = 0; x < 128; ++x) {
+        const double four = (at(fine, 2 * x, 2 * y)[1] + at(fine, 2 * x + 1, 2 * y)[1] +
+                             at(fine, 2 * x, 2 * y + 1)[1] + at(fine, 2 * x + 1, 2 * y + 1)[1]) /
+                            4.0;
+        difference += std::pow(at(coarse, x + 64, y + 64)[1] - four, 2.0);
+        deviation += std::pow(four - mean, 2.0);
+      }
+    }
+    // The mean is taken by one look at the middle of the pixel, which tells waves of four samples or less
+    // only roughly.
+    EXPECT_LT(std::sqrt(difference / deviation), coarsest_m > 0.1f ? 0.1 : 0.4) << coarsest_m;
+  }
 }
 
 TEST(Detail, DoesNotRepeat) {

@@ -58,9 +58,14 @@ TEST(Textures, AreMixedBetweenTwoSizes) {
   const Eigen::Array2f at(0.3f, 0.8f);
   const Eigen::Array3f fine = pyramid.color(at, 0.0f), coarse = pyramid.color(at, 1.0f);
   ASSERT_GT((fine - coarse).abs().maxCoeff(), 0.01f);  // else nothing is shown
-  const Eigen::Array3f mixed = pyramid.color(at, 0.25f);
-  EXPECT_LT((mixed - (0.75f * fine + 0.25f * coarse)).abs().maxCoeff(), 1e-6f);  // rounding
-  EXPECT_TRUE((pyramid.color(at, 40.0f) == pyramid.color(at, 41.0f)).all());     // beyond the smallest
+  // Each size alone within a quarter of a level of its own, both in between.
+  EXPECT_TRUE((pyramid.color(at, 0.25f) == fine).all());
+  EXPECT_TRUE((pyramid.color(at, 0.75f) == coarse).all());
+  for (const float share : {0.01f, 0.4f, 0.99f}) {
+    const Eigen::Array3f mixed = pyramid.color(at, 0.25f + 0.5f * share);
+    EXPECT_LT((mixed - (fine + share * (coarse - fine))).abs().maxCoeff(), 1e-6f) << share;  // rounding
+  }
+  EXPECT_TRUE((pyramid.color(at, 40.0f) == pyramid.color(at, 41.0f)).all());  // beyond the smallest
 }
 
 }  // namespace

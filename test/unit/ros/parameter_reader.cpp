@@ -71,8 +71,17 @@ TEST(ParameterReader, AnUnknownKeyIsAnErrorThatListsTheKnownOnes) {
   reader.number("site/latitude", 0.0);
   reader.number("site/elevation", 0.0);
   EXPECT_EQ(messageOf([&] { reader.rejectUnknown(); }),
-            "parameter /node/site/lattitude is unknown; known are earth, loop, mode, site/elevation, "
+            "parameter /node/site/lattitude is unknown (did you mean site/latitude?); known are earth, loop, "
+            "mode, site/elevation, "
             "site/latitude");
+}
+
+TEST(ParameterReader, AKeyLikeNoOtherHasNoSuggestion) {
+  XmlRpcValue tree;
+  tree["colour"] = 1;
+  const ParameterReader reader(tree, "/node");
+  reader.text("mode", "");
+  EXPECT_EQ(messageOf([&] { reader.rejectUnknown(); }), "parameter /node/colour is unknown; known are mode");
 }
 
 TEST(ParameterReader, OverridesAreNamedByWholeKeyOrLastPart) {

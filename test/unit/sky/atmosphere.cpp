@@ -35,6 +35,9 @@ TEST(AtmosphereOptions, BadValuesAreNamedWithTheirRange) {
   options.ground_albedo = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(messageOf([&] { validate(options); }), "ground_albedo: nan is outside 0 … 1");
   options = {};
+  options.ozone_du = 601.0;
+  EXPECT_EQ(messageOf([&] { validate(options); }), "ozone_du: 601 is outside 0 … 600");
+  options = {};
   options.observer_height_m = -1.0;
   EXPECT_EQ(messageOf([&] { validate(options); }), "observer_height_m: -1 is outside 0 … 8000");
 }
@@ -44,6 +47,24 @@ TEST(Atmosphere, ASunAtAnImpossibleDistanceIsRefused) {
               ordinaryAir().daylight({Direction(), 1.5});
             }),
             "distance_au: 1.5 is outside 0.97 … 1.03");
+}
+
+TEST(Atmosphere, OzoneDimsTheSunALittleAndMakesDuskBlue) {
+  AtmosphereOptions options;
+  options.ozone_du = 0.0;
+  const Atmosphere without(options);
+  // 300 DU are 8.1e22 molecules/m², whose Chappuis bands take up 4.9e-25 m² each at their height near 600 nm
+  // and some half of that in the mean over what the eye sees: 1.5 to 3 % of a sun overhead.
+  const float sun = ordinaryAir().daylight(sunAt(89.9)).sun().illuminance.luminance() /
+                    without.daylight(sunAt(89.9)).sun().illuminance.luminance();
+  EXPECT_GT(sun, 0.97F);
+  EXPECT_LT(sun, 0.985F);
+  // Hulburt 1953: after sunset the zenith owes its blue to ozone.
+  const auto blueness = [](const Atmosphere& atmosphere) {
+    const LinearRgb zenith = atmosphere.daylight(sunAt(-4.0)).skyLuminance({0, 0, 1});
+    return zenith.value[2] / zenith.value[0];
+  };
+  EXPECT_GT(blueness(ordinaryAir()), 1.5F * blueness(without));
 }
 
 TEST(Atmosphere, HazeTakesFromTheSunAndGivesToTheSky) {

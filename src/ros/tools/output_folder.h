@@ -1,0 +1,15 @@
+/// Folders that tools write into.
+#pragma once
+
+#include <string>
+
+namespace sunlit::tools {
+
+/// Throws std::runtime_error "folder: what: why" where it is not there and cannot be made either, as far as
+/// can be told without making it.
+void requireFolderCanBeMade(const std::string& folder);
+
+/// With all above it, where it is not there yet. Throws as above.
+void makeFolder(const std::string& folder);
+
+}  // namespace sunlit::tools
