@@ -294,6 +294,7 @@ double planeDepth(const Seen& seen, std::uint32_t triangle, const Eigen::Vector3
 
 void resolveSurfaces(const Seen& seen, light::Surfaces* surfaces) {
   layOutTiles(seen.view, surfaces);
+  surfaces->table.reset();  // of other surfaces
   const SceneDetail scene_detail(*seen.geometry.scene, seen.view);
   tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(), [&](std::size_t i) {
     thread_local TileResolver::Memory memory;
