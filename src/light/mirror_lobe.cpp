@@ -6,6 +6,7 @@
 
 #include "light/schlick.h"
 #include "sunlit/quantity/angle.h"
+#include "sunlit/scene/scene.h"
 
 namespace sunlit::light {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr int kAcross = 24;  ///< directions that one lobe is made of, on one side, a row and column
 constexpr int kSectors = 4, kHeights = 2;
 static_assert(2 * kSectors * kHeights == MirrorLobe::kParts, "two sides alike");
-constexpr float kSmoothest = 0.03f;
+constexpr float kSmoothest = scene::Material::kSmoothest;
 /// What a dielectric weighs its lobe's parts by.
 constexpr float kUsualF0 = 0.04f;
 
@@ -39,7 +40,7 @@ std::vector<Sample> leftHalf(float alpha, float n_v) {
   std::vector<Sample> samples;
   for (int i = 0; i < kAcross * kAcross; ++i) {
     const float radius = std::sqrt((static_cast<float>(i % kAcross) + 0.5f) / kAcross);
-    const float turn = static_cast<float>(kPi) * (static_cast<float>(i / kAcross) + 0.5f) / kAcross;
+    const float turn = kPiFloat * (static_cast<float>(i / kAcross) + 0.5f) / kAcross;
     const float aside = radius * std::sin(turn);
     const float share = 0.5f * (1.0f + stretched.z());
     const float in_plane = (1.0f - share) * std::sqrt(1.0f - aside * aside) - share * radius * std::cos(turn);
@@ -113,7 +114,7 @@ float meanGrazingOf(float n_v) {
   for (int i = 0; i < kRings; ++i) {
     const float sine2 = (static_cast<float>(i) + 0.5f) / kRings;
     for (int k = 0; k < kTurns; ++k) {
-      const float turn = static_cast<float>(kPi) * (static_cast<float>(k) + 0.5f) / kTurns;
+      const float turn = kPiFloat * (static_cast<float>(k) + 0.5f) / kTurns;
       const float cosine =
           std::sqrt(1.0f - sine2) * n_v + std::sqrt(sine2) * sine * std::cos(turn);  // between light and eye
       sum += schlick(std::sqrt(std::max(0.0f, 0.5f * (1.0f + cosine))));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sunlit/quantity/photometry.h"
+#include "sunlit/scene/scene.h"
 
 namespace sunlit::scene {
 
@@ -32,7 +33,7 @@ inline LinearRgb linearFromSrgb(const std::array<float, 3>& encoded) {
 /// 0: α² = 2 / (n + 2) (Walter et al. 2007, section 5.2, after Beckmann), roughness = √α.
 inline float roughnessOfPhong(float shininess) {
   const float alpha = std::sqrt(2.0f / (shininess + 2.0f));
-  return std::clamp(std::sqrt(alpha), 0.03f, 1.0f);
+  return std::clamp(std::sqrt(alpha), Material::kSmoothest, 1.0f);
 }
 
 }  // namespace sunlit::scene

@@ -13,8 +13,6 @@
 namespace sunlit::scene {
 namespace {
 
-constexpr float kSmoothest = 0.03f;  ///< the lowest roughness that Material allows
-
 std::optional<std::string> textureName(const aiMaterial& source) {
   for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
     aiString name;
@@ -63,7 +61,7 @@ void readGltf(const aiMaterial& source, Material& material) {
   material.metalness = 1.0f;
   source.Get(AI_MATKEY_ROUGHNESS_FACTOR, material.roughness);
   source.Get(AI_MATKEY_METALLIC_FACTOR, material.metalness);
-  material.roughness = std::clamp(material.roughness, kSmoothest, 1.0f);
+  material.roughness = std::clamp(material.roughness, Material::kSmoothest, 1.0f);
   material.metalness = std::clamp(material.metalness, 0.0f, 1.0f);
 }
 

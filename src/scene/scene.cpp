@@ -41,7 +41,7 @@ void checkDetail(const Material& material) {
 void checkMaterial(const Material& material, std::size_t texture_count) {
   for (const float channel : material.base_color.value)
     checkRange(material, "base_color", channel, 0.0f, 1.0f);
-  checkRange(material, "roughness", material.roughness, 0.03f, 1.0f);
+  checkRange(material, "roughness", material.roughness, Material::kSmoothest, 1.0f);
   checkRange(material, "metalness", material.metalness, 0.0f, 1.0f);
   checkRange(material, "alpha_cutoff", material.alpha_cutoff, 0.0f, 1.0f);
   checkRange(material, "transmission", material.transmission, 0.0f, 1.0f);

@@ -91,7 +91,7 @@ void SdfMaterials::readPbr(const sdf::Material& source, Material& material) {
                   " is not of the metal workflow; its diffuse colour is used alone");
     return;
   }
-  material.roughness = std::clamp(static_cast<float>(metal->Roughness()), 0.03f, 1.0f);
+  material.roughness = std::clamp(static_cast<float>(metal->Roughness()), Material::kSmoothest, 1.0f);
   material.metalness = std::clamp(static_cast<float>(metal->Metalness()), 0.0f, 1.0f);
   if (!metal->AlbedoMap().empty()) {
     material.base_texture = texture(metal->AlbedoMap(), source.FilePath());

@@ -76,7 +76,7 @@ void gatherIlluminance(float ground_albedo, SkyTable* table) {
   const auto sky = patches(*table);
   const Eigen::Array4f from_sky = gather(sky, Eigen::Vector3f::UnitZ());
   table->ground_illuminance = from_sky.head<3>() + onLevelGround(table->sun) + onLevelGround(table->moon);
-  table->ground_luminance = table->ground_illuminance * (ground_albedo / static_cast<float>(kPi));
+  table->ground_luminance = table->ground_illuminance * (ground_albedo / kPiFloat);
   constexpr int kSide = SkyTable::kNormals;
   table->illuminance.resize(static_cast<std::size_t>(kSide * kSide));
   tbb::parallel_for(0, kSide, [&](int row) {

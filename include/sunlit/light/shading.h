@@ -12,7 +12,7 @@ struct Reflection {
   Eigen::Vector3f normal;  ///< shading normal
   Eigen::Vector3f to_eye;
   Eigen::Array3f albedo;      ///< base colour, 0 … 1
-  float roughness = 1.0f;     ///< perceptual, 0.03 … 1
+  float roughness = 1.0f;     ///< perceptual, scene::Material::kSmoothest … 1
   float metalness = 0.0f;     ///< 0 … 1
   float transmission = 0.0f;  ///< share of the diffuse light that comes out on the other side, 0 … 1
 };

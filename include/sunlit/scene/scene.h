@@ -40,11 +40,12 @@ enum class AlphaMode {
 /// Metallic-roughness material as in glTF 2.0.
 struct Material {
   static constexpr int kNoTexture = -1;
+  static constexpr float kSmoothest = 0.03f;  ///< the lowest roughness
 
   std::string name;
   LinearRgb base_color{0.5f, 0.5f, 0.5f};  ///< reflectance, 0 … 1; multiplies texture and vertex colour
   int base_texture = kNoTexture;           ///< index into Scene::textures
-  float roughness = 0.9f;                  ///< perceptual, 0.03 … 1
+  float roughness = 0.9f;                  ///< perceptual, kSmoothest … 1
   float metalness = 0.0f;                  ///< 0 … 1
   LinearRgb emission;                      ///< luminance that the surface gives off by itself, cd/m²
   AlphaMode alpha_mode = AlphaMode::kOpaque;

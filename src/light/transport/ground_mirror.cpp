@@ -6,11 +6,12 @@
 
 #include "sunlit/light/shading.h"
 #include "sunlit/quantity/angle.h"
+#include "sunlit/scene/scene.h"
 
 namespace sunlit::light {
 namespace {
 
-constexpr float kSmoothest = 0.03f;
+constexpr float kSmoothest = scene::Material::kSmoothest;
 constexpr int kAcross = 4;  ///< points of a patch along each of its sides
 /// Of what each point stands for, rad: highlights of smooth ground are narrower than their distance.
 constexpr float kPointRadius_rad = 0.03f;

@@ -69,7 +69,7 @@ float hiddenShare(const Coefficients& direct, std::size_t sample) {
   std::uint32_t sum = 0;
   const std::uint8_t* row = direct.row(sample);
   for (std::size_t p = 0; p < kPatches; ++p) sum += row[p];
-  return 1.0f - static_cast<float>(sum) * direct.scales[sample] / static_cast<float>(kPi);
+  return 1.0f - static_cast<float>(sum) * direct.scales[sample] / kPiFloat;
 }
 
 NodeLight sampleLight(const TransportData& data, const sky::Daylight& day) {
@@ -89,7 +89,7 @@ NodeLight sampleLight(const TransportData& data, const sky::Daylight& day) {
                         light.irradiance[i] = sky.times(data.direct.row(i)) * data.direct.scales[i] + bounced;
                         // Where next to nothing is hidden, rounding must not make it shine.
                         const float hidden = std::max(hiddenShare(data.direct, i), 0.02f);
-                        light.surroundings[i] = bounced / (static_cast<float>(kPi) * hidden);
+                        light.surroundings[i] = bounced / (kPiFloat * hidden);
                       }
                     });
   return light;

@@ -127,7 +127,7 @@ TEST(Ambient, NeverGivesBackMoreThanArrives) {
           Reflection r = surface(towards(zenith, 0.0), metalness > 0.0f ? 1.0f : 0.8f, roughness, metalness);
           r.transmission = transmission;
           const AmbientReflectance a = ambientReflectance(r);
-          EXPECT_LE(((a.diffuse + a.through) * static_cast<float>(kPi) + a.specular).maxCoeff(), 1.0001f)
+          EXPECT_LE(((a.diffuse + a.through) * kPiFloat + a.specular).maxCoeff(), 1.0001f)
               << roughness << " " << metalness << " " << transmission << " " << zenith;
         }
       }
@@ -166,7 +166,7 @@ TEST(Leaf, IsReciprocalThroughItself) {
   const float to_eye = directReflectance(there, below, 0.0f)[0] / -below.z();
   const float returned = directReflectance(back, above, 0.0f)[0] / above.z();
   EXPECT_NEAR(to_eye, returned, 1e-6f);
-  EXPECT_NEAR(to_eye, 0.3f * 0.4f / static_cast<float>(kPi), 1e-6f);
+  EXPECT_NEAR(to_eye, 0.3f * 0.4f / kPiFloat, 1e-6f);
 }
 
 TEST(Leaf, OfMetalLetsNothingThrough) {

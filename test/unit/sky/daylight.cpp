@@ -233,7 +233,7 @@ TEST(Daylight, LevelGroundGetsSkyAndSun) {
 
 TEST(Daylight, FarBelowTheHorizonIsTheGround) {
   const Daylight daylight = daylightAt(30.0);
-  const float ground = 0.2F / static_cast<float>(kPi) * daylight.groundIlluminance().luminance();
+  const float ground = 0.2F / kPiFloat * daylight.groundIlluminance().luminance();
   EXPECT_NEAR(daylight.skyLuminance({0, 0, -1}).luminance(), ground, 0.1F * ground);  // 100 m of haze
 }
 
