@@ -62,8 +62,7 @@ class BodyLight::Implementation {
  private:
   void castFrom(std::uint32_t body, const Eigen::Vector3f& middle, Views* views) const;
   Eigen::Array3f reflectanceAt(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const {
-    const Reflectance mean = reflectance(reflectances_.at(triangle, barycentric), kMeanView);
-    return (mean.diffuse + mean.mirrored).min(0.98f);
+    return reflectance(reflectances_.at(triangle, barycentric), kMeanView).all();
   }
   void keep(std::uint32_t body, std::uint32_t direction, const Hit& hit, Views* views) const;
   static Eigen::Array3f arriving(const Met& met, const Illumination& light);

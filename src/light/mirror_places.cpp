@@ -2,10 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "light/angles.h"
 #include "light/sky_sectors.h"
-#include "sunlit/sky/octahedral.h"
 
 namespace sunlit::light {
 namespace {
@@ -40,13 +40,6 @@ std::uint8_t patchOf(const Eigen::Vector3f& towards) {
 
 }  // namespace
 
-Eigen::Vector3f mirrorDirection(const MirrorLevel& level, std::size_t cell) {
-  const auto side = static_cast<std::size_t>(level.side);
-  const float x = (2.0f * static_cast<float>(cell % side) + 1.0f) / static_cast<float>(level.side) - 1.0f;
-  const float y = (2.0f * static_cast<float>(cell / side) + 1.0f) / static_cast<float>(level.side) - 1.0f;
-  return sky::octahedralDirection(x, y);
-}
-
 MirrorPlaces::MirrorPlaces() {
   for (std::size_t level = 0; level < kMirrorLevels.size(); ++level) {
     for (std::size_t cell = 0; cell < kMirrorLevels[level].cells(); ++cell) fill(level, cell);
@@ -69,7 +62,7 @@ MirrorPlaces::MirrorPlaces() {
 }
 
 void MirrorPlaces::fill(std::size_t level, std::size_t cell) {
-  const Eigen::Vector3f towards = mirrorDirection(kMirrorLevels[level], cell);
+  const Eigen::Vector3f towards = sky::octahedralMiddle(kMirrorLevels[level].side, cell);
   const std::size_t place = kMirrorLevels[level].first + cell;
   below[place] = towards.z() < 0.0f;
   const float radius = kMirrorLevels[level].radius_rad;
@@ -85,7 +78,7 @@ void MirrorPlaces::fill(std::size_t level, std::size_t cell) {
     const Eigen::Vector3f& p = points[i];
     taps[place][i] =
         static_cast<std::uint16_t>(static_cast<std::int32_t>(kMirrorLevels[level - 1].first) +
-                                   mirrorCell(kMirrorLevels[level - 1].side, p.x(), p.y(), p.z()));
+                                   sky::octahedralCell(kMirrorLevels[level - 1].side, p.x(), p.y(), p.z()));
   }
 }
 

@@ -3,13 +3,13 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 #include "light/mirror_lobe.h"
 #include "light/transport/sky_patches.h"
 #include "sunlit/light/surfaces.h"
+#include "sunlit/sky/octahedral.h"
 
 namespace sunlit::light {
 
@@ -26,32 +26,12 @@ constexpr std::size_t kMirrorPlaces = kMirrorLevels.back().first + 64 * 64;
 static_assert(kMirrorPlaces <= 65536, "places are 16-bit numbers");
 static_assert(MirrorView::kParts == static_cast<std::size_t>(MirrorLobe::kParts), "one direction a part");
 
-/// The middle of a cell.
-Eigen::Vector3f mirrorDirection(const MirrorLevel& level, std::size_t cell);
-
 /// The cap, evenly filled, whose mean direction has a length (1 + cos radius) / 2: number of its level.
 inline std::int32_t mirrorLevel(float squared_length) {
   // Halfway between the squares of neighbouring radii, by 1 − length ≈ radius² / 4.
   constexpr auto kShorter = [](float missing) { return (1.0f - missing) * (1.0f - missing); };
   return (squared_length < kShorter(0.0025f) ? 1 : 0) + (squared_length < kShorter(0.0109f) ? 1 : 0) +
          (squared_length < kShorter(0.0338f) ? 1 : 0) + (squared_length < kShorter(0.0956f) ? 1 : 0);
-}
-
-/// Cell of a map of `side` cells an axis: sky::octahedralPlace() without a branch, so that compilers may
-/// treat several directions at once.
-inline std::int32_t mirrorCell(std::int32_t side, float x, float y, float z) {
-  const float scale = 1.0f / (std::abs(x) + std::abs(y) + std::abs(z));
-  x *= scale;
-  y *= scale;
-  const float folded_x = std::copysign(1.0f - std::abs(y), x),
-              folded_y = std::copysign(1.0f - std::abs(x), y);
-  x = z < 0.0f ? folded_x : x;
-  y = z < 0.0f ? folded_y : y;
-  const auto step = [&](float at) {
-    const auto i = static_cast<std::int32_t>((at + 1.0f) * (0.5f * static_cast<float>(side)));
-    return i < 0 ? 0 : i > side - 1 ? side - 1 : i;
-  };
-  return step(y) * side + step(x);
 }
 
 /// Place of a direction whose length tells the level.
@@ -62,7 +42,7 @@ inline std::int32_t mirrorPlace(float x, float y, float z) {
   constexpr auto kStep = static_cast<std::int32_t>(kMirrorLevels[2].first - kMirrorLevels[1].first);
   const std::int32_t side = level == 0 ? kMirrorLevels[0].side : kMirrorLevels[1].side;
   const std::int32_t first = level == 0 ? 0 : kFirst + (level - 1) * kStep;
-  return first + mirrorCell(side, x, y, z);
+  return first + sky::octahedralCell(side, x, y, z);
 }
 
 constexpr std::size_t kTaps = 16;   ///< cells of a table that one of the next is made of

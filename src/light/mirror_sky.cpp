@@ -10,7 +10,7 @@ MirrorSky::MirrorSky(const sky::Daylight& day) : table_(kMirrorPlaces, Eigen::Ar
   const MirrorPlaces& sky = mirrorPlaces();
   tbb::parallel_for(std::size_t{0}, kMirrorLevels[0].cells(), [&](std::size_t place) {
     if (sky.below[place]) return;
-    const Eigen::Array3f light = day.skyLuminance(mirrorDirection(kMirrorLevels[0], place)).value;
+    const Eigen::Array3f light = day.skyLuminance(sky::octahedralMiddle(kMirrorLevels[0].side, place)).value;
     table_[place] = Eigen::Array4f(light[0], light[1], light[2], 0.0f);
   });
   for (std::size_t level = 1; level < kMirrorLevels.size(); ++level) {

@@ -113,10 +113,6 @@ class Visibility::Implementation {
   explicit Implementation(std::shared_ptr<const Geometry> geometry);
   /// Shares the device of `other`.
   Implementation(std::shared_ptr<const Geometry> geometry, const Implementation& other);
-  ~Implementation() {
-    rtcReleaseScene(scene_);
-    rtcReleaseDevice(device_);
-  }
   void occluded(const Rays& rays, std::uint8_t* blocked) const;
   void closest(const Rays& rays, Hit* hits) const;
   Hit firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near) const;
@@ -128,42 +124,39 @@ class Visibility::Implementation {
 
   std::shared_ptr<const Geometry> geometry_;
   Cutouts cutouts_;
-  RTCDevice device_ = nullptr;
-  RTCScene scene_ = nullptr;
+  DevicePointer device_;
+  ScenePointer scene_;
   bool wide_ = false;  ///< the CPU takes 16 rays at once
 };
 
 Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geometry)
-    : geometry_(std::move(geometry)), cutouts_(*geometry_) {
-  device_ = rtcNewDevice(nullptr);
+    : geometry_(std::move(geometry)), cutouts_(*geometry_), device_(rtcNewDevice(nullptr)) {
   if (!device_) {
     throw std::runtime_error("ray library (Embree): no device, error code " +
                              std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))));
   }
-  wide_ = rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
+  wide_ = rtcGetDeviceProperty(device_.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   build(RTC_BUILD_QUALITY_HIGH);
 }
 
 Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geometry,
                                            const Implementation& other)
-    : geometry_(std::move(geometry)), cutouts_(*geometry_), device_(other.device_), wide_(other.wide_) {
-  rtcRetainDevice(device_);
+    : geometry_(std::move(geometry)), cutouts_(*geometry_), device_(other.device_.get()), wide_(other.wide_) {
+  rtcRetainDevice(device_.get());
   build(RTC_BUILD_QUALITY_LOW);  // it is for one pose
 }
 
 void Visibility::Implementation::build(RTCBuildQuality quality) {
-  scene_ = rtcNewScene(device_);
+  scene_.reset(rtcNewScene(device_.get()));
   // Without ROBUST, a ray may slip through the edge between two triangles, depending on how the tree was
   // built.
-  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(scene_, quality);
+  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(scene_.get(), quality);
   attach(cutouts_.opaqueTriangles(), kOpaque);
   attach(cutouts_.maskedTriangles(), kMasked);
-  rtcCommitScene(scene_);
-  const RTCError error = rtcGetDeviceError(device_);
+  rtcCommitScene(scene_.get());
+  const RTCError error = rtcGetDeviceError(device_.get());
   if (error != RTC_ERROR_NONE) {
-    rtcReleaseScene(scene_);
-    rtcReleaseDevice(device_);
     throw std::runtime_error("ray library (Embree): cannot build the scene, error code " +
                              std::to_string(static_cast<int>(error)));
   }
@@ -171,20 +164,20 @@ void Visibility::Implementation::build(RTCBuildQuality quality) {
 
 void Visibility::Implementation::attach(const std::vector<std::uint32_t>& triangles, unsigned number) {
   if (triangles.empty()) return;
-  const TriangleMesh mesh = newTriangleMesh(device_, *geometry_, triangles);
+  const TriangleMesh mesh = newTriangleMesh(device_.get(), *geometry_, triangles);
   if (number == kMasked) {
     rtcSetGeometryUserData(mesh.handle, &cutouts_);
     rtcSetGeometryOccludedFilterFunction(mesh.handle, passCutouts);
   }
   rtcSetGeometryIntersectFilterFunction(mesh.handle, passInvisible);
-  light::attach(mesh, scene_, number);
+  light::attach(mesh, scene_.get(), number);
 }
 
 void Visibility::Implementation::occluded(const Rays& rays, std::uint8_t* blocked) const {
   if (wide_) {
-    occludedInPackets<RTCRay16, 16>(scene_, rays, blocked);
+    occludedInPackets<RTCRay16, 16>(scene_.get(), rays, blocked);
   } else {
-    occludedInPackets<RTCRay8, 8>(scene_, rays, blocked);
+    occludedInPackets<RTCRay8, 8>(scene_.get(), rays, blocked);
   }
 }
 
@@ -202,7 +195,7 @@ void Visibility::Implementation::closest(const Rays& rays, Hit* hits) const {
     query.ray.tfar = std::numeric_limits<float>::infinity();
     query.ray.mask = ~0u;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_, &context.embree, &query);
+    rtcIntersect1(scene_.get(), &context.embree, &query);
     hits[i] = Hit();
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
     hits[i].triangle = (*context.triangles[query.hit.geomID])[query.hit.primID];
@@ -227,7 +220,7 @@ Hit Visibility::Implementation::firstSeen(const Eigen::Vector3f& origin, const E
   query.ray.tfar = std::numeric_limits<float>::infinity();
   query.ray.mask = ~0u;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene_, &context.embree, &query);
+  rtcIntersect1(scene_.get(), &context.embree, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Hit();
   return {(*context.triangles[query.hit.geomID])[query.hit.primID], query.hit.u, query.hit.v, query.ray.tfar};
 }

@@ -24,8 +24,7 @@ constexpr std::uint32_t kDirectionShift = 24;  ///< a hit: the sample there, and
 constexpr std::uint32_t kSampleMask = (1u << kDirectionShift) - 1;
 static_assert(SkyPatches::kCoarse <= 256, "a coarse direction fits above a sample");
 constexpr std::size_t kPacket = RayPacket::kSize;
-constexpr float kMostReflected = 0.98f;  ///< of what arrives, so that light dies out
-constexpr float kMostInside = 0.6f;      ///< share of rays that may end inside bodies
+constexpr float kMostInside = 0.6f;  ///< share of rays that may end inside bodies
 
 constexpr std::size_t kBlock = 256;  ///< samples, of one task
 
@@ -98,13 +97,6 @@ class Gatherer {
     return root == LightMesh::kNone ? samples_.mesh.roots[t][1 - side] : root;
   }
 
-  void note(const HitPacket& hits, int lane, const SkyPatches::Ray& ray, float weight, Hidden* hidden) const {
-    const std::uint32_t t = hits.triangle[lane];
-    if (t == HitPacket::kNothing) return hidden->addFree(weight, ray.towards.z() > 0.0f);
-    const bool back = geometry_.planes[t].normal.dot(ray.towards) > 0.0f;
-    hidden->addHit(weight, traits_[t], back, hits.distance[lane]);
-  }
-
   /// The sample nearest to where a ray hit.
   std::uint32_t sampleAt(std::uint32_t root, float u, float v) const {
     const LightMesh::Place place = samples_.mesh.locate(root, {1.0f - u - v, u, v});
@@ -122,7 +114,7 @@ class Gatherer {
           [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
             const auto i = static_cast<std::size_t>(lane);
             sums[i].all += weight;
-            note(hits, lane, rays[r], weight, &hidden[i]);
+            hidden[i].add({rays[r].towards, weight, hits, lane}, geometry_, traits_);
             if (hits.triangle[lane] == HitPacket::kNothing) {
               rows[i][static_cast<std::size_t>(rays[r].patch)] += weight;
               return;
@@ -267,7 +259,7 @@ class Gatherer {
 
   Sent send(const TransportData& data, std::size_t i, Coefficients* sent) const {
     const Reflectance mean = reflectance(samples_.paints[i], kMeanView);
-    const Eigen::Array3f all = (mean.diffuse + mean.mirrored).min(kMostReflected);
+    const Eigen::Array3f all = mean.all();
     // The sky that the ground mirrors has gone its own way.
     const Eigen::Array3f spread = isGround(static_cast<std::uint32_t>(i)) ? mean.diffuse : all;
     const Eigen::Array3f tint = Eigen::Map<const Eigen::Array3f>(data.tints[i].data());

@@ -2,8 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
+#include "light/transport/bake_rays.h"
 #include "light/transport/triangle_kinds.h"
+#include "sunlit/light/geometry.h"
 
 namespace sunlit::light {
 
@@ -11,21 +15,18 @@ namespace sunlit::light {
 /// not become darker by interpolation.
 class Hidden {
  public:
-  /// A ray that left the scene, up or down.
-  void addFree(float weight, bool up) {
-    all_ += weight;
-    (up ? up_ : down_) += weight;
-  }
-  /// A ray that met the front or the back of a triangle, so far away.
-  void addHit(float weight, const TriangleTraits& triangle, bool back, float distance_m) {
-    all_ += weight;
-    if (back && triangle.solid) inside_ += weight;
-    if (!back || isLeaf(triangle.kind)) fronts_ += weight;
-    if (distance_m < kTouching_m) {
-      touching_ += weight;
-      if (back && !triangle.solid) touching_backs_ += weight;
-    }
-    inverse_distances_ += weight / std::max(distance_m, kLeast_m);
+  /// A ray that left the point: what it counts, and the lane of `hits` that tells what it met.
+  struct Cast {
+    const Eigen::Vector3f& towards;
+    float weight;
+    const HitPacket& hits;
+    int lane;
+  };
+  void add(const Cast& ray, const Geometry& geometry, const std::vector<TriangleTraits>& traits) {
+    const std::uint32_t hit = ray.hits.triangle[ray.lane];
+    if (hit == HitPacket::kNothing) return addFree(ray.weight, ray.towards.z() > 0.0f);
+    const bool back = geometry.planes[hit].normal.dot(ray.towards) > 0.0f;
+    addHit(ray.weight, traits[hit], back, ray.hits.distance[ray.lane]);
   }
 
   /// Within a body, or covered, or in the joint of two bodies; or no sky and next to no front is seen, but
@@ -38,6 +39,21 @@ class Hidden {
   }
 
  private:
+  void addFree(float weight, bool up) {
+    all_ += weight;
+    (up ? up_ : down_) += weight;
+  }
+  void addHit(float weight, const TriangleTraits& triangle, bool back, float distance_m) {
+    all_ += weight;
+    if (back && triangle.solid) inside_ += weight;
+    if (!back || isLeaf(triangle.kind)) fronts_ += weight;
+    if (distance_m < kTouching_m) {
+      touching_ += weight;
+      if (back && !triangle.solid) touching_backs_ += weight;
+    }
+    inverse_distances_ += weight / std::max(distance_m, kLeast_m);
+  }
+
   static constexpr float kTouching_m = 0.1f;
   static constexpr float kClose_m = 0.5f;
   static constexpr float kLeast_m = 1e-3f;

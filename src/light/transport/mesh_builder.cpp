@@ -102,8 +102,8 @@ MeshBuilder::MeshBuilder(const Geometry& geometry, const BakeRays& rays,
   const SkyPatches patches(1);
   const std::vector<SkyPatches::Ray>& all = patches.coarseRays();
   for (std::size_t i = 0; i < all.size(); ++i) {
-    // Half of the directions tell distances well enough; every other ring begins with another one.
-    if ((i + i / 30) % 2 == 0) directions_.push_back(all[i]);
+    // Half of the directions tell distances well enough.
+    if (SkyPatches::turnOf(static_cast<int>(i), 2) == 0) directions_.push_back(all[i]);
   }
   mesh.roots.assign(geometry.triangles.size(), {LightMesh::kNone, LightMesh::kNone});
 }
@@ -154,10 +154,8 @@ void MeshBuilder::lookAround(std::size_t first_node) {
             const auto i = static_cast<std::size_t>(lane);
             all[i] += weight;
             const std::uint32_t hit = hits.triangle[i];
-            const Eigen::Vector3f& towards = directions_[r].towards;
-            if (hit == HitPacket::kNothing) return hidden[i].addFree(weight, towards.z() > 0.0f);
-            const bool back = geometry_.planes[hit].normal.dot(towards) > 0.0f;
-            hidden[i].addHit(weight, traits_[hit], back, hits.distance[i]);
+            hidden[i].add({directions_[r].towards, weight, hits, lane}, geometry_, traits_);
+            if (hit == HitPacket::kNothing) return;
             if (isLeaf(traits_[hit].kind) && sites[i].normal.z() > kSteep) return;
             near[i] += weight / std::max(hits.distance[i], 0.05f);
             nearest[i] = std::min(nearest[i], hits.distance[i]);

@@ -20,6 +20,8 @@ struct Paint {
 /// Share of the arriving light that leaves again towards an eye.
 struct Reflectance {
   Eigen::Array3f diffuse, mirrored;
+  /// Never quite all of what arrives, so that light dies out.
+  Eigen::Array3f all() const { return (diffuse + mirrored).min(0.98f); }
 };
 /// `n_v`: cosine between normal and eye. Without transmission.
 Reflectance reflectance(const Paint& paint, float n_v);

@@ -8,20 +8,9 @@
 namespace sunlit::light {
 namespace {
 
-struct Ring {
-  double low_deg, high_deg;  ///< elevation
-  int patches;
-  int first;  ///< index of its first patch
-};
-constexpr std::array<Ring, 9> kRings = {{{0, 4, 30, 0},
-                                         {4, 12, 30, 30},
-                                         {12, 24, 30, 60},
-                                         {24, 36, 24, 90},
-                                         {36, 48, 24, 114},
-                                         {48, 60, 18, 138},
-                                         {60, 72, 12, 156},
-                                         {72, 84, 6, 168},
-                                         {84, 90, 1, 174}}};
+using Ring = SkyPatches::Ring;
+constexpr auto& kRings = SkyPatches::kRings;
+
 constexpr double kGoldenRatioPart = 0.61803398874989485;
 
 double middle(const Ring& ring) {
@@ -30,12 +19,6 @@ double middle(const Ring& ring) {
 
 double sine(double deg) {
   return std::sin(deg * kRadPerDeg);
-}
-
-const Ring& ringOf(int patch) {
-  std::size_t r = 0;
-  while (patch >= kRings[r].first + kRings[r].patches) ++r;
-  return kRings[r];
 }
 
 /// Directions below the horizon, evenly spread along a Fibonacci spiral.
@@ -58,8 +41,14 @@ void divide(const Ring& ring, double turns, double share, PatchShare* shares) {
 
 }  // namespace
 
+std::size_t SkyPatches::ringOf(int patch) {
+  std::size_t ring = 0;
+  while (patch >= kRings[ring].first + kRings[ring].patches) ++ring;
+  return ring;
+}
+
 Eigen::Vector3f SkyPatches::pointIn(int patch, double u, double v) {
-  const Ring& ring = ringOf(patch);
+  const Ring& ring = kRings[ringOf(patch)];
   const double z = sine(ring.low_deg) + v * (sine(ring.high_deg) - sine(ring.low_deg));
   const double azimuth = 2.0 * kPi * (patch - ring.first + u) / ring.patches;
   const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
@@ -86,7 +75,7 @@ SkyPatches::SkyPatches(int rays_per_patch) {
 }
 
 float SkyPatches::solidAngle(int patch) {
-  const Ring& ring = ringOf(patch);
+  const Ring& ring = kRings[ringOf(patch)];
   return static_cast<float>(2.0 * kPi * (sine(ring.high_deg) - sine(ring.low_deg)) / ring.patches);
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +25,21 @@ class SkyPatches {
   static constexpr int kAbove = 175;
   static constexpr int kBelow = kAbove;  ///< index of the patch below the horizon
   static constexpr int kCount = 176;
+  /// Patches above the horizon between two elevations.
+  struct Ring {
+    double low_deg, high_deg;
+    int patches;
+    int first;  ///< index of its first patch
+  };
+  static constexpr std::array<Ring, 9> kRings = {{{0, 4, 30, 0},
+                                                  {4, 12, 30, 30},
+                                                  {12, 24, 30, 60},
+                                                  {24, 36, 24, 90},
+                                                  {36, 48, 24, 114},
+                                                  {48, 60, 18, 138},
+                                                  {60, 72, 12, 156},
+                                                  {72, 84, 6, 168},
+                                                  {84, 90, 1, 174}}};
   static constexpr int kDown = 80;                ///< directions below the horizon
   static constexpr int kCoarse = kAbove + kDown;  ///< one a patch above the horizon, and those below it
 
@@ -51,6 +67,11 @@ class SkyPatches {
   static std::array<PatchShare, 4> around(const Eigen::Vector3f& towards);
   /// The point of a patch above the horizon at shares (u, v) of its azimuth and of the sine of its elevation.
   static Eigen::Vector3f pointIn(int patch, double u, double v);
+  /// Index into kRings of the ring that a patch above the horizon is in.
+  static std::size_t ringOf(int patch);
+  /// Divides the coarse rays among `turns`, each of which gets some of every ring; rays above each other are
+  /// of different ones.
+  static int turnOf(int coarse, int turns) { return (coarse + coarse / kRings[0].patches) % turns; }
   /// Solid angle of a patch above the horizon, sr.
   static float solidAngle(int patch);
 
