@@ -9,6 +9,7 @@
 #include "random_sequence.h"
 #include "require_within.h"
 #include "sunlit/image/exposure.h"
+#include "sunlit/quantity/fingerprint.h"
 
 namespace sunlit::image {
 namespace {
@@ -20,10 +21,9 @@ constexpr std::size_t kValuesAtOnce = 8192;  // for one thread
 std::uint64_t startOf(int seed, const PictureName& name) {
   std::uint64_t start = mixed(static_cast<std::uint64_t>(seed));
   start = mixed(start ^ static_cast<std::uint64_t>(name.index));
-  // FNV-1a, 64 bit.
-  std::uint64_t hash = 0xCBF29CE484222325ULL;
-  for (const char letter : name.series) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001B3ULL;
-  return mixed(start ^ hash);
+  Fingerprint print;
+  for (const char letter : name.series) print.add(static_cast<unsigned char>(letter));
+  return mixed(start ^ print.value());
 }
 
 }  // namespace

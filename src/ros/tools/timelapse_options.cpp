@@ -12,6 +12,7 @@
 
 #include "ros/tools/arguments.h"
 #include "ros/tools/pictures_of_day.h"
+#include "sunlit/quantity/fingerprint.h"
 #include "sunlit/scene/load.h"
 
 namespace sunlit::tools {
@@ -141,11 +142,11 @@ void requireSensibleSheet(const TimelapseOptions& options) {
 /// A file may change while its name stays.
 std::string contentOf(const std::string& what, const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
-  std::uint64_t hash = 14695981039346656037U;  // FNV-1a, 64 bits (Fowler, Noll, Vo)
+  Fingerprint print;
   for (std::istreambuf_iterator<char> byte(stream), end; byte != end; ++byte)
-    hash = (hash ^ static_cast<unsigned char>(*byte)) * 1099511628211U;
+    print.add(static_cast<unsigned char>(*byte));
   char digits[17];
-  std::snprintf(digits, sizeof digits, "%016" PRIx64, hash);
+  std::snprintf(digits, sizeof digits, "%016" PRIx64, print.value());
   return what + ' ' + digits;
 }
 

@@ -15,6 +15,7 @@
 #include "scene/race_track/course.h"
 #include "scene/race_track/noise.h"
 #include "sunlit/path/path.h"
+#include "sunlit/quantity/fingerprint.h"
 
 namespace sunlit::scene {
 namespace {
@@ -23,20 +24,6 @@ const Scene& world() {
   static const Scene scene = raceTrack();
   return scene;
 }
-
-class Fingerprint {
- public:
-  template <typename T>
-  void add(const std::vector<T>& values) {
-    const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
-    for (std::size_t i = 0; i < values.size() * sizeof(T); ++i)
-      hash_ = (hash_ ^ bytes[i]) * 1099511628211ull;  // FNV-1a
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 14695981039346656037ull;
-};
 
 std::uint64_t fingerprint(const Scene& scene) {
   Fingerprint print;
