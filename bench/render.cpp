@@ -49,14 +49,14 @@ struct Stage {
     view.supersampling = 2;
     geometry = std::make_shared<const light::Geometry>(scene);
     visibility = std::make_unique<light::Visibility>(geometry);
-    pyramids = render::texturePyramids(*scene);
-    rasteriser = std::make_unique<render::Rasteriser>(geometry, pyramids, 0.0);
+    pyramids = std::make_unique<render::TexturePyramids>(*scene);
+    rasteriser = std::make_unique<render::Rasteriser>(geometry, *pyramids, 0.0);
   }
   void look(std::size_t pose) {
     view.map_from_optical = poses[pose % poses.size()];
     rasteriser->draw(view, nullptr, &samples);
   }
-  render::Seen seen() const { return {view, *geometry, nullptr, pyramids, 0.0f, samples}; }
+  render::Seen seen() const { return {view, *geometry, nullptr, *pyramids, 0.0f, samples}; }
   void resolve() { render::resolveSurfaces(seen(), &surfaces); }
   const light::Transport& baked() {
     if (!transport) transport = light::Transport::cached(geometry, {}, light::Transport::usualFolder());
@@ -68,7 +68,7 @@ struct Stage {
   std::shared_ptr<const light::Geometry> geometry;
   std::unique_ptr<light::Visibility> visibility;
   std::shared_ptr<const light::Transport> transport;  ///< see baked()
-  std::vector<render::TexturePyramid> pyramids;
+  std::unique_ptr<render::TexturePyramids> pyramids;
   std::unique_ptr<render::Rasteriser> rasteriser;
   std::vector<render::Sample> samples;
   light::Surfaces surfaces;

@@ -17,8 +17,8 @@ constexpr std::uint32_t kGroupSize = 2048;
 
 }  // namespace
 
-Rasteriser::Rasteriser(std::shared_ptr<const light::Geometry> geometry,
-                       const std::vector<TexturePyramid>& pyramids, double lod_bias)
+Rasteriser::Rasteriser(std::shared_ptr<const light::Geometry> geometry, const TexturePyramids& pyramids,
+                       double lod_bias)
     : geometry_(std::move(geometry)),
       pyramids_(pyramids),
       texels_factor_(static_cast<float>(std::exp2(2.0 * lod_bias))) {}
@@ -54,7 +54,8 @@ void Rasteriser::project(const ScreenProjection& projection, const Grid& grid, G
   group->projected.clear();
   for (const Piece& piece : group->pieces) {
     const scene::Material& material = geometry_->scene->materials[static_cast<std::size_t>(piece.material)];
-    projection.append({*piece.geometry, piece.first, piece.count, material, piece.first_number, pyramids_},
+    projection.append({*piece.geometry, piece.first, piece.count, material, piece.first_number,
+                       pyramids_.of(piece.material)},
                       &group->projected);
   }
   sortIntoTiles(grid, group);

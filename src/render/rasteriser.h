@@ -15,8 +15,8 @@ namespace sunlit::render {
 
 class Rasteriser {
  public:
-  /// Keeps a reference to `pyramids`, of the textures of the geometry's scene. `lod_bias` in levels.
-  Rasteriser(std::shared_ptr<const light::Geometry> geometry, const std::vector<TexturePyramid>& pyramids,
+  /// Keeps a reference to `pyramids`, of the geometry's scene. `lod_bias` in levels.
+  Rasteriser(std::shared_ptr<const light::Geometry> geometry, const TexturePyramids& pyramids,
              double lod_bias);
 
   /// Fills `samples`, row-major, top row first: supersampling² a pixel. Triangles of `bodies`, which may be
@@ -48,7 +48,7 @@ class Rasteriser {
   static void sortIntoTiles(const Grid& grid, Group* group);
 
   std::shared_ptr<const light::Geometry> geometry_;
-  const std::vector<TexturePyramid>& pyramids_;
+  const TexturePyramids& pyramids_;
   float texels_factor_;  ///< 2^(2 · bias)
   std::vector<Group> groups_;
   std::size_t groups_in_use_ = 0;

@@ -37,7 +37,7 @@ class Renderer::Implementation {
       : options_(options),
         view_(viewOf(options)),
         world_(world),
-        pyramids_(texturePyramids(*world.geometry->scene)),
+        pyramids_(*world.geometry->scene),
         rasteriser_(world.geometry, pyramids_, options.texture_lod_bias) {
     if (world_.bodies) body_light_ = std::make_unique<light::BodyLight>(world_);
   }
@@ -145,7 +145,7 @@ class Renderer::Implementation {
   RenderOptions options_;
   View view_;  // without a pose
   light::World world_;
-  std::vector<TexturePyramid> pyramids_;  // before the rasteriser, which refers to them
+  TexturePyramids pyramids_;  // before the rasteriser, which refers to them
   Rasteriser rasteriser_;
   std::unique_ptr<const light::BodyLight> body_light_;  // where there are bodies
   Pose seen_;

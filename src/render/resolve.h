@@ -17,9 +17,9 @@ namespace sunlit::render {
 struct Seen {
   const View& view;
   const light::Geometry& geometry;
-  const light::Geometry* bodies;  ///< what moves, its triangles numbered after those of `geometry`; or null
-  const std::vector<TexturePyramid>& pyramids;  ///< of the scene's textures
-  float lod_bias;                               ///< levels
+  const light::Geometry* bodies;    ///< what moves, its triangles numbered after those of `geometry`; or null
+  const TexturePyramids& pyramids;  ///< of the scene
+  float lod_bias;                   ///< levels
   const std::vector<Sample>& samples;
 
   const light::Plane& plane(std::uint32_t triangle) const {

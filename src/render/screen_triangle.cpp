@@ -106,8 +106,7 @@ void ScreenProjection::append(const Batch& batch, ScreenTriangles* out) const {
       out->triangles.push_back(triangle);
     }
     if (!masked || out->triangles.size() == before) continue;
-    const auto texture = static_cast<std::size_t>(batch.material.base_texture);
-    out->masks.push_back(maskPlanes(batch, t, batch.pyramids[texture]));
+    out->masks.push_back(maskPlanes(batch, t));
     for (std::size_t i = before; i < out->triangles.size(); ++i)
       out->triangles[i].mask = static_cast<std::int32_t>(out->masks.size()) - 1;
   }
@@ -161,8 +160,7 @@ bool ScreenProjection::placeCorners(const std::array<Eigen::Vector3f, 3>& corner
   return true;
 }
 
-MaskPlanes ScreenProjection::maskPlanes(const Batch& batch, std::uint32_t t,
-                                        const TexturePyramid& texture) const {
+MaskPlanes ScreenProjection::maskPlanes(const Batch& batch, std::uint32_t t) const {
   const light::Geometry& geometry = batch.geometry;
   const auto& vertices = geometry.triangles[t];
   const auto corner = [&](std::size_t i) { return geometry.positions[vertices[i]].cast<double>(); };
@@ -177,7 +175,7 @@ MaskPlanes ScreenProjection::maskPlanes(const Batch& batch, std::uint32_t t,
   const Eigen::Vector2d at_a = coordinate(0), along_b = coordinate(1) - at_a, along_c = coordinate(2) - at_a;
   const Eigen::Vector3d u = along_b.x() * towards_b + along_c.x() * towards_c;
   const Eigen::Vector3d v = along_b.y() * towards_b + along_c.y() * towards_c;
-  return {&texture, static_cast<float>(at_a.x() + u.dot(eye_ - a)),
+  return {batch.texture, static_cast<float>(at_a.x() + u.dot(eye_ - a)),
           static_cast<float>(at_a.y() + v.dot(eye_ - a)), alongRays(u), alongRays(v)};
 }
 

@@ -54,13 +54,13 @@ class ScreenProjection {
   explicit ScreenProjection(const View& view);
 
   /// Appends triangles `first` to `first + count` of `geometry`, which all have `material`. The first
-  /// triangle of `geometry` has number `first_number`. `pyramids` are those of the scene's textures.
+  /// triangle of `geometry` has number `first_number`.
   struct Batch {
     const light::Geometry& geometry;
     std::uint32_t first, count;
     const scene::Material& material;
     std::uint32_t first_number;
-    const std::vector<TexturePyramid>& pyramids;
+    const TexturePyramid* texture;  ///< of the material; null if it has none
   };
   void append(const Batch& batch, ScreenTriangles* triangles) const;
 
@@ -72,7 +72,7 @@ class ScreenProjection {
                      std::vector<ScreenTriangle>* triangles) const;
   bool placeCorners(const std::array<Eigen::Vector3f, 3>& corners, ScreenTriangle* triangle) const;
   Linear alongRays(const Eigen::Vector3d& vector) const;
-  MaskPlanes maskPlanes(const Batch& batch, std::uint32_t triangle, const TexturePyramid& texture) const;
+  MaskPlanes maskPlanes(const Batch& batch, std::uint32_t triangle) const;
 
   int columns_, rows_;
   float near_m_, far_m_;

@@ -52,9 +52,9 @@ SeenTriangle::SeenTriangle(const Seen& seen, std::uint32_t number) {
 Eigen::Array3f SeenTriangle::albedo(const Seen& seen, const Eigen::Array2f& shares, const Footprint& step,
                                     bool small) const {
   const Eigen::Array3f color = color_a_ + shares[0] * color_b_ + shares[1] * color_c_;
-  const int texture = seen.look(material_).base_texture;
-  if (texture == scene::Material::kNoTexture) return color.max(0.0f).min(1.0f);
-  const TexturePyramid& pyramid = seen.pyramids[static_cast<std::size_t>(texture)];
+  const TexturePyramid* const texture = seen.pyramids.of(material_);
+  if (!texture) return color.max(0.0f).min(1.0f);
+  const TexturePyramid& pyramid = *texture;
   const Eigen::Array2f at = texture_a_ + shares[0] * texture_b_ + shares[1] * texture_c_;
   const auto moved = [&](const Eigen::Vector3f& by) {
     return Eigen::Array2f(by.dot(towards_b_) * texture_b_ + by.dot(towards_c_) * texture_c_);

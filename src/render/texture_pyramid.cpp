@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "sunlit/image/srgb.h"
 #include "sunlit/quantity/whole.h"
@@ -39,13 +40,16 @@ struct Neighbours {
   }
 };
 
+bool masks(const scene::Material& material) {
+  return material.alpha_mode == scene::AlphaMode::kMask &&
+         material.base_texture != scene::Material::kNoTexture;
+}
+
 /// The cutoff of the first material that masks with each texture.
-std::vector<float> cutoffs(const scene::Scene& scene) {
+std::vector<float> firstCutoffs(const scene::Scene& scene) {
   std::vector<float> values(scene.textures.size(), kNoCutoff);
   for (const scene::Material& material : scene.materials) {
-    if (material.alpha_mode != scene::AlphaMode::kMask ||
-        material.base_texture == scene::Material::kNoTexture)
-      continue;
+    if (!masks(material)) continue;
     float& value = values[static_cast<std::size_t>(material.base_texture)];
     if (value == kNoCutoff) value = material.alpha_cutoff;
   }
@@ -151,15 +155,25 @@ bool TexturePyramid::solid(float u, float v) const {
   return top + n.down * (bottom - top) >= cutoff_;
 }
 
-std::vector<TexturePyramid> texturePyramids(const scene::Scene& scene) {
-  const std::vector<float> cutoff = cutoffs(scene);
-  std::vector<std::optional<TexturePyramid>> made(scene.textures.size());
-  tbb::parallel_for(std::size_t{0}, made.size(),
-                    [&](std::size_t i) { made[i].emplace(scene.textures[i], cutoff[i]); });
-  std::vector<TexturePyramid> pyramids;
-  pyramids.reserve(made.size());
-  for (auto& pyramid : made) pyramids.push_back(std::move(*pyramid));
-  return pyramids;
+TexturePyramids::TexturePyramids(const scene::Scene& scene) {
+  const std::vector<float> first_cutoffs = firstCutoffs(scene);
+  std::vector<std::pair<std::size_t, float>> wanted;  // texture and cutoff
+  for (const scene::Material& material : scene.materials) {
+    of_material_.push_back(kNone);
+    if (material.base_texture == scene::Material::kNoTexture) continue;
+    const auto texture = static_cast<std::size_t>(material.base_texture);
+    const std::pair<std::size_t, float> mine(
+        texture, masks(material) ? material.alpha_cutoff : first_cutoffs[texture]);
+    const auto same = std::find(wanted.begin(), wanted.end(), mine);
+    of_material_.back() = static_cast<std::int32_t>(same - wanted.begin());
+    if (same == wanted.end()) wanted.push_back(mine);
+  }
+  std::vector<std::optional<TexturePyramid>> made(wanted.size());
+  tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t i) {
+    made[i].emplace(scene.textures[wanted[i].first], wanted[i].second);
+  });
+  pyramids_.reserve(made.size());
+  for (auto& pyramid : made) pyramids_.push_back(std::move(*pyramid));
 }
 
 }  // namespace sunlit::render

@@ -49,7 +49,22 @@ class TexturePyramid {
   float cutoff_;  ///< of alpha, 0 … 255
 };
 
-/// Of all textures of a scene.
-std::vector<TexturePyramid> texturePyramids(const scene::Scene& scene);
+/// Of all textures that a scene's materials use: one a texture and cutoff.
+class TexturePyramids {
+ public:
+  explicit TexturePyramids(const scene::Scene& scene);
+
+  /// Null for a material without a texture. One that masks nothing shares the sizes of its texture's first
+  /// mask, if there is any.
+  const TexturePyramid* of(std::int32_t material) const {
+    const std::int32_t number = of_material_[static_cast<std::size_t>(material)];
+    return number == kNone ? nullptr : &pyramids_[static_cast<std::size_t>(number)];
+  }
+
+ private:
+  static constexpr std::int32_t kNone = -1;
+  std::vector<TexturePyramid> pyramids_;
+  std::vector<std::int32_t> of_material_;  ///< index into pyramids_
+};
 
 }  // namespace sunlit::render

@@ -2,6 +2,7 @@
 // view.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -62,6 +63,38 @@ TEST(Mask, CutsTheSameHolesIntoPictureAndShadow) {
   EXPECT_LT(ground_light(-2.0, -1.0), 0.5f * lit);
   EXPECT_GT(ground_light(-2.0, -3.0), 0.9f * lit);
   EXPECT_GT(ground_light(2.0, 2.0), 0.9f * lit);
+}
+
+/// How high above the ground lies what is seen straight from above at (1, 1) and (−1, 1), where two sheets
+/// with one texture of a half's alpha, cut off at these values, lie 2 m up.
+std::array<float, 2> heightsOfSheets(const std::array<float, 2>& cutoffs) {
+  scene::Scene scene;
+  scene.textures.push_back({"veil", 4, 4, std::vector<std::uint8_t>(4 * 4 * 4, 128)});
+  addGround(&scene, addMaterial(&scene, {0.5f, 0.5f, 0.5f}), 50.0f);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int material = addMaterial(&scene, {0.5f, 0.5f, 0.5f});
+    scene.materials.back().base_texture = 0;
+    scene.materials.back().alpha_mode = scene::AlphaMode::kMask;
+    scene.materials.back().alpha_cutoff = cutoffs[i];
+    addPatch(&scene, material, {i == 0 ? 0.0f : -2.0f, 0.0f, 2.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 2.0f, 0.0f});
+  }
+  render::Renderer renderer(shared(scene), smallCamera());
+  std::array<float, 2> heights;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double east = i == 0 ? 1.0 : -1.0;
+    renderer.look(lookingAt({east, 1.0, 12.0}, {east, 1.0, 0.0}));
+    heights[i] = 12.0f - *renderer.depth().at(80, 60);
+  }
+  return heights;
+}
+
+TEST(Mask, HasTheCutoffOfItsMaterialWhereTwoShareATexture) {
+  const std::array<float, 2> solid_first = heightsOfSheets({0.4f, 0.6f});
+  EXPECT_NEAR(solid_first[0], 2.0f, 1e-3);
+  EXPECT_NEAR(solid_first[1], 0.0f, 1e-3);
+  const std::array<float, 2> clear_first = heightsOfSheets({0.6f, 0.4f});
+  EXPECT_NEAR(clear_first[0], 0.0f, 1e-3);
+  EXPECT_NEAR(clear_first[1], 2.0f, 1e-3);
 }
 
 double solidShare(const std::vector<std::uint8_t>& rgba, float cutoff) {
