@@ -14,8 +14,13 @@
 #include "sunlit/light/world.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/sky/uniform_sky.h"
+#include "support/patches.h"
 
 namespace sunlit::light {
+
+using test::addBlock;
+using test::addGround;
+using test::addPatch;
 
 inline scene::Material paint(float albedo, float emission = 0.0f) {
   scene::Material material;
@@ -23,22 +28,6 @@ inline scene::Material paint(float albedo, float emission = 0.0f) {
   material.roughness = 1.0f;
   material.emission = LinearRgb(emission, emission, emission);
   return material;
-}
-
-/// The parallelogram origin + s·a + t·b, s and t in [0, 1], with a × b in front.
-inline void addPatch(scene::Scene* scene, int material, const Eigen::Vector3f& origin,
-                     const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  scene::Mesh mesh;
-  mesh.name = "patch " + std::to_string(scene->meshes.size());
-  mesh.material = material;
-  mesh.positions = {origin, origin + a, origin + a + b, origin + b};
-  mesh.normals.assign(4, a.cross(b).normalized());
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  scene->meshes.push_back(mesh);
-}
-
-inline void addGround(scene::Scene* scene, int material, float half) {
-  addPatch(scene, material, {-half, -half, 0.0f}, {2.0f * half, 0.0f, 0.0f}, {0.0f, 2.0f * half, 0.0f});
 }
 
 /// The sides of the box from `low` to `low` + `size`, seen from inside.
@@ -51,18 +40,6 @@ inline void addRoom(scene::Scene* scene, int material, const Eigen::Vector3f& lo
   addPatch(scene, material, low + y, x, z);
   addPatch(scene, material, low, y, z);
   addPatch(scene, material, low + x, z, y);
-}
-
-/// The same box, seen from outside.
-inline void addBlock(scene::Scene* scene, int material, const Eigen::Vector3f& low,
-                     const Eigen::Vector3f& size) {
-  const Eigen::Vector3f x(size.x(), 0, 0), y(0, size.y(), 0), z(0, 0, size.z());
-  addPatch(scene, material, low + z, x, y);
-  addPatch(scene, material, low, y, x);
-  addPatch(scene, material, low, x, z);
-  addPatch(scene, material, low + y, z, x);
-  addPatch(scene, material, low, z, y);
-  addPatch(scene, material, low + x, y, z);
 }
 
 inline World worldOf(scene::Scene scene) {

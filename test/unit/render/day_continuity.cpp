@@ -63,10 +63,10 @@ scene::Scene yard() {
              {0.0f, 35.0f, 0.0f});
   }
   const int wall = addMaterial(&scene, {0.55f, 0.5f, 0.42f});
-  addBox(&scene, wall, {-2.0f, 6.0f, 0.0f}, {1.0f, 9.0f, 2.5f});
-  addBox(&scene, wall, {3.0f, 5.0f, 2.0f}, {6.0f, 9.0f, 2.3f});
-  addBox(&scene, addMaterial(&scene, {0.1f, 0.12f, 0.3f}), {-5.0f, 4.0f, 0.0f}, {-4.0f, 5.0f, 1.0f});
-  addBox(&scene, addMaterial(&scene, {0.4f, 0.1f, 0.08f}), {1.9f, 4.0f, 0.0f}, {2.1f, 4.2f, 3.0f});
+  addBlock(&scene, wall, {-2.0f, 6.0f, 0.0f}, {3.0f, 3.0f, 2.5f});
+  addBlock(&scene, wall, {3.0f, 5.0f, 2.0f}, {3.0f, 4.0f, 0.3f});
+  addBlock(&scene, addMaterial(&scene, {0.1f, 0.12f, 0.3f}), {-5.0f, 4.0f, 0.0f}, {1.0f, 1.0f, 1.0f});
+  addBlock(&scene, addMaterial(&scene, {0.4f, 0.1f, 0.08f}), {1.9f, 4.0f, 0.0f}, {0.2f, 0.2f, 3.0f});
   return scene;
 }
 

@@ -17,10 +17,10 @@ scene::Scene yard() {
   scene.materials[static_cast<std::size_t>(ground)].roughness = 0.85f;
   scene.materials[static_cast<std::size_t>(box)].roughness = 0.5f;
   addGround(&scene, ground, 60.0f);
-  addBox(&scene, wall, {8.0f, -12.0f, 0.0f}, {8.5f, 8.0f, 5.0f});
-  addBox(&scene, wall, {-6.0f, 8.0f, 0.0f}, {8.5f, 8.5f, 4.0f});
-  addBox(&scene, wall, {5.0f, -4.0f, 3.5f}, {8.0f, 2.0f, 3.7f});
-  addBox(&scene, box, {2.0f, 3.0f, 0.0f}, {4.0f, 5.0f, 1.5f});
+  addBlock(&scene, wall, {8.0f, -12.0f, 0.0f}, {0.5f, 20.0f, 5.0f});
+  addBlock(&scene, wall, {-6.0f, 8.0f, 0.0f}, {14.5f, 0.5f, 4.0f});
+  addBlock(&scene, wall, {5.0f, -4.0f, 3.5f}, {3.0f, 6.0f, 0.2f});
+  addBlock(&scene, box, {2.0f, 3.0f, 0.0f}, {2.0f, 2.0f, 1.5f});
   return scene;
 }
 

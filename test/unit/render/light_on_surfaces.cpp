@@ -116,7 +116,7 @@ TEST(Shadow, LiesOppositeTheSunInMapCoordinates) {
   const int material = addMaterial(&scene, Eigen::Array3f(0.5f, 0.5f, 0.5f));
   addGround(&scene, material, 50.0f);
   // A pole 4 m high, 1 m wide, east by north of the centre: the scene has no symmetry.
-  addBox(&scene, material, {4.5f, 1.5f, 0.0f}, {5.5f, 2.5f, 4.0f});
+  addBlock(&scene, material, {4.5f, 1.5f, 0.0f}, {1.0f, 1.0f, 4.0f});
   MapView view;
   render::Renderer renderer(shared(scene), view.options);
   renderer.look(view.pose());
@@ -223,7 +223,7 @@ TEST(Walls, LetNoSunThroughTheirSeams) {
     scene::Scene scene;
     const int material = addMaterial(&scene, Eigen::Array3f(0.5f, 0.5f, 0.5f));
     const auto o = static_cast<float>(offset);
-    addBox(&scene, material, {o - 4.0f, o - 4.0f, 0.0f}, {o + 4.0f, o + 4.0f, 3.0f});
+    addBlock(&scene, material, {o - 4.0f, o - 4.0f, 0.0f}, {8.0f, 8.0f, 3.0f});
     render::Renderer renderer(shared(scene), smallCamera(160, 120, 100.0));
     for (const double azimuth_deg : {10.0, 100.0, 200.0}) {
       for (const double yaw : {0.3, 2.0, 4.0}) {

@@ -42,7 +42,7 @@ TEST_P(MoonShadow, LiesAwayFromTheMoonWithinAPixel) {
   const Eigen::Array3f albedo = Eigen::Array3f::Constant(0.5f);
   const int paint = addMaterial(&scene, albedo);
   addGround(&scene, paint, 50.0f);
-  addBox(&scene, paint, {-0.5f * kSide_m, -0.5f * kSide_m, 0.0f}, {0.5f * kSide_m, 0.5f * kSide_m, kSide_m});
+  addBlock(&scene, paint, {-0.5f * kSide_m, -0.5f * kSide_m, 0.0f}, {kSide_m, kSide_m, kSide_m});
   const render::RenderOptions options = smallCamera(kSize_px, kSize_px, 30.0);
   render::Renderer renderer(shared(scene), options);
   const Eigen::Isometry3d map_from_optical = lookingAt({0.0, 0.0, kHeight_m}, {0.0, 0.0, 0.0});
@@ -55,7 +55,7 @@ TEST_P(MoonShadow, LiesAwayFromTheMoonWithinAPixel) {
   const Eigen::Vector3d towards = moon.vector();
   const float sky_only = skyPart(day, Eigen::Vector3f::UnitZ(), albedo)[1];
   const float moon_part =
-      albedo[1] / static_cast<float>(kPi) * day.moon().illuminance.value[1] * static_cast<float>(towards.z());
+      albedo[1] / kPiFloat * day.moon().illuminance.value[1] * static_cast<float>(towards.z());
   EXPECT_GT(moon_part, 3.0f * sky_only);  // else this would not be a test of the moon
 
   // A pixel shows 2.7 cm of the ground; the moon's disc blurs the edge of a shadow that falls 1.74 m far by
@@ -93,7 +93,7 @@ TEST(MoonShadow, IsNotThereWithoutAMoon) {
   scene::Scene scene;
   const int paint = addMaterial(&scene, Eigen::Array3f::Constant(0.5f));
   addGround(&scene, paint, 50.0f);
-  addBox(&scene, paint, {-0.5f, -0.5f, 0.0f}, {0.5f, 0.5f, 1.0f});
+  addBlock(&scene, paint, {-0.5f, -0.5f, 0.0f}, {1.0f, 1.0f, 1.0f});
   render::Renderer renderer(shared(scene), smallCamera(64, 64, 30.0));
   renderer.look(lookingAt({0.0, 0.0, kHeight_m}, {0.0, 0.0, 0.0}));
   const image::LinearImage picture =

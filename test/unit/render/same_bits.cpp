@@ -35,9 +35,8 @@ scene::Scene town() {
   addGround(&scene, rough, 300.0f);
   for (int i = 0; i < 300; ++i) {
     const Eigen::Vector3f low(300.0f * uniform() - 150.0f, 300.0f * uniform() - 150.0f, 0.0f);
-    const Eigen::Vector3f high =
-        low + Eigen::Vector3f(1.0f + 5.0f * uniform(), 1.0f + 5.0f * uniform(), 1.0f + 9.0f * uniform());
-    addBox(&scene, i % 3 == 0 ? leaves : plain, low, high);
+    const Eigen::Vector3f size(1.0f + 5.0f * uniform(), 1.0f + 5.0f * uniform(), 1.0f + 9.0f * uniform());
+    addBlock(&scene, i % 3 == 0 ? leaves : plain, low, size);
   }
   return scene;
 }

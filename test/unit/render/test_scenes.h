@@ -9,6 +9,7 @@
 #include "sunlit/render/renderer.h"
 #include "sunlit/scene/scene.h"
 #include "sunlit/sky/atmosphere.h"
+#include "support/patches.h"
 
 namespace sunlit::test {
 
@@ -19,39 +20,6 @@ inline int addMaterial(scene::Scene* scene, const Eigen::Array3f& base_color) {
   material.roughness = 1.0f;
   scene->materials.push_back(material);
   return static_cast<int>(scene->materials.size()) - 1;
-}
-
-/// The parallelogram origin + s·a + t·b, s and t in [0, 1]; its front is to the side of a × b. Texture
-/// coordinates (s, t).
-inline void addPatch(scene::Scene* scene, int material, const Eigen::Vector3f& origin,
-                     const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  scene::Mesh mesh;
-  mesh.name = "patch";
-  mesh.material = material;
-  mesh.positions = {origin, origin + a, origin + a + b, origin + b};
-  mesh.normals.assign(4, a.cross(b).normalized());
-  mesh.texture_coordinates = {{0.0f, 0.0f}, {1.0f, 0.0f}, {1.0f, 1.0f}, {0.0f, 1.0f}};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  scene->meshes.push_back(mesh);
-}
-
-/// Level ground at z = 0, `half` m to each side of the origin.
-inline void addGround(scene::Scene* scene, int material, float half) {
-  addPatch(scene, material, {-half, -half, 0.0f}, {2.0f * half, 0.0f, 0.0f}, {0.0f, 2.0f * half, 0.0f});
-}
-
-/// A closed box, seen from outside.
-inline void addBox(scene::Scene* scene, int material, const Eigen::Vector3f& low,
-                   const Eigen::Vector3f& high) {
-  const Eigen::Vector3f x((high - low).x(), 0.0f, 0.0f);
-  const Eigen::Vector3f y(0.0f, (high - low).y(), 0.0f);
-  const Eigen::Vector3f z(0.0f, 0.0f, (high - low).z());
-  addPatch(scene, material, low, y, x);
-  addPatch(scene, material, low + z, x, y);
-  addPatch(scene, material, low, x, z);
-  addPatch(scene, material, low + y, z, x);
-  addPatch(scene, material, low, z, y);
-  addPatch(scene, material, low + x, y, z);
 }
 
 /// A camera at `eye` whose optical axis points at `target`, upright.
@@ -90,7 +58,7 @@ inline Eigen::Array3f at(const image::LinearImage& image, int x, int y) {
 /// What skylight alone makes of a rough dielectric, relative error allowed to what uses it: see each test.
 inline Eigen::Array3f skyPart(const sky::Daylight& day, const Eigen::Vector3f& normal,
                               const Eigen::Array3f& albedo) {
-  return albedo / static_cast<float>(kPi) * day.skyIlluminance(normal).value;
+  return albedo / kPiFloat * day.skyIlluminance(normal).value;
 }
 
 }  // namespace sunlit::test
