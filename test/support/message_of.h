@@ -6,12 +6,12 @@
 
 namespace sunlit {
 
-/// The text of the std::invalid_argument that `call` throws; empty if it throws none.
-template <typename Call>
+/// The text of the `Error` that `call` throws; empty if it throws none.
+template <typename Error = std::invalid_argument, typename Call>
 std::string messageOf(const Call& call) {
   try {
     call();
-  } catch (const std::invalid_argument& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   return "";

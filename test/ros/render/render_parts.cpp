@@ -18,6 +18,7 @@
 #include "ros/render/sky_moments.h"
 #include "ros/render/stopwatch.h"
 #include "ros/render/studio.h"
+#include "support/message_of.h"
 
 namespace sunlit::ros_interface {
 namespace {
@@ -119,12 +120,7 @@ TEST(SkyMessages, AreWhatTheySay) {
 
 template <typename Message>
 std::string refusal(const Message& message) {
-  try {
-    fromMessage(message);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return messageOf([&] { fromMessage(message); });
 }
 
 TEST(SkyMessages, ThatCannotBeAreRefusedInWords) {
@@ -323,13 +319,8 @@ TEST_F(TimeSheet, NamesTheLineThatItCannotRead) {
                           "stage,what,count,seconds\ngeometry,pose,1,-1\n"}) {
     std::ofstream(folder_ + "/timing.csv", std::ios::trunc) << bad;
     const std::string line = std::string(bad) == "stage\n" ? ":1:" : ":2:";
-    try {
-      RunFiles(folder_, true);
-      ADD_FAILURE() << bad;
-    } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find(folder_ + "/timing.csv" + line), std::string::npos)
-          << error.what();
-    }
+    const std::string error = messageOf<std::runtime_error>([&] { RunFiles(folder_, true); });
+    EXPECT_NE(error.find(folder_ + "/timing.csv" + line), std::string::npos) << bad << error;
   }
 }
 

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "sunlit/astronomy/celestial.h"
+#include "support/message_of.h"
 
 namespace sunlit::astronomy {
 namespace {
@@ -32,12 +33,7 @@ struct StarFiles : testing::Test {
     return (folder / name).string();
   }
   std::string faultOf(const StarCatalogueFiles& files) const {
-    try {
-      readStarCatalogue(files);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "none";
+    return messageOf<std::runtime_error>([&] { readStarCatalogue(files); });
   }
 
   const fs::path folder;

@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 #include <random>
 
+#include "support/message_of.h"
 #include "unit/evaluate/temporary_folder.h"
 
 namespace sunlit::evaluate {
@@ -270,13 +271,8 @@ TEST(Evaluation, RefusesAFolderOfOtherSettingsNamingThem) {
     feedPose(evaluation, 0);
     evaluation.finish();
   }
-  const auto refusal = [](const EvaluationOptions& other) -> std::string {
-    try {
-      const Evaluation evaluation(other, {});
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
+  const auto refusal = [](const EvaluationOptions& other) {
+    return messageOf([&] { Evaluation(other, {}); });
   };
   EXPECT_EQ(refusal(options), "");
   EvaluationOptions other = options;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sunlit/evaluate/frames_file.h"
+#include "support/message_of.h"
 #include "unit/evaluate/temporary_folder.h"
 
 namespace sunlit::evaluate {
@@ -21,12 +22,7 @@ PairRecord record(std::int64_t pose, std::size_t pair) {
 }
 
 std::string messageOf(const std::string& path) {
-  try {
-    loadFrames(path, layout());
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  return sunlit::messageOf<std::runtime_error>([&] { loadFrames(path, layout()); });
 }
 
 TEST(Numbers, SurviveWritingAndReading) {

@@ -11,6 +11,7 @@
 
 #include "sunlit/evaluate/comparer.h"
 #include "sunlit/evaluate/direct.h"
+#include "support/message_of.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -212,13 +213,8 @@ TEST_F(Leuven, GivesTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Comparer, RefusesOptionsOutOfRangeByName) {
-  const auto messageFor = [](const ComparerOptions& options) -> std::string {
-    try {
-      const Comparer comparer(options);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
+  const auto messageFor = [](const ComparerOptions& options) {
+    return messageOf([&] { const Comparer comparer(options); });
   };
   ComparerOptions options;
   options.ratio_test.ratio = 1.5;

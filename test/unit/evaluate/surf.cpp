@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "support/message_of.h"
 #include "surf_picture.h"
 
 // The same sources without vector clones, under another name for the outer namespace: see surf_tests.cmake.
@@ -243,13 +244,8 @@ TEST(Surf, refusesWhatOpenCvRefuses) {
 }
 
 TEST(Surf, refusesOptionsOutOfRangeByName) {
-  const auto messageOf = [](const SurfOptions& options) -> std::string {
-    try {
-      createSurf(options);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
+  const auto messageOf = [](const SurfOptions& options) {
+    return sunlit::messageOf([&] { createSurf(options); });
   };
   SurfOptions bad;
   bad.hessian_threshold = -1;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "image/read_file.h"
+#include "support/message_of.h"
 
 namespace sunlit::image {
 namespace {
@@ -39,16 +40,6 @@ class Files : public testing::Test {
 
   std::string folder_;
 };
-
-template <typename Action>
-std::string errorOf(const Action& action) {
-  try {
-    action();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 Rgb8Image pattern() {
   Rgb8Image picture(37, 21);
@@ -94,9 +85,11 @@ TEST_F(Files, WritingReplacesTheOldFileAndLeavesNothingElse) {
 
 TEST_F(Files, AFailedWriteNamesThePathAndLeavesNothing) {
   const std::string missing = path("no_such_folder/a.png");
-  EXPECT_EQ(errorOf([&] { writePng(missing, pattern()); }), missing + ": create: No such file or directory");
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { writePng(missing, pattern()); }),
+            missing + ": create: No such file or directory");
   fs::create_directory(path("taken"));  // a file cannot replace a folder
-  EXPECT_EQ(errorOf([&] { writePng(path("taken"), pattern()); }), path("taken") + ": rename: Is a directory");
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { writePng(path("taken"), pattern()); }),
+            path("taken") + ": rename: Is a directory");
   EXPECT_EQ(fileCount(), 1U);
 }
 
@@ -107,10 +100,10 @@ TEST_F(Files, AFinishedFileMovesIntoPlaceOrStays) {
   EXPECT_EQ(readWholeFile(path("film")), "new");
   EXPECT_EQ(fileCount(), 1U);
   fs::create_directory(path("taken"));
-  EXPECT_EQ(errorOf([&] { moveIntoPlace(path("film"), path("taken")); }),
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { moveIntoPlace(path("film"), path("taken")); }),
             path("taken") + ": rename: Is a directory");
   EXPECT_EQ(readWholeFile(path("film")), "new");
-  EXPECT_EQ(errorOf([&] { moveIntoPlace(path("none"), path("a")); }),
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { moveIntoPlace(path("none"), path("a")); }),
             path("a") + ": open: No such file or directory");
 }
 
@@ -120,13 +113,15 @@ TEST_F(Files, AnEmptyPictureIsRefused) {
 }
 
 TEST_F(Files, UnreadablePngsSayWhichAndWhy) {
-  EXPECT_EQ(errorOf([&] { readPng(path("none.png")); }),
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { readPng(path("none.png")); }),
             path("none.png") + ": open: No such file or directory");
   put("text.png", "not a picture");
-  EXPECT_EQ(errorOf([&] { readPng(path("text.png")); }), path("text.png") + ": read: not a PNG file");
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { readPng(path("text.png")); }),
+            path("text.png") + ": read: not a PNG file");
   const std::string whole = encodePng(pattern());
   put("cut.png", whole.substr(0, whole.size() / 2));
-  EXPECT_EQ(errorOf([&] { readPng(path("cut.png")); }), path("cut.png") + ": read: the file is cut off");
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { readPng(path("cut.png")); }),
+            path("cut.png") + ": read: the file is cut off");
 }
 
 TEST_F(Files, FloatMapsAreExactToTheBit) {
@@ -157,10 +152,10 @@ TEST_F(Files, TheBottomRowOfAFloatMapComesFirst) {
 
 TEST_F(Files, BadFloatMapsSayWhichAndWhy) {
   writePfm(path("d.pfm"), DepthImage(4, 4));
-  EXPECT_EQ(errorOf([&] { readLinearPfm(path("d.pfm")); }),
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { readLinearPfm(path("d.pfm")); }),
             path("d.pfm") + ": read: not a little-endian \"PF\" float map");
   fs::resize_file(path("d.pfm"), 40);
-  EXPECT_EQ(errorOf([&] { readDepthPfm(path("d.pfm")); }),
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { readDepthPfm(path("d.pfm")); }),
             path("d.pfm") + ": read: 40 bytes do not hold 4×4 pixels");
 }
 

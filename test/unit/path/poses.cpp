@@ -7,6 +7,7 @@
 
 #include "sunlit/path/path.h"
 #include "sunlit/quantity/angle.h"
+#include "support/message_of.h"
 
 namespace sunlit::path {
 namespace {
@@ -23,12 +24,7 @@ double yawOf(const Eigen::Isometry3d& pose) {
 }
 
 std::string messageOf(const Waypoints& waypoints, const PathOptions& options = {}) {
-  try {
-    posesAlong(waypoints, options);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no error";
+  return sunlit::messageOf([&] { posesAlong(waypoints, options); });
 }
 
 TEST(PosesAlong, StartAgainAtEachWaypoint) {

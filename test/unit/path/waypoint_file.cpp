@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sunlit/path/path.h"
+#include "support/message_of.h"
 
 namespace sunlit::path {
 namespace {
@@ -24,14 +25,10 @@ class WaypointFile : public ::testing::Test {
   }
   /// The error without the path, which it must start with.
   std::string errorOf(const std::string& content) {
-    try {
-      read(content);
-    } catch (const std::runtime_error& error) {
-      const std::string text = error.what();
-      EXPECT_EQ(text.compare(0, path_.string().size(), path_.string()), 0) << text;
-      return text.substr(path_.string().size());
-    }
-    return "no error";
+    const std::string text = messageOf<std::runtime_error>([&] { read(content); });
+    const bool named = text.compare(0, path_.string().size(), path_.string()) == 0;
+    EXPECT_TRUE(named) << text;
+    return named ? text.substr(path_.string().size()) : text;
   }
 
   const fs::path path_ =
@@ -87,12 +84,8 @@ TEST_F(WaypointFile, NeedsTwoDifferentPoints) {
 }
 
 TEST(WaypointFiles, AMissingOneIsNamed) {
-  try {
-    readWaypoints("/nowhere/track.csv");
-    FAIL() << "it was read";
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "/nowhere/track.csv: cannot open this waypoint file");
-  }
+  EXPECT_EQ(messageOf<std::runtime_error>([] { readWaypoints("/nowhere/track.csv"); }),
+            "/nowhere/track.csv: cannot open this waypoint file");
 }
 
 TEST(WaypointFiles, TheCentreLineOfForzaIsRead) {

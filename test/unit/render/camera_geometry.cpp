@@ -2,6 +2,7 @@
 // round.
 #include <gtest/gtest.h>
 
+#include "support/message_of.h"
 #include "test_scenes.h"
 
 namespace sunlit::test {
@@ -224,12 +225,7 @@ TEST(Face, WithNormalsTheWrongWayRoundIsLitAllTheSame) {
 TEST(Renderer, RejectsBadOptionsByName) {
   render::RenderOptions options = smallCamera();
   options.supersampling = 5;
-  try {
-    render::validate(options);
-    FAIL() << "accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "supersampling is 5.000000, must be 1 ... 4");
-  }
+  EXPECT_EQ(messageOf([&] { render::validate(options); }), "supersampling is 5.000000, must be 1 ... 4");
   options = smallCamera();
   options.near_m = std::nan("");
   EXPECT_THROW(render::validate(options), std::invalid_argument);

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "sunlit/path/path.h"
+#include "support/message_of.h"
 #include "unit/scene/measure.h"
 #include "unit/scene/temporary_folder.h"
 
@@ -111,15 +112,9 @@ TEST(AwsModels, NameEveryMissingTexture) {
 TEST(AwsModels, TheOneWithABrokenValueIsNamedByFileAndLine) {
   SKIP_WITHOUT(kAws);
   const std::string file = kAws + "/models/aws_robomaker_racetrack_Column_01/model.sdf";
-  try {
-    load(file, {});
-    FAIL() << "it was read";
-  } catch (const std::runtime_error& error) {
-    // Its gravity is 1000, where SDF wants true or false.
-    EXPECT_NE(std::string(error.what()).find("Column_01/model.sdf:8: Error reading element <gravity>"),
-              std::string::npos)
-        << error.what();
-  }
+  const std::string error = messageOf<std::runtime_error>([&] { load(file, {}); });
+  // Its gravity is 1000, where SDF wants true or false.
+  EXPECT_NE(error.find("Column_01/model.sdf:8: Error reading element <gravity>"), std::string::npos) << error;
 }
 
 class Forza : public ::testing::Test {

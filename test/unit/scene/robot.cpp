@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "measure.h"
+#include "support/message_of.h"
 #include "temporary_folder.h"
 
 namespace sunlit::scene {
@@ -36,12 +37,7 @@ Robot parsed(const std::string& content) {
 }
 
 std::string errorOfText(const std::string& text) {
-  try {
-    parseUrdf(text, "some.urdf", {});
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
+  return messageOf<std::runtime_error>([&] { parseUrdf(text, "some.urdf", {}); });
 }
 
 Eigen::Isometry3d baseFrom(const Robot& robot, const std::string& name) {
@@ -115,12 +111,7 @@ class UrdfFile : public TemporaryFolder {
     return loadRobot(write("robot/r.urdf", robotText(content)), search_path);
   }
   static std::string errorOfRobot(const std::string& file) {
-    try {
-      loadRobot(file, {});
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "no error";
+    return messageOf<std::runtime_error>([&] { loadRobot(file, {}); });
   }
 };
 

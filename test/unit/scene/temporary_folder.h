@@ -11,6 +11,7 @@
 
 #include "sunlit/image/texture_files.h"
 #include "sunlit/scene/load.h"
+#include "support/message_of.h"
 
 namespace sunlit::scene {
 
@@ -43,14 +44,9 @@ class TemporaryFolder : public ::testing::Test {
     write(name, image::encodePng(picture));
   }
 
-  /// The error of loading `file`; "no error" if it loads.
+  /// The error of loading `file`; empty if it loads.
   static std::string errorOf(const std::string& file, const SearchPath& search_path = {}) {
-    try {
-      load(file, search_path);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "no error";
+    return messageOf<std::runtime_error>([&] { load(file, search_path); });
   }
 
  private:

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sunlit/scene/scene.h"
+#include "support/message_of.h"
 
 namespace sunlit::scene {
 namespace {
@@ -32,23 +33,18 @@ Scene triangle() {
 std::string errorAfter(const std::function<void(Scene&)>& change) {
   Scene scene = triangle();
   change(scene);
-  try {
-    validate(scene);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no error";
+  return messageOf([&] { validate(scene); });
 }
 
 const float kNan = std::numeric_limits<float>::quiet_NaN();
 
 TEST(Validate, AcceptsASoundScene) {
-  EXPECT_EQ(errorAfter([](Scene&) {}), "no error");
+  EXPECT_EQ(errorAfter([](Scene&) {}), "");
   EXPECT_EQ(errorAfter([](Scene& scene) {
               scene.meshes[0].texture_coordinates.clear();
               scene.meshes[0].colors.clear();
             }),
-            "no error");
+            "");
 }
 
 TEST(Validate, NamesTheMesh) {
