@@ -139,7 +139,7 @@ class Gatherer {
       for (float& value : rows[i]) value *= scale;
       data->direct.set(first + i, rows[i].data());
       Seen& seen = seen_[first + i];
-      const bool thin = samples_.sites[first + i].transmission > 0.0f;
+      const bool thin = samples_.sites[first + i].thin;
       seen.inside = sums[i].inside > kMostInside * sums[i].all || (!thin && hidden[i].buried());
       seen.scale_down = scale;
       seen.scale_up = scale;
@@ -183,7 +183,7 @@ class Gatherer {
   bool isGround(std::uint32_t sample) const {
     constexpr float kLevel = 0.97f;  // within 14°, half a patch
     const Site& site = samples_.sites[sample];
-    return site.normal.z() > kLevel && site.transmission <= 0.0f && samples_.paints[sample].metalness < 0.5f;
+    return site.normal.z() > kLevel && !site.thin && samples_.paints[sample].metalness < 0.5f;
   }
 
   void addMirrored(const TransportData& data, const GroundMirror& mirror, std::size_t i, std::uint32_t hit,
@@ -262,23 +262,29 @@ class Gatherer {
     const Eigen::Array3f all = mean.all();
     // The sky that the ground mirrors has gone its own way.
     const Eigen::Array3f spread = isGround(static_cast<std::uint32_t>(i)) ? mean.diffuse : all;
-    const Eigen::Array3f tint = Eigen::Map<const Eigen::Array3f>(data.tints[i].data());
-    const float direct_factor = luminanceOf(spread) * data.direct.scales[i];
-    const float bounced_factor = luminanceOf(all * tint) * data.bounced.scales[i];
-    const std::uint8_t* direct = data.direct.row(i);
-    const std::uint8_t* bounced = data.bounced.row(i);
-    Row row;
-    float direct_sum = 0.0f, bounced_sum = 0.0f;
-    for (std::size_t p = 0; p < kPatches; ++p) {
-      row[p] = direct_factor * direct[p] + bounced_factor * bounced[p];
-      direct_sum += direct[p];
-      bounced_sum += bounced[p];
-    }
+    Row row{};
+    Sent others{Eigen::Array3f::Zero(), samples_.emissions[i] * kPiFloat};
+    const auto add = [&](std::size_t from, float share) {
+      const Eigen::Array3f tint = Eigen::Map<const Eigen::Array3f>(data.tints[from].data());
+      const float direct_factor = share * luminanceOf(spread) * data.direct.scales[from];
+      const float bounced_factor = share * luminanceOf(all * tint) * data.bounced.scales[from];
+      const std::uint8_t* direct = data.direct.row(from);
+      const std::uint8_t* bounced = data.bounced.row(from);
+      float direct_sum = 0.0f, bounced_sum = 0.0f;
+      for (std::size_t p = 0; p < kPatches; ++p) {
+        row[p] += direct_factor * direct[p] + bounced_factor * bounced[p];
+        direct_sum += direct[p];
+        bounced_sum += bounced[p];
+      }
+      others.color += share * (spread * (data.direct.scales[from] * direct_sum) +
+                               all * (data.bounced.scales[from] * bounced_sum) * tint);
+      others.glow += share * all * Eigen::Map<const Eigen::Array3f>(data.glows[from].data());
+    };
+    const Behind& behind = samples_.behind[i];
+    add(i, 1.0f - behind.share);
+    if (behind.sample != LightMesh::kNone) add(behind.sample, behind.share);
     sent->set(i, row.data());
-    const Eigen::Array3f glow = Eigen::Map<const Eigen::Array3f>(data.glows[i].data());
-    return {
-        spread * (data.direct.scales[i] * direct_sum) + all * (data.bounced.scales[i] * bounced_sum) * tint,
-        samples_.emissions[i] * kPiFloat + all * glow};
+    return others;
   }
 
   /// Ground scatters less towards a glancing ray than towards the mean one: Fresnel's share is larger there.

@@ -1,35 +1,38 @@
 #include "light/transport/leaf_openness.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <stdexcept>
 
 #include "light/cutout.h"
 #include "light/sky_sectors.h"
+#include "light/transport/crown.h"
 #include "light/transport/sky_patches.h"
 #include "sunlit/light/visibility.h"
 
 namespace sunlit::light {
 namespace {
 
-constexpr float kStep_m = 0.5f;  ///< of a grid, where a card is not too large
-constexpr int kMostSteps = 7;
+constexpr float kStep_m = 0.35f;  ///< of a grid, where a card is not too large
+constexpr int kMostSteps = 10;
 /// Trees of larger cards are made to be seen from afar.
 constexpr float kFar_m = 5.0f;
 constexpr int kFarSteps = 3;
 constexpr std::size_t kSectors = SkyView::kSectors;
-constexpr float kClear_m = 1e-3f;
 /// Nodes are that much nearer to the triangle's middle than its edges; where they are but three, such as in a
 /// tuft of grass, they stand for the parts around them.
 constexpr float kInwards = 0.04f, kInwardsOfThree = 0.3f;
-/// Neighbouring nodes look in other directions: of three around a point each in a third of them.
-constexpr int kTurns = 3;
-constexpr std::size_t kBlock = 64;  ///< triangles a task
-/// Triangles, neighbours mostly, whose rays of one direction travel together.
-constexpr std::size_t kTogether = 6;
+/// Leaves of one square of the map are looked at together, and share what is beyond by cells.
+constexpr float kGroup_m = 12.0f, kCell_m = 0.7f;
+constexpr float kFarGroup_m = 64.0f, kFarCell_m = 2.0f;
+/// Neighbouring nodes look in other directions: of two, each in half of them.
+constexpr std::size_t kTurns = 2;
 
 int nodeCount(int steps) {
   return (steps + 1) * (steps + 2) / 2;
@@ -57,21 +60,18 @@ struct Around {
   }
 };
 
-int stepsOf(const Geometry& geometry, std::uint32_t t) {
+float edgeOf(const Geometry& geometry, std::uint32_t t) {
   const auto& c = geometry.triangles[t];
   const Eigen::Vector3f a = geometry.positions[c[0]], b = geometry.positions[c[1]],
                         d = geometry.positions[c[2]];
-  const float edge = std::sqrt((b - a).cross(d - a).norm());
+  return std::sqrt((b - a).cross(d - a).norm());
+}
+
+int stepsOf(const Geometry& geometry, std::uint32_t t) {
+  const float edge = edgeOf(geometry, t);
   if (edge > kFar_m) return kFarSteps;
   return std::clamp(static_cast<int>(std::ceil(edge / kStep_m)), 1, kMostSteps);
 }
-
-struct Node {
-  Eigen::Vector3f position, normal;
-  int turn;
-  bool needed = false;
-  std::array<float, kSectors> seen = {};  ///< solid angle, sr
-};
 
 class Looker {
  public:
@@ -80,9 +80,10 @@ class Looker {
     const SkyPatches patches(1);
     for (const SkyPatches::Ray& ray : patches.coarseRays()) {
       if (ray.patch == SkyPatches::kBelow) continue;
-      const auto turn = static_cast<std::size_t>((ray.patch + ray.patch / 30) % kTurns);
-      directions_[turn].push_back(ray);
-      whole_[turn][SkySectors::of(ray.patch)] += ray.solid_angle;
+      Look& look =
+          looks_[static_cast<std::size_t>(SkyPatches::turnOf(ray.patch, kTurns))][SkySectors::of(ray.patch)];
+      look.rays.push_back(ray);
+      look.solid_angle += ray.solid_angle;
     }
     openness_.first.assign(traits.size(), LeafOpenness::kNone);
     const std::vector<std::uint32_t>& masked = cutouts_.maskedTriangles();
@@ -92,126 +93,137 @@ class Looker {
       // Wire and the like have but the sky on one side, and mirror it more sharply than by sectors.
       const auto material = static_cast<std::size_t>(geometry_.materials[t]);
       if (!isLeaf(traits[t].kind) || geometry_.scene->materials[material].transmission <= 0.0f) continue;
-      leaves_.push_back(i);
+      addToGroup(i);
       openness_.first[t] = static_cast<std::uint32_t>(at);
       at += 1 + kSectors * static_cast<std::size_t>(nodeCount(stepsOf(geometry_, t)));
       if (at >= LeafOpenness::kNone)
         throw std::runtime_error("bake of light: too many leaves for 4 GB of grids");
     }
     openness_.grids.resize(at);
-    if (leaves_.empty()) openness_.first.clear();
+    if (groups_.empty()) openness_.first.clear();
   }
 
   LeafOpenness look(const std::function<void(double)>& progress) {
-    const std::size_t blocks = (leaves_.size() + kBlock - 1) / kBlock;
+    std::vector<const Group*> groups;
+    for (const auto& [key, group] : groups_) groups.push_back(&group);
+    // The largest first, so that none is left alone at the end.
+    std::stable_sort(groups.begin(), groups.end(),
+                     [](const Group* a, const Group* b) { return a->masked.size() > b->masked.size(); });
+    std::size_t all = 0, done = 0;
+    for (const Group* group : groups) all += group->masked.size();
     std::mutex mutex;
-    std::size_t done = 0;
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      const std::size_t end = std::min(leaves_.size(), (block + 1) * kBlock);
-      for (std::size_t i = block * kBlock; i < end; i += kTogether)
-        lookFrom(leaves_.data() + i, std::min(kTogether, end - i));
-      const std::lock_guard<std::mutex> lock(mutex);
-      progress(static_cast<double>(++done) / static_cast<double>(blocks));
-    });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, groups.size(), 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            lookFrom(*groups[i]);
+            const std::lock_guard<std::mutex> lock(mutex);
+            done += groups[i]->masked.size();
+            progress(static_cast<double>(done) / static_cast<double>(all));
+          }
+        },
+        tbb::simple_partitioner());
     return std::move(openness_);
   }
 
  private:
-  void lookFrom(const std::uint32_t* masked, std::size_t count) {
-    std::vector<Node> nodes;
-    for (std::size_t i = 0; i < count; ++i) addNodes(masked[i], &nodes);
-    for (int turn = 0; turn < kTurns; ++turn) cast(turn, &nodes);
-    const Node* from = nodes.data();
-    for (std::size_t i = 0; i < count; ++i) from = write(cutouts_.maskedTriangles()[masked[i]], from);
+  /// Directions within a sector.
+  struct Look {
+    std::vector<SkyPatches::Ray> rays;
+    float solid_angle = 0.0f;  ///< of all, sr
+  };
+  /// Leaves of one square of the map.
+  struct Group {
+    std::vector<std::uint32_t> masked;  ///< index into Cutouts::maskedTriangles()
+    float cell_m;
+  };
+  using Key = std::array<int, 3>;
+
+  void addToGroup(std::uint32_t masked) {
+    const std::uint32_t t = cutouts_.maskedTriangles()[masked];
+    const bool far = edgeOf(geometry_, t) > kFar_m;
+    const float size = far ? kFarGroup_m : kGroup_m;
+    const Eigen::Vector3f& corner = geometry_.positions[geometry_.triangles[t][0]];
+    const auto square = [size](float x) {
+      return static_cast<int>(std::floor(std::clamp(x / size, -1e9f, 1e9f)));
+    };
+    const Key key = {far, square(corner.x()), square(corner.y())};
+    Group& group = groups_[key];
+    group.cell_m = far ? kFarCell_m : kCell_m;
+    group.masked.push_back(masked);
   }
 
-  void addNodes(std::uint32_t masked, std::vector<Node>* nodes) const {
+  void lookFrom(const Group& group) {
+    std::vector<Crown::Point> points;
+    std::vector<std::size_t> to;  // of each point: where its sectors are kept
+    std::array<Crown::Range, kTurns> ranges;
+    for (std::size_t turn = 0; turn < kTurns; ++turn) {
+      ranges[turn].first = points.size();
+      for (const std::uint32_t masked : group.masked) addPoints(masked, turn, &points, &to);
+      ranges[turn].end = points.size();
+    }
+    Crown crown({geometry_, cutouts_, visibility_}, std::move(points), group.cell_m);
+    std::vector<float> seen(to.size());
+    for (std::size_t turn = 0; turn < kTurns; ++turn) {
+      const auto [first, end] = ranges[turn];
+      for (std::size_t sector = 0; sector < kSectors; ++sector) {
+        const Look& look = looks_[turn][sector];
+        std::fill(seen.begin(), seen.end(), 0.0f);
+        for (const SkyPatches::Ray& ray : look.rays) {
+          const std::vector<std::uint8_t>& open = crown.open(ray.towards, ranges[turn]);
+          for (std::size_t i = first; i < end; ++i) seen[i] += open[i] ? ray.solid_angle : 0.0f;
+        }
+        for (std::size_t i = first; i < end; ++i)
+          openness_.grids[to[i] + sector] =
+              static_cast<std::uint8_t>(std::min(seen[i] / look.solid_angle, 1.0f) * 255.0f + 0.5f);
+      }
+    }
+  }
+
+  /// Those whose turn it is.
+  void addPoints(std::uint32_t masked, std::size_t turn, std::vector<Crown::Point>* points,
+                 std::vector<std::size_t>* to) {
     const std::uint32_t t = cutouts_.maskedTriangles()[masked];
     const int steps = stepsOf(geometry_, t);
     const auto& c = geometry_.triangles[t];
-    const std::size_t first = nodes->size();
+    const std::vector<bool> needed = neededNodes(masked, steps);
+    const std::size_t grid = openness_.first[t];
+    openness_.grids[grid] = static_cast<std::uint8_t>(steps);
     const float inwards = steps == 1 ? kInwardsOfThree : kInwards;
+    std::size_t node = 0;
     for (int i = 0; i <= steps; ++i) {
-      for (int j = 0; i + j <= steps; ++j) {
+      for (int j = 0; i + j <= steps; ++j, ++node) {
+        if (!needed[node] || (static_cast<std::size_t>(i + j) + t) % kTurns != turn) continue;
         const float u = static_cast<float>(i) / static_cast<float>(steps) * (1.0f - inwards) + inwards / 3.0f;
         const float v = static_cast<float>(j) / static_cast<float>(steps) * (1.0f - inwards) + inwards / 3.0f;
-        Node node;
-        node.position = (1.0f - u - v) * geometry_.positions[c[0]] + u * geometry_.positions[c[1]] +
-                        v * geometry_.positions[c[2]];
-        node.normal = geometry_.planes[t].normal;
-        node.turn = (i + 2 * j + static_cast<int>(t % kTurns)) % kTurns;
-        nodes->push_back(node);
+        points->push_back({(1.0f - u - v) * geometry_.positions[c[0]] + u * geometry_.positions[c[1]] +
+                               v * geometry_.positions[c[2]],
+                           geometry_.planes[t].normal});
+        to->push_back(grid + 1 + kSectors * node);
       }
     }
-    findNeeded(masked, steps, nodes->data() + first);
   }
 
   /// Nodes around which nothing is solid are never asked for.
-  void findNeeded(std::uint32_t masked, int steps, Node* nodes) const {
+  std::vector<bool> neededNodes(std::uint32_t masked, int steps) const {
+    std::vector<bool> needed(static_cast<std::size_t>(nodeCount(steps)), false);
     const int across = 3 * steps;
     for (int i = 0; i < across; ++i) {
       for (int j = 0; i + j < across; ++j) {
         const float u = (static_cast<float>(i) + 0.33f) / static_cast<float>(across);
         const float v = (static_cast<float>(j) + 0.33f) / static_cast<float>(across);
         if (!cutouts_.solid(masked, u, v)) continue;
-        for (const int node : Around(u, v, steps).node) nodes[node].needed = true;
+        for (const int node : Around(u, v, steps).node) needed[static_cast<std::size_t>(node)] = true;
       }
     }
-  }
-
-  void cast(int turn, std::vector<Node>* nodes) const {
-    thread_local std::vector<Node*> chosen;
-    thread_local std::vector<float> o[3], d[3];
-    thread_local std::vector<std::uint8_t> blocked;
-    chosen.clear();
-    for (Node& node : *nodes) {
-      if (node.needed && node.turn == turn) chosen.push_back(&node);
-    }
-    if (chosen.empty()) return;
-    const std::vector<SkyPatches::Ray>& rays = directions_[static_cast<std::size_t>(turn)];
-    for (int axis = 0; axis < 3; ++axis) o[axis].clear(), d[axis].clear();
-    for (const SkyPatches::Ray& ray : rays) {
-      for (const Node* node : chosen) {
-        const float side = node->normal.dot(ray.towards) > 0.0f ? kClear_m : -kClear_m;
-        const Eigen::Vector3f origin = node->position + side * node->normal;
-        for (int axis = 0; axis < 3; ++axis) {
-          o[axis].push_back(origin[axis]);
-          d[axis].push_back(ray.towards[axis]);
-        }
-      }
-    }
-    blocked.resize(o[0].size());
-    visibility_.occluded(
-        {o[0].data(), o[1].data(), o[2].data(), d[0].data(), d[1].data(), d[2].data(), blocked.size()},
-        blocked.data());
-    const std::uint8_t* stopped = blocked.data();
-    for (const SkyPatches::Ray& ray : rays) {
-      const std::size_t sector = SkySectors::of(ray.patch);
-      for (Node* node : chosen) {
-        if (!*stopped++) node->seen[sector] += ray.solid_angle;
-      }
-    }
-  }
-
-  /// Returns the first node that follows.
-  const Node* write(std::uint32_t t, const Node* node) {
-    const int steps = stepsOf(geometry_, t);
-    std::uint8_t* to = openness_.grids.data() + openness_.first[t];
-    *to++ = static_cast<std::uint8_t>(steps);
-    for (const Node* end = node + nodeCount(steps); node != end; ++node) {
-      const std::array<float, kSectors>& whole = whole_[static_cast<std::size_t>(node->turn)];
-      for (std::size_t sector = 0; sector < kSectors; ++sector)
-        *to++ = static_cast<std::uint8_t>(std::min(node->seen[sector] / whole[sector], 1.0f) * 255.0f + 0.5f);
-    }
-    return node;
+    return needed;
   }
 
   const Geometry& geometry_;
   Visibility visibility_;
   Cutouts cutouts_;
-  std::array<std::vector<SkyPatches::Ray>, kTurns> directions_;
-  std::array<std::array<float, kSectors>, kTurns> whole_{};  ///< solid angle of each turn's, by sector, sr
-  std::vector<std::uint32_t> leaves_;                        ///< index into Cutouts::maskedTriangles()
+  std::array<std::array<Look, kSectors>, kTurns> looks_;
+  std::map<Key, Group> groups_;
   LeafOpenness openness_;
 };
 

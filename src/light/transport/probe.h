@@ -17,6 +17,7 @@ struct Site {
   std::array<Eigen::Vector3f, kOrigins> lifts;    ///< from there to where rays of the lit side start
   Eigen::Vector3f normal;                         ///< unit
   float transmission = 0.0f;                      ///< share of its light that it takes from behind
+  bool thin = false;                              ///< of a sheet: rays leave from either side of it
   bool coarse = false;                            ///< the coarse rays are enough: there are many like it
 
   /// Solid angle that a ray stands for; zero if it is not to be cast.
@@ -33,8 +34,8 @@ struct Site {
   Eigen::Vector3f start(std::size_t ray, const Eigen::Vector3f& towards) const {
     const Eigen::Vector3f& origin = origins[ray % kOrigins];
     const Eigen::Vector3f& lift = lifts[ray % kOrigins];
-    return lift.dot(towards) > 0.0f || transmission <= 0.0f ? Eigen::Vector3f(origin + lift)
-                                                            : Eigen::Vector3f(origin - lift);
+    return lift.dot(towards) > 0.0f || !thin ? Eigen::Vector3f(origin + lift)
+                                             : Eigen::Vector3f(origin - lift);
   }
 };
 

@@ -46,11 +46,17 @@ void orderSamples(SceneSamples* samples) {
            std::tie(b.block, b.coarse, b.facing, b.place, b.sample);
   });
   std::vector<Site> sites;
+  std::vector<Behind> behind;
   std::vector<std::uint32_t> moved_to(keys.size());
   for (const Key& key : keys) {
     moved_to[key.sample] = static_cast<std::uint32_t>(sites.size());
     sites.push_back(samples->sites[key.sample]);
+    behind.push_back(samples->behind[key.sample]);
   }
+  for (Behind& other : behind) {
+    if (other.sample != LightMesh::kNone) other.sample = moved_to[other.sample];
+  }
+  samples->behind = std::move(behind);
   samples->sites = std::move(sites);
   for (LightMesh::Share& share : samples->mesh.shares) share.sample = moved_to[share.sample];
 }

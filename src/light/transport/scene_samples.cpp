@@ -64,6 +64,15 @@ class Sampler {
   }
 
  private:
+  /// Two triangles at most, whose sides share two samples and nodes.
+  struct Card {
+    std::uint32_t first;  ///< triangle
+    std::uint32_t node, first_sample;
+    float transmission;
+    int triangles = 1;
+    std::uint32_t sample(std::size_t side) const { return first_sample + static_cast<std::uint32_t>(side); }
+  };
+
   void sampleTrees() {
     const std::vector<MeshNode>& nodes = builder_.index.nodes;
     shares_.resize(nodes.size());
@@ -144,9 +153,13 @@ class Sampler {
     site.lifts.fill(kClear_m * flat);
     site.normal = normal;
     site.coarse = isLeaf(traits_[t].kind);
-    site.transmission =
-        geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[t])].transmission;
+    site.transmission = transmissionOf(t);
+    site.thin = site.transmission > 0.0f;
     return {position, normal, site};
+  }
+
+  float transmissionOf(std::uint32_t t) const {
+    return geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[t])].transmission;
   }
 
   /// Visits each corner of each lit side of the triangles of `kind`.
@@ -198,41 +211,53 @@ class Sampler {
     });
   }
 
-  /// One sample a card, for both its sides: leaves let about half of the light through, and LeafOpenness
-  /// knows what lies open of the card.
+  /// One sample on each side of a card; LeafOpenness knows what lies open of it.
   void sampleCards() {
-    struct Card {
-      std::uint32_t node = LightMesh::kNone;
-      int triangles = 0;
-    };
     std::vector<std::uint32_t> card_at(geometry_.positions.size(), LightMesh::kNone);
-    std::vector<Card> cards;
     for (std::uint32_t t = 0; t < traits_.size(); ++t) {
       if (traits_[t].kind != TriangleKind::kSpray && traits_[t].kind != TriangleKind::kCanopy) continue;
       std::uint32_t number = LightMesh::kNone;
       for (const std::uint32_t v : geometry_.triangles[t]) {
-        if (card_at[v] != LightMesh::kNone && cards[card_at[v]].triangles < 2) number = card_at[v];
+        if (card_at[v] != LightMesh::kNone && cards_[card_at[v]].triangles < 2) number = card_at[v];
       }
-      Site site = middleOf(t);
       if (number == LightMesh::kNone) {
-        number = static_cast<std::uint32_t>(cards.size());
-        cards.push_back({static_cast<std::uint32_t>(shares_.size()), 0});
-        shares_.push_back({{static_cast<std::uint32_t>(sites_.size()), 1.0f}});
-        sites_.push_back(site);
-      } else {  // the other half of the card
-        Site& first = sites_[shares_[cards[number].node][0].sample];
-        for (std::size_t i = 1; i < Site::kOrigins; i += 2) first.origins[i] = site.origins[i];
-        // Halves back to back have no mean normal: that of the first then stands for both.
-        const Eigen::Vector3f sum = first.normal + site.normal;
-        if (sum.squaredNorm() > 1e-6f) first.normal = sum.normalized();
+        number = static_cast<std::uint32_t>(cards_.size());
+        addCard(t);
+      } else {
+        addOtherHalf(t, &cards_[number]);
       }
-      ++cards[number].triangles;
       for (const std::uint32_t v : geometry_.triangles[t]) card_at[v] = number;
-      const std::uint32_t node = cards[number].node;
-      const auto cell = static_cast<std::uint32_t>(builder_.mesh.cells.size());
-      builder_.mesh.cells.push_back({{node, node, node}});
-      builder_.mesh.roots[t] = {cell, cell};
+      const Card& card = cards_[number];
+      const bool turned = geometry_.planes[t].normal.dot(geometry_.planes[card.first].normal) < 0.0f;
+      for (std::size_t side = 0; side < 2; ++side) {
+        const std::uint32_t node = card.node + static_cast<std::uint32_t>(turned ? 1 - side : side);
+        builder_.mesh.roots[t][side] = static_cast<std::uint32_t>(builder_.mesh.cells.size());
+        builder_.mesh.cells.push_back({{node, node, node}});
+      }
     }
+    for (const Card& card : cards_) {
+      sites_[card.sample(1)] = sites_[card.sample(0)];
+      sites_[card.sample(1)].normal *= -1.0f;
+    }
+  }
+
+  void addCard(std::uint32_t t) {
+    cards_.push_back({t, static_cast<std::uint32_t>(shares_.size()),
+                      static_cast<std::uint32_t>(sites_.size()), transmissionOf(t)});
+    for (std::size_t side = 0; side < 2; ++side) {
+      shares_.push_back({{cards_.back().sample(side), 1.0f}});
+      sites_.push_back(middleOf(t));
+    }
+  }
+
+  void addOtherHalf(std::uint32_t t, Card* card) {
+    const Site site = middleOf(t);
+    Site& first = sites_[card->sample(0)];
+    for (std::size_t i = 1; i < Site::kOrigins; i += 2) first.origins[i] = site.origins[i];
+    // Halves back to back have no mean normal: that of the first then stands for both.
+    const Eigen::Vector3f sum = first.normal + site.normal;
+    if (sum.squaredNorm() > 1e-6f) first.normal = sum.normalized();
+    ++card->triangles;
   }
 
   /// Looks from four points of a card's triangle.
@@ -243,7 +268,7 @@ class Sampler {
     site.normal = normal.normalized();
     for (std::size_t i = 0; i < 3; ++i)
       site.origins[i] += 0.5f * (geometry_.positions[geometry_.triangles[t][i]] - site.origins[3]);
-    site.transmission = 0.5f;
+    site.transmission = 0.0f;  // what comes from behind is added as it is passed on
     return site;
   }
 
@@ -251,6 +276,11 @@ class Sampler {
     SceneSamples samples;
     samples.mesh = std::move(builder_.mesh);
     samples.sites = std::move(sites_);
+    samples.behind.resize(samples.sites.size());
+    for (const Card& card : cards_) {
+      for (std::size_t side = 0; side < 2; ++side)
+        samples.behind[card.sample(side)] = {card.sample(1 - side), card.transmission};
+    }
     samples.mesh.first_share.push_back(0);
     for (const Shares& shares : shares_) {
       samples.mesh.shares.insert(samples.mesh.shares.end(), shares.begin(), shares.end());
@@ -264,6 +294,7 @@ class Sampler {
   MeshBuilder builder_;
   std::vector<Site> sites_;
   std::vector<Shares> shares_;  ///< of each node
+  std::vector<Card> cards_;
 };
 
 }  // namespace

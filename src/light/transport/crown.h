@@ -1,0 +1,80 @@
+/// Leaves that stand together, and which of them light from afar reaches.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "light/cutout.h"
+#include "sunlit/light/geometry.h"
+#include "sunlit/light/visibility.h"
+
+namespace sunlit::light {
+
+/// Points of neighbouring leaves, all asked for one direction at a time. Instead of a ray for each, every
+/// triangle among them is met with those points that it may shade: they are many, and lie close together.
+class Crown {
+ public:
+  /// What stands around.
+  struct World {
+    const Geometry& geometry;
+    const Cutouts& cutouts;        ///< of `geometry`
+    const Visibility& visibility;  ///< likewise
+  };
+  /// A place on a leaf.
+  struct Point {
+    Eigen::Vector3f position, normal;  ///< m in `map`; unit
+  };
+
+  /// All of `world` is kept by reference. What stands outside the box around the points is looked up once for
+  /// each square of `cell_m`, > 0, across the direction.
+  Crown(const World& world, std::vector<Point> points, float cell_m);
+
+  /// Points from `first` to before `end`.
+  struct Range {
+    std::size_t first, end;
+  };
+  /// For each point of `range` whether light from far off in the direction `towards`, a unit vector, gets
+  /// there: 1, or 0 where something stands in its way. Values of other points mean nothing.
+  const std::vector<std::uint8_t>& open(const Eigen::Vector3f& towards, const Range& range);
+
+ private:
+  static constexpr std::int32_t kOpaque = -1;
+  struct Blocker {
+    std::array<Eigen::Vector3f, 3> corners;  ///< from middle_
+    float area;                              ///< twice its own
+    std::int32_t masked;                     ///< index into Cutouts::maskedTriangles(), or kOpaque
+  };
+  struct Shadow;
+  struct Arrays;
+  static bool meet(const Shadow& shadow, const Arrays& points, std::size_t count, std::uint8_t* hit);
+
+  void addBlockers();
+  void project(const Eigen::Vector3f& towards, const Range& range);
+  void sortIntoCells(const Range& range);
+  void shade(const Blocker& blocker);
+  void shade(const Shadow& shadow, std::size_t begin, std::size_t end);
+  void dropShaded();
+  void lookBeyond(const Eigen::Vector3f& towards);
+
+  World world_;
+  std::vector<Point> points_;
+  float cell_m_;
+  Eigen::AlignedBox3f box_;
+  Eigen::Vector3f middle_;
+  std::vector<Blocker> blockers_;
+
+  // Of one direction: points by cells across it, row after row; height is along it.
+  Eigen::Vector3f across_, up_, towards_;
+  std::vector<float> unsorted_x_, unsorted_y_, unsorted_height_, x_, y_, height_;
+  std::vector<std::uint32_t> unsorted_cell_, point_;
+  std::vector<std::uint32_t> first_;  ///< point of each cell, and one more
+  std::vector<std::uint8_t> hit_;
+  float low_x_ = 0.0f, low_y_ = 0.0f, lowest_ = 0.0f;
+  int columns_ = 0, rows_ = 0;
+  std::vector<std::uint8_t> open_;
+};
+
+}  // namespace sunlit::light
