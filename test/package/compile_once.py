@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""compile_once.py COMPILER ARGUMENT...: a compiler launcher. Takes the object file of an earlier build where that one was made
-by the same command from the same files, byte for byte; otherwise compiles.
+"""compile_once.py COMPILER ARGUMENT...: a compiler launcher that takes the object file of an earlier build where that one
+was made by the same command from the same files, byte for byte, and otherwise compiles.
 
 SUNLIT_COMPILED names the compile_commands.json of the earlier build, SUNLIT_SAME_FOLDERS the folders that stand for one
 another, as HERE=THERE:HERE=THERE, a folder before those around it."""
@@ -66,7 +66,8 @@ def main():
     except (OSError, LookupError, ValueError):  # no such build, or one of another kind
         made = None
     if not made:
-        return subprocess.call(words)
+        usual = os.environ.get("CMAKE_CXX_COMPILER_LAUNCHER", "")  # a compiler cache
+        return subprocess.call([word for word in usual.split(";") if word] + words)
     shutil.copyfile(made, output)
     if "-MF" in words:
         shutil.copyfile(made + ".d", words[words.index("-MF") + 1])

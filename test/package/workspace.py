@@ -42,7 +42,7 @@ class Workspace(unittest.TestCase):
         (cls.folder / "src" / "sunlit").symlink_to(SOURCE)
         (cls.folder / "yard.world").write_text(WORLD)
         cls.environment = {key: value for key, value in os.environ.items()
-                           if not key.startswith(("ROS_", "CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "PYTHONPATH"))}
+                           if not key.startswith(("ROS_", "CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "PYTHONPATH", "MAKE"))}
         cls.environment.update(ROS_HOSTNAME="localhost", ROS_HOME=str(cls.folder / "ros_home"))
         twins = {"devel": "SUNLIT_DEVEL_DIR", "build/sunlit": "SUNLIT_BUILD_DIR", "src/sunlit": "SUNLIT_SOURCE_DIR"}
         cls.environment["SUNLIT_SAME_FOLDERS"] = ":".join(f"{cls.folder}/{ours}={os.environ.get(theirs, '')}"
