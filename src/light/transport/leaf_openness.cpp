@@ -29,7 +29,7 @@ constexpr std::size_t kSectors = SkyView::kSectors;
 /// tuft of grass, they stand for the parts around them.
 constexpr float kInwards = 0.04f, kInwardsOfThree = 0.3f;
 /// Leaves of one square of the map are looked at together, and share what is beyond by cells.
-constexpr float kGroup_m = 12.0f, kCell_m = 0.7f;
+constexpr float kGroup_m = 16.0f, kCell_m = 1.0f;
 constexpr float kFarGroup_m = 64.0f, kFarCell_m = 2.0f;
 /// Neighbouring nodes look in other directions: of two, each in half of them.
 constexpr std::size_t kTurns = 2;

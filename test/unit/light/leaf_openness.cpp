@@ -213,8 +213,8 @@ TEST(LeafOpenness, LightsACrownAsTracedPathsDo) {
     difference += std::abs(fast[i] - slow[i]);
     light += slow[i];
   }
-  // 0.106 measured; by the nodes alone, without grids, 0.20. What is left: edges of shade within a step of the
-  // grids, light passed on, and 1 % noise of the traced light.
+  // 0.106 measured; by the nodes alone, without grids, 0.20. What is left: edges of shade within a step of
+  // the grids, light passed on, and 1 % noise of the traced light.
   EXPECT_LT(difference, 0.13 * light);
 }
 
