@@ -65,6 +65,19 @@ Cutouts::Triangle Cutouts::Mask::place(const std::array<Eigen::Vector2f, 3>& tex
   return triangle;
 }
 
+// Squares first, without a branch, so that one look-up need not wait for another.
+void Cutouts::Query::solid(const float* u, const float* v, std::size_t count, std::uint8_t* solid) const {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Place at = placeOf(u[i], v[i]);
+    solid[i] = static_cast<std::uint8_t>(mask_.square(at.x0, at.y0));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (solid[i] != Mask::kMixed) continue;
+    const Place at = placeOf(u[i], v[i]);
+    solid[i] = mask_.interpolated(at.x0, at.y0, at.fx, at.fy) >= mask_.cutoff ? 1 : 0;
+  }
+}
+
 Cutouts::Cutouts(const Geometry& geometry) {
   const scene::Scene& scene = *geometry.scene;
   std::vector<std::int32_t> mask_of(scene.materials.size(), kNoMask);

@@ -35,8 +35,17 @@ class Cutouts {
         : triangle_(cutouts.triangles_[masked_triangle]),
           mask_(cutouts.masks_[static_cast<std::size_t>(triangle_.mask)]) {}
     bool solid(float u, float v) const;
+    /// The same of `count` points: 1 or 0.
+    void solid(const float* u, const float* v, std::size_t count, std::uint8_t* solid) const;
 
    private:
+    /// Between which texels a point lies, and how far from the first ones.
+    struct Place {
+      int x0, y0;
+      float fx, fy;
+    };
+    Place placeOf(float u, float v) const;
+
     const Triangle& triangle_;
     const Mask& mask_;
   };
@@ -77,7 +86,7 @@ class Cutouts {
 };
 
 // Inlined: asked for every ray that meets a card.
-inline bool Cutouts::Query::solid(float u, float v) const {
+inline Cutouts::Query::Place Cutouts::Query::placeOf(float u, float v) const {
   float x = triangle_.origin.x() + u * triangle_.along_u.x() + v * triangle_.along_v.x();
   float y = triangle_.origin.y() + u * triangle_.along_u.y() + v * triangle_.along_v.y();
   if (triangle_.repeats) {
@@ -86,12 +95,16 @@ inline bool Cutouts::Query::solid(float u, float v) const {
   }
   const int left = floorOf(x), above = floorOf(y);
   // Rounding may take a point on the texture's edge beyond it.
-  const int x0 = left < 0 ? mask_.width - 1 : std::min(left, mask_.width - 1);
-  const int y0 = above < 0 ? mask_.height - 1 : std::min(above, mask_.height - 1);
-  const unsigned square = mask_.square(x0, y0);
+  return {left < 0 ? mask_.width - 1 : std::min(left, mask_.width - 1),
+          above < 0 ? mask_.height - 1 : std::min(above, mask_.height - 1), x - static_cast<float>(left),
+          y - static_cast<float>(above)};
+}
+
+inline bool Cutouts::Query::solid(float u, float v) const {
+  const Place at = placeOf(u, v);
+  const unsigned square = mask_.square(at.x0, at.y0);
   if (square != Mask::kMixed) return square == Mask::kSolid;
-  return mask_.interpolated(x0, y0, x - static_cast<float>(left), y - static_cast<float>(above)) >=
-         mask_.cutoff;
+  return mask_.interpolated(at.x0, at.y0, at.fx, at.fy) >= mask_.cutoff;
 }
 
 }  // namespace sunlit::light

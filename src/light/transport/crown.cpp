@@ -14,8 +14,9 @@ constexpr float kClear_m = 1e-3f;  ///< points lie that far off their leaf
 constexpr float kEdgeOn = 1e-4f;   ///< cosine below which a triangle hides nothing
 /// Of so many parts of the triangles, in which the points that are left are put together anew.
 constexpr std::size_t kParts = 4;
-constexpr std::size_t kLanes = 32;    ///< points that meet a triangle at once
-constexpr float kMostCells = 512.0f;  ///< an axis: leaves may be as large as they like
+constexpr std::size_t kLanes = 32;                    ///< points that meet a triangle at once
+constexpr std::size_t kWord = sizeof(std::uint64_t);  ///< answers looked at together
+constexpr float kMostCells = 512.0f;                  ///< an axis: leaves may be as large as they like
 constexpr float kShaded = std::numeric_limits<float>::infinity();
 
 /// A step that visits all of `count` things in an order without any order.
@@ -169,6 +170,9 @@ void Crown::sortIntoCells(const Range& range) {
   for (auto* values : {&x_, &y_, &height_}) values->resize(count + kLanes);
   point_.resize(count);
   hit_.resize(count + kLanes);
+  solid_.resize(count);
+  met_.resize(count + 1);
+  for (auto* values : {&u_, &v_}) values->resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t to = first_[unsorted_cell_[i]]++;
     x_[to] = unsorted_x_[i];
@@ -219,17 +223,28 @@ void Crown::shade(const Blocker& blocker) {
 void Crown::shade(const Shadow& s, std::size_t begin, std::size_t end) {
   std::uint8_t* hit = hit_.data();
   if (!meet(s, {x_.data() + begin, y_.data() + begin, height_.data() + begin}, end - begin, hit)) return;
-  for (std::size_t word = 0; word < end - begin; word += 8) {
+  std::size_t met = 0;
+  for (std::size_t word = 0; word < end - begin; word += kWord) {
     std::uint64_t any;
-    std::memcpy(&any, hit + word, sizeof(any));
+    std::memcpy(&any, hit + word, kWord);
     if (any == 0) continue;
-    for (std::size_t i = word; i < std::min(word + 8, end - begin); ++i) {
-      if (!hit[i]) continue;
-      const Shares at = s.at(x_[begin + i], y_[begin + i]);
-      if (s.masked == kOpaque || world_.cutouts.solid(static_cast<std::uint32_t>(s.masked), at.u, at.v))
-        height_[begin + i] = kShaded;
+    for (std::size_t i = word; i < std::min(word + kWord, end - begin); ++i) {
+      met_[met] = static_cast<std::uint32_t>(begin + i);
+      met += hit[i];
     }
   }
+  if (s.masked == kOpaque) {
+    for (std::size_t i = 0; i < met; ++i) height_[met_[i]] = kShaded;
+    return;
+  }
+  for (std::size_t i = 0; i < met; ++i) {
+    const Shares at = s.at(x_[met_[i]], y_[met_[i]]);
+    u_[i] = at.u;
+    v_[i] = at.v;
+  }
+  Cutouts::Query(world_.cutouts, static_cast<std::uint32_t>(s.masked))
+      .solid(u_.data(), v_.data(), met, solid_.data());
+  for (std::size_t i = 0; i < met; ++i) height_[met_[i]] = solid_[i] ? kShaded : height_[met_[i]];
 }
 
 void Crown::dropShaded() {

@@ -71,7 +71,9 @@ class Crown {
   std::vector<float> unsorted_x_, unsorted_y_, unsorted_height_, x_, y_, height_;
   std::vector<std::uint32_t> unsorted_cell_, point_;
   std::vector<std::uint32_t> first_;  ///< point of each cell, and one more
-  std::vector<std::uint8_t> hit_;
+  std::vector<std::uint8_t> hit_, solid_;
+  std::vector<std::uint32_t> met_;  ///< of a segment, those that a triangle lies before
+  std::vector<float> u_, v_;        ///< … and the shares of its corners there
   float low_x_ = 0.0f, low_y_ = 0.0f, lowest_ = 0.0f;
   int columns_ = 0, rows_ = 0;
   std::vector<std::uint8_t> open_;

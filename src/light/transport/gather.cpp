@@ -51,7 +51,8 @@ class Gatherer {
     data->tints.assign(count_, {1.0f, 1.0f, 1.0f});
     data->glows.assign(count_, {0.0f, 0.0f, 0.0f});
     seen_.resize(count_);
-    const std::size_t packets = (count_ + kPacket - 1) / kPacket;
+    findStarts();
+    const std::size_t packets = (starts_.size() + kPacket - 1) / kPacket;
     const double direct_share = options_.bounces > 0 ? 0.7 : 1.0;
     tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
       lookAround(p * kPacket, data);
@@ -77,9 +78,10 @@ class Gatherer {
     bool inside = false;                       ///< of a body
   };
   /// Sums over the rays of one sample.
-  struct Sums {
-    float all = 0.0f, inside = 0.0f, blocked_up = 0.0f;
-    float coarse_blocked_up = 0.0f;
+  struct Look {
+    Row row{};
+    Hidden hidden;
+    float all = 0.0f, inside = 0.0f, blocked_up = 0.0f, coarse_blocked_up = 0.0f;
   };
 
   void step(double share) {
@@ -104,50 +106,74 @@ class Gatherer {
     return samples_.nearest_sample[place.node[static_cast<std::size_t>(largest)]];
   }
 
+  /// Of two samples on both sides of a sheet, rays of the first serve both.
+  void findStarts() {
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      if (samples_.behind[i].sample > i) starts_.push_back(i);  // or there is none
+    }
+  }
+
   void lookAround(std::size_t first, TransportData* data) {
-    const int count = static_cast<int>(std::min(kPacket, count_ - first));
-    std::array<Row, kPacket> rows{};
-    std::array<Sums, kPacket> sums{};
-    std::array<Hidden, kPacket> hidden;
+    const std::size_t count = std::min(kPacket, starts_.size() - first);
+    std::array<Site, kPacket> sites;
+    std::array<std::array<Look, 2>, kPacket> looks;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t sample = starts_[first + i];
+      sites[i] = samples_.sites[sample];
+      if (samples_.behind[sample].sample != LightMesh::kNone) sites[i].transmission = 0.5f;
+    }
     const auto& rays = patches_.rays();
-    probe(rays_, rays, samples_.sites.data() + first, count,
+    probe(rays_, rays, sites.data(), static_cast<int>(count),
           [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
             const auto i = static_cast<std::size_t>(lane);
-            sums[i].all += weight;
-            hidden[i].add({rays[r].towards, weight, hits, lane}, geometry_, traits_);
-            if (hits.triangle[lane] == HitPacket::kNothing) {
-              rows[i][static_cast<std::size_t>(rays[r].patch)] += weight;
-              return;
-            }
-            const std::uint32_t root = rootAt(hits, lane, rays[r].towards);
-            if (root == LightMesh::kNone) {
-              sums[i].inside += weight;
-              return;
-            }
-            const bool up = rays[r].patch != SkyPatches::kBelow;
-            if (up) sums[i].blocked_up += weight;
-            if (rays[r].coarse == SkyPatches::Ray::kFineOnly) return;
-            if (up) sums[i].coarse_blocked_up += weight;
-            const std::uint32_t sample = sampleAt(root, hits.u[lane], hits.v[lane]);
-            seen_[first + i].hits.push_back(static_cast<std::uint32_t>(rays[r].coarse) << kDirectionShift |
-                                            sample);
+            const std::uint32_t sample = starts_[first + i], behind = samples_.behind[sample].sample;
+            const bool turned = behind != LightMesh::kNone && sites[i].normal.dot(rays[r].towards) < 0.0f;
+            if (behind != LightMesh::kNone) weight *= 2.0f;
+            note(rays[r], {rays[r].towards, weight, hits, lane}, turned ? behind : sample,
+                 &looks[i][turned ? 1 : 0]);
           });
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      // The quadrature of a cosine over the hemisphere is π; rays that end inside bodies tell nothing.
-      const float told = std::max(sums[i].all - sums[i].inside, 0.05f * sums[i].all);
-      const float scale = told > 0.0f ? kPiFloat / told : 0.0f;
-      for (float& value : rows[i]) value *= scale;
-      data->direct.set(first + i, rows[i].data());
-      Seen& seen = seen_[first + i];
-      const bool thin = samples_.sites[first + i].thin;
-      seen.inside = sums[i].inside > kMostInside * sums[i].all || (!thin && hidden[i].buried());
-      seen.scale_down = scale;
-      seen.scale_up = scale;
-      if (sums[i].coarse_blocked_up > 0.0f && !samples_.sites[first + i].coarse) {
-        // The coarse rays stand for all that hit something.
-        const float stand_for = sums[i].coarse_blocked_up * static_cast<float>(options_.rays_per_patch);
-        seen.scale_up *= std::clamp(sums[i].blocked_up / stand_for, 0.25f, 4.0f);
-      }
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t sample = starts_[first + i], behind = samples_.behind[sample].sample;
+      finish(sample, &looks[i][0], data);
+      if (behind != LightMesh::kNone) finish(behind, &looks[i][1], data);
+    }
+  }
+
+  void note(const SkyPatches::Ray& ray, const Hidden::Cast& cast, std::uint32_t sample, Look* look) {
+    look->all += cast.weight;
+    look->hidden.add(cast, geometry_, traits_);
+    if (cast.hits.triangle[cast.lane] == HitPacket::kNothing) {
+      look->row[static_cast<std::size_t>(ray.patch)] += cast.weight;
+      return;
+    }
+    const std::uint32_t root = rootAt(cast.hits, cast.lane, ray.towards);
+    if (root == LightMesh::kNone) {
+      look->inside += cast.weight;
+      return;
+    }
+    const bool up = ray.patch != SkyPatches::kBelow;
+    if (up) look->blocked_up += cast.weight;
+    if (ray.coarse == SkyPatches::Ray::kFineOnly) return;
+    if (up) look->coarse_blocked_up += cast.weight;
+    const std::uint32_t from = sampleAt(root, cast.hits.u[cast.lane], cast.hits.v[cast.lane]);
+    seen_[sample].hits.push_back(static_cast<std::uint32_t>(ray.coarse) << kDirectionShift | from);
+  }
+
+  void finish(std::uint32_t sample, Look* look, TransportData* data) {
+    // The quadrature of a cosine over the hemisphere is π; rays that end inside bodies tell nothing.
+    const float told = std::max(look->all - look->inside, 0.05f * look->all);
+    const float scale = told > 0.0f ? kPiFloat / told : 0.0f;
+    for (float& value : look->row) value *= scale;
+    data->direct.set(sample, look->row.data());
+    const Site& site = samples_.sites[sample];
+    Seen& seen = seen_[sample];
+    seen.inside = look->inside > kMostInside * look->all || (!site.thin && look->hidden.buried());
+    seen.scale_down = scale;
+    seen.scale_up = scale;
+    if (look->coarse_blocked_up > 0.0f && !site.coarse) {
+      // The coarse rays stand for all that hit something.
+      const float stand_for = look->coarse_blocked_up * static_cast<float>(options_.rays_per_patch);
+      seen.scale_up *= std::clamp(look->blocked_up / stand_for, 0.25f, 4.0f);
     }
   }
 
@@ -326,6 +352,7 @@ class Gatherer {
   const GatherOptions& options_;
   SkyPatches patches_;
   std::size_t count_;
+  std::vector<std::uint32_t> starts_;  ///< samples whose rays are cast
   std::vector<Seen> seen_;
   Coefficients mirrored_;             ///< sky by way of the ground as a mirror, without colour
   std::vector<float> mirrored_sums_;  ///< of its coefficients

@@ -19,8 +19,8 @@
 namespace sunlit::light {
 namespace {
 
-constexpr float kStep_m = 0.35f;  ///< of a grid, where a card is not too large
-constexpr int kMostSteps = 10;
+constexpr float kStep_m = 0.4f;  ///< of a grid, where a card is not too large
+constexpr int kMostSteps = 9;
 /// Trees of larger cards are made to be seen from afar.
 constexpr float kFar_m = 5.0f;
 constexpr int kFarSteps = 3;

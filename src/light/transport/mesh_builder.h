@@ -57,7 +57,7 @@ class Occupancy {
 
 struct RefineLimits {
   float finest_m = 0.25f;
-  std::size_t nodes = 600000;
+  std::size_t nodes = 700000;
 };
 
 class MeshBuilder {

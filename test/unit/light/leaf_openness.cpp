@@ -15,6 +15,7 @@
 #include "paper_scene.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/transport.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
 namespace {
@@ -111,7 +112,7 @@ TEST(LeafOpenness, ChangesWithinALeafThatAWallCutsInTwo) {
   for (const float x : {-0.9f, -0.55f, -0.2f, 0.2f, 0.55f, 0.9f}) {
     const float distance = std::abs(x);
     const float open = 0.5f * (1.0f + distance / std::hypot(distance, 0.5f));
-    // 0.1: three nodes of 87 directions each, on a grid of 0.35 m.
+    // 0.1: three nodes of 87 directions each, on a grid of 0.4 m.
     EXPECT_NEAR(openAround(viewAt(*geometry, leaves, {x, 0.1f, 2.0f}), Eigen::Vector3f::UnitZ()), open, 0.1f)
         << x;
   }
@@ -192,6 +193,31 @@ TEST(LeafOpenness, LightIsFiniteAroundALeafMadeOfAFrontAndABack) {
     EXPECT_TRUE(irradiance.allFinite());
     EXPECT_GE(irradiance.minCoeff(), 0.0f);
   }
+}
+
+TEST(LeafOpenness, EachSideOfALeafHasLightOfItsOwn) {
+  // Under an even sky of 1 cd/m² the upper side of a level leaf gets π lx and the lower one what the ground
+  // sends up.
+  constexpr float kReflectance = 0.5f;
+  scene::Scene scene = leafScene();
+  scene.materials[kBoard] = paint(kReflectance);
+  addGround(&scene, kBoard, 200.0f);
+  addPatch(&scene, kLeaf, {-0.5f, -0.5f, 3.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f});
+  const World world = worldOf(std::move(scene));
+  const auto transport = Transport::bake(world.geometry, {});
+  const std::vector<Eigen::Array3f> irradiance = transport->irradiance(uniformDay(1.0f));
+  const Eigen::Vector3f point(0.2f, 0.1f, 3.0f);
+  const std::uint32_t leaf = triangleAt(*world.geometry, {point, Eigen::Vector3f::UnitZ(), {}, {}});
+  const auto light = [&](bool up) {
+    const bool front = (world.geometry->planes[leaf].normal.z() > 0.0f) == up;
+    const LightPlace place = transport->placeOf(leaf, front, point);
+    return place.weight[0] * irradiance[place.node[0]][1] + place.weight[1] * irradiance[place.node[1]][1] +
+           place.weight[2] * irradiance[place.node[2]][1];
+  };
+  EXPECT_NEAR(light(true), kPiFloat, 0.01f * kPiFloat);
+  // 8 %: the leaf's own shade, 1 m² seen from 3 m, is 1 / 9π of what it looks at; paint mirrors a little
+  // beside the half that it spreads; 80 directions below the horizon.
+  EXPECT_NEAR(light(false), kReflectance * kPiFloat, 0.08f * kReflectance * kPiFloat);
 }
 
 TEST(LeafOpenness, LightsACrownAsTracedPathsDo) {
