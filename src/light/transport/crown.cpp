@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "sunlit/quantity/vector_clones.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr float kClear_m = 1e-3f;  ///< points lie that far off their leaf
 constexpr float kEdgeOn = 1e-4f;   ///< cosine below which a triangle hides nothing
-/// Of so many parts of the triangles, in which the points that are left are put together anew.
+/// After each of so many parts of the triangles, points that are shaded by then are dropped.
 constexpr std::size_t kParts = 4;
 constexpr std::size_t kLanes = 32;                    ///< points that meet a triangle at once
 constexpr std::size_t kWord = sizeof(std::uint64_t);  ///< answers looked at together

@@ -29,7 +29,7 @@ class Crown {
   };
 
   /// All of `world` is kept by reference. What stands outside the box around the points is looked up once for
-  /// each square of `cell_m`, > 0, across the direction.
+  /// each square of `cell_m`, > 0, or of 1/512 of the box's diagonal if that is more, across the direction.
   Crown(const World& world, std::vector<Point> points, float cell_m);
 
   /// Points from `first` to before `end`.

@@ -120,6 +120,7 @@ class Gatherer {
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t sample = starts_[first + i];
       sites[i] = samples_.sites[sample];
+      // Half: both sides' rays count alike. Doubled again below, for each sample has one side to itself.
       if (samples_.behind[sample].sample != LightMesh::kNone) sites[i].transmission = 0.5f;
     }
     const auto& rays = patches_.rays();
@@ -290,10 +291,11 @@ class Gatherer {
     const Eigen::Array3f spread = isGround(static_cast<std::uint32_t>(i)) ? mean.diffuse : all;
     Row row{};
     Sent others{Eigen::Array3f::Zero(), samples_.emissions[i] * kPiFloat};
-    const auto add = [&](std::size_t from, float share) {
+    const auto add = [&](std::size_t from, const Eigen::Array3f& of_direct,
+                         const Eigen::Array3f& of_bounced) {
       const Eigen::Array3f tint = Eigen::Map<const Eigen::Array3f>(data.tints[from].data());
-      const float direct_factor = share * luminanceOf(spread) * data.direct.scales[from];
-      const float bounced_factor = share * luminanceOf(all * tint) * data.bounced.scales[from];
+      const float direct_factor = luminanceOf(of_direct) * data.direct.scales[from];
+      const float bounced_factor = luminanceOf(of_bounced * tint) * data.bounced.scales[from];
       const std::uint8_t* direct = data.direct.row(from);
       const std::uint8_t* bounced = data.bounced.row(from);
       float direct_sum = 0.0f, bounced_sum = 0.0f;
@@ -302,13 +304,18 @@ class Gatherer {
         direct_sum += direct[p];
         bounced_sum += bounced[p];
       }
-      others.color += share * (spread * (data.direct.scales[from] * direct_sum) +
-                               all * (data.bounced.scales[from] * bounced_sum) * tint);
-      others.glow += share * all * Eigen::Map<const Eigen::Array3f>(data.glows[from].data());
+      others.color += of_direct * (data.direct.scales[from] * direct_sum) +
+                      of_bounced * (data.bounced.scales[from] * bounced_sum) * tint;
+      others.glow += of_bounced * Eigen::Map<const Eigen::Array3f>(data.glows[from].data());
     };
     const Behind& behind = samples_.behind[i];
-    add(i, 1.0f - behind.share);
-    if (behind.sample != LightMesh::kNone) add(behind.sample, behind.share);
+    if (behind.sample == LightMesh::kNone) {
+      add(i, spread, all);
+    } else {  // what is mirrored stays on its side
+      const Eigen::Array3f through = behind.share * mean.diffuse.min(all);
+      add(i, all - through, all - through);
+      add(behind.sample, through, through);
+    }
     sent->set(i, row.data());
     return others;
   }

@@ -228,7 +228,7 @@ class Sampler {
       }
       for (const std::uint32_t v : geometry_.triangles[t]) card_at[v] = number;
       const Card& card = cards_[number];
-      const bool turned = geometry_.planes[t].normal.dot(geometry_.planes[card.first].normal) < 0.0f;
+      const bool turned = isTurned(t, card);
       for (std::size_t side = 0; side < 2; ++side) {
         const std::uint32_t node = card.node + static_cast<std::uint32_t>(turned ? 1 - side : side);
         builder_.mesh.roots[t][side] = static_cast<std::uint32_t>(builder_.mesh.cells.size());
@@ -250,12 +250,21 @@ class Sampler {
     }
   }
 
+  /// Whether the front of a card's triangle is on the side of the first one's back.
+  bool isTurned(std::uint32_t t, const Card& card) const {
+    return geometry_.planes[t].normal.dot(geometry_.planes[card.first].normal) < 0.0f;
+  }
+
   void addOtherHalf(std::uint32_t t, Card* card) {
     const Site site = middleOf(t);
     Site& first = sites_[card->sample(0)];
-    for (std::size_t i = 1; i < Site::kOrigins; i += 2) first.origins[i] = site.origins[i];
-    // Halves back to back have no mean normal: that of the first then stands for both.
-    const Eigen::Vector3f sum = first.normal + site.normal;
+    for (std::size_t i = 1; i < Site::kOrigins; i += 2) {
+      first.origins[i] = site.origins[i];
+      first.lifts[i] = site.lifts[i];
+    }
+    const Eigen::Vector3f sum = isTurned(t, *card) ? Eigen::Vector3f(first.normal - site.normal)
+                                                   : Eigen::Vector3f(first.normal + site.normal);
+    // Normals of the file may point anywhere: then that of the first half stands for both.
     if (sum.squaredNorm() > 1e-6f) first.normal = sum.normalized();
     ++card->triangles;
   }

@@ -15,7 +15,7 @@ namespace sunlit::light {
 /// The sample on the other side of a thin sheet.
 struct Behind {
   std::uint32_t sample = LightMesh::kNone;
-  float share = 0.0f;  ///< of its light that comes out on this side
+  float share = 0.0f;  ///< of its diffuse light that comes out on this side
 };
 
 struct SceneSamples {

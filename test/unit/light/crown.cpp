@@ -96,7 +96,7 @@ const std::vector<Eigen::Vector3f>& directions() {
 
 TEST(Crown, FindsWhatRaysFromEachPointFind) {
   const Woods woods;
-  // Cells so small that none holds two points: what stands beyond is then looked up for each.
+  // Cells so small, 1/512 of the tree, that few hold two points: what stands beyond is looked up for each.
   Crown crown({*woods.geometry, woods.cutouts, woods.visibility}, woods.points, 0.004f);
   std::size_t open = 0, differ = 0, all = 0;
   for (const Eigen::Vector3f& towards : directions()) {
