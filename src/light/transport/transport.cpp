@@ -1,10 +1,12 @@
 #include "sunlit/light/transport.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -77,9 +79,18 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   const BakeScene scene{*geometry, rays, traits};
   constexpr double kLeaves = 0.2, kSampled = 0.4;
   auto data = std::make_unique<TransportData>();
-  data->leaves = leafOpenness(geometry, traits, [&](double share) { report(kLeaves * share); });
-  SceneSamples samples =
-      sampleScene(scene, limits, [&](double share) { report(kLeaves + (kSampled - kLeaves) * share); });
+  SceneSamples samples;
+  std::mutex mutex;
+  double leaves = 0.0, sampled = 0.0;
+  const auto note = [&](double share, double* part) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    *part = share;
+    report(kLeaves * leaves + (kSampled - kLeaves) * sampled);
+  };
+  // Side by side, since some of the sampling is work for one thread.
+  tbb::parallel_invoke(
+      [&] { data->leaves = leafOpenness(geometry, traits, [&](double share) { note(share, &leaves); }); },
+      [&] { samples = sampleScene(scene, limits, [&](double share) { note(share, &sampled); }); });
   const GatherOptions gather{options.rays_per_patch, options.bounces,
                              [&](double share) { report(kSampled + (1.0 - kSampled) * share); }};
   samples.mesh.drop(gatherLight(scene, samples, gather, data.get()));
