@@ -136,7 +136,7 @@ void DiscVisibility::cast(std::size_t number) {
     rays_cast_ += list.size();
     blocked.resize(list.size());
     visibility_.occluded(list.rays(), blocked.data());
-    for (std::size_t i = 0; i < list.size(); ++i) tallies[list.surface()[i]].lit += 1 - blocked[i];
+    for (std::size_t i = 0; i < list.size(); ++i) tallies[list.number()[i]].lit += 1 - blocked[i];
   };
   Lists& rays = lists();
   if (rays.solid.size() > 0) castList(rays.solid);

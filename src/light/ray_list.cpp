@@ -26,7 +26,7 @@ void findColumns(const Places& x, const Places& y, std::vector<std::uint32_t>* c
 
 void RayList::grow(std::size_t least) {
   for (auto& list : values_) list.resize(2 * least);
-  surface_.resize(2 * least);
+  number_.resize(2 * least);
 }
 
 void RayList::setInColumns(const RayList& other, const Eigen::Vector3f& across, const Eigen::Vector3f& up) {
@@ -50,7 +50,7 @@ void RayList::setInColumns(const RayList& other, const Eigen::Vector3f& across, 
   for (std::size_t i = 1; i < begins.size(); ++i) begins[i] += begins[i - 1];
   for (std::size_t i = 0; i < size_; ++i) {
     const std::uint32_t to = begins[columns[i]]++;
-    surface_[to] = other.surface_[i];
+    number_[to] = other.number_[i];
     for (std::size_t k = 0; k < 6; ++k) values_[k][to] = other.values_[k][i];
   }
 }

@@ -11,24 +11,25 @@
 
 namespace sunlit::light {
 
-/// Rays, each of one surface of a tile. Kept by threads, so that it allocates nothing after a while.
+/// Rays, each of one thing that its owner numbers, such as a surface of a tile. Kept by threads, so that it
+/// allocates nothing after a while.
 class RayList {
  public:
   std::size_t size() const { return size_; }
   void clear() { size_ = 0; }
   /// To be called before so many are added.
   void reserve(std::size_t more) {
-    if (size_ + more > surface_.size()) grow(size_ + more);
+    if (size_ + more > number_.size()) grow(size_ + more);
   }
-  void add(std::uint32_t surface, const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) {
-    surface_[size_] = surface;
+  void add(std::uint32_t number, const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) {
+    number_[size_] = number;
     for (std::size_t k = 0; k < 3; ++k) {
       values_[k][size_] = origin[static_cast<Eigen::Index>(k)];
       values_[k + 3][size_] = direction[static_cast<Eigen::Index>(k)];
     }
     ++size_;
   }
-  const std::uint32_t* surface() const { return surface_.data(); }
+  const std::uint32_t* number() const { return number_.data(); }
   Rays rays() const {
     return {values_[0].data(),
             values_[1].data(),
@@ -47,7 +48,7 @@ class RayList {
   void grow(std::size_t least);
 
   std::array<std::vector<float>, 6> values_;  ///< origins x, y, z, directions x, y, z
-  std::vector<std::uint32_t> surface_;
+  std::vector<std::uint32_t> number_;
   std::size_t size_ = 0;
 };
 

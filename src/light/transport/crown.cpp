@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "sunlit/quantity/vector_clones.h"
@@ -22,12 +23,8 @@ constexpr float kShaded = std::numeric_limits<float>::infinity();
 
 /// A step that visits all of `count` things in an order without any order.
 std::size_t scatteredStep(std::size_t count) {
-  auto step = static_cast<std::size_t>(0.61803398874989485 * static_cast<double>(count)) | 1u;
-  const auto divisor = [](std::size_t a, std::size_t b) {
-    while (b != 0) a %= b, std::swap(a, b);
-    return a;
-  };
-  while (divisor(step, count) != 1) ++step;
+  std::size_t step = count * 8 / 13 | 1u;
+  while (std::gcd(step, count) != 1) ++step;
   return step;
 }
 
@@ -265,11 +262,10 @@ void Crown::dropShaded() {
 }
 
 void Crown::lookBeyond(const Eigen::Vector3f& towards) {
-  std::vector<float> o[3], d[3];
-  std::vector<std::size_t> cells;
-  for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
+  beyond_.clear();
+  beyond_.reserve(first_.size() - 1);
+  for (std::uint32_t cell = 0; cell + 1 < first_.size(); ++cell) {
     if (first_[cell] == first_[cell + 1]) continue;
-    cells.push_back(cell);
     const Eigen::Vector3f& from = points_[point_[(first_[cell] + first_[cell + 1]) / 2]].position;
     float leaves = kShaded;  // the box, after so many metres
     for (int axis = 0; axis < 3; ++axis) {
@@ -277,16 +273,14 @@ void Crown::lookBeyond(const Eigen::Vector3f& towards) {
       const float side = towards[axis] > 0.0f ? box_.max()[axis] : box_.min()[axis];
       leaves = std::min(leaves, (side - from[axis]) / towards[axis]);
     }
-    const Eigen::Vector3f origin = from + leaves * towards;
-    for (int axis = 0; axis < 3; ++axis) o[axis].push_back(origin[axis]), d[axis].push_back(towards[axis]);
+    beyond_.add(cell, from + leaves * towards, towards);
   }
-  std::vector<std::uint8_t> blocked(cells.size());
-  world_.visibility.occluded(
-      {o[0].data(), o[1].data(), o[2].data(), d[0].data(), d[1].data(), d[2].data(), cells.size()},
-      blocked.data());
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (blocked[i]) continue;
-    for (std::size_t p = first_[cells[i]]; p < first_[cells[i] + 1]; ++p) open_[point_[p]] = 1;
+  blocked_.resize(beyond_.size());
+  world_.visibility.occluded(beyond_.rays(), blocked_.data());
+  for (std::size_t i = 0; i < beyond_.size(); ++i) {
+    if (blocked_[i]) continue;
+    const std::uint32_t cell = beyond_.number()[i];
+    for (std::uint32_t p = first_[cell]; p < first_[cell + 1]; ++p) open_[point_[p]] = 1;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "light/cutout.h"
+#include "light/ray_list.h"
 #include "sunlit/light/geometry.h"
 #include "sunlit/light/visibility.h"
 
@@ -76,6 +77,8 @@ class Crown {
   std::vector<float> u_, v_;        ///< … and the shares of its corners there
   float low_x_ = 0.0f, low_y_ = 0.0f, lowest_ = 0.0f;
   int columns_ = 0, rows_ = 0;
+  RayList beyond_;  ///< one a cell
+  std::vector<std::uint8_t> blocked_;
   std::vector<std::uint8_t> open_;
 };
 

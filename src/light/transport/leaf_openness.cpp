@@ -138,6 +138,10 @@ class Looker {
     float cell_m;
   };
   using Key = std::array<int, 3>;
+  struct Points {
+    std::vector<Crown::Point> points;
+    std::vector<std::size_t> to;  ///< of each point: where its sectors are kept
+  };
 
   void addToGroup(std::uint32_t masked) {
     const std::uint32_t t = cutouts_.maskedTriangles()[masked];
@@ -154,12 +158,15 @@ class Looker {
   }
 
   void lookFrom(const Group& group) {
+    std::array<Points, kTurns> of_turn;
+    for (const std::uint32_t masked : group.masked) addPoints(masked, &of_turn);
     std::vector<Crown::Point> points;
-    std::vector<std::size_t> to;  // of each point: where its sectors are kept
+    std::vector<std::size_t> to;
     std::array<Crown::Range, kTurns> ranges;
     for (std::size_t turn = 0; turn < kTurns; ++turn) {
       ranges[turn].first = points.size();
-      for (const std::uint32_t masked : group.masked) addPoints(masked, turn, &points, &to);
+      points.insert(points.end(), of_turn[turn].points.begin(), of_turn[turn].points.end());
+      to.insert(to.end(), of_turn[turn].to.begin(), of_turn[turn].to.end());
       ranges[turn].end = points.size();
     }
     Crown crown({geometry_, cutouts_, visibility_}, std::move(points), group.cell_m);
@@ -180,9 +187,7 @@ class Looker {
     }
   }
 
-  /// Those whose turn it is.
-  void addPoints(std::uint32_t masked, std::size_t turn, std::vector<Crown::Point>* points,
-                 std::vector<std::size_t>* to) {
+  void addPoints(std::uint32_t masked, std::array<Points, kTurns>* of_turn) {
     const std::uint32_t t = cutouts_.maskedTriangles()[masked];
     const int steps = stepsOf(geometry_, t);
     const auto& c = geometry_.triangles[t];
@@ -193,13 +198,14 @@ class Looker {
     std::size_t node = 0;
     for (int i = 0; i <= steps; ++i) {
       for (int j = 0; i + j <= steps; ++j, ++node) {
-        if (!needed[node] || (static_cast<std::size_t>(i + j) + t) % kTurns != turn) continue;
+        if (!needed[node]) continue;
+        Points& points = (*of_turn)[(static_cast<std::size_t>(i + j) + t) % kTurns];
         const float u = static_cast<float>(i) / static_cast<float>(steps) * (1.0f - inwards) + inwards / 3.0f;
         const float v = static_cast<float>(j) / static_cast<float>(steps) * (1.0f - inwards) + inwards / 3.0f;
-        points->push_back({(1.0f - u - v) * geometry_.positions[c[0]] + u * geometry_.positions[c[1]] +
-                               v * geometry_.positions[c[2]],
-                           geometry_.planes[t].normal});
-        to->push_back(grid + 1 + kSectors * node);
+        points.points.push_back({(1.0f - u - v) * geometry_.positions[c[0]] + u * geometry_.positions[c[1]] +
+                                     v * geometry_.positions[c[2]],
+                                 geometry_.planes[t].normal});
+        points.to.push_back(grid + 1 + kSectors * node);
       }
     }
   }

@@ -25,19 +25,13 @@ scene::Scene tree(std::mt19937* random, std::vector<Crown::Point>* points) {
   const auto way = [&] {
     return Eigen::Vector3f(between(-1, 1), between(-1, 1), between(-1, 1)).normalized();
   };
-  scene::Scene scene;
   scene::Texture chequers;
   chequers.name = "chequers";
   chequers.width = chequers.height = 8;
   for (int i = 0; i < 64; ++i)
     chequers.rgba.insert(chequers.rgba.end(),
                          {255, 255, 255, static_cast<std::uint8_t>((i / 8 + i) % 2 == 0 ? 255 : 0)});
-  scene.textures.push_back(chequers);
-  scene::Material leaf = paint(0.3f);
-  leaf.base_texture = 0;
-  leaf.alpha_mode = scene::AlphaMode::kMask;
-  leaf.transmission = 0.45f;
-  scene.materials = {leaf, paint(0.2f)};
+  scene::Scene scene = leafSceneOf(chequers);
   addGround(&scene, kBoard, 200.0f);
   addBlock(&scene, kBoard, {-0.1f, -0.1f, 0.0f}, {0.2f, 0.2f, 4.0f});
   addPatch(&scene, kBoard, {8.0f, -20.0f, 0.0f}, {0.0f, 40.0f, 0.0f}, {0.0f, 0.0f, 9.0f});

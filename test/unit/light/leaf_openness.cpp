@@ -24,18 +24,11 @@ constexpr int kLeaf = 0, kBoard = 1;
 
 /// A leaf's material, solid all over, and an opaque one.
 scene::Scene leafScene() {
-  scene::Scene scene;
   scene::Texture solid;
   solid.name = "solid";
   solid.width = solid.height = 2;
   solid.rgba.assign(16, 255);
-  scene.textures.push_back(solid);
-  scene::Material leaf = paint(0.3f);
-  leaf.base_texture = 0;
-  leaf.alpha_mode = scene::AlphaMode::kMask;
-  leaf.transmission = 0.45f;
-  scene.materials = {leaf, paint(0.0f)};
-  return scene;
+  return leafSceneOf(solid);
 }
 
 LeafOpenness opennessOf(scene::Scene scene, std::shared_ptr<const Geometry>* geometry) {
@@ -118,24 +111,6 @@ TEST(LeafOpenness, ChangesWithinALeafThatAWallCutsInTwo) {
   }
 }
 
-/// The triangle that holds `point`.
-std::uint32_t triangleAt(const Geometry& geometry, const Looked& point) {
-  for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
-    const Plane& plane = geometry.planes[t];
-    if (std::abs(plane.normal.dot(point.normal)) < 0.9999f) continue;
-    if (std::abs(static_cast<double>(plane.normal.dot(point.position)) - plane.offset) > 1e-3) continue;
-    const auto& corners = geometry.triangles[t];
-    bool inside = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Eigen::Vector3f& from = geometry.positions[corners[k]];
-      const Eigen::Vector3f& to = geometry.positions[corners[(k + 1) % 3]];
-      inside = inside && plane.normal.dot((to - from).cross(point.position - from)) >= -1e-4f;
-    }
-    if (inside) return t;
-  }
-  throw std::logic_error("no triangle there");
-}
-
 /// Leaves at random in a ball over black ground, and points of theirs.
 scene::Scene crown(std::vector<Looked>* points) {
   std::mt19937 random(3);
@@ -207,7 +182,7 @@ TEST(LeafOpenness, EachSideOfALeafHasLightOfItsOwn) {
   const auto transport = Transport::bake(world.geometry, {});
   const std::vector<Eigen::Array3f> irradiance = transport->irradiance(uniformDay(1.0f));
   const Eigen::Vector3f point(0.2f, 0.1f, 3.0f);
-  const std::uint32_t leaf = triangleAt(*world.geometry, {point, Eigen::Vector3f::UnitZ(), {}, {}});
+  const std::uint32_t leaf = triangleAt(*world.geometry, point, Eigen::Vector3f::UnitZ());
   const auto light = [&](bool up) {
     const bool front = (world.geometry->planes[leaf].normal.z() > 0.0f) == up;
     const LightPlace place = transport->placeOf(leaf, front, point);
@@ -228,7 +203,8 @@ TEST(LeafOpenness, LightsACrownAsTracedPathsDo) {
   Surfaces surfaces = rowOf(points, *world.geometry->scene);
   for (Tile& tile : surfaces.tiles) {
     for (Surface& surface : tile.surfaces)
-      surface.triangle = triangleAt(*world.geometry, points[surface.pixel]);
+      surface.triangle =
+          triangleAt(*world.geometry, points[surface.pixel].position, points[surface.pixel].normal);
   }
   world.transport->locate(&surfaces);
   const std::vector<double> fast =

@@ -30,6 +30,19 @@ inline scene::Material paint(float albedo, float emission = 0.0f) {
   return material;
 }
 
+/// A scene without triangles whose first material is a leaf's, cut out by `mask`, and whose second is opaque
+/// and black.
+inline scene::Scene leafSceneOf(const scene::Texture& mask) {
+  scene::Scene scene;
+  scene.textures.push_back(mask);
+  scene::Material leaf = paint(0.3f);
+  leaf.base_texture = 0;
+  leaf.alpha_mode = scene::AlphaMode::kMask;
+  leaf.transmission = 0.45f;
+  scene.materials = {leaf, paint(0.0f)};
+  return scene;
+}
+
 /// The sides of the box from `low` to `low` + `size`, seen from inside.
 inline void addRoom(scene::Scene* scene, int material, const Eigen::Vector3f& low,
                     const Eigen::Vector3f& size) {
@@ -59,7 +72,7 @@ inline std::uint32_t triangleAt(const Geometry& geometry, const Eigen::Vector3f&
                                 const Eigen::Vector3f& normal) {
   for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
     const Plane& plane = geometry.planes[t];
-    if (std::abs(plane.normal.dot(normal)) < 0.99f) continue;
+    if (std::abs(plane.normal.dot(normal)) < 0.9999f) continue;
     if (std::abs(static_cast<double>(plane.normal.dot(point)) - plane.offset) > 1e-3) continue;
     bool inside = true;
     for (std::size_t k = 0; k < 3; ++k) {
