@@ -34,14 +34,20 @@ Eigen::Array3f seenInMirror(const Surface& surface, const Eigen::Array4f& sky, c
 
 Eigen::Array4f mirroredSky(const MirrorView& view, const MirrorSky& sky) {
   Eigen::Array4f sum = Eigen::Array4f::Zero();
+  if (const auto* rough = std::get_if<RoughMirror>(&view)) {
+    sum.head<3>() = sky.patches().times(rough->share.data()) * rough->scale;
+    sum[3] = rough->unhidden;
+    return sum;
+  }
+  const auto& smooth = std::get<SmoothMirror>(view);
   float open = 0.0f;
-  for (std::size_t k = 0; k < MirrorView::kParts; ++k) {
-    const auto share = static_cast<float>(view.open[k]);
-    sum += sky.luminance(view.place[k]) * share;
+  for (std::size_t k = 0; k < SmoothMirror::kParts; ++k) {
+    const auto share = static_cast<float>(smooth.open[k]);
+    sum += sky.luminance(smooth.place[k]) * share;
     open += share;
   }
   sum[3] = open;
-  constexpr float kAll = 255.0f * MirrorView::kParts;
+  constexpr float kAll = 255.0f * SmoothMirror::kParts;
   return sum / kAll;
 }
 

@@ -8,7 +8,7 @@
 namespace sunlit::light {
 
 /// The part of the sky that a mirror-like lobe looks at, cd/m², mean over the whole lobe; fourth: how much of
-/// the lobe looks at sky, 0 … 1.
+/// the lobe other surfaces leave free, 0 … 1.
 Eigen::Array4f mirroredSky(const MirrorView& view, const MirrorSky& sky);
 
 /// What is known of a surface before it is lit.

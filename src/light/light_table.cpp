@@ -26,8 +26,6 @@ LightTable::Rows rowsOf(const Surfaces& surfaces, const Tile& tile, const scene:
   rows.air.reserve(tile.surfaces.size());
   rows.ambient.reserve(tile.surfaces.size());
   rows.view.reserve(tile.surfaces.size());
-  rows.views = tile.views;
-  if (rows.views.empty()) rows.views.emplace_back();
   const auto width = static_cast<std::uint32_t>(surfaces.width);
   for (const Surface& surface : tile.surfaces) {
     const scene::Material& material = scene.materials[static_cast<std::size_t>(surface.material)];

@@ -40,8 +40,7 @@ class LightTable {
     std::vector<Site> sites;
     std::vector<AirPlace> air;
     std::vector<AmbientReflectance> ambient;
-    std::vector<MirrorView> views;    ///< that differ
-    std::vector<std::uint16_t> view;  ///< of each surface, into `views`; all 0 without baked light
+    std::vector<std::uint16_t> view;  ///< of each surface, into Tile::views; all 0 without baked light
     std::uint64_t air_nodes = 0;      ///< that the tile needs, one bit each
   };
 

@@ -15,13 +15,12 @@ constexpr int kAcross = 24;  ///< directions that one lobe is made of, on one si
 constexpr int kSectors = 4, kHeights = 2;
 static_assert(2 * kSectors * kHeights == MirrorLobe::kParts, "two sides alike");
 constexpr float kSmoothest = scene::Material::kSmoothest;
-/// What a dielectric weighs its lobe's parts by.
-constexpr float kUsualF0 = 0.04f;
 
 struct Sample {
   Eigen::Vector3f towards;
   float plain, grazing;
-  float weight() const { return kUsualF0 * plain + grazing; }
+  /// Of a dielectric.
+  float weight() const { return kDielectricF0 * plain + grazing; }
   float turn() const { return std::abs(std::atan2(towards.y(), towards.x())); }
 };
 

@@ -24,7 +24,7 @@ constexpr std::array<MirrorLevel, 5> kMirrorLevels = {
     {{128, 0.02f, 0}, {64, 0.14f, 16384}, {64, 0.26f, 20480}, {64, 0.45f, 24576}, {64, 0.75f, 28672}}};
 constexpr std::size_t kMirrorPlaces = kMirrorLevels.back().first + 64 * 64;
 static_assert(kMirrorPlaces <= 65536, "places are 16-bit numbers");
-static_assert(MirrorView::kParts == static_cast<std::size_t>(MirrorLobe::kParts), "one direction a part");
+static_assert(SmoothMirror::kParts == static_cast<std::size_t>(MirrorLobe::kParts), "one direction a part");
 
 /// The cap, evenly filled, whose mean direction has a length (1 + cos radius) / 2: number of its level.
 inline std::int32_t mirrorLevel(float squared_length) {

@@ -6,7 +6,9 @@
 
 namespace sunlit::light {
 
-MirrorSky::MirrorSky(const sky::Daylight& day) : table_(kMirrorPlaces, Eigen::Array4f::Zero()) {
+MirrorSky::MirrorSky(const sky::Daylight& day)
+    : patches_(SkyPatches::luminances(day, SkyPatches::Weight::kEven)),
+      table_(kMirrorPlaces, Eigen::Array4f::Zero()) {
   const MirrorPlaces& sky = mirrorPlaces();
   tbb::parallel_for(std::size_t{0}, kMirrorLevels[0].cells(), [&](std::size_t place) {
     if (sky.below[place]) return;

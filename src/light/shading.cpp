@@ -11,9 +11,6 @@
 namespace sunlit::light {
 namespace {
 
-/// Reflectance of a dielectric of index 1.5 at normal incidence, as glTF 2.0 fixes it.
-constexpr float kDielectricF0 = 0.04f;
-
 Eigen::Array3f normalReflectance(const Reflection& r) {
   return kDielectricF0 + (r.albedo - kDielectricF0) * r.metalness;
 }

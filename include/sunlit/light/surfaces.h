@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <variant>
 #include <vector>
 
 namespace sunlit::light {
@@ -26,12 +27,23 @@ struct SkyView {
   bool known = false;                            ///< else the nodes tell
 };
 
-/// What a surface mirrors: parts of equal weight, each about one direction.
-struct MirrorView {
+/// What a smooth surface mirrors: parts of its lobe of equal weight, each about one direction.
+struct SmoothMirror {
   static constexpr std::size_t kParts = 16;
   std::array<std::uint16_t, kParts> place = {};  ///< the direction, as an index into MirrorSky
   std::array<std::uint8_t, kParts> open = {};    ///< how much of the sky there is not hidden, 255 for all
 };
+
+/// What a rough surface mirrors: how much of its lobe looks at each patch of the sky.
+struct RoughMirror {
+  static constexpr std::size_t kPatches = 176;  ///< SkyPatches tells where they lie
+  std::array<std::uint8_t, kPatches> share =
+      {};  ///< of the lobe, in parts of `scale`, where nothing hides it
+  float scale = 0.0f;
+  float unhidden = 1.0f;  ///< share of the lobe that no other surface hides; the sum of the above, or more
+};
+
+using MirrorView = std::variant<SmoothMirror, RoughMirror>;
 
 /// How far off its triangle a ray starts, m, at `position` in `map` and `distance_m` from where it is seen:
 /// above what single precision does to the point and to the distance that a ray query computes, and well

@@ -7,45 +7,13 @@
 #include <array>
 #include <cmath>
 
+#include "light/transport/patch_sky.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
 namespace {
 
 constexpr std::size_t kPatches = SkyPatches::kCount;
-
-/// The sky in whole numbers: sums of products with the coefficients' bytes are exact, in any order.
-struct WholeSky {
-  /// 255 · 32767 · kCount stays below 2³¹.
-  alignas(64) std::array<std::array<std::int16_t, kPatches>, 3> patches;
-  std::array<float, 3> scale;
-
-  explicit WholeSky(const std::array<Eigen::Array3f, kPatches>& luminances) {
-    for (int c = 0; c < 3; ++c) {
-      float largest = 0.0f;
-      for (const Eigen::Array3f& luminance : luminances) largest = std::max(largest, luminance[c]);
-      const auto channel = static_cast<std::size_t>(c);
-      scale[channel] = largest / 32767.0f;
-      for (std::size_t p = 0; p < kPatches; ++p) {
-        patches[channel][p] =
-            largest > 0.0f ? static_cast<std::int16_t>(std::lround(luminances[p][c] / largest * 32767.0f))
-                           : 0;
-      }
-    }
-  }
-
-  Eigen::Array3f times(const std::uint8_t* row) const {
-    std::int32_t r = 0, g = 0, b = 0;
-    for (std::size_t p = 0; p < kPatches; ++p) {
-      const auto coefficient = static_cast<std::int16_t>(row[p]);
-      r += static_cast<std::int32_t>(coefficient) * patches[0][p];
-      g += static_cast<std::int32_t>(coefficient) * patches[1][p];
-      b += static_cast<std::int32_t>(coefficient) * patches[2][p];
-    }
-    return {static_cast<float>(r) * scale[0], static_cast<float>(g) * scale[1],
-            static_cast<float>(b) * scale[2]};
-  }
-};
 
 /// A disc as additional luminance of the patches around it.
 struct SmallLight {
@@ -73,7 +41,7 @@ float hiddenShare(const Coefficients& direct, std::size_t sample) {
 }
 
 NodeLight sampleLight(const TransportData& data, const sky::Daylight& day) {
-  const WholeSky sky(SkyPatches::luminances(day));
+  const PatchSky sky(SkyPatches::luminances(day, SkyPatches::Weight::kCosine));
   const SmallLight sun(day.sun()), moon(day.moon());
   NodeLight light;
   light.irradiance.resize(data.tints.size());

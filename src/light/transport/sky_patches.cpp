@@ -79,7 +79,8 @@ float SkyPatches::solidAngle(int patch) {
   return static_cast<float>(2.0 * kPi * (sine(ring.high_deg) - sine(ring.low_deg)) / ring.patches);
 }
 
-std::array<Eigen::Array3f, SkyPatches::kCount> SkyPatches::luminances(const sky::Daylight& day) {
+std::array<Eigen::Array3f, SkyPatches::kCount> SkyPatches::luminances(const sky::Daylight& day,
+                                                                       Weight weight) {
   constexpr int kAcross = 4;  // points a patch and axis
   std::array<Eigen::Array3f, kCount> means;
   for (int patch = 0; patch < kAbove; ++patch) {
@@ -89,8 +90,9 @@ std::array<Eigen::Array3f, SkyPatches::kCount> SkyPatches::luminances(const sky:
       const double u = (i % kAcross + 0.5) / kAcross;
       const double v = (i / kAcross + 0.5) / kAcross;
       const Eigen::Vector3f towards = pointIn(patch, u, v);
-      sum += towards.z() * day.skyLuminance(towards).value;
-      weights += towards.z();
+      const float counts = weight == Weight::kCosine ? towards.z() : 1.0f;
+      sum += counts * day.skyLuminance(towards).value;
+      weights += counts;
     }
     means[static_cast<std::size_t>(patch)] = sum / weights;
   }

@@ -60,9 +60,11 @@ class SkyPatches {
   /// Those of them that sample the whole sphere coarsely; index k < kAbove stands for patch k.
   const std::vector<Ray>& coarseRays() const { return coarse_; }
 
-  /// Mean luminance of each patch, cd/m², without the discs; above the horizon by cosine to the zenith, so
-  /// that level ground gets exactly its light from a sky that changes within a patch.
-  static std::array<Eigen::Array3f, kCount> luminances(const sky::Daylight& day);
+  /// What directions within a patch count by: the cosine to the zenith, so that level ground gets exactly its
+  /// light from a sky that changes within a patch, or all alike.
+  enum class Weight { kCosine, kEven };
+  /// Mean luminance of each patch, cd/m², without the discs; below the horizon by kEven.
+  static std::array<Eigen::Array3f, kCount> luminances(const sky::Daylight& day, Weight weight);
   /// Between which patches a small light is divided; shares sum to 1 and change continuously with direction.
   static std::array<PatchShare, 4> around(const Eigen::Vector3f& towards);
   /// The point of a patch above the horizon at shares (u, v) of its azimuth and of the sine of its elevation.

@@ -1,0 +1,94 @@
+#include "light/open_patches.h"
+
+#include <algorithm>
+
+#include "sunlit/quantity/vector_clones.h"
+
+namespace sunlit::light {
+namespace {
+
+/// Samples that a surface takes its light from.
+struct SampleRows {
+  struct Row {
+    const std::uint8_t* values;  ///< one a patch
+    float weight;
+  };
+  std::array<Row, 24> rows;
+  std::size_t count = 0;
+
+  /// Samples of thin sheets take but part of their light from this side.
+  SampleRows(const TransportData& data, const Surface& surface, float transmission) {
+    const LightMesh& mesh = data.mesh;
+    const float scale = 1.0f / (1.0f - std::min(transmission, 0.9f));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t node = surface.light.node[k];
+      for (std::uint32_t s = mesh.first_share[node]; s < mesh.first_share[node + 1]; ++s) {
+        if (count == rows.size()) break;  // a node of more samples than this needs no more of them
+        const std::uint32_t sample = mesh.shares[s].sample;
+        rows[count++] = {data.direct.row(sample), scale * surface.light.weight[k] * mesh.shares[s].weight *
+                                                      data.direct.scales[sample]};
+      }
+    }
+  }
+};
+
+// The two loops apart, each over all patches at once, which takes less time than patches asked for one by
+// one.
+SUNLIT_VECTOR_CLONES
+void addRow(const SampleRows::Row& row, float* __restrict sums) {
+  const std::uint8_t* const values = row.values;
+  const float weight = row.weight;
+  for (int p = 0; p < SkyPatches::kCount; ++p) sums[p] += weight * static_cast<float>(values[p]);
+}
+
+/// `sums` are over the rows.
+SUNLIT_VECTOR_CLONES
+void divideByWhole(const float* normal, const MirrorPlaces::Middles& middles, const float* __restrict sums,
+                   float* __restrict share, float* __restrict known) {
+  const float x = normal[0], y = normal[1], z = normal[2];
+  const float *const mx = middles.x.data(), *const my = middles.y.data(), *const mz = middles.z.data();
+  const float* const angle = middles.solid_angle.data();
+  for (int p = 0; p < SkyPatches::kCount; ++p) {
+    const float whole = x * mx[p] + y * my[p] + z * mz[p];
+    // A patch that the surface's own plane cuts says little.
+    const bool tells = whole > 0.02f * angle[p];
+    const float part = sums[p] / (tells ? whole : 1.0f);
+    const float one = tells ? 1.0f : 0.0f;
+    known[p] = one;
+    share[p] = one * (part < 1.0f ? part : 1.0f);
+  }
+}
+
+/// The samples' own: as in the bake, normals of the file count where they are sensible.
+const Eigen::Vector3f& bakedNormal(const Surface& surface) {
+  constexpr float kSensible = 0.7f;
+  return surface.shading_normal.dot(surface.geometric_normal) < kSensible ? surface.geometric_normal
+                                                                          : surface.shading_normal;
+}
+
+OpenPatches bySectors(const SkyView& sky) {
+  const auto& sectors = mirrorPlaces().sectors;
+  OpenPatches open;
+  for (std::size_t p = 0; p < SkyPatches::kAbove; ++p) {
+    open.share[p] = static_cast<float>(sky.open[sectors[p]]) * (1.0f / 255.0f);
+    open.known[p] = 1.0f;
+  }
+  open.share[SkyPatches::kBelow] = open.known[SkyPatches::kBelow] = 0.0f;
+  return open;
+}
+
+}  // namespace
+
+OpenPatches openPatches(const TransportData& data, const Surface& surface, float transmission) {
+  if (surface.sky.known) return bySectors(surface.sky);
+  const SampleRows samples(data, surface, transmission);
+  PatchValues sums;
+  sums.fill(0.0f);
+  for (std::size_t i = 0; i < samples.count; ++i) addRow(samples.rows[i], sums.data());
+  const Eigen::Vector3f& normal = transmission > 0.0f ? surface.shading_normal : bakedNormal(surface);
+  OpenPatches open;
+  divideByWhole(normal.data(), mirrorPlaces().middles, sums.data(), open.share.data(), open.known.data());
+  return open;
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,19 @@
+/// How much of the sky a surface has before it, patch by patch.
+#pragma once
+
+#include "light/mirror_places.h"
+#include "light/transport/transport_data.h"
+#include "sunlit/light/surfaces.h"
+
+namespace sunlit::light {
+
+struct OpenPatches {
+  PatchValues share;  ///< 0 … 1
+  PatchValues known;  ///< 1, or 0 where the surface's samples don't tell, and `share` is 0
+};
+
+/// By the surface's own view of the sky, or else by the samples of `data` around it. `transmission` is its
+/// material's; thin sheets see the sky on both sides, if they have their own view.
+OpenPatches openPatches(const TransportData& data, const Surface& surface, float transmission);
+
+}  // namespace sunlit::light
