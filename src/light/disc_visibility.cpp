@@ -3,9 +3,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "light/angles.h"
 #include "light/ray_list.h"
 
 namespace sunlit::light {
@@ -14,20 +14,12 @@ namespace {
 /// What probes met, as bits of one byte.
 constexpr std::uint8_t kLit = 1, kDark = 2;
 
-/// Points of a Fibonacci spiral fill the disc evenly: point i of n at radius sqrt((i + ½) / n). These are the
-/// orders in which they are used, the same for every pixel of the same parity: a penumbra then consists of
-/// fine steps that lie still in the world. Points at random would turn it into grain that clings to the
-/// screen, and feature detectors find grain. The first four lie near the rim, about 90° apart, so that hardly
-/// any shadow edge can cross the disc without their telling. They are the same in all pixels: with others in
-/// odd pixels, where x + y is odd, the error of thin shadows was a tenth larger. The first half of the points
-/// fills the disc evenly, too: half of them outer ones, and of the inner ones those of even number in even
-/// pixels and those of odd number in odd ones, so that neighbours complete each other.
-constexpr std::array<std::array<int, 16>, 2> kOrder = {
-    {{14, 8, 12, 10, 0, 2, 4, 6, 1, 3, 5, 7, 9, 11, 13, 15},
-     {14, 8, 12, 10, 1, 3, 5, 7, 0, 2, 4, 6, 9, 11, 13, 15}}};
-constexpr int kFirstPoints = 4;
-/// Neighbours complete each other where they differ by at most this. Half of the points may be off by one.
-constexpr int kEighths = 8, kMostDifferent = 3;
+constexpr int kPoints = static_cast<int>(DiscPoints::kPoints), kQuad = static_cast<int>(DiscPoints::kQuad);
+static_assert(kQuad == ShareWindows::kRays);
+/// Side of the blocks in which gaps of deep shade are looked for, px, and how many of them a quadrant reaches
+/// to each side: 128 probes, of which one gets through with 70 % where 1 % of the disc shines through.
+constexpr int kBlock = 4, kQuadrant = 4;
+constexpr int kBlocksOfTile = Surfaces::kTileSize / kBlock;
 
 /// Rays of the tile that a thread is busy with.
 struct Lists {
@@ -48,25 +40,13 @@ DiscVisibility::DiscVisibility(const sky::DiscLight& disc, float least_lx, const
       shines_(disc.illuminance.value.maxCoeff() > least_lx),
       towards_(disc.towards.vector().cast<float>()),
       radius_rad_(static_cast<float>(disc.angular_radius.rad())),
+      points_(towards_, radius_rad_),
       tallies_(surfaces.tiles.size()),
       shares_(surfaces.tiles.size()),
       met_(surfaces.width, surfaces.height),
       mixed_(surfaces.width, surfaces.height),
-      share_(surfaces.width, surfaces.height) {
-  const Eigen::Vector3f across =
-      std::abs(towards_.z()) < 0.9f ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX();
-  across_ = across.cross(towards_).normalized();
-  const Eigen::Vector3f right = across_ * std::tan(radius_rad_);
-  const Eigen::Vector3f up = towards_.cross(right);
-  up_ = towards_.cross(across_);
-  for (std::size_t odd = 0; odd < 2; ++odd) {
-    for (std::size_t i = 0; i < kPoints; ++i) {
-      const int point = kOrder[odd][i];
-      const double radius = std::sqrt((point + 0.5) / kPoints), turn = kGoldenAngle * point;
-      directions_[odd][i] = towards_ + static_cast<float>(radius * std::cos(turn)) * right +
-                            static_cast<float>(radius * std::sin(turn)) * up;
-    }
-  }
+      lit_(surfaces.width, surfaces.height),
+      gaps_(surfaces.width / kBlock + 1, surfaces.height / kBlock + 1) {
   castAll();
 }
 
@@ -77,19 +57,16 @@ void DiscVisibility::castAll() {
   };
   eachTile([this](std::size_t tile) { probe(tile); });
   eachTile([this](std::size_t tile) { sample(tile); });
+  eachTile([this](std::size_t tile) { follow(tile); });
   eachTile([this](std::size_t tile) { refine(tile); });
-  eachTile([this](std::size_t tile) { complete(tile); });
 }
 
-int DiscVisibility::raysAfter(Step step, int samples) const {
+int DiscVisibility::raysAfter(Step step, int samples, bool fills) const {
   if (step == Step::kProbe) return 1;
-  // One a sample; but a whole pixel gets all of the first points, however few samples it has.
+  // One a sample, except where neighbours help; but a whole pixel gets a quad, however few samples it has.
   const int pixel = surfaces_.samples_per_pixel;
-  const int first = std::max(samples, kFirstPoints * samples / pixel);
-  if (step == Step::kSample) return first;
-  // What is not alone in its pixel has no neighbours to complete it.
-  const bool half = step == Step::kRefine && samples == pixel;
-  return std::max(first, (half ? kPoints / 2 : kPoints) * samples / pixel);
+  const int first = fills ? kQuad : std::max(samples, kQuad * samples / pixel);
+  return step == Step::kSample ? first : std::max(first, kPoints * samples / pixel);
 }
 
 bool DiscVisibility::facesDisc(const LightTable::Site& site) const {
@@ -106,16 +83,14 @@ void DiscVisibility::appendRays(std::size_t number, std::uint32_t index, Step st
   const Tile& tile = surfaces_.tiles[number];
   Tally& tally = tallies_[number][index];
   RayList& rays = site.leaves ? lists().leaves : lists().solid;
-  const auto end = static_cast<std::uint32_t>(raysAfter(step, site.samples));
+  const auto end = static_cast<std::uint32_t>(raysAfter(step, site.samples, tally.fills));
   if (tally.cast >= end) return;
-  // All first points in turn also among the pixels of a checkerboard, which is what is probed of solid
-  // ground.
-  const auto& directions = directions_[site.leaves ? 0 : (site.x + site.y) & 1u];
+  const DiscPoints::OfPixel points = points_.ofPixel(site.x, site.y);
   const std::uint32_t parity = (site.x >> 1 & 1u) + 2u * (site.y & 1u);
   std::uint32_t sample = (tally.cast + parity) % site.samples;
   rays.reserve(end - tally.cast);
   for (std::uint32_t i = tally.cast; i < end; ++i) {
-    const Eigen::Vector3f& direction = directions[i < kFirstPoints ? (i + parity) % kFirstPoints : i];
+    const Eigen::Vector3f& direction = points[i];
     const std::uint32_t at = site.first_sample + sample;
     if (++sample == site.samples) sample = 0;
     Eigen::Vector3f origin(tile.origin_x[at], tile.origin_y[at], tile.origin_z[at]);
@@ -141,7 +116,7 @@ void DiscVisibility::cast(std::size_t number) {
   Lists& rays = lists();
   if (rays.solid.size() > 0) castList(rays.solid);
   if (rays.leaves.size() == 0) return;
-  rays.in_columns.setInColumns(rays.leaves, across_, up_);
+  rays.in_columns.setInColumns(rays.leaves, points_.across(), points_.up());
   castList(rays.in_columns);
 }
 
@@ -164,19 +139,44 @@ void DiscVisibility::probe(std::size_t number) {
     if (!tally.waits) appendRays(number, i, Step::kProbe);
   }
   cast(number);
-  for (std::size_t i = 0; i < tallies.size(); ++i)
-    if (tallies[i].cast > 0) met_.at(sites[i].x, sites[i].y) |= tallies[i].lit > 0 ? kLit : kDark;
+  for (std::size_t i = 0; i < tallies.size(); ++i) {
+    if (tallies[i].cast == 0) continue;
+    met_.at(sites[i].x, sites[i].y) |= tallies[i].lit > 0 ? kLit : kDark;
+    if (tallies[i].fills && tallies[i].lit > 0) gaps_.at(sites[i].x / kBlock, sites[i].y / kBlock) = 1;
+  }
+}
+
+bool DiscVisibility::hasGapsAround(int x, int y) const {
+  const auto inQuadrant = [&](int side, int row) {
+    for (int j = 0; j < kQuadrant; ++j)
+      for (int i = 0; i < kQuadrant; ++i)
+        if (gaps_.at(x + side * i, y + row * j) != 0) return 1;
+    return 0;
+  };
+  // Beyond a straight edge of a shadow light lies in two quadrants.
+  return inQuadrant(-1, -1) + inQuadrant(1, -1) + inQuadrant(-1, 1) + inQuadrant(1, 1) >= 4;
+}
+
+void DiscVisibility::note(const Tile& tile, const Tally& tally) {
+  lit_.at(tile.x + tally.x, tile.y + tally.y) = static_cast<std::uint8_t>(1 + kQuad * tally.lit / tally.cast);
 }
 
 void DiscVisibility::sample(std::size_t number) {
   lists().solid.clear();
   lists().leaves.clear();
-  const PixelMap::OfTile met = met_.bitsAround(surfaces_.tiles[number]);
+  const Tile& tile = surfaces_.tiles[number];
+  const PixelMap::OfTile met = met_.bitsAround(tile);
+  std::array<std::array<bool, kBlocksOfTile>, kBlocksOfTile> gaps;
+  for (int y = 0; y < kBlocksOfTile; ++y)
+    for (int x = 0; x < kBlocksOfTile; ++x)
+      gaps[y][x] = hasGapsAround(tile.x / kBlock + x, tile.y / kBlock + y);
   std::vector<Tally>& tallies = tallies_[number];
   for (std::uint32_t i = 0; i < tallies.size(); ++i) {
     Tally& tally = tallies[i];
     const std::uint8_t around = met[tally.y][tally.x];
-    const bool agree = around == kLit || around == kDark;
+    // A few per cent of the sun are as much light as all the sky gives to deep shade.
+    const bool gap = tally.fills && gaps[tally.y / kBlock][tally.x / kBlock];
+    const bool agree = around == kLit || (around == kDark && !gap);
     if (tally.waits && agree) {
       tally.settled = true;
       tally.lit = tally.cast = 1;
@@ -186,59 +186,53 @@ void DiscVisibility::sample(std::size_t number) {
     }
   }
   cast(number);
-  const Tile& tile = surfaces_.tiles[number];
   for (const Tally& tally : tallies) {
     if (tally.mixed()) mixed_.at(tile.x + tally.x, tile.y + tally.y) = 1;
+    if (tally.fills && tally.cast > 0) note(tile, tally);
   }
+}
+
+void DiscVisibility::follow(std::size_t number) {
+  lists().solid.clear();
+  lists().leaves.clear();
+  const Tile& tile = surfaces_.tiles[number];
+  const PixelMap::OfTile mixed = mixed_.bitsAround(tile);
+  std::vector<Tally>& tallies = tallies_[number];
+  thread_local std::vector<std::uint32_t> followed;
+  followed.clear();
+  for (std::uint32_t i = 0; i < tallies.size(); ++i) {
+    Tally& tally = tallies[i];
+    if (!tally.fills || tally.cast != 1 || mixed[tally.y][tally.x] == 0) continue;
+    if (tally.settled) {
+      tally.settled = false;
+      tally.lit = tally.cast = 0;
+    }
+    appendRays(number, i, Step::kSample);
+    followed.push_back(i);
+  }
+  cast(number);
+  for (const std::uint32_t i : followed) note(tile, tallies[i]);
 }
 
 void DiscVisibility::refine(std::size_t number) {
   lists().solid.clear();
   lists().leaves.clear();
-  const PixelMap::OfTile mixed = mixed_.countAround(surfaces_.tiles[number]);
+  const Tile& tile = surfaces_.tiles[number];
+  const PixelMap::OfTile mixed = mixed_.countAround(tile);
+  const ShareWindows windows(lit_, tile);
   const std::vector<Tally>& tallies = tallies_[number];
+  std::vector<float>& shares = shares_[number];
+  shares.assign(tallies.size(), -1.0f);
   for (std::uint32_t i = 0; i < tallies.size(); ++i) {
     const Tally& tally = tallies[i];
     // Not foliage, which shades itself leaf by leaf: more rays cost much there, and what they would smooth is
     // hidden in the leaves. But surfaces amid such as disagree, too: a mesh or a treetop may stop all of one
     // pixel's first rays by chance, which would show as a dark dot. Beside a straight edge there are three.
-    if (tally.cast == 0 || tally.leaves || tally.settled) continue;
-    if (tally.mixed() || mixed[tally.y][tally.x] >= 4) appendRays(number, i, Step::kRefine);
-  }
-  cast(number);
-  const Tile& tile = surfaces_.tiles[number];
-  for (const Tally& tally : tallies) {
-    if (tally.fills && tally.cast > 0) {
-      share_.at(tile.x + tally.x, tile.y + tally.y) =
-          static_cast<std::uint8_t>(1 + kEighths * tally.lit / tally.cast);
-    }
-  }
-}
-
-float DiscVisibility::shareAmongNeighbours(const Tile& tile, const Tally& tally) const {
-  const int x = tile.x + tally.x, y = tile.y + tally.y;
-  const int own = share_.at(x, y);
-  int sum = 0;
-  for (const int other :
-       {share_.at(x - 1, y), share_.at(x + 1, y), share_.at(x, y - 1), share_.at(x, y + 1)}) {
-    if (other == 0 || std::abs(other - own) > kMostDifferent) return -1.0f;
-    sum += other - 1;
-  }
-  // The mean of the own half and, as the light changes evenly from one side to the other, the mean of theirs.
-  return (static_cast<float>(own - 1) + 0.25f * static_cast<float>(sum)) / (2.0f * kEighths);
-}
-
-void DiscVisibility::complete(std::size_t number) {
-  lists().solid.clear();
-  lists().leaves.clear();
-  const Tile& tile = surfaces_.tiles[number];
-  const std::vector<Tally>& tallies = tallies_[number];
-  std::vector<float>& shares = shares_[number];
-  shares.assign(tallies.size(), -1.0f);
-  for (std::uint32_t i = 0; i < tallies.size(); ++i) {
-    if (!tallies[i].fills || tallies[i].cast != kPoints / 2) continue;
-    shares[i] = shareAmongNeighbours(tile, tallies[i]);
-    if (shares[i] < 0.0f) appendRays(number, i, Step::kComplete);
+    if (tally.cast == 0 || tally.leaves) continue;
+    if (tally.fills) shares[i] = windows.share(tally.x, tally.y);
+    const bool penumbra = tally.mixed() || mixed[tally.y][tally.x] >= 4;
+    if (penumbra && !(tally.fills && (shares[i] >= 0.0f || tally.cast == 1)))
+      appendRays(number, i, Step::kRefine);
   }
   cast(number);
   for (std::size_t i = 0; i < tallies.size(); ++i) {

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <vector>
 
+#include "light/disc_points.h"
 #include "light/light_table.h"
 #include "light/pixel_map.h"
+#include "light/share_windows.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/visibility.h"
 #include "sunlit/sky/daylight.h"
@@ -46,27 +47,30 @@ class DiscVisibility {
   };
   /// Each step casts more rays, where those of the step before found an edge.
   enum class Step {
-    kProbe,     ///< one ray a surface, or in every second pixel where one solid surface fills pixels
-    kSample,    ///< as many as it has samples, where probes within two pixels met both light and dark
-    kRefine,    ///< half of the points on the disc, in penumbrae
-    kComplete,  ///< all of them, where the neighbours' other half does not do
+    kProbe,   ///< one ray a surface, or in every second pixel where one solid surface fills pixels
+    kSample,  ///< a quad of points where it fills a pixel, else as many as it has samples, where probes
+              ///< within two pixels met both light and dark, or in deep shade with gaps
+    kRefine,  ///< all points of the disc, in penumbrae, where neighbours tell nothing
   };
 
   void castAll();
   void probe(std::size_t tile);
   void sample(std::size_t tile);
+  /// Samples also what neighbours had settled, where the next pixels were found to lie in a penumbra: it
+  /// might be that of a wire.
+  void follow(std::size_t tile);
   void refine(std::size_t tile);
-  void complete(std::size_t tile);
+  /// Whether light was met all around a block of 4 × 4 pixels, in column x and row y of such blocks.
+  bool hasGapsAround(int x, int y) const;
+  /// Tells neighbours what was met in a pixel that one solid surface fills.
+  void note(const Tile& tile, const Tally& tally);
   bool facesDisc(const LightTable::Site& site) const;
   bool fillsPixel(const LightTable::Site& site) const;
-  /// The share of a surface that has had half of the points; negative if its neighbours differ too much from
-  /// it for their half to stand for the rest.
-  float shareAmongNeighbours(const Tile& tile, const Tally& tally) const;
   /// Rays of surface `index` of a tile that it has not had yet.
   void appendRays(std::size_t tile, std::uint32_t index, Step step);
   void cast(std::size_t tile);
   /// How many rays a surface of so many samples has had once `step` is done.
-  int raysAfter(Step step, int samples) const;
+  int raysAfter(Step step, int samples, bool fills) const;
 
   const Visibility& visibility_;
   const LightTable& table_;
@@ -74,16 +78,14 @@ class DiscVisibility {
   bool shines_;  ///< false when it gives no light worth casting rays for
   Eigen::Vector3f towards_;
   float radius_rad_;
-  Eigen::Vector3f across_, up_;  ///< unit, at right angles to `towards_`
-  static constexpr int kPoints = 16;
-  /// To points all over the disc, in the order of their use: in even pixels, and in odd ones.
-  std::array<std::array<Eigen::Vector3f, kPoints>, 2> directions_;
+  DiscPoints points_;
   std::vector<std::vector<Tally>> tallies_;
   std::vector<std::vector<float>> shares_;
   std::atomic<std::size_t> rays_cast_{0};
   PixelMap met_;    ///< by the probes: kLit, kDark or both
   PixelMap mixed_;  ///< 1 where rays of one surface disagree
-  PixelMap share_;  ///< 1 + the visible share in eighths, where one surface fills a pixel and faces the disc
+  PixelMap lit_;    ///< of four rays, for ShareWindows, where one surface fills a pixel and faces the disc
+  PixelMap gaps_;   ///< 1 where probes of such surfaces met light, in blocks of 4 × 4 pixels
 };
 
 }  // namespace sunlit::light

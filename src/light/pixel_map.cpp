@@ -29,14 +29,12 @@ PixelMap::OfTile joined(const std::uint8_t* top_left, std::size_t stride, Join j
 }  // namespace
 
 PixelMap::OfTile PixelMap::bitsAround(const Tile& tile) const {
-  const auto x = static_cast<std::size_t>(tile.x), y = static_cast<std::size_t>(tile.y);
-  return joined<2>(&values_[y * stride_ + x], stride_,
+  return joined<2>(&values_[place(tile.x - 2, tile.y - 2)], stride_,
                    [](unsigned a, unsigned b) { return static_cast<std::uint8_t>(a | b); });
 }
 
 PixelMap::OfTile PixelMap::countAround(const Tile& tile) const {
-  const auto x = static_cast<std::size_t>(tile.x), y = static_cast<std::size_t>(tile.y);
-  return joined<1>(&values_[(y + 1) * stride_ + x + 1], stride_,
+  return joined<1>(&values_[place(tile.x - 1, tile.y - 1)], stride_,
                    [](unsigned a, unsigned b) { return static_cast<std::uint8_t>(a + b); });
 }
 

@@ -16,12 +16,14 @@ class PixelMap {
   /// Of each pixel of a tile, by row and column.
   using OfTile = std::array<std::array<std::uint8_t, Surfaces::kTileSize>, Surfaces::kTileSize>;
 
+  static constexpr int kMargin = 8;
+
   PixelMap(int width, int height)
       : stride_(static_cast<std::size_t>(width) + 2 * kMargin),
         values_(stride_ * (static_cast<std::size_t>(height) + Surfaces::kTileSize + 2 * kMargin), 0) {}
 
   std::uint8_t& at(int x, int y) { return values_[place(x, y)]; }
-  /// Also up to two pixels beyond the picture, where it is 0.
+  /// Also up to kMargin pixels beyond the picture, where it is 0.
   std::uint8_t at(int x, int y) const { return values_[place(x, y)]; }
   /// All bits of the 5 × 5 pixels about each.
   OfTile bitsAround(const Tile& tile) const;
@@ -29,8 +31,6 @@ class PixelMap {
   OfTile countAround(const Tile& tile) const;
 
  private:
-  static constexpr int kMargin = 2;
-
   std::size_t place(int x, int y) const {
     return static_cast<std::size_t>(y + kMargin) * stride_ + static_cast<std::size_t>(x + kMargin);
   }
