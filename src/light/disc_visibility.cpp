@@ -153,7 +153,7 @@ bool DiscVisibility::hasGapsAround(int x, int y) const {
         if (gaps_.at(x + side * i, y + row * j) != 0) return 1;
     return 0;
   };
-  // Beyond a straight edge of a shadow light lies in two quadrants.
+  // Beyond a straight edge of a shadow light lies in two quadrants, beyond a corner in three.
   return inQuadrant(-1, -1) + inQuadrant(1, -1) + inQuadrant(-1, 1) + inQuadrant(1, 1) >= 4;
 }
 
@@ -227,10 +227,11 @@ void DiscVisibility::refine(std::size_t number) {
     const Tally& tally = tallies[i];
     // Not foliage, which shades itself leaf by leaf: more rays cost much there, and what they would smooth is
     // hidden in the leaves. But surfaces amid such as disagree, too: a mesh or a treetop may stop all of one
-    // pixel's first rays by chance, which would show as a dark dot. Beside a straight edge there are three.
+    // pixel's first rays by chance, which would show as a dark dot. Beside a straight edge there are three; a
+    // pixel that windows fail in may lie on a thin shadow, of which few pixels are found to be mixed.
     if (tally.cast == 0 || tally.leaves) continue;
     if (tally.fills) shares[i] = windows.share(tally.x, tally.y);
-    const bool penumbra = tally.mixed() || mixed[tally.y][tally.x] >= 4;
+    const bool penumbra = tally.mixed() || mixed[tally.y][tally.x] >= (tally.fills ? 2 : 4);
     if (penumbra && !(tally.fills && (shares[i] >= 0.0f || tally.cast == 1)))
       appendRays(number, i, Step::kRefine);
   }
