@@ -85,7 +85,7 @@ void rays(benchmark::State& state) {
       site.normal = geometry.planes[t].normal;
     }
     next += 997 * light::RayPacket::kSize;
-    light::probe(scene, patches.rays(), sites.data(), light::RayPacket::kSize,
+    light::probe(scene, patches.rays(), {sites.data(), light::RayPacket::kSize},
                  [&](int, std::size_t, float, const light::HitPacket&) { ++cast; });
   }
   state.counters["rays_per_second_on_one_core"] =

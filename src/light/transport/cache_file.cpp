@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Goes up whenever the bake or the layout below changes.
-constexpr std::uint32_t kVersion = 9;
+constexpr std::uint32_t kVersion = 10;
 constexpr char kMagic[8] = {'s', 'u', 'n', 'l', 'i', 't', 'T', '\n'};
 
 struct Header {

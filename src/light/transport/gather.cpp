@@ -10,16 +10,17 @@
 
 #include "light/angles.h"
 #include "light/mirror_lobe.h"
+#include "light/transport/adaptive_probe.h"
 #include "light/transport/ground_mirror.h"
 #include "light/transport/hidden.h"
-#include "light/transport/probe.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/photometry.h"
+#include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::light {
 namespace {
 
-constexpr int kPatches = SkyPatches::kCount;
+constexpr std::size_t kPatches = SkyPatches::kCount;
 constexpr std::uint32_t kDirectionShift = 24;  ///< a hit: the sample there, and above it the coarse direction
 constexpr std::uint32_t kSampleMask = (1u << kDirectionShift) - 1;
 static_assert(SkyPatches::kCoarse <= 256, "a coarse direction fits above a sample");
@@ -34,15 +35,27 @@ float luminanceOf(const Eigen::Array3f& rgb) {
   return LinearRgb(rgb).luminance();
 }
 
+/// Adds a row of coefficients times `factor`.
+SUNLIT_VECTOR_CLONES
+void addTimes(float factor, const std::uint8_t* coefficients, float* row) {
+  for (std::size_t p = 0; p < kPatches; ++p) row[p] += factor * static_cast<float>(coefficients[p]);
+}
+/// Likewise, each also times one of `shares`.
+SUNLIT_VECTOR_CLONES
+void addTimes(float factor, const float* shares, const std::uint8_t* coefficients, float* row) {
+  for (std::size_t p = 0; p < kPatches; ++p)
+    row[p] += factor * shares[p] * static_cast<float>(coefficients[p]);
+}
+
 class Gatherer {
  public:
   Gatherer(const BakeScene& scene, const SceneSamples& samples, const GatherOptions& options)
       : geometry_(scene.geometry),
-        rays_(scene.rays),
         traits_(scene.traits),
         samples_(samples),
         options_(options),
         patches_(options.rays_per_patch),
+        probe_(scene.rays, scene.traits, patches_),
         count_(samples.sites.size()) {}
 
   std::vector<bool> gather(TransportData* data) {
@@ -82,6 +95,8 @@ class Gatherer {
     Row row{};
     Hidden hidden;
     float all = 0.0f, inside = 0.0f, blocked_up = 0.0f, coarse_blocked_up = 0.0f;
+    std::array<std::uint32_t, SkyPatches::kCoarse> hits;  ///< as Seen's
+    std::size_t hit_count = 0;
   };
 
   void step(double share) {
@@ -124,15 +139,16 @@ class Gatherer {
       if (samples_.behind[sample].sample != LightMesh::kNone) sites[i].transmission = 0.5f;
     }
     const auto& rays = patches_.rays();
-    probe(rays_, rays, sites.data(), static_cast<int>(count),
-          [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
-            const auto i = static_cast<std::size_t>(lane);
-            const std::uint32_t sample = starts_[first + i], behind = samples_.behind[sample].sample;
-            const bool turned = behind != LightMesh::kNone && sites[i].normal.dot(rays[r].towards) < 0.0f;
-            if (behind != LightMesh::kNone) weight *= 2.0f;
-            note(rays[r], {rays[r].towards, weight, hits, lane}, turned ? behind : sample,
-                 &looks[i][turned ? 1 : 0]);
-          });
+    probe_.look({sites.data(), static_cast<int>(count)},
+                [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
+                  const auto i = static_cast<std::size_t>(lane);
+                  const std::uint32_t sample = starts_[first + i], behind = samples_.behind[sample].sample;
+                  const bool two_sided = behind != LightMesh::kNone;
+                  const bool turned = two_sided && sites[i].normal.dot(rays[r].towards) < 0.0f;
+                  if (two_sided) weight *= 2.0f;
+                  note(rays[r], {rays[r].towards, weight, hits, lane}, turned ? behind : sample,
+                       &looks[i][turned ? 1 : 0]);
+                });
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t sample = starts_[first + i], behind = samples_.behind[sample].sample;
       finish(sample, &looks[i][0], data);
@@ -140,7 +156,7 @@ class Gatherer {
     }
   }
 
-  void note(const SkyPatches::Ray& ray, const Hidden::Cast& cast, std::uint32_t sample, Look* look) {
+  void note(const SkyPatches::Ray& ray, const Hidden::Cast& cast, std::uint32_t sample, Look* look) const {
     look->all += cast.weight;
     look->hidden.add(cast, geometry_, traits_);
     if (cast.hits.triangle[cast.lane] == HitPacket::kNothing) {
@@ -155,9 +171,12 @@ class Gatherer {
     const bool up = ray.patch != SkyPatches::kBelow;
     if (up) look->blocked_up += cast.weight;
     if (ray.coarse == SkyPatches::Ray::kFineOnly) return;
-    if (up) look->coarse_blocked_up += cast.weight;
+    if (up) {
+      look->coarse_blocked_up +=
+          SkyPatches::solidAngle(ray.patch) * samples_.sites[sample].weight(ray.towards);
+    }
     const std::uint32_t from = sampleAt(root, cast.hits.u[cast.lane], cast.hits.v[cast.lane]);
-    seen_[sample].hits.push_back(static_cast<std::uint32_t>(ray.coarse) << kDirectionShift | from);
+    look->hits[look->hit_count++] = static_cast<std::uint32_t>(ray.coarse) << kDirectionShift | from;
   }
 
   void finish(std::uint32_t sample, Look* look, TransportData* data) {
@@ -168,13 +187,13 @@ class Gatherer {
     data->direct.set(sample, look->row.data());
     const Site& site = samples_.sites[sample];
     Seen& seen = seen_[sample];
+    seen.hits.assign(look->hits.begin(), look->hits.begin() + look->hit_count);
     seen.inside = look->inside > kMostInside * look->all || (!site.thin && look->hidden.buried());
     seen.scale_down = scale;
     seen.scale_up = scale;
     if (look->coarse_blocked_up > 0.0f && !site.coarse) {
       // The coarse rays stand for all that hit something.
-      const float stand_for = look->coarse_blocked_up * static_cast<float>(options_.rays_per_patch);
-      seen.scale_up *= std::clamp(look->blocked_up / stand_for, 0.25f, 4.0f);
+      seen.scale_up *= std::clamp(look->blocked_up / look->coarse_blocked_up, 0.25f, 4.0f);
     }
   }
 
@@ -220,9 +239,8 @@ class Gatherer {
     if (direction < SkyPatches::kAbove || !isGround(from)) return;
     const GroundMirror::Row& shares =
         mirror.towards(direction - SkyPatches::kAbove, samples_.paints[from].roughness);
-    const std::uint8_t* light = data.direct.row(from);
     const float factor = raySeen(i, hit).weight * data.direct.scales[from];
-    for (std::size_t p = 0; p < kPatches; ++p) (*row)[p] += factor * shares[p] * light[p];
+    addTimes(factor, shares.data(), data.direct.row(from), row->data());
   }
 
   /// Adds one bounce: what every sample passes on of all that it has by now.
@@ -339,8 +357,7 @@ class Gatherer {
       const RaySeen ray = raySeen(i, hit);
       const float weight = ray.weight * scattered(from, ray.towards);
       const float factor = weight * sent.scales[from];
-      const std::uint8_t* other = sent.row(from);
-      for (std::size_t p = 0; p < kPatches; ++p) row[p] += factor * other[p];
+      addTimes(factor, sent.row(from), row.data());
       color += weight * others[from].color;
       glow += weight * others[from].glow;
     }
@@ -353,11 +370,11 @@ class Gatherer {
   }
 
   const Geometry& geometry_;
-  const BakeRays& rays_;
   const std::vector<TriangleTraits>& traits_;
   const SceneSamples& samples_;
   const GatherOptions& options_;
   SkyPatches patches_;
+  AdaptiveProbe probe_;
   std::size_t count_;
   std::vector<std::uint32_t> starts_;  ///< samples whose rays are cast
   std::vector<Seen> seen_;

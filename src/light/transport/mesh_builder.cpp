@@ -149,7 +149,7 @@ void MeshBuilder::lookAround(std::size_t first_node) {
     nearest.fill(1e9f);
     for (int i = 0; i < count; ++i)
       sites[static_cast<std::size_t>(i)] = nodes[begin + static_cast<std::size_t>(i)].site();
-    probe(rays_, directions_, sites.data(), count,
+    probe(rays_, directions_, {sites.data(), count},
           [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
             const auto i = static_cast<std::size_t>(lane);
             all[i] += weight;

@@ -20,53 +20,76 @@ struct Site {
   bool thin = false;                              ///< of a sheet: rays leave from either side of it
   bool coarse = false;                            ///< the coarse rays are enough: there are many like it
 
-  /// Solid angle that a ray stands for; zero if it is not to be cast.
-  float solidAngle(const SkyPatches::Ray& ray) const {
-    if (!coarse) return ray.solid_angle;
-    if (ray.coarse == SkyPatches::Ray::kFineOnly) return 0.0f;
-    return ray.patch == SkyPatches::kBelow ? ray.solid_angle : SkyPatches::solidAngle(ray.patch);
-  }
   /// What light from a direction counts, for a unit of solid angle; over the sphere it adds up to π.
   float weight(const Eigen::Vector3f& towards) const {
     const float cosine = normal.dot(towards);
     return cosine > 0.0f ? (1.0f - transmission) * cosine : -transmission * cosine;
   }
-  Eigen::Vector3f start(std::size_t ray, const Eigen::Vector3f& towards) const {
-    const Eigen::Vector3f& origin = origins[ray % kOrigins];
-    const Eigen::Vector3f& lift = lifts[ray % kOrigins];
+  Eigen::Vector3f start(std::size_t turn, const Eigen::Vector3f& towards) const {
+    const Eigen::Vector3f& origin = origins[turn % kOrigins];
+    const Eigen::Vector3f& lift = lifts[turn % kOrigins];
     return lift.dot(towards) > 0.0f || !thin ? Eigen::Vector3f(origin + lift)
                                              : Eigen::Vector3f(origin - lift);
   }
 };
 
+/// Up to a packet of sites whose rays of one direction travel together: they should be neighbours.
+class SiteGroup {
+ public:
+  /// One bit for each site.
+  using Lanes = std::uint32_t;
+
+  /// Keeps `sites`, of which there are 1 … RayPacket::kSize.
+  SiteGroup(const Site* sites, int count) : sites_(sites), count_(count) {}
+  int count() const { return count_; }
+  /// Those whose coarse rays are enough.
+  Lanes coarse() const {
+    Lanes lanes = 0;
+    for (int i = 0; i < count_; ++i) lanes |= Lanes{sites_[i].coarse} << i;
+    return lanes;
+  }
+
+  /// Sets Site::weight() of each site; zero beyond them. Returns those that it is not zero for.
+  Lanes weigh(const Eigen::Vector3f& towards, float* weights) const {
+    Lanes lanes = 0;
+    for (int i = 0; i < RayPacket::kSize; ++i) {
+      weights[i] = i < count_ ? sites_[i].weight(towards) : 0.0f;
+      if (weights[i] > 0.0f) lanes |= Lanes{1} << i;
+    }
+    return lanes;
+  }
+  /// Casts a ray from the sites of `lanes`, each from the origin whose turn it is.
+  void cast(const BakeRays& scene, std::size_t turn, const Eigen::Vector3f& towards, Lanes lanes,
+            HitPacket* hits) const {
+    RayPacket packet;
+    for (int i = 0; i < RayPacket::kSize; ++i) {
+      packet.valid[i] = (lanes >> i & 1u) != 0 ? -1 : 0;
+      const Eigen::Vector3f origin = sites_[std::min(i, count_ - 1)].start(turn, towards);
+      packet.origin_x[i] = origin.x(), packet.origin_y[i] = origin.y(), packet.origin_z[i] = origin.z();
+      packet.towards_x[i] = towards.x(), packet.towards_y[i] = towards.y(), packet.towards_z[i] = towards.z();
+    }
+    scene.cast(packet, hits);
+  }
+
+ private:
+  const Site* sites_;
+  int count_;
+};
+
 /// Casts each of `rays` that counts for a site, and calls visit(i, ray, weight, hits): the index of the site
 /// (< 16), that of the ray, Site::weight() times the ray's solid angle, and the hits, of which lane i is the
-/// site's. The sites of a call should be neighbours: their rays of one direction travel together.
+/// site's.
 template <typename Visit>
-void probe(const BakeRays& scene, const std::vector<SkyPatches::Ray>& rays, const Site* sites, int count,
+void probe(const BakeRays& scene, const std::vector<SkyPatches::Ray>& rays, const SiteGroup& sites,
            const Visit& visit) {
-  RayPacket packet;
   HitPacket hits;
+  float weights[RayPacket::kSize];
   for (std::size_t r = 0; r < rays.size(); ++r) {
-    const Eigen::Vector3f& towards = rays[r].towards;
-    float weights[RayPacket::kSize];
-    bool any = false;
-    for (int i = 0; i < RayPacket::kSize; ++i) {
-      weights[i] = i < count ? sites[i].weight(towards) * sites[i].solidAngle(rays[r]) : 0.0f;
-      packet.valid[i] = weights[i] > 0.0f ? -1 : 0;
-      any = any || weights[i] > 0.0f;
-      const Eigen::Vector3f origin = sites[std::min(i, count - 1)].start(r, towards);
-      packet.origin_x[i] = origin.x();
-      packet.origin_y[i] = origin.y();
-      packet.origin_z[i] = origin.z();
-      packet.towards_x[i] = towards.x();
-      packet.towards_y[i] = towards.y();
-      packet.towards_z[i] = towards.z();
-    }
-    if (!any) continue;
-    scene.cast(packet, &hits);
-    for (int i = 0; i < count; ++i) {
-      if (packet.valid[i]) visit(i, r, weights[i], hits);
+    const SiteGroup::Lanes lanes = sites.weigh(rays[r].towards, weights);
+    if (lanes == 0) continue;
+    sites.cast(scene, r, rays[r].towards, lanes, &hits);
+    for (int i = 0; i < sites.count(); ++i) {
+      if ((lanes >> i & 1u) != 0) visit(i, r, weights[i] * rays[r].solid_angle, hits);
     }
   }
 }

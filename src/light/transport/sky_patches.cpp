@@ -47,6 +47,25 @@ std::size_t SkyPatches::ringOf(int patch) {
   return ring;
 }
 
+std::vector<int> SkyPatches::neighbours(int patch) {
+  const std::size_t ring = ringOf(patch);
+  const int count = kRings[ring].patches, place = patch - kRings[ring].first;
+  std::vector<int> found;
+  if (count > 1) {
+    found.push_back(kRings[ring].first + (place + 1) % count);
+    found.push_back(kRings[ring].first + (place + count - 1) % count);
+  }
+  for (const std::size_t other : {ring - 1, ring + 1}) {  // below ring 0 there is none either
+    if (other >= kRings.size()) continue;
+    const int others = kRings[other].patches;
+    for (int i = 0; i < others; ++i) {
+      if (place * others < (i + 1) * count && i * count < (place + 1) * others)
+        found.push_back(kRings[other].first + i);
+    }
+  }
+  return found;
+}
+
 Eigen::Vector3f SkyPatches::pointIn(int patch, double u, double v) {
   const Ring& ring = kRings[ringOf(patch)];
   const double z = sine(ring.low_deg) + v * (sine(ring.high_deg) - sine(ring.low_deg));

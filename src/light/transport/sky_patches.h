@@ -71,6 +71,8 @@ class SkyPatches {
   static Eigen::Vector3f pointIn(int patch, double u, double v);
   /// Index into kRings of the ring that a patch above the horizon is in.
   static std::size_t ringOf(int patch);
+  /// Patches above the horizon that share a border with one.
+  static std::vector<int> neighbours(int patch);
   /// Divides the coarse rays among `turns`, each of which gets some of every ring; rays above each other are
   /// of different ones.
   static int turnOf(int coarse, int turns) { return (coarse + coarse / kRings[0].patches) % turns; }

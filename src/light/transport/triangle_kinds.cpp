@@ -70,7 +70,7 @@ Outlooks outlooks(const Geometry& geometry, const BakeRays& rays, const std::vec
     site.origins.fill(origin);
   }
   Outlooks result;
-  probe(rays, pattern, sites.data(), count, [&](int i, std::size_t r, float weight, const HitPacket& hits) {
+  probe(rays, pattern, {sites.data(), count}, [&](int i, std::size_t r, float weight, const HitPacket& hits) {
     Outlook& outlook = result[static_cast<std::size_t>(i)];
     const std::uint32_t hit = hits.triangle[i];
     if (hit == HitPacket::kNothing) {
