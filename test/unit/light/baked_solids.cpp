@@ -31,10 +31,13 @@ std::vector<double> fast(const World& world, const std::vector<Looked>& points, 
   return rowValues(illuminate(surfaces, *world.geometry->scene, *world.visibility, illumination(world, day)));
 }
 
-scene::Material asphalt() {
+scene::Material paving(float roughness) {
   scene::Material material = paint(0.1f);
-  material.roughness = 0.85f;
+  material.roughness = roughness;
   return material;
+}
+scene::Material asphalt() {
+  return paving(0.85f);
 }
 
 /// A place on level ground, seen in a direction of `azimuth_deg` (clockwise from north) at `cosine` to the
@@ -78,19 +81,44 @@ sky::Daylight dayWith(double sun_elevation_deg) {
       {Direction(Azimuth::degrees(kSunAzimuth_deg), Angle::degrees(sun_elevation_deg)), 1.0});
 }
 
-TEST(RoughMirror, OfAnOpenSkyShowsTheGlowAboutTheSun) {
+/// Level ground under an open sky, by the sun's elevation.
+std::map<double, Errors> underOpenSky(float roughness) {
   scene::Scene scene;
-  scene.materials = {asphalt()};
+  scene.materials = {paving(roughness)};
   addGround(&scene, 0, 30.0f);
   const World world = baked(std::move(scene));
+  std::map<double, Errors> found;
   for (const double elevation_deg : {60.0, 20.0, 4.0, -4.0, -9.0}) {
     const sky::Daylight day = dayWith(elevation_deg);
     const std::vector<Looked> views = roundAbout({3.3f, 1.7f, 0.0f});
-    const Errors found = errors(fast(world, views, day), traced(world, views, day, 4000));
-    // Sixteen parts of a lobe, each the mean of a cap: the glow about a sun of 20° is smaller than a cap.
-    // With one direction a part the mean was 6 %, the worst 13 %.
-    EXPECT_LT(found.mean, 0.035) << elevation_deg;
-    EXPECT_LT(found.worst, 0.1) << elevation_deg;
+    found[elevation_deg] = errors(fast(world, views, day), traced(world, views, day, 4000));
+  }
+  return found;
+}
+
+TEST(RoughMirror, OfAnOpenSkyShowsTheGlowAboutTheSun) {
+  for (const auto& [elevation_deg, found] : underOpenSky(0.85f)) {
+    // Each patch as of one luminance: measured 0.84 and 2.4 % in the dusk, where that changes most within a
+    // patch. A lobe of sixteen directions was 3 % and 9 % off.
+    EXPECT_LT(found.mean, 0.012) << elevation_deg;
+    EXPECT_LT(found.worst, 0.035) << elevation_deg;
+  }
+}
+
+TEST(RoughMirror, IsAlsoRightWhereLobesAreHardlyWiderThanPatches) {
+  for (const auto& [elevation_deg, found] : underOpenSky(0.45f)) {
+    // Two directions a patch: measured 2.2 and 8.6 %, the worst at a grazing view of the glow about a high
+    // sun.
+    EXPECT_LT(found.mean, 0.03) << elevation_deg;
+    EXPECT_LT(found.worst, 0.11) << elevation_deg;
+  }
+}
+
+TEST(SmoothMirror, OfAnOpenSkyShowsTheGlowAboutTheSun) {
+  for (const auto& [elevation_deg, found] : underOpenSky(0.4f)) {
+    // Sixteen parts of a lobe, each the mean of a cap: measured 1.9 and 5.1 %.
+    EXPECT_LT(found.mean, 0.027) << elevation_deg;
+    EXPECT_LT(found.worst, 0.07) << elevation_deg;
   }
 }
 
@@ -110,9 +138,10 @@ TEST(RoughMirror, BehindAWallLosesTheBrightestOfTheSky) {
     const std::vector<Looked> views = roundAbout({0.3f, 0.7f, 0.0f});
     const Errors found = errors(fast(world, views, day), traced(world, views, day, 4000));
     // The wall's top cuts a ring of patches in two, whose lower, brighter half is taken for as open as the
-    // upper one. As bright as the whole sky the open rest would be 10 % and more too bright.
-    EXPECT_LT(found.mean, 0.06) << elevation_deg;
-    EXPECT_LT(std::abs(found.bias), 0.055) << elevation_deg;
+    // upper one: measured 1.0 and 0.7 %. As bright as the whole sky the open rest would be 10 % and more too
+    // bright.
+    EXPECT_LT(found.mean, 0.015) << elevation_deg;
+    EXPECT_LT(std::abs(found.bias), 0.011) << elevation_deg;
   }
 }
 
