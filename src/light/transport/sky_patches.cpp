@@ -99,7 +99,7 @@ float SkyPatches::solidAngle(int patch) {
 }
 
 std::array<Eigen::Array3f, SkyPatches::kCount> SkyPatches::luminances(const sky::Daylight& day,
-                                                                       Weight weight) {
+                                                                      Weight weight) {
   constexpr int kAcross = 4;  // points a patch and axis
   std::array<Eigen::Array3f, kCount> means;
   for (int patch = 0; patch < kAbove; ++patch) {
