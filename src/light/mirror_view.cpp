@@ -6,8 +6,8 @@
 namespace sunlit::light {
 namespace {
 
-/// From here on lobes are so wide that patches tell more about them than sixteen directions: measured at 0.4,
-/// where both are 2 % off on average, and at 0.5, where patches have half the error.
+/// From here on lobes are so wide that patches tell more about them than sixteen directions: at 0.4 patches
+/// are up to 3.2 % off on average and directions 1.9 %, at 0.5 2.1 and 4.2 %.
 constexpr float kLeastRough = 0.42f;
 
 MirrorView findView(const TransportData& data, const scene::Material& material, const Surface& surface) {

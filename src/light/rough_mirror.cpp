@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "light/schlick.h"
-#include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::light {
@@ -75,9 +74,7 @@ inline __attribute__((always_inline)) void addReflected(const Lobe& lobe, const 
     const float v_h2 = std::max(0.5f * (1.0f + vx * x[i] + vy * y[i] + vz * z[i]), 1e-6f);
     const float sum = n_l + n_v;
     const float wide = 4.0f * v_h2 - std::min(sum * sum, 4.0f * v_h2) * rest2;
-    const float missing = 1.0f - std::min(std::sqrt(v_h2), 1.0f);
-    const float square = missing * missing;
-    const float fresnel = f0 + (1.0f - f0) * (square * square * missing);
+    const float fresnel = f0 + (1.0f - f0) * schlick(std::min(std::sqrt(v_h2), 1.0f));
     const float value = fresnel * (n_l * angle[i]) * (v_h2 * v_h2) / (wide * wide * (n_l * both + one));
     all[i] += value;
     seen[i] += gx * x[i] + gy * y[i] + gz * z[i] >= 0.0f ? value : 0.0f;

@@ -1,13 +1,6 @@
 #include "light/transport/adaptive_probe.h"
 
 namespace sunlit::light {
-namespace {
-
-bool has(SiteGroup::Lanes lanes, int i) {
-  return (lanes >> i & 1u) != 0;
-}
-
-}  // namespace
 
 AdaptiveProbe::AdaptiveProbe(const BakeRays& scene, const std::vector<TriangleTraits>& traits,
                              const SkyPatches& patches)
@@ -35,7 +28,8 @@ void AdaptiveProbe::look(const SiteGroup& sites, const Visit& visit) const {
     if (all[p].cast == 0) continue;
     const Weights weights = this->weights(sites, parts_[p], fine);
     for (int i = 0; i < sites.count(); ++i) {
-      if (has(all[p].cast, i)) visit(i, parts_[p].coarse, weights[static_cast<std::size_t>(i)], all[p].hits);
+      if (SiteGroup::has(all[p].cast, i))
+        visit(i, parts_[p].coarse, weights[static_cast<std::size_t>(i)], all[p].hits);
     }
   }
 }
@@ -90,7 +84,8 @@ void AdaptiveProbe::castOthers(const SiteGroup& sites, std::size_t number, Lanes
     if (cast == 0) continue;
     sites.cast(scene_, turn(number, r), rays_[r].towards, cast, &hits);
     for (int i = 0; i < sites.count(); ++i) {
-      if (has(cast, i)) visit(i, r, weights[static_cast<std::size_t>(i)] * rays_[r].solid_angle, hits);
+      if (SiteGroup::has(cast, i))
+        visit(i, r, weights[static_cast<std::size_t>(i)] * rays_[r].solid_angle, hits);
     }
   }
 }
@@ -107,9 +102,9 @@ AdaptiveProbe::Weights AdaptiveProbe::weights(const SiteGroup& sites, const Part
   }
   for (int i = 0; i < sites.count(); ++i) {
     const auto site = static_cast<std::size_t>(i);
-    if (has(fine, i)) sum[site] = own[site] * angle;
+    if (SiteGroup::has(fine, i)) sum[site] = own[site] * angle;
     // Such may take light from both sides: only the direction that is looked in counts.
-    if (has(sites.coarse(), i)) sum[site] = own[site] * angle * rays;
+    if (SiteGroup::has(sites.coarse(), i)) sum[site] = own[site] * angle * rays;
   }
   return sum;
 }

@@ -35,14 +35,9 @@ float luminanceOf(const Eigen::Array3f& rgb) {
   return LinearRgb(rgb).luminance();
 }
 
-/// Adds a row of coefficients times `factor`.
+/// Adds a row of coefficients, each times `factor` and one of `shares`.
 SUNLIT_VECTOR_CLONES
-void addTimes(float factor, const std::uint8_t* coefficients, float* row) {
-  for (std::size_t p = 0; p < kPatches; ++p) row[p] += factor * static_cast<float>(coefficients[p]);
-}
-/// Likewise, each also times one of `shares`.
-SUNLIT_VECTOR_CLONES
-void addTimes(float factor, const float* shares, const std::uint8_t* coefficients, float* row) {
+void addShares(float factor, const float* shares, const std::uint8_t* coefficients, float* row) {
   for (std::size_t p = 0; p < kPatches; ++p)
     row[p] += factor * shares[p] * static_cast<float>(coefficients[p]);
 }
@@ -240,7 +235,7 @@ class Gatherer {
     const GroundMirror::Row& shares =
         mirror.towards(direction - SkyPatches::kAbove, samples_.paints[from].roughness);
     const float factor = raySeen(i, hit).weight * data.direct.scales[from];
-    addTimes(factor, shares.data(), data.direct.row(from), row->data());
+    addShares(factor, shares.data(), data.direct.row(from), row->data());
   }
 
   /// Adds one bounce: what every sample passes on of all that it has by now.

@@ -38,6 +38,7 @@ class SiteGroup {
  public:
   /// One bit for each site.
   using Lanes = std::uint32_t;
+  static bool has(Lanes lanes, int site) { return (lanes >> site & 1u) != 0; }
 
   /// Keeps `sites`, of which there are 1 … RayPacket::kSize.
   SiteGroup(const Site* sites, int count) : sites_(sites), count_(count) {}
@@ -63,7 +64,7 @@ class SiteGroup {
             HitPacket* hits) const {
     RayPacket packet;
     for (int i = 0; i < RayPacket::kSize; ++i) {
-      packet.valid[i] = (lanes >> i & 1u) != 0 ? -1 : 0;
+      packet.valid[i] = has(lanes, i) ? -1 : 0;
       const Eigen::Vector3f origin = sites_[std::min(i, count_ - 1)].start(turn, towards);
       packet.origin_x[i] = origin.x(), packet.origin_y[i] = origin.y(), packet.origin_z[i] = origin.z();
       packet.towards_x[i] = towards.x(), packet.towards_y[i] = towards.y(), packet.towards_z[i] = towards.z();
@@ -89,7 +90,7 @@ void probe(const BakeRays& scene, const std::vector<SkyPatches::Ray>& rays, cons
     if (lanes == 0) continue;
     sites.cast(scene, r, rays[r].towards, lanes, &hits);
     for (int i = 0; i < sites.count(); ++i) {
-      if ((lanes >> i & 1u) != 0) visit(i, r, weights[i] * rays[r].solid_angle, hits);
+      if (SiteGroup::has(lanes, i)) visit(i, r, weights[i] * rays[r].solid_angle, hits);
     }
   }
 }

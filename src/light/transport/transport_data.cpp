@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sunlit/quantity/vector_clones.h"
+
 namespace sunlit::light {
 
 LightMesh::Place LightMesh::locate(std::uint32_t root, std::array<float, 3> barycentric) const {
@@ -43,6 +45,11 @@ void Coefficients::set(std::size_t sample, const float* row) {
   const float inverse = largest > 0.0f ? 255.0f / largest : 0.0f;
   std::uint8_t* to = rows.data() + sample * SkyPatches::kCount;
   for (int p = 0; p < SkyPatches::kCount; ++p) to[p] = static_cast<std::uint8_t>(row[p] * inverse + 0.5f);
+}
+
+SUNLIT_VECTOR_CLONES
+void addTimes(float factor, const std::uint8_t* coefficients, float* __restrict row) {
+  for (std::size_t p = 0; p < SkyPatches::kCount; ++p) row[p] += factor * static_cast<float>(coefficients[p]);
 }
 
 }  // namespace sunlit::light

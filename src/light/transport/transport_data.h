@@ -60,6 +60,9 @@ struct Coefficients {
   const std::uint8_t* row(std::size_t sample) const { return rows.data() + sample * SkyPatches::kCount; }
 };
 
+/// Adds a row of Coefficients, without its scale, times `factor` to the SkyPatches::kCount values of `row`.
+void addTimes(float factor, const std::uint8_t* coefficients, float* row);
+
 struct TransportData {
   LightMesh mesh;
   Coefficients direct;                      ///< straight from the sky
