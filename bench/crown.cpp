@@ -95,7 +95,7 @@ void meetTriangles(benchmark::State& state) {
     open = 0;
     light::Crown crown({*g.world.geometry, g.cutouts, *g.world.visibility}, g.points, 1.0f);
     for (const light::SkyPatches::Ray& ray : g.directions) {
-      for (const std::uint8_t one : crown.open(ray.towards, {0, g.points.size()})) open += one;
+      for (const std::uint8_t one : crown.open(ray.towards)) open += one;
     }
   }
   countPairs(state, open);

@@ -16,39 +16,59 @@ Eigen::Array3f atPlace(const LightPlace& place, const std::vector<Eigen::Array3f
   return sum;
 }
 
+/// What shares of surfaces above and below the horizon add up to.
+Eigen::Array3f seenAround(const LightPlace& place, float above, float below,
+                          const std::vector<Surroundings>& nodes) {
+  Eigen::Array3f sum = Eigen::Array3f::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Surroundings& node = nodes[place.node[k]];
+    sum += place.weight[k] * (above * node.above + below * node.below);
+  }
+  return sum;
+}
+
 /// What arrives about `normal`, at the surface or behind it.
 Eigen::Array3f irradianceAt(const LightPlace& place, const SkyView& sky, const Eigen::Vector3f& normal,
                             const Illumination& light) {
   if (!sky.known || !light.sky_sectors) return atPlace(place, *light.irradiance);
   // What hides the sky is as bright as what the nodes have around them.
   const Eigen::Array4f open = light.sky_sectors->irradiance(sky, normal);
-  return open.head<3>() + atPlace(place, *light.surroundings) * (kPiFloat * (1.0f - open[3]));
+  const float up = 0.5f * (1.0f + normal.z());  // of an even sphere's light by cosine
+  return open.head<3>() +
+         kPiFloat * seenAround(place, std::max(up - open[3], 0.0f), 1.0f - up, *light.surroundings);
 }
 
 /// Mean luminance of what the mirror-like lobe looks at.
-Eigen::Array3f seenInMirror(const Surface& surface, const Eigen::Array4f& sky, const Illumination& light) {
-  return sky.head<3>() + atPlace(surface.light, *light.surroundings) * (1.0f - sky[3]);
+Eigen::Array3f seenInMirror(const Surface& surface, const Mirrored& mirrored, const Illumination& light) {
+  return mirrored.sky +
+         seenAround(surface.light, mirrored.hidden_above, mirrored.hidden_below, *light.surroundings);
 }
 
 }  // namespace
 
-Eigen::Array4f mirroredSky(const MirrorView& view, const MirrorSky& sky) {
-  Eigen::Array4f sum = Eigen::Array4f::Zero();
+Mirrored mirroredBy(const MirrorView& view, const MirrorSky& sky) {
+  Mirrored mirrored;
+  float unhidden;
   if (const auto* rough = std::get_if<RoughMirror>(&view)) {
-    sum.head<3>() = sky.patches().times(rough->share.data()) * rough->scale;
-    sum[3] = rough->unhidden;
-    return sum;
+    mirrored.sky = sky.patches().times(rough->share.data()) * rough->scale;
+    mirrored.hidden_below = rough->below;
+    unhidden = rough->unhidden;
+  } else {
+    const auto& smooth = std::get<SmoothMirror>(view);
+    Eigen::Array4f sum = Eigen::Array4f::Zero();
+    float open = 0.0f;
+    for (std::size_t k = 0; k < SmoothMirror::kParts; ++k) {
+      const auto share = static_cast<float>(smooth.open[k]);
+      sum += sky.luminance(smooth.place[k]) * share;
+      open += share;
+    }
+    constexpr float kAll = 255.0f * SmoothMirror::kParts;
+    mirrored.sky = sum.head<3>() / kAll;
+    mirrored.hidden_below = smooth.below;
+    unhidden = open / kAll;
   }
-  const auto& smooth = std::get<SmoothMirror>(view);
-  float open = 0.0f;
-  for (std::size_t k = 0; k < SmoothMirror::kParts; ++k) {
-    const auto share = static_cast<float>(smooth.open[k]);
-    sum += sky.luminance(smooth.place[k]) * share;
-    open += share;
-  }
-  sum[3] = open;
-  constexpr float kAll = 255.0f * SmoothMirror::kParts;
-  return sum / kAll;
+  mirrored.hidden_above = std::max(1.0f - unhidden - mirrored.hidden_below, 0.0f);
+  return mirrored;
 }
 
 Eigen::Array3f ambientLuminance(const Surface& surface, const Reflection& reflection,
@@ -70,7 +90,7 @@ Eigen::Array3f ambientLuminance(const Surface& surface, const Reflection& reflec
           : irradiance;
   Eigen::Array3f sum = ambient.diffuse * irradiance + ambient.through * behind;
   if (baked && !moves)
-    return sum + ambient.specular * surface.unhidden * seenInMirror(surface, parts.mirrored_sky, light);
+    return sum + ambient.specular * surface.unhidden * seenInMirror(surface, parts.mirrored, light);
   // A rough lobe spreads over the hemisphere, a smooth one mirrors a point of the sky.
   const Eigen::Array3f spread = irradiance / kPiFloat;
   const float smooth = std::max(0.0f, 1.0f - reflection.roughness * reflection.roughness * 1.5f);

@@ -7,14 +7,18 @@
 
 namespace sunlit::light {
 
-/// The part of the sky that a mirror-like lobe looks at, cd/m², mean over the whole lobe; fourth: how much of
-/// the lobe other surfaces leave free, 0 … 1.
-Eigen::Array4f mirroredSky(const MirrorView& view, const MirrorSky& sky);
+/// What a mirror-like lobe looks at.
+struct Mirrored {
+  Eigen::Array3f sky = Eigen::Array3f::Zero();  ///< cd/m², mean over the whole lobe
+  /// Share of the lobe that other surfaces hide, 0 … 1: of those above the horizon and those below.
+  float hidden_above = 1.0f, hidden_below = 0.0f;
+};
+Mirrored mirroredBy(const MirrorView& view, const MirrorSky& sky);
 
 /// What is known of a surface before it is lit.
 struct AmbientParts {
   const AmbientReflectance& reflectance;
-  const Eigen::Array4f& mirrored_sky;  ///< where the light is baked
+  const Mirrored& mirrored;  ///< where the light is baked
 };
 /// Luminance, cd/m², without what sun and moon add directly.
 Eigen::Array3f ambientLuminance(const Surface& surface, const Reflection& reflection,

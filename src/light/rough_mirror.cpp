@@ -124,7 +124,8 @@ void fill(const LobeSums& sums, const float* __restrict open, RoughMirror* mirro
       largest[k] = largest[k] > shares[p + k] ? largest[k] : shares[p + k];
     }
   }
-  mirror->unhidden = 1.0f - (sums.below + sumOf<kPatches>(hidden)) / sums.all;
+  mirror->below = sums.below / sums.all;
+  mirror->unhidden = 1.0f - sumOf<kPatches>(hidden) / sums.all - mirror->below;
   const float most = *std::max_element(largest, largest + kLanes);
   if (!(most > 0.0f)) return;
   mirror->scale = most / (255.0f * sums.all);

@@ -11,10 +11,13 @@
 namespace sunlit::light {
 namespace {
 
+constexpr float kPart = 1.0f / static_cast<float>(SmoothMirror::kParts);
+
 /// Part of a lobe as far as it is open: how much of it, and towards where.
 struct OpenPart {
   float share = 0.0f;
   Eigen::Vector3f towards;  ///< as MirrorLobe::towards
+  float below = 0.0f;       ///< share of it that is hidden and below the horizon
 };
 
 /// What is hidden is often the brightest: the sky above the horizon. So the open rest of a part has its own
@@ -27,9 +30,12 @@ OpenPart openPart(const MirrorPlaces& sky, std::uint16_t place, const Eigen::Vec
     all += open.known[patch] * sky.means[patch];
     seen += open.share[patch] * sky.means[patch];
   }
-  if (!(seen[3] > 0.0f)) return {0.0f, towards};
-  const float count = all[3] + below * static_cast<float>(sky.patches_below[place]);
-  return {seen[3] / count, towards + (seen.head<3>() / seen[3] - all.head<3>() / all[3]).matrix()};
+  const float down = below * static_cast<float>(sky.patches_below[place]);
+  const float count = all[3] + down;
+  const float share_below = down > 0.0f ? down / count : 0.0f;
+  if (!(seen[3] > 0.0f)) return {0.0f, towards, share_below};
+  return {seen[3] / count, towards + (seen.head<3>() / seen[3] - all.head<3>() / all[3]).matrix(),
+          share_below};
 }
 
 /// The parts of a surface's lobe as MirrorLobe::towards, in `map`.
@@ -82,7 +88,9 @@ SmoothMirror smoothMirror(const Surface& surface, float roughness, bool sheet, c
   findPlaces(parts, &mirror.place);
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (sheet) {
-      shares[k] = open.share[sky.patches[mirror.place[k]][0]];
+      const std::uint8_t patch = sky.patches[mirror.place[k]][0];
+      shares[k] = open.share[patch];
+      if (patch == SkyPatches::kBelow) mirror.below += kPart;
     } else if (surface.geometric_normal.dot(parts[k]) <= 0.0f) {
       shares[k] = 1.0f;
       parts[k] = -Eigen::Vector3f::UnitZ();  // into the surface itself: nothing is seen, as of no sky
@@ -90,6 +98,7 @@ SmoothMirror smoothMirror(const Surface& surface, float roughness, bool sheet, c
       const OpenPart part = openPart(sky, mirror.place[k], parts[k], open, below);
       shares[k] = part.share;
       parts[k] = part.towards;
+      mirror.below += kPart * part.below;
     }
   }
   if (!sheet) findPlaces(parts, &mirror.place);

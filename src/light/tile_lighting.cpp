@@ -37,11 +37,11 @@ void TileLighting::addSurfaces(const Tile& tile, image::LinearImage* image) cons
   const std::vector<float>& sun_shares = sun_.visibleShares(number);
   const std::vector<float>& moon_shares = moon_.visibleShares(number);
   const LightTable::Rows& rows = table_.tile(number);
-  thread_local std::vector<Eigen::Array4f, Eigen::aligned_allocator<Eigen::Array4f>> mirrored;
-  mirrored.assign(std::max<std::size_t>(tile.views.size(), 1), Eigen::Array4f::Zero());
+  thread_local std::vector<Mirrored> mirrored;
+  mirrored.assign(std::max<std::size_t>(tile.views.size(), 1), Mirrored());
   if (light_.mirror_sky) {
     for (std::size_t i = 0; i < tile.views.size(); ++i)
-      mirrored[i] = mirroredSky(tile.views[i], *light_.mirror_sky);
+      mirrored[i] = mirroredBy(tile.views[i], *light_.mirror_sky);
   }
   const float weight = 1.0f / static_cast<float>(surfaces_.samples_per_pixel);
   for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {

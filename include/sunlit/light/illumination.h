@@ -14,6 +14,11 @@ class AroundLight;
 class MirrorSky;
 class SkySectors;
 
+/// Mean luminance, cd/m², of the surfaces that a place has before it above the horizon, and below it.
+struct Surroundings {
+  Eigen::Array3f above, below;
+};
+
 struct Illumination {
   /// Without `irradiance`: every surface sees the whole sky that it faces, and no light is bounced.
   Illumination(const sky::Daylight& day_to_use)
@@ -24,9 +29,9 @@ struct Illumination {
   std::shared_ptr<const std::vector<Eigen::Array3f>> irradiance;
   /// Of the sky alone, by what of it is open; null as `irradiance`.
   std::shared_ptr<const SkySectors> sky_sectors;
-  /// What is seen in mirrors: of the sky, and of the surfaces around each node, cd/m²; null as `irradiance`.
+  /// What is seen in mirrors: of the sky, and of the surfaces around each node; null as `irradiance`.
   std::shared_ptr<const MirrorSky> mirror_sky;
-  std::shared_ptr<const std::vector<Eigen::Array3f>> surroundings;
+  std::shared_ptr<const std::vector<Surroundings>> surroundings;
   /// At each body that moves, for the pose that a renderer looks at, which sets it; null: open sky.
   std::shared_ptr<const std::vector<AroundLight>> bodies;
 };

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Goes up whenever the bake or the layout below changes.
-constexpr std::uint32_t kVersion = 10;
+constexpr std::uint32_t kVersion = 11;
 constexpr char kMagic[8] = {'s', 'u', 'n', 'l', 'i', 't', 'T', '\n'};
 
 struct Header {
@@ -24,10 +24,10 @@ struct Header {
   std::uint32_t version;
   std::uint32_t patches;
   std::uint64_t key[2];
-  std::uint64_t counts[12];   ///< of the arrays, in the order of visitArrays()
+  std::uint64_t counts[18];   ///< of the arrays, in the order of visitArrays()
   std::uint64_t checksum[2];  ///< of all that follows
 };
-static_assert(sizeof(Header) == 144, "no padding goes to the file");
+static_assert(sizeof(Header) == 192, "no padding goes to the file");
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what) {
   throw std::runtime_error(file.string() + ": " + what);
@@ -41,10 +41,13 @@ void visitArrays(Data& data, const Visit& visit) {
   visit(data.mesh.shares);
   visit(data.direct.rows);
   visit(data.direct.scales);
-  visit(data.bounced.rows);
-  visit(data.bounced.scales);
-  visit(data.tints);
-  visit(data.glows);
+  for (auto* part : {&data.above, &data.below}) {
+    visit(part->coefficients.rows);
+    visit(part->coefficients.scales);
+    visit(part->tints);
+    visit(part->glows);
+    visit(part->hides);
+  }
   visit(data.leaves.first);
   visit(data.leaves.grids);
 }

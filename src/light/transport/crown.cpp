@@ -112,11 +112,11 @@ void Crown::addBlockers() {
     blockers_.push_back(found[at]);
 }
 
-const std::vector<std::uint8_t>& Crown::open(const Eigen::Vector3f& towards, const Range& range) {
-  for (std::size_t i = range.first; i < range.end; ++i) open_[i] = 0;
-  if (range.first == range.end) return open_;
-  project(towards, range);
-  sortIntoCells(range);
+const std::vector<std::uint8_t>& Crown::open(const Eigen::Vector3f& towards) {
+  std::fill(open_.begin(), open_.end(), 0);
+  if (points_.empty()) return open_;
+  project(towards);
+  sortIntoCells();
   const std::size_t part = blockers_.size() / kParts + 1;
   for (std::size_t i = 0; i < blockers_.size(); ++i) {
     shade(blockers_[i]);
@@ -127,16 +127,16 @@ const std::vector<std::uint8_t>& Crown::open(const Eigen::Vector3f& towards, con
   return open_;
 }
 
-void Crown::project(const Eigen::Vector3f& towards, const Range& range) {
+void Crown::project(const Eigen::Vector3f& towards) {
   towards_ = towards;
   across_ = towards.unitOrthogonal();
   up_ = towards.cross(across_);
-  const std::size_t count = range.end - range.first;
+  const std::size_t count = points_.size();
   for (auto* values : {&unsorted_x_, &unsorted_y_, &unsorted_height_}) values->resize(count);
   float high_x = -kShaded, high_y = -kShaded;
   low_x_ = low_y_ = lowest_ = kShaded;
   for (std::size_t i = 0; i < count; ++i) {
-    const Point& point = points_[range.first + i];
+    const Point& point = points_[i];
     const float side = point.normal.dot(towards) > 0.0f ? kClear_m : -kClear_m;
     const Eigen::Vector3f at = point.position + side * point.normal - middle_;
     const float x = across_.dot(at), y = up_.dot(at), height = towards.dot(at);
@@ -153,8 +153,8 @@ void Crown::project(const Eigen::Vector3f& towards, const Range& range) {
   rows_ = static_cast<int>((high_y - low_y_) / cell_m_) + 1;
 }
 
-void Crown::sortIntoCells(const Range& range) {
-  const std::size_t count = range.end - range.first;
+void Crown::sortIntoCells() {
+  const std::size_t count = points_.size();
   first_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
   unsorted_cell_.resize(count);
   const float scale = 1.0f / cell_m_;
@@ -176,7 +176,7 @@ void Crown::sortIntoCells(const Range& range) {
     x_[to] = unsorted_x_[i];
     y_[to] = unsorted_y_[i];
     height_[to] = unsorted_height_[i];
-    point_[to] = static_cast<std::uint32_t>(range.first + i);
+    point_[to] = static_cast<std::uint32_t>(i);
   }
   for (std::size_t cell = first_.size() - 1; cell > 0; --cell) first_[cell] = first_[cell - 1];
   first_[0] = 0;

@@ -33,13 +33,9 @@ class Crown {
   /// each square of `cell_m`, > 0, or of 1/512 of the box's diagonal if that is more, across the direction.
   Crown(const World& world, std::vector<Point> points, float cell_m);
 
-  /// Points from `first` to before `end`.
-  struct Range {
-    std::size_t first, end;
-  };
-  /// For each point of `range` whether light from far off in the direction `towards`, a unit vector, gets
-  /// there: 1, or 0 where something stands in its way. Values of other points mean nothing.
-  const std::vector<std::uint8_t>& open(const Eigen::Vector3f& towards, const Range& range);
+  /// For each point whether light from far off in the direction `towards`, a unit vector, gets there: 1, or 0
+  /// where something stands in its way.
+  const std::vector<std::uint8_t>& open(const Eigen::Vector3f& towards);
 
  private:
   static constexpr std::int32_t kOpaque = -1;
@@ -53,8 +49,8 @@ class Crown {
   static bool meet(const Shadow& shadow, const Arrays& points, std::size_t count, std::uint8_t* hit);
 
   void addBlockers();
-  void project(const Eigen::Vector3f& towards, const Range& range);
-  void sortIntoCells(const Range& range);
+  void project(const Eigen::Vector3f& towards);
+  void sortIntoCells();
   void shade(const Blocker& blocker);
   void shade(const Shadow& shadow, std::size_t begin, std::size_t end);
   void dropShaded();

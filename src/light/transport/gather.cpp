@@ -55,9 +55,8 @@ class Gatherer {
 
   std::vector<bool> gather(TransportData* data) {
     data->direct.resize(count_);
-    data->bounced.resize(count_);
-    data->tints.assign(count_, {1.0f, 1.0f, 1.0f});
-    data->glows.assign(count_, {0.0f, 0.0f, 0.0f});
+    data->above.resize(count_);
+    data->below.resize(count_);
     seen_.resize(count_);
     findStarts();
     const std::size_t packets = (starts_.size() + kPacket - 1) / kPacket;
@@ -67,12 +66,14 @@ class Gatherer {
       step(direct_share / static_cast<double>(packets));
     });
     if (options_.bounces > 0) lookIntoGround(*data);
-    std::vector<std::vector<Amount>> received;
+    std::vector<std::vector<Amount>> above, below;
     for (int bounce = 0; bounce < options_.bounces; ++bounce) {
       passOn(data, (1.0 - direct_share) / options_.bounces);
-      received.push_back(bouncedAmounts(*data));
+      above.push_back(amountsOf(data->above));
+      below.push_back(amountsOf(data->below));
     }
-    addLaterBounces(received, data);
+    addLaterBounces(above, &data->above);
+    addLaterBounces(below, &data->below);
     std::vector<bool> inside(count_);
     for (std::size_t i = 0; i < count_; ++i) inside[i] = seen_[i].inside;
     return inside;
@@ -89,7 +90,7 @@ class Gatherer {
   struct Look {
     Row row{};
     Hidden hidden;
-    float all = 0.0f, inside = 0.0f, blocked_up = 0.0f, coarse_blocked_up = 0.0f;
+    float all = 0.0f, inside = 0.0f, blocked_up = 0.0f, blocked_down = 0.0f, coarse_blocked_up = 0.0f;
     std::array<std::uint32_t, SkyPatches::kCoarse> hits;  ///< as Seen's
     std::size_t hit_count = 0;
   };
@@ -164,7 +165,7 @@ class Gatherer {
       return;
     }
     const bool up = ray.patch != SkyPatches::kBelow;
-    if (up) look->blocked_up += cast.weight;
+    (up ? look->blocked_up : look->blocked_down) += cast.weight;
     if (ray.coarse == SkyPatches::Ray::kFineOnly) return;
     if (up) {
       look->coarse_blocked_up +=
@@ -180,6 +181,8 @@ class Gatherer {
     const float scale = told > 0.0f ? kPiFloat / told : 0.0f;
     for (float& value : look->row) value *= scale;
     data->direct.set(sample, look->row.data());
+    data->above.hides[sample] = look->blocked_up * scale / kPiFloat;
+    data->below.hides[sample] = look->blocked_down * scale / kPiFloat;
     const Site& site = samples_.sites[sample];
     Seen& seen = seen_[sample];
     seen.hits.assign(look->hits.begin(), look->hits.begin() + look->hit_count);
@@ -260,14 +263,11 @@ class Gatherer {
   struct Amount {
     float sky, glow;
   };
-  std::vector<Amount> bouncedAmounts(const TransportData& data) const {
+  std::vector<Amount> amountsOf(const PassedOn& part) const {
     std::vector<Amount> amounts(count_);
     tbb::parallel_for(std::size_t{0}, count_, [&](std::size_t i) {
-      const std::uint8_t* row = data.bounced.row(i);
-      std::uint32_t sum = 0;
-      for (std::size_t p = 0; p < kPatches; ++p) sum += row[p];
-      amounts[i] = {static_cast<float>(sum) * data.bounced.scales[i],
-                    luminanceOf(Eigen::Map<const Eigen::Array3f>(data.glows[i].data()))};
+      amounts[i] = {part.coefficients.sum(i),
+                    luminanceOf(Eigen::Map<const Eigen::Array3f>(part.glows[i].data()))};
     });
     return amounts;
   }
@@ -281,13 +281,13 @@ class Gatherer {
     return 1.0f + last * share / ((1.0f - share) * third);
   }
 
-  void addLaterBounces(const std::vector<std::vector<Amount>>& received, TransportData* data) const {
+  void addLaterBounces(const std::vector<std::vector<Amount>>& received, PassedOn* part) const {
     if (received.size() < 3) return;
     const auto *first = &received[received.size() - 3], *second = first + 1, *third = second + 1;
     tbb::parallel_for(std::size_t{0}, count_, [&](std::size_t i) {
       const Amount &a = (*first)[i], &b = (*second)[i], &c = (*third)[i];
-      data->bounced.scales[i] *= withAllBounces(a.sky, b.sky, c.sky);
-      for (float& glow : data->glows[i]) glow *= withAllBounces(a.glow, b.glow, c.glow);
+      part->coefficients.scales[i] *= withAllBounces(a.sky, b.sky, c.sky);
+      for (float& glow : part->glows[i]) glow *= withAllBounces(a.glow, b.glow, c.glow);
     });
   }
 
@@ -304,22 +304,20 @@ class Gatherer {
     const Eigen::Array3f spread = isGround(static_cast<std::uint32_t>(i)) ? mean.diffuse : all;
     Row row{};
     Sent others{Eigen::Array3f::Zero(), samples_.emissions[i] * kPiFloat};
+    const auto addCoefficients = [&](const Coefficients& coefficients, std::size_t from,
+                                     const Eigen::Array3f& color) {
+      const float factor = luminanceOf(color) * coefficients.scales[from];
+      addTimes(factor, coefficients.row(from), row.data());
+      others.color += color * coefficients.sum(from);
+    };
     const auto add = [&](std::size_t from, const Eigen::Array3f& of_direct,
                          const Eigen::Array3f& of_bounced) {
-      const Eigen::Array3f tint = Eigen::Map<const Eigen::Array3f>(data.tints[from].data());
-      const float direct_factor = luminanceOf(of_direct) * data.direct.scales[from];
-      const float bounced_factor = luminanceOf(of_bounced * tint) * data.bounced.scales[from];
-      const std::uint8_t* direct = data.direct.row(from);
-      const std::uint8_t* bounced = data.bounced.row(from);
-      float direct_sum = 0.0f, bounced_sum = 0.0f;
-      for (std::size_t p = 0; p < kPatches; ++p) {
-        row[p] += direct_factor * direct[p] + bounced_factor * bounced[p];
-        direct_sum += direct[p];
-        bounced_sum += bounced[p];
+      addCoefficients(data.direct, from, of_direct);
+      for (const PassedOn* part : {&data.above, &data.below}) {
+        addCoefficients(part->coefficients, from,
+                        of_bounced * Eigen::Map<const Eigen::Array3f>(part->tints[from].data()));
+        others.glow += of_bounced * Eigen::Map<const Eigen::Array3f>(part->glows[from].data());
       }
-      others.color += of_direct * (data.direct.scales[from] * direct_sum) +
-                      of_bounced * (data.bounced.scales[from] * bounced_sum) * tint;
-      others.glow += of_bounced * Eigen::Map<const Eigen::Array3f>(data.glows[from].data());
     };
     const Behind& behind = samples_.behind[i];
     if (behind.sample == LightMesh::kNone) {
@@ -340,28 +338,39 @@ class Gatherer {
     return (1.0f - meanGrazing(-towards.z())) / mean;
   }
 
+  /// Sums over the surfaces of one part that a sample sees.
+  struct Received {
+    Row row{};
+    Eigen::Array3f color = Eigen::Array3f::Zero(), glow = Eigen::Array3f::Zero();
+  };
+
   void receive(const Coefficients& sent, const std::vector<Sent>& others, std::size_t i,
                TransportData* data) const {
-    const Seen& seen = seen_[i];
-    Row row;
-    for (std::size_t p = 0; p < kPatches; ++p)
-      row[p] = static_cast<float>(mirrored_.row(i)[p]) * mirrored_.scales[i];
-    Eigen::Array3f color = Eigen::Array3f::Constant(mirrored_sums_[i]), glow = Eigen::Array3f::Zero();
-    for (const std::uint32_t hit : seen.hits) {
+    Received above, below;
+    addTimes(mirrored_.scales[i], mirrored_.row(i), below.row.data());
+    below.color.setConstant(mirrored_sums_[i]);
+    for (const std::uint32_t hit : seen_[i].hits) {
+      Received& part = hit >> kDirectionShift < SkyPatches::kAbove ? above : below;
       const std::uint32_t from = hit & kSampleMask;
       const RaySeen ray = raySeen(i, hit);
       const float weight = ray.weight * scattered(from, ray.towards);
-      const float factor = weight * sent.scales[from];
-      addTimes(factor, sent.row(from), row.data());
-      color += weight * others[from].color;
-      glow += weight * others[from].glow;
+      addTimes(weight * sent.scales[from], sent.row(from), part.row.data());
+      part.color += weight * others[from].color;
+      part.glow += weight * others[from].glow;
     }
-    data->bounced.set(i, row.data());
-    data->glows[i] = {glow[0], glow[1], glow[2]};
-    const float luminance = luminanceOf(color);
-    if (luminance > 0.0f) color /= luminance;
-    data->tints[i] = luminance > 0.0f ? std::array<float, 3>{color[0], color[1], color[2]}
-                                      : std::array<float, 3>{1.0f, 1.0f, 1.0f};
+    store(above, i, &data->above);
+    store(below, i, &data->below);
+  }
+
+  static void store(const Received& received, std::size_t i, PassedOn* part) {
+    part->coefficients.set(i, received.row.data());
+    part->glows[i] = {received.glow[0], received.glow[1], received.glow[2]};
+    const float luminance = luminanceOf(received.color);
+    if (luminance > 0.0f) {
+      Eigen::Map<Eigen::Array3f>(part->tints[i].data()) = received.color / luminance;
+    } else {
+      part->tints[i] = {1.0f, 1.0f, 1.0f};
+    }
   }
 
   const Geometry& geometry_;

@@ -31,8 +31,6 @@ constexpr float kInwards = 0.04f, kInwardsOfThree = 0.3f;
 /// Leaves of one square of the map are looked at together, and share what is beyond by cells.
 constexpr float kGroup_m = 16.0f, kCell_m = 1.0f;
 constexpr float kFarGroup_m = 64.0f, kFarCell_m = 2.0f;
-/// Neighbouring nodes look in other directions: of two, each in half of them.
-constexpr std::size_t kTurns = 2;
 
 int nodeCount(int steps) {
   return (steps + 1) * (steps + 2) / 2;
@@ -80,8 +78,7 @@ class Looker {
     const SkyPatches patches(1);
     for (const SkyPatches::Ray& ray : patches.coarseRays()) {
       if (ray.patch == SkyPatches::kBelow) continue;
-      Look& look =
-          looks_[static_cast<std::size_t>(SkyPatches::turnOf(ray.patch, kTurns))][SkySectors::of(ray.patch)];
+      Look& look = looks_[SkySectors::of(ray.patch)];
       look.rays.push_back(ray);
       look.solid_angle += ray.solid_angle;
     }
@@ -158,36 +155,25 @@ class Looker {
   }
 
   void lookFrom(const Group& group) {
-    std::array<Points, kTurns> of_turn;
-    for (const std::uint32_t masked : group.masked) addPoints(masked, &of_turn);
-    std::vector<Crown::Point> points;
-    std::vector<std::size_t> to;
-    std::array<Crown::Range, kTurns> ranges;
-    for (std::size_t turn = 0; turn < kTurns; ++turn) {
-      ranges[turn].first = points.size();
-      points.insert(points.end(), of_turn[turn].points.begin(), of_turn[turn].points.end());
-      to.insert(to.end(), of_turn[turn].to.begin(), of_turn[turn].to.end());
-      ranges[turn].end = points.size();
-    }
-    Crown crown({geometry_, cutouts_, visibility_}, std::move(points), group.cell_m);
+    Points points;
+    for (const std::uint32_t masked : group.masked) addPoints(masked, &points);
+    const std::vector<std::size_t>& to = points.to;
+    Crown crown({geometry_, cutouts_, visibility_}, std::move(points.points), group.cell_m);
     std::vector<float> seen(to.size());
-    for (std::size_t turn = 0; turn < kTurns; ++turn) {
-      const auto [first, end] = ranges[turn];
-      for (std::size_t sector = 0; sector < kSectors; ++sector) {
-        const Look& look = looks_[turn][sector];
-        std::fill(seen.begin(), seen.end(), 0.0f);
-        for (const SkyPatches::Ray& ray : look.rays) {
-          const std::vector<std::uint8_t>& open = crown.open(ray.towards, ranges[turn]);
-          for (std::size_t i = first; i < end; ++i) seen[i] += open[i] ? ray.solid_angle : 0.0f;
-        }
-        for (std::size_t i = first; i < end; ++i)
-          openness_.grids[to[i] + sector] =
-              static_cast<std::uint8_t>(std::min(seen[i] / look.solid_angle, 1.0f) * 255.0f + 0.5f);
+    for (std::size_t sector = 0; sector < kSectors; ++sector) {
+      const Look& look = looks_[sector];
+      std::fill(seen.begin(), seen.end(), 0.0f);
+      for (const SkyPatches::Ray& ray : look.rays) {
+        const std::vector<std::uint8_t>& open = crown.open(ray.towards);
+        for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += open[i] ? ray.solid_angle : 0.0f;
       }
+      for (std::size_t i = 0; i < seen.size(); ++i)
+        openness_.grids[to[i] + sector] =
+            static_cast<std::uint8_t>(std::min(seen[i] / look.solid_angle, 1.0f) * 255.0f + 0.5f);
     }
   }
 
-  void addPoints(std::uint32_t masked, std::array<Points, kTurns>* of_turn) {
+  void addPoints(std::uint32_t masked, Points* points) {
     const std::uint32_t t = cutouts_.maskedTriangles()[masked];
     const int steps = stepsOf(geometry_, t);
     const auto& c = geometry_.triangles[t];
@@ -199,13 +185,12 @@ class Looker {
     for (int i = 0; i <= steps; ++i) {
       for (int j = 0; i + j <= steps; ++j, ++node) {
         if (!needed[node]) continue;
-        Points& points = (*of_turn)[(static_cast<std::size_t>(i + j) + t) % kTurns];
         const float u = static_cast<float>(i) / static_cast<float>(steps) * (1.0f - inwards) + inwards / 3.0f;
         const float v = static_cast<float>(j) / static_cast<float>(steps) * (1.0f - inwards) + inwards / 3.0f;
-        points.points.push_back({(1.0f - u - v) * geometry_.positions[c[0]] + u * geometry_.positions[c[1]] +
-                                     v * geometry_.positions[c[2]],
-                                 geometry_.planes[t].normal});
-        points.to.push_back(grid + 1 + kSectors * node);
+        points->points.push_back({(1.0f - u - v) * geometry_.positions[c[0]] + u * geometry_.positions[c[1]] +
+                                      v * geometry_.positions[c[2]],
+                                  geometry_.planes[t].normal});
+        points->to.push_back(grid + 1 + kSectors * node);
       }
     }
   }
@@ -228,7 +213,7 @@ class Looker {
   const Geometry& geometry_;
   Visibility visibility_;
   Cutouts cutouts_;
-  std::array<std::array<Look, kSectors>, kTurns> looks_;
+  std::array<Look, kSectors> looks_;
   std::map<Key, Group> groups_;
   LeafOpenness openness_;
 };

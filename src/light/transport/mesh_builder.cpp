@@ -18,6 +18,10 @@ constexpr float kEmptiest_m = 128.0f;  ///< where there are none
 constexpr float kReachShare = 0.6f;    ///< longest edge of a cell, in harmonic mean distances
 constexpr float kNearShare = 0.7f;     ///< … in distances of the closest thing,
 constexpr float kNearLimit_m = 2.0f;   ///< as far as that matters
+/// Cosine between planes: ground beside ground that slopes more is no thing that stands on it.
+constexpr float kSamePlane = 0.9f;
+constexpr float kSmooth = 0.6f;        ///< of light: cells whose corners differ less may be larger,
+constexpr float kMostLarger = 10.0f;   ///< by at most this: something thin may stand between them
 constexpr float kFinerAtWalls = 4.0f;  ///< times, than elsewhere
 constexpr float kCutUrgency = 4.0f;    ///< of a cell with a wall amid it: light leaks there
 /// Height of normals: below it, as on trunks, leaves nearby count as walls do; ground has too many above it.
@@ -137,8 +141,10 @@ void MeshBuilder::addLeaf(std::uint32_t number) {
   active_.push_back(number);
 }
 
-void MeshBuilder::lookAround(std::size_t first_node) {
+/// From those nodes that have not yet.
+void MeshBuilder::lookAround() {
   std::vector<MeshNode>& nodes = index.nodes;
+  const std::size_t first_node = looked_;
   const std::size_t packets = (nodes.size() - first_node + kNodesAtOnce - 1) / kNodesAtOnce;
   tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
     const std::size_t begin = first_node + p * kNodesAtOnce;
@@ -146,6 +152,8 @@ void MeshBuilder::lookAround(std::size_t first_node) {
     std::array<Site, kNodesAtOnce> sites;
     std::array<float, kNodesAtOnce> all{}, near{}, nearest;
     std::array<Hidden, kNodesAtOnce> hidden;
+    std::array<Eigen::Vector4f, kNodesAtOnce> open;
+    open.fill(Eigen::Vector4f::Zero());
     nearest.fill(1e9f);
     for (int i = 0; i < count; ++i)
       sites[static_cast<std::size_t>(i)] = nodes[begin + static_cast<std::size_t>(i)].site();
@@ -155,22 +163,41 @@ void MeshBuilder::lookAround(std::size_t first_node) {
             all[i] += weight;
             const std::uint32_t hit = hits.triangle[i];
             hidden[i].add({directions_[r].towards, weight, hits, lane}, geometry_, traits_);
-            if (hit == HitPacket::kNothing) return;
+            if (hit == HitPacket::kNothing) {
+              open[i] += weight * directions_[r].towards.homogeneous();
+              return;
+            }
             if (isLeaf(traits_[hit].kind) && sites[i].normal.z() > kSteep) return;
             near[i] += weight / std::max(hits.distance[i], 0.05f);
-            nearest[i] = std::min(nearest[i], hits.distance[i]);
+            if (std::abs(geometry_.planes[hit].normal.dot(sites[i].normal)) < kSamePlane)
+              nearest[i] = std::min(nearest[i], hits.distance[i]);
           });
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       MeshNode& node = nodes[begin + i];
       node.valid = !hidden[i].buried();
       node.reach_m = near[i] > 0.0f ? all[i] / near[i] : 1e9f;
       node.nearest_m = nearest[i];
+      if (all[i] > 0.0f) node.open = open[i] / all[i];
     }
   });
+  for (; looked_ < nodes.size(); ++looked_) valid_ += nodes[looked_].valid ? 1 : 0;
+}
+
+/// By how much light differs between the corners, all of them valid, in steps that may be interpolated.
+float MeshBuilder::variation(const LightMesh::Cell& cell) const {
+  constexpr float kLeastOpen = 0.05f;
+  float most = 0.0f, mean = 0.0f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector4f& here = index.nodes[cell.corner[k]].open;
+    const Eigen::Vector4f& next = index.nodes[cell.corner[(k + 1) % 3]].open;
+    most = std::max(most, (here - next).norm());
+    mean += here[3] / 3.0f;
+  }
+  return most / (kSmooth * std::max(mean, kLeastOpen));
 }
 
 /// Above 1 where the cell must be halved.
-float MeshBuilder::urgency(const LightMesh::Cell& cell, float finest_m) const {
+float MeshBuilder::urgency(const LightMesh::Cell& cell, float finest_m, Pass pass) const {
   float longest = 0.0f, reach = 1e9f, nearest = 1e9f;
   int valid = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -185,8 +212,10 @@ float MeshBuilder::urgency(const LightMesh::Cell& cell, float finest_m) const {
   const float coarse = longest / (occupied_.near(index.nodes, cell) ? kCoarsest_m : kEmptiest_m);
   if (valid == 0) return coarse;
   if (valid < 3) reach = std::min(reach, finest_m * 2.0f);
-  return std::max({coarse, longest / std::max(finest_m, kReachShare * reach),
-                   longest / std::max(kNearLimit_m, kNearShare * nearest)});
+  const float least = 1.0f / kMostLarger;
+  const float share = pass == Pass::kAll || valid < 3 ? 1.0f : std::clamp(variation(cell), least, 1.0f);
+  return std::max({coarse, share * longest / std::max(finest_m, kReachShare * reach),
+                   share * longest / std::max(kNearLimit_m, kNearShare * nearest)});
 }
 
 /// Whether a wall stands between the corners of a small cell: light on both its sides would be mixed there.
@@ -260,33 +289,42 @@ void MeshBuilder::refine(const RefineLimits& limits, const std::function<void(do
       if (traits_[t].used[side]) plant(t, side);
     }
   }
-  std::size_t looked = 0;
-  while (!active_.empty()) {
-    lookAround(looked);
-    looked = index.nodes.size();
-    progress(std::min(1.0, static_cast<double>(looked) / static_cast<double>(limits.nodes)));
-    std::vector<float> urgencies(active_.size());
-    tbb::parallel_for(std::size_t{0}, active_.size(), [&](std::size_t i) {
-      const LightMesh::Cell& cell = mesh.cells[active_[i]];
-      urgencies[i] = urgency(cell, limits.finest_m);
-      if (urgencies[i] <= 1.0f && cut(cell, limits.finest_m)) urgencies[i] = kCutUrgency;
-    });
-    std::vector<Split> splits;
-    for (std::size_t i = 0; i < active_.size(); ++i) {
-      if (urgencies[i] > 1.0f) splits.push_back({active_[i], urgencies[i]});
+  for (const Pass pass : {Pass::kVaried, Pass::kAll}) {
+    while (!active_.empty()) {
+      lookAround();
+      progress(std::min(1.0, static_cast<double>(valid_) / static_cast<double>(limits.nodes)));
+      halveMostUrgent(limits, pass);
     }
-    active_.clear();
-    // Every halving makes at most one node.
-    const std::size_t room = limits.nodes > looked ? limits.nodes - looked : 0;
-    if (splits.size() > room) {
-      std::sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) {
-        return a.urgency != b.urgency ? a.urgency > b.urgency : a.cell < b.cell;
-      });
-      splits.resize(room);
-    }
-    for (const Split& s : splits) split(s.cell);
+    active_.swap(left_);
   }
   findHanging();
+}
+
+void MeshBuilder::halveMostUrgent(const RefineLimits& limits, Pass pass) {
+  std::vector<float> urgencies(active_.size());
+  tbb::parallel_for(std::size_t{0}, active_.size(), [&](std::size_t i) {
+    const LightMesh::Cell& cell = mesh.cells[active_[i]];
+    urgencies[i] = urgency(cell, limits.finest_m, pass);
+    if (urgencies[i] <= 1.0f && cut(cell, limits.finest_m)) urgencies[i] = kCutUrgency;
+  });
+  std::vector<Split> splits;
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    if (urgencies[i] > 1.0f) {
+      splits.push_back({active_[i], urgencies[i]});
+    } else if (pass == Pass::kVaried) {
+      left_.push_back(active_[i]);
+    }
+  }
+  active_.clear();
+  // Every halving makes at most one node.
+  const std::size_t room = limits.nodes > valid_ ? limits.nodes - valid_ : 0;
+  if (splits.size() > room) {
+    std::sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) {
+      return a.urgency != b.urgency ? a.urgency > b.urgency : a.cell < b.cell;
+    });
+    splits.resize(room);
+  }
+  for (const Split& s : splits) split(s.cell);
 }
 
 void MeshBuilder::hang(std::uint32_t a, std::uint32_t b) {

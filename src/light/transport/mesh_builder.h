@@ -21,8 +21,10 @@ struct MeshNode {
   Eigen::Vector3f inwards = Eigen::Vector3f::Zero();  ///< sum of unit vectors to middles of cells around
   int cells = 0;                                      ///< how many
   float reach_m = 0.0f;                               ///< harmonic mean distance of what is seen
-  float nearest_m = 0.0f;                             ///< the closest of it
-  bool valid = true;                                  ///< not where no camera looks
+  float nearest_m = 0.0f;                             ///< the closest of it that is not as level as the place
+  /// Share of an even sphere's light, by cosine, that nothing hides; before it, times its mean direction.
+  Eigen::Vector4f open = Eigen::Vector4f::Zero();
+  bool valid = true;  ///< not where no camera looks
 
   Site site() const;
 };
@@ -56,8 +58,8 @@ class Occupancy {
 };
 
 struct RefineLimits {
-  float finest_m = 0.25f;
-  std::size_t nodes = 700000;
+  float finest_m;     ///< longest edge of a cell where light changes fastest
+  std::size_t nodes;  ///< at most about as many where a camera may look
 };
 
 class MeshBuilder {
@@ -75,14 +77,21 @@ class MeshBuilder {
   std::vector<std::array<std::uint32_t, 2>> hangs_between;
 
  private:
+  /// Where cells that need halving are looked for.
+  enum class Pass {
+    kVaried,  ///< first where light differs between their corners,
+    kAll      ///< then everywhere else
+  };
   struct Split {
     std::uint32_t cell;
     float urgency;
   };
   void plant(std::uint32_t triangle, int side);
   void addLeaf(std::uint32_t cell);
-  void lookAround(std::size_t first_node);
-  float urgency(const LightMesh::Cell& cell, float finest_m) const;
+  void lookAround();
+  float variation(const LightMesh::Cell& cell) const;
+  float urgency(const LightMesh::Cell& cell, float finest_m, Pass pass) const;
+  void halveMostUrgent(const RefineLimits& limits, Pass pass);
   bool cut(const LightMesh::Cell& cell, float finest_m) const;
   void split(std::uint32_t cell);
   std::uint32_t middle(std::uint32_t a, std::uint32_t b);
@@ -96,6 +105,9 @@ class MeshBuilder {
   std::vector<SkyPatches::Ray> directions_;                   ///< in which nodes look around
   std::unordered_map<std::uint64_t, std::uint32_t> middles_;  ///< of halved edges
   std::vector<std::uint32_t> active_;                         ///< leaves that may still be halved
+  std::vector<std::uint32_t> left_;  ///< leaves that were not halved in the first pass
+  std::size_t looked_ = 0;           ///< nodes that have looked around,
+  std::size_t valid_ = 0;            ///< and those of them that cameras may see
 };
 
 }  // namespace sunlit::light

@@ -13,7 +13,8 @@
 namespace sunlit::light {
 namespace {
 
-constexpr std::size_t kPatches = SkyPatches::kCount;
+/// Of an even sphere's light: surfaces that hide less are too few to tell how bright they are.
+constexpr float kLeastHidden = 0.02f;
 
 /// A disc as additional luminance of the patches around it.
 struct SmallLight {
@@ -32,32 +33,58 @@ struct SmallLight {
   }
 };
 
-/// The share of an even sphere's light, by cosine, that surfaces hide from a sample.
-float hiddenShare(const Coefficients& direct, std::size_t sample) {
-  std::uint32_t sum = 0;
-  const std::uint8_t* row = direct.row(sample);
-  for (std::size_t p = 0; p < kPatches; ++p) sum += row[p];
-  return 1.0f - static_cast<float>(sum) * direct.scales[sample] / kPiFloat;
+/// What lights the samples of a scene.
+class Lights {
+ public:
+  explicit Lights(const sky::Daylight& day)
+      : sky_(SkyPatches::luminances(day, SkyPatches::Weight::kCosine)), sun_(day.sun()), moon_(day.moon()) {}
+
+  /// Illuminance of a sample by the sky that it sees, lx.
+  Eigen::Array3f direct(const Coefficients& direct, std::size_t sample) const {
+    return sky_.times(direct.row(sample)) * direct.scales[sample];
+  }
+  /// And by surfaces.
+  Eigen::Array3f passedOn(const PassedOn& part, std::size_t sample) const {
+    const std::uint8_t* row = part.coefficients.row(sample);
+    const Eigen::Array3f tint = Eigen::Map<const Eigen::Array3f>(part.tints[sample].data());
+    return (sky_.times(row) + sun_.times(row) + moon_.times(row)) *
+               (part.coefficients.scales[sample] * tint) +
+           Eigen::Map<const Eigen::Array3f>(part.glows[sample].data());
+  }
+
+ private:
+  PatchSky sky_;
+  SmallLight sun_, moon_;
+};
+
+/// Mean luminance of surfaces that hide the share `hides` and give `illuminance`, lx.
+Eigen::Array3f meanLuminance(const Eigen::Array3f& illuminance, float hides) {
+  // Where next to nothing is hidden, rounding must not make it shine.
+  return illuminance / (kPiFloat * std::max(hides, kLeastHidden));
+}
+
+/// Where a part hides next to nothing, it is taken as bright as both are together.
+Surroundings surroundingsOf(const Eigen::Array3f& above, float hides_above, const Eigen::Array3f& below,
+                            float hides_below) {
+  const Eigen::Array3f both = meanLuminance(above + below, hides_above + hides_below);
+  const auto known = [](float hides) { return std::min(hides / kLeastHidden, 1.0f); };
+  return {meanLuminance(above, hides_above) + (1.0f - known(hides_above)) * both,
+          meanLuminance(below, hides_below) + (1.0f - known(hides_below)) * both};
 }
 
 NodeLight sampleLight(const TransportData& data, const sky::Daylight& day) {
-  const PatchSky sky(SkyPatches::luminances(day, SkyPatches::Weight::kCosine));
-  const SmallLight sun(day.sun()), moon(day.moon());
+  const Lights lights(day);
   NodeLight light;
-  light.irradiance.resize(data.tints.size());
-  light.surroundings.resize(data.tints.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, data.tints.size(), 1024),
+  light.irradiance.resize(data.sampleCount());
+  light.surroundings.resize(data.sampleCount());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, data.sampleCount(), 1024),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                        const std::uint8_t* row = data.bounced.row(i);
-                        const Eigen::Array3f tint = Eigen::Map<const Eigen::Array3f>(data.tints[i].data());
-                        const Eigen::Array3f bounced = (sky.times(row) + sun.times(row) + moon.times(row)) *
-                                                           (data.bounced.scales[i] * tint) +
-                                                       Eigen::Map<const Eigen::Array3f>(data.glows[i].data());
-                        light.irradiance[i] = sky.times(data.direct.row(i)) * data.direct.scales[i] + bounced;
-                        // Where next to nothing is hidden, rounding must not make it shine.
-                        const float hidden = std::max(hiddenShare(data.direct, i), 0.02f);
-                        light.surroundings[i] = bounced / (kPiFloat * hidden);
+                        const Eigen::Array3f above = lights.passedOn(data.above, i);
+                        const Eigen::Array3f below = lights.passedOn(data.below, i);
+                        light.irradiance[i] = lights.direct(data.direct, i) + above + below;
+                        light.surroundings[i] =
+                            surroundingsOf(above, data.above.hides[i], below, data.below.hides[i]);
                       }
                     });
   return light;
@@ -74,11 +101,13 @@ NodeLight relight(const TransportData& data, const sky::Daylight& day) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.nodeCount(), 4096),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t n = range.begin(); n != range.end(); ++n) {
-                        Eigen::Array3f irradiance = Eigen::Array3f::Zero(), around = Eigen::Array3f::Zero();
+                        Eigen::Array3f irradiance = Eigen::Array3f::Zero();
+                        Surroundings around{Eigen::Array3f::Zero(), Eigen::Array3f::Zero()};
                         for (std::uint32_t s = mesh.first_share[n]; s < mesh.first_share[n + 1]; ++s) {
                           const LightMesh::Share& share = mesh.shares[s];
                           irradiance += samples.irradiance[share.sample] * share.weight;
-                          around += samples.surroundings[share.sample] * share.weight;
+                          around.above += samples.surroundings[share.sample].above * share.weight;
+                          around.below += samples.surroundings[share.sample].below * share.weight;
                         }
                         nodes.irradiance[n] = irradiance;
                         nodes.surroundings[n] = around;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "light/transport/transport_data.h"
+#include "sunlit/light/illumination.h"
 #include "sunlit/sky/daylight.h"
 
 namespace sunlit::light {
@@ -13,8 +14,7 @@ struct NodeLight {
   /// Illuminance of each node, lx: from the sky, and from sun, moon and sky by way of other surfaces. Without
   /// the direct light of sun and moon.
   std::vector<Eigen::Array3f> irradiance;
-  /// Mean luminance of the surfaces that a node sees, cd/m².
-  std::vector<Eigen::Array3f> surroundings;
+  std::vector<Surroundings> surroundings;  ///< of each node
 };
 
 /// Parallel; the same bits for any number of threads.

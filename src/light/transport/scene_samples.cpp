@@ -52,11 +52,15 @@ class Sampler {
       : geometry_(geometry), traits_(traits), builder_(geometry, rays, traits) {}
 
   SceneSamples sample(const RefineLimits& limits, const std::function<void(double)>& progress) {
-    builder_.refine(limits, progress);
+    const SampleCloud small = cloudOf(kSmallRule), foliage = cloudOf(kFoliageRule);
+    const std::size_t taken = small.sites().size() + foliage.sites().size() + countCardSides();
+    builder_.refine(withoutTaken(limits, taken), progress);
     sampleTrees();
     fillInvalid();
     hang();
-    sampleSmall();
+    addCloud(kSmallRule, small);
+    addCloud(kFoliageRule, foliage);
+    addCards();
     SceneSamples samples = finish();
     orderSamples(&samples);
     paintSamples(geometry_, &samples);
@@ -72,6 +76,13 @@ class Sampler {
     int triangles = 1;
     std::uint32_t sample(std::size_t side) const { return first_sample + static_cast<std::uint32_t>(side); }
   };
+
+  /// What is left to large triangles.
+  static RefineLimits withoutTaken(RefineLimits limits, std::size_t taken) {
+    constexpr std::size_t kLeastPart = 4;
+    limits.nodes = std::max(limits.nodes / kLeastPart, limits.nodes - std::min(limits.nodes, taken));
+    return limits;
+  }
 
   void sampleTrees() {
     const std::vector<MeshNode>& nodes = builder_.index.nodes;
@@ -174,17 +185,15 @@ class Sampler {
     }
   }
 
-  void sampleSmall() {
-    sampleCloud(kSmallRule);
-    sampleCloud(kFoliageRule);
-    sampleCards();
-  }
-
-  void sampleCloud(const CloudRule& rule) {
+  SampleCloud cloudOf(const CloudRule& rule) const {
     SampleCloud cloud(rule.spacing_m, rule.cosine, rule.depth_m);
     visitCorners(rule.kind, [&](std::uint32_t, int, std::size_t, const Corner& corner) {
       cloud.cover(corner.position, corner.site);
     });
+    return cloud;
+  }
+
+  void addCloud(const CloudRule& rule, const SampleCloud& cloud) {
     const auto base = static_cast<std::uint32_t>(sites_.size());
     sites_.insert(sites_.end(), cloud.sites().begin(), cloud.sites().end());
     std::unordered_map<std::uint64_t, std::uint32_t> node_of;
@@ -211,11 +220,21 @@ class Sampler {
     });
   }
 
+  bool isCard(std::uint32_t t) const {
+    return traits_[t].kind == TriangleKind::kSpray || traits_[t].kind == TriangleKind::kCanopy;
+  }
+  /// Two a card, of two triangles.
+  std::size_t countCardSides() const {
+    std::size_t count = 0;
+    for (std::uint32_t t = 0; t < traits_.size(); ++t) count += isCard(t) ? 1 : 0;
+    return count;
+  }
+
   /// One sample on each side of a card; LeafOpenness knows what lies open of it.
-  void sampleCards() {
+  void addCards() {
     std::vector<std::uint32_t> card_at(geometry_.positions.size(), LightMesh::kNone);
     for (std::uint32_t t = 0; t < traits_.size(); ++t) {
-      if (traits_[t].kind != TriangleKind::kSpray && traits_[t].kind != TriangleKind::kCanopy) continue;
+      if (!isCard(t)) continue;
       std::uint32_t number = LightMesh::kNone;
       for (const std::uint32_t v : geometry_.triangles[t]) {
         if (card_at[v] != LightMesh::kNone && cards_[card_at[v]].triangles < 2) number = card_at[v];

@@ -73,9 +73,7 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   };
   const BakeRays rays(geometry);
   const std::vector<TriangleTraits> traits = triangleTraits(*geometry, rays);
-  RefineLimits limits;
-  limits.finest_m = static_cast<float>(options.finest_m);
-  limits.nodes = static_cast<std::size_t>(options.samples);
+  const RefineLimits limits{static_cast<float>(options.finest_m), static_cast<std::size_t>(options.samples)};
   const BakeScene scene{*geometry, rays, traits};
   constexpr double kLeaves = 0.2, kSampled = 0.4;
   auto data = std::make_unique<TransportData>();
@@ -146,14 +144,14 @@ Illumination Transport::illumination(const sky::Daylight& day) const {
   NodeLight nodes = relight(*data_, day);
   Illumination light(day);
   light.irradiance = std::make_shared<const std::vector<Eigen::Array3f>>(std::move(nodes.irradiance));
-  light.surroundings = std::make_shared<const std::vector<Eigen::Array3f>>(std::move(nodes.surroundings));
+  light.surroundings = std::make_shared<const std::vector<Surroundings>>(std::move(nodes.surroundings));
   light.sky_sectors = std::make_shared<const SkySectors>(day);
   light.mirror_sky = std::make_shared<const MirrorSky>(day);
   return light;
 }
 
 std::size_t Transport::sampleCount() const {
-  return data_->tints.size();
+  return data_->sampleCount();
 }
 std::size_t Transport::nodeCount() const {
   return data_->mesh.nodeCount();

@@ -47,6 +47,19 @@ void Coefficients::set(std::size_t sample, const float* row) {
   for (int p = 0; p < SkyPatches::kCount; ++p) to[p] = static_cast<std::uint8_t>(row[p] * inverse + 0.5f);
 }
 
+float Coefficients::sum(std::size_t sample) const {
+  std::uint32_t sum = 0;
+  for (int p = 0; p < SkyPatches::kCount; ++p) sum += row(sample)[p];
+  return static_cast<float>(sum) * scales[sample];
+}
+
+void PassedOn::resize(std::size_t samples) {
+  coefficients.resize(samples);
+  tints.assign(samples, {1.0f, 1.0f, 1.0f});
+  glows.assign(samples, {0.0f, 0.0f, 0.0f});
+  hides.assign(samples, 0.0f);
+}
+
 SUNLIT_VECTOR_CLONES
 void addTimes(float factor, const std::uint8_t* coefficients, float* __restrict row) {
   for (std::size_t p = 0; p < SkyPatches::kCount; ++p) row[p] += factor * static_cast<float>(coefficients[p]);

@@ -58,18 +58,32 @@ struct Coefficients {
   /// Stores `row` of SkyPatches::kCount values ≥ 0.
   void set(std::size_t sample, const float* row);
   const std::uint8_t* row(std::size_t sample) const { return rows.data() + sample * SkyPatches::kCount; }
+  /// For 1 cd/m² of all patches.
+  float sum(std::size_t sample) const;
 };
 
 /// Adds a row of Coefficients, without its scale, times `factor` to the SkyPatches::kCount values of `row`.
 void addTimes(float factor, const std::uint8_t* coefficients, float* row);
 
+/// What surfaces pass on to each sample.
+struct PassedOn {
+  Coefficients coefficients;                ///< luminance of it
+  std::vector<std::array<float, 3>> tints;  ///< its colour, of luminance 1
+  std::vector<std::array<float, 3>> glows;  ///< illuminance, lx, from surfaces that shine by themselves
+  std::vector<float> hides;  ///< share of an even sphere's light, by cosine, that these surfaces hide
+
+  void resize(std::size_t samples);
+};
+
 struct TransportData {
   LightMesh mesh;
-  Coefficients direct;                      ///< straight from the sky
-  Coefficients bounced;                     ///< luminance of it, after surfaces passed it on
-  std::vector<std::array<float, 3>> tints;  ///< colour of the bounced part, of luminance 1
-  std::vector<std::array<float, 3>> glows;  ///< illuminance, lx, from surfaces that shine by themselves
+  Coefficients direct;  ///< straight from the sky
+  /// Surfaces that a sample sees above the horizon, such as walls and leaves, and below it, mostly the
+  /// ground: they differ in brightness, and mirrors look at the one or the other.
+  PassedOn above, below;
   LeafOpenness leaves;
+
+  std::size_t sampleCount() const { return direct.scales.size(); }
 };
 
 }  // namespace sunlit::light

@@ -95,7 +95,7 @@ TEST(Crown, FindsWhatRaysFromEachPointFind) {
   std::size_t open = 0, differ = 0, all = 0;
   for (const Eigen::Vector3f& towards : directions()) {
     const std::vector<std::uint8_t> by_rays = woods.openByRays(towards);
-    const std::vector<std::uint8_t>& found = crown.open(towards, {0, woods.points.size()});
+    const std::vector<std::uint8_t>& found = crown.open(towards);
     for (std::size_t i = 0; i < by_rays.size(); ++i, ++all) {
       open += by_rays[i];
       differ += found[i] != by_rays[i];
@@ -112,7 +112,7 @@ TEST(Crown, SharesWhatStandsBeyondWithinACell) {
   Crown crown({*woods.geometry, woods.cutouts, woods.visibility}, woods.points, 0.5f);
   for (const Eigen::Vector3f& towards : directions()) {
     const std::vector<std::uint8_t> by_rays = woods.openByRays(towards);
-    const std::vector<std::uint8_t>& found = crown.open(towards, {0, woods.points.size()});
+    const std::vector<std::uint8_t>& found = crown.open(towards);
     std::size_t open = 0, open_by_rays = 0, differ = 0;
     for (std::size_t i = 0; i < by_rays.size(); ++i) {
       open += found[i];
@@ -131,15 +131,10 @@ TEST(Crown, SharesWhatStandsBeyondWithinACell) {
   }
 }
 
-TEST(Crown, LooksFromPartOfItsPoints) {
+TEST(Crown, OfNoPointsIsAskedNothing) {
   const Woods woods;
-  Crown crown({*woods.geometry, woods.cutouts, woods.visibility}, woods.points, 0.004f);
-  const Eigen::Vector3f towards = directions()[4];
-  const std::vector<std::uint8_t> whole = crown.open(towards, {0, woods.points.size()});
-  const Crown::Range middle{200, 400};
-  const std::vector<std::uint8_t> part = crown.open(towards, middle);
-  for (std::size_t i = middle.first; i < middle.end; ++i) EXPECT_EQ(part[i], whole[i]);
-  crown.open(towards, {5, 5});  // of no points nothing is asked
+  Crown crown({*woods.geometry, woods.cutouts, woods.visibility}, {}, 0.5f);
+  EXPECT_TRUE(crown.open(directions()[0]).empty());
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST(LeafOpenness, ChangesWithinALeafThatAWallCutsInTwo) {
   for (const float x : {-0.9f, -0.55f, -0.2f, 0.2f, 0.55f, 0.9f}) {
     const float distance = std::abs(x);
     const float open = 0.5f * (1.0f + distance / std::hypot(distance, 0.5f));
-    // 0.1: three nodes of 87 directions each, on a grid of 0.4 m.
+    // 0.1: between three nodes, on a grid of 0.4 m.
     EXPECT_NEAR(openAround(viewAt(*geometry, leaves, {x, 0.1f, 2.0f}), Eigen::Vector3f::UnitZ()), open, 0.1f)
         << x;
   }

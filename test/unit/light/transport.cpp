@@ -139,6 +139,29 @@ TEST(BakedLight, GroundBeforeABlackWallLosesTheWallsShareOfTheSky) {
   }
 }
 
+TEST(BakedLight, TakesNoMoreSamplesThanAllowed) {
+  // Slabs on the ground, which could do with more than allowed.
+  const auto samplesOf = [](int allowed) {
+    scene::Scene scene;
+    scene.materials = {paint(0.5f)};
+    addGround(&scene, 0, 60.0f);
+    for (int i = 0; i < 64; ++i) {
+      const Eigen::Vector3f corner(-24.0f + 6.0f * static_cast<float>(i % 8),
+                                   -24.0f + 6.0f * static_cast<float>(i / 8), 0.0f);
+      addBlock(&scene, 0, corner, {2.5f, 2.5f, 0.4f});
+    }
+    TransportOptions options;
+    options.bounces = 0;
+    options.samples = allowed;
+    return baked(std::move(scene), options).transport->sampleCount();
+  };
+  // Some nodes are no samples: amid an undivided edge, or hidden.
+  for (const std::size_t allowed : {10000u, 20000u}) {
+    EXPECT_LE(samplesOf(static_cast<int>(allowed)), allowed);
+    EXPECT_GT(samplesOf(static_cast<int>(allowed)), allowed / 2);
+  }
+}
+
 TEST(BakedLight, ARoomThatGlowsFillsUp) {
   scene::Scene scene;
   scene.materials = {paint(0.5f, 100.0f)};
