@@ -366,11 +366,9 @@ class Gatherer {
     part->coefficients.set(i, received.row.data());
     part->glows[i] = {received.glow[0], received.glow[1], received.glow[2]};
     const float luminance = luminanceOf(received.color);
-    if (luminance > 0.0f) {
-      Eigen::Map<Eigen::Array3f>(part->tints[i].data()) = received.color / luminance;
-    } else {
-      part->tints[i] = {1.0f, 1.0f, 1.0f};
-    }
+    Eigen::Map<Eigen::Array3f>(part->tints[i].data()) = luminance > 0.0f
+                                                            ? Eigen::Array3f(received.color / luminance)
+                                                            : Eigen::Array3f(Eigen::Array3f::Ones());
   }
 
   const Geometry& geometry_;

@@ -301,6 +301,9 @@ void MeshBuilder::refine(const RefineLimits& limits, const std::function<void(do
 }
 
 void MeshBuilder::halveMostUrgent(const RefineLimits& limits, Pass pass) {
+  // Every halving makes at most one node.
+  const std::size_t room = limits.nodes > valid_ ? limits.nodes - valid_ : 0;
+  if (room == 0) return active_.clear();
   std::vector<float> urgencies(active_.size());
   tbb::parallel_for(std::size_t{0}, active_.size(), [&](std::size_t i) {
     const LightMesh::Cell& cell = mesh.cells[active_[i]];
@@ -316,8 +319,6 @@ void MeshBuilder::halveMostUrgent(const RefineLimits& limits, Pass pass) {
     }
   }
   active_.clear();
-  // Every halving makes at most one node.
-  const std::size_t room = limits.nodes > valid_ ? limits.nodes - valid_ : 0;
   if (splits.size() > room) {
     std::sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) {
       return a.urgency != b.urgency ? a.urgency > b.urgency : a.cell < b.cell;
