@@ -1,9 +1,20 @@
 #include "sunlit/light/world.h"
 
+#include "light/transport/bake_key.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/transport.h"
 
 namespace sunlit::light {
+namespace {
+
+/// What only pictures show of a surface.
+void addDetail(const scene::Detail& detail, ContentHash* hash) {
+  for (const float value : {detail.contrast, detail.coarsest_m, detail.finest_m, detail.gain})
+    hash->add(value);
+  for (const float channel : detail.tint) hash->add(channel);
+}
+
+}  // namespace
 
 World::World(std::shared_ptr<const scene::Scene> scene,
              const std::vector<std::vector<scene::Mesh>>& meshes_of_bodies)
@@ -14,6 +25,20 @@ World::World(std::shared_ptr<const scene::Scene> scene,
 
 Illumination illumination(const World& world, const sky::Daylight& day) {
   return world.transport ? world.transport->illumination(day) : Illumination(day);
+}
+
+std::string fingerprint(const World& world, const TransportOptions& options) {
+  ContentHash hash;
+  if (world.transport)
+    hash = bakeKey(*world.geometry, options);
+  else
+    addContents(*world.geometry, &hash);
+  for (const scene::Material& material : world.geometry->scene->materials) addDetail(material.detail, &hash);
+  if (world.bodies) {
+    const std::vector<Eigen::Isometry3d> at_home(world.bodies->count(), Eigen::Isometry3d::Identity());
+    addContents(*world.bodies->placed(at_home), &hash);
+  }
+  return hash.text();
 }
 
 }  // namespace sunlit::light

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "sunlit/light/bodies.h"
@@ -11,6 +12,7 @@
 namespace sunlit::light {
 
 class Transport;
+struct TransportOptions;
 
 /// Cheap to copy.
 struct World {
@@ -23,5 +25,9 @@ struct World {
   std::shared_ptr<const Bodies> bodies;        ///< what moves in it; null: nothing
   std::shared_ptr<const Transport> transport;  ///< of sky and bounced light; null: an open sky is assumed
 };
+
+/// Tells worlds apart by what decides their pictures: shape, looks, what moves, and how `transport` was
+/// baked, if there is one. 32 hexadecimal digits; the same wherever equal contents were loaded from.
+std::string fingerprint(const World& world, const TransportOptions& options);
 
 }  // namespace sunlit::light

@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Goes up whenever the bake or the layout below changes.
-constexpr std::uint32_t kVersion = 11;
 constexpr char kMagic[8] = {'s', 'u', 'n', 'l', 'i', 't', 'T', '\n'};
 
 struct Header {
@@ -52,50 +50,7 @@ void visitArrays(Data& data, const Visit& visit) {
   visit(data.leaves.grids);
 }
 
-void addMaterial(const scene::Material& material, ContentHash* hash) {
-  for (const float channel : material.base_color.value) hash->add(channel);
-  for (const float channel : material.emission.value) hash->add(channel);
-  hash->add(material.base_texture);
-  hash->add(material.roughness);
-  hash->add(material.metalness);
-  hash->add(material.transmission);
-  hash->add(material.alpha_mode);
-  hash->add(material.alpha_cutoff);
-  hash->add(static_cast<int>(material.double_sided));
-}
-
 }  // namespace
-
-ContentHash bakeKey(const Geometry& geometry, const TransportOptions& options) {
-  ContentHash hash;
-  hash.add(kVersion);
-  hash.add(options.rays_per_patch);
-  hash.add(options.bounces);
-  hash.add(options.finest_m);
-  hash.add(options.samples);
-  hash.add(geometry.positions);
-  hash.add(geometry.normals);
-  hash.add(geometry.texture_coordinates);
-  hash.add(geometry.colors);
-  hash.add(geometry.triangles);
-  hash.add(geometry.materials);
-  // Only what the geometry uses: materials of bodies that move follow after those of the scene.
-  std::size_t materials = 0, textures = 0;
-  for (const std::int32_t used : geometry.materials)
-    materials = std::max(materials, static_cast<std::size_t>(used) + 1);
-  for (std::size_t i = 0; i < materials; ++i) {
-    const scene::Material& material = geometry.scene->materials[i];
-    addMaterial(material, &hash);
-    textures = std::max(textures, static_cast<std::size_t>(material.base_texture + 1));
-  }
-  for (std::size_t i = 0; i < textures; ++i) {
-    const scene::Texture& texture = geometry.scene->textures[i];
-    hash.add(texture.width);
-    hash.add(texture.height);
-    hash.add(texture.rgba);
-  }
-  return hash;
-}
 
 std::unique_ptr<TransportData> readBake(const fs::path& file, const ContentHash& key) {
   std::ifstream stream(file, std::ios::binary);
@@ -104,7 +59,8 @@ std::unique_ptr<TransportData> readBake(const fs::path& file, const ContentHash&
   if (!stream.read(reinterpret_cast<char*>(&header), sizeof(header)) ||
       std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0)
     fail(file, "is no baked light");
-  if (header.version != kVersion || header.patches != SkyPatches::kCount) fail(file, "is of another version");
+  if (header.version != kBakeVersion || header.patches != SkyPatches::kCount)
+    fail(file, "is of another version");
   if (header.key[0] != key.first() || header.key[1] != key.second()) fail(file, "is of another scene");
   auto data = std::make_unique<TransportData>();
   const std::uint64_t size = fs::file_size(file);
@@ -133,7 +89,7 @@ std::unique_ptr<TransportData> readBake(const fs::path& file, const ContentHash&
 void writeBake(const fs::path& file, const ContentHash& key, const TransportData& data) {
   Header header{};
   std::memcpy(header.magic, kMagic, sizeof(kMagic));
-  header.version = kVersion;
+  header.version = kBakeVersion;
   header.patches = SkyPatches::kCount;
   header.key[0] = key.first();
   header.key[1] = key.second();

@@ -4,15 +4,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "light/transport/content_hash.h"
+#include "light/transport/bake_key.h"
 #include "light/transport/transport_data.h"
-#include "sunlit/light/geometry.h"
-#include "sunlit/light/transport.h"
 
 namespace sunlit::light {
-
-/// Of everything that a bake depends on.
-ContentHash bakeKey(const Geometry& geometry, const TransportOptions& options);
 
 /// Throws std::runtime_error with the path and what is wrong: it can't be read, is cut short, is damaged, is
 /// of another version, or is of another bake than `key`.

@@ -1,9 +1,12 @@
 #include "ros/render/path_source.h"
 
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <stdexcept>
 
 #include "ros/render/messages.h"
+#include "sunlit/quantity/fingerprint.h"
 #include "sunlit/scene/race_track.h"
 
 namespace sunlit::ros_interface {
@@ -29,6 +32,15 @@ PathSource::PathSource(ros::NodeHandle node, const PathSourceOptions& options) :
   } else {
     sample(scene::raceTrackWaypoints());
   }
+}
+
+std::string PathSource::fingerprint() const {
+  Fingerprint print;
+  for (const Eigen::Isometry3d& pose : map_from_camera_)
+    print.add(std::vector<double>(pose.data(), pose.data() + pose.matrix().size()));
+  std::ostringstream text;
+  text << std::hex << std::setfill('0') << std::setw(16) << print.value();
+  return text.str();
 }
 
 void PathSource::onPath(const nav_msgs::Path& message) {

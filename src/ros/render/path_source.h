@@ -31,6 +31,8 @@ class PathSource {
   const Eigen::Isometry3d& mapFromCamera(int index) const {
     return map_from_camera_[static_cast<std::size_t>(index)];
   }
+  /// Tells paths apart by all their poses; 16 hexadecimal digits.
+  std::string fingerprint() const;
   int size() const { return static_cast<int>(map_from_camera_.size()); }
   /// The indices to render are first(), first() + stride(), … below end().
   int first() const { return options_.first; }

@@ -83,7 +83,7 @@ void RenderNode::reportRobot() const {
 Step RenderNode::step() {
   if (finished_) return Step::kWaits;
   run_->announce();
-  if (files_ && path_ && path_->ready() && !drawn_) writeMap();
+  if (files_ && path_ && path_->ready() && !has_begun_) beginFolder();
   if (paused_) {
     wait_log_.report("the service " + private_node_.resolveName("start"));
     return Step::kWaits;
@@ -106,11 +106,12 @@ void RenderNode::keepTiming() {
   timing_kept_ = now;
 }
 
-void RenderNode::writeMap() {
+void RenderNode::beginFolder() {
+  files_->keepInputs({studio_.fingerprint(), path_->fingerprint()});
   const MapExtent extent = extentOf(*path_);
   const auto draw = [&] { return studio_.mapFromAbove(extent); };
   files_->writeMap(studio_.stopwatch().measure("load", "map", draw), extent);
-  drawn_ = true;
+  has_begun_ = true;
 }
 
 void RenderNode::finish() {

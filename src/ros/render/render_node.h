@@ -37,7 +37,8 @@ class RenderNode {
   bool onView(RenderView::Request& request, RenderView::Response& response);
   Step step();
   void keepTiming();
-  void writeMap();
+  /// Before the first pose, once the path is known.
+  void beginFolder();
   void finish();
   void reportRobot() const;
 
@@ -56,7 +57,7 @@ class RenderNode {
   WaitLog wait_log_;
   bool paused_;
   std::optional<std::chrono::steady_clock::time_point> timing_kept_;  // when it was written last
-  bool drawn_ = false;                                                // the map is written
+  bool has_begun_ = false;                                            // its folder knows what it holds
   bool finished_ = false;                                             // all is rendered
   std::vector<ros::ServiceServer> services_;
 };

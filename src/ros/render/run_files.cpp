@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
@@ -11,12 +12,40 @@
 
 namespace sunlit::ros_interface {
 
-RunFiles::RunFiles(const std::string& folder, bool goes_on) : folder_(folder) {
+namespace {
+
+std::string inputsText(const RunInputs& inputs) {
+  return "sunlit: '" SUNLIT_VERSION "'\nworld: '" + inputs.world + "'\npath: '" + inputs.path + "'\n";
+}
+
+/// The first line of one text that the other has not; empty: they are equal.
+std::string differingLine(const std::string& text, const std::string& other) {
+  std::istringstream lines(text), other_lines(other);
+  for (std::string line, other_line; std::getline(lines, line);)
+    if (!std::getline(other_lines, other_line) || line != other_line) return line;
+  return {};
+}
+
+}  // namespace
+
+RunFiles::RunFiles(const std::string& folder, bool goes_on) : folder_(folder), goes_on_(goes_on) {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) throw std::runtime_error(folder_ + ": the folder cannot be made: " + error.message());
   if (goes_on) earlier_ = readTimeSheet(folder_ + "/timing.csv");
   writeTiming(Stopwatch());
+}
+
+void RunFiles::keepInputs(const RunInputs& inputs) const {
+  const std::string path = folder_ + "/inputs.yaml", now = inputsText(inputs);
+  if (!goes_on_) return image::writeFileAtomically(path, now);
+  std::ifstream file(path);
+  const std::string then{std::istreambuf_iterator<char>(file), {}};
+  const std::string differs = differingLine(now, then);
+  if (differs.empty()) return;
+  throw std::runtime_error(
+      path + ": the run that was broken off in this folder was made from something else: now \"" + differs +
+      "\" is no line of this file; choose another output folder, or what it was begun with");
 }
 
 void RunFiles::writeMap(const image::Rgb8Image& map, const MapExtent& extent) const {

@@ -1,4 +1,4 @@
-/// What a run leaves behind for the report: map and time sheet.
+/// What a run leaves behind: what it was made from, and map and time sheet for the report.
 #pragma once
 
 #include <string>
@@ -9,6 +9,11 @@
 
 namespace sunlit::ros_interface {
 
+/// What all pictures of a run are made from, as texts that differ wherever the contents do.
+struct RunInputs {
+  std::string world, path;
+};
+
 /// Files in one folder. Everything here throws std::runtime_error naming the file that cannot be written.
 class RunFiles {
  public:
@@ -16,6 +21,9 @@ class RunFiles {
   /// that was broken off, whose times count too.
   RunFiles(const std::string& folder, bool goes_on);
 
+  /// inputs.yaml. A run that goes on with another must have its inputs and version of sunlit: else throws
+  /// std::runtime_error saying what differs.
+  void keepInputs(const RunInputs& inputs) const;
   /// map.png, north up, and map.yaml, which says what ground it shows: x_min, x_max, y_min, y_max in m.
   void writeMap(const image::Rgb8Image& map, const MapExtent& extent) const;
   /// timing.csv: stage,what,count,seconds; with the times of the run that this one goes on with.
@@ -23,6 +31,7 @@ class RunFiles {
 
  private:
   std::string folder_;
+  bool goes_on_;
   std::vector<Stopwatch::Entry> earlier_;
 };
 

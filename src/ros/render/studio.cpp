@@ -77,6 +77,7 @@ Studio::Studio(const RenderNodeOptions& options)
     : options_(checked(options)),
       exposure_(options.exposure),
       noise_(options.noise),
+      transport_options_(options.bake.transport),
       robot_(loadRobot(options.robot, options.model_path)),
       world_(stopwatch_.measure("load", "world", [&] { return makeWorld(options, robot_); })),
       atmosphere_(
@@ -117,6 +118,10 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent) {
       atmosphere_.daylight({Direction(Azimuth::degrees(160.0), Angle::degrees(55.0)), 1.0});
   const image::LinearImage light = from_above.light(illumination(noon));
   return image::develop(light, image::chooseEv100(light, image::ExposureOptions{}));
+}
+
+std::string Studio::fingerprint() const {
+  return light::fingerprint(world_, transport_options_);
 }
 
 void Studio::look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links) {

@@ -50,6 +50,8 @@ class Studio {
   Developed photograph(const light::Illumination& light, const image::PictureName& name);
   image::DepthImage depth();
 
+  /// As light::fingerprint(), of its world.
+  std::string fingerprint() const;
   /// None if the options name none.
   const std::optional<scene::Robot>& robot() const { return robot_; }
   const sky::Atmosphere& atmosphere() const { return atmosphere_; }
@@ -61,6 +63,7 @@ class Studio {
   render::RenderOptions options_;
   image::ExposureOptions exposure_;
   image::NoiseOptions noise_;
+  light::TransportOptions transport_options_;
   std::optional<scene::Robot> robot_;
   light::World world_;
   sky::Atmosphere atmosphere_;

@@ -10,7 +10,7 @@ import rosbag
 import rospy
 import rostest
 import yaml
-from launching import DIFFERENCES, LONG, POSES, Launched, kill_leftovers, small_experiment
+from launching import DIFFERENCES, LONG, POSES, WORLD, Launched, kill_leftovers, small_experiment
 
 
 class ExperimentRuns(unittest.TestCase):
@@ -47,7 +47,7 @@ class ExperimentRuns(unittest.TestCase):
             if row["difference"] in ("boolean_rgb", "euclidean_grey"):
                 # Two processes, one sun: to the bit. Two suns: not.
                 self.assertEqual(float(row["mean"]) == 0.0, is_self_test, row)
-        for name in ("frames.csv", "captures.csv", "path.csv", "run.yaml", "map.png", "map.yaml", "timing.csv",
+        for name in ("frames.csv", "captures.csv", "path.csv", "run.yaml", "map.png", "map.yaml", "timing.csv", "inputs.yaml",
                      "report.html", "images/h10/000000.png", "images/h12/000019.png"):
             self.assertTrue(os.path.exists(os.path.join(self.output, name)), name)
 
@@ -81,20 +81,23 @@ class ExperimentRuns(unittest.TestCase):
         expected = [line for line in self.bytes_of(self.output).splitlines() if b"self_test" not in line]
         self.assertEqual(self.bytes_of(output).splitlines(), expected)
 
-    def test_resumed_after_sigkill_it_gives_the_same_bytes(self):
+    def killed(self, name, **changes):
+        """The folder of a run that was killed after its first poses."""
         for attempt in range(5):  # on a machine that stalls, a run may be over before it is killed
-            output = os.path.join(self.folder, "killed_%d" % attempt)
+            output = os.path.join(self.folder, "%s_%d" % (name, attempt))
             frames = os.path.join(output, "frames.csv")
-            run = small_experiment(output, max_ahead=1)  # slowly
+            run = small_experiment(output, max_ahead=1, **changes)  # slowly
             rows = lambda: self.bytes_of(output, "frames.csv").count(b"\n") if os.path.exists(frames) else 0
             # The time sheet is written after the first pose.
             run.wait_for(lambda: rows() > 12 and b"geometry" in self.bytes_of(output, "timing.csv"), "evaluated poses")
             run.kill()
             self.assertEqual(run.left_running(), [])
             if not os.path.exists(os.path.join(output, "summary.csv")):
-                break
-        self.assertFalse(os.path.exists(os.path.join(output, "summary.csv")), "always killed too late to be a test")
+                return output
+        raise AssertionError("always killed too late to be a test")
 
+    def test_resumed_after_sigkill_it_gives_the_same_bytes(self):
+        output = self.killed("killed")
         again = small_experiment(output)
         self.assertEqual(again.end(), 0, again.said())
         self.assertEqual(self.bytes_of(output), self.bytes_of(self.output))
@@ -103,6 +106,21 @@ class ExperimentRuns(unittest.TestCase):
         with open(os.path.join(output, "timing.csv")) as file:
             counts = {(row["stage"], row["what"]): int(row["count"]) for row in csv.DictReader(file)}
         self.assertEqual(counts["load", "world"], 2)
+
+    def test_a_world_that_changed_meanwhile_is_not_mixed_with_the_old_one(self):
+        world = os.path.join(self.folder, "mine.world")
+        shutil.copy(WORLD, world)
+        output = self.killed("changed", world=world)
+        before = self.bytes_of(output, "frames.csv")
+        with open(world) as file:
+            text = file.read()
+        self.assertIn("<size>2 4 2<", text)
+        with open(world, "w") as file:
+            file.write(text.replace("<size>2 4 2<", "<size>2 4 3<"))  # one box grows
+        again = small_experiment(output, world=world)
+        self.assertNotEqual(again.end(), 0)
+        self.assertIn("inputs.yaml: the run that was broken off in this folder was made from something else", again.said())
+        self.assertEqual(self.bytes_of(output, "frames.csv"), before)
 
     def test_a_renderer_that_dies_is_a_failure_with_a_reason(self):
         run = small_experiment(os.path.join(self.folder, "dying"), self_test="false", **LONG)

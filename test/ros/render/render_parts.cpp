@@ -283,7 +283,7 @@ TEST(Stopwatch, CountsAStageWithinAnotherOnce) {
   EXPECT_EQ(seconds, (std::map<std::string, double>{{"all", 3.0}, {"part", 8.0}, {"piece", 32.0}}));
 }
 
-class TimeSheet : public testing::Test {
+class RunFolder : public testing::Test {
  protected:
   void SetUp() override {
     std::string name = (std::filesystem::temp_directory_path() / "sunlit_timing_XXXXXX").string();
@@ -306,14 +306,33 @@ class TimeSheet : public testing::Test {
   std::string folder_;
 };
 
-TEST_F(TimeSheet, CountsTheRunsThatItTookOnceEach) {
+TEST_F(RunFolder, CountsTheTimesOfAllRunsThatItTookOnceEach) {
   EXPECT_EQ(after(3, true), "stage,what,count,seconds\ngeometry,pose,3,6\n");  // nothing to go on with
   EXPECT_EQ(after(4, true), "stage,what,count,seconds\ngeometry,pose,7,14\n");
   EXPECT_EQ(after(0, true), "stage,what,count,seconds\ngeometry,pose,7,14\n");
   EXPECT_EQ(after(1, false), "stage,what,count,seconds\ngeometry,pose,1,2\n");  // from the beginning
 }
 
-TEST_F(TimeSheet, NamesTheLineThatItCannotRead) {
+TEST_F(RunFolder, IsOnlyGoneOnWithFromTheSameInputs) {
+  const auto keep = [&](bool goes_on, const RunInputs& inputs) {
+    return messageOf<std::runtime_error>([&] { RunFiles(folder_, goes_on).keepInputs(inputs); });
+  };
+  EXPECT_EQ(keep(false, {"0123", "4567"}), "");
+  EXPECT_EQ(keep(true, {"0123", "4567"}), "");
+  for (const auto& [inputs, line] : std::map<std::pair<std::string, std::string>, std::string>{
+           {{"0124", "4567"}, "world: '0124'"}, {{"0123", "4568"}, "path: '4568'"}}) {
+    const std::string error = keep(true, {inputs.first, inputs.second});
+    EXPECT_NE(error.find(folder_ + "/inputs.yaml: "), std::string::npos) << error;
+    EXPECT_NE(error.find(line), std::string::npos) << error;
+  }
+  EXPECT_EQ(keep(true, {"0123", "4567"}), "");  // refused, and nothing lost
+  EXPECT_EQ(keep(false, {"89", "ab"}), "");     // begun anew
+  EXPECT_NE(keep(true, {"0123", "4567"}), "");
+  std::filesystem::remove(folder_ + "/inputs.yaml");
+  EXPECT_NE(keep(true, {"89", "ab"}), "");  // nobody knows any more
+}
+
+TEST_F(RunFolder, NamesTheLineOfATimeSheetThatItCannotRead) {
   for (const char* bad : {"stage\n", "stage,what,count,seconds\ngeometry,pose,x,1\n",
                           "stage,what,count,seconds\ngeometry,pose,1,1,1\n",
                           "stage,what,count,seconds\ngeometry,pose,1,-1\n"}) {

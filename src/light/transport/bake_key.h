@@ -1,0 +1,21 @@
+/// What a bake depends on.
+#pragma once
+
+#include <cstdint>
+
+#include "light/transport/content_hash.h"
+#include "sunlit/light/geometry.h"
+#include "sunlit/light/transport.h"
+
+namespace sunlit::light {
+
+/// Goes up whenever the bake or the layout of its file changes.
+constexpr std::uint32_t kBakeVersion = 11;
+
+/// Shape, and of the looks what decides how light goes on from it.
+void addContents(const Geometry& geometry, ContentHash* hash);
+
+/// Of everything that a bake depends on.
+ContentHash bakeKey(const Geometry& geometry, const TransportOptions& options);
+
+}  // namespace sunlit::light

@@ -1,0 +1,86 @@
+#include "sunlit/light/world.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+#include "paper_scene.h"
+#include "sunlit/light/transport.h"
+
+namespace sunlit::light {
+namespace {
+
+scene::Texture grey() {
+  scene::Texture texture;
+  texture.width = texture.height = 2;
+  texture.rgba.assign(16, 128);
+  return texture;
+}
+
+/// A scene, what moves in it, and how it is baked.
+struct Contents {
+  scene::Scene scene;
+  std::vector<std::vector<scene::Mesh>> bodies;
+  TransportOptions options;
+  bool baked = false;
+
+  Contents() {
+    scene.materials = {paint(0.4f), paint(0.2f)};
+    scene.materials[0].base_texture = 0;
+    scene.textures = {grey()};
+    addGround(&scene, 0, 2.0f);
+    options.samples = 1000;
+  }
+  std::string print() const {
+    World world(std::make_shared<const scene::Scene>(scene), bodies);
+    if (baked) world.transport = Transport::bake(world.geometry, options);
+    return fingerprint(world, options);
+  }
+};
+
+scene::Mesh plate(float size) {
+  scene::Scene scene;
+  addPatch(&scene, 1, {0, 0, 0}, {size, 0, 0}, {0, size, 0});
+  return scene.meshes[0];
+}
+
+TEST(Fingerprint, IsOfTheContentsAlone) {
+  EXPECT_EQ(Contents().print(), Contents().print());
+  Contents named;
+  named.scene.name = "elsewhere";
+  EXPECT_EQ(named.print(), Contents().print());
+}
+
+TEST(Fingerprint, ChangesWithAllThatPicturesShow) {
+  const std::vector<std::function<void(Contents&)>> changes = {
+      [](Contents&) {},
+      [](Contents& c) { c.scene.meshes[0].positions[0].z() += 0.01f; },
+      [](Contents& c) { c.scene.materials[0].base_color = LinearRgb(0.4f, 0.4f, 0.41f); },
+      [](Contents& c) { c.scene.materials[0].roughness = 0.5f; },
+      [](Contents& c) { c.scene.materials[0].detail.contrast = 0.1f; },
+      [](Contents& c) { c.scene.materials[0].detail.tint[2] = 0.9f; },
+      [](Contents& c) { c.scene.textures[0].rgba[5] = 129; },
+      [](Contents& c) { c.bodies = {{plate(1.0f)}}; },
+      [](Contents& c) { c.bodies = {{plate(1.1f)}}; },
+      [](Contents& c) {
+        c.bodies = {{plate(1.0f)}};
+        c.scene.materials[1].metalness = 1.0f;
+      },
+      [](Contents& c) { c.baked = true; },
+      [](Contents& c) {
+        c.baked = true;
+        c.options.bounces = 1;
+      },
+  };
+  std::set<std::string> prints;
+  for (const auto& change : changes) {
+    Contents contents;
+    change(contents);
+    prints.insert(contents.print());
+  }
+  EXPECT_EQ(prints.size(), changes.size());
+}
+
+}  // namespace
+}  // namespace sunlit::light
