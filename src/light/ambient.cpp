@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "light/mirror_sky.h"
+#include "light/mirror/mirror_sky.h"
 #include "light/sky_sectors.h"
 #include "sunlit/light/body_light.h"
 #include "sunlit/quantity/angle.h"

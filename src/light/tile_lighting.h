@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "light/ambient.h"
-#include "light/disc_visibility.h"
+#include "light/disc/disc_visibility.h"
 #include "light/light_table.h"
-#include "light/picture_air.h"
-#include "light/sky_pixel.h"
+#include "light/sky_in_view/picture_air.h"
+#include "light/sky_in_view/sky_pixel.h"
 #include "sunlit/image/images.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/surfaces.h"

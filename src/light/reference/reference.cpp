@@ -8,7 +8,7 @@
 #include <string>
 
 #include "light/reference/paths.h"
-#include "light/sky_pixel.h"
+#include "light/sky_in_view/sky_pixel.h"
 
 namespace sunlit::light {
 namespace {

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "light/mirror_sky.h"
+#include "light/mirror/mirror_sky.h"
 #include "light/sky_sectors.h"
 #include "light/transport/gather.h"
 #include "light/transport/relight.h"

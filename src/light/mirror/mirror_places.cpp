@@ -1,4 +1,4 @@
-#include "light/mirror_places.h"
+#include "light/mirror/mirror_places.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,7 +1,7 @@
 /// How much of the sky a surface has before it, patch by patch.
 #pragma once
 
-#include "light/mirror_places.h"
+#include "light/mirror/mirror_places.h"
 #include "light/transport/transport_data.h"
 #include "sunlit/light/surfaces.h"
 

@@ -1,11 +1,11 @@
-#include "light/smooth_mirror.h"
+#include "light/mirror/smooth_mirror.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "light/mirror/mirror_places.h"
 #include "light/mirror_lobe.h"
-#include "light/mirror_places.h"
 #include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::light {

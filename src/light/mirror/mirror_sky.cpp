@@ -1,8 +1,8 @@
-#include "light/mirror_sky.h"
+#include "light/mirror/mirror_sky.h"
 
 #include <tbb/parallel_for.h>
 
-#include "light/mirror_places.h"
+#include "light/mirror/mirror_places.h"
 
 namespace sunlit::light {
 

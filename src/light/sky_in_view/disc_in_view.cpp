@@ -1,4 +1,4 @@
-#include "light/disc_in_view.h"
+#include "light/sky_in_view/disc_in_view.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "light/disc_in_view.h"
-#include "light/star_field.h"
+#include "light/sky_in_view/disc_in_view.h"
+#include "light/sky_in_view/star_field.h"
 #include "sunlit/image/images.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/sky/daylight.h"

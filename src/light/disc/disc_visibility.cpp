@@ -1,4 +1,4 @@
-#include "light/disc_visibility.h"
+#include "light/disc/disc_visibility.h"
 
 #include <tbb/parallel_for.h>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "light/angles.h"
-#include "light/body_shade.h"
+#include "light/bodies/body_shade.h"
 #include "light/transport/reflectances.h"
 #include "sunlit/light/transport.h"
 #include "sunlit/quantity/angle.h"

@@ -1,4 +1,4 @@
-#include "light/pixel_map.h"
+#include "light/disc/pixel_map.h"
 
 namespace sunlit::light {
 namespace {

@@ -1,4 +1,4 @@
-#include "light/picture_air.h"
+#include "light/sky_in_view/picture_air.h"
 
 #include <tbb/parallel_for.h>
 

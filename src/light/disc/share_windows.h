@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "light/pixel_map.h"
+#include "light/disc/pixel_map.h"
 #include "sunlit/light/surfaces.h"
 
 namespace sunlit::light {

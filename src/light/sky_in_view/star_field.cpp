@@ -1,4 +1,4 @@
-#include "light/star_field.h"
+#include "light/sky_in_view/star_field.h"
 
 #include <Eigen/LU>
 #include <array>

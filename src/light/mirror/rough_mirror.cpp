@@ -1,4 +1,4 @@
-#include "light/rough_mirror.h"
+#include "light/mirror/rough_mirror.h"
 
 #include <algorithm>
 #include <cmath>

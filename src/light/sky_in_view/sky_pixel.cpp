@@ -1,4 +1,4 @@
-#include "light/sky_pixel.h"
+#include "light/sky_in_view/sky_pixel.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "light/share_windows.h"
+#include "light/disc/share_windows.h"
 
 #include <cmath>
 #include <cstddef>

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "light/disc_points.h"
+#include "light/disc/disc_points.h"
+#include "light/disc/pixel_map.h"
+#include "light/disc/share_windows.h"
 #include "light/light_table.h"
-#include "light/pixel_map.h"
-#include "light/share_windows.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/visibility.h"
 #include "sunlit/sky/daylight.h"

@@ -1,7 +1,7 @@
 /// What of the sky rough surfaces mirror.
 #pragma once
 
-#include "light/open_patches.h"
+#include "light/mirror/open_patches.h"
 #include "sunlit/scene/scene.h"
 
 namespace sunlit::light {

@@ -1,4 +1,4 @@
-#include "light/open_patches.h"
+#include "light/mirror/open_patches.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "light/disc_in_view.h"
+#include "light/sky_in_view/disc_in_view.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/sky/daylight.h"
 

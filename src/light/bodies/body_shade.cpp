@@ -1,4 +1,4 @@
-#include "light/body_shade.h"
+#include "light/bodies/body_shade.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
-#include "light/mirror_sky.h"
-#include "light/open_patches.h"
-#include "light/rough_mirror.h"
-#include "light/smooth_mirror.h"
+#include "light/mirror/mirror_sky.h"
+#include "light/mirror/open_patches.h"
+#include "light/mirror/rough_mirror.h"
+#include "light/mirror/smooth_mirror.h"
 
 namespace sunlit::light {
 namespace {

@@ -1,4 +1,4 @@
-#include "light/disc_points.h"
+#include "light/disc/disc_points.h"
 
 #include <cmath>
 
