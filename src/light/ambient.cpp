@@ -48,11 +48,10 @@ Eigen::Array3f seenInMirror(const Surface& surface, const Mirrored& mirrored, co
 
 Mirrored mirroredBy(const MirrorView& view, const MirrorSky& sky) {
   Mirrored mirrored;
-  float unhidden;
   if (const auto* rough = std::get_if<RoughMirror>(&view)) {
     mirrored.sky = sky.patches().times(rough->share.data()) * rough->scale;
-    mirrored.hidden_below = rough->below;
-    unhidden = rough->unhidden;
+    mirrored.hidden_above = rough->hidden_above;
+    mirrored.hidden_below = rough->hidden_below;
   } else {
     const auto& smooth = std::get<SmoothMirror>(view);
     Eigen::Array4f sum = Eigen::Array4f::Zero();
@@ -64,10 +63,9 @@ Mirrored mirroredBy(const MirrorView& view, const MirrorSky& sky) {
     }
     constexpr float kAll = 255.0f * SmoothMirror::kParts;
     mirrored.sky = sum.head<3>() / kAll;
-    mirrored.hidden_below = smooth.below;
-    unhidden = open / kAll;
+    mirrored.hidden_above = std::max(1.0f - open / kAll - smooth.hidden_below, 0.0f);
+    mirrored.hidden_below = smooth.hidden_below;
   }
-  mirrored.hidden_above = std::max(1.0f - unhidden - mirrored.hidden_below, 0.0f);
   return mirrored;
 }
 

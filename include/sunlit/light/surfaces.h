@@ -32,7 +32,7 @@ struct SmoothMirror {
   static constexpr std::size_t kParts = 16;
   std::array<std::uint16_t, kParts> place = {};  ///< the direction, as an index into MirrorSky
   std::array<std::uint8_t, kParts> open = {};    ///< how much of the sky there is not hidden, 255 for all
-  float below = 0.0f;                            ///< share of the lobe that is hidden and below the horizon
+  float hidden_below = 0.0f;                     ///< share of the lobe that is hidden and below the horizon
 };
 
 /// What a rough surface mirrors: how much of its lobe looks at each patch of the sky.
@@ -41,8 +41,8 @@ struct RoughMirror {
   std::array<std::uint8_t, kPatches> share =
       {};  ///< of the lobe, in parts of `scale`, where nothing hides it
   float scale = 0.0f;
-  float unhidden = 1.0f;  ///< share of the lobe that no other surface hides; the sum of the above, or more
-  float below = 0.0f;     ///< share of the lobe that is hidden and below the horizon
+  /// Share of the lobe that other surfaces hide, 0 … 1: of those above the horizon and those below.
+  float hidden_above = 0.0f, hidden_below = 0.0f;
 };
 
 using MirrorView = std::variant<SmoothMirror, RoughMirror>;

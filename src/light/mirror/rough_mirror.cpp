@@ -124,8 +124,8 @@ void fill(const LobeSums& sums, const float* __restrict open, RoughMirror* mirro
       largest[k] = largest[k] > shares[p + k] ? largest[k] : shares[p + k];
     }
   }
-  mirror->below = sums.below / sums.all;
-  mirror->unhidden = 1.0f - sumOf<kPatches>(hidden) / sums.all - mirror->below;
+  mirror->hidden_above = sumOf<kPatches>(hidden) / sums.all;
+  mirror->hidden_below = sums.below / sums.all;
   const float most = *std::max_element(largest, largest + kLanes);
   if (!(most > 0.0f)) return;
   mirror->scale = most / (255.0f * sums.all);

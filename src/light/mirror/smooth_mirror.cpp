@@ -90,7 +90,7 @@ SmoothMirror smoothMirror(const Surface& surface, float roughness, bool sheet, c
     if (sheet) {
       const std::uint8_t patch = sky.patches[mirror.place[k]][0];
       shares[k] = open.share[patch];
-      if (patch == SkyPatches::kBelow) mirror.below += kPart;
+      if (patch == SkyPatches::kBelow) mirror.hidden_below += kPart;
     } else if (surface.geometric_normal.dot(parts[k]) <= 0.0f) {
       shares[k] = 1.0f;
       parts[k] = -Eigen::Vector3f::UnitZ();  // into the surface itself: nothing is seen, as of no sky
@@ -98,7 +98,7 @@ SmoothMirror smoothMirror(const Surface& surface, float roughness, bool sheet, c
       const OpenPart part = openPart(sky, mirror.place[k], parts[k], open, below);
       shares[k] = part.share;
       parts[k] = part.towards;
-      mirror.below += kPart * part.below;
+      mirror.hidden_below += kPart * part.below;
     }
   }
   if (!sheet) findPlaces(parts, &mirror.place);

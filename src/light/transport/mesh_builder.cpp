@@ -107,7 +107,7 @@ MeshBuilder::MeshBuilder(const Geometry& geometry, const BakeRays& rays,
   const std::vector<SkyPatches::Ray>& all = patches.coarseRays();
   for (std::size_t i = 0; i < all.size(); ++i) {
     // Half of the directions tell distances well enough.
-    if (SkyPatches::turnOf(static_cast<int>(i), 2) == 0) directions_.push_back(all[i]);
+    if (SkyPatches::inHalf(static_cast<int>(i))) directions_.push_back(all[i]);
   }
   mesh.roots.assign(geometry.triangles.size(), {LightMesh::kNone, LightMesh::kNone});
 }

@@ -73,9 +73,8 @@ class SkyPatches {
   static std::size_t ringOf(int patch);
   /// Patches above the horizon that share a border with one.
   static std::vector<int> neighbours(int patch);
-  /// Divides the coarse rays among `turns`, each of which gets some of every ring; rays above each other are
-  /// of different ones.
-  static int turnOf(int coarse, int turns) { return (coarse + coarse / kRings[0].patches) % turns; }
+  /// Whether a coarse ray belongs to one half of them, which has some of every ring.
+  static bool inHalf(int coarse) { return (coarse + coarse / kRings[0].patches) % 2 == 0; }
   /// Solid angle of a patch above the horizon, sr.
   static float solidAngle(int patch);
 
