@@ -59,6 +59,7 @@ class Output:
     summary: dict
     has_summary_file: bool
     run: dict
+    inputs: dict  # name -> fingerprint of what the pictures were made from
     captures: dict  # stream -> {column: array}
     path: dict  # column -> array
     map_picture: str
@@ -113,6 +114,7 @@ def read_output(folder):
         summary=summary or {key: summarise(one) for key, one in series.items()},
         has_summary_file=bool(summary),
         run=read_yaml(os.path.join(folder, "run.yaml")),
+        inputs=read_yaml(os.path.join(folder, "inputs.yaml")),
         captures=read_captures(os.path.join(folder, "captures.csv")),
         path=read_path(os.path.join(folder, "path.csv")),
         map_picture=existing(os.path.join(folder, "map.png")),

@@ -25,7 +25,7 @@ def render(output, findings):
         main_tables=tables.main_tables(output), self_tables=tables.self_tables(output), counts=tables.counts(output),
         conditions=tables.conditions(output), timing=tables.timing(output), problems=tables.problems(output),
         shown_problems=output.problems[:SHOWN_PROBLEMS], counters=tables.counters(output.run),
-        settings=settings(output.run), versions=tables.flattened(tables.mapping(output.run, "versions")),
+        settings=settings(output), versions=tables.flattened(tables.mapping(output.run, "versions")),
         grid=pictures.grid(output), smoothed_over=figures.SMOOTHED_OVER, **plots(output))
 
 
@@ -64,11 +64,13 @@ def facts(output):
     return found
 
 
-def settings(run):
+def settings(output):
     """Settings in groups by what stands before the first slash: [(group, [(key, value)])]."""
     groups = {}
-    top = {key: value for key, value in run.items() if key not in ("settings", "versions", "counters")}
-    for key, value in tables.flattened(tables.mapping(run, "settings")) + tables.flattened(top):
+    top = {key: value for key, value in output.run.items() if key not in ("settings", "versions", "counters")}
+    if output.inputs:  # bags come without
+        top["inputs"] = output.inputs
+    for key, value in tables.flattened(tables.mapping(output.run, "settings")) + tables.flattened(top):
         group, _, rest = key.rpartition("/")
         groups.setdefault(group or "general", []).append((rest, value))
     return sorted(groups.items(), key=lambda item: (item[0] != "general", not item[0].startswith("about"), item[0]))

@@ -78,6 +78,7 @@ def write_all(folder):
     write(folder, "run.yaml",
           ["settings:", "  ratio: '0.5'", "  about/world: 'race_track'", "versions:", "  sunlit: '9.8.7'",
            "counters:", "  streams:", "    'h04': {received: 40, late: 17}"])
+    write(folder, "inputs.yaml", ["sunlit: '9.8.7'", "world: '00c0ffee'", "path: '0123456789abcdef'"])
     write(folder, "problems.csv", ["kind,pose,stamp,where,reason", "undecodable,,1.5,h12,\"cut <short>, it seems\""])
     write(folder, "timing.csv", ["stage,what,count,seconds", "render,geometry,40,0.8"])
     write(folder, "map.yaml", ["x_min: -10", "x_max: 60", "y_min: -20", "y_max: 30"])

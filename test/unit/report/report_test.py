@@ -238,7 +238,7 @@ class Page(InFolder):
         self.assertNotRegex(html, r"url\(|@import|<script|<link")
         self.assertEqual(html.count("data:image/svg+xml"), 3)
         self.assertEqual(html.count("data:image/jpeg"), 5 * 3)
-        for text in ("0.84000", "0.84577", "9.8.7", "race_track", "4321", "geometry", "20.00",
+        for text in ("0.84000", "0.84577", "9.8.7", "race_track", "4321", "geometry", "20.00", "00c0ffee",
                      "cut &lt;short&gt;, it seems", "<td>17</td>"):
             self.assertIn(text, html)
         self.assertNotIn('class="absent"', html)
