@@ -25,6 +25,8 @@ struct SkyView {
   static constexpr std::size_t kSectors = 24;    ///< SkySectors tells where they lie
   std::array<std::uint8_t, kSectors> open = {};  ///< share that is not hidden, 255 for all
   bool known = false;                            ///< else the nodes tell
+  /// Where it is on its triangle: barycentric coordinates, for those who ask by finer parts of the sky.
+  std::array<float, 3> within = {};
 };
 
 /// What a smooth surface mirrors: parts of its lobe of equal weight, each about one direction.

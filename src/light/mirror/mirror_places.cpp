@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "light/angles.h"
-#include "light/sky_sectors.h"
 
 namespace sunlit::light {
 namespace {
@@ -56,7 +55,6 @@ MirrorPlaces::MirrorPlaces() {
   for (std::size_t patch = 0; patch < SkyPatches::kAbove; ++patch) {
     const float angle = SkyPatches::solidAngle(static_cast<int>(patch));
     middles.solid_angle[patch] = angle;
-    sectors[patch] = static_cast<std::uint8_t>(SkySectors::of(static_cast<int>(patch)));
     means[patch] = {middles.x[patch] / angle, middles.y[patch] / angle, middles.z[patch] / angle, 1.0f};
   }
 }

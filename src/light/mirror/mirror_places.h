@@ -64,7 +64,6 @@ struct MirrorPlaces {
   } middles;
   /// Mean of a patch's unit vectors, and 1; of those below the horizon 0.
   alignas(16) std::array<Eigen::Array4f, SkyPatches::kCount> means;
-  std::array<std::uint8_t, SkyPatches::kAbove> sectors;  ///< of SkySectors
   MirrorPlaces();
 
  private:

@@ -57,21 +57,20 @@ const Eigen::Vector3f& bakedNormal(const Surface& surface) {
                                                                           : surface.shading_normal;
 }
 
-OpenPatches bySectors(const SkyView& sky) {
-  const auto& sectors = mirrorPlaces().sectors;
+OpenPatches ofLeaf(const LeafOpenness& leaves, const Surface& surface) {
+  const PatchBytes bytes = leaves.patches(surface.triangle, surface.sky.within);
   OpenPatches open;
-  for (std::size_t p = 0; p < SkyPatches::kAbove; ++p) {
-    open.share[p] = static_cast<float>(sky.open[sectors[p]]) * (1.0f / 255.0f);
-    open.known[p] = 1.0f;
-  }
-  open.share[SkyPatches::kBelow] = open.known[SkyPatches::kBelow] = 0.0f;
+  for (std::size_t p = 0; p < bytes.size(); ++p)
+    open.share[p] = static_cast<float>(bytes[p]) * (1.0f / 255.0f);
+  open.known.fill(1.0f);
+  open.known[SkyPatches::kBelow] = 0.0f;
   return open;
 }
 
 }  // namespace
 
 OpenPatches openPatches(const TransportData& data, const Surface& surface, float transmission) {
-  if (surface.sky.known) return bySectors(surface.sky);
+  if (surface.sky.known) return ofLeaf(data.leaves, surface);
   const SampleRows samples(data, surface, transmission);
   PatchValues sums;
   sums.fill(0.0f);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -24,7 +25,7 @@ constexpr int kMostSteps = 9;
 /// Trees of larger cards are made to be seen from afar.
 constexpr float kFar_m = 5.0f;
 constexpr int kFarSteps = 3;
-constexpr std::size_t kSectors = SkyView::kSectors;
+constexpr std::size_t kNodeBytes = LeafOpenness::kNodeBytes;
 /// Nodes are that much nearer to the triangle's middle than its edges; where they are but three, such as in a
 /// tuft of grass, they stand for the parts around them.
 constexpr float kInwards = 0.04f, kInwardsOfThree = 0.3f;
@@ -71,17 +72,42 @@ int stepsOf(const Geometry& geometry, std::uint32_t t) {
   return std::clamp(static_cast<int>(std::ceil(edge / kStep_m)), 1, kMostSteps);
 }
 
+/// Each bit of a byte as a byte of its own, 1 or 0, the lowest first in memory.
+std::array<std::uint64_t, 256> bitsSpread() {
+  std::array<std::uint64_t, 256> spread;
+  for (std::size_t byte = 0; byte < spread.size(); ++byte) {
+    std::array<std::uint8_t, 8> bits;
+    for (std::size_t bit = 0; bit < 8; ++bit) bits[bit] = byte >> bit & 1u;
+    std::memcpy(&spread[byte], bits.data(), sizeof(spread[byte]));
+  }
+  return spread;
+}
+
+/// Neighbouring patches, alike in size, of one sector.
+struct Run {
+  int begin, end;
+  std::size_t sector;
+  float share;  ///< each one's of the sector
+};
+std::vector<Run> runsOfSectors() {
+  std::array<float, SkyView::kSectors> whole{};
+  std::vector<Run> runs;
+  for (int p = 0; p < SkyPatches::kAbove; ++p) {
+    const std::size_t sector = SkySectors::of(p);
+    whole[sector] += SkyPatches::solidAngle(p);
+    if (runs.empty() || runs.back().sector != sector ||
+        SkyPatches::ringOf(p) != SkyPatches::ringOf(runs.back().begin))
+      runs.push_back({p, p, sector, 0.0f});
+    ++runs.back().end;
+  }
+  for (Run& run : runs) run.share = SkyPatches::solidAngle(run.begin) / whole[run.sector];
+  return runs;
+}
+
 class Looker {
  public:
   Looker(const std::shared_ptr<const Geometry>& geometry, const std::vector<TriangleTraits>& traits)
       : geometry_(*geometry), visibility_(geometry), cutouts_(*geometry) {
-    const SkyPatches patches(1);
-    for (const SkyPatches::Ray& ray : patches.coarseRays()) {
-      if (ray.patch == SkyPatches::kBelow) continue;
-      Look& look = looks_[SkySectors::of(ray.patch)];
-      look.rays.push_back(ray);
-      look.solid_angle += ray.solid_angle;
-    }
     openness_.first.assign(traits.size(), LeafOpenness::kNone);
     const std::vector<std::uint32_t>& masked = cutouts_.maskedTriangles();
     std::size_t at = 0;
@@ -92,7 +118,7 @@ class Looker {
       if (!isLeaf(traits[t].kind) || geometry_.scene->materials[material].transmission <= 0.0f) continue;
       addToGroup(i);
       openness_.first[t] = static_cast<std::uint32_t>(at);
-      at += 1 + kSectors * static_cast<std::size_t>(nodeCount(stepsOf(geometry_, t)));
+      at += 1 + kNodeBytes * static_cast<std::size_t>(nodeCount(stepsOf(geometry_, t)));
       if (at >= LeafOpenness::kNone)
         throw std::runtime_error("bake of light: too many leaves for 4 GB of grids");
     }
@@ -124,11 +150,6 @@ class Looker {
   }
 
  private:
-  /// Directions within a sector.
-  struct Look {
-    std::vector<SkyPatches::Ray> rays;
-    float solid_angle = 0.0f;  ///< of all, sr
-  };
   /// Leaves of one square of the map.
   struct Group {
     std::vector<std::uint32_t> masked;  ///< index into Cutouts::maskedTriangles()
@@ -137,7 +158,7 @@ class Looker {
   using Key = std::array<int, 3>;
   struct Points {
     std::vector<Crown::Point> points;
-    std::vector<std::size_t> to;  ///< of each point: where its sectors are kept
+    std::vector<std::size_t> to;  ///< of each point: where its patches are kept
   };
 
   void addToGroup(std::uint32_t masked) {
@@ -159,17 +180,13 @@ class Looker {
     for (const std::uint32_t masked : group.masked) addPoints(masked, &points);
     const std::vector<std::size_t>& to = points.to;
     Crown crown({geometry_, cutouts_, visibility_}, std::move(points.points), group.cell_m);
-    std::vector<float> seen(to.size());
-    for (std::size_t sector = 0; sector < kSectors; ++sector) {
-      const Look& look = looks_[sector];
-      std::fill(seen.begin(), seen.end(), 0.0f);
-      for (const SkyPatches::Ray& ray : look.rays) {
-        const std::vector<std::uint8_t>& open = crown.open(ray.towards);
-        for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += open[i] ? ray.solid_angle : 0.0f;
-      }
-      for (std::size_t i = 0; i < seen.size(); ++i)
-        openness_.grids[to[i] + sector] =
-            static_cast<std::uint8_t>(std::min(seen[i] / look.solid_angle, 1.0f) * 255.0f + 0.5f);
+    for (const SkyPatches::Ray& ray : patches_.coarseRays()) {
+      if (ray.patch == SkyPatches::kBelow) continue;
+      const std::vector<std::uint8_t>& open = crown.open(ray.towards);
+      const auto byte = static_cast<std::size_t>(ray.patch / 8);
+      const int bit = ray.patch % 8;
+      for (std::size_t i = 0; i < to.size(); ++i)
+        openness_.grids[to[i] + byte] |= static_cast<std::uint8_t>(open[i] << bit);
     }
   }
 
@@ -190,7 +207,7 @@ class Looker {
         points->points.push_back({(1.0f - u - v) * geometry_.positions[c[0]] + u * geometry_.positions[c[1]] +
                                       v * geometry_.positions[c[2]],
                                   geometry_.planes[t].normal});
-        points->to.push_back(grid + 1 + kSectors * node);
+        points->to.push_back(grid + 1 + kNodeBytes * node);
       }
     }
   }
@@ -213,27 +230,47 @@ class Looker {
   const Geometry& geometry_;
   Visibility visibility_;
   Cutouts cutouts_;
-  std::array<Look, kSectors> looks_;
+  const SkyPatches patches_{1};
   std::map<Key, Group> groups_;
   LeafOpenness openness_;
 };
 
 }  // namespace
 
-SkyView LeafOpenness::at(std::uint32_t triangle, const std::array<float, 3>& barycentric) const {
+PatchBytes LeafOpenness::patches(std::uint32_t triangle, const std::array<float, 3>& within) const {
   const std::uint8_t* grid = grids.data() + first[triangle];
-  const Around around(barycentric[1], barycentric[2], grid[0]);
-  std::array<float, kSectors> sum;
+  const Around around(within[1], within[2], grid[0]);
+  std::array<const std::uint8_t*, 3> node;
+  for (std::size_t k = 0; k < 3; ++k)
+    node[k] = grid + 1 + kNodeBytes * static_cast<std::size_t>(around.node[k]);
+  // Whole numbers that sum to 255, so that eight patches can be weighed at once.
+  const auto a = static_cast<std::uint64_t>(around.weight[0] * 255.0f + 0.5f);
+  const auto b = std::min(static_cast<std::uint64_t>(around.weight[1] * 255.0f + 0.5f), 255 - a);
+  const std::uint64_t c = 255 - a - b;
+  static const std::array<std::uint64_t, 256> spread = bitsSpread();
+  PatchBytes open;
+  for (std::size_t i = 0; i < kNodeBytes; ++i) {
+    const std::uint64_t eight = spread[node[0][i]] * a + spread[node[1][i]] * b + spread[node[2][i]] * c;
+    std::memcpy(&open[8 * i], &eight, sizeof(eight));
+  }
+  return open;
+}
+
+SkyView LeafOpenness::at(std::uint32_t triangle, const std::array<float, 3>& within) const {
+  static const std::vector<Run> runs = runsOfSectors();
+  const PatchBytes open = patches(triangle, within);
+  std::array<float, SkyView::kSectors> sum;
   sum.fill(0.5f);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::uint8_t* node = grid + 1 + kSectors * static_cast<std::size_t>(around.node[k]);
-    for (std::size_t sector = 0; sector < kSectors; ++sector)
-      sum[sector] += around.weight[k] * static_cast<float>(node[sector]);
+  for (const Run& run : runs) {
+    int bytes = 0;
+    for (int p = run.begin; p < run.end; ++p) bytes += open[static_cast<std::size_t>(p)];
+    sum[run.sector] += run.share * static_cast<float>(bytes);
   }
   SkyView view;
   view.known = true;
-  for (std::size_t sector = 0; sector < kSectors; ++sector)
-    view.open[sector] = static_cast<std::uint8_t>(sum[sector]);
+  view.within = within;
+  for (std::size_t sector = 0; sector < sum.size(); ++sector)
+    view.open[sector] = static_cast<std::uint8_t>(std::min(sum[sector], 255.0f));
   return view;
 }
 

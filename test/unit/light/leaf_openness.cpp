@@ -37,8 +37,12 @@ LeafOpenness opennessOf(scene::Scene scene, std::shared_ptr<const Geometry>* geo
   return leafOpenness(*geometry, traits, [](double) {});
 }
 
-/// What is seen from `point` of the first leaf's two triangles.
-SkyView viewAt(const Geometry& geometry, const LeafOpenness& leaves, const Eigen::Vector3f& point) {
+struct OnLeaf {
+  std::uint32_t triangle;
+  std::array<float, 3> within;
+};
+/// `point` on the first leaf's two triangles.
+OnLeaf onLeaf(const Geometry& geometry, const Eigen::Vector3f& point) {
   for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
     if (geometry.materials[t] != kLeaf) continue;
     const auto& corners = geometry.triangles[t];
@@ -46,9 +50,14 @@ SkyView viewAt(const Geometry& geometry, const LeafOpenness& leaves, const Eigen
     for (int k = 0; k < 3; ++k) of_corners.col(k) = geometry.positions[corners[static_cast<std::size_t>(k)]];
     const Eigen::Vector3f within =
         of_corners.inverse() * point;  // as no leaf's plane goes through the origin
-    if (within.minCoeff() >= -1e-4f) return leaves.at(t, {within[0], within[1], within[2]});
+    if (within.minCoeff() >= -1e-4f) return {t, {within[0], within[1], within[2]}};
   }
   throw std::logic_error("no leaf there");
+}
+
+SkyView viewAt(const Geometry& geometry, const LeafOpenness& leaves, const Eigen::Vector3f& point) {
+  const OnLeaf place = onLeaf(geometry, point);
+  return leaves.at(place.triangle, place.within);
 }
 
 /// Share of the half sphere about `normal`, by cosine, that is open sky.
@@ -92,6 +101,36 @@ TEST(LeafOpenness, TellsTheSideOfTheSkyThatAWallHides) {
   // 36 and 60°, which are one number each.
   EXPECT_NEAR(openAround(view, Eigen::Vector3f::UnitX()), 0.0f, 0.06f);
   EXPECT_NEAR(openAround(view, -Eigen::Vector3f::UnitX()), 0.5f, 0.06f);
+}
+
+TEST(LeafOpenness, TellsEveryPatchThatAWallHides) {
+  scene::Scene scene = leafScene();
+  addPatch(&scene, kLeaf, {-1.0f, -1.0f, 2.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 2.0f, 0.0f});
+  addPatch(&scene, kBoard, {1.5f, -200.0f, 0.0f}, {0.0f, 400.0f, 0.0f}, {0.0f, 0.0f, 6.0f});
+  std::shared_ptr<const Geometry> geometry;
+  const LeafOpenness leaves = opennessOf(scene, &geometry);
+  const OnLeaf place = onLeaf(*geometry, {0.3f, -0.2f, 2.0f});
+  const PatchBytes open = leaves.patches(place.triangle, place.within);
+  const SkyPatches patches(1);
+  int hidden = 0, clear = 0;
+  for (const SkyPatches::Ray& ray : patches.coarseRays()) {
+    if (ray.patch == SkyPatches::kBelow) continue;
+    // Where it meets the wall's plane above the leaf. 1 m² shares what stands beyond the leaf, so anything
+    // from its edge on, 0.5 m from the wall, to 1 m behind the point may ask for it.
+    const Eigen::Vector3f& to = ray.towards;
+    const float lowest = 0.5f * to.z() / to.x(), highest = 2.2f * to.z() / to.x();
+    const int byte = open[static_cast<std::size_t>(ray.patch)];
+    if (to.x() > 0.02f && highest < 4.0f) {
+      EXPECT_EQ(byte, 0) << to.transpose();
+      ++hidden;
+    } else if (to.x() < 0.0f || lowest > 4.0f) {
+      EXPECT_EQ(byte, 255) << to.transpose();
+      ++clear;
+    }
+  }
+  EXPECT_GT(hidden, 60);
+  EXPECT_GT(clear, 80);
+  EXPECT_EQ(open[SkyPatches::kBelow], 0);
 }
 
 TEST(LeafOpenness, ChangesWithinALeafThatAWallCutsInTwo) {
