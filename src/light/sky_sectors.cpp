@@ -2,9 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include <array>
+#include <algorithm>
 
-#include "light/transport/sky_patches.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/sky/octahedral.h"
 
@@ -23,6 +22,27 @@ struct Sectors {
 constexpr std::array<Sectors, SkyPatches::kRings.size()> kOfRing = {
     {{0, 10}, {0, 10}, {10, 6}, {10, 6}, {16, 6}, {16, 6}, {22, 2}, {22, 2}, {22, 2}}};
 
+/// Neighbouring patches, alike in size, of one sector.
+struct Run {
+  int begin, end;
+  std::size_t sector;
+  float share;  ///< each one's of the sector
+};
+std::vector<Run> runsOfSectors() {
+  std::array<float, SkySectors::kCount> whole{};
+  std::vector<Run> runs;
+  for (int p = 0; p < SkyPatches::kAbove; ++p) {
+    const std::size_t sector = SkySectors::of(p);
+    whole[sector] += SkyPatches::solidAngle(p);
+    if (runs.empty() || runs.back().sector != sector ||
+        SkyPatches::ringOf(p) != SkyPatches::ringOf(runs.back().begin))
+      runs.push_back({p, p, sector, 0.0f});
+    ++runs.back().end;
+  }
+  for (Run& run : runs) run.share = SkyPatches::solidAngle(run.begin) / whole[run.sector];
+  return runs;
+}
+
 }  // namespace
 
 std::size_t SkySectors::of(int patch) {
@@ -30,6 +50,21 @@ std::size_t SkySectors::of(int patch) {
   const SkyPatches::Ring& ring = SkyPatches::kRings[index];
   const Sectors& sectors = kOfRing[index];
   return sectors.first + static_cast<std::size_t>((patch - ring.first) * sectors.count / ring.patches);
+}
+
+std::array<std::uint8_t, SkySectors::kCount> SkySectors::openOf(const PatchBytes& patches) {
+  static const std::vector<Run> runs = runsOfSectors();
+  std::array<float, kCount> sum;
+  sum.fill(0.5f);
+  for (const Run& run : runs) {
+    int bytes = 0;
+    for (int p = run.begin; p < run.end; ++p) bytes += patches[static_cast<std::size_t>(p)];
+    sum[run.sector] += run.share * static_cast<float>(bytes);
+  }
+  std::array<std::uint8_t, kCount> open;
+  for (std::size_t sector = 0; sector < kCount; ++sector)
+    open[sector] = static_cast<std::uint8_t>(std::min(sum[sector], 255.0f));
+  return open;
 }
 
 SkySectors::SkySectors(const sky::Daylight& day) : table_(kCells * kCount, Eigen::Array4f::Zero()) {

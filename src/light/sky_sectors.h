@@ -3,8 +3,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/StdVector>
+#include <array>
+#include <cstdint>
 #include <vector>
 
+#include "light/transport/sky_patches.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/sky/daylight.h"
 
@@ -21,6 +24,8 @@ class SkySectors {
 
   /// The sector that a patch above the horizon belongs to.
   static std::size_t of(int patch);
+  /// What is open of each sector, as SkyView::open, by what is of its patches.
+  static std::array<std::uint8_t, kCount> openOf(const PatchBytes& patches);
 
   /// Illuminance by the sky that `view` leaves open, lx; fourth: the share of the half sphere about the unit
   /// vector `normal`, by cosine, that is open sky. To within 2° of the normal.

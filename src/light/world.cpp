@@ -27,10 +27,10 @@ Illumination illumination(const World& world, const sky::Daylight& day) {
   return world.transport ? world.transport->illumination(day) : Illumination(day);
 }
 
-std::string fingerprint(const World& world, const TransportOptions& options) {
+std::string fingerprint(const World& world) {
   ContentHash hash;
   if (world.transport)
-    hash = bakeKey(*world.geometry, options);
+    hash = bakeKey(*world.geometry, world.transport->options());
   else
     addContents(*world.geometry, &hash);
   for (const scene::Material& material : world.geometry->scene->materials) addDetail(material.detail, &hash);

@@ -68,7 +68,9 @@ class Transport {
   /// temporary folder.
   static std::string usualFolder();
 
-  explicit Transport(std::shared_ptr<const Geometry> geometry, std::unique_ptr<const TransportData> data);
+  /// `data` is a bake of `geometry` with `options`.
+  Transport(std::shared_ptr<const Geometry> geometry, const TransportOptions& options,
+            std::unique_ptr<const TransportData> data);
   ~Transport();
 
   /// Sets Surface::light, Surface::behind, Surface::sky and Surface::view of all surfaces but those of bodies
@@ -83,6 +85,7 @@ class Transport {
   /// The same with all else that `day` means at the nodes: Illumination but for its bodies.
   Illumination illumination(const sky::Daylight& day) const;
 
+  const TransportOptions& options() const { return options_; }
   std::size_t sampleCount() const;
   std::size_t nodeCount() const;
 
@@ -91,6 +94,7 @@ class Transport {
   LightPlace placeWithin(std::uint32_t triangle, bool front, const std::array<float, 3>& within) const;
 
   std::shared_ptr<const Geometry> geometry_;
+  TransportOptions options_;
   std::unique_ptr<const TransportData> data_;
 };
 

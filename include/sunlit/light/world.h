@@ -12,7 +12,6 @@
 namespace sunlit::light {
 
 class Transport;
-struct TransportOptions;
 
 /// Cheap to copy.
 struct World {
@@ -28,6 +27,6 @@ struct World {
 
 /// Tells worlds apart by what decides their pictures: shape, looks, what moves, and how `transport` was
 /// baked, if there is one. 32 hexadecimal digits; the same wherever equal contents were loaded from.
-std::string fingerprint(const World& world, const TransportOptions& options);
+std::string fingerprint(const World& world);
 
 }  // namespace sunlit::light

@@ -1,8 +1,11 @@
 /// A number by which contents are told apart.
 #pragma once
 
+#include <cinttypes>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <string>
 #include <vector>
 
 namespace sunlit {
@@ -18,6 +21,12 @@ class Fingerprint {
     for (std::size_t i = 0; i < values.size() * sizeof(Value); ++i) add(bytes[i]);
   }
   std::uint64_t value() const { return value_; }
+  /// 16 hexadecimal digits.
+  std::string text() const {
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016" PRIx64, value_);
+    return digits;
+  }
 
  private:
   std::uint64_t value_ = 14695981039346656037u;

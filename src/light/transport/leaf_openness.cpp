@@ -83,27 +83,6 @@ std::array<std::uint64_t, 256> bitsSpread() {
   return spread;
 }
 
-/// Neighbouring patches, alike in size, of one sector.
-struct Run {
-  int begin, end;
-  std::size_t sector;
-  float share;  ///< each one's of the sector
-};
-std::vector<Run> runsOfSectors() {
-  std::array<float, SkyView::kSectors> whole{};
-  std::vector<Run> runs;
-  for (int p = 0; p < SkyPatches::kAbove; ++p) {
-    const std::size_t sector = SkySectors::of(p);
-    whole[sector] += SkyPatches::solidAngle(p);
-    if (runs.empty() || runs.back().sector != sector ||
-        SkyPatches::ringOf(p) != SkyPatches::ringOf(runs.back().begin))
-      runs.push_back({p, p, sector, 0.0f});
-    ++runs.back().end;
-  }
-  for (Run& run : runs) run.share = SkyPatches::solidAngle(run.begin) / whole[run.sector];
-  return runs;
-}
-
 class Looker {
  public:
   Looker(const std::shared_ptr<const Geometry>& geometry, const std::vector<TriangleTraits>& traits)
@@ -257,20 +236,10 @@ PatchBytes LeafOpenness::patches(std::uint32_t triangle, const std::array<float,
 }
 
 SkyView LeafOpenness::at(std::uint32_t triangle, const std::array<float, 3>& within) const {
-  static const std::vector<Run> runs = runsOfSectors();
-  const PatchBytes open = patches(triangle, within);
-  std::array<float, SkyView::kSectors> sum;
-  sum.fill(0.5f);
-  for (const Run& run : runs) {
-    int bytes = 0;
-    for (int p = run.begin; p < run.end; ++p) bytes += open[static_cast<std::size_t>(p)];
-    sum[run.sector] += run.share * static_cast<float>(bytes);
-  }
   SkyView view;
+  view.open = SkySectors::openOf(patches(triangle, within));
   view.known = true;
   view.within = within;
-  for (std::size_t sector = 0; sector < sum.size(); ++sector)
-    view.open[sector] = static_cast<std::uint8_t>(std::min(sum[sector], 255.0f));
   return view;
 }
 

@@ -14,9 +14,6 @@
 
 namespace sunlit::light {
 
-/// How much of each patch of SkyPatches is open, 255 for all; below the horizon nothing.
-using PatchBytes = std::array<std::uint8_t, SkyPatches::kCount>;
-
 /// Cards of leaves cross each other: within a hand's breadth, one may lie open or deep in the shade of the
 /// next. So each has a grid of its own, of which patches of the sky are open.
 struct LeafOpenness {

@@ -82,4 +82,7 @@ class SkyPatches {
   std::vector<Ray> rays_, coarse_;
 };
 
+/// How much of each patch is open, 255 for all; below the horizon nothing.
+using PatchBytes = std::array<std::uint8_t, SkyPatches::kCount>;
+
 }  // namespace sunlit::light

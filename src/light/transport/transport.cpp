@@ -93,11 +93,12 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
                              [&](double share) { report(kSampled + (1.0 - kSampled) * share); }};
   samples.mesh.drop(gatherLight(scene, samples, gather, data.get()));
   data->mesh = std::move(samples.mesh);
-  return std::make_shared<const Transport>(std::move(geometry), std::move(data));
+  return std::make_shared<const Transport>(std::move(geometry), options, std::move(data));
 }
 
-Transport::Transport(std::shared_ptr<const Geometry> geometry, std::unique_ptr<const TransportData> data)
-    : geometry_(std::move(geometry)), data_(std::move(data)) {}
+Transport::Transport(std::shared_ptr<const Geometry> geometry, const TransportOptions& options,
+                     std::unique_ptr<const TransportData> data)
+    : geometry_(std::move(geometry)), options_(options), data_(std::move(data)) {}
 Transport::~Transport() = default;
 
 LightPlace Transport::placeOf(std::uint32_t triangle, bool front, const Eigen::Vector3f& position) const {

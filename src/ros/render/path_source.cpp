@@ -1,8 +1,6 @@
 #include "ros/render/path_source.h"
 
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 #include <stdexcept>
 
 #include "ros/render/messages.h"
@@ -38,9 +36,7 @@ std::string PathSource::fingerprint() const {
   Fingerprint print;
   for (const Eigen::Isometry3d& pose : map_from_camera_)
     print.add(std::vector<double>(pose.data(), pose.data() + pose.matrix().size()));
-  std::ostringstream text;
-  text << std::hex << std::setfill('0') << std::setw(16) << print.value();
-  return text.str();
+  return print.text();
 }
 
 void PathSource::onPath(const nav_msgs::Path& message) {

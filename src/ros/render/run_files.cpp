@@ -18,7 +18,7 @@ std::string inputsText(const RunInputs& inputs) {
   return "sunlit: '" SUNLIT_VERSION "'\nworld: '" + inputs.world + "'\npath: '" + inputs.path + "'\n";
 }
 
-/// The first line of one text that the other has not; empty: they are equal.
+/// The first line of `text` that `other` does not have in its place; empty if it has all.
 std::string differingLine(const std::string& text, const std::string& other) {
   std::istringstream lines(text), other_lines(other);
   for (std::string line, other_line; std::getline(lines, line);)

@@ -77,7 +77,6 @@ Studio::Studio(const RenderNodeOptions& options)
     : options_(checked(options)),
       exposure_(options.exposure),
       noise_(options.noise),
-      transport_options_(options.bake.transport),
       robot_(loadRobot(options.robot, options.model_path)),
       world_(stopwatch_.measure("load", "world", [&] { return makeWorld(options, robot_); })),
       atmosphere_(
@@ -121,7 +120,7 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent) {
 }
 
 std::string Studio::fingerprint() const {
-  return light::fingerprint(world_, transport_options_);
+  return light::fingerprint(world_);
 }
 
 void Studio::look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links) {

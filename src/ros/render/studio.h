@@ -63,7 +63,6 @@ class Studio {
   render::RenderOptions options_;
   image::ExposureOptions exposure_;
   image::NoiseOptions noise_;
-  light::TransportOptions transport_options_;
   std::optional<scene::Robot> robot_;
   light::World world_;
   sky::Atmosphere atmosphere_;

@@ -1,9 +1,7 @@
 #include "ros/tools/timelapse_options.h"
 
 #include <algorithm>
-#include <cinttypes>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -145,9 +143,7 @@ std::string contentOf(const std::string& what, const std::string& file) {
   Fingerprint print;
   for (std::istreambuf_iterator<char> byte(stream), end; byte != end; ++byte)
     print.add(static_cast<unsigned char>(*byte));
-  char digits[17];
-  std::snprintf(digits, sizeof digits, "%016" PRIx64, print.value());
-  return what + ' ' + digits;
+  return what + ' ' + print.text();
 }
 
 /// Sorted by options; one that may be repeated keeps its order.

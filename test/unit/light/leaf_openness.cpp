@@ -31,6 +31,13 @@ scene::Scene leafScene() {
   return leafSceneOf(solid);
 }
 
+/// Over the origin, 2 m long and wide, 2 m up.
+scene::Scene levelLeaf() {
+  scene::Scene scene = leafScene();
+  addPatch(&scene, kLeaf, {-1.0f, -1.0f, 2.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 2.0f, 0.0f});
+  return scene;
+}
+
 LeafOpenness opennessOf(scene::Scene scene, std::shared_ptr<const Geometry>* geometry) {
   *geometry = std::make_shared<const Geometry>(std::make_shared<const scene::Scene>(std::move(scene)));
   const std::vector<TriangleTraits> traits = triangleTraits(**geometry, BakeRays(*geometry));
@@ -70,8 +77,7 @@ float openAround(const SkyView& view, const Eigen::Vector3f& normal) {
 constexpr float kExact = 0.025f;
 
 TEST(LeafOpenness, OpenLeavesSeeTheSkyAboveThemAndNoneBelow) {
-  scene::Scene scene = leafScene();
-  addPatch(&scene, kLeaf, {-1.0f, -1.0f, 2.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 2.0f, 0.0f});
+  scene::Scene scene = levelLeaf();
   std::shared_ptr<const Geometry> geometry;
   const LeafOpenness leaves = opennessOf(scene, &geometry);
   const SkyView view = viewAt(*geometry, leaves, {0.3f, -0.2f, 2.0f});
@@ -91,8 +97,7 @@ TEST(LeafOpenness, UprightLeavesSeeHalfTheSkyOnEitherSide) {
 }
 
 TEST(LeafOpenness, TellsTheSideOfTheSkyThatAWallHides) {
-  scene::Scene scene = leafScene();
-  addPatch(&scene, kLeaf, {-1.0f, -1.0f, 2.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 2.0f, 0.0f});
+  scene::Scene scene = levelLeaf();
   addPatch(&scene, kBoard, {1.5f, -200.0f, 0.0f}, {0.0f, 400.0f, 0.0f}, {0.0f, 0.0f, 200.0f});
   std::shared_ptr<const Geometry> geometry;
   const LeafOpenness leaves = opennessOf(scene, &geometry);
@@ -104,8 +109,7 @@ TEST(LeafOpenness, TellsTheSideOfTheSkyThatAWallHides) {
 }
 
 TEST(LeafOpenness, TellsEveryPatchThatAWallHides) {
-  scene::Scene scene = leafScene();
-  addPatch(&scene, kLeaf, {-1.0f, -1.0f, 2.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 2.0f, 0.0f});
+  scene::Scene scene = levelLeaf();
   addPatch(&scene, kBoard, {1.5f, -200.0f, 0.0f}, {0.0f, 400.0f, 0.0f}, {0.0f, 0.0f, 6.0f});
   std::shared_ptr<const Geometry> geometry;
   const LeafOpenness leaves = opennessOf(scene, &geometry);
@@ -136,8 +140,7 @@ TEST(LeafOpenness, TellsEveryPatchThatAWallHides) {
 TEST(LeafOpenness, ChangesWithinALeafThatAWallCutsInTwo) {
   // Along the foot of a wall without end half of the sky is left, by cosine; behind a wall at distance d of
   // height h, (1 + d / √(d² + h²)) / 2.
-  scene::Scene scene = leafScene();
-  addPatch(&scene, kLeaf, {-1.0f, -1.0f, 2.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 2.0f, 0.0f});
+  scene::Scene scene = levelLeaf();
   addPatch(&scene, kBoard, {0.0f, -200.0f, 1.0f}, {0.0f, 400.0f, 0.0f}, {0.0f, 0.0f, 1.5f});
   std::shared_ptr<const Geometry> geometry;
   const LeafOpenness leaves = opennessOf(scene, &geometry);

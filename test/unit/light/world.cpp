@@ -35,7 +35,7 @@ struct Contents {
   std::string print() const {
     World world(std::make_shared<const scene::Scene>(scene), bodies);
     if (baked) world.transport = Transport::bake(world.geometry, options);
-    return fingerprint(world, options);
+    return fingerprint(world);
   }
 };
 

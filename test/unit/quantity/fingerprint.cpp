@@ -20,5 +20,9 @@ TEST(Fingerprint, IsThePublishedOne) {
   EXPECT_EQ(fingerprintOf("foobar"), 0x85944171f73967e8u);
 }
 
+TEST(Fingerprint, IsWrittenInSixteenDigits) {
+  EXPECT_EQ(Fingerprint().text(), "cbf29ce484222325");
+}
+
 }  // namespace
 }  // namespace sunlit
