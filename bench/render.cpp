@@ -21,6 +21,7 @@
 #include "render/rasteriser.h"
 #include "render/resolve.h"
 #include "sunlit/image/exposure.h"
+#include "sunlit/light/final_gather.h"
 #include "sunlit/light/lighting.h"
 #include "sunlit/light/transport.h"
 #include "sunlit/scene/load.h"
@@ -48,12 +49,13 @@ struct Stage {
     view.camera = image::PinholeCamera::fromFieldOfView(640, 480, Angle::degrees(60.0));
     view.supersampling = 2;
     geometry = std::make_shared<const light::Geometry>(scene);
-    visibility = std::make_unique<light::Visibility>(geometry);
+    visibility = std::make_shared<light::Visibility>(geometry);
     pyramids = std::make_unique<render::TexturePyramids>(*scene);
     rasteriser = std::make_unique<render::Rasteriser>(geometry, *pyramids, 0.0);
   }
-  void look(std::size_t pose) {
-    view.map_from_optical = poses[pose % poses.size()];
+  void look(std::size_t pose, double metres_on = 0.0) {
+    view.map_from_optical =
+        poses[pose % poses.size()] * Eigen::Translation3d(metres_on * Eigen::Vector3d::UnitZ());
     rasteriser->draw(view, nullptr, &samples);
   }
   render::Seen seen() const { return {view, *geometry, nullptr, *pyramids, 0.0f, samples}; }
@@ -66,7 +68,7 @@ struct Stage {
   std::vector<Eigen::Isometry3d> poses;
   render::View view;
   std::shared_ptr<const light::Geometry> geometry;
-  std::unique_ptr<light::Visibility> visibility;
+  std::shared_ptr<const light::Visibility> visibility;
   std::shared_ptr<const light::Transport> transport;  ///< see baked()
   std::unique_ptr<render::TexturePyramids> pyramids;
   std::unique_ptr<render::Rasteriser> rasteriser;
@@ -146,6 +148,37 @@ void locate(benchmark::State& state) {
     s->baked().locate(&s->surfaces);
   }
   onPoses(state, true, [](Stage& s) { s.baked().locate(&s.surfaces); });
+}
+
+/// Final gathering with `state.range(1)` rays a patch, at a place that is new, or after some metres that led
+/// there, a pose a metre.
+void finalGather(benchmark::State& state) {
+  Stage* s = stage(state);
+  if (!s) return;
+  constexpr int kMetres = 6;
+  const auto rays = static_cast<int>(state.range(1));
+  const bool drives = state.range(2) != 0;
+  const light::Transport& transport = s->baked();
+  std::size_t number = 0, nodes = 0, cast = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    light::FinalGather gather(s->geometry, s->visibility, rays);
+    for (int metre = drives ? 0 : kMetres; metre <= kMetres; ++metre) {
+      s->look(number, metre);
+      s->resolve();
+      transport.locate(&s->surfaces, metre < kMetres ? &gather : nullptr);
+    }
+    ++number;
+    state.ResumeTiming();
+    gather.look(&s->surfaces);
+    nodes += gather.nodesSeen();
+    cast += gather.nodesCast();
+  }
+  const auto mean = benchmark::Counter::kAvgIterations;
+  state.counters["nodes"] = benchmark::Counter(static_cast<double>(nodes), mean);
+  state.counters["nodes_cast"] = benchmark::Counter(static_cast<double>(cast), mean);
+  state.counters["rays_per_second"] =
+      benchmark::Counter(175.0 * rays * static_cast<double>(cast), benchmark::Counter::kIsRate);
 }
 
 void prepare(benchmark::State& state) {
@@ -254,6 +287,7 @@ BENCHMARK(draw)->Arg(0)->Arg(1)->Apply(eachPose);
 BENCHMARK(writeSamples)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(resolve)->Arg(0)->Arg(1)->Arg(2)->Apply(eachPose);
 BENCHMARK(locate)->Arg(0)->Apply(eachPose);
+BENCHMARK(finalGather)->ArgsProduct({{0}, {1, 2, 4}, {0, 1}})->Apply(eachPose);
 BENCHMARK(prepare)->Arg(0)->Apply(eachPose);
 BENCHMARK(depth)->Arg(0)->Arg(1)->Apply(eachPose);
 BENCHMARK(light)->ArgsProduct({{0, 1}, {60, 20, 5, -10}})->Apply(eachPose);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "light/final_gather/gathered_light.h"
 #include "light/mirror/mirror_sky.h"
 #include "light/sky_sectors.h"
 #include "sunlit/light/body_light.h"
@@ -27,15 +28,39 @@ Eigen::Array3f seenAround(const LightPlace& place, float above, float below,
   return sum;
 }
 
-/// What arrives about `normal`, at the surface or behind it.
-Eigen::Array3f irradianceAt(const LightPlace& place, const SkyView& sky, const Eigen::Vector3f& normal,
-                            const Illumination& light) {
-  if (!sky.known || !light.sky_sectors) return atPlace(place, *light.irradiance);
-  // What hides the sky is as bright as what the nodes have around them.
-  const Eigen::Array4f open = light.sky_sectors->irradiance(sky, normal);
-  const float up = 0.5f * (1.0f + normal.z());  // of an even sphere's light by cosine
+/// By light of the sky, lx, and the share of the half sphere that it comes from. What hides the rest is as
+/// bright as what the nodes have around them.
+Eigen::Array3f withSurroundings(const Eigen::Array4f& open, const LightPlace& place, float normal_z,
+                                const Illumination& light) {
+  const float up = 0.5f * (1.0f + normal_z);  // of an even sphere's light by cosine
   return open.head<3>() +
          kPiFloat * seenAround(place, std::max(up - open[3], 0.0f), 1.0f - up, *light.surroundings);
+}
+
+/// What arrives at a surface and, where light gets through it, behind it.
+struct Irradiance {
+  Eigen::Array3f front, behind;
+};
+Irradiance irradianceOf(const Surface& surface, const GatheredSky* gathered, const Illumination& light) {
+  const Eigen::Vector3f& normal = surface.shading_normal;
+  const LightPlace& behind = surface.behind;
+  const bool both = behind.known();
+  Irradiance sum;
+  if (gathered && light.mirror_sky) {
+    const GatheredLight open = gatheredLight(*gathered, light.mirror_sky->patches(), normal);
+    sum.front = withSurroundings(open.front, surface.light, normal.z(), light);
+    if (both) sum.behind = withSurroundings(open.behind, behind, -normal.z(), light);
+  } else if (surface.sky.known && light.sky_sectors) {
+    const SkySectors& sectors = *light.sky_sectors;
+    sum.front = withSurroundings(sectors.irradiance(surface.sky, normal), surface.light, normal.z(), light);
+    if (both)
+      sum.behind = withSurroundings(sectors.irradiance(surface.sky, -normal), behind, -normal.z(), light);
+  } else {
+    sum.front = atPlace(surface.light, *light.irradiance);
+    if (both) sum.behind = atPlace(behind, *light.irradiance);
+  }
+  if (!both) sum.behind = sum.front;
+  return sum;
 }
 
 /// Mean luminance of what the mirror-like lobe looks at.
@@ -74,21 +99,18 @@ Eigen::Array3f ambientLuminance(const Surface& surface, const Reflection& reflec
   const AmbientReflectance& ambient = parts.reflectance;
   const bool baked = light.irradiance && surface.light.known();
   const bool moves = light.bodies && surface.body != Surface::kNoBody;
-  const Eigen::Array3f open = baked && !moves ? Eigen::Array3f(Eigen::Array3f::Zero())
-                                              : light.day.skyIlluminance(surface.shading_normal).value;
-  Eigen::Array3f irradiance =
-      baked ? irradianceAt(surface.light, surface.sky, surface.shading_normal, light) : open;
+  if (baked && !moves) {
+    const Irradiance arriving = irradianceOf(surface, parts.gathered, light);
+    return (ambient.diffuse * arriving.front + ambient.through * arriving.behind +
+            ambient.specular * seenInMirror(surface, parts.mirrored, light)) *
+           surface.unhidden;
+  }
+  const Eigen::Array3f open = light.day.skyIlluminance(surface.shading_normal).value;
+  Eigen::Array3f irradiance = open;
   if (moves)
     irradiance = (*light.bodies)[static_cast<std::size_t>(surface.body)].illuminance(surface.shading_normal);
   irradiance *= surface.unhidden;
-  const Eigen::Array3f behind =
-      baked && !moves && surface.behind.known()
-          ? Eigen::Array3f(irradianceAt(surface.behind, surface.sky, -surface.shading_normal, light) *
-                           surface.unhidden)
-          : irradiance;
-  Eigen::Array3f sum = ambient.diffuse * irradiance + ambient.through * behind;
-  if (baked && !moves)
-    return sum + ambient.specular * surface.unhidden * seenInMirror(surface, parts.mirrored, light);
+  const Eigen::Array3f sum = ambient.diffuse * irradiance + ambient.through * irradiance;
   // A rough lobe spreads over the hemisphere, a smooth one mirrors a point of the sky.
   const Eigen::Array3f spread = irradiance / kPiFloat;
   const float smooth = std::max(0.0f, 1.0f - reflection.roughness * reflection.roughness * 1.5f);

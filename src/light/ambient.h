@@ -18,7 +18,8 @@ Mirrored mirroredBy(const MirrorView& view, const MirrorSky& sky);
 /// What is known of a surface before it is lit.
 struct AmbientParts {
   const AmbientReflectance& reflectance;
-  const Mirrored& mirrored;  ///< where the light is baked
+  const Mirrored& mirrored;     ///< where the light is baked
+  const GatheredSky* gathered;  ///< null: the surface did not look for itself
 };
 /// Luminance, cd/m², without what sun and moon add directly.
 Eigen::Array3f ambientLuminance(const Surface& surface, const Reflection& reflection,

@@ -27,8 +27,9 @@ class LightTable {
     std::uint32_t first_sample;
     std::uint16_t x, y;  ///< of its pixel
     std::uint16_t samples;
-    bool thin;    ///< light shines through it
-    bool leaves;  ///< it has holes, as foliage
+    bool thin;      ///< light shines through it
+    bool leaves;    ///< it has holes, as foliage
+    bool gathered;  ///< it is looked at closely: see FinalGather
   };
   /// Between which distances a surface lies.
   struct AirPlace {

@@ -1,6 +1,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "sunlit/light/final_gather.h"
 #include "sunlit/render/renderer.h"
 
 namespace sunlit::render {
@@ -37,6 +38,8 @@ void validate(const RenderOptions& options) {
           "above near_m, at most 1e7");
   require(options.texture_lod_bias >= -4.0 && options.texture_lod_bias <= 4.0, "texture_lod_bias",
           options.texture_lod_bias, "-4 ... 4");
+  require(options.final_gather >= 0 && options.final_gather <= light::FinalGather::kMostRays, "final_gather",
+          options.final_gather, "0 ... 16");
 }
 
 }  // namespace sunlit::render

@@ -8,6 +8,7 @@
 #include "render/rasteriser.h"
 #include "render/resolve.h"
 #include "sunlit/light/body_light.h"
+#include "sunlit/light/final_gather.h"
 #include "sunlit/light/lighting.h"
 #include "sunlit/light/transport.h"
 
@@ -39,6 +40,10 @@ class Renderer::Implementation {
         world_(world),
         pyramids_(*world.geometry->scene),
         rasteriser_(world.geometry, pyramids_, options.texture_lod_bias) {
+    if (world_.transport && options.final_gather > 0) {
+      final_gather_ =
+          std::make_unique<light::FinalGather>(world_.geometry, world_.visibility, options.final_gather);
+    }
     if (world_.bodies) body_light_ = std::make_unique<light::BodyLight>(world_);
   }
 
@@ -119,7 +124,7 @@ class Renderer::Implementation {
 
   void resolve(Pose& seen) {
     resolveSurfaces(bufferOf(seen), &seen.surfaces);
-    if (world_.transport) world_.transport->locate(&seen.surfaces);
+    if (world_.transport) world_.transport->locate(&seen.surfaces, final_gather_.get());
     seen.body_views = nullptr;
     if (seen.bodies) {
       seen.body_views = body_light_->look(*seen.bodies, seen.visibility);
@@ -147,6 +152,7 @@ class Renderer::Implementation {
   light::World world_;
   TexturePyramids pyramids_;  // before the rasteriser, which refers to them
   Rasteriser rasteriser_;
+  std::unique_ptr<light::FinalGather> final_gather_;    // where it is asked for
   std::unique_ptr<const light::BodyLight> body_light_;  // where there are bodies
   Pose seen_;
   Pose ahead_;

@@ -29,6 +29,13 @@ struct SkyView {
   std::array<float, 3> within = {};
 };
 
+/// How much of each patch of the sky a surface sees, found by rays of its own for its pose.
+struct GatheredSky {
+  static constexpr std::size_t kPatches = 176;   ///< SkyPatches tells where they lie
+  std::array<std::uint8_t, kPatches> open = {};  ///< 255 for all; of a patch that the surface's own plane
+                                                 ///< cuts, of the part before it
+};
+
 /// What a smooth surface mirrors: parts of its lobe of equal weight, each about one direction.
 struct SmoothMirror {
   static constexpr std::size_t kParts = 16;
@@ -73,6 +80,8 @@ struct Surface {
   LightPlace light;            ///< set by Transport::locate()
   LightPlace behind;           ///< likewise, on the other side of a thin sheet
   SkyView sky;                 ///< likewise, on leaves
+  static constexpr std::uint32_t kNotGathered = 0xffffffffu;
+  std::uint32_t gathered = kNotGathered;  ///< index into Tile::gathered; set by FinalGather
   static constexpr std::int32_t kNoBody = -1;
   std::int32_t body = kNoBody;  ///< that moves, which it belongs to; set by BodyLight::hide()
   float unhidden = 1.0f;  ///< share of the light from all around that bodies leave to it; 0 … 1, as above
@@ -86,8 +95,9 @@ struct Tile {
   std::vector<Surface> surfaces;  ///< in pixel order
   /// Where each sample's rays start, m in `map`: on the visible side of the triangle, clear of rounding.
   std::vector<float> origin_x, origin_y, origin_z;
-  std::vector<MirrorView> views;  ///< of its surfaces; set by Transport::locate()
-  std::vector<std::uint8_t> sky;  ///< samples of each pixel of the tile (row-major) that see no surface
+  std::vector<MirrorView> views;      ///< of its surfaces; set by Transport::locate()
+  std::vector<GatheredSky> gathered;  ///< likewise; set by FinalGather, else empty
+  std::vector<std::uint8_t> sky;      ///< samples of each pixel of the tile (row-major) that see no surface
 };
 
 class LightTable;

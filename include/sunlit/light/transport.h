@@ -17,6 +17,8 @@
 
 namespace sunlit::light {
 
+class FinalGather;
+
 struct TransportOptions {
   int rays_per_patch = 3;  ///< of the 175 patches of the sky, 1 … 64
   int bounces = 3;         ///< 0 … 8
@@ -74,8 +76,9 @@ class Transport {
   ~Transport();
 
   /// Sets Surface::light, Surface::behind, Surface::sky and Surface::view of all surfaces but those of bodies
-  /// that move, and Tile::views.
-  void locate(Surfaces* surfaces) const;
+  /// that move, and Tile::views. With `gather`, those that it cares for then see the sky by rays of their
+  /// own.
+  void locate(Surfaces* surfaces, FinalGather* gather = nullptr) const;
   /// Where a point of a triangle of the scene finds its light, on the front or the back.
   LightPlace placeOf(std::uint32_t triangle, bool front, const Eigen::Vector3f& position) const;
 

@@ -78,6 +78,16 @@ bool DiscVisibility::fillsPixel(const LightTable::Site& site) const {
   return !site.leaves && site.samples == static_cast<std::uint32_t>(surfaces_.samples_per_pixel);
 }
 
+std::uint8_t DiscVisibility::enoughMixed(const LightTable::Site& site) const {
+  // Foliage shades itself leaf by leaf: more rays cost much there, and what they would smooth is hidden in
+  // the leaves, unless these are looked at closely. But surfaces amid such as disagree, too: a mesh or a
+  // treetop may stop all of one pixel's first rays by chance, which would show as a dark dot. Beside a
+  // straight edge there are three; a pixel that windows fail in may lie on a thin shadow, of which few pixels
+  // are found to be mixed.
+  if (site.leaves) return site.gathered ? 1 : Tally::kNever;
+  return fillsPixel(site) ? 2 : 4;
+}
+
 void DiscVisibility::appendRays(std::size_t number, std::uint32_t index, Step step) {
   const LightTable::Site& site = table_.tile(number).sites[index];
   const Tile& tile = surfaces_.tiles[number];
@@ -132,7 +142,7 @@ void DiscVisibility::probe(std::size_t number) {
     Tally& tally = tallies[i];
     tally.x = static_cast<std::uint8_t>(site.x - tile.x);
     tally.y = static_cast<std::uint8_t>(site.y - tile.y);
-    tally.leaves = site.leaves;
+    tally.enough = enoughMixed(site);
     tally.fills = fillsPixel(site);
     if (!facesDisc(site)) continue;
     tally.waits = tally.fills && ((site.x + site.y) & 1) == 1;
@@ -225,13 +235,9 @@ void DiscVisibility::refine(std::size_t number) {
   shares.assign(tallies.size(), -1.0f);
   for (std::uint32_t i = 0; i < tallies.size(); ++i) {
     const Tally& tally = tallies[i];
-    // Not foliage, which shades itself leaf by leaf: more rays cost much there, and what they would smooth is
-    // hidden in the leaves. But surfaces amid such as disagree, too: a mesh or a treetop may stop all of one
-    // pixel's first rays by chance, which would show as a dark dot. Beside a straight edge there are three; a
-    // pixel that windows fail in may lie on a thin shadow, of which few pixels are found to be mixed.
-    if (tally.cast == 0 || tally.leaves) continue;
+    if (tally.cast == 0 || tally.enough == Tally::kNever) continue;
     if (tally.fills) shares[i] = windows.share(tally.x, tally.y);
-    const bool penumbra = tally.mixed() || mixed[tally.y][tally.x] >= (tally.fills ? 2 : 4);
+    const bool penumbra = tally.mixed() || mixed[tally.y][tally.x] >= tally.enough;
     if (penumbra && !(tally.fills && (shares[i] >= 0.0f || tally.cast == 1)))
       appendRays(number, i, Step::kRefine);
   }

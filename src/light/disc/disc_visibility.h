@@ -39,11 +39,12 @@ class DiscVisibility {
   struct Tally {
     std::uint8_t x, y;  ///< of its pixel, in the tile
     std::uint8_t cast = 0, lit = 0;
-    bool leaves;           ///< it has holes, as foliage
+    std::uint8_t enough;   ///< mixed ones among 3 × 3 pixels for a penumbra; kNever: gets no more rays
     bool fills;            ///< alone in its pixel, and not foliage
     bool waits = false;    ///< had no probe: first its neighbours are asked
     bool settled = false;  ///< they knew
     bool mixed() const { return lit > 0 && lit < cast; }
+    static constexpr std::uint8_t kNever = 255;
   };
   /// Each step casts more rays, where those of the step before found an edge.
   enum class Step {
@@ -66,6 +67,8 @@ class DiscVisibility {
   void note(const Tile& tile, const Tally& tally);
   bool facesDisc(const LightTable::Site& site) const;
   bool fillsPixel(const LightTable::Site& site) const;
+  /// Tally::enough.
+  std::uint8_t enoughMixed(const LightTable::Site& site) const;
   /// Rays of surface `index` of a tile that it has not had yet.
   void appendRays(std::size_t tile, std::uint32_t index, Step step);
   void cast(std::size_t tile);

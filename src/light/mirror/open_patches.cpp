@@ -32,6 +32,11 @@ struct SampleRows {
   }
 };
 
+/// A patch that the surface's own plane cuts says little.
+inline bool tells(float cosine, float solid_angle) {
+  return cosine > 0.02f * solid_angle;
+}
+
 /// `sums` are over the rows. All patches at once take less time than patches asked for one by one.
 SUNLIT_VECTOR_CLONES
 void divideByWhole(const float* normal, const MirrorPlaces::Middles& middles, const float* __restrict sums,
@@ -41,10 +46,9 @@ void divideByWhole(const float* normal, const MirrorPlaces::Middles& middles, co
   const float* const angle = middles.solid_angle.data();
   for (int p = 0; p < SkyPatches::kCount; ++p) {
     const float whole = x * mx[p] + y * my[p] + z * mz[p];
-    // A patch that the surface's own plane cuts says little.
-    const bool tells = whole > 0.02f * angle[p];
-    const float part = sums[p] / (tells ? whole : 1.0f);
-    const float one = tells ? 1.0f : 0.0f;
+    const bool use = tells(whole, angle[p]);
+    const float part = sums[p] / (use ? whole : 1.0f);
+    const float one = use ? 1.0f : 0.0f;
     known[p] = one;
     share[p] = one * (part < 1.0f ? part : 1.0f);
   }
@@ -57,8 +61,7 @@ const Eigen::Vector3f& bakedNormal(const Surface& surface) {
                                                                           : surface.shading_normal;
 }
 
-OpenPatches ofLeaf(const LeafOpenness& leaves, const Surface& surface) {
-  const PatchBytes bytes = leaves.patches(surface.triangle, surface.sky.within);
+OpenPatches ofBytes(const PatchBytes& bytes) {
   OpenPatches open;
   for (std::size_t p = 0; p < bytes.size(); ++p)
     open.share[p] = static_cast<float>(bytes[p]) * (1.0f / 255.0f);
@@ -67,9 +70,27 @@ OpenPatches ofLeaf(const LeafOpenness& leaves, const Surface& surface) {
   return open;
 }
 
+OpenPatches ofGathered(const GatheredSky& gathered, const Eigen::Vector3f& normal, bool thin) {
+  OpenPatches open = ofBytes(gathered.open);
+  if (thin) return open;
+  const MirrorPlaces::Middles& middles = mirrorPlaces().middles;
+  for (std::size_t p = 0; p < gathered.open.size(); ++p) {
+    const float cosine = normal.x() * middles.x[p] + normal.y() * middles.y[p] + normal.z() * middles.z[p];
+    if (tells(cosine, middles.solid_angle[p])) continue;
+    open.share[p] = open.known[p] = 0.0f;
+  }
+  return open;
+}
+
+OpenPatches ofLeaf(const LeafOpenness& leaves, const Surface& surface) {
+  return ofBytes(leaves.patches(surface.triangle, surface.sky.within));
+}
+
 }  // namespace
 
-OpenPatches openPatches(const TransportData& data, const Surface& surface, float transmission) {
+OpenPatches openPatches(const TransportData& data, const Surface& surface, const GatheredSky* gathered,
+                        float transmission) {
+  if (gathered) return ofGathered(*gathered, surface.geometric_normal, transmission > 0.0f);
   if (surface.sky.known) return ofLeaf(data.leaves, surface);
   const SampleRows samples(data, surface, transmission);
   PatchValues sums;

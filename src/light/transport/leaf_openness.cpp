@@ -11,10 +11,12 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "light/corners.h"
 #include "light/cutout.h"
 #include "light/sky_sectors.h"
 #include "light/transport/crown.h"
 #include "light/transport/sky_patches.h"
+#include "light/triangle_grid.h"
 #include "sunlit/light/visibility.h"
 
 namespace sunlit::light {
@@ -36,34 +38,8 @@ constexpr float kFarGroup_m = 64.0f, kFarCell_m = 2.0f;
 int nodeCount(int steps) {
   return (steps + 1) * (steps + 2) / 2;
 }
-int nodeAt(int i, int j, int steps) {
-  return i * (steps + 1) - i * (i - 1) / 2 + j;
-}
-
-/// The three nodes around a point of the triangle, and their weights.
-struct Around {
-  std::array<int, 3> node;
-  std::array<float, 3> weight;
-  Around(float second, float third, int steps) {
-    const float u = second * static_cast<float>(steps), v = third * static_cast<float>(steps);
-    const int i = std::clamp(static_cast<int>(u), 0, steps - 1);
-    const int j = std::clamp(static_cast<int>(v), 0, steps - 1 - i);
-    const float x = u - static_cast<float>(i), y = v - static_cast<float>(j);
-    if (x + y <= 1.0f || i + j + 2 > steps) {
-      node = {nodeAt(i, j, steps), nodeAt(i + 1, j, steps), nodeAt(i, j + 1, steps)};
-      weight = {1.0f - x - y, x, y};
-    } else {
-      node = {nodeAt(i + 1, j + 1, steps), nodeAt(i + 1, j, steps), nodeAt(i, j + 1, steps)};
-      weight = {x + y - 1.0f, 1.0f - y, 1.0f - x};
-    }
-  }
-};
-
-float edgeOf(const Geometry& geometry, std::uint32_t t) {
-  const auto& c = geometry.triangles[t];
-  const Eigen::Vector3f a = geometry.positions[c[0]], b = geometry.positions[c[1]],
-                        d = geometry.positions[c[2]];
-  return std::sqrt((b - a).cross(d - a).norm());
+int nodeAt(const GridNode& node, int steps) {
+  return node.second * (steps + 1) - node.second * (node.second - 1) / 2 + node.third;
 }
 
 int stepsOf(const Geometry& geometry, std::uint32_t t) {
@@ -200,7 +176,8 @@ class Looker {
         const float u = (static_cast<float>(i) + 0.33f) / static_cast<float>(across);
         const float v = (static_cast<float>(j) + 0.33f) / static_cast<float>(across);
         if (!cutouts_.solid(masked, u, v)) continue;
-        for (const int node : Around(u, v, steps).node) needed[static_cast<std::size_t>(node)] = true;
+        for (const GridNode& node : GridPlace(u, v, steps).node)
+          needed[static_cast<std::size_t>(nodeAt(node, steps))] = true;
       }
     }
     return needed;
@@ -218,10 +195,10 @@ class Looker {
 
 PatchBytes LeafOpenness::patches(std::uint32_t triangle, const std::array<float, 3>& within) const {
   const std::uint8_t* grid = grids.data() + first[triangle];
-  const Around around(within[1], within[2], grid[0]);
+  const GridPlace around(within[1], within[2], grid[0]);
   std::array<const std::uint8_t*, 3> node;
   for (std::size_t k = 0; k < 3; ++k)
-    node[k] = grid + 1 + kNodeBytes * static_cast<std::size_t>(around.node[k]);
+    node[k] = grid + 1 + kNodeBytes * static_cast<std::size_t>(nodeAt(around.node[k], grid[0]));
   // Whole numbers that sum to 255, so that eight patches can be weighed at once.
   const auto a = static_cast<std::uint64_t>(around.weight[0] * 255.0f + 0.5f);
   const auto b = std::min(static_cast<std::uint64_t>(around.weight[1] * 255.0f + 0.5f), 255 - a);

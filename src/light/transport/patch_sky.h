@@ -28,6 +28,10 @@ class PatchSky {
     }
   }
 
+  /// Luminances of one of red, green and blue, patch by patch, in parts of scale().
+  const std::int16_t* channel(std::size_t rgb) const { return patches_[rgb].data(); }
+  float scale(std::size_t rgb) const { return scale_[rgb]; }
+
   /// Sum of `row`, one byte a patch, times the patches' luminances, cd/m².
   Eigen::Array3f times(const std::uint8_t* row) const {
     std::int32_t r = 0, g = 0, b = 0;

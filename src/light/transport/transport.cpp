@@ -11,11 +11,13 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "light/corners.h"
 #include "light/mirror/mirror_sky.h"
 #include "light/sky_sectors.h"
 #include "light/transport/gather.h"
 #include "light/transport/relight.h"
 #include "light/transport/scene_samples.h"
+#include "sunlit/light/final_gather.h"
 
 namespace sunlit::light {
 namespace {
@@ -26,32 +28,6 @@ void requireWithin(const char* key, double value, double low, double high) {
   message << key << ": " << value << " is outside " << low << " … " << high;
   throw std::invalid_argument(message.str());
 }
-
-/// A triangle, ready for points on it.
-class Corners {
- public:
-  Corners(const Geometry& geometry, std::uint32_t triangle)
-      : first_(geometry.positions[geometry.triangles[triangle][0]]) {
-    const auto& corners = geometry.triangles[triangle];
-    const Eigen::Vector3f ab = geometry.positions[corners[1]] - first_;
-    const Eigen::Vector3f ac = geometry.positions[corners[2]] - first_;
-    const float bb = ab.squaredNorm(), cc = ac.squaredNorm(), bc = ab.dot(ac);
-    const float scale = 1.0f / std::max(bb * cc - bc * bc, 1e-30f);
-    towards_second_ = scale * (cc * ab - bc * ac);
-    towards_third_ = scale * (bb * ac - bc * ab);
-  }
-  /// Barycentric coordinates of the point of its plane nearest to `position`, within it.
-  std::array<float, 3> within(const Eigen::Vector3f& position) const {
-    const Eigen::Vector3f along = position - first_;
-    float v = std::max(along.dot(towards_second_), 0.0f), w = std::max(along.dot(towards_third_), 0.0f);
-    const float sum = v + w;
-    if (sum > 1.0f) v /= sum, w /= sum;
-    return {std::max(1.0f - v - w, 0.0f), v, w};
-  }
-
- private:
-  Eigen::Vector3f first_, towards_second_, towards_third_;
-};
 
 }  // namespace
 
@@ -116,7 +92,7 @@ LightPlace Transport::placeWithin(std::uint32_t triangle, bool front,
   return light;
 }
 
-void Transport::locate(Surfaces* surfaces) const {
+void Transport::locate(Surfaces* surfaces, FinalGather* gather) const {
   const scene::Scene& scene = *geometry_->scene;
   tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(), [&](std::size_t i) {
     std::uint32_t last = 0xffffffffu;  // neighbours often lie on one triangle
@@ -124,6 +100,7 @@ void Transport::locate(Surfaces* surfaces) const {
     for (Surface& surface : surfaces->tiles[i].surfaces) {
       surface.light = surface.behind = LightPlace();
       surface.sky = SkyView();
+      surface.gathered = Surface::kNotGathered;
       if (surface.triangle >= geometry_->triangles.size()) continue;  // a body that moves: see BodyLight
       const bool front = geometry_->planes[surface.triangle].normal.dot(surface.geometric_normal) > 0.0f;
       if (surface.triangle != last) corners.emplace(*geometry_, last = surface.triangle);
@@ -133,6 +110,10 @@ void Transport::locate(Surfaces* surfaces) const {
         surface.behind = placeWithin(surface.triangle, !front, within);
       if (data_->leaves.known(surface.triangle)) surface.sky = data_->leaves.at(surface.triangle, within);
     }
+    surfaces->tiles[i].gathered.clear();
+  });
+  if (gather) gather->look(surfaces);
+  tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(), [&](std::size_t i) {
     findMirrorViews(*data_, scene, surfaces->width, &surfaces->tiles[i]);
   });
 }

@@ -1,7 +1,9 @@
 #include "ros/render/options.h"
 
 #include <stdexcept>
+#include <string>
 
+#include "sunlit/light/final_gather.h"
 #include "sunlit/scene/load.h"
 
 namespace sunlit::ros_interface {
@@ -85,6 +87,14 @@ BakeOptions readBake(const ParameterReader& parameters) {
   transport.bounces = parameters.integer("transport/bounces", transport.bounces, {0, 8});
   transport.finest_m = parameters.number("transport/finest", transport.finest_m, {0.02, 10.0});
   transport.samples = parameters.integer("transport/samples", transport.samples, {1000, 1e7});
+  bake.final_gather =
+      parameters.integer("transport/final_gather", bake.final_gather, {0, light::FinalGather::kMostRays});
+  if (!bake.enabled && bake.final_gather > 0) {
+    throw std::invalid_argument("parameter " + parameters.fullName("transport/final_gather") + " is " +
+                                std::to_string(bake.final_gather) + ", but " +
+                                parameters.fullName("transport/enabled") +
+                                " is false: it looks closer where light is baked");
+  }
   bake.cache_dir = parameters.text("transport/cache_dir", bake.cache_dir);
   bake.cache_limit_gb = parameters.number("transport/cache_limit", bake.cache_limit_gb, {0.0, 1e6});
   return bake;
@@ -112,6 +122,7 @@ render::RenderOptions RenderNodeOptions::renderOptions() const {
   render::RenderOptions options;
   options.camera = image::PinholeCamera::fromFieldOfView(camera.width, camera.height, camera.horizontal_fov);
   options.supersampling = camera.supersampling;
+  options.final_gather = bake.final_gather;
   return options;
 }
 

@@ -60,6 +60,7 @@ struct PacingOptions {
 struct BakeOptions {
   bool enabled = true;  ///< false: every surface sees the open sky, and passes no light on
   light::TransportOptions transport;
+  int final_gather = 0;         ///< render::RenderOptions::final_gather
   std::string cache_dir;        ///< empty: as light::Transport::usualFolder()
   double cache_limit_gb = 2.0;  ///< of the bakes in it, 0 … 1e6
 };

@@ -124,8 +124,8 @@ std::optional<CompareLightOptions> parseCompareLightOptions(const std::vector<st
       options.skies.push_back(skyFrom("--sun", sun));
     options.skies.push_back(skyFrom("--moon", "150,45,10"));
   }
-  options.render.camera = camera.camera();
-  options.render.supersampling = camera.supersampling;
+  camera.requireSense(options.world);
+  options.render = camera.options();
   render::validate(options.render);
   light::validate(options.reference);
   return options;

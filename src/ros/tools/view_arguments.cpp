@@ -129,13 +129,13 @@ void ViewArguments::requireThatAllCount() const {
     what = "--compensation needs --ev auto";
   }
   if (what != nullptr) throw std::invalid_argument(what);
+  camera_.requireSense(options_.world);
 }
 
 ViewOptions ViewArguments::options() const {
   requireThatAllCount();
   ViewOptions options = options_;
-  options.render.camera = camera_.camera();
-  options.render.supersampling = camera_.supersampling;
+  options.render = camera_.options();
   if (!top_down_.empty()) {
     placeTopDown(&options);
   } else if (path_pose_) {

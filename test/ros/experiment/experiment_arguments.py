@@ -96,15 +96,16 @@ class ExperimentArguments(unittest.TestCase):
             self.assertEqual(found[renderer + "exposure/mode"], "fixed")  # the one that differs, with its value
             for group, key in (("night", "enabled"), ("noise", "enabled"), ("noise", "seed"), ("camera", "horizontal_fov"),
                                ("exposure", "highlight_protection"), ("atmosphere", "turbidity"),
-                               ("atmosphere", "ozone")):
+                               ("atmosphere", "ozone"), ("transport", "final_gather")):
                 self.assertEqual(found[renderer + group + "/" + key], shipped[group][key], renderer + group + "/" + key)
 
-    def test_camera_and_night_reach_both_renderers(self):
-        found = self.parameters("night:=false", "noise:=true", "noise_seed:=7", "exposure:=auto", "highlight_protection:=0")
+    def test_what_pictures_look_like_reaches_both_renderers(self):
+        found = self.parameters("night:=false", "noise:=true", "noise_seed:=7", "exposure:=auto", "highlight_protection:=0",
+                                "final_gather:=2")
         for renderer in ("/render/", "/self_test/render/"):
             self.assertEqual([found[renderer + key] for key in ("night/enabled", "noise/enabled", "noise/seed", "exposure/mode",
-                                                                "exposure/highlight_protection")],
-                             [False, True, 7, "auto", 0.0])
+                                                                "exposure/highlight_protection", "transport/final_gather")],
+                             [False, True, 7, "auto", 0.0, 2])
         self.assertEqual(found["/experiment/arguments"]["noise_seed"], "7")
 
     def test_the_recording_holds_what_each_image_was_made_under(self):

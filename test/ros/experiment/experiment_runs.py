@@ -192,6 +192,15 @@ class ExperimentRuns(unittest.TestCase):
             settings = yaml.safe_load(file)["settings"]
         self.assertEqual((settings["about/noise"], settings["about/noise_seed"]), ("true", "7"))
 
+    def test_final_gathering_is_the_same_in_both_renderers(self):
+        output = os.path.join(self.folder, "final_gather")
+        run = small_experiment(output, poses=2, self_test_every=1, images="true", differences="[boolean_rgb]", final_gather=2)
+        self.assertEqual(run.end(), 0, run.said())  # not 0 where a self-test of a direct difference is not exactly 0
+        name = "images/h10/000000.png"
+        self.assertNotEqual(self.bytes_of(output, name), self.bytes_of(self.output, name))  # a box of 1 m is in view
+        with open(os.path.join(output, "run.yaml")) as file:
+            self.assertEqual(yaml.safe_load(file)["settings"]["about/final_gather"], "2")
+
     def test_started_again_when_finished_it_only_says_so(self):
         before = self.bytes_of(self.output, "frames.csv")
         again = small_experiment(self.output)

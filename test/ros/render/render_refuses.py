@@ -34,6 +34,9 @@ class RenderRefuses(RefusalTest):
         self.assert_refused(parameters(camera={"widht": 96}), "/refused/camera/widht", "unknown")
         self.assert_refused(parameters(camera={"width": 8}), "/refused/camera/width", "8", "16")
         self.assert_refused(parameters(exposure={"mode": "bright"}), "/refused/exposure/mode", "bright", "auto, fixed")
+        self.assert_refused(parameters(transport={"final_gather": 17}), "/refused/transport/final_gather", "17", "16")
+        self.assert_refused(parameters(transport={"final_gather": 2, "enabled": False}), "/refused/transport/final_gather",
+                            "/refused/transport/enabled is false")
         self.assert_refused(parameters(start_stamp="soon"), "/refused/start_stamp", "soon", "now")
         self.assert_refused(parameters(conditions=["a", "a"]), "/refused/conditions", "twice")
         self.assert_refused(parameters(conditions={"a": {"turbidity": 3}}), "turbidity", "unknown; nothing can differ here")

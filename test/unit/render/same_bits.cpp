@@ -7,6 +7,7 @@
 #include <random>
 
 #include "sunlit/light/lighting.h"
+#include "sunlit/light/transport.h"
 #include "test_scenes.h"
 
 namespace sunlit::test {
@@ -99,6 +100,34 @@ TEST(Picture, IsTheSameWhenItsPoseWasDrawnAhead) {
   renderer.lookAhead(kPose);  // drawn ahead, but somewhere else is looked at
   renderer.look(other);
   EXPECT_TRUE(sameBits(renderer.light(day).data, other_light));
+}
+
+TEST(Picture, IsTheSameByFinalGatheringForAnyNumberOfThreadsAndWhateverWasSeenBefore) {
+  light::World world(shared(town()));
+  light::TransportOptions coarse;
+  coarse.samples = 5000;
+  coarse.bounces = 1;
+  world.transport = light::Transport::bake(world.geometry, coarse);
+  const light::Illumination light = light::illumination(world, daylightAt(100.0, 12.0));
+  render::RenderOptions options = smallCamera(200, 150, 80.0);
+  const auto picture = [&](render::Renderer* renderer) {
+    renderer->look(kPose);
+    return renderer->light(light).data;
+  };
+  render::Renderer baked(world, options);
+  options.final_gather = 2;
+  render::Renderer gathering(world, options);
+  const std::vector<float> first = picture(&gathering);
+  EXPECT_FALSE(sameBits(first, picture(&baked)));
+
+  for (const double x : {-19.0, -18.0}) {  // most of what is seen there was seen before
+    gathering.look(lookingAt({x, 30.0, 2.0}, {40.0, 10.0, 1.0}));
+    gathering.light(light);
+  }
+  EXPECT_TRUE(sameBits(picture(&gathering), first));
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  render::Renderer alone(world, options);
+  EXPECT_TRUE(sameBits(picture(&alone), first));
 }
 
 TEST(Picture, IsTheSameWithAndWithoutWhatAPoseKeepsForItsConditions) {

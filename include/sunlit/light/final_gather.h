@@ -1,0 +1,49 @@
+/// Looks closer at the sky where the bake is too coarse: final gathering.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "sunlit/light/geometry.h"
+#include "sunlit/light/surfaces.h"
+#include "sunlit/light/visibility.h"
+
+namespace sunlit::light {
+
+/// Baked light is kept at nodes, some decimetres apart. Leaves, twigs, wires and blades of grass shade each
+/// other within centimetres, so each of their surfaces that a camera sees looks for itself which of the sky
+/// is open: by rays from a grid on its triangle about as fine as the picture's pixels. What was found is kept
+/// for the next poses, which see most of it again. Large triangles are left to the bake, which is as good
+/// there.
+///
+/// What surfaces pass on still comes from the bake.
+class FinalGather {
+ public:
+  static constexpr int kMostRays = 16;
+
+  /// Keeps all that it is given. `rays_per_patch`, 1 … kMostRays: of each of the sky's 175 patches, from each
+  /// node of the grids; a surface lies between three nodes, which aim at different points of a patch. Throws
+  /// std::invalid_argument naming the range.
+  FinalGather(std::shared_ptr<const Geometry> geometry, std::shared_ptr<const Visibility> visibility,
+              int rays_per_patch);
+  ~FinalGather();
+  FinalGather(const FinalGather&) = delete;
+  FinalGather& operator=(const FinalGather&) = delete;
+
+  /// Sets Tile::gathered, and Surface::gathered of leaves and of surfaces on triangles smaller than 2 m,
+  /// where Surface::light is known. Parallel; the same bits for any number of threads and whatever was looked
+  /// at before.
+  void look(Surfaces* surfaces);
+
+  /// Nodes that the last look() needed, and those of them that it had to cast rays for.
+  std::size_t nodesSeen() const;
+  std::size_t nodesCast() const;
+  /// Nodes that are kept, at most about five times those of the last poses.
+  std::size_t nodesKept() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace sunlit::light

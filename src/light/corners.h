@@ -1,0 +1,49 @@
+/// Points on triangles.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "sunlit/light/geometry.h"
+
+namespace sunlit::light {
+
+/// A triangle, ready for points on it.
+class Corners {
+ public:
+  Corners(const Geometry& geometry, std::uint32_t triangle)
+      : first_(geometry.positions[geometry.triangles[triangle][0]]) {
+    const auto& corners = geometry.triangles[triangle];
+    const Eigen::Vector3f ab = geometry.positions[corners[1]] - first_;
+    const Eigen::Vector3f ac = geometry.positions[corners[2]] - first_;
+    const float bb = ab.squaredNorm(), cc = ac.squaredNorm(), bc = ab.dot(ac);
+    const float scale = 1.0f / std::max(bb * cc - bc * bc, 1e-30f);
+    towards_second_ = scale * (cc * ab - bc * ac);
+    towards_third_ = scale * (bb * ac - bc * ab);
+  }
+  /// Barycentric coordinates of the point of its plane nearest to `position`, within it.
+  std::array<float, 3> within(const Eigen::Vector3f& position) const {
+    const Eigen::Vector3f along = position - first_;
+    float v = std::max(along.dot(towards_second_), 0.0f), w = std::max(along.dot(towards_third_), 0.0f);
+    const float sum = v + w;
+    if (sum > 1.0f) v /= sum, w /= sum;
+    return {std::max(1.0f - v - w, 0.0f), v, w};
+  }
+
+ private:
+  Eigen::Vector3f first_, towards_second_, towards_third_;
+};
+
+/// Side of the square that is twice as large as a triangle, m.
+inline float edgeOf(const Geometry& geometry, std::uint32_t triangle) {
+  const auto& corners = geometry.triangles[triangle];
+  const Eigen::Vector3f first = geometry.positions[corners[0]];
+  const Eigen::Vector3f ab = geometry.positions[corners[1]] - first;
+  const Eigen::Vector3f ac = geometry.positions[corners[2]] - first;
+  return std::sqrt(ab.cross(ac).norm());
+}
+
+}  // namespace sunlit::light
