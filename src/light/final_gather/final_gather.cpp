@@ -13,6 +13,7 @@
 
 #include "light/corners.h"
 #include "light/final_gather/kept_nodes.h"
+#include "light/morton.h"
 #include "light/ray_list.h"
 #include "light/transport/sky_patches.h"
 #include "light/triangle_grid.h"
@@ -29,7 +30,8 @@ constexpr int kMostSteps = 1000;
 /// Nodes of a small triangle's corners are drawn so far to its middle: they stand for the parts around them.
 constexpr float kInwardsOfThree = 0.3f;
 constexpr std::size_t kColours = 3;  ///< of nodes: no two that share a triangle of a grid have the same
-constexpr std::size_t kBlock = 16;   ///< nodes whose rays are cast together
+constexpr std::size_t kBlock = 192;  ///< nodes whose rays are cast together
+constexpr float kBlock_m = 0.5f;     ///< of space, whose nodes follow each other
 constexpr std::size_t kPatches = GatheredSky::kPatches;
 static_assert(kPatches == SkyPatches::kCount, "a share for each patch");
 
@@ -109,7 +111,7 @@ class FinalGather::Implementation {
       places[i] = placesIn(surfaces->tiles[i], surfaces->eye, surfaces->pixel_right.norm());
     });
     const std::vector<KeptNodes::Key> wanted = keysOf(places);
-    const std::vector<KeptNodes::Key> fresh = kept_.require(wanted);
+    const std::vector<KeptNodes::Key> fresh = inSpace(kept_.require(wanted));
     seen_ = wanted.size();
     cast_ = fresh.size();
     tbb::parallel_for(std::size_t{0}, (fresh.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
@@ -180,26 +182,53 @@ class FinalGather::Implementation {
            v * geometry_->positions[corners[2]];
   }
 
-  void addRays(std::uint32_t number, const Node& node, RayList* list) const {
-    const std::vector<Ray>& rays =
-        rays_[static_cast<std::size_t>(node.at.second + 2 * node.at.third) % kColours];
+  /// Those together that lie together: their rays meet the same things.
+  std::vector<KeptNodes::Key> inSpace(std::vector<KeptNodes::Key> keys) const {
+    std::vector<std::pair<std::uint64_t, KeptNodes::Key>> order(keys.size());
+    tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t i) {
+      order[i] = {mortonCode(positionOf(Node::of(keys[i])), kBlock_m), keys[i]};
+    });
+    tbb::parallel_sort(order.begin(), order.end());
+    for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = order[i].second;
+    return keys;
+  }
+
+  /// Where a node's rays start, and how they are aimed.
+  struct Start {
+    std::uint32_t number;
+    Eigen::Vector3f position, normal, off;
+    bool thin;
+  };
+  Start startOf(std::uint32_t number, const Node& node) const {
     const Eigen::Vector3f position = positionOf(node);
     const Eigen::Vector3f normal = (node.front ? 1.0f : -1.0f) * geometry_->planes[node.triangle].normal;
-    const Eigen::Vector3f off = rayClearance_m(position, 0.0f) * normal;
-    const bool thin = isThin(node.triangle);
-    list->reserve(rays.size());
+    return {number, position, normal, rayClearance_m(position, 0.0f) * normal, isThin(node.triangle)};
+  }
+
+  /// Parallel rays of neighbouring nodes follow each other, as the ray library likes them.
+  static void addRays(const std::vector<Start>& starts, const std::vector<Ray>& rays, RayList* list) {
+    list->reserve(starts.size() * rays.size());
     for (const Ray& ray : rays) {
-      const float side = normal.dot(ray.towards) > 0.0f ? 1.0f : -1.0f;
-      if (side < 0.0f && !thin) continue;
-      list->add(number << 8 | static_cast<std::uint32_t>(ray.patch), position + side * off, ray.towards);
+      for (const Start& start : starts) {
+        const float side = start.normal.dot(ray.towards) > 0.0f ? 1.0f : -1.0f;
+        if (side < 0.0f && !start.thin) continue;
+        list->add(start.number << 8 | static_cast<std::uint32_t>(ray.patch),
+                  start.position + side * start.off, ray.towards);
+      }
     }
   }
 
   void castFrom(const std::vector<KeptNodes::Key>& keys) {
     thread_local RayList rays;
     thread_local std::vector<std::uint8_t> blocked;
+    std::array<std::vector<Start>, kColours> starts;
+    for (std::uint32_t i = 0; i < keys.size(); ++i) {
+      const Node node = Node::of(keys[i]);
+      starts[static_cast<std::size_t>(node.at.second + 2 * node.at.third) % kColours].push_back(
+          startOf(i, node));
+    }
     rays.clear();
-    for (std::uint32_t i = 0; i < keys.size(); ++i) addRays(i, Node::of(keys[i]), &rays);
+    for (std::size_t colour = 0; colour < kColours; ++colour) addRays(starts[colour], rays_[colour], &rays);
     blocked.resize(rays.size());
     visibility_->occluded(rays.rays(), blocked.data());
     std::array<Tally, kBlock> tallies{};

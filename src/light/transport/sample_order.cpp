@@ -1,29 +1,11 @@
 #include "light/transport/sample_order.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
+#include "light/morton.h"
+
 namespace sunlit::light {
-namespace {
-
-/// Two zero bits between any two bits of the lowest 21.
-std::uint64_t spread(std::uint64_t x) {
-  x &= 0x1fffff;
-  x = (x | x << 32) & 0x1f00000000ffffull;
-  x = (x | x << 16) & 0x1f0000ff0000ffull;
-  x = (x | x << 8) & 0x100f00f00f00f00full;
-  x = (x | x << 4) & 0x10c30c30c30c30c3ull;
-  return (x | x << 2) & 0x1249249249249249ull;
-}
-std::uint64_t morton(const Eigen::Vector3i& cell) {
-  return spread(static_cast<std::uint64_t>(cell.x() + (1 << 20))) |
-         spread(static_cast<std::uint64_t>(cell.y() + (1 << 20))) << 1 |
-         spread(static_cast<std::uint64_t>(cell.z() + (1 << 20))) << 2;
-}
-
-}  // namespace
-
 void orderSamples(SceneSamples* samples) {
   struct Key {
     std::uint64_t block, place;
@@ -36,10 +18,8 @@ void orderSamples(SceneSamples* samples) {
     const Site& site = samples->sites[i];
     int axis = 0;
     site.normal.cwiseAbs().maxCoeff(&axis);
-    const Eigen::Vector3i block = (site.origins[0] / 32.0f).array().floor().cast<int>();
-    const Eigen::Vector3i place = (site.origins[0] * 8.0f).array().floor().cast<int>();
-    keys.push_back(
-        {morton(block), morton(place), site.coarse, 2 * axis + (site.normal[axis] > 0.0f ? 1 : 0), i});
+    keys.push_back({mortonCode(site.origins[0], 32.0f), mortonCode(site.origins[0], 0.125f), site.coarse,
+                    2 * axis + (site.normal[axis] > 0.0f ? 1 : 0), i});
   }
   std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
     return std::tie(a.block, a.coarse, a.facing, a.place, a.sample) <
