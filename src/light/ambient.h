@@ -19,7 +19,7 @@ Mirrored mirroredBy(const MirrorView& view, const MirrorSky& sky);
 struct AmbientParts {
   const AmbientReflectance& reflectance;
   const Mirrored& mirrored;     ///< where the light is baked
-  const GatheredSky* gathered;  ///< null: the surface did not look for itself
+  const GatheredSky* gathered;  ///< null: FinalGather did not look there
 };
 /// Luminance, cd/m², without what sun and moon add directly.
 Eigen::Array3f ambientLuminance(const Surface& surface, const Reflection& reflection,

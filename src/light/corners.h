@@ -46,4 +46,14 @@ inline float edgeOf(const Geometry& geometry, std::uint32_t triangle) {
   return std::sqrt(ab.cross(ac).norm());
 }
 
+/// m.
+inline float longestEdge(const Geometry& geometry, std::uint32_t triangle) {
+  const auto& corners = geometry.triangles[triangle];
+  float longest = 0.0f;
+  for (std::size_t k = 0; k < 3; ++k)
+    longest =
+        std::max(longest, (geometry.positions[corners[k]] - geometry.positions[corners[(k + 1) % 3]]).norm());
+  return longest;
+}
+
 }  // namespace sunlit::light

@@ -11,10 +11,10 @@
 namespace sunlit::light {
 
 /// Baked light is kept at nodes, some decimetres apart. Leaves, twigs, wires and blades of grass shade each
-/// other within centimetres, so each of their surfaces that a camera sees looks for itself which of the sky
-/// is open: by rays from a grid on its triangle about as fine as the picture's pixels. What was found is kept
-/// for the next poses, which see most of it again. Large triangles are left to the bake, which is as good
-/// there.
+/// other within centimetres, so each of their surfaces that a camera sees looks closer at which of the sky is
+/// open: by rays from nodes of a grid on its triangle, about as far apart as the picture's pixels. What nodes
+/// found is kept for the next poses, which see most of them again. Large triangles are left to the bake,
+/// which is as good there.
 ///
 /// What surfaces pass on still comes from the bake.
 class FinalGather {
@@ -30,15 +30,16 @@ class FinalGather {
   FinalGather(const FinalGather&) = delete;
   FinalGather& operator=(const FinalGather&) = delete;
 
-  /// Sets Tile::gathered, and Surface::gathered of leaves and of surfaces on triangles smaller than 2 m,
-  /// where Surface::light is known. Parallel; the same bits for any number of threads and whatever was looked
-  /// at before.
+  /// Sets Tile::gathered, and Surface::gathered of leaves and of surfaces on triangles up to half as large as
+  /// a square of 2 m, where Surface::light is known: for Transport::locate(), between places and mirror
+  /// views. Parallel; the same bits for any number of threads and whatever was looked at before.
   void look(Surfaces* surfaces);
 
-  /// Nodes that the last look() needed, and those of them that it had to cast rays for.
+  /// Nodes that the last look() needed, those of them that it had to cast rays for, and these rays.
   std::size_t nodesSeen() const;
   std::size_t nodesCast() const;
-  /// Nodes that are kept, at most about five times those of the last poses.
+  std::size_t raysCast() const;
+  /// Nodes that are kept, some 220 bytes each: at most six times those of the largest of the last poses.
   std::size_t nodesKept() const;
 
  private:

@@ -14,7 +14,8 @@ class AroundLight;
 class MirrorSky;
 class SkySectors;
 
-/// Mean luminance, cd/m², of the surfaces that a place has before it above the horizon, and below it.
+/// Mean luminance, cd/m², of the surfaces that a place has before it above the horizon, and of all that lies
+/// below it: surfaces, and the sky's own ground where there are none.
 struct Surroundings {
   Eigen::Array3f above, below;
 };

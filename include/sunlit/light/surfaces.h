@@ -29,7 +29,7 @@ struct SkyView {
   std::array<float, 3> within = {};
 };
 
-/// How much of each patch of the sky a surface sees, found by rays of its own for its pose.
+/// How much of each patch of the sky is seen where FinalGather looked, or between such places.
 struct GatheredSky {
   static constexpr std::size_t kPatches = 176;   ///< SkyPatches tells where they lie
   std::array<std::uint8_t, kPatches> open = {};  ///< 255 for all; of a patch that the surface's own plane

@@ -21,7 +21,7 @@ struct RenderOptions {
   double far_m = 20000.0;         ///< farthest visible depth, > near_m
   double texture_lod_bias = 0.0;  ///< mipmap bias in levels, −4 … 4
   /// 0: the sky is seen as baked. Else light::FinalGather with so many rays a patch looks closer, where light
-  /// is baked: 1 … 16. Error and time of leaves against baked ones: doc/equations.md.
+  /// is baked: 1 … 16. What that brings and costs: README.md.
   int final_gather = 0;
 };
 

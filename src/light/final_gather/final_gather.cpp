@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -23,13 +24,15 @@ namespace sunlit::light {
 namespace {
 
 constexpr float kLargest_m = 2.0f;  ///< beyond it the bake's nodes tell as much: edgeOf() a triangle
-/// Between nodes: not below kFinest_m, and at most kPixels of a picture's pixels, if twice that would be
-/// more.
+/// Between nodes: the first of kFinest_m · 2^k that is not below kPixels of a picture's pixels there.
 constexpr float kFinest_m = 0.05f, kPixels = 2.0f / 3.0f;
 constexpr int kMostSteps = 1000;
-/// Nodes of a small triangle's corners are drawn so far to its middle: they stand for the parts around them.
-constexpr float kInwardsOfThree = 0.3f;
-constexpr std::size_t kColours = 3;  ///< of nodes: no two that share a triangle of a grid have the same
+/// Nodes at the rim are drawn towards the triangle's middle, by so much of a step times their distance to it:
+/// on the rim itself chance would decide on which side of what touches it they lie. Those of a triangle
+/// without any others then stand for the parts around them.
+constexpr float kInwards = 0.3f;
+/// Nodes aim in three ways: no two that share a triangle of a grid aim at the same points.
+constexpr std::size_t kAims = 3;
 constexpr std::size_t kBlock = 192;  ///< nodes whose rays are cast together
 constexpr float kBlock_m = 0.5f;     ///< of space, whose nodes follow each other
 constexpr std::size_t kPatches = GatheredSky::kPatches;
@@ -60,6 +63,13 @@ struct Node {
   }
 };
 
+/// What is divided into steps: a short side of half a square. Long thin triangles need nodes closer along
+/// them than steps of their edgeOf() are, but steps of their longest edge would be many nodes side by side.
+float spanOf(float edge_m, float longest_m) {
+  constexpr float kOfHalfSquare = 1.41421356f;
+  return std::sqrt(edge_m * longest_m / kOfHalfSquare);
+}
+
 /// A surface, and the nodes that it lies between.
 struct Place {
   std::uint32_t surface;  ///< index into Tile::surfaces
@@ -80,10 +90,44 @@ void blend(const std::array<const std::uint8_t*, 3>& skies, const std::array<flo
   }
 }
 
-/// Which of its rays got through, patch by patch.
-struct Tally {
+/// Which rays of a node got through, patch by patch.
+struct Counts {
   std::array<std::uint8_t, kPatches> cast{}, open{};
+
+  float share(std::size_t patch) const {
+    return static_cast<float>(open[patch]) / static_cast<float>(cast[patch]);
+  }
 };
+
+/// Of each patch above the horizon those beside it.
+std::vector<std::vector<int>> neighboursOfPatches() {
+  std::vector<std::vector<int>> neighbours;
+  for (int patch = 0; patch < SkyPatches::kAbove; ++patch)
+    neighbours.push_back(SkyPatches::neighbours(patch));
+  return neighbours;
+}
+
+/// A patch that a node's plane cuts may have had no ray before it: it is as open as those beside it are.
+GatheredSky skyOf(const Counts& counts) {
+  static const std::vector<std::vector<int>> neighbours = neighboursOfPatches();
+  GatheredSky sky;
+  for (std::size_t p = 0; p < neighbours.size(); ++p) {
+    float sum = 0.0f, told = 0.0f;
+    if (counts.cast[p] > 0) {
+      sum = counts.share(p);
+      told = 1.0f;
+    } else {
+      for (const int neighbour : neighbours[p]) {
+        const auto n = static_cast<std::size_t>(neighbour);
+        if (counts.cast[n] == 0) continue;
+        sum += counts.share(n);
+        told += 1.0f;
+      }
+    }
+    if (told > 0.0f) sky.open[p] = static_cast<std::uint8_t>(static_cast<int>(255.0f * sum / told + 0.5f));
+  }
+  return sky;
+}
 
 }  // namespace
 
@@ -96,12 +140,12 @@ class FinalGather::Implementation {
       throw std::invalid_argument("final gathering: " + std::to_string(rays_per_patch) +
                                   " rays per patch are outside 1 … " + std::to_string(kMostRays));
     }
-    // The colours' rays fill a patch evenly, and those of all colours together do.
-    const SkyPatches all(static_cast<int>(kColours) * rays_per_patch);
+    // The rays of each aim fill a patch evenly, and those of all together do.
+    const SkyPatches all(static_cast<int>(kAims) * rays_per_patch);
     std::array<std::size_t, SkyPatches::kAbove> number{};
     for (const SkyPatches::Ray& ray : all.rays()) {
       if (ray.patch == SkyPatches::kBelow) continue;
-      rays_[number[static_cast<std::size_t>(ray.patch)]++ % kColours].push_back({ray.towards, ray.patch});
+      rays_[number[static_cast<std::size_t>(ray.patch)]++ % kAims].push_back({ray.towards, ray.patch});
     }
   }
 
@@ -111,19 +155,20 @@ class FinalGather::Implementation {
       places[i] = placesIn(surfaces->tiles[i], surfaces->eye, surfaces->pixel_right.norm());
     });
     const std::vector<KeptNodes::Key> wanted = keysOf(places);
-    const std::vector<KeptNodes::Key> fresh = inSpace(kept_.require(wanted));
     seen_ = wanted.size();
-    cast_ = fresh.size();
-    tbb::parallel_for(std::size_t{0}, (fresh.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
-      const auto first = fresh.begin() + static_cast<std::ptrdiff_t>(block * kBlock);
-      castFrom({first, first + std::min<std::ptrdiff_t>(kBlock, fresh.end() - first)});
-    });
+    try {
+      castNew(kept_.require(wanted));
+    } catch (...) {
+      kept_ = KeptNodes();  // some of them were not filled in
+      throw;
+    }
     tbb::parallel_for(std::size_t{0}, places.size(),
                       [&](std::size_t i) { fill(places[i], &surfaces->tiles[i]); });
   }
 
   std::size_t nodesSeen() const { return seen_; }
   std::size_t nodesCast() const { return cast_; }
+  std::size_t raysCast() const { return rays_cast_; }
   std::size_t nodesKept() const { return kept_.size(); }
 
  private:
@@ -144,9 +189,10 @@ class FinalGather::Implementation {
       if (surface.triangle >= geometry_->triangles.size() || !surface.light.known()) continue;
       const float edge = edgeOf(*geometry_, surface.triangle);
       if (!surface.sky.known && edge > kLargest_m) continue;
+      const float span = spanOf(edge, longestEdge(*geometry_, surface.triangle));
       float step = kFinest_m;
       for (const float most = kPixels * pixel * (surface.position - eye).norm(); step < most;) step *= 2.0f;
-      const int steps = std::clamp(static_cast<int>(std::ceil(edge / step)), 1, kMostSteps);
+      const int steps = std::clamp(static_cast<int>(std::ceil(span / step)), 1, kMostSteps);
       const std::array<float, 3> within = Corners(*geometry_, surface.triangle).within(surface.position);
       const GridPlace place(within[1], within[2], steps);
       // Thin sheets look to both sides from each.
@@ -172,7 +218,7 @@ class FinalGather::Implementation {
   }
 
   Eigen::Vector3f positionOf(const Node& node) const {
-    const float inwards = node.steps == 1 ? kInwardsOfThree : 0.0f;
+    const float inwards = kInwards / static_cast<float>(node.steps);
     const auto share = [&](int steps) {
       return static_cast<float>(steps) / static_cast<float>(node.steps) * (1.0f - inwards) + inwards / 3.0f;
     };
@@ -218,33 +264,38 @@ class FinalGather::Implementation {
     }
   }
 
+  void castNew(std::vector<KeptNodes::Key> fresh) {
+    cast_ = fresh.size();
+    rays_cast_ = 0;
+    fresh = inSpace(std::move(fresh));
+    tbb::parallel_for(std::size_t{0}, (fresh.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
+      const auto first = fresh.begin() + static_cast<std::ptrdiff_t>(block * kBlock);
+      castFrom({first, first + std::min<std::ptrdiff_t>(kBlock, fresh.end() - first)});
+    });
+  }
+
   void castFrom(const std::vector<KeptNodes::Key>& keys) {
     thread_local RayList rays;
     thread_local std::vector<std::uint8_t> blocked;
-    std::array<std::vector<Start>, kColours> starts;
+    std::array<std::vector<Start>, kAims> starts;
     for (std::uint32_t i = 0; i < keys.size(); ++i) {
       const Node node = Node::of(keys[i]);
-      starts[static_cast<std::size_t>(node.at.second + 2 * node.at.third) % kColours].push_back(
+      starts[static_cast<std::size_t>(node.at.second + 2 * node.at.third) % kAims].push_back(
           startOf(i, node));
     }
     rays.clear();
-    for (std::size_t colour = 0; colour < kColours; ++colour) addRays(starts[colour], rays_[colour], &rays);
+    for (std::size_t aim = 0; aim < kAims; ++aim) addRays(starts[aim], rays_[aim], &rays);
     blocked.resize(rays.size());
     visibility_->occluded(rays.rays(), blocked.data());
-    std::array<Tally, kBlock> tallies{};
+    rays_cast_ += rays.size();
+    std::array<Counts, kBlock> counts{};
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      Tally& tally = tallies[rays.number()[i] >> 8];
+      Counts& of_node = counts[rays.number()[i] >> 8];
       const std::uint32_t patch = rays.number()[i] & 0xffu;
-      ++tally.cast[patch];
-      tally.open[patch] = static_cast<std::uint8_t>(tally.open[patch] + 1 - blocked[i]);
+      ++of_node.cast[patch];
+      of_node.open[patch] = static_cast<std::uint8_t>(of_node.open[patch] + 1 - blocked[i]);
     }
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-      GatheredSky& sky = kept_.at(keys[i]);
-      for (std::size_t p = 0; p < kPatches; ++p) {
-        const int cast = std::max<int>(tallies[i].cast[p], 1);
-        sky.open[p] = static_cast<std::uint8_t>((255 * tallies[i].open[p] + cast / 2) / cast);
-      }
-    }
+    for (std::size_t i = 0; i < keys.size(); ++i) kept_.at(keys[i]) = skyOf(counts[i]);
   }
 
   void fill(const std::vector<Place>& places, Tile* tile) const {
@@ -261,9 +312,10 @@ class FinalGather::Implementation {
 
   std::shared_ptr<const Geometry> geometry_;
   std::shared_ptr<const Visibility> visibility_;
-  std::array<std::vector<Ray>, kColours> rays_;
+  std::array<std::vector<Ray>, kAims> rays_;
   KeptNodes kept_;
   std::size_t seen_ = 0, cast_ = 0;
+  std::atomic<std::size_t> rays_cast_{0};
 };
 
 FinalGather::FinalGather(std::shared_ptr<const Geometry> geometry,
@@ -280,6 +332,9 @@ std::size_t FinalGather::nodesSeen() const {
 }
 std::size_t FinalGather::nodesCast() const {
   return implementation_->nodesCast();
+}
+std::size_t FinalGather::raysCast() const {
+  return implementation_->raysCast();
 }
 std::size_t FinalGather::nodesKept() const {
   return implementation_->nodesKept();

@@ -27,7 +27,7 @@ class ViewsOfTile {
 
   /// A surface that mirrors what `surface` does, or null.
   const Surface* like(const Surface& surface, bool leaf) {
-    if (surface.gathered != Surface::kNotGathered) return nullptr;  // it looked for itself
+    if (surface.gathered != Surface::kNotGathered) return nullptr;  // differs from place to place
     const Surface* const of_triangle = *triangle(surface);
     if (of_triangle && of_triangle->triangle == surface.triangle && near(*of_triangle, surface) &&
         alike(*of_triangle, surface, leaf))

@@ -12,9 +12,9 @@ struct OpenPatches {
   PatchValues known;  ///< 1, or 0 where the surface's samples don't tell, and `share` is 0
 };
 
-/// By what the surface saw of the sky by rays of its own, if `gathered` is not null; else by its view of the
-/// sky as a leaf, or by the samples of `data` around it. `transmission` is its material's; thin sheets see
-/// the sky on both sides, but by samples.
+/// By what was gathered there, if `gathered` is not null; else by the surface's view of the sky as a leaf, or
+/// by the samples of `data` around it. `transmission` is its material's; thin sheets see the sky on both
+/// sides, but by samples.
 OpenPatches openPatches(const TransportData& data, const Surface& surface, const GatheredSky* gathered,
                         float transmission);
 

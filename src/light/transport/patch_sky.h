@@ -32,6 +32,11 @@ class PatchSky {
   const std::int16_t* channel(std::size_t rgb) const { return patches_[rgb].data(); }
   float scale(std::size_t rgb) const { return scale_[rgb]; }
 
+  /// Of one patch, cd/m².
+  Eigen::Array3f luminance(std::size_t patch) const {
+    return {scale_[0] * patches_[0][patch], scale_[1] * patches_[1][patch], scale_[2] * patches_[2][patch]};
+  }
+
   /// Sum of `row`, one byte a patch, times the patches' luminances, cd/m².
   Eigen::Array3f times(const std::uint8_t* row) const {
     std::int32_t r = 0, g = 0, b = 0;

@@ -43,6 +43,10 @@ class Lights {
   Eigen::Array3f direct(const Coefficients& direct, std::size_t sample) const {
     return sky_.times(direct.row(sample)) * direct.scales[sample];
   }
+  /// The part of it from below the horizon, where no surface lies.
+  Eigen::Array3f fromBelow(float coefficient) const {
+    return sky_.luminance(SkyPatches::kBelow) * coefficient;
+  }
   /// And by surfaces.
   Eigen::Array3f passedOn(const PassedOn& part, std::size_t sample) const {
     const std::uint8_t* row = part.coefficients.row(sample);
@@ -83,8 +87,10 @@ NodeLight sampleLight(const TransportData& data, const sky::Daylight& day) {
                         const Eigen::Array3f above = lights.passedOn(data.above, i);
                         const Eigen::Array3f below = lights.passedOn(data.below, i);
                         light.irradiance[i] = lights.direct(data.direct, i) + above + below;
+                        const float open = data.direct.row(i)[SkyPatches::kBelow] * data.direct.scales[i];
                         light.surroundings[i] =
-                            surroundingsOf(above, data.above.hides[i], below, data.below.hides[i]);
+                            surroundingsOf(above, data.above.hides[i], below + lights.fromBelow(open),
+                                           data.below.hides[i] + open / kPiFloat);
                       }
                     });
   return light;

@@ -97,6 +97,7 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent) {
   const double distance_m = kDistance * longest_m;
 
   render::RenderOptions options = options_;
+  options.final_gather = 0;  // the whole world at a glance: its leaves are smaller than pixels
   const double px_per_m = kLongSidePx / longest_m;
   const int width = std::max(16, static_cast<int>(std::lround(east_m * px_per_m)));
   const int height = std::max(16, static_cast<int>(std::lround(north_m * px_per_m)));

@@ -182,6 +182,8 @@ class Timelapse(unittest.TestCase):
                                 (["--look-at", "1,2,3", "--pose", "0,0,1,90"], "leave YAW and PITCH out"),
                                 (["--compensation", "1", "--ev", "9"], "--compensation needs --ev auto"),
                                 (["--fov", "wide"], "must be a number"), (["--sun", "4"], "must be 2 numbers"),
+                                (["--final-gather", "17"], '--final-gather is "17"'),
+                                (["--final-gather", "2"], "leave out --bounced off"),
                                 (["--depth", "depth.png"], "must be a name that ends in .pfm"),
                                 (["--out", "picture.jpg"], "must be a name that ends in .png")):
             done = run("snapshot", *VIEW, "--out", picture, *arguments)
@@ -196,6 +198,7 @@ class Timelapse(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(sorted(os.listdir(self.path("light"))), ["materials.md", "table.csv", "table.md", "view_0_sun_40.png"])
         for arguments, part in ((["--views", "2"], "--views and --view are both given"), (["--samples", "1"], "2 ... 65536"),
+                                (["--final-gather", "2"], "leave out --bounced off"),
                                 (["--bake", "no"], "no option --bake")):
             done = run("compare_light", "--out", self.path("other"), *view, *arguments)
             self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "leaf_scenes.h"
@@ -19,6 +19,7 @@
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/transport.h"
 #include "sunlit/quantity/angle.h"
+#include "support/message_of.h"
 
 namespace sunlit::light {
 namespace {
@@ -85,14 +86,19 @@ TEST(FinalGather, AThinSheetThatStandsSeesHalfTheSkyOnEitherSide) {
 }
 
 TEST(FinalGather, AnOpaqueWallIsNotDarkenedByItsOwnPlane) {
-  // Its plane cuts patches, of which the part before it is open.
-  scene::Scene scene = leafScene();
-  const Eigen::Vector3f along = Eigen::Vector3f(0.6f, 0.8f, 0.0f), normal(0.8f, -0.6f, 0.0f);
-  addPatch(&scene, kBoard, {1.0f, 0.0f, 1.0f}, along, Eigen::Vector3f::UnitZ());
-  const World world = worldOf(std::move(scene));
-  const Eigen::Vector3f point = Eigen::Vector3f(1.0f, 0.0f, 1.4f) + 0.4f * along;
-  // 0.003: of a patch's few rays none may lie before the plane that grazes it.
-  EXPECT_NEAR(openAround({{point, normal, normal, kBoard}}, world, 2)[0].front, 0.5f, 0.003f);
+  // Its plane cuts patches, of which the part before it is open, whether it has a ray or not.
+  for (const float turn : {0.0f, 0.3f, 0.6435f, 1.2f}) {
+    scene::Scene scene = leafScene();
+    const Eigen::Vector3f along(std::cos(turn), std::sin(turn), 0.0f), normal(along.y(), -along.x(), 0.0f);
+    addPatch(&scene, kBoard, {1.0f, 0.0f, 1.0f}, along, Eigen::Vector3f::UnitZ());
+    const World world = worldOf(std::move(scene));
+    std::vector<Looked> points;
+    for (const float share : {0.21f, 0.5f, 0.93f}) {
+      const Eigen::Vector3f point = Eigen::Vector3f(1.0f, 0.0f, 1.37f) + share * along;
+      points.push_back({point, normal, normal, kBoard});
+    }
+    for (const Shares& shares : openAround(points, world, 1)) EXPECT_NEAR(shares.front, 0.5f, 1e-4f) << turn;
+  }
 }
 
 TEST(FinalGather, SeesAWallsShadeWithinCentimetres) {
@@ -103,16 +109,57 @@ TEST(FinalGather, SeesAWallsShadeWithinCentimetres) {
   addPatch(&scene, kBoard, {0.0f, -300.0f, 1.0f}, {0.0f, 600.0f, 0.0f}, {0.0f, 0.0f, kHeight});
   const World world = worldOf(std::move(scene));
   std::vector<Looked> points;
-  for (const float distance : {0.05f, 0.1f, 0.2f, 0.4f, 0.8f})
-    points.push_back({{distance, 0.1f, 1.0f}, kUp, kUp, kBoard});
+  for (const float distance : {0.02f, 0.06f, 0.11f, 0.23f, 0.4f, 0.8f})
+    points.push_back({{distance, 0.113f, 1.0f}, kUp, kUp, kBoard});
   const std::vector<Shares> shares = openAround(points, world, 4);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const float distance = points[i].position.x();
     const float open = 0.5f * (1.0f + distance / std::hypot(distance, kHeight));
-    // Interpolating over 5 cm, where the share bends by h / d² at most, and 700 rays of which those that
+    // Interpolating over 3.5 cm, where the share bends by h / d² at most, and 700 rays of which those that
     // graze the wall's edge decide.
-    EXPECT_NEAR(shares[i].front, open, 0.02f) << distance;
+    EXPECT_NEAR(shares[i].front, open, 0.03f) << distance;
   }
+}
+
+TEST(FinalGather, SeesTheEdgeOfAShadeOnALongThinPost) {
+  // Before it hangs a board without end at distance d: h below its edge (sin atan(h / d)) / 2 of the sky is
+  // left, above it nothing.
+  constexpr float kDistance = 0.1f, kEdge = 1.0f;
+  scene::Scene scene = leafScene();
+  addPatch(&scene, kBoard, {0.0f, -0.025f, 0.0f}, {0.0f, 0.05f, 0.0f}, {0.0f, 0.0f, 2.0f});
+  addPatch(&scene, kBoard, {kDistance, -300.0f, kEdge}, {0.0f, 600.0f, 0.0f}, {0.0f, 0.0f, 300.0f});
+  const World world = worldOf(std::move(scene));
+  const Eigen::Vector3f normal = Eigen::Vector3f::UnitX();
+  std::vector<Looked> points;
+  for (const float below : {-0.1f, 0.03f, 0.1f, 0.3f})
+    points.push_back({{0.0f, 0.004f, kEdge - below}, normal, normal, kBoard});
+  const std::vector<Shares> shares = openAround(points, world, 4);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float below = std::max(kEdge - points[i].position.z(), 0.0f);
+    // 0.054 measured: nodes are 14 cm apart along the post.
+    EXPECT_NEAR(shares[i].front, 0.5f * std::sin(std::atan(below / kDistance)), 0.07f) << below;
+  }
+}
+
+TEST(FinalGather, APlateOverNothingIsLitFromBelowAsTracedPathsSay) {
+  // By the ground of the sky itself.
+  scene::Scene scene = leafScene();
+  scene.materials[kBoard] = paint(0.5f);
+  addPatch(&scene, kBoard, {0.0f, -0.5f, 1.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f});
+  World world = worldOf(std::move(scene));
+  world.transport = Transport::bake(world.geometry, {});
+  const sky::Daylight day = uniformDay(1000.0f, 0.5);
+  const Eigen::Vector3f normal = Eigen::Vector3f::UnitX();
+  const std::vector<Looked> points = {{{0.0f, -0.2f, 1.3f}, normal, normal, kBoard}};
+  FinalGather gather(world.geometry, world.visibility, 1);
+  Surfaces surfaces = onTriangles(points, world);
+  world.transport->locate(&surfaces, &gather);
+  ASSERT_EQ(surfaces.tiles[0].gathered.size(), 1u);
+  const std::vector<double> fast =
+      rowValues(illuminate(surfaces, *world.geometry->scene, *world.visibility, illumination(world, day)));
+  const std::vector<double> slow = traced(world, points, day, 4096);
+  EXPECT_GT(slow[0], 100.0);
+  EXPECT_NEAR(fast[0], slow[0], 0.03 * slow[0]);  // 80 directions below the horizon, and 1 % noise
 }
 
 TEST(FinalGather, LeavesLargeTrianglesAndWhatIsNotBakedAlone) {
@@ -182,12 +229,7 @@ TEST(FinalGather, LightsACrownAsTracedPathsDo) {
     const std::vector<double> fast =
         rowValues(illuminate(surfaces, *world.geometry->scene, *world.visibility, illumination(world, day)));
     const std::vector<double> slow = traced(world, points, day, 512);
-    double difference = 0.0, light = 0.0;
-    for (std::size_t i = 0; i < fast.size(); ++i) {
-      difference += std::abs(fast[i] - slow[i]);
-      light += slow[i];
-    }
-    return difference / light;
+    return differenceOf(fast, slow);
   };
   const sky::Daylight even = uniformDay(1000.0f);
   // 0.047 and 0.125 measured. What is left is light that leaves pass on, and 1 % noise of the traced light.
@@ -233,8 +275,10 @@ TEST(FinalGather, LeavesSeeTheirShareOfTheSunWithinPenumbrae) {
 
 TEST(FinalGather, RefusesANumberOfRaysOutOfRange) {
   const World world = worldOf(levelLeaf());
-  for (const int rays : {0, 17})
-    EXPECT_THROW(FinalGather(world.geometry, world.visibility, rays), std::invalid_argument) << rays;
+  for (const int rays : {0, 17}) {
+    EXPECT_EQ(messageOf([&] { FinalGather(world.geometry, world.visibility, rays); }),
+              "final gathering: " + std::to_string(rays) + " rays per patch are outside 1 … 16");
+  }
 }
 
 TEST(KeptNodes, ForgetsWhatNoRecentPoseHasAskedFor) {
@@ -249,7 +293,7 @@ TEST(KeptNodes, ForgetsWhatNoRecentPoseHasAskedFor) {
     EXPECT_EQ(kept.at(2).open[5], 77) << key;
     most = std::max(most, kept.size());
   }
-  EXPECT_LE(most, 2u * (2 * 4 + 4));
+  EXPECT_LE(most, 2u * 3 * 4);
   EXPECT_EQ(kept.require({1}), (std::vector<KeptNodes::Key>{1}));  // long ago
   EXPECT_EQ(kept.at(1).open[5], 0);
 }

@@ -48,6 +48,16 @@ inline scene::Scene crown(std::vector<Looked>* points) {
   return scene;
 }
 
+/// Sum of the differences of two rows of light, relative to that of the second.
+inline double differenceOf(const std::vector<double>& fast, const std::vector<double>& slow) {
+  double difference = 0.0, light = 0.0;
+  for (std::size_t i = 0; i < fast.size(); ++i) {
+    difference += std::abs(fast[i] - slow[i]);
+    light += slow[i];
+  }
+  return difference / light;
+}
+
 /// A picture of one row whose surfaces know their triangles.
 inline Surfaces onTriangles(const std::vector<Looked>& points, const World& world) {
   Surfaces surfaces = rowOf(points, *world.geometry->scene);

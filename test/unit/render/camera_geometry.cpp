@@ -231,6 +231,9 @@ TEST(Renderer, RejectsBadOptionsByName) {
   EXPECT_THROW(render::validate(options), std::invalid_argument);
   options = smallCamera(8, 120);
   EXPECT_THROW(render::validate(options), std::invalid_argument);
+  options = smallCamera();
+  options.final_gather = 17;
+  EXPECT_EQ(messageOf([&] { render::validate(options); }), "final_gather is 17.000000, must be 0 ... 16");
 }
 
 TEST(Renderer, NeedsALookBeforeLight) {
