@@ -48,11 +48,9 @@ void TileLighting::addSurfaces(const Tile& tile, image::LinearImage* image) cons
     const Surface& surface = tile.surfaces[i];
     Eigen::Map<Eigen::Array3f> pixel(image->data.data() + 3 * static_cast<std::size_t>(surface.pixel));
     const sky::AirColumn before = air_.before(number, i);
-    const GatheredSky* const gathered =
-        surface.gathered == Surface::kNotGathered ? nullptr : &tile.gathered[surface.gathered];
     const Eigen::Array3f leaving = luminance(
         surface, {sun_shares.empty() ? 0.0f : sun_shares[i], moon_shares.empty() ? 0.0f : moon_shares[i]},
-        {rows.ambient[i], mirrored[rows.view[i]], gathered});
+        {rows.ambient[i], mirrored[rows.view[i]], tile.gatheredFor(surface)});
     const Eigen::Array3f arriving = leaving * before.transmittance + before.airlight;
     pixel += arriving * (weight * static_cast<float>(surface.samples));
   }

@@ -98,6 +98,11 @@ struct Tile {
   std::vector<MirrorView> views;      ///< of its surfaces; set by Transport::locate()
   std::vector<GatheredSky> gathered;  ///< likewise; set by FinalGather, else empty
   std::vector<std::uint8_t> sky;      ///< samples of each pixel of the tile (row-major) that see no surface
+
+  /// What was gathered for one of `surfaces`; null: nothing.
+  const GatheredSky* gatheredFor(const Surface& surface) const {
+    return surface.gathered == Surface::kNotGathered ? nullptr : &gathered[surface.gathered];
+  }
 };
 
 class LightTable;

@@ -78,14 +78,14 @@ bool DiscVisibility::fillsPixel(const LightTable::Site& site) const {
   return !site.leaves && site.samples == static_cast<std::uint32_t>(surfaces_.samples_per_pixel);
 }
 
-std::uint8_t DiscVisibility::enoughMixed(const LightTable::Site& site) const {
+std::uint8_t DiscVisibility::enoughMixed(const LightTable::Site& site, bool fills) {
   // Foliage shades itself leaf by leaf: more rays cost much there, and what they would smooth is hidden in
   // the leaves, unless these are looked at closely. But surfaces amid such as disagree, too: a mesh or a
   // treetop may stop all of one pixel's first rays by chance, which would show as a dark dot. Beside a
   // straight edge there are three; a pixel that windows fail in may lie on a thin shadow, of which few pixels
   // are found to be mixed.
   if (site.leaves) return site.gathered ? 1 : Tally::kNever;
-  return fillsPixel(site) ? 2 : 4;
+  return fills ? 2 : 4;
 }
 
 void DiscVisibility::appendRays(std::size_t number, std::uint32_t index, Step step) {
@@ -142,8 +142,8 @@ void DiscVisibility::probe(std::size_t number) {
     Tally& tally = tallies[i];
     tally.x = static_cast<std::uint8_t>(site.x - tile.x);
     tally.y = static_cast<std::uint8_t>(site.y - tile.y);
-    tally.enough = enoughMixed(site);
     tally.fills = fillsPixel(site);
+    tally.enough = enoughMixed(site, tally.fills);
     if (!facesDisc(site)) continue;
     tally.waits = tally.fills && ((site.x + site.y) & 1) == 1;
     if (!tally.waits) appendRays(number, i, Step::kProbe);

@@ -67,8 +67,8 @@ class DiscVisibility {
   void note(const Tile& tile, const Tally& tally);
   bool facesDisc(const LightTable::Site& site) const;
   bool fillsPixel(const LightTable::Site& site) const;
-  /// Tally::enough.
-  std::uint8_t enoughMixed(const LightTable::Site& site) const;
+  /// Tally::enough, by Tally::fills.
+  static std::uint8_t enoughMixed(const LightTable::Site& site, bool fills);
   /// Rays of surface `index` of a tile that it has not had yet.
   void appendRays(std::size_t tile, std::uint32_t index, Step step);
   void cast(std::size_t tile);

@@ -13,9 +13,7 @@ constexpr float kLeastRough = 0.42f;
 MirrorView findView(const TransportData& data, const scene::Material& material, const Surface& surface,
                     const Tile& tile) {
   const bool sheet = material.transmission > 0.0f;
-  const GatheredSky* const gathered =
-      surface.gathered == Surface::kNotGathered ? nullptr : &tile.gathered[surface.gathered];
-  const OpenPatches open = openPatches(data, surface, gathered, material.transmission);
+  const OpenPatches open = openPatches(data, surface, tile.gatheredFor(surface), material.transmission);
   if (material.roughness < kLeastRough) return smoothMirror(surface, material.roughness, sheet, open);
   return roughMirror(surface, material, open);
 }
