@@ -1,7 +1,7 @@
 // Which points of a grove's leaves light from 175 directions reaches, on one core: by meeting every triangle
 // with the points, as the bake does (there half of the directions each), and by a ray from each point, the
 // points of a direction together.
-#include "light/transport/crown.h"
+#include "light/transport/crown_shadows.h"
 
 #include <benchmark/benchmark.h>
 
@@ -28,7 +28,7 @@ struct Grove {
   light::World world{
       std::make_shared<const scene::Scene>(scene::load(scene::kRaceTrack, scene::SearchPath{}))};
   light::Cutouts cutouts{*world.geometry};
-  std::vector<light::Crown::Point> points;
+  std::vector<light::CrownShadows::Point> points;
   std::vector<light::SkyPatches::Ray> directions;
 
   Grove() {
@@ -93,7 +93,7 @@ void meetTriangles(benchmark::State& state) {
   std::size_t open = 0;
   for (auto _ : state) {
     open = 0;
-    light::Crown crown({*g.world.geometry, g.cutouts, *g.world.visibility}, g.points, 1.0f);
+    light::CrownShadows crown({*g.world.geometry, g.cutouts, *g.world.visibility}, g.points, 1.0f);
     for (const light::SkyPatches::Ray& ray : g.directions) {
       for (const std::uint8_t one : crown.open(ray.towards)) open += one;
     }

@@ -41,7 +41,7 @@ const std::vector<cv::Mat>& images() {
 }
 
 void detector(benchmark::State& state, Difference difference) {
-  const cv::Mat grey = makeView(images()[0]).grey;
+  const cv::Mat grey = makePicture(images()[0]).grey;
   const cv::Ptr<cv::Feature2D> kept = makeDetector(difference, {});
   std::vector<cv::KeyPoint> key_points;
   cv::Mat descriptors;
@@ -50,12 +50,12 @@ void detector(benchmark::State& state, Difference difference) {
 }
 
 void matching(benchmark::State& state, Difference difference, bool is_ours) {
-  const Features a = detectFeatures(difference, {}, makeView(images()[0]).grey);
-  const Features b = detectFeatures(difference, {}, makeView(images()[1]).grey);
+  const Features a = detectFeatures(difference, {}, makePicture(images()[0]).grey);
+  const Features b = detectFeatures(difference, {}, makePicture(images()[1]).grey);
   const int norm = normOf(difference, {});
   for (auto _ : state) {
     if (is_ours) {
-      benchmark::DoNotOptimize(twoNearest(a.descriptors, b.descriptors, norm));
+      benchmark::DoNotOptimize(twoNearestBothWays(a.descriptors, b.descriptors, norm));
     } else {
       std::vector<std::vector<cv::DMatch>> matches;
       cv::BFMatcher(norm).knnMatch(a.descriptors, b.descriptors, matches, 2);
@@ -65,8 +65,8 @@ void matching(benchmark::State& state, Difference difference, bool is_ours) {
 }
 
 void direct(benchmark::State& state) {
-  const View a = makeView(images()[0]);
-  const View b = makeView(images()[1]);
+  const Picture a = makePicture(images()[0]);
+  const Picture b = makePicture(images()[1]);
   for (auto _ : state) benchmark::DoNotOptimize(directDifferences(a, b));
   state.SetBytesProcessed(state.iterations() * 2 * 4 * static_cast<std::int64_t>(a.rgb.total()));
 }

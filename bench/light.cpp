@@ -94,7 +94,7 @@ void sunShares(benchmark::State& state) {
   std::size_t rays = 0;
   onPoses(state, [&rays](Stage& s, const light::Illumination& light) {
     const light::Surfaces& surfaces = s.renderer->surfaces();
-    const light::DiscVisibility sun(light.day.sun(), 0.0f, *s.world.visibility, *surfaces.table, surfaces);
+    const light::DiscVisibility sun(light.day.sun(), 0.0f, {surfaces, *surfaces.table, *s.world.visibility});
     rays += sun.raysCast();
   });
   state.counters["rays"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kAvgIterations);
@@ -112,9 +112,9 @@ void plainRays(benchmark::State& state, bool leaves) {
     for (std::size_t t = 0; t < surfaces.tiles.size(); ++t) {
       const light::Tile& tile = surfaces.tiles[t];
       for (auto& list : values) list.clear();
-      for (const light::LightTable::Site& site : surfaces.table->tile(t).sites) {
-        if (site.leaves != leaves) continue;
-        for (std::uint32_t i = site.first_sample; i < site.first_sample + site.samples; ++i) {
+      for (const light::LightTable::DiscTarget& target : surfaces.table->tile(t).targets) {
+        if (target.leaves != leaves) continue;
+        for (std::uint32_t i = target.first_sample; i < target.first_sample + target.samples; ++i) {
           const std::array<float, 6> ray = {tile.origin_x[i], tile.origin_y[i], tile.origin_z[i],
                                             sun.x(),          sun.y(),          sun.z()};
           for (std::size_t k = 0; k < 6; ++k) values[k].push_back(ray[k]);

@@ -51,7 +51,10 @@ struct Stage {
     geometry = std::make_shared<const light::Geometry>(scene);
     visibility = std::make_shared<light::Visibility>(geometry);
     pyramids = std::make_unique<render::TexturePyramids>(*scene);
-    rasteriser = std::make_unique<render::Rasteriser>(geometry, *pyramids, 0.0);
+    rasteriser = make(render::defaultRasterizer());
+  }
+  std::unique_ptr<render::Rasteriser> make(render::Rasterizer rasterizer) const {
+    return render::makeRasteriser(rasterizer, {geometry, *pyramids, 0.0});
   }
   void look(std::size_t pose, double metres_on = 0.0) {
     view.map_from_optical =
@@ -87,17 +90,44 @@ Stage* stage(benchmark::State& state) {
   return stages[world].get();
 }
 
+/// The share of samples that see another triangle than `rasteriser`'s, over all poses.
+double shareDiffering(Stage* s, render::Rasteriser* rasteriser) {
+  const std::unique_ptr<render::Rasteriser> ours = s->make(render::Rasterizer::kBuiltin);
+  std::vector<render::Sample> samples, others;
+  std::size_t differing = 0;
+  for (const Eigen::Isometry3d& pose : s->poses) {
+    s->view.map_from_optical = pose;
+    ours->draw(s->view, nullptr, &samples);
+    rasteriser->draw(s->view, nullptr, &others);
+    for (std::size_t i = 0; i < samples.size(); ++i) differing += samples[i].triangle != others[i].triangle;
+  }
+  return static_cast<double>(differing) / static_cast<double>(samples.size() * s->poses.size());
+}
+
+/// By the rasterizer `state.range(1)`, and how far it agrees with our own.
 void draw(benchmark::State& state) {
   Stage* s = stage(state);
   if (!s) return;
+  const auto rasterizer = static_cast<render::Rasterizer>(state.range(1));
+  std::unique_ptr<render::Rasteriser> rasteriser;
+  try {
+    rasteriser = s->make(rasterizer);
+  } catch (const std::runtime_error& error) {
+    return state.SkipWithError(error.what());
+  }
+  state.counters["differing"] = shareDiffering(s, rasteriser.get());  // the first picture makes buffers, too
   std::size_t pose = 0, triangles = 0;
-  for (auto _ : state) s->look(pose++);
+  for (auto _ : state) {
+    s->view.map_from_optical = s->poses[pose++ % s->poses.size()];
+    rasteriser->draw(s->view, nullptr, &s->samples);
+  }
   for (std::size_t i = 0; i < pose; ++i) {
     s->view.map_from_optical = s->poses[i % s->poses.size()];
     const render::Frustum frustum(s->view);
     for (const light::Chunk& chunk : s->geometry->chunks)
       triangles += frustum.touches(chunk.box) ? chunk.count : 0;
   }
+  state.SetLabel(render::nameOf(rasterizer) + " " + rasteriser->device());
   state.counters["triangles_in_view"] =
       benchmark::Counter(static_cast<double>(triangles), benchmark::Counter::kAvgIterations);
   state.counters["triangles_per_second"] =
@@ -284,7 +314,7 @@ void eachPose(benchmark::internal::Benchmark* line) {
       ->MeasureProcessCPUTime()
       ->UseRealTime();
 }
-BENCHMARK(draw)->Arg(0)->Arg(1)->Apply(eachPose);
+BENCHMARK(draw)->ArgsProduct({{0, 1}, {0, 1, 2}})->Apply(eachPose);
 BENCHMARK(writeSamples)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(resolve)->Arg(0)->Arg(1)->Arg(2)->Apply(eachPose);
 BENCHMARK(locate)->Arg(0)->Apply(eachPose);

@@ -77,15 +77,15 @@ void rays(benchmark::State& state) {
   const light::Geometry& geometry = *s->world.geometry;
   std::size_t cast = 0, next = 0;
   for (auto _ : state) {
-    std::array<light::Site, light::RayPacket::kSize> sites;
-    for (light::Site& site : sites) {
+    std::array<light::Receiver, light::RayPacket::kSize> receivers;
+    for (light::Receiver& receiver : receivers) {
       const std::uint32_t t = static_cast<std::uint32_t>(next++ % geometry.triangles.size());
-      site.origins.fill(geometry.positions[geometry.triangles[t][0]]);
-      site.lifts.fill(0.005f * geometry.planes[t].normal);
-      site.normal = geometry.planes[t].normal;
+      receiver.origins.fill(geometry.positions[geometry.triangles[t][0]]);
+      receiver.lifts.fill(0.005f * geometry.planes[t].normal);
+      receiver.normal = geometry.planes[t].normal;
     }
     next += 997 * light::RayPacket::kSize;
-    light::probe(scene, patches.rays(), {sites.data(), light::RayPacket::kSize},
+    light::probe(scene, patches.rays(), {receivers.data(), light::RayPacket::kSize},
                  [&](int, std::size_t, float, const light::HitPacket&) { ++cast; });
   }
   state.counters["rays_per_second_on_one_core"] =

@@ -8,6 +8,7 @@ import select
 import subprocess
 import sys
 
+from sunlit_experiment import display
 from sunlit_experiment.launch import Launch
 
 LOOK_EVERY_S = 1.0
@@ -42,6 +43,7 @@ def main():
     while not select.select([sys.stdin], [], [], LOOK_EVERY_S)[0]:
         launch.look()
     if os.read(sys.stdin.fileno(), 1) != IN_ORDER:
+        display.restore(sys.stdout)
         launch.break_off("the node that watches over it was killed")
 
 

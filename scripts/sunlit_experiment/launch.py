@@ -12,6 +12,8 @@ import sys
 import time
 import xmlrpc.client
 
+import psutil
+
 GRACE_S = 20.0  # a process that has not ended so long after SIGINT is killed
 
 
@@ -19,16 +21,33 @@ class Failure(Exception):
     """Why the experiment cannot be finished."""
 
 
-def stat_of(pid):
-    """The fields of a process from its state on (proc(5)); None where there is no such process."""
+def is_alive(process):
+    """Neither ended nor only waiting for its parent to notice."""
     try:
-        with open(f"/proc/{pid}/stat", encoding="utf-8", errors="replace") as stat:
-            return stat.read().rsplit(")", 1)[1].split()
-    except OSError:
-        return None
+        return process.is_running() and process.status() not in (psutil.STATUS_ZOMBIE, psutil.STATUS_DEAD)
+    except psutil.Error:
+        return False
 
 
-STATE, PARENT, GROUP, STARTED = 0, 1, 2, 19  # of stat_of()
+def started_at(process):
+    """s since 1970, by the clock that dates files: psutil's own is off by up to a second."""
+    # Not since when psutil says that the machine is up, which in some containers is that of the container.
+    since_boot_s = process.create_time() - psutil.boot_time()
+    return time.time() - (time.clock_gettime(time.CLOCK_BOOTTIME) - since_boot_s)
+
+
+def leads_its_group(process):
+    """As roslaunch has it for each child, so that a whole group can be ended."""
+    with contextlib.suppress(ProcessLookupError):
+        return os.getpgid(process.pid) == process.pid
+    return False
+
+
+def words_of(process):
+    try:
+        return process.cmdline()
+    except psutil.Error:  # it ended while we looked
+        return []
 
 
 class Launch:
@@ -36,10 +55,13 @@ class Launch:
 
     def __init__(self, pid):
         self.pid = pid
-        stat = stat_of(pid)
-        self.started_ticks = stat[STARTED] if stat else None  # since the machine was started
+        try:
+            self.process = psutil.Process(pid)
+            self.started_at = started_at(self.process)
+        except psutil.Error:
+            self.process = self.started_at = None
         self.server = None
-        self.children = set()  # (pid, when it was started), since a pid may be given again
+        self.children = set()
         # Whoever else it is, its children are none of our business. Process 1 inherits those of others.
         self.may_end_children = self.pid > 1 and self.is_roslaunch()
         self.look()
@@ -49,24 +71,17 @@ class Launch:
         self._living_children()
 
     def is_gone(self):
-        stat = stat_of(self.pid)
-        return stat is None or stat[STATE] in "ZX" or stat[STARTED] != self.started_ticks
+        return self.process is None or not is_alive(self.process)
 
     def started(self):
         """When it was, s since 1970: before all its nodes, some of which may have done their work before we began."""
-        if self.started_ticks is None:
+        if self.started_at is None:
             raise Failure("roslaunch has gone")
-        # Not /proc/uptime, which in some containers is that of the container, while the ticks are those of the machine.
-        uptime_s = time.clock_gettime(time.CLOCK_BOOTTIME)
-        return time.time() - (uptime_s - int(self.started_ticks) / os.sysconf("SC_CLK_TCK"))
+        return self.started_at
 
     def is_roslaunch(self):
         """Not so under rostest, which judges by itself how its nodes ended."""
-        try:
-            with open(f"/proc/{self.pid}/cmdline", "rb") as cmdline:
-                return any(os.path.basename(word) == b"roslaunch" for word in cmdline.read().split(b"\0"))
-        except OSError:
-            return False
+        return self.process is not None and any(os.path.basename(word) == "roslaunch" for word in words_of(self.process))
 
     def nodes(self, uris):
         """Names of living and of dead nodes, without a leading slash. `uris`: of all the roslaunch servers that are known."""
@@ -92,35 +107,22 @@ class Launch:
         raise Failure("this node was not started by roslaunch; what else was started may still run")
 
     def _living_children(self):
-        """(pid, whether it is the master) of all but us. Remembered, since they change parents when roslaunch goes."""
-        living = []
+        """(process, whether it is the master) of all but us. Remembered, since they change parents when roslaunch goes."""
         if not self.may_end_children:
-            return living
-        for entry in os.listdir("/proc"):
-            if not entry.isdigit() or int(entry) == os.getpid():
-                continue
-            stat = stat_of(entry)
-            try:
-                with open(f"/proc/{entry}/cmdline", "rb") as cmdline:
-                    is_master = b"rosmaster" in cmdline.read()
-            except OSError:
-                continue  # it ended while we looked
-            if stat is None:
-                continue
-            child = (int(entry), stat[STARTED])
-            if int(stat[PARENT]) == self.pid and stat[GROUP] == entry and not self.is_gone():
-                self.children.add(child)
-            if child in self.children and stat[STATE] != "Z":
-                living.append((int(entry), is_master))
-        return living
+            return []
+        if not self.is_gone():
+            with contextlib.suppress(psutil.Error):
+                self.children |= {child for child in self.process.children() if leads_its_group(child)}
+        return [(child, any("rosmaster" in word for word in words_of(child))) for child in self.children
+                if child.pid != os.getpid() and is_alive(child)]
 
     def _end_children(self, masters):
         """SIGINT, and SIGKILL for those that do not listen."""
         for number in (signal.SIGINT, signal.SIGKILL):
-            for pid, is_master in self._living_children():
+            for child, is_master in self._living_children():
                 if is_master == masters:
                     with contextlib.suppress(ProcessLookupError):  # it ended just now
-                        os.killpg(pid, number)  # roslaunch gives each child a process group of its own
+                        os.killpg(child.pid, number)
             deadline = time.monotonic() + GRACE_S
             while any(is_master == masters for _, is_master in self._living_children()):
                 if time.monotonic() > deadline:

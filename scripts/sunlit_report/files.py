@@ -13,8 +13,11 @@ import yaml
 DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "brisk", "orb"]
 FEATURES = {"sift", "surf", "orb", "brisk"}
 
-FRAMES = "pose,stamp,a,b,difference,value,features_a,features_b,matches,zero_second"
-SUMMARY = "a,b,difference,n,undefined,mean,sd,ci_low,ci_high"
+# Older runs lack the columns from `symmetric` and `symmetric_mean` on.
+OLD_FRAMES = "pose,stamp,a,b,difference,value,features_a,features_b,matches,zero_second"
+FRAMES = OLD_FRAMES + ",symmetric,one_to_one,matches_back,matches_one_to_one"
+OLD_SUMMARY = "a,b,difference,n,undefined,mean,sd,ci_low,ci_high"
+SUMMARY = OLD_SUMMARY + ",symmetric_mean,symmetric_sd,one_to_one_mean,one_to_one_sd,overmatched"
 CAPTURES = ("stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,"
             "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance")
 PATH = "pose,stamp,x,y,z,yaw_deg"
@@ -36,6 +39,13 @@ class Series:
     features_b: np.ndarray
     matches: np.ndarray
     zero_second: np.ndarray
+    symmetric: np.ndarray  # NaN, as the next, where an older run did not compute it
+    one_to_one: np.ndarray
+
+    @property
+    def overmatched(self):
+        """Poses with more matches than b has features: several features of a share one."""
+        return int((self.matches > self.features_b).sum())
 
 
 @dataclasses.dataclass
@@ -48,6 +58,8 @@ class Summary:
     sd: float
     ci_low: float = math.nan
     ci_high: float = math.nan
+    symmetric_mean: float = math.nan
+    one_to_one_mean: float = math.nan
 
 
 @dataclasses.dataclass
@@ -59,6 +71,7 @@ class Output:
     summary: dict
     has_summary_file: bool
     run: dict
+    rasterizer: str  # what drew, and on what; None: unknown
     inputs: dict  # name -> fingerprint of what the pictures were made from
     captures: dict  # stream -> {column: array}
     path: dict  # column -> array
@@ -115,6 +128,7 @@ def read_output(folder):
         has_summary_file=bool(summary),
         run=read_yaml(os.path.join(folder, "run.yaml")),
         inputs=read_yaml(os.path.join(folder, "inputs.yaml")),
+        rasterizer=read_yaml(os.path.join(folder, "rasterizer.yaml")).get("rasterizer"),
         captures=read_captures(os.path.join(folder, "captures.csv")),
         path=read_path(os.path.join(folder, "path.csv")),
         map_picture=existing(os.path.join(folder, "map.png")),
@@ -142,22 +156,23 @@ def number(text):
     return value
 
 
-def rows(path, header, kinds):
-    """Dictionaries of a CSV file's rows; `kinds` are the columns that are no text. Nothing where there is no file."""
+def rows(path, header, kinds, older=None):
+    """Dictionaries of a CSV file's rows; `kinds` are the columns that are no text. Nothing where there is no file. Files
+    of an `older` header do without the rest."""
     if not os.path.exists(path):
         return
-    names = header.split(",")
     with open(path, newline="", encoding="utf-8", errors="replace") as file:
         lines = csv.reader(file, strict=True)
         try:
-            if next(lines, None) != names:
+            names = next(lines, None)
+            if names not in [one.split(",") for one in (header, older or header)]:
                 raise ReportError(f"{path}:1: the first line must be {header}")
             for fields in lines:
                 if len(fields) != len(names):
                     raise ReportError(
-                        f"{path}:{lines.line_num}: {len(fields)} fields, but must be {len(names)}: {header}")
+                        f"{path}:{lines.line_num}: {len(fields)} fields, but must be {len(names)}: {','.join(names)}")
                 row = dict(zip(names, fields))
-                for name, kind in kinds.items():
+                for name, kind in ((name, kind) for name, kind in kinds.items() if name in row):
                     row[name] = converted(row[name], kind, f"{path}:{lines.line_num}: {name}")
                 yield row
         except csv.Error as error:
@@ -176,13 +191,15 @@ def read_frames(path):
     counts = ("features_a", "features_b", "matches", "zero_second")
     collected = {}
     seen = {}
-    kinds = {"pose": whole, "value": number, **{name: whole for name in counts}}
-    for line, row in enumerate(rows(path, FRAMES, kinds), start=2):
+    forms = ("symmetric", "one_to_one")
+    kinds = {"pose": whole, "value": number, **{name: whole for name in counts}, **{name: number for name in forms}}
+    for line, row in enumerate(rows(path, FRAMES, kinds, older=OLD_FRAMES), start=2):
         key = (row["a"], row["b"], row["difference"])
         if (first := seen.setdefault((key, row["pose"]), line)) != line:
             raise ReportError(
                 f"{path}:{line}: pose {row['pose']} of {', '.join(key)} was given on line {first} already")
-        collected.setdefault(key, []).append((row["pose"], row["value"], *(row[name] for name in counts)))
+        collected.setdefault(key, []).append(
+            (row["pose"], row["value"], *(row[name] for name in counts), *(row.get(name, math.nan) for name in forms)))
     if not collected:
         raise ReportError(f"{path}: holds no results")
     return {key: Series(*(np.array(column) for column in zip(*sorted(values)))) for key, values in collected.items()}
@@ -193,13 +210,16 @@ def summarise(series):
     defined = series.value[~np.isnan(series.value)]
     mean = float(np.mean(defined)) if len(defined) else math.nan
     sd = float(np.std(defined, ddof=1)) if len(defined) > 1 else math.nan
-    return Summary(len(defined), len(series.value) - len(defined), mean, sd)
+    forms = (float(np.mean(one[~np.isnan(one)])) if not np.isnan(one).all() else math.nan
+             for one in (series.symmetric, series.one_to_one))
+    return Summary(len(defined), len(series.value) - len(defined), mean, sd, math.nan, math.nan, *forms)
 
 
 def read_summary(path):
-    kinds = {"n": whole, "undefined": whole, "mean": number, "sd": number, "ci_low": number, "ci_high": number}
-    return {(row["a"], row["b"], row["difference"]): Summary(**{name: row[name] for name in kinds})
-            for row in rows(path, SUMMARY, kinds)}
+    kinds = {"n": whole, "undefined": whole, "mean": number, "sd": number, "ci_low": number, "ci_high": number,
+             "symmetric_mean": number, "one_to_one_mean": number}
+    return {(row["a"], row["b"], row["difference"]): Summary(**{name: row[name] for name in kinds if name in row})
+            for row in rows(path, SUMMARY, kinds, older=OLD_SUMMARY)}
 
 
 def columns(found, names):

@@ -70,6 +70,8 @@ def settings(output):
     top = {key: value for key, value in output.run.items() if key not in ("settings", "versions", "counters")}
     if output.inputs:  # bags come without
         top["inputs"] = output.inputs
+    if output.rasterizer:
+        top["drawn by"] = output.rasterizer
     for key, value in tables.flattened(tables.mapping(output.run, "settings")) + tables.flattened(top):
         group, _, rest = key.rpartition("/")
         groups.setdefault(group or "general", []).append((rest, value))

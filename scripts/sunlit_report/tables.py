@@ -69,6 +69,8 @@ def counts(output):
             "features": [f"{np.mean(one):.0f}" if has_features else "" for one in
                          ((series.features_a, series.features_b, series.matches) if series else ((), (), ()))],
             "twins": f"{int(series.zero_second.sum())}" if has_features else "",
+            "forms": [fixed(one) if has_features else "" for one in (row.mean, row.symmetric_mean, row.one_to_one_mean)],
+            "overmatched": f"{series.overmatched}" if has_features else "",
         })
     return rows
 

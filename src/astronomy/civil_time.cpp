@@ -1,10 +1,9 @@
 #include "sunlit/astronomy/civil_time.h"
 
 #include <cmath>
-#include <stdexcept>
+#include <initializer_list>
 #include <string>
-
-#include "sunlit/astronomy/limits.h"
+#include <vector>
 
 namespace sunlit::astronomy {
 namespace {
@@ -32,32 +31,31 @@ std::int64_t timezoneNanoseconds(double timezone) {
   return std::llround(timezone * static_cast<double>(kNanosecondsPerHour));
 }
 
+void requireAll(std::initializer_list<const char*> keys, CivilDateTime civil) {
+  const std::vector<Field> rows = fieldsOf(civil);
+  for (const char* key : keys) fieldOf(rows, key).require();
+}
+
 void requireDate(const CivilDate& date) {
-  require(kYearLimits, date.year);
-  require(kMonthLimits, date.month);
+  const CivilDateTime civil{date.year, date.month, date.day, 0, 0, 0.0, date.timezone};
+  requireAll({"year", "month"}, civil);
   const int last = daysInMonth(date.year, date.month);
   if (date.day < 1 || date.day > last) {
-    throw std::invalid_argument("day is " + std::to_string(date.day) + ", but must be from 1 to " +
-                                std::to_string(last) + " in month " + std::to_string(date.month) +
-                                " of year " + std::to_string(date.year));
+    refuse("day", std::to_string(date.day),
+           "from 1 to " + std::to_string(last) + " in month " + std::to_string(date.month) + " of year " +
+               std::to_string(date.year));
   }
   if (date.year == 1582 && date.month == 10 && date.day > 4 && date.day < 15) {
-    throw std::invalid_argument(
-        "day is " + std::to_string(date.day) +
-        ", but must be from 1 to 4 or from 15 to 31 in month 10 of year 1582, when the "
-        "Gregorian calendar left out ten days");
+    refuse("day", std::to_string(date.day),
+           "from 1 to 4 or from 15 to 31 in month 10 of year 1582, when the Gregorian calendar left out ten "
+           "days");
   }
-  require(kTimezoneLimits, date.timezone);
+  requireAll({"timezone"}, civil);
 }
 
 void requireClock(const CivilDateTime& civil) {
   const bool end_of_day = civil.hour == 24 && civil.minute == 0 && civil.second == 0.0;
-  if (!end_of_day) require(kHourLimits, civil.hour);
-  require(kMinuteLimits, civil.minute);
-  require(kSecondLimits, civil.second);
-  if (civil.second == kSecondLimits.max) {
-    throw std::invalid_argument("second is 60, but must be from 0 to less than 60 s");
-  }
+  if (!end_of_day) requireAll({"hour", "minute", "second"}, civil);
 }
 
 }  // namespace

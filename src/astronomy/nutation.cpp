@@ -1,5 +1,6 @@
 #include "astronomy/nutation.h"
 
+#include <array>
 #include <tuple>
 
 #include "astronomy/cosines.h"
@@ -9,8 +10,8 @@
 namespace sunlit::astronomy {
 namespace {
 
-double cubic(double t, double c0, double c1, double c2, double c3) {
-  return c0 + t * (c1 + t * (c2 + t * c3));
+double cubic(double t, const std::array<double, 4>& c) {
+  return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
 }
 
 /// ε0 in arcseconds, eq. 24. `u`: 10,000 Julian years since J2000.
@@ -27,11 +28,11 @@ double meanObliquity(double u) {
 Nutation nutation(double jce) {
   Nutation result;
   // Eq. 15 to 19.
-  result.x_deg = {cubic(jce, 297.85036, 445267.111480, -0.0019142, 1.0 / 189474.0),
-                  cubic(jce, 357.52772, 35999.050340, -0.0001603, -1.0 / 300000.0),
-                  cubic(jce, 134.96298, 477198.867398, 0.0086972, 1.0 / 56250.0),
-                  cubic(jce, 93.27191, 483202.017538, -0.0036825, 1.0 / 327270.0),
-                  cubic(jce, 125.04452, -1934.136261, 0.0020708, 1.0 / 450000.0)};
+  result.x_deg = {cubic(jce, {297.85036, 445267.111480, -0.0019142, 1.0 / 189474.0}),
+                  cubic(jce, {357.52772, 35999.050340, -0.0001603, -1.0 / 300000.0}),
+                  cubic(jce, {134.96298, 477198.867398, 0.0086972, 1.0 / 56250.0}),
+                  cubic(jce, {93.27191, 483202.017538, -0.0036825, 1.0 / 327270.0}),
+                  cubic(jce, {125.04452, -1934.136261, 0.0020708, 1.0 / 450000.0})};
   constexpr int kCount = static_cast<int>(std::tuple_size<decltype(kNutationTerms)>::value);
   std::array<double, 2 * kCount> cosine;  // of the arguments, then of the arguments less 90°: their sines
   for (int i = 0; i < kCount; ++i) {

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "sunlit/astronomy/celestial.h"
+#include "sunlit/quantity/range.h"
 
 namespace sunlit::astronomy {
 namespace {
@@ -49,13 +50,6 @@ bool forEachLine(const std::string& path, const std::function<void(const std::st
   return true;
 }
 
-void requireRange(const char* what, double value, double min, double max) {
-  if (value >= min && value <= max) return;
-  std::ostringstream message;
-  message << what << " is " << value << ", but must be from " << min << " to " << max;
-  throw std::invalid_argument(message.str());
-}
-
 Place placeOf(const std::string& line) {
   std::istringstream numbers(line);
   numbers.imbue(std::locale::classic());
@@ -63,9 +57,9 @@ Place placeOf(const std::string& line) {
   double right_ascension_h = 0.0;
   if (!(numbers >> place.declination_deg >> right_ascension_h >> place.magnitude))
     throw std::invalid_argument("is no star: declination, right ascension and magnitude are expected");
-  requireRange("declination", place.declination_deg, -90.0, 90.0);
-  requireRange("right ascension", right_ascension_h, 0.0, 24.0);
-  requireRange("magnitude", place.magnitude, -30.0, 30.0);
+  require("declination", place.declination_deg, {-90.0, 90.0}, "deg");
+  require("right ascension", right_ascension_h, {0.0, 24.0}, "h");
+  require("magnitude", place.magnitude, {-30.0, 30.0});
   place.right_ascension_rad = right_ascension_h * kPi / 12.0;
   const std::size_t name_end = line.rfind('"');
   if (name_end != std::string::npos) std::istringstream(line.substr(name_end + 1)) >> place.number;

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "evaluate/detector_pool.h"
-#include "evaluate/feature_limits.h"
 #include "sunlit/evaluate/direct.h"
 
 namespace sunlit::evaluate {
@@ -39,24 +38,27 @@ void forEachTask(std::size_t count, const Body& body) {
 
 Comparer::Comparer(const ComparerOptions& options)
     : options_(options), detectors_(std::make_unique<DetectorPool>(options.features)) {
-  checkLimits(options_);
+  requireFields(options_);
 }
 
 Comparer::~Comparer() = default;
 
 std::vector<std::vector<DifferenceValue>> Comparer::compare(const std::vector<cv::Mat>& rgb_images,
-                                                            const std::vector<ImagePair>& pairs) const {
+                                                            const std::vector<ImagePair>& pairs,
+                                                            const std::atomic<bool>* is_broken_off) const {
+  const auto isOver = [&] { return is_broken_off != nullptr && is_broken_off->load(); };
   const std::vector<Difference>& differences = options_.differences;
   std::vector<char> is_used(rgb_images.size(), 0);
   for (const ImagePair& pair : pairs) is_used.at(pair.first) = is_used.at(pair.second) = 1;
 
-  std::vector<View> views(rgb_images.size());
+  std::vector<Picture> views(rgb_images.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
-    if (is_used[i]) views[i] = makeView(rgb_images[i]);
+    if (is_used[i]) views[i] = makePicture(rgb_images[i]);
   }
 
   std::vector<std::vector<Features>> features(differences.size(), std::vector<Features>(views.size()));
   forEachTask(differences.size() * views.size(), [&](std::size_t task) {
+    if (isOver()) return;
     const std::size_t d = task / views.size();
     const std::size_t i = task % views.size();
     if (is_used[i] && usesFeatures(differences[d])) {
@@ -64,6 +66,7 @@ std::vector<std::vector<DifferenceValue>> Comparer::compare(const std::vector<cv
     }
   });
 
+  if (isOver()) return {};
   const bool is_any_direct = std::any_of(differences.begin(), differences.end(),
                                          [](Difference difference) { return !usesFeatures(difference); });
   std::vector<DirectDifferences> direct(pairs.size());
@@ -76,11 +79,12 @@ std::vector<std::vector<DifferenceValue>> Comparer::compare(const std::vector<cv
   std::vector<std::vector<DifferenceValue>> values(pairs.size(),
                                                    std::vector<DifferenceValue>(differences.size()));
   forEachTask(differences.size() * pairs.size(), [&](std::size_t task) {
+    if (isOver()) return;
     const std::size_t d = task / pairs.size();
     const std::size_t p = task % pairs.size();
     DifferenceValue& value = values[p][d];
     if (!usesFeatures(differences[d])) {
-      value.value = directValue(differences[d], direct[p]);
+      value.value = value.symmetric = value.one_to_one = directValue(differences[d], direct[p]);
       return;
     }
     value = featureDifference(features[d][pairs[p].first], features[d][pairs[p].second],

@@ -1,7 +1,7 @@
 #include "sunlit/evaluate/difference.h"
 
+#include <algorithm>
 #include <array>
-#include <stdexcept>
 
 namespace sunlit::evaluate {
 namespace {
@@ -26,17 +26,20 @@ const std::string& nameOf(Difference difference) {
   return kNames.at(static_cast<std::size_t>(difference));
 }
 
-Difference differenceNamed(const std::string& name) {
-  std::string allowed;
-  for (const Difference difference : allDifferences()) {
-    if (nameOf(difference) == name) return difference;
-    allowed += (allowed.empty() ? "" : ", ") + nameOf(difference);
-  }
-  if (name == nameOf(Difference::kSurf)) {
-    throw std::invalid_argument(
-        "difference surf: this build has none (option SUNLIT_SURF is off); allowed: " + allowed);
-  }
-  throw std::invalid_argument("difference \"" + name + "\" is unknown; allowed: " + allowed);
+Choices someOf(std::vector<Difference>* differences) {
+  const auto namesOf = [](const std::vector<Difference>& some) {
+    std::vector<std::string> names;
+    for (const Difference difference : some) names.push_back(nameOf(difference));
+    return names;
+  };
+  return {namesOf(allDifferences()), [=] { return namesOf(*differences); },
+          [=](const std::vector<std::string>& names) {
+            differences->clear();
+            for (const std::string& name : names) {
+              const auto found = std::find(kNames.begin(), kNames.end(), name);
+              differences->push_back(static_cast<Difference>(found - kNames.begin()));
+            }
+          }};
 }
 
 bool usesFeatures(Difference difference) {

@@ -109,19 +109,19 @@ std::string sizeOf(const cv::Mat& image) {
 
 }  // namespace
 
-View makeView(const cv::Mat& rgb) {
+Picture makePicture(const cv::Mat& rgb) {
   if (rgb.empty() || rgb.type() != CV_8UC3) {
     throw std::invalid_argument("an image to evaluate is " + sizeOf(rgb) + " px of OpenCV type " +
                                 cv::typeToString(rgb.type()) +
                                 ", but must be CV_8UC3 with at least one pixel");
   }
-  View view;
-  view.rgb = rgb;
-  cv::cvtColor(rgb, view.grey, cv::COLOR_RGB2GRAY);
-  return view;
+  Picture picture;
+  picture.rgb = rgb;
+  cv::cvtColor(rgb, picture.grey, cv::COLOR_RGB2GRAY);
+  return picture;
 }
 
-DirectDifferences directDifferences(const View& a, const View& b) {
+DirectDifferences directDifferences(const Picture& a, const Picture& b) {
   if (a.rgb.size() != b.rgb.size())
     throw std::invalid_argument("images of different sizes, " + sizeOf(a.rgb) + " and " + sizeOf(b.rgb) +
                                 " px, have no direct difference");

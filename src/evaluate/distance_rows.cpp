@@ -1,5 +1,8 @@
 #include "evaluate/distance_rows.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "sunlit/quantity/vector_clones.h"
 
 // As SUNLIT_VECTOR_CLONES, for the instruction that counts bits.
@@ -66,6 +69,40 @@ void hammingRow(const std::uint64_t* query, const RowsOf<std::uint64_t>& train, 
     int bits = 0;
     for (std::size_t k = 0; k < train.width; ++k) bits += __builtin_popcountll(query[k] ^ t[k]);
     out[j] = bits;
+  }
+}
+
+namespace {
+
+// Plain pointers that do not overlap, and no branch: the compiler makes it a few instructions for eight
+// columns.
+SUNLIT_VECTOR_CLONES
+void addToColumns(std::int32_t at, const std::int32_t* __restrict row, std::size_t columns,
+                  std::int32_t* __restrict best, std::int32_t* __restrict second,
+                  std::int32_t* __restrict best_at) {
+  for (std::size_t j = 0; j < columns; ++j) {
+    const std::int32_t value = row[j];
+    const std::int32_t old = best[j];
+    second[j] = std::min(second[j], std::max(old, value));
+    best_at[j] = value < old ? at : best_at[j];
+    best[j] = std::min(old, value);
+  }
+}
+
+}  // namespace
+
+NearestOfColumns::NearestOfColumns(std::size_t columns)
+    : best(columns, std::numeric_limits<std::int32_t>::max()), second(best), best_at(columns, 0) {}
+
+void NearestOfColumns::add(std::int32_t at, const std::int32_t* row) {
+  addToColumns(at, row, best.size(), best.data(), second.data(), best_at.data());
+}
+
+void NearestOfColumns::append(const NearestOfColumns& behind) {
+  for (std::size_t j = 0; j < best.size(); ++j) {
+    if (behind.best[j] < best[j]) best_at[j] = behind.best_at[j];
+    second[j] = std::min({std::max(best[j], behind.best[j]), second[j], behind.second[j]});
+    best[j] = std::min(best[j], behind.best[j]);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace sunlit::evaluate {
 
@@ -23,5 +24,17 @@ void dotRows(const std::int16_t* const queries[kQueriesAtOnce], const RowsOf<std
              std::int32_t* out);
 /// out[j] = number of bits in which `query` and train[j] differ. Width in words of 64 bit.
 void hammingRow(const std::uint64_t* query, const RowsOf<std::uint64_t>& train, std::int32_t* out);
+
+/// The two smallest values of each column of a matrix that is handed over row by row.
+struct NearestOfColumns {
+  std::vector<std::int32_t> best;  ///< the largest whole number where there is none, as `second`
+  std::vector<std::int32_t> second;
+  std::vector<std::int32_t> best_at;  ///< row; the first of equal ones
+  explicit NearestOfColumns(std::size_t columns);
+  /// Row `at`, which lies behind all others.
+  void add(std::int32_t at, const std::int32_t* row);
+  /// Rows that lie behind all of these.
+  void append(const NearestOfColumns& behind);
+};
 
 }  // namespace sunlit::evaluate

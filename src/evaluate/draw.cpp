@@ -13,10 +13,10 @@ cv::Mat drawMatches(const ComparerOptions& options, const cv::Mat& rgb_a, const 
   std::vector<cv::DMatch> accepted;
   const auto difference = std::find_if(options.differences.begin(), options.differences.end(), usesFeatures);
   if (difference != options.differences.end()) {
-    a = detectFeatures(*difference, options.features, makeView(rgb_a).grey);
-    b = detectFeatures(*difference, options.features, makeView(rgb_b).grey);
+    a = detectFeatures(*difference, options.features, makePicture(rgb_a).grey);
+    b = detectFeatures(*difference, options.features, makePicture(rgb_b).grey);
     const std::vector<Neighbours> neighbours =
-        twoNearest(a.descriptors, b.descriptors, normOf(*difference, options.features));
+        twoNearestBothWays(a.descriptors, b.descriptors, normOf(*difference, options.features)).from_a;
     for (std::size_t query = 0; query < neighbours.size(); ++query) {
       const Neighbours& n = neighbours[query];
       if (passes(n, options.ratio_test))

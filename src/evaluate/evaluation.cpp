@@ -26,14 +26,31 @@ Evaluation::Evaluation(const EvaluationOptions& options, EvaluationCallbacks cal
 
 Evaluation::~Evaluation() = default;
 
-void Evaluation::addImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb) {
+namespace {
+
+Arrival arrivalOf(const cv::Mat& rgb) {
   Arrival arrival;
   if (rgb.empty() || rgb.type() != CV_8UC3) {
     arrival.fault = "not an image of three channels of 8 bit";
   } else {
     arrival.rgb = rgb;
   }
-  state_->add(stream, stamp_ns, std::move(arrival));
+  return arrival;
+}
+
+}  // namespace
+
+void Evaluation::addImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb) {
+  state_->add(stream, stamp_ns, arrivalOf(rgb));
+}
+
+void Evaluation::addLossyImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb) {
+  state_->noteLossy(stream);
+  state_->add(stream, stamp_ns, arrivalOf(rgb));
+}
+
+void Evaluation::addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns) {
+  state_->addLost(stream, images, stamp_ns);
 }
 
 void Evaluation::addBadImage(std::size_t stream, std::int64_t stamp_ns, const std::string& fault) {
@@ -66,8 +83,8 @@ void Evaluation::waitForRoom(std::size_t queued_poses) const {
   state_->waitForRoom(queued_poses);
 }
 
-Outcome Evaluation::finish() {
-  return state_->finish();
+Outcome Evaluation::finish(Ending ending) {
+  return state_->finish(ending);
 }
 
 }  // namespace sunlit::evaluate

@@ -6,6 +6,7 @@
 
 #include "evaluate/evaluation_state.h"
 #include "evaluate/run_file.h"
+#include "sunlit/evaluate/stream_name.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -16,37 +17,36 @@ constexpr int kSamples = 5;  // rows of the paper's Fig. 1
 
 std::size_t streamNamed(const std::vector<std::string>& streams, const std::string& name) {
   const auto found = std::find(streams.begin(), streams.end(), name);
-  if (found == streams.end()) throw std::invalid_argument("pairs: " + name + " is not one of the streams");
+  if (found == streams.end()) refuse("a name in pairs", '"' + name + '"', "one of " + textOf(streams));
   return static_cast<std::size_t>(found - streams.begin());
 }
 
-EvaluationOptions completed(EvaluationOptions options) {
-  if (options.streams.empty()) throw std::invalid_argument("streams: at least one is needed");
-  for (std::size_t i = 0; i < options.streams.size(); ++i) {
-    const std::string& name = options.streams[i];
-    if (name.empty() || name.find_first_of(",\"'\n ") != std::string::npos) {
-      throw std::invalid_argument("streams: \"" + name + "\" is not a name (no commas, quotes or spaces)");
-    }
-    if (std::count(options.streams.begin(), options.streams.end(), name) > 1) {
-      throw std::invalid_argument("streams: " + name + " is listed twice");
-    }
+void requireStreams(const std::vector<std::string>& streams) {
+  for (const std::string& name : streams) requireStreamName(name, "a name in streams");
+  for (const std::string& name : streams) {
+    if (std::count(streams.begin(), streams.end(), name) > 1)
+      refuse("streams", textOf(streams), "a list without " + name + " twice");
   }
+}
+
+void requirePairs(const std::vector<PairSpec>& pairs) {
+  for (const PairSpec& pair : pairs) {
+    require("every of the pair " + pair.name(), pair.every, Range::atLeast(1));
+    const auto isSame = [&](const PairSpec& other) { return other.a == pair.a && other.b == pair.b; };
+    if (std::count_if(pairs.begin(), pairs.end(), isSame) > 1)
+      refuse("pairs", "a list", "one without " + pair.name() + " twice");
+  }
+}
+
+EvaluationOptions completed(EvaluationOptions options) {
+  requireFields(options);
+  requireStreams(options.streams);
   if (options.pairs.empty()) options.pairs = allPairs(options.streams);
   if (options.pairs.empty())
-    throw std::invalid_argument("pairs: two streams at least are needed to make one");
-  if (options.output_dir.empty()) throw std::invalid_argument("output_dir: a folder is needed");
-  for (const PairSpec& pair : options.pairs) {
-    if (pair.every < 1)
-      throw std::invalid_argument("pairs: every = " + std::to_string(pair.every) + "; allowed: 1 or more");
-    const auto is_same = [&](const PairSpec& other) { return other.a == pair.a && other.b == pair.b; };
-    if (std::count_if(options.pairs.begin(), options.pairs.end(), is_same) > 1) {
-      throw std::invalid_argument("pairs: " + pair.a + ", " + pair.b + " is listed twice");
-    }
-  }
-  if (!(options.frame_rate >= 0.0)) {
-    throw std::invalid_argument("frame_rate: " + std::to_string(options.frame_rate) +
-                                "; allowed: 0 Hz or more");
-  }
+    refuse("streams", textOf(options.streams), "a list of at least two, to make pairs of");
+  if (options.output_dir.empty()) refuse("output_dir", "\"\"", "a folder");
+  requirePairs(options.pairs);
+  require("memory_limit", static_cast<double>(options.memory_limit_bytes), Range::atLeast(1), "byte");
   return options;
 }
 
@@ -72,7 +72,7 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
       callbacks_(std::move(callbacks)),
       comparer_(options_.comparer),
       layout_(layoutOf(options_)),
-      poses_(options_.frame_rate, options_.stamp_start_ns),
+      poses_(options_.frame_rate, options_.stamp_start_ns, options_.poses),
       sets_(options_.streams.size()),
       queue_(kPosesAtOnce) {
   for (const PairSpec& pair : options_.pairs) {
@@ -80,9 +80,10 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
   }
   counts_.streams.resize(options_.streams.size());
   counts_.pairs.resize(options_.pairs.size());
-  if (options_.poses > 0) {
-    const double last = static_cast<double>(options_.poses - 1);
-    for (int i = 0; i < kSamples; ++i) sampled_.insert(std::llround(last * i / (kSamples - 1)));
+  if (options_.poses.size() > 0) {
+    const double last = static_cast<double>(options_.poses.size() - 1);
+    for (int i = 0; i < kSamples; ++i)
+      sampled_.insert(options_.poses.at(static_cast<std::size_t>(std::llround(last * i / (kSamples - 1)))));
   }
   makeFolder(options_.output_dir);
   claimFolder(options_.output_dir, settingsOf(options_));
@@ -130,7 +131,7 @@ void Evaluation::State::takeUpEarlierRuns() {
     for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
       is_whole = is_whole && (!isWanted(p, record.pose) || isHeld(p, record.pose));
     }
-    if (is_whole) completed_.insert(record.pose);
+    if (is_whole) markCompleted(record.pose);
   }
   if (dropped_lines > 0 || !options_.merge.empty()) writeFrames(file("frames.csv"), layout_, records_);
   frames_file_.open(file("frames.csv"), framesHeader());

@@ -5,16 +5,10 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "evaluate/run_file.h"
-
 namespace sunlit::evaluate {
 namespace {
 
 constexpr std::int64_t kSampleStride = 200;  // of a path of unknown length
-
-std::string nameOf(const PairSpec& pair) {
-  return pair.a + "-" + pair.b;
-}
 
 }  // namespace
 
@@ -36,6 +30,7 @@ std::vector<char> Evaluation::State::neededStreams(std::int64_t pose) const {
 
 void Evaluation::State::add(std::size_t stream, std::int64_t stamp_ns, Arrival arrival) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_finished_) return;
   StreamCounts& counts = counts_.streams.at(stream);
   const std::string& name = options_.streams[stream];
   const std::optional<std::int64_t> pose = poses_.of(stamp_ns);
@@ -56,20 +51,54 @@ void Evaluation::State::add(std::size_t stream, std::int64_t stamp_ns, Arrival a
       report({"duplicate", pose, stamp_ns, name, "this stamp had come before; the first image counts"});
       break;
     case StampSets::Outcome::kClosed:
-      if (pose && neededStreams(*pose)[stream] == 0) return;
-      ++counts.late;
-      report({"late", pose, stamp_ns, name, "its stamp had been given up to bound the memory"});
-      return;
+      return addLate(stream, stamp_ns, pose);
   }
   closeIfWhole(stamp_ns);
-  while (sets_.waitingImages() > options_.max_waiting_images) {
-    const std::int64_t oldest = *sets_.oldest();
-    close(oldest, poses_.of(oldest), Reason::kMemory);
+  keepWithinMemory(stamp_ns);
+}
+
+// After its set was closed.
+void Evaluation::State::addLate(std::size_t stream, std::int64_t stamp_ns, std::optional<std::int64_t> pose) {
+  if (pose && !options_.poses.holds(*pose)) return turnAway(stream, stamp_ns, *pose);
+  if (pose && neededStreams(*pose)[stream] == 0) return;
+  ++counts_.streams[stream].late;
+  report(
+      {"late", pose, stamp_ns, options_.streams[stream], "its stamp had been given up to bound the memory"});
+}
+
+void Evaluation::State::turnAway(std::size_t stream, std::int64_t stamp_ns, std::int64_t pose) {
+  ++counts_.streams[stream].unexpected;
+  report(
+      {"unexpected", pose, stamp_ns, options_.streams[stream], "is not one of the expected poses; left out"});
+}
+
+// What is whole will be compared and makes room by itself; what waits may wait for ever.
+void Evaluation::State::keepWithinMemory(std::int64_t newest_ns) {
+  while (sets_.reservedBytes() > 0 && sets_.reservedBytes() + queued_bytes_ > options_.memory_limit_bytes) {
+    const bool is_newest = queued_bytes_ > 0 && sets_.find(newest_ns) != nullptr;
+    const std::int64_t stamp = is_newest ? newest_ns : *sets_.oldest();
+    close(stamp, poses_.of(stamp), Reason::kMemory);
   }
+}
+
+void Evaluation::State::addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_finished_) return;
+  counts_.streams.at(stream).lost += images;
+  report({"lost", std::nullopt, stamp_ns, options_.streams[stream],
+          std::to_string(images) + " images sent before this one did not come (by their sequence numbers)"});
+}
+
+void Evaluation::State::noteLossy(std::size_t stream) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_finished_ || ++counts_.streams.at(stream).lossy > 1 || !callbacks_.note) return;
+  callbacks_.note(options_.streams[stream] +
+                  ": images are compressed with loss (JPEG): differences contain what that changed");
 }
 
 void Evaluation::State::add(std::size_t stream, const CaptureRecord& capture) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_finished_) return;
   poses_.learn(capture.stamp_ns, capture.pose);
   record_files_->add(options_.streams.at(stream), capture);
   closeIfWhole(capture.stamp_ns);
@@ -77,6 +106,7 @@ void Evaluation::State::add(std::size_t stream, const CaptureRecord& capture) {
 
 void Evaluation::State::add(const PlaceRecord& place) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_finished_) return;
   record_files_->add(place);
 }
 
@@ -92,7 +122,16 @@ void Evaluation::State::closeIfWhole(std::int64_t stamp_ns) {
   const StampSet* set = sets_.find(stamp_ns);
   if (set == nullptr) return;
   const std::optional<std::int64_t> pose = poses_.of(stamp_ns);
-  if (pose && isWhole(*set, *pose)) close(stamp_ns, pose, Reason::kWhole);
+  if (!pose) return;
+  if (options_.poses.holds(*pose)) {
+    if (isWhole(*set, *pose)) close(stamp_ns, pose, Reason::kWhole);
+    return;
+  }
+  const StampSet unwanted = sets_.take(stamp_ns);
+  for (std::size_t s = 0; s < unwanted.streams.size(); ++s) {
+    if (unwanted.streams[s].has_come) turnAway(s, stamp_ns, *pose);
+  }
+  complete(*pose);
 }
 
 // Counts and names a pair that cannot be compared.
@@ -102,14 +141,14 @@ bool Evaluation::State::canCompare(const StampSet& set, std::size_t pair, std::o
   const std::size_t ib = pair_streams_[pair].second;
   const Arrival& a = set.streams[ia];
   const Arrival& b = set.streams[ib];
-  const std::string where = nameOf(options_.pairs[pair]);
+  const std::string where = options_.pairs[pair].name();
   PairCounts& counts = counts_.pairs[pair];
   if (!a.has_come || !b.has_come) {
     const std::string& absent = options_.streams[a.has_come ? ib : ia];
     const bool is_dropped = reason == Reason::kMemory;
     ++(is_dropped ? counts.dropped : counts.missing_partner);
     report({is_dropped ? "dropped" : "missing_partner", pose, set.stamp_ns, where,
-            "no image of " + absent + (is_dropped ? " before max_waiting_images was reached" : "")});
+            "no image of " + absent + (is_dropped ? " before memory_limit was reached" : "")});
     return false;
   }
   if (a.rgb.empty() || b.rgb.empty()) {
@@ -148,7 +187,7 @@ bool Evaluation::State::takes(std::int64_t stamp_ns, std::int64_t pose, std::siz
   if (inserted.second) return true;
   std::int64_t& counting = inserted.first->second;
   ++counts_.pairs[pair].duplicate;
-  report({"duplicate", pose, std::max(stamp_ns, counting), nameOf(options_.pairs[pair]),
+  report({"duplicate", pose, std::max(stamp_ns, counting), options_.pairs[pair].name(),
           "an earlier stamp is of this pose too, and counts"});
   if (stamp_ns > counting) return false;
   withdraw(counting, pair);
@@ -168,6 +207,9 @@ void Evaluation::State::withdraw(std::int64_t stamp_ns, std::size_t pair) {
 
 void Evaluation::State::close(std::int64_t stamp_ns, std::optional<std::int64_t> pose, Reason reason) {
   const StampSet set = sets_.take(stamp_ns);
+  for (std::size_t s = 0; s < set.streams.size(); ++s) {
+    if (reason == Reason::kMemory && !set.streams[s].rgb.empty()) ++counts_.streams[s].dropped;
+  }
   Work work;
   work.stamp_ns = stamp_ns;
   for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
@@ -183,14 +225,18 @@ void Evaluation::State::close(std::int64_t stamp_ns, std::optional<std::int64_t>
     complete(*pose);
     return;
   }
-  for (const Arrival& arrival : set.streams) work.images.push_back(arrival.rgb);
-  queue_.add([this, work] { evaluate(work); });
+  for (const Arrival& arrival : set.streams) {
+    work.images.push_back(arrival.rgb);
+    work.bytes += bytesOf(arrival.rgb);
+  }
+  queued_bytes_ += work.bytes;
+  queue_.add([this, work = std::move(work)] { evaluate(work); });
 }
 
 std::vector<std::size_t> Evaluation::State::keptPictures(const StampSet& set, std::int64_t pose,
                                                          bool is_evaluated) {
   std::vector<std::size_t> kept;
-  const bool is_sample = options_.poses > 0 ? sampled_.count(pose) != 0 : pose % kSampleStride == 0;
+  const bool is_sample = options_.poses.size() > 0 ? sampled_.count(pose) != 0 : pose % kSampleStride == 0;
   if (!pictures_ || (options_.images == KeptImages::kSamples && !is_sample)) return kept;
   for (std::size_t s = 0; s < set.streams.size(); ++s) {
     if (set.streams[s].rgb.empty()) continue;
@@ -204,8 +250,12 @@ void Evaluation::State::writePictures(const Work& work) {
     pictures_->write(options_.streams[s], work.pose, work.stamp_ns, work.images[s]);
 }
 
+void Evaluation::State::markCompleted(std::int64_t pose) {
+  if (completed_.insert(pose).second && !options_.poses.holds(pose)) ++unexpected_poses_;
+}
+
 void Evaluation::State::complete(std::int64_t pose) {
-  completed_.insert(pose);
+  markCompleted(pose);
   if (callbacks_.progress) callbacks_.progress(completed_.size());
 }
 
@@ -217,13 +267,14 @@ void Evaluation::State::evaluate(const Work& work) {
   std::string fault;
   const auto compare = [&] {
     try {
-      values = comparer_.compare(work.images, pairs);
+      values = comparer_.compare(work.images, pairs, &is_broken_off_);
     } catch (const std::exception& error) {
       fault = error.what();
       values.resize(pairs.size());
     }
   };
-  tbb::parallel_invoke([&] { writePictures(work); }, compare);
+  if (!is_broken_off_) tbb::parallel_invoke([&] { writePictures(work); }, compare);
+  if (is_broken_off_) return giveUp(work);
   for (std::size_t i = 0; i < work.pairs.size(); ++i) {
     const PairRecord record{work.pose, work.stamp_ns, work.pairs[i], values[i]};
     if (!keep(record, fault)) continue;
@@ -232,6 +283,18 @@ void Evaluation::State::evaluate(const Work& work) {
       callbacks_.pair_done(record, work.images[pairs[i].first], work.images[pairs[i].second]);
   }
   const std::lock_guard<std::mutex> lock(mutex_);
+  queued_bytes_ -= work.bytes;
+  complete(work.pose);
+}
+
+void Evaluation::State::giveUp(const Work& work) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const std::size_t p : work.pairs) {
+    ++counts_.pairs[p].dropped;
+    report({"dropped", work.pose, work.stamp_ns, options_.pairs[p].name(),
+            "the run was broken off before it was compared"});
+  }
+  queued_bytes_ -= work.bytes;
   complete(work.pose);
 }
 
@@ -241,7 +304,7 @@ bool Evaluation::State::keep(const PairRecord& record, const std::string& fault)
   if (taken_.at({record.pose, record.pair}) != record.stamp_ns) return false;
   if (!fault.empty()) {
     ++counts_.pairs[record.pair].failed;
-    report({"failed", record.pose, record.stamp_ns, nameOf(options_.pairs[record.pair]), fault});
+    report({"failed", record.pose, record.stamp_ns, options_.pairs[record.pair].name(), fault});
     return false;
   }
   frames_file_.append(framesText(layout_, record));
@@ -255,66 +318,23 @@ Counts Evaluation::State::counts() const {
   Counts counts = counts_;
   counts.completed_poses = completed_.size();
   counts.waiting_images = sets_.waitingImages();
+  counts.unexpected_poses = unexpected_poses_;
   counts.queued_poses = queue_.size();
+  counts.bytes = sets_.reservedBytes() + queued_bytes_;
+  if (const auto oldest = sets_.oldest()) {
+    const StampSet& set = *sets_.find(*oldest);
+    for (std::size_t s = 0; s < set.streams.size(); ++s) {
+      if (!set.streams[s].has_come) counts.awaited_streams.push_back(s);
+    }
+  }
   return counts;
 }
 
 bool Evaluation::State::isComplete() const {
   queue_.rethrow();
   const std::lock_guard<std::mutex> lock(mutex_);
-  return options_.poses > 0 && completed_.size() >= options_.poses;
-}
-
-Outcome Evaluation::State::finish() {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    for (const std::int64_t stamp : sets_.openStamps()) close(stamp, poses_.of(stamp), Reason::kEnd);
-  }
-  queue_.waitForAtMost(0);
-  queue_.rethrow();
-  Outcome outcome;
-  outcome.counts = counts();
-  if (options_.poses > completed_.size()) outcome.absent_poses = options_.poses - completed_.size();
-  if (outcome.absent_poses > 0) nameAbsentPoses();
-  settleAndWrite(outcome);
-  return outcome;
-}
-
-void Evaluation::State::nameAbsentPoses() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  for (std::int64_t pose = 0; pose < static_cast<std::int64_t>(options_.poses); ++pose) {
-    if (completed_.count(pose) == 0) report({"absent", pose, std::nullopt, "", "no image of this pose came"});
-  }
-}
-
-// By an image that came after all, as an earlier run was taken up.
-bool Evaluation::State::isMended(const Problem& problem, const EvaluatedPairs& evaluated) const {
-  if (!problem.pose || problem.kind == "duplicate") return false;
-  for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
-    const bool is_meant = problem.kind == "absent" || problem.where == nameOf(options_.pairs[p]);
-    if (is_meant && evaluated.count({*problem.pose, p}) != 0) return true;
-  }
-  return false;
-}
-
-void Evaluation::State::settleAndWrite(Outcome& outcome) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  EvaluatedPairs evaluated;
-  for (PairRecord& record : records_) {
-    record.pose = poses_.settled(record.stamp_ns, record.pose);
-    evaluated.emplace(record.pose, record.pair);
-  }
-  sortRecords(records_);
-  if (pictures_) {
-    pictures_->finish([this](std::int64_t stamp, std::int64_t pose) { return poses_.settled(stamp, pose); });
-  }
-  frames_file_.close();
-  writeFrames(file("frames.csv"), layout_, records_);
-  outcome.summary = summarise(layout_, records_);
-  writeSummary(file("summary.csv"), outcome.summary);
-  record_files_->finish(options_.streams, poses_);
-  problems_->finish(poses_, [&](const Problem& problem) { return isMended(problem, evaluated); });
-  writeRunFile(file("run.yaml"), options_, &outcome);
+  const std::size_t expected = options_.poses.size();
+  return expected > 0 && completed_.size() - unexpected_poses_ >= expected;
 }
 
 }  // namespace sunlit::evaluate

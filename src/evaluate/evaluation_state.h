@@ -1,6 +1,7 @@
 /// The workings of Evaluation.
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -30,13 +31,16 @@ class Evaluation::State {
   void add(std::size_t stream, std::int64_t stamp_ns, Arrival arrival);
   void add(std::size_t stream, const CaptureRecord& capture);
   void add(const PlaceRecord& place);
+  void addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns);
+  /// The stream's next image was compressed with loss.
+  void noteLossy(std::size_t stream);
   Counts counts() const;
   bool isComplete() const;
   void waitForRoom(std::size_t queued_poses) const {
     queue_.waitForAtMost(queued_poses);
     queue_.rethrow();
   }
-  Outcome finish();
+  Outcome finish(Ending ending);
 
  private:
   enum class Reason { kWhole, kEnd, kMemory };
@@ -48,18 +52,22 @@ class Evaluation::State {
     std::vector<cv::Mat> images;  // by stream
     std::vector<std::size_t> pairs;
     std::vector<std::size_t> pictures;  // streams whose image is kept
+    std::size_t bytes = 0;
   };
 
   std::string file(const std::string& name) const { return options_.output_dir + "/" + name; }
   void takeUpEarlierRuns();
   std::size_t takeUp(const std::string& folder);
   void settleTakenUp();
-  void nameAbsentPoses();
+  std::size_t nameAbsentPoses();
   bool isWanted(std::size_t pair, std::int64_t pose) const;
   bool isHeld(std::size_t pair, std::int64_t pose) const;
   std::vector<char> neededStreams(std::int64_t pose) const;
   bool isWhole(const StampSet& set, std::int64_t pose) const;
   void closeIfWhole(std::int64_t stamp_ns);
+  void addLate(std::size_t stream, std::int64_t stamp_ns, std::optional<std::int64_t> pose);
+  void turnAway(std::size_t stream, std::int64_t stamp_ns, std::int64_t pose);
+  void keepWithinMemory(std::int64_t newest_ns);
   void close(std::int64_t stamp_ns, std::optional<std::int64_t> pose, Reason reason);
   bool hasBoth(const StampSet& set, std::size_t pair) const;
   bool takes(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair);
@@ -69,6 +77,8 @@ class Evaluation::State {
   void writePictures(const Work& work);
   void evaluate(const Work& work);
   bool keep(const PairRecord& record, const std::string& fault);
+  void giveUp(const Work& work);
+  void markCompleted(std::int64_t pose);
   void complete(std::int64_t pose);
   void report(const Problem& problem) { problems_->add(problem); }
   bool isMended(const Problem& problem, const EvaluatedPairs& evaluated) const;
@@ -90,7 +100,11 @@ class Evaluation::State {
   std::map<std::pair<std::int64_t, std::size_t>, std::int64_t>
       taken_;                         // by pose and pair: the stamp that counts, of those that came
   std::set<std::int64_t> completed_;  // poses
-  std::set<std::int64_t> sampled_;    // poses whose images are kept
+  std::size_t unexpected_poses_ = 0;  // of them
+  std::size_t queued_bytes_ = 0;      // of images in queue_
+  bool is_finished_ = false;
+  std::atomic<bool> is_broken_off_{false};
+  std::set<std::int64_t> sampled_;  // poses whose images are kept
   std::unique_ptr<RecordFiles> record_files_;
   std::unique_ptr<ProblemFile> problems_;
   std::unique_ptr<PictureWriter> pictures_;

@@ -104,7 +104,10 @@ CsvLines readCsv(const std::string& path, const std::string& header) {
     const std::string line = text.substr(begin, end - begin);
     begin = end + 1;
     if (number == 1) {
-      if (line != header) throw std::runtime_error(path + ":1: expected the header " + header);
+      if (line != header)
+        throw std::runtime_error(
+            path + ":1: was written by another version, or is no file of ours: expected the header " +
+            header);
       continue;
     }
     std::vector<std::string> fields = cut(line);

@@ -64,8 +64,16 @@ void addRow(const FramesLayout& layout, const std::vector<std::string>& fields, 
   entry.record.pose = parsePose(fields[0]);
   entry.record.stamp_ns = stamp;
   entry.record.pair = pair;
-  entry.record.values[column] = {parseNumber(fields[5]), parseCount(fields[6]), parseCount(fields[7]),
-                                 parseCount(fields[8]), parseCount(fields[9])};
+  DifferenceValue& value = entry.record.values[column];
+  value.value = parseNumber(fields[5]);
+  value.features_a = parseCount(fields[6]);
+  value.features_b = parseCount(fields[7]);
+  value.matches = parseCount(fields[8]);
+  value.zero_second = parseCount(fields[9]);
+  value.symmetric = parseNumber(fields[10]);
+  value.one_to_one = parseNumber(fields[11]);
+  value.matches_back = parseCount(fields[12]);
+  value.matches_one_to_one = parseCount(fields[13]);
   entry.has_value[column] = 1;
   ++entry.rows;
 }
@@ -73,7 +81,8 @@ void addRow(const FramesLayout& layout, const std::vector<std::string>& fields, 
 }  // namespace
 
 std::string framesHeader() {
-  return "pose,stamp,a,b,difference,value,features_a,features_b,matches,zero_second";
+  return "pose,stamp,a,b,difference,value,features_a,features_b,matches,zero_second,symmetric,one_to_one,"
+         "matches_back,matches_one_to_one";
 }
 
 std::string framesText(const FramesLayout& layout, const PairRecord& record) {
@@ -85,7 +94,9 @@ std::string framesText(const FramesLayout& layout, const PairRecord& record) {
     const DifferenceValue& value = record.values.at(d);
     text += start + nameOf(layout.differences[d]) + "," + formatNumber(value.value) + "," +
             std::to_string(value.features_a) + "," + std::to_string(value.features_b) + "," +
-            std::to_string(value.matches) + "," + std::to_string(value.zero_second) + "\n";
+            std::to_string(value.matches) + "," + std::to_string(value.zero_second) + "," +
+            formatNumber(value.symmetric) + "," + formatNumber(value.one_to_one) + "," +
+            std::to_string(value.matches_back) + "," + std::to_string(value.matches_one_to_one) + "\n";
   }
   return text;
 }
@@ -132,28 +143,56 @@ void writeFrames(const std::string& path, const FramesLayout& layout,
   image::writeFileAtomically(path, text);
 }
 
+namespace {
+
+SummaryRow summaryOf(const std::vector<const DifferenceValue*>& values) {
+  SummaryRow row;
+  std::vector<double> series;
+  const auto statistics = [&](double DifferenceValue::*member) {
+    series.clear();
+    for (const DifferenceValue* value : values) series.push_back(value->*member);
+    return statisticsOf(series);
+  };
+  row.statistics = statistics(&DifferenceValue::value);
+  row.symmetric = statistics(&DifferenceValue::symmetric);
+  row.one_to_one = statistics(&DifferenceValue::one_to_one);
+  row.overmatched = static_cast<std::size_t>(
+      std::count_if(values.begin(), values.end(), [](const auto* value) { return value->isOvermatched(); }));
+  return row;
+}
+
+}  // namespace
+
 std::vector<SummaryRow> summarise(const FramesLayout& layout, const std::vector<PairRecord>& sorted_records) {
   std::vector<SummaryRow> rows;
   for (std::size_t p = 0; p < layout.pairs.size(); ++p) {
     for (std::size_t d = 0; d < layout.differences.size(); ++d) {
-      std::vector<double> values;
+      std::vector<const DifferenceValue*> values;
       for (const PairRecord& record : sorted_records) {
-        if (record.pair == p) values.push_back(record.values.at(d).value);
+        if (record.pair == p) values.push_back(&record.values.at(d));
       }
-      rows.push_back(
-          {layout.pairs[p].first, layout.pairs[p].second, layout.differences[d], statisticsOf(values)});
+      SummaryRow row = summaryOf(values);
+      row.a = layout.pairs[p].first;
+      row.b = layout.pairs[p].second;
+      row.difference = layout.differences[d];
+      rows.push_back(row);
     }
   }
   return rows;
 }
 
 void writeSummary(const std::string& path, const std::vector<SummaryRow>& rows) {
-  std::string text = "a,b,difference,n,undefined,mean,sd,ci_low,ci_high\n";
+  std::string text =
+      "a,b,difference,n,undefined,mean,sd,ci_low,ci_high,symmetric_mean,symmetric_sd,one_to_one_mean,"
+      "one_to_one_sd,overmatched\n";
   for (const SummaryRow& row : rows) {
     const Statistics& s = row.statistics;
     text += row.a + "," + row.b + "," + nameOf(row.difference) + "," + std::to_string(s.n) + "," +
-            std::to_string(s.undefined) + "," + formatNumber(s.mean) + "," + formatNumber(s.sd) + "," +
-            formatNumber(s.ci_low) + "," + formatNumber(s.ci_high) + "\n";
+            std::to_string(s.undefined);
+    for (const double value : {s.mean, s.sd, s.ci_low, s.ci_high, row.symmetric.mean, row.symmetric.sd,
+                               row.one_to_one.mean, row.one_to_one.sd})
+      text += "," + formatNumber(value);
+    text += "," + std::to_string(row.overmatched) + "\n";
   }
   image::writeFileAtomically(path, text);
 }

@@ -1,5 +1,7 @@
-// twoNearest(): brute force, but only what decides is computed to the last bit.
-#include <tbb/parallel_for.h>
+// twoNearestBothWays(): brute force, but only what decides is computed to the last bit, and each distance
+// once.
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include <opencv2/core/hal/hal.hpp>
 #include <opencv2/features2d.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "evaluate/distance_rows.h"
 #include "sunlit/evaluate/matching.h"
@@ -85,6 +88,16 @@ struct TwoSmallest {
       second = value;
     }
   }
+  /// Takes over what lies behind all of this.
+  void append(const TwoSmallest& behind) {
+    if (behind.best < best) {
+      second = std::min(best, behind.second);
+      best = behind.best;
+      best_at = behind.best_at;
+    } else {
+      second = std::min(second, behind.best);
+    }
+  }
 };
 
 template <typename Value>
@@ -94,20 +107,41 @@ TwoSmallest<Value> twoSmallest(const Value* row, std::size_t size) {
   return two;
 }
 
-/// Calls body(first, last) for ranges of queries, in parallel.
-template <typename Body>
-void forQueries(std::size_t queries, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries, kQueriesPerTask),
-                    [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
+/// What tbb::parallel_reduce asks for: `body(first, last, columns)` for ranges of rows, whose columns are
+/// appended from left to right, so that the lowest of equally near rows stays the best.
+template <typename Columns, typename Body>
+class ColumnReduction {
+ public:
+  ColumnReduction(const Columns& none, const Body& body) : columns(none), none_(none), body_(body) {}
+  ColumnReduction(ColumnReduction& other, tbb::split)
+      : columns(other.none_), none_(other.none_), body_(other.body_) {}
+  void operator()(const tbb::blocked_range<std::size_t>& range) {
+    body_(range.begin(), range.end(), columns);
+  }
+  void join(const ColumnReduction& behind) { columns.append(behind.columns); }
+
+  Columns columns;
+
+ private:
+  const Columns& none_;
+  const Body& body_;
+};
+
+/// Goes through all rows of a, in parallel; the columns that all of them together make.
+template <typename Columns, typename Body>
+Columns reduceRows(std::size_t rows, const Columns& none, const Body& body) {
+  ColumnReduction<Columns, Body> reduction(none, body);
+  tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, rows, kQueriesPerTask), reduction);
+  return std::move(reduction.columns);
 }
 
-// Squared distances of all pairs, |a − b|² = |a|² + |b|² − 2 a·b, exact in whole numbers; body(i, row) for
-// each query i.
-template <typename Body>
-void forSquaredDistances(const Table16& a, const Table16& b, const Body& body) {
+// Squared distances of all pairs, |a − b|² = |a|² + |b|² − 2 a·b, exact in whole numbers; body(i, row,
+// columns) for each row i of a.
+template <typename Columns, typename Body>
+Columns reduceSquaredDistances(const Table16& a, const Table16& b, const Columns& none, const Body& body) {
   const std::vector<std::int32_t> norms_a = squaredNorms(a);
   const std::vector<std::int32_t> norms_b = squaredNorms(b);
-  forQueries(a.rows, [&](std::size_t begin, std::size_t end) {
+  return reduceRows(a.rows, none, [&](std::size_t begin, std::size_t end, Columns& columns) {
     std::vector<std::int32_t> squares(kQueriesAtOnce * b.rows);
     for (std::size_t first = begin; first < end; first += kQueriesAtOnce) {
       const std::int16_t* queries[kQueriesAtOnce];
@@ -116,27 +150,51 @@ void forSquaredDistances(const Table16& a, const Table16& b, const Body& body) {
       for (std::size_t i = first; i < std::min(first + kQueriesAtOnce, end); ++i) {
         std::int32_t* row = squares.data() + (i - first) * b.rows;
         for (std::size_t j = 0; j < b.rows; ++j) row[j] = norms_a[i] + norms_b[j] - 2 * row[j];
-        body(i, row);
+        body(i, row, columns);
       }
     }
   });
 }
 
-std::vector<Neighbours> nearestBytes(const cv::Mat& query, const cv::Mat& train) {
-  const Table16 a = tableOf<uchar>(query, 1.0);
-  const Table16 b = tableOf<uchar>(train, 1.0);
-  std::vector<Neighbours> result(a.rows);
-  forSquaredDistances(a, b, [&](std::size_t i, const std::int32_t* row) {
-    const auto two = twoSmallest(row, b.rows);
-    const auto root = [](std::int32_t square) { return std::sqrt(static_cast<float>(square)); };
-    Neighbours& n = result[i];
-    n = {static_cast<int>(two.best_at), root(two.best), root(two.second)};
-    // Different squares may have one rounded root; then the first of those rows counts.
-    if (n.best_distance == n.second_distance) {
-      n.best = static_cast<int>(
-          std::find_if(row, row + b.rows, [&](std::int32_t d) { return root(d) == n.best_distance; }) - row);
-    }
-  });
+float rootOf(std::int32_t square) {
+  return std::sqrt(static_cast<float>(square));
+}
+
+std::int32_t squaredDistance(const std::int16_t* a, const std::int16_t* b, std::size_t width) {
+  std::int32_t sum = 0;
+  for (std::size_t k = 0; k < width; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+  return sum;
+}
+
+// Different squares may have one rounded root; then the first of those rows counts.
+int firstAtRoot(const Table16& rows, const std::int16_t* to, float distance) {
+  for (std::size_t i = 0; i < rows.rows; ++i) {
+    if (rootOf(squaredDistance(rows.row(i), to, rows.width)) == distance) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+Neighbours neighboursOf(const TwoSmallest<std::int32_t>& squares, const Table16& others,
+                        const std::int16_t* own) {
+  Neighbours n{static_cast<int>(squares.best_at), rootOf(squares.best), rootOf(squares.second)};
+  if (n.best_distance == n.second_distance) n.best = firstAtRoot(others, own, n.best_distance);
+  return n;
+}
+
+BothWays nearestBytes(const cv::Mat& mat_a, const cv::Mat& mat_b) {
+  const Table16 a = tableOf<uchar>(mat_a, 1.0);
+  const Table16 b = tableOf<uchar>(mat_b, 1.0);
+  BothWays result{std::vector<Neighbours>(a.rows), std::vector<Neighbours>(b.rows)};
+  const auto columns = reduceSquaredDistances(
+      a, b, NearestOfColumns(b.rows), [&](std::size_t i, const std::int32_t* row, NearestOfColumns& c) {
+        result.from_a[i] = neighboursOf(twoSmallest(row, b.rows), b, a.row(i));
+        c.add(static_cast<std::int32_t>(i), row);
+      });
+  for (std::size_t j = 0; j < b.rows; ++j) {
+    const TwoSmallest<std::int32_t> two{static_cast<std::size_t>(columns.best_at[j]), columns.best[j],
+                                        columns.second[j]};
+    result.from_b[j] = neighboursOf(two, a, b.row(j));
+  }
   return result;
 }
 
@@ -146,51 +204,89 @@ double largestNorm(const cv::Mat& matrix) {
   return largest;
 }
 
+// The square that no row can reach which is nearer than the second, given that each distance is known to
+// `reach`.
+std::int32_t boundAround(std::int32_t second, double reach) {
+  const double farthest = std::sqrt(static_cast<double>(second)) + reach;
+  return static_cast<std::int32_t>(std::min(farthest * farthest, 2147483647.0));
+}
+
+/// For each column the two nearest rows so far, by rounded squares, and by measured distances those of all
+/// rows that may have been among them.
+struct MeasuredColumns {
+  std::vector<TwoSmallest<std::int32_t>> rounded;
+  std::vector<std::int32_t> bounds;
+  std::vector<TwoSmallest<float>> measured;
+  explicit MeasuredColumns(std::size_t columns)
+      : rounded(columns), bounds(columns, std::numeric_limits<std::int32_t>::max()), measured(columns) {}
+  void append(const MeasuredColumns& behind) {
+    for (std::size_t j = 0; j < measured.size(); ++j) measured[j].append(behind.measured[j]);
+  }
+};
+
 // Whole numbers are far faster, so descriptors are first rounded to steps of 1 / scale. That moves each of
 // them by at most √width / 2 steps and a distance by twice that, so it is known which rows may be among the
 // two nearest. Only these are measured, as OpenCV does.
-std::vector<Neighbours> nearestFloats(const cv::Mat& query, const cv::Mat& train) {
+BothWays nearestFloats(const cv::Mat& mat_a, const cv::Mat& mat_b) {
   constexpr double kLongest = 16000.0;  // steps: then |a|² + |b|² + 2 |a·b| stays below 2³¹
-  const double scale = kLongest / std::max(1e-30, std::max(largestNorm(query), largestNorm(train)));
-  const Table16 a = tableOf<float>(query, scale);
-  const Table16 b = tableOf<float>(train, scale);
+  const double scale = kLongest / std::max(1e-30, std::max(largestNorm(mat_a), largestNorm(mat_b)));
+  const Table16 a = tableOf<float>(mat_a, scale);
+  const Table16 b = tableOf<float>(mat_b, scale);
   const double reach =
       2.0 * std::sqrt(static_cast<double>(b.width)) + 1.0;  // 1: for rounding in OpenCV's own sum
-  std::vector<Neighbours> result(a.rows);
-  forSquaredDistances(a, b, [&](std::size_t i, const std::int32_t* row) {
-    const double farthest = std::sqrt(static_cast<double>(twoSmallest(row, b.rows).second)) + reach;
-    const auto bound = static_cast<std::int32_t>(std::min(farthest * farthest, 2147483647.0));
+  const auto distance = [&](std::size_t i, std::size_t j) {
+    return std::sqrt(cv::hal::normL2Sqr_(mat_a.ptr<float>(static_cast<int>(i)),
+                                         mat_b.ptr<float>(static_cast<int>(j)), mat_a.cols));
+  };
+  BothWays result{std::vector<Neighbours>(a.rows), std::vector<Neighbours>(b.rows)};
+  const auto addRow = [&](std::size_t i, const std::int32_t* row, MeasuredColumns& columns) {
+    const std::int32_t bound = boundAround(twoSmallest(row, b.rows).second, reach);
     TwoSmallest<float> two;
     for (std::size_t j = 0; j < b.rows; ++j) {
-      if (row[j] > bound) continue;
-      two.add(j, std::sqrt(cv::hal::normL2Sqr_(query.ptr<float>(static_cast<int>(i)),
-                                               train.ptr<float>(static_cast<int>(j)), query.cols)));
+      const bool is_near_b = row[j] <= columns.bounds[j];
+      if (row[j] > bound && !is_near_b) continue;
+      const float measured = distance(i, j);
+      if (row[j] <= bound) two.add(j, measured);
+      if (!is_near_b) continue;
+      columns.measured[j].add(i, measured);
+      columns.rounded[j].add(i, row[j]);
+      columns.bounds[j] = boundAround(columns.rounded[j].second, reach);
     }
-    result[i] = {static_cast<int>(two.best_at), two.best, two.second};
-  });
+    result.from_a[i] = {static_cast<int>(two.best_at), two.best, two.second};
+  };
+  const auto columns = reduceSquaredDistances(a, b, MeasuredColumns(b.rows), addRow);
+  for (std::size_t j = 0; j < b.rows; ++j) {
+    const TwoSmallest<float>& two = columns.measured[j];
+    result.from_b[j] = {static_cast<int>(two.best_at), two.best, two.second};
+  }
   return result;
 }
 
-std::vector<Neighbours> nearestBits(const cv::Mat& query, const cv::Mat& train) {
-  const auto a = wordsOf(query);
-  const auto b = wordsOf(train);
-  std::vector<Neighbours> result(a.rows);
-  forQueries(a.rows, [&](std::size_t begin, std::size_t end) {
+BothWays nearestBits(const cv::Mat& mat_a, const cv::Mat& mat_b) {
+  const auto a = wordsOf(mat_a);
+  const auto b = wordsOf(mat_b);
+  BothWays result{std::vector<Neighbours>(a.rows), std::vector<Neighbours>(b.rows)};
+  const auto addRows = [&](std::size_t begin, std::size_t end, NearestOfColumns& columns) {
     std::vector<std::int32_t> bits(b.rows);
     for (std::size_t i = begin; i < end; ++i) {
       hammingRow(a.row(i), b.view(), bits.data());
       const auto two = twoSmallest(bits.data(), b.rows);
-      result[i] = {static_cast<int>(two.best_at), static_cast<float>(two.best),
-                   static_cast<float>(two.second)};
+      result.from_a[i] = {static_cast<int>(two.best_at), static_cast<float>(two.best),
+                          static_cast<float>(two.second)};
+      columns.add(static_cast<std::int32_t>(i), bits.data());
     }
-  });
+  };
+  const auto columns = reduceRows(a.rows, NearestOfColumns(b.rows), addRows);
+  for (std::size_t j = 0; j < b.rows; ++j) {
+    result.from_b[j] = {columns.best_at[j], static_cast<float>(columns.best[j]),
+                        static_cast<float>(columns.second[j])};
+  }
   return result;
 }
 
-// Any other norm or type, such as NORM_HAMMING2.
 std::vector<Neighbours> nearestByOpenCv(const cv::Mat& query, const cv::Mat& train, int norm) {
   std::vector<std::vector<cv::DMatch>> matches;
-  cv::BFMatcher(norm).knnMatch(query, train, matches, 2);
+  if (train.rows >= 2) cv::BFMatcher(norm).knnMatch(query, train, matches, 2);
   std::vector<Neighbours> result;
   result.reserve(matches.size());
   for (const auto& two : matches)
@@ -198,17 +294,25 @@ std::vector<Neighbours> nearestByOpenCv(const cv::Mat& query, const cv::Mat& tra
   return result;
 }
 
+BothWays nearestByNorm(const cv::Mat& a, const cv::Mat& b, int norm) {
+  if (norm == cv::NORM_L2 && a.type() == CV_8U) return nearestBytes(a, b);
+  if (norm == cv::NORM_L2 && a.type() == CV_32F) return nearestFloats(a, b);
+  if (norm == cv::NORM_HAMMING && a.type() == CV_8U) return nearestBits(a, b);
+  // Any other norm or type, such as NORM_HAMMING2.
+  return {nearestByOpenCv(a, b, norm), nearestByOpenCv(b, a, norm)};
+}
+
 }  // namespace
 
-std::vector<Neighbours> twoNearest(const cv::Mat& query, const cv::Mat& train, int norm) {
-  if (train.rows < 2 || query.rows == 0) return {};
-  if (query.cols != train.cols || query.type() != train.type()) {
+BothWays twoNearestBothWays(const cv::Mat& a, const cv::Mat& b, int norm) {
+  if (a.rows == 0 || b.rows == 0) return {};
+  if (a.cols != b.cols || a.type() != b.type()) {
     throw std::invalid_argument("descriptors of different kinds cannot be matched");
   }
-  if (norm == cv::NORM_L2 && query.type() == CV_8U) return nearestBytes(query, train);
-  if (norm == cv::NORM_L2 && query.type() == CV_32F) return nearestFloats(query, train);
-  if (norm == cv::NORM_HAMMING && query.type() == CV_8U) return nearestBits(query, train);
-  return nearestByOpenCv(query, train, norm);
+  BothWays result = nearestByNorm(a, b, norm);
+  if (b.rows < 2) result.from_a.clear();
+  if (a.rows < 2) result.from_b.clear();
+  return result;
 }
 
 }  // namespace sunlit::evaluate

@@ -6,8 +6,8 @@
 
 namespace sunlit::evaluate {
 
-PoseIndex::PoseIndex(double frame_rate, std::int64_t stamp_start_ns)
-    : frame_rate_(frame_rate), stamp_start_ns_(stamp_start_ns) {}
+PoseIndex::PoseIndex(double frame_rate, std::int64_t stamp_start_ns, const PoseRange& expected)
+    : frame_rate_(frame_rate), stamp_start_ns_(stamp_start_ns), expected_(expected), next_(expected.first) {}
 
 void PoseIndex::learn(std::int64_t stamp_ns, std::int64_t pose) {
   learnt_[stamp_ns] = pose;
@@ -15,7 +15,7 @@ void PoseIndex::learn(std::int64_t stamp_ns, std::int64_t pose) {
 
 void PoseIndex::remember(std::int64_t stamp_ns, std::int64_t pose) {
   by_appearance_[stamp_ns] = pose;
-  next_ = std::max(next_, pose + 1);
+  next_ = std::max(next_, pose + expected_.stride);
 }
 
 std::optional<std::int64_t> PoseIndex::byRate(std::int64_t stamp_ns) const {
@@ -33,7 +33,7 @@ std::optional<std::int64_t> PoseIndex::of(std::int64_t stamp_ns) {
     return found->second;
   }
   const auto inserted = by_appearance_.emplace(stamp_ns, next_);
-  if (inserted.second) ++next_;
+  if (inserted.second) next_ += expected_.stride;
   return inserted.first->second;
 }
 
@@ -44,7 +44,8 @@ std::int64_t PoseIndex::settled(std::int64_t stamp_ns, std::int64_t fallback) co
     return found == learnt_.end() ? fallback : found->second;
   }
   const auto found = by_appearance_.find(stamp_ns);
-  return found == by_appearance_.end() ? fallback : std::distance(by_appearance_.begin(), found);
+  if (found == by_appearance_.end()) return fallback;
+  return expected_.at(static_cast<std::size_t>(std::distance(by_appearance_.begin(), found)));
 }
 
 }  // namespace sunlit::evaluate

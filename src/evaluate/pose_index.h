@@ -5,14 +5,17 @@
 #include <map>
 #include <optional>
 
+#include "sunlit/evaluate/pose_range.h"
+
 namespace sunlit::evaluate {
 
 /// Three rules, the first that applies: by `stamp_start` and `frame_rate` where a rate is given; as the
-/// captures say, once any capture came; else by the order of the stamps.
+/// captures say, once any capture came; else by the order of the stamps, as the expected poses follow each
+/// other.
 class PoseIndex {
  public:
   /// `frame_rate` in Hz; 0: not given.
-  PoseIndex(double frame_rate, std::int64_t stamp_start_ns);
+  PoseIndex(double frame_rate, std::int64_t stamp_start_ns, const PoseRange& expected = {});
 
   /// A capture said so.
   void learn(std::int64_t stamp_ns, std::int64_t pose);
@@ -29,9 +32,10 @@ class PoseIndex {
 
   double frame_rate_;
   std::int64_t stamp_start_ns_;
+  PoseRange expected_;
   std::map<std::int64_t, std::int64_t> learnt_;
   std::map<std::int64_t, std::int64_t> by_appearance_;
-  std::int64_t next_ = 0;
+  std::int64_t next_;
 };
 
 }  // namespace sunlit::evaluate

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sunlit/evaluate/stream_name.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
@@ -44,6 +45,7 @@ void RecordFiles::merge(const std::string& other_folder, PoseIndex& poses) {
 
 void RecordFiles::read(const std::string& folder, PoseIndex& poses) {
   for (const auto& f : readCsv(folder + "/captures.csv", kCapturesHeader).rows) {
+    requireStreamName(f[0], "a name in " + folder + "/captures.csv");
     const CaptureRecord capture{std::stoll(f[1]),  parseStamp(f[2]),  parseNumber(f[3]),
                                 parseNumber(f[4]), parseNumber(f[5]), parseNumber(f[6]),
                                 parseNumber(f[7]), parseNumber(f[8]), parseNumber(f[9])};

@@ -13,49 +13,6 @@
 namespace sunlit::evaluate {
 namespace {
 
-std::string shortNumber(double value) {
-  std::ostringstream stream;
-  stream.precision(15);
-  stream << value;
-  return stream.str();
-}
-
-template <typename Items, typename Name>
-std::string listOf(const Items& items, const Name& name) {
-  std::string text;
-  for (const auto& item : items) text += (text.empty() ? "" : ", ") + name(item);
-  return "[" + text + "]";
-}
-
-void addFeatures(const FeatureOptions& f, Settings& settings) {
-  const auto add = [&](const std::string& key, double value) {
-    settings.emplace_back("features/" + key, shortNumber(value));
-  };
-  add("sift/n_features", f.sift.n_features);
-  add("sift/n_octave_layers", f.sift.n_octave_layers);
-  add("sift/contrast_threshold", f.sift.contrast_threshold);
-  add("sift/edge_threshold", f.sift.edge_threshold);
-  add("sift/sigma", f.sift.sigma);
-#ifdef SUNLIT_SURF
-  add("surf/hessian_threshold", f.surf.hessian_threshold);
-  add("surf/n_octaves", f.surf.octaves);
-  add("surf/n_octave_layers", f.surf.octave_layers);
-  add("surf/extended", f.surf.extended ? 1 : 0);
-  add("surf/upright", f.surf.upright ? 1 : 0);
-#endif
-  add("orb/n_features", f.orb.n_features);
-  add("orb/scale_factor", f.orb.scale_factor);
-  add("orb/n_levels", f.orb.n_levels);
-  add("orb/edge_threshold", f.orb.edge_threshold);
-  add("orb/first_level", f.orb.first_level);
-  add("orb/wta_k", f.orb.wta_k);
-  add("orb/patch_size", f.orb.patch_size);
-  add("orb/fast_threshold", f.orb.fast_threshold);
-  add("brisk/threshold", f.brisk.threshold);
-  add("brisk/n_octaves", f.brisk.n_octaves);
-  add("brisk/pattern_scale", f.brisk.pattern_scale);
-}
-
 // Single quotes take any text in YAML, with '' for a quote.
 std::string quoted(const std::string& text) {
   std::string result = "'";
@@ -89,17 +46,19 @@ std::string countersText(const EvaluationOptions& options, const Outcome& outcom
   std::ostringstream text;
   text << "outcome:\n  whole: " << (outcome.isWhole() ? "true" : "false")
        << "\n  completed_poses: " << outcome.counts.completed_poses
-       << "\n  absent_poses: " << outcome.absent_poses << "\ncounters:\n  streams:\n";
+       << "\n  absent_poses: " << outcome.absent_poses
+       << "\n  unexpected_poses: " << outcome.counts.unexpected_poses << "\ncounters:\n  streams:\n";
   for (std::size_t i = 0; i < options.streams.size(); ++i) {
     const StreamCounts& c = outcome.counts.streams[i];
     text << "    " << quoted(options.streams[i]) << ": {received: " << c.received
          << ", duplicate: " << c.duplicate << ", out_of_order: " << c.out_of_order
-         << ", undecodable: " << c.undecodable << ", late: " << c.late << "}\n";
+         << ", undecodable: " << c.undecodable << ", late: " << c.late << ", dropped: " << c.dropped
+         << ", lost: " << c.lost << ", unexpected: " << c.unexpected << ", lossy: " << c.lossy << "}\n";
   }
   text << "  pairs:\n";
   for (std::size_t i = 0; i < options.pairs.size(); ++i) {
     const PairCounts& c = outcome.counts.pairs[i];
-    text << "    " << quoted(options.pairs[i].a + "-" + options.pairs[i].b) << ": {evaluated: " << c.evaluated
+    text << "    " << quoted(options.pairs[i].name()) << ": {evaluated: " << c.evaluated
          << ", resumed: " << c.resumed << ", missing_partner: " << c.missing_partner
          << ", undecodable: " << c.undecodable << ", size_mismatch: " << c.size_mismatch
          << ", dropped: " << c.dropped << ", failed: " << c.failed << ", unplaced: " << c.unplaced
@@ -112,18 +71,8 @@ std::string countersText(const EvaluationOptions& options, const Outcome& outcom
 
 Settings settingsOf(const EvaluationOptions& options) {
   Settings settings;
-  settings.emplace_back("streams", listOf(options.streams, [](const std::string& s) { return s; }));
-  settings.emplace_back("pairs", listOf(options.pairs, [](const PairSpec& p) {
-                          const std::string every = p.every == 1 ? "" : ", every: " + std::to_string(p.every);
-                          return "{a: " + p.a + ", b: " + p.b + every + "}";
-                        }));
-  settings.emplace_back("differences",
-                        listOf(options.comparer.differences, [](Difference d) { return nameOf(d); }));
-  settings.emplace_back("ratio", shortNumber(options.comparer.ratio_test.ratio));
-  settings.emplace_back("inclusive", options.comparer.ratio_test.inclusive ? "true" : "false");
-  settings.emplace_back("frame_rate", shortNumber(options.frame_rate));
-  settings.emplace_back("stamp_start", formatStamp(options.stamp_start_ns));
-  addFeatures(options.comparer.features, settings);
+  EvaluationOptions present = options;
+  for (const Field& field : decidingFieldsOf(present)) settings.emplace_back(field.key, field.text());
   for (const auto& item : options.about) settings.emplace_back("about/" + item.first, item.second);
   return settings;
 }
@@ -182,7 +131,9 @@ void writeRunFile(const std::string& path, const EvaluationOptions& options, con
   std::string text =
       "# Settings decide the values; a folder is only taken up again with the same ones.\nsettings:\n";
   for (const auto& item : settingsOf(options)) text += "  " + item.first + ": " + quoted(item.second) + "\n";
-  text += "poses: " + std::to_string(options.poses) + "\n";
+  text += "poses: " + std::to_string(options.poses.count) +
+          "\nfirst_pose: " + std::to_string(options.poses.first) +
+          "\npose_stride: " + std::to_string(options.poses.stride) + "\n";
   text += std::string("versions:\n  sunlit: ") + quoted(SUNLIT_VERSION) +
           "\n  opencv: " + quoted(CV_VERSION) + "\n";
   if (outcome != nullptr) text += countersText(options, *outcome);

@@ -5,6 +5,16 @@
 
 namespace sunlit::evaluate {
 
+namespace {
+
+std::size_t reservedFor(const StampSet& set) {
+  std::size_t largest = 0;
+  for (const Arrival& arrival : set.streams) largest = std::max(largest, bytesOf(arrival.rgb));
+  return largest * set.streams.size();
+}
+
+}  // namespace
+
 StampSets::StampSets(std::size_t stream_count) : seen_(stream_count), newest_(stream_count) {}
 
 bool StampSets::isOutOfOrder(std::size_t stream, std::int64_t stamp_ns) const {
@@ -24,8 +34,10 @@ StampSets::Outcome StampSets::add(std::size_t stream, std::int64_t stamp_ns, Arr
   }
   Arrival& slot = set.streams[stream];
   if (!is_first && (!slot.rgb.empty() || arrival.rgb.empty())) return Outcome::kDuplicate;
+  reserved_bytes_ -= reservedFor(set);
   slot = std::move(arrival);
   slot.has_come = true;
+  reserved_bytes_ += reservedFor(set);
   if (!slot.rgb.empty()) ++waiting_images_;
   return is_first ? Outcome::kKept : Outcome::kDuplicate;
 }
@@ -40,6 +52,7 @@ StampSet StampSets::take(std::int64_t stamp_ns) {
   StampSet set = std::move(found->second);
   open_.erase(found);
   taken_.insert(stamp_ns);
+  reserved_bytes_ -= reservedFor(set);
   for (const Arrival& arrival : set.streams) waiting_images_ -= arrival.rgb.empty() ? 0 : 1;
   return set;
 }

@@ -19,6 +19,10 @@ struct Arrival {
   std::string fault;  ///< why it could not
 };
 
+inline std::size_t bytesOf(const cv::Mat& image) {
+  return image.total() * image.elemSize();
+}
+
 /// Everything of one stamp.
 struct StampSet {
   std::int64_t stamp_ns = 0;
@@ -45,6 +49,8 @@ class StampSets {
   std::vector<std::int64_t> openStamps() const;
   std::optional<std::int64_t> oldest() const;
   std::size_t waitingImages() const { return waiting_images_; }
+  /// What the open sets hold once all their streams have come, at the size of the largest image of each.
+  std::size_t reservedBytes() const { return reserved_bytes_; }
 
  private:
   std::map<std::int64_t, StampSet> open_;
@@ -52,6 +58,7 @@ class StampSets {
   std::vector<std::unordered_set<std::int64_t>> seen_;  // per stream
   std::vector<std::optional<std::int64_t>> newest_;     // per stream
   std::size_t waiting_images_ = 0;
+  std::size_t reserved_bytes_ = 0;
 };
 
 }  // namespace sunlit::evaluate

@@ -5,8 +5,6 @@
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
-#include <stdexcept>
 
 #include "evaluate/surf_descriptor.h"
 #include "evaluate/surf_maxima.h"
@@ -17,16 +15,6 @@ namespace {
 
 constexpr float kUprightAngleDeg = 270;
 constexpr float kRemoved = -1;  // size of a key point that is to be taken out
-constexpr int kMaxOctaves = 8;
-constexpr int kMaxOctaveLayers = 16;
-
-template <typename T>
-void require(bool holds, const char* option, const T& value, const char* range) {
-  if (holds) return;
-  std::ostringstream message;
-  message << "SURF: " << option << " is " << value << ", but must be " << range;
-  throw std::invalid_argument(message.str());
-}
 
 class Surf : public cv::Feature2D {
  public:
@@ -142,12 +130,7 @@ void Surf::detectAndCompute(cv::InputArray image, cv::InputArray mask, std::vect
 }  // namespace
 
 cv::Ptr<cv::Feature2D> createSurf(const SurfOptions& options) {
-  const double threshold = options.hessian_threshold;
-  require(std::isfinite(threshold) && threshold >= 0, "hessian_threshold", threshold,
-          "finite and at least 0");
-  require(options.octaves >= 1 && options.octaves <= kMaxOctaves, "octaves", options.octaves, "from 1 to 8");
-  require(options.octave_layers >= 1 && options.octave_layers <= kMaxOctaveLayers, "octave_layers",
-          options.octave_layers, "from 1 to 16");
+  requireFields(options);
   return cv::makePtr<Surf>(options);
 }
 

@@ -94,7 +94,15 @@ MixedDerivative mixed(const IntegralPlanes& planes, const BoxFilters& f, int y) 
   return d;
 }
 
-void layerRow(const IntegralPlanes& planes, const BoxFilters& f, int y, RowBuffers& buffers, float* out) {
+/// What a layer is made by.
+struct LayerSource {
+  const IntegralPlanes& planes;
+  const BoxFilters& filters;
+};
+
+void layerRow(const LayerSource& source, int y, RowBuffers& buffers, float* out) {
+  const IntegralPlanes& planes = source.planes;
+  const BoxFilters& f = source.filters;
   const int count = static_cast<int>(buffers.dxx.size());
   secondDerivativeRow(alongX(planes, f, y), f.second_weight, count, buffers.dxx.data());
   secondDerivativeRow(alongY(planes, f, y), f.second_weight, count, buffers.dyy.data());
@@ -148,7 +156,7 @@ HessianLayer hessianLayer(const IntegralPlanes& planes, int size) {
     for (int i = range.begin(); i < range.end(); ++i) {
       float* out =
           layer.determinant.data() + static_cast<std::size_t>(i + layer.margin) * layer.cols + layer.margin;
-      layerRow(planes, filters, i * layer.step, buffers, out);
+      layerRow({planes, filters}, i * layer.step, buffers, out);
     }
   });
   return layer;

@@ -75,8 +75,14 @@ std::int32_t sampleAnywhere(const cv::Mat& grey, double x, double y) {
   return cvRound((p[0] * (1 - a) + p[1] * a) * (1 - b) + (q[0] * (1 - a) + q[1] * a) * b);
 }
 
-// Of the samples start + k step in `span`, those from `low` to `high`.
-PatchCutter::Span within(PatchCutter::Span span, double start, double step, double low, double high) {
+// The samples start + k step of one coordinate.
+struct Steps {
+  double start, step;
+};
+
+// Of those in `span`, the ones from `low` to `high`.
+PatchCutter::Span within(PatchCutter::Span span, const Steps& steps, double low, double high) {
+  const auto [start, step] = steps;
   if (std::abs(step) < 1e-9) return start >= low && start <= high ? span : PatchCutter::Span{0, 0};
   const double t0 = (low - start) / step, t1 = (high - start) / step;
   const double first = std::ceil(std::min(t0, t1)), last = std::floor(std::max(t0, t1));
@@ -165,20 +171,22 @@ const Patch& PatchCutter::finish() {
   return patch_;
 }
 
-void PatchCutter::sampleRow(double x, double y, double dx, double dy) {
+void PatchCutter::sampleRow(const Row& row) {
   if (inside_) {
-    sampleInside({0, side_}, x, y, dx, dy);
+    sampleInside({0, side_}, row);
     return;
   }
+  const auto [x, y, dx, dy] = row;
   const cv::Mat& grey = image_.grey();
-  Span span = within({0, side_}, x, dx, kInside, grey.cols - 1 - kInside);
-  span = within(span, y, dy, kInside, grey.rows - 1 - kInside);
-  if (span.begin < span.end) sampleInside(span, x, y, dx, dy);
+  Span span = within({0, side_}, {x, dx}, kInside, grey.cols - 1 - kInside);
+  span = within(span, {y, dy}, kInside, grey.rows - 1 - kInside);
+  if (span.begin < span.end) sampleInside(span, row);
   for (int j = 0; j < span.begin; ++j) row_[j] = sampleAnywhere(grey, x + dx * j, y + dy * j);
   for (int j = span.end; j < side_; ++j) row_[j] = sampleAnywhere(grey, x + dx * j, y + dy * j);
 }
 
-void PatchCutter::sampleInside(Span span, double x, double y, double dx, double dy) {
+void PatchCutter::sampleInside(Span span, const Row& row) {
+  const auto [x, y, dx, dy] = row;
   const double first_x = x + dx * span.begin, last_x = x + dx * (span.end - 1);
   const double first_y = y + dy * span.begin, last_y = y + dy * (span.end - 1);
   const int cell_x = static_cast<int>(std::min(first_x, last_x));  // not negative
@@ -201,7 +209,7 @@ const Patch& PatchCutter::turned(const cv::KeyPoint& point, float angle_deg) {
   inside_ = point.pt.x > reach && point.pt.x + reach < static_cast<float>(image_.grey().cols - 1) &&
             point.pt.y > reach && point.pt.y + reach < static_cast<float>(image_.grey().rows - 1);
   for (int i = 0; i < side_; ++i, x -= sine, y += cosine) {
-    sampleRow(x, y, cosine, sine);
+    sampleRow({x, y, cosine, sine});
     addRow(i);
   }
   return finish();

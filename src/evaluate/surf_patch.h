@@ -53,8 +53,12 @@ class PatchCutter {
   void addRow(int i);
   void flush();
   const Patch& finish();
-  void sampleRow(double x, double y, double dx, double dy);
-  void sampleInside(Span span, double x, double y, double dx, double dy);
+  // Of the window, px: its first sample, and the way from one to the next.
+  struct Row {
+    double x, y, dx, dy;
+  };
+  void sampleRow(const Row& row);
+  void sampleInside(Span span, const Row& row);
 
   const CellImage& image_;
   int side_ = 0;

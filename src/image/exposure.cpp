@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "display_curve.h"
-#include "require_within.h"
 #include "sunlit/quantity/photometry.h"
 
 namespace sunlit::image {
@@ -124,12 +123,8 @@ double highlightCut(const LuminanceHistogram& histogram, double ev100, double st
 }  // namespace
 
 void validate(const ExposureOptions& options) {
-  requireWithin("ev100", options.ev100, -16.0, 24.0);
-  requireWithin("compensation_ev", options.compensation_ev, -8.0, 8.0);
-  requireWithin("night_darkening", options.night_darkening, 0.0, 0.5);
-  requireWithin("highlight_protection", options.highlight_protection, 0.0, 20.0);
-  requireWithin("min_ev100", options.min_ev100, -16.0, 24.0);
-  requireWithin("max_ev100", options.max_ev100, options.min_ev100, 24.0);
+  requireFields(options);
+  require("max_ev100", options.max_ev100, {options.min_ev100, 24.0}, "EV");
 }
 
 double saturationLuminance(double ev100) {

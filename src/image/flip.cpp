@@ -8,6 +8,7 @@
 
 #include "color_opponents.h"
 #include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/range.h"
 
 namespace sunlit::image {
 namespace {
@@ -173,9 +174,7 @@ Plane normalizedAchromatic(const Plane& opponent) {
 void requireComparable(const LinearImage& reference, const LinearImage& test, const FlipOptions& options) {
   if (reference.width != test.width || reference.height != test.height || reference.data.empty())
     throw std::invalid_argument("flip: the pictures are empty or differ in size");
-  if (!(options.pixels_per_degree >= 10.0 && options.pixels_per_degree <= 200.0))
-    throw std::invalid_argument("pixels_per_degree is " + std::to_string(options.pixels_per_degree) +
-                                ", must be 10 ... 200");
+  require("pixels_per_degree", options.pixels_per_degree, {10.0, 200.0});
 }
 
 /// Narkowicz, "ACES Filmic Tone Mapping Curve" (2015), exposed 0.6 times, as Andersson et al. 2021 use it:

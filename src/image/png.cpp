@@ -6,14 +6,13 @@
 
 #include "read_file.h"
 #include "sunlit/image/files.h"
+#include "sunlit/quantity/range.h"
 
 namespace sunlit::image {
 
 std::string encodePng(const Rgb8Image& picture) {
-  if (picture.width < 1 || picture.height < 1) {
-    throw std::invalid_argument("picture: " + std::to_string(picture.width) + "×" +
-                                std::to_string(picture.height) + " is outside 1×1 …");
-  }
+  require("width of the picture", picture.width, Range::atLeast(1), "px");
+  require("height of the picture", picture.height, Range::atLeast(1), "px");
   const cv::Mat rgb(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.data.data()));
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);

@@ -6,6 +6,7 @@
 #include "light/mirror/mirror_sky.h"
 #include "light/sky_sectors.h"
 #include "sunlit/light/body_light.h"
+#include "sunlit/light/shading.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
@@ -56,21 +57,43 @@ Irradiance irradianceOf(const Surface& surface, const GatheredSky* gathered, con
   return sum;
 }
 
-/// Mean luminance of what the mirror-like lobe looks at.
-Eigen::Array3f seenInMirror(const Surface& surface, const Mirrored& mirrored, const Illumination& light) {
-  return mirrored.sky + seenAround(surface.light, mirrored.hidden_above, mirrored.hidden_below, *light.nodes);
+/// As the bake knows it.
+AmbientLight bakedLight(const Surface& surface, const AmbientSources& sources, const Illumination& light) {
+  const Irradiance arriving = irradianceOf(surface, sources.gathered, light);
+  const Mirrored& mirrored = sources.mirrored;
+  const Eigen::Array3f seen =
+      mirrored.sky + seenAround(surface.light, mirrored.hidden_above, mirrored.hidden_below, *light.nodes);
+  return {arriving.front * surface.unhidden, arriving.behind * surface.unhidden, seen * surface.unhidden};
+}
+
+/// At a body that moves, as its surroundings tell; null: of the open sky.
+AmbientLight unbakedLight(const Surface& surface, float roughness, const AroundLight* body,
+                          const Illumination& light) {
+  const Eigen::Vector3f& normal = surface.shading_normal;
+  const Eigen::Array3f open = light.day.skyIlluminance(normal).value;
+  Eigen::Array3f irradiance = open;
+  if (body) irradiance = body->illuminance(normal);
+  irradiance *= surface.unhidden;
+  // A rough lobe spreads over the hemisphere, a smooth one mirrors a point of the sky.
+  const Eigen::Array3f spread = irradiance / kPiFloat;
+  const float smooth = std::max(0.0f, 1.0f - roughness * roughness * 1.5f);
+  if (smooth <= 0.0f) return {irradiance, irradiance, spread};
+  Eigen::Array3f point = light.day.skyLuminance(mirrored(surface.to_eye, normal).normalized()).value;
+  // What stands around hides the sky in the mirror as it does over the hemisphere.
+  if (body) point *= (irradiance / open.max(1e-9f)).min(1.0f);
+  return {irradiance, irradiance, smooth * point + (1.0f - smooth) * spread};
 }
 
 }  // namespace
 
-Mirrored mirroredBy(const MirrorView& view, const MirrorSky& sky) {
+Mirrored mirroredBy(const Mirror& mirror, const MirrorSky& sky) {
   Mirrored mirrored;
-  if (const auto* rough = std::get_if<RoughMirror>(&view)) {
+  if (const auto* rough = std::get_if<RoughMirror>(&mirror)) {
     mirrored.sky = sky.patches().times(rough->share.data()) * rough->scale;
     mirrored.hidden_above = rough->hidden_above;
     mirrored.hidden_below = rough->hidden_below;
   } else {
-    const auto& smooth = std::get<SmoothMirror>(view);
+    const auto& smooth = std::get<SmoothMirror>(mirror);
     Eigen::Array4f sum = Eigen::Array4f::Zero();
     float open = 0.0f;
     for (std::size_t k = 0; k < SmoothMirror::kParts; ++k) {
@@ -86,32 +109,11 @@ Mirrored mirroredBy(const MirrorView& view, const MirrorSky& sky) {
   return mirrored;
 }
 
-Eigen::Array3f ambientLuminance(const Surface& surface, const Reflection& reflection,
-                                const AmbientParts& parts, const Illumination& light) {
-  const AmbientReflectance& ambient = parts.reflectance;
-  const bool baked = light.nodes && surface.light.known();
+AmbientLight ambientLight(const Surface& surface, const AmbientSources& sources, const Illumination& light) {
   const bool moves = light.bodies && surface.body != Surface::kNoBody;
-  if (baked && !moves) {
-    const Irradiance arriving = irradianceOf(surface, parts.gathered, light);
-    return (ambient.diffuse * arriving.front + ambient.through * arriving.behind +
-            ambient.specular * seenInMirror(surface, parts.mirrored, light)) *
-           surface.unhidden;
-  }
-  const Eigen::Array3f open = light.day.skyIlluminance(surface.shading_normal).value;
-  Eigen::Array3f irradiance = open;
-  if (moves)
-    irradiance = (*light.bodies)[static_cast<std::size_t>(surface.body)].illuminance(surface.shading_normal);
-  irradiance *= surface.unhidden;
-  const Eigen::Array3f sum = ambient.diffuse * irradiance + ambient.through * irradiance;
-  // A rough lobe spreads over the hemisphere, a smooth one mirrors a point of the sky.
-  const Eigen::Array3f spread = irradiance / kPiFloat;
-  const float smooth = std::max(0.0f, 1.0f - reflection.roughness * reflection.roughness * 1.5f);
-  if (smooth <= 0.0f) return sum + ambient.specular * spread;
-  Eigen::Array3f point =
-      light.day.skyLuminance(mirrored(surface.to_eye, surface.shading_normal).normalized()).value;
-  // What stands around hides the sky in the mirror as it does over the hemisphere.
-  if (moves) point *= (irradiance / open.max(1e-9f)).min(1.0f);
-  return sum + ambient.specular * (smooth * point + (1.0f - smooth) * spread);
+  if (light.nodes && surface.light.known() && !moves) return bakedLight(surface, sources, light);
+  const AroundLight* const body = moves ? &(*light.bodies)[static_cast<std::size_t>(surface.body)] : nullptr;
+  return unbakedLight(surface, sources.roughness, body, light);
 }
 
 }  // namespace sunlit::light

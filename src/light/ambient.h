@@ -1,8 +1,7 @@
-/// Light of the sky and of other surfaces, as one surface sends it to the eye.
+/// Light of the sky and of other surfaces, as it arrives at one surface.
 #pragma once
 
 #include "sunlit/light/illumination.h"
-#include "sunlit/light/shading.h"
 #include "sunlit/light/surfaces.h"
 
 namespace sunlit::light {
@@ -13,16 +12,22 @@ struct Mirrored {
   /// Share of the lobe that other surfaces hide, 0 … 1: of those above the horizon and those below.
   float hidden_above = 1.0f, hidden_below = 0.0f;
 };
-Mirrored mirroredBy(const MirrorView& view, const MirrorSky& sky);
+Mirrored mirroredBy(const Mirror& mirror, const MirrorSky& sky);
 
-/// What is known of a surface before it is lit.
-struct AmbientParts {
-  const AmbientReflectance& reflectance;
+/// What the light on a surface depends on beside the surface itself.
+struct AmbientSources {
+  float roughness;              ///< of its material
   const Mirrored& mirrored;     ///< where the light is baked
   const GatheredSky* gathered;  ///< null: FinalGather did not look there
 };
-/// Luminance, cd/m², without what sun and moon add directly.
-Eigen::Array3f ambientLuminance(const Surface& surface, const Reflection& reflection,
-                                const AmbientParts& parts, const Illumination& light);
+
+/// What arrives from all around, without what comes directly from sun and moon.
+struct AmbientLight {
+  Eigen::Array3f front, behind;  ///< illuminance of the surface and of its other side, lx
+  Eigen::Array3f mirrored;       ///< mean luminance of what the mirror-like lobe looks at, cd/m²
+};
+/// By what `light` knows of the surface: the bake's nodes, and of the sky what was gathered there or leaves
+/// know; else, on a body that moves, its surroundings; else the open sky.
+AmbientLight ambientLight(const Surface& surface, const AmbientSources& sources, const Illumination& light);
 
 }  // namespace sunlit::light

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sunlit/quantity/angle.h"
+#include "sunlit/sky/disc_segment.h"
 
 namespace sunlit::light {
 
@@ -22,13 +22,14 @@ class DiscAboveHorizon {
   /// equal areas stay equal. Of a disc that has set altogether, its upper edge.
   Eigen::Vector2d place(const Eigen::Vector2d& point) const {
     if (low_ <= -1.0) return point;
-    const double below = areaBelow(low_);
-    const double wanted = below + (1.0 - below) * areaBelow(point.y());
+    // Areas below a line, whose height is as in discSegment(): the middle's side of it.
+    const double below = sky::discSegment(low_);
+    const double wanted = below + (1.0 - below) * sky::discSegment(point.y());
     double low = low_, high = 1.0;
     constexpr int kHalvings = 40;  // 1e-12 of the radius
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = 0.5 * (low + high);
-      (areaBelow(middle) < wanted ? low : high) = middle;
+      (sky::discSegment(middle) < wanted ? low : high) = middle;
     }
     const double width = halfWidth(point.y());
     return {width > 0.0 ? point.x() * halfWidth(high) / width : 0.0, high};
@@ -36,11 +37,6 @@ class DiscAboveHorizon {
 
  private:
   static double halfWidth(double y) { return std::sqrt(std::max(1.0 - y * y, 0.0)); }
-  /// Share of the disc's area.
-  static double areaBelow(double y) {
-    const double height = std::clamp(y, -1.0, 1.0);
-    return 0.5 + (height * halfWidth(height) + std::asin(height)) / kPi;
-  }
 
   double low_;  ///< of the horizon, in radii from the middle
 };

@@ -22,14 +22,14 @@ LightTable::AirPlace airPlace(float distance_m) {
 
 LightTable::Rows rowsOf(const Surfaces& surfaces, const Tile& tile, const scene::Scene& scene) {
   LightTable::Rows rows;
-  rows.sites.reserve(tile.surfaces.size());
+  rows.targets.reserve(tile.surfaces.size());
   rows.air.reserve(tile.surfaces.size());
   rows.ambient.reserve(tile.surfaces.size());
-  rows.view.reserve(tile.surfaces.size());
+  rows.mirror.reserve(tile.surfaces.size());
   const auto width = static_cast<std::uint32_t>(surfaces.width);
   for (const Surface& surface : tile.surfaces) {
     const scene::Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
-    rows.sites.push_back(
+    rows.targets.push_back(
         {surface.geometric_normal, surface.shading_normal, surface.clearance_m, surface.first_sample,
          static_cast<std::uint16_t>(surface.pixel % width), static_cast<std::uint16_t>(surface.pixel / width),
          static_cast<std::uint16_t>(surface.samples), material.transmission > 0.0f,
@@ -37,7 +37,7 @@ LightTable::Rows rowsOf(const Surfaces& surfaces, const Tile& tile, const scene:
     rows.air.push_back(airPlace((surfaces.eye - surface.position).norm()));
     rows.air_nodes |= std::uint64_t{3} << rows.air.back().node;
     rows.ambient.push_back(ambientReflectance(reflectionOf(surface, material)));
-    rows.view.push_back(surface.view);
+    rows.mirror.push_back(surface.mirror);
   }
   return rows;
 }

@@ -21,7 +21,7 @@ class LightTable {
  public:
   /// What a surface shows to a distant disc. Apart from Surface, which is so large that going through all of
   /// them takes as long as their rays.
-  struct Site {
+  struct DiscTarget {
     Eigen::Vector3f geometric_normal, shading_normal;
     float clearance_m;
     std::uint32_t first_sample;
@@ -38,11 +38,11 @@ class LightTable {
   };
   /// In the order of Tile::surfaces.
   struct Rows {
-    std::vector<Site> sites;
+    std::vector<DiscTarget> targets;
     std::vector<AirPlace> air;
     std::vector<AmbientReflectance> ambient;
-    std::vector<std::uint16_t> view;  ///< of each surface, into Tile::views; all 0 without baked light
-    std::uint64_t air_nodes = 0;      ///< that the tile needs, one bit each
+    std::vector<std::uint16_t> mirror;  ///< of each surface, into Tile::mirrors; all 0 without baked light
+    std::uint64_t air_nodes = 0;        ///< that the tile needs, one bit each
   };
 
   LightTable(const Surfaces& surfaces, const scene::Scene& scene);

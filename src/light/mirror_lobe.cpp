@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "light/ggx.h"
 #include "light/schlick.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/scene/scene.h"
@@ -24,35 +25,21 @@ struct Sample {
   float turn() const { return std::abs(std::atan2(towards.y(), towards.x())); }
 };
 
-/// Directions to the left of the view, by Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT
-/// 7(4), 2018; weighed by F · G2 / G1 with the height-correlated Smith term.
-std::vector<Sample> leftHalf(float alpha, float n_v) {
-  const float sine = std::sqrt(std::max(0.0f, 1.0f - n_v * n_v));
+/// Directions to the left of the view, by the normals that the eye sees; weighed by F · G2 / G1.
+std::vector<Sample> leftHalf(float roughness, float n_v) {
+  const auto facets = Ggx<float>::ofRoughness(roughness);
   // The eye is behind: the view goes along x.
-  const Eigen::Vector3f eye(-sine, 0.0f, n_v);
-  const Eigen::Vector3f stretched = Eigen::Vector3f(-alpha * sine, 0.0f, n_v).normalized();
-  const Eigen::Vector3f second(stretched.z(), 0.0f,
-                               -stretched.x());  // in the plane of view, across `stretched`
-  const auto lambda = [&](float z) {
-    return 0.5f * (std::sqrt(1.0f + alpha * alpha * (1.0f - z * z) / (z * z)) - 1.0f);
-  };
+  const Eigen::Vector3f eye(-std::sqrt(std::max(0.0f, 1.0f - n_v * n_v)), 0.0f, n_v);
   std::vector<Sample> samples;
   for (int i = 0; i < kAcross * kAcross; ++i) {
     const float radius = std::sqrt((static_cast<float>(i % kAcross) + 0.5f) / kAcross);
     const float turn = kPiFloat * (static_cast<float>(i / kAcross) + 0.5f) / kAcross;
-    const float aside = radius * std::sin(turn);
-    const float share = 0.5f * (1.0f + stretched.z());
-    const float in_plane = (1.0f - share) * std::sqrt(1.0f - aside * aside) - share * radius * std::cos(turn);
-    const Eigen::Vector3f facet =
-        Eigen::Vector3f(0.0f, aside, 0.0f) + in_plane * second +
-        std::sqrt(std::max(0.0f, 1.0f - aside * aside - in_plane * in_plane)) * stretched;
     const Eigen::Vector3f half =
-        Eigen::Vector3f(alpha * facet.x(), alpha * facet.y(), std::max(0.0f, facet.z())).normalized();
+        facets.visibleNormal(eye, {radius * std::cos(turn), radius * std::sin(turn)});
     const float v_h = std::clamp(eye.dot(half), 0.0f, 1.0f);
     const Eigen::Vector3f towards = (2.0f * v_h * half - eye).normalized();
     if (towards.z() <= 1e-4f) continue;
-    const float unshadowed = (1.0f + lambda(n_v)) / (1.0f + lambda(n_v) + lambda(towards.z()));
-    const float weight = unshadowed / (kAcross * kAcross);
+    const float weight = facets.shadowing(towards.z(), n_v) / (kAcross * kAcross);
     const float grazing = schlick(v_h);
     samples.push_back({towards, weight * (1.0f - grazing), weight * grazing});
   }
@@ -145,10 +132,10 @@ struct Table {
 
 struct Tables {
   Table<MirrorLobe, 16, 16> lobes{
-      [](float roughness, float n_v) { return makeLobe(leftHalf(roughness * roughness, n_v)); }};
+      [](float roughness, float n_v) { return makeLobe(leftHalf(roughness, n_v)); }};
   Table<MirrorAlbedo, 32, 32> albedos{[](float roughness, float n_v) {
     MirrorAlbedo sum{0.0f, 0.0f};
-    for (const Sample& sample : leftHalf(roughness * roughness, n_v)) {
+    for (const Sample& sample : leftHalf(roughness, n_v)) {
       sum.plain += sample.plain;
       sum.grazing += sample.grazing;
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "light/angles.h"
+#include "light/ggx.h"
 #include "light/mirror_lobe.h"
 #include "light/schlick.h"
 #include "sunlit/quantity/angle.h"
@@ -30,18 +30,12 @@ Eigen::Array3f directReflectance(const Reflection& r, const Eigen::Vector3f& to_
   // Half the source's radius adds to the half vector's spread: the lobe is that of the surface blurred by the
   // source.
   const float alpha = std::min(1.0f, r.roughness * r.roughness + 0.5f * source_radius_rad);
-  const float a2 = alpha * alpha;
-  const float d_base = (n_h * a2 - n_h) * n_h + 1.0f;
-  const float d = a2 / (kPiFloat * d_base * d_base);
-  const float smith_l = n_v * std::sqrt(n_l * n_l * (1.0f - a2) + a2);
-  const float smith_v = n_l * std::sqrt(n_v * n_v * (1.0f - a2) + a2);
-  const float visible = 0.5f / (smith_l + smith_v);
-
+  const Ggx<float> facets(alpha);
   const Eigen::Array3f f0 = normalReflectance(r);
   const Eigen::Array3f fresnel = f0 + (1.0f - f0) * schlick(v_h);
   const Eigen::Array3f diffuse =
       (1.0f - r.metalness) * (1.0f - r.transmission) / kPiFloat * r.albedo * (1.0f - fresnel);
-  return (diffuse + fresnel * (d * visible)) * n_l;
+  return (diffuse + fresnel * (facets.distribution(n_h) * facets.visibility(n_l, n_v))) * n_l;
 }
 
 AmbientReflectance ambientReflectance(const Reflection& r) {

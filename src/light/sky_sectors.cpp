@@ -89,7 +89,7 @@ SkySectors::SkySectors(const sky::Daylight& day) : table_(kCells * kCount, Eigen
   });
 }
 
-Eigen::Array4f SkySectors::irradiance(const SkyView& view, const Eigen::Vector3f& normal) const {
+Eigen::Array4f SkySectors::irradiance(const SkyOpenness& view, const Eigen::Vector3f& normal) const {
   const auto cell = static_cast<std::size_t>(sky::octahedralCell(kSide, normal.x(), normal.y(), normal.z()));
   const Eigen::Array4f* row = table_.data() + cell * kCount;
   Eigen::Array4f sum = Eigen::Array4f::Zero();

@@ -18,18 +18,18 @@ namespace sunlit::light {
 /// 60°, and 2 above.
 class SkySectors {
  public:
-  static constexpr std::size_t kCount = SkyView::kSectors;
+  static constexpr std::size_t kCount = SkyOpenness::kSectors;
 
   explicit SkySectors(const sky::Daylight& day);
 
   /// The sector that a patch above the horizon belongs to.
   static std::size_t of(int patch);
-  /// What is open of each sector, as SkyView::open, by what is of its patches.
+  /// What is open of each sector, as SkyOpenness::open, by what is of its patches.
   static std::array<std::uint8_t, kCount> openOf(const PatchBytes& patches);
 
   /// Illuminance by the sky that `view` leaves open, lx; fourth: the share of the half sphere about the unit
   /// vector `normal`, by cosine, that is open sky. To within 2° of the normal.
-  Eigen::Array4f irradiance(const SkyView& view, const Eigen::Vector3f& normal) const;
+  Eigen::Array4f irradiance(const SkyOpenness& view, const Eigen::Vector3f& normal) const;
 
  private:
   using Table = std::vector<Eigen::Array4f, Eigen::aligned_allocator<Eigen::Array4f>>;

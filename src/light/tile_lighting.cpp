@@ -22,8 +22,8 @@ TileLighting::TileLighting(const Subject& subject, const Illumination& light)
       table_(subject.table),
       scene_(subject.scene),
       light_(light),
-      sun_(light.day.sun(), leastDisc_lx(light.day), subject.visibility, table_, surfaces_),
-      moon_(light.day.moon(), leastDisc_lx(light.day), subject.visibility, table_, surfaces_),
+      sun_(light.day.sun(), leastDisc_lx(light.day), {surfaces_, table_, subject.visibility}),
+      moon_(light.day.moon(), leastDisc_lx(light.day), {surfaces_, table_, subject.visibility}),
       air_(surfaces_, table_, light.day),
       sky_(surfaces_, light.day) {}
 
@@ -38,38 +38,45 @@ void TileLighting::addSurfaces(const Tile& tile, image::LinearImage* image) cons
   const std::vector<float>& moon_shares = moon_.visibleShares(number);
   const LightTable::Rows& rows = table_.tile(number);
   thread_local std::vector<Mirrored> mirrored;
-  mirrored.assign(std::max<std::size_t>(tile.views.size(), 1), Mirrored());
+  mirrored.assign(std::max<std::size_t>(tile.mirrors.size(), 1), Mirrored());
   if (light_.mirror_sky) {
-    for (std::size_t i = 0; i < tile.views.size(); ++i)
-      mirrored[i] = mirroredBy(tile.views[i], *light_.mirror_sky);
+    for (std::size_t i = 0; i < tile.mirrors.size(); ++i)
+      mirrored[i] = mirroredBy(tile.mirrors[i], *light_.mirror_sky);
   }
   const float weight = 1.0f / static_cast<float>(surfaces_.samples_per_pixel);
   for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
     const Surface& surface = tile.surfaces[i];
     Eigen::Map<Eigen::Array3f> pixel(image->data.data() + 3 * static_cast<std::size_t>(surface.pixel));
-    const sky::AirColumn before = air_.before(number, i);
-    const Eigen::Array3f leaving = luminance(
-        surface, {sun_shares.empty() ? 0.0f : sun_shares[i], moon_shares.empty() ? 0.0f : moon_shares[i]},
-        {rows.ambient[i], mirrored[rows.view[i]], tile.gatheredFor(surface)});
-    const Eigen::Array3f arriving = leaving * before.transmittance + before.airlight;
-    pixel += arriving * (weight * static_cast<float>(surface.samples));
+    const SurfaceParts parts{rows.ambient[i],
+                             mirrored[rows.mirror[i]],
+                             tile.gatheredFor(surface),
+                             sun_shares.empty() ? 0.0f : sun_shares[i],
+                             moon_shares.empty() ? 0.0f : moon_shares[i],
+                             air_.before(number, i)};
+    pixel += luminance(surface, parts) * (weight * static_cast<float>(surface.samples));
   }
 }
 
-Eigen::Array3f TileLighting::luminance(const Surface& surface, const DiscShares& shares,
-                                       const AmbientParts& parts) const {
+// The light equation, which doc/equations.md explains, term by term:
+//   L = T (Lₑ + Σ f(l) V E + f₊ E₊ + f₋ E₋ + fₘ Lₘ) + Lₐ
+Eigen::Array3f TileLighting::luminance(const Surface& surface, const SurfaceParts& parts) const {
   const scene::Material& material = scene_.materials[static_cast<std::size_t>(surface.material)];
   const Reflection reflection = reflectionOf(surface, material);
-  Eigen::Array3f sum = material.emission.value;
-  if (shares.sun > 0.0f) {
-    sum += directReflectance(reflection, sun_.towards(), sun_.radius_rad()) *
-           (shares.sun * light_.day.sun().illuminance.value);
-  }
-  if (shares.moon > 0.0f) {
-    sum += directReflectance(reflection, moon_.towards(), moon_.radius_rad()) *
-           (shares.moon * light_.day.moon().illuminance.value);
-  }
-  return sum + ambientLuminance(surface, reflection, parts, light_);
+  const auto ofDisc = [&](const DiscVisibility& disc, const sky::DiscLight& lamp,
+                          float share) -> Eigen::Array3f {
+    return directReflectance(reflection, disc.towards(), disc.radius_rad()) *
+           (share * lamp.illuminance.value);
+  };
+  Eigen::Array3f leaving = material.emission.value;
+  if (parts.sun > 0.0f) leaving += ofDisc(sun_, light_.day.sun(), parts.sun);
+  if (parts.moon > 0.0f) leaving += ofDisc(moon_, light_.day.moon(), parts.moon);
+
+  const AmbientReflectance& by = parts.ambient;
+  const AmbientLight from =
+      ambientLight(surface, {reflection.roughness, parts.mirrored, parts.gathered}, light_);
+  leaving += by.diffuse * from.front + by.through * from.behind + by.specular * from.mirrored;
+
+  return leaving * parts.before.transmittance + parts.before.airlight;
 }
 
 }  // namespace sunlit::light

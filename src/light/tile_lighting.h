@@ -33,11 +33,16 @@ class TileLighting {
 
  private:
   void addSurfaces(const Tile& tile, image::LinearImage* image) const;
-  /// Shares of the discs of sun and moon that a surface sees.
-  struct DiscShares {
-    float sun, moon;
+  /// What is known of a surface before it is lit.
+  struct SurfaceParts {
+    const AmbientReflectance& ambient;
+    const Mirrored& mirrored;     ///< where the light is baked
+    const GatheredSky* gathered;  ///< null: FinalGather did not look there
+    float sun, moon;              ///< shares of their discs that it sees
+    sky::AirColumn before;        ///< between it and the camera
   };
-  Eigen::Array3f luminance(const Surface& surface, const DiscShares& shares, const AmbientParts& parts) const;
+  /// As the camera sees it, cd/m².
+  Eigen::Array3f luminance(const Surface& surface, const SurfaceParts& parts) const;
 
   const Surfaces& surfaces_;
   const LightTable& table_;

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <mutex>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 
 #include "light/corners.h"
@@ -20,22 +19,8 @@
 #include "sunlit/light/final_gather.h"
 
 namespace sunlit::light {
-namespace {
-
-void requireWithin(const char* key, double value, double low, double high) {
-  if (value >= low && value <= high) return;
-  std::ostringstream message;
-  message << key << ": " << value << " is outside " << low << " … " << high;
-  throw std::invalid_argument(message.str());
-}
-
-}  // namespace
-
 void validate(const TransportOptions& options) {
-  requireWithin("rays_per_patch", options.rays_per_patch, 1, 64);
-  requireWithin("bounces", options.bounces, 0, 8);
-  requireWithin("finest_m", options.finest_m, 0.02, 10.0);
-  requireWithin("samples", options.samples, 1000, 1e7);
+  requireFields(options);
 }
 
 std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry> geometry,
@@ -103,7 +88,7 @@ void Transport::locate(Surfaces* surfaces, FinalGather* gather) const {
     std::optional<Corners> corners;
     for (Surface& surface : surfaces->tiles[i].surfaces) {
       surface.light = surface.behind = LightPlace();
-      surface.sky = SkyView();
+      surface.sky = SkyOpenness();
       surface.gathered = Surface::kNotGathered;
       if (surface.triangle >= geometry_->triangles.size()) continue;  // a body that moves: see BodyLight
       const bool front = geometry_->planes[surface.triangle].normal.dot(surface.geometric_normal) > 0.0f;
@@ -117,9 +102,8 @@ void Transport::locate(Surfaces* surfaces, FinalGather* gather) const {
     surfaces->tiles[i].gathered.clear();
   });
   if (gather) gather->look(surfaces);
-  tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(), [&](std::size_t i) {
-    findMirrorViews(*data_, scene, surfaces->width, &surfaces->tiles[i]);
-  });
+  tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(),
+                    [&](std::size_t i) { findMirrors(*data_, scene, surfaces->width, &surfaces->tiles[i]); });
 }
 
 std::vector<NodeLight> Transport::relight(const sky::Daylight& day) const {

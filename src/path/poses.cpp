@@ -1,5 +1,4 @@
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "path/waypoint_check.h"
@@ -23,28 +22,13 @@ constexpr double kFarthest_m = 1e7;
 /// More poses than this are a mistake of spacing, and would fill the memory.
 constexpr double kMostPoses = 1e7;
 
-void checkRange(const char* key, double value, double low, double high) {
-  if (value >= low && value <= high) return;  // false for NaN too
-  std::ostringstream message;
-  message << key << " is " << value << ", must be " << low << " … " << high << " m";
-  throw std::invalid_argument(message.str());
-}
-
 }  // namespace
 
 std::optional<std::string> faultOf(const Eigen::Vector3d& point, const Eigen::Vector3d* previous) {
+  const Range near{-kFarthest_m, kFarthest_m};
   for (int axis = 0; axis < 3; ++axis) {
-    if (std::abs(point[axis]) <= kFarthest_m) continue;  // false for NaN
-    std::ostringstream fault;
-    fault << "xyz"[axis] << " is ";
-    // The sign of a NaN means nothing.
-    if (std::isnan(point[axis])) {
-      fault << "nan";
-    } else {
-      fault << point[axis];
-    }
-    fault << ", must be " << -kFarthest_m << " … " << kFarthest_m << " m";
-    return fault.str();
+    if (near.contains(point[axis])) continue;
+    return refusal(std::string(1, "xyz"[axis]), textOf(point[axis]), near.words() + " m");
   }
   if (previous != nullptr && (point - *previous).head<2>().norm() < kNearest_m) {
     return "it is less than 1 mm from the waypoint before it in plan view";
@@ -58,8 +42,7 @@ std::string tooFew(std::size_t count) {
 }
 
 void validate(const PathOptions& options) {
-  checkRange("spacing_m", options.spacing_m, 0.001, 1000.0);
-  checkRange("height_m", options.height_m, -1000.0, 1000.0);
+  requireFields(options);
 }
 
 std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const PathOptions& options) {

@@ -2,56 +2,38 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "render/sample.h"
-#include "render/screen_triangle.h"
 #include "render/texture_pyramid.h"
 #include "render/view.h"
 #include "sunlit/light/geometry.h"
-#include "sunlit/light/surfaces.h"
+#include "sunlit/render/rasterizer.h"
 
 namespace sunlit::render {
 
 class Rasteriser {
  public:
-  /// Keeps a reference to `pyramids`, of the geometry's scene. `lod_bias` in levels.
-  Rasteriser(std::shared_ptr<const light::Geometry> geometry, const TexturePyramids& pyramids,
-             double lod_bias);
+  virtual ~Rasteriser() = default;
 
   /// Fills `samples`, row-major, top row first: supersampling² a pixel. Triangles of `bodies`, which may be
-  /// null, are numbered after those of the geometry, whose materials they share. Parallel; the same bits for
-  /// any number of threads.
-  void draw(const View& view, const light::Geometry* bodies, std::vector<Sample>* samples);
+  /// null, are numbered after those of the geometry, whose materials they share. The same bits from run to
+  /// run and for any number of threads. One call at a time; others of the same kind may draw meanwhile.
+  virtual void draw(const View& view, const light::Geometry* bodies, std::vector<Sample>* samples) = 0;
 
- private:
-  /// Consecutive triangles of one material.
-  struct Piece {
-    const light::Geometry* geometry;
-    std::uint32_t first, count, first_number;
-    int material;
-  };
-  /// Some pieces: the unit of parallel projection.
-  struct Group {
-    std::vector<Piece> pieces;
-    ScreenTriangles projected;
-    /// Those that may touch tile i: of_tile[tile_begin[i]] to of_tile[tile_begin[i + 1]], in order.
-    std::vector<std::uint32_t> tile_begin, of_tile;
-  };
-  struct Grid {
-    int tile_size;  ///< samples
-    int columns, rows;
-  };
-
-  void addVisible(const View& view, const light::Geometry& geometry, std::uint32_t first_number);
-  void project(const ScreenProjection& projection, const Grid& grid, Group* group) const;
-  static void sortIntoTiles(const Grid& grid, Group* group);
-
-  std::shared_ptr<const light::Geometry> geometry_;
-  const TexturePyramids& pyramids_;
-  float texels_factor_;  ///< 2^(2 · bias)
-  std::vector<Group> groups_;
-  std::size_t groups_in_use_ = 0;
+  /// What draws, such as GL_RENDERER; empty for our own.
+  virtual std::string device() const = 0;
 };
+
+/// What a rasteriser draws from.
+struct RasteriserWorld {
+  std::shared_ptr<const light::Geometry> geometry;
+  const TexturePyramids& pyramids;  ///< of the geometry's scene; outlives the rasteriser
+  double lod_bias = 0.0;            ///< levels
+};
+
+/// Throws as requireStarts() does.
+std::unique_ptr<Rasteriser> makeRasteriser(Rasterizer rasterizer, const RasteriserWorld& world);
 
 }  // namespace sunlit::render

@@ -39,7 +39,8 @@ class Renderer::Implementation {
         view_(viewOf(options)),
         world_(world),
         pyramids_(*world.geometry->scene),
-        rasteriser_(world.geometry, pyramids_, options.texture_lod_bias) {
+        rasteriser_(
+            makeRasteriser(options.rasterizer, {world.geometry, pyramids_, options.texture_lod_bias})) {
     if (world_.transport && options.final_gather > 0) {
       final_gather_ =
           std::make_unique<light::FinalGather>(world_.geometry, world_.visibility, options.final_gather);
@@ -83,6 +84,11 @@ class Renderer::Implementation {
 
   const RenderOptions& options() const { return options_; }
 
+  std::string rasterizer() const {
+    const std::string device = rasteriser_->device();
+    return nameOf(options_.rasterizer) + (device.empty() ? "" : ": " + device);
+  }
+
  private:
   /// One pose, drawn.
   struct Pose {
@@ -114,7 +120,7 @@ class Renderer::Implementation {
     seen.view = view_;
     seen.view.map_from_optical = map_from_optical;
     try {
-      rasteriser_.draw(seen.view, seen.bodies.get(), &seen.samples);
+      rasteriser_->draw(seen.view, seen.bodies.get(), &seen.samples);
       resolve(seen);
     } catch (...) {
       seen.samples.clear();
@@ -151,7 +157,7 @@ class Renderer::Implementation {
   View view_;  // without a pose
   light::World world_;
   TexturePyramids pyramids_;  // before the rasteriser, which refers to them
-  Rasteriser rasteriser_;
+  std::unique_ptr<Rasteriser> rasteriser_;
   std::unique_ptr<light::FinalGather> final_gather_;    // where it is asked for
   std::unique_ptr<const light::BodyLight> body_light_;  // where there are bodies
   Pose seen_;
@@ -181,6 +187,9 @@ const light::Surfaces& Renderer::surfaces() const {
 }
 const RenderOptions& Renderer::options() const {
   return implementation_->options();
+}
+std::string Renderer::rasterizer() const {
+  return implementation_->rasterizer();
 }
 
 }  // namespace sunlit::render

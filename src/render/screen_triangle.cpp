@@ -74,8 +74,7 @@ Linear ScreenProjection::alongRays(const Eigen::Vector3d& vector) const {
 
 void ScreenProjection::append(const Batch& batch, ScreenTriangles* out) const {
   const light::Geometry& geometry = batch.geometry;
-  const bool masked = batch.material.alpha_mode == scene::AlphaMode::kMask &&
-                      batch.material.base_texture != scene::Material::kNoTexture;
+  const bool masked = isMasked(batch.material);
   const float right = static_cast<float>(columns_ - 1), bottom = static_cast<float>(rows_ - 1);
   for (std::uint32_t t = batch.first; t < batch.first + batch.count; ++t) {
     std::array<Eigen::Vector3f, 3> corners;

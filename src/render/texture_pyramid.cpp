@@ -40,16 +40,11 @@ struct Neighbours {
   }
 };
 
-bool masks(const scene::Material& material) {
-  return material.alpha_mode == scene::AlphaMode::kMask &&
-         material.base_texture != scene::Material::kNoTexture;
-}
-
 /// The cutoff of the first material that masks with each texture.
 std::vector<float> firstCutoffs(const scene::Scene& scene) {
   std::vector<float> values(scene.textures.size(), kNoCutoff);
   for (const scene::Material& material : scene.materials) {
-    if (!masks(material)) continue;
+    if (!isMasked(material)) continue;
     float& value = values[static_cast<std::size_t>(material.base_texture)];
     if (value == kNoCutoff) value = material.alpha_cutoff;
   }
@@ -92,8 +87,16 @@ namespace {
 
 using Texel = Eigen::Array4f;
 
-/// Between the four texels of `linear` about a point, `u` and `v` of a whole turn, in units of 1 / 65535.
-Texel bilinear(const std::vector<std::uint16_t>& linear, int width, int height, float u, float v) {
+/// Of one size of a texture, as TexturePyramid keeps them.
+struct Texels {
+  const std::vector<std::uint16_t>& linear;
+  int width, height;
+};
+
+/// Between the four texels about a point, `u` and `v` of a whole turn, in units of 1 / 65535.
+Texel bilinear(const Texels& texels, float u, float v) {
+  const std::vector<std::uint16_t>& linear = texels.linear;
+  const int width = texels.width, height = texels.height;
   // Texel centres lie at half-integers; half a texel less and one more keeps what is rounded positive.
   const float x = u * static_cast<float>(width) + 0.5f, y = v * static_cast<float>(height) + 0.5f;
   const int left = static_cast<int>(x), above = static_cast<int>(y);
@@ -129,7 +132,7 @@ Eigen::Array3f TexturePyramid::color(const Eigen::Array2f& at, float level) cons
   // level does not show, and half of all look-ups need but one size.
   const float between = clamped - static_cast<float>(lower);
   const float share = std::clamp(2.0f * between - 0.5f, 0.0f, 1.0f);
-  const auto look = [&](const Level& l) { return bilinear(l.linear, l.width, l.height, u, v); };
+  const auto look = [&](const Level& l) { return bilinear({l.linear, l.width, l.height}, u, v); };
   Texel sum = look(levels_[share < 1.0f ? lower : lower + 1]);
   if (share > 0.0f && share < 1.0f) sum += share * (look(levels_[lower + 1]) - sum);
   return sum.head<3>() * (1.0f / 65535.0f);
@@ -141,8 +144,20 @@ TexturePyramid::Mask TexturePyramid::mask(float texels_squared) const {
   std::memcpy(&bits, &texels_squared, sizeof(bits));
   const int logarithm = (static_cast<int>(bits >> 23) - 127) >> 1;
   const int number = std::clamp(logarithm, 0, static_cast<int>(levels_.size()) - 1);
-  const Level& level = levels_[static_cast<std::size_t>(number)];
-  return {level.alpha.data(), level.width, level.height, logarithm <= 0,
+  Mask mask = maskOf(levels_[static_cast<std::size_t>(number)]);
+  mask.full = logarithm <= 0;
+  return mask;
+}
+
+std::vector<TexturePyramid::Mask> TexturePyramid::masks() const {
+  std::vector<Mask> masks;
+  for (const Level& level : levels_) masks.push_back(maskOf(level));
+  masks.front().full = true;
+  return masks;
+}
+
+TexturePyramid::Mask TexturePyramid::maskOf(const Level& level) const {
+  return {level.alpha.data(), level.width, level.height, false,
           static_cast<std::uint8_t>(std::ceil(cutoff_))};
 }
 
@@ -163,7 +178,7 @@ TexturePyramids::TexturePyramids(const scene::Scene& scene) {
     if (material.base_texture == scene::Material::kNoTexture) continue;
     const auto texture = static_cast<std::size_t>(material.base_texture);
     const std::pair<std::size_t, float> mine(
-        texture, masks(material) ? material.alpha_cutoff : first_cutoffs[texture]);
+        texture, isMasked(material) ? material.alpha_cutoff : first_cutoffs[texture]);
     const auto same = std::find(wanted.begin(), wanted.end(), mine);
     of_material_.back() = static_cast<std::int32_t>(same - wanted.begin());
     if (same == wanted.end()) wanted.push_back(mine);

@@ -10,6 +10,12 @@
 
 namespace sunlit::render {
 
+/// Whether a texture cuts holes into what is made of it.
+inline bool isMasked(const scene::Material& material) {
+  return material.alpha_mode == scene::AlphaMode::kMask &&
+         material.base_texture != scene::Material::kNoTexture;
+}
+
 class TexturePyramid {
  public:
   /// `alpha_cutoff` 0 … 1, or kNoCutoff for a texture that masks nothing.
@@ -33,6 +39,10 @@ class TexturePyramid {
   /// so many texels, squared, lie on it. In smaller sizes the nearest texel decides what is solid: as many
   /// are as there is to show.
   Mask mask(float texels_squared) const;
+  /// All sizes of a masked texture, the full one first.
+  std::vector<Mask> masks() const;
+  /// Of alpha, 0 … 255: what is solid between the texels of the full size reaches it.
+  float cutoff() const { return cutoff_; }
   /// Whether it is solid at (u, v) of the full size: between texels, so that edges stay smooth.
   bool solid(float u, float v) const;
 
@@ -43,6 +53,7 @@ class TexturePyramid {
     std::vector<std::uint8_t> alpha;    ///< of a mask
     Level(MipLevel mip, bool masked);
   };
+  Mask maskOf(const Level& level) const;
 
   std::vector<Level> levels_;
   Eigen::Array2f size_;

@@ -208,13 +208,14 @@ void TileRaster::fillMasked(const ScreenTriangle& triangle, const Span& span, co
   const std::size_t begin = index(span.left, span.row);
   const int count = span.right - span.left + 1;
   for (int first = 0; first < count; first += kLanes) {
-    const std::size_t at = begin + static_cast<std::size_t>(first);
-    fillMaskedPart(row, first, std::min(kLanes, count - first), &nearness_[at], &number_[at]);
+    fillMaskedPart(row, first, std::min(kLanes, count - first), begin + static_cast<std::size_t>(first));
   }
 }
 
-void TileRaster::fillMaskedPart(const MaskedRow& row, int first, int count, float* nearness,
-                                std::uint32_t* numbers) {
+/// Samples `first` … of the row's span, which lie at `at`.
+void TileRaster::fillMaskedPart(const MaskedRow& row, int first, int count, std::size_t at) {
+  float* const nearness = &nearness_[at];
+  std::uint32_t* const numbers = &number_[at];
   Lanes here, u, v;
   for (int i = 0; i < kLanes; ++i) {
     const float w = row.w + row.w_x * static_cast<float>(first + i);

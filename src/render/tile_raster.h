@@ -35,7 +35,7 @@ class TileRaster {
   void fillMasked(const ScreenTriangle& triangle, const Span& span, const MaskPlanes& mask,
                   float texels_factor);
   struct MaskedRow;
-  void fillMaskedPart(const MaskedRow& row, int first, int count, float* nearness, std::uint32_t* numbers);
+  void fillMaskedPart(const MaskedRow& row, int first, int count, std::size_t at);
   std::size_t index(int column, int row) const {
     return static_cast<std::size_t>((row - place_.top) * kLargest + column - place_.left);
   }

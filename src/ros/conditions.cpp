@@ -4,7 +4,8 @@
 
 #include <cctype>
 #include <set>
-#include <stdexcept>
+
+#include "sunlit/ros/node_rows.h"
 
 namespace sunlit::ros_interface {
 
@@ -15,11 +16,8 @@ namespace {
 void requireName(const std::string& name, const std::string& parameter) {
   bool good = !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) != 0;
   for (const char c : name) good = good && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_');
-  if (!good) {
-    throw std::invalid_argument(
-        "parameter " + parameter + " has the name \"" + name +
-        "\", but a condition must be called by letters, digits and _, a letter first");
-  }
+  if (!good)
+    refuse("a name in parameter " + parameter, '"' + name + '"', "letters, digits and _, a letter first");
 }
 
 }  // namespace
@@ -39,35 +37,30 @@ std::string Condition::frame(const std::string& name_of_frame) const {
 }
 
 std::vector<Condition> readConditions(const ParameterReader& parameters) {
-  XmlRpcValue value = parameters.value("conditions");
-  const std::string parameter = parameters.fullName("conditions");
+  const Field row = conditionsRow();
+  XmlRpcValue value = parameters.value(row.key);
+  const std::string parameter = parameters.fullName(row.key);
   if (!value.valid()) return {Condition{"", parameters}};
 
   std::vector<Condition> conditions;
   std::set<std::string> names;
+  const auto refuseAll = [&](const std::string& allowed) {
+    refuse("parameter " + parameter, plainText(value), allowed);
+  };
   const auto add = [&](const std::string& name, const XmlRpcValue& overrides) {
     requireName(name, parameter);
-    if (!names.insert(name).second) {
-      throw std::invalid_argument("parameter " + parameter + " names \"" + name + "\" twice");
-    }
+    if (!names.insert(name).second) refuseAll("without \"" + name + "\" twice");
     conditions.push_back({name, parameters.withOverrides(overrides, parameter + "/" + name)});
   };
   if (value.getType() == XmlRpcValue::TypeArray) {
     for (int i = 0; i < value.size(); ++i) {
-      if (value[i].getType() != XmlRpcValue::TypeString) {
-        throw std::invalid_argument("parameter " + parameter + " must be a list of names, [morning, noon]");
-      }
+      if (value[i].getType() != XmlRpcValue::TypeString) refuseAll(row.allowed());
       add(static_cast<std::string>(value[i]), XmlRpcValue());
     }
   } else if (value.getType() == XmlRpcValue::TypeStruct) {
     for (auto& member : value) add(member.first, member.second);
   }
-  if (conditions.empty()) {
-    throw std::invalid_argument(
-        "parameter " + parameter +
-        " must be a list of names, [morning, noon], or a map from names to what differs, "
-        "{h04: {hour: 4}, h12: {hour: 12}}");
-  }
+  if (conditions.empty()) refuseAll(row.allowed());
   return conditions;
 }
 

@@ -3,7 +3,6 @@
 #include <ros/names.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <set>
 #include <sstream>
@@ -51,20 +50,29 @@ std::string printed(const XmlRpcValue& value) {
   return out.str();
 }
 
-std::string printed(const Range& range) {
-  std::ostringstream out;
-  const bool below = std::isfinite(range.min);
-  const bool above = std::isfinite(range.max);
-  if (below && above) out << "from " << range.min << " to " << range.max;
-  if (below && !above) out << "of at least " << range.min;
-  if (!below && above) out << "of at most " << range.max;
-  return out.str();
-}
-
-std::optional<double> asNumber(const XmlRpcValue& value) {
-  if (value.getType() == XmlRpcValue::TypeInt) return as<int>(value);
-  if (value.getType() == XmlRpcValue::TypeDouble) return as<double>(value);
-  return std::nullopt;
+/// Nothing for what no field holds, such as a map.
+std::optional<Field::Value> asFieldValue(const XmlRpcValue& value) {
+  switch (value.getType()) {
+    case XmlRpcValue::TypeBoolean:
+      return as<bool>(value);
+    case XmlRpcValue::TypeInt:
+      return as<int>(value);
+    case XmlRpcValue::TypeDouble:
+      return as<double>(value);
+    case XmlRpcValue::TypeString:
+      return as<std::string>(value);
+    case XmlRpcValue::TypeArray:
+      break;
+    default:
+      return std::nullopt;
+  }
+  XmlRpcValue list = value;
+  std::vector<std::string> words;
+  for (int i = 0; i < list.size(); ++i) {
+    if (list[i].getType() != XmlRpcValue::TypeString) return std::nullopt;
+    words.push_back(static_cast<std::string>(list[i]));
+  }
+  return words;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -124,6 +132,19 @@ XmlRpcValue fetch(const ros::NodeHandle& node) {
 
 }  // namespace
 
+std::string plainText(XmlRpcValue value) {
+  if (const auto plain = asFieldValue(value)) return sunlit::textOf(*plain);
+  std::string text;
+  if (value.getType() == XmlRpcValue::TypeArray) {
+    for (int i = 0; i < value.size(); ++i) text += (i == 0 ? "" : ", ") + plainText(value[i]);
+    return "[" + text + "]";
+  }
+  if (value.getType() != XmlRpcValue::TypeStruct) return value.toXml();
+  for (auto& member : value)
+    text += (text.empty() ? "" : ", ") + member.first + ": " + plainText(member.second);
+  return "{" + text + "}";
+}
+
 ParameterReader::ParameterReader(const ros::NodeHandle& node)
     : ParameterReader(fetch(node), node.getNamespace()) {}
 
@@ -169,82 +190,73 @@ std::string ParameterReader::fullName(const std::string& key) const {
 
 void ParameterReader::reject(const std::string& key, const XmlRpcValue& value,
                              const std::string& allowed) const {
-  throw std::invalid_argument("parameter " + fullName(key) + " is " + printed(value) + ", but must be " +
-                              allowed);
+  refuse("parameter " + fullName(key), printed(value), allowed);
 }
 
 bool ParameterReader::has(const std::string& key) const {
   return find(key) != nullptr;
 }
 
-double ParameterReader::number(const std::string& key, double fallback, Range range) const {
-  const XmlRpcValue* value = find(key);
-  if (value == nullptr) return fallback;
-  const std::optional<double> number = asNumber(*value);
-  if (!number || !std::isfinite(*number) || *number < range.min || *number > range.max) {
-    reject(key, *value, "a number " + printed(range));
+void ParameterReader::read(const std::vector<Field>& rows) const {
+  for (const Field& field : rows) {
+    const XmlRpcValue* value = find(field.key);
+    if (value == nullptr || std::holds_alternative<OwnForm>(field.place)) continue;
+    const bool is_list = std::holds_alternative<std::vector<std::string>*>(field.place);
+    if (is_list && value->getType() == XmlRpcValue::TypeString)
+      reject(field.key, *value, field.allowed() + ", not a text (as which rosrun passes on _name:=value)");
+    const std::optional<Field::Value> typed = asFieldValue(*value);
+    if (!typed) reject(field.key, *value, field.allowed());
+    field.set(*typed, "parameter " + fullName(field.key));
   }
-  return *number;
+}
+
+void ParameterReader::check(const std::string& group, const std::function<void()>& check) const {
+  try {
+    check();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("parameter " + fullName(group) + "/" + error.what());
+  }
+}
+
+double ParameterReader::number(const std::string& key, double fallback, Range range) const {
+  read({{key, &fallback, "", range, ""}});
+  return fallback;
 }
 
 std::optional<double> ParameterReader::numberOr(const std::string& key, const std::string& word,
                                                 std::optional<double> fallback, Range range) const {
-  const XmlRpcValue* value = find(key);
-  if (value == nullptr) return fallback;
-  if (value->getType() == XmlRpcValue::TypeString) {
-    if (as<std::string>(*value) == word) return std::nullopt;
-    reject(key, *value, "\"" + word + "\" or a number " + printed(range));
-  }
-  return number(key, 0.0, range);
+  read({{key, NumberOrWord{&fallback, word}, "", range, ""}});
+  return fallback;
 }
 
 int ParameterReader::integer(const std::string& key, int fallback, Range range) const {
-  const XmlRpcValue* value = find(key);
-  if (value == nullptr) return fallback;
-  if (value->getType() != XmlRpcValue::TypeInt || as<int>(*value) < range.min ||
-      as<int>(*value) > range.max) {
-    reject(key, *value, "a whole number " + printed(range));
-  }
-  return as<int>(*value);
+  read({{key, &fallback, "", range, ""}});
+  return fallback;
 }
 
 bool ParameterReader::flag(const std::string& key, bool fallback) const {
-  const XmlRpcValue* value = find(key);
-  if (value == nullptr) return fallback;
-  if (value->getType() != XmlRpcValue::TypeBoolean) reject(key, *value, "true or false");
-  return as<bool>(*value);
+  read({{key, &fallback, "", {}, ""}});
+  return fallback;
 }
 
 std::string ParameterReader::text(const std::string& key, const std::string& fallback) const {
-  const XmlRpcValue* value = find(key);
-  if (value == nullptr) return fallback;
-  if (value->getType() != XmlRpcValue::TypeString) reject(key, *value, "text");
-  return as<std::string>(*value);
+  std::string text = fallback;
+  read({{key, &text, "", {}, ""}});
+  return text;
 }
 
 std::string ParameterReader::choice(const std::string& key, const std::string& fallback,
                                     const std::vector<std::string>& allowed) const {
-  const XmlRpcValue* value = find(key);
-  if (value == nullptr) return fallback;
-  for (const std::string& word : allowed) {
-    if (value->getType() == XmlRpcValue::TypeString && as<std::string>(*value) == word) return word;
-  }
-  reject(key, *value, "one of " + joined(allowed));
+  auto index =
+      static_cast<std::size_t>(std::find(allowed.begin(), allowed.end(), fallback) - allowed.begin());
+  read({{key, choiceOf(&index, allowed), "", {}, ""}});
+  return index < allowed.size() ? allowed[index] : fallback;
 }
 
 std::vector<std::string> ParameterReader::texts(const std::string& key,
                                                 const std::vector<std::string>& fallback) const {
-  const XmlRpcValue* found = find(key);
-  if (found == nullptr) return fallback;
-  XmlRpcValue list = *found;
-  if (list.getType() == XmlRpcValue::TypeString)
-    reject(key, list, "a list of words, [a, b], not a text (as which rosrun passes on _name:=value)");
-  if (list.getType() != XmlRpcValue::TypeArray) reject(key, list, "a list of words, [a, b]");
-  std::vector<std::string> words;
-  for (int i = 0; i < list.size(); ++i) {
-    if (list[i].getType() != XmlRpcValue::TypeString) reject(key, list, "a list of words, [a, b]");
-    words.push_back(static_cast<std::string>(list[i]));
-  }
+  std::vector<std::string> words = fallback;
+  read({{key, &words, "", {}, ""}});
   return words;
 }
 

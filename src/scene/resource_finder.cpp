@@ -8,6 +8,8 @@
 #include <sstream>
 #include <utility>
 
+#include "scene/package_folder.h"
+
 namespace sunlit::scene {
 namespace fs = std::filesystem;
 namespace {
@@ -157,6 +159,9 @@ SearchPath SearchPath::withEnvironment(std::vector<std::string> folders) {
   }
   if (const char* home = std::getenv("HOME"))
     search_path.folders.push_back(std::string(home) + "/.gazebo/models");
+  const std::string own = packageFolder("sunlit");
+  if (!own.empty()) search_path.folders.push_back(own + "/worlds/models");
+  search_path.package_folder = packageFolder;
   return search_path;
 }
 

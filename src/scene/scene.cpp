@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sunlit/quantity/range.h"
+
 namespace sunlit::scene {
 namespace {
 
@@ -10,11 +12,17 @@ namespace {
   throw std::invalid_argument(what + " '" + name + "': " + wrong);
 }
 
-void checkRange(const Material& material, const char* key, float value, float low, float high) {
-  if (value >= low && value <= high) return;  // false for NaN too
-  fail("material", material.name,
-       std::string(key) + " is " + std::to_string(value) + ", must be " + std::to_string(low) + " … " +
-           std::to_string(high));
+/// `fail` gets the refusal of a value outside `range`.
+template <typename Fail>
+void checkRange(const char* key, float value, const Range& range, const Fail& fail) {
+  if (range.contains(value)) return;
+  constexpr int kDigits = 7;  // of a float
+  fail(refusal(key, textOf(value, kDigits),
+               "from " + textOf(range.low, kDigits) + " to " + textOf(range.high, kDigits)));
+}
+
+void checkRange(const Material& material, const char* key, float value, const Range& range) {
+  checkRange(key, value, range, [&](const std::string& wrong) { fail("material", material.name, wrong); });
 }
 
 void checkTexture(const Texture& texture) {
@@ -29,9 +37,9 @@ void checkTexture(const Texture& texture) {
 
 void checkDetail(const Material& material) {
   const Detail& detail = material.detail;
-  checkRange(material, "detail.contrast", detail.contrast, 0.0f, 1.0f);
-  checkRange(material, "detail.gain", detail.gain, 0.0f, 1.5f);
-  for (const float tint : detail.tint) checkRange(material, "detail.tint", tint, 0.0f, 2.0f);
+  checkRange(material, "detail.contrast", detail.contrast, {0.0f, 1.0f});
+  checkRange(material, "detail.gain", detail.gain, {0.0f, 1.5f});
+  for (const float tint : detail.tint) checkRange(material, "detail.tint", tint, {0.0f, 2.0f});
   if (!(detail.finest_m > 0.0f) || !(detail.coarsest_m > detail.finest_m) ||
       !std::isfinite(detail.coarsest_m)) {
     fail("material", material.name, "detail must have 0 < finest_m < coarsest_m");
@@ -40,15 +48,15 @@ void checkDetail(const Material& material) {
 
 void checkMaterial(const Material& material, std::size_t texture_count) {
   for (const float channel : material.base_color.value)
-    checkRange(material, "base_color", channel, 0.0f, 1.0f);
-  checkRange(material, "roughness", material.roughness, Material::kSmoothest, 1.0f);
-  checkRange(material, "metalness", material.metalness, 0.0f, 1.0f);
-  checkRange(material, "alpha_cutoff", material.alpha_cutoff, 0.0f, 1.0f);
-  checkRange(material, "transmission", material.transmission, 0.0f, 1.0f);
+    checkRange(material, "base_color", channel, {0.0f, 1.0f});
+  checkRange(material, "roughness", material.roughness, {Material::kSmoothest, 1.0f});
+  checkRange(material, "metalness", material.metalness, {0.0f, 1.0f});
+  checkRange(material, "alpha_cutoff", material.alpha_cutoff, {0.0f, 1.0f});
+  checkRange(material, "transmission", material.transmission, {0.0f, 1.0f});
   checkDetail(material);
   for (const float channel : material.emission.value) {
     if (!std::isfinite(channel) || channel < 0.0f)
-      fail("material", material.name, "emission must be 0 or more");
+      fail("material", material.name, refusal("emission", textOf(channel), "at least 0"));
   }
   const bool known =
       material.base_texture == Material::kNoTexture ||
@@ -80,14 +88,11 @@ void checkMesh(const Mesh& mesh, std::size_t material_count) {
     }
     // Written so that a NaN fails; 1e-3 is far above what rounding and transforms do to a unit float vector.
     if (!(std::abs(mesh.normals[i].norm() - 1.0f) < 1e-3f)) failHere("normal is not of length 1");
-    // Written so that a NaN fails.
-    if (!mesh.texture_coordinates.empty() &&
-        !(mesh.texture_coordinates[i].array().abs() <= kLargestTextureCoordinate).all()) {
-      failHere("texture coordinate is outside -1e6 … 1e6");
-    }
-    if (!mesh.colors.empty() && !(mesh.colors[i] >= 0.0f && mesh.colors[i] <= 2.0f).all()) {
-      failHere("colour is outside 0 … 2");
-    }
+    const Range coordinates{-kLargestTextureCoordinate, kLargestTextureCoordinate};
+    for (int k = 0; !mesh.texture_coordinates.empty() && k < 2; ++k)
+      checkRange("texture coordinate", mesh.texture_coordinates[i][k], coordinates, failHere);
+    for (int k = 0; !mesh.colors.empty() && k < 3; ++k)
+      checkRange("colour", mesh.colors[i][k], {0.0, 2.0}, failHere);
   }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (const std::uint32_t corner : mesh.triangles[i]) {

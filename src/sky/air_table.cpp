@@ -43,20 +43,20 @@ std::vector<double> edgesWithCuts(double length_km, std::vector<std::size_t>* st
 
 }  // namespace
 
-AirSights::AirSights(const Transport& transport, double altitude_km) {
+AirSights::AirSights(const RadiativeTransfer& transfer, double altitude_km) {
   const Eigen::Array3f white = colourOf(Spectrum::Ones()).value;
   for (int row = 0; row < kRows; ++row) {
     const double cos_zenith = cosZenithOf(row);
     const double length_km = cos_zenith < 0.0 ? kFarBelow_km : segment(altitude_km, cos_zenith).length_km;
     Sight sight;
     const std::vector<double> edges_km = edgesWithCuts(length_km, &sight.steps_to_cut);
-    sight.path = sightPath(transport.medium(), altitude_km, cos_zenith, edges_km);
+    sight.path = sightPath(transfer.medium(), altitude_km, cos_zenith, edges_km);
     Spectrum depth = Spectrum::Zero();
     std::size_t step = 0;
     for (const std::size_t cut : sight.steps_to_cut) {
       for (; step < cut; ++step) {
         const auto step_km = static_cast<float>(edges_km[step + 1] - edges_km[step]);
-        depth += transport.medium().at(sight.path.steps[step].middle.altitude_km).extinction * step_km;
+        depth += transfer.medium().at(sight.path.steps[step].middle.altitude_km).extinction * step_km;
       }
       const Eigen::Array3f passed = (colourOf((-depth).exp()).value / white).max(0.0F);
       transmittance_.emplace_back(passed[0], passed[1], passed[2], 0.0F);
@@ -83,7 +83,7 @@ Eigen::Array4f AirSights::transmittance(const Place& place) const {
          high[1] * place.weights[3];
 }
 
-LitAir::LitAir(const Transport& transport, const AirSights& sights, const AirLamp& lamp)
+LitAir::LitAir(const RadiativeTransfer& transfer, const AirSights& sights, const AirLamp& lamp)
     : towards_(lamp.apparent.vector().cast<float>()),
       heading_(headingOf(towards_)),
       nodes_(static_cast<std::size_t>(kColumns * AirSights::kRows * AirSights::kCuts)) {
@@ -103,7 +103,7 @@ LitAir::LitAir(const Transport& transport, const AirSights& sights, const AirLam
       Node* node = &nodes_[static_cast<std::size_t>((column * AirSights::kRows + row) * AirSights::kCuts)];
       for (const std::size_t cut : sight.steps_to_cut) {
         for (; step < cut; ++step) {
-          transport.addStep(sight.path.steps[step], sun, cos_angle, &light);
+          transfer.addStep(sight.path.steps[step], sun, cos_angle, &light);
         }
         *node++ = {paddedColourOf((light.smooth + light.aerosol_again * again) * lamp.strength),
                    paddedColourOf(light.aerosol * lamp.strength)};

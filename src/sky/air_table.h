@@ -5,8 +5,8 @@
 #include <Eigen/StdVector>
 #include <vector>
 
+#include "radiative_transfer.h"
 #include "scattered_sky.h"
-#include "transport.h"
 
 namespace sunlit::sky {
 
@@ -19,7 +19,7 @@ class AirSights {
   static constexpr int kRows = 2 * kHalfRows + 1;
   static constexpr int kCuts = 28;
 
-  AirSights(const Transport& transport, double altitude_km);
+  AirSights(const RadiativeTransfer& transfer, double altitude_km);
 
   /// Where a direction and distance lie between rows (z = ±(row / kHalfRows − 1)²) and cuts
   /// (u = d / (d + 4 km); the last cut is the end of the air).
@@ -45,7 +45,7 @@ class AirSights {
 /// The light of one lamp that the air scatters into those lines of sight, by azimuth from the lamp.
 class LitAir {
  public:
-  LitAir(const Transport& transport, const AirSights& sights, const AirLamp& lamp);
+  LitAir(const RadiativeTransfer& transfer, const AirSights& sights, const AirLamp& lamp);
 
   /// cd/m²
   Eigen::Array4f airlight(const Eigen::Vector3f& towards, const AirSights::Place& place) const;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "moonlight.h"
-#include "require.h"
 #include "sky_table.h"
 #include "stars.h"
 
@@ -13,7 +12,7 @@ namespace sunlit::sky {
 namespace {
 
 /// The disc in level slices: each is dimmed by its own air, and the horizon cuts it off.
-Spectrum passedOfDisc(const Transport& transport, double altitude_km, const DiscLight& disc) {
+Spectrum passedOfDisc(const RadiativeTransfer& transfer, double altitude_km, const DiscLight& disc) {
   const double elevation_rad = disc.towards.elevation().rad();
   const double radius_rad = disc.angular_radius.rad();
   constexpr int kSlices = 16;
@@ -28,15 +27,15 @@ Spectrum passedOfDisc(const Transport& transport, double altitude_km, const Disc
     const double above = std::clamp(high / (high - low), 0.0, 1.0);
     if (above > 0.0) {
       const double middle = std::min(0.5 * (std::max(low, 0.0) + high), 0.5 * kPi);
-      sum += transport.transmittance(altitude_km, std::sin(middle)) * static_cast<float>(share * above);
+      sum += transfer.transmittance(altitude_km, std::sin(middle)) * static_cast<float>(share * above);
     }
   }
   return sum / static_cast<float>(area);
 }
 
-LinearRgb discIlluminance(const Transport& transport, double altitude_km, const DiscLight& disc,
+LinearRgb discIlluminance(const RadiativeTransfer& transfer, double altitude_km, const DiscLight& disc,
                           const Spectrum& strength) {
-  return inGamut(colourOf(passedOfDisc(transport, altitude_km, disc) * strength));
+  return inGamut(colourOf(passedOfDisc(transfer, altitude_km, disc) * strength));
 }
 
 // By day the moon's sky is at most 3e-5 of the sun's, and the night's glow at most 3e-6.
@@ -48,10 +47,10 @@ constexpr double kGlowDrowned = 0.0;
 struct Atmosphere::Tables {
   explicit Tables(const AtmosphereOptions& options)
       : altitude_km(options.observer_height_m * 1e-3),
-        transport(mediumOf(options)),
-        extinction(transport, altitude_km),
-        glow(transport, extinction),
-        sights(std::make_shared<AirSights>(transport, altitude_km)) {}
+        transfer(mediumOf(options)),
+        extinction(transfer, altitude_km),
+        glow(transfer, extinction),
+        sights(std::make_shared<AirSights>(transfer, altitude_km)) {}
 
   static MediumParameters mediumOf(const AtmosphereOptions& options) {
     MediumParameters parameters;
@@ -62,17 +61,14 @@ struct Atmosphere::Tables {
   }
 
   double altitude_km;
-  Transport transport;
+  RadiativeTransfer transfer;
   Extinction extinction;
   NightGlow glow;
   std::shared_ptr<const AirSights> sights;
 };
 
 void validate(const AtmosphereOptions& options) {
-  requireWithin("turbidity", options.turbidity, 1.0, 10.0);
-  requireWithin("ozone_du", options.ozone_du, 0.0, 600.0);
-  requireWithin("ground_albedo", options.ground_albedo, 0.0, 1.0);
-  requireWithin("observer_height_m", options.observer_height_m, 0.0, 8000.0);
+  requireFields(options);
 }
 
 Atmosphere::Atmosphere(const AtmosphereOptions& options) {
@@ -85,7 +81,7 @@ Atmosphere::Atmosphere(Atmosphere&&) noexcept = default;
 Atmosphere& Atmosphere::operator=(Atmosphere&&) noexcept = default;
 
 Daylight Atmosphere::daylight(const SunInSky& sun, const NightSky& night) const {
-  requireWithin("distance_au", sun.distance_au, 0.97, 1.03);
+  require("distance_au", sun.distance_au, {0.97, 1.03}, "AU");
   const Tables& tables = *tables_;
   const Direction sun_lights = sun.geometric.value_or(sun.apparent);
   const double sun_height = sun_lights.vector().z();
@@ -96,11 +92,11 @@ Daylight Atmosphere::daylight(const SunInSky& sun, const NightSky& night) const 
   table->sun.angular_radius = Angle::radians(std::asin(sin(kSunRadiusAtOneAu) / sun.distance_au));
   const Spectrum sun_strength =
       Spectrum::Constant(static_cast<float>(1.0 / (sun.distance_au * sun.distance_au)));
-  table->sun.illuminance = discIlluminance(tables.transport, tables.altitude_km, table->sun, sun_strength);
+  table->sun.illuminance = discIlluminance(tables.transfer, tables.altitude_km, table->sun, sun_strength);
   if (sun_height > DiffuseLight::kLowestSun) {
     const AirLamp lamp{sun.apparent, sun_lights, sun_strength};
-    table->sun_sky.emplace(tables.transport, tables.altitude_km, lamp);
-    table->sun_air.emplace(tables.transport, *tables.sights, lamp);
+    table->sun_sky.emplace(tables.transfer, tables.altitude_km, lamp);
+    table->sun_air.emplace(tables.transfer, *tables.sights, lamp);
   }
   if (night.moon) {
     addMoon(*night.moon, sun, table.get());
@@ -109,11 +105,11 @@ Daylight Atmosphere::daylight(const SunInSky& sun, const NightSky& night) const 
     table->glow = tables.glow.sky(night, sun_lights);
   }
   table->stars = starsAbove(night, tables.extinction);
-  const LocalMedium air = tables.transport.medium().at(tables.altitude_km);
+  const LocalMedium air = tables.transfer.medium().at(tables.altitude_km);
   const LinearRgb clear = colourOf((air.extinction * -1.0F).exp());
   const LinearRgb white = colourOf(Spectrum::Ones());
   table->haze_per_km = -(clear.value / white.value).log();
-  gatherIlluminance(static_cast<float>(tables.transport.medium().parameters().ground_albedo), table.get());
+  gatherIlluminance(static_cast<float>(tables.transfer.medium().parameters().ground_albedo), table.get());
   return Daylight(std::move(table));
 }
 
@@ -125,12 +121,12 @@ void Atmosphere::addMoon(const MoonInSky& moon, const SunInSky& sun, SkyTable* t
   table->moon.towards = moon.apparent;
   table->moon.angular_radius = moonAngularRadius(moon);
   table->moon.lit_from = moonLitFrom(moon, sun_lights);
-  table->moon.illuminance = discIlluminance(tables_->transport, tables_->altitude_km, table->moon, strength);
+  table->moon.illuminance = discIlluminance(tables_->transfer, tables_->altitude_km, table->moon, strength);
   if (strength.maxCoeff() > 0.0F && lights.vector().z() > DiffuseLight::kLowestSun &&
       sun_lights.vector().z() < kMoonSkyDrowned) {
     const AirLamp lamp{moon.apparent, lights, strength};
-    table->moon_sky.emplace(tables_->transport, tables_->altitude_km, lamp);
-    table->moon_air.emplace(tables_->transport, *tables_->sights, lamp);
+    table->moon_sky.emplace(tables_->transfer, tables_->altitude_km, lamp);
+    table->moon_air.emplace(tables_->transfer, *tables_->sights, lamp);
   }
 }
 

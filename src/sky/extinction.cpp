@@ -6,11 +6,11 @@
 
 namespace sunlit::sky {
 
-Extinction::Extinction(const Transport& transport, double altitude_km) {
+Extinction::Extinction(const RadiativeTransfer& transfer, double altitude_km) {
   const Eigen::Array3f white = colourOf(Spectrum::Ones()).value;
   for (int row = 0; row < kRows; ++row) {
     const double cos_zenith = std::sin(static_cast<double>(elevationOf(row)));
-    rows_.push_back(transport.transmittance(altitude_km, cos_zenith));
+    rows_.push_back(transfer.transmittance(altitude_km, cos_zenith));
     colours_.push_back((colourOf(rows_.back()).value / white).max(0.0F));
   }
 }

@@ -4,8 +4,8 @@
 #include <Eigen/StdVector>
 #include <vector>
 
+#include "radiative_transfer.h"
 #include "sphere.h"
-#include "transport.h"
 
 namespace sunlit::sky {
 
@@ -14,7 +14,7 @@ namespace sunlit::sky {
 class Extinction {
  public:
   static constexpr int kRows = 49;
-  Extinction(const Transport& transport, double altitude_km);
+  Extinction(const RadiativeTransfer& transfer, double altitude_km);
 
   static float elevationOf(int row) {
     const float t = static_cast<float>(row) / (kRows - 1);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "require.h"
 #include "sunlit/quantity/moon.h"
+#include "sunlit/quantity/range.h"
 
 namespace sunlit::sky {
 namespace {
@@ -25,8 +25,8 @@ Spectrum albedoColour() {
 }  // namespace
 
 void validate(const MoonInSky& moon) {
-  requireWithin("moon distance_m", moon.distance_m, 3.4e8, 4.2e8);
-  requireWithin("moon phase_angle (deg)", moon.phase_angle.deg(), 0.0, 180.0);
+  require("moon distance", moon.distance_m, {3.4e8, 4.2e8}, "m");
+  require("moon phase_angle", moon.phase_angle.deg(), {0.0, 180.0}, "deg");
 }
 
 Spectrum moonStrength(const MoonInSky& moon, double sun_distance_au) {

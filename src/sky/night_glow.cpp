@@ -93,7 +93,7 @@ double milkyWay_cd_per_m2(double sin_latitude, double cos_longitude) {
   return kS10_cd_per_m2 * (14.0 + 180.0 * (1.0 + 0.5 * cos_longitude) * std::exp(-latitude_deg / 13.0));
 }
 
-NightGlow::NightGlow(const Transport& transport, const Extinction& extinction) {
+NightGlow::NightGlow(const RadiativeTransfer& transfer, const Extinction& extinction) {
   const Spectrum airglow = airglowSpectrum() * static_cast<float>(kAirglowZenith_cd_per_m2);
   const Spectrum sun = unitLuminance(Spectrum::Ones());
   const Spectrum starlight = unitLuminance(blackBody(5000.0));
@@ -106,7 +106,7 @@ NightGlow::NightGlow(const Transport& transport, const Extinction& extinction) {
     const double share = std::cos(elevation) * kPi * t / (Extinction::kRows - 1);
     mean += airglow * static_cast<float>(vanRhijn(elevation) * share);
   }
-  const Medium& medium = transport.medium();
+  const Medium& medium = transfer.medium();
   const auto albedo = static_cast<float>(medium.parameters().ground_albedo);
   const Spectrum air = mean * scatteredPart(medium) * lightWithin(albedo);
   for (int row = 0; row < Extinction::kRows; ++row) {

@@ -47,7 +47,7 @@ constexpr double kAirglowZenith_cd_per_m2 = 1.3e-4;
 /// What does not change with the hour: how each part of the glow comes through the air, by elevation.
 class NightGlow {
  public:
-  NightGlow(const Transport& transport, const Extinction& extinction);
+  NightGlow(const RadiativeTransfer& transfer, const Extinction& extinction);
 
   /// `sun` without refraction, in `map`. Without a celestial frame: the mean over the whole sky, with the
   /// airglow of each elevation.

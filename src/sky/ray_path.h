@@ -47,12 +47,18 @@ struct RayPoint {
   double altitude_km;
 };
 
+/// Where a line of sight begins, and under which angle.
+struct SightStart {
+  double altitude_km, cos_zenith;
+};
+
 /// Follows a ray from the eye over `edges_km`, calls visit(middle, length) for each step, and gives its end.
 /// Each step is straight, bent in its middle (exact without refraction, second order with it).
 template <typename Visit>
-RayPoint followRay(const Medium& medium, double altitude_km, double cos_zenith,
-                   const std::vector<double>& edges_km, const Visit& visit) {
-  Eigen::Vector2d place(0.0, kEarthRadius_km + altitude_km);
+RayPoint followRay(const Medium& medium, const SightStart& start, const std::vector<double>& edges_km,
+                   const Visit& visit) {
+  const double cos_zenith = start.cos_zenith;
+  Eigen::Vector2d place(0.0, kEarthRadius_km + start.altitude_km);
   Eigen::Vector2d direction(std::sqrt(std::max(0.0, 1.0 - cos_zenith * cos_zenith)), cos_zenith);
   const auto pointAt = [&] {
     const double r = place.norm();

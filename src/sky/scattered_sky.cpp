@@ -10,7 +10,7 @@
 
 namespace sunlit::sky {
 
-ScatteredSky::ScatteredSky(const Transport& transport, double altitude_km, const AirLamp& lamp)
+ScatteredSky::ScatteredSky(const RadiativeTransfer& transfer, double altitude_km, const AirLamp& lamp)
     : towards_(lamp.apparent.vector().cast<float>()),
       heading_(headingOf(towards_)),
       nodes_(static_cast<std::size_t>(kRows * kColumns)) {
@@ -20,12 +20,12 @@ ScatteredSky::ScatteredSky(const Transport& transport, double altitude_km, const
     const double t = static_cast<double>(row) / (kRows - 1);
     const double elevation = 0.5 * kPi * t * t;
     const double cos_zenith = std::sin(elevation);
-    const SightPath path = transport.sightFrom(altitude_km, cos_zenith);
+    const SightPath path = transfer.sightFrom(altitude_km, cos_zenith);
     for (int column = 0; column < kColumns; ++column) {
       const double azimuth = kPi * column / (kColumns - 1);
       const double cos_angle =
           cos_zenith * lamp_cos_zenith + std::cos(elevation) * lamp_sin_zenith * std::cos(azimuth);
-      const Scattered light = transport.scattered(path, lamp_cos_zenith, cos_angle);
+      const Scattered light = transfer.scattered(path, lamp_cos_zenith, cos_angle);
       nodes_[static_cast<std::size_t>(row * kColumns + column)] = {
           paddedColourOf(light.smooth * lamp.strength), paddedColourOf(light.aerosol * lamp.strength),
           paddedColourOf(light.aerosol_again * lamp.strength)};

@@ -5,8 +5,8 @@
 #include <Eigen/StdVector>
 #include <vector>
 
+#include "radiative_transfer.h"
 #include "sunlit/quantity/direction.h"
-#include "transport.h"
 
 namespace sunlit::sky {
 
@@ -22,7 +22,7 @@ struct AirLamp {
 /// it. Aerosol is kept without its phase function, so the aureole is as sharp as the function.
 class ScatteredSky {
  public:
-  ScatteredSky(const Transport& transport, double altitude_km, const AirLamp& lamp);
+  ScatteredSky(const RadiativeTransfer& transfer, double altitude_km, const AirLamp& lamp);
 
   /// cd/m²; of the horizon below it. `towards` is a unit vector in `map`.
   Eigen::Array3f luminance(const Eigen::Vector3f& towards) const;

@@ -8,6 +8,7 @@
 #include "heights.h"
 #include "ray_path.h"
 #include "sunlit/sky/daylight.h"
+#include "sunlit/sky/disc_segment.h"
 #include "table_place.h"
 
 namespace sunlit::sky {
@@ -16,12 +17,6 @@ namespace {
 constexpr int kHeights = 48;
 constexpr int kAngles = 128;
 constexpr int kSteps = 160;
-
-/// Part of the disc above the horizon for a centre `above` disc radii above it; smooth at both ends.
-double visiblePart(double above) {
-  const double x = std::clamp(above, -1.0, 1.0);
-  return 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / kPi;
-}
 
 /// Cosine of zenith of node `j`, closer near the horizon.
 double nodeCosZenith(int j, double horizon) {
@@ -55,7 +50,7 @@ Sunlight::Row Sunlight::makeRow(const Medium& medium, double altitude_km) const 
     Spectrum depth = Spectrum::Zero();
     float aerosol_km = 0.0F;
     const RayPoint end =
-        followRay(medium, altitude_km, cos_zenith, sightEdges(medium, altitude_km, cos_zenith, kSteps),
+        followRay(medium, {altitude_km, cos_zenith}, sightEdges(medium, altitude_km, cos_zenith, kSteps),
                   [&](const RayPoint& point, double step_km) {
                     depth += medium.at(point.altitude_km).scaled_extinction * static_cast<float>(step_km);
                     aerosol_km += medium.aerosolDensity(point.altitude_km) * static_cast<float>(step_km);
@@ -111,7 +106,7 @@ Beam Sunlight::at(double altitude_km, double sun_cos_zenith) const {
   const double sine = std::sqrt(1.0 - straight * straight);
   const double horizon = straight * (1.0 - 0.5 * lift * lift) - sine * lift;
   const double above = sun_cos_zenith - horizon;
-  const auto part = static_cast<float>(visiblePart(above / (kSunRadiusAtOneAu.rad() * sine)));
+  const auto part = static_cast<float>(discSegment(above / (kSunRadiusAtOneAu.rad() * sine)));
   if (part <= 0.0F) {
     return {Spectrum::Zero(), 0.0F};
   }

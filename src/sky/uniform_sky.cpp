@@ -1,16 +1,14 @@
 #include "sunlit/sky/uniform_sky.h"
 
-#include <stdexcept>
-
-#include "require.h"
 #include "sky_table.h"
+#include "sunlit/quantity/range.h"
 
 namespace sunlit::sky {
 
 Daylight uniformDaylight(const UniformSky& sky) {
-  requireWithin("ground_albedo", sky.ground_albedo, 0.0, 1.0);
+  require("ground_albedo", sky.ground_albedo, {0.0, 1.0});
   for (const float value : sky.luminance.value) {
-    requireWithin("luminance", static_cast<double>(value), 0.0, 1e12);
+    require("luminance", static_cast<double>(value), {0.0, 1e12}, "cd/m²");
   }
   auto table = std::make_shared<SkyTable>();
   table->even = sky.luminance.value;

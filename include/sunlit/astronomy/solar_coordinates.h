@@ -2,17 +2,29 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/field.h"
 #include "sunlit/quantity/instant.h"
 
 namespace sunlit::astronomy {
 
 /// How the Earth's rotation differs from the clocks.
 struct EarthRotation {
-  double delta_ut1_s = 0.0;         ///< UT1 − UTC, −1 … 1 s
-  std::optional<double> delta_t_s;  ///< TT − UT1; without a value: deltaT() of the instant
+  double delta_ut1_s = 0.0;
+  std::optional<double> delta_t_s;  ///< without a value: deltaT() of the instant
 };
+
+inline std::vector<Field> fieldsOf(EarthRotation& earth) {
+  return {{"delta_ut1", &earth.delta_ut1_s, "s", {-1, 1}, "UT1 - UTC; 0.9 s move the sun by 0.004 deg"},
+          // The published polynomials reach 56,000 s at the ends of the supported years.
+          {"delta_t",
+           NumberOrWord{&earth.delta_t_s, "auto"},
+           "s",
+           {-100000, 100000},
+           "TT - UT1; auto: the polynomials of Espenak and Meeus; 1 s moves the moon by 0.5 arcsec"}};
+}
 
 /// Geocentric, apparent, of date. Costs most of a sun position, and serves every place on Earth at that
 /// instant.

@@ -32,6 +32,12 @@ struct Surface {
   Angle azm_rotation;  ///< azimuth of its normal from south, positive west
 };
 
+inline std::vector<Field> fieldsOf(Surface& surface) {
+  return {
+      {"slope", &surface.slope, "deg", {-360, 360}, "tilt from the horizontal"},
+      {"azm_rotation", &surface.azm_rotation, "deg", {-360, 360}, "of its normal from south, positive west"}};
+}
+
 /// Reda & Andreas (2008), steps 3.11 to 3.14, with refraction() in the place of eq. 42 below the horizon.
 SunPosition sunPosition(const SolarCoordinates& sun, const Site& site, const Air& air);
 

@@ -6,14 +6,14 @@
 namespace sunlit::evaluate {
 
 /// One picture, as every difference sees it.
-struct View {
+struct Picture {
   cv::Mat rgb;   ///< CV_8UC3, red first
   cv::Mat grey;  ///< CV_8UC1, cv::cvtColor of rgb (COLOR_RGB2GRAY), since detectors are defined on that
                  ///< conversion
 };
 
 /// Throws std::invalid_argument unless `rgb` is CV_8UC3 and not empty. Shares the pixels of `rgb`.
-View makeView(const cv::Mat& rgb);
+Picture makePicture(const cv::Mat& rgb);
 
 /// All four in [0, 1].
 struct DirectDifferences {
@@ -25,6 +25,6 @@ struct DirectDifferences {
 
 /// One pass over both pictures. Sums are integers, so the result is exact to the last division and the same
 /// on every machine. Throws std::invalid_argument where the sizes differ.
-DirectDifferences directDifferences(const View& a, const View& b);
+DirectDifferences directDifferences(const Picture& a, const Picture& b);
 
 }  // namespace sunlit::evaluate

@@ -7,43 +7,12 @@
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "sunlit/evaluate/comparer.h"
+#include "sunlit/evaluate/evaluation_options.h"
 #include "sunlit/evaluate/frames_file.h"
 
 namespace sunlit::evaluate {
-
-/// Two streams to compare; the first gives the queries of the matching.
-struct PairSpec {
-  std::string a;
-  std::string b;
-  int every = 1;  ///< only poses 0, every, 2·every, … are compared; ≥ 1
-};
-
-/// Which images are kept as PNG, for reports.
-enum class KeptImages { kNone, kSamples, kAll };
-
-struct EvaluationOptions {
-  std::vector<std::string> streams;  ///< distinct names
-  std::vector<PairSpec> pairs;       ///< of streams; empty: all
-  ComparerOptions comparer;
-  std::string output_dir;  ///< made where it does not exist
-  std::size_t poses = 0;   ///< expected along the path; 0: unknown
-  KeptImages images =
-      KeptImages::kSamples;  ///< samples: five evenly spread poses, or every 200th of an unknown number
-  double frame_rate = 0.0;   ///< Hz; 0: poses are numbered by captures, or else by the order of the stamps
-  std::int64_t stamp_start_ns = 0;  ///< stamp of pose 0, where a frame rate is given
-  std::size_t max_waiting_images =
-      3000;  ///< that wait for a partner; beyond, the oldest stamp is given up and named
-  std::vector<std::string>
-      merge;  ///< folders of other runs with the same settings, whose values are taken over
-  std::vector<std::pair<std::string, std::string>> about;  ///< of the experiment, for run.yaml and reports
-};
-
-/// All ordered pairs of streams (first before second), each pose.
-std::vector<PairSpec> allPairs(const std::vector<std::string>& streams);
 
 /// How an image was taken.
 struct CaptureRecord {
@@ -72,7 +41,11 @@ struct StreamCounts {
   std::size_t duplicate = 0;     ///< stamp had come before
   std::size_t out_of_order = 0;  ///< used all the same
   std::size_t undecodable = 0;
-  std::size_t late = 0;  ///< came after its stamp had been given up
+  std::size_t late = 0;        ///< came after its stamp had been given up
+  std::size_t dropped = 0;     ///< given up to bound the memory, or since the run was broken off
+  std::size_t lost = 0;        ///< sent but never here, as far as told by addLost(); not among the received
+  std::size_t unexpected = 0;  ///< of a pose that is not one of those expected
+  std::size_t lossy = 0;       ///< compressed with loss
 };
 
 /// evaluated + resumed + the others = pairs asked for.
@@ -82,7 +55,7 @@ struct PairCounts {
   std::size_t missing_partner = 0;  ///< one image never came, or both
   std::size_t undecodable = 0;
   std::size_t size_mismatch = 0;
-  std::size_t dropped = 0;    ///< given up to bound the memory
+  std::size_t dropped = 0;    ///< given up to bound the memory, or since the run was broken off
   std::size_t failed = 0;     ///< the comparison itself failed
   std::size_t unplaced = 0;   ///< no capture said which pose it is, or the stamp lies before the first
   std::size_t duplicate = 0;  ///< an earlier stamp is of the same pose; that one counts
@@ -94,26 +67,35 @@ struct PairCounts {
 struct Counts {
   std::vector<StreamCounts> streams;  ///< in the order of the options
   std::vector<PairCounts> pairs;
-  std::size_t completed_poses = 0;  ///< all their pairs are accounted for
-  std::size_t waiting_images = 0;   ///< for a partner
-  std::size_t queued_poses = 0;     ///< whole, but not compared yet
+  std::size_t completed_poses = 0;           ///< all their pairs are accounted for; unexpected ones included
+  std::size_t unexpected_poses = 0;          ///< of them: not among those expected
+  std::size_t waiting_images = 0;            ///< for a partner
+  std::size_t queued_poses = 0;              ///< whole, but not compared yet
+  std::size_t bytes = 0;                     ///< of what waits, as the memory limit counts them
+  std::vector<std::size_t> awaited_streams;  ///< that the oldest waiting stamp lacks; empty: none waits
 };
 
 /// What finish() found.
 struct Outcome {
   Counts counts;
   std::vector<SummaryRow> summary;
-  std::size_t absent_poses = 0;  ///< of the expected number, no image at all came
+  std::size_t absent_poses = 0;  ///< of those expected: no image at all came
   bool isWhole() const;  ///< every pair of every pose was evaluated (or is undefined), and there was one
 };
 
 /// Called from the threads that add images and from workers. Each of them is called one at a time, but one
-/// may be called while another still runs. `progress` must not call the Evaluation back: it is told under its
-/// lock.
+/// may be called while another still runs. `progress` and `note` must not call the Evaluation back: they are
+/// told under its lock.
 struct EvaluationCallbacks {
   std::function<void(const PairRecord& record, const cv::Mat& a, const cv::Mat& b)> pair_done;
   std::function<void(std::size_t completed_poses)> progress;
   std::function<void(const std::string& line)> note;  ///< something a person should read
+};
+
+/// What becomes of images that are whole, but not compared yet.
+enum class Ending {
+  kCompared,  ///< they are compared first
+  kBrokenOff  ///< they are given up, counted and named; even what is being compared now
 };
 
 /// Thread-safe. Images are shared, not copied, and must not change afterwards.
@@ -128,10 +110,15 @@ class Evaluation {
   Evaluation(const EvaluationOptions& options, EvaluationCallbacks callbacks);
   ~Evaluation();
 
-  /// An image of options().streams[stream], CV_8UC3, red first.
+  /// An image of options().streams[stream], CV_8UC3, red first. What comes after finish() is ignored, here
+  /// and below.
   void addImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb);
+  /// The same of one that was compressed with loss, as JPEG: said once for each stream, and counted.
+  void addLossyImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb);
   /// An image that could not be decoded, and why.
   void addBadImage(std::size_t stream, std::int64_t stamp_ns, const std::string& fault);
+  /// `images` of a stream were sent before that of this stamp, but did not come.
+  void addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns);
   void addCapture(std::size_t stream, const CaptureRecord& capture);
   void addPlace(const PlaceRecord& place);
 
@@ -144,7 +131,7 @@ class Evaluation {
   /// isComplete().
   void waitForRoom(std::size_t queued_poses) const;
   /// Accounts for everything that still waits, writes all files and stops. Once.
-  Outcome finish();
+  Outcome finish(Ending ending = Ending::kCompared);
 
  private:
   class State;

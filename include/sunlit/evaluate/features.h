@@ -8,39 +8,68 @@
 #include <vector>
 
 #include "sunlit/evaluate/difference.h"
+#include "sunlit/quantity/field.h"
 #ifdef SUNLIT_SURF
 #include "sunlit/evaluate/surf.h"
 #endif
 
 namespace sunlit::evaluate {
 
+/// More are a mistake, and would fill the memory.
+constexpr double kMostFeatures = 1e6;
+
 /// cv::SIFT. Defaults are OpenCV's.
 struct SiftOptions {
-  int n_features = 0;                ///< best features kept, ≥ 0; 0: all
-  int n_octave_layers = 3;           ///< 1 … 10
-  double contrast_threshold = 0.04;  ///< 0 … 1
-  double edge_threshold = 10.0;      ///< > 0
-  double sigma = 1.6;                ///< px, of the Gaussian of octave 0, 0.1 … 10
+  int n_features = 0;
+  int n_octave_layers = 3;
+  double contrast_threshold = 0.04;
+  double edge_threshold = 10.0;
+  double sigma = 1.6;
 };
+
+inline std::vector<Field> fieldsOf(SiftOptions& sift) {
+  return {{"n_features", &sift.n_features, "", {0, kMostFeatures}, "best ones kept; 0: all"},
+          {"n_octave_layers", &sift.n_octave_layers, "", {1, 10}, "layers of an octave"},
+          {"contrast_threshold", &sift.contrast_threshold, "", {0, 1}, "weaker ones are left out"},
+          {"edge_threshold", &sift.edge_threshold, "", {1e-3, 1e6}, "more edge-like ones are left out"},
+          {"sigma", &sift.sigma, "px", {0.1, 10}, "of the Gaussian of octave 0"}};
+}
 
 /// cv::ORB. Defaults are OpenCV's.
 struct OrbOptions {
-  int n_features = 500;       ///< ≥ 1
-  double scale_factor = 1.2;  ///< between pyramid levels, 1.01 … 4
-  int n_levels = 8;           ///< 1 … 32
-  int edge_threshold = 31;    ///< px of border without key points, 1 … 200
-  int first_level = 0;        ///< 0 … 31
-  int wta_k = 2;  ///< points per element of the descriptor, 2 … 4; 3 and 4 are matched by NORM_HAMMING2
-  int patch_size = 31;      ///< px, 2 … 200
-  int fast_threshold = 20;  ///< grey levels, 1 … 255
+  int n_features = 500;
+  double scale_factor = 1.2;
+  int n_levels = 8;
+  int edge_threshold = 31;
+  int first_level = 0;
+  int wta_k = 2;  ///< 3 and 4 are matched by NORM_HAMMING2
+  int patch_size = 31;
+  int fast_threshold = 20;
 };
+
+inline std::vector<Field> fieldsOf(OrbOptions& orb) {
+  return {{"n_features", &orb.n_features, "", {1, kMostFeatures}, "best ones kept"},
+          {"scale_factor", &orb.scale_factor, "", {1.01, 4}, "between pyramid levels"},
+          {"n_levels", &orb.n_levels, "", {1, 32}, "of the pyramid"},
+          {"edge_threshold", &orb.edge_threshold, "px", {1, 200}, "of border without key points"},
+          {"first_level", &orb.first_level, "", {0, 31}, "of the pyramid that the image is put into"},
+          {"wta_k", &orb.wta_k, "", {2, 4}, "points per element of the descriptor"},
+          {"patch_size", &orb.patch_size, "px", {2, 200}, "of a descriptor"},
+          {"fast_threshold", &orb.fast_threshold, "grey levels", {1, 255}, "of FAST"}};
+}
 
 /// cv::BRISK. Defaults are OpenCV's.
 struct BriskOptions {
-  int threshold = 30;          ///< of AGAST, grey levels, 1 … 255
-  int n_octaves = 3;           ///< 0 … 9
-  double pattern_scale = 1.0;  ///< 0.1 … 10
+  int threshold = 30;
+  int n_octaves = 3;
+  double pattern_scale = 1.0;
 };
+
+inline std::vector<Field> fieldsOf(BriskOptions& brisk) {
+  return {{"threshold", &brisk.threshold, "grey levels", {1, 255}, "of AGAST"},
+          {"n_octaves", &brisk.n_octaves, "", {0, 9}, "0: one scale"},
+          {"pattern_scale", &brisk.pattern_scale, "", {0.1, 10}, "of the descriptor's pattern"}};
+}
 
 struct FeatureOptions {
   SiftOptions sift;
@@ -50,6 +79,14 @@ struct FeatureOptions {
   OrbOptions orb;
   BriskOptions brisk;
 };
+
+inline std::vector<Field> fieldsOf(FeatureOptions& features) {
+  return joined({under("sift", fieldsOf(features.sift)),
+#ifdef SUNLIT_SURF
+                 under("surf", fieldsOf(features.surf)),
+#endif
+                 under("orb", fieldsOf(features.orb)), under("brisk", fieldsOf(features.brisk))});
+}
 
 /// What one detector found in one picture. Descriptors are one row each: CV_32F for surf, CV_8U for the
 /// others. (SIFT's elements are whole numbers up to 255 in OpenCV; as bytes they are the same numbers in a

@@ -50,11 +50,14 @@ struct SummaryRow {
   std::string a;
   std::string b;
   Difference difference = Difference::kBooleanRgb;
-  Statistics statistics;
+  Statistics statistics;        ///< of the paper's D
+  Statistics symmetric;         ///< see DifferenceValue
+  Statistics one_to_one;        ///< see DifferenceValue
+  std::size_t overmatched = 0;  ///< values for which DifferenceValue::isOvermatched()
 };
 /// Statistics of sorted records, for each pair and difference of the layout. A pair without records has n 0.
 std::vector<SummaryRow> summarise(const FramesLayout& layout, const std::vector<PairRecord>& sorted_records);
-/// Writes `a,b,difference,n,undefined,mean,sd,ci_low,ci_high` in one step.
+/// Writes all columns but the intervals of the latter two in one step.
 void writeSummary(const std::string& path, const std::vector<SummaryRow>& rows);
 
 }  // namespace sunlit::evaluate

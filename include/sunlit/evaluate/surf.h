@@ -5,18 +5,32 @@
 #pragma once
 
 #include <opencv2/features2d.hpp>
+#include <vector>
+
+#include "sunlit/quantity/field.h"
 
 namespace sunlit::evaluate {
 
 /// Defaults are those of OpenCV's cv::xfeatures2d::SURF.
 struct SurfOptions {
-  /// A key point's determinant of the Hessian, in grey levels squared, exceeds this; finite, >= 0.
   double hessian_threshold = 100;
-  int octaves = 4;        ///< doublings of the sampling step; 1 to 8
-  int octave_layers = 3;  ///< filter sizes per octave among which maxima are sought; 1 to 16
-  bool extended = false;  ///< 128 numbers a descriptor instead of 64
-  bool upright = false;   ///< no orientation: every angle is 270 degrees
+  int octaves = 4;
+  int octave_layers = 3;
+  bool extended = false;
+  bool upright = false;  ///< every angle is 270 degrees
 };
+
+inline std::vector<Field> fieldsOf(SurfOptions& surf) {
+  return {{"hessian_threshold",
+           &surf.hessian_threshold,
+           "",
+           {0, 1e6},
+           "that the determinant of the Hessian exceeds, grey levels squared"},
+          {"n_octaves", &surf.octaves, "", {1, 8}, "doublings of the sampling step"},
+          {"n_octave_layers", &surf.octave_layers, "", {1, 16}, "filter sizes of an octave"},
+          {"extended", &surf.extended, "", {}, "128 numbers a descriptor instead of 64"},
+          {"upright", &surf.upright, "", {}, "no orientation"}};
+}
 
 /// A detector and descriptor that keeps to OpenCV's conventions.
 ///

@@ -3,20 +3,22 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <vector>
 
 #include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/field.h"
 
 namespace sunlit::image {
 
 /// An ideal pinhole camera without distortion. Pixel (u, v): u right, v down; the centre of the top left
 /// pixel is (0, 0), as in OpenCV and sensor_msgs/CameraInfo. Optical frame: z forward, x right, y down.
 struct PinholeCamera {
-  int width = 640;   ///< px, 16 … 8192
-  int height = 480;  ///< px, 16 … 8192
-  double fx = 0.0;   ///< px, > 0
-  double fy = 0.0;   ///< px, > 0
-  double cx = 0.0;   ///< px, principal point; (width − 1) / 2 for a centred one
-  double cy = 0.0;   ///< px
+  int width = 640;
+  int height = 480;
+  double fx = 0.0;  ///< focal lengths
+  double fy = 0.0;
+  double cx = 0.0;  ///< principal point; (width − 1) / 2 for a centred one
+  double cy = 0.0;
 
   /// Square pixels, centred. `horizontal_fov` across the full image width, in (0°, 180°).
   static PinholeCamera fromFieldOfView(int width, int height, Angle horizontal_fov) {
@@ -32,5 +34,14 @@ struct PinholeCamera {
     return {(pixel.x() - cx) / fx, (pixel.y() - cy) / fy, 1.0};
   }
 };
+
+inline std::vector<Field> fieldsOf(PinholeCamera& camera) {
+  return {{"width", &camera.width, "px", {16, 8192}, "of the image"},
+          {"height", &camera.height, "px", {16, 8192}, "of the image"},
+          {"fx", &camera.fx, "px", Range::above(0, 1e6), "focal length across"},
+          {"fy", &camera.fy, "px", Range::above(0, 1e6), "focal length down"},
+          {"cx", &camera.cx, "px", {-1e5, 1e5}, "principal point, to the right"},
+          {"cy", &camera.cy, "px", {-1e5, 1e5}, "principal point, down"}};
+}
 
 }  // namespace sunlit::image

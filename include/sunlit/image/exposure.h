@@ -1,7 +1,10 @@
 /// From scene luminance to the 8-bit picture: exposure, and the one conversion to sRGB.
 #pragma once
 
+#include <vector>
+
 #include "sunlit/image/images.h"
+#include "sunlit/quantity/field.h"
 
 namespace sunlit::image {
 
@@ -9,16 +12,39 @@ enum class ExposureMode { kFixed, kAuto };
 
 struct ExposureOptions {
   ExposureMode mode = ExposureMode::kAuto;
-  double ev100 = 13.0;           ///< fixed: exposure value at ISO 100, −16 … 24
-  double compensation_ev = 0.0;  ///< auto: added brightness in stops, −8 … 8
-  /// auto: stops darker for each stop that the metered luminance lies below 64 cd/m², 0 … 0.5, 3.5 stops at
-  /// most in all: so that dusk looks like dusk, and night like night.
-  double night_darkening = 0.15;
-  /// auto: how hard burnt out parts pull the exposure down, 0 (not at all) … 20.
+  double ev100 = 13.0;
+  double compensation_ev = 0.0;
+  double night_darkening = 0.15;  ///< 3.5 stops at most in all: dusk looks like dusk, and night like night
   double highlight_protection = 10.0;
-  double min_ev100 = -8.0;  ///< auto: darkest scene that the camera adapts to
-  double max_ev100 = 17.0;  ///< auto: brightest scene that the camera adapts to, ≥ min_ev100
+  double min_ev100 = -8.0;
+  double max_ev100 = 17.0;  ///< at least min_ev100
 };
+
+inline std::vector<Field> fieldsOf(ExposureOptions& options) {
+  return {{"mode",
+           choiceOf(&options.mode, {"fixed", "auto"}),
+           "",
+           {},
+           "fixed: ev100 for all images; auto: each by its own brightness"},
+          {"ev100", &options.ev100, "EV", {-16, 24}, "fixed: exposure value at ISO 100"},
+          {"compensation", &options.compensation_ev, "EV", {-8, 8}, "auto: stops brighter (+) or darker (-)"},
+          {"night_darkening",
+           &options.night_darkening,
+           "",
+           {0, 0.5},
+           "auto: stops darker for each stop that the scene is dimmer than 64 cd/m²"},
+          {"highlight_protection",
+           &options.highlight_protection,
+           "",
+           {0, 20},
+           "auto: how hard what would burn out pulls the exposure down; 0: not at all"},
+          {"min_ev100", &options.min_ev100, "EV", {-16, 24}, "auto: the darkest that the camera adapts to"},
+          {"max_ev100",
+           &options.max_ev100,
+           "EV",
+           {-16, 24},
+           "auto: the brightest that it adapts to, min_ev100 at least"}};
+}
 
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const ExposureOptions& options);

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "sunlit/image/images.h"
+#include "sunlit/quantity/field.h"
 
 namespace sunlit::image {
 
@@ -14,12 +17,31 @@ namespace sunlit::image {
 /// EV100 then holds full_well_e · 2^(EV100 − gain_ev100) electrons where it is white.
 struct NoiseOptions {
   bool enabled = false;
-  double full_well_e = 20000.0;  ///< electrons of a white pixel at base sensitivity, 100 … 1e6
-  double read_e = 3.0;           ///< rms of reading out a pixel, electrons, 0 … 1000
-  /// Below this the gain rises, −16 … 24. Default: f/1.4 and 1/30 s, log2(1.4² · 30) = 5.9.
-  double gain_ev100 = 5.9;
-  int seed = 0;  ///< 0 … 2147483647: another one gives other grain of the same strength
+  double full_well_e = 20000.0;
+  double read_e = 3.0;
+  double gain_ev100 = 5.9;  ///< f/1.4 and 1/30 s: log2(1.4² · 30)
+  int seed = 0;
 };
+
+inline std::vector<Field> fieldsOf(NoiseOptions& options) {
+  return {{"enabled", &options.enabled, "", {}, "shot noise and read noise of the sensor"},
+          {"full_well_e",
+           &options.full_well_e,
+           "electrons",
+           {100, 1e6},
+           "of a white pixel at base sensitivity, down to gain_ev100"},
+          {"read_e", &options.read_e, "electrons", {0, 1000}, "that reading a pixel out adds, rms"},
+          {"gain_ev100",
+           &options.gain_ev100,
+           "EV",
+           {-16, 24},
+           "below it the gain rises; 5.9 is f/1.4 and 1/30 s"},
+          {"seed",
+           &options.seed,
+           "",
+           {0, std::numeric_limits<int>::max()},
+           "another seed, other grain of the same strength"}};
+}
 
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const NoiseOptions& options);

@@ -8,17 +8,21 @@
 #include "sunlit/image/images.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/world.h"
+#include "sunlit/quantity/field.h"
 #include "sunlit/sky/daylight.h"
 
 namespace sunlit::light {
 
 struct ReferenceOptions {
-  int samples_per_pixel = 256;  ///< paths, 2 … 65536
-  /// Reflections beyond the surface that is seen, 0 … 64. From the fourth on a path goes on by chance
-  /// (Russian roulette), which costs no accuracy.
-  int bounces = 16;
+  int samples_per_pixel = 256;
+  int bounces = 16;  ///< from the fourth on a path goes on by chance (Russian roulette): as accurate
   std::uint32_t seed = 0;
 };
+
+inline std::vector<Field> fieldsOf(ReferenceOptions& options) {
+  return {{"samples", &options.samples_per_pixel, "", {2, 65536}, "paths a pixel"},
+          {"bounces", &options.bounces, "", {0, 64}, "beyond the surface that is seen"}};
+}
 
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const ReferenceOptions& options);

@@ -21,7 +21,7 @@ struct LightPlace {
 
 /// How much of the sky a point sees, by sectors of it: for leaves, which differ within less than the distance
 /// of nodes.
-struct SkyView {
+struct SkyOpenness {
   static constexpr std::size_t kSectors = 24;    ///< SkySectors tells where they lie
   std::array<std::uint8_t, kSectors> open = {};  ///< share that is not hidden, 255 for all
   bool known = false;                            ///< else the nodes tell
@@ -54,7 +54,8 @@ struct RoughMirror {
   float hidden_above = 0.0f, hidden_below = 0.0f;
 };
 
-using MirrorView = std::variant<SmoothMirror, RoughMirror>;
+/// What a surface mirrors.
+using Mirror = std::variant<SmoothMirror, RoughMirror>;
 
 /// How far off its triangle a ray starts, m, at `position` in `map` and `distance_m` from where it is seen:
 /// above what single precision does to the point and to the distance that a ray query computes, and well
@@ -76,10 +77,10 @@ struct Surface {
   std::uint32_t first_sample = 0;    ///< into Tile::origin_x …
   std::uint32_t samples = 0;         ///< how many of the pixel's samples see it, > 0
   std::uint32_t triangle = 0;  ///< one that it lies on: index into Geometry::triangles, beyond them bodies
-  std::uint16_t view = 0;      ///< what it mirrors: index into Tile::views, where `light` is known
+  std::uint16_t mirror = 0;    ///< what it mirrors: index into Tile::mirrors, where `light` is known
   LightPlace light;            ///< set by Transport::locate()
-  LightPlace behind;           ///< likewise, on the other side of a thin sheet
-  SkyView sky;                 ///< likewise, on leaves
+  LightPlace behind;           ///< of the other side of a thin sheet; set by Transport::locate()
+  SkyOpenness sky;             ///< of leaves; set by Transport::locate()
   static constexpr std::uint32_t kNotGathered = 0xffffffffu;
   std::uint32_t gathered = kNotGathered;  ///< index into Tile::gathered; set by FinalGather
   static constexpr std::int32_t kNoBody = -1;
@@ -95,8 +96,8 @@ struct Tile {
   std::vector<Surface> surfaces;  ///< in pixel order
   /// Where each sample's rays start, m in `map`: on the visible side of the triangle, clear of rounding.
   std::vector<float> origin_x, origin_y, origin_z;
-  std::vector<MirrorView> views;      ///< of its surfaces; set by Transport::locate()
-  std::vector<GatheredSky> gathered;  ///< likewise; set by FinalGather, else empty
+  std::vector<Mirror> mirrors;        ///< of its surfaces; set by Transport::locate()
+  std::vector<GatheredSky> gathered;  ///< of its surfaces; empty unless FinalGather set it
   std::vector<std::uint8_t> sky;      ///< samples of each pixel of the tile (row-major) that see no surface
 
   /// What was gathered for one of `surfaces`; null: nothing.

@@ -13,6 +13,7 @@
 #include "sunlit/light/geometry.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/surfaces.h"
+#include "sunlit/quantity/field.h"
 #include "sunlit/sky/daylight.h"
 
 namespace sunlit::light {
@@ -20,11 +21,22 @@ namespace sunlit::light {
 class FinalGather;
 
 struct TransportOptions {
-  int rays_per_patch = 3;  ///< of the 175 patches of the sky, 1 … 64
-  int bounces = 3;         ///< 0 … 8
-  double finest_m = 0.25;  ///< distance of samples where light changes fastest, 0.02 … 10 m
-  int samples = 800000;  ///< at most about as many, 1000 … 10000000; large triangles get what others leave
+  int rays_per_patch = 3;
+  int bounces = 3;
+  double finest_m = 0.25;
+  int samples = 800000;  ///< large triangles get what others leave
 };
+
+inline std::vector<Field> fieldsOf(TransportOptions& options) {
+  return {{"rays",
+           &options.rays_per_patch,
+           "",
+           {1, 64},
+           "from each sample to each of the 175 patches of the sky"},
+          {"bounces", &options.bounces, "", {0, 8}, "of light from surface to surface"},
+          {"finest", &options.finest_m, "m", {0.02, 10}, "between samples where light changes fastest"},
+          {"samples", &options.samples, "", {1000, 1e7}, "at most about so many"}};
+}
 
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const TransportOptions& options);
@@ -32,6 +44,12 @@ void validate(const TransportOptions& options);
 /// How far a bake is: share done, 0 … 1, and seconds left by the time taken so far. Never called by two
 /// threads at once.
 using BakeProgress = std::function<void(double share, double seconds_left)>;
+
+/// Who is told of a bake.
+struct BakeListener {
+  BakeProgress progress;                        ///< may be empty
+  std::function<void(const std::string&)> log;  ///< one line of what did not go as it should; may be empty
+};
 
 /// Where bakes are kept, and how much of the disk they may take.
 struct BakeCache {
@@ -43,6 +61,9 @@ struct BakeCache {
   std::string folder;
   /// Beyond it those go that have not been used for longest, but none that a process uses now.
   std::uintmax_t limit_bytes;
+
+  /// What the bakes in the folder take now; 0 where there is no such folder.
+  std::uintmax_t usedBytes() const;
 };
 
 struct TransportData;
@@ -59,12 +80,12 @@ class Transport {
                                                const TransportOptions& options,
                                                const BakeProgress& progress = nullptr);
   /// As bake(), but reads the result from the folder of `cache` where an equal bake has left it, and leaves
-  /// it there. A file that is broken or of another scene is named by one line to `log` and replaced; if the
-  /// folder can't be written, that is logged too. Of several processes that want the same bake, one computes
-  /// it.
-  static std::shared_ptr<const Transport> cached(
-      std::shared_ptr<const Geometry> geometry, const TransportOptions& options, const BakeCache& cache,
-      const BakeProgress& progress = nullptr, const std::function<void(const std::string&)>& log = nullptr);
+  /// it there. A file that is broken or of another scene is named by one line to the listener's log and
+  /// replaced; if the folder can't be written, that is logged too. Of several processes that want the same
+  /// bake, one computes it.
+  static std::shared_ptr<const Transport> cached(std::shared_ptr<const Geometry> geometry,
+                                                 const TransportOptions& options, const BakeCache& cache,
+                                                 const BakeListener& listener = {});
 
   /// SUNLIT_CACHE_DIR, or sunlit in XDG_CACHE_HOME, or .cache/sunlit in HOME, or else in the system's
   /// temporary folder.
@@ -75,9 +96,9 @@ class Transport {
             std::unique_ptr<const TransportData> data);
   ~Transport();
 
-  /// Sets Surface::light, Surface::behind, Surface::sky and Surface::view of all surfaces but those of bodies
-  /// that move, and Tile::views. With `gather`, those that it cares for then see the sky by rays of their
-  /// own.
+  /// Sets Surface::light, Surface::behind, Surface::sky and Surface::mirror of all surfaces but those of
+  /// bodies that move, and Tile::mirrors. With `gather`, those that it cares for then see the sky by rays of
+  /// their own.
   void locate(Surfaces* surfaces, FinalGather* gather = nullptr) const;
   /// Where a point of a triangle of the scene finds its light, on the front or the back.
   LightPlace placeOf(std::uint32_t triangle, bool front, const Eigen::Vector3f& position) const;

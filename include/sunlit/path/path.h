@@ -5,15 +5,22 @@
 #include <string>
 #include <vector>
 
+#include "sunlit/quantity/field.h"
+
 namespace sunlit::path {
 
 /// Points in `map`, m, in driving order, on the ground that the camera drives over.
 using Waypoints = std::vector<Eigen::Vector3d>;
 
 struct PathOptions {
-  double spacing_m = 1.0;  ///< distance of consecutive poses within a segment, 0.001 … 1000 m
-  double height_m = 1.0;   ///< of the camera above the waypoints, −1000 … 1000 m
+  double spacing_m = 1.0;
+  double height_m = 1.0;
 };
+
+inline std::vector<Field> fieldsOf(PathOptions& options) {
+  return {{"spacing", &options.spacing_m, "m", {0.001, 1000}, "between poses of one segment"},
+          {"camera_height", &options.height_m, "m", {-1000, 1000}, "of the camera above the waypoints"}};
+}
 
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const PathOptions& options);

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
+
+#include "sunlit/quantity/field.h"
 
 namespace sunlit {
 
@@ -9,14 +12,26 @@ namespace sunlit {
 /// 15 October 1582, Julian until 4 October 1582; astronomical years (0 is 1 BC). The ten days between do not
 /// exist.
 struct CivilDateTime {
-  int year = 2024;        ///< −2000 … 6000
-  int month = 7;          ///< 1 … 12
-  int day = 1;            ///< 1 … last day of the month
-  int hour = 12;          ///< 0 … 23 (24 with minute 0 and second 0: the end of the day)
-  int minute = 0;         ///< 0 … 59
-  double second = 0.0;    ///< s, 0 ≤ second < 60
-  double timezone = 0.0;  ///< h east of UTC, −18 … 18
+  int year = 2024;
+  int month = 7;
+  int day = 1;
+  int hour = 12;  ///< 24 too, with minute 0 and second 0: the end of the day
+  int minute = 0;
+  double second = 0.0;
+  double timezone = 0.0;
 };
+
+constexpr Range kYears{-2000, 6000};
+
+inline std::vector<Field> fieldsOf(CivilDateTime& civil) {
+  return {{"year", &civil.year, "", kYears, "Julian calendar until 4 October 1582; year 0 is 1 BC"},
+          {"month", &civil.month, "", {1, 12}, "of the year"},
+          {"day", &civil.day, "", {1, 31}, "of the month, and not beyond its last"},
+          {"hour", &civil.hour, "h", {0, 23}, "of the day"},
+          {"minute", &civil.minute, "min", {0, 59}, "of the hour"},
+          {"second", &civil.second, "s", Range::below(0, 60), "of the minute"},
+          {"timezone", &civil.timezone, "h", {-18, 18}, "east of UTC; there is no daylight saving"}};
+}
 
 /// A point in time on the UTC line, exact to 1 ns over all supported years: a whole Julian day number and the
 /// nanoseconds since that day's noon, since one double of a Julian date resolves only 40 µs.

@@ -3,27 +3,51 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "sunlit/image/camera.h"
 #include "sunlit/image/images.h"
+#include "sunlit/light/final_gather.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/world.h"
+#include "sunlit/quantity/field.h"
+#include "sunlit/render/rasterizer.h"
 #include "sunlit/scene/scene.h"
 
 namespace sunlit::render {
 
 struct RenderOptions {
   image::PinholeCamera camera;
-  int supersampling = 2;          ///< geometry samples per pixel and axis, 1 … 4; 2 is four samples a pixel
-  double near_m = 0.05;           ///< nearest visible depth, > 0
-  double far_m = 20000.0;         ///< farthest visible depth, > near_m
-  double texture_lod_bias = 0.0;  ///< mipmap bias in levels, −4 … 4
+  int supersampling = 2;  ///< 2 is four samples a pixel
+  double near_m = 0.05;
+  double far_m = 20000.0;  ///< above near_m
+  double texture_lod_bias = 0.0;
   /// 0: the sky is seen as baked. Else light::FinalGather with so many rays a patch looks closer, where light
-  /// is baked: 1 … 16. What that brings and costs: README.md.
+  /// is baked. What that brings and costs: README.md.
   int final_gather = 0;
+  Rasterizer rasterizer = defaultRasterizer();
 };
+
+inline std::vector<Field> fieldsOf(RenderOptions& options) {
+  return joined(
+      {fieldsOf(options.camera),
+       {{"supersampling", &options.supersampling, "", {1, 4}, "samples per pixel and axis: anti-aliasing"},
+        {"near", &options.near_m, "m", Range::above(0, 1e6), "nearest visible depth"},
+        {"far", &options.far_m, "m", Range::above(0, 1e7), "farthest visible depth"},
+        {"texture_lod_bias", &options.texture_lod_bias, "levels", {-4, 4}, "of the mipmaps"},
+        {"final_gather",
+         &options.final_gather,
+         "",
+         {0, light::FinalGather::kMostRays},
+         "leaves, twigs and wires look closer at the sky: rays to each of its patches; 0: as baked"},
+        {"rasterizer",
+         choiceOf(&options.rasterizer, rasterizerNames()),
+         "",
+         {},
+         "what draws: OpenGL by OSMesa or by EGL, or our own; their pictures hardly differ"}}});
+}
 
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const RenderOptions& options);
@@ -35,6 +59,8 @@ using BodyPlaces = std::vector<Eigen::Isometry3d>;
 /// for any thread count.
 class Renderer {
  public:
+  /// Throws std::invalid_argument by validate(), and std::runtime_error if the rasterizer cannot start here,
+  /// naming those that can.
   Renderer(const light::World& world, const RenderOptions& options);
   /// A world of its own, in which surfaces see the whole sky that they face.
   Renderer(std::shared_ptr<const scene::Scene> scene, const RenderOptions& options);
@@ -57,6 +83,8 @@ class Renderer {
   const light::Surfaces& surfaces() const;
 
   const RenderOptions& options() const;
+  /// Which rasterizer draws, and on what, such as "osmesa: llvmpipe (LLVM 15.0.6, 256 bits)".
+  std::string rasterizer() const;
 
  private:
   class Implementation;

@@ -1,10 +1,18 @@
-/// TF frame names that all nodes share (REP-105).
+/// Names of TF frames, as parameters tell of them.
 #pragma once
+
+#include <string>
+#include <vector>
+
+#include "sunlit/quantity/field.h"
+#include "sunlit/ros/parameter_reader.h"
 
 namespace sunlit::ros_interface {
 
-constexpr const char* kMapFrame = "map";                       ///< ENU
-constexpr const char* kCameraFrame = "camera_link";            ///< x forward, y left, z up
-constexpr const char* kOpticalFrame = "camera_optical_frame";  ///< z forward, x right, y down
+constexpr const char* kMapFrame = "map";  ///< ENU, unless parameters say otherwise
+
+/// Throws std::invalid_argument unless the texts of all rows can be names of frames of one tree: not empty,
+/// without the slash in front that TF refuses, and each its own.
+void requireFrameNames(const ParameterReader& parameters, const std::vector<Field>& rows);
 
 }  // namespace sunlit::ros_interface

@@ -4,19 +4,18 @@
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
-#include <limits>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "sunlit/quantity/field.h"
+
 namespace sunlit::ros_interface {
 
-/// Closed interval of allowed values.
-struct Range {
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
-};
+/// As a person would type it: lists in brackets, maps in braces, texts without quotes.
+std::string plainText(XmlRpc::XmlRpcValue value);
 
 /// The parameters of one node, fetched once. Every getter takes the key below the private namespace
 /// (`site/latitude`) and the default, and throws std::invalid_argument with full name, value and what is
@@ -33,6 +32,12 @@ class ParameterReader {
   /// A reader that looks into `overrides` first, by the whole key (`site/latitude`) or its last part
   /// (`latitude`), and here where they say nothing. Its rejectUnknown() speaks of the overrides.
   ParameterReader withOverrides(const XmlRpc::XmlRpcValue& overrides, const std::string& name) const;
+
+  /// Sets every row for which there is a parameter of its key; the others stay as they are. A row of a form
+  /// of its own only becomes known: value() reads it.
+  void read(const std::vector<Field>& rows) const;
+  /// Calls `check`, and puts "parameter", this node and `group` before the key that its refusal begins with.
+  void check(const std::string& group, const std::function<void()>& check) const;
 
   bool has(const std::string& key) const;
   double number(const std::string& key, double fallback, Range range = {}) const;

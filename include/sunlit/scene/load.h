@@ -20,7 +20,9 @@ struct SearchPath {
   /// known. Unset: packages are looked for in `folders` alone.
   std::function<std::string(const std::string& package)> package_folder = {};
   /// `folders`, then those of the environment variables SUNLIT_MODEL_PATH, GAZEBO_MODEL_PATH,
-  /// GAZEBO_RESOURCE_PATH and SDF_PATH (colon-separated), then ~/.gazebo/models.
+  /// GAZEBO_RESOURCE_PATH and SDF_PATH (colon-separated), then ~/.gazebo/models, then this package's own
+  /// worlds/models, which has the `sun` and `ground_plane` that most Gazebo worlds include. Packages are
+  /// those below the folders in ROS_PACKAGE_PATH, then Debian's.
   static SearchPath withEnvironment(std::vector<std::string> folders);
 };
 

@@ -11,22 +11,31 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "sunlit/quantity/direction.h"
+#include "sunlit/quantity/field.h"
 #include "sunlit/sky/daylight.h"
 
 namespace sunlit::sky {
 
 struct AtmosphereOptions {
-  /// Optical depth of air and aerosol over that of air alone (Preetham et al. 1999), 1 (pure air) … 10
-  /// (haze): 2 is a clear day, with an aerosol optical depth of 0.10 at 550 nm; 3 has 0.20, 6 has 0.50.
+  /// Optical depth of air and aerosol over that of air alone (Preetham et al. 1999). 2 has an aerosol optical
+  /// depth of 0.10 at 550 nm, 3 has 0.20, 6 has 0.50.
   double turbidity = 2.0;
-  /// Ozone in a column of air, Dobson units, 0 … 600: 300 is the mean over the Earth, 100 the ozone hole's,
-  /// 500 that of a northern spring. It takes orange from light that comes a long way, and so makes dusk blue.
+  /// In a column of air: 500 is that of a northern spring. Ozone takes orange from light that comes a long
+  /// way, and so makes dusk blue.
   double ozone_du = 300.0;
-  double ground_albedo = 0.2;      ///< of the land around the scene, 0 … 1
-  double observer_height_m = 0.0;  ///< above sea level, 0 … 8000 m
+  double ground_albedo = 0.2;
+  double observer_height_m = 0.0;
 };
+
+inline std::vector<Field> fieldsOf(AtmosphereOptions& options) {
+  return {{"turbidity", &options.turbidity, "", {1, 10}, "haziness: 1 is pure air, 2 a clear day, 10 haze"},
+          {"ozone", &options.ozone_du, "DU", {0, 600}, "300 is the Earth's mean, 100 the ozone hole's"},
+          {"ground_albedo", &options.ground_albedo, "", {0, 1}, "of the land around the scene"},
+          {"observer_height", &options.observer_height_m, "m", {0, 8000}, "above sea level"}};
+}
 
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const AtmosphereOptions& options);

@@ -32,21 +32,20 @@ Lists& lists() {
 
 }  // namespace
 
-DiscVisibility::DiscVisibility(const sky::DiscLight& disc, float least_lx, const Visibility& visibility,
-                               const LightTable& table, const Surfaces& surfaces)
-    : visibility_(visibility),
-      table_(table),
-      surfaces_(surfaces),
+DiscVisibility::DiscVisibility(const sky::DiscLight& disc, float least_lx, const Picture& picture)
+    : visibility_(picture.visibility),
+      table_(picture.table),
+      surfaces_(picture.surfaces),
       shines_(disc.illuminance.value.maxCoeff() > least_lx),
       towards_(disc.towards.vector().cast<float>()),
       radius_rad_(static_cast<float>(disc.angular_radius.rad())),
       points_(towards_, radius_rad_),
-      tallies_(surfaces.tiles.size()),
-      shares_(surfaces.tiles.size()),
-      met_(surfaces.width, surfaces.height),
-      mixed_(surfaces.width, surfaces.height),
-      lit_(surfaces.width, surfaces.height),
-      gaps_(surfaces.width / kBlock + 1, surfaces.height / kBlock + 1) {
+      tallies_(surfaces_.tiles.size()),
+      shares_(surfaces_.tiles.size()),
+      met_(surfaces_.width, surfaces_.height),
+      mixed_(surfaces_.width, surfaces_.height),
+      lit_(surfaces_.width, surfaces_.height),
+      gaps_(surfaces_.width / kBlock + 1, surfaces_.height / kBlock + 1) {
   castAll();
 }
 
@@ -69,45 +68,45 @@ int DiscVisibility::raysAfter(Step step, int samples, bool fills) const {
   return step == Step::kSample ? first : std::max(first, kPoints * samples / pixel);
 }
 
-bool DiscVisibility::facesDisc(const LightTable::Site& site) const {
-  return site.thin || (site.geometric_normal.dot(towards_) > -std::sin(radius_rad_) &&
-                       site.shading_normal.dot(towards_) > 0.0f);
+bool DiscVisibility::facesDisc(const LightTable::DiscTarget& target) const {
+  return target.thin || (target.geometric_normal.dot(towards_) > -std::sin(radius_rad_) &&
+                         target.shading_normal.dot(towards_) > 0.0f);
 }
 
-bool DiscVisibility::fillsPixel(const LightTable::Site& site) const {
-  return !site.leaves && site.samples == static_cast<std::uint32_t>(surfaces_.samples_per_pixel);
+bool DiscVisibility::fillsPixel(const LightTable::DiscTarget& target) const {
+  return !target.leaves && target.samples == static_cast<std::uint32_t>(surfaces_.samples_per_pixel);
 }
 
-std::uint8_t DiscVisibility::enoughMixed(const LightTable::Site& site, bool fills) {
+std::uint8_t DiscVisibility::enoughMixed(const LightTable::DiscTarget& target, bool fills) {
   // Foliage shades itself leaf by leaf: more rays cost much there, and what they would smooth is hidden in
   // the leaves, unless these are looked at closely. But surfaces amid such as disagree, too: a mesh or a
   // treetop may stop all of one pixel's first rays by chance, which would show as a dark dot. Beside a
   // straight edge there are three; a pixel that windows fail in may lie on a thin shadow, of which few pixels
   // are found to be mixed.
-  if (site.leaves) return site.gathered ? 1 : Tally::kNever;
+  if (target.leaves) return target.gathered ? 1 : Tally::kNever;
   return fills ? 2 : 4;
 }
 
 void DiscVisibility::appendRays(std::size_t number, std::uint32_t index, Step step) {
-  const LightTable::Site& site = table_.tile(number).sites[index];
+  const LightTable::DiscTarget& target = table_.tile(number).targets[index];
   const Tile& tile = surfaces_.tiles[number];
   Tally& tally = tallies_[number][index];
-  RayList& rays = site.leaves ? lists().leaves : lists().solid;
-  const auto end = static_cast<std::uint32_t>(raysAfter(step, site.samples, tally.fills));
+  RayList& rays = target.leaves ? lists().leaves : lists().solid;
+  const auto end = static_cast<std::uint32_t>(raysAfter(step, target.samples, tally.fills));
   if (tally.cast >= end) return;
-  const DiscPoints::OfPixel points = points_.ofPixel(site.x, site.y);
-  const std::uint32_t parity = (site.x >> 1 & 1u) + 2u * (site.y & 1u);
-  std::uint32_t sample = (tally.cast + parity) % site.samples;
+  const DiscPoints::OfPixel points = points_.ofPixel(target.x, target.y);
+  const std::uint32_t parity = (target.x >> 1 & 1u) + 2u * (target.y & 1u);
+  std::uint32_t sample = (tally.cast + parity) % target.samples;
   rays.reserve(end - tally.cast);
   for (std::uint32_t i = tally.cast; i < end; ++i) {
     const Eigen::Vector3f& direction = points[i];
-    const std::uint32_t at = site.first_sample + sample;
-    if (++sample == site.samples) sample = 0;
+    const std::uint32_t at = target.first_sample + sample;
+    if (++sample == target.samples) sample = 0;
     Eigen::Vector3f origin(tile.origin_x[at], tile.origin_y[at], tile.origin_z[at]);
-    if (site.geometric_normal.dot(direction) <= 0.0f) {
+    if (target.geometric_normal.dot(direction) <= 0.0f) {
       // The part of the disc below the surface's own plane is hidden, unless light shines through it.
-      if (!site.thin) continue;
-      origin -= 2.0f * site.clearance_m * site.geometric_normal;
+      if (!target.thin) continue;
+      origin -= 2.0f * target.clearance_m * target.geometric_normal;
     }
     rays.add(index, origin, direction);
   }
@@ -134,25 +133,25 @@ void DiscVisibility::probe(std::size_t number) {
   lists().solid.clear();
   lists().leaves.clear();
   const Tile& tile = surfaces_.tiles[number];
-  const std::vector<LightTable::Site>& sites = table_.tile(number).sites;
+  const std::vector<LightTable::DiscTarget>& targets = table_.tile(number).targets;
   std::vector<Tally>& tallies = tallies_[number];
-  tallies.resize(sites.size());
-  for (std::uint32_t i = 0; i < sites.size(); ++i) {
-    const LightTable::Site& site = sites[i];
+  tallies.resize(targets.size());
+  for (std::uint32_t i = 0; i < targets.size(); ++i) {
+    const LightTable::DiscTarget& target = targets[i];
     Tally& tally = tallies[i];
-    tally.x = static_cast<std::uint8_t>(site.x - tile.x);
-    tally.y = static_cast<std::uint8_t>(site.y - tile.y);
-    tally.fills = fillsPixel(site);
-    tally.enough = enoughMixed(site, tally.fills);
-    if (!facesDisc(site)) continue;
-    tally.waits = tally.fills && ((site.x + site.y) & 1) == 1;
+    tally.x = static_cast<std::uint8_t>(target.x - tile.x);
+    tally.y = static_cast<std::uint8_t>(target.y - tile.y);
+    tally.fills = fillsPixel(target);
+    tally.enough = enoughMixed(target, tally.fills);
+    if (!facesDisc(target)) continue;
+    tally.waits = tally.fills && ((target.x + target.y) & 1) == 1;
     if (!tally.waits) appendRays(number, i, Step::kProbe);
   }
   cast(number);
   for (std::size_t i = 0; i < tallies.size(); ++i) {
     if (tallies[i].cast == 0) continue;
-    met_.at(sites[i].x, sites[i].y) |= tallies[i].lit > 0 ? kLit : kDark;
-    if (tallies[i].fills && tallies[i].lit > 0) gaps_.at(sites[i].x / kBlock, sites[i].y / kBlock) = 1;
+    met_.at(targets[i].x, targets[i].y) |= tallies[i].lit > 0 ? kLit : kDark;
+    if (tallies[i].fills && tallies[i].lit > 0) gaps_.at(targets[i].x / kBlock, targets[i].y / kBlock) = 1;
   }
 }
 

@@ -18,10 +18,15 @@ namespace sunlit::light {
 
 class DiscVisibility {
  public:
+  /// What the disc may shine on, and what stands in its way.
+  struct Picture {
+    const Surfaces& surfaces;
+    const LightTable& table;  ///< of `surfaces`
+    const Visibility& visibility;
+  };
   /// Casts all rays, in parallel, unless the disc gives less than `least_lx` on a plane facing it. Keeps
-  /// references; `table` is of `surfaces`.
-  DiscVisibility(const sky::DiscLight& disc, float least_lx, const Visibility& visibility,
-                 const LightTable& table, const Surfaces& surfaces);
+  /// what `picture` refers to.
+  DiscVisibility(const sky::DiscLight& disc, float least_lx, const Picture& picture);
 
   const Eigen::Vector3f& towards() const { return towards_; }
   float radius_rad() const { return radius_rad_; }
@@ -65,10 +70,10 @@ class DiscVisibility {
   bool hasGapsAround(int x, int y) const;
   /// Tells neighbours what was met in a pixel that one solid surface fills.
   void note(const Tile& tile, const Tally& tally);
-  bool facesDisc(const LightTable::Site& site) const;
-  bool fillsPixel(const LightTable::Site& site) const;
+  bool facesDisc(const LightTable::DiscTarget& target) const;
+  bool fillsPixel(const LightTable::DiscTarget& target) const;
   /// Tally::enough, by Tally::fills.
-  static std::uint8_t enoughMixed(const LightTable::Site& site, bool fills);
+  static std::uint8_t enoughMixed(const LightTable::DiscTarget& target, bool fills);
   /// Rays of surface `index` of a tile that it has not had yet.
   void appendRays(std::size_t tile, std::uint32_t index, Step step);
   void cast(std::size_t tile);

@@ -18,6 +18,7 @@
 #include "light/ray_list.h"
 #include "light/sky_patches.h"
 #include "light/triangle_grid.h"
+#include "sunlit/quantity/range.h"
 #include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::light {
@@ -136,10 +137,7 @@ class FinalGather::Implementation {
   Implementation(std::shared_ptr<const Geometry> geometry, std::shared_ptr<const Visibility> visibility,
                  int rays_per_patch)
       : geometry_(std::move(geometry)), visibility_(std::move(visibility)) {
-    if (rays_per_patch < 1 || rays_per_patch > kMostRays) {
-      throw std::invalid_argument("final gathering: " + std::to_string(rays_per_patch) +
-                                  " rays per patch are outside 1 … " + std::to_string(kMostRays));
-    }
+    require("final_gather", rays_per_patch, {1, kMostRays});
     // The rays of each aim fill a patch evenly, and those of all together do.
     const SkyPatches all(static_cast<int>(kAims) * rays_per_patch);
     std::array<std::size_t, SkyPatches::kAbove> number{};

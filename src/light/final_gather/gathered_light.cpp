@@ -17,8 +17,9 @@ struct Sides {
 
 /// By the cosines of patches to the normal, which are positive before the surface and negative behind it.
 SUNLIT_WIDE_VECTOR_CLONES
-void addUp(const float* normal, const MirrorPlaces::Middles& middles, const PatchSky& sky,
-           const std::uint8_t* __restrict open, Sides* __restrict sides) {
+void addUp(const float* normal, const PatchSky& sky, const std::uint8_t* __restrict open,
+           Sides* __restrict sides) {
+  const MirrorPlaces::Middles& middles = mirrorPlaces().middles;
   const float x = normal[0], y = normal[1], z = normal[2];
   const float *const mx = middles.x.data(), *const my = middles.y.data(), *const mz = middles.z.data();
   const std::int16_t *const red = sky.channel(0), *const green = sky.channel(1), *const blue = sky.channel(2);
@@ -59,7 +60,7 @@ Eigen::Array4f side(const float (&sums)[kSums][kLanes], const PatchSky& sky, flo
 
 GatheredLight gatheredLight(const GatheredSky& gathered, const PatchSky& sky, const Eigen::Vector3f& normal) {
   Sides sides;
-  addUp(normal.data(), mirrorPlaces().middles, sky, gathered.open.data(), &sides);
+  addUp(normal.data(), sky, gathered.open.data(), &sides);
   return {side(sides.front, sky, 0.5f * (1.0f + normal.z())),
           side(sides.behind, sky, 0.5f * (1.0f - normal.z()))};
 }

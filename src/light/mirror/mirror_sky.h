@@ -31,8 +31,8 @@ class MirrorSky {
   std::vector<Eigen::Array4f, Eigen::aligned_allocator<Eigen::Array4f>> table_;
 };
 
-/// Sets Tile::views, and Surface::view of those surfaces of `tile` whose Surface::light is known: where they
-/// look, and how much of the sky there `data` has open.
-void findMirrorViews(const TransportData& data, const scene::Scene& scene, int picture_width, Tile* tile);
+/// Sets Tile::mirrors, and Surface::mirror of those surfaces of `tile` whose Surface::light is known: where
+/// they look, and how much of the sky there `data` has open.
+void findMirrors(const TransportData& data, const scene::Scene& scene, int picture_width, Tile* tile);
 
 }  // namespace sunlit::light

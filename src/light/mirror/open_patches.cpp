@@ -39,8 +39,9 @@ inline bool tells(float cosine, float solid_angle) {
 
 /// `sums` are over the rows. All patches at once take less time than patches asked for one by one.
 SUNLIT_WIDE_VECTOR_CLONES
-void divideByWhole(const float* normal, const MirrorPlaces::Middles& middles, const float* __restrict sums,
-                   float* __restrict share, float* __restrict known) {
+void divideByWhole(const float* normal, const float* __restrict sums, float* __restrict share,
+                   float* __restrict known) {
+  const MirrorPlaces::Middles& middles = mirrorPlaces().middles;
   const float x = normal[0], y = normal[1], z = normal[2];
   const float *const mx = middles.x.data(), *const my = middles.y.data(), *const mz = middles.z.data();
   const float* const angle = middles.solid_angle.data();
@@ -99,7 +100,7 @@ OpenPatches openPatches(const TransportData& data, const Surface& surface, const
     addTimes(samples.rows[i].weight, samples.rows[i].values, sums.data());
   const Eigen::Vector3f& normal = transmission > 0.0f ? surface.shading_normal : bakedNormal(surface);
   OpenPatches open;
-  divideByWhole(normal.data(), mirrorPlaces().middles, sums.data(), open.share.data(), open.known.data());
+  divideByWhole(normal.data(), sums.data(), open.share.data(), open.known.data());
   return open;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/ggx.h"
 #include "light/schlick.h"
 #include "sunlit/quantity/vector_clones.h"
 
@@ -49,17 +50,16 @@ struct Sphere {
   }
 };
 
-/// A surface's mirror-like lobe, by the terms of directReflectance(), but for that of Smith: by a mean of its
-/// limits for smooth and rough surfaces, weighed by α (Hammon, "PBR Diffuse Lighting for GGX+Smith
-/// Microsurfaces", GDC 2017), which needs no roots.
+/// A surface's mirror-like lobe.
 struct Lobe {
   Eigen::Vector3f normal, to_eye;
   Eigen::Vector3f outside;  ///< nothing is seen where the product with this is negative; zero: everything is
-  float f0, alpha, n_v;
+  float f0;
+  GgxOfView<float> facets;
 };
 
-/// Adds to all[i] the reflectance for direction i, times its solid angle, and to seen[i] likewise, if it is
-/// not below the surface itself.
+/// Adds to all[i] the reflectance for direction i, times its solid angle and what is the same for all, and to
+/// seen[i] likewise, if it is not below the surface itself.
 template <std::size_t kCount>
 inline __attribute__((always_inline)) void addReflected(const Lobe& lobe, const Directions<kCount>& towards,
                                                         float* __restrict all, float* __restrict seen) {
@@ -68,16 +68,13 @@ inline __attribute__((always_inline)) void addReflected(const Lobe& lobe, const 
   const float nx = lobe.normal.x(), ny = lobe.normal.y(), nz = lobe.normal.z();
   const float vx = lobe.to_eye.x(), vy = lobe.to_eye.y(), vz = lobe.to_eye.z();
   const float gx = lobe.outside.x(), gy = lobe.outside.y(), gz = lobe.outside.z();
-  const float n_v = lobe.n_v, alpha = lobe.alpha, rest2 = 1.0f - alpha * alpha, f0 = lobe.f0;
-  const float both = 2.0f * n_v * (1.0f - alpha) + alpha, one = alpha * n_v;
+  const float f0 = lobe.f0;
+  const GgxOfView<float> facets = lobe.facets;
   for (std::size_t i = 0; i < kCount; ++i) {
     const float n_l = std::max(nx * x[i] + ny * y[i] + nz * z[i], 0.0f);
-    // |light + eye| = 2 v·h, so that neither the half vector nor, for the lobe's width, a root is needed.
     const float v_h2 = std::max(0.5f * (1.0f + vx * x[i] + vy * y[i] + vz * z[i]), 1e-6f);
-    const float sum = n_l + n_v;
-    const float wide = 4.0f * v_h2 - std::min(sum * sum, 4.0f * v_h2) * rest2;
     const float fresnel = f0 + (1.0f - f0) * schlick(std::min(std::sqrt(v_h2), 1.0f));
-    const float value = fresnel * (n_l * angle[i]) * (v_h2 * v_h2) / (wide * wide * (n_l * both + one));
+    const float value = fresnel * (n_l * angle[i]) * (v_h2 * v_h2) / facets.divisor(n_l, v_h2);
     all[i] += value;
     seen[i] += gx * x[i] + gy * y[i] + gz * z[i] >= 0.0f ? value : 0.0f;
   }
@@ -96,7 +93,7 @@ inline __attribute__((always_inline)) float sumOf(const float* __restrict values
 /// A lobe's sums.
 struct LobeSums {
   alignas(32) PatchValues seen{};  ///< by patch, as far as it is not below the surface itself
-  float below = 0.0f;              ///< likewise, below the horizon
+  float below = 0.0f;              ///< below the horizon, as far as it is not below the surface itself
   float all = 0.0f;
 };
 
@@ -138,15 +135,12 @@ void fill(const LobeSums& sums, const float* __restrict open, RoughMirror* mirro
 }
 
 Lobe lobeOf(const Surface& surface, const scene::Material& material) {
-  Lobe lobe;
-  lobe.normal = surface.shading_normal;
-  lobe.to_eye = surface.to_eye;
-  lobe.outside =
+  const Eigen::Vector3f outside =
       material.transmission > 0.0f ? Eigen::Vector3f(Eigen::Vector3f::Zero()) : surface.geometric_normal;
-  lobe.f0 = kDielectricF0 + (material.base_color.luminance() - kDielectricF0) * material.metalness;
-  lobe.alpha = material.roughness * material.roughness;
-  lobe.n_v = std::max(lobe.normal.dot(lobe.to_eye), 1e-3f);
-  return lobe;
+  const float f0 = kDielectricF0 + (material.base_color.luminance() - kDielectricF0) * material.metalness;
+  const float n_v = std::max(surface.shading_normal.dot(surface.to_eye), 1e-3f);
+  const GgxOfView<float> facets(material.roughness * material.roughness, n_v);
+  return {surface.shading_normal, surface.to_eye, outside, f0, facets};
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ struct OpenPart {
 /// What is hidden is often the brightest: the sky above the horizon. So the open rest of a part has its own
 /// direction. `below` is what a direction below the horizon counts: on level ground nothing, as no part of a
 /// lobe lies there.
-OpenPart openPart(const MirrorPlaces& sky, std::uint16_t place, const Eigen::Vector3f& towards,
-                  const OpenPatches& open, float below) {
+OpenPart openPart(std::uint16_t place, const Eigen::Vector3f& towards, const OpenPatches& open, float below) {
+  const MirrorPlaces& sky = mirrorPlaces();
   Eigen::Array4f all = Eigen::Array4f::Zero(), seen = Eigen::Array4f::Zero();  // the fourth counts
   for (const std::uint8_t patch : sky.patches[place]) {
     all += open.known[patch] * sky.means[patch];
@@ -95,7 +95,7 @@ SmoothMirror smoothMirror(const Surface& surface, float roughness, bool sheet, c
       shares[k] = 1.0f;
       parts[k] = -Eigen::Vector3f::UnitZ();  // into the surface itself: nothing is seen, as of no sky
     } else {
-      const OpenPart part = openPart(sky, mirror.place[k], parts[k], open, below);
+      const OpenPart part = openPart(mirror.place[k], parts[k], open, below);
       shares[k] = part.share;
       parts[k] = part.towards;
       mirror.hidden_below += kPart * part.below;

@@ -69,9 +69,9 @@ class Paths {
   float random(const Path& path, int bounce, std::size_t dimension) const;
   void addEmission();
   void addDisc(const Disc& disc, int bounce);
-  /// Sky by directions chosen for its brightness, ...
+  /// Sky, by directions chosen for its brightness.
   void addSkyOf(std::size_t day, int bounce);
-  /// ... and where a ray chosen by the surface meets it.
+  /// Sky, where a ray chosen by the surface meets it.
   void addSkyMet(const Path& path, const Scattered& scattered);
   void castAndAdd(std::size_t day);
   /// To the next surfaces. Paths that reach the sky or die are gone afterwards.

@@ -13,12 +13,6 @@
 namespace sunlit::light {
 namespace {
 
-void require(bool good, const char* key, int value, const char* range) {
-  if (!good) {
-    throw std::invalid_argument(std::string(key) + " is " + std::to_string(value) + ", must be " + range);
-  }
-}
-
 /// Adds one surface's light to its pixel, by halves.
 using Halves = std::array<std::vector<image::LinearImage>, 2>;
 
@@ -59,9 +53,7 @@ Traced combined(const image::LinearImage& first, const image::LinearImage& secon
 }  // namespace
 
 void validate(const ReferenceOptions& options) {
-  require(options.samples_per_pixel >= 2 && options.samples_per_pixel <= 65536, "samples_per_pixel",
-          options.samples_per_pixel, "2 ... 65536");
-  require(options.bounces >= 0 && options.bounces <= 64, "bounces", options.bounces, "0 ... 64");
+  requireFields(options);
 }
 
 std::vector<Traced> traceReference(const Surfaces& surfaces, const World& world,

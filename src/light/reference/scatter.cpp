@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "light/angles.h"
+#include "light/ggx.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
@@ -43,10 +43,6 @@ Lobes lobesOf(const Reflection& r) {
   return {(1.0f - mirror) * diffuse / lambert, (1.0f - mirror) * through / lambert, mirror};
 }
 
-float mirrorAlpha(const Reflection& r) {
-  return r.roughness * r.roughness;
-}
-
 /// Empty for a random number without use.
 std::optional<Eigen::Vector3f> choose(const Reflection& r, const Lobes& lobes,
                                       const std::array<float, 3>& random) {
@@ -54,10 +50,8 @@ std::optional<Eigen::Vector3f> choose(const Reflection& r, const Lobes& lobes,
   const float sine = std::sqrt(random[1]), cosine = std::sqrt(1.0f - random[1]);
   if (random[0] < lobes.diffuse) return frame.at(sine, cosine, random[2]);
   if (random[0] < lobes.diffuse + lobes.through) return frame.at(sine, -cosine, random[2]);
-  const float a2 = mirrorAlpha(r) * mirrorAlpha(r);
-  const float cosine2 = (1.0f - random[1]) / (1.0f + (a2 - 1.0f) * random[1]);
-  const Eigen::Vector3f half =
-      frame.at(std::sqrt(std::max(0.0f, 1.0f - cosine2)), std::sqrt(cosine2), random[2]);
+  const float n_h = Ggx<float>::ofRoughness(r.roughness).normalsCosine(random[1]);
+  const Eigen::Vector3f half = frame.at(std::sqrt(std::max(0.0f, 1.0f - n_h * n_h)), n_h, random[2]);
   if (half.dot(r.to_eye) <= 0.0f) return std::nullopt;  // a facet that the eye does not see
   return mirrored(r.to_eye, half).normalized();
 }
@@ -68,9 +62,7 @@ float density(const Reflection& r, const Lobes& lobes, const Eigen::Vector3f& to
   const Eigen::Vector3f half = (towards + r.to_eye).normalized();
   const float n_h = r.normal.dot(half), v_h = r.to_eye.dot(half);
   if (!(n_h > 0.0f && v_h > 0.0f)) return lambert;
-  const float a2 = mirrorAlpha(r) * mirrorAlpha(r);
-  const float base = (n_h * a2 - n_h) * n_h + 1.0f;
-  return lambert + lobes.mirror * a2 / (kPiFloat * base * base) * n_h / (4.0f * v_h);
+  return lambert + lobes.mirror * Ggx<float>::ofRoughness(r.roughness).mirroredDensity(n_h, v_h);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sunlit/quantity/angle.h"
+#include "sunlit/sky/disc_segment.h"
 
 namespace sunlit::light {
 namespace {
@@ -13,12 +14,6 @@ constexpr double kPointsPerRadius = 32.0;
 /// Points across a crescent's width, at least, until kMostPointsPerRadius are not enough.
 constexpr double kPointsPerCrescent = 16.0;
 constexpr double kMostPointsPerRadius = 128.0;
-
-/// The part of a disc's area that is above a line, whose height over its centre is `line` radii.
-double areaAbove(double line) {
-  const double h = std::clamp(line, -1.0, 1.0);
-  return (std::acos(h) - h * std::sqrt(1.0 - h * h)) / kPi;
-}
 
 /// Brightness of a whole Lommel-Seeliger sphere at a phase angle, relative to full: 1 − sin(α/2) tan(α/2)
 /// ln cot(α/4) (Lester, McCall and Tatum 1979).
@@ -38,7 +33,7 @@ DiscInView::DiscInView(const Surfaces& surfaces, const sky::DiscLight& disc)
   // No pixel spans a larger angle than at the image centre, where it is its size at depth 1.
   const double pixel = std::hypot(surfaces.pixel_right.norm(), surfaces.pixel_down.norm());
   near_cosine_ = static_cast<float>(std::cos(std::min(radius + 2.0 * pixel, kPi)));
-  const double above = areaAbove(-disc.towards.elevation().rad() / radius);
+  const double above = sky::discSegment(disc.towards.elevation().rad() / radius);
   double lit = 1.0;
   double points_per_radius = kPointsPerRadius;
   if (disc.lit_from) {

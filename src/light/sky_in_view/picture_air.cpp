@@ -43,10 +43,10 @@ sky::AirColumn PictureAir::before(std::size_t number, std::size_t index) const {
   const auto size = static_cast<float>(Surfaces::kTileSize);
   const Tile& tile = surfaces_.tiles[number];
   const LightTable::Rows& rows = table_.tile(number);
-  const LightTable::Site& site = rows.sites[index];
+  const LightTable::DiscTarget& target = rows.targets[index];
   const LightTable::AirPlace& distance = rows.air[index];
-  const float right = (static_cast<float>(site.x) + 0.5f - static_cast<float>(tile.x)) / size;
-  const float down = (static_cast<float>(site.y) + 0.5f - static_cast<float>(tile.y)) / size;
+  const float right = (static_cast<float>(target.x) + 0.5f - static_cast<float>(tile.x)) / size;
+  const float down = (static_cast<float>(target.y) + 0.5f - static_cast<float>(tile.y)) / size;
   const int column = tile.x / Surfaces::kTileSize, row = tile.y / Surfaces::kTileSize;
   const Six* const top = &nodes_[place(column, row)] + distance.node;
   const Six* const bottom = &nodes_[place(column, row + 1)] + distance.node;

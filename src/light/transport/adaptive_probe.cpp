@@ -18,43 +18,43 @@ AdaptiveProbe::AdaptiveProbe(const BakeRays& scene, const std::vector<TriangleTr
   }
 }
 
-void AdaptiveProbe::look(const SiteGroup& sites, const Visit& visit) const {
-  AllSeen all;
-  castCoarse(sites, &all);
+void AdaptiveProbe::look(const ReceiverGroup& receivers, const Visit& visit) const {
+  AllCoarseHits all;
+  castCoarse(receivers, &all);
   for (std::size_t p = 0; p < parts_.size(); ++p) {
-    // Where the coarse ray goes below the site's horizon, the others may not.
-    const Lanes fine = (mixed(all, p) | ~all[p].cast) & ~sites.coarse();
-    castOthers(sites, p, fine, visit);
+    // Where the coarse ray goes below the receiver's horizon, the others may not.
+    const Lanes fine = (mixed(all, p) | ~all[p].cast) & ~receivers.coarse();
+    castOthers(receivers, p, fine, visit);
     if (all[p].cast == 0) continue;
-    const Weights weights = this->weights(sites, parts_[p], fine);
-    for (int i = 0; i < sites.count(); ++i) {
-      if (SiteGroup::has(all[p].cast, i))
+    const Weights weights = this->weights(receivers, parts_[p], fine);
+    for (int i = 0; i < receivers.count(); ++i) {
+      if (ReceiverGroup::has(all[p].cast, i))
         visit(i, parts_[p].coarse, weights[static_cast<std::size_t>(i)], all[p].hits);
     }
   }
 }
 
-void AdaptiveProbe::castCoarse(const SiteGroup& sites, AllSeen* all) const {
+void AdaptiveProbe::castCoarse(const ReceiverGroup& receivers, AllCoarseHits* all) const {
   Weights weights;
   for (std::size_t p = 0; p < parts_.size(); ++p) {
-    Seen& seen = (*all)[p];
+    CoarseHits& met = (*all)[p];
     const std::size_t ray = parts_[p].coarse;
-    seen.cast = sites.weigh(rays_[ray].towards, weights.data());
-    seen.open = seen.leaf = 0;
-    if (seen.cast == 0) continue;
-    sites.cast(scene_, turn(p, ray), rays_[ray].towards, seen.cast, &seen.hits);
-    for (int i = 0; i < sites.count(); ++i) {
-      const std::uint32_t hit = seen.hits.triangle[i];
+    met.cast = receivers.weigh(rays_[ray].towards, weights.data());
+    met.open = met.leaf = 0;
+    if (met.cast == 0) continue;
+    receivers.cast(scene_, {turn(p, ray), rays_[ray].towards, met.cast}, &met.hits);
+    for (int i = 0; i < receivers.count(); ++i) {
+      const std::uint32_t hit = met.hits.triangle[i];
       if (hit == HitPacket::kNothing) {
-        seen.open |= Lanes{1} << i;
+        met.open |= Lanes{1} << i;
       } else if (isLeaf(traits_[hit].kind)) {
-        seen.leaf |= Lanes{1} << i;
+        met.leaf |= Lanes{1} << i;
       }
     }
   }
 }
 
-/// Whose turn it is among a site's origins. With an even number of rays a patch, and an even number of
+/// Whose turn it is among a receiver's origins. With an even number of rays a patch, and an even number of
 /// origins, every coarse ray would start from the same one.
 std::size_t AdaptiveProbe::turn(std::size_t number, std::size_t ray) const {
   const Part& part = parts_[number];
@@ -62,49 +62,50 @@ std::size_t AdaptiveProbe::turn(std::size_t number, std::size_t ray) const {
 }
 
 /// Sites for which one ray does not tell what the whole part holds.
-AdaptiveProbe::Lanes AdaptiveProbe::mixed(const AllSeen& all, std::size_t part) const {
+AdaptiveProbe::Lanes AdaptiveProbe::mixed(const AllCoarseHits& all, std::size_t part) const {
   if (parts_[part].always) return ~Lanes{0};
-  const Seen& here = all[part];
+  const CoarseHits& here = all[part];
   Lanes lanes = here.leaf;
   for (const int other : parts_[part].beside) {
-    const Seen& there = all[static_cast<std::size_t>(other)];
+    const CoarseHits& there = all[static_cast<std::size_t>(other)];
     lanes |= here.cast & there.cast & (here.open ^ there.open);
   }
   return lanes;
 }
 
-void AdaptiveProbe::castOthers(const SiteGroup& sites, std::size_t number, Lanes lanes,
+void AdaptiveProbe::castOthers(const ReceiverGroup& receivers, std::size_t number, Lanes lanes,
                                const Visit& visit) const {
   const Part& part = parts_[number];
   HitPacket hits;
   Weights weights;
   for (std::size_t r = part.first; lanes != 0 && r < part.end; ++r) {
     if (r == part.coarse) continue;
-    const Lanes cast = lanes & sites.weigh(rays_[r].towards, weights.data());
+    const Lanes cast = lanes & receivers.weigh(rays_[r].towards, weights.data());
     if (cast == 0) continue;
-    sites.cast(scene_, turn(number, r), rays_[r].towards, cast, &hits);
-    for (int i = 0; i < sites.count(); ++i) {
-      if (SiteGroup::has(cast, i))
+    receivers.cast(scene_, {turn(number, r), rays_[r].towards, cast}, &hits);
+    for (int i = 0; i < receivers.count(); ++i) {
+      if (ReceiverGroup::has(cast, i))
         visit(i, r, weights[static_cast<std::size_t>(i)] * rays_[r].solid_angle, hits);
     }
   }
 }
 
-/// Of the coarse ray: for `fine` sites of its share of the part, for others of the whole part.
-AdaptiveProbe::Weights AdaptiveProbe::weights(const SiteGroup& sites, const Part& part, Lanes fine) const {
+/// Of the coarse ray: for `fine` receivers of its share of the part, for others of the whole part.
+AdaptiveProbe::Weights AdaptiveProbe::weights(const ReceiverGroup& receivers, const Part& part,
+                                              Lanes fine) const {
   const float angle = rays_[part.coarse].solid_angle;
   const auto rays = static_cast<float>(part.end - part.first);
   Weights own, other, sum{};
-  sites.weigh(rays_[part.coarse].towards, own.data());
+  receivers.weigh(rays_[part.coarse].towards, own.data());
   for (std::size_t r = part.first; r < part.end; ++r) {
-    sites.weigh(rays_[r].towards, other.data());
+    receivers.weigh(rays_[r].towards, other.data());
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += other[i] * angle;
   }
-  for (int i = 0; i < sites.count(); ++i) {
-    const auto site = static_cast<std::size_t>(i);
-    if (SiteGroup::has(fine, i)) sum[site] = own[site] * angle;
+  for (int i = 0; i < receivers.count(); ++i) {
+    const auto receiver = static_cast<std::size_t>(i);
+    if (ReceiverGroup::has(fine, i)) sum[receiver] = own[receiver] * angle;
     // Such may take light from both sides: only the direction that is looked in counts.
-    if (SiteGroup::has(sites.coarse(), i)) sum[site] = own[site] * angle * rays;
+    if (ReceiverGroup::has(receivers.coarse(), i)) sum[receiver] = own[receiver] * angle * rays;
   }
   return sum;
 }

@@ -15,20 +15,21 @@ namespace sunlit::light {
 /// beside it, or meets a leaf, for gaps between leaves are finer than patches, and along the horizon.
 class AdaptiveProbe {
  public:
-  /// What a ray has met: the index of the site; that of the ray among SkyPatches::rays(); Site::weight()
-  /// times the solid angle that the ray stands for; and the hits, of which lane `site` is the site's.
-  using Visit = std::function<void(int site, std::size_t ray, float weight, const HitPacket& hits)>;
+  /// What a ray has met: the index of the receiver; that of the ray among SkyPatches::rays();
+  /// Receiver::weight() times the solid angle that the ray stands for; and the hits, of which lane `receiver`
+  /// is the receiver's.
+  using Visit = std::function<void(int receiver, std::size_t ray, float weight, const HitPacket& hits)>;
 
   /// Keeps references.
   AdaptiveProbe(const BakeRays& scene, const std::vector<TriangleTraits>& traits, const SkyPatches& patches);
 
-  /// Casts all coarse rays that count for a site, and others as said. The weights of a patch add up to what
-  /// they would be with all of its rays. Sites whose coarse rays are enough cast no others, and each of these
-  /// weighs as its direction does.
-  void look(const SiteGroup& sites, const Visit& visit) const;
+  /// Casts all coarse rays that count for a receiver, and others as said. The weights of a patch add up to
+  /// what they would be with all of its rays. Sites whose coarse rays are enough cast no others, and each of
+  /// these weighs as its direction does.
+  void look(const ReceiverGroup& receivers, const Visit& visit) const;
 
  private:
-  using Lanes = SiteGroup::Lanes;
+  using Lanes = ReceiverGroup::Lanes;
   using Weights = std::array<float, RayPacket::kSize>;
   /// Rays of a patch, or one below the horizon.
   struct Part {
@@ -37,17 +38,17 @@ class AdaptiveProbe {
     bool always;                     ///< all of its rays
   };
   /// What the coarse ray of a part met.
-  struct Seen {
+  struct CoarseHits {
     Lanes cast, open, leaf;
     HitPacket hits;
   };
-  using AllSeen = std::array<Seen, SkyPatches::kCoarse>;
+  using AllCoarseHits = std::array<CoarseHits, SkyPatches::kCoarse>;
 
-  void castCoarse(const SiteGroup& sites, AllSeen* all) const;
-  Lanes mixed(const AllSeen& all, std::size_t part) const;
-  void castOthers(const SiteGroup& sites, std::size_t number, Lanes lanes, const Visit& visit) const;
+  void castCoarse(const ReceiverGroup& receivers, AllCoarseHits* all) const;
+  Lanes mixed(const AllCoarseHits& all, std::size_t part) const;
+  void castOthers(const ReceiverGroup& receivers, std::size_t number, Lanes lanes, const Visit& visit) const;
   std::size_t turn(std::size_t number, std::size_t ray) const;
-  Weights weights(const SiteGroup& sites, const Part& part, Lanes fine) const;
+  Weights weights(const ReceiverGroup& receivers, const Part& part, Lanes fine) const;
 
   const BakeRays& scene_;
   const std::vector<TriangleTraits>& traits_;

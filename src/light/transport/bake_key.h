@@ -3,19 +3,19 @@
 
 #include <cstdint>
 
-#include "light/transport/content_hash.h"
 #include "sunlit/light/geometry.h"
 #include "sunlit/light/transport.h"
+#include "sunlit/scene/content_hash.h"
 
 namespace sunlit::light {
 
 /// Goes up whenever the bake or the layout of its file changes.
-constexpr std::uint32_t kBakeVersion = 14;
+constexpr std::uint32_t kBakeVersion = 15;
 
 /// Shape, and of the looks what decides how light goes on from it.
-void addContents(const Geometry& geometry, ContentHash* hash);
+void addContents(const Geometry& geometry, scene::ContentHash* hash);
 
 /// Of everything that a bake depends on.
-ContentHash bakeKey(const Geometry& geometry, const TransportOptions& options);
+scene::ContentHash bakeKey(const Geometry& geometry, const TransportOptions& options);
 
 }  // namespace sunlit::light

@@ -14,6 +14,7 @@ namespace sunlit::light {
 namespace {
 
 namespace fs = std::filesystem;
+using Number = scene::ContentHash::Number;
 
 constexpr char kMagic[8] = {'s', 'u', 'n', 'l', 'i', 't', 'T', '\n'};
 
@@ -21,9 +22,9 @@ struct Header {
   char magic[8];
   std::uint32_t version;
   std::uint32_t patches;
-  std::uint64_t key[2];
-  std::uint64_t counts[18];   ///< of the arrays, in the order of visitArrays()
-  std::uint64_t checksum[2];  ///< of all that follows
+  Number key;
+  std::uint64_t counts[18];  ///< of the arrays, in the order of visitArrays()
+  Number checksum;           ///< of all that follows
 };
 static_assert(sizeof(Header) == 192, "no padding goes to the file");
 
@@ -52,7 +53,7 @@ void visitArrays(Data& data, const Visit& visit) {
 
 }  // namespace
 
-std::unique_ptr<TransportData> readBake(const fs::path& file, const ContentHash& key) {
+std::unique_ptr<TransportData> readBake(const fs::path& file, const scene::ContentHash& key) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) fail(file, "cannot be read");
   Header header;
@@ -61,7 +62,7 @@ std::unique_ptr<TransportData> readBake(const fs::path& file, const ContentHash&
     fail(file, "is no baked light");
   if (header.version != kBakeVersion || header.patches != SkyPatches::kCount)
     fail(file, "is of another version");
-  if (header.key[0] != key.first() || header.key[1] != key.second()) fail(file, "is of another scene");
+  if (header.key != key.number()) fail(file, "is of another scene");
   auto data = std::make_unique<TransportData>();
   const std::uint64_t size = fs::file_size(file);
   std::uint64_t expected = sizeof(header);
@@ -72,7 +73,7 @@ std::unique_ptr<TransportData> readBake(const fs::path& file, const ContentHash&
     expected += count * sizeof(values[0]);
   });
   if (size != expected) fail(file, size < expected ? "is cut short" : "is longer than it should be");
-  ContentHash checksum;
+  scene::ContentHash checksum;
   array = 0;
   visitArrays(*data, [&](auto& values) {
     values.resize(header.counts[array++]);
@@ -81,26 +82,23 @@ std::unique_ptr<TransportData> readBake(const fs::path& file, const ContentHash&
     checksum.add(values);
   });
   if (!stream) fail(file, "cannot be read to its end");
-  if (checksum.first() != header.checksum[0] || checksum.second() != header.checksum[1])
-    fail(file, "is damaged");
+  if (checksum.number() != header.checksum) fail(file, "is damaged");
   return data;
 }
 
-void writeBake(const fs::path& file, const ContentHash& key, const TransportData& data) {
+void writeBake(const fs::path& file, const scene::ContentHash& key, const TransportData& data) {
   Header header{};
   std::memcpy(header.magic, kMagic, sizeof(kMagic));
   header.version = kBakeVersion;
   header.patches = SkyPatches::kCount;
-  header.key[0] = key.first();
-  header.key[1] = key.second();
-  ContentHash checksum;
+  header.key = key.number();
+  scene::ContentHash checksum;
   std::size_t array = 0;
   visitArrays(data, [&](const auto& values) {
     header.counts[array++] = values.size();
     checksum.add(values);
   });
-  header.checksum[0] = checksum.first();
-  header.checksum[1] = checksum.second();
+  header.checksum = checksum.number();
   const fs::path unfinished = file.string() + "." + std::to_string(getpid()) + ".part";
   std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
   stream.write(reinterpret_cast<const char*>(&header), sizeof(header));

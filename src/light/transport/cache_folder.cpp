@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "sunlit/light/transport.h"
+
 namespace sunlit::light {
 namespace {
 
@@ -109,6 +111,12 @@ void removeFile(const fs::path& file, const Log& log) {
 }
 
 }  // namespace
+
+std::uintmax_t BakeCache::usedBytes() const {
+  std::uintmax_t sum = 0;
+  for (const KeptBake& bake : contentOf(folder).bakes) sum += bake.bytes;
+  return sum;
+}
 
 BakeTurn BakeTurn::await(const fs::path& bake) {
   const fs::path file = turnFile(bake);

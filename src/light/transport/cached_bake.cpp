@@ -14,7 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 using Log = std::function<void(const std::string&)>;
 
-std::unique_ptr<TransportData> readIfThere(const fs::path& file, const ContentHash& key, const Log& log) {
+std::unique_ptr<TransportData> readIfThere(const fs::path& file, const scene::ContentHash& key,
+                                           const Log& log) {
   std::error_code error;
   if (!fs::exists(file, error)) return nullptr;
   try {
@@ -43,7 +44,7 @@ std::optional<BakeTurn> turnFor(const fs::path& file, const Log& log) {
   }
 }
 
-void keep(const fs::path& file, const ContentHash& key, const TransportData& data, const Log& log) {
+void keep(const fs::path& file, const scene::ContentHash& key, const TransportData& data, const Log& log) {
   try {
     writeBake(file, key, data);
   } catch (const std::exception& problem) {
@@ -71,11 +72,12 @@ std::string Transport::usualFolder() {
 
 std::shared_ptr<const Transport> Transport::cached(std::shared_ptr<const Geometry> geometry,
                                                    const TransportOptions& options, const BakeCache& cache,
-                                                   const BakeProgress& progress, const Log& log) {
+                                                   const BakeListener& listener) {
+  const auto& [progress, log] = listener;
   validate(options);
   const std::optional<fs::path> folder = usableFolder(cache.folder, log);
   if (!folder) return bake(std::move(geometry), options, progress);
-  const ContentHash key = bakeKey(*geometry, options);
+  const scene::ContentHash key = bakeKey(*geometry, options);
   const fs::path file = *folder / (key.text() + ".light");
   auto kept = std::make_shared<KeptTransport>();
   kept->in_use.emplace(file);  // from here on nobody removes it

@@ -11,8 +11,8 @@
 #include "light/angles.h"
 #include "light/mirror_lobe.h"
 #include "light/transport/adaptive_probe.h"
+#include "light/transport/burial_test.h"
 #include "light/transport/ground_mirror.h"
-#include "light/transport/hidden.h"
 #include "light/transport/later_bounces.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/photometry.h"
@@ -52,7 +52,7 @@ class Gatherer {
         options_(options),
         patches_(options.rays_per_patch),
         probe_(scene.rays, scene.traits, patches_),
-        count_(samples.sites.size()) {}
+        count_(samples.receivers.size()) {}
 
   std::vector<bool> gather(TransportData* data) {
     data->direct.resize(count_);
@@ -82,7 +82,7 @@ class Gatherer {
 
  private:
   /// What a sample's coarse rays hit.
-  struct Seen {
+  struct SampleHits {
     std::vector<std::uint32_t> hits;           ///< directions of each half of the sphere from 0
     std::size_t up = 0;                        ///< the first of them, above the horizon
     float scale_up = 0.0f, scale_down = 0.0f;  ///< of the hits' weights, by direction
@@ -91,9 +91,9 @@ class Gatherer {
   /// Sums over the rays of one sample.
   struct Look {
     Row row{};
-    Hidden hidden;
+    BurialTest burial;
     float all = 0.0f, inside = 0.0f, blocked_up = 0.0f, blocked_down = 0.0f, coarse_blocked_up = 0.0f;
-    std::array<std::uint32_t, SkyPatches::kCoarse> hits;  ///< as Seen's
+    std::array<std::uint32_t, SkyPatches::kCoarse> hits;  ///< as SampleHits::hits
     std::size_t hit_count = 0, up = 0;
   };
 
@@ -124,41 +124,42 @@ class Gatherer {
   /// Of two samples on both sides of a sheet, rays of the first serve both.
   void findStarts() {
     for (std::uint32_t i = 0; i < count_; ++i) {
-      if (samples_.behind[i].sample > i) starts_.push_back(i);  // or there is none
+      if (samples_.other_side[i].sample > i) starts_.push_back(i);  // or there is none
     }
   }
 
   void lookAround(std::size_t first, TransportData* data) {
     const std::size_t count = std::min(kPacket, starts_.size() - first);
-    std::array<Site, kPacket> sites;
+    std::array<Receiver, kPacket> receivers;
     std::array<std::array<Look, 2>, kPacket> looks;
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t sample = starts_[first + i];
-      sites[i] = samples_.sites[sample];
+      receivers[i] = samples_.receivers[sample];
       // Half: both sides' rays count alike. Doubled again below, for each sample has one side to itself.
-      if (samples_.behind[sample].sample != LightMesh::kNone) sites[i].transmission = 0.5f;
+      if (samples_.other_side[sample].sample != LightMesh::kNone) receivers[i].transmission = 0.5f;
     }
     const auto& rays = patches_.rays();
-    probe_.look({sites.data(), static_cast<int>(count)},
-                [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
-                  const auto i = static_cast<std::size_t>(lane);
-                  const std::uint32_t sample = starts_[first + i], behind = samples_.behind[sample].sample;
-                  const bool two_sided = behind != LightMesh::kNone;
-                  const bool turned = two_sided && sites[i].normal.dot(rays[r].towards) < 0.0f;
-                  if (two_sided) weight *= 2.0f;
-                  note(rays[r], {rays[r].towards, weight, hits, lane}, turned ? behind : sample,
-                       &looks[i][turned ? 1 : 0]);
-                });
+    probe_.look({receivers.data(), static_cast<int>(count)}, [&](int lane, std::size_t r, float weight,
+                                                                 const HitPacket& hits) {
+      const auto i = static_cast<std::size_t>(lane);
+      const std::uint32_t sample = starts_[first + i], behind = samples_.other_side[sample].sample;
+      const bool two_sided = behind != LightMesh::kNone;
+      const bool turned = two_sided && receivers[i].normal.dot(rays[r].towards) < 0.0f;
+      if (two_sided) weight *= 2.0f;
+      note(rays[r], {rays[r].towards, weight, hits, lane}, turned ? behind : sample,
+           &looks[i][turned ? 1 : 0]);
+    });
     for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t sample = starts_[first + i], behind = samples_.behind[sample].sample;
+      const std::uint32_t sample = starts_[first + i], behind = samples_.other_side[sample].sample;
       finish(sample, &looks[i][0], data);
       if (behind != LightMesh::kNone) finish(behind, &looks[i][1], data);
     }
   }
 
-  void note(const SkyPatches::Ray& ray, const Hidden::Cast& cast, std::uint32_t sample, Look* look) const {
+  void note(const SkyPatches::Ray& ray, const BurialTest::Cast& cast, std::uint32_t sample,
+            Look* look) const {
     look->all += cast.weight;
-    look->hidden.add(cast, geometry_, traits_);
+    look->burial.add(cast, geometry_, traits_);
     if (cast.hits.triangle[cast.lane] == HitPacket::kNothing) {
       look->row[static_cast<std::size_t>(ray.patch)] += cast.weight;
       return;
@@ -173,7 +174,7 @@ class Gatherer {
     if (ray.coarse == SkyPatches::Ray::kFineOnly) return;
     if (up) {
       look->coarse_blocked_up +=
-          SkyPatches::solidAngle(ray.patch) * samples_.sites[sample].weight(ray.towards);
+          SkyPatches::solidAngle(ray.patch) * samples_.receivers[sample].weight(ray.towards);
     }
     const std::uint32_t from = sampleAt(root, cast.hits.u[cast.lane], cast.hits.v[cast.lane]);
     const auto direction = static_cast<std::uint32_t>(up ? ray.coarse : ray.coarse - SkyPatches::kAbove);
@@ -189,14 +190,14 @@ class Gatherer {
     data->direct.set(sample, look->row.data());
     data->above.hides[sample] = look->blocked_up * scale / kPiFloat;
     data->below.hides[sample] = look->blocked_down * scale / kPiFloat;
-    const Site& site = samples_.sites[sample];
-    Seen& seen = seen_[sample];
+    const Receiver& receiver = samples_.receivers[sample];
+    SampleHits& seen = seen_[sample];
     seen.hits.assign(look->hits.begin(), look->hits.begin() + look->hit_count);
     seen.up = look->up;
-    seen.inside = look->inside > kMostInside * look->all || (!site.thin && look->hidden.buried());
+    seen.inside = look->inside > kMostInside * look->all || (!receiver.thin && look->burial.buried());
     seen.scale_down = scale;
     seen.scale_up = scale;
-    if (look->coarse_blocked_up > 0.0f && !site.coarse) {
+    if (look->coarse_blocked_up > 0.0f && !receiver.coarse) {
       // The coarse rays stand for all that hit something.
       seen.scale_up *= std::clamp(look->blocked_up / look->coarse_blocked_up, 0.25f, 4.0f);
     }
@@ -226,20 +227,20 @@ class Gatherer {
     float weight;  ///< of the luminance × π that arrives along it, in the sample's illuminance
   };
   RaySeen raySeen(std::size_t i, std::size_t hit) const {
-    const Seen& seen = seen_[i];
+    const SampleHits& seen = seen_[i];
     const bool up = hit < seen.up;
     const std::uint32_t direction = seen.hits[hit] >> kDirectionShift;
     const SkyPatches::Ray& ray = patches_.coarseRays()[up ? direction : direction + SkyPatches::kAbove];
     return {seen.hits[hit] & kSampleMask, direction, ray.towards,  // the ray's own weight is in the scales
-            ray.solid_angle * samples_.sites[i].weight(ray.towards) * (up ? seen.scale_up : seen.scale_down) /
-                kPiFloat};
+            ray.solid_angle * samples_.receivers[i].weight(ray.towards) *
+                (up ? seen.scale_up : seen.scale_down) / kPiFloat};
   }
 
   /// Whether a sample mirrors as GroundMirror says.
   bool isGround(std::uint32_t sample) const {
     constexpr float kLevel = 0.97f;  // within 14°, half a patch
-    const Site& site = samples_.sites[sample];
-    return site.normal.z() > kLevel && !site.thin && samples_.paints[sample].metalness < 0.5f;
+    const Receiver& receiver = samples_.receivers[sample];
+    return receiver.normal.z() > kLevel && !receiver.thin && samples_.paints[sample].metalness < 0.5f;
   }
 
   void addMirrored(const TransportData& data, const GroundMirror& mirror, const RaySeen& ray,
@@ -296,13 +297,13 @@ class Gatherer {
         others.glow += of_bounced * Eigen::Map<const Eigen::Array3f>(part->glows[from].data());
       }
     };
-    const Behind& behind = samples_.behind[i];
-    if (behind.sample == LightMesh::kNone) {
+    const OtherSide& other = samples_.other_side[i];
+    if (other.sample == LightMesh::kNone) {
       add(i, spread, all);
     } else {  // what is mirrored stays on its side
-      const Eigen::Array3f through = behind.share * mean.diffuse.min(all);
+      const Eigen::Array3f through = other.share * mean.diffuse.min(all);
       add(i, all - through, all - through);
-      add(behind.sample, through, through);
+      add(other.sample, through, through);
     }
     sent->set(i, row.data());
     return others;
@@ -356,7 +357,7 @@ class Gatherer {
   AdaptiveProbe probe_;
   std::size_t count_;
   std::vector<std::uint32_t> starts_;  ///< samples whose rays are cast
-  std::vector<Seen> seen_;
+  std::vector<SampleHits> seen_;
   Coefficients mirrored_;             ///< sky by way of the ground as a mirror, without colour
   std::vector<float> mirrored_sums_;  ///< of its coefficients
   std::mutex progress_mutex_;
@@ -367,8 +368,8 @@ class Gatherer {
 
 std::vector<bool> gatherLight(const BakeScene& scene, const SceneSamples& samples,
                               const GatherOptions& options, TransportData* data) {
-  if (samples.sites.size() > std::size_t{kSampleMask} + 1) {
-    throw std::runtime_error("bake of light: the scene takes " + std::to_string(samples.sites.size()) +
+  if (samples.receivers.size() > std::size_t{kSampleMask} + 1) {
+    throw std::runtime_error("bake of light: the scene takes " + std::to_string(samples.receivers.size()) +
                              " samples, of at most " + std::to_string(std::size_t{kSampleMask} + 1));
   }
   return Gatherer(scene, samples, options).gather(data);

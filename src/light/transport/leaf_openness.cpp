@@ -15,7 +15,7 @@
 #include "light/cutout.h"
 #include "light/sky_patches.h"
 #include "light/sky_sectors.h"
-#include "light/transport/crown.h"
+#include "light/transport/crown_shadows.h"
 #include "light/triangle_grid.h"
 #include "sunlit/light/visibility.h"
 
@@ -112,7 +112,7 @@ class Looker {
   };
   using Key = std::array<int, 3>;
   struct Points {
-    std::vector<Crown::Point> points;
+    std::vector<CrownShadows::Point> points;
     std::vector<std::size_t> to;  ///< of each point: where its patches are kept
   };
 
@@ -134,7 +134,7 @@ class Looker {
     Points points;
     for (const std::uint32_t masked : group.masked) addPoints(masked, &points);
     const std::vector<std::size_t>& to = points.to;
-    Crown crown({geometry_, cutouts_, visibility_}, std::move(points.points), group.cell_m);
+    CrownShadows crown({geometry_, cutouts_, visibility_}, std::move(points.points), group.cell_m);
     for (const SkyPatches::Ray& ray : patches_.coarseRays()) {
       if (ray.patch == SkyPatches::kBelow) continue;
       const std::vector<std::uint8_t>& open = crown.open(ray.towards);
@@ -212,8 +212,8 @@ PatchBytes LeafOpenness::patches(std::uint32_t triangle, const std::array<float,
   return open;
 }
 
-SkyView LeafOpenness::at(std::uint32_t triangle, const std::array<float, 3>& within) const {
-  SkyView view;
+SkyOpenness LeafOpenness::at(std::uint32_t triangle, const std::array<float, 3>& within) const {
+  SkyOpenness view;
   view.open = SkySectors::openOf(patches(triangle, within));
   view.known = true;
   view.within = within;

@@ -29,7 +29,7 @@ struct LeafOpenness {
   /// Between the nodes around a point, by its barycentric coordinates, of a triangle that is known().
   PatchBytes patches(std::uint32_t triangle, const std::array<float, 3>& within) const;
   /// The same by sectors of the sky.
-  SkyView at(std::uint32_t triangle, const std::array<float, 3>& within) const;
+  SkyOpenness at(std::uint32_t triangle, const std::array<float, 3>& within) const;
 };
 
 /// Parallel; the same for any number of threads. Throws std::runtime_error if the ray library fails or the

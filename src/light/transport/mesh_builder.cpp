@@ -5,26 +5,36 @@
 #include <algorithm>
 #include <cmath>
 
-#include "light/transport/hidden.h"
+#include "light/transport/burial_test.h"
 
 namespace sunlit::light {
 namespace {
 
-constexpr float kClear_m = 5e-3f;    ///< of a site above its surface
-constexpr float kInwards_m = 0.02f;  ///< of a site on an open edge, away from the edge
-constexpr float kMergeCosine = 0.92f;
-constexpr float kCoarsest_m = 16.0f;   ///< so that no car lies unseen amid a cell,
-constexpr float kEmptiest_m = 128.0f;  ///< where there are none
-constexpr float kReachShare = 0.6f;    ///< longest edge of a cell, in harmonic mean distances
-constexpr float kNearShare = 0.7f;     ///< … in distances of the closest thing,
-constexpr float kNearLimit_m = 2.0f;   ///< as far as that matters
+constexpr float kClear_m = 5e-3f;      ///< of a receiver above its surface
+constexpr float kInwards_m = 0.02f;    ///< of a receiver on an open edge, away from the edge
+constexpr float kMergeCosine = 0.92f;  ///< between normals that may belong to one node
+/// Longest edge of a cell near which anything stands: no car may lie unseen amid it.
+constexpr float kCoarsest_m = 16.0f;
+/// Longest edge of a cell where nothing does.
+constexpr float kEmptiest_m = 128.0f;
+/// Longest edge of a cell, in harmonic mean distances of what its corners see.
+constexpr float kReachShare = 0.6f;
+/// Longest edge of a cell, in distances of the closest thing that its corners see.
+constexpr float kNearShare = 0.7f;
+/// Edges shorter than this are not halved for kNearShare.
+constexpr float kNearLimit_m = 2.0f;
 /// Cosine between planes: ground beside ground that slopes more is no thing that stands on it.
 constexpr float kSamePlane = 0.9f;
-constexpr float kSmooth = 0.6f;        ///< of light: cells whose corners differ less may be larger,
-constexpr float kMostLarger = 10.0f;   ///< by at most this: something thin may stand between them
-constexpr float kFinerAtWalls = 4.0f;  ///< times, than elsewhere
-constexpr float kLeastShare = 2e-6f;   ///< of its distance from the origin, an edge that may be halved
-constexpr float kCutUrgency = 4.0f;    ///< of a cell with a wall amid it: light leaks there
+/// Difference of light between the corners of a cell, in means of it, from which on it may not be larger.
+constexpr float kSmooth = 0.6f;
+/// How many times larger a cell of even light may be at most: something thin may stand amid it.
+constexpr float kMostLarger = 10.0f;
+/// How many times finer than elsewhere cells may become at walls.
+constexpr float kFinerAtWalls = 4.0f;
+/// Shortest edge that may be halved, as a share of its distance from the origin.
+constexpr float kLeastShare = 2e-6f;
+/// Urgency of a cell with a wall amid it, where light leaks.
+constexpr float kCutUrgency = 4.0f;
 /// Height of normals: below it, as on trunks, leaves nearby count as walls do; ground has too many above it.
 constexpr float kSteep = 0.5f;
 constexpr std::size_t kNodesAtOnce = RayPacket::kSize;
@@ -45,14 +55,14 @@ std::uint64_t placeKey(const Eigen::Vector3f& position) {
 
 }  // namespace
 
-Site MeshNode::site() const {
+Receiver MeshNode::receiver() const {
   const Eigen::Vector3f pull = inwards * (kInwards_m / static_cast<float>(std::max(cells, 1)));
   const Eigen::Vector3f origin = position + pull;
-  Site site;
-  site.origins.fill(origin);
-  site.lifts.fill(kClear_m * normal);
-  site.normal = normal;
-  return site;
+  Receiver receiver;
+  receiver.origins.fill(origin);
+  receiver.lifts.fill(kClear_m * normal);
+  receiver.normal = normal;
+  return receiver;
 }
 
 std::uint32_t NodeIndex::at(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) {
@@ -151,32 +161,32 @@ void MeshBuilder::lookAround() {
   tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
     const std::size_t begin = first_node + p * kNodesAtOnce;
     const int count = static_cast<int>(std::min(kNodesAtOnce, nodes.size() - begin));
-    std::array<Site, kNodesAtOnce> sites;
+    std::array<Receiver, kNodesAtOnce> receivers;
     std::array<float, kNodesAtOnce> all{}, near{}, nearest;
-    std::array<Hidden, kNodesAtOnce> hidden;
+    std::array<BurialTest, kNodesAtOnce> burials;
     std::array<Eigen::Vector4f, kNodesAtOnce> open;
     open.fill(Eigen::Vector4f::Zero());
     nearest.fill(1e9f);
     for (int i = 0; i < count; ++i)
-      sites[static_cast<std::size_t>(i)] = nodes[begin + static_cast<std::size_t>(i)].site();
-    probe(rays_, directions_, {sites.data(), count},
+      receivers[static_cast<std::size_t>(i)] = nodes[begin + static_cast<std::size_t>(i)].receiver();
+    probe(rays_, directions_, {receivers.data(), count},
           [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
             const auto i = static_cast<std::size_t>(lane);
             all[i] += weight;
             const std::uint32_t hit = hits.triangle[i];
-            hidden[i].add({directions_[r].towards, weight, hits, lane}, geometry_, traits_);
+            burials[i].add({directions_[r].towards, weight, hits, lane}, geometry_, traits_);
             if (hit == HitPacket::kNothing) {
               open[i] += weight * directions_[r].towards.homogeneous();
               return;
             }
-            if (isLeaf(traits_[hit].kind) && sites[i].normal.z() > kSteep) return;
+            if (isLeaf(traits_[hit].kind) && receivers[i].normal.z() > kSteep) return;
             near[i] += weight / std::max(hits.distance[i], 0.05f);
-            if (std::abs(geometry_.planes[hit].normal.dot(sites[i].normal)) < kSamePlane)
+            if (std::abs(geometry_.planes[hit].normal.dot(receivers[i].normal)) < kSamePlane)
               nearest[i] = std::min(nearest[i], hits.distance[i]);
           });
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       MeshNode& node = nodes[begin + i];
-      node.valid = !hidden[i].buried();
+      node.valid = !burials[i].buried();
       node.reach_m = near[i] > 0.0f ? all[i] / near[i] : 1e9f;
       node.nearest_m = nearest[i];
       if (all[i] > 0.0f) node.open = open[i] / all[i];

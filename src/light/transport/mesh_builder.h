@@ -26,7 +26,7 @@ struct MeshNode {
   Eigen::Vector4f open = Eigen::Vector4f::Zero();
   bool valid = true;  ///< not where no camera looks
 
-  Site site() const;
+  Receiver receiver() const;
 };
 
 /// Nodes of equal place and similar normal are one.
@@ -79,8 +79,8 @@ class MeshBuilder {
  private:
   /// Where cells that need halving are looked for.
   enum class Pass {
-    kVaried,  ///< first where light differs between their corners,
-    kAll      ///< then everywhere else
+    kVaried,  ///< the first: where light differs between the corners
+    kAll      ///< the second: everywhere else
   };
   struct Split {
     std::uint32_t cell;
@@ -106,8 +106,8 @@ class MeshBuilder {
   std::unordered_map<std::uint64_t, std::uint32_t> middles_;  ///< of halved edges
   std::vector<std::uint32_t> active_;                         ///< leaves that may still be halved
   std::vector<std::uint32_t> left_;  ///< leaves that were not halved in the first pass
-  std::size_t looked_ = 0;           ///< nodes that have looked around,
-  std::size_t valid_ = 0;            ///< and those of them that cameras may see
+  std::size_t looked_ = 0;           ///< how many nodes have looked around
+  std::size_t valid_ = 0;            ///< how many of those that have looked around a camera may see
 };
 
 }  // namespace sunlit::light

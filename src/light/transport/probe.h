@@ -11,7 +11,7 @@
 namespace sunlit::light {
 
 /// A point that gathers light, or some that do it together.
-struct Site {
+struct Receiver {
   static constexpr int kOrigins = 4;
   std::array<Eigen::Vector3f, kOrigins> origins;  ///< on the surface; rays take them in turn
   std::array<Eigen::Vector3f, kOrigins> lifts;    ///< from there to where rays of the lit side start
@@ -33,39 +33,44 @@ struct Site {
   }
 };
 
-/// Up to a packet of sites whose rays of one direction travel together: they should be neighbours.
-class SiteGroup {
+/// Up to a packet of receivers whose rays of one direction travel together: they should be neighbours.
+class ReceiverGroup {
  public:
-  /// One bit for each site.
+  /// One bit for each receiver.
   using Lanes = std::uint32_t;
-  static bool has(Lanes lanes, int site) { return (lanes >> site & 1u) != 0; }
+  static bool has(Lanes lanes, int receiver) { return (lanes >> receiver & 1u) != 0; }
 
-  /// Keeps `sites`, of which there are 1 … RayPacket::kSize.
-  SiteGroup(const Site* sites, int count) : sites_(sites), count_(count) {}
+  /// Keeps `receivers`, of which there are 1 … RayPacket::kSize.
+  ReceiverGroup(const Receiver* receivers, int count) : receivers_(receivers), count_(count) {}
   int count() const { return count_; }
   /// Those whose coarse rays are enough.
   Lanes coarse() const {
     Lanes lanes = 0;
-    for (int i = 0; i < count_; ++i) lanes |= Lanes{sites_[i].coarse} << i;
+    for (int i = 0; i < count_; ++i) lanes |= Lanes{receivers_[i].coarse} << i;
     return lanes;
   }
 
-  /// Sets Site::weight() of each site; zero beyond them. Returns those that it is not zero for.
+  /// Sets Receiver::weight() of each receiver; zero beyond them. Returns those that it is not zero for.
   Lanes weigh(const Eigen::Vector3f& towards, float* weights) const {
     Lanes lanes = 0;
     for (int i = 0; i < RayPacket::kSize; ++i) {
-      weights[i] = i < count_ ? sites_[i].weight(towards) : 0.0f;
+      weights[i] = i < count_ ? receivers_[i].weight(towards) : 0.0f;
       if (weights[i] > 0.0f) lanes |= Lanes{1} << i;
     }
     return lanes;
   }
-  /// Casts a ray from the sites of `lanes`, each from the origin whose turn it is.
-  void cast(const BakeRays& scene, std::size_t turn, const Eigen::Vector3f& towards, Lanes lanes,
-            HitPacket* hits) const {
+  /// Rays of one direction.
+  struct Shot {
+    std::size_t turn;  ///< whose it is among the origins of each receiver
+    const Eigen::Vector3f& towards;
+    Lanes lanes;  ///< receivers that cast one
+  };
+  void cast(const BakeRays& scene, const Shot& shot, HitPacket* hits) const {
+    const Eigen::Vector3f& towards = shot.towards;
     RayPacket packet;
     for (int i = 0; i < RayPacket::kSize; ++i) {
-      packet.valid[i] = has(lanes, i) ? -1 : 0;
-      const Eigen::Vector3f origin = sites_[std::min(i, count_ - 1)].start(turn, towards);
+      packet.valid[i] = has(shot.lanes, i) ? -1 : 0;
+      const Eigen::Vector3f origin = receivers_[std::min(i, count_ - 1)].start(shot.turn, towards);
       packet.origin_x[i] = origin.x(), packet.origin_y[i] = origin.y(), packet.origin_z[i] = origin.z();
       packet.towards_x[i] = towards.x(), packet.towards_y[i] = towards.y(), packet.towards_z[i] = towards.z();
     }
@@ -73,24 +78,25 @@ class SiteGroup {
   }
 
  private:
-  const Site* sites_;
+  const Receiver* receivers_;
   int count_;
 };
 
-/// Casts each of `rays` that counts for a site, and calls visit(i, ray, weight, hits): the index of the site
-/// (< 16), that of the ray, Site::weight() times the ray's solid angle, and the hits, of which lane i is the
-/// site's.
+/// Casts each of `rays` that counts for a receiver, and calls visit(i, ray, weight, hits): the index of the
+/// receiver
+/// (< 16), that of the ray, Receiver::weight() times the ray's solid angle, and the hits, of which lane i is
+/// the receiver's.
 template <typename Visit>
-void probe(const BakeRays& scene, const std::vector<SkyPatches::Ray>& rays, const SiteGroup& sites,
+void probe(const BakeRays& scene, const std::vector<SkyPatches::Ray>& rays, const ReceiverGroup& receivers,
            const Visit& visit) {
   HitPacket hits;
   float weights[RayPacket::kSize];
   for (std::size_t r = 0; r < rays.size(); ++r) {
-    const SiteGroup::Lanes lanes = sites.weigh(rays[r].towards, weights);
+    const ReceiverGroup::Lanes lanes = receivers.weigh(rays[r].towards, weights);
     if (lanes == 0) continue;
-    sites.cast(scene, r, rays[r].towards, lanes, &hits);
-    for (int i = 0; i < sites.count(); ++i) {
-      if (SiteGroup::has(lanes, i)) visit(i, r, weights[i] * rays[r].solid_angle, hits);
+    receivers.cast(scene, {r, rays[r].towards, lanes}, &hits);
+    for (int i = 0; i < receivers.count(); ++i) {
+      if (ReceiverGroup::has(lanes, i)) visit(i, r, weights[i] * rays[r].solid_angle, hits);
     }
   }
 }

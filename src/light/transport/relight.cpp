@@ -77,11 +77,11 @@ Surroundings surroundingsOf(const Eigen::Array3f& above, float hides_above, cons
           meanLuminance(below, hides_below) + (1.0f - known(hides_below)) * both};
 }
 
-/// Of samples `begin` … `end`.
 SUNLIT_WIDE_VECTOR_CLONES
-void lightSamples(const TransportData& data, const Lights& lights, std::size_t begin, std::size_t end,
-                  NodeLight* light) {
-  for (std::size_t i = begin; i != end; ++i) {
+void lightSamples(const TransportData& data, const Lights& lights,
+                  const tbb::blocked_range<std::size_t>& samples, NodeLight* light) {
+  const std::size_t end = samples.end();
+  for (std::size_t i = samples.begin(); i != end; ++i) {
     const Eigen::Array3f above = lights.passedOn(data.above, i);
     const Eigen::Array3f below = lights.passedOn(data.below, i);
     const float open = data.direct.row(i)[SkyPatches::kBelow] * data.direct.scales[i];
@@ -94,10 +94,9 @@ void lightSamples(const TransportData& data, const Lights& lights, std::size_t b
 std::vector<NodeLight> sampleLight(const TransportData& data, const sky::Daylight& day) {
   const Lights lights(day);
   std::vector<NodeLight> light(data.sampleCount());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, light.size(), 1024),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      lightSamples(data, lights, range.begin(), range.end(), light.data());
-                    });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, light.size(), 1024),
+      [&](const tbb::blocked_range<std::size_t>& range) { lightSamples(data, lights, range, light.data()); });
   return light;
 }
 

@@ -6,7 +6,8 @@
 namespace sunlit::light {
 namespace {
 constexpr std::size_t kMostShares = 4;
-constexpr float kDeepest = 1.5f;  ///< times the depth that sites are shared over, one may still have a part
+constexpr float kDeepest =
+    1.5f;  ///< times the depth that receivers are shared over, one may still have a part
 }  // namespace
 
 std::uint64_t SampleCloud::key(int x, int y, int z) const {
@@ -16,11 +17,11 @@ std::uint64_t SampleCloud::key(int x, int y, int z) const {
   return part(x) << 42 | part(y) << 21 | part(z);
 }
 
-float SampleCloud::depth(std::uint32_t site, const Eigen::Vector3f& position) const {
-  return std::abs(sites_[site].normal.dot(position - positions_[site]));
+float SampleCloud::depth(std::uint32_t receiver, const Eigen::Vector3f& position) const {
+  return std::abs(receivers_[receiver].normal.dot(position - positions_[receiver]));
 }
 
-/// All sites within twice the spacing of `position`, and some beyond.
+/// All receivers within twice the spacing of `position`, and some beyond.
 template <typename Visit>
 void SampleCloud::visitNear(const Eigen::Vector3f& position, const Visit& visit) const {
   const float cell_m = 2.0f * spacing_m_;
@@ -35,11 +36,11 @@ void SampleCloud::visitNear(const Eigen::Vector3f& position, const Visit& visit)
   }
 }
 
-void SampleCloud::cover(const Eigen::Vector3f& position, const Site& site) {
+void SampleCloud::cover(const Eigen::Vector3f& position, const Receiver& receiver) {
   std::uint32_t nearest = LightMesh::kNone;
   float nearest_m = spacing_m_;
   visitNear(position, [&](std::uint32_t at, float distance) {
-    if (distance >= nearest_m || sites_[at].normal.dot(site.normal) < cosine_) return;
+    if (distance >= nearest_m || receivers_[at].normal.dot(receiver.normal) < cosine_) return;
     if (depth(at, position) > depth_m_) return;
     nearest = at;
     nearest_m = distance;
@@ -50,17 +51,17 @@ void SampleCloud::cover(const Eigen::Vector3f& position, const Site& site) {
     if ((times & (times - 1)) != 0) return;
     std::size_t slot = 0;
     while (times >> (slot + 1) != 0) ++slot;
-    slot = (slot + 1) % Site::kOrigins;
-    sites_[nearest].origins[slot] = site.origins[0];
-    sites_[nearest].lifts[slot] = site.lifts[0];
+    slot = (slot + 1) % Receiver::kOrigins;
+    receivers_[nearest].origins[slot] = receiver.origins[0];
+    receivers_[nearest].lifts[slot] = receiver.lifts[0];
     return;
   }
   const Eigen::Vector3i cell = (position / (2.0f * spacing_m_)).array().floor().cast<int>();
-  const auto added = static_cast<std::uint32_t>(sites_.size());
+  const auto added = static_cast<std::uint32_t>(receivers_.size());
   const auto [entry, fresh] = first_.try_emplace(key(cell.x(), cell.y(), cell.z()), added);
   next_.push_back(fresh ? LightMesh::kNone : entry->second);
   entry->second = added;
-  sites_.push_back(site);
+  receivers_.push_back(receiver);
   positions_.push_back(position);
   covered_.push_back(0);
 }
@@ -69,7 +70,7 @@ std::vector<LightMesh::Share> SampleCloud::around(const Eigen::Vector3f& positio
                                                   const Eigen::Vector3f& normal) const {
   std::vector<LightMesh::Share> shares;
   visitNear(position, [&](std::uint32_t at, float distance) {
-    const float cosine = sites_[at].normal.dot(normal);
+    const float cosine = receivers_[at].normal.dot(normal);
     const float least = cosine_ - 0.2f;
     if (cosine < least || depth(at, position) > kDeepest * depth_m_) return;
     const float close = 1.0f - 0.5f * distance / spacing_m_;

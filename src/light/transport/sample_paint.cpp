@@ -46,9 +46,9 @@ void paintSamples(const Geometry& geometry, SceneSamples* samples) {
   const LightMesh& mesh = samples->mesh;
   findNearest(samples);
   const Reflectances reflectances(geometry);
-  samples->paints.assign(samples->sites.size(), Paint());
-  samples->emissions.assign(samples->sites.size(), Eigen::Array3f::Zero());
-  std::vector<float> areas(samples->sites.size(), 0.0f);
+  samples->paints.assign(samples->receivers.size(), Paint());
+  samples->emissions.assign(samples->receivers.size(), Eigen::Array3f::Zero());
+  std::vector<float> areas(samples->receivers.size(), 0.0f);
   for (std::uint32_t t = 0; t < mesh.roots.size(); ++t) {
     const auto& c = geometry.triangles[t];
     const Eigen::Vector3f a = geometry.positions[c[0]];

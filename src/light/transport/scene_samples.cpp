@@ -53,7 +53,7 @@ class Sampler {
 
   SceneSamples sample(const RefineLimits& limits, const std::function<void(double)>& progress) {
     const SampleCloud small = cloudOf(kSmallRule), foliage = cloudOf(kFoliageRule);
-    const std::size_t taken = small.sites().size() + foliage.sites().size() + countCardSides();
+    const std::size_t taken = small.receivers().size() + foliage.receivers().size() + countCardSides();
     builder_.refine(withoutTaken(limits, taken), progress);
     sampleTrees();
     fillInvalid();
@@ -145,13 +145,13 @@ class Sampler {
   }
 
   void addSample(std::uint32_t node) {
-    shares_[node] = {{static_cast<std::uint32_t>(sites_.size()), 1.0f}};
-    sites_.push_back(builder_.index.nodes[node].site());
+    shares_[node] = {{static_cast<std::uint32_t>(receivers_.size()), 1.0f}};
+    receivers_.push_back(builder_.index.nodes[node].receiver());
   }
 
   struct Corner {
     Eigen::Vector3f position, normal;
-    Site site;
+    Receiver receiver;
   };
   Corner cornerOf(std::uint32_t t, int side, std::size_t k) const {
     const Eigen::Vector3f flat = sideNormal(geometry_, t, side);
@@ -162,15 +162,15 @@ class Sampler {
     if (normal.dot(flat) < 0.0f) normal = -normal;
     if (normal.squaredNorm() < 0.5f) normal = flat;
     const Eigen::Vector3f& position = geometry_.positions[v];
-    Site site;
-    site.origins.fill(isLeaf(traits_[t].kind) ? centre
-                                              : Eigen::Vector3f(position + 0.4f * (centre - position)));
-    site.lifts.fill(kClear_m * flat);
-    site.normal = normal;
-    site.coarse = isLeaf(traits_[t].kind);
-    site.transmission = transmissionOf(t);
-    site.thin = site.transmission > 0.0f;
-    return {position, normal, site};
+    Receiver receiver;
+    receiver.origins.fill(isLeaf(traits_[t].kind) ? centre
+                                                  : Eigen::Vector3f(position + 0.4f * (centre - position)));
+    receiver.lifts.fill(kClear_m * flat);
+    receiver.normal = normal;
+    receiver.coarse = isLeaf(traits_[t].kind);
+    receiver.transmission = transmissionOf(t);
+    receiver.thin = receiver.transmission > 0.0f;
+    return {position, normal, receiver};
   }
 
   float transmissionOf(std::uint32_t t) const {
@@ -192,14 +192,14 @@ class Sampler {
   SampleCloud cloudOf(const CloudRule& rule) const {
     SampleCloud cloud(rule.spacing_m, rule.cosine, rule.depth_m);
     visitCorners(rule.kind, [&](std::uint32_t, int, std::size_t, const Corner& corner) {
-      cloud.cover(corner.position, corner.site);
+      cloud.cover(corner.position, corner.receiver);
     });
     return cloud;
   }
 
   void addCloud(const CloudRule& rule, const SampleCloud& cloud) {
-    const auto base = static_cast<std::uint32_t>(sites_.size());
-    sites_.insert(sites_.end(), cloud.sites().begin(), cloud.sites().end());
+    const auto base = static_cast<std::uint32_t>(receivers_.size());
+    receivers_.insert(receivers_.end(), cloud.receivers().begin(), cloud.receivers().end());
     std::unordered_map<std::uint64_t, std::uint32_t> node_of;
     std::array<std::uint32_t, 3> nodes;
     visitCorners(rule.kind, [&](std::uint32_t t, int side, std::size_t k, const Corner& corner) {
@@ -259,17 +259,17 @@ class Sampler {
       }
     }
     for (const Card& card : cards_) {
-      sites_[card.sample(1)] = sites_[card.sample(0)];
-      sites_[card.sample(1)].normal *= -1.0f;
+      receivers_[card.sample(1)] = receivers_[card.sample(0)];
+      receivers_[card.sample(1)].normal *= -1.0f;
     }
   }
 
   void addCard(std::uint32_t t) {
     cards_.push_back({t, static_cast<std::uint32_t>(shares_.size()),
-                      static_cast<std::uint32_t>(sites_.size()), transmissionOf(t)});
+                      static_cast<std::uint32_t>(receivers_.size()), transmissionOf(t)});
     for (std::size_t side = 0; side < 2; ++side) {
       shares_.push_back({{cards_.back().sample(side), 1.0f}});
-      sites_.push_back(middleOf(t));
+      receivers_.push_back(middleOf(t));
     }
   }
 
@@ -279,39 +279,39 @@ class Sampler {
   }
 
   void addOtherHalf(std::uint32_t t, Card* card) {
-    const Site site = middleOf(t);
-    Site& first = sites_[card->sample(0)];
-    for (std::size_t i = 1; i < Site::kOrigins; i += 2) {
-      first.origins[i] = site.origins[i];
-      first.lifts[i] = site.lifts[i];
+    const Receiver receiver = middleOf(t);
+    Receiver& first = receivers_[card->sample(0)];
+    for (std::size_t i = 1; i < Receiver::kOrigins; i += 2) {
+      first.origins[i] = receiver.origins[i];
+      first.lifts[i] = receiver.lifts[i];
     }
-    const Eigen::Vector3f sum = isTurned(t, *card) ? Eigen::Vector3f(first.normal - site.normal)
-                                                   : Eigen::Vector3f(first.normal + site.normal);
+    const Eigen::Vector3f sum = isTurned(t, *card) ? Eigen::Vector3f(first.normal - receiver.normal)
+                                                   : Eigen::Vector3f(first.normal + receiver.normal);
     // Normals of the file may point anywhere: then that of the first half stands for both.
     if (sum.squaredNorm() > 1e-6f) first.normal = sum.normalized();
     ++card->triangles;
   }
 
   /// Looks from four points of a card's triangle.
-  Site middleOf(std::uint32_t t) const {
-    Site site = cornerOf(t, 0, 0).site;  // with the triangle's middle as its origin
-    Eigen::Vector3f normal = site.normal;
-    for (std::size_t k = 1; k < 3; ++k) normal += cornerOf(t, 0, k).site.normal;
-    site.normal = normal.normalized();
+  Receiver middleOf(std::uint32_t t) const {
+    Receiver receiver = cornerOf(t, 0, 0).receiver;  // with the triangle's middle as its origin
+    Eigen::Vector3f normal = receiver.normal;
+    for (std::size_t k = 1; k < 3; ++k) normal += cornerOf(t, 0, k).receiver.normal;
+    receiver.normal = normal.normalized();
     for (std::size_t i = 0; i < 3; ++i)
-      site.origins[i] += 0.5f * (geometry_.positions[geometry_.triangles[t][i]] - site.origins[3]);
-    site.transmission = 0.0f;  // what comes from behind is added as it is passed on
-    return site;
+      receiver.origins[i] += 0.5f * (geometry_.positions[geometry_.triangles[t][i]] - receiver.origins[3]);
+    receiver.transmission = 0.0f;  // what comes from behind is added as it is passed on
+    return receiver;
   }
 
   SceneSamples finish() {
     SceneSamples samples;
     samples.mesh = std::move(builder_.mesh);
-    samples.sites = std::move(sites_);
-    samples.behind.resize(samples.sites.size());
+    samples.receivers = std::move(receivers_);
+    samples.other_side.resize(samples.receivers.size());
     for (const Card& card : cards_) {
       for (std::size_t side = 0; side < 2; ++side)
-        samples.behind[card.sample(side)] = {card.sample(1 - side), card.transmission};
+        samples.other_side[card.sample(side)] = {card.sample(1 - side), card.transmission};
     }
     samples.mesh.first_share.push_back(0);
     for (const Shares& shares : shares_) {
@@ -324,7 +324,7 @@ class Sampler {
   const Geometry& geometry_;
   const std::vector<TriangleTraits>& traits_;
   MeshBuilder builder_;
-  std::vector<Site> sites_;
+  std::vector<Receiver> receivers_;
   std::vector<Shares> shares_;   ///< of each node
   std::vector<bool> under_way_;  ///< nodes whose ends are being looked at
   std::vector<Card> cards_;

@@ -13,17 +13,17 @@
 namespace sunlit::light {
 
 /// The sample on the other side of a thin sheet.
-struct Behind {
+struct OtherSide {
   std::uint32_t sample = LightMesh::kNone;
   float share = 0.0f;  ///< of its diffuse light that comes out on this side
 };
 
 struct SceneSamples {
   LightMesh mesh;
-  std::vector<Site> sites;                    ///< of each sample, neighbours close together
-  std::vector<Behind> behind;                 ///< likewise
+  std::vector<Receiver> receivers;            ///< of each sample, neighbours close together
+  std::vector<OtherSide> other_side;          ///< of each sample
   std::vector<Paint> paints;                  ///< of the surfaces around each sample
-  std::vector<Eigen::Array3f> emissions;      ///< … and what they give off by themselves, cd/m²
+  std::vector<Eigen::Array3f> emissions;      ///< what those surfaces give off by themselves, cd/m²
   std::vector<std::uint32_t> nearest_sample;  ///< the one of most weight, of each node
 };
 

@@ -56,32 +56,41 @@ bool seen(const Geometry& geometry, const Side& side) {
   return side.side == 0 || geometry.scene->materials[material].double_sided;
 }
 
+/// What is looked at, and along which rays.
+struct Surrounding {
+  const Geometry& geometry;
+  const BakeRays& rays;
+  std::vector<SkyPatches::Ray> pattern;
+};
+
 /// Of up to a packet of sides from `first` on, each seen from one place on its triangle.
-Outlooks outlooks(const Geometry& geometry, const BakeRays& rays, const std::vector<SkyPatches::Ray>& pattern,
-                  const Side* first, int count, const Eigen::Vector3f& place) {
-  std::array<Site, RayPacket::kSize> sites;
+Outlooks outlooks(const Surrounding& around, const Side* first, int count, const Eigen::Vector3f& place) {
+  const Geometry& geometry = around.geometry;
+  const std::vector<SkyPatches::Ray>& pattern = around.pattern;
+  std::array<Receiver, RayPacket::kSize> receivers;
   for (int i = 0; i < count; ++i) {
-    Site& site = sites[static_cast<std::size_t>(i)];
-    site.normal = sideNormal(geometry, first[i].triangle, first[i].side);
-    site.lifts.fill(kClear_m * site.normal);
+    Receiver& receiver = receivers[static_cast<std::size_t>(i)];
+    receiver.normal = sideNormal(geometry, first[i].triangle, first[i].side);
+    receiver.lifts.fill(kClear_m * receiver.normal);
     const auto& corners = geometry.triangles[first[i].triangle];
     Eigen::Vector3f origin = Eigen::Vector3f::Zero();
     for (std::size_t k = 0; k < 3; ++k) origin += place[static_cast<int>(k)] * geometry.positions[corners[k]];
-    site.origins.fill(origin);
+    receiver.origins.fill(origin);
   }
   Outlooks result;
-  probe(rays, pattern, {sites.data(), count}, [&](int i, std::size_t r, float weight, const HitPacket& hits) {
-    Outlook& outlook = result[static_cast<std::size_t>(i)];
-    const std::uint32_t hit = hits.triangle[i];
-    if (hit == HitPacket::kNothing) {
-      (pattern[r].towards.z() > 0.0f ? outlook.up : outlook.down) += weight;
-    } else {
-      // Leaves turn their backs to all sides.
-      const bool back =
-          geometry.planes[hit].normal.dot(pattern[r].towards) > 0.0f && !isLeaf(triangleKind(geometry, hit));
-      (back ? outlook.backs : outlook.fronts) += weight;
-    }
-  });
+  probe(around.rays, pattern, {receivers.data(), count},
+        [&](int i, std::size_t r, float weight, const HitPacket& hits) {
+          Outlook& outlook = result[static_cast<std::size_t>(i)];
+          const std::uint32_t hit = hits.triangle[i];
+          if (hit == HitPacket::kNothing) {
+            (pattern[r].towards.z() > 0.0f ? outlook.up : outlook.down) += weight;
+          } else {
+            // Leaves turn their backs to all sides.
+            const bool back = geometry.planes[hit].normal.dot(pattern[r].towards) > 0.0f &&
+                              !isLeaf(triangleKind(geometry, hit));
+            (back ? outlook.backs : outlook.fronts) += weight;
+          }
+        });
   return result;
 }
 
@@ -114,17 +123,18 @@ std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeR
     sides.push_back({t, 1});
   }
   std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.side < b.side; });
-  std::vector<SkyPatches::Ray> pattern;
+  Surrounding around{geometry, rays, {}};
   const SkyPatches patches(1);
-  for (std::size_t i = 0; i < patches.coarseRays().size(); i += 6) pattern.push_back(patches.coarseRays()[i]);
+  for (std::size_t i = 0; i < patches.coarseRays().size(); i += 6)
+    around.pattern.push_back(patches.coarseRays()[i]);
   for (std::size_t place = 0; place < kPlaces.size() && !sides.empty(); ++place) {
     std::vector<std::uint8_t> useless(sides.size()), sealed(sides.size());
     const std::size_t packets = (sides.size() + RayPacket::kSize - 1) / RayPacket::kSize;
     tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
       const std::size_t first = p * RayPacket::kSize;
       const std::size_t end = std::min(first + RayPacket::kSize, sides.size());
-      const Outlooks from_there = outlooks(geometry, rays, pattern, sides.data() + first,
-                                           static_cast<int>(end - first), kPlaces[place]);
+      const Outlooks from_there =
+          outlooks(around, sides.data() + first, static_cast<int>(end - first), kPlaces[place]);
       for (std::size_t i = first; i < end; ++i) {
         const Outlook& outlook = from_there[i - first];
         if (place == 0 && sides[i].side == 1) traits[sides[i].triangle].solid = outlook.inside();

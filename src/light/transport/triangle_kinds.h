@@ -27,9 +27,10 @@ TriangleKind triangleKind(const Geometry& geometry, std::uint32_t triangle);
 struct TriangleTraits {
   TriangleKind kind = TriangleKind::kLarge;
   bool solid = false;  ///< part of a closed body: whatever sees its back is inside
-  bool used[2] = {true,
-                  true};  ///< by side, front first: false where it can't be seen or only faces the void,
-  bool sealed[2] = {false, false};  ///< or lies within a closed body
+  /// By side, front first: false where it can't be seen, only faces the void, or is sealed.
+  bool used[2] = {true, true};
+  /// By side: whether it lies within a closed body.
+  bool sealed[2] = {false, false};
 };
 
 /// Parallel; the same for any number of threads.

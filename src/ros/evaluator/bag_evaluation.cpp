@@ -10,17 +10,18 @@
 #include <set>
 #include <stdexcept>
 
+#include "ros/conversions/evaluation.h"
+#include "ros/conversions/received_images.h"
 #include "ros/evaluator/folder_lock.h"
-#include "ros/evaluator/image_conversion.h"
 #include "ros/evaluator/progress_log.h"
+#include "sunlit/evaluate/stream_name.h"
+#include "sunlit/ros/topic_names.h"
 
 namespace sunlit::ros_interface {
 namespace {
 
 // Enough to keep all processors busy, few enough to keep the memory flat.
 constexpr std::size_t kPosesInWork = 8;
-
-const std::string kImageTopic = "/camera/image_raw";
 
 std::unique_ptr<rosbag::Bag> opened(const std::string& path) {
   auto bag = std::make_unique<rosbag::Bag>();
@@ -39,23 +40,59 @@ std::string rootOf(const std::string& name_space) {
   return root.front() == '/' ? root : "/" + root;
 }
 
+std::set<std::string> topicsIn(const std::vector<std::string>& bags) {
+  std::set<std::string> topics;
+  for (const std::string& path : bags) {
+    const auto bag = opened(path);
+    rosbag::View view(*bag);
+    for (const rosbag::ConnectionInfo* connection : view.getConnections()) topics.insert(connection->topic);
+  }
+  return topics;
+}
+
+std::string listed(const std::set<std::string>& topics) {
+  std::string text;
+  for (const std::string& topic : topics) text += (text.empty() ? "" : ", ") + topic;
+  return text.empty() ? "nothing" : text;
+}
+
+// Of a stream whose images are there twice, one kind counts.
+std::string imageTopic(const std::string& root, const std::string& stream, const std::string& transport,
+                       const std::set<std::string>& held) {
+  const std::string raw = root + stream + "/" + topics::kImage;
+  const std::string compressed = root + stream + "/" + topics::kCompressedImage;
+  const bool has_raw = held.count(raw) != 0;
+  const bool has_compressed = held.count(compressed) != 0;
+  if (!has_raw && !has_compressed) {
+    throw std::runtime_error("the bags hold neither " + raw + " nor " + compressed +
+                             "; they hold: " + listed(held));
+  }
+  const std::string& chosen = has_raw && (!has_compressed || transport != "compressed") ? raw : compressed;
+  if (has_raw && has_compressed) {
+    std::printf("%s: the bags hold raw and compressed images; those of %s count\n", stream.c_str(),
+                chosen.c_str());
+  }
+  return chosen;
+}
+
 class BagSource {
  public:
-  explicit BagSource(const BagEvaluationOptions& options) {
+  explicit BagSource(const BagEvaluationOptions& options) : max_pixels_(options.intake.max_pixels) {
     const std::string root = rootOf(options.name_space);
-    place_topic_ = root + "camera/pose";
+    const std::set<std::string> held = topicsIn(options.bags);
+    place_topic_ = root + topics::kPose;
+    std::vector<std::string> wanted = {place_topic_};
     for (std::size_t s = 0; s < options.evaluation.streams.size(); ++s) {
-      images_[root + options.evaluation.streams[s] + kImageTopic] = s;
-      captures_[root + options.evaluation.streams[s] + "/camera/capture"] = s;
+      const std::string& stream = options.evaluation.streams[s];
+      wanted.push_back(imageTopic(root, stream, options.intake.transport, held));
+      images_[wanted.back()] = s;
+      wanted.push_back(root + stream + "/" + topics::kCapture);
+      captures_[wanted.back()] = s;
     }
-    std::vector<std::string> topics = {place_topic_};
-    for (const auto& item : images_) topics.push_back(item.first);
-    for (const auto& item : captures_) topics.push_back(item.first);
     for (const std::string& path : options.bags) {
       bags_.push_back(opened(path));
-      view_.addQuery(*bags_.back(), rosbag::TopicQuery(topics));
+      view_.addQuery(*bags_.back(), rosbag::TopicQuery(wanted));
     }
-    requireImages();
   }
 
   void feed(evaluate::Evaluation& evaluation) {
@@ -75,34 +112,29 @@ class BagSource {
   }
 
  private:
-  void requireImages() {
-    std::set<std::string> topics;
-    std::string held;
-    for (const rosbag::ConnectionInfo* connection : view_.getConnections()) topics.insert(connection->topic);
-    for (const std::string& topic : topics) held += (held.empty() ? "" : ", ") + topic;
-    for (const auto& item : images_) {
-      if (topics.count(item.first) == 0) {
-        throw std::runtime_error("the bags hold no " + item.first +
-                                 "; of what is asked for they hold: " + (held.empty() ? "nothing" : held));
-      }
-    }
+  void feedImage(evaluate::Evaluation& evaluation, std::size_t stream,
+                 const rosbag::MessageInstance& instance) const {
+    if (const auto message = instance.instantiate<sensor_msgs::Image>())
+      return feedDecoded(evaluation, stream, message->header, decode(*message, max_pixels_));
+    if (const auto message = instance.instantiate<sensor_msgs::CompressedImage>())
+      return feedDecoded(evaluation, stream, message->header, decode(*message, max_pixels_));
+    throw std::runtime_error(instance.getTopic() + " is " + instance.getDataType() +
+                             ", not sensor_msgs/Image or sensor_msgs/CompressedImage");
   }
 
-  static void feedImage(evaluate::Evaluation& evaluation, std::size_t stream,
-                        const rosbag::MessageInstance& instance) {
-    const auto message = instance.instantiate<sensor_msgs::Image>();
-    if (!message)
-      throw std::runtime_error(instance.getTopic() + " is " + instance.getDataType() +
-                               ", not sensor_msgs/Image");
-    const DecodedImage decoded = decode(*message);
-    const std::int64_t stamp_ns = nanosecondsOf(message->header.stamp);
-    if (decoded.fault.empty()) {
-      evaluation.addImage(stream, stamp_ns, decoded.rgb);
-    } else {
+  static void feedDecoded(evaluate::Evaluation& evaluation, std::size_t stream,
+                          const std_msgs::Header& header, const DecodedImage& decoded) {
+    const std::int64_t stamp_ns = nanosecondsOf(header.stamp);
+    if (!decoded.fault.empty()) {
       evaluation.addBadImage(stream, stamp_ns, decoded.fault);
+    } else if (decoded.is_lossy) {
+      evaluation.addLossyImage(stream, stamp_ns, decoded.rgb);
+    } else {
+      evaluation.addImage(stream, stamp_ns, decoded.rgb);
     }
   }
 
+  std::size_t max_pixels_;
   std::vector<std::unique_ptr<rosbag::Bag>> bags_;
   rosbag::View view_;
   std::map<std::string, std::size_t> images_;
@@ -116,16 +148,16 @@ class BagSource {
 std::vector<std::string> streamsIn(const std::vector<std::string>& bags, const std::string& name_space) {
   const std::string root = rootOf(name_space);
   std::set<std::string> streams;
-  for (const std::string& path : bags) {
-    const auto bag = opened(path);
-    rosbag::View view(*bag);
-    for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
-      const std::string& topic = connection->topic;
-      const bool is_long_enough = topic.size() > root.size() + kImageTopic.size();
-      if (!is_long_enough || topic.compare(0, root.size(), root) != 0) continue;
-      const std::size_t end = topic.size() - kImageTopic.size();
-      if (topic.compare(end, std::string::npos, kImageTopic) != 0) continue;
-      streams.insert(topic.substr(root.size(), end - root.size()));
+  for (const std::string& topic : topicsIn(bags)) {
+    if (topic.compare(0, root.size(), root) != 0) continue;
+    for (const char* kind : {topics::kImage, topics::kCompressedImage}) {
+      const std::string ending = std::string("/") + kind;
+      if (topic.size() <= root.size() + ending.size()) continue;
+      const std::size_t end = topic.size() - ending.size();
+      if (topic.compare(end, std::string::npos, ending) != 0) continue;
+      const std::string stream = topic.substr(root.size(), end - root.size());
+      evaluate::requireStreamName(stream, "the stream of topic " + topic);
+      streams.insert(stream);
     }
   }
   return {streams.begin(), streams.end()};
@@ -142,6 +174,8 @@ int evaluateBags(const BagEvaluationOptions& options) {
   const evaluate::Outcome outcome = evaluation.finish();
   std::printf("%zu poses in %s\n%s\n", outcome.counts.completed_poses, options.evaluation.output_dir.c_str(),
               summaryTable(outcome.summary).c_str());
+  const std::string remarks = remarksOf(evaluation.options(), outcome.counts);
+  if (!remarks.empty()) std::fprintf(stderr, "%s\n", remarks.c_str());
   const std::string faults = faultsOf(evaluation.options(), outcome);
   if (faults.empty()) return 0;
   std::fprintf(stderr, "%s\n", faults.c_str());

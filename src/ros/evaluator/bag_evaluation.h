@@ -13,15 +13,17 @@ struct BagEvaluationOptions {
   std::vector<std::string>
       bags;  ///< read together, in the order of their times; none where only runs are merged
   std::string name_space = "/";  ///< of the topics: <name_space>/<stream>/camera/image_raw
+  IntakeOptions intake;          ///< `compressed` prefers compressed images where a stream has both
 };
 
-/// Names, in alphabetical order, of which the bags hold <name_space>/<name>/camera/image_raw. Throws
-/// std::runtime_error for a bag that cannot be read.
+/// Names, in alphabetical order, of which the bags hold <name_space>/<name>/camera/image_raw, or that with
+/// /compressed. Throws std::runtime_error for a bag that cannot be read, and std::invalid_argument for a
+/// topic whose name is none of a stream.
 std::vector<std::string> streamsIn(const std::vector<std::string>& bags, const std::string& name_space);
 
 /// Reads all bags, writes the result files and a table to standard output. The exit status of the program: 0
 /// where every pair was evaluated or is undefined, 3 where one could not be. Throws std::runtime_error for a
-/// bag that cannot be read and for a stream of which the bags hold no image.
+/// bag that cannot be read, and for a stream of which the bags hold no image.
 int evaluateBags(const BagEvaluationOptions& options);
 
 }  // namespace sunlit::ros_interface

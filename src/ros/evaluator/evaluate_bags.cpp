@@ -1,21 +1,22 @@
 /// evaluate_bags: the evaluator on recorded bags, without a master. See README.md.
+#include <boost/program_options.hpp>
 #include <cstdio>
 #include <exception>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ros/evaluator/bag_evaluation.h"
-#include "ros/tools/arguments.h"
 
 namespace {
 
 using namespace sunlit::ros_interface;
-namespace tools = sunlit::tools;
+namespace po = boost::program_options;
 
 constexpr const char* kHelp =
-    R"(evaluate_bags: evaluates images recorded under NAME/<stream>/camera/image_raw as evaluator_node would. Needs no ROS master.
+    R"(evaluate_bags: evaluates images recorded under NAME/<stream>/camera/image_raw (or …/compressed) as evaluator_node would. Needs no ROS master.
 
 usage: evaluate_bags --out DIR [options] [BAG...]
 
@@ -32,11 +33,41 @@ exit status: 0 all evaluated, 3 some pairs could not be, 1 error
 ParameterReader defaultsFor(const BagEvaluationOptions& options) {
   const std::vector<std::string> streams = streamsIn(options.bags, options.name_space);
   if (streams.empty())
-    throw std::runtime_error("the bags hold no " + options.name_space + "<stream>/camera/image_raw");
+    throw std::runtime_error("the bags hold no " + options.name_space +
+                             "<stream>/camera/image_raw, nor that with /compressed");
   XmlRpc::XmlRpcValue tree;
   for (std::size_t i = 0; i < streams.size(); ++i) tree["streams"][static_cast<int>(i)] = streams[i];
   tree["output_dir"] = "by --out";
   return ParameterReader(tree, "defaults");
+}
+
+po::options_description knownOptions() {
+  po::options_description known;
+  const auto text = [] { return po::value<std::string>(); };
+  known.add_options()("help,h", "")("out", text())("config", text())("namespace", text())("merge", text())(
+      "bag", text());
+  return known;
+}
+
+/// The words of a command line in their order: an option's name, or "bag", and a value. Throws
+/// std::invalid_argument naming an option that there is not, or that lacks its value.
+std::vector<std::pair<std::string, std::string>> wordsOf(const std::vector<std::string>& arguments) {
+  const po::options_description known = knownOptions();
+  po::positional_options_description bags;
+  bags.add("bag", -1);
+  std::vector<std::pair<std::string, std::string>> words;
+  try {
+    const int exact = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+    for (const po::option& option :
+         po::command_line_parser(arguments).options(known).positional(bags).style(exact).run().options) {
+      words.emplace_back(option.string_key, option.value.empty() ? std::string() : option.value[0]);
+      if (words.back().second.empty() && option.string_key != "help")
+        throw std::invalid_argument("--" + option.string_key + " needs a value; --help lists all options");
+    }
+  } catch (const po::error& error) {
+    throw std::invalid_argument(std::string(error.what()) + "; --help lists all options");
+  }
+  return words;
 }
 
 /// Empty if help was asked for.
@@ -44,30 +75,22 @@ std::optional<BagEvaluationOptions> optionsOf(const std::vector<std::string>& ar
   BagEvaluationOptions options;
   std::string config;
   std::string output;
-  std::string merged;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& word = arguments[i];
-    if (word == "--help" || word == "-h") return std::nullopt;
-    if (word.rfind("--", 0) != 0) {
-      options.bags.push_back(word);
-      continue;
-    }
-    std::string* target = nullptr;
-    if (word == "--config") target = &config;
-    if (word == "--out") target = &output;
-    if (word == "--merge") target = &merged;
-    if (word == "--namespace") target = &options.name_space;
-    if (target == nullptr) tools::rejectUnknown(word);
-    if (i + 1 == arguments.size() || arguments[i + 1].empty()) tools::rejectMissingValue(word);
-    *target = arguments[++i];
-    if (word == "--merge") options.evaluation.merge.push_back(merged);
+  for (const auto& [key, value] : wordsOf(arguments)) {
+    if (key == "help") return std::nullopt;
+    if (key == "bag") options.bags.push_back(value);
+    if (key == "config") config = value;
+    if (key == "out") output = value;
+    if (key == "merge") options.evaluation.merge.push_back(value);
+    if (key == "namespace") options.name_space = value;
   }
   if (options.bags.empty() && (options.evaluation.merge.empty() || config.empty()))
     throw std::invalid_argument("no bag given, nor --merge with --config; --help lists all options");
   if (output.empty()) throw std::invalid_argument("--out DIR is missing; --help lists all options");
   const std::vector<std::string> folders = options.evaluation.merge;
   const ParameterReader parameters = config.empty() ? defaultsFor(options) : parametersOfFile(config);
-  options.evaluation = readEvaluatorOptions(parameters).evaluation;
+  const EvaluatorOptions read = readEvaluatorOptions(parameters);
+  options.evaluation = read.evaluation;
+  options.intake = read.intake;
   options.evaluation.output_dir = output;
   options.evaluation.merge = folders;
   return options;

@@ -4,15 +4,16 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/service_server.h>
-#include <ros/subscriber.h>
-#include <sensor_msgs/Image.h>
 #include <std_srvs/Trigger.h>
 
+#include <exception>
 #include <memory>
-#include <vector>
+#include <string>
 
+#include "ros/evaluator/evaluator_diagnostics.h"
 #include "ros/evaluator/evaluator_options.h"
 #include "ros/evaluator/folder_lock.h"
+#include "ros/evaluator/image_intake.h"
 #include "ros/evaluator/progress_log.h"
 
 namespace sunlit::ros_interface {
@@ -27,14 +28,13 @@ class EvaluatorNode {
   int run();
 
  private:
-  void subscribe(std::size_t stream);
-  void onImage(std::size_t stream, const sensor_msgs::Image& message);
   void onPairDone(const evaluate::PairRecord& record, const cv::Mat& a, const cv::Mat& b);
   bool onFinish(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool isIdle() const;
-  void finish(const std::string& reason);
+  /// Why it is time to finish; empty while it is not.
+  std::string reasonToFinish() const;
+  void finish(const std::string& reason, evaluate::Ending ending = evaluate::Ending::kCompared);
 
-  ros::NodeHandle node_;
   EvaluatorOptions options_;
   FolderLock lock_;  // before the evaluation, which mends an unfinished run as it starts
   ros::Publisher pair_difference_;
@@ -42,12 +42,13 @@ class EvaluatorNode {
   ros::Publisher progress_;
   ros::Publisher matches_image_;
   std::unique_ptr<evaluate::Evaluation> evaluation_;  // calls the publishers above until it ends
-  std::vector<ros::Subscriber> subscribers_;
+  std::unique_ptr<ImageIntake> intake_;
+  std::unique_ptr<EvaluatorDiagnostics> diagnostics_;
   ros::ServiceServer finish_;
   ProgressLog log_;
-  ros::SteadyTime last_image_ = ros::SteadyTime::now();
   bool is_finished_ = false;
-  bool is_finish_wanted_ = false;
+  std::exception_ptr fault_;  // that kept ~finish from writing
+  std::string faults_;        // what could not be evaluated
   int status_ = 0;
 };
 

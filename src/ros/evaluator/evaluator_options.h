@@ -2,7 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "ros/evaluator/image_intake.h"
 #include "sunlit/evaluate/evaluation.h"
 #include "sunlit/ros/parameter_reader.h"
 
@@ -10,10 +12,16 @@ namespace sunlit::ros_interface {
 
 struct EvaluatorOptions {
   evaluate::EvaluationOptions evaluation;
+  double memory_limit_gb = 1.0;  ///< evaluation.memory_limit_bytes, as people type it
+  IntakeOptions intake;
   double idle_timeout_s =
       0.0;  ///< without any image, after which the node ends with what is missing named; 0: never
-  bool exit_when_done = false;  ///< end the process when all expected poses are accounted for
+  double diagnostic_period_s = 1.0;  ///< read by diagnostic_updater itself
+  bool exit_when_done = false;       ///< end the process when all expected poses are accounted for
 };
+
+/// One row for each parameter.
+std::vector<Field> fieldsOf(EvaluatorOptions& options);
 
 /// Reads every key and rejects unknown ones. Throws std::invalid_argument naming key, value and what is
 /// allowed.

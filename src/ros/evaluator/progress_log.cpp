@@ -33,15 +33,15 @@ void ProgressLog::update(const evaluate::EvaluationOptions& options, const evalu
   }
   if ((now - last_line_).toSec() < kSecondsBetweenLines) return;
   last_line_ = now;
-  const std::size_t done = counts.completed_poses;
+  const std::size_t done = counts.completed_poses - counts.unexpected_poses;
   std::string line = "evaluated " + std::to_string(done);
-  if (options.poses > 0) {
-    line += " of " + std::to_string(options.poses) + " poses (" + std::to_string(100 * done / options.poses) +
-            " %)";
+  const std::size_t expected = options.poses.size();
+  if (expected > 0) {
+    line += " of " + std::to_string(expected) + " poses (" + std::to_string(100 * done / expected) + " %)";
     const double elapsed_s = has_begun_ ? (now - first_progress_).toSec() : 0.0;
-    if (done > first_completed_ && done < options.poses) {
+    if (done > first_completed_ && done < expected) {
       const double each_s = elapsed_s / static_cast<double>(done - first_completed_);
-      line += ", " + minutesAndSeconds(each_s * static_cast<double>(options.poses - done)) + " left";
+      line += ", " + minutesAndSeconds(each_s * static_cast<double>(expected - done)) + " left";
     }
   } else {
     line += " poses";
@@ -95,6 +95,23 @@ std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate:
   }
   if (line.empty()) return "no pair of images came at all";
   return "not evaluated: " + line + "; each is named in " + options.output_dir + "/problems.csv";
+}
+
+std::string remarksOf(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts) {
+  std::string line;
+  const auto add = [&](std::size_t count, const char* what, const std::string& stream) {
+    if (count > 0)
+      line += (line.empty() ? "" : "; ") + stream + ": " + std::to_string(count) + " images " + what;
+  };
+  for (std::size_t s = 0; s < options.streams.size(); ++s) {
+    const evaluate::StreamCounts& c = counts.streams[s];
+    add(c.dropped, "dropped, since memory_limit was reached", options.streams[s]);
+    add(c.late, "late, after their stamp had been given up", options.streams[s]);
+    add(c.lost, "sent, but lost on the way", options.streams[s]);
+    add(c.unexpected, "of poses that are not expected, left out", options.streams[s]);
+    add(c.lossy, "compressed with loss (JPEG)", options.streams[s]);
+  }
+  return line;
 }
 
 }  // namespace sunlit::ros_interface

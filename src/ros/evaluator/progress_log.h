@@ -30,4 +30,8 @@ std::string summaryTable(const std::vector<evaluate::SummaryRow>& rows);
 /// One line of counts of what could not be evaluated; empty where everything was.
 std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate::Outcome& outcome);
 
+/// One line of what came and was not used, never came, or was compressed with loss, by stream; empty where
+/// nothing was.
+std::string remarksOf(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts);
+
 }  // namespace sunlit::ros_interface

@@ -2,8 +2,11 @@
 
 #include <limits>
 
-#include "ros/render/messages.h"
+#include "ros/conversions/geometry.h"
+#include "ros/conversions/images.h"
+#include "ros/conversions/time.h"
 #include "sunlit/Capture.h"
+#include "sunlit/ros/topic_names.h"
 
 namespace sunlit::ros_interface {
 
@@ -17,37 +20,43 @@ void fillMoon(const std::optional<sky::MoonInSky>& moon, Capture* capture) {
   capture->moon_illuminated_fraction = moon ? 0.5 * (1.0 + cos(moon->phase_angle)) : kNothing;
 }
 
-}  // namespace
-
-ConditionOutput::ConditionOutput(const ros::NodeHandle& node, const image::PinholeCamera& camera,
-                                 std::uint32_t queue_size)
-    : camera_(camera), transport_(node), image_(transport_.advertise("camera/image_raw", queue_size)) {
-  ros::NodeHandle advertiser(node);
-  camera_info_ = advertiser.advertise<sensor_msgs::CameraInfo>("camera/camera_info", queue_size);
-  capture_ = advertiser.advertise<Capture>("camera/capture", queue_size);
+std::variant<CameraOutput, PngOutput> advertised(const ros::NodeHandle& node, const OutputOptions& options) {
+  if (options.compressed) return PngOutput(node, topics::kImage, options.queue_size);
+  return CameraOutput(node, topics::kImage, options.queue_size);
 }
 
+}  // namespace
+
+ConditionOutput::ConditionOutput(const ros::NodeHandle& node, const OutputOptions& options)
+    : options_(options),
+      images_(advertised(node, options)),
+      capture_(ros::NodeHandle(node).advertise<Capture>(topics::kCapture, options.queue_size)) {}
+
 void ConditionOutput::publish(const Photograph& photograph, const SkyMoment& sky) const {
-  const std_msgs::Header header = opticalHeader(photograph.stamp);
+  const std_msgs::Header header = headerOf(options_.frames.optical, photograph.stamp);
   Capture capture;
   capture.header = header;
+  if (sky.bodies.time.utc) capture.utc = toUtc(*sky.bodies.time.utc);
   capture.pose_index = static_cast<std::uint32_t>(photograph.pose_index);
   capture.ev100 = photograph.ev100;
   capture.sun_azimuth = sky.bodies.sun->apparent.azimuth().rad();
   capture.sun_elevation = sky.bodies.sun->apparent.elevation().rad();
   fillMoon(sky.bodies.moon, &capture);
   capture.scene_illuminance = static_cast<double>(sky.light.groundIlluminance().luminance());
-  // The image last: who has it can expect the others.
+  // Before the image: who has that can expect it.
   capture_.publish(capture);
-  camera_info_.publish(toCameraInfo(camera_, header));
-  image_.publish(sensor_msgs::ImageConstPtr(toImageMessage(photograph.picture, header)));
+  const sensor_msgs::CameraInfo info = toCameraInfo(options_.camera, header);
+  std::visit([&](const auto& images) { images.publish(photograph.picture, info); }, images_);
 }
 
 std::string ConditionOutput::lonelyTopic(const WantedSubscribers& wanted) const {
-  if (static_cast<int>(image_.getNumSubscribers()) < wanted.images) return image_.getTopic();
+  const auto lonely = [&](const CameraSubscribers& both) {
+    return std::visit([&](const auto& images) { return images.lonelyTopic(both); }, images_);
+  };
+  std::string topic = lonely({wanted.images, 0});
+  if (!topic.empty()) return topic;
   if (static_cast<int>(capture_.getNumSubscribers()) < wanted.images) return capture_.getTopic();
-  if (static_cast<int>(camera_info_.getNumSubscribers()) < wanted.others) return camera_info_.getTopic();
-  return std::string();
+  return lonely({0, wanted.others});
 }
 
 }  // namespace sunlit::ros_interface

@@ -1,12 +1,13 @@
 /// What leaves the node once per pose and condition: the image and how it was taken.
 #pragma once
 
-#include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 
 #include <Eigen/Geometry>
 #include <string>
+#include <variant>
 
+#include "ros/render/camera_output.h"
 #include "ros/render/options.h"
 #include "ros/render/sky_moments.h"
 #include "sunlit/image/camera.h"
@@ -29,23 +30,29 @@ struct SkyMoment {
   const sky::Daylight& light;
 };
 
-/// Publishes camera/image_raw, camera/camera_info and camera/capture of one condition.
+/// Of all that leaves the node.
+struct OutputOptions {
+  image::PinholeCamera camera;
+  CameraFrames frames;
+  std::uint32_t queue_size = 10;  ///< messages kept for a subscriber that is slow to read
+  bool compressed = false;        ///< pictures in PNG
+  bool publish_tf = true;
+  bool follows_tf = false;  ///< others say on TF where frames.camera is
+};
+
+/// Publishes camera/image_raw (or camera/image_raw/compressed), camera/camera_info and camera/capture of one
+/// condition.
 class ConditionOutput {
  public:
-  /// `queue_size` messages are kept for a subscriber that is slow to read.
-  ConditionOutput(const ros::NodeHandle& node, const image::PinholeCamera& camera, std::uint32_t queue_size);
+  ConditionOutput(const ros::NodeHandle& node, const OutputOptions& options);
 
   void publish(const Photograph& photograph, const SkyMoment& sky) const;
   /// The first topic with too few subscribers; empty if there is none.
   std::string lonelyTopic(const WantedSubscribers& wanted) const;
 
  private:
-  image::PinholeCamera camera_;
-  image_transport::ImageTransport transport_;
-  // The two halves of an image_transport::CameraPublisher, apart, so that the subscribers of each can be
-  // counted.
-  image_transport::Publisher image_;
-  ros::Publisher camera_info_;
+  OutputOptions options_;
+  std::variant<CameraOutput, PngOutput> images_;
   ros::Publisher capture_;
 };
 

@@ -1,7 +1,6 @@
 #include <tf2/exceptions.h>
 
 #include "ros/render/run.h"
-#include "sunlit/ros/frame_names.h"
 
 namespace sunlit::ros_interface {
 
@@ -12,12 +11,49 @@ constexpr std::chrono::seconds kHold(1);
 
 }  // namespace
 
-FollowRun::FollowRun(const std::string& frame, double frame_rate, Streams& streams, RobotPlaces* robot)
-    : frame_(frame), period_(1.0 / frame_rate), streams_(streams), robot_(robot) {}
+FollowRun::FollowRun(const FollowOptions& options, Streams& streams, RobotPlaces* robot)
+    : frames_(options.frames), period_(1.0 / options.frame_rate), streams_(streams), robot_(robot) {
+  if (options.publish_tf) optical_.emplace(frames_);
+}
 
 bool FollowRun::begin() {
   waits_for_ = streams_.waitsForSubscribers();
   return waits_for_.empty();
+}
+
+std::optional<Shot> FollowRun::nextShot() {
+  const ros::Time now = ros::Time::now();
+  try {
+    if (!held_ || Clock::now() - held_since_ > kHold) {
+      held_ = lookUp(tf_.buffer, frames_.map, frames_.camera, ros::Time(0));
+      held_since_ = Clock::now();
+    }
+  } catch (const tf2::TransformException& error) {
+    held_.reset();
+    waits_for_ = "the TF frame " + frames_.camera + ": " + error.what();
+    return std::nullopt;
+  }
+  if (optical_) optical_->publishWhereMissing(tf_.buffer);
+  const FoundTransform found = *held_;
+  // Static transforms carry no time. All others: the image belongs to the very moment of its pose.
+  const bool is_static = found.stamp.isZero();
+  const ros::Time stamp = is_static ? now : found.stamp;
+  if (stamp == latest_) {
+    held_.reset();
+    waits_for_ = "the TF frame " + frames_.camera + " to be sent again";
+    return std::nullopt;
+  }
+  Shot shot{taken_, stamp, found.parent_from_child};
+  if (robot_) {
+    std::optional<render::BodyPlaces> places = robot_->byTf(tf_.buffer, found.stamp);
+    if (!places) {
+      waits_for_ = robot_->waitsFor();
+      return std::nullopt;
+    }
+    shot.map_from_links = std::move(*places);
+  }
+  held_.reset();
+  return shot;
 }
 
 Step FollowRun::step() {
@@ -28,38 +64,21 @@ Step FollowRun::step() {
   if (next_ > now + period_) next_ = now;
   if (now < next_) return Step::kWaits;
 
-  try {
-    if (!held_ || Clock::now() - held_since_ > kHold) {
-      held_ = lookUp(tf_.buffer, kMapFrame, frame_, ros::Time(0));
-      held_since_ = Clock::now();
-    }
-  } catch (const tf2::TransformException& error) {
-    held_.reset();
-    waits_for_ = "the TF frame " + frame_ + ": " + error.what();
+  if (!shot_) shot_ = nextShot();
+  if (!shot_) return Step::kWaits;
+  waits_for_ = streams_.waitsForSky(shot_->stamp);
+  if (!waits_for_.empty()) {
+    // The frame goes on, and so does the sky: a later moment of both will come.
+    if (streams_.missedSky(shot_->stamp)) shot_.reset();
     return Step::kWaits;
   }
-  const FoundTransform found = *held_;
-  // Static transforms carry no time. All others: the image belongs to the very moment of its pose.
-  const bool is_static = found.stamp.isZero();
-  const ros::Time stamp = is_static ? now : found.stamp;
-  if (stamp == latest_) {
-    held_.reset();
-    waits_for_ = "the TF frame " + frame_ + " to be sent again";
-    return Step::kWaits;
-  }
-  if (robot_) {
-    std::optional<render::BodyPlaces> places = robot_->byTf(tf_.buffer, found.stamp);
-    if (!places) {
-      waits_for_ = robot_->waitsFor();
-      return Step::kWaits;
-    }
-    map_from_links_ = std::move(*places);
-  }
-  held_.reset();
+  const Shot shot = *shot_;
+  shot_.reset();
   // Keeps the mean rate, but does not hurry after a long wait.
   next_ = next_ + period_ < now ? now + period_ : next_ + period_;
-  latest_ = stamp;
-  streams_.take({taken_, stamp, found.parent_from_child, map_from_links_});
+  latest_ = shot.stamp;
+  map_from_links_ = shot.map_from_links;
+  streams_.take(shot);
   taken_ += 1;
   streams_.poseOutput().publishProgress(taken_);
   return Step::kTook;

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "sunlit/light/final_gather.h"
+#include "sunlit/ros/node_rows.h"
 #include "sunlit/scene/load.h"
 
 namespace sunlit::ros_interface {
@@ -13,92 +13,125 @@ namespace {
 
 constexpr double kLargestCount = 1e9;
 
-PathSourceOptions readPath(const ParameterReader& parameters) {
-  PathSourceOptions path;
-  path.file = parameters.text("path/file", path.file);
-  path.topic = parameters.text("path/topic", path.topic);
-  path.sampling.spacing_m = parameters.number("path/spacing", path.sampling.spacing_m, {0.001, 1000.0});
-  path.sampling.height_m = parameters.number("path/camera_height", path.sampling.height_m, {-1000.0, 1000.0});
-  path.first = parameters.integer("path/first", path.first, {0, kLargestCount});
-  path.count = parameters.integer("path/count", path.count, {0, kLargestCount});
-  path.stride = parameters.integer("path/stride", path.stride, {1, kLargestCount});
-  if (!path.file.empty() && !path.topic.empty()) {
-    throw std::invalid_argument("parameters " + parameters.fullName("path/file") + " and " +
-                                parameters.fullName("path/topic") +
-                                " are both given, but the path has one source");
+const Range kCounts{0, kLargestCount};
+
+/// The row of the renderer's option `key`, kept at `place`.
+Field rendererRow(const char* key, Field::Place place) {
+  render::RenderOptions options;
+  Field row = fieldOf(fieldsOf(options), key);
+  row.place = std::move(place);
+  return row;
+}
+
+std::vector<Field> fieldsOf(PathSourceOptions& path) {
+  return joined(
+      {{{"file", &path.file, "", {}, "waypoints, m, in map: CSV (x,y,z) or TUM"},
+        {"topic", &path.topic, "", {}, "or a nav_msgs/Path topic; neither: the path of race_track"}},
+       fieldsOf(path.sampling),
+       {{"first", &path.first, "", kCounts, "index of the first pose to render"},
+        {"count", &path.count, "", kCounts, "how many indices from there; 0: to the end"},
+        {"stride",
+         &path.stride,
+         "",
+         {1, kLargestCount},
+         "only every n-th; index and stamp stay those of the path"}}});
+}
+
+std::vector<Field> fieldsOf(CameraOptions& camera) {
+  return {rendererRow("width", &camera.width),
+          rendererRow("height", &camera.height),
+          Field{"horizontal_fov", &camera.horizontal_fov, "deg", {1, 175}, "across the whole width"},
+          rendererRow("supersampling", &camera.supersampling),
+          rendererRow("rasterizer", choiceOf(&camera.rasterizer, render::rasterizerNames())),
+          Field{"follow",
+                choiceOf(&camera.follow_tf, {"path", "tf"}),
+                "",
+                {},
+                "path, or the pose of follow_frame by TF"},
+          Field{"follow_frame", &camera.follow_frame, "", {}, "x forward, y left, z up"}};
+}
+
+std::vector<Field> fieldsOf(WantedSubscribers& wanted) {
+  const Range some{0, 1000};
+  return {{"images", &wanted.images, "", some, "of camera/image_raw and camera/capture"},
+          {"poses", &wanted.poses, "", some, "of camera/pose"},
+          {"others", &wanted.others, "", some, "of camera_info, camera/depth and /tf"}};
+}
+
+std::vector<Field> fieldsOf(PacingOptions& pacing) {
+  return joined(
+      {{{"frame_rate",
+         &pacing.frame_rate,
+         "Hz",
+         {0.001, 1000},
+         "pose k has the stamp start_stamp + k / frame_rate"},
+        // A stamp of zero means "no stamp" to TF and to many tools.
+        {"start_stamp",
+         NumberOrWord{&pacing.start_stamp_s, "now"},
+         "s",
+         {0.001, 4e9},
+         "of pose 0; now: ROS time when it can be rendered"},
+        {"wait_for",
+         &pacing.wait_for,
+         "",
+         {},
+         "progress topics (std_msgs/UInt32): poses that a reader is done with"},
+        {"count_skipped",
+         &pacing.counts_skipped,
+         "",
+         {},
+         "whether wait_for counts what path/stride skips too"},
+        {"max_ahead", &pacing.max_ahead, "", {1, 10000}, "poses ahead of the slowest of wait_for"}},
+       under("subscribers", fieldsOf(pacing.subscribers)),
+       {{"resume_at", &pacing.resume_at, "", kCounts, "poses since path/first that an earlier run has done"},
+        {"autostart", &pacing.autostart, "", {}, "false: wait for the service ~start"},
+        {"exit_when_done",
+         &pacing.exit_when_done,
+         "",
+         {},
+         "end with status 0 once all has reached its readers"},
+        {"publish_clock", &pacing.publish_clock, "", {}, "this node is the time of all"},
+        {"exact_sky",
+         &pacing.exact_sky,
+         "",
+         {},
+         "only skies of exactly a pose's stamp; so it is with publish_clock too"}}});
+}
+
+/// The air's rows, but that its height may be left to the site.
+std::vector<Field> airFields(studio::SkyOptions* sky) {
+  std::vector<Field> rows = fieldsOf(sky->air);
+  for (Field& row : rows) {
+    if (row.key == "observer_height") row.place = NumberOrWord{&sky->fixed_height_m, "auto"};
   }
-  return path;
+  return rows;
 }
 
-CameraOptions readCamera(const ParameterReader& parameters) {
-  CameraOptions camera;
-  camera.width = parameters.integer("camera/width", camera.width, {16, 8192});
-  camera.height = parameters.integer("camera/height", camera.height, {16, 8192});
-  camera.horizontal_fov =
-      Angle::degrees(parameters.number("camera/horizontal_fov", camera.horizontal_fov.deg(), {1.0, 175.0}));
-  camera.supersampling = parameters.integer("camera/supersampling", camera.supersampling, {1, 4});
-  camera.follow_tf = parameters.choice("camera/follow", "path", {"path", "tf"}) == "tf";
-  camera.follow_frame = parameters.text("camera/follow_frame", camera.follow_frame);
-  return camera;
+void requireOnePath(const ParameterReader& parameters, const PathSourceOptions& path) {
+  if (path.file.empty() || path.topic.empty()) return;
+  throw std::invalid_argument("parameters " + parameters.fullName("path/file") + " and " +
+                              parameters.fullName("path/topic") +
+                              " are both given, but the path has one source");
 }
 
-image::ExposureOptions readExposure(const ParameterReader& parameters) {
-  image::ExposureOptions exposure;
-  const bool fixed = parameters.choice("exposure/mode", "auto", {"auto", "fixed"}) == "fixed";
-  exposure.mode = fixed ? image::ExposureMode::kFixed : image::ExposureMode::kAuto;
-  exposure.ev100 = parameters.number("exposure/ev100", exposure.ev100, {-16.0, 24.0});
-  exposure.compensation_ev =
-      parameters.number("exposure/compensation", exposure.compensation_ev, {-8.0, 8.0});
-  exposure.night_darkening =
-      parameters.number("exposure/night_darkening", exposure.night_darkening, {0.0, 0.5});
-  exposure.highlight_protection =
-      parameters.number("exposure/highlight_protection", exposure.highlight_protection, {0.0, 20.0});
-  exposure.min_ev100 = parameters.number("exposure/min_ev100", exposure.min_ev100, {-16.0, 24.0});
-  exposure.max_ev100 =
-      parameters.number("exposure/max_ev100", exposure.max_ev100, {exposure.min_ev100, 24.0});
-  return exposure;
-}
-
-image::NoiseOptions readNoise(const ParameterReader& parameters) {
-  image::NoiseOptions noise;
-  noise.enabled = parameters.flag("noise/enabled", noise.enabled);
-  noise.full_well_e = parameters.number("noise/full_well_e", noise.full_well_e, {100.0, 1e6});
-  noise.read_e = parameters.number("noise/read_e", noise.read_e, {0.0, 1000.0});
-  noise.gain_ev100 = parameters.number("noise/gain_ev100", noise.gain_ev100, {-16.0, 24.0});
-  noise.seed = parameters.integer("noise/seed", noise.seed, {0, kLargestCount});
-  return noise;
-}
-
-sky::AtmosphereOptions readAtmosphere(const ParameterReader& parameters) {
-  sky::AtmosphereOptions atmosphere;
-  atmosphere.turbidity = parameters.number("atmosphere/turbidity", atmosphere.turbidity, {1.0, 10.0});
-  atmosphere.ozone_du = parameters.number("atmosphere/ozone", atmosphere.ozone_du, {0.0, 600.0});
-  atmosphere.ground_albedo =
-      parameters.number("atmosphere/ground_albedo", atmosphere.ground_albedo, {0.0, 1.0});
-  atmosphere.observer_height_m =
-      parameters.number("atmosphere/observer_height", atmosphere.observer_height_m, {0.0, 8000.0});
-  return atmosphere;
-}
-
-BakeOptions readBake(const ParameterReader& parameters) {
-  BakeOptions bake;
-  bake.enabled = parameters.flag("transport/enabled", bake.enabled);
-  light::TransportOptions& transport = bake.transport;
-  transport.rays_per_patch = parameters.integer("transport/rays", transport.rays_per_patch, {1, 64});
-  transport.bounces = parameters.integer("transport/bounces", transport.bounces, {0, 8});
-  transport.finest_m = parameters.number("transport/finest", transport.finest_m, {0.02, 10.0});
-  transport.samples = parameters.integer("transport/samples", transport.samples, {1000, 1e7});
-  bake.final_gather =
-      parameters.integer("transport/final_gather", bake.final_gather, {0, light::FinalGather::kMostRays});
-  if (!bake.enabled && bake.final_gather > 0) {
-    throw std::invalid_argument("parameter " + parameters.fullName("transport/final_gather") + " is " +
-                                std::to_string(bake.final_gather) + ", but " +
-                                parameters.fullName("transport/enabled") +
-                                " is false: it looks closer where light is baked");
+void requireFrames(const ParameterReader& parameters, const RenderNodeOptions& options) {
+  if (options.camera.follow_tf && options.frames.camera != CameraFrames().camera) {
+    throw std::invalid_argument("parameter " + parameters.fullName("frames/camera") + " is given, but " +
+                                parameters.fullName("camera/follow") + " is tf: the camera is at " +
+                                parameters.fullName("camera/follow_frame"));
   }
-  bake.cache_dir = parameters.text("transport/cache_dir", bake.cache_dir);
-  bake.cache_limit_gb = parameters.number("transport/cache_limit", bake.cache_limit_gb, {0.0, 1e6});
-  return bake;
+  CameraFrames frames = options.cameraFrames();
+  std::vector<Field> rows = under("frames", fieldsOf(frames));
+  if (options.camera.follow_tf) rows[1].key = "camera/follow_frame";
+  requireFrameNames(parameters, rows);
+}
+
+void requireBakeForGather(const ParameterReader& parameters, const RenderNodeOptions& options) {
+  if (options.bake.enabled || options.final_gather == 0) return;
+  throw std::invalid_argument("parameter " + parameters.fullName("transport/final_gather") + " is " +
+                              std::to_string(options.final_gather) + ", but " +
+                              parameters.fullName("transport/enabled") +
+                              " is false: it looks closer where light is baked");
 }
 
 /// Throws for what only a run along a path can heed, where the camera follows TF instead.
@@ -109,61 +142,87 @@ void refuseWithoutPath(const ParameterReader& parameters, const PacingOptions& p
       {"count_skipped", pacing.counts_skipped != usual.counts_skipped},
       {"max_ahead", pacing.max_ahead != usual.max_ahead},
       {"resume_at", pacing.resume_at != usual.resume_at},
-      {"exit_when_done", pacing.exit_when_done != usual.exit_when_done}};
+      {"exit_when_done", pacing.exit_when_done != usual.exit_when_done},
+      {"publish_clock", pacing.publish_clock},
+      {"exact_sky", pacing.exact_sky}};
   for (const auto& [key, is_given] : given) {
     if (!is_given) continue;
-    throw std::invalid_argument("parameter " + parameters.fullName(key) + " is given, but " +
-                                parameters.fullName("camera/follow") +
-                                " is tf: only a path can be waited on, taken up again, or come to its end");
+    throw std::invalid_argument(
+        "parameter " + parameters.fullName(key) + " is given, but " + parameters.fullName("camera/follow") +
+        " is tf: only a path can be waited on, taken up again, come to its end or make time");
   }
-}
-
-PacingOptions readPacing(const ParameterReader& parameters) {
-  PacingOptions pacing;
-  pacing.frame_rate = parameters.number("frame_rate", pacing.frame_rate, {0.001, 1000.0});
-  // A stamp of zero means "no stamp" to TF and to many tools.
-  pacing.start_stamp_s = parameters.numberOr("start_stamp", "now", pacing.start_stamp_s, {0.001, 4.0e9});
-  pacing.max_ahead = parameters.integer("max_ahead", pacing.max_ahead, {1, 10000});
-  pacing.wait_for = parameters.texts("wait_for", pacing.wait_for);
-  pacing.counts_skipped = parameters.flag("count_skipped", pacing.counts_skipped);
-  pacing.subscribers.images = parameters.integer("subscribers/images", pacing.subscribers.images, {0, 1000});
-  pacing.subscribers.poses = parameters.integer("subscribers/poses", pacing.subscribers.poses, {0, 1000});
-  pacing.subscribers.others = parameters.integer("subscribers/others", pacing.subscribers.others, {0, 1000});
-  pacing.resume_at = parameters.integer("resume_at", pacing.resume_at, {0, kLargestCount});
-  pacing.autostart = parameters.flag("autostart", pacing.autostart);
-  pacing.exit_when_done = parameters.flag("exit_when_done", pacing.exit_when_done);
-  return pacing;
 }
 
 }  // namespace
 
-render::RenderOptions RenderNodeOptions::renderOptions() const {
-  render::RenderOptions options;
-  options.camera = image::PinholeCamera::fromFieldOfView(camera.width, camera.height, camera.horizontal_fov);
-  options.supersampling = camera.supersampling;
-  options.final_gather = bake.final_gather;
+std::vector<Field> fieldsOf(CameraFrames& frames) {
+  return {{"map", &frames.map, "", {}, "TF frame of world and path: x east, y north, z up"},
+          {"camera", &frames.camera, "", {}, "TF frame of the camera on a path: x forward, y left, z up"},
+          {"optical", &frames.optical, "", {}, "TF frame of images: z forward, x right, y down"}};
+}
+
+CameraFrames RenderNodeOptions::cameraFrames() const {
+  CameraFrames cameras = frames;
+  if (camera.follow_tf) cameras.camera = camera.follow_frame;
+  return cameras;
+}
+
+studio::StudioOptions RenderNodeOptions::studioOptions() const {
+  studio::StudioOptions options{world, bake, {}, exposure, noise};
+  options.render.camera =
+      image::PinholeCamera::fromFieldOfView(camera.width, camera.height, camera.horizontal_fov);
+  options.render.supersampling = camera.supersampling;
+  options.render.rasterizer = camera.rasterizer;
+  options.render.final_gather = final_gather;
   return options;
+}
+
+std::vector<Field> fieldsOf(RenderNodeOptions& options) {
+  return joined(
+      {{{"world", &options.world.name, "", {}, "race_track, or a file: .world .sdf .dae .gltf .glb .obj"},
+        {"model_path",
+         &options.world.model_path,
+         "",
+         {},
+         "folders searched first for model:// and relative addresses"}},
+       under("path", fieldsOf(options.path)),
+       under("camera", fieldsOf(options.camera)),
+       under("robot", fieldsOf(options.robot)),
+       under("exposure", fieldsOf(options.exposure)),
+       under("noise", fieldsOf(options.noise)),
+       {{"night/enabled", &options.night, "", {}, "moon and stars too; false: the sun alone"}},
+       under("atmosphere", airFields(&options.sky)),
+       under("transport",
+             joined({fieldsOf(options.bake), {rendererRow("final_gather", &options.final_gather)}})),
+       fieldsOf(options.pacing),
+       {{"sun_namespace",
+         &options.sun_namespace,
+         "",
+         {},
+         "where c/sun, c/moon and c/celestial are; empty: that of the node"},
+        {"publish_tf", &options.publish_tf, "", {}, "map to camera_link to camera_optical_frame"},
+        {"compressed",
+         &options.compressed,
+         "",
+         {},
+         "pictures in PNG, without loss, on camera/image_raw/compressed instead of camera/image_raw"}},
+       under("frames", fieldsOf(options.frames)),
+       {{"output_dir", &options.output_dir, "", {}, "for map.png, map.yaml and timing.csv; empty: nowhere"},
+        {"threads", &options.threads, "", {0, 1024}, "0: as many as there are cores"},
+        diagnosticPeriodRow(&options.diagnostic_period_s)}});
 }
 
 RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {
   RenderNodeOptions options;
-  options.world = parameters.text("world", scene::kRaceTrack);
-  options.model_path = parameters.texts("model_path", {});
-  options.path = readPath(parameters);
-  options.camera = readCamera(parameters);
-  options.robot = readRobotOptions(parameters, options.camera.follow_tf);
-  options.exposure = readExposure(parameters);
-  options.noise = readNoise(parameters);
-  options.atmosphere = readAtmosphere(parameters);
-  options.bake = readBake(parameters);
-  options.night = parameters.flag("night/enabled", options.night);
-  options.pacing = readPacing(parameters);
+  parameters.read(fieldsOf(options));
+  readRobotForms(parameters, options.camera.follow_tf, &options.robot);
+  options.sky.stars = options.night;
+  parameters.check("exposure", [&] { image::validate(options.exposure); });
+  requireFrames(parameters, options);
+  requireOnePath(parameters, options.path);
+  requireBakeForGather(parameters, options);
   if (options.camera.follow_tf) refuseWithoutPath(parameters, options.pacing);
-  options.sun_namespace = parameters.text("sun_namespace", options.sun_namespace);
-  options.output_dir = parameters.text("output_dir", options.output_dir);
-  options.publish_tf = parameters.flag("publish_tf", options.publish_tf);
-  options.threads = parameters.integer("threads", options.threads, {0, 1024});
-  if (options.world != scene::kRaceTrack && options.path.file.empty() && options.path.topic.empty() &&
+  if (options.world.name != scene::kRaceTrack && options.path.file.empty() && options.path.topic.empty() &&
       !options.camera.follow_tf) {
     throw std::invalid_argument("parameter " + parameters.fullName("path/file") +
                                 " is empty, but only the world " + scene::kRaceTrack +

@@ -4,19 +4,19 @@
 
 namespace sunlit::ros_interface {
 
-PathRun::PathRun(ros::NodeHandle node, const PacingOptions& options, const PathSource& path, Streams& streams,
-                 RobotPlaces* robot)
+PathRun::PathRun(ros::NodeHandle node, const PacingOptions& options, const Parts& parts)
     : options_(options),
-      path_(path),
-      streams_(streams),
-      robot_(robot),
+      path_(parts.path),
+      streams_(parts.streams),
+      robot_(parts.robot),
+      clock_(parts.clock),
       pacer_(node, options.wait_for, options.max_ahead) {
   if (robot_ && robot_->jointsByTf()) tf_.emplace();
 }
 
 std::string PathRun::missing() {
   if (!path_.ready()) return "a path on " + path_.topic();
-  if (start_.isZero()) return "a time on /clock";
+  if (ros::Time::now().isZero()) return "a time on /clock, by which /use_sim_time tells all nodes to go";
   std::string missing = streams_.waitsForSky();
   if (missing.empty() && !pacer_.connected()) missing = "progress on " + pacer_.silentTopic();
   if (missing.empty() && tf_ && !robot_->knowsJoints(tf_->buffer)) missing = robot_->waitsFor();
@@ -25,10 +25,12 @@ std::string PathRun::missing() {
 }
 
 void PathRun::announce() {
-  if (!path_.ready() || !start_.isZero()) return;
-  start_ = options_.start_stamp_s ? ros::Time(*options_.start_stamp_s) : ros::Time::now();
-  if (start_.isZero()) return;  // simulation time has not begun
-  streams_.poseOutput().publishPath(path_, start_, options_.frame_rate);
+  if (announced_ || !path_.ready()) return;
+  if (start_.isZero() && options_.start_stamp_s) setStart(ros::Time(*options_.start_stamp_s));
+  // Who hears where this run stands may let the sky move on, and what moved before all of its topics were
+  // heard once is lost.
+  if (!streams_.waitsForSky().empty()) return;
+  announced_ = true;
   const int stride = path_.stride();
   position_ = (options_.resume_at + stride - 1) / stride * stride;
   // Two runs of one path, every pose and every n-th (counting the skipped), that both wait for one reader,
@@ -38,6 +40,20 @@ void PathRun::announce() {
   // where it goes on, it may have nothing left to render, or be held up until the reader has come nearer to
   // its next pose.
   streams_.poseOutput().publishProgress(position());
+}
+
+void PathRun::setStart(const ros::Time& start) {
+  start_ = start;
+  streams_.poseOutput().publishPath(path_, start_, options_.frame_rate);
+}
+
+bool PathRun::isTime(const ros::Time& stamp) {
+  if (clock_ != nullptr) {
+    clock_->advanceTo(stamp);
+    return true;
+  }
+  // Readers that are waited for set the pace; without any, time does.
+  return !options_.wait_for.empty() || ros::Time::now() >= stamp;
 }
 
 bool PathRun::begin() {
@@ -64,11 +80,27 @@ int PathRun::counted(int position) const {
   return (position + stride - 1) / stride;
 }
 
+RunProgress PathRun::progress() const {
+  const auto poses = [&](int positions) { return (positions + path_.stride() - 1) / path_.stride(); };
+  RunProgress progress;
+  if (!path_.ready()) return progress;
+  progress.done = poses(position());
+  progress.to_do = poses(positions()) - progress.done;
+  if (!options_.wait_for.empty()) progress.ahead = counted(position()) - pacer_.slowest();
+  return progress;
+}
+
 Step PathRun::step() {
+  if (start_.isZero()) setStart(ros::Time::now());
   if (position_ >= positions()) {
     if (pacer_.allHave(counted(positions()))) return Step::kDone;
   } else if (pacer_.mayRender(counted(position_))) {
-    const Shot shot = next_ ? *next_ : shotAt(position_);
+    if (!next_) next_ = shotAt(position_);
+    waits_for_.clear();
+    if (!isTime(next_->stamp)) return Step::kWaits;
+    waits_for_ = streams_.waitsForSky(next_->stamp);
+    if (!waits_for_.empty()) return Step::kWaits;
+    const Shot shot = *next_;
     map_from_links_ = shot.map_from_links;
     position_ += path_.stride();
     next_.reset();

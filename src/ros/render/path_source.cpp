@@ -5,8 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "ros/render/messages.h"
-#include "sunlit/quantity/fingerprint.h"
+#include "sunlit/scene/content_hash.h"
 #include "sunlit/scene/race_track.h"
 
 namespace sunlit::ros_interface {
@@ -24,7 +23,8 @@ ros::Time stampOfPose(const ros::Time& start, int index, double frame_rate) {
   return stamp;
 }
 
-PathSource::PathSource(ros::NodeHandle node, const PathSourceOptions& options) : options_(options) {
+PathSource::PathSource(ros::NodeHandle node, const PathSourceOptions& options, const std::string& map_frame)
+    : options_(options), map_frame_(map_frame) {
   if (!options_.topic.empty()) {
     subscriber_ = node.subscribe(options_.topic, 1, &PathSource::onPath, this);
   } else if (!options_.file.empty()) {
@@ -35,7 +35,7 @@ PathSource::PathSource(ros::NodeHandle node, const PathSourceOptions& options) :
 }
 
 std::string PathSource::fingerprint() const {
-  Fingerprint print;
+  scene::ContentHash print;
   for (const Eigen::Isometry3d& pose : map_from_camera_)
     print.add(std::vector<double>(pose.data(), pose.data() + pose.matrix().size()));
   return print.text();
@@ -48,9 +48,9 @@ void PathSource::onPath(const nav_msgs::Path& message) {
     waypoints.emplace_back(stamped.pose.position.x, stamped.pose.position.y, stamped.pose.position.z);
   }
   try {
-    if (!message.header.frame_id.empty() && message.header.frame_id != kMapFrame) {
-      throw std::invalid_argument("its frame_id is \"" + message.header.frame_id + "\", but must be " +
-                                  kMapFrame);
+    if (!message.header.frame_id.empty() && message.header.frame_id != map_frame_) {
+      throw std::invalid_argument("its frame_id is \"" + message.header.frame_id + "\", but must be \"" +
+                                  map_frame_ + '"');
     }
     sample(waypoints);
   } catch (const std::invalid_argument& error) {

@@ -21,7 +21,7 @@ class PathSource {
   /// A file or the built-in path is there at once; a topic's comes with its first message that is a path.
   /// Throws what path.h throws, and std::invalid_argument where `first` and `count` ask for more than the
   /// path has.
-  PathSource(ros::NodeHandle node, const PathSourceOptions& options);
+  PathSource(ros::NodeHandle node, const PathSourceOptions& options, const std::string& map_frame);
 
   bool ready() const { return !map_from_camera_.empty(); }
   /// The topic that the path is expected from; empty where it comes from elsewhere.
@@ -46,6 +46,7 @@ class PathSource {
   void sample(const path::Waypoints& waypoints);
 
   PathSourceOptions options_;
+  std::string map_frame_;  ///< that a path on a topic must speak of
   std::vector<Eigen::Isometry3d> map_from_camera_;
   ros::Subscriber subscriber_;
   std::string refused_for_;  ///< the latest path, if it was refused

@@ -4,26 +4,21 @@
 #include <ros/node_handle.h>
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 
 #include "ros/render/condition_output.h"
+#include "ros/render/optical_frame.h"
 #include "ros/render/path_source.h"
 #include "sunlit/image/images.h"
 
 namespace sunlit::ros_interface {
 
-struct PoseOutputOptions {
-  bool publish_tf = true;
-  /// Parent of camera_optical_frame on TF: camera_link, which then is published too, or a frame that others
-  /// publish.
-  std::string followed_frame;
-  std::uint32_t queue_size = 10;
-};
-
-/// Publishes camera/depth/image_raw, camera/pose, TF, path and progress.
+/// Publishes camera/depth/image_raw and camera_info, camera/pose, path and progress; and on TF, where the
+/// camera's frame is this node's own, that and the optical frame.
 class PoseOutput {
  public:
-  PoseOutput(ros::NodeHandle node, ros::NodeHandle private_node, const PoseOutputOptions& options);
+  PoseOutput(ros::NodeHandle node, ros::NodeHandle private_node, const OutputOptions& options);
 
   void publishPath(const PathSource& path, const ros::Time& start, double frame_rate) const;
   void publish(const Eigen::Isometry3d& map_from_camera, const image::DepthImage& depth,
@@ -34,12 +29,13 @@ class PoseOutput {
   std::string lonelyTopic(const WantedSubscribers& wanted) const;
 
  private:
-  PoseOutputOptions options_;
-  ros::Publisher depth_;
+  OutputOptions options_;
+  CameraOutput depth_;
   ros::Publisher pose_;
   ros::Publisher path_;
   ros::Publisher progress_;
   ros::Publisher tf_;
+  std::optional<OpticalFrame> optical_;
 };
 
 }  // namespace sunlit::ros_interface

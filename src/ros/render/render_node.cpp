@@ -9,7 +9,8 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "ros/render/messages.h"
+#include "ros/conversions/geometry.h"
+#include "ros/conversions/images.h"
 #include "sunlit/ros/delivery.h"
 
 namespace sunlit::ros_interface {
@@ -18,14 +19,34 @@ namespace {
 
 StreamOptions streamOptions(const RenderNodeOptions& options) {
   StreamOptions streams;
-  streams.pose.publish_tf = options.publish_tf;
-  if (options.camera.follow_tf) streams.pose.followed_frame = options.camera.follow_frame;
+  streams.output.camera = options.studioOptions().render.camera;
+  streams.output.frames = options.cameraFrames();
+  streams.output.compressed = options.compressed;
+  streams.output.publish_tf = options.publish_tf;
+  streams.output.follows_tf = options.camera.follow_tf;
   // A reader that is paced can never be further behind than this, so roscpp has no reason to drop a message.
-  streams.pose.queue_size = static_cast<std::uint32_t>(options.pacing.max_ahead + 2);
+  streams.output.queue_size = static_cast<std::uint32_t>(options.pacing.max_ahead + 2);
   streams.night = options.night;
+  streams.sky = options.pacing.exact_sky || options.pacing.publish_clock ? SkyRule::kExact : SkyRule::kAround;
   streams.sun_namespace = options.sun_namespace;
   streams.wanted_subscribers = options.pacing.subscribers;
   return streams;
+}
+
+/// Where this node is the time of all, there is no other to begin at than the wall clock's.
+RenderNodeOptions withStart(RenderNodeOptions options) {
+  PacingOptions& pacing = options.pacing;
+  if (pacing.publish_clock && !pacing.start_stamp_s) pacing.start_stamp_s = ros::WallTime::now().toSec();
+  return options;
+}
+
+/// Until the first pose is rendered, wherever on the path that is, time stands one pose before the path's
+/// begin, or between 0 and that.
+std::unique_ptr<ClockSource> clockSource(const ros::NodeHandle& node, const PacingOptions& pacing) {
+  if (!pacing.publish_clock) return nullptr;
+  const double start_s = *pacing.start_stamp_s;
+  const double before_s = start_s - 1.0 / pacing.frame_rate;
+  return std::make_unique<ClockSource>(node, ros::Time(before_s > 0.0 ? before_s : 0.5 * start_s));
 }
 
 }  // namespace
@@ -34,30 +55,51 @@ RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
                        const RenderNodeOptions& options, const std::vector<Condition>& conditions)
     : node_(node),
       private_node_(private_node),
-      options_(options),
+      options_(withStart(options)),
+      activity_(private_node),
+      diagnostics_(node, private_node, activity_, options.bake),
       files_(options.output_dir.empty()
                  ? nullptr
                  : std::make_unique<RunFiles>(options.output_dir, options.pacing.resume_at > 0)),
-      path_(options.camera.follow_tf ? nullptr : std::make_unique<PathSource>(node, options.path)),
-      studio_(options),
-      streams_(conditions, streamOptions(options), studio_),
+      clock_(clockSource(node, options_.pacing)),
+      path_(options.camera.follow_tf ? nullptr
+                                     : std::make_unique<PathSource>(node, options.path, options.frames.map)),
+      sky_(options.sky, reports()),
+      robot_model_(loadRobot(options.robot, options.world.model_path)),
+      studio_(options.studioOptions(), robot_model_, reports()),
+      streams_(conditions, streamOptions(options), studio_, sky_),
       paused_(!options.pacing.autostart) {
-  if (studio_.robot()) {
+  if (robot_model_) {
     robot_ = std::make_unique<RobotPlaces>(
-        *studio_.robot(), options_.robot,
+        *robot_model_, options_.robot, options_.cameraFrames(),
         path_ ? std::optional<double>(options_.path.sampling.height_m) : std::nullopt);
   }
   if (path_) {
-    auto run = std::make_unique<PathRun>(node_, options_.pacing, *path_, streams_, robot_.get());
+    auto run = std::make_unique<PathRun>(node_, options_.pacing,
+                                         PathRun::Parts{*path_, streams_, robot_.get(), clock_.get()});
     path_run_ = run.get();
     run_ = std::move(run);
   } else {
-    run_ = std::make_unique<FollowRun>(options_.camera.follow_frame, options_.pacing.frame_rate, streams_,
-                                       robot_.get());
+    run_ = std::make_unique<FollowRun>(
+        FollowOptions{options_.cameraFrames(), options_.pacing.frame_rate, options_.publish_tf}, streams_,
+        robot_.get());
   }
+  diagnostics_.watch({studio_, streams_, *run_, robot_.get()});
   services_ = {private_node_.advertiseService("start", &RenderNode::onStart, this),
                private_node_.advertiseService("pause", &RenderNode::onPause, this),
                private_node_.advertiseService("render_view", &RenderNode::onView, this)};
+}
+
+studio::Reports RenderNode::reports() {
+  activity_.say("loading", options_.world.name);
+  diagnostics_.update();
+  studio::Reports reports = loggedReports();
+  reports.baking = [this, log = reports.baking](double share, double seconds_left) {
+    if (log) log(share, seconds_left);
+    activity_.say("baking", "", {share, seconds_left});
+    diagnostics_.update();
+  };
+  return reports;
 }
 
 int RenderNode::run() {
@@ -68,9 +110,11 @@ int RenderNode::run() {
     // After a frame only what is there already; else wait a moment for something to come.
     callbacks.callAvailable(latest == Step::kTook ? ros::WallDuration() : patience);
     latest = step();
+    diagnostics_.update();
     if (latest == Step::kDone && !finished_) finish();
     if (finished_ && options_.pacing.exit_when_done) break;
   }
+  if (clock_) clock_->stop();  // what is published all the time is never delivered
   deliverTheLast();
   if (files_ && has_begun_) files_->writeTiming(studio_.stopwatch());
   reportRobot();
@@ -87,21 +131,32 @@ Step RenderNode::step() {
   run_->announce();
   if (paused_) {
     wait_log_.report("the service " + private_node_.resolveName("start"));
+    activity_.say("waiting", "the service " + private_node_.resolveName("start"));
     return Step::kWaits;
   }
   if (!has_begun_) {
     has_begun_ = run_->begin();
-    wait_log_.report(run_->waitsFor());
-    if (!has_begun_) return Step::kWaits;
+    if (!has_begun_) {
+      report(Step::kWaits);
+      return Step::kWaits;
+    }
     if (files_ && path_) beginFolder();
   }
   const Step step = run_->step();
-  wait_log_.report(step == Step::kWaits ? run_->waitsFor() : std::string());
-  if (step == Step::kTook) {
-    keepTiming();
-    if (path_run_ != nullptr) progress_log_.report(path_run_->position(), path_run_->positions());
-  }
+  report(step);
   return step;
+}
+
+void RenderNode::report(Step step) {
+  const bool waits_long = wait_log_.report(step == Step::kWaits ? run_->waitsFor() : std::string());
+  if (waits_long) activity_.say("waiting", run_->waitsFor());
+  if (step != Step::kTook) return;
+  keepTiming();
+  if (path_run_ == nullptr) return activity_.say("rendering");
+  const int position = path_run_->position(), positions = path_run_->positions();
+  pose_log_.report(position, positions);
+  activity_.say("rendering", "",
+                {static_cast<double>(position) / static_cast<double>(positions), pose_log_.secondsLeft()});
 }
 
 void RenderNode::keepTiming() {
@@ -114,14 +169,18 @@ void RenderNode::keepTiming() {
 }
 
 void RenderNode::beginFolder() {
-  files_->keepInputs({studio_.fingerprint(), path_->fingerprint()});
-  const MapExtent extent = extentOf(*path_);
-  const auto draw = [&] { return studio_.mapFromAbove(extent); };
+  files_->keepInputs({light::fingerprint(studio_.world()), path_->fingerprint()});
+  files_->keepRasterizer(studio_.rasterizer());
+  const studio::MapExtent extent = extentOf(*path_);
+  studio::SkyBodies noon{{Direction(Azimuth::degrees(160.0), Angle::degrees(55.0)), 1.0}};
+  noon.site_elevation_m = streams_.siteElevation();
+  const auto draw = [&] { return studio_.mapFromAbove(extent, sky_.daylight(noon)); };
   files_->writeMap(studio_.stopwatch().measure("load", "map", draw), extent);
 }
 
 void RenderNode::finish() {
   finished_ = true;
+  activity_.say("done", "", {1.0, 0.0});
   if (files_) files_->writeTiming(studio_.stopwatch());
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -146,7 +205,7 @@ bool RenderNode::onView(RenderView::Request& request, RenderView::Response& resp
   try {
     const Photograph photograph =
         streams_.view({0, ros::Time::now(), fromPose(request.pose), run_->mapFromLinks()}, request.condition);
-    const std_msgs::Header header = opticalHeader(photograph.stamp);
+    const std_msgs::Header header = headerOf(options_.frames.optical, photograph.stamp);
     response.image = *toImageMessage(photograph.picture, header);
     response.camera_info = toCameraInfo(studio_.camera(), header);
     response.success = true;

@@ -9,15 +9,19 @@
 #include <optional>
 #include <vector>
 
+#include "ros/render/activity.h"
+#include "ros/render/clock_source.h"
 #include "ros/render/options.h"
 #include "ros/render/path_source.h"
+#include "ros/render/render_diagnostics.h"
 #include "ros/render/run.h"
 #include "ros/render/run_files.h"
 #include "ros/render/run_log.h"
 #include "ros/render/streams.h"
-#include "ros/render/studio.h"
 #include "sunlit/RenderView.h"
 #include "sunlit/ros/conditions.h"
+#include "sunlit/studio/sky.h"
+#include "sunlit/studio/studio.h"
 
 namespace sunlit::ros_interface {
 
@@ -35,7 +39,11 @@ class RenderNode {
   bool onStart(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onPause(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onView(RenderView::Request& request, RenderView::Response& response);
+  /// Of work that takes its time: to the log, and as activity.
+  studio::Reports reports();
   Step step();
+  /// Tells people and topics what came of it.
+  void report(Step step);
   void keepTiming();
   /// Before the first pose, once all readers were heard: an evaluator that refuses its folder never is, and
   /// what the folder holds must then stay as it is.
@@ -46,15 +54,21 @@ class RenderNode {
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   RenderNodeOptions options_;
-  // Before the scene: an unwritable folder or a bad waypoint should not cost its loading.
+  ActivityOutput activity_;
+  RenderDiagnostics diagnostics_;
+  // Before the scene: an unwritable folder, a second clock or a bad waypoint should not cost its loading. And
+  // a clock is waited for by all others.
   std::unique_ptr<RunFiles> files_;
-  std::unique_ptr<PathSource> path_;  // not where a TF frame is followed
-  Studio studio_;
+  std::unique_ptr<ClockSource> clock_;  // where this node is the time of all
+  std::unique_ptr<PathSource> path_;    // not where a TF frame is followed
+  studio::Sky sky_;
+  std::optional<scene::Robot> robot_model_;  // where the options name one
+  studio::Studio studio_;
   Streams streams_;
   std::unique_ptr<RobotPlaces> robot_;  // where there is one
   PathRun* path_run_ = nullptr;         // run_ where it follows a path
   std::unique_ptr<Run> run_;
-  ProgressLog progress_log_;
+  PoseLog pose_log_;
   WaitLog wait_log_;
   bool paused_;
   std::optional<std::chrono::steady_clock::time_point> timing_kept_;  // when it was written last

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sunlit/ros/world_search.h"
-
 namespace sunlit::ros_interface {
 
 namespace {
@@ -61,27 +59,41 @@ std::string descriptionOf(const std::string& name) {
 
 }  // namespace
 
-RobotOptions readRobotOptions(const ParameterReader& parameters, bool follows_tf) {
-  RobotOptions robot;
-  robot.description = parameters.text("robot/description", robot.description);
-  robot.file = parameters.text("robot/file", robot.file);
-  robot.base_frame = parameters.text("robot/base_frame", robot.base_frame);
-  readCamera(parameters, &robot);
-  const std::string joints = parameters.choice("robot/joints", kAuto, {kAuto, "rest", "tf"});
-  robot.joints_by_tf = joints == "tf" || (joints == kAuto && follows_tf);
-  robot.tf_patience_s = parameters.number("robot/tf_patience", robot.tf_patience_s, {0.0, 60.0});
-  if (!robot.description.empty() && !robot.file.empty()) {
+std::vector<Field> fieldsOf(RobotOptions& robot) {
+  return {{"description",
+           &robot.description,
+           "",
+           {},
+           "name of a parameter that holds a URDF, such as /robot_description"},
+          {"file", &robot.file, "", {}, "or a file: .urdf or .sdf"},
+          {"base_frame", &robot.base_frame, "", {}, "the link that is placed; empty: the root"},
+          {"camera_in_base", OwnForm{kAuto}, "", {}, "on a path: [x, y, z] in m, or the name of a link"},
+          {"joints",
+           choiceOf(&robot.joints, {kAuto, "rest", "tf"}),
+           "",
+           {},
+           "auto: by TF with camera/follow: tf, else at rest"},
+          {"tf_patience",
+           &robot.tf_patience_s,
+           "s",
+           {0, 60},
+           "that a link's transform is waited for before it is drawn at rest"}};
+}
+
+void readRobotForms(const ParameterReader& parameters, bool follows_tf, RobotOptions* robot) {
+  readCamera(parameters, robot);
+  robot->joints_by_tf = robot->joints == Joints::kTf || (robot->joints == Joints::kAuto && follows_tf);
+  if (!robot->description.empty() && !robot->file.empty()) {
     throw std::invalid_argument("parameters " + parameters.fullName("robot/description") + " and " +
                                 parameters.fullName("robot/file") +
                                 " are both given, but the robot has one source");
   }
-  return robot;
 }
 
 std::optional<scene::Robot> loadRobot(const RobotOptions& options,
                                       const std::vector<std::string>& model_path) {
   if (options.none()) return std::nullopt;
-  const scene::SearchPath search_path = worldSearchPath(model_path);
+  const scene::SearchPath search_path = scene::SearchPath::withEnvironment(model_path);
   const bool from_file = !options.file.empty();
   scene::Robot robot = from_file ? scene::loadRobot(options.file, search_path)
                                  : scene::parseUrdf(descriptionOf(options.description),

@@ -11,6 +11,9 @@
 
 namespace sunlit::ros_interface {
 
+/// How joints stand: by TF if the camera follows TF, at rest, or by TF.
+enum class Joints { kAuto, kRest, kTf };
+
 struct RobotOptions {
   std::string description;  ///< name of a parameter that holds a URDF; empty: none
   std::string file;         ///< URDF or SDF; empty: none. Neither: no robot
@@ -20,19 +23,23 @@ struct RobotOptions {
   std::optional<Eigen::Vector3d> camera_in_base;
   std::string camera_link;
 
-  bool joints_by_tf = false;   ///< else in rest position
-  double tf_patience_s = 1.0;  ///< how long a link's transform is waited for before it is given up, 0 … 60 s
+  Joints joints = Joints::kAuto;
+  bool joints_by_tf = false;  ///< what joints comes to; else in rest position
+  double tf_patience_s = 1.0;
 
   bool none() const { return description.empty() && file.empty(); }
 };
 
-/// `follows_tf`: the camera follows a TF frame, and so do joints unless told otherwise. Throws
-/// std::invalid_argument with name, value and what is allowed.
-RobotOptions readRobotOptions(const ParameterReader& parameters, bool follows_tf);
+std::vector<Field> fieldsOf(RobotOptions& robot);
+
+/// What rows alone do not tell: robot/camera_in_base, and joints_by_tf. `follows_tf`: the camera follows a TF
+/// frame, and so do joints unless told otherwise. Throws std::invalid_argument with name, value and what is
+/// allowed.
+void readRobotForms(const ParameterReader& parameters, bool follows_tf, RobotOptions* robot);
 
 /// The robot that `options` name; none if they name none. Meshes are looked for in `model_path` and where
-/// worldSearchPath() does. Throws std::invalid_argument for a parameter that does not hold a text, or a link
-/// that the robot does not have, and what scene::loadRobot() throws.
+/// SearchPath::withEnvironment() does. Throws std::invalid_argument for a parameter that does not hold a
+/// text, or a link that the robot does not have, and what scene::loadRobot() throws.
 std::optional<scene::Robot> loadRobot(const RobotOptions& options,
                                       const std::vector<std::string>& model_path);
 

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "ros/render/tf_lookup.h"
-#include "sunlit/ros/frame_names.h"
 
 namespace sunlit::ros_interface {
 
@@ -38,9 +37,10 @@ std::optional<Eigen::Isometry3d> lookUpOne(const tf2_ros::Buffer& tf, const std:
 
 }  // namespace
 
-RobotPlaces::RobotPlaces(const scene::Robot& robot, const RobotOptions& options,
+RobotPlaces::RobotPlaces(const scene::Robot& robot, const RobotOptions& options, const CameraFrames& frames,
                          std::optional<double> camera_height_m)
     : base_(options.base_frame.empty() ? 0 : robot.indexOf(options.base_frame).value()),
+      frames_(frames),
       joints_by_tf_(options.joints_by_tf),
       patience_(options.tf_patience_s) {
   for (std::size_t i = 0; i < robot.links.size(); ++i) {
@@ -57,7 +57,7 @@ void RobotPlaces::placeCamera(const scene::Robot& robot, const RobotOptions& opt
   /// A wheel that sinks in or hovers by more than this is worth a word.
   constexpr double kUnevenness_m = 0.05;
   const double lowest_m = lowestPoint(robot, base_from_rest_);
-  const std::string link = options.camera_link.empty() ? kCameraFrame : options.camera_link;
+  const std::string link = options.camera_link.empty() ? frames_.camera : options.camera_link;
   const std::optional<std::size_t> carrier = robot.indexOf(link);
   if (options.camera_in_base) {
     camera_in_base_ = *options.camera_in_base;
@@ -124,7 +124,7 @@ bool RobotPlaces::knowsJoints(const tf2_ros::Buffer& tf) {
 }
 
 std::optional<render::BodyPlaces> RobotPlaces::byTf(const tf2_ros::Buffer& tf, const ros::Time& stamp) {
-  std::vector<std::optional<Eigen::Isometry3d>> known = lookUp(tf, kMapFrame, stamp);
+  std::vector<std::optional<Eigen::Isometry3d>> known = lookUp(tf, frames_.map, stamp);
   if (!known[base_]) {
     waits_for_ = "the TF frame " + links_[base_].name + " of the robot's base";
     return std::nullopt;

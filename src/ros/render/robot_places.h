@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/render/camera_frames.h"
 #include "ros/render/robot_options.h"
 #include "sunlit/render/renderer.h"
 #include "sunlit/scene/robot.h"
@@ -21,9 +22,10 @@ namespace sunlit::ros_interface {
 class RobotPlaces {
  public:
   /// `camera_height_m`: of the camera above the path; nothing where there is no path. Without a
-  /// camera_in_base the camera is on the link camera_link, if there is one; else above the base, so that the
-  /// robot's lowest point is on the path.
-  RobotPlaces(const scene::Robot& robot, const RobotOptions& options, std::optional<double> camera_height_m);
+  /// camera_in_base the camera is on the link frames.camera, if there is one; else above the base, so that
+  /// the robot's lowest point is on the path.
+  RobotPlaces(const scene::Robot& robot, const RobotOptions& options, const CameraFrames& frames,
+              std::optional<double> camera_height_m);
 
   /// map_from_link of each link for a camera on a path. `tf`: where joints move; null: they rest.
   render::BodyPlaces onPath(const Eigen::Isometry3d& map_from_camera, const tf2_ros::Buffer* tf);
@@ -59,6 +61,7 @@ class RobotPlaces {
   std::vector<Link> links_;
   std::vector<Eigen::Isometry3d> base_from_rest_;  ///< base_from_link in rest position
   std::size_t base_;
+  CameraFrames frames_;
   Eigen::Vector3d camera_in_base_ = Eigen::Vector3d::Zero();
   bool joints_by_tf_;
   std::chrono::duration<double> patience_;

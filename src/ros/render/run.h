@@ -11,6 +11,8 @@
 #include <optional>
 #include <string>
 
+#include "ros/render/clock_source.h"
+#include "ros/render/optical_frame.h"
 #include "ros/render/pacer.h"
 #include "ros/render/path_source.h"
 #include "ros/render/robot_places.h"
@@ -26,6 +28,13 @@ enum class Step {
   kDone,   ///< there is nothing left to render
 };
 
+/// How far a run is, in poses that it renders.
+struct RunProgress {
+  int done = 0;              ///< with those of an earlier run that it goes on with
+  std::optional<int> to_do;  ///< nothing: it has no end, or its path is not known yet
+  std::optional<int> ahead;  ///< of the slowest reader; nothing: none is waited for
+};
+
 /// Renders one pose a step, when it may.
 class Run {
  public:
@@ -38,6 +47,9 @@ class Run {
   virtual Step step() = 0;
   /// Why the latest step waited, in words; empty where that needs no words.
   virtual std::string waitsFor() const = 0;
+  /// Whether what it waits for will never come.
+  virtual bool isStuck() const { return false; }
+  virtual RunProgress progress() const = 0;
   /// Of the robot at the latest pose, or the first one, as far as known; empty: there is none.
   virtual render::BodyPlaces mapFromLinks() = 0;
 };
@@ -50,23 +62,32 @@ struct TfInput {
 
 class PathRun : public Run {
  public:
-  /// `path`, `streams` and `robot`, which may be null, outlive this.
-  PathRun(ros::NodeHandle node, const PacingOptions& options, const PathSource& path, Streams& streams,
-          RobotPlaces* robot);
+  /// All outlive the run. With a clock, it is set to the stamp of each pose just before that is rendered;
+  /// without one and without readers to wait for, no pose is rendered before its stamp.
+  struct Parts {
+    const PathSource& path;
+    Streams& streams;
+    RobotPlaces* robot;  ///< may be null
+    ClockSource* clock;  ///< may be null
+  };
+  PathRun(ros::NodeHandle node, const PacingOptions& options, const Parts& parts);
   void announce() override;
   bool begin() override;
   Step step() override;
   std::string waitsFor() const override { return waits_for_; }
+  bool isStuck() const override { return next_ && streams_.missedSky(next_->stamp); }
+  RunProgress progress() const override;
   render::BodyPlaces mapFromLinks() override;
 
-  /// Stamp of pose 0; zero until path and time are known.
-  const ros::Time& start() const { return start_; }
   /// Poses from the first of the run up to the one to be rendered next, and all of them.
   int position() const { return std::min(position_, positions()); }
   int positions() const { return path_.end() - path_.first(); }
 
  private:
   std::string missing();
+  void setStart(const ros::Time& start);
+  /// Whether the time of a pose has come.
+  bool isTime(const ros::Time& stamp);
   Shot shotAt(int position);
   /// The poses before `position` as readers count them.
   int counted(int position) const;
@@ -76,26 +97,39 @@ class PathRun : public Run {
   Streams& streams_;
   RobotPlaces* robot_;
   std::optional<TfInput> tf_;  ///< where joints move
+  ClockSource* clock_;
   Pacer pacer_;
-  ros::Time start_;
+  ros::Time start_;         ///< stamp of pose 0; zero until it is known
+  bool announced_ = false;  ///< where this run begins
   int position_ = 0;
   std::optional<Shot> next_;           ///< drawn ahead
   render::BodyPlaces map_from_links_;  ///< of the latest shot
   std::string waits_for_;
 };
 
+struct FollowOptions {
+  CameraFrames frames;  ///< the camera's is followed
+  double frame_rate = 10.0;
+  bool publish_tf = true;  ///< the optical frame, where nobody else does
+};
+
 class FollowRun : public Run {
  public:
   /// `streams` and `robot`, which may be null, outlive this.
-  FollowRun(const std::string& frame, double frame_rate, Streams& streams, RobotPlaces* robot);
+  FollowRun(const FollowOptions& options, Streams& streams, RobotPlaces* robot);
   bool begin() override;
   Step step() override;
   std::string waitsFor() const override { return waits_for_; }
+  RunProgress progress() const override { return {taken_, std::nullopt, std::nullopt}; }
   render::BodyPlaces mapFromLinks() override { return map_from_links_; }
 
  private:
-  std::string frame_;
+  /// The next moment of the frame and the robot; none where it has to be waited for.
+  std::optional<Shot> nextShot();
+
+  CameraFrames frames_;
   ros::Duration period_;
+  std::optional<OpticalFrame> optical_;
   Streams& streams_;
   RobotPlaces* robot_;
   TfInput tf_;
@@ -104,6 +138,7 @@ class FollowRun : public Run {
   using Clock = std::chrono::steady_clock;
   std::optional<FoundTransform> held_;
   Clock::time_point held_since_;
+  std::optional<Shot> shot_;  ///< that waits for its sky
   ros::Time next_;
   ros::Time latest_;
   int taken_ = 0;

@@ -49,7 +49,7 @@ RunFiles::RunFiles(const std::string& folder, bool goes_on)
   std::filesystem::create_directories(folder_, error);
   if (error) throw std::runtime_error(folder_ + ": the folder cannot be made: " + error.message());
   requireWritable(folder_);
-  if (goes_on_) earlier_ = readTimeSheet(folder_ + "/timing.csv");
+  if (goes_on_) earlier_ = studio::readTimeSheet(folder_ + "/timing.csv");
 }
 
 void RunFiles::keepInputs(const RunInputs& inputs) const {
@@ -64,7 +64,11 @@ void RunFiles::keepInputs(const RunInputs& inputs) const {
       "\" is no line of this file; choose another output folder, or what it was begun with");
 }
 
-void RunFiles::writeMap(const image::Rgb8Image& map, const MapExtent& extent) const {
+void RunFiles::keepRasterizer(const std::string& rasterizer) const {
+  image::writeFileAtomically(folder_ + "/rasterizer.yaml", "rasterizer: '" + rasterizer + "'\n");
+}
+
+void RunFiles::writeMap(const image::Rgb8Image& map, const studio::MapExtent& extent) const {
   image::writePng(folder_ + "/map.png", map);
   std::ostringstream out;
   out << std::setprecision(10) << "x_min: " << extent.x_min << "\nx_max: " << extent.x_max
@@ -72,19 +76,19 @@ void RunFiles::writeMap(const image::Rgb8Image& map, const MapExtent& extent) co
   image::writeFileAtomically(folder_ + "/map.yaml", out.str());
 }
 
-void RunFiles::writeTiming(const Stopwatch& stopwatch) const {
-  Stopwatch whole;
+void RunFiles::writeTiming(const studio::Stopwatch& stopwatch) const {
+  studio::Stopwatch whole;
   whole.add(earlier_);
   whole.add(stopwatch.entries());
   std::ostringstream out;
-  writeTimeSheet(whole.entries(), out);
+  studio::writeTimeSheet(whole.entries(), out);
   image::writeFileAtomically(folder_ + "/timing.csv", out.str());
 }
 
-MapExtent extentOf(const PathSource& path) {
+studio::MapExtent extentOf(const PathSource& path) {
   constexpr double kMarginM = 40.0;
   const Eigen::Vector3d begin = path.mapFromCamera(path.first()).translation();
-  MapExtent extent{begin.x(), begin.x(), begin.y(), begin.y()};
+  studio::MapExtent extent{begin.x(), begin.x(), begin.y(), begin.y()};
   for (int index = path.first(); index < path.end(); ++index) {
     const Eigen::Vector3d at = path.mapFromCamera(index).translation();
     extent.x_min = std::min(extent.x_min, at.x());

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ros/render/path_source.h"
-#include "ros/render/studio.h"
+#include "sunlit/studio/studio.h"
 
 namespace sunlit::ros_interface {
 
@@ -25,18 +25,20 @@ class RunFiles {
   /// inputs.yaml. A run that goes on with another must have its inputs and version of sunlit: else throws
   /// std::runtime_error saying what differs.
   void keepInputs(const RunInputs& inputs) const;
+  /// rasterizer.yaml: what draws, see render::Renderer::rasterizer().
+  void keepRasterizer(const std::string& rasterizer) const;
   /// map.png, north up, and map.yaml, which says what ground it shows: x_min, x_max, y_min, y_max in m.
-  void writeMap(const image::Rgb8Image& map, const MapExtent& extent) const;
+  void writeMap(const image::Rgb8Image& map, const studio::MapExtent& extent) const;
   /// timing.csv: stage,what,count,seconds; with the times of the run that this one goes on with.
-  void writeTiming(const Stopwatch& stopwatch) const;
+  void writeTiming(const studio::Stopwatch& stopwatch) const;
 
  private:
   std::string folder_;
   bool goes_on_;
-  std::vector<Stopwatch::Entry> earlier_;
+  std::vector<studio::Stopwatch::Entry> earlier_;
 };
 
 /// The ground around a path, with a margin.
-MapExtent extentOf(const PathSource& path);
+studio::MapExtent extentOf(const PathSource& path);
 
 }  // namespace sunlit::ros_interface

@@ -10,8 +10,32 @@ namespace {
 
 constexpr std::chrono::seconds kInterval(5);
 constexpr std::chrono::seconds kPatience(2);
+constexpr std::chrono::seconds kUsual(30);
+
+/// Says every few seconds how far a bake is.
+class BakeLog {
+ public:
+  void operator()(double share, double seconds_left) {
+    const Clock::time_point now = Clock::now();
+    if (now - latest_ < kInterval) return;
+    latest_ = now;
+    ROS_INFO("Baking sky light and bounced light: %.0f %%, %.0f s left", 100.0 * share, seconds_left);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point latest_ = Clock::now();
+};
 
 }  // namespace
+
+studio::Reports loggedReports() {
+  studio::Reports reports;
+  reports.note = [](const std::string& line) { ROS_INFO("%s", line.c_str()); };
+  reports.warning = [](const std::string& line) { ROS_WARN("%s", line.c_str()); };
+  reports.baking = BakeLog();
+  return reports;
+}
 
 std::string printedDuration(double seconds) {
   const auto whole = static_cast<long>(std::lround(seconds));
@@ -20,29 +44,35 @@ std::string printedDuration(double seconds) {
   return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
 }
 
-void ProgressLog::report(int position, int positions) {
+void PoseLog::report(int position, int positions) {
   const Clock::time_point now = Clock::now();
   if (begin_position_ < 0) {
     begin_position_ = position;
     begin_ = latest_ = now;
   }
-  const bool last = position >= positions;
-  if (position == begin_position_ || (now - latest_ < kInterval && !last)) return;
-  latest_ = now;
+  if (position == begin_position_) return;
   const double per_pose_s =
       std::chrono::duration<double>(now - begin_).count() / (position - begin_position_);
+  seconds_left_ = per_pose_s * (positions - position);
+  if (now - latest_ < kInterval && position < positions) return;
+  latest_ = now;
   ROS_INFO("pose %d of %d (%d %%), %.0f ms a pose, %s left", position, positions, 100 * position / positions,
-           1e3 * per_pose_s, printedDuration(per_pose_s * (positions - position)).c_str());
+           1e3 * per_pose_s, printedDuration(seconds_left_).c_str());
 }
 
-void WaitLog::report(const std::string& waits_for) {
+bool WaitLog::report(const std::string& waits_for) {
   const Clock::time_point now = Clock::now();
   if (waits_for != waits_for_)
     begin_ = now;  // a reader that makes progress, however slowly, is no reason to wonder
   waits_for_ = waits_for;
-  if (waits_for.empty() || now - begin_ < kPatience || now - latest_ < kInterval) return;
-  latest_ = now;
-  ROS_WARN("Waiting for %s", waits_for.c_str());
+  if (waits_for.empty() || now - begin_ < kPatience) return false;
+  if (now - latest_ >= kInterval) {
+    latest_ = now;
+    const bool is_usual = now - begin_ < kUsual;
+    ROS_LOG(is_usual ? ros::console::levels::Info : ros::console::levels::Warn, ROSCONSOLE_DEFAULT_NAME,
+            "Waiting for %s", waits_for.c_str());
+  }
+  return true;
 }
 
 }  // namespace sunlit::ros_interface

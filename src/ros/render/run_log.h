@@ -2,28 +2,35 @@
 #pragma once
 
 #include <chrono>
+#include <limits>
 #include <string>
+
+#include "sunlit/studio/reports.h"
 
 namespace sunlit::ros_interface {
 
 /// "pose 120 of 991 (12 %), 85 ms a pose, 1 min 14 s left", at most every few seconds.
-class ProgressLog {
+class PoseLog {
  public:
   /// `position` of `positions` are rendered.
   void report(int position, int positions);
+  /// Until the last pose, as of the latest report; NaN where nobody can tell yet.
+  double secondsLeft() const { return seconds_left_; }
 
  private:
   using Clock = std::chrono::steady_clock;
   Clock::time_point begin_;
   Clock::time_point latest_;
   int begin_position_ = -1;
+  double seconds_left_ = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// "Waiting for …", every few seconds, once a wait is long enough to wonder about.
+/// "Waiting for …", every few seconds, once a wait is long enough to wonder about; a warning once it is
+/// longer than other nodes take to load.
 class WaitLog {
  public:
-  /// What is waited for now; empty: nothing.
-  void report(const std::string& waits_for);
+  /// What is waited for now; empty: nothing. Whether it has been for so long that it is worth a word.
+  bool report(const std::string& waits_for);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -31,6 +38,9 @@ class WaitLog {
   Clock::time_point latest_;
   std::string waits_for_;
 };
+
+/// What the studio tells, in the log; how far a bake is every few seconds.
+studio::Reports loggedReports();
 
 /// "1 min 14 s"
 std::string printedDuration(double seconds);

@@ -2,22 +2,33 @@
 
 #include <ros/console.h>
 
+#include <cstdio>
 #include <stdexcept>
+
+#include "ros/conversions/time.h"
+#include "sunlit/ros/topic_names.h"
 
 namespace sunlit::ros_interface {
 
 namespace {
 
-/// While a picture is made the sky may move many times.
-constexpr std::uint32_t kQueueSize = 100;
+/// While a picture is made the sky may move many times; none of them may be lost.
+constexpr std::uint32_t kQueueSize = 20000;
+
+std::string printed(const ros::Time& stamp) {
+  char text[64];
+  std::snprintf(text, sizeof(text), "%u.%09u", stamp.sec, stamp.nsec);
+  return text;
+}
 
 }  // namespace
 
-SkyInput::SkyInput(const ros::NodeHandle& node, const std::string& prefix, bool night) : moments_(night) {
-  subscribe(node, prefix + "sun", &sun_);
-  if (!night) return;
-  subscribe(node, prefix + "moon", &moon_);
-  subscribe(node, prefix + "celestial", &celestial_);
+SkyInput::SkyInput(const ros::NodeHandle& node, const SkyInputOptions& options)
+    : moments_(options.night, options.rule), map_frame_(options.map_frame) {
+  subscribe(node, options.prefix + topics::kSun, &sun_);
+  if (!options.night) return;
+  subscribe(node, options.prefix + topics::kMoon, &moon_);
+  subscribe(node, options.prefix + topics::kCelestial, &celestial_);
 }
 
 template <typename Message>
@@ -30,21 +41,51 @@ void SkyInput::subscribe(ros::NodeHandle node, const std::string& name, Topic<Me
 template <typename Message>
 void SkyInput::take(const Message& message, Topic<Message>* topic) {
   try {
-    moments_.put(message.header.stamp, fromMessage(message));
+    put(message);
     topic->heard = true;
   } catch (const std::invalid_argument& error) {
+    ++refused_;
     ROS_ERROR_THROTTLE(5.0, "Refused %s on %s: %s", topic->what.c_str(), topic->subscriber.getTopic().c_str(),
                        error.what());
   }
 }
 
+void SkyInput::put(const SunPosition& message) {
+  const SkyTime time{fromUtc(message.utc), message.rate};
+  moments_.put(message.header.stamp, fromMessage(message, map_frame_), time, siteElevationOf(message));
+}
+
+void SkyInput::put(const MoonPosition& message) {
+  moments_.put(message.header.stamp, fromMessage(message, map_frame_));
+}
+
+void SkyInput::put(const geometry_msgs::QuaternionStamped& message) {
+  moments_.put(message.header.stamp, fromMessage(message, map_frame_));
+}
+
+const SkyBodies* SkyInput::newest() const {
+  return moments_.whole().empty() ? nullptr : &moments_.whole().rbegin()->second;
+}
+
 std::string SkyInput::missing() const {
-  if (ready()) return std::string();
+  if (newest() != nullptr) return std::string();
   if (!sun_.heard) return sun_.what + " on " + sun_.subscriber.getTopic();
   if (!moon_.heard) return moon_.what + " on " + moon_.subscriber.getTopic();
   if (!celestial_.heard) return celestial_.what + " on " + celestial_.subscriber.getTopic();
   return "sun, moon and stars of one stamp on " + sun_.subscriber.getTopic() + ", " +
          moon_.subscriber.getTopic() + " and " + celestial_.subscriber.getTopic();
+}
+
+std::string SkyInput::missing(const ros::Time& stamp) const {
+  if (newest() == nullptr) return missing();
+  if (moments_.at(stamp)) return std::string();
+  const std::string wanted = "the sky of " + printed(stamp) + " on " + sun_.subscriber.getTopic();
+  const auto& moments = moments_.whole();
+  if (moments_.missed(stamp)) {
+    return wanted + ", which has begun with " + printed(moments.begin()->first) + " and gone on to " +
+           printed(moments.rbegin()->first) + " without it";
+  }
+  return wanted + ", which stands at " + printed(moments.rbegin()->first);
 }
 
 }  // namespace sunlit::ros_interface

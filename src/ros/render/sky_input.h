@@ -3,27 +3,41 @@
 
 #include <ros/node_handle.h>
 
+#include <optional>
 #include <string>
 
-#include "ros/render/sky_messages.h"
+#include "ros/conversions/sky.h"
 #include "ros/render/sky_moments.h"
 
 namespace sunlit::ros_interface {
 
+/// Which topics to read, and how.
+struct SkyInputOptions {
+  std::string prefix;  ///< before sun, moon and celestial
+  bool night = true;   ///< moon and stars too
+  SkyRule rule = SkyRule::kAround;
+  std::string map_frame;  ///< that all of them speak of
+};
+
 class SkyInput {
  public:
-  /// Subscribes to `prefix`sun and, if there is a `night`, to `prefix`moon and `prefix`celestial.
-  SkyInput(const ros::NodeHandle& node, const std::string& prefix, bool night);
+  SkyInput(const ros::NodeHandle& node, const SkyInputOptions& options);
   SkyInput(const SkyInput&) = delete;
   SkyInput& operator=(const SkyInput&) = delete;
 
-  bool ready() const { return moments_.latest().has_value(); }
-  /// What must come before ready(), in words; empty then.
+  /// The newest whole moment; null before there is one.
+  const SkyBodies* newest() const;
+  /// What must come before there is one, in words; empty then.
   std::string missing() const;
-  /// Only when ready().
-  const SkyBodies& bodies() const { return *moments_.latest(); }
-  /// Changes whenever anything in the sky moved.
-  int version() const { return moments_.version(); }
+  /// Messages that could not be used.
+  std::size_t refused() const { return refused_; }
+
+  /// As SkyMoments has it.
+  std::optional<SkyBodies> at(const ros::Time& stamp) const { return moments_.at(stamp); }
+  bool missed(const ros::Time& stamp) const { return moments_.missed(stamp); }
+  void forgetBefore(const ros::Time& stamp) { moments_.forgetBefore(stamp); }
+  /// What must come before there is a sky of `stamp`, in words; empty then.
+  std::string missing(const ros::Time& stamp) const;
 
  private:
   template <typename Message>
@@ -36,8 +50,13 @@ class SkyInput {
   void subscribe(ros::NodeHandle node, const std::string& name, Topic<Message>* topic);
   template <typename Message>
   void take(const Message& message, Topic<Message>* topic);
+  void put(const SunPosition& message);
+  void put(const MoonPosition& message);
+  void put(const geometry_msgs::QuaternionStamped& message);
 
   SkyMoments moments_;
+  std::string map_frame_;
+  std::size_t refused_ = 0;
   Topic<SunPosition> sun_{"a sun"};
   Topic<MoonPosition> moon_{"a moon"};
   Topic<geometry_msgs::QuaternionStamped> celestial_{"the turn of the stars"};

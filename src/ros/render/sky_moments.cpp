@@ -1,5 +1,6 @@
 #include "ros/render/sky_moments.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <iterator>
 
@@ -8,49 +9,95 @@ namespace sunlit::ros_interface {
 namespace {
 
 /// How many moments may wait for their other parts; of more the one that began to arrive first is forgotten.
-constexpr std::size_t kMostMoments = 100;
+constexpr std::size_t kMostArriving = 10000;
+constexpr std::size_t kMostWhole = 20000;
 
 bool same(const Direction& a, const Direction& b) {
   return a.vector() == b.vector();
 }
 
-bool same(const SkyBodies& a, const SkyBodies& b) {
+double between(double a, double b, double share) {
+  return a + share * (b - a);
+}
+
+Direction between(const Direction& a, const Direction& b, double share) {
+  const auto turn = Eigen::Quaterniond::FromTwoVectors(a.vector(), b.vector());
+  return Direction(Eigen::Quaterniond::Identity().slerp(share, turn) * a.vector());
+}
+
+sky::SunInSky between(const sky::SunInSky& a, const sky::SunInSky& b, double share) {
+  return {between(a.apparent, b.apparent, share), between(a.distance_au, b.distance_au, share),
+          between(*a.geometric, *b.geometric, share)};
+}
+
+sky::MoonInSky between(const sky::MoonInSky& a, const sky::MoonInSky& b, double share) {
+  sky::MoonInSky moon = a;
+  moon.apparent = between(a.apparent, b.apparent, share);
+  moon.geometric = between(*a.geometric, *b.geometric, share);
+  moon.distance_m = between(a.distance_m, b.distance_m, share);
+  moon.phase_angle = Angle::radians(between(a.phase_angle.rad(), b.phase_angle.rad(), share));
+  return moon;
+}
+
+}  // namespace
+
+bool shineAlike(const SkyBodies& a, const SkyBodies& b) {
   const bool same_sun = same(a.sun->apparent, b.sun->apparent) &&
                         same(*a.sun->geometric, *b.sun->geometric) &&
-                        a.sun->distance_au == b.sun->distance_au;
+                        a.sun->distance_au == b.sun->distance_au && a.site_elevation_m == b.site_elevation_m;
   if (!same_sun || !a.moon) return same_sun;
   return same(a.moon->apparent, b.moon->apparent) && same(*a.moon->geometric, *b.moon->geometric) &&
          a.moon->distance_m == b.moon->distance_m && a.moon->phase_angle == b.moon->phase_angle &&
          *a.map_from_celestial == *b.map_from_celestial;
 }
 
-}  // namespace
+SkyBodies interpolated(const SkyBodies& a, const SkyBodies& b, double share) {
+  SkyBodies sky;
+  sky.sun = between(*a.sun, *b.sun, share);
+  if (a.moon) {
+    sky.moon = between(*a.moon, *b.moon, share);
+    const Eigen::Quaterniond from(*a.map_from_celestial), to(*b.map_from_celestial);
+    sky.map_from_celestial = from.slerp(share, to).toRotationMatrix();
+  }
+  sky.site_elevation_m = between(a.site_elevation_m, b.site_elevation_m, share);
+  sky.time.rate = a.time.rate;
+  if (a.time.utc && b.time.utc)
+    sky.time.utc = a.time.utc->plusSeconds(share * b.time.utc->secondsSince(*a.time.utc));
+  return sky;
+}
 
 template <typename Part>
-void SkyMoments::put(Arrival<Part>* topic, const ros::Time& stamp, const Part& value) {
+SkyMoments::Moment& SkyMoments::arrived(Arrival<Part>* topic, const ros::Time& stamp, const Part& value) {
   if (stamp < topic->newest) forget(topic->part);
   topic->newest = stamp;
   auto moment = std::find_if(arriving_.begin(), arriving_.end(),
                              [&](const Moment& other) { return other.stamp == stamp; });
   if (moment == arriving_.end()) moment = arriving_.insert(moment, Moment{stamp, {}});
   moment->bodies.*topic->part = value;
-  completed(moment);
+  return *moment;
 }
 
-void SkyMoments::put(const ros::Time& stamp, const sky::SunInSky& sun) {
-  put(&sun_, stamp, sun);
+void SkyMoments::put(const ros::Time& stamp, const sky::SunInSky& sun, const SkyTime& time,
+                     double site_elevation_m) {
+  SkyBodies& bodies = arrived(&sun_, stamp, sun).bodies;
+  bodies.time = time;
+  bodies.site_elevation_m = site_elevation_m;
+  keepIfWhole(stamp);
 }
 
 void SkyMoments::put(const ros::Time& stamp, const sky::MoonInSky& moon) {
-  put(&moon_, stamp, moon);
+  arrived(&moon_, stamp, moon);
+  keepIfWhole(stamp);
 }
 
 void SkyMoments::put(const ros::Time& stamp, const Eigen::Matrix3d& map_from_celestial) {
-  put(&celestial_, stamp, map_from_celestial);
+  arrived(&celestial_, stamp, map_from_celestial);
+  keepIfWhole(stamp);
 }
 
 template <typename Part>
 void SkyMoments::forget(std::optional<Part> SkyBodies::*part) {
+  whole_.clear();
   for (Moment& moment : arriving_) (moment.bodies.*part).reset();
   const auto isEmpty = [](const Moment& moment) {
     return !moment.bodies.sun && !moment.bodies.moon && !moment.bodies.map_from_celestial;
@@ -58,19 +105,49 @@ void SkyMoments::forget(std::optional<Part> SkyBodies::*part) {
   arriving_.erase(std::remove_if(arriving_.begin(), arriving_.end(), isEmpty), arriving_.end());
 }
 
-void SkyMoments::completed(std::vector<Moment>::iterator moment) {
+void SkyMoments::keepIfWhole(const ros::Time& stamp) {
+  const auto moment = std::find_if(arriving_.begin(), arriving_.end(),
+                                   [&](const Moment& other) { return other.stamp == stamp; });
   const SkyBodies& bodies = moment->bodies;
-  const bool whole = bodies.sun && (!night_ || (bodies.moon && bodies.map_from_celestial));
-  if (whole) {
-    if (!latest_ || !same(*latest_, bodies)) {
-      latest_ = bodies;
-      ++version_;
-    }
+  if (bodies.sun && (!night_ || (bodies.moon && bodies.map_from_celestial))) {
+    whole_[stamp] = bodies;
+    if (whole_.size() > kMostWhole) thinOut();
     // Those that began to arrive earlier and still lack something are overtaken.
     arriving_.erase(arriving_.begin(), std::next(moment));
-  } else if (arriving_.size() > kMostMoments) {
+  } else if (arriving_.size() > kMostArriving) {
     arriving_.erase(arriving_.begin());
   }
+}
+
+void SkyMoments::thinOut() {
+  for (auto moment = std::next(whole_.begin()); moment != std::prev(whole_.end());) {
+    moment = whole_.erase(moment);
+    if (moment != std::prev(whole_.end())) ++moment;
+  }
+}
+
+std::optional<SkyBodies> SkyMoments::at(const ros::Time& stamp) const {
+  const auto after = whole_.lower_bound(stamp);
+  if (after != whole_.end() && after->first == stamp) return after->second;
+  if (rule_ == SkyRule::kExact) return std::nullopt;
+  if (after == whole_.begin()) {
+    if (after == whole_.end() || after->second.time.rate != 0.0) return std::nullopt;
+    return after->second;
+  }
+  const auto before = std::prev(after);
+  if (before->second.time.rate == 0.0) return before->second;
+  if (after == whole_.end()) return std::nullopt;
+  const double share = (stamp - before->first).toSec() / (after->first - before->first).toSec();
+  return interpolated(before->second, after->second, share);
+}
+
+bool SkyMoments::missed(const ros::Time& stamp) const {
+  return !whole_.empty() && stamp < whole_.rbegin()->first && !at(stamp);
+}
+
+void SkyMoments::forgetBefore(const ros::Time& stamp) {
+  const auto after = whole_.upper_bound(stamp);
+  if (after != whole_.begin()) whole_.erase(whole_.begin(), std::prev(after));
 }
 
 }  // namespace sunlit::ros_interface

@@ -1,12 +1,10 @@
 #include "ros/render/streams.h"
 
-#include <ros/console.h>
 #include <ros/names.h>
 
+#include <algorithm>
 #include <future>
 #include <stdexcept>
-
-#include "sunlit/ros/star_light.h"
 
 namespace sunlit::ros_interface {
 
@@ -22,28 +20,23 @@ std::string skyPrefix(const Condition& condition, const StreamOptions& options) 
   return ros::names::append(options.sun_namespace, condition.name) + "/";
 }
 
-std::shared_ptr<const std::vector<sky::Star>> starsFor(const StreamOptions& options) {
-  if (!options.night) return nullptr;
-  const StarLight light = loadStars();
-  for (const std::string& warning : light.warnings) ROS_WARN("%s", warning.c_str());
-  return light.stars;
-}
-
 }  // namespace
 
-Streams::Stream::Stream(const Condition& condition, const StreamOptions& options,
-                        const image::PinholeCamera& camera)
+Streams::Stream::Stream(const Condition& condition, const StreamOptions& options)
     : name(condition.name),
-      sky(skyNode(condition, options), skyPrefix(condition, options), options.night),
-      output(condition.node(), camera, options.pose.queue_size) {}
+      sky(skyNode(condition, options),
+          {skyPrefix(condition, options), options.night, options.sky, options.output.frames.map}),
+      output(condition.node(), options.output),
+      state{condition.name} {}
 
-Streams::Streams(const std::vector<Condition>& conditions, const StreamOptions& options, Studio& studio)
+Streams::Streams(const std::vector<Condition>& conditions, const StreamOptions& options,
+                 studio::Studio& studio, studio::Sky& sky)
     : studio_(studio),
-      stars_(starsFor(options)),
+      sky_(sky),
       wanted_(options.wanted_subscribers),
-      pose_output_(ros::NodeHandle(), ros::NodeHandle("~"), options.pose) {
+      pose_output_(ros::NodeHandle(), ros::NodeHandle("~"), options.output) {
   for (const Condition& condition : conditions)
-    streams_.push_back(std::make_unique<Stream>(condition, options, studio.camera()));
+    streams_.push_back(std::make_unique<Stream>(condition, options));
 }
 
 void Streams::take(const Shot& shot, const std::optional<Shot>& next) {
@@ -54,27 +47,30 @@ void Streams::take(const Shot& shot, const std::optional<Shot>& next) {
 }
 
 void Streams::expose(const Shot& shot) {
-  Stopwatch& stopwatch = studio_.stopwatch();
+  studio::Stopwatch& stopwatch = studio_.stopwatch();
   const image::DepthImage depth = studio_.depth();
-  stopwatch.measure("transport", "pose",
-                    [&] { pose_output_.publish(shot.map_from_camera, depth, shot.stamp); });
+  stopwatch.measure("send", "pose", [&] { pose_output_.publish(shot.map_from_camera, depth, shot.stamp); });
   for (const auto& stream : streams_) {
-    const light::Illumination& light = lightOf(*stream);
-    Developed developed = studio_.photograph(light, {shot.pose_index, stream->name});
+    stream->sky.forgetBefore(shot.stamp);
+    const SkyBodies bodies = stream->sky.at(shot.stamp).value();
+    const light::Illumination& light = lightOf(*stream, bodies);
+    studio::Developed developed = studio_.photograph(light, {shot.pose_index, stream->name});
     const Photograph photograph{shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture)};
-    stopwatch.measure("transport", stream->name, [&] {
-      stream->output.publish(photograph, {stream->sky.bodies(), light.day});
-    });
+    stopwatch.measure("send", stream->name, [&] { stream->output.publish(photograph, {bodies, light.day}); });
+    stream->state = {stream->name, stream->state.images + 1, photograph.stamp, photograph.ev100};
   }
 }
 
-const light::Illumination& Streams::lightOf(Stream& stream) {
+const light::Illumination& Streams::lightOf(Stream& stream, const SkyBodies& bodies) {
   studio_.stopwatch().measure("daylight", stream.name, [&] {
-    if (stream.light && stream.light_version == stream.sky.version()) return;
-    const SkyBodies& bodies = stream.sky.bodies();
-    const sky::NightSky night{bodies.moon, bodies.map_from_celestial, stars_};
-    stream.light = studio_.illumination(studio_.atmosphere().daylight(*bodies.sun, night));
-    stream.light_version = stream.sky.version();
+    if (stream.light && shineAlike(stream.lit_by, bodies)) return;
+    const studio::SkyBodies in_sky{*bodies.sun, bodies.moon, bodies.map_from_celestial,
+                                   bodies.site_elevation_m};
+    if (!sky_.isPrepared(in_sky.site_elevation_m)) {
+      studio_.stopwatch().measure("load", "atmosphere", [&] { sky_.prepare(in_sky.site_elevation_m); });
+    }
+    stream.light = studio_.illumination(sky_.daylight(in_sky));
+    stream.lit_by = bodies;
   });
   return *stream.light;
 }
@@ -92,12 +88,13 @@ Streams::Stream& Streams::find(const std::string& condition) {
 
 Photograph Streams::view(const Shot& shot, const std::string& condition) {
   Stream& stream = find(condition);
-  if (!stream.sky.ready()) {
+  if (stream.sky.newest() == nullptr) {
     throw std::invalid_argument("condition \"" + condition + "\" has no sky yet: it waits for " +
                                 stream.sky.missing());
   }
   studio_.look(shot.map_from_camera, shot.map_from_links);
-  Developed developed = studio_.photograph(lightOf(stream), {shot.pose_index, stream.name});
+  studio::Developed developed =
+      studio_.photograph(lightOf(stream, *stream.sky.newest()), {shot.pose_index, stream.name});
   return {shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture)};
 }
 
@@ -107,6 +104,19 @@ std::string Streams::waitsForSky() const {
     if (!missing.empty()) return missing;
   }
   return std::string();
+}
+
+std::string Streams::waitsForSky(const ros::Time& stamp) const {
+  for (const auto& stream : streams_) {
+    std::string missing = stream->sky.missing(stamp);
+    if (!missing.empty()) return missing;
+  }
+  return std::string();
+}
+
+bool Streams::missedSky(const ros::Time& stamp) const {
+  return std::any_of(streams_.begin(), streams_.end(),
+                     [&](const auto& stream) { return stream->sky.missed(stamp); });
 }
 
 std::string Streams::waitsForSubscribers() const {

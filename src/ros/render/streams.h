@@ -11,8 +11,9 @@
 #include "ros/render/condition_output.h"
 #include "ros/render/pose_output.h"
 #include "ros/render/sky_input.h"
-#include "ros/render/studio.h"
 #include "sunlit/ros/conditions.h"
+#include "sunlit/studio/sky.h"
+#include "sunlit/studio/studio.h"
 
 namespace sunlit::ros_interface {
 
@@ -25,47 +26,71 @@ struct Shot {
 };
 
 struct StreamOptions {
-  PoseOutputOptions pose;
-  bool night = true;          ///< moon and stars too
+  OutputOptions output;
+  bool night = true;  ///< moon and stars too
+  SkyRule sky = SkyRule::kAround;
   std::string sun_namespace;  ///< of the topics c/sun, c/moon and c/celestial; empty: the node's own
   WantedSubscribers wanted_subscribers;
 };
 
+/// What became of one condition so far.
+struct StreamState {
+  std::string condition;   ///< empty: the only one, without a name
+  std::size_t images = 0;  ///< sent
+  ros::Time stamp = {};    ///< of the newest
+  double ev100 = 0.0;      ///< of the newest
+};
+
 class Streams {
  public:
-  /// `studio` outlives this.
-  Streams(const std::vector<Condition>& conditions, const StreamOptions& options, Studio& studio);
+  /// `studio` and `sky` outlive this.
+  Streams(const std::vector<Condition>& conditions, const StreamOptions& options, studio::Studio& studio,
+          studio::Sky& sky);
 
-  /// Renders the shot under every condition's sky and publishes all of it with its stamp. Only when every sky
-  /// is there. Meanwhile draws the geometry of the next shot, if there is one, since drawing leaves cores
-  /// idle.
+  /// Renders the shot under every condition's sky of its stamp and publishes all of it with that. Only when
+  /// every sky is there; stamps never go back by more than a clock does. Meanwhile draws the geometry of the
+  /// next shot, if there is one, since drawing leaves cores idle.
   void take(const Shot& shot, const std::optional<Shot>& next = std::nullopt);
-  /// One image of `condition`. Throws std::invalid_argument naming what is wrong with the condition.
+  /// One image of `condition` under its newest sky. Throws std::invalid_argument naming what is wrong with
+  /// the condition.
   Photograph view(const Shot& shot, const std::string& condition);
 
+  /// Of conditions.
+  std::size_t size() const { return streams_.size(); }
+  const StreamState& state(std::size_t index) const { return streams_[index]->state; }
+  /// Messages of its sky that could not be used.
+  std::size_t refusedSkies(std::size_t index) const { return streams_[index]->sky.refused(); }
+
   const PoseOutput& poseOutput() const { return pose_output_; }
-  /// What is missing before a first image can be taken, in words; empty if nothing is.
+  /// Of the place of the first condition, m; only when every sky is there.
+  double siteElevation() const { return streams_.front()->sky.newest()->site_elevation_m; }
+  /// The condition of which nothing was heard yet, and what is missing, in words; empty if nothing is.
   std::string waitsForSky() const;
+  /// What is missing before an image of that stamp can be taken, in words; empty if nothing is.
+  std::string waitsForSky(const ros::Time& stamp) const;
+  /// Whether it will never come.
+  bool missedSky(const ros::Time& stamp) const;
   /// What is missing before a first image would reach everybody, in words; empty if nothing is.
   std::string waitsForSubscribers() const;
 
  private:
   struct Stream {
-    Stream(const Condition& condition, const StreamOptions& options, const image::PinholeCamera& camera);
+    Stream(const Condition& condition, const StreamOptions& options);
     std::string name;
     SkyInput sky;
     ConditionOutput output;
-    std::optional<light::Illumination> light;  ///< of the sky's version below
-    int light_version = 0;
+    std::optional<light::Illumination> light;
+    SkyBodies lit_by;  ///< what `light` was made from
+    StreamState state;
   };
-  /// Made anew only when something in the sky moved.
-  const light::Illumination& lightOf(Stream& stream);
+  /// Made anew only when something in the sky has moved.
+  const light::Illumination& lightOf(Stream& stream, const SkyBodies& bodies);
   /// Lights and publishes what the studio looks at.
   void expose(const Shot& shot);
   Stream& find(const std::string& condition);
 
-  Studio& studio_;
-  std::shared_ptr<const std::vector<sky::Star>> stars_;
+  studio::Studio& studio_;
+  studio::Sky& sky_;
   WantedSubscribers wanted_;
   PoseOutput pose_output_;
   std::vector<std::unique_ptr<Stream>> streams_;

@@ -3,7 +3,7 @@
 #include <ros/console.h>
 #include <tf2/exceptions.h>
 
-#include "ros/render/messages.h"
+#include "ros/conversions/geometry.h"
 
 namespace sunlit::ros_interface {
 

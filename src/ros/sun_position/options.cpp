@@ -2,91 +2,77 @@
 
 #include <stdexcept>
 
+#include "ros/sun_position/sun_clock.h"
 #include "sunlit/astronomy/civil_time.h"
-#include "sunlit/astronomy/limits.h"
+#include "sunlit/ros/node_rows.h"
 
 namespace sunlit::ros_interface {
 namespace {
 
-Range rangeOf(const astronomy::Limits& limits) {
-  return {limits.min, limits.max};
-}
-
-/// Reads keys of one group whose last part is the name of the limits: ~site/latitude.
-class GroupReader {
- public:
-  GroupReader(const ParameterReader& parameters, const std::string& group)
-      : parameters_(parameters), prefix_(group + "/") {}
-
-  double number(const astronomy::Limits& limits, double fallback) const {
-    return parameters_.number(prefix_ + limits.name, fallback, rangeOf(limits));
-  }
-  Angle degrees(const astronomy::Limits& limits, Angle fallback) const {
-    return Angle::degrees(number(limits, fallback.deg()));
-  }
-  int integer(const astronomy::Limits& limits, int fallback) const {
-    return parameters_.integer(prefix_ + limits.name, fallback, rangeOf(limits));
-  }
-  std::string fullName(const std::string& key) const { return parameters_.fullName(prefix_ + key); }
-  const ParameterReader& all() const { return parameters_; }
-
- private:
-  const ParameterReader& parameters_;
-  std::string prefix_;
-};
-
-CivilDateTime readDateTime(const GroupReader& group, const CivilDateTime& fallback) {
-  CivilDateTime civil;
-  civil.year = group.integer(astronomy::kYearLimits, fallback.year);
-  civil.month = group.integer(astronomy::kMonthLimits, fallback.month);
-  civil.day = group.all().integer("date_time/day", fallback.day);
-  civil.hour = group.integer(astronomy::kHourLimits, fallback.hour);
-  civil.minute = group.integer(astronomy::kMinuteLimits, fallback.minute);
-  civil.second = group.number(astronomy::kSecondLimits, fallback.second);
-  civil.timezone = group.number(astronomy::kTimezoneLimits, fallback.timezone);
-  // What no range of one field tells: 31 February, and second 60.
-  std::string field = "day";
+/// What no range of one field tells: 31 February.
+void requireDay(const ParameterReader& parameters, const CivilDateTime& civil) {
   try {
-    astronomy::midnightOf({civil.year, civil.month, civil.day, civil.timezone});
-    field = "second";
     astronomy::instantOf(civil);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("parameter " + group.fullName(field) + ": " + error.what());
+    throw std::invalid_argument("parameter " + parameters.fullName("date_time/day") + ": " + error.what());
   }
-  return civil;
+}
+
+std::vector<Field> framesOf(SunPositionOptions& options) {
+  return {{"map", &options.map_frame, "", {}, "TF frame of the site: x east, y north, z up"},
+          {"sun", &options.sun_frame, "", {}, "TF frame whose x points at the sun"},
+          {"moon", &options.moon_frame, "", {}, "TF frame whose x points at the moon"},
+          {"celestial", &options.celestial_frame, "", {}, "TF frame of the stars, J2000"}};
 }
 
 }  // namespace
 
+std::vector<Field> fieldsOf(SunPositionOptions& options) {
+  return joined(
+      {under("date_time", fieldsOf(options.date_time)),
+       {{"date_time/rate", &options.rate, "s/s", kRates, "of sun time to ROS time; 0 freezes the sun"},
+        {"date_time/start_stamp",
+         NumberOrWord{&options.start_stamp_s, "now"},
+         "s",
+         {0.001, 4e9},
+         "ROS time at which the clock shows date_time; now: the first that the node hears of"},
+        {"date_time/wait_for_subscriber",
+         &options.wait_for_subscriber,
+         "",
+         {},
+         "the clock starts with the first subscriber of sun, and until then stands at date_time"}},
+       under("site", fieldsOf(options.site)),
+       under("atmosphere", fieldsOf(options.air)),
+       under("earth", fieldsOf(options.earth)),
+       {{"publish_rate", &options.publish_rate_hz, "Hz", {0.01, 1000}, "of ROS time"},
+        {"tf_distance",
+         &options.tf_distance_m,
+         "m",
+         {0.001, 1e9},
+         "from the origin of map to those of the frames sun and moon"}},
+       under("frames", framesOf(options))});
+}
+
+std::vector<Field> fieldsOfNode(double* diagnostic_period_s) {
+  return {conditionsRow(), diagnosticPeriodRow(diagnostic_period_s)};
+}
+
 SunPositionOptions readSunPositionOptions(const ParameterReader& parameters) {
   SunPositionOptions options;
-  const GroupReader date_time(parameters, "date_time");
-  options.date_time = readDateTime(date_time, options.date_time);
-  options.rate = date_time.number(astronomy::kRateLimits, options.rate);
-  options.wait_for_subscriber = parameters.flag("date_time/wait_for_subscriber", options.wait_for_subscriber);
-
-  const GroupReader site(parameters, "site");
-  options.site.latitude = site.degrees(astronomy::kLatitudeLimits, options.site.latitude);
-  options.site.longitude = site.degrees(astronomy::kLongitudeLimits, options.site.longitude);
-  options.site.elevation_m = site.number(astronomy::kElevationLimits, options.site.elevation_m);
-
-  const GroupReader air(parameters, "atmosphere");
-  options.air.pressure_hpa = air.number(astronomy::kPressureLimits, options.air.pressure_hpa);
-  options.air.temperature_c = air.number(astronomy::kTemperatureLimits, options.air.temperature_c);
-  options.air.refraction_at_horizon =
-      air.degrees(astronomy::kHorizonRefractionLimits, options.air.refraction_at_horizon);
-
-  options.earth.delta_ut1_s =
-      parameters.number("earth/delta_ut1", options.earth.delta_ut1_s, rangeOf(astronomy::kDeltaUt1Limits));
-  options.earth.delta_t_s = parameters.numberOr("earth/delta_t", "auto", options.earth.delta_t_s,
-                                                rangeOf(astronomy::kDeltaTLimits));
-  options.publish_rate_hz = parameters.number("publish_rate", options.publish_rate_hz, {0.01, 1000.0});
-  options.tf_distance_m = parameters.number("tf_distance", options.tf_distance_m, {0.001, 1e9});
+  parameters.read(fieldsOf(options));
+  requireDay(parameters, options.date_time);
+  requireFrameNames(parameters, under("frames", framesOf(options)));
+  if (options.wait_for_subscriber && options.start_stamp_s) {
+    throw std::invalid_argument("parameters " + parameters.fullName("date_time/start_stamp") + " and " +
+                                parameters.fullName("date_time/wait_for_subscriber") +
+                                " are both given, but the clock has one start");
+  }
   return options;
 }
 
 std::vector<NamedSun> readSuns(const ParameterReader& parameters) {
-  parameters.value("diagnostic_period");  // belongs to diagnostic_updater, which reads it by itself
+  double diagnostic_period_s = 1.0;
+  parameters.read(fieldsOfNode(&diagnostic_period_s));
   std::vector<NamedSun> suns;
   for (const Condition& condition : readConditions(parameters)) {
     SunPositionOptions options = readSunPositionOptions(condition.parameters);

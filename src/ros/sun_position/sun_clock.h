@@ -6,17 +6,23 @@
 #include <optional>
 
 #include "sunlit/quantity/instant.h"
+#include "sunlit/quantity/range.h"
 
 namespace sunlit::ros_interface {
+
+/// Of a clock: 1e8 is three years of sun time a second; every step stays well inside an Instant.
+constexpr Range kRates{-1e8, 1e8};
 
 /// date_time + rate · (ROS time − start). It keeps no history: where ROS time stands still, so does the sun,
 /// and where it jumps back, so does the sun.
 class SunClock {
  public:
-  SunClock(const Instant& date_time, double rate) : date_time_(date_time), rate_(rate) {}
+  /// `start`: nothing: the first valid `now`.
+  SunClock(const Instant& date_time, double rate, const std::optional<ros::Time>& start = std::nullopt)
+      : date_time_(date_time), rate_(rate), start_(start) {}
 
-  /// The sun's time at the ROS time `now`. The first valid `now` is the start; until then (ROS time 0: nobody
-  /// has published /clock yet) it is date_time. Held at the first and last supported year; see atLimit().
+  /// The sun's time at the ROS time `now`; date_time while that is 0: nobody has published /clock yet. Held
+  /// at the first and last supported year; see atLimit().
   Instant at(const ros::Time& now);
 
   /// Whether the last at() was held at a limit.

@@ -1,19 +1,25 @@
 #include "ros/sun_position/sun_position_node.h"
 
+#include <rosgraph_msgs/Clock.h>
+
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
 
+#include "ros/conversions/geometry.h"
 #include "sunlit/astronomy/celestial.h"
 #include "sunlit/astronomy/civil_time.h"
 #include "sunlit/astronomy/delta_t.h"
-#include "sunlit/astronomy/limits.h"
+#include "sunlit/ros/topic_names.h"
 
 namespace sunlit::ros_interface {
 namespace {
 
 constexpr char kPolynomials[] = "from the polynomials of Espenak and Meeus (2006)";
-const ros::WallDuration kJumpWatchPeriod(0.05);
+/// Of sun, moon and stars none may be lost where a reader is slow.
+constexpr std::uint32_t kQueueSize = 10000;
+/// /clock stands still, and does not only take its time from one value to the next.
+const ros::WallDuration kStandstill(0.005);
 
 /// "16.5"
 std::string printed(double number) {
@@ -40,15 +46,17 @@ bool answered(Response& response, const Action& action) {
 SunPositionNode::SunPositionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                                  const SunPositionOptions& options)
     : options_(options),
-      clock_(astronomy::instantOf(options.date_time), options.rate),
+      clock_(astronomy::instantOf(options.date_time), options.rate,
+             options.start_stamp_s ? std::optional<ros::Time>(*options.start_stamp_s) : std::nullopt),
       waiting_(options.wait_for_subscriber),
       node_(node),
       private_node_(private_node),
-      sun_publisher_(node_.advertise<SunPosition>("sun", 10, true)),
-      moon_publisher_(node_.advertise<MoonPosition>("moon", 10, true)),
-      celestial_publisher_(node_.advertise<geometry_msgs::QuaternionStamped>("celestial", 10, true)),
-      sun_marker_publisher_(node_.advertise<visualization_msgs::Marker>("sun_marker", 10, true)),
-      moon_marker_publisher_(node_.advertise<visualization_msgs::Marker>("moon_marker", 10, true)),
+      sun_publisher_(node_.advertise<SunPosition>(topics::kSun, kQueueSize, true)),
+      moon_publisher_(node_.advertise<MoonPosition>(topics::kMoon, kQueueSize, true)),
+      celestial_publisher_(
+          node_.advertise<geometry_msgs::QuaternionStamped>(topics::kCelestial, kQueueSize, true)),
+      sun_marker_publisher_(node_.advertise<visualization_msgs::Marker>(topics::kSunMarker, 10, true)),
+      moon_marker_publisher_(node_.advertise<visualization_msgs::Marker>(topics::kMoonMarker, 10, true)),
       diagnostics_(node, ros::NodeHandle("~"), private_node.getNamespace()) {
   diagnostics_.setHardwareID("none");
   diagnostics_.add("sun", this, &SunPositionNode::describe);
@@ -56,14 +64,33 @@ SunPositionNode::SunPositionNode(const ros::NodeHandle& node, const ros::NodeHan
   ROS_INFO("%s starts at %s, rate %g, at latitude %g, longitude %g; delta_t %s", options_.sun_frame.c_str(),
            printed(options_.date_time).c_str(), options_.rate, options_.site.latitude.deg(),
            options_.site.longitude.deg(), options_.earth.delta_t_s ? "as given" : kPolynomials);
+  now_ = ros::Time::now();
   publish();
-  timer_ = node_.createTimer(ros::Duration(1.0 / options_.publish_rate_hz), [this](const ros::TimerEvent&) {
-    if (ros::Time::now() != last_now_) publish();
-  });
-  // After a jump back a timer waits for a whole period of ROS time, which may be paused.
-  jump_watch_ = node_.createWallTimer(kJumpWatchPeriod, [this](const ros::WallTimerEvent&) {
-    if (ros::Time::now() < last_now_) publish();
-  });
+  if (ros::Time::isSimTime()) {
+    standing_ = node_.createWallTimer(
+        kStandstill, [this](const ros::WallTimerEvent&) { publish(); }, true, false);
+    const boost::function<void(const rosgraph_msgs::ClockConstPtr&)> heard =
+        [this](const rosgraph_msgs::ClockConstPtr& clock) { onClock(clock->clock); };
+    ros_clock_ = node_.subscribe<rosgraph_msgs::Clock>(topics::kClock, 1000, heard);
+  } else {
+    timer_ = node_.createTimer(ros::Duration(1.0 / options_.publish_rate_hz), [this](const ros::TimerEvent&) {
+      now_ = ros::Time::now();
+      publish();
+    });
+  }
+  // By the wall clock: a stopped /clock is worth a diagnosis too.
+  diagnostics_timer_ =
+      node_.createWallTimer(ros::WallDuration(diagnostics_.getPeriod()),
+                            [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
+}
+
+void SunPositionNode::onClock(const ros::Time& now) {
+  if (now == now_) return;
+  standing_.stop();
+  now_ = now;
+  const bool jumped_back = now_ < last_now_;
+  if (jumped_back || (now_ - last_now_).toSec() >= 1.0 / options_.publish_rate_hz) return publish();
+  standing_.start();
 }
 
 void SunPositionNode::advertiseServices() {
@@ -74,27 +101,27 @@ void SunPositionNode::advertiseServices() {
                private_node_.advertiseService("get_sun_times", &SunPositionNode::onGetSunTimes, this)};
 }
 
-ros::Time SunPositionNode::nextStamp(const ros::Time& now) {
+ros::Time SunPositionNode::nextStamp() {
   // TF ignores a second transform of one stamp. Where ROS time stands still, a new sun is 1 ns younger than
   // the last.
-  last_stamp_ = now == last_now_ ? last_stamp_ + ros::Duration(0, 1) : now;
-  last_now_ = now;
+  last_stamp_ = now_ == last_now_ ? last_stamp_ + ros::Duration(0, 1) : now_;
+  last_now_ = now_;
   return last_stamp_;
 }
 
 void SunPositionNode::publish() {
-  const ros::Time now = ros::Time::now();
-  const bool jumped_back = now < last_now_;
   waiting_ = waiting_ && sun_publisher_.getNumSubscribers() == 0;
-  sun_time_ = clock_.at(waiting_ ? ros::Time() : now);
-  const ros::Time stamp = nextStamp(now);
+  sun_time_ = clock_.at(waiting_ ? ros::Time() : now_);
+  const std_msgs::Header header = headerOf(options_.map_frame, nextStamp());
   const ComputedSun sun = computeSun(sun_time_, options_.earth, options_.site, options_.air);
-  sun_ = toMessage(sun, stamp);
-  moon_ = toMessage(astronomy::moonPosition(astronomy::lunarCoordinates(sun_time_, options_.earth),
-                                            sun.coordinates, options_.site, options_.air),
-                    stamp);
+  sun_ = toMessage(sun, header);
+  sun_.rate = waiting_ ? 0.0 : clock_.rate();
+  const astronomy::LunarCoordinates moon = astronomy::lunarCoordinates(sun_time_, options_.earth);
+  moon_ = toMessage(
+      ComputedMoon{sun_time_, astronomy::moonPosition(moon, sun.coordinates, options_.site, options_.air)},
+      header);
   const geometry_msgs::QuaternionStamped celestial =
-      toMessage(astronomy::mapFromCelestial(sun_time_, options_.earth, options_.site), stamp);
+      toMessage(astronomy::mapFromCelestial(sun_time_, options_.earth, options_.site), header);
   // The sun last: who has it, as a rule has moon and stars of its hour too.
   moon_publisher_.publish(moon_);
   celestial_publisher_.publish(celestial);
@@ -106,16 +133,15 @@ void SunPositionNode::publish() {
   moon_marker_publisher_.publish(toMarker(moon_, options_.moon_frame, options_.tf_distance_m));
   if (clock_.atLimit()) {
     ROS_ERROR_THROTTLE(60.0, "The clock of %s has left the years %g to %g; it is held there",
-                       options_.sun_frame.c_str(), astronomy::kYearLimits.min, astronomy::kYearLimits.max);
+                       options_.sun_frame.c_str(), kYears.low, kYears.high);
   }
-  // The updater waits for its next time, which a jump back may have put far ahead.
-  jumped_back ? diagnostics_.force_update() : diagnostics_.update();
 }
 
 bool SunPositionNode::onSetDateTime(SetDateTime::Request& request, SetDateTime::Response& response) {
   return answered(response, [&] {
     const CivilDateTime civil = dateTimeOf(request);
-    astronomy::require(astronomy::kRateLimits, request.rate);
+    require("rate", request.rate, kRates, "s/s");
+    if (!ros::Time::isSimTime()) now_ = ros::Time::now();
     clock_ = SunClock(astronomy::instantOf(civil), request.rate);
     options_.date_time = civil;
     publish();
@@ -129,6 +155,7 @@ bool SunPositionNode::onSetSite(SetSite::Request& request, SetSite::Response& re
     const Air air = airOf(request, options_.air);
     options_.site = site;
     options_.air = air;
+    if (!ros::Time::isSimTime()) now_ = ros::Time::now();
     publish();
     return "the scene is moved to latitude " + printed(site.latitude.deg()) + " deg, longitude " +
            printed(site.longitude.deg()) + " deg, elevation " + printed(site.elevation_m) +
@@ -138,7 +165,7 @@ bool SunPositionNode::onSetSite(SetSite::Request& request, SetSite::Response& re
 
 bool SunPositionNode::onGetSunPosition(GetSunPosition::Request& request, GetSunPosition::Response& response) {
   return answered(response, [&] {
-    answer(request, ros::Time::now(), &response);
+    answer(request, headerOf(options_.map_frame, ros::Time::now()), &response);
     return std::string();
   });
 }
@@ -146,7 +173,7 @@ bool SunPositionNode::onGetSunPosition(GetSunPosition::Request& request, GetSunP
 bool SunPositionNode::onGetMoonPosition(GetMoonPosition::Request& request,
                                         GetMoonPosition::Response& response) {
   return answered(response, [&] {
-    answer(request, ros::Time::now(), &response);
+    answer(request, headerOf(options_.map_frame, ros::Time::now()), &response);
     return std::string();
   });
 }

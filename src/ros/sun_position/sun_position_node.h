@@ -5,12 +5,17 @@
 #include <ros/node_handle.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include "ros/sun_position/messages.h"
+#include "ros/conversions/requests.h"
+#include "ros/sun_position/answers.h"
 #include "ros/sun_position/options.h"
 #include "ros/sun_position/sun_clock.h"
 
 namespace sunlit::ros_interface {
 
+/// Under the wall clock it publishes `publish_rate` times a second. Under /clock it does so too, and besides
+/// for each time at which /clock stands still for a moment: who waits with the clock, as the render node does
+/// that owns it, gets the sky of exactly that time, however fast or slow both are.
+///
 /// Publishes `sun`, `moon` and `celestial` (latched), TF from map to a frame of each, `sun_marker` and
 /// `moon_marker` below `node`, all with one stamp; offers `set_date_time`, `set_site`, `get_sun_position`,
 /// `get_moon_position` and `get_sun_times` below `private_node`. Driven by ros::spin().
@@ -26,8 +31,9 @@ class SunPositionNode {
   bool onGetMoonPosition(GetMoonPosition::Request& request, GetMoonPosition::Response& response);
   bool onGetSunTimes(GetSunTimes::Request& request, GetSunTimes::Response& response);
   void advertiseServices();
+  void onClock(const ros::Time& now);
   void publish();
-  ros::Time nextStamp(const ros::Time& now);
+  ros::Time nextStamp();
   void describe(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   SunPositionOptions options_;
@@ -36,7 +42,8 @@ class SunPositionNode {
   Instant sun_time_;  ///< of what was published last
   SunPosition sun_;   ///< published last
   MoonPosition moon_;
-  ros::Time last_now_;
+  ros::Time now_;       ///< as last heard
+  ros::Time last_now_;  ///< of what was published last
   ros::Time last_stamp_;
 
   ros::NodeHandle node_;
@@ -49,8 +56,10 @@ class SunPositionNode {
   tf2_ros::TransformBroadcaster transform_broadcaster_;
   diagnostic_updater::Updater diagnostics_;
   std::vector<ros::ServiceServer> services_;
-  ros::Timer timer_;
-  ros::WallTimer jump_watch_;
+  ros::Timer timer_;           ///< under the wall clock
+  ros::Subscriber ros_clock_;  ///< else
+  ros::WallTimer standing_;    ///< ends when /clock has stood still for long enough
+  ros::WallTimer diagnostics_timer_;
 };
 
 }  // namespace sunlit::ros_interface

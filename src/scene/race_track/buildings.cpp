@@ -134,14 +134,14 @@ Frame facingTrackFrame(const TrackPlace& place, float twist) {
                   along + (place.left > 0.0 ? 0.0f : kPiFloat) + twist);
 }
 
-void addHouseAt(Assembly& assembly, const Site& site, std::uint32_t seed_index) {
+void addHouseAt(Assembly& assembly, const Plot& plot, std::uint32_t seed_index) {
   Random random(681u, seed_index);
   const Color walls[] = {{0.52f, 0.48f, 0.38f}, {0.55f, 0.54f, 0.50f}, {0.28f, 0.10f, 0.065f},
                          {0.46f, 0.30f, 0.14f}, {0.20f, 0.26f, 0.30f}, {0.35f, 0.38f, 0.25f},
                          {0.50f, 0.33f, 0.26f}};
-  const bool barn = site.kind == Site::Kind::kBarn;
+  const bool barn = plot.kind == Plot::Kind::kBarn;
   House house;
-  house.frame = facingTrackFrame(site.place, barn ? 0.1f : 0.35f * random.bell());
+  house.frame = facingTrackFrame(plot.place, barn ? 0.1f : 0.35f * random.bell());
   house.width = barn ? 15.0f : random.range(8.0f, 11.5f);
   house.depth = barn ? 9.0f : random.range(6.5f, 8.5f);
   house.floors = barn ? 1 : 1 + random.below(2);
@@ -183,11 +183,11 @@ void addRoofUnit(Assembly& assembly, const Frame& frame, float x, Random& random
 }
 
 // Garages with offices above and a flat roof.
-void addPits(Assembly& assembly, const Site& site) {
+void addPits(Assembly& assembly, const Plot& plot) {
   constexpr int kBays = 9;
   constexpr float kBay_m = 7.6f;
   constexpr float kDepth_m = 12.0f;
-  const Frame frame = facingTrackFrame(site.place, 0.0f);
+  const Frame frame = facingTrackFrame(plot.place, 0.0f);
   const Palette& p = assembly.palette();
   for (int i = 0; i < kBays; ++i) {
     Random random(651u, static_cast<std::uint32_t>(i));
@@ -230,8 +230,8 @@ void addPits(Assembly& assembly, const Site& site) {
            {0.3f, kDepth_m, 7.3f});
 }
 
-void addTower(Assembly& assembly, const Site& site) {
-  const Frame frame = facingTrackFrame(site.place, 0.0f);
+void addTower(Assembly& assembly, const Plot& plot) {
+  const Frame frame = facingTrackFrame(plot.place, 0.0f);
   const Palette& p = assembly.palette();
   House shaft{frame, 5.0f, 5.0f, 10.5f, 3, WallKind::kPlaster, {0.55f, 0.53f, 0.48f}, 661u};
   for (int k = 0; k < 4; ++k) {
@@ -259,11 +259,11 @@ void addTower(Assembly& assembly, const Site& site) {
 
 void addBuildings(Assembly& assembly) {
   std::uint32_t index = 0;
-  for (const Site& site : sites()) {
+  for (const Plot& plot : plots()) {
     ++index;
-    if (site.kind == Site::Kind::kHouse || site.kind == Site::Kind::kBarn) addHouseAt(assembly, site, index);
-    if (site.kind == Site::Kind::kPits) addPits(assembly, site);
-    if (site.kind == Site::Kind::kTower) addTower(assembly, site);
+    if (plot.kind == Plot::Kind::kHouse || plot.kind == Plot::Kind::kBarn) addHouseAt(assembly, plot, index);
+    if (plot.kind == Plot::Kind::kPits) addPits(assembly, plot);
+    if (plot.kind == Plot::Kind::kTower) addTower(assembly, plot);
   }
 }
 

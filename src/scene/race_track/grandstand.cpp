@@ -156,19 +156,19 @@ void addRailing(Assembly& assembly, const Stand& stand) {
   }
 }
 
-Stand standAt(const Site& site, std::uint32_t seed) {
-  const bool main = site.kind == Site::Kind::kStand;
+Stand standAt(const Plot& plot, std::uint32_t seed) {
+  const bool main = plot.kind == Plot::Kind::kStand;
   Stand stand;
-  const float side = site.place.left > 0.0 ? 1.0f : -1.0f;
-  const Eigen::Vector2d t = course().tangent(site.place.along);
+  const float side = plot.place.left > 0.0 ? 1.0f : -1.0f;
+  const Eigen::Vector2d t = course().tangent(plot.place.along);
   const float yaw =
       std::atan2(static_cast<float>(t.y()), static_cast<float>(t.x())) + (side > 0 ? 0.0f : kPiFloat);
   stand.rows = main ? 12 : 6;
   stand.width = main ? 63.0f : 22.0f;
   stand.roof = main;
   stand.seed = seed;
-  const double front = std::abs(site.place.left) - 0.5 * kRow_m * stand.rows;
-  stand.frame = standing(groundPoint(TrackPlace{site.place.along, side * front}), yaw);
+  const double front = std::abs(plot.place.left) - 0.5 * kRow_m * stand.rows;
+  stand.frame = standing(groundPoint(TrackPlace{plot.place.along, side * front}), yaw);
   return stand;
 }
 
@@ -177,9 +177,9 @@ Stand standAt(const Site& site, std::uint32_t seed) {
 void addGrandstands(Assembly& assembly) {
   const std::vector<Picture> crowd = paintCrowd(assembly);
   std::uint32_t seed = 711u;
-  for (const Site& site : sites()) {
-    if (site.kind != Site::Kind::kStand && site.kind != Site::Kind::kBleachers) continue;
-    const Stand stand = standAt(site, seed += 10u);
+  for (const Plot& plot : plots()) {
+    if (plot.kind != Plot::Kind::kStand && plot.kind != Plot::Kind::kBleachers) continue;
+    const Stand stand = standAt(plot, seed += 10u);
     addSteps(assembly, stand);
     addSeats(assembly, stand, crowd);
     addRailing(assembly, stand);

@@ -55,9 +55,9 @@ double barrierOffset(double along, int side) {
          0.3 * std::sin(19.0 * angle + 2.0 * side);
 }
 
-const std::vector<Site>& sites() {
-  using K = Site::Kind;
-  static const std::vector<Site> table = {
+const std::vector<Plot>& plots() {
+  using K = Plot::Kind;
+  static const std::vector<Plot> table = {
       {K::kPits, {-26, 27}, 40},      {K::kTower, {30, 24}, 8},     {K::kStand, {12, -25}, 36},
       {K::kPaddock, {66, 26}, 22},    {K::kHouse, {158, -27}, 10},  {K::kHouse, {182, -30}, 10},
       {K::kHouse, {210, -25}, 10},    {K::kHouse, {236, -29}, 10},  {K::kHouse, {300, 27}, 10},
@@ -101,13 +101,13 @@ bool isFree(const Eigen::Vector2d& point, double radius) {
   const TrackPlace place = course().nearest(point);
   const int side = place.left > 0.0 ? 1 : -1;
   if (std::abs(place.left) < barrierOffset(place.along, side) + 1.6 + radius) return false;
-  for (const Site& site : sites()) {
-    const bool wide = site.kind == Site::Kind::kPits || site.kind == Site::Kind::kStand;
-    const Eigen::Vector2d d = point - course().point(site.place);
-    const Eigen::Vector2d t = course().tangent(site.place.along);
+  for (const Plot& plot : plots()) {
+    const bool wide = plot.kind == Plot::Kind::kPits || plot.kind == Plot::Kind::kStand;
+    const Eigen::Vector2d d = point - course().point(plot.place);
+    const Eigen::Vector2d t = course().tangent(plot.place.along);
     const double along = std::abs(d.dot(t));
     const double across = std::abs(d.dot(leftOf(t)));
-    if (along < site.radius + radius && across < (wide ? 15.0 : site.radius) + radius) return false;
+    if (along < plot.radius + radius && across < (wide ? 15.0 : plot.radius) + radius) return false;
   }
   return true;
 }

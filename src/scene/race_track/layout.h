@@ -25,19 +25,19 @@ const std::vector<BarrierStretch>& barriers();
 double barrierOffset(double along, int side);
 
 /// A building or yard.
-struct Site {
+struct Plot {
   enum class Kind { kHouse, kPits, kStand, kTower, kPaddock, kBleachers, kBarn } kind;
   TrackPlace place;  ///< of its middle
   double radius;     ///< m, kept free around it
 };
-const std::vector<Site>& sites();
+const std::vector<Plot>& plots();
 
 /// Whether something so high at `point` would keep the low sun of summer mornings (from azimuth 60°) or
 /// evenings (305°) off the stretches of the track that are meant to lie open to it. The rest of the track
 /// lies in long shadows then.
 bool shadesOpenStretch(const Eigen::Vector2d& point, double height_m);
 
-/// Whether something `radius` m wide at `point` is clear of the track, its barriers and all sites.
+/// Whether something `radius` m wide at `point` is clear of the track, its barriers and all plots.
 bool isFree(const Eigen::Vector2d& point, double radius);
 
 }  // namespace sunlit::scene::race_track

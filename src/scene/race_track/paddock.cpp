@@ -159,13 +159,13 @@ void addTent(Assembly& assembly, const Frame& frame, Random& random) {
          {1.6f, 0.7f, 0.8f});
 }
 
-void addYard(Assembly& assembly, const Site& site, std::uint32_t seed) {
+void addYard(Assembly& assembly, const Plot& plot, std::uint32_t seed) {
   Random random(seed);
-  const int side = site.place.left > 0.0 ? 1 : -1;
-  const double near = barrierOffset(site.place.along, side) + 4.5;
+  const int side = plot.place.left > 0.0 ? 1 : -1;
+  const double near = barrierOffset(plot.place.along, side) + 4.5;
   for (int row = 0; row < 3; ++row) {
-    for (double u = -site.radius + 4.0; u < site.radius - 3.0; u += row == 0 ? 6.5 : 7.5) {
-      const TrackPlace place{site.place.along + u + random.bell() * 0.4,
+    for (double u = -plot.radius + 4.0; u < plot.radius - 3.0; u += row == 0 ? 6.5 : 7.5) {
+      const TrackPlace place{plot.place.along + u + random.bell() * 0.4,
                              side * (near + 7.5 * row + 0.5 * random.bell())};
       const Eigen::Vector2d t = course().tangent(place.along);
       const float yaw = std::atan2(static_cast<float>(t.y()), static_cast<float>(t.x()));
@@ -200,15 +200,15 @@ void addBridges(Assembly& assembly) {
 
 void addPaddocks(Assembly& assembly) {
   std::uint32_t seed = 941u;
-  for (const Site& site : sites()) {
+  for (const Plot& plot : plots()) {
     ++seed;
-    if (site.kind == Site::Kind::kPaddock) addYard(assembly, site, seed);
-    if (site.kind != Site::Kind::kHouse && site.kind != Site::Kind::kBarn) continue;
+    if (plot.kind == Plot::Kind::kPaddock) addYard(assembly, plot, seed);
+    if (plot.kind != Plot::Kind::kHouse && plot.kind != Plot::Kind::kBarn) continue;
     // A car beside the house.
     Random random(seed, 7u);
-    const int side = site.place.left > 0.0 ? 1 : -1;
-    const TrackPlace place{site.place.along + (random.chance(0.5f) ? 8.5 : -8.5),
-                           site.place.left - 4.0 * side};
+    const int side = plot.place.left > 0.0 ? 1 : -1;
+    const TrackPlace place{plot.place.along + (random.chance(0.5f) ? 8.5 : -8.5),
+                           plot.place.left - 4.0 * side};
     const Frame frame =
         standing(groundPoint(place) - Point(0, 0, 0.02f), random.range(0.0f, 2.0f * kPiFloat));
     (random.chance(0.6f) ? addCar : addVan)(assembly, frame, random.bits());

@@ -14,9 +14,16 @@
 namespace sunlit::scene {
 namespace {
 
+/// What is filled with links.
+struct Target {
+  SdfVisuals& visuals;
+  LinkMeshes& meshes;
+  Robot* robot;
+};
+
 /// Links of `model`, whose frame is links[parent], and of the models within it.
-void appendLinks(const sdf::Model& model, int parent, const std::string& scope, SdfVisuals& visuals,
-                 LinkMeshes& meshes, Robot* robot) {
+void appendLinks(const sdf::Model& model, int parent, const std::string& scope, const Target& target) {
+  const auto& [visuals, meshes, robot] = target;
   for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
     const sdf::Link& link = *model.LinkByIndex(i);
     RobotLink added;
@@ -36,7 +43,7 @@ void appendLinks(const sdf::Model& model, int parent, const std::string& scope, 
     const int index = static_cast<int>(robot->links.size());
     meshes.begin(robot->links.size());
     robot->links.push_back(frame);
-    appendLinks(nested, index, frame.name + "::", visuals, meshes, robot);
+    appendLinks(nested, index, frame.name + "::", target);
   }
 }
 
@@ -55,7 +62,7 @@ Robot loadSdfRobot(const std::string& file, const ResourceFinder& finder) {
   meshes.begin(0);
   robot.links.push_back(frame);
   SdfVisuals visuals(file, finder, meshes.builder());
-  appendLinks(*root.Model(), 0, "", visuals, meshes, &robot);
+  appendLinks(*root.Model(), 0, "", {visuals, meshes, &robot});
   meshes.finish(&robot);
   return robot;
 }

@@ -6,6 +6,7 @@
 
 #include "scene/color.h"
 #include "scene/primitives.h"
+#include "sunlit/quantity/range.h"
 
 namespace sunlit::scene {
 namespace {
@@ -18,9 +19,7 @@ constexpr float kSeenThrough = 0.5f;
 
 void checkPositive(double value, const std::string& what, const std::string& place) {
   if (std::isfinite(value) && value > 0.0) return;
-  std::ostringstream text;
-  text << place << ": its " << what << " is " << value << ", but must be above 0 m";
-  throw std::runtime_error(text.str());
+  throw std::runtime_error(refusal(place + ": its " + what, textOf(value), "above 0 m"));
 }
 
 Mesh primitive(const urdf::Geometry& geometry, const std::string& place) {
@@ -64,7 +63,7 @@ void UrdfVisuals::addVisual(const urdf::Visual& visual, const std::string& name,
   const Eigen::Isometry3d link_from_visual = toEigen(visual.origin);
   if (!visual.geometry) throw std::runtime_error(place + ": it has no geometry");
   if (visual.geometry->type == urdf::Geometry::MESH) {
-    addMeshShape(static_cast<const urdf::Mesh&>(*visual.geometry), own_material, link_from_visual, name,
+    addMeshShape(static_cast<const urdf::Mesh&>(*visual.geometry), {own_material, link_from_visual}, name,
                  place);
     return;
   }
@@ -123,18 +122,17 @@ const std::vector<MeshPart>& UrdfVisuals::partsOf(const urdf::Mesh& shape, const
   return parts_by_file_[*found.file] = readMeshFile(*found.file, UpAxis::kZ, finder_, builder_);
 }
 
-void UrdfVisuals::addMeshShape(const urdf::Mesh& shape, std::optional<int> own_material,
-                               const Eigen::Isometry3d& link_from_visual, const std::string& name,
+void UrdfVisuals::addMeshShape(const urdf::Mesh& shape, const MeshUse& use, const std::string& name,
                                const std::string& place) {
   const Eigen::Affine3d link_from_file =
-      Eigen::Affine3d(link_from_visual) * Eigen::Scaling(shape.scale.x, shape.scale.y, shape.scale.z);
+      Eigen::Affine3d(use.link_from_visual) * Eigen::Scaling(shape.scale.x, shape.scale.y, shape.scale.z);
   const std::vector<MeshPart>& parts = partsOf(shape, place);
   if (parts.empty()) builder_.warn(place + ": there is nothing to draw in " + shape.filename);
   for (MeshPart part : parts) {
     part.mesh.name = name + "/" + part.mesh.name;
     // As RViz does: the material of the URDF is for meshes that bring none.
-    if (own_material && builder_.material(part.mesh.material).name == kNoMaterial) {
-      part.mesh.material = *own_material;
+    if (use.own_material && builder_.material(part.mesh.material).name == kNoMaterial) {
+      part.mesh.material = *use.own_material;
     }
     builder_.addMesh(part.mesh, link_from_file * part.file_from_node);
   }

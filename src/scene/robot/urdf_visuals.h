@@ -34,8 +34,11 @@ class UrdfVisuals {
 
  private:
   void addVisual(const urdf::Visual& visual, const std::string& name, const std::string& place);
-  void addMeshShape(const urdf::Mesh& shape, std::optional<int> material,
-                    const Eigen::Isometry3d& link_from_visual, const std::string& name,
+  struct MeshUse {
+    std::optional<int> own_material;  ///< of the URDF, if it names one
+    Eigen::Isometry3d link_from_visual;
+  };
+  void addMeshShape(const urdf::Mesh& shape, const MeshUse& use, const std::string& name,
                     const std::string& place);
   std::optional<int> material(const urdf::Visual& visual, const std::string& place);
   const std::vector<MeshPart>& partsOf(const urdf::Mesh& shape, const std::string& place);

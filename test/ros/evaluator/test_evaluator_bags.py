@@ -7,12 +7,14 @@ import sys
 import tempfile
 import unittest
 
+import cv2
 import rosbag
 import rospkg
 import rospy
 import rostest
 import yaml
 from geometry_msgs.msg import PoseStamped
+from sensor_msgs.msg import CompressedImage
 from sunlit.msg import Capture
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
@@ -164,6 +166,61 @@ about:
         self.assertEqual({key: settings[key] for key in expected}, expected)
         self.assertFalse(os.path.exists(self.path('out/images')))
 
+    def write_image_bag(self, name, messages):
+        with rosbag.Bag(self.path(name), 'w') as bag:
+            for topic, message in messages:
+                bag.write(topic, message, message.header.stamp)
+
+    def test_no_topic_leads_out_of_the_output_folder(self):
+        for topic in ('/../../x', '/a/../../../x', '/..', '/a b', '/h12/'):
+            self.write_image_bag('evil.bag', [('/h04/camera/image_raw', image_message(stamp_of(0), picture(0, 0))),
+                                              (topic + '/camera/image_raw', image_message(stamp_of(0), picture(0, 1)))])
+            before = sorted(os.listdir(self.folder.name))
+            done = self.evaluate_bags('--out', self.path('out'), self.path('evil.bag'))
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn('topic %s/camera/image_raw' % topic, done.stdout)
+            self.assertIn('but must be the name of a stream', done.stdout)
+            self.assertEqual(sorted(os.listdir(self.folder.name)), before)
+
+    def test_compressed_images_of_bags_are_taken_where_there_are_no_raw_ones(self):
+        messages = []
+        for pose in range(4):
+            for stream in range(2):
+                pixels = picture(pose, stream)
+                # Of h12 the raw images are other ones, so that it shows which were taken.
+                raw = image_message(stamp_of(pose), pixels if stream == 0 else picture(pose, 7))
+                packed = CompressedImage(format='png', data=cv2.imencode('.png', pixels[:, :, ::-1])[1].tobytes())
+                packed.header.stamp = stamp_of(pose)
+                if stream == 1:
+                    messages.append(('/h12/camera/image_raw', raw))
+                    messages.append(('/h12/camera/image_raw/compressed', packed))
+                else:
+                    messages.append(('/h04/camera/image_raw/compressed', packed))
+                    messages.append(('/other/h04/camera/image_raw', raw))
+        self.write_image_bag('mixed.bag', messages)
+        values = {}
+        for transport in ('raw', 'compressed'):
+            with open(self.path('mixed.yaml'), 'w') as file:
+                file.write('streams: [h04, h12]\noutput_dir: unused\nimages: all\ndifferences: [boolean_rgb]\n'
+                           'image_transport: %s\n' % transport)
+            done = self.evaluate_bags('--config', self.path('mixed.yaml'), '--out', self.path(transport),
+                                      self.path('mixed.bag'))
+            self.assertEqual(done.returncode, 0, done.stdout)
+            chosen = '/h12/camera/image_raw' + ('/compressed' if transport == 'compressed' else '')
+            self.assertIn('h12: the bags hold raw and compressed images; those of %s count' % chosen, done.stdout)
+            self.assertNotIn('h04: the bags hold', done.stdout)
+            shown = cv2.imread(self.path(transport + '/images/h12/000002.png'))[:, :, ::-1]
+            self.assertTrue((shown == picture(2, 7 if transport == 'raw' else 1)).all())
+            shown = cv2.imread(self.path(transport + '/images/h04/000002.png'))[:, :, ::-1]
+            self.assertTrue((shown == picture(2, 0)).all())
+        # Without a config all streams are found, however they travelled.
+        done = self.evaluate_bags('--out', self.path('all'), self.path('mixed.bag'))
+        self.assertEqual({(r['a'], r['b']) for r in rows(self.path('all'), 'summary.csv')},
+                         {('h04', 'h12'), ('h04', 'other/h04'), ('h12', 'other/h04')}, done.stdout)
+        frames = rows(self.path('all'), 'frames.csv')
+        self.assertEqual({r['value'] for r in frames if r['a'] == 'h04' and r['b'] == 'other/h04' and
+                          r['difference'] == 'boolean_rgb'}, {'0'})
+
     def test_bad_bags_and_arguments_are_one_clear_line(self):
         self.write_bags({'one.bag': [2], 'all.bag': [0, 1, 2]}, range(2))
         with open(self.path('no.bag'), 'w') as file:
@@ -181,7 +238,7 @@ about:
         start = ['--config', self.config, '--out', self.path('out')]
         cases = [(start + [self.path('no.bag')], 'no.bag: is not a bag'),
                  (start + [self.path('absent.bag')], 'absent.bag'),
-                 (start + [self.path('one.bag')], 'the bags hold no /h04/camera/image_raw'),
+                 (start + [self.path('one.bag')], 'the bags hold neither /h04/camera/image_raw nor'),
                  (['--config', self.path('wrong.yaml'), '--out', self.path('out'), self.path('one.bag')], 'ratoi'),
                  (['--config', self.path('broken.yaml'), '--out', self.path('out'), self.path('one.bag')],
                   'broken.yaml:%d: ' % broken_line),

@@ -3,6 +3,7 @@
 import csv
 import os
 import shutil
+import sys
 import tempfile
 import unittest
 
@@ -10,7 +11,10 @@ import rosbag
 import rospy
 import rostest
 import yaml
-from launching import DIFFERENCES, LONG, POSES, WORLD, Launched, kill_leftovers, small_experiment
+from launching import DIFFERENCES, LONG, POSES, WORLD, Launched, Terminal, kill_leftovers, small_experiment
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support"))
+from screen import Screen  # noqa: E402
 
 
 class ExperimentRuns(unittest.TestCase):
@@ -47,15 +51,15 @@ class ExperimentRuns(unittest.TestCase):
             if row["difference"] in ("boolean_rgb", "euclidean_grey"):
                 # Two processes, one sun: to the bit. Two suns: not.
                 self.assertEqual(float(row["mean"]) == 0.0, is_self_test, row)
-        for name in ("frames.csv", "captures.csv", "path.csv", "run.yaml", "map.png", "map.yaml", "timing.csv", "inputs.yaml",
+        for name in ("frames.csv", "captures.csv", "path.csv", "run.yaml", "map.png", "map.yaml", "timing.csv", "inputs.yaml", "rasterizer.yaml",
                      "report.html", "images/h10/000000.png", "images/h12/000019.png"):
             self.assertTrue(os.path.exists(os.path.join(self.output, name)), name)
 
-    def recording(self):
+    def bags(self):
         return [os.path.join(self.output, name) for name in os.listdir(self.output) if name.endswith(".bag")]
 
     def test_recording_holds_every_message(self):
-        bags = self.recording()
+        bags = self.bags()
         self.assertEqual(len(bags), 1)
         with rosbag.Bag(bags[0]) as bag:
             for topic in ("/h10/camera/image_raw", "/h12/camera/image_raw", "/h10/camera/camera_info", "/camera/pose",
@@ -64,6 +68,24 @@ class ExperimentRuns(unittest.TestCase):
                 self.assertEqual(stamps, [1000 * 10**9 + pose * 10**8 for pose in range(POSES)], topic)
             for topic in ("/h10/sun", "/h10/moon", "/h12/celestial"):
                 self.assertGreaterEqual(bag.get_message_count(topic), 1, topic)
+
+    def test_recording_is_listed(self):
+        with open(os.path.join(self.output, "recording.csv")) as file:
+            self.assertEqual([(row["first_pose"], row["last_pose"], row["poses"]) for row in csv.DictReader(file)],
+                             [("0", "19", "20")])
+
+    def test_it_says_where_it_is_in_lines_and_no_node_says_more_than_warnings(self):
+        said = self.undisturbed.said()
+        doing = [line.split(":")[1].strip() for line in said.splitlines() if line.startswith("experiment: ") and " poses (" in line]
+        self.assertEqual(doing[-2:], ["checking the recording", "reporting"], said)
+        self.assertEqual(said.count("what each node says is in "), 1)
+        self.assertIn("experiment: done; results in " + self.output, said)
+        for note in ("[ INFO]", "World ", "evaluated ", "Subscribing to"):
+            self.assertNotIn(note, said)
+        logs = said.split("what each node says is in ")[1].split("\n")[0]
+        log_of_renderer, = [name for name in os.listdir(logs) if name.startswith("render-") and name.endswith("-stdout.log")]
+        with open(os.path.join(logs, log_of_renderer)) as log:
+            self.assertIn("World ", log.read())
 
     def test_replayed_recording_gives_the_same_bytes(self):
         output = os.path.join(self.folder, "replayed")
@@ -74,7 +96,7 @@ class ExperimentRuns(unittest.TestCase):
         # Only what the evaluator hears, since the player waits for subscribers of all that it plays.
         topics = ["/camera/pose"] + ["/%s/camera/%s" % (hour, topic) for hour in ("h10", "h12")
                                      for topic in ("image_raw", "capture")]
-        played = evaluator.ros("rosbag", "play", "--quiet", "--wait-for-subscribers", *self.recording(), "--topics", *topics)
+        played = evaluator.ros("rosbag", "play", "--quiet", "--wait-for-subscribers", *self.bags(), "--topics", *topics)
         self.assertEqual(played.returncode, 0, played.stdout)
         self.assertEqual(evaluator.end(), 0, evaluator.said())
         # The recording holds no self-test.
@@ -98,7 +120,7 @@ class ExperimentRuns(unittest.TestCase):
 
     def test_resumed_after_sigkill_it_gives_the_same_bytes(self):
         output = self.killed("killed")
-        again = small_experiment(output)
+        again = small_experiment(output, verbose="true")
         self.assertEqual(again.end(), 0, again.said())
         self.assertEqual(self.bytes_of(output), self.bytes_of(self.output))
         # The world was loaded by both runs.
@@ -106,6 +128,59 @@ class ExperimentRuns(unittest.TestCase):
         with open(os.path.join(output, "timing.csv")) as file:
             counts = {(row["stage"], row["what"]): int(row["count"]) for row in csv.DictReader(file)}
         self.assertEqual(counts["load", "world"], 2)
+
+    def test_what_a_kill_left_of_a_recording_is_completed(self):
+        output = self.killed("killed_recording", record="true")
+        left = [name for name in os.listdir(output) if name.startswith("recording_")]
+        self.assertTrue(left)
+        for name in left:  # the recorder has had its time to close it
+            os.rename(os.path.join(output, name), os.path.join(output, name.replace(".bag.active", ".bag") + ".active"))
+        again = small_experiment(output, record="true")
+        self.assertEqual(again.end(), 0, again.said())
+        self.assertEqual(self.bytes_of(output), self.bytes_of(self.output))
+        self.assertIn("was left by a run that was killed: reindexing it", again.said())
+        self.assertEqual([name for name in os.listdir(output) if name.endswith((".active", ".part"))], [])
+        self.assertIn("experiment: recorded 20 poses in 2 bags", again.said())
+        stamps = {topic: set() for topic in ("/h10/camera/image_raw", "/camera/depth/image_raw", "/h12/camera/capture")}
+        for name in os.listdir(output):
+            if name.endswith(".bag"):
+                with rosbag.Bag(os.path.join(output, name)) as bag:
+                    for topic, message, _ in bag.read_messages(list(stamps)):
+                        stamps[topic].add(message.header.stamp.to_nsec())
+        for topic, held in stamps.items():
+            self.assertEqual(held, {1000 * 10**9 + pose * 10**8 for pose in range(POSES)}, topic)
+
+    def test_a_run_that_is_evaluated_but_was_not_recorded_is_rendered_for_the_recorder_alone(self):
+        output = os.path.join(self.folder, "recorded_later")
+        shutil.copytree(self.output, output, ignore=shutil.ignore_patterns("*.bag"))
+        again = small_experiment(output, images="true", record="true")
+        self.assertEqual(again.end(), 0, again.said())
+        self.assertIn("experiment: recorded 20 poses in 1 bag", again.said())
+        self.assertEqual(self.bytes_of(output, "frames.csv"), self.bytes_of(self.output, "frames.csv"))
+
+    def test_on_a_terminal_the_line_stays_in_place(self):
+        terminal = Terminal(24, 100)
+        run = small_experiment(os.path.join(self.folder, "terminal"), {"TERM": "xterm"}, terminal)
+        self.assertEqual(run.end(), 0)
+        screen = Screen(24, 100)
+        feet = screen.feet(terminal.text())
+        self.assertTrue(any("/20 poses" in foot for foot in feet), feet)
+        above = [line for line in screen.above() if line]
+        self.assertEqual([line for line in above if "/20 poses" in line], [])
+        self.assertTrue(any(line.startswith("experiment: done; results in ") for line in above), above)
+        self.assertTrue(any(line.startswith("mean difference") for line in above), above)
+        self.assertEqual(screen.region, (0, 23))
+
+    def test_a_warning_of_a_node_is_seen_once(self):
+        robot = os.path.join(self.folder, "faulty.urdf")
+        with open(robot, "w") as file:
+            file.write("""<robot name="faulty"><link name="base_link"><visual><geometry><box size="0.1 0.1 0.1"/></geometry>
+              <material name="of_nowhere"/></visual></link></robot>""")
+        run = small_experiment(os.path.join(self.folder, "warned"), robot=robot, self_test="false", poses=2)
+        self.assertEqual(run.end(), 0, run.said())
+        warnings = [line for line in run.said().splitlines() if "there is no material of_nowhere" in line]
+        self.assertEqual(len(warnings), 1, run.said())
+        self.assertIn("[ WARN]", warnings[0])
 
     def broken_off(self, name, poses, output=None):
         """A folder that holds the first poses of the undisturbed run, as if it had been broken off there."""
@@ -123,7 +198,7 @@ class ExperimentRuns(unittest.TestCase):
         # The self-test, of every 5th of 20 poses, has none left; or its next is too far ahead for it to begin with.
         for poses, max_ahead in ((17, 12), (11, 2)):
             output = self.broken_off("from_%d" % poses, poses)
-            again = small_experiment(output, images="true", max_ahead=max_ahead)
+            again = small_experiment(output, images="true", max_ahead=max_ahead, verbose="true")
             self.assertEqual(again.end(), 0, again.said())
             self.assertIn("Going on at pose %d" % poses, again.said())
             self.assertEqual(self.bytes_of(output), self.bytes_of(self.output))
@@ -159,7 +234,8 @@ class ExperimentRuns(unittest.TestCase):
         with open(launch_file, "w") as file:
             file.write("""<launch>
               <node pkg="sunlit" type="experiment_node" name="experiment" output="screen" required="true"><rosparam>
-                {output: "%(output)s", poses: 3, self_test_every: 1, needed: [render, evaluator], %(watcher)s}
+                {output: "%(output)s", poses: 3, images_a_pose: 1, verbose: false, self_test_every: 1,
+                 needed: [render, evaluator], %(watcher)s}
               </rosparam></node>
               <node pkg="sunlit" type="stand_in.py" name="render" args="render" output="screen"><rosparam>
                 {%(renderer)s}</rosparam></node>
@@ -169,25 +245,28 @@ class ExperimentRuns(unittest.TestCase):
         return Launched(launch_file), output
 
     def test_the_renderer_may_leave_before_the_results_are_written(self):
-        run, _ = self.watched("slow_disk", evaluator="is_slow: true")
+        run, output = self.watched("slow_disk", evaluator="is_slow: true")
+        run.wait_for(lambda: "evaluating: 3 of 3 poses" in run.said(), "missed the renderer")
+        with open(os.path.join(output, "go"), "w"):
+            pass
         self.assertEqual(run.end(), 0, run.said())
 
     def test_what_the_renderer_sends_after_the_last_value_is_recorded(self):
         topics = "[/camera/depth/image_raw, /h10/camera/image_raw]"
-        run, output = self.watched("late", "images: 3, topics: " + topics, watcher="record: " + topics)
+        run, output = self.watched("late", "images: 3, topics: " + topics, watcher=self.recording(topics))
         self.assertEqual(run.end(), 0, run.said())
         bag, = [name for name in os.listdir(output) if name.endswith(".bag")]
         with rosbag.Bag(os.path.join(output, bag)) as recording:
             self.assertEqual(recording.get_message_count(), 6)
 
+    def recording(self, topics, begin=0):
+        return "recording: {topics: %s, start_stamp: 1000.0, frame_rate: 10.0, begin: %d}" % (topics, begin)
+
     def test_a_recording_that_lacks_a_pose_everywhere_is_a_failure(self):
         topics = "[/camera/depth/image_raw, /h10/camera/image_raw]"
-        run, _ = self.watched("lacking", "images: 2, topics: " + topics, watcher="record: " + topics)
+        run, _ = self.watched("lacking", "images: 2, topics: " + topics, watcher=self.recording(topics))
         self.assertNotEqual(run.end(), 0)
-        self.assertIn("lacks messages: ", run.said())
-        # Of two poses that were left to be done it lacks none.
-        run, _ = self.watched("resumed", "images: 2, topics: " + topics, watcher="resume_at: 1, record: " + topics)
-        self.assertEqual(run.end(), 0, run.said())
+        self.assertIn("lacks poses: /camera/depth/image_raw: 2; /h10/camera/image_raw: 2", run.said())
 
     def test_the_watcher_itself_dies_and_nothing_is_left_running(self):
         run = small_experiment(os.path.join(self.folder, "unwatched"), record="true", max_ahead=1, **LONG)
@@ -278,7 +357,7 @@ class ExperimentRuns(unittest.TestCase):
         self.assertEqual([name for name in before.keys() | after.keys() if before.get(name) != after.get(name)], [])
 
     def test_ctrl_c_is_a_failure_too_and_leaves_nothing_running(self):
-        run = small_experiment(os.path.join(self.folder, "interrupted"), **LONG)
+        run = small_experiment(os.path.join(self.folder, "interrupted"), verbose="true", **LONG)
         run.wait_for(lambda: "World " in run.said(), "loaded the world")
         self.assertNotEqual(run.interrupt(), 0)
         self.assertIn("experiment: FAILED: interrupted", run.said())
@@ -296,7 +375,10 @@ class ExperimentRuns(unittest.TestCase):
                                 (dict(robot="cat"), "argument robot is 'cat'"),
                                 (dict(nosie="true"), "argument nosie is 'true', but must be one of the arguments of "
                                                      "experiment.launch; noise is one"),
-                                (dict(output="/dev/null/x"), "/dev/null/x: cannot be written")):
+                                (dict(verbose="loudly"), "argument verbose is 'loudly', but must be true or false"),
+                                (dict(width="wide"), "argument width is 'wide', but must be a whole number"),
+                                (dict(output="/dev/null/x"), "argument output is '/dev/null/x', but must be a folder that "
+                                                             "can be written (/dev/null/x: ")):
             run = small_experiment(**dict(dict(output=os.path.join(self.folder, "bad")), **arguments))
             self.assertEqual(run.end(), 1, run.said())
             self.assertIn("sunlit: ", run.said())

@@ -1,9 +1,14 @@
 """roslaunch under test: started on a master of its own, watched, and counted for what it leaves running."""
+import fcntl
 import os
+import pty
 import signal
 import socket
+import struct
 import subprocess
 import tempfile
+import termios
+import threading
 import time
 import uuid
 
@@ -22,14 +27,41 @@ def free_port():
         return probe.getsockname()[1]
 
 
+class Terminal:
+    """Of so many rows and columns. All that is written to it is read at once, by a thread, so that nobody waits."""
+
+    def __init__(self, rows, columns):
+        self.master, self.slave = pty.openpty()
+        fcntl.ioctl(self.slave, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
+        self.parts = []
+        self.reader = threading.Thread(target=self._read, daemon=True)
+        self.reader.start()
+
+    def _read(self):
+        try:
+            while True:
+                self.parts.append(os.read(self.master, 65536))
+        except OSError:
+            pass  # the last writer has closed it
+
+    def hand_over(self):
+        """Once those that write to it have been started: it ends with them."""
+        os.close(self.slave)
+
+    def text(self):
+        """All, once its writers have ended."""
+        self.reader.join(TIMEOUT_S)
+        return b"".join(self.parts).decode()
+
+
 class Launched:
     """One roslaunch, with everything that it started known by a mark in their environment."""
 
     all_of_them = []
 
-    def __init__(self, launch_file, surroundings=None, **arguments):
+    def __init__(self, launch_file, surroundings=None, terminal=None, **arguments):
         """`launch_file`: one of ours by its name, or a path. `surroundings`: environment variables of this launch, such as
-        the ROS_MASTER_URI of a master that runs already."""
+        the ROS_MASTER_URI of a master that runs already. `terminal`: where it is shown, instead of a file."""
         self.all_of_them.append(self)
         self.mark = "SUNLIT_TEST_RUN=" + uuid.uuid4().hex
         key, value = self.mark.split("=")
@@ -40,8 +72,10 @@ class Launched:
         port = self.environment["ROS_MASTER_URI"].rsplit(":", 1)[1]
         command = ["roslaunch", "-p", port] + ([launch_file] if "/" in launch_file else ["sunlit", launch_file])
         command += ["%s:=%s" % (name, value) for name, value in arguments.items()]
-        self.process = subprocess.Popen(command, env=self.environment, stdin=subprocess.DEVNULL, stdout=self.log,
-                                        stderr=subprocess.STDOUT)
+        self.process = subprocess.Popen(command, env=self.environment, stdin=subprocess.DEVNULL,
+                                        stdout=terminal.slave if terminal else self.log, stderr=subprocess.STDOUT)
+        if terminal:
+            terminal.hand_over()
 
     def said(self):
         self.log.seek(0)
@@ -113,9 +147,9 @@ def kill_leftovers():
         launched.kill()
 
 
-def small_experiment(output, surroundings=None, **changes):
+def small_experiment(output, surroundings=None, terminal=None, **changes):
     """Two hours, a few tiny images of a tiny world."""
     arguments = dict(world=WORLD, path=WAYPOINTS, spacing=0.5, poses=POSES, hours="[10, 12]", width=96, height=72,
                      differences=DIFFERENCES, self_test_every=5, output=output, report="false")
     arguments.update(changes)
-    return Launched("experiment.launch", surroundings, **arguments)
+    return Launched("experiment.launch", surroundings, terminal, **arguments)

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Start, pause, single views, following a TF frame, and what the node says while it waits."""
+import datetime
 import math
 import struct
 import threading
@@ -9,12 +10,13 @@ import rospy
 import rostest
 from geometry_msgs.msg import Pose, PoseStamped, TransformStamped
 from nav_msgs.msg import Path
-from rendering import BOX_FACE_M, Reader, RenderNode, Sun, TIMEOUT_S, Transforms, parameters
+from rendering import BOX_FACE_M, Process, Reader, RenderNode, Sun, TIMEOUT_S, Transforms, parameters
 from rosgraph_msgs.msg import Log
-from sensor_msgs.msg import Image
+from sensor_msgs.msg import CameraInfo, Image
 from std_srvs.srv import Trigger
 from sunlit.msg import Capture
 from sunlit.srv import RenderView
+from tf2_msgs.msg import TFMessage
 
 
 def service(name, kind):
@@ -116,8 +118,66 @@ class RenderControl(unittest.TestCase):
                 centre = struct.unpack_from("<f", depth.data, 36 * depth.step + 48 * 4)[0]
                 # Single precision and the interpolation of a depth buffer.
                 self.assertAlmostEqual(centre, BOX_FACE_M - 2.0 * index, delta=1e-3)
-            sent = [t for m in reader.of("/tf") for t in m.transforms if t.child_frame_id == "camera_optical_frame"]
-            self.assertEqual({t.header.frame_id for t in sent}, {"robot"})
+            static, = reader.wait("/tf_static", 1)[0].transforms
+            self.assertEqual((static.header.frame_id, static.child_frame_id), ("robot", "camera_optical_frame"))
+            self.assertEqual({t.child_frame_id for m in reader.of("/tf") for t in m.transforms}, {"robot"})
+        reader.close()
+        sender.close()
+
+    def test_leaves_the_optical_frame_to_the_robot_that_has_it(self):
+        tree = parameters(conditions=["a"], frame_rate=1000.0, camera={"follow": "tf", "follow_frame": "robot"})
+        for turned, warned in ((True, False), (False, True)):
+            reader, sender = Reader(["a"], node="/follower"), Transforms()
+            optical = robot_at(0.0, rospy.Time(2000))
+            optical.header.frame_id, optical.child_frame_id, optical.transform.translation.z = "robot", "camera_optical_frame", 0.0
+            if turned:  # z forward, x right, y down
+                q = optical.transform.rotation
+                q.x, q.y, q.z, q.w = -0.5, 0.5, -0.5, 0.5
+            with RenderNode("follower", tree) as node:
+                node.line_with("Waiting for the TF frame robot")
+                sender.wait_for_readers(2)
+                sender.send(robot_at(0.0, rospy.Time(2000)), optical)
+                reader.wait("/a/camera/image_raw", 1)
+                node.process.send_signal(2)
+                status, said = node.end()
+            self.assertEqual(status, 0, said)
+            self.assertTrue(any("TF has the frame camera_optical_frame below robot: it is left" in line for line in said), said)
+            self.assertEqual(any("is not where pictures are taken from, which is robot" in line for line in said), warned, said)
+            self.assertEqual(reader.of("/tf_static"), [])
+            reader.close()
+            sender.close()
+
+    def test_waits_for_readers_of_images_and_of_their_camera_info_apart(self):
+        tree = parameters(conditions=["a"], subscribers={"images": 1, "others": 1})
+        topics = ["/a/camera/camera_info", "/a/camera/capture", "/camera/depth/camera_info", "/a/camera/image_raw", "/tf",
+                  "/camera/depth/image_raw"]
+        kinds = [CameraInfo, Capture, CameraInfo, Image, TFMessage, Image]
+        arrived = threading.Event()
+        with RenderNode("waiting", tree) as node:
+            readers = [rospy.Subscriber(*reader) for reader in list(zip(topics, kinds))[:3]]
+            for topic, kind in list(zip(topics, kinds))[3:]:
+                node.line_with("Waiting for subscribers of " + topic)
+                readers.append(rospy.Subscriber(topic, kind, lambda _: arrived.set()))
+            self.assertTrue(arrived.wait(TIMEOUT_S))
+        for reader in readers:
+            reader.unregister()
+
+    def test_live_pictures_have_the_sky_of_their_stamps_and_none_comes_before_its_time(self):
+        arrivals = []
+        listener = rospy.Subscriber("/camera/capture", Capture, lambda capture: arrivals.append((rospy.Time.now(), capture)))
+        reader = Reader([""], node="/live")
+        with Process("live_sun", {"date_time": {"rate": 600.0}}, "sun_position_node"), \
+                RenderNode("live", parameters(start_stamp="now", subscribers={"images": 1})):
+            captures = reader.wait("/camera/capture", 10)
+        first = captures[0]
+        begin = datetime.datetime.fromisoformat(first.utc)
+        for pose, capture in enumerate(captures):
+            self.assertEqual((capture.header.stamp - first.header.stamp).to_nsec(), pose * 125 * 10**6)
+            elapsed = datetime.datetime.fromisoformat(capture.utc) - begin
+            self.assertAlmostEqual(elapsed.total_seconds(), 75.0 * pose, delta=0.0011)  # both are rounded to 1 ms
+        for now, capture in arrivals:
+            self.assertGreaterEqual(now, capture.header.stamp)
+        listener.unregister()
         reader.close()
 
     def test_says_which_sun_it_waits_for(self):
@@ -168,7 +228,7 @@ class RenderControl(unittest.TestCase):
                                              subscribers={"images": 1})) as node:
             node.line_with("Waiting for a path on /route")
             # What is no path is refused and named, once however often it comes.
-            for bad, reason in ((route(), "two"), (route(0.0, 3.0, frame="odom"), '"odom", but must be map'),
+            for bad, reason in ((route(), "two"), (route(0.0, 3.0, frame="odom"), '"odom", but must be "map"'),
                                 (route(0.0, 3.0, 3.0), "waypoint"), (route(0.0, math.inf), "waypoint")):
                 sender.publish(bad)
                 sender.publish(bad)

@@ -118,7 +118,7 @@ class RenderNight(unittest.TestCase):
         with RenderNode("refusing", parameters(conditions=["odd"], night={"enabled": True})) as node:
             sky.send_moon(distance=1.0)
             line = node.line_with("Refused a moon on /odd/moon")
-            self.assertIn("distance is 1, but must be 3.4e+08 to 4.2e+08", line)
+            self.assertIn("distance is 1, but must be from 340000000 to 420000000 m", line)
             self.assertIn("a moon on /odd/moon", node.line_with("Waiting for"))
 
     def test_without_a_night_the_sun_is_enough(self):

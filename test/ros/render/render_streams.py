@@ -118,14 +118,25 @@ class RenderStreams(unittest.TestCase):
             self.assertEqual(pose.header.stamp, path.poses[index].header.stamp)
             self.assertAlmostEqual(pose.pose.position.x, SPACING_M * index, 9)
             self.assertAlmostEqual(pose.pose.position.z, HEIGHT_M, 9)
-            link, optical = tf.transforms
+            link, = tf.transforms
             self.assertEqual((link.header.frame_id, link.child_frame_id), ("map", "camera_link"))
-            self.assertEqual((optical.header.frame_id, optical.child_frame_id), ("camera_link", "camera_optical_frame"))
             self.assertEqual(link.transform.translation.x, pose.pose.position.x)
             self.assertEqual(link.transform.rotation, pose.pose.orientation)
-            # z forward, x right, y down.
-            q = optical.transform.rotation
-            self.assertAlmostEqual(abs(q.x * 0.5 - q.y * 0.5 + q.z * 0.5 - q.w * 0.5), 1.0, 9)
+
+    def test_the_optical_frame_is_static(self):
+        message, = self.reader.of("/tf_static")
+        optical, = message.transforms
+        self.assertEqual((optical.header.frame_id, optical.child_frame_id), ("camera_link", "camera_optical_frame"))
+        # z forward, x right, y down.
+        q = optical.transform.rotation
+        self.assertAlmostEqual(abs(q.x * 0.5 - q.y * 0.5 + q.z * 0.5 - q.w * 0.5), 1.0, 9)
+
+    def test_depth_has_the_camera_of_the_pictures(self):
+        infos = self.reader.of("/camera/depth/camera_info")
+        self.assertEqual(infos, self.reader.of("/noon/camera/camera_info"))
+        for info, depth in zip(infos, self.reader.of("/camera/depth/image_raw")):
+            self.assertEqual((info.header.stamp, info.header.frame_id, info.width, info.height),
+                             (depth.header.stamp, depth.header.frame_id, depth.width, depth.height))
 
 
 if __name__ == "__main__":

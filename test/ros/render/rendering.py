@@ -8,7 +8,7 @@ import rospkg
 import rospy
 from geometry_msgs.msg import PoseStamped, QuaternionStamped
 from nav_msgs.msg import Path
-from sensor_msgs.msg import CameraInfo, Image
+from sensor_msgs.msg import CameraInfo, CompressedImage, Image
 from std_msgs.msg import UInt32
 from sunlit.msg import Capture, MoonPosition, SunPosition
 from tf2_msgs.msg import TFMessage
@@ -33,14 +33,16 @@ def parameters(**changes):
 class Process:
     """A node with these private parameters, until the end of the block."""
 
-    def __init__(self, name, tree, program):
-        self.name = "/" + name
+    def __init__(self, name, tree, program, namespace="", package="sunlit", arguments=()):
+        self.name = ("/" + namespace if namespace else "") + "/" + name
         self.tree = tree
-        self.program = program
+        self.command = ["rosrun", package, program, "__name:=" + name, *arguments]
 
     def __enter__(self):
         rospy.set_param(self.name, self.tree)
-        self.process = subprocess.Popen(["rosrun", "sunlit", self.program, "__name:=" + self.name[1:]],
+        self.process = subprocess.Popen(self.command,
+                                        env=dict(os.environ, ROS_NAMESPACE=self.name.rpartition("/")[0] or "/",
+                                                 ROSCONSOLE_STDOUT_LINE_BUFFERED="1"),
                                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
         return self
 
@@ -68,8 +70,8 @@ class Process:
 
 class RenderNode(Process):
 
-    def __init__(self, name, tree):
-        super().__init__(name, tree, "render_node")
+    def __init__(self, name, tree, namespace=""):
+        super().__init__(name, tree, "render_node", namespace)
 
 
 class RefusalTest(unittest.TestCase):
@@ -158,18 +160,19 @@ class Transforms(rospy.SubscribeListener):
 class Reader:
     """Keeps every message of every stream, and tells the node how many poses it is done with."""
 
-    def __init__(self, conditions, node="/render", prefix="", says_progress=True):
+    def __init__(self, conditions, node="/render", prefix="", says_progress=True, compressed=False):
         self.changed = threading.Condition()
         self.messages = {}
         self.subscribers = []
         self.progress = rospy.Publisher("/reader/progress", UInt32, queue_size=1, latch=True)
         for condition in conditions:
             topic = prefix + (condition + "/" if condition else "") + "camera/"
-            for name, kind in (("image_raw", Image), ("camera_info", CameraInfo), ("capture", Capture)):
+            for name, kind in (("image_raw/compressed", CompressedImage) if compressed else ("image_raw", Image), ("camera_info", CameraInfo), ("capture", Capture)):
                 self._subscribe(topic + name, kind)
-        for name, kind in (("depth/image_raw", Image), ("pose", PoseStamped)):
+        for name, kind in (("depth/image_raw", Image), ("depth/camera_info", CameraInfo), ("pose", PoseStamped)):
             self._subscribe(prefix + "camera/" + name, kind)
         self._subscribe("/tf", TFMessage)
+        self._subscribe("/tf_static", TFMessage)
         self._subscribe(prefix + "path", Path)
         self._subscribe(node + "/progress", UInt32)
         if says_progress:

@@ -9,14 +9,21 @@ namespace {
 
 const Instant kNoon = astronomy::instantOf({2024, 7, 1, 12, 0, 0.0, 3.0});
 
-TEST(SunClock, runsAtItsRateFromTheFirstValidTime) {
+TEST(SunClock, RunsAtItsRateFromTheFirstValidTime) {
   SunClock clock(kNoon, 60.0);
   EXPECT_EQ(clock.at(ros::Time(0.0)), kNoon) << "nobody has published /clock yet";
   EXPECT_EQ(clock.at(ros::Time(1000.0)), kNoon);
   EXPECT_EQ(clock.at(ros::Time(1001.5)), kNoon.plusSeconds(90.0));
 }
 
-TEST(SunClock, standsStillAtRateZeroAndRunsBackwardsBelow) {
+TEST(SunClock, ShowsItsDateAtTheStampThatItIsTold) {
+  SunClock clock(kNoon, 60.0, ros::Time(1000.0));
+  EXPECT_EQ(clock.at(ros::Time(0.0)), kNoon);
+  EXPECT_EQ(clock.at(ros::Time(1030.0)), kNoon.plusSeconds(1800.0)) << "wherever it begins";
+  EXPECT_EQ(clock.at(ros::Time(999.0)), kNoon.plusSeconds(-60.0));
+}
+
+TEST(SunClock, StandsStillAtRateZeroAndRunsBackwardsBelow) {
   SunClock frozen(kNoon, 0.0);
   SunClock backwards(kNoon, -2.0);
   frozen.at(ros::Time(10.0));
@@ -25,7 +32,7 @@ TEST(SunClock, standsStillAtRateZeroAndRunsBackwardsBelow) {
   EXPECT_EQ(backwards.at(ros::Time(20.0)), kNoon.plusSeconds(-20.0));
 }
 
-TEST(SunClock, pausesAndJumpsBackWithRosTime) {
+TEST(SunClock, PausesAndJumpsBackWithRosTime) {
   SunClock clock(kNoon, 1.0);
   clock.at(ros::Time(100.0));
   const Instant later = clock.at(ros::Time(200.0));
@@ -35,7 +42,7 @@ TEST(SunClock, pausesAndJumpsBackWithRosTime) {
   EXPECT_EQ(clock.at(ros::Time(200.0)), later) << "no history";
 }
 
-TEST(SunClock, isHeldAtTheEndsOfTheSupportedYears) {
+TEST(SunClock, IsHeldAtTheEndsOfTheSupportedYears) {
   SunClock clock(kNoon, 1e8);
   clock.at(ros::Time(1.0));
   EXPECT_FALSE(clock.atLimit());

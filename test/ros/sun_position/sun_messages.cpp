@@ -7,7 +7,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "ros/sun_position/messages.h"
+#include "ros/conversions/geometry.h"
+#include "ros/conversions/requests.h"
+#include "ros/sun_position/answers.h"
 #include "ros/sun_position/options.h"
 #include "sunlit/astronomy/celestial.h"
 #include "sunlit/astronomy/civil_time.h"
@@ -21,7 +23,7 @@ SunPosition sunAt(int hour) {
   CivilDateTime civil = options.date_time;
   civil.hour = hour;
   return toMessage(computeSun(astronomy::instantOf(civil), options.earth, options.site, options.air),
-                   ros::Time(7, 9));
+                   headerOf("map", ros::Time(7, 9)));
 }
 
 /// The worked example of Reda & Andreas (2008) as a request.
@@ -48,10 +50,10 @@ GetSunPosition::Request workedExample() {
 
 std::string complaint(const GetSunPosition::Request& request) {
   GetSunPosition::Response response;
-  return messageOf([&] { answer(request, ros::Time(), &response); });
+  return messageOf([&] { answer(request, std_msgs::Header(), &response); });
 }
 
-TEST(SunTransform, xPointsTowardsTheSunAndYIsLevel) {
+TEST(SunTransform, XPointsTowardsTheSunAndYIsLevel) {
   for (int hour = 0; hour < 24; ++hour) {
     const SunPosition sun = sunAt(hour);
     const geometry_msgs::TransformStamped map_from_sun = toTransform(sun, "h/sun", 250.0);
@@ -69,23 +71,25 @@ TEST(SunTransform, xPointsTowardsTheSunAndYIsLevel) {
   }
 }
 
-TEST(SunMessage, itsFieldsAgree) {
+TEST(SunMessage, ItsFieldsAgree) {
   const SunPosition sun = sunAt(20);
   EXPECT_NEAR(sun.zenith + sun.elevation, kPi / 2.0, 1e-15);
   EXPECT_NEAR(std::atan2(sun.direction.x, sun.direction.y) + 2.0 * kPi, sun.azimuth, 1e-12);
   EXPECT_NEAR(std::asin(sun.direction.z), sun.elevation, 1e-12);
   EXPECT_LT(sun.elevation_geometric, sun.elevation);
+  EXPECT_EQ(sun.utc, "2024-07-01T17:00:00.000Z");  // 20 h at UTC+3
 }
 
-TEST(SunMessage, aSunBelowTheHorizonIsDark) {
+TEST(SunMessage, ASunBelowTheHorizonIsDark) {
   EXPECT_LT(toMarker(sunAt(0), "sun", 100.0).color.r, toMarker(sunAt(12), "sun", 100.0).color.r);
 }
 
-TEST(MoonMessage, itsFieldsAreThoseOfThePosition) {
+TEST(MoonMessage, ItsFieldsAreThoseOfThePosition) {
   const SunPositionOptions options;
   const astronomy::MoonPosition moon = astronomy::moonPosition(astronomy::instantOf(options.date_time),
                                                                options.earth, options.site, options.air);
-  const MoonPosition message = toMessage(moon, ros::Time(7, 9));
+  const MoonPosition message = toMessage(ComputedMoon{astronomy::instantOf(options.date_time), moon},
+                                         headerOf("map", ros::Time(7, 9)));
   EXPECT_EQ(message.header.frame_id, "map");
   EXPECT_EQ(message.header.stamp, ros::Time(7, 9));
   EXPECT_EQ(message.azimuth, moon.azimuth.rad());
@@ -102,11 +106,11 @@ TEST(MoonMessage, itsFieldsAreThoseOfThePosition) {
   EXPECT_GT(toMarker(message, "moon", 100.0).scale.x, 0.0);
 }
 
-TEST(CelestialMessage, itsQuaternionIsTheRotation) {
+TEST(CelestialMessage, ItsQuaternionIsTheRotation) {
   const SunPositionOptions options;
   const Eigen::Matrix3d rotation =
       astronomy::mapFromCelestial(astronomy::instantOf(options.date_time), options.earth, options.site);
-  const geometry_msgs::QuaternionStamped message = toMessage(rotation, ros::Time(7, 9));
+  const geometry_msgs::QuaternionStamped message = toMessage(rotation, headerOf("map", ros::Time(7, 9)));
   const auto& q = message.quaternion;
   EXPECT_LT((Eigen::Quaterniond(q.w, q.x, q.y, q.z).toRotationMatrix() - rotation).norm(), 1e-13);
   const geometry_msgs::TransformStamped transform = toTransform(message, "h/celestial");
@@ -116,16 +120,16 @@ TEST(CelestialMessage, itsQuaternionIsTheRotation) {
   EXPECT_EQ(transform.transform.rotation.w, q.w);
 }
 
-TEST(GetSunPosition, answersTheWorkedExample) {
+TEST(GetSunPosition, AnswersTheWorkedExample) {
   GetSunPosition::Response response;
-  answer(workedExample(), ros::Time(), &response);
+  answer(workedExample(), std_msgs::Header(), &response);
   EXPECT_NEAR(response.position.zenith / kRadPerDeg, 50.111622, 1e-6);
   EXPECT_NEAR(response.position.azimuth / kRadPerDeg, 194.340241, 1e-6);
   EXPECT_NEAR(response.incidence / kRadPerDeg, 25.187000, 1e-6);
   EXPECT_NEAR(response.position.equation_of_time, 14.6415 * 60.0, 1e-4 * 60.0);
 }
 
-TEST(GetSunPosition, everyBadFieldIsNamed) {
+TEST(GetSunPosition, EveryBadFieldIsNamed) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto with = [](auto member, auto value) {
     GetSunPosition::Request request = workedExample();
@@ -138,7 +142,7 @@ TEST(GetSunPosition, everyBadFieldIsNamed) {
   EXPECT_EQ(with(&Request::day, 32), "day is 32, but must be from 1 to 31 in month 10 of year 2003");
   EXPECT_EQ(with(&Request::hour, 24), "hour is 24, but must be from 0 to 23 h");
   EXPECT_EQ(with(&Request::minute, -1), "minute is -1, but must be from 0 to 59 min");
-  EXPECT_EQ(with(&Request::second, nan), "second is nan, but must be from 0 to 60 s");
+  EXPECT_EQ(with(&Request::second, nan), "second is nan, but must be from 0 to less than 60 s");
   EXPECT_EQ(with(&Request::timezone, 18.5), "timezone is 18.5, but must be from -18 to 18 h");
   EXPECT_EQ(with(&Request::latitude, 91.0), "latitude is 91, but must be from -90 to 90 deg");
   EXPECT_EQ(with(&Request::longitude, nan), "longitude is nan, but must be from -180 to 180 deg");
@@ -154,12 +158,12 @@ TEST(GetSunPosition, everyBadFieldIsNamed) {
   EXPECT_EQ(complaint(workedExample()), "");
 }
 
-TEST(GetSunPosition, deltaTOfNanIsAutomatic) {
+TEST(GetSunPosition, DeltaTOfNanIsAutomatic) {
   GetSunPosition::Request request = workedExample();
   GetSunPosition::Response given, automatic;
-  answer(request, ros::Time(), &given);
+  answer(request, std_msgs::Header(), &given);
   request.delta_t = std::numeric_limits<double>::quiet_NaN();
-  answer(request, ros::Time(), &automatic);
+  answer(request, std_msgs::Header(), &automatic);
   EXPECT_NE(given.position.azimuth, automatic.position.azimuth);
   EXPECT_NEAR(given.position.azimuth, automatic.position.azimuth, 1e-6);  // 64.5 s, not 67 s
 }

@@ -58,6 +58,11 @@ class SunRefusesParameters(unittest.TestCase):
         self.check({"publish_rate": 0}, "/bad_sun/publish_rate", "0", "from 0.01 to 1000")
         self.check({"conditions": {"h04": {"hour": 25}}}, "h04/hour", "25", "from 0 to 23")
 
+    def test_frames_that_make_no_tree(self):
+        self.check({"frames": {"sun": ""}}, "/bad_sun/frames/sun", "name of a TF frame")
+        self.check({"frames": {"map": "/map"}}, "/bad_sun/frames/map", "without a slash in front")
+        self.check({"conditions": ["a"], "frames": {"moon": "sun"}}, "frames/moon", "frames/sun is called so already")
+
     def test_bad_conditions(self):
         self.check({"conditions": ["a", "a"]}, "/bad_sun/conditions", "twice")
         self.check({"conditions": 7}, "/bad_sun/conditions")

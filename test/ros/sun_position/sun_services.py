@@ -164,7 +164,7 @@ class SunServices(unittest.TestCase):
             ("set_date_time", date, dict(year=7000), "year is 7000, but must be from -2000 to 6000"),
             ("set_date_time", date, dict(hour=24), "hour is 24, but must be from 0 to 23 h"),
             ("set_date_time", date, dict(second=60), "second is 60, but must be from 0 to less than 60 s"),
-            ("set_date_time", date, dict(second=nan), "second is nan, but must be from 0 to 60 s"),
+            ("set_date_time", date, dict(second=nan), "second is nan, but must be from 0 to less than 60 s"),
             ("set_date_time", date, dict(timezone=nan), "timezone is nan, but must be from -18 to 18 h"),
             ("set_date_time", date, dict(rate=".inf"), "rate is inf, but must be from -100000000 to 100000000 s/s"),
             ("set_site", place, dict(latitude=91), "latitude is 91, but must be from -90 to 90 deg"),

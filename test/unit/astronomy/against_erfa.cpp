@@ -70,7 +70,7 @@ double between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b)) / kRadPerDeg;
 }
 
-TEST(AgainstErfa, atRandomPlacesAndTimesOfTwoCenturies) {
+TEST(AgainstErfa, AtRandomPlacesAndTimesOfTwoCenturies) {
   std::mt19937_64 random(4);
   std::uniform_int_distribution<std::int64_t> day(julianDayNumber(1900, 1, 1), julianDayNumber(2099, 12, 31));
   std::uniform_int_distribution<std::int64_t> nanosecond(0, Instant::kNanosecondsPerDay - 1);

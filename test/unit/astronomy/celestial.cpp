@@ -45,7 +45,7 @@ class Samples {
   std::uniform_real_distribution<double> sine_{-1.0, 1.0};
 };
 
-TEST(Celestial, isARotation) {
+TEST(Celestial, IsARotation) {
   Samples samples(-2000, 5999);
   for (int i = 0; i < 100; ++i) {
     const Eigen::Matrix3d r = mapFromCelestial(samples.instant(), EarthRotation(), samples.site());
@@ -55,7 +55,7 @@ TEST(Celestial, isARotation) {
   }
 }
 
-TEST(Celestial, agreesWithTheMatricesOfErfa) {
+TEST(Celestial, AgreesWithTheMatricesOfErfa) {
   Samples samples(1900, 2099);
   double largest = 0.0;
   for (int i = 0; i < 500; ++i) {
@@ -80,7 +80,7 @@ TEST(Celestial, agreesWithTheMatricesOfErfa) {
   std::printf("celestial axes against ERFA, 1900 to 2100: largest rotation %.3f arcsec\n", largest);
 }
 
-TEST(Celestial, starsStandWhereErfaSeesThemToWithinAberration) {
+TEST(Celestial, StarsStandWhereErfaSeesThemToWithinAberration) {
   Samples samples(1973, 2016);  // years whose leap seconds ERFA knows
   double largest = 0.0;
   for (int i = 0; i < 500; ++i) {
@@ -109,7 +109,7 @@ TEST(Celestial, starsStandWhereErfaSeesThemToWithinAberration) {
   EXPECT_GT(largest, 15.0);  // or ours would have it too
 }
 
-TEST(Celestial, theSunOfJ2000AxesIsSpas) {
+TEST(Celestial, TheSunOfJ2000AxesIsSpas) {
   Samples samples(1900, 2099);
   for (int i = 0; i < 300; ++i) {
     const Instant ut1 = samples.instant();
@@ -129,7 +129,7 @@ TEST(Celestial, theSunOfJ2000AxesIsSpas) {
   }
 }
 
-TEST(Celestial, thubanWasThePoleStarOfTheOldKingdom) {
+TEST(Celestial, ThubanWasThePoleStarOfTheOldKingdom) {
   // α Dra, J2000: 14h 04m 23.3s, +64° 22′ 33″. It was nearest to the pole about 2787 BC, and the pole moves
   // by 20″ a year: 4.4° in 2000 BC, to half a degree.
   const Eigen::Vector3d thuban = equatorial(Angle::degrees(211.0973), Angle::degrees(64.3758));
@@ -139,7 +139,7 @@ TEST(Celestial, thubanWasThePoleStarOfTheOldKingdom) {
   EXPECT_NEAR(Direction(then).elevation().deg(), 90.0 - 4.4, 0.5);
 }
 
-TEST(Celestial, polarisStandsAtTheLatitude) {
+TEST(Celestial, PolarisStandsAtTheLatitude) {
   const Eigen::Vector3d polaris = equatorial(Angle::degrees(37.9546), Angle::degrees(89.2641));
   const Site site{Angle::degrees(55.792115), Angle::degrees(49.122254), 90.0};
   for (int hour = 0; hour < 24; ++hour) {

@@ -9,7 +9,7 @@
 namespace sunlit::astronomy {
 namespace {
 
-TEST(Cosines, agreeWithTheStandardLibrary) {
+TEST(Cosines, AgreeWithTheStandardLibrary) {
   std::mt19937_64 random(6);
   std::vector<double> arguments = {
       0.0, -0.0, 1.5707963267948966, 3.141592653589793, -3.141592653589793, 6.283185307179586};
@@ -26,7 +26,7 @@ TEST(Cosines, agreeWithTheStandardLibrary) {
   EXPECT_LE(largest, 2e-15);
 }
 
-TEST(Cosines, doNotDependOnTheirNeighbours) {
+TEST(Cosines, DoNotDependOnTheirNeighbours) {
   // The vectorised part and the rest of a loop give the same bits.
   for (int count = 1; count < 40; ++count) {
     std::vector<double> values;

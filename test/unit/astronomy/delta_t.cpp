@@ -13,7 +13,7 @@ double inYear(int year) {
   return deltaT(instantOf({year, 1, 1, 0, 0, 0.0, 0.0}));
 }
 
-TEST(DeltaT, isThatOfThePublishedTable) {
+TEST(DeltaT, IsThatOfThePublishedTable) {
   // Espenak & Meeus (2006), tables 1 and 2: rounded to 10 s or 100 s before 1600 (the fit is as good), then
   // to 1 s and 0.1 s.
   EXPECT_NEAR(inYear(-500), 17190, 50);
@@ -30,13 +30,13 @@ TEST(DeltaT, isThatOfThePublishedTable) {
   EXPECT_NEAR(inYear(2005), 64.7, 0.2);
 }
 
-TEST(DeltaT, forecastsAreThePublishedOnes) {
+TEST(DeltaT, ForecastsAreThePublishedOnes) {
   EXPECT_NEAR(inYear(2050), 93.0, 0.1);   // same document: "93 seconds by 2050"
   EXPECT_NEAR(inYear(2100), 202.7, 1.0);  // "203 seconds by 2100"
   EXPECT_NEAR(inYear(2200), 442.1, 1.0);  // −20 + 32·3.8²
 }
 
-TEST(DeltaT, piecesJoinAsTheContractSays) {
+TEST(DeltaT, PiecesJoinAsTheContractSays) {
   // Change of the step from day to day: inside a piece below 1e-3 s, at a joint the size of its gap.
   double before = deltaT(Instant(julianDayNumber(-2000, 1, 1), 0));
   double value = deltaT(Instant(julianDayNumber(-2000, 1, 2), 0));

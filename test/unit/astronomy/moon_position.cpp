@@ -34,7 +34,7 @@ struct MeeusExample : testing::Test {
   const SolarCoordinates sun = solarCoordinates(instant, earth);
 };
 
-TEST_F(MeeusExample, placeIsThatOf47a) {
+TEST_F(MeeusExample, PlaceIsThatOf47a) {
   // ERFA has newer mean elements than Meeus: up to 1″ and 1 km.
   constexpr double kAllowedDeg = 1.0 / 3600.0;
   EXPECT_NEAR(moon.right_ascension.deg(), 134.688470, kAllowedDeg);
@@ -50,7 +50,7 @@ TEST_F(MeeusExample, placeIsThatOf47a) {
   EXPECT_NEAR(latitude / kRadPerDeg, -3.229126, kAllowedDeg);
 }
 
-TEST_F(MeeusExample, lightIsThatOf48a) {
+TEST_F(MeeusExample, LightIsThatOf48a) {
   // An observer at the centre of the Earth.
   const Site centre{Angle(), Angle(), -6378140.0};
   const MoonPosition seen = moonPosition(moon, sun, centre, kNoAir);
@@ -72,7 +72,7 @@ double uncoveredAt(const Instant& instant) {
          moon.angularRadius().rad();
 }
 
-TEST(MoonPosition, coveredTheSunInDallasOn8April2024) {
+TEST(MoonPosition, CoveredTheSunInDallasOn8April2024) {
   // Totality there was from 18:40:42 to 18:44:33 UTC. The moon's rim is rough by 2″, and it gains 0.3″ a
   // second or less on the sun: 10 s.
   const Instant begin = instantOf({2024, 4, 8, 18, 40, 42.0, 0.0});
@@ -83,7 +83,7 @@ TEST(MoonPosition, coveredTheSunInDallasOn8April2024) {
   EXPECT_GT(uncoveredAt(end.plusSeconds(10.0)), 0.0);
 }
 
-TEST(MoonPosition, isFullInTheEarthsShadowOn8November2022) {
+TEST(MoonPosition, IsFullInTheEarthsShadowOn8November2022) {
   // Greatest eclipse 10:59:11 UTC; seen from where the moon stood in the zenith then.
   const Instant instant = instantOf({2022, 11, 8, 10, 59, 11.0, 0.0});
   const EarthRotation earth{0.0, 69.2};
@@ -96,7 +96,7 @@ TEST(MoonPosition, isFullInTheEarthsShadowOn8November2022) {
   EXPECT_GT(moon.illuminated_fraction, 0.9998);
 }
 
-TEST(MoonPosition, phaseGoesRoundInAMonth) {
+TEST(MoonPosition, PhaseGoesRoundInAMonth) {
   const EarthRotation earth{0.0, 69.2};
   const Site site{Angle::degrees(55.792115), Angle::degrees(49.122254), 90.0};
   // U.S. Naval Observatory: new 5 July 22:57, first quarter 13 July 22:49, full 21 July 10:17, last quarter
@@ -120,7 +120,7 @@ TEST(MoonPosition, phaseGoesRoundInAMonth) {
   EXPECT_NEAR(limb(28), 90.0, 45.0);
 }
 
-TEST(MoonPosition, refractionIsTheSuns) {
+TEST(MoonPosition, RefractionIsTheSuns) {
   const EarthRotation earth{0.0, 69.2};
   const Site site{Angle::degrees(55.792115), Angle::degrees(49.122254), 90.0};
   const Instant instant = instantOf({2024, 7, 21, 0, 30, 0.0, 3.0});
@@ -132,7 +132,7 @@ TEST(MoonPosition, refractionIsTheSuns) {
   EXPECT_GT(lifted.elevation, bare.elevation);
 }
 
-TEST(MoonPosition, movesWithoutJumpsThroughRiseAndSet) {
+TEST(MoonPosition, MovesWithoutJumpsThroughRiseAndSet) {
   const EarthRotation earth{0.0, 69.2};
   const Site site{Angle::degrees(55.792115), Angle::degrees(49.122254), 90.0};
   Instant instant = instantOf({2024, 7, 21, 12, 0, 0.0, 3.0});
@@ -147,7 +147,7 @@ TEST(MoonPosition, movesWithoutJumpsThroughRiseAndSet) {
   }
 }
 
-TEST(MoonPosition, staysNearTheEarthInAllYears) {
+TEST(MoonPosition, StaysNearTheEarthInAllYears) {
   const Site site{Angle::degrees(-33.9), Angle::degrees(18.4), 0.0};
   for (int year = -2000; year <= 6000; year += 100) {
     for (int day = 1; day <= 28; day += 9) {
@@ -201,7 +201,7 @@ Eigen::Vector3d throughTheBarycentre(const Instant& ut1, double delta_t_s, const
   return Direction(Azimuth(Angle::radians(azimuth)), Angle::degrees(90.0) - Angle::radians(zenith)).vector();
 }
 
-TEST(MoonPosition, agreesWithTheWayThroughTheBarycentre) {
+TEST(MoonPosition, AgreesWithTheWayThroughTheBarycentre) {
   std::mt19937_64 random(7);
   std::uniform_int_distribution<std::int64_t> day(julianDayNumber(1950, 1, 1), julianDayNumber(2049, 12, 31));
   std::uniform_int_distribution<std::int64_t> nanosecond(0, Instant::kNanosecondsPerDay - 1);
@@ -226,7 +226,7 @@ TEST(MoonPosition, agreesWithTheWayThroughTheBarycentre) {
               largest, std::sqrt(sum_of_squares / kSamples));
 }
 
-TEST(MoonPosition, distanceIsThatFromTheEllipsoid) {
+TEST(MoonPosition, DistanceIsThatFromTheEllipsoid) {
   const Instant instant = instantOf({2024, 7, 21, 10, 17, 0.0, 0.0});
   const EarthRotation earth{0.0, 69.2};
   const LunarCoordinates moon = lunarCoordinates(instant, earth);

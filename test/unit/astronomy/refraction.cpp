@@ -24,7 +24,7 @@ double printedFormula(double e0, const Air& air) {
          (60.0 * std::tan((e0 + 10.3 / (e0 + 5.11)) * kRadPerDeg));
 }
 
-TEST(Refraction, isThePublishedFormulaWhileAnyOfTheSunIsUp) {
+TEST(Refraction, IsThePublishedFormulaWhileAnyOfTheSunIsUp) {
   for (const Air& air : kAirs) {
     const double sunset = std::max(horizonElevation(air).deg(), -1.9);
     for (double e0 = sunset + 1e-9; e0 <= 90.0; e0 += 0.01) {
@@ -33,13 +33,13 @@ TEST(Refraction, isThePublishedFormulaWhileAnyOfTheSunIsUp) {
   }
 }
 
-TEST(Refraction, theSunSetsWhereTheReportSays) {
+TEST(Refraction, TheSunSetsWhereTheReportSays) {
   EXPECT_NEAR(horizonElevation(kAirs[0]).deg(), -0.83337, 1e-12);
   // The jump that SPA makes there, and this does not.
   EXPECT_NEAR(refractionDeg(-0.8333, kAirs[0]), 0.640, 0.03);
 }
 
-TEST(Refraction, valueAndSlopeAreContinuousFromZenithToNadir) {
+TEST(Refraction, ValueAndSlopeAreContinuousFromZenithToNadir) {
   for (const Air& air : kAirs) {
     // Steps of 0.0001°: a jump in value would show as a slope of its size / 0.0001, a kink as a change of
     // slope. The curvature stays below 1 per degree up to the most extreme air, so that slopes of neighbours
@@ -58,7 +58,7 @@ TEST(Refraction, valueAndSlopeAreContinuousFromZenithToNadir) {
   }
 }
 
-TEST(Refraction, aLowerSunNeverAppearsHigher) {
+TEST(Refraction, ALowerSunNeverAppearsHigher) {
   for (const Air& air : kAirs) {
     double last = -90.0;
     for (double e0 = -90.0 + 1e-3; e0 <= 89.9; e0 += 1e-3) {
@@ -69,7 +69,7 @@ TEST(Refraction, aLowerSunNeverAppearsHigher) {
   }
 }
 
-TEST(Refraction, isNothingDeepBelowTheHorizonAndWithoutAir) {
+TEST(Refraction, IsNothingDeepBelowTheHorizonAndWithoutAir) {
   for (const Air& air : kAirs) EXPECT_EQ(refractionDeg(-7.0, air), 0.0);
   for (double e0 = -90.0; e0 <= 90.0; e0 += 0.1) EXPECT_EQ(refractionDeg(e0, kAirs[5]), 0.0) << "at " << e0;
 }

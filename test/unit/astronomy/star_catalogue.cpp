@@ -39,7 +39,7 @@ struct StarFiles : testing::Test {
   const fs::path folder;
 };
 
-TEST_F(StarFiles, placesAreReadAndSortedByBrightness) {
+TEST_F(StarFiles, PlacesAreReadAndSortedByBrightness) {
   const std::string places = write("places",
                                    "# a comment\n\n"
                                    " 38.7836 18.6156  0.03 \"  3Alp Lyr\" 7001 172167  67174\n"
@@ -56,7 +56,7 @@ TEST_F(StarFiles, placesAreReadAndSortedByBrightness) {
   EXPECT_TRUE(std::isnan(catalogue.stars[2].b_minus_v));  // nobody knows
 }
 
-TEST_F(StarFiles, typesGiveColours) {
+TEST_F(StarFiles, TypesGiveColours) {
   const std::string places = write("places", "20.0 6.0 3.00\n-20.0 6.0 4.00\n20.0 6.1 3.0\n");
   // 6 h is π/2 rad. Another right ascension, another magnitude: another star.
   const std::string types = write("types",
@@ -69,7 +69,7 @@ TEST_F(StarFiles, typesGiveColours) {
   EXPECT_NEAR(stars[2].b_minus_v, -0.02, 1e-12);
 }
 
-TEST_F(StarFiles, missingFilesAreWarningsThatNameTheirPackages) {
+TEST_F(StarFiles, MissingFilesAreWarningsThatNameTheirPackages) {
   const StarCatalogue none = readStarCatalogue({(folder / "no").string(), ""});
   EXPECT_TRUE(none.stars.empty());
   ASSERT_EQ(none.warnings.size(), 1u);
@@ -84,7 +84,7 @@ TEST_F(StarFiles, missingFilesAreWarningsThatNameTheirPackages) {
   EXPECT_TRUE(readStarCatalogue({"", ""}).warnings.empty());  // as asked for
 }
 
-TEST_F(StarFiles, brokenLinesAreNamed) {
+TEST_F(StarFiles, BrokenLinesAreNamed) {
   const auto faultOfPlaces = [&](const std::string& line) {
     return faultOf({write("places", "1.0 2.0 3.0\n" + line + "\n"), ""});
   };
@@ -93,8 +93,8 @@ TEST_F(StarFiles, brokenLinesAreNamed) {
             where + "is no star: declination, right ascension and magnitude are expected");
   EXPECT_EQ(faultOfPlaces("10.0 3.0"),
             where + "is no star: declination, right ascension and magnitude are expected");
-  EXPECT_EQ(faultOfPlaces("91.0 3.0 4.0"), where + "declination is 91, but must be from -90 to 90");
-  EXPECT_EQ(faultOfPlaces("10.0 25.0 4.0"), where + "right ascension is 25, but must be from 0 to 24");
+  EXPECT_EQ(faultOfPlaces("91.0 3.0 4.0"), where + "declination is 91, but must be from -90 to 90 deg");
+  EXPECT_EQ(faultOfPlaces("10.0 25.0 4.0"), where + "right ascension is 25, but must be from 0 to 24 h");
   EXPECT_EQ(faultOfPlaces("10.0 3.0 99.0"), where + "magnitude is 99, but must be from -30 to 30");
 
   const std::string places = write("places", "1.0 2.0 3.0\n");
@@ -104,7 +104,7 @@ TEST_F(StarFiles, brokenLinesAreNamed) {
             types + ":1: has no numbers for right ascension and magnitude");
 }
 
-TEST(SpectralTypes, redderTheCooler) {
+TEST(SpectralTypes, RedderTheCooler) {
   double last = -1.0;
   for (const char* type : {"O9", "B0", "B5", "A0", "A5", "F0", "F5", "G0", "G5", "K0", "K5", "M0", "M9"}) {
     EXPECT_GT(bMinusVOfType(type), last) << type;
@@ -116,7 +116,7 @@ TEST(SpectralTypes, redderTheCooler) {
     EXPECT_TRUE(std::isnan(bMinusVOfType(other))) << other;
 }
 
-TEST(StarCatalogue, ofDebianHasTheStarsThatEyesSee) {
+TEST(StarCatalogue, OfDebianHasTheStarsThatEyesSee) {
   const StarCatalogue catalogue = readStarCatalogue();
   if (!catalogue.warnings.empty()) GTEST_SKIP() << catalogue.warnings[0];
   // 9,096 stars in the catalogue; magnitude 6.5 is its aim.

@@ -18,7 +18,7 @@ SunPosition onFirstOfJuly(int hour) {
   return sunPosition(instantOf({2024, 7, 1, hour, 0, 0.0, 3.0}), kEarth, kTrack, kAir);
 }
 
-TEST(SunPosition, theExperimentsMorningIsInTheEastItsEveningInTheWest) {
+TEST(SunPosition, TheExperimentsMorningIsInTheEastItsEveningInTheWest) {
   EXPECT_GT(onFirstOfJuly(4).elevation.deg(), 0.0);
   EXPECT_NEAR(onFirstOfJuly(4).azimuth.deg(), 55.0, 10.0);
   EXPECT_NEAR(onFirstOfJuly(12).azimuth.deg(), 180.0, 10.0);
@@ -29,7 +29,7 @@ TEST(SunPosition, theExperimentsMorningIsInTheEastItsEveningInTheWest) {
   EXPECT_LT(onFirstOfJuly(20).elevation.deg(), onFirstOfJuly(4).elevation.deg());
 }
 
-TEST(SunPosition, manyPlacesAtOnceGetTheSameBitsAsOneByOne) {
+TEST(SunPosition, ManyPlacesAtOnceGetTheSameBitsAsOneByOne) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> latitude(-90.0, 90.0);
   std::uniform_real_distribution<double> longitude(-180.0, 180.0);
@@ -48,7 +48,7 @@ TEST(SunPosition, manyPlacesAtOnceGetTheSameBitsAsOneByOne) {
   }
 }
 
-TEST(SunPosition, atThePolesTheElevationIsTheDeclination) {
+TEST(SunPosition, AtThePolesTheElevationIsTheDeclination) {
   const SolarCoordinates sun = solarCoordinates(instantOf({2024, 5, 1, 7, 0, 0.0, 0.0}), kEarth);
   const SunPosition north = sunPosition(sun, {Angle::degrees(90.0), Angle::degrees(20.0), 0.0}, kAir);
   const SunPosition south = sunPosition(sun, {Angle::degrees(-90.0), Angle::degrees(20.0), 0.0}, kAir);
@@ -58,7 +58,7 @@ TEST(SunPosition, atThePolesTheElevationIsTheDeclination) {
   EXPECT_NEAR(north.elevation_geometric.deg(), sun.declination.deg() - 0.00236, 1e-4);
 }
 
-TEST(SunPosition, directionPointsTowardsTheApparentSun) {
+TEST(SunPosition, DirectionPointsTowardsTheApparentSun) {
   const SunPosition sun = onFirstOfJuly(20);
   const Eigen::Vector3d direction = sun.direction().vector();
   EXPECT_NEAR(direction.z(), sin(sun.elevation), 1e-15);
@@ -68,13 +68,13 @@ TEST(SunPosition, directionPointsTowardsTheApparentSun) {
   EXPECT_GT(sun.elevation.deg(), sun.elevation_geometric.deg());
 }
 
-TEST(SunPosition, hourAngleIsZeroAtNoonAndGrowsWestward) {
+TEST(SunPosition, HourAngleIsZeroAtNoonAndGrowsWestward) {
   EXPECT_LT(onFirstOfJuly(4).hour_angle.deg(), -90.0);
   EXPECT_GT(onFirstOfJuly(20).hour_angle.deg(), 90.0);
   EXPECT_LE(onFirstOfJuly(20).hour_angle.deg(), 180.0);
 }
 
-TEST(SunPosition, delta_ut1TurnsTheEarth) {
+TEST(SunPosition, Delta_ut1TurnsTheEarth) {
   // 0.9 s of rotation are 15.04″ · 0.9 on the equator of the sky.
   const Instant noon = instantOf({2024, 7, 1, 12, 0, 0.0, 3.0});
   const SunPosition later = sunPosition(noon, {0.9, 69.184 - 0.9}, kTrack, kAir);
@@ -82,14 +82,14 @@ TEST(SunPosition, delta_ut1TurnsTheEarth) {
   EXPECT_NEAR((later.hour_angle - now.hour_angle).deg(), 0.9 * 15.04107 / 3600.0, 1e-6);
 }
 
-TEST(SunPosition, anErrorOfDeltaTOfSixSecondsIsHarmless) {
+TEST(SunPosition, AnErrorOfDeltaTOfSixSecondsIsHarmless) {
   const Instant noon = instantOf({2024, 7, 1, 12, 0, 0.0, 3.0});
   const SunPosition given = sunPosition(noon, {0.0, 69.184}, kTrack, kAir);
   const SunPosition wrong = sunPosition(noon, {0.0, 75.184}, kTrack, kAir);
   EXPECT_NEAR((given.azimuth.angle() - wrong.azimuth.angle()).deg(), 0.0, 2e-4);
 }
 
-TEST(Incidence, onALevelSurfaceIsTheZenithAngle) {
+TEST(Incidence, OnALevelSurfaceIsTheZenithAngle) {
   for (const int hour : {4, 12, 20}) {
     const SunPosition sun = onFirstOfJuly(hour);
     // The arc cosine of nearly 1 would cost digits, but the sun stays far from the zenith here.
@@ -97,7 +97,7 @@ TEST(Incidence, onALevelSurfaceIsTheZenithAngle) {
   }
 }
 
-TEST(Incidence, isTheAngleBetweenSunAndNormal) {
+TEST(Incidence, IsTheAngleBetweenSunAndNormal) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> any(-180.0, 180.0);
   for (int i = 0; i < 1000; ++i) {
@@ -111,7 +111,7 @@ TEST(Incidence, isTheAngleBetweenSunAndNormal) {
   }
 }
 
-TEST(EquationOfTime, extremesOfTheYear) {
+TEST(EquationOfTime, ExtremesOfTheYear) {
   // Almanacs of about 2000: −14 min 15 s on 11 February, +16 min 25 s on 3 November, to 1 s or so from year
   // to year.
   double low = 0.0;
@@ -127,7 +127,7 @@ TEST(EquationOfTime, extremesOfTheYear) {
   EXPECT_NEAR(high, 985.0, 1.5);
 }
 
-TEST(EquationOfTime, isApparentMinusMeanSolarTime) {
+TEST(EquationOfTime, IsApparentMinusMeanSolarTime) {
   // At the prime meridian, mean solar time is UT1, and apparent solar time is the hour angle plus 12 h.
   for (int month = 1; month <= 12; ++month) {
     const SolarCoordinates sun = solarCoordinates(instantOf({2024, month, 1, 12, 0, 0.0, 0.0}), kEarth);
@@ -137,7 +137,7 @@ TEST(EquationOfTime, isApparentMinusMeanSolarTime) {
   }
 }
 
-TEST(SolarCoordinates, holdAtTheEndsOfTheSupportedYears) {
+TEST(SolarCoordinates, HoldAtTheEndsOfTheSupportedYears) {
   const EarthRotation automatic;
   for (const int year : {-2000, -500, 1000, 3000, 6000}) {
     for (int month = 1; month <= 12; ++month) {

@@ -28,7 +28,7 @@ double elevationAt(const CivilDate& date, double hour, const Site& site) {
       .elevation_geometric.deg();
 }
 
-TEST(SunTimes, theWorkedExamplesEveningIsNotThePrintedOne) {
+TEST(SunTimes, TheWorkedExamplesEveningIsNotThePrintedOne) {
   // Reda & Andreas print 17:20:19, the evening before: their A.2 works on the UT day.
   const Site golden = siteAt(39.742476, -105.1786, 1830.14);
   const SunTimes times = sunTimes({2003, 10, 17, -7.0}, golden, kAir, kEarth);
@@ -43,7 +43,7 @@ TEST(SunTimes, theWorkedExamplesEveningIsNotThePrintedOne) {
   EXPECT_EQ(times.state, SunState::kNormal);
 }
 
-TEST(SunTimes, theEventsAreInOrderAndAtTheirElevations) {
+TEST(SunTimes, TheEventsAreInOrderAndAtTheirElevations) {
   const CivilDate date{2024, 3, 20, 1.0};
   const Site site = siteAt(48.2, 16.4);
   const SunTimes times = sunTimes(date, site, kAir, kEarth);
@@ -59,7 +59,7 @@ TEST(SunTimes, theEventsAreInOrderAndAtTheirElevations) {
   }
 }
 
-TEST(SunTimes, polarNightHasNoSunriseButATwilight) {
+TEST(SunTimes, PolarNightHasNoSunriseButATwilight) {
   // SPA's A.2 invents both events here.
   const SunTimes times = sunTimes({2016, 11, 6, -6.0}, siteAt(74.6973, -94.8297), kAir, kEarth);
   EXPECT_EQ(times.state, SunState::kPolarNight);
@@ -70,7 +70,7 @@ TEST(SunTimes, polarNightHasNoSunriseButATwilight) {
   EXPECT_TRUE(times.civil.dusk);
 }
 
-TEST(SunTimes, polarDayHasATransitOnly) {
+TEST(SunTimes, PolarDayHasATransitOnly) {
   const SunTimes times = sunTimes({2024, 6, 21, 0.0}, siteAt(76.0, 20.0), kAir, kEarth);
   EXPECT_EQ(times.state, SunState::kPolarDay);
   EXPECT_FALSE(times.horizon.dawn || times.horizon.dusk || times.civil.dawn || times.civil.dusk ||
@@ -79,13 +79,13 @@ TEST(SunTimes, polarDayHasATransitOnly) {
   EXPECT_NEAR(*times.transit, 12.0 - 20.0 / 15.0 + 0.03, 0.01);
 }
 
-TEST(SunTimes, deepPolarNightHasNoTwilightEither) {
+TEST(SunTimes, DeepPolarNightHasNoTwilightEither) {
   const SunTimes times = sunTimes({2024, 12, 21, 0.0}, siteAt(88.0, 0.0), kAir, kEarth);
   EXPECT_EQ(times.state, SunState::kPolarNight);
   EXPECT_FALSE(times.civil.dawn || times.nautical.dawn || times.astronomical.dawn);
 }
 
-TEST(SunTimes, atThePoleTheSunRisesOnceAYear) {
+TEST(SunTimes, AtThePoleTheSunRisesOnceAYear) {
   int sunrises = 0;
   for (int day = 10; day <= 25; ++day) {
     const SunTimes times = sunTimes({2024, 3, day, 0.0}, siteAt(90.0, 0.0), kAir, kEarth);
@@ -100,7 +100,7 @@ TEST(SunTimes, atThePoleTheSunRisesOnceAYear) {
   EXPECT_EQ(sunrises, 1);
 }
 
-TEST(SunTimes, aSunThatShowsItselfForMinutesIsFound) {
+TEST(SunTimes, ASunThatShowsItselfForMinutesIsFound) {
   // Last days before the polar night at 76° N: each must agree with a scan by the second.
   for (int day = 30; day <= 37; ++day) {
     const CivilDate date = day <= 31 ? CivilDate{2024, 10, day, 1.0} : CivilDate{2024, 11, day - 31, 1.0};
@@ -115,7 +115,7 @@ TEST(SunTimes, aSunThatShowsItselfForMinutesIsFound) {
   }
 }
 
-TEST(SunTimes, whereTheSunSetsAfterMidnightTheDuskComesFirst) {
+TEST(SunTimes, WhereTheSunSetsAfterMidnightTheDuskComesFirst) {
   // Summer in Lapland on daylight saving time (+3 h): the sun sets 20 min past midnight.
   const SunTimes times = sunTimes({2024, 6, 9, 3.0}, siteAt(65.7, 25.0), kAir, kEarth);
   ASSERT_TRUE(times.horizon.dawn && times.horizon.dusk);
@@ -144,7 +144,7 @@ void expectSame(const std::optional<double>& ours, const std::optional<double>& 
   EXPECT_NEAR(ours.value_or(0.0), scanned.value_or(0.0), 1.0 / 3600.0);
 }
 
-TEST(SunTimes, agreeWithBruteForceAtRandomPlaces) {
+TEST(SunTimes, AgreeWithBruteForceAtRandomPlaces) {
   std::mt19937_64 random(5);
   std::uniform_int_distribution<int> year(-1000, 5000), month(1, 12), day(1, 28), zone(-12, 12);
   std::uniform_real_distribution<double> latitude(-90.0, 90.0), longitude(-180.0, 180.0);
@@ -169,7 +169,7 @@ TEST(SunTimes, agreeWithBruteForceAtRandomPlaces) {
   }
 }
 
-TEST(SunTimes, refuseABadDate) {
+TEST(SunTimes, RefuseABadDate) {
   EXPECT_THROW(sunTimes({2023, 2, 29, 0.0}, Site{}, kAir, kEarth), std::invalid_argument);
 }
 

@@ -25,7 +25,7 @@ class WorkedExample : public ::testing::Test {
   const SunPosition sun = sunPosition(coordinates, site, air);
 };
 
-TEST_F(WorkedExample, timeArguments) {
+TEST_F(WorkedExample, TimeArguments) {
   EXPECT_NEAR(geocentric.times.jd(), 2452930.312847, kSixDigits);
   EXPECT_NEAR(geocentric.times.jde(), 2452930.313623, kSixDigits);
   // Printed to 15 digits, but made from the JD of six decimals: half of 1e-6 days, in centuries and
@@ -34,7 +34,7 @@ TEST_F(WorkedExample, timeArguments) {
   EXPECT_NEAR(geocentric.times.jme, 0.003792781991685, 0.5e-6 / 365250.0);
 }
 
-TEST_F(WorkedExample, heliocentricEarth) {
+TEST_F(WorkedExample, HeliocentricEarth) {
   EXPECT_NEAR(geocentric.earth.longitude_deg, 24.0182616917, kTenDigits);
   EXPECT_NEAR(geocentric.earth.latitude_deg, -0.0001011219, kTenDigits);
   EXPECT_NEAR(geocentric.earth.distance_au, 0.9965422974, kTenDigits);
@@ -42,7 +42,7 @@ TEST_F(WorkedExample, heliocentricEarth) {
   EXPECT_NEAR(geocentric.beta, 0.0001011219, kTenDigits);
 }
 
-TEST_F(WorkedExample, nutationAndObliquity) {
+TEST_F(WorkedExample, NutationAndObliquity) {
   const double expected[] = {17185.861179, 1722.893218, 18234.075703, 18420.071012, 51.686951};
   for (int i = 0; i < 5; ++i) {
     SCOPED_TRACE("X" + std::to_string(i));
@@ -54,7 +54,7 @@ TEST_F(WorkedExample, nutationAndObliquity) {
   EXPECT_NEAR(geocentric.nutation.true_obliquity_deg, 23.440465, kSixDigits);
 }
 
-TEST_F(WorkedExample, geocentricSun) {
+TEST_F(WorkedExample, GeocentricSun) {
   EXPECT_NEAR(geocentric.dtau, -0.005711, kSixDigits);
   EXPECT_NEAR(geocentric.lambda, 204.0085519281, kTenDigits);
   EXPECT_NEAR(geocentric.nu0, 318.515579, kSixDigits);
@@ -64,7 +64,7 @@ TEST_F(WorkedExample, geocentricSun) {
   EXPECT_NEAR(geocentric.eot_min, 14.6415, 1e-4);
 }
 
-TEST_F(WorkedExample, coordinatesAreThoseOfTheGeocentricSun) {
+TEST_F(WorkedExample, CoordinatesAreThoseOfTheGeocentricSun) {
   // Twice through degrees and radians: a few units of the last place.
   EXPECT_NEAR(coordinates.right_ascension.deg(), geocentric.alpha, 1e-12);
   EXPECT_NEAR(coordinates.declination.deg(), geocentric.delta, 1e-12);
@@ -75,7 +75,7 @@ TEST_F(WorkedExample, coordinatesAreThoseOfTheGeocentricSun) {
   EXPECT_EQ(coordinates.equation_of_time_s, geocentric.eot_min * 60.0);
 }
 
-TEST_F(WorkedExample, parallax) {
+TEST_F(WorkedExample, Parallax) {
   const double hour_angle_deg = geocentric.nu + site.longitude.deg() - geocentric.alpha;
   EXPECT_NEAR(hour_angle_deg, 11.105902, kSixDigits);
   EXPECT_NEAR(8.794 / (3600.0 * coordinates.distance_au), 0.002451, kSixDigits);
@@ -85,7 +85,7 @@ TEST_F(WorkedExample, parallax) {
   EXPECT_NEAR(sun.hour_angle.deg(), 11.10627, 1e-5);
 }
 
-TEST_F(WorkedExample, topocentricSun) {
+TEST_F(WorkedExample, TopocentricSun) {
   EXPECT_NEAR(sun.elevation_geometric.deg(), 39.872046, kSixDigits);
   EXPECT_NEAR(refraction(sun.elevation_geometric, air).deg(), 0.016332, kSixDigits);
   EXPECT_NEAR(sun.elevation.deg(), 39.888378, kSixDigits);

@@ -10,7 +10,7 @@ namespace sunlit::evaluate {
 namespace {
 
 // The definition, pixel by pixel.
-DirectDifferences slowly(const View& a, const View& b) {
+DirectDifferences slowly(const Picture& a, const Picture& b) {
   DirectDifferences result;
   for (int y = 0; y < a.rgb.rows; ++y) {
     for (int x = 0; x < a.rgb.cols; ++x) {
@@ -37,7 +37,7 @@ TEST(DirectDifferences, FollowFromPencilAndPaper) {
   b.at<cv::Vec3b>(0, 0) = {255, 255, 255};  // grey 255
   b.at<cv::Vec3b>(0, 1) = {0, 0, 1};        // grey 0.114, rounded 0: only rgb sees it
   b.at<cv::Vec3b>(0, 2) = {100, 100, 100};  // grey 100
-  const DirectDifferences d = directDifferences(makeView(a), makeView(b));
+  const DirectDifferences d = directDifferences(makePicture(a), makePicture(b));
   EXPECT_EQ(d.boolean_rgb, 3.0 / 4.0);
   EXPECT_EQ(d.boolean_grey, 2.0 / 4.0);
   // Sums of whole numbers and one division: only the order of the division may round otherwise.
@@ -47,8 +47,8 @@ TEST(DirectDifferences, FollowFromPencilAndPaper) {
 
 TEST(DirectDifferences, ReachOneForBlackAgainstWhite) {
   // 4200 columns: longer than one block of the fast loop, and its sums are the largest that there are.
-  const View black = makeView(cv::Mat(3, 4200, CV_8UC3, cv::Scalar(0, 0, 0)));
-  const View white = makeView(cv::Mat(3, 4200, CV_8UC3, cv::Scalar(255, 255, 255)));
+  const Picture black = makePicture(cv::Mat(3, 4200, CV_8UC3, cv::Scalar(0, 0, 0)));
+  const Picture white = makePicture(cv::Mat(3, 4200, CV_8UC3, cv::Scalar(255, 255, 255)));
   const DirectDifferences d = directDifferences(black, white);
   EXPECT_EQ(d.boolean_rgb, 1.0);
   EXPECT_EQ(d.boolean_grey, 1.0);
@@ -64,8 +64,8 @@ TEST(DirectDifferences, AreThoseOfTheSlowLoopForAnyWidth) {
     generator.fill(a, cv::RNG::UNIFORM, 0, 256);
     generator.fill(b, cv::RNG::UNIFORM, 0, 256);
     a.rowRange(0, 3).copyTo(b.rowRange(0, 3));
-    const DirectDifferences fast = directDifferences(makeView(a), makeView(b));
-    const DirectDifferences slow = slowly(makeView(a), makeView(b));
+    const DirectDifferences fast = directDifferences(makePicture(a), makePicture(b));
+    const DirectDifferences slow = slowly(makePicture(a), makePicture(b));
     EXPECT_EQ(fast.boolean_rgb, slow.boolean_rgb) << width;
     EXPECT_EQ(fast.boolean_grey, slow.boolean_grey) << width;
     EXPECT_DOUBLE_EQ(fast.euclidean_rgb, slow.euclidean_rgb) << width;
@@ -76,16 +76,16 @@ TEST(DirectDifferences, AreThoseOfTheSlowLoopForAnyWidth) {
 TEST(DirectDifferences, AreZeroForAnImageAgainstItself) {
   cv::Mat a(48, 64, CV_8UC3);
   cv::RNG(5).fill(a, cv::RNG::UNIFORM, 0, 256);
-  const DirectDifferences d = directDifferences(makeView(a), makeView(a.clone()));
+  const DirectDifferences d = directDifferences(makePicture(a), makePicture(a.clone()));
   EXPECT_EQ(d.boolean_rgb + d.boolean_grey + d.euclidean_rgb + d.euclidean_grey, 0.0);
 }
 
 TEST(DirectDifferences, RefuseOtherSizesAndTypes) {
-  const View a = makeView(cv::Mat(4, 4, CV_8UC3, cv::Scalar::all(0)));
-  EXPECT_THROW(directDifferences(a, makeView(cv::Mat(4, 5, CV_8UC3, cv::Scalar::all(0)))),
+  const Picture a = makePicture(cv::Mat(4, 4, CV_8UC3, cv::Scalar::all(0)));
+  EXPECT_THROW(directDifferences(a, makePicture(cv::Mat(4, 5, CV_8UC3, cv::Scalar::all(0)))),
                std::invalid_argument);
-  EXPECT_THROW(makeView(cv::Mat(4, 4, CV_8UC1, cv::Scalar::all(0))), std::invalid_argument);
-  EXPECT_THROW(makeView(cv::Mat()), std::invalid_argument);
+  EXPECT_THROW(makePicture(cv::Mat(4, 4, CV_8UC1, cv::Scalar::all(0))), std::invalid_argument);
+  EXPECT_THROW(makePicture(cv::Mat()), std::invalid_argument);
 }
 
 TEST(DirectDifferences, OfTheLeuvenPhotographsAreThePublishedOnes) {
@@ -96,8 +96,8 @@ TEST(DirectDifferences, OfTheLeuvenPhotographsAreThePublishedOnes) {
     return image;
   };
   if (load(1).empty()) GTEST_SKIP() << "needs " << folder;
-  const DirectDifferences d12 = directDifferences(makeView(load(1)), makeView(load(2)));
-  const DirectDifferences d16 = directDifferences(makeView(load(1)), makeView(load(6)));
+  const DirectDifferences d12 = directDifferences(makePicture(load(1)), makePicture(load(2)));
+  const DirectDifferences d16 = directDifferences(makePicture(load(1)), makePicture(load(6)));
   const double half_a_digit = 0.5e-5;  // the reference has five digits
   EXPECT_NEAR(d12.boolean_rgb, 0.99980, half_a_digit);
   EXPECT_NEAR(d12.euclidean_rgb, 0.03556, half_a_digit);

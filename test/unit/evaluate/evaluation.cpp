@@ -23,7 +23,7 @@ std::string undisturbedSummary(int poses) {
 TEST(Evaluation, CompletesWhenAllExpectedPosesAreIn) {
   const TemporaryFolder folder;
   EvaluationOptions options = optionsFor(folder);
-  options.poses = 3;
+  options.poses.count = 3;
   Evaluation evaluation(options, {});
   feedPose(evaluation, 0);
   feedPose(evaluation, 1);
@@ -41,7 +41,7 @@ TEST(Evaluation, CompletesWhenAllExpectedPosesAreIn) {
 TEST(Evaluation, NamesAPoseThatNeverCame) {
   const TemporaryFolder folder;
   EvaluationOptions options = optionsFor(folder);
-  options.poses = 3;
+  options.poses.count = 3;
   Evaluation evaluation(options, {});
   feedPose(evaluation, 0);
   const Outcome outcome = evaluation.finish();
@@ -119,23 +119,6 @@ TEST(Evaluation, CountsAndNamesEverythingThatCannotBeEvaluated) {
   EXPECT_TRUE(hasLine(problems, "duplicate,4,500.400000000,h04,"));
 }
 
-TEST(Evaluation, GivesUpTheOldestWhenTooManyWait) {
-  const TemporaryFolder folder;
-  EvaluationOptions options = optionsFor(folder);
-  options.max_waiting_images = 4;
-  Evaluation evaluation(options, {});
-  for (int pose = 0; pose < 6; ++pose) evaluation.addImage(0, stampOf(pose), picture(pose, 0));
-  EXPECT_EQ(evaluation.counts().waiting_images, 4u);
-  evaluation.addImage(1, stampOf(0), picture(0, 1));
-  for (int pose = 2; pose < 6; ++pose) {
-    for (std::size_t s = 1; s < 3; ++s) evaluation.addImage(s, stampOf(pose), picture(pose, s));
-  }
-  const Outcome outcome = evaluation.finish();
-  EXPECT_EQ(outcome.counts.pairs[0].evaluated + outcome.counts.pairs[0].dropped, 6u);
-  EXPECT_GE(outcome.counts.pairs[0].dropped, 2u);
-  EXPECT_EQ(outcome.counts.streams[1].late, 1u);
-}
-
 TEST(Evaluation, TakesUpARunThatWasCutOff) {
   const int poses = 30;
   const std::string expected = undisturbedSummary(poses);
@@ -173,7 +156,7 @@ TEST(Evaluation, KeepsTheProblemsOfTheRunsThatItTakesUpOnceEach) {
   EvaluationOptions options = optionsFor(folder);
   options.frame_rate = 10.0;
   options.stamp_start_ns = stampOf(0);
-  options.poses = 4;
+  options.poses.count = 4;
   // Pose 1 lacks an image that never comes; the second run sees what pose 2 lacked, and pose 3; a bad image
   // of pose 0 beside a good one cannot be mended.
   const auto feed = [&](Evaluation& evaluation, bool is_second) {
@@ -214,7 +197,7 @@ TEST(Evaluation, KeepsTheProblemsOfTheRunsThatItTakesUpOnceEach) {
 TEST(Evaluation, IsCompleteAtOnceOnAFinishedFolder) {
   const TemporaryFolder folder;
   EvaluationOptions options = optionsFor(folder);
-  options.poses = 4;
+  options.poses.count = 4;
   {
     Evaluation evaluation(options, {});
     for (int pose = 0; pose < 4; ++pose) feedPose(evaluation, pose);
@@ -254,7 +237,7 @@ TEST(Evaluation, RefusesAFolderOfOtherSettingsNamingThem) {
 TEST(Evaluation, TakesAFolderOfOtherSettingsInWhichNothingWasEvaluatedYet) {
   const TemporaryFolder folder;
   EvaluationOptions options = optionsFor(folder);
-  options.poses = 1;
+  options.poses.count = 1;
   options.about = {{"width", "0"}};
   EXPECT_FALSE(Evaluation(options, {}).finish().isWhole());  // as where the renderer refused that width
   EXPECT_TRUE(hasLine(contentOf(folder.file("out/problems.csv")), "absent,0,"));
@@ -310,7 +293,7 @@ TEST(Evaluation, CountsAndNamesStampsBeforeTheFirstPose) {
   EvaluationOptions options = optionsFor(folder);
   options.frame_rate = 10.0;
   options.stamp_start_ns = stampOf(0);
-  options.poses = 2;
+  options.poses.count = 2;
   Evaluation evaluation(options, {});
   feedPose(evaluation, -1);
   feedPose(evaluation, 0);
@@ -327,7 +310,7 @@ TEST(Evaluation, CountsAndNamesStampsBeforeTheFirstPose) {
 TEST(Evaluation, KeepsFiveEvenlySpreadPicturesUnderTheirFinalNumbers) {
   const TemporaryFolder folder;
   EvaluationOptions options = optionsFor(folder);
-  options.poses = 21;
+  options.poses.count = 21;
   Evaluation evaluation(options, {});
   for (int pose = 0; pose < 21; ++pose) feedPose(evaluation, pose);
   evaluation.finish();

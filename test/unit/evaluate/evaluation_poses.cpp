@@ -145,7 +145,7 @@ std::string shard(const TemporaryFolder& folder, const std::string& name, int be
 Outcome merged(const TemporaryFolder& folder, const std::vector<std::string>& shards, std::size_t poses) {
   EvaluationOptions options = optionsFor(folder);
   options.merge = shards;
-  options.poses = poses;
+  options.poses.count = poses;
   Evaluation evaluation(options, {});
   EXPECT_TRUE(evaluation.isComplete());
   return evaluation.finish();

@@ -9,7 +9,7 @@
 
 #include "sunlit/evaluate/frames_file.h"
 #include "support/message_of.h"
-#include "unit/evaluate/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -20,7 +20,10 @@ FramesLayout layout() {
 
 PairRecord record(std::int64_t pose, std::size_t pair) {
   const double value = 0.1 + static_cast<double>(pose) / 3.0;
-  return {pose, 1000000000 * pose + 7, pair, {{value, 0, 0, 0, 0}, {std::nan(""), 5, 6, 7, 8}}};
+  return {pose,
+          1000000000 * pose + 7,
+          pair,
+          {{value, value, value}, {std::nan(""), -0.5, 0.25, 5, 6, 7, 8, 3, 4}}};
 }
 
 std::string messageOf(const std::string& path) {
@@ -97,9 +100,14 @@ TEST(FramesFile, GivesBackWhatWasWritten) {
   sortRecords(again);
   writeFrames(folder.file("again.csv"), layout(), again);
   EXPECT_EQ(contentOf(path), contentOf(folder.file("again.csv")));
-  EXPECT_EQ(contentOf(path).substr(0, contentOf(path).find('\n', 120)),
-            "pose,stamp,a,b,difference,value,features_a,features_b,matches,zero_second\n"
-            "0,0.000000007,h04,h12,boolean_rgb,0.10000000000000001,0,0,0,0");
+  EXPECT_EQ(contentOf(path).substr(0, contentOf(path).find("\n0,0.000000007,h04,h20,orb")),
+            "pose,stamp,a,b,difference,value,features_a,features_b,matches,zero_second,symmetric,one_to_one,"
+            "matches_back,matches_one_to_one\n"
+            "0,0.000000007,h04,h12,boolean_rgb,0.10000000000000001,0,0,0,0,0.10000000000000001,"
+            "0.10000000000000001,0,0\n"
+            "0,0.000000007,h04,h12,orb,nan,5,6,7,4,-0.5,0.25,8,3\n"
+            "0,0.000000007,h04,h20,boolean_rgb,0.10000000000000001,0,0,0,0,0.10000000000000001,"
+            "0.10000000000000001,0,0");
 }
 
 TEST(FramesFile, LosesOnlyTheTornPairAtAnyLength) {
@@ -120,16 +128,16 @@ TEST(FramesFile, LosesOnlyTheTornPairAtAnyLength) {
 TEST(FramesFile, NamesPathAndLineOfWhatItCannotRead) {
   const TemporaryFolder folder;
   const std::string path = folder.file("frames.csv");
-  const std::string start = framesHeader() + "\n0,1.000000000,h04,h12,orb,0.5,1,1,1,0\n";
+  const std::string start = framesHeader() + "\n0,1.000000000,h04,h12,orb,0.5,1,1,1,0,0.5,0.5,1,1\n";
   setContent(path, "pose,value\n");
   EXPECT_NE(messageOf(path).find("frames.csv:1: "), std::string::npos);
   setContent(path, start + "0,1.000000000,h04\n");
   EXPECT_NE(messageOf(path).find("frames.csv:3: "), std::string::npos);
-  setContent(path, start + "0,1.000000000,h04,h12,sift,0.5,1,1,1,0\n");
+  setContent(path, start + "0,1.000000000,h04,h12,sift,0.5,1,1,1,0,0.5,0.5,1,1\n");
   EXPECT_NE(messageOf(path).find("frames.csv:3: the difference sift"), std::string::npos);
-  setContent(path, start + "0,1.000000000,h12,h04,orb,0.5,1,1,1,0\n");
+  setContent(path, start + "0,1.000000000,h12,h04,orb,0.5,1,1,1,0,0.5,0.5,1,1\n");
   EXPECT_NE(messageOf(path).find("frames.csv:3: the pair h12, h04"), std::string::npos);
-  setContent(path, start + "0,1.000000000,h04,h12,orb,half,1,1,1,0\n");
+  setContent(path, start + "0,1.000000000,h04,h12,orb,half,1,1,1,0,0.5,0.5,1,1\n");
   EXPECT_NE(messageOf(path).find("frames.csv:3: \"half\""), std::string::npos);
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "sunlit/evaluate/evaluation.h"
-#include "unit/evaluate/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace sunlit::evaluate {
 

@@ -76,7 +76,7 @@ double bestSideForBlob(double sigma) {
   return best_side;
 }
 
-TEST(Surf, findsAGaussianBlobAtItsCentreAndScale) {
+TEST(Surf, FindsAGaussianBlobAtItsCentreAndScale) {
   for (const double sigma : {2.5, 4.0, 6.0, 9.0, 14.0}) {
     const cv::Point2d centre(150.3, 120.6);
     const auto found = featuresOf(blob({300, 240}, centre, sigma));
@@ -90,19 +90,19 @@ TEST(Surf, findsAGaussianBlobAtItsCentreAndScale) {
   }
 }
 
-TEST(Surf, tellsBrightBlobsFromDarkOnes) {
+TEST(Surf, TellsBrightBlobsFromDarkOnes) {
   EXPECT_EQ(featuresOf(blob({120, 120}, {60, 60}, 4, 100)).points.at(0).class_id, -1);
   EXPECT_EQ(featuresOf(blob({120, 120}, {60, 60}, 4, -90)).points.at(0).class_id, 1);
 }
 
-TEST(Surf, responseIsTheSquareOfContrast) {
+TEST(Surf, ResponseIsTheSquareOfContrast) {
   const auto weak = featuresOf(blob({120, 120}, {60, 60}, 4, 50)).points.at(0);
   const auto strong = featuresOf(blob({120, 120}, {60, 60}, 4, 150)).points.at(0);
   // Grey levels are whole numbers: up to half a level in fifty at every pixel, which the filter averages.
   EXPECT_NEAR(strong.response / weak.response, 9, 0.2);
 }
 
-TEST(Surf, negativeHasTheSamePointsTurnedAbout) {
+TEST(Surf, NegativeHasTheSamePointsTurnedAbout) {
   const cv::Mat picture = test::madePicture(320, 240);
   const auto a = featuresOf(picture);
   const auto b = featuresOf(255 - picture);
@@ -117,7 +117,7 @@ TEST(Surf, negativeHasTheSamePointsTurnedAbout) {
   }
 }
 
-TEST(Surf, turnsWithThePicture) {
+TEST(Surf, TurnsWithThePicture) {
   const cv::Mat picture = test::madePicture(320, 240);
   cv::Mat turned;
   cv::rotate(picture, turned, cv::ROTATE_90_CLOCKWISE);
@@ -142,7 +142,7 @@ TEST(Surf, turnsWithThePicture) {
   EXPECT_GE(same, static_cast<int>(0.9 * static_cast<double>(a.points.size())));
 }
 
-TEST(Surf, growsWithThePicture) {
+TEST(Surf, GrowsWithThePicture) {
   for (const double sigma : {3.0, 6.0}) {
     const auto small = featuresOf(blob({200, 200}, {99.3, 99.3}, sigma)).points.at(0);
     const auto large = featuresOf(blob({400, 400}, {199.1, 199.1}, 2 * sigma)).points.at(0);
@@ -150,7 +150,7 @@ TEST(Surf, growsWithThePicture) {
   }
 }
 
-TEST(Surf, descriptorsHaveUnitLength) {
+TEST(Surf, DescriptorsHaveUnitLength) {
   for (const bool extended : {false, true}) {
     SurfOptions options;
     options.extended = extended;
@@ -161,7 +161,7 @@ TEST(Surf, descriptorsHaveUnitLength) {
   }
 }
 
-TEST(Surf, sortsByResponseAboveTheThreshold) {
+TEST(Surf, SortsByResponseAboveTheThreshold) {
   SurfOptions options;
   options.hessian_threshold = 500;
   const auto f = featuresOf(test::madePicture(320, 240), options);
@@ -176,14 +176,14 @@ TEST(Surf, sortsByResponseAboveTheThreshold) {
   EXPECT_GT(featuresOf(test::madePicture(320, 240), options).points.size(), f.points.size());
 }
 
-TEST(Surf, uprightPointsHaveNoOrientation) {
+TEST(Surf, UprightPointsHaveNoOrientation) {
   SurfOptions options;
   options.upright = true;
   for (const auto& point : featuresOf(test::madePicture(200, 150), options).points)
     EXPECT_EQ(point.angle, 270);
 }
 
-TEST(Surf, keepsToTheMask) {
+TEST(Surf, KeepsToTheMask) {
   const cv::Mat picture = test::madePicture(320, 240);
   cv::Mat mask = cv::Mat::zeros(picture.size(), CV_8U);
   mask(cv::Rect(80, 60, 160, 120)) = 1;
@@ -195,7 +195,7 @@ TEST(Surf, keepsToTheMask) {
   EXPECT_TRUE(sameBits(featuresOf(picture, {}, cv::Mat::ones(picture.size(), CV_8U)), featuresOf(picture)));
 }
 
-TEST(Surf, flatAndTinyPicturesHaveNoPoints) {
+TEST(Surf, FlatAndTinyPicturesHaveNoPoints) {
   EXPECT_TRUE(featuresOf(cv::Mat(240, 320, CV_8U, cv::Scalar(77))).points.empty());
   for (const int side : {1, 2, 9, 20, 27, 28, 30}) {
     EXPECT_TRUE(featuresOf(cv::Mat(side, side, CV_8U, cv::Scalar(77))).points.empty()) << side;
@@ -206,7 +206,7 @@ TEST(Surf, flatAndTinyPicturesHaveNoPoints) {
   }
 }
 
-TEST(Surf, describesGivenPointsWhereverTheyLie) {
+TEST(Surf, DescribesGivenPointsWhereverTheyLie) {
   const cv::Mat picture = test::madePicture(160, 120);
   std::vector<cv::KeyPoint> points;
   for (const float size : {4.0f, 9.0f, 40.0f}) {
@@ -222,7 +222,7 @@ TEST(Surf, describesGivenPointsWhereverTheyLie) {
   EXPECT_EQ(descriptors.rows, 9);
 }
 
-TEST(Surf, takesColourByItsGrey) {
+TEST(Surf, TakesColourByItsGrey) {
   cv::Mat bgr, grey;
   const cv::Mat p = test::madePicture(200, 150);
   cv::merge(std::vector<cv::Mat>{p, 255 - p, p / 2}, bgr);
@@ -230,7 +230,7 @@ TEST(Surf, takesColourByItsGrey) {
   EXPECT_TRUE(sameBits(featuresOf(bgr), featuresOf(grey)));
 }
 
-TEST(Surf, refusesWhatOpenCvRefuses) {
+TEST(Surf, RefusesWhatOpenCvRefuses) {
   const auto surf = createSurf();
   std::vector<cv::KeyPoint> points;
   cv::Mat descriptors;
@@ -243,25 +243,25 @@ TEST(Surf, refusesWhatOpenCvRefuses) {
   EXPECT_THROW(surf->detectAndCompute(good, cv::noArray(), points, cv::noArray(), true), cv::Exception);
 }
 
-TEST(Surf, refusesOptionsOutOfRangeByName) {
+TEST(Surf, RefusesOptionsOutOfRangeByName) {
   const auto messageOf = [](const SurfOptions& options) {
     return sunlit::messageOf([&] { createSurf(options); });
   };
   SurfOptions bad;
   bad.hessian_threshold = -1;
-  EXPECT_EQ(messageOf(bad), "SURF: hessian_threshold is -1, but must be finite and at least 0");
+  EXPECT_EQ(messageOf(bad), "hessian_threshold is -1, but must be from 0 to 1000000");
   bad = {};
   bad.octaves = 0;
-  EXPECT_EQ(messageOf(bad), "SURF: octaves is 0, but must be from 1 to 8");
+  EXPECT_EQ(messageOf(bad), "n_octaves is 0, but must be from 1 to 8");
   bad = {};
   bad.octave_layers = 17;
-  EXPECT_EQ(messageOf(bad), "SURF: octave_layers is 17, but must be from 1 to 16");
+  EXPECT_EQ(messageOf(bad), "n_octave_layers is 17, but must be from 1 to 16");
   bad = {};
   bad.hessian_threshold = std::nan("");
   EXPECT_NE(messageOf(bad), "");
 }
 
-TEST(Surf, isTheSameForAnyNumberOfThreads) {
+TEST(Surf, IsTheSameForAnyNumberOfThreads) {
   const cv::Mat picture = test::madePicture(320, 240);
   const auto with_threads = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -272,7 +272,7 @@ TEST(Surf, isTheSameForAnyNumberOfThreads) {
   for (const std::size_t threads : {2, 3, 8}) EXPECT_TRUE(sameBits(one, with_threads(threads))) << threads;
 }
 
-TEST(Surf, plainLoopsGiveTheSameBits) {
+TEST(Surf, PlainLoopsGiveTheSameBits) {
   const cv::Mat picture = test::madePicture(320, 240);
   Features plain;
   sunlit_plain::evaluate::createSurf({})->detectAndCompute(picture, cv::noArray(), plain.points,

@@ -44,7 +44,7 @@ Features readGolden(const std::string& path) {
   return golden;
 }
 
-TEST(SurfReference, agreesPointByPointOnAMadePicture) {
+TEST(SurfReference, AgreesPointByPointOnAMadePicture) {
   const auto golden = readGolden(SUNLIT_SOURCE_DIR "/test/golden/surf_made_picture.txt");
   const auto ours = featuresOf(test::madePicture(144, 108));
   ASSERT_GT(golden.points.size(), 50u);
@@ -88,7 +88,7 @@ struct LeuvenRow {
   double difference, reverse;
 };
 
-TEST(SurfReference, agreesOnRealPhotographsUnderFallingLight) {
+TEST(SurfReference, AgreesOnRealPhotographsUnderFallingLight) {
   const std::string folder = SUNLIT_SHARED_DIR "/data/leuven/";
   const cv::Mat first = cv::imread(folder + "img1.ppm");
   if (first.empty()) GTEST_SKIP() << "no photographs in " << folder;

@@ -208,22 +208,22 @@ TEST(ExposureOptions, BadValuesAreNamedWithTheirRange) {
   EXPECT_EQ(messageOf({}), "");
   ExposureOptions options;
   options.ev100 = 25.0;
-  EXPECT_EQ(messageOf(options), "ev100: 25 is outside -16 … 24");
+  EXPECT_EQ(messageOf(options), "ev100 is 25, but must be from -16 to 24 EV");
   options = {};
   options.compensation_ev = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(messageOf(options), "compensation_ev: nan is outside -8 … 8");
+  EXPECT_EQ(messageOf(options), "compensation is nan, but must be from -8 to 8 EV");
   options = {};
   options.night_darkening = 0.6;
-  EXPECT_EQ(messageOf(options), "night_darkening: 0.6 is outside 0 … 0.5");
+  EXPECT_EQ(messageOf(options), "night_darkening is 0.6, but must be from 0 to 0.5");
   options = {};
   options.highlight_protection = -1.0;
-  EXPECT_EQ(messageOf(options), "highlight_protection: -1 is outside 0 … 20");
+  EXPECT_EQ(messageOf(options), "highlight_protection is -1, but must be from 0 to 20");
   options = {};
   options.max_ev100 = -9.0;
-  EXPECT_EQ(messageOf(options), "max_ev100: -9 is outside -8 … 24");
+  EXPECT_EQ(messageOf(options), "max_ev100 is -9, but must be from -8 to 24 EV");
   options = {};
   options.min_ev100 = -17.0;
-  EXPECT_EQ(messageOf(options), "min_ev100: -17 is outside -16 … 24");
+  EXPECT_EQ(messageOf(options), "min_ev100 is -17, but must be from -16 to 24 EV");
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 
 #include "image/read_file.h"
 #include "support/message_of.h"
+#include "support/temporary_folder.h"
 
 namespace sunlit::image {
 namespace {
@@ -24,21 +25,14 @@ namespace fs = std::filesystem;
 
 class Files : public testing::Test {
  protected:
-  Files() {
-    std::string pattern = testing::TempDir() + "sunlit_files_XXXXXX";
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~Files() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  std::string path(const std::string& name) const { return folder_.file(name); }
   std::size_t fileCount() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
   }
-  void put(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path(name), std::ios::binary) << bytes;
-  }
+  void put(const std::string& name, const std::string& bytes) const { setContent(path(name), bytes); }
 
-  std::string folder_;
+  const TemporaryFolder folder_;
 };
 
 Rgb8Image pattern() {

@@ -146,16 +146,16 @@ TEST(NoiseOptions, BadValuesAreNamedWithTheirRange) {
   EXPECT_EQ(messageOf({}), "");
   NoiseOptions options;
   options.full_well_e = 50.0;
-  EXPECT_EQ(messageOf(options), "full_well_e: 50 is outside 100 … 1e+06");
+  EXPECT_EQ(messageOf(options), "full_well_e is 50, but must be from 100 to 1000000 electrons");
   options = {};
   options.read_e = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(messageOf(options), "read_e: nan is outside 0 … 1000");
+  EXPECT_EQ(messageOf(options), "read_e is nan, but must be from 0 to 1000 electrons");
   options = {};
   options.gain_ev100 = 25.0;
-  EXPECT_EQ(messageOf(options), "gain_ev100: 25 is outside -16 … 24");
+  EXPECT_EQ(messageOf(options), "gain_ev100 is 25, but must be from -16 to 24 EV");
   options = {};
   options.seed = -1;
-  EXPECT_EQ(messageOf(options), "seed: -1 is outside 0 … 2.14748e+09");
+  EXPECT_EQ(messageOf(options), "seed is -1, but must be from 0 to 2147483647");
 }
 
 }  // namespace

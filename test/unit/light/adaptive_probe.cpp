@@ -51,19 +51,19 @@ Both lookUp(scene::Scene scene, const Eigen::Vector3f& origin) {
   const BakeRays rays(geometry);
   const std::vector<TriangleTraits> traits = triangleTraits(*geometry, rays);
   const SkyPatches patches(kRays);
-  Site site;
-  site.origins.fill(origin);
-  site.lifts.fill(0.005f * Eigen::Vector3f::UnitZ());
-  site.normal = Eigen::Vector3f::UnitZ();
-  const SiteGroup sites(&site, 1);
+  Receiver receiver;
+  receiver.origins.fill(origin);
+  receiver.lifts.fill(0.005f * Eigen::Vector3f::UnitZ());
+  receiver.normal = Eigen::Vector3f::UnitZ();
+  const ReceiverGroup receivers(&receiver, 1);
   Both both;
   const auto into = [&](Outcome* to) {
     return [&patches, to](int i, std::size_t r, float weight, const HitPacket& hits) {
       to->add(r, patches.rays()[r].patch, weight, hits.triangle[i] == HitPacket::kNothing);
     };
   };
-  AdaptiveProbe(rays, traits, patches).look(sites, into(&both.adaptive));
-  probe(rays, patches.rays(), sites, into(&both.whole));
+  AdaptiveProbe(rays, traits, patches).look(receivers, into(&both.adaptive));
+  probe(rays, patches.rays(), receivers, into(&both.whole));
   return both;
 }
 

@@ -277,7 +277,7 @@ TEST(FinalGather, RefusesANumberOfRaysOutOfRange) {
   const World world = worldOf(levelLeaf());
   for (const int rays : {0, 17}) {
     EXPECT_EQ(messageOf([&] { FinalGather(world.geometry, world.visibility, rays); }),
-              "final gathering: " + std::to_string(rays) + " rays per patch are outside 1 … 16");
+              "final_gather is " + std::to_string(rays) + ", but must be from 1 to 16");
   }
 }
 

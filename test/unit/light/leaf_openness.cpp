@@ -44,13 +44,13 @@ OnLeaf onLeaf(const Geometry& geometry, const Eigen::Vector3f& point) {
   throw std::logic_error("no leaf there");
 }
 
-SkyView viewAt(const Geometry& geometry, const LeafOpenness& leaves, const Eigen::Vector3f& point) {
+SkyOpenness viewAt(const Geometry& geometry, const LeafOpenness& leaves, const Eigen::Vector3f& point) {
   const OnLeaf place = onLeaf(geometry, point);
   return leaves.at(place.triangle, place.within);
 }
 
 /// Share of the half sphere about `normal`, by cosine, that is open sky.
-float openAround(const SkyView& view, const Eigen::Vector3f& normal) {
+float openAround(const SkyOpenness& view, const Eigen::Vector3f& normal) {
   return SkySectors(uniformDay(1.0f)).irradiance(view, normal)[3];
 }
 
@@ -62,7 +62,7 @@ TEST(LeafOpenness, OpenLeavesSeeTheSkyAboveThemAndNoneBelow) {
   scene::Scene scene = levelLeaf();
   std::shared_ptr<const Geometry> geometry;
   const LeafOpenness leaves = opennessOf(scene, &geometry);
-  const SkyView view = viewAt(*geometry, leaves, {0.3f, -0.2f, 2.0f});
+  const SkyOpenness view = viewAt(*geometry, leaves, {0.3f, -0.2f, 2.0f});
   EXPECT_TRUE(view.known);
   EXPECT_NEAR(openAround(view, Eigen::Vector3f::UnitZ()), 1.0f, kExact);
   EXPECT_NEAR(openAround(view, -Eigen::Vector3f::UnitZ()), 0.0f, kExact);
@@ -73,7 +73,7 @@ TEST(LeafOpenness, UprightLeavesSeeHalfTheSkyOnEitherSide) {
   addPatch(&scene, kLeaf, {1.0f, -1.0f, 2.0f}, {0.0f, 2.0f, 0.0f}, {0.0f, 0.0f, 2.0f});
   std::shared_ptr<const Geometry> geometry;
   const LeafOpenness leaves = opennessOf(scene, &geometry);
-  const SkyView view = viewAt(*geometry, leaves, {1.0f, 0.2f, 3.1f});
+  const SkyOpenness view = viewAt(*geometry, leaves, {1.0f, 0.2f, 3.1f});
   for (const float side : {-1.0f, 1.0f})
     EXPECT_NEAR(openAround(view, side * Eigen::Vector3f::UnitX()), 0.5f, kExact);
 }
@@ -83,7 +83,7 @@ TEST(LeafOpenness, TellsTheSideOfTheSkyThatAWallHides) {
   addPatch(&scene, kBoard, {1.5f, -200.0f, 0.0f}, {0.0f, 400.0f, 0.0f}, {0.0f, 0.0f, 200.0f});
   std::shared_ptr<const Geometry> geometry;
   const LeafOpenness leaves = opennessOf(scene, &geometry);
-  const SkyView view = viewAt(*geometry, leaves, {0.3f, -0.2f, 2.0f});
+  const SkyOpenness view = viewAt(*geometry, leaves, {0.3f, -0.2f, 2.0f});
   // 0.06: as kExact, and a wall that ends in the north and south: its last 0.4° of azimuth lie in sectors of
   // 36 and 60°, which are one number each.
   EXPECT_NEAR(openAround(view, Eigen::Vector3f::UnitX()), 0.0f, 0.06f);

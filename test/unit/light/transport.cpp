@@ -379,7 +379,7 @@ TEST(BakedLight, RefusesOptionsOutOfRange) {
   TransportOptions options;
   options.finest_m = 0.0;
   const std::string error = messageOf([&] { Transport::bake(world.geometry, options); });
-  EXPECT_NE(error.find("finest_m: 0 is outside 0.02 … 10"), std::string::npos) << error;
+  EXPECT_NE(error.find("finest is 0, but must be from 0.02 to 10 m"), std::string::npos) << error;
 }
 
 }  // namespace

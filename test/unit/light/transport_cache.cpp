@@ -1,7 +1,6 @@
 // A bake comes back from disk as it went there, and nothing else does.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -15,6 +14,7 @@
 #include "light/transport/cache_folder.h"
 #include "paper_scene.h"
 #include "sunlit/light/transport.h"
+#include "support/temporary_folder.h"
 
 namespace sunlit::light {
 namespace {
@@ -31,20 +31,13 @@ scene::Scene wallOnGround(float albedo = 0.4f) {
 
 class TransportCache : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "sunlit_cache_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// Green light of all nodes under an even sky.
   std::vector<float> light(const World& world, const TransportOptions& options = {}) {
     baked_ = false;
     log_.clear();
-    const auto transport = Transport::cached(
-        world.geometry, options, folder_.string(), [this](double, double) { baked_ = true; },
-        [this](const std::string& line) { log_.push_back(line); });
+    const auto transport = Transport::cached(world.geometry, options, folder_.string(),
+                                             {[this](double, double) { baked_ = true; },
+                                              [this](const std::string& line) { log_.push_back(line); }});
     std::vector<float> values;
     for (const NodeLight& node : transport->relight(uniformDay(100.0f))) values.push_back(node.irradiance[1]);
     return values;
@@ -55,13 +48,6 @@ class TransportCache : public testing::Test {
     for (const auto& entry : fs::directory_iterator(folder_)) found.push_back(entry.path());
     std::sort(found.begin(), found.end());
     return found;
-  }
-  std::string content(const fs::path& file) const {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-  void write(const fs::path& file, const std::string& bytes) const {
-    std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
   }
   /// The file on disk was refused for `reason`, made anew, and is good now.
   void expectRebuilt(const World& world, const std::string& reason, const std::vector<float>& expected) {
@@ -74,7 +60,8 @@ class TransportCache : public testing::Test {
     EXPECT_FALSE(baked_);
   }
 
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
   bool baked_ = false;
   std::vector<std::string> log_;
 };
@@ -112,27 +99,27 @@ TEST_F(TransportCache, RebuildsWhatIsDamagedCutShortOrForeign) {
   const World world = worldOf(wallOnGround());
   const std::vector<float> expected = light(world);
   const fs::path file = files().at(0);
-  const std::string good = content(file);
+  const std::string good = contentOf(file);
 
   std::string damaged = good;
   damaged[good.size() / 2] = static_cast<char>(damaged[good.size() / 2] ^ 1);
-  write(file, damaged);
+  setContent(file, damaged);
   expectRebuilt(world, "is damaged", expected);
 
   for (const std::size_t size : {good.size() - 1, good.size() / 2, std::size_t{200}}) {
-    write(file, good.substr(0, size));
+    setContent(file, good.substr(0, size));
     expectRebuilt(world, "is cut short", expected);
   }
   for (const std::string& foreign : {std::string(), std::string("P6 640 480 255 "), std::string(500, 'x')}) {
-    write(file, foreign);
+    setContent(file, foreign);
     expectRebuilt(world, "is no baked light", expected);
   }
-  write(file, good + "more");
+  setContent(file, good + "more");
   expectRebuilt(world, "is longer than it should be", expected);
 
   std::string counts = good;  // an absurd length must not be believed
   for (std::size_t i = 32; i < 40; ++i) counts[i] = '\x7f';
-  write(file, counts);
+  setContent(file, counts);
   expectRebuilt(world, "is damaged", expected);
 }
 
@@ -153,10 +140,10 @@ TEST_F(TransportCache, WorksWithoutAFolder) {
   const World world = worldOf(wallOnGround());
   const std::vector<float> expected = light(world);
   const fs::path file = folder_ / "a_file";
-  write(file, "in the way");
+  setContent(file, "in the way");
   std::vector<std::string> log;
-  const auto transport = Transport::cached(world.geometry, {}, (file / "below").string(), nullptr,
-                                           [&](const std::string& line) { log.push_back(line); });
+  const auto transport = Transport::cached(world.geometry, {}, (file / "below").string(),
+                                           {nullptr, [&](const std::string& line) { log.push_back(line); }});
   EXPECT_EQ(transport->relight(uniformDay(100.0f)).size(), expected.size());
   ASSERT_EQ(log.size(), 1u);
   EXPECT_NE(log[0].find("a_file"), std::string::npos) << log[0];
@@ -185,7 +172,7 @@ TEST_F(TransportCache, IsBakedOnceByThoseWhoWantItTogether) {
   std::atomic<int> bakes{0};
   const auto want = [&] {
     bool baked = false;
-    Transport::cached(world.geometry, {}, folder_.string(), [&](double, double) { baked = true; });
+    Transport::cached(world.geometry, {}, folder_.string(), {[&](double, double) { baked = true; }, nullptr});
     if (baked) ++bakes;
   };
   std::thread first(want), second(want), third(want);
@@ -249,12 +236,12 @@ TEST_F(CacheLimit, NeverRemovesWhatIsInUse) {
 TEST_F(CacheLimit, RemovesWhatTheDeadLeftAndNothingOfStrangers) {
   const std::string key(32, 'a');
   for (const std::string& left : {key + ".light.4711.part", key + ".light.lock"})
-    write(folder_ / left, "left");
+    setContent(folder_ / left, "left");
   std::vector<fs::path> strangers;
   for (const std::string& name : {std::string("film.part"), std::string("notes.light"), key + ".light.part",
                                   key + ".lighter", "x" + key + ".light", std::string("apt.lock")}) {
     strangers.push_back(folder_ / name);
-    write(strangers.back(), "mine");
+    setContent(strangers.back(), "mine");
   }
   fs::create_directory(folder_ / (std::string(32, 'b') + ".light"));
   strangers.push_back(folder_ / (std::string(32, 'b') + ".light"));
@@ -268,7 +255,7 @@ TEST_F(CacheLimit, RemovesWhatTheDeadLeftAndNothingOfStrangers) {
 TEST_F(CacheLimit, LeavesABakeThatIsBeingMadeAlone) {
   const std::string bake = (folder_ / (std::string(32, 'c') + ".light")).string();
   const BakeTurn turn = BakeTurn::await(bake);
-  write(bake + ".4711.part", "half");
+  setContent(bake + ".4711.part", "half");
   use(0.1f, 0);
   EXPECT_TRUE(fs::exists(bake + ".4711.part"));
   EXPECT_TRUE(fs::exists(bake + ".lock"));

@@ -93,8 +93,10 @@ TEST(PosesAlong, RefusesWhatIsNoPath) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(messageOf({}), "a path needs two waypoints or more, there are 0");
   EXPECT_EQ(messageOf({{1, 2, 3}}), "a path needs two waypoints or more, there is 1");
-  EXPECT_EQ(messageOf({{0, 0, 0}, {1, nan, 0}}), "waypoint 1: y is nan, must be -1e+07 … 1e+07 m");
-  EXPECT_EQ(messageOf({{0, 0, 0}, {1, 0, -1e300}}), "waypoint 1: z is -1e+300, must be -1e+07 … 1e+07 m");
+  EXPECT_EQ(messageOf({{0, 0, 0}, {1, nan, 0}}),
+            "waypoint 1: y is nan, but must be from -10000000 to 10000000 m");
+  EXPECT_EQ(messageOf({{0, 0, 0}, {1, 0, -1e300}}),
+            "waypoint 1: z is -1e+300, but must be from -10000000 to 10000000 m");
   EXPECT_EQ(messageOf({{0, 0, 0}, {20000, 0, 0}}, {0.001, 0.0}),
             "waypoint 0: from here to the next are 20000.000000 m, more poses than the 10 million allowed");
   // Straight above each other is no direction to look in, either.
@@ -104,8 +106,8 @@ TEST(PosesAlong, RefusesWhatIsNoPath) {
 
 TEST(PathOptions, NameKeyValueAndRange) {
   const Waypoints waypoints{{0, 0, 0}, {1, 0, 0}};
-  EXPECT_EQ(messageOf(waypoints, {0.0, 1.0}), "spacing_m is 0, must be 0.001 … 1000 m");
-  EXPECT_EQ(messageOf(waypoints, {1.0, 2e3}), "height_m is 2000, must be -1000 … 1000 m");
+  EXPECT_EQ(messageOf(waypoints, {0.0, 1.0}), "spacing is 0, but must be from 0.001 to 1000 m");
+  EXPECT_EQ(messageOf(waypoints, {1.0, 2e3}), "camera_height is 2000, but must be from -1000 to 1000 m");
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(validate(PathOptions{nan, 1.0}), std::invalid_argument);
 }

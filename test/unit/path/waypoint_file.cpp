@@ -1,6 +1,5 @@
 // Waypoint files, good and broken.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -8,6 +7,7 @@
 
 #include "sunlit/path/path.h"
 #include "support/message_of.h"
+#include "support/temporary_folder.h"
 
 namespace sunlit::path {
 namespace {
@@ -17,8 +17,6 @@ namespace fs = std::filesystem;
 /// A file that goes when the test ends.
 class WaypointFile : public ::testing::Test {
  protected:
-  void TearDown() override { fs::remove(path_); }
-
   Waypoints read(const std::string& content) {
     std::ofstream(path_) << content;
     return readWaypoints(path_.string());
@@ -31,8 +29,8 @@ class WaypointFile : public ::testing::Test {
     return named ? text.substr(path_.string().size()) : text;
   }
 
-  const fs::path path_ =
-      fs::temp_directory_path() / ("sunlit_waypoints_" + std::to_string(getpid()) + ".txt");
+  const TemporaryFolder folder_;
+  const fs::path path_ = folder_.file("waypoints.txt");
 };
 
 TEST_F(WaypointFile, CsvWithCommentsHeaderAndBlankLines) {

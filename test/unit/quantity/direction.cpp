@@ -13,7 +13,7 @@ void expectVector(const Direction& direction, double east, double north, double 
   EXPECT_NEAR(direction.vector().z(), up, kRounding);
 }
 
-TEST(Direction, mapIsEastNorthUp) {
+TEST(Direction, MapIsEastNorthUp) {
   expectVector(Direction(Azimuth::degrees(0.0), Angle()), 0, 1, 0);
   expectVector(Direction(Azimuth::degrees(90.0), Angle()), 1, 0, 0);
   expectVector(Direction(Azimuth::degrees(180.0), Angle()), 0, -1, 0);
@@ -22,12 +22,12 @@ TEST(Direction, mapIsEastNorthUp) {
   expectVector(Direction(), 0, 0, 1);
 }
 
-TEST(Direction, isAUnitVectorOfAnyVector) {
+TEST(Direction, IsAUnitVectorOfAnyVector) {
   expectVector(Direction(Eigen::Vector3d(0.0, 0.0, -5.0)), 0, 0, -1);
   EXPECT_NEAR(Direction(Eigen::Vector3d(1e-30, 2e-30, 3e-30)).vector().norm(), 1.0, kRounding);
 }
 
-TEST(Direction, azimuthAndElevationComeBack) {
+TEST(Direction, AzimuthAndElevationComeBack) {
   for (int azimuth = 0; azimuth < 360; azimuth += 15) {
     for (int elevation = -75; elevation <= 75; elevation += 15) {
       const Direction direction(Azimuth::degrees(azimuth), Angle::degrees(elevation));

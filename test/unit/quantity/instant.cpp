@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::int64_t kDay = Instant::kNanosecondsPerDay;
 
-TEST(Instant, carriesNanosecondsIntoDays) {
+TEST(Instant, CarriesNanosecondsIntoDays) {
   EXPECT_EQ(Instant(10, kDay), Instant(11, 0));
   EXPECT_EQ(Instant(10, -1), Instant(9, kDay - 1));
   EXPECT_EQ(Instant(10, -kDay), Instant(9, 0));
@@ -15,7 +15,7 @@ TEST(Instant, carriesNanosecondsIntoDays) {
   EXPECT_EQ(Instant(-3, -kDay / 2), Instant(-4, kDay / 2));
 }
 
-TEST(Instant, resolvesANanosecondInAnyYear) {
+TEST(Instant, ResolvesANanosecondInAnyYear) {
   for (const std::int64_t day : {std::int64_t{0}, std::int64_t{2451545}, std::int64_t{3912515}}) {
     const Instant instant(day, kDay - 1);
     EXPECT_NE(instant, instant.plusNanoseconds(1));
@@ -26,7 +26,7 @@ TEST(Instant, resolvesANanosecondInAnyYear) {
   }
 }
 
-TEST(Instant, secondsAddUp) {
+TEST(Instant, SecondsAddUp) {
   const Instant instant(2451545, 123456789);
   for (const double s : {0.0, 1.0, -1.0, 0.25, -0.25, 86400.0, -86400.0, 1e6 + 0.5, -1e6 - 0.5}) {
     EXPECT_EQ(instant.plusSeconds(s).secondsSince(instant), s);  // all exact in binary and in nanoseconds
@@ -36,7 +36,7 @@ TEST(Instant, secondsAddUp) {
   EXPECT_NEAR(instant.plusSeconds(2.5e11).secondsSince(instant), 2.5e11, 1e-4);
 }
 
-TEST(Instant, julianDateIsNoonBased) {
+TEST(Instant, JulianDateIsNoonBased) {
   EXPECT_EQ(Instant().julianDate(), 2451545.0);
   EXPECT_EQ(Instant(2451545, kDay / 2).julianDate(), 2451545.5);
   EXPECT_EQ(Instant(2451545, kDay / 4).dayFraction(), 0.25);

@@ -9,13 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "sunlit/astronomy/celestial.h"
 #include "sunlit/astronomy/civil_time.h"
-#include "sunlit/astronomy/moon_position.h"
-#include "sunlit/astronomy/sun_position.h"
 #include "sunlit/image/exposure.h"
 #include "sunlit/light/transport.h"
-#include "sunlit/ros/star_light.h"
+#include "sunlit/studio/sky.h"
 #include "test_scenes.h"
 
 namespace sunlit::test {
@@ -29,24 +26,13 @@ const astronomy::CivilDate kDay{2024, 3, 25, 0.0};
 
 class Day {
  public:
-  sky::Daylight at(double time_s) const {
-    const Instant instant = midnight_.plusSeconds(time_s);
-    const Air air;
-    const astronomy::SolarCoordinates solar = astronomy::solarCoordinates(instant, {});
-    const astronomy::SunPosition sun = astronomy::sunPosition(solar, kSite, air);
-    const astronomy::MoonPosition moon =
-        astronomy::moonPosition(astronomy::lunarCoordinates(instant, {}), solar, kSite, air);
-    const sky::NightSky night{
-        sky::MoonInSky{moon.direction(), moon.geometricDirection(), moon.distance_m, moon.phase_angle},
-        astronomy::mapFromCelestial(instant, {}, kSite), stars_};
-    const Direction geometric(sun.azimuth, sun.elevation_geometric);
-    return atmosphere_.daylight({sun.direction(), solar.distance_au, geometric}, night);
+  sky::Daylight at(double time_s) {
+    return sky_.daylight(studio::bodiesAt(midnight_.plusSeconds(time_s), kSite));
   }
 
  private:
   Instant midnight_ = astronomy::midnightOf(kDay);
-  sky::Atmosphere atmosphere_{sky::AtmosphereOptions{}};
-  std::shared_ptr<const std::vector<sky::Star>> stars_ = ros_interface::loadStars().stars;
+  studio::Sky sky_{studio::SkyOptions{}};
 };
 
 /// Striped ground, walls to all sides, a gap under a roof, a slender post: light from everywhere and shadows
@@ -164,8 +150,8 @@ class DayOfPictures : public testing::Test {
     }
   }
 
-  static const Day& day() {
-    static const Day the_day;  // its sky takes seconds
+  static Day& day() {
+    static Day the_day;  // its sky takes seconds
     return the_day;
   }
 

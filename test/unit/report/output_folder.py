@@ -24,7 +24,8 @@ HOLDING = {
     "orb": ((0.97, 0.01), (0.85, 0.10), (0.97, 0.02)),
 }
 
-FRAMES_HEADER = "pose,stamp,a,b,difference,value,features_a,features_b,matches,zero_second"
+FRAMES_HEADER = ("pose,stamp,a,b,difference,value,features_a,features_b,matches,zero_second,symmetric,one_to_one,"
+                 "matches_back,matches_one_to_one")
 
 
 def alternating(mean, sd, count=POSES):
@@ -33,9 +34,11 @@ def alternating(mean, sd, count=POSES):
     return [mean + step if k % 2 else mean - step for k in range(count)]
 
 
-def frame(pose, a, b, difference, value, twins=0):
-    counts = (500, 400, 50) if difference in FEATURES else (0, 0, 0)
-    fields = [pose, f"{pose / 10:.9f}", a, b, difference, repr(value), *counts, twins]
+def frame(pose, a, b, difference, value, twins=0, matches=50):
+    """The symmetric and one-to-one forms lie 0.01 and 0.02 above the value."""
+    counts = (500, 400, matches) if difference in FEATURES else (0, 0, 0)
+    forms = [repr(value + 0.01), repr(value + 0.02), 45, 40] if difference in FEATURES else [repr(value), repr(value), 0, 0]
+    fields = [pose, f"{pose / 10:.9f}", a, b, difference, repr(value), *counts, twins, *forms]
     return ",".join(str(field) for field in fields)
 
 
@@ -78,6 +81,7 @@ def write_all(folder):
     write(folder, "run.yaml",
           ["settings:", "  ratio: '0.5'", "  about/world: 'race_track'", "versions:", "  sunlit: '9.8.7'",
            "counters:", "  streams:", "    'h04': {received: 40, late: 17}"])
+    write(folder, "rasterizer.yaml", ["rasterizer: 'osmesa: llvmpipe (LLVM 15.0.6, 256 bits)'"])
     write(folder, "inputs.yaml", ["sunlit: '9.8.7'", "world: '00c0ffee'", "path: '0123456789abcdef'"])
     write(folder, "problems.csv", ["kind,pose,stamp,where,reason", "undecodable,,1.5,h12,\"cut <short>, it seems\""])
     write(folder, "timing.csv", ["stage,what,count,seconds", "render,geometry,40,0.8"])

@@ -156,14 +156,28 @@ class Files(InFolder):
 
     def test_summary_file_is_taken_as_it_is(self):
         self.write("frames.csv", made.frames())
-        self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.84,0.05,0.83,0.85"])
-        self.assertEqual(self.read().summary["h04", "h12", "sift"].ci_high, 0.85)
+        self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.84,0.05,0.83,0.85,0.86,0.04,0.87,0.03,2"])
+        row = self.read().summary["h04", "h12", "sift"]
+        self.assertEqual((row.ci_high, row.symmetric_mean, row.one_to_one_mean), (0.85, 0.86, 0.87))
+
+    def test_symmetric_and_one_to_one_forms_stand_beside_the_papers(self):
+        self.write("frames.csv", [made.FRAMES_HEADER] + [made.frame(k, "a", "b", "sift", v, matches=m)
+                                                         for k, (v, m) in enumerate([(0.1, 400), (0.2, 401), (-0.3, 500)])])
+        row, = tables.counts(self.read())
+        self.assertEqual(row["forms"], ["0.00000", "0.01000", "0.02000"])
+        self.assertEqual(row["overmatched"], "2")  # of the 400 features of b
+
+    def test_frames_of_older_runs_are_read_without_them(self):
+        columns = len(files.OLD_FRAMES.split(","))
+        self.write("frames.csv", [",".join(line.split(",")[:columns]) for line in made.frames()])
+        self.write("summary.csv", [files.OLD_SUMMARY, "h04,h12,sift,40,0,0.84,0.05,0.83,0.85"])
+        self.assertEqual(tables.counts(self.read())[0]["forms"], ["0.84000", tables.MISSING, tables.MISSING])
 
     def test_summary_of_other_frames_is_pointed_out(self):
         self.write("frames.csv", made.frames(differences=["sift"], pairs=made.PAIRS[:1]))
-        self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.84,0.05,0.83,0.85"])
+        self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.84,0.05,0.83,0.85,0.86,0.04,0.87,0.03,0"])
         self.assertEqual(page.warnings(self.read()), [])
-        self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.85,0.05,0.83,0.85"])
+        self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.85,0.05,0.83,0.85,0.86,0.04,0.87,0.03,0"])
         self.assertEqual(len(page.warnings(self.read())), 1)
 
     def test_missing_folder_and_frames_are_named(self):
@@ -173,7 +187,7 @@ class Files(InFolder):
 
     def test_malformed_lines_are_named(self):
         good = made.frames()[:3]
-        for bad, what in [("1,2,3", "3 fields"), (good[2].replace(",h04", ",h04,h04"), "11 fields"),
+        for bad, what in [("1,2,3", "3 fields"), (good[2].replace(",h04", ",h04,h04"), "15 fields"),
                           ("x" + good[2], "pose is 'x1'"),
                           (good[2].replace(",0,0,0,", ",0,0.5,0,"), "features_b is '0.5'"),
                           (re.sub(r"boolean_rgb,[^,]*", "boolean_rgb,inf", good[2]), "value is 'inf'"),
@@ -239,6 +253,7 @@ class Page(InFolder):
         self.assertEqual(html.count("data:image/svg+xml"), 3)
         self.assertEqual(html.count("data:image/jpeg"), 5 * 3)
         for text in ("0.84000", "0.84577", "9.8.7", "race_track", "4321", "geometry", "20.00", "00c0ffee",
+                     "osmesa: llvmpipe (LLVM 15.0.6, 256 bits)",
                      "cut &lt;short&gt;, it seems", "<td>17</td>"):
             self.assertIn(text, html)
         self.assertNotIn('class="absent"', html)

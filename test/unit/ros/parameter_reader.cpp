@@ -43,7 +43,7 @@ TEST(ParameterReader, NamesKeyValueAndRangeOfABadValue) {
   EXPECT_EQ(messageOf([&] {
               reader.number("site/latitude", 0.0, {-90, 90});
             }),
-            "parameter /node/site/latitude is 91, but must be a number from -90 to 90");
+            "parameter /node/site/latitude is 91, but must be from -90 to 90");
   EXPECT_EQ(messageOf([&] {
               reader.choice("mode", "auto", {"auto", "manual"});
             }),

@@ -7,7 +7,7 @@
 
 #include "support/message_of.h"
 #include "unit/scene/measure.h"
-#include "unit/scene/temporary_folder.h"
+#include "unit/scene/scene_files.h"
 
 namespace sunlit::scene {
 namespace {
@@ -52,7 +52,7 @@ Scene sample() {
   return scene;
 }
 
-class ExportGltf : public TemporaryFolder {};
+class ExportGltf : public SceneFiles {};
 
 /// Every corner of every triangle in order. Vertices may be merged and renumbered on the way.
 void expectSameCorners(const Mesh& a, const Mesh& b) {

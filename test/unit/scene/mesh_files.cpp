@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "unit/scene/measure.h"
-#include "unit/scene/temporary_folder.h"
+#include "unit/scene/scene_files.h"
 
 namespace sunlit::scene {
 namespace {
@@ -54,7 +54,7 @@ std::string collada(const std::string& asset, const std::string& image = "",
 
 const std::string kCentimetresZUp = "<unit meter='0.01' name='centimeter'/><up_axis>Z_UP</up_axis>";
 
-class MeshFile : public TemporaryFolder {
+class MeshFile : public SceneFiles {
  protected:
   void expectOneWarning(const Scene& scene, const std::string& part) {
     ASSERT_EQ(scene.warnings.size(), 1u);

@@ -15,7 +15,7 @@
 #include "scene/race_track/course.h"
 #include "scene/race_track/noise.h"
 #include "sunlit/path/path.h"
-#include "sunlit/quantity/fingerprint.h"
+#include "sunlit/scene/content_hash.h"
 
 namespace sunlit::scene {
 namespace {
@@ -25,8 +25,8 @@ const Scene& world() {
   return scene;
 }
 
-std::uint64_t fingerprint(const Scene& scene) {
-  Fingerprint print;
+std::string fingerprint(const Scene& scene) {
+  ContentHash print;
   for (const Texture& texture : scene.textures) print.add(texture.rgba);
   for (const Mesh& mesh : scene.meshes) {
     print.add(mesh.positions);
@@ -35,7 +35,7 @@ std::uint64_t fingerprint(const Scene& scene) {
     print.add(mesh.colors);
     print.add(mesh.triangles);
   }
-  return print.value();
+  return print.text();
 }
 
 /// Height of the highest surface of the asphalt below (x, y, ∞), if there is any.
@@ -58,19 +58,19 @@ std::optional<double> roadHeight(double x, double y) {
   return height;
 }
 
-TEST(RaceTrack, isTheSameBitsAtEveryCallAndForAnyThreadCount) {
-  const std::uint64_t with_all_threads = fingerprint(world());
+TEST(RaceTrack, IsTheSameBitsAtEveryCallAndForAnyThreadCount) {
+  const std::string with_all_threads = fingerprint(world());
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   EXPECT_EQ(with_all_threads, fingerprint(raceTrack()));
 }
 
-TEST(RaceTrack, isAValidScene) {
+TEST(RaceTrack, IsAValidScene) {
   EXPECT_NO_THROW(validate(world()));
   EXPECT_TRUE(world().warnings.empty());
   EXPECT_EQ(world().name, "race_track");
 }
 
-TEST(RaceTrack, hasEnoughTrianglesAndModestTextures) {
+TEST(RaceTrack, HasEnoughTrianglesAndModestTextures) {
   EXPECT_GE(world().triangleCount(), 200000u);
   EXPECT_LE(world().triangleCount(), 700000u);
   std::size_t bytes = 0;
@@ -78,7 +78,7 @@ TEST(RaceTrack, hasEnoughTrianglesAndModestTextures) {
   EXPECT_LE(bytes, 150000000u);
 }
 
-TEST(RaceTrack, normalsAreOfUnitLength) {
+TEST(RaceTrack, NormalsAreOfUnitLength) {
   for (const Mesh& mesh : world().meshes) {
     for (const Eigen::Vector3f& normal : mesh.normals) {
       // Single precision: a few roundings of 6e-8.
@@ -87,7 +87,7 @@ TEST(RaceTrack, normalsAreOfUnitLength) {
   }
 }
 
-TEST(RaceTrack, trianglesLieWithinTheirVertices) {
+TEST(RaceTrack, TrianglesLieWithinTheirVertices) {
   for (const Mesh& mesh : world().meshes) {
     for (const auto& triangle : mesh.triangles) {
       for (const std::uint32_t index : triangle) ASSERT_LT(index, mesh.positions.size()) << mesh.name;
@@ -95,7 +95,7 @@ TEST(RaceTrack, trianglesLieWithinTheirVertices) {
   }
 }
 
-TEST(RaceTrack, meshesNearTheTrackAreCompact) {
+TEST(RaceTrack, MeshesNearTheTrackAreCompact) {
   for (const Mesh& mesh : world().meshes) {
     Eigen::AlignedBox3f box;
     for (const Eigen::Vector3f& p : mesh.positions) box.extend(p);
@@ -107,7 +107,7 @@ TEST(RaceTrack, meshesNearTheTrackAreCompact) {
   }
 }
 
-TEST(RaceTrack, albedosAreReal) {
+TEST(RaceTrack, AlbedosAreReal) {
   // Nothing outdoors but fresh snow reflects more than 0.9.
   for (const Mesh& mesh : world().meshes) {
     const Material& material = world().materials[static_cast<std::size_t>(mesh.material)];
@@ -120,14 +120,14 @@ TEST(RaceTrack, albedosAreReal) {
   }
 }
 
-TEST(RaceTrackCourse, isClosedAndAtLeastAKilometreLong) {
+TEST(RaceTrackCourse, IsClosedAndAtLeastAKilometreLong) {
   const race_track::Course& course = race_track::course();
   EXPECT_GE(course.length(), 1000.0);
   // The same place, reached after one lap; the line is sampled every half metre and linear between.
   EXPECT_LT((course.point({0.0, 0.0}) - course.point({course.length(), 0.0})).norm(), 1e-9);
 }
 
-TEST(RaceTrackCourse, nearestUndoesPoint) {
+TEST(RaceTrackCourse, NearestUndoesPoint) {
   const race_track::Course& course = race_track::course();
   for (double along = 3.0; along < course.length(); along += 7.3) {
     for (const double left : {-6.0, -1.0, 0.0, 4.0}) {
@@ -140,11 +140,11 @@ TEST(RaceTrackCourse, nearestUndoesPoint) {
   }
 }
 
-TEST(RaceTrackPath, gives991Poses) {
+TEST(RaceTrackPath, Gives991Poses) {
   EXPECT_EQ(path::posesAlong(raceTrackWaypoints(), path::PathOptions()).size(), 991u);
 }
 
-TEST(RaceTrackPath, segmentsStayClearOfWholeMetres) {
+TEST(RaceTrackPath, SegmentsStayClearOfWholeMetres) {
   // Else rounding would decide how many poses a segment has.
   const std::vector<Eigen::Vector3d> waypoints = raceTrackWaypoints();
   for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
@@ -155,7 +155,7 @@ TEST(RaceTrackPath, segmentsStayClearOfWholeMetres) {
   }
 }
 
-TEST(RaceTrackPath, liesOnTheAsphalt) {
+TEST(RaceTrackPath, LiesOnTheAsphalt) {
   for (const Eigen::Vector3d& waypoint : raceTrackWaypoints()) {
     const std::optional<double> height = roadHeight(waypoint.x(), waypoint.y());
     ASSERT_TRUE(height.has_value()) << waypoint.transpose();
@@ -164,7 +164,7 @@ TEST(RaceTrackPath, liesOnTheAsphalt) {
   }
 }
 
-TEST(RaceTrackPath, drivesOnceRound) {
+TEST(RaceTrackPath, DrivesOnceRound) {
   const race_track::Course& course = race_track::course();
   double travelled = 0.0;
   const std::vector<Eigen::Vector3d> waypoints = raceTrackWaypoints();
@@ -179,33 +179,33 @@ TEST(RaceTrackPath, drivesOnceRound) {
   EXPECT_LT(travelled, course.length());
 }
 
-TEST(RaceTrackPictures, noTwoAreAlike) {
-  std::set<std::uint64_t> seen;
+TEST(RaceTrackPictures, NoTwoAreAlike) {
+  std::set<std::string> seen;
   for (const Texture& texture : world().textures) {
-    Fingerprint print;
+    ContentHash print;
     print.add(texture.rgba);
-    EXPECT_TRUE(seen.insert(print.value()).second) << texture.name;
+    EXPECT_TRUE(seen.insert(print.text()).second) << texture.name;
   }
 }
 
 /// Copies of one patch in the picture of the road: blocks of 16×16 px (64×32 cm) that equal another one.
-TEST(RaceTrackPictures, theRoadRepeatsNowhere) {
+TEST(RaceTrackPictures, TheRoadRepeatsNowhere) {
   constexpr int kBlock = 16;
-  std::map<std::uint64_t, std::string> seen;
+  std::map<std::string, std::string> seen;
   int repeated = 0;
   int blocks = 0;
   for (const Texture& texture : world().textures) {
     if (texture.name.rfind("road", 0) != 0) continue;
     for (int y = 0; y + kBlock <= texture.height; y += kBlock) {
       for (int x = 0; x + kBlock <= texture.width; x += kBlock) {
-        Fingerprint print;
+        ContentHash print;
         for (int row = 0; row < kBlock; ++row) {
           const auto first =
               texture.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(y + row) * texture.width + x);
           print.add(std::vector<std::uint8_t>(first, first + 4 * kBlock));
         }
         ++blocks;
-        repeated += seen.emplace(print.value(), texture.name).second ? 0 : 1;
+        repeated += seen.emplace(print.text(), texture.name).second ? 0 : 1;
       }
     }
   }
@@ -215,7 +215,7 @@ TEST(RaceTrackPictures, theRoadRepeatsNowhere) {
 
 /// A picture that is shown once only makes no twins. Leaves, grass, people and wire are shown many times,
 /// each time cut, turned or tinted anew; all other pictures are unique.
-TEST(RaceTrackPictures, opaqueOnesAreShownOnce) {
+TEST(RaceTrackPictures, OpaqueOnesAreShownOnce) {
   std::map<int, std::set<std::array<float, 4>>> places;
   int repeated = 0;
   int quads = 0;
@@ -233,7 +233,7 @@ TEST(RaceTrackPictures, opaqueOnesAreShownOnce) {
   EXPECT_EQ(repeated, 0);
 }
 
-TEST(RaceTrackNoise, isSmoothAndBounded) {
+TEST(RaceTrackNoise, IsSmoothAndBounded) {
   for (int i = 0; i < 2000; ++i) {
     const float x = 0.037f * static_cast<float>(i) - 20.0f;
     const float here = race_track::noise(x, 1.7f, 5u);

@@ -7,7 +7,7 @@
 #include "sunlit/path/path.h"
 #include "support/message_of.h"
 #include "unit/scene/measure.h"
-#include "unit/scene/temporary_folder.h"
+#include "unit/scene/scene_files.h"
 
 namespace sunlit::scene {
 namespace {

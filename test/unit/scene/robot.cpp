@@ -5,7 +5,7 @@
 
 #include "measure.h"
 #include "support/message_of.h"
-#include "temporary_folder.h"
+#include "unit/scene/scene_files.h"
 
 namespace sunlit::scene {
 namespace {
@@ -105,7 +105,7 @@ TEST(Urdf, ShapesStandInTheFrameOfTheirLink) {
   EXPECT_LT(bounds(bare, "base").max().norm(), 4.0f);
 }
 
-class UrdfFile : public TemporaryFolder {
+class UrdfFile : public SceneFiles {
  protected:
   Robot loaded(const std::string& content, const SearchPath& search_path = {}) const {
     return loadRobot(write("robot/r.urdf", robotText(content)), search_path);

@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "unit/scene/measure.h"
-#include "unit/scene/temporary_folder.h"
+#include "unit/scene/scene_files.h"
 
 namespace sunlit::scene {
 namespace {
 
-class SdfLook : public TemporaryFolder {
+class SdfLook : public SceneFiles {
  protected:
   Scene loaded(const std::string& material, const std::string& more = "",
                const std::string& geometry = "<sphere><radius>1</radius></sphere>") {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "unit/scene/measure.h"
-#include "unit/scene/temporary_folder.h"
+#include "unit/scene/scene_files.h"
 
 namespace sunlit::scene {
 namespace {
@@ -20,7 +20,7 @@ std::string boxVisual(const std::string& pose = "") {
          "<geometry><box><size>2 4 6</size></box></geometry></visual>";
 }
 
-class Sdf : public TemporaryFolder {
+class Sdf : public SceneFiles {
  protected:
   Scene loaded(const std::string& text, const SearchPath& search_path = {}) {
     return load(write("test.world", text), search_path);

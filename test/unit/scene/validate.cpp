@@ -65,22 +65,24 @@ TEST(Validate, NamesTheMesh) {
       "mesh 'house': vertex 2: position is farther than 100 km from the origin, where coordinates are a "
       "centimetre apart; move the world to its origin");
   EXPECT_EQ(errorAfter([](Scene& s) { s.meshes[0].colors[0][1] = 2.5f; }),
-            "mesh 'house': vertex 0: colour is outside 0 … 2");
+            "mesh 'house': vertex 0: colour is 2.5, but must be from 0 to 2");
   EXPECT_EQ(errorAfter([](Scene& s) { s.meshes[0].texture_coordinates.pop_back(); }),
             "mesh 'house': it must have one texture coordinate a vertex, or none");
-  for (const float wrong : {kNan, 3e12f, -1.1e6f}) {
-    EXPECT_EQ(errorAfter([&](Scene& s) { s.meshes[0].texture_coordinates[1].y() = wrong; }),
-              "mesh 'house': vertex 1: texture coordinate is outside -1e6 … 1e6");
+  for (const auto& [wrong, told] : {std::pair(kNan, "nan"), {3e12f, "3e+12"}, {-1.1e6f, "-1100000"}}) {
+    const float y = wrong;
+    EXPECT_EQ(errorAfter([y](Scene& s) { s.meshes[0].texture_coordinates[1].y() = y; }),
+              "mesh 'house': vertex 1: texture coordinate is " + std::string(told) +
+                  ", but must be from -1000000 to 1000000");
   }
 }
 
 TEST(Validate, NamesTheMaterialKeyValueAndRange) {
   EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].roughness = 0.0f; }),
-            "material 'wall': roughness is 0.000000, must be 0.030000 … 1.000000");
+            "material 'wall': roughness is 0, but must be from 0.03 to 1");
   EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].transmission = 1.5f; }),
-            "material 'wall': transmission is 1.500000, must be 0.000000 … 1.000000");
+            "material 'wall': transmission is 1.5, but must be from 0 to 1");
   EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].base_color.value[2] = kNan; }),
-            "material 'wall': base_color is nan, must be 0.000000 … 1.000000");
+            "material 'wall': base_color is nan, but must be from 0 to 1");
   EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].base_texture = 1; }),
             "material 'wall': there is no texture 1");
   EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].base_texture = -2; }),
@@ -88,7 +90,7 @@ TEST(Validate, NamesTheMaterialKeyValueAndRange) {
   EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].detail.finest_m = 9.0f; }),
             "material 'wall': detail must have 0 < finest_m < coarsest_m");
   EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].emission.value[0] = -1.0f; }),
-            "material 'wall': emission must be 0 or more");
+            "material 'wall': emission is -1, but must be at least 0");
 }
 
 TEST(Validate, NamesTheTexture) {

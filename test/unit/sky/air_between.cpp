@@ -7,32 +7,32 @@
 #include <vector>
 
 #include "clear_air.h"
-#include "sky/transport.h"
+#include "sky/radiative_transfer.h"
 #include "sunlit/sky/atmosphere.h"
 
 namespace sunlit::sky {
 namespace {
 
 /// Airlight by small steps through the same air.
-LinearRgb slowAirlight(const Transport& transport, const Direction& sun, const Direction& sight,
+LinearRgb slowAirlight(const RadiativeTransfer& transfer, const Direction& sun, const Direction& sight,
                        double distance_km) {
   std::vector<double> edges_km;
   constexpr int kSteps = 400;
   for (int i = 0; i <= kSteps; ++i) {
     edges_km.push_back(distance_km * i / kSteps);
   }
-  const SightPath path = sightPath(transport.medium(), 0.0, sight.vector().z(), edges_km);
+  const SightPath path = sightPath(transfer.medium(), 0.0, sight.vector().z(), edges_km);
   const double cos_angle = sight.vector().dot(sun.vector());
   const SunAlong sun_along(path, sun.vector().z(), cos_angle);
   Scattered light;
   for (const SightStep& step : path.steps) {
-    transport.addStep(step, sun_along, cos_angle, &light);
+    transfer.addStep(step, sun_along, cos_angle, &light);
   }
   return inGamut(colourOf(light.radiance(cos_angle)));
 }
 
 TEST(AirBetween, AgreesWithSmallStepsThroughTheSameAir) {
-  const Transport transport{MediumParameters{}};
+  const RadiativeTransfer transfer{MediumParameters{}};
   for (const double sun_deg : {40.0, 5.0, -4.0}) {
     const Direction sun = at(0.0, sun_deg);
     const Daylight day = clearAir().daylight({sun, 1.0});
@@ -45,7 +45,7 @@ TEST(AirBetween, AgreesWithSmallStepsThroughTheSameAir) {
           }
           const AirColumn air =
               day.airOver(sight.vector().cast<float>(), static_cast<float>(distance_km * 1e3));
-          const LinearRgb slow = slowAirlight(transport, sun, sight, distance_km);
+          const LinearRgb slow = slowAirlight(transfer, sun, sight, distance_km);
           // Straight between nodes of the table; measured 4 % at most.
           EXPECT_NEAR(LinearRgb(air.airlight).luminance() / slow.luminance(), 1.0F, 0.06F)
               << "sun " << sun_deg << "°, " << azimuth_deg << "°, " << elevation_deg << "°, " << distance_km;

@@ -29,24 +29,24 @@ SunInSky sunAt(double elevation_deg) {
 
 TEST(AtmosphereOptions, BadValuesAreNamedWithTheirRange) {
   EXPECT_EQ(messageOf([] { validate(AtmosphereOptions{}); }), "");
-  EXPECT_EQ(messageOf([] { validate(withTurbidity(0.5)); }), "turbidity: 0.5 is outside 1 … 10");
-  EXPECT_EQ(messageOf([] { Atmosphere{withTurbidity(11.0)}; }), "turbidity: 11 is outside 1 … 10");
+  EXPECT_EQ(messageOf([] { validate(withTurbidity(0.5)); }), "turbidity is 0.5, but must be from 1 to 10");
+  EXPECT_EQ(messageOf([] { Atmosphere{withTurbidity(11.0)}; }), "turbidity is 11, but must be from 1 to 10");
   AtmosphereOptions options;
   options.ground_albedo = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(messageOf([&] { validate(options); }), "ground_albedo: nan is outside 0 … 1");
+  EXPECT_EQ(messageOf([&] { validate(options); }), "ground_albedo is nan, but must be from 0 to 1");
   options = {};
   options.ozone_du = 601.0;
-  EXPECT_EQ(messageOf([&] { validate(options); }), "ozone_du: 601 is outside 0 … 600");
+  EXPECT_EQ(messageOf([&] { validate(options); }), "ozone is 601, but must be from 0 to 600 DU");
   options = {};
   options.observer_height_m = -1.0;
-  EXPECT_EQ(messageOf([&] { validate(options); }), "observer_height_m: -1 is outside 0 … 8000");
+  EXPECT_EQ(messageOf([&] { validate(options); }), "observer_height is -1, but must be from 0 to 8000 m");
 }
 
 TEST(Atmosphere, ASunAtAnImpossibleDistanceIsRefused) {
   EXPECT_EQ(messageOf([] {
               ordinaryAir().daylight({Direction(), 1.5});
             }),
-            "distance_au: 1.5 is outside 0.97 … 1.03");
+            "distance_au is 1.5, but must be from 0.97 to 1.03 AU");
 }
 
 TEST(Atmosphere, OzoneDimsTheSunALittleAndMakesDuskBlue) {

@@ -101,9 +101,9 @@ TEST(Moon, TheAirScattersItsLightAsTheSuns) {
 
 TEST(Moon, ImpossibleOnesAreRefused) {
   EXPECT_EQ(messageOf([] { moonAt(at(0.0, 10.0), 190.0); }),
-            "moon phase_angle (deg): 190 is outside 0 … 180");
+            "moon phase_angle is 190, but must be from 0 to 180 deg");
   EXPECT_EQ(messageOf([] { moonAt(at(0.0, 10.0), 0.0, 1e8); }),
-            "moon distance_m: 1e+08 is outside 3.4e+08 … 4.2e+08");
+            "moon distance is 100000000, but must be from 340000000 to 420000000 m");
 }
 
 TEST(Glow, ZodiacalLightFollowsThePublishedTable) {

@@ -6,20 +6,20 @@
 #include <cmath>
 #include <random>
 
+#include "sky/radiative_transfer.h"
 #include "sky/ray_path.h"
-#include "sky/transport.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::sky {
 
 class PathTracedAir {
  public:
-  /// `transport` lends its medium and its exact transmittance() to the sun, not its scattering tables.
-  PathTracedAir(const Transport& transport, int band, double sun_elevation_rad)
-      : transport_(transport),
+  /// `transfer` lends its medium and its exact transmittance() to the sun, not its scattering tables.
+  PathTracedAir(const RadiativeTransfer& transfer, int band, double sun_elevation_rad)
+      : transfer_(transfer),
         band_(band),
         towards_sun_(std::cos(sun_elevation_rad), 0.0, std::sin(sun_elevation_rad)),
-        thickest_(transport.medium().at(0.0).extinction[band]) {}
+        thickest_(transfer.medium().at(0.0).extinction[band]) {}
 
   struct Estimate {
     double mean, error;  ///< radiance relative to the sun's irradiance, 1/sr; its standard error
@@ -42,8 +42,8 @@ class PathTracedAir {
 
   double sunlight(const Eigen::Vector3d& from_centre_km) const {
     const double r = from_centre_km.norm();
-    return transport_.transmittance(std::max(0.0, r - kEarthRadius_km),
-                                    from_centre_km.dot(towards_sun_) / r)[band_];
+    return transfer_.transmittance(std::max(0.0, r - kEarthRadius_km),
+                                   from_centre_km.dot(towards_sun_) / r)[band_];
   }
 
   /// A direction at `cos_angle` from `axis`, all round alike.
@@ -84,14 +84,14 @@ class PathTracedAir {
         if (!end.hits_ground) {
           return sum;
         }
-        weight *= transport_.medium().parameters().ground_albedo;
+        weight *= transfer_.medium().parameters().ground_albedo;
         const Eigen::Vector3d up = place.normalized();
         place = up * (kEarthRadius_km + 1e-6);
         sum += weight / kPi * std::max(0.0, up.dot(towards_sun_)) * sunlight(place);
         direction = around(up, std::sqrt(uniform()));
         continue;
       }
-      const LocalMedium local = transport_.medium().at(place.norm() - kEarthRadius_km);
+      const LocalMedium local = transfer_.medium().at(place.norm() - kEarthRadius_km);
       const double rayleigh = local.rayleigh_scattering[band_];
       const double aerosol = local.aerosol_scattering[band_];
       weight *= (rayleigh + aerosol) / local.extinction[band_];
@@ -115,7 +115,7 @@ class PathTracedAir {
         return distance_km;
       }
       const double altitude_km = (place + direction * distance_km).norm() - kEarthRadius_km;
-      if (uniform() * thickest_ < transport_.medium().at(altitude_km).extinction[band_]) {
+      if (uniform() * thickest_ < transfer_.medium().at(altitude_km).extinction[band_]) {
         return distance_km;
       }
     }
@@ -124,7 +124,7 @@ class PathTracedAir {
   /// No phase function here is ever more than this part of the proposal: Rayleigh's at −1, 0.119 · 2.02².
   static constexpr double kMostRatio = 0.49;
 
-  const Transport& transport_;
+  const RadiativeTransfer& transfer_;
   int band_;
   Eigen::Vector3d towards_sun_;
   double thickest_;

@@ -1,0 +1,14 @@
+/// Names of streams: part of topics, and of the folders of their pictures.
+#pragma once
+
+#include <string>
+
+namespace sunlit::evaluate {
+
+/// A relative ROS graph name: parts of letters, digits and underscores, joined by single slashes, of which
+/// the first begins with a letter. So no name leads out of the folder that it is put under.
+bool isStreamName(const std::string& name);
+/// Refuses what is none; in messages it is `called` so, such as "a name in streams".
+void requireStreamName(const std::string& name, const std::string& called);
+
+}  // namespace sunlit::evaluate

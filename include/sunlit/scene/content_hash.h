@@ -1,0 +1,54 @@
+/// A number that tells contents apart: of worlds, paths and files.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+struct XXH3_state_s;
+
+namespace sunlit::scene {
+
+/// 128 bits over all bytes added, in order: XXH3 of xxHash 0.8. Not against forgery; the same on all machines
+/// of one byte order.
+class ContentHash {
+ public:
+  ContentHash();
+  ContentHash(ContentHash&&) noexcept;
+  ContentHash& operator=(ContentHash&&) noexcept;
+  ~ContentHash();
+
+  void addBytes(const void* data, std::size_t size);
+  template <typename Value>
+  void add(const Value& value) {
+    static_assert(std::is_arithmetic_v<Value> || std::is_enum_v<Value>);
+    addBytes(&value, sizeof(value));
+  }
+  /// Their number, and elements without padding.
+  template <typename Value>
+  void add(const std::vector<Value>& values) {
+    add(static_cast<std::uint64_t>(values.size()));
+    addBytes(values.data(), values.size() * sizeof(Value));
+  }
+  /// All bytes of a file; nothing of one that cannot be read.
+  void addFile(const std::string& path);
+
+  struct Number {
+    std::uint64_t high, low;
+    bool operator==(const Number& other) const { return high == other.high && low == other.low; }
+    bool operator!=(const Number& other) const { return !(*this == other); }
+  };
+  Number number() const;
+  std::string text() const;  ///< 32 hexadecimal digits
+
+ private:
+  struct Free {
+    void operator()(XXH3_state_s* state) const;
+  };
+  std::unique_ptr<XXH3_state_s, Free> state_;
+};
+
+}  // namespace sunlit::scene

@@ -1,0 +1,18 @@
+/// What work that takes its time tells a person.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "sunlit/light/transport.h"
+
+namespace sunlit::studio {
+
+/// Each may be left unset, and is called on a thread of the work, never on two at once.
+struct Reports {
+  std::function<void(const std::string& line)> note;     ///< what was done, or is about to be
+  std::function<void(const std::string& line)> warning;  ///< what was amiss, and was made good
+  light::BakeProgress baking;                            ///< how far a bake is, many times a second
+};
+
+}  // namespace sunlit::studio

@@ -1,0 +1,65 @@
+/// The light of the whole sky over a place at an instant.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "sunlit/astronomy/solar_coordinates.h"
+#include "sunlit/quantity/instant.h"
+#include "sunlit/quantity/site.h"
+#include "sunlit/sky/atmosphere.h"
+#include "sunlit/studio/reports.h"
+
+namespace sunlit::studio {
+
+/// What is in the sky, seen from a site. Without a moon or the turn of the stars there is none of them.
+struct SkyBodies {
+  sky::SunInSky sun;
+  std::optional<sky::MoonInSky> moon = {};
+  std::optional<Eigen::Matrix3d> map_from_celestial = {};
+  double site_elevation_m = 0.0;
+};
+
+/// Sun, moon and stars as astronomy has them.
+SkyBodies bodiesAt(const Instant& instant, const Site& site, const Air& air = {},
+                   const astronomy::EarthRotation& earth = {});
+
+/// The stars of the installed catalogue, brightest first; none, and a warning, where there is no catalogue.
+/// Throws what astronomy::readStarCatalogue() throws.
+std::shared_ptr<const std::vector<sky::Star>> loadStars(const Reports& reports);
+
+struct SkyOptions {
+  sky::AtmosphereOptions air;  ///< but for the height, which is the next one's
+  /// m above sea level, as AtmosphereOptions allows. Nothing: the site's elevation; where that is lower or
+  /// higher than allowed, the nearest that is.
+  std::optional<double> fixed_height_m;
+  bool stars = true;
+};
+
+/// Makes the tables of the air when they are first needed, which takes two or three seconds, says so, and
+/// keeps those of the heights that were used last. One thread at a time.
+class Sky {
+ public:
+  /// Reads the stars. Throws as sky::validate() and loadStars().
+  explicit Sky(const SkyOptions& options, Reports reports = {});
+
+  sky::Daylight daylight(const SkyBodies& bodies);
+  /// Makes the air that daylight() of the same site will need, if it is not there.
+  void prepare(double site_elevation_m) { airOver(site_elevation_m); }
+  bool isPrepared(double site_elevation_m) const;
+
+ private:
+  double heightOver(double site_elevation_m) const;
+  const sky::Atmosphere& airOver(double site_elevation_m);
+
+  SkyOptions options_;
+  Reports reports_;
+  std::shared_ptr<const std::vector<sky::Star>> stars_;
+  std::vector<std::pair<double, sky::Atmosphere>>
+      airs_;  ///< by height, m; the one that was used last is the last
+};
+
+}  // namespace sunlit::studio

@@ -1,0 +1,74 @@
+/// A world and a camera in it, from geometry to the developed picture, without anything that sends it.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "sunlit/image/exposure.h"
+#include "sunlit/image/sensor_noise.h"
+#include "sunlit/render/renderer.h"
+#include "sunlit/studio/stopwatch.h"
+#include "sunlit/studio/world.h"
+
+namespace sunlit::studio {
+
+struct StudioOptions {
+  WorldOptions world;
+  BakeOptions bake;
+  render::RenderOptions render;
+  image::ExposureOptions exposure;
+  image::NoiseOptions noise;
+};
+
+/// A developed image and the exposure value that it was developed with.
+struct Developed {
+  image::Rgb8Image picture;
+  double ev100 = 0.0;
+};
+
+/// Ground that a map shows, m in `map`.
+struct MapExtent {
+  double x_min = 0.0;
+  double x_max = 0.0;
+  double y_min = 0.0;
+  double y_max = 0.0;
+};
+
+/// One thread at a time may use it, except where a function says otherwise. Times its stages.
+class Studio {
+ public:
+  /// Loads the world, with the `robot` in it if there is one, and bakes its light. Throws what loadWorld()
+  /// and bake() throw, and before that std::invalid_argument for options out of range and
+  /// std::runtime_error for a rasterizer that cannot start.
+  explicit Studio(const StudioOptions& options, const std::optional<scene::Robot>& robot = std::nullopt,
+                  const Reports& reports = {});
+
+  /// A picture from above, north up, close to orthographic. Leaves alone what look() looked at.
+  image::Rgb8Image mapFromAbove(const MapExtent& extent, const sky::Daylight& daylight) const;
+
+  /// `map_from_camera`: of its link, x forward, z up. `map_from_links`: of the robot; empty: it is not there.
+  void look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links = {});
+  /// Draws what look() will look at later. Another thread may photograph() meanwhile.
+  void lookAhead(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links = {});
+  /// What does not depend on the camera.
+  light::Illumination illumination(const sky::Daylight& daylight) const;
+  /// What look() looks at under `light`; the picture's series names it on the time sheet too.
+  Developed photograph(const light::Illumination& light, const image::PictureName& name);
+  image::DepthImage depth();
+
+  const light::World& world() const { return world_; }
+  /// As render::Renderer::rasterizer().
+  std::string rasterizer() const;
+  const image::PinholeCamera& camera() const { return options_.render.camera; }
+  Stopwatch& stopwatch() { return stopwatch_; }
+
+ private:
+  Stopwatch stopwatch_;
+  StudioOptions options_;
+  light::World world_;
+  std::unique_ptr<render::Renderer> renderer_;
+};
+
+}  // namespace sunlit::studio

@@ -1,0 +1,63 @@
+/// A world from a name or a file to what light can travel through.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sunlit/light/transport.h"
+#include "sunlit/light/world.h"
+#include "sunlit/quantity/field.h"
+#include "sunlit/scene/load.h"
+#include "sunlit/scene/robot.h"
+#include "sunlit/scene/scene.h"
+#include "sunlit/studio/reports.h"
+
+namespace sunlit::studio {
+
+struct WorldOptions {
+  std::string name = scene::kRaceTrack;  ///< as scene::load() takes it
+  std::vector<std::string> model_path;   ///< folders searched before those of SearchPath::withEnvironment()
+};
+
+/// Sky light and bounced light, baked once per world.
+struct BakeOptions {
+  bool enabled = true;
+  light::TransportOptions transport;
+  std::string cache_dir;  ///< empty: as light::Transport::usualFolder()
+  double cache_limit_gb = 2.0;
+};
+
+inline std::vector<Field> fieldsOf(BakeOptions& bake) {
+  return joined(
+      {{{"enabled", &bake.enabled, "", {}, "false: every surface sees the open sky, and passes no light on"}},
+       fieldsOf(bake.transport),
+       {{"cache_dir",
+         &bake.cache_dir,
+         "",
+         {},
+         "empty: SUNLIT_CACHE_DIR, or sunlit in XDG_CACHE_HOME, or ~/.cache/sunlit"},
+        {"cache_limit",
+         &bake.cache_limit_gb,
+         "GB",
+         {0, 1e6},
+         "of the bakes there; beyond it those unused for longest go"}}});
+}
+
+/// Where the bakes of these options are kept.
+light::BakeCache cacheOf(const BakeOptions& options);
+
+/// What scene::load() gives; its warnings become those of `reports`. Throws as it does.
+scene::Scene loadScene(const WorldOptions& options, const Reports& reports);
+
+/// With the `robot`, if there is one, as what moves in it. Bakes nothing. Throws what scene::load() throws.
+light::World loadWorld(const WorldOptions& options, const std::optional<scene::Robot>& robot,
+                       const Reports& reports);
+
+/// Bakes how light spreads in `world`, or reads it from the cache; null where the options want none. Throws
+/// as light::Transport::bake().
+std::shared_ptr<const light::Transport> bake(const light::World& world, const BakeOptions& options,
+                                             const Reports& reports);
+
+}  // namespace sunlit::studio

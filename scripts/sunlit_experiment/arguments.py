@@ -1,0 +1,204 @@
+"""The arguments of our launch files: what was typed, what is wrong with it, and what it means."""
+
+import contextlib
+import datetime
+import difflib
+import itertools
+import math
+import os
+import tempfile
+from xml.etree import ElementTree
+
+import psutil
+import yaml
+
+DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "orb", "brisk"]
+
+
+class BadArgument(Exception):
+    """An argument of a launch file that cannot be used."""
+
+    def __init__(self, name, value, allowed):
+        super().__init__(f"argument {name} is {value!r}, but must be {allowed}")
+
+
+def parse(name, text, allowed):
+    """`text` as YAML."""
+    try:
+        return yaml.safe_load(text)
+    except yaml.YAMLError:
+        raise BadArgument(name, text, allowed) from None
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def flag(name, text):
+    """As roslaunch reads its if=."""
+    values = {"true": True, "1": True, "false": False, "0": False}
+    if text.strip().lower() not in values:
+        raise BadArgument(name, text, "true or false")
+    return values[text.strip().lower()]
+
+
+def number(name, text):
+    """Its range is the business of the node that gets it."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise BadArgument(name, text, "a number")
+    return value
+
+
+def whole(name, text, at_least=None):
+    allowed = "a whole number" + ("" if at_least is None else f" of at least {at_least}")
+    try:
+        value = int(text)
+    except ValueError:
+        raise BadArgument(name, text, allowed) from None
+    if at_least is not None and value < at_least:
+        raise BadArgument(name, value, allowed)
+    return value
+
+
+def clock_times(text):
+    """'[4, 4.5]' -> {'h04': {hour: 4, ...}, 'h04_30': {hour: 4, minute: 30, ...}}, in the order given."""
+    allowed = "a list of different hours, at least 0 and below 24, such as [4, 12, 20]"
+    hours = parse("hours", text, allowed)
+    hours = hours if isinstance(hours, list) else [hours]
+    times = {}
+    for hour in hours:
+        if not is_number(hour) or not 0 <= hour < 24:
+            raise BadArgument("hours", text, allowed)
+        whole_seconds = min(round(hour * 3600), 24 * 3600 - 1)
+        h, m, s = whole_seconds // 3600, whole_seconds // 60 % 60, whole_seconds % 60
+        name = f"h{h:02d}" + (f"_{m:02d}" if m or s else "") + (f"_{s:02d}" if s else "")
+        if name in times:
+            raise BadArgument("hours", text, allowed)
+        times[name] = {"hour": h, "minute": m, "second": float(s)}
+    if not times:
+        raise BadArgument("hours", text, allowed)
+    return times
+
+
+def date_time(date, timezone):
+    try:
+        day = datetime.date.fromisoformat(date)
+    except ValueError:
+        raise BadArgument("date", date, "a date, year-month-day, such as 2024-07-01") from None
+    allowed = "hours east of UTC, from -18 to 18"
+    zone = parse("timezone", timezone, allowed)
+    if not is_number(zone) or not -18 <= zone <= 18:
+        raise BadArgument("timezone", timezone, allowed)
+    return {"year": day.year, "month": day.month, "day": day.day, "timezone": float(zone), "rate": 0.0}
+
+
+def site(text):
+    allowed = "[latitude in deg, longitude in deg, elevation in m], such as [55.792115, 49.122254, 90]"
+    values = parse("site", text, allowed)
+    if not isinstance(values, list) or len(values) != 3 or not all(is_number(value) for value in values):
+        raise BadArgument("site", text, allowed)
+    return dict(zip(("latitude", "longitude", "elevation"), map(float, values)))
+
+
+def self_test_stream(name):
+    return f"self_test/{name}"
+
+
+def pairs(hours, self_test, every):
+    """All pairs of hours, and each hour against itself by a second renderer."""
+    names = list(clock_times(hours))
+    both = [{"a": a, "b": b} for a, b in itertools.combinations(names, 2)]
+    if self_test:
+        both += [{"a": name, "b": self_test_stream(name), "every": every} for name in names]
+    if not both:
+        raise BadArgument("hours", hours, "two hours or more, or one with self_test:=true")
+    return both
+
+
+def differences(text):
+    """`all` are those that an evaluator with SURF has by default."""
+    allowed = f"all, or a list of some of {', '.join(DIFFERENCES)}"
+    names = DIFFERENCES if text == "all" else parse("differences", text, allowed)
+    if not isinstance(names, list) or not names or not set(map(str, names)) <= set(DIFFERENCES):
+        raise BadArgument("differences", text, allowed)
+    return names
+
+
+def condition_names(text):
+    """Names of a list, [morning, noon], or of a map from names to what differs."""
+    allowed = "a list of names, [morning, noon], or a map from names to what differs, {h04: {hour: 4}}"
+    names = parse("conditions", text, allowed)
+    if not isinstance(names, (list, dict)):
+        raise BadArgument("conditions", text, allowed)
+    return list(names)
+
+
+def folder(text):
+    """As seen from where roslaunch was started. A shell leaves the ~ of NAME:=~/folder to us."""
+    return os.path.abspath(os.path.expanduser(text))
+
+
+def file(text):
+    """Seen as a folder is. A name without a dot or slash, such as race_track, stays."""
+    return folder(text) if "/" in text or "." in text else text
+
+
+def folders(text):
+    names = parse("model_path", text, "a list of folders")
+    if not isinstance(names, list):
+        raise BadArgument("model_path", text, "a list of folders")
+    return [folder(str(name)) for name in names]
+
+
+def robot(text, robots):
+    """The file of a robot, given as one or by the name of its folder in `robots`; empty for none."""
+    if not text or "/" in text or "." in text:
+        return file(text)
+    found = os.path.join(robots, text, text + ".urdf")
+    if not os.path.exists(found):
+        names = ", ".join(sorted(os.listdir(robots)))
+        raise BadArgument("robot", text, f"empty, one of our own ({names}), or a file: .urdf .sdf")
+    return found
+
+
+def output_folder(text):
+    """Made here, so that a folder that cannot be written stops everything before it begins."""
+    path = folder(text)
+    try:
+        os.makedirs(path, exist_ok=True)
+        with tempfile.TemporaryFile(dir=path):
+            pass
+    except OSError as error:
+        raise BadArgument("output", text, f"a folder that can be written ({path}: {error.strerror})") from None
+    return path
+
+
+def roslaunch_words():
+    """The command line of the roslaunch that asks us; nothing where we were not asked by one."""
+    with contextlib.suppress(psutil.Error):  # one of them ended while we looked
+        for process in psutil.Process().parents():
+            words = process.cmdline()
+            if any(os.path.basename(word) == "roslaunch" for word in words):
+                return words
+    return []
+
+
+def given(launch_file, words):
+    """What was typed behind the launch file as name:=value. roslaunch itself takes a misspelt name without a word, and would
+    start a whole experiment, say, with the default."""
+    ours = os.path.realpath(launch_file)
+    if not any((before == "sunlit" and word == os.path.basename(ours)) or os.path.realpath(word) == ours
+               for before, word in zip(words, words[1:])):
+        return {}  # started by a launch file of the user's, whose arguments these are
+    typed = dict(word.split(":=", 1) for word in words if ":=" in word and not word.startswith("_"))
+    known = [arg.get("name") for arg in ElementTree.parse(launch_file).iter("arg") if "value" not in arg.attrib]
+    for name, value in typed.items():
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 1)
+            raise BadArgument(name, value, f"one of the arguments of {os.path.basename(launch_file)}"
+                              + (f"; {near[0]} is one" if near else f": {', '.join(known)}"))
+    return typed

@@ -1,0 +1,103 @@
+"""Where the line of a run is shown: at the foot of a terminal, in place, or else as a line from time to time.
+
+At a terminal the lowest row is kept free for it: all other output, whoever writes it, scrolls above, so that no warning of
+a node is ever mixed with the line, and none has to be caught.
+"""
+
+import os
+import time
+
+from sunlit_experiment import progress
+
+LINE_EVERY_S = 30.0
+LOWEST = 4  # rows of a terminal of which one can be spared
+
+SAVE, RESTORE = "\x1b7", "\x1b8"
+CLEAR_LINE = "\x1b[2K"
+WHOLE_SCREEN = "\x1b[r"
+
+
+def restore(stream):
+    """Gives a terminal all its rows back: for whoever remains when a Foot was killed."""
+    if stream.isatty() and _knows_rows():
+        os.write(stream.fileno(), (SAVE + WHOLE_SCREEN + RESTORE).encode())
+
+
+def _knows_rows():
+    return os.environ.get("TERM", "dumb") not in ("dumb", "")
+
+
+class Foot:
+    """The lowest row of a terminal. Each change is one write, so that nobody else's comes between."""
+
+    def __init__(self, descriptor):
+        self.descriptor = descriptor
+        self.size = None
+        self.shown = None
+
+    def show(self, status, _now):
+        size = os.get_terminal_size(self.descriptor)
+        if size != self.size:
+            self._reserve(size)
+        text = progress.fitted(status, size.columns - 1)  # a full row would wrap
+        if text != self.shown:
+            self._write(f"{SAVE}\x1b[{size.lines};1H{CLEAR_LINE}{text}{RESTORE}")
+            self.shown = text
+
+    def _reserve(self, size):
+        """A new row first, lest the cursor stands in the one that is taken."""
+        has_grown = self.size and self.size.lines < size.lines
+        old = f"{SAVE}\x1b[{self.size.lines};1H{CLEAR_LINE}{RESTORE}" if has_grown else ""
+        self._write(f"{old}\n{SAVE}\x1b[1;{max(size.lines - 1, 1)}r{RESTORE}\x1b[1A")
+        self.size, self.shown = size, None
+
+    def close(self):
+        if self.size:
+            self._write(f"{SAVE}{WHOLE_SCREEN}\x1b[{self.size.lines};1H{CLEAR_LINE}{RESTORE}")
+            self.size = None
+
+    def _write(self, text):
+        try:
+            os.write(self.descriptor, text.encode())
+        except OSError:
+            pass  # the terminal has gone
+
+
+class Lines:
+    """Into a file or pipe: a line whenever it turns to something else, and every half a minute."""
+
+    def __init__(self, descriptor):
+        self.descriptor = descriptor
+        self.doing = None
+        self.latest = -float("inf")
+
+    def show(self, status, now):
+        if status.doing == self.doing and now - self.latest < LINE_EVERY_S:
+            return
+        self.doing, self.latest = status.doing, now
+        try:
+            os.write(self.descriptor, f"experiment: {progress.line(status)}\n".encode())
+        except OSError:
+            pass  # the reader has gone
+
+    def close(self):
+        pass
+
+
+class Display:
+    """What a user sees of a run, on `stream`."""
+
+    def __init__(self, stream):
+        in_place = stream.isatty() and _knows_rows() and os.get_terminal_size(stream.fileno()).lines >= LOWEST
+        self.place = (Foot if in_place else Lines)(stream.fileno())
+        self.pace = progress.Pace()
+
+    def show(self, status):
+        now = time.monotonic()
+        if status.done is not None:
+            self.pace.update(now, status.done)
+        status.poses_a_second = self.pace.poses_a_second(now)
+        self.place.show(status, now)
+
+    def close(self):
+        self.place.close()

@@ -1,0 +1,165 @@
+"""The plan of an experiment: from the arguments of experiment.launch to the parameters of every node, in one go.
+
+Nothing is started, written or read here; what has to be looked up (how many poses the path has, how far an earlier run
+came) is given.
+"""
+
+import dataclasses
+
+from sunlit_experiment import arguments as read
+from sunlit_experiment import recording
+
+START_STAMP_S = 1000.0
+FRAME_RATE_HZ = 10.0
+# What the evaluator writes down beside its results, as it was typed.
+ABOUT = ("world", "robot", "path", "site", "date", "timezone", "hours", "spacing", "exposure", "ev100", "highlight_protection",
+         "final_gather", "rasterizer", "night", "noise", "noise_seed", "turbidity", "ozone")
+
+
+@dataclasses.dataclass
+class Beginning:
+    """Where a run begins: 0, or where an earlier one in the same folder was broken off."""
+    poses: int             # of the whole run
+    evaluated: int = 0     # the first pose that is not evaluated
+    recorded: int = 0      # the first pose that no bag holds; as `evaluated` where nothing is recorded
+
+    def render_at(self):
+        return min(self.evaluated, self.recorded)
+
+    def is_evaluated(self):
+        return self.evaluated >= self.poses
+
+
+def check(typed):
+    """Everything that can be refused by its text alone. `typed`: texts by name."""
+    for name in ("self_test", "record", "report", "images", "night", "noise", "compressed", "rviz", "verbose"):
+        read.flag(name, typed[name])
+    for name in ("width", "height", "noise_seed", "final_gather", "max_ahead"):
+        read.whole(name, typed[name])
+    for name in ("horizontal_fov", "camera_height", "ev100", "highlight_protection", "turbidity", "ozone"):
+        read.number(name, typed[name])
+    read.date_time(typed["date"], typed["timezone"])
+    read.site(typed["site"])
+    read.folders(typed["model_path"])
+    read.differences(typed["differences"])
+    pairs(typed)
+
+
+def pairs(typed):
+    return read.pairs(typed["hours"], read.flag("self_test", typed["self_test"]),
+                      read.whole("self_test_every", typed["self_test_every"], 1))
+
+
+def recorded_topics(typed):
+    return recording.topics(list(read.clock_times(typed["hours"])), read.flag("compressed", typed["compressed"]))
+
+
+def parameters(typed, given, places, beginning):
+    """The parameters of all nodes, a tree. `typed`: all arguments as texts by name; `given`: those of them that the user
+    gave; `places`: files and folders by name (output, robots, report)."""
+    has_self_test = read.flag("self_test", typed["self_test"])
+    tree = {"experiment": _experiment(typed, given, places, beginning), "sun_position": _sun_position(typed),
+            "render": _main_renderer(typed, places, beginning), "evaluator": _evaluator(typed, places, beginning)}
+    if has_self_test:
+        tree["self_test"] = {"render": _self_test_renderer(typed, places, beginning)}
+    return tree
+
+
+def _experiment(typed, given, places, beginning):
+    has_self_test = read.flag("self_test", typed["self_test"])
+    tree = {"arguments": given, "output": places["output"], "poses": beginning.poses,
+            "verbose": read.flag("verbose", typed["verbose"]), "images_a_pose": len(read.clock_times(typed["hours"])),
+            "self_test_every": read.whole("self_test_every", typed["self_test_every"]),
+            "needed": ["sun_position", "render", "evaluator"] + (["self_test/render"] if has_self_test else [])}
+    if read.flag("record", typed["record"]):
+        tree["recording"] = {"topics": recorded_topics(typed),
+                             "start_stamp": START_STAMP_S, "frame_rate": FRAME_RATE_HZ,
+                             "begin": beginning.render_at()}
+    if read.flag("report", typed["report"]):
+        tree["report"] = places["report"]
+    return tree
+
+
+def _sun_position(typed):
+    return {"date_time": read.date_time(typed["date"], typed["timezone"]), "site": read.site(typed["site"]),
+            "conditions": read.clock_times(typed["hours"])}
+
+
+def _renderer(typed, places, beginning):
+    """What both renderers share."""
+    # Without a name, the renderer draws by the first that was built.
+    rasterizer = {"rasterizer": typed["rasterizer"]} if typed["rasterizer"] else {}
+    return {
+        "conditions": list(read.clock_times(typed["hours"])),
+        "world": read.file(typed["world"]),
+        "model_path": read.folders(typed["model_path"]),
+        "robot": {"file": read.robot(typed["robot"], places["robots"])},
+        "path": {"file": read.file(typed["path"]), "spacing": read.number("spacing", typed["spacing"]),
+                 "camera_height": read.number("camera_height", typed["camera_height"]), "count": beginning.poses},
+        "camera": {"width": read.whole("width", typed["width"]), "height": read.whole("height", typed["height"]),
+                   "horizontal_fov": read.number("horizontal_fov", typed["horizontal_fov"]), **rasterizer},
+        "exposure": {"mode": typed["exposure"], "ev100": read.number("ev100", typed["ev100"]),
+                     "highlight_protection": read.number("highlight_protection", typed["highlight_protection"])},
+        "transport": {"final_gather": read.whole("final_gather", typed["final_gather"])},
+        "night": {"enabled": read.flag("night", typed["night"])},
+        "noise": {"enabled": read.flag("noise", typed["noise"]), "seed": read.whole("noise_seed", typed["noise_seed"])},
+        "atmosphere": {"turbidity": read.number("turbidity", typed["turbidity"]),
+                       "ozone": read.number("ozone", typed["ozone"])},
+        "frame_rate": FRAME_RATE_HZ,
+        "start_stamp": START_STAMP_S,
+        "compressed": read.flag("compressed", typed["compressed"]),
+        "max_ahead": read.whole("max_ahead", typed["max_ahead"]),
+        "exit_when_done": True,
+    }
+
+
+def _main_renderer(typed, places, beginning):
+    readers = ["/evaluator/progress"]
+    if read.flag("self_test", typed["self_test"]):
+        readers.append("/self_test/render/progress")  # counts as one, so that the two keep abreast
+    recorders = 1 if read.flag("record", typed["record"]) else 0
+    evaluators = 1
+    if recorders and beginning.is_evaluated() and beginning.recorded < beginning.poses:
+        evaluators = 0  # it ends at once, having nothing to do; only the recorder is left to wait for
+        readers = []
+    tree = _renderer(typed, places, beginning)
+    tree.update(
+        resume_at=beginning.render_at(),
+        publish_clock=True,
+        output_dir=places["output"],
+        wait_for=readers,
+        # Of each kind of topic before the first image leaves.
+        subscribers={"images": evaluators + recorders, "poses": evaluators + recorders, "others": recorders})
+    return tree
+
+
+def _self_test_renderer(typed, places, beginning):
+    """The second one, of each hour against itself; it is not recorded."""
+    tree = _renderer(typed, places, beginning)
+    tree["path"]["stride"] = read.whole("self_test_every", typed["self_test_every"])
+    tree.update(
+        resume_at=beginning.evaluated,
+        exact_sky=True,
+        wait_for=["/evaluator/progress"],
+        subscribers={"images": 1},
+        sun_namespace="/",
+        publish_tf=False,
+        count_skipped=True)  # the evaluator counts what both have rendered
+    return tree
+
+
+def _evaluator(typed, places, beginning):
+    names = list(read.clock_times(typed["hours"]))
+    if read.flag("self_test", typed["self_test"]):
+        names += [read.self_test_stream(name) for name in names]
+    tree = {"streams": names, "pairs": pairs(typed), "poses": beginning.poses,
+            "frame_rate": FRAME_RATE_HZ, "stamp_start": START_STAMP_S, "output_dir": places["output"],
+            "images": "all" if read.flag("images", typed["images"]) else "samples", "exit_when_done": True,
+            "about": dict({name: typed[name] for name in ABOUT},
+                          camera=f"{typed['width']} x {typed['height']}, {typed['horizontal_fov']} deg, "
+                                 f"{typed['camera_height']} m")}
+    if read.flag("compressed", typed["compressed"]):
+        tree["image_transport"] = "compressed"
+    if typed["differences"] != "all":  # else its own default
+        tree["differences"] = read.differences(typed["differences"])
+    return tree

@@ -1,0 +1,68 @@
+"""rosbag record beside an experiment, and the account of what all bags of its folder hold at the end."""
+
+import ctypes
+import os
+import signal
+import subprocess
+
+import roslib.packages
+
+from sunlit_experiment import recording
+from sunlit_experiment.launch import Failure
+
+LIST = "recording.csv"
+
+
+def end_with_parent():
+    """In a child: SIGINT, at which a bag is closed in order, also when the parent has no time to send it."""
+    pr_set_pdeathsig = 1
+    ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGINT)
+
+
+class Recorder:
+    """rosbag record, as long as the experiment runs."""
+
+    def __init__(self, output, plan, poses, is_verbose):
+        """`plan`: the parameter ~recording."""
+        self.output = output
+        self.poses = poses
+        self.topics = plan["topics"]
+        self.clock = recording.Clock(plan["start_stamp"], plan["frame_rate"])
+        self.has_poses_left = plan["begin"] < poses
+        self.process = None
+        if self.has_poses_left:
+            # -b 0: its buffer may grow, so that nothing is dropped.
+            self.process = subprocess.Popen(
+                [roslib.packages.find_node("rosbag", "record")[0], "-b", "0", "-o",
+                 os.path.join(output, recording.PREFIX[:-1]), "__name:=recorder"] + self.topics,
+                preexec_fn=end_with_parent, stdout=None if is_verbose else subprocess.DEVNULL)
+
+    def check(self):
+        if self.process and self.process.poll() is not None:
+            raise Failure("the recorder ended early; its reason stands above")
+
+    def stop(self):
+        if self.process and self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+            self.process.wait()
+
+    def verify(self):
+        """A recording that lacks an image is worse than none. Gives a line about all bags together."""
+        union = recording.Union(self.output, self.topics, self.clock, self.poses)
+        self._list(union)
+        reasons = "".join(f"; {reason}" for reason in union.unreadable)
+        missing = union.missing()
+        if missing:
+            lacking = "; ".join(f"{topic}: {recording.ranges(poses)}" for topic, poses in missing.items())
+            raise Failure(f"the recording in {self.output} lacks poses: {lacking}{reasons}")
+        twice = union.twice()
+        return (f"{self.poses} poses in {len(union.by_bag)} bag{'s' if len(union.by_bag) > 1 else ''}"
+                + (f", poses {recording.ranges(twice)} more than once" if twice else "") + reasons)
+
+    def _list(self, union):
+        path = os.path.join(self.output, LIST)
+        with open(path + ".part", "w", encoding="utf-8") as file:
+            file.write("bag,first_pose,last_pose,poses\n")
+            for bag, first, last, count in union.table():
+                file.write(f"{bag},{'' if first is None else first},{'' if last is None else last},{count}\n")
+        os.replace(path + ".part", path)

@@ -1,0 +1,61 @@
+"""summary.csv, judged and as a table."""
+
+import csv
+import os
+
+from sunlit_experiment.launch import Failure
+
+DIRECT = ("boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey")
+
+
+def read(path, since):
+    """Its rows; it has to be newer than `since`, s since 1970."""
+    if not os.path.exists(path) or os.path.getmtime(path) < since:
+        raise Failure("evaluator ended without a result; its reason stands above")
+    with open(path, encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    if not rows:
+        raise Failure(f"{path} has no rows")
+    return rows
+
+
+def check(rows, poses, self_test_every):
+    """Every pair has all its poses, and two renderers of one sun agree to the bit."""
+    for row in rows:
+        name = f"{row['difference']} of {row['a']} and {row['b']}"
+        expected = -(-poses // self_test_every) if is_self_test(row) else poses
+        found = int(row["n"]) + int(row["undefined"])
+        if found != expected:
+            raise Failure(f"{name} has {found} of {expected} poses; the reason stands above and in problems.csv")
+        if is_self_test(row) and row["difference"] in DIRECT and float(row["mean"]) != 0.0:
+            raise Failure(f"{name} is {row['mean']}, but two renderers of one sun must agree to the bit")
+
+
+def is_self_test(row):
+    return row["b"].startswith("self_test/")
+
+
+def tables(rows):
+    """The means of all pairs of hours, and of each hour with itself."""
+    named = (("mean difference", "{a}-{b}", [row for row in rows if not is_self_test(row)]),
+             ("with itself", "{a}", [row for row in rows if is_self_test(row)]))
+    return "\n\n".join(_table(heading, name, of_kind) for heading, name, of_kind in named if of_kind)
+
+
+def _table(heading, name, rows):
+    """A line for each difference and a column for each pair, called `name`."""
+    pairs = list(dict.fromkeys(name.format(**row) for row in rows))
+    means = {(row["difference"], name.format(**row)): row["mean"] for row in rows}
+    cells = [[heading] + pairs]
+    for difference in dict.fromkeys(row["difference"] for row in rows):
+        cells.append([difference] + [_rounded(means.get((difference, pair), "")) for pair in pairs])
+    widths = [max(len(line[k]) for line in cells) for k in range(len(cells[0]))]
+    return "\n".join("  ".join([line[0].ljust(widths[0])] + [cell.rjust(width) for cell, width in zip(line[1:], widths[1:])])
+                     for line in cells)
+
+
+def _rounded(text):
+    try:
+        return f"{float(text):.5f}"
+    except ValueError:
+        return "-"

@@ -1,0 +1,63 @@
+#include "sunlit/image/encoded_size.h"
+
+#include <algorithm>
+#include <array>
+
+namespace sunlit::image {
+namespace {
+
+std::uint32_t bigEndian(const std::uint8_t* bytes, int count) {
+  std::uint32_t value = 0;
+  for (int i = 0; i < count; ++i) value = value << 8 | bytes[i];
+  return value;
+}
+
+// PNG (ISO/IEC 15948), 5.2 and 11.2.2: a signature, then the chunk IHDR, which begins with width and height.
+std::optional<EncodedPicture> ofPng(const std::uint8_t* bytes, std::size_t size) {
+  constexpr std::array<std::uint8_t, 16> kStart = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n',
+                                                   0,    0,   0,   13,  'I',  'H',  'D',  'R'};
+  constexpr std::size_t kEnd = 24;
+  if (size < kEnd || !std::equal(kStart.begin(), kStart.end(), bytes)) return std::nullopt;
+  return EncodedPicture{bigEndian(bytes + 16, 4), bigEndian(bytes + 20, 4)};
+}
+
+// SOF0 … SOF15 but for DHT (C4), JPG (C8) and DAC (CC), which lie among them.
+bool isStartOfFrame(std::uint8_t marker) {
+  return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+}
+
+// Some writers fill up with zeros.
+bool endsAsJpeg(const std::uint8_t* bytes, std::size_t size) {
+  while (size > 2 && bytes[size - 1] == 0) --size;
+  return bytes[size - 2] == 0xFF && bytes[size - 1] == 0xD9;
+}
+
+// JPEG (ITU-T T.81), annex B: segments of a marker and their length; a start of frame holds precision, height
+// and width.
+std::optional<EncodedPicture> ofJpeg(const std::uint8_t* bytes, std::size_t size) {
+  constexpr std::size_t kHead = 9;  // marker, length, precision, height, width
+  if (size < 2 || bytes[0] != 0xFF || bytes[1] != 0xD8) return std::nullopt;
+  for (std::size_t at = 2; at + kHead <= size;) {
+    if (bytes[at] != 0xFF) return std::nullopt;
+    const std::uint8_t marker = bytes[at + 1];
+    if (marker == 0xFF) {  // fill
+      ++at;
+      continue;
+    }
+    if (isStartOfFrame(marker)) {
+      return EncodedPicture{bigEndian(bytes + at + 7, 2), bigEndian(bytes + at + 5, 2), true,
+                            !endsAsJpeg(bytes, size)};
+    }
+    at += 2 + bigEndian(bytes + at + 2, 2);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<EncodedPicture> encodedPicture(const std::uint8_t* bytes, std::size_t size) {
+  if (const auto png = ofPng(bytes, size)) return png;
+  return ofJpeg(bytes, size);
+}
+
+}  // namespace sunlit::image

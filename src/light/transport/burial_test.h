@@ -1,0 +1,65 @@
+/// Whether a point of the scene lies buried, where no camera looks, by the rays that leave it.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "light/transport/bake_rays.h"
+#include "light/transport/triangle_kinds.h"
+#include "sunlit/light/geometry.h"
+
+namespace sunlit::light {
+
+/// A wall goes on below the ground, and ground below a kerb: it is dark there, and what is seen of both must
+/// not become darker by interpolation.
+class BurialTest {
+ public:
+  /// A ray that left the point: what it counts, and the lane of `hits` that tells what it met.
+  struct Cast {
+    const Eigen::Vector3f& towards;
+    float weight;
+    const HitPacket& hits;
+    int lane;
+  };
+  void add(const Cast& ray, const Geometry& geometry, const std::vector<TriangleTraits>& traits) {
+    const std::uint32_t hit = ray.hits.triangle[ray.lane];
+    if (hit == HitPacket::kNothing) return addFree(ray.weight, ray.towards.z() > 0.0f);
+    const bool back = geometry.planes[hit].normal.dot(ray.towards) > 0.0f;
+    addHit(ray.weight, traits[hit], back, ray.hits.distance[ray.lane]);
+  }
+
+  /// Within a body, or covered, or in the joint of two bodies; or no sky and next to no front is seen, but
+  /// the void below the ground or something close by.
+  bool buried() const {
+    if (inside_ >= 0.5f * all_ || touching_ > 0.9f * all_) return true;
+    if (touching_backs_ > 0.35f * all_ && up_ < 0.2f * all_) return true;
+    if (up_ > 0.03f * all_ || fronts_ > 0.1f * all_) return false;
+    return down_ > 0.0f || inverse_distances_ * kClose_m > all_;
+  }
+
+ private:
+  void addFree(float weight, bool up) {
+    all_ += weight;
+    (up ? up_ : down_) += weight;
+  }
+  void addHit(float weight, const TriangleTraits& triangle, bool back, float distance_m) {
+    all_ += weight;
+    if (back && triangle.solid) inside_ += weight;
+    if (!back || isLeaf(triangle.kind)) fronts_ += weight;
+    if (distance_m < kTouching_m) {
+      touching_ += weight;
+      if (back && !triangle.solid) touching_backs_ += weight;
+    }
+    inverse_distances_ += weight / std::max(distance_m, kLeast_m);
+  }
+
+  static constexpr float kTouching_m = 0.1f;
+  static constexpr float kClose_m = 0.5f;
+  static constexpr float kLeast_m = 1e-3f;
+  float all_ = 0.0f, up_ = 0.0f, down_ = 0.0f;
+  float inside_ = 0.0f, fronts_ = 0.0f, touching_ = 0.0f, touching_backs_ = 0.0f;
+  float inverse_distances_ = 0.0f;
+};
+
+}  // namespace sunlit::light

@@ -1,0 +1,70 @@
+/// The functions of OpenGL that drawing needs, asked of a context: no library of OpenGL is linked, so that
+/// several can live in one process.
+#pragma once
+
+#include <GL/glcorearb.h>
+
+#include "render/gl/context.h"
+
+namespace sunlit::render::gl {
+
+struct Functions {
+  /// Throws std::runtime_error naming the one that `context` has not.
+  explicit Functions(const Context& context);
+
+  PFNGLATTACHSHADERPROC AttachShader;
+  PFNGLBINDBUFFERPROC BindBuffer;
+  PFNGLBINDFRAMEBUFFERPROC BindFramebuffer;
+  PFNGLBINDRENDERBUFFERPROC BindRenderbuffer;
+  PFNGLBINDTEXTUREPROC BindTexture;
+  PFNGLBINDVERTEXARRAYPROC BindVertexArray;
+  PFNGLBUFFERDATAPROC BufferData;
+  PFNGLCHECKFRAMEBUFFERSTATUSPROC CheckFramebufferStatus;
+  PFNGLCLEARBUFFERFVPROC ClearBufferfv;
+  PFNGLCLEARBUFFERUIVPROC ClearBufferuiv;
+  PFNGLCLIPCONTROLPROC ClipControl;
+  PFNGLCOMPILESHADERPROC CompileShader;
+  PFNGLCREATEPROGRAMPROC CreateProgram;
+  PFNGLCREATESHADERPROC CreateShader;
+  PFNGLDELETEBUFFERSPROC DeleteBuffers;
+  PFNGLDELETEFRAMEBUFFERSPROC DeleteFramebuffers;
+  PFNGLDELETEPROGRAMPROC DeleteProgram;
+  PFNGLDELETERENDERBUFFERSPROC DeleteRenderbuffers;
+  PFNGLDELETESHADERPROC DeleteShader;
+  PFNGLDELETETEXTURESPROC DeleteTextures;
+  PFNGLDELETEVERTEXARRAYSPROC DeleteVertexArrays;
+  PFNGLDEPTHFUNCPROC DepthFunc;
+  PFNGLDRAWARRAYSPROC DrawArrays;
+  PFNGLENABLEPROC Enable;
+  PFNGLENABLEVERTEXATTRIBARRAYPROC EnableVertexAttribArray;
+  PFNGLFRAMEBUFFERRENDERBUFFERPROC FramebufferRenderbuffer;
+  PFNGLGENBUFFERSPROC GenBuffers;
+  PFNGLGENFRAMEBUFFERSPROC GenFramebuffers;
+  PFNGLGENRENDERBUFFERSPROC GenRenderbuffers;
+  PFNGLGENTEXTURESPROC GenTextures;
+  PFNGLGENVERTEXARRAYSPROC GenVertexArrays;
+  PFNGLGETERRORPROC GetError;
+  PFNGLGETINTEGERVPROC GetIntegerv;
+  PFNGLGETPROGRAMINFOLOGPROC GetProgramInfoLog;
+  PFNGLGETPROGRAMIVPROC GetProgramiv;
+  PFNGLGETSTRINGPROC GetString;
+  PFNGLGETUNIFORMLOCATIONPROC GetUniformLocation;
+  PFNGLLINKPROGRAMPROC LinkProgram;
+  PFNGLPIXELSTOREIPROC PixelStorei;
+  PFNGLREADPIXELSPROC ReadPixels;
+  PFNGLRENDERBUFFERSTORAGEPROC RenderbufferStorage;
+  PFNGLSCISSORPROC Scissor;
+  PFNGLSHADERSOURCEPROC ShaderSource;
+  PFNGLTEXBUFFERPROC TexBuffer;
+  PFNGLUNIFORM1FPROC Uniform1f;
+  PFNGLUNIFORM1IPROC Uniform1i;
+  PFNGLUNIFORM2FPROC Uniform2f;
+  PFNGLUNIFORM2IPROC Uniform2i;
+  PFNGLUSEPROGRAMPROC UseProgram;
+  PFNGLVERTEXATTRIBIPOINTERPROC VertexAttribIPointer;
+  PFNGLVERTEXATTRIBPOINTERPROC VertexAttribPointer;
+  PFNGLVIEWPORTPROC Viewport;
+  PFNGLACTIVETEXTUREPROC ActiveTexture;
+};
+
+}  // namespace sunlit::render::gl

@@ -1,0 +1,89 @@
+#include "ros/conversions/evaluation.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <cmath>
+
+#include "ros/conversions/received_images.h"
+#include "sunlit/quantity/angle.h"
+
+namespace sunlit::ros_interface {
+
+evaluate::CaptureRecord captureOf(const Capture& message) {
+  evaluate::CaptureRecord record;
+  record.pose = message.pose_index;
+  record.stamp_ns = nanosecondsOf(message.header.stamp);
+  record.ev100 = message.ev100;
+  record.sun_azimuth_deg = message.sun_azimuth / kRadPerDeg;
+  record.sun_elevation_deg = message.sun_elevation / kRadPerDeg;
+  record.moon_azimuth_deg = message.moon_azimuth / kRadPerDeg;
+  record.moon_elevation_deg = message.moon_elevation / kRadPerDeg;
+  record.moon_illuminated_fraction = message.moon_illuminated_fraction;
+  record.scene_illuminance_lx = message.scene_illuminance;
+  return record;
+}
+
+evaluate::PlaceRecord placeOf(const geometry_msgs::PoseStamped& message) {
+  const auto& q = message.pose.orientation;
+  evaluate::PlaceRecord record;
+  record.stamp_ns = nanosecondsOf(message.header.stamp);
+  record.x_m = message.pose.position.x;
+  record.y_m = message.pose.position.y;
+  record.z_m = message.pose.position.z;
+  record.yaw_deg =
+      std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z)) / kRadPerDeg;
+  return record;
+}
+
+PairDifference messageOf(const evaluate::EvaluationOptions& options, const evaluate::PairRecord& record) {
+  PairDifference message;
+  message.header.stamp = timeOf(record.stamp_ns);
+  message.pose = static_cast<std::uint32_t>(record.pose);
+  message.a = options.pairs.at(record.pair).a;
+  message.b = options.pairs.at(record.pair).b;
+  for (std::size_t d = 0; d < record.values.size(); ++d) {
+    const evaluate::DifferenceValue& value = record.values[d];
+    Difference difference;
+    difference.difference = evaluate::nameOf(options.comparer.differences.at(d));
+    difference.value = value.value;
+    difference.features_a = value.features_a;
+    difference.features_b = value.features_b;
+    difference.matches = value.matches;
+    difference.zero_second = value.zero_second;
+    difference.symmetric = value.symmetric;
+    difference.one_to_one = value.one_to_one;
+    difference.matches_back = value.matches_back;
+    difference.matches_one_to_one = value.matches_one_to_one;
+    message.differences.push_back(difference);
+  }
+  return message;
+}
+
+sensor_msgs::ImagePtr messageOf(const cv::Mat& rgb, const std_msgs::Header& header) {
+  return cv_bridge::CvImage(header, sensor_msgs::image_encodings::RGB8, rgb).toImageMsg();
+}
+
+Summary messageOf(const std::vector<evaluate::SummaryRow>& rows, std::size_t poses) {
+  Summary message;
+  message.poses = static_cast<std::uint32_t>(poses);
+  for (const evaluate::SummaryRow& row : rows) {
+    SummaryRow out;
+    out.a = row.a;
+    out.b = row.b;
+    out.difference = evaluate::nameOf(row.difference);
+    out.n = static_cast<std::uint32_t>(row.statistics.n);
+    out.undefined = static_cast<std::uint32_t>(row.statistics.undefined);
+    out.mean = row.statistics.mean;
+    out.sd = row.statistics.sd;
+    out.ci_low = row.statistics.ci_low;
+    out.ci_high = row.statistics.ci_high;
+    out.symmetric_mean = row.symmetric.mean;
+    out.one_to_one_mean = row.one_to_one.mean;
+    out.overmatched = static_cast<std::uint32_t>(row.overmatched);
+    message.rows.push_back(out);
+  }
+  return message;
+}
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,58 @@
+#include "ros/conversions/images.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <sensor_msgs/distortion_models.h>
+#include <sensor_msgs/image_encodings.h>
+#include <boost/make_shared.hpp>
+
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "sunlit/image/files.h"
+
+namespace sunlit::ros_interface {
+
+namespace {
+
+template <typename Value, int kChannels>
+sensor_msgs::ImagePtr packed(const image::Picture<Value, kChannels>& picture, const std_msgs::Header& header,
+                             const std::string& encoding) {
+  const cv::Mat pixels(picture.height, picture.width, CV_MAKETYPE(cv::DataType<Value>::depth, kChannels),
+                       const_cast<Value*>(picture.data.data()));  // only read
+  return cv_bridge::CvImage(header, encoding, pixels).toImageMsg();
+}
+
+}  // namespace
+
+sensor_msgs::ImagePtr toImageMessage(const image::Rgb8Image& picture, const std_msgs::Header& header) {
+  return packed(picture, header, sensor_msgs::image_encodings::RGB8);
+}
+
+sensor_msgs::ImagePtr toImageMessage(const image::DepthImage& depth, const std_msgs::Header& header) {
+  return packed(depth, header, sensor_msgs::image_encodings::TYPE_32FC1);
+}
+
+sensor_msgs::CompressedImagePtr toPngMessage(const image::Rgb8Image& picture,
+                                             const std_msgs::Header& header) {
+  const std::string png = image::encodePng(picture);
+  auto message = boost::make_shared<sensor_msgs::CompressedImage>();
+  message->header = header;
+  message->format = "rgb8; png compressed bgr8";
+  message->data.assign(png.begin(), png.end());
+  return message;
+}
+
+sensor_msgs::CameraInfo toCameraInfo(const image::PinholeCamera& camera, const std_msgs::Header& header) {
+  sensor_msgs::CameraInfo info;
+  info.header = header;
+  info.width = static_cast<std::uint32_t>(camera.width);
+  info.height = static_cast<std::uint32_t>(camera.height);
+  info.distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
+  info.D.assign(5, 0.0);
+  info.K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
+  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  info.P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
+  return info;
+}
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,22 @@
+/// Pictures and cameras to ROS messages. Pure functions.
+#pragma once
+
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+
+#include "sunlit/image/camera.h"
+#include "sunlit/image/images.h"
+
+namespace sunlit::ros_interface {
+
+/// Encoding rgb8.
+sensor_msgs::ImagePtr toImageMessage(const image::Rgb8Image& picture, const std_msgs::Header& header);
+/// Without loss; the format is named as compressed_image_transport does.
+sensor_msgs::CompressedImagePtr toPngMessage(const image::Rgb8Image& picture, const std_msgs::Header& header);
+/// Encoding 32FC1, m along the optical axis, NaN where there is nothing (REP-117, REP-118).
+sensor_msgs::ImagePtr toImageMessage(const image::DepthImage& depth, const std_msgs::Header& header);
+/// No distortion: model plumb_bob with zeros, rectification the identity.
+sensor_msgs::CameraInfo toCameraInfo(const image::PinholeCamera& camera, const std_msgs::Header& header);
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,88 @@
+#include "ros/conversions/received_images.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "sunlit/image/encoded_size.h"
+
+namespace sunlit::ros_interface {
+namespace {
+
+constexpr std::int64_t kNanosecondsPerSecond = 1000000000;
+
+// Products of two 32-bit numbers fit 64 bits, however absurd they are.
+std::string faultOfSize(std::uint64_t width, std::uint64_t height, std::size_t max_pixels) {
+  if (width == 0 || height == 0) return "has no pixels";
+  if (width * height <= max_pixels) return "";
+  return std::to_string(width) + "x" + std::to_string(height) + " pixels are more than max_pixels (" +
+         std::to_string(max_pixels) + ")";
+}
+
+std::string faultOfData(const sensor_msgs::Image& message) {
+  const int type = cv_bridge::getCvType(message.encoding);
+  const std::uint64_t row_bytes = static_cast<std::uint64_t>(message.width) * CV_ELEM_SIZE(type);
+  const std::uint64_t bytes = static_cast<std::uint64_t>(message.step) * message.height;
+  if (message.step < row_bytes)
+    return "step " + std::to_string(message.step) + " is less than a row of " + std::to_string(row_bytes) +
+           ": " + std::to_string(message.width) + " pixels of " + message.encoding;
+  if (message.data.size() != bytes)
+    return std::to_string(message.data.size()) + " bytes instead of " + std::to_string(bytes);
+  return "";
+}
+
+}  // namespace
+
+std::int64_t nanosecondsOf(const ros::Time& time) {
+  return static_cast<std::int64_t>(time.sec) * kNanosecondsPerSecond + time.nsec;
+}
+
+ros::Time timeOf(std::int64_t nanoseconds) {
+  return ros::Time(static_cast<std::uint32_t>(nanoseconds / kNanosecondsPerSecond),
+                   static_cast<std::uint32_t>(nanoseconds % kNanosecondsPerSecond));
+}
+
+DecodedImage decode(const sensor_msgs::Image& message, std::size_t max_pixels) {
+  DecodedImage decoded;
+  try {
+    decoded.fault = faultOfSize(message.width, message.height, max_pixels);
+    if (decoded.fault.empty()) decoded.fault = faultOfData(message);
+    if (decoded.fault.empty())
+      decoded.rgb = cv_bridge::toCvCopy(message, sensor_msgs::image_encodings::RGB8)->image;
+  } catch (const std::exception& error) {  // of cv_bridge and of OpenCV
+    decoded.fault =
+        "encoding \"" + message.encoding + "\" cannot be converted to rgb8: " + std::string(error.what());
+  }
+  return decoded;
+}
+
+DecodedImage decode(const sensor_msgs::CompressedImage& message, std::size_t max_pixels) {
+  DecodedImage decoded;
+  const auto head = image::encodedPicture(message.data.data(), message.data.size());
+  if (!head) {
+    decoded.fault = "format \"" + message.format + "\" is neither PNG nor JPEG, or is cut short";
+    return decoded;
+  }
+  decoded.is_lossy = head->is_lossy;
+  decoded.fault = faultOfSize(head->width, head->height, max_pixels);
+  if (head->is_cut_short) decoded.fault = "format \"" + message.format + "\": the data are cut short";
+  if (!decoded.fault.empty()) return decoded;
+  cv::Mat bgr;
+  try {
+    bgr = cv::imdecode(message.data, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception& error) {
+    decoded.fault = error.what();
+    return decoded;
+  }
+  if (bgr.empty()) {
+    decoded.fault = "format \"" + message.format + "\": the data cannot be decoded";
+    return decoded;
+  }
+  if (bgr.depth() == CV_16U) bgr.convertTo(bgr, CV_8U, 255.0 / 65535.0);
+  cv::cvtColor(bgr, decoded.rgb, cv::COLOR_BGR2RGB);
+  return decoded;
+}
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,32 @@
+/// Images from ROS messages, whoever sent them. Pure functions.
+#pragma once
+
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+namespace sunlit::ros_interface {
+
+/// ns since the epoch of ROS time.
+std::int64_t nanosecondsOf(const ros::Time& time);
+ros::Time timeOf(std::int64_t nanoseconds);
+
+/// An image as three channels of 8 bit, red first, or why it could not be had.
+struct DecodedImage {
+  cv::Mat rgb;
+  std::string fault;
+  bool is_lossy = false;  ///< compressed with loss
+};
+
+/// Whatever cv_bridge can convert to rgb8: rgb, bgr, with alpha (left out), mono, Bayer, yuv422, of 8 or 16
+/// bit. 16 bit become v · 255 / 65535, rounded. All else is a fault that names it: other encodings, more than
+/// `max_pixels` pixels, data that do not fit the size. Nothing is allocated before the size is checked.
+DecodedImage decode(const sensor_msgs::Image& message, std::size_t max_pixels);
+/// PNG and JPEG, of grey or colour, 8 or 16 bit as above; by the data, whatever the message calls its format.
+DecodedImage decode(const sensor_msgs::CompressedImage& message, std::size_t max_pixels);
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,39 @@
+#include "ros/conversions/time.h"
+
+#include <cstdio>
+#include <stdexcept>
+
+#include "sunlit/astronomy/civil_time.h"
+
+namespace sunlit::ros_interface {
+
+std::string toUtc(const Instant& instant) {
+  constexpr std::int64_t kNanosecondsPerMillisecond = 1000000;
+  const std::int64_t milliseconds =
+      (instant.nanosecondsOfDay() + kNanosecondsPerMillisecond / 2) / kNanosecondsPerMillisecond;
+  const Instant rounded(instant.julianDay(), milliseconds * kNanosecondsPerMillisecond);
+  const CivilDateTime civil = astronomy::civilOf(rounded, 0.0);
+  char text[64];
+  std::snprintf(text, sizeof(text), "%s%04d-%02d-%02dT%02d:%02d:%06.3fZ", civil.year < 0 ? "-" : "",
+                civil.year < 0 ? -civil.year : civil.year, civil.month, civil.day, civil.hour, civil.minute,
+                civil.second);
+  return text;
+}
+
+std::optional<Instant> fromUtc(const std::string& utc) {
+  if (utc.empty()) return std::nullopt;
+  CivilDateTime civil;
+  int length = 0;
+  const int fields = std::sscanf(utc.c_str(), "%d-%2d-%2dT%2d:%2d:%lfZ%n", &civil.year, &civil.month,
+                                 &civil.day, &civil.hour, &civil.minute, &civil.second, &length);
+  if (fields != 6 || length != static_cast<int>(utc.size()))
+    throw std::invalid_argument("utc is \"" + utc + "\", but must read like 2024-07-01T09:00:00.000Z");
+  civil.timezone = 0.0;
+  try {
+    return astronomy::instantOf(civil);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("utc is \"" + utc + "\": " + error.what());
+  }
+}
+
+}  // namespace sunlit::ros_interface

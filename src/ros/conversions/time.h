@@ -1,0 +1,19 @@
+/// Civil time in messages. Pure functions.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "sunlit/quantity/instant.h"
+
+namespace sunlit::ros_interface {
+
+/// "2024-07-01T09:00:00.000Z": ISO 8601 in UTC, rounded to 1 ms; "-1999-07-01T…" for years before 0. Calendar
+/// as in CivilDateTime.
+std::string toUtc(const Instant& instant);
+
+/// What toUtc() writes, with any number of decimals; empty: nothing is known. Throws std::invalid_argument
+/// for anything else.
+std::optional<Instant> fromUtc(const std::string& utc);
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,61 @@
+#include "ros/evaluator/evaluator_diagnostics.h"
+
+#include <string>
+
+namespace sunlit::ros_interface {
+namespace {
+
+constexpr double kBytesPerMegabyte = 1e6;
+
+std::string awaited(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts) {
+  if (counts.waiting_images == 0) return counts.queued_poses > 0 ? "comparisons" : "images";
+  std::string names;
+  for (const std::size_t s : counts.awaited_streams)
+    names += (names.empty() ? "" : ", ") + options.streams[s];
+  return names.empty() ? "captures" : "images of " + names;
+}
+
+}  // namespace
+
+EvaluatorDiagnostics::EvaluatorDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                                           const evaluate::Evaluation& evaluation)
+    : evaluation_(evaluation),
+      updater_(node, private_node),
+      received_(evaluation.options().streams.size(), 0) {
+  updater_.add("evaluation", [this](WallUpdater::Status& status) { tell(status); });
+}
+
+void EvaluatorDiagnostics::tell(WallUpdater::Status& status) {
+  const evaluate::EvaluationOptions& options = evaluation_.options();
+  const evaluate::Counts counts = evaluation_.counts();
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  const double elapsed_s = (now - last_).toSec();
+  last_ = now;
+  std::size_t failures = 0;
+  status.add("completed poses", counts.completed_poses);
+  status.add("expected poses", options.poses.size() > 0 ? std::to_string(options.poses.size()) : "unknown");
+  status.add("unexpected poses", counts.unexpected_poses);
+  status.add("poses being compared or queued", counts.queued_poses);
+  status.add("images that wait for a partner", counts.waiting_images);
+  status.addf("memory", "%.1f of %.1f MB", static_cast<double>(counts.bytes) / kBytesPerMegabyte,
+              static_cast<double>(options.memory_limit_bytes) / kBytesPerMegabyte);
+  status.add("waits for", awaited(options, counts));
+  for (std::size_t s = 0; s < options.streams.size(); ++s) {
+    const evaluate::StreamCounts& c = counts.streams[s];
+    const double rate = elapsed_s > 0.0 ? static_cast<double>(c.received - received_[s]) / elapsed_s : 0.0;
+    received_[s] = c.received;
+    const std::size_t faults = c.dropped + c.late + c.lost + c.undecodable;
+    failures += faults;
+    status.addf(options.streams[s],
+                "%.1f images/s, %zu received, %zu dropped, %zu late, %zu lost, %zu unusable", rate,
+                c.received, c.dropped, c.late, c.lost, c.undecodable);
+  }
+  using Status = diagnostic_msgs::DiagnosticStatus;
+  if (failures > 0) {
+    status.summaryf(Status::WARN, "%zu images dropped, late, lost or unusable", failures);
+  } else {
+    status.summaryf(Status::OK, "%zu poses evaluated", counts.completed_poses);
+  }
+}
+
+}  // namespace sunlit::ros_interface

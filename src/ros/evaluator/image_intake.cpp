@@ -1,0 +1,136 @@
+#include "ros/evaluator/image_intake.h"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <image_transport/exception.h>
+#include <ros/console.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sunlit/Capture.h>
+
+#include "ros/conversions/evaluation.h"
+#include "ros/conversions/received_images.h"
+#include "sunlit/ros/topic_names.h"
+
+namespace sunlit::ros_interface {
+namespace {
+
+constexpr std::uint32_t kQueue = 4;  // ImmediateQueue leaves none waiting
+
+const std::string kRaw = "raw";
+const std::string kCompressed = "compressed";
+
+ros::NodeHandle withQueue(ros::NodeHandle node, ros::CallbackQueueInterface* queue) {
+  node.setCallbackQueue(queue);
+  return node;
+}
+
+std::string transportsToBeHad(const image_transport::ImageTransport& transport) {
+  std::string names = kRaw + ", " + kCompressed;
+  for (const std::string& plugin : transport.getLoadableTransports()) {
+    const std::string name = plugin.substr(plugin.find('/') + 1);
+    if (name != kRaw && name != kCompressed) names += ", " + name;
+  }
+  return names;
+}
+
+}  // namespace
+
+ImageIntake::ImageIntake(const ros::NodeHandle& node, const IntakeOptions& options,
+                         evaluate::Evaluation& evaluation)
+    : node_(withQueue(node, &queue_)),
+      transport_(node_),
+      options_(options),
+      evaluation_(evaluation),
+      last_image_s_(ros::SteadyTime::now().toSec()),
+      streams_(evaluation.options().streams.size()) {
+  for (std::size_t s = 0; s < streams_.size(); ++s) subscribe(s);
+  places_ = node_.subscribe<geometry_msgs::PoseStamped>(
+      topics::kPose, kQueue, [this](const geometry_msgs::PoseStamped::ConstPtr& message) {
+        guarded([&] { evaluation_.addPlace(placeOf(*message)); });
+      });
+}
+
+ImageIntake::~ImageIntake() = default;
+
+void ImageIntake::subscribe(std::size_t stream) {
+  const std::string root = evaluation_.options().streams[stream] + "/";
+  const auto hints = ros::TransportHints().tcpNoDelay();
+  streams_[stream].captures = node_.subscribe<Capture>(
+      root + topics::kCapture, kQueue,
+      [this, stream](const Capture::ConstPtr& message) {
+        guarded([&] { evaluation_.addCapture(stream, captureOf(*message)); });
+      },
+      nullptr, hints);
+  if (options_.transport != kCompressed) return subscribeByPlugin(stream, root + topics::kImage);
+  streams_[stream].compressed = node_.subscribe<sensor_msgs::CompressedImage>(
+      root + topics::kCompressedImage, kQueue,
+      [this, stream](const sensor_msgs::CompressedImage::ConstPtr& message) { take(stream, *message); },
+      nullptr, hints);
+}
+
+void ImageIntake::subscribeByPlugin(std::size_t stream, const std::string& topic) {
+  const image_transport::TransportHints hints(options_.transport, ros::TransportHints().tcpNoDelay(),
+                                              ros::NodeHandle("~"));
+  try {
+    streams_[stream].images = transport_.subscribe(
+        topic, kQueue, [this, stream](const sensor_msgs::ImageConstPtr& message) { take(stream, *message); },
+        nullptr, hints);
+  } catch (const image_transport::Exception&) {
+    refuse("image_transport", '"' + options_.transport + '"',
+           "one of those that are installed: " + transportsToBeHad(transport_));
+  }
+}
+
+// In the thread of roscpp, which an exception would end.
+template <typename Call>
+void ImageIntake::guarded(const Call& call) {
+  try {
+    call();
+  } catch (...) {
+    const std::lock_guard<std::mutex> lock(fault_mutex_);
+    if (!fault_) fault_ = std::current_exception();
+  }
+}
+
+template <typename Message>
+void ImageIntake::take(std::size_t stream, const Message& message) {
+  guarded([&] {
+    last_image_s_ = ros::SteadyTime::now().toSec();
+    countGap(stream, message.header);
+    const DecodedImage decoded = decode(message, options_.max_pixels);
+    const std::int64_t stamp_ns = nanosecondsOf(message.header.stamp);
+    if (!decoded.fault.empty()) {
+      ROS_WARN("%s: image of stamp %u.%09u cannot be used: %s", evaluation_.options().streams[stream].c_str(),
+               message.header.stamp.sec, message.header.stamp.nsec, decoded.fault.c_str());
+      evaluation_.addBadImage(stream, stamp_ns, decoded.fault);
+    } else if (decoded.is_lossy) {
+      evaluation_.addLossyImage(stream, stamp_ns, decoded.rgb);
+    } else {
+      evaluation_.addImage(stream, stamp_ns, decoded.rgb);
+    }
+  });
+}
+
+std::size_t ImageIntake::senders(std::size_t stream) const {
+  const Stream& s = streams_[stream];
+  return s.images ? s.images.getNumPublishers() : s.compressed.getNumPublishers();
+}
+
+// Senders number their messages one by one. Two of them at once have two counts, and one that begins anew a
+// lower one: neither tells of a loss.
+void ImageIntake::countGap(std::size_t stream, const std_msgs::Header& header) {
+  std::optional<std::uint32_t>& last = streams_[stream].sequence;
+  if (last && header.seq > *last + 1 && senders(stream) == 1)
+    evaluation_.addLost(stream, header.seq - *last - 1, nanosecondsOf(header.stamp));
+  last = header.seq;
+}
+
+double ImageIntake::secondsWithoutImage() const {
+  return ros::SteadyTime::now().toSec() - last_image_s_;
+}
+
+void ImageIntake::rethrow() const {
+  const std::lock_guard<std::mutex> lock(fault_mutex_);
+  if (fault_) std::rethrow_exception(fault_);
+}
+
+}  // namespace sunlit::ros_interface

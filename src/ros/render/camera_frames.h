@@ -1,0 +1,20 @@
+/// The TF frames of a camera (REP-105).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sunlit/quantity/field.h"
+#include "sunlit/ros/frame_names.h"
+
+namespace sunlit::ros_interface {
+
+struct CameraFrames {
+  std::string map = kMapFrame;                   ///< ENU
+  std::string camera = "camera_link";            ///< x forward, y left, z up
+  std::string optical = "camera_optical_frame";  ///< z forward, x right, y down
+};
+
+std::vector<Field> fieldsOf(CameraFrames& frames);
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,94 @@
+#include "sunlit/studio/sky.h"
+
+#include <algorithm>
+#include <string>
+
+#include "studio/tell.h"
+#include "sunlit/astronomy/celestial.h"
+#include "sunlit/astronomy/moon_position.h"
+#include "sunlit/astronomy/star_catalogue.h"
+#include "sunlit/astronomy/sun_position.h"
+
+namespace sunlit::studio {
+namespace {
+
+/// Of different heights at a time: conditions of one run may have sites of their own.
+constexpr std::size_t kMostAirs = 8;
+
+/// The options of the air at a height.
+sky::AtmosphereOptions airAt(double height_m, const SkyOptions& options) {
+  sky::AtmosphereOptions air = options.air;
+  air.observer_height_m = height_m;
+  return air;
+}
+
+const SkyOptions& checked(const SkyOptions& options) {
+  sky::validate(airAt(options.fixed_height_m.value_or(0.0), options));
+  return options;
+}
+
+}  // namespace
+
+SkyBodies bodiesAt(const Instant& instant, const Site& site, const Air& air,
+                   const astronomy::EarthRotation& earth) {
+  const astronomy::SolarCoordinates solar = astronomy::solarCoordinates(instant, earth);
+  const astronomy::SunPosition sun = astronomy::sunPosition(solar, site, air);
+  const astronomy::MoonPosition moon =
+      astronomy::moonPosition(astronomy::lunarCoordinates(instant, earth), solar, site, air);
+  SkyBodies bodies;
+  bodies.sun = {sun.direction(), solar.distance_au, Direction(sun.azimuth, sun.elevation_geometric)};
+  bodies.moon =
+      sky::MoonInSky{moon.direction(), moon.geometricDirection(), moon.distance_m, moon.phase_angle};
+  bodies.map_from_celestial = astronomy::mapFromCelestial(instant, earth, site);
+  bodies.site_elevation_m = site.elevation_m;
+  return bodies;
+}
+
+std::shared_ptr<const std::vector<sky::Star>> loadStars(const Reports& reports) {
+  const astronomy::StarCatalogue catalogue = astronomy::readStarCatalogue();
+  for (const std::string& warning : catalogue.warnings) tell(reports.warning, warning);
+  auto stars = std::make_shared<std::vector<sky::Star>>();
+  stars->reserve(catalogue.stars.size());
+  for (const astronomy::CatalogueStar& star : catalogue.stars)
+    stars->push_back({star.towards.cast<float>(), sky::starIlluminance(star.v_magnitude, star.b_minus_v)});
+  return stars;
+}
+
+Sky::Sky(const SkyOptions& options, Reports reports)
+    : options_(checked(options)),
+      reports_(std::move(reports)),
+      stars_(options.stars ? loadStars(reports_) : nullptr) {}
+
+sky::Daylight Sky::daylight(const SkyBodies& bodies) {
+  return airOver(bodies.site_elevation_m)
+      .daylight(bodies.sun, {bodies.moon, bodies.map_from_celestial, stars_});
+}
+
+double Sky::heightOver(double site_elevation_m) const {
+  if (options_.fixed_height_m) return *options_.fixed_height_m;
+  sky::AtmosphereOptions air;
+  const std::vector<Field> rows = fieldsOf(air);
+  const Range& allowed = fieldOf(rows, "observer_height").range;
+  return std::clamp(site_elevation_m, allowed.low, allowed.high);
+}
+
+bool Sky::isPrepared(double site_elevation_m) const {
+  const double height_m = heightOver(site_elevation_m);
+  return std::any_of(airs_.begin(), airs_.end(), [&](const auto& air) { return air.first == height_m; });
+}
+
+const sky::Atmosphere& Sky::airOver(double site_elevation_m) {
+  const double height_m = heightOver(site_elevation_m);
+  const auto known =
+      std::find_if(airs_.begin(), airs_.end(), [&](const auto& air) { return air.first == height_m; });
+  if (known != airs_.end()) {
+    std::rotate(known, known + 1, airs_.end());
+    return airs_.back().second;
+  }
+  tell(reports_.note, "Air of a height of " + textOf(height_m) + " m");
+  if (airs_.size() == kMostAirs) airs_.erase(airs_.begin());
+  airs_.emplace_back(height_m, sky::Atmosphere(airAt(height_m, options_)));
+  return airs_.back().second;
+}
+
+}  // namespace sunlit::studio

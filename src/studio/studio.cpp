@@ -1,0 +1,105 @@
+#include "sunlit/studio/studio.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sunlit/quantity/frames.h"
+
+namespace sunlit::studio {
+
+namespace {
+
+/// The highest point of the scene.
+double topOf(const scene::Scene& scene) {
+  float top = -1e9f;
+  for (const scene::Mesh& mesh : scene.meshes) {
+    for (const Eigen::Vector3f& position : mesh.positions) top = std::max(top, position.z());
+  }
+  return static_cast<double>(top);
+}
+
+/// Before anything that takes time. Throws std::invalid_argument.
+const StudioOptions& checked(const StudioOptions& options) {
+  image::validate(options.exposure);
+  image::validate(options.noise);
+  render::validate(options.render);
+  light::validate(options.bake.transport);
+  render::requireStarts(options.render.rasterizer);
+  return options;
+}
+
+}  // namespace
+
+Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& robot, const Reports& reports)
+    : options_(checked(options)),
+      world_(stopwatch_.measure("load", "world", [&] { return loadWorld(options.world, robot, reports); })) {
+  world_.transport =
+      stopwatch_.measure("load", "transport", [&] { return bake(world_, options.bake, reports); });
+  renderer_ = stopwatch_.measure("load", "renderer",
+                                 [&] { return std::make_unique<render::Renderer>(world_, options.render); });
+}
+
+image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylight& daylight) const {
+  constexpr double kLongSidePx = 1600.0;
+  // From so many extents away rays are within 1.5° of parallel.
+  constexpr double kDistance = 20.0;
+  const double east_m = extent.x_max - extent.x_min;
+  const double north_m = extent.y_max - extent.y_min;
+  const double longest_m = std::max(east_m, north_m);
+  const double distance_m = kDistance * longest_m;
+
+  render::RenderOptions options = options_.render;
+  options.final_gather = 0;  // the whole world at a glance: its leaves are smaller than pixels
+  const double px_per_m = kLongSidePx / longest_m;
+  const int width = std::max(16, static_cast<int>(std::lround(east_m * px_per_m)));
+  const int height = std::max(16, static_cast<int>(std::lround(north_m * px_per_m)));
+  const double focal_px = px_per_m * distance_m;
+  options.camera = {width, height, focal_px, focal_px, 0.5 * (width - 1), 0.5 * (height - 1)};
+  options.near_m = 0.5 * distance_m;
+  options.far_m = 2.0 * distance_m;
+
+  Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
+  map_from_optical.linear() =
+      Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();  // right east, down south, forward down
+  map_from_optical.translation() =
+      Eigen::Vector3d(0.5 * (extent.x_min + extent.x_max), 0.5 * (extent.y_min + extent.y_max),
+                      topOf(*world_.geometry->scene) + distance_m);
+  render::Renderer from_above(world_, options);
+  from_above.look(map_from_optical);
+  const image::LinearImage light = from_above.light(illumination(daylight));
+  return image::develop(light, image::chooseEv100(light, image::ExposureOptions{}));
+}
+
+void Studio::look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links) {
+  stopwatch_.measure("geometry", "pose",
+                     [&] { renderer_->look(map_from_camera * linkFromOptical(), map_from_links); });
+}
+
+void Studio::lookAhead(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links) {
+  stopwatch_.measure("geometry", "ahead",
+                     [&] { renderer_->lookAhead(map_from_camera * linkFromOptical(), map_from_links); });
+}
+
+light::Illumination Studio::illumination(const sky::Daylight& daylight) const {
+  return light::illumination(world_, daylight);
+}
+
+Developed Studio::photograph(const light::Illumination& light, const image::PictureName& name) {
+  image::LinearImage luminance =
+      stopwatch_.measure("light", name.series, [&] { return renderer_->light(light); });
+  return stopwatch_.measure("develop", name.series, [&] {
+    const double ev100 = image::chooseEv100(luminance, options_.exposure);
+    if (options_.noise.enabled) image::addSensorNoise(ev100, options_.noise, name, &luminance);
+    return Developed{image::develop(luminance, ev100), ev100};
+  });
+}
+
+std::string Studio::rasterizer() const {
+  return renderer_->rasterizer();
+}
+
+image::DepthImage Studio::depth() {
+  return stopwatch_.measure("depth", "pose", [&] { return renderer_->depth(); });
+}
+
+}  // namespace sunlit::studio

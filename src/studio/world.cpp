@@ -1,0 +1,42 @@
+#include "sunlit/studio/world.h"
+
+#include <cstdint>
+#include <utility>
+
+#include "studio/tell.h"
+
+namespace sunlit::studio {
+
+scene::Scene loadScene(const WorldOptions& options, const Reports& reports) {
+  scene::Scene scene = scene::load(options.name, scene::SearchPath::withEnvironment(options.model_path));
+  for (const std::string& warning : scene.warnings) tell(reports.warning, options.name + ": " + warning);
+  tell(reports.note, "World " + options.name + ": " + std::to_string(scene.triangleCount()) + " triangles, " +
+                         std::to_string(scene.textures.size()) + " textures");
+  return scene;
+}
+
+light::World loadWorld(const WorldOptions& options, const std::optional<scene::Robot>& robot,
+                       const Reports& reports) {
+  auto scene = std::make_shared<scene::Scene>(loadScene(options, reports));
+  std::vector<std::vector<scene::Mesh>> meshes_of_links;
+  if (robot) meshes_of_links = scene::addLooks(*robot, scene.get());
+  return light::World(std::move(scene), meshes_of_links);
+}
+
+light::BakeCache cacheOf(const BakeOptions& options) {
+  return {options.cache_dir.empty() ? light::Transport::usualFolder() : options.cache_dir,
+          static_cast<std::uintmax_t>(1e9 * options.cache_limit_gb)};
+}
+
+std::shared_ptr<const light::Transport> bake(const light::World& world, const BakeOptions& options,
+                                             const Reports& reports) {
+  if (!options.enabled) return nullptr;
+  const light::BakeCache cache = cacheOf(options);
+  auto transport =
+      light::Transport::cached(world.geometry, options.transport, cache, {reports.baking, reports.warning});
+  tell(reports.note, "Sky light and bounced light at " + std::to_string(transport->sampleCount()) +
+                         " samples, kept in " + cache.folder);
+  return transport;
+}
+
+}  // namespace sunlit::studio

@@ -1,0 +1,46 @@
+/// Command line options of a camera itself, and how a pose is typed; shared by the tools that take pictures.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "sunlit/quantity/field.h"
+#include "sunlit/render/renderer.h"
+#include "sunlit/studio/world.h"
+#include "tools/command_line.h"
+
+namespace sunlit::tools {
+
+/// What must be known in full before a camera can be made.
+struct CameraWords {
+  render::RenderOptions render;  ///< but for what the field of view says of its camera
+  double fov_deg = 90.0;
+
+  /// Not validated.
+  render::RenderOptions options() const;
+  /// Throws std::invalid_argument if the camera can't have what it asks for of a world baked like this.
+  void requireSense(const studio::BakeOptions& bake) const;
+};
+
+/// --size, --fov, --supersampling, --final-gather and --rasterizer.
+void addCamera(CommandLine* line, CameraWords* words);
+
+/// Where a camera stands and how it is turned.
+struct TypedPose {
+  double x = 0.0, y = 0.0, z = 1.0;
+  double yaw_deg = 0.0, pitch_deg = 0.0;
+};
+
+inline std::vector<Field> fieldsOf(TypedPose& pose) {
+  return {{"x", &pose.x, "m", {}, ""},
+          {"y", &pose.y, "m", {}, ""},
+          {"z", &pose.z, "m", {}, ""},
+          {"yaw", &pose.yaw_deg, "deg", {}, "counter-clockwise from east"},
+          {"pitch", &pose.pitch_deg, "deg", {}, "up is positive"}};
+}
+
+/// Of a camera (x forward, y left, z up) at `eye`, m; yaw counter-clockwise from east, pitch up is positive.
+Eigen::Isometry3d mapFromCamera(const Eigen::Vector3d& eye, double yaw_rad, double pitch_rad);
+Eigen::Isometry3d mapFromCamera(const TypedPose& pose);
+
+}  // namespace sunlit::tools

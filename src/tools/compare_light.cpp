@@ -1,0 +1,122 @@
+// The error of the fast picture's light, view by view and sun by sun.
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+#include "sunlit/image/files.h"
+#include "sunlit/image/flip.h"
+#include "sunlit/path/path.h"
+#include "sunlit/quantity/frames.h"
+#include "sunlit/scene/race_track.h"
+#include "sunlit/sky/atmosphere.h"
+#include "tools/command_line.h"
+#include "tools/compare_light_options.h"
+#include "tools/comparison_files.h"
+#include "tools/every_nth_pixel.h"
+#include "tools/output_folder.h"
+#include "tools/terminal.h"
+
+namespace sunlit::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::vector<Eigen::Isometry3d> viewsOf(const CompareLightOptions& options) {
+  if (!options.map_from_camera.empty()) return options.map_from_camera;
+  const path::Waypoints waypoints =
+      options.path.empty() ? scene::raceTrackWaypoints() : path::readWaypoints(options.path);
+  const std::vector<Eigen::Isometry3d> poses = path::posesAlong(waypoints, options.sampling);
+  std::vector<Eigen::Isometry3d> views;
+  for (int i = 0; i < options.views; ++i) {
+    views.push_back(
+        poses[poses.size() * static_cast<std::size_t>(i) / static_cast<std::size_t>(options.views)]);
+  }
+  return views;
+}
+
+sky::Daylight daylightOf(const SkyToCompare& what, const sky::Atmosphere& atmosphere) {
+  const Direction towards(Azimuth::degrees(what.azimuth_deg), Angle::degrees(what.elevation_deg));
+  if (!what.moon_phase_deg) return atmosphere.daylight({towards, 1.0});
+  constexpr double kDeepNight_deg = -40.0;
+  const Direction sun(Azimuth::degrees(what.azimuth_deg + 180.0), Angle::degrees(kDeepNight_deg));
+  sky::NightSky night;
+  night.moon.emplace();
+  night.moon->apparent = towards;
+  night.moon->phase_angle = Angle::degrees(*what.moon_phase_deg);
+  return atmosphere.daylight({sun, 1.0}, night);
+}
+
+class Comparer {
+ public:
+  Comparer(const CompareLightOptions& options, const light::World& world)
+      : options_(options), world_(world), renderer_(world, options.render) {
+    const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
+    for (const SkyToCompare& what : options.skies) days_.push_back(daylightOf(what, atmosphere));
+  }
+
+  void compare(int view, const Eigen::Isometry3d& map_from_camera) {
+    renderer_.look(map_from_camera * linkFromOptical());
+    const EveryNthPixel chosen(options_.every);
+    const light::Surfaces surfaces = chosen.of(renderer_.surfaces());
+    const std::vector<light::Traced> traced =
+        light::traceReference(surfaces, world_, days_, options_.reference);
+    for (std::size_t i = 0; i < days_.size(); ++i) {
+      const image::LinearImage fast = renderer_.light(light::illumination(world_, days_[i]));
+      const image::Picture<float, 1> errors = light::relativeErrors(fast, traced[i], surfaces);
+      const std::string& name = options_.skies[i].name;
+      rows_.push_back({view, name, static_cast<double>(days_[i].groundIlluminance().luminance()),
+                       light::luminanceError(fast, traced[i], surfaces),
+                       image::meanOf(image::hdrFlip(chosen.of(traced[i].luminance), chosen.of(fast)))});
+      by_material_.add(surfaces, errors);
+      image::writePng(options_.output + "/view_" + std::to_string(view) + "_" + name + ".png",
+                      sideBySide(chosen.of(fast), chosen.of(traced[i].luminance), chosen.of(errors)));
+    }
+    by_material_.write(options_.output, *world_.geometry->scene);
+    writeTables(options_.output, rows_);
+  }
+
+  const std::vector<ComparisonRow>& rows() const { return rows_; }
+
+ private:
+  const CompareLightOptions& options_;
+  const light::World& world_;
+  render::Renderer renderer_;
+  std::vector<sky::Daylight> days_;
+  std::vector<ComparisonRow> rows_;
+  ErrorByMaterial by_material_;
+};
+
+void run(const CompareLightOptions& options) {
+  makeFolder(options.output);
+  const auto load_start = Clock::now();
+  light::World world = studio::loadWorld(options.world, std::nullopt, onTerminal());
+  world.transport = studio::bake(world, options.bake, onTerminal());
+  std::printf("world loaded and its light baked or read in %.1f s\n", secondsSince(load_start));
+  const std::vector<Eigen::Isometry3d> views = viewsOf(options);
+  Comparer comparer(options, world);
+  const auto start = Clock::now();
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    comparer.compare(static_cast<int>(i), views[i]);
+    const double elapsed = secondsSince(start);
+    double worst = 0.0;
+    for (const ComparisonRow& row : comparer.rows()) worst = std::max(worst, row.error.mean);
+    std::printf("view %zu of %zu: worst mean error so far %.1f %%, %.0f s left\n", i + 1, views.size(),
+                100.0 * worst,
+                elapsed / static_cast<double>(i + 1) * static_cast<double>(views.size() - i - 1));
+    std::fflush(stdout);
+  }
+  std::printf("%s/table.md\n", options.output.c_str());
+}
+
+}  // namespace
+}  // namespace sunlit::tools
+
+int main(int argc, char** argv) {
+  using namespace sunlit::tools;
+  return runTool({"compare_light", argc, argv}, parseCompareLightOptions, run);
+}

@@ -1,0 +1,80 @@
+// How many poses an experiment has, so that a launch file that asks stops before it has started anything
+// where that cannot be.
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sunlit/path/path.h"
+#include "sunlit/scene/load.h"
+#include "sunlit/scene/race_track.h"
+#include "tools/command_line.h"
+
+namespace {
+
+using namespace sunlit;
+
+constexpr const char* kUsage = "usage: count_poses WORLD WAYPOINT_FILE SPACING_M POSES\n";
+
+struct CountOptions {
+  path::PathOptions sampling;
+  std::size_t poses = 0;
+};
+
+std::vector<Field> fieldsOf(CountOptions& options) {
+  return {fieldOf(fieldsOf(options.sampling), "spacing"),
+          {"poses", &options.poses, "", {0, 1e9}, "wanted; 0: all of the path"}};
+}
+
+void printHelp() {
+  CountOptions options;
+  const std::vector<Field> rows = fieldsOf(options);
+  std::cout << "count_poses: prints how many poses an experiment has. Needs no ROS master.\n\n"
+            << kUsage << '\n';
+  std::cout << "  WORLD          as snapshot has it\n"
+               "  WAYPOINT_FILE  CSV or TUM; empty: the path of race_track\n"
+               "  SPACING_M      "
+            << tools::Option("spacing", rows[0].doc, {rows[0]}).help() << '\n'
+            << "  POSES          " << tools::Option("poses", rows[1].doc, {rows[1]}).help() << '\n';
+}
+
+std::size_t countPoses(const std::string& world, const std::string& file, const std::string& spacing,
+                       const std::string& poses) {
+  CountOptions options;
+  const std::vector<Field> rows = fieldsOf(options);
+  fieldOf(rows, "spacing").setText(spacing, "argument spacing");
+  fieldOf(rows, "poses").setText(poses, "argument poses");
+  if (file.empty() && world != scene::kRaceTrack) {
+    throw std::invalid_argument("argument path is empty, but only the world " +
+                                std::string(scene::kRaceTrack) +
+                                " has a path of its own; give a waypoint file");
+  }
+  const path::Waypoints waypoints = file.empty() ? scene::raceTrackWaypoints() : path::readWaypoints(file);
+  const std::size_t all = path::posesAlong(waypoints, options.sampling).size();
+  if (options.poses > all) {
+    throw std::invalid_argument("argument poses is " + poses + ", but the path has only " +
+                                std::to_string(all));
+  }
+  return options.poses == 0 ? all : options.poses;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 2 && (argv[1] == std::string("--help") || argv[1] == std::string("-h"))) {
+    printHelp();
+    return 0;
+  }
+  if (argc != 5) {
+    std::cerr << kUsage;
+    return 2;
+  }
+  try {
+    std::cout << countPoses(argv[1], argv[2], argv[3], argv[4]) << '\n';
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "sunlit: " << error.what() << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,35 @@
+#include "tools/output_folder.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+namespace sunlit::tools {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& folder, const std::error_code& why) {
+  throw std::runtime_error(folder + ": the folder cannot be made or written: " + why.message());
+}
+
+}  // namespace
+
+void requireFolderCanBeMade(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::path there = std::filesystem::absolute(folder);
+  while (!std::filesystem::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+  if (!std::filesystem::is_directory(there, error))
+    fail(folder, std::make_error_code(std::errc::not_a_directory));
+  if (::access(there.c_str(), W_OK | X_OK) != 0) fail(folder, {errno, std::generic_category()});
+}
+
+void makeFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) fail(folder, error);
+}
+
+}  // namespace sunlit::tools

@@ -1,0 +1,176 @@
+#include "tools/pictures_of_day.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "sunlit/image/files.h"
+#include "sunlit/quantity/range.h"
+
+namespace sunlit::tools {
+
+namespace {
+
+/// Codecs of a kind of film, the best first: which of them there are depends on how OpenCV was built.
+struct Film {
+  const char* ending;
+  std::vector<std::array<char, 4>> codecs;
+};
+
+const std::vector<Film>& films() {
+  static const std::vector<Film> all = {{".mp4", {{'a', 'v', 'c', '1'}, {'m', 'p', '4', 'v'}}},
+                                        {".avi", {{'M', 'J', 'P', 'G'}}},
+                                        {".mkv", {{'F', 'F', 'V', '1'}}}};
+  return all;
+}
+
+const Film& filmOf(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  for (const Film& film : films()) {
+    if (ending == film.ending) return film;
+  }
+  refuse("--video", '"' + path + '"', "a name that ends in .mp4, .avi or .mkv");
+}
+
+/// Not opened where no codec can be had.
+cv::VideoWriter opened(const Film& film, const std::string& path, double frame_rate, const cv::Size& size) {
+  // What it has to say of codecs that it lacks, and of films that it cannot read, is said here.
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  for (const auto& c : film.codecs) {
+    cv::VideoWriter writer(path, cv::VideoWriter::fourcc(c[0], c[1], c[2], c[3]), frame_rate, size);
+    if (writer.isOpened()) return writer;
+  }
+  return {};
+}
+
+/// Shares the memory of `picture`.
+cv::Mat matOf(image::Rgb8Image* picture) {
+  return cv::Mat(picture->height, picture->width, CV_8UC3, picture->data.data());
+}
+
+/// Most codecs halve the resolution of colour, so their pictures have even sides.
+cv::Mat evenSided(const cv::Mat& picture) {
+  cv::Mat even;
+  cv::copyMakeBorder(picture, even, 0, picture.rows % 2, 0, picture.cols % 2, cv::BORDER_REPLICATE);
+  return even;
+}
+
+/// A file that goes again unless it was moved away.
+class Unfinished {
+ public:
+  explicit Unfinished(std::string path) : path_(std::move(path)) {}
+  ~Unfinished() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+/// How many frames of this size can be read from a film; 0 for what is no film.
+int framesIn(const std::string& path, const cv::Size& size) {
+  cv::VideoCapture reader(path);
+  const cv::Size found(static_cast<int>(reader.get(cv::CAP_PROP_FRAME_WIDTH)),
+                       static_cast<int>(reader.get(cv::CAP_PROP_FRAME_HEIGHT)));
+  int count = 0;
+  while (found == size && reader.grab()) ++count;
+  return count;
+}
+
+constexpr int kGapPx = 2;  // between the pictures of a sheet
+
+int thumbnailHeight(const SheetLayout& layout, double height_over_width) {
+  return std::max(1, static_cast<int>(std::lround(layout.width_px * height_over_width)));
+}
+
+}  // namespace
+
+void writeInto(const std::string& text, double share, image::Rgb8Image* picture) {
+  constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
+  constexpr double kUnitHeightPx = 21.0;  // of this font's capitals at scale 1
+  cv::Mat mat = matOf(picture);
+  const double scale = picture->height * share / kUnitHeightPx;
+  const int stroke = std::max(1, static_cast<int>(std::lround(1.6 * scale)));
+  const int margin = picture->height / 36 + 1;
+  const cv::Point at(margin, picture->height - margin);
+  cv::putText(mat, text, at, kFont, scale, cv::Scalar::all(0), 3 * stroke, cv::LINE_AA);
+  cv::putText(mat, text, at, kFont, scale, cv::Scalar::all(255), stroke, cv::LINE_AA);
+}
+
+void requireVideoName(const std::string& path) {
+  filmOf(path);
+}
+
+void writeVideo(const std::string& path, double frame_rate, const Frames& frames) {
+  const Film& film = filmOf(path);
+  const Unfinished unfinished(path + ".part" + film.ending);
+  cv::VideoWriter writer;
+  cv::Size size;
+  for (int i = 0; i < frames.count; ++i) {
+    image::Rgb8Image frame = frames.read(i);
+    cv::Mat bgr;
+    cv::cvtColor(evenSided(matOf(&frame)), bgr, cv::COLOR_RGB2BGR);
+    size = bgr.size();
+    if (!writer.isOpened()) {
+      writer = opened(film, unfinished.path(), frame_rate, size);
+      if (!writer.isOpened())
+        throw std::runtime_error(
+            path + ": cannot be written: OpenCV has no codec for it here, or nothing can be written there");
+    }
+    writer.write(bgr);
+  }
+  writer.release();
+  // Where a disk was full, say, no writer of films tells.
+  const int whole = framesIn(unfinished.path(), size);
+  if (whole != frames.count) {
+    throw std::runtime_error(path + ": cannot be written: of " + std::to_string(frames.count) +
+                             " frames only " + std::to_string(whole) +
+                             " can be read back; is the disk full?");
+  }
+  image::moveIntoPlace(unfinished.path(), path);
+}
+
+PictureSize sheetSize(const SheetLayout& layout, int frames, double height_over_width) {
+  const int across = std::min(layout.columns, frames);
+  const int down = (frames + across - 1) / across;
+  const int height_px = thumbnailHeight(layout, height_over_width);
+  return {across * (layout.width_px + std::int64_t{kGapPx}) - kGapPx,
+          down * (height_px + std::int64_t{kGapPx}) - kGapPx};
+}
+
+void writeContactSheet(const std::string& path, const SheetLayout& layout, const Frames& frames) {
+  const int across = std::min(layout.columns, frames.count);
+  image::Rgb8Image sheet;
+  int height_px = 0;
+  for (int i = 0; i < frames.count; ++i) {
+    image::Rgb8Image frame = frames.read(i);
+    if (i == 0) {
+      const double shape = 1.0 * frame.height / frame.width;
+      const PictureSize size = sheetSize(layout, frames.count, shape);
+      height_px = thumbnailHeight(layout, shape);
+      sheet = image::Rgb8Image(static_cast<int>(size.width), static_cast<int>(size.height));
+    }
+    const cv::Rect place(i % across * (layout.width_px + kGapPx), i / across * (height_px + kGapPx),
+                         layout.width_px, height_px);
+    cv::Mat small = matOf(&sheet)(place);
+    const bool shrinks = layout.width_px < frame.width;
+    cv::resize(matOf(&frame), small, small.size(), 0.0, 0.0, shrinks ? cv::INTER_AREA : cv::INTER_CUBIC);
+  }
+  image::writePng(path, sheet);
+}
+
+}  // namespace sunlit::tools

@@ -1,0 +1,54 @@
+#include "tools/place_arguments.h"
+
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+namespace sunlit::tools {
+
+namespace {
+
+astronomy::CivilDate dateOf(const std::string& option, const std::string& text, double timezone) {
+  astronomy::CivilDate date;
+  int used = 0;
+  const int fields = std::sscanf(text.c_str(), "%d-%d-%d%n", &date.year, &date.month, &date.day, &used);
+  if (fields != 3 || static_cast<std::size_t>(used) != text.size())
+    refuse(option, '"' + text + '"', "year-month-day, such as 2024-07-01");
+  date.timezone = timezone;
+  try {
+    astronomy::midnightOf(date);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(option + " is \"" + text + "\": " + error.what());
+  }
+  return date;
+}
+
+/// As a person would type it.
+std::string textOf(const astronomy::CivilDate& date) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%04d-%02d-%02d", date.year, date.month, date.day);
+  return text;
+}
+
+}  // namespace
+
+void addPlace(CommandLine* line, PlaceOptions* options) {
+  line->group("Place, day and air");
+  line->add("--site LAT,LON[,ELEVATION]", "", fieldsOf(options->site));
+  line->add("--date YYYY-MM-DD", {"date", OwnForm{textOf(options->date)}, "", {}, "as the time zone has it"})
+      .then([options](const std::string& option, const std::string& value) {
+        options->date = dateOf(option, value, options->date.timezone);
+      });
+  CivilDateTime civil;
+  Field timezone = fieldOf(fieldsOf(civil), "timezone");
+  timezone.place = &options->date.timezone;
+  line->add("--timezone HOURS", timezone);
+  line->add("--turbidity NUMBER", fieldOf(fieldsOf(options->air), "turbidity"));
+  line->add("--ozone DU", fieldOf(fieldsOf(options->air), "ozone"));
+}
+
+studio::SkyBodies bodiesOf(const PlaceOptions& place, double hour) {
+  return studio::bodiesAt(astronomy::midnightOf(place.date).plusSeconds(hour * 3600.0), place.site);
+}
+
+}  // namespace sunlit::tools

@@ -1,0 +1,24 @@
+/// Command line options that say where on Earth and on which day.
+#pragma once
+
+#include "sunlit/astronomy/civil_time.h"
+#include "sunlit/quantity/site.h"
+#include "sunlit/studio/sky.h"
+#include "tools/command_line.h"
+
+namespace sunlit::tools {
+
+struct PlaceOptions {
+  Site site{Angle::degrees(55.792115), Angle::degrees(49.122254), 90.0};  ///< of the experiment
+  astronomy::CivilDate date{2024, 7, 1, 3.0};                             ///< with the time zone, h
+  sky::AtmosphereOptions air;  ///< but for the observer's height, which is the site's
+};
+
+/// --site, --date, --timezone, --turbidity and --ozone.
+void addPlace(CommandLine* line, PlaceOptions* options);
+
+/// What is in the sky over `place` at an `hour` of its day, −24 … 72; outside 0 … 24 it is of the days before
+/// and after.
+studio::SkyBodies bodiesOf(const PlaceOptions& place, double hour);
+
+}  // namespace sunlit::tools

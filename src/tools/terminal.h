@@ -1,0 +1,11 @@
+/// What a tool tells the person at the terminal while it works.
+#pragma once
+
+#include "sunlit/studio/reports.h"
+
+namespace sunlit::tools {
+
+/// Warnings, and one line for a bake that takes longer than a moment, on stderr. Notes are left out.
+studio::Reports onTerminal();
+
+}  // namespace sunlit::tools

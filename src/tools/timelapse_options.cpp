@@ -1,0 +1,132 @@
+#include "tools/timelapse_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "sunlit/scene/content_hash.h"
+#include "sunlit/scene/load.h"
+#include "tools/command_line.h"
+#include "tools/pictures_of_day.h"
+
+namespace sunlit::tools {
+
+namespace {
+
+constexpr int kMostFrames = 100000;
+
+struct Span {
+  double to_hour = 24.0;
+  double step_minutes = 30.0;
+  int frames = 0;  ///< 0: by the step
+};
+
+void addOutput(CommandLine* line, TimelapseOptions* options) {
+  const std::vector<Field> rows = fieldsOf(*options);
+  line->group("Output");
+  line->add("--out FOLDER", fieldOf(rows, "out"));
+  line->add("--caption", fieldOf(rows, "caption"));
+  line->add("--video FILE", fieldOf(rows, "video"))
+      .then([](const std::string& option, const std::string& file) {
+        requireVideoName(file);
+        requireFolderOf(option, file);
+      });
+  line->add("--fps NUMBER", fieldOf(rows, "fps"));
+  line->add("--contact-sheet FILE.png", fieldOf(rows, "contact-sheet"))
+      .then([](const std::string& option, const std::string& file) { requireFile(option, file, ".png"); });
+  line->add("--columns N", fieldOf(rows, "columns"));
+  line->add("--thumbnail WIDTH", fieldOf(rows, "thumbnail"));
+}
+
+void addTime(CommandLine* line, TimelapseOptions* options, Span* span) {
+  line->group("Time");
+  line->add("--from HOUR", fieldOf(fieldsOf(*options), "from"));
+  line->add("--to HOUR", {"to", &span->to_hour, "h", {-24, 72}, "end, itself not shown"});
+  line->add("--step MINUTES", {"step", &span->step_minutes, "min", {1e-3, 1440}, "between two frames"});
+  line->add("--frames N",
+            {"frames", &span->frames, "", {1, kMostFrames}, "so many, evenly spread, instead of --step"})
+      .withoutDefault();
+}
+
+/// Throws for words that do not go together.
+void divide(const Span& span, TimelapseOptions* options) {
+  const double hours = span.to_hour - options->from_hour;
+  if (!(hours > 0.0)) throw std::invalid_argument("--to must be later than --from");
+  if (span.frames > 0) {
+    options->frames = span.frames;
+    options->step_hours = hours / span.frames;
+    return;
+  }
+  options->step_hours = span.step_minutes / 60.0;
+  // A last frame that rounding would put just before the end is at the end.
+  const double frames = std::ceil(hours / options->step_hours - 1e-9);
+  if (frames > kMostFrames)
+    throw std::invalid_argument("--step would make more than " + std::to_string(kMostFrames) + " frames");
+  options->frames = static_cast<int>(frames);
+}
+
+void requireSensibleSheet(const TimelapseOptions& options) {
+  if (options.contact_sheet.empty()) return;
+  const image::PinholeCamera& camera = options.view.studio.render.camera;
+  const PictureSize size = sheetSize(options.sheet, options.frames, 1.0 * camera.height / camera.width);
+  if (std::max(size.width, size.height) <= kLongestSheetSide) return;
+  throw std::invalid_argument("--contact-sheet would be " + std::to_string(size.width) + " x " +
+                              std::to_string(size.height) + " px, must be at most " +
+                              std::to_string(kLongestSheetSide) +
+                              " px wide and high; fewer frames, a smaller --thumbnail or other --columns");
+}
+
+/// A file may change while its name stays.
+std::string contentOf(const std::string& what, const std::string& file) {
+  scene::ContentHash print;
+  print.addFile(file);
+  return what + ' ' + print.text();
+}
+
+/// Sorted by options; one that may be repeated keeps its order. Without those that do not change what frames
+/// look like.
+std::vector<std::string> recipeOf(const CommandLine& line, const TimelapseOptions& options) {
+  static const std::set<std::string> kOfNoFrame = {"--cache",         "--out",     "--video",    "--fps",
+                                                   "--contact-sheet", "--columns", "--thumbnail"};
+  auto sorted = line.given();
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> recipe;
+  for (const auto& [option, value] : sorted) {
+    if (kOfNoFrame.count(option) == 1) continue;
+    recipe.push_back(option + ' ' + value);
+    if (option == "--path") recipe.push_back(contentOf("content of the path", value));
+  }
+  if (options.view.studio.world.name != scene::kRaceTrack)
+    recipe.push_back(contentOf("content of the world", options.view.studio.world.name));
+  return recipe;
+}
+
+}  // namespace
+
+std::optional<TimelapseOptions> parseTimelapseOptions(const std::vector<std::string>& arguments) {
+  TimelapseOptions options;
+  Span span;
+  CommandLine line("timelapse: a day as one camera sees it, under sun, moon and stars. Needs no ROS master.",
+                   "timelapse --out FOLDER [options]");
+  addOutput(&line, &options);
+  addTime(&line, &options, &span);
+  addPlace(&line, &options.place);
+  const ViewArguments view(&line);
+  if (!line.read(arguments)) return std::nullopt;
+  if (!line.has("--out")) throw std::invalid_argument("--out FOLDER is missing; --help lists all options");
+  line.requireWith("--fps", "--video");
+  line.requireWith("--columns", "--contact-sheet");
+  line.requireWith("--thumbnail", "--contact-sheet");
+  if (line.has("--frames") && line.has("--step"))
+    throw std::invalid_argument("--frames and --step are both given; one of them");
+  divide(span, &options);
+  options.view = view.options();
+  requireSensibleSheet(options);
+  options.recipe = recipeOf(line, options);
+  return options;
+}
+
+}  // namespace sunlit::tools

@@ -1,0 +1,135 @@
+#include "tools/view_arguments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "sunlit/path/path.h"
+#include "sunlit/scene/load.h"
+#include "sunlit/scene/race_track.h"
+#include "tools/world_arguments.h"
+
+namespace sunlit::tools {
+
+ViewArguments::ViewArguments(CommandLine* line) : line_(line) {
+  addPlaces();
+  addCamera(line_, &camera_);
+  addSensor();
+  addWorld(line_, &options_.studio.world);
+  addBounced(line_, &options_.studio.bake);
+}
+
+void ViewArguments::addPlaces() {
+  line_->group("Where the camera stands");
+  line_->add("--pose X,Y,Z[,YAW[,PITCH]]", "the camera in map", fieldsOf(pose_))
+      .then([this](const std::string&, const std::string& value) {
+        turned_ = std::count(value.begin(), value.end(), ',') > 2;
+      });
+  line_
+      ->add("--look-at X,Y,Z", "turns the camera of --pose towards a point instead of by yaw and pitch",
+            fieldsOf(look_at_))
+      .withoutDefault();
+  line_
+      ->add("--path-pose N", {"path_pose", &path_pose_, "", Range::atLeast(0),
+                              "pose N along the path, sampled every 1 m, 1 m above it, instead of --pose"})
+      .withoutDefault();
+  line_->add("--path FILE",
+             {"path", &path_file_, "", {}, "that path: CSV or TUM; without it the path of race_track"});
+  line_
+      ->add("--top-down X,Y,EXTENT",
+            "from straight above, north up, with a field of view of its own instead of --fov",
+            fieldsOf(top_down_))
+      .withoutDefault();
+}
+
+void ViewArguments::addSensor() {
+  const std::vector<Field> rows = fieldsOf(options_.studio.exposure);
+  const Field& ev100 = fieldOf(rows, "ev100");
+  line_->add("--ev auto|NUMBER",
+             {"ev", NumberOrWord{&ev100_, "auto"}, ev100.unit, ev100.range, "exposure value at ISO 100"});
+  line_->add("--compensation STOPS", fieldOf(rows, "compensation"));
+  line_
+      ->add("--noise SEED", explainedAs(fieldOf(fieldsOf(options_.studio.noise), "seed"),
+                                        "adds the noise of a sensor, with this seed"))
+      .then([this](const std::string&, const std::string&) { options_.studio.noise.enabled = true; })
+      .withoutDefault();
+}
+
+void ViewArguments::placeTopDown(ViewOptions* options) const {
+  // From so far up that the picture is close to a map: parallel rays within 3 degrees.
+  const double height = 10.0 * top_down_.extent_m;
+  options->studio.render.camera = image::PinholeCamera::fromFieldOfView(
+      camera_.render.camera.width, camera_.render.camera.height, Angle::radians(2.0 * std::atan(0.05)));
+  options->studio.render.near_m = 0.5 * height;
+  options->studio.render.far_m = 2.0 * height;
+  options->map_from_camera.linear() << 0, -1, 0, 0, 0, 1, -1, 0, 0;  // forward down, left west, up north
+  options->map_from_camera.translation() = Eigen::Vector3d(top_down_.x, top_down_.y, height);
+}
+
+void ViewArguments::placeOnPath(ViewOptions* options) const {
+  const bool built_in = path_file_.empty();
+  if (built_in && options->studio.world.name != scene::kRaceTrack)
+    throw std::invalid_argument(
+        "--path-pose needs --path FILE: only the world race_track has a path of its own");
+  const path::Waypoints waypoints = built_in ? scene::raceTrackWaypoints() : path::readWaypoints(path_file_);
+  const std::vector<Eigen::Isometry3d> poses = path::posesAlong(waypoints, {});
+  const auto index = static_cast<std::size_t>(path_pose_);
+  if (index >= poses.size())
+    refuse("--path-pose", std::to_string(index),
+           "below " + std::to_string(poses.size()) + ", the poses of the path");
+  options->map_from_camera = poses[index];
+}
+
+void ViewArguments::placeFree(ViewOptions* options) const {
+  Eigen::Isometry3d map_from_camera = mapFromCamera(pose_);
+  if (line_->has("--look-at")) {
+    const Eigen::Vector3d eye = map_from_camera.translation();
+    const Eigen::Vector3d towards = Eigen::Vector3d(look_at_.x, look_at_.y, look_at_.z) - eye;
+    if (towards.norm() < 1e-6) throw std::invalid_argument("--look-at is where the camera stands");
+    map_from_camera = mapFromCamera(eye, std::atan2(towards.y(), towards.x()),
+                                    std::atan2(towards.z(), towards.head<2>().norm()));
+  }
+  options->map_from_camera = map_from_camera;
+}
+
+void ViewArguments::requireThatAllCount() const {
+  const bool has_pose = line_->has("--pose");
+  const bool has_look_at = line_->has("--look-at");
+  const bool has_top_down = line_->has("--top-down");
+  const char* what = nullptr;
+  if (line_->has("--path-pose") && (has_pose || has_look_at || has_top_down)) {
+    what = "--path-pose places the camera already; leave out --pose, --look-at and --top-down";
+  } else if (has_top_down && (has_pose || has_look_at)) {
+    what = "--top-down places the camera already; leave out --pose and --look-at";
+  } else if (has_top_down && line_->has("--fov")) {
+    what = "--top-down has its own field of view, by its EXTENT; leave out --fov";
+  } else if (has_look_at && turned_) {
+    what = "--look-at turns the camera already; leave YAW and PITCH out of --pose";
+  } else if (line_->has("--compensation") && ev100_) {
+    what = "--compensation needs --ev auto";
+  }
+  if (what != nullptr) throw std::invalid_argument(what);
+  line_->requireWith("--path", "--path-pose");
+  camera_.requireSense(options_.studio.bake);
+}
+
+ViewOptions ViewArguments::options() const {
+  requireThatAllCount();
+  ViewOptions options = options_;
+  options.studio.render = camera_.options();
+  if (ev100_) {
+    options.studio.exposure.mode = image::ExposureMode::kFixed;
+    options.studio.exposure.ev100 = *ev100_;
+  }
+  if (line_->has("--top-down")) {
+    placeTopDown(&options);
+  } else if (line_->has("--path-pose")) {
+    placeOnPath(&options);
+  } else {
+    placeFree(&options);
+  }
+  render::validate(options.studio.render);
+  return options;
+}
+
+}  // namespace sunlit::tools

@@ -1,0 +1,75 @@
+/// Command line options that say what is looked at, from where and how; shared by the tools that take
+/// pictures.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sunlit/studio/studio.h"
+#include "tools/camera_arguments.h"
+#include "tools/command_line.h"
+
+namespace sunlit::tools {
+
+struct ViewOptions {
+  studio::StudioOptions studio;
+  Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();  ///< x forward, z up
+};
+
+/// A point that a camera is turned towards.
+struct LookAt {
+  double x = 0.0, y = 0.0, z = 0.0;
+};
+
+inline std::vector<Field> fieldsOf(LookAt& point) {
+  return {{"x", &point.x, "m", {}, ""}, {"y", &point.y, "m", {}, ""}, {"z", &point.z, "m", {}, ""}};
+}
+
+/// The ground that a view from straight above shows.
+struct TopDown {
+  double x = 0.0, y = 0.0;  ///< of its middle
+  double extent_m = 1.0;
+};
+
+inline std::vector<Field> fieldsOf(TopDown& ground) {
+  return {{"x", &ground.x, "m", {}, ""},
+          {"y", &ground.y, "m", {}, ""},
+          {"extent", &ground.extent_m, "m", Range::above(0), "from west to east"}};
+}
+
+/// Collects words until the camera can be placed.
+class ViewArguments {
+ public:
+  /// Adds its options to `line`, which reads into this object.
+  explicit ViewArguments(CommandLine* line);
+  ViewArguments(const ViewArguments&) = delete;
+  ViewArguments& operator=(const ViewArguments&) = delete;
+
+  /// What the line has read. Throws std::invalid_argument for words that do not go together; what
+  /// path::readWaypoints() throws.
+  ViewOptions options() const;
+
+ private:
+  void addPlaces();
+  void addSensor();
+  /// Throws for an option that another one makes meaningless.
+  void requireThatAllCount() const;
+  void placeTopDown(ViewOptions* options) const;
+  void placeOnPath(ViewOptions* options) const;
+  void placeFree(ViewOptions* options) const;
+
+  CommandLine* line_;
+  ViewOptions options_;
+  TypedPose pose_;
+  bool turned_ = false;  ///< by the yaw of `pose_`
+  LookAt look_at_;
+  TopDown top_down_;
+  int path_pose_ = 0;
+  std::string path_file_;
+  CameraWords camera_;
+  std::optional<double> ev100_;  ///< empty: auto
+};
+
+}  // namespace sunlit::tools

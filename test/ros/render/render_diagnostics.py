@@ -1,0 +1,138 @@
+#!/usr/bin/python3
+"""What /diagnostics is told of a render node, while it waits, after pictures, and where it cannot go on."""
+import os
+import tempfile
+import threading
+import unittest
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from rendering import SUPPORT, TIMEOUT_S, Process, Reader, RefusalTest, RenderNode, Sky, parameters
+from sunlit.msg import SunPosition
+
+
+class Diagnostics:
+    """Every status that a node told, in turn."""
+
+    def __init__(self, node):
+        self.node = node
+        self.changed = threading.Condition()
+        self.told = []  # (stamp, status, its values)
+        self.subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, self._keep, queue_size=None)
+
+    def _keep(self, array):
+        with self.changed:
+            self.told += [(array.header.stamp, status, {v.key: v.value for v in status.values})
+                          for status in array.status if status.name.startswith(self.node + ": ")]
+            self.changed.notify_all()
+
+    def wait(self, part, level, count=1, **expected):
+        """The first `count` of this part and level whose values are as expected."""
+        def found():
+            return [t for t in self.told if t[1].name == self.node + ": " + part and t[1].level == level
+                    and all(t[2].get(key.replace("_", " ")) == value for key, value in expected.items())]
+        with self.changed:
+            if not self.changed.wait_for(lambda: len(found()) >= count, TIMEOUT_S):
+                raise AssertionError("%s, %s: never told, but %s" % (part, expected, self.told[-2:]))
+            return found()[:count]
+
+    def close(self):
+        self.subscriber.unregister()
+
+
+def clock_owner(**changes):
+    """A camera that owns time, which stands still while it waits."""
+    return parameters(**dict(dict(conditions=["a"], publish_clock=True, diagnostic_period=0.05,
+                                  subscribers={"images": 1}), **changes))
+
+
+def sun_by_the_clock():
+    """A sun for each time on /clock."""
+    return Process("suns", {"conditions": ["a"], "date_time": {"rate": 0.0}}, "sun_position_node")
+
+
+class RenderDiagnostics(RefusalTest):
+
+    def setUp(self):
+        rospy.set_param("/use_sim_time", True)  # a renderer that was the clock takes this back as it ends
+
+    def test_a_wait_is_told_by_the_wall_clock_and_progress_after_pictures(self):
+        diagnostics = Diagnostics("watched")
+        reader = Reader(["a"], node="/watched")
+        with tempfile.TemporaryDirectory() as folder:
+            tree = clock_owner(wait_for=["/reader/progress"], max_ahead=3, output_dir=folder,
+                               transport={"cache_dir": os.path.join(folder, "bakes")})
+            with RenderNode("watched", tree):
+                waits = diagnostics.wait("run", DiagnosticStatus.WARN, count=3, waits_for="a sun on /a/sun")
+                self.assertEqual(len({stamp for stamp, _, _ in waits}), 1)  # ROS time stood still
+                self.assertEqual(waits[0][1].message, "waits for a sun on /a/sun")
+                self.assertEqual((waits[0][2]["poses done"], waits[0][2]["poses to do"]), ("0", "20"))
+                diagnostics.wait("a/camera", DiagnosticStatus.OK, images="0", images_a_second="0.00")
+
+                self.enterContext(sun_by_the_clock())
+                reader.done(2)
+                _, status, run = diagnostics.wait("run", DiagnosticStatus.WARN, poses_done="5")[0]
+                self.assertEqual(status.message, "waits for progress on /reader/progress, which stands at 2")
+                self.assertEqual((run["poses to do"], run["poses ahead of the slowest reader"]), ("15", "3"))
+                self.assertEqual(run["robot"], "none")
+                with open(os.path.join(folder, "rasterizer.yaml")) as file:
+                    self.assertEqual(file.read(), "rasterizer: '%s'\n" % run["rasterizer"])
+                bakes = os.path.join(folder, "bakes")
+                self.assertEqual(run["cache of bakes"], bakes)
+                size = sum(entry.stat().st_size for entry in os.scandir(bakes) if entry.name.endswith(".light"))
+                self.assertGreater(size, 0)
+                self.assertEqual(run["size of the cache"], "%.1f of 2000.0 MB" % (size / 1e6))
+
+                newest = reader.wait("/a/camera/capture", 5)[4]
+                camera = diagnostics.wait("a/camera", DiagnosticStatus.OK, images="5")[0][2]
+                self.assertEqual(camera["EV100 of the newest"], "%.3f" % newest.ev100)
+                self.assertEqual(camera["age of the newest by ROS time, s"], "0.000")
+                rates = [float(values.get("images a second", 0)) for _, _, values in diagnostics.told]
+                self.assertGreater(max(rates), 0.0)
+
+                reader.done(20)
+                done = diagnostics.wait("run", DiagnosticStatus.OK, activity="done")[0][2]
+                self.assertEqual((done["poses done"], done["poses to do"], done["waits for"]), ("20", "0", "nothing"))
+        reader.close()
+        diagnostics.close()
+
+    def test_a_sky_that_went_on_without_the_pose_is_an_error(self):
+        diagnostics = Diagnostics("stuck")
+        reader = Reader(["a"], node="/stuck")
+        sky = Sky("/a/")
+        with RenderNode("stuck", clock_owner()):
+            sky.send_sun(stamp=2000.0)
+            status = diagnostics.wait("run", DiagnosticStatus.ERROR, poses_done="0")[0][1]
+            self.assertTrue(status.message.startswith("cannot go on without the sky of 1000.000000000 on /a/sun"), status)
+        for publisher in sky.publishers:
+            publisher.unregister()
+        reader.close()
+        diagnostics.close()
+
+    def test_what_was_refused_or_guessed_is_a_warning(self):
+        diagnostics = Diagnostics("guesses")
+        reader = Reader(["a"], node="/guesses")
+        publisher = rospy.Publisher("/a/sun", SunPosition, queue_size=1, latch=True)
+        bad = SunPosition(distance_au=1.0)
+        bad.header.frame_id, bad.direction.z = "odom", 1.0
+        publisher.publish(bad)
+        robot = {"file": os.path.join(SUPPORT, "pole.urdf"), "joints": "tf", "tf_patience": 0.01}
+        with RenderNode("guesses", clock_owner(robot=robot, path={"count": 2})):
+            status = diagnostics.wait("a/camera", DiagnosticStatus.WARN, messages_of_its_sky_refused="1")[0][1]
+            self.assertEqual(status.message, "messages of its sky refused: 1")
+            self.enterContext(sun_by_the_clock())
+            status = diagnostics.wait("run", DiagnosticStatus.WARN, activity="done")[0][1]
+            self.assertIn("in rest position for want of a transform on TF", status.message)
+            self.assertIn("in 2 of 2 poses", status.message)
+        publisher.unregister()
+        reader.close()
+        diagnostics.close()
+
+    def test_a_period_out_of_range_is_refused(self):
+        self.assert_refused(clock_owner(diagnostic_period=0), "diagnostic_period is 0", "0.01 to 3600 s")
+
+
+if __name__ == "__main__":
+    rospy.init_node("render_diagnostics")
+    rostest.rosrun("sunlit", "render_diagnostics", RenderDiagnostics)

@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+"""What the tools' command lines take, refuse and explain."""
+import pathlib
+import re
+import shlex
+import sys
+import tempfile
+import unittest
+
+import rosunit
+
+from timelapse import WORLD, run
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+# A word of each group of options, and what its row says of it.
+CAMERA = {"--size": "(default 640x480)", "--fov": "0.1 … 170 deg, default 90", "--supersampling": "1 … 4, default 2",
+          "--final-gather": "0 … 16, default 0", "--rasterizer": "osmesa|egl|builtin"}
+WORLDS = {"--world": "default race_track", "--model-path": "may be repeated"}
+BOUNCED = {"--bounced": "off|on", "--cache": "SUNLIT_CACHE_DIR"}
+PLACE = {"--site": "latitude (geodetic, positive north, -90 … 90 deg)", "--date": "default 2024-07-01",
+         "--timezone": "-18 … 18 h, default 3", "--turbidity": "1 … 10, default 2", "--ozone": "0 … 600 DU, default 300"}
+VIEW = {"--pose": "(default 0,0,1,0,0)", "--look-at": "towards a point", "--path-pose": "≥ 0", "--path": "CSV or TUM",
+        "--top-down": "> 0 m", "--ev": "-16 … 24 EV, default auto", "--compensation": "-8 … 8 EV, default 0",
+        "--noise": "0 … 2147483647"}
+OPTIONS = {
+    "snapshot": {**CAMERA, **WORLDS, **BOUNCED, **PLACE, **VIEW, "--out": "FILE.png", "--depth": "portable float map",
+                 "--sun": "(default 180,40)", "--time": "minute (of the hour, 0 … 59 min)"},
+    "timelapse": {**CAMERA, **WORLDS, **BOUNCED, **PLACE, **VIEW, "--out": "FOLDER", "--caption": "none|hour|full",
+                  "--video": "H.264", "--fps": "1 … 120 Hz, default 25", "--contact-sheet": "16384 px",
+                  "--columns": "1 … 100, default 6", "--thumbnail": "16 … 8192 px, default 320",
+                  "--from": "-24 … 48 h, default 0", "--to": "-24 … 72 h, default 24",
+                  "--step": "0.001 … 1440 min, default 30", "--frames": "1 … 100000"},
+    "compare_light": {**CAMERA, **WORLDS, **BOUNCED, "--out": "table.csv", "--path": "CSV or TUM",
+                      "--views": "1 … 1000, default 10", "--height": "-1000 … 1000 m, default 1",
+                      "--view": "may be repeated", "--sun": "elevation (-90 … 90 deg)", "--moon": "0 … 180 deg",
+                      "--every": "1 … 64 px, default 8", "--samples": "2 … 65536, default 256",
+                      "--bounces": "0 … 64, default 16"},
+    "export_world": {**WORLDS, "--out": "FILE.glb"},
+}
+# Of all tools that have the option: a value, and what is said of it.
+REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be from 16 to 8192 px'),
+           ("--size", "640x480.5", "height is 480.5, but must be a whole number from 16 to 8192 px"),
+           ("--size", "640", "must be 2 numbers separated by 'x': WxH"),
+           ("--size", "640x480x", "must be 2 numbers separated by 'x': WxH"),
+           ("--fov", "171", "--fov is 171, but must be from 0.1 to 170 deg"),
+           ("--fov", "-4", "--fov is -4, but must be from 0.1 to 170 deg"),
+           ("--fov", "nan", '--fov is "nan", but must be a number from 0.1 to 170 deg'),
+           ("--supersampling", "5", "--supersampling is 5, but must be from 1 to 4"),
+           ("--supersampling", "1.5", "a whole number from 1 to 4"),
+           ("--rasterizer", "gpu", "must be one of osmesa, egl, builtin"),
+           ("--bounced", "maybe", "must be one of off, on"),
+           ("--pose", "1,2", "must be 3 to 5 numbers separated by ',': X,Y,Z[,YAW[,PITCH]]"),
+           ("--pose", "1,,3", 'y is "", but must be a number in m'),
+           ("--view", "1,2,3,4,5,6", "must be 3 to 5 numbers"),
+           ("--top-down", "0,0,0", "extent is 0, but must be above 0 m"),
+           ("--sun", "285,-91", '--sun is "285,-91": elevation is -91, but must be from -90 to 90 deg'),
+           ("--moon", "0,0,181", "phase is 181, but must be from 0 to 180 deg"),
+           ("--time", "24:00", "hour is 24, but must be from 0 to 23 h"),
+           ("--time", "04:30:60", "second is 60, but must be from 0 to less than 60 s"),
+           ("--date", "2024-13-01", "month is 13, but must be from 1 to 12"),
+           ("--site", "0,181", "longitude is 181, but must be from -180 to 180 deg"),
+           ("--turbidity", "0", "--turbidity is 0, but must be from 1 to 10"),
+           ("--ev", "dark", 'must be "auto" or a number from -16 to 24 EV'),
+           ("--noise", "-1", "--noise is -1, but must be from 0 to 2147483647"),
+           ("--views", "0", "must be from 1 to 1000"), ("--every", "65", "must be from 1 to 64 px"),
+           ("--height", "-1001", "must be from -1000 to 1000 m"),
+           ("--columns", "0", "must be from 1 to 100"), ("--fps", "121", "must be from 1 to 120 Hz"),
+           ("--world", "", "--world needs a value"), ("--world", "--out", "--world needs a value"))
+
+
+class CommandLines(unittest.TestCase):
+
+    def refused(self, program, *arguments):
+        """The one line that the tool gives up with."""
+        done = run(program, *arguments)
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), (arguments, done.stderr))
+        self.assertTrue(done.stderr.startswith(program + ": "), done.stderr)
+        return done.stderr
+
+    def test_help_tells_every_option_with_its_range_and_default(self):
+        for program, options in OPTIONS.items():
+            done = run(program, "--help")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual(run(program, "-h").stdout, done.stdout)
+            lines = done.stdout.splitlines()
+            self.assertRegex(lines[0], "^%s: .* Needs no ROS master.$" % program)
+            self.assertRegex(lines[2], "^usage: %s --out .* \\[options\\]$" % program)
+            told = {}
+            for line in lines[3:]:
+                option = re.match("  (--[a-z-]+) ", line)
+                if option:
+                    name = option.group(1)
+                    self.assertNotIn(name, told)
+                    told[name] = ""
+                if told and line.startswith("  "):
+                    told[name] += " " + " ".join(line.split())
+            self.assertEqual(set(told), set(options), program)
+            for name, part in options.items():
+                self.assertIn(part, told[name])
+
+    def test_count_poses_explains_itself(self):
+        done = run("count_poses", "--help")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        for part in ("usage: count_poses WORLD WAYPOINT_FILE SPACING_M POSES", "0.001 … 1000 m, default 1"):
+            self.assertIn(part, done.stdout)
+        self.assertEqual(run("count_poses", "race_track").returncode, 2)
+        done = run("count_poses", "race_track", "", "1", "-1")
+        self.assertEqual((done.returncode, done.stderr),
+                         (1, "sunlit: argument poses is -1, but must be from 0 to 1000000000\n"))
+
+    def test_what_is_out_of_range_is_refused_by_every_tool_that_has_the_option(self):
+        for option, value, said in REFUSED:
+            programs = [program for program, options in OPTIONS.items() if option in options]
+            self.assertTrue(programs, option)
+            for program in programs:
+                self.assertIn(said, self.refused(program, option, value))
+
+    def test_an_option_is_spelt_in_full(self):
+        for program in OPTIONS:
+            for arguments, said in ((["--worl", "x"], "there is no option --worl;"), (["--last=3"], "no option --last=3;"),
+                                    (["stray"], "no option stray;"), (["-4"], "no option -4;"),
+                                    (["--world"], "--world needs a value"), (["--world="], "--world needs a value"),
+                                    (["--world", "--help"], "--world needs a value"),
+                                    (["--help=3"], "--help takes no value"), ([], "--out ")):
+                self.assertIn(said, self.refused(program, *arguments))
+
+    def test_negative_numbers_are_values(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pictures = []
+            for number, sun in enumerate((["--sun", "285,-4"], ["--sun=285,-4"], ["--sun", "1,2", "--sun", "285,-4"])):
+                pictures.append(pathlib.Path(folder, "%d with a space.png" % number))
+                done = run("snapshot", "--world", WORLD, "--bounced", "off", "--size", "32x24", "--pose", "-1,0,1,-10", *sun,
+                           "--compensation", "-1", "--out", str(pictures[-1]))
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual(len({picture.read_bytes() for picture in pictures}), 1)
+
+    def test_tools_take_the_options_of_the_readme(self):
+        examples = re.findall("^rosrun sunlit ((?:%s) .*)$" % "|".join(OPTIONS), (ROOT / "README.md").read_text(),
+                              re.MULTILINE)
+        self.assertEqual({example.split()[0] for example in examples}, set(OPTIONS))
+        for example in examples:
+            words = shlex.split(example, comments=True)
+            with self.subTest(example):  # options are taken in their order
+                self.assertIn("there is no option --behind-all", self.refused(*words, "--behind-all"))
+
+
+if __name__ == "__main__":
+    rosunit.unitrun("sunlit", "tools_command_lines", CommandLines, sysargs=sys.argv)

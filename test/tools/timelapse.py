@@ -1,0 +1,220 @@
+#!/usr/bin/env python3
+"""The tools, as people type them; above all timelapse."""
+import functools
+import os
+import pathlib
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import cv2
+import rosunit
+
+WORLD = str(pathlib.Path(__file__).resolve().parents[1] / "support" / "worlds" / "two_boxes.world")
+VIEW = ["--world", WORLD, "--pose", "0,0,1", "--size", "96x64", "--fov", "60", "--bounced", "off"]
+# From moonlight over dusk into day.
+DAY = ["--date", "2024-12-16", "--from", "4", "--to", "12", "--frames", "4", "--caption", "hour", "--noise", "3"]
+
+
+@functools.lru_cache()
+def located(program):
+    """As rosrun finds it, but once: looking takes longer than most of these runs."""
+    found = subprocess.run(["catkin_find", "--first-only", "--libexec", "sunlit", program], stdout=subprocess.PIPE,
+                           text=True, check=True)
+    return found.stdout.strip()
+
+
+def run(program, *arguments, **more):
+    return subprocess.run([located(program), *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, **more)
+
+
+class Timelapse(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.first = tempfile.TemporaryDirectory()
+        cls.make(os.path.join(cls.first.name, "a"))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.first.cleanup()
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        shutil.copytree(os.path.join(self.first.name, "a"), self.path("a"))
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    @staticmethod
+    def make(out, *more):
+        done = run("timelapse", "--out", out, *VIEW, *DAY, *more)
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+    def frames(self, out):
+        files = sorted(pathlib.Path(self.path(out)).glob("frame_*.png"))
+        self.assertEqual([file.name for file in files], ["frame_%05d.png" % i for i in range(4)])
+        return [file.read_bytes() for file in files]
+
+    def test_two_runs_give_the_same_bytes(self):
+        self.make(self.path("b"))
+        self.assertEqual(self.frames("a"), self.frames("b"))
+        self.assertEqual(len(set(self.frames("a"))), 4)
+
+    def test_goes_on_with_a_broken_off_run(self):
+        whole = self.frames("a")
+        os.remove(os.path.join(self.path("a"), "frame_00003.png"))
+        with open(os.path.join(self.path("a"), "frame_00001.png"), "wb") as broken:
+            broken.write(whole[1][:100])
+        kept = os.path.join(self.path("a"), "frame_00002.png")
+        os.utime(kept, (1, 1))
+        self.assertIn("2 frames are there already", self.make(self.path("a")))
+        self.assertEqual(self.frames("a"), whole)
+        self.assertEqual(os.stat(kept).st_mtime, 1)
+        self.assertNotIn("frame 1 of", self.make(self.path("a")))  # nothing is left to do
+
+    def test_does_not_mix_frames_of_other_options(self):
+        self.assertIn("--ev 9", self.refused("--out", self.path("a"), *VIEW, *DAY, "--ev", "9"))
+
+    def refused(self, *arguments):
+        """The one line that timelapse gives up with."""
+        done = run("timelapse", *arguments)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+        return done.stderr
+
+    def test_takes_no_frames_of_unknown_origin(self):
+        os.remove(os.path.join(self.path("a"), "timelapse.txt"))
+        before = sorted(os.listdir(self.path("a")))
+        self.assertIn("holds frame_00000.png, but no timelapse.txt", self.refused("--out", self.path("a"), *VIEW, *DAY))
+        self.assertEqual(sorted(os.listdir(self.path("a"))), before)
+
+    def test_takes_no_frames_of_a_world_that_has_changed(self):
+        world = self.path("own.world")
+        shutil.copy(WORLD, world)
+        arguments = ["--out", self.path("b"), *VIEW, *DAY, "--world", world, "--frames", "1"]
+        self.assertEqual(run("timelapse", *arguments).returncode, 0)
+        with open(world, "r+b") as file:  # as long as before
+            text = file.read()
+            file.seek(0)
+            file.write(text.replace(b"1", b"2", 1))
+        self.assertIn("content of the world", self.refused(*arguments))
+
+    def test_a_film_that_does_not_fit_on_the_disk_leaves_the_old_one(self):
+        def little_room():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300))
+
+        for ending in ("mp4", "avi", "mkv"):
+            film = pathlib.Path(self.path("film." + ending))
+            film.write_bytes(b"old")
+            done = run("timelapse", "--out", self.path("a"), *VIEW, *DAY, "--video", str(film), preexec_fn=little_room,
+                       restore_signals=False)  # SIGXFSZ stays ignored: writing fails as on a full disk
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("%s: cannot be written: of 4 frames only " % film, done.stderr)
+            self.assertEqual(film.read_bytes(), b"old")
+            self.assertEqual([name for name in os.listdir(self.folder) if "part" in name], [])
+
+    def test_writes_films_and_a_sheet(self):
+        for ending in ("mp4", "avi", "mkv"):
+            film = self.path("film." + ending)
+            self.make(self.path("a"), "--video", film, "--fps", "5")
+            reader = cv2.VideoCapture(film)
+            count = 0
+            while True:
+                good, picture = reader.read()
+                if not good:
+                    break
+                self.assertEqual(picture.shape, (64, 96, 3))
+                count += 1
+            self.assertEqual(count, 4, film)
+        sheet = self.path("sheet.png")
+        self.make(self.path("a"), "--contact-sheet", sheet, "--columns", "3", "--thumbnail", "48")
+        self.assertEqual(cv2.imread(sheet).shape, (2 * 32 + 2, 3 * 48 + 4, 3))  # gaps of 2 px
+
+    def test_bad_arguments_are_one_line(self):
+        out = ["--out", self.path("x")]
+        for arguments, parts in (([], ["--out FOLDER is missing"]),
+                                 (out + ["--steps", "3"], ["--steps", "--help"]),
+                                 (out + ["--step"], ["--step", "needs a value"]),
+                                 (out + ["--step", ""], ["--step", "needs a value"]),
+                                 (out + ["--last"], ["no option --last"]),
+                                 (["--out", WORLD + "/x"], [WORLD + "/x: the folder cannot be made"]),
+                                 (out + ["--step", "0"], ["--step is 0, but must be from 0.001 to 1440 min"]),
+                                 (out + ["--to", "-3"], ["--to", "later than --from"]),
+                                 (out + ["--frames", "3", "--step", "3"], ["--frames", "--step"]),
+                                 (out + ["--frames", "1.5"], ["--frames", "1.5", "whole number"]),
+                                 (out + ["--date", "2024-02-30"], ["--date", "2024-02-30"]),
+                                 (out + ["--date", "today"], ["--date", "today", "2024-07-01"]),
+                                 (out + ["--site", "91,0"], ["--site", "91", "latitude"]),
+                                 (out + ["--video", "film.gif"], ["--video", "film.gif", ".mp4"]),
+                                 (out + ["--contact-sheet", "day.jpg"], ["--contact-sheet", "day.jpg", ".png"]),
+                                 (out + ["--contact-sheet", "day.png", "--step", "0.1"],
+                                  ["--contact-sheet", "1930 x ", "16384"]),
+                                 (out + ["--video", self.path("none/film.mp4")], ["--video", "none", "folder that exists"]),
+                                 (out + ["--columns", "3"], ["--columns needs --contact-sheet"]),
+                                 (out + ["--fps", "3"], ["--fps needs --video"]),
+                                 (out + ["--caption", "big"], ["--caption", "big", "hour"]),
+                                 (out + ["--path-pose", "100000"], ["--path-pose", "100000", "991"]),
+                                 (out + ["--world", self.path("none.world")], ["none.world"])):
+            said = self.refused(*arguments)
+            for part in ["timelapse: "] + parts:
+                self.assertIn(part, said)
+            self.assertFalse(os.path.exists(self.path("x")))
+
+    def test_snapshot_is_the_frame_of_its_hour(self):
+        place = ["--date", "2024-12-16", "--timezone", "3", "--site", "55.8,49.1"]
+        done = run("timelapse", "--out", self.path("c"), *VIEW, *place, "--from", "18.5", "--frames", "1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        picture = self.path("picture.png")
+        done = run("snapshot", *VIEW, *place, "--time", "18:30", "--out", picture)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(pathlib.Path(picture).read_bytes(),
+                         pathlib.Path(self.path("c"), "frame_00000.png").read_bytes())
+        for arguments, part in ((["--time", "18:30", "--sun", "180,30"], "--sun and --time"),
+                                (["--date", "2024-12-16"], "needs --time"), (["--time", "25:00"], "25:00"),
+                                (["--top-down", "0,0,9"], "leave out --pose"),
+                                (["--look-at", "1,2,3", "--pose", "0,0,1,90"], "leave YAW and PITCH out"),
+                                (["--compensation", "1", "--ev", "9"], "--compensation needs --ev auto"),
+                                (["--fov", "wide"], "must be a number"), (["--sun", "4"], "must be 2 numbers"),
+                                (["--final-gather", "17"], "--final-gather is 17, but must be from 0 to 16"),
+                                (["--final-gather", "2"], "leave out --bounced off"),
+                                (["--depth", "depth.png"], "must be a name that ends in .pfm"),
+                                (["--out", "picture.jpg"], "must be a name that ends in .png")):
+            done = run("snapshot", *VIEW, "--out", picture, *arguments)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+            self.assertIn(part, done.stderr)
+        done = run("snapshot", "--out", picture, "--top-down", "0,0,9", "--fov", "60")
+        self.assertIn("leave out --fov", done.stderr)
+
+    def test_compare_light_leaves_tables_and_pictures(self):
+        view = ["--view", "0,0,1", "--size", "32x24", "--every", "1", "--sun", "170,40", "--bounced", "off"]
+        done = run("compare_light", "--out", self.path("light"), "--world", WORLD, *view, "--samples", "4", "--bounces", "1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(sorted(os.listdir(self.path("light"))), ["materials.md", "table.csv", "table.md", "view_0_sun_40.png"])
+        for arguments, part in ((["--views", "2"], "--views and --view are both given"), (["--samples", "1"], "from 2 to 65536"),
+                                (["--final-gather", "2"], "leave out --bounced off"),
+                                (["--bake", "no"], "no option --bake")):
+            done = run("compare_light", "--out", self.path("other"), *view, *arguments)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+            self.assertIn(part, done.stderr)
+        self.assertFalse(os.path.exists(self.path("other")))
+
+    def test_export_world_finds_models_as_the_others_do(self):
+        done = run("export_world", "--world", "model://sun_less", "--model-path", self.folder, "--model-path", "elsewhere",
+                   "--out", self.path("world.glb"))
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+        for folder in (self.folder, "elsewhere"):
+            self.assertIn(folder, done.stderr)
+        done = run("export_world", "--world", WORLD, "--out", self.path("world.glb"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(pathlib.Path(self.path("world.glb")).read_bytes()[:4], b"glTF")
+
+
+if __name__ == "__main__":
+    rosunit.unitrun("sunlit", "tools_timelapse", Timelapse, sysargs=sys.argv)

@@ -1,0 +1,194 @@
+#!/usr/bin/env python3
+"""What the arguments of launch files become."""
+
+import os
+import shlex
+import sys
+import tempfile
+import unittest
+from unittest import mock
+from xml.etree import ElementTree
+
+import rosunit
+
+sys.dont_write_bytecode = True
+SOURCE = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", ".."))
+sys.path.insert(0, os.path.join(SOURCE, "scripts"))
+
+from sunlit_experiment import arguments, earlier_run, plan  # noqa: E402
+
+LAUNCH_FILE = os.path.join(SOURCE, "launch", "experiment.launch")
+ROBOTS = os.path.join(SOURCE, "worlds", "robots")
+PLACES = {"output": "/results", "robots": ROBOTS, "report": "/report"}
+
+
+def defaults(**typed):
+    """The arguments of experiment.launch, as texts."""
+    texts = {arg.get("name"): arg.get("default") for arg in ElementTree.parse(LAUNCH_FILE).iter("arg") if "default" in arg.attrib}
+    return dict(texts, **typed)
+
+
+def planned(beginning=plan.Beginning(991), **typed):
+    texts = defaults(**typed)
+    plan.check(texts)
+    return plan.parameters(texts, typed, PLACES, beginning)
+
+
+class Arguments(unittest.TestCase):
+
+    def assert_refused(self, words, function, *texts):
+        with self.assertRaises(arguments.BadArgument) as caught:
+            function(*texts)
+        self.assertIn(words, str(caught.exception))
+
+    def test_hours_are_named_by_the_clock(self):
+        names = lambda text: list(arguments.clock_times(text))
+        self.assertEqual(names("[4, 12, 20]"), ["h04", "h12", "h20"])
+        self.assertEqual(names("[4.5, 0, 23.9997222]"), ["h04_30", "h00", "h23_59_59"])
+        self.assertEqual(arguments.clock_times("12.25"), {"h12_15": {"hour": 12, "minute": 15, "second": 0.0}})
+        # The last half second of a day does not spill into the next.
+        self.assertEqual(names("[23.99999]"), ["h23_59_59"])
+
+    def test_bad_hours_are_refused(self):
+        for hours in ("[]", "[24]", "[-1]", "[4, 4.0]", "[true]", "[.nan]", "{4: 5}", "[4", "noon"):
+            self.assert_refused("argument hours is", arguments.clock_times, hours)
+
+    def test_robots_are_ours_by_name_or_files(self):
+        self.assertEqual(arguments.robot("", ROBOTS), "")
+        self.assertEqual(arguments.robot("some.urdf", ROBOTS), os.path.join(os.getcwd(), "some.urdf"))
+        self.assert_refused("argument robot is 'cat', but must be empty, one of our own (rover), or a file",
+                            arguments.robot, "cat", ROBOTS)
+        for name in os.listdir(ROBOTS):
+            self.assertTrue(os.path.isfile(arguments.robot(name, ROBOTS)), name)
+
+    def test_conditions_are_a_list_or_a_map(self):
+        self.assertEqual(arguments.condition_names("{a: {hour: 4}, b: {}}"), ["a", "b"])
+        for text in ("morning", "5"):  # not the letters m, o, r ...
+            self.assert_refused("argument conditions is '%s', but must be a list of names" % text,
+                                arguments.condition_names, text)
+
+    def test_all_pairs_and_each_hour_with_itself(self):
+        self.assertEqual(arguments.pairs("[4, 12, 20]", True, 10),
+                         [{"a": "h04", "b": "h12"}, {"a": "h04", "b": "h20"}, {"a": "h12", "b": "h20"},
+                          {"a": "h04", "b": "self_test/h04", "every": 10},
+                          {"a": "h12", "b": "self_test/h12", "every": 10},
+                          {"a": "h20", "b": "self_test/h20", "every": 10}])
+        self.assertEqual(arguments.pairs("[4, 12]", False, 10), [{"a": "h04", "b": "h12"}])
+        self.assert_refused("two hours or more", arguments.pairs, "[4]", False, 10)
+
+    def test_dates_and_places(self):
+        self.assertEqual(arguments.date_time("2024-07-01", "3"),
+                         {"year": 2024, "month": 7, "day": 1, "timezone": 3.0, "rate": 0.0})
+        self.assert_refused("argument date is '2024-02-31'", arguments.date_time, "2024-02-31", "3")
+        self.assert_refused("argument timezone is", arguments.date_time, "2024-07-01", "19")
+        self.assertEqual(arguments.site("[55.5, 49, 90]"), {"latitude": 55.5, "longitude": 49.0, "elevation": 90.0})
+        self.assert_refused("argument site is", arguments.site, "[55.5, 49]")
+
+    def test_files_are_seen_from_where_roslaunch_was_started(self):
+        self.assertEqual(arguments.file("race_track"), "race_track")
+        self.assertEqual(arguments.file("some.world"), os.path.join(os.getcwd(), "some.world"))
+        self.assertEqual(arguments.file(""), "")
+
+    def test_a_tilde_is_the_home_folder_for_every_file_and_folder(self):
+        """bash leaves it as it is in NAME:=~/file."""
+        with tempfile.TemporaryDirectory() as home, mock.patch.dict(os.environ, HOME=home):
+            self.assertEqual(arguments.file("~/some.world"), os.path.join(home, "some.world"))
+            self.assertEqual(arguments.folders("[~/a, b]"), [os.path.join(home, "a"), os.path.join(os.getcwd(), "b")])
+            self.assertEqual(arguments.output_folder("~/results"), os.path.join(home, "results"))
+
+    def test_what_was_typed_is_known_and_a_misspelt_name_is_not(self):
+        words = ["/usr/bin/python3", "/usr/bin/roslaunch", "-p", "11311", "sunlit", "experiment.launch"]
+        self.assertEqual(arguments.given(LAUNCH_FILE, words + ["hours:=[4, 12]", "__name:=x"]), {"hours": "[4, 12]"})
+        self.assert_refused("argument nosie is 'true', but must be one of the arguments of experiment.launch; noise is one",
+                            arguments.given, LAUNCH_FILE, words + ["nosie:=true"])
+        # Another launch file has arguments of its own.
+        self.assertEqual(arguments.given(LAUNCH_FILE, ["roslaunch", "mine", "experiment.launch", "nosie:=true"]), {})
+
+
+class Plan(unittest.TestCase):
+
+    def assert_refused(self, words, **typed):
+        with self.assertRaises(arguments.BadArgument) as caught:
+            plan.check(defaults(**typed))
+        self.assertIn(words, str(caught.exception))
+
+    def test_every_argument_of_the_launch_file_is_planned_with(self):
+        """An argument that is documented but never handed on would be taken without a word."""
+        handed_on = next(arg.get("value") for arg in ElementTree.parse(LAUNCH_FILE).iter("arg") if arg.get("name") == "planned")
+        self.assertEqual(["%s:=$(arg %s)" % (name, name) for name in defaults()], shlex.split(handed_on))
+
+    def test_defaults_are_no_bad_arguments(self):
+        plan.check(defaults())
+
+    def test_what_is_no_number_or_no_truth_is_refused_by_name(self):
+        self.assert_refused("argument width is 'wide', but must be a whole number", width="wide")
+        self.assert_refused("argument self_test_every is 0, but must be a whole number of at least 1", self_test_every="0")
+        self.assert_refused("argument ev100 is 'nan', but must be a number", ev100="nan")
+        self.assert_refused("argument noise is 'yes', but must be true or false", noise="yes")
+        self.assert_refused("argument differences is '[sfit]'", differences="[sfit]")
+
+    def test_both_renderers_make_the_same_pictures(self):
+        tree = planned(night="false", noise="true", noise_seed="7", exposure="auto", highlight_protection="0",
+                       final_gather="2", robot="rover", width="320")
+        main, other = tree["render"], tree["self_test"]["render"]
+        ours = {"path", "resume_at", "wait_for", "subscribers"}  # what poses they draw, and when
+        for key in (main.keys() & other.keys()) - ours:
+            self.assertEqual(main[key], other[key], key)
+        self.assertEqual(main.keys() - other.keys(), {"output_dir", "publish_clock"})
+        self.assertEqual(other.keys() - main.keys(), {"sun_namespace", "publish_tf", "count_skipped", "exact_sky"})
+        self.assertEqual((main["night"], main["noise"], main["exposure"]["mode"], main["camera"]["width"]),
+                         ({"enabled": False}, {"enabled": True, "seed": 7}, "auto", 320))
+        self.assertEqual({**main["path"], "stride": 10}, other["path"])
+
+    def test_without_a_self_test_nobody_waits_for_one(self):
+        tree = planned(self_test="false")
+        self.assertNotIn("self_test", tree)
+        self.assertEqual(tree["render"]["wait_for"], ["/evaluator/progress"])
+        self.assertNotIn("self_test/render", tree["experiment"]["needed"])
+        self.assertEqual(tree["evaluator"]["streams"], ["h04", "h12", "h20"])
+
+    def test_rendering_waits_for_a_recorder(self):
+        self.assertEqual(planned()["render"]["subscribers"], {"images": 1, "poses": 1, "others": 0})
+        self.assertEqual(planned(record="true")["render"]["subscribers"], {"images": 2, "poses": 2, "others": 1})
+
+    def test_the_recording_holds_what_each_image_was_made_under(self):
+        topics = planned(record="true", hours="[4, 5]")["experiment"]["recording"]["topics"]
+        self.assertEqual(sorted(topic for topic in topics if topic.startswith("/h04/")),
+                         ["/h04/camera/camera_info", "/h04/camera/capture", "/h04/camera/image_raw", "/h04/celestial",
+                          "/h04/moon", "/h04/sun"])
+        self.assertEqual(len(topics), len(set(topics)))
+        self.assertLess({"/clock", "/tf", "/tf_static"}, set(topics))
+
+    def test_poses_that_are_evaluated_but_in_no_bag_are_rendered_again(self):
+        tree = planned(plan.Beginning(20, evaluated=15, recorded=8), record="true")
+        self.assertEqual(tree["render"]["resume_at"], 8)
+        self.assertEqual(tree["self_test"]["render"]["resume_at"], 15)  # that one is not recorded
+
+    def test_where_all_is_evaluated_only_the_recorder_is_waited_for(self):
+        tree = planned(plan.Beginning(20, evaluated=20, recorded=8), record="true")
+        self.assertEqual(tree["render"]["wait_for"], [])
+        self.assertEqual(tree["render"]["subscribers"], {"images": 1, "poses": 1, "others": 1})
+
+    def test_an_earlier_run_is_taken_up_where_it_has_a_gap(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pairs = arguments.pairs("[4, 12]", True, 2)
+            begins = lambda differences: earlier_run.first_not_evaluated(folder, pairs, differences)
+            self.assertEqual(begins("[boolean_rgb, orb]"), 0)
+            rows = ["pose,stamp,a,b,difference,value,features_a,features_b,matches,zero_second"]
+            evaluated = {0: (("h04", "h12"), ("h04", "self_test/h04"), ("h12", "self_test/h12")), 1: (("h04", "h12"),),
+                         2: (("h04", "h12"), ("h04", "self_test/h04")), 3: (("h04", "h12"),)}
+            for pose, here in evaluated.items():
+                rows += ["%d,1000.0,%s,%s,%s,0.5,0,0,0,0" % (pose, a, b, difference)
+                         for a, b in here for difference in ("boolean_rgb", "orb")]
+            with open(os.path.join(folder, "frames.csv"), "w") as frames:
+                frames.write("\n".join(rows) + "\n4,1000.4,h04,h1")  # torn by a crash
+            self.assertEqual(begins("[boolean_rgb, orb]"), 2)  # one self-test of pose 2 is missing
+            # An evaluator without SURF, say, whose `all` are two.
+            self.assertEqual(begins("all"), 0)
+            with open(os.path.join(folder, "run.yaml"), "w") as run:
+                run.write("settings:\n  differences: '[boolean_rgb, orb]'\nposes: 5\n")
+            self.assertEqual(begins("all"), 2)
+
+
+if __name__ == "__main__":
+    rosunit.unitrun("sunlit", "experiment_plan", "__main__")

@@ -1,0 +1,154 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "ros/conversions/geometry.h"
+#include "ros/conversions/images.h"
+#include "ros/conversions/sky.h"
+#include "ros/conversions/time.h"
+#include "sunlit/astronomy/civil_time.h"
+#include "support/message_of.h"
+
+namespace sunlit::ros_interface {
+namespace {
+
+const std_msgs::Header kHeader = headerOf("camera_optical_frame", ros::Time(5));
+
+TEST(Messages, ADepthImageKeepsItsBits) {
+  image::DepthImage depth(3, 2);
+  depth.data = {1.5f, 2.5f, 3.5f, std::numeric_limits<float>::quiet_NaN(), 5.5f, 6.5f};
+  const sensor_msgs::ImagePtr message = toImageMessage(depth, kHeader);
+  EXPECT_EQ(message->encoding, "32FC1");
+  EXPECT_EQ(message->step, 12u);
+  ASSERT_EQ(message->data.size(), 24u);
+  EXPECT_EQ(std::memcmp(message->data.data(), depth.data.data(), 24), 0);
+}
+
+TEST(Messages, CameraInfoProjectsLikeTheCamera) {
+  const auto camera = image::PinholeCamera::fromFieldOfView(64, 48, Angle::degrees(90.0));
+  const sensor_msgs::CameraInfo info = toCameraInfo(camera, kHeader);
+  const Eigen::Vector3d point(0.3, -0.2, 2.0);
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> k(info.K.data());
+  const Eigen::Vector2d pixel = (k * point).hnormalized();
+  // Both are a few roundings of a double.
+  EXPECT_LT((pixel - camera.project(point)).norm(), 1e-12);
+  EXPECT_EQ(info.D, std::vector<double>(5, 0.0));
+}
+
+TEST(Messages, PosesSurviveTheWayThereAndBack) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.rotate(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
+  pose.translation() = Eigen::Vector3d(1, -2, 3);
+  EXPECT_LT((fromPose(toPose(pose)).matrix() - pose.matrix()).norm(), 1e-12);  // rounding
+}
+
+TEST(Messages, RefuseWhatIsNoPose) {
+  geometry_msgs::Pose pose;
+  EXPECT_THROW(fromPose(pose), std::invalid_argument);  // a quaternion of zeros
+  pose.orientation.w = 1.0;
+  EXPECT_NO_THROW(fromPose(pose));
+  pose.position.y = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(fromPose(pose), std::invalid_argument);
+}
+
+SunPosition sunMessage() {
+  SunPosition message;
+  message.header.frame_id = "map";
+  message.distance_au = 1.0;
+  message.direction.z = 1.0;
+  message.elevation_geometric = 1.5;
+  return message;
+}
+
+MoonPosition moonMessage() {
+  MoonPosition message;
+  message.header.frame_id = "map";
+  message.distance = 3.844e8;
+  message.direction.y = 1.0;
+  message.elevation_geometric = -0.01;
+  message.phase_angle = 2.0;
+  return message;
+}
+
+geometry_msgs::QuaternionStamped celestialMessage() {
+  geometry_msgs::QuaternionStamped message;
+  message.header.frame_id = "map";
+  message.quaternion.w = message.quaternion.x = std::sqrt(0.5);
+  return message;
+}
+
+TEST(SkyMessages, AreWhatTheySay) {
+  const sky::MoonInSky moon = fromMessage(moonMessage(), "map");
+  EXPECT_EQ(moon.apparent.vector(), Eigen::Vector3d::UnitY());
+  EXPECT_NEAR(moon.geometric->elevation().rad(), -0.01, 1e-15);  // rounding
+  EXPECT_NEAR(moon.geometric->azimuth().rad(), 0.0, 1e-15);
+  EXPECT_EQ(moon.distance_m, 3.844e8);
+  EXPECT_EQ(moon.phase_angle.rad(), 2.0);
+  // A quarter turn about x takes y to z.
+  EXPECT_LT(
+      (fromMessage(celestialMessage(), "map") * Eigen::Vector3d::UnitY() - Eigen::Vector3d::UnitZ()).norm(),
+      1e-15);
+  EXPECT_NEAR(fromMessage(sunMessage(), "map").geometric->elevation().rad(), 1.5, 1e-8);  // asin near its end
+}
+
+template <typename Message>
+std::string refusal(const Message& message) {
+  return messageOf([&] { fromMessage(message, "map"); });
+}
+
+TEST(SkyMessages, ThatCannotBeAreRefusedInWords) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refusal(moonMessage()), "");
+  MoonPosition moon = moonMessage();
+  moon.header.frame_id = "base_link";
+  EXPECT_EQ(refusal(moon), "frame_id is \"base_link\", but must be \"map\"");
+  moon = moonMessage();
+  moon.direction.x = 1.0;
+  EXPECT_EQ(refusal(moon), "direction is of length 1.414213562, but must be of length 1");
+  moon = moonMessage();
+  moon.distance = nan;
+  EXPECT_EQ(refusal(moon), "distance is nan, but must be from 340000000 to 420000000 m");
+  moon = moonMessage();
+  moon.phase_angle = -0.1;
+  EXPECT_EQ(refusal(moon), "phase_angle is -0.1, but must be from 0 to 3.141592654 rad");
+  moon = moonMessage();
+  moon.elevation_geometric = 2.0;
+  EXPECT_EQ(refusal(moon), "elevation_geometric is 2, but must be from -1.570796327 to 1.570796327 rad");
+  SunPosition sun = sunMessage();
+  sun.distance_au = 0.5;
+  EXPECT_EQ(refusal(sun), "distance_au is 0.5, but must be from 0.97 to 1.03 au");
+  geometry_msgs::QuaternionStamped celestial = celestialMessage();
+  celestial.quaternion.w = nan;
+  EXPECT_EQ(refusal(celestial), "quaternion is of length nan, but must be of length 1");
+}
+
+TEST(CivilTime, ReadsAsIsoSays) {
+  const Instant instant = astronomy::instantOf({2024, 7, 1, 4, 30, 7.25, 3.0});
+  EXPECT_EQ(toUtc(instant), "2024-07-01T01:30:07.250Z");
+  EXPECT_EQ(toUtc(instant.plusSeconds(52.7496)), "2024-07-01T01:31:00.000Z");  // rounded, and carried
+  EXPECT_EQ(toUtc(astronomy::instantOf({-1999, 3, 2, 0, 0, 0.0, 0.0})), "-1999-03-02T00:00:00.000Z");
+  EXPECT_EQ(toUtc(astronomy::instantOf({0, 3, 2, 0, 0, 0.0, 0.0})), "0000-03-02T00:00:00.000Z");
+}
+
+TEST(CivilTime, SurvivesTheWayThereAndBackInAllYears) {
+  EXPECT_FALSE(fromUtc(""));
+  for (int year = -2000; year <= 6000; year += 7) {
+    const Instant instant = astronomy::instantOf({year, 11, 30, 23, 59, 59.999, 0.0});
+    ASSERT_EQ(fromUtc(toUtc(instant)), instant) << toUtc(instant);
+  }
+}
+
+TEST(CivilTime, ThatCannotBeIsRefusedInWords) {
+  for (const char* bad : {"noon", "2024-07-01", "2024-07-01T01:30:07.250", "2024-07-01T01:30:07.250Z "}) {
+    EXPECT_EQ(messageOf([&] { fromUtc(bad); }),
+              "utc is \"" + std::string(bad) + "\", but must read like 2024-07-01T09:00:00.000Z");
+  }
+  EXPECT_NE(messageOf([&] { fromUtc("2024-02-31T01:30:07.250Z"); }).find("day is 31"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sunlit::ros_interface

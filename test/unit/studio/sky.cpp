@@ -1,0 +1,108 @@
+#include "sunlit/studio/sky.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "sunlit/astronomy/civil_time.h"
+#include "support/message_of.h"
+
+namespace sunlit::studio {
+namespace {
+
+/// Sun at 10°.
+SkyBodies lowSunOver(double site_elevation_m) {
+  SkyBodies bodies{{Direction(Azimuth::degrees(250.0), Angle::degrees(10.0)), 1.0}};
+  bodies.site_elevation_m = site_elevation_m;
+  return bodies;
+}
+
+/// What tells one daylight from another, lx and cd/m².
+std::vector<float> figuresOf(const sky::Daylight& day) {
+  std::vector<float> figures;
+  const auto add = [&](const LinearRgb& rgb) {
+    figures.insert(figures.end(), rgb.value.begin(), rgb.value.end());
+  };
+  add(day.sun().illuminance);
+  add(day.groundIlluminance());
+  for (const float z : {0.05f, 0.4f, 0.9f})
+    add(day.skyLuminance(Eigen::Vector3f(-0.5f, -0.2f, z).normalized()));
+  return figures;
+}
+
+std::vector<float> figuresAt(double height_m) {
+  sky::AtmosphereOptions air;
+  air.observer_height_m = height_m;
+  return figuresOf(sky::Atmosphere(air).daylight(lowSunOver(0.0).sun));
+}
+
+TEST(Sky, HasTheAirOfTheSitesElevationMadeOnceForEach) {
+  std::vector<std::string> notes;
+  Reports reports;
+  reports.note = [&](const std::string& line) { notes.push_back(line); };
+  Sky sky({}, reports);
+  EXPECT_TRUE(notes.empty());  // made when it is needed
+  const std::vector<float> high = figuresOf(sky.daylight(lowSunOver(1830.14)));
+  EXPECT_EQ(high, figuresAt(1830.14));
+  EXPECT_EQ(notes.size(), 1u);
+  const std::vector<float> low = figuresOf(sky.daylight(lowSunOver(0.0)));
+  EXPECT_EQ(low, figuresAt(0.0));
+  EXPECT_EQ(figuresOf(sky.daylight(lowSunOver(1830.14))), high);
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_NE(notes[0].find("1830.14 m"), std::string::npos) << notes[0];
+  // Green sunlight: by Kasten & Young's relative air mass of 5.6 at 10°, times a fifth less air above, times
+  // its optical depth of about 0.2 with haze, some exp(0.2) more.
+  EXPECT_GT(high[1] / low[1], 1.15f);
+  EXPECT_LT(high[1] / low[1], 1.8f);
+}
+
+/// The notes of a sky over sites of these elevations.
+std::vector<std::string> notesOf(const SkyOptions& options, const std::vector<double>& elevations_m) {
+  std::vector<std::string> notes;
+  Reports reports;
+  reports.note = [&](const std::string& line) { notes.push_back(line); };
+  Sky sky(options, reports);
+  for (const double elevation_m : elevations_m) sky.prepare(elevation_m);
+  return notes;
+}
+
+TEST(Sky, BelowTheSeaAndAboveTheHighestAirHasTheNearestThatThereIs) {
+  EXPECT_EQ(notesOf({}, {-430.0, 0.0, 8849.0, 8000.0}),
+            (std::vector<std::string>{"Air of a height of 0 m", "Air of a height of 8000 m"}));
+}
+
+TEST(Sky, OfAFixedHeightDoesNotHeedTheSite) {
+  SkyOptions options;
+  options.fixed_height_m = 500.0;
+  EXPECT_EQ(notesOf(options, {0.0, 1830.14}), std::vector<std::string>{"Air of a height of 500 m"});
+}
+
+TEST(Sky, RefusesAirThatCannotBe) {
+  SkyOptions options;
+  options.air.turbidity = 0.5;
+  EXPECT_NE(messageOf([&] { Sky sky(options); }).find("turbidity"), std::string::npos);
+  options.air.turbidity = 2.0;
+  options.fixed_height_m = 9000.0;
+  EXPECT_NE(messageOf([&] { Sky sky(options); }).find("observer_height"), std::string::npos);
+}
+
+TEST(SkyBodies, StandWherePublishedExamplesHaveThem) {
+  // Reda & Andreas (2008), table A5.1: zenith 50.111622°, azimuth 194.340241°.
+  const CivilDateTime civil{2003, 10, 17, 12, 30, 30.0, -7.0};
+  const Site site{Angle::degrees(39.742476), Angle::degrees(-105.1786), 1830.14};
+  Air air;
+  air.pressure_hpa = 820.0;
+  air.temperature_c = 11.0;
+  astronomy::EarthRotation earth;
+  earth.delta_t_s = 67.0;
+  const SkyBodies bodies = bodiesAt(astronomy::instantOf(civil), site, air, earth);
+  EXPECT_NEAR(90.0 - bodies.sun.apparent.elevation().deg(), 50.111622, 2e-6);  // printed to 1e-6
+  EXPECT_NEAR(bodies.sun.apparent.azimuth().deg(), 194.340241, 2e-6);
+  EXPECT_LT(bodies.sun.geometric->elevation(), bodies.sun.apparent.elevation());
+  EXPECT_EQ(bodies.site_elevation_m, 1830.14);
+  EXPECT_TRUE(bodies.moon && bodies.map_from_celestial);
+}
+
+}  // namespace
+}  // namespace sunlit::studio

@@ -1,0 +1,94 @@
+#include "sunlit/studio/studio.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sunlit/quantity/frames.h"
+#include "sunlit/studio/sky.h"
+#include "support/message_of.h"
+
+namespace sunlit::studio {
+namespace {
+
+constexpr const char* kBoxes = SUNLIT_SOURCE_DIR "/test/support/worlds/two_boxes.world";
+
+/// Two boxes on a plain under an open sky, by a small camera.
+StudioOptions boxes() {
+  StudioOptions options;
+  options.world.name = kBoxes;
+  options.bake.enabled = false;
+  options.render.camera = image::PinholeCamera::fromFieldOfView(48, 32, Angle::degrees(90.0));
+  return options;
+}
+
+const sky::SunInSky kHighSun{Direction(Azimuth::degrees(160.0), Angle::degrees(55.0)), 1.0};
+
+TEST(Studio, RefusesBadOptionsBeforeItLoadsTheWorld) {
+  StudioOptions options = boxes();
+  options.world.name = "no_such.world";
+  const auto refusal = [&] { return messageOf<std::exception>([&] { Studio studio(options); }); };
+  EXPECT_NE(refusal().find("no_such.world"), std::string::npos);
+  options.noise.read_e = -1.0;
+  EXPECT_NE(refusal().find("read_e"), std::string::npos) << refusal();
+  options.noise.read_e = 3.0;
+  options.exposure.max_ev100 = options.exposure.min_ev100 - 1.0;
+  EXPECT_NE(refusal().find("ev100"), std::string::npos) << refusal();
+  options.exposure = {};
+  options.bake.transport.bounces = -1;
+  EXPECT_NE(refusal().find("bounces"), std::string::npos) << refusal();
+  options.bake.transport.bounces = 3;
+  options.render.supersampling = 9;
+  EXPECT_NE(refusal().find("supersampling"), std::string::npos) << refusal();
+}
+
+TEST(Studio, TakesThePictureThatItsPartsMake) {
+  StudioOptions options = boxes();
+  options.noise.enabled = true;
+  Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
+  map_from_camera.translation().z() = 1.0;
+  const sky::Daylight day = Sky({}).daylight({kHighSun});
+  const image::PictureName name{7, "noon"};
+
+  Studio studio(options);
+  studio.look(map_from_camera);
+  const Developed developed = studio.photograph(studio.illumination(day), name);
+
+  const light::World world = loadWorld(options.world, std::nullopt, {});
+  render::Renderer renderer(world, options.render);
+  renderer.look(map_from_camera * linkFromOptical());
+  image::LinearImage luminance = renderer.light(day);
+  const double ev100 = image::chooseEv100(luminance, options.exposure);
+  image::addSensorNoise(ev100, options.noise, name, &luminance);
+  EXPECT_EQ(developed.ev100, ev100);
+  EXPECT_EQ(developed.picture.data, image::develop(luminance, ev100).data);
+}
+
+TEST(Studio, AMapLeavesWhatTheCameraLooksAt) {
+  Studio studio(boxes());
+  Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
+  map_from_camera.translation().z() = 1.0;
+  studio.look(map_from_camera);
+  const sky::Daylight day = Sky({}).daylight({kHighSun});
+  const light::Illumination light = studio.illumination(day);
+  const Developed before = studio.photograph(light, {});
+  const image::Rgb8Image map = studio.mapFromAbove({-20.0, 20.0, -10.0, 10.0}, day);
+  EXPECT_EQ(map.width, 1600);
+  EXPECT_EQ(map.height, 800);
+  EXPECT_EQ(studio.photograph(light, {}).picture.data, before.picture.data);
+}
+
+TEST(Studio, TellsWhatItLoadsToWhoListens) {
+  std::vector<std::string> notes;
+  Reports reports;
+  reports.note = [&](const std::string& line) { notes.push_back(line); };
+  const scene::Scene scene = loadScene(boxes().world, reports);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find(std::to_string(scene.triangleCount()) + " triangles"), std::string::npos)
+      << notes[0];
+}
+
+}  // namespace
+}  // namespace sunlit::studio
