@@ -24,8 +24,8 @@ class Guard:
 
     def _start(self):
         scripts = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
-        self.process = subprocess.Popen([sys.executable, "-m", "sunlit_experiment.guard", str(self.launch.pid)], cwd=scripts,
-                                        stdin=subprocess.PIPE, start_new_session=True)
+        self.process = subprocess.Popen([sys.executable, "-m", "sunlit_experiment.guard", str(self.launch.pid),
+                                         self.launch.log_folder], cwd=scripts, stdin=subprocess.PIPE, start_new_session=True)
 
     def check(self):
         """Starts it again, should it have been killed."""
@@ -39,7 +39,7 @@ class Guard:
 
 
 def main():
-    launch = Launch(int(sys.argv[1]))
+    launch = Launch(int(sys.argv[1]), sys.argv[2])
     while not select.select([sys.stdin], [], [], LOOK_EVERY_S)[0]:
         launch.look()
     if os.read(sys.stdin.fileno(), 1) != IN_ORDER:

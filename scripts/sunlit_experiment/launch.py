@@ -10,10 +10,12 @@ import os
 import signal
 import sys
 import time
+import xml.parsers.expat
 import xmlrpc.client
 
 import psutil
 
+NO_ANSWER = (OSError, http.client.HTTPException, xml.parsers.expat.ExpatError)  # the last: it ended in mid-answer
 GRACE_S = 20.0  # a process that has not ended so long after SIGINT is killed
 
 
@@ -50,11 +52,17 @@ def words_of(process):
         return []
 
 
+def is_roslaunch(process):
+    return any(os.path.basename(word) in ("roslaunch", "roscore") for word in words_of(process))
+
+
 class Launch:
     """The roslaunch process `pid`, and what it started but for ourselves."""
 
-    def __init__(self, pid):
+    def __init__(self, pid, log_folder):
+        """`log_folder`: where its nodes log, of which roslaunch has one a master."""
         self.pid = pid
+        self.log_folder = log_folder
         try:
             self.process = psutil.Process(pid)
             self.started_at = started_at(self.process)
@@ -81,7 +89,7 @@ class Launch:
 
     def is_roslaunch(self):
         """Not so under rostest, which judges by itself how its nodes ended."""
-        return self.process is not None and any(os.path.basename(word) == "roslaunch" for word in words_of(self.process))
+        return self.process is not None and is_roslaunch(self.process)
 
     def nodes(self, uris):
         """Names of living and of dead nodes, without a leading slash. `uris`: of all the roslaunch servers that are known."""
@@ -89,7 +97,7 @@ class Launch:
         self.look()
         try:
             processes = self.server.list_processes()[2]
-        except (OSError, http.client.HTTPException):
+        except NO_ANSWER:
             raise Failure("roslaunch has gone") from None
         alive, dead = ({name.rsplit("-", 1)[0] for name, _ in names} for names in processes)
         return alive, dead
@@ -100,9 +108,10 @@ class Launch:
             try:
                 if server.get_pid()[2] == self.pid:
                     return server
-            except OSError:
+            except NO_ANSWER:
                 pass  # an earlier roslaunch that has gone
-        if self.is_gone():
+        # One that is being killed closes its sockets before it counts as gone.
+        if self.may_end_children or self.is_gone():
             raise Failure("roslaunch has gone")
         raise Failure("this node was not started by roslaunch; what else was started may still run")
 
@@ -110,11 +119,25 @@ class Launch:
         """(process, whether it is the master) of all but us. Remembered, since they change parents when roslaunch goes."""
         if not self.may_end_children:
             return []
-        if not self.is_gone():
+        if self.is_gone():
+            self.children |= set(self._orphans())
+        else:
             with contextlib.suppress(psutil.Error):
                 self.children |= {child for child in self.process.children() if leads_its_group(child)}
         return [(child, any("rosmaster" in word for word in words_of(child))) for child in self.children
                 if child.pid != os.getpid() and is_alive(child)]
+
+    def _orphans(self):
+        """Nodes that roslaunch started as it went, which nobody saw as its children. Those of another roslaunch on the same
+        master log to the same folder; their parent lives, or they are older."""
+        mark = f"__log:={self.log_folder}{os.sep}"
+        for process in psutil.process_iter():
+            if any(word.startswith(mark) for word in words_of(process)) and leads_its_group(process):
+                with contextlib.suppress(psutil.Error):
+                    parent = process.parent()
+                    is_of_another = parent is not None and is_roslaunch(parent)
+                    if not is_of_another and process.create_time() >= self.process.create_time():
+                        yield process
 
     def _end_children(self, masters):
         """SIGINT, and SIGKILL for those that do not listen."""

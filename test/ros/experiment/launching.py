@@ -68,7 +68,7 @@ class Launched:
         self.environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % free_port(),
                                 ROS_HOSTNAME="localhost", **{key: value})
         self.environment.update(surroundings or {})
-        self.log = tempfile.TemporaryFile(mode="w+")
+        self.log = tempfile.TemporaryFile(mode="a+")  # a: what is read here does not move where they write
         port = self.environment["ROS_MASTER_URI"].rsplit(":", 1)[1]
         command = ["roslaunch", "-p", port] + ([launch_file] if "/" in launch_file else ["sunlit", launch_file])
         command += ["%s:=%s" % (name, value) for name, value in arguments.items()]
