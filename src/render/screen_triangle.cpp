@@ -60,8 +60,6 @@ ScreenProjection::ScreenProjection(const View& view)
   ray_ = view.ray(view.pixelOfSample(0), view.pixelOfSample(0));
   ray_per_column_ = view.ray(view.pixelOfSample(1), view.pixelOfSample(0)) - ray_;
   ray_per_row_ = view.ray(view.pixelOfSample(0), view.pixelOfSample(1)) - ray_;
-  // Small enough that products of two coordinates in steps stay exact in double precision.
-  reach_ = static_cast<float>(2 * std::max(columns_, rows_));
 }
 
 Eigen::Vector3f ScreenProjection::toScreen(const Eigen::Vector3f& position) const {
@@ -97,7 +95,9 @@ void ScreenProjection::append(const Batch& batch, ScreenTriangles* out) const {
     triangle.nearness = alongRays(normal / distance);
     const std::size_t before = out->triangles.size();
     const bool whole = std::all_of(corners.begin(), corners.end(), [&](const Eigen::Vector3f& p) {
-      return p.z() >= near_m_ && std::abs(p.x()) <= reach_ * p.z() && std::abs(p.y()) <= reach_ * p.z();
+      const float beyond = ScreenTriangle::kReach * p.z();
+      return p.z() >= near_m_ && p.x() >= -beyond && p.y() >= -beyond && p.x() <= right * p.z() + beyond &&
+             p.y() <= bottom * p.z() + beyond;
     });
     if (!whole) {
       appendClipped(corners, triangle, &out->triangles);
@@ -116,10 +116,12 @@ void ScreenProjection::appendClipped(const std::array<Eigen::Vector3f, 3>& corne
                                      std::vector<ScreenTriangle>* triangles) const {
   Polygon polygon(corners.begin(), corners.end());
   clip([&](const Eigen::Vector3f& p) { return p.z() - near_m_; }, &polygon);
-  clip([&](const Eigen::Vector3f& p) { return reach_ * p.z() - p.x(); }, &polygon);
-  clip([&](const Eigen::Vector3f& p) { return reach_ * p.z() + p.x(); }, &polygon);
-  clip([&](const Eigen::Vector3f& p) { return reach_ * p.z() - p.y(); }, &polygon);
-  clip([&](const Eigen::Vector3f& p) { return reach_ * p.z() + p.y(); }, &polygon);
+  const float right = static_cast<float>(columns_ - 1) + ScreenTriangle::kReach,
+              bottom = static_cast<float>(rows_ - 1) + ScreenTriangle::kReach;
+  clip([&](const Eigen::Vector3f& p) { return right * p.z() - p.x(); }, &polygon);
+  clip([&](const Eigen::Vector3f& p) { return p.x() + ScreenTriangle::kReach * p.z(); }, &polygon);
+  clip([&](const Eigen::Vector3f& p) { return bottom * p.z() - p.y(); }, &polygon);
+  clip([&](const Eigen::Vector3f& p) { return p.y() + ScreenTriangle::kReach * p.z(); }, &polygon);
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     ScreenTriangle triangle = common;
     if (placeCorners({polygon[0], polygon[i], polygon[i + 1]}, &triangle)) triangles->push_back(triangle);

@@ -29,6 +29,10 @@ struct MaskPlanes {
 /// A triangle, or what clipping left of one, in units of samples; sample (column, row) lies at whole numbers.
 struct ScreenTriangle {
   static constexpr int kSteps = 256;  ///< places a sample and axis that corners are rounded to
+  /// Samples beyond the picture that corners may lie: so few that nearness at the corners is not much greater
+  /// than what is seen, of which single precision would lose the digits; more than what rounding moves them.
+  /// Products of two coordinates in steps stay exact in double precision.
+  static constexpr int kReach = 16;
   static constexpr std::int32_t kNoMask = -1;
 
   std::array<std::int32_t, 3> x, y;         ///< corners, in steps; x to y turns from right to down
@@ -81,7 +85,6 @@ class ScreenProjection {
   /// To column · depth, row · depth and depth, from a position counted from the eye.
   Eigen::Matrix3f screen_from_map_;
   Eigen::Vector3d ray_, ray_per_column_, ray_per_row_;  ///< of depth 1 m
-  float reach_;  ///< beyond the picture, in samples, that corners may lie
 };
 
 }  // namespace sunlit::render

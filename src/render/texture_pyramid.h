@@ -41,6 +41,7 @@ class TexturePyramid {
   Mask mask(float texels_squared) const;
   /// All sizes of a masked texture, the full one first.
   std::vector<Mask> masks() const;
+  std::size_t sizes() const { return levels_.size(); }
   /// Of alpha, 0 … 255: what is solid between the texels of the full size reaches it.
   float cutoff() const { return cutoff_; }
   /// Whether it is solid at (u, v) of the full size: between texels, so that edges stay smooth.

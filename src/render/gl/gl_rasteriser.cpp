@@ -15,8 +15,8 @@ namespace {
 /// are drawn in several, so that the device holds 128 MB and not gigabytes.
 constexpr int kLargestPass = 4096;
 
-/// A power of two, so that no coordinate is rounded; wide enough that corners, which lie at most two pictures
-/// beyond it, stay within the band about the viewport where drivers need not cut triangles.
+/// A power of two, so that no coordinate is rounded; wide enough for corners beyond a pass, about whose
+/// viewport there is a band, too, where drivers need not cut triangles.
 int viewportSide(int width, int height) {
   int side = 256;
   while (2 * side < 5 * std::max(width, height)) side *= 2;
@@ -29,7 +29,8 @@ GlRasteriser::GlRasteriser(std::shared_ptr<Device> device, const RasteriserWorld
     : device_(std::move(device)),
       visible_(world.geometry, world.pyramids),
       masks_(*world.geometry->scene, world.pyramids),
-      texels_factor_(static_cast<float>(std::exp2(2.0 * world.lod_bias))) {
+      texels_factor_(static_cast<float>(std::exp2(2.0 * world.lod_bias))),
+      list_(masks_, texels_factor_) {
   device_->run([this](const Functions& gl) { objects_ = std::make_unique<Objects>(gl, masks_); });
   masks_.alpha = {};  // the device has them
   masks_.rows = {};
@@ -46,7 +47,7 @@ void GlRasteriser::draw(const View& view, const light::Geometry* bodies, std::ve
   visible_.gather(view, bodies);
   visible_.project(view, [](std::size_t) {});
   const auto near_m = static_cast<float>(view.near_m);
-  list_.assemble(visible_, masks_, near_m);
+  list_.assemble(visible_, near_m);
   for (int top = 0; top < height; top += kLargestPass) {
     for (int left = 0; left < width; left += kLargestPass) {
       const Pass pass{left, top, std::min(kLargestPass, width - left), std::min(kLargestPass, height - top)};
@@ -71,22 +72,21 @@ void GlRasteriser::drawPass(const Functions& gl, const Pass& pass, float farthes
   constexpr GLuint kNothing[4] = {0, 0, 0, 0};
   gl.ClearBufferuiv(GL_COLOR, 0, kNothing);
   gl.ClearBufferfv(GL_DEPTH, 0, &farthest);
-  for (const bool masked : {false, true}) {
-    const std::size_t first = masked ? list_.opaque() : 0,
-                      count = masked ? list_.masked().size() : list_.opaque();
-    const Program& program = masked ? objects_->masked : objects_->opaque;
+  for (const auto batch : {TriangleList::kOpaque, TriangleList::kFullSize, TriangleList::kAnySize,
+                           TriangleList::kOneSmallerSize}) {
+    const Program& program = objects_->program(batch);
     program.use();
     // Sample (0, 0) of the pass is the pixel whose middle lies half a sample from its corner.
     constexpr int kSteps = ScreenTriangle::kSteps;
     gl.Uniform2i(program.uniform("middle"), kSteps * (pass.left + middle_x) - kSteps / 2,
                  kSteps * (pass.top + middle_y) - kSteps / 2);
     gl.Uniform1f(program.uniform("viewport_per_step"), 2.0f / static_cast<float>(kSteps * side));
-    if (masked) {
-      gl.Uniform1i(program.uniform("first_masked"), static_cast<GLint>(first));
-      gl.Uniform2f(program.uniform("origin"), static_cast<float>(pass.left), static_cast<float>(pass.top));
-      gl.Uniform1f(program.uniform("texels_factor"), texels_factor_);
-    }
-    gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * first), static_cast<GLsizei>(3 * count));
+    // An opaque one has none of these, which OpenGL passes over.
+    gl.Uniform1i(program.uniform("first_masked"), static_cast<GLint>(list_.count(TriangleList::kOpaque)));
+    gl.Uniform2f(program.uniform("origin"), static_cast<float>(pass.left), static_cast<float>(pass.top));
+    gl.Uniform1f(program.uniform("texels_factor"), texels_factor_);
+    gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * list_.first(batch)),
+                  static_cast<GLsizei>(3 * list_.count(batch)));
   }
 }
 

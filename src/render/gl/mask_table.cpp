@@ -10,12 +10,12 @@ MaskTable::MaskTable(const scene::Scene& scene, const TexturePyramids& pyramids)
     const TexturePyramid* const pyramid = pyramids.of(static_cast<std::int32_t>(i));
     if (!first_row.emplace(pyramid, static_cast<std::int32_t>(rows.size() / 4)).second) continue;
     const std::vector<TexturePyramid::Mask> masks = pyramid->masks();
-    std::int32_t cutoff;
-    const float value = pyramid->cutoff();
-    std::memcpy(&cutoff, &value, sizeof(cutoff));
-    rows.insert(rows.end(), {static_cast<std::int32_t>(masks.size()), masks.front().least, cutoff, 0});
+    rows.insert(rows.end(), {static_cast<std::int32_t>(masks.size()), 0, 0, 0});
     for (const TexturePyramid::Mask& mask : masks) {
-      rows.insert(rows.end(), {static_cast<std::int32_t>(alpha.size()), mask.width, mask.height, 0});
+      std::int32_t solid_from = mask.least;
+      const float cutoff = pyramid->cutoff();
+      if (mask.full) std::memcpy(&solid_from, &cutoff, sizeof(cutoff));
+      rows.insert(rows.end(), {static_cast<std::int32_t>(alpha.size()), mask.width, mask.height, solid_from});
       alpha.insert(alpha.end(), mask.alpha, mask.alpha + mask.width * mask.height);
     }
   }

@@ -17,7 +17,7 @@ void requireNoError(const Functions& gl) {
                                                      : "OpenGL reports error " + std::to_string(error));
 }
 
-Program::Program(const Functions& gl, const char* corner_shader, const char* sample_shader)
+Program::Program(const Functions& gl, const Text& corner_shader, const Text& sample_shader)
     : gl_(gl), number_(gl.CreateProgram()) {
   attach(GL_VERTEX_SHADER, corner_shader);
   attach(GL_FRAGMENT_SHADER, sample_shader);
@@ -35,9 +35,9 @@ Program::~Program() {
   gl_.DeleteProgram(number_);
 }
 
-void Program::attach(GLenum stage, const char* text) const {
+void Program::attach(GLenum stage, const Text& parts) const {
   const GLuint shader = gl_.CreateShader(stage);
-  gl_.ShaderSource(shader, 1, &text, nullptr);
+  gl_.ShaderSource(shader, static_cast<GLsizei>(parts.size()), parts.data(), nullptr);
   gl_.CompileShader(shader);
   gl_.AttachShader(number_, shader);
   gl_.DeleteShader(shader);  // lives as long as the program
@@ -67,9 +67,11 @@ void TextureBuffer::bind(GLuint unit) const {
 }
 
 Objects::Objects(const Functions& gl, const MaskTable& masks)
-    : opaque(gl, kCornerShader, kOpaqueShader),
-      masked(gl, kCornerShader, kMaskedShader),
-      gl_(gl),
+    : gl_(gl),
+      opaque_(gl, {kCornerShader}, {kOpaqueShader}),
+      full_size_(gl, {kFullSize, kMaskedCornerShader}, {kFullSize, kMaskedShader}),
+      any_size_(gl, {kAnySize, kMaskedCornerShader}, {kAnySize, kMaskedShader}),
+      one_smaller_size_(gl, {kOneSmallerSize, kMaskedCornerShader}, {kOneSmallerSize, kMaskedShader}),
       triangles_(gl, GL_RGBA32F),
       mask_rows_(gl, GL_RGBA32I),
       alpha_(gl, GL_R8UI) {
@@ -82,10 +84,12 @@ Objects::Objects(const Functions& gl, const MaskTable& masks)
   }
   mask_rows_.fill(masks.rows.data(), masks.rows.size() * sizeof(masks.rows[0]));
   alpha_.fill(masks.alpha.data(), masks.alpha.size());
-  masked.use();
-  gl_.Uniform1i(masked.uniform("triangles"), 0);
-  gl_.Uniform1i(masked.uniform("masks"), 1);
-  gl_.Uniform1i(masked.uniform("alpha"), 2);
+  for (const Program* masked : {&full_size_, &any_size_, &one_smaller_size_}) {
+    masked->use();
+    gl_.Uniform1i(masked->uniform("triangles"), 0);
+    gl_.Uniform1i(masked->uniform("masks"), 1);
+    gl_.Uniform1i(masked->uniform("alpha"), 2);
+  }
 
   gl_.GenVertexArrays(1, &vertex_array_);
   gl_.GenBuffers(1, &corners_);
@@ -110,6 +114,19 @@ Objects::~Objects() {
   gl_.DeleteRenderbuffers(1, &depth_);
   gl_.DeleteVertexArrays(1, &vertex_array_);
   gl_.DeleteBuffers(1, &corners_);
+}
+
+const Program& Objects::program(TriangleList::Batch batch) const {
+  switch (batch) {
+    case TriangleList::kFullSize:
+      return full_size_;
+    case TriangleList::kAnySize:
+      return any_size_;
+    case TriangleList::kOneSmallerSize:
+      return one_smaller_size_;
+    default:
+      return opaque_;
+  }
 }
 
 void Objects::upload(const TriangleList& triangles) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "render/gl/function_table.h"
 #include "render/gl/mask_table.h"
@@ -14,7 +15,8 @@ void requireNoError(const Functions& gl);
 
 class Program {
  public:
-  Program(const Functions& gl, const char* corner_shader, const char* sample_shader);
+  using Text = std::vector<const char*>;  ///< in parts
+  Program(const Functions& gl, const Text& corner_shader, const Text& sample_shader);
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
@@ -23,7 +25,7 @@ class Program {
   GLint uniform(const char* name) const { return gl_.GetUniformLocation(number_, name); }
 
  private:
-  void attach(GLenum stage, const char* text) const;
+  void attach(GLenum stage, const Text& parts) const;
 
   const Functions& gl_;
   GLuint number_;
@@ -54,14 +56,14 @@ class Objects {
   Objects(const Objects&) = delete;
   Objects& operator=(const Objects&) = delete;
 
+  const Program& program(TriangleList::Batch batch) const;
   void upload(const TriangleList& triangles) const;
   /// Sets all state that drawing into a picture of this size, in samples, depends on but the viewport.
   void bind(int width, int height);
 
-  const Program opaque, masked;
-
  private:
   const Functions& gl_;
+  const Program opaque_, full_size_, any_size_, one_smaller_size_;
   const TextureBuffer triangles_, mask_rows_, alpha_;
   GLuint vertex_array_ = 0, corners_ = 0;
   GLuint framebuffer_ = 0, seen_ = 0, depth_ = 0;

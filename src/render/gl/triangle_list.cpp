@@ -3,6 +3,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
+
+#include "render/gl/mask_sizes.h"
 
 namespace sunlit::render::gl {
 namespace {
@@ -32,34 +35,81 @@ TriangleList::Masked maskedOf(const ScreenTriangle& triangle, const MaskPlanes& 
           static_cast<float>(row)};
 }
 
-}  // namespace
+/// Samples of a box that are sooner looked at one by one than drawn in vain.
+constexpr int kSmall = 16;
 
-void TriangleList::assemble(const VisibleTriangles& visible, const MaskTable& masks, float near_m) {
-  std::vector<Places> places(visible.groups() + 1, Places{0, 0});
-  for (std::size_t g = 0; g < visible.groups(); ++g) {
-    const std::vector<ScreenTriangle>& triangles = visible.group(g).triangles;
-    const auto opaque = static_cast<std::size_t>(
-        std::count_if(triangles.begin(), triangles.end(),
-                      [](const ScreenTriangle& t) { return t.mask == ScreenTriangle::kNoMask; }));
-    places[g + 1] = {places[g].opaque + opaque, places[g].masked + triangles.size() - opaque};
+/// Whether a small triangle covers a sample, by the rule of TileRaster; true of all others.
+bool mayCoverASample(const ScreenTriangle& t) {
+  if ((t.right - t.left + 1) * (t.bottom - t.top + 1) > kSmall) return true;
+  constexpr std::int64_t kSteps = ScreenTriangle::kSteps;
+  for (int row = t.top; row <= t.bottom; ++row) {
+    for (int column = t.left; column <= t.right; ++column) {
+      bool inside = true;
+      for (std::size_t from = 0; from < 3; ++from) {
+        const std::size_t to = from == 2 ? 0 : from + 1;
+        const std::int64_t along = t.x[to] - t.x[from], down = t.y[to] - t.y[from];
+        const std::int64_t side = along * (kSteps * row - t.y[from]) - down * (kSteps * column - t.x[from]);
+        const bool owned = down < 0 || (down == 0 && along > 0);
+        inside &= owned ? side >= 0 : side > 0;
+      }
+      if (inside) return true;
+    }
   }
-  const Places all = places.back();
-  triangles_.resize(all.opaque + all.masked);
-  corners_.resize(3 * triangles_.size());
-  masked_.resize(all.masked);
-  tbb::parallel_for(std::size_t{0}, visible.groups(),
-                    [&](std::size_t g) { place(visible.group(g), places[g], masks, near_m); });
+  return false;
 }
 
-void TriangleList::place(const ScreenTriangles& group, Places at, const MaskTable& masks, float near_m) {
-  for (const ScreenTriangle& triangle : group.triangles) {
-    std::size_t index = at.opaque;
-    if (triangle.mask == ScreenTriangle::kNoMask) {
-      ++at.opaque;
-    } else {
+}  // namespace
+
+TriangleList::Decision TriangleList::decide(const ScreenTriangle& triangle,
+                                            const ScreenTriangles& group) const {
+  if (!mayCoverASample(triangle)) return {kBatches, 0};
+  if (triangle.mask == ScreenTriangle::kNoMask) return {kOpaque, 0};
+  const MaskPlanes& planes = group.masks[static_cast<std::size_t>(triangle.mask)];
+  const std::int32_t mask = masks_.first_row.at(planes.texture), full = mask + 1;
+  const MaskSizes sizes = maskSizesOf(triangle, planes, texels_factor_);
+  if (sizes.smallest == 0) return {kFullSize, full};
+  const auto last = static_cast<int>(planes.texture->sizes()) - 1;
+  const int largest = std::min(sizes.largest, last), smallest = std::min(sizes.smallest, last);
+  if (largest == 0 || largest != smallest) return {kAnySize, mask};
+  return {kOneSmallerSize, full + largest};
+}
+
+void TriangleList::assemble(const VisibleTriangles& visible, float near_m) {
+  const std::size_t groups = visible.groups();
+  decisions_.resize(std::max(decisions_.size(), groups));
+  std::vector<Places> counts(groups, Places{});
+  tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t g) {
+    const ScreenTriangles& group = visible.group(g);
+    decisions_[g].clear();
+    for (const ScreenTriangle& triangle : group.triangles) {
+      const Decision decision = decide(triangle, group);
+      decisions_[g].push_back(decision);
+      if (decision.batch != kBatches) ++counts[g][decision.batch];
+    }
+  });
+  std::size_t sum = 0;
+  for (std::size_t batch = 0; batch < kBatches; ++batch) {
+    begin_[batch] = sum;
+    for (Places& places : counts) sum += std::exchange(places[batch], sum);
+  }
+  begin_[kBatches] = sum;
+  triangles_.resize(sum);
+  corners_.resize(3 * sum);
+  masked_.resize(sum - count(kOpaque));
+  tbb::parallel_for(std::size_t{0}, groups,
+                    [&](std::size_t g) { place(visible.group(g), decisions_[g], counts[g], near_m); });
+}
+
+void TriangleList::place(const ScreenTriangles& group, const std::vector<Decision>& decisions, Places at,
+                         float near_m) {
+  for (std::size_t t = 0; t < group.triangles.size(); ++t) {
+    const Decision& decision = decisions[t];
+    if (decision.batch == kBatches) continue;
+    const ScreenTriangle& triangle = group.triangles[t];
+    const std::size_t index = at[decision.batch]++;
+    if (decision.batch != kOpaque) {
       const MaskPlanes& planes = group.masks[static_cast<std::size_t>(triangle.mask)];
-      masked_[at.masked] = maskedOf(triangle, planes, masks.first_row.at(planes.texture));
-      index = opaque() + at.masked++;
+      masked_[index - count(kOpaque)] = maskedOf(triangle, planes, decision.mask);
     }
     triangles_[index] = &triangle;
     for (std::size_t i = 0; i < 3; ++i) {

@@ -14,17 +14,11 @@
 
 namespace sunlit::test {
 
-/// Relative depth that OpenGL cannot tell apart on large triangles: it interpolates in single precision from
-/// the corner of the picture, where nearness may be a hundred times as large.
-constexpr double kOnePlace = 1e-5;
-
 /// Where the rasteriser under test disagrees with our own, over some poses.
 struct Disagreement {
   std::size_t samples = 0, ids = 0;
-  std::size_t in_one_place = 0;  ///< of `ids`: whose triangles are equally far, to within rounding
   std::size_t masked = 0, masked_by_builtin = 0;  ///< samples that see what is cut out
   double largest_depth = 0.0;                     ///< of equal ids, relative
-  double apartShare() const { return static_cast<double>(ids - in_one_place) / static_cast<double>(samples); }
   double idShare() const { return static_cast<double>(ids) / static_cast<double>(samples); }
   double coverage() const {
     return static_cast<double>(masked) / static_cast<double>(masked_by_builtin) - 1.0;
@@ -54,7 +48,6 @@ class SideBySide {
         sum->largest_depth = std::max(sum->largest_depth, depth);
       } else {
         ++sum->ids;
-        sum->in_one_place += depth < kOnePlace;
       }
     }
   }

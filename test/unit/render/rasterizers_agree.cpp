@@ -40,8 +40,7 @@ std::vector<Eigen::Isometry3d> posesOf(const std::vector<Eigen::Vector3d>& waypo
 
 class Worlds : public EachRasterizer {
  protected:
-  void expectAgreement(scene::Scene scene, const std::vector<Eigen::Vector3d>& waypoints,
-                       bool lies_twice_in_one_plane = false) const {
+  void expectAgreement(scene::Scene scene, const std::vector<Eigen::Vector3d>& waypoints) const {
     const std::vector<Eigen::Isometry3d> poses = posesOf(waypoints);
     Disagreement masked, opaque;
     {
@@ -51,8 +50,7 @@ class Worlds : public EachRasterizer {
     makeOpaque(&scene);
     SideBySide both(std::move(scene), GetParam());
     for (const Eigen::Isometry3d& pose : poses) both.compare(viewFrom(pose), &opaque);
-    EXPECT_LE(opaque.apartShare(), kOpaqueShare);
-    EXPECT_LE(opaque.idShare(), lies_twice_in_one_plane ? kMaskedShare : kOpaqueShare);
+    EXPECT_LE(opaque.idShare(), kOpaqueShare);
     EXPECT_LE(opaque.largest_depth, kDepth);
     EXPECT_LE(masked.idShare(), kMaskedShare);
     EXPECT_LE(masked.largest_depth, kDepth);
@@ -76,8 +74,7 @@ TEST_P(Worlds, AwsRaceTrackIsSeenAlike) {
 
 TEST_P(Worlds, ForzaIsSeenAlike) {
   SKIP_WITHOUT(kForza);
-  expectAgreement(scene::load(kForza + "/forza.glb", {}), path::readWaypoints(kForza + "/waypoints.csv"),
-                  true);  // part of its road lies on another, in one plane: none is nearer
+  expectAgreement(scene::load(kForza + "/forza.glb", {}), path::readWaypoints(kForza + "/waypoints.csv"));
 }
 
 TEST_P(Worlds, DevelopedPicturesAreAlike) {
@@ -144,7 +141,9 @@ TEST_P(Scenes, WithARobotThatCarriesTheCameraAreSeenAlike) {
   scene::Scene scene = town({0.0f, 0.0f, 0.0f});
   scene::Scene links = scene;
   links.meshes.clear();
-  addBlock(&links, 0, {-0.3f, -0.3f, -0.6f}, {2.0f, 0.6f, 0.3f});
+  // Not as far beside the camera as below: its edges would run through the middles of samples, in which the
+  // sheet that turns away there is as near as the one that is seen.
+  addBlock(&links, 0, {-0.3f, -0.31f, -0.6f}, {2.0f, 0.64f, 0.3f});
   addBlock(&links, 1, {0.5f, -1.0f, -0.3f}, {0.1f, 2.0f, 1.0f});
   const light::World world(shared(std::move(scene)), {links.meshes});
   const render::TexturePyramids pyramids(*world.geometry->scene);
