@@ -36,6 +36,9 @@ OPTIONS = {
                       "--every": "1 … 64 px, default 8", "--samples": "2 … 65536, default 256",
                       "--bounces": "0 … 64, default 16"},
     "export_world": {**WORLDS, "--out": "FILE.glb"},
+    "evaluate_trajectory": {"--truth": "timestamp tx ty tz qx qy qz qw", "--estimate": "of the same body",
+                            "--out": "trajectory.csv", "--align": "none|se3|sim3|yaw",
+                            "--max-difference": "0 … 1000000 s, default 0.01", "--delta": "default 1m,10m,1frame"},
 }
 # Of all tools that have the option: a value, and what is said of it.
 REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be from 16 to 8192 px'),
@@ -117,10 +120,10 @@ class CommandLines(unittest.TestCase):
 
     def test_an_option_is_spelt_in_full(self):
         for program in OPTIONS:
-            for arguments, said in ((["--worl", "x"], "there is no option --worl;"), (["--last=3"], "no option --last=3;"),
+            for arguments, said in ((["--ou", "x"], "there is no option --ou;"), (["--last=3"], "no option --last=3;"),
                                     (["stray"], "no option stray;"), (["-4"], "no option -4;"),
-                                    (["--world"], "--world needs a value"), (["--world="], "--world needs a value"),
-                                    (["--world", "--help"], "--world needs a value"),
+                                    (["--out"], "--out needs a value"), (["--out="], "--out needs a value"),
+                                    (["--out", "--help"], "--out needs a value"),
                                     (["--help=3"], "--help takes no value"), ([], "--out ")):
                 self.assertIn(said, self.refused(program, *arguments))
 

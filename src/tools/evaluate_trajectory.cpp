@@ -1,0 +1,117 @@
+// An estimated trajectory against the true one.
+#include <cstdio>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sunlit/evaluate/trajectory/draw_trajectory.h"
+#include "sunlit/evaluate/trajectory/trajectory_evaluation.h"
+#include "sunlit/image/files.h"
+#include "sunlit/quantity/angle.h"
+#include "tools/command_line.h"
+#include "tools/output_folder.h"
+
+namespace sunlit::tools {
+namespace {
+
+using namespace evaluate;
+
+struct Options {
+  std::string truth, estimate, output;
+  TrajectoryOptions evaluation;
+};
+
+std::vector<Delta> deltasOf(const std::string& value) {
+  std::vector<Delta> deltas;
+  std::istringstream parts(value);
+  for (std::string part; std::getline(parts, part, ',');) deltas.push_back(parseDelta(part));
+  return deltas;
+}
+
+std::string namesOf(const std::vector<Delta>& deltas) {
+  std::string text;
+  for (const Delta& delta : deltas) text += (text.empty() ? "" : ",") + delta.name();
+  return text;
+}
+
+std::optional<Options> parse(const std::vector<std::string>& arguments) {
+  Options options;
+  const std::vector<Field> rows = fieldsOf(options.evaluation);
+  CommandLine line(
+      "evaluate_trajectory: absolute and relative errors of an estimated trajectory. Needs no ROS master.",
+      "evaluate_trajectory --out DIR --truth FILE --estimate FILE [options]");
+  const std::string forms = "TUM (timestamp tx ty tz qx qy qz qw, s and m) or ground truth of EuRoC";
+  line.add("--truth FILE", {"truth", &options.truth, "", {}, forms});
+  line.add("--estimate FILE", {"estimate", &options.estimate, "", {}, "as the truth; of the same body"});
+  line.add(
+      "--out DIR",
+      {"out", &options.output, "", {}, "folder for trajectory.csv, trajectory_poses.csv and trajectory.png"});
+  line.add("--align", fieldOf(rows, "align"));
+  line.add("--max-difference S", fieldOf(rows, "max_difference"));
+  line.add("--delta LIST",
+           {"delta",
+            OwnForm{namesOf(options.evaluation.deltas)},
+            "",
+            {},
+            "of relative errors, between poses: metres along the true path (10m), or frames (1frame)"})
+      .then(
+          [&](const std::string&, const std::string& value) { options.evaluation.deltas = deltasOf(value); });
+  if (!line.read(arguments)) return std::nullopt;
+  for (const std::string needed : {"--out", "--truth", "--estimate"}) {
+    if (!line.has(needed)) throw std::invalid_argument(needed + " is missing; --help lists all options");
+  }
+  requireFolderCanBeMade(options.output);
+  return options;
+}
+
+void tellTrajectory(const char* name, const std::string& file, const Trajectory& trajectory,
+                    std::size_t left) {
+  std::printf("%-8s  %s: %zu poses, %.3f m", name, file.c_str(), trajectory.size(), lengthOf(trajectory));
+  if (left > 0) std::printf("; %zu without a partner", left);
+  std::printf("\n");
+}
+
+void tellAlignment(const Similarity& s) {
+  const Eigen::AngleAxisd turn(s.rotation);
+  std::printf(
+      "aligned   scale %.9g, turned by %.6g deg about (%.4f, %.4f, %.4f), moved by (%.6g, %.6g, %.6g) m\n",
+      s.scale, turn.angle() / kRadPerDeg, turn.axis().x(), turn.axis().y(), turn.axis().z(),
+      s.translation.x(), s.translation.y(), s.translation.z());
+}
+
+void tellRows(const std::vector<TrajectoryRow>& rows) {
+  std::printf("\n%-14s %-4s %7s %11s %11s %11s %11s %11s %11s\n", "metric", "unit", "n", "rmse", "mean",
+              "median", "std", "min", "max");
+  for (const TrajectoryRow& row : rows) {
+    const ErrorStatistics& s = row.statistics;
+    std::printf("%-14s %-4s %7zu %11.6g %11.6g %11.6g %11.6g %11.6g %11.6g\n", row.metric.c_str(),
+                row.unit.c_str(), s.n, s.rmse, s.mean, s.median, s.std, s.min, s.max);
+  }
+}
+
+void run(const Options& options) {
+  const Trajectory truth = readTrajectory(options.truth);
+  const Trajectory estimate = readTrajectory(options.estimate);
+  const TrajectoryEvaluation evaluation = evaluateTrajectory(truth, estimate, options.evaluation);
+  makeFolder(options.output);
+  writeTrajectoryTable(options.output + "/trajectory.csv", evaluation);
+  writePoseErrors(options.output + "/trajectory_poses.csv", truth, estimate, evaluation);
+  image::writePng(options.output + "/trajectory.png", drawTrajectory(truth, evaluation));
+  tellTrajectory("truth", options.truth, truth, evaluation.association.truth_left.size());
+  tellTrajectory("estimate", options.estimate, estimate, evaluation.association.estimate_left.size());
+  std::printf("matched   %zu pairs within %g s\n", evaluation.association.pairs.size(),
+              options.evaluation.max_difference_s);
+  if (options.evaluation.align != Alignment::kNone) tellAlignment(evaluation.truth_from_estimate);
+  tellRows(evaluation.rows);
+  std::printf("%s/trajectory.csv\n", options.output.c_str());
+}
+
+}  // namespace
+}  // namespace sunlit::tools
+
+int main(int argc, char** argv) {
+  using namespace sunlit::tools;
+  return runTool({"evaluate_trajectory", argc, argv}, parse, run);
+}

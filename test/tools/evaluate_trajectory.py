@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""evaluate_trajectory, as people type it."""
+import csv
+import math
+import os
+import re
+import sys
+import tempfile
+import unittest
+
+import rosunit
+
+from timelapse import run
+
+HEADER = "metric,unit,n,unmatched,rmse,mean,median,std,min,max,sse".split(",")
+
+
+def tum(poses):
+    return "# timestamp tx ty tz qx qy qz qw\n" + "".join("%.9f %.9f %.9f %.9f 0 0 0 1\n" % pose for pose in poses)
+
+
+def bend(n):
+    """A quarter of a circle of 20 m about the origin, ten poses a second."""
+    angles = [0.5 * math.pi * i / (n - 1) for i in range(n)]
+    return [(1e9 + 0.1 * i, 20 * math.cos(a), 20 * math.sin(a), 0.0) for i, a in enumerate(angles)]
+
+
+class EvaluateTrajectory(unittest.TestCase):
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.truth = self.write("truth.txt", tum(bend(50)))
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w") as file:
+            file.write(text)
+        return self.path(name)
+
+    def evaluate(self, estimate, *more):
+        return run("evaluate_trajectory", "--truth", self.truth, "--estimate", estimate, "--out", self.path("out"), *more)
+
+    def table(self):
+        with open(self.path("out/trajectory.csv")) as file:
+            rows = list(csv.reader(file))
+        self.assertEqual(rows[0], HEADER)
+        return {row[0]: dict(zip(HEADER, row)) for row in rows[1:]}
+
+    def test_a_scaled_and_moved_estimate_is_found_again_by_sim3_alone(self):
+        estimate = self.write("estimate.txt", tum([(t, 0.5 * y + 3, -0.5 * x, z + 4) for t, x, y, z in bend(50)]))
+        rmse = {}
+        for align in ("none", "se3", "sim3", "yaw"):
+            done = self.evaluate(estimate, "--align", align)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            table = self.table()
+            self.assertEqual([table["ate"][key] for key in ("unit", "n", "unmatched")], ["m", "50", "0"])
+            rmse[align] = float(table["ate"]["rmse"])
+            self.assertRegex(done.stdout, "\\nate +m +50 +%s " % re.escape("%.6g" % rmse[align]))
+        self.assertLess(rmse["sim3"], 1e-8)  # nine digits after the point in the files
+        self.assertGreater(rmse["none"], 10)
+        # In a plane, turning about z is all that se3 can do.
+        self.assertAlmostEqual(rmse["se3"], rmse["yaw"], 9)
+        self.assertGreater(rmse["se3"], 1)
+
+    def test_rows_are_there_for_every_delta(self):
+        done = self.evaluate(self.truth)
+        self.assertEqual(done.returncode, 0)
+        names = ["ate", "rpe_1m", "rpe_10m", "rpe_1frame"]
+        self.assertEqual(list(self.table()), [name + end for name in names for end in ("", "_deg")])
+        self.assertEqual(self.evaluate(self.truth, "--delta", "5m,20frames").returncode, 0)
+        self.assertEqual(list(self.table())[2:], ["rpe_5m", "rpe_5m_deg", "rpe_20frame", "rpe_20frame_deg"])
+
+    def test_what_has_no_partner_is_counted_said_and_listed(self):
+        poses = bend(50)
+        poses[7] = (poses[7][0] + 0.05,) + poses[7][1:]
+        done = self.evaluate(self.write("estimate.txt", tum(poses[:40])))
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual((self.table()["ate"]["n"], self.table()["ate"]["unmatched"]), ("39", "1"))
+        self.assertRegex(done.stdout, "truth .* 50 poses, .*; 11 without a partner\n")
+        self.assertRegex(done.stdout, "estimate .* 40 poses, .*; 1 without a partner\n")
+        with open(self.path("out/trajectory_poses.csv")) as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["stamp"] for row in rows if row["stamp"] and not row["truth_stamp"]],
+                         ["1000000000.750000000"])
+        self.assertEqual(len([row for row in rows if not row["stamp"]]), 11)
+        self.assertEqual(self.evaluate(self.path("estimate.txt"), "--max-difference", "0.06").returncode, 0)
+        self.assertEqual(self.table()["ate"]["unmatched"], "0")
+
+    def test_what_cannot_be_evaluated_is_one_line_and_no_file(self):
+        straight = [(t, x, 0.0, 0.0) for t, x, y, z in bend(50)]
+        bad = self.write("bad.txt", "1 2 3\n")
+        late = self.write("late.txt", tum([(t + 100, x, y, z) for t, x, y, z in bend(50)]))
+        for estimate, more, said in (
+                (bad, [], bad + ":1: has 3 columns, but must have 8: timestamp tx ty tz qx qy qz qw (s, m)"),
+                (self.path("none"), [], self.path("none") + ": cannot be opened: No such file or directory"),
+                (late, [], "no pose of the estimate has one of the truth within 0.01 s: the nearest are 95.1"),
+                (self.write("line.txt", tum(straight)), ["--align", "se3"], "all on one line"),
+                (self.write("two.txt", tum(bend(50)[:2])), ["--align", "sim3"], "needs 3 pairs of poses, but has 2"),
+                (self.truth, ["--align", "best"], "--align is \"best\", but must be one of none, se3, sim3, yaw"),
+                (self.truth, ["--max-difference", "-1"], "--max-difference is -1, but must be from 0 to 1000000 s"),
+                (self.truth, ["--delta", "1m,2km"], "delta is \"2km\", but must be metres")):
+            done = self.evaluate(estimate, *more)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
+            self.assertTrue(done.stderr.startswith("evaluate_trajectory: "), done.stderr)
+            self.assertIn(said, done.stderr)
+            self.assertFalse(os.path.exists(self.path("out")))
+        for missing in ("--truth", "--estimate", "--out"):
+            words = ["--truth", self.truth, "--estimate", self.truth, "--out", self.path("out")]
+            at = words.index(missing)
+            self.assertIn(missing + " is missing", run("evaluate_trajectory", *words[:at], *words[at + 2:]).stderr)
+
+    def test_two_runs_write_the_same_bytes(self):
+        written = []
+        for _ in range(2):
+            self.assertEqual(self.evaluate(self.truth, "--align", "se3").returncode, 0)
+            written.append([open(self.path("out/" + name), "rb").read() for name in sorted(os.listdir(self.path("out")))])
+        self.assertEqual(written[0], written[1])
+
+
+if __name__ == "__main__":
+    rosunit.unitrun("sunlit", "tools_evaluate_trajectory", EvaluateTrajectory, sysargs=sys.argv)
