@@ -8,8 +8,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "sunlit/evaluate/comparer.h"
-#include "sunlit/evaluate/direct.h"
+#include "sunlit/evaluate/differences/comparer.h"
+#include "sunlit/evaluate/differences/direct.h"
 
 namespace {
 

@@ -8,10 +8,10 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "evaluate/surf_descriptor.h"
-#include "evaluate/surf_maxima.h"
-#include "evaluate/surf_orientation.h"
-#include "sunlit/evaluate/surf.h"
+#include "evaluate/features/surf_descriptor.h"
+#include "evaluate/features/surf_maxima.h"
+#include "evaluate/features/surf_orientation.h"
+#include "sunlit/evaluate/features/surf.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "evaluate/files.h"
+#include "evaluate/files/files.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {

@@ -10,7 +10,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "sunlit/evaluate/evaluation.h"
+#include "sunlit/evaluate/run/evaluation.h"
 
 namespace sunlit::ros_interface {
 

@@ -14,7 +14,7 @@
 #include "ros/conversions/received_images.h"
 #include "ros/evaluator/folder_lock.h"
 #include "ros/evaluator/progress_log.h"
-#include "sunlit/evaluate/stream_name.h"
+#include "sunlit/evaluate/files/stream_name.h"
 #include "sunlit/ros/topic_names.h"
 
 namespace sunlit::ros_interface {

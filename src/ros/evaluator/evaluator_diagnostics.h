@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "ros/wall_updater.h"
-#include "sunlit/evaluate/evaluation.h"
+#include "sunlit/evaluate/run/evaluation.h"
 
 namespace sunlit::ros_interface {
 

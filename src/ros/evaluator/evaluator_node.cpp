@@ -5,7 +5,7 @@
 #include <std_msgs/UInt32.h>
 
 #include "ros/conversions/evaluation.h"
-#include "sunlit/evaluate/draw.h"
+#include "sunlit/evaluate/features/draw.h"
 #include "sunlit/ros/delivery.h"
 #include "sunlit/ros/node_main.h"
 #include "sunlit/ros/topic_names.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ros/evaluator/image_intake.h"
-#include "sunlit/evaluate/evaluation.h"
+#include "sunlit/evaluate/run/evaluation.h"
 #include "sunlit/ros/parameter_reader.h"
 
 namespace sunlit::ros_interface {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "sunlit/evaluate/evaluation.h"
+#include "sunlit/evaluate/run/evaluation.h"
 
 namespace sunlit::ros_interface {
 

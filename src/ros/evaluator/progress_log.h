@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "sunlit/evaluate/evaluation.h"
+#include "sunlit/evaluate/run/evaluation.h"
 
 namespace sunlit::ros_interface {
 

@@ -1,0 +1,141 @@
+/// A whole evaluation: images of several streams come in, in any order; result files come out.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "sunlit/evaluate/files/frames_file.h"
+#include "sunlit/evaluate/run/evaluation_options.h"
+
+namespace sunlit::evaluate {
+
+/// How an image was taken.
+struct CaptureRecord {
+  std::int64_t pose = 0;
+  std::int64_t stamp_ns = 0;
+  double ev100 = 0.0;
+  double sun_azimuth_deg = 0.0;            ///< clockwise from north
+  double sun_elevation_deg = 0.0;          ///< apparent
+  double moon_azimuth_deg = 0.0;           ///< clockwise from north; NaN, as the next two, without a night
+  double moon_elevation_deg = 0.0;         ///< apparent
+  double moon_illuminated_fraction = 0.0;  ///< 0 new … 1 full
+  double scene_illuminance_lx = 0.0;
+};
+
+/// Where the camera stood, in `map`.
+struct PlaceRecord {
+  std::int64_t stamp_ns = 0;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double z_m = 0.0;
+  double yaw_deg = 0.0;  ///< of the camera's x axis, counter-clockwise from east
+};
+
+struct StreamCounts {
+  std::size_t received = 0;
+  std::size_t duplicate = 0;     ///< stamp had come before
+  std::size_t out_of_order = 0;  ///< used all the same
+  std::size_t undecodable = 0;
+  std::size_t late = 0;        ///< came after its stamp had been given up
+  std::size_t dropped = 0;     ///< given up to bound the memory, or since the run was broken off
+  std::size_t lost = 0;        ///< sent but never here, as far as told by addLost(); not among the received
+  std::size_t unexpected = 0;  ///< of a pose that is not one of those expected
+  std::size_t lossy = 0;       ///< compressed with loss
+};
+
+/// evaluated + resumed + the others = pairs asked for.
+struct PairCounts {
+  std::size_t evaluated = 0;        ///< in this run; undefined values included
+  std::size_t resumed = 0;          ///< taken over from an earlier run
+  std::size_t missing_partner = 0;  ///< one image never came, or both
+  std::size_t undecodable = 0;
+  std::size_t size_mismatch = 0;
+  std::size_t dropped = 0;    ///< given up to bound the memory, or since the run was broken off
+  std::size_t failed = 0;     ///< the comparison itself failed
+  std::size_t unplaced = 0;   ///< no capture said which pose it is, or the stamp lies before the first
+  std::size_t duplicate = 0;  ///< an earlier stamp is of the same pose; that one counts
+  std::size_t notEvaluated() const {
+    return missing_partner + undecodable + size_mismatch + dropped + failed + unplaced + duplicate;
+  }
+};
+
+struct Counts {
+  std::vector<StreamCounts> streams;  ///< in the order of the options
+  std::vector<PairCounts> pairs;
+  std::size_t completed_poses = 0;           ///< all their pairs are accounted for; unexpected ones included
+  std::size_t unexpected_poses = 0;          ///< of them: not among those expected
+  std::size_t waiting_images = 0;            ///< for a partner
+  std::size_t queued_poses = 0;              ///< whole, but not compared yet
+  std::size_t bytes = 0;                     ///< of what waits, as the memory limit counts them
+  std::vector<std::size_t> awaited_streams;  ///< that the oldest waiting stamp lacks; empty: none waits
+};
+
+/// What finish() found.
+struct Outcome {
+  Counts counts;
+  std::vector<SummaryRow> summary;
+  std::size_t absent_poses = 0;  ///< of those expected: no image at all came
+  bool isWhole() const;  ///< every pair of every pose was evaluated (or is undefined), and there was one
+};
+
+/// Called from the threads that add images and from workers. Each of them is called one at a time, but one
+/// may be called while another still runs. `progress` and `note` must not call the Evaluation back: they are
+/// told under its lock.
+struct EvaluationCallbacks {
+  std::function<void(const PairRecord& record, const cv::Mat& a, const cv::Mat& b)> pair_done;
+  std::function<void(std::size_t completed_poses)> progress;
+  std::function<void(const std::string& line)> note;  ///< something a person should read
+};
+
+/// What becomes of images that are whole, but not compared yet.
+enum class Ending {
+  kCompared,  ///< they are compared first
+  kBrokenOff  ///< they are given up, counted and named; even what is being compared now
+};
+
+/// Thread-safe. Images are shared, not copied, and must not change afterwards.
+///
+/// Files in output_dir: frames.csv (grows by one write per pose and pair; sorted at the end), summary.csv,
+/// run.yaml, problems.csv, captures.csv, path.csv, images/ (a pose's before its rows). A folder that holds an
+/// unfinished run with the same settings is taken up again: pairs that it holds are not evaluated twice.
+class Evaluation {
+ public:
+  /// Throws std::invalid_argument for bad options, and where output_dir holds a run with other settings
+  /// (naming the first); std::runtime_error for a folder that cannot be written.
+  Evaluation(const EvaluationOptions& options, EvaluationCallbacks callbacks);
+  ~Evaluation();
+
+  /// An image of options().streams[stream], CV_8UC3, red first. What comes after finish() is ignored, here
+  /// and below.
+  void addImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb);
+  /// The same of one that was compressed with loss, as JPEG: said once for each stream, and counted.
+  void addLossyImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb);
+  /// An image that could not be decoded, and why.
+  void addBadImage(std::size_t stream, std::int64_t stamp_ns, const std::string& fault);
+  /// `images` of a stream were sent before that of this stamp, but did not come.
+  void addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns);
+  void addCapture(std::size_t stream, const CaptureRecord& capture);
+  void addPlace(const PlaceRecord& place);
+
+  const EvaluationOptions& options() const;
+  Counts counts() const;
+  /// All expected poses are accounted for; never true where their number is unknown. Rethrows what stopped a
+  /// worker, such as a full disk.
+  bool isComplete() const;
+  /// Blocks until at most `queued_poses` wait for being compared: for sources that can wait. Rethrows as
+  /// isComplete().
+  void waitForRoom(std::size_t queued_poses) const;
+  /// Accounts for everything that still waits, writes all files and stops. Once.
+  Outcome finish(Ending ending = Ending::kCompared);
+
+ private:
+  class State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,170 @@
+#include "evaluate/files/files.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace sunlit::evaluate {
+namespace {
+
+[[noreturn]] void failWith(const std::string& path, const std::string& what) {
+  throw std::runtime_error(path + ": " + what + ": " + std::strerror(errno));
+}
+
+// How much of the text was written: all of it, or errno says why not.
+std::size_t writtenOf(int descriptor, const std::string& text) {
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t written = ::write(descriptor, text.data() + done, text.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) break;
+    done += static_cast<std::size_t>(written);
+  }
+  return done;
+}
+
+// As csvField() writes them: within quotes a comma is no end, and a quote stands twice.
+std::vector<std::string> cut(const std::string& line) {
+  std::vector<std::string> fields;
+  if (line.empty()) return fields;
+  fields.emplace_back();
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"') {
+      fields.back() += line[++i];
+    } else if (c == '"') {
+      is_quoted = !is_quoted;
+    } else if (c == ',' && !is_quoted) {
+      fields.emplace_back();
+    } else {
+      fields.back() += c;
+    }
+  }
+  return fields;
+}
+
+constexpr std::int64_t kNanosecondsPerSecond = 1000000000;
+
+}  // namespace
+
+AppendFile::~AppendFile() {
+  close();
+}
+
+void AppendFile::open(const std::string& path, const std::string& header) {
+  close();
+  path_ = path;
+  is_broken_ = false;
+  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) failWith(path, "cannot be opened");
+  if (::lseek(descriptor_, 0, SEEK_END) == 0) append(header + "\n");
+}
+
+void AppendFile::append(const std::string& text) {
+  if (is_broken_) throw std::runtime_error(path_ + ": not written to any more, since a write had failed");
+  const off_t size = ::lseek(descriptor_, 0, SEEK_END);
+  if (writtenOf(descriptor_, text) == text.size()) return;
+  const int reason = errno;
+  is_broken_ = true;
+  const bool is_mended = ::ftruncate(descriptor_, size) == 0;
+  errno = reason;
+  failWith(path_, is_mended ? "cannot write" : "cannot write, and ends within a line now");
+}
+
+void AppendFile::close() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+}
+
+CsvLines readCsv(const std::string& path, const std::string& header) {
+  CsvLines result;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return result;
+  std::stringstream content;
+  content << file.rdbuf();
+  const std::string text = content.str();
+  const std::size_t expected = cut(header).size();
+  std::size_t begin = 0;
+  for (std::size_t number = 1; begin < text.size(); ++number) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) {
+      result.torn = 1;
+      break;
+    }
+    const std::string line = text.substr(begin, end - begin);
+    begin = end + 1;
+    if (number == 1) {
+      if (line != header)
+        throw std::runtime_error(
+            path + ":1: was written by another version, or is no file of ours: expected the header " +
+            header);
+      continue;
+    }
+    std::vector<std::string> fields = cut(line);
+    if (fields.size() != expected) {
+      throw std::runtime_error(path + ":" + std::to_string(number) + ": has " +
+                               std::to_string(fields.size()) + " fields instead of " +
+                               std::to_string(expected));
+    }
+    result.rows.push_back(std::move(fields));
+  }
+  return result;
+}
+
+std::string formatNumber(double value) {
+  if (std::isnan(value)) return "nan";
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%.17g", value);
+  return buffer;
+}
+
+double parseNumber(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (!text.empty() && end == text.c_str() + text.size()) return value;
+  throw std::runtime_error("\"" + text + "\" is not a number");
+}
+
+std::string formatStamp(std::int64_t nanoseconds) {
+  const bool is_negative = nanoseconds < 0;
+  const std::int64_t size = is_negative ? -nanoseconds : nanoseconds;
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%s%lld.%09lld", is_negative ? "-" : "",
+                static_cast<long long>(size / kNanosecondsPerSecond),
+                static_cast<long long>(size % kNanosecondsPerSecond));
+  return buffer;
+}
+
+std::int64_t parseStamp(const std::string& text) {
+  const std::size_t point = text.find('.');
+  const bool is_digits =
+      text.find_first_not_of("0123456789.", text.compare(0, 1, "-") == 0 ? 1 : 0) == std::string::npos;
+  if (point == std::string::npos || text.size() != point + 10 || !is_digits) {
+    throw std::runtime_error("\"" + text + "\" is not a stamp with nine digits after the point");
+  }
+  std::string digits = text;
+  digits.erase(point, 1);
+  return std::stoll(digits);
+}
+
+std::string csvField(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return quoted + "\"";
+}
+
+}  // namespace sunlit::evaluate

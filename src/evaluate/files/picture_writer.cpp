@@ -1,0 +1,79 @@
+#include "evaluate/files/picture_writer.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "sunlit/image/files.h"
+
+namespace sunlit::evaluate {
+namespace {
+
+// OpenCV does not notice where the last of a file finds no room on the disk, so it only encodes.
+std::string pngOf(const std::string& path, const cv::Mat& rgb) {
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".png", bgr, bytes))
+    throw std::runtime_error(path + ": OpenCV cannot encode this picture");
+  return {bytes.begin(), bytes.end()};
+}
+
+void makeFolderOf(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder.string() + ": folder cannot be made: " + error.message());
+}
+
+}  // namespace
+
+std::string PictureWriter::pathOf(const std::string& stream, std::int64_t pose) const {
+  char name[40];
+  std::snprintf(name, sizeof name, "%06lld.png", static_cast<long long>(pose));
+  return folder_ + "/" + stream + "/" + name;
+}
+
+bool PictureWriter::claim(const std::string& stream, std::int64_t pose, std::int64_t stamp_ns,
+                          bool is_evaluated) {
+  const std::lock_guard<std::mutex> lock(stamps_mutex_);
+  const bool is_first = stamps_.emplace(std::make_pair(stream, pose), stamp_ns).second;
+  if (!is_evaluated) return is_first && !std::filesystem::exists(pathOf(stream, pose));
+  stamps_[{stream, pose}] = stamp_ns;
+  return true;
+}
+
+bool PictureWriter::isClaimedBy(const std::string& stream, std::int64_t pose, std::int64_t stamp_ns) {
+  const std::lock_guard<std::mutex> lock(stamps_mutex_);
+  return stamps_.at({stream, pose}) == stamp_ns;
+}
+
+void PictureWriter::write(const std::string& stream, std::int64_t pose, std::int64_t stamp_ns,
+                          const cv::Mat& rgb) {
+  const std::string path = pathOf(stream, pose);
+  const std::string png = pngOf(path, rgb);
+  // One file at a time, so that the last claim is written last.
+  const std::lock_guard<std::mutex> one_at_a_time(files_mutex_);
+  if (!isClaimedBy(stream, pose, stamp_ns)) return;
+  makeFolderOf(path);
+  image::writeFileAtomically(path, png);
+}
+
+void PictureWriter::finish(const std::function<std::int64_t(std::int64_t, std::int64_t)>& settled_pose) {
+  // By way of other names, since numbers may change places.
+  std::vector<std::pair<std::string, std::string>> moves;
+  for (const auto& item : stamps_) {
+    const std::int64_t pose = item.first.second;
+    const std::int64_t settled = settled_pose(item.second, pose);
+    const std::string path = pathOf(item.first.first, pose);
+    if (settled == pose || !std::filesystem::exists(path)) continue;
+    moves.emplace_back(path + ".moved", pathOf(item.first.first, settled));
+    std::filesystem::rename(path, moves.back().first);
+  }
+  for (const auto& move : moves) std::filesystem::rename(move.first, move.second);
+}
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,149 @@
+#include "evaluate/files/record_files.h"
+
+#include <algorithm>
+
+#include "sunlit/evaluate/files/stream_name.h"
+#include "sunlit/image/files.h"
+
+namespace sunlit::evaluate {
+namespace {
+
+const char* const kCapturesHeader =
+    "stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,"
+    "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance";
+const char* const kPathHeader = "pose,stamp,x,y,z,yaw_deg";
+const char* const kProblemsHeader = "kind,pose,stamp,where,reason";
+
+std::string lineOf(const std::string& stream, const CaptureRecord& c) {
+  return csvField(stream) + "," + std::to_string(c.pose) + "," + formatStamp(c.stamp_ns) + "," +
+         formatNumber(c.ev100) + "," + formatNumber(c.sun_azimuth_deg) + "," +
+         formatNumber(c.sun_elevation_deg) + "," + formatNumber(c.moon_azimuth_deg) + "," +
+         formatNumber(c.moon_elevation_deg) + "," + formatNumber(c.moon_illuminated_fraction) + "," +
+         formatNumber(c.scene_illuminance_lx) + "\n";
+}
+
+std::string lineOf(std::int64_t pose, const PlaceRecord& p) {
+  return std::to_string(pose) + "," + formatStamp(p.stamp_ns) + "," + formatNumber(p.x_m) + "," +
+         formatNumber(p.y_m) + "," + formatNumber(p.z_m) + "," + formatNumber(p.yaw_deg) + "\n";
+}
+
+std::string lineOf(const Problem& p) {
+  return p.kind + "," + (p.pose ? std::to_string(*p.pose) : "") + "," +
+         (p.stamp_ns ? formatStamp(*p.stamp_ns) : "") + "," + csvField(p.where) + "," + csvField(p.reason) +
+         "\n";
+}
+
+}  // namespace
+
+RecordFiles::RecordFiles(const std::string& folder, PoseIndex& poses) : folder_(folder) {
+  read(folder, poses);
+}
+
+void RecordFiles::merge(const std::string& other_folder, PoseIndex& poses) {
+  read(other_folder, poses);
+}
+
+void RecordFiles::read(const std::string& folder, PoseIndex& poses) {
+  for (const auto& f : readCsv(folder + "/captures.csv", kCapturesHeader).rows) {
+    requireStreamName(f[0], "a name in " + folder + "/captures.csv");
+    const CaptureRecord capture{std::stoll(f[1]),  parseStamp(f[2]),  parseNumber(f[3]),
+                                parseNumber(f[4]), parseNumber(f[5]), parseNumber(f[6]),
+                                parseNumber(f[7]), parseNumber(f[8]), parseNumber(f[9])};
+    captures_[{f[0], capture.pose}] = capture;
+    poses.learn(capture.stamp_ns, capture.pose);
+  }
+  for (const auto& f : readCsv(folder + "/path.csv", kPathHeader).rows) {
+    const PlaceRecord place{parseStamp(f[1]), parseNumber(f[2]), parseNumber(f[3]), parseNumber(f[4]),
+                            parseNumber(f[5])};
+    places_[place.stamp_ns] = place;
+  }
+  if (!captures_.empty() || !places_.empty()) finish({}, poses);  // without torn ends, before going on
+}
+
+void RecordFiles::add(const std::string& stream, const CaptureRecord& capture) {
+  if (captures_.empty()) captures_file_.open(folder_ + "/captures.csv", kCapturesHeader);
+  captures_[{stream, capture.pose}] = capture;
+  captures_file_.append(lineOf(stream, capture));
+}
+
+void RecordFiles::add(const PlaceRecord& place) {
+  if (places_.empty()) path_file_.open(folder_ + "/path.csv", kPathHeader);
+  places_[place.stamp_ns] = place;
+  path_file_.append(lineOf(0, place));
+}
+
+void RecordFiles::finish(const std::vector<std::string>& streams, const PoseIndex& poses) {
+  captures_file_.close();
+  path_file_.close();
+  if (!captures_.empty()) {
+    const auto rank = [&](const std::string& stream) {
+      return std::find(streams.begin(), streams.end(), stream) - streams.begin();
+    };
+    std::vector<std::pair<std::string, CaptureRecord>> sorted;
+    for (const auto& item : captures_) sorted.emplace_back(item.first.first, item.second);
+    std::stable_sort(sorted.begin(), sorted.end(), [&](const auto& l, const auto& r) {
+      return std::make_pair(rank(l.first), l.second.pose) < std::make_pair(rank(r.first), r.second.pose);
+    });
+    std::string text = std::string(kCapturesHeader) + "\n";
+    for (const auto& item : sorted) text += lineOf(item.first, item.second);
+    image::writeFileAtomically(folder_ + "/captures.csv", text);
+    captures_file_.open(folder_ + "/captures.csv", kCapturesHeader);
+  }
+  if (!places_.empty()) {
+    // A pose that an earlier run saw under another stamp is the same place.
+    std::map<std::int64_t, PlaceRecord> by_pose;
+    std::int64_t rank = 0;
+    for (const auto& item : places_) by_pose[poses.settled(item.first, rank++)] = item.second;
+    std::string text = std::string(kPathHeader) + "\n";
+    for (const auto& item : by_pose) text += lineOf(item.first, item.second);
+    image::writeFileAtomically(folder_ + "/path.csv", text);
+    path_file_.open(folder_ + "/path.csv", kPathHeader);
+  }
+}
+
+ProblemFile::ProblemFile(const std::string& folder) : path_(folder + "/problems.csv") {
+  for (const auto& f : readCsv(path_, kProblemsHeader).rows) {
+    Problem problem{f[0], std::nullopt, std::nullopt, f[3], f[4]};
+    if (!f[1].empty()) problem.pose = std::stoll(f[1]);
+    if (!f[2].empty()) problem.stamp_ns = parseStamp(f[2]);
+    if (known_.insert(keyOf(problem)).second) problems_.push_back(problem);
+  }
+  image::writeFileAtomically(path_, text());  // without a torn end, before going on
+  file_.open(path_, kProblemsHeader);
+}
+
+// Where there is a stamp, it tells problems apart: the pose may have become known, or settled, meanwhile.
+std::string ProblemFile::keyOf(const Problem& problem) {
+  const std::string place =
+      problem.stamp_ns ? formatStamp(*problem.stamp_ns) : "pose " + std::to_string(problem.pose.value_or(-1));
+  return problem.kind + "," + place + "," + csvField(problem.where) + "," + csvField(problem.reason);
+}
+
+void ProblemFile::add(const Problem& problem) {
+  const std::string key = keyOf(problem);
+  met_now_.insert(key);
+  if (!known_.insert(key).second) return;
+  problems_.push_back(problem);
+  file_.append(lineOf(problem));
+}
+
+std::string ProblemFile::text() const {
+  std::string text = std::string(kProblemsHeader) + "\n";
+  for (const Problem& problem : problems_) text += lineOf(problem);
+  return text;
+}
+
+void ProblemFile::finish(const PoseIndex& poses, const std::function<bool(const Problem&)>& is_mended) {
+  file_.close();
+  for (Problem& problem : problems_) {
+    if (problem.pose && problem.stamp_ns) problem.pose = poses.settled(*problem.stamp_ns, *problem.pose);
+  }
+  const auto is_over = [&](const Problem& p) { return met_now_.count(keyOf(p)) == 0 && is_mended(p); };
+  problems_.erase(std::remove_if(problems_.begin(), problems_.end(), is_over), problems_.end());
+  const auto key = [](const Problem& p) { return std::tie(p.stamp_ns, p.kind, p.where, p.reason, p.pose); };
+  std::stable_sort(problems_.begin(), problems_.end(),
+                   [&](const Problem& l, const Problem& r) { return key(l) < key(r); });
+  image::writeFileAtomically(path_, text());
+}
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,69 @@
+/// captures.csv, path.csv and problems.csv: what is known of the images beside their differences.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "evaluate/files/files.h"
+#include "evaluate/run/pose_index.h"
+#include "sunlit/evaluate/run/evaluation.h"
+
+namespace sunlit::evaluate {
+
+/// captures.csv and path.csv. Both grow while images come in and are sorted, without doubles, at the end.
+class RecordFiles {
+ public:
+  /// Reads what an earlier run left in `folder`, tells `poses`, and goes on from there.
+  RecordFiles(const std::string& folder, PoseIndex& poses);
+  /// Adds what a run in another folder left.
+  void merge(const std::string& other_folder, PoseIndex& poses);
+  void add(const std::string& stream, const CaptureRecord& capture);
+  void add(const PlaceRecord& place);
+  void finish(const std::vector<std::string>& streams, const PoseIndex& poses);
+
+ private:
+  void read(const std::string& folder, PoseIndex& poses);
+  std::string folder_;
+  AppendFile captures_file_;
+  AppendFile path_file_;
+  std::map<std::pair<std::string, std::int64_t>, CaptureRecord> captures_;  // by stream and pose
+  std::map<std::int64_t, PlaceRecord> places_;                              // by stamp
+};
+
+/// One thing that did not go as it should.
+struct Problem {
+  std::string kind;                  ///< missing_partner, undecodable, …: a column name of the counters
+  std::optional<std::int64_t> pose;  ///< where it is known
+  std::optional<std::int64_t> stamp_ns;
+  std::string where;  ///< a stream, or a pair as "a-b"
+  std::string reason;
+};
+
+/// problems.csv of this run and of those that it takes up. Each problem stands there once, however often it
+/// was met.
+class ProblemFile {
+ public:
+  explicit ProblemFile(const std::string& folder);
+  void add(const Problem& problem);
+  /// Sorted by stamp, kind and place; each pose as `poses` has settled it; without those of earlier runs that
+  /// this one did not meet and of which `is_mended` says that it mended them.
+  void finish(const PoseIndex& poses, const std::function<bool(const Problem&)>& is_mended);
+
+ private:
+  static std::string keyOf(const Problem& problem);
+  std::string text() const;
+  std::string path_;
+  AppendFile file_;
+  std::vector<Problem> problems_;
+  std::set<std::string> known_;    // by keyOf()
+  std::set<std::string> met_now_;  // those of this run
+};
+
+}  // namespace sunlit::evaluate

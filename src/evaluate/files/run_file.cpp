@@ -1,0 +1,143 @@
+#include "evaluate/files/run_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <opencv2/core/version.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "evaluate/files/files.h"
+#include "sunlit/image/files.h"
+
+namespace sunlit::evaluate {
+namespace {
+
+// Single quotes take any text in YAML, with '' for a quote.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c == '\n' ? ' ' : c);
+  return result + "'";
+}
+
+// Only what writeRunFile() writes: lines of two spaces, key, colon, space, value in single quotes.
+std::map<std::string, std::string> settingsIn(const std::string& path) {
+  std::map<std::string, std::string> settings;
+  std::ifstream file(path);
+  bool is_in_settings = false;
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("  ", 0) != 0) {
+      is_in_settings = line == "settings:";
+      continue;
+    }
+    const std::size_t colon = line.find(": ");
+    if (!is_in_settings || colon == std::string::npos) continue;
+    std::string value;
+    for (std::size_t i = colon + 3; i + 1 < line.size(); ++i) {
+      value += line[i];
+      if (line[i] == '\'') ++i;
+    }
+    settings[line.substr(2, colon - 2)] = value;
+  }
+  return settings;
+}
+
+std::string countersText(const EvaluationOptions& options, const Outcome& outcome) {
+  std::ostringstream text;
+  text << "outcome:\n  whole: " << (outcome.isWhole() ? "true" : "false")
+       << "\n  completed_poses: " << outcome.counts.completed_poses
+       << "\n  absent_poses: " << outcome.absent_poses
+       << "\n  unexpected_poses: " << outcome.counts.unexpected_poses << "\ncounters:\n  streams:\n";
+  for (std::size_t i = 0; i < options.streams.size(); ++i) {
+    const StreamCounts& c = outcome.counts.streams[i];
+    text << "    " << quoted(options.streams[i]) << ": {received: " << c.received
+         << ", duplicate: " << c.duplicate << ", out_of_order: " << c.out_of_order
+         << ", undecodable: " << c.undecodable << ", late: " << c.late << ", dropped: " << c.dropped
+         << ", lost: " << c.lost << ", unexpected: " << c.unexpected << ", lossy: " << c.lossy << "}\n";
+  }
+  text << "  pairs:\n";
+  for (std::size_t i = 0; i < options.pairs.size(); ++i) {
+    const PairCounts& c = outcome.counts.pairs[i];
+    text << "    " << quoted(options.pairs[i].name()) << ": {evaluated: " << c.evaluated
+         << ", resumed: " << c.resumed << ", missing_partner: " << c.missing_partner
+         << ", undecodable: " << c.undecodable << ", size_mismatch: " << c.size_mismatch
+         << ", dropped: " << c.dropped << ", failed: " << c.failed << ", unplaced: " << c.unplaced
+         << ", duplicate: " << c.duplicate << "}\n";
+  }
+  return text.str();
+}
+
+}  // namespace
+
+Settings settingsOf(const EvaluationOptions& options) {
+  Settings settings;
+  EvaluationOptions present = options;
+  for (const Field& field : decidingFieldsOf(present)) settings.emplace_back(field.key, field.text());
+  for (const auto& item : options.about) settings.emplace_back("about/" + item.first, item.second);
+  return settings;
+}
+
+void requireSameSettings(const std::string& path, const Settings& settings) {
+  const std::map<std::string, std::string> old_settings = settingsIn(path);
+  if (old_settings.empty()) return;
+  const auto refuse = [&](const std::string& key, const std::string& was, const std::string& is) {
+    throw std::invalid_argument(path + ": this folder holds a run with another setting: " + key + " was " +
+                                was + ", now " + is +
+                                "; choose another output_dir, or the setting that it was made with");
+  };
+  std::map<std::string, std::string> current(settings.begin(), settings.end());
+  for (const auto& item : settings) {
+    const auto found = old_settings.find(item.first);
+    if (found == old_settings.end()) refuse(item.first, "not given", item.second);
+    if (found->second != item.second) refuse(item.first, found->second, item.second);
+  }
+  for (const auto& item : old_settings) {
+    if (current.count(item.first) == 0) refuse(item.first, item.second, "not given");
+  }
+}
+
+namespace {
+
+bool hasRows(const std::string& csv) {
+  std::ifstream file(csv);
+  std::string heading, row;
+  return std::getline(file, heading) && std::getline(file, row);
+}
+
+bool holdsFiles(const std::string& folder) {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, none)) {
+    if (!entry.is_directory()) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void claimFolder(const std::string& folder, const Settings& settings) {
+  try {
+    requireSameSettings(folder + "/run.yaml", settings);
+  } catch (const std::invalid_argument&) {
+    for (const char* name : {"/frames.csv", "/captures.csv", "/path.csv"}) {
+      if (hasRows(folder + name)) throw;
+    }
+    if (holdsFiles(folder + "/images")) throw;
+    for (const char* name : {"/run.yaml", "/problems.csv", "/summary.csv"})
+      std::filesystem::remove(folder + name);
+  }
+}
+
+void writeRunFile(const std::string& path, const EvaluationOptions& options, const Outcome* outcome) {
+  std::string text =
+      "# Settings decide the values; a folder is only taken up again with the same ones.\nsettings:\n";
+  for (const auto& item : settingsOf(options)) text += "  " + item.first + ": " + quoted(item.second) + "\n";
+  text += "poses: " + std::to_string(options.poses.count) +
+          "\nfirst_pose: " + std::to_string(options.poses.first) +
+          "\npose_stride: " + std::to_string(options.poses.stride) + "\n";
+  text += std::string("versions:\n  sunlit: ") + quoted(SUNLIT_VERSION) +
+          "\n  opencv: " + quoted(CV_VERSION) + "\n";
+  if (outcome != nullptr) text += countersText(options, *outcome);
+  image::writeFileAtomically(path, text);
+}
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,90 @@
+#include "sunlit/evaluate/run/evaluation.h"
+
+#include "evaluate/run/evaluation_state.h"
+
+namespace sunlit::evaluate {
+
+std::vector<PairSpec> allPairs(const std::vector<std::string>& streams) {
+  std::vector<PairSpec> pairs;
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    for (std::size_t j = i + 1; j < streams.size(); ++j) pairs.push_back({streams[i], streams[j], 1});
+  }
+  return pairs;
+}
+
+bool Outcome::isWhole() const {
+  std::size_t evaluated = 0;
+  for (const PairCounts& pair : counts.pairs) {
+    if (pair.notEvaluated() > 0) return false;
+    evaluated += pair.evaluated + pair.resumed;
+  }
+  return absent_poses == 0 && evaluated > 0;
+}
+
+Evaluation::Evaluation(const EvaluationOptions& options, EvaluationCallbacks callbacks)
+    : state_(std::make_unique<State>(options, std::move(callbacks))) {}
+
+Evaluation::~Evaluation() = default;
+
+namespace {
+
+Arrival arrivalOf(const cv::Mat& rgb) {
+  Arrival arrival;
+  if (rgb.empty() || rgb.type() != CV_8UC3) {
+    arrival.fault = "not an image of three channels of 8 bit";
+  } else {
+    arrival.rgb = rgb;
+  }
+  return arrival;
+}
+
+}  // namespace
+
+void Evaluation::addImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb) {
+  state_->add(stream, stamp_ns, arrivalOf(rgb));
+}
+
+void Evaluation::addLossyImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb) {
+  state_->noteLossy(stream);
+  state_->add(stream, stamp_ns, arrivalOf(rgb));
+}
+
+void Evaluation::addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns) {
+  state_->addLost(stream, images, stamp_ns);
+}
+
+void Evaluation::addBadImage(std::size_t stream, std::int64_t stamp_ns, const std::string& fault) {
+  Arrival arrival;
+  arrival.fault = fault;
+  state_->add(stream, stamp_ns, std::move(arrival));
+}
+
+void Evaluation::addCapture(std::size_t stream, const CaptureRecord& capture) {
+  state_->add(stream, capture);
+}
+
+void Evaluation::addPlace(const PlaceRecord& place) {
+  state_->add(place);
+}
+
+const EvaluationOptions& Evaluation::options() const {
+  return state_->options();
+}
+
+Counts Evaluation::counts() const {
+  return state_->counts();
+}
+
+bool Evaluation::isComplete() const {
+  return state_->isComplete();
+}
+
+void Evaluation::waitForRoom(std::size_t queued_poses) const {
+  state_->waitForRoom(queued_poses);
+}
+
+Outcome Evaluation::finish(Ending ending) {
+  return state_->finish(ending);
+}
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,65 @@
+// How an evaluation ends: with everything accounted for and all files written.
+#include "evaluate/files/run_file.h"
+#include "evaluate/run/evaluation_state.h"
+
+namespace sunlit::evaluate {
+
+Outcome Evaluation::State::finish(Ending ending) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_finished_ = true;
+    is_broken_off_ = ending == Ending::kBrokenOff;
+    for (const std::int64_t stamp : sets_.openStamps()) close(stamp, poses_.of(stamp), Reason::kEnd);
+  }
+  queue_.waitForAtMost(0);
+  queue_.rethrow();
+  Outcome outcome;
+  outcome.counts = counts();
+  outcome.absent_poses = nameAbsentPoses();
+  settleAndWrite(outcome);
+  return outcome;
+}
+
+std::size_t Evaluation::State::nameAbsentPoses() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::size_t absent = 0;
+  for (std::size_t k = 0; k < options_.poses.size(); ++k) {
+    const std::int64_t pose = options_.poses.at(k);
+    if (completed_.count(pose) != 0) continue;
+    ++absent;
+    report({"absent", pose, std::nullopt, "", "no image of this pose came"});
+  }
+  return absent;
+}
+
+// By an image that came after all, as an earlier run was taken up.
+bool Evaluation::State::isMended(const Problem& problem, const EvaluatedPairs& evaluated) const {
+  if (!problem.pose || problem.kind == "duplicate") return false;
+  for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
+    const bool is_meant = problem.kind == "absent" || problem.where == options_.pairs[p].name();
+    if (is_meant && evaluated.count({*problem.pose, p}) != 0) return true;
+  }
+  return false;
+}
+
+void Evaluation::State::settleAndWrite(Outcome& outcome) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  EvaluatedPairs evaluated;
+  for (PairRecord& record : records_) {
+    record.pose = poses_.settled(record.stamp_ns, record.pose);
+    evaluated.emplace(record.pose, record.pair);
+  }
+  sortRecords(records_);
+  if (pictures_) {
+    pictures_->finish([this](std::int64_t stamp, std::int64_t pose) { return poses_.settled(stamp, pose); });
+  }
+  frames_file_.close();
+  writeFrames(file("frames.csv"), layout_, records_);
+  outcome.summary = summarise(layout_, records_);
+  writeSummary(file("summary.csv"), outcome.summary);
+  record_files_->finish(options_.streams, poses_);
+  problems_->finish(poses_, [&](const Problem& problem) { return isMended(problem, evaluated); });
+  writeRunFile(file("run.yaml"), options_, &outcome);
+}
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,56 @@
+#include "sunlit/evaluate/run/evaluation_options.h"
+
+#include "evaluate/files/files.h"
+
+namespace sunlit::evaluate {
+namespace {
+
+const Range kCounts{0, 1e9};
+
+std::string textOf(const std::vector<PairSpec>& pairs) {
+  std::string text;
+  for (const PairSpec& pair : pairs) {
+    const std::string every = pair.every == 1 ? "" : ", every: " + std::to_string(pair.every);
+    text += (text.empty() ? "{a: " : ", {a: ") + pair.a + ", b: " + pair.b + every + "}";
+  }
+  return "[" + text + "]";
+}
+
+}  // namespace
+
+std::vector<Field> decidingFieldsOf(EvaluationOptions& options) {
+  return joined({{{"streams", &options.streams, "", {}, "names: NAME/camera/image_raw; required"},
+                  {"pairs",
+                   OwnForm{textOf(options.pairs)},
+                   "",
+                   {},
+                   "a list of [a, b] or {a: name, b: name, every: 10}; [] for all"}},
+                 fieldsOf(options.comparer),
+                 {{"frame_rate",
+                   &options.frame_rate,
+                   "Hz",
+                   {0, 1e6},
+                   "a stamp is of pose round((stamp - stamp_start) * frame_rate); 0: of that of its capture, "
+                   "or else of its place in the order"},
+                  {"stamp_start",
+                   OwnForm{formatStamp(options.stamp_start_ns)},
+                   "s",
+                   {0, 4294967295.0},
+                   "seconds such as \"1719792000.000000000\", as text so that no digit is lost"}}});
+}
+
+std::vector<Field> fieldsOf(EvaluationOptions& options) {
+  return joined({decidingFieldsOf(options),
+                 {{"output_dir", &options.output_dir, "", {}, "for the results; required"},
+                  {"poses", &options.poses.count, "", kCounts, "indices of poses to expect; 0: unknown"},
+                  {"first_pose", &options.poses.first, "", kCounts, "the first of them"},
+                  {"pose_stride", &options.poses.stride, "", {1, 1e9}, "only every n-th of them"},
+                  {"images",
+                   choiceOf(&options.images, {"none", "samples", "all"}),
+                   "",
+                   {},
+                   "to keep as PNG; samples: of five poses"},
+                  {"about", OwnForm{"{}"}, "", {}, "a map from names to values, copied into run.yaml"}}});
+}
+
+}  // namespace sunlit::evaluate

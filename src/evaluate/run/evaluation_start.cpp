@@ -1,0 +1,146 @@
+// How an evaluation begins: with its options checked and what earlier runs left taken up.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "evaluate/files/run_file.h"
+#include "evaluate/run/evaluation_state.h"
+#include "sunlit/evaluate/files/stream_name.h"
+
+namespace sunlit::evaluate {
+namespace {
+
+// Two poses at a time: while one waits for its slowest detector, the other keeps the processors busy.
+constexpr int kPosesAtOnce = 2;
+constexpr int kSamples = 5;  // rows of the paper's Fig. 1
+
+std::size_t streamNamed(const std::vector<std::string>& streams, const std::string& name) {
+  const auto found = std::find(streams.begin(), streams.end(), name);
+  if (found == streams.end()) refuse("a name in pairs", '"' + name + '"', "one of " + textOf(streams));
+  return static_cast<std::size_t>(found - streams.begin());
+}
+
+void requireStreams(const std::vector<std::string>& streams) {
+  for (const std::string& name : streams) requireStreamName(name, "a name in streams");
+  for (const std::string& name : streams) {
+    if (std::count(streams.begin(), streams.end(), name) > 1)
+      refuse("streams", textOf(streams), "a list without " + name + " twice");
+  }
+}
+
+void requirePairs(const std::vector<PairSpec>& pairs) {
+  for (const PairSpec& pair : pairs) {
+    require("every of the pair " + pair.name(), pair.every, Range::atLeast(1));
+    const auto isSame = [&](const PairSpec& other) { return other.a == pair.a && other.b == pair.b; };
+    if (std::count_if(pairs.begin(), pairs.end(), isSame) > 1)
+      refuse("pairs", "a list", "one without " + pair.name() + " twice");
+  }
+}
+
+EvaluationOptions completed(EvaluationOptions options) {
+  requireFields(options);
+  requireStreams(options.streams);
+  if (options.pairs.empty()) options.pairs = allPairs(options.streams);
+  if (options.pairs.empty())
+    refuse("streams", textOf(options.streams), "a list of at least two, to make pairs of");
+  if (options.output_dir.empty()) refuse("output_dir", "\"\"", "a folder");
+  requirePairs(options.pairs);
+  require("memory_limit", static_cast<double>(options.memory_limit_bytes), Range::atLeast(1), "byte");
+  return options;
+}
+
+FramesLayout layoutOf(const EvaluationOptions& options) {
+  FramesLayout layout;
+  for (const PairSpec& pair : options.pairs) layout.pairs.emplace_back(pair.a, pair.b);
+  layout.differences = options.comparer.differences;
+  return layout;
+}
+
+void makeFolder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error || !std::filesystem::is_directory(path)) {
+    throw std::runtime_error("output_dir " + path + ": cannot be made: " + error.message());
+  }
+}
+
+}  // namespace
+
+Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks callbacks)
+    : options_(completed(options)),
+      callbacks_(std::move(callbacks)),
+      comparer_(options_.comparer),
+      layout_(layoutOf(options_)),
+      poses_(options_.frame_rate, options_.stamp_start_ns, options_.poses),
+      sets_(options_.streams.size()),
+      queue_(kPosesAtOnce) {
+  for (const PairSpec& pair : options_.pairs) {
+    pair_streams_.emplace_back(streamNamed(options_.streams, pair.a), streamNamed(options_.streams, pair.b));
+  }
+  counts_.streams.resize(options_.streams.size());
+  counts_.pairs.resize(options_.pairs.size());
+  if (options_.poses.size() > 0) {
+    const double last = static_cast<double>(options_.poses.size() - 1);
+    for (int i = 0; i < kSamples; ++i)
+      sampled_.insert(options_.poses.at(static_cast<std::size_t>(std::llround(last * i / (kSamples - 1)))));
+  }
+  makeFolder(options_.output_dir);
+  claimFolder(options_.output_dir, settingsOf(options_));
+  writeRunFile(file("run.yaml"), options_, nullptr);
+  takeUpEarlierRuns();
+  problems_ = std::make_unique<ProblemFile>(options_.output_dir);
+  if (options_.images != KeptImages::kNone) pictures_ = std::make_unique<PictureWriter>(file("images"));
+}
+
+// Reads what a run left in `folder`; the lines of a torn end that it had to leave out.
+std::size_t Evaluation::State::takeUp(const std::string& folder) {
+  LoadedFrames loaded = loadFrames(folder + "/frames.csv", layout_);
+  if (folder != options_.output_dir) record_files_->merge(folder, poses_);
+  for (PairRecord& record : loaded.records) {
+    poses_.remember(record.stamp_ns, record.pose);
+    records_.push_back(std::move(record));
+  }
+  return loaded.dropped_lines;
+}
+
+// Once the stamps and captures of all folders are known: each may have numbered its poses from 0.
+void Evaluation::State::settleTakenUp() {
+  for (PairRecord& record : records_) record.pose = poses_.settled(record.stamp_ns, record.pose);
+  sortRecords(records_);
+  for (const PairRecord& record : records_) {
+    poses_.remember(record.stamp_ns, record.pose);
+    held_.emplace(record.pose, record.pair);
+    ++counts_.pairs[record.pair].resumed;
+  }
+}
+
+void Evaluation::State::takeUpEarlierRuns() {
+  record_files_ = std::make_unique<RecordFiles>(options_.output_dir, poses_);
+  std::size_t dropped_lines = takeUp(options_.output_dir);
+  for (const std::string& folder : options_.merge) {
+    if (!std::filesystem::exists(folder + "/run.yaml")) {
+      throw std::invalid_argument("merge: " + folder + " holds no run (no run.yaml)");
+    }
+    requireSameSettings(folder + "/run.yaml", settingsOf(options_));
+    dropped_lines += takeUp(folder);
+  }
+  settleTakenUp();
+  for (const PairRecord& record : records_) {
+    bool is_whole = true;
+    for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
+      is_whole = is_whole && (!isWanted(p, record.pose) || isHeld(p, record.pose));
+    }
+    if (is_whole) markCompleted(record.pose);
+  }
+  if (dropped_lines > 0 || !options_.merge.empty()) writeFrames(file("frames.csv"), layout_, records_);
+  frames_file_.open(file("frames.csv"), framesHeader());
+  if (!callbacks_.note || (records_.empty() && dropped_lines == 0)) return;
+  std::string line = options_.output_dir + " holds " + std::to_string(records_.size()) +
+                     " evaluated pairs of " + std::to_string(completed_.size()) +
+                     " whole poses: not evaluated again";
+  if (dropped_lines > 0) line += "; " + std::to_string(dropped_lines) + " lines of a torn end were left out";
+  callbacks_.note(line);
+}
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,340 @@
+#include "evaluate/run/evaluation_state.h"
+
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace sunlit::evaluate {
+namespace {
+
+constexpr std::int64_t kSampleStride = 200;  // of a path of unknown length
+
+}  // namespace
+
+bool Evaluation::State::isWanted(std::size_t pair, std::int64_t pose) const {
+  return pose % options_.pairs[pair].every == 0;
+}
+
+bool Evaluation::State::isHeld(std::size_t pair, std::int64_t pose) const {
+  return held_.count({pose, pair}) != 0;
+}
+
+std::vector<char> Evaluation::State::neededStreams(std::int64_t pose) const {
+  std::vector<char> is_needed(options_.streams.size(), 0);
+  for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
+    if (isWanted(p, pose)) is_needed[pair_streams_[p].first] = is_needed[pair_streams_[p].second] = 1;
+  }
+  return is_needed;
+}
+
+void Evaluation::State::add(std::size_t stream, std::int64_t stamp_ns, Arrival arrival) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_finished_) return;
+  StreamCounts& counts = counts_.streams.at(stream);
+  const std::string& name = options_.streams[stream];
+  const std::optional<std::int64_t> pose = poses_.of(stamp_ns);
+  ++counts.received;
+  if (!arrival.fault.empty()) {
+    ++counts.undecodable;
+    report({"undecodable", pose, stamp_ns, name, arrival.fault});
+  }
+  if (sets_.isOutOfOrder(stream, stamp_ns)) {
+    ++counts.out_of_order;
+    report({"out_of_order", pose, stamp_ns, name, "came after a later image; used all the same"});
+  }
+  switch (sets_.add(stream, stamp_ns, std::move(arrival))) {
+    case StampSets::Outcome::kKept:
+      break;
+    case StampSets::Outcome::kDuplicate:
+      ++counts.duplicate;
+      report({"duplicate", pose, stamp_ns, name, "this stamp had come before; the first image counts"});
+      break;
+    case StampSets::Outcome::kClosed:
+      return addLate(stream, stamp_ns, pose);
+  }
+  closeIfWhole(stamp_ns);
+  keepWithinMemory(stamp_ns);
+}
+
+// After its set was closed.
+void Evaluation::State::addLate(std::size_t stream, std::int64_t stamp_ns, std::optional<std::int64_t> pose) {
+  if (pose && !options_.poses.holds(*pose)) return turnAway(stream, stamp_ns, *pose);
+  if (pose && neededStreams(*pose)[stream] == 0) return;
+  ++counts_.streams[stream].late;
+  report(
+      {"late", pose, stamp_ns, options_.streams[stream], "its stamp had been given up to bound the memory"});
+}
+
+void Evaluation::State::turnAway(std::size_t stream, std::int64_t stamp_ns, std::int64_t pose) {
+  ++counts_.streams[stream].unexpected;
+  report(
+      {"unexpected", pose, stamp_ns, options_.streams[stream], "is not one of the expected poses; left out"});
+}
+
+// What is whole will be compared and makes room by itself; what waits may wait for ever.
+void Evaluation::State::keepWithinMemory(std::int64_t newest_ns) {
+  while (sets_.reservedBytes() > 0 && sets_.reservedBytes() + queued_bytes_ > options_.memory_limit_bytes) {
+    const bool is_newest = queued_bytes_ > 0 && sets_.find(newest_ns) != nullptr;
+    const std::int64_t stamp = is_newest ? newest_ns : *sets_.oldest();
+    close(stamp, poses_.of(stamp), Reason::kMemory);
+  }
+}
+
+void Evaluation::State::addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_finished_) return;
+  counts_.streams.at(stream).lost += images;
+  report({"lost", std::nullopt, stamp_ns, options_.streams[stream],
+          std::to_string(images) + " images sent before this one did not come (by their sequence numbers)"});
+}
+
+void Evaluation::State::noteLossy(std::size_t stream) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_finished_ || ++counts_.streams.at(stream).lossy > 1 || !callbacks_.note) return;
+  callbacks_.note(options_.streams[stream] +
+                  ": images are compressed with loss (JPEG): differences contain what that changed");
+}
+
+void Evaluation::State::add(std::size_t stream, const CaptureRecord& capture) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_finished_) return;
+  poses_.learn(capture.stamp_ns, capture.pose);
+  record_files_->add(options_.streams.at(stream), capture);
+  closeIfWhole(capture.stamp_ns);
+}
+
+void Evaluation::State::add(const PlaceRecord& place) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_finished_) return;
+  record_files_->add(place);
+}
+
+bool Evaluation::State::isWhole(const StampSet& set, std::int64_t pose) const {
+  const std::vector<char> is_needed = neededStreams(pose);
+  for (std::size_t s = 0; s < is_needed.size(); ++s) {
+    if (is_needed[s] && !set.streams[s].has_come) return false;
+  }
+  return true;
+}
+
+void Evaluation::State::closeIfWhole(std::int64_t stamp_ns) {
+  const StampSet* set = sets_.find(stamp_ns);
+  if (set == nullptr) return;
+  const std::optional<std::int64_t> pose = poses_.of(stamp_ns);
+  if (!pose) return;
+  if (options_.poses.holds(*pose)) {
+    if (isWhole(*set, *pose)) close(stamp_ns, pose, Reason::kWhole);
+    return;
+  }
+  const StampSet unwanted = sets_.take(stamp_ns);
+  for (std::size_t s = 0; s < unwanted.streams.size(); ++s) {
+    if (unwanted.streams[s].has_come) turnAway(s, stamp_ns, *pose);
+  }
+  complete(*pose);
+}
+
+// Counts and names a pair that cannot be compared.
+bool Evaluation::State::canCompare(const StampSet& set, std::size_t pair, std::optional<std::int64_t> pose,
+                                   Reason reason) {
+  const std::size_t ia = pair_streams_[pair].first;
+  const std::size_t ib = pair_streams_[pair].second;
+  const Arrival& a = set.streams[ia];
+  const Arrival& b = set.streams[ib];
+  const std::string where = options_.pairs[pair].name();
+  PairCounts& counts = counts_.pairs[pair];
+  if (!a.has_come || !b.has_come) {
+    const std::string& absent = options_.streams[a.has_come ? ib : ia];
+    const bool is_dropped = reason == Reason::kMemory;
+    ++(is_dropped ? counts.dropped : counts.missing_partner);
+    report({is_dropped ? "dropped" : "missing_partner", pose, set.stamp_ns, where,
+            "no image of " + absent + (is_dropped ? " before memory_limit was reached" : "")});
+    return false;
+  }
+  if (a.rgb.empty() || b.rgb.empty()) {
+    ++counts.undecodable;
+    const Arrival& bad = a.rgb.empty() ? a : b;
+    report({"undecodable", pose, set.stamp_ns, where,
+            "image of " + options_.streams[a.rgb.empty() ? ia : ib] + ": " + bad.fault});
+    return false;
+  }
+  if (a.rgb.size() != b.rgb.size()) {
+    ++counts.size_mismatch;
+    const auto size = [](const cv::Mat& image) {
+      return std::to_string(image.cols) + "x" + std::to_string(image.rows);
+    };
+    report({"size_mismatch", pose, set.stamp_ns, where, size(a.rgb) + " against " + size(b.rgb)});
+    return false;
+  }
+  if (!pose) {
+    ++counts.unplaced;
+    report({"unplaced", pose, set.stamp_ns, where,
+            options_.frame_rate > 0.0 ? "its stamp lies before stamp_start"
+                                      : "no capture of this stamp says which pose it is"});
+    return false;
+  }
+  return true;
+}
+
+bool Evaluation::State::hasBoth(const StampSet& set, std::size_t pair) const {
+  return set.streams[pair_streams_[pair].first].has_come && set.streams[pair_streams_[pair].second].has_come;
+}
+
+// Two stamps may round to one pose. The earlier one counts, in whatever order they come; the later one is
+// counted and named.
+bool Evaluation::State::takes(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair) {
+  const auto inserted = taken_.emplace(std::make_pair(pose, pair), stamp_ns);
+  if (inserted.second) return true;
+  std::int64_t& counting = inserted.first->second;
+  ++counts_.pairs[pair].duplicate;
+  report({"duplicate", pose, std::max(stamp_ns, counting), options_.pairs[pair].name(),
+          "an earlier stamp is of this pose too, and counts"});
+  if (stamp_ns > counting) return false;
+  withdraw(counting, pair);
+  counting = stamp_ns;
+  return true;
+}
+
+// What is being evaluated still is left out when it is done; the file loses the rows at the end.
+void Evaluation::State::withdraw(std::int64_t stamp_ns, std::size_t pair) {
+  const auto found = std::find_if(records_.begin(), records_.end(), [&](const PairRecord& record) {
+    return record.stamp_ns == stamp_ns && record.pair == pair;
+  });
+  if (found == records_.end()) return;
+  records_.erase(found);
+  --counts_.pairs[pair].evaluated;
+}
+
+void Evaluation::State::close(std::int64_t stamp_ns, std::optional<std::int64_t> pose, Reason reason) {
+  const StampSet set = sets_.take(stamp_ns);
+  for (std::size_t s = 0; s < set.streams.size(); ++s) {
+    if (reason == Reason::kMemory && !set.streams[s].rgb.empty()) ++counts_.streams[s].dropped;
+  }
+  Work work;
+  work.stamp_ns = stamp_ns;
+  for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
+    if (pose && !isWanted(p, *pose)) continue;
+    const bool is_held = pose && isHeld(p, *pose);
+    if (is_held ? !hasBoth(set, p) : !canCompare(set, p, pose, reason)) continue;
+    if (takes(stamp_ns, *pose, p) && !is_held) work.pairs.push_back(p);
+  }
+  if (!pose) return;
+  work.pose = *pose;
+  work.pictures = keptPictures(set, *pose, !work.pairs.empty());
+  if (work.pairs.empty() && work.pictures.empty()) {
+    complete(*pose);
+    return;
+  }
+  for (const Arrival& arrival : set.streams) {
+    work.images.push_back(arrival.rgb);
+    work.bytes += bytesOf(arrival.rgb);
+  }
+  queued_bytes_ += work.bytes;
+  queue_.add([this, work = std::move(work)] { evaluate(work); });
+}
+
+std::vector<std::size_t> Evaluation::State::keptPictures(const StampSet& set, std::int64_t pose,
+                                                         bool is_evaluated) {
+  std::vector<std::size_t> kept;
+  const bool is_sample = options_.poses.size() > 0 ? sampled_.count(pose) != 0 : pose % kSampleStride == 0;
+  if (!pictures_ || (options_.images == KeptImages::kSamples && !is_sample)) return kept;
+  for (std::size_t s = 0; s < set.streams.size(); ++s) {
+    if (set.streams[s].rgb.empty()) continue;
+    if (pictures_->claim(options_.streams[s], pose, set.stamp_ns, is_evaluated)) kept.push_back(s);
+  }
+  return kept;
+}
+
+void Evaluation::State::writePictures(const Work& work) {
+  for (const std::size_t s : work.pictures)
+    pictures_->write(options_.streams[s], work.pose, work.stamp_ns, work.images[s]);
+}
+
+void Evaluation::State::markCompleted(std::int64_t pose) {
+  if (completed_.insert(pose).second && !options_.poses.holds(pose)) ++unexpected_poses_;
+}
+
+void Evaluation::State::complete(std::int64_t pose) {
+  markCompleted(pose);
+  if (callbacks_.progress) callbacks_.progress(completed_.size());
+}
+
+// A pose's rows come after its pictures: whoever takes up a killed run does not ask for this pose again.
+void Evaluation::State::evaluate(const Work& work) {
+  std::vector<ImagePair> pairs;
+  for (const std::size_t p : work.pairs) pairs.push_back(pair_streams_[p]);
+  std::vector<std::vector<DifferenceValue>> values;
+  std::string fault;
+  const auto compare = [&] {
+    try {
+      values = comparer_.compare(work.images, pairs, &is_broken_off_);
+    } catch (const std::exception& error) {
+      fault = error.what();
+      values.resize(pairs.size());
+    }
+  };
+  if (!is_broken_off_) tbb::parallel_invoke([&] { writePictures(work); }, compare);
+  if (is_broken_off_) return giveUp(work);
+  for (std::size_t i = 0; i < work.pairs.size(); ++i) {
+    const PairRecord record{work.pose, work.stamp_ns, work.pairs[i], values[i]};
+    if (!keep(record, fault)) continue;
+    const std::lock_guard<std::mutex> lock(callback_mutex_);
+    if (callbacks_.pair_done)
+      callbacks_.pair_done(record, work.images[pairs[i].first], work.images[pairs[i].second]);
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  queued_bytes_ -= work.bytes;
+  complete(work.pose);
+}
+
+void Evaluation::State::giveUp(const Work& work) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const std::size_t p : work.pairs) {
+    ++counts_.pairs[p].dropped;
+    report({"dropped", work.pose, work.stamp_ns, options_.pairs[p].name(),
+            "the run was broken off before it was compared"});
+  }
+  queued_bytes_ -= work.bytes;
+  complete(work.pose);
+}
+
+// False where there is nothing to keep: the comparison failed, or another stamp counts by now.
+bool Evaluation::State::keep(const PairRecord& record, const std::string& fault) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (taken_.at({record.pose, record.pair}) != record.stamp_ns) return false;
+  if (!fault.empty()) {
+    ++counts_.pairs[record.pair].failed;
+    report({"failed", record.pose, record.stamp_ns, options_.pairs[record.pair].name(), fault});
+    return false;
+  }
+  frames_file_.append(framesText(layout_, record));
+  records_.push_back(record);
+  ++counts_.pairs[record.pair].evaluated;
+  return true;
+}
+
+Counts Evaluation::State::counts() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Counts counts = counts_;
+  counts.completed_poses = completed_.size();
+  counts.waiting_images = sets_.waitingImages();
+  counts.unexpected_poses = unexpected_poses_;
+  counts.queued_poses = queue_.size();
+  counts.bytes = sets_.reservedBytes() + queued_bytes_;
+  if (const auto oldest = sets_.oldest()) {
+    const StampSet& set = *sets_.find(*oldest);
+    for (std::size_t s = 0; s < set.streams.size(); ++s) {
+      if (!set.streams[s].has_come) counts.awaited_streams.push_back(s);
+    }
+  }
+  return counts;
+}
+
+bool Evaluation::State::isComplete() const {
+  queue_.rethrow();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::size_t expected = options_.poses.size();
+  return expected > 0 && completed_.size() - unexpected_poses_ >= expected;
+}
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,115 @@
+/// The workings of Evaluation.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "evaluate/files/files.h"
+#include "evaluate/files/picture_writer.h"
+#include "evaluate/files/record_files.h"
+#include "evaluate/run/pose_index.h"
+#include "evaluate/run/stamp_sets.h"
+#include "evaluate/run/work_queue.h"
+#include "sunlit/evaluate/run/evaluation.h"
+
+namespace sunlit::evaluate {
+
+/// Images go from `sets_` (waiting for partners) to `queue_` (being compared) to `records_` and frames.csv.
+/// `mutex_` guards everything but the queue; comparing runs outside of it.
+class Evaluation::State {
+ public:
+  State(const EvaluationOptions& options, EvaluationCallbacks callbacks);
+
+  const EvaluationOptions& options() const { return options_; }
+  void add(std::size_t stream, std::int64_t stamp_ns, Arrival arrival);
+  void add(std::size_t stream, const CaptureRecord& capture);
+  void add(const PlaceRecord& place);
+  void addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns);
+  /// The stream's next image was compressed with loss.
+  void noteLossy(std::size_t stream);
+  Counts counts() const;
+  bool isComplete() const;
+  void waitForRoom(std::size_t queued_poses) const {
+    queue_.waitForAtMost(queued_poses);
+    queue_.rethrow();
+  }
+  Outcome finish(Ending ending);
+
+ private:
+  enum class Reason { kWhole, kEnd, kMemory };
+  using EvaluatedPairs = std::set<std::pair<std::int64_t, std::size_t>>;  // pose and pair
+  /// Images of one set that go to the comparer.
+  struct Work {
+    std::int64_t pose = 0;
+    std::int64_t stamp_ns = 0;
+    std::vector<cv::Mat> images;  // by stream
+    std::vector<std::size_t> pairs;
+    std::vector<std::size_t> pictures;  // streams whose image is kept
+    std::size_t bytes = 0;
+  };
+
+  std::string file(const std::string& name) const { return options_.output_dir + "/" + name; }
+  void takeUpEarlierRuns();
+  std::size_t takeUp(const std::string& folder);
+  void settleTakenUp();
+  std::size_t nameAbsentPoses();
+  bool isWanted(std::size_t pair, std::int64_t pose) const;
+  bool isHeld(std::size_t pair, std::int64_t pose) const;
+  std::vector<char> neededStreams(std::int64_t pose) const;
+  bool isWhole(const StampSet& set, std::int64_t pose) const;
+  void closeIfWhole(std::int64_t stamp_ns);
+  void addLate(std::size_t stream, std::int64_t stamp_ns, std::optional<std::int64_t> pose);
+  void turnAway(std::size_t stream, std::int64_t stamp_ns, std::int64_t pose);
+  void keepWithinMemory(std::int64_t newest_ns);
+  void close(std::int64_t stamp_ns, std::optional<std::int64_t> pose, Reason reason);
+  bool hasBoth(const StampSet& set, std::size_t pair) const;
+  bool takes(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair);
+  void withdraw(std::int64_t stamp_ns, std::size_t pair);
+  bool canCompare(const StampSet& set, std::size_t pair, std::optional<std::int64_t> pose, Reason reason);
+  std::vector<std::size_t> keptPictures(const StampSet& set, std::int64_t pose, bool is_evaluated);
+  void writePictures(const Work& work);
+  void evaluate(const Work& work);
+  bool keep(const PairRecord& record, const std::string& fault);
+  void giveUp(const Work& work);
+  void markCompleted(std::int64_t pose);
+  void complete(std::int64_t pose);
+  void report(const Problem& problem) { problems_->add(problem); }
+  bool isMended(const Problem& problem, const EvaluatedPairs& evaluated) const;
+  void settleAndWrite(Outcome& outcome);
+
+  EvaluationOptions options_;
+  EvaluationCallbacks callbacks_;
+  Comparer comparer_;
+  FramesLayout layout_;
+  std::vector<std::pair<std::size_t, std::size_t>> pair_streams_;
+
+  mutable std::mutex mutex_;
+  mutable std::mutex callback_mutex_;
+  PoseIndex poses_;
+  StampSets sets_;
+  Counts counts_;
+  std::vector<PairRecord> records_;
+  EvaluatedPairs held_;  // by what earlier runs left
+  std::map<std::pair<std::int64_t, std::size_t>, std::int64_t>
+      taken_;                         // by pose and pair: the stamp that counts, of those that came
+  std::set<std::int64_t> completed_;  // poses
+  std::size_t unexpected_poses_ = 0;  // of them
+  std::size_t queued_bytes_ = 0;      // of images in queue_
+  bool is_finished_ = false;
+  std::atomic<bool> is_broken_off_{false};
+  std::set<std::int64_t> sampled_;  // poses whose images are kept
+  std::unique_ptr<RecordFiles> record_files_;
+  std::unique_ptr<ProblemFile> problems_;
+  std::unique_ptr<PictureWriter> pictures_;
+  AppendFile frames_file_;
+  WorkQueue queue_;  // last, so that its threads end before what they use
+};
+
+}  // namespace sunlit::evaluate

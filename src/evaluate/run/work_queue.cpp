@@ -1,0 +1,67 @@
+#include "evaluate/run/work_queue.h"
+
+#include <utility>
+
+namespace sunlit::evaluate {
+
+WorkQueue::WorkQueue(int threads) {
+  for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { run(); });
+}
+
+WorkQueue::~WorkQueue() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_closed_ = true;
+    tasks_.clear();
+  }
+  changed_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void WorkQueue::add(std::function<void()> task) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    tasks_.push_back(std::move(task));
+  }
+  changed_.notify_all();
+}
+
+std::size_t WorkQueue::size() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return tasks_.size() + running_;
+}
+
+void WorkQueue::waitForAtMost(std::size_t tasks) const {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [&] { return fault_ || tasks_.size() + running_ <= tasks; });
+}
+
+void WorkQueue::rethrow() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (fault_) std::rethrow_exception(fault_);
+}
+
+void WorkQueue::run() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return is_closed_ || fault_ || !tasks_.empty(); });
+    if (fault_ || tasks_.empty()) return;
+    std::function<void()> task = std::move(tasks_.front());
+    tasks_.pop_front();
+    ++running_;
+    lock.unlock();
+    std::exception_ptr fault;
+    try {
+      task();
+    } catch (...) {
+      fault = std::current_exception();
+    }
+    task = nullptr;
+    lock.lock();
+    if (fault && !fault_) fault_ = fault;
+    --running_;
+    changed_.notify_all();
+  }
+}
+
+}  // namespace sunlit::evaluate

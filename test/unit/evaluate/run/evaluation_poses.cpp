@@ -1,0 +1,180 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "unit/evaluate/run/small_evaluation.h"
+
+namespace sunlit::evaluate {
+namespace {
+
+constexpr int kStamps = 60;
+
+// A camera of 30.3 Hz taken for one of 30 Hz: stamps 50 and 51 both round to pose 50.
+std::int64_t stampOfFastCamera(int i) {
+  return stampOf(0) + std::llround(i * 1e9 / 30.3);
+}
+
+EvaluationOptions fastCameraOptions(const TemporaryFolder& folder) {
+  EvaluationOptions options = optionsFor(folder);
+  options.frame_rate = 30.0;
+  options.stamp_start_ns = stampOf(0);
+  options.images = KeptImages::kAll;
+  return options;
+}
+
+void feedFastCamera(Evaluation& evaluation, int i) {
+  for (std::size_t s = 0; s < 3; ++s) evaluation.addImage(s, stampOfFastCamera(i), picture(i, s));
+}
+
+struct Results {
+  Outcome outcome;
+  std::string frames;
+  std::string summary;
+  std::string problems;
+  std::string picture_of_50;
+};
+
+Results resultsOf(const TemporaryFolder& folder, const Outcome& outcome) {
+  return {outcome, contentOf(folder.file("out/frames.csv")), contentOf(folder.file("out/summary.csv")),
+          contentOf(folder.file("out/problems.csv")), contentOf(folder.file("out/images/h12/000050.png"))};
+}
+
+// `is_paced`: each stamp is evaluated before the next one comes.
+Results resultsOf(const std::vector<int>& order, bool is_paced) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(fastCameraOptions(folder), {});
+  for (const int i : order) {
+    feedFastCamera(evaluation, i);
+    if (is_paced) evaluation.waitForRoom(0);
+  }
+  return resultsOf(folder, evaluation.finish());
+}
+
+std::vector<int> inOrder() {
+  std::vector<int> order;
+  for (int i = 0; i < kStamps; ++i) order.push_back(i);
+  return order;
+}
+
+std::string linesOf(const std::string& text, const std::string& kind) {
+  std::string lines;
+  std::stringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.rfind(kind, 0) == 0) lines += line + "\n";
+  }
+  return lines;
+}
+
+TEST(TwoStampsOfOnePose, AreOnePairThatCountsAndADuplicateThatIsNamed) {
+  const Results results = resultsOf(inOrder(), true);
+  EXPECT_FALSE(results.outcome.isWhole());
+  for (const PairCounts& pair : results.outcome.counts.pairs) {
+    EXPECT_EQ(pair.evaluated, kStamps - 1u);
+    EXPECT_EQ(pair.duplicate, 1u);
+  }
+  EXPECT_TRUE(hasLine(results.problems, "duplicate,50,501.683168317,h04-h12,")) << results.problems;
+  EXPECT_TRUE(hasLine(results.frames, "50,501.650165017,h04,h12,")) << results.frames;
+  EXPECT_FALSE(hasLine(results.frames, "50,501.683168317,")) << results.frames;
+}
+
+TEST(TwoStampsOfOnePose, GiveTheSameFilesWhateverTheOrderAndTheTime) {
+  const Results expected = resultsOf(inOrder(), true);
+  std::vector<int> backwards = inOrder();
+  std::reverse(backwards.begin(), backwards.end());
+  std::vector<int> shuffled = inOrder();
+  std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(4));
+  for (const bool is_paced : {true, false}) {
+    for (const std::vector<int>& order : {inOrder(), backwards, shuffled}) {
+      const Results results = resultsOf(order, is_paced);
+      EXPECT_EQ(results.frames, expected.frames);
+      EXPECT_EQ(results.summary, expected.summary);
+      EXPECT_EQ(results.picture_of_50, expected.picture_of_50);
+      EXPECT_EQ(linesOf(results.problems, "duplicate"), linesOf(expected.problems, "duplicate"));
+      for (const PairCounts& pair : results.outcome.counts.pairs) {
+        EXPECT_EQ(pair.evaluated, kStamps - 1u);
+        EXPECT_EQ(pair.duplicate, 1u);
+      }
+    }
+  }
+}
+
+TEST(TwoStampsOfOnePose, DoNotHideThatOneOfThemLacksAnImage) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(fastCameraOptions(folder), {});
+  evaluation.addImage(0, stampOfFastCamera(50), picture(50, 0));
+  evaluation.addImage(2, stampOfFastCamera(50), picture(50, 2));
+  feedFastCamera(evaluation, 51);
+  const Results results = resultsOf(folder, evaluation.finish());
+  EXPECT_EQ(results.outcome.counts.pairs[0].missing_partner, 1u);
+  EXPECT_EQ(results.outcome.counts.pairs[0].evaluated, 1u);
+  EXPECT_EQ(results.outcome.counts.pairs[1].duplicate, 1u);
+  EXPECT_TRUE(hasLine(results.problems, "missing_partner,50,501.650165017,h04-h12,")) << results.problems;
+  EXPECT_TRUE(hasLine(results.problems, "duplicate,50,501.683168317,h04-h20,")) << results.problems;
+  EXPECT_TRUE(hasLine(results.frames, "50,501.683168317,h04,h12,")) << results.frames;
+  EXPECT_TRUE(hasLine(results.frames, "50,501.650165017,h04,h20,")) << results.frames;
+}
+
+TEST(TwoStampsOfOnePose, GiveTheSameFilesWhereARunWasCutOff) {
+  const Results expected = resultsOf(inOrder(), true);
+  const TemporaryFolder folder;
+  {
+    Evaluation evaluation(fastCameraOptions(folder), {});
+    for (int i = 0; i < 51; ++i) feedFastCamera(evaluation, i);
+    evaluation.waitForRoom(0);
+  }  // ends without finish(), as a killed process does
+  Evaluation evaluation(fastCameraOptions(folder), {});
+  for (const int i : inOrder()) feedFastCamera(evaluation, i);
+  const Results results = resultsOf(folder, evaluation.finish());
+  EXPECT_FALSE(results.outcome.isWhole());
+  EXPECT_EQ(results.frames, expected.frames);
+  EXPECT_EQ(results.problems, expected.problems);
+}
+
+// The folder of a run that evaluated some stamps only.
+std::string shard(const TemporaryFolder& folder, const std::string& name, int begin, int end) {
+  EvaluationOptions options = optionsFor(folder);
+  options.output_dir = folder.file(name);
+  Evaluation evaluation(options, {});
+  for (int pose = begin; pose < end; ++pose) feedPose(evaluation, pose);
+  EXPECT_TRUE(evaluation.finish().isWhole());
+  return options.output_dir;
+}
+
+Outcome merged(const TemporaryFolder& folder, const std::vector<std::string>& shards, std::size_t poses) {
+  EvaluationOptions options = optionsFor(folder);
+  options.merge = shards;
+  options.poses.count = poses;
+  Evaluation evaluation(options, {});
+  EXPECT_TRUE(evaluation.isComplete());
+  return evaluation.finish();
+}
+
+TEST(Merging, NumbersThePosesOfAllShardsByTheOrderOfTheirStamps) {
+  const TemporaryFolder folder;
+  const std::string whole = shard(folder, "whole", 0, 11);
+  const std::string start = shard(folder, "start", 0, 4);
+  const std::string end = shard(folder, "end", 4, 11);
+  const Outcome outcome = merged(folder, {end, start}, 11);
+  EXPECT_TRUE(outcome.isWhole());
+  EXPECT_EQ(outcome.absent_poses, 0u);
+  EXPECT_EQ(outcome.counts.completed_poses, 11u);
+  for (const PairCounts& pair : outcome.counts.pairs) EXPECT_EQ(pair.resumed, 11u);
+  EXPECT_EQ(contentOf(folder.file("out/frames.csv")), contentOf(whole + "/frames.csv"));
+}
+
+TEST(Merging, CountsWhatTwoShardsBothHoldOnce) {
+  const TemporaryFolder folder;
+  const std::string whole = shard(folder, "whole", 0, 11);
+  const std::string start = shard(folder, "start", 0, 7);
+  const std::string end = shard(folder, "end", 4, 11);
+  const Outcome outcome = merged(folder, {start, end}, 11);
+  EXPECT_TRUE(outcome.isWhole());
+  EXPECT_EQ(outcome.counts.completed_poses, 11u);
+  for (const PairCounts& pair : outcome.counts.pairs) EXPECT_EQ(pair.resumed, 11u);
+  EXPECT_EQ(contentOf(folder.file("out/frames.csv")), contentOf(whole + "/frames.csv"));
+}
+
+}  // namespace
+}  // namespace sunlit::evaluate
