@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "sunlit/evaluate/differences/comparer.h"
-#include "sunlit/evaluate/differences/direct.h"
 
 namespace {
 
@@ -40,19 +39,20 @@ const std::vector<cv::Mat>& images() {
   return all;
 }
 
-void detector(benchmark::State& state, Difference difference) {
+void detector(benchmark::State& state, const std::string& type) {
   const cv::Mat grey = makePicture(images()[0]).grey;
-  const cv::Ptr<cv::Feature2D> kept = makeDetector(difference, {});
+  const cv::Ptr<cv::Feature2D> kept = makeDetector(type)->make();
   std::vector<cv::KeyPoint> key_points;
   cv::Mat descriptors;
   for (auto _ : state) kept->detectAndCompute(grey, cv::noArray(), key_points, descriptors);
   state.counters["key_points"] = static_cast<double>(key_points.size());
 }
 
-void matching(benchmark::State& state, Difference difference, bool is_ours) {
-  const Features a = detectFeatures(difference, {}, makePicture(images()[0]).grey);
-  const Features b = detectFeatures(difference, {}, makePicture(images()[1]).grey);
-  const int norm = normOf(difference, {});
+void matching(benchmark::State& state, const std::string& type, bool is_ours) {
+  const std::unique_ptr<Detector> detector = makeDetector(type);
+  const Features a = detectFeatures(*detector, makePicture(images()[0]).grey);
+  const Features b = detectFeatures(*detector, makePicture(images()[1]).grey);
+  const int norm = detector->norm();
   for (auto _ : state) {
     if (is_ours) {
       benchmark::DoNotOptimize(twoNearestBothWays(a.descriptors, b.descriptors, norm));
@@ -67,7 +67,12 @@ void matching(benchmark::State& state, Difference difference, bool is_ours) {
 void direct(benchmark::State& state) {
   const Picture a = makePicture(images()[0]);
   const Picture b = makePicture(images()[1]);
-  for (auto _ : state) benchmark::DoNotOptimize(directDifferences(a, b));
+  const Differences known;
+  const Features none;
+  for (auto _ : state) {
+    for (const char* name : {"boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey"})
+      benchmark::DoNotOptimize(known.at(name).between({a, none}, {b, none}, {}));
+  }
   state.SetBytesProcessed(state.iterations() * 2 * 4 * static_cast<std::int64_t>(a.rgb.total()));
 }
 
@@ -90,19 +95,16 @@ void wholePose(benchmark::State& state) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (const Difference difference : allDifferences()) {
-    if (!usesFeatures(difference)) continue;
-    const std::string& name = nameOf(difference);
+  for (const std::string& name : detectorTypes()) {
     const auto add = [](const std::string& label, auto body) {
       benchmark::RegisterBenchmark(label.c_str(), body)
           ->Unit(benchmark::kMillisecond)
           ->UseRealTime()
           ->MeasureProcessCPUTime();
     };
-    add("detect/" + name, [difference](benchmark::State& state) { detector(state, difference); });
-    add("match/" + name, [difference](benchmark::State& state) { matching(state, difference, true); });
-    add("match_opencv/" + name,
-        [difference](benchmark::State& state) { matching(state, difference, false); });
+    add("detect/" + name, [name](benchmark::State& state) { detector(state, name); });
+    add("match/" + name, [name](benchmark::State& state) { matching(state, name, true); });
+    add("match_opencv/" + name, [name](benchmark::State& state) { matching(state, name, false); });
   }
   benchmark::RegisterBenchmark("direct_differences", direct)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("memcpy_of_as_many_bytes", copying)->Unit(benchmark::kMillisecond);

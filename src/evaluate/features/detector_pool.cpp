@@ -4,30 +4,29 @@
 
 namespace sunlit::evaluate {
 
-cv::Ptr<cv::Feature2D> DetectorPool::take(Difference difference) {
+cv::Ptr<cv::Feature2D> DetectorPool::take() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    auto& idle = idle_[difference];
-    if (!idle.empty()) {
-      cv::Ptr<cv::Feature2D> detector = idle.back();
-      idle.pop_back();
-      return detector;
+    if (!idle_.empty()) {
+      cv::Ptr<cv::Feature2D> worker = idle_.back();
+      idle_.pop_back();
+      return worker;
     }
   }
-  return makeDetector(difference, options_);
+  return detector_.make();
 }
 
-void DetectorPool::giveBack(Difference difference, cv::Ptr<cv::Feature2D> detector) {
+void DetectorPool::giveBack(cv::Ptr<cv::Feature2D> worker) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  idle_[difference].push_back(std::move(detector));
+  idle_.push_back(std::move(worker));
 }
 
-Features DetectorPool::detect(Difference difference, const cv::Mat& grey) {
-  const cv::Ptr<cv::Feature2D> detector = take(difference);
+Features DetectorPool::detect(const cv::Mat& grey) {
+  const cv::Ptr<cv::Feature2D> worker = take();
   Features features;
   // One that throws is not given back: what it holds then is unknown.
-  detector->detectAndCompute(grey, cv::noArray(), features.key_points, features.descriptors);
-  giveBack(difference, detector);
+  worker->detectAndCompute(grey, cv::noArray(), features.key_points, features.descriptors);
+  giveBack(worker);
   return features;
 }
 

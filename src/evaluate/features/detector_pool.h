@@ -1,29 +1,28 @@
-/// Detectors to use again.
+/// One detector, to use again.
 #pragma once
 
-#include <map>
 #include <mutex>
-#include <opencv2/features2d.hpp>
 #include <vector>
 
-#include "sunlit/evaluate/features/features.h"
+#include "sunlit/evaluate/features/detector.h"
 
 namespace sunlit::evaluate {
 
-/// Detectors are not to be shared between threads, and making one costs up to 30 ms (BRISK computes the
-/// pattern of every scale and rotation). So each is lent to one task at a time. Thread-safe.
+/// What Detector::make() makes is not to be shared between threads, and making it costs up to 30 ms (BRISK
+/// computes the pattern of every scale and rotation). So each is lent to one task at a time. Thread-safe.
 class DetectorPool {
  public:
-  explicit DetectorPool(const FeatureOptions& options) : options_(options) {}
-  Features detect(Difference difference, const cv::Mat& grey);
+  /// `detector` outlives the pool and does not change.
+  explicit DetectorPool(const Detector& detector) : detector_(detector) {}
+  Features detect(const cv::Mat& grey);
 
  private:
-  cv::Ptr<cv::Feature2D> take(Difference difference);
-  void giveBack(Difference difference, cv::Ptr<cv::Feature2D> detector);
+  cv::Ptr<cv::Feature2D> take();
+  void giveBack(cv::Ptr<cv::Feature2D> worker);
 
-  FeatureOptions options_;
+  const Detector& detector_;
   std::mutex mutex_;
-  std::map<Difference, std::vector<cv::Ptr<cv::Feature2D>>> idle_;
+  std::vector<cv::Ptr<cv::Feature2D>> idle_;
 };
 
 }  // namespace sunlit::evaluate

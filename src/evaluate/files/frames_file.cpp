@@ -38,7 +38,7 @@ std::size_t pairNamed(const FramesLayout& layout, const std::string& a, const st
 
 std::size_t columnOf(const FramesLayout& layout, const std::string& name) {
   for (std::size_t d = 0; d < layout.differences.size(); ++d) {
-    if (nameOf(layout.differences[d]) == name) return d;
+    if (layout.differences[d] == name) return d;
   }
   throw std::runtime_error("the difference " + name + " is not one of this run");
 }
@@ -92,7 +92,7 @@ std::string framesText(const FramesLayout& layout, const PairRecord& record) {
   std::string text;
   for (std::size_t d = 0; d < layout.differences.size(); ++d) {
     const DifferenceValue& value = record.values.at(d);
-    text += start + nameOf(layout.differences[d]) + "," + formatNumber(value.value) + "," +
+    text += start + layout.differences[d] + "," + formatNumber(value.value) + "," +
             std::to_string(value.features_a) + "," + std::to_string(value.features_b) + "," +
             std::to_string(value.matches) + "," + std::to_string(value.zero_second) + "," +
             formatNumber(value.symmetric) + "," + formatNumber(value.one_to_one) + "," +
@@ -187,7 +187,7 @@ void writeSummary(const std::string& path, const std::vector<SummaryRow>& rows) 
       "one_to_one_sd,overmatched\n";
   for (const SummaryRow& row : rows) {
     const Statistics& s = row.statistics;
-    text += row.a + "," + row.b + "," + nameOf(row.difference) + "," + std::to_string(s.n) + "," +
+    text += row.a + "," + row.b + "," + row.difference + "," + std::to_string(s.n) + "," +
             std::to_string(s.undefined);
     for (const double value : {s.mean, s.sd, s.ci_low, s.ci_high, row.symmetric.mean, row.symmetric.sd,
                                row.one_to_one.mean, row.one_to_one.sd})

@@ -16,16 +16,15 @@ std::string textOf(const std::vector<PairSpec>& pairs) {
   return "[" + text + "]";
 }
 
-}  // namespace
-
-std::vector<Field> decidingFieldsOf(EvaluationOptions& options) {
+/// With the rows of the comparer where a reader looks for them.
+std::vector<Field> rowsWith(const std::vector<Field>& of_comparer, EvaluationOptions& options) {
   return joined({{{"streams", &options.streams, "", {}, "names: NAME/camera/image_raw; required"},
                   {"pairs",
                    OwnForm{textOf(options.pairs)},
                    "",
                    {},
                    "a list of [a, b] or {a: name, b: name, every: 10}; [] for all"}},
-                 fieldsOf(options.comparer),
+                 of_comparer,
                  {{"frame_rate",
                    &options.frame_rate,
                    "Hz",
@@ -39,8 +38,14 @@ std::vector<Field> decidingFieldsOf(EvaluationOptions& options) {
                    "seconds such as \"1719792000.000000000\", as text so that no digit is lost"}}});
 }
 
+}  // namespace
+
+std::vector<Field> decidingFieldsOf(EvaluationOptions& options) {
+  return rowsWith(decidingFieldsOf(options.comparer), options);
+}
+
 std::vector<Field> fieldsOf(EvaluationOptions& options) {
-  return joined({decidingFieldsOf(options),
+  return joined({rowsWith(fieldsOf(options.comparer), options),
                  {{"output_dir", &options.output_dir, "", {}, "for the results; required"},
                   {"poses", &options.poses.count, "", kCounts, "indices of poses to expect; 0: unknown"},
                   {"first_pose", &options.poses.first, "", kCounts, "the first of them"},

@@ -45,7 +45,7 @@ PairDifference messageOf(const evaluate::EvaluationOptions& options, const evalu
   for (std::size_t d = 0; d < record.values.size(); ++d) {
     const evaluate::DifferenceValue& value = record.values[d];
     Difference difference;
-    difference.difference = evaluate::nameOf(options.comparer.differences.at(d));
+    difference.difference = options.comparer.differences.at(d);
     difference.value = value.value;
     difference.features_a = value.features_a;
     difference.features_b = value.features_b;
@@ -71,7 +71,7 @@ Summary messageOf(const std::vector<evaluate::SummaryRow>& rows, std::size_t pos
     SummaryRow out;
     out.a = row.a;
     out.b = row.b;
-    out.difference = evaluate::nameOf(row.difference);
+    out.difference = row.difference;
     out.n = static_cast<std::uint32_t>(row.statistics.n);
     out.undefined = static_cast<std::uint32_t>(row.statistics.undefined);
     out.mean = row.statistics.mean;

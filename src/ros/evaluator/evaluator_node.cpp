@@ -48,7 +48,8 @@ void EvaluatorNode::onPairDone(const evaluate::PairRecord& record, const cv::Mat
   PairDifference message = messageOf(evaluation_->options(), record);
   pair_difference_.publish(message);
   if (matches_image_.getNumSubscribers() == 0) return;
-  const cv::Mat drawn = evaluate::drawMatches(evaluation_->options().comparer, a, b);
+  const evaluate::ComparerOptions& options = evaluation_->options().comparer;
+  const cv::Mat drawn = evaluate::drawMatches(evaluate::firstDetectorOf(options), options.ratio_test, a, b);
   matches_image_.publish(messageOf(drawn, message.header));
 }
 

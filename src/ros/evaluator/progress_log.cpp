@@ -59,7 +59,7 @@ std::string summaryTable(const std::vector<evaluate::SummaryRow>& rows) {
   std::map<std::string, std::map<std::string, std::string>> cells;
   for (const evaluate::SummaryRow& row : rows) {
     const std::string pair = row.a + "-" + row.b;
-    const std::string name = evaluate::nameOf(row.difference);
+    const std::string& name = row.difference;
     if (pairs.empty() || pairs.back() != pair) pairs.push_back(pair);
     if (cells.count(name) == 0) names.push_back(name);
     char buffer[80];

@@ -9,28 +9,25 @@
 #include <utility>
 #include <vector>
 
-#include "sunlit/evaluate/differences/difference.h"
-#include "sunlit/evaluate/features/features.h"
-#include "sunlit/evaluate/features/matching.h"
+#include "sunlit/evaluate/differences/differences.h"
 
 namespace sunlit::evaluate {
 
 class DetectorPool;
 
 struct ComparerOptions {
-  std::vector<Difference> differences = allDifferences();
-  FeatureOptions features;
+  Differences known;  ///< each with its options
+  std::vector<std::string> differences = known.names();
   RatioTest ratio_test;
 };
 
-inline std::vector<Field> fieldsOf(ComparerOptions& options) {
-  RatioTest& test = options.ratio_test;
-  return joined(
-      {{{"differences", someOf(&options.differences), "", {}, "by name; surf only where it was built in"},
-        {"ratio", &test.ratio, "", Range::above(0, 1), "a match counts where best < ratio * second best"},
-        {"inclusive", &test.inclusive, "", {}, "<= instead of <: a query with a twin then passes"}},
-       under("features", fieldsOf(options.features))});
-}
+/// Rows of what decides the values: options of those differences only that are asked for.
+std::vector<Field> decidingFieldsOf(ComparerOptions& options);
+/// Of all of them.
+std::vector<Field> fieldsOf(ComparerOptions& options);
+
+/// The detector of the first of the differences that has one; null where none has.
+const Detector* firstDetectorOf(const ComparerOptions& options);
 
 /// Indices of two images; the first gives the queries.
 using ImagePair = std::pair<std::size_t, std::size_t>;
@@ -52,8 +49,12 @@ class Comparer {
                                                     const std::atomic<bool>* is_broken_off = nullptr) const;
 
  private:
+  struct Asked {
+    const Difference* difference;
+    std::unique_ptr<DetectorPool> detectors;  // null where it has none
+  };
   ComparerOptions options_;
-  std::unique_ptr<DetectorPool> detectors_;
+  std::vector<Asked> asked_;
 };
 
 }  // namespace sunlit::evaluate

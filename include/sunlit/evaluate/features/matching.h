@@ -1,12 +1,8 @@
-/// Brute-force matching with Lowe's ratio test, and the difference made of it: equations (7) and (8) of the
-/// paper.
+/// Brute-force matching with Lowe's ratio test.
 #pragma once
 
 #include <opencv2/core/mat.hpp>
 #include <vector>
-
-#include "sunlit/evaluate/differences/difference.h"
-#include "sunlit/evaluate/features/features.h"
 
 namespace sunlit::evaluate {
 
@@ -36,16 +32,5 @@ BothWays twoNearestBothWays(const cv::Mat& a, const cv::Mat& b, int norm);
 
 /// True where the best match passes.
 bool passes(const Neighbours& neighbours, const RatioTest& test);
-
-/// D = (F_total − F_matched) / F_total with F_total = F_a + F_b − F_matched, (7) and (8). NaN where F_total
-/// is 0. With fewer than two descriptors in b no query can be told from its second best, so nothing matches
-/// and D is 1.
-///
-/// The ratio test lets several features of a have one feature of b for their best. So F_matched can exceed
-/// F_b, D can be below 0 (never above 1), and D(a, b) is not D(b, a). Beside it stand, of the same
-/// neighbours: `symmetric`, the mean of D(a, b) and D(b, a); and `one_to_one`, D with only those matches that
-/// are accepted from a to b and from b to a, as COLMAP's cross-check counts them: in [0, 1] and the same both
-/// ways.
-DifferenceValue featureDifference(const Features& a, const Features& b, int norm, const RatioTest& test);
 
 }  // namespace sunlit::evaluate

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "sunlit/evaluate/differences/difference.h"
+#include "sunlit/evaluate/differences/difference_value.h"
 #include "sunlit/evaluate/statistics.h"
 
 namespace sunlit::evaluate {
@@ -23,7 +23,7 @@ struct PairRecord {
 /// What the rows are about.
 struct FramesLayout {
   std::vector<std::pair<std::string, std::string>> pairs;  ///< names of the streams a, b
-  std::vector<Difference> differences;
+  std::vector<std::string> differences;                    ///< by name
 };
 
 /// What a frames.csv holds.
@@ -49,7 +49,7 @@ void writeFrames(const std::string& path, const FramesLayout& layout, const std:
 struct SummaryRow {
   std::string a;
   std::string b;
-  Difference difference = Difference::kBooleanRgb;
+  std::string difference;
   Statistics statistics;        ///< of the paper's D
   Statistics symmetric;         ///< see DifferenceValue
   Statistics one_to_one;        ///< see DifferenceValue

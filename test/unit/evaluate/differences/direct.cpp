@@ -1,13 +1,32 @@
-#include "sunlit/evaluate/differences/direct.h"
-
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "sunlit/evaluate/differences/differences.h"
+
 namespace sunlit::evaluate {
 namespace {
+
+struct DirectDifferences {
+  double boolean_rgb = 0.0;
+  double boolean_grey = 0.0;
+  double euclidean_rgb = 0.0;
+  double euclidean_grey = 0.0;
+};
+
+DirectDifferences directDifferences(const Picture& a, const Picture& b) {
+  const Differences known;
+  const Features none;
+  const auto value = [&](const std::string& name) {
+    const DifferenceValue found = known.at(name).between({a, none}, {b, none}, {});
+    EXPECT_EQ(found.symmetric, found.value);
+    EXPECT_EQ(found.one_to_one, found.value);
+    return found.value;
+  };
+  return {value("boolean_rgb"), value("boolean_grey"), value("euclidean_rgb"), value("euclidean_grey")};
+}
 
 // The definition, pixel by pixel.
 DirectDifferences slowly(const Picture& a, const Picture& b) {

@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "sunlit/evaluate/differences/comparer.h"
-#include "sunlit/evaluate/differences/direct.h"
+#include "sunlit/evaluate/differences/feature_difference.h"
 #include "support/message_of.h"
 
 namespace sunlit::evaluate {
@@ -186,7 +187,7 @@ TEST(TwoNearest, RefuseDescriptorsOfDifferentKinds) {
 }
 
 struct Reference {
-  Difference difference;
+  std::string detector;
   int other;
   std::uint32_t features_a, features_b, matches;
   double forward, reverse;
@@ -211,37 +212,36 @@ class Leuven : public ::testing::Test {
 
 // ../shared/data/README.md: OpenCV 4.6.0's detectors and brute force matcher, ratio 0.5, strict.
 TEST_F(Leuven, GivesTheReferenceCounts) {
-  const std::vector<Reference> table = {{Difference::kSift, 2, 2460, 2114, 953, 0.7368, 0.7361},
-                                        {Difference::kSift, 6, 2460, 1155, 247, 0.9267, 0.9317},
-                                        {Difference::kOrb, 2, 500, 500, 113, 0.8726, 0.8914},
-                                        {Difference::kOrb, 6, 500, 500, 21, 0.9785, 0.9827},
-                                        {Difference::kBrisk, 2, 4618, 3517, 1092, 0.8450, 0.8515},
-                                        {Difference::kBrisk, 6, 4618, 1344, 255, 0.9553, 0.9620}};
+  const std::vector<Reference> table = {
+      {"sift", 2, 2460, 2114, 953, 0.7368, 0.7361},   {"sift", 6, 2460, 1155, 247, 0.9267, 0.9317},
+      {"orb", 2, 500, 500, 113, 0.8726, 0.8914},      {"orb", 6, 500, 500, 21, 0.9785, 0.9827},
+      {"brisk", 2, 4618, 3517, 1092, 0.8450, 0.8515}, {"brisk", 6, 4618, 1344, 255, 0.9553, 0.9620}};
   const double half_a_digit = 0.5e-4;  // the reference has four digits
   for (const Reference& r : table) {
-    const Features a = detectFeatures(r.difference, {}, grey(1));
-    const Features b = detectFeatures(r.difference, {}, grey(r.other));
-    const int norm = normOf(r.difference, {});
+    const std::unique_ptr<Detector> detector = makeDetector(r.detector);
+    const Features a = detectFeatures(*detector, grey(1));
+    const Features b = detectFeatures(*detector, grey(r.other));
+    const int norm = detector->norm();
     const DifferenceValue d = featureDifference(a, b, norm, {});
-    EXPECT_EQ(d.features_a, r.features_a) << nameOf(r.difference);
-    EXPECT_EQ(d.features_b, r.features_b) << nameOf(r.difference);
-    EXPECT_EQ(d.matches, r.matches) << nameOf(r.difference);
-    EXPECT_NEAR(d.value, r.forward, half_a_digit) << nameOf(r.difference);
+    EXPECT_EQ(d.features_a, r.features_a) << r.detector;
+    EXPECT_EQ(d.features_b, r.features_b) << r.detector;
+    EXPECT_EQ(d.matches, r.matches) << r.detector;
+    EXPECT_NEAR(d.value, r.forward, half_a_digit) << r.detector;
     const DifferenceValue turned = featureDifference(b, a, norm, {});
-    EXPECT_NEAR(turned.value, r.reverse, half_a_digit) << nameOf(r.difference);
-    EXPECT_EQ(d.matches_back, turned.matches) << nameOf(r.difference);
-    EXPECT_EQ(d.symmetric, (d.value + turned.value) / 2.0) << nameOf(r.difference);
-    EXPECT_EQ(d.one_to_one, turned.one_to_one) << nameOf(r.difference);
-    EXPECT_LE(d.matches_one_to_one, std::min(d.matches, d.matches_back)) << nameOf(r.difference);
+    EXPECT_NEAR(turned.value, r.reverse, half_a_digit) << r.detector;
+    EXPECT_EQ(d.matches_back, turned.matches) << r.detector;
+    EXPECT_EQ(d.symmetric, (d.value + turned.value) / 2.0) << r.detector;
+    EXPECT_EQ(d.one_to_one, turned.one_to_one) << r.detector;
+    EXPECT_LE(d.matches_one_to_one, std::min(d.matches, d.matches_back)) << r.detector;
   }
 }
 
 TEST_F(Leuven, IsMatchedAsOpenCvDoes) {
-  for (const Difference difference : allDifferences()) {
-    if (!usesFeatures(difference)) continue;
-    SCOPED_TRACE(nameOf(difference));
-    expectAsOpenCv(detectFeatures(difference, {}, grey(1)).descriptors,
-                   detectFeatures(difference, {}, grey(6)).descriptors, normOf(difference, {}));
+  for (const std::string& type : detectorTypes()) {
+    SCOPED_TRACE(type);
+    const std::unique_ptr<Detector> detector = makeDetector(type);
+    expectAsOpenCv(detectFeatures(*detector, grey(1)).descriptors,
+                   detectFeatures(*detector, grey(6)).descriptors, detector->norm());
   }
 }
 
@@ -250,7 +250,7 @@ TEST_F(Leuven, SelfTestIsExactlyZeroWhenInclusive) {
   options.ratio_test.inclusive = true;
   const auto values = Comparer(options).compare({rgb(3), rgb(3)}, {{0, 1}});
   for (std::size_t d = 0; d < values[0].size(); ++d) {
-    EXPECT_EQ(values[0][d].value, 0.0) << nameOf(options.differences[d]);
+    EXPECT_EQ(values[0][d].value, 0.0) << options.differences[d];
   }
 }
 
@@ -290,26 +290,70 @@ TEST(Comparer, RefusesOptionsOutOfRangeByName) {
   options.ratio_test.ratio = 1.5;
   EXPECT_NE(messageFor(options).find("ratio is 1.5"), std::string::npos);
   options = {};
-  options.features.brisk.threshold = 0;
-  EXPECT_NE(messageFor(options).find("features/brisk/threshold is 0"), std::string::npos);
-  options = {};
-  options.differences = {Difference::kOrb, Difference::kOrb};
+  options.differences = {"orb", "orb"};
   EXPECT_EQ(
       messageFor(options).rfind("differences is [orb, orb], but must be a list of some of boolean_rgb", 0),
       0u);
   options.differences = {};
   EXPECT_EQ(messageFor(options).rfind("differences is [], but must be", 0), 0u);
+  options.differences = {"none"};
+  EXPECT_EQ(messageFor(options).rfind("differences is [none], but must be", 0), 0u);
+}
+
+TEST(Comparer, RefusesParametersOfDetectorsOutOfRangeByName) {
+  const auto messageFor = [](const std::string& key, double value) {
+    ComparerOptions options;
+    return messageOf([&] { fieldOf(fieldsOf(options), key).set(value, key); });
+  };
+  std::map<std::string, double> bad = {{"features/brisk/threshold", 0}, {"features/orb/wta_k", 5}};
 #ifdef SUNLIT_SURF
-  options = {};
-  options.features.surf.octaves = 9;
-  EXPECT_NE(messageFor(options).find("features/surf/n_octaves is 9"), std::string::npos);
-  options = {};
-  options.features.surf.octave_layers = 0;
-  EXPECT_NE(messageFor(options).find("features/surf/n_octave_layers is 0"), std::string::npos);
-  options = {};
-  options.features.surf.hessian_threshold = std::nan("");
-  EXPECT_NE(messageFor(options).find("features/surf/hessian_threshold is nan"), std::string::npos);
+  bad.insert({{"features/surf/n_octaves", 9},
+              {"features/surf/n_octave_layers", 0},
+              {"features/surf/hessian_threshold", std::nan("")}});
 #endif
+  for (const auto& [key, value] : bad)
+    EXPECT_EQ(messageFor(key, value).rfind(key + " is " + textOf(value) + ", but must be", 0), 0u) << key;
+}
+
+// Share of pixels that are brighter than a bound in just one of two images.
+class AcrossABound : public Difference {
+ public:
+  std::unique_ptr<Difference> clone() const override { return std::make_unique<AcrossABound>(*this); }
+  std::vector<Field> fields() override { return {{"bound", &bound_, "grey levels", {0, 255}, ""}}; }
+  DifferenceValue between(const View& a, const View& b, const RatioTest&) const override {
+    const int across = cv::countNonZero((a.picture.grey > bound_) != (b.picture.grey > bound_));
+    return sameBothWays(across / static_cast<double>(a.picture.grey.total()));
+  }
+
+ private:
+  int bound_ = 100;
+};
+
+TEST(Comparer, TakesADifferenceOfOnesOwnWithItsOptions) {
+  ComparerOptions options;
+  options.known.add("across", std::make_unique<AcrossABound>());
+  options.differences = {"boolean_grey", "across"};
+  cv::Mat dark(1, 4, CV_8UC3, cv::Scalar::all(0));
+  cv::Mat bright = dark.clone();
+  bright.at<cv::Vec3b>(0, 0) = {60, 60, 60};
+  bright.at<cv::Vec3b>(0, 1) = {120, 120, 120};
+  const auto valueOf = [&] { return Comparer(options).compare({dark, bright}, {{0, 1}})[0][1].value; };
+  EXPECT_EQ(valueOf(), 1.0 / 4.0);
+  const ComparerOptions before = options;
+  fieldOf(fieldsOf(options), "pixels/across/bound").set(50, "bound");
+  EXPECT_EQ(valueOf(), 2.0 / 4.0);
+  options = before;  // copies have options of their own
+  EXPECT_EQ(valueOf(), 1.0 / 4.0);
+  EXPECT_THROW(options.known.add("across", std::make_unique<AcrossABound>()), std::invalid_argument);
+}
+
+TEST(Comparer, IsDecidedByTheOptionsOfWhatIsAskedFor) {
+  ComparerOptions options;
+  options.differences = {"boolean_rgb", "brisk"};
+  std::vector<std::string> keys;
+  for (const Field& row : decidingFieldsOf(options)) keys.push_back(row.key);
+  EXPECT_EQ(keys, (std::vector<std::string>{"differences", "ratio", "inclusive", "features/brisk/threshold",
+                                            "features/brisk/n_octaves", "features/brisk/pattern_scale"}));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace sunlit::evaluate {
 namespace {
 
 FramesLayout layout() {
-  return {{{"h04", "h12"}, {"h04", "h20"}}, {Difference::kBooleanRgb, Difference::kOrb}};
+  return {{{"h04", "h12"}, {"h04", "h20"}}, {"boolean_rgb", "orb"}};
 }
 
 PairRecord record(std::int64_t pose, std::size_t pair) {

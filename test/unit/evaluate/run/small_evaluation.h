@@ -25,7 +25,7 @@ inline EvaluationOptions optionsFor(const TemporaryFolder& folder) {
   EvaluationOptions options;
   options.streams = {"h04", "h12", "h20"};
   options.output_dir = folder.file("out");
-  options.comparer.differences = {Difference::kBooleanRgb, Difference::kEuclideanGrey};
+  options.comparer.differences = {"boolean_rgb", "euclidean_grey"};
   return options;
 }
 

@@ -1,19 +1,12 @@
-#include "sunlit/evaluate/differences/direct.h"
+#include "evaluate/differences/pixel_sums.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <opencv2/core/hal/intrin.hpp>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 
 namespace sunlit::evaluate {
 namespace {
-
-struct Sums {
-  std::uint64_t squares = 0;
-  std::uint64_t unequal = 0;
-};
 
 inline unsigned squareOf(int difference) {
   return static_cast<unsigned>(difference * difference);
@@ -46,7 +39,7 @@ inline std::uint64_t sumOfBytes(const cv::v_uint8x16& bytes) {
 constexpr int kStep = 16;
 constexpr int kBlock = 255 * kStep;
 
-void addRgbBlock(const uchar* a, const uchar* b, int pixels, Sums& sums) {
+void addRgbBlock(const uchar* a, const uchar* b, int pixels, PixelSums& sums) {
   int x = 0;
 #if CV_SIMD128
   cv::v_uint32x4 squares = cv::v_setzero_u32();
@@ -69,7 +62,7 @@ void addRgbBlock(const uchar* a, const uchar* b, int pixels, Sums& sums) {
   }
 }
 
-void addGreyBlock(const uchar* a, const uchar* b, int pixels, Sums& sums) {
+void addGreyBlock(const uchar* a, const uchar* b, int pixels, PixelSums& sums) {
   int x = 0;
 #if CV_SIMD128
   cv::v_uint32x4 squares = cv::v_setzero_u32();
@@ -90,8 +83,8 @@ void addGreyBlock(const uchar* a, const uchar* b, int pixels, Sums& sums) {
 }
 
 template <typename AddBlock>
-Sums sumsOver(const cv::Mat& a, const cv::Mat& b, AddBlock addBlock) {
-  Sums sums;
+PixelSums sumsOver(const cv::Mat& a, const cv::Mat& b, AddBlock addBlock) {
+  PixelSums sums;
   const int channels = a.channels();
   for (int y = 0; y < a.rows; ++y) {
     const uchar* row_a = a.ptr<uchar>(y);
@@ -109,32 +102,13 @@ std::string sizeOf(const cv::Mat& image) {
 
 }  // namespace
 
-Picture makePicture(const cv::Mat& rgb) {
-  if (rgb.empty() || rgb.type() != CV_8UC3) {
-    throw std::invalid_argument("an image to evaluate is " + sizeOf(rgb) + " px of OpenCV type " +
-                                cv::typeToString(rgb.type()) +
-                                ", but must be CV_8UC3 with at least one pixel");
-  }
-  Picture picture;
-  picture.rgb = rgb;
-  cv::cvtColor(rgb, picture.grey, cv::COLOR_RGB2GRAY);
-  return picture;
-}
-
-DirectDifferences directDifferences(const Picture& a, const Picture& b) {
-  if (a.rgb.size() != b.rgb.size())
-    throw std::invalid_argument("images of different sizes, " + sizeOf(a.rgb) + " and " + sizeOf(b.rgb) +
-                                " px, have no direct difference");
-  const Sums rgb = sumsOver(a.rgb, b.rgb, addRgbBlock);
-  const Sums grey = sumsOver(a.grey, b.grey, addGreyBlock);
-  const double pixels = static_cast<double>(a.rgb.total());
-  constexpr double kFullScale = 255.0 * 255.0;
-  DirectDifferences result;
-  result.boolean_rgb = static_cast<double>(rgb.unequal) / pixels;
-  result.boolean_grey = static_cast<double>(grey.unequal) / pixels;
-  result.euclidean_rgb = static_cast<double>(rgb.squares) / (3.0 * kFullScale * pixels);
-  result.euclidean_grey = static_cast<double>(grey.squares) / (kFullScale * pixels);
-  return result;
+PixelSums sumsOf(const cv::Mat& a, const cv::Mat& b) {
+  if (a.size() != b.size())
+    throw std::invalid_argument("images of different sizes, " + sizeOf(a) + " and " + sizeOf(b) +
+                                " px, have no difference of pixels");
+  PixelSums sums = a.channels() == 1 ? sumsOver(a, b, addGreyBlock) : sumsOver(a, b, addRgbBlock);
+  sums.pixels = a.total();
+  return sums;
 }
 
 }  // namespace sunlit::evaluate

@@ -1,0 +1,41 @@
+/// The differences that can be asked for, by name.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sunlit/evaluate/differences/difference.h"
+#include "sunlit/quantity/field.h"
+
+namespace sunlit::evaluate {
+
+/// Each with its options: `boolean_rgb boolean_grey euclidean_rgb euclidean_grey`, and one for each of
+/// detectorTypes(), in that order. Names are those of parameters and result files.
+class Differences {
+ public:
+  Differences();
+  Differences(const Differences& other);
+  Differences& operator=(const Differences& other);
+  Differences(Differences&&) = default;
+  Differences& operator=(Differences&&) = default;
+  ~Differences() = default;
+
+  std::vector<std::string> names() const;
+  /// Throws std::invalid_argument for a name that is none of them.
+  const Difference& at(const std::string& name) const;
+  /// One more. Throws std::invalid_argument where `name` is taken.
+  void add(const std::string& name, std::unique_ptr<Difference> difference);
+  /// Options of those of `names`: `features/NAME/…` of those that match features, `pixels/NAME/…` of the
+  /// others.
+  std::vector<Field> fieldsOf(const std::vector<std::string>& names);
+
+ private:
+  std::vector<std::pair<std::string, std::unique_ptr<Difference>>> all_;
+};
+
+/// Some of `known` by their names.
+Choices someOf(const Differences& known, std::vector<std::string>* names);
+
+}  // namespace sunlit::evaluate
