@@ -3,6 +3,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace sunlit::evaluate {
@@ -107,6 +108,12 @@ void Evaluation::State::add(std::size_t stream, const CaptureRecord& capture) {
 void Evaluation::State::add(const PlaceRecord& place) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_finished_) return;
+  if (!std::isfinite(place.x_m + place.y_m + place.z_m + place.yaw_deg)) {
+    report({"unusable", std::nullopt, place.stamp_ns, "pose",
+            "position and orientation must be finite, the orientation a quaternion of length 1; left out of "
+            "path.csv"});
+    return;
+  }
   record_files_->add(place);
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "ros/conversions/geometry.h"
 #include "ros/conversions/received_images.h"
 #include "sunlit/quantity/angle.h"
 
@@ -31,8 +32,11 @@ evaluate::PlaceRecord placeOf(const geometry_msgs::PoseStamped& message) {
   record.x_m = message.pose.position.x;
   record.y_m = message.pose.position.y;
   record.z_m = message.pose.position.z;
+  const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   record.yaw_deg =
-      std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z)) / kRadPerDeg;
+      std::abs(length - 1.0) < kUnitLength
+          ? std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z)) / kRadPerDeg
+          : std::nan("");
   return record;
 }
 

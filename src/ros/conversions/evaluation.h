@@ -15,6 +15,7 @@
 namespace sunlit::ros_interface {
 
 evaluate::CaptureRecord captureOf(const Capture& message);
+/// Its yaw is NaN where the orientation is no quaternion of length 1.
 evaluate::PlaceRecord placeOf(const geometry_msgs::PoseStamped& message);
 PairDifference messageOf(const evaluate::EvaluationOptions& options, const evaluate::PairRecord& record);
 /// rgb8.

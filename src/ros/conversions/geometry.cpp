@@ -42,8 +42,8 @@ Eigen::Isometry3d fromPose(const geometry_msgs::Pose& pose) {
   tf2::fromMsg(pose.position, position);
   tf2::fromMsg(pose.orientation, rotation);
   if (!position.allFinite()) throw std::invalid_argument("pose.position must be finite");
-  // Written so that NaN fails too. Hand-typed quaternions carry a few digits.
-  if (!(std::abs(rotation.norm() - 1.0) < 0.01)) {
+  // Written so that NaN fails too.
+  if (!(std::abs(rotation.norm() - 1.0) < kUnitLength)) {
     throw std::invalid_argument("pose.orientation has the length " + std::to_string(rotation.norm()) +
                                 ", but must be a quaternion of length 1");
   }

@@ -10,6 +10,9 @@
 
 namespace sunlit::ros_interface {
 
+/// So far a quaternion's length may be from 1: hand-typed ones carry a few digits.
+constexpr double kUnitLength = 0.01;
+
 std_msgs::Header headerOf(const std::string& frame, const ros::Time& stamp);
 
 geometry_msgs::Pose toPose(const Eigen::Isometry3d& frame_from_body);

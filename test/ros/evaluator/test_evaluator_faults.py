@@ -10,6 +10,7 @@ import numpy
 import rospy
 import rostest
 import yaml
+from geometry_msgs.msg import PoseStamped
 from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
@@ -117,6 +118,28 @@ class TestFaults(unittest.TestCase):
         named = {(int(row['pose']), row['where']) for row in self.problems('missing_partner')}
         self.assertEqual(named, {(7, 'h04-h12'), (500, 'h04-h12'), (900, 'h04-h12'), (7, 'h04-h20'), (8, 'h04-h20'),
                                  (7, 'h12-h20'), (500, 'h12-h20'), (900, 'h12-h20'), (8, 'h12-h20')})
+
+    def test_poses_that_are_none_are_named_and_left_out_of_the_path(self):
+        places = rospy.Publisher('/camera/pose', PoseStamped, queue_size=None)
+        evaluator = self.start(poses=4)
+        wait_until(lambda: places.get_num_connections() > 0, 'a reader of poses')
+        for pose, (east, turn) in enumerate([(1.0, 1.0), (float('nan'), 1.0), (3.0, 0.0), (4.0, 1.0)]):
+            message = PoseStamped()
+            message.header.stamp = stamp_of(pose)
+            message.pose.position.x, message.pose.orientation.w = east, turn
+            places.publish(message)
+            if pose < 3:
+                send_pose(self.streams, pose)
+        wait_until(lambda: os.path.exists(self.folder.name + '/out/path.csv') and len(self.places()) == 2, 'places')
+        places.unregister()
+        send_pose(self.streams, 3)
+        status, output = evaluator.wait()
+        self.assertEqual(status, 0, output)
+        self.assertEqual(self.places(), [('0', '1'), ('3', '4')])
+        self.assertEqual([row['stamp'] for row in self.problems('unusable')], ['%.9f' % stamp_of(p).to_sec() for p in (1, 2)])
+
+    def places(self):
+        return [(row['pose'], row['x']) for row in rows(self.folder.name + '/out', 'path.csv')]
 
     def test_silence_ends_a_run_and_what_it_has_is_written(self):
         first = self.start(poses=4)

@@ -120,6 +120,7 @@ class Evaluation {
   /// `images` of a stream were sent before that of this stamp, but did not come.
   void addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns);
   void addCapture(std::size_t stream, const CaptureRecord& capture);
+  /// One that is not finite is named, and left out.
   void addPlace(const PlaceRecord& place);
 
   const EvaluationOptions& options() const;

@@ -176,5 +176,22 @@ TEST(Merging, CountsWhatTwoShardsBothHoldOnce) {
   EXPECT_EQ(contentOf(folder.file("out/frames.csv")), contentOf(whole + "/frames.csv"));
 }
 
+TEST(WhereTheCameraStood, IsLeftOutAndNamedWhereItIsNoPlace) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(optionsFor(folder), {});
+  for (std::int64_t pose = 0; pose < 3; ++pose) {
+    evaluation.addPlace({stampOf(pose), 1.0, 2.0, 3.0, pose == 1 ? std::nan("") : 90.0});
+    feedPose(evaluation, pose);
+  }
+  evaluation.addPlace({stampOf(2), HUGE_VAL, 2.0, 3.0, 90.0});
+  const Outcome outcome = evaluation.finish();
+  EXPECT_TRUE(outcome.isWhole());
+  EXPECT_EQ(contentOf(folder.file("out/path.csv")),
+            "pose,stamp,x,y,z,yaw_deg\n0,500.000000000,1,2,3,90\n2,500.200000000,1,2,3,90\n");
+  const std::string problems = contentOf(folder.file("out/problems.csv"));
+  EXPECT_TRUE(hasLine(problems, "unusable,1,500.100000000,pose,")) << problems;
+  EXPECT_TRUE(hasLine(problems, "unusable,2,500.200000000,pose,")) << problems;
+}
+
 }  // namespace
 }  // namespace sunlit::evaluate
