@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sunlit/evaluate/trajectory/draw_trajectory.h"
@@ -20,6 +21,8 @@ using namespace evaluate;
 
 struct Options {
   std::string truth, estimate, output;
+  std::string map;  ///< folder; empty: none
+  bool takes_first_of_stamp = false;
   TrajectoryOptions evaluation;
 };
 
@@ -48,6 +51,15 @@ std::optional<Options> parse(const std::vector<std::string>& arguments) {
   line.add(
       "--out DIR",
       {"out", &options.output, "", {}, "folder for trajectory.csv, trajectory_poses.csv and trajectory.png"});
+  line.add(
+      "--map DIR",
+      {"map", &options.map, "", {}, "output folder of an experiment whose map.png lies under the picture"});
+  line.add("--repeated-stamps",
+           {"repeated_stamps",
+            choiceOf(&options.takes_first_of_stamp, {"refuse", "first"}),
+            "",
+            {},
+            "of poses of one stamp in a file: an error; the first counts, and how many do not is said"});
   line.add("--align", fieldOf(rows, "align"));
   line.add("--max-difference S", fieldOf(rows, "max_difference"));
   line.add("--delta LIST",
@@ -66,12 +78,24 @@ std::optional<Options> parse(const std::vector<std::string>& arguments) {
   return options;
 }
 
-void tellTrajectory(const char* name, const std::string& file, const Trajectory& trajectory,
-                    std::size_t left) {
-  std::printf("%-8s  %s: %zu poses, %.3f m", name, file.c_str(), trajectory.size(), lengthOf(trajectory));
-  if (left > 0) std::printf("; %zu without a partner", left);
-  std::printf("\n");
-}
+/// A trajectory and what it is called.
+struct Input {
+  Input(std::string the_name, const std::string& the_file, bool takes_first_of_stamp)
+      : name(std::move(the_name)),
+        file(the_file),
+        poses(readTrajectory(the_file, takes_first_of_stamp ? &repeated : nullptr)) {}
+
+  void tell(std::size_t without_partner) const {
+    std::printf("%-8s  %s: %zu poses, %.3f m", name.c_str(), file.c_str(), poses.size(), lengthOf(poses));
+    if (without_partner > 0) std::printf("; %zu without a partner", without_partner);
+    if (!repeated.empty()) std::printf("; %zu more left out, whose stamps repeat", repeated.size());
+    std::printf("\n");
+  }
+
+  std::string name, file;
+  std::vector<std::int64_t> repeated;
+  Trajectory poses;
+};
 
 void tellAlignment(const Similarity& s) {
   const Eigen::AngleAxisd turn(s.rotation);
@@ -92,15 +116,18 @@ void tellRows(const std::vector<TrajectoryRow>& rows) {
 }
 
 void run(const Options& options) {
-  const Trajectory truth = readTrajectory(options.truth);
-  const Trajectory estimate = readTrajectory(options.estimate);
-  const TrajectoryEvaluation evaluation = evaluateTrajectory(truth, estimate, options.evaluation);
+  const Input truth("truth", options.truth, options.takes_first_of_stamp);
+  const Input estimate("estimate", options.estimate, options.takes_first_of_stamp);
+  std::optional<MapPicture> map;
+  if (!options.map.empty()) map = readMapPicture(options.map);
+  const TrajectoryEvaluation evaluation = evaluateTrajectory(truth.poses, estimate.poses, options.evaluation);
   makeFolder(options.output);
   writeTrajectoryTable(options.output + "/trajectory.csv", evaluation);
-  writePoseErrors(options.output + "/trajectory_poses.csv", truth, estimate, evaluation);
-  image::writePng(options.output + "/trajectory.png", drawTrajectory(truth, evaluation));
-  tellTrajectory("truth", options.truth, truth, evaluation.association.truth_left.size());
-  tellTrajectory("estimate", options.estimate, estimate, evaluation.association.estimate_left.size());
+  writePoseErrors(options.output + "/trajectory_poses.csv", truth.poses, estimate.poses, evaluation);
+  image::writePng(options.output + "/trajectory.png",
+                  drawTrajectory(truth.poses, evaluation, map ? &*map : nullptr));
+  truth.tell(evaluation.association.truth_left.size());
+  estimate.tell(evaluation.association.estimate_left.size());
   std::printf("matched   %zu pairs within %g s\n", evaluation.association.pairs.size(),
               options.evaluation.max_difference_s);
   if (options.evaluation.align != Alignment::kNone) tellAlignment(evaluation.truth_from_estimate);

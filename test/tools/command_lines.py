@@ -38,7 +38,8 @@ OPTIONS = {
     "export_world": {**WORLDS, "--out": "FILE.glb"},
     "evaluate_trajectory": {"--truth": "timestamp tx ty tz qx qy qz qw", "--estimate": "of the same body",
                             "--out": "trajectory.csv", "--align": "none|se3|sim3|yaw",
-                            "--max-difference": "0 … 1000000 s, default 0.01", "--delta": "default 1m,10m,1frame"},
+                            "--max-difference": "0 … 1000000 s, default 0.01", "--delta": "default 1m,10m,1frame",
+                            "--map": "map.png", "--repeated-stamps": "refuse|first"},
 }
 # Of all tools that have the option: a value, and what is said of it.
 REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be from 16 to 8192 px'),

@@ -113,6 +113,19 @@ class EvaluateTrajectory(unittest.TestCase):
             at = words.index(missing)
             self.assertIn(missing + " is missing", run("evaluate_trajectory", *words[:at], *words[at + 2:]).stderr)
 
+    def test_of_repeated_stamps_the_first_counts_where_asked_for(self):
+        poses = bend(50)
+        estimate = self.write("estimate.txt", tum(poses[:8] + [poses[7][:3] + (9.0,)] + poses[8:]))
+        self.assertIn(estimate + ":10: timestamp is 1000000000.700000048, but must be above that of the pose before",
+                      self.evaluate(estimate).stderr)
+        done = self.evaluate(estimate, "--repeated-stamps", "first")
+        self.assertEqual((done.returncode, self.table()["ate"]["max"]), (0, "0"))
+        self.assertRegex(done.stdout, "estimate .*; 1 more left out, whose stamps repeat\n")
+
+    def test_the_map_is_read_before_anything_is_written(self):
+        self.assertIn(self.path("map.yaml") + ": cannot be opened", self.evaluate(self.truth, "--map", self.folder).stderr)
+        self.assertFalse(os.path.exists(self.path("out")))
+
     def test_two_runs_write_the_same_bytes(self):
         written = []
         for _ in range(2):

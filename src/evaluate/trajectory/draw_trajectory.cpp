@@ -1,8 +1,15 @@
 #include "sunlit/evaluate/trajectory/draw_trajectory.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
+#include <fstream>
+#include <map>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -12,7 +19,7 @@ constexpr int kHeight = 1000;
 const cv::Rect kPlan(70, 50, 1000, 620);
 const cv::Rect kPlot(70, 750, 1000, 190);
 const cv::Rect kBar(1100, 50, 20, 620);
-const cv::Scalar kInk(40, 40, 40), kFaint(215, 215, 215), kTruth(150, 150, 150);
+const cv::Scalar kInk(40, 40, 40), kFaint(215, 215, 215), kTruth(130, 130, 130), kJoin(190, 190, 190);
 // Points are drawn to 1/16 px.
 constexpr int kShift = 4;
 constexpr double kSubpixels = 1 << kShift;
@@ -52,6 +59,22 @@ class Sheet {
     constexpr double kScale = 0.45;
     if (ends) at.x -= cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kScale, 1, nullptr).width;
     cv::putText(mat_, text, at, cv::FONT_HERSHEY_SIMPLEX, kScale, kInk, 1, cv::LINE_AA);
+  }
+
+  /// Half as strong as it is, within `axes`.
+  void under(const Axes& axes, const MapPicture& map) {
+    const cv::Mat picture(map.picture.height, map.picture.width, CV_8UC3,
+                          const_cast<std::uint8_t*>(map.picture.data.data()));
+    const double across = axes.px_per_x * (map.x_max - map.x_min) / picture.cols;
+    const double down = axes.px_per_y * (map.y_max - map.y_min) / picture.rows;
+    const cv::Point2d corner = axes.at(map.x_min, map.y_max) - cv::Point2d(axes.frame.tl());
+    // From the middle of a pixel to the middle of another.
+    const cv::Matx23d sheet_from_map(across, 0, corner.x + 0.5 * across - 0.5, 0, down,
+                                     corner.y + 0.5 * down - 0.5);
+    cv::Mat laid;
+    cv::warpAffine(picture, laid, sheet_from_map, axes.frame.size(), cv::INTER_LINEAR, cv::BORDER_CONSTANT,
+                   cv::Scalar::all(255));
+    laid.convertTo(mat_(axes.frame), CV_8UC3, 0.5, 127.5);
   }
 
   image::Rgb8Image take() { return std::move(picture_); }
@@ -121,28 +144,38 @@ Axes planOf(const Trajectory& truth, const Trajectory& estimate) {
 
 struct Errors {
   explicit Errors(const TrajectoryEvaluation& evaluation)
-      : each(evaluation.absolute.translation_m), largest(*std::max_element(each.begin(), each.end())) {}
+      : matched(evaluation.matched),
+        each(evaluation.absolute.translation_m),
+        largest(*std::max_element(each.begin(), each.end())) {}
 
   const cv::Scalar& colour(std::size_t i) const {
     return palette[largest > 0.0 ? static_cast<std::size_t>(255.0 * each[i] / largest) : 0];
   }
 
+  const MatchedPoses& matched;
   const std::vector<double>& each;
   double largest;
   std::vector<cv::Scalar> palette = colours();
 };
 
-void drawPlan(const Trajectory& truth, const MatchedPoses& matched, const Errors& errors, Sheet* sheet) {
+void drawPlan(const Trajectory& truth, const Errors& errors, const MapPicture* map, Sheet* sheet) {
+  const MatchedPoses& matched = errors.matched;
   const Axes axes = planOf(truth, matched.estimate);
   const auto at = [&](const StampedPose& pose) { return axes.at(pose.position.x(), pose.position.y()); };
+  if (map != nullptr) sheet->under(axes, *map);
   drawGrid(axes, 10, 6, sheet);
+  for (std::size_t i = 0; i < matched.truth.size(); ++i)
+    sheet->line(at(matched.truth[i]), at(matched.estimate[i]), kJoin);
   for (std::size_t i = 1; i < truth.size(); ++i) sheet->line(at(truth[i - 1]), at(truth[i]), kTruth, 2);
-  for (std::size_t i = 0; i < matched.truth.size(); ++i)
-    sheet->line(at(matched.truth[i]), at(matched.estimate[i]), errors.colour(i));
-  for (std::size_t i = 0; i < matched.truth.size(); ++i)
+  for (std::size_t i = 0; i < matched.truth.size(); ++i) {
+    if (i > 0) sheet->line(at(matched.estimate[i - 1]), at(matched.estimate[i]), errors.colour(i), 2);
     sheet->dot(at(matched.estimate[i]), errors.colour(i));
+  }
   sheet->text("seen from above, m; grey: truth; coloured: estimate, by its absolute error",
               {kPlan.x, kPlan.y - 12});
+}
+
+void drawBar(const Errors& errors, Sheet* sheet) {
   for (int y = 0; y < kBar.height; ++y) {
     const auto colour = static_cast<std::size_t>(255 - 255 * y / (kBar.height - 1));
     sheet->fill({kBar.x, kBar.y + y, kBar.width, 1}, errors.palette[colour]);
@@ -151,7 +184,8 @@ void drawPlan(const Trajectory& truth, const MatchedPoses& matched, const Errors
   sheet->text("0", {kBar.x + 5, kBar.y + kBar.height + 18});
 }
 
-void drawPlot(const Trajectory& truth, const Errors& errors, Sheet* sheet) {
+void drawPlot(const Errors& errors, Sheet* sheet) {
+  const Trajectory& truth = errors.matched.truth;
   std::vector<double> path(1, 0.0);
   for (std::size_t i = 1; i < truth.size(); ++i)
     path.push_back(path.back() + (truth[i].position - truth[i - 1].position).norm());
@@ -169,11 +203,30 @@ void drawPlot(const Trajectory& truth, const Errors& errors, Sheet* sheet) {
 
 }  // namespace
 
-image::Rgb8Image drawTrajectory(const Trajectory& truth, const TrajectoryEvaluation& evaluation) {
+MapPicture readMapPicture(const std::string& folder) {
+  const std::string file = folder + "/map.yaml";
+  std::ifstream stream(file);
+  if (!stream) throw std::runtime_error(file + ": cannot be opened: " + std::strerror(errno));
+  std::map<std::string, double> extent;
+  std::string key;
+  for (double value = 0.0; stream >> key >> value;) extent[key] = value;
+  for (const char* needed : {"x_min:", "x_max:", "y_min:", "y_max:"}) {
+    if (extent.count(needed) == 0) throw std::runtime_error(file + ": has no line \"" + needed + " METRES\"");
+  }
+  MapPicture map{image::readPng(folder + "/map.png"), extent["x_min:"], extent["x_max:"], extent["y_min:"],
+                 extent["y_max:"]};
+  if (!(map.x_min < map.x_max && map.y_min < map.y_max))
+    throw std::runtime_error(file + ": x_min must be below x_max, and y_min below y_max");
+  return map;
+}
+
+image::Rgb8Image drawTrajectory(const Trajectory& truth, const TrajectoryEvaluation& evaluation,
+                                const MapPicture* map) {
   Sheet sheet;
   const Errors errors(evaluation);
-  drawPlan(truth, evaluation.matched, errors, &sheet);
-  drawPlot(evaluation.matched.truth, errors, &sheet);
+  drawPlan(truth, errors, map, &sheet);
+  drawBar(errors, &sheet);
+  drawPlot(errors, &sheet);
   return sheet.take();
 }
 

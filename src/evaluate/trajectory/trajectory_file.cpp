@@ -114,7 +114,7 @@ std::optional<std::int64_t> scaledWhole(const std::string& text, int power) {
 /// A file being read.
 class Reader {
  public:
-  explicit Reader(const std::string& file) : file_(file) {}
+  Reader(const std::string& file, std::vector<std::int64_t>* repeated) : file_(file), repeated_(repeated) {}
 
   Trajectory read() {
     std::ifstream stream(file_);
@@ -152,9 +152,13 @@ class Reader {
   std::int64_t stamp(const std::string& text) const {
     const std::optional<std::int64_t> stamp_ns = scaledWhole(text, form_->digits);
     if (!stamp_ns) fail(refusal("timestamp", '"' + text + '"', form_->stamp) + " within ±9.2e9 s");
-    if (!poses_.empty() && *stamp_ns <= poses_.back().stamp_ns)
+    if (!poses_.empty() && *stamp_ns <= poses_.back().stamp_ns && !isLeftOut(*stamp_ns))
       fail(refusal("timestamp", text, "above that of the pose before: stamps increase"));
     return *stamp_ns;
+  }
+
+  bool isLeftOut(std::int64_t stamp_ns) const {
+    return repeated_ != nullptr && !poses_.empty() && stamp_ns == poses_.back().stamp_ns;
   }
 
   double number(const Fields& fields, std::size_t column) const {
@@ -185,10 +189,15 @@ class Reader {
                    "1 within " + textOf(kQuaternionTolerance)));
     }
     pose.orientation = read.normalized();
-    poses_.push_back(pose);
+    if (isLeftOut(pose.stamp_ns)) {
+      repeated_->push_back(pose.stamp_ns);
+    } else {
+      poses_.push_back(pose);
+    }
   }
 
   std::string file_;
+  std::vector<std::int64_t>* repeated_;  ///< null: none may be
   Trajectory poses_;
   std::size_t line_number_ = 0;
   std::size_t columns_ = 0;  ///< 0 until the first line
@@ -197,8 +206,8 @@ class Reader {
 
 }  // namespace
 
-Trajectory readTrajectory(const std::string& file) {
-  return Reader(file).read();
+Trajectory readTrajectory(const std::string& file, std::vector<std::int64_t>* repeated) {
+  return Reader(file, repeated).read();
 }
 
 double lengthOf(const Trajectory& trajectory) {

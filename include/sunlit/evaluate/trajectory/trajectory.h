@@ -32,7 +32,10 @@ inline constexpr double kQuaternionTolerance = 1e-3;
 /// finer digits are rounded. Throws std::runtime_error "file:line: what, and what is expected" for a line of
 /// another form, a number that is not finite, a stamp that is not above the one before or beyond ±9.2e9 s, a
 /// quaternion that is not of unit length; and for a file that cannot be read or holds no pose.
-Trajectory readTrajectory(const std::string& file);
+///
+/// Some published files, such as the truth of TUM's freiburg2_desk, have a stamp twice. With `repeated` poses
+/// after the first of a stamp are left out, and their stamps added to it, instead of an error.
+Trajectory readTrajectory(const std::string& file, std::vector<std::int64_t>* repeated = nullptr);
 
 /// From pose to pose along straight lines, m.
 double lengthOf(const Trajectory& trajectory);

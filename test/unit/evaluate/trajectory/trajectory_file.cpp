@@ -126,6 +126,18 @@ TEST_F(TrajectoryFile, StampsIncrease) {
   EXPECT_NE(errorOf(start + "1 0 0 0 0 0 0 1\n"), "");
 }
 
+TEST_F(TrajectoryFile, TheFirstOfAStampCountsWhereThatIsAskedFor) {
+  setContent(path_,
+             "1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n2.0 3 0 0 0 0 0 1\n2 4 0 0 0 0 0 1\n3 5 0 0 0 0 0 1\n");
+  std::vector<std::int64_t> repeated;
+  const Trajectory poses = readTrajectory(path_, &repeated);
+  EXPECT_EQ(repeated, (std::vector<std::int64_t>{2000000000, 2000000000}));
+  ASSERT_EQ(poses.size(), 3u);
+  EXPECT_EQ(poses[1].position.x(), 2.0);
+  setContent(path_, "2 2 0 0 0 0 0 1\n1 3 0 0 0 0 0 1\n");
+  EXPECT_NE(messageOf<std::runtime_error>([&] { readTrajectory(path_, &repeated); }), "");
+}
+
 TEST_F(TrajectoryFile, WithoutPosesIsAnError) {
   EXPECT_EQ(errorOf(""), ": holds no pose, but must have lines of timestamp tx ty tz qx qy qz qw (s, m)");
   EXPECT_NE(errorOf("# only a comment\n"), "");
