@@ -113,7 +113,9 @@ void drawGrid(const Axes& axes, int wanted_x, int wanted_y, Sheet* sheet) {
   const cv::Rect& frame = axes.frame;
   const auto multiples = [](double from, double length, double step) {
     std::vector<double> values;
-    for (double k = std::ceil(from / step); k * step <= from + length; ++k) values.push_back(k * step + 0.0);
+    const double first = std::ceil(from / step);
+    for (int k = 0; (first + k) * step <= from + length && k < 100; ++k)
+      values.push_back((first + k) * step + 0.0);
     return values;
   };
   for (const double x : multiples(axes.x_min, x_length, x_step)) {

@@ -32,6 +32,8 @@ const Form kEuroc = {
     {"timestamp", "x", "y", "z", "qw", "qx", "qy", "qz"}, 5, 6, 7, 4, 0, "a number of nanoseconds"};
 constexpr std::size_t kLeastColumns = 8;
 constexpr std::size_t kEurocColumns = 17;
+/// m; what is further off is a slip, and would leave a double no micrometre.
+const Range kCoordinate{-1e9, 1e9};
 
 std::string trimmed(const std::string& text) {
   const char* blanks = " \t\r\xEF\xBB\xBF";  // with the bytes of the mark that some editors put at the start
@@ -161,13 +163,13 @@ class Reader {
     return repeated_ != nullptr && !poses_.empty() && stamp_ns == poses_.back().stamp_ns;
   }
 
-  double number(const Fields& fields, std::size_t column) const {
+  double number(const Fields& fields, std::size_t column, const Range& range = {}) const {
     std::istringstream stream(fields[column]);
     stream.imbue(std::locale::classic());  // a decimal point, whatever the user's language
     double value = 0.0;
     // Streams take neither "nan" nor "inf", so those end up here as well.
-    if (!(stream >> value) || stream.peek() != std::char_traits<char>::eof() || !std::isfinite(value))
-      fail(refusal(form_->columns[column], '"' + fields[column] + '"', "a finite number"));
+    if (!(stream >> value) || stream.peek() != std::char_traits<char>::eof() || !range.contains(value))
+      fail(refusal(form_->columns[column], '"' + fields[column] + '"', range.words()));
     return value;
   }
 
@@ -181,7 +183,8 @@ class Reader {
     }
     StampedPose pose;
     pose.stamp_ns = stamp(fields[0]);
-    pose.position = {number(fields, 1), number(fields, 2), number(fields, 3)};
+    pose.position = {number(fields, 1, kCoordinate), number(fields, 2, kCoordinate),
+                     number(fields, 3, kCoordinate)};
     const Eigen::Quaterniond read(number(fields, form_->w), number(fields, form_->x),
                                   number(fields, form_->y), number(fields, form_->z));
     if (!(std::abs(read.norm() - 1.0) <= kQuaternionTolerance)) {

@@ -40,6 +40,9 @@ TEST(DrawTrajectory, IsTheSameEveryTimeAndNotEmpty) {
 TEST(DrawTrajectory, APoseAloneCanBeDrawn) {
   const Trajectory one{StampedPose()};
   EXPECT_NO_THROW(drawTrajectory(one, evaluateTrajectory(one, one, {})));
+  Trajectory far = one;
+  far[0].position = {1e18, -1e18, 0.0};  // where a double has no metres
+  EXPECT_NO_THROW(drawTrajectory(far, evaluateTrajectory(far, far, {})));
 }
 
 TEST(DrawTrajectory, LaysTheMapWhereItsExtentSays) {

@@ -108,10 +108,13 @@ TEST_F(TrajectoryFile, NamesTheLineOfAnotherForm) {
 
 TEST_F(TrajectoryFile, NamesWhatIsNoNumber) {
   EXPECT_EQ(errorOf("0 0 0 0 0 0 0 1\n1 0 nan 0 0 0 0 1\n"),
-            ":2: ty is \"nan\", but must be a finite number");
+            ":2: ty is \"nan\", but must be from -1000000000 to 1000000000");
   EXPECT_EQ(errorOf("0 0 0 0 0 0 0 inf\n"), ":1: qw is \"inf\", but must be a finite number");
-  EXPECT_EQ(errorOf("0 0 0 1.0.0 0 0 0 1\n"), ":1: tz is \"1.0.0\", but must be a finite number");
-  EXPECT_EQ(errorOf("0,,0,0,0,0,0,1\n"), ":1: tx is \"\", but must be a finite number");
+  EXPECT_EQ(errorOf("0 0 0 1.0.0 0 0 0 1\n"),
+            ":1: tz is \"1.0.0\", but must be from -1000000000 to 1000000000");
+  EXPECT_EQ(errorOf("0 1.1e9 0 0 0 0 0 1\n"),
+            ":1: tx is \"1.1e9\", but must be from -1000000000 to 1000000000");
+  EXPECT_EQ(errorOf("0,,0,0,0,0,0,1\n"), ":1: tx is \"\", but must be from -1000000000 to 1000000000");
   for (const std::string stamp :
        {"nan", "1.0s", "1e", "e5", ".", "-", "1e+-2", "0x10", "1e999", "1403715524907143168"})
     EXPECT_EQ(errorOf(stamp + " 0 0 0 0 0 0 1\n"),
