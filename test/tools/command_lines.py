@@ -40,6 +40,9 @@ OPTIONS = {
                             "--out": "trajectory.csv", "--align": "none|se3|sim3|yaw",
                             "--max-difference": "0 … 1000000 s, default 0.01", "--delta": "default 1m,10m,1frame",
                             "--map": "map.png", "--repeated-stamps": "refuse|first"},
+    "evaluate_places": {"--out": "places.csv", "--map": "in the order of their names", "--query": "found in the map",
+                        "--tolerance": "0 … 1000000000 frames, default 5",
+                        "--method": "one or more of sad, seqslam, vlad:sift, "},
 }
 # Of all tools that have the option: a value, and what is said of it.
 REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be from 16 to 8192 px'),
@@ -67,6 +70,10 @@ REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be fr
            ("--ev", "dark", 'must be "auto" or a number from -16 to 24 EV'),
            ("--noise", "-1", "--noise is -1, but must be from 0 to 2147483647"),
            ("--views", "0", "must be from 1 to 1000"), ("--every", "65", "must be from 1 to 64 px"),
+           ("--tolerance", "-1", "--tolerance is -1, but must be from 0 to 1000000000 frames"),
+           ("--method", "vlad", '--method is "vlad", but must be one of sad, seqslam, vlad:sift, '),
+           ("--method", "sad,,seqslam", '--method is "", but must be one of'),
+           ("--method", "sad,sad", "--method names sad twice"),
            ("--height", "-1001", "must be from -1000 to 1000 m"),
            ("--columns", "0", "must be from 1 to 100"), ("--fps", "121", "must be from 1 to 120 Hz"),
            ("--world", "", "--world needs a value"), ("--world", "--out", "--world needs a value"))
