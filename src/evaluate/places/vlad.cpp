@@ -42,10 +42,11 @@ void normalise(double* values, std::size_t size) {
   for (std::size_t k = 0; k < size; ++k) values[k] /= length;
 }
 
-/// In lanes that are added up in one order, whatever the machine's vectors.
+/// In lanes that are added up in one order, whatever the machine's vectors; so many that a compiler keeps the
+/// inner loop and runs it in vectors.
 SUNLIT_VECTOR_CLONES
 double squaredDistance(const float* a, const float* b, std::size_t size) {
-  constexpr std::size_t kLanes = 8;
+  constexpr std::size_t kLanes = 64;
   double sums[kLanes] = {};
   std::size_t k = 0;
   for (; k + kLanes <= size; k += kLanes) {
@@ -81,10 +82,10 @@ cv::Mat vladPoints(const std::string& detector, int norm, const cv::Mat& descrip
 cv::Mat vladOf(const cv::Mat& points, const cv::Mat& words) {
   const auto width = static_cast<std::size_t>(words.cols);
   std::vector<double> sums(static_cast<std::size_t>(words.rows) * width, 0.0);
-  const WordSearch search(words);
+  const std::vector<NearestWord> found = WordSearch(words).nearest(points);
   for (int i = 0; i < points.rows; ++i) {
     const float* const point = points.ptr<float>(i);
-    const int nearest = search.nearest(point).word;
+    const int nearest = found[static_cast<std::size_t>(i)].word;
     const float* const word = words.ptr<float>(nearest);
     double* const sum = sums.data() + static_cast<std::size_t>(nearest) * width;
     for (std::size_t d = 0; d < width; ++d) sum[d] += static_cast<double>(point[d]) - word[d];
