@@ -7,8 +7,8 @@ import unittest
 import rosunit
 
 PROGRAMS = ("snapshot", "timelapse", "export_world", "compare_light", "evaluate_bags", "evaluate_places",
-            "evaluate_trajectory", "report", "list_parameters", "render_node",
-            "evaluator_node", "sun_position_node")
+            "evaluate_trajectory", "report", "list_parameters", "render_node", "evaluator_node",
+            "sun_position_node")
 
 
 class Programs(unittest.TestCase):
