@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "evaluate/detector_pool.h"
+#include "evaluate/features/detector_pool.h"
 #include "sunlit/evaluate/places/sequences.h"
 #include "sunlit/evaluate/places/thumbnails.h"
 #include "sunlit/evaluate/places/vlad.h"

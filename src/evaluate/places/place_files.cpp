@@ -8,7 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
-#include "evaluate/files.h"
+#include "evaluate/files/files.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
