@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <utility>
@@ -17,13 +18,6 @@ namespace sunlit::evaluate {
 namespace {
 
 constexpr const char* kVladPrefix = "vlad:";
-
-Difference featuresOf(const std::string& detector) {
-  for (const Difference difference : allDifferences()) {
-    if (nameOf(difference) == detector) return difference;
-  }
-  throw std::invalid_argument("there is no detector " + detector);
-}
 
 /// Every n-th of all descriptors, in the order of the pictures, so that kMostTrainingDescriptors are left.
 cv::Mat trainingPoints(const std::string& detector, int norm, const std::vector<cv::Mat>& descriptors) {
@@ -81,9 +75,7 @@ std::string PlaceMethod::name() const {
 std::vector<PlaceMethod> allPlaceMethods() {
   std::vector<PlaceMethod> methods(2);
   methods[1].kind = PlaceMethod::Kind::kSeqSlam;
-  for (const Difference difference : allDifferences()) {
-    if (usesFeatures(difference)) methods.push_back({PlaceMethod::Kind::kVlad, nameOf(difference)});
-  }
+  for (const std::string& detector : detectorTypes()) methods.push_back({PlaceMethod::Kind::kVlad, detector});
   return methods;
 }
 
@@ -139,12 +131,11 @@ const PlaceComparison::ThumbnailComparison& PlaceComparison::thumbnails() {
 }
 
 FoundPlaces PlaceComparison::findByVlad(const std::string& detector) const {
-  const FeatureOptions options;
-  const Difference features = featuresOf(detector);
-  const int norm = normOf(features, options);
-  DetectorPool detectors(options);
+  const std::unique_ptr<Detector> usual = makeDetector(detector);
+  const int norm = usual->norm();
+  DetectorPool detectors(*usual);
   const auto describe = [&](const std::string& file) {
-    return detectors.detect(features, readGreyPicture(file)).descriptors;
+    return detectors.detect(readGreyPicture(file)).descriptors;
   };
   std::vector<cv::Mat> map(map_.names.size()), queries(queries_.names.size());
   forEach(detector + " of the map", map_, [&](std::size_t i) { map[i] = describe(map_.file(i)); });

@@ -129,6 +129,7 @@ const std::map<std::string, Modules> kRoomsOfEvaluate = {
     {"files", {"differences", "run"}},
     {"run", {"differences", "features", "files"}},
     {"trajectory", {"files"}},
+    {"places", {"features", "files"}},
 };
 
 /// Of private and public headers and sources; `least` files at least lie in rooms.
