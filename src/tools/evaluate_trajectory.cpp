@@ -22,7 +22,7 @@ using namespace evaluate;
 struct Options {
   std::string truth, estimate, output;
   std::string map;  ///< folder; empty: none
-  bool takes_first_of_stamp = false;
+  bool takes_first_of_stamp = true;
   TrajectoryOptions evaluation;
 };
 
@@ -62,12 +62,12 @@ std::optional<Options> parse(const std::vector<std::string>& arguments) {
             "of poses of one stamp in a file: an error; the first counts, and how many do not is said"});
   line.add("--align", fieldOf(rows, "align"));
   line.add("--max-difference S", fieldOf(rows, "max_difference"));
-  line.add("--delta LIST",
-           {"delta",
-            OwnForm{namesOf(options.evaluation.deltas)},
-            "",
-            {},
-            "of relative errors, between poses: metres along the true path (10m), or frames (1frame)"})
+  line.add("--pairs-from", fieldOf(rows, "pairs_from"));
+  line.add("--delta LIST", {"delta",
+                            OwnForm{namesOf(options.evaluation.deltas)},
+                            "",
+                            {},
+                            "of relative errors, between poses: metres of path (10m), or frames (1frame)"})
       .then(
           [&](const std::string&, const std::string& value) { options.evaluation.deltas = deltasOf(value); });
   if (!line.read(arguments)) return std::nullopt;

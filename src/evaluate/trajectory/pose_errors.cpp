@@ -63,16 +63,16 @@ Delta parseDelta(const std::string& text) {
   return delta;
 }
 
-std::vector<IndexPair> pairsApart(const Trajectory& truth, const Delta& delta) {
+std::vector<IndexPair> pairsApart(const Trajectory& trajectory, const Delta& delta) {
   if (!isAllowed(delta)) refuse("delta", delta.name(), kAllowedDeltas);
   std::vector<std::size_t> ends;
   double path = 0.0;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
     if (delta.unit == Delta::Unit::kFrames) {
       if (std::fmod(static_cast<double>(i), delta.size) == 0.0) ends.push_back(i);
       continue;
     }
-    if (i > 0) path += (truth[i].position - truth[i - 1].position).norm();
+    if (i > 0) path += (trajectory[i].position - trajectory[i - 1].position).norm();
     if (path < delta.size) continue;
     ends.push_back(i);
     path = 0.0;
@@ -82,9 +82,9 @@ std::vector<IndexPair> pairsApart(const Trajectory& truth, const Delta& delta) {
   return pairs;
 }
 
-PoseErrors relativeErrors(const MatchedPoses& poses, const Delta& delta) {
+PoseErrors relativeErrors(const MatchedPoses& poses, const Delta& delta, PathOf path) {
   PoseErrors errors;
-  for (const IndexPair& pair : pairsApart(poses.truth, delta)) {
+  for (const IndexPair& pair : pairsApart(path == PathOf::kTruth ? poses.truth : poses.estimate, delta)) {
     add(motion(poses.truth[pair.first], poses.truth[pair.second]),
         motion(poses.estimate[pair.first], poses.estimate[pair.second]), &errors);
   }

@@ -43,7 +43,7 @@ TrajectoryEvaluation evaluateTrajectory(const Trajectory& truth, const Trajector
   result.absolute = absoluteErrors(result.matched);
   addRows("ate", result.absolute, &result.rows);
   for (const Delta& delta : options.deltas)
-    addRows("rpe_" + delta.name(), relativeErrors(result.matched, delta), &result.rows);
+    addRows("rpe_" + delta.name(), relativeErrors(result.matched, delta, options.pairs_from), &result.rows);
   return result;
 }
 

@@ -32,6 +32,12 @@ struct Delta {
 /// Reads name(), and "5frames". Throws std::invalid_argument naming the text and what is allowed.
 Delta parseDelta(const std::string& text);
 
+/// Along whose path metres are counted.
+enum class PathOf {
+  kEstimate,  ///< once aligned: evo's default
+  kTruth,     ///< the same pairs for every estimate: evo's --pairs_from_reference
+};
+
 struct IndexPair {
   std::size_t first = 0, second = 0;
 };
@@ -39,14 +45,13 @@ struct IndexPair {
 /// Which poses are compared, one pair after another. Frames: 0 and Δ, Δ and 2 Δ, … by index among the matched
 /// poses, also across a gap. Metres: each pose at which the path from pose to pose has grown by at least Δ
 /// since the one before it, with that one; the first of them is Δ from the start and begins the first pair.
-/// The path is the truth's, so that the pairs do not depend on the estimate (of evo: --pairs_from_reference).
 /// Poses 1 m apart but for their last digits may pair at 2 m for a Δ of 1 m, as in evo. Throws
 /// std::invalid_argument for a Δ out of its range.
-std::vector<IndexPair> pairsApart(const Trajectory& truth, const Delta& delta);
+std::vector<IndexPair> pairsApart(const Trajectory& trajectory, const Delta& delta);
 
 /// Of each pair (i, j) of pairsApart(), E = (Qᵢ⁻¹ Qⱼ)⁻¹ (Pᵢ⁻¹ Pⱼ): the length of its translation, and its
 /// angle. Sturm et al., eq. 1.
-PoseErrors relativeErrors(const MatchedPoses& poses, const Delta& delta);
+PoseErrors relativeErrors(const MatchedPoses& poses, const Delta& delta, PathOf path);
 
 /// All NaN but n and sse for no errors.
 struct ErrorStatistics {

@@ -18,6 +18,7 @@ struct TrajectoryOptions {
   std::vector<Delta> deltas = {{1.0, Delta::Unit::kMetres},
                                {10.0, Delta::Unit::kMetres},
                                {1.0, Delta::Unit::kFrames}};  ///< of relative errors
+  PathOf pairs_from = PathOf::kEstimate;
 };
 
 /// All but the deltas, which have a form of their own: parseDelta().
@@ -32,7 +33,14 @@ inline std::vector<Field> fieldsOf(TrajectoryOptions& options) {
            &options.max_difference_s,
            "s",
            {0, 1e6},
-           "in time, between a pose of the estimate and the pose of the truth that it belongs to"}};
+           "in time, between a pose of the estimate and the pose of the truth that it belongs to"},
+          {"pairs_from",
+           choiceOf(&options.pairs_from, {"estimate", "truth"}),
+           "",
+           {},
+           "along whose path the metres of relative errors are counted; that of the truth gives every "
+           "estimate the "
+           "same pairs"}};
 }
 
 /// One line of the table.

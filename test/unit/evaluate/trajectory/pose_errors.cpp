@@ -79,11 +79,23 @@ TEST(PairsApart, ByMetresCountThePathSinceTheLastOne) {
 
 TEST(RelativeErrors, OfAnOdometerThatCountsATenthTooMuch) {
   const MatchedPoses poses{alongX({0, 1, 2, 3}), alongX({0, 1.125, 2.25, 3.375})};
-  EXPECT_EQ(relativeErrors(poses, parseDelta("1frame")).translation_m,
+  EXPECT_EQ(relativeErrors(poses, parseDelta("1frame"), PathOf::kTruth).translation_m,
             (std::vector<double>{0.125, 0.125, 0.125}));
-  EXPECT_EQ(relativeErrors(poses, parseDelta("1m")).translation_m, (std::vector<double>{0.125, 0.125}));
-  EXPECT_EQ(relativeErrors(poses, parseDelta("3frames")).translation_m, (std::vector<double>{0.375}));
-  EXPECT_EQ(relativeErrors(poses, parseDelta("1frame")).rotation_deg, (std::vector<double>{0, 0, 0}));
+  EXPECT_EQ(relativeErrors(poses, parseDelta("1m"), PathOf::kTruth).translation_m,
+            (std::vector<double>{0.125, 0.125}));
+  EXPECT_EQ(relativeErrors(poses, parseDelta("3frames"), PathOf::kTruth).translation_m,
+            (std::vector<double>{0.375}));
+  EXPECT_EQ(relativeErrors(poses, parseDelta("1frame"), PathOf::kTruth).rotation_deg,
+            (std::vector<double>{0, 0, 0}));
+}
+
+TEST(RelativeErrors, CountMetresAlongThePathThatIsAskedFor) {
+  // By its own path of 0.625 m a pose the estimate pairs every second one, by the true one each.
+  const MatchedPoses poses{alongX({0, 1, 2, 3, 4}), alongX({0, 0.625, 1.25, 1.875, 2.5})};
+  EXPECT_EQ(relativeErrors(poses, parseDelta("1m"), PathOf::kTruth).translation_m,
+            (std::vector<double>{0.375, 0.375, 0.375}));
+  EXPECT_EQ(relativeErrors(poses, parseDelta("1m"), PathOf::kEstimate).translation_m,
+            (std::vector<double>{0.75}));
 }
 
 TEST(RelativeErrors, AreSeenFromTheFirstPoseOfThePair) {
@@ -91,7 +103,7 @@ TEST(RelativeErrors, AreSeenFromTheFirstPoseOfThePair) {
   // second pair's motion, in its own frame, knows nothing; the first pair has the turn as its error.
   const MatchedPoses poses{{pose({0, 0, 0}), pose({1, 0, 0}), pose({2, 0, 0})},
                            {pose({0, 0, 0}), pose({1, 0, 0}, 90), pose({1, 1, 0}, 90)}};
-  const PoseErrors errors = relativeErrors(poses, parseDelta("1frame"));
+  const PoseErrors errors = relativeErrors(poses, parseDelta("1frame"), PathOf::kTruth);
   expectNear(errors.translation_m, {0, 0}, 1e-15);
   expectNear(errors.rotation_deg, {90, 0}, 1e-13);
   // Absolute errors know it: √2 m between (2, 0) and (1, 1).
@@ -113,10 +125,10 @@ TEST(RelativeErrors, DoNotDependOnWhereTheEstimateBegins) {
     poses.truth.push_back(random());
     poses.estimate.push_back(random());
   }
-  const PoseErrors before = relativeErrors(poses, parseDelta("1frame"));
+  const PoseErrors before = relativeErrors(poses, parseDelta("1frame"), PathOf::kTruth);
   const StampedPose shift = random();
   poses.estimate = aligned({1.0, shift.orientation.toRotationMatrix(), shift.position}, poses.estimate);
-  const PoseErrors after = relativeErrors(poses, parseDelta("1frame"));
+  const PoseErrors after = relativeErrors(poses, parseDelta("1frame"), PathOf::kTruth);
   expectNear(after.translation_m, before.translation_m, 1e-13);
   expectNear(after.rotation_deg, before.rotation_deg, 1e-12);
 }
@@ -130,7 +142,7 @@ TEST(RelativeErrors, EqualTheProductOfMatrices) {
   };
   const Eigen::Isometry3d error = (matrix(poses.truth[0]).inverse() * matrix(poses.truth[1])).inverse() *
                                   (matrix(poses.estimate[0]).inverse() * matrix(poses.estimate[1]));
-  const PoseErrors errors = relativeErrors(poses, parseDelta("1frame"));
+  const PoseErrors errors = relativeErrors(poses, parseDelta("1frame"), PathOf::kTruth);
   EXPECT_NEAR(errors.translation_m[0], error.translation().norm(), 1e-14);
   EXPECT_NEAR(errors.rotation_deg[0], Eigen::AngleAxisd(error.linear()).angle() / kRadPerDeg, 1e-12);
   EXPECT_NEAR(errors.rotation_deg[0], 45.0, 1e-12);

@@ -212,6 +212,7 @@ TEST(TrajectoryEvaluation, AgreesWithEvo) {
   const MatchedPoses poses = rise();
   TrajectoryOptions options;
   options.deltas.push_back({5.0, Delta::Unit::kFrames});
+  options.pairs_from = PathOf::kTruth;
   for (const EvoRow& expected : kEvo) {
     options.align = expected.align;
     const TrajectoryEvaluation result = evaluateTrajectory(poses.truth, poses.estimate, options);
