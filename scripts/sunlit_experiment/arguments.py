@@ -12,7 +12,8 @@ from xml.etree import ElementTree
 import psutil
 import yaml
 
-DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "orb", "brisk"]
+DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "orb", "brisk"]  # the paper's
+MORE_DIFFERENCES = ["akaze", "kaze", "rootsift"]
 
 
 class BadArgument(Exception):
@@ -121,9 +122,9 @@ def pairs(hours, self_test, every):
 
 def differences(text):
     """`all` are those that an evaluator with SURF has by default."""
-    allowed = f"all, or a list of some of {', '.join(DIFFERENCES)}"
+    allowed = f"all, or a list of some of {', '.join(DIFFERENCES + MORE_DIFFERENCES)}"
     names = DIFFERENCES if text == "all" else parse("differences", text, allowed)
-    if not isinstance(names, list) or not names or not set(map(str, names)) <= set(DIFFERENCES):
+    if not isinstance(names, list) or not names or not set(map(str, names)) <= set(DIFFERENCES + MORE_DIFFERENCES):
         raise BadArgument("differences", text, allowed)
     return names
 

@@ -11,7 +11,6 @@ import numpy as np
 import yaml
 
 DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "brisk", "orb"]
-FEATURES = {"sift", "surf", "orb", "brisk"}
 
 # Older runs lack the columns from `symmetric` and `symmetric_mean` on.
 OLD_FRAMES = "pose,stamp,a,b,difference,value,features_a,features_b,matches,zero_second"

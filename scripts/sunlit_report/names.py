@@ -6,6 +6,7 @@ _DIFFERENCES = {
     "boolean_rgb": "Boolean RGB", "boolean_grey": "Boolean grey",
     "euclidean_rgb": "Euclidean RGB", "euclidean_grey": "Euclidean grey",
     "sift": "SIFT", "surf": "SURF", "orb": "ORB", "brisk": "BRISK",
+    "akaze": "AKAZE", "kaze": "KAZE", "rootsift": "RootSIFT",
 }
 
 

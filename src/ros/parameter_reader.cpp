@@ -265,6 +265,17 @@ XmlRpcValue ParameterReader::value(const std::string& key) const {
   return value == nullptr ? XmlRpcValue() : *value;
 }
 
+std::vector<std::string> ParameterReader::namesBelow(const std::string& key) const {
+  std::set<std::string> names;
+  for (const auto& layer : layers_) {
+    if (!layer->tree.valid()) continue;
+    const XmlRpcValue* group = descend(layer->tree, key);
+    if (group == nullptr || group->getType() != XmlRpcValue::TypeStruct) continue;
+    for (auto member = group->begin(); member != group->end(); ++member) names.insert(member->first);
+  }
+  return {names.begin(), names.end()};
+}
+
 void ParameterReader::rejectUnknown() const {
   const Layer& layer = *layers_.front();
   if (!layer.tree.valid()) return;

@@ -55,6 +55,9 @@ class ParameterReader {
   /// it.
   XmlRpc::XmlRpcValue value(const std::string& key) const;
 
+  /// Names of all that stands right below `key`; none of them counts as asked for.
+  std::vector<std::string> namesBelow(const std::string& key) const;
+
   /// Throws naming the first key that nobody asked for, and the keys that are known.
   void rejectUnknown() const;
   /// "/node/site/latitude": as a key is called in messages.

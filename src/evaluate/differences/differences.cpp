@@ -8,6 +8,17 @@
 
 namespace sunlit::evaluate {
 
+namespace {
+
+/// Names stand in files, keys and topics.
+bool isWord(const std::string& name) {
+  const std::string letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+  return !name.empty() && letters.find(name.front()) != std::string::npos &&
+         name.find_first_not_of(letters + "0123456789_") == std::string::npos;
+}
+
+}  // namespace
+
 Differences::Differences() {
   // Of pixels, one row each. In the order of the paper's tables.
   add("boolean_rgb", makeBoolean(Channels::kRgb));
@@ -26,6 +37,8 @@ Differences& Differences::operator=(const Differences& other) {
 }
 
 void Differences::add(const std::string& name, std::unique_ptr<Difference> difference) {
+  if (!isWord(name))
+    refuse("the name of a difference", '"' + name + '"', "letters, digits and _, first a letter");
   for (const auto& item : all_) {
     if (item.first == name)
       refuse("the name of a difference", '"' + name + '"', "none of " + textOf(names()));
@@ -54,6 +67,14 @@ std::vector<Field> Differences::fieldsOf(const std::vector<std::string>& names) 
     for (Field& row : under(group + name, difference->fields())) rows.push_back(std::move(row));
   }
   return rows;
+}
+
+std::vector<std::string> paperDifferences() {
+  return {"boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift",
+#ifdef SUNLIT_SURF
+          "surf",
+#endif
+          "orb",         "brisk"};
 }
 
 Choices someOf(const Differences& known, std::vector<std::string>* names) {

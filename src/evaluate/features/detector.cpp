@@ -13,16 +13,36 @@ struct DetectorType {
   std::unique_ptr<Detector> (*make)();
 };
 
-/// In the order of the paper's tables.
+/// Those of the paper in the order of its tables, then others.
 const std::vector<DetectorType>& table() {
   static const std::vector<DetectorType> rows = {{"sift", makeSift},
 #ifdef SUNLIT_SURF
                                                  {"surf", makeSurf},
 #endif
-                                                 {"orb", makeOrb},
-                                                 {"brisk", makeBrisk}};
+                                                 {"orb", makeOrb},          {"brisk", makeBrisk},
+                                                 {"akaze", makeAkaze},      {"kaze", makeKaze},
+                                                 {"rootsift", makeRootSift}};
   return rows;
 }
+
+/// A detector that says its type.
+class Typed : public Detector {
+ public:
+  Typed(std::string type, std::unique_ptr<Detector> detector)
+      : type_(std::move(type)), detector_(std::move(detector)) {}
+  std::unique_ptr<Detector> clone() const override {
+    return std::make_unique<Typed>(type_, detector_->clone());
+  }
+  std::vector<Field> fields() override {
+    return joined({{{"type", OwnForm{type_}, "", {}, "of the detector"}}, detector_->fields()});
+  }
+  int norm() const override { return detector_->norm(); }
+  cv::Ptr<cv::Feature2D> make() const override { return detector_->make(); }
+
+ private:
+  std::string type_;
+  std::unique_ptr<Detector> detector_;
+};
 
 }  // namespace
 
@@ -40,6 +60,10 @@ std::unique_ptr<Detector> makeDetector(const std::string& type) {
     if (row.name == type) return row.make();
   }
   refuse("detector", '"' + type + '"', "one of " + textOf(detectorTypes()));
+}
+
+std::unique_ptr<Detector> makeTypedDetector(const std::string& type) {
+  return std::make_unique<Typed>(type, makeDetector(type));
 }
 
 Features detectFeatures(const Detector& detector, const cv::Mat& grey) {

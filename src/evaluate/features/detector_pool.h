@@ -13,7 +13,8 @@ namespace sunlit::evaluate {
 class DetectorPool {
  public:
   /// `detector` outlives the pool and does not change.
-  explicit DetectorPool(const Detector& detector) : detector_(detector) {}
+  /// Throws what Detector::make() throws, such as for parameters that do not go together.
+  explicit DetectorPool(const Detector& detector) : detector_(detector), idle_{detector.make()} {}
   Features detect(const cv::Mat& grey);
 
  private:

@@ -10,11 +10,22 @@ namespace sunlit::evaluate {
 /// More features are a mistake, and would fill the memory.
 constexpr double kMostFeatures = 1e6;
 
+/// What keeps edges sharp while KAZE and AKAZE blur, in the order of cv::KAZE::DiffusivityType.
+inline const std::vector<std::string> kDiffusivities = {"pm_g1", "pm_g2", "weickert", "charbonnier"};
+constexpr const char* kDiffusivityDoc =
+    "of the blur: Perona and Malik's first or second, Weickert's, Charbonnier's";
+
 std::unique_ptr<Detector> makeSift();
+/// SIFT whose descriptors are the square roots of their L1-normalised elements, so that their Euclidean
+/// distance is the Hellinger distance of the histograms (Arandjelović and Zisserman, CVPR 2012). CV_32F rows
+/// of length 1, or all 0.
+std::unique_ptr<Detector> makeRootSift();
 #ifdef SUNLIT_SURF
 std::unique_ptr<Detector> makeSurf();
 #endif
 std::unique_ptr<Detector> makeOrb();
 std::unique_ptr<Detector> makeBrisk();
+std::unique_ptr<Detector> makeAkaze();
+std::unique_ptr<Detector> makeKaze();
 
 }  // namespace sunlit::evaluate

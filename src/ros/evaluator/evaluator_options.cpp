@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "sunlit/evaluate/differences/feature_difference.h"
 #include "sunlit/ros/node_rows.h"
 
 namespace sunlit::ros_interface {
@@ -80,6 +81,20 @@ std::vector<std::pair<std::string, std::string>> readAbout(const ParameterReader
   return about;
 }
 
+/// Detectors under names of their own: features/NAME/type says what they are.
+void addDetectors(const ParameterReader& parameters, evaluate::Differences& known) {
+  const std::vector<std::string>& types = evaluate::detectorTypes();
+  for (const std::string& name : parameters.namesBelow("features")) {
+    if (name == "surf" || std::count(types.begin(), types.end(), name) > 0) continue;
+    const std::string key = "features/" + name + "/type";
+    const std::string type = parameters.choice(key, "", types);
+    if (type.empty())
+      refuse("parameter " + parameters.fullName(key), "missing",
+             "one of " + textOf(types) + ", since no detector is called " + name);
+    known.add(name, evaluate::makeFeatureDifference(evaluate::makeTypedDetector(type)));
+  }
+}
+
 #ifdef SUNLIT_SURF
 void takeSurf(const ParameterReader&) {}
 #else
@@ -117,6 +132,7 @@ std::vector<Field> fieldsOf(EvaluatorOptions& options) {
 EvaluatorOptions readEvaluatorOptions(const ParameterReader& parameters) {
   EvaluatorOptions options;
   evaluate::EvaluationOptions& e = options.evaluation;
+  addDetectors(parameters, e.comparer.known);
   const std::vector<Field> rows = fieldsOf(options);
   takeSurf(parameters);
   parameters.read(rows);

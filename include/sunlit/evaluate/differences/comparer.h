@@ -17,7 +17,7 @@ class DetectorPool;
 
 struct ComparerOptions {
   Differences known;  ///< each with its options
-  std::vector<std::string> differences = known.names();
+  std::vector<std::string> differences = paperDifferences();
   RatioTest ratio_test;
 };
 

@@ -29,10 +29,12 @@ class Detector {
   virtual cv::Ptr<cv::Feature2D> make() const = 0;
 };
 
-/// `sift surf orb brisk`; surf only where it was built in.
+/// `sift surf orb brisk akaze kaze rootsift`; surf only where it was built in.
 const std::vector<std::string>& detectorTypes();
 /// With its usual parameters. Throws std::invalid_argument for what is not one of detectorTypes().
 std::unique_ptr<Detector> makeDetector(const std::string& type);
+/// The same for a name of one's own: what it is stands in a row `type` above the others.
+std::unique_ptr<Detector> makeTypedDetector(const std::string& type);
 
 /// Key points and descriptors of a grey picture.
 Features detectFeatures(const Detector& detector, const cv::Mat& grey);

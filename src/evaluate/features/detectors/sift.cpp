@@ -1,3 +1,7 @@
+#include <cmath>
+#include <numeric>
+#include <utility>
+
 #include "evaluate/features/detectors.h"
 
 namespace sunlit::evaluate {
@@ -29,7 +33,46 @@ class Sift : public Detector {
   double sigma_ = 1.6;
 };
 
+class RootSiftWorker : public cv::Feature2D {
+ public:
+  explicit RootSiftWorker(cv::Ptr<cv::Feature2D> sift) : sift_(std::move(sift)) {}
+  int descriptorSize() const override { return sift_->descriptorSize(); }
+  int descriptorType() const override { return CV_32F; }
+  int defaultNorm() const override { return cv::NORM_L2; }
+  bool empty() const override { return false; }
+
+  void detectAndCompute(cv::InputArray image, cv::InputArray mask, std::vector<cv::KeyPoint>& keypoints,
+                        cv::OutputArray descriptors, bool use_provided_keypoints) override {
+    cv::Mat bytes;
+    sift_->detectAndCompute(image, mask, keypoints, descriptors.needed() ? bytes : cv::noArray(),
+                            use_provided_keypoints);
+    if (!descriptors.needed()) return;
+    cv::Mat roots(bytes.size(), CV_32F, cv::Scalar(0));
+    for (int i = 0; i < bytes.rows; ++i) {
+      const uchar* from = bytes.ptr<uchar>(i);
+      const int sum = std::accumulate(from, from + bytes.cols, 0);
+      float* to = roots.ptr<float>(i);
+      for (int k = 0; k < bytes.cols && sum > 0; ++k)
+        to[k] = std::sqrt(static_cast<float>(from[k]) / static_cast<float>(sum));
+    }
+    descriptors.assign(roots);
+  }
+
+ private:
+  cv::Ptr<cv::Feature2D> sift_;
+};
+
+class RootSift : public Sift {
+ public:
+  std::unique_ptr<Detector> clone() const override { return std::make_unique<RootSift>(*this); }
+  cv::Ptr<cv::Feature2D> make() const override { return cv::makePtr<RootSiftWorker>(Sift::make()); }
+};
+
 }  // namespace
+
+std::unique_ptr<Detector> makeRootSift() {
+  return std::make_unique<RootSift>();
+}
 
 std::unique_ptr<Detector> makeSift() {
   return std::make_unique<Sift>();
