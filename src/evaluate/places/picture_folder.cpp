@@ -32,7 +32,8 @@ std::string endingOf(const std::string& name) {
 }
 
 bool isPicture(const std::string& name) {
-  static const std::vector<std::string> endings = {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp"};
+  static const std::vector<std::string> endings = {".png",  ".jpg",  ".jpeg", ".bmp", ".tif",
+                                                   ".tiff", ".webp", ".ppm",  ".pgm"};
   return std::find(endings.begin(), endings.end(), endingOf(name)) != endings.end();
 }
 
@@ -86,7 +87,8 @@ PictureFolder openPictureFolder(const std::string& folder) {
   }
   if (error) throw std::runtime_error(folder + ": the folder cannot be read: " + error.message());
   if (pictures.names.empty())
-    throw std::runtime_error(folder + ": holds no pictures (.png .jpg .jpeg .bmp .tif .tiff .webp)");
+    throw std::runtime_error(folder +
+                             ": holds no pictures (.png .jpg .jpeg .bmp .tif .tiff .webp .ppm .pgm)");
   std::sort(pictures.names.begin(), pictures.names.end(), isNamedBefore);
   return pictures;
 }

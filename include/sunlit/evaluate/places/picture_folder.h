@@ -19,9 +19,9 @@ struct PictureFolder {
 /// frame_10.png. Where that makes no difference (1.png, 01.png), byte by byte.
 bool isNamedBefore(const std::string& a, const std::string& b);
 
-/// Pictures are files, not below further folders, whose names end in .png .jpg .jpeg .bmp .tif .tiff or
-/// .webp, in small or capital letters. Hidden files count for nothing. Throws std::runtime_error "path: what
-/// is wrong" for a folder that is not there, cannot be read or holds no picture.
+/// Pictures are files, not below further folders, whose names end in .png .jpg .jpeg .bmp .tif .tiff .webp
+/// .ppm or .pgm, in small or capital letters. Hidden files count for nothing. Throws std::runtime_error
+/// "path: what is wrong" for a folder that is not there, cannot be read or holds no picture.
 PictureFolder openPictureFolder(const std::string& folder);
 
 /// A picture in grey, CV_8UC1, by the conversion that all detectors here go by; alpha is left out. Throws

@@ -211,10 +211,11 @@ TEST(PictureNames, AreInTheOrderOfTheirNumbers) {
 
 TEST(PictureFolders, HoldPicturesInTheirOrderAndCountOtherFiles) {
   const TemporaryFolder folder;
-  for (const std::string name : {"10.png", "9.PNG", "11.jpeg", "notes.txt", ".hidden.png", "below/1.png"})
+  for (const std::string name :
+       {"10.png", "9.PNG", "11.jpeg", "12.ppm", "notes.txt", ".hidden.png", "below/1.png"})
     setContent(folder.file(name), "");
   const PictureFolder pictures = openPictureFolder(folder.path());
-  EXPECT_EQ(pictures.names, (std::vector<std::string>{"9.PNG", "10.png", "11.jpeg"}));
+  EXPECT_EQ(pictures.names, (std::vector<std::string>{"9.PNG", "10.png", "11.jpeg", "12.ppm"}));
   EXPECT_EQ(pictures.other_files, 1u);
   EXPECT_EQ(pictures.file(0), folder.file("9.PNG"));
 }
@@ -229,7 +230,7 @@ TEST(PictureFolders, MustBeThereAndHoldPictures) {
   EXPECT_EQ(refusal(folder.file("a.png")), folder.file("a.png") + ": there is no such folder");
   setContent(folder.file("texts/a.txt"), "");
   EXPECT_EQ(refusal(folder.file("texts")),
-            folder.file("texts") + ": holds no pictures (.png .jpg .jpeg .bmp .tif .tiff .webp)");
+            folder.file("texts") + ": holds no pictures (.png .jpg .jpeg .bmp .tif .tiff .webp .ppm .pgm)");
 }
 
 TEST(PlaceFiles, HoldAllThatWasFound) {
