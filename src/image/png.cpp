@@ -6,6 +6,7 @@
 
 #include "read_file.h"
 #include "sunlit/image/files.h"
+#include "sunlit/image/texture_files.h"
 #include "sunlit/quantity/range.h"
 
 namespace sunlit::image {
@@ -28,16 +29,26 @@ void writePng(const std::string& path, const Rgb8Image& picture) {
   writeFileAtomically(path, encodePng(picture));
 }
 
-Rgb8Image readPng(const std::string& path) {
-  const std::string bytes = readWholeFile(path);
+namespace {
+
+bool isPng(const std::string& bytes) {
   static const std::string kSignature = "\x89PNG\r\n\x1a\n";
-  if (bytes.compare(0, kSignature.size(), kSignature) != 0) {
-    throw std::runtime_error(path + ": read: not a PNG file");
-  }
-  // The decoder fills what a cut-off file lacks with black, so look for the closing chunk first.
+  return bytes.compare(0, kSignature.size(), kSignature) == 0;
+}
+
+// The decoder fills what a cut-off file lacks with black, so look for the closing chunk first.
+void requireClosed(const std::string& bytes, const std::string& path) {
   if (bytes.size() < 12 || bytes.compare(bytes.size() - 8, 4, "IEND") != 0) {
     throw std::runtime_error(path + ": read: the file is cut off");
   }
+}
+
+}  // namespace
+
+Rgb8Image readPng(const std::string& path) {
+  const std::string bytes = readWholeFile(path);
+  if (!isPng(bytes)) throw std::runtime_error(path + ": read: not a PNG file");
+  requireClosed(bytes, path);
   const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
   cv::Mat decoded;
   try {
@@ -54,6 +65,17 @@ Rgb8Image readPng(const std::string& path) {
   Rgb8Image picture(decoded.cols, decoded.rows);
   cv::Mat rgb(picture.height, picture.width, CV_8UC3, picture.data.data());
   cv::cvtColor(decoded, rgb, cv::COLOR_BGR2RGB);
+  return picture;
+}
+
+Rgb8Image readPhotograph(const std::string& path) {
+  const std::string bytes = readWholeFile(path);
+  if (isPng(bytes)) requireClosed(bytes, path);
+  Rgba8Image decoded = decodeRgba(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), path);
+  Rgb8Image picture(decoded.width, decoded.height);
+  const cv::Mat rgba(decoded.height, decoded.width, CV_8UC4, decoded.data.data());
+  cv::Mat rgb(picture.height, picture.width, CV_8UC3, picture.data.data());
+  cv::cvtColor(rgba, rgb, cv::COLOR_RGBA2RGB);
   return picture;
 }
 

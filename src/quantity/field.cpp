@@ -78,6 +78,19 @@ Type checkedType(const Field& field, const Value& value, const std::string& call
   return *typed;
 }
 
+/// "a,b" as a list.
+std::vector<std::string> wordsOf(const std::string& text) {
+  std::vector<std::string> words(1);
+  for (const char c : text) {
+    if (c == ',') {
+      words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  return words;
+}
+
 /// One or more of the words, each once.
 std::vector<std::string> checkedWords(const Field& field, const Choices& choices, const Value& value,
                                       const std::string& called) {
@@ -158,6 +171,7 @@ void Field::setText(const std::string& text, const std::string& called) const {
     return set(text, called);
   if (std::holds_alternative<bool*>(place))
     return text == "true" || text == "false" ? set(text == "true", called) : set(text, called);
+  if (std::holds_alternative<Choices>(place)) return set(wordsOf(text), called);
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
   const bool is_number = !text.empty() && *end == '\0' && std::isfinite(number);

@@ -88,7 +88,11 @@ std::string Option::explained(const std::string& default_text) const {
 std::string Option::usual() const {
   std::vector<std::string> parts;
   for (const Field& row : rows_) {
-    if (!std::holds_alternative<std::vector<std::string>*>(row.place)) parts.push_back(row.text());
+    if (const auto* choices = std::get_if<Choices>(&row.place)) {
+      parts.push_back(joinedBy(",", choices->get()));
+    } else if (!std::holds_alternative<std::vector<std::string>*>(row.place)) {
+      parts.push_back(row.text());
+    }
   }
   return joinedBy(std::string(1, separator_), parts);
 }
@@ -137,6 +141,10 @@ Option& CommandLine::add(const std::string& form, const std::string& doc, std::v
   return groups_.back().options.back();
 }
 
+void CommandLine::takeWords(std::vector<std::string>* words) {
+  words_ = words;
+}
+
 bool CommandLine::has(const std::string& option) const {
   return std::any_of(given_.begin(), given_.end(), [&](const auto& pair) { return pair.first == option; });
 }
@@ -165,19 +173,24 @@ po::options_description described(const std::string& heading, const std::deque<O
   return described;
 }
 
-/// Options, by their names, and their values, in their order; an option that is unknown, and a word that is
-/// none, as it was typed.
-std::vector<std::pair<std::string, std::string>> wordsOf(const std::vector<std::string>& arguments,
-                                                         const po::options_description& known) {
+/// What was typed, in its order.
+struct Typed {
+  std::string name;  ///< of an option; of one that is unknown, and of a word that is none, as it was typed
+  std::string value;
+  bool is_word = false;  ///< and no option
+};
+
+std::vector<Typed> typedWords(const std::vector<std::string>& arguments,
+                              const po::options_description& known) {
   constexpr int kWholeNames = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-  std::vector<std::pair<std::string, std::string>> words;
+  std::vector<Typed> words;
   try {
     const auto parsed =
         po::command_line_parser(arguments).options(known).style(kWholeNames).allow_unregistered().run();
     for (const po::option& option : parsed.options) {
       const bool is_known = !option.unregistered && !option.string_key.empty();
-      words.emplace_back(is_known ? "--" + option.string_key : option.original_tokens.at(0),
-                         option.value.empty() ? std::string() : option.value[0]);
+      words.push_back({is_known ? "--" + option.string_key : option.original_tokens.at(0),
+                       option.value.empty() ? std::string() : option.value[0], option.string_key.empty()});
     }
   } catch (const po::invalid_command_line_syntax& error) {
     if (error.kind() == po::invalid_syntax::extra_parameter)
@@ -198,12 +211,16 @@ po::options_description CommandLine::described() const {
 
 bool CommandLine::read(const std::vector<std::string>& arguments) {
   const po::options_description known = described();
-  for (const auto& [name, value] : wordsOf(arguments, known)) {
+  for (const auto& [name, value, is_word] : typedWords(arguments, known)) {
     if (name == "--help") {
       std::ostringstream text;
       text << about_ << "\n\nusage: " << usage_ << "\n\n" << known;
       std::fputs(text.str().c_str(), stdout);
       return false;
+    }
+    if (is_word && words_ != nullptr) {
+      words_->push_back(name);
+      continue;
     }
     const Option* const option = find(name);
     if (option == nullptr) throw std::invalid_argument("there is no option " + name + "; --help lists all");

@@ -61,6 +61,10 @@ class CommandLine {
   Option& add(const std::string& form, const Field& row);
   Option& add(const std::string& form, const std::string& doc, std::vector<Field> rows);
 
+  /// Words that belong to no option, as A and B in "usage: tool --out DIR A B", are put behind `*words` in
+  /// their order. Without this there are none.
+  void takeWords(std::vector<std::string>* words);
+
   /// Lets each option take its value, in their order; of one that is given twice the last counts, unless it
   /// collects. False once --help has printed what there is. Throws std::invalid_argument for an option that
   /// there is not, whole, for one without a value, or with an empty one, and what Option::take() throws.
@@ -82,6 +86,7 @@ class CommandLine {
 
   std::string about_, usage_;
   std::deque<Group> groups_;
+  std::vector<std::string>* words_ = nullptr;
   std::vector<std::pair<std::string, std::string>> given_;
 };
 

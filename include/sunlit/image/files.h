@@ -23,6 +23,9 @@ std::string encodePng(const Rgb8Image& picture);
 /// Any PNG of 8 bits a channel; grey becomes three equal channels, alpha is dropped. Deeper ones are an
 /// error, since rounding them would lose data silently.
 Rgb8Image readPng(const std::string& path);
+/// Any PNG, JPEG, PPM, BMP, TIFF or WebP, as decodeRgba() has it, without alpha; a PNG that is cut off is an
+/// error.
+Rgb8Image readPhotograph(const std::string& path);
 
 /// Portable float map, exact to the bit (NaN included): little-endian, bottom row first, as the format has
 /// it.

@@ -19,16 +19,13 @@ void forEachTask(std::size_t count, const Body& body) {
 }
 
 std::vector<Field> rowsOf(ComparerOptions& options, const std::vector<std::string>& names) {
-  RatioTest& test = options.ratio_test;
-  return joined(
-      {{{"differences",
-         someOf(options.known, &options.differences),
-         "",
-         {},
-         "by name; surf only where it was built in"},
-        {"ratio", &test.ratio, "", Range::above(0, 1), "a match counts where best < ratio * second best"},
-        {"inclusive", &test.inclusive, "", {}, "<= instead of <: a query with a twin then passes"}},
-       options.known.fieldsOf(names)});
+  return joined({{{"differences",
+                   someOf(options.known, &options.differences),
+                   "",
+                   {},
+                   "by name; surf only where it was built in"}},
+                 fieldsOf(options.ratio_test),
+                 options.known.fieldsOf(names)});
 }
 
 }  // namespace

@@ -16,10 +16,16 @@ double differenceOf(double features, double matched) {
 }  // namespace
 
 DifferenceValue featureDifference(const Features& a, const Features& b, int norm, const RatioTest& test) {
+  return featureDifference(
+      twoNearestBothWays(a.descriptors, b.descriptors, norm),
+      {static_cast<std::size_t>(a.descriptors.rows), static_cast<std::size_t>(b.descriptors.rows)}, test);
+}
+
+DifferenceValue featureDifference(const BothWays& nearest, const FeatureCounts& counts,
+                                  const RatioTest& test) {
   DifferenceValue result;
-  result.features_a = static_cast<std::uint32_t>(a.descriptors.rows);
-  result.features_b = static_cast<std::uint32_t>(b.descriptors.rows);
-  const BothWays nearest = twoNearestBothWays(a.descriptors, b.descriptors, norm);
+  result.features_a = static_cast<std::uint32_t>(counts.a);
+  result.features_b = static_cast<std::uint32_t>(counts.b);
   for (std::size_t i = 0; i < nearest.from_a.size(); ++i) {
     const Neighbours& there = nearest.from_a[i];
     if (there.second_distance == 0.0F) ++result.zero_second;

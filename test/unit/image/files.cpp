@@ -66,6 +66,27 @@ TEST_F(Files, RedStaysRed) {
   EXPECT_EQ(readPng(path("again.png")).data, red.data);
 }
 
+TEST_F(Files, PhotographsAreReadInAnyFormat) {
+  put("a.ppm", std::string("P6\n2 1\n255\n") + "\xff\x80\x01" + "\x02\x03\x04");
+  const Rgb8Image picture = readPhotograph(path("a.ppm"));
+  EXPECT_EQ(picture.width, 2);
+  EXPECT_EQ(picture.data, (std::vector<std::uint8_t>{255, 128, 1, 2, 3, 4}));
+  put("deep.ppm", std::string("P6\n1 1\n65535\n\xff\xff\x80\x80\x01\x01", 19));
+  EXPECT_EQ(readPhotograph(path("deep.ppm")).data,
+            (std::vector<std::uint8_t>{255, 128, 1}));  // v · 255 / 65535
+  writePng(path("a.png"), pattern());
+  EXPECT_EQ(readPhotograph(path("a.png")).data, pattern().data);
+  const std::string whole = encodePng(pattern());
+  put("cut.png", whole.substr(0, whole.size() / 2));
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { readPhotograph(path("cut.png")); }),
+            path("cut.png") + ": read: the file is cut off");
+  put("text.png", "text");
+  EXPECT_EQ(
+      messageOf<std::runtime_error>([&] { readPhotograph(path("text.png")); }).rfind(path("text.png"), 0),
+      0u);
+  EXPECT_NE(messageOf<std::runtime_error>([&] { readPhotograph(path("absent.png")); }), "");
+}
+
 TEST_F(Files, TheSamePictureGivesTheSameBytes) {
   EXPECT_EQ(encodePng(pattern()), encodePng(pattern()));
 }

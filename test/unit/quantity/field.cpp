@@ -86,6 +86,10 @@ TEST(Field, OfSeveralWordsTakesEachOnce) {
   EXPECT_EQ(refusalOf("colours", std::vector<std::string>{"red", "red"}), "colours is [red, red]" + allowed);
   EXPECT_EQ(refusalOf("colours", std::vector<std::string>{}), "colours is []" + allowed);
   EXPECT_EQ(refusalOf("colours", "red"), "colours is \"red\"" + allowed);
+  colours.setText("blue,red", "--colours");
+  EXPECT_EQ(options.colours, (std::vector<std::string>{"blue", "red"}));
+  EXPECT_EQ(messageOf([&] { colours.setText("blue,,red", "--colours"); }),
+            "--colours is [blue, , red]" + allowed);
 }
 
 TEST(Field, OfAWholeNumberOf64BitsTakesNoOther) {

@@ -1,6 +1,7 @@
 /// The difference made of matched features: equations (7) and (8) of the paper.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "sunlit/evaluate/differences/difference.h"
@@ -17,6 +18,16 @@ namespace sunlit::evaluate {
 /// are accepted from a to b and from b to a, as COLMAP's cross-check counts them: in [0, 1] and the same both
 /// ways. `norm` is a cv::NormTypes.
 DifferenceValue featureDifference(const Features& a, const Features& b, int norm, const RatioTest& test);
+
+/// Numbers of descriptors.
+struct FeatureCounts {
+  std::size_t a = 0;
+  std::size_t b = 0;
+};
+
+/// The same, of neighbours that are known already.
+DifferenceValue featureDifference(const BothWays& nearest, const FeatureCounts& counts,
+                                  const RatioTest& test);
 
 /// That of a detector's features; its options are the detector's.
 std::unique_ptr<Difference> makeFeatureDifference(std::unique_ptr<Detector> detector);

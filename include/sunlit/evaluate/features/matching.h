@@ -4,6 +4,8 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "sunlit/quantity/field.h"
+
 namespace sunlit::evaluate {
 
 /// A query's best match is accepted where best < ratio · second best.
@@ -12,6 +14,11 @@ struct RatioTest {
   bool inclusive =
       false;  ///< accept best = ratio · second too, so that a twin of equal descriptor (0 = 0.5 · 0) passes
 };
+
+inline std::vector<Field> fieldsOf(RatioTest& test) {
+  return {{"ratio", &test.ratio, "", Range::above(0, 1), "a match counts where best < ratio * second best"},
+          {"inclusive", &test.inclusive, "", {}, "<= instead of <: a query with a twin then passes"}};
+}
 
 /// The two nearest descriptors of one query.
 struct Neighbours {
