@@ -146,7 +146,7 @@ class EvaluatePair(unittest.TestCase):
         whole = pathlib.Path(picture).read_bytes()
         pathlib.Path(self.path("cut.png")).write_bytes(whole[:len(whole) // 2])
         self.assertIn("cut.png: read: the file is cut off", self.refused(*out, picture, self.path("cut.png")))
-        self.assertIn("--detectors is [sift, fast], but must be a list of some of sift, surf, orb, brisk, each once",
+        self.assertIn("--detectors is [sift, fast], but must be a list of some of sift, surf, orb, brisk, akaze, kaze, rootsift, each once",
                       self.refused(*out, "--detectors", "sift,fast", picture, picture))
         self.assertIn("each once", self.refused(*out, "--detectors", "sift,sift", picture, picture))
         self.assertIn("--ratio is 1.1, but must be", self.refused(*out, "--ratio", "1.1", picture, picture))

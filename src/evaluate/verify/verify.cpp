@@ -174,6 +174,16 @@ Verified verify(const FeaturePair& features, const PointMaps& maps, const RatioT
   return verified;
 }
 
+std::vector<std::string> paperDetectors() {
+  std::vector<std::string> names = paperDifferences();
+  const std::vector<std::string>& types = detectorTypes();
+  names.erase(std::remove_if(
+                  names.begin(), names.end(),
+                  [&](const std::string& name) { return std::count(types.begin(), types.end(), name) == 0; }),
+              names.end());
+  return names;
+}
+
 std::vector<Field> fieldsOf(VerifyOptions& options) {
   std::vector<std::string>* const names = &options.detectors;
   const Choices choices{detectorTypes(), [names] { return *names; },

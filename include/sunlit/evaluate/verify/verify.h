@@ -66,9 +66,12 @@ struct FeaturePair {
 /// (std::invalid_argument otherwise).
 Verified verify(const FeaturePair& features, const PointMaps& maps, const RatioTest& test);
 
+/// Those of paperDifferences() that match features.
+std::vector<std::string> paperDetectors();
+
 struct VerifyOptions {
   Differences known;  ///< whose detectors are used, with their parameters
-  std::vector<std::string> detectors = detectorTypes();
+  std::vector<std::string> detectors = paperDetectors();
   RatioTest ratio_test;
 };
 

@@ -21,9 +21,9 @@ const cv::Mat kPicture = rgbOf(test::madePicture(400, 300));
 
 TEST(VerifiedPictures, AreFoundAgainWholeInThemselves) {
   const auto verified = verifyImages({kPicture, kPicture}, identityMaps({400, 300}), {});
-  ASSERT_EQ(verified.size(), detectorTypes().size());
+  ASSERT_EQ(verified.size(), paperDetectors().size());
   for (std::size_t d = 0; d < verified.size(); ++d) {
-    SCOPED_TRACE(detectorTypes()[d]);
+    SCOPED_TRACE(paperDetectors()[d]);
     const Verified& v = verified[d];
     ASSERT_GT(v.difference.features_a, 100u);
     EXPECT_EQ(v.common_a, v.difference.features_a);
@@ -49,7 +49,7 @@ TEST(VerifiedPictures, AreFoundAgainWholeWhereTheyAreMovedByWholePixels) {
   const auto verified = verifyImages({kPicture, b}, right, {});
   const auto unmoved = verifyImages({kPicture, b}, wrong, {});
   for (std::size_t d = 0; d < verified.size(); ++d) {
-    SCOPED_TRACE(detectorTypes()[d]);
+    SCOPED_TRACE(paperDetectors()[d]);
     EXPECT_GT(verified[d].precision, 0.95);
     EXPECT_GT(verified[d].matching_accuracy[2], 0.8);
     EXPECT_GT(verified[d].repeatability, 0.7);
@@ -69,7 +69,7 @@ TEST(VerifiedPictures, GiveTheSameBitsForAnyNumberOfThreads) {
   cv::setNumThreads(-1);
   ASSERT_EQ(alone.size(), expected.size());
   for (std::size_t d = 0; d < alone.size(); ++d) {
-    SCOPED_TRACE(detectorTypes()[d]);
+    SCOPED_TRACE(paperDetectors()[d]);
     EXPECT_GT(expected[d].mutual_matches, 50u);
     EXPECT_EQ(alone[d].repeatability, expected[d].repeatability);
     EXPECT_EQ(alone[d].matching_score, expected[d].matching_score);
