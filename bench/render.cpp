@@ -18,7 +18,7 @@
 
 #include "drive.h"
 #include "render/frustum.h"
-#include "render/rasteriser.h"
+#include "render/rasterizer.h"
 #include "render/resolve.h"
 #include "sunlit/image/exposure.h"
 #include "sunlit/light/final_gather.h"
@@ -51,15 +51,15 @@ struct Stage {
     geometry = std::make_shared<const light::Geometry>(scene);
     visibility = std::make_shared<light::Visibility>(geometry);
     pyramids = std::make_unique<render::TexturePyramids>(*scene);
-    rasteriser = make(render::defaultRasterizer());
+    rasterizer = make(render::defaultRasterizer());
   }
-  std::unique_ptr<render::Rasteriser> make(render::Rasterizer rasterizer) const {
-    return render::makeRasteriser(rasterizer, {geometry, *pyramids, 0.0});
+  std::unique_ptr<render::Rasterizer> make(render::RasterizerKind kind) const {
+    return render::makeRasterizer(kind, {geometry, *pyramids, 0.0});
   }
   void look(std::size_t pose, double metres_on = 0.0) {
     view.map_from_optical =
         poses[pose % poses.size()] * Eigen::Translation3d(metres_on * Eigen::Vector3d::UnitZ());
-    rasteriser->draw(view, nullptr, &samples);
+    rasterizer->draw(view, nullptr, &samples);
   }
   render::Seen seen() const { return {view, *geometry, nullptr, *pyramids, 0.0f, samples}; }
   void resolve() { render::resolveSurfaces(seen(), &surfaces); }
@@ -74,7 +74,7 @@ struct Stage {
   std::shared_ptr<const light::Visibility> visibility;
   std::shared_ptr<const light::Transport> transport;  ///< see baked()
   std::unique_ptr<render::TexturePyramids> pyramids;
-  std::unique_ptr<render::Rasteriser> rasteriser;
+  std::unique_ptr<render::Rasterizer> rasterizer;
   std::vector<render::Sample> samples;
   light::Surfaces surfaces;
 };
@@ -90,15 +90,15 @@ Stage* stage(benchmark::State& state) {
   return stages[world].get();
 }
 
-/// The share of samples that see another triangle than `rasteriser`'s, over all poses.
-double shareDiffering(Stage* s, render::Rasteriser* rasteriser) {
-  const std::unique_ptr<render::Rasteriser> ours = s->make(render::Rasterizer::kBuiltin);
+/// The share of samples that see another triangle than `rasterizer`'s, over all poses.
+double shareDiffering(Stage* s, render::Rasterizer* rasterizer) {
+  const std::unique_ptr<render::Rasterizer> ours = s->make(render::RasterizerKind::kBuiltin);
   std::vector<render::Sample> samples, others;
   std::size_t differing = 0;
   for (const Eigen::Isometry3d& pose : s->poses) {
     s->view.map_from_optical = pose;
     ours->draw(s->view, nullptr, &samples);
-    rasteriser->draw(s->view, nullptr, &others);
+    rasterizer->draw(s->view, nullptr, &others);
     for (std::size_t i = 0; i < samples.size(); ++i) differing += samples[i].triangle != others[i].triangle;
   }
   return static_cast<double>(differing) / static_cast<double>(samples.size() * s->poses.size());
@@ -108,18 +108,18 @@ double shareDiffering(Stage* s, render::Rasteriser* rasteriser) {
 void draw(benchmark::State& state) {
   Stage* s = stage(state);
   if (!s) return;
-  const auto rasterizer = static_cast<render::Rasterizer>(state.range(1));
-  std::unique_ptr<render::Rasteriser> rasteriser;
+  const auto kind = static_cast<render::RasterizerKind>(state.range(1));
+  std::unique_ptr<render::Rasterizer> rasterizer;
   try {
-    rasteriser = s->make(rasterizer);
+    rasterizer = s->make(kind);
   } catch (const std::runtime_error& error) {
     return state.SkipWithError(error.what());
   }
-  state.counters["differing"] = shareDiffering(s, rasteriser.get());  // the first picture makes buffers, too
+  state.counters["differing"] = shareDiffering(s, rasterizer.get());  // the first picture makes buffers, too
   std::size_t pose = 0, triangles = 0;
   for (auto _ : state) {
     s->view.map_from_optical = s->poses[pose++ % s->poses.size()];
-    rasteriser->draw(s->view, nullptr, &s->samples);
+    rasterizer->draw(s->view, nullptr, &s->samples);
   }
   for (std::size_t i = 0; i < pose; ++i) {
     s->view.map_from_optical = s->poses[i % s->poses.size()];
@@ -127,7 +127,7 @@ void draw(benchmark::State& state) {
     for (const light::Chunk& chunk : s->geometry->chunks)
       triangles += frustum.touches(chunk.box) ? chunk.count : 0;
   }
-  state.SetLabel(render::nameOf(rasterizer) + " " + rasteriser->device());
+  state.SetLabel(render::nameOf(kind) + " " + rasterizer->device());
   state.counters["triangles_in_view"] =
       benchmark::Counter(static_cast<double>(triangles), benchmark::Counter::kAvgIterations);
   state.counters["triangles_per_second"] =
@@ -136,7 +136,7 @@ void draw(benchmark::State& state) {
       benchmark::Counter(static_cast<double>(pose * s->samples.size()), benchmark::Counter::kIsRate);
 }
 
-/// Writing a picture's samples and nothing else: what memory allows the rasteriser.
+/// Writing a picture's samples and nothing else: what memory allows the rasterizer.
 void writeSamples(benchmark::State& state) {
   constexpr int kRows = 2 * 480, kColumns = 2 * 640;
   std::vector<render::Sample> samples(static_cast<std::size_t>(kRows * kColumns));
@@ -252,7 +252,7 @@ void pose(benchmark::State& state) {
 }
 
 /// Rays from every sample to the middle of the sun, or the camera's own: what bounds the light and what could
-/// stand in for the rasteriser.
+/// stand in for the rasterizer.
 void castRays(benchmark::State& state, bool from_camera) {
   const Eigen::Vector3f sun = daylightAt(from_camera ? 60.0 : static_cast<double>(state.range(1)))
                                   .sun()

@@ -23,7 +23,7 @@ bool Frustum::touches(const Eigen::AlignedBox3f& box) const {
   const Eigen::Vector3d centre = box.center().cast<double>();
   const Eigen::Vector3d half = 0.5 * box.sizes().cast<double>();
   return std::all_of(sides_.begin(), sides_.end(), [&](const HalfSpace& side) {
-    // A millimetre against rounding, and half a step of the rasteriser's grid at any distance.
+    // A millimetre against rounding, and half a step of the rasterizer's grid at any distance.
     const double reach = side.inwards.cwiseAbs().dot(half) + 1e-3;
     return side.inwards.dot(centre) + reach >= side.offset;
   });

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/rasteriser.h"
+#include "render/rasterizer.h"
 #include "render/resolve.h"
 #include "sunlit/light/body_light.h"
 #include "sunlit/light/final_gather.h"
@@ -39,8 +39,8 @@ class Renderer::Implementation {
         view_(viewOf(options)),
         world_(world),
         pyramids_(*world.geometry->scene),
-        rasteriser_(
-            makeRasteriser(options.rasterizer, {world.geometry, pyramids_, options.texture_lod_bias})) {
+        rasterizer_(
+            makeRasterizer(options.rasterizer, {world.geometry, pyramids_, options.texture_lod_bias})) {
     if (world_.transport && options.final_gather > 0) {
       final_gather_ =
           std::make_unique<light::FinalGather>(world_.geometry, world_.visibility, options.final_gather);
@@ -85,7 +85,7 @@ class Renderer::Implementation {
   const RenderOptions& options() const { return options_; }
 
   std::string rasterizer() const {
-    const std::string device = rasteriser_->device();
+    const std::string device = rasterizer_->device();
     return nameOf(options_.rasterizer) + (device.empty() ? "" : ": " + device);
   }
 
@@ -120,7 +120,7 @@ class Renderer::Implementation {
     seen.view = view_;
     seen.view.map_from_optical = map_from_optical;
     try {
-      rasteriser_->draw(seen.view, seen.bodies.get(), &seen.samples);
+      rasterizer_->draw(seen.view, seen.bodies.get(), &seen.samples);
       resolve(seen);
     } catch (...) {
       seen.samples.clear();
@@ -156,8 +156,8 @@ class Renderer::Implementation {
   RenderOptions options_;
   View view_;  // without a pose
   light::World world_;
-  TexturePyramids pyramids_;  // before the rasteriser, which refers to them
-  std::unique_ptr<Rasteriser> rasteriser_;
+  TexturePyramids pyramids_;  // before the rasterizer, which refers to them
+  std::unique_ptr<Rasterizer> rasterizer_;
   std::unique_ptr<light::FinalGather> final_gather_;    // where it is asked for
   std::unique_ptr<const light::BodyLight> body_light_;  // where there are bodies
   Pose seen_;

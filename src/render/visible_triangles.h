@@ -1,4 +1,4 @@
-/// What of a world a picture may show, on its way to any rasteriser.
+/// What of a world a picture may show, on its way to any rasterizer.
 #pragma once
 
 #include <functional>

@@ -13,7 +13,7 @@
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/world.h"
 #include "sunlit/quantity/field.h"
-#include "sunlit/render/rasterizer.h"
+#include "sunlit/render/rasterizer_kind.h"
 #include "sunlit/scene/scene.h"
 
 namespace sunlit::render {
@@ -27,7 +27,7 @@ struct RenderOptions {
   /// 0: the sky is seen as baked. Else light::FinalGather with so many rays a patch looks closer, where light
   /// is baked. What that brings and costs: README.md.
   int final_gather = 0;
-  Rasterizer rasterizer = defaultRasterizer();
+  RasterizerKind rasterizer = defaultRasterizer();
 };
 
 inline std::vector<Field> fieldsOf(RenderOptions& options) {

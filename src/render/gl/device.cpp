@@ -7,12 +7,12 @@
 
 namespace sunlit::render::gl {
 
-std::shared_ptr<Device> Device::of(Rasterizer kind) {
+std::shared_ptr<Device> Device::of(RasterizerKind kind) {
   static std::mutex mutex;
   static std::array<std::weak_ptr<Device>, 2> devices;
   static std::array<bool, 2> ends_with_process{};
   const std::lock_guard<std::mutex> lock(mutex);
-  const std::size_t number = kind == Rasterizer::kOsmesa ? 0 : 1;
+  const std::size_t number = kind == RasterizerKind::kOsmesa ? 0 : 1;
   std::shared_ptr<Device> device = devices[number].lock();
   if (device) return device;
   devices[number] = device = std::make_shared<Device>(kind);
@@ -27,7 +27,7 @@ std::shared_ptr<Device> Device::of(Rasterizer kind) {
   return device;
 }
 
-Device::Device(Rasterizer kind) : kind_(kind), thread_([this] { serve(); }) {
+Device::Device(RasterizerKind kind) : kind_(kind), thread_([this] { serve(); }) {
   try {
     run([this](const Functions& gl) {
       renderer_ = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
@@ -66,12 +66,12 @@ bool Device::run(const Work& work) {
 void Device::start() {
   switch (kind_) {
 #ifdef SUNLIT_HAS_OSMESA
-    case Rasterizer::kOsmesa:
+    case RasterizerKind::kOsmesa:
       context_ = makeOsmesaContext();
       break;
 #endif
 #ifdef SUNLIT_HAS_EGL
-    case Rasterizer::kEgl:
+    case RasterizerKind::kEgl:
       context_ = makeEglContext();
       break;
 #endif

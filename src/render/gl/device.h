@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "render/gl/function_table.h"
-#include "sunlit/render/rasterizer.h"
+#include "sunlit/render/rasterizer_kind.h"
 
 namespace sunlit::render::gl {
 
@@ -18,9 +18,9 @@ class Device {
  public:
   /// The process's one device of a kind, kOsmesa or kEgl; started by the first that asks for it, and ended
   /// with the last that holds it. Throws std::runtime_error saying why it cannot start.
-  static std::shared_ptr<Device> of(Rasterizer kind);
+  static std::shared_ptr<Device> of(RasterizerKind kind);
 
-  explicit Device(Rasterizer kind);
+  explicit Device(RasterizerKind kind);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -38,7 +38,7 @@ class Device {
   void start();
   void end();
 
-  const Rasterizer kind_;
+  const RasterizerKind kind_;
   std::string renderer_;
   std::unique_ptr<Context> context_;
   std::unique_ptr<const Functions> functions_;

@@ -1,4 +1,4 @@
-/// What a rasteriser holds in OpenGL.
+/// What a rasterizer holds in OpenGL.
 #pragma once
 
 #include <string>

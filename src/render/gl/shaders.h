@@ -1,4 +1,4 @@
-/// What the rasteriser asks of OpenGL, in its own language.
+/// What the rasterizer asks of OpenGL, in its own language.
 #pragma once
 
 namespace sunlit::render::gl {

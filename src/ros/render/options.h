@@ -34,7 +34,7 @@ struct CameraOptions {
   int height = 480;
   Angle horizontal_fov = Angle::degrees(60.0);
   int supersampling = 2;
-  render::Rasterizer rasterizer = render::defaultRasterizer();
+  render::RasterizerKind rasterizer = render::defaultRasterizer();
   bool follow_tf = false;
   std::string follow_frame = "base_link";
 };

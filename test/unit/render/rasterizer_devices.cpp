@@ -13,7 +13,7 @@
 namespace sunlit::test {
 namespace {
 
-using render::Rasterizer;
+using render::RasterizerKind;
 
 scene::Scene fence() {
   scene::Scene scene;
@@ -32,14 +32,14 @@ scene::Scene fence() {
 }
 
 /// A picture of the fence in one number (FNV-1a).
-std::uint64_t picture(Rasterizer rasterizer) {
+std::uint64_t picture(RasterizerKind kind) {
   const auto geometry = std::make_shared<const light::Geometry>(shared(fence()));
   const render::TexturePyramids pyramids(*geometry->scene);
-  const auto rasteriser = render::makeRasteriser(rasterizer, {geometry, pyramids, 0.0});
+  const auto rasterizer = render::makeRasterizer(kind, {geometry, pyramids, 0.0});
   std::vector<render::Sample> samples;
   std::uint64_t hash = 14695981039346656037u;
   for (const double y : {-2.0, 0.3}) {
-    rasteriser->draw(viewFrom(lookingAt({0.0, y, 1.4}, {20.0, 0.0, 0.5}), 320, 240), nullptr, &samples);
+    rasterizer->draw(viewFrom(lookingAt({0.0, y, 1.4}, {20.0, 0.0, 0.5}), 320, 240), nullptr, &samples);
     const auto* const bytes = reinterpret_cast<const std::uint8_t*>(samples.data());
     for (std::size_t i = 0; i < samples.size() * sizeof(samples[0]); ++i)
       hash = (hash ^ bytes[i]) * 1099511628211u;
@@ -49,11 +49,11 @@ std::uint64_t picture(Rasterizer rasterizer) {
 
 /// What this program prints as a child with more in its environment, see the case below; with its exit
 /// status.
-std::string child(Rasterizer rasterizer, const std::string& environment) {
+std::string child(RasterizerKind kind, const std::string& environment) {
   std::array<char, 4096> self{};
   if (::readlink("/proc/self/exe", self.data(), self.size() - 1) < 0) return "no /proc/self/exe";
   const std::string command =
-      environment + " SUNLIT_TEST_RASTERIZER=" + render::nameOf(rasterizer) + " '" + self.data() +
+      environment + " SUNLIT_TEST_RASTERIZER=" + render::nameOf(kind) + " '" + self.data() +
       "' --gtest_also_run_disabled_tests --gtest_filter='*DISABLED_Child*' 2>/dev/null";
   std::string text;
   std::FILE* const pipe = ::popen(command.c_str(), "r");
@@ -67,7 +67,7 @@ std::string child(Rasterizer rasterizer, const std::string& environment) {
   return text + (WIFEXITED(status) && WEXITSTATUS(status) == 0 ? "" : "ended badly");
 }
 
-Rasterizer named(const std::string& name) {
+RasterizerKind named(const std::string& name) {
   render::RenderOptions options;
   fieldOf(fieldsOf(options), "rasterizer").setText(name, "--rasterizer");
   return options.rasterizer;
@@ -92,7 +92,7 @@ TEST_P(Device, GivesTheSameBitsInEveryRunAndForAnyNumberOfItsThreads) {
     EXPECT_EQ(child(GetParam(), environment), first) << environment;
 }
 
-TEST_P(Device, ServesManyRasterisersOfManyThreadsAtOnce) {
+TEST_P(Device, ServesManyRasterizersOfManyThreadsAtOnce) {
   const std::uint64_t alone = picture(GetParam());
   std::vector<std::future<std::uint64_t>> meanwhile;
   for (int i = 0; i < 4; ++i) meanwhile.push_back(std::async(std::launch::async, picture, GetParam()));
@@ -108,7 +108,7 @@ TEST_P(Device, IsNamedByTheRenderer) {
 SUNLIT_INSTANTIATE_FOR_ALL(Device);
 
 /// Whether this build has it.
-bool has(Rasterizer rasterizer) {
+bool has(RasterizerKind rasterizer) {
   const auto built = render::builtRasterizers();
   return std::find(built.begin(), built.end(), rasterizer) != built.end();
 }
@@ -122,14 +122,14 @@ void expectRefusal(const std::string& line, const std::string& name) {
 }
 
 TEST(RasterizerThatCannotStart, IsOneLineThatNamesTheOthers) {
-  if (has(Rasterizer::kOsmesa))
-    expectRefusal(child(Rasterizer::kOsmesa, "MESA_GL_VERSION_OVERRIDE=3.3"), "osmesa");
-  if (has(Rasterizer::kEgl))
-    expectRefusal(child(Rasterizer::kEgl, "__EGL_VENDOR_LIBRARY_FILENAMES=/nowhere.json"), "egl");
+  if (has(RasterizerKind::kOsmesa))
+    expectRefusal(child(RasterizerKind::kOsmesa, "MESA_GL_VERSION_OVERRIDE=3.3"), "osmesa");
+  if (has(RasterizerKind::kEgl))
+    expectRefusal(child(RasterizerKind::kEgl, "__EGL_VENDOR_LIBRARY_FILENAMES=/nowhere.json"), "egl");
 }
 
 TEST(RasterizerThatWasLeftOut, IsOneLineThatNamesTheOthers) {
-  for (const Rasterizer rasterizer : {Rasterizer::kOsmesa, Rasterizer::kEgl}) {
+  for (const RasterizerKind rasterizer : {RasterizerKind::kOsmesa, RasterizerKind::kEgl}) {
     if (has(rasterizer)) continue;
     const std::string line = messageOf<std::runtime_error>([&] { picture(rasterizer); });
     expectRefusal(line + "\n", render::nameOf(rasterizer));
@@ -138,7 +138,8 @@ TEST(RasterizerThatWasLeftOut, IsOneLineThatNamesTheOthers) {
 }
 
 TEST(Rasterizer, IsChosenByName) {
-  for (const Rasterizer rasterizer : {Rasterizer::kOsmesa, Rasterizer::kEgl, Rasterizer::kBuiltin})
+  for (const RasterizerKind rasterizer :
+       {RasterizerKind::kOsmesa, RasterizerKind::kEgl, RasterizerKind::kBuiltin})
     EXPECT_EQ(named(render::nameOf(rasterizer)), rasterizer);
   const std::string refused = messageOf([] { named("Mesa"); });
   for (const char* part : {"--rasterizer", "Mesa", "osmesa", "egl", "builtin"})

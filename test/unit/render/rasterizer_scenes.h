@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "render/rasteriser.h"
+#include "render/rasterizer.h"
 #include "test_scenes.h"
 
 namespace sunlit::test {
 
-/// Where the rasteriser under test disagrees with our own, over some poses.
+/// Where the rasterizer under test disagrees with our own, over some poses.
 struct Disagreement {
   std::size_t samples = 0, ids = 0;
   std::size_t masked = 0, masked_by_builtin = 0;  ///< samples that see what is cut out
@@ -28,11 +28,11 @@ struct Disagreement {
 /// A scene and two that draw it.
 class SideBySide {
  public:
-  SideBySide(scene::Scene scene, render::Rasterizer rasterizer)
+  SideBySide(scene::Scene scene, render::RasterizerKind rasterizer)
       : geometry_(std::make_shared<const light::Geometry>(shared(std::move(scene)))),
         pyramids_(*geometry_->scene),
-        tested_(render::makeRasteriser(rasterizer, {geometry_, pyramids_, 0.0})),
-        builtin_(render::makeRasteriser(render::Rasterizer::kBuiltin, {geometry_, pyramids_, 0.0})) {}
+        tested_(render::makeRasterizer(rasterizer, {geometry_, pyramids_, 0.0})),
+        builtin_(render::makeRasterizer(render::RasterizerKind::kBuiltin, {geometry_, pyramids_, 0.0})) {}
 
   /// Adds what differs in the picture of `view`.
   void compare(const render::View& view, Disagreement* sum, const light::Geometry* bodies = nullptr) {
@@ -62,7 +62,7 @@ class SideBySide {
 
   std::shared_ptr<const light::Geometry> geometry_;
   render::TexturePyramids pyramids_;
-  std::unique_ptr<render::Rasteriser> tested_, builtin_;
+  std::unique_ptr<render::Rasterizer> tested_, builtin_;
   std::vector<render::Sample> samples_, by_builtin_;
 };
 
@@ -80,7 +80,7 @@ inline void makeOpaque(scene::Scene* scene) {
 }
 
 /// What each is tested by: of the other rasterizers in this build, those that start here.
-class EachRasterizer : public ::testing::TestWithParam<render::Rasterizer> {
+class EachRasterizer : public ::testing::TestWithParam<render::RasterizerKind> {
  protected:
   void SetUp() override {
     scene::Scene nothing;
@@ -93,7 +93,7 @@ class EachRasterizer : public ::testing::TestWithParam<render::Rasterizer> {
   }
 };
 
-inline std::string rasterizerName(const ::testing::TestParamInfo<render::Rasterizer>& info) {
+inline std::string rasterizerName(const ::testing::TestParamInfo<render::RasterizerKind>& info) {
   return render::nameOf(info.param);
 }
 

@@ -1,4 +1,4 @@
-// OSMesa, EGL and our own rasteriser see the same triangles, each of them the test of the others.
+// OSMesa, EGL and our own rasterizer see the same triangles, each of them the test of the others.
 #include <filesystem>
 #include <random>
 #include <set>
@@ -81,7 +81,7 @@ TEST_P(Worlds, DevelopedPicturesAreAlike) {
   const auto scene = shared(scene::load(scene::kRaceTrack, {}));
   const Eigen::Isometry3d pose = posesOf(scene::raceTrackWaypoints())[2];
   const sky::Daylight day = daylightAt(150.0, 35.0);
-  const auto picture = [&](render::Rasterizer rasterizer) {
+  const auto picture = [&](render::RasterizerKind rasterizer) {
     render::RenderOptions options = smallCamera(320, 240);
     options.rasterizer = rasterizer;
     render::Renderer renderer(scene, options);
@@ -89,7 +89,7 @@ TEST_P(Worlds, DevelopedPicturesAreAlike) {
     return image::develop(renderer.light(day), 13.0);
   };
   const PictureDifference difference =
-      differenceOf(picture(GetParam()), picture(render::Rasterizer::kBuiltin));
+      differenceOf(picture(GetParam()), picture(render::RasterizerKind::kBuiltin));
   EXPECT_LT(difference.mean, 0.1);
 }
 SUNLIT_INSTANTIATE_FOR_ALL(Worlds);
@@ -147,9 +147,9 @@ TEST_P(Scenes, WithARobotThatCarriesTheCameraAreSeenAlike) {
   addBlock(&links, 1, {0.5f, -1.0f, -0.3f}, {0.1f, 2.0f, 1.0f});
   const light::World world(shared(std::move(scene)), {links.meshes});
   const render::TexturePyramids pyramids(*world.geometry->scene);
-  const render::RasteriserWorld all{world.geometry, pyramids, 0.0};
-  const auto tested = render::makeRasteriser(GetParam(), all),
-             builtin = render::makeRasteriser(render::Rasterizer::kBuiltin, all);
+  const render::RasterizerWorld all{world.geometry, pyramids, 0.0};
+  const auto tested = render::makeRasterizer(GetParam(), all),
+             builtin = render::makeRasterizer(render::RasterizerKind::kBuiltin, all);
   for (const double north : {-30.0, 0.0, 30.0}) {
     Eigen::Isometry3d map_from_base(Eigen::Translation3d(-60.0, north, 1.5));
     const auto bodies = world.bodies->placed({map_from_base});

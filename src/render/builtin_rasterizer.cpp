@@ -1,4 +1,4 @@
-#include "render/builtin_rasteriser.h"
+#include "render/builtin_rasterizer.h"
 
 #include <tbb/parallel_for.h>
 
@@ -10,11 +10,11 @@
 
 namespace sunlit::render {
 
-BuiltinRasteriser::BuiltinRasteriser(const RasteriserWorld& world)
+BuiltinRasterizer::BuiltinRasterizer(const RasterizerWorld& world)
     : visible_(world.geometry, world.pyramids),
       texels_factor_(static_cast<float>(std::exp2(2.0 * world.lod_bias))) {}
 
-void BuiltinRasteriser::sortIntoTiles(const Grid& grid, const std::vector<ScreenTriangle>& triangles,
+void BuiltinRasterizer::sortIntoTiles(const Grid& grid, const std::vector<ScreenTriangle>& triangles,
                                       TileLists* lists) {
   const auto tiles = static_cast<std::size_t>(grid.columns * grid.rows);
   const auto forEachTile = [&](const ScreenTriangle& triangle, auto visit) {
@@ -36,7 +36,7 @@ void BuiltinRasteriser::sortIntoTiles(const Grid& grid, const std::vector<Screen
   lists->begin[0] = 0;
 }
 
-void BuiltinRasteriser::draw(const View& view, const light::Geometry* bodies, std::vector<Sample>* samples) {
+void BuiltinRasterizer::draw(const View& view, const light::Geometry* bodies, std::vector<Sample>* samples) {
   const int width = view.camera.width * view.supersampling, height = view.camera.height * view.supersampling;
   samples->resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   const int size = view.supersampling * light::Surfaces::kTileSize;

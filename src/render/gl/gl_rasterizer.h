@@ -4,18 +4,18 @@
 #include "render/gl/device.h"
 #include "render/gl/mask_table.h"
 #include "render/gl/triangle_list.h"
-#include "render/rasteriser.h"
+#include "render/rasterizer.h"
 #include "render/visible_triangles.h"
 
 namespace sunlit::render::gl {
 
 class Objects;
 
-class GlRasteriser : public Rasteriser {
+class GlRasterizer : public Rasterizer {
  public:
   /// Throws std::runtime_error if the scene's masks are more than the device can hold.
-  GlRasteriser(std::shared_ptr<Device> device, const RasteriserWorld& world);
-  ~GlRasteriser() override;
+  GlRasterizer(std::shared_ptr<Device> device, const RasterizerWorld& world);
+  ~GlRasterizer() override;
 
   void draw(const View& view, const light::Geometry* bodies, std::vector<Sample>* samples) override;
   std::string device() const override { return device_->renderer(); }

@@ -1,14 +1,14 @@
-/// Our own rasteriser: whole-number edges, tile by tile, the same bits on every processor.
+/// Our own rasterizer: whole-number edges, tile by tile, the same bits on every processor.
 #pragma once
 
-#include "render/rasteriser.h"
+#include "render/rasterizer.h"
 #include "render/visible_triangles.h"
 
 namespace sunlit::render {
 
-class BuiltinRasteriser : public Rasteriser {
+class BuiltinRasterizer : public Rasterizer {
  public:
-  explicit BuiltinRasteriser(const RasteriserWorld& world);
+  explicit BuiltinRasterizer(const RasterizerWorld& world);
 
   void draw(const View& view, const light::Geometry* bodies, std::vector<Sample>* samples) override;
   std::string device() const override { return {}; }

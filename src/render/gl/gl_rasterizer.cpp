@@ -1,4 +1,4 @@
-#include "render/gl/gl_rasteriser.h"
+#include "render/gl/gl_rasterizer.h"
 
 #include <tbb/parallel_for.h>
 
@@ -25,7 +25,7 @@ int viewportSide(int width, int height) {
 
 }  // namespace
 
-GlRasteriser::GlRasteriser(std::shared_ptr<Device> device, const RasteriserWorld& world)
+GlRasterizer::GlRasterizer(std::shared_ptr<Device> device, const RasterizerWorld& world)
     : device_(std::move(device)),
       visible_(world.geometry, world.pyramids),
       masks_(*world.geometry->scene, world.pyramids),
@@ -36,12 +36,12 @@ GlRasteriser::GlRasteriser(std::shared_ptr<Device> device, const RasteriserWorld
   masks_.rows = {};
 }
 
-GlRasteriser::~GlRasteriser() {
+GlRasterizer::~GlRasterizer() {
   const bool done = device_->run([this](const Functions&) { objects_ = nullptr; });
   if (!done) static_cast<void>(objects_.release());  // gone with the device
 }
 
-void GlRasteriser::draw(const View& view, const light::Geometry* bodies, std::vector<Sample>* samples) {
+void GlRasterizer::draw(const View& view, const light::Geometry* bodies, std::vector<Sample>* samples) {
   const int width = view.camera.width * view.supersampling, height = view.camera.height * view.supersampling;
   samples->resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   visible_.gather(view, bodies);
@@ -63,7 +63,7 @@ void GlRasteriser::draw(const View& view, const light::Geometry* bodies, std::ve
   }
 }
 
-void GlRasteriser::drawPass(const Functions& gl, const Pass& pass, float farthest) const {
+void GlRasterizer::drawPass(const Functions& gl, const Pass& pass, float farthest) const {
   objects_->bind(pass.width, pass.height);
   const int side = viewportSide(pass.width, pass.height);
   const int middle_x = pass.width / 2, middle_y = pass.height / 2;
@@ -90,7 +90,7 @@ void GlRasteriser::drawPass(const Functions& gl, const Pass& pass, float farthes
   }
 }
 
-void GlRasteriser::write(const Pass& pass, const View& view, Sample* samples) const {
+void GlRasterizer::write(const Pass& pass, const View& view, Sample* samples) const {
   const auto stride = static_cast<std::size_t>(view.camera.width * view.supersampling);
   const float sky_depth = 1.0f / (1.0f / static_cast<float>(view.far_m));
   tbb::parallel_for(0, pass.height, [&](int row) {

@@ -9,13 +9,13 @@
 #include "render/texture_pyramid.h"
 #include "render/view.h"
 #include "sunlit/light/geometry.h"
-#include "sunlit/render/rasterizer.h"
+#include "sunlit/render/rasterizer_kind.h"
 
 namespace sunlit::render {
 
-class Rasteriser {
+class Rasterizer {
  public:
-  virtual ~Rasteriser() = default;
+  virtual ~Rasterizer() = default;
 
   /// Fills `samples`, row-major, top row first: supersampling² a pixel. Triangles of `bodies`, which may be
   /// null, are numbered after those of the geometry, whose materials they share. The same bits from run to
@@ -26,14 +26,14 @@ class Rasteriser {
   virtual std::string device() const = 0;
 };
 
-/// What a rasteriser draws from.
-struct RasteriserWorld {
+/// What a rasterizer draws from.
+struct RasterizerWorld {
   std::shared_ptr<const light::Geometry> geometry;
-  const TexturePyramids& pyramids;  ///< of the geometry's scene; outlives the rasteriser
+  const TexturePyramids& pyramids;  ///< of the geometry's scene; outlives the rasterizer
   double lod_bias = 0.0;            ///< levels
 };
 
 /// Throws as requireStarts() does.
-std::unique_ptr<Rasteriser> makeRasteriser(Rasterizer rasterizer, const RasteriserWorld& world);
+std::unique_ptr<Rasterizer> makeRasterizer(RasterizerKind kind, const RasterizerWorld& world);
 
 }  // namespace sunlit::render
