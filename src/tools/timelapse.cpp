@@ -7,11 +7,11 @@
 #include <memory>
 #include <string>
 
+#include "sunlit/image/picture_series.h"
 #include "sunlit/studio/sky.h"
 #include "sunlit/studio/studio.h"
 #include "tools/command_line.h"
 #include "tools/frame_folder.h"
-#include "tools/pictures_of_day.h"
 #include "tools/place_arguments.h"
 #include "tools/terminal.h"
 #include "tools/timelapse_options.h"
@@ -60,7 +60,7 @@ class Camera {
     const Sun sun{bodies.sun.apparent.elevation().deg(), day.groundIlluminance().luminance()};
     if (options_.caption != Caption::kNone) {
       const double height = options_.caption == Caption::kHour ? 1.0 / 18.0 : 1.0 / 24.0;
-      writeInto(captionOf(options_.caption, hour, sun), height, &developed.picture);
+      image::writeInto(captionOf(options_.caption, hour, sun), height, &developed.picture);
     }
     std::printf("frame %d of %d: %s, sun %+.2f deg, moon %+.1f deg, %.0f %% lit, %.3g lx, EV100 %.2f",
                 frame + 1, options_.frames, clockTime(hour).c_str(), sun.elevation_deg,
@@ -101,9 +101,9 @@ void makeFrames(const TimelapseOptions& options, FrameFolder* folder) {
 void makeTimelapse(const TimelapseOptions& options) {
   FrameFolder folder(options.output, options.recipe);
   makeFrames(options, &folder);
-  const Frames frames{options.frames, [&](int frame) { return folder.read(frame); }};
-  if (!options.video.empty()) writeVideo(options.video, options.frame_rate, frames);
-  if (!options.contact_sheet.empty()) writeContactSheet(options.contact_sheet, options.sheet, frames);
+  const image::PictureSeries frames{options.frames, [&](int frame) { return folder.read(frame); }};
+  if (!options.video.empty()) image::writeFilm(options.video, options.frame_rate, frames);
+  if (!options.contact_sheet.empty()) image::writeContactSheet(options.contact_sheet, options.sheet, frames);
   std::printf("%s: %d frames\n", options.output.c_str(), options.frames);
 }
 

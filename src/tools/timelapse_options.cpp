@@ -9,7 +9,6 @@
 #include "sunlit/scene/content_hash.h"
 #include "sunlit/scene/load.h"
 #include "tools/command_line.h"
-#include "tools/pictures_of_day.h"
 
 namespace sunlit::tools {
 
@@ -30,7 +29,7 @@ void addOutput(CommandLine* line, TimelapseOptions* options) {
   line->add("--caption", fieldOf(rows, "caption"));
   line->add("--video FILE", fieldOf(rows, "video"))
       .then([](const std::string& option, const std::string& file) {
-        requireVideoName(file);
+        image::requireFilmName(option, file);
         requireFolderOf(option, file);
       });
   line->add("--fps NUMBER", fieldOf(rows, "fps"));
@@ -70,11 +69,12 @@ void divide(const Span& span, TimelapseOptions* options) {
 void requireSensibleSheet(const TimelapseOptions& options) {
   if (options.contact_sheet.empty()) return;
   const image::PinholeCamera& camera = options.view.studio.render.camera;
-  const PictureSize size = sheetSize(options.sheet, options.frames, 1.0 * camera.height / camera.width);
-  if (std::max(size.width, size.height) <= kLongestSheetSide) return;
+  const image::PictureSize size =
+      image::sheetSize(options.sheet, options.frames, 1.0 * camera.height / camera.width);
+  if (std::max(size.width, size.height) <= image::kLongestSheetSide) return;
   throw std::invalid_argument("--contact-sheet would be " + std::to_string(size.width) + " x " +
                               std::to_string(size.height) + " px, must be at most " +
-                              std::to_string(kLongestSheetSide) +
+                              std::to_string(image::kLongestSheetSide) +
                               " px wide and high; fewer frames, a smaller --thumbnail or other --columns");
 }
 

@@ -50,7 +50,7 @@ std::vector<LibraryRule> libraryRules() {
                                                                                                // messages
   return {
       {ros, {"ros"}},
-      {std::regex("opencv2/.*"), {"image", "evaluate", "tools", "ros"}},
+      {std::regex("opencv2/.*"), {"image", "evaluate", "ros"}},
       {std::regex("erfam?\\.h"), {"astronomy"}},
       {std::regex("(GL|EGL|GLES[23]?|KHR|OpenGL)/.*"), {"render"}},
       {std::regex("embree3/.*"), {"light"}},

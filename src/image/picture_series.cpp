@@ -1,4 +1,4 @@
-#include "tools/pictures_of_day.h"
+#include "sunlit/image/picture_series.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 #include "sunlit/image/files.h"
 #include "sunlit/quantity/range.h"
 
-namespace sunlit::tools {
+namespace sunlit::image {
 
 namespace {
 
@@ -34,27 +34,39 @@ const std::vector<Film>& films() {
   return all;
 }
 
-const Film& filmOf(const std::string& path) {
+/// Called `key` where it is refused.
+const Film& filmOf(const std::string& key, const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   for (const Film& film : films()) {
     if (ending == film.ending) return film;
   }
-  refuse("--video", '"' + path + '"', "a name that ends in .mp4, .avi or .mkv");
+  refuse(key, '"' + path + '"', "a name that ends in .mp4, .avi or .mkv");
 }
 
+/// What OpenCV has to say of codecs that it lacks, and of films that it cannot read, is said here.
+class QuietOpenCv {
+ public:
+  QuietOpenCv() : usual_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
+  ~QuietOpenCv() { cv::utils::logging::setLogLevel(usual_); }
+  QuietOpenCv(const QuietOpenCv&) = delete;
+  QuietOpenCv& operator=(const QuietOpenCv&) = delete;
+
+ private:
+  const cv::utils::logging::LogLevel usual_;
+};
+
 /// Not opened where no codec can be had.
-cv::VideoWriter opened(const Film& film, const std::string& path, double frame_rate, const cv::Size& size) {
-  // What it has to say of codecs that it lacks, and of films that it cannot read, is said here.
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+cv::VideoWriter opened(const Film& film, const std::string& path, double frame_rate_hz,
+                       const cv::Size& size) {
   for (const auto& c : film.codecs) {
-    cv::VideoWriter writer(path, cv::VideoWriter::fourcc(c[0], c[1], c[2], c[3]), frame_rate, size);
+    cv::VideoWriter writer(path, cv::VideoWriter::fourcc(c[0], c[1], c[2], c[3]), frame_rate_hz, size);
     if (writer.isOpened()) return writer;
   }
   return {};
 }
 
 /// Shares the memory of `picture`.
-cv::Mat matOf(image::Rgb8Image* picture) {
+cv::Mat matOf(Rgb8Image* picture) {
   return cv::Mat(picture->height, picture->width, CV_8UC3, picture->data.data());
 }
 
@@ -99,7 +111,7 @@ int thumbnailHeight(const SheetLayout& layout, double height_over_width) {
 
 }  // namespace
 
-void writeInto(const std::string& text, double share, image::Rgb8Image* picture) {
+void writeInto(const std::string& text, double share, Rgb8Image* picture) {
   constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
   constexpr double kUnitHeightPx = 21.0;  // of this font's capitals at scale 1
   cv::Mat mat = matOf(picture);
@@ -111,22 +123,23 @@ void writeInto(const std::string& text, double share, image::Rgb8Image* picture)
   cv::putText(mat, text, at, kFont, scale, cv::Scalar::all(255), stroke, cv::LINE_AA);
 }
 
-void requireVideoName(const std::string& path) {
-  filmOf(path);
+void requireFilmName(const std::string& key, const std::string& path) {
+  filmOf(key, path);
 }
 
-void writeVideo(const std::string& path, double frame_rate, const Frames& frames) {
-  const Film& film = filmOf(path);
+void writeFilm(const std::string& path, double frame_rate_hz, const PictureSeries& series) {
+  const Film& film = filmOf("film", path);
+  const QuietOpenCv quiet;
   const Unfinished unfinished(path + ".part" + film.ending);
   cv::VideoWriter writer;
   cv::Size size;
-  for (int i = 0; i < frames.count; ++i) {
-    image::Rgb8Image frame = frames.read(i);
+  for (int i = 0; i < series.count; ++i) {
+    Rgb8Image picture = series.picture(i);
     cv::Mat bgr;
-    cv::cvtColor(evenSided(matOf(&frame)), bgr, cv::COLOR_RGB2BGR);
+    cv::cvtColor(evenSided(matOf(&picture)), bgr, cv::COLOR_RGB2BGR);
     size = bgr.size();
     if (!writer.isOpened()) {
-      writer = opened(film, unfinished.path(), frame_rate, size);
+      writer = opened(film, unfinished.path(), frame_rate_hz, size);
       if (!writer.isOpened())
         throw std::runtime_error(
             path + ": cannot be written: OpenCV has no codec for it here, or nothing can be written there");
@@ -136,41 +149,41 @@ void writeVideo(const std::string& path, double frame_rate, const Frames& frames
   writer.release();
   // Where a disk was full, say, no writer of films tells.
   const int whole = framesIn(unfinished.path(), size);
-  if (whole != frames.count) {
-    throw std::runtime_error(path + ": cannot be written: of " + std::to_string(frames.count) +
+  if (whole != series.count) {
+    throw std::runtime_error(path + ": cannot be written: of " + std::to_string(series.count) +
                              " frames only " + std::to_string(whole) +
                              " can be read back; is the disk full?");
   }
-  image::moveIntoPlace(unfinished.path(), path);
+  moveIntoPlace(unfinished.path(), path);
 }
 
-PictureSize sheetSize(const SheetLayout& layout, int frames, double height_over_width) {
-  const int across = std::min(layout.columns, frames);
-  const int down = (frames + across - 1) / across;
+PictureSize sheetSize(const SheetLayout& layout, int count, double height_over_width) {
+  const int across = std::min(layout.columns, count);
+  const int down = (count + across - 1) / across;
   const int height_px = thumbnailHeight(layout, height_over_width);
   return {across * (layout.width_px + std::int64_t{kGapPx}) - kGapPx,
           down * (height_px + std::int64_t{kGapPx}) - kGapPx};
 }
 
-void writeContactSheet(const std::string& path, const SheetLayout& layout, const Frames& frames) {
-  const int across = std::min(layout.columns, frames.count);
-  image::Rgb8Image sheet;
+void writeContactSheet(const std::string& path, const SheetLayout& layout, const PictureSeries& series) {
+  const int across = std::min(layout.columns, series.count);
+  Rgb8Image sheet;
   int height_px = 0;
-  for (int i = 0; i < frames.count; ++i) {
-    image::Rgb8Image frame = frames.read(i);
+  for (int i = 0; i < series.count; ++i) {
+    Rgb8Image picture = series.picture(i);
     if (i == 0) {
-      const double shape = 1.0 * frame.height / frame.width;
-      const PictureSize size = sheetSize(layout, frames.count, shape);
+      const double shape = 1.0 * picture.height / picture.width;
+      const PictureSize size = sheetSize(layout, series.count, shape);
       height_px = thumbnailHeight(layout, shape);
-      sheet = image::Rgb8Image(static_cast<int>(size.width), static_cast<int>(size.height));
+      sheet = Rgb8Image(static_cast<int>(size.width), static_cast<int>(size.height));
     }
     const cv::Rect place(i % across * (layout.width_px + kGapPx), i / across * (height_px + kGapPx),
                          layout.width_px, height_px);
     cv::Mat small = matOf(&sheet)(place);
-    const bool shrinks = layout.width_px < frame.width;
-    cv::resize(matOf(&frame), small, small.size(), 0.0, 0.0, shrinks ? cv::INTER_AREA : cv::INTER_CUBIC);
+    const bool shrinks = layout.width_px < picture.width;
+    cv::resize(matOf(&picture), small, small.size(), 0.0, 0.0, shrinks ? cv::INTER_AREA : cv::INTER_CUBIC);
   }
-  image::writePng(path, sheet);
+  writePng(path, sheet);
 }
 
-}  // namespace sunlit::tools
+}  // namespace sunlit::image
