@@ -20,7 +20,7 @@ void addCamera(CommandLine* line, CameraWords* words) {
   line->group("Camera");
   const std::vector<Field> rows = fieldsOf(words->render);
   line->add("--size WxH", "", {fieldOf(rows, "width"), fieldOf(rows, "height")});
-  line->add("--fov DEG", {"fov", &words->fov_deg, "deg", {0.1, 170}, "horizontal field of view"});
+  line->add("--fov DEG", image::fieldOfViewRow(&words->fov_deg));
   line->add("--supersampling N", fieldOf(rows, "supersampling"));
   line->add("--final-gather N",
             explainedAs(fieldOf(rows, "final_gather"),

@@ -13,7 +13,7 @@ from timelapse import WORLD, run
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # A word of each group of options, and what its row says of it.
-CAMERA = {"--size": "(default 640x480)", "--fov": "0.1 … 170 deg, default 90", "--supersampling": "1 … 4, default 2",
+CAMERA = {"--size": "(default 640x480)", "--fov": "0.1 … 175 deg, default 90", "--supersampling": "1 … 4, default 2",
           "--final-gather": "0 … 16, default 0", "--rasterizer": "osmesa|egl|builtin"}
 WORLDS = {"--world": "default race_track", "--model-path": "may be repeated"}
 BOUNCED = {"--bounced": "off|on", "--cache": "SUNLIT_CACHE_DIR"}
@@ -49,9 +49,9 @@ REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be fr
            ("--size", "640x480.5", "height is 480.5, but must be a whole number from 16 to 8192 px"),
            ("--size", "640", "must be 2 numbers separated by 'x': WxH"),
            ("--size", "640x480x", "must be 2 numbers separated by 'x': WxH"),
-           ("--fov", "171", "--fov is 171, but must be from 0.1 to 170 deg"),
-           ("--fov", "-4", "--fov is -4, but must be from 0.1 to 170 deg"),
-           ("--fov", "nan", '--fov is "nan", but must be a number from 0.1 to 170 deg'),
+           ("--fov", "176", "--fov is 176, but must be from 0.1 to 175 deg"),
+           ("--fov", "-4", "--fov is -4, but must be from 0.1 to 175 deg"),
+           ("--fov", "nan", '--fov is "nan", but must be a number from 0.1 to 175 deg'),
            ("--supersampling", "5", "--supersampling is 5, but must be from 1 to 4"),
            ("--supersampling", "1.5", "a whole number from 1 to 4"),
            ("--rasterizer", "gpu", "must be one of osmesa, egl, builtin"),

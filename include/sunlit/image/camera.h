@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "sunlit/quantity/angle.h"
@@ -42,6 +43,12 @@ inline std::vector<Field> fieldsOf(PinholeCamera& camera) {
           {"fy", &camera.fy, "px", Range::above(0, 1e6), "focal length down"},
           {"cx", &camera.cx, "px", {-1e5, 1e5}, "principal point, to the right"},
           {"cy", &camera.cy, "px", {-1e5, 1e5}, "principal point, down"}};
+}
+
+/// What people may ask fromFieldOfView() for, kept at `place`. Of a very small one of a very wide picture the
+/// focal length may still be refused.
+inline Field fieldOfViewRow(Field::Place place) {
+  return {"horizontal_fov", std::move(place), "deg", {0.1, 175}, "field of view across the whole width"};
 }
 
 }  // namespace sunlit::image

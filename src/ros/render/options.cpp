@@ -40,7 +40,7 @@ std::vector<Field> fieldsOf(PathSourceOptions& path) {
 std::vector<Field> fieldsOf(CameraOptions& camera) {
   return {rendererRow("width", &camera.width),
           rendererRow("height", &camera.height),
-          Field{"horizontal_fov", &camera.horizontal_fov, "deg", {1, 175}, "across the whole width"},
+          image::fieldOfViewRow(&camera.horizontal_fov),
           rendererRow("supersampling", &camera.supersampling),
           rendererRow("rasterizer", choiceOf(&camera.rasterizer, render::rasterizerNames())),
           Field{"follow",

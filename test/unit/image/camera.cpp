@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace sunlit::image {
 namespace {
 
@@ -11,6 +13,19 @@ TEST(PinholeCamera, TheFieldOfViewSpansTheImageEdgeToEdge) {
   EXPECT_NEAR(camera.unproject({-0.5, 239.5}).x(), -1.0, 1e-12);  // rounding only
   EXPECT_NEAR(camera.unproject({639.5, 239.5}).x(), 1.0, 1e-12);
   EXPECT_EQ(camera.fx, camera.fy);
+}
+
+TEST(PinholeCamera, HasEveryFieldOfViewThatMayBeAskedForInPicturesOfUsualWidth) {
+  double fov_deg = 0.0;
+  const Range range = fieldOfViewRow(&fov_deg).range;
+  for (const int width : {16, 640, 1600}) {
+    for (const double deg : {range.low, range.high}) {
+      const PinholeCamera camera = PinholeCamera::fromFieldOfView(width, width, Angle::degrees(deg));
+      EXPECT_NO_THROW(requireFields(camera)) << deg << " deg of " << width << " px";
+      // Twice the angle whose tangent is half the width over the focal length.
+      EXPECT_NEAR(2.0 * std::atan2(0.5 * width, camera.fx), deg * kRadPerDeg, 1e-12);  // rounding only
+    }
+  }
 }
 
 TEST(PinholeCamera, ProjectUndoesUnproject) {
