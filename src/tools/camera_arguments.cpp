@@ -16,15 +16,15 @@ void CameraWords::requireSense(const studio::BakeOptions& bake) const {
     throw std::invalid_argument("--final-gather looks closer where light is baked; leave out --bounced off");
 }
 
-void addCamera(CommandLine* line, CameraWords* words) {
+void addCamera(studio::CommandLine* line, CameraWords* words) {
   line->group("Camera");
   const std::vector<Field> rows = fieldsOf(words->render);
   line->add("--size WxH", "", {fieldOf(rows, "width"), fieldOf(rows, "height")});
   line->add("--fov DEG", image::fieldOfViewRow(&words->fov_deg));
   line->add("--supersampling N", fieldOf(rows, "supersampling"));
   line->add("--final-gather N",
-            explainedAs(fieldOf(rows, "final_gather"),
-                        fieldOf(rows, "final_gather").doc + "; 2 takes seconds a picture"));
+            studio::explainedAs(fieldOf(rows, "final_gather"),
+                                fieldOf(rows, "final_gather").doc + "; 2 takes seconds a picture"));
   line->add("--rasterizer", fieldOf(rows, "rasterizer"));
 }
 

@@ -6,8 +6,8 @@
 
 #include "sunlit/quantity/field.h"
 #include "sunlit/render/renderer.h"
+#include "sunlit/studio/command_line.h"
 #include "sunlit/studio/world.h"
-#include "tools/command_line.h"
 
 namespace sunlit::tools {
 
@@ -23,7 +23,7 @@ struct CameraWords {
 };
 
 /// --size, --fov, --supersampling, --final-gather and --rasterizer.
-void addCamera(CommandLine* line, CameraWords* words);
+void addCamera(studio::CommandLine* line, CameraWords* words);
 
 /// Where a camera stands and how it is turned.
 struct TypedPose {

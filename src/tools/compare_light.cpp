@@ -10,7 +10,7 @@
 #include "sunlit/quantity/frames.h"
 #include "sunlit/scene/race_track.h"
 #include "sunlit/sky/atmosphere.h"
-#include "tools/command_line.h"
+#include "sunlit/studio/command_line.h"
 #include "tools/compare_light_options.h"
 #include "tools/comparison_files.h"
 #include "tools/every_nth_pixel.h"
@@ -118,5 +118,5 @@ void run(const CompareLightOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace sunlit::tools;
-  return runTool({"compare_light", argc, argv}, parseCompareLightOptions, run);
+  return sunlit::studio::runProgram({"compare_light", argc, argv}, parseCompareLightOptions, run);
 }

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sunlit/studio/command_line.h"
 #include "tools/camera_arguments.h"
-#include "tools/command_line.h"
 #include "tools/world_arguments.h"
 
 namespace sunlit::tools {
@@ -43,7 +43,7 @@ struct Words {
   CameraWords camera;
 };
 
-void addScene(CommandLine* line, CompareLightOptions* options, Words* words) {
+void addScene(studio::CommandLine* line, CompareLightOptions* options, Words* words) {
   const std::vector<Field> rows = fieldsOf(*options);
   line->group("What is compared");
   line->add("--out DIR", fieldOf(rows, "out"));
@@ -71,7 +71,7 @@ void addScene(CommandLine* line, CompareLightOptions* options, Words* words) {
   line->add("--bounces N", fieldOf(reference, "bounces"));
 }
 
-void requireThatAllCount(const CommandLine& line, const CompareLightOptions& options) {
+void requireThatAllCount(const studio::CommandLine& line, const CompareLightOptions& options) {
   if (!line.has("--out")) throw std::invalid_argument("--out DIR is missing; --help lists all options");
   for (const std::string of_path : {"--path", "--views", "--height"}) {
     if (line.has(of_path) && line.has("--view"))
@@ -86,7 +86,7 @@ void requireThatAllCount(const CommandLine& line, const CompareLightOptions& opt
 std::optional<CompareLightOptions> parseCompareLightOptions(const std::vector<std::string>& arguments) {
   CompareLightOptions options;
   Words words;
-  CommandLine line(
+  studio::CommandLine line(
       "compare_light: how far the fast picture's light is from path-traced light. Needs no ROS master.",
       "compare_light --out DIR [options]");
   addScene(&line, &options, &words);

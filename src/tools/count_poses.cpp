@@ -9,7 +9,7 @@
 #include "sunlit/path/path.h"
 #include "sunlit/scene/load.h"
 #include "sunlit/scene/race_track.h"
-#include "tools/command_line.h"
+#include "sunlit/studio/command_line.h"
 
 namespace {
 
@@ -35,8 +35,8 @@ void printHelp() {
   std::cout << "  WORLD          as snapshot has it\n"
                "  WAYPOINT_FILE  CSV or TUM; empty: the path of race_track\n"
                "  SPACING_M      "
-            << tools::Option("spacing", rows[0].doc, {rows[0]}).help() << '\n'
-            << "  POSES          " << tools::Option("poses", rows[1].doc, {rows[1]}).help() << '\n';
+            << studio::Option("spacing", rows[0].doc, {rows[0]}).help() << '\n'
+            << "  POSES          " << studio::Option("poses", rows[1].doc, {rows[1]}).help() << '\n';
 }
 
 std::size_t countPoses(const std::string& world, const std::string& file, const std::string& spacing,

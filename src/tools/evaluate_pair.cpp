@@ -10,7 +10,7 @@
 #include "sunlit/evaluate/verify/verified_file.h"
 #include "sunlit/evaluate/verify/verify.h"
 #include "sunlit/image/files.h"
-#include "tools/command_line.h"
+#include "sunlit/studio/command_line.h"
 #include "tools/evaluate_pair_options.h"
 #include "tools/output_folder.h"
 
@@ -78,5 +78,5 @@ void evaluatePair(const EvaluatePairOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace sunlit::tools;
-  return runTool({"evaluate_pair", argc, argv}, parseEvaluatePairOptions, evaluatePair);
+  return sunlit::studio::runProgram({"evaluate_pair", argc, argv}, parseEvaluatePairOptions, evaluatePair);
 }

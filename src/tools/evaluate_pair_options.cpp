@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "tools/command_line.h"
+#include "sunlit/studio/command_line.h"
 #include "tools/output_folder.h"
 
 namespace sunlit::tools {
@@ -23,7 +23,7 @@ std::string optionOf(const std::string& key) {
 std::optional<EvaluatePairOptions> parseEvaluatePairOptions(const std::vector<std::string>& arguments) {
   EvaluatePairOptions options;
   std::vector<std::string> pictures;
-  CommandLine line(
+  studio::CommandLine line(
       "evaluate_pair: which features of two pictures are found again and match rightly. Needs no ROS master.",
       "evaluate_pair --out DIR A B [options]");
   line.takeWords(&pictures);

@@ -9,7 +9,7 @@
 
 #include "sunlit/evaluate/places/place_comparison.h"
 #include "sunlit/evaluate/places/place_files.h"
-#include "tools/command_line.h"
+#include "sunlit/studio/command_line.h"
 #include "tools/output_folder.h"
 #include "tools/progress_line.h"
 
@@ -65,8 +65,9 @@ void addMethods(const std::string& option, const std::string& names, std::vector
 std::optional<PlacesOptions> parse(const std::vector<std::string>& arguments) {
   PlacesOptions options;
   const std::vector<Field> rows = fieldsOf(options);
-  CommandLine line("evaluate_places: how well places of one drive are found in another. Needs no ROS master.",
-                   "evaluate_places --out DIR --map DIR --query DIR --method NAME [options]");
+  studio::CommandLine line(
+      "evaluate_places: how well places of one drive are found in another. Needs no ROS master.",
+      "evaluate_places --out DIR --map DIR --query DIR --method NAME [options]");
   line.group("What is compared");
   line.add("--map DIR", fieldOf(rows, "map"));
   line.add("--query DIR", fieldOf(rows, "query"));
@@ -174,5 +175,5 @@ void evaluatePlaces(const PlacesOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace sunlit::tools;
-  return runTool({"evaluate_places", argc, argv}, parse, evaluatePlaces);
+  return sunlit::studio::runProgram({"evaluate_places", argc, argv}, parse, evaluatePlaces);
 }

@@ -11,7 +11,7 @@
 #include "sunlit/evaluate/trajectory/trajectory_evaluation.h"
 #include "sunlit/image/files.h"
 #include "sunlit/quantity/angle.h"
-#include "tools/command_line.h"
+#include "sunlit/studio/command_line.h"
 #include "tools/output_folder.h"
 
 namespace sunlit::tools {
@@ -42,7 +42,7 @@ std::string namesOf(const std::vector<Delta>& deltas) {
 std::optional<Options> parse(const std::vector<std::string>& arguments) {
   Options options;
   const std::vector<Field> rows = fieldsOf(options.evaluation);
-  CommandLine line(
+  studio::CommandLine line(
       "evaluate_trajectory: absolute and relative errors of an estimated trajectory. Needs no ROS master.",
       "evaluate_trajectory --out DIR --truth FILE --estimate FILE [options]");
   const std::string forms = "TUM (timestamp tx ty tz qx qy qz qw, s and m) or ground truth of EuRoC";
@@ -140,5 +140,5 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace sunlit::tools;
-  return runTool({"evaluate_trajectory", argc, argv}, parse, run);
+  return sunlit::studio::runProgram({"evaluate_trajectory", argc, argv}, parse, run);
 }

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "sunlit/scene/export.h"
+#include "sunlit/studio/command_line.h"
 #include "sunlit/studio/world.h"
-#include "tools/command_line.h"
 #include "tools/terminal.h"
 #include "tools/world_arguments.h"
 
@@ -21,11 +21,13 @@ struct ExportOptions {
 
 std::optional<ExportOptions> parse(const std::vector<std::string>& arguments) {
   ExportOptions options;
-  CommandLine line("export_world: a world as binary glTF, for other programs. Needs no ROS master.",
-                   "export_world --out FILE.glb [options]");
+  studio::CommandLine line("export_world: a world as binary glTF, for other programs. Needs no ROS master.",
+                           "export_world --out FILE.glb [options]");
   line.group("Output");
   line.add("--out FILE.glb", {"out", &options.output, "", {}, "geometry, materials and textures"})
-      .then([](const std::string& option, const std::string& file) { requireFile(option, file, ".glb"); });
+      .then([](const std::string& option, const std::string& file) {
+        studio::requireFile(option, file, ".glb");
+      });
   addWorld(&line, &options.world);
   if (!line.read(arguments)) return std::nullopt;
   if (!line.has("--out")) throw std::invalid_argument("--out FILE.glb is missing; --help lists all options");
@@ -44,5 +46,5 @@ void exportWorld(const ExportOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace sunlit::tools;
-  return runTool({"export_world", argc, argv}, parse, exportWorld);
+  return sunlit::studio::runProgram({"export_world", argc, argv}, parse, exportWorld);
 }

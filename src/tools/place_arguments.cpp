@@ -32,7 +32,7 @@ std::string textOf(const astronomy::CivilDate& date) {
 
 }  // namespace
 
-void addPlace(CommandLine* line, PlaceOptions* options) {
+void addPlace(studio::CommandLine* line, PlaceOptions* options) {
   line->group("Place, day and air");
   line->add("--site LAT,LON[,ELEVATION]", "", fieldsOf(options->site));
   line->add("--date YYYY-MM-DD", {"date", OwnForm{textOf(options->date)}, "", {}, "as the time zone has it"})

@@ -3,8 +3,8 @@
 
 #include "sunlit/astronomy/civil_time.h"
 #include "sunlit/quantity/site.h"
+#include "sunlit/studio/command_line.h"
 #include "sunlit/studio/sky.h"
-#include "tools/command_line.h"
 
 namespace sunlit::tools {
 
@@ -15,7 +15,7 @@ struct PlaceOptions {
 };
 
 /// --site, --date, --timezone, --turbidity and --ozone.
-void addPlace(CommandLine* line, PlaceOptions* options);
+void addPlace(studio::CommandLine* line, PlaceOptions* options);
 
 /// What is in the sky over `place` at an `hour` of its day, −24 … 72; outside 0 … 24 it is of the days before
 /// and after.

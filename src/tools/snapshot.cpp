@@ -3,9 +3,9 @@
 #include <exception>
 
 #include "sunlit/image/files.h"
+#include "sunlit/studio/command_line.h"
 #include "sunlit/studio/sky.h"
 #include "sunlit/studio/studio.h"
-#include "tools/command_line.h"
 #include "tools/snapshot_options.h"
 #include "tools/terminal.h"
 
@@ -36,5 +36,5 @@ void takeSnapshot(const SnapshotOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace sunlit::tools;
-  return runTool({"snapshot", argc, argv}, parseSnapshotOptions, takeSnapshot);
+  return sunlit::studio::runProgram({"snapshot", argc, argv}, parseSnapshotOptions, takeSnapshot);
 }

@@ -6,17 +6,21 @@ namespace sunlit::tools {
 
 namespace {
 
-void addOwn(CommandLine* line, SnapshotOptions* options, CivilDateTime* clock) {
+void addOwn(studio::CommandLine* line, SnapshotOptions* options, CivilDateTime* clock) {
   line->group("Picture");
   line->add("--out FILE.png", {"out", &options->output, "", {}, "the picture"})
-      .then([](const std::string& option, const std::string& file) { requireFile(option, file, ".png"); });
+      .then([](const std::string& option, const std::string& file) {
+        studio::requireFile(option, file, ".png");
+      });
   line->add("--depth FILE.pfm",
             {"depth",
              &options->depth_output,
              "",
              {},
              "depth too: portable float map, m along the optical axis, NaN where there is none"})
-      .then([](const std::string& option, const std::string& file) { requireFile(option, file, ".pfm"); });
+      .then([](const std::string& option, const std::string& file) {
+        studio::requireFile(option, file, ".pfm");
+      });
   line->add("--sun AZIMUTH,ELEVATION", "a sun without moon and stars", fieldsOf(options->sun));
   const std::vector<Field> rows = fieldsOf(*clock);
   line->add("--time HH:MM[:SS]", "instead of --sun: sun, moon and stars of a time of the day below",
@@ -29,7 +33,7 @@ void addOwn(CommandLine* line, SnapshotOptions* options, CivilDateTime* clock) {
 std::optional<SnapshotOptions> parseSnapshotOptions(const std::vector<std::string>& arguments) {
   SnapshotOptions options;
   CivilDateTime clock;
-  CommandLine line(
+  studio::CommandLine line(
       "snapshot: one picture of a world under a given sun, or the sky of a given date, time and place. Needs "
       "no ROS master.",
       "snapshot --out FILE.png [options]");

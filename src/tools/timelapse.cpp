@@ -8,9 +8,9 @@
 #include <string>
 
 #include "sunlit/image/picture_series.h"
+#include "sunlit/studio/command_line.h"
 #include "sunlit/studio/sky.h"
 #include "sunlit/studio/studio.h"
-#include "tools/command_line.h"
 #include "tools/frame_folder.h"
 #include "tools/place_arguments.h"
 #include "tools/terminal.h"
@@ -112,5 +112,5 @@ void makeTimelapse(const TimelapseOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace sunlit::tools;
-  return runTool({"timelapse", argc, argv}, parseTimelapseOptions, makeTimelapse);
+  return sunlit::studio::runProgram({"timelapse", argc, argv}, parseTimelapseOptions, makeTimelapse);
 }

@@ -8,7 +8,7 @@
 
 #include "sunlit/scene/content_hash.h"
 #include "sunlit/scene/load.h"
-#include "tools/command_line.h"
+#include "sunlit/studio/command_line.h"
 
 namespace sunlit::tools {
 
@@ -22,7 +22,7 @@ struct Span {
   int frames = 0;  ///< 0: by the step
 };
 
-void addOutput(CommandLine* line, TimelapseOptions* options) {
+void addOutput(studio::CommandLine* line, TimelapseOptions* options) {
   const std::vector<Field> rows = fieldsOf(*options);
   line->group("Output");
   line->add("--out FOLDER", fieldOf(rows, "out"));
@@ -30,16 +30,18 @@ void addOutput(CommandLine* line, TimelapseOptions* options) {
   line->add("--video FILE", fieldOf(rows, "video"))
       .then([](const std::string& option, const std::string& file) {
         image::requireFilmName(option, file);
-        requireFolderOf(option, file);
+        studio::requireFolderOf(option, file);
       });
   line->add("--fps NUMBER", fieldOf(rows, "fps"));
   line->add("--contact-sheet FILE.png", fieldOf(rows, "contact-sheet"))
-      .then([](const std::string& option, const std::string& file) { requireFile(option, file, ".png"); });
+      .then([](const std::string& option, const std::string& file) {
+        studio::requireFile(option, file, ".png");
+      });
   line->add("--columns N", fieldOf(rows, "columns"));
   line->add("--thumbnail WIDTH", fieldOf(rows, "thumbnail"));
 }
 
-void addTime(CommandLine* line, TimelapseOptions* options, Span* span) {
+void addTime(studio::CommandLine* line, TimelapseOptions* options, Span* span) {
   line->group("Time");
   line->add("--from HOUR", fieldOf(fieldsOf(*options), "from"));
   line->add("--to HOUR", {"to", &span->to_hour, "h", {-24, 72}, "end, itself not shown"});
@@ -87,7 +89,7 @@ std::string contentOf(const std::string& what, const std::string& file) {
 
 /// Sorted by options; one that may be repeated keeps its order. Without those that do not change what frames
 /// look like.
-std::vector<std::string> recipeOf(const CommandLine& line, const TimelapseOptions& options) {
+std::vector<std::string> recipeOf(const studio::CommandLine& line, const TimelapseOptions& options) {
   static const std::set<std::string> kOfNoFrame = {"--cache",         "--out",     "--video",    "--fps",
                                                    "--contact-sheet", "--columns", "--thumbnail"};
   auto sorted = line.given();
@@ -109,8 +111,9 @@ std::vector<std::string> recipeOf(const CommandLine& line, const TimelapseOption
 std::optional<TimelapseOptions> parseTimelapseOptions(const std::vector<std::string>& arguments) {
   TimelapseOptions options;
   Span span;
-  CommandLine line("timelapse: a day as one camera sees it, under sun, moon and stars. Needs no ROS master.",
-                   "timelapse --out FOLDER [options]");
+  studio::CommandLine line(
+      "timelapse: a day as one camera sees it, under sun, moon and stars. Needs no ROS master.",
+      "timelapse --out FOLDER [options]");
   addOutput(&line, &options);
   addTime(&line, &options, &span);
   addPlace(&line, &options.place);

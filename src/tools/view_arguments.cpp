@@ -11,7 +11,7 @@
 
 namespace sunlit::tools {
 
-ViewArguments::ViewArguments(CommandLine* line) : line_(line) {
+ViewArguments::ViewArguments(studio::CommandLine* line) : line_(line) {
   addPlaces();
   addCamera(line_, &camera_);
   addSensor();
@@ -49,8 +49,8 @@ void ViewArguments::addSensor() {
              {"ev", NumberOrWord{&ev100_, "auto"}, ev100.unit, ev100.range, "exposure value at ISO 100"});
   line_->add("--compensation STOPS", fieldOf(rows, "compensation"));
   line_
-      ->add("--noise SEED", explainedAs(fieldOf(fieldsOf(options_.studio.noise), "seed"),
-                                        "adds the noise of a sensor, with this seed"))
+      ->add("--noise SEED", studio::explainedAs(fieldOf(fieldsOf(options_.studio.noise), "seed"),
+                                                "adds the noise of a sensor, with this seed"))
       .then([this](const std::string&, const std::string&) { options_.studio.noise.enabled = true; })
       .withoutDefault();
 }

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "sunlit/studio/command_line.h"
 #include "sunlit/studio/studio.h"
 #include "tools/camera_arguments.h"
-#include "tools/command_line.h"
 
 namespace sunlit::tools {
 
@@ -43,7 +43,7 @@ inline std::vector<Field> fieldsOf(TopDown& ground) {
 class ViewArguments {
  public:
   /// Adds its options to `line`, which reads into this object.
-  explicit ViewArguments(CommandLine* line);
+  explicit ViewArguments(studio::CommandLine* line);
   ViewArguments(const ViewArguments&) = delete;
   ViewArguments& operator=(const ViewArguments&) = delete;
 
@@ -60,7 +60,7 @@ class ViewArguments {
   void placeOnPath(ViewOptions* options) const;
   void placeFree(ViewOptions* options) const;
 
-  CommandLine* line_;
+  studio::CommandLine* line_;
   ViewOptions options_;
   TypedPose pose_;
   bool turned_ = false;  ///< by the yaw of `pose_`

@@ -2,14 +2,14 @@
 /// those that light it.
 #pragma once
 
+#include "sunlit/studio/command_line.h"
 #include "sunlit/studio/world.h"
-#include "tools/command_line.h"
 
 namespace sunlit::tools {
 
 /// --world and --model-path.
-void addWorld(CommandLine* line, studio::WorldOptions* options);
+void addWorld(studio::CommandLine* line, studio::WorldOptions* options);
 /// --bounced and --cache.
-void addBounced(CommandLine* line, studio::BakeOptions* options);
+void addBounced(studio::CommandLine* line, studio::BakeOptions* options);
 
 }  // namespace sunlit::tools

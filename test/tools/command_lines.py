@@ -43,7 +43,10 @@ OPTIONS = {
     "evaluate_places": {"--out": "places.csv", "--map": "in the order of their names", "--query": "found in the map",
                         "--tolerance": "0 … 1000000000 frames, default 5",
                         "--method": "one or more of sad, seqslam, vlad:sift, "},
+    "evaluate_bags": {"--out": "folder for the results", "--config": "list_parameters prints all",
+                      "--namespace": "(default /)", "--merge": "may be repeated"},
 }
+TAKES_WORDS = {"evaluate_bags"}
 # Of all tools that have the option: a value, and what is said of it.
 REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be from 16 to 8192 px'),
            ("--size", "640x480.5", "height is 480.5, but must be a whole number from 16 to 8192 px"),
@@ -129,11 +132,13 @@ class CommandLines(unittest.TestCase):
     def test_an_option_is_spelt_in_full(self):
         for program in OPTIONS:
             for arguments, said in ((["--ou", "x"], "there is no option --ou;"), (["--last=3"], "no option --last=3;"),
-                                    (["stray"], "no option stray;"), (["-4"], "no option -4;"),
+                                    (["-4"], "no option -4;"),
                                     (["--out"], "--out needs a value"), (["--out="], "--out needs a value"),
                                     (["--out", "--help"], "--out needs a value"),
                                     (["--help=3"], "--help takes no value"), ([], "--out ")):
                 self.assertIn(said, self.refused(program, *arguments))
+            said = self.refused(program, "stray")
+            self.assertIn("--out DIR is missing" if program in TAKES_WORDS else "no option stray;", said)
 
     def test_negative_numbers_are_values(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -46,7 +46,11 @@ std::vector<Field> decidingFieldsOf(EvaluationOptions& options) {
 
 std::vector<Field> fieldsOf(EvaluationOptions& options) {
   return joined({rowsWith(fieldsOf(options.comparer), options),
-                 {{"output_dir", &options.output_dir, "", {}, "for the results; required"},
+                 {{"output_dir",
+                   &options.output_dir,
+                   "",
+                   {},
+                   "folder for the results; an unfinished run in it is taken up again; required"},
                   {"poses", &options.poses.count, "", kCounts, "indices of poses to expect; 0: unknown"},
                   {"first_pose", &options.poses.first, "", kCounts, "the first of them"},
                   {"pose_stride", &options.poses.stride, "", {1, 1e9}, "only every n-th of them"},

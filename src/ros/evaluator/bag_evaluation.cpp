@@ -145,6 +145,21 @@ class BagSource {
 
 }  // namespace
 
+std::vector<Field> fieldsOf(BagEvaluationOptions& options) {
+  return {fieldOf(fieldsOf(options.evaluation), "output_dir"),
+          {"namespace",
+           &options.name_space,
+           "",
+           {},
+           "of the topics: NAME/<stream>/camera/image_raw, or that with /compressed"},
+          {"merge",
+           &options.evaluation.merge,
+           "",
+           {},
+           "takes over the values of a run of other poses with the same parameters, made on another machine, "
+           "say; may be repeated"}};
+}
+
 std::vector<std::string> streamsIn(const std::vector<std::string>& bags, const std::string& name_space) {
   const std::string root = rootOf(name_space);
   std::set<std::string> streams;

@@ -16,6 +16,9 @@ struct BagEvaluationOptions {
   IntakeOptions intake;          ///< `compressed` prefers compressed images where a stream has both
 };
 
+/// What is typed; the evaluation's parameters come from a file.
+std::vector<Field> fieldsOf(BagEvaluationOptions& options);
+
 /// Names, in alphabetical order, of which the bags hold <name_space>/<name>/camera/image_raw, or that with
 /// /compressed. Throws std::runtime_error for a bag that cannot be read, and std::invalid_argument for a
 /// topic whose name is none of a stream.

@@ -56,7 +56,7 @@ std::vector<LibraryRule> libraryRules() {
       {std::regex("embree3/.*"), {"light"}},
       {std::regex("xxhash\\.h"), {"scene"}},
       {std::regex("(sdf|assimp|urdf_[a-z]+)/.*|tinyxml.h"), {"scene"}},
-      {std::regex("boost/program_options.*"), {"tools", "ros"}},
+      {std::regex("boost/program_options.*"), {"studio"}},
       {std::regex("tbb/.*"), {"sky", "image", "scene", "light", "render", "evaluate", "ros"}},
   };
 }

@@ -1,4 +1,4 @@
-#include "tools/command_line.h"
+#include "sunlit/studio/command_line.h"
 
 #include <algorithm>
 #include <boost/program_options.hpp>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <variant>
 
-namespace sunlit::tools {
+namespace sunlit::studio {
 
 namespace {
 
@@ -202,15 +202,10 @@ std::vector<Typed> typedWords(const std::vector<std::string>& arguments,
 
 }  // namespace
 
-po::options_description CommandLine::described() const {
-  po::options_description all(kLineLength, kLineLength / 2);
-  all.add_options()("help,h", "explains all options");
-  for (const Group& group : groups_) all.add(tools::described(group.heading, group.options));
-  return all;
-}
-
 bool CommandLine::read(const std::vector<std::string>& arguments) {
-  const po::options_description known = described();
+  po::options_description known(kLineLength, kLineLength / 2);
+  known.add_options()("help,h", "explains all options");
+  for (const Group& group : groups_) known.add(described(group.heading, group.options));
   for (const auto& [name, value, is_word] : typedWords(arguments, known)) {
     if (name == "--help") {
       std::ostringstream text;
@@ -250,4 +245,4 @@ void requireFolderOf(const std::string& option, const std::string& file) {
     refuse(option, '"' + file + '"', "in a folder that exists");
 }
 
-}  // namespace sunlit::tools
+}  // namespace sunlit::studio

@@ -1,19 +1,20 @@
-/// A tool's command line: options that are rows, read, checked and explained by them.
+/// A program's command line: options that are rows, read, checked and explained by them. In a library of its
+/// own, sunlit_command_line, so that programs need no more of the studio.
 #pragma once
 
-#include <boost/program_options/options_description.hpp>
 #include <cstddef>
 #include <cstdio>
 #include <deque>
 #include <exception>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "sunlit/quantity/field.h"
 
-namespace sunlit::tools {
+namespace sunlit::studio {
 
 /// One option: a row, or several whose values are typed in one word, such as "30,4".
 class Option {
@@ -82,7 +83,6 @@ class CommandLine {
     std::deque<Option> options;  ///< which stay where they are
   };
   const Option* find(const std::string& name) const;  ///< null where there is none
-  boost::program_options::options_description described() const;
 
   std::string about_, usage_;
   std::deque<Group> groups_;
@@ -99,25 +99,31 @@ Field explainedAs(Field row, std::string doc);
 void requireFile(const std::string& option, const std::string& file, const std::string& ending);
 void requireFolderOf(const std::string& option, const std::string& file);
 
-/// What main() is called with, and the tool's name.
+/// What main() is called with, and the program's name.
 struct Called {
   const char* name;
   int argc;
   char** argv;
 };
 
-/// The main() of a tool. `parse` makes an optional of its options from the arguments, empty if help was asked
-/// for. Status 1 and one line with the tool's name for what `parse` or `run` throws.
+/// The main() of a program. `parse` makes an optional of its options from the arguments, empty if help was
+/// asked for. The status is what `run` returns, 0 if it returns nothing, and 1, with one line and the
+/// program's name, for what `parse` or `run` throws.
 template <typename Parse, typename Run>
-int runTool(const Called& called, const Parse& parse, const Run& run) {
+int runProgram(const Called& called, const Parse& parse, const Run& run) {
   try {
     const auto options = parse(std::vector<std::string>(called.argv + 1, called.argv + called.argc));
-    if (options) run(*options);
-    return 0;
+    if (!options) return 0;
+    if constexpr (std::is_void_v<decltype(run(*options))>) {
+      run(*options);
+      return 0;
+    } else {
+      return run(*options);
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", called.name, error.what());
     return 1;
   }
 }
 
-}  // namespace sunlit::tools
+}  // namespace sunlit::studio
