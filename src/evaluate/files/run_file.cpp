@@ -1,5 +1,7 @@
 #include "evaluate/files/run_file.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -9,18 +11,20 @@
 
 #include "evaluate/files/files.h"
 #include "sunlit/image/files.h"
+#include "sunlit/quantity/yaml_text.h"
 
 namespace sunlit::evaluate {
 namespace {
 
-// Single quotes take any text in YAML, with '' for a quote.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c == '\n' ? ' ' : c);
-  return result + "'";
+// A key of about may be any text.
+std::string keyText(const std::string& key) {
+  const bool is_plain = std::all_of(key.begin(), key.end(), [](unsigned char c) {
+    return c < 0x80 && (std::isalnum(c) != 0 || c == '_' || c == '/' || c == '-' || c == '.');
+  });
+  return is_plain ? key : yamlQuoted(key);
 }
 
-// Only what writeRunFile() writes: lines of two spaces, key, colon, space, value in single quotes.
+// Only what writeRunFile() writes: lines of two spaces, key, colon, space, value in quotes.
 std::map<std::string, std::string> settingsIn(const std::string& path) {
   std::map<std::string, std::string> settings;
   std::ifstream file(path);
@@ -30,14 +34,14 @@ std::map<std::string, std::string> settingsIn(const std::string& path) {
       is_in_settings = line == "settings:";
       continue;
     }
-    const std::size_t colon = line.find(": ");
-    if (!is_in_settings || colon == std::string::npos) continue;
-    std::string value;
-    for (std::size_t i = colon + 3; i + 1 < line.size(); ++i) {
-      value += line[i];
-      if (line[i] == '\'') ++i;
-    }
-    settings[line.substr(2, colon - 2)] = value;
+    if (!is_in_settings) continue;
+    std::size_t at = 2;
+    const bool is_quoted = line.size() > 2 && (line[2] == '\'' || line[2] == '"');
+    const std::string quoted_key = is_quoted ? yamlUnquoted(line, &at) : "";
+    const std::size_t colon = line.find(": ", at);
+    if (colon == std::string::npos) continue;
+    at = colon + 2;
+    settings[is_quoted ? quoted_key : line.substr(2, colon - 2)] = yamlUnquoted(line, &at);
   }
   return settings;
 }
@@ -50,7 +54,7 @@ std::string countersText(const EvaluationOptions& options, const Outcome& outcom
        << "\n  unexpected_poses: " << outcome.counts.unexpected_poses << "\ncounters:\n  streams:\n";
   for (std::size_t i = 0; i < options.streams.size(); ++i) {
     const StreamCounts& c = outcome.counts.streams[i];
-    text << "    " << quoted(options.streams[i]) << ": {received: " << c.received
+    text << "    " << yamlQuoted(options.streams[i]) << ": {received: " << c.received
          << ", duplicate: " << c.duplicate << ", out_of_order: " << c.out_of_order
          << ", undecodable: " << c.undecodable << ", late: " << c.late << ", dropped: " << c.dropped
          << ", lost: " << c.lost << ", unexpected: " << c.unexpected << ", lossy: " << c.lossy << "}\n";
@@ -58,7 +62,7 @@ std::string countersText(const EvaluationOptions& options, const Outcome& outcom
   text << "  pairs:\n";
   for (std::size_t i = 0; i < options.pairs.size(); ++i) {
     const PairCounts& c = outcome.counts.pairs[i];
-    text << "    " << quoted(options.pairs[i].name()) << ": {evaluated: " << c.evaluated
+    text << "    " << yamlQuoted(options.pairs[i].name()) << ": {evaluated: " << c.evaluated
          << ", resumed: " << c.resumed << ", missing_partner: " << c.missing_partner
          << ", undecodable: " << c.undecodable << ", size_mismatch: " << c.size_mismatch
          << ", dropped: " << c.dropped << ", failed: " << c.failed << ", unplaced: " << c.unplaced
@@ -80,9 +84,14 @@ Settings settingsOf(const EvaluationOptions& options) {
 void requireSameSettings(const std::string& path, const Settings& settings) {
   const std::map<std::string, std::string> old_settings = settingsIn(path);
   if (old_settings.empty()) return;
+  // One line, whatever they hold.
+  const auto shown = [](const std::string& text) {
+    const std::string quoted = yamlQuoted(text);
+    return quoted[0] == '"' ? quoted : text;
+  };
   const auto refuse = [&](const std::string& key, const std::string& was, const std::string& is) {
-    throw std::invalid_argument(path + ": this folder holds a run with another setting: " + key + " was " +
-                                was + ", now " + is +
+    throw std::invalid_argument(path + ": this folder holds a run with another setting: " + shown(key) +
+                                " was " + shown(was) + ", now " + shown(is) +
                                 "; choose another output_dir, or the setting that it was made with");
   };
   std::map<std::string, std::string> current(settings.begin(), settings.end());
@@ -130,12 +139,13 @@ void claimFolder(const std::string& folder, const Settings& settings) {
 void writeRunFile(const std::string& path, const EvaluationOptions& options, const Outcome* outcome) {
   std::string text =
       "# Settings decide the values; a folder is only taken up again with the same ones.\nsettings:\n";
-  for (const auto& item : settingsOf(options)) text += "  " + item.first + ": " + quoted(item.second) + "\n";
+  for (const auto& item : settingsOf(options))
+    text += "  " + keyText(item.first) + ": " + yamlQuoted(item.second) + "\n";
   text += "poses: " + std::to_string(options.poses.count) +
           "\nfirst_pose: " + std::to_string(options.poses.first) +
           "\npose_stride: " + std::to_string(options.poses.stride) + "\n";
-  text += std::string("versions:\n  sunlit: ") + quoted(SUNLIT_VERSION) +
-          "\n  opencv: " + quoted(CV_VERSION) + "\n";
+  text += std::string("versions:\n  sunlit: ") + yamlQuoted(SUNLIT_VERSION) +
+          "\n  opencv: " + yamlQuoted(CV_VERSION) + "\n";
   if (outcome != nullptr) text += countersText(options, *outcome);
   image::writeFileAtomically(path, text);
 }

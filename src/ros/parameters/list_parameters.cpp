@@ -6,18 +6,12 @@
 #include "ros/evaluator/evaluator_options.h"
 #include "ros/render/options.h"
 #include "ros/sun_position/options.h"
+#include "sunlit/quantity/yaml_text.h"
 #include "sunlit/ros/node_rows.h"
 
 namespace {
 
 using sunlit::Field;
-
-/// Single quotes take any text in YAML, with '' for a quote.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char letter : text) result += letter == '\'' ? std::string("''") : std::string(1, letter);
-  return result + "'";
-}
 
 /// Texts in quotes, all else as YAML reads it, as are forms of their own in brackets or braces.
 std::string usual(const Field& field) {
@@ -25,14 +19,15 @@ std::string usual(const Field& field) {
   const auto* text = std::get_if<std::string>(&value);
   const bool is_own = std::holds_alternative<sunlit::OwnForm>(field.place);
   if (text == nullptr || (is_own && text->find_first_of("[{") == 0)) return field.text();
-  return is_own && text->empty() ? "~" : quoted(*text);
+  return is_own && text->empty() ? "~" : sunlit::yamlQuoted(*text);
 }
 
 void list(const std::string& node, const std::vector<Field>& rows) {
   std::printf("%s:\n", node.c_str());
   for (const Field& row : rows) {
     std::printf("  %s: {default: %s, unit: %s, allowed: %s, doc: %s}\n", row.key.c_str(), usual(row).c_str(),
-                quoted(row.unit).c_str(), quoted(row.symbols()).c_str(), quoted(row.doc).c_str());
+                sunlit::yamlQuoted(row.unit).c_str(), sunlit::yamlQuoted(row.symbols()).c_str(),
+                sunlit::yamlQuoted(row.doc).c_str());
   }
 }
 

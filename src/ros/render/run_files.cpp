@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "sunlit/image/files.h"
+#include "sunlit/quantity/yaml_text.h"
 
 namespace sunlit::ros_interface {
 
@@ -65,7 +66,7 @@ void RunFiles::keepInputs(const RunInputs& inputs) const {
 }
 
 void RunFiles::keepRasterizer(const std::string& rasterizer) const {
-  image::writeFileAtomically(folder_ + "/rasterizer.yaml", "rasterizer: '" + rasterizer + "'\n");
+  image::writeFileAtomically(folder_ + "/rasterizer.yaml", "rasterizer: " + yamlQuoted(rasterizer) + "\n");
 }
 
 void RunFiles::writeMap(const image::Rgb8Image& map, const studio::MapExtent& extent) const {

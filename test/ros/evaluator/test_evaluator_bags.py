@@ -121,6 +121,26 @@ class TestBags(unittest.TestCase):
         for name in ('summary.csv', 'frames.csv', 'captures.csv', 'path.csv'):
             self.assertEqual(read(self.path('merged'), name), read(self.path('offline'), name))
 
+    def test_about_may_be_any_text(self):
+        self.write_bags({'all.bag': [0, 1]}, range(1))
+        about = {'weather': 'rain,\nthen: sun # and "wind"\n', "it's": 'Казань\u2028\x1b[0m', 'a: b #c': '- x', 'two\nlines': '',
+                 '"': '\\n'}
+        with open(self.path('about.yaml'), 'w') as file:
+            yaml.safe_dump({'streams': ['h04', 'h12'], 'output_dir': 'unused', 'differences': ['boolean_rgb'], 'about': about},
+                           file)
+        for _ in ('made', 'taken up again, with the same settings'):
+            done = self.evaluate_bags('--config', self.path('about.yaml'), '--out', self.path('out'), self.path('all.bag'))
+            self.assertEqual(done.returncode, 0, done.stdout)
+            settings = yaml.safe_load(read(self.path('out'), 'run.yaml'))['settings']
+            self.assertEqual({key[len('about/'):]: value for key, value in settings.items() if key.startswith('about/')}, about)
+        about['weather'] = 'rain,\nthen: sun # and "wind"'  # without the last line break
+        with open(self.path('about.yaml'), 'w') as file:
+            yaml.safe_dump({'streams': ['h04', 'h12'], 'output_dir': 'unused', 'differences': ['boolean_rgb'], 'about': about},
+                           file)
+        done = self.evaluate_bags('--config', self.path('about.yaml'), '--out', self.path('out'), self.path('all.bag'))
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn('another setting: about/weather was "rain,\\nthen: sun # and \\"wind\\"\\n", now "rain,', done.stdout)
+
     def test_without_a_config_all_streams_of_the_bags_are_compared_by_all_differences(self):
         self.write_bags({'all.bag': [2, 0, 1]}, range(2))
         done = self.evaluate_bags('--out', self.path('out'), self.path('all.bag'))
