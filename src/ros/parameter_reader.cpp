@@ -42,12 +42,9 @@ T as(XmlRpcValue value) {
   return static_cast<T>(value);
 }
 
-std::string printed(const XmlRpcValue& value) {
-  if (value.getType() == XmlRpcValue::TypeString) return "\"" + as<std::string>(value) + "\"";
-  if (value.getType() == XmlRpcValue::TypeBoolean) return as<bool>(value) ? "true" : "false";
-  std::ostringstream out;
-  out << value;
-  return out.str();
+/// In messages texts stand in quotes.
+std::string quoted(const XmlRpcValue& value) {
+  return value.getType() == XmlRpcValue::TypeString ? '"' + as<std::string>(value) + '"' : plainText(value);
 }
 
 /// Nothing for what no field holds, such as a map.
@@ -150,7 +147,7 @@ ParameterReader::ParameterReader(const ros::NodeHandle& node)
 
 ParameterReader::ParameterReader(const XmlRpcValue& tree, const std::string& name) {
   if (tree.valid() && tree.getType() != XmlRpcValue::TypeStruct) {
-    throw std::invalid_argument(name + " is " + printed(tree) + ", but must be a map from names to values");
+    throw std::invalid_argument(name + " is " + quoted(tree) + ", but must be a map from names to values");
   }
   layers_.push_back(std::make_shared<Layer>(Layer{tree, name, false, {}}));
 }
@@ -190,7 +187,7 @@ std::string ParameterReader::fullName(const std::string& key) const {
 
 void ParameterReader::reject(const std::string& key, const XmlRpcValue& value,
                              const std::string& allowed) const {
-  refuse("parameter " + fullName(key), printed(value), allowed);
+  refuse("parameter " + fullName(key), quoted(value), allowed);
 }
 
 bool ParameterReader::has(const std::string& key) const {

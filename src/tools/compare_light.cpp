@@ -7,6 +7,7 @@
 #include "sunlit/image/files.h"
 #include "sunlit/image/flip.h"
 #include "sunlit/path/path.h"
+#include "sunlit/quantity/duration.h"
 #include "sunlit/quantity/frames.h"
 #include "sunlit/scene/race_track.h"
 #include "sunlit/sky/atmosphere.h"
@@ -105,9 +106,10 @@ void run(const CompareLightOptions& options) {
     const double elapsed = secondsSince(start);
     double worst = 0.0;
     for (const ComparisonRow& row : comparer.rows()) worst = std::max(worst, row.error.mean);
-    std::printf("view %zu of %zu: worst mean error so far %.1f %%, %.0f s left\n", i + 1, views.size(),
-                100.0 * worst,
-                elapsed / static_cast<double>(i + 1) * static_cast<double>(views.size() - i - 1));
+    std::printf(
+        "view %zu of %zu: worst mean error so far %.1f %%, %s left\n", i + 1, views.size(), 100.0 * worst,
+        textOfDuration(elapsed / static_cast<double>(i + 1) * static_cast<double>(views.size() - i - 1))
+            .c_str());
     std::fflush(stdout);
   }
   std::printf("%s/table.md\n", options.output.c_str());

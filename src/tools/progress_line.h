@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <string>
 
+#include "sunlit/quantity/duration.h"
+
 namespace sunlit::tools {
 
 /// "baking light: 40 %, 12 s left" on stderr; silent for a work of a moment.
@@ -19,7 +21,8 @@ class ProgressLine {
     if (percent == percent_ || (!shown_ && seconds_left < 1.0)) return;
     percent_ = percent;
     shown_ = true;
-    std::fprintf(stderr, "\r%s: %d %%, %.0f s left   ", work.c_str(), percent, seconds_left);
+    std::fprintf(stderr, "\r%s: %d %%, %s left      ", work.c_str(), percent,
+                 textOfDuration(seconds_left).c_str());
   }
   /// What follows stands below it.
   void end() {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sunlit/image/picture_series.h"
+#include "sunlit/quantity/duration.h"
 #include "sunlit/studio/command_line.h"
 #include "sunlit/studio/sky.h"
 #include "sunlit/studio/studio.h"
@@ -93,7 +94,7 @@ void makeFrames(const TimelapseOptions& options, FrameFolder* folder) {
     ++done;
     const double spent_s = std::chrono::duration<double>(Clock::now() - begin).count();
     const double left_s = spent_s / static_cast<double>(done) * static_cast<double>(wanted.size() - done);
-    std::printf("; %.0f s left\n", left_s);
+    std::printf("; %s left\n", textOfDuration(left_s).c_str());
     std::fflush(stdout);
   }
 }

@@ -1,6 +1,8 @@
 #include "ros/conversions/time.h"
 
+#include <cmath>
 #include <cstdio>
+#include <sstream>
 #include <stdexcept>
 
 #include "sunlit/astronomy/civil_time.h"
@@ -34,6 +36,21 @@ std::optional<Instant> fromUtc(const std::string& utc) {
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument("utc is \"" + utc + "\": " + error.what());
   }
+}
+
+std::string textOfDate(const CivilDateTime& civil) {
+  const long minutes = std::lround(std::abs(civil.timezone) * 60.0);
+  char text[96];
+  std::snprintf(text, sizeof(text), "%d-%02d-%02d %02d:%02d:%06.3f UTC%c%02ld:%02ld", civil.year, civil.month,
+                civil.day, civil.hour, civil.minute, civil.second, civil.timezone < 0.0 ? '-' : '+',
+                minutes / 60, minutes % 60);
+  return text;
+}
+
+std::string textOfStamp(const ros::Time& stamp) {
+  std::ostringstream text;
+  text << stamp;
+  return text.str();
 }
 
 }  // namespace sunlit::ros_interface

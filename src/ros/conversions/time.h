@@ -1,5 +1,7 @@
-/// Civil time in messages. Pure functions.
+/// Civil time in messages, and times in words. Pure functions.
 #pragma once
+
+#include <ros/time.h>
 
 #include <optional>
 #include <string>
@@ -15,5 +17,11 @@ std::string toUtc(const Instant& instant);
 /// What toUtc() writes, with any number of decimals; empty: nothing is known. Throws std::invalid_argument
 /// for anything else.
 std::optional<Instant> fromUtc(const std::string& utc);
+
+/// "2024-07-01 04:00:00.000 UTC+03:00".
+std::string textOfDate(const CivilDateTime& civil);
+
+/// "1719792000.000000000", s.
+std::string textOfStamp(const ros::Time& stamp);
 
 }  // namespace sunlit::ros_interface

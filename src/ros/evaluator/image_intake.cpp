@@ -8,6 +8,7 @@
 
 #include "ros/conversions/evaluation.h"
 #include "ros/conversions/received_images.h"
+#include "ros/conversions/time.h"
 #include "sunlit/ros/topic_names.h"
 
 namespace sunlit::ros_interface {
@@ -99,8 +100,8 @@ void ImageIntake::take(std::size_t stream, const Message& message) {
     const DecodedImage decoded = decode(message, options_.max_pixels);
     const std::int64_t stamp_ns = nanosecondsOf(message.header.stamp);
     if (!decoded.fault.empty()) {
-      ROS_WARN("%s: image of stamp %u.%09u cannot be used: %s", evaluation_.options().streams[stream].c_str(),
-               message.header.stamp.sec, message.header.stamp.nsec, decoded.fault.c_str());
+      ROS_WARN("%s: image of stamp %s cannot be used: %s", evaluation_.options().streams[stream].c_str(),
+               textOfStamp(message.header.stamp).c_str(), decoded.fault.c_str());
       evaluation_.addBadImage(stream, stamp_ns, decoded.fault);
     } else if (decoded.is_lossy) {
       evaluation_.addLossyImage(stream, stamp_ns, decoded.rgb);

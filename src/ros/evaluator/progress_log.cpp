@@ -2,21 +2,15 @@
 
 #include <ros/console.h>
 
-#include <cmath>
 #include <cstdio>
 #include <map>
+
+#include "sunlit/quantity/duration.h"
 
 namespace sunlit::ros_interface {
 namespace {
 
 constexpr double kSecondsBetweenLines = 10.0;
-
-std::string minutesAndSeconds(double seconds) {
-  const long whole = std::lround(seconds);
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%ld:%02ld min", whole / 60, whole % 60);
-  return buffer;
-}
 
 std::string padded(const std::string& text, std::size_t width) {
   return text + std::string(text.size() < width ? width - text.size() : 1, ' ');
@@ -41,7 +35,7 @@ void ProgressLog::update(const evaluate::EvaluationOptions& options, const evalu
     const double elapsed_s = has_begun_ ? (now - first_progress_).toSec() : 0.0;
     if (done > first_completed_ && done < expected) {
       const double each_s = elapsed_s / static_cast<double>(done - first_completed_);
-      line += ", " + minutesAndSeconds(each_s * static_cast<double>(expected - done)) + " left";
+      line += ", " + textOfDuration(each_s * static_cast<double>(expected - done)) + " left";
     }
   } else {
     line += " poses";

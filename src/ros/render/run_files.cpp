@@ -4,11 +4,11 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iomanip>
 #include <sstream>
 #include <stdexcept>
 
 #include "sunlit/image/files.h"
+#include "sunlit/quantity/range.h"
 #include "sunlit/quantity/yaml_text.h"
 
 namespace sunlit::ros_interface {
@@ -71,10 +71,10 @@ void RunFiles::keepRasterizer(const std::string& rasterizer) const {
 
 void RunFiles::writeMap(const image::Rgb8Image& map, const studio::MapExtent& extent) const {
   image::writePng(folder_ + "/map.png", map);
-  std::ostringstream out;
-  out << std::setprecision(10) << "x_min: " << extent.x_min << "\nx_max: " << extent.x_max
-      << "\ny_min: " << extent.y_min << "\ny_max: " << extent.y_max << '\n';
-  image::writeFileAtomically(folder_ + "/map.yaml", out.str());
+  image::writeFileAtomically(folder_ + "/map.yaml", "x_min: " + textOf(extent.x_min) +
+                                                        "\nx_max: " + textOf(extent.x_max) +
+                                                        "\ny_min: " + textOf(extent.y_min) +
+                                                        "\ny_max: " + textOf(extent.y_max) + "\n");
 }
 
 void RunFiles::writeTiming(const studio::Stopwatch& stopwatch) const {

@@ -2,7 +2,7 @@
 
 #include <ros/console.h>
 
-#include <cmath>
+#include "sunlit/quantity/duration.h"
 
 namespace sunlit::ros_interface {
 
@@ -19,7 +19,8 @@ class BakeLog {
     const Clock::time_point now = Clock::now();
     if (now - latest_ < kInterval) return;
     latest_ = now;
-    ROS_INFO("Baking sky light and bounced light: %.0f %%, %.0f s left", 100.0 * share, seconds_left);
+    ROS_INFO("Baking sky light and bounced light: %.0f %%, %s left", 100.0 * share,
+             textOfDuration(seconds_left).c_str());
   }
 
  private:
@@ -37,13 +38,6 @@ studio::Reports loggedReports() {
   return reports;
 }
 
-std::string printedDuration(double seconds) {
-  const auto whole = static_cast<long>(std::lround(seconds));
-  if (whole < 60) return std::to_string(whole) + " s";
-  if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
-  return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
-}
-
 void PoseLog::report(int position, int positions) {
   const Clock::time_point now = Clock::now();
   if (begin_position_ < 0) {
@@ -57,7 +51,7 @@ void PoseLog::report(int position, int positions) {
   if (now - latest_ < kInterval && position < positions) return;
   latest_ = now;
   ROS_INFO("pose %d of %d (%d %%), %.0f ms a pose, %s left", position, positions, 100 * position / positions,
-           1e3 * per_pose_s, printedDuration(seconds_left_).c_str());
+           1e3 * per_pose_s, textOfDuration(seconds_left_).c_str());
 }
 
 bool WaitLog::report(const std::string& waits_for) {

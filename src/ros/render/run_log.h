@@ -42,7 +42,4 @@ class WaitLog {
 /// What the studio tells, in the log; how far a bake is every few seconds.
 studio::Reports loggedReports();
 
-/// "1 min 14 s"
-std::string printedDuration(double seconds);
-
 }  // namespace sunlit::ros_interface

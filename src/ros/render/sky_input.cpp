@@ -2,7 +2,6 @@
 
 #include <ros/console.h>
 
-#include <cstdio>
 #include <stdexcept>
 
 #include "ros/conversions/time.h"
@@ -14,12 +13,6 @@ namespace {
 
 /// While a picture is made the sky may move many times; none of them may be lost.
 constexpr std::uint32_t kQueueSize = 20000;
-
-std::string printed(const ros::Time& stamp) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%u.%09u", stamp.sec, stamp.nsec);
-  return text;
-}
 
 }  // namespace
 
@@ -79,13 +72,13 @@ std::string SkyInput::missing() const {
 std::string SkyInput::missing(const ros::Time& stamp) const {
   if (newest() == nullptr) return missing();
   if (moments_.at(stamp)) return std::string();
-  const std::string wanted = "the sky of " + printed(stamp) + " on " + sun_.subscriber.getTopic();
+  const std::string wanted = "the sky of " + textOfStamp(stamp) + " on " + sun_.subscriber.getTopic();
   const auto& moments = moments_.whole();
   if (moments_.missed(stamp)) {
-    return wanted + ", which has begun with " + printed(moments.begin()->first) + " and gone on to " +
-           printed(moments.rbegin()->first) + " without it";
+    return wanted + ", which has begun with " + textOfStamp(moments.begin()->first) + " and gone on to " +
+           textOfStamp(moments.rbegin()->first) + " without it";
   }
-  return wanted + ", which stands at " + printed(moments.rbegin()->first);
+  return wanted + ", which stands at " + textOfStamp(moments.rbegin()->first);
 }
 
 }  // namespace sunlit::ros_interface

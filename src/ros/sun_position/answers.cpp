@@ -1,7 +1,5 @@
 #include "ros/sun_position/answers.h"
 
-#include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "ros/conversions/requests.h"
@@ -66,15 +64,6 @@ void answer(const GetSunTimes::Request& request, const Air& air, const astronomy
   response->nautical_dusk = orNan(times.nautical.dusk);
   response->astronomical_dawn = orNan(times.astronomical.dawn);
   response->astronomical_dusk = orNan(times.astronomical.dusk);
-}
-
-std::string printed(const CivilDateTime& civil) {
-  const long minutes = std::lround(std::abs(civil.timezone) * 60.0);
-  char text[96];
-  std::snprintf(text, sizeof(text), "%d-%02d-%02d %02d:%02d:%06.3f UTC%c%02ld:%02ld", civil.year, civil.month,
-                civil.day, civil.hour, civil.minute, civil.second, civil.timezone < 0.0 ? '-' : '+',
-                minutes / 60, minutes % 60);
-  return text;
 }
 
 }  // namespace sunlit::ros_interface

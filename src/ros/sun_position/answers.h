@@ -27,7 +27,4 @@ void answer(const GetMoonPosition::Request& request, const std_msgs::Header& hea
 void answer(const GetSunTimes::Request& request, const Air& air, const astronomy::EarthRotation& earth,
             GetSunTimes::Response* response);
 
-/// "2024-07-01 04:00:00.000 UTC+03:00".
-std::string printed(const CivilDateTime& civil);
-
 }  // namespace sunlit::ros_interface

@@ -2,11 +2,10 @@
 
 #include <rosgraph_msgs/Clock.h>
 
-#include <iomanip>
-#include <sstream>
 #include <stdexcept>
 
 #include "ros/conversions/geometry.h"
+#include "ros/conversions/time.h"
 #include "sunlit/astronomy/celestial.h"
 #include "sunlit/astronomy/civil_time.h"
 #include "sunlit/astronomy/delta_t.h"
@@ -20,13 +19,6 @@ constexpr char kPolynomials[] = "from the polynomials of Espenak and Meeus (2006
 constexpr std::uint32_t kQueueSize = 10000;
 /// /clock stands still, and does not only take its time from one value to the next.
 const ros::WallDuration kStandstill(0.005);
-
-/// "16.5"
-std::string printed(double number) {
-  std::ostringstream text;
-  text << std::setprecision(10) << number;
-  return text.str();
-}
 
 /// A bad request changes nothing and is answered in words.
 template <typename Response, typename Action>
@@ -62,7 +54,7 @@ SunPositionNode::SunPositionNode(const ros::NodeHandle& node, const ros::NodeHan
   diagnostics_.add("sun", this, &SunPositionNode::describe);
   advertiseServices();
   ROS_INFO("%s starts at %s, rate %g, at latitude %g, longitude %g; delta_t %s", options_.sun_frame.c_str(),
-           printed(options_.date_time).c_str(), options_.rate, options_.site.latitude.deg(),
+           textOfDate(options_.date_time).c_str(), options_.rate, options_.site.latitude.deg(),
            options_.site.longitude.deg(), options_.earth.delta_t_s ? "as given" : kPolynomials);
   now_ = ros::Time::now();
   publish();
@@ -145,7 +137,7 @@ bool SunPositionNode::onSetDateTime(SetDateTime::Request& request, SetDateTime::
     clock_ = SunClock(astronomy::instantOf(civil), request.rate);
     options_.date_time = civil;
     publish();
-    return "the sun's clock is set to " + printed(civil) + ", rate " + printed(request.rate);
+    return "the sun's clock is set to " + textOfDate(civil) + ", rate " + textOf(request.rate);
   });
 }
 
@@ -157,9 +149,9 @@ bool SunPositionNode::onSetSite(SetSite::Request& request, SetSite::Response& re
     options_.air = air;
     if (!ros::Time::isSimTime()) now_ = ros::Time::now();
     publish();
-    return "the scene is moved to latitude " + printed(site.latitude.deg()) + " deg, longitude " +
-           printed(site.longitude.deg()) + " deg, elevation " + printed(site.elevation_m) +
-           " m, with air of " + printed(air.pressure_hpa) + " hPa, " + printed(air.temperature_c) + " deg C";
+    return "the scene is moved to latitude " + textOf(site.latitude.deg()) + " deg, longitude " +
+           textOf(site.longitude.deg()) + " deg, elevation " + textOf(site.elevation_m) + " m, with air of " +
+           textOf(air.pressure_hpa) + " hPa, " + textOf(air.temperature_c) + " deg C";
   });
 }
 
@@ -195,7 +187,7 @@ void SunPositionNode::describe(diagnostic_updater::DiagnosticStatusWrapper& stat
     status.summary(diagnostic_msgs::DiagnosticStatus::OK,
                    waiting_ ? "the sun waits for its first subscriber" : motion);
   }
-  status.add("date and time", printed(astronomy::civilOf(sun_time_, options_.date_time.timezone)));
+  status.add("date and time", textOfDate(astronomy::civilOf(sun_time_, options_.date_time.timezone)));
   status.addf("rate", "%g", clock_.rate());
   status.addf("azimuth, deg", "%.6f", sun_.azimuth / kRadPerDeg);
   status.addf("apparent elevation, deg", "%.6f", sun_.elevation / kRadPerDeg);

@@ -45,12 +45,6 @@ TEST(Options, WithoutParametersAreTheDefaultsOfTheBuiltInWorld) {
   EXPECT_EQ(options.exposure.mode, image::ExposureMode::kAuto);
 }
 
-TEST(Durations, ReadAsPeopleSayThem) {
-  EXPECT_EQ(printedDuration(59.4), "59 s");
-  EXPECT_EQ(printedDuration(74.0), "1 min 14 s");
-  EXPECT_EQ(printedDuration(3660.0), "1 h 1 min");
-}
-
 class RunFolder : public testing::Test {
  protected:
   void SetUp() override {

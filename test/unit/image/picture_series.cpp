@@ -54,7 +54,7 @@ TEST(ContactSheet, SaysHowLargeItWouldBeHoweverLarge) {
 }
 
 TEST(Words, StandWhiteOnDarkInTheLowerLeftCorner) {
-  Rgb8Image picture(360, 180);
+  Rgb8Image picture(720, 360);
   std::fill(picture.data.begin(), picture.data.end(), std::uint8_t{128});
   writeInto("04:30", 1.0 / 18.0, &picture);
   int white = 0, black = 0;
@@ -63,8 +63,8 @@ TEST(Words, StandWhiteOnDarkInTheLowerLeftCorner) {
       const int value = *picture.at(x, y);
       white += value == 255;
       black += value == 0;
-      // Five letters of 10 px height are narrower than 60 px, their rim and margin less than 10 px.
-      const bool in_corner = x < 70 && y > picture.height - 30;
+      // Five letters of 20 px height are narrower than 110 px, their rim and margin less than 20 px.
+      const bool in_corner = x < 130 && y > picture.height - 50;
       ASSERT_TRUE(in_corner || value == 128) << x << ", " << y;
     }
   }

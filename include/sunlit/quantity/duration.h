@@ -1,0 +1,12 @@
+/// How long something takes, in words.
+#pragma once
+
+#include <string>
+
+namespace sunlit {
+
+/// "59 s", "1 min 04 s", "2 h 01 min", of whole seconds; `seconds` ≥ 0. What experiments say of themselves,
+/// in scripts/sunlit_experiment/progress.py, reads alike.
+std::string textOfDuration(double seconds);
+
+}  // namespace sunlit
