@@ -95,7 +95,7 @@ std::vector<Field> fieldsOf(PacingOptions& pacing) {
          &pacing.exact_sky,
          "",
          {},
-         "only skies of exactly a pose's stamp; so it is with publish_clock too"}}});
+         "only skies of exactly a pose's stamp; with publish_clock it cannot be false"}}});
 }
 
 /// The air's rows, but that its height may be left to the site.
@@ -132,6 +132,17 @@ void requireBakeForGather(const ParameterReader& parameters, const RenderNodeOpt
                               std::to_string(options.final_gather) + ", but " +
                               parameters.fullName("transport/enabled") +
                               " is false: it looks closer where light is baked");
+}
+
+/// The clock of this node stands still until the sky of the pose's very stamp is there.
+void requireExactSky(const ParameterReader& parameters, PacingOptions* pacing) {
+  if (!pacing->publish_clock) return;
+  if (parameters.has("exact_sky") && !pacing->exact_sky) {
+    throw std::invalid_argument("parameter " + parameters.fullName("exact_sky") + " is false, but " +
+                                parameters.fullName("publish_clock") +
+                                " is true, which waits for exactly that sky; leave exact_sky out");
+  }
+  pacing->exact_sky = true;
 }
 
 /// Throws for what only a run along a path can heed, where the camera follows TF instead.
@@ -222,6 +233,7 @@ RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {
   requireOnePath(parameters, options.path);
   requireBakeForGather(parameters, options);
   if (options.camera.follow_tf) refuseWithoutPath(parameters, options.pacing);
+  requireExactSky(parameters, &options.pacing);
   if (options.world.name != scene::kRaceTrack && options.path.file.empty() && options.path.topic.empty() &&
       !options.camera.follow_tf) {
     throw std::invalid_argument("parameter " + parameters.fullName("path/file") +

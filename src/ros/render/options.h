@@ -58,7 +58,7 @@ struct PacingOptions {
   bool autostart = true;                ///< false: wait for ~start
   bool exit_when_done = false;          ///< end with status 0 once all poses have reached their readers
   bool publish_clock = false;  ///< this node is the time of all: /clock stands at the pose to be rendered
-  bool exact_sky = false;      ///< only skies of exactly a pose's stamp; so it is with publish_clock too
+  bool exact_sky = false;      ///< only skies of exactly a pose's stamp; true with publish_clock
 };
 
 struct RenderNodeOptions {

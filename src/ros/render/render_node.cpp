@@ -27,7 +27,7 @@ StreamOptions streamOptions(const RenderNodeOptions& options) {
   // A reader that is paced can never be further behind than this, so roscpp has no reason to drop a message.
   streams.output.queue_size = static_cast<std::uint32_t>(options.pacing.max_ahead + 2);
   streams.night = options.night;
-  streams.sky = options.pacing.exact_sky || options.pacing.publish_clock ? SkyRule::kExact : SkyRule::kAround;
+  streams.sky = options.pacing.exact_sky ? SkyRule::kExact : SkyRule::kAround;
   streams.sun_namespace = options.sun_namespace;
   streams.wanted_subscribers = options.pacing.subscribers;
   return streams;

@@ -40,6 +40,8 @@ class RenderRefuses(RefusalTest):
         self.assert_refused(parameters(transport={"final_gather": 2, "enabled": False}), "/refused/transport/final_gather",
                             "/refused/transport/enabled is false")
         self.assert_refused(parameters(start_stamp="soon"), "/refused/start_stamp", "soon", "now")
+        self.assert_refused(parameters(publish_clock=True, exact_sky=False), "/refused/exact_sky is false",
+                            "/refused/publish_clock is true", "leave exact_sky out")
         self.assert_refused(parameters(conditions=["a", "a"]), "/refused/conditions", "twice")
         self.assert_refused(parameters(conditions={"a": {"turbidity": 3}}), "turbidity", "unknown; nothing can differ here")
         self.assert_refused(parameters(path={"file": ""}), "/refused/path/file", "race_track")
@@ -64,7 +66,7 @@ class RenderRefuses(RefusalTest):
         fatal = [line for line in lines if "FATAL" in line][0]
         self.assertIn("/refused/unknown_key is unknown", fatal)
         known = re.search("known are ([a-z0-9_/, ]*)", fatal).group(1).split(", ")
-        in_comments = {"conditions", "camera/rasterizer"}
+        in_comments = {"conditions", "camera/rasterizer", "exact_sky"}
         self.assertEqual(sorted(set(known) - in_comments), sorted(keys(shipped)))
 
     def test_worlds(self):
