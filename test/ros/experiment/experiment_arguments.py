@@ -7,6 +7,7 @@ import unittest
 
 import roslib.packages
 import rosunit
+import shown
 import yaml
 
 SOURCE = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", ".."))
@@ -31,22 +32,18 @@ class ExperimentArguments(unittest.TestCase):
             self.assertGreater(int(poses), 100, name)
 
     def test_rviz_shows_each_condition(self):
-        with tempfile.TemporaryDirectory() as folder:
-            rviz = os.path.join(folder, "rviz")
-            with open(rviz, "w") as fake:
-                fake.write("#!/bin/sh\ncat \"$2\"\n")
-            os.chmod(rviz, 0o755)
-            for config in ("sunlit.rviz", "sun_position.rviz"):
-                for kind, text, names in (("hours", "[4, 20]", ["h04/", "h20/"]), ("conditions", "{a: {}}", ["a/"]),
-                                            ("conditions", "", [""])):
-                    shown = yaml.safe_load(subprocess.check_output(
-                        ["/usr/bin/python3", os.path.join(SOURCE, "scripts", "conditions_rviz"),
-                         os.path.join(SOURCE, "rviz", config), kind, text],
-                        env=dict(os.environ, PATH=folder + ":" + os.environ["PATH"])))
-                    displays = shown["Visualization Manager"]["Displays"]
-                    self.assertEqual([d["Marker Topic"] for d in displays if "Marker Topic" in d],
-                                     [name + marker for marker in ("sun_marker", "moon_marker") for name in names])
-                    self.assertEqual(len({d["Name"] for d in displays}), len(displays))
+        for config in ("sunlit.rviz", "sun_position.rviz"):
+            for kind, text, names in (("hours", "[4, 20]", ["h04/", "h20/"]), ("conditions", "{a: {}}", ["a/"]),
+                                        ("conditions", "", [""])):
+                displays = shown.displays(config, kind, text)
+                self.assertEqual([d["Marker Topic"] for d in displays if "Marker Topic" in d],
+                                 [name + marker for marker in ("sun_marker", "moon_marker") for name in names])
+                self.assertEqual(len({d["Name"] for d in displays}), len(displays))
+                if config == "sunlit.rviz":
+                    clouds = [d for d in displays if "Depth Map Topic" in d]
+                    self.assertEqual([d["Color Image Topic"] for d in clouds], [name + "camera/image_raw" for name in names])
+                    self.assertEqual({d["Depth Map Topic"] for d in clouds}, {"camera/depth/image_raw"})
+                    self.assertEqual([d["Enabled"] for d in clouds], [True] + [False] * (len(names) - 1))
 
     def parameters(self, *arguments, **surroundings):
         """What experiment.launch would set, without starting anything. `surroundings`: environment variables."""

@@ -8,6 +8,7 @@ import unittest
 
 import rospkg
 import rosunit
+import shown
 import yaml
 from launching import WAYPOINTS, WORLD, Launched, kill_leftovers
 
@@ -18,13 +19,18 @@ class LaunchFilesStart(unittest.TestCase):
     def tearDownClass(cls):
         kill_leftovers()
 
-    def check(self, launched, *topics):
-        """Each topic gets a message."""
+    def check(self, launched, *topics, conditions=None):
+        """Each topic gets a message, and what RViz shows of `conditions`, as typed, is there."""
         for topic in topics:
             launched.wait_for(lambda: launched.ros("rostopic", "info", topic).returncode == 0, "advertised " + topic)
             heard = launched.ros("rostopic", "echo", "-n", "1", "--noarr", topic)
             self.assertEqual(heard.returncode, 0, heard.stdout)
             self.assertIn("header", heard.stdout)
+        if conditions is not None:
+            wanted = shown.topics("sunlit.rviz", "conditions", conditions)
+            self.assertIn("/camera/depth/camera_info", wanted)
+            launched.wait_for(lambda: wanted <= set(launched.ros("rostopic", "list", "-p").stdout.split()),
+                              "had all of " + ", ".join(sorted(wanted)))
         self.finish(launched)
 
     def folder(self):
@@ -88,8 +94,9 @@ class LaunchFilesStart(unittest.TestCase):
         self.check(Launched("sun_position.launch"), "/sun")
 
     def test_render(self):
-        self.check(Launched("render.launch", world=WORLD, path=WAYPOINTS, conditions="{a: {hour: 9}, b: {hour: 12}}"),
-                   "/a/sun", "/b/sun", "/path")
+        conditions = "{a: {hour: 9}, b: {hour: 12}}"
+        self.check(Launched("render.launch", world=WORLD, path=WAYPOINTS, conditions=conditions), "/a/sun", "/b/sun", "/path",
+                   conditions=conditions)
 
     def test_render_with_a_robot(self):
         launched = Launched("render.launch", world=os.path.relpath(WORLD), path=os.path.relpath(WAYPOINTS), robot="rover")
@@ -99,7 +106,8 @@ class LaunchFilesStart(unittest.TestCase):
 
     def test_demo(self):
         # As typed in a terminal: nodes start in another folder.
-        self.check(Launched("demo.launch", world=os.path.relpath(WORLD), path=os.path.relpath(WAYPOINTS)), "/sun", "/path")
+        self.check(Launched("demo.launch", world=os.path.relpath(WORLD), path=os.path.relpath(WAYPOINTS)), "/sun", "/path",
+                   conditions="")
 
     def test_evaluator(self):
         launched = Launched("evaluator.launch", streams="[a, b]", output=self.folder())
