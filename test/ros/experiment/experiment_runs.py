@@ -69,6 +69,22 @@ class ExperimentRuns(unittest.TestCase):
             for topic in ("/h10/sun", "/h10/moon", "/h12/celestial"):
                 self.assertGreaterEqual(bag.get_message_count(topic), 1, topic)
 
+    def test_compressed_the_pictures_are_recorded_as_png_and_no_value_changes(self):
+        output = os.path.join(self.folder, "compressed")
+        run = small_experiment(output, record="true", compressed="true")
+        self.assertEqual(run.end(), 0, run.said())
+        self.assertEqual(self.bytes_of(output, "frames.csv"), self.bytes_of(self.output, "frames.csv"))
+        bag, = [name for name in os.listdir(output) if name.endswith(".bag")]
+        with rosbag.Bag(os.path.join(output, bag)) as recording:
+            topics = recording.get_type_and_topic_info().topics
+            for hour in ("h10", "h12"):
+                raw = "/%s/camera/image_raw" % hour
+                self.assertNotIn(raw, topics)
+                self.assertEqual(topics[raw + "/compressed"].msg_type, "sensor_msgs/CompressedImage")
+                stamps = [image.header.stamp.to_nsec() for _, image, _ in recording.read_messages(raw + "/compressed")]
+                self.assertEqual(stamps, [1000 * 10**9 + pose * 10**8 for pose in range(POSES)])
+            self.assertEqual(topics["/camera/depth/image_raw"].msg_type, "sensor_msgs/Image")
+
     def test_recording_is_listed(self):
         with open(os.path.join(self.output, "recording.csv")) as file:
             self.assertEqual([(row["first_pose"], row["last_pose"], row["poses"]) for row in csv.DictReader(file)],
