@@ -19,4 +19,8 @@ Picture makePicture(const cv::Mat& rgb) {
   return picture;
 }
 
+cv::Mat matOf(image::Rgb8Image& picture) {
+  return cv::Mat(picture.height, picture.width, CV_8UC3, picture.data.data());
+}
+
 }  // namespace sunlit::evaluate

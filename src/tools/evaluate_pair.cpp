@@ -1,11 +1,11 @@
 // Features of two pictures, checked against where their points truly lie.
 #include <Eigen/Core>
 #include <cstdio>
-#include <opencv2/core/mat.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "sunlit/evaluate/picture.h"
 #include "sunlit/evaluate/verify/point_maps.h"
 #include "sunlit/evaluate/verify/verified_file.h"
 #include "sunlit/evaluate/verify/verify.h"
@@ -38,11 +38,6 @@ evaluate::PointMaps mapsOf(const EvaluatePairOptions& options, const Rgb8Image& 
   return evaluate::identityMaps(sizes.a);
 }
 
-/// Of the same pixels.
-cv::Mat matOf(Rgb8Image& picture) {
-  return cv::Mat(picture.height, picture.width, CV_8UC3, picture.data.data());
-}
-
 void print(const std::vector<evaluate::VerifiedRow>& rows) {
   std::printf("%-6s %13s %13s %7s %7s %17s %7s %7s %9s %7s %7s %8s\n", "", "features", "common", "repeat.",
               "score", "MMA@1/3/5", "mutual", "ratio", "precision", "recall", "AP", "D");
@@ -62,7 +57,7 @@ void evaluatePair(const EvaluatePairOptions& options) {
   Rgb8Image b = image::readPhotograph(options.b);
   const evaluate::PointMaps maps = mapsOf(options, a, b);
   const std::vector<evaluate::Verified> verified =
-      evaluate::verifyImages({matOf(a), matOf(b)}, maps, options.verify);
+      evaluate::verifyImages({evaluate::matOf(a), evaluate::matOf(b)}, maps, options.verify);
   std::vector<evaluate::VerifiedRow> rows;
   for (std::size_t i = 0; i < verified.size(); ++i)
     rows.push_back({options.a, options.b, options.verify.detectors[i], verified[i]});

@@ -3,6 +3,8 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "sunlit/image/images.h"
+
 namespace sunlit::evaluate {
 
 struct Picture {
@@ -13,5 +15,8 @@ struct Picture {
 
 /// Throws std::invalid_argument unless `rgb` is CV_8UC3 and not empty. Shares the pixels of `rgb`.
 Picture makePicture(const cv::Mat& rgb);
+
+/// As evaluations take pictures: CV_8UC3, red first. Shares the pixels of `picture`.
+cv::Mat matOf(image::Rgb8Image& picture);
 
 }  // namespace sunlit::evaluate

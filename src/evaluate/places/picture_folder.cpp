@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "sunlit/evaluate/picture.h"
 #include "sunlit/image/encoded_size.h"
 #include "sunlit/image/files.h"
 #include "sunlit/image/texture_files.h"
@@ -97,8 +98,7 @@ cv::Mat readGreyPicture(const std::string& file) {
   cv::Mat grey;
   if (endingOf(file) == ".png") {
     image::Rgb8Image picture = image::readPng(file);
-    cv::cvtColor(cv::Mat(picture.height, picture.width, CV_8UC3, picture.data.data()), grey,
-                 cv::COLOR_RGB2GRAY);
+    cv::cvtColor(matOf(picture), grey, cv::COLOR_RGB2GRAY);
     return grey;
   }
   std::ifstream stream(file, std::ios::binary);
