@@ -39,7 +39,7 @@ OPTIONS = {
     "evaluate_trajectory": {"--truth": "timestamp tx ty tz qx qy qz qw", "--estimate": "of the same body",
                             "--out": "trajectory.csv", "--align": "none|se3|sim3|yaw",
                             "--max-difference": "0 … 1000000 s, default 0.01", "--delta": "default 1m,10m,1frame",
-                            "--map": "map.png", "--repeated-stamps": "refuse|first"},
+                            "--map": "map.png", "--repeated-stamps": "refuse|first", "--pairs-from": "estimate|truth"},
     "evaluate_places": {"--out": "places.csv", "--map": "in the order of their names", "--query": "found in the map",
                         "--tolerance": "0 … 1000000000 frames, default 5",
                         "--method": "one or more of sad, seqslam, vlad:sift, "},
