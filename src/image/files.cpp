@@ -1,14 +1,17 @@
 #include "sunlit/image/files.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -21,12 +24,22 @@ namespace {
   throw std::runtime_error(path + ": " + what + ": " + std::strerror(errno));
 }
 
+constexpr const char* kUnfinished = ".part";
+
+/// Whether a file of this name was left by a TemporaryFile of a process that has ended.
+bool isAbandoned(const std::string& name) {
+  static const std::regex form(std::string(R"(.+\.([0-9]{1,9})\.[0-9]+\)") + kUnfinished);
+  std::smatch match;
+  if (!std::regex_match(name, match, form)) return false;
+  return ::kill(static_cast<pid_t>(std::stol(match[1])), 0) != 0 && errno == ESRCH;
+}
+
 /// An open file that is removed again unless it was kept.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& target) {
     static std::atomic<unsigned> count{0};  // two threads may write the same picture
-    path_ = target + "." + std::to_string(::getpid()) + "." + std::to_string(count++) + ".part";
+    path_ = target + "." + std::to_string(::getpid()) + "." + std::to_string(count++) + kUnfinished;
     descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0) {
       fail(target, "create");
@@ -154,6 +167,17 @@ void writeFileAtomically(const std::string& path, const std::string& bytes) {
   TemporaryFile file(path);
   file.write(path, bytes);
   file.moveTo(path);
+}
+
+void removeUnfinished(const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;  // who cannot read the folder will say so when he writes to it
+  std::vector<fs::path> abandoned;
+  fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, ignored), end;
+  for (; !ignored && entry != end; entry.increment(ignored)) {
+    if (isAbandoned(entry->path().filename().string())) abandoned.push_back(entry->path());
+  }
+  for (const fs::path& path : abandoned) fs::remove(path, ignored);
 }
 
 void writePfm(const std::string& path, const LinearImage& image) {

@@ -12,6 +12,10 @@ namespace sunlit::image {
 /// exist.
 void writeFileAtomically(const std::string& path, const std::string& bytes);
 
+/// Removes what writers of files were killed in the midst of, in `folder` and below. What belongs to a process that
+/// still runs stays.
+void removeUnfinished(const std::string& folder);
+
 /// Makes `finished`, a whole file that nobody writes to any more, durable (fsync), gives it the name `path`
 /// in the same folder, and makes that name durable too. Where that fails `finished` is still there.
 void moveIntoPlace(const std::string& finished, const std::string& path);

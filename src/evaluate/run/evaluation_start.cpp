@@ -7,6 +7,7 @@
 #include "evaluate/files/run_file.h"
 #include "evaluate/run/evaluation_state.h"
 #include "sunlit/evaluate/files/stream_name.h"
+#include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -87,6 +88,7 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
   }
   makeFolder(options_.output_dir);
   claimFolder(options_.output_dir, settingsOf(options_));
+  image::removeUnfinished(options_.output_dir);
   writeRunFile(file("run.yaml"), options_, nullptr);
   takeUpEarlierRuns();
   problems_ = std::make_unique<ProblemFile>(options_.output_dir);

@@ -3,6 +3,7 @@
 import csv
 import os
 import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -149,6 +150,10 @@ class ExperimentRuns(unittest.TestCase):
         output = self.killed("killed_recording", record="true")
         left = [name for name in os.listdir(output) if name.startswith("recording_")]
         self.assertTrue(left)
+        ended = subprocess.Popen(["true"])
+        ended.wait()
+        with open(os.path.join(output, "frames.csv.%d.0.part" % ended.pid), "w"):
+            pass  # as if killed in the midst of writing
         for name in left:  # the recorder has had its time to close it
             os.rename(os.path.join(output, name), os.path.join(output, name.replace(".bag.active", ".bag") + ".active"))
         again = small_experiment(output, record="true")

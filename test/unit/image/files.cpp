@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -41,6 +42,29 @@ Rgb8Image pattern() {
     picture.data[i] = static_cast<std::uint8_t>((i * 7919) >> 3);
   }
   return picture;
+}
+
+TEST_F(Files, LeftUnfinishedByProcessesThatHaveEndedAreRemoved) {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+  fs::create_directories(path("images/h12"));
+  const std::string ended = "." + std::to_string(child) + ".7.part";
+  const std::string alive = "." + std::to_string(::getpid()) + ".7.part";
+  for (const std::string name : {"frames.csv", "images/h12/000001.png"}) {
+    put(name + ended, "half");
+    put(name + alive, "half");
+  }
+  const std::vector<std::string> others = {"notes.part", ".1.2.part", "frames.csv", "a.99.part",
+                                           "a.x.1.part"};
+  for (const std::string& name : others) put(name, "whole");
+  removeUnfinished(folder_.path());
+  for (const std::string name : {"frames.csv", "images/h12/000001.png"}) {
+    EXPECT_FALSE(fs::exists(path(name + ended)));
+    EXPECT_TRUE(fs::exists(path(name + alive)));
+  }
+  for (const std::string& name : others) EXPECT_TRUE(fs::exists(path(name))) << name;
+  removeUnfinished(path("nowhere"));  // nothing to do
 }
 
 TEST_F(Files, PngReturnsTheSamePixels) {
