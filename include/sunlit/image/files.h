@@ -12,8 +12,8 @@ namespace sunlit::image {
 /// exist.
 void writeFileAtomically(const std::string& path, const std::string& bytes);
 
-/// Removes what writers of files were killed in the midst of, in `folder` and below. What belongs to a process that
-/// still runs stays.
+/// Removes what writers of files were killed in the midst of, in `folder` and below. What belongs to a
+/// process that still runs stays.
 void removeUnfinished(const std::string& folder);
 
 /// Makes `finished`, a whole file that nobody writes to any more, durable (fsync), gives it the name `path`
