@@ -8,38 +8,14 @@
 
 #include "path/waypoint_check.h"
 #include "sunlit/path/path.h"
+#include "sunlit/quantity/columns.h"
 
 namespace sunlit::path {
 namespace {
 
 constexpr std::size_t kTumColumns = 8;
 
-std::string trimmed(const std::string& text) {
-  const char* blanks = " \t\r\xEF\xBB\xBF";  // with the bytes of the mark that some editors put at the start
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 using Fields = std::vector<std::string>;
-
-Fields splitAtCommas(const std::string& line) {
-  Fields fields;
-  std::size_t begin = 0;
-  while (begin <= line.size()) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    fields.push_back(trimmed(line.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return fields;
-}
-
-Fields splitAtBlanks(const std::string& line) {
-  Fields fields;
-  std::istringstream words(line);
-  for (std::string word; words >> word;) fields.push_back(word);
-  return fields;
-}
 
 bool isHeader(const Fields& fields) {
   Fields lower = fields;

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "sunlit/evaluate/trajectory/trajectory.h"
+#include "sunlit/quantity/columns.h"
 #include "sunlit/quantity/range.h"
 
 namespace sunlit::evaluate {
@@ -34,31 +35,6 @@ constexpr std::size_t kLeastColumns = 8;
 constexpr std::size_t kEurocColumns = 17;
 /// m; what is further off is a slip, and would leave a double no micrometre.
 const Range kCoordinate{-1e9, 1e9};
-
-std::string trimmed(const std::string& text) {
-  const char* blanks = " \t\r\xEF\xBB\xBF";  // with the bytes of the mark that some editors put at the start
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-Fields splitAtCommas(const std::string& line) {
-  Fields fields;
-  std::size_t begin = 0;
-  while (begin <= line.size()) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    fields.push_back(trimmed(line.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return fields;
-}
-
-Fields splitAtBlanks(const std::string& line) {
-  Fields fields;
-  std::istringstream words(line);
-  for (std::string word; words >> word;) fields.push_back(word);
-  return fields;
-}
 
 bool isDigit(char c) {
   return c >= '0' && c <= '9';
