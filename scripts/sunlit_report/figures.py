@@ -23,14 +23,14 @@ STYLE = {
 }
 
 
-def _svg(figure):
+def svg(figure):
     text = io.StringIO()
     figure.savefig(text, format="svg", bbox_inches="tight", pad_inches=0.03, metadata={"Date": None})
     plt.close(figure)
     return text.getvalue()
 
 
-def _colour(index):
+def colour_of(index):
     return COLOURS[index % len(COLOURS)]
 
 
@@ -39,10 +39,9 @@ def distance_along(path):
     return np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(path["x"]), np.diff(path["y"])))])
 
 
-def _abscissa(output):
-    """A function from poses to where they stand on the axis, and the axis' name."""
+def abscissa(output, poses):
+    """A function from these poses to where they stand on the axis, and the axis' name."""
     known = output.path.get("pose")
-    poses = np.unique(np.concatenate([one.pose for one in output.series.values()]))
     if known is None or not np.isin(poses, known).all():
         return (lambda pose: pose.astype(float)), "pose"
     along = distance_along(output.path)
@@ -59,7 +58,7 @@ def running_median(values, width):
     return result
 
 
-def _grid(count, columns, panel_size):
+def grid_of(count, columns, panel_size):
     rows = -(-count // columns)
     figure, axes = plt.subplots(rows, columns, squeeze=False, constrained_layout=True,
                                 figsize=(columns * panel_size[0], rows * panel_size[1]))
@@ -80,26 +79,26 @@ def _draw_series(axis, x, series, colour, label):
 
 def along_path(output, pairs):
     """D over the path, one panel per algorithm."""
-    to_x, x_name = _abscissa(output)
+    to_x, x_name = abscissa(output, np.unique(np.concatenate([one.pose for one in output.series.values()])))
     with plt.rc_context(STYLE):
         differences = output.differences
         columns = 2 if len(differences) > 1 else 1
-        figure, axes = _grid(len(differences), columns, (4.6, 1.75))
+        figure, axes = grid_of(len(differences), columns, (4.6, 1.75))
         for index, (axis, difference) in enumerate(zip(axes, differences)):
             for number, (a, b) in enumerate(pairs):
                 series = output.series.get((a, b, difference))
                 if series is not None:
-                    _draw_series(axis, to_x(series.pose), series, _colour(number), names.pair(a, b))
+                    _draw_series(axis, to_x(series.pose), series, colour_of(number), names.pair(a, b))
             axis.set_title(names.difference(difference))
             axis.set_ylabel("D")
             axis.margins(x=0.01)
             if index >= len(differences) - columns:
                 axis.set_xlabel(x_name)
-        _legend_above(figure, axes)
-        return _svg(figure)
+        legend_above(figure, axes)
+        return svg(figure)
 
 
-def _legend_above(figure, axes):
+def legend_above(figure, axes):
     found = {}
     for axis in axes:
         for handle, label in zip(*axis.get_legend_handles_labels()):
@@ -114,7 +113,7 @@ def boxes(output, pairs):
     with plt.rc_context(STYLE):
         differences = output.differences
         columns = min(len(differences), 4 if len(pairs) <= 6 else 2)
-        figure, axes = _grid(len(differences), columns, (9.2 / max(columns, 2), 1.9))
+        figure, axes = grid_of(len(differences), columns, (9.2 / max(columns, 2), 1.9))
         for axis, difference in zip(axes, differences):
             drawn = []
             for number, (a, b) in enumerate(pairs):
@@ -128,7 +127,7 @@ def boxes(output, pairs):
             axis.grid(axis="x", visible=False)
         for axis in list(axes)[::columns]:
             axis.set_ylabel("D")
-        return _svg(figure)
+        return svg(figure)
 
 
 def _draw_boxes(axis, drawn, labels):
@@ -140,7 +139,7 @@ def _draw_boxes(axis, drawn, labels):
                                    "markeredgecolor": "black", "markeredgewidth": 0.6},
                         flierprops={"marker": ".", "markersize": 1.5, "markeredgecolor": "#888888"})
     for box, (number, _) in zip(plot["boxes"], drawn):
-        box.set_facecolor(_colour(number) + "66")
+        box.set_facecolor(colour_of(number) + "66")
     axis.set_xticks(range(len(labels)))
     crowded = len(labels) > 3 or any(len(label) > 9 for label in labels)
     axis.set_xticklabels(labels, rotation=35 if crowded else 0, ha="right" if crowded else "center",

@@ -1,6 +1,5 @@
-"""Reads the files of an output folder. Only frames.csv must be there; what is absent stays None or empty."""
+"""Reads the files of an output folder. Only frames.csv or localisation.csv must be there; what is absent stays None or empty."""
 
-import csv
 import dataclasses
 import glob
 import math
@@ -9,6 +8,9 @@ import re
 
 import numpy as np
 import yaml
+
+from . import queries
+from .csv_rows import ReportError, number, optional_whole, rows, whole
 
 DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "brisk", "orb"]
 
@@ -22,10 +24,6 @@ CAPTURES = ("stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,"
 PATH = "pose,stamp,x,y,z,yaw_deg"
 PROBLEMS = "kind,pose,stamp,where,reason"
 TIMING = "stage,what,count,seconds"
-
-
-class ReportError(Exception):
-    """A folder or file that cannot be used; says which and where."""
 
 
 @dataclasses.dataclass
@@ -67,6 +65,7 @@ class Output:
 
     folder: str
     series: dict
+    queries: dict  # of localisation: (map, query, detector) -> Queries
     summary: dict
     has_summary_file: bool
     run: dict
@@ -103,7 +102,14 @@ class Output:
     def conditions(self):
         if self.pairs:
             return list(dict.fromkeys(name for pair in self.pairs for name in pair))
-        return list(dict.fromkeys(a for a, _ in self.self_pairs))
+        if self.self_pairs:
+            return list(dict.fromkeys(a for a, _ in self.self_pairs))
+        return list(dict.fromkeys(name for key in self.queries for name in key[:2]))
+
+    @property
+    def poses(self):
+        """All that anything is known of, rising."""
+        return np.unique(np.concatenate([one.pose for one in [*self.series.values(), *self.queries.values()]]))
 
 
 def is_self_test(a, b):
@@ -116,13 +122,15 @@ def read_output(folder):
     if not os.path.isdir(folder):
         raise ReportError(f"{folder}: no such folder")
     frames = os.path.join(folder, "frames.csv")
-    if not os.path.isfile(frames):
-        raise ReportError(f"{frames}: no such file; is {folder} the output of an evaluation?")
-    series = read_frames(frames)
+    localised = queries.read(os.path.join(folder, "localisation.csv"))
+    if not os.path.isfile(frames) and not localised:
+        raise ReportError(f"{frames}: no such file, nor localisation.csv; is {folder} the output of an evaluation?")
+    series = read_frames(frames) if os.path.isfile(frames) else {}
     summary = read_summary(os.path.join(folder, "summary.csv"))
     return Output(
         folder=os.path.abspath(folder),
         series=series,
+        queries=localised,
         summary=summary or {key: summarise(one) for key, one in series.items()},
         has_summary_file=bool(summary),
         run=read_yaml(os.path.join(folder, "run.yaml")),
@@ -137,53 +145,6 @@ def read_output(folder):
         timing=[row for file in sorted(glob.glob(os.path.join(glob.escape(folder), "timing*.csv")))
                 for row in rows(file, TIMING, {"count": whole, "seconds": number})],
     )
-
-
-def whole(text):
-    return int(text)
-
-
-def optional_whole(text):
-    return int(text) if text else None
-
-
-def number(text):
-    """Infinity is not a result of anything we read."""
-    value = float(text)
-    if math.isinf(value):
-        raise ValueError
-    return value
-
-
-def rows(path, header, kinds, older=None):
-    """Dictionaries of a CSV file's rows; `kinds` are the columns that are no text. Nothing where there is no file. Files
-    of an `older` header do without the rest."""
-    if not os.path.exists(path):
-        return
-    with open(path, newline="", encoding="utf-8", errors="replace") as file:
-        lines = csv.reader(file, strict=True)
-        try:
-            names = next(lines, None)
-            if names not in [one.split(",") for one in (header, older or header)]:
-                raise ReportError(f"{path}:1: the first line must be {header}")
-            for fields in lines:
-                if len(fields) != len(names):
-                    raise ReportError(
-                        f"{path}:{lines.line_num}: {len(fields)} fields, but must be {len(names)}: {','.join(names)}")
-                row = dict(zip(names, fields))
-                for name, kind in ((name, kind) for name, kind in kinds.items() if name in row):
-                    row[name] = converted(row[name], kind, f"{path}:{lines.line_num}: {name}")
-                yield row
-        except csv.Error as error:
-            raise ReportError(f"{path}:{lines.line_num}: {error}") from None
-
-
-def converted(text, kind, where):
-    try:
-        return kind(text)
-    except ValueError:
-        article = "a whole number" if kind in (whole, optional_whole) else "a finite number or nan"
-        raise ReportError(f"{where} is {text!r}, but must be {article}") from None
 
 
 def read_frames(path):

@@ -8,8 +8,8 @@ from matplotlib import patheffects
 from PIL import Image
 
 from . import names
-from .files import ReportError
-from .figures import STYLE, _colour, _svg, distance_along
+from .csv_rows import ReportError
+from .figures import STYLE, colour_of, distance_along, svg
 
 LARGEST_SIDE = 1400  # px of the picture of the world
 HALO = [patheffects.withStroke(linewidth=2.5, foreground="white")]
@@ -33,7 +33,7 @@ def path_on_map(output):
         axis.set_ylabel("y, north / m")
         _draw_scale_bar(axis, width)
         _draw_compass(axis, output)
-        return _svg(figure)
+        return svg(figure)
 
 
 def _picture(file):

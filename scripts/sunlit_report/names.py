@@ -23,6 +23,12 @@ def _hour(name):
     return ":".join([str(int(match.group(1)))] + minutes)
 
 
+def hour_of(name):
+    """As a number, 4.5 of 'h04_30'; None for names that are no hours."""
+    shown = _hour(name)
+    return None if shown is None else sum(float(part) / 60**place for place, part in enumerate(shown.split(":")))
+
+
 def condition(name):
     hour = _hour(name)
     return f"{hour} h" if hour else name

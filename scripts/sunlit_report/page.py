@@ -4,9 +4,8 @@ import math
 import os
 
 import jinja2
-import numpy as np
 
-from . import figures, map_figure, names, paper, pictures, tables
+from . import figures, localisation, map_figure, names, paper, pictures, tables
 from . import findings as judge
 from .files import summarise
 
@@ -26,7 +25,8 @@ def render(output, findings):
         conditions=tables.conditions(output), timing=tables.timing(output), problems=tables.problems(output),
         shown_problems=output.problems[:SHOWN_PROBLEMS], counters=tables.counters(output.run),
         settings=settings(output), versions=tables.flattened(tables.mapping(output.run, "versions")),
-        grid=pictures.grid(output), smoothed_over=figures.SMOOTHED_OVER, **plots(output))
+        grid=pictures.grid(output), smoothed_over=figures.SMOOTHED_OVER,
+        localised=localisation.table_rows(output), localised_header=localisation.TABLE_HEADER, **plots(output))
 
 
 def _verdict_class(verdict):
@@ -37,9 +37,12 @@ def plots(output):
     """The figures; pairs of different conditions, or the self-tests where there is nothing else."""
     pairs = output.pairs or output.self_pairs
     return {
+        "usable_hours": pictures.svg_uri(localisation.usable_hours(output)) if output.queries else None,
+        "errors_along_path": [pictures.svg_uri(localisation.errors_along_path(output, few))
+                              for few in tables.chunks(localisation.pairs(output.queries), PAIRS_PER_PLOT)],
         "along_path": [pictures.svg_uri(figures.along_path(output, few))
                        for few in tables.chunks(pairs, PAIRS_PER_PLOT)],
-        "boxes": pictures.svg_uri(figures.boxes(output, pairs)),
+        "boxes": pictures.svg_uri(figures.boxes(output, pairs)) if pairs else None,
         "map": pictures.svg_uri(map_figure.path_on_map(output)) if output.path else None,
     }
 
@@ -48,17 +51,20 @@ def title(output):
     listed = names.conditions(output.conditions)
     if output.pairs:
         return f"How far images of one place drift apart between {listed}"
+    if not output.self_pairs:
+        return f"Until which hour a map of {names.conditions(localisation.maps(output.queries))} serves"
     return f"How far images of one place at {listed} differ from themselves"
 
 
 def facts(output):
     """(number, what it counts) for the first lines."""
-    poses = len(np.unique(np.concatenate([one.pose for one in output.series.values()])))
     undefined = sum(row.undefined for row in output.summary.values())
     values = f"{sum(row.n for row in output.summary.values()):,}".replace(",", "\u202f")
-    found = [(f"{poses}", "poses"), (f"{len(output.conditions)}", "conditions"),
-             (f"{len(output.differences)}", "differences"),
-             (values, "values"), (f"{undefined}", "undefined values")]
+    found = [(f"{len(output.poses)}", "poses"), (f"{len(output.conditions)}", "conditions")]
+    if output.series:
+        found += [(f"{len(output.differences)}", "differences"), (values, "values"), (f"{undefined}", "undefined values")]
+    if output.queries:
+        found.append((f"{sum(len(one.pose) for one in output.queries.values())}", "queries of a map"))
     if output.path:
         found.insert(1, (f"{figures.distance_along(output.path)[-1]:.0f} m", "driven"))
     return found
@@ -85,7 +91,7 @@ def _same(a, b):
 def warnings(output):
     """What a reader must know before the numbers."""
     found = []
-    if not output.has_summary_file:
+    if output.series and not output.has_summary_file:
         found.append("summary.csv is missing: E and s were computed from frames.csv and have no confidence intervals.")
     for key, row in output.summary.items():
         series = output.series.get(key)

@@ -6,7 +6,7 @@ import io
 from PIL import Image  # matplotlib needs it as well
 
 from . import names
-from .files import ReportError
+from .csv_rows import ReportError
 
 POSES = 5
 LARGEST_WIDTH = 640  # px on the page

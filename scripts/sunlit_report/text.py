@@ -1,7 +1,7 @@
 """The tables for the terminal."""
 
 from . import findings as judge
-from . import tables
+from . import localisation, tables
 
 
 def _aligned(header, rows):
@@ -26,7 +26,12 @@ def _of_table(table):
 
 def whole(output, findings):
     """Everything that the terminal shows."""
-    parts = ["Mean difference E and standard deviation s along the path"]
+    parts = []
+    if output.queries:
+        parts += ["Queries localised in the map", _aligned(localisation.TABLE_HEADER, localisation.table_rows(output))]
+    if not output.series:
+        return "\n\n".join(parts)
+    parts.append("Mean difference E and standard deviation s along the path")
     parts += [_of_table(table) for table in tables.main_tables(output)]
     self_tables = tables.self_tables(output)
     if self_tables:

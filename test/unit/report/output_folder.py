@@ -60,6 +60,21 @@ def self_frames(value=0.0, twins=0, difference=None):
             for a, b in SELF_PAIRS for name in DIFFERENCES for pose in range(0, POSES, 10)]
 
 
+QUERIES_HEADER = "pose,stamp,map,query,detector,error_m,error_deg,inliers,retrieved,status"
+METHODS = ["sift", "orb"]
+
+
+def queries(lost=None):
+    """Lines of localisation.csv: the other hours in a map of noon. All are found to 0.1 m and 1 degree, but for the first
+    `lost[query, detector]` poses, which are not found at all."""
+    lost = lost or {}
+    found, not_found = ("0.1", "1", "120", "5", "localised"), ("nan", "nan", "0", "5", "lost")
+    return [QUERIES_HEADER] + [
+        ",".join([str(pose), f"{pose / 10:.9f}", "h12", query, detector,
+                  *(not_found if pose < lost.get((query, detector), 0) else found)])
+        for query in ("h04", "h20") for detector in METHODS for pose in range(POSES)]
+
+
 def write(folder, name, lines):
     path = os.path.join(folder, name)
     os.makedirs(os.path.dirname(path), exist_ok=True)
@@ -71,6 +86,7 @@ def write(folder, name, lines):
 def write_all(folder):
     """Every file that a report reads."""
     write(folder, "frames.csv", frames() + self_frames())
+    write(folder, "localisation.csv", queries({("h04", "orb"): 4, ("h20", "orb"): 30}))
     write(folder, "path.csv",
           ["pose,stamp,x,y,z,yaw_deg"] + [f"{k},{k / 10},{k},{k % 7},1.0,0" for k in range(POSES)])
     write(folder, "captures.csv",

@@ -15,8 +15,9 @@ SCRIPTS = os.path.join(HERE, "..", "..", "..", "scripts")
 sys.path[:0] = [HERE, SCRIPTS]
 
 import output_folder as made  # noqa: E402
-from sunlit_report import files, findings, names, page, pictures, tables  # noqa: E402
+from sunlit_report import files, findings, localisation, names, page, pictures, queries, tables  # noqa: E402
 from sunlit_report import figures, map_figure  # noqa: E402
+from sunlit_report.csv_rows import ReportError  # noqa: E402
 
 REPORT = os.path.join(SCRIPTS, "report")
 ALL_HOLD = [findings.REPRODUCED] * 5
@@ -38,7 +39,7 @@ class InFolder(unittest.TestCase):
         return [finding.verdict for finding in findings.judge(self.read())]
 
     def assert_refused(self, *parts):
-        with self.assertRaises(files.ReportError) as caught:
+        with self.assertRaises(ReportError) as caught:
             self.read()
         for part in parts:
             self.assertIn(part, str(caught.exception))
@@ -181,7 +182,7 @@ class Files(InFolder):
         self.assertEqual(len(page.warnings(self.read())), 1)
 
     def test_missing_folder_and_frames_are_named(self):
-        with self.assertRaisesRegex(files.ReportError, "nowhere: no such folder"):
+        with self.assertRaisesRegex(ReportError, "nowhere: no such folder"):
             files.read_output(os.path.join(self.folder, "nowhere"))
         self.assert_refused(os.path.join(self.folder, "frames.csv"), "no such file")
 
@@ -235,6 +236,39 @@ class Parts(unittest.TestCase):
         self.assertEqual(tables.chunks(list("abcdefg"), 3), [["a", "b", "c"], ["d", "e", "f"], ["g"]])
 
 
+class Localisation(InFolder):
+    def queries(self, *lines):
+        return queries.read(self.write("localisation.csv", [queries.HEADER, *lines]))
+
+    def test_shares_are_of_all_queries_and_need_both_position_and_rotation(self):
+        found = self.queries("0,0,h12,h04,sift,0.5,5,9,5,localised", "1,1,h12,h04,sift,0.4,5.1,9,5,localised",
+                             "2,2,h12,h04,sift,0.6,4,9,5,localised", "3,3,h12,h04,sift,nan,nan,0,5,lost")
+        one = found["h12", "h04", "sift"]
+        self.assertEqual([one.share_within(*bound) for bound in localisation.WITHIN], [0.0, 0.25, 0.75])
+        self.assertEqual(one.failures, 1)
+
+    def test_what_stands_twice_or_is_no_number_is_refused_with_its_line(self):
+        line = "0,0,h12,h04,sift,0.5,5,9,5,localised"
+        for lines, what in [([line, line], ":3: pose 0 of h12, h04, sift was given on line 2 already"),
+                            ([line.replace("0.5", "far")], ":2: error_m is 'far'")]:
+            with self.assertRaisesRegex(ReportError, what):
+                self.queries(*lines)
+
+    def test_hours_stand_in_the_order_of_the_day(self):
+        found = self.queries(*(f"0,0,h12,{hour},sift,0,0,9,5,localised" for hour in ("h20", "h04_30", "h04")))
+        self.assertEqual(localisation.conditions(found, "h12"), ["h04", "h04_30", "h20"])
+        self.assertEqual(names.hour_of("h04_30"), 4.5)
+
+    def test_a_cell_reaches_to_the_middle_between_hours_and_never_further_than_an_hour(self):
+        self.assertEqual(localisation._cells([4, 4.5, 12]), [(3.75, 4.25), (4.25, 5.5), (11.0, 13.0)])
+
+    def test_conditions_of_any_name_and_size_are_drawn(self):
+        self.write("localisation.csv", [queries.HEADER, "7,0,noon,dusk,sift,nan,nan,0,5,lost"])
+        output = self.read()
+        self.assertIn("<svg", localisation.usable_hours(output))
+        self.assertIn("<svg", localisation.errors_along_path(output, localisation.pairs(output.queries)))
+
+
 class Page(InFolder):
     def run_report(self, *arguments):
         return subprocess.run([sys.executable, REPORT, *arguments], capture_output=True, text=True, check=False)
@@ -250,13 +284,14 @@ class Page(InFolder):
         html = self.page()
         self.assertEqual(set(re.findall(r'(?:src|href)="([^:"]*):', html)), {"data"})
         self.assertNotRegex(html, r"url\(|@import|<script|<link")
-        self.assertEqual(html.count("data:image/svg+xml"), 3)
+        self.assertEqual(html.count("data:image/svg+xml"), 5)
         self.assertEqual(html.count("data:image/jpeg"), 5 * 3)
         for text in ("0.84000", "0.84577", "9.8.7", "race_track", "4321", "geometry", "20.00", "00c0ffee",
                      "osmesa: llvmpipe (LLVM 15.0.6, 256 bits)",
                      "cut &lt;short&gt;, it seems", "<td>17</td>"):
             self.assertIn(text, html)
         self.assertNotIn('class="absent"', html)
+        self.assertLess(html.index("Until which hour a map serves"), html.index("Differences between conditions"))
         self.assertIn("6 of 6", done.stdout)
         self.assertRegex(done.stdout, r"SIFT +0\.84000 +0\.63000 +0\.83000 +0\.05000 +0\.14000 +0\.05000")
         self.assertRegex(done.stdout, r"paper +0\.84577 +0\.63501")
@@ -267,6 +302,16 @@ class Page(InFolder):
         html = self.page()
         for name in ("captures.csv", "path.csv", "timing.csv", "run.yaml", "images", "summary.csv"):
             self.assertIn(name, html)
+
+    def test_localisation_alone_makes_a_page(self):
+        self.write("localisation.csv", made.queries({("h20", "orb"): 30}))
+        done = self.run_report(self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"12 h +20 h +ORB +40 +30 +25\.0 +25\.0 +25\.0")
+        html = self.page()
+        self.assertIn("Until which hour a map of 12 h serves", html)
+        self.assertNotIn("Differences between conditions", html)
+        self.assertNotIn("published findings", html)
 
     def test_the_same_folder_gives_the_same_bytes(self):
         made.write_all(self.folder)
@@ -289,7 +334,7 @@ class Page(InFolder):
     def test_failures_end_with_one_line_and_a_status(self):
         unwritable = os.path.join(self.folder, "no", "such", "place.html")
         for prepare, arguments, what in [
-                (lambda: None, [self.folder], "frames.csv: no such file"),
+                (lambda: None, [self.folder], "frames.csv: no such file, nor localisation.csv"),
                 (lambda: self.write("frames.csv", made.frames()[:5] + ["torn,lin"]), [self.folder],
                  "frames.csv:6: 2 fields"),
                 (lambda: self.write("frames.csv", made.frames()), [self.folder, "--out", unwritable],

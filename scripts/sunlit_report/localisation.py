@@ -1,0 +1,179 @@
+"""Localisation: until which hour a map serves, and by which method; how far off along the path."""
+
+import math
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from . import names
+from .figures import STYLE, abscissa, colour_of, grid_of, legend_above, svg
+
+# Those of visuallocalization.net and hloc; the second is what a band is green by.
+WITHIN = [(0.25, 2.0), (0.5, 5.0), (5.0, 10.0)]
+USABLE_WITHIN = WITHIN[1]
+USABLE_SHARE = 0.9
+SOME_SHARE = 0.5
+# Okabe and Ito's green, light orange and vermilion: told apart by colour-blind readers and in grey.
+USABLE, PARTLY, LOST = "#009E73", "#F2C879", "#B5473C"
+WIDEST_CELL_H = 1.0  # either side of an hour that was measured; what lies further is not known
+
+
+def maps(queries):
+    return list(dict.fromkeys(key[0] for key in queries))
+
+
+def detectors(queries):
+    return list(dict.fromkeys(key[2] for key in queries))
+
+
+def conditions(queries, map_name):
+    """Those asked of the map, by their hour where they are hours."""
+    found = list(dict.fromkeys(key[1] for key in queries if key[0] == map_name))
+    return sorted(found, key=names.hour_of) if all(names.hour_of(name) is not None for name in found) else found
+
+
+def _colour_of(share):
+    return USABLE if share >= USABLE_SHARE else PARTLY if share >= SOME_SHARE else LOST
+
+
+def _cells(places):
+    """Left and right edge of each place's cell: to the middle between neighbours, but no further than is known."""
+    edges = []
+    for index, place in enumerate(places):
+        gaps = [abs(place - places[other]) / 2 for other in (index - 1, index + 1) if 0 <= other < len(places)]
+        before = gaps[0] if gaps else WIDEST_CELL_H  # the first cell is as wide to the left as to the right
+        after = gaps[-1] if gaps else WIDEST_CELL_H
+        edges.append((place - min(before, WIDEST_CELL_H), place + min(after, WIDEST_CELL_H)))
+    return edges
+
+
+def _draw_bands(axis, queries, map_name, asked, places):
+    methods = detectors(queries)
+    for row, detector in enumerate(methods):
+        for name, place, (left, right) in zip(asked, places, _cells(places)):
+            found = queries.get((map_name, name, detector))
+            if found is None:
+                continue
+            share = found.share_within(*USABLE_WITHIN)
+            axis.barh(row, right - left, left=left, height=0.8, color=_colour_of(share), edgecolor="white", linewidth=0.8)
+            if right - left >= 1.0:
+                axis.text(place, row, f"{100 * share:.0f} %", ha="center", va="center", fontsize=7,
+                          color="black" if _colour_of(share) == PARTLY else "white")
+    axis.set_yticks(range(len(methods)))
+    axis.set_yticklabels([names.difference(name) for name in methods])
+    axis.invert_yaxis()
+    axis.set_title(f"With a map of {names.condition(map_name)}")
+    axis.grid(visible=False)
+
+
+def _draw_hours(axis, output, map_name, asked):
+    axis.axvline(names.hour_of(map_name), color="black", linewidth=1, linestyle=(0, (2, 2)))
+    axis.set_xlim(0, 24)
+    axis.set_xticks(range(0, 25, 2))
+    axis.set_xlabel("hour of the day; dashed: when the map was made")
+    shown = []
+    for name in asked:
+        capture = output.captures.get(name)
+        if capture is not None:
+            shown.append((names.hour_of(name), np.nanmedian(capture["sun_elevation_deg"])))
+    if not shown:
+        return
+    top = axis.secondary_xaxis("top")
+    top.set_xticks([hour for hour, _ in shown])
+    top.set_xticklabels([f"{elevation:+.0f}°" for _, elevation in shown], fontsize=6.5)
+    top.set_xlabel("elevation of the sun", fontsize=7)
+    axis.title.set_position((0.0, 1.0))
+    axis.set_title(axis.get_title(loc="left"), pad=22)
+
+
+def _draw_names(axis, asked):
+    axis.set_xlim(-0.6, len(asked) - 0.4)
+    axis.set_xticks(range(len(asked)))
+    axis.set_xticklabels([names.condition(name) for name in asked])
+
+
+def usable_hours(output):
+    """The day as a band for each method, a panel for each map: green where the map serves."""
+    queries = output.queries
+    with plt.rc_context(STYLE):
+        rows = len(detectors(queries))
+        figure, axes = grid_of(len(maps(queries)), 1, (9.2, 1.0 + 0.34 * rows))
+        for axis, map_name in zip(axes, maps(queries)):
+            asked = conditions(queries, map_name)
+            is_day = all(names.hour_of(name) is not None for name in asked + [map_name])
+            places = [names.hour_of(name) for name in asked] if is_day else list(range(len(asked)))
+            _draw_bands(axis, queries, map_name, asked, places)
+            if is_day:
+                _draw_hours(axis, output, map_name, asked)
+            else:
+                _draw_names(axis, asked)
+        _explain_colours(figure)
+        return svg(figure)
+
+
+def _explain_colours(figure):
+    some = f"{100 * SOME_SHARE:.0f} to {100 * USABLE_SHARE:.0f} %"
+    patches = [(USABLE, f"at least {100 * USABLE_SHARE:.0f} % of the places found"), (PARTLY, some),
+               (LOST, f"fewer than {100 * SOME_SHARE:.0f} %")]
+    figure.legend([plt.Rectangle((0, 0), 1, 1, color=colour) for colour, _ in patches], [text for _, text in patches],
+                  loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3)
+
+
+def pairs(queries):
+    """Map and query."""
+    return list(dict.fromkeys(key[:2] for key in queries))
+
+
+def errors_along_path(output, shown_pairs):
+    """Error of the position over the path, a panel for each detector; ticks on the upper edge are failures."""
+    queries = output.queries
+    to_x, x_name = abscissa(output, np.unique(np.concatenate([one.pose for one in queries.values()])))
+    with plt.rc_context(STYLE):
+        shown = detectors(queries)
+        columns = 2 if len(shown) > 1 else 1
+        figure, axes = grid_of(len(shown), columns, (4.6, 1.75))
+        for index, (axis, detector) in enumerate(zip(axes, shown)):
+            for number, pair in enumerate(shown_pairs):
+                if (*pair, detector) in queries:
+                    _draw_errors(axis, to_x, queries[(*pair, detector)], colour_of(number),
+                                 f"{names.condition(pair[1])} in the map of {names.condition(pair[0])}")
+            axis.set_title(names.difference(detector))
+            axis.set_yscale("log")
+            axis.set_ylabel("error / m")
+            axis.margins(x=0.01)
+            if index >= len(shown) - columns:
+                axis.set_xlabel(x_name)
+        legend_above(figure, axes)
+        return svg(figure)
+
+
+def _draw_errors(axis, to_x, found, colour, label):
+    x = to_x(found.pose)
+    # A logarithmic axis has no place for 0, which a query that equals its key frame can reach.
+    axis.plot(x, np.maximum(found.error_m, 1e-6), color=colour, linewidth=0.8, label=label)
+    failed = np.isnan(found.error_m)
+    if failed.any():
+        axis.plot(x[failed], np.ones(failed.sum()), "|", color=colour, markersize=7, clip_on=False,
+                  transform=axis.get_xaxis_transform())
+
+
+def _median(values):
+    found = values[~np.isnan(values)]
+    return float(np.median(found)) if len(found) else math.nan
+
+
+def table_rows(output):
+    """Per map, query and detector: what is counted and found, as text."""
+    rows = []
+    for (map_name, query, detector), found in output.queries.items():
+        error_m, error_deg = _median(found.error_m), _median(found.error_deg)
+        rows.append([names.condition(map_name), names.condition(query), names.difference(detector), str(len(found.pose)),
+                     str(found.failures)]
+                    + [f"{100 * found.share_within(*bound):.1f}" for bound in WITHIN]
+                    + ["–" if math.isnan(error_m) else f"{error_m:.3f}", "–" if math.isnan(error_deg) else f"{error_deg:.3f}",
+                       f"{np.median(found.inliers):.0f}"])
+    return rows
+
+
+TABLE_HEADER = ["map", "query", "detector", "queries", "without a pose", "0.25 m, 2° / %", "0.5 m, 5° / %", "5 m, 10° / %",
+                "median error / m", "median error / °", "median inliers"]

@@ -1,0 +1,41 @@
+"""localisation.csv: where each query was found."""
+
+import dataclasses
+
+import numpy as np
+
+from .csv_rows import ReportError, number, rows, whole
+
+HEADER = "pose,stamp,map,query,detector,error_m,error_deg,inliers,retrieved,status"
+
+
+@dataclasses.dataclass
+class Queries:
+    """Queries of one condition against one map by one detector, by rising pose. Errors of a query that found no pose
+    are NaN: it is a failure and counts as one."""
+
+    pose: np.ndarray
+    error_m: np.ndarray
+    error_deg: np.ndarray
+    inliers: np.ndarray
+
+    def share_within(self, metres, degrees):
+        """Of all queries."""
+        return float(np.mean((self.error_m <= metres) & (self.error_deg <= degrees)))
+
+    @property
+    def failures(self):
+        return int(np.isnan(self.error_m).sum())
+
+
+def read(path):
+    """{(map, query, detector): Queries}; empty where there is no file. Raises ReportError naming file and line."""
+    kinds = {"pose": whole, "error_m": number, "error_deg": number, "inliers": whole}
+    collected, seen = {}, {}
+    for line, row in enumerate(rows(path, HEADER, kinds), start=2):
+        key = (row["map"], row["query"], row["detector"])
+        if (first := seen.setdefault((key, row["pose"]), line)) != line:
+            raise ReportError(
+                f"{path}:{line}: pose {row['pose']} of {', '.join(key)} was given on line {first} already")
+        collected.setdefault(key, []).append((row["pose"], row["error_m"], row["error_deg"], row["inliers"]))
+    return {key: Queries(*(np.array(column) for column in zip(*sorted(values)))) for key, values in collected.items()}
