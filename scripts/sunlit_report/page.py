@@ -1,13 +1,11 @@
 """Puts the page together."""
 
-import math
 import os
 
 import jinja2
 
-from . import figures, localisation, map_figure, names, paper, pictures, tables
+from . import figures, localisation, map_figure, names, paper, pictures, tables, warnings
 from . import findings as judge
-from .files import summarise
 
 SHOWN_PROBLEMS = 100
 PAIRS_PER_PLOT = 6  # as many lines can be told apart
@@ -20,7 +18,7 @@ def render(output, findings):
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     return environment.get_template("report.html").render(
         output=output, findings=findings, verdict_of_all=judge.verdict_of_all(findings), citation=paper.CITATION,
-        title=title(output), facts=facts(output), warnings=warnings(output), verdict_class=_verdict_class,
+        title=title(output), facts=facts(output), warnings=warnings.warnings(output), verdict_class=_verdict_class,
         main_tables=tables.main_tables(output), self_tables=tables.self_tables(output), counts=tables.counts(output),
         conditions=tables.conditions(output), timing=tables.timing(output), problems=tables.problems(output),
         shown_problems=output.problems[:SHOWN_PROBLEMS], counters=tables.counters(output.run),
@@ -82,33 +80,3 @@ def settings(output):
         group, _, rest = key.rpartition("/")
         groups.setdefault(group or "general", []).append((rest, value))
     return sorted(groups.items(), key=lambda item: (item[0] != "general", not item[0].startswith("about"), item[0]))
-
-
-def _same(a, b):
-    return (math.isnan(a) and math.isnan(b)) or math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-12)
-
-
-def warnings(output):
-    """What a reader must know before the numbers."""
-    found = []
-    if output.series and not output.has_summary_file:
-        found.append("summary.csv is missing: E and s were computed from frames.csv and have no confidence intervals.")
-    for key, row in output.summary.items():
-        series = output.series.get(key)
-        again = summarise(series) if series else None
-        if again is None:
-            if row.n or row.undefined:
-                found.append(f"summary.csv has {names.pair(*key[:2])}, {names.difference(key[2])}, frames.csv has not.")
-        elif (again.n, again.undefined) != (row.n, row.undefined) or not (
-                _same(again.mean, row.mean) and _same(again.sd, row.sd)):
-            found.append(f"summary.csv disagrees with frames.csv on {names.pair(*key[:2])}, "
-                         f"{names.difference(key[2])}: n {row.n} and {again.n}, E {row.mean:.6f} and "
-                         f"{again.mean:.6f}. It was made from other frames.")
-    for key in output.series:
-        if key not in output.summary:
-            found.append(f"frames.csv has {names.pair(*key[:2])}, {names.difference(key[2])}, summary.csv has not.")
-    outcome = tables.mapping(output.run, "outcome")
-    if outcome.get("whole") is False:
-        found.append(f"The run is not whole: {outcome.get('completed_poses', '?')} poses were completed, "
-                     f"{outcome.get('absent_poses', '?')} are absent. See counters and problems.")
-    return found

@@ -1,7 +1,7 @@
 """The tables for the terminal."""
 
 from . import findings as judge
-from . import localisation, tables
+from . import localisation, tables, warnings
 
 
 def _aligned(header, rows):
@@ -26,7 +26,7 @@ def _of_table(table):
 
 def whole(output, findings):
     """Everything that the terminal shows."""
-    parts = []
+    parts = [f"Warning: {sentence}" for sentence in warnings.warnings(output)]
     if output.queries:
         parts += ["Queries localised in the map", _aligned(localisation.TABLE_HEADER, localisation.table_rows(output))]
     if not output.series:

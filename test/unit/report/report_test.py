@@ -15,7 +15,7 @@ SCRIPTS = os.path.join(HERE, "..", "..", "..", "scripts")
 sys.path[:0] = [HERE, SCRIPTS]
 
 import output_folder as made  # noqa: E402
-from sunlit_report import files, findings, localisation, names, page, pictures, queries, tables  # noqa: E402
+from sunlit_report import files, findings, localisation, names, page, pictures, queries, tables, warnings  # noqa: E402
 from sunlit_report import figures, map_figure  # noqa: E402
 from sunlit_report.csv_rows import ReportError  # noqa: E402
 
@@ -177,9 +177,26 @@ class Files(InFolder):
     def test_summary_of_other_frames_is_pointed_out(self):
         self.write("frames.csv", made.frames(differences=["sift"], pairs=made.PAIRS[:1]))
         self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.84,0.05,0.83,0.85,0.86,0.04,0.87,0.03,0"])
-        self.assertEqual(page.warnings(self.read()), [])
+        self.assertEqual(warnings.warnings(self.read()), [])
         self.write("summary.csv", [files.SUMMARY, "h04,h12,sift,40,0,0.85,0.05,0.83,0.85,0.86,0.04,0.87,0.03,0"])
-        self.assertEqual(len(page.warnings(self.read())), 1)
+        self.assertEqual(len(warnings.warnings(self.read())), 1)
+
+    def test_black_pictures_are_pointed_out(self):
+        def row(pose, name, value, features_b):
+            forms = [value, value, 0, 0]
+            return ",".join(str(one) for one in [pose, f"{pose}.0", "h00", "h12", name, value, 0, features_b, 0, 0, *forms])
+        nan = math.nan
+        self.write("frames.csv", [files.FRAMES, row(0, "boolean_rgb", 0.0, 0), row(0, "sift", nan, 0), row(1, "sift", 1.0, 9)])
+        told = [one for one in warnings.warnings(self.read()) if "single feature" in one]
+        self.assertEqual(len(told), 1)
+        self.assertIn("picture of 0 h: is it black", told[0])
+        self.write("captures.csv", [files.CAPTURES, "h00,0,0,14,0,-11,0,0,0,0.25"])
+        told = [one for one in warnings.warnings(self.read()) if "single feature" in one]
+        self.assertIn("0 h (0.25 lx, exposed at EV100 14.0)", told[0])
+
+    def test_differences_of_pixels_alone_say_nothing_of_features(self):
+        self.write("frames.csv", made.frames(differences=["boolean_rgb"]))
+        self.assertFalse([one for one in warnings.warnings(self.read()) if "single feature" in one])
 
     def test_missing_folder_and_frames_are_named(self):
         with self.assertRaisesRegex(ReportError, "nowhere: no such folder"):

@@ -1,0 +1,65 @@
+"""What a reader must know before the numbers; stands on the page and in the terminal."""
+
+import math
+
+import numpy as np
+
+from . import names, tables
+from .files import summarise
+
+
+def _same(a, b):
+    return (math.isnan(a) and math.isnan(b)) or math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-12)
+
+
+def warnings(output):
+    """Sentences."""
+    found = []
+    if output.series and not output.has_summary_file:
+        found.append("summary.csv is missing: E and s were computed from frames.csv and have no confidence intervals.")
+    for key, row in output.summary.items():
+        series = output.series.get(key)
+        again = summarise(series) if series else None
+        if again is None:
+            if row.n or row.undefined:
+                found.append(f"summary.csv has {names.pair(*key[:2])}, {names.difference(key[2])}, frames.csv has not.")
+        elif (again.n, again.undefined) != (row.n, row.undefined) or not (
+                _same(again.mean, row.mean) and _same(again.sd, row.sd)):
+            found.append(f"summary.csv disagrees with frames.csv on {names.pair(*key[:2])}, "
+                         f"{names.difference(key[2])}: n {row.n} and {again.n}, E {row.mean:.6f} and "
+                         f"{again.mean:.6f}. It was made from other frames.")
+    for key in output.series:
+        if key not in output.summary:
+            found.append(f"frames.csv has {names.pair(*key[:2])}, {names.difference(key[2])}, summary.csv has not.")
+    found += _without_features(output)
+    outcome = tables.mapping(output.run, "outcome")
+    if outcome.get("whole") is False:
+        found.append(f"The run is not whole: {outcome.get('completed_poses', '?')} poses were completed, "
+                     f"{outcome.get('absent_poses', '?')} are absent. See counters and problems.")
+    return found
+
+
+def _compares_features(series):
+    """A difference of pixels counts none, and is defined all the same."""
+    return bool((series.features_a + series.features_b).any()) or bool(np.isnan(series.value).all())
+
+
+def _without_features(output):
+    """Black or white pictures are equal in every pixel, which looks like a perfect result."""
+    counts = {}
+    for (a, b, _), series in output.series.items():
+        if _compares_features(series):
+            counts.setdefault(a, []).append(series.features_a.sum())
+            counts.setdefault(b, []).append(series.features_b.sum())
+    return [f"No detector found a single feature in any picture of {names.condition(stream)}{_exposed(output, stream)}: is it "
+            "black or white all over? Such pictures equal each other in every pixel, which says nothing about localisation. "
+            "With exposure:=auto the night is seen."
+            for stream, found in counts.items() if not any(found)]
+
+
+def _exposed(output, stream):
+    capture = output.captures.get(stream)
+    if capture is None:
+        return ""
+    return (f" ({np.nanmedian(capture['scene_illuminance']):.3g} lx, exposed at EV100 "
+            f"{np.nanmedian(capture['ev100']):.1f})")
