@@ -71,7 +71,7 @@ void direct(benchmark::State& state) {
   const Features none;
   for (auto _ : state) {
     for (const char* name : {"boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey"})
-      benchmark::DoNotOptimize(known.at(name).between({a, none}, {b, none}, {}));
+      benchmark::DoNotOptimize(known.at(name).between({a, none}, {b, none}, {}, {}));
   }
   state.SetBytesProcessed(state.iterations() * 2 * 4 * static_cast<std::int64_t>(a.rgb.total()));
 }

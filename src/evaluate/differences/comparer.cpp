@@ -2,20 +2,36 @@
 
 #include <tbb/parallel_for.h>
 
+#include <exception>
+#include <mutex>
+
 #include "evaluate/features/detector_pool.h"
 
 namespace sunlit::evaluate {
 namespace {
 
-// One task per element, taken in order: the dearest first, so that the last ones to finish are short.
+// One task per element, taken in order: the dearest first, so that the last ones to finish are short. What a
+// task throws is thrown at the end, the first of it: thrown out of the loop, it would cancel the loops within
+// other tasks too, which then go on with half their results.
 template <typename Body>
 void forEachTask(std::size_t count, const Body& body) {
+  std::mutex mutex;
+  std::exception_ptr fault;
+  const auto runTask = [&](std::size_t i) {
+    try {
+      body(i);
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (!fault) fault = std::current_exception();
+    }
+  };
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, count, 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
+        for (std::size_t i = range.begin(); i < range.end(); ++i) runTask(i);
       },
       tbb::simple_partitioner());
+  if (fault) std::rethrow_exception(fault);
 }
 
 std::vector<Field> rowsOf(ComparerOptions& options, const std::vector<std::string>& names) {
@@ -59,8 +75,7 @@ Comparer::~Comparer() = default;
 
 std::vector<std::vector<DifferenceValue>> Comparer::compare(const std::vector<cv::Mat>& rgb_images,
                                                             const std::vector<ImagePair>& pairs,
-                                                            const std::atomic<bool>* is_broken_off) const {
-  const auto isOver = [&] { return is_broken_off != nullptr && is_broken_off->load(); };
+                                                            const StopToken& stop) const {
   std::vector<char> is_used(rgb_images.size(), 0);
   for (const ImagePair& pair : pairs) is_used.at(pair.first) = is_used.at(pair.second) = 1;
 
@@ -71,22 +86,21 @@ std::vector<std::vector<DifferenceValue>> Comparer::compare(const std::vector<cv
 
   std::vector<std::vector<Features>> features(asked_.size(), std::vector<Features>(pictures.size()));
   forEachTask(asked_.size() * pictures.size(), [&](std::size_t task) {
-    if (isOver()) return;
+    stop.check();
     const std::size_t d = task / pictures.size();
     const std::size_t i = task % pictures.size();
     if (is_used[i] && asked_[d].detectors != nullptr)
       features[d][i] = asked_[d].detectors->detect(pictures[i].grey);
   });
 
-  if (isOver()) return {};
   std::vector<std::vector<DifferenceValue>> values(pairs.size(), std::vector<DifferenceValue>(asked_.size()));
   forEachTask(asked_.size() * pairs.size(), [&](std::size_t task) {
-    if (isOver()) return;
+    stop.check();
     const std::size_t d = task / pairs.size();
     const std::size_t p = task % pairs.size();
     const auto view = [&](std::size_t i) { return View{pictures[i], features[d][i]}; };
     values[p][d] =
-        asked_[d].difference->between(view(pairs[p].first), view(pairs[p].second), options_.ratio_test);
+        asked_[d].difference->between(view(pairs[p].first), view(pairs[p].second), options_.ratio_test, stop);
   });
   return values;
 }

@@ -20,7 +20,7 @@ namespace sunlit::evaluate {
 namespace {
 
 constexpr std::size_t kLanes = 16;
-constexpr std::size_t kQueriesPerTask = 64;
+constexpr std::size_t kQueriesPerTask = 64;  // between which the work can be stopped
 
 /// Rows of a matrix in a type of our choice, filled up with zeros to a width that suits the inner loops.
 template <typename Value>
@@ -129,8 +129,14 @@ class ColumnReduction {
 
 /// Goes through all rows of a, in parallel; the columns that all of them together make.
 template <typename Columns, typename Body>
-Columns reduceRows(std::size_t rows, const Columns& none, const Body& body) {
-  ColumnReduction<Columns, Body> reduction(none, body);
+Columns reduceRows(std::size_t rows, const Columns& none, const StopToken& stop, const Body& body) {
+  const auto inTasks = [&](std::size_t begin, std::size_t end, Columns& columns) {
+    for (std::size_t first = begin; first < end; first += kQueriesPerTask) {
+      stop.check();
+      body(first, std::min(first + kQueriesPerTask, end), columns);
+    }
+  };
+  ColumnReduction<Columns, decltype(inTasks)> reduction(none, inTasks);
   tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, rows, kQueriesPerTask), reduction);
   return std::move(reduction.columns);
 }
@@ -138,10 +144,10 @@ Columns reduceRows(std::size_t rows, const Columns& none, const Body& body) {
 // Squared distances of all pairs, |a − b|² = |a|² + |b|² − 2 a·b, exact in whole numbers; body(i, row,
 // columns) for each row i of a.
 template <typename Columns, typename Body>
-Columns reduceSquaredDistances(const Table16& a, const Table16& b, const Columns& none, const Body& body) {
+Columns reduceSquaredDistances(const Table16& a, const Table16& b, const StopToken& stop, const Body& body) {
   const std::vector<std::int32_t> norms_a = squaredNorms(a);
   const std::vector<std::int32_t> norms_b = squaredNorms(b);
-  return reduceRows(a.rows, none, [&](std::size_t begin, std::size_t end, Columns& columns) {
+  return reduceRows(a.rows, Columns(b.rows), stop, [&](std::size_t begin, std::size_t end, Columns& columns) {
     std::vector<std::int32_t> squares(kQueriesAtOnce * b.rows);
     for (std::size_t first = begin; first < end; first += kQueriesAtOnce) {
       const std::int16_t* queries[kQueriesAtOnce];
@@ -181,16 +187,17 @@ Neighbours neighboursOf(const TwoSmallest<std::int32_t>& squares, const Table16&
   return n;
 }
 
-BothWays nearestBytes(const cv::Mat& mat_a, const cv::Mat& mat_b) {
+BothWays nearestBytes(const cv::Mat& mat_a, const cv::Mat& mat_b, const StopToken& stop) {
   const Table16 a = tableOf<uchar>(mat_a, 1.0);
   const Table16 b = tableOf<uchar>(mat_b, 1.0);
   BothWays result{std::vector<Neighbours>(a.rows), std::vector<Neighbours>(b.rows)};
-  const auto columns = reduceSquaredDistances(
-      a, b, NearestOfColumns(b.rows), [&](std::size_t i, const std::int32_t* row, NearestOfColumns& c) {
-        result.from_a[i] = neighboursOf(twoSmallest(row, b.rows), b, a.row(i));
-        c.add(static_cast<std::int32_t>(i), row);
-      });
+  const auto addRow = [&](std::size_t i, const std::int32_t* row, NearestOfColumns& columns) {
+    result.from_a[i] = neighboursOf(twoSmallest(row, b.rows), b, a.row(i));
+    columns.add(static_cast<std::int32_t>(i), row);
+  };
+  const auto columns = reduceSquaredDistances<NearestOfColumns>(a, b, stop, addRow);
   for (std::size_t j = 0; j < b.rows; ++j) {
+    stop.check();
     const TwoSmallest<std::int32_t> two{static_cast<std::size_t>(columns.best_at[j]), columns.best[j],
                                         columns.second[j]};
     result.from_b[j] = neighboursOf(two, a, b.row(j));
@@ -227,7 +234,7 @@ struct MeasuredColumns {
 // Whole numbers are far faster, so descriptors are first rounded to steps of 1 / scale. That moves each of
 // them by at most √width / 2 steps and a distance by twice that, so it is known which rows may be among the
 // two nearest. Only these are measured, as OpenCV does.
-BothWays nearestFloats(const cv::Mat& mat_a, const cv::Mat& mat_b) {
+BothWays nearestFloats(const cv::Mat& mat_a, const cv::Mat& mat_b, const StopToken& stop) {
   constexpr double kLongest = 16000.0;  // steps: then |a|² + |b|² + 2 |a·b| stays below 2³¹
   const double scale = kLongest / std::max(1e-30, std::max(largestNorm(mat_a), largestNorm(mat_b)));
   const Table16 a = tableOf<float>(mat_a, scale);
@@ -254,7 +261,7 @@ BothWays nearestFloats(const cv::Mat& mat_a, const cv::Mat& mat_b) {
     }
     result.from_a[i] = {static_cast<int>(two.best_at), two.best, two.second};
   };
-  const auto columns = reduceSquaredDistances(a, b, MeasuredColumns(b.rows), addRow);
+  const auto columns = reduceSquaredDistances<MeasuredColumns>(a, b, stop, addRow);
   for (std::size_t j = 0; j < b.rows; ++j) {
     const TwoSmallest<float>& two = columns.measured[j];
     result.from_b[j] = {static_cast<int>(two.best_at), two.best, two.second};
@@ -262,7 +269,7 @@ BothWays nearestFloats(const cv::Mat& mat_a, const cv::Mat& mat_b) {
   return result;
 }
 
-BothWays nearestBits(const cv::Mat& mat_a, const cv::Mat& mat_b) {
+BothWays nearestBits(const cv::Mat& mat_a, const cv::Mat& mat_b, const StopToken& stop) {
   const auto a = wordsOf(mat_a);
   const auto b = wordsOf(mat_b);
   BothWays result{std::vector<Neighbours>(a.rows), std::vector<Neighbours>(b.rows)};
@@ -276,7 +283,7 @@ BothWays nearestBits(const cv::Mat& mat_a, const cv::Mat& mat_b) {
       columns.add(static_cast<std::int32_t>(i), bits.data());
     }
   };
-  const auto columns = reduceRows(a.rows, NearestOfColumns(b.rows), addRows);
+  const auto columns = reduceRows(a.rows, NearestOfColumns(b.rows), stop, addRows);
   for (std::size_t j = 0; j < b.rows; ++j) {
     result.from_b[j] = {columns.best_at[j], static_cast<float>(columns.best[j]),
                         static_cast<float>(columns.second[j])};
@@ -284,32 +291,39 @@ BothWays nearestBits(const cv::Mat& mat_a, const cv::Mat& mat_b) {
   return result;
 }
 
-std::vector<Neighbours> nearestByOpenCv(const cv::Mat& query, const cv::Mat& train, int norm) {
-  std::vector<std::vector<cv::DMatch>> matches;
-  if (train.rows >= 2) cv::BFMatcher(norm).knnMatch(query, train, matches, 2);
+std::vector<Neighbours> nearestByOpenCv(const cv::Mat& query, const cv::Mat& train, int norm,
+                                        const StopToken& stop) {
+  constexpr int kAtOnce = kQueriesPerTask;
   std::vector<Neighbours> result;
-  result.reserve(matches.size());
-  for (const auto& two : matches)
-    result.push_back({two.at(0).trainIdx, two.at(0).distance, two.at(1).distance});
+  if (train.rows < 2) return result;
+  result.reserve(static_cast<std::size_t>(query.rows));
+  for (int first = 0; first < query.rows; first += kAtOnce) {
+    stop.check();
+    std::vector<std::vector<cv::DMatch>> matches;
+    const cv::Mat queries = query.rowRange(first, std::min(first + kAtOnce, query.rows));
+    cv::BFMatcher(norm).knnMatch(queries, train, matches, 2);
+    for (const auto& two : matches)
+      result.push_back({two.at(0).trainIdx, two.at(0).distance, two.at(1).distance});
+  }
   return result;
 }
 
-BothWays nearestByNorm(const cv::Mat& a, const cv::Mat& b, int norm) {
-  if (norm == cv::NORM_L2 && a.type() == CV_8U) return nearestBytes(a, b);
-  if (norm == cv::NORM_L2 && a.type() == CV_32F) return nearestFloats(a, b);
-  if (norm == cv::NORM_HAMMING && a.type() == CV_8U) return nearestBits(a, b);
+BothWays nearestByNorm(const cv::Mat& a, const cv::Mat& b, int norm, const StopToken& stop) {
+  if (norm == cv::NORM_L2 && a.type() == CV_8U) return nearestBytes(a, b, stop);
+  if (norm == cv::NORM_L2 && a.type() == CV_32F) return nearestFloats(a, b, stop);
+  if (norm == cv::NORM_HAMMING && a.type() == CV_8U) return nearestBits(a, b, stop);
   // Any other norm or type, such as NORM_HAMMING2.
-  return {nearestByOpenCv(a, b, norm), nearestByOpenCv(b, a, norm)};
+  return {nearestByOpenCv(a, b, norm, stop), nearestByOpenCv(b, a, norm, stop)};
 }
 
 }  // namespace
 
-BothWays twoNearestBothWays(const cv::Mat& a, const cv::Mat& b, int norm) {
+BothWays twoNearestBothWays(const cv::Mat& a, const cv::Mat& b, int norm, const StopToken& stop) {
   if (a.rows == 0 || b.rows == 0) return {};
   if (a.cols != b.cols || a.type() != b.type()) {
     throw std::invalid_argument("descriptors of different kinds cannot be matched");
   }
-  BothWays result = nearestByNorm(a, b, norm);
+  BothWays result = nearestByNorm(a, b, norm, stop);
   if (b.rows < 2) result.from_a.clear();
   if (a.rows < 2) result.from_b.clear();
   return result;

@@ -71,6 +71,10 @@ const EvaluationOptions& Evaluation::options() const {
   return state_->options();
 }
 
+const StopToken& Evaluation::stopToken() const {
+  return state_->stopToken();
+}
+
 Counts Evaluation::counts() const {
   return state_->counts();
 }

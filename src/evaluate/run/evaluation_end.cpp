@@ -11,13 +11,28 @@ Outcome Evaluation::State::finish(Ending ending) {
     is_broken_off_ = ending == Ending::kBrokenOff;
     for (const std::int64_t stamp : sets_.openStamps()) close(stamp, poses_.of(stamp), Reason::kEnd);
   }
-  queue_.waitForAtMost(0);
+  waitForWork();
   queue_.rethrow();
   Outcome outcome;
   outcome.counts = counts();
   outcome.absent_poses = nameAbsentPoses();
   settleAndWrite(outcome);
   return outcome;
+}
+
+// Of a run that is broken off only for what is being written, which is soon done.
+void Evaluation::State::waitForWork() {
+  if (!is_broken_off_) return queue_.waitForAtMost(0);
+  const std::lock_guard<std::shared_mutex> nobody_writes(writing_);
+  giveUpWork();
+}
+
+void Evaluation::State::giveUpWork() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  while (!under_way_.empty()) {
+    const std::shared_ptr<const Work> work = under_way_.begin()->second;
+    giveUp(*work);
+  }
 }
 
 std::size_t Evaluation::State::nameAbsentPoses() {

@@ -1,7 +1,5 @@
 #include "evaluate/run/evaluation_state.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -237,7 +235,9 @@ void Evaluation::State::close(std::int64_t stamp_ns, std::optional<std::int64_t>
     work.bytes += bytesOf(arrival.rgb);
   }
   queued_bytes_ += work.bytes;
-  queue_.add([this, work = std::move(work)] { evaluate(work); });
+  const auto shared = std::make_shared<const Work>(std::move(work));
+  under_way_.emplace(stamp_ns, shared);
+  queue_.add([this, shared] { evaluate(*shared); });
 }
 
 std::vector<std::size_t> Evaluation::State::keptPictures(const StampSet& set, std::int64_t pose,
@@ -252,11 +252,6 @@ std::vector<std::size_t> Evaluation::State::keptPictures(const StampSet& set, st
   return kept;
 }
 
-void Evaluation::State::writePictures(const Work& work) {
-  for (const std::size_t s : work.pictures)
-    pictures_->write(options_.streams[s], work.pose, work.stamp_ns, work.images[s]);
-}
-
 void Evaluation::State::markCompleted(std::int64_t pose) {
   if (completed_.insert(pose).second && !options_.poses.holds(pose)) ++unexpected_poses_;
 }
@@ -266,67 +261,13 @@ void Evaluation::State::complete(std::int64_t pose) {
   if (callbacks_.progress) callbacks_.progress(completed_.size());
 }
 
-// A pose's rows come after its pictures: whoever takes up a killed run does not ask for this pose again.
-void Evaluation::State::evaluate(const Work& work) {
-  std::vector<ImagePair> pairs;
-  for (const std::size_t p : work.pairs) pairs.push_back(pair_streams_[p]);
-  std::vector<std::vector<DifferenceValue>> values;
-  std::string fault;
-  const auto compare = [&] {
-    try {
-      values = comparer_.compare(work.images, pairs, &is_broken_off_);
-    } catch (const std::exception& error) {
-      fault = error.what();
-      values.resize(pairs.size());
-    }
-  };
-  if (!is_broken_off_) tbb::parallel_invoke([&] { writePictures(work); }, compare);
-  if (is_broken_off_) return giveUp(work);
-  for (std::size_t i = 0; i < work.pairs.size(); ++i) {
-    const PairRecord record{work.pose, work.stamp_ns, work.pairs[i], values[i]};
-    if (!keep(record, fault)) continue;
-    const std::lock_guard<std::mutex> lock(callback_mutex_);
-    if (callbacks_.pair_done)
-      callbacks_.pair_done(record, work.images[pairs[i].first], work.images[pairs[i].second]);
-  }
-  const std::lock_guard<std::mutex> lock(mutex_);
-  queued_bytes_ -= work.bytes;
-  complete(work.pose);
-}
-
-void Evaluation::State::giveUp(const Work& work) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  for (const std::size_t p : work.pairs) {
-    ++counts_.pairs[p].dropped;
-    report({"dropped", work.pose, work.stamp_ns, options_.pairs[p].name(),
-            "the run was broken off before it was compared"});
-  }
-  queued_bytes_ -= work.bytes;
-  complete(work.pose);
-}
-
-// False where there is nothing to keep: the comparison failed, or another stamp counts by now.
-bool Evaluation::State::keep(const PairRecord& record, const std::string& fault) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (taken_.at({record.pose, record.pair}) != record.stamp_ns) return false;
-  if (!fault.empty()) {
-    ++counts_.pairs[record.pair].failed;
-    report({"failed", record.pose, record.stamp_ns, options_.pairs[record.pair].name(), fault});
-    return false;
-  }
-  frames_file_.append(framesText(layout_, record));
-  records_.push_back(record);
-  ++counts_.pairs[record.pair].evaluated;
-  return true;
-}
-
 Counts Evaluation::State::counts() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   Counts counts = counts_;
   counts.completed_poses = completed_.size();
   counts.waiting_images = sets_.waitingImages();
   counts.unexpected_poses = unexpected_poses_;
-  counts.queued_poses = queue_.size();
+  counts.queued_poses = under_way_.size();
   counts.bytes = sets_.reservedBytes() + queued_bytes_;
   if (const auto oldest = sets_.oldest()) {
     const StampSet& set = *sets_.find(*oldest);

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <shared_mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,10 +23,12 @@
 namespace sunlit::evaluate {
 
 /// Images go from `sets_` (waiting for partners) to `queue_` (being compared) to `records_` and frames.csv.
-/// `mutex_` guards everything but the queue; comparing runs outside of it.
+/// `mutex_` guards everything but the queue; comparing runs outside of it. What a run that is broken off may
+/// find under way stands in `under_way_`: it is either kept whole, under `writing_`, or given up by finish().
 class Evaluation::State {
  public:
   State(const EvaluationOptions& options, EvaluationCallbacks callbacks);
+  ~State() { is_broken_off_ = true; }  // whoever goes without an end waits for nothing
 
   const EvaluationOptions& options() const { return options_; }
   void add(std::size_t stream, std::int64_t stamp_ns, Arrival arrival);
@@ -34,6 +37,7 @@ class Evaluation::State {
   void addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns);
   /// The stream's next image was compressed with loss.
   void noteLossy(std::size_t stream);
+  const StopToken& stopToken() const { return stop_; }
   Counts counts() const;
   bool isComplete() const;
   void waitForRoom(std::size_t queued_poses) const {
@@ -44,6 +48,7 @@ class Evaluation::State {
 
  private:
   enum class Reason { kWhole, kEnd, kMemory };
+  using Values = std::vector<std::vector<DifferenceValue>>;               // by pair and difference
   using EvaluatedPairs = std::set<std::pair<std::int64_t, std::size_t>>;  // pose and pair
   /// Images of one set that go to the comparer.
   struct Work {
@@ -75,8 +80,15 @@ class Evaluation::State {
   bool canCompare(const StampSet& set, std::size_t pair, std::optional<std::int64_t> pose, Reason reason);
   std::vector<std::size_t> keptPictures(const StampSet& set, std::int64_t pose, bool is_evaluated);
   void writePictures(const Work& work);
+  std::vector<ImagePair> imagePairs(const Work& work) const;
   void evaluate(const Work& work);
+  void evaluatePairs(const Work& work);
+  std::vector<PairRecord> keepAll(const Work& work, const Values& values, const std::string& fault);
   bool keep(const PairRecord& record, const std::string& fault);
+  void settle(const Work& work);
+  void tell(const Work& work, const std::vector<PairRecord>& records);
+  void waitForWork();
+  void giveUpWork();
   void giveUp(const Work& work);
   void markCompleted(std::int64_t pose);
   void complete(std::int64_t pose);
@@ -104,7 +116,10 @@ class Evaluation::State {
   std::size_t queued_bytes_ = 0;      // of images in queue_
   bool is_finished_ = false;
   std::atomic<bool> is_broken_off_{false};
-  std::set<std::int64_t> sampled_;  // poses whose images are kept
+  StopToken stop_{[this] { return is_broken_off_.load(); }};
+  std::shared_mutex writing_;  // shared by workers that write, or keep rows
+  std::map<std::int64_t, std::shared_ptr<const Work>> under_way_;  // by stamp: in queue_, and not kept yet
+  std::set<std::int64_t> sampled_;                                 // poses whose images are kept
   std::unique_ptr<RecordFiles> record_files_;
   std::unique_ptr<ProblemFile> problems_;
   std::unique_ptr<PictureWriter> pictures_;

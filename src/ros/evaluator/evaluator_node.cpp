@@ -49,7 +49,8 @@ void EvaluatorNode::onPairDone(const evaluate::PairRecord& record, const cv::Mat
   pair_difference_.publish(message);
   if (matches_image_.getNumSubscribers() == 0) return;
   const evaluate::ComparerOptions& options = evaluation_->options().comparer;
-  const cv::Mat drawn = evaluate::drawMatches(evaluate::firstDetectorOf(options), options.ratio_test, a, b);
+  const cv::Mat drawn = evaluate::drawMatches(evaluate::firstDetectorOf(options), options.ratio_test, {a, b},
+                                              evaluation_->stopToken());
   matches_image_.publish(messageOf(drawn, message.header));
 }
 

@@ -7,9 +7,11 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from xmlrpc.client import ServerProxy
 
 import cv2
 import numpy
+import rosgraph
 import rospy
 import rostest
 import yaml
@@ -28,6 +30,20 @@ FILES = ['frames.csv', 'problems.csv', 'run.yaml', 'summary.csv']
 def large(pose, stream):
     """0.9 MB, with enough to find for every detector."""
     return cv2.GaussianBlur(cv2.resize(picture(pose, stream), (640, 480), interpolation=cv2.INTER_NEAREST), (0, 0), 1.5)
+
+
+def full_of_features(pose, stream):
+    """1920x1080 with 20,000 to 100,000 key points, by detector: two of BRISK are matched in half a minute and more."""
+    return numpy.repeat(numpy.repeat(numpy.random.RandomState(10 * pose + stream).randint(
+        0, 256, (135, 240, 3)).astype(numpy.uint8), 8, 0), 8, 1)
+
+
+def processor_seconds(node):
+    """That the process of a node of this master has used."""
+    _, _, pid = ServerProxy(rosgraph.Master('/test').lookupNode(node)).getPid('/test')
+    with open('/proc/%d/stat' % pid) as file:
+        fields = file.read().rpartition(')')[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
 
 
 class UnnumberedImage(Image):
@@ -101,6 +117,28 @@ class TestLimits(unittest.TestCase):
 
     def test_a_fast_sender_stays_within_the_memory_limit_and_ctrl_c_writes_all_files(self):
         self.check_fast_sender(signal.SIGINT)
+
+    def test_ctrl_c_in_the_middle_of_a_long_matching_does_not_try_the_patience_of_roslaunch(self):
+        launch = subprocess.Popen(['roslaunch', 'sunlit', 'evaluator.launch', 'streams:=[h04, h12]', 'output:=' + self.out],
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        wait_until(lambda: all(p.impl.has_connection('/evaluator') for p in self.streams.images), 'connections')
+        poses = 3
+        for pose in range(poses):
+            for stream in range(2):
+                self.streams.send(stream, stamp_of(pose), full_of_features(pose, stream))
+        # All detectors have done with two poses after 20, the matchers after 100.
+        wait_until(lambda: processor_seconds('/evaluator') > 30, 'the matching')
+        launch.send_signal(signal.SIGINT)
+        output, _ = launch.communicate(timeout=LONGEST_WAIT_S)
+        self.assertNotIn('escalating', output)  # to SIGTERM, after 15 s
+        self.assertIn('interrupted; writing results', output)
+        for name in FILES:
+            self.assertTrue(os.path.exists(self.out + '/' + name), name)
+        self.assertFalse(self.run_file()['outcome']['whole'])
+        pair = self.run_file()['counters']['pairs']['h04-h12']
+        self.assertEqual((pair['evaluated'], pair['dropped']), (0, poses))
+        self.assertEqual([(int(row['pose']), row['where'], row['reason']) for row in self.problems('dropped')],
+                         [(pose, 'h04-h12', 'the run was broken off before it was compared') for pose in range(poses)])
 
     def test_sigterm_is_as_ctrl_c(self):
         self.check_fast_sender(signal.SIGTERM)

@@ -1,7 +1,6 @@
 /// All wanted differences of all wanted pairs among the images of one pose.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <opencv2/core/mat.hpp>
@@ -42,11 +41,11 @@ class Comparer {
   const ComparerOptions& options() const { return options_; }
   /// For each pair its values in the order of options().differences. Features of each image that a pair uses
   /// are found once. Images are CV_8UC3, red first; both of a pair of equal size. Runs in parallel; may be
-  /// called from several threads at once. The result does not depend on the number of threads. It means
-  /// nothing once `is_broken_off` turns true, which ends the work within one detector's.
+  /// called from several threads at once. The result does not depend on the number of threads. Throws Stopped
+  /// once `stop` says so and the detectors at work, which cannot be stopped, are done.
   std::vector<std::vector<DifferenceValue>> compare(const std::vector<cv::Mat>& rgb_images,
                                                     const std::vector<ImagePair>& pairs,
-                                                    const std::atomic<bool>* is_broken_off = nullptr) const;
+                                                    const StopToken& stop = {}) const;
 
  private:
   struct Asked {

@@ -8,6 +8,7 @@
 #include "sunlit/evaluate/features/detector.h"
 #include "sunlit/evaluate/features/matching.h"
 #include "sunlit/evaluate/picture.h"
+#include "sunlit/evaluate/stop_token.h"
 #include "sunlit/quantity/field.h"
 
 namespace sunlit::evaluate {
@@ -32,9 +33,10 @@ class Difference {
   /// Whose features it compares; null for one that compares pixels.
   virtual const Detector* detector() const { return nullptr; }
   /// Of two images of equal size; `test` is for those that match features. Called from several threads at
-  /// once, and must not depend on how many there are. Throws std::invalid_argument for images that it cannot
-  /// compare.
-  virtual DifferenceValue between(const View& a, const View& b, const RatioTest& test) const = 0;
+  /// once, and must not depend on how many there are. Where it may take seconds it checks `stop` between its
+  /// steps. Throws std::invalid_argument for images that it cannot compare.
+  virtual DifferenceValue between(const View& a, const View& b, const RatioTest& test,
+                                  const StopToken& stop) const = 0;
 };
 
 /// The value of a difference that is the same both ways and knows no features.

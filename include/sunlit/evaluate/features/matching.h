@@ -4,6 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "sunlit/evaluate/stop_token.h"
 #include "sunlit/quantity/field.h"
 
 namespace sunlit::evaluate {
@@ -34,8 +35,9 @@ struct BothWays {
 };
 
 /// By `norm` (a cv::NormTypes), in one pass over all distances. Neighbours and distances are those of
-/// cv::BFMatcher::knnMatch, either way, to the bit.
-BothWays twoNearestBothWays(const cv::Mat& a, const cv::Mat& b, int norm);
+/// cv::BFMatcher::knnMatch, either way, to the bit. Of n rows each this takes n² steps, many seconds for
+/// 100,000: `stop` is checked every few rows.
+BothWays twoNearestBothWays(const cv::Mat& a, const cv::Mat& b, int norm, const StopToken& stop = {});
 
 /// True where the best match passes.
 bool passes(const Neighbours& neighbours, const RatioTest& test);

@@ -11,6 +11,7 @@
 
 #include "sunlit/evaluate/files/frames_file.h"
 #include "sunlit/evaluate/run/evaluation_options.h"
+#include "sunlit/evaluate/stop_token.h"
 
 namespace sunlit::evaluate {
 
@@ -84,8 +85,8 @@ struct Outcome {
 };
 
 /// Called from the threads that add images and from workers. Each of them is called one at a time, but one
-/// may be called while another still runs. `progress` and `note` must not call the Evaluation back: they are
-/// told under its lock.
+/// may be called while another still runs, and `pair_done` and `progress` even after a run was broken off,
+/// until the Evaluation is gone. `progress` and `note` must not call it back: they are told under its lock.
 struct EvaluationCallbacks {
   std::function<void(const PairRecord& record, const cv::Mat& a, const cv::Mat& b)> pair_done;
   std::function<void(std::size_t completed_poses)> progress;
@@ -95,7 +96,8 @@ struct EvaluationCallbacks {
 /// What becomes of images that are whole, but not compared yet.
 enum class Ending {
   kCompared,  ///< they are compared first
-  kBrokenOff  ///< they are given up, counted and named; even what is being compared now
+  kBrokenOff  ///< they are given up, counted and named, as is what is being compared now. No matter how long
+              ///< a detector still takes, the files are written at once; the destructor waits for it
 };
 
 /// Thread-safe. Images are shared, not copied, and must not change afterwards.
@@ -124,6 +126,8 @@ class Evaluation {
   void addPlace(const PlaceRecord& place);
 
   const EvaluationOptions& options() const;
+  /// Of work for pair_done that takes long: stops it once the run is broken off.
+  const StopToken& stopToken() const;
   Counts counts() const;
   /// All expected poses are accounted for; never true where their number is unknown. Rethrows what stopped a
   /// worker, such as a full disk.

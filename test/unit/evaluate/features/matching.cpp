@@ -300,6 +300,31 @@ TEST(Comparer, RefusesOptionsOutOfRangeByName) {
   EXPECT_EQ(messageFor(options).rfind("differences is [none], but must be", 0), 0u);
 }
 
+struct Kind {
+  int norm;
+  int type;
+};
+
+// 98,000 key points of BRISK against as many take half a minute: whoever waits may not wait for that.
+TEST(Matching, StopsBetweenBlocksOfRows) {
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  constexpr int kRows = 1000;
+  constexpr int kAtMostAtOnce = 64;
+  constexpr int kLast = 3;
+  for (const Kind& kind : {Kind{cv::NORM_L2, CV_8U}, Kind{cv::NORM_L2, CV_32F}, Kind{cv::NORM_HAMMING, CV_8U},
+                           Kind{cv::NORM_HAMMING2, CV_8U}}) {
+    cv::Mat rows(kRows, 32, kind.type);
+    cv::RNG(7).fill(rows, cv::RNG::UNIFORM, 0, 255);
+    int asked = 0;
+    twoNearestBothWays(rows, rows, kind.norm, StopToken([&] { return ++asked < 0; }));
+    EXPECT_GE(asked, kRows / kAtMostAtOnce) << kind.norm << " " << kind.type;
+    asked = 0;
+    const StopToken stop([&] { return ++asked >= kLast; });
+    EXPECT_THROW(twoNearestBothWays(rows, rows, kind.norm, stop), Stopped) << kind.norm << " " << kind.type;
+    EXPECT_EQ(asked, kLast) << kind.norm << " " << kind.type;  // nothing more was begun
+  }
+}
+
 TEST(Comparer, RefusesParametersOfDetectorsOutOfRangeByName) {
   const auto messageFor = [](const std::string& key, double value) {
     ComparerOptions options;
@@ -320,7 +345,7 @@ class AcrossABound : public Difference {
  public:
   std::unique_ptr<Difference> clone() const override { return std::make_unique<AcrossABound>(*this); }
   std::vector<Field> fields() override { return {{"bound", &bound_, "grey levels", {0, 255}, ""}}; }
-  DifferenceValue between(const View& a, const View& b, const RatioTest&) const override {
+  DifferenceValue between(const View& a, const View& b, const RatioTest&, const StopToken&) const override {
     const int across = cv::countNonZero((a.picture.grey > bound_) != (b.picture.grey > bound_));
     return sameBothWays(across / static_cast<double>(a.picture.grey.total()));
   }
@@ -345,6 +370,28 @@ TEST(Comparer, TakesADifferenceOfOnesOwnWithItsOptions) {
   options = before;  // copies have options of their own
   EXPECT_EQ(valueOf(), 1.0 / 4.0);
   EXPECT_THROW(options.known.add("across", std::make_unique<AcrossABound>()), std::invalid_argument);
+}
+
+// A detector costs seconds, and its inner loops must not be cut short where another difference fails.
+TEST(Comparer, ThrowsWhatADifferenceThrowsOnceTheOthersAreDone) {
+  ComparerOptions options;
+  options.differences = {"sift", "euclidean_rgb", "orb"};
+  const cv::Mat narrow(40, 30, CV_8UC3, cv::Scalar::all(9));
+  const cv::Mat wide(40, 50, CV_8UC3, cv::Scalar::all(9));
+  const Comparer comparer(options);
+  EXPECT_NE(messageOf([&] {
+              comparer.compare({narrow, wide}, {{0, 1}});
+            }).find("30×40 and 50×40 px"),
+            std::string::npos);
+}
+
+TEST(Comparer, StopsBeforeItsFirstTaskWhereItIsTooLate) {
+  ComparerOptions options;
+  options.differences = {"boolean_rgb"};
+  const cv::Mat picture(4, 4, CV_8UC3, cv::Scalar::all(9));
+  const Comparer comparer(options);
+  EXPECT_THROW(comparer.compare({picture, picture}, {{0, 1}}, StopToken([] { return true; })), Stopped);
+  EXPECT_NO_THROW(comparer.compare({picture, picture}, {{0, 1}}, StopToken([] { return false; })));
 }
 
 TEST(Comparer, IsDecidedByTheOptionsOfWhatIsAskedFor) {

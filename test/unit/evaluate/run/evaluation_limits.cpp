@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <condition_variable>
-#include <future>
 #include <mutex>
 
 #include "sunlit/evaluate/files/stream_name.h"
@@ -16,18 +15,24 @@ namespace {
 
 constexpr std::size_t kSetBytes = 3 * 32 * 24 * 3;  // of three streams
 
-/// Holds the comparison of poses where it would tell of the first one, until it is let go.
+/// Holds who passes by until it is let go.
 class Held {
  public:
+  /// Those that hold the comparison of poses where it would tell of the first one.
   EvaluationCallbacks callbacks() {
     EvaluationCallbacks result;
-    result.pair_done = [this](const PairRecord&, const cv::Mat&, const cv::Mat&) {
-      std::unique_lock<std::mutex> lock(mutex_);
-      is_reached_ = true;
-      changed_.notify_all();
-      changed_.wait(lock, [this] { return is_let_go_; });
-    };
+    result.pair_done = [this](const PairRecord&, const cv::Mat&, const cv::Mat&) { pass(); };
     return result;
+  }
+  void reach() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_reached_ = true;
+    changed_.notify_all();
+  }
+  void pass() {
+    reach();
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [this] { return is_let_go_; });
   }
   void waitUntilReached() {
     std::unique_lock<std::mutex> lock(mutex_);
@@ -112,14 +117,10 @@ TEST(Evaluation, WritesAllFilesAtOnceWhereItIsBrokenOff) {
   const int poses = 40;
   for (int pose = 0; pose < poses; ++pose) feedPose(evaluation, pose);
   held.waitUntilReached();
-  auto ended = std::async(std::launch::async, [&] { return evaluation.finish(Ending::kBrokenOff); });
-  for (std::size_t before = 0, now = 1; now != before;) {  // until it takes nothing any more
-    before = evaluation.counts().streams[0].received;
-    evaluation.addImage(0, stampOf(0), picture(0, 0));
-    now = evaluation.counts().streams[0].received;
-  }
+  const Outcome outcome = evaluation.finish(Ending::kBrokenOff);
   held.letGo();
-  const Outcome outcome = ended.get();
+  EXPECT_EQ(outcome.counts.completed_poses, static_cast<std::size_t>(poses));
+  EXPECT_EQ(outcome.counts.queued_poses, 0u);
   for (const PairCounts& pair : outcome.counts.pairs) {
     EXPECT_EQ(pair.evaluated + pair.dropped, static_cast<std::size_t>(poses));
     EXPECT_GE(pair.dropped, static_cast<std::size_t>(poses - 2));  // two poses are compared at a time
@@ -133,6 +134,74 @@ TEST(Evaluation, WritesAllFilesAtOnceWhereItIsBrokenOff) {
   for (int pose = 0; pose < poses; ++pose) feedPose(again, pose);
   EXPECT_TRUE(again.finish().isWhole());
   EXPECT_EQ(contentOf(folder.file("out/problems.csv")).find("dropped,"), std::string::npos);
+}
+
+/// Takes as long as it is told to, as a detector does, or for ever unless it is stopped, as the matching of a
+/// million features would.
+class Slow : public Difference {
+ public:
+  enum class Kind { kHeld, kEndless };
+  Slow(Kind kind, Held* held) : kind_(kind), held_(held) {}
+  std::unique_ptr<Difference> clone() const override { return std::make_unique<Slow>(*this); }
+  DifferenceValue between(const View&, const View&, const RatioTest&, const StopToken& stop) const override {
+    if (kind_ == Kind::kHeld) held_->pass();
+    for (held_->reach(); kind_ == Kind::kEndless;) stop.check();
+    return sameBothWays(0.5);
+  }
+
+ private:
+  Kind kind_;
+  Held* held_;
+};
+
+EvaluationOptions slowOptions(const TemporaryFolder& folder, Slow::Kind kind, Held* held) {
+  EvaluationOptions options = optionsFor(folder);
+  options.comparer.known.add("slow", std::make_unique<Slow>(kind, held));
+  options.comparer.differences = {"euclidean_grey", "slow"};
+  return options;
+}
+
+void expectAllGivenUp(const Outcome& outcome, const TemporaryFolder& folder, std::size_t poses) {
+  EXPECT_EQ(outcome.counts.completed_poses, poses);
+  EXPECT_EQ(outcome.counts.bytes, 0u);
+  for (const PairCounts& pair : outcome.counts.pairs) {
+    EXPECT_EQ(pair.evaluated, 0u);
+    EXPECT_EQ(pair.dropped, poses);
+  }
+  EXPECT_FALSE(contentOf(folder.file("out/summary.csv")).empty());
+  EXPECT_NE(contentOf(folder.file("out/run.yaml")).find("whole: false"), std::string::npos);
+}
+
+TEST(Evaluation, DoesNotWaitForADetectorWhereItIsBrokenOff) {
+  const TemporaryFolder folder;
+  Held held;
+  std::string files_at_the_end;
+  {
+    Evaluation evaluation(slowOptions(folder, Slow::Kind::kHeld, &held), {});
+    for (int pose = 0; pose < 5; ++pose) feedPose(evaluation, pose);
+    held.waitUntilReached();
+    expectAllGivenUp(evaluation.finish(Ending::kBrokenOff), folder, 5);
+    files_at_the_end = contentOf(folder.file("out/frames.csv")) + contentOf(folder.file("out/problems.csv"));
+    held.letGo();
+  }
+  // What it found after all is not written.
+  EXPECT_EQ(contentOf(folder.file("out/frames.csv")) + contentOf(folder.file("out/problems.csv")),
+            files_at_the_end);
+}
+
+TEST(Evaluation, StopsWhatIsBeingComparedWhereItIsBrokenOffOrGone) {
+  const TemporaryFolder folder;
+  Held held;
+  {
+    Evaluation evaluation(slowOptions(folder, Slow::Kind::kEndless, &held), {});
+    feedPose(evaluation, 0);
+    held.waitUntilReached();
+    expectAllGivenUp(evaluation.finish(Ending::kBrokenOff), folder, 1);
+  }
+  Held again;
+  Evaluation evaluation(slowOptions(folder, Slow::Kind::kEndless, &again), {});
+  feedPose(evaluation, 0);
+  again.waitUntilReached();
 }
 
 TEST(ExpectedPoses, AreAbsentOrUnexpectedByMembershipNotByNumber) {

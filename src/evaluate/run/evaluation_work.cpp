@@ -1,0 +1,116 @@
+// How what is whole is compared, and what was found is kept.
+#include <tbb/parallel_invoke.h>
+
+#include <exception>
+
+#include "evaluate/run/evaluation_state.h"
+
+namespace sunlit::evaluate {
+
+void Evaluation::State::writePictures(const Work& work) {
+  for (const std::size_t s : work.pictures) {
+    const std::shared_lock<std::shared_mutex> writing(writing_);
+    if (is_broken_off_) return;
+    pictures_->write(options_.streams[s], work.pose, work.stamp_ns, work.images[s]);
+  }
+}
+
+std::vector<ImagePair> Evaluation::State::imagePairs(const Work& work) const {
+  std::vector<ImagePair> pairs;
+  for (const std::size_t p : work.pairs) pairs.push_back(pair_streams_[p]);
+  return pairs;
+}
+
+void Evaluation::State::evaluate(const Work& work) {
+  try {
+    stop_.check();
+    evaluatePairs(work);
+  } catch (const Stopped&) {  // finish() gives it up
+  }
+}
+
+// A pose's rows come after its pictures: whoever takes up a killed run does not ask for this pose again.
+void Evaluation::State::evaluatePairs(const Work& work) {
+  Values values;
+  std::string fault;
+  std::exception_ptr picture_fault;
+  const auto compare = [&] {
+    try {
+      values = comparer_.compare(work.images, imagePairs(work), stop_);
+    } catch (const Stopped&) {  // keepAll() will see it
+    } catch (const std::exception& error) {
+      fault = error.what();
+      values.resize(work.pairs.size());
+    }
+  };
+  const auto write = [&] {
+    try {
+      writePictures(work);
+    } catch (...) {  // thrown at once, it would cancel the loops of the detectors at work
+      picture_fault = std::current_exception();
+    }
+  };
+  tbb::parallel_invoke(write, compare);
+  if (picture_fault) std::rethrow_exception(picture_fault);
+  tell(work, keepAll(work, values, fault));
+}
+
+std::vector<PairRecord> Evaluation::State::keepAll(const Work& work, const Values& values,
+                                                   const std::string& fault) {
+  const std::shared_lock<std::shared_mutex> writing(writing_);
+  stop_.check();
+  std::vector<PairRecord> kept;
+  for (std::size_t i = 0; i < work.pairs.size(); ++i) {
+    const PairRecord record{work.pose, work.stamp_ns, work.pairs[i], values[i]};
+    if (keep(record, fault)) kept.push_back(record);
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  settle(work);
+  return kept;
+}
+
+// Outside of all locks: drawing what matched takes long.
+void Evaluation::State::tell(const Work& work, const std::vector<PairRecord>& records) {
+  for (const PairRecord& record : records) {
+    const std::lock_guard<std::mutex> lock(callback_mutex_);
+    const auto& [first, second] = pair_streams_[record.pair];
+    if (callbacks_.pair_done) callbacks_.pair_done(record, work.images[first], work.images[second]);
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  queued_bytes_ -= work.bytes;
+  if (callbacks_.progress) callbacks_.progress(completed_.size());
+}
+
+// From here on the work is accounted for.
+void Evaluation::State::settle(const Work& work) {
+  markCompleted(work.pose);
+  under_way_.erase(work.stamp_ns);
+}
+
+void Evaluation::State::giveUp(const Work& work) {
+  for (const std::size_t p : work.pairs) {
+    ++counts_.pairs[p].dropped;
+    report({"dropped", work.pose, work.stamp_ns, options_.pairs[p].name(),
+            "the run was broken off before it was compared"});
+  }
+  settle(work);
+  queued_bytes_ -= work.bytes;
+  if (callbacks_.progress) callbacks_.progress(completed_.size());
+}
+
+// False where there is nothing to keep: the comparison failed, or another stamp counts by now.
+bool Evaluation::State::keep(const PairRecord& record, const std::string& fault) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (taken_.at({record.pose, record.pair}) != record.stamp_ns) return false;
+  if (!fault.empty()) {
+    ++counts_.pairs[record.pair].failed;
+    report({"failed", record.pose, record.stamp_ns, options_.pairs[record.pair].name(), fault});
+    return false;
+  }
+  frames_file_.append(framesText(layout_, record));
+  records_.push_back(record);
+  ++counts_.pairs[record.pair].evaluated;
+  return true;
+}
+
+}  // namespace sunlit::evaluate
