@@ -16,9 +16,7 @@ constexpr const char* kDiffusivityDoc =
     "of the blur: Perona and Malik's first or second, Weickert's, Charbonnier's";
 
 std::unique_ptr<Detector> makeSift();
-/// SIFT whose descriptors are the square roots of their L1-normalised elements, so that their Euclidean
-/// distance is the Hellinger distance of the histograms (Arandjelović and Zisserman, CVPR 2012). CV_32F rows
-/// of length 1, or all 0.
+/// SIFT with the descriptors of rootSift().
 std::unique_ptr<Detector> makeRootSift();
 #ifdef SUNLIT_SURF
 std::unique_ptr<Detector> makeSurf();

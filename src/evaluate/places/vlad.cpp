@@ -6,6 +6,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
+#include "evaluate/features/root_sift.h"
 #include "evaluate/places/word_search.h"
 #include "sunlit/quantity/vector_clones.h"
 
@@ -20,17 +21,6 @@ cv::Mat bitsOf(const cv::Mat& bytes) {
       bits.at<float>(i, k) = static_cast<float>(bytes.at<std::uint8_t>(i, k / kBits) >> k % kBits & 1);
   }
   return bits;
-}
-
-/// RootSIFT of each row, none of which has a number below 0.
-void takeRootsOfShares(cv::Mat* points) {
-  for (int i = 0; i < points->rows; ++i) {
-    float* const row = points->ptr<float>(i);
-    double sum = 0.0;
-    for (int k = 0; k < points->cols; ++k) sum += row[k];
-    if (sum == 0.0) continue;
-    for (int k = 0; k < points->cols; ++k) row[k] = static_cast<float>(std::sqrt(row[k] / sum));
-  }
 }
 
 /// To length 1; what is 0 stays so.
@@ -73,9 +63,9 @@ bool isZero(const cv::Mat& vlad) {
 cv::Mat vladPoints(const std::string& detector, int norm, const cv::Mat& descriptors) {
   if (descriptors.empty()) return {};
   if (norm == cv::NORM_HAMMING || norm == cv::NORM_HAMMING2) return bitsOf(descriptors);
+  if (detector == "sift") return rootSift(descriptors);
   cv::Mat points;
   descriptors.convertTo(points, CV_32FC1);
-  if (detector == "sift") takeRootsOfShares(&points);
   return points;
 }
 

@@ -21,8 +21,7 @@ constexpr int kMostRounds = 50;                   // of k-means; it ends sooner 
 
 /// Descriptors of a `detector` as points between which Euclidean distances mean something, CV_32FC1, one row
 /// each:
-/// - of SIFT the square roots of the shares that its numbers have of their sum (RootSIFT; R. Arandjelović, A.
-///   Zisserman, CVPR 2012); where that is 0 all are 0;
+/// - of SIFT its RootSIFT, as the detector `rootsift` has it;
 /// - of descriptors compared by a Hamming norm (cv::NormTypes) their bits, 0 or 1, lowest first: squared
 ///   distances are Hamming distances then, and the mean of points, a word, is how often each bit is set;
 /// - of others, such as SURF, their numbers.

@@ -1,8 +1,7 @@
-#include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "evaluate/features/detectors.h"
+#include "evaluate/features/root_sift.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -46,16 +45,7 @@ class RootSiftWorker : public cv::Feature2D {
     cv::Mat bytes;
     sift_->detectAndCompute(image, mask, keypoints, descriptors.needed() ? bytes : cv::noArray(),
                             use_provided_keypoints);
-    if (!descriptors.needed()) return;
-    cv::Mat roots(bytes.size(), CV_32F, cv::Scalar(0));
-    for (int i = 0; i < bytes.rows; ++i) {
-      const uchar* from = bytes.ptr<uchar>(i);
-      const int sum = std::accumulate(from, from + bytes.cols, 0);
-      float* to = roots.ptr<float>(i);
-      for (int k = 0; k < bytes.cols && sum > 0; ++k)
-        to[k] = std::sqrt(static_cast<float>(from[k]) / static_cast<float>(sum));
-    }
-    descriptors.assign(roots);
+    if (descriptors.needed()) descriptors.assign(rootSift(bytes));
   }
 
  private:
