@@ -26,10 +26,11 @@ bool isStartOfFrame(std::uint8_t marker) {
   return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
 }
 
-// Some writers fill up with zeros.
-bool endsAsJpeg(const std::uint8_t* bytes, std::size_t size) {
-  while (size > 2 && bytes[size - 1] == 0) --size;
-  return bytes[size - 2] == 0xFF && bytes[size - 1] == 0xD9;
+// EOI cannot stand in coded pixels, where a zero follows every FF. It need not be the end of the file: some
+// writers fill up with zeros, and phones append a film.
+bool hasEndOfImage(const std::uint8_t* begin, const std::uint8_t* end) {
+  constexpr std::array<std::uint8_t, 2> kEndOfImage = {0xFF, 0xD9};
+  return std::search(begin, end, kEndOfImage.begin(), kEndOfImage.end()) != end;
 }
 
 // JPEG (ITU-T T.81), annex B: segments of a marker and their length; a start of frame holds precision, height
@@ -46,7 +47,7 @@ std::optional<EncodedPicture> ofJpeg(const std::uint8_t* bytes, std::size_t size
     }
     if (isStartOfFrame(marker)) {
       return EncodedPicture{bigEndian(bytes + at + 7, 2), bigEndian(bytes + at + 5, 2), true,
-                            !endsAsJpeg(bytes, size)};
+                            !hasEndOfImage(bytes + at, bytes + size)};
     }
     at += 2 + bigEndian(bytes + at + 2, 2);
   }

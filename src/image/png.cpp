@@ -1,10 +1,12 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "read_file.h"
+#include "sunlit/image/encoded_size.h"
 #include "sunlit/image/files.h"
 #include "sunlit/image/texture_files.h"
 #include "sunlit/quantity/range.h"
@@ -36,11 +38,17 @@ bool isPng(const std::string& bytes) {
   return bytes.compare(0, kSignature.size(), kSignature) == 0;
 }
 
-// The decoder fills what a cut-off file lacks with black, so look for the closing chunk first.
-void requireClosed(const std::string& bytes, const std::string& path) {
-  if (bytes.size() < 12 || bytes.compare(bytes.size() - 8, 4, "IEND") != 0) {
+const std::uint8_t* beginOf(const std::string& bytes) {
+  return reinterpret_cast<const std::uint8_t*>(bytes.data());
+}
+
+// Decoders fill what a cut-off file lacks with black or grey, so look for the closing chunk first.
+void requireWhole(const std::string& bytes, const std::string& path) {
+  const bool is_open_png =
+      isPng(bytes) && (bytes.size() < 12 || bytes.compare(bytes.size() - 8, 4, "IEND") != 0);
+  const std::optional<EncodedPicture> encoded = encodedPicture(beginOf(bytes), bytes.size());
+  if (is_open_png || (encoded && encoded->is_cut_short))
     throw std::runtime_error(path + ": read: the file is cut off");
-  }
 }
 
 }  // namespace
@@ -48,7 +56,7 @@ void requireClosed(const std::string& bytes, const std::string& path) {
 Rgb8Image readPng(const std::string& path) {
   const std::string bytes = readWholeFile(path);
   if (!isPng(bytes)) throw std::runtime_error(path + ": read: not a PNG file");
-  requireClosed(bytes, path);
+  requireWhole(bytes, path);
   const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
   cv::Mat decoded;
   try {
@@ -70,8 +78,8 @@ Rgb8Image readPng(const std::string& path) {
 
 Rgb8Image readPhotograph(const std::string& path) {
   const std::string bytes = readWholeFile(path);
-  if (isPng(bytes)) requireClosed(bytes, path);
-  Rgba8Image decoded = decodeRgba(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), path);
+  requireWhole(bytes, path);
+  Rgba8Image decoded = decodeRgba(beginOf(bytes), bytes.size(), path);
   Rgb8Image picture(decoded.width, decoded.height);
   const cv::Mat rgba(decoded.height, decoded.width, CV_8UC4, decoded.data.data());
   cv::Mat rgb(picture.height, picture.width, CV_8UC3, picture.data.data());

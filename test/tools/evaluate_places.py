@@ -131,7 +131,7 @@ class Places(unittest.TestCase):
         self.assertRegex(self.refused("--method", "sad,seqslam"),
                          re.escape(self.query) + ": holds 10 pictures, but a sequence of seqslam needs at least 11")
         pathlib.Path(self.query, "3.png").write_bytes(b"none")
-        self.assertIn(self.query + "/3.png: read: not a PNG file", self.refused("--method", "sad"))
+        self.assertIn(self.query + "/3.png: cannot decode this picture", self.refused("--method", "sad"))
         self.query = self.query + "/none"
         self.assertIn(self.query + ": there is no such folder", self.refused("--method", "sad"))
         os.mkdir(os.path.join(self.folder.name, "empty"))

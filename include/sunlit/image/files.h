@@ -27,7 +27,7 @@ std::string encodePng(const Rgb8Image& picture);
 /// Any PNG of 8 bits a channel; grey becomes three equal channels, alpha is dropped. Deeper ones are an
 /// error, since rounding them would lose data silently.
 Rgb8Image readPng(const std::string& path);
-/// Any PNG, JPEG, PPM, BMP, TIFF or WebP, as decodeRgba() has it, without alpha; a PNG that is cut off is an
+/// Any PNG, JPEG, PPM, BMP, TIFF or WebP, as decodeRgba() has it, without alpha; a file that is cut off is an
 /// error.
 Rgb8Image readPhotograph(const std::string& path);
 

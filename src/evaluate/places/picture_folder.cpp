@@ -2,19 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <opencv2/imgproc.hpp>
-#include <optional>
 #include <stdexcept>
 #include <system_error>
 
 #include "sunlit/evaluate/picture.h"
-#include "sunlit/image/encoded_size.h"
 #include "sunlit/image/files.h"
-#include "sunlit/image/texture_files.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -95,22 +88,8 @@ PictureFolder openPictureFolder(const std::string& folder) {
 }
 
 cv::Mat readGreyPicture(const std::string& file) {
-  cv::Mat grey;
-  if (endingOf(file) == ".png") {
-    image::Rgb8Image picture = image::readPng(file);
-    cv::cvtColor(matOf(picture), grey, cv::COLOR_RGB2GRAY);
-    return grey;
-  }
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream.is_open() || stream.bad()) throw std::runtime_error(file + ": cannot read this picture");
-  const auto* const begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
-  const std::optional<image::EncodedPicture> encoded = image::encodedPicture(begin, bytes.size());
-  if (encoded && encoded->is_cut_short) throw std::runtime_error(file + ": the file is cut off");
-  image::Rgba8Image picture = image::decodeRgba(begin, bytes.size(), file);
-  cv::cvtColor(cv::Mat(picture.height, picture.width, CV_8UC4, picture.data.data()), grey,
-               cv::COLOR_RGBA2GRAY);
-  return grey;
+  image::Rgb8Image picture = image::readPhotograph(file);
+  return makePicture(matOf(picture)).grey;
 }
 
 }  // namespace sunlit::evaluate

@@ -11,6 +11,8 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -104,6 +106,13 @@ TEST_F(Files, PhotographsAreReadInAnyFormat) {
   put("cut.png", whole.substr(0, whole.size() / 2));
   EXPECT_EQ(messageOf<std::runtime_error>([&] { readPhotograph(path("cut.png")); }),
             path("cut.png") + ": read: the file is cut off");
+  std::vector<unsigned char> jpeg;
+  cv::imencode(".jpg", cv::Mat(21, 37, CV_8UC3, cv::Scalar(10, 200, 90)), jpeg);
+  put("whole.jpg", std::string(jpeg.begin(), jpeg.end()));
+  EXPECT_EQ(readPhotograph(path("whole.jpg")).height, 21);
+  put("cut.jpg", std::string(jpeg.begin(), jpeg.end() - 40));
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { readPhotograph(path("cut.jpg")); }),
+            path("cut.jpg") + ": read: the file is cut off");
   put("text.png", "text");
   EXPECT_EQ(
       messageOf<std::runtime_error>([&] { readPhotograph(path("text.png")); }).rfind(path("text.png"), 0),
