@@ -1,6 +1,6 @@
 // How an evaluation ends: with everything accounted for and all files written.
-#include "evaluate/files/run_file.h"
 #include "evaluate/run/evaluation_state.h"
+#include "evaluate/run/run_file.h"
 
 namespace sunlit::evaluate {
 

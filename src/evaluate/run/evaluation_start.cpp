@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "evaluate/files/run_file.h"
 #include "evaluate/run/evaluation_state.h"
+#include "evaluate/run/run_file.h"
 #include "sunlit/evaluate/files/stream_name.h"
 #include "sunlit/image/files.h"
 

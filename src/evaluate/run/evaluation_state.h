@@ -14,8 +14,8 @@
 
 #include "evaluate/files/files.h"
 #include "evaluate/files/picture_writer.h"
-#include "evaluate/files/record_files.h"
 #include "evaluate/run/pose_index.h"
+#include "evaluate/run/record_files.h"
 #include "evaluate/run/stamp_sets.h"
 #include "evaluate/run/work_queue.h"
 #include "sunlit/evaluate/run/evaluation.h"

@@ -122,11 +122,10 @@ const std::map<std::string, Modules> kRoomsOfLight = {
     {"disc", {}},      {"sky_in_view", {}},       {"reference", {"sky_in_view"}},
 };
 
-// The results of a run are written by its files, which know what it counts.
 const std::map<std::string, Modules> kRoomsOfEvaluate = {
     {"features", {}},
     {"differences", {"features"}},
-    {"files", {"differences", "run"}},
+    {"files", {"differences"}},
     {"run", {"differences", "features", "files"}},
     {"trajectory", {"files"}},
     {"places", {"features", "files"}},

@@ -1,4 +1,4 @@
-#include "evaluate/files/run_file.h"
+#include "evaluate/run/run_file.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "evaluate/files/record_files.h"
+#include "evaluate/run/record_files.h"
 
 #include <algorithm>
 
