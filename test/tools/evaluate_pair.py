@@ -29,6 +29,12 @@ HALF_A_DIGIT_OF_D = 0.5e-4
 SURF_MATCHES, SURF_SHARE = 0.01, 0.002
 
 
+def detectors():
+    """Those that are compared unless others are asked for: those of the paper that this build has."""
+    return re.search(r"--detectors LIST .*?\(default ([a-z,]+)\)", run("evaluate_pair", "--help").stdout,
+                     re.DOTALL).group(1).split(",")
+
+
 def rows_of(folder):
     with open(os.path.join(folder, "verified.csv"), newline="") as file:
         reader = csv.DictReader(file)
@@ -80,18 +86,21 @@ class EvaluatePair(unittest.TestCase):
         self.assertRegex(lines[0], "^evaluate_pair: .* Needs no ROS master.$")
         self.assertEqual(lines[2], "usage: evaluate_pair --out DIR A B [options]")
         text = re.sub(r"\s+", " ", done.stdout)
+        has_surf = "surf" in detectors()
+        self.assertEqual(detectors(), ["sift", "surf", "orb", "brisk"] if has_surf else ["sift", "orb", "brisk"])
         for option, said in (("--out DIR", "verified.csv"), ("--homography FILE", "pixels of A to pixels of B"),
-                             ("--detectors LIST", "default sift,surf,orb,brisk"), ("--ratio SHARE", "default 0.5"),
+                             ("--ratio SHARE", "default 0.5"),
                              ("--inclusive true|false", "default false"), ("--sift-n-features", "default 0"),
-                             ("--surf-hessian-threshold", "default 100"), ("--orb-n-features", "default 500"),
-                             ("--brisk-threshold", "1 … 255 grey levels, default 30")):
+                             ("--orb-n-features", "default 500"),
+                             ("--brisk-threshold", "1 … 255 grey levels, default 30")) + (
+                                 (("--surf-hessian-threshold", "default 100"),) if has_surf else ()):
             self.assertIn(option, text)
             self.assertIn(said, text[text.index(option):text.index(option) + 200])
 
     def test_a_picture_is_found_again_whole_in_itself(self):
         picture = self.picture("a.png")
         rows, table = self.evaluate("out", picture, picture)
-        self.assertEqual([row["detector"] for row in rows], ["sift", "surf", "orb", "brisk"])
+        self.assertEqual([row["detector"] for row in rows], detectors())
         for row in rows:
             self.assertEqual((row["a"], row["b"]), (picture, picture))
             self.assertGreater(int(row["features_a"]), 20)
@@ -146,8 +155,8 @@ class EvaluatePair(unittest.TestCase):
         whole = pathlib.Path(picture).read_bytes()
         pathlib.Path(self.path("cut.png")).write_bytes(whole[:len(whole) // 2])
         self.assertIn("cut.png: read: the file is cut off", self.refused(*out, picture, self.path("cut.png")))
-        self.assertIn("--detectors is [sift, fast], but must be a list of some of sift, surf, orb, brisk, akaze, kaze, rootsift, each once",
-                      self.refused(*out, "--detectors", "sift,fast", picture, picture))
+        self.assertIn("--detectors is [sift, fast], but must be a list of some of %s, akaze, kaze, rootsift, each once" %
+                      ", ".join(detectors()), self.refused(*out, "--detectors", "sift,fast", picture, picture))
         self.assertIn("each once", self.refused(*out, "--detectors", "sift,sift", picture, picture))
         self.assertIn("--ratio is 1.1, but must be", self.refused(*out, "--ratio", "1.1", picture, picture))
         self.assertIn("--orb-wta-k is 5, but must be from 2 to 4", self.refused(*out, "--orb-wta-k", "5", picture, picture))
@@ -178,12 +187,14 @@ class EvaluatePair(unittest.TestCase):
         found = {}
         for other in range(2, 7):
             rows, _ = self.evaluate("%d" % other, "--homography", str(DATA / "leuven" / ("H1to%dp" % other)),
-                                    "--detectors", "sift,surf,orb,brisk", str(DATA / "leuven" / "img1.ppm"),
+                                    "--detectors", ",".join(detectors()), str(DATA / "leuven" / "img1.ppm"),
                                     str(DATA / "leuven" / ("img%d.ppm" % other)))
             found.update({(row["detector"], "1-%d" % other): row for row in rows})
         table = self.expected()
         self.assertEqual(len(table), 8)
         for key, cells in table.items():
+            if key[0] not in detectors():
+                continue
             with self.subTest(key):
                 self.compare(found[key], cells, is_surf=key[0] == "surf")
         self.falls_with_the_light(found)
@@ -203,7 +214,7 @@ class EvaluatePair(unittest.TestCase):
 
     def falls_with_the_light(self, found):
         """Each picture is darker than the one before; so are all numbers, which are defined."""
-        for detector in ("sift", "surf", "orb", "brisk"):
+        for detector in detectors():
             rows = [found[detector, "1-%d" % other] for other in range(2, 7)]
             for column in ("mma_3px", "matching_score_3px", "recall_3px", "average_precision_3px"):
                 values = [float(row[column]) for row in rows]
