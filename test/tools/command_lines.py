@@ -9,6 +9,7 @@ import unittest
 
 import rosunit
 
+from evaluate_pair import detectors
 from timelapse import WORLD, run
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -22,6 +23,22 @@ PLACE = {"--site": "latitude (geodetic, positive north, -90 … 90 deg)", "--dat
 VIEW = {"--pose": "(default 0,0,1,0,0)", "--look-at": "towards a point", "--path-pose": "≥ 0", "--path": "CSV or TUM",
         "--top-down": "> 0 m", "--ev": "-16 … 24 EV, default auto", "--compensation": "-8 … 8 EV, default 0",
         "--noise": "0 … 2147483647"}
+# By detector, behind its name.
+SIFT = {"n-features": "0 … 1000000, default 0", "n-octave-layers": "1 … 10, default 3",
+        "contrast-threshold": "0 … 1, default 0.04", "edge-threshold": "0.001 … 1000000, default 10",
+        "sigma": "0.1 … 10 px, default 1.6"}
+DETECTORS = {
+    "sift": SIFT, "rootsift": SIFT,
+    "surf": {"hessian-threshold": "default 100", "n-octaves": "default 4", "n-octave-layers": "default 3",
+             "extended": "default false", "upright": "default false"},
+    "orb": {"n-features": "default 500", "scale-factor": "default 1.2", "n-levels": "default 8", "edge-threshold": "default 31",
+            "first-level": "default 0", "wta-k": "2 … 4, default 2", "patch-size": "default 31", "fast-threshold": "default 20"},
+    "brisk": {"threshold": "default 30", "n-octaves": "default 3", "pattern-scale": "default 1"},
+    "akaze": {"descriptor-type": "default mldb", "descriptor-size": "default 0", "descriptor-channels": "default 3",
+              "threshold": "default 0.001", "n-octaves": "default 4", "n-octave-layers": "default 4",
+              "diffusivity": "default pm_g2"},
+    "kaze": {"extended": "default false", "upright": "default false", "threshold": "default 0.001", "n-octaves": "default 4",
+             "n-octave-layers": "default 4", "diffusivity": "default pm_g2"}}
 OPTIONS = {
     "snapshot": {**CAMERA, **WORLDS, **BOUNCED, **PLACE, **VIEW, "--out": "FILE.png", "--depth": "portable float map",
                  "--sun": "(default 180,40)", "--time": "minute (of the hour, 0 … 59 min)"},
@@ -46,7 +63,12 @@ OPTIONS = {
     "evaluate_bags": {"--out": "folder for the results", "--config": "list_parameters prints all",
                       "--namespace": "(default /)", "--merge": "may be repeated"},
 }
-TAKES_WORDS = {"evaluate_bags"}
+OPTIONS["evaluate_pair"] = {
+    "--out": "verified.csv", "--homography": "three lines of three numbers", "--detectors": "default " + ",".join(detectors()),
+    "--ratio": "> 0 … 1, default 0.5", "--inclusive": "default false",
+    **{"--%s-%s" % (name, option): part for name, options in DETECTORS.items() if name != "surf" or name in detectors()
+       for option, part in options.items()}}
+TAKES_WORDS = {"evaluate_bags", "evaluate_pair"}
 # Of all tools that have the option: a value, and what is said of it.
 REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be from 16 to 8192 px'),
            ("--size", "640x480.5", "height is 480.5, but must be a whole number from 16 to 8192 px"),
@@ -73,6 +95,9 @@ REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be fr
            ("--ev", "dark", 'must be "auto" or a number from -16 to 24 EV'),
            ("--noise", "-1", "--noise is -1, but must be from 0 to 2147483647"),
            ("--views", "0", "must be from 1 to 1000"), ("--every", "65", "must be from 1 to 64 px"),
+           ("--ratio", "1.1", "--ratio is 1.1, but must be"),
+           ("--inclusive", "perhaps", '--inclusive is "perhaps", but must be true or false'),
+           ("--orb-wta-k", "5", "--orb-wta-k is 5, but must be from 2 to 4"),
            ("--tolerance", "-1", "--tolerance is -1, but must be from 0 to 1000000000 frames"),
            ("--method", "vlad", '--method is "vlad", but must be one of sad, seqslam, vlad:sift, '),
            ("--method", "sad,,seqslam", '--method is "", but must be one of'),

@@ -61,6 +61,9 @@ TEST(EncodedSize, StaysWithinAnyPartOfAJpeg) {
   auto filled = jpeg;
   filled.resize(filled.size() + 7, 0);  // as some writers do
   EXPECT_FALSE(of(filled)->is_cut_short);
+  auto with_film = jpeg;
+  for (const char letter : std::string("ftypmp42")) with_film.push_back(static_cast<std::uint8_t>(letter));
+  EXPECT_FALSE(of(with_film)->is_cut_short);
 }
 
 }  // namespace
