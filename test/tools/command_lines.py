@@ -61,7 +61,13 @@ OPTIONS = {
                         "--tolerance": "0 … 1000000000 frames, default 5",
                         "--method": "one or more of sad, seqslam, vlad:sift, "},
     "evaluate_bags": {"--out": "folder for the results", "--config": "list_parameters prints all",
-                      "--namespace": "(default /)", "--merge": "may be repeated"},
+                      "--namespace": "(default /)", "--merge": "may be repeated",
+                      "--map": "noon.bag:h12; may be repeated", "--query": "all but those of the map",
+                      "--detectors": "default sift,orb", "--map-every": "0 … 1000000 m, default 5",
+                      "--retrieval": "truth|all", "--retrieved": "default 5", "--ratio": "default 0.8",
+                      "--inclusive": "default false", "--reprojection": "> 0 … 1000 px, default 4",
+                      "--iterations": "default 10000", "--confidence": "default 0.9999",
+                      "--min-inliers": "4 … 1000000, default 12", "--seed": "default 1"},
 }
 OPTIONS["evaluate_pair"] = {
     "--out": "verified.csv", "--homography": "three lines of three numbers", "--detectors": "default " + ",".join(detectors()),
@@ -102,6 +108,8 @@ REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be fr
            ("--method", "vlad", '--method is "vlad", but must be one of sad, seqslam, vlad:sift, '),
            ("--method", "sad,,seqslam", '--method is "", but must be one of'),
            ("--method", "sad,sad", "--method names sad twice"),
+           ("--map-every", "-1", "--map-every is -1, but must be from 0 to 1000000 m"),
+           ("--retrieval", "best", "must be one of truth, all"), ("--min-inliers", "3", "must be from 4 to 1000000"),
            ("--height", "-1001", "must be from -1000 to 1000 m"),
            ("--columns", "0", "must be from 1 to 100"), ("--fps", "121", "must be from 1 to 120 Hz"),
            ("--world", "", "--world needs a value"), ("--world", "--out", "--world needs a value"))

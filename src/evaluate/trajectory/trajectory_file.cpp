@@ -10,7 +10,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "evaluate/files/files.h"
 #include "sunlit/evaluate/trajectory/trajectory.h"
+#include "sunlit/image/files.h"
 #include "sunlit/quantity/columns.h"
 #include "sunlit/quantity/range.h"
 
@@ -187,6 +189,19 @@ class Reader {
 
 Trajectory readTrajectory(const std::string& file, std::vector<std::int64_t>* repeated) {
   return Reader(file, repeated).read();
+}
+
+void writeTrajectory(const std::string& file, const Trajectory& trajectory) {
+  std::string text = "# timestamp tx ty tz qx qy qz qw\n";
+  for (const StampedPose& pose : trajectory) {
+    const Eigen::Vector3d& p = pose.position;
+    const Eigen::Quaterniond& q = pose.orientation;
+    text += formatStamp(pose.stamp_ns);
+    for (const double number : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()})
+      text += " " + formatNumber(number);
+    text += "\n";
+  }
+  image::writeFileAtomically(file, text);
 }
 
 double lengthOf(const Trajectory& trajectory) {

@@ -5,7 +5,10 @@
 #include <sensor_msgs/image_encodings.h>
 #include <boost/make_shared.hpp>
 
+#include <algorithm>
+#include <climits>
 #include <opencv2/core.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "sunlit/image/files.h"
@@ -53,6 +56,26 @@ sensor_msgs::CameraInfo toCameraInfo(const image::PinholeCamera& camera, const s
   info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
   info.P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
   return info;
+}
+
+image::PinholeCamera fromCameraInfo(const sensor_msgs::CameraInfo& info) {
+  const auto isNot0 = [](double number) { return number != 0.0; };
+  if (std::any_of(info.D.begin(), info.D.end(), isNot0))
+    throw std::invalid_argument("camera_info has distortion: rectify the images first (image_proc)");
+  if (info.K[1] != 0.0) throw std::invalid_argument("camera_info has skew, but must have none");
+  const bool is_whole = (info.roi.width == 0 || info.roi.width == info.width) &&
+                        (info.roi.height == 0 || info.roi.height == info.height);
+  if (info.binning_x > 1 || info.binning_y > 1 || !is_whole)
+    throw std::invalid_argument("camera_info has binning or a region of interest, but must have neither");
+  if (info.width > INT_MAX || info.height > INT_MAX) throw std::invalid_argument("camera_info has no size");
+  image::PinholeCamera camera{static_cast<int>(info.width),
+                              static_cast<int>(info.height),
+                              info.K[0],
+                              info.K[4],
+                              info.K[2],
+                              info.K[5]};
+  for (const Field& field : under("camera_info", fieldsOf(camera))) field.require();
+  return camera;
 }
 
 }  // namespace sunlit::ros_interface

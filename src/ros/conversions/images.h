@@ -18,5 +18,8 @@ sensor_msgs::CompressedImagePtr toPngMessage(const image::Rgb8Image& picture, co
 sensor_msgs::ImagePtr toImageMessage(const image::DepthImage& depth, const std_msgs::Header& header);
 /// No distortion: model plumb_bob with zeros, rectification the identity.
 sensor_msgs::CameraInfo toCameraInfo(const image::PinholeCamera& camera, const std_msgs::Header& header);
+/// Throws std::invalid_argument, saying what is wrong, for a camera with distortion, skew, binning or a
+/// region of interest, and for numbers out of the ranges of fieldsOf(PinholeCamera).
+image::PinholeCamera fromCameraInfo(const sensor_msgs::CameraInfo& info);
 
 }  // namespace sunlit::ros_interface

@@ -85,4 +85,25 @@ DecodedImage decode(const sensor_msgs::CompressedImage& message, std::size_t max
   return decoded;
 }
 
+DecodedDepth decodeDepth(const sensor_msgs::Image& message, std::size_t max_pixels) {
+  namespace encodings = sensor_msgs::image_encodings;
+  constexpr double kMetresPerMillimetre = 1e-3;
+  DecodedDepth decoded;
+  const bool is_metres = message.encoding == encodings::TYPE_32FC1;
+  if (!is_metres && message.encoding != encodings::TYPE_16UC1) {
+    decoded.fault = "depth has the encoding \"" + message.encoding + "\", but must have 32FC1 or 16UC1";
+    return decoded;
+  }
+  decoded.fault = faultOfSize(message.width, message.height, max_pixels);
+  if (decoded.fault.empty()) decoded.fault = faultOfData(message);
+  if (!decoded.fault.empty()) return decoded;
+  const cv::Mat numbers = cv_bridge::toCvCopy(message)->image;
+  if (is_metres) {
+    decoded.metres = numbers;
+  } else {
+    numbers.convertTo(decoded.metres, CV_32F, kMetresPerMillimetre);
+  }
+  return decoded;
+}
+
 }  // namespace sunlit::ros_interface

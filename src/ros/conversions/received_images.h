@@ -29,4 +29,13 @@ DecodedImage decode(const sensor_msgs::Image& message, std::size_t max_pixels);
 /// PNG and JPEG, of grey or colour, 8 or 16 bit as above; by the data, whatever the message calls its format.
 DecodedImage decode(const sensor_msgs::CompressedImage& message, std::size_t max_pixels);
 
+/// Depth as CV_32FC1, m, or why it could not be had.
+struct DecodedDepth {
+  cv::Mat metres;
+  std::string fault;
+};
+
+/// Encodings 32FC1, m, and 16UC1, mm with 0 for nothing (REP-118). All else is a fault, as above.
+DecodedDepth decodeDepth(const sensor_msgs::Image& message, std::size_t max_pixels);
+
 }  // namespace sunlit::ros_interface

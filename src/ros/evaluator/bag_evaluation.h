@@ -19,11 +19,6 @@ struct BagEvaluationOptions {
 /// What is typed; the evaluation's parameters come from a file.
 std::vector<Field> fieldsOf(BagEvaluationOptions& options);
 
-/// Names, in alphabetical order, of which the bags hold <name_space>/<name>/camera/image_raw, or that with
-/// /compressed. Throws std::runtime_error for a bag that cannot be read, and std::invalid_argument for a
-/// topic whose name is none of a stream.
-std::vector<std::string> streamsIn(const std::vector<std::string>& bags, const std::string& name_space);
-
 /// Reads all bags, writes the result files and a table to standard output. The exit status of the program: 0
 /// where every pair was evaluated or is undefined, 3 where one could not be. Throws std::runtime_error for a
 /// bag that cannot be read, and for a stream of which the bags hold no image.

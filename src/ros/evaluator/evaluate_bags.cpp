@@ -1,10 +1,13 @@
 /// evaluate_bags: the evaluator on recorded bags, without a master. See README.md.
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "ros/evaluator/bag_evaluation.h"
+#include "ros/evaluator/bag_localisation.h"
+#include "ros/evaluator/bag_topics.h"
 #include "sunlit/studio/command_line.h"
 
 namespace {
@@ -23,43 +26,93 @@ ParameterReader defaultsFor(const BagEvaluationOptions& options) {
   return ParameterReader(tree, "defaults");
 }
 
+/// What is typed: bags to be evaluated, or a map and queries to be localised in it.
+struct Options {
+  BagEvaluationOptions evaluation;
+  BagLocalisationOptions localisation;
+  std::string config;  ///< file; empty: none
+};
+
+/// Of what is localised; throws as optionsOf().
+void completeLocalisation(Options* options) {
+  BagLocalisationOptions& localisation = options->localisation;
+  const std::vector<std::string>& words = options->evaluation.bags;
+  localisation.queries.insert(localisation.queries.end(), words.begin(), words.end());
+  if (localisation.maps.empty() || localisation.queries.empty())
+    throw std::invalid_argument("--map and --query need each other; --help lists all options");
+  if (!options->evaluation.evaluation.merge.empty())
+    throw std::invalid_argument("--merge is for differences, not for --map and --query");
+  localisation.output_dir = options->evaluation.evaluation.output_dir;
+  localisation.name_space = options->evaluation.name_space;
+  if (options->config.empty()) return;
+  const EvaluatorOptions read = readEvaluatorOptions(parametersOfFile(options->config));
+  localisation.localisation.known = read.evaluation.comparer.known;
+  localisation.intake = read.intake;
+}
+
+/// Of what is evaluated.
+void completeEvaluation(Options* options) {
+  BagEvaluationOptions& evaluation = options->evaluation;
+  if (evaluation.bags.empty() && (evaluation.evaluation.merge.empty() || options->config.empty()))
+    throw std::invalid_argument("no bag given, nor --merge with --config; --help lists all options");
+  const std::string output = evaluation.evaluation.output_dir;
+  const std::vector<std::string> folders = evaluation.evaluation.merge;
+  const ParameterReader parameters =
+      options->config.empty() ? defaultsFor(evaluation) : parametersOfFile(options->config);
+  const EvaluatorOptions read = readEvaluatorOptions(parameters);
+  evaluation.evaluation = read.evaluation;
+  evaluation.intake = read.intake;
+  evaluation.evaluation.output_dir = output;
+  evaluation.evaluation.merge = folders;
+}
+
+/// "--map-every" of the row "map_every".
+std::string optionOf(std::string key) {
+  std::replace(key.begin(), key.end(), '_', '-');
+  return "--" + key;
+}
+
 /// Empty if help was asked for.
-std::optional<BagEvaluationOptions> optionsOf(const std::vector<std::string>& arguments) {
-  BagEvaluationOptions options;
-  std::string config;
-  const std::vector<Field> rows = fieldsOf(options);
+std::optional<Options> optionsOf(const std::vector<std::string>& arguments) {
+  Options options;
+  const std::vector<Field> rows = fieldsOf(options.evaluation);
   studio::CommandLine line(
-      "evaluate_bags: evaluates recorded images as evaluator_node would. Needs no ROS master.",
-      "evaluate_bags --out DIR BAG... [options]\n\n"
-      "exit status: 0 all evaluated, 3 some pairs could not be, 1 error");
-  line.takeWords(&options.bags);
+      "evaluate_bags: evaluates recorded images as evaluator_node would, or localises them in a map made of "
+      "others. Needs no ROS master.",
+      "evaluate_bags --out DIR (BAG... | --map BAG --query BAG...) [options]\n\n"
+      "exit status: 0 all evaluated, 3 some pairs or images could not be, 1 error");
+  line.takeWords(&options.evaluation.bags);
   line.add("--out DIR", fieldOf(rows, "output_dir"));
   line.add("--config FILE.yaml",
            {"config",
-            &config,
+            &options.config,
             "",
             {},
             "parameters of evaluator_node: config/evaluator.yaml is an example, and list_parameters prints "
-            "all; without it their defaults, and all streams that the bags hold"});
+            "all; without it their defaults, and all streams that the bags hold; localisation takes those of "
+            "detectors from it"});
   line.add("--namespace NAME", fieldOf(rows, "namespace"));
   line.add("--merge DIR", fieldOf(rows, "merge"));
+  line.group("Localisation: where each image of one bag is, by a map made of those of another");
+  const std::vector<Field> bags = fieldsOf(options.localisation);
+  line.add("--map BAG[:STREAM,...]", fieldOf(bags, "map"));
+  line.add("--query BAG[:STREAM,...]", fieldOf(bags, "query"));
+  for (const Field& row : fieldsOf(options.localisation.localisation))
+    line.add(optionOf(row.key) + " VALUE", row);
   if (!line.read(arguments)) return std::nullopt;
   if (!line.has("--out")) throw std::invalid_argument("--out DIR is missing; --help lists all options");
-  if (options.bags.empty() && (options.evaluation.merge.empty() || config.empty()))
-    throw std::invalid_argument("no bag given, nor --merge with --config; --help lists all options");
-  const std::string output = options.evaluation.output_dir;
-  const std::vector<std::string> folders = options.evaluation.merge;
-  const ParameterReader parameters = config.empty() ? defaultsFor(options) : parametersOfFile(config);
-  const EvaluatorOptions read = readEvaluatorOptions(parameters);
-  options.evaluation = read.evaluation;
-  options.intake = read.intake;
-  options.evaluation.output_dir = output;
-  options.evaluation.merge = folders;
+  const bool localises = line.has("--map") || line.has("--query");
+  localises ? completeLocalisation(&options) : completeEvaluation(&options);
   return options;
+}
+
+int run(const Options& options) {
+  if (!options.localisation.maps.empty()) return localiseBags(options.localisation);
+  return evaluateBags(options.evaluation);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return studio::runProgram({"evaluate_bags", argc, argv}, optionsOf, evaluateBags);
+  return studio::runProgram({"evaluate_bags", argc, argv}, optionsOf, run);
 }

@@ -45,6 +45,15 @@ void ProgressLog::update(const evaluate::EvaluationOptions& options, const evalu
   ROS_INFO("%s", line.c_str());
 }
 
+void WorkLog::update(std::size_t done) {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if ((now - last_line_).toSec() < kSecondsBetweenLines || done == 0) return;
+  last_line_ = now;
+  const double each_s = (now - start_).toSec() / static_cast<double>(done);
+  ROS_INFO("%zu of %zu %s (%zu %%), %s left", done, all_, work_.c_str(), 100 * done / all_,
+           textOfDuration(each_s * static_cast<double>(all_ - done)).c_str());
+}
+
 std::string summaryTable(const std::vector<evaluate::SummaryRow>& rows) {
   constexpr std::size_t kNameWidth = 16;
   constexpr std::size_t kColumnWidth = 24;

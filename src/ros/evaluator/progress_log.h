@@ -3,7 +3,9 @@
 
 #include <ros/time.h>
 
+#include <cstddef>
 #include <string>
+#include <utility>
 
 #include "sunlit/evaluate/run/evaluation.h"
 
@@ -23,6 +25,20 @@ class ProgressLog {
   ros::SteadyTime first_progress_;
   std::size_t first_completed_ = 0;
   bool has_begun_ = false;
+};
+
+/// The same of a work of known size.
+class WorkLog {
+ public:
+  /// `work` as in "queries localised".
+  WorkLog(std::string work, std::size_t all) : work_(std::move(work)), all_(all) {}
+  void update(std::size_t done);
+
+ private:
+  std::string work_;
+  std::size_t all_;
+  ros::SteadyTime start_ = ros::SteadyTime::now();
+  ros::SteadyTime last_line_ = start_;
 };
 
 /// Means and standard deviations, one line a difference, one column a pair.

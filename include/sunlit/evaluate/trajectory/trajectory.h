@@ -38,6 +38,10 @@ inline constexpr double kQuaternionTolerance = 1e-3;
 /// after the first of a stamp are left out, and their stamps added to it, instead of an error.
 Trajectory readTrajectory(const std::string& file, std::vector<std::int64_t>* repeated = nullptr);
 
+/// As TUM: a comment that names the columns, and a line a pose with stamps to the nanosecond and 17 digits.
+/// Leaves the whole file or what was there. Throws std::runtime_error with path and reason.
+void writeTrajectory(const std::string& file, const Trajectory& trajectory);
+
 /// From pose to pose along straight lines, m.
 double lengthOf(const Trajectory& trajectory);
 

@@ -1,0 +1,58 @@
+/// Pictures of one light found in a map of another, by several detectors at once.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sunlit/evaluate/differences/differences.h"
+#include "sunlit/evaluate/localise/localiser.h"
+#include "sunlit/evaluate/posed_view.h"
+#include "sunlit/quantity/field.h"
+
+namespace sunlit::evaluate {
+
+struct LocalisationOptions {
+  Differences known;  ///< whose detectors are used, with their parameters
+  std::vector<std::string> detectors = {"sift", "orb"};
+  double map_every_m = 5.0;  ///< for KeyFrameSpacing, which is whoever's that brings the views
+  LocaliserOptions localiser;
+};
+
+/// Without the parameters of detectors.
+std::vector<Field> fieldsOf(LocalisationOptions& options);
+
+/// What a map holds of one detector.
+struct MapSize {
+  std::string detector;
+  std::size_t key_frames = 0;
+  std::size_t points = 0;
+  std::size_t bytes = 0;
+};
+
+/// A map, and queries found in it. Results are the same to the bit for any number of threads.
+class Localisation {
+ public:
+  /// Throws std::invalid_argument for an option out of range, and for a detector that there is not.
+  explicit Localisation(const LocalisationOptions& options);
+  ~Localisation();
+  Localisation(const Localisation&) = delete;
+  Localisation& operator=(const Localisation&) = delete;
+
+  const LocalisationOptions& options() const { return options_; }
+  /// Each view becomes a key frame of every detector, in their order. Of a view features with their points
+  /// stay, no pixels. Runs in parallel. Throws std::invalid_argument for what requireWhole() refuses, and for
+  /// a view without depth.
+  void addKeyFrames(const std::vector<PosedView>& views);
+  std::vector<MapSize> mapSizes() const;
+  /// [query][detector], in the order of options().detectors. Depth of queries is not used. Runs in parallel.
+  std::vector<std::vector<LocalisedQuery>> localise(const std::vector<PosedView>& queries) const;
+
+ private:
+  struct PerDetector;
+  LocalisationOptions options_;
+  std::vector<std::unique_ptr<PerDetector>> detectors_;
+};
+
+}  // namespace sunlit::evaluate

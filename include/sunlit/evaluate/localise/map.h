@@ -1,0 +1,45 @@
+/// What a camera saw along a drive, kept to be recognised: key frames of features whose places are known.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <vector>
+
+#include "sunlit/evaluate/features/features.h"
+#include "sunlit/evaluate/posed_view.h"
+
+namespace sunlit::evaluate {
+
+/// Of one detector.
+struct KeyFrame {
+  Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
+  std::vector<Eigen::Vector3d> points;  ///< in `map`, m, one a descriptor
+  cv::Mat descriptors;                  ///< one row each, see compactDescriptors()
+};
+
+/// The features of `view` whose places its depth tells; those of the sky, say, are left out.
+KeyFrame keyFrameOf(const PosedView& view, const Features& features);
+
+/// Bytes of its points and descriptors.
+std::size_t bytesOf(const KeyFrame& frame);
+
+/// As CV_8U where every number is a whole one from 0 to 255, as all of SIFT's are: a quarter of the memory
+/// and time, and the same distances to the bit. Else the same matrix.
+cv::Mat compactDescriptors(const cv::Mat& descriptors);
+
+/// Tells which poses of a drive become key frames: the first, and then each at which the path from pose to
+/// pose has grown by at least `spacing_m` (≥ 0) since the last one.
+class KeyFrameSpacing {
+ public:
+  explicit KeyFrameSpacing(double spacing_m) : spacing_m_(spacing_m) {}
+  bool takes(const Eigen::Vector3d& position);
+
+ private:
+  double spacing_m_;
+  double since_last_m_ = 0.0;
+  std::optional<Eigen::Vector3d> before_;
+};
+
+}  // namespace sunlit::evaluate

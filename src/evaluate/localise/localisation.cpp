@@ -1,0 +1,87 @@
+#include "sunlit/evaluate/localise/localisation.h"
+
+#include <tbb/parallel_for.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include "evaluate/features/detector_pool.h"
+
+namespace sunlit::evaluate {
+
+struct Localisation::PerDetector {
+  PerDetector(const Detector& detector, const LocaliserOptions& options)
+      : pool(detector), localiser(detector.norm(), options) {}
+  mutable DetectorPool pool;
+  Localiser localiser;
+};
+
+std::vector<Field> fieldsOf(LocalisationOptions& options) {
+  std::vector<std::string>* const names = &options.detectors;
+  const Choices choices{detectorTypes(), [names] { return *names; },
+                        [names](const std::vector<std::string>& some) { *names = some; }};
+  return joined({{{"detectors", choices, "", {}, "names apart by commas"},
+                  {"map_every",
+                   &options.map_every_m,
+                   "m",
+                   {0, 1e6},
+                   "of path from one key frame of the map to the next; 0: every pose"}},
+                 fieldsOf(options.localiser)});
+}
+
+Localisation::Localisation(const LocalisationOptions& options) : options_(options) {
+  requireFields(options_);
+  for (const std::string& name : options_.detectors) {
+    const Detector* const detector = options_.known.at(name).detector();
+    if (detector == nullptr) throw std::invalid_argument(name + " finds no features to localise by");
+    detectors_.push_back(std::make_unique<PerDetector>(*detector, options_.localiser));
+  }
+}
+
+Localisation::~Localisation() = default;
+
+void Localisation::addKeyFrames(const std::vector<PosedView>& views) {
+  for (const PosedView& view : views) {
+    requireWhole(view);
+    if (view.depth.empty()) throw std::invalid_argument("a view has no depth, but a map needs it");
+  }
+  std::vector<KeyFrame> frames(views.size() * detectors_.size());
+  tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t task) {
+    const PosedView& view = views[task / detectors_.size()];
+    PerDetector& detector = *detectors_[task % detectors_.size()];
+    frames[task] = keyFrameOf(view, detector.pool.detect(view.picture.grey));
+  });
+  for (std::size_t task = 0; task < frames.size(); ++task)
+    detectors_[task % detectors_.size()]->localiser.add(std::move(frames[task]));
+}
+
+std::vector<MapSize> Localisation::mapSizes() const {
+  std::vector<MapSize> sizes;
+  for (std::size_t d = 0; d < detectors_.size(); ++d) {
+    MapSize size;
+    size.detector = options_.detectors[d];
+    for (const KeyFrame& frame : detectors_[d]->localiser.frames()) {
+      ++size.key_frames;
+      size.points += frame.points.size();
+      size.bytes += bytesOf(frame);
+    }
+    sizes.push_back(size);
+  }
+  return sizes;
+}
+
+std::vector<std::vector<LocalisedQuery>> Localisation::localise(const std::vector<PosedView>& queries) const {
+  for (const PosedView& query : queries) requireWhole(query);
+  std::vector<std::vector<LocalisedQuery>> results(queries.size(),
+                                                   std::vector<LocalisedQuery>(detectors_.size()));
+  tbb::parallel_for(std::size_t{0}, queries.size() * detectors_.size(), [&](std::size_t task) {
+    const PosedView& query = queries[task / detectors_.size()];
+    PerDetector& detector = *detectors_[task % detectors_.size()];
+    const Features features = detector.pool.detect(query.picture.grey);
+    results[task / detectors_.size()][task % detectors_.size()] =
+        detector.localiser.localise({features, query.camera, query.map_from_optical});
+  });
+  return results;
+}
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,141 @@
+#include "sunlit/evaluate/localise/localisation_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "evaluate/files/files.h"
+#include "sunlit/image/files.h"
+#include "sunlit/quantity/range.h"
+
+namespace sunlit::evaluate {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+bool isLocalised(const LocalisationRow& row) {
+  return row.result.status == LocalisationStatus::kLocalised;
+}
+
+double medianOf(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  if (values.size() % 2 == 1) return values[half];
+  return std::isinf(values[half]) ? kInfinity : (values[half - 1] + values[half]) / 2.0;
+}
+
+std::string nameOf(const Reach& reach) {
+  return "within_" + textOf(reach.metres) + "m_" + textOf(reach.degrees) + "deg";
+}
+
+/// Rows of one map, query and detector.
+LocalisationSummary summaryOf(const std::vector<const LocalisationRow*>& rows) {
+  LocalisationSummary summary;
+  summary.map = rows.front()->map;
+  summary.query = rows.front()->query;
+  summary.detector = rows.front()->detector;
+  summary.n = rows.size();
+  std::vector<double> metres, degrees, relative;
+  for (const LocalisationRow* row : rows) {
+    const bool is_localised = isLocalised(*row);
+    if (!is_localised) ++summary.failures;
+    metres.push_back(is_localised ? row->result.error_m : kInfinity);
+    degrees.push_back(is_localised ? row->result.error_deg : kInfinity);
+    if (row->result.has_baseline) relative.push_back(is_localised ? row->result.relative_deg : kInfinity);
+  }
+  for (std::size_t r = 0; r < kReaches.size(); ++r) {
+    std::vector<double> hits;
+    for (std::size_t i = 0; i < metres.size(); ++i)
+      hits.push_back(metres[i] <= kReaches[r].metres && degrees[i] <= kReaches[r].degrees ? 1.0 : 0.0);
+    summary.within[r] = statisticsOf(hits);
+  }
+  summary.median_error_m = medianOf(metres);
+  summary.median_error_deg = medianOf(degrees);
+  summary.n_relative = relative.size();
+  for (std::size_t a = 0; a < kAucAngles_deg.size(); ++a)
+    summary.auc[a] = areaUnderRecall(relative, kAucAngles_deg[a]);
+  return summary;
+}
+
+}  // namespace
+
+std::vector<LocalisationSummary> summariesOf(const std::vector<LocalisationRow>& rows) {
+  std::vector<std::vector<const LocalisationRow*>> groups;
+  for (const LocalisationRow& row : rows) {
+    const auto found = std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
+      const LocalisationRow& other = *group.front();
+      return other.map == row.map && other.query == row.query && other.detector == row.detector;
+    });
+    if (found == groups.end()) {
+      groups.push_back({&row});
+    } else {
+      found->push_back(&row);
+    }
+  }
+  std::vector<LocalisationSummary> summaries;
+  for (const auto& group : groups) summaries.push_back(summaryOf(group));
+  return summaries;
+}
+
+double areaUnderRecall(std::vector<double> errors, double largest) {
+  if (errors.empty()) return kNaN;
+  std::sort(errors.begin(), errors.end());
+  const auto all = static_cast<double>(errors.size());
+  double area = 0.0;
+  double before = 0.0;
+  double recall = 0.0;
+  for (std::size_t i = 0; i < errors.size() && errors[i] < largest; ++i) {
+    const double next = static_cast<double>(i + 1) / all;
+    area += (errors[i] - before) * (recall + next) / 2.0;
+    before = errors[i];
+    recall = next;
+  }
+  return (area + (largest - before) * recall) / largest;
+}
+
+void writeLocalisation(const std::string& path, const std::vector<LocalisationRow>& rows) {
+  std::string text = "pose,stamp,map,query,detector,error_m,error_deg,inliers,retrieved,status\n";
+  for (const LocalisationRow& row : rows) {
+    const LocalisedQuery& result = row.result;
+    text += std::to_string(row.pose) + "," + formatStamp(row.stamp_ns) + "," + csvField(row.map) + "," +
+            csvField(row.query) + "," + row.detector + "," + formatNumber(result.error_m) + "," +
+            formatNumber(result.error_deg) + "," + std::to_string(result.estimate.inliers.size()) + "," +
+            std::to_string(result.retrieved) + "," + wordOf(result.status) + "\n";
+  }
+  image::writeFileAtomically(path, text);
+}
+
+void writeLocalisationSummary(const std::string& path, const std::vector<LocalisationSummary>& summaries) {
+  std::string text = "map,query,detector,n,failures";
+  for (const Reach& reach : kReaches) {
+    for (const char* part : {"", "_low", "_high"}) text += "," + nameOf(reach) + part;
+  }
+  text += ",median_error_m,median_error_deg,n_relative";
+  for (const double angle : kAucAngles_deg) text += ",auc_" + textOf(angle) + "deg";
+  text += "\n";
+  for (const LocalisationSummary& s : summaries) {
+    text += csvField(s.map) + "," + csvField(s.query) + "," + s.detector + "," + std::to_string(s.n) + "," +
+            std::to_string(s.failures);
+    for (const Statistics& within : s.within) {
+      for (const double number : {within.mean, within.ci_low, within.ci_high})
+        text += "," + formatNumber(number);
+    }
+    text += "," + formatNumber(s.median_error_m) + "," + formatNumber(s.median_error_deg) + "," +
+            std::to_string(s.n_relative);
+    for (const double auc : s.auc) text += "," + formatNumber(auc);
+    text += "\n";
+  }
+  image::writeFileAtomically(path, text);
+}
+
+void writeLocalisationProblems(const std::string& path, const std::vector<LocalisationProblem>& problems) {
+  std::string text = "stream,role,stamp,fault\n";
+  for (const LocalisationProblem& problem : problems) {
+    text += csvField(problem.stream) + (problem.is_of_map ? ",map," : ",query,") +
+            formatStamp(problem.stamp_ns) + "," + csvField(problem.fault) + "\n";
+  }
+  image::writeFileAtomically(path, text);
+}
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,136 @@
+#include "ros/evaluator/bag_streams.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+
+#include "ros/evaluator/bag_topics.h"
+#include "sunlit/ros/topic_names.h"
+
+namespace sunlit::ros_interface {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As typed.
+struct NamedBag {
+  std::string bag;
+  std::vector<std::string> streams;  ///< empty: not said
+};
+
+NamedBag namedBag(const std::string& text) {
+  NamedBag named;
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || fs::exists(text)) {
+    named.bag = text;
+    return named;
+  }
+  named.bag = text.substr(0, colon);
+  std::string rest = text.substr(colon + 1) + ',';
+  for (std::size_t comma = 0; (comma = rest.find(',')) != std::string::npos; rest.erase(0, comma + 1))
+    named.streams.push_back(rest.substr(0, comma));
+  return named;
+}
+
+std::vector<std::string> imageStreamsIn(const std::string& bag, const std::string& name_space) {
+  std::vector<std::string> streams = streamsIn({bag}, name_space);
+  const std::set<std::string> topics = topicsIn({bag});
+  for (const char* kind : {topics::kImage, topics::kCompressedImage}) {
+    if (topics.count(topicOf(rootOf(name_space), "", kind)) > 0 && (streams.empty() || !streams[0].empty()))
+      streams.insert(streams.begin(), "");
+  }
+  if (streams.empty())
+    throw std::runtime_error(bag + ": holds no image below " + rootOf(name_space) +
+                             ": neither <stream>/camera/image_raw nor that with /compressed");
+  return streams;
+}
+
+std::string listed(const std::vector<std::string>& streams) {
+  std::string text;
+  for (const std::string& stream : streams)
+    text += (text.empty() ? "" : ", ") + (stream.empty() ? "one without a name" : stream);
+  return text;
+}
+
+bool isSameBag(const std::string& a, const std::string& b) {
+  std::error_code none;
+  return a == b || fs::equivalent(a, b, none);
+}
+
+bool isSameStream(const BagStream& a, const BagStream& b) {
+  return a.stream == b.stream && isSameBag(a.bag, b.bag);
+}
+
+std::vector<BagStream> streamsOf(const NamedBag& named, const std::vector<std::string>& held) {
+  std::vector<BagStream> streams;
+  for (const std::string& name : named.streams) {
+    if (std::count(held.begin(), held.end(), name) == 0)
+      throw std::runtime_error(named.bag + ": holds no stream " + name + "; it holds: " + listed(held));
+    streams.push_back({named.bag, name, name.empty() ? fs::path(named.bag).stem().string() : name});
+  }
+  return streams;
+}
+
+std::vector<BagStream> mapStreams(const std::string& text, const std::string& name_space) {
+  NamedBag named = namedBag(text);
+  const std::vector<std::string> held = imageStreamsIn(named.bag, name_space);
+  if (named.streams.empty() && held.size() > 1) {
+    throw std::invalid_argument(named.bag + ": holds the streams " + listed(held) +
+                                ": say which the map is made of, as in --map " + text + ":" + held.back());
+  }
+  if (named.streams.empty()) named.streams = held;
+  return streamsOf(named, held);
+}
+
+std::vector<BagStream> queryStreams(const std::string& text, const std::string& name_space,
+                                    const std::vector<BagStream>& map) {
+  NamedBag named = namedBag(text);
+  const std::vector<std::string> held = imageStreamsIn(named.bag, name_space);
+  if (!named.streams.empty()) return streamsOf(named, held);
+  for (const std::string& stream : held) {
+    const bool is_of_map = std::any_of(map.begin(), map.end(), [&](const BagStream& other) {
+      return isSameStream(other, {named.bag, stream, ""});
+    });
+    if (!is_of_map) named.streams.push_back(stream);
+  }
+  if (named.streams.empty())
+    throw std::invalid_argument(named.bag + ": holds no stream but the map's: " + listed(held));
+  return streamsOf(named, held);
+}
+
+/// Streams of one name, but of several bags, are called by their bags too, whether of the map or not.
+std::vector<BagStream> toldApart(const std::vector<BagStream>& streams, const std::vector<BagStream>& all) {
+  std::vector<BagStream> apart = streams;
+  std::set<std::string> names;
+  for (BagStream& stream : apart) {
+    const bool is_shared = std::any_of(all.begin(), all.end(), [&](const BagStream& other) {
+      return other.name == stream.name && !isSameStream(other, stream);
+    });
+    if (is_shared) stream.name = fs::path(stream.bag).stem().string() + "_" + stream.name;
+    if (!names.insert(stream.name).second)
+      throw std::invalid_argument(stream.bag + ": a second stream would be called " + stream.name +
+                                  ": each counts once, and bags need names of their own");
+  }
+  return apart;
+}
+
+}  // namespace
+
+LocalisationStreams localisationStreams(const std::vector<std::string>& maps,
+                                        const std::vector<std::string>& queries,
+                                        const std::string& name_space) {
+  LocalisationStreams streams;
+  for (const std::string& text : maps) {
+    for (const BagStream& stream : mapStreams(text, name_space)) streams.map.push_back(stream);
+  }
+  for (const std::string& text : queries) {
+    for (const BagStream& stream : queryStreams(text, name_space, streams.map))
+      streams.queries.push_back(stream);
+  }
+  std::vector<BagStream> all = streams.map;
+  all.insert(all.end(), streams.queries.begin(), streams.queries.end());
+  return {toldApart(streams.map, all), toldApart(streams.queries, all)};
+}
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,28 @@
+/// Which streams of which bags make a map, and which are looked for in it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sunlit::ros_interface {
+
+struct BagStream {
+  std::string bag;     ///< path
+  std::string stream;  ///< a condition's name; empty: that of topics without one, camera/image_raw
+  std::string name;    ///< what it is called in tables, and in names of files
+};
+
+struct LocalisationStreams {
+  std::vector<BagStream> map, queries;
+};
+
+/// Each of `maps` and `queries` is "BAG" or "BAG:STREAM,STREAM"; what is a file as a whole is a BAG. A map's
+/// BAG without streams must have one only; of a query's, all count but those of the same bag that the map is
+/// made of. Streams are called by their names; those without a name, and those of several bags that have one
+/// name, by that of the bag, too. Throws std::runtime_error for a bag that cannot be read or has no such
+/// streams, and std::invalid_argument where the map, the queries or names of their own are missing.
+LocalisationStreams localisationStreams(const std::vector<std::string>& maps,
+                                        const std::vector<std::string>& queries,
+                                        const std::string& name_space);
+
+}  // namespace sunlit::ros_interface

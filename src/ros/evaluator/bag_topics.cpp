@@ -1,0 +1,88 @@
+#include "ros/evaluator/bag_topics.h"
+
+#include <rosbag/view.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+#include "sunlit/evaluate/files/stream_name.h"
+#include "sunlit/ros/topic_names.h"
+
+namespace sunlit::ros_interface {
+namespace {
+
+std::string listed(const std::set<std::string>& topics) {
+  std::string text;
+  for (const std::string& topic : topics) text += (text.empty() ? "" : ", ") + topic;
+  return text.empty() ? "nothing" : text;
+}
+
+}  // namespace
+
+std::unique_ptr<rosbag::Bag> openBag(const std::string& path) {
+  auto bag = std::make_unique<rosbag::Bag>();
+  try {
+    bag->open(path, rosbag::bagmode::Read);
+  } catch (const rosbag::BagException& error) {
+    throw std::runtime_error(path + ": is not a bag that can be read: " + error.what());
+  }
+  return bag;
+}
+
+std::string rootOf(const std::string& name_space) {
+  std::string root = name_space;
+  if (root.empty() || root.back() != '/') root += '/';
+  return root.front() == '/' ? root : "/" + root;
+}
+
+std::set<std::string> topicsIn(const std::vector<std::string>& bags) {
+  std::set<std::string> topics;
+  for (const std::string& path : bags) {
+    const auto bag = openBag(path);
+    rosbag::View view(*bag);
+    for (const rosbag::ConnectionInfo* connection : view.getConnections()) topics.insert(connection->topic);
+  }
+  return topics;
+}
+
+std::vector<std::string> streamsIn(const std::vector<std::string>& bags, const std::string& name_space) {
+  const std::string root = rootOf(name_space);
+  std::set<std::string> streams;
+  for (const std::string& topic : topicsIn(bags)) {
+    if (topic.compare(0, root.size(), root) != 0) continue;
+    for (const char* kind : {topics::kImage, topics::kCompressedImage}) {
+      const std::string ending = std::string("/") + kind;
+      if (topic.size() <= root.size() + ending.size()) continue;
+      const std::size_t end = topic.size() - ending.size();
+      if (topic.compare(end, std::string::npos, ending) != 0) continue;
+      const std::string stream = topic.substr(root.size(), end - root.size());
+      evaluate::requireStreamName(stream, "the stream of topic " + topic);
+      streams.insert(stream);
+    }
+  }
+  return {streams.begin(), streams.end()};
+}
+
+std::string topicOf(const std::string& root, const std::string& stream, const char* name) {
+  return root + (stream.empty() ? "" : stream + "/") + name;
+}
+
+std::string imageTopic(const std::string& root, const std::string& stream, const std::string& transport,
+                       const std::set<std::string>& held) {
+  const std::string raw = topicOf(root, stream, topics::kImage);
+  const std::string compressed = topicOf(root, stream, topics::kCompressedImage);
+  const bool has_raw = held.count(raw) != 0;
+  const bool has_compressed = held.count(compressed) != 0;
+  if (!has_raw && !has_compressed) {
+    throw std::runtime_error("the bags hold neither " + raw + " nor " + compressed +
+                             "; they hold: " + listed(held));
+  }
+  const std::string& chosen = has_raw && (!has_compressed || transport != "compressed") ? raw : compressed;
+  if (has_raw && has_compressed) {
+    std::printf("%s: the bags hold raw and compressed images; those of %s count\n", stream.c_str(),
+                chosen.c_str());
+  }
+  return chosen;
+}
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,35 @@
+/// Bags, and the streams of images that they hold.
+#pragma once
+
+#include <rosbag/bag.h>
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sunlit::ros_interface {
+
+/// Throws std::runtime_error with path and reason for a bag that cannot be read.
+std::unique_ptr<rosbag::Bag> openBag(const std::string& path);
+
+/// "/" or "/name/…/".
+std::string rootOf(const std::string& name_space);
+
+std::set<std::string> topicsIn(const std::vector<std::string>& bags);
+
+/// Names, in alphabetical order, of which the bags hold <name_space>/<name>/camera/image_raw, or that with
+/// /compressed. Throws std::runtime_error for a bag that cannot be read, and std::invalid_argument for a
+/// topic whose name is none of a stream.
+std::vector<std::string> streamsIn(const std::vector<std::string>& bags, const std::string& name_space);
+
+/// "root/stream/name", and of a stream without a name "root/name".
+std::string topicOf(const std::string& root, const std::string& stream, const char* name);
+
+/// The topic of a stream's images, of which `held` has some; where they are there twice, one kind counts:
+/// compressed for that `transport`, else raw, and it is said which. Throws std::runtime_error where there are
+/// none.
+std::string imageTopic(const std::string& root, const std::string& stream, const std::string& transport,
+                       const std::set<std::string>& held);
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,67 @@
+/// Images of a bag together with what is known of where they were taken.
+#pragma once
+
+#include <rosbag/bag.h>
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ros/evaluator/bag_streams.h"
+#include "ros/evaluator/image_intake.h"
+#include "sunlit/evaluate/posed_view.h"
+#include "sunlit/image/camera.h"
+
+namespace sunlit::ros_interface {
+
+/// Images of one stream, told apart by stamps. camera_info belongs to the stream, camera/pose (of
+/// camera_link, in `map`) and camera/depth/image_raw to all streams of the bag; what has an image's stamp
+/// belongs to it, to the nanosecond.
+class BagViews {
+ public:
+  static const char* const kNoDepth;  ///< a fault
+  /// What a bag holds of one image, but pixels.
+  struct Entry {
+    std::int64_t stamp_ns = 0;
+    /// As camera/capture numbers them where it does so for all, rising; else by rising stamp from 0.
+    std::size_t pose = 0;
+    image::PinholeCamera camera;
+    Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
+    std::string fault;  ///< of camera or pose, "no camera_info of this stamp"; empty where both are there
+    bool has_depth = false;
+  };
+
+  /// Reads the bag once, keeping no pixels. Of several images, or other messages, of one stamp the first
+  /// counts. Throws std::runtime_error for a bag that cannot be read, that holds no image of the stream, or
+  /// whose messages are of another kind.
+  BagViews(const BagStream& stream, const std::string& name_space, const IntakeOptions& intake);
+  ~BagViews();
+
+  const BagStream& stream() const { return stream_; }
+  const std::vector<Entry>& entries() const { return entries_; }  ///< by rising stamp
+  std::size_t repeated() const { return repeated_; }  ///< images left out, of a stamp that was there
+
+  /// The picture of an entry without fault; depth too where `wants_depth`. Or why it could not be had.
+  struct Read {
+    evaluate::PosedView view;
+    std::string fault;
+  };
+  Read read(std::size_t entry, bool wants_depth) const;
+
+ private:
+  struct Index;
+  void makeEntries();
+  std::string readDepth(const Entry& entry, cv::Mat* depth) const;
+
+  BagStream stream_;
+  IntakeOptions intake_;
+  std::unique_ptr<rosbag::Bag> bag_;
+  std::unique_ptr<Index> index_;
+  std::vector<Entry> entries_;
+  std::size_t repeated_ = 0;
+};
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,173 @@
+#include "sunlit/evaluate/localise/localisation.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "support/message_of.h"
+#include "support/textured_scene.h"
+
+namespace sunlit::evaluate {
+namespace {
+
+const image::PinholeCamera kCamera{320, 240, 277.0, 277.0, 159.5, 119.5};
+
+/// A drive along the corridor: key frames at x = 0, 1, 2.
+std::vector<PosedView> drive() {
+  static const std::vector<PosedView> views = [] {
+    std::vector<PosedView> all;
+    for (const double x : {0.0, 1.0, 2.0})
+      all.push_back(corridor().seenFrom(lookingAlongX({x, 0, 0}), kCamera));
+    return all;
+  }();
+  return views;
+}
+
+/// Off the line and turned.
+PosedView query() {
+  static const PosedView view = corridor().seenFrom(lookingAlongX({0.6, -0.4, 0.1}, 0.12), kCamera);
+  return view;
+}
+
+LocalisationOptions both() {
+  LocalisationOptions options;
+  options.detectors = {"sift", "orb"};
+  return options;
+}
+
+std::vector<LocalisedQuery> localised(const std::vector<PosedView>& map, const PosedView& view,
+                                      const LocalisationOptions& options = both()) {
+  Localisation localisation(options);
+  localisation.addKeyFrames(map);
+  return localisation.localise({view}).at(0);
+}
+
+TEST(Localisation, FindsAQueryOffTheLineToMillimetres) {
+  for (const Retrieval retrieval : {Retrieval::kTruth, Retrieval::kAll}) {
+    LocalisationOptions options = both();
+    options.localiser.retrieval = retrieval;
+    const std::vector<LocalisedQuery> results = localised(drive(), query(), options);
+    ASSERT_EQ(results.size(), 2u);
+    // Places of features are good to a tenth of a pixel (SIFT) or half of one (ORB), 277 px at some 6 m;
+    // dozens of them are averaged.
+    const double bounds_m[] = {0.006, 0.03};
+    for (std::size_t d = 0; d < 2; ++d) {
+      EXPECT_EQ(results[d].status, LocalisationStatus::kLocalised);
+      EXPECT_LT(results[d].error_m, bounds_m[d]) << d;
+      EXPECT_LT(results[d].error_deg, 0.2) << d;
+      EXPECT_EQ(results[d].retrieved, 3u);
+      EXPECT_GE(results[d].estimate.inliers.size(), 30u);
+    }
+  }
+}
+
+TEST(Localisation, StandsAnotherExposure) {
+  PosedView dark = query();
+  dark.picture = makePicture(dark.picture.rgb * 0.4);
+  const LocalisedQuery result = localised(drive(), dark)[0];
+  EXPECT_EQ(result.status, LocalisationStatus::kLocalised);
+  EXPECT_LT(result.error_m, 0.02);
+}
+
+TEST(Localisation, GivesNoRightPoseFromAMapWhoseDepthIsWrong) {
+  std::vector<PosedView> map = drive();
+  for (PosedView& view : map) {
+    cv::Mat shuffled = view.depth.clone();
+    cv::randShuffle(shuffled);
+    view.depth = shuffled;
+  }
+  // Directions stay right, so that a pose may be supported: but not the one where the query is.
+  for (const LocalisedQuery& result : localised(map, query())) {
+    EXPECT_TRUE(result.status == LocalisationStatus::kNoPose || result.error_m > 0.1);
+  }
+}
+
+TEST(Localisation, GivesNoPoseToThePictureOfAnotherPlace) {
+  PosedView mirrored = query();
+  cv::Mat rgb;
+  cv::flip(mirrored.picture.rgb, rgb, 1);
+  mirrored.picture = makePicture(rgb);
+  for (const LocalisedQuery& result : localised(drive(), mirrored)) {
+    EXPECT_NE(result.status, LocalisationStatus::kLocalised);
+    EXPECT_TRUE(std::isnan(result.error_m));
+    EXPECT_TRUE(result.estimate.inliers.empty());
+  }
+}
+
+TEST(Localisation, SaysWhyThereIsNoPose) {
+  PosedView blank = query();
+  blank.picture = makePicture(cv::Mat(240, 320, CV_8UC3, cv::Scalar::all(90)));
+  EXPECT_EQ(localised(drive(), blank)[0].status, LocalisationStatus::kNoFeatures);
+  PosedView turned = query();
+  turned.map_from_optical = lookingAlongX({0.6, 0, 0}, 3.1);
+  EXPECT_EQ(localised(drive(), turned)[0].status, LocalisationStatus::kNotRetrieved);
+  LocalisationOptions strict = both();
+  strict.localiser.ratio_test.ratio = 0.01;
+  EXPECT_EQ(localised(drive(), query(), strict)[0].status, LocalisationStatus::kTooFewMatches);
+  strict = both();
+  strict.localiser.pose.reprojection_px = 1e-3;
+  EXPECT_EQ(localised(drive(), query(), strict)[0].status, LocalisationStatus::kNoPose);
+}
+
+TEST(Localisation, RetrievesTheNearestThatLookTheSameWay) {
+  LocalisationOptions options = both();
+  options.localiser.retrieved = 1;
+  std::vector<PosedView> map = drive();
+  // The nearest of all looks back.
+  map.push_back(corridor().seenFrom(lookingAlongX({0.6, -0.4, 0.1}, 3.1), kCamera));
+  const LocalisedQuery result = localised(map, query(), options)[0];
+  EXPECT_EQ(result.status, LocalisationStatus::kLocalised);
+  EXPECT_EQ(result.retrieved, 1u);
+  EXPECT_EQ(result.key_frame, 1u);  // x = 1 is 0.58 m away, x = 0 0.73 m
+}
+
+TEST(Localisation, MeasuresDirectionsFromAKeyFrameThatIsApart) {
+  // Key frames at 0, 1 and 2 m: from 2.0 the nearest one at least a metre away is that at 1 m.
+  const PosedView view = corridor().seenFrom(lookingAlongX({2.0, 0, 0}), kCamera);
+  const LocalisedQuery result = localised(drive(), view)[0];
+  ASSERT_TRUE(result.has_baseline);
+  // Off to the side by e, at 1 m, is atan(e); what is off along the line is none.
+  EXPECT_LE(result.relative_deg, std::max(result.error_deg, std::atan(result.error_m) / kRadPerDeg) * 1.01);
+  EXPECT_GE(result.relative_deg, result.error_deg);
+  const LocalisedQuery alone = localised({drive()[0]}, drive()[0])[0];
+  EXPECT_FALSE(alone.has_baseline);
+  EXPECT_TRUE(std::isnan(alone.relative_deg));
+  EXPECT_LT(alone.error_m, 1e-4);
+}
+
+TEST(Localisation, IsTheSameForAnyNumberOfThreads) {
+  const auto run = [](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return localised(drive(), query());
+  };
+  const std::vector<LocalisedQuery> one = run(1);
+  for (const std::size_t threads : {1, 2, 5}) {
+    const std::vector<LocalisedQuery> other = run(threads);
+    for (std::size_t d = 0; d < one.size(); ++d) {
+      EXPECT_EQ(other[d].error_m, one[d].error_m);
+      EXPECT_EQ(other[d].error_deg, one[d].error_deg);
+      EXPECT_EQ(other[d].estimate.inliers, one[d].estimate.inliers);
+      EXPECT_EQ(other[d].matches, one[d].matches);
+    }
+  }
+}
+
+TEST(Localisation, RefusesViewsAndOptionsThatDoNotDo) {
+  Localisation localisation(both());
+  std::vector<PosedView> map = drive();
+  map[1].depth = cv::Mat();
+  EXPECT_EQ(messageOf([&] { localisation.addKeyFrames(map); }), "a view has no depth, but a map needs it");
+  EXPECT_EQ(localisation.mapSizes()[0].key_frames, 0u);
+  EXPECT_EQ(localisation.localise({query()})[0][0].status, LocalisationStatus::kNotRetrieved);
+  LocalisationOptions options = both();
+  options.localiser.ratio_test.ratio = 1.5;
+  EXPECT_EQ(messageOf([&] { Localisation none(options); }), "ratio is 1.5, but must be above 0 and up to 1");
+  options = both();
+  options.detectors = {"boolean_grey"};
+  EXPECT_NE(messageOf([&] { Localisation none(options); }), "");
+}
+
+}  // namespace
+}  // namespace sunlit::evaluate
