@@ -33,6 +33,13 @@ std::int64_t stampOf(const MessageInstance& instance) {
   return nanosecondsOf(header.stamp);
 }
 
+void requireImage(const MessageInstance& instance, bool may_be_compressed) {
+  if (instance.isType<sensor_msgs::Image>()) return;
+  if (may_be_compressed && instance.isType<sensor_msgs::CompressedImage>()) return;
+  throw std::runtime_error(instance.getTopic() + " is " + instance.getDataType() + ", not sensor_msgs/Image" +
+                           (may_be_compressed ? " or sensor_msgs/CompressedImage" : ""));
+}
+
 template <typename Message>
 boost::shared_ptr<Message> messageOf(const MessageInstance& instance) {
   if (auto message = instance.instantiate<Message>()) return message;
@@ -64,6 +71,7 @@ BagViews::BagViews(const BagStream& stream, const std::string& name_space, const
   index_->view.addQuery(*bag_, rosbag::TopicQuery(wanted));
   for (const MessageInstance& instance : index_->view) {
     const std::string& topic = instance.getTopic();
+    if (topic == images || topic == depths) requireImage(instance, topic == images);
     if (topic == images) {
       if (!index_->images.emplace(stampOf(instance), instance).second) ++repeated_;
     } else if (topic == depths) {

@@ -1,0 +1,230 @@
+#!/usr/bin/env python3
+"""evaluate_bags --map --query, as people type it, on bags of a wall whose every pixel is known."""
+import csv
+import math
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import cv2
+import numpy
+import rosbag
+import rospy
+import rosunit
+from geometry_msgs.msg import PoseStamped
+from sensor_msgs.msg import CameraInfo, CompressedImage, Image
+
+from timelapse import run
+
+WIDTH, HEIGHT, FOCAL = 320, 240, 277.0
+WALL_M = 8.0      # from the camera's line; the wall stands along it, seen by a camera that looks to its left
+PX_A_METRE = 60.0  # of the wall's texture
+COLUMNS = "pose,stamp,map,query,detector,error_m,error_deg,inliers,retrieved,status".split(",")
+FILES = ["estimate_%s_orb.tum", "estimate_%s_sift.tum", "truth_%s.tum"]
+
+
+def texture():
+    generator = numpy.random.RandomState(7)
+    pixels = numpy.full((900, 2400), 128, numpy.uint8)
+    for _ in range(4000):
+        centre = (int(generator.randint(0, 2400)), int(generator.randint(0, 900)))
+        cv2.circle(pixels, centre, int(generator.randint(3, 20)), int(generator.randint(0, 256)), -1)
+    return cv2.GaussianBlur(pixels, (0, 0), 1.5)
+
+
+def wall_picture(pixels, x, yaw=0.0):
+    """What a camera at (x, 0, 0) sees that looks along +y and, by `yaw`, to the left; and its depth."""
+    u, v = numpy.meshgrid((numpy.arange(WIDTH) - (WIDTH - 1) / 2) / FOCAL, (numpy.arange(HEIGHT) - (HEIGHT - 1) / 2) / FOCAL)
+    # Per metre of depth: right is +x of the map, and forward +y, both turned.
+    along = u * math.cos(yaw) - math.sin(yaw)
+    forward = u * math.sin(yaw) + math.cos(yaw)
+    depth = WALL_M / forward
+    columns = (x + depth * along) * PX_A_METRE + 400
+    rows = depth * v * PX_A_METRE + 450
+    picture = cv2.remap(pixels, columns.astype(numpy.float32), rows.astype(numpy.float32), cv2.INTER_LINEAR)
+    return picture, depth.astype(numpy.float32)
+
+
+def message(array, encoding, stamp):
+    image = Image(height=array.shape[0], width=array.shape[1], encoding=encoding,
+                  step=array.shape[1] * array.itemsize, data=array.tobytes())
+    image.header.stamp = stamp
+    return image
+
+
+class LocaliseBags(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.texture = texture()
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, stream, xs, brightness=1.0, yaw=0.0, without=(), **changes):
+        """A drive past the wall. `without`: (topic's end, index) of messages that are left out."""
+        with rosbag.Bag(self.path(name), "w") as bag:
+            for index, x in enumerate(xs):
+                stamp = rospy.Time(100 + index)
+                picture, depth = wall_picture(self.texture, x, yaw)
+                picture = cv2.convertScaleAbs(picture, alpha=brightness)
+                info = CameraInfo(width=WIDTH, height=HEIGHT, distortion_model="plumb_bob",
+                                  K=[FOCAL, 0, (WIDTH - 1) / 2, 0, FOCAL, (HEIGHT - 1) / 2, 0, 0, 1],
+                                  D=changes.get("distortion", [0.0] * 5))
+                pose = PoseStamped()
+                pose.pose.position.x = x
+                heading = math.pi / 2 + yaw  # camera_link looks along its x
+                pose.pose.orientation.z, pose.pose.orientation.w = math.sin(heading / 2), math.cos(heading / 2)
+                for other in (info, pose):
+                    other.header.stamp = stamp
+                depth_message = message(depth, "32FC1", stamp)
+                if changes.get("millimetres"):
+                    depth_message = message(numpy.round(depth * 1000).astype(numpy.uint16), "16UC1", stamp)
+                image = message(picture, "mono8", stamp)
+                topics = {stream + "camera/image_raw": image, stream + "camera/camera_info": info,
+                          "camera/depth/image_raw": depth_message, "camera/pose": pose}
+                if changes.get("png"):
+                    image = CompressedImage(format="png", data=cv2.imencode(".png", picture)[1].tobytes())
+                    image.header.stamp = stamp
+                    del topics[stream + "camera/image_raw"]
+                    topics[stream + "camera/image_raw/compressed"] = image
+                for topic, one in topics.items():
+                    if (topic.split("camera/")[-1], index) not in without:
+                        bag.write("/" + topic, one, stamp)
+        return self.path(name)
+
+    def localise(self, out, *arguments, status=0, **more):
+        done = run("evaluate_bags", "--out", self.path(out), *arguments, **more)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return self.rows(out, "localisation.csv"), done
+
+    def rows(self, out, name):
+        with open(os.path.join(self.path(out), name), newline="") as file:
+            return list(csv.DictReader(file))
+
+    def refused(self, *arguments):
+        done = run("evaluate_bags", "--out", self.path("out"), *arguments)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), (arguments, done.stderr))
+        self.assertFalse(os.path.exists(os.path.join(self.path("out"), "localisation.csv")))
+        return done.stderr
+
+    def bags(self):
+        """A map of a key frame a metre, and a darker drive between them that looks elsewhere."""
+        noon = self.write("noon.bag", "h12/", [float(x) for x in range(11)])
+        dusk = self.write("dusk.bag", "h20/", [0.5 + 2 * k for k in range(5)], brightness=0.5, yaw=0.1)
+        return noon, dusk
+
+    def test_a_drive_is_found_in_the_map_of_another(self):
+        noon, dusk = self.bags()
+        rows, done = self.localise("out", "--map", noon, "--query", dusk, "--map-every", "2")
+        self.assertEqual(list(rows[0]), COLUMNS)
+        self.assertEqual([(row["pose"], row["detector"]) for row in rows],
+                         [(str(pose), detector) for pose in range(5) for detector in ("sift", "orb")])
+        for row in rows:
+            self.assertEqual((row["map"], row["query"], row["status"], row["retrieved"]), ("h12", "h20", "localised", "5"))
+            # A tenth of a pixel (SIFT), or half of one (ORB), is 3 or 15 mm at 8 m; dozens of points are averaged, but on
+            # one plane turning and moving sideways look nearly alike.
+            self.assertLess(float(row["error_m"]), 0.03 if row["detector"] == "sift" else 0.2)
+            self.assertLess(float(row["error_deg"]), 0.2 if row["detector"] == "sift" else 1.5)
+        self.assertEqual(rows[2]["stamp"], "101.000000000")
+        self.assertIn("6 key frames", done.stdout)
+        summary = self.rows("out", "localisation_summary.csv")
+        self.assertEqual([(row["detector"], row["n"], row["failures"]) for row in summary],
+                         [("sift", "5", "0"), ("orb", "5", "0")])
+        self.assertEqual(summary[0]["within_0.25m_2deg"], "1")
+        self.assertEqual(self.rows("out", "localisation_problems.csv"), [])
+        for name in FILES:
+            self.assertTrue(os.path.exists(os.path.join(self.path("out"), name % "h20")))
+
+    def test_its_trajectories_are_what_evaluate_trajectory_takes(self):
+        noon, dusk = self.bags()
+        rows, _ = self.localise("out", "--map", noon, "--query", dusk, "--detectors", "sift")
+        done = run("evaluate_trajectory", "--truth", self.path("out/truth_h20.tum"), "--estimate",
+                   self.path("out/estimate_h20_sift.tum"), "--out", self.path("trajectory"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        ate = next(row for row in self.rows("trajectory", "trajectory.csv") if row["metric"] == "ate")
+        self.assertAlmostEqual(float(ate["max"]), max(float(row["error_m"]) for row in rows), places=9)
+
+    def test_the_same_bytes_on_one_core_and_on_all(self):
+        noon, dusk = self.bags()
+        files = []
+        for out, cores in (("all", None), ("again", None), ("one", 0)):
+            self.localise(out, "--map", noon, "--query", dusk,
+                          preexec_fn=None if cores is None else lambda: os.sched_setaffinity(0, {min(os.sched_getaffinity(0))}))
+            files.append({file.name: file.read_bytes() for file in sorted(pathlib.Path(self.path(out)).iterdir())
+                          if file.suffix in (".csv", ".tum")})
+        self.assertEqual(len(files[0]), 6)
+        self.assertEqual(files[0], files[1])
+        self.assertEqual(files[0], files[2])
+
+    def test_other_forms_of_image_and_depth_and_topics_without_a_stream(self):
+        noon = self.write("noon.bag", "", [0.0, 1.0, 2.0], png=True, millimetres=True)
+        dusk = self.write("dusk.bag", "", [0.5, 1.5])
+        rows, _ = self.localise("out", "--map", noon, "--query", dusk, "--detectors", "sift", "--map-every", "0")
+        for row in rows:
+            self.assertEqual((row["map"], row["query"], row["status"]), ("noon", "dusk", "localised"))
+            self.assertLess(float(row["error_m"]), 0.03)
+
+    def test_streams_are_chosen_by_name(self):
+        both = self.write("noon.bag", "h12/", [0.0, 1.0, 2.0])
+        with rosbag.Bag(both, "a") as bag, rosbag.Bag(self.write("dusk.bag", "h20/", [0.0, 1.0, 2.0])) as dusk:
+            for topic, one, stamp in dusk.read_messages():
+                if topic.startswith("/h20"):
+                    bag.write(topic, one, stamp)
+        for query in (both, both + ":h20"):
+            rows, _ = self.localise("out" + query[-3:], "--map", both + ":h12", "--query", query, "--detectors", "sift")
+            self.assertEqual({(row["map"], row["query"]) for row in rows}, {("h12", "h20")})
+        rows, _ = self.localise("words", "--map", both + ":h12,h20", "--query", both + ":h12", self.path("dusk.bag"),
+                                "--detectors", "sift")
+        self.assertEqual([row["query"] for row in rows], ["h12"] * 3 + ["dusk_h20"] * 3)
+        self.assertEqual(rows[0]["map"], "h12+noon_h20")
+        self.assertIn("holds the streams h12, h20: say which the map is made of, as in --map",
+                      self.refused("--map", both, "--query", both))
+        self.assertIn("holds no stream h04; it holds: h12, h20", self.refused("--map", both + ":h04", "--query", both))
+        self.assertIn("a second stream would be called h20",
+                      self.refused("--map", both + ":h12", "--query", both + ":h20,h20"))
+        self.assertIn("holds no stream but the map's", self.refused("--map", both + ":h12,h20", "--query", both))
+
+    def test_what_lacks_a_part_is_named_and_the_rest_goes_on(self):
+        noon = self.write("noon.bag", "h12/", [0.0, 1.0, 2.0, 3.0], without={("depth/image_raw", 1), ("pose", 2)})
+        dusk = self.write("dusk.bag", "h20/", [0.5, 1.5, 2.5], without={("camera_info", 0), ("pose", 2)})
+        rows, done = self.localise("out", "--map", noon, "--query", dusk, "--detectors", "sift", "--map-every", "1", status=3)
+        self.assertEqual([(row["pose"], row["status"]) for row in rows], [("1", "localised")])
+        self.assertEqual([tuple(row.values()) for row in self.rows("out", "localisation_problems.csv")],
+                         [("h12", "map", "101.000000000", "no camera/depth/image_raw of this stamp"),
+                          ("h12", "map", "102.000000000", "no camera/pose of this stamp"),
+                          ("h20", "query", "100.000000000", "no camera_info of this stamp"),
+                          ("h20", "query", "102.000000000", "no camera/pose of this stamp")])
+        self.assertIn("4 images could not be used", done.stderr)
+        self.assertIn("h12 at 101.000000000: no camera/depth", done.stderr)
+
+    def test_what_cannot_be_used_at_all_is_refused(self):
+        noon, dusk = self.bags()
+        bent = self.write("bent.bag", "h20/", [0.5], distortion=[0.1, 0, 0, 0, 0])
+        self.assertIn("no query can be used: 1 images could not be used", self.refused("--map", noon, "--query", bent))
+        self.assertIn("camera_info has distortion: rectify the images first", self.refused("--map", noon, "--query", bent))
+        self.assertIn("the map has no key frame", self.refused("--map", bent, "--query", noon))
+        for arguments in (["--map", noon], ["--query", dusk]):
+            self.assertIn("--map and --query need each other", self.refused(*arguments))
+        self.assertIn("absent.bag: is not a bag that can be read", self.refused("--map", self.path("absent.bag"), "--query", dusk))
+        pathlib.Path(self.path("text.bag")).write_text("no bag")
+        self.assertIn("text.bag: is not a bag that can be read", self.refused("--map", noon, "--query", self.path("text.bag")))
+        with rosbag.Bag(self.path("empty.bag"), "w"):
+            pass
+        self.assertIn("empty.bag: holds no image below /", self.refused("--map", noon, "--query", self.path("empty.bag")))
+        self.assertIn("--detectors is [fast], but must be", self.refused("--map", noon, "--query", dusk, "--detectors", "fast"))
+        with rosbag.Bag(self.path("odd.bag"), "w") as bag:
+            bag.write("/h20/camera/image_raw", PoseStamped(), rospy.Time(1))
+        self.assertIn("/h20/camera/image_raw is geometry_msgs/PoseStamped, not sensor_msgs/Image",
+                      self.refused("--map", noon, "--query", self.path("odd.bag")))
+
+
+if __name__ == "__main__":
+    rosunit.unitrun("sunlit", "tools_localise_bags", LocaliseBags, sysargs=sys.argv)
