@@ -8,7 +8,7 @@ class Boolean : public Difference {
  public:
   explicit Boolean(Channels channels) : channels_(channels) {}
   std::unique_ptr<Difference> clone() const override { return std::make_unique<Boolean>(*this); }
-  DifferenceValue between(const View& a, const View& b, const RatioTest&, const StopToken&) const override {
+  DifferenceValue between(const View& a, const View& b, const Matching&, const StopToken&) const override {
     const PixelSums sums = sumsOf(imageOf(a, channels_), imageOf(b, channels_));
     return sameBothWays(static_cast<double>(sums.unequal) / static_cast<double>(sums.pixels));
   }

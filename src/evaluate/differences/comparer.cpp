@@ -44,6 +44,12 @@ std::vector<Field> rowsOf(ComparerOptions& options, const std::vector<std::strin
                  options.known.fieldsOf(names)});
 }
 
+BothWays nearestOf(const Difference& difference, const View& a, const View& b, const StopToken& stop) {
+  if (difference.detector() == nullptr) return {};
+  return twoNearestBothWays(a.features.descriptors, b.features.descriptors, difference.detector()->norm(),
+                            stop);
+}
+
 }  // namespace
 
 std::vector<Field> decidingFieldsOf(ComparerOptions& options) {
@@ -75,7 +81,8 @@ Comparer::~Comparer() = default;
 
 std::vector<std::vector<DifferenceValue>> Comparer::compare(const std::vector<cv::Mat>& rgb_images,
                                                             const std::vector<ImagePair>& pairs,
-                                                            const StopToken& stop) const {
+                                                            const StopToken& stop,
+                                                            const MatchedVisit& visit) const {
   std::vector<char> is_used(rgb_images.size(), 0);
   for (const ImagePair& pair : pairs) is_used.at(pair.first) = is_used.at(pair.second) = 1;
 
@@ -98,9 +105,11 @@ std::vector<std::vector<DifferenceValue>> Comparer::compare(const std::vector<cv
     stop.check();
     const std::size_t d = task / pairs.size();
     const std::size_t p = task % pairs.size();
-    const auto view = [&](std::size_t i) { return View{pictures[i], features[d][i]}; };
-    values[p][d] =
-        asked_[d].difference->between(view(pairs[p].first), view(pairs[p].second), options_.ratio_test, stop);
+    const View a{pictures[pairs[p].first], features[d][pairs[p].first]};
+    const View b{pictures[pairs[p].second], features[d][pairs[p].second]};
+    const BothWays nearest = nearestOf(*asked_[d].difference, a, b, stop);
+    values[p][d] = asked_[d].difference->between(a, b, {nearest, options_.ratio_test}, stop);
+    if (visit && asked_[d].detectors != nullptr) visit({p, d, a.features, b.features, nearest});
   });
   return values;
 }

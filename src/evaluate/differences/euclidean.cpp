@@ -8,7 +8,7 @@ class Euclidean : public Difference {
  public:
   explicit Euclidean(Channels channels) : channels_(channels) {}
   std::unique_ptr<Difference> clone() const override { return std::make_unique<Euclidean>(*this); }
-  DifferenceValue between(const View& a, const View& b, const RatioTest&, const StopToken&) const override {
+  DifferenceValue between(const View& a, const View& b, const Matching&, const StopToken&) const override {
     constexpr double kFullScale = 255.0 * 255.0;
     const PixelSums sums = sumsOf(imageOf(a, channels_), imageOf(b, channels_));
     const double full = imageOf(a, channels_).channels() * kFullScale * static_cast<double>(sums.pixels);

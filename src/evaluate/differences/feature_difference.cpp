@@ -13,15 +13,14 @@ double differenceOf(double features, double matched) {
   return total > 0.0 ? (total - matched) / total : std::numeric_limits<double>::quiet_NaN();
 }
 
-FeatureCounts countsOf(const cv::Mat& a, const cv::Mat& b) {
-  return {static_cast<std::size_t>(a.rows), static_cast<std::size_t>(b.rows)};
+FeatureCounts countsOf(const Features& a, const Features& b) {
+  return {static_cast<std::size_t>(a.descriptors.rows), static_cast<std::size_t>(b.descriptors.rows)};
 }
 
 }  // namespace
 
 DifferenceValue featureDifference(const Features& a, const Features& b, int norm, const RatioTest& test) {
-  return featureDifference(twoNearestBothWays(a.descriptors, b.descriptors, norm),
-                           countsOf(a.descriptors, b.descriptors), test);
+  return featureDifference(twoNearestBothWays(a.descriptors, b.descriptors, norm), countsOf(a, b), test);
 }
 
 DifferenceValue featureDifference(const BothWays& nearest, const FeatureCounts& counts,
@@ -58,12 +57,9 @@ class FeatureDifference : public Difference {
   }
   std::vector<Field> fields() override { return detector_->fields(); }
   const Detector* detector() const override { return detector_.get(); }
-  DifferenceValue between(const View& a, const View& b, const RatioTest& test,
-                          const StopToken& stop) const override {
-    const cv::Mat& of_a = a.features.descriptors;
-    const cv::Mat& of_b = b.features.descriptors;
-    return featureDifference(twoNearestBothWays(of_a, of_b, detector_->norm(), stop), countsOf(of_a, of_b),
-                             test);
+  DifferenceValue between(const View& a, const View& b, const Matching& matching,
+                          const StopToken&) const override {
+    return featureDifference(matching.nearest, countsOf(a.features, b.features), matching.test);
   }
 
  private:

@@ -149,19 +149,18 @@ Verified verify(const FeaturePair& features, const PointMaps& maps, const RatioT
   requireWhole(features.a);
   requireWhole(features.b);
   const FeatureCounts counts{features.a.key_points.size(), features.b.key_points.size()};
-  const BothWays nearest = twoNearestBothWays(features.a.descriptors, features.b.descriptors, features.norm);
   const PointsOf a(features.a, maps.b_from_a);
   const PointsOf b(features.b, maps.a_from_b);
   const Errors errors(a, b);
   Verified verified;
   verified.common_a = a.common_count;
   verified.common_b = b.common_count;
-  verified.difference = featureDifference(nearest, counts, test);
+  verified.difference = featureDifference(features.nearest, counts, test);
   const NearPoints near(b.all, kCorrectWithin_px);
   for (const auto& place : a.mapped) {
     if (place && near.hasAny(*place)) ++verified.correspondences;
   }
-  const std::vector<Match> mutual = mutualMatches(nearest, counts);
+  const std::vector<Match> mutual = mutualMatches(features.nearest, counts);
   verified.mutual_matches = mutual.size();
   verified.repeatability = repeatabilityOf(a, b);
   verified.matching_score = shareOf(countWithin(kCorrectWithin_px, mutual, errors),
@@ -170,7 +169,7 @@ Verified verify(const FeaturePair& features, const PointMaps& maps, const RatioT
     const std::size_t correct = countWithin(static_cast<double>(step + 1), mutual, errors);
     verified.matching_accuracy[step] = shareOf(correct, mutual.size(), 0.0);
   }
-  verifyRatioMatches(nearest.from_a, errors, test, verified);
+  verifyRatioMatches(features.nearest.from_a, errors, test, verified);
   return verified;
 }
 
@@ -205,7 +204,10 @@ std::vector<Verified> verifyImages(const ImagesToVerify& images, const PointMaps
   });
   std::vector<Verified> verified(detectors.size());
   tbb::parallel_for(std::size_t{0}, detectors.size(), [&](std::size_t d) {
-    verified[d] = verify({features[d][0], features[d][1], detectors[d]->norm()}, maps, options.ratio_test);
+    const Features& a = features[d][0];
+    const Features& b = features[d][1];
+    const BothWays nearest = twoNearestBothWays(a.descriptors, b.descriptors, detectors[d]->norm());
+    verified[d] = verify({a, b, nearest}, maps, options.ratio_test);
   });
   return verified;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <string>
@@ -31,6 +32,16 @@ const Detector* firstDetectorOf(const ComparerOptions& options);
 /// Indices of two images; the first gives the queries.
 using ImagePair = std::pair<std::size_t, std::size_t>;
 
+/// What one difference that has a detector found in one pair of images, for whoever asks more of it.
+struct Matched {
+  std::size_t pair;        ///< index of the pair
+  std::size_t difference;  ///< index into ComparerOptions::differences
+  const Features& a;
+  const Features& b;
+  const BothWays& nearest;  ///< of their descriptors
+};
+using MatchedVisit = std::function<void(const Matched&)>;
+
 class Comparer {
  public:
   /// Throws std::invalid_argument for an option out of range, naming it as in the parameters of the
@@ -41,11 +52,13 @@ class Comparer {
   const ComparerOptions& options() const { return options_; }
   /// For each pair its values in the order of options().differences. Features of each image that a pair uses
   /// are found once. Images are CV_8UC3, red first; both of a pair of equal size. Runs in parallel; may be
-  /// called from several threads at once. The result does not depend on the number of threads. Throws Stopped
-  /// once `stop` says so and the detectors at work, which cannot be stopped, are done.
+  /// called from several threads at once. The result does not depend on the number of threads. `visit` is
+  /// called once for each pair and difference that has a detector, from several threads at once, and may
+  /// throw. Throws Stopped once `stop` says so and the detectors at work, which cannot be stopped, are done.
   std::vector<std::vector<DifferenceValue>> compare(const std::vector<cv::Mat>& rgb_images,
                                                     const std::vector<ImagePair>& pairs,
-                                                    const StopToken& stop = {}) const;
+                                                    const StopToken& stop = {},
+                                                    const MatchedVisit& visit = {}) const;
 
  private:
   struct Asked {

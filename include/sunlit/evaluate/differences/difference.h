@@ -19,6 +19,12 @@ struct View {
   const Features& features;
 };
 
+/// How features of a and b are matched.
+struct Matching {
+  const BothWays& nearest;  ///< of the features of the two views; empty where the difference has no detector
+  RatioTest test;
+};
+
 /// One way to tell how far two images of one place differ, with its options.
 ///
 /// To add one: a file like src/evaluate/differences/boolean.cpp, and its row in the table of differences.cpp;
@@ -32,10 +38,10 @@ class Difference {
   virtual std::vector<Field> fields() { return {}; }
   /// Whose features it compares; null for one that compares pixels.
   virtual const Detector* detector() const { return nullptr; }
-  /// Of two images of equal size; `test` is for those that match features. Called from several threads at
-  /// once, and must not depend on how many there are. Where it may take seconds it checks `stop` between its
-  /// steps. Throws std::invalid_argument for images that it cannot compare.
-  virtual DifferenceValue between(const View& a, const View& b, const RatioTest& test,
+  /// Of two images of equal size. Called from several threads at once, and must not depend on how many there
+  /// are. Where it may take seconds it checks `stop` between its steps. Throws std::invalid_argument for
+  /// images that it cannot compare.
+  virtual DifferenceValue between(const View& a, const View& b, const Matching& matching,
                                   const StopToken& stop) const = 0;
 };
 

@@ -59,7 +59,7 @@ struct Verified {
 struct FeaturePair {
   const Features& a;
   const Features& b;
-  int norm;  ///< a cv::NormTypes
+  const BothWays& nearest;  ///< of their descriptors
 };
 
 /// Deterministic to the bit, whatever the number of threads. One key point a descriptor

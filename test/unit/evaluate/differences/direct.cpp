@@ -20,7 +20,7 @@ DirectDifferences directDifferences(const Picture& a, const Picture& b) {
   const Differences known;
   const Features none;
   const auto value = [&](const std::string& name) {
-    const DifferenceValue found = known.at(name).between({a, none}, {b, none}, {}, {});
+    const DifferenceValue found = known.at(name).between({a, none}, {b, none}, {BothWays{}, {}}, {});
     EXPECT_EQ(found.symmetric, found.value);
     EXPECT_EQ(found.one_to_one, found.value);
     return found.value;

@@ -345,7 +345,7 @@ class AcrossABound : public Difference {
  public:
   std::unique_ptr<Difference> clone() const override { return std::make_unique<AcrossABound>(*this); }
   std::vector<Field> fields() override { return {{"bound", &bound_, "grey levels", {0, 255}, ""}}; }
-  DifferenceValue between(const View& a, const View& b, const RatioTest&, const StopToken&) const override {
+  DifferenceValue between(const View& a, const View& b, const Matching&, const StopToken&) const override {
     const int across = cv::countNonZero((a.picture.grey > bound_) != (b.picture.grey > bound_));
     return sameBothWays(across / static_cast<double>(a.picture.grey.total()));
   }

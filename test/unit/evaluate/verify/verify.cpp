@@ -41,7 +41,7 @@ const PictureSizes kHundreds{{100, 100}, {100, 100}};
 const PointMaps kSame = identityMaps({100, 100});
 
 Verified verified(const Features& a, const Features& b, const PointMaps& maps = kSame) {
-  return verify({a, b, cv::NORM_L2}, maps, {});
+  return verify({a, b, twoNearestBothWays(a.descriptors, b.descriptors, cv::NORM_L2)}, maps, {});
 }
 
 double repeatability(const std::vector<float>& a, const std::vector<float>& b,
