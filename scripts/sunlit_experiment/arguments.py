@@ -14,6 +14,7 @@ import yaml
 
 DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "orb", "brisk"]  # the paper's
 MORE_DIFFERENCES = ["akaze", "kaze", "rootsift"]
+DETECTORS = ["sift", "surf", "orb", "brisk"] + MORE_DIFFERENCES
 
 
 class BadArgument(Exception):
@@ -126,6 +127,19 @@ def differences(text):
     names = DIFFERENCES if text == "all" else parse("differences", text, allowed)
     if not isinstance(names, list) or not names or not set(map(str, names)) <= set(DIFFERENCES + MORE_DIFFERENCES):
         raise BadArgument("differences", text, allowed)
+    return names
+
+
+def verified(text, compared):
+    """The detectors whose matches are checked. `auto`: None, those that an evaluator takes by itself. `compared`: differences as
+    typed."""
+    if text == "auto":
+        return None
+    known = [name for name in differences(compared) if name in DETECTORS]
+    allowed = f"auto, or a list of some of {', '.join(known) or 'none'}: the detectors among the differences; [] for none"
+    names = parse("verify", text, allowed)
+    if not isinstance(names, list) or not set(map(str, names)) <= set(known):
+        raise BadArgument("verify", text, allowed)
     return names
 
 

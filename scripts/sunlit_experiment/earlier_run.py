@@ -9,30 +9,41 @@ import yaml
 from sunlit_experiment import arguments as read
 
 
-def _differences(folder, text):
-    """Which differences each pair has. What `all` are, only its evaluator knows: one that was built without SURF has no
-    surf."""
+def _settings(folder):
+    """Of the earlier run: what `all` differences and `auto` verification are, only its evaluator knows; one that was built
+    without SURF has no surf."""
     try:
         with open(os.path.join(folder, "run.yaml"), encoding="utf-8") as run:
-            return yaml.safe_load(yaml.safe_load(run)["settings"]["differences"])
+            settings = yaml.safe_load(run)["settings"]
+            return {name: yaml.safe_load(settings[name]) for name in ("differences", "verify") if name in settings}
     except (OSError, yaml.YAMLError, KeyError, TypeError):  # no run of ours; the evaluator will say so, if need be
-        return read.differences(text)
+        return {}
 
 
-def first_not_evaluated(folder, pairs, differences):
-    """The first pose that frames.csv does not have whole; 0 where there is none. `pairs`: as the evaluator gets them;
-    `differences`: as typed."""
-    expected = len(_differences(folder, differences))
+def _rows(folder, name):
+    """How many whole lines a file has of each pose and pair; None where there is no such file."""
     rows = collections.Counter()
     try:
-        with open(os.path.join(folder, "frames.csv"), encoding="utf-8", errors="replace") as frames:
-            for line in frames:
+        with open(os.path.join(folder, name), encoding="utf-8", errors="replace") as lines:
+            for line in lines:
                 fields = line.split(",")
                 if line.endswith("\n") and fields[0].isdigit() and len(fields) > 4:
                     rows[int(fields[0]), fields[2], fields[3]] += 1
     except FileNotFoundError:
+        return None
+    return rows
+
+
+def first_not_evaluated(folder, pairs, differences):
+    """The first pose that frames.csv, and verified.csv where matches are verified, do not have whole; 0 where there is none.
+    `pairs`: as the evaluator gets them; `differences`: as typed."""
+    settings = _settings(folder)
+    expected = [(_rows(folder, "frames.csv"), len(settings.get("differences") or read.differences(differences)))]
+    if settings.get("verify"):
+        expected.append((_rows(folder, "verified.csv"), len(settings["verify"])))
+    if any(rows is None for rows, _ in expected):
         return 0
     for pose in itertools.count():
         here = [pair for pair in pairs if pose % pair.get("every", 1) == 0]
-        if any(rows[pose, pair["a"], pair["b"]] < expected for pair in here):
+        if any(rows[pose, pair["a"], pair["b"]] < count for pair in here for rows, count in expected):
             return pose

@@ -42,6 +42,7 @@ def check(typed):
     read.site(typed["site"])
     read.folders(typed["model_path"])
     read.differences(typed["differences"])
+    read.verified(typed["verify"], typed["differences"])
     pairs(typed)
 
 
@@ -162,4 +163,7 @@ def _evaluator(typed, places, beginning):
         tree["image_transport"] = "compressed"
     if typed["differences"] != "all":  # else its own default
         tree["differences"] = read.differences(typed["differences"])
+    verified = read.verified(typed["verify"], typed["differences"])
+    if verified is not None:  # else its own default
+        tree["verify"] = verified
     return tree

@@ -91,7 +91,7 @@ std::vector<std::string> wordsOf(const std::string& text) {
   return words;
 }
 
-/// One or more of the words, each once.
+/// Some of the words, each once.
 std::vector<std::string> checkedWords(const Field& field, const Choices& choices, const Value& value,
                                       const std::string& called) {
   const auto given = checkedType<std::vector<std::string>>(field, value, called);
@@ -99,7 +99,7 @@ std::vector<std::string> checkedWords(const Field& field, const Choices& choices
     return std::count(choices.words.begin(), choices.words.end(), word) == 1 &&
            std::count(given.begin(), given.end(), word) == 1;
   };
-  if (given.empty() || !std::all_of(given.begin(), given.end(), isGood))
+  if ((given.empty() && !choices.may_be_empty) || !std::all_of(given.begin(), given.end(), isGood))
     refuse(called, textOf(value), field.allowed());
   return given;
 }
@@ -195,7 +195,8 @@ std::string Field::allowed() const {
           [](const std::vector<std::string>*) { return std::string("a list of words, [a, b]"); },
           [](const Choice& choice) { return "one of " + commaList(choice.words); },
           [](const Choices& choices) {
-            return "a list of some of " + commaList(choices.words) + ", each once";
+            return "a list of some of " + commaList(choices.words) + ", each once" +
+                   (choices.may_be_empty ? ", or []" : "");
           },
           [&](const NumberOrWord& either) { return within('"' + either.word + "\" or a number", *this); },
           [&](const OwnForm&) { return doc; }, [&](const int*) { return within("a whole number", *this); },

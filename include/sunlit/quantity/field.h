@@ -44,6 +44,7 @@ struct Choices {
   std::vector<std::string> words;
   std::function<std::vector<std::string>()> get;
   std::function<void(const std::vector<std::string>&)> set;  ///< given only such words
+  bool may_be_empty = false;
 };
 
 /// What has a form of its own and is read elsewhere, such as a list of pairs; what it is as people type it.

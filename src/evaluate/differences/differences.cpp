@@ -52,6 +52,14 @@ std::vector<std::string> Differences::names() const {
   return names;
 }
 
+std::vector<std::string> Differences::namesOfDetectors() const {
+  std::vector<std::string> names;
+  for (const auto& item : all_) {
+    if (item.second->detector() != nullptr) names.push_back(item.first);
+  }
+  return names;
+}
+
 const Difference& Differences::at(const std::string& name) const {
   for (const auto& item : all_) {
     if (item.first == name) return *item.second;

@@ -60,18 +60,20 @@ bool Evaluation::State::isMended(const Problem& problem, const EvaluatedPairs& e
 void Evaluation::State::settleAndWrite(Outcome& outcome) {
   const std::lock_guard<std::mutex> lock(mutex_);
   EvaluatedPairs evaluated;
-  for (PairRecord& record : records_) {
-    record.pose = poses_.settled(record.stamp_ns, record.pose);
-    evaluated.emplace(record.pose, record.pair);
-  }
-  sortRecords(records_);
-  if (pictures_) {
-    pictures_->finish([this](std::int64_t stamp, std::int64_t pose) { return poses_.settled(stamp, pose); });
-  }
+  settleRecords();
+  for (const PairRecord& record : records_) evaluated.emplace(record.pose, record.pair);
+  const auto settled = [this](std::int64_t stamp, std::int64_t pose) { return poses_.settled(stamp, pose); };
+  if (pictures_) pictures_->finish(settled);
+  if (drawn_) drawn_->finish(settled);
   frames_file_.close();
-  writeFrames(file("frames.csv"), layout_, records_);
+  verified_file_.close();
+  writeRecords();
   outcome.summary = summarise(layout_, records_);
   writeSummary(file("summary.csv"), outcome.summary);
+  if (isVerifying()) {
+    outcome.verified = summariseVerified(verified_layout_, verified_);
+    writeVerifiedSummary(file("verified_summary.csv"), outcome.verified);
+  }
   record_files_->finish(options_.streams, poses_);
   problems_->finish(poses_, [&](const Problem& problem) { return isMended(problem, evaluated); });
   writeRunFile(file("run.yaml"), options_, &outcome);

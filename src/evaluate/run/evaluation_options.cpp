@@ -1,5 +1,7 @@
 #include "sunlit/evaluate/run/evaluation_options.h"
 
+#include <algorithm>
+
 #include "evaluate/files/files.h"
 
 namespace sunlit::evaluate {
@@ -16,29 +18,52 @@ std::string textOf(const std::vector<PairSpec>& pairs) {
   return "[" + text + "]";
 }
 
+Choices verifiedOf(EvaluationOptions& options) {
+  EvaluationOptions* const all = &options;
+  return {options.comparer.known.namesOfDetectors(), [all] { return verifiedDetectors(*all); },
+          [all](const std::vector<std::string>& some) { all->verify = some; }, true};
+}
+
 /// With the rows of the comparer where a reader looks for them.
 std::vector<Field> rowsWith(const std::vector<Field>& of_comparer, EvaluationOptions& options) {
-  return joined({{{"streams", &options.streams, "", {}, "names: NAME/camera/image_raw; required"},
-                  {"pairs",
-                   OwnForm{textOf(options.pairs)},
-                   "",
-                   {},
-                   "a list of [a, b] or {a: name, b: name, every: 10}; [] for all"}},
-                 of_comparer,
-                 {{"frame_rate",
-                   &options.frame_rate,
-                   "Hz",
-                   {0, 1e6},
-                   "a stamp is of pose round((stamp - stamp_start) * frame_rate); 0: of that of its capture, "
-                   "or else of its place in the order"},
-                  {"stamp_start",
-                   OwnForm{formatStamp(options.stamp_start_ns)},
-                   "s",
-                   {0, 4294967295.0},
-                   "seconds such as \"1719792000.000000000\", as text so that no digit is lost"}}});
+  return joined(
+      {{{"streams", &options.streams, "", {}, "names: NAME/camera/image_raw; required"},
+        {"pairs",
+         OwnForm{textOf(options.pairs)},
+         "",
+         {},
+         "a list of [a, b] or {a: name, b: name, every: 10}; [] for all"}},
+       of_comparer,
+       {{"verify",
+         verifiedOf(options),
+         "",
+         {},
+         "detectors among the differences whose matches are checked against the truth; without this "
+         "key sift and orb, where they are among them"},
+        {"frame_rate",
+         &options.frame_rate,
+         "Hz",
+         {0, 1e6},
+         "a stamp is of pose round((stamp - stamp_start) * frame_rate); 0: of that of its capture, "
+         "or else of its place in the order"},
+        {"stamp_start",
+         OwnForm{formatStamp(options.stamp_start_ns)},
+         "s",
+         {0, 4294967295.0},
+         "seconds such as \"1719792000.000000000\", as text so that no digit is lost"}}});
 }
 
 }  // namespace
+
+std::vector<std::string> verifiedDetectors(const EvaluationOptions& options) {
+  if (options.verify) return *options.verify;
+  std::vector<std::string> names;
+  for (const char* name : {"sift", "orb"}) {
+    const std::vector<std::string>& compared = options.comparer.differences;
+    if (std::count(compared.begin(), compared.end(), name) > 0) names.emplace_back(name);
+  }
+  return names;
+}
 
 std::vector<Field> decidingFieldsOf(EvaluationOptions& options) {
   return rowsWith(decidingFieldsOf(options.comparer), options);

@@ -39,6 +39,22 @@ void requirePairs(const std::vector<PairSpec>& pairs) {
   }
 }
 
+void requireVerified(const EvaluationOptions& options) {
+  std::vector<std::string> known = options.comparer.known.namesOfDetectors();
+  const std::vector<std::string>& compared = options.comparer.differences;
+  known.erase(std::remove_if(known.begin(), known.end(),
+                             [&](const std::string& name) {
+                               return std::count(compared.begin(), compared.end(), name) == 0;
+                             }),
+              known.end());
+  const std::vector<std::string> asked = verifiedDetectors(options);
+  for (const std::string& name : asked) {
+    if (std::count(known.begin(), known.end(), name) == 0)
+      refuse("verify", textOf(asked),
+             "a list of some of " + textOf(known) + ", the detectors among differences");
+  }
+}
+
 EvaluationOptions completed(EvaluationOptions options) {
   requireFields(options);
   requireStreams(options.streams);
@@ -47,14 +63,15 @@ EvaluationOptions completed(EvaluationOptions options) {
     refuse("streams", textOf(options.streams), "a list of at least two, to make pairs of");
   if (options.output_dir.empty()) refuse("output_dir", "\"\"", "a folder");
   requirePairs(options.pairs);
+  requireVerified(options);
   require("memory_limit", static_cast<double>(options.memory_limit_bytes), Range::atLeast(1), "byte");
   return options;
 }
 
-FramesLayout layoutOf(const EvaluationOptions& options) {
+FramesLayout layoutOf(const EvaluationOptions& options, const std::vector<std::string>& names) {
   FramesLayout layout;
   for (const PairSpec& pair : options.pairs) layout.pairs.emplace_back(pair.a, pair.b);
-  layout.differences = options.comparer.differences;
+  layout.differences = names;
   return layout;
 }
 
@@ -72,7 +89,8 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
     : options_(completed(options)),
       callbacks_(std::move(callbacks)),
       comparer_(options_.comparer),
-      layout_(layoutOf(options_)),
+      layout_(layoutOf(options_, options_.comparer.differences)),
+      verified_layout_(layoutOf(options_, verifiedDetectors(options_))),
       poses_(options_.frame_rate, options_.stamp_start_ns, options_.poses),
       sets_(options_.streams.size()),
       queue_(kPosesAtOnce) {
@@ -92,12 +110,15 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
   writeRunFile(file("run.yaml"), options_, nullptr);
   takeUpEarlierRuns();
   problems_ = std::make_unique<ProblemFile>(options_.output_dir);
-  if (options_.images != KeptImages::kNone) pictures_ = std::make_unique<PictureWriter>(file("images"));
+  if (options_.images == KeptImages::kNone) return;
+  pictures_ = std::make_unique<PictureWriter>(file("images"));
+  if (isVerifying()) drawn_ = std::make_unique<PictureWriter>(file("matches"));
 }
 
 // Reads what a run left in `folder`; the lines of a torn end that it had to leave out.
 std::size_t Evaluation::State::takeUp(const std::string& folder) {
   LoadedFrames loaded = loadFrames(folder + "/frames.csv", layout_);
+  loaded.dropped_lines += takeUpVerified(folder, loaded.records);
   if (folder != options_.output_dir) record_files_->merge(folder, poses_);
   for (PairRecord& record : loaded.records) {
     poses_.remember(record.stamp_ns, record.pose);
@@ -108,8 +129,7 @@ std::size_t Evaluation::State::takeUp(const std::string& folder) {
 
 // Once the stamps and captures of all folders are known: each may have numbered its poses from 0.
 void Evaluation::State::settleTakenUp() {
-  for (PairRecord& record : records_) record.pose = poses_.settled(record.stamp_ns, record.pose);
-  sortRecords(records_);
+  settleRecords();
   for (const PairRecord& record : records_) {
     poses_.remember(record.stamp_ns, record.pose);
     held_.emplace(record.pose, record.pair);
@@ -135,8 +155,9 @@ void Evaluation::State::takeUpEarlierRuns() {
     }
     if (is_whole) markCompleted(record.pose);
   }
-  if (dropped_lines > 0 || !options_.merge.empty()) writeFrames(file("frames.csv"), layout_, records_);
+  if (dropped_lines > 0 || !options_.merge.empty()) writeRecords();
   frames_file_.open(file("frames.csv"), framesHeader());
+  if (isVerifying()) verified_file_.open(file("verified.csv"), verifiedHeader());
   if (!callbacks_.note || (records_.empty() && dropped_lines == 0)) return;
   std::string line = options_.output_dir + " holds " + std::to_string(records_.size()) +
                      " evaluated pairs of " + std::to_string(completed_.size()) +

@@ -207,6 +207,7 @@ void Evaluation::State::withdraw(std::int64_t stamp_ns, std::size_t pair) {
   });
   if (found == records_.end()) return;
   records_.erase(found);
+  withdrawVerified(stamp_ns, pair);
   --counts_.pairs[pair].evaluated;
 }
 
@@ -226,6 +227,8 @@ void Evaluation::State::close(std::int64_t stamp_ns, std::optional<std::int64_t>
   if (!pose) return;
   work.pose = *pose;
   work.pictures = keptPictures(set, *pose, !work.pairs.empty());
+  work.is_drawn = drawn_ && isSample(*pose);
+  claimDrawn(work);
   if (work.pairs.empty() && work.pictures.empty()) {
     complete(*pose);
     return;
@@ -240,11 +243,14 @@ void Evaluation::State::close(std::int64_t stamp_ns, std::optional<std::int64_t>
   queue_.add([this, shared] { evaluate(*shared); });
 }
 
+bool Evaluation::State::isSample(std::int64_t pose) const {
+  return options_.poses.size() > 0 ? sampled_.count(pose) != 0 : pose % kSampleStride == 0;
+}
+
 std::vector<std::size_t> Evaluation::State::keptPictures(const StampSet& set, std::int64_t pose,
                                                          bool is_evaluated) {
   std::vector<std::size_t> kept;
-  const bool is_sample = options_.poses.size() > 0 ? sampled_.count(pose) != 0 : pose % kSampleStride == 0;
-  if (!pictures_ || (options_.images == KeptImages::kSamples && !is_sample)) return kept;
+  if (!pictures_ || (options_.images == KeptImages::kSamples && !isSample(pose))) return kept;
   for (std::size_t s = 0; s < set.streams.size(); ++s) {
     if (set.streams[s].rgb.empty()) continue;
     if (pictures_->claim(options_.streams[s], pose, set.stamp_ns, is_evaluated)) kept.push_back(s);

@@ -19,6 +19,7 @@
 #include "evaluate/run/stamp_sets.h"
 #include "evaluate/run/work_queue.h"
 #include "sunlit/evaluate/run/evaluation.h"
+#include "sunlit/evaluate/verify/verified_file.h"
 
 namespace sunlit::evaluate {
 
@@ -48,7 +49,6 @@ class Evaluation::State {
 
  private:
   enum class Reason { kWhole, kEnd, kMemory };
-  using Values = std::vector<std::vector<DifferenceValue>>;               // by pair and difference
   using EvaluatedPairs = std::set<std::pair<std::int64_t, std::size_t>>;  // pose and pair
   /// Images of one set that go to the comparer.
   struct Work {
@@ -57,7 +57,15 @@ class Evaluation::State {
     std::vector<cv::Mat> images;  // by stream
     std::vector<std::size_t> pairs;
     std::vector<std::size_t> pictures;  // streams whose image is kept
+    bool is_drawn = false;              // which matches are right
     std::size_t bytes = 0;
+  };
+
+  /// What comes of a Work, by pair and then by difference, or by detector that is verified.
+  struct Values {
+    std::vector<std::vector<DifferenceValue>> differences;
+    std::vector<std::vector<Verified>> verified;
+    std::vector<std::vector<cv::Mat>> drawn;  // empty where nothing is drawn
   };
 
   std::string file(const std::string& name) const { return options_.output_dir + "/" + name; }
@@ -78,17 +86,28 @@ class Evaluation::State {
   bool takes(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair);
   void withdraw(std::int64_t stamp_ns, std::size_t pair);
   bool canCompare(const StampSet& set, std::size_t pair, std::optional<std::int64_t> pose, Reason reason);
+  bool isSample(std::int64_t pose) const;
   std::vector<std::size_t> keptPictures(const StampSet& set, std::int64_t pose, bool is_evaluated);
   void writePictures(const Work& work);
   std::vector<ImagePair> imagePairs(const Work& work) const;
   void evaluate(const Work& work);
   void evaluatePairs(const Work& work);
+  Values compare(const Work& work) const;
   std::vector<PairRecord> keepAll(const Work& work, const Values& values, const std::string& fault);
-  bool keep(const PairRecord& record, const std::string& fault);
+  bool keep(const PairRecord& record, const VerifiedRecord& verified, const std::string& fault);
   void settle(const Work& work);
   void tell(const Work& work, const std::vector<PairRecord>& records);
   void waitForWork();
   void giveUpWork();
+  bool isVerifying() const { return !verified_layout_.differences.empty(); }
+  void verifyMatched(const Work& work, const Matched& matched, Values& values) const;
+  std::string drawnName(std::size_t pair, std::size_t detector) const;
+  void claimDrawn(const Work& work);
+  void writeDrawn(const Work& work, const Values& values);
+  void withdrawVerified(std::int64_t stamp_ns, std::size_t pair);
+  std::size_t takeUpVerified(const std::string& folder, std::vector<PairRecord>& frames);
+  void settleRecords();
+  void writeRecords() const;
   void giveUp(const Work& work);
   void markCompleted(std::int64_t pose);
   void complete(std::int64_t pose);
@@ -100,6 +119,7 @@ class Evaluation::State {
   EvaluationCallbacks callbacks_;
   Comparer comparer_;
   FramesLayout layout_;
+  FramesLayout verified_layout_;  // of the detectors verified
   std::vector<std::pair<std::size_t, std::size_t>> pair_streams_;
 
   mutable std::mutex mutex_;
@@ -108,7 +128,8 @@ class Evaluation::State {
   StampSets sets_;
   Counts counts_;
   std::vector<PairRecord> records_;
-  EvaluatedPairs held_;  // by what earlier runs left
+  std::vector<VerifiedRecord> verified_;  // of the same stamps and pairs, where matches are verified
+  EvaluatedPairs held_;                   // by what earlier runs left
   std::map<std::pair<std::int64_t, std::size_t>, std::int64_t>
       taken_;                         // by pose and pair: the stamp that counts, of those that came
   std::set<std::int64_t> completed_;  // poses
@@ -123,7 +144,9 @@ class Evaluation::State {
   std::unique_ptr<RecordFiles> record_files_;
   std::unique_ptr<ProblemFile> problems_;
   std::unique_ptr<PictureWriter> pictures_;
+  std::unique_ptr<PictureWriter> drawn_;  // where matches are verified and images kept
   AppendFile frames_file_;
+  AppendFile verified_file_;
   WorkQueue queue_;  // last, so that its threads end before what they use
 };
 

@@ -29,18 +29,30 @@ void Evaluation::State::evaluate(const Work& work) {
   }
 }
 
+Evaluation::State::Values Evaluation::State::compare(const Work& work) const {
+  const std::size_t detectors = verified_layout_.differences.size();
+  Values values;
+  values.verified.resize(work.pairs.size(), std::vector<Verified>(detectors));
+  values.drawn.resize(work.pairs.size(), std::vector<cv::Mat>(detectors));
+  MatchedVisit visit;
+  if (isVerifying()) visit = [&](const Matched& matched) { verifyMatched(work, matched, values); };
+  values.differences = comparer_.compare(work.images, imagePairs(work), stop_, visit);
+  return values;
+}
+
 // A pose's rows come after its pictures: whoever takes up a killed run does not ask for this pose again.
 void Evaluation::State::evaluatePairs(const Work& work) {
   Values values;
   std::string fault;
   std::exception_ptr picture_fault;
-  const auto compare = [&] {
+  const auto compare_all = [&] {
     try {
-      values = comparer_.compare(work.images, imagePairs(work), stop_);
+      values = compare(work);
     } catch (const Stopped&) {  // keepAll() will see it
     } catch (const std::exception& error) {
       fault = error.what();
-      values.resize(work.pairs.size());
+      values.differences.resize(work.pairs.size());
+      values.verified.resize(work.pairs.size());
     }
   };
   const auto write = [&] {
@@ -50,8 +62,9 @@ void Evaluation::State::evaluatePairs(const Work& work) {
       picture_fault = std::current_exception();
     }
   };
-  tbb::parallel_invoke(write, compare);
+  tbb::parallel_invoke(write, compare_all);
   if (picture_fault) std::rethrow_exception(picture_fault);
+  writeDrawn(work, values);
   tell(work, keepAll(work, values, fault));
 }
 
@@ -61,8 +74,9 @@ std::vector<PairRecord> Evaluation::State::keepAll(const Work& work, const Value
   stop_.check();
   std::vector<PairRecord> kept;
   for (std::size_t i = 0; i < work.pairs.size(); ++i) {
-    const PairRecord record{work.pose, work.stamp_ns, work.pairs[i], values[i]};
-    if (keep(record, fault)) kept.push_back(record);
+    const PairRecord record{work.pose, work.stamp_ns, work.pairs[i], values.differences[i]};
+    if (keep(record, {work.pose, work.stamp_ns, work.pairs[i], values.verified[i]}, fault))
+      kept.push_back(record);
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   settle(work);
@@ -98,14 +112,20 @@ void Evaluation::State::giveUp(const Work& work) {
   if (callbacks_.progress) callbacks_.progress(completed_.size());
 }
 
-// False where there is nothing to keep: the comparison failed, or another stamp counts by now.
-bool Evaluation::State::keep(const PairRecord& record, const std::string& fault) {
+// False where there is nothing to keep: the comparison failed, or another stamp counts by now. The rows of
+// frames.csv come last: without them, whoever takes up a killed run asks for the pair again.
+bool Evaluation::State::keep(const PairRecord& record, const VerifiedRecord& verified,
+                             const std::string& fault) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (taken_.at({record.pose, record.pair}) != record.stamp_ns) return false;
   if (!fault.empty()) {
     ++counts_.pairs[record.pair].failed;
     report({"failed", record.pose, record.stamp_ns, options_.pairs[record.pair].name(), fault});
     return false;
+  }
+  if (isVerifying()) {
+    verified_file_.append(verifiedText(verified_layout_, verified));
+    verified_.push_back(verified);
   }
   frames_file_.append(framesText(layout_, record));
   records_.push_back(record);

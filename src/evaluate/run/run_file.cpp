@@ -131,7 +131,8 @@ void claimFolder(const std::string& folder, const Settings& settings) {
       if (hasRows(folder + name)) throw;
     }
     if (holdsFiles(folder + "/images")) throw;
-    for (const char* name : {"/run.yaml", "/problems.csv", "/summary.csv"})
+    for (const char* name :
+         {"/run.yaml", "/problems.csv", "/summary.csv", "/verified.csv", "/verified_summary.csv"})
       std::filesystem::remove(folder + name);
   }
 }

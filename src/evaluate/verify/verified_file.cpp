@@ -1,37 +1,95 @@
 #include "sunlit/evaluate/verify/verified_file.h"
 
-#include "evaluate/files/files.h"
+#include <tbb/parallel_for.h>
+
+#include "evaluate/files/pair_rows.h"
+#include "evaluate/verify/measures.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
 namespace {
 
 std::string header() {
-  std::string accuracies;
-  for (std::size_t t = 1; t <= kAccuracySteps; ++t) accuracies += "mma_" + std::to_string(t) + "px,";
-  return "a,b,detector,features_a,features_b,repeatability,matching_score_3px," + accuracies +
-         "mutual_matches,ratio_matches,precision_3px,recall_3px,average_precision_3px,d,d_symmetric,"
-         "d_one_to_one\n";
+  std::string text = "a,b,detector";
+  for (const Measure& measure : measures()) text += "," + measure.name;
+  return text;
 }
 
-std::string lineOf(const VerifiedRow& row) {
-  const Verified& v = row.verified;
-  const DifferenceValue& d = v.difference;
-  std::string line = csvField(row.a) + "," + csvField(row.b) + "," + row.detector + "," +
-                     std::to_string(d.features_a) + "," + std::to_string(d.features_b) + "," +
-                     formatNumber(v.repeatability) + "," + formatNumber(v.matching_score);
-  for (const double accuracy : v.matching_accuracy) line += "," + formatNumber(accuracy);
-  line += "," + std::to_string(v.mutual_matches) + "," + std::to_string(d.matches);
-  for (const double number : {v.precision, v.recall, v.average_precision, d.value, d.symmetric, d.one_to_one})
-    line += "," + formatNumber(number);
-  return line + "\n";
+// Counts too come out as they should: 17 digits are more than they have.
+std::string numbersOf(const Verified& verified) {
+  std::string text;
+  for (const Measure& measure : measures()) text += "," + formatNumber(measure.of(verified));
+  return text.substr(1);
+}
+
+Verified parseVerified(const std::vector<std::string>& fields) {
+  Verified verified;
+  for (std::size_t m = 0; m < measures().size(); ++m)
+    measures()[m].read(fields[kFieldsBeforeValue + m], verified);
+  return verified;
+}
+
+const ValueColumns<Verified>& columns() {
+  static const ValueColumns<Verified> all{verifiedHeader(), "detector", numbersOf, parseVerified};
+  return all;
 }
 
 }  // namespace
 
 void writeVerified(const std::string& path, const std::vector<VerifiedRow>& rows) {
-  std::string text = header();
-  for (const VerifiedRow& row : rows) text += lineOf(row);
+  std::string text = header() + "\n";
+  for (const VerifiedRow& row : rows) {
+    text +=
+        csvField(row.a) + "," + csvField(row.b) + "," + row.detector + "," + numbersOf(row.verified) + "\n";
+  }
+  image::writeFileAtomically(path, text);
+}
+
+std::string verifiedHeader() {
+  return "pose,stamp," + header();
+}
+
+std::string verifiedText(const FramesLayout& layout, const VerifiedRecord& record) {
+  return textOf(layout, record, columns());
+}
+
+LoadedVerified loadVerified(const std::string& path, const FramesLayout& layout) {
+  return loadValues(path, layout, columns());
+}
+
+void writeVerifiedRecords(const std::string& path, const FramesLayout& layout,
+                          const std::vector<VerifiedRecord>& records) {
+  writeValues(path, layout, records, columns());
+}
+
+std::vector<VerifiedSummaryRow> summariseVerified(const FramesLayout& layout,
+                                                  const std::vector<VerifiedRecord>& sorted_records) {
+  const std::size_t detectors = layout.differences.size();
+  const std::size_t rows_of_pair = detectors * measures().size();
+  std::vector<VerifiedSummaryRow> rows(layout.pairs.size() * rows_of_pair);
+  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+    const std::size_t p = i / rows_of_pair;
+    const std::size_t d = i % rows_of_pair / measures().size();
+    const Measure& measure = measures()[i % measures().size()];
+    std::vector<double> series;
+    for (const VerifiedRecord& record : sorted_records) {
+      if (record.pair == p) series.push_back(measure.of(record.values.at(d)));
+    }
+    rows[i] = {layout.pairs[p].first, layout.pairs[p].second, layout.differences[d], measure.name,
+               statisticsOf(series)};
+  });
+  return rows;
+}
+
+void writeVerifiedSummary(const std::string& path, const std::vector<VerifiedSummaryRow>& rows) {
+  std::string text = "a,b,detector,measure,n,undefined,mean,sd,ci_low,ci_high\n";
+  for (const VerifiedSummaryRow& row : rows) {
+    const Statistics& s = row.statistics;
+    text += row.a + "," + row.b + "," + row.detector + "," + row.measure + "," + std::to_string(s.n) + "," +
+            std::to_string(s.undefined);
+    for (const double value : {s.mean, s.sd, s.ci_low, s.ci_high}) text += "," + formatNumber(value);
+    text += "\n";
+  }
   image::writeFileAtomically(path, text);
 }
 

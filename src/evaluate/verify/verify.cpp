@@ -117,21 +117,31 @@ double ratioOf(const Neighbours& neighbours) {
              : 1.0;
 }
 
+bool isRight(const std::vector<Neighbours>& from_a, std::size_t i, const Errors& errors) {
+  return errors.isWithin({i, static_cast<std::size_t>(from_a[i].best)}, kCorrectWithin_px);
+}
+
+std::vector<AcceptedMatch> acceptedOf(const std::vector<Neighbours>& from_a, const Errors& errors,
+                                      const RatioTest& test) {
+  std::vector<AcceptedMatch> accepted;
+  for (std::size_t i = 0; i < from_a.size(); ++i) {
+    if (!passes(from_a[i], test)) continue;
+    accepted.push_back(
+        {i, static_cast<std::size_t>(from_a[i].best), from_a[i].best_distance, isRight(from_a, i, errors)});
+  }
+  return accepted;
+}
+
 /// Everything that goes by the ratio of best to second best.
 void verifyRatioMatches(const std::vector<Neighbours>& from_a, const Errors& errors, const RatioTest& test,
                         Verified& verified) {
-  std::size_t accepted = 0;
-  std::size_t correct = 0;
   std::vector<RankedMatch> ranked;
-  for (std::size_t i = 0; i < from_a.size(); ++i) {
-    const Match match{i, static_cast<std::size_t>(from_a[i].best)};
-    const bool is_correct = errors.isWithin(match, kCorrectWithin_px);
-    ranked.push_back({ratioOf(from_a[i]), is_correct});
-    if (!passes(from_a[i], test)) continue;
-    ++accepted;
-    if (is_correct) ++correct;
-  }
-  verified.precision = shareOf(correct, accepted, kUndefined);
+  for (std::size_t i = 0; i < from_a.size(); ++i)
+    ranked.push_back({ratioOf(from_a[i]), isRight(from_a, i, errors)});
+  const std::vector<AcceptedMatch> accepted = acceptedOf(from_a, errors, test);
+  const auto correct = static_cast<std::size_t>(std::count_if(
+      accepted.begin(), accepted.end(), [](const AcceptedMatch& match) { return match.is_right; }));
+  verified.precision = shareOf(correct, accepted.size(), kUndefined);
   verified.recall = shareOf(correct, verified.correspondences, kUndefined);
   verified.average_precision = averagePrecision(std::move(ranked), verified.correspondences);
 }
@@ -171,6 +181,15 @@ Verified verify(const FeaturePair& features, const PointMaps& maps, const RatioT
   }
   verifyRatioMatches(features.nearest.from_a, errors, test, verified);
   return verified;
+}
+
+std::vector<AcceptedMatch> acceptedMatches(const FeaturePair& features, const PointMaps& maps,
+                                           const RatioTest& test) {
+  requireWhole(features.a);
+  requireWhole(features.b);
+  const PointsOf a(features.a, maps.b_from_a);
+  const PointsOf b(features.b, maps.a_from_b);
+  return acceptedOf(features.nearest.from_a, Errors(a, b), test);
 }
 
 std::vector<std::string> paperDetectors() {

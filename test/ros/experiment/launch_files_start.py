@@ -73,9 +73,9 @@ class LaunchFilesStart(unittest.TestCase):
     def test_a_file_of_parameters_counts_but_for_what_is_typed(self):
         folder = self.folder()
         for name, node, tree, typed in (
-                ("evaluator", "/evaluator/", dict(streams=["a", "b"], pairs=[["a", "b"]], differences=["orb"], poses=7,
+                ("evaluator", "/evaluator/", dict(streams=["a", "b"], pairs=[["a", "b"]], differences=["orb"], verify=[], poses=7,
                                                   images="none", idle_timeout=2.5, exit_when_done=True),
-                 dict(streams=["c", "d"], pairs=[["d", "c"]], differences=["sift"], poses=0, images="all",
+                 dict(streams=["c", "d"], pairs=[["d", "c"]], differences=["sift"], verify=["sift"], poses=0, images="all",
                       idle_timeout=0.5, exit_when_done=False)),
                 ("render", "/render/", dict(world="/mine.world", autostart=False, **{"path/file": "/mine.csv"}),
                  dict(world="/typed.world", autostart=True, **{"path/file": "/typed.csv"}))):

@@ -126,6 +126,9 @@ class Plan(unittest.TestCase):
         self.assert_refused("argument ev100 is 'nan', but must be a number", ev100="nan")
         self.assert_refused("argument noise is 'yes', but must be true or false", noise="yes")
         self.assert_refused("argument differences is '[sfit]'", differences="[sfit]")
+        self.assert_refused("argument verify is '[surf]', but must be auto, or a list of some of sift:",
+                            differences="[sift, boolean_rgb]", verify="[surf]")
+        self.assert_refused("argument verify is 'sift', but must be auto, or a list of some of sift, surf, orb, brisk:", verify="sift")
 
     def test_both_renderers_make_the_same_pictures(self):
         tree = planned(night="false", noise="true", noise_seed="7", exposure="auto", highlight_protection="0",
@@ -139,6 +142,11 @@ class Plan(unittest.TestCase):
         self.assertEqual((main["night"], main["noise"], main["exposure"]["mode"], main["camera"]["width"]),
                          ({"enabled": False}, {"enabled": True, "seed": 7}, "auto", 320))
         self.assertEqual({**main["path"], "stride": 10}, other["path"])
+
+    def test_the_evaluator_chooses_what_it_verifies_unless_told(self):
+        self.assertNotIn("verify", planned()["evaluator"])
+        self.assertEqual(planned(verify="[]")["evaluator"]["verify"], [])
+        self.assertEqual(planned(verify="[brisk]")["evaluator"]["verify"], ["brisk"])
 
     def test_without_a_self_test_nobody_waits_for_one(self):
         tree = planned(self_test="false")
@@ -188,6 +196,14 @@ class Plan(unittest.TestCase):
             with open(os.path.join(folder, "run.yaml"), "w") as run:
                 run.write("settings:\n  differences: '[boolean_rgb, orb]'\nposes: 5\n")
             self.assertEqual(begins("all"), 2)
+            # Where matches are verified, a pair needs those rows too.
+            with open(os.path.join(folder, "run.yaml"), "w") as run:
+                run.write("settings:\n  differences: '[boolean_rgb, orb]'\n  verify: '[orb]'\nposes: 5\n")
+            self.assertEqual(begins("all"), 0)
+            with open(os.path.join(folder, "verified.csv"), "w") as verified:
+                verified.write("pose,stamp,a,b,detector,features_a\n")
+                verified.writelines("0,1000.0,%s,%s,orb,3\n" % pair for pair in evaluated[0])
+            self.assertEqual(begins("all"), 1)
 
 
 if __name__ == "__main__":

@@ -126,7 +126,7 @@ const std::map<std::string, Modules> kRoomsOfEvaluate = {
     {"features", {}},
     {"differences", {"features"}},
     {"files", {"differences"}},
-    {"run", {"differences", "features", "files"}},
+    {"run", {"differences", "features", "files", "verify"}},
     {"trajectory", {"files"}},
     {"places", {"features", "files"}},
     {"verify", {"differences", "features", "files"}},

@@ -23,6 +23,8 @@ class Differences {
   ~Differences() = default;
 
   std::vector<std::string> names() const;
+  /// Of those that match features.
+  std::vector<std::string> namesOfDetectors() const;
   /// Throws std::invalid_argument for a name that is none of them.
   const Difference& at(const std::string& name) const;
   /// One more. Throws std::invalid_argument where `name` is taken, or is not made of letters, digits and _,

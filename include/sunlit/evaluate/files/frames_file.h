@@ -2,8 +2,10 @@
 /// from it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -12,13 +14,15 @@
 
 namespace sunlit::evaluate {
 
-/// All differences of one pair of one pose.
-struct PairRecord {
-  std::int64_t pose = 0;                ///< index along the path
-  std::int64_t stamp_ns = 0;            ///< of both images
-  std::size_t pair = 0;                 ///< index into FramesLayout::pairs
-  std::vector<DifferenceValue> values;  ///< in the order of FramesLayout::differences
+/// All values of one kind of one pair of one pose.
+template <typename Value>
+struct PairValues {
+  std::int64_t pose = 0;      ///< index along the path
+  std::int64_t stamp_ns = 0;  ///< of both images
+  std::size_t pair = 0;       ///< index into FramesLayout::pairs
+  std::vector<Value> values;  ///< in the order of FramesLayout::differences
 };
+using PairRecord = PairValues<DifferenceValue>;
 
 /// What the rows are about.
 struct FramesLayout {
@@ -27,10 +31,12 @@ struct FramesLayout {
 };
 
 /// What a frames.csv holds.
-struct LoadedFrames {
-  std::vector<PairRecord> records;
+template <typename Value>
+struct LoadedValues {
+  std::vector<PairValues<Value>> records;
   std::size_t dropped_lines = 0;  ///< of a torn end: a line cut short, or a pair whose rows are not all there
 };
+using LoadedFrames = LoadedValues<DifferenceValue>;
 
 /// The header line and rows of frames.csv.
 std::string framesHeader();
@@ -41,7 +47,15 @@ std::string framesText(const FramesLayout& layout, const PairRecord& record);
 LoadedFrames loadFrames(const std::string& path, const FramesLayout& layout);
 
 /// Sorts by pose, then pair; of two records of one pose and pair, that of the earlier stamp is kept.
-void sortRecords(std::vector<PairRecord>& records);
+template <typename Value>
+void sortRecords(std::vector<PairValues<Value>>& records) {
+  using Record = PairValues<Value>;
+  std::stable_sort(records.begin(), records.end(), [](const Record& l, const Record& r) {
+    return std::tie(l.pose, l.pair, l.stamp_ns) < std::tie(r.pose, r.pair, r.stamp_ns);
+  });
+  const auto is_same = [](const Record& l, const Record& r) { return l.pose == r.pose && l.pair == r.pair; };
+  records.erase(std::unique(records.begin(), records.end(), is_same), records.end());
+}
 /// Writes all of frames.csv in one step, in the order given.
 void writeFrames(const std::string& path, const FramesLayout& layout, const std::vector<PairRecord>& records);
 

@@ -12,6 +12,7 @@
 #include "sunlit/evaluate/files/frames_file.h"
 #include "sunlit/evaluate/run/evaluation_options.h"
 #include "sunlit/evaluate/stop_token.h"
+#include "sunlit/evaluate/verify/verified_file.h"
 
 namespace sunlit::evaluate {
 
@@ -80,6 +81,7 @@ struct Counts {
 struct Outcome {
   Counts counts;
   std::vector<SummaryRow> summary;
+  std::vector<VerifiedSummaryRow> verified;
   std::size_t absent_poses = 0;  ///< of those expected: no image at all came
   bool isWhole() const;  ///< every pair of every pose was evaluated (or is undefined), and there was one
 };
@@ -103,7 +105,9 @@ enum class Ending {
 /// Thread-safe. Images are shared, not copied, and must not change afterwards.
 ///
 /// Files in output_dir: frames.csv (grows by one write per pose and pair; sorted at the end), summary.csv,
-/// run.yaml, problems.csv, captures.csv, path.csv, images/ (a pose's before its rows). A folder that holds an
+/// where matches are verified also verified.csv (grows likewise, a pair's rows before those of frames.csv),
+/// verified_summary.csv and, of the sampled poses whose images are kept, matches/; run.yaml, problems.csv,
+/// captures.csv, path.csv, images/ (a pose's before its rows). A folder that holds an
 /// unfinished run with the same settings is taken up again: pairs that it holds are not evaluated twice.
 class Evaluation {
  public:

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +30,9 @@ struct EvaluationOptions {
   std::vector<std::string> streams;  ///< distinct names, each isStreamName()
   std::vector<PairSpec> pairs;       ///< of streams; empty: all
   ComparerOptions comparer;
+  /// Those of the compared differences whose matches are checked against the truth; nothing given: sift and
+  /// orb, where they are among them. See verifiedDetectors().
+  std::optional<std::vector<std::string>> verify;
   std::string output_dir;  ///< made where it does not exist
   PoseRange poses;         ///< those expected; what comes of others is counted, named and left out
   KeptImages images =
@@ -43,6 +47,9 @@ struct EvaluationOptions {
       merge;  ///< folders of other runs with the same settings, whose values are taken over
   std::vector<std::pair<std::string, std::string>> about;  ///< of the experiment, for run.yaml and reports
 };
+
+/// What `verify` comes to.
+std::vector<std::string> verifiedDetectors(const EvaluationOptions& options);
 
 /// All ordered pairs of streams (first before second), each pose.
 std::vector<PairSpec> allPairs(const std::vector<std::string>& streams);

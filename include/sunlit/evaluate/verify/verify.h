@@ -66,6 +66,17 @@ struct FeaturePair {
 /// (std::invalid_argument otherwise).
 Verified verify(const FeaturePair& features, const PointMaps& maps, const RatioTest& test);
 
+/// A match of a that passes the ratio test.
+struct AcceptedMatch {
+  std::size_t a;  ///< indices of the features
+  std::size_t b;
+  float distance;  ///< of their descriptors
+  bool is_right;   ///< as for Verified::precision
+};
+/// In the order of the features of a. Throws as verify().
+std::vector<AcceptedMatch> acceptedMatches(const FeaturePair& features, const PointMaps& maps,
+                                           const RatioTest& test);
+
 /// Those of paperDifferences() that match features.
 std::vector<std::string> paperDetectors();
 
