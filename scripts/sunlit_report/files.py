@@ -9,7 +9,7 @@ import re
 import numpy as np
 import yaml
 
-from . import queries
+from . import queries, verified_rows
 from .csv_rows import ReportError, number, optional_whole, rows, whole
 
 DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "brisk", "orb"]
@@ -76,6 +76,8 @@ class Output:
     map_picture: str
     map_extent: dict
     images: dict  # condition -> {pose: file}
+    verified: verified_rows.Verified
+    matches: dict  # drawn, a-b/detector -> {pose: file}
     problems: list
     timing: list
 
@@ -141,6 +143,8 @@ def read_output(folder):
         map_picture=existing(os.path.join(folder, "map.png")),
         map_extent=read_extent(os.path.join(folder, "map.yaml")),
         images=find_images(os.path.join(folder, "images")),
+        verified=verified_rows.read(folder),
+        matches=find_images(os.path.join(folder, "matches")),
         problems=list(rows(os.path.join(folder, "problems.csv"), PROBLEMS, {"pose": optional_whole})),
         timing=[row for file in sorted(glob.glob(os.path.join(glob.escape(folder), "timing*.csv")))
                 for row in rows(file, TIMING, {"count": whole, "seconds": number})],

@@ -4,7 +4,7 @@ import os
 
 import jinja2
 
-from . import figures, localisation, map_figure, names, paper, pictures, tables, warnings
+from . import figures, localisation, map_figure, names, paper, pictures, tables, verified, warnings
 from . import findings as judge
 
 SHOWN_PROBLEMS = 100
@@ -24,11 +24,22 @@ def render(output, findings):
         shown_problems=output.problems[:SHOWN_PROBLEMS], counters=tables.counters(output.run),
         settings=settings(output), versions=tables.flattened(tables.mapping(output.run, "versions")),
         grid=pictures.grid(output), smoothed_over=figures.SMOOTHED_OVER,
-        localised=localisation.table_rows(output), localised_header=localisation.TABLE_HEADER, **plots(output))
+        localised=localisation.table_rows(output), localised_header=localisation.TABLE_HEADER,
+        **matches(output), **plots(output))
 
 
 def _verdict_class(verdict):
     return {judge.REPRODUCED: "yes", judge.NOT_REPRODUCED: "no"}.get(verdict, "open")
+
+
+def matches(output):
+    """What verified.html shows; nothing without verified matches."""
+    if not output.verified.means:
+        return {"verified_rows": []}
+    found = verified.table_rows(output)
+    return {"verified_rows": found, "verified_header": verified.TABLE_HEADER,
+            "undefined_verified": "; ".join(f"{cells[0]}, {cells[1]}: {undefined}" for cells, _, undefined in found if undefined),
+            "accuracy": pictures.svg_uri(verified.accuracy(output)), "drawn": verified.drawn(output)}
 
 
 def plots(output):

@@ -21,15 +21,16 @@ def svg_uri(text):
     return data_uri("image/svg+xml", text.encode())
 
 
-def _embedded(file):
+def embedded(file, largest_width=LARGEST_WIDTH):
+    """A picture file, as JPEG within the page."""
     try:
         with Image.open(file) as image:
             picture = image.convert("RGB")
     except OSError as error:
         raise ReportError(f"{file}: cannot be read as a picture: {error}") from None
-    if picture.width > LARGEST_WIDTH:
-        height = round(picture.height * LARGEST_WIDTH / picture.width)
-        picture = picture.resize((LARGEST_WIDTH, height), Image.LANCZOS)
+    if picture.width > largest_width:
+        height = round(picture.height * largest_width / picture.width)
+        picture = picture.resize((largest_width, height), Image.LANCZOS)
     content = io.BytesIO()
     picture.save(content, "JPEG", quality=QUALITY, subsampling=0)
     return data_uri("image/jpeg", content.getvalue())
@@ -53,5 +54,5 @@ def grid(output):
     poses = evenly_spread(common, POSES)
     return {
         "columns": [names.condition(name) for name in conditions],
-        "rows": [(pose, [_embedded(output.images[name][pose]) for name in conditions]) for pose in poses],
+        "rows": [(pose, [embedded(output.images[name][pose]) for name in conditions]) for pose in poses],
     }

@@ -1,7 +1,7 @@
 """The tables for the terminal."""
 
 from . import findings as judge
-from . import localisation, tables, warnings
+from . import localisation, tables, verified, warnings
 
 
 def _aligned(header, rows):
@@ -33,6 +33,9 @@ def whole(output, findings):
         return "\n\n".join(parts)
     parts.append("Mean difference E and standard deviation s along the path")
     parts += [_of_table(table) for table in tables.main_tables(output)]
+    if output.verified.means:
+        parts += ["Are the matches right? Means along the path",
+                  _aligned(verified.TABLE_HEADER, [cells for cells, _, _ in verified.table_rows(output)])]
     self_tables = tables.self_tables(output)
     if self_tables:
         parts += ["Each hour against itself (two independent renderings)"] + [_of_table(table) for table in self_tables]

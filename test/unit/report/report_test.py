@@ -16,7 +16,7 @@ sys.path[:0] = [HERE, SCRIPTS]
 
 import output_folder as made  # noqa: E402
 from sunlit_report import files, findings, localisation, names, page, pictures, queries, tables, warnings  # noqa: E402
-from sunlit_report import figures, map_figure  # noqa: E402
+from sunlit_report import figures, map_figure, verified  # noqa: E402
 from sunlit_report.csv_rows import ReportError  # noqa: E402
 
 REPORT = os.path.join(SCRIPTS, "report")
@@ -286,6 +286,64 @@ class Localisation(InFolder):
         self.assertIn("<svg", localisation.errors_along_path(output, localisation.pairs(output.queries)))
 
 
+class Matches(InFolder):
+    def rows(self):
+        self.write("frames.csv", made.frames())
+        return {tuple(cells[:2]): (cells, intervals, undefined) for cells, intervals, undefined in verified.table_rows(self.read())}
+
+    def test_means_and_intervals_are_those_of_the_summary(self):
+        self.write("verified.csv", made.verified())
+        self.write("verified_summary.csv", made.verified_summary())
+        cells, intervals, undefined = self.rows()["4–20 h", "ORB"]
+        self.assertEqual(cells[2:], ["40"] + ["0.812"] * 7)
+        self.assertEqual(intervals, ["[0.787, 0.838]"] * 7)
+        self.assertEqual(undefined, "")
+
+    def test_without_a_summary_means_have_no_intervals(self):
+        """As while a run goes on."""
+        self.write("verified.csv", made.verified(undefined=[3, 4]))
+        cells, intervals, undefined = self.rows()["12–20 h", "SIFT"]
+        # Twice 0 to 19 of 50, without 1 and 2: (380 - 3) / 38 / 50.
+        self.assertEqual(cells[3:], ["0.198", "0.125", "0.062", "0.375", "0.500", "0.250", "0.950"])
+        self.assertEqual(intervals, [""] * 7)
+        self.assertEqual(undefined, "precision: 2")
+
+    def test_drawn_are_those_with_the_fewest_and_the_most_right_matches(self):
+        made.write_all(self.folder)
+        shown = verified.drawn(self.read())
+        self.assertEqual([caption for caption, _ in shown],
+                         ["Fewest right matches of SIFT: 5, 4–12 h, pose 10.", "Most right matches of SIFT: 15, 12–20 h, pose 30."])
+
+    def test_nothing_is_told_of_matches_that_nobody_verified(self):
+        self.write("frames.csv", made.frames())
+        output = self.read()
+        self.assertEqual(page.matches(output), {"verified_rows": []})
+        self.assertNotIn("Are the matches right?", page.render(output, findings.judge(output)))
+
+    def test_what_cannot_be_read_is_named_with_its_line(self):
+        self.write("frames.csv", made.frames())
+        lines = made.verified()
+        self.write("verified.csv", lines[:3] + [lines[1]])
+        self.assert_refused("verified.csv:4: pose 0 of h04, h12, sift was given on line 2 already")
+        self.write("verified.csv", lines[:2] + [lines[2].replace("0.0625", "inf")])
+        self.assert_refused("verified.csv:3: average_precision_3px is 'inf', but must be a finite number or nan")
+        self.write("verified.csv", ["pose,stamp"])
+        self.assert_refused("verified.csv:1: the first line must be pose,stamp,a,b,detector,")
+        self.write("verified.csv", lines)
+        self.write("verified_summary.csv", made.verified_summary()[:2] + ["h04,h12"])
+        self.assert_refused("verified_summary.csv:3: 2 fields, but must be 10")
+
+    def test_an_empty_file_or_only_self_tests_make_a_page(self):
+        self.write("frames.csv", made.frames() + made.self_frames())
+        self.write("verified.csv", made.verified()[:1])
+        output = self.read()
+        self.assertEqual(page.matches(output), {"verified_rows": []})
+        self.write("verified.csv", [line.replace("h12", "self_test/h04") for line in made.verified() if "h20" not in line])
+        output = self.read()
+        self.assertEqual([cells[0] for cells, _, _ in verified.table_rows(output)], ["4–4 h", "4–4 h"])
+        self.assertIn("Are the matches right?", page.render(output, findings.judge(output)))
+
+
 class Page(InFolder):
     def run_report(self, *arguments):
         return subprocess.run([sys.executable, REPORT, *arguments], capture_output=True, text=True, check=False)
@@ -301,8 +359,8 @@ class Page(InFolder):
         html = self.page()
         self.assertEqual(set(re.findall(r'(?:src|href)="([^:"]*):', html)), {"data"})
         self.assertNotRegex(html, r"url\(|@import|<script|<link")
-        self.assertEqual(html.count("data:image/svg+xml"), 5)
-        self.assertEqual(html.count("data:image/jpeg"), 5 * 3)
+        self.assertEqual(html.count("data:image/svg+xml"), 6)
+        self.assertEqual(html.count("data:image/jpeg"), 5 * 3 + 2)  # and the best and worst of SIFT's matches
         for text in ("0.84000", "0.84577", "9.8.7", "race_track", "4321", "geometry", "20.00", "00c0ffee",
                      "osmesa: llvmpipe (LLVM 15.0.6, 256 bits)",
                      "cut &lt;short&gt;, it seems", "<td>17</td>"):
@@ -312,6 +370,7 @@ class Page(InFolder):
         self.assertIn("6 of 6", done.stdout)
         self.assertRegex(done.stdout, r"SIFT +0\.84000 +0\.63000 +0\.83000 +0\.05000 +0\.14000 +0\.05000")
         self.assertRegex(done.stdout, r"paper +0\.84577 +0\.63501")
+        self.assertRegex(done.stdout, r"4–12 h +SIFT +40( +0\.812){7}")
 
     def test_every_absent_file_is_named_in_place(self):
         self.write("frames.csv", made.frames())

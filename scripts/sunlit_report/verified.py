@@ -1,0 +1,90 @@
+"""Which matches are right: the table, matching accuracy over its threshold, and drawn matches of the best and worst."""
+
+import math
+
+import matplotlib.pyplot as plt
+
+from . import names, pictures
+from .files import is_self_test
+from .figures import STYLE, colour_of, grid_of, legend_above, svg
+from .tables import MISSING
+from .verified_rows import ACCURACY_PX
+
+COLUMNS = [("precision_3px", "precision"), ("recall_3px", "recall"), ("average_precision_3px", "average precision"),
+           ("matching_score_3px", "matching score"), ("mma_3px", "MMA@3 px"), ("repeatability", "repeatability"),
+           ("d", "D")]
+TABLE_HEADER = ["pair", "detector", "poses"] + [name for _, name in COLUMNS]
+DRAWN_WIDTH = 1280  # px on the page, of two pictures side by side
+
+
+def pairs(output):
+    """Of different conditions; the self-tests where there is nothing else."""
+    found = output.verified.pairs
+    return [pair for pair in found if not is_self_test(*pair)] or found
+
+
+def _keys(output):
+    return [(a, b, detector) for a, b in pairs(output) for detector in output.verified.detectors
+            if (a, b, detector) in output.verified.means]
+
+
+def _shown(value):
+    return MISSING if math.isnan(value) else f"{value:.3f}"
+
+
+def _interval(mean):
+    return "" if math.isnan(mean.ci_low) else f"[{mean.ci_low:.3f}, {mean.ci_high:.3f}]"
+
+
+def table_rows(output):
+    """Of text, in the order of TABLE_HEADER, and behind it the intervals of the measures."""
+    rows = []
+    for a, b, detector in _keys(output):
+        means = output.verified.means[a, b, detector]
+        told = [means[measure] for measure, _ in COLUMNS]
+        undefined = [f"{name}: {mean.undefined}" for mean, (_, name) in zip(told, COLUMNS) if mean.undefined]
+        rows.append(([names.pair(a, b), names.difference(detector), str(len(output.verified.poses[a, b, detector]))]
+                     + [_shown(mean.mean) for mean in told], [_interval(mean) for mean in told], ", ".join(undefined)))
+    return rows
+
+
+def accuracy(output):
+    """MMA over its threshold, one panel a pair, one line a detector with its interval."""
+    shown = pairs(output)
+    with plt.rc_context(STYLE):
+        figure, axes = grid_of(len(shown), min(len(shown), 3), (3.1, 2.3))
+        for axis, (a, b) in zip(axes, shown):
+            for index, detector in enumerate(output.verified.detectors):
+                means = output.verified.means.get((a, b, detector))
+                if means is None:
+                    continue
+                steps = [means[f"mma_{t}px"] for t in ACCURACY_PX]
+                axis.plot(ACCURACY_PX, [step.mean for step in steps], "o-", markersize=2.5, linewidth=1.2,
+                          color=colour_of(index), label=names.difference(detector))
+                axis.fill_between(ACCURACY_PX, [step.ci_low for step in steps], [step.ci_high for step in steps],
+                                  color=colour_of(index), alpha=0.18, linewidth=0)
+            axis.set_title(names.pair(a, b))
+            axis.set_xlabel("within / px")
+            axis.set_ylabel("MMA")
+            axis.set_ylim(0.0, 1.02)
+            axis.set_xticks(ACCURACY_PX)
+        legend_above(figure, axes)
+        return svg(figure)
+
+
+def drawn(output):
+    """Of each detector the poses with the fewest and the most right matches, of those that were drawn: (caption, picture)."""
+    shown = []
+    for detector in output.verified.detectors:
+        found = []
+        for a, b in pairs(output):
+            files = output.matches.get(f"{a}-{b}/{detector}", {})
+            right = output.verified.poses.get((a, b, detector), {})
+            found += [(right[pose], a, b, pose, files[pose]) for pose in sorted(files) if pose in right]
+        for word, one in (("Fewest", min(found, default=None)), ("Most", max(found, default=None))):
+            if one is None or (word == "Most" and len(found) == 1):
+                continue
+            count, a, b, pose, file = one
+            shown.append((f"{word} right matches of {names.difference(detector)}: {count}, {names.pair(a, b)}, pose {pose}.",
+                          pictures.embedded(file, DRAWN_WIDTH)))
+    return shown
