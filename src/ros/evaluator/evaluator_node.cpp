@@ -91,7 +91,9 @@ void EvaluatorNode::finish(const std::string& reason, evaluate::Ending ending) {
   message.header.stamp = ros::Time::now();
   summary_.publish(message);
   // A table of nothing would only hide the reason that stands above it.
-  const std::string table = outcome.counts.completed_poses > 0 ? "\n" + summaryTable(outcome.summary) : "";
+  std::string table;
+  if (outcome.counts.completed_poses > 0)
+    table = "\n" + summaryTable(outcome.summary) + verifiedTable(outcome.verified);
   ROS_INFO("%zu poses in %s%s", outcome.counts.completed_poses, options_.evaluation.output_dir.c_str(),
            table.c_str());
   faults_ = faultsOf(evaluation_->options(), outcome);

@@ -2,8 +2,10 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
+#include <set>
 
 #include "sunlit/quantity/duration.h"
 
@@ -14,6 +16,34 @@ constexpr double kSecondsBetweenLines = 10.0;
 
 std::string padded(const std::string& text, std::size_t width) {
   return text + std::string(text.size() < width ? width - text.size() : 1, ' ');
+}
+
+struct Cell {
+  std::string column;
+  std::string row;
+  std::string text;
+};
+
+/// Columns and rows as they first occur.
+std::string tableOf(const std::string& title, const std::vector<Cell>& cells) {
+  constexpr std::size_t kColumnWidth = 24;
+  std::vector<std::string> columns;
+  std::vector<std::string> names;
+  std::map<std::string, std::map<std::string, std::string>> texts;
+  std::size_t name_width = 16;
+  for (const Cell& cell : cells) {
+    if (std::count(columns.begin(), columns.end(), cell.column) == 0) columns.push_back(cell.column);
+    if (texts.count(cell.row) == 0) names.push_back(cell.row);
+    texts[cell.row][cell.column] = cell.text;
+    name_width = std::max(name_width, cell.row.size() + 2);
+  }
+  std::string table = padded(title, name_width);
+  for (const std::string& column : columns) table += padded(column, kColumnWidth);
+  for (const std::string& name : names) {
+    table += "\n" + padded(name, name_width);
+    for (const std::string& column : columns) table += padded(texts[name][column], kColumnWidth);
+  }
+  return table;
 }
 
 }  // namespace
@@ -55,27 +85,27 @@ void WorkLog::update(std::size_t done) {
 }
 
 std::string summaryTable(const std::vector<evaluate::SummaryRow>& rows) {
-  constexpr std::size_t kNameWidth = 16;
-  constexpr std::size_t kColumnWidth = 24;
-  std::vector<std::string> pairs;
-  std::vector<std::string> names;
-  std::map<std::string, std::map<std::string, std::string>> cells;
+  std::vector<Cell> cells;
   for (const evaluate::SummaryRow& row : rows) {
-    const std::string pair = row.a + "-" + row.b;
-    const std::string& name = row.difference;
-    if (pairs.empty() || pairs.back() != pair) pairs.push_back(pair);
-    if (cells.count(name) == 0) names.push_back(name);
-    char buffer[80];
-    std::snprintf(buffer, sizeof buffer, "%.5f (s %.5f)", row.statistics.mean, row.statistics.sd);
-    cells[name][pair] = buffer;
+    char text[80];
+    std::snprintf(text, sizeof text, "%.5f (s %.5f)", row.statistics.mean, row.statistics.sd);
+    cells.push_back({row.a + "-" + row.b, row.difference, text});
   }
-  std::string table = padded("mean D", kNameWidth);
-  for (const std::string& pair : pairs) table += padded(pair, kColumnWidth);
-  for (const std::string& name : names) {
-    table += "\n" + padded(name, kNameWidth);
-    for (const std::string& pair : pairs) table += padded(cells[name][pair], kColumnWidth);
+  return tableOf("mean D", cells);
+}
+
+std::string verifiedTable(const std::vector<evaluate::VerifiedSummaryRow>& rows) {
+  const std::set<std::string> shown = {"precision_3px",      "recall_3px", "average_precision_3px",
+                                       "matching_score_3px", "mma_3px",    "repeatability"};
+  std::vector<Cell> cells;
+  for (const evaluate::VerifiedSummaryRow& row : rows) {
+    if (shown.count(row.measure) == 0) continue;
+    char text[80];
+    std::snprintf(text, sizeof text, "%.3f [%.3f, %.3f]", row.statistics.mean, row.statistics.ci_low,
+                  row.statistics.ci_high);
+    cells.push_back({row.a + "-" + row.b, row.detector + " " + row.measure, text});
   }
-  return table;
+  return cells.empty() ? "" : "\n" + tableOf("right matches", cells);
 }
 
 std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate::Outcome& outcome) {

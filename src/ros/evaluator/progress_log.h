@@ -43,6 +43,8 @@ class WorkLog {
 
 /// Means and standard deviations, one line a difference, one column a pair.
 std::string summaryTable(const std::vector<evaluate::SummaryRow>& rows);
+/// Means and intervals of what is worth a look, below a line end; empty where no matches were verified.
+std::string verifiedTable(const std::vector<evaluate::VerifiedSummaryRow>& rows);
 /// One line of counts of what could not be evaluated; empty where everything was.
 std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate::Outcome& outcome);
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Live topics, a played bag and evaluate_bags give the same bytes in summary.csv."""
+"""Live topics, a played bag and evaluate_bags give the same bytes in all result files."""
 import math
 import os
 import subprocess
@@ -22,6 +22,7 @@ from evaluator_runs import Evaluator, Streams, image_message, picture, program, 
 
 POSES = 60
 STREAMS = ['h04', 'h12', 'h20']
+RESULTS = ['summary.csv', 'verified_summary.csv', 'frames.csv', 'verified.csv']
 DIFFERENCES = ['boolean_rgb', 'euclidean_grey', 'sift', 'orb']
 CONFIG = '''# of the test
 streams: [h04, h12, h20]
@@ -87,9 +88,14 @@ class TestBags(unittest.TestCase):
         status, output = live.wait()
         self.assertEqual(status, 0, output)
         streams.close()
-        expected = read(self.path('live'), 'summary.csv')
+        expected = {name: read(self.path('live'), name) for name in RESULTS}
         counts = {(row['a'], row['b']): int(row['n']) for row in rows(self.path('live'), 'summary.csv')}
         self.assertEqual(counts, {('h04', 'h12'): POSES, ('h12', 'h20'): POSES // 10})
+        verified = [tuple(row[name] for name in ('pose', 'a', 'b', 'detector')) for row in rows(self.path('live'), 'verified.csv')]
+        self.assertEqual(verified, [(str(pose), *pair, detector) for pose in range(POSES)
+                                    for pair in [('h04', 'h12')] + ([('h12', 'h20')] if pose % 10 == 0 else [])
+                                    for detector in ('sift', 'orb')])
+        self.assertGreater(sum(int(row['mutual_matches']) for row in rows(self.path('live'), 'verified.csv')), 10 * POSES)
 
         played = self.evaluator('played')
         player = subprocess.Popen(['rosbag', 'play', '--wait-for-subscribers', '--rate=20', '--quiet', '--topics'] +
@@ -98,12 +104,12 @@ class TestBags(unittest.TestCase):
         status, output = played.wait()
         player.wait(timeout=100)
         self.assertEqual(status, 0, output)
-        self.assertEqual(read(self.path('played'), 'summary.csv'), expected)
+        self.assertEqual({name: read(self.path('played'), name) for name in RESULTS}, expected)
 
         for out, bags in {'offline': ['all.bag'], 'offline_two': ['one.bag', 'two.bag']}.items():
             done = self.evaluate_bags('--config', self.config, '--out', self.path(out), *[self.path(b) for b in bags])
             self.assertEqual(done.returncode, 0, done.stdout)
-            self.assertEqual(read(self.path(out), 'summary.csv'), expected)
+            self.assertEqual({name: read(self.path(out), name) for name in RESULTS}, expected)
             self.assertEqual(rows(self.path(out), 'path.csv')[59]['x'], '59')
         captures = rows(self.path('offline'), 'captures.csv')
         self.assertEqual(len(captures), 3 * POSES)
@@ -118,7 +124,7 @@ class TestBags(unittest.TestCase):
         done = self.evaluate_bags('--config', self.config, '--out', self.path('merged'), '--merge', self.path('end'),
                                   '--merge', self.path('start'))
         self.assertEqual(done.returncode, 0, done.stdout)
-        for name in ('summary.csv', 'frames.csv', 'captures.csv', 'path.csv'):
+        for name in RESULTS + ['captures.csv', 'path.csv']:
             self.assertEqual(read(self.path('merged'), name), read(self.path('offline'), name))
 
     def test_about_may_be_any_text(self):

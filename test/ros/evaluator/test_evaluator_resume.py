@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""SIGKILL in the middle, started again on the same folder: the same bytes in summary.csv as an undisturbed run."""
+"""SIGKILL in the middle, started again on the same folder: the same bytes in the summaries as an undisturbed run."""
 import os
 import sys
 import tempfile
@@ -64,8 +64,13 @@ class TestResume(unittest.TestCase):
         self.assertEqual(status, 0, output)
         self.assertIn('not evaluated again', output)
         self.assertIn('torn end', output)
-        self.assertEqual(read(self.folder.name + '/killed', 'summary.csv'),
-                         read(self.folder.name + '/undisturbed', 'summary.csv'))
+        for name in ('summary.csv', 'verified_summary.csv'):
+            self.assertEqual(read(self.folder.name + '/killed', name), read(self.folder.name + '/undisturbed', name), name)
+        # All but the stamps, since the rest was rendered again with others.
+        verified = [[dict(row, stamp='') for row in rows(self.folder.name + '/' + run, 'verified.csv')]
+                    for run in ('killed', 'undisturbed')]
+        self.assertEqual(len(verified[0]), POSES)  # of orb
+        self.assertEqual(*verified)
         frames = rows(self.folder.name + '/killed', 'frames.csv')
         self.assertEqual(len(frames), 3 * POSES)
         kept = sum(float(row['stamp']) < float(stamp_of(5000).to_sec()) for row in frames)
@@ -82,6 +87,11 @@ class TestResume(unittest.TestCase):
         status, output = other.wait()
         self.assertEqual(status, 1, output)
         self.assertIn('ratio was 0.5, now 0.8', output)
+
+        other = self.start('killed', verify=[])
+        status, output = other.wait()
+        self.assertEqual(status, 1, output)
+        self.assertIn('verify was [orb], now []', output)
 
 
 if __name__ == '__main__':
