@@ -48,10 +48,11 @@ void requireVerified(const EvaluationOptions& options) {
                              }),
               known.end());
   const std::vector<std::string> asked = verifiedDetectors(options);
+  const std::string allowed =
+      known.empty() ? "[], since none of the differences has a detector"
+                    : "a list of some of " + textOf(known) + ", the detectors among the differences";
   for (const std::string& name : asked) {
-    if (std::count(known.begin(), known.end(), name) == 0)
-      refuse("verify", textOf(asked),
-             "a list of some of " + textOf(known) + ", the detectors among differences");
+    if (std::count(known.begin(), known.end(), name) == 0) refuse("verify", textOf(asked), allowed);
   }
 }
 

@@ -246,11 +246,53 @@ TEST(VerifiedRun, RefusesWhatHasNoDetectorOrIsNotComparedNamingWhatCanBeHad) {
   EXPECT_EQ(refusal().rfind("verify is [boolean_rgb], but must be a list of some of sift, ", 0), 0u)
       << refusal();
   options.verify = {"sift", "akaze"};
+  EXPECT_EQ(
+      refusal(),
+      "verify is [sift, akaze], but must be a list of some of [sift, orb, brisk], the detectors among the "
+      "differences");
+  options.comparer.differences = {"boolean_rgb"};
   EXPECT_EQ(refusal(),
-            "verify is [sift, akaze], but must be a list of some of [sift, orb, brisk], the detectors among "
-            "differences");
+            "verify is [sift, akaze], but must be [], since none of the differences has a detector");
+  options = verifying(folder);
   options.verify = {"sift", "sift"};
   EXPECT_EQ(refusal().rfind("verify is [sift, sift], but must be a list of", 0), 0u) << refusal();
+}
+
+TEST(VerifiedRun, CountsWhatIsUndefinedInPicturesWithoutFeatures) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(verifying(folder), {});
+  for (std::int64_t pose = 0; pose < 3; ++pose) {
+    for (std::size_t s = 0; s < 3; ++s)
+      evaluation.addImage(s, stampOf(pose),
+                          s == 0 ? lit(pose, 0) : cv::Mat(120, 150, CV_8UC3, cv::Scalar::all(9)));
+  }
+  EXPECT_TRUE(evaluation.finish().isWhole());
+  const std::string summary = contentOf(folder.file("out/verified_summary.csv"));
+  EXPECT_TRUE(hasLine(summary, "h12,h20,sift,repeatability,0,3,nan,nan,nan,nan")) << summary;
+  EXPECT_TRUE(hasLine(summary, "h12,h20,sift,mma_3px,3,0,0,0,0,0"));       // no match is right
+  EXPECT_TRUE(hasLine(summary, "h04,h12,orb,repeatability,3,0,0,0,0,0"));  // one has features
+  EXPECT_TRUE(hasLine(summary, "h04,h12,orb,precision_3px,0,3,nan"));      // nothing is accepted
+}
+
+TEST(VerifiedRun, NamesPathAndLineOfWhatItCannotRead) {
+  const TemporaryFolder folder;
+  const EvaluationOptions options = verifying(folder);
+  {
+    Evaluation evaluation(options, {});
+    feedLit(evaluation, 0, 2);
+    evaluation.finish();
+  }
+  const std::string path = folder.file("out/verified.csv");
+  const std::string good = contentOf(path);
+  const auto refusalOf = [&](const std::string& was, const std::string& is) {
+    std::string bad = good;
+    setContent(path, bad.replace(bad.find(was), was.size(), is));
+    return messageOf<std::runtime_error>([&] { Evaluation(options, {}); });
+  };
+  EXPECT_EQ(refusalOf("mma_10px", "mma_11px").rfind(path + ":1: was written by another version", 0), 0u);
+  EXPECT_EQ(refusalOf("h12,sift", "h12,sfit"), path + ":2: the detector sfit is not one of this run");
+  EXPECT_EQ(refusalOf("h12,orb", "h21,orb"), path + ":3: the pair h04, h21 is not one of this run");
+  EXPECT_EQ(refusalOf("h12,sift,", "h12,sift,-").rfind(path + ":2: \"-", 0), 0u);
 }
 
 TEST(VerifiedRun, IsNotMixedWithOneThatVerifiesOthers) {
