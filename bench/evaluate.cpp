@@ -40,7 +40,7 @@ const std::vector<cv::Mat>& images() {
 }
 
 void detector(benchmark::State& state, const std::string& type) {
-  const cv::Mat grey = makePicture(images()[0]).grey;
+  const cv::Mat grey = makePicture(images()[0]);
   const cv::Ptr<cv::Feature2D> kept = makeDetector(type)->make();
   std::vector<cv::KeyPoint> key_points;
   cv::Mat descriptors;
@@ -50,8 +50,8 @@ void detector(benchmark::State& state, const std::string& type) {
 
 void matching(benchmark::State& state, const std::string& type, bool is_ours) {
   const std::unique_ptr<Detector> detector = makeDetector(type);
-  const Features a = detectFeatures(*detector, makePicture(images()[0]).grey);
-  const Features b = detectFeatures(*detector, makePicture(images()[1]).grey);
+  const Features a = detectFeatures(*detector, makePicture(images()[0]));
+  const Features b = detectFeatures(*detector, makePicture(images()[1]));
   const int norm = detector->norm();
   for (auto _ : state) {
     if (is_ours) {

@@ -121,21 +121,33 @@ def pairs(hours, self_test, every):
     return both
 
 
-def differences(text):
-    """`all` are those that an evaluator with SURF has by default."""
-    allowed = f"all, or a list of some of {', '.join(DIFFERENCES + MORE_DIFFERENCES)}"
+def features(text):
+    """Parameters of detectors by name; what they hold is the business of the evaluator."""
+    allowed = "a map of detectors by name, such as {sift_clahe: {type: sift, preprocessing: clahe}}"
+    detectors = parse("features", text, allowed)
+    if not isinstance(detectors, dict) or not all(isinstance(name, str) and isinstance(detector, dict) and detector
+                                                  for name, detector in detectors.items()):
+        raise BadArgument("features", text, allowed)
+    return detectors
+
+
+def differences(text, features_text="{}"):
+    """`all` are those that an evaluator with SURF has by default; others may be detectors among the features."""
+    known = list(dict.fromkeys(DIFFERENCES + MORE_DIFFERENCES + list(features(features_text))))
+    allowed = f"all, or a list of some of {', '.join(known)}"
     names = DIFFERENCES if text == "all" else parse("differences", text, allowed)
-    if not isinstance(names, list) or not names or not set(map(str, names)) <= set(DIFFERENCES + MORE_DIFFERENCES):
+    if not isinstance(names, list) or not names or not set(map(str, names)) <= set(known):
         raise BadArgument("differences", text, allowed)
     return names
 
 
-def verified(text, compared):
+def verified(text, compared, features_text="{}"):
     """The detectors whose matches are checked. `auto`: None, those that an evaluator takes by itself. `compared`: differences as
     typed."""
     if text == "auto":
         return None
-    known = [name for name in differences(compared) if name in DETECTORS]
+    detectors = DETECTORS + list(features(features_text))
+    known = [name for name in differences(compared, features_text) if name in detectors]
     allowed = f"auto, or a list of some of {', '.join(known) or 'none'}: the detectors among the differences; [] for none"
     names = parse("verify", text, allowed)
     if not isinstance(names, list) or not set(map(str, names)) <= set(known):

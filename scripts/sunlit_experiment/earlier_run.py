@@ -34,11 +34,11 @@ def _rows(folder, name):
     return rows
 
 
-def first_not_evaluated(folder, pairs, differences):
+def first_not_evaluated(folder, pairs, differences, features="{}"):
     """The first pose that frames.csv, and verified.csv where matches are verified, do not have whole; 0 where there is none.
-    `pairs`: as the evaluator gets them; `differences`: as typed."""
+    `pairs`: as the evaluator gets them; `differences` and `features`: as typed."""
     settings = _settings(folder)
-    expected = [(_rows(folder, "frames.csv"), len(settings.get("differences") or read.differences(differences)))]
+    expected = [(_rows(folder, "frames.csv"), len(settings.get("differences") or read.differences(differences, features)))]
     if settings.get("verify"):
         expected.append((_rows(folder, "verified.csv"), len(settings["verify"])))
     if any(rows is None for rows, _ in expected):

@@ -41,8 +41,8 @@ def check(typed):
     read.date_time(typed["date"], typed["timezone"])
     read.site(typed["site"])
     read.folders(typed["model_path"])
-    read.differences(typed["differences"])
-    read.verified(typed["verify"], typed["differences"])
+    read.differences(typed["differences"], typed["features"])
+    read.verified(typed["verify"], typed["differences"], typed["features"])
     pairs(typed)
 
 
@@ -162,8 +162,11 @@ def _evaluator(typed, places, beginning):
     if read.flag("compressed", typed["compressed"]):
         tree["image_transport"] = "compressed"
     if typed["differences"] != "all":  # else its own default
-        tree["differences"] = read.differences(typed["differences"])
-    verified = read.verified(typed["verify"], typed["differences"])
+        tree["differences"] = read.differences(typed["differences"], typed["features"])
+    detectors = read.features(typed["features"])
+    if detectors:
+        tree["features"] = detectors
+    verified = read.verified(typed["verify"], typed["differences"], typed["features"])
     if verified is not None:  # else its own default
         tree["verify"] = verified
     return tree

@@ -1,5 +1,6 @@
 // Features of two pictures, checked against where their points truly lie.
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
@@ -39,13 +40,16 @@ evaluate::PointMaps mapsOf(const EvaluatePairOptions& options, const Rgb8Image& 
 }
 
 void print(const std::vector<evaluate::VerifiedRow>& rows) {
-  std::printf("%-6s %13s %13s %7s %7s %17s %7s %7s %9s %7s %7s %8s\n", "", "features", "common", "repeat.",
-              "score", "MMA@1/3/5", "mutual", "ratio", "precision", "recall", "AP", "D");
+  std::size_t widest = 0;
+  for (const evaluate::VerifiedRow& row : rows) widest = std::max(widest, row.detector.size());
+  const int width = static_cast<int>(widest);
+  std::printf("%-*s %13s %13s %7s %7s %17s %7s %7s %9s %7s %7s %8s\n", width, "", "features", "common",
+              "repeat.", "score", "MMA@1/3/5", "mutual", "ratio", "precision", "recall", "AP", "D");
   for (const evaluate::VerifiedRow& row : rows) {
     const evaluate::Verified& v = row.verified;
     const auto& accuracy = v.matching_accuracy;
-    std::printf("%-6s %6u/%6u %6zu/%6zu %7.3f %7.3f %5.3f/%5.3f/%5.3f %7zu %7u %9.3f %7.3f %7.3f %8.4f\n",
-                row.detector.c_str(), v.difference.features_a, v.difference.features_b, v.common_a,
+    std::printf("%-*s %6u/%6u %6zu/%6zu %7.3f %7.3f %5.3f/%5.3f/%5.3f %7zu %7u %9.3f %7.3f %7.3f %8.4f\n",
+                width, row.detector.c_str(), v.difference.features_a, v.difference.features_b, v.common_a,
                 v.common_b, v.repeatability, v.matching_score, accuracy[0], accuracy[2], accuracy[4],
                 v.mutual_matches, v.difference.matches, v.precision, v.recall, v.average_precision,
                 v.difference.value);

@@ -10,7 +10,7 @@ namespace sunlit::tools {
 
 namespace {
 
-/// "--sift-n-features" of the row "features/sift/n_features".
+/// "--sift-n-features" of the row "features/sift/n_features", "--clahe-tiles" of "preprocessing/clahe/tiles".
 std::string optionOf(const std::string& key) {
   std::string option = "--" + key.substr(key.find('/') + 1);
   std::replace_if(
@@ -37,6 +37,9 @@ std::optional<EvaluatePairOptions> parseEvaluatePairOptions(const std::vector<st
   line.add("--inclusive true|false", fieldOf(test, "inclusive"));
   line.group("Detectors");
   for (const Field& row : options.verify.known.fieldsOf(evaluate::detectorTypes()))
+    line.add(optionOf(row.key) + " VALUE", row);
+  line.group("Preprocessing, of the detectors that are named with one, such as sift+clahe");
+  for (const Field& row : under("preprocessing", options.verify.preprocessings.fields()))
     line.add(optionOf(row.key) + " VALUE", row);
   if (!line.read(arguments)) return std::nullopt;
   if (!line.has("--out")) throw std::invalid_argument("--out DIR is missing; --help lists all options");

@@ -73,7 +73,12 @@ std::optional<PlacesOptions> parse(const std::vector<std::string>& arguments) {
   line.add("--query DIR", fieldOf(rows, "query"));
   line.add("--tolerance FRAMES", fieldOf(rows, "tolerance"));
   line.add("--method NAME[,NAME...]",
-           {"method", OwnForm{}, "", {}, "one or more of " + methodNames() + "; may be repeated"})
+           {"method",
+            OwnForm{},
+            "",
+            {},
+            "one or more of " + methodNames() +
+                ", vlad also of a detector behind a preprocessing, vlad:sift+clahe; may be repeated"})
       .then([&](const std::string& option, const std::string& names) {
         addMethods(option, names, &options.methods);
       });

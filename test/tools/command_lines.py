@@ -39,6 +39,11 @@ DETECTORS = {
               "diffusivity": "default pm_g2"},
     "kaze": {"extended": "default false", "upright": "default false", "threshold": "default 0.001", "n-octaves": "default 4",
              "n-octave-layers": "default 4", "diffusivity": "default pm_g2"}}
+PREPROCESSING = {"--clahe-clip-limit": "1 … 256, default 2", "--clahe-tiles": "1 … 64, default 8",
+                 "--gamma-exponent": "0.1 … 10, default 0.5",
+                 "--illumination-invariant-peak-red": "560 … 780 nm, default 611.4",
+                 "--illumination-invariant-peak-green": "500 … 560 nm, default 549.1",
+                 "--illumination-invariant-peak-blue": "380 … 500 nm, default 464.2"}
 OPTIONS = {
     "snapshot": {**CAMERA, **WORLDS, **BOUNCED, **PLACE, **VIEW, "--out": "FILE.png", "--depth": "portable float map",
                  "--sun": "(default 180,40)", "--time": "minute (of the hour, 0 … 59 min)"},
@@ -71,7 +76,7 @@ OPTIONS = {
 }
 OPTIONS["evaluate_pair"] = {
     "--out": "verified.csv", "--homography": "three lines of three numbers", "--detectors": "default " + ",".join(detectors()),
-    "--ratio": "> 0 … 1, default 0.5", "--inclusive": "default false",
+    "--ratio": "> 0 … 1, default 0.5", "--inclusive": "default false", **PREPROCESSING,
     **{"--%s-%s" % (name, option): part for name, options in DETECTORS.items() if name != "surf" or name in detectors()
        for option, part in options.items()}}
 TAKES_WORDS = {"evaluate_bags", "evaluate_pair"}
@@ -106,6 +111,7 @@ REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be fr
            ("--orb-wta-k", "5", "--orb-wta-k is 5, but must be from 2 to 4"),
            ("--tolerance", "-1", "--tolerance is -1, but must be from 0 to 1000000000 frames"),
            ("--method", "vlad", '--method is "vlad", but must be one of sad, seqslam, vlad:sift, '),
+           ("--method", "vlad:sift+", '--method is "vlad:sift+", but must be one of'),
            ("--method", "sad,,seqslam", '--method is "", but must be one of'),
            ("--method", "sad,sad", "--method names sad twice"),
            ("--map-every", "-1", "--map-every is -1, but must be from 0 to 1000000 m"),

@@ -113,6 +113,19 @@ class EvaluatePair(unittest.TestCase):
         self.assertLess(int(strict["ratio_matches"]), int(loose["ratio_matches"]))
         self.assertEqual(strict["mma_3px"], loose["mma_3px"])
 
+    def test_a_detector_may_look_through_a_preprocessing(self):
+        picture, shifted = self.picture("a.png"), self.picture("b.png", shift=1)
+        rows, table = self.evaluate("out", picture, shifted, "--detectors", "orb,orb+gamma,orb+illumination_invariant,sift+clahe",
+                                    "--gamma-exponent", "1")
+        orb, straight, unlit, equal = rows
+        self.assertEqual([row["detector"] for row in rows], ["orb", "orb+gamma", "orb+illumination_invariant", "sift+clahe"])
+        self.assertEqual({**straight, "detector": "orb"}, orb)  # v^1 is v
+        self.assertEqual((unlit["features_a"], unlit["d"]), ("0", "nan"))  # a picture without colours
+        self.assertGreater(int(equal["features_a"]), 20)
+        self.assertEqual(len({len(line) for line in table.splitlines()[:-1]}), 1)  # columns stand below one another
+        (curved,), _ = self.evaluate("curved", picture, shifted, "--detectors", "orb+gamma")
+        self.assertNotEqual({**curved, "detector": "orb"}, orb)
+
     def test_no_features_are_undefined_and_no_matches_are_zero(self):
         grey = self.path("grey.png")
         cv2.imwrite(grey, numpy.full((120, 160), 128, numpy.uint8))
@@ -138,8 +151,11 @@ class EvaluatePair(unittest.TestCase):
         whole = pathlib.Path(picture).read_bytes()
         pathlib.Path(self.path("cut.png")).write_bytes(whole[:len(whole) // 2])
         self.assertIn("cut.png: read: the file is cut off", self.refused(*out, picture, self.path("cut.png")))
-        self.assertIn("--detectors is [sift, fast], but must be a list of some of %s, akaze, kaze, rootsift, each once" %
-                      ", ".join(detectors()), self.refused(*out, "--detectors", "sift,fast", picture, picture))
+        for name in ("fast", "sift+", "sift+clahee", "+clahe", "sift+clahe+gamma"):
+            self.assertIn("--detectors is [sift, %s], but must be a list of some of %s, akaze, kaze, rootsift, sift+clahe, " %
+                          (name, ", ".join(detectors())), self.refused(*out, "--detectors", "sift," + name, picture, picture))
+        self.assertIn("--gamma-exponent is 0, but must be from 0.1 to 10",
+                      self.refused(*out, "--gamma-exponent", "0", picture, picture))
         self.assertIn("each once", self.refused(*out, "--detectors", "sift,sift", picture, picture))
         self.assertIn("--ratio is 1.1, but must be", self.refused(*out, "--ratio", "1.1", picture, picture))
         self.assertIn("--orb-wta-k is 5, but must be from 2 to 4", self.refused(*out, "--orb-wta-k", "5", picture, picture))

@@ -69,6 +69,14 @@ class Places(unittest.TestCase):
         for words, row in zip(table[1:], rows):
             self.assertEqual(words[2:], ["%.3f" % float(row[column]) for column in list(row)[2:]])
 
+    def test_vlad_takes_a_detector_behind_a_preprocessing(self):
+        done = self.evaluate("--method", "vlad:orb+clahe,vlad:orb+gamma", "--tolerance", "0")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual([(row["method"], float(row["recall_1"])) for row in self.rows()],
+                         [("vlad:orb+clahe", 1.0), ("vlad:orb+gamma", 1.0)])
+        self.assertNotEqual(*[pathlib.Path(self.out, "difference_vlad_orb+%s.csv" % name).read_bytes()
+                              for name in ("clahe", "gamma")])
+
     def test_recalls_follow_from_the_matrix(self):
         """Another hand's count of what the definitions in the README say, of places hard to tell apart."""
         for i in range(PICTURES):

@@ -97,7 +97,7 @@ std::vector<std::vector<DifferenceValue>> Comparer::compare(const std::vector<cv
     const std::size_t d = task / pictures.size();
     const std::size_t i = task % pictures.size();
     if (is_used[i] && asked_[d].detectors != nullptr)
-      features[d][i] = asked_[d].detectors->detect(pictures[i].grey);
+      features[d][i] = asked_[d].detectors->detect(pictures[i]);
   });
 
   std::vector<std::vector<DifferenceValue>> values(pairs.size(), std::vector<DifferenceValue>(asked_.size()));

@@ -25,23 +25,52 @@ const std::vector<DetectorType>& table() {
   return rows;
 }
 
-/// A detector that says its type.
-class Typed : public Detector {
+/// A detector in front of which something stands. Subclasses say what.
+class Fronted : public Detector {
  public:
-  Typed(std::string type, std::unique_ptr<Detector> detector)
-      : type_(std::move(type)), detector_(std::move(detector)) {}
-  std::unique_ptr<Detector> clone() const override {
-    return std::make_unique<Typed>(type_, detector_->clone());
-  }
-  std::vector<Field> fields() override {
-    return joined({{{"type", OwnForm{type_}, "", {}, "of the detector"}}, detector_->fields()});
-  }
+  explicit Fronted(std::unique_ptr<Detector> detector) : detector_(std::move(detector)) {}
   int norm() const override { return detector_->norm(); }
+  cv::Mat seen(const Picture& picture) const override { return detector_->seen(picture); }
   cv::Ptr<cv::Feature2D> make() const override { return detector_->make(); }
 
- private:
-  std::string type_;
+ protected:
   std::unique_ptr<Detector> detector_;
+};
+
+class Preprocessed : public Fronted {
+ public:
+  Preprocessed(std::unique_ptr<Detector> detector, std::string name,
+               std::unique_ptr<Preprocessing> preprocessing)
+      : Fronted(std::move(detector)), name_(std::move(name)), preprocessing_(std::move(preprocessing)) {}
+  std::unique_ptr<Detector> clone() const override {
+    return std::make_unique<Preprocessed>(detector_->clone(), name_, preprocessing_->clone());
+  }
+  std::vector<Field> fields() override {
+    return joined({detector_->fields(), under(name_, preprocessing_->fields())});
+  }
+  cv::Mat seen(const Picture& picture) const override { return preprocessing_->of(picture); }
+
+ private:
+  std::string name_;
+  std::unique_ptr<Preprocessing> preprocessing_;
+};
+
+/// A detector that says what it is.
+class Own : public Fronted {
+ public:
+  Own(DetectorKind kind, std::unique_ptr<Detector> detector)
+      : Fronted(std::move(detector)), kind_(std::move(kind)) {}
+  std::unique_ptr<Detector> clone() const override {
+    return std::make_unique<Own>(kind_, detector_->clone());
+  }
+  std::vector<Field> fields() override {
+    std::vector<Field> rows = ownDetectorFields(kind_);
+    if (kind_.preprocessing.empty()) rows.pop_back();  // so that older folders are taken up again
+    return joined({rows, detector_->fields()});
+  }
+
+ private:
+  DetectorKind kind_;
 };
 
 }  // namespace
@@ -55,6 +84,20 @@ const std::vector<std::string>& detectorTypes() {
   return names;
 }
 
+DetectorKind DetectorKind::named(const std::string& name) {
+  const std::size_t plus = name.find('+');
+  if (plus == std::string::npos) return {name, ""};
+  return {name.substr(0, plus), name.substr(plus + 1)};
+}
+
+std::vector<std::string> detectorNames() {
+  std::vector<std::string> names = detectorTypes();
+  for (const std::string& type : detectorTypes()) {
+    for (const std::string& preprocessing : preprocessingNames()) names.push_back(type + "+" + preprocessing);
+  }
+  return names;
+}
+
 std::unique_ptr<Detector> makeDetector(const std::string& type) {
   for (const DetectorType& row : table()) {
     if (row.name == type) return row.make();
@@ -62,13 +105,35 @@ std::unique_ptr<Detector> makeDetector(const std::string& type) {
   refuse("detector", '"' + type + '"', "one of " + textOf(detectorTypes()));
 }
 
-std::unique_ptr<Detector> makeTypedDetector(const std::string& type) {
-  return std::make_unique<Typed>(type, makeDetector(type));
+std::unique_ptr<Detector> makeDetector(const DetectorKind& kind) {
+  std::unique_ptr<Detector> detector = makeDetector(kind.type);
+  if (kind.preprocessing.empty()) return detector;
+  return preprocessed(std::move(detector), kind.preprocessing, makePreprocessing(kind.preprocessing));
 }
 
-Features detectFeatures(const Detector& detector, const cv::Mat& grey) {
+std::unique_ptr<Detector> preprocessed(std::unique_ptr<Detector> detector, const std::string& name,
+                                       std::unique_ptr<Preprocessing> preprocessing) {
+  return std::make_unique<Preprocessed>(std::move(detector), name, std::move(preprocessing));
+}
+
+std::vector<Field> ownDetectorFields(const DetectorKind& kind) {
+  return {{"type", OwnForm{kind.type}, "", {}, "one of " + textOf(detectorTypes()) + "; required"},
+          {"preprocessing",
+           OwnForm{kind.preprocessing.empty() ? kNoPreprocessing : kind.preprocessing},
+           "",
+           {},
+           std::string(kNoPreprocessing) + " or one of " + textOf(preprocessingNames()) +
+               ": what the picture is made into before the detector looks at it"}};
+}
+
+std::unique_ptr<Detector> makeOwnDetector(const DetectorKind& kind) {
+  return std::make_unique<Own>(kind, makeDetector(kind));
+}
+
+Features detectFeatures(const Detector& detector, const Picture& picture) {
   Features features;
-  detector.make()->detectAndCompute(grey, cv::noArray(), features.key_points, features.descriptors);
+  detector.make()->detectAndCompute(detector.seen(picture), cv::noArray(), features.key_points,
+                                    features.descriptors);
   return features;
 }
 

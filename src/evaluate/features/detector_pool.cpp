@@ -21,11 +21,11 @@ void DetectorPool::giveBack(cv::Ptr<cv::Feature2D> worker) {
   idle_.push_back(std::move(worker));
 }
 
-Features DetectorPool::detect(const cv::Mat& grey) {
+Features DetectorPool::detect(const Picture& picture) {
   const cv::Ptr<cv::Feature2D> worker = take();
   Features features;
   // One that throws is not given back: what it holds then is unknown.
-  worker->detectAndCompute(grey, cv::noArray(), features.key_points, features.descriptors);
+  worker->detectAndCompute(detector_.seen(picture), cv::noArray(), features.key_points, features.descriptors);
   giveBack(worker);
   return features;
 }

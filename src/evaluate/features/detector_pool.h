@@ -15,7 +15,7 @@ class DetectorPool {
   /// `detector` outlives the pool and does not change.
   /// Throws what Detector::make() throws, such as for parameters that do not go together.
   explicit DetectorPool(const Detector& detector) : detector_(detector), idle_{detector.make()} {}
-  Features detect(const cv::Mat& grey);
+  Features detect(const Picture& picture);
 
  private:
   cv::Ptr<cv::Feature2D> take();

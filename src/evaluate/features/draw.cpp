@@ -13,9 +13,9 @@ cv::Mat drawMatches(const Detector* detector, const RatioTest& test, const std::
   std::vector<cv::DMatch> accepted;
   if (detector != nullptr) {
     stop.check();
-    a = detectFeatures(*detector, makePicture(rgb[0]).grey);
+    a = detectFeatures(*detector, makePicture(rgb[0]));
     stop.check();
-    b = detectFeatures(*detector, makePicture(rgb[1]).grey);
+    b = detectFeatures(*detector, makePicture(rgb[1]));
     const std::vector<Neighbours> neighbours =
         twoNearestBothWays(a.descriptors, b.descriptors, detector->norm(), stop).from_a;
     for (std::size_t query = 0; query < neighbours.size(); ++query) {

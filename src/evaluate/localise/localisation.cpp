@@ -49,7 +49,7 @@ void Localisation::addKeyFrames(const std::vector<PosedView>& views) {
   tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t task) {
     const PosedView& view = views[task / detectors_.size()];
     PerDetector& detector = *detectors_[task % detectors_.size()];
-    frames[task] = keyFrameOf(view, detector.pool.detect(view.picture.grey));
+    frames[task] = keyFrameOf(view, detector.pool.detect(view.picture));
   });
   for (std::size_t task = 0; task < frames.size(); ++task)
     detectors_[task % detectors_.size()]->localiser.add(std::move(frames[task]));
@@ -77,7 +77,7 @@ std::vector<std::vector<LocalisedQuery>> Localisation::localise(const std::vecto
   tbb::parallel_for(std::size_t{0}, queries.size() * detectors_.size(), [&](std::size_t task) {
     const PosedView& query = queries[task / detectors_.size()];
     PerDetector& detector = *detectors_[task % detectors_.size()];
-    const Features features = detector.pool.detect(query.picture.grey);
+    const Features features = detector.pool.detect(query.picture);
     results[task / detectors_.size()][task % detectors_.size()] =
         detector.localiser.localise({features, query.camera, query.map_from_optical});
   });

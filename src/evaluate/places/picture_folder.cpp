@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "sunlit/evaluate/picture.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
@@ -87,9 +86,9 @@ PictureFolder openPictureFolder(const std::string& folder) {
   return pictures;
 }
 
-cv::Mat readGreyPicture(const std::string& file) {
+Picture readPicture(const std::string& file) {
   image::Rgb8Image picture = image::readPhotograph(file);
-  return makePicture(matOf(picture)).grey;
+  return makePicture(matOf(picture).clone());
 }
 
 }  // namespace sunlit::evaluate

@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kVladPrefix = "vlad:";
 
 /// Every n-th of all descriptors, in the order of the pictures, so that kMostTrainingDescriptors are left.
-cv::Mat trainingPoints(const std::string& detector, int norm, const std::vector<cv::Mat>& descriptors) {
+cv::Mat trainingPoints(const std::string& type, int norm, const std::vector<cv::Mat>& descriptors) {
   std::size_t all = 0;
   for (const cv::Mat& of_picture : descriptors) all += static_cast<std::size_t>(of_picture.rows);
   const std::size_t wanted = std::min(all, kMostTrainingDescriptors);
@@ -33,7 +33,7 @@ cv::Mat trainingPoints(const std::string& detector, int norm, const std::vector<
       ++taken;
     }
   }
-  return vladPoints(detector, norm, chosen);
+  return vladPoints(type, norm, chosen);
 }
 
 std::size_t countBlank(const std::vector<cv::Mat>& vlads) {
@@ -85,7 +85,12 @@ PlaceMethod placeMethod(const std::string& name, const std::string& called) {
     if (method.name() == name) return method;
     names += (names.empty() ? "" : ", ") + method.name();
   }
-  refuse(called, '"' + name + '"', "one of " + names);
+  for (const std::string& detector : detectorNames()) {
+    if (name == kVladPrefix + detector) return {PlaceMethod::Kind::kVlad, detector};
+  }
+  refuse(called, '"' + name + '"',
+         "one of " + names + ", or vlad of a detector behind a preprocessing, as " + kVladPrefix +
+             detectorNames().back());
 }
 
 PlaceComparison::PlaceComparison(const PictureFolder& map, const PictureFolder& queries, Progress progress)
@@ -118,9 +123,9 @@ const PlaceComparison::ThumbnailComparison& PlaceComparison::thumbnails() {
   if (thumbnails_) return *thumbnails_;
   std::vector<Thumbnail> map(map_.names.size()), queries(queries_.names.size());
   forEach("thumbnails of the map", map_,
-          [&](std::size_t i) { map[i] = makeThumbnail(readGreyPicture(map_.file(i))); });
+          [&](std::size_t i) { map[i] = makeThumbnail(readPicture(map_.file(i)).grey); });
   forEach("thumbnails of the queries", queries_,
-          [&](std::size_t i) { queries[i] = makeThumbnail(readGreyPicture(queries_.file(i))); });
+          [&](std::size_t i) { queries[i] = makeThumbnail(readPicture(queries_.file(i)).grey); });
   thumbnails_.emplace();
   if (countConstant(map) + countConstant(queries) > 0) {
     thumbnails_->notes.push_back(constantPatches(map, "map") + " and " + constantPatches(queries, "queries") +
@@ -131,17 +136,18 @@ const PlaceComparison::ThumbnailComparison& PlaceComparison::thumbnails() {
 }
 
 FoundPlaces PlaceComparison::findByVlad(const std::string& detector) const {
-  const std::unique_ptr<Detector> usual = makeDetector(detector);
+  const std::unique_ptr<Detector> usual = makeDetector(DetectorKind::named(detector));
+  const std::string type = DetectorKind::named(detector).type;
   const int norm = usual->norm();
   DetectorPool detectors(*usual);
   const auto describe = [&](const std::string& file) {
-    return detectors.detect(readGreyPicture(file)).descriptors;
+    return detectors.detect(readPicture(file)).descriptors;
   };
   std::vector<cv::Mat> map(map_.names.size()), queries(queries_.names.size());
   forEach(detector + " of the map", map_, [&](std::size_t i) { map[i] = describe(map_.file(i)); });
-  const cv::Mat words = trainVocabulary(trainingPoints(detector, norm, map), kVisualWords, kVocabularySeed);
+  const cv::Mat words = trainVocabulary(trainingPoints(type, norm, map), kVisualWords, kVocabularySeed);
   const auto encode = [&](const cv::Mat& descriptors) {
-    return vladOf(vladPoints(detector, norm, descriptors), words);
+    return vladOf(vladPoints(type, norm, descriptors), words);
   };
   forEach("words of the map", map_, [&](std::size_t i) { map[i] = encode(map[i]); });
   forEach(detector + " of the queries", queries_,

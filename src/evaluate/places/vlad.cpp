@@ -60,10 +60,10 @@ bool isZero(const cv::Mat& vlad) {
 
 }  // namespace
 
-cv::Mat vladPoints(const std::string& detector, int norm, const cv::Mat& descriptors) {
+cv::Mat vladPoints(const std::string& type, int norm, const cv::Mat& descriptors) {
   if (descriptors.empty()) return {};
   if (norm == cv::NORM_HAMMING || norm == cv::NORM_HAMMING2) return bitsOf(descriptors);
-  if (detector == "sift") return rootSift(descriptors);
+  if (type == "sift") return rootSift(descriptors);
   cv::Mat points;
   descriptors.convertTo(points, CV_32FC1);
   return points;

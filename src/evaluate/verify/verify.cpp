@@ -204,22 +204,36 @@ std::vector<std::string> paperDetectors() {
 
 std::vector<Field> fieldsOf(VerifyOptions& options) {
   std::vector<std::string>* const names = &options.detectors;
-  const Choices choices{detectorTypes(), [names] { return *names; },
+  const Choices choices{detectorNames(), [names] { return *names; },
                         [names](const std::vector<std::string>& some) { *names = some; }};
-  return joined({{{"detectors", choices, "", {}, "names apart by commas"}},
-                 fieldsOf(options.ratio_test),
-                 options.known.fieldsOf(detectorTypes())});
+  return joined(
+      {{{"detectors", choices, "", {}, "names apart by commas, also behind a preprocessing: sift+clahe"}},
+       fieldsOf(options.ratio_test),
+       options.known.fieldsOf(detectorTypes()),
+       under("preprocessing", options.preprocessings.fields())});
 }
+
+namespace {
+
+std::unique_ptr<Detector> detectorOf(const std::string& name, const VerifyOptions& options) {
+  const DetectorKind kind = DetectorKind::named(name);
+  std::unique_ptr<Detector> detector = options.known.at(kind.type).detector()->clone();
+  if (kind.preprocessing.empty()) return detector;
+  return preprocessed(std::move(detector), kind.preprocessing,
+                      options.preprocessings.at(kind.preprocessing).clone());
+}
+
+}  // namespace
 
 std::vector<Verified> verifyImages(const ImagesToVerify& images, const PointMaps& maps,
                                    const VerifyOptions& options) {
   requireFields(options);
-  std::vector<const Detector*> detectors;
-  for (const std::string& name : options.detectors) detectors.push_back(options.known.at(name).detector());
-  const cv::Mat greys[] = {makePicture(images.rgb_a).grey, makePicture(images.rgb_b).grey};
+  std::vector<std::unique_ptr<Detector>> detectors;
+  for (const std::string& name : options.detectors) detectors.push_back(detectorOf(name, options));
+  const Picture pictures[] = {makePicture(images.rgb_a), makePicture(images.rgb_b)};
   std::vector<std::array<Features, 2>> features(detectors.size());
   tbb::parallel_for(std::size_t{0}, 2 * detectors.size(), [&](std::size_t task) {
-    features[task / 2][task % 2] = detectFeatures(*detectors[task / 2], greys[task % 2]);
+    features[task / 2][task % 2] = detectFeatures(*detectors[task / 2], pictures[task % 2]);
   });
   std::vector<Verified> verified(detectors.size());
   tbb::parallel_for(std::size_t{0}, detectors.size(), [&](std::size_t d) {

@@ -81,7 +81,14 @@ std::vector<std::pair<std::string, std::string>> readAbout(const ParameterReader
   return about;
 }
 
-/// Detectors under names of their own: features/NAME/type says what they are.
+std::vector<std::string> preprocessingWords() {
+  std::vector<std::string> words = evaluate::preprocessingNames();
+  words.insert(words.begin(), evaluate::kNoPreprocessing);
+  return words;
+}
+
+/// Detectors under names of their own: features/NAME/type says what they are, and features/NAME/preprocessing
+/// what they look through.
 void addDetectors(const ParameterReader& parameters, evaluate::Differences& known) {
   const std::vector<std::string>& types = evaluate::detectorTypes();
   for (const std::string& name : parameters.namesBelow("features")) {
@@ -91,7 +98,10 @@ void addDetectors(const ParameterReader& parameters, evaluate::Differences& know
     if (type.empty())
       refuse("parameter " + parameters.fullName(key), "missing",
              "one of " + textOf(types) + ", since no detector is called " + name);
-    known.add(name, evaluate::makeFeatureDifference(evaluate::makeTypedDetector(type)));
+    const std::string seen_through = parameters.choice("features/" + name + "/preprocessing",
+                                                       evaluate::kNoPreprocessing, preprocessingWords());
+    evaluate::DetectorKind kind{type, seen_through == evaluate::kNoPreprocessing ? "" : seen_through};
+    known.add(name, evaluate::makeFeatureDifference(evaluate::makeOwnDetector(kind)));
   }
 }
 
@@ -127,6 +137,10 @@ std::vector<Field> fieldsOf(EvaluatorOptions& options) {
                    "",
                    {},
                    "end once all expected poses are accounted for"}}});
+}
+
+std::vector<Field> fieldsOfOwnDetector(evaluate::Preprocessings& preprocessings) {
+  return under("features/NAME", joined({evaluate::ownDetectorFields({}), preprocessings.fields()}));
 }
 
 EvaluatorOptions readEvaluatorOptions(const ParameterReader& parameters) {

@@ -20,8 +20,10 @@ struct EvaluatorOptions {
   bool exit_when_done = false;       ///< end the process when all expected poses are accounted for
 };
 
-/// One row for each parameter.
+/// One row for each parameter, but for those of detectors under names of one's own.
 std::vector<Field> fieldsOf(EvaluatorOptions& options);
+/// `features/NAME/…`: what such a detector is told beside the parameters of its type.
+std::vector<Field> fieldsOfOwnDetector(evaluate::Preprocessings& preprocessings);
 
 /// Reads every key and rejects unknown ones. Throws std::invalid_argument naming key, value and what is
 /// allowed.

@@ -46,6 +46,7 @@ int main(int argc, char**) {
   ros_interface::EvaluatorOptions evaluator;
   list("sun_position_node", joined({ros_interface::fieldsOfNode(&period_s), fieldsOf(sun)}));
   list("render_node", joined({fieldsOf(render), {ros_interface::conditionsRow()}}));
-  list("evaluator_node", fieldsOf(evaluator));
+  evaluate::Preprocessings preprocessings;
+  list("evaluator_node", joined({fieldsOf(evaluator), ros_interface::fieldsOfOwnDetector(preprocessings)}));
   return 0;
 }

@@ -127,6 +127,31 @@ class TestBags(unittest.TestCase):
         for name in RESULTS + ['captures.csv', 'path.csv']:
             self.assertEqual(read(self.path('merged'), name), read(self.path('offline'), name))
 
+    def test_detectors_of_ones_own_look_at_pictures_that_were_made_for_them(self):
+        self.write_bags({'all.bag': [0, 1]}, range(2))
+        features = {'as_it_is': {'type': 'orb', 'preprocessing': 'none'},
+                    'straight': {'type': 'orb', 'preprocessing': 'gamma', 'gamma': {'exponent': 1.0}},
+                    'curved': {'type': 'orb', 'preprocessing': 'gamma', 'gamma': {'exponent': 0.3}},
+                    'equal': {'type': 'orb', 'preprocessing': 'clahe', 'clahe': {'clip_limit': 8, 'tiles': 2}},
+                    'unlit': {'type': 'orb', 'preprocessing': 'illumination_invariant'}}
+        names = ['orb'] + list(features)
+        with open(self.path('own.yaml'), 'w') as file:
+            yaml.safe_dump({'streams': ['h04', 'h12'], 'output_dir': 'unused', 'differences': names, 'features': features}, file)
+        done = self.evaluate_bags('--config', self.path('own.yaml'), '--out', self.path('out'), self.path('all.bag'))
+        self.assertEqual(done.returncode, 0, done.stdout)
+        found = {name: [{key: row[key] for key in ('value', 'features_a', 'features_b', 'matches')}
+                        for row in rows(self.path('out'), 'frames.csv') if row['difference'] == name] for name in names}
+        self.assertEqual(len(found['orb']), 2)
+        self.assertEqual(found['as_it_is'], found['orb'])
+        self.assertEqual(found['straight'], found['orb'])  # v^1 is v
+        for name in ('curved', 'equal', 'unlit'):
+            self.assertNotEqual(found[name], found['orb'], name)
+        settings = yaml.safe_load(read(self.path('out'), 'run.yaml'))['settings']
+        self.assertEqual((settings['features/unlit/type'], settings['features/unlit/preprocessing'],
+                          settings['features/unlit/illumination_invariant/peak_red']), ('orb', 'illumination_invariant', '611.4'))
+        self.assertEqual(settings['features/equal/clahe/clip_limit'], '8')
+        self.assertNotIn('features/as_it_is/preprocessing', settings)
+
     def test_about_may_be_any_text(self):
         self.write_bags({'all.bag': [0, 1]}, range(1))
         about = {'weather': 'rain,\nthen: sun # and "wind"\n', "it's": 'Казань\u2028\x1b[0m', 'a: b #c': '- x', 'two\nlines': '',

@@ -129,6 +129,19 @@ class Plan(unittest.TestCase):
         self.assert_refused("argument verify is '[surf]', but must be auto, or a list of some of sift:",
                             differences="[sift, boolean_rgb]", verify="[surf]")
         self.assert_refused("argument verify is 'sift', but must be auto, or a list of some of sift, surf, orb, brisk:", verify="sift")
+        for text in ("sift", "[sift]", "{mine: sift}", "{mine: {}}", "{1: {type: sift}}", "{mine: {type"):
+            self.assert_refused("argument features is %r, but must be a map of detectors by name" % text, features=text)
+
+    def test_detectors_under_names_of_ones_own_can_be_differences(self):
+        mine = "{mine: {type: sift, preprocessing: gamma, gamma: {exponent: 0.4}}}"
+        tree = planned(differences="[orb, mine]", features=mine)["evaluator"]
+        self.assertEqual(tree["differences"], ["orb", "mine"])
+        self.assertEqual(tree["features"], {"mine": {"type": "sift", "preprocessing": "gamma", "gamma": {"exponent": 0.4}}})
+        self.assert_refused("argument differences is '[yours]', but must be all, or a list of some of boolean_rgb, ",
+                            differences="[yours]", features=mine)
+        self.assert_refused("rootsift, mine", differences="[yours]", features=mine)
+        self.assertNotIn("features", planned()["evaluator"])
+        self.assertEqual(planned(differences="[orb, mine]", features=mine, verify="[mine]")["evaluator"]["verify"], ["mine"])
 
     def test_both_renderers_make_the_same_pictures(self):
         tree = planned(night="false", noise="true", noise_seed="7", exposure="auto", highlight_protection="0",

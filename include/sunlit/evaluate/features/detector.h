@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "sunlit/evaluate/features/features.h"
+#include "sunlit/evaluate/features/preprocessing.h"
+#include "sunlit/evaluate/picture.h"
 #include "sunlit/quantity/field.h"
 
 namespace sunlit::evaluate {
@@ -23,6 +25,8 @@ class Detector {
   virtual std::vector<Field> fields() = 0;
   /// How its descriptors are compared: a cv::NormTypes.
   virtual int norm() const = 0;
+  /// The grey picture that it looks at, CV_8UC1.
+  virtual cv::Mat seen(const Picture& picture) const { return picture.grey; }
   /// What does the work, with the present parameters, which are within their ranges. What it finds in a grey
   /// picture is the same to the bit for any number of threads. Not to be shared between threads: it may keep
   /// buffers.
@@ -31,12 +35,33 @@ class Detector {
 
 /// `sift surf orb brisk akaze kaze rootsift`; surf only where it was built in.
 const std::vector<std::string>& detectorTypes();
-/// With its usual parameters. Throws std::invalid_argument for what is not one of detectorTypes().
-std::unique_ptr<Detector> makeDetector(const std::string& type);
-/// The same for a name of one's own: what it is stands in a row `type` above the others.
-std::unique_ptr<Detector> makeTypedDetector(const std::string& type);
 
-/// Key points and descriptors of a grey picture.
-Features detectFeatures(const Detector& detector, const cv::Mat& grey);
+/// A detector, and what it sees the picture through.
+struct DetectorKind {
+  std::string type;           ///< one of detectorTypes()
+  std::string preprocessing;  ///< one of preprocessingNames(); empty: none
+  /// As command lines have it: `sift`, or `sift+clahe`. Nothing is checked.
+  static DetectorKind named(const std::string& name);
+};
+
+/// `sift …`, and then each of them with each preprocessing, as DetectorKind::named() takes them.
+std::vector<std::string> detectorNames();
+
+/// With its usual parameters. Throws std::invalid_argument for a kind that there is not.
+std::unique_ptr<Detector> makeDetector(const std::string& type);
+std::unique_ptr<Detector> makeDetector(const DetectorKind& kind);
+/// `detector`, which looks at what `preprocessing` makes of a picture. Its rows are joined by those of the
+/// preprocessing under `name`.
+std::unique_ptr<Detector> preprocessed(std::unique_ptr<Detector> detector, const std::string& name,
+                                       std::unique_ptr<Preprocessing> preprocessing);
+/// What a detector under a name of one's own is told beside the parameters of its type and preprocessing:
+/// rows `type` and `preprocessing`.
+constexpr const char* kNoPreprocessing = "none";
+std::vector<Field> ownDetectorFields(const DetectorKind& kind);
+/// For a name of one's own: what it is stands in a row `type` above the others, and where there is one, in a
+/// row `preprocessing`.
+std::unique_ptr<Detector> makeOwnDetector(const DetectorKind& kind);
+
+Features detectFeatures(const Detector& detector, const Picture& picture);
 
 }  // namespace sunlit::evaluate

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <opencv2/core/mat.hpp>
 #include <string>
 #include <vector>
+
+#include "sunlit/evaluate/picture.h"
 
 namespace sunlit::evaluate {
 
@@ -24,8 +25,8 @@ bool isNamedBefore(const std::string& a, const std::string& b);
 /// "path: what is wrong" for a folder that is not there, cannot be read or holds no picture.
 PictureFolder openPictureFolder(const std::string& folder);
 
-/// A picture in grey, CV_8UC1, by the conversion that all detectors here go by; alpha is left out. Throws
-/// std::runtime_error "path: what is wrong", also for a file that is cut short.
-cv::Mat readGreyPicture(const std::string& file);
+/// With pixels of its own; alpha is left out. Throws std::runtime_error "path: what is wrong", also for a
+/// file that is cut short.
+Picture readPicture(const std::string& file);
 
 }  // namespace sunlit::evaluate

@@ -19,13 +19,13 @@ constexpr std::size_t kMostTrainingDescriptors = 50000;
 constexpr std::uint64_t kVocabularySeed = 20121;  // any: what counts is that it is always the same
 constexpr int kMostRounds = 50;                   // of k-means; it ends sooner where nothing changes
 
-/// Descriptors of a `detector` as points between which Euclidean distances mean something, CV_32FC1, one row
-/// each:
+/// Descriptors of a detector of a `type` as points between which Euclidean distances mean something,
+/// CV_32FC1, one row each:
 /// - of SIFT its RootSIFT, as the detector `rootsift` has it;
 /// - of descriptors compared by a Hamming norm (cv::NormTypes) their bits, 0 or 1, lowest first: squared
 ///   distances are Hamming distances then, and the mean of points, a word, is how often each bit is set;
 /// - of others, such as SURF, their numbers.
-cv::Mat vladPoints(const std::string& detector, int norm, const cv::Mat& descriptors);
+cv::Mat vladPoints(const std::string& type, int norm, const cv::Mat& descriptors);
 
 /// The words, CV_32FC1, one row each: k-means (Lloyd) from k-means++ beginnings (Arthur & Vassilvitskii
 /// 2007), at most kMostRounds rounds. A point belongs to the nearest word, of equally near ones to the first;

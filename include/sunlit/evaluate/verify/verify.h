@@ -81,8 +81,9 @@ std::vector<AcceptedMatch> acceptedMatches(const FeaturePair& features, const Po
 std::vector<std::string> paperDetectors();
 
 struct VerifyOptions {
-  Differences known;  ///< whose detectors are used, with their parameters
-  std::vector<std::string> detectors = paperDetectors();
+  Differences known;                                      ///< whose detectors are used, with their parameters
+  Preprocessings preprocessings;                          ///< likewise
+  std::vector<std::string> detectors = paperDetectors();  ///< some of detectorNames()
   RatioTest ratio_test;
 };
 

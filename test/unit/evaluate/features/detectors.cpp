@@ -61,7 +61,7 @@ TEST(Detectors, FindByDefaultWhatOpenCvFinds) {
   for (const auto& [type, worker] : direct) {
     SCOPED_TRACE(type);
     const std::unique_ptr<Detector> detector = makeDetector(type);
-    expectSame(detectFeatures(*detector, grey), featuresOf(worker, grey));
+    expectSame(detectFeatures(*detector, Picture{{}, grey}), featuresOf(worker, grey));
     EXPECT_EQ(detector->norm(), worker->defaultNorm());
   }
 }
@@ -87,7 +87,7 @@ TEST(Detectors, PassEveryParameterOnToOpenCv) {
                                        {"n_octaves", "2"},
                                        {"n_octave_layers", "3"},
                                        {"diffusivity", "weickert"}});
-  expectSame(detectFeatures(*akaze, grey),
+  expectSame(detectFeatures(*akaze, Picture{{}, grey}),
              featuresOf(cv::AKAZE::create(cv::AKAZE::DESCRIPTOR_MLDB_UPRIGHT, 200, 2, 0.0005F, 2, 3,
                                           cv::KAZE::DIFF_WEICKERT),
                         grey));
@@ -97,7 +97,7 @@ TEST(Detectors, PassEveryParameterOnToOpenCv) {
                                      {"n_octaves", "2"},
                                      {"n_octave_layers", "3"},
                                      {"diffusivity", "charbonnier"}});
-  expectSame(detectFeatures(*kaze, grey),
+  expectSame(detectFeatures(*kaze, Picture{{}, grey}),
              featuresOf(cv::KAZE::create(true, true, 0.0005F, 2, 3, cv::KAZE::DIFF_CHARBONNIER), grey));
 }
 
@@ -127,7 +127,7 @@ TEST(RootSift, IsTheRootOfOpenCvsSiftInTheL1Norm) {
   const cv::Mat grey = madeGrey(3);
   const Features sift = featuresOf(cv::SIFT::create(), grey);
   const std::unique_ptr<Detector> detector = makeDetector("rootsift");
-  const Features found = detectFeatures(*detector, grey);
+  const Features found = detectFeatures(*detector, Picture{{}, grey});
   EXPECT_EQ(detector->norm(), cv::NORM_L2);
   ASSERT_EQ(found.descriptors.size(), sift.descriptors.size());
   ASSERT_EQ(found.descriptors.type(), CV_32F);
@@ -153,8 +153,8 @@ TEST(RootSift, HasTheParametersAndKeyPointsOfSift) {
   for (const Field& row : sift->fields()) EXPECT_EQ(fieldOf(rows, row.key).text(), row.text());
   fieldOf(rows, "contrast_threshold").set(0.08, "");
   fieldOf(sift->fields(), "contrast_threshold").set(0.08, "");
-  const Features found = detectFeatures(*root->clone(), grey);
-  const Features expected = detectFeatures(*sift, grey);
+  const Features found = detectFeatures(*root->clone(), Picture{{}, grey});
+  const Features expected = detectFeatures(*sift, Picture{{}, grey});
   ASSERT_EQ(found.key_points.size(), expected.key_points.size());
   for (std::size_t i = 0; i < found.key_points.size(); ++i)
     EXPECT_EQ(found.key_points[i].pt, expected.key_points[i].pt);
@@ -179,11 +179,11 @@ TEST(Detectors, FindTheSameForAnyNumberOfThreads) {
     images[3] = images[3] / 2 + cv::Scalar::all(30);
     const std::vector<ImagePair> pairs = {{0, 1}, {0, 2}, {0, 3}};
     const auto together = Comparer(options).compare(images, pairs);
-    Features many = detectFeatures(*detector, madeGrey(7));
+    Features many = detectFeatures(*detector, Picture{{}, madeGrey(7)});
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     cv::setNumThreads(1);
     const auto alone = Comparer(options).compare(images, pairs);
-    const Features few = detectFeatures(*detector, madeGrey(7));
+    const Features few = detectFeatures(*detector, Picture{{}, madeGrey(7)});
     cv::setNumThreads(-1);
     expectSame(many, few);
     for (std::size_t p = 0; p < pairs.size(); ++p) {
@@ -198,7 +198,7 @@ TEST(Detectors, FindTheSameForAnyNumberOfThreads) {
 
 TEST(Detectors, StandSeveralTimesUnderNamesOfTheirOwn) {
   ComparerOptions options;
-  options.known.add("sift_loose", makeFeatureDifference(makeTypedDetector("sift")));
+  options.known.add("sift_loose", makeFeatureDifference(makeOwnDetector({"sift", ""})));
   options.differences = {"sift", "sift_loose"};
   fieldOf(fieldsOf(options), "features/sift_loose/contrast_threshold").set(0.005, "");
   EXPECT_EQ(fieldOf(decidingFieldsOf(options), "features/sift_loose/type").text(), "sift");
@@ -215,7 +215,7 @@ TEST(Detectors, RefuseNamesThatAreTakenOrNoWords) {
   Differences known;
   for (const std::string name : {"sift", "boolean_rgb", "", "sift-2", "2sift", "a/b", "a b"}) {
     EXPECT_NE(messageOf([&] {
-                known.add(name, makeFeatureDifference(makeTypedDetector("sift")));
+                known.add(name, makeFeatureDifference(makeOwnDetector({"sift", ""})));
               }).find("the name of a difference is \"" + name + "\", but must be"),
               std::string::npos)
         << name;

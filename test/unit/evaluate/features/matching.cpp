@@ -219,8 +219,8 @@ TEST_F(Leuven, GivesTheReferenceCounts) {
   const double half_a_digit = 0.5e-4;  // the reference has four digits
   for (const Reference& r : table) {
     const std::unique_ptr<Detector> detector = makeDetector(r.detector);
-    const Features a = detectFeatures(*detector, grey(1));
-    const Features b = detectFeatures(*detector, grey(r.other));
+    const Features a = detectFeatures(*detector, Picture{{}, grey(1)});
+    const Features b = detectFeatures(*detector, Picture{{}, grey(r.other)});
     const int norm = detector->norm();
     const DifferenceValue d = featureDifference(a, b, norm, {});
     EXPECT_EQ(d.features_a, r.features_a) << r.detector;
@@ -240,8 +240,8 @@ TEST_F(Leuven, IsMatchedAsOpenCvDoes) {
   for (const std::string& type : detectorTypes()) {
     SCOPED_TRACE(type);
     const std::unique_ptr<Detector> detector = makeDetector(type);
-    expectAsOpenCv(detectFeatures(*detector, grey(1)).descriptors,
-                   detectFeatures(*detector, grey(6)).descriptors, detector->norm());
+    expectAsOpenCv(detectFeatures(*detector, Picture{{}, grey(1)}).descriptors,
+                   detectFeatures(*detector, Picture{{}, grey(6)}).descriptors, detector->norm());
   }
 }
 

@@ -15,7 +15,7 @@ const image::PinholeCamera kCamera{320, 240, 277.0, 277.0, 159.5, 119.5};
 TEST(KeyFrame, KnowsWhereItsFeaturesAreAndLeavesOutTheSky) {
   PosedView view = corridor().seenFrom(lookingAlongX({0, 0, 0}), kCamera);
   view.depth.rowRange(0, 80).setTo(0.0F);  // as if that were sky
-  const Features features = detectFeatures(*makeDetector("sift"), view.picture.grey);
+  const Features features = detectFeatures(*makeDetector("sift"), view.picture);
   const KeyFrame frame = keyFrameOf(view, features);
   std::size_t below = 0;
   for (const cv::KeyPoint& key_point : features.key_points) {
@@ -41,8 +41,8 @@ TEST(KeyFrame, CompactDescriptorsAreAsFarApartAsBefore) {
   const PosedView a = corridor().seenFrom(lookingAlongX({0, 0, 0}), kCamera);
   const PosedView b = corridor().seenFrom(lookingAlongX({0.3, 0.1, 0}), kCamera);
   const auto sift = makeDetector("sift");
-  const cv::Mat of_a = detectFeatures(*sift, a.picture.grey).descriptors;
-  const cv::Mat of_b = detectFeatures(*sift, b.picture.grey).descriptors;
+  const cv::Mat of_a = detectFeatures(*sift, a.picture).descriptors;
+  const cv::Mat of_b = detectFeatures(*sift, b.picture).descriptors;
   EXPECT_EQ(compactDescriptors(of_a).type(), CV_8UC1);
   const BothWays floats = twoNearestBothWays(of_a, of_b, cv::NORM_L2);
   const BothWays bytes = twoNearestBothWays(compactDescriptors(of_a), compactDescriptors(of_b), cv::NORM_L2);
