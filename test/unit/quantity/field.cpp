@@ -92,6 +92,19 @@ TEST(Field, OfSeveralWordsTakesEachOnce) {
             "--colours is [blue, , red]" + allowed);
 }
 
+TEST(Field, OfSeveralWordsTakesNoneWhereThatIsAllowed) {
+  std::vector<std::string> colours = {"red"};
+  Choices choices = someOf(&colours);
+  choices.may_be_empty = true;
+  const Field row{"colours", choices, "", {}, "to look at"};
+  row.set(std::vector<std::string>{}, "colours");
+  EXPECT_TRUE(colours.empty());
+  EXPECT_EQ(row.text(), "[]");
+  EXPECT_NO_THROW(row.require());
+  EXPECT_EQ(messageOf([&] { row.set(std::vector<std::string>{"pink"}, "colours"); }),
+            "colours is [pink], but must be a list of some of red, green, blue, each once, or []");
+}
+
 TEST(Field, OfAWholeNumberOf64BitsTakesNoOther) {
   Options options;
   const Field stride = fieldOf(fieldsOf(options), "stride");
