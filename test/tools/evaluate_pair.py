@@ -154,6 +154,8 @@ class EvaluatePair(unittest.TestCase):
         for name in ("fast", "sift+", "sift+clahee", "+clahe", "sift+clahe+gamma"):
             self.assertIn("--detectors is [sift, %s], but must be a list of some of %s, akaze, kaze, rootsift, sift+clahe, " %
                           (name, ", ".join(detectors())), self.refused(*out, "--detectors", "sift," + name, picture, picture))
+        self.assertIn("BRISK finds no features in a picture of 5×7 px: ",
+                      self.refused(*out, "--detectors", "brisk+clahe", *[self.picture("tiny.png", 5, 7)] * 2))
         self.assertIn("--gamma-exponent is 0, but must be from 0.1 to 10",
                       self.refused(*out, "--gamma-exponent", "0", picture, picture))
         self.assertIn("each once", self.refused(*out, "--detectors", "sift,sift", picture, picture))

@@ -1,5 +1,6 @@
 #include "sunlit/evaluate/features/detector.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "evaluate/features/detectors.h"
@@ -131,9 +132,19 @@ std::unique_ptr<Detector> makeOwnDetector(const DetectorKind& kind) {
 }
 
 Features detectFeatures(const Detector& detector, const Picture& picture) {
+  return detectFeatures(detector, *detector.make(), picture);
+}
+
+Features detectFeatures(const Detector& detector, cv::Feature2D& worker, const Picture& picture) {
+  const cv::Mat seen = detector.seen(picture);
   Features features;
-  detector.make()->detectAndCompute(detector.seen(picture), cv::noArray(), features.key_points,
-                                    features.descriptors);
+  try {
+    worker.detectAndCompute(seen, cv::noArray(), features.key_points, features.descriptors);
+  } catch (const cv::Exception& error) {
+    throw std::runtime_error(worker.getDefaultName() + " finds no features in a picture of " +
+                             std::to_string(seen.cols) + "×" + std::to_string(seen.rows) +
+                             " px: " + error.err);
+  }
   return features;
 }
 

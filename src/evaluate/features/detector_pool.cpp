@@ -23,9 +23,8 @@ void DetectorPool::giveBack(cv::Ptr<cv::Feature2D> worker) {
 
 Features DetectorPool::detect(const Picture& picture) {
   const cv::Ptr<cv::Feature2D> worker = take();
-  Features features;
   // One that throws is not given back: what it holds then is unknown.
-  worker->detectAndCompute(detector_.seen(picture), cv::noArray(), features.key_points, features.descriptors);
+  Features features = detectFeatures(detector_, *worker, picture);
   giveBack(worker);
   return features;
 }

@@ -62,6 +62,9 @@ std::vector<Field> ownDetectorFields(const DetectorKind& kind);
 /// row `preprocessing`.
 std::unique_ptr<Detector> makeOwnDetector(const DetectorKind& kind);
 
+/// Throws std::runtime_error where OpenCV refuses the picture, such as one too small for BRISK.
 Features detectFeatures(const Detector& detector, const Picture& picture);
+/// The same by what `detector` made.
+Features detectFeatures(const Detector& detector, cv::Feature2D& worker, const Picture& picture);
 
 }  // namespace sunlit::evaluate

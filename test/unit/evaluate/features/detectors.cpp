@@ -196,6 +196,13 @@ TEST(Detectors, FindTheSameForAnyNumberOfThreads) {
   }
 }
 
+TEST(Detectors, SayWhichPictureIsTooSmall) {
+  const auto said = messageOf<std::runtime_error>([] {
+    detectFeatures(*makeDetector("brisk"), Picture{{}, cv::Mat(7, 5, CV_8U, cv::Scalar(9))});
+  });
+  EXPECT_EQ(said.rfind("Feature2D.BRISK finds no features in a picture of 5×7 px: ", 0), 0u) << said;
+}
+
 TEST(Detectors, StandSeveralTimesUnderNamesOfTheirOwn) {
   ComparerOptions options;
   options.known.add("sift_loose", makeFeatureDifference(makeOwnDetector({"sift", ""})));
