@@ -40,7 +40,7 @@ const std::vector<cv::Mat>& images() {
 }
 
 void detector(benchmark::State& state, const std::string& type) {
-  const cv::Mat grey = makePicture(images()[0]);
+  const cv::Mat grey = makePicture(images()[0]).grey;
   const cv::Ptr<cv::Feature2D> kept = makeDetector(type)->make();
   std::vector<cv::KeyPoint> key_points;
   cv::Mat descriptors;
@@ -71,7 +71,7 @@ void direct(benchmark::State& state) {
   const Features none;
   for (auto _ : state) {
     for (const char* name : {"boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey"})
-      benchmark::DoNotOptimize(known.at(name).between({a, none}, {b, none}, {}, {}));
+      benchmark::DoNotOptimize(known.at(name).between({a, none}, {b, none}, {BothWays{}, {}}, {}));
   }
   state.SetBytesProcessed(state.iterations() * 2 * 4 * static_cast<std::int64_t>(a.rgb.total()));
 }
