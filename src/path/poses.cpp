@@ -45,6 +45,22 @@ void validate(const PathOptions& options) {
   requireFields(options);
 }
 
+void requireWithin(const PoseSelection& selection, int poses, const std::string& prefix) {
+  if (selection.first < poses && selection.end(poses) <= poses) return;
+  throw std::invalid_argument(prefix + "first " + std::to_string(selection.first) + " and " + prefix +
+                              "count " + std::to_string(selection.count) + " ask for more than the path's " +
+                              std::to_string(poses) + " poses");
+}
+
+std::int64_t nanosecondsTo(int index, double rate_hz) {
+  constexpr std::int64_t kNanosecondsPerSecond = 1000000000;
+  // Split, so that a long run at a high rate keeps its nanoseconds.
+  const double seconds = static_cast<double>(index) / rate_hz;
+  const double whole_seconds = std::floor(seconds);
+  return static_cast<std::int64_t>(whole_seconds) * kNanosecondsPerSecond +
+         static_cast<std::int64_t>(std::llround((seconds - whole_seconds) * 1e9));
+}
+
 std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const PathOptions& options) {
   validate(options);
   if (waypoints.size() < 2) throw std::invalid_argument(tooFew(waypoints.size()));

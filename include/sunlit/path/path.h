@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,34 @@ inline std::vector<Field> fieldsOf(PathOptions& options) {
 
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const PathOptions& options);
+
+/// Which poses of a path are taken. Each keeps its index, and so its stamp, among all poses of the path.
+struct PoseSelection {
+  int first = 0;
+  int count = 0;
+  int stride = 1;
+
+  /// The index behind the last of `poses`; taken are first, first + stride, … below it.
+  int end(int poses) const { return count == 0 ? poses : first + count; }
+};
+
+inline std::vector<Field> fieldsOf(PoseSelection& selection) {
+  constexpr double kLargest = 1e9;
+  return {{"first", &selection.first, "", {0, kLargest}, "index of the first pose to render"},
+          {"count", &selection.count, "", {0, kLargest}, "how many indices from there; 0: to the end"},
+          {"stride",
+           &selection.stride,
+           "",
+           {1, kLargest},
+           "only every n-th; index and stamp stay those of the path"}};
+}
+
+/// Throws std::invalid_argument where `selection` asks for more than so many poses; what is to be called
+/// `prefix` + "first" and so on.
+void requireWithin(const PoseSelection& selection, int poses, const std::string& prefix);
+
+/// From pose 0 to pose `index` ≥ 0 of those taken at so many a second, ns.
+std::int64_t nanosecondsTo(int index, double rate_hz);
 
 /// map_from_camera_link of every pose, by the paper's rule: poses every `spacing_m` from the start of each
 /// segment between two waypoints, while short of its end; then the start of the next segment. The camera is

@@ -11,9 +11,7 @@ namespace sunlit::ros_interface {
 
 namespace {
 
-constexpr double kLargestCount = 1e9;
-
-const Range kCounts{0, kLargestCount};
+const Range kCounts{0, 1e9};
 
 /// The row of the renderer's option `key`, kept at `place`.
 Field rendererRow(const char* key, Field::Place place) {
@@ -28,13 +26,7 @@ std::vector<Field> fieldsOf(PathSourceOptions& path) {
       {{{"file", &path.file, "", {}, "waypoints, m, in map: CSV (x,y,z) or TUM"},
         {"topic", &path.topic, "", {}, "or a nav_msgs/Path topic; neither: the path of race_track"}},
        fieldsOf(path.sampling),
-       {{"first", &path.first, "", kCounts, "index of the first pose to render"},
-        {"count", &path.count, "", kCounts, "how many indices from there; 0: to the end"},
-        {"stride",
-         &path.stride,
-         "",
-         {1, kLargestCount},
-         "only every n-th; index and stamp stay those of the path"}}});
+       fieldsOf(path.selection)});
 }
 
 std::vector<Field> fieldsOf(CameraOptions& camera) {

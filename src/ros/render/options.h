@@ -24,9 +24,7 @@ struct PathSourceOptions {
   std::string
       topic;  ///< nav_msgs/Path; empty: not from a topic. Neither: the built-in path of the built-in world
   path::PathOptions sampling;  ///< spacing and camera height
-  int first = 0;
-  int count = 0;
-  int stride = 1;
+  path::PoseSelection selection;
 };
 
 struct CameraOptions {

@@ -2,8 +2,8 @@
 
 #include <ros/console.h>
 
-#include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "sunlit/scene/content_hash.h"
 #include "sunlit/scene/race_track.h"
@@ -11,15 +11,8 @@
 namespace sunlit::ros_interface {
 
 ros::Time stampOfPose(const ros::Time& start, int index, double frame_rate) {
-  constexpr std::int64_t kNanosecondsPerSecond = 1000000000;
-  // Split, so that a long run at a high rate keeps its nanoseconds.
-  const double seconds = static_cast<double>(index) / frame_rate;
-  const double whole_seconds = std::floor(seconds);
-  const auto rest = static_cast<std::int64_t>(std::llround((seconds - whole_seconds) * 1e9));
   ros::Time stamp;
-  stamp.fromNSec(
-      start.toNSec() +
-      static_cast<std::uint64_t>(static_cast<std::int64_t>(whole_seconds) * kNanosecondsPerSecond + rest));
+  stamp.fromNSec(start.toNSec() + static_cast<std::uint64_t>(path::nanosecondsTo(index, frame_rate)));
   return stamp;
 }
 
@@ -61,14 +54,9 @@ void PathSource::onPath(const nav_msgs::Path& message) {
 }
 
 void PathSource::sample(const path::Waypoints& waypoints) {
-  map_from_camera_ = path::posesAlong(waypoints, options_.sampling);
-  if (options_.first >= size() || end() > size()) {
-    const int poses = size();
-    map_from_camera_.clear();
-    throw std::invalid_argument("path/first " + std::to_string(options_.first) + " and path/count " +
-                                std::to_string(options_.count) + " ask for more than the path's " +
-                                std::to_string(poses) + " poses");
-  }
+  std::vector<Eigen::Isometry3d> poses = path::posesAlong(waypoints, options_.sampling);
+  path::requireWithin(options_.selection, static_cast<int>(poses.size()), "path/");
+  map_from_camera_ = std::move(poses);
 }
 
 }  // namespace sunlit::ros_interface

@@ -35,9 +35,9 @@ class PathSource {
   std::string fingerprint() const;
   int size() const { return static_cast<int>(map_from_camera_.size()); }
   /// The indices to render are first(), first() + stride(), … below end().
-  int first() const { return options_.first; }
-  int stride() const { return options_.stride; }
-  int end() const { return options_.count == 0 ? size() : options_.first + options_.count; }
+  int first() const { return options_.selection.first; }
+  int stride() const { return options_.selection.stride; }
+  int end() const { return options_.selection.end(size()); }
 
  private:
   /// Refuses what cannot be driven along with an error, and goes on waiting: whoever sent it may send

@@ -104,6 +104,28 @@ TEST(PosesAlong, RefusesWhatIsNoPath) {
             "waypoint 2: it is less than 1 mm from the waypoint before it in plan view");
 }
 
+TEST(PoseSelection, EndsWithThePathOrItsCount) {
+  EXPECT_EQ((PoseSelection{}.end(991)), 991);
+  EXPECT_EQ((PoseSelection{20, 0, 3}.end(991)), 991);
+  EXPECT_EQ((PoseSelection{20, 40, 3}.end(991)), 60);
+}
+
+TEST(PoseSelection, IsRefusedBeyondThePath) {
+  const auto said = [](const PoseSelection& selection) {
+    return sunlit::messageOf([&] { requireWithin(selection, 10, "--"); });
+  };
+  for (const PoseSelection& good : {PoseSelection{0, 10, 1}, {9, 0, 5}, {9, 1, 1}}) EXPECT_EQ(said(good), "");
+  EXPECT_EQ(said({10, 0, 1}), "--first 10 and --count 0 ask for more than the path's 10 poses");
+  EXPECT_EQ(said({3, 8, 1}), "--first 3 and --count 8 ask for more than the path's 10 poses");
+}
+
+TEST(PathStamps, KeepTheirNanoseconds) {
+  EXPECT_EQ(nanosecondsTo(0, 10.0), 0);
+  EXPECT_EQ(nanosecondsTo(1, 30.0), 33333333);
+  EXPECT_EQ(nanosecondsTo(2, 30.0), 66666667);
+  EXPECT_EQ(nanosecondsTo(86400001, 1000.0), 86400001000000);  // a day
+}
+
 TEST(PathOptions, NameKeyValueAndRange) {
   const Waypoints waypoints{{0, 0, 0}, {1, 0, 0}};
   EXPECT_EQ(messageOf(waypoints, {0.0, 1.0}), "spacing is 0, but must be from 0.001 to 1000 m");
