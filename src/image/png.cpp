@@ -13,22 +13,42 @@
 
 namespace sunlit::image {
 
-std::string encodePng(const Rgb8Image& picture) {
+namespace {
+
+/// The pixels of `picture` as a matrix of this type, not copied; it must not be empty.
+template <typename Value, int kChannels>
+cv::Mat matOf(const Picture<Value, kChannels>& picture, int type) {
   require("width of the picture", picture.width, Range::atLeast(1), "px");
   require("height of the picture", picture.height, Range::atLeast(1), "px");
-  const cv::Mat rgb(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.data.data()));
-  cv::Mat bgr;
-  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  return {picture.height, picture.width, type, const_cast<Value*>(picture.data.data())};
+}
+
+/// Of channels in OpenCV's order.
+std::string encoded(const cv::Mat& channels) {
   std::vector<std::uint8_t> bytes;
   // Level 3 is near the knee of size against time for rendered pictures.
-  if (!cv::imencode(".png", bgr, bytes, {cv::IMWRITE_PNG_COMPRESSION, 3})) {
+  if (!cv::imencode(".png", channels, bytes, {cv::IMWRITE_PNG_COMPRESSION, 3})) {
     throw std::runtime_error("PNG encoder failed");
   }
   return {bytes.begin(), bytes.end()};
 }
 
+}  // namespace
+
+std::string encodePng(const Rgb8Image& picture) {
+  cv::Mat bgr;
+  cv::cvtColor(matOf(picture, CV_8UC3), bgr, cv::COLOR_RGB2BGR);
+  return encoded(bgr);
+}
+
 void writePng(const std::string& path, const Rgb8Image& picture) {
   writeFileAtomically(path, encodePng(picture));
+}
+void writePng(const std::string& path, const Grey8Image& picture) {
+  writeFileAtomically(path, encoded(matOf(picture, CV_8UC1)));
+}
+void writePng(const std::string& path, const Grey16Image& picture) {
+  writeFileAtomically(path, encoded(matOf(picture, CV_16UC1)));
 }
 
 namespace {
@@ -51,28 +71,44 @@ void requireWhole(const std::string& bytes, const std::string& path) {
     throw std::runtime_error(path + ": read: the file is cut off");
 }
 
-}  // namespace
-
-Rgb8Image readPng(const std::string& path) {
+/// As `flags` of cv::imdecode() have it; not empty.
+cv::Mat decodedPng(const std::string& path, int flags) {
   const std::string bytes = readWholeFile(path);
   if (!isPng(bytes)) throw std::runtime_error(path + ": read: not a PNG file");
   requireWhole(bytes, path);
   const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
   cv::Mat decoded;
   try {
-    decoded = cv::imdecode(raw, cv::IMREAD_ANYDEPTH | cv::IMREAD_COLOR);
+    decoded = cv::imdecode(raw, flags);
   } catch (const cv::Exception& error) {
     throw std::runtime_error(path + ": read: " + error.what());
   }
   if (decoded.empty()) {
     throw std::runtime_error(path + ": read: damaged PNG");
   }
+  return decoded;
+}
+
+}  // namespace
+
+Rgb8Image readPng(const std::string& path) {
+  const cv::Mat decoded = decodedPng(path, cv::IMREAD_ANYDEPTH | cv::IMREAD_COLOR);
   if (decoded.depth() != CV_8U) {
     throw std::runtime_error(path + ": read: more than 8 bits a channel");
   }
   Rgb8Image picture(decoded.cols, decoded.rows);
   cv::Mat rgb(picture.height, picture.width, CV_8UC3, picture.data.data());
   cv::cvtColor(decoded, rgb, cv::COLOR_BGR2RGB);
+  return picture;
+}
+
+Grey16Image readGrey16Png(const std::string& path) {
+  const cv::Mat decoded = decodedPng(path, cv::IMREAD_UNCHANGED);
+  if (decoded.type() != CV_16UC1) {
+    throw std::runtime_error(path + ": read: not one channel of 16 bits");
+  }
+  Grey16Image picture(decoded.cols, decoded.rows);
+  decoded.copyTo(cv::Mat(picture.height, picture.width, CV_16UC1, picture.data.data()));
   return picture;
 }
 

@@ -22,11 +22,16 @@ void moveIntoPlace(const std::string& finished, const std::string& path);
 
 /// 8-bit sRGB PNG. The picture must not be empty (std::invalid_argument).
 void writePng(const std::string& path, const Rgb8Image& picture);
+/// One channel, 8 or 16 bit, likewise.
+void writePng(const std::string& path, const Grey8Image& picture);
+void writePng(const std::string& path, const Grey16Image& picture);
 /// The file in memory, as writePng() would write it.
 std::string encodePng(const Rgb8Image& picture);
 /// Any PNG of 8 bits a channel; grey becomes three equal channels, alpha is dropped. Deeper ones are an
 /// error, since rounding them would lose data silently.
 Rgb8Image readPng(const std::string& path);
+/// A PNG of one channel of 16 bits and no other.
+Grey16Image readGrey16Png(const std::string& path);
 /// Any PNG, JPEG, PPM, BMP, TIFF or WebP, as decodeRgba() has it, without alpha; a file that is cut off is an
 /// error.
 Rgb8Image readPhotograph(const std::string& path);

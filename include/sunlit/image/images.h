@@ -29,8 +29,10 @@ struct Picture {
   }
 };
 
-using LinearImage = Picture<float, 3>;       ///< linear RGB (see LinearRgb), cd/m²
-using Rgb8Image = Picture<std::uint8_t, 3>;  ///< display-referred sRGB, 8 bit
-using DepthImage = Picture<float, 1>;        ///< m along the optical axis (z); NaN where nothing was hit
+using LinearImage = Picture<float, 3>;          ///< linear RGB (see LinearRgb), cd/m²
+using Rgb8Image = Picture<std::uint8_t, 3>;     ///< display-referred sRGB, 8 bit
+using Grey8Image = Picture<std::uint8_t, 1>;    ///< display-referred luminance, 8 bit
+using Grey16Image = Picture<std::uint16_t, 1>;  ///< numbers, such as depth in steps of a length
+using DepthImage = Picture<float, 1>;           ///< m along the optical axis (z); NaN where nothing was hit
 
 }  // namespace sunlit::image

@@ -124,6 +124,33 @@ TEST_F(Files, TheSamePictureGivesTheSameBytes) {
   EXPECT_EQ(encodePng(pattern()), encodePng(pattern()));
 }
 
+TEST_F(Files, PngOfSixteenBitsComesBackToTheBit) {
+  Grey16Image steps(37, 21);
+  for (std::size_t i = 0; i < steps.data.size(); ++i) steps.data[i] = static_cast<std::uint16_t>(i * 7919);
+  writePng(path("steps.png"), steps);
+  const Grey16Image read = readGrey16Png(path("steps.png"));
+  EXPECT_EQ(read.width, 37);
+  EXPECT_EQ(read.height, 21);
+  EXPECT_EQ(read.data, steps.data);
+  EXPECT_THROW(readPng(path("steps.png")), std::runtime_error);  // 16 bits would be lost
+  writePng(path("grey.png"), Grey8Image(4, 3));
+  writePng(path("colour.png"), pattern());
+  for (const std::string name : {"grey.png", "colour.png"}) {
+    EXPECT_EQ(messageOf<std::runtime_error>([&] { readGrey16Png(path(name)); }),
+              path(name) + ": read: not one channel of 16 bits");
+  }
+  EXPECT_THROW(writePng(path("none.png"), Grey16Image()), std::invalid_argument);
+  EXPECT_THROW(writePng(path("none.png"), Grey8Image()), std::invalid_argument);
+}
+
+TEST_F(Files, PngOfOneChannelOfEightBitsIsRead) {
+  Grey8Image grey(5, 3);
+  for (std::size_t i = 0; i < grey.data.size(); ++i) grey.data[i] = static_cast<std::uint8_t>(17 * i);
+  writePng(path("grey.png"), grey);
+  const Rgb8Image read = readPng(path("grey.png"));
+  for (std::size_t i = 0; i < read.data.size(); ++i) EXPECT_EQ(read.data[i], grey.data[i / 3]);
+}
+
 TEST_F(Files, WritingReplacesTheOldFileAndLeavesNothingElse) {
   put("a.png", "old");
   writePng(path("a.png"), pattern());
