@@ -1,45 +1,16 @@
 #include "tools/frame_folder.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <stdexcept>
 #include <system_error>
 
 #include "sunlit/image/files.h"
-#include "tools/output_folder.h"
 
 namespace sunlit::tools {
 
 namespace {
-
-constexpr const char* kHeading =
-    "# How these frames were made. timelapse adds to them only with the same options.\n";
-
-std::vector<std::string> linesOf(const std::string& file) {
-  std::ifstream in(file);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) {
-    if (line.empty() || line[0] != '#') lines.push_back(line);
-  }
-  return lines;
-}
-
-/// The first line of `a` that `b` lacks; empty if there is none.
-std::string missing(const std::vector<std::string>& a, const std::vector<std::string>& b) {
-  const auto lacks = [&](const std::string& line) { return std::find(b.begin(), b.end(), line) == b.end(); };
-  const auto found = std::find_if(a.begin(), a.end(), lacks);
-  return found == a.end() ? std::string() : *found;
-}
-
-/// How `before` differs from `now`, in words.
-std::string difference(const std::vector<std::string>& before, const std::vector<std::string>& now) {
-  const std::string was = missing(before, now), is = missing(now, before);
-  if (!was.empty()) return "with " + was;
-  return is.empty() ? "in another order" : "without " + is;
-}
 
 bool isFrame(const std::string& name) {
   static const std::regex frame("frame_[0-9]{5,}\\.png");
@@ -60,18 +31,8 @@ std::string anyFrame(const std::string& folder) {
 }  // namespace
 
 FrameFolder::FrameFolder(const std::string& folder, const std::vector<std::string>& recipe)
-    : folder_(folder), recipe_(recipe) {
-  requireFolderCanBeMade(folder_);
-  if (!std::filesystem::exists(recipeFile())) {
-    const std::string stranger = anyFrame(folder_);
-    if (stranger.empty()) return;
-    throw std::runtime_error(folder_ + ": holds " + stranger +
-                             ", but no timelapse.txt that says how it was made; take another folder");
-  }
-  const std::vector<std::string> before = linesOf(recipeFile());
-  if (before == recipe) return;
-  throw std::runtime_error(folder_ + ": its frames were made with other options (" +
-                           difference(before, recipe) + "); take another folder");
+    : folder_(folder), recipe_(folder, "timelapse", recipe) {
+  recipe_.requireNoStranger(anyFrame(folder_));
 }
 
 std::string FrameFolder::file(int frame) const {
@@ -95,12 +56,7 @@ image::Rgb8Image FrameFolder::read(int frame) const {
 }
 
 void FrameFolder::write(int frame, const image::Rgb8Image& picture) {
-  if (!std::filesystem::exists(recipeFile())) {
-    makeFolder(folder_);
-    std::string text = kHeading;
-    for (const std::string& line : recipe_) text += line + '\n';
-    image::writeFileAtomically(recipeFile(), text);
-  }
+  recipe_.note();
   image::writePng(file(frame), picture);
 }
 

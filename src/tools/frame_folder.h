@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sunlit/image/images.h"
+#include "tools/recipe.h"
 
 namespace sunlit::tools {
 
@@ -23,10 +24,9 @@ class FrameFolder {
 
  private:
   std::string file(int frame) const;
-  std::string recipeFile() const { return folder_ + "/timelapse.txt"; }
 
   std::string folder_;
-  std::vector<std::string> recipe_;
+  FolderRecipe recipe_;
 };
 
 }  // namespace sunlit::tools

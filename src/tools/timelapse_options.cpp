@@ -4,11 +4,9 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
-#include <utility>
 
-#include "sunlit/scene/content_hash.h"
-#include "sunlit/scene/load.h"
 #include "sunlit/studio/command_line.h"
+#include "tools/recipe.h"
 
 namespace sunlit::tools {
 
@@ -80,31 +78,9 @@ void requireSensibleSheet(const TimelapseOptions& options) {
                               " px wide and high; fewer frames, a smaller --thumbnail or other --columns");
 }
 
-/// A file may change while its name stays.
-std::string contentOf(const std::string& what, const std::string& file) {
-  scene::ContentHash print;
-  print.addFile(file);
-  return what + ' ' + print.text();
-}
-
-/// Sorted by options; one that may be repeated keeps its order. Without those that do not change what frames
-/// look like.
-std::vector<std::string> recipeOf(const studio::CommandLine& line, const TimelapseOptions& options) {
-  static const std::set<std::string> kOfNoFrame = {"--cache",         "--out",     "--video",    "--fps",
-                                                   "--contact-sheet", "--columns", "--thumbnail"};
-  auto sorted = line.given();
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<std::string> recipe;
-  for (const auto& [option, value] : sorted) {
-    if (kOfNoFrame.count(option) == 1) continue;
-    recipe.push_back(option + ' ' + value);
-    if (option == "--path") recipe.push_back(contentOf("content of the path", value));
-  }
-  if (options.view.studio.world.name != scene::kRaceTrack)
-    recipe.push_back(contentOf("content of the world", options.view.studio.world.name));
-  return recipe;
-}
+/// Options that do not change what frames look like.
+const std::set<std::string> kOfNoFrame = {"--cache",         "--out",     "--video",    "--fps",
+                                          "--contact-sheet", "--columns", "--thumbnail"};
 
 }  // namespace
 
@@ -128,7 +104,7 @@ std::optional<TimelapseOptions> parseTimelapseOptions(const std::vector<std::str
   divide(span, &options);
   options.view = view.options();
   requireSensibleSheet(options);
-  options.recipe = recipeOf(line, options);
+  options.recipe = recipeOf(line, kOfNoFrame, options.view.studio.world.name);
   return options;
 }
 

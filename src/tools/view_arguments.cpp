@@ -14,7 +14,7 @@ namespace sunlit::tools {
 ViewArguments::ViewArguments(studio::CommandLine* line) : line_(line) {
   addPlaces();
   addCamera(line_, &camera_);
-  addSensor();
+  addSensor(line_, &sensor_);
   addWorld(line_, &options_.studio.world);
   addBounced(line_, &options_.studio.bake);
 }
@@ -39,19 +39,6 @@ void ViewArguments::addPlaces() {
       ->add("--top-down X,Y,EXTENT",
             "from straight above, north up, with a field of view of its own instead of --fov",
             fieldsOf(top_down_))
-      .withoutDefault();
-}
-
-void ViewArguments::addSensor() {
-  const std::vector<Field> rows = fieldsOf(options_.studio.exposure);
-  const Field& ev100 = fieldOf(rows, "ev100");
-  line_->add("--ev auto|NUMBER",
-             {"ev", NumberOrWord{&ev100_, "auto"}, ev100.unit, ev100.range, "exposure value at ISO 100"});
-  line_->add("--compensation STOPS", fieldOf(rows, "compensation"));
-  line_
-      ->add("--noise SEED", studio::explainedAs(fieldOf(fieldsOf(options_.studio.noise), "seed"),
-                                                "adds the noise of a sensor, with this seed"))
-      .then([this](const std::string&, const std::string&) { options_.studio.noise.enabled = true; })
       .withoutDefault();
 }
 
@@ -105,11 +92,10 @@ void ViewArguments::requireThatAllCount() const {
     what = "--top-down has its own field of view, by its EXTENT; leave out --fov";
   } else if (has_look_at && turned_) {
     what = "--look-at turns the camera already; leave YAW and PITCH out of --pose";
-  } else if (line_->has("--compensation") && ev100_) {
-    what = "--compensation needs --ev auto";
   }
   if (what != nullptr) throw std::invalid_argument(what);
   line_->requireWith("--path", "--path-pose");
+  sensor_.requireSense(*line_);
   camera_.requireSense(options_.studio.bake);
 }
 
@@ -117,10 +103,8 @@ ViewOptions ViewArguments::options() const {
   requireThatAllCount();
   ViewOptions options = options_;
   options.studio.render = camera_.options();
-  if (ev100_) {
-    options.studio.exposure.mode = image::ExposureMode::kFixed;
-    options.studio.exposure.ev100 = *ev100_;
-  }
+  options.studio.exposure = sensor_.exposureOptions();
+  options.studio.noise = sensor_.noise;
   if (line_->has("--top-down")) {
     placeTopDown(&options);
   } else if (line_->has("--path-pose")) {

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "sunlit/studio/command_line.h"
 #include "sunlit/studio/studio.h"
 #include "tools/camera_arguments.h"
+#include "tools/sensor_arguments.h"
 
 namespace sunlit::tools {
 
@@ -53,7 +53,6 @@ class ViewArguments {
 
  private:
   void addPlaces();
-  void addSensor();
   /// Throws for an option that another one makes meaningless.
   void requireThatAllCount() const;
   void placeTopDown(ViewOptions* options) const;
@@ -69,7 +68,7 @@ class ViewArguments {
   int path_pose_ = 0;
   std::string path_file_;
   CameraWords camera_;
-  std::optional<double> ev100_;  ///< empty: auto
+  SensorWords sensor_;
 };
 
 }  // namespace sunlit::tools

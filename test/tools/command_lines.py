@@ -20,9 +20,9 @@ WORLDS = {"--world": "default race_track", "--model-path": "may be repeated"}
 BOUNCED = {"--bounced": "off|on", "--cache": "SUNLIT_CACHE_DIR"}
 PLACE = {"--site": "latitude (geodetic, positive north, -90 … 90 deg)", "--date": "default 2024-07-01",
          "--timezone": "-18 … 18 h, default 3", "--turbidity": "1 … 10, default 2", "--ozone": "0 … 600 DU, default 300"}
-VIEW = {"--pose": "(default 0,0,1,0,0)", "--look-at": "towards a point", "--path-pose": "≥ 0", "--path": "CSV or TUM",
-        "--top-down": "> 0 m", "--ev": "-16 … 24 EV, default auto", "--compensation": "-8 … 8 EV, default 0",
-        "--noise": "0 … 2147483647"}
+SENSOR = {"--ev": "-16 … 24 EV, default auto", "--compensation": "-8 … 8 EV, default 0", "--noise": "0 … 2147483647"}
+VIEW = {**SENSOR, "--pose": "(default 0,0,1,0,0)", "--look-at": "towards a point", "--path-pose": "≥ 0",
+        "--path": "CSV or TUM", "--top-down": "> 0 m"}
 # By detector, behind its name.
 SIFT = {"n-features": "0 … 1000000, default 0", "n-octave-layers": "1 … 10, default 3",
         "contrast-threshold": "0 … 1, default 0.04", "edge-threshold": "0.001 … 1000000, default 10",
@@ -57,6 +57,12 @@ OPTIONS = {
                       "--view": "may be repeated", "--sun": "elevation (-90 … 90 deg)", "--moon": "0 … 180 deg",
                       "--every": "1 … 64 px, default 8", "--samples": "2 … 65536, default 256",
                       "--bounces": "0 … 64, default 16"},
+    "export_dataset": {**CAMERA, **WORLDS, **BOUNCED, **PLACE, **SENSOR, "--format": "tum (TUM RGB-D), euroc",
+                       "--hours": "0 … < 24 h, default 12", "--rate": "0.001 … 1000 Hz, default 10",
+                       "--depth-scale": "0.1 … 1000000 1/m, default 5000", "--path": "CSV or TUM",
+                       "--spacing": "0.001 … 1000 m, default 1", "--height": "-1000 … 1000 m, default 1",
+                       "--first": "0 … 1000000000, default 0", "--count": "0: to the end",
+                       "--stride": "1 … 1000000000, default 1"},
     "export_world": {**WORLDS, "--out": "FILE.glb"},
     "evaluate_trajectory": {"--truth": "timestamp tx ty tz qx qy qz qw", "--estimate": "of the same body",
                             "--out": "trajectory.csv", "--align": "none|se3|sim3|yaw",
@@ -79,7 +85,9 @@ OPTIONS["evaluate_pair"] = {
     "--ratio": "> 0 … 1, default 0.5", "--inclusive": "default false", **PREPROCESSING,
     **{"--%s-%s" % (name, option): part for name, options in DETECTORS.items() if name != "surf" or name in detectors()
        for option, part in options.items()}}
-TAKES_WORDS = {"evaluate_bags", "evaluate_pair"}
+TAKES_WORDS = {"evaluate_bags", "evaluate_pair", "export_dataset"}
+NEEDED = {program: "--out" for program in OPTIONS}  # the option that is missed first
+NEEDED["export_dataset"] = "--format"
 # Of all tools that have the option: a value, and what is said of it.
 REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be from 16 to 8192 px'),
            ("--size", "640x480.5", "height is 480.5, but must be a whole number from 16 to 8192 px"),
@@ -118,7 +126,7 @@ REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be fr
            ("--retrieval", "best", "must be one of truth, all"), ("--min-inliers", "3", "must be from 4 to 1000000"),
            ("--height", "-1001", "must be from -1000 to 1000 m"),
            ("--columns", "0", "must be from 1 to 100"), ("--fps", "121", "must be from 1 to 120 Hz"),
-           ("--world", "", "--world needs a value"), ("--world", "--out", "--world needs a value"))
+           ("--world", "", "--world needs a value"), ("--world", "--model-path", "--world needs a value"))
 
 
 class CommandLines(unittest.TestCase):
@@ -137,7 +145,7 @@ class CommandLines(unittest.TestCase):
             self.assertEqual(run(program, "-h").stdout, done.stdout)
             lines = done.stdout.splitlines()
             self.assertRegex(lines[0], "^%s: .* Needs no ROS master.$" % program)
-            self.assertRegex(lines[2], "^usage: %s --out .* \\[options\\]$" % program)
+            self.assertRegex(lines[2], "^usage: %s %s .* \\[options\\]$" % (program, NEEDED[program]))
             told = {}
             for line in lines[3:]:
                 option = re.match("  (--[a-z-]+) ", line)
@@ -170,14 +178,15 @@ class CommandLines(unittest.TestCase):
 
     def test_an_option_is_spelt_in_full(self):
         for program in OPTIONS:
-            for arguments, said in ((["--ou", "x"], "there is no option --ou;"), (["--last=3"], "no option --last=3;"),
-                                    (["-4"], "no option -4;"),
-                                    (["--out"], "--out needs a value"), (["--out="], "--out needs a value"),
-                                    (["--out", "--help"], "--out needs a value"),
-                                    (["--help=3"], "--help takes no value"), ([], "--out ")):
+            option = NEEDED[program]
+            for arguments, said in (([option[:-1], "x"], "there is no option %s;" % option[:-1]),
+                                    (["--last=3"], "no option --last=3;"), (["-4"], "no option -4;"),
+                                    ([option], option + " needs a value"), ([option + "="], option + " needs a value"),
+                                    ([option, "--help"], option + " needs a value"),
+                                    (["--help=3"], "--help takes no value"), ([], option + " ")):
                 self.assertIn(said, self.refused(program, *arguments))
             said = self.refused(program, "stray")
-            self.assertIn("--out DIR is missing" if program in TAKES_WORDS else "no option stray;", said)
+            self.assertRegex(said, option + " [A-Z]* is missing" if program in TAKES_WORDS else "no option stray;", said)
 
     def test_negative_numbers_are_values(self):
         with tempfile.TemporaryDirectory() as folder:

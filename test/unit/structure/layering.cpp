@@ -123,6 +123,7 @@ const std::map<std::string, Modules> kRoomsOfLight = {
 };
 
 const std::map<std::string, Modules> kRoomsOfEvaluate = {
+    {"data_sets", {}},
     {"features", {}},
     {"differences", {"features"}},
     {"files", {"differences"}},

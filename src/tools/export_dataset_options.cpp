@@ -1,0 +1,164 @@
+#include "tools/export_dataset_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "sunlit/quantity/columns.h"
+#include "tools/camera_arguments.h"
+#include "tools/path_arguments.h"
+#include "tools/recipe.h"
+#include "tools/sensor_arguments.h"
+#include "tools/world_arguments.h"
+
+namespace sunlit::tools {
+
+namespace {
+
+using evaluate::DataSetFormat;
+using evaluate::DataSetFrame;
+
+constexpr int kSecondsPerDay = 24 * 3600;
+/// Stamp of pose 0, as in experiments: a zero means "none" to some programs.
+constexpr std::int64_t kStart_ns = 1000 * std::int64_t{1000000000};
+
+/// What is typed before it is known what it is for.
+struct Words {
+  CameraWords camera;
+  SensorWords sensor;
+  PathWords path;
+  std::vector<std::string> places;  ///< OUTPUT
+};
+
+Choices choicesOf(std::vector<DataSetFormat>* formats) {
+  const std::vector<std::string>& names = evaluate::dataSetFormatNames();
+  return {names,
+          [=, &names] {
+            std::vector<std::string> words;
+            for (const DataSetFormat format : *formats)
+              words.push_back(names[static_cast<std::size_t>(format)]);
+            return words;
+          },
+          [=, &names](const std::vector<std::string>& words) {
+            formats->clear();
+            for (const std::string& word : words)
+              formats->push_back(
+                  static_cast<DataSetFormat>(std::find(names.begin(), names.end(), word) - names.begin()));
+          }};
+}
+
+std::vector<HourToExport> hoursOf(const std::string& option, const std::string& text) {
+  std::vector<HourToExport> hours;
+  for (const std::string& part : splitAtCommas(text)) {
+    double hour = 0.0;
+    Field{"hour", &hour, "h", Range::below(0, 24), ""}.setText(part, option);
+    const auto second = static_cast<int>(std::lround(hour * 3600.0));
+    hours.push_back({std::min(second, kSecondsPerDay - 1)});
+    const auto is_same = [&](const HourToExport& other) {
+      return other.second_of_day == hours.back().second_of_day;
+    };
+    if (std::count_if(hours.begin(), hours.end(), is_same) > 1)
+      throw std::invalid_argument(option + " names " + hours.back().name() + " twice");
+  }
+  return hours;
+}
+
+void addOwn(studio::CommandLine* line, ExportOptions* options) {
+  line->group("Data set");
+  line->add("--format FORMAT[,FORMAT...]", {"format",
+                                            choicesOf(&options->formats),
+                                            "",
+                                            {},
+                                            "tum (TUM RGB-D), euroc (EuRoC, mav0), colmap (text model with "
+                                            "known poses, hloc); of several each "
+                                            "has a folder of its own"})
+      .withoutDefault();
+  line->add(
+          "--hours HOUR[,HOUR...]",
+          {"hours", OwnForm{"12"}, "h", Range::below(0, 24),
+           "of the day; of several each has a folder of its own, h04 ..., and each pose is drawn only once"})
+      .then([options](const std::string& option, const std::string& text) {
+        options->hours = hoursOf(option, text);
+      });
+  line->add(
+      "--rate HZ",
+      {"rate", &options->rate_hz, "Hz", {0.001, 1000}, "pose k of the path has the stamp 1000 s + k / rate"});
+  line->add("--depth-scale NUMBER", evaluate::depthScaleRow(&options->data_set.depth_scale));
+}
+
+std::string outputOf(const std::vector<std::string>& places) {
+  if (places.empty()) throw std::invalid_argument("OUTPUT is missing; --help lists all options");
+  if (places.size() > 1)
+    throw std::invalid_argument("OUTPUT is one folder, but there are " + places[0] + " and " + places[1]);
+  return places[0];
+}
+
+std::vector<DataSetFrame> framesOf(const PathWords& path, const ExportOptions& options) {
+  const std::vector<Eigen::Isometry3d> poses = posesOf(path, options.studio.world.name);
+  std::vector<DataSetFrame> frames;
+  const int end = path.selection.end(static_cast<int>(poses.size()));
+  for (int i = path.selection.first; i < end; i += path.selection.stride)
+    frames.push_back(
+        {i, kStart_ns + path::nanosecondsTo(i, options.rate_hz), poses[static_cast<std::size_t>(i)]});
+  return frames;
+}
+
+/// Throws for words that do not go together.
+void requireSense(const studio::CommandLine& line, const Words& words, const ExportOptions& options) {
+  if (!line.has("--format"))
+    throw std::invalid_argument("--format FORMAT is missing; --help lists all options");
+  const bool has_steps = std::any_of(options.formats.begin(), options.formats.end(),
+                                     [](DataSetFormat format) { return format != DataSetFormat::kColmap; });
+  if (line.has("--depth-scale") && !has_steps)
+    throw std::invalid_argument("--depth-scale is of tum and euroc; depth of colmap is in m, without steps");
+  words.sensor.requireSense(line);
+  words.camera.requireSense(options.studio.bake);
+}
+
+}  // namespace
+
+std::string HourToExport::name() const {
+  const int h = second_of_day / 3600, m = second_of_day / 60 % 60, s = second_of_day % 60;
+  char text[16];
+  std::snprintf(text, sizeof text, s > 0 ? "h%02d_%02d_%02d" : m > 0 ? "h%02d_%02d" : "h%02d", h, m, s);
+  return text;
+}
+
+std::string ExportOptions::folderOf(const HourToExport& hour, DataSetFormat format) const {
+  std::string folder = output;
+  if (hours.size() > 1) folder += '/' + hour.name();
+  if (formats.size() > 1) folder += '/' + evaluate::dataSetFormatNames()[static_cast<std::size_t>(format)];
+  return folder;
+}
+
+std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& arguments) {
+  ExportOptions options;
+  Words words;
+  studio::CommandLine line(
+      "export_dataset: what a camera sees along a path, with depth, calibration and truth, in the files that "
+      "other people's systems read. Needs no ROS master.",
+      "export_dataset --format tum|euroc|colmap OUTPUT [options]");
+  line.takeWords(&words.places);
+  addOwn(&line, &options);
+  addPath(&line, &words.path);
+  addPlace(&line, &options.place);
+  addCamera(&line, &words.camera);
+  addSensor(&line, &words.sensor);
+  addWorld(&line, &options.studio.world);
+  addBounced(&line, &options.studio.bake);
+  if (!line.read(arguments)) return std::nullopt;
+  requireSense(line, words, options);
+  options.output = outputOf(words.places);
+  options.studio.render = words.camera.options();
+  options.studio.exposure = words.sensor.exposureOptions();
+  options.studio.noise = words.sensor.noise;
+  render::validate(options.studio.render);
+  options.data_set.camera = options.studio.render.camera;
+  options.data_set.rate_hz = options.rate_hz / words.path.selection.stride;
+  options.frames = framesOf(words.path, options);
+  options.recipe = recipeOf(line, {"--cache"}, options.studio.world.name);
+  return options;
+}
+
+}  // namespace sunlit::tools

@@ -1,0 +1,91 @@
+#include "tools/recipe.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <utility>
+
+#include "sunlit/image/files.h"
+#include "sunlit/scene/content_hash.h"
+#include "sunlit/scene/load.h"
+#include "tools/output_folder.h"
+
+namespace sunlit::tools {
+
+namespace {
+
+/// A file may change while its name stays.
+std::string contentOf(const std::string& what, const std::string& file) {
+  scene::ContentHash print;
+  print.addFile(file);
+  return what + ' ' + print.text();
+}
+
+std::vector<std::string> linesOf(const std::string& file) {
+  std::ifstream in(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] != '#') lines.push_back(line);
+  }
+  return lines;
+}
+
+/// The first line of `a` that `b` lacks; empty if there is none.
+std::string missing(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  const auto lacks = [&](const std::string& line) { return std::find(b.begin(), b.end(), line) == b.end(); };
+  const auto found = std::find_if(a.begin(), a.end(), lacks);
+  return found == a.end() ? std::string() : *found;
+}
+
+/// How `before` differs from `now`, in words.
+std::string difference(const std::vector<std::string>& before, const std::vector<std::string>& now) {
+  const std::string was = missing(before, now), is = missing(now, before);
+  if (!was.empty()) return "with " + was;
+  return is.empty() ? "in another order" : "without " + is;
+}
+
+}  // namespace
+
+std::vector<std::string> recipeOf(const studio::CommandLine& line, const std::set<std::string>& of_no_picture,
+                                  const std::string& world) {
+  auto sorted = line.given();
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> recipe;
+  for (const auto& [option, value] : sorted) {
+    if (of_no_picture.count(option) == 1) continue;
+    recipe.push_back(option + ' ' + value);
+    if (option == "--path") recipe.push_back(contentOf("content of the path", value));
+  }
+  if (world != scene::kRaceTrack) recipe.push_back(contentOf("content of the world", world));
+  return recipe;
+}
+
+FolderRecipe::FolderRecipe(const std::string& folder, const std::string& tool,
+                           std::vector<std::string> recipe)
+    : folder_(folder), tool_(tool), recipe_(std::move(recipe)) {
+  requireFolderCanBeMade(folder_);
+  if (!std::filesystem::exists(file())) return;
+  const std::vector<std::string> before = linesOf(file());
+  if (before == recipe_) return;
+  throw std::runtime_error(folder_ + ": its pictures were made with other options (" +
+                           difference(before, recipe_) + "); take another folder");
+}
+
+void FolderRecipe::requireNoStranger(const std::string& stranger) const {
+  if (stranger.empty() || std::filesystem::exists(file())) return;
+  throw std::runtime_error(folder_ + ": holds " + stranger + ", but no " + tool_ +
+                           ".txt that says how it was made; take another folder");
+}
+
+void FolderRecipe::note() const {
+  if (std::filesystem::exists(file())) return;
+  makeFolder(folder_);
+  std::string text =
+      "# How these pictures were made. " + tool_ + " adds to them only with the same options.\n";
+  for (const std::string& line : recipe_) text += line + '\n';
+  image::writeFileAtomically(file(), text);
+}
+
+}  // namespace sunlit::tools

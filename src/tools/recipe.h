@@ -1,0 +1,37 @@
+/// How the pictures in a folder were made, so that none that are made otherwise are added to them.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sunlit/studio/command_line.h"
+
+namespace sunlit::tools {
+
+/// What `line` was given, an option a line, sorted by options; one that may be repeated keeps its order.
+/// Without `of_no_picture`, options that do not change what pictures look like. With what tells the contents
+/// of the file of --path and of `world`, as scene::load() takes it, apart from other ones of that name.
+std::vector<std::string> recipeOf(const studio::CommandLine& line, const std::set<std::string>& of_no_picture,
+                                  const std::string& world);
+
+/// Beside the pictures, in a file called after the tool: FOLDER/timelapse.txt.
+class FolderRecipe {
+ public:
+  /// Throws std::runtime_error where the folder has another recipe, or cannot be made.
+  FolderRecipe(const std::string& folder, const std::string& tool, std::vector<std::string> recipe);
+
+  /// Throws std::runtime_error where the folder has no recipe, but a file called `stranger`, by nobody knows
+  /// whom. Nothing is called "".
+  void requireNoStranger(const std::string& stranger) const;
+  /// Makes the folder, if there is none, and notes the recipe in it, if it is not. Throws as the constructor.
+  void note() const;
+
+ private:
+  std::string file() const { return folder_ + '/' + tool_ + ".txt"; }
+
+  std::string folder_, tool_;
+  std::vector<std::string> recipe_;
+};
+
+}  // namespace sunlit::tools
