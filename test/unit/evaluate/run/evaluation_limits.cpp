@@ -143,7 +143,7 @@ class Slow : public Difference {
   enum class Kind { kHeld, kEndless };
   Slow(Kind kind, Held* held) : kind_(kind), held_(held) {}
   std::unique_ptr<Difference> clone() const override { return std::make_unique<Slow>(*this); }
-  DifferenceValue between(const View&, const View&, const RatioTest&, const StopToken& stop) const override {
+  DifferenceValue between(const View&, const View&, const Matching&, const StopToken& stop) const override {
     if (kind_ == Kind::kHeld) held_->pass();
     for (held_->reach(); kind_ == Kind::kEndless;) stop.check();
     return sameBothWays(0.5);
