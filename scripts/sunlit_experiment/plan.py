@@ -12,8 +12,8 @@ from sunlit_experiment import recording
 START_STAMP_S = 1000.0
 FRAME_RATE_HZ = 10.0
 # What the evaluator writes down beside its results, as it was typed.
-ABOUT = ("world", "robot", "path", "site", "date", "timezone", "hours", "spacing", "exposure", "ev100", "highlight_protection",
-         "final_gather", "rasterizer", "night", "noise", "noise_seed", "turbidity", "ozone")
+ABOUT = ("world", "robot", "path", "site", "date", "timezone", "hours", "spacing", "offset", "yaw", "exposure", "ev100",
+         "highlight_protection", "final_gather", "rasterizer", "night", "noise", "noise_seed", "turbidity", "ozone")
 
 
 @dataclasses.dataclass
@@ -36,7 +36,7 @@ def check(typed):
         read.flag(name, typed[name])
     for name in ("width", "height", "noise_seed", "final_gather", "max_ahead"):
         read.whole(name, typed[name])
-    for name in ("horizontal_fov", "camera_height", "ev100", "highlight_protection", "turbidity", "ozone"):
+    for name in ("horizontal_fov", "camera_height", "offset", "yaw", "ev100", "highlight_protection", "turbidity", "ozone"):
         read.number(name, typed[name])
     read.date_time(typed["date"], typed["timezone"])
     read.site(typed["site"])
@@ -96,7 +96,8 @@ def _renderer(typed, places, beginning):
         "model_path": read.folders(typed["model_path"]),
         "robot": {"file": read.robot(typed["robot"], places["robots"])},
         "path": {"file": read.file(typed["path"]), "spacing": read.number("spacing", typed["spacing"]),
-                 "camera_height": read.number("camera_height", typed["camera_height"]), "count": beginning.poses},
+                 "camera_height": read.number("camera_height", typed["camera_height"]), "count": beginning.poses,
+                 "offset": read.number("offset", typed["offset"]), "yaw": read.number("yaw", typed["yaw"])},
         "camera": {"width": read.whole("width", typed["width"]), "height": read.whole("height", typed["height"]),
                    "horizontal_fov": read.number("horizontal_fov", typed["horizontal_fov"]), **rasterizer},
         "exposure": {"mode": typed["exposure"], "ev100": read.number("ev100", typed["ev100"]),

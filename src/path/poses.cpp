@@ -74,7 +74,10 @@ std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const Path
   for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
     const Eigen::Vector3d along = waypoints[i + 1] - waypoints[i];
     const double length = along.norm();
-    const double yaw = std::atan2(along.y(), along.x());
+    const double heading = std::atan2(along.y(), along.x());
+    const Eigen::Vector3d left(-std::sin(heading), std::cos(heading), 0.0);
+    const Eigen::Vector3d moved = Eigen::Vector3d(0.0, 0.0, options.height_m) + options.offset_m * left;
+    const double yaw = heading + options.yaw.rad();
     const double wanted = std::ceil(length / options.spacing_m - kEndTolerance);
     if (static_cast<double>(poses.size()) + wanted > kMostPoses) {
       throw std::invalid_argument("waypoint " + std::to_string(i) + ": from here to the next are " +
@@ -84,8 +87,7 @@ std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const Path
     for (std::size_t k = 0; k == 0 || k < count; ++k) {
       const double distance = static_cast<double>(k) * options.spacing_m;
       Eigen::Isometry3d map_from_camera_link = Eigen::Isometry3d::Identity();
-      map_from_camera_link.translation() =
-          waypoints[i] + along * (distance / length) + Eigen::Vector3d(0.0, 0.0, options.height_m);
+      map_from_camera_link.translation() = waypoints[i] + along * (distance / length) + moved;
       map_from_camera_link.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
       poses.push_back(map_from_camera_link);
     }

@@ -75,7 +75,7 @@ OPTIONS = {
                       "--namespace": "(default /)", "--merge": "may be repeated",
                       "--map": "noon.bag:h12; may be repeated", "--query": "all but those of the map",
                       "--detectors": "default sift,orb", "--map-every": "0 … 1000000 m, default 5",
-                      "--retrieval": "truth|all", "--retrieved": "default 5", "--ratio": "default 0.8",
+                      "--retrieval": "truth|vlad|all", "--retrieved": "default 5", "--ratio": "default 0.8",
                       "--inclusive": "default false", "--reprojection": "> 0 … 1000 px, default 4",
                       "--iterations": "default 10000", "--confidence": "default 0.9999",
                       "--min-inliers": "4 … 1000000, default 12", "--seed": "default 1"},
@@ -123,7 +123,7 @@ REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be fr
            ("--method", "sad,,seqslam", '--method is "", but must be one of'),
            ("--method", "sad,sad", "--method names sad twice"),
            ("--map-every", "-1", "--map-every is -1, but must be from 0 to 1000000 m"),
-           ("--retrieval", "best", "must be one of truth, all"), ("--min-inliers", "3", "must be from 4 to 1000000"),
+           ("--retrieval", "best", "must be one of truth, vlad, all"), ("--min-inliers", "3", "must be from 4 to 1000000"),
            ("--height", "-1001", "must be from -1000 to 1000 m"),
            ("--columns", "0", "must be from 1 to 100"), ("--fps", "121", "must be from 1 to 120 Hz"),
            ("--world", "", "--world needs a value"), ("--world", "--model-path", "--world needs a value"))

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/field.h"
 
 namespace sunlit::path {
@@ -16,11 +17,15 @@ using Waypoints = std::vector<Eigen::Vector3d>;
 struct PathOptions {
   double spacing_m = 1.0;
   double height_m = 1.0;
+  double offset_m = 0.0;  ///< to the left of the path: another drive along it, pose by pose
+  Angle yaw = Angle();    ///< of the camera, to the left of where it goes
 };
 
 inline std::vector<Field> fieldsOf(PathOptions& options) {
   return {{"spacing", &options.spacing_m, "m", {0.001, 1000}, "between poses of one segment"},
-          {"camera_height", &options.height_m, "m", {-1000, 1000}, "of the camera above the waypoints"}};
+          {"camera_height", &options.height_m, "m", {-1000, 1000}, "of the camera above the waypoints"},
+          {"offset", &options.offset_m, "m", {-1000, 1000}, "of the camera to the left of the path"},
+          {"yaw", &options.yaw, "deg", {-180, 180}, "of the camera, to the left of where it goes"}};
 }
 
 /// Throws std::invalid_argument naming key, value and range.
@@ -56,7 +61,8 @@ std::int64_t nanosecondsTo(int index, double rate_hz);
 
 /// map_from_camera_link of every pose, by the paper's rule: poses every `spacing_m` from the start of each
 /// segment between two waypoints, while short of its end; then the start of the next segment. The camera is
-/// level (parallel to the ground plane) and points at the next waypoint in plan view. Throws
+/// level (parallel to the ground plane) and points at the next waypoint in plan view; with `offset_m` and
+/// `yaw` each pose is then moved sideways and turned, so that there are as many, each beside its own. Throws
 /// std::invalid_argument naming the waypoint for fewer than two points, a coordinate that is not within
 /// ±10,000 km, two consecutive points less than 1 mm apart in plan view, or more than 10 million poses.
 std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const PathOptions& options);

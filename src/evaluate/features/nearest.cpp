@@ -45,8 +45,13 @@ Table16 tableOf(const cv::Mat& matrix, double scale) {
   for (std::size_t i = 0; i < table.rows; ++i) {
     const Source* source = matrix.ptr<Source>(static_cast<int>(i));
     std::int16_t* row = table.values.data() + i * table.width;
-    for (std::size_t k = 0; k < columns; ++k)
-      row[k] = static_cast<std::int16_t>(std::lround(source[k] * scale));
+    for (std::size_t k = 0; k < columns; ++k) {
+      if constexpr (std::is_same_v<Source, uchar>) {
+        row[k] = source[k];
+      } else {
+        row[k] = static_cast<std::int16_t>(std::lround(source[k] * scale));
+      }
+    }
   }
   return table;
 }

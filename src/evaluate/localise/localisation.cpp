@@ -10,8 +10,8 @@
 namespace sunlit::evaluate {
 
 struct Localisation::PerDetector {
-  PerDetector(const Detector& detector, const LocaliserOptions& options)
-      : pool(detector), localiser(detector.norm(), options) {}
+  PerDetector(const std::string& name, const Detector& detector, const LocaliserOptions& options)
+      : pool(detector), localiser(name, detector.norm(), options) {}
   mutable DetectorPool pool;
   Localiser localiser;
 };
@@ -34,7 +34,7 @@ Localisation::Localisation(const LocalisationOptions& options) : options_(option
   for (const std::string& name : options_.detectors) {
     const Detector* const detector = options_.known.at(name).detector();
     if (detector == nullptr) throw std::invalid_argument(name + " finds no features to localise by");
-    detectors_.push_back(std::make_unique<PerDetector>(*detector, options_.localiser));
+    detectors_.push_back(std::make_unique<PerDetector>(name, *detector, options_.localiser));
   }
 }
 
@@ -53,6 +53,10 @@ void Localisation::addKeyFrames(const std::vector<PosedView>& views) {
   });
   for (std::size_t task = 0; task < frames.size(); ++task)
     detectors_[task % detectors_.size()]->localiser.add(std::move(frames[task]));
+}
+
+void Localisation::finishMap() {
+  for (const auto& detector : detectors_) detector->localiser.finish();
 }
 
 std::vector<MapSize> Localisation::mapSizes() const {

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numeric>
 #include <opencv2/core.hpp>
+#include <stdexcept>
 #include <utility>
 
+#include "evaluate/localise/place_index.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::evaluate {
@@ -52,6 +54,19 @@ std::vector<Match> matchesWith(const KeyFrame& frame, const cv::Mat& query, int 
   return matches;
 }
 
+/// Descriptors of the kScouts features of the largest response, of equal ones those found first.
+cv::Mat strongest(const std::vector<cv::KeyPoint>& key_points, const cv::Mat& descriptors) {
+  std::vector<std::size_t> order(key_points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t l, std::size_t r) {
+    return key_points[l].response > key_points[r].response;
+  });
+  cv::Mat chosen;
+  for (std::size_t i = 0; i < std::min(order.size(), kScouts); ++i)
+    chosen.push_back(descriptors.row(static_cast<int>(order[i])));
+  return chosen;
+}
+
 double angleBetweenDirections(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
@@ -68,12 +83,13 @@ struct Localiser::Matches {
 std::vector<Field> fieldsOf(LocaliserOptions& options) {
   return joined(
       {{{"retrieval",
-         choiceOf(&options.retrieval, {"truth", "all"}),
+         choiceOf(&options.retrieval, {"truth", "vlad", "all"}),
          "",
          {},
-         "key frames that a query is matched with: the nearest by its true place that look the same "
-         "way (within 90 deg), or all"},
-        {"retrieved", &options.retrieved, "", {1, 1e6}, "key frames at most, but for all"}},
+         "key frames that a query is matched with: the nearest by its true place that look the same way "
+         "(within 90 deg); the nearest by VLAD of the detector's features; of all, those in which most of "
+         "its 200 strongest features match"},
+        {"retrieved", &options.retrieved, "", {1, 1e6}, "key frames at most"}},
        fieldsOf(options.ratio_test),
        fieldsOf(options.pose)});
 }
@@ -94,27 +110,60 @@ std::string wordOf(LocalisationStatus status) {
   return "no_pose";
 }
 
-Localiser::Localiser(int norm, const LocaliserOptions& options) : norm_(norm), options_(options) {
+Localiser::Localiser(std::string detector, int norm, const LocaliserOptions& options)
+    : detector_(std::move(detector)), norm_(norm), options_(options) {
   requireFields(options);
 }
+
+Localiser::~Localiser() = default;
 
 void Localiser::add(KeyFrame frame) {
   frames_.push_back(std::move(frame));
 }
 
-std::vector<std::size_t> Localiser::retrieve(const LocalisationQuery& query) const {
+void Localiser::finish() {
+  if (options_.retrieval == Retrieval::kVlad)
+    index_ = std::make_unique<PlaceIndex>(detector_, norm_, frames_);
+}
+
+std::vector<std::size_t> Localiser::retrieve(const LocalisationQuery& query,
+                                             const cv::Mat& descriptors) const {
+  if (options_.retrieval == Retrieval::kTruth) return nearestByTruth(query.map_from_optical);
+  if (options_.retrieval == Retrieval::kAll) return mostMatched(query, descriptors);
+  if (!index_) throw std::logic_error("Localiser::finish() was not called");
+  return index_->nearest(descriptors, static_cast<std::size_t>(options_.retrieved));
+}
+
+std::vector<std::size_t> Localiser::nearestByTruth(const Eigen::Isometry3d& map_from_optical) const {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    if (looksTheSameWay(map_from_optical, frames_[i].map_from_optical)) found.push_back(i);
+  }
+  const auto distance = [&](std::size_t i) {
+    return distanceBetween(map_from_optical, frames_[i].map_from_optical);
+  };
+  std::stable_sort(found.begin(), found.end(),
+                   [&](std::size_t l, std::size_t r) { return distance(l) < distance(r); });
+  found.resize(std::min(found.size(), static_cast<std::size_t>(options_.retrieved)));
+  return found;
+}
+
+std::vector<std::size_t> Localiser::mostMatched(const LocalisationQuery& query,
+                                                const cv::Mat& descriptors) const {
   std::vector<std::size_t> found(frames_.size());
   std::iota(found.begin(), found.end(), std::size_t{0});
-  if (options_.retrieval == Retrieval::kAll) return found;
-  const auto looksElsewhere = [&](std::size_t i) {
-    return !looksTheSameWay(query.map_from_optical, frames_[i].map_from_optical);
-  };
-  found.erase(std::remove_if(found.begin(), found.end(), looksElsewhere), found.end());
-  std::stable_sort(found.begin(), found.end(), [&](std::size_t l, std::size_t r) {
-    return distanceBetween(query.map_from_optical, frames_[l].map_from_optical) <
-           distanceBetween(query.map_from_optical, frames_[r].map_from_optical);
+  const auto wanted = static_cast<std::size_t>(options_.retrieved);
+  if (found.size() <= wanted) return found;
+  const cv::Mat scouts = strongest(query.features.key_points, descriptors);
+  std::vector<std::size_t> votes(frames_.size());
+  tbb::parallel_for(std::size_t{0}, frames_.size(), [&](std::size_t i) {
+    const std::vector<Match> matches = matchesWith(frames_[i], scouts, norm_, options_.ratio_test);
+    votes[i] = static_cast<std::size_t>(std::count_if(
+        matches.begin(), matches.end(), [](const Match& match) { return !std::isinf(match.distance); }));
   });
-  found.resize(std::min(found.size(), static_cast<std::size_t>(options_.retrieved)));
+  std::stable_sort(found.begin(), found.end(),
+                   [&](std::size_t l, std::size_t r) { return votes[l] > votes[r]; });
+  found.resize(wanted);
   return found;
 }
 
@@ -145,11 +194,12 @@ LocalisedQuery Localiser::localise(const LocalisationQuery& query) const {
   judge(query, result);
   result.status = LocalisationStatus::kNoFeatures;
   if (query.features.key_points.empty()) return result;
-  const std::vector<std::size_t> retrieved = retrieve(query);
+  const cv::Mat descriptors = compactDescriptors(query.features.descriptors);
+  const std::vector<std::size_t> retrieved = retrieve(query, descriptors);
   result.retrieved = retrieved.size();
   result.status = LocalisationStatus::kNotRetrieved;
   if (retrieved.empty()) return result;
-  const Matches matches = match(compactDescriptors(query.features.descriptors), retrieved);
+  const Matches matches = match(descriptors, retrieved);
   result.matches = matches.features.size();
   result.status = LocalisationStatus::kTooFewMatches;
   if (result.matches < static_cast<std::size_t>(options_.pose.min_inliers)) return result;

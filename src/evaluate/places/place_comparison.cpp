@@ -19,23 +19,6 @@ namespace {
 
 constexpr const char* kVladPrefix = "vlad:";
 
-/// Every n-th of all descriptors, in the order of the pictures, so that kMostTrainingDescriptors are left.
-cv::Mat trainingPoints(const std::string& type, int norm, const std::vector<cv::Mat>& descriptors) {
-  std::size_t all = 0;
-  for (const cv::Mat& of_picture : descriptors) all += static_cast<std::size_t>(of_picture.rows);
-  const std::size_t wanted = std::min(all, kMostTrainingDescriptors);
-  cv::Mat chosen;
-  std::size_t before = 0, taken = 0;
-  for (const cv::Mat& of_picture : descriptors) {
-    for (int row = 0; row < of_picture.rows; ++row, ++before) {
-      if (taken == wanted || before != taken * all / wanted) continue;
-      chosen.push_back(of_picture.row(row));
-      ++taken;
-    }
-  }
-  return vladPoints(type, norm, chosen);
-}
-
 std::size_t countBlank(const std::vector<cv::Mat>& vlads) {
   return static_cast<std::size_t>(std::count_if(
       vlads.begin(), vlads.end(), [](const cv::Mat& vlad) { return cv::countNonZero(vlad) == 0; }));
@@ -145,7 +128,8 @@ FoundPlaces PlaceComparison::findByVlad(const std::string& detector) const {
   };
   std::vector<cv::Mat> map(map_.names.size()), queries(queries_.names.size());
   forEach(detector + " of the map", map_, [&](std::size_t i) { map[i] = describe(map_.file(i)); });
-  const cv::Mat words = trainVocabulary(trainingPoints(type, norm, map), kVisualWords, kVocabularySeed);
+  const cv::Mat words =
+      trainVocabulary(vladPoints(type, norm, vladTrainingDescriptors(map)), kVisualWords, kVocabularySeed);
   const auto encode = [&](const cv::Mat& descriptors) {
     return vladOf(vladPoints(type, norm, descriptors), words);
   };

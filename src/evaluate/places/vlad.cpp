@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/core.hpp>
@@ -67,6 +68,22 @@ cv::Mat vladPoints(const std::string& type, int norm, const cv::Mat& descriptors
   cv::Mat points;
   descriptors.convertTo(points, CV_32FC1);
   return points;
+}
+
+cv::Mat vladTrainingDescriptors(const std::vector<cv::Mat>& by_picture) {
+  std::size_t all = 0;
+  for (const cv::Mat& descriptors : by_picture) all += static_cast<std::size_t>(descriptors.rows);
+  const std::size_t wanted = std::min(all, kMostTrainingDescriptors);
+  cv::Mat chosen;
+  std::size_t before = 0, taken = 0;
+  for (const cv::Mat& descriptors : by_picture) {
+    for (int row = 0; row < descriptors.rows; ++row, ++before) {
+      if (taken == wanted || before != taken * all / wanted) continue;
+      chosen.push_back(descriptors.row(row));
+      ++taken;
+    }
+  }
+  return chosen;
 }
 
 cv::Mat vladOf(const cv::Mat& points, const cv::Mat& words) {

@@ -58,6 +58,7 @@ class BagLocalisation {
   int run() {
     for (const BagStream& stream : streams_.map) addToMap(stream);
     tellMap();
+    localisation_.finishMap();
     for (const BagStream& stream : streams_.queries) find(stream);
     if (rows_.empty()) throw std::runtime_error("no query can be used: " + firstProblems());
     const std::vector<evaluate::LocalisationSummary> summaries = summariesOf(rows_);

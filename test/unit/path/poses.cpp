@@ -89,6 +89,21 @@ TEST(PosesAlong, StayLevelOnASlope) {
   }
 }
 
+TEST(PosesAlong, LieBesideThePathAndLookAside) {
+  PathOptions options;
+  options.offset_m = 0.5;
+  options.yaw = Angle::degrees(30.0);
+  const Waypoints corner{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}};
+  const auto poses = posesAlong(corner, options);
+  ASSERT_EQ(poses.size(), posesAlong(corner, {}).size());
+  // Eastward, left is north; northward, it is west. Cosine and sine of 30 and of 120 degrees.
+  EXPECT_TRUE(poses[1].translation().isApprox(Eigen::Vector3d(1.0, 0.5, 1.0)));
+  EXPECT_TRUE(poses[1].linear().col(0).isApprox(Eigen::Vector3d(std::sqrt(0.75), 0.5, 0.0)));
+  EXPECT_TRUE(poses[3].translation().isApprox(Eigen::Vector3d(1.5, 1.0, 1.0)));
+  EXPECT_TRUE(poses[3].linear().col(0).isApprox(Eigen::Vector3d(-0.5, std::sqrt(0.75), 0.0)));
+  EXPECT_TRUE(poses[3].linear().col(2).isApprox(Eigen::Vector3d::UnitZ()));
+}
+
 TEST(PosesAlong, RefusesWhatIsNoPath) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(messageOf({}), "a path needs two waypoints or more, there are 0");

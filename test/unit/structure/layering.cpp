@@ -131,7 +131,7 @@ const std::map<std::string, Modules> kRoomsOfEvaluate = {
     {"trajectory", {"files"}},
     {"places", {"features", "files"}},
     {"verify", {"differences", "features", "files"}},
-    {"localise", {"differences", "features", "files"}},
+    {"localise", {"differences", "features", "files", "places"}},
 };
 
 /// Of private and public headers and sources; `least` files at least lie in rooms.

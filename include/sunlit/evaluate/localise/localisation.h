@@ -45,6 +45,9 @@ class Localisation {
   /// stay, no pixels. Runs in parallel. Throws std::invalid_argument for what requireWhole() refuses, and for
   /// a view without depth.
   void addKeyFrames(const std::vector<PosedView>& views);
+  /// Needed once, behind the last key frame and before the first query. Throws std::invalid_argument where
+  /// Retrieval::kVlad finds too few different features.
+  void finishMap();
   std::vector<MapSize> mapSizes() const;
   /// [query][detector], in the order of options().detectors. Depth of queries is not used. Runs in parallel.
   std::vector<std::vector<LocalisedQuery>> localise(const std::vector<PosedView>& queries) const;

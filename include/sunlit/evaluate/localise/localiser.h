@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,8 +20,13 @@ namespace sunlit::evaluate {
 /// Which key frames a query is matched with.
 enum class Retrieval {
   kTruth,  ///< the nearest by true position that look the same way, as a robot that knows roughly where it is
-  kAll     ///< all that there are
+  kVlad,   ///< the nearest by what they look like as a whole: VLAD of the detector's features
+  kAll     ///< of all, those in which most of the query's strongest features match, one to one
 };
+
+/// So many features look into every key frame: enough to tell those that show the same place, and few enough
+/// for 1,000 key frames a second.
+constexpr std::size_t kScouts = 200;
 
 /// Key frames look the same way where their optical axes are less than this apart.
 constexpr double kSameWay_deg = 90.0;
@@ -75,15 +81,22 @@ struct LocalisedQuery {
 /// Much less, and centimetres decide the direction.
 constexpr double kLeastBaseline_m = 1.0;
 
+class PlaceIndex;
+
 /// The map of one detector.
 class Localiser {
  public:
-  /// `norm` compares descriptors, a cv::NormTypes. Throws std::invalid_argument for options out of range.
-  Localiser(int norm, const LocaliserOptions& options);
+  /// `detector` by its name, whose descriptors `norm` compares, a cv::NormTypes. Throws std::invalid_argument
+  /// for options out of range.
+  Localiser(std::string detector, int norm, const LocaliserOptions& options);
+  ~Localiser();
 
   /// Behind those that are there.
   void add(KeyFrame frame);
   const std::vector<KeyFrame>& frames() const { return frames_; }
+  /// Needed once all frames are there: learns what Retrieval::kVlad goes by. Throws std::invalid_argument
+  /// where they have too few different features for that.
+  void finish();
 
   /// Of each feature that matches in several key frames the nearest match counts, of equally near ones that
   /// of the key frame retrieved first; within a key frame matches are one to one: accepted from the query,
@@ -93,13 +106,17 @@ class Localiser {
 
  private:
   struct Matches;
-  std::vector<std::size_t> retrieve(const LocalisationQuery& query) const;
+  std::vector<std::size_t> retrieve(const LocalisationQuery& query, const cv::Mat& descriptors) const;
+  std::vector<std::size_t> nearestByTruth(const Eigen::Isometry3d& map_from_optical) const;
+  std::vector<std::size_t> mostMatched(const LocalisationQuery& query, const cv::Mat& descriptors) const;
   Matches match(const cv::Mat& descriptors, const std::vector<std::size_t>& retrieved) const;
   void judge(const LocalisationQuery& query, LocalisedQuery& result) const;
 
+  std::string detector_;
   int norm_;
   LocaliserOptions options_;
   std::vector<KeyFrame> frames_;
+  std::unique_ptr<PlaceIndex> index_;  // where retrieval goes by it
 };
 
 }  // namespace sunlit::evaluate

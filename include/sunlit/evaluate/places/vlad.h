@@ -27,6 +27,9 @@ constexpr int kMostRounds = 50;                   // of k-means; it ends sooner 
 /// - of others, such as SURF, their numbers.
 cv::Mat vladPoints(const std::string& type, int norm, const cv::Mat& descriptors);
 
+/// Every n-th of all descriptors, in the order of their pictures, so that kMostTrainingDescriptors are left.
+cv::Mat vladTrainingDescriptors(const std::vector<cv::Mat>& by_picture);
+
 /// The words, CV_32FC1, one row each: k-means (Lloyd) from k-means++ beginnings (Arthur & Vassilvitskii
 /// 2007), at most kMostRounds rounds. A point belongs to the nearest word, of equally near ones to the first;
 /// a word without points stays where it is. The same bits for any number of threads and from run to run.

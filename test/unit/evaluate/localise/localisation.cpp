@@ -41,11 +41,12 @@ std::vector<LocalisedQuery> localised(const std::vector<PosedView>& map, const P
                                       const LocalisationOptions& options = both()) {
   Localisation localisation(options);
   localisation.addKeyFrames(map);
+  localisation.finishMap();
   return localisation.localise({view}).at(0);
 }
 
 TEST(Localisation, FindsAQueryOffTheLineToMillimetres) {
-  for (const Retrieval retrieval : {Retrieval::kTruth, Retrieval::kAll}) {
+  for (const Retrieval retrieval : {Retrieval::kTruth, Retrieval::kVlad, Retrieval::kAll}) {
     LocalisationOptions options = both();
     options.localiser.retrieval = retrieval;
     const std::vector<LocalisedQuery> results = localised(drive(), query(), options);
@@ -121,6 +122,26 @@ TEST(Localisation, RetrievesTheNearestThatLookTheSameWay) {
   EXPECT_EQ(result.status, LocalisationStatus::kLocalised);
   EXPECT_EQ(result.retrieved, 1u);
   EXPECT_EQ(result.key_frame, 1u);  // x = 1 is 0.58 m away, x = 0 0.73 m
+}
+
+TEST(Localisation, RetrievesByLooksAlone) {
+  // Key frames of another corridor before and behind the right one; where the query is says nothing.
+  const TexturedScene elsewhere(
+      {{{12, 3, 3}, {0, -6, 0}, {0, 0, -4}, 11}, {{12, 3, -1}, {0, -6, 0}, {-16, 0, 0}, 14}});
+  std::vector<PosedView> map;
+  for (const double x : {0.5, 0.6, 0.7})
+    map.push_back(elsewhere.seenFrom(lookingAlongX({x, -0.4, 0.1}), kCamera));
+  map.insert(map.begin() + 1, drive()[0]);
+  for (const Retrieval retrieval : {Retrieval::kVlad, Retrieval::kAll}) {
+    LocalisationOptions options = both();
+    options.localiser.retrieval = retrieval;
+    options.localiser.retrieved = 1;
+    for (const LocalisedQuery& result : localised(map, query(), options)) {
+      EXPECT_EQ(result.retrieved, 1u);
+      EXPECT_EQ(result.status, LocalisationStatus::kLocalised);
+      EXPECT_EQ(result.key_frame, 1u);
+    }
+  }
 }
 
 TEST(Localisation, MeasuresDirectionsFromAKeyFrameThatIsApart) {

@@ -1,0 +1,1 @@
+sunlit_bench(localise LIBRARIES sunlit_evaluate)

@@ -1,0 +1,58 @@
+#include "sunlit/evaluate/localise/odometry_runs.h"
+
+#include <tbb/parallel_for.h>
+
+#include "evaluate/features/detector_pool.h"
+#include "evaluate/files/files.h"
+#include "sunlit/image/files.h"
+
+namespace sunlit::evaluate {
+
+struct OdometryRuns::PerDetector {
+  PerDetector(const std::string& name, const Detector& detector, const LocaliserOptions& options)
+      : pool(detector), odometry(name, detector.norm(), options) {}
+  DetectorPool pool;
+  Odometry odometry;
+};
+
+OdometryRuns::OdometryRuns(const LocalisationOptions& options) : options_(options) {
+  requireFields(options_);
+  for (const std::string& name : options_.detectors) {
+    detectors_.push_back(std::make_unique<PerDetector>(name, detectorOf(options_, name), options_.localiser));
+  }
+}
+
+OdometryRuns::~OdometryRuns() = default;
+
+std::vector<std::vector<Eigen::Isometry3d>> OdometryRuns::follow(const std::vector<PosedView>& views) {
+  std::vector<std::vector<Features>> features(detectors_.size(), std::vector<Features>(views.size()));
+  tbb::parallel_for(std::size_t{0}, detectors_.size() * views.size(), [&](std::size_t task) {
+    const std::size_t d = task % detectors_.size();
+    const std::size_t view = task / detectors_.size();
+    features[d][view] = detectors_[d]->pool.detect(views[view].picture.grey);
+  });
+  std::vector<std::vector<Eigen::Isometry3d>> poses(detectors_.size());
+  tbb::parallel_for(std::size_t{0}, detectors_.size(), [&](std::size_t d) {
+    for (std::size_t i = 0; i < views.size(); ++i)
+      poses[d].push_back(detectors_[d]->odometry.follow(views[i], features[d][i]));
+  });
+  return poses;
+}
+
+const Odometry& OdometryRuns::at(std::size_t detector) const {
+  return detectors_.at(detector)->odometry;
+}
+
+void writeOdometry(const std::string& path, const std::vector<OdometryRow>& rows) {
+  std::string text = "stream,detector,n,lost,key_frames,length_m,rpe_10m_m,rpe_10m_deg,end_error_m\n";
+  for (const OdometryRow& row : rows) {
+    text += csvField(row.stream) + "," + row.detector + "," + std::to_string(row.n) + "," +
+            std::to_string(row.lost) + "," + std::to_string(row.key_frames);
+    for (const double number : {row.length_m, row.rpe_10m_m, row.rpe_10m_deg, row.end_error_m})
+      text += "," + formatNumber(number);
+    text += "\n";
+  }
+  image::writeFileAtomically(path, text);
+}
+
+}  // namespace sunlit::evaluate

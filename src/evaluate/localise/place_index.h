@@ -1,0 +1,32 @@
+/// Key frames that look like a picture as a whole.
+#pragma once
+
+#include <cstddef>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "sunlit/evaluate/localise/map.h"
+
+namespace sunlit::evaluate {
+
+/// VLAD (see places/vlad.h) of the features that a map keeps, with words of that map alone.
+class PlaceIndex {
+ public:
+  /// `norm` is that of the detector's descriptors. Throws std::invalid_argument where the frames have fewer
+  /// different descriptors than words.
+  PlaceIndex(std::string detector, int norm, const std::vector<KeyFrame>& frames);
+  /// At most `count` indices, nearest first; of equally near ones the lower. Those without features are never
+  /// found, and nothing is by a picture without any.
+  std::vector<std::size_t> nearest(const cv::Mat& descriptors, std::size_t count) const;
+
+ private:
+  cv::Mat encode(const cv::Mat& descriptors) const;
+
+  std::string detector_;
+  int norm_;
+  cv::Mat words_;
+  std::vector<cv::Mat> frames_;
+};
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,104 @@
+#include "ros/evaluator/bag_odometry.h"
+
+#include <cstdio>
+#include <stdexcept>
+
+#include "ros/evaluator/bag_streams.h"
+#include "ros/evaluator/folder_lock.h"
+#include "ros/evaluator/view_source.h"
+#include "sunlit/evaluate/localise/odometry_runs.h"
+#include "sunlit/evaluate/trajectory/trajectory_evaluation.h"
+
+namespace sunlit::ros_interface {
+namespace {
+
+/// Root mean squares over 10 m; none where the drive is shorter.
+evaluate::TrajectoryOptions comparison() {
+  evaluate::TrajectoryOptions options;
+  options.deltas = {{10.0, evaluate::Delta::Unit::kMetres}};
+  options.pairs_from = evaluate::PathOf::kTruth;
+  return options;
+}
+
+evaluate::OdometryRow rowOf(const evaluate::Trajectory& truth, const evaluate::Trajectory& estimate) {
+  const evaluate::TrajectoryEvaluation evaluation = evaluateTrajectory(truth, estimate, comparison());
+  evaluate::OdometryRow row;
+  row.length_m = lengthOf(truth);
+  row.end_error_m = evaluation.absolute.translation_m.back();
+  for (const evaluate::TrajectoryRow& one : evaluation.rows) {
+    if (one.metric == "rpe_10m") row.rpe_10m_m = one.statistics.rmse;
+    if (one.metric == "rpe_10m_deg") row.rpe_10m_deg = one.statistics.rmse;
+  }
+  return row;
+}
+
+class BagOdometry {
+ public:
+  explicit BagOdometry(const BagLocalisationOptions& options)
+      : options_(options), source_({options.name_space, options.intake, options.output_dir}) {}
+
+  void follow(const BagStream& stream) {
+    const auto views = source_.open(stream);
+    evaluate::OdometryRuns runs(options_.localisation);
+    evaluate::Trajectory truth;
+    std::vector<evaluate::Trajectory> estimates(options_.localisation.detectors.size());
+    source_.forEach(*views, source_.usable(*views, true),
+                    {"poses followed", true, [&](const auto& entries, const auto& read) {
+                       const auto poses = runs.follow(read);
+                       for (std::size_t i = 0; i < entries.size(); ++i) {
+                         const BagViews::Entry& entry = views->entries()[entries[i]];
+                         truth.push_back(poseOfLink(entry.stamp_ns, entry.map_from_optical));
+                         for (std::size_t d = 0; d < estimates.size(); ++d)
+                           estimates[d].push_back(poseOfLink(entry.stamp_ns, poses[d][i]));
+                       }
+                     }});
+    if (truth.empty())
+      throw std::runtime_error(stream.name + ": nothing to follow: " + source_.problemsInWords());
+    writeTrajectory(options_.output_dir + "/truth_" + stream.name + ".tum", truth);
+    for (std::size_t d = 0; d < estimates.size(); ++d) add(stream.name, d, {truth, estimates[d]}, runs);
+  }
+
+  int finish() const {
+    const std::string file = options_.output_dir + "/odometry.csv";
+    writeOdometry(file, rows_);
+    std::printf("\n%-8s %-9s %5s %5s %10s %9s %14s %16s %12s\n", "stream", "detector", "n", "lost",
+                "key frames", "length m", "drift per 10 m", "turn per 10 m", "end error m");
+    for (const evaluate::OdometryRow& row : rows_) {
+      std::printf("%-8s %-9s %5zu %5zu %10zu %9.1f %11.3f m %12.3f deg %12.3f\n", row.stream.c_str(),
+                  row.detector.c_str(), row.n, row.lost, row.key_frames, row.length_m, row.rpe_10m_m,
+                  row.rpe_10m_deg, row.end_error_m);
+    }
+    std::printf("%s\n", file.c_str());
+    return source_.finish();
+  }
+
+ private:
+  void add(const std::string& stream, std::size_t d, const evaluate::MatchedPoses& poses,
+           const evaluate::OdometryRuns& runs) {
+    evaluate::OdometryRow row = rowOf(poses.truth, poses.estimate);
+    row.stream = stream;
+    row.detector = options_.localisation.detectors[d];
+    row.n = poses.estimate.size();
+    row.lost = runs.at(d).lost();
+    row.key_frames = runs.at(d).keyFrames();
+    rows_.push_back(row);
+    writeTrajectory(options_.output_dir + "/odometry_" + stream + "_" + row.detector + ".tum",
+                    poses.estimate);
+  }
+
+  const BagLocalisationOptions& options_;
+  ViewSource source_;
+  std::vector<evaluate::OdometryRow> rows_;
+};
+
+}  // namespace
+
+int odometryOfBags(const BagLocalisationOptions& options) {
+  const LocalisationStreams streams = localisationStreams({}, options.odometry, options.name_space);
+  const FolderLock lock(options.output_dir);
+  BagOdometry odometry(options);
+  for (const BagStream& stream : streams.queries) odometry.follow(stream);
+  return odometry.finish();
+}
+
+}  // namespace sunlit::ros_interface

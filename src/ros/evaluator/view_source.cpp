@@ -1,0 +1,101 @@
+#include "ros/evaluator/view_source.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "ros/conversions/received_images.h"
+#include "ros/conversions/time.h"
+#include "ros/evaluator/progress_log.h"
+#include "sunlit/quantity/frames.h"
+
+namespace sunlit::ros_interface {
+namespace {
+
+/// Views that are in memory at once: enough for all processors, few enough for any memory.
+constexpr std::size_t kViewsAtOnce = 16;
+constexpr std::size_t kProblemsShown = 5;
+constexpr const char* kProblemsFile = "/localisation_problems.csv";
+
+}  // namespace
+
+std::unique_ptr<BagViews> ViewSource::open(const BagStream& stream) const {
+  std::printf("reading %s of %s\n", stream.name.c_str(), stream.bag.c_str());
+  std::fflush(stdout);
+  auto views = std::make_unique<BagViews>(stream, options_.name_space, options_.intake);
+  if (views->repeated() > 0)
+    std::printf("%s: %zu images left out, whose stamps repeat\n", stream.name.c_str(), views->repeated());
+  return views;
+}
+
+std::vector<std::size_t> ViewSource::usable(const BagViews& views, bool needs_depth) {
+  std::vector<std::size_t> entries;
+  for (std::size_t i = 0; i < views.entries().size(); ++i) {
+    const BagViews::Entry& entry = views.entries()[i];
+    const bool lacks_depth = entry.fault.empty() && needs_depth && !entry.has_depth;
+    const std::string fault = lacks_depth ? BagViews::kNoDepth : entry.fault;
+    if (fault.empty()) {
+      entries.push_back(i);
+    } else {
+      addProblem(views.stream(), needs_depth, entry.stamp_ns, fault);
+    }
+  }
+  return entries;
+}
+
+void ViewSource::forEach(const BagViews& views, const std::vector<std::size_t>& entries, const Job& job) {
+  WorkLog log(job.work, entries.size());
+  for (std::size_t first = 0; first < entries.size(); first += kViewsAtOnce) {
+    const std::size_t end = std::min(first + kViewsAtOnce, entries.size());
+    std::vector<std::size_t> which;
+    std::vector<evaluate::PosedView> read;
+    for (std::size_t i = first; i < end; ++i) {
+      BagViews::Read one = views.read(entries[i], job.needs_depth);
+      if (one.fault.empty()) {
+        which.push_back(entries[i]);
+        read.push_back(one.view);
+      } else {
+        addProblem(views.stream(), job.needs_depth, views.entries()[entries[i]].stamp_ns, one.fault);
+      }
+    }
+    job.hand(which, read);
+    log.update(end);
+  }
+}
+
+void ViewSource::addProblem(const BagStream& stream, bool needs_depth, std::int64_t stamp_ns,
+                            const std::string& fault) {
+  problems_.push_back({stream.name, needs_depth, stamp_ns, fault});
+}
+
+std::string ViewSource::problemsInWords() const {
+  if (problems_.empty()) return "there is none";
+  std::string text = std::to_string(problems_.size()) + " images could not be used (" + options_.output_dir +
+                     kProblemsFile + "): ";
+  for (std::size_t i = 0; i < std::min(problems_.size(), kProblemsShown); ++i) {
+    const evaluate::LocalisationProblem& problem = problems_[i];
+    text += (i == 0 ? "" : "; ") + problem.stream + " at " + textOfStamp(timeOf(problem.stamp_ns)) + ": " +
+            problem.fault;
+  }
+  return text + (problems_.size() > kProblemsShown ? "; …" : "");
+}
+
+int ViewSource::finish() const {
+  writeLocalisationProblems(options_.output_dir + kProblemsFile, problems_);
+  if (problems_.empty()) return 0;
+  std::fprintf(stderr, "%s\n", problemsInWords().c_str());
+  return kNotWholeStatus;
+}
+
+evaluate::StampedPose poseOfLink(std::int64_t stamp_ns, const Eigen::Isometry3d& map_from_optical) {
+  const Eigen::Isometry3d map_from_link = map_from_optical * linkFromOptical().inverse();
+  return {stamp_ns, map_from_link.translation(), Eigen::Quaterniond(map_from_link.linear())};
+}
+
+void writeTruth(const std::string& folder, const BagViews& views, const std::vector<std::size_t>& entries) {
+  evaluate::Trajectory truth;
+  for (const std::size_t i : entries)
+    truth.push_back(poseOfLink(views.entries()[i].stamp_ns, views.entries()[i].map_from_optical));
+  writeTrajectory(folder + "/truth_" + views.stream().name + ".tum", truth);
+}
+
+}  // namespace sunlit::ros_interface

@@ -1,0 +1,62 @@
+/// Images of bags with all that is known of them, a few at a time; and what cannot be used, which is counted
+/// and named.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ros/evaluator/bag_views.h"
+#include "sunlit/evaluate/localise/localisation_files.h"
+#include "sunlit/evaluate/trajectory/trajectory.h"
+
+namespace sunlit::ros_interface {
+
+/// What is read of bags, and where it is told of.
+struct ViewSourceOptions {
+  std::string name_space;
+  IntakeOptions intake;
+  std::string output_dir;  ///< of localisation_problems.csv
+};
+
+class ViewSource {
+ public:
+  explicit ViewSource(const ViewSourceOptions& options) : options_(options) {}
+
+  /// Says what is read.
+  std::unique_ptr<BagViews> open(const BagStream& stream) const;
+  /// Entries that have a camera and a pose and, where it `needs_depth`, depth. The others are problems.
+  std::vector<std::size_t> usable(const BagViews& views, bool needs_depth);
+  /// Hands on the views of `entries`, with the entries that they are of, a few at a time; those that cannot
+  /// be read are problems. `work` as in "queries localised".
+  struct Job {
+    std::string work;
+    bool needs_depth = false;
+    std::function<void(const std::vector<std::size_t>& entries,
+                       const std::vector<evaluate::PosedView>& views)>
+        hand;
+  };
+  void forEach(const BagViews& views, const std::vector<std::size_t>& entries, const Job& job);
+
+  const std::vector<evaluate::LocalisationProblem>& problems() const { return problems_; }
+  /// Counts them and names the first.
+  std::string problemsInWords() const;
+  /// Writes localisation_problems.csv and says what there is. The exit status of the program.
+  int finish() const;
+
+ private:
+  void addProblem(const BagStream& stream, bool needs_depth, std::int64_t stamp_ns, const std::string& fault);
+
+  ViewSourceOptions options_;
+  std::vector<evaluate::LocalisationProblem> problems_;
+};
+
+/// Of camera_link.
+evaluate::StampedPose poseOfLink(std::int64_t stamp_ns, const Eigen::Isometry3d& map_from_optical);
+/// truth_NAME.tum in `folder`: poses of camera_link.
+void writeTruth(const std::string& folder, const BagViews& views, const std::vector<std::size_t>& entries);
+
+}  // namespace sunlit::ros_interface
