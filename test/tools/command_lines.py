@@ -74,6 +74,7 @@ OPTIONS = {
     "evaluate_bags": {"--out": "folder for the results", "--config": "list_parameters prints all",
                       "--namespace": "(default /)", "--merge": "may be repeated",
                       "--map": "noon.bag:h12; may be repeated", "--query": "all but those of the map",
+                      "--odometry": "by its own images and depth alone",
                       "--detectors": "default sift,orb", "--map-every": "0 … 1000000 m, default 5",
                       "--retrieval": "truth|vlad|all", "--retrieved": "default 5", "--ratio": "default 0.8",
                       "--inclusive": "default false", "--reprojection": "> 0 … 1000 px, default 4",

@@ -29,12 +29,16 @@ std::vector<Field> fieldsOf(LocalisationOptions& options) {
                  fieldsOf(options.localiser)});
 }
 
+const Detector& detectorOf(const LocalisationOptions& options, const std::string& name) {
+  const Detector* const detector = options.known.at(name).detector();
+  if (detector == nullptr) throw std::invalid_argument(name + " finds no features to localise by");
+  return *detector;
+}
+
 Localisation::Localisation(const LocalisationOptions& options) : options_(options) {
   requireFields(options_);
   for (const std::string& name : options_.detectors) {
-    const Detector* const detector = options_.known.at(name).detector();
-    if (detector == nullptr) throw std::invalid_argument(name + " finds no features to localise by");
-    detectors_.push_back(std::make_unique<PerDetector>(name, *detector, options_.localiser));
+    detectors_.push_back(std::make_unique<PerDetector>(name, detectorOf(options_, name), options_.localiser));
   }
 }
 

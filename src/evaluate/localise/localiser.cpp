@@ -88,7 +88,7 @@ std::vector<Field> fieldsOf(LocaliserOptions& options) {
          {},
          "key frames that a query is matched with: the nearest by its true place that look the same way "
          "(within 90 deg); the nearest by VLAD of the detector's features; of all, those in which most of "
-         "its 200 strongest features match"},
+         "its 150 strongest features match"},
         {"retrieved", &options.retrieved, "", {1, 1e6}, "key frames at most"}},
        fieldsOf(options.ratio_test),
        fieldsOf(options.pose)});

@@ -1,27 +1,18 @@
 #include "ros/evaluator/bag_localisation.h"
 
-#include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <stdexcept>
 
-#include "ros/conversions/received_images.h"
-#include "ros/conversions/time.h"
-#include "ros/evaluator/bag_views.h"
+#include "ros/evaluator/bag_streams.h"
 #include "ros/evaluator/folder_lock.h"
-#include "ros/evaluator/progress_log.h"
+#include "ros/evaluator/view_source.h"
 #include "sunlit/evaluate/localise/localisation_files.h"
-#include "sunlit/evaluate/trajectory/trajectory.h"
-#include "sunlit/quantity/frames.h"
+#include "sunlit/evaluate/localise/map.h"
 
 namespace sunlit::ros_interface {
 namespace {
 
 using evaluate::LocalisationRow;
-
-/// Views that are in memory at once: enough for all processors, few enough for any memory.
-constexpr std::size_t kViewsAtOnce = 16;
-constexpr std::size_t kProblemsShown = 5;
 
 /// A line for each query stream and detector.
 std::string localisationTable(const std::vector<evaluate::LocalisationSummary>& summaries) {
@@ -53,6 +44,7 @@ class BagLocalisation {
       : options_(options),
         streams_(localisationStreams(options.maps, options.queries, options.name_space)),
         localisation_(options.localisation),
+        source_({options.name_space, options.intake, options.output_dir}),
         map_name_(namesOf(streams_.map)) {}
 
   int run() {
@@ -60,15 +52,12 @@ class BagLocalisation {
     tellMap();
     localisation_.finishMap();
     for (const BagStream& stream : streams_.queries) find(stream);
-    if (rows_.empty()) throw std::runtime_error("no query can be used: " + firstProblems());
+    if (rows_.empty()) throw std::runtime_error("no query can be used: " + source_.problemsInWords());
     const std::vector<evaluate::LocalisationSummary> summaries = summariesOf(rows_);
     writeLocalisation(fileOf("localisation.csv"), rows_);
     writeLocalisationSummary(fileOf("localisation_summary.csv"), summaries);
-    writeLocalisationProblems(fileOf("localisation_problems.csv"), problems_);
     std::printf("\n%s\n%s\n", localisationTable(summaries).c_str(), fileOf("localisation.csv").c_str());
-    if (problems_.empty()) return 0;
-    std::fprintf(stderr, "%s\n", firstProblems().c_str());
-    return kNotWholeStatus;
+    return source_.finish();
   }
 
  private:
@@ -80,60 +69,22 @@ class BagLocalisation {
 
   std::string fileOf(const std::string& name) const { return options_.output_dir + "/" + name; }
 
-  std::unique_ptr<BagViews> opened(const BagStream& stream) const {
-    std::printf("reading %s of %s\n", stream.name.c_str(), stream.bag.c_str());
-    std::fflush(stdout);
-    auto views = std::make_unique<BagViews>(stream, options_.name_space, options_.intake);
-    if (views->repeated() > 0)
-      std::printf("%s: %zu images left out, whose stamps repeat\n", stream.name.c_str(), views->repeated());
-    return views;
-  }
-
-  void addProblem(const BagStream& stream, bool is_of_map, std::int64_t stamp_ns, const std::string& fault) {
-    problems_.push_back({stream.name, is_of_map, stamp_ns, fault});
-  }
-
-  /// Calls work(entries, views) for `entries`, a few at a time; those that cannot be read are problems.
-  template <typename Work>
-  void forEach(const BagViews& views, const std::vector<std::size_t>& entries, bool is_of_map, Work work) {
-    WorkLog log(is_of_map ? "key frames made" : "queries localised", entries.size());
-    for (std::size_t first = 0; first < entries.size(); first += kViewsAtOnce) {
-      std::vector<std::size_t> which;
-      std::vector<evaluate::PosedView> read;
-      for (std::size_t i = first; i < std::min(first + kViewsAtOnce, entries.size()); ++i) {
-        BagViews::Read one = views.read(entries[i], is_of_map);
-        if (one.fault.empty()) {
-          which.push_back(entries[i]);
-          read.push_back(one.view);
-        } else {
-          addProblem(views.stream(), is_of_map, views.entries()[entries[i]].stamp_ns, one.fault);
-        }
-      }
-      work(which, read);
-      log.update(std::min(first + kViewsAtOnce, entries.size()));
-    }
-  }
-
   void addToMap(const BagStream& stream) {
-    const auto bag = opened(stream);
-    const BagViews& views = *bag;
+    const auto views = source_.open(stream);
     evaluate::KeyFrameSpacing spacing(options_.localisation.map_every_m);
     std::vector<std::size_t> chosen;
-    for (std::size_t i = 0; i < views.entries().size(); ++i) {
-      const BagViews::Entry& entry = views.entries()[i];
-      const std::string fault = entry.fault.empty() && !entry.has_depth ? BagViews::kNoDepth : entry.fault;
-      if (!fault.empty()) {
-        addProblem(stream, true, entry.stamp_ns, fault);
-      } else if (spacing.takes(entry.map_from_optical.translation())) {
-        chosen.push_back(i);
-      }
+    for (const std::size_t i : source_.usable(*views, true)) {
+      if (spacing.takes(views->entries()[i].map_from_optical.translation())) chosen.push_back(i);
     }
-    forEach(views, chosen, true, [&](const auto&, const auto& read) { localisation_.addKeyFrames(read); });
+    source_.forEach(*views, chosen, {"key frames made", true, [&](const auto&, const auto& read) {
+                                       localisation_.addKeyFrames(read);
+                                     }});
   }
 
   void tellMap() const {
     for (const evaluate::MapSize& size : localisation_.mapSizes()) {
-      if (size.key_frames == 0) throw std::runtime_error("the map has no key frame: " + firstProblems());
+      if (size.key_frames == 0)
+        throw std::runtime_error("the map has no key frame: " + source_.problemsInWords());
       std::printf("map %s, %s: %zu key frames with %zu points, %.1f MB (%.0f kB a key frame)\n",
                   map_name_.c_str(), size.detector.c_str(), size.key_frames, size.points,
                   static_cast<double>(size.bytes) / 1e6,
@@ -142,23 +93,17 @@ class BagLocalisation {
   }
 
   void find(const BagStream& stream) {
-    const auto bag = opened(stream);
-    const BagViews& views = *bag;
-    std::vector<std::size_t> usable;
-    for (std::size_t i = 0; i < views.entries().size(); ++i) {
-      const BagViews::Entry& entry = views.entries()[i];
-      if (entry.fault.empty()) {
-        usable.push_back(i);
-      } else {
-        addProblem(stream, false, entry.stamp_ns, entry.fault);
-      }
-    }
+    const auto views = source_.open(stream);
+    const std::vector<std::size_t> usable = source_.usable(*views, false);
     const std::size_t first_row = rows_.size();
-    forEach(views, usable, false, [&](const auto& which, const auto& read) {
-      const auto results = localisation_.localise(read);
-      for (std::size_t q = 0; q < which.size(); ++q) addRows(views, which[q], results[q]);
-    });
-    writeTrajectories(views, usable, first_row);
+    source_.forEach(*views, usable, {"queries localised", false, [&](const auto& which, const auto& read) {
+                                       const auto results = localisation_.localise(read);
+                                       for (std::size_t q = 0; q < which.size(); ++q)
+                                         addRows(*views, which[q], results[q]);
+                                     }});
+    writeTruth(options_.output_dir, *views, usable);
+    for (const std::string& detector : options_.localisation.detectors)
+      writeEstimate(stream.name, detector, first_row);
   }
 
   void addRows(const BagViews& views, std::size_t number,
@@ -170,47 +115,22 @@ class BagLocalisation {
     }
   }
 
-  static evaluate::StampedPose poseOfLink(std::int64_t stamp_ns, const Eigen::Isometry3d& map_from_optical) {
-    const Eigen::Isometry3d map_from_link = map_from_optical * linkFromOptical().inverse();
-    return {stamp_ns, map_from_link.translation(), Eigen::Quaterniond(map_from_link.linear())};
-  }
-
-  void writeTrajectories(const BagViews& views, const std::vector<std::size_t>& usable,
-                         std::size_t first_row) const {
-    const std::string& name = views.stream().name;
-    evaluate::Trajectory truth;
-    for (const std::size_t i : usable)
-      truth.push_back(poseOfLink(views.entries()[i].stamp_ns, views.entries()[i].map_from_optical));
-    writeTrajectory(fileOf("truth_" + name + ".tum"), truth);
-    for (const std::string& detector : options_.localisation.detectors) {
-      evaluate::Trajectory estimate;
-      for (std::size_t r = first_row; r < rows_.size(); ++r) {
-        const LocalisationRow& row = rows_[r];
-        if (row.detector == detector && row.result.status == evaluate::LocalisationStatus::kLocalised)
-          estimate.push_back(poseOfLink(row.stamp_ns, row.result.estimate.map_from_optical));
-      }
-      writeTrajectory(fileOf("estimate_" + name + "_" + detector + ".tum"), estimate);
+  void writeEstimate(const std::string& query, const std::string& detector, std::size_t first_row) const {
+    evaluate::Trajectory estimate;
+    for (std::size_t r = first_row; r < rows_.size(); ++r) {
+      const LocalisationRow& row = rows_[r];
+      if (row.detector == detector && row.result.status == evaluate::LocalisationStatus::kLocalised)
+        estimate.push_back(poseOfLink(row.stamp_ns, row.result.estimate.map_from_optical));
     }
-  }
-
-  std::string firstProblems() const {
-    if (problems_.empty()) return "there is none";
-    std::string text = std::to_string(problems_.size()) + " images could not be used (" +
-                       fileOf("localisation_problems.csv") + "): ";
-    for (std::size_t i = 0; i < std::min(problems_.size(), kProblemsShown); ++i) {
-      const evaluate::LocalisationProblem& problem = problems_[i];
-      text += (i == 0 ? "" : "; ") + problem.stream + " at " + textOfStamp(timeOf(problem.stamp_ns)) + ": " +
-              problem.fault;
-    }
-    return text + (problems_.size() > kProblemsShown ? "; …" : "");
+    writeTrajectory(fileOf("estimate_" + query + "_" + detector + ".tum"), estimate);
   }
 
   const BagLocalisationOptions& options_;
   LocalisationStreams streams_;
   evaluate::Localisation localisation_;
+  ViewSource source_;
   std::string map_name_;
   std::vector<LocalisationRow> rows_;
-  std::vector<evaluate::LocalisationProblem> problems_;
 };
 
 }  // namespace
@@ -228,7 +148,13 @@ std::vector<Field> fieldsOf(BagLocalisationOptions& options) {
        "",
        {},
        "bag whose images are looked for in the map, or some of its streams, day.bag:h04,h20; without them "
-       "all but those of the map; may be repeated"}};
+       "all but those of the map; may be repeated"},
+      {"odometry",
+       &options.odometry,
+       "",
+       {},
+       "follows the camera of this bag, or of some of its streams, by its own images and depth alone; may be "
+       "repeated"}};
 }
 
 int localiseBags(const BagLocalisationOptions& options) {

@@ -13,13 +13,14 @@ namespace sunlit::ros_interface {
 struct BagLocalisationOptions {
   std::vector<std::string> maps;  ///< as localisationStreams() takes them
   std::vector<std::string> queries;
+  std::vector<std::string> odometry;  ///< for odometryOfBags(), instead of both
   std::string output_dir;
   std::string name_space = "/";
   IntakeOptions intake;
   evaluate::LocalisationOptions localisation;
 };
 
-/// Rows of --map and --query; what the localisation is told has rows of its own.
+/// Rows of --map, --query and --odometry; what the localisation is told has rows of its own.
 std::vector<Field> fieldsOf(BagLocalisationOptions& options);
 
 /// Makes the map, finds the queries, writes localisation.csv, localisation_summary.csv, what could not be

@@ -7,6 +7,7 @@
 
 #include "ros/evaluator/bag_evaluation.h"
 #include "ros/evaluator/bag_localisation.h"
+#include "ros/evaluator/bag_odometry.h"
 #include "ros/evaluator/bag_topics.h"
 #include "sunlit/studio/command_line.h"
 
@@ -37,11 +38,15 @@ struct Options {
 void completeLocalisation(Options* options) {
   BagLocalisationOptions& localisation = options->localisation;
   const std::vector<std::string>& words = options->evaluation.bags;
-  localisation.queries.insert(localisation.queries.end(), words.begin(), words.end());
-  if (localisation.maps.empty() || localisation.queries.empty())
+  const bool follows = !localisation.odometry.empty();
+  if (follows && !(localisation.maps.empty() && localisation.queries.empty()))
+    throw std::invalid_argument("--odometry goes without --map and --query");
+  std::vector<std::string>& bags = follows ? localisation.odometry : localisation.queries;
+  bags.insert(bags.end(), words.begin(), words.end());
+  if (!follows && (localisation.maps.empty() || localisation.queries.empty()))
     throw std::invalid_argument("--map and --query need each other; --help lists all options");
   if (!options->evaluation.evaluation.merge.empty())
-    throw std::invalid_argument("--merge is for differences, not for --map and --query");
+    throw std::invalid_argument("--merge is for differences alone");
   localisation.output_dir = options->evaluation.evaluation.output_dir;
   localisation.name_space = options->evaluation.name_space;
   if (options->config.empty()) return;
@@ -79,7 +84,7 @@ std::optional<Options> optionsOf(const std::vector<std::string>& arguments) {
   studio::CommandLine line(
       "evaluate_bags: evaluates recorded images as evaluator_node would, or localises them in a map made of "
       "others. Needs no ROS master.",
-      "evaluate_bags --out DIR (BAG... | --map BAG --query BAG...) [options]\n\n"
+      "evaluate_bags --out DIR (BAG... | --map BAG --query BAG... | --odometry BAG...) [options]\n\n"
       "exit status: 0 all evaluated, 3 some pairs or images could not be, 1 error");
   line.takeWords(&options.evaluation.bags);
   line.add("--out DIR", fieldOf(rows, "output_dir"));
@@ -97,16 +102,18 @@ std::optional<Options> optionsOf(const std::vector<std::string>& arguments) {
   const std::vector<Field> bags = fieldsOf(options.localisation);
   line.add("--map BAG[:STREAM,...]", fieldOf(bags, "map"));
   line.add("--query BAG[:STREAM,...]", fieldOf(bags, "query"));
+  line.add("--odometry BAG[:STREAM,...]", fieldOf(bags, "odometry"));
   for (const Field& row : fieldsOf(options.localisation.localisation))
     line.add(optionOf(row.key) + " VALUE", row);
   if (!line.read(arguments)) return std::nullopt;
   if (!line.has("--out")) throw std::invalid_argument("--out DIR is missing; --help lists all options");
-  const bool localises = line.has("--map") || line.has("--query");
+  const bool localises = line.has("--map") || line.has("--query") || line.has("--odometry");
   localises ? completeLocalisation(&options) : completeEvaluation(&options);
   return options;
 }
 
 int run(const Options& options) {
+  if (!options.localisation.odometry.empty()) return odometryOfBags(options.localisation);
   if (!options.localisation.maps.empty()) return localiseBags(options.localisation);
   return evaluateBags(options.evaluation);
 }

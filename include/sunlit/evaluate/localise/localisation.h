@@ -23,6 +23,10 @@ struct LocalisationOptions {
 /// Without the parameters of detectors.
 std::vector<Field> fieldsOf(LocalisationOptions& options);
 
+/// One of options.detectors. Throws std::invalid_argument for a name that there is not, or that finds no
+/// features.
+const Detector& detectorOf(const LocalisationOptions& options, const std::string& name);
+
 /// What a map holds of one detector.
 struct MapSize {
   std::string detector;

@@ -26,7 +26,7 @@ enum class Retrieval {
 
 /// So many features look into every key frame: enough to tell those that show the same place, and few enough
 /// for 1,000 key frames a second.
-constexpr std::size_t kScouts = 200;
+constexpr std::size_t kScouts = 150;
 
 /// Key frames look the same way where their optical axes are less than this apart.
 constexpr double kSameWay_deg = 90.0;
