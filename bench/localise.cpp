@@ -88,11 +88,11 @@ void query(benchmark::State& state, const std::string& detector, Retrieval retri
   Localiser localiser(detector, made->norm(), options);
   std::vector<KeyFrame> frames;
   for (const PosedView& one : mapViews())
-    frames.push_back(keyFrameOf(one, detectFeatures(*made, one.picture.grey)));
+    frames.push_back(keyFrameOf(one, detectFeatures(*made, one.picture)));
   for (int i = 0; i < kKeyFrames; ++i) localiser.add(frames[static_cast<std::size_t>(i % kDifferentViews)]);
   localiser.finish();
   const PosedView asked = view(0.234);
-  const Features features = detectFeatures(*made, asked.picture.grey);
+  const Features features = detectFeatures(*made, asked.picture);
   LocalisedQuery found;
   for (auto _ : state) found = localiser.localise({features, asked.camera, asked.map_from_optical});
   state.counters["error_mm"] = 1e3 * found.error_m;

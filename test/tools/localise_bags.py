@@ -205,6 +205,28 @@ class LocaliseBags(unittest.TestCase):
         self.assertIn("4 images could not be used", done.stderr)
         self.assertIn("h12 at 101.000000000: no camera/depth", done.stderr)
 
+    def test_a_drive_is_followed_by_its_own_pictures(self):
+        self.write("dusk.bag", "h20/", [0.4 * k for k in range(61)])
+        self.write("noon.bag", "h12/", [0.4 * k for k in range(61)], without={("depth/image_raw", 3)})
+        done = run("evaluate_bags", "--odometry", self.path("dusk.bag"), self.path("noon.bag"), "--detectors", "sift",
+                   "--out", self.path("out"))
+        self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+        self.assertIn("1 images could not be used", done.stderr)
+        rows = self.rows("out", "odometry.csv")
+        self.assertEqual([(row["stream"], row["detector"], row["n"], row["lost"]) for row in rows],
+                         [("h20", "sift", "61", "0"), ("h12", "sift", "60", "0")])
+        for row in rows:
+            self.assertAlmostEqual(float(row["length_m"]), 24.0, places=6)
+            # The wall's picture is 9 m wide, so at least two key frames; each may be off by 30 mm, as a query is.
+            self.assertGreaterEqual(int(row["key_frames"]), 2)
+            self.assertLess(float(row["end_error_m"]), 0.03 * int(row["key_frames"]))
+            self.assertLess(float(row["rpe_10m_m"]), 0.03 * int(row["key_frames"]))
+        done = run("evaluate_trajectory", "--truth", self.path("out/truth_h20.tum"), "--estimate",
+                   self.path("out/odometry_h20_sift.tum"), "--out", self.path("trajectory"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("--odometry goes without --map and --query",
+                      self.refused("--odometry", self.path("dusk.bag"), "--map", self.path("noon.bag")))
+
     def test_what_cannot_be_used_at_all_is_refused(self):
         noon, dusk = self.bags()
         bent = self.write("bent.bag", "h20/", [0.5], distortion=[0.1, 0, 0, 0, 0])

@@ -29,7 +29,7 @@ std::vector<std::vector<Eigen::Isometry3d>> OdometryRuns::follow(const std::vect
   tbb::parallel_for(std::size_t{0}, detectors_.size() * views.size(), [&](std::size_t task) {
     const std::size_t d = task % detectors_.size();
     const std::size_t view = task / detectors_.size();
-    features[d][view] = detectors_[d]->pool.detect(views[view].picture.grey);
+    features[d][view] = detectors_[d]->pool.detect(views[view].picture);
   });
   std::vector<std::vector<Eigen::Isometry3d>> poses(detectors_.size());
   tbb::parallel_for(std::size_t{0}, detectors_.size(), [&](std::size_t d) {

@@ -38,7 +38,7 @@ struct OdometryRow {
   std::size_t lost = 0;
   std::size_t key_frames = 0;
   double length_m = 0.0;          ///< of the true path
-  double rpe_10m_m = kUndefined;  ///< root mean square of relative errors over 10 m; NaN for a shorter path
+  double rpe_10m_m = kUndefined;  ///< root mean square of relative errors over 10 m; NaN below 20 m
   double rpe_10m_deg = kUndefined;
   double end_error_m = 0.0;
 };

@@ -19,14 +19,14 @@ std::vector<PosedView> drive() {
     std::vector<PosedView> all;
     const TexturedScene scene = corridor();
     for (int i = 0; i < 8; ++i)
-      all.push_back(scene.seenFrom(lookingAlongX({0.25 * i, 0.01 * i * i, 0.0}, 0.02 * i), kCamera));
+      all.push_back(scene.seenFrom(lookingAlongX({0.4 * i, 0.01 * i * i, 0.0}, 0.02 * i), kCamera));
     return all;
   }();
   return views;
 }
 
 Features featuresOf(const PosedView& view) {
-  return detectFeatures(*makeDetector("sift"), view.picture.grey);
+  return detectFeatures(*makeDetector("sift"), view.picture);
 }
 
 TEST(Odometry, FollowsACameraToMillimetres) {
