@@ -141,18 +141,42 @@ def differences(text, features_text="{}"):
     return names
 
 
-def verified(text, compared, features_text="{}"):
-    """The detectors whose matches are checked. `auto`: None, those that an evaluator takes by itself. `compared`: differences as
-    typed."""
-    if text == "auto":
-        return None
+def _detectors(name, text, compared, features_text):
+    """Names that are typed of detectors, among the differences as typed; None: auto."""
     detectors = DETECTORS + list(features(features_text))
-    known = [name for name in differences(compared, features_text) if name in detectors]
+    known = [one for one in differences(compared, features_text) if one in detectors]
+    if text == "auto":
+        return None, known
     allowed = f"auto, or a list of some of {', '.join(known) or 'none'}: the detectors among the differences; [] for none"
-    names = parse("verify", text, allowed)
+    names = parse(name, text, allowed)
     if not isinstance(names, list) or not set(map(str, names)) <= set(known):
-        raise BadArgument("verify", text, allowed)
-    return names
+        raise BadArgument(name, text, allowed)
+    return names, known
+
+
+def verified(text, compared, features_text="{}"):
+    """The detectors whose matches are checked. `auto`: None, those that an evaluator takes by itself."""
+    return _detectors("verify", text, compared, features_text)[0]
+
+
+def localising(text, compared, features_text="{}"):
+    """The detectors that localise. `auto`: sift and orb, where they are among the differences."""
+    names, known = _detectors("localise", text, compared, features_text)
+    return [name for name in ("sift", "orb") if name in known] if names is None else names
+
+
+def map_stream(text, times):
+    """The condition whose pictures make the map: that of the hour typed, or of the hour nearest to noon. `times`: as
+    clock_times() gives them."""
+    hours = {name: time["hour"] + time.get("minute", 0) / 60 + time.get("second", 0) / 3600 for name, time in times.items()}
+    if text == "auto":
+        return min(hours, key=lambda name: abs(hours[name] - 12.0))
+    allowed = "auto (the hour nearest to noon), or one of the hours"
+    hour = parse("map", text, allowed)
+    for name, one in hours.items():
+        if is_number(hour) and abs(one - hour) * 3600 < 0.5:
+            return name
+    raise BadArgument("map", text, allowed)
 
 
 def condition_names(text):

@@ -28,15 +28,19 @@ class Progress:
     def __init__(self, poses, images_a_pose):
         self.status = progress.Status(total=poses, images_a_pose=images_a_pose)
         self.doing = None  # ours, once the nodes have done theirs
-        self.activity = None
+        self.activity = self.localising = None
         rospy.Subscriber("/evaluator/progress", UInt32, self._on_progress)
         rospy.Subscriber("/render/activity", Activity, self._on_activity)
+        rospy.Subscriber("/evaluator/activity", Activity, self._on_localising)
 
     def _on_progress(self, message):
         self.status.done = message.data
 
     def _on_activity(self, message):
         self.activity = message
+
+    def _on_localising(self, message):
+        self.localising = message
 
     def is_everything_evaluated(self):
         return (self.status.done or 0) >= self.status.total
@@ -45,6 +49,8 @@ class Progress:
         """`dead`: names of nodes that have ended."""
         if self.doing:
             self.status.turn_to(self.doing)
+        elif self.localising:
+            self.status.turn_to(self.localising.doing, self.localising.share, self.localising.seconds_left)
         else:
             self.status.follow(self.activity, "render" in dead)
         return self.status

@@ -43,12 +43,24 @@ def check(typed):
     read.folders(typed["model_path"])
     read.differences(typed["differences"], typed["features"])
     read.verified(typed["verify"], typed["differences"], typed["features"])
+    map_stream(typed)
     pairs(typed)
 
 
 def pairs(typed):
     return read.pairs(typed["hours"], read.flag("self_test", typed["self_test"]),
                       read.whole("self_test_every", typed["self_test_every"], 1))
+
+
+def map_stream(typed):
+    """The condition that the others are looked for in; None where nothing is localised."""
+    times = read.clock_times(typed["hours"])
+    asked = read.map_stream(typed["map"], times)
+    return asked if len(times) > 1 and localising(typed) else None
+
+
+def localising(typed):
+    return read.localising(typed["localise"], typed["differences"], typed["features"])
 
 
 def recorded_topics(typed):
@@ -131,7 +143,8 @@ def _main_renderer(typed, places, beginning):
         output_dir=places["output"],
         wait_for=readers,
         # Of each kind of topic before the first image leaves.
-        subscribers={"images": evaluators + recorders, "poses": evaluators + recorders, "others": recorders})
+        subscribers={"images": evaluators + recorders, "poses": evaluators + recorders,
+                     "truth": (evaluators if map_stream(typed) else 0) + recorders, "others": recorders})
     return tree
 
 
@@ -170,4 +183,8 @@ def _evaluator(typed, places, beginning):
     verified = read.verified(typed["verify"], typed["differences"], typed["features"])
     if verified is not None:  # else its own default
         tree["verify"] = verified
+    if map_name := map_stream(typed):
+        hours = list(read.clock_times(typed["hours"]))
+        tree["localisation"] = {"map": map_name, "queries": [name for name in hours if name != map_name],
+                                "detectors": localising(typed)}
     return tree

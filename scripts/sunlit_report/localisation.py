@@ -157,21 +157,20 @@ def _draw_errors(axis, to_x, found, colour, label):
                   transform=axis.get_xaxis_transform())
 
 
-def _median(values):
-    found = values[~np.isnan(values)]
-    return float(np.median(found)) if len(found) else math.nan
+def _median(errors):
+    """Of all queries: one without a pose is further off than any."""
+    middle = float(np.median(np.where(np.isnan(errors), np.inf, errors)))
+    return f"{middle:.3f}" if math.isfinite(middle) else "no pose"
 
 
 def table_rows(output):
     """Per map, query and detector: what is counted and found, as text."""
     rows = []
     for (map_name, query, detector), found in output.queries.items():
-        error_m, error_deg = _median(found.error_m), _median(found.error_deg)
         rows.append([names.condition(map_name), names.condition(query), names.difference(detector), str(len(found.pose)),
                      str(found.failures)]
                     + [f"{100 * found.share_within(*bound):.1f}" for bound in WITHIN]
-                    + ["–" if math.isnan(error_m) else f"{error_m:.3f}", "–" if math.isnan(error_deg) else f"{error_deg:.3f}",
-                       f"{np.median(found.inliers):.0f}"])
+                    + [_median(found.error_m), _median(found.error_deg), f"{np.median(found.inliers):.0f}"])
     return rows
 
 

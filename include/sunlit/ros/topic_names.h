@@ -26,6 +26,9 @@ constexpr const char* kActivity = "activity";
 constexpr const char* kPairDifference = "pair_difference";
 constexpr const char* kSummary = "summary";
 constexpr const char* kMatchesImage = "matches_image";
+constexpr const char* kLocalisation = "localisation";
+constexpr const char* kLocalisationSummary = "localisation/summary";
+constexpr const char* kLocalisationMarkers = "localisation/markers";
 
 // Of the whole system.
 constexpr const char* kTf = "/tf";

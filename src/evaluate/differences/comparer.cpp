@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
 #include <exception>
 #include <mutex>
 
@@ -58,6 +60,15 @@ std::vector<Field> decidingFieldsOf(ComparerOptions& options) {
 
 std::vector<Field> fieldsOf(ComparerOptions& options) {
   return rowsOf(options, options.known.names());
+}
+
+std::vector<std::string> usualDetectors(const ComparerOptions& options) {
+  std::vector<std::string> names;
+  for (const char* name : {"sift", "orb"}) {
+    const std::vector<std::string>& compared = options.differences;
+    if (std::count(compared.begin(), compared.end(), name) > 0) names.emplace_back(name);
+  }
+  return names;
 }
 
 const Detector* firstDetectorOf(const ComparerOptions& options) {

@@ -16,16 +16,19 @@ struct Localisation::PerDetector {
   Localiser localiser;
 };
 
+Field mapEveryRow(double* map_every_m) {
+  return {"map_every",
+          map_every_m,
+          "m",
+          {0, 1e6},
+          "of path from one key frame of the map to the next; 0: every pose"};
+}
+
 std::vector<Field> fieldsOf(LocalisationOptions& options) {
   std::vector<std::string>* const names = &options.detectors;
   const Choices choices{detectorTypes(), [names] { return *names; },
                         [names](const std::vector<std::string>& some) { *names = some; }};
-  return joined({{{"detectors", choices, "", {}, "names apart by commas"},
-                  {"map_every",
-                   &options.map_every_m,
-                   "m",
-                   {0, 1e6},
-                   "of path from one key frame of the map to the next; 0: every pose"}},
+  return joined({{{"detectors", choices, "", {}, "names apart by commas"}, mapEveryRow(&options.map_every_m)},
                  fieldsOf(options.localiser)});
 }
 

@@ -67,6 +67,22 @@ void Evaluation::addPlace(const PlaceRecord& place) {
   state_->add(place);
 }
 
+void Evaluation::addDepth(std::int64_t stamp_ns, const Told<cv::Mat>& depth) {
+  state_->addDepth(stamp_ns, depth);
+}
+
+void Evaluation::addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d>& map_from_optical) {
+  state_->addTruePose(stamp_ns, map_from_optical);
+}
+
+void Evaluation::addCamera(std::size_t stream, const Told<image::PinholeCamera>& camera) {
+  state_->addCamera(stream, camera);
+}
+
+LocalisationOutcome Evaluation::localise(const LocaliseCallbacks& callbacks) {
+  return state_->localise(callbacks);
+}
+
 const EvaluationOptions& Evaluation::options() const {
   return state_->options();
 }

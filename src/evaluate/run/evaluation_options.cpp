@@ -25,7 +25,8 @@ Choices verifiedOf(EvaluationOptions& options) {
 }
 
 /// With the rows of the comparer where a reader looks for them.
-std::vector<Field> rowsWith(const std::vector<Field>& of_comparer, EvaluationOptions& options) {
+std::vector<Field> rowsWith(const std::vector<Field>& of_comparer, const std::vector<Field>& of_localisation,
+                            EvaluationOptions& options) {
   return joined(
       {{{"streams", &options.streams, "", {}, "names: NAME/camera/image_raw; required"},
         {"pairs",
@@ -39,8 +40,9 @@ std::vector<Field> rowsWith(const std::vector<Field>& of_comparer, EvaluationOpt
          "",
          {},
          "detectors among the differences whose matches are checked against the truth; without this "
-         "key sift and orb, where they are among them"},
-        {"frame_rate",
+         "key sift and orb, where they are among them"}},
+       of_localisation,
+       {{"frame_rate",
          &options.frame_rate,
          "Hz",
          {0, 1e6},
@@ -56,35 +58,32 @@ std::vector<Field> rowsWith(const std::vector<Field>& of_comparer, EvaluationOpt
 }  // namespace
 
 std::vector<std::string> verifiedDetectors(const EvaluationOptions& options) {
-  if (options.verify) return *options.verify;
-  std::vector<std::string> names;
-  for (const char* name : {"sift", "orb"}) {
-    const std::vector<std::string>& compared = options.comparer.differences;
-    if (std::count(compared.begin(), compared.end(), name) > 0) names.emplace_back(name);
-  }
-  return names;
+  return options.verify ? *options.verify : usualDetectors(options.comparer);
 }
 
 std::vector<Field> decidingFieldsOf(EvaluationOptions& options) {
-  return rowsWith(decidingFieldsOf(options.comparer), options);
+  const std::vector<Field> of_localisation = fieldsOf(options.localisation, options.comparer);
+  return rowsWith(decidingFieldsOf(options.comparer),
+                  options.localisation.map.empty() ? std::vector<Field>() : of_localisation, options);
 }
 
 std::vector<Field> fieldsOf(EvaluationOptions& options) {
-  return joined({rowsWith(fieldsOf(options.comparer), options),
-                 {{"output_dir",
-                   &options.output_dir,
-                   "",
-                   {},
-                   "folder for the results; an unfinished run in it is taken up again; required"},
-                  {"poses", &options.poses.count, "", kCounts, "indices of poses to expect; 0: unknown"},
-                  {"first_pose", &options.poses.first, "", kCounts, "the first of them"},
-                  {"pose_stride", &options.poses.stride, "", {1, 1e9}, "only every n-th of them"},
-                  {"images",
-                   choiceOf(&options.images, {"none", "samples", "all"}),
-                   "",
-                   {},
-                   "to keep as PNG; samples: of five poses"},
-                  {"about", OwnForm{"{}"}, "", {}, "a map from names to values, copied into run.yaml"}}});
+  return joined(
+      {rowsWith(fieldsOf(options.comparer), fieldsOf(options.localisation, options.comparer), options),
+       {{"output_dir",
+         &options.output_dir,
+         "",
+         {},
+         "folder for the results; an unfinished run in it is taken up again; required"},
+        {"poses", &options.poses.count, "", kCounts, "indices of poses to expect; 0: unknown"},
+        {"first_pose", &options.poses.first, "", kCounts, "the first of them"},
+        {"pose_stride", &options.poses.stride, "", {1, 1e9}, "only every n-th of them"},
+        {"images",
+         choiceOf(&options.images, {"none", "samples", "all"}),
+         "",
+         {},
+         "to keep as PNG; samples: of five poses"},
+        {"about", OwnForm{"{}"}, "", {}, "a map from names to values, copied into run.yaml"}}});
 }
 
 }  // namespace sunlit::evaluate

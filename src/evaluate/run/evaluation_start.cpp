@@ -16,9 +16,10 @@ namespace {
 constexpr int kPosesAtOnce = 2;
 constexpr int kSamples = 5;  // rows of the paper's Fig. 1
 
-std::size_t streamNamed(const std::vector<std::string>& streams, const std::string& name) {
+std::size_t streamNamed(const std::string& key, const std::vector<std::string>& streams,
+                        const std::string& name) {
   const auto found = std::find(streams.begin(), streams.end(), name);
-  if (found == streams.end()) refuse("a name in pairs", '"' + name + '"', "one of " + textOf(streams));
+  if (found == streams.end()) refuse(key, '"' + name + '"', "one of " + textOf(streams));
   return static_cast<std::size_t>(found - streams.begin());
 }
 
@@ -39,7 +40,9 @@ void requirePairs(const std::vector<PairSpec>& pairs) {
   }
 }
 
-void requireVerified(const EvaluationOptions& options) {
+/// `asked` under `key` are detectors, and compared.
+void requireDetectors(const std::string& key, const std::vector<std::string>& asked,
+                      const EvaluationOptions& options) {
   std::vector<std::string> known = options.comparer.known.namesOfDetectors();
   const std::vector<std::string>& compared = options.comparer.differences;
   known.erase(std::remove_if(known.begin(), known.end(),
@@ -47,13 +50,27 @@ void requireVerified(const EvaluationOptions& options) {
                                return std::count(compared.begin(), compared.end(), name) == 0;
                              }),
               known.end());
-  const std::vector<std::string> asked = verifiedDetectors(options);
   const std::string allowed =
       known.empty() ? "[], since none of the differences has a detector"
                     : "a list of some of " + textOf(known) + ", the detectors among the differences";
   for (const std::string& name : asked) {
-    if (std::count(known.begin(), known.end(), name) == 0) refuse("verify", textOf(asked), allowed);
+    if (std::count(known.begin(), known.end(), name) == 0) refuse(key, textOf(asked), allowed);
   }
+}
+
+void requireLocalisation(const EvaluationOptions& options) {
+  const LocalisationOfRun& asked = options.localisation;
+  if (asked.map.empty()) return;
+  streamNamed("localisation/map", options.streams, asked.map);
+  for (const std::string& query : asked.queries) {
+    streamNamed("localisation/queries", options.streams, query);
+    if (query == asked.map || std::count(asked.queries.begin(), asked.queries.end(), query) > 1)
+      refuse("localisation/queries", textOf(asked.queries), "a list without the map, and of nothing twice");
+  }
+  const std::vector<std::string> detectors = localisingDetectors(asked, options.comparer);
+  requireDetectors("localisation/detectors", detectors, options);
+  if (detectors.empty())
+    refuse("localisation/detectors", textOf(detectors), "at least one, or localisation/map empty");
 }
 
 EvaluationOptions completed(EvaluationOptions options) {
@@ -64,7 +81,8 @@ EvaluationOptions completed(EvaluationOptions options) {
     refuse("streams", textOf(options.streams), "a list of at least two, to make pairs of");
   if (options.output_dir.empty()) refuse("output_dir", "\"\"", "a folder");
   requirePairs(options.pairs);
-  requireVerified(options);
+  requireDetectors("verify", verifiedDetectors(options), options);
+  requireLocalisation(options);
   require("memory_limit", static_cast<double>(options.memory_limit_bytes), Range::atLeast(1), "byte");
   return options;
 }
@@ -96,7 +114,9 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
       sets_(options_.streams.size()),
       queue_(kPosesAtOnce) {
   for (const PairSpec& pair : options_.pairs) {
-    pair_streams_.emplace_back(streamNamed(options_.streams, pair.a), streamNamed(options_.streams, pair.b));
+    const std::string key = "a name in pairs";
+    pair_streams_.emplace_back(streamNamed(key, options_.streams, pair.a),
+                               streamNamed(key, options_.streams, pair.b));
   }
   counts_.streams.resize(options_.streams.size());
   counts_.pairs.resize(options_.pairs.size());
@@ -111,6 +131,7 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
   writeRunFile(file("run.yaml"), options_, nullptr);
   takeUpEarlierRuns();
   problems_ = std::make_unique<ProblemFile>(options_.output_dir);
+  prepareLocalisation();
   if (options_.images == KeptImages::kNone) return;
   pictures_ = std::make_unique<PictureWriter>(file("images"));
   if (isVerifying()) drawn_ = std::make_unique<PictureWriter>(file("matches"));

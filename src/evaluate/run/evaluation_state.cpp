@@ -73,11 +73,16 @@ void Evaluation::State::turnAway(std::size_t stream, std::int64_t stamp_ns, std:
 
 // What is whole will be compared and makes room by itself; what waits may wait for ever.
 void Evaluation::State::keepWithinMemory(std::int64_t newest_ns) {
-  while (sets_.reservedBytes() > 0 && sets_.reservedBytes() + queued_bytes_ > options_.memory_limit_bytes) {
+  const auto isTooMuch = [&] {
+    return sets_.reservedBytes() + queued_bytes_ + depthBytes() > options_.memory_limit_bytes;
+  };
+  while (sets_.reservedBytes() > 0 && isTooMuch()) {
     const bool is_newest = queued_bytes_ > 0 && sets_.find(newest_ns) != nullptr;
     const std::int64_t stamp = is_newest ? newest_ns : *sets_.oldest();
     close(stamp, poses_.of(stamp), Reason::kMemory);
   }
+  while (depthBytes() > 0 && isTooMuch())
+    observer_->truth().take(observer_->truth().oldest());  // whose images may never come
 }
 
 void Evaluation::State::addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns) {
@@ -120,7 +125,7 @@ bool Evaluation::State::isWhole(const StampSet& set, std::int64_t pose) const {
   for (std::size_t s = 0; s < is_needed.size(); ++s) {
     if (is_needed[s] && !set.streams[s].has_come) return false;
   }
-  return true;
+  return !observer_ || observer_->isReady(set.stamp_ns, is_needed);
 }
 
 void Evaluation::State::closeIfWhole(std::int64_t stamp_ns) {
@@ -229,6 +234,7 @@ void Evaluation::State::close(std::int64_t stamp_ns, std::optional<std::int64_t>
   work.pictures = keptPictures(set, *pose, !work.pairs.empty());
   work.is_drawn = drawn_ && isSample(*pose);
   claimDrawn(work);
+  observeSet(set, work);
   if (work.pairs.empty() && work.pictures.empty()) {
     complete(*pose);
     return;
@@ -274,7 +280,7 @@ Counts Evaluation::State::counts() const {
   counts.waiting_images = sets_.waitingImages();
   counts.unexpected_poses = unexpected_poses_;
   counts.queued_poses = under_way_.size();
-  counts.bytes = sets_.reservedBytes() + queued_bytes_;
+  counts.bytes = sets_.reservedBytes() + queued_bytes_ + depthBytes();
   if (const auto oldest = sets_.oldest()) {
     const StampSet& set = *sets_.find(*oldest);
     for (std::size_t s = 0; s < set.streams.size(); ++s) {

@@ -14,6 +14,7 @@
 
 #include "evaluate/files/files.h"
 #include "evaluate/files/picture_writer.h"
+#include "evaluate/run/observer.h"
 #include "evaluate/run/pose_index.h"
 #include "evaluate/run/record_files.h"
 #include "evaluate/run/stamp_sets.h"
@@ -35,6 +36,10 @@ class Evaluation::State {
   void add(std::size_t stream, std::int64_t stamp_ns, Arrival arrival);
   void add(std::size_t stream, const CaptureRecord& capture);
   void add(const PlaceRecord& place);
+  void addDepth(std::int64_t stamp_ns, const Told<cv::Mat>& depth);
+  void addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d>& map_from_optical);
+  void addCamera(std::size_t stream, const Told<image::PinholeCamera>& camera);
+  LocalisationOutcome localise(const LocaliseCallbacks& callbacks);
   void addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns);
   /// The stream's next image was compressed with loss.
   void noteLossy(std::size_t stream);
@@ -58,6 +63,8 @@ class Evaluation::State {
     std::vector<std::size_t> pairs;
     std::vector<std::size_t> pictures;  // streams whose image is kept
     bool is_drawn = false;              // which matches are right
+    GroundTruth::View truth;
+    std::vector<char> observed;  // by stream: its features are kept to localise by
     std::size_t bytes = 0;
   };
 
@@ -100,6 +107,14 @@ class Evaluation::State {
   void waitForWork();
   void giveUpWork();
   bool isVerifying() const { return !verified_layout_.differences.empty(); }
+  void prepareLocalisation();
+  void addTruth(std::int64_t stamp_ns, const std::function<void(GroundTruth&)>& add);
+  void observeSet(const StampSet& set, Work& work);
+  std::size_t depthBytes() const { return observer_ ? observer_->truth().bytes() : 0; }
+  bool isLocalised() const;
+  bool isWholeAlone() const;
+  std::size_t unobserved(const ObservedStreams& streams, const std::vector<LocalisationRow>& rows) const;
+  void observeMatched(const Work& work, const Matched& matched) const;
   void verifyMatched(const Work& work, const Matched& matched, Values& values) const;
   std::string drawnName(std::size_t pair, std::size_t detector) const;
   void claimDrawn(const Work& work);
@@ -145,6 +160,7 @@ class Evaluation::State {
   std::unique_ptr<ProblemFile> problems_;
   std::unique_ptr<PictureWriter> pictures_;
   std::unique_ptr<PictureWriter> drawn_;  // where matches are verified and images kept
+  std::unique_ptr<Observer> observer_;    // where it is localised
   AppendFile frames_file_;
   AppendFile verified_file_;
   WorkQueue queue_;  // last, so that its threads end before what they use

@@ -35,7 +35,12 @@ Evaluation::State::Values Evaluation::State::compare(const Work& work) const {
   values.verified.resize(work.pairs.size(), std::vector<Verified>(detectors));
   values.drawn.resize(work.pairs.size(), std::vector<cv::Mat>(detectors));
   MatchedVisit visit;
-  if (isVerifying()) visit = [&](const Matched& matched) { verifyMatched(work, matched, values); };
+  if (isVerifying() || observer_) {
+    visit = [&](const Matched& matched) {
+      verifyMatched(work, matched, values);
+      observeMatched(work, matched);
+    };
+  }
   values.differences = comparer_.compare(work.images, imagePairs(work), stop_, visit);
   return values;
 }

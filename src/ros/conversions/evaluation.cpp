@@ -4,10 +4,14 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "ros/conversions/geometry.h"
+#include "ros/conversions/images.h"
 #include "ros/conversions/received_images.h"
 #include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/frames.h"
+#include "sunlit/ros/frame_names.h"
 
 namespace sunlit::ros_interface {
 
@@ -38,6 +42,76 @@ evaluate::PlaceRecord placeOf(const geometry_msgs::PoseStamped& message) {
           ? std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z)) / kRadPerDeg
           : std::nan("");
   return record;
+}
+
+evaluate::Told<Eigen::Isometry3d> truePoseOf(const geometry_msgs::PoseStamped& message) {
+  try {
+    return evaluate::told(Eigen::Isometry3d(fromPose(message.pose) * linkFromOptical()));
+  } catch (const std::invalid_argument& error) {
+    return evaluate::unusable<Eigen::Isometry3d>(error.what());
+  }
+}
+
+evaluate::Told<image::PinholeCamera> cameraOf(const sensor_msgs::CameraInfo& message) {
+  try {
+    return evaluate::told(fromCameraInfo(message));
+  } catch (const std::invalid_argument& error) {
+    return evaluate::unusable<image::PinholeCamera>(error.what());
+  }
+}
+
+evaluate::Told<cv::Mat> depthOf(const sensor_msgs::Image& message, std::size_t max_pixels) {
+  const DecodedDepth decoded = decodeDepth(message, max_pixels);
+  return {decoded.metres, decoded.fault, true};
+}
+
+namespace {
+
+geometry_msgs::Pose poseOfLink(const Eigen::Isometry3d& map_from_optical) {
+  return toPose(map_from_optical * linkFromOptical().inverse());
+}
+
+}  // namespace
+
+Localisation messageOf(const evaluate::LocalisationRow& row) {
+  const evaluate::LocalisedQuery& result = row.result;
+  Localisation message;
+  message.header = headerOf(kMapFrame, timeOf(row.stamp_ns));
+  message.pose = static_cast<std::uint32_t>(row.pose);
+  message.map = row.map;
+  message.query = row.query;
+  message.detector = row.detector;
+  message.status = wordOf(result.status);
+  message.estimate.pose = poseOfLink(result.estimate.map_from_optical);
+  for (int i = 0; i < 36; ++i)
+    message.estimate.covariance[static_cast<std::size_t>(i)] = result.estimate.covariance(i / 6, i % 6);
+  message.truth = poseOfLink(row.truth);
+  message.error = result.error_m;
+  message.rotation_error = result.error_deg * kRadPerDeg;
+  message.inliers = static_cast<std::uint32_t>(result.estimate.inliers.size());
+  message.retrieved = static_cast<std::uint32_t>(result.retrieved);
+  return message;
+}
+
+LocalisationSummary messageOf(const std::vector<evaluate::LocalisationSummary>& rows) {
+  LocalisationSummary message;
+  for (const evaluate::LocalisationSummary& row : rows) {
+    LocalisationSummaryRow out;
+    out.map = row.map;
+    out.query = row.query;
+    out.detector = row.detector;
+    out.queries = static_cast<std::uint32_t>(row.n);
+    out.failures = static_cast<std::uint32_t>(row.failures);
+    for (std::size_t i = 0; i < row.within.size(); ++i) {
+      out.within[i] = row.within[i].mean;
+      out.within_low[i] = row.within[i].ci_low;
+      out.within_high[i] = row.within[i].ci_high;
+    }
+    out.median_error = row.median_error_m;
+    out.median_rotation_error = row.median_error_deg * kRadPerDeg;
+    message.rows.push_back(out);
+  }
+  return message;
 }
 
 PairDifference messageOf(const evaluate::EvaluationOptions& options, const evaluate::PairRecord& record) {

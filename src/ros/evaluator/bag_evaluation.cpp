@@ -35,7 +35,11 @@ class BagSource {
       images_[wanted.back()] = s;
       wanted.push_back(topicOf(root, stream, topics::kCapture));
       captures_[wanted.back()] = s;
+      if (options.evaluation.localisation.map.empty()) continue;
+      wanted.push_back(topicOf(root, stream, topics::kCameraInfo));
+      cameras_[wanted.back()] = s;
     }
+    if (!cameras_.empty()) wanted.push_back(root + topics::kDepth);
     for (const std::string& path : options.bags) {
       bags_.push_back(openBag(path));
       view_.addQuery(*bags_.back(), rosbag::TopicQuery(wanted));
@@ -50,8 +54,14 @@ class BagSource {
         if (const auto message = instance.instantiate<Capture>()) {
           evaluation.addCapture(capture->second, captureOf(*message));
         }
+      } else if (const auto camera = cameras_.find(instance.getTopic()); camera != cameras_.end()) {
+        if (const auto message = instance.instantiate<sensor_msgs::CameraInfo>())
+          evaluation.addCamera(camera->second, cameraOf(*message));
+      } else if (const auto depth = instance.instantiate<sensor_msgs::Image>()) {
+        evaluation.addDepth(nanosecondsOf(depth->header.stamp), depthOf(*depth, max_pixels_));
       } else if (const auto message = instance.instantiate<geometry_msgs::PoseStamped>()) {
         evaluation.addPlace(placeOf(*message));
+        evaluation.addTruePose(nanosecondsOf(message->header.stamp), truePoseOf(*message));
       }
       evaluation.waitForRoom(kPosesInWork);
       log_.update(evaluation.options(), evaluation.counts());
@@ -86,6 +96,7 @@ class BagSource {
   rosbag::View view_;
   std::map<std::string, std::size_t> images_;
   std::map<std::string, std::size_t> captures_;
+  std::map<std::string, std::size_t> cameras_;  ///< where it is localised
   std::string place_topic_;
   ProgressLog log_;
 };
@@ -107,6 +118,19 @@ std::vector<Field> fieldsOf(BagEvaluationOptions& options) {
            "say; may be repeated"}};
 }
 
+namespace {
+
+evaluate::LocalisationOutcome localise(evaluate::Evaluation& evaluation) {
+  QueryLog log;
+  evaluate::LocaliseCallbacks callbacks;
+  callbacks.progress = [&](std::size_t done, std::size_t all) { log.update(done, all); };
+  const evaluate::LocalisationOutcome outcome = evaluation.localise(callbacks);
+  if (!outcome.summary.empty()) std::printf("\n%s\n", localisationTable(outcome.summary).c_str());
+  return outcome;
+}
+
+}  // namespace
+
 int evaluateBags(const BagEvaluationOptions& options) {
   std::optional<BagSource> source;
   if (!options.bags.empty()) source.emplace(options);
@@ -121,7 +145,8 @@ int evaluateBags(const BagEvaluationOptions& options) {
               verifiedTable(outcome.verified).c_str());
   const std::string remarks = remarksOf(evaluation.options(), outcome.counts);
   if (!remarks.empty()) std::fprintf(stderr, "%s\n", remarks.c_str());
-  const std::string faults = faultsOf(evaluation.options(), outcome);
+  const evaluate::LocalisationOutcome localised = localise(evaluation);
+  const std::string faults = faultsOf(evaluation.options(), outcome) + faultsOf(localised);
   if (faults.empty()) return 0;
   std::fprintf(stderr, "%s\n", faults.c_str());
   return kNotWholeStatus;

@@ -5,6 +5,7 @@
 
 #include "ros/evaluator/bag_streams.h"
 #include "ros/evaluator/folder_lock.h"
+#include "ros/evaluator/progress_log.h"
 #include "ros/evaluator/view_source.h"
 #include "sunlit/evaluate/localise/localisation_files.h"
 #include "sunlit/evaluate/localise/map.h"
@@ -13,30 +14,6 @@ namespace sunlit::ros_interface {
 namespace {
 
 using evaluate::LocalisationRow;
-
-/// A line for each query stream and detector.
-std::string localisationTable(const std::vector<evaluate::LocalisationSummary>& summaries) {
-  std::string table = "map      query    detector      n  failed";
-  char buffer[200];
-  for (const evaluate::Reach& reach : evaluate::kReaches) {
-    std::snprintf(buffer, sizeof buffer, "  %5.4g m %2.4g deg", reach.metres, reach.degrees);
-    table += buffer;
-  }
-  table += "  median m    deg  AUC@5/10/20 deg";
-  for (const evaluate::LocalisationSummary& s : summaries) {
-    std::snprintf(buffer, sizeof buffer, "\n%-8s %-8s %-9s %5zu  %6zu", s.map.c_str(), s.query.c_str(),
-                  s.detector.c_str(), s.n, s.failures);
-    table += buffer;
-    for (const evaluate::Statistics& within : s.within) {
-      std::snprintf(buffer, sizeof buffer, "  %12.1f %%", 100.0 * within.mean);
-      table += buffer;
-    }
-    std::snprintf(buffer, sizeof buffer, "  %8.3f %6.3f  %.3f/%.3f/%.3f", s.median_error_m,
-                  s.median_error_deg, s.auc[0], s.auc[1], s.auc[2]);
-    table += buffer;
-  }
-  return table;
-}
 
 class BagLocalisation {
  public:
@@ -111,7 +88,7 @@ class BagLocalisation {
     const BagViews::Entry& entry = views.entries()[number];
     for (std::size_t d = 0; d < results.size(); ++d) {
       rows_.push_back({entry.pose, entry.stamp_ns, map_name_, views.stream().name,
-                       options_.localisation.detectors[d], results[d]});
+                       options_.localisation.detectors[d], results[d], entry.map_from_optical});
     }
   }
 

@@ -14,7 +14,10 @@ namespace sunlit::ros_interface {
 
 EvaluatorNode::EvaluatorNode(ros::NodeHandle node, ros::NodeHandle private_node,
                              const EvaluatorOptions& options)
-    : options_(options), lock_(options.evaluation.output_dir) {
+    : options_(options),
+      lock_(options.evaluation.output_dir),
+      localisation_(private_node, options.evaluation),
+      activity_(private_node) {
   // roscpp's own handler ends the log and all topics before results could be written and told. Images may
   // come from the first subscription on.
   holdInterrupts();
@@ -100,7 +103,33 @@ void EvaluatorNode::finish(const std::string& reason, evaluate::Ending ending) {
   if (!faults_.empty()) ROS_ERROR("%s", faults_.c_str());
   const std::string remarks = remarksOf(evaluation_->options(), outcome.counts);
   if (!remarks.empty()) ROS_WARN("%s", remarks.c_str());
+  if (ending == evaluate::Ending::kCompared) localise();
   status_ = faults_.empty() ? 0 : kNotWholeStatus;
+}
+
+// What is interrupted here is done anew by whoever takes the run up again.
+void EvaluatorNode::localise() {
+  QueryLog log;
+  evaluate::LocaliseCallbacks callbacks;
+  callbacks.found = [this](const evaluate::LocalisationRow& row) { localisation_.publish(row); };
+  callbacks.progress = [&](std::size_t done, std::size_t all) {
+    log.update(done, all);
+    activity_.say("localising", "",
+                  {static_cast<double>(done) / static_cast<double>(all), log.secondsLeft(done)});
+  };
+  callbacks.stop = evaluate::StopToken([] { return isInterrupted(); });
+  try {
+    const evaluate::LocalisationOutcome outcome = evaluation_->localise(callbacks);
+    localisation_.publish(outcome.summary);
+    if (!outcome.summary.empty()) ROS_INFO("\n%s", localisationTable(outcome.summary).c_str());
+    const std::string faults = faultsOf(outcome);
+    if (faults.empty()) return;
+    ROS_ERROR("%s", faults.c_str());
+    faults_ += (faults_.empty() ? "" : "; ") + faults;
+  } catch (const evaluate::Stopped&) {
+    faults_ += std::string(faults_.empty() ? "" : "; ") + "interrupted before all queries were localised";
+    ROS_ERROR("interrupted before all queries were localised; the same run again does it");
+  }
 }
 
 int EvaluatorNode::run() {

@@ -10,10 +10,12 @@
 #include <memory>
 #include <string>
 
+#include "ros/activity.h"
 #include "ros/evaluator/evaluator_diagnostics.h"
 #include "ros/evaluator/evaluator_options.h"
 #include "ros/evaluator/folder_lock.h"
 #include "ros/evaluator/image_intake.h"
+#include "ros/evaluator/localisation_output.h"
 #include "ros/evaluator/progress_log.h"
 
 namespace sunlit::ros_interface {
@@ -33,6 +35,7 @@ class EvaluatorNode {
   bool isIdle() const;
   /// Why it is time to finish; empty while it is not.
   std::string reasonToFinish() const;
+  void localise();
   void finish(const std::string& reason, evaluate::Ending ending = evaluate::Ending::kCompared);
 
   EvaluatorOptions options_;
@@ -41,6 +44,8 @@ class EvaluatorNode {
   ros::Publisher summary_;
   ros::Publisher progress_;
   ros::Publisher matches_image_;
+  LocalisationOutput localisation_;
+  ActivityOutput activity_;
   std::unique_ptr<evaluate::Evaluation> evaluation_;  // calls the publishers above until it ends
   std::unique_ptr<ImageIntake> intake_;
   std::unique_ptr<EvaluatorDiagnostics> diagnostics_;

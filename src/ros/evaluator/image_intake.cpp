@@ -46,8 +46,29 @@ ImageIntake::ImageIntake(const ros::NodeHandle& node, const IntakeOptions& optio
   for (std::size_t s = 0; s < streams_.size(); ++s) subscribe(s);
   places_ = node_.subscribe<geometry_msgs::PoseStamped>(
       topics::kPose, kQueue, [this](const geometry_msgs::PoseStamped::ConstPtr& message) {
-        guarded([&] { evaluation_.addPlace(placeOf(*message)); });
+        guarded([&] {
+          evaluation_.addPlace(placeOf(*message));
+          evaluation_.addTruePose(nanosecondsOf(message->header.stamp), truePoseOf(*message));
+        });
       });
+  if (!evaluation_.options().localisation.map.empty()) subscribeToTruth();
+}
+
+// Only what is localised needs depth, which is larger than an image.
+void ImageIntake::subscribeToTruth() {
+  depth_ = node_.subscribe<sensor_msgs::Image>(
+      topics::kDepth, kQueue, [this](const sensor_msgs::Image::ConstPtr& message) {
+        guarded([&] {
+          evaluation_.addDepth(nanosecondsOf(message->header.stamp), depthOf(*message, options_.max_pixels));
+        });
+      });
+  for (std::size_t s = 0; s < streams_.size(); ++s) {
+    streams_[s].cameras = node_.subscribe<sensor_msgs::CameraInfo>(
+        evaluation_.options().streams[s] + "/" + topics::kCameraInfo, kQueue,
+        [this, s](const sensor_msgs::CameraInfo::ConstPtr& message) {
+          guarded([&] { evaluation_.addCamera(s, cameraOf(*message)); });
+        });
+  }
 }
 
 ImageIntake::~ImageIntake() = default;

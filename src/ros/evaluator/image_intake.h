@@ -61,10 +61,12 @@ class ImageIntake {
     image_transport::Subscriber images;
     ros::Subscriber compressed;
     ros::Subscriber captures;
+    ros::Subscriber cameras;
     std::optional<std::uint32_t> sequence;  // of the last image
   };
 
   void subscribe(std::size_t stream);
+  void subscribeToTruth();
   void subscribeByPlugin(std::size_t stream, const std::string& topic);
   template <typename Message>
   void take(std::size_t stream, const Message& message);
@@ -83,6 +85,7 @@ class ImageIntake {
   std::exception_ptr fault_;
   std::vector<Stream> streams_;
   ros::Subscriber places_;
+  ros::Subscriber depth_;
 };
 
 }  // namespace sunlit::ros_interface

@@ -75,13 +75,17 @@ void ProgressLog::update(const evaluate::EvaluationOptions& options, const evalu
   ROS_INFO("%s", line.c_str());
 }
 
+double WorkLog::secondsLeft(std::size_t done) const {
+  const double each_s = (ros::SteadyTime::now() - start_).toSec() / static_cast<double>(done);
+  return each_s * static_cast<double>(all_ - done);
+}
+
 void WorkLog::update(std::size_t done) {
   const ros::SteadyTime now = ros::SteadyTime::now();
   if ((now - last_line_).toSec() < kSecondsBetweenLines || done == 0) return;
   last_line_ = now;
-  const double each_s = (now - start_).toSec() / static_cast<double>(done);
   ROS_INFO("%zu of %zu %s (%zu %%), %s left", done, all_, work_.c_str(), 100 * done / all_,
-           textOfDuration(each_s * static_cast<double>(all_ - done)).c_str());
+           textOfDuration(secondsLeft(done)).c_str());
 }
 
 std::string summaryTable(const std::vector<evaluate::SummaryRow>& rows) {
@@ -106,6 +110,38 @@ std::string verifiedTable(const std::vector<evaluate::VerifiedSummaryRow>& rows)
     cells.push_back({row.a + "-" + row.b, row.detector + " " + row.measure, text});
   }
   return cells.empty() ? "" : "\n" + tableOf("right matches", cells);
+}
+
+std::string localisationTable(const std::vector<evaluate::LocalisationSummary>& summaries) {
+  std::string table = "map      query    detector      n  failed";
+  char buffer[200];
+  for (const evaluate::Reach& reach : evaluate::kReaches) {
+    std::snprintf(buffer, sizeof buffer, "  %5.4g m %2.4g deg", reach.metres, reach.degrees);
+    table += buffer;
+  }
+  table += "  median m    deg  AUC@5/10/20 deg";
+  for (const evaluate::LocalisationSummary& s : summaries) {
+    std::snprintf(buffer, sizeof buffer, "\n%-8s %-8s %-9s %5zu  %6zu", s.map.c_str(), s.query.c_str(),
+                  s.detector.c_str(), s.n, s.failures);
+    table += buffer;
+    for (const evaluate::Statistics& within : s.within) {
+      std::snprintf(buffer, sizeof buffer, "  %12.1f %%", 100.0 * within.mean);
+      table += buffer;
+    }
+    std::snprintf(buffer, sizeof buffer, "  %8.3f %6.3f  %.3f/%.3f/%.3f", s.median_error_m,
+                  s.median_error_deg, s.auc[0], s.auc[1], s.auc[2]);
+    table += buffer;
+  }
+  return table;
+}
+
+std::string faultsOf(const evaluate::LocalisationOutcome& outcome) {
+  if (outcome.isWhole()) return "";
+  if (outcome.key_frames == 0)
+    return "nothing localised: the map has no key frame, for which depth, pose and camera_info must have "
+           "come with its images";
+  return std::to_string(outcome.unobserved) +
+         " queries were not looked for, for want of pose or camera_info: see problems.csv";
 }
 
 std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate::Outcome& outcome) {

@@ -4,6 +4,7 @@
 #include <ros/time.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -33,6 +34,8 @@ class WorkLog {
   /// `work` as in "queries localised".
   WorkLog(std::string work, std::size_t all) : work_(std::move(work)), all_(all) {}
   void update(std::size_t done);
+  /// As fast as it went so far; `done` is above 0.
+  double secondsLeft(std::size_t done) const;
 
  private:
   std::string work_;
@@ -41,10 +44,27 @@ class WorkLog {
   ros::SteadyTime last_line_ = start_;
 };
 
+/// The same of queries that are looked for in a map.
+class QueryLog {
+ public:
+  void update(std::size_t done, std::size_t all) {
+    if (!log_) log_.emplace("queries localised", all);
+    log_->update(done);
+  }
+  double secondsLeft(std::size_t done) const { return log_->secondsLeft(done); }
+
+ private:
+  std::optional<WorkLog> log_;
+};
+
 /// Means and standard deviations, one line a difference, one column a pair.
 std::string summaryTable(const std::vector<evaluate::SummaryRow>& rows);
 /// Means and intervals of what is worth a look, below a line end; empty where no matches were verified.
 std::string verifiedTable(const std::vector<evaluate::VerifiedSummaryRow>& rows);
+/// How well queries were found, one line a query stream and detector.
+std::string localisationTable(const std::vector<evaluate::LocalisationSummary>& summaries);
+/// One line of what kept queries from being looked for; empty where nothing did.
+std::string faultsOf(const evaluate::LocalisationOutcome& outcome);
 /// One line of counts of what could not be evaluated; empty where everything was.
 std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate::Outcome& outcome);
 

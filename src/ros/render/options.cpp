@@ -47,7 +47,8 @@ std::vector<Field> fieldsOf(WantedSubscribers& wanted) {
   const Range some{0, 1000};
   return {{"images", &wanted.images, "", some, "of camera/image_raw and camera/capture"},
           {"poses", &wanted.poses, "", some, "of camera/pose"},
-          {"others", &wanted.others, "", some, "of camera_info, camera/depth and /tf"}};
+          {"truth", &wanted.truth, "", some, "of camera_info and camera/depth/image_raw"},
+          {"others", &wanted.others, "", some, "of camera/depth/camera_info and /tf"}};
 }
 
 std::vector<Field> fieldsOf(PacingOptions& pacing) {

@@ -41,7 +41,8 @@ struct CameraOptions {
 struct WantedSubscribers {
   int images = 0;  ///< of camera/image_raw and camera/capture
   int poses = 0;   ///< of camera/pose
-  int others = 0;  ///< of camera/camera_info, camera/depth/image_raw and TF
+  int truth = 0;   ///< of camera/camera_info and camera/depth/image_raw
+  int others = 0;  ///< of camera/depth/camera_info and TF
 };
 
 /// When a pose may be rendered.

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "ros/render/activity.h"
+#include "ros/activity.h"
 #include "ros/render/options.h"
 #include "ros/render/run.h"
 #include "ros/render/streams.h"

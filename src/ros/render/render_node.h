@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "ros/render/activity.h"
+#include "ros/activity.h"
 #include "ros/render/clock_source.h"
 #include "ros/render/options.h"
 #include "ros/render/path_source.h"

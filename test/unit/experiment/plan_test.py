@@ -2,6 +2,7 @@
 """What the arguments of launch files become."""
 
 import os
+import re
 import shlex
 import sys
 import tempfile
@@ -168,9 +169,28 @@ class Plan(unittest.TestCase):
         self.assertNotIn("self_test/render", tree["experiment"]["needed"])
         self.assertEqual(tree["evaluator"]["streams"], ["h04", "h12", "h20"])
 
+    def test_other_hours_are_looked_for_in_the_map_of_the_one_nearest_to_noon(self):
+        tree = planned()["evaluator"]["localisation"]
+        self.assertEqual(tree, {"map": "h12", "queries": ["h04", "h20"], "detectors": ["sift", "orb"]})
+        tree = planned(hours="[4, 10.5, 20]", map="20", localise="[brisk]")["evaluator"]["localisation"]
+        self.assertEqual(tree, {"map": "h20", "queries": ["h04", "h10_30"], "detectors": ["brisk"]})
+        self.assertEqual(planned(hours="[4, 10.5, 20]")["evaluator"]["localisation"]["map"], "h10_30")
+
+    def test_nothing_is_localised_without_detectors_or_a_second_hour(self):
+        for typed in ({"localise": "[]"}, {"hours": "[12]"}, {"differences": "[boolean_rgb]"}):
+            tree = planned(**typed)
+            self.assertNotIn("localisation", tree["evaluator"])
+            self.assertEqual(tree["render"]["subscribers"]["truth"], 0)
+
+    def test_maps_and_detectors_that_there_are_not_are_refused(self):
+        for typed, words in (({"map": "13"}, "argument map is '13', but must be auto"), ({"map": "noon"}, "argument map"),
+                             ({"localise": "[akaze]"}, "argument localise is '[akaze]'")):
+            with self.assertRaisesRegex(arguments.BadArgument, re.escape(words)):
+                planned(**typed)
+
     def test_rendering_waits_for_a_recorder(self):
-        self.assertEqual(planned()["render"]["subscribers"], {"images": 1, "poses": 1, "others": 0})
-        self.assertEqual(planned(record="true")["render"]["subscribers"], {"images": 2, "poses": 2, "others": 1})
+        self.assertEqual(planned()["render"]["subscribers"], {"images": 1, "poses": 1, "truth": 1, "others": 0})
+        self.assertEqual(planned(record="true")["render"]["subscribers"], {"images": 2, "poses": 2, "truth": 2, "others": 1})
 
     def test_the_recording_holds_what_each_image_was_made_under(self):
         topics = planned(record="true", hours="[4, 5]")["experiment"]["recording"]["topics"]
@@ -188,7 +208,7 @@ class Plan(unittest.TestCase):
     def test_where_all_is_evaluated_only_the_recorder_is_waited_for(self):
         tree = planned(plan.Beginning(20, evaluated=20, recorded=8), record="true")
         self.assertEqual(tree["render"]["wait_for"], [])
-        self.assertEqual(tree["render"]["subscribers"], {"images": 1, "poses": 1, "others": 1})
+        self.assertEqual(tree["render"]["subscribers"], {"images": 1, "poses": 1, "truth": 1, "others": 1})
 
     def test_an_earlier_run_is_taken_up_where_it_has_a_gap(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -68,7 +68,7 @@ def queries(lost=None):
     """Lines of localisation.csv: the other hours in a map of noon. All are found to 0.1 m and 1 degree, but for the first
     `lost[query, detector]` poses, which are not found at all."""
     lost = lost or {}
-    found, not_found = ("0.1", "1", "120", "5", "localised"), ("nan", "nan", "0", "5", "lost")
+    found, not_found = ("0.1", "1", "120", "5", "localised"), ("nan", "nan", "0", "5", "no_pose")
     return [QUERIES_HEADER] + [
         ",".join([str(pose), f"{pose / 10:.9f}", "h12", query, detector,
                   *(not_found if pose < lost.get((query, detector), 0) else found)])

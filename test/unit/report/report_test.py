@@ -259,10 +259,17 @@ class Localisation(InFolder):
 
     def test_shares_are_of_all_queries_and_need_both_position_and_rotation(self):
         found = self.queries("0,0,h12,h04,sift,0.5,5,9,5,localised", "1,1,h12,h04,sift,0.4,5.1,9,5,localised",
-                             "2,2,h12,h04,sift,0.6,4,9,5,localised", "3,3,h12,h04,sift,nan,nan,0,5,lost")
+                             "2,2,h12,h04,sift,0.6,4,9,5,localised", "3,3,h12,h04,sift,nan,nan,0,5,no_pose")
         one = found["h12", "h04", "sift"]
         self.assertEqual([one.share_within(*bound) for bound in localisation.WITHIN], [0.0, 0.25, 0.75])
         self.assertEqual(one.failures, 1)
+
+    def test_medians_count_failures_as_further_off_than_any(self):
+        self.queries("0,0,h12,h04,sift,0.5,5,9,5,localised", "1,1,h12,h04,sift,nan,nan,0,5,no_pose",
+                     "2,2,h12,h04,sift,nan,nan,0,5,no_pose", "0,0,h12,h04,orb,0.5,5,9,5,localised",
+                     "1,1,h12,h04,orb,0.7,6,9,5,localised", "2,2,h12,h04,orb,nan,nan,0,5,no_pose")
+        self.assertEqual([row[-3:-1] for row in localisation.table_rows(self.read())],
+                         [["no pose", "no pose"], ["0.700", "6.000"]])
 
     def test_what_stands_twice_or_is_no_number_is_refused_with_its_line(self):
         line = "0,0,h12,h04,sift,0.5,5,9,5,localised"
@@ -280,7 +287,7 @@ class Localisation(InFolder):
         self.assertEqual(localisation._cells([4, 4.5, 12]), [(3.75, 4.25), (4.25, 5.5), (11.0, 13.0)])
 
     def test_conditions_of_any_name_and_size_are_drawn(self):
-        self.write("localisation.csv", [queries.HEADER, "7,0,noon,dusk,sift,nan,nan,0,5,lost"])
+        self.write("localisation.csv", [queries.HEADER, "7,0,noon,dusk,sift,nan,nan,0,5,no_pose"])
         output = self.read()
         self.assertIn("<svg", localisation.usable_hours(output))
         self.assertIn("<svg", localisation.errors_along_path(output, localisation.pairs(output.queries)))

@@ -127,7 +127,7 @@ const std::map<std::string, Modules> kRoomsOfEvaluate = {
     {"features", {}},
     {"differences", {"features"}},
     {"files", {"differences"}},
-    {"run", {"differences", "features", "files", "verify"}},
+    {"run", {"differences", "features", "files", "localise", "verify"}},
     {"trajectory", {"files"}},
     {"places", {"features", "files"}},
     {"verify", {"differences", "features", "files"}},

@@ -26,6 +26,10 @@ std::vector<Field> decidingFieldsOf(ComparerOptions& options);
 /// Of all of them.
 std::vector<Field> fieldsOf(ComparerOptions& options);
 
+/// SIFT and ORB, where they are among the differences: what is verified and localised by unless told
+/// otherwise.
+std::vector<std::string> usualDetectors(const ComparerOptions& options);
+
 /// The detector of the first of the differences that has one; null where none has.
 const Detector* firstDetectorOf(const ComparerOptions& options);
 

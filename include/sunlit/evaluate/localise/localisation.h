@@ -20,6 +20,8 @@ struct LocalisationOptions {
   LocaliserOptions localiser;
 };
 
+/// "map_every".
+Field mapEveryRow(double* map_every_m);
 /// Without the parameters of detectors.
 std::vector<Field> fieldsOf(LocalisationOptions& options);
 

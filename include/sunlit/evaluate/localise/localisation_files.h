@@ -1,6 +1,7 @@
 /// How well queries were found, and the files that tell of it.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +21,7 @@ struct LocalisationRow {
   std::string query;
   std::string detector;
   LocalisedQuery result;
+  Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();  ///< map_from_optical
 };
 
 /// An image that could be used neither for the map nor as a query.

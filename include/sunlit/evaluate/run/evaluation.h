@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "sunlit/evaluate/files/frames_file.h"
+#include "sunlit/evaluate/localise/localisation_files.h"
 #include "sunlit/evaluate/run/evaluation_options.h"
+#include "sunlit/evaluate/run/told.h"
 #include "sunlit/evaluate/stop_token.h"
 #include "sunlit/evaluate/verify/verified_file.h"
 
@@ -43,11 +45,12 @@ struct StreamCounts {
   std::size_t duplicate = 0;     ///< stamp had come before
   std::size_t out_of_order = 0;  ///< used all the same
   std::size_t undecodable = 0;
-  std::size_t late = 0;        ///< came after its stamp had been given up
-  std::size_t dropped = 0;     ///< given up to bound the memory, or since the run was broken off
-  std::size_t lost = 0;        ///< sent but never here, as far as told by addLost(); not among the received
-  std::size_t unexpected = 0;  ///< of a pose that is not one of those expected
-  std::size_t lossy = 0;       ///< compressed with loss
+  std::size_t late = 0;         ///< came after its stamp had been given up
+  std::size_t dropped = 0;      ///< given up to bound the memory, or since the run was broken off
+  std::size_t lost = 0;         ///< sent but never here, as far as told by addLost(); not among the received
+  std::size_t unexpected = 0;   ///< of a pose that is not one of those expected
+  std::size_t lossy = 0;        ///< compressed with loss
+  std::size_t unlocalised = 0;  ///< could be neither key frame nor query, for want of depth, pose or camera
 };
 
 /// evaluated + resumed + the others = pairs asked for.
@@ -95,6 +98,24 @@ struct EvaluationCallbacks {
   std::function<void(const std::string& line)> note;  ///< something a person should read
 };
 
+/// What localising found.
+struct LocalisationOutcome {
+  bool is_asked = false;       ///< there was something to be done
+  std::size_t key_frames = 0;  ///< of the map; without one nothing is written
+  std::size_t queries = 0;     ///< looked for, one for each detector
+  /// Evaluated pictures that could not be looked for, for want of depth, pose or camera.
+  std::size_t unobserved = 0;
+  std::vector<LocalisationSummary> summary;
+  bool isWhole() const { return !is_asked || (key_frames > 0 && unobserved == 0); }
+};
+
+/// Each is called by one thread at a time.
+struct LocaliseCallbacks {
+  std::function<void(const LocalisationRow& row)> found;
+  std::function<void(std::size_t done, std::size_t all)> progress;
+  StopToken stop;  ///< throws Stopped
+};
+
 /// What becomes of images that are whole, but not compared yet.
 enum class Ending {
   kCompared,  ///< they are compared first
@@ -129,6 +150,13 @@ class Evaluation {
   /// One that is not finite is named, and left out.
   void addPlace(const PlaceRecord& place);
 
+  /// For what is localised, where options().localisation has a map: depth of a stamp as PosedView has it,
+  /// where the camera stood, and a stream's camera. Of what comes twice the last counts. Stamps wait for
+  /// them.
+  void addDepth(std::int64_t stamp_ns, const Told<cv::Mat>& depth);
+  void addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d>& map_from_optical);
+  void addCamera(std::size_t stream, const Told<image::PinholeCamera>& camera);
+
   const EvaluationOptions& options() const;
   /// Of work for pair_done that takes long: stops it once the run is broken off.
   const StopToken& stopToken() const;
@@ -141,6 +169,10 @@ class Evaluation {
   void waitForRoom(std::size_t queued_poses) const;
   /// Accounts for everything that still waits, writes all files and stops. Once.
   Outcome finish(Ending ending = Ending::kCompared);
+  /// Looks for the queries in the map, after finish(), and writes localisation.csv and
+  /// localisation_summary.csv. Nothing where options().localisation has no map, or where they are there
+  /// already. A whole run then forgets observations.bin, which holds what was found in every picture.
+  LocalisationOutcome localise(const LocaliseCallbacks& callbacks);
 
  private:
   class State;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sunlit/evaluate/differences/comparer.h"
+#include "sunlit/evaluate/run/localisation_of_run.h"
 #include "sunlit/evaluate/run/pose_range.h"
 #include "sunlit/quantity/field.h"
 
@@ -33,6 +34,7 @@ struct EvaluationOptions {
   /// Those of the compared differences whose matches are checked against the truth; nothing given: sift and
   /// orb, where they are among them. See verifiedDetectors().
   std::optional<std::vector<std::string>> verify;
+  LocalisationOfRun localisation;
   std::string output_dir;  ///< made where it does not exist
   PoseRange poses;         ///< those expected; what comes of others is counted, named and left out
   KeptImages images =

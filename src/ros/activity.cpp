@@ -1,4 +1,4 @@
-#include "ros/render/activity.h"
+#include "ros/activity.h"
 
 #include "sunlit/ros/topic_names.h"
 

@@ -1,0 +1,51 @@
+/// Queries of a run looked for in the map of the same run, once all of both has been observed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sunlit/evaluate/localise/localisation.h"
+#include "sunlit/evaluate/localise/localisation_files.h"
+#include "sunlit/evaluate/localise/observations.h"
+#include "sunlit/evaluate/stop_token.h"
+
+namespace sunlit::evaluate {
+
+/// Which streams, of those observed.
+struct ObservedStreams {
+  std::string map;
+  std::vector<std::string> queries;
+};
+
+struct ObservedProgress {
+  /// `done` of `all` queries; one of each detector counts. Called by one thread at a time.
+  std::function<void(std::size_t done, std::size_t all)> update;
+  std::function<void(const LocalisationRow& row)> found;  ///< by one thread at a time, in no certain order
+  StopToken stop;
+};
+
+/// The number that counts of a pose, from its stamp and the number that it was observed with.
+using PoseOfStamp = std::function<std::int64_t(std::int64_t stamp_ns, std::int64_t pose)>;
+
+struct ObservedDrives {
+  std::vector<const ObservationFile*> files;
+  ObservedStreams streams;
+  PoseOfStamp settled;
+};
+
+struct ObservedResult {
+  std::size_t key_frames = 0;         ///< of the map, each with features of every detector
+  std::vector<LocalisationRow> rows;  ///< none without a key frame
+};
+
+/// The same rows as Localisation gives for the pictures themselves, by query stream, pose and detector, in
+/// the order of `observed.streams` and `options`. Key frames are chosen in the order of their poses. Of a
+/// pose that was observed twice the earlier stamp counts, of one stamp the first. Runs in parallel, to the
+/// same bits. Throws Stopped.
+ObservedResult localiseObserved(const ObservedDrives& observed, const LocalisationOptions& options,
+                                const ObservedProgress& progress);
+
+}  // namespace sunlit::evaluate

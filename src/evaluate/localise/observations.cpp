@@ -1,0 +1,261 @@
+// Record: kMagic, bytes of the payload, payload. Numbers as the processor has them: a run's files stay where
+// it ran.
+#include "sunlit/evaluate/localise/observations.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <opencv2/core.hpp>
+#include <stdexcept>
+#include <utility>
+
+namespace sunlit::evaluate {
+namespace {
+
+constexpr std::uint64_t kMagic = 0x31736265746c6e73;  // "snltebs1"
+constexpr std::uint64_t kHead = 2 * sizeof(std::uint64_t);
+constexpr std::uint64_t kLongestKey = 4096;  // names of streams and detectors are far shorter
+
+[[noreturn]] void failWith(const std::string& path, const std::string& what) {
+  throw std::runtime_error(path + ": " + what + ": " + std::strerror(errno));
+}
+
+class Writer {
+ public:
+  template <typename Value>
+  void put(const Value& value) {
+    static_assert(std::is_trivially_copyable_v<Value>);
+    put(&value, sizeof value);
+  }
+  void put(const void* data, std::size_t bytes) { bytes_.append(static_cast<const char*>(data), bytes); }
+  void put(const std::string& text) {
+    put(static_cast<std::uint64_t>(text.size()));
+    put(text.data(), text.size());
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+class Reader {
+ public:
+  Reader(const std::string& bytes, const std::string& path) : bytes_(bytes), path_(path) {}
+  template <typename Value>
+  Value get() {
+    Value value;
+    get(&value, sizeof value);
+    return value;
+  }
+  void get(void* data, std::size_t bytes) {
+    if (bytes > bytes_.size() - at_) throw std::runtime_error(path_ + ": holds a record that is cut off");
+    std::memcpy(data, bytes_.data() + at_, bytes);
+    at_ += bytes;
+  }
+  /// How many of so many bytes each follow, which must all be there.
+  std::size_t count(std::size_t bytes_each) {
+    const auto count = get<std::uint64_t>();
+    if (count > (bytes_.size() - at_) / bytes_each)
+      throw std::runtime_error(path_ + ": holds a record that is cut off");
+    return static_cast<std::size_t>(count);
+  }
+  std::string text() {
+    std::string text(count(1), '\0');
+    get(text.data(), text.size());
+    return text;
+  }
+
+ private:
+  const std::string& bytes_;
+  const std::string& path_;
+  std::size_t at_ = 0;
+};
+
+void putKey(Writer& out, const ObservationKey& key) {
+  out.put(key.stream);
+  out.put(key.detector);
+  out.put(key.pose);
+  out.put(key.stamp_ns);
+}
+
+ObservationKey takeKey(Reader& in) {
+  ObservationKey key;
+  key.stream = in.text();
+  key.detector = in.text();
+  key.pose = in.get<std::int64_t>();
+  key.stamp_ns = in.get<std::int64_t>();
+  return key;
+}
+
+void putPlaces(Writer& out, const Observation& observation) {
+  out.put(static_cast<std::uint64_t>(observation.features.key_points.size()));
+  for (const cv::KeyPoint& key_point : observation.features.key_points) {
+    out.put(key_point.pt);
+    out.put(key_point.response);
+  }
+  out.put(static_cast<std::uint64_t>(observation.points.size()));
+  for (const Eigen::Vector3d& point : observation.points) out.put(point.data(), sizeof(double) * 3);
+}
+
+void takePlaces(Reader& in, Observation& observation) {
+  observation.features.key_points.resize(in.count(sizeof(cv::Point2f) + sizeof(float)));
+  for (cv::KeyPoint& key_point : observation.features.key_points) {
+    key_point.pt = in.get<cv::Point2f>();
+    key_point.response = in.get<float>();
+  }
+  observation.points.resize(in.count(sizeof(double) * 3));
+  for (Eigen::Vector3d& point : observation.points) in.get(point.data(), sizeof(double) * 3);
+}
+
+void putDescriptors(Writer& out, const cv::Mat& descriptors) {
+  const cv::Mat compact = compactDescriptors(descriptors);
+  out.put(descriptors.type());
+  out.put(compact.type());
+  out.put(compact.rows);
+  out.put(compact.cols);
+  const std::size_t row_bytes = static_cast<std::size_t>(compact.cols) * compact.elemSize();
+  for (int i = 0; i < compact.rows; ++i) out.put(compact.ptr(i), row_bytes);
+}
+
+cv::Mat takeDescriptors(Reader& in) {
+  const int type = in.get<int>();
+  const int compact_type = in.get<int>();
+  const int rows = in.get<int>();
+  const int columns = in.get<int>();
+  cv::Mat compact(rows, columns, compact_type);
+  const std::size_t row_bytes = static_cast<std::size_t>(columns) * compact.elemSize();
+  for (int i = 0; i < rows; ++i) in.get(compact.ptr(i), row_bytes);
+  if (type == compact_type) return compact;
+  cv::Mat descriptors;
+  compact.convertTo(descriptors, type);
+  return descriptors;
+}
+
+std::string payloadOf(const ObservationKey& key, const Observation& observation) {
+  Writer out;
+  putKey(out, key);
+  out.put(observation.camera);
+  const Eigen::Matrix4d pose = observation.map_from_optical.matrix();
+  out.put(pose.data(), sizeof(double) * 16);
+  putPlaces(out, observation);
+  putDescriptors(out, observation.features.descriptors);
+  return out.bytes();
+}
+
+bool readAt(int descriptor, void* data, std::size_t bytes, std::uint64_t offset) {
+  std::size_t done = 0;
+  while (done < bytes) {
+    const ssize_t got =
+        ::pread(descriptor, static_cast<char*>(data) + done, bytes - done, static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    done += static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+bool writeAt(int descriptor, const std::string& bytes, std::uint64_t offset) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t put =
+        ::pwrite(descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+    if (put < 0 && errno == EINTR) continue;
+    if (put < 0) return false;
+    done += static_cast<std::size_t>(put);
+  }
+  return true;
+}
+
+}  // namespace
+
+ObservationFile::ObservationFile(const std::string& path) : path_(path) {
+  descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) failWith(path, "cannot be opened");
+  try {
+    scan();
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
+}
+
+ObservationFile::~ObservationFile() {
+  ::close(descriptor_);
+}
+
+void ObservationFile::scan() {
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0) failWith(path_, "cannot be read");
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  std::uint64_t head[2];
+  while (size - end_ >= kHead && readAt(descriptor_, head, sizeof head, end_)) {
+    if (head[0] != kMagic)
+      throw std::runtime_error(
+          path_ + ": is not a file of observations of this version; another output folder is needed");
+    if (head[1] > size - end_ - kHead) break;
+    Entry entry{{}, end_, head[1]};
+    const std::string bytes = payload(entry, std::min(entry.bytes, kLongestKey));
+    Reader in(bytes, path_);
+    entry.key = takeKey(in);
+    entries_.push_back(std::move(entry));
+    end_ += kHead + head[1];
+  }
+  torn_ = static_cast<std::size_t>(size - end_);
+  if (torn_ > 0 && ::ftruncate(descriptor_, static_cast<off_t>(end_)) != 0)
+    failWith(path_, "its torn end cannot be cut off");
+}
+
+std::string ObservationFile::payload(const Entry& entry, std::uint64_t beginning) const {
+  std::string bytes(beginning, '\0');
+  if (!readAt(descriptor_, bytes.data(), bytes.size(), entry.offset + kHead))
+    failWith(path_, "cannot be read");
+  return bytes;
+}
+
+void ObservationFile::add(const ObservationKey& key, const Observation& observation) {
+  const std::string bytes = payloadOf(key, observation);
+  Writer record;
+  record.put(kMagic);
+  record.put(static_cast<std::uint64_t>(bytes.size()));
+  record.put(bytes.data(), bytes.size());
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!writeAt(descriptor_, record.bytes(), end_)) {
+    const int reason = errno;
+    const bool is_mended = ::ftruncate(descriptor_, static_cast<off_t>(end_)) == 0;
+    errno = reason;
+    failWith(path_, is_mended ? "cannot be written" : "cannot be written, and ends torn");
+  }
+  entries_.push_back({key, end_, bytes.size()});
+  end_ += record.bytes().size();
+}
+
+std::vector<ObservationKey> ObservationFile::keys() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<ObservationKey> keys;
+  for (const Entry& entry : entries_) keys.push_back(entry.key);
+  return keys;
+}
+
+Observation ObservationFile::read(std::size_t index) const {
+  const Entry entry = [&] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return entries_.at(index);
+  }();
+  const std::string bytes = payload(entry, entry.bytes);
+  Reader in(bytes, path_);
+  takeKey(in);
+  Observation observation;
+  observation.camera = in.get<image::PinholeCamera>();
+  Eigen::Matrix4d pose;
+  in.get(pose.data(), sizeof(double) * 16);
+  observation.map_from_optical.matrix() = pose;
+  takePlaces(in, observation);
+  observation.features.descriptors = takeDescriptors(in);
+  return observation;
+}
+
+}  // namespace sunlit::evaluate

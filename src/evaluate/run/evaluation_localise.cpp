@@ -1,0 +1,145 @@
+// What a run keeps to localise by, and how it is localised at its end.
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include "evaluate/run/evaluation_state.h"
+
+namespace sunlit::evaluate {
+namespace {
+
+constexpr const char* kObservations = "observations.bin";
+
+LocalisationOptions optionsOf(const EvaluationOptions& options) {
+  const LocalisationOfRun& asked = options.localisation;
+  return {options.comparer.known, localisingDetectors(asked, options.comparer), asked.map_every_m,
+          asked.localiser};
+}
+
+ObservedStreams streamsOf(const EvaluationOptions& options) {
+  return {options.localisation.map, queriesOf(options.localisation, options.streams)};
+}
+
+}  // namespace
+
+void Evaluation::State::prepareLocalisation() {
+  if (options_.localisation.map.empty()) return;
+  observer_ = std::make_unique<Observer>(
+      Observer::Setup{options_.streams, streamsOf(options_),
+                      localisingDetectors(options_.localisation, options_.comparer), file(kObservations)});
+}
+
+void Evaluation::State::addTruth(std::int64_t stamp_ns, const std::function<void(GroundTruth&)>& add) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_finished_ || !observer_ || sets_.isTaken(stamp_ns)) return;
+  add(observer_->truth());
+  closeIfWhole(stamp_ns);
+  keepWithinMemory(stamp_ns);
+}
+
+void Evaluation::State::addDepth(std::int64_t stamp_ns, const Told<cv::Mat>& depth) {
+  addTruth(stamp_ns, [&](GroundTruth& truth) { truth.addDepth(stamp_ns, depth); });
+}
+
+void Evaluation::State::addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d>& map_from_optical) {
+  addTruth(stamp_ns, [&](GroundTruth& truth) { truth.addPose(stamp_ns, map_from_optical); });
+}
+
+void Evaluation::State::addCamera(std::size_t stream, const Told<image::PinholeCamera>& camera) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_finished_ || !observer_) return;
+  const bool is_first = !observer_->truth().camera(stream).has_come;
+  observer_->truth().addCamera(stream, camera);
+  if (!is_first) return;
+  for (const std::int64_t stamp : sets_.openStamps()) closeIfWhole(stamp);
+}
+
+// Names the pictures that can be neither key frame nor query.
+void Evaluation::State::observeSet(const StampSet& set, Work& work) {
+  if (!observer_) return;
+  work.truth = observer_->truth().take(set.stamp_ns);
+  work.observed.assign(set.streams.size(), 0);
+  for (std::size_t s = 0; s < set.streams.size(); ++s) {
+    if (set.streams[s].rgb.empty()) continue;
+    const std::string fault = observer_->faultOf(s, work.truth, set.streams[s].rgb.size());
+    work.observed[s] = fault.empty() ? 1 : 0;
+    if (fault.empty()) continue;
+    ++counts_.streams[s].unlocalised;
+    report({"unlocalised", work.pose, set.stamp_ns, options_.streams[s], fault});
+  }
+}
+
+void Evaluation::State::observeMatched(const Work& work, const Matched& matched) const {
+  if (!observer_) return;
+  const std::string& detector = layout_.differences[matched.difference];
+  const auto& [stream_a, stream_b] = pair_streams_[work.pairs[matched.pair]];
+  const auto observe = [&](std::size_t stream, const Features& features) {
+    if (work.observed[stream] != 0 && observer_->observes(stream, detector))
+      observer_->observe({stream, work.pose, work.stamp_ns}, work.truth, detector, features);
+  };
+  observe(stream_a, matched.a);
+  observe(stream_b, matched.b);
+}
+
+LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbacks) {
+  LocalisationOutcome outcome;
+  if (!observer_ || isLocalised()) return outcome;
+  std::vector<std::unique_ptr<ObservationFile>> merged;
+  ObservedDrives drives{
+      {&observer_->observations()}, streamsOf(options_), [this](std::int64_t stamp, std::int64_t pose) {
+        return poses_.settled(stamp, pose);
+      }};
+  for (const std::string& folder : options_.merge) {
+    const std::string path = folder + "/" + kObservations;
+    if (!std::filesystem::exists(path))
+      throw std::runtime_error(path + ": is not there, so its poses cannot be localised with the others");
+    merged.push_back(std::make_unique<ObservationFile>(path));
+    drives.files.push_back(merged.back().get());
+  }
+  const LocalisationOptions options = optionsOf(options_);
+  const ObservedResult result =
+      localiseObserved(drives, options, {callbacks.progress, callbacks.found, callbacks.stop});
+  outcome.is_asked = true;
+  outcome.key_frames = result.key_frames;
+  outcome.queries = result.rows.size();
+  outcome.unobserved = unobserved(drives.streams, result.rows);
+  if (result.rows.empty()) return outcome;
+  outcome.summary = summariesOf(result.rows);
+  writeLocalisation(file("localisation.csv"), result.rows);
+  writeLocalisationSummary(file("localisation_summary.csv"), outcome.summary);
+  if (outcome.unobserved == 0 && isWholeAlone()) std::filesystem::remove(file(kObservations));
+  return outcome;
+}
+
+// By a run that was whole, and has forgotten its observations.
+bool Evaluation::State::isLocalised() const {
+  return options_.merge.empty() && observer_->observations().keys().empty() &&
+         std::filesystem::exists(file("localisation.csv"));
+}
+
+// All poses are here, so that no other run will ask for what was observed.
+bool Evaluation::State::isWholeAlone() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const PoseRange& poses = options_.poses;
+  return poses.size() > 0 && poses.first == 0 && poses.stride == 1 &&
+         completed_.size() - unexpected_poses_ >= poses.size();
+}
+
+// Evaluated pictures of query streams that no row tells of.
+std::size_t Evaluation::State::unobserved(const ObservedStreams& streams,
+                                          const std::vector<LocalisationRow>& rows) const {
+  std::set<std::pair<std::string, std::int64_t>> looked_for;
+  for (const LocalisationRow& row : rows) looked_for.emplace(row.query, static_cast<std::int64_t>(row.pose));
+  std::set<std::pair<std::string, std::int64_t>> lacking;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const PairRecord& record : records_) {
+    for (const std::string& stream : {options_.pairs[record.pair].a, options_.pairs[record.pair].b}) {
+      const bool is_query = std::count(streams.queries.begin(), streams.queries.end(), stream) > 0;
+      if (is_query && looked_for.count({stream, record.pose}) == 0) lacking.emplace(stream, record.pose);
+    }
+  }
+  return lacking.size();
+}
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,47 @@
+#include "sunlit/evaluate/run/localisation_of_run.h"
+
+#include <algorithm>
+
+namespace sunlit::evaluate {
+
+std::vector<Field> fieldsOf(LocalisationOfRun& options, const ComparerOptions& comparer) {
+  LocalisationOfRun* const all = &options;
+  const ComparerOptions* const compared = &comparer;
+  const Choices detectors{comparer.known.namesOfDetectors(),
+                          [all, compared] { return localisingDetectors(*all, *compared); },
+                          [all](const std::vector<std::string>& some) { all->detectors = some; }};
+  std::vector<Field> rows =
+      joined({{{"map",
+                &options.map,
+                "",
+                {},
+                "stream whose images, with depth and poses, make a map that the others are looked for in "
+                "once all is "
+                "evaluated; empty: nothing is localised"},
+               {"queries", &options.queries, "", {}, "streams that are looked for; [] for all others"},
+               {"detectors",
+                detectors,
+                "",
+                {},
+                "among the differences; without this key sift and orb, where they are"}},
+              {mapEveryRow(&options.map_every_m)},
+              fieldsOf(options.localiser)});
+  for (Field& row : rows) row.key = "localisation/" + row.key;
+  return rows;
+}
+
+std::vector<std::string> localisingDetectors(const LocalisationOfRun& options,
+                                             const ComparerOptions& comparer) {
+  return options.detectors ? *options.detectors : usualDetectors(comparer);
+}
+
+std::vector<std::string> queriesOf(const LocalisationOfRun& options,
+                                   const std::vector<std::string>& streams) {
+  if (!options.queries.empty()) return options.queries;
+  std::vector<std::string> others;
+  std::copy_if(streams.begin(), streams.end(), std::back_inserter(others),
+               [&](const std::string& stream) { return stream != options.map; });
+  return others;
+}
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,94 @@
+#include "evaluate/run/observer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sunlit/evaluate/posed_view.h"
+
+namespace sunlit::evaluate {
+namespace {
+
+/// What was told, or not.
+struct Message {
+  bool has_come;
+  std::string fault;
+  const char* topic;
+};
+
+std::string firstFaultOf(const std::vector<Message>& messages) {
+  for (const Message& message : messages) {
+    if (!message.has_come) return std::string("no ") + message.topic + " of this stamp";
+    if (!message.fault.empty()) return std::string(message.topic) + ": " + message.fault;
+  }
+  return "";
+}
+
+std::vector<Eigen::Vector3d> pointsOf(const PosedView& view, const Features& features) {
+  std::vector<Eigen::Vector3d> points;
+  for (const cv::KeyPoint& key_point : features.key_points) {
+    const auto point = pointAt(view, {key_point.pt.x, key_point.pt.y});
+    points.push_back(point.value_or(Eigen::Vector3d::Constant(std::nan(""))));
+  }
+  return points;
+}
+
+std::string sizeOf(const cv::Size& size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height) + " px";
+}
+
+}  // namespace
+
+Observer::Observer(const Setup& setup) : setup_(setup), truth_(setup.streams.size()), file_(setup.file) {
+  const std::vector<std::string>& queries = setup_.roles.queries;
+  for (const std::string& stream : setup_.streams) {
+    const bool is_query = std::count(queries.begin(), queries.end(), stream) > 0;
+    roles_.push_back(stream == setup_.roles.map ? Role::kMap : is_query ? Role::kQuery : Role::kNone);
+  }
+}
+
+bool Observer::isReady(std::int64_t stamp_ns, const std::vector<char>& needed) const {
+  if (!truth_.has(stamp_ns)) return false;
+  for (std::size_t s = 0; s < needed.size(); ++s) {
+    if (needed[s] && roles_[s] != Role::kNone && !truth_.camera(s).has_come) return false;
+  }
+  return true;
+}
+
+std::string Observer::faultOf(std::size_t stream, const GroundTruth::View& truth,
+                              const cv::Size& size) const {
+  if (roles_.at(stream) == Role::kNone) return "";
+  const std::string fault =
+      firstFaultOf({{truth.map_from_optical.has_come, truth.map_from_optical.fault, "camera/pose"},
+                    {truth.cameras.at(stream).has_come, truth.cameras[stream].fault, "camera/camera_info"}});
+  if (!fault.empty()) return fault;
+  const image::PinholeCamera& camera = truth.cameras[stream].value;
+  const cv::Size of_camera(camera.width, camera.height);
+  if (size != of_camera) return "is " + sizeOf(size) + ", but its camera_info " + sizeOf(of_camera);
+  if (roles_[stream] != Role::kMap) return "";
+  const std::string of_depth =
+      firstFaultOf({{truth.depth.has_come, truth.depth.fault, "camera/depth/image_raw"}});
+  if (!of_depth.empty() || truth.depth.value.size() == size) return of_depth;
+  return "is " + sizeOf(size) + ", but its depth " + sizeOf(truth.depth.value.size());
+}
+
+bool Observer::observes(std::size_t stream, const std::string& detector) const {
+  return roles_.at(stream) != Role::kNone &&
+         std::count(setup_.detectors.begin(), setup_.detectors.end(), detector) > 0;
+}
+
+void Observer::observe(const ObservedPicture& picture, const GroundTruth::View& truth,
+                       const std::string& detector, const Features& features) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!kept_.emplace(picture.stream, picture.stamp_ns, detector).second) return;
+  }
+  PosedView view;
+  view.camera = truth.cameras.at(picture.stream).value;
+  view.map_from_optical = truth.map_from_optical.value;
+  view.depth = truth.depth.value;
+  Observation observation{view.camera, view.map_from_optical, features, {}};
+  if (roles_[picture.stream] == Role::kMap) observation.points = pointsOf(view, features);
+  file_.add({setup_.streams[picture.stream], detector, picture.pose, picture.stamp_ns}, observation);
+}
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,229 @@
+// Queries of a run looked for in the map of the same run.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "sunlit/evaluate/localise/localisation.h"
+#include "support/message_of.h"
+#include "support/textured_scene.h"
+#include "unit/evaluate/run/small_evaluation.h"
+
+namespace sunlit::evaluate {
+namespace {
+
+const image::PinholeCamera kCamera{200, 150, 173.0, 173.0, 99.5, 74.5};
+constexpr std::int64_t kPoses = 4;
+
+/// A drive along the corridor, half a metre a pose.
+const PosedView& viewOf(std::int64_t pose) {
+  static const std::vector<PosedView> views = [] {
+    std::vector<PosedView> all;
+    for (std::int64_t p = 0; p < kPoses; ++p)
+      all.push_back(corridor().seenFrom(lookingAlongX({0.5 * static_cast<double>(p), 0, 0}), kCamera));
+    return all;
+  }();
+  return views.at(static_cast<std::size_t>(pose));
+}
+
+/// Stream 0 is the map; the others are darker.
+cv::Mat lit(std::int64_t pose, std::size_t stream) {
+  cv::Mat rgb;
+  viewOf(pose).picture.rgb.convertTo(rgb, CV_8U, 1.0 - 0.3 * static_cast<double>(stream));
+  return rgb;
+}
+
+EvaluationOptions localising(const TemporaryFolder& folder) {
+  EvaluationOptions options;
+  options.streams = {"noon", "dusk", "night"};
+  options.output_dir = folder.file("out");
+  options.comparer.differences = {"boolean_rgb", "sift", "orb"};
+  options.poses.count = kPoses;
+  options.localisation.map = "noon";
+  options.localisation.map_every_m = 1.0;
+  return options;
+}
+
+void feedTruth(Evaluation& evaluation, std::int64_t pose) {
+  evaluation.addTruePose(stampOf(pose), told(viewOf(pose).map_from_optical));
+  evaluation.addDepth(stampOf(pose), told(viewOf(pose).depth));
+}
+
+void feedImages(Evaluation& evaluation, std::int64_t pose) {
+  for (std::size_t s = 0; s < 3; ++s) {
+    evaluation.addCamera(s, told(kCamera));
+    evaluation.addImage(s, stampOf(pose), lit(pose, s));
+  }
+}
+
+/// What Localisation makes of the same pictures, as files.
+std::string expectedRows(Retrieval retrieval = Retrieval::kTruth) {
+  LocalisationOptions options;
+  options.localiser.retrieval = retrieval;
+  options.map_every_m = 1.0;
+  Localisation localisation(options);
+  localisation.addKeyFrames({viewOf(0), viewOf(2)});
+  localisation.finishMap();
+  std::vector<LocalisationRow> rows;
+  const std::vector<std::string> queries = {"dusk", "night"};
+  for (std::size_t s = 0; s < queries.size(); ++s) {
+    for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+      PosedView view = viewOf(pose);
+      view.picture = makePicture(lit(pose, s + 1));
+      const auto results = localisation.localise({view})[0];
+      for (std::size_t d = 0; d < results.size(); ++d)
+        rows.push_back({static_cast<std::size_t>(pose), stampOf(pose), "noon", queries[s],
+                        options.detectors[d], results[d], view.map_from_optical});
+    }
+  }
+  const TemporaryFolder folder;
+  writeLocalisation(folder.file("rows"), rows);
+  return contentOf(folder.file("rows"));
+}
+
+LocalisationOutcome finishAndLocalise(Evaluation& evaluation) {
+  EXPECT_TRUE(evaluation.finish().isWhole());
+  return evaluation.localise({});
+}
+
+TEST(EvaluationLocalise, GivesWhatThePicturesThemselvesGive) {
+  const std::string expected = expectedRows();
+  for (const int threads : {1, 4}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(threads));
+    const TemporaryFolder folder;
+    Evaluation evaluation(localising(folder), {});
+    for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+      feedTruth(evaluation, pose);
+      feedImages(evaluation, pose);
+    }
+    const LocalisationOutcome outcome = finishAndLocalise(evaluation);
+    EXPECT_TRUE(outcome.isWhole());
+    EXPECT_EQ(outcome.key_frames, 2u);
+    EXPECT_EQ(outcome.queries, 2u * 2u * static_cast<std::size_t>(kPoses));
+    EXPECT_EQ(outcome.summary.size(), 4u);
+    EXPECT_EQ(outcome.summary[0].failures, 0u);
+    EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expected);
+    EXPECT_FALSE(std::filesystem::exists(folder.file("out/observations.bin"))) << "nobody will ask again";
+  }
+}
+
+TEST(EvaluationLocalise, FindsKeyFramesByTheirMatchesAlike) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = localising(folder);
+  options.localisation.localiser.retrieval = Retrieval::kAll;
+  Evaluation evaluation(options, {});
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+    feedTruth(evaluation, pose);
+    feedImages(evaluation, pose);
+  }
+  EXPECT_TRUE(finishAndLocalise(evaluation).isWhole());
+  EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows(Retrieval::kAll));
+}
+
+TEST(EvaluationLocalise, ImagesWaitForTheirDepth) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(localising(folder), {});
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) feedImages(evaluation, pose);
+  EXPECT_EQ(evaluation.counts().completed_poses, 0u);
+  EXPECT_EQ(evaluation.counts().waiting_images, 3u * static_cast<std::size_t>(kPoses));
+  for (std::int64_t pose = kPoses; pose-- > 0;) feedTruth(evaluation, pose);
+  EXPECT_TRUE(finishAndLocalise(evaluation).isWhole());
+  EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
+}
+
+TEST(EvaluationLocalise, ABrokenOffRunIsTakenUpAgain) {
+  const TemporaryFolder folder;
+  {
+    Evaluation evaluation(localising(folder), {});
+    for (std::int64_t pose = 0; pose < 2; ++pose) {
+      feedTruth(evaluation, pose);
+      feedImages(evaluation, pose);
+    }
+    evaluation.waitForRoom(0);
+  }
+  // Torn in the midst of a record, as by a kill.
+  std::ofstream(folder.file("out/observations.bin"), std::ios::app) << "snltebs1";
+  Evaluation evaluation(localising(folder), {});
+  EXPECT_EQ(evaluation.counts().completed_poses, 2u);
+  for (std::int64_t pose = 2; pose < kPoses; ++pose) {
+    feedTruth(evaluation, pose);
+    feedImages(evaluation, pose);
+  }
+  EXPECT_TRUE(finishAndLocalise(evaluation).isWhole());
+  EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
+  // Once more, when all is there: it stays.
+  Evaluation again(localising(folder), {});
+  EXPECT_TRUE(again.isComplete());
+  const LocalisationOutcome outcome = finishAndLocalise(again);
+  EXPECT_FALSE(outcome.is_asked);
+  EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
+}
+
+TEST(EvaluationLocalise, WhatIsMissingIsNamedAndCounted) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(localising(folder), {});
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) feedImages(evaluation, pose);
+  feedTruth(evaluation, 0);
+  evaluation.addTruePose(stampOf(1), unusable<Eigen::Isometry3d>("holds what is not finite"));
+  evaluation.addDepth(stampOf(1), told(viewOf(1).depth));
+  evaluation.addTruePose(stampOf(2), told(viewOf(2).map_from_optical));
+  evaluation.addDepth(stampOf(2), told(cv::Mat(10, 10, CV_32FC1, cv::Scalar(1))));
+  evaluation.addTruePose(stampOf(3), told(viewOf(3).map_from_optical));
+  const Outcome whole = evaluation.finish();
+  EXPECT_TRUE(whole.isWhole()) << "the differences need none of it";
+  EXPECT_EQ(whole.counts.streams[0].unlocalised, 3u);
+  EXPECT_EQ(whole.counts.streams[1].unlocalised, 1u) << "a query needs no depth";
+  const LocalisationOutcome outcome = evaluation.localise({});
+  EXPECT_EQ(outcome.key_frames, 1u);
+  EXPECT_EQ(outcome.unobserved, 2u) << "pose 1 of both queries";
+  EXPECT_FALSE(outcome.isWhole());
+  const std::string problems = contentOf(folder.file("out/problems.csv"));
+  EXPECT_TRUE(hasLine(problems, "unlocalised,1,500.100000000,dusk,camera/pose: holds what is not finite"));
+  EXPECT_TRUE(hasLine(problems, "unlocalised,3,500.300000000,noon,no camera/depth/image_raw of this stamp"));
+  EXPECT_NE(problems.find("unlocalised,2,500.200000000,noon,\"is 200x150 px, but its depth 10x10 px\""),
+            std::string::npos)
+      << problems;
+}
+
+TEST(EvaluationLocalise, WithoutAKeyFrameNothingIsClaimed) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(localising(folder), {});
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) feedImages(evaluation, pose);
+  evaluation.finish();
+  const LocalisationOutcome outcome = evaluation.localise({});
+  EXPECT_EQ(outcome.key_frames, 0u);
+  EXPECT_FALSE(outcome.isWhole());
+  EXPECT_FALSE(std::filesystem::exists(folder.file("out/localisation.csv")));
+}
+
+TEST(EvaluationLocalise, DepthWithoutImagesStaysWithinTheMemory) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = localising(folder);
+  options.poses.count = 0;
+  options.frame_rate = 10.0;
+  options.memory_limit_bytes = 1000000;
+  Evaluation evaluation(options, {});
+  for (std::int64_t pose = 0; pose < 100; ++pose)
+    evaluation.addDepth(stampOf(pose), told(cv::Mat(150, 200, CV_32FC1, cv::Scalar(1))));
+  EXPECT_LE(evaluation.counts().bytes, options.memory_limit_bytes);
+}
+
+TEST(EvaluationLocalise, AsksForStreamsAndDetectorsThatThereAre) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = localising(folder);
+  options.localisation.map = "morning";
+  EXPECT_NE(messageOf([&] { Evaluation(options, {}); }).find("localisation/map is \"morning\""),
+            std::string::npos);
+  options = localising(folder);
+  options.localisation.queries = {"noon"};
+  EXPECT_NE(messageOf([&] { Evaluation(options, {}); }).find("localisation/queries"), std::string::npos);
+  options = localising(folder);
+  options.localisation.detectors = std::vector<std::string>{"brisk"};
+  EXPECT_NE(messageOf([&] { Evaluation(options, {}); }).find("localisation/detectors is [brisk]"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace sunlit::evaluate
