@@ -66,6 +66,7 @@ class Output:
     folder: str
     series: dict
     queries: dict  # of localisation: (map, query, detector) -> Queries
+    shares: dict  # (map, query, detector) -> 95 % intervals of its shares
     summary: dict
     has_summary_file: bool
     run: dict
@@ -133,6 +134,7 @@ def read_output(folder):
         folder=os.path.abspath(folder),
         series=series,
         queries=localised,
+        shares=queries.read_intervals(os.path.join(folder, "localisation_summary.csv")),
         summary=summary or {key: summarise(one) for key, one in series.items()},
         has_summary_file=bool(summary),
         run=read_yaml(os.path.join(folder, "run.yaml")),

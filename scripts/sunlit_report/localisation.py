@@ -163,16 +163,26 @@ def _median(errors):
     return f"{middle:.3f}" if math.isfinite(middle) else "no pose"
 
 
+def _shares(found, intervals):
+    """In per cent, with their intervals where these are known."""
+    shares = [f"{100 * found.share_within(*bound):.0f}" for bound in WITHIN]
+    if not intervals:
+        return shares
+    return [f"{share}\u00a0[{100 * low:.0f},\u00a0{100 * high:.0f}]" if low <= high else share
+            for share, (low, high) in zip(shares, intervals)]
+
+
 def table_rows(output):
     """Per map, query and detector: what is counted and found, as text."""
     rows = []
-    for (map_name, query, detector), found in output.queries.items():
+    for key, found in output.queries.items():
+        map_name, query, detector = key
         rows.append([names.condition(map_name), names.condition(query), names.difference(detector), str(len(found.pose)),
                      str(found.failures)]
-                    + [f"{100 * found.share_within(*bound):.1f}" for bound in WITHIN]
+                    + _shares(found, output.shares.get(key))
                     + [_median(found.error_m), _median(found.error_deg), f"{np.median(found.inliers):.0f}"])
     return rows
 
 
 TABLE_HEADER = ["map", "query", "detector", "queries", "without a pose", "0.25 m, 2° / %", "0.5 m, 5° / %", "5 m, 10° / %",
-                "median error / m", "median error / °", "median inliers"]
+                "median / m", "median / °", "inliers"]

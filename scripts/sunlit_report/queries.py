@@ -1,4 +1,4 @@
-"""localisation.csv: where each query was found."""
+"""localisation.csv and localisation_summary.csv: where each query was found, and how sure the shares are."""
 
 import dataclasses
 
@@ -6,6 +6,9 @@ import numpy as np
 
 from .csv_rows import ReportError, number, rows, whole
 
+BOUNDS = ["within_0.25m_2deg", "within_0.5m_5deg", "within_5m_10deg"]
+SUMMARY = ("map,query,detector,n,failures," + ",".join(f"{name},{name}_low,{name}_high" for name in BOUNDS)
+           + ",median_error_m,median_error_deg,n_relative,auc_5deg,auc_10deg,auc_20deg")
 HEADER = "pose,stamp,map,query,detector,error_m,error_deg,inliers,retrieved,status"
 
 
@@ -39,3 +42,10 @@ def read(path):
                 f"{path}:{line}: pose {row['pose']} of {', '.join(key)} was given on line {first} already")
         collected.setdefault(key, []).append((row["pose"], row["error_m"], row["error_deg"], row["inliers"]))
     return {key: Queries(*(np.array(column) for column in zip(*sorted(values)))) for key, values in collected.items()}
+
+
+def read_intervals(path):
+    """{(map, query, detector): 95 % intervals of the shares within each bound}; empty where there is no file."""
+    kinds = {f"{name}_{end}": number for name in BOUNDS for end in ("low", "high")}
+    return {(row["map"], row["query"], row["detector"]): [(row[f"{name}_low"], row[f"{name}_high"]) for name in BOUNDS]
+            for row in rows(path, SUMMARY, kinds)}

@@ -28,6 +28,9 @@ void Evaluation::State::prepareLocalisation() {
   observer_ = std::make_unique<Observer>(
       Observer::Setup{options_.streams, streamsOf(options_),
                       localisingDetectors(options_.localisation, options_.comparer), file(kObservations)});
+  const std::size_t torn = observer_->observations().torn();
+  if (torn > 0 && callbacks_.note)
+    callbacks_.note(file(kObservations) + ": " + std::to_string(torn) + " bytes of a torn end were left out");
 }
 
 void Evaluation::State::addTruth(std::int64_t stamp_ns, const std::function<void(GroundTruth&)>& add) {

@@ -286,6 +286,8 @@ Counts Evaluation::State::counts() const {
     for (std::size_t s = 0; s < set.streams.size(); ++s) {
       if (!set.streams[s].has_come) counts.awaited_streams.push_back(s);
     }
+    const std::vector<char> all(set.streams.size(), 1);
+    counts.awaits_truth = observer_ && counts.awaited_streams.empty() && !observer_->isReady(*oldest, all);
   }
   return counts;
 }

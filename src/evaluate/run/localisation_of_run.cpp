@@ -9,7 +9,7 @@ std::vector<Field> fieldsOf(LocalisationOfRun& options, const ComparerOptions& c
   const ComparerOptions* const compared = &comparer;
   const Choices detectors{comparer.known.namesOfDetectors(),
                           [all, compared] { return localisingDetectors(*all, *compared); },
-                          [all](const std::vector<std::string>& some) { all->detectors = some; }};
+                          [all](const std::vector<std::string>& some) { all->detectors = some; }, true};
   std::vector<Field> rows =
       joined({{{"map",
                 &options.map,

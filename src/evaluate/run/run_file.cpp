@@ -57,7 +57,8 @@ std::string countersText(const EvaluationOptions& options, const Outcome& outcom
     text << "    " << yamlQuoted(options.streams[i]) << ": {received: " << c.received
          << ", duplicate: " << c.duplicate << ", out_of_order: " << c.out_of_order
          << ", undecodable: " << c.undecodable << ", late: " << c.late << ", dropped: " << c.dropped
-         << ", lost: " << c.lost << ", unexpected: " << c.unexpected << ", lossy: " << c.lossy << "}\n";
+         << ", lost: " << c.lost << ", unexpected: " << c.unexpected << ", lossy: " << c.lossy
+         << ", unlocalised: " << c.unlocalised << "}\n";
   }
   text << "  pairs:\n";
   for (std::size_t i = 0; i < options.pairs.size(); ++i) {

@@ -12,6 +12,7 @@ std::string awaited(const evaluate::EvaluationOptions& options, const evaluate::
   std::string names;
   for (const std::size_t s : counts.awaited_streams)
     names += (names.empty() ? "" : ", ") + options.streams[s];
+  if (counts.awaits_truth) return "camera/pose, camera/depth/image_raw or camera_info";
   return names.empty() ? "captures" : "images of " + names;
 }
 

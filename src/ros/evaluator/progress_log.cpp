@@ -71,7 +71,8 @@ void ProgressLog::update(const evaluate::EvaluationOptions& options, const evalu
     line += " poses";
   }
   line += "; " + std::to_string(counts.queued_poses) + " in work, " + std::to_string(counts.waiting_images) +
-          " images wait for a partner";
+          (counts.awaits_truth ? " images wait for camera/pose, camera/depth/image_raw or camera_info"
+                               : " images wait for a partner");
   ROS_INFO("%s", line.c_str());
 }
 
@@ -179,6 +180,7 @@ std::string remarksOf(const evaluate::EvaluationOptions& options, const evaluate
     add(c.lost, "sent, but lost on the way", options.streams[s]);
     add(c.unexpected, "of poses that are not expected, left out", options.streams[s]);
     add(c.lossy, "compressed with loss (JPEG)", options.streams[s]);
+    add(c.unlocalised, "not localised, for want of a usable depth, pose or camera", options.streams[s]);
   }
   return line;
 }

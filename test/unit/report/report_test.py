@@ -271,6 +271,12 @@ class Localisation(InFolder):
         self.assertEqual([row[-3:-1] for row in localisation.table_rows(self.read())],
                          [["no pose", "no pose"], ["0.700", "6.000"]])
 
+    def test_shares_stand_with_their_intervals(self):
+        self.queries("0,0,h12,h04,sift,0.5,5,9,5,localised", "1,1,h12,h04,sift,nan,nan,0,5,no_pose")
+        self.write("localisation_summary.csv", [
+            queries.SUMMARY, "h12,h04,sift,2,1,0,0,0,0.5,0.25,0.75,0.5,nan,nan,inf,inf,2,nan,nan,nan"])
+        self.assertEqual(localisation.table_rows(self.read())[0][5:8], ["0\u00a0[0,\u00a00]", "50\u00a0[25,\u00a075]", "50"])
+
     def test_what_stands_twice_or_is_no_number_is_refused_with_its_line(self):
         line = "0,0,h12,h04,sift,0.5,5,9,5,localised"
         for lines, what in [([line, line], ":3: pose 0 of h12, h04, sift was given on line 2 already"),
@@ -390,7 +396,7 @@ class Page(InFolder):
         self.write("localisation.csv", made.queries({("h20", "orb"): 30}))
         done = self.run_report(self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stdout, r"12 h +20 h +ORB +40 +30 +25\.0 +25\.0 +25\.0")
+        self.assertRegex(done.stdout, r"12 h +20 h +ORB +40 +30 +25 +25 +25")
         html = self.page()
         self.assertIn("Until which hour a map of 12 h serves", html)
         self.assertNotIn("Differences between conditions", html)

@@ -77,7 +77,8 @@ struct Counts {
   std::size_t waiting_images = 0;            ///< for a partner
   std::size_t queued_poses = 0;              ///< whole, but not compared yet
   std::size_t bytes = 0;                     ///< of what waits, as the memory limit counts them
-  std::vector<std::size_t> awaited_streams;  ///< that the oldest waiting stamp lacks; empty: none waits
+  std::vector<std::size_t> awaited_streams;  ///< that the oldest waiting stamp lacks
+  bool awaits_truth = false;  ///< it has all streams, but lacks the pose, depth or camera to localise by
 };
 
 /// What finish() found.

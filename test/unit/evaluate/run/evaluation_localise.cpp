@@ -128,6 +128,7 @@ TEST(EvaluationLocalise, ImagesWaitForTheirDepth) {
   for (std::int64_t pose = 0; pose < kPoses; ++pose) feedImages(evaluation, pose);
   EXPECT_EQ(evaluation.counts().completed_poses, 0u);
   EXPECT_EQ(evaluation.counts().waiting_images, 3u * static_cast<std::size_t>(kPoses));
+  EXPECT_TRUE(evaluation.counts().awaits_truth);
   for (std::int64_t pose = kPoses; pose-- > 0;) feedTruth(evaluation, pose);
   EXPECT_TRUE(finishAndLocalise(evaluation).isWhole());
   EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
@@ -145,7 +146,11 @@ TEST(EvaluationLocalise, ABrokenOffRunIsTakenUpAgain) {
   }
   // Torn in the midst of a record, as by a kill.
   std::ofstream(folder.file("out/observations.bin"), std::ios::app) << "snltebs1";
-  Evaluation evaluation(localising(folder), {});
+  std::string notes;
+  EvaluationCallbacks callbacks;
+  callbacks.note = [&](const std::string& line) { notes += line + "\n"; };
+  Evaluation evaluation(localising(folder), callbacks);
+  EXPECT_NE(notes.find("observations.bin: 8 bytes of a torn end were left out"), std::string::npos) << notes;
   EXPECT_EQ(evaluation.counts().completed_poses, 2u);
   for (std::int64_t pose = 2; pose < kPoses; ++pose) {
     feedTruth(evaluation, pose);
@@ -175,6 +180,7 @@ TEST(EvaluationLocalise, WhatIsMissingIsNamedAndCounted) {
   EXPECT_TRUE(whole.isWhole()) << "the differences need none of it";
   EXPECT_EQ(whole.counts.streams[0].unlocalised, 3u);
   EXPECT_EQ(whole.counts.streams[1].unlocalised, 1u) << "a query needs no depth";
+  EXPECT_NE(contentOf(folder.file("out/run.yaml")).find("unlocalised: 3}"), std::string::npos);
   const LocalisationOutcome outcome = evaluation.localise({});
   EXPECT_EQ(outcome.key_frames, 1u);
   EXPECT_EQ(outcome.unobserved, 2u) << "pose 1 of both queries";
@@ -208,6 +214,19 @@ TEST(EvaluationLocalise, DepthWithoutImagesStaysWithinTheMemory) {
   for (std::int64_t pose = 0; pose < 100; ++pose)
     evaluation.addDepth(stampOf(pose), told(cv::Mat(150, 200, CV_32FC1, cv::Scalar(1))));
   EXPECT_LE(evaluation.counts().bytes, options.memory_limit_bytes);
+}
+
+TEST(EvaluationLocalise, NothingIsAskedOfARunThatDoesNotLocalise) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = localising(folder);
+  options.comparer.differences = {"boolean_rgb"};
+  EXPECT_NE(messageOf([&] { Evaluation(options, {}); }).find("localisation/detectors is []"),
+            std::string::npos);
+  options.localisation.map = "";
+  Evaluation evaluation(options, {});
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) feedImages(evaluation, pose);
+  EXPECT_FALSE(finishAndLocalise(evaluation).is_asked);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("out/observations.bin")));
 }
 
 TEST(EvaluationLocalise, AsksForStreamsAndDetectorsThatThereAre) {
