@@ -56,7 +56,7 @@ std::string ConditionOutput::lonelyTopic(const WantedSubscribers& wanted) const 
   std::string topic = lonely({wanted.images, 0});
   if (!topic.empty()) return topic;
   if (static_cast<int>(capture_.getNumSubscribers()) < wanted.images) return capture_.getTopic();
-  return lonely({0, wanted.truth});
+  return lonely({0, wanted.ofTruth()});
 }
 
 }  // namespace sunlit::ros_interface

@@ -48,7 +48,7 @@ std::vector<Field> fieldsOf(WantedSubscribers& wanted) {
   return {{"images", &wanted.images, "", some, "of camera/image_raw and camera/capture"},
           {"poses", &wanted.poses, "", some, "of camera/pose"},
           {"truth", &wanted.truth, "", some, "of camera_info and camera/depth/image_raw"},
-          {"others", &wanted.others, "", some, "of camera/depth/camera_info and /tf"}};
+          {"others", &wanted.others, "", some, "of these, camera/depth/camera_info and /tf"}};
 }
 
 std::vector<Field> fieldsOf(PacingOptions& pacing) {

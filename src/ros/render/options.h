@@ -1,6 +1,7 @@
 /// What the render node can be told; config/render.yaml is its manual.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,7 +43,9 @@ struct WantedSubscribers {
   int images = 0;  ///< of camera/image_raw and camera/capture
   int poses = 0;   ///< of camera/pose
   int truth = 0;   ///< of camera/camera_info and camera/depth/image_raw
-  int others = 0;  ///< of camera/depth/camera_info and TF
+  int others = 0;  ///< of these, camera/depth/camera_info and TF
+  /// Of camera/camera_info and camera/depth/image_raw.
+  int ofTruth() const { return std::max(truth, others); }
 };
 
 /// When a pose may be rendered.

@@ -58,7 +58,7 @@ void PoseOutput::publishProgress(int poses) const {
 std::string PoseOutput::lonelyTopic(const WantedSubscribers& wanted) const {
   if (static_cast<int>(pose_.getNumSubscribers()) < wanted.poses) return pose_.getTopic();
   if (tf_ && static_cast<int>(tf_.getNumSubscribers()) < wanted.others) return tf_.getTopic();
-  return depth_.lonelyTopic({wanted.truth, wanted.others});
+  return depth_.lonelyTopic({wanted.ofTruth(), wanted.others});
 }
 
 }  // namespace sunlit::ros_interface
