@@ -162,6 +162,17 @@ class RenderControl(unittest.TestCase):
         for reader in readers:
             reader.unregister()
 
+    def test_waits_for_readers_of_what_localisation_needs(self):
+        arrived = threading.Event()
+        with RenderNode("truthful", parameters(conditions=["a"], subscribers={"truth": 1})) as node:
+            node.line_with("Waiting for subscribers of /a/camera/camera_info")
+            infos = rospy.Subscriber("/a/camera/camera_info", CameraInfo)
+            node.line_with("Waiting for subscribers of /camera/depth/image_raw")
+            depths = rospy.Subscriber("/camera/depth/image_raw", Image, lambda _: arrived.set())
+            self.assertTrue(arrived.wait(TIMEOUT_S))
+        infos.unregister()
+        depths.unregister()
+
     def test_live_pictures_have_the_sky_of_their_stamps_and_none_comes_before_its_time(self):
         arrivals = []
         listener = rospy.Subscriber("/camera/capture", Capture, lambda capture: arrivals.append((rospy.Time.now(), capture)))
