@@ -39,7 +39,7 @@ def distance_along(path):
     return np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(path["x"]), np.diff(path["y"])))])
 
 
-def abscissa(output, poses):
+def _abscissa(output, poses):
     """A function from these poses to where they stand on the axis, and the axis' name."""
     known = output.path.get("pose")
     if known is None or not np.isin(poses, known).all():
@@ -77,25 +77,33 @@ def _draw_series(axis, x, series, colour, label):
                   transform=axis.get_xaxis_transform())
 
 
-def along_path(output, pairs):
-    """D over the path, one panel per algorithm."""
-    to_x, x_name = abscissa(output, np.unique(np.concatenate([one.pose for one in output.series.values()])))
+def panels_over_path(output, along, shown, draw):
+    """A panel for each name that is shown, over the path of all that lies `along` it; draw(axis, name, to_x) fills one."""
+    to_x, x_name = _abscissa(output, np.unique(np.concatenate([one.pose for one in along])))
     with plt.rc_context(STYLE):
-        differences = output.differences
-        columns = 2 if len(differences) > 1 else 1
-        figure, axes = grid_of(len(differences), columns, (4.6, 1.75))
-        for index, (axis, difference) in enumerate(zip(axes, differences)):
-            for number, (a, b) in enumerate(pairs):
-                series = output.series.get((a, b, difference))
-                if series is not None:
-                    _draw_series(axis, to_x(series.pose), series, colour_of(number), names.pair(a, b))
-            axis.set_title(names.difference(difference))
-            axis.set_ylabel("D")
+        columns = 2 if len(shown) > 1 else 1
+        figure, axes = grid_of(len(shown), columns, (4.6, 1.75))
+        for index, (axis, name) in enumerate(zip(axes, shown)):
+            draw(axis, name, to_x)
+            axis.set_title(names.difference(name))
             axis.margins(x=0.01)
-            if index >= len(differences) - columns:
+            if index >= len(shown) - columns:
                 axis.set_xlabel(x_name)
         legend_above(figure, axes)
         return svg(figure)
+
+
+def along_path(output, pairs):
+    """D over the path, one panel per algorithm."""
+
+    def draw(axis, difference, to_x):
+        for number, (a, b) in enumerate(pairs):
+            series = output.series.get((a, b, difference))
+            if series is not None:
+                _draw_series(axis, to_x(series.pose), series, colour_of(number), names.pair(a, b))
+        axis.set_ylabel("D")
+
+    return panels_over_path(output, output.series.values(), output.differences, draw)
 
 
 def legend_above(figure, axes):

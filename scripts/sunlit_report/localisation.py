@@ -6,11 +6,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from . import names
-from .figures import STYLE, abscissa, colour_of, grid_of, legend_above, svg
+from .figures import STYLE, colour_of, grid_of, panels_over_path, svg
+from .queries import WITHIN
 
-# Those of visuallocalization.net and hloc; the second is what a band is green by.
-WITHIN = [(0.25, 2.0), (0.5, 5.0), (5.0, 10.0)]
-USABLE_WITHIN = WITHIN[1]
+USABLE_WITHIN = WITHIN[1]  # what a band is green by
 USABLE_SHARE = 0.9
 SOME_SHARE = 0.5
 # Okabe and Ito's green, light orange and vermilion: told apart by colour-blind readers and in grey.
@@ -127,24 +126,16 @@ def pairs(queries):
 def errors_along_path(output, shown_pairs):
     """Error of the position over the path, a panel for each detector; ticks on the upper edge are failures."""
     queries = output.queries
-    to_x, x_name = abscissa(output, np.unique(np.concatenate([one.pose for one in queries.values()])))
-    with plt.rc_context(STYLE):
-        shown = detectors(queries)
-        columns = 2 if len(shown) > 1 else 1
-        figure, axes = grid_of(len(shown), columns, (4.6, 1.75))
-        for index, (axis, detector) in enumerate(zip(axes, shown)):
-            for number, pair in enumerate(shown_pairs):
-                if (*pair, detector) in queries:
-                    _draw_errors(axis, to_x, queries[(*pair, detector)], colour_of(number),
-                                 f"{names.condition(pair[1])} in the map of {names.condition(pair[0])}")
-            axis.set_title(names.difference(detector))
-            axis.set_yscale("log")
-            axis.set_ylabel("error / m")
-            axis.margins(x=0.01)
-            if index >= len(shown) - columns:
-                axis.set_xlabel(x_name)
-        legend_above(figure, axes)
-        return svg(figure)
+
+    def draw(axis, detector, to_x):
+        for number, pair in enumerate(shown_pairs):
+            if (*pair, detector) in queries:
+                _draw_errors(axis, to_x, queries[(*pair, detector)], colour_of(number),
+                             f"{names.condition(pair[1])} in the map of {names.condition(pair[0])}")
+        axis.set_yscale("log")
+        axis.set_ylabel("error / m")
+
+    return panels_over_path(output, queries.values(), detectors(queries), draw)
 
 
 def _draw_errors(axis, to_x, found, colour, label):

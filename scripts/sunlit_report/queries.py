@@ -6,7 +6,8 @@ import numpy as np
 
 from .csv_rows import ReportError, number, rows, whole
 
-BOUNDS = ["within_0.25m_2deg", "within_0.5m_5deg", "within_5m_10deg"]
+WITHIN = [(0.25, 2.0), (0.5, 5.0), (5.0, 10.0)]  # m and deg: those of visuallocalization.net and hloc
+BOUNDS = [f"within_{metres:g}m_{degrees:g}deg" for metres, degrees in WITHIN]
 SUMMARY = ("map,query,detector,n,failures," + ",".join(f"{name},{name}_low,{name}_high" for name in BOUNDS)
            + ",median_error_m,median_error_deg,n_relative,auc_5deg,auc_10deg,auc_20deg")
 HEADER = "pose,stamp,map,query,detector,error_m,error_deg,inliers,retrieved,status"

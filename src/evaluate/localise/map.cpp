@@ -11,19 +11,31 @@ constexpr double kRounding = 1e-6;
 
 }  // namespace
 
-KeyFrame keyFrameOf(const PosedView& view, const Features& features) {
+std::vector<Eigen::Vector3d> pointsOf(const PosedView& view, const Features& features) {
+  std::vector<Eigen::Vector3d> points;
+  for (const cv::KeyPoint& key_point : features.key_points) {
+    const auto point = pointAt(view, {key_point.pt.x, key_point.pt.y});
+    points.push_back(point.value_or(Eigen::Vector3d::Constant(std::nan(""))));
+  }
+  return points;
+}
+
+KeyFrame keyFrameOf(const Eigen::Isometry3d& map_from_optical, const Features& features,
+                    const std::vector<Eigen::Vector3d>& points) {
   KeyFrame frame;
-  frame.map_from_optical = view.map_from_optical;
+  frame.map_from_optical = map_from_optical;
   cv::Mat chosen;
-  for (std::size_t i = 0; i < features.key_points.size(); ++i) {
-    const cv::Point2f& pixel = features.key_points[i].pt;
-    const auto point = pointAt(view, {pixel.x, pixel.y});
-    if (!point) continue;
-    frame.points.push_back(*point);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite()) continue;
+    frame.points.push_back(points[i]);
     chosen.push_back(features.descriptors.row(static_cast<int>(i)));
   }
   frame.descriptors = compactDescriptors(chosen);
   return frame;
+}
+
+KeyFrame keyFrameOf(const PosedView& view, const Features& features) {
+  return keyFrameOf(view.map_from_optical, features, pointsOf(view, features));
 }
 
 std::size_t bytesOf(const KeyFrame& frame) {

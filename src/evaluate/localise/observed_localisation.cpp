@@ -38,22 +38,10 @@ Drives drivesOf(const std::vector<const ObservationFile*>& files, const PoseOfSt
   return drives;
 }
 
-Drive driveOf(const Drives& drives, const std::string& stream, const std::string& detector) {
+const Drive& driveOf(const Drives& drives, const std::string& stream, const std::string& detector) {
+  static const Drive none;
   const auto found = drives.find({stream, detector});
-  return found == drives.end() ? Drive() : found->second;
-}
-
-KeyFrame keyFrameOf(Observation observation) {
-  KeyFrame frame;
-  frame.map_from_optical = observation.map_from_optical;
-  cv::Mat chosen;
-  for (std::size_t i = 0; i < observation.points.size(); ++i) {
-    if (!observation.points[i].allFinite()) continue;
-    frame.points.push_back(observation.points[i]);
-    chosen.push_back(observation.features.descriptors.row(static_cast<int>(i)));
-  }
-  frame.descriptors = compactDescriptors(chosen);
-  return frame;
+  return found == drives.end() ? none : found->second;
 }
 
 struct Query {
@@ -71,9 +59,9 @@ std::unique_ptr<Localiser> mapOf(const Drive& drive, const std::string& detector
   KeyFrameSpacing spacing(options.map_every_m);
   for (const auto& [pose, place] : drive) {
     stop.check();
-    Observation observation = place.file->read(place.index);
-    if (spacing.takes(observation.map_from_optical.translation()))
-      map->add(keyFrameOf(std::move(observation)));
+    const Observation seen = place.file->read(place.index);
+    if (spacing.takes(seen.map_from_optical.translation()))
+      map->add(keyFrameOf(seen.map_from_optical, seen.features, seen.points));
   }
   if (!map->frames().empty()) map->finish();
   return map;

@@ -23,15 +23,6 @@ std::string firstFaultOf(const std::vector<Message>& messages) {
   return "";
 }
 
-std::vector<Eigen::Vector3d> pointsOf(const PosedView& view, const Features& features) {
-  std::vector<Eigen::Vector3d> points;
-  for (const cv::KeyPoint& key_point : features.key_points) {
-    const auto point = pointAt(view, {key_point.pt.x, key_point.pt.y});
-    points.push_back(point.value_or(Eigen::Vector3d::Constant(std::nan(""))));
-  }
-  return points;
-}
-
 std::string sizeOf(const cv::Size& size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height) + " px";
 }

@@ -19,7 +19,13 @@ struct KeyFrame {
   cv::Mat descriptors;                  ///< one row each, see compactDescriptors()
 };
 
-/// The features of `view` whose places its depth tells; those of the sky, say, are left out.
+/// Where the features of `view` lie in `map`, m, as its depth tells; NaN where it does not, as of the sky.
+std::vector<Eigen::Vector3d> pointsOf(const PosedView& view, const Features& features);
+
+/// Of those features whose `points`, one a feature, are known.
+KeyFrame keyFrameOf(const Eigen::Isometry3d& map_from_optical, const Features& features,
+                    const std::vector<Eigen::Vector3d>& points);
+/// By pointsOf().
 KeyFrame keyFrameOf(const PosedView& view, const Features& features);
 
 /// Bytes of its points and descriptors.

@@ -12,8 +12,6 @@ struct Told {
   Value value = {};
   std::string fault;  ///< why it cannot be used; empty where it can
   bool has_come = false;
-
-  bool isUsable() const { return has_come && fault.empty(); }
 };
 
 template <typename Value>
