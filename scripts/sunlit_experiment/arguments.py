@@ -165,18 +165,20 @@ def localising(text, compared, features_text="{}"):
     return [name for name in ("sift", "orb") if name in known] if names is None else names
 
 
-def map_stream(text, times):
-    """The condition whose pictures make the map: that of the hour typed, or of the hour nearest to noon. `times`: as
-    clock_times() gives them."""
+def map_streams(text, times):
+    """The conditions whose pictures make the map: those of the hours typed, or that of the hour nearest to noon. `times`:
+    as clock_times() gives them."""
     hours = {name: time["hour"] + time.get("minute", 0) / 60 + time.get("second", 0) / 3600 for name, time in times.items()}
     if text == "auto":
-        return min(hours, key=lambda name: abs(hours[name] - 12.0))
-    allowed = "auto (the hour nearest to noon), or one of the hours"
-    hour = parse("map", text, allowed)
-    for name, one in hours.items():
-        if is_number(hour) and abs(one - hour) * 3600 < 0.5:
-            return name
-    raise BadArgument("map", text, allowed)
+        return [min(hours, key=lambda name: abs(hours[name] - 12.0))]
+    allowed = "auto (the hour nearest to noon), one of the hours, or a list of some but not all of them, each once"
+    asked = parse("map", text, allowed)
+    asked = asked if isinstance(asked, list) else [asked]
+    found = [name for hour in asked for name, one in hours.items()
+             if is_number(hour) and abs(one - hour) * 3600 < 0.5]
+    if not found or len(found) != len(asked) or len(set(found)) != len(found) or len(found) == len(hours) > 1:
+        raise BadArgument("map", text, allowed)
+    return found
 
 
 def condition_names(text):

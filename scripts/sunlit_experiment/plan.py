@@ -43,7 +43,7 @@ def check(typed):
     read.folders(typed["model_path"])
     read.differences(typed["differences"], typed["features"])
     read.verified(typed["verify"], typed["differences"], typed["features"])
-    map_stream(typed)
+    map_streams(typed)
     pairs(typed)
 
 
@@ -52,11 +52,11 @@ def pairs(typed):
                       read.whole("self_test_every", typed["self_test_every"], 1))
 
 
-def map_stream(typed):
-    """The condition that the others are looked for in; None where nothing is localised."""
+def map_streams(typed):
+    """The conditions that the others are looked for in; none where nothing is localised."""
     times = read.clock_times(typed["hours"])
-    asked = read.map_stream(typed["map"], times)
-    return asked if len(times) > 1 and localising(typed) else None
+    asked = read.map_streams(typed["map"], times)
+    return asked if len(times) > 1 and localising(typed) else []
 
 
 def localising(typed):
@@ -144,7 +144,7 @@ def _main_renderer(typed, places, beginning):
         wait_for=readers,
         # Of each kind of topic before the first image leaves.
         subscribers={"images": evaluators + recorders, "poses": evaluators + recorders,
-                     "truth": (evaluators if map_stream(typed) else 0) + recorders, "others": recorders})
+                     "truth": (evaluators if map_streams(typed) else 0) + recorders, "others": recorders})
     return tree
 
 
@@ -183,8 +183,8 @@ def _evaluator(typed, places, beginning):
     verified = read.verified(typed["verify"], typed["differences"], typed["features"])
     if verified is not None:  # else its own default
         tree["verify"] = verified
-    if map_name := map_stream(typed):
+    if of_map := map_streams(typed):
         hours = list(read.clock_times(typed["hours"]))
-        tree["localisation"] = {"map": map_name, "queries": [name for name in hours if name != map_name],
+        tree["localisation"] = {"map": "+".join(of_map), "queries": [name for name in hours if name not in of_map],
                                 "detectors": localising(typed)}
     return tree

@@ -61,12 +61,13 @@ def _draw_bands(axis, queries, map_name, asked, places):
     axis.set_yticks(range(len(methods)))
     axis.set_yticklabels([names.difference(name) for name in methods])
     axis.invert_yaxis()
-    axis.set_title(f"With a map of {names.condition(map_name)}")
+    axis.set_title(f"With a map of {names.condition_of_map(map_name)}")
     axis.grid(visible=False)
 
 
 def _draw_hours(axis, output, map_name, asked):
-    axis.axvline(names.hour_of(map_name), color="black", linewidth=1, linestyle=(0, (2, 2)))
+    for part in names.parts_of_map(map_name):
+        axis.axvline(names.hour_of(part), color="black", linewidth=1, linestyle=(0, (2, 2)))
     axis.set_xlim(0, 24)
     axis.set_xticks(range(0, 25, 2))
     axis.set_xlabel("hour of the day; dashed: when the map was made")
@@ -99,7 +100,7 @@ def usable_hours(output):
         figure, axes = grid_of(len(maps(queries)), 1, (9.2, 1.0 + 0.34 * rows))
         for axis, map_name in zip(axes, maps(queries)):
             asked = conditions(queries, map_name)
-            is_day = all(names.hour_of(name) is not None for name in asked + [map_name])
+            is_day = all(names.hour_of(name) is not None for name in asked + names.parts_of_map(map_name))
             places = [names.hour_of(name) for name in asked] if is_day else list(range(len(asked)))
             _draw_bands(axis, queries, map_name, asked, places)
             if is_day:
@@ -131,7 +132,7 @@ def errors_along_path(output, shown_pairs):
         for number, pair in enumerate(shown_pairs):
             if (*pair, detector) in queries:
                 _draw_errors(axis, to_x, queries[(*pair, detector)], colour_of(number),
-                             f"{names.condition(pair[1])} in the map of {names.condition(pair[0])}")
+                             f"{names.condition(pair[1])} in the map of {names.condition_of_map(pair[0])}")
         axis.set_yscale("log")
         axis.set_ylabel("error / m")
 
@@ -168,7 +169,7 @@ def table_rows(output):
     rows = []
     for key, found in output.queries.items():
         map_name, query, detector = key
-        rows.append([names.condition(map_name), names.condition(query), names.difference(detector), str(len(found.pose)),
+        rows.append([names.condition_of_map(map_name), names.condition(query), names.difference(detector), str(len(found.pose)),
                      str(found.failures)]
                     + _shares(found, output.shares.get(key))
                     + [_median(found.error_m), _median(found.error_deg), f"{np.median(found.inliers):.0f}"])

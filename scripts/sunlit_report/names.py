@@ -34,6 +34,16 @@ def condition(name):
     return f"{hour} h" if hour else name
 
 
+def parts_of_map(name):
+    """The conditions that a map is made of: 'h08+h16' of two."""
+    return name.split("+")
+
+
+def condition_of_map(name):
+    """'12 h', '8 and 16 h'."""
+    return conditions(parts_of_map(name))
+
+
 def conditions(several):
     """'4, 12 and 20 h', or the names as they are."""
     hours = [_hour(name) for name in several]

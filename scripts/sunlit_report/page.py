@@ -61,7 +61,8 @@ def title(output):
     if output.pairs:
         return f"How far images of one place drift apart between {listed}"
     if not output.self_pairs:
-        return f"Until which hour a map of {names.conditions(localisation.maps(output.queries))} serves"
+        maps = " or ".join(names.condition_of_map(name) for name in localisation.maps(output.queries))
+        return f"Until which hour a map of {maps} serves"
     return f"How far images of one place at {listed} differ from themselves"
 
 

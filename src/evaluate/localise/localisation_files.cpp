@@ -60,6 +60,10 @@ LocalisationSummary summaryOf(const std::vector<const LocalisationRow*>& rows) {
 
 }  // namespace
 
+KeyFrameOrigin originOf(const LocalisedQuery& result, const std::vector<KeyFrameOrigin>& origins) {
+  return result.status == LocalisationStatus::kLocalised ? origins.at(result.key_frame) : KeyFrameOrigin{};
+}
+
 std::vector<LocalisationSummary> summariesOf(const std::vector<LocalisationRow>& rows) {
   std::vector<std::vector<const LocalisationRow*>> groups;
   for (const LocalisationRow& row : rows) {

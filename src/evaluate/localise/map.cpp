@@ -38,6 +38,12 @@ KeyFrame keyFrameOf(const PosedView& view, const Features& features) {
   return keyFrameOf(view.map_from_optical, features, pointsOf(view, features));
 }
 
+std::string nameOfMap(const std::vector<std::string>& streams) {
+  std::string name;
+  for (const std::string& stream : streams) name += (name.empty() ? "" : "+") + stream;
+  return name;
+}
+
 std::size_t bytesOf(const KeyFrame& frame) {
   return frame.points.size() * sizeof(Eigen::Vector3d) +
          frame.descriptors.total() * frame.descriptors.elemSize();

@@ -52,18 +52,40 @@ struct Query {
   auto order() const { return std::tie(stream, pose, detector); }
 };
 
-/// The first of the drive, and one every map_every_m.
-std::unique_ptr<Localiser> mapOf(const Drive& drive, const std::string& detector,
-                                 const LocalisationOptions& options, const StopToken& stop) {
-  auto map = std::make_unique<Localiser>(detector, detectorOf(options, detector).norm(), options.localiser);
-  KeyFrameSpacing spacing(options.map_every_m);
-  for (const auto& [pose, place] : drive) {
-    stop.check();
-    const Observation seen = place.file->read(place.index);
-    if (spacing.takes(seen.map_from_optical.translation()))
-      map->add(keyFrameOf(seen.map_from_optical, seen.features, seen.points));
+/// A map, and where its key frames were taken, one by one.
+struct ObservedMap {
+  std::unique_ptr<Localiser> localiser;
+  std::vector<KeyFrameOrigin> origins;
+};
+
+struct DriveOfMap {
+  std::string stream;
+  const Drive* drive;
+};
+
+std::vector<DriveOfMap> drivesOfMap(const Drives& drives, const std::vector<std::string>& streams,
+                                    const std::string& detector) {
+  std::vector<DriveOfMap> found;
+  for (const std::string& stream : streams) found.push_back({stream, &driveOf(drives, stream, detector)});
+  return found;
+}
+
+/// Of each drive the first, and one every map_every_m.
+ObservedMap mapOf(const std::vector<DriveOfMap>& drives, const std::string& detector,
+                  const LocalisationOptions& options, const StopToken& stop) {
+  ObservedMap map{
+      std::make_unique<Localiser>(detector, detectorOf(options, detector).norm(), options.localiser), {}};
+  for (const auto& [stream, drive] : drives) {
+    KeyFrameSpacing spacing(options.map_every_m);
+    for (const auto& [pose, place] : *drive) {
+      stop.check();
+      const Observation seen = place.file->read(place.index);
+      if (!spacing.takes(seen.map_from_optical.translation())) continue;
+      map.localiser->add(keyFrameOf(seen.map_from_optical, seen.features, seen.points));
+      map.origins.push_back({stream, pose});
+    }
   }
-  if (!map->frames().empty()) map->finish();
+  if (!map.localiser->frames().empty()) map.localiser->finish();
   return map;
 }
 
@@ -88,11 +110,11 @@ ObservedResult localiseObserved(const ObservedDrives& observed, const Localisati
                                 const ObservedProgress& progress) {
   const ObservedStreams& streams = observed.streams;
   const Drives drives = drivesOf(observed.files, observed.settled);
-  std::vector<std::unique_ptr<Localiser>> maps;
+  std::vector<ObservedMap> maps;
   for (const std::string& detector : options.detectors)
-    maps.push_back(mapOf(driveOf(drives, streams.map, detector), detector, options, progress.stop));
+    maps.push_back(mapOf(drivesOfMap(drives, streams.map, detector), detector, options, progress.stop));
   ObservedResult result;
-  result.key_frames = maps.at(0)->frames().size();
+  result.key_frames = maps.at(0).origins.size();
   if (result.key_frames == 0) return result;
   const std::vector<Query> queries = queriesIn(drives, streams, options.detectors);
   result.rows.resize(queries.size());
@@ -105,12 +127,14 @@ ObservedResult localiseObserved(const ObservedDrives& observed, const Localisati
     LocalisationRow& row = result.rows[q];
     row.pose = static_cast<std::size_t>(query.pose);
     row.stamp_ns = query.place.stamp_ns;
-    row.map = streams.map;
+    row.map = nameOfMap(streams.map);
     row.query = streams.queries[query.stream];
     row.detector = options.detectors[query.detector];
-    row.result = maps[query.detector]->localise(
-        {observation.features, observation.camera, observation.map_from_optical});
+    const ObservedMap& map = maps[query.detector];
+    row.result =
+        map.localiser->localise({observation.features, observation.camera, observation.map_from_optical});
     row.truth = observation.map_from_optical;
+    row.key_frame = originOf(row.result, map.origins);
     const std::lock_guard<std::mutex> lock(mutex);
     if (progress.found) progress.found(row);
     if (progress.update) progress.update(++done, queries.size());

@@ -18,7 +18,7 @@ LocalisationOptions optionsOf(const EvaluationOptions& options) {
 }
 
 ObservedStreams streamsOf(const EvaluationOptions& options) {
-  return {options.localisation.map, queriesOf(options.localisation, options.streams)};
+  return {mapStreamsOf(options.localisation), queriesOf(options.localisation, options.streams)};
 }
 
 }  // namespace

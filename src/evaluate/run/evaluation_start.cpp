@@ -61,12 +61,23 @@ void requireDetectors(const std::string& key, const std::vector<std::string>& as
 void requireLocalisation(const EvaluationOptions& options) {
   const LocalisationOfRun& asked = options.localisation;
   if (asked.map.empty()) return;
-  streamNamed("localisation/map", options.streams, asked.map);
+  const auto times = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::count(list.begin(), list.end(), name);
+  };
+  const std::vector<std::string> map = mapStreamsOf(asked);
+  for (const std::string& stream : map) {
+    streamNamed("localisation/map", options.streams, stream);
+    if (times(map, stream) > 1)
+      refuse("localisation/map", "\"" + asked.map + "\"", "streams joined by +, none of them twice");
+  }
   for (const std::string& query : asked.queries) {
     streamNamed("localisation/queries", options.streams, query);
-    if (query == asked.map || std::count(asked.queries.begin(), asked.queries.end(), query) > 1)
+    if (times(map, query) > 0 || times(asked.queries, query) > 1)
       refuse("localisation/queries", textOf(asked.queries), "a list without the map, and of nothing twice");
   }
+  if (queriesOf(asked, options.streams).empty())
+    refuse("localisation/map", "\"" + asked.map + "\"",
+           "some of the streams, so that one is left to be looked for");
   const std::vector<std::string> detectors = localisingDetectors(asked, options.comparer);
   requireDetectors("localisation/detectors", detectors, options);
   if (detectors.empty())

@@ -1,6 +1,7 @@
 #include "sunlit/evaluate/run/localisation_of_run.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace sunlit::evaluate {
 
@@ -16,8 +17,7 @@ std::vector<Field> fieldsOf(LocalisationOfRun& options, const ComparerOptions& c
                 "",
                 {},
                 "stream whose images, with depth and poses, make a map that the others are looked for in "
-                "once all is "
-                "evaluated; empty: nothing is localised"},
+                "once all is evaluated, or several, h04+h12; empty: nothing is localised"},
                {"queries", &options.queries, "", {}, "streams that are looked for; [] for all others"},
                {"detectors",
                 detectors,
@@ -35,12 +35,20 @@ std::vector<std::string> localisingDetectors(const LocalisationOfRun& options,
   return options.detectors ? *options.detectors : usualDetectors(comparer);
 }
 
+std::vector<std::string> mapStreamsOf(const LocalisationOfRun& options) {
+  std::vector<std::string> streams;
+  std::istringstream text(options.map);
+  for (std::string stream; std::getline(text, stream, '+');) streams.push_back(stream);
+  return streams;
+}
+
 std::vector<std::string> queriesOf(const LocalisationOfRun& options,
                                    const std::vector<std::string>& streams) {
   if (!options.queries.empty()) return options.queries;
+  const std::vector<std::string> map = mapStreamsOf(options);
   std::vector<std::string> others;
   std::copy_if(streams.begin(), streams.end(), std::back_inserter(others),
-               [&](const std::string& stream) { return stream != options.map; });
+               [&](const std::string& stream) { return std::count(map.begin(), map.end(), stream) == 0; });
   return others;
 }
 

@@ -30,10 +30,12 @@ std::string sizeOf(const cv::Size& size) {
 }  // namespace
 
 Observer::Observer(const Setup& setup) : setup_(setup), truth_(setup.streams.size()), file_(setup.file) {
-  const std::vector<std::string>& queries = setup_.roles.queries;
+  const auto isAmong = [](const std::string& stream, const std::vector<std::string>& streams) {
+    return std::count(streams.begin(), streams.end(), stream) > 0;
+  };
   for (const std::string& stream : setup_.streams) {
-    const bool is_query = std::count(queries.begin(), queries.end(), stream) > 0;
-    roles_.push_back(stream == setup_.roles.map ? Role::kMap : is_query ? Role::kQuery : Role::kNone);
+    const bool is_query = isAmong(stream, setup_.roles.queries);
+    roles_.push_back(isAmong(stream, setup_.roles.map) ? Role::kMap : is_query ? Role::kQuery : Role::kNone);
   }
 }
 

@@ -89,6 +89,8 @@ Localisation messageOf(const evaluate::LocalisationRow& row) {
   message.error = result.error_m;
   message.rotation_error = result.error_deg * kRadPerDeg;
   message.inliers = static_cast<std::uint32_t>(result.estimate.inliers.size());
+  message.key_frame_stream = row.key_frame.stream;
+  message.key_frame = static_cast<std::int32_t>(row.key_frame.pose);
   message.retrieved = static_cast<std::uint32_t>(result.retrieved);
   return message;
 }

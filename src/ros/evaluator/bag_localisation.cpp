@@ -22,7 +22,7 @@ class BagLocalisation {
         streams_(localisationStreams(options.maps, options.queries, options.name_space)),
         localisation_(options.localisation),
         source_({options.name_space, options.intake, options.output_dir}),
-        map_name_(namesOf(streams_.map)) {}
+        map_name_(nameOf(streams_.map)) {}
 
   int run() {
     for (const BagStream& stream : streams_.map) addToMap(stream);
@@ -38,10 +38,14 @@ class BagLocalisation {
   }
 
  private:
-  static std::string namesOf(const std::vector<BagStream>& streams) {
-    std::string names;
-    for (const BagStream& stream : streams) names += (names.empty() ? "" : "+") + stream.name;
-    return names;
+  static std::string nameOf(const std::vector<BagStream>& streams) {
+    std::vector<std::string> names;
+    for (const BagStream& stream : streams) names.push_back(stream.name);
+    return evaluate::nameOfMap(names);
+  }
+
+  static evaluate::KeyFrameOrigin originOf(const BagStream& stream, const BagViews::Entry& entry) {
+    return {stream.name, static_cast<std::int64_t>(entry.pose)};
   }
 
   std::string fileOf(const std::string& name) const { return options_.output_dir + "/" + name; }
@@ -53,8 +57,10 @@ class BagLocalisation {
     for (const std::size_t i : source_.usable(*views, true)) {
       if (spacing.takes(views->entries()[i].map_from_optical.translation())) chosen.push_back(i);
     }
-    source_.forEach(*views, chosen, {"key frames made", true, [&](const auto&, const auto& read) {
+    source_.forEach(*views, chosen, {"key frames made", true, [&](const auto& which, const auto& read) {
                                        localisation_.addKeyFrames(read);
+                                       for (const std::size_t i : which)
+                                         origins_.push_back(originOf(stream, views->entries()[i]));
                                      }});
   }
 
@@ -88,7 +94,8 @@ class BagLocalisation {
     const BagViews::Entry& entry = views.entries()[number];
     for (std::size_t d = 0; d < results.size(); ++d) {
       rows_.push_back({entry.pose, entry.stamp_ns, map_name_, views.stream().name,
-                       options_.localisation.detectors[d], results[d], entry.map_from_optical});
+                       options_.localisation.detectors[d], results[d], entry.map_from_optical,
+                       evaluate::originOf(results[d], origins_)});
     }
   }
 
@@ -107,6 +114,7 @@ class BagLocalisation {
   evaluate::Localisation localisation_;
   ViewSource source_;
   std::string map_name_;
+  std::vector<evaluate::KeyFrameOrigin> origins_;  // of each key frame of the map
   std::vector<LocalisationRow> rows_;
 };
 

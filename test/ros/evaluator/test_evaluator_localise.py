@@ -197,6 +197,9 @@ class TestLocalise(unittest.TestCase):
             offset = [getattr(message.estimate.pose.position, axis) - getattr(message.truth.position, axis) for axis in 'xyz']
             self.assertAlmostEqual(math.hypot(*offset), message.error, 9)
             self.assertGreater(message.estimate.covariance[0], 0.0)
+            # A key frame stands every second pose; the nearest shares most of what is seen.
+            self.assertEqual((message.key_frame_stream, message.key_frame % 2), ('noon', 0))
+            self.assertLessEqual(abs(message.key_frame - message.pose), 1)
         self.assertEqual([one.ns for one in listener.markers[-1].markers], ['truth', 'estimate'])
         self.assertEqual(len(listener.markers[-1].markers[1].points), 2 * 2 * POSES)
         summary = {row.detector: row for row in listener.summaries[-1].rows}

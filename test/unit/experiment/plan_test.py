@@ -175,6 +175,8 @@ class Plan(unittest.TestCase):
         tree = planned(hours="[4, 10.5, 20]", map="20", localise="[brisk]")["evaluator"]["localisation"]
         self.assertEqual(tree, {"map": "h20", "queries": ["h04", "h10_30"], "detectors": ["brisk"]})
         self.assertEqual(planned(hours="[4, 10.5, 20]")["evaluator"]["localisation"]["map"], "h10_30")
+        tree = planned(map="[4, 20]")["evaluator"]["localisation"]
+        self.assertEqual(tree, {"map": "h04+h20", "queries": ["h12"], "detectors": ["sift", "orb"]})
 
     def test_nothing_is_localised_without_detectors_or_a_second_hour(self):
         for typed in ({"localise": "[]"}, {"hours": "[12]"}, {"differences": "[boolean_rgb]"}):
@@ -184,6 +186,8 @@ class Plan(unittest.TestCase):
 
     def test_maps_and_detectors_that_there_are_not_are_refused(self):
         for typed, words in (({"map": "13"}, "argument map is '13', but must be auto"), ({"map": "noon"}, "argument map"),
+                             ({"map": "[4, 4]"}, "argument map"), ({"map": "[4, 12, 20]"}, "argument map"),
+                             ({"map": "[]"}, "argument map"),
                              ({"localise": "[akaze]"}, "argument localise is '[akaze]'")):
             with self.assertRaisesRegex(arguments.BadArgument, re.escape(words)):
                 planned(**typed)

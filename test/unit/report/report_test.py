@@ -298,6 +298,15 @@ class Localisation(InFolder):
         self.assertIn("<svg", localisation.usable_hours(output))
         self.assertIn("<svg", localisation.errors_along_path(output, localisation.pairs(output.queries)))
 
+    def test_a_map_of_several_hours_is_called_by_all_of_them(self):
+        self.assertEqual(names.condition_of_map("h08+h16_30"), "8 and 16:30 h")
+        self.assertEqual(names.condition_of_map("noon+dusk"), "noon and dusk")
+        self.queries("7,0,h08+h16,h12,sift,0.01,0.1,40,5,localised")
+        output = self.read()
+        self.assertEqual(localisation.table_rows(output)[0][0], "8 and 16 h")
+        figure = localisation.usable_hours(output)
+        self.assertEqual(figure.count("stroke-dasharray"), 2, "one dashed line an hour of the map")
+
 
 class Matches(InFolder):
     def rows(self):

@@ -13,6 +13,12 @@
 
 namespace sunlit::evaluate {
 
+/// Of which picture a key frame was made.
+struct KeyFrameOrigin {
+  std::string stream;
+  std::int64_t pose = -1;
+};
+
 /// A query and what became of it.
 struct LocalisationRow {
   std::size_t pose = 0;
@@ -22,7 +28,11 @@ struct LocalisationRow {
   std::string detector;
   LocalisedQuery result;
   Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();  ///< map_from_optical
+  KeyFrameOrigin key_frame;  ///< that with the most inliers; none unless localised
 };
+
+/// Of LocalisedQuery::key_frame; none unless localised. `origins` of all key frames of the map, one by one.
+KeyFrameOrigin originOf(const LocalisedQuery& result, const std::vector<KeyFrameOrigin>& origins);
 
 /// An image that could be used neither for the map nor as a query.
 struct LocalisationProblem {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <opencv2/core/mat.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sunlit/evaluate/features/features.h"
@@ -27,6 +28,9 @@ KeyFrame keyFrameOf(const Eigen::Isometry3d& map_from_optical, const Features& f
                     const std::vector<Eigen::Vector3d>& points);
 /// By pointsOf().
 KeyFrame keyFrameOf(const PosedView& view, const Features& features);
+
+/// What a map made of several streams is called: "h04+h12".
+std::string nameOfMap(const std::vector<std::string>& streams);
 
 /// Bytes of its points and descriptors.
 std::size_t bytesOf(const KeyFrame& frame);

@@ -16,7 +16,7 @@ namespace sunlit::evaluate {
 
 /// Which streams, of those observed.
 struct ObservedStreams {
-  std::string map;
+  std::vector<std::string> map;  ///< key frames of the first come first
   std::vector<std::string> queries;
 };
 
@@ -42,7 +42,8 @@ struct ObservedResult {
 };
 
 /// The same rows as Localisation gives for the pictures themselves, by query stream, pose and detector, in
-/// the order of `observed.streams` and `options`. Key frames are chosen in the order of their poses. Of a
+/// the order of `observed.streams` and `options`. Key frames are chosen of each
+/// stream of the map for itself, in the order of their poses. Of a
 /// pose that was observed twice the earlier stamp counts, of one stamp the first. Runs in parallel, to the
 /// same bits. Throws Stopped.
 ObservedResult localiseObserved(const ObservedDrives& observed, const LocalisationOptions& options,

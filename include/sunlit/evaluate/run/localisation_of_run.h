@@ -12,7 +12,8 @@
 namespace sunlit::evaluate {
 
 struct LocalisationOfRun {
-  std::string map;                   ///< stream whose images make the map; empty: nothing is localised
+  /// Stream whose images make the map, or several, "h04+h12"; empty: nothing is localised.
+  std::string map;
   std::vector<std::string> queries;  ///< streams; empty: all others
   /// Some of the compared differences; nothing given: sift and orb, where they are among them.
   std::optional<std::vector<std::string>> detectors;
@@ -23,9 +24,10 @@ struct LocalisationOfRun {
 /// Rows "localisation/…"; the choice of detectors is among those of `comparer`, which must outlive the rows.
 std::vector<Field> fieldsOf(LocalisationOfRun& options, const ComparerOptions& comparer);
 
-/// What `detectors` and `queries` come to.
+/// What `detectors`, `map` and `queries` come to.
 std::vector<std::string> localisingDetectors(const LocalisationOfRun& options,
                                              const ComparerOptions& comparer);
+std::vector<std::string> mapStreamsOf(const LocalisationOfRun& options);
 std::vector<std::string> queriesOf(const LocalisationOfRun& options, const std::vector<std::string>& streams);
 
 }  // namespace sunlit::evaluate

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <utility>
 
 #include "sunlit/evaluate/localise/localisation.h"
 #include "support/message_of.h"
@@ -15,6 +17,7 @@ namespace {
 
 const image::PinholeCamera kCamera{200, 150, 173.0, 173.0, 99.5, 74.5};
 constexpr std::int64_t kPoses = 4;
+const std::vector<std::string> kStreams = {"noon", "dusk", "night"};
 
 /// A drive along the corridor, half a metre a pose.
 const PosedView& viewOf(std::int64_t pose) {
@@ -36,7 +39,7 @@ cv::Mat lit(std::int64_t pose, std::size_t stream) {
 
 EvaluationOptions localising(const TemporaryFolder& folder) {
   EvaluationOptions options;
-  options.streams = {"noon", "dusk", "night"};
+  options.streams = kStreams;
   options.output_dir = folder.file("out");
   options.comparer.differences = {"boolean_rgb", "sift", "orb"};
   options.poses.count = kPoses;
@@ -57,24 +60,36 @@ void feedImages(Evaluation& evaluation, std::int64_t pose) {
   }
 }
 
-/// What Localisation makes of the same pictures, as files.
-std::string expectedRows(Retrieval retrieval = Retrieval::kTruth) {
+PosedView litView(std::int64_t pose, std::size_t stream) {
+  PosedView view = viewOf(pose);
+  view.picture = makePicture(lit(pose, stream));
+  return view;
+}
+
+/// What Localisation makes of the same pictures, as files; the first streams are the map.
+std::string expectedRows(Retrieval retrieval = Retrieval::kTruth, std::size_t map_streams = 1) {
   LocalisationOptions options;
   options.localiser.retrieval = retrieval;
   options.map_every_m = 1.0;
   Localisation localisation(options);
-  localisation.addKeyFrames({viewOf(0), viewOf(2)});
+  for (std::size_t s = 0; s < map_streams; ++s) localisation.addKeyFrames({litView(0, s), litView(2, s)});
   localisation.finishMap();
   std::vector<LocalisationRow> rows;
-  const std::vector<std::string> queries = {"dusk", "night"};
-  for (std::size_t s = 0; s < queries.size(); ++s) {
+  for (std::size_t s = map_streams; s < kStreams.size(); ++s) {
     for (std::int64_t pose = 0; pose < kPoses; ++pose) {
-      PosedView view = viewOf(pose);
-      view.picture = makePicture(lit(pose, s + 1));
+      const PosedView view = litView(pose, s);
       const auto results = localisation.localise({view})[0];
-      for (std::size_t d = 0; d < results.size(); ++d)
-        rows.push_back({static_cast<std::size_t>(pose), stampOf(pose), "noon", queries[s],
-                        options.detectors[d], results[d], view.map_from_optical});
+      for (std::size_t d = 0; d < results.size(); ++d) {
+        LocalisationRow row;
+        row.pose = static_cast<std::size_t>(pose);
+        row.stamp_ns = stampOf(pose);
+        row.map = map_streams == 1 ? "noon" : "noon+dusk";
+        row.query = kStreams[s];
+        row.detector = options.detectors[d];
+        row.result = results[d];
+        row.truth = view.map_from_optical;
+        rows.push_back(row);
+      }
     }
   }
   const TemporaryFolder folder;
@@ -120,6 +135,29 @@ TEST(EvaluationLocalise, FindsKeyFramesByTheirMatchesAlike) {
   }
   EXPECT_TRUE(finishAndLocalise(evaluation).isWhole());
   EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows(Retrieval::kAll));
+}
+
+TEST(EvaluationLocalise, AMapMayBeMadeOfSeveralStreams) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = localising(folder);
+  options.localisation.map = "noon+dusk";
+  Evaluation evaluation(options, {});
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+    feedTruth(evaluation, pose);
+    feedImages(evaluation, pose);
+  }
+  EXPECT_TRUE(evaluation.finish().isWhole());
+  std::set<std::pair<std::string, std::int64_t>> named;
+  LocaliseCallbacks callbacks;
+  callbacks.found = [&](const LocalisationRow& row) {
+    named.emplace(row.key_frame.stream, row.key_frame.pose);
+  };
+  EXPECT_EQ(evaluation.localise(callbacks).key_frames, 4u);
+  EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows(Retrieval::kTruth, 2));
+  const std::set<std::pair<std::string, std::int64_t>> there = {
+      {"noon", 0}, {"noon", 2}, {"dusk", 0}, {"dusk", 2}};
+  EXPECT_GT(named.size(), 1u);
+  for (const auto& one : named) EXPECT_EQ(there.count(one), 1u) << one.first << " " << one.second;
 }
 
 TEST(EvaluationLocalise, ImagesWaitForTheirDepth) {
@@ -234,6 +272,12 @@ TEST(EvaluationLocalise, AsksForStreamsAndDetectorsThatThereAre) {
   EvaluationOptions options = localising(folder);
   options.localisation.map = "morning";
   EXPECT_NE(messageOf([&] { Evaluation(options, {}); }).find("localisation/map is \"morning\""),
+            std::string::npos);
+  options.localisation.map = "noon+noon";
+  EXPECT_NE(messageOf([&] { Evaluation(options, {}); }).find("localisation/map is \"noon+noon\""),
+            std::string::npos);
+  options.localisation.map = "noon+dusk+night";
+  EXPECT_NE(messageOf([&] { Evaluation(options, {}); }).find("one is left to be looked for"),
             std::string::npos);
   options = localising(folder);
   options.localisation.queries = {"noon"};
