@@ -9,7 +9,7 @@ import re
 import numpy as np
 import yaml
 
-from . import queries, verified_rows
+from . import comparison_rows, queries, verified_rows
 from .csv_rows import ReportError, number, optional_whole, rows, whole
 
 DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "brisk", "orb"]
@@ -67,6 +67,7 @@ class Output:
     series: dict
     queries: dict  # of localisation: (map, query, detector) -> Queries
     shares: dict  # (map, query, detector) -> 95 % intervals of its shares
+    comparisons: list  # of Comparison
     summary: dict
     has_summary_file: bool
     run: dict
@@ -135,6 +136,7 @@ def read_output(folder):
         series=series,
         queries=localised,
         shares=queries.read_intervals(os.path.join(folder, "localisation_summary.csv")),
+        comparisons=comparison_rows.read(os.path.join(folder, "comparisons.csv")),
         summary=summary or {key: summarise(one) for key, one in series.items()},
         has_summary_file=bool(summary),
         run=read_yaml(os.path.join(folder, "run.yaml")),

@@ -4,7 +4,7 @@ import os
 
 import jinja2
 
-from . import figures, localisation, map_figure, names, paper, pictures, tables, verified, warnings
+from . import comparisons, figures, localisation, map_figure, names, paper, pictures, tables, verified, warnings
 from . import findings as judge
 
 SHOWN_PROBLEMS = 100
@@ -24,6 +24,8 @@ def render(output, findings):
         shown_problems=output.problems[:SHOWN_PROBLEMS], counters=tables.counters(output.run),
         settings=settings(output), versions=tables.flattened(tables.mapping(output.run, "versions")),
         grid=pictures.grid(output), smoothed_over=figures.SMOOTHED_OVER,
+        comparisons=comparisons.families(output), comparisons_header=comparisons.TABLE_HEADER,
+        significant=comparisons.SIGNIFICANT,
         localised=localisation.table_rows(output), localised_header=localisation.TABLE_HEADER,
         **matches(output), **plots(output))
 

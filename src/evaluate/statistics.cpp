@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <random>
 
@@ -12,6 +13,14 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kResamples = 2000;
 constexpr double kTail = 0.025;  // on either side of a 95 % interval
+
+std::vector<double> definedOf(const std::vector<double>& values) {
+  std::vector<double> series;
+  series.reserve(values.size());
+  std::copy_if(values.begin(), values.end(), std::back_inserter(series),
+               [](double value) { return !std::isnan(value); });
+  return series;
+}
 
 // By way of deviations from the first value, so that the mean of equal values is that value to the bit.
 double meanOf(const std::vector<double>& series) {
@@ -110,12 +119,8 @@ std::size_t blockLength(const std::vector<double>& series) {
   return static_cast<std::size_t>(std::clamp(length, 1.0, longest));
 }
 
-Statistics statisticsOf(const std::vector<double>& values) {
-  std::vector<double> series;
-  series.reserve(values.size());
-  for (const double value : values) {
-    if (!std::isnan(value)) series.push_back(value);
-  }
+Statistics momentsOf(const std::vector<double>& values) {
+  const std::vector<double> series = definedOf(values);
   Statistics result;
   result.n = series.size();
   result.undefined = values.size() - series.size();
@@ -126,6 +131,13 @@ Statistics statisticsOf(const std::vector<double>& values) {
   double squares = 0.0;
   for (const double value : series) squares += (value - result.mean) * (value - result.mean);
   result.sd = std::sqrt(squares / static_cast<double>(result.n - 1));
+  return result;
+}
+
+Statistics statisticsOf(const std::vector<double>& values) {
+  Statistics result = momentsOf(values);
+  if (result.n < 2) return result;
+  const std::vector<double> series = definedOf(values);
   std::vector<double> means = resampledMeans(series, blockLength(series));
   std::sort(means.begin(), means.end());
   result.ci_low = quantile(means, kTail);

@@ -23,6 +23,8 @@ struct Statistics {
 /// of a circular moving-block bootstrap (blockLength(), 2000 resamples, percentiles, a fixed seed): same
 /// values, same interval.
 Statistics statisticsOf(const std::vector<double>& values);
+/// The same, but for the interval: it is NaN.
+Statistics momentsOf(const std::vector<double>& values);
 
 /// Length of the blocks that keep the correlation of neighbours: the automatic rule of Politis and White
 /// (2004) with the correction of Patton, Politis and White (2009) for the circular bootstrap, at least 1 and

@@ -1,5 +1,7 @@
 #include "sunlit/evaluate/files/frames_file.h"
 
+#include <tbb/parallel_for.h>
+
 #include "evaluate/files/pair_rows.h"
 
 namespace sunlit::evaluate {
@@ -54,39 +56,36 @@ void writeFrames(const std::string& path, const FramesLayout& layout,
 
 namespace {
 
-SummaryRow summaryOf(const std::vector<const DifferenceValue*>& values) {
+SummaryRow summaryOf(const std::vector<const std::vector<DifferenceValue>*>& values, std::size_t difference) {
   SummaryRow row;
-  std::vector<double> series;
-  const auto statistics = [&](double DifferenceValue::*member) {
-    series.clear();
-    for (const DifferenceValue* value : values) series.push_back(value->*member);
-    return statisticsOf(series);
+  const auto series = [&](double DifferenceValue::*member) {
+    std::vector<double> one;
+    for (const auto* of_pose : values) one.push_back(of_pose->at(difference).*member);
+    return one;
   };
-  row.statistics = statistics(&DifferenceValue::value);
-  row.symmetric = statistics(&DifferenceValue::symmetric);
-  row.one_to_one = statistics(&DifferenceValue::one_to_one);
-  row.overmatched = static_cast<std::size_t>(
-      std::count_if(values.begin(), values.end(), [](const auto* value) { return value->isOvermatched(); }));
+  row.statistics = statisticsOf(series(&DifferenceValue::value));
+  row.symmetric = momentsOf(series(&DifferenceValue::symmetric));
+  row.one_to_one = momentsOf(series(&DifferenceValue::one_to_one));
+  row.overmatched =
+      static_cast<std::size_t>(std::count_if(values.begin(), values.end(), [&](const auto* of_pose) {
+        return of_pose->at(difference).isOvermatched();
+      }));
   return row;
 }
 
 }  // namespace
 
 std::vector<SummaryRow> summarise(const FramesLayout& layout, const std::vector<PairRecord>& sorted_records) {
-  std::vector<SummaryRow> rows;
-  for (std::size_t p = 0; p < layout.pairs.size(); ++p) {
-    for (std::size_t d = 0; d < layout.differences.size(); ++d) {
-      std::vector<const DifferenceValue*> values;
-      for (const PairRecord& record : sorted_records) {
-        if (record.pair == p) values.push_back(&record.values.at(d));
-      }
-      SummaryRow row = summaryOf(values);
-      row.a = layout.pairs[p].first;
-      row.b = layout.pairs[p].second;
-      row.difference = layout.differences[d];
-      rows.push_back(row);
-    }
-  }
+  const std::size_t differences = layout.differences.size();
+  const auto values = valuesByPair(layout, sorted_records);
+  std::vector<SummaryRow> rows(layout.pairs.size() * differences);
+  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+    const std::size_t p = i / differences;
+    rows[i] = summaryOf(values[p], i % differences);
+    rows[i].a = layout.pairs[p].first;
+    rows[i].b = layout.pairs[p].second;
+    rows[i].difference = layout.differences[i % differences];
+  });
   return rows;
 }
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "evaluate/files/files.h"
+#include "evaluate/files/pair_rows.h"
 #include "sunlit/image/files.h"
 #include "sunlit/quantity/range.h"
 
@@ -25,10 +27,6 @@ double medianOf(std::vector<double> values) {
   return std::isinf(values[half]) ? kInfinity : (values[half - 1] + values[half]) / 2.0;
 }
 
-std::string nameOf(const Reach& reach) {
-  return "within_" + textOf(reach.metres) + "m_" + textOf(reach.degrees) + "deg";
-}
-
 /// Rows of one map, query and detector.
 LocalisationSummary summaryOf(const std::vector<const LocalisationRow*>& rows) {
   LocalisationSummary summary;
@@ -46,8 +44,7 @@ LocalisationSummary summaryOf(const std::vector<const LocalisationRow*>& rows) {
   }
   for (std::size_t r = 0; r < kReaches.size(); ++r) {
     std::vector<double> hits;
-    for (std::size_t i = 0; i < metres.size(); ++i)
-      hits.push_back(metres[i] <= kReaches[r].metres && degrees[i] <= kReaches[r].degrees ? 1.0 : 0.0);
+    for (const LocalisationRow* row : rows) hits.push_back(isWithin(row->result, kReaches[r]) ? 1.0 : 0.0);
     summary.within[r] = statisticsOf(hits);
   }
   summary.median_error_m = medianOf(metres);
@@ -58,10 +55,44 @@ LocalisationSummary summaryOf(const std::vector<const LocalisationRow*>& rows) {
   return summary;
 }
 
+LocalisationStatus statusOf(const std::string& word) {
+  for (const LocalisationStatus status :
+       {LocalisationStatus::kLocalised, LocalisationStatus::kNoFeatures, LocalisationStatus::kNotRetrieved,
+        LocalisationStatus::kTooFewMatches, LocalisationStatus::kNoPose}) {
+    if (wordOf(status) == word) return status;
+  }
+  throw std::runtime_error("\"" + word + "\" is no status");
+}
+
+LocalisationRow rowOf(const std::vector<std::string>& fields) {
+  LocalisationRow row;
+  row.pose = parseCount(fields[0]);
+  row.stamp_ns = parseStamp(fields[1]);
+  row.map = fields[2];
+  row.query = fields[3];
+  row.detector = fields[4];
+  row.result.error_m = parseNumber(fields[5]);
+  row.result.error_deg = parseNumber(fields[6]);
+  row.result.retrieved = parseCount(fields[8]);
+  row.result.status = statusOf(fields[9]);
+  return row;
+}
+
+constexpr const char* kHeader = "pose,stamp,map,query,detector,error_m,error_deg,inliers,retrieved,status";
+
 }  // namespace
 
 KeyFrameOrigin originOf(const LocalisedQuery& result, const std::vector<KeyFrameOrigin>& origins) {
   return result.status == LocalisationStatus::kLocalised ? origins.at(result.key_frame) : KeyFrameOrigin{};
+}
+
+std::string nameOf(const Reach& reach) {
+  return "within_" + sunlit::textOf(reach.metres) + "m_" + sunlit::textOf(reach.degrees) + "deg";
+}
+
+bool isWithin(const LocalisedQuery& result, const Reach& reach) {
+  return result.status == LocalisationStatus::kLocalised && result.error_m <= reach.metres &&
+         result.error_deg <= reach.degrees;
 }
 
 std::vector<LocalisationSummary> summariesOf(const std::vector<LocalisationRow>& rows) {
@@ -99,7 +130,7 @@ double areaUnderRecall(std::vector<double> errors, double largest) {
 }
 
 void writeLocalisation(const std::string& path, const std::vector<LocalisationRow>& rows) {
-  std::string text = "pose,stamp,map,query,detector,error_m,error_deg,inliers,retrieved,status\n";
+  std::string text = std::string(kHeader) + "\n";
   for (const LocalisationRow& row : rows) {
     const LocalisedQuery& result = row.result;
     text += std::to_string(row.pose) + "," + formatStamp(row.stamp_ns) + "," + csvField(row.map) + "," +
@@ -110,13 +141,26 @@ void writeLocalisation(const std::string& path, const std::vector<LocalisationRo
   image::writeFileAtomically(path, text);
 }
 
+std::vector<LocalisationRow> loadLocalisation(const std::string& path) {
+  std::vector<LocalisationRow> rows;
+  const CsvLines lines = readCsv(path, kHeader);
+  for (std::size_t i = 0; i < lines.rows.size(); ++i) {
+    try {
+      rows.push_back(rowOf(lines.rows[i]));
+    } catch (const std::exception& error) {
+      throw std::runtime_error(path + ":" + std::to_string(i + 2) + ": " + error.what());
+    }
+  }
+  return rows;
+}
+
 void writeLocalisationSummary(const std::string& path, const std::vector<LocalisationSummary>& summaries) {
   std::string text = "map,query,detector,n,failures";
   for (const Reach& reach : kReaches) {
     for (const char* part : {"", "_low", "_high"}) text += "," + nameOf(reach) + part;
   }
   text += ",median_error_m,median_error_deg,n_relative";
-  for (const double angle : kAucAngles_deg) text += ",auc_" + textOf(angle) + "deg";
+  for (const double angle : kAucAngles_deg) text += ",auc_" + sunlit::textOf(angle) + "deg";
   text += "\n";
   for (const LocalisationSummary& s : summaries) {
     text += csvField(s.map) + "," + csvField(s.query) + "," + s.detector + "," + std::to_string(s.n) + "," +

@@ -79,6 +79,10 @@ void Evaluation::addCamera(std::size_t stream, const Told<image::PinholeCamera>&
   state_->addCamera(stream, camera);
 }
 
+void Evaluation::compareMethods(const StopToken& stop) {
+  state_->compareMethods(stop);
+}
+
 LocalisationOutcome Evaluation::localise(const LocaliseCallbacks& callbacks) {
   return state_->localise(callbacks);
 }

@@ -1,6 +1,9 @@
 // How an evaluation ends: with everything accounted for and all files written.
+#include <filesystem>
+
 #include "evaluate/run/evaluation_state.h"
 #include "evaluate/run/run_file.h"
+#include "sunlit/evaluate/comparisons/comparisons.h"
 
 namespace sunlit::evaluate {
 
@@ -77,6 +80,23 @@ void Evaluation::State::settleAndWrite(Outcome& outcome) {
   record_files_->finish(options_.streams, poses_);
   problems_->finish(poses_, [&](const Problem& problem) { return isMended(problem, evaluated); });
   writeRunFile(file("run.yaml"), options_, &outcome);
+}
+
+void Evaluation::State::compareMethods(const StopToken& stop) {
+  const std::string path = file("comparisons.csv");
+  std::filesystem::remove(path);  // of an earlier end, and of fewer poses
+  std::vector<Measured> measured;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    measured = measuredOf(layout_, records_, options_.comparer.known.namesOfDetectors());
+    for (Measured& one : measuredOf(verified_layout_, verified_)) measured.push_back(std::move(one));
+  }
+  measured.insert(measured.end(), localised_.begin(), localised_.end());
+  const Comparisons compared = comparisonsOf(measured, mapStreamsOf(options_.localisation), stop);
+  writeComparisons(path, compared.rows);
+  for (const std::string& line : compared.left_out) {
+    if (callbacks_.note) callbacks_.note(line);
+  }
 }
 
 }  // namespace sunlit::evaluate

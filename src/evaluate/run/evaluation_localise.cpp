@@ -10,6 +10,7 @@ namespace sunlit::evaluate {
 namespace {
 
 constexpr const char* kObservations = "observations.bin";
+constexpr const char* kRows = "localisation.csv";
 
 LocalisationOptions optionsOf(const EvaluationOptions& options) {
   const LocalisationOfRun& asked = options.localisation;
@@ -87,7 +88,11 @@ void Evaluation::State::observeMatched(const Work& work, const Matched& matched)
 
 LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbacks) {
   LocalisationOutcome outcome;
-  if (!observer_ || isLocalised()) return outcome;
+  if (!observer_) return outcome;
+  if (isLocalised()) {
+    localised_ = measuredOf(loadLocalisation(file(kRows)));
+    return outcome;
+  }
   std::vector<std::unique_ptr<ObservationFile>> merged;
   ObservedDrives drives{
       {&observer_->observations()}, streamsOf(options_), [this](std::int64_t stamp, std::int64_t pose) {
@@ -108,8 +113,9 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   outcome.queries = result.rows.size();
   outcome.unobserved = unobserved(drives.streams, result.rows);
   if (result.rows.empty()) return outcome;
+  localised_ = measuredOf(result.rows);
   outcome.summary = summariesOf(result.rows);
-  writeLocalisation(file("localisation.csv"), result.rows);
+  writeLocalisation(file(kRows), result.rows);
   writeLocalisationSummary(file("localisation_summary.csv"), outcome.summary);
   if (outcome.unobserved == 0 && isWholeAlone()) std::filesystem::remove(file(kObservations));
   return outcome;
@@ -118,7 +124,7 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
 // By a run that was whole, and has forgotten its observations.
 bool Evaluation::State::isLocalised() const {
   return options_.merge.empty() && observer_->observations().keys().empty() &&
-         std::filesystem::exists(file("localisation.csv"));
+         std::filesystem::exists(file(kRows));
 }
 
 // All poses are here, so that no other run will ask for what was observed.

@@ -19,6 +19,7 @@
 #include "evaluate/run/record_files.h"
 #include "evaluate/run/stamp_sets.h"
 #include "evaluate/run/work_queue.h"
+#include "sunlit/evaluate/comparisons/measured.h"
 #include "sunlit/evaluate/run/evaluation.h"
 #include "sunlit/evaluate/verify/verified_file.h"
 
@@ -40,6 +41,7 @@ class Evaluation::State {
   void addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d>& map_from_optical);
   void addCamera(std::size_t stream, const Told<image::PinholeCamera>& camera);
   LocalisationOutcome localise(const LocaliseCallbacks& callbacks);
+  void compareMethods(const StopToken& stop);
   void addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns);
   /// The stream's next image was compressed with loss.
   void noteLossy(std::size_t stream);
@@ -144,6 +146,7 @@ class Evaluation::State {
   Counts counts_;
   std::vector<PairRecord> records_;
   std::vector<VerifiedRecord> verified_;  // of the same stamps and pairs, where matches are verified
+  std::vector<Measured> localised_;       // by localise()
   EvaluatedPairs held_;                   // by what earlier runs left
   std::map<std::pair<std::int64_t, std::size_t>, std::int64_t>
       taken_;                         // by pose and pair: the stamp that counts, of those that came

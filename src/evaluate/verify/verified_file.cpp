@@ -63,18 +63,19 @@ void writeVerifiedRecords(const std::string& path, const FramesLayout& layout,
 }
 
 std::vector<VerifiedSummaryRow> summariseVerified(const FramesLayout& layout,
-                                                  const std::vector<VerifiedRecord>& sorted_records) {
+                                                  const std::vector<VerifiedRecord>& sorted_records,
+                                                  const StopToken& stop) {
   const std::size_t detectors = layout.differences.size();
   const std::size_t rows_of_pair = detectors * measures().size();
+  const auto values = valuesByPair(layout, sorted_records);
   std::vector<VerifiedSummaryRow> rows(layout.pairs.size() * rows_of_pair);
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+    stop.check();
     const std::size_t p = i / rows_of_pair;
     const std::size_t d = i % rows_of_pair / measures().size();
     const Measure& measure = measures()[i % measures().size()];
     std::vector<double> series;
-    for (const VerifiedRecord& record : sorted_records) {
-      if (record.pair == p) series.push_back(measure.of(record.values.at(d)));
-    }
+    for (const std::vector<Verified>* of_pose : values[p]) series.push_back(measure.of(of_pose->at(d)));
     rows[i] = {layout.pairs[p].first, layout.pairs[p].second, layout.differences[d], measure.name,
                statisticsOf(series)};
   });

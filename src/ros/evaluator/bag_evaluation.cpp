@@ -146,6 +146,7 @@ int evaluateBags(const BagEvaluationOptions& options) {
   const std::string remarks = remarksOf(evaluation.options(), outcome.counts);
   if (!remarks.empty()) std::fprintf(stderr, "%s\n", remarks.c_str());
   const evaluate::LocalisationOutcome localised = localise(evaluation);
+  evaluation.compareMethods();
   const std::string faults = faultsOf(evaluation.options(), outcome) + faultsOf(localised);
   if (faults.empty()) return 0;
   std::fprintf(stderr, "%s\n", faults.c_str());

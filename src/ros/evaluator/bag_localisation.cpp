@@ -7,6 +7,7 @@
 #include "ros/evaluator/folder_lock.h"
 #include "ros/evaluator/progress_log.h"
 #include "ros/evaluator/view_source.h"
+#include "sunlit/evaluate/comparisons/comparisons.h"
 #include "sunlit/evaluate/localise/localisation_files.h"
 #include "sunlit/evaluate/localise/map.h"
 
@@ -33,6 +34,7 @@ class BagLocalisation {
     const std::vector<evaluate::LocalisationSummary> summaries = summariesOf(rows_);
     writeLocalisation(fileOf("localisation.csv"), rows_);
     writeLocalisationSummary(fileOf("localisation_summary.csv"), summaries);
+    writeComparisons(fileOf("comparisons.csv"), comparisonsOf(measuredOf(rows_), {map_name_}).rows);
     std::printf("\n%s\n%s\n", localisationTable(summaries).c_str(), fileOf("localisation.csv").c_str());
     return source_.finish();
   }

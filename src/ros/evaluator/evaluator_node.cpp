@@ -4,6 +4,10 @@
 #include <ros/console.h>
 #include <std_msgs/UInt32.h>
 
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+
 #include "ros/conversions/evaluation.h"
 #include "sunlit/evaluate/features/draw.h"
 #include "sunlit/ros/delivery.h"
@@ -11,6 +15,33 @@
 #include "sunlit/ros/topic_names.h"
 
 namespace sunlit::ros_interface {
+namespace {
+
+constexpr double kComparingAtMost_s = 3.0;  // once interrupted, of the 10 s until all is written
+
+/// Lasts until so long after an interrupt.
+class Patience {
+ public:
+  Patience(double seconds, bool is_interrupted)
+      : length_ns_(static_cast<std::int64_t>(1e9 * seconds)), since_ns_(is_interrupted ? now() : kNever) {}
+  /// Thread-safe.
+  bool isOver() const {
+    std::int64_t never = kNever;
+    if (isInterrupted()) since_ns_.compare_exchange_strong(never, now());
+    const std::int64_t since_ns = since_ns_;
+    return since_ns != kNever && now() - since_ns > length_ns_;
+  }
+
+ private:
+  static constexpr std::int64_t kNever = -1;
+  static std::int64_t now() {
+    return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+  }
+  std::int64_t length_ns_;
+  mutable std::atomic<std::int64_t> since_ns_;
+};
+
+}  // namespace
 
 EvaluatorNode::EvaluatorNode(ros::NodeHandle node, ros::NodeHandle private_node,
                              const EvaluatorOptions& options)
@@ -104,6 +135,7 @@ void EvaluatorNode::finish(const std::string& reason, evaluate::Ending ending) {
   const std::string remarks = remarksOf(evaluation_->options(), outcome.counts);
   if (!remarks.empty()) ROS_WARN("%s", remarks.c_str());
   if (ending == evaluate::Ending::kCompared) localise();
+  compareMethods(ending);
   status_ = faults_.empty() ? 0 : kNotWholeStatus;
 }
 
@@ -129,6 +161,18 @@ void EvaluatorNode::localise() {
   } catch (const evaluate::Stopped&) {
     faults_ += std::string(faults_.empty() ? "" : "; ") + "interrupted before all queries were localised";
     ROS_ERROR("interrupted before all queries were localised; the same run again does it");
+  }
+}
+
+// Of a run that is broken off, whatever takes no longer than who breaks it off has patience.
+void EvaluatorNode::compareMethods(evaluate::Ending ending) {
+  const Patience patience(kComparingAtMost_s, ending == evaluate::Ending::kBrokenOff);
+  try {
+    evaluation_->compareMethods(evaluate::StopToken([&] { return patience.isOver(); }));
+  } catch (const evaluate::Stopped&) {
+    ROS_WARN(
+        "interrupted before methods and hours were compared: there is no comparisons.csv; the same run again "
+        "writes it");
   }
 }
 

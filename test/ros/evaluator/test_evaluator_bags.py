@@ -22,7 +22,8 @@ from evaluator_runs import Evaluator, Streams, image_message, picture, program, 
 
 POSES = 60
 STREAMS = ['h04', 'h12', 'h20']
-RESULTS = ['summary.csv', 'verified_summary.csv', 'frames.csv', 'verified.csv']
+RESULTS = ['summary.csv', 'verified_summary.csv', 'frames.csv', 'verified.csv',
+           'comparisons.csv']
 DIFFERENCES = ['boolean_rgb', 'euclidean_grey', 'sift', 'orb']
 CONFIG = '''# of the test
 streams: [h04, h12, h20]

@@ -182,6 +182,11 @@ class TestLocalise(unittest.TestCase):
         for name in ('localisation.csv', 'localisation_summary.csv'):
             self.assertEqual(read(self.path('live'), name), read(self.path('bag'), name), name)
             self.assertEqual(read(self.path('live'), name), read(self.path('map'), name), name)
+        compared = read(self.path('live'), 'comparisons.csv').decode().splitlines()
+        self.assertEqual(compared, read(self.path('bag'), 'comparisons.csv').decode().splitlines())
+        of_queries = [line for line in compared if ',dusk in noon,' in line]
+        self.assertEqual(len(of_queries), 4)  # SIFT and ORB, within three reaches and in metres
+        self.assertEqual(compared[:1] + of_queries, read(self.path('map'), 'comparisons.csv').decode().splitlines())
 
     def check_messages(self, listener, found):
         by_key = {(message.pose, message.detector): message for message in listener.queries}

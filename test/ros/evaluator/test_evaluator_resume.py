@@ -64,7 +64,7 @@ class TestResume(unittest.TestCase):
         self.assertEqual(status, 0, output)
         self.assertIn('not evaluated again', output)
         self.assertIn('torn end', output)
-        for name in ('summary.csv', 'verified_summary.csv'):
+        for name in ('summary.csv', 'verified_summary.csv', 'comparisons.csv'):
             self.assertEqual(read(self.folder.name + '/killed', name), read(self.folder.name + '/undisturbed', name), name)
         # All but the stamps, since the rest was rendered again with others.
         verified = [[dict(row, stamp='') for row in rows(self.folder.name + '/' + run, 'verified.csv')]

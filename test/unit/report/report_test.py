@@ -15,8 +15,8 @@ SCRIPTS = os.path.join(HERE, "..", "..", "..", "scripts")
 sys.path[:0] = [HERE, SCRIPTS]
 
 import output_folder as made  # noqa: E402
-from sunlit_report import files, findings, localisation, names, page, pictures, queries, tables, warnings  # noqa: E402
-from sunlit_report import figures, map_figure, verified  # noqa: E402
+from sunlit_report import comparisons, files, findings, localisation, names, page, pictures, queries, tables  # noqa: E402
+from sunlit_report import figures, map_figure, verified, warnings  # noqa: E402
 from sunlit_report.csv_rows import ReportError  # noqa: E402
 
 REPORT = os.path.join(SCRIPTS, "report")
@@ -366,6 +366,41 @@ class Matches(InFolder):
         self.assertIn("Are the matches right?", page.render(output, findings.judge(output)))
 
 
+class Comparisons(InFolder):
+    def families(self):
+        self.write("frames.csv", made.frames())
+        self.write("comparisons.csv", made.comparisons())
+        return comparisons.families(self.read())
+
+    def test_what_is_significant_is_counted_and_shown_first(self):
+        methods, hours = self.families()
+        self.assertEqual(methods["counts"], [("D", 2, 3)])
+        self.assertEqual([cells[1] for cells, _ in methods["rows"]], ["4–20 h", "12–20 h", "4–12 h"])
+        self.assertEqual([sure for _, sure in methods["rows"]], [True, True, False])
+        self.assertEqual(methods["rows"][0][0],
+                         ["D", "4–20 h", "SIFT", "ORB", "39", "1 undefined", "-0.125", "[-0.250, -0.062]", "< 0.0001", "< 0.0001"])
+        self.assertEqual(methods["rows"][2][0][-2:], [tables.MISSING] * 2)
+        self.assertEqual(hours["rows"], [(["error / m", "SIFT", "4 h in 12 h", "20 h in 12 h", "30", "8 failed, 2 alone", "+0.500",
+                                           "[-0.250, +0.750]", "0.2500", "0.5000"], False)])
+
+    def test_few_of_many_are_shown_and_that_is_said(self):
+        self.write("frames.csv", made.frames())
+        lines = [f"d,methods,x{k},sift,orb,39,0,0,0,1,1,1,{k / 100},{k / 100},3" for k in range(100)]
+        self.write("comparisons.csv", [made.COMPARISONS_HEADER, *lines])
+        output = self.read()
+        family, = comparisons.families(output)
+        self.assertEqual((family["all"], len(family["rows"]), family["counts"]), (100, comparisons.SHOWN, [("D", 5, 100)]))
+        self.assertIn(f"The {comparisons.SHOWN} surest of 100", page.render(output, findings.judge(output)))
+
+    def test_without_any_there_is_no_word_of_it(self):
+        self.write("frames.csv", made.frames())
+        for lines in ([], [made.COMPARISONS_HEADER]):
+            if lines:
+                self.write("comparisons.csv", lines)
+            output = self.read()
+            self.assertNotIn("more than chance", page.render(output, findings.judge(output)))
+
+
 class Page(InFolder):
     def run_report(self, *arguments):
         return subprocess.run([sys.executable, REPORT, *arguments], capture_output=True, text=True, check=False)
@@ -393,6 +428,7 @@ class Page(InFolder):
         self.assertRegex(done.stdout, r"SIFT +0\.84000 +0\.63000 +0\.83000 +0\.05000 +0\.14000 +0\.05000")
         self.assertRegex(done.stdout, r"paper +0\.84577 +0\.63501")
         self.assertRegex(done.stdout, r"4–12 h +SIFT +40( +0\.812){7}")
+        self.assertIn("between methods: D 2 of 3", done.stdout)
 
     def test_every_absent_file_is_named_in_place(self):
         self.write("frames.csv", made.frames())

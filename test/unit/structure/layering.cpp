@@ -123,11 +123,12 @@ const std::map<std::string, Modules> kRoomsOfLight = {
 };
 
 const std::map<std::string, Modules> kRoomsOfEvaluate = {
+    {"comparisons", {"files", "localise", "verify"}},
     {"data_sets", {}},
     {"features", {}},
     {"differences", {"features"}},
     {"files", {"differences"}},
-    {"run", {"differences", "features", "files", "localise", "verify"}},
+    {"run", {"comparisons", "differences", "features", "files", "localise", "verify"}},
     {"trajectory", {"files"}},
     {"places", {"features", "files"}},
     {"verify", {"differences", "features", "files"}},

@@ -56,6 +56,14 @@ void sortRecords(std::vector<PairValues<Value>>& records) {
   const auto is_same = [](const Record& l, const Record& r) { return l.pose == r.pose && l.pair == r.pair; };
   records.erase(std::unique(records.begin(), records.end(), is_same), records.end());
 }
+/// Values of each pair of the layout, in the order of the records.
+template <typename Value>
+std::vector<std::vector<const std::vector<Value>*>> valuesByPair(
+    const FramesLayout& layout, const std::vector<PairValues<Value>>& records) {
+  std::vector<std::vector<const std::vector<Value>*>> values(layout.pairs.size());
+  for (const auto& record : records) values.at(record.pair).push_back(&record.values);
+  return values;
+}
 /// Writes all of frames.csv in one step, in the order given.
 void writeFrames(const std::string& path, const FramesLayout& layout, const std::vector<PairRecord>& records);
 
@@ -65,11 +73,12 @@ struct SummaryRow {
   std::string b;
   std::string difference;
   Statistics statistics;        ///< of the paper's D
-  Statistics symmetric;         ///< see DifferenceValue
+  Statistics symmetric;         ///< see DifferenceValue; without an interval, as the next
   Statistics one_to_one;        ///< see DifferenceValue
   std::size_t overmatched = 0;  ///< values for which DifferenceValue::isOvermatched()
 };
 /// Statistics of sorted records, for each pair and difference of the layout. A pair without records has n 0.
+/// In parallel; the result does not depend on the number of threads.
 std::vector<SummaryRow> summarise(const FramesLayout& layout, const std::vector<PairRecord>& sorted_records);
 /// Writes all columns but the intervals of the latter two in one step.
 void writeSummary(const std::string& path, const std::vector<SummaryRow>& rows);

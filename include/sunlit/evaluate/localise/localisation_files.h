@@ -49,6 +49,10 @@ struct Reach {
 };
 /// Those of visuallocalization.net (T. Sattler et al., CVPR 2018).
 constexpr std::array<Reach, 3> kReaches = {{{0.25, 2.0}, {0.5, 5.0}, {5.0, 10.0}}};
+/// "within_0.25m_2deg", the name of a column.
+std::string nameOf(const Reach& reach);
+/// False for a query without a pose.
+bool isWithin(const LocalisedQuery& result, const Reach& reach);
 constexpr std::array<double, 3> kAucAngles_deg = {5.0, 10.0, 20.0};
 
 /// Queries of one stream by one detector. A query without a pose is a failure: within no reach, and its
@@ -77,6 +81,9 @@ double areaUnderRecall(std::vector<double> errors, double largest);
 /// localisation.csv: pose,stamp,map,query,detector,error_m,error_deg,inliers,retrieved,status. Numbers with
 /// 17 digits, "nan" where there is no pose; retrieved: key frames matched. In one step.
 void writeLocalisation(const std::string& path, const std::vector<LocalisationRow>& rows);
+/// Its rows, of which results have what the columns tell: status, errors and key frames; no estimate. Throws
+/// std::runtime_error with path and line.
+std::vector<LocalisationRow> loadLocalisation(const std::string& path);
 
 /// localisation_summary.csv: map,query,detector,n,failures, of each reach within_0.25m_2deg with
 /// …_low and …_high (its 95 % interval), median_error_m,median_error_deg,n_relative,auc_5deg,auc_10deg,

@@ -174,6 +174,9 @@ class Evaluation {
   /// localisation_summary.csv. Nothing where options().localisation has no map, or where they are there
   /// already. A whole run then forgets observations.bin, which holds what was found in every picture.
   LocalisationOutcome localise(const LocaliseCallbacks& callbacks);
+  /// Writes comparisons.csv, after finish() and what localise() found. Throws Stopped once `stop` says so,
+  /// and then there is no such file.
+  void compareMethods(const StopToken& stop = {});
 
  private:
   class State;

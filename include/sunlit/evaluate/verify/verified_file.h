@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sunlit/evaluate/files/frames_file.h"
+#include "sunlit/evaluate/stop_token.h"
 #include "sunlit/evaluate/verify/verify.h"
 
 namespace sunlit::evaluate {
@@ -44,9 +45,10 @@ struct VerifiedSummaryRow {
   Statistics statistics;
 };
 /// Statistics of sorted records, for each pair, detector and measure. In parallel; the result does not depend
-/// on the number of threads.
+/// on the number of threads. Throws Stopped.
 std::vector<VerifiedSummaryRow> summariseVerified(const FramesLayout& layout,
-                                                  const std::vector<VerifiedRecord>& sorted_records);
+                                                  const std::vector<VerifiedRecord>& sorted_records,
+                                                  const StopToken& stop = {});
 /// Columns `a,b,detector,measure,n,undefined,mean,sd,ci_low,ci_high`, in one step.
 void writeVerifiedSummary(const std::string& path, const std::vector<VerifiedSummaryRow>& rows);
 

@@ -196,12 +196,24 @@ TEST(EvaluationLocalise, ABrokenOffRunIsTakenUpAgain) {
   }
   EXPECT_TRUE(finishAndLocalise(evaluation).isWhole());
   EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
+  evaluation.compareMethods();
+  const std::string compared = contentOf(folder.file("out/comparisons.csv"));
+  EXPECT_TRUE(hasLine(compared, "error_m,methods,dusk in noon,sift,orb,4,0,0,0,")) << compared;
+  EXPECT_TRUE(hasLine(compared, "within_0.25m_2deg,hours,orb,dusk in noon,night in noon,4,0,0,0,"))
+      << compared;
+  EXPECT_TRUE(hasLine(compared, "d,hours,boolean_rgb,noon-dusk,dusk-night,4,0,0,0,")) << compared;
+  EXPECT_TRUE(hasLine(compared, "precision_3px,methods,noon-dusk,sift,orb,4,0,0,0,")) << compared;
   // Once more, when all is there: it stays.
   Evaluation again(localising(folder), {});
   EXPECT_TRUE(again.isComplete());
   const LocalisationOutcome outcome = finishAndLocalise(again);
   EXPECT_FALSE(outcome.is_asked);
   EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
+  again.compareMethods();
+  EXPECT_EQ(contentOf(folder.file("out/comparisons.csv")), compared)
+      << "queries by what localisation.csv says";
+  EXPECT_THROW(again.compareMethods(StopToken([] { return true; })), Stopped);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("out/comparisons.csv"))) << "never half of it";
 }
 
 TEST(EvaluationLocalise, WhatIsMissingIsNamedAndCounted) {
