@@ -95,7 +95,7 @@ void wholePose(benchmark::State& state) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (const std::string& name : detectorTypes()) {
+  for (const std::string& name : readyDetectorTypes()) {
     const auto add = [](const std::string& label, auto body) {
       benchmark::RegisterBenchmark(label.c_str(), body)
           ->Unit(benchmark::kMillisecond)

@@ -15,6 +15,7 @@
 #include "light/disc/disc_visibility.h"
 #include "light/light_table.h"
 #include "light/sky_in_view/sky_pixel.h"
+#include "sunlit/image/cache_folder.h"
 #include "sunlit/image/exposure.h"
 #include "sunlit/light/lighting.h"
 #include "sunlit/light/transport.h"
@@ -43,7 +44,7 @@ struct Stage {
             scene::load(circuit ? kCircuit : scene::kRaceTrack, scene::SearchPath{}))) {
     const auto points = circuit ? circuitPoints() : scene::raceTrackWaypoints();
     for (std::size_t i = 0; i < kPoses; ++i) poses.push_back(poseAt(points, i * points.size() / kPoses));
-    world.transport = light::Transport::cached(world.geometry, {}, light::Transport::usualFolder());
+    world.transport = light::Transport::cached(world.geometry, {}, image::usualCacheFolder());
     renderer = std::make_unique<render::Renderer>(world, options());
   }
 

@@ -20,6 +20,7 @@
 #include "render/frustum.h"
 #include "render/rasterizer.h"
 #include "render/resolve.h"
+#include "sunlit/image/cache_folder.h"
 #include "sunlit/image/exposure.h"
 #include "sunlit/light/final_gather.h"
 #include "sunlit/light/lighting.h"
@@ -64,7 +65,7 @@ struct Stage {
   render::Seen seen() const { return {view, *geometry, nullptr, *pyramids, 0.0f, samples}; }
   void resolve() { render::resolveSurfaces(seen(), &surfaces); }
   const light::Transport& baked() {
-    if (!transport) transport = light::Transport::cached(geometry, {}, light::Transport::usualFolder());
+    if (!transport) transport = light::Transport::cached(geometry, {}, image::usualCacheFolder());
     return *transport;
   }
 

@@ -15,8 +15,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "read_file.h"
-
 namespace sunlit::image {
 namespace {
 

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "read_file.h"
 #include "sunlit/image/encoded_size.h"
 #include "sunlit/image/files.h"
 #include "sunlit/image/texture_files.h"

@@ -8,7 +8,7 @@ namespace sunlit::light {
 namespace {
 
 /// What only pictures show of a surface.
-void addDetail(const scene::Detail& detail, scene::ContentHash* hash) {
+void addDetail(const scene::Detail& detail, image::ContentHash* hash) {
   for (const float value : {detail.contrast, detail.coarsest_m, detail.finest_m, detail.gain})
     hash->add(value);
   for (const float channel : detail.tint) hash->add(channel);
@@ -28,7 +28,7 @@ Illumination illumination(const World& world, const sky::Daylight& day) {
 }
 
 std::string fingerprint(const World& world) {
-  scene::ContentHash hash;
+  image::ContentHash hash;
   if (world.transport)
     hash = bakeKey(*world.geometry, world.transport->options());
   else

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "studio/tell.h"
+#include "sunlit/image/cache_folder.h"
 
 namespace sunlit::studio {
 
@@ -24,7 +25,7 @@ light::World loadWorld(const WorldOptions& options, const std::optional<scene::R
 }
 
 light::BakeCache cacheOf(const BakeOptions& options) {
-  return {options.cache_dir.empty() ? light::Transport::usualFolder() : options.cache_dir,
+  return {options.cache_dir.empty() ? image::usualCacheFolder() : options.cache_dir,
           static_cast<std::uintmax_t>(1e9 * options.cache_limit_gb)};
 }
 

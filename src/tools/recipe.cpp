@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sunlit/image/content_hash.h"
 #include "sunlit/image/files.h"
-#include "sunlit/scene/content_hash.h"
 #include "sunlit/scene/load.h"
 #include "tools/output_folder.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 /// A file may change while its name stays.
 std::string contentOf(const std::string& what, const std::string& file) {
-  scene::ContentHash print;
+  image::ContentHash print;
   print.addFile(file);
   return what + ' ' + print.text();
 }

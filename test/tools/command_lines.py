@@ -37,6 +37,8 @@ DETECTORS = {
     "akaze": {"descriptor-type": "default mldb", "descriptor-size": "default 0", "descriptor-channels": "default 3",
               "threshold": "default 0.001", "n-octaves": "default 4", "n-octave-layers": "default 4",
               "diffusivity": "default pm_g2"},
+    "onnx": {"model": "file of the network", "threshold": "0 … 1, default 0.015", "nms-radius": "0 … 100 px, default 4",
+             "border": "0 … 1000 px, default 4", "max-features": "0 … 1000000, default 0"},
     "kaze": {"extended": "default false", "upright": "default false", "threshold": "default 0.001", "n-octaves": "default 4",
              "n-octave-layers": "default 4", "diffusivity": "default pm_g2"}}
 PREPROCESSING = {"--clahe-clip-limit": "1 … 256, default 2", "--clahe-tiles": "1 … 64, default 8",

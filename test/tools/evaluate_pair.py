@@ -126,6 +126,15 @@ class EvaluatePair(unittest.TestCase):
         (curved,), _ = self.evaluate("curved", picture, shifted, "--detectors", "orb+gamma")
         self.assertNotEqual({**curved, "detector": "orb"}, orb)
 
+    def test_a_network_is_a_detector_too(self):
+        network = str(pathlib.Path(__file__).resolve().parents[1] / "golden" / "bright_pixel.onnx")
+        picture = self.picture("a.png")
+        (row,), _ = self.evaluate("net", "--detectors", "onnx", "--onnx-model", network, picture, picture)
+        self.assertEqual((row["detector"], float(row["repeatability"])), ("onnx", 1.0))
+        self.assertGreater(int(row["features_a"]), 10)
+        self.assertIn("model of onnx is \"\", but must be the file of a network",
+                      self.refused("--out", self.path("out"), "--detectors", "onnx", picture, picture))
+
     def test_no_features_are_undefined_and_no_matches_are_zero(self):
         grey = self.path("grey.png")
         cv2.imwrite(grey, numpy.full((120, 160), 128, numpy.uint8))
@@ -152,7 +161,7 @@ class EvaluatePair(unittest.TestCase):
         pathlib.Path(self.path("cut.png")).write_bytes(whole[:len(whole) // 2])
         self.assertIn("cut.png: read: the file is cut off", self.refused(*out, picture, self.path("cut.png")))
         for name in ("fast", "sift+", "sift+clahee", "+clahe", "sift+clahe+gamma"):
-            self.assertIn("--detectors is [sift, %s], but must be a list of some of %s, akaze, kaze, rootsift, sift+clahe, " %
+            self.assertIn("--detectors is [sift, %s], but must be a list of some of %s, akaze, kaze, rootsift, onnx, sift+clahe, " %
                           (name, ", ".join(detectors())), self.refused(*out, "--detectors", "sift," + name, picture, picture))
         self.assertIn("BRISK finds no features in a picture of 5×7 px: ",
                       self.refused(*out, "--detectors", "brisk+clahe", *[self.picture("tiny.png", 5, 7)] * 2))

@@ -121,6 +121,16 @@ class LocaliseBags(unittest.TestCase):
         dusk = self.write("dusk.bag", "h20/", [0.5 + 2 * k for k in range(5)], brightness=0.5, yaw=0.1)
         return noon, dusk
 
+    def test_detectors_of_a_file_localise_too(self):
+        noon, dusk = self.bags()
+        with open(self.path("own.yaml"), "w") as file:
+            file.write("{streams: [h12], output_dir: unused, features: {many: {type: orb, n_features: 1000}}}")
+        drives = ["--map", noon, "--query", dusk, "--detectors", "many,orb"]
+        rows, _ = self.localise("found", *drives, "--config", self.path("own.yaml"))
+        inliers = {name: sum(int(row["inliers"]) for row in rows if row["detector"] == name) for name in ("many", "orb")}
+        self.assertGreater(inliers["many"], 1.2 * inliers["orb"])
+        self.assertIn("--detectors is [many, orb], but must be", self.refused(*drives))
+
     def test_a_drive_is_found_in_the_map_of_another(self):
         noon, dusk = self.bags()
         rows, done = self.localise("out", "--map", noon, "--query", dusk, "--map-every", "2")

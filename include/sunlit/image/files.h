@@ -12,6 +12,9 @@ namespace sunlit::image {
 /// exist.
 void writeFileAtomically(const std::string& path, const std::string& bytes);
 
+/// All bytes of a file. Throws std::runtime_error with path and reason.
+std::string readWholeFile(const std::string& path);
+
 /// Removes what writers of files were killed in the midst of, in `folder` and below. What belongs to a
 /// process that still runs stays.
 void removeUnfinished(const std::string& folder);

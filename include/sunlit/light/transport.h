@@ -87,10 +87,6 @@ class Transport {
                                                  const TransportOptions& options, const BakeCache& cache,
                                                  const BakeListener& listener = {});
 
-  /// SUNLIT_CACHE_DIR, or sunlit in XDG_CACHE_HOME, or .cache/sunlit in HOME, or else in the system's
-  /// temporary folder.
-  static std::string usualFolder();
-
   /// `data` is a bake of `geometry` with `options`.
   Transport(std::shared_ptr<const Geometry> geometry, const TransportOptions& options,
             std::unique_ptr<const TransportData> data);

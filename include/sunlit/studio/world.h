@@ -25,7 +25,7 @@ struct WorldOptions {
 struct BakeOptions {
   bool enabled = true;
   light::TransportOptions transport;
-  std::string cache_dir;  ///< empty: as light::Transport::usualFolder()
+  std::string cache_dir;  ///< empty: as image::usualCacheFolder()
   double cache_limit_gb = 2.0;
 };
 

@@ -12,6 +12,7 @@ namespace {
 struct DetectorType {
   std::string name;
   std::unique_ptr<Detector> (*make)();
+  bool is_ready = true;  ///< needs to be told nothing
 };
 
 /// Those of the paper in the order of its tables, then others.
@@ -20,9 +21,9 @@ const std::vector<DetectorType>& table() {
 #ifdef SUNLIT_SURF
                                                  {"surf", makeSurf},
 #endif
-                                                 {"orb", makeOrb},          {"brisk", makeBrisk},
-                                                 {"akaze", makeAkaze},      {"kaze", makeKaze},
-                                                 {"rootsift", makeRootSift}};
+                                                 {"orb", makeOrb},           {"brisk", makeBrisk},
+                                                 {"akaze", makeAkaze},       {"kaze", makeKaze},
+                                                 {"rootsift", makeRootSift}, {"onnx", makeOnnx, false}};
   return rows;
 }
 
@@ -85,15 +86,26 @@ const std::vector<std::string>& detectorTypes() {
   return names;
 }
 
+const std::vector<std::string>& readyDetectorTypes() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> ready;
+    for (const DetectorType& type : table()) {
+      if (type.is_ready) ready.push_back(type.name);
+    }
+    return ready;
+  }();
+  return names;
+}
+
 DetectorKind DetectorKind::named(const std::string& name) {
   const std::size_t plus = name.find('+');
   if (plus == std::string::npos) return {name, ""};
   return {name.substr(0, plus), name.substr(plus + 1)};
 }
 
-std::vector<std::string> detectorNames() {
-  std::vector<std::string> names = detectorTypes();
-  for (const std::string& type : detectorTypes()) {
+std::vector<std::string> detectorNames(const std::vector<std::string>& types) {
+  std::vector<std::string> names = types;
+  for (const std::string& type : types) {
     for (const std::string& preprocessing : preprocessingNames()) names.push_back(type + "+" + preprocessing);
   }
   return names;

@@ -25,5 +25,6 @@ std::unique_ptr<Detector> makeOrb();
 std::unique_ptr<Detector> makeBrisk();
 std::unique_ptr<Detector> makeAkaze();
 std::unique_ptr<Detector> makeKaze();
+std::unique_ptr<Detector> makeOnnx();
 
 }  // namespace sunlit::evaluate

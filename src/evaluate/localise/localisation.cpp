@@ -26,7 +26,7 @@ Field mapEveryRow(double* map_every_m) {
 
 std::vector<Field> fieldsOf(LocalisationOptions& options) {
   std::vector<std::string>* const names = &options.detectors;
-  const Choices choices{detectorTypes(), [names] { return *names; },
+  const Choices choices{options.known.namesOfDetectors(), [names] { return *names; },
                         [names](const std::vector<std::string>& some) { *names = some; }};
   return joined({{{"detectors", choices, "", {}, "names apart by commas"}, mapEveryRow(&options.map_every_m)},
                  fieldsOf(options.localiser)});

@@ -58,7 +58,8 @@ std::string PlaceMethod::name() const {
 std::vector<PlaceMethod> allPlaceMethods() {
   std::vector<PlaceMethod> methods(2);
   methods[1].kind = PlaceMethod::Kind::kSeqSlam;
-  for (const std::string& detector : detectorTypes()) methods.push_back({PlaceMethod::Kind::kVlad, detector});
+  for (const std::string& detector : readyDetectorTypes())
+    methods.push_back({PlaceMethod::Kind::kVlad, detector});
   return methods;
 }
 
@@ -68,12 +69,13 @@ PlaceMethod placeMethod(const std::string& name, const std::string& called) {
     if (method.name() == name) return method;
     names += (names.empty() ? "" : ", ") + method.name();
   }
-  for (const std::string& detector : detectorNames()) {
+  const std::vector<std::string> detectors = detectorNames(readyDetectorTypes());
+  for (const std::string& detector : detectors) {
     if (name == kVladPrefix + detector) return {PlaceMethod::Kind::kVlad, detector};
   }
   refuse(called, '"' + name + '"',
          "one of " + names + ", or vlad of a detector behind a preprocessing, as " + kVladPrefix +
-             detectorNames().back());
+             detectors.back());
 }
 
 PlaceComparison::PlaceComparison(const PictureFolder& map, const PictureFolder& queries, Progress progress)

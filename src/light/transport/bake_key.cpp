@@ -5,7 +5,7 @@
 namespace sunlit::light {
 namespace {
 
-void addMaterial(const scene::Material& material, scene::ContentHash* hash) {
+void addMaterial(const scene::Material& material, image::ContentHash* hash) {
   for (const float channel : material.base_color.value) hash->add(channel);
   for (const float channel : material.emission.value) hash->add(channel);
   hash->add(material.base_texture);
@@ -19,7 +19,7 @@ void addMaterial(const scene::Material& material, scene::ContentHash* hash) {
 
 }  // namespace
 
-void addContents(const Geometry& geometry, scene::ContentHash* hash) {
+void addContents(const Geometry& geometry, image::ContentHash* hash) {
   hash->add(geometry.positions);
   hash->add(geometry.normals);
   hash->add(geometry.texture_coordinates);
@@ -43,8 +43,8 @@ void addContents(const Geometry& geometry, scene::ContentHash* hash) {
   }
 }
 
-scene::ContentHash bakeKey(const Geometry& geometry, const TransportOptions& options) {
-  scene::ContentHash hash;
+image::ContentHash bakeKey(const Geometry& geometry, const TransportOptions& options) {
+  image::ContentHash hash;
   hash.add(kBakeVersion);
   hash.add(options.rays_per_patch);
   hash.add(options.bounces);

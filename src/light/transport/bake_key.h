@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
+#include "sunlit/image/content_hash.h"
 #include "sunlit/light/geometry.h"
 #include "sunlit/light/transport.h"
-#include "sunlit/scene/content_hash.h"
 
 namespace sunlit::light {
 
@@ -13,9 +13,9 @@ namespace sunlit::light {
 constexpr std::uint32_t kBakeVersion = 15;
 
 /// Shape, and of the looks what decides how light goes on from it.
-void addContents(const Geometry& geometry, scene::ContentHash* hash);
+void addContents(const Geometry& geometry, image::ContentHash* hash);
 
 /// Of everything that a bake depends on.
-scene::ContentHash bakeKey(const Geometry& geometry, const TransportOptions& options);
+image::ContentHash bakeKey(const Geometry& geometry, const TransportOptions& options);
 
 }  // namespace sunlit::light

@@ -14,7 +14,7 @@ namespace sunlit::light {
 namespace {
 
 namespace fs = std::filesystem;
-using Number = scene::ContentHash::Number;
+using Number = image::ContentHash::Number;
 
 constexpr char kMagic[8] = {'s', 'u', 'n', 'l', 'i', 't', 'T', '\n'};
 
@@ -53,7 +53,7 @@ void visitArrays(Data& data, const Visit& visit) {
 
 }  // namespace
 
-std::unique_ptr<TransportData> readBake(const fs::path& file, const scene::ContentHash& key) {
+std::unique_ptr<TransportData> readBake(const fs::path& file, const image::ContentHash& key) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) fail(file, "cannot be read");
   Header header;
@@ -73,7 +73,7 @@ std::unique_ptr<TransportData> readBake(const fs::path& file, const scene::Conte
     expected += count * sizeof(values[0]);
   });
   if (size != expected) fail(file, size < expected ? "is cut short" : "is longer than it should be");
-  scene::ContentHash checksum;
+  image::ContentHash checksum;
   array = 0;
   visitArrays(*data, [&](auto& values) {
     values.resize(header.counts[array++]);
@@ -86,13 +86,13 @@ std::unique_ptr<TransportData> readBake(const fs::path& file, const scene::Conte
   return data;
 }
 
-void writeBake(const fs::path& file, const scene::ContentHash& key, const TransportData& data) {
+void writeBake(const fs::path& file, const image::ContentHash& key, const TransportData& data) {
   Header header{};
   std::memcpy(header.magic, kMagic, sizeof(kMagic));
   header.version = kBakeVersion;
   header.patches = SkyPatches::kCount;
   header.key = key.number();
-  scene::ContentHash checksum;
+  image::ContentHash checksum;
   std::size_t array = 0;
   visitArrays(data, [&](const auto& values) {
     header.counts[array++] = values.size();

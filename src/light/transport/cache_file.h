@@ -11,10 +11,10 @@ namespace sunlit::light {
 
 /// Throws std::runtime_error with the path and what is wrong: it can't be read, is cut short, is damaged, is
 /// of another version, or is of another bake than `key`.
-std::unique_ptr<TransportData> readBake(const std::filesystem::path& file, const scene::ContentHash& key);
+std::unique_ptr<TransportData> readBake(const std::filesystem::path& file, const image::ContentHash& key);
 
 /// Complete or not at all, also where the power fails: written beside `file` first, and durable before it
 /// gets that name. Throws std::runtime_error with the path.
-void writeBake(const std::filesystem::path& file, const scene::ContentHash& key, const TransportData& data);
+void writeBake(const std::filesystem::path& file, const image::ContentHash& key, const TransportData& data);
 
 }  // namespace sunlit::light

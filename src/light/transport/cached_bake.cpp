@@ -1,20 +1,21 @@
 // A bake is looked for on disk first, and left there.
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
 
 #include "light/transport/cache_file.h"
-#include "light/transport/cache_folder.h"
+#include "sunlit/image/cache_folder.h"
 #include "sunlit/light/transport.h"
 
 namespace sunlit::light {
 namespace {
 
 namespace fs = std::filesystem;
-using Log = std::function<void(const std::string&)>;
+using Log = image::CacheFolder::Log;
 
-std::unique_ptr<TransportData> readIfThere(const fs::path& file, const scene::ContentHash& key,
+constexpr const char* kEnding = ".light";
+
+std::unique_ptr<TransportData> readIfThere(const fs::path& file, const image::ContentHash& key,
                                            const Log& log) {
   std::error_code error;
   if (!fs::exists(file, error)) return nullptr;
@@ -35,16 +36,16 @@ std::optional<fs::path> usableFolder(const std::string& folder, const Log& log) 
   return std::nullopt;
 }
 
-std::optional<BakeTurn> turnFor(const fs::path& file, const Log& log) {
+std::optional<image::CacheTurn> turnFor(const fs::path& file, const Log& log) {
   try {
-    return BakeTurn::await(file);
+    return image::CacheTurn::await(file);
   } catch (const std::exception& problem) {
     if (log) log(std::string("baked light is not kept: ") + problem.what());
     return std::nullopt;
   }
 }
 
-void keep(const fs::path& file, const scene::ContentHash& key, const TransportData& data, const Log& log) {
+void keep(const fs::path& file, const image::ContentHash& key, const TransportData& data, const Log& log) {
   try {
     writeBake(file, key, data);
   } catch (const std::exception& problem) {
@@ -54,20 +55,14 @@ void keep(const fs::path& file, const scene::ContentHash& key, const TransportDa
 
 /// What cached() gives away: as long as it is used, its file stays.
 struct KeptTransport {
-  std::optional<BakeInUse> in_use;
+  std::optional<image::CacheUse> in_use;
   std::shared_ptr<const Transport> transport;
 };
 
 }  // namespace
 
-std::string Transport::usualFolder() {
-  const auto value = [](const char* name) {
-    return std::getenv(name) ? std::string(std::getenv(name)) : std::string();
-  };
-  if (!value("SUNLIT_CACHE_DIR").empty()) return value("SUNLIT_CACHE_DIR");
-  if (!value("XDG_CACHE_HOME").empty()) return fs::path(value("XDG_CACHE_HOME")) / "sunlit";
-  if (!value("HOME").empty()) return fs::path(value("HOME")) / ".cache" / "sunlit";
-  return fs::temp_directory_path() / "sunlit";
+std::uintmax_t BakeCache::usedBytes() const {
+  return image::CacheFolder{folder, kEnding}.usedBytes();
 }
 
 std::shared_ptr<const Transport> Transport::cached(std::shared_ptr<const Geometry> geometry,
@@ -77,12 +72,12 @@ std::shared_ptr<const Transport> Transport::cached(std::shared_ptr<const Geometr
   validate(options);
   const std::optional<fs::path> folder = usableFolder(cache.folder, log);
   if (!folder) return bake(std::move(geometry), options, progress);
-  const scene::ContentHash key = bakeKey(*geometry, options);
-  const fs::path file = *folder / (key.text() + ".light");
+  const image::ContentHash key = bakeKey(*geometry, options);
+  const fs::path file = *folder / (key.text() + kEnding);
   auto kept = std::make_shared<KeptTransport>();
   kept->in_use.emplace(file);  // from here on nobody removes it
   std::unique_ptr<TransportData> data = readIfThere(file, key, nullptr);
-  std::optional<BakeTurn> turn;
+  std::optional<image::CacheTurn> turn;
   if (!data) {
     turn = turnFor(file, log);
     if (!turn) return bake(std::move(geometry), options, progress);
@@ -96,7 +91,7 @@ std::shared_ptr<const Transport> Transport::cached(std::shared_ptr<const Geometr
   }
   kept->in_use.emplace(file);  // which may have come only now
   turn.reset();
-  tidyCache(*folder, cache.limit_bytes, log);
+  image::CacheFolder{*folder, kEnding}.tidy(cache.limit_bytes, log);
   return {kept, kept->transport.get()};
 }
 

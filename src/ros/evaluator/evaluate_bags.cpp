@@ -31,7 +31,8 @@ ParameterReader defaultsFor(const BagEvaluationOptions& options) {
 struct Options {
   BagEvaluationOptions evaluation;
   BagLocalisationOptions localisation;
-  std::string config;  ///< file; empty: none
+  std::string config;                    ///< file; empty: none
+  std::optional<EvaluatorOptions> read;  ///< of that file
 };
 
 /// Of what is localised; throws as optionsOf().
@@ -49,10 +50,7 @@ void completeLocalisation(Options* options) {
     throw std::invalid_argument("--merge is for differences alone");
   localisation.output_dir = options->evaluation.evaluation.output_dir;
   localisation.name_space = options->evaluation.name_space;
-  if (options->config.empty()) return;
-  const EvaluatorOptions read = readEvaluatorOptions(parametersOfFile(options->config));
-  localisation.localisation.known = read.evaluation.comparer.known;
-  localisation.intake = read.intake;
+  if (options->read) localisation.intake = options->read->intake;
 }
 
 /// Of what is evaluated.
@@ -62,9 +60,8 @@ void completeEvaluation(Options* options) {
     throw std::invalid_argument("no bag given, nor --merge with --config; --help lists all options");
   const std::string output = evaluation.evaluation.output_dir;
   const std::vector<std::string> folders = evaluation.evaluation.merge;
-  const ParameterReader parameters =
-      options->config.empty() ? defaultsFor(evaluation) : parametersOfFile(options->config);
-  const EvaluatorOptions read = readEvaluatorOptions(parameters);
+  const EvaluatorOptions read =
+      options->read ? *options->read : readEvaluatorOptions(defaultsFor(evaluation));
   evaluation.evaluation = read.evaluation;
   evaluation.intake = read.intake;
   evaluation.evaluation.output_dir = output;
@@ -77,9 +74,22 @@ std::string optionOf(std::string key) {
   return "--" + key;
 }
 
+/// Before the others: which detectors they may name stands in the file.
+void readConfig(const std::vector<std::string>& arguments, Options* options) {
+  const std::string option = "--config";
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == option && i + 1 < arguments.size()) options->config = arguments[i + 1];
+    if (arguments[i].rfind(option + "=", 0) == 0) options->config = arguments[i].substr(option.size() + 1);
+  }
+  if (options->config.empty()) return;
+  options->read = readEvaluatorOptions(parametersOfFile(options->config));
+  options->localisation.localisation.known = options->read->evaluation.comparer.known;
+}
+
 /// Empty if help was asked for.
 std::optional<Options> optionsOf(const std::vector<std::string>& arguments) {
   Options options;
+  readConfig(arguments, &options);
   const std::vector<Field> rows = fieldsOf(options.evaluation);
   studio::CommandLine line(
       "evaluate_bags: evaluates recorded images as evaluator_node would, or localises them in a map made of "

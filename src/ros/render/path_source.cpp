@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sunlit/scene/content_hash.h"
+#include "sunlit/image/content_hash.h"
 #include "sunlit/scene/race_track.h"
 
 namespace sunlit::ros_interface {
@@ -28,7 +28,7 @@ PathSource::PathSource(ros::NodeHandle node, const PathSourceOptions& options, c
 }
 
 std::string PathSource::fingerprint() const {
-  scene::ContentHash print;
+  image::ContentHash print;
   for (const Eigen::Isometry3d& pose : map_from_camera_)
     print.add(std::vector<double>(pose.data(), pose.data() + pose.matrix().size()));
   return print.text();

@@ -2,6 +2,7 @@
 """Live topics, a played bag and evaluate_bags give the same bytes in all result files."""
 import math
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -21,6 +22,7 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from evaluator_runs import Evaluator, Streams, image_message, picture, program, read, rows, stamp_of  # noqa: E402
 
 POSES = 60
+NETWORK = os.path.join(rospkg.RosPack().get_path('sunlit'), 'test', 'golden', 'bright_pixel.onnx')
 STREAMS = ['h04', 'h12', 'h20']
 RESULTS = ['summary.csv', 'verified_summary.csv', 'frames.csv', 'verified.csv',
            'comparisons.csv']
@@ -152,6 +154,27 @@ class TestBags(unittest.TestCase):
                           settings['features/unlit/illumination_invariant/peak_red']), ('orb', 'illumination_invariant', '611.4'))
         self.assertEqual(settings['features/equal/clahe/clip_limit'], '8')
         self.assertNotIn('features/as_it_is/preprocessing', settings)
+
+    def test_a_network_is_a_detector_and_another_one_under_its_name_is_noticed(self):
+        self.write_bags({'all.bag': [0, 1]}, range(2))
+        model = self.path('tiny.onnx')
+        shutil.copy(NETWORK, model)
+        with open(self.path('net.yaml'), 'w') as file:
+            yaml.safe_dump({'streams': ['h04', 'h12'], 'output_dir': 'unused', 'differences': ['net'],
+                            'features': {'net': {'type': 'onnx', 'model': model, 'nms_radius': 2}}}, file)
+        evaluate = ['--config', self.path('net.yaml'), '--out', self.path('out'), self.path('all.bag')]
+        done = self.evaluate_bags(*evaluate)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        for row in rows(self.path('out'), 'frames.csv'):
+            self.assertGreater(int(row['features_a']), 10, row)
+        settings = yaml.safe_load(read(self.path('out'), 'run.yaml'))['settings']
+        self.assertEqual((settings['features/net/model'], len(settings['features/net/model_hash'])), (model, 32))
+        with open(model, 'r+b') as file:
+            file.seek(2000)
+            file.write(b'1')
+        done = self.evaluate_bags(*evaluate)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn('with another setting: features/net/model_hash was ', done.stdout)
 
     def test_about_may_be_any_text(self):
         self.write_bags({'all.bag': [0, 1]}, range(1))

@@ -17,7 +17,6 @@
 #include <string>
 #include <vector>
 
-#include "image/read_file.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 

@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "light/transport/cache_file.h"
-#include "light/transport/cache_folder.h"
 #include "paper_scene.h"
+#include "sunlit/image/cache_folder.h"
 #include "sunlit/light/transport.h"
 #include "support/temporary_folder.h"
 
@@ -254,22 +254,11 @@ TEST_F(CacheLimit, RemovesWhatTheDeadLeftAndNothingOfStrangers) {
 
 TEST_F(CacheLimit, LeavesABakeThatIsBeingMadeAlone) {
   const std::string bake = (folder_ / (std::string(32, 'c') + ".light")).string();
-  const BakeTurn turn = BakeTurn::await(bake);
+  const image::CacheTurn turn = image::CacheTurn::await(bake);
   setContent(bake + ".4711.part", "half");
   use(0.1f, 0);
   EXPECT_TRUE(fs::exists(bake + ".4711.part"));
   EXPECT_TRUE(fs::exists(bake + ".lock"));
-}
-
-TEST(TransportFolder, FollowsTheEnvironment) {
-  setenv("SUNLIT_CACHE_DIR", "/a", 1);
-  setenv("XDG_CACHE_HOME", "/b", 1);
-  setenv("HOME", "/c", 1);
-  EXPECT_EQ(Transport::usualFolder(), "/a");
-  unsetenv("SUNLIT_CACHE_DIR");
-  EXPECT_EQ(Transport::usualFolder(), "/b/sunlit");
-  unsetenv("XDG_CACHE_HOME");
-  EXPECT_EQ(Transport::usualFolder(), "/c/.cache/sunlit");
 }
 
 }  // namespace

@@ -14,8 +14,8 @@
 
 #include "scene/race_track/course.h"
 #include "scene/race_track/noise.h"
+#include "sunlit/image/content_hash.h"
 #include "sunlit/path/path.h"
-#include "sunlit/scene/content_hash.h"
 
 namespace sunlit::scene {
 namespace {
@@ -26,7 +26,7 @@ const Scene& world() {
 }
 
 std::string fingerprint(const Scene& scene) {
-  ContentHash print;
+  image::ContentHash print;
   for (const Texture& texture : scene.textures) print.add(texture.rgba);
   for (const Mesh& mesh : scene.meshes) {
     print.add(mesh.positions);
@@ -182,7 +182,7 @@ TEST(RaceTrackPath, DrivesOnceRound) {
 TEST(RaceTrackPictures, NoTwoAreAlike) {
   std::set<std::string> seen;
   for (const Texture& texture : world().textures) {
-    ContentHash print;
+    image::ContentHash print;
     print.add(texture.rgba);
     EXPECT_TRUE(seen.insert(print.text()).second) << texture.name;
   }
@@ -198,7 +198,7 @@ TEST(RaceTrackPictures, TheRoadRepeatsNowhere) {
     if (texture.name.rfind("road", 0) != 0) continue;
     for (int y = 0; y + kBlock <= texture.height; y += kBlock) {
       for (int x = 0; x + kBlock <= texture.width; x += kBlock) {
-        ContentHash print;
+        image::ContentHash print;
         for (int row = 0; row < kBlock; ++row) {
           const auto first =
               texture.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(y + row) * texture.width + x);

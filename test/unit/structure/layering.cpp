@@ -54,7 +54,7 @@ std::vector<LibraryRule> libraryRules() {
       {std::regex("erfam?\\.h"), {"astronomy"}},
       {std::regex("(GL|EGL|GLES[23]?|KHR|OpenGL)/.*"), {"render"}},
       {std::regex("embree3/.*"), {"light"}},
-      {std::regex("xxhash\\.h"), {"scene"}},
+      {std::regex("xxhash\\.h"), {"image"}},
       {std::regex("(sdf|assimp|urdf_[a-z]+)/.*|tinyxml.h"), {"scene"}},
       {std::regex("boost/program_options.*"), {"studio"}},
       {std::regex("tbb/.*"), {"sky", "image", "scene", "light", "render", "evaluate", "ros"}},

@@ -33,8 +33,10 @@ class Detector {
   virtual cv::Ptr<cv::Feature2D> make() const = 0;
 };
 
-/// `sift surf orb brisk akaze kaze rootsift`; surf only where it was built in.
+/// `sift surf orb brisk akaze kaze rootsift onnx`; surf only where it was built in.
 const std::vector<std::string>& detectorTypes();
+/// Those that find features with their usual parameters: all but `onnx`, which needs a network.
+const std::vector<std::string>& readyDetectorTypes();
 
 /// A detector, and what it sees the picture through.
 struct DetectorKind {
@@ -44,8 +46,8 @@ struct DetectorKind {
   static DetectorKind named(const std::string& name);
 };
 
-/// `sift …`, and then each of them with each preprocessing, as DetectorKind::named() takes them.
-std::vector<std::string> detectorNames();
+/// `types`, and then each of them with each preprocessing, as DetectorKind::named() takes them.
+std::vector<std::string> detectorNames(const std::vector<std::string>& types = detectorTypes());
 
 /// With its usual parameters. Throws std::invalid_argument for a kind that there is not.
 std::unique_ptr<Detector> makeDetector(const std::string& type);

@@ -20,14 +20,14 @@ struct PlaceMethod {
     kVlad      ///< the nearest vector of all features, see vlad.h
   };
   Kind kind = Kind::kSad;
-  std::string detector;  ///< of kVlad: `sift` or another of detectorNames(), with its usual parameters
+  std::string detector;  ///< of kVlad: one of detectorNames(readyDetectorTypes()), with its usual parameters
   std::string name() const;
 };
 
-/// "sad", "seqslam", and "vlad:" before each of detectorTypes().
+/// "sad", "seqslam", and "vlad:" before each of readyDetectorTypes().
 std::vector<PlaceMethod> allPlaceMethods();
-/// By its name: one of those, or "vlad:" before another of detectorNames(). Throws std::invalid_argument
-/// naming it and all that there are; in the message it is `called` so.
+/// By its name: one of those, or "vlad:" before another of detectorNames() of these. Throws
+/// std::invalid_argument naming it and all that there are; in the message it is `called` so.
 PlaceMethod placeMethod(const std::string& name, const std::string& called = "method");
 
 /// What one method found.

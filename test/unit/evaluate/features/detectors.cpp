@@ -165,7 +165,7 @@ TEST(RootSift, HasTheParametersAndKeyPointsOfSift) {
 }
 
 TEST(Detectors, FindTheSameForAnyNumberOfThreads) {
-  for (const std::string& type : detectorTypes()) {
+  for (const std::string& type : readyDetectorTypes()) {
     SCOPED_TRACE(type);
     const std::unique_ptr<Detector> detector = makeDetector(type);
     for (const Field& row : detector->fields()) {

@@ -237,7 +237,7 @@ TEST_F(Leuven, GivesTheReferenceCounts) {
 }
 
 TEST_F(Leuven, IsMatchedAsOpenCvDoes) {
-  for (const std::string& type : detectorTypes()) {
+  for (const std::string& type : readyDetectorTypes()) {
     SCOPED_TRACE(type);
     const std::unique_ptr<Detector> detector = makeDetector(type);
     expectAsOpenCv(detectFeatures(*detector, Picture{{}, grey(1)}).descriptors,

@@ -1,4 +1,4 @@
-#include "light/transport/cache_folder.h"
+#include "sunlit/image/cache_folder.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <regex>
 #include <set>
@@ -16,9 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "sunlit/light/transport.h"
-
-namespace sunlit::light {
+namespace sunlit::image {
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,51 +56,57 @@ int lockedFile(const fs::path& file, Patience patience) {
   }
 }
 
-fs::path turnFile(const fs::path& bake) {
-  return bake.string() + ".lock";
+fs::path turnFile(const fs::path& kept) {
+  return kept.string() + ".lock";
 }
 
-bool isInUse(const fs::path& bake) {
-  const int descriptor = open(bake.c_str(), O_RDONLY | O_CLOEXEC);
+bool isInUse(const fs::path& kept) {
+  const int descriptor = open(kept.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;
   const bool free = lock(descriptor, LOCK_EX | LOCK_NB);
   close(descriptor);
   return !free;
 }
 
-struct KeptBake {
+struct KeptFile {
   fs::file_time_type used;
   fs::path file;
   std::uintmax_t bytes;
-  bool operator<(const KeptBake& other) const {
+  bool operator<(const KeptFile& other) const {
     return std::tie(used, file) < std::tie(other.used, other.file);
   }
 };
 
 struct CacheContent {
-  std::vector<KeptBake> bakes;
+  std::vector<KeptFile> kept;
   std::vector<fs::path> unfinished;
-  std::set<fs::path> claimed;  ///< bakes that somebody makes, or died over
+  std::set<fs::path> claimed;  ///< what somebody makes, or died over
 };
 
-CacheContent contentOf(const fs::path& folder) {
-  static const std::regex name(R"(([0-9a-f]{32}\.light)(\.lock|\.[0-9]+\.part)?)");
+CacheContent contentOf(const CacheFolder& cache) {
+  const std::regex name("([0-9a-f]{32}\\" + cache.ending + R"()(\.lock|\.[0-9]+\.part)?)");
   CacheContent content;
   std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+  for (fs::directory_iterator entry(cache.path, error), end; !error && entry != end; entry.increment(error)) {
     std::smatch parts;
     const std::string text = entry->path().filename().string();
     if (!std::regex_match(text, parts, name)) continue;
     if (!parts[2].matched) {
       std::error_code gone;  // removed by another process just now
-      const KeptBake bake{entry->last_write_time(gone), entry->path(), entry->file_size(gone)};
-      if (!gone) content.bakes.push_back(bake);
+      const KeptFile kept{entry->last_write_time(gone), entry->path(), entry->file_size(gone)};
+      if (!gone) content.kept.push_back(kept);
       continue;
     }
     if (parts[2] != ".lock") content.unfinished.push_back(entry->path());
-    content.claimed.insert(folder / parts[1].str());
+    content.claimed.insert(cache.path / parts[1].str());
   }
   return content;
+}
+
+std::uintmax_t bytesOf(const CacheContent& content) {
+  std::uintmax_t sum = 0;
+  for (const KeptFile& file : content.kept) sum += file.bytes;
+  return sum;
 }
 
 void removeFile(const fs::path& file, const Log& log) {
@@ -112,69 +117,77 @@ void removeFile(const fs::path& file, const Log& log) {
 
 }  // namespace
 
-std::uintmax_t BakeCache::usedBytes() const {
-  std::uintmax_t sum = 0;
-  for (const KeptBake& bake : contentOf(folder).bakes) sum += bake.bytes;
-  return sum;
+std::string usualCacheFolder() {
+  const auto value = [](const char* name) {
+    return std::getenv(name) ? std::string(std::getenv(name)) : std::string();
+  };
+  if (!value("SUNLIT_CACHE_DIR").empty()) return value("SUNLIT_CACHE_DIR");
+  if (!value("XDG_CACHE_HOME").empty()) return fs::path(value("XDG_CACHE_HOME")) / "sunlit";
+  if (!value("HOME").empty()) return fs::path(value("HOME")) / ".cache" / "sunlit";
+  return fs::temp_directory_path() / "sunlit";
 }
 
-BakeTurn BakeTurn::await(const fs::path& bake) {
-  const fs::path file = turnFile(bake);
+CacheTurn CacheTurn::await(const fs::path& kept) {
+  const fs::path file = turnFile(kept);
   const int descriptor = lockedFile(file, Patience::kWait);
   if (descriptor < 0) throw std::runtime_error(file.string() + ": " + std::strerror(errno));
-  return BakeTurn(file, descriptor);
+  return CacheTurn(file, descriptor);
 }
 
-std::optional<BakeTurn> BakeTurn::ifFree(const fs::path& bake) {
-  const fs::path file = turnFile(bake);
+std::optional<CacheTurn> CacheTurn::ifFree(const fs::path& kept) {
+  const fs::path file = turnFile(kept);
   const int descriptor = lockedFile(file, Patience::kLeave);
   if (descriptor < 0) return std::nullopt;
-  return BakeTurn(file, descriptor);
+  return CacheTurn(file, descriptor);
 }
 
-BakeTurn::BakeTurn(BakeTurn&& other) noexcept
+CacheTurn::CacheTurn(CacheTurn&& other) noexcept
     : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
 
-BakeTurn& BakeTurn::operator=(BakeTurn&& other) noexcept {
+CacheTurn& CacheTurn::operator=(CacheTurn&& other) noexcept {
   std::swap(file_, other.file_);
   std::swap(descriptor_, other.descriptor_);
   return *this;
 }
 
-BakeTurn::~BakeTurn() {
+CacheTurn::~CacheTurn() {
   if (descriptor_ < 0) return;
   unlink(file_.c_str());
   close(descriptor_);
 }
 
-BakeInUse::BakeInUse(const fs::path& bake) : descriptor_(open(bake.c_str(), O_RDONLY | O_CLOEXEC)) {
+CacheUse::CacheUse(const fs::path& kept) : descriptor_(open(kept.c_str(), O_RDONLY | O_CLOEXEC)) {
   if (descriptor_ < 0) return;
   lock(descriptor_, LOCK_SH);
   futimens(descriptor_, nullptr);  // in a folder that is only read, its order of use stays as it is
 }
 
-BakeInUse::~BakeInUse() {
+CacheUse::~CacheUse() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-void tidyCache(const fs::path& folder, std::uintmax_t limit_bytes, const Log& log) {
-  CacheContent content = contentOf(folder);
-  for (const fs::path& bake : content.claimed) {
-    const std::optional<BakeTurn> turn = BakeTurn::ifFree(bake);
-    if (!turn) continue;
-    for (const fs::path& file : content.unfinished) {
-      if (file.string().rfind(bake.string(), 0) == 0) removeFile(file, log);
-    }
-  }
-  std::sort(content.bakes.begin(), content.bakes.end());
-  std::uintmax_t bytes = 0;
-  for (const KeptBake& bake : content.bakes) bytes += bake.bytes;
-  for (const KeptBake& bake : content.bakes) {
-    if (bytes <= limit_bytes) return;
-    if (isInUse(bake.file)) continue;
-    removeFile(bake.file, log);
-    bytes -= bake.bytes;
-  }
+std::uintmax_t CacheFolder::usedBytes() const {
+  return bytesOf(contentOf(*this));
 }
 
-}  // namespace sunlit::light
+std::uintmax_t CacheFolder::tidy(std::uintmax_t limit_bytes, const Log& log, fs::file_time_type since) const {
+  CacheContent content = contentOf(*this);
+  for (const fs::path& claimed : content.claimed) {
+    const std::optional<CacheTurn> turn = CacheTurn::ifFree(claimed);
+    if (!turn) continue;
+    for (const fs::path& file : content.unfinished) {
+      if (file.string().rfind(claimed.string(), 0) == 0) removeFile(file, log);
+    }
+  }
+  std::sort(content.kept.begin(), content.kept.end());
+  std::uintmax_t bytes = bytesOf(content);
+  for (const KeptFile& kept : content.kept) {
+    if (bytes <= limit_bytes || kept.used >= since) break;
+    if (isInUse(kept.file)) continue;
+    removeFile(kept.file, log);
+    bytes -= kept.bytes;
+  }
+  return bytes;
+}
+
+}  // namespace sunlit::image

@@ -1,4 +1,4 @@
-#include "sunlit/scene/content_hash.h"
+#include "sunlit/image/content_hash.h"
 
 #include <xxhash.h>
 
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <new>
 
-namespace sunlit::scene {
+namespace sunlit::image {
 
 ContentHash::ContentHash() : state_(XXH3_createState()) {
   if (!state_) throw std::bad_alloc();
@@ -45,4 +45,4 @@ std::string ContentHash::text() const {
   return digits;
 }
 
-}  // namespace sunlit::scene
+}  // namespace sunlit::image

@@ -1,10 +1,10 @@
-#include "sunlit/scene/content_hash.h"
+#include "sunlit/image/content_hash.h"
 
 #include <gtest/gtest.h>
 
 #include "support/temporary_folder.h"
 
-namespace sunlit::scene {
+namespace sunlit::image {
 namespace {
 
 std::string hashOf(const std::string& text) {
@@ -52,4 +52,4 @@ TEST(ContentHash, GoesOnWhereItIsMovedTo) {
 }
 
 }  // namespace
-}  // namespace sunlit::scene
+}  // namespace sunlit::image

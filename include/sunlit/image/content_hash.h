@@ -10,7 +10,7 @@
 
 struct XXH3_state_s;
 
-namespace sunlit::scene {
+namespace sunlit::image {
 
 /// 128 bits over all bytes added, in order: XXH3 of xxHash 0.8. Not against forgery; the same on all machines
 /// of one byte order.
@@ -51,4 +51,4 @@ class ContentHash {
   std::unique_ptr<XXH3_state_s, Free> state_;
 };
 
-}  // namespace sunlit::scene
+}  // namespace sunlit::image
