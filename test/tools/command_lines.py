@@ -81,7 +81,10 @@ OPTIONS = {
                       "--retrieval": "truth|vlad|all", "--retrieved": "default 5", "--ratio": "default 0.8",
                       "--inclusive": "default false", "--reprojection": "> 0 … 1000 px, default 4",
                       "--iterations": "default 10000", "--confidence": "default 0.9999",
-                      "--min-inliers": "4 … 1000000, default 12", "--seed": "default 1"},
+                      "--min-inliers": "4 … 1000000, default 12", "--seed": "default 1",
+                      "--images": "such a bag", "--camera-info": "beside --images",
+                      "--depth": "instead of camera/depth/image_raw", "--poses": "TransformStamped",
+                      "--poses-of": "link|optical the body", "--stamp-tolerance": "0 … 10 s, default 0"},
 }
 OPTIONS["evaluate_pair"] = {
     "--out": "verified.csv", "--homography": "three lines of three numbers", "--detectors": "default " + ",".join(detectors()),

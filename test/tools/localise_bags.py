@@ -13,7 +13,7 @@ import numpy
 import rosbag
 import rospy
 import rosunit
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import PoseStamped, TransformStamped
 from sensor_msgs.msg import CameraInfo, CompressedImage, Image
 
 from timelapse import run
@@ -181,6 +181,60 @@ class LocaliseBags(unittest.TestCase):
         for row in rows:
             self.assertEqual((row["map"], row["query"], row["status"]), ("noon", "dusk", "localised"))
             self.assertLess(float(row["error_m"]), 0.03)
+
+    def write_foreign(self, name, xs):
+        """A robot's bag: a drive at 1 m/s with topics of its own, one camera_info, poses of the optical frame at 100 Hz, and depth
+        7 ms behind the images."""
+        with rosbag.Bag(self.path(name), "w") as bag:
+            info = CameraInfo(width=WIDTH, height=HEIGHT, distortion_model="plumb_bob", D=[0.0] * 5,
+                              K=[FOCAL, 0, (WIDTH - 1) / 2, 0, FOCAL, (HEIGHT - 1) / 2, 0, 0, 1])
+            info.header.stamp = rospy.Time(99)
+            bag.write("/rs/color/camera_info", info, info.header.stamp)
+            for x in xs:
+                picture, depth = wall_picture(self.texture, x)
+                stamp = rospy.Time.from_sec(100.0 + x)
+                bag.write("/rs/color/image_raw", message(picture, "mono8", stamp), stamp)
+                late = stamp + rospy.Duration.from_sec(0.007)
+                bag.write("/rs/aligned/image_raw", message(numpy.round(depth * 1000).astype(numpy.uint16), "16UC1", late), late)
+            for tick in range(int(100 * max(xs)) + 2):
+                pose = TransformStamped()
+                pose.header.stamp = rospy.Time.from_sec(100.0 + 0.01 * tick)
+                pose.transform.translation.x = 0.01 * tick
+                # Optical: x right is the map's x, y down its −z, z forward its y: a quarter turn about x.
+                pose.transform.rotation.x, pose.transform.rotation.w = -math.sqrt(0.5), math.sqrt(0.5)
+                bag.write("/vicon/camera", pose, pose.header.stamp)
+        return self.path(name)
+
+    FOREIGN = ("--images", "/rs/color/image_raw", "--depth", "/rs/aligned/image_raw", "--poses", "/vicon/camera",
+               "--poses-of", "optical", "--detectors", "sift", "--map-every", "0")
+
+    def test_a_robots_bag_with_topics_and_stamps_of_its_own(self):
+        theirs = self.write_foreign("theirs.bag", [0.0032, 1.0047, 2.0061])
+        other = self.write_foreign("other.bag", [0.5013, 1.4988])
+        self.assertIn("no /vicon/camera of this stamp; the nearest is 0.0032 s away, see --stamp-tolerance",
+                      self.refused("--map", theirs, "--query", other, *self.FOREIGN))
+        rows, _ = self.localise("out", "--map", theirs, "--query", other, "--stamp-tolerance", "0.01", *self.FOREIGN)
+        self.assertEqual([(row["map"], row["query"], row["status"]) for row in rows], [("theirs", "other", "localised")] * 2)
+        for row in rows:  # as for bags of one stamp; a pose of a neighbouring stamp would be 5 mm off in the mean
+            self.assertLess(float(row["error_m"]), 0.03)
+        with open(os.path.join(self.path("out"), "truth_other.tum")) as file:
+            positions = [float(line.split()[1]) for line in file if not line.startswith("#")]
+        numpy.testing.assert_allclose(positions, [0.5013, 1.4988], atol=1e-6)  # stamps are whole microseconds
+
+    def test_a_robots_bag_in_a_map_of_ours(self):
+        ours = self.write("ours.bag", "", [0.0, 1.0, 2.0])
+        theirs = self.write_foreign("theirs.bag", [0.5013, 1.4988])
+        topics = [word for word in self.FOREIGN if word not in ("--poses-of", "optical")]
+        said = self.refused("--map", ours, "--query", theirs, "--poses-of", "optical", "--detectors", "sift")
+        self.assertIn("holds no image below /", said)
+        self.assertIn("/rs/color/image_raw", said)
+        self.assertIn("--depth is /rs/depth, but must be a topic that a bag holds; they hold: /camera/camera_info",
+                      self.refused("--map", ours, "--query", theirs, "--images", "/rs/color/image_raw", "--depth", "/rs/depth"))
+        # Their poses taken as a link's, x forward: the wall shows where it truly is, which is nowhere near.
+        rows, _ = self.localise("link", "--map", ours, "--query", theirs, "--stamp-tolerance", "0.01", "--retrieval", "all",
+                                *topics)
+        self.assertEqual([row["status"] for row in rows], ["localised"] * 2)
+        self.assertTrue(all(float(row["error_deg"]) > 80 for row in rows), rows)
 
     def test_streams_are_chosen_by_name(self):
         both = self.write("noon.bag", "h12/", [0.0, 1.0, 2.0])

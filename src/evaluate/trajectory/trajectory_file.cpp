@@ -204,6 +204,13 @@ void writeTrajectory(const std::string& file, const Trajectory& trajectory) {
   image::writeFileAtomically(file, text);
 }
 
+StampedPose interpolated(const StampedPose& before, const StampedPose& after, std::int64_t stamp_ns) {
+  const double share =
+      static_cast<double>(stamp_ns - before.stamp_ns) / static_cast<double>(after.stamp_ns - before.stamp_ns);
+  return {stamp_ns, before.position + share * (after.position - before.position),
+          before.orientation.slerp(share, after.orientation)};
+}
+
 double lengthOf(const Trajectory& trajectory) {
   double length = 0.0;
   for (std::size_t i = 1; i < trajectory.size(); ++i)

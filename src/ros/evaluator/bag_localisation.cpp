@@ -20,9 +20,9 @@ class BagLocalisation {
  public:
   explicit BagLocalisation(const BagLocalisationOptions& options)
       : options_(options),
-        streams_(localisationStreams(options.maps, options.queries, options.name_space)),
+        streams_(localisationStreams(options.maps, options.queries, options.topics)),
         localisation_(options.localisation),
-        source_({options.name_space, options.intake, options.output_dir}),
+        source_({options.topics, options.intake, options.output_dir}),
         map_name_(nameOf(streams_.map)) {}
 
   int run() {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ros/evaluator/image_intake.h"
+#include "ros/evaluator/view_topics.h"
 #include "sunlit/evaluate/localise/localisation.h"
 #include "sunlit/quantity/field.h"
 
@@ -15,7 +16,7 @@ struct BagLocalisationOptions {
   std::vector<std::string> queries;
   std::vector<std::string> odometry;  ///< for odometryOfBags(), instead of both
   std::string output_dir;
-  std::string name_space = "/";
+  ViewTopics topics;
   IntakeOptions intake;
   evaluate::LocalisationOptions localisation;
 };

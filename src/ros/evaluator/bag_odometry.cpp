@@ -35,7 +35,7 @@ evaluate::OdometryRow rowOf(const evaluate::Trajectory& truth, const evaluate::T
 class BagOdometry {
  public:
   explicit BagOdometry(const BagLocalisationOptions& options)
-      : options_(options), source_({options.name_space, options.intake, options.output_dir}) {}
+      : options_(options), source_({options.topics, options.intake, options.output_dir}) {}
 
   void follow(const BagStream& stream) {
     const auto views = source_.open(stream);
@@ -94,7 +94,7 @@ class BagOdometry {
 }  // namespace
 
 int odometryOfBags(const BagLocalisationOptions& options) {
-  const LocalisationStreams streams = localisationStreams({}, options.odometry, options.name_space);
+  const LocalisationStreams streams = localisationStreams({}, options.odometry, options.topics);
   const FolderLock lock(options.output_dir);
   BagOdometry odometry(options);
   for (const BagStream& stream : streams.queries) odometry.follow(stream);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "ros/evaluator/bag_topics.h"
 #include "sunlit/ros/topic_names.h"
@@ -33,16 +34,22 @@ NamedBag namedBag(const std::string& text) {
   return named;
 }
 
-std::vector<std::string> imageStreamsIn(const std::string& bag, const std::string& name_space) {
-  std::vector<std::string> streams = streamsIn({bag}, name_space);
-  const std::set<std::string> topics = topicsIn({bag});
+std::vector<std::string> imageStreamsIn(const std::string& bag, const ViewTopics& topics) {
+  const std::set<std::string> held = topicsIn({bag});
+  if (held.count(topics.images) > 0) return {""};
+  std::vector<std::string> streams = streamsIn({bag}, topics.name_space);
+  const std::string root = rootOf(topics.name_space);
   for (const char* kind : {topics::kImage, topics::kCompressedImage}) {
-    if (topics.count(topicOf(rootOf(name_space), "", kind)) > 0 && (streams.empty() || !streams[0].empty()))
+    if (held.count(topicOf(root, "", kind)) > 0 && (streams.empty() || !streams[0].empty()))
       streams.insert(streams.begin(), "");
   }
-  if (streams.empty())
-    throw std::runtime_error(bag + ": holds no image below " + rootOf(name_space) +
-                             ": neither <stream>/camera/image_raw nor that with /compressed");
+  if (streams.empty()) {
+    throw std::runtime_error(
+        bag + ": holds no image below " + root +
+        ": neither <stream>/camera/image_raw nor that with /compressed" +
+        (topics.images.empty() ? ", and --images TOPIC was not given" : ", nor " + topics.images) +
+        "; it holds: " + topicsInWords(held));
+  }
   return streams;
 }
 
@@ -72,9 +79,9 @@ std::vector<BagStream> streamsOf(const NamedBag& named, const std::vector<std::s
   return streams;
 }
 
-std::vector<BagStream> mapStreams(const std::string& text, const std::string& name_space) {
+std::vector<BagStream> mapStreams(const std::string& text, const ViewTopics& topics) {
   NamedBag named = namedBag(text);
-  const std::vector<std::string> held = imageStreamsIn(named.bag, name_space);
+  const std::vector<std::string> held = imageStreamsIn(named.bag, topics);
   if (named.streams.empty() && held.size() > 1) {
     throw std::invalid_argument(named.bag + ": holds the streams " + listed(held) +
                                 ": say which the map is made of, as in --map " + text + ":" + held.back());
@@ -83,10 +90,10 @@ std::vector<BagStream> mapStreams(const std::string& text, const std::string& na
   return streamsOf(named, held);
 }
 
-std::vector<BagStream> queryStreams(const std::string& text, const std::string& name_space,
+std::vector<BagStream> queryStreams(const std::string& text, const ViewTopics& topics,
                                     const std::vector<BagStream>& map) {
   NamedBag named = namedBag(text);
-  const std::vector<std::string> held = imageStreamsIn(named.bag, name_space);
+  const std::vector<std::string> held = imageStreamsIn(named.bag, topics);
   if (!named.streams.empty()) return streamsOf(named, held);
   for (const std::string& stream : held) {
     const bool is_of_map = std::any_of(map.begin(), map.end(), [&](const BagStream& other) {
@@ -115,21 +122,36 @@ std::vector<BagStream> toldApart(const std::vector<BagStream>& streams, const st
   return apart;
 }
 
+/// A misspelt topic would else count for nothing.
+void requireHeld(const ViewTopics& topics, const std::vector<BagStream>& streams) {
+  std::vector<std::string> bags;
+  for (const BagStream& stream : streams) bags.push_back(stream.bag);
+  const std::set<std::string> held = topicsIn(bags);
+  for (const auto& [option, topic] : {std::pair{"--images", &topics.images},
+                                      {"--camera-info", &topics.camera_info},
+                                      {"--depth", &topics.depth},
+                                      {"--poses", &topics.poses}}) {
+    if (!topic->empty() && held.count(*topic) == 0) {
+      throw std::runtime_error(std::string(option) + " is " + *topic +
+                               ", but must be a topic that a bag holds; they hold: " + topicsInWords(held));
+    }
+  }
+}
+
 }  // namespace
 
 LocalisationStreams localisationStreams(const std::vector<std::string>& maps,
-                                        const std::vector<std::string>& queries,
-                                        const std::string& name_space) {
+                                        const std::vector<std::string>& queries, const ViewTopics& topics) {
   LocalisationStreams streams;
   for (const std::string& text : maps) {
-    for (const BagStream& stream : mapStreams(text, name_space)) streams.map.push_back(stream);
+    for (const BagStream& stream : mapStreams(text, topics)) streams.map.push_back(stream);
   }
   for (const std::string& text : queries) {
-    for (const BagStream& stream : queryStreams(text, name_space, streams.map))
-      streams.queries.push_back(stream);
+    for (const BagStream& stream : queryStreams(text, topics, streams.map)) streams.queries.push_back(stream);
   }
   std::vector<BagStream> all = streams.map;
   all.insert(all.end(), streams.queries.begin(), streams.queries.end());
+  requireHeld(topics, all);
   return {toldApart(streams.map, all), toldApart(streams.queries, all)};
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "ros/evaluator/view_topics.h"
+
 namespace sunlit::ros_interface {
 
 struct BagStream {
@@ -22,7 +24,6 @@ struct LocalisationStreams {
 /// name, by that of the bag, too. Throws std::runtime_error for a bag that cannot be read or has no such
 /// streams, and std::invalid_argument where the map, the queries or names of their own are missing.
 LocalisationStreams localisationStreams(const std::vector<std::string>& maps,
-                                        const std::vector<std::string>& queries,
-                                        const std::string& name_space);
+                                        const std::vector<std::string>& queries, const ViewTopics& topics);
 
 }  // namespace sunlit::ros_interface

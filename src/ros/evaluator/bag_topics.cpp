@@ -9,15 +9,12 @@
 #include "sunlit/ros/topic_names.h"
 
 namespace sunlit::ros_interface {
-namespace {
 
-std::string listed(const std::set<std::string>& topics) {
+std::string topicsInWords(const std::set<std::string>& topics) {
   std::string text;
   for (const std::string& topic : topics) text += (text.empty() ? "" : ", ") + topic;
   return text.empty() ? "nothing" : text;
 }
-
-}  // namespace
 
 std::unique_ptr<rosbag::Bag> openBag(const std::string& path) {
   auto bag = std::make_unique<rosbag::Bag>();
@@ -75,7 +72,7 @@ std::string imageTopic(const std::string& root, const std::string& stream, const
   const bool has_compressed = held.count(compressed) != 0;
   if (!has_raw && !has_compressed) {
     throw std::runtime_error("the bags hold neither " + raw + " nor " + compressed +
-                             "; they hold: " + listed(held));
+                             "; they hold: " + topicsInWords(held));
   }
   const std::string& chosen = has_raw && (!has_compressed || transport != "compressed") ? raw : compressed;
   if (has_raw && has_compressed) {

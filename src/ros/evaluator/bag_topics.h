@@ -16,6 +16,9 @@ std::unique_ptr<rosbag::Bag> openBag(const std::string& path);
 /// "/" or "/name/…/".
 std::string rootOf(const std::string& name_space);
 
+/// "a, b", or "nothing".
+std::string topicsInWords(const std::set<std::string>& topics);
+
 std::set<std::string> topicsIn(const std::vector<std::string>& bags);
 
 /// Names, in alphabetical order, of which the bags hold <name_space>/<name>/camera/image_raw, or that with

@@ -1,17 +1,25 @@
 #include "ros/evaluator/bag_views.h"
 
 #include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sunlit/Capture.h>
 
+#include <cmath>
+#include <cstdio>
+#include <iterator>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "ros/conversions/geometry.h"
 #include "ros/conversions/images.h"
 #include "ros/conversions/received_images.h"
 #include "ros/evaluator/bag_topics.h"
+#include "sunlit/evaluate/trajectory/trajectory.h"
 #include "sunlit/quantity/frames.h"
 #include "sunlit/ros/topic_names.h"
 
@@ -47,66 +55,151 @@ boost::shared_ptr<Message> messageOf(const MessageInstance& instance) {
                            ros::message_traits::DataType<Message>::value());
 }
 
-}  // namespace
+/// A pose, whatever message brings it.
+struct PoseMessage {
+  std::int64_t stamp_ns = 0;
+  geometry_msgs::Pose pose;
+};
 
-const char* const BagViews::kNoDepth = "no camera/depth/image_raw of this stamp";
+geometry_msgs::Pose poseOf(const geometry_msgs::Transform& transform) {
+  geometry_msgs::Pose pose;
+  pose.position.x = transform.translation.x;
+  pose.position.y = transform.translation.y;
+  pose.position.z = transform.translation.z;
+  pose.orientation = transform.rotation;
+  return pose;
+}
+
+PoseMessage poseMessageOf(const MessageInstance& instance) {
+  const auto made = [](const std_msgs::Header& header, const geometry_msgs::Pose& pose) {
+    return PoseMessage{nanosecondsOf(header.stamp), pose};
+  };
+  if (const auto message = instance.instantiate<geometry_msgs::PoseStamped>())
+    return made(message->header, message->pose);
+  if (const auto message = instance.instantiate<geometry_msgs::PoseWithCovarianceStamped>())
+    return made(message->header, message->pose.pose);
+  if (const auto message = instance.instantiate<nav_msgs::Odometry>())
+    return made(message->header, message->pose.pose);
+  if (const auto message = instance.instantiate<geometry_msgs::TransformStamped>())
+    return made(message->header, poseOf(message->transform));
+  throw std::runtime_error(instance.getTopic() + " is " + instance.getDataType() +
+                           ", not geometry_msgs/PoseStamped, PoseWithCovarianceStamped or TransformStamped, "
+                           "nor nav_msgs/Odometry");
+}
+
+/// The nearest to `stamp_ns`, the earlier of two; the end only where there is nothing.
+template <typename Value>
+typename ByStamp<Value>::const_iterator nearest(const ByStamp<Value>& values, std::int64_t stamp_ns) {
+  auto after = values.lower_bound(stamp_ns);
+  if (after == values.begin()) return after;
+  const auto before = std::prev(after);
+  const bool is_after = after != values.end() && after->first - stamp_ns < stamp_ns - before->first;
+  return is_after ? after : before;
+}
+
+/// What is farther away is not this image's, whatever the tolerance.
+constexpr std::int64_t kTellingGap_ns = 500000000;
+
+template <typename Value>
+std::string lackOf(const std::string& topic, const ByStamp<Value>& values, std::int64_t stamp_ns) {
+  const std::string lack = "no " + topic + " of this stamp";
+  const auto found = nearest(values, stamp_ns);
+  if (found == values.end() || std::abs(found->first - stamp_ns) > kTellingGap_ns) return lack;
+  char away[64];
+  std::snprintf(away, sizeof away, "; the nearest is %.4g s away, see --stamp-tolerance",
+                1e-9 * std::abs(static_cast<double>(found->first - stamp_ns)));
+  return lack + away;
+}
+
+std::int64_t toleranceOf(const ViewTopics& topics) {
+  return static_cast<std::int64_t>(std::llround(1e9 * topics.stamp_tolerance_s));
+}
+
+/// As sunlit calls it, if it was not said otherwise.
+std::string calledOr(const std::string& said, const char* usual) {
+  return said.empty() ? usual : said;
+}
+
+/// /camera/color/camera_info of /camera/color/image_raw/compressed.
+std::string infosBeside(std::string images) {
+  const std::string compressed = "/compressed";
+  if (images.size() > compressed.size() &&
+      images.compare(images.size() - compressed.size(), std::string::npos, compressed) == 0)
+    images.erase(images.size() - compressed.size());
+  return images.substr(0, images.rfind('/') + 1) + "camera_info";
+}
+
+}  // namespace
 
 struct BagViews::Index {
   rosbag::View view;
+  std::string images_topic, infos_topic, captures_topic, depths_topic, poses_topic;
   ByStamp<MessageInstance> images, depths;
   ByStamp<sensor_msgs::CameraInfo> cameras;
   ByStamp<geometry_msgs::Pose> poses;
   ByStamp<std::size_t> numbers;
+
+  void name(const BagStream& stream, const ViewTopics& topics, const std::string& transport);
 };
 
-BagViews::BagViews(const BagStream& stream, const std::string& name_space, const IntakeOptions& intake)
-    : stream_(stream), intake_(intake), bag_(openBag(stream.bag)), index_(std::make_unique<Index>()) {
-  const std::string root = rootOf(name_space);
-  const std::string images = imageTopic(root, stream.stream, intake.transport, topicsIn({stream.bag}));
-  const std::string infos = topicOf(root, stream.stream, topics::kCameraInfo);
-  const std::string captures = topicOf(root, stream.stream, topics::kCapture);
-  const std::string depths = root + topics::kDepth;
-  const std::string poses = root + topics::kPose;
-  const std::vector<std::string> wanted = {images, infos, captures, depths, poses};
-  index_->view.addQuery(*bag_, rosbag::TopicQuery(wanted));
-  for (const MessageInstance& instance : index_->view) {
-    const std::string& topic = instance.getTopic();
-    if (topic == images || topic == depths) requireImage(instance, topic == images);
-    if (topic == images) {
-      if (!index_->images.emplace(stampOf(instance), instance).second) ++repeated_;
-    } else if (topic == depths) {
-      index_->depths.emplace(stampOf(instance), instance);
-    } else if (topic == infos) {
-      const auto message = messageOf<sensor_msgs::CameraInfo>(instance);
-      index_->cameras.emplace(nanosecondsOf(message->header.stamp), *message);
-    } else if (topic == poses) {
-      const auto message = messageOf<geometry_msgs::PoseStamped>(instance);
-      index_->poses.emplace(nanosecondsOf(message->header.stamp), message->pose);
-    } else if (const auto message = instance.instantiate<Capture>()) {
-      index_->numbers.emplace(nanosecondsOf(message->header.stamp), message->pose_index);
-    }
-  }
+// A bag may call some of its topics as sunlit does, and others not.
+void BagViews::Index::name(const BagStream& stream, const ViewTopics& topics, const std::string& transport) {
+  const std::string root = rootOf(topics.name_space);
+  const std::set<std::string> held = topicsIn({stream.bag});
+  const auto choose = [&](const std::string& said, const std::string& usual) {
+    return held.count(said) > 0 ? said : usual;
+  };
+  const bool is_foreign = held.count(topics.images) > 0;
+  images_topic = is_foreign ? topics.images : imageTopic(root, stream.stream, transport, held);
+  infos_topic = choose(topics.camera_info, is_foreign ? infosBeside(topics.images)
+                                                      : topicOf(root, stream.stream, topics::kCameraInfo));
+  captures_topic = topicOf(root, stream.stream, topics::kCapture);
+  depths_topic = choose(topics.depth, root + topics::kDepth);
+  poses_topic = choose(topics.poses, root + topics::kPose);
+}
+
+BagViews::BagViews(const BagStream& stream, const ViewTopics& topics, const IntakeOptions& intake)
+    : stream_(stream),
+      topics_(topics),
+      intake_(intake),
+      bag_(openBag(stream.bag)),
+      index_(std::make_unique<Index>()) {
+  index_->name(stream, topics, intake.transport);
+  readIndex();
   makeEntries();
 }
 
 BagViews::~BagViews() = default;
 
+void BagViews::readIndex() {
+  Index& index = *index_;
+  const std::vector<std::string> wanted = {index.images_topic, index.infos_topic, index.captures_topic,
+                                           index.depths_topic, index.poses_topic};
+  index.view.addQuery(*bag_, rosbag::TopicQuery(wanted));
+  for (const MessageInstance& instance : index.view) {
+    const std::string& topic = instance.getTopic();
+    if (topic == index.images_topic) {
+      requireImage(instance, true);
+      if (!index.images.emplace(stampOf(instance), instance).second) ++repeated_;
+    } else if (topic == index.depths_topic) {
+      requireImage(instance, false);
+      index.depths.emplace(stampOf(instance), instance);
+    } else if (topic == index.infos_topic) {
+      const auto message = messageOf<sensor_msgs::CameraInfo>(instance);
+      index.cameras.emplace(nanosecondsOf(message->header.stamp), *message);
+    } else if (topic == index.poses_topic) {
+      const PoseMessage message = poseMessageOf(instance);
+      index.poses.emplace(message.stamp_ns, message.pose);
+    } else if (const auto message = instance.instantiate<Capture>()) {
+      index.numbers.emplace(nanosecondsOf(message->header.stamp), message->pose_index);
+    }
+  }
+}
+
 void BagViews::makeEntries() {
   bool are_numbered = true;
   for (const auto& [stamp_ns, image] : index_->images) {
-    Entry entry;
-    entry.stamp_ns = stamp_ns;
-    entry.has_depth = index_->depths.count(stamp_ns) > 0;
-    const auto camera = index_->cameras.find(stamp_ns);
-    const auto pose = index_->poses.find(stamp_ns);
-    try {
-      if (camera == index_->cameras.end()) throw std::invalid_argument("no camera_info of this stamp");
-      entry.camera = fromCameraInfo(camera->second);
-      if (pose == index_->poses.end()) throw std::invalid_argument("no camera/pose of this stamp");
-      entry.map_from_optical = fromPose(pose->second) * linkFromOptical();
-    } catch (const std::invalid_argument& error) {
-      entry.fault = error.what();
-    }
+    Entry entry = entryOf(stamp_ns);
     const auto number = index_->numbers.find(stamp_ns);
     if (number != index_->numbers.end()) entry.pose = number->second;
     are_numbered = are_numbered && number != index_->numbers.end() &&
@@ -117,10 +210,57 @@ void BagViews::makeEntries() {
   for (std::size_t i = 0; i < entries_.size(); ++i) entries_[i].pose = i;
 }
 
+BagViews::Entry BagViews::entryOf(std::int64_t stamp_ns) const {
+  Entry entry;
+  entry.stamp_ns = stamp_ns;
+  const auto depth = nearest(index_->depths, stamp_ns);
+  if (depth != index_->depths.end() && std::abs(depth->first - stamp_ns) <= toleranceOf(topics_))
+    entry.depth_stamp_ns = depth->first;
+  try {
+    entry.camera = cameraAt(stamp_ns);
+    const Eigen::Isometry3d pose = poseAt(stamp_ns);
+    entry.map_from_optical = topics_.poses_of == PosesOf::kOptical ? pose : pose * linkFromOptical();
+  } catch (const std::invalid_argument& error) {
+    entry.fault = error.what();
+  }
+  return entry;
+}
+
+image::PinholeCamera BagViews::cameraAt(std::int64_t stamp_ns) const {
+  const ByStamp<sensor_msgs::CameraInfo>& cameras = index_->cameras;
+  const auto found = nearest(cameras, stamp_ns);
+  const bool is_near = found != cameras.end() && std::abs(found->first - stamp_ns) <= toleranceOf(topics_);
+  if (!is_near && cameras.size() != 1)
+    throw std::invalid_argument(lackOf(calledOr(topics_.camera_info, "camera_info"), cameras, stamp_ns));
+  return fromCameraInfo(found->second);
+}
+
+Eigen::Isometry3d BagViews::poseAt(std::int64_t stamp_ns) const {
+  const ByStamp<geometry_msgs::Pose>& poses = index_->poses;
+  const auto after = poses.lower_bound(stamp_ns);
+  if (after != poses.end() && after->first == stamp_ns) return fromPose(after->second);
+  const std::int64_t tolerance_ns = toleranceOf(topics_);
+  const bool is_between = after != poses.begin() && after != poses.end() &&
+                          after->first - stamp_ns <= tolerance_ns &&
+                          stamp_ns - std::prev(after)->first <= tolerance_ns;
+  if (!is_between)
+    throw std::invalid_argument(lackOf(calledOr(topics_.poses, topics::kPose), poses, stamp_ns));
+  const auto stamped = [](const auto& entry) {
+    const Eigen::Isometry3d pose = fromPose(entry.second);
+    return evaluate::StampedPose{entry.first, pose.translation(), Eigen::Quaterniond(pose.linear())};
+  };
+  const evaluate::StampedPose pose = interpolated(stamped(*std::prev(after)), stamped(*after), stamp_ns);
+  return Eigen::Translation3d(pose.position) * pose.orientation;
+}
+
+std::string BagViews::lackOfDepth(const Entry& entry) const {
+  return lackOf(calledOr(topics_.depth, topics::kDepth), index_->depths, entry.stamp_ns);
+}
+
 std::string BagViews::readDepth(const Entry& entry, cv::Mat* depth) const {
-  const auto found = index_->depths.find(entry.stamp_ns);
-  if (found == index_->depths.end()) return kNoDepth;
-  DecodedDepth decoded = decodeDepth(*messageOf<sensor_msgs::Image>(found->second), intake_.max_pixels);
+  if (!entry.depth_stamp_ns) return lackOfDepth(entry);
+  DecodedDepth decoded = decodeDepth(*messageOf<sensor_msgs::Image>(index_->depths.at(*entry.depth_stamp_ns)),
+                                     intake_.max_pixels);
   *depth = decoded.metres;
   return decoded.fault;
 }

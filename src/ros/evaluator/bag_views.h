@@ -7,11 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "ros/evaluator/bag_streams.h"
 #include "ros/evaluator/image_intake.h"
+#include "ros/evaluator/view_topics.h"
 #include "sunlit/evaluate/posed_view.h"
 #include "sunlit/image/camera.h"
 
@@ -19,10 +21,10 @@ namespace sunlit::ros_interface {
 
 /// Images of one stream, told apart by stamps. camera_info belongs to the stream, camera/pose (of
 /// camera_link, in `map`) and camera/depth/image_raw to all streams of the bag; what has an image's stamp
-/// belongs to it, to the nanosecond.
+/// belongs to it, to the nanosecond, or as ViewTopics::stamp_tolerance_s says. The only camera_info of a bag
+/// belongs to all images.
 class BagViews {
  public:
-  static const char* const kNoDepth;  ///< a fault
   /// What a bag holds of one image, but pixels.
   struct Entry {
     std::int64_t stamp_ns = 0;
@@ -31,18 +33,20 @@ class BagViews {
     image::PinholeCamera camera;
     Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
     std::string fault;  ///< of camera or pose, "no camera_info of this stamp"; empty where both are there
-    bool has_depth = false;
+    std::optional<std::int64_t> depth_stamp_ns;
   };
 
   /// Reads the bag once, keeping no pixels. Of several images, or other messages, of one stamp the first
   /// counts. Throws std::runtime_error for a bag that cannot be read, that holds no image of the stream, or
   /// whose messages are of another kind.
-  BagViews(const BagStream& stream, const std::string& name_space, const IntakeOptions& intake);
+  BagViews(const BagStream& stream, const ViewTopics& topics, const IntakeOptions& intake);
   ~BagViews();
 
   const BagStream& stream() const { return stream_; }
   const std::vector<Entry>& entries() const { return entries_; }  ///< by rising stamp
   std::size_t repeated() const { return repeated_; }  ///< images left out, of a stamp that was there
+  /// "no camera/depth/image_raw of this stamp".
+  std::string lackOfDepth(const Entry& entry) const;
 
   /// The picture of an entry without fault; depth too where `wants_depth`. Or why it could not be had.
   struct Read {
@@ -53,10 +57,15 @@ class BagViews {
 
  private:
   struct Index;
+  void readIndex();
   void makeEntries();
+  Entry entryOf(std::int64_t stamp_ns) const;
+  image::PinholeCamera cameraAt(std::int64_t stamp_ns) const;
+  Eigen::Isometry3d poseAt(std::int64_t stamp_ns) const;
   std::string readDepth(const Entry& entry, cv::Mat* depth) const;
 
   BagStream stream_;
+  ViewTopics topics_;
   IntakeOptions intake_;
   std::unique_ptr<rosbag::Bag> bag_;
   std::unique_ptr<Index> index_;

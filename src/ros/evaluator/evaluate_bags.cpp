@@ -49,7 +49,7 @@ void completeLocalisation(Options* options) {
   if (!options->evaluation.evaluation.merge.empty())
     throw std::invalid_argument("--merge is for differences alone");
   localisation.output_dir = options->evaluation.evaluation.output_dir;
-  localisation.name_space = options->evaluation.name_space;
+  localisation.topics.name_space = options->evaluation.name_space;
   if (options->read) localisation.intake = options->read->intake;
 }
 
@@ -115,6 +115,11 @@ std::optional<Options> optionsOf(const std::vector<std::string>& arguments) {
   line.add("--odometry BAG[:STREAM,...]", fieldOf(bags, "odometry"));
   for (const Field& row : fieldsOf(options.localisation.localisation))
     line.add(optionOf(row.key) + " VALUE", row);
+  line.group("Localisation and odometry of bags that sunlit did not record");
+  for (const Field& row : fieldsOf(options.localisation.topics)) {
+    const bool is_topic = std::holds_alternative<std::string*>(row.place);
+    line.add(optionOf(row.key) + (is_topic ? " TOPIC" : " VALUE"), row);
+  }
   if (!line.read(arguments)) return std::nullopt;
   if (!line.has("--out")) throw std::invalid_argument("--out DIR is missing; --help lists all options");
   const bool localises = line.has("--map") || line.has("--query") || line.has("--odometry");

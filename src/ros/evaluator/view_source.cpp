@@ -21,7 +21,7 @@ constexpr const char* kProblemsFile = "/localisation_problems.csv";
 std::unique_ptr<BagViews> ViewSource::open(const BagStream& stream) const {
   std::printf("reading %s of %s\n", stream.name.c_str(), stream.bag.c_str());
   std::fflush(stdout);
-  auto views = std::make_unique<BagViews>(stream, options_.name_space, options_.intake);
+  auto views = std::make_unique<BagViews>(stream, options_.topics, options_.intake);
   if (views->repeated() > 0)
     std::printf("%s: %zu images left out, whose stamps repeat\n", stream.name.c_str(), views->repeated());
   return views;
@@ -31,8 +31,8 @@ std::vector<std::size_t> ViewSource::usable(const BagViews& views, bool needs_de
   std::vector<std::size_t> entries;
   for (std::size_t i = 0; i < views.entries().size(); ++i) {
     const BagViews::Entry& entry = views.entries()[i];
-    const bool lacks_depth = entry.fault.empty() && needs_depth && !entry.has_depth;
-    const std::string fault = lacks_depth ? BagViews::kNoDepth : entry.fault;
+    const bool lacks_depth = entry.fault.empty() && needs_depth && !entry.depth_stamp_ns;
+    const std::string fault = lacks_depth ? views.lackOfDepth(entry) : entry.fault;
     if (fault.empty()) {
       entries.push_back(i);
     } else {

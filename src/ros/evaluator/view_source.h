@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ros/evaluator/bag_views.h"
+#include "ros/evaluator/view_topics.h"
 #include "sunlit/evaluate/localise/localisation_files.h"
 #include "sunlit/evaluate/trajectory/trajectory.h"
 
@@ -17,7 +18,7 @@ namespace sunlit::ros_interface {
 
 /// What is read of bags, and where it is told of.
 struct ViewSourceOptions {
-  std::string name_space;
+  ViewTopics topics;
   IntakeOptions intake;
   std::string output_dir;  ///< of localisation_problems.csv
 };

@@ -42,6 +42,10 @@ Trajectory readTrajectory(const std::string& file, std::vector<std::int64_t>* re
 /// Leaves the whole file or what was there. Throws std::runtime_error with path and reason.
 void writeTrajectory(const std::string& file, const Trajectory& trajectory);
 
+/// At `stamp_ns` between two moments, of which `after` is later: along a straight line, and turning at one
+/// rate the shorter way round.
+StampedPose interpolated(const StampedPose& before, const StampedPose& after, std::int64_t stamp_ns);
+
 /// From pose to pose along straight lines, m.
 double lengthOf(const Trajectory& trajectory);
 

@@ -87,6 +87,30 @@ TEST(Preprocessing, InvariantOfIlluminationFollowsFromPencilAndPaper) {
   EXPECT_EQ(levelOf({255, 255, 188}), 166);  // 128 + 127 · 0.43519 · 0.68738 = 165.99
 }
 
+// Where the line from D65 through a primary leaves the chromaticities of the CIE 1931 observer, of which two
+// are given, 5 nm apart (CIE 015). They bend by less than 0.1 nm in between.
+TEST(Preprocessing, PeaksAreTheDominantWavelengthsOfThePrimaries) {
+  struct Case {
+    const char* key;
+    cv::Vec2d primary;  // ITU-R BT.709
+    double below_nm;
+    cv::Vec2d below, above;
+  };
+  const cv::Vec2d white(0.3127, 0.3290);
+  const auto invariant = makePreprocessing("illumination_invariant");
+  for (const Case& one : {Case{"peak_red", {0.64, 0.33}, 610.0, {0.66576, 0.33401}, {0.68008, 0.31975}},
+                          Case{"peak_green", {0.30, 0.60}, 545.0, {0.26578, 0.72432}, {0.30160, 0.69231}},
+                          Case{"peak_blue", {0.15, 0.06}, 460.0, {0.14396, 0.02970}, {0.13550, 0.03988}}}) {
+    const auto across = [](const cv::Vec2d& a, const cv::Vec2d& b) { return a[0] * b[1] - a[1] * b[0]; };
+    const cv::Vec2d ray = one.primary - white;
+    const double from = across(ray, one.below - white);
+    const double to = across(ray, one.above - white);
+    const double wavelength_nm = one.below_nm + 5.0 * from / (from - to);
+    EXPECT_NEAR(std::get<double>(fieldOf(invariant->fields(), one.key).value()), wavelength_nm, 0.1)
+        << one.key;
+  }
+}
+
 // Planck's law but for its first constant; λ in nm, T in K.
 double blackBody(double wavelength_nm, double temperature_K) {
   constexpr double kSecondConstant_nm_K = 1.438777e7;  // CODATA 2018

@@ -154,5 +154,18 @@ TEST_F(TrajectoryFile, LengthIsTheSumOfSteps) {
   EXPECT_EQ(lengthOf(read("0 5 5 5 0 0 0 1\n")), 0.0);
 }
 
+TEST(Trajectory, IsStraightBetweenTwoPosesAndTurnsTheShorterWay) {
+  const auto turned = [](double degrees) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(degrees * M_PI / 180.0, Eigen::Vector3d::UnitZ()));
+  };
+  StampedPose before{1000, {1, 2, 3}, turned(170)};
+  const StampedPose after{2000, {3, 2, -1}, turned(-170)};
+  before.orientation.coeffs() *= -1.0;  // the same turn
+  const StampedPose found = interpolated(before, after, 1250);
+  EXPECT_EQ(found.stamp_ns, 1250);
+  EXPECT_LT((found.position - Eigen::Vector3d(1.5, 2, 2)).norm(), 1e-15);
+  EXPECT_LT(found.orientation.angularDistance(turned(175)), 1e-12);  // a quarter of 20°
+}
+
 }  // namespace
 }  // namespace sunlit::evaluate
