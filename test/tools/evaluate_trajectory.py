@@ -8,7 +8,12 @@ import sys
 import tempfile
 import unittest
 
+import rosbag
+import rospy
 import rosunit
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TransformStamped
+from nav_msgs.msg import Odometry, Path
+from std_msgs.msg import Header
 
 from timelapse import run
 
@@ -125,6 +130,54 @@ class EvaluateTrajectory(unittest.TestCase):
     def test_the_map_is_read_before_anything_is_written(self):
         self.assertIn(self.path("map.yaml") + ": cannot be opened", self.evaluate(self.truth, "--map", self.folder).stderr)
         self.assertFalse(os.path.exists(self.path("out")))
+
+    def write_bag(self, name, topics):
+        """`topics`: the class of the messages by topic; all tell of the bend."""
+        with rosbag.Bag(self.path(name), "w") as bag:
+            paths = {topic: Path() for topic, kind in topics.items() if kind is Path}
+            for t, x, y, z in bend(50):
+                stamp = rospy.Time.from_sec(t)
+                for topic, kind in topics.items():
+                    message = PoseStamped() if kind is Path else kind()
+                    message.header.stamp = stamp
+                    place = {PoseStamped: lambda: message.pose, Path: lambda: message.pose,
+                             TransformStamped: lambda: message.transform}.get(kind, lambda: message.pose.pose)()
+                    where, turn = (place.translation, place.rotation) if kind is TransformStamped else (
+                        place.position, place.orientation)
+                    where.x, where.y, where.z, turn.w = x, y, z, 1.0
+                    if kind is Path:  # sent anew as it grows
+                        paths[topic].poses.append(message)
+                        message = paths[topic]
+                    bag.write(topic, message, stamp)
+        return self.path(name)
+
+    def test_poses_of_any_message_are_taken_from_bags(self):
+        kinds = {"/truth": PoseStamped, "/fused": PoseWithCovarianceStamped, "/vicon": TransformStamped, "/odom": Odometry,
+                 "/path": Path}
+        bag = self.write_bag("run.bag", kinds)
+        for topic in kinds:
+            done = self.evaluate(bag + ":" + topic)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual(self.table()["ate"]["n"], "50")
+            self.assertLess(float(self.table()["ate"]["max"]), 1e-8)  # nine digits in the file of the truth
+        done = run("evaluate_trajectory", "--truth", bag + ":/truth", "--estimate", bag + ":/odom", "--out", self.path("out"))
+        self.assertEqual((done.returncode, self.table()["ate"]["max"]), (0, "0"))
+
+    def test_which_topic_of_a_bag_is_said_or_there_is_but_one(self):
+        bag = self.write_bag("run.bag", {"/truth": PoseStamped, "/odom": Odometry})
+        topics = "topics of poses are: /odom (nav_msgs/Odometry), /truth (geometry_msgs/PoseStamped)\n"
+        for named, said in ((bag, ": say which topic, as in %s:/odom; " % bag), (bag + ":/odometry", ": holds no topic /odometry; ")):
+            done = self.evaluate(named)
+            self.assertEqual((done.returncode, done.stderr), (1, "evaluate_trajectory: " + bag + said + topics))
+        self.assertEqual(self.evaluate(self.write_bag("one.bag", {"/odom": Odometry})).returncode, 0)
+        with rosbag.Bag(self.path("bad.bag"), "w") as bad:
+            bad.write("/pose", PoseStamped(), rospy.Time(5))
+            bad.write("/chatter", Header(), rospy.Time(5))
+        self.assertIn("/pose at 0.000000000: pose.orientation has the length 0.000000",
+                      self.evaluate(self.path("bad.bag:/pose")).stderr)
+        self.assertIn("/chatter is std_msgs/Header, not geometry_msgs/PoseStamped",
+                      self.evaluate(self.path("bad.bag:/chatter")).stderr)
+        self.assertIn("is not a bag that can be read", self.evaluate(self.path("gone.bag")).stderr)
 
     def test_two_runs_write_the_same_bytes(self):
         written = []

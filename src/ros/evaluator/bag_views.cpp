@@ -1,9 +1,5 @@
 #include "ros/evaluator/bag_views.h"
 
-#include <geometry_msgs/PoseStamped.h>
-#include <geometry_msgs/PoseWithCovarianceStamped.h>
-#include <geometry_msgs/TransformStamped.h>
-#include <nav_msgs/Odometry.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sunlit/Capture.h>
@@ -19,6 +15,7 @@
 #include "ros/conversions/images.h"
 #include "ros/conversions/received_images.h"
 #include "ros/evaluator/bag_topics.h"
+#include "ros/evaluator/bag_trajectory.h"
 #include "sunlit/evaluate/trajectory/trajectory.h"
 #include "sunlit/quantity/frames.h"
 #include "sunlit/ros/topic_names.h"
@@ -53,38 +50,6 @@ boost::shared_ptr<Message> messageOf(const MessageInstance& instance) {
   if (auto message = instance.instantiate<Message>()) return message;
   throw std::runtime_error(instance.getTopic() + " is " + instance.getDataType() + ", not " +
                            ros::message_traits::DataType<Message>::value());
-}
-
-/// A pose, whatever message brings it.
-struct PoseMessage {
-  std::int64_t stamp_ns = 0;
-  geometry_msgs::Pose pose;
-};
-
-geometry_msgs::Pose poseOf(const geometry_msgs::Transform& transform) {
-  geometry_msgs::Pose pose;
-  pose.position.x = transform.translation.x;
-  pose.position.y = transform.translation.y;
-  pose.position.z = transform.translation.z;
-  pose.orientation = transform.rotation;
-  return pose;
-}
-
-PoseMessage poseMessageOf(const MessageInstance& instance) {
-  const auto made = [](const std_msgs::Header& header, const geometry_msgs::Pose& pose) {
-    return PoseMessage{nanosecondsOf(header.stamp), pose};
-  };
-  if (const auto message = instance.instantiate<geometry_msgs::PoseStamped>())
-    return made(message->header, message->pose);
-  if (const auto message = instance.instantiate<geometry_msgs::PoseWithCovarianceStamped>())
-    return made(message->header, message->pose.pose);
-  if (const auto message = instance.instantiate<nav_msgs::Odometry>())
-    return made(message->header, message->pose.pose);
-  if (const auto message = instance.instantiate<geometry_msgs::TransformStamped>())
-    return made(message->header, poseOf(message->transform));
-  throw std::runtime_error(instance.getTopic() + " is " + instance.getDataType() +
-                           ", not geometry_msgs/PoseStamped, PoseWithCovarianceStamped or TransformStamped, "
-                           "nor nav_msgs/Odometry");
 }
 
 /// The nearest to `stamp_ns`, the earlier of two; the end only where there is nothing.

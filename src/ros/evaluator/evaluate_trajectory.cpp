@@ -1,4 +1,4 @@
-// An estimated trajectory against the true one.
+/// evaluate_trajectory: an estimated trajectory against the true one, of files or bags, without a master.
 #include <cstdio>
 #include <optional>
 #include <sstream>
@@ -7,17 +7,19 @@
 #include <utility>
 #include <vector>
 
+#include "ros/evaluator/bag_trajectory.h"
+#include "ros/evaluator/folder_lock.h"
 #include "sunlit/evaluate/trajectory/draw_trajectory.h"
 #include "sunlit/evaluate/trajectory/trajectory_evaluation.h"
 #include "sunlit/image/files.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/studio/command_line.h"
-#include "tools/output_folder.h"
 
-namespace sunlit::tools {
 namespace {
 
-using namespace evaluate;
+using namespace sunlit;
+using namespace sunlit::evaluate;
+using namespace sunlit::ros_interface;
 
 struct Options {
   std::string truth, estimate, output;
@@ -45,7 +47,9 @@ std::optional<Options> parse(const std::vector<std::string>& arguments) {
   studio::CommandLine line(
       "evaluate_trajectory: absolute and relative errors of an estimated trajectory. Needs no ROS master.",
       "evaluate_trajectory --out DIR --truth FILE --estimate FILE [options]");
-  const std::string forms = "TUM (timestamp tx ty tz qx qy qz qw, s and m) or ground truth of EuRoC";
+  const std::string forms =
+      "TUM (timestamp tx ty tz qx qy qz qw, s and m), ground truth of EuRoC, or run.bag:TOPIC of Odometry, "
+      "PoseStamped, PoseWithCovarianceStamped, TransformStamped or Path (the last counts)";
   line.add("--truth FILE", {"truth", &options.truth, "", {}, forms});
   line.add("--estimate FILE", {"estimate", &options.estimate, "", {}, "as the truth; of the same body"});
   line.add(
@@ -74,7 +78,6 @@ std::optional<Options> parse(const std::vector<std::string>& arguments) {
   for (const std::string needed : {"--out", "--truth", "--estimate"}) {
     if (!line.has(needed)) throw std::invalid_argument(needed + " is missing; --help lists all options");
   }
-  requireFolderCanBeMade(options.output);
   return options;
 }
 
@@ -83,7 +86,14 @@ struct Input {
   Input(std::string the_name, const std::string& the_file, bool takes_first_of_stamp)
       : name(std::move(the_name)),
         file(the_file),
-        poses(readTrajectory(the_file, takes_first_of_stamp ? &repeated : nullptr)) {}
+        poses(isOfBag(the_file) ? readBagTrajectory(the_file, &repeated)
+                                : readTrajectory(the_file, takes_first_of_stamp ? &repeated : nullptr)) {
+    if (!takes_first_of_stamp && !repeated.empty()) {
+      throw std::runtime_error(
+          file + ": " + std::to_string(repeated.size()) +
+          " poses have the stamp of the one before; --repeated-stamps first leaves them out");
+    }
+  }
 
   void tell(std::size_t without_partner) const {
     std::printf("%-8s  %s: %zu poses, %.3f m", name.c_str(), file.c_str(), poses.size(), lengthOf(poses));
@@ -121,7 +131,7 @@ void run(const Options& options) {
   std::optional<MapPicture> map;
   if (!options.map.empty()) map = readMapPicture(options.map);
   const TrajectoryEvaluation evaluation = evaluateTrajectory(truth.poses, estimate.poses, options.evaluation);
-  makeFolder(options.output);
+  const FolderLock lock(options.output);
   writeTrajectoryTable(options.output + "/trajectory.csv", evaluation);
   writePoseErrors(options.output + "/trajectory_poses.csv", truth.poses, estimate.poses, evaluation);
   image::writePng(options.output + "/trajectory.png",
@@ -136,9 +146,7 @@ void run(const Options& options) {
 }
 
 }  // namespace
-}  // namespace sunlit::tools
 
 int main(int argc, char** argv) {
-  using namespace sunlit::tools;
-  return sunlit::studio::runProgram({"evaluate_trajectory", argc, argv}, parse, run);
+  return studio::runProgram({"evaluate_trajectory", argc, argv}, parse, run);
 }

@@ -1,0 +1,149 @@
+#include "ros/evaluator/bag_trajectory.h"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <nav_msgs/Path.h>
+#include <rosbag/view.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <stdexcept>
+
+#include "ros/conversions/geometry.h"
+#include "ros/conversions/received_images.h"
+#include "ros/conversions/time.h"
+#include "ros/evaluator/bag_topics.h"
+
+namespace sunlit::ros_interface {
+namespace {
+
+using evaluate::StampedPose;
+using evaluate::Trajectory;
+
+struct NamedTopic {
+  std::string bag;
+  std::string topic;  ///< empty: not said
+};
+
+NamedTopic namedTopic(const std::string& named) {
+  const std::size_t colon = named.rfind(".bag:");
+  if (colon == std::string::npos || std::filesystem::exists(named)) return {named, ""};
+  return {named.substr(0, colon + 4), named.substr(colon + 5)};
+}
+
+geometry_msgs::Pose poseOf(const geometry_msgs::Transform& transform) {
+  geometry_msgs::Pose pose;
+  pose.position.x = transform.translation.x;
+  pose.position.y = transform.translation.y;
+  pose.position.z = transform.translation.z;
+  pose.orientation = transform.rotation;
+  return pose;
+}
+
+template <typename Message>
+std::string typeOf() {
+  return ros::message_traits::DataType<Message>::value();
+}
+
+bool bringsPoses(const std::string& type) {
+  const std::vector<std::string> known = {
+      typeOf<geometry_msgs::PoseStamped>(), typeOf<geometry_msgs::PoseWithCovarianceStamped>(),
+      typeOf<geometry_msgs::TransformStamped>(), typeOf<nav_msgs::Odometry>(), typeOf<nav_msgs::Path>()};
+  return std::count(known.begin(), known.end(), type) > 0;
+}
+
+/// The one that was named, or the only one of poses.
+std::string topicIn(const rosbag::Bag& bag, const NamedTopic& named) {
+  rosbag::View view(bag);
+  std::map<std::string, std::string> found;  // types by topic
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    if (connection->topic == named.topic || bringsPoses(connection->datatype))
+      found[connection->topic] = connection->datatype;
+  }
+  if (!named.topic.empty() && found.count(named.topic) > 0) return named.topic;
+  if (named.topic.empty() && found.size() == 1) return found.begin()->first;
+  std::string listed;
+  for (const auto& [topic, type] : found) listed += (listed.empty() ? "" : ", ") + topic + " (" + type + ")";
+  if (listed.empty()) listed = "none";
+  throw std::runtime_error(named.bag + ": " +
+                           (named.topic.empty() ? "say which topic, as in " + named.bag + ":/odom"
+                                                : "holds no topic " + named.topic) +
+                           "; topics of poses are: " + listed);
+}
+
+StampedPose stampedPoseOf(const PoseMessage& message, const std::string& topic) {
+  try {
+    const Eigen::Isometry3d pose = fromPose(message.pose);
+    return {message.stamp_ns, pose.translation(), Eigen::Quaterniond(pose.linear())};
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(topic + " at " + textOfStamp(timeOf(message.stamp_ns)) + ": " + error.what());
+  }
+}
+
+std::vector<PoseMessage> messagesOf(const nav_msgs::Path& path) {
+  std::vector<PoseMessage> messages;
+  for (const geometry_msgs::PoseStamped& pose : path.poses)
+    messages.push_back({nanosecondsOf(pose.header.stamp), pose.pose});
+  return messages;
+}
+
+std::vector<PoseMessage> messagesIn(const rosbag::Bag& bag, const std::string& topic) {
+  std::vector<PoseMessage> messages;
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  for (const rosbag::MessageInstance& instance : view) {
+    if (const auto path = instance.instantiate<nav_msgs::Path>()) {
+      messages = messagesOf(*path);
+    } else {
+      messages.push_back(poseMessageOf(instance));
+    }
+  }
+  return messages;
+}
+
+}  // namespace
+
+PoseMessage poseMessageOf(const rosbag::MessageInstance& instance) {
+  const auto made = [](const std_msgs::Header& header, const geometry_msgs::Pose& pose) {
+    return PoseMessage{nanosecondsOf(header.stamp), pose};
+  };
+  if (const auto message = instance.instantiate<geometry_msgs::PoseStamped>())
+    return made(message->header, message->pose);
+  if (const auto message = instance.instantiate<geometry_msgs::PoseWithCovarianceStamped>())
+    return made(message->header, message->pose.pose);
+  if (const auto message = instance.instantiate<nav_msgs::Odometry>())
+    return made(message->header, message->pose.pose);
+  if (const auto message = instance.instantiate<geometry_msgs::TransformStamped>())
+    return made(message->header, poseOf(message->transform));
+  throw std::runtime_error(instance.getTopic() + " is " + instance.getDataType() +
+                           ", not geometry_msgs/PoseStamped, PoseWithCovarianceStamped or TransformStamped, "
+                           "nor nav_msgs/Odometry");
+}
+
+bool isOfBag(const std::string& named) {
+  return std::filesystem::path(namedTopic(named).bag).extension() == ".bag";
+}
+
+Trajectory readBagTrajectory(const std::string& named, std::vector<std::int64_t>* repeated) {
+  const NamedTopic chosen = namedTopic(named);
+  const std::unique_ptr<rosbag::Bag> bag = openBag(chosen.bag);
+  const std::string topic = topicIn(*bag, chosen);
+  std::vector<PoseMessage> messages = messagesIn(*bag, topic);
+  if (messages.empty()) throw std::runtime_error(chosen.bag + ": " + topic + " holds no pose");
+  std::stable_sort(messages.begin(), messages.end(),
+                   [](const PoseMessage& a, const PoseMessage& b) { return a.stamp_ns < b.stamp_ns; });
+  Trajectory trajectory;
+  for (const PoseMessage& message : messages) {
+    if (trajectory.empty() || message.stamp_ns != trajectory.back().stamp_ns) {
+      trajectory.push_back(stampedPoseOf(message, chosen.bag + ": " + topic));
+    } else {
+      repeated->push_back(message.stamp_ns);
+    }
+  }
+  return trajectory;
+}
+
+}  // namespace sunlit::ros_interface

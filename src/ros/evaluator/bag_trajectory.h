@@ -1,0 +1,36 @@
+/// Poses in bags, whatever messages bring them.
+#pragma once
+
+#include <geometry_msgs/Pose.h>
+#include <rosbag/message_instance.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sunlit/evaluate/trajectory/trajectory.h"
+
+namespace sunlit::ros_interface {
+
+struct PoseMessage {
+  std::int64_t stamp_ns = 0;
+  geometry_msgs::Pose pose;
+};
+
+/// Of a geometry_msgs/PoseStamped, PoseWithCovarianceStamped or TransformStamped, or a nav_msgs/Odometry.
+/// Throws std::runtime_error naming topic and type for another message.
+PoseMessage poseMessageOf(const rosbag::MessageInstance& instance);
+
+/// What a bag's topic says: a message a pose, as above, or the last nav_msgs/Path, which SLAM systems send
+/// anew as it grows. By rising stamp; of poses of one stamp the first counts, and the stamps of the others go
+/// to `repeated`.
+///
+/// `named` is "BAG" or "BAG:TOPIC"; without a topic the only one that brings poses. Throws std::runtime_error
+/// for a bag that cannot be read, a topic that it does not hold, several where none was named (all are
+/// listed), no pose, and a pose that is not finite or whose quaternion is not of unit length.
+evaluate::Trajectory readBagTrajectory(const std::string& named, std::vector<std::int64_t>* repeated);
+
+/// As readBagTrajectory() takes it: ends in ".bag", or in ".bag:" and a topic.
+bool isOfBag(const std::string& named);
+
+}  // namespace sunlit::ros_interface
