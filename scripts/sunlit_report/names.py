@@ -9,9 +9,17 @@ _DIFFERENCES = {
     "akaze": "AKAZE", "kaze": "KAZE", "rootsift": "RootSIFT",
 }
 
+_PREPROCESSINGS = {"clahe": "CLAHE", "gamma": "gamma", "illumination_invariant": "illumination-invariant images"}
+
 
 def difference(name):
     return _DIFFERENCES.get(name, name)
+
+
+def method(name):
+    """'sift+clahe' -> 'SIFT with CLAHE'."""
+    detector, _, preprocessing = name.partition("+")
+    return difference(detector) + (f" with {_PREPROCESSINGS.get(preprocessing, preprocessing)}" if preprocessing else "")
 
 
 def _hour(name):

@@ -4,7 +4,7 @@ from . import findings as judge
 from . import comparisons, localisation, tables, verified, warnings
 
 
-def _aligned(header, rows):
+def aligned(header, rows):
     widths = [max(len(str(row[k])) for row in [header] + rows) for k in range(len(header))]
     lines = []
     for row in [header] + rows:
@@ -21,21 +21,21 @@ def _of_table(table):
         rows.append([row["name"]] + row["e"] + row["s"])
         if any(row["paper_e"]):
             rows.append(["  paper"] + row["paper_e"] + row["paper_s"])
-    return _aligned(header, rows)
+    return aligned(header, rows)
 
 
 def whole(output, findings):
     """Everything that the terminal shows."""
     parts = [f"Warning: {sentence}" for sentence in warnings.warnings(output)]
     if output.queries:
-        parts += ["Queries localised in the map", _aligned(localisation.TABLE_HEADER, localisation.table_rows(output))]
+        parts += ["Queries localised in the map", aligned(localisation.TABLE_HEADER, localisation.table_rows(output))]
     if not output.series:
         return "\n\n".join(parts)
     parts.append("Mean difference E and standard deviation s along the path")
     parts += [_of_table(table) for table in tables.main_tables(output)]
     if output.verified.means:
         parts += ["Are the matches right? Means along the path",
-                  _aligned(verified.TABLE_HEADER, [cells for cells, _, _ in verified.table_rows(output)])]
+                  aligned(verified.TABLE_HEADER, [cells for cells, _, _ in verified.table_rows(output)])]
     for family in comparisons.families(output):
         counts = ", ".join(f"{metric} {found} of {all_of}" for metric, found, all_of in family["counts"])
         parts.append(f"More than chance (Holm, 5 %) between {family['family']}: {counts}")

@@ -63,7 +63,7 @@ Option::Option(const std::string& form, std::string doc, std::vector<Field> rows
     const std::string needed = form_.substr(0, form_.find('['));
     least_ = 1 + static_cast<std::size_t>(std::count(needed.begin(), needed.end(), separator_));
   }
-  const std::string default_text = usual();
+  const std::string default_text = isFlag() ? "" : usual();
   help_ = explained(default_text.empty() ? "" : "default " + default_text);
 }
 
@@ -167,8 +167,13 @@ namespace {
 po::options_description described(const std::string& heading, const std::deque<Option>& options) {
   po::options_description described(heading, kLineLength, kLineLength / 2);
   for (const Option& option : options) {
+    const std::string name = option.name().substr(2);
+    if (option.isFlag()) {
+      described.add_options()(name.c_str(), option.help().c_str());
+      continue;
+    }
     auto* const value = po::value<std::string>()->value_name(option.form());
-    described.add_options()(option.name().substr(2).c_str(), value, option.help().c_str());
+    described.add_options()(name.c_str(), value, option.help().c_str());
   }
   return described;
 }
@@ -219,6 +224,11 @@ bool CommandLine::read(const std::vector<std::string>& arguments) {
     }
     const Option* const option = find(name);
     if (option == nullptr) throw std::invalid_argument("there is no option " + name + "; --help lists all");
+    if (option->isFlag()) {
+      option->take("true");
+      given_.emplace_back(name, "true");
+      continue;
+    }
     if (value.empty() || value == "--help" || find(value) != nullptr) rejectMissingValue(name);
     option->take(value);
     given_.emplace_back(name, value);

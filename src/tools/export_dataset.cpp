@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "sunlit/studio/sky.h"
 #include "sunlit/studio/studio.h"
 #include "tools/export_dataset_options.h"
+#include "tools/output_folder.h"
 #include "tools/recipe.h"
 #include "tools/terminal.h"
 
@@ -37,7 +37,7 @@ struct Part {
 
 /// The data sets of one hour.
 struct Hour {
-  HourToExport when;
+  TimeOfDay when;
   std::vector<Part> parts;
 
   bool has(const DataSetFrame& frame) const {
@@ -55,7 +55,7 @@ struct Hour {
 
 std::vector<Hour> hoursOf(const ExportOptions& options) {
   std::vector<Hour> hours;
-  for (const HourToExport& when : options.hours) {
+  for (const TimeOfDay& when : options.hours) {
     hours.push_back({when, {}});
     for (const DataSetFormat format : options.formats) {
       const std::string path = options.folderOf(when, format);
@@ -70,7 +70,7 @@ class Camera {
  public:
   explicit Camera(const ExportOptions& options) : studio_(options.studio, std::nullopt, onTerminal()) {
     studio::Sky sky({options.place.air, std::nullopt}, onTerminal());
-    for (const HourToExport& when : options.hours)
+    for (const TimeOfDay& when : options.hours)
       lights_.push_back(studio_.illumination(sky.daylight(bodiesOf(options.place, when.hour()))));
   }
 
@@ -138,17 +138,6 @@ void tell(const Part& part, const ExportOptions& options) {
       100.0 * static_cast<double>(part.room.without_room) / static_cast<double>(part.room.seen),
       1.0 / options.data_set.depth_scale, kMostSteps / options.data_set.depth_scale,
       options.data_set.depth_scale, part.made);
-}
-
-/// The first of what `folder` holds, by name; empty if there is nothing.
-std::string anythingIn(const std::string& folder) {
-  std::error_code error;  // no such folder: nothing
-  std::string first;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    if (first.empty() || name < first) first = name;
-  }
-  return first;
 }
 
 void exportDataSets(const ExportOptions& options) {

@@ -19,7 +19,6 @@ namespace {
 using evaluate::DataSetFormat;
 using evaluate::DataSetFrame;
 
-constexpr int kSecondsPerDay = 24 * 3600;
 /// Stamp of pose 0, as in experiments: a zero means "none" to some programs.
 constexpr std::int64_t kStart_ns = 1000 * std::int64_t{1000000000};
 
@@ -48,22 +47,6 @@ Choices choicesOf(std::vector<DataSetFormat>* formats) {
           }};
 }
 
-std::vector<HourToExport> hoursOf(const std::string& option, const std::string& text) {
-  std::vector<HourToExport> hours;
-  for (const std::string& part : splitAtCommas(text)) {
-    double hour = 0.0;
-    Field{"hour", &hour, "h", Range::below(0, 24), ""}.setText(part, option);
-    const auto second = static_cast<int>(std::lround(hour * 3600.0));
-    hours.push_back({std::min(second, kSecondsPerDay - 1)});
-    const auto is_same = [&](const HourToExport& other) {
-      return other.second_of_day == hours.back().second_of_day;
-    };
-    if (std::count_if(hours.begin(), hours.end(), is_same) > 1)
-      throw std::invalid_argument(option + " names " + hours.back().name() + " twice");
-  }
-  return hours;
-}
-
 void addOwn(studio::CommandLine* line, ExportOptions* options) {
   line->group("Data set");
   line->add("--format FORMAT[,FORMAT...]", {"format",
@@ -79,7 +62,7 @@ void addOwn(studio::CommandLine* line, ExportOptions* options) {
           {"hours", OwnForm{"12"}, "h", Range::below(0, 24),
            "of the day; of several each has a folder of its own, h04 ..., and each pose is drawn only once"})
       .then([options](const std::string& option, const std::string& text) {
-        options->hours = hoursOf(option, text);
+        options->hours = timesOf(option, text);
       });
   line->add(
       "--rate HZ",
@@ -118,14 +101,7 @@ void requireSense(const studio::CommandLine& line, const Words& words, const Exp
 
 }  // namespace
 
-std::string HourToExport::name() const {
-  const int h = second_of_day / 3600, m = second_of_day / 60 % 60, s = second_of_day % 60;
-  char text[16];
-  std::snprintf(text, sizeof text, s > 0 ? "h%02d_%02d_%02d" : m > 0 ? "h%02d_%02d" : "h%02d", h, m, s);
-  return text;
-}
-
-std::string ExportOptions::folderOf(const HourToExport& hour, DataSetFormat format) const {
+std::string ExportOptions::folderOf(const TimeOfDay& hour, DataSetFormat format) const {
   std::string folder = output;
   if (hours.size() > 1) folder += '/' + hour.name();
   if (formats.size() > 1) folder += '/' + evaluate::dataSetFormatNames()[static_cast<std::size_t>(format)];

@@ -9,32 +9,24 @@
 #include "sunlit/quantity/field.h"
 #include "sunlit/studio/studio.h"
 #include "tools/place_arguments.h"
+#include "tools/time_of_day.h"
 
 namespace sunlit::tools {
-
-/// A time of the day.
-struct HourToExport {
-  int second_of_day = 12 * 3600;  ///< 0 … 86399
-
-  double hour() const { return second_of_day / 3600.0; }
-  /// As experiments call their conditions: "h04", "h04_30".
-  std::string name() const;
-};
 
 struct ExportOptions {
   studio::StudioOptions studio;
   PlaceOptions place;
-  std::vector<HourToExport> hours = {HourToExport()};  ///< one or more, all different
-  std::vector<evaluate::DataSetFormat> formats;        ///< likewise
-  double rate_hz = 10.0;                               ///< of the poses of the whole path
-  evaluate::DataSetOptions data_set;                   ///< of the poses that are taken
-  std::vector<evaluate::DataSetFrame> frames;          ///< one or more
-  std::string output;                                  ///< folder
-  std::vector<std::string> recipe;                     ///< what decides what is written
+  std::vector<TimeOfDay> hours = {TimeOfDay()};  ///< one or more, all different
+  std::vector<evaluate::DataSetFormat> formats;  ///< likewise
+  double rate_hz = 10.0;                         ///< of the poses of the whole path
+  evaluate::DataSetOptions data_set;             ///< of the poses that are taken
+  std::vector<evaluate::DataSetFrame> frames;    ///< one or more
+  std::string output;                            ///< folder
+  std::vector<std::string> recipe;               ///< what decides what is written
 
   /// Of one hour and format: OUTPUT, with a folder below it for each hour and each format where there are
   /// several.
-  std::string folderOf(const HourToExport& hour, evaluate::DataSetFormat format) const;
+  std::string folderOf(const TimeOfDay& hour, evaluate::DataSetFormat format) const;
 };
 
 /// Empty if help was asked for, and has been printed. Throws std::invalid_argument naming the option, its

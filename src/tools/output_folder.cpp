@@ -32,4 +32,15 @@ void makeFolder(const std::string& folder) {
   if (error) fail(folder, error);
 }
 
+std::string anythingIn(const std::string& folder) {
+  constexpr const char* kUnfinished = ".part";  // as image::writeFileAtomically() has it
+  std::error_code error;                        // no such folder: nothing
+  std::string first;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() != kUnfinished && (first.empty() || name < first)) first = name;
+  }
+  return first;
+}
+
 }  // namespace sunlit::tools

@@ -6,8 +6,6 @@
 
 namespace sunlit::tools {
 
-namespace {
-
 astronomy::CivilDate dateOf(const std::string& option, const std::string& text, double timezone) {
   astronomy::CivilDate date;
   int used = 0;
@@ -23,14 +21,11 @@ astronomy::CivilDate dateOf(const std::string& option, const std::string& text, 
   return date;
 }
 
-/// As a person would type it.
 std::string textOf(const astronomy::CivilDate& date) {
   char text[32];
   std::snprintf(text, sizeof text, "%04d-%02d-%02d", date.year, date.month, date.day);
   return text;
 }
-
-}  // namespace
 
 void addPlace(studio::CommandLine* line, PlaceOptions* options) {
   line->group("Place, day and air");

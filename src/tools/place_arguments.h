@@ -14,6 +14,11 @@ struct PlaceOptions {
   sky::AtmosphereOptions air;  ///< but for the observer's height, which is the site's
 };
 
+/// "2024-07-01". Throws std::invalid_argument naming `option` for a day that there is not.
+astronomy::CivilDate dateOf(const std::string& option, const std::string& text, double timezone);
+/// As a person would type it.
+std::string textOf(const astronomy::CivilDate& date);
+
 /// --site, --date, --timezone, --turbidity and --ozone.
 void addPlace(studio::CommandLine* line, PlaceOptions* options);
 

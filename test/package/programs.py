@@ -6,7 +6,7 @@ import unittest
 
 import rosunit
 
-PROGRAMS = ("snapshot", "timelapse", "export_dataset", "export_world", "compare_light", "evaluate_bags", "evaluate_pair",
+PROGRAMS = ("snapshot", "timelapse", "export_dataset", "atlas", "export_world", "compare_light", "evaluate_bags", "evaluate_pair",
             "evaluate_places", "evaluate_trajectory", "report", "list_parameters", "render_node",
             "evaluator_node", "sun_position_node")
 

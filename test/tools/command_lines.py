@@ -91,6 +91,20 @@ OPTIONS["evaluate_pair"] = {
     "--ratio": "> 0 … 1, default 0.5", "--inclusive": "default false", **PREPROCESSING,
     **{"--%s-%s" % (name, option): part for name, options in DETECTORS.items() if name != "surf" or name in detectors()
        for option, part in options.items()}}
+OPTIONS["atlas"] = {
+    **CAMERA, **WORLDS, **BOUNCED, **PLACE, **SENSOR, "--out": "goes on there with the same options", "--path": "CSV or TUM",
+    **{option: OPTIONS["export_dataset"][option] for option in ("--spacing", "--height", "--first", "--count", "--stride")},
+    "--from": "0 … < 24 h, default 0", "--to": "> 0 … 24 h, default 24", "--step": "30min, 2h, 90s, or minutes (default 30min)",
+    "--hours": "0 … < 24 h", "--dates": "each with all these times", "--detectors": "default sift,orb",
+    "--ratio": "> 0 … 1, default 0.5", "--inclusive": "default false", "--map-every": "0 … 1000000 m, default 5",
+    **{option: OPTIONS["evaluate_bags"][option] for option in ("--retrieval", "--retrieved", "--reprojection", "--iterations",
+                                                               "--confidence", "--min-inliers", "--seed")},
+    "--localise-ratio": "> 0 … 1, default 0.8", "--localise-inclusive": "default false", "--estimate": "and ends",
+    "--stage": "observe|compare", "--shard": "I from 1", "--merge": "puts together", "--unit-poses": "default 0",
+    "--unit-conditions": "0: all", "--slurm": "FOLDER/slurm", "--slurm-tasks": "1 … 100000, default 32",
+    "--slurm-option": "may be repeated", "--submit": "default true", "--pictures": "default true",
+    **{option: part for option, part in OPTIONS["evaluate_pair"].items()
+       if option in PREPROCESSING or any(option.startswith("--%s-" % name) for name in DETECTORS)}}
 TAKES_WORDS = {"evaluate_bags", "evaluate_pair", "export_dataset"}
 NEEDED = {program: "--out" for program in OPTIONS}  # the option that is missed first
 NEEDED["export_dataset"] = "--format"

@@ -10,6 +10,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "sunlit/quantity/field.h"
@@ -24,7 +25,8 @@ class Option {
 
   /// `form` as --help shows it: "--fov DEG", or with a part for each row "--site LAT,LON[,ELEVATION]", whose
   /// parts in brackets may be left out and are 0 then. Parts stand apart by ',', or what makes WxH or HH:MM.
-  /// Of a Choice the name is enough: its words tell what may follow.
+  /// Of a Choice the name is enough: its words tell what may follow; and of what is true or false, if nothing
+  /// follows.
   Option(const std::string& form, std::string doc, std::vector<Field> rows);
 
   Option& then(Then then);
@@ -32,6 +34,8 @@ class Option {
   Option& withoutDefault();
 
   const std::string& name() const { return name_; }  ///< with its dashes
+  /// Takes no value: that it is there sets its row, which is true or false.
+  bool isFlag() const { return form_.empty() && std::holds_alternative<bool*>(rows_[0].place); }
   const std::string& form() const { return form_; }  ///< of the value
   /// In one line: meaning, unit, range, default.
   const std::string& help() const { return help_; }

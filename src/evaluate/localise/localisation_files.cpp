@@ -20,13 +20,6 @@ bool isLocalised(const LocalisationRow& row) {
   return row.result.status == LocalisationStatus::kLocalised;
 }
 
-double medianOf(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  if (values.size() % 2 == 1) return values[half];
-  return std::isinf(values[half]) ? kInfinity : (values[half - 1] + values[half]) / 2.0;
-}
-
 /// Rows of one map, query and detector.
 LocalisationSummary summaryOf(const std::vector<const LocalisationRow*>& rows) {
   LocalisationSummary summary;
@@ -47,21 +40,12 @@ LocalisationSummary summaryOf(const std::vector<const LocalisationRow*>& rows) {
     for (const LocalisationRow* row : rows) hits.push_back(isWithin(row->result, kReaches[r]) ? 1.0 : 0.0);
     summary.within[r] = statisticsOf(hits);
   }
-  summary.median_error_m = medianOf(metres);
-  summary.median_error_deg = medianOf(degrees);
+  summary.median_error_m = medianError(metres);
+  summary.median_error_deg = medianError(degrees);
   summary.n_relative = relative.size();
   for (std::size_t a = 0; a < kAucAngles_deg.size(); ++a)
     summary.auc[a] = areaUnderRecall(relative, kAucAngles_deg[a]);
   return summary;
-}
-
-LocalisationStatus statusOf(const std::string& word) {
-  for (const LocalisationStatus status :
-       {LocalisationStatus::kLocalised, LocalisationStatus::kNoFeatures, LocalisationStatus::kNotRetrieved,
-        LocalisationStatus::kTooFewMatches, LocalisationStatus::kNoPose}) {
-    if (wordOf(status) == word) return status;
-  }
-  throw std::runtime_error("\"" + word + "\" is no status");
 }
 
 LocalisationRow rowOf(const std::vector<std::string>& fields) {
@@ -82,6 +66,15 @@ constexpr const char* kHeader = "pose,stamp,map,query,detector,error_m,error_deg
 
 }  // namespace
 
+LocalisationStatus statusOf(const std::string& word) {
+  for (const LocalisationStatus status :
+       {LocalisationStatus::kLocalised, LocalisationStatus::kNoFeatures, LocalisationStatus::kNotRetrieved,
+        LocalisationStatus::kTooFewMatches, LocalisationStatus::kNoPose}) {
+    if (wordOf(status) == word) return status;
+  }
+  throw std::runtime_error("\"" + word + "\" is no status");
+}
+
 KeyFrameOrigin originOf(const LocalisedQuery& result, const std::vector<KeyFrameOrigin>& origins) {
   return result.status == LocalisationStatus::kLocalised ? origins.at(result.key_frame) : KeyFrameOrigin{};
 }
@@ -93,6 +86,30 @@ std::string nameOf(const Reach& reach) {
 bool isWithin(const LocalisedQuery& result, const Reach& reach) {
   return result.status == LocalisationStatus::kLocalised && result.error_m <= reach.metres &&
          result.error_deg <= reach.degrees;
+}
+
+double medianError(std::vector<double> errors) {
+  std::sort(errors.begin(), errors.end());
+  const std::size_t half = errors.size() / 2;
+  if (errors.size() % 2 == 1) return errors[half];
+  return std::isinf(errors[half]) ? kInfinity : (errors[half - 1] + errors[half]) / 2.0;
+}
+
+std::string reachColumns() {
+  std::string columns;
+  for (const Reach& reach : kReaches) {
+    for (const char* part : {"", "_low", "_high"}) columns += "," + nameOf(reach) + part;
+  }
+  return columns;
+}
+
+std::string withIntervals(const std::array<Statistics, kReaches.size()>& within) {
+  std::string numbers;
+  for (const Statistics& share : within) {
+    for (const double number : {share.mean, share.ci_low, share.ci_high})
+      numbers += "," + formatNumber(number);
+  }
+  return numbers;
 }
 
 std::vector<LocalisationSummary> summariesOf(const std::vector<LocalisationRow>& rows) {
@@ -155,20 +172,13 @@ std::vector<LocalisationRow> loadLocalisation(const std::string& path) {
 }
 
 void writeLocalisationSummary(const std::string& path, const std::vector<LocalisationSummary>& summaries) {
-  std::string text = "map,query,detector,n,failures";
-  for (const Reach& reach : kReaches) {
-    for (const char* part : {"", "_low", "_high"}) text += "," + nameOf(reach) + part;
-  }
+  std::string text = "map,query,detector,n,failures" + reachColumns();
   text += ",median_error_m,median_error_deg,n_relative";
   for (const double angle : kAucAngles_deg) text += ",auc_" + sunlit::textOf(angle) + "deg";
   text += "\n";
   for (const LocalisationSummary& s : summaries) {
     text += csvField(s.map) + "," + csvField(s.query) + "," + s.detector + "," + std::to_string(s.n) + "," +
-            std::to_string(s.failures);
-    for (const Statistics& within : s.within) {
-      for (const double number : {within.mean, within.ci_low, within.ci_high})
-        text += "," + formatNumber(number);
-    }
+            std::to_string(s.failures) + withIntervals(s.within);
     text += "," + formatNumber(s.median_error_m) + "," + formatNumber(s.median_error_deg) + "," +
             std::to_string(s.n_relative);
     for (const double auc : s.auc) text += "," + formatNumber(auc);

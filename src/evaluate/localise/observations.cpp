@@ -16,9 +16,9 @@
 namespace sunlit::evaluate {
 namespace {
 
-constexpr std::uint64_t kMagic = 0x31736265746c6e73;  // "snltebs1"
+constexpr std::uint64_t kMagic = 0x32736265746c6e73;  // "snltebs2"
 constexpr std::uint64_t kHead = 2 * sizeof(std::uint64_t);
-constexpr std::uint64_t kLongestKey = 4096;  // names of streams and detectors are far shorter
+constexpr std::uint64_t kLongestHead = 4096;  // names of streams and detectors are far shorter
 
 [[noreturn]] void failWith(const std::string& path, const std::string& what) {
   throw std::runtime_error(path + ": " + what + ": " + std::strerror(errno));
@@ -91,6 +91,23 @@ ObservationKey takeKey(Reader& in) {
   return key;
 }
 
+void putHead(Writer& out, const Observation& observation) {
+  out.put(observation.camera);
+  const Eigen::Matrix4d pose = observation.map_from_optical.matrix();
+  out.put(pose.data(), sizeof(double) * 16);
+  out.put(observation.ev100);
+}
+
+ObservationHead takeHead(Reader& in) {
+  ObservationHead head;
+  head.camera = in.get<image::PinholeCamera>();
+  Eigen::Matrix4d pose;
+  in.get(pose.data(), sizeof(double) * 16);
+  head.map_from_optical.matrix() = pose;
+  head.ev100 = in.get<double>();
+  return head;
+}
+
 void putPlaces(Writer& out, const Observation& observation) {
   out.put(static_cast<std::uint64_t>(observation.features.key_points.size()));
   for (const cv::KeyPoint& key_point : observation.features.key_points) {
@@ -138,9 +155,7 @@ cv::Mat takeDescriptors(Reader& in) {
 std::string payloadOf(const ObservationKey& key, const Observation& observation) {
   Writer out;
   putKey(out, key);
-  out.put(observation.camera);
-  const Eigen::Matrix4d pose = observation.map_from_optical.matrix();
-  out.put(pose.data(), sizeof(double) * 16);
+  putHead(out, observation);
   putPlaces(out, observation);
   putDescriptors(out, observation.features.descriptors);
   return out.bytes();
@@ -172,8 +187,9 @@ bool writeAt(int descriptor, const std::string& bytes, std::uint64_t offset) {
 
 }  // namespace
 
-ObservationFile::ObservationFile(const std::string& path) : path_(path) {
-  descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+ObservationFile::ObservationFile(const std::string& path, ObservationUse use) : path_(path), use_(use) {
+  const int flags = use == ObservationUse::kGrow ? O_RDWR | O_CREAT : O_RDONLY;
+  descriptor_ = ::open(path.c_str(), flags | O_CLOEXEC, 0644);
   if (descriptor_ < 0) failWith(path, "cannot be opened");
   try {
     scan();
@@ -198,14 +214,20 @@ void ObservationFile::scan() {
           path_ + ": is not a file of observations of this version; another output folder is needed");
     if (head[1] > size - end_ - kHead) break;
     Entry entry{{}, end_, head[1]};
-    const std::string bytes = payload(entry, std::min(entry.bytes, kLongestKey));
+    const std::string bytes = payload(entry, std::min(entry.bytes, kLongestHead));
     Reader in(bytes, path_);
     entry.key = takeKey(in);
     entries_.push_back(std::move(entry));
     end_ += kHead + head[1];
   }
+  cutOff(size);
+}
+
+void ObservationFile::cutOff(std::uint64_t size) {
   torn_ = static_cast<std::size_t>(size - end_);
-  if (torn_ > 0 && ::ftruncate(descriptor_, static_cast<off_t>(end_)) != 0)
+  if (torn_ == 0) return;
+  if (use_ == ObservationUse::kRead) throw std::runtime_error(path_ + ": holds a record that is cut off");
+  if (::ftruncate(descriptor_, static_cast<off_t>(end_)) != 0)
     failWith(path_, "its torn end cannot be cut off");
 }
 
@@ -240,22 +262,32 @@ std::vector<ObservationKey> ObservationFile::keys() const {
   return keys;
 }
 
+ObservationFile::Entry ObservationFile::entryAt(std::size_t index) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return entries_.at(index);
+}
+
 Observation ObservationFile::read(std::size_t index) const {
-  const Entry entry = [&] {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return entries_.at(index);
-  }();
+  const Entry entry = entryAt(index);
   const std::string bytes = payload(entry, entry.bytes);
   Reader in(bytes, path_);
   takeKey(in);
+  const ObservationHead head = takeHead(in);
   Observation observation;
-  observation.camera = in.get<image::PinholeCamera>();
-  Eigen::Matrix4d pose;
-  in.get(pose.data(), sizeof(double) * 16);
-  observation.map_from_optical.matrix() = pose;
+  observation.camera = head.camera;
+  observation.map_from_optical = head.map_from_optical;
+  observation.ev100 = head.ev100;
   takePlaces(in, observation);
   observation.features.descriptors = takeDescriptors(in);
   return observation;
+}
+
+ObservationHead ObservationFile::head(std::size_t index) const {
+  const Entry entry = entryAt(index);
+  const std::string bytes = payload(entry, std::min(entry.bytes, kLongestHead));
+  Reader in(bytes, path_);
+  takeKey(in);
+  return takeHead(in);
 }
 
 }  // namespace sunlit::evaluate

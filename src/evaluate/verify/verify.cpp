@@ -213,9 +213,7 @@ std::vector<Field> fieldsOf(VerifyOptions& options) {
        under("preprocessing", options.preprocessings.fields())});
 }
 
-namespace {
-
-std::unique_ptr<Detector> detectorOf(const std::string& name, const VerifyOptions& options) {
+std::unique_ptr<Detector> detectorOf(const VerifyOptions& options, const std::string& name) {
   const DetectorKind kind = DetectorKind::named(name);
   std::unique_ptr<Detector> detector = options.known.at(kind.type).detector()->clone();
   if (kind.preprocessing.empty()) return detector;
@@ -223,13 +221,11 @@ std::unique_ptr<Detector> detectorOf(const std::string& name, const VerifyOption
                       options.preprocessings.at(kind.preprocessing).clone());
 }
 
-}  // namespace
-
 std::vector<Verified> verifyImages(const ImagesToVerify& images, const PointMaps& maps,
                                    const VerifyOptions& options) {
   requireFields(options);
   std::vector<std::unique_ptr<Detector>> detectors;
-  for (const std::string& name : options.detectors) detectors.push_back(detectorOf(name, options));
+  for (const std::string& name : options.detectors) detectors.push_back(detectorOf(options, name));
   const Picture pictures[] = {makePicture(images.rgb_a), makePicture(images.rgb_b)};
   std::vector<std::array<Features, 2>> features(detectors.size());
   tbb::parallel_for(std::size_t{0}, 2 * detectors.size(), [&](std::size_t task) {

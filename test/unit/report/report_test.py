@@ -15,8 +15,9 @@ SCRIPTS = os.path.join(HERE, "..", "..", "..", "scripts")
 sys.path[:0] = [HERE, SCRIPTS]
 
 import output_folder as made  # noqa: E402
-from sunlit_report import comparisons, files, findings, localisation, names, page, pictures, queries, tables  # noqa: E402
-from sunlit_report import figures, map_figure, verified, warnings  # noqa: E402
+from sunlit_report import atlas_figures, atlas_page, atlas_rows, comparisons, files, findings  # noqa: E402
+from sunlit_report import figures, localisation, map_figure, names, page, pictures, queries, tables, verified  # noqa: E402
+from sunlit_report import warnings  # noqa: E402
 from sunlit_report.csv_rows import ReportError  # noqa: E402
 
 REPORT = os.path.join(SCRIPTS, "report")
@@ -478,6 +479,82 @@ class Page(InFolder):
             self.assertEqual(done.returncode, 1)
             self.assertIn(what, done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+
+class Atlas(InFolder):
+    """Two lights, two methods; the numbers of a cell follow from its place."""
+
+    LIGHTS = ["c04,2024-07-01,04:30,60,-3.5,120.5,4.25", "c12,2024-07-01,12:00,180,57,93000,14"]
+
+    def make(self, change=lambda lines: lines):
+        lines = [atlas_rows.HEADER]
+        for method in ("sift", "orb+clahe"):
+            for a in ("c04", "c12"):
+                for b in ("c04", "c12"):
+                    share = 1.0 if a == b else 0.25 if method == "sift" else 0.0
+                    reach = f"{share},0,1"
+                    error = "0.01,0.1" if share else "inf,inf"
+                    lines.append(f"{a},{b},{method},8,2,{reach},{reach},{reach},{error},0.5,0.4,0.6,1,0.5,0.4,0.6,0,nan,nan,nan,8")
+        self.write("atlas.csv", change(lines))
+        self.write("conditions.csv", [atlas_rows.CONDITIONS, *self.LIGHTS])
+
+    def test_reads_a_matrix_with_a_map_a_row(self):
+        self.make()
+        atlas = atlas_rows.read(self.folder)
+        self.assertEqual(atlas.methods, ["sift", "orb+clahe"])
+        self.assertEqual(atlas.matrices["sift"]["within_0.5m_5deg"].tolist(), [[1, 0.25], [0.25, 1]])
+        self.assertTrue(math.isinf(atlas.matrices["orb+clahe"]["median_error_m"][0, 1]))
+        self.assertEqual(atlas.conditions.hours, [4.5, 12])
+        self.assertEqual(atlas.conditions.sun_elevation_deg.tolist(), [-3.5, 57])
+
+    def test_counts_the_lights_that_a_map_serves(self):
+        self.make(lambda lines: [line.replace("c12,c04,sift,8,2,0.25,0,1,0.25", "c12,c04,sift,8,2,0.25,0,1,0.9") for line in lines])
+        atlas = atlas_rows.read(self.folder)
+        self.assertEqual(atlas_page.served(atlas, "sift").tolist(), [1, 2])
+        self.assertEqual(atlas_page.table_rows(atlas)[0], ["SIFT", "12:00", "2", "04:30", "1", "1.5 of 2"])
+        self.assertEqual(atlas_page.table_rows(atlas)[1][0], "ORB with CLAHE")
+
+    def test_the_program_draws_pictures_and_a_page_that_needs_nothing_else(self):
+        self.make()
+        said = subprocess.run([sys.executable, REPORT, self.folder], stdout=subprocess.PIPE, text=True, check=True).stdout
+        self.assertIn("SIFT", said)
+        pictures_made = [name for name in os.listdir(self.folder) if name.endswith(".png")]
+        self.assertEqual(len(pictures_made), 1 + 2 * len(atlas_figures.METRICS))
+        self.assertIn("recall_0.5m_5deg_orb+clahe.png", pictures_made)
+        with open(os.path.join(self.folder, "report.html"), encoding="utf-8") as file:
+            page_text = file.read()
+        self.assertEqual(page_text.count('src="data:image/png;base64,'), len(pictures_made))
+        self.assertEqual(page_text.count("src="), len(pictures_made))
+        first = {}
+        for name in pictures_made:
+            with open(os.path.join(self.folder, name), "rb") as file:
+                first[name] = file.read()
+        atlas = atlas_rows.read(self.folder)
+        self.assertEqual(atlas_page.pictures(atlas), first)  # the same bytes again
+
+    def test_several_days_are_told_apart(self):
+        self.make()
+        self.write("conditions.csv", [atlas_rows.CONDITIONS, self.LIGHTS[0], self.LIGHTS[1].replace("2024-07-01", "2024-12-21")])
+        atlas = atlas_rows.read(self.folder)
+        self.assertEqual([atlas.conditions.called(i) for i in (0, 1)], ["2024-07-01", "2024-12-21"])
+        self.assertIn("2 days", atlas_page.title(atlas))
+        atlas_figures.heat_map(atlas, "sift", atlas_figures.METRICS[0])
+
+    def refused(self, *parts):
+        with self.assertRaises(ReportError) as caught:
+            atlas_rows.read(self.folder)
+        for part in parts:
+            self.assertIn(part, str(caught.exception))
+
+    def test_bad_files_are_named(self):
+        self.make(lambda lines: lines[:-1])
+        self.refused("atlas.csv: cells of orb+clahe are missing")
+        self.make(lambda lines: lines + lines[-1:])
+        self.refused("atlas.csv:10: c12 in the map of c12 by orb+clahe stands there twice")
+        self.make(lambda lines: [line.replace("c04,c12,sift", "c04,c13,sift") for line in lines])
+        self.refused("atlas.csv:3: c04 or c13 is not in conditions.csv")
+        self.make(lambda lines: [line.replace("8,2", "many,2", 1) for line in lines])
+        self.refused("atlas.csv:2: n is 'many', but must be a whole number")
 
 
 if __name__ == "__main__":

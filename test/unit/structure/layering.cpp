@@ -125,6 +125,7 @@ const std::map<std::string, Modules> kRoomsOfLight = {
 const std::map<std::string, Modules> kRoomsOfEvaluate = {
     {"comparisons", {"files", "localise", "verify"}},
     {"data_sets", {}},
+    {"atlas", {"features", "files", "localise", "verify"}},
     {"features", {}},
     {"differences", {"features"}},
     {"files", {"differences"}},

@@ -13,12 +13,6 @@
 
 namespace sunlit::evaluate {
 
-/// Of which picture a key frame was made.
-struct KeyFrameOrigin {
-  std::string stream;
-  std::int64_t pose = -1;
-};
-
 /// A query and what became of it.
 struct LocalisationRow {
   std::size_t pose = 0;
@@ -33,6 +27,9 @@ struct LocalisationRow {
 
 /// Of LocalisedQuery::key_frame; none unless localised. `origins` of all key frames of the map, one by one.
 KeyFrameOrigin originOf(const LocalisedQuery& result, const std::vector<KeyFrameOrigin>& origins);
+
+/// The other way from wordOf(). Throws std::runtime_error for another word.
+LocalisationStatus statusOf(const std::string& word);
 
 /// An image that could be used neither for the map nor as a query.
 struct LocalisationProblem {
@@ -54,6 +51,13 @@ std::string nameOf(const Reach& reach);
 /// False for a query without a pose.
 bool isWithin(const LocalisedQuery& result, const Reach& reach);
 constexpr std::array<double, 3> kAucAngles_deg = {5.0, 10.0, 20.0};
+
+/// Infinite where half of them are. One or more.
+double medianError(std::vector<double> errors);
+
+/// ",within_0.25m_2deg,within_0.25m_2deg_low,within_0.25m_2deg_high,…" of all reaches, and their values.
+std::string reachColumns();
+std::string withIntervals(const std::array<Statistics, kReaches.size()>& within);
 
 /// Queries of one stream by one detector. A query without a pose is a failure: within no reach, and its
 /// errors are infinite.

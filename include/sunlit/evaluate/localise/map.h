@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
@@ -18,6 +19,12 @@ struct KeyFrame {
   Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Vector3d> points;  ///< in `map`, m, one a descriptor
   cv::Mat descriptors;                  ///< one row each, see compactDescriptors()
+};
+
+/// Of which picture a key frame was made.
+struct KeyFrameOrigin {
+  std::string stream;
+  std::int64_t pose = -1;
 };
 
 /// Where the features of `view` lie in `map`, m, as its depth tells; NaN where it does not, as of the sky.

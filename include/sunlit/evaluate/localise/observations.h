@@ -31,14 +31,28 @@ struct Observation {
   Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
   Features features;                    ///< of key points their places and responses alone
   std::vector<Eigen::Vector3d> points;  ///< in `map`, m, one a feature, NaN where unknown; or none at all
+  double ev100 = std::numeric_limits<double>::quiet_NaN();  ///< of the picture; NaN where nobody knows
+};
+
+/// What of an observation is known without reading its features.
+struct ObservationHead {
+  image::PinholeCamera camera;
+  Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
+  double ev100 = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// What a file of observations is opened for.
+enum class ObservationUse {
+  kGrow,  ///< it is made where it does not exist, and a torn end is cut off
+  kRead   ///< it is there and whole, and stays as it is
 };
 
 /// Observations in one file that only grows, each added by one write: what a killed process left is whole but
 /// for its end, which is cut off as it is opened. Thread-safe.
 class ObservationFile {
  public:
-  /// Made where it does not exist. Throws std::runtime_error with path and reason.
-  explicit ObservationFile(const std::string& path);
+  /// Throws std::runtime_error with path and reason, of a torn end too where it is only to be read.
+  explicit ObservationFile(const std::string& path, ObservationUse use = ObservationUse::kGrow);
   ~ObservationFile();
   ObservationFile(const ObservationFile&) = delete;
   ObservationFile& operator=(const ObservationFile&) = delete;
@@ -49,6 +63,8 @@ class ObservationFile {
   std::vector<ObservationKey> keys() const;
   /// The one of keys()[index].
   Observation read(std::size_t index) const;
+  /// Of the same, for few hundred bytes of reading.
+  ObservationHead head(std::size_t index) const;
   /// Bytes that opening cut off.
   std::size_t torn() const { return torn_; }
 
@@ -59,9 +75,12 @@ class ObservationFile {
     std::uint64_t bytes = 0;   // of its payload
   };
   void scan();
+  void cutOff(std::uint64_t size);
+  Entry entryAt(std::size_t index) const;
   std::string payload(const Entry& entry, std::uint64_t beginning) const;
 
   std::string path_;
+  ObservationUse use_;
   int descriptor_ = -1;
   std::size_t torn_ = 0;
   mutable std::mutex mutex_;

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "sunlit/evaluate/localise/drive_index.h"
 #include "sunlit/evaluate/localise/localisation.h"
 #include "sunlit/evaluate/localise/localisation_files.h"
 #include "sunlit/evaluate/localise/observations.h"
@@ -26,9 +26,6 @@ struct ObservedProgress {
   std::function<void(const LocalisationRow& row)> found;  ///< by one thread at a time, in no certain order
   StopToken stop;
 };
-
-/// The number that counts of a pose, from its stamp and the number that it was observed with.
-using PoseOfStamp = std::function<std::int64_t(std::int64_t stamp_ns, std::int64_t pose)>;
 
 struct ObservedDrives {
   std::vector<const ObservationFile*> files;

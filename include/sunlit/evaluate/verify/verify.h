@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <string>
 #include <vector>
@@ -88,6 +89,9 @@ struct VerifyOptions {
 };
 
 std::vector<Field> fieldsOf(VerifyOptions& options);
+
+/// One of options.detectors with its parameters. Throws std::invalid_argument for a name that there is not.
+std::unique_ptr<Detector> detectorOf(const VerifyOptions& options, const std::string& name);
 
 /// CV_8UC3, red first; of any sizes.
 struct ImagesToVerify {

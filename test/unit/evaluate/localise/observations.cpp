@@ -63,6 +63,42 @@ TEST(ObservationFile, GivesBackWhatWasAddedToTheBit) {
   EXPECT_TRUE(file.read(2).features.descriptors.empty());
 }
 
+TEST(ObservationFile, TellsTheHeadWithoutTheRest) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("observations");
+  Observation large = observation(1.0F);
+  large.features.key_points.resize(3000);
+  large.ev100 = -1.25;
+  {
+    ObservationFile file(path);
+    file.add({"h04", "sift", 3, 500}, large);
+    file.add({"h12", "orb", 4, 600}, {});
+  }
+  const ObservationFile file(path, ObservationUse::kRead);
+  EXPECT_EQ(file.head(0).map_from_optical.matrix(), large.map_from_optical.matrix());
+  EXPECT_EQ(file.head(0).camera.fx, large.camera.fx);
+  EXPECT_EQ(file.head(0).ev100, -1.25);
+  EXPECT_EQ(file.read(0).ev100, -1.25);
+  EXPECT_TRUE(std::isnan(file.head(1).ev100));
+}
+
+TEST(ObservationFile, WhatIsOnlyReadStaysAsItIs) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("observations");
+  EXPECT_NE(messageOf<std::runtime_error>([&] {
+              ObservationFile(path, ObservationUse::kRead);
+            }).find("cannot be opened"),
+            std::string::npos);
+  { ObservationFile(path).add({"h04", "sift", 3, 500}, observation(1.0F)); }
+  const std::string torn = contentOf(path) + "torn";
+  std::ofstream(path, std::ios::binary) << torn;
+  EXPECT_NE(messageOf<std::runtime_error>([&] {
+              ObservationFile(path, ObservationUse::kRead);
+            }).find("holds a record that is cut off"),
+            std::string::npos);
+  EXPECT_EQ(contentOf(path), torn);
+}
+
 TEST(ObservationFile, IsWholeWhereverItWasTorn) {
   const TemporaryFolder folder;
   const std::string path = folder.file("observations");

@@ -1,0 +1,155 @@
+#include "sunlit/evaluate/atlas/atlas.h"
+
+#include <tbb/parallel_for.h>
+
+#include <map>
+#include <opencv2/core.hpp>
+#include <stdexcept>
+#include <tuple>
+
+#include "evaluate/features/detector_pool.h"
+
+namespace sunlit::evaluate {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1000000000;
+
+cv::Mat matOfDepth(image::DepthImage& depth) {
+  return cv::Mat(depth.height, depth.width, CV_32FC1, depth.data.data());
+}
+
+using Known = std::set<std::tuple<std::string, std::string, std::int64_t>>;  // condition, method, pose
+
+Known knownIn(const ObservationFile& file) {
+  Known known;
+  for (const ObservationKey& key : file.keys()) known.emplace(key.stream, key.detector, key.pose);
+  return known;
+}
+
+/// As few bytes as both can be told by, since that is faster and gives the same distances.
+struct DescriptorPair {
+  cv::Mat a;
+  cv::Mat b;
+};
+DescriptorPair compactBoth(const Features& a, const Features& b) {
+  DescriptorPair compact{compactDescriptors(a.descriptors), compactDescriptors(b.descriptors)};
+  if (compact.a.type() == compact.b.type()) return compact;
+  return {a.descriptors, b.descriptors};
+}
+
+}  // namespace
+
+struct AtlasObserver::Method {
+  Method(const std::string& called, const AtlasOptions& options)
+      : name(called), detector(detectorOf(options.verify, called)), pool(*detector) {}
+  std::string name;
+  std::unique_ptr<Detector> detector;
+  mutable DetectorPool pool;
+};
+
+AtlasObserver::AtlasObserver(const AtlasOptions& options) {
+  requireFields(options.verify);
+  for (const std::string& name : options.verify.detectors)
+    methods_.push_back(std::make_unique<Method>(name, options));
+}
+
+AtlasObserver::~AtlasObserver() = default;
+
+void AtlasObserver::observe(AtlasView view, ObservationFile* file) const {
+  const Known known = knownIn(*file);
+  std::vector<PosedView> seen;
+  for (AtlasView::Lit& lit : view.lit)
+    seen.push_back(
+        {makePicture(matOf(lit.picture)), view.camera, view.map_from_optical, matOfDepth(view.depth)});
+  for (const PosedView& one : seen) requireWhole(one);
+  const std::size_t methods = methods_.size();
+  std::vector<Observation> found(seen.size() * methods);
+  const auto isKnown = [&](std::size_t task) {
+    return known.count({view.lit[task / methods].condition, methods_[task % methods]->name, view.pose}) > 0;
+  };
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t task) {
+    if (isKnown(task)) return;
+    const PosedView& one = seen[task / methods];
+    Observation& observation = found[task];
+    observation.camera = view.camera;
+    observation.map_from_optical = view.map_from_optical;
+    observation.features = methods_[task % methods]->pool.detect(one.picture);
+    observation.points = pointsOf(one, observation.features);
+    observation.ev100 = view.lit[task / methods].ev100;
+  });
+  for (std::size_t task = 0; task < found.size(); ++task) {
+    if (isKnown(task)) continue;
+    file->add({view.lit[task / methods].condition, methods_[task % methods]->name, view.pose,
+               view.pose * kSecond_ns},
+              found[task]);
+  }
+}
+
+std::set<std::pair<std::string, std::int64_t>> observedWhole(const ObservationFile& file,
+                                                             std::size_t methods) {
+  std::map<std::pair<std::string, std::int64_t>, std::size_t> counts;
+  for (const auto& [condition, method, pose] : knownIn(file)) ++counts[{condition, pose}];
+  std::set<std::pair<std::string, std::int64_t>> whole;
+  for (const auto& [picture, count] : counts) {
+    if (count == methods) whole.insert(picture);
+  }
+  return whole;
+}
+
+AtlasMap::AtlasMap(const DriveIndex& observed, const AtlasOptions& options,
+                   const AtlasCellKey& of_map_and_method)
+    : observed_(observed),
+      options_(options),
+      key_(of_map_and_method),
+      norm_(detectorOf(options.verify, key_.method)->norm()),
+      drive_(observed.at(key_.map, key_.method)),
+      map_(mapOf(observed, {key_.map}, {key_.method, norm_, options.map_every_m, options.localiser})
+               .localiser) {
+  if (map_->frames().empty())
+    throw std::runtime_error(key_.map + " by " + key_.method + " has no observations to make a map of");
+}
+
+double AtlasMap::bytesOfKeyFrame() const {
+  double bytes = 0.0;
+  for (const KeyFrame& frame : map_->frames()) bytes += static_cast<double>(bytesOf(frame));
+  return bytes / static_cast<double>(map_->frames().size());
+}
+
+AtlasRow AtlasMap::rowOf(std::int64_t pose, const Observed& seen) const {
+  const Observation query = seen.read();
+  const auto partner = drive_.find(pose);
+  if (partner == drive_.end())
+    throw std::runtime_error(key_.map + " by " + key_.method + " lacks pose " + std::to_string(pose));
+  const Observation of_map = partner->second.read();
+  AtlasRow row;
+  row.pose = pose;
+  const LocalisedQuery result = map_->localise({query.features, query.camera, query.map_from_optical});
+  row.status = result.status;
+  row.error_m = result.error_m;
+  row.error_deg = result.error_deg;
+  row.inliers = result.estimate.inliers.size();
+  const DescriptorPair descriptors = compactBoth(of_map.features, query.features);
+  const BothWays nearest = twoNearestBothWays(descriptors.a, descriptors.b, norm_);
+  const Verified verified =
+      verify({of_map.features, query.features, nearest},
+             identityMaps({query.camera.width, query.camera.height}), options_.verify.ratio_test);
+  row.difference = verified.difference.value;
+  row.matching_score = verified.matching_score;
+  row.precision = verified.precision;
+  row.ev100 = query.ev100;
+  return row;
+}
+
+std::vector<AtlasRow> AtlasMap::find(const std::string& query) const {
+  const ObservedDrive& drive = observed_.at(query, key_.method);
+  if (drive.size() != drive_.size())
+    throw std::runtime_error(query + " by " + key_.method + " has " + std::to_string(drive.size()) +
+                             " poses, but " + key_.map + " " + std::to_string(drive_.size()));
+  const std::vector<ObservedDrive::value_type> queries(drive.begin(), drive.end());
+  std::vector<AtlasRow> rows(queries.size());
+  tbb::parallel_for(std::size_t{0}, queries.size(),
+                    [&](std::size_t i) { rows[i] = rowOf(queries[i].first, queries[i].second); });
+  return rows;
+}
+
+}  // namespace sunlit::evaluate
