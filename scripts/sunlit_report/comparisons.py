@@ -2,15 +2,17 @@
 
 import math
 
+import numpy as np
+
 from . import names
-from .comparison_rows import SIGNIFICANT
 from .tables import MISSING
 
-SHOWN = 40  # rows of each family, the surest first
+SHOWN = 40  # rows
 METRICS = {"d": "D", "matching_score_3px": "matching score", "precision_3px": "precision",
            "within_0.25m_2deg": "within 0.25 m, 2°", "within_0.5m_5deg": "within 0.5 m, 5°",
            "within_5m_10deg": "within 5 m, 10°", "error_m": "error / m"}
 TABLE_HEADER = ["metric", "of", "a", "b", "n", "left out", "mean a − b", "95 % interval", "p", "p (Holm)"]
+COUNTS_HEADER = ["between", "metric", "compared", "more than chance", "n", "undefined", "failed", "least p (Holm)"]
 
 
 def _hours(name, pairs):
@@ -42,20 +44,44 @@ def _row(row, pairs):
             f"[{row.low:+.3f}, {row.high:+.3f}]" if has_interval else MISSING, _p(row.p), _p(row.p_holm)]
 
 
-def families(output):
-    """What there is to say of each family: its title, how many of how many are significant by metric, and its rows as text,
-    (cells, is significant), the surest first within a metric."""
-    found = []
-    for family, title in (("methods", "Between methods, at the same hours"), ("hours", "Between hours, by the same method")):
-        of_family = [row for row in output.comparisons if row.family == family]
-        if not of_family:
-            continue
-        metrics = list(dict.fromkeys(row.metric for row in of_family))
-        ordered = sorted(of_family, key=lambda row: (math.isnan(row.p_holm), row.p_holm if row.p_holm < SIGNIFICANT else 1.0,
-                                                     metrics.index(row.metric)))
-        shown = sorted(ordered[:SHOWN], key=lambda row: metrics.index(row.metric))
-        counts = [(METRICS.get(metric, metric), sum(row.is_significant for row in of_family if row.metric == metric),
-                   sum(row.metric == metric for row in of_family)) for metric in metrics]
-        found.append({"family": family, "title": title, "counts": counts, "all": len(of_family),
-                      "rows": [(_row(row, output.all_pairs), row.is_significant) for row in shown]})
-    return found
+FAMILIES = ("methods", "hours")
+DRAWN_P = 1e-5  # the least of drawn signs
+
+
+def _least_p(row):
+    """That the signs of its blocks can have."""
+    blocks = -(-row.n // row.block_length) if row.block_length else 0
+    return max(2.0 ** (1 - blocks), DRAWN_P) if blocks else math.nan
+
+
+def _between(counts):
+    low, high = min(counts), max(counts)
+    return str(low) if low == high else f"{low} to {high}"
+
+
+def counts(output):
+    """(family, metric, rows) of all that was compared."""
+    groups = {}
+    for row in output.comparisons:
+        groups.setdefault((row.family, row.metric), []).append(row)
+    return [(family, METRICS.get(metric, metric), groups[family, metric])
+            for family in FAMILIES for metric in dict.fromkeys(metric for of, metric in groups if of == family)]
+
+
+def count_rows(output):
+    """Of text, in the order of COUNTS_HEADER. Where even the least p is no less than 5 % the path is too short to tell."""
+    rows = []
+    for family, metric, group in counts(output):
+        least = np.nanmin([_least_p(row) for row in group]) if any(row.block_length for row in group) else math.nan
+        tested = sum(not math.isnan(row.p) for row in group)
+        rows.append([family, metric, str(len(group)), str(sum(row.is_significant for row in group)),
+                     _between([row.n for row in group]), _between([row.undefined for row in group]),
+                     _between([row.failed for row in group]), _p(min(1.0, tested * least))])
+    return rows
+
+
+def significant_rows(output):
+    """Of text, in the order of TABLE_HEADER: of each family and metric the surest, up to SHOWN in all, and how many there are."""
+    found = [row for _, _, group in counts(output) for row in sorted(group, key=lambda row: row.p_holm) if row.is_significant]
+    shown = sorted(found, key=lambda row: row.p_holm)[:SHOWN]
+    return [_row(row, output.all_pairs) for row in found if row in shown], len(found)

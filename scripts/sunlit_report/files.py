@@ -9,7 +9,7 @@ import re
 import numpy as np
 import yaml
 
-from . import comparison_rows, queries, verified_rows
+from . import comparison_rows, lost, queries, verified_rows
 from .csv_rows import ReportError, number, optional_whole, rows, whole
 
 DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "brisk", "orb"]
@@ -66,6 +66,7 @@ class Output:
     folder: str
     series: dict
     queries: dict  # of localisation: (map, query, detector) -> Queries
+    positions: dict  # (map, query, detector) -> Positions
     shares: dict  # (map, query, detector) -> 95 % intervals of its shares
     comparisons: list  # of Comparison
     summary: dict
@@ -80,6 +81,7 @@ class Output:
     images: dict  # condition -> {pose: file}
     verified: verified_rows.Verified
     matches: dict  # drawn, a-b/detector -> {pose: file}
+    lost: dict  # (a, b, detector) -> lost.Lost
     problems: list
     timing: list
 
@@ -149,6 +151,8 @@ def read_output(folder):
         images=find_images(os.path.join(folder, "images")),
         verified=verified_rows.read(folder),
         matches=find_images(os.path.join(folder, "matches")),
+        lost=lost.read(os.path.join(folder, "lost_features.csv")),
+        positions=queries.read_positions(os.path.join(folder, "localisation_poses.csv")),
         problems=list(rows(os.path.join(folder, "problems.csv"), PROBLEMS, {"pose": optional_whole})),
         timing=[row for file in sorted(glob.glob(os.path.join(glob.escape(folder), "timing*.csv")))
                 for row in rows(file, TIMING, {"count": whole, "seconds": number})],

@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from . import names
-from .figures import STYLE, colour_of, grid_of, panels_over_path, svg
+from .figures import STYLE, colour_of, grid_of, legend_above, panels_over_path, svg
 from .queries import WITHIN
 
 USABLE_WITHIN = WITHIN[1]  # what a band is green by
@@ -139,6 +139,60 @@ def errors_along_path(output, shown_pairs):
     return panels_over_path(output, queries.values(), detectors(queries), draw)
 
 
+def _pair_of(output, map_name, query, detector):
+    """D of a query and the map, either way round; None where they were not compared."""
+    return next((output.summary[a, b, detector] for a, b in ((query, map_name), (map_name, query))
+                 if (a, b, detector) in output.summary), None)
+
+
+def _elevation_of(output, stream):
+    capture = output.captures.get(stream)
+    return math.nan if capture is None else float(np.nanmedian(capture["sun_elevation_deg"]))
+
+
+def judged_twice(output):
+    """{(map, detector): [(elevation, query, share within reach and its interval, summary of D)]}, by rising elevation, of those
+    that have all of it."""
+    found = {}
+    for (map_name, query, detector), one in output.queries.items():
+        elevation, difference = _elevation_of(output, query), _pair_of(output, map_name, query, detector)
+        if difference is None or math.isnan(elevation) or math.isnan(difference.mean):
+            continue
+        share = one.share_within(*USABLE_WITHIN)
+        interval = output.shares.get((map_name, query, detector), [(math.nan, math.nan)] * 2)[WITHIN.index(USABLE_WITHIN)]
+        found.setdefault((map_name, detector), []).append((elevation, query, (share, *interval), difference))
+    return {key: sorted(values, key=lambda value: value[:2]) for key, values in found.items()}
+
+
+def over_elevation(output):
+    """What localisation says and what D says, over the elevation of the sun: the shaded gap is where they disagree."""
+    judged = judged_twice(output)
+    with plt.rc_context(STYLE):
+        figure, axes = grid_of(len(judged), min(len(judged), 2), (4.6, 2.5))
+        for axis, ((map_name, detector), values) in zip(axes, judged.items()):
+            _draw_judged(axis, values)
+            axis.set_title(f"{names.difference(detector)}, map of {names.condition(map_name)}")
+            axis.set_xlabel("elevation of the sun / °")
+            axis.set_ylim(-0.02, 1.08)
+        legend_above(figure, axes)
+        return svg(figure)
+
+
+def _draw_judged(axis, values):
+    x = np.array([value[0] for value in values])
+    recall = np.array([value[2] for value in values])
+    matched = 1.0 - np.array([(value[3].mean, value[3].ci_high, value[3].ci_low) for value in values])
+    axis.fill_between(x, matched[:, 0], recall[:, 0], color="#888888", alpha=0.15, linewidth=0, label="where they disagree")
+    for series, colour, style, label in ((recall, USABLE, "o-", "queries found within 0.5 m, 5°"),
+                                         (matched, "#0072B2", "s--", "features matched, 1 − D")):
+        axis.plot(x, series[:, 0], style, color=colour, markersize=3.5, linewidth=1.2, label=label)
+        axis.vlines(x, series[:, 1], series[:, 2], color=colour, linewidth=1)
+    for elevation, query, (share, *_), difference in values:
+        axis.annotate(names.condition(query), (elevation, max(share, 1.0 - difference.mean)), textcoords="offset points",
+                      xytext=(4, 4), ha="left", fontsize=6.5)
+    axis.margins(x=0.12)
+
+
 def _draw_errors(axis, to_x, found, colour, label):
     x = to_x(found.pose)
     # A logarithmic axis has no place for 0, which a query that equals its key frame can reach.
@@ -160,7 +214,7 @@ def _shares(found, intervals):
     shares = [f"{100 * found.share_within(*bound):.0f}" for bound in WITHIN]
     if not intervals:
         return shares
-    return [f"{share}\u00a0[{100 * low:.0f},\u00a0{100 * high:.0f}]" if low <= high else share
+    return [f"{share}\u00a0[{100 * max(low, 0.0):.0f},\u00a0{100 * high:.0f}]" if low <= high else share
             for share, (low, high) in zip(shares, intervals)]
 
 

@@ -7,11 +7,16 @@ import numpy as np
 from matplotlib import patheffects
 from PIL import Image
 
-from . import names
+from . import names, pictures
 from .csv_rows import ReportError
-from .figures import STYLE, colour_of, distance_along, svg
+from .figures import STYLE, distance_along, grid_of, legend_above, svg
+from .localisation import LOST, USABLE
+from .queries import WITHIN
 
 LARGEST_SIDE = 1400  # px of the picture of the world
+SHOWN_HOURS = 6
+NEAR_M = WITHIN[1][0]
+PARTLY_DARK = "#D98C00"  # a line in the colour of partly usable hours would hardly be seen
 HALO = [patheffects.withStroke(linewidth=2.5, foreground="white")]
 
 
@@ -36,13 +41,63 @@ def path_on_map(output):
         return svg(figure)
 
 
-def _picture(file):
+def found_on_map(output):
+    """Where the queries of each hour were found, a panel for each hour and method: SVG text, and the hours shown."""
+    hours = list(dict.fromkeys(key[:2] for key in output.positions))
+    shown = pictures.evenly_spread(hours, SHOWN_HOURS)
+    keys = [key for pair in shown for key in output.positions if key[:2] == pair]
+    columns = min(len(keys), max(1, len({key[2] for key in output.positions if key[:2] in shown})), 3)
+    truth = np.concatenate([one.truth for one in output.positions.values()])
+    with plt.rc_context({**STYLE, "axes.grid": False}):
+        left, right, bottom, top = _around(truth)
+        shape = np.clip((top - bottom) / (right - left), 0.3, 1.2)
+        width = 9.2 / max(columns, 2)
+        figure, axes = grid_of(len(keys), columns, (width, width * shape + 0.35))
+        picture = _picture(output.map_picture, 500) if output.map_picture and output.map_extent else None
+        for axis, key in zip(axes, keys):
+            if picture is not None:
+                axis.imshow(255 - (255 - picture) // 3, extent=_extent(output, *truth.T), interpolation="none")
+            _draw_found(axis, output.positions[key])
+            axis.set_xlim(left, right)
+            axis.set_ylim(bottom, top)
+            axis.set_aspect("equal")
+            axis.set_title(f"{names.condition(key[1])} in the map of {names.condition(key[0])}, {names.difference(key[2])}")
+            axis.tick_params(labelsize=6)
+        legend_above(figure, axes)
+        return svg(figure), len(shown), len(hours)
+
+
+def _around(places):
+    low, high = places.min(axis=0), places.max(axis=0)
+    margin = 0.08 * max(*(high - low), 10.0)
+    # At least a third as wide as high and the other way round, so that a straight path is no line.
+    least = max(high - low) / 3
+    grown = np.maximum(least - (high - low), 0) / 2 + margin
+    return low[0] - grown[0], high[0] + grown[0], low[1] - grown[1], high[1] + grown[1]
+
+
+def _draw_found(axis, positions):
+    truth, found = positions.truth, positions.found
+    error = np.hypot(*(found - truth).T)
+    lost = np.isnan(error)
+    near = error <= NEAR_M
+    axis.plot(*truth.T, color="#777777", linewidth=0.7, label="true path", zorder=1)
+    far = ~lost & ~near
+    for index, (true, estimate) in enumerate(zip(truth[far], found[far])):
+        axis.plot(*np.array([true, estimate]).T, color=PARTLY_DARK, linewidth=0.6, zorder=2,
+                  label="from the truth to an estimate further off" if index == 0 else None)
+    axis.plot(*found[far].T, ".", color=PARTLY_DARK, markersize=3, zorder=3)
+    axis.plot(*found[near].T, ".", color=USABLE, markersize=3, label=f"found within {NEAR_M:g} m", zorder=4)
+    axis.plot(*truth[lost].T, "x", color=LOST, markersize=4, markeredgewidth=0.9, label="no pose found, at the true place", zorder=5)
+
+
+def _picture(file, largest_side=LARGEST_SIDE):
     try:
         with Image.open(file) as image:
             picture = image.convert("RGB")
     except OSError as error:
         raise ReportError(f"{file}: cannot be read as a picture: {error}") from None
-    picture.thumbnail((LARGEST_SIDE, LARGEST_SIDE), Image.LANCZOS)
+    picture.thumbnail((largest_side, largest_side), Image.LANCZOS)
     return np.asarray(picture)
 
 

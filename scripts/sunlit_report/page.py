@@ -4,7 +4,7 @@ import os
 
 import jinja2
 
-from . import comparisons, figures, localisation, map_figure, names, paper, pictures, tables, verified, warnings
+from . import comparison_rows, comparisons, figures, localisation, lost, map_figure, names, paper, pictures, tables, verified, warnings
 from . import findings as judge
 
 SHOWN_PROBLEMS = 100
@@ -16,6 +16,7 @@ def render(output, findings):
     """HTML text with everything in it."""
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    significant, significant_count = comparisons.significant_rows(output)
     return environment.get_template("report.html").render(
         output=output, findings=findings, verdict_of_all=judge.verdict_of_all(findings), citation=paper.CITATION,
         title=title(output), facts=facts(output), warnings=warnings.warnings(output), verdict_class=_verdict_class,
@@ -24,8 +25,9 @@ def render(output, findings):
         shown_problems=output.problems[:SHOWN_PROBLEMS], counters=tables.counters(output.run),
         settings=settings(output), versions=tables.flattened(tables.mapping(output.run, "versions")),
         grid=pictures.grid(output), smoothed_over=figures.SMOOTHED_OVER,
-        comparisons=comparisons.families(output), comparisons_header=comparisons.TABLE_HEADER,
-        significant=comparisons.SIGNIFICANT,
+        comparison_counts=comparisons.count_rows(output), counts_header=comparisons.COUNTS_HEADER,
+        comparisons=significant, significant_count=significant_count, comparisons_header=comparisons.TABLE_HEADER,
+        significant=comparison_rows.SIGNIFICANT,
         localised=localisation.table_rows(output), localised_header=localisation.TABLE_HEADER,
         **matches(output), **plots(output))
 
@@ -54,8 +56,19 @@ def plots(output):
         "along_path": [pictures.svg_uri(figures.along_path(output, few))
                        for few in tables.chunks(pairs, PAIRS_PER_PLOT)],
         "boxes": pictures.svg_uri(figures.boxes(output, pairs)) if pairs else None,
+        "over_elevation": pictures.svg_uri(localisation.over_elevation(output)) if localisation.judged_twice(output) else None,
+        "found_on_map": _found_on_map(output),
+        "lost": pictures.svg_uri(lost.heat_maps(output)) if output.lost else None,
+        "lost_rows": lost.table_rows(output), "lost_header": lost.TABLE_HEADER, "least_features": lost.LEAST_FEATURES,
         "map": pictures.svg_uri(map_figure.path_on_map(output)) if output.path else None,
     }
+
+
+def _found_on_map(output):
+    if not output.positions:
+        return None
+    picture, shown, hours = map_figure.found_on_map(output)
+    return pictures.svg_uri(picture), shown, hours
 
 
 def title(output):

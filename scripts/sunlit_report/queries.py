@@ -12,6 +12,8 @@ SUMMARY = ("map,query,detector,n,failures," + ",".join(f"{name},{name}_low,{name
            + ",median_error_m,median_error_deg,n_relative,auc_5deg,auc_10deg,auc_20deg")
 HEADER = "pose,stamp,map,query,detector,error_m,error_deg,inliers,retrieved,status"
 
+POSITIONS = "pose,stamp,map,query,detector,x,y,z,qx,qy,qz,qw,true_x,true_y,true_z"
+
 
 @dataclasses.dataclass
 class Queries:
@@ -43,6 +45,24 @@ def read(path):
                 f"{path}:{line}: pose {row['pose']} of {', '.join(key)} was given on line {first} already")
         collected.setdefault(key, []).append((row["pose"], row["error_m"], row["error_deg"], row["inliers"]))
     return {key: Queries(*(np.array(column) for column in zip(*sorted(values)))) for key, values in collected.items()}
+
+
+@dataclasses.dataclass
+class Positions:
+    """Where queries were found and where they were, x and y in columns; NaN where they were not found."""
+
+    found: np.ndarray
+    truth: np.ndarray
+
+
+def read_positions(path):
+    """{(map, query, detector): Positions}, by rising pose; empty where there is no file."""
+    collected = {}
+    for row in rows(path, POSITIONS, {"pose": whole, **{name: number for name in POSITIONS.split(",")[5:]}}):
+        collected.setdefault((row["map"], row["query"], row["detector"]), []).append(
+            (row["pose"], row["x"], row["y"], row["true_x"], row["true_y"]))
+    found = {key: np.array(sorted(values)) for key, values in collected.items()}
+    return {key: Positions(values[:, 1:3], values[:, 3:5]) for key, values in found.items()}
 
 
 def read_intervals(path):

@@ -51,11 +51,21 @@ def _table(output, pairs, shown, paper_pair):
             "paper_e": [shown(value[0]) if value else "" for value in theirs],
             "paper_s": [shown(value[1]) if value else "" for value in theirs],
         })
+    table["rests_on"] = _rests_on([output.summary[a, b, difference] for difference in output.differences for a, b in pairs
+                                   if (a, b, difference) in output.summary])
     table["has_paper"] = any(any(row["paper_e"]) for row in table["rows"])
     # The interval of a self-test, of values that are 0 but for a few, says nothing.
     is_self_test = any(files.is_self_test(*pair) for pair in pairs)
     table["has_interval"] = not is_self_test and any(any(row["ci"]) for row in table["rows"])
     return table
+
+
+def _rests_on(summaries):
+    """'Of 991 poses each; 3 values are undefined.'"""
+    n = sorted({row.n + row.undefined for row in summaries})
+    undefined = sum(row.undefined for row in summaries)
+    poses = f"{n[0]}" if len(n) == 1 else f"{n[0]} to {n[-1]}"
+    return f"Of {poses} poses each; " + (f"{undefined} undefined values are left out." if undefined else "no value is undefined.")
 
 
 def counts(output):

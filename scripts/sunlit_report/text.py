@@ -36,9 +36,8 @@ def whole(output, findings):
     if output.verified.means:
         parts += ["Are the matches right? Means along the path",
                   aligned(verified.TABLE_HEADER, [cells for cells, _, _ in verified.table_rows(output)])]
-    for family in comparisons.families(output):
-        counts = ", ".join(f"{metric} {found} of {all_of}" for metric, found, all_of in family["counts"])
-        parts.append(f"More than chance (Holm, 5 %) between {family['family']}: {counts}")
+    if output.comparisons:
+        parts += ["Differences that are more than chance (Holm, 5 %)", aligned(comparisons.COUNTS_HEADER, comparisons.count_rows(output))]
     self_tables = tables.self_tables(output)
     if self_tables:
         parts += ["Each hour against itself (two independent renderings)"] + [_of_table(table) for table in self_tables]

@@ -14,7 +14,8 @@ COLUMNS = [("precision_3px", "precision"), ("recall_3px", "recall"), ("average_p
            ("matching_score_3px", "matching score"), ("mma_3px", "MMA@3 px"), ("repeatability", "repeatability"),
            ("d", "D")]
 TABLE_HEADER = ["pair", "detector", "poses"] + [name for _, name in COLUMNS]
-DRAWN_WIDTH = 1280  # px on the page, of two pictures side by side
+DRAWN_WIDTH = 960  # px on the page, of two pictures side by side
+PAIRS_DRAWN = 3  # of more only the extremes of all are shown
 
 
 def pairs(output):
@@ -72,19 +73,36 @@ def accuracy(output):
         return svg(figure)
 
 
+def _extreme(right, files, sign):
+    """The pose with the fewest (sign 1) or most (-1) right matches of all, the lowest of equals, and whether it is drawn; of those
+    drawn where it is not. None without any."""
+    ranked = sorted((sign * count, pose) for pose, count in right.items())
+    drawn_ones = [pose for _, pose in ranked if pose in files]
+    return (drawn_ones[0], drawn_ones[0] == ranked[0][1]) if drawn_ones else None
+
+
 def drawn(output):
-    """Of each detector the poses with the fewest and the most right matches, of those that were drawn: (caption, picture)."""
+    """Of each detector the poses with the fewest and the most right matches: of each pair where these are few, else of all pairs
+    together. Rows of one or two (caption, picture)."""
     shown = []
     for detector in output.verified.detectors:
         found = []
         for a, b in pairs(output):
             files = output.matches.get(f"{a}-{b}/{detector}", {})
             right = output.verified.poses.get((a, b, detector), {})
-            found += [(right[pose], a, b, pose, files[pose]) for pose in sorted(files) if pose in right]
-        for word, one in (("Fewest", min(found, default=None)), ("Most", max(found, default=None))):
-            if one is None or (word == "Most" and len(found) == 1):
-                continue
-            count, a, b, pose, file = one
-            shown.append((f"{word} right matches of {names.difference(detector)}: {count}, {names.pair(a, b)}, pose {pose}.",
-                          pictures.embedded(file, DRAWN_WIDTH)))
+            extremes = {one: sign for sign in (-1, 1) if (one := _extreme(right, files, sign))}
+            found.append([(right[pose], names.pair(a, b), pose, is_of_all, files[pose], sign)
+                          for (pose, is_of_all), sign in sorted(extremes.items(), key=lambda item: -item[1])])
+        found = [row for row in found if row]
+        if len(found) > PAIRS_DRAWN:
+            ends = [one for row in found for one in row]
+            found = [[min(one for one in ends if one[-1] > 0), max(one for one in ends if one[-1] < 0)]]
+        shown += [[_captioned(detector, one) for one in row] for row in found]
     return shown
+
+
+def _captioned(detector, one):
+    count, pair, pose, is_of_all, file, sign = one
+    scope = "" if is_of_all else " of the poses drawn"
+    return (f"{'Fewest' if sign > 0 else 'Most'} right matches of {names.difference(detector)}{scope}: {count}, {pair}, pose {pose}.",
+            pictures.embedded(file, DRAWN_WIDTH))

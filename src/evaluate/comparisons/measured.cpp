@@ -6,16 +6,13 @@
 #include <tuple>
 
 #include "evaluate/verify/measures.h"
+#include "sunlit/evaluate/files/stream_name.h"
 
 namespace sunlit::evaluate {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const char* const kVerifiedMetrics[] = {"matching_score_3px", "precision_3px"};
-
-bool isSelfTest(const std::pair<std::string, std::string>& pair) {
-  return pair.second == pair.first || pair.second == "self_test/" + pair.first;
-}
 
 /// One series for each pair and name, of what `of` makes of its values.
 template <typename Value, typename Of>
@@ -36,7 +33,8 @@ std::vector<Measured> seriesOf(const FramesLayout& layout, const std::vector<Pai
   }
   std::vector<Measured> kept;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!isSelfTest(layout.pairs[i / names])) kept.push_back(std::move(all[i]));
+    const auto& [a, b] = layout.pairs[i / names];
+    if (!isSelfTest(a, b)) kept.push_back(std::move(all[i]));
   }
   return kept;
 }

@@ -1,5 +1,6 @@
 #include "evaluate/files/picture_writer.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
@@ -48,7 +49,8 @@ bool PictureWriter::claim(const std::string& stream, std::int64_t pose, std::int
 
 bool PictureWriter::isClaimedBy(const std::string& stream, std::int64_t pose, std::int64_t stamp_ns) {
   const std::lock_guard<std::mutex> lock(stamps_mutex_);
-  return stamps_.at({stream, pose}) == stamp_ns;
+  const auto found = stamps_.find({stream, pose});
+  return found != stamps_.end() && found->second == stamp_ns;
 }
 
 void PictureWriter::write(const std::string& stream, std::int64_t pose, std::int64_t stamp_ns,
@@ -60,6 +62,25 @@ void PictureWriter::write(const std::string& stream, std::int64_t pose, std::int
   if (!isClaimedBy(stream, pose, stamp_ns)) return;
   makeFolderOf(path);
   image::writeFileAtomically(path, png);
+}
+
+void PictureWriter::remove(const std::string& stream, std::int64_t pose) {
+  const std::lock_guard<std::mutex> one_at_a_time(files_mutex_);
+  const std::lock_guard<std::mutex> lock(stamps_mutex_);
+  stamps_.erase({stream, pose});
+  std::filesystem::remove(pathOf(stream, pose));
+}
+
+std::vector<std::int64_t> PictureWriter::posesOf(const std::string& stream) const {
+  std::vector<std::int64_t> poses;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ + "/" + stream, none)) {
+    const std::string name = entry.path().stem().string();
+    const bool is_number = !name.empty() && name.find_first_not_of("0123456789") == std::string::npos;
+    if (is_number && entry.path().extension() == ".png") poses.push_back(std::stoll(name));
+  }
+  std::sort(poses.begin(), poses.end());
+  return poses;
 }
 
 void PictureWriter::finish(const std::function<std::int64_t(std::int64_t, std::int64_t)>& settled_pose) {

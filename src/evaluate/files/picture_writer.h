@@ -8,6 +8,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace sunlit::evaluate {
 
@@ -21,6 +22,10 @@ class PictureWriter {
   /// Returns when the file is on the disk; nothing is written where another stamp made the claim since.
   /// Throws std::runtime_error naming the file.
   void write(const std::string& stream, std::int64_t pose, std::int64_t stamp_ns, const cv::Mat& rgb);
+  /// Removes a picture, where it is there.
+  void remove(const std::string& stream, std::int64_t pose);
+  /// Poses of which a stream has a picture.
+  std::vector<std::int64_t> posesOf(const std::string& stream) const;
   /// Gives pictures their final number.
   void finish(const std::function<std::int64_t(std::int64_t stamp_ns, std::int64_t pose)>& settled_pose);
 

@@ -34,4 +34,8 @@ void requireStreamName(const std::string& name, const std::string& called) {
       "front");
 }
 
+bool isSelfTest(const std::string& a, const std::string& b) {
+  return b == a || b == "self_test/" + a;
+}
+
 }  // namespace sunlit::evaluate

@@ -8,6 +8,7 @@
 #include "evaluate/files/files.h"
 #include "evaluate/files/pair_rows.h"
 #include "sunlit/image/files.h"
+#include "sunlit/quantity/frames.h"
 #include "sunlit/quantity/range.h"
 
 namespace sunlit::evaluate {
@@ -154,6 +155,23 @@ void writeLocalisation(const std::string& path, const std::vector<LocalisationRo
             csvField(row.query) + "," + row.detector + "," + formatNumber(result.error_m) + "," +
             formatNumber(result.error_deg) + "," + std::to_string(result.estimate.inliers.size()) + "," +
             std::to_string(result.retrieved) + "," + wordOf(result.status) + "\n";
+  }
+  image::writeFileAtomically(path, text);
+}
+
+void writeLocalisationPoses(const std::string& path, const std::vector<LocalisationRow>& rows) {
+  std::string text = "pose,stamp,map,query,detector,x,y,z,qx,qy,qz,qw,true_x,true_y,true_z\n";
+  for (const LocalisationRow& row : rows) {
+    text += std::to_string(row.pose) + "," + formatStamp(row.stamp_ns) + "," + csvField(row.map) + "," +
+            csvField(row.query) + "," + row.detector;
+    const Eigen::Isometry3d link = row.result.estimate.map_from_optical * linkFromOptical().inverse();
+    const Eigen::Quaterniond turned(link.rotation());
+    const bool is_localised = isLocalised(row);
+    for (const double number : {link.translation().x(), link.translation().y(), link.translation().z(),
+                                turned.x(), turned.y(), turned.z(), turned.w()})
+      text += "," + (is_localised ? formatNumber(number) : "nan");
+    for (const double number : row.truth.translation()) text += "," + formatNumber(number);
+    text += "\n";
   }
   image::writeFileAtomically(path, text);
 }

@@ -1,4 +1,5 @@
 // How an evaluation ends: with everything accounted for and all files written.
+#include <chrono>
 #include <filesystem>
 
 #include "evaluate/run/evaluation_state.h"
@@ -6,6 +7,11 @@
 #include "sunlit/evaluate/comparisons/comparisons.h"
 
 namespace sunlit::evaluate {
+namespace {
+
+constexpr std::chrono::seconds kSummingAtMost{3};
+
+}  // namespace
 
 Outcome Evaluation::State::finish(Ending ending) {
   {
@@ -20,6 +26,7 @@ Outcome Evaluation::State::finish(Ending ending) {
   outcome.counts = counts();
   outcome.absent_poses = nameAbsentPoses();
   settleAndWrite(outcome);
+  if (outcome.isWhole()) forgetLostFeatures();
   return outcome;
 }
 
@@ -68,18 +75,37 @@ void Evaluation::State::settleAndWrite(Outcome& outcome) {
   const auto settled = [this](std::int64_t stamp, std::int64_t pose) { return poses_.settled(stamp, pose); };
   if (pictures_) pictures_->finish(settled);
   if (drawn_) drawn_->finish(settled);
+  keepFinalDrawn();
   frames_file_.close();
   verified_file_.close();
   writeRecords();
+  writeLostFeatures();
   outcome.summary = summarise(layout_, records_);
   writeSummary(file("summary.csv"), outcome.summary);
-  if (isVerifying()) {
-    outcome.verified = summariseVerified(verified_layout_, verified_);
-    writeVerifiedSummary(file("verified_summary.csv"), outcome.verified);
-  }
+  if (isVerifying()) outcome.verified = writeVerifiedSummaries();
   record_files_->finish(options_.streams, poses_);
   problems_->finish(poses_, [&](const Problem& problem) { return isMended(problem, evaluated); });
   writeRunFile(file("run.yaml"), options_, &outcome);
+}
+
+// Of a run that is broken off, with hundreds of pairs, intervals may take longer than the patience of whoever
+// broke it off.
+std::vector<VerifiedSummaryRow> Evaluation::State::writeVerifiedSummaries() const {
+  const std::string path = file("verified_summary.csv");
+  const auto latest = std::chrono::steady_clock::now() + kSummingAtMost;
+  const StopToken stop([&] { return is_broken_off_ && std::chrono::steady_clock::now() > latest; });
+  try {
+    const std::vector<VerifiedSummaryRow> rows = summariseVerified(verified_layout_, verified_, stop);
+    writeVerifiedSummary(path, rows);
+    return rows;
+  } catch (const Stopped&) {
+    std::filesystem::remove(path);  // of an earlier end, and of fewer poses
+    if (callbacks_.note)
+      callbacks_.note(path +
+                      ": left out, since its intervals take longer than a run that is broken off has; "
+                      "the same run again writes it");
+    return {};
+  }
 }
 
 void Evaluation::State::compareMethods(const StopToken& stop) {

@@ -116,6 +116,7 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   localised_ = measuredOf(result.rows);
   outcome.summary = summariesOf(result.rows);
   writeLocalisation(file(kRows), result.rows);
+  writeLocalisationPoses(file("localisation_poses.csv"), result.rows);
   writeLocalisationSummary(file("localisation_summary.csv"), outcome.summary);
   if (outcome.unobserved == 0 && isWholeAlone()) std::filesystem::remove(file(kObservations));
   return outcome;

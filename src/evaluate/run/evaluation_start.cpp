@@ -172,6 +172,7 @@ void Evaluation::State::settleTakenUp() {
 
 void Evaluation::State::takeUpEarlierRuns() {
   record_files_ = std::make_unique<RecordFiles>(options_.output_dir, poses_);
+  mendLostFile(file(kLostFile));
   std::size_t dropped_lines = takeUp(options_.output_dir);
   for (const std::string& folder : options_.merge) {
     if (!std::filesystem::exists(folder + "/run.yaml")) {
@@ -181,6 +182,7 @@ void Evaluation::State::takeUpEarlierRuns() {
     dropped_lines += takeUp(folder);
   }
   settleTakenUp();
+  rankAll();
   for (const PairRecord& record : records_) {
     bool is_whole = true;
     for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
@@ -190,7 +192,10 @@ void Evaluation::State::takeUpEarlierRuns() {
   }
   if (dropped_lines > 0 || !options_.merge.empty()) writeRecords();
   frames_file_.open(file("frames.csv"), framesHeader());
-  if (isVerifying()) verified_file_.open(file("verified.csv"), verifiedHeader());
+  if (isVerifying()) {
+    verified_file_.open(file("verified.csv"), verifiedHeader());
+    lost_file_.open(file(kLostFile), lostFileHeader());
+  }
   if (!callbacks_.note || (records_.empty() && dropped_lines == 0)) return;
   std::string line = options_.output_dir + " holds " + std::to_string(records_.size()) +
                      " evaluated pairs of " + std::to_string(completed_.size()) +

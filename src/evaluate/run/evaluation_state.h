@@ -14,6 +14,7 @@
 
 #include "evaluate/files/files.h"
 #include "evaluate/files/picture_writer.h"
+#include "evaluate/run/extreme_poses.h"
 #include "evaluate/run/observer.h"
 #include "evaluate/run/pose_index.h"
 #include "evaluate/run/record_files.h"
@@ -21,6 +22,7 @@
 #include "evaluate/run/work_queue.h"
 #include "sunlit/evaluate/comparisons/measured.h"
 #include "sunlit/evaluate/run/evaluation.h"
+#include "sunlit/evaluate/verify/lost_features.h"
 #include "sunlit/evaluate/verify/verified_file.h"
 
 namespace sunlit::evaluate {
@@ -74,9 +76,11 @@ class Evaluation::State {
   struct Values {
     std::vector<std::vector<DifferenceValue>> differences;
     std::vector<std::vector<Verified>> verified;
+    std::vector<std::vector<LostFeatures>> lost;
     std::vector<std::vector<cv::Mat>> drawn;  // empty where nothing is drawn
   };
 
+  static constexpr const char* kLostFile = "lost_features.bin";
   std::string file(const std::string& name) const { return options_.output_dir + "/" + name; }
   void takeUpEarlierRuns();
   std::size_t takeUp(const std::string& folder);
@@ -103,7 +107,8 @@ class Evaluation::State {
   void evaluatePairs(const Work& work);
   Values compare(const Work& work) const;
   std::vector<PairRecord> keepAll(const Work& work, const Values& values, const std::string& fault);
-  bool keep(const PairRecord& record, const VerifiedRecord& verified, const std::string& fault);
+  bool keep(const PairRecord& record, const VerifiedRecord& verified, const std::vector<LostFeatures>& lost,
+            const std::string& fault);
   void settle(const Work& work);
   void tell(const Work& work, const std::vector<PairRecord>& records);
   void waitForWork();
@@ -121,6 +126,15 @@ class Evaluation::State {
   std::string drawnName(std::size_t pair, std::size_t detector) const;
   void claimDrawn(const Work& work);
   void writeDrawn(const Work& work, const Values& values);
+  bool isSelfTested(std::size_t pair) const;
+  bool isToBeDrawn(const Work& work, std::size_t pair, std::size_t detector, const Verified& verified) const;
+  ExtremePoses& extremes(std::size_t pair, std::size_t detector);
+  void rankAll();
+  void rankKept(const VerifiedRecord& verified);
+  void removeFallen();
+  void keepFinalDrawn();
+  void writeLostFeatures();
+  void forgetLostFeatures();
   void withdrawVerified(std::int64_t stamp_ns, std::size_t pair);
   std::size_t takeUpVerified(const std::string& folder, std::vector<PairRecord>& frames);
   void settleRecords();
@@ -131,6 +145,7 @@ class Evaluation::State {
   void report(const Problem& problem) { problems_->add(problem); }
   bool isMended(const Problem& problem, const EvaluatedPairs& evaluated) const;
   void settleAndWrite(Outcome& outcome);
+  std::vector<VerifiedSummaryRow> writeVerifiedSummaries() const;
 
   EvaluationOptions options_;
   EvaluationCallbacks callbacks_;
@@ -163,9 +178,12 @@ class Evaluation::State {
   std::unique_ptr<ProblemFile> problems_;
   std::unique_ptr<PictureWriter> pictures_;
   std::unique_ptr<PictureWriter> drawn_;  // where matches are verified and images kept
-  std::unique_ptr<Observer> observer_;    // where it is localised
+  std::vector<ExtremePoses> extremes_;    // by pair and detector; drawn, as the sampled poses are
+  std::vector<std::pair<std::string, std::int64_t>> fallen_;  // drawn, but among the extremes no more
+  std::unique_ptr<Observer> observer_;                        // where it is localised
   AppendFile frames_file_;
   AppendFile verified_file_;
+  AppendFile lost_file_;
   WorkQueue queue_;  // last, so that its threads end before what they use
 };
 

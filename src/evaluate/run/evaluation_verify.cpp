@@ -1,9 +1,11 @@
 // What a run tells of which matches are right: its values, rows and pictures. The images of a pose are taken
 // from one place, so each point stays where it is.
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "evaluate/run/evaluation_state.h"
+#include "sunlit/evaluate/files/stream_name.h"
 #include "sunlit/evaluate/verify/draw_verified.h"
 
 namespace sunlit::evaluate {
@@ -17,9 +19,111 @@ void Evaluation::State::verifyMatched(const Work& work, const Matched& matched, 
   const ImagesToVerify images{work.images[stream_a], work.images[stream_b]};
   const PointMaps maps = identityMaps({images.rgb_a.cols, images.rgb_a.rows});
   const FeaturePair features{matched.a, matched.b, matched.nearest};
-  values.verified[matched.pair][detector] = verify(features, maps, options_.comparer.ratio_test);
-  if (work.is_drawn)
-    values.drawn[matched.pair][detector] = drawVerified(images, features, maps, options_.comparer.ratio_test);
+  const RatioTest& test = options_.comparer.ratio_test;
+  Verified& verified = values.verified[matched.pair][detector];
+  verified = verify(features, maps, test);
+  const std::size_t pair = work.pairs[matched.pair];
+  if (isSelfTested(pair)) return;
+  values.lost[matched.pair][detector] =
+      lostFeatures(features, maps, test, {images.rgb_a.cols, images.rgb_a.rows});
+  if (isToBeDrawn(work, pair, detector, verified))
+    values.drawn[matched.pair][detector] = drawVerified(images, features, maps, test);
+}
+
+bool Evaluation::State::isSelfTested(std::size_t pair) const {
+  return isSelfTest(options_.pairs[pair].a, options_.pairs[pair].b);
+}
+
+// Whatever is among the extremes at the end is among them as it comes.
+bool Evaluation::State::isToBeDrawn(const Work& work, std::size_t pair, std::size_t detector,
+                                    const Verified& verified) const {
+  if (!drawn_ || work.is_drawn) return work.is_drawn;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const ExtremePoses& so_far = extremes_[pair * verified_layout_.differences.size() + detector];
+    if (!so_far.takes(rightMatches(verified), work.pose)) return false;
+  }
+  drawn_->claim(drawnName(pair, detector), work.pose, work.stamp_ns, true);
+  return true;
+}
+
+ExtremePoses& Evaluation::State::extremes(std::size_t pair, std::size_t detector) {
+  return extremes_[pair * verified_layout_.differences.size() + detector];
+}
+
+void Evaluation::State::rankAll() {
+  extremes_.assign(options_.pairs.size() * verified_layout_.differences.size(), {});
+  for (const VerifiedRecord& record : verified_) {
+    for (std::size_t d = 0; d < record.values.size(); ++d)
+      extremes(record.pair, d).add(rightMatches(record.values[d]), record.pose);
+  }
+}
+
+// Under mutex_, where no file is removed: another may be being written for long.
+void Evaluation::State::rankKept(const VerifiedRecord& verified) {
+  for (std::size_t d = 0; drawn_ && d < verified.values.size(); ++d) {
+    ExtremePoses& ranked = extremes(verified.pair, d);
+    std::set<std::int64_t> before = ranked.poses();
+    before.insert(verified.pose);
+    ranked.add(rightMatches(verified.values[d]), verified.pose);
+    for (const std::int64_t pose : before) {
+      if (!ranked.has(pose) && !isSample(pose)) fallen_.emplace_back(drawnName(verified.pair, d), pose);
+    }
+  }
+}
+
+void Evaluation::State::removeFallen() {
+  std::vector<std::pair<std::string, std::int64_t>> fallen;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    fallen.swap(fallen_);
+  }
+  for (const auto& [name, pose] : fallen) drawn_->remove(name, pose);
+}
+
+// Without what a killed run left; says which are not there.
+void Evaluation::State::keepFinalDrawn() {
+  if (!drawn_) return;
+  rankAll();
+  std::size_t absent = 0;
+  for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
+    for (std::size_t d = 0; !isSelfTested(p) && d < verified_layout_.differences.size(); ++d) {
+      const std::vector<std::int64_t> drawn = drawn_->posesOf(drawnName(p, d));
+      const ExtremePoses& ranked = extremes(p, d);
+      for (const std::int64_t pose : drawn) {
+        if (!ranked.has(pose) && !isSample(pose)) drawn_->remove(drawnName(p, d), pose);
+      }
+      for (const std::int64_t pose : ranked.poses())
+        absent += std::count(drawn.begin(), drawn.end(), pose) == 0;
+    }
+  }
+  if (absent > 0 && callbacks_.note)
+    callbacks_.note(
+        "matches: " + std::to_string(absent) +
+        " of the pictures with the fewest or the most right matches are not drawn here, since other "
+        "folders or versions evaluated them");
+}
+
+// A record counts whose pair does; one that a killed run wrote twice counts once. A whole run has none left,
+// and its sums stay.
+void Evaluation::State::writeLostFeatures() {
+  if (!isVerifying()) return;
+  lost_file_.close();
+  std::set<std::pair<std::int64_t, std::size_t>> counting;
+  for (const VerifiedRecord& record : verified_) counting.emplace(record.stamp_ns, record.pair);
+  std::vector<std::string> files = {file(kLostFile)};
+  for (const std::string& folder : options_.merge) files.push_back(folder + "/" + kLostFile);
+  const std::vector<LostSum> sums =
+      sumsOfLost(files, verified_layout_, [&](std::int64_t stamp_ns, std::size_t pair) {
+        return counting.count({stamp_ns, pair}) != 0;
+      });
+  const bool has_any =
+      std::any_of(sums.begin(), sums.end(), [](const LostSum& sum) { return sum.poses > 0; });
+  if (has_any) writeLost(file("lost_features.csv"), verified_layout_, sums);
+}
+
+void Evaluation::State::forgetLostFeatures() {
+  if (isVerifying() && isWholeAlone()) std::filesystem::remove(file(kLostFile));
 }
 
 std::string Evaluation::State::drawnName(std::size_t pair, std::size_t detector) const {
@@ -29,7 +133,7 @@ std::string Evaluation::State::drawnName(std::size_t pair, std::size_t detector)
 void Evaluation::State::claimDrawn(const Work& work) {
   if (!work.is_drawn) return;
   for (const std::size_t pair : work.pairs) {
-    for (std::size_t d = 0; d < verified_layout_.differences.size(); ++d)
+    for (std::size_t d = 0; !isSelfTested(pair) && d < verified_layout_.differences.size(); ++d)
       drawn_->claim(drawnName(pair, d), work.pose, work.stamp_ns, true);
   }
 }
@@ -49,7 +153,9 @@ void Evaluation::State::withdrawVerified(std::int64_t stamp_ns, std::size_t pair
   const auto found = std::find_if(verified_.begin(), verified_.end(), [&](const VerifiedRecord& record) {
     return record.stamp_ns == stamp_ns && record.pair == pair;
   });
-  if (found != verified_.end()) verified_.erase(found);
+  if (found == verified_.end()) return;
+  verified_.erase(found);
+  rankAll();
 }
 
 // A pair counts where both files have it. What only one has, since the run was killed between them, leaves

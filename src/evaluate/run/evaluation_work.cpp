@@ -33,6 +33,7 @@ Evaluation::State::Values Evaluation::State::compare(const Work& work) const {
   const std::size_t detectors = verified_layout_.differences.size();
   Values values;
   values.verified.resize(work.pairs.size(), std::vector<Verified>(detectors));
+  values.lost.resize(work.pairs.size(), std::vector<LostFeatures>(detectors));
   values.drawn.resize(work.pairs.size(), std::vector<cv::Mat>(detectors));
   MatchedVisit visit;
   if (isVerifying() || observer_) {
@@ -58,6 +59,7 @@ void Evaluation::State::evaluatePairs(const Work& work) {
       fault = error.what();
       values.differences.resize(work.pairs.size());
       values.verified.resize(work.pairs.size());
+      values.lost.resize(work.pairs.size());
     }
   };
   const auto write = [&] {
@@ -70,7 +72,9 @@ void Evaluation::State::evaluatePairs(const Work& work) {
   tbb::parallel_invoke(write, compare_all);
   if (picture_fault) std::rethrow_exception(picture_fault);
   writeDrawn(work, values);
-  tell(work, keepAll(work, values, fault));
+  const std::vector<PairRecord> kept = keepAll(work, values, fault);
+  removeFallen();
+  tell(work, kept);
 }
 
 std::vector<PairRecord> Evaluation::State::keepAll(const Work& work, const Values& values,
@@ -80,7 +84,7 @@ std::vector<PairRecord> Evaluation::State::keepAll(const Work& work, const Value
   std::vector<PairRecord> kept;
   for (std::size_t i = 0; i < work.pairs.size(); ++i) {
     const PairRecord record{work.pose, work.stamp_ns, work.pairs[i], values.differences[i]};
-    if (keep(record, {work.pose, work.stamp_ns, work.pairs[i], values.verified[i]}, fault))
+    if (keep(record, {work.pose, work.stamp_ns, work.pairs[i], values.verified[i]}, values.lost[i], fault))
       kept.push_back(record);
   }
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -120,7 +124,7 @@ void Evaluation::State::giveUp(const Work& work) {
 // False where there is nothing to keep: the comparison failed, or another stamp counts by now. The rows of
 // frames.csv come last: without them, whoever takes up a killed run asks for the pair again.
 bool Evaluation::State::keep(const PairRecord& record, const VerifiedRecord& verified,
-                             const std::string& fault) {
+                             const std::vector<LostFeatures>& lost, const std::string& fault) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (taken_.at({record.pose, record.pair}) != record.stamp_ns) return false;
   if (!fault.empty()) {
@@ -129,6 +133,13 @@ bool Evaluation::State::keep(const PairRecord& record, const VerifiedRecord& ver
     return false;
   }
   if (isVerifying()) {
+    if (!isSelfTested(record.pair)) {
+      std::string bytes;
+      for (std::size_t d = 0; d < lost.size(); ++d)
+        bytes += lostRecordOf(record.stamp_ns, record.pair, d, lost[d]);
+      lost_file_.append(bytes);
+    }
+    rankKept(verified);
     verified_file_.append(verifiedText(verified_layout_, verified));
     verified_.push_back(verified);
   }

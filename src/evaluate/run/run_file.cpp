@@ -133,7 +133,8 @@ void claimFolder(const std::string& folder, const Settings& settings) {
     }
     if (holdsFiles(folder + "/images")) throw;
     for (const char* name :
-         {"/run.yaml", "/problems.csv", "/summary.csv", "/verified.csv", "/verified_summary.csv"})
+         {"/run.yaml", "/problems.csv", "/summary.csv", "/verified.csv", "/verified_summary.csv",
+          "/comparisons.csv", "/lost_features.bin", "/lost_features.csv"})
       std::filesystem::remove(folder + name);
   }
 }

@@ -33,6 +33,7 @@ class BagLocalisation {
     if (rows_.empty()) throw std::runtime_error("no query can be used: " + source_.problemsInWords());
     const std::vector<evaluate::LocalisationSummary> summaries = summariesOf(rows_);
     writeLocalisation(fileOf("localisation.csv"), rows_);
+    writeLocalisationPoses(fileOf("localisation_poses.csv"), rows_);
     writeLocalisationSummary(fileOf("localisation_summary.csv"), summaries);
     writeComparisons(fileOf("comparisons.csv"), comparisonsOf(measuredOf(rows_), {map_name_}).rows);
     std::printf("\n%s\n%s\n", localisationTable(summaries).c_str(), fileOf("localisation.csv").c_str());

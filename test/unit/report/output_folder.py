@@ -119,6 +119,25 @@ def comparisons():
     return lines
 
 
+def lost_features():
+    """Lines of lost_features.csv of one pair: three cells with features."""
+    found = {(0, 0): (100, 0), (15, 11): (100, 75), (5, 5): (9, 9)}
+    return ["a,b,detector,poses,column,row,features,lost"] + [
+        ",".join(str(cell) for cell in ["h04", "h12", "sift", POSES, column, row, *found.get((column, row), (0, 0))])
+        for row in range(12) for column in range(16)]
+
+
+def positions():
+    """Lines of localisation_poses.csv: as `queries`, each 0.1 m beside the truth."""
+    lines = ["pose,stamp,map,query,detector,x,y,z,qx,qy,qz,qw,true_x,true_y,true_z"]
+    for query in ("h04", "h20"):
+        for detector in METHODS:
+            for k in range(POSES):
+                found = "nan,nan,nan,nan,nan,nan,nan" if k < 4 else f"{k},{k % 7 + 0.1},1,0,0,0,1"
+                lines.append(f"{k},{k / 10:.9f},h12,{query},{detector},{found},{k},{k % 7},1")
+    return lines
+
+
 def write(folder, name, lines):
     path = os.path.join(folder, name)
     os.makedirs(os.path.dirname(path), exist_ok=True)
@@ -134,8 +153,10 @@ def write_all(folder):
     write(folder, "verified.csv", verified())
     write(folder, "verified_summary.csv", verified_summary())
     write(folder, "comparisons.csv", comparisons())
-    for pair in ("h04-h12", "h12-h20"):
-        for pose in (10, 30):
+    write(folder, "lost_features.csv", lost_features())
+    write(folder, "localisation_poses.csv", positions())
+    for pair, drawn in (("h04-h12", (10, 30)), ("h12-h20", (0, 38))):
+        for pose in drawn:
             path = os.path.join(folder, "matches", pair, "sift", f"{pose:06d}.png")
             os.makedirs(os.path.dirname(path), exist_ok=True)
             Image.new("RGB", (128, 48), (60, pose, 60)).save(path)

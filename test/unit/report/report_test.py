@@ -16,7 +16,7 @@ sys.path[:0] = [HERE, SCRIPTS]
 
 import output_folder as made  # noqa: E402
 from sunlit_report import atlas_figures, atlas_page, atlas_rows, comparisons, files, findings  # noqa: E402
-from sunlit_report import figures, localisation, map_figure, names, page, pictures, queries, tables, verified  # noqa: E402
+from sunlit_report import figures, localisation, lost, map_figure, names, page, pictures, queries, tables, verified  # noqa: E402
 from sunlit_report import warnings  # noqa: E402
 from sunlit_report.csv_rows import ReportError  # noqa: E402
 
@@ -334,8 +334,23 @@ class Matches(InFolder):
     def test_drawn_are_those_with_the_fewest_and_the_most_right_matches(self):
         made.write_all(self.folder)
         shown = verified.drawn(self.read())
-        self.assertEqual([caption for caption, _ in shown],
-                         ["Fewest right matches of SIFT: 5, 4–12 h, pose 10.", "Most right matches of SIFT: 15, 12–20 h, pose 30."])
+        # Of 40 poses each: 0 right matches at pose 0 and 19 at 38; that of 12 to 20 h has both drawn, the other two others.
+        self.assertEqual([[caption for caption, _ in row] for row in shown],
+                         [["Fewest right matches of SIFT of the poses drawn: 5, 4–12 h, pose 10.",
+                           "Most right matches of SIFT of the poses drawn: 15, 4–12 h, pose 30."],
+                          ["Fewest right matches of SIFT: 0, 12–20 h, pose 0.", "Most right matches of SIFT: 19, 12–20 h, pose 38."]])
+
+    def test_of_many_pairs_the_extremes_of_all_are_drawn(self):
+        made.write_all(self.folder)
+        output = self.read()
+        output.verified.poses["h04", "h20", "sift"] = {7: 3, 8: 30}
+        for (a, b), poses in zip(made.PAIRS, ((10, 30), (7, 8), (0, 38))):
+            some = next(iter(output.matches["h04-h12/sift"].values()))
+            output.matches[f"{a}-{b}/sift"] = {pose: some for pose in poses}
+        few, verified.PAIRS_DRAWN = verified.PAIRS_DRAWN, 2
+        self.addCleanup(setattr, verified, "PAIRS_DRAWN", few)
+        self.assertEqual([[caption for caption, _ in row] for row in verified.drawn(output)],
+                         [["Fewest right matches of SIFT: 0, 12–20 h, pose 0.", "Most right matches of SIFT: 30, 4–20 h, pose 8."]])
 
     def test_nothing_is_told_of_matches_that_nobody_verified(self):
         self.write("frames.csv", made.frames())
@@ -367,31 +382,77 @@ class Matches(InFolder):
         self.assertIn("Are the matches right?", page.render(output, findings.judge(output)))
 
 
+class Lost(InFolder):
+    def test_shares_are_summed_by_cell_and_of_all(self):
+        self.write("frames.csv", made.frames())
+        self.write("lost_features.csv", made.lost_features())
+        found = self.read().lost["h04", "h12", "sift"]
+        self.assertEqual((found.features[0, 0], found.lost[0, 0], found.share[0, 0]), (100, 0, 0.0))
+        self.assertEqual(found.share[11, 15], 0.75)
+        self.assertTrue(math.isnan(found.share[5, 5]))  # of 9 features a share says nothing
+        self.assertEqual(lost.table_rows(self.read())[0][:4], ["4–12 h", "SIFT", "40", "209"])
+
+    def test_what_cannot_be_is_refused_with_its_line(self):
+        self.write("frames.csv", made.frames())
+        self.write("lost_features.csv", [lost.HEADER, "h04,h12,sift,40,0,0,5,6"])
+        self.assert_refused("lost_features.csv:2: column, row and lost must be below 16, 12 and features")
+
+    def test_of_many_pairs_those_that_lose_most_are_shown(self):
+        some = {(f"h{k:02d}", "h23", "sift"): lost.Lost(1, lost.np.full((12, 16), 100), lost.np.full((12, 16), k)) for k in range(9)}
+        self.assertEqual([a for a, _ in lost.shown_pairs(some)], [f"h{k:02d}" for k in range(3, 9)])
+
+
+class Elevation(InFolder):
+    def test_both_judgements_stand_at_the_height_of_the_sun(self):
+        made.write_all(self.folder)
+        judged = localisation.judged_twice(self.read())["h12", "orb"]
+        # 20 h at -3 degrees with 10 of 40 found, 4 h at 5 degrees with 36 of 40; D of the pair, whichever comes first in it.
+        self.assertEqual([(elevation, query, share[0]) for elevation, query, share, _ in judged], [(-3.0, "h20", 0.25), (5.0, "h04", 0.9)])
+        self.assertAlmostEqual(judged[1][3].mean, 0.97)
+
+    def test_without_captures_there_is_no_such_figure(self):
+        self.write("frames.csv", made.frames())
+        self.write("localisation.csv", made.queries())
+        output = self.read()
+        self.assertEqual(localisation.judged_twice(output), {})
+        self.assertNotIn("over the elevation", page.render(output, findings.judge(output)))
+
+    def test_positions_of_many_hours_are_shown_of_some(self):
+        self.write("localisation.csv", made.queries())
+        lines = [f"{k},0.0,h12,q{hour:02d},sift,{k}.1,0,1,0,0,0,1,{k},0,1" for hour in range(20) for k in range(3)]
+        self.write("localisation_poses.csv", [queries.POSITIONS, *lines, "3,0.0,h12,q00,sift,nan,nan,nan,nan,nan,nan,nan,3,0,1"])
+        output = self.read()
+        self.assertEqual(output.positions["h12", "q00", "sift"].truth.tolist(), [[0, 0], [1, 0], [2, 0], [3, 0]])
+        picture, shown, hours = map_figure.found_on_map(output)
+        self.assertEqual((shown, hours), (6, 20))
+        self.assertIn("<svg", picture)
+
+
 class Comparisons(InFolder):
-    def families(self):
+    def test_what_is_significant_is_counted_and_shown(self):
         self.write("frames.csv", made.frames())
         self.write("comparisons.csv", made.comparisons())
-        return comparisons.families(self.read())
-
-    def test_what_is_significant_is_counted_and_shown_first(self):
-        methods, hours = self.families()
-        self.assertEqual(methods["counts"], [("D", 2, 3)])
-        self.assertEqual([cells[1] for cells, _ in methods["rows"]], ["4–20 h", "12–20 h", "4–12 h"])
-        self.assertEqual([sure for _, sure in methods["rows"]], [True, True, False])
-        self.assertEqual(methods["rows"][0][0],
-                         ["D", "4–20 h", "SIFT", "ORB", "39", "1 undefined", "-0.125", "[-0.250, -0.062]", "< 0.0001", "< 0.0001"])
-        self.assertEqual(methods["rows"][2][0][-2:], [tables.MISSING] * 2)
-        self.assertEqual(hours["rows"], [(["error / m", "SIFT", "4 h in 12 h", "20 h in 12 h", "30", "8 failed, 2 alone", "+0.500",
-                                           "[-0.250, +0.750]", "0.2500", "0.5000"], False)])
+        output = self.read()
+        methods, hours = comparisons.count_rows(output)
+        # 39 poses make 13 blocks of 3, whose p is 1/4096 at least; 30 poses 10. Of three of the methods one has no p.
+        self.assertEqual(methods, ["methods", "D", "3", "2", "39", "1", "0", "0.0005"])
+        self.assertEqual(hours, ["hours", "error / m", "1", "0", "30", "0", "8", "0.0020"])
+        self.assertEqual(comparisons.significant_rows(output), (
+            [["D", pair, "SIFT", "ORB", "39", "1 undefined", "-0.125", "[-0.250, -0.062]", "< 0.0001", "< 0.0001"]
+             for pair in ("4–20 h", "12–20 h")], 2))
+        self.assertEqual(comparisons._row(output.comparisons[0], made.PAIRS)[-2:], [tables.MISSING] * 2)
+        self.assertEqual(comparisons._row(output.comparisons[-1], made.PAIRS)[:6],
+                         ["error / m", "SIFT", "4 h in 12 h", "20 h in 12 h", "30", "8 failed, 2 alone"])
 
     def test_few_of_many_are_shown_and_that_is_said(self):
         self.write("frames.csv", made.frames())
-        lines = [f"d,methods,x{k},sift,orb,39,0,0,0,1,1,1,{k / 100},{k / 100},3" for k in range(100)]
-        self.write("comparisons.csv", [made.COMPARISONS_HEADER, *lines])
+        lines = [f"d,methods,x{k},sift,orb,39,0,0,0,1,1,1,{k / 10000},{k / 10000},3" for k in range(100)]
+        self.write("comparisons.csv", [made.COMPARISONS_HEADER, *lines, "d,methods,y,sift,orb,0,9,0,0,nan,nan,nan,nan,nan,0"])
         output = self.read()
-        family, = comparisons.families(output)
-        self.assertEqual((family["all"], len(family["rows"]), family["counts"]), (100, comparisons.SHOWN, [("D", 5, 100)]))
-        self.assertIn(f"The {comparisons.SHOWN} surest of 100", page.render(output, findings.judge(output)))
+        shown, count = comparisons.significant_rows(output)
+        self.assertEqual((count, len(shown), shown[0][1], shown[-1][1]), (100, comparisons.SHOWN, "x0", "x39"))
+        self.assertEqual(comparisons.count_rows(output)[0][2:6], ["101", "100", "0 to 39", "0 to 9"])
+        self.assertIn(f"the {comparisons.SHOWN} surest of 100", page.render(output, findings.judge(output)))
 
     def test_without_any_there_is_no_word_of_it(self):
         self.write("frames.csv", made.frames())
@@ -417,8 +478,8 @@ class Page(InFolder):
         html = self.page()
         self.assertEqual(set(re.findall(r'(?:src|href)="([^:"]*):', html)), {"data"})
         self.assertNotRegex(html, r"url\(|@import|<script|<link")
-        self.assertEqual(html.count("data:image/svg+xml"), 6)
-        self.assertEqual(html.count("data:image/jpeg"), 5 * 3 + 2)  # and the best and worst of SIFT's matches
+        self.assertEqual(html.count("data:image/svg+xml"), 9)
+        self.assertEqual(html.count("data:image/jpeg"), 5 * 3 + 4)  # and the best and worst of SIFT's matches of two pairs
         for text in ("0.84000", "0.84577", "9.8.7", "race_track", "4321", "geometry", "20.00", "00c0ffee",
                      "osmesa: llvmpipe (LLVM 15.0.6, 256 bits)",
                      "cut &lt;short&gt;, it seems", "<td>17</td>"):
@@ -429,7 +490,7 @@ class Page(InFolder):
         self.assertRegex(done.stdout, r"SIFT +0\.84000 +0\.63000 +0\.83000 +0\.05000 +0\.14000 +0\.05000")
         self.assertRegex(done.stdout, r"paper +0\.84577 +0\.63501")
         self.assertRegex(done.stdout, r"4–12 h +SIFT +40( +0\.812){7}")
-        self.assertIn("between methods: D 2 of 3", done.stdout)
+        self.assertRegex(done.stdout, r"methods +D +3 +2 +39 +1 +0")
 
     def test_every_absent_file_is_named_in_place(self):
         self.write("frames.csv", made.frames())

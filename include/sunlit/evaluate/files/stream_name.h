@@ -11,4 +11,7 @@ bool isStreamName(const std::string& name);
 /// Refuses what is none; in messages it is `called` so, such as "a name in streams".
 void requireStreamName(const std::string& name, const std::string& called);
 
+/// A stream beside itself, or beside its second rendering, which experiments call self_test/NAME.
+bool isSelfTest(const std::string& a, const std::string& b);
+
 }  // namespace sunlit::evaluate

@@ -85,6 +85,10 @@ double areaUnderRecall(std::vector<double> errors, double largest);
 /// localisation.csv: pose,stamp,map,query,detector,error_m,error_deg,inliers,retrieved,status. Numbers with
 /// 17 digits, "nan" where there is no pose; retrieved: key frames matched. In one step.
 void writeLocalisation(const std::string& path, const std::vector<LocalisationRow>& rows);
+/// localisation_poses.csv: pose,stamp,map,query,detector,x,y,z,qx,qy,qz,qw,true_x,true_y,true_z, a line for
+/// each of localisation.csv: where camera_link was found in `map`, "nan" where it was not, and where it was.
+/// In one step.
+void writeLocalisationPoses(const std::string& path, const std::vector<LocalisationRow>& rows);
 /// Its rows, of which results have what the columns tell: status, errors and key frames; no estimate. Throws
 /// std::runtime_error with path and line.
 std::vector<LocalisationRow> loadLocalisation(const std::string& path);

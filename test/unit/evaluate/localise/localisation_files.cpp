@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sunlit/quantity/frames.h"
 #include "support/temporary_folder.h"
 
 namespace sunlit::evaluate {
@@ -94,6 +95,39 @@ TEST(LocalisationFiles, HaveTheirColumns) {
   writeLocalisationProblems(folder.file("p.csv"), {{"h12", true, 1500000000, "no depth, none"}});
   EXPECT_EQ(contentOf(folder.file("p.csv")),
             "stream,role,stamp,fault\nh12,map,1.500000000,\"no depth, none\"\n");
+}
+
+TEST(LocalisationRows, AreReadAgainAsTheyStand) {
+  const TemporaryFolder folder;
+  const std::vector<LocalisationRow> rows = {row(0, 0.1 + 0.2, 2.0 / 3.0), row(7, kNone, kNone)};
+  writeLocalisation(folder.file("rows.csv"), rows);
+  const std::vector<LocalisationRow> read = loadLocalisation(folder.file("rows.csv"));
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_EQ(read[0].result.error_m, 0.1 + 0.2);
+  EXPECT_EQ(read[0].result.error_deg, 2.0 / 3.0);
+  EXPECT_EQ(read[0].detector, "sift");
+  EXPECT_EQ(read[1].pose, 7u);
+  EXPECT_EQ(read[1].result.status, LocalisationStatus::kNoPose);
+  EXPECT_TRUE(isWithin(read[0].result, kReaches[1]));
+  EXPECT_FALSE(isWithin(read[0].result, kReaches[0]));
+  EXPECT_FALSE(isWithin(read[1].result, kReaches[2]));
+  setContent(folder.file("bad.csv"), contentOf(folder.file("rows.csv")) + "0,0.0,a,b,c,0,0,0,0,0\n");
+  EXPECT_THROW(loadLocalisation(folder.file("bad.csv")), std::runtime_error);
+}
+
+TEST(LocalisationPoses, AreOfTheLinkBesideTheTruth) {
+  const TemporaryFolder folder;
+  LocalisationRow found = row(0, 0.5, 1.0);
+  // Looking along x: the link is not turned, wherever the camera is.
+  found.truth = Eigen::Translation3d(1, 2, 3) * linkFromOptical();
+  found.result.estimate.map_from_optical = Eigen::Translation3d(1, 2.5, 3) * linkFromOptical();
+  LocalisationRow lost = row(1, kNone, kNone);
+  lost.truth = Eigen::Translation3d(4, 5, 6) * linkFromOptical();
+  writeLocalisationPoses(folder.file("poses.csv"), {found, lost});
+  EXPECT_EQ(contentOf(folder.file("poses.csv")),
+            "pose,stamp,map,query,detector,x,y,z,qx,qy,qz,qw,true_x,true_y,true_z\n"
+            "0,1.500000000,h12,h04,sift,1,2.5,3,0,0,0,1,1,2,3\n"
+            "1,1.600000000,h12,h04,sift,nan,nan,nan,nan,nan,nan,nan,4,5,6\n");
 }
 
 }  // namespace
