@@ -4,7 +4,7 @@ import os
 
 import jinja2
 
-from . import comparison_rows, comparisons, figures, localisation, lost, map_figure, names, paper, pictures, tables, verified, warnings
+from . import comparison_rows, comparisons, figures, localisation, lost, map_figure, matrices, names, paper, pictures, tables, verified, warnings
 from . import findings as judge
 
 SHOWN_PROBLEMS = 100
@@ -55,6 +55,7 @@ def plots(output):
                               for few in tables.chunks(localisation.pairs(output.queries), PAIRS_PER_PLOT)],
         "along_path": [pictures.svg_uri(figures.along_path(output, few))
                        for few in tables.chunks(pairs, PAIRS_PER_PLOT)],
+        "matrices": pictures.svg_uri(matrices.of_all_pairs(output)) if matrices.worth_showing(output) else None,
         "boxes": pictures.svg_uri(figures.boxes(output, pairs)) if pairs else None,
         "over_elevation": pictures.svg_uri(localisation.over_elevation(output)) if localisation.judged_twice(output) else None,
         "found_on_map": _found_on_map(output),

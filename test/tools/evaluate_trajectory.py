@@ -170,6 +170,9 @@ class EvaluateTrajectory(unittest.TestCase):
             done = self.evaluate(named)
             self.assertEqual((done.returncode, done.stderr), (1, "evaluate_trajectory: " + bag + said + topics))
         self.assertEqual(self.evaluate(self.write_bag("one.bag", {"/odom": Odometry})).returncode, 0)
+        with rosbag.Bag(self.path("none.bag"), "w") as none:
+            none.write("/chatter", Header(), rospy.Time(5))
+        self.assertIn("none.bag: holds no topic of poses", self.evaluate(self.path("none.bag")).stderr)
         with rosbag.Bag(self.path("bad.bag"), "w") as bad:
             bad.write("/pose", PoseStamped(), rospy.Time(5))
             bad.write("/chatter", Header(), rospy.Time(5))

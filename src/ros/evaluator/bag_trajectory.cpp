@@ -68,10 +68,11 @@ std::string topicIn(const rosbag::Bag& bag, const NamedTopic& named) {
   if (named.topic.empty() && found.size() == 1) return found.begin()->first;
   std::string listed;
   for (const auto& [topic, type] : found) listed += (listed.empty() ? "" : ", ") + topic + " (" + type + ")";
-  if (listed.empty()) listed = "none";
+  if (found.empty()) throw std::runtime_error(named.bag + ": holds no topic of poses");
   throw std::runtime_error(named.bag + ": " +
-                           (named.topic.empty() ? "say which topic, as in " + named.bag + ":/odom"
-                                                : "holds no topic " + named.topic) +
+                           (named.topic.empty()
+                                ? "say which topic, as in " + named.bag + ":" + found.begin()->first
+                                : "holds no topic " + named.topic) +
                            "; topics of poses are: " + listed);
 }
 

@@ -14,10 +14,11 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 SCRIPTS = os.path.join(HERE, "..", "..", "..", "scripts")
 sys.path[:0] = [HERE, SCRIPTS]
 
+import numpy  # noqa: E402
 import output_folder as made  # noqa: E402
 from sunlit_report import atlas_figures, atlas_page, atlas_rows, comparisons, files, findings  # noqa: E402
 from sunlit_report import figures, localisation, lost, map_figure, names, page, pictures, queries, tables, verified  # noqa: E402
-from sunlit_report import warnings  # noqa: E402
+from sunlit_report import matrices, warnings  # noqa: E402
 from sunlit_report.csv_rows import ReportError  # noqa: E402
 
 REPORT = os.path.join(SCRIPTS, "report")
@@ -307,6 +308,25 @@ class Localisation(InFolder):
         self.assertEqual(localisation.table_rows(output)[0][0], "8 and 16 h")
         figure = localisation.usable_hours(output)
         self.assertEqual(figure.count("stroke-dasharray"), 2, "one dashed line an hour of the map")
+
+
+class Matrices(InFolder):
+    def test_each_pair_stands_in_the_row_of_the_first_and_the_column_of_the_second(self):
+        hours = ["h20", "h04", "h06", "h12"]
+        lines = [made.frame(0, a, b, "sift", 0.1 * row + 0.01 * column) for row, a in enumerate(hours)
+                 for column, b in enumerate(hours) if row < column]
+        self.write("frames.csv", [made.FRAMES_HEADER, *lines, made.frame(0, "h06", "self_test/h06", "sift", 0.5)])
+        conditions, values = matrices.matrix(self.read(), "sift")
+        self.assertEqual(conditions, ["h04", "h06", "h12", "h20"])
+        nothing = math.nan  # h20 comes first in all its pairs
+        numpy.testing.assert_allclose(values, [[nothing, 0.12, 0.13, nothing], [nothing, 0.5, 0.23, nothing],
+                                               [nothing] * 4, [0.01, 0.02, 0.03, nothing]])
+        self.assertIn("<svg", matrices.of_all_pairs(self.read()))
+        self.assertTrue(matrices.worth_showing(self.read()))
+
+    def test_three_conditions_are_left_to_the_tables(self):
+        self.write("frames.csv", made.frames())
+        self.assertFalse(matrices.worth_showing(self.read()))
 
 
 class Matches(InFolder):
