@@ -1,6 +1,7 @@
 """Heat maps of an atlas: a map a row, a query a column, the sun's elevation and the illuminance along both axes."""
 
 import io
+import math
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -19,6 +20,7 @@ NO_POSE = "#D6D6D6"
 LEAST_ERROR_M = 1e-3  # a query that finds its own picture in the map errs by rounding alone
 TICKS_H = (1, 2, 3, 4, 6, 12)
 MOST_TICKS = 13
+MOST_HOURS = 26  # of several days, whose names stand below
 
 
 def _percent(matrix):
@@ -34,7 +36,7 @@ METRICS = [
     *((bound, f"recall_{bound[len('within_'):]}", f"queries found within {metres:g} m and {degrees:g}°", "queries / %", _percent,
        0.0, 100.0, "viridis") for bound, (metres, degrees) in zip(BOUNDS, WITHIN)),
     ("median_error_m", "median_error", "median error of the position", "error / m", _same, None, None, "plasma_r"),
-    ("d", "difference", "difference of features, D", "D", _same, 0.0, 1.0, "magma_r"),
+    ("d", "difference", "difference of features, D", "D", _same, None, 1.0, "magma_r"),
     ("matching_score_3px", "matching_score", "matching score (3 px)", "features / %", _percent, 0.0, 100.0, "viridis"),
 ]
 
@@ -46,24 +48,42 @@ def png(figure):
     return content.getvalue()
 
 
+def _evenly(conditions, places):
+    """Those of `places` at full hours that divide the day evenly; all of them where no such hours are few enough."""
+    for step in TICKS_H:
+        found = [index for index in places if abs(conditions.hours[index] / step - round(conditions.hours[index] / step)) < 1e-9]
+        if 2 <= len(found) <= MOST_TICKS:
+            return found
+    return places[::-(-len(places) // MOST_TICKS)]
+
+
 def _ticks(conditions):
-    """Places and labels: full hours that divide the day evenly, or some of all names."""
-    count = len(conditions)
+    """Places and labels: hours of a day; of several days with one time each the days; else hours of each day."""
+    places = list(range(len(conditions)))
     if len(conditions.dates) == 1:
-        hours = conditions.hours
-        for step in TICKS_H:
-            places = [index for index, hour in enumerate(hours) if abs(hour / step - round(hour / step)) < 1e-9]
-            if 2 <= len(places) <= MOST_TICKS:
-                return places, [f"{round(hours[index]):d}" for index in places]
-    every = -(-count // MOST_TICKS)
-    places = list(range(0, count, every))
-    return places, [conditions.called(index) for index in places]
+        places = _evenly(conditions, places)
+    elif len(conditions.dates) == len(conditions):
+        places = places[::-(-len(places) // MOST_TICKS)]
+        return places, [conditions.date[index] for index in places]
+    elif len(conditions) > MOST_HOURS:
+        places = [first for first, _ in _days(conditions)]
+    return places, [_hour(conditions, index) for index in places]
+
+
+def _hour(conditions, index):
+    return conditions.time[index] if conditions.hours[index] % 1 else f"{conditions.hours[index]:.0f}"
+
+
+def _days(conditions):
+    """First and last place of each day, where days have several times; else nothing."""
+    if len(conditions.dates) in (1, len(conditions)):
+        return []
+    breaks = [0] + [round(place + 0.5) for place in _day_breaks(conditions)] + [len(conditions)]
+    return [(first, end - 1) for first, end in zip(breaks, breaks[1:])]
 
 
 def _axis_name(conditions, what):
-    if len(conditions.dates) == 1 and _ticks(conditions)[1][0].isdigit():
-        return f"hour of the {what}"
-    return f"light of the {what}"
+    return f"day of the {what}" if len(conditions.dates) == len(conditions) > 1 else f"hour of the {what}"
 
 
 def _day_breaks(conditions):
@@ -78,11 +98,14 @@ def _shade(axis, elevations, along_x):
         span(index - 0.5, index + 0.5, color=colour, linewidth=0, zorder=0)
 
 
-def _draw_curve(axis, values, colour, along_x):
-    index = np.arange(len(values))
-    x, y = (index, values) if along_x else (values, index)
-    axis.plot(x, y, color="white", linewidth=2.4, zorder=2)
-    axis.plot(x, y, color=colour, linewidth=1.3, zorder=3, marker="o" if len(values) < 9 else None, markersize=2.5)
+def _draw_curve(axis, conditions, values, colour, along_x):
+    """A line through a day; one of few times shows its points, and one for each of several days these alone."""
+    for first, last in _days(conditions) or [(0, len(values) - 1)]:
+        index = np.arange(first, last + 1)
+        x, y = (index, values[index]) if along_x else (values[index], index)
+        width = 0.0 if len(conditions.dates) == len(conditions) > 1 else 1.3
+        axis.plot(x, y, color="white", linewidth=2 * width, zorder=2)
+        axis.plot(x, y, color=colour, linewidth=width, zorder=3, marker="o" if last - first < 9 else None, markersize=2.2)
 
 
 def _strip(axis, conditions, which, along_x):
@@ -90,13 +113,13 @@ def _strip(axis, conditions, which, along_x):
     _shade(axis, conditions.sun_elevation_deg, along_x)
     values_axis = axis.yaxis if along_x else axis.xaxis
     if which == "sun":
-        _draw_curve(axis, conditions.sun_elevation_deg, SUN, along_x)
+        _draw_curve(axis, conditions, conditions.sun_elevation_deg, SUN, along_x)
         (axis.axhline if along_x else axis.axvline)(0.0, color=SUN, linewidth=0.5, zorder=1)
         values_axis.set_major_locator(ticker.MultipleLocator(45))
         values_axis.set_major_formatter(ticker.FormatStrFormatter("%d°"))
     else:
         (axis.set_yscale if along_x else axis.set_xscale)("log")
-        _draw_curve(axis, np.maximum(conditions.illuminance_lx, DARKEST_LX), LUX, along_x)
+        _draw_curve(axis, conditions, np.maximum(conditions.illuminance_lx, DARKEST_LX), LUX, along_x)
         (axis.set_ylim if along_x else axis.set_xlim)(DARKEST_LX / 2, 3e5)
         values_axis.set_major_locator(ticker.FixedLocator([1e-2, 1e1, 1e4]))
         values_axis.set_minor_locator(ticker.NullLocator())
@@ -137,8 +160,14 @@ def _finish_matrix(axis, conditions):
     axis.set_xticklabels(labels, rotation=45 if long else 0, ha="right" if long else "center")
     axis.set_yticks(places)
     axis.set_yticklabels(labels)
-    axis.set_xlabel(_axis_name(conditions, "query"))
-    axis.set_ylabel(_axis_name(conditions, "map"))
+    axis.set_xlabel(_axis_name(conditions, "query"), labelpad=16 if _days(conditions) else 4)
+    axis.set_ylabel(_axis_name(conditions, "map"), labelpad=22 if _days(conditions) else 4)
+    for first, last in _days(conditions):
+        name = {"fontsize": 7, "color": "#333333", "annotation_clip": False, "textcoords": "offset points"}
+        axis.annotate(conditions.date[first], ((first + last) / 2, 0), xycoords=("data", "axes fraction"), xytext=(0, -17),
+                      ha="center", va="top", **name)
+        axis.annotate(conditions.date[first], (0, (first + last) / 2), xycoords=("axes fraction", "data"), xytext=(-20, 0),
+                      ha="right", va="center", rotation=90, **name)
     axis.set_xlim(-0.5, len(conditions) - 0.5)
     axis.set_ylim(-0.5, len(conditions) - 0.5)
     axis.grid(visible=False)
@@ -155,10 +184,18 @@ def _title(figure, axis, method, what):
     figure.text(box.x0, 0.895, what, fontsize=8.5, color="#444444", ha="left")
 
 
-def _norm(values, low, high):
-    """Errors go by the order of magnitude, over those that are there."""
-    if low is not None:
-        return colors.Normalize(low, high)
+def _least_between(matrices):
+    """Of different lights, in tenths: on the diagonal pictures are the same, and D is about 0."""
+    between = np.concatenate([matrix[~np.eye(len(matrix), dtype=bool)] for matrix in matrices])
+    between = between[np.isfinite(between)]
+    return min(0.9, math.floor(10 * between.min()) / 10) if len(between) else 0.0
+
+
+def _norm(matrices, low, high):
+    """The same for all methods. Errors go by the order of magnitude, over those that are there."""
+    values = np.concatenate([matrix.ravel() for matrix in matrices])
+    if high is not None:
+        return colors.Normalize(low if low is not None else _least_between(matrices), high)
     finite = values[np.isfinite(values)]
     low = max(LEAST_ERROR_M, float(finite.min())) if len(finite) else LEAST_ERROR_M
     high = float(finite.max()) if len(finite) else 0.0
@@ -171,7 +208,7 @@ def heat_map(atlas, method, metric):
     values = shown(atlas.matrices[method][column])
     with plt.rc_context(STYLE):
         figure, axis, bar = _frame(atlas.conditions)
-        norm = _norm(np.concatenate([shown(of_method[column]).ravel() for of_method in atlas.matrices.values()]), low, high)
+        norm = _norm([shown(of_method[column]) for of_method in atlas.matrices.values()], low, high)
         palette = plt.get_cmap(palette).copy()
         palette.set_bad(NO_POSE)
         axis.set_facecolor(NO_POSE)
@@ -182,7 +219,7 @@ def heat_map(atlas, method, metric):
             title += f"; outlined: at least {100 * USABLE_SHARE:.0f} %"
         _finish_matrix(axis, atlas.conditions)
         bar.grid(visible=False)
-        figure.colorbar(picture, cax=bar, extend="min" if low is None and values.min() < norm.vmin else "neither")
+        figure.colorbar(picture, cax=bar, extend="min" if low is None and np.nanmin(values) < norm.vmin else "neither")
         bar.set_ylabel(unit)
         if column == "median_error_m":
             bar.yaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
@@ -214,7 +251,7 @@ def usable_hours(atlas):
     palette = colors.ListedColormap([LOST, PARTLY, USABLE])
     norm = colors.BoundaryNorm([0.0, SOME_SHARE, USABLE_SHARE, 1.0 + 1e-9], 3)
     with plt.rc_context(STYLE):
-        columns = min(len(methods), 3)
+        columns = min(3, math.ceil(math.sqrt(len(methods)))) if len(methods) > 3 else len(methods)
         lines = -(-len(methods) // columns)
         figure, axes = plt.subplots(lines, columns, squeeze=False, sharex=True, sharey=True, constrained_layout=True,
                                     figsize=(0.6 + 3.3 * columns, 0.7 + 3.2 * lines))
@@ -227,8 +264,15 @@ def usable_hours(atlas):
             axis.set_title(names.method(method))
             for line in range(1, len(conditions)):
                 axis.axhline(line - 0.5, color="white", linewidth=0.8 if len(conditions) <= 30 else 0.4)
-        for axis in axes.flat:
-            axis.label_outer()
+        for number, axis in enumerate(axes.flat[:len(methods)]):
+            below, beside = number + columns >= len(methods), number % columns == 0
+            axis.tick_params(labelbottom=below, labelleft=beside)
+            for text in axis.texts:
+                text.set_visible(below if text.get_rotation() == 0 else beside)
+            if not below:
+                axis.set_xlabel("")
+            if not beside:
+                axis.set_ylabel("")
         some = f"{100 * SOME_SHARE:.0f} to {100 * USABLE_SHARE:.0f} %"
         patches = [(USABLE, f"at least {100 * USABLE_SHARE:.0f} % found within 0.5 m and 5°"), (PARTLY, some),
                    (LOST, f"fewer than {100 * SOME_SHARE:.0f} %")]

@@ -57,6 +57,12 @@ def condition_rows(atlas):
              f"{conditions.ev100_mean[i]:.1f}"] for i in range(len(conditions))]
 
 
+def setting(atlas, option):
+    """Its value as typed; empty where it was not, or is 0."""
+    values = [line.partition(" ")[2] for line in atlas.settings if line.partition(" ")[0] == option]
+    return "" if not values or float(values[-1]) == 0 else values[-1]
+
+
 def render(atlas, drawn):
     """HTML text with everything in it."""
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True,
@@ -64,7 +70,7 @@ def render(atlas, drawn):
     methods = [(names.method(method), [(metric[2], data_uri("image/png", drawn[f"{metric[1]}_{method}.png"]))
                                        for metric in atlas_figures.METRICS]) for method in atlas.methods]
     return environment.get_template("atlas.html").render(
-        title=title(atlas), facts=facts(atlas), usable_hours=data_uri("image/png", drawn["usable_hours.png"]), methods=methods,
+        title=title(atlas), query_offset=setting(atlas, "--query-offset"), facts=facts(atlas), usable_hours=data_uri("image/png", drawn["usable_hours.png"]), methods=methods,
         table_header=TABLE_HEADER, table_rows=table_rows(atlas), conditions=condition_rows(atlas), settings=atlas.settings)
 
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "sunlit/evaluate/localise/observations.h"
@@ -24,7 +25,8 @@ using evaluate::Observation;
 using evaluate::ObservationFile;
 using evaluate::ObservationKey;
 
-constexpr std::size_t kMostPictures = 4;
+constexpr std::size_t kMostPlaces = 3;
+constexpr std::size_t kMostPictures = 4;    // of each
 constexpr double kCellRow_bytes = 170.0;    // 17 digits each
 constexpr double kCellHead_bytes = 4096.0;  // a block of the disk
 
@@ -86,6 +88,25 @@ void measureQueries(const AtlasRunOptions& options, const std::vector<std::size_
   }
 }
 
+AtlasCost measureAt(const AtlasPose& pose, const AtlasRunOptions& options, AtlasCamera* camera) {
+  const std::vector<std::size_t> lights = someOf(options.conditions.size());
+  const auto pictures = static_cast<double>(lights.size());
+  AtlasCost cost;
+  Clock::time_point begin = Clock::now();
+  camera->look(pose, {});
+  cost.draw_s = secondsSince(begin);
+  const ScratchFile scratch;
+  ObservationFile file(scratch.path());
+  const evaluate::AtlasObserver observer(options.atlas);
+  begin = Clock::now();
+  for (evaluate::AtlasView& view : camera->look(pose, lights)) observer.observe(std::move(view), &file);
+  cost.picture_s = std::max(0.0, secondsSince(begin) - cost.draw_s) / pictures;
+  cost.picture_bytes = static_cast<double>(fs::file_size(scratch.path())) / pictures;
+  standForSeveral(options.atlas.localiser.retrieved, pose.number, &file);
+  measureQueries(options, lights, file, &cost);
+  return cost;
+}
+
 std::string textOfBytes(double bytes) {
   const char* const units[] = {"B", "kB", "MB", "GB", "TB", "PB"};
   std::size_t unit = 0;
@@ -111,24 +132,30 @@ double lengthOf(const std::vector<AtlasPose>& poses) {
 
 }  // namespace
 
+AtlasCost& AtlasCost::operator+=(const AtlasCost& other) {
+  draw_s += other.draw_s;
+  picture_s += other.picture_s;
+  query_s += other.query_s;
+  picture_bytes += other.picture_bytes;
+  key_frame_bytes += other.key_frame_bytes;
+  return *this;
+}
+
+AtlasCost& AtlasCost::operator*=(double factor) {
+  for (double* const part : {&draw_s, &picture_s, &query_s, &picture_bytes, &key_frame_bytes})
+    *part *= factor;
+  return *this;
+}
+
 AtlasCost measureCost(const AtlasRunOptions& options, AtlasCamera* camera) {
-  const AtlasPose& pose = options.poses[options.poses.size() / 2];
-  const std::vector<std::size_t> lights = someOf(options.conditions.size());
-  const auto pictures = static_cast<double>(lights.size());
   AtlasCost cost;
-  camera->look(pose, {lights[0]});  // what is made but once is made
-  Clock::time_point begin = Clock::now();
-  camera->look(pose, {});
-  cost.draw_s = secondsSince(begin);
-  const ScratchFile scratch;
-  ObservationFile file(scratch.path());
-  const evaluate::AtlasObserver observer(options.atlas);
-  begin = Clock::now();
-  observer.observe(camera->look(pose, lights), &file);
-  cost.picture_s = std::max(0.0, secondsSince(begin) - cost.draw_s) / pictures;
-  cost.picture_bytes = static_cast<double>(fs::file_size(scratch.path())) / pictures;
-  standForSeveral(options.atlas.localiser.retrieved, pose.number, &file);
-  measureQueries(options, lights, file, &cost);
+  const std::size_t places = std::min(options.poses.size(), kMostPlaces);
+  camera->look(options.poses[0], {0});  // what is made but once is made
+  for (std::size_t i = 0; i < places; ++i) {
+    const AtlasPose& pose = options.poses[(2 * i + 1) * options.poses.size() / (2 * places)];
+    cost += measureAt(pose, options, camera);
+  }
+  cost *= 1.0 / static_cast<double>(places);
   return cost;
 }
 

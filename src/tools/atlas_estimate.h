@@ -10,14 +10,17 @@
 
 namespace sunlit::tools {
 
-/// Measured on one pose under a few of the lights; s of the wall clock on this machine with all its
-/// processors.
+/// Measured at a few places of the path under a few of the lights, means of these; s of the wall clock on
+/// this machine with all its processors.
 struct AtlasCost {
   double draw_s = 0.0;           ///< a pose
   double picture_s = 0.0;        ///< a light of a pose: to light it, and to find features by all methods
   double query_s = 0.0;          ///< a query in a map, by all methods together
   double picture_bytes = 0.0;    ///< of observations, by all methods together
   double key_frame_bytes = 0.0;  ///< in memory, of the method that needs most
+
+  AtlasCost& operator+=(const AtlasCost& other);
+  AtlasCost& operator*=(double factor);
 };
 
 /// Takes a few pictures, of which nothing stays.

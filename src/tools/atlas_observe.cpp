@@ -35,7 +35,9 @@ std::vector<std::size_t> lightsMissing(const AtlasRunOptions& options, const Obs
                                        const AtlasPose& pose, const WholePictures& whole) {
   std::vector<std::size_t> missing;
   for (std::size_t c = unit.first_condition; c < unit.end_condition; ++c) {
-    if (whole.count({options.conditions[c].name, pose.number}) == 0) missing.push_back(c);
+    const std::string& name = options.conditions[c].name;
+    const std::string last = options.atlas.has_query_drive ? evaluate::queryDriveOf(name) : name;
+    if (whole.count({last, pose.number}) == 0) missing.push_back(c);
   }
   return missing;
 }
@@ -57,19 +59,30 @@ AtlasCamera::AtlasCamera(const AtlasRunOptions& options)
   }
 }
 
-evaluate::AtlasView AtlasCamera::look(const AtlasPose& pose, const std::vector<std::size_t>& conditions) {
-  studio_.look(pose.map_from_camera);
+evaluate::AtlasView AtlasCamera::viewFrom(const Eigen::Isometry3d& map_from_camera, std::int64_t number,
+                                          const std::vector<std::size_t>& conditions) {
+  studio_.look(map_from_camera);
   evaluate::AtlasView view;
-  view.pose = pose.number;
+  view.pose = number;
   view.camera = studio_.camera();
-  view.map_from_optical = pose.map_from_camera * linkFromOptical();
+  view.map_from_optical = map_from_camera * linkFromOptical();
   view.depth = studio_.depth();
   for (const std::size_t c : conditions) {
     const std::string& name = options_.conditions[c].name;
-    studio::Developed developed = studio_.photograph(lights_[c], {pose.number, name});
+    studio::Developed developed = studio_.photograph(lights_[c], {number, name});
     view.lit.push_back({name, std::move(developed.picture), developed.ev100});
   }
   return view;
+}
+
+std::vector<evaluate::AtlasView> AtlasCamera::look(const AtlasPose& pose,
+                                                   const std::vector<std::size_t>& conditions) {
+  std::vector<evaluate::AtlasView> views = {viewFrom(pose.map_from_camera, pose.number, conditions)};
+  if (!options_.atlas.has_query_drive) return views;
+  views.push_back(viewFrom(pose.map_from_query_camera, pose.number, conditions));
+  for (evaluate::AtlasView::Lit& lit : views.back().lit)
+    lit.condition = evaluate::queryDriveOf(lit.condition);
+  return views;
 }
 
 void AtlasCamera::writeLights(const std::string& file) const {
@@ -101,7 +114,8 @@ void observeUnit(const AtlasRunOptions& options, const ObserveUnit& unit, AtlasC
     for (std::size_t p = unit.first_pose; p < unit.end_pose; ++p) {
       const std::vector<std::size_t> lights = lightsMissing(options, unit, options.poses[p], whole);
       if (lights.empty()) continue;
-      observer.observe(camera->look(options.poses[p], lights), &file);
+      for (evaluate::AtlasView& view : camera->look(options.poses[p], lights))
+        observer.observe(std::move(view), &file);
       pose_done();
     }
   }

@@ -18,13 +18,17 @@ class AtlasCamera {
  public:
   explicit AtlasCamera(const AtlasRunOptions& options);
 
-  /// Draws the pose once and lights it by each of `conditions`, indices of AtlasRunOptions::conditions.
-  evaluate::AtlasView look(const AtlasPose& pose, const std::vector<std::size_t>& conditions);
+  /// Draws each place of the pose once, that of the maps and then that of the queries where they have a drive
+  /// of their own, and lights it by each of `conditions`, indices of AtlasRunOptions::conditions.
+  std::vector<evaluate::AtlasView> look(const AtlasPose& pose, const std::vector<std::size_t>& conditions);
   /// condition,date,time,sun_azimuth_deg,sun_elevation_deg,illuminance_lx: of the sun as it is seen, and of
   /// level ground under the whole sky. In one step; a file that is there stays.
   void writeLights(const std::string& file) const;
 
  private:
+  evaluate::AtlasView viewFrom(const Eigen::Isometry3d& map_from_camera, std::int64_t number,
+                               const std::vector<std::size_t>& conditions);
+
   const AtlasRunOptions& options_;
   studio::Studio studio_;
   std::vector<light::Illumination> lights_;  ///< of each condition, as the lines

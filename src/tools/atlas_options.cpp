@@ -26,6 +26,7 @@ struct Words {
   CameraWords camera;
   SensorWords sensor;
   PathWords path;
+  double query_offset_m = 0.0;
   std::vector<std::string> dates;
   std::vector<TimeOfDay> hours;
   double from_hour = 0.0;
@@ -91,9 +92,16 @@ void addTimes(studio::CommandLine* line, Words* words) {
       .withoutDefault();
 }
 
-void addMethods(studio::CommandLine* line, evaluate::AtlasOptions* atlas) {
+void addMethods(studio::CommandLine* line, evaluate::AtlasOptions* atlas, Words* words) {
   line->group("Methods, and how they localise");
   addMatching(line, &atlas->verify);
+  line->add("--query-offset M",
+            {"query_offset",
+             &words->query_offset_m,
+             "m",
+             {-1000, 1000},
+             "queries are of a second drive, so far to the left of that of the maps; pictures "
+             "of both are made, and D and matches are still of equal poses"});
   line->add("--map-every M", evaluate::mapEveryRow(&atlas->map_every_m));
   for (const Field& row : evaluate::fieldsOf(atlas->localiser)) {
     const bool is_of_matching = row.key == "ratio" || row.key == "inclusive";
@@ -198,10 +206,13 @@ std::vector<AtlasCondition> conditionsOf(const Words& words, const astronomy::Ci
 
 std::vector<AtlasPose> posesOf(const Words& words, const std::string& world) {
   const std::vector<Eigen::Isometry3d> all = posesOf(words.path, world);
+  PathWords beside = words.path;
+  beside.sampling.offset_m += words.query_offset_m;
+  const std::vector<Eigen::Isometry3d> all_beside = posesOf(beside, world);
   std::vector<AtlasPose> poses;
   const int end = words.path.selection.end(static_cast<int>(all.size()));
   for (int i = words.path.selection.first; i < end; i += words.path.selection.stride)
-    poses.push_back({i, all[static_cast<std::size_t>(i)]});
+    poses.push_back({i, all[static_cast<std::size_t>(i)], all_beside[static_cast<std::size_t>(i)]});
   return poses;
 }
 
@@ -249,9 +260,9 @@ void addShared(studio::CommandLine* line, AtlasRunOptions* options, Words* words
 constexpr const char* kAbout =
     "atlas: a path at every time of a day, or of several: how well queries of each light are found in a map "
     "of "
-    "each other, by each method. Map and queries are of one drive, so a query whose pose is that of a key "
-    "frame, one in map-every / spacing, is looked for where its own place is in the map. Needs no ROS "
-    "master.";
+    "each other, by each method. Without --query-offset map and queries are of one drive, so a query whose "
+    "pose is that of a key frame, one in map-every / spacing, is looked for where its own place is in the "
+    "map. Needs no ROS master.";
 
 }  // namespace
 
@@ -269,7 +280,7 @@ std::optional<AtlasRunOptions> parseAtlasOptions(const std::vector<std::string>&
        {},
        "gets atlas.csv, conditions.csv and heat maps; a broken off run goes on there with the same options"});
   addTimes(&line, &words);
-  addMethods(&line, &options.atlas);
+  addMethods(&line, &options.atlas, &words);
   addWork(&line, &options, &words);
   addShared(&line, &options, &words);
   if (!line.read(arguments)) return std::nullopt;
@@ -281,6 +292,7 @@ std::optional<AtlasRunOptions> parseAtlasOptions(const std::vector<std::string>&
   render::validate(options.studio.render);
   options.conditions = conditionsOf(words, options.place.date);
   options.poses = posesOf(words, options.studio.world.name);
+  options.atlas.has_query_drive = words.query_offset_m != 0.0;
   if (line.has("--stage")) options.stage = words.stage;
   if (words.slurm) options.slurm = words.slurm_options;
   options.recipe = recipeOf(line, ofNoResult(), options.studio.world.name);

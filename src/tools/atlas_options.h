@@ -26,6 +26,7 @@ struct AtlasCondition {
 struct AtlasPose {
   std::int64_t number;  ///< of the whole path
   Eigen::Isometry3d map_from_camera;
+  Eigen::Isometry3d map_from_query_camera;  ///< the same without a query drive
 };
 
 /// What work is done in two stages that each fall into units.

@@ -168,6 +168,18 @@ class Atlas(unittest.TestCase):
         # The sun stands 23.4 deg higher at the solstice than at the equinox.
         self.assertAlmostEqual(float(rows[1]["sun_elevation_deg"]) - float(rows[0]["sun_elevation_deg"]), 23.4, delta=0.5)
 
+    def test_a_second_drive_is_looked_for_in_the_maps_of_the_first(self):
+        noon = [*SMALL, "--count", "4", "--stride", "3", "--hours", "12", "--detectors", "sift", "--map-every", "0"]
+        self.make("alike", *noon)
+        self.make("beside", *noon, "--query-offset", "0.5")
+        alike, beside = (table(self.path(name), "cells/sift/h12/h12.csv") for name in ("alike", "beside"))
+        for one, other in zip(alike, beside):
+            self.assertEqual((one["d"], one["matching_score_3px"]), (other["d"], other["matching_score_3px"]))
+            self.assertEqual(one["status"], "localised")
+            self.assertLess(float(one["error_m"]), 1e-6)  # its own picture is in the map
+            self.assertFalse(float(other["error_m"]) < 1e-4)
+            self.assertNotEqual(one["ev100"], other["ev100"])
+
     def test_slurm_jobs_make_the_same_atlas(self):
         self.make("alone", *self.boxes())
         binaries = pathlib.Path(self.path("bin"))

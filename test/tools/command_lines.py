@@ -97,6 +97,7 @@ OPTIONS["atlas"] = {
     "--from": "0 … < 24 h, default 0", "--to": "> 0 … 24 h, default 24", "--step": "30min, 2h, 90s, or minutes (default 30min)",
     "--hours": "0 … < 24 h", "--dates": "each with all these times", "--detectors": "default sift,orb",
     "--ratio": "> 0 … 1, default 0.5", "--inclusive": "default false", "--map-every": "0 … 1000000 m, default 5",
+    "--query-offset": "-1000 … 1000 m, default 0",
     **{option: OPTIONS["evaluate_bags"][option] for option in ("--retrieval", "--retrieved", "--reprojection", "--iterations",
                                                                "--confidence", "--min-inliers", "--seed")},
     "--localise-ratio": "> 0 … 1, default 0.8", "--localise-inclusive": "default false", "--estimate": "and ends",

@@ -39,6 +39,10 @@ DescriptorPair compactBoth(const Features& a, const Features& b) {
 
 }  // namespace
 
+std::string queryDriveOf(const std::string& condition) {
+  return condition + "/query";
+}
+
 struct AtlasObserver::Method {
   Method(const std::string& called, const AtlasOptions& options)
       : name(called), detector(detectorOf(options.verify, called)), pool(*detector) {}
@@ -115,40 +119,52 @@ double AtlasMap::bytesOfKeyFrame() const {
   return bytes / static_cast<double>(map_->frames().size());
 }
 
-AtlasRow AtlasMap::rowOf(std::int64_t pose, const Observed& seen) const {
-  const Observation query = seen.read();
-  const auto partner = drive_.find(pose);
-  if (partner == drive_.end())
-    throw std::runtime_error(key_.map + " by " + key_.method + " lacks pose " + std::to_string(pose));
-  const Observation of_map = partner->second.read();
+const ObservedDrive& AtlasMap::driveOf(const std::string& condition) const {
+  const ObservedDrive& drive = observed_.at(condition, key_.method);
+  if (drive.size() == drive_.size()) return drive;
+  throw std::runtime_error(condition + " by " + key_.method + " has " + std::to_string(drive.size()) +
+                           " poses, but " + key_.map + " " + std::to_string(drive_.size()));
+}
+
+void AtlasMap::compare(std::int64_t pose, const Observation& lit_as_query, AtlasRow* row) const {
+  const Observation lit_as_map = drive_.at(pose).read();
+  const DescriptorPair descriptors = compactBoth(lit_as_map.features, lit_as_query.features);
+  const BothWays nearest = twoNearestBothWays(descriptors.a, descriptors.b, norm_);
+  const Verified verified = verify({lit_as_map.features, lit_as_query.features, nearest},
+                                   identityMaps({lit_as_query.camera.width, lit_as_query.camera.height}),
+                                   options_.verify.ratio_test);
+  row->difference = verified.difference.value;
+  row->matching_score = verified.matching_score;
+  row->precision = verified.precision;
+}
+
+AtlasRow AtlasMap::rowOf(std::int64_t pose, const std::string& query) const {
+  const auto seenIn = [&](const std::string& condition) {
+    const ObservedDrive& drive = driveOf(condition);
+    const auto seen = drive.find(pose);
+    if (seen == drive.end())
+      throw std::runtime_error(condition + " by " + key_.method + " lacks pose " + std::to_string(pose));
+    return seen->second.read();
+  };
+  const Observation beside = seenIn(query);
+  const Observation driven = options_.has_query_drive ? seenIn(queryDriveOf(query)) : beside;
+  const LocalisedQuery result = map_->localise({driven.features, driven.camera, driven.map_from_optical});
   AtlasRow row;
   row.pose = pose;
-  const LocalisedQuery result = map_->localise({query.features, query.camera, query.map_from_optical});
   row.status = result.status;
   row.error_m = result.error_m;
   row.error_deg = result.error_deg;
   row.inliers = result.estimate.inliers.size();
-  const DescriptorPair descriptors = compactBoth(of_map.features, query.features);
-  const BothWays nearest = twoNearestBothWays(descriptors.a, descriptors.b, norm_);
-  const Verified verified =
-      verify({of_map.features, query.features, nearest},
-             identityMaps({query.camera.width, query.camera.height}), options_.verify.ratio_test);
-  row.difference = verified.difference.value;
-  row.matching_score = verified.matching_score;
-  row.precision = verified.precision;
-  row.ev100 = query.ev100;
+  row.ev100 = driven.ev100;
+  compare(pose, beside, &row);
   return row;
 }
 
 std::vector<AtlasRow> AtlasMap::find(const std::string& query) const {
-  const ObservedDrive& drive = observed_.at(query, key_.method);
-  if (drive.size() != drive_.size())
-    throw std::runtime_error(query + " by " + key_.method + " has " + std::to_string(drive.size()) +
-                             " poses, but " + key_.map + " " + std::to_string(drive_.size()));
-  const std::vector<ObservedDrive::value_type> queries(drive.begin(), drive.end());
-  std::vector<AtlasRow> rows(queries.size());
-  tbb::parallel_for(std::size_t{0}, queries.size(),
-                    [&](std::size_t i) { rows[i] = rowOf(queries[i].first, queries[i].second); });
+  std::vector<std::int64_t> poses;
+  for (const auto& [pose, seen] : drive_) poses.push_back(pose);
+  std::vector<AtlasRow> rows(poses.size());
+  tbb::parallel_for(std::size_t{0}, poses.size(), [&](std::size_t i) { rows[i] = rowOf(poses[i], query); });
   return rows;
 }
 

@@ -613,6 +613,16 @@ class Atlas(InFolder):
         atlas = atlas_rows.read(self.folder)
         self.assertEqual(atlas_page.pictures(atlas), first)  # the same bytes again
 
+    def test_the_page_says_whether_queries_drive_beside_the_map(self):
+        self.make()
+        for settings, part in (([], "finds its own place in the map"), (["--query-offset 0"], "finds its own place in the map"),
+                               (["# how", "--fov 60", "--query-offset -0.5"], "second drive, -0.5 m to the left")):
+            self.write("atlas.txt", settings)
+            atlas = atlas_rows.read(self.folder)
+            drawn = {"usable_hours.png": b"", **{f"{metric[1]}_{method}.png": b"" for method in atlas.methods
+                                                 for metric in atlas_figures.METRICS}}
+            self.assertIn(part, " ".join(atlas_page.render(atlas, drawn).split()))
+
     def test_several_days_are_told_apart(self):
         self.make()
         self.write("conditions.csv", [atlas_rows.CONDITIONS, self.LIGHTS[0], self.LIGHTS[1].replace("2024-07-01", "2024-12-21")])

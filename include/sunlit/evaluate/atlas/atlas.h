@@ -26,7 +26,11 @@ struct AtlasOptions {
   VerifyOptions verify;
   double map_every_m = 5.0;
   LocaliserOptions localiser;
+  bool has_query_drive = false;  ///< queries are of a drive of their own, beside that of the maps
 };
+
+/// What the condition of a picture is called that the query drive took, where there is one.
+std::string queryDriveOf(const std::string& condition);
 
 /// What a camera sees from one pose of the path, under one light or several.
 struct AtlasView {
@@ -63,7 +67,8 @@ class AtlasObserver {
 std::set<std::pair<std::string, std::int64_t>> observedWhole(const ObservationFile& file,
                                                              std::size_t methods);
 
-/// One query, found in the map or not, and compared with what the map's drive saw from the same pose.
+/// One query, found in the map or not. And what features are worth between two pictures of its pose from the
+/// drive of the maps, one in the map's light and one in the query's.
 struct AtlasRow {
   static constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
@@ -72,7 +77,7 @@ struct AtlasRow {
   double error_m = kUndefined;  ///< as LocalisedQuery, so the next ones
   double error_deg = kUndefined;
   std::size_t inliers = 0;
-  double difference = kUndefined;      ///< the paper's D of map and query, as DifferenceValue::value
+  double difference = kUndefined;      ///< the paper's D, as DifferenceValue::value
   double matching_score = kUndefined;  ///< as Verified, so the next one
   double precision = kUndefined;
   double ev100 = kUndefined;  ///< of the query's picture
@@ -95,12 +100,15 @@ class AtlasMap {
   /// In memory, on average.
   double bytesOfKeyFrame() const;
   /// All poses of the drive under `query`, in their order. Truth of the comparison is the identity: both see
-  /// from the same pose. A query whose pose is that of a key frame is looked for in a map that holds its own
-  /// place. In parallel, to the same bits. Throws std::runtime_error where a pose lacks a partner.
+  /// from the same pose. Without a query drive a query whose pose is that of a key frame is looked for in a
+  /// map that holds its own place. In parallel, to the same bits. Throws std::runtime_error where a pose
+  /// lacks a partner.
   std::vector<AtlasRow> find(const std::string& query) const;
 
  private:
-  AtlasRow rowOf(std::int64_t pose, const Observed& seen) const;
+  const ObservedDrive& driveOf(const std::string& condition) const;
+  AtlasRow rowOf(std::int64_t pose, const std::string& query) const;
+  void compare(std::int64_t pose, const Observation& lit_as_query, AtlasRow* row) const;
 
   const DriveIndex& observed_;
   AtlasOptions options_;

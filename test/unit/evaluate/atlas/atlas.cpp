@@ -174,6 +174,39 @@ TEST(Atlas, SaysWhatHasNotBeenObserved) {
   EXPECT_EQ(messageOf<std::runtime_error>([&] { map.find("dawn"); }), "dawn by sift has 0 poses, but dim 3");
 }
 
+TEST(Atlas, AQueryDriveIsLocalisedAndEqualPosesAreCompared) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("observations");
+  observeAll(path);
+  {
+    ObservationFile file(path);
+    const AtlasObserver observer(options());
+    for (int pose = 0; pose < kPoses; ++pose) {  // another order of poses: as if the second drive went back
+      AtlasView view = viewOf(kPoses - 1 - pose, {"dim"});
+      view.pose = 10 + pose;
+      view.lit[0].condition = queryDriveOf("dim");
+      view.lit[0].ev100 = -2.0;
+      observer.observe(view, &file);
+    }
+  }
+  const ObservationFile file(path, ObservationUse::kRead);
+  const DriveIndex index({&file}, asObserved);
+  AtlasOptions beside = options();
+  beside.has_query_drive = true;
+  const std::vector<AtlasRow> one = AtlasMap(index, options(), {"bright", "", "sift"}).find("dim");
+  const std::vector<AtlasRow> two = AtlasMap(index, beside, {"bright", "", "sift"}).find("dim");
+  for (std::size_t i = 0; i < two.size(); ++i) {
+    EXPECT_EQ(two[i].error_m, one[two.size() - 1 - i].error_m);
+    EXPECT_EQ(two[i].matching_score, one[i].matching_score);
+    EXPECT_EQ(two[i].difference, one[i].difference);
+    EXPECT_EQ(two[i].ev100, -2.0);
+  }
+  EXPECT_EQ(messageOf<std::runtime_error>([&] {
+              AtlasMap(index, beside, {"dim", "", "sift"}).find("bright");
+            }),
+            "bright/query by sift has 0 poses, but dim 3");
+}
+
 /// Two of four localised, at 0.1 and 0.4 m; numbers by hand.
 std::vector<AtlasRow> fourRows() {
   std::vector<AtlasRow> rows(4);
