@@ -60,8 +60,12 @@ void evaluatePair(const EvaluatePairOptions& options) {
   Rgb8Image a = image::readPhotograph(options.a);
   Rgb8Image b = image::readPhotograph(options.b);
   const evaluate::PointMaps maps = mapsOf(options, a, b);
+  evaluate::VerifyOptions verify = options.verify;
+  verify.cache = evaluate::FeatureCache::usual(options.features_cache_gb, [](const std::string& line) {
+    std::fprintf(stderr, "evaluate_pair: %s\n", line.c_str());
+  });
   const std::vector<evaluate::Verified> verified =
-      evaluate::verifyImages({evaluate::matOf(a), evaluate::matOf(b)}, maps, options.verify);
+      evaluate::verifyImages({evaluate::matOf(a), evaluate::matOf(b)}, maps, verify);
   std::vector<evaluate::VerifiedRow> rows;
   for (std::size_t i = 0; i < verified.size(); ++i)
     rows.push_back({options.a, options.b, options.verify.detectors[i], verified[i]});

@@ -18,6 +18,7 @@ std::optional<EvaluatePairOptions> parseEvaluatePairOptions(const std::vector<st
   line.group("What is compared: the pictures A and B, 8-bit PNG, JPEG, PPM, BMP, TIFF or WebP");
   const std::vector<Field> rows = fieldsOf(options);
   line.add("--out DIR", fieldOf(rows, "out"));
+  line.add("--features-cache-limit GB", fieldOf(rows, "features_cache_limit"));
   line.add("--homography FILE", fieldOf(rows, "homography")).withoutDefault();
   addMatching(&line, &options.verify);
   addDetectors(&line, &options.verify);

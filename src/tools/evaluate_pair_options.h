@@ -15,6 +15,7 @@ struct EvaluatePairOptions {
   std::string b;
   std::string homography;  ///< file; empty: pixels of equal place show the same
   std::string output;      ///< folder
+  double features_cache_gb = evaluate::kUsualFeaturesCache_gb;
   evaluate::VerifyOptions verify;
 };
 
@@ -26,7 +27,8 @@ inline std::vector<Field> fieldsOf(EvaluatePairOptions& options) {
        "",
        {},
        "three lines of three numbers that map pixels of A to pixels of B; without it pixels of equal place "
-       "show the same"}};
+       "show the same"},
+      evaluate::featuresCacheRow(&options.features_cache_gb)};
 }
 
 /// Empty if help was asked for, and has been printed. Throws std::invalid_argument naming the option, its

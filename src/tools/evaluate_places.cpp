@@ -28,6 +28,7 @@ struct PlacesOptions {
   std::string output;
   std::vector<PlaceMethod> methods;
   std::size_t tolerance = 5;
+  double features_cache_gb = evaluate::kUsualFeaturesCache_gb;
 };
 
 std::vector<Field> fieldsOf(PlacesOptions& options) {
@@ -38,7 +39,8 @@ std::vector<Field> fieldsOf(PlacesOptions& options) {
            &options.tolerance,
            "frames",
            {0, 1e9},
-           "a place is true that lies at most so far from the query's own index"}};
+           "a place is true that lies at most so far from the query's own index"},
+          evaluate::featuresCacheRow(&options.features_cache_gb)};
 }
 
 std::string methodNames() {
@@ -84,6 +86,7 @@ std::optional<PlacesOptions> parse(const std::vector<std::string>& arguments) {
       });
   line.group("Output");
   line.add("--out DIR", fieldOf(rows, "out"));
+  line.add("--features-cache-limit GB", fieldOf(rows, "features_cache_limit"));
   if (!line.read(arguments)) return std::nullopt;
   for (const std::string needed : {"--out DIR", "--map DIR", "--query DIR", "--method NAME"}) {
     if (!line.has(needed.substr(0, needed.find(' '))))
@@ -150,9 +153,13 @@ void evaluatePlaces(const PlacesOptions& options) {
   const PictureFolder queries = evaluate::openPictureFolder(options.queries);
   requireFolderCanBeMade(options.output);
   PlacesProgress progress;
-  PlaceComparison comparison(map, queries, [&](const std::string& work, std::size_t done, std::size_t all) {
-    progress.show(work, done, all);
-  });
+  PlaceComparison comparison(
+      map, queries,
+      [&](const std::string& work, std::size_t done, std::size_t all) { progress.show(work, done, all); },
+      evaluate::FeatureCache::usual(options.features_cache_gb, [&](const std::string& note) {
+        progress.end();
+        std::fprintf(stderr, "evaluate_places: %s\n", note.c_str());
+      }));
   for (const PlaceMethod& method : options.methods) comparison.require(method);
   printOthers(map);
   printOthers(queries);

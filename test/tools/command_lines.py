@@ -72,8 +72,9 @@ OPTIONS = {
                             "--map": "map.png", "--repeated-stamps": "refuse|first", "--pairs-from": "estimate|truth"},
     "evaluate_places": {"--out": "places.csv", "--map": "in the order of their names", "--query": "found in the map",
                         "--tolerance": "0 … 1000000000 frames, default 5",
+                        "--features-cache-limit": "0 … 1000000 GB, default 2",
                         "--method": "one or more of sad, seqslam, vlad:sift, "},
-    "evaluate_bags": {"--out": "folder for the results", "--config": "list_parameters prints all",
+    "evaluate_bags": {"--out": "folder for the results", "--features-cache-limit": "default 2", "--config": "list_parameters prints all",
                       "--namespace": "(default /)", "--merge": "may be repeated",
                       "--map": "noon.bag:h12; may be repeated", "--query": "all but those of the map",
                       "--odometry": "by its own images and depth alone",
@@ -88,7 +89,7 @@ OPTIONS = {
 }
 OPTIONS["evaluate_pair"] = {
     "--out": "verified.csv", "--homography": "three lines of three numbers", "--detectors": "default " + ",".join(detectors()),
-    "--ratio": "> 0 … 1, default 0.5", "--inclusive": "default false", **PREPROCESSING,
+    "--ratio": "> 0 … 1, default 0.5", "--inclusive": "default false", "--features-cache-limit": "default 2", **PREPROCESSING,
     **{"--%s-%s" % (name, option): part for name, options in DETECTORS.items() if name != "surf" or name in detectors()
        for option, part in options.items()}}
 OPTIONS["atlas"] = {

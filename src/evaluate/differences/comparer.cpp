@@ -83,8 +83,9 @@ Comparer::Comparer(const ComparerOptions& options) : options_(options) {
   for (const std::string& name : options_.differences) {
     const Difference& difference = options_.known.at(name);
     const Detector* detector = difference.detector();
-    asked_.push_back(
-        {&difference, detector == nullptr ? nullptr : std::make_unique<DetectorPool>(*detector)});
+    asked_.push_back({&difference, detector == nullptr
+                                       ? nullptr
+                                       : std::make_unique<DetectorPool>(*detector, options_.cache)});
   }
 }
 

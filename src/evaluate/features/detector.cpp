@@ -1,9 +1,12 @@
 #include "sunlit/evaluate/features/detector.h"
 
+#include <cstdio>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include "evaluate/features/detectors.h"
+#include "sunlit/evaluate/features/detector_plugin.h"
 #include "sunlit/quantity/range.h"
 
 namespace sunlit::evaluate {
@@ -34,6 +37,9 @@ class Fronted : public Detector {
   int norm() const override { return detector_->norm(); }
   cv::Mat seen(const Picture& picture) const override { return detector_->seen(picture); }
   cv::Ptr<cv::Feature2D> make() const override { return detector_->make(); }
+  std::string version() const override { return detector_->version(); }
+  /// A preprocessing is known by the picture that is seen, a name by nothing.
+  std::string identity() const override { return detector_->identity(); }
 
  protected:
   std::unique_ptr<Detector> detector_;
@@ -74,6 +80,12 @@ class Own : public Fronted {
  private:
   DetectorKind kind_;
 };
+
+/// Through nothing where `preprocessing` is empty.
+std::unique_ptr<Detector> seenThrough(const std::string& preprocessing, std::unique_ptr<Detector> detector) {
+  if (preprocessing.empty()) return detector;
+  return preprocessed(std::move(detector), preprocessing, makePreprocessing(preprocessing));
+}
 
 }  // namespace
 
@@ -119,9 +131,7 @@ std::unique_ptr<Detector> makeDetector(const std::string& type) {
 }
 
 std::unique_ptr<Detector> makeDetector(const DetectorKind& kind) {
-  std::unique_ptr<Detector> detector = makeDetector(kind.type);
-  if (kind.preprocessing.empty()) return detector;
-  return preprocessed(std::move(detector), kind.preprocessing, makePreprocessing(kind.preprocessing));
+  return seenThrough(kind.preprocessing, makeDetector(kind.type));
 }
 
 std::unique_ptr<Detector> preprocessed(std::unique_ptr<Detector> detector, const std::string& name,
@@ -130,7 +140,12 @@ std::unique_ptr<Detector> preprocessed(std::unique_ptr<Detector> detector, const
 }
 
 std::vector<Field> ownDetectorFields(const DetectorKind& kind) {
-  return {{"type", OwnForm{kind.type}, "", {}, "one of " + textOf(detectorTypes()) + "; required"},
+  return {{"type",
+           OwnForm{kind.type},
+           "",
+           {},
+           "one of " + textOf(detectorTypes()) +
+               ", or a class of a package, as example_detectors/Corners; required"},
           {"preprocessing",
            OwnForm{kind.preprocessing.empty() ? kNoPreprocessing : kind.preprocessing},
            "",
@@ -140,15 +155,32 @@ std::vector<Field> ownDetectorFields(const DetectorKind& kind) {
 }
 
 std::unique_ptr<Detector> makeOwnDetector(const DetectorKind& kind) {
-  return std::make_unique<Own>(kind, makeDetector(kind));
+  return makeOwnDetector(kind, makeDetector(kind.type));
+}
+
+std::unique_ptr<Detector> makeOwnDetector(const DetectorKind& kind, std::unique_ptr<Detector> of_type) {
+  return std::make_unique<Own>(kind, seenThrough(kind.preprocessing, std::move(of_type)));
+}
+
+std::string Detector::identity() const {
+  std::string text = version();
+  if (text.empty()) return text;
+  const std::unique_ptr<Detector> same = clone();  // which gives its rows
+  for (const Field& row : same->fields()) {
+    const Field::Value value = row.value();
+    char exactly[32];
+    const auto* const number = std::get_if<double>(&value);
+    if (number != nullptr) std::snprintf(exactly, sizeof exactly, "%a", *number);
+    text += "\n" + row.key + ": " + (number != nullptr ? exactly : textOf(value));
+  }
+  return text;
 }
 
 Features detectFeatures(const Detector& detector, const Picture& picture) {
-  return detectFeatures(detector, *detector.make(), picture);
+  return detectFeatures(*detector.make(), detector.seen(picture));
 }
 
-Features detectFeatures(const Detector& detector, cv::Feature2D& worker, const Picture& picture) {
-  const cv::Mat seen = detector.seen(picture);
+Features detectFeatures(cv::Feature2D& worker, const cv::Mat& seen) {
   Features features;
   try {
     worker.detectAndCompute(seen, cv::noArray(), features.key_points, features.descriptors);

@@ -78,8 +78,9 @@ PlaceMethod placeMethod(const std::string& name, const std::string& called) {
              detectors.back());
 }
 
-PlaceComparison::PlaceComparison(const PictureFolder& map, const PictureFolder& queries, Progress progress)
-    : map_(map), queries_(queries), progress_(std::move(progress)) {}
+PlaceComparison::PlaceComparison(const PictureFolder& map, const PictureFolder& queries, Progress progress,
+                                 std::shared_ptr<FeatureCache> cache)
+    : map_(map), queries_(queries), progress_(std::move(progress)), cache_(std::move(cache)) {}
 
 void PlaceComparison::require(const PlaceMethod& method) const {
   if (method.kind != PlaceMethod::Kind::kSeqSlam) return;
@@ -124,7 +125,7 @@ FoundPlaces PlaceComparison::findByVlad(const std::string& detector) const {
   const std::unique_ptr<Detector> usual = makeDetector(DetectorKind::named(detector));
   const std::string type = DetectorKind::named(detector).type;
   const int norm = usual->norm();
-  DetectorPool detectors(*usual);
+  DetectorPool detectors(*usual, cache_);
   const auto describe = [&](const std::string& file) {
     return detectors.detect(readPicture(file)).descriptors;
   };

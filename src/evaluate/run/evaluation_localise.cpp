@@ -15,7 +15,7 @@ constexpr const char* kRows = "localisation.csv";
 LocalisationOptions optionsOf(const EvaluationOptions& options) {
   const LocalisationOfRun& asked = options.localisation;
   return {options.comparer.known, localisingDetectors(asked, options.comparer), asked.map_every_m,
-          asked.localiser};
+          asked.localiser, options.comparer.cache};
 }
 
 ObservedStreams streamsOf(const EvaluationOptions& options) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "evaluate/features/detector_pool.h"
 #include "evaluate/verify/near_points.h"
 #include "sunlit/evaluate/differences/feature_difference.h"
 #include "sunlit/evaluate/picture.h"
@@ -227,9 +228,12 @@ std::vector<Verified> verifyImages(const ImagesToVerify& images, const PointMaps
   std::vector<std::unique_ptr<Detector>> detectors;
   for (const std::string& name : options.detectors) detectors.push_back(detectorOf(options, name));
   const Picture pictures[] = {makePicture(images.rgb_a), makePicture(images.rgb_b)};
+  std::vector<std::unique_ptr<DetectorPool>> pools;
+  for (const auto& detector : detectors)
+    pools.push_back(std::make_unique<DetectorPool>(*detector, options.cache));
   std::vector<std::array<Features, 2>> features(detectors.size());
   tbb::parallel_for(std::size_t{0}, 2 * detectors.size(), [&](std::size_t task) {
-    features[task / 2][task % 2] = detectFeatures(*detectors[task / 2], pictures[task % 2]);
+    features[task / 2][task % 2] = pools[task / 2]->detect(pictures[task % 2]);
   });
   std::vector<Verified> verified(detectors.size());
   tbb::parallel_for(std::size_t{0}, detectors.size(), [&](std::size_t d) {

@@ -1,5 +1,6 @@
 /// evaluate_bags: the evaluator on recorded bags, without a master. See README.md.
 #include <algorithm>
+#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -33,6 +34,7 @@ struct Options {
   BagLocalisationOptions localisation;
   std::string config;                    ///< file; empty: none
   std::optional<EvaluatorOptions> read;  ///< of that file
+  double features_cache_gb = evaluate::kUsualFeaturesCache_gb;
 };
 
 /// Of what is localised; throws as optionsOf().
@@ -84,6 +86,7 @@ void readConfig(const std::vector<std::string>& arguments, Options* options) {
   if (options->config.empty()) return;
   options->read = readEvaluatorOptions(parametersOfFile(options->config));
   options->localisation.localisation.known = options->read->evaluation.comparer.known;
+  options->features_cache_gb = options->read->features_cache_gb;
 }
 
 /// Empty if help was asked for.
@@ -108,6 +111,7 @@ std::optional<Options> optionsOf(const std::vector<std::string>& arguments) {
             "detectors from it"});
   line.add("--namespace NAME", fieldOf(rows, "namespace"));
   line.add("--merge DIR", fieldOf(rows, "merge"));
+  line.add("--features-cache-limit GB", evaluate::featuresCacheRow(&options.features_cache_gb));
   line.group("Localisation: where each image of one bag is, by a map made of those of another");
   const std::vector<Field> bags = fieldsOf(options.localisation);
   line.add("--map BAG[:STREAM,...]", fieldOf(bags, "map"));
@@ -127,7 +131,11 @@ std::optional<Options> optionsOf(const std::vector<std::string>& arguments) {
   return options;
 }
 
-int run(const Options& options) {
+int run(Options options) {
+  const auto cache = evaluate::FeatureCache::usual(options.features_cache_gb, [](const std::string& line) {
+    std::fprintf(stderr, "evaluate_bags: %s\n", line.c_str());
+  });
+  options.localisation.localisation.cache = options.evaluation.evaluation.comparer.cache = cache;
   if (!options.localisation.odometry.empty()) return odometryOfBags(options.localisation);
   if (!options.localisation.maps.empty()) return localiseBags(options.localisation);
   return evaluateBags(options.evaluation);

@@ -43,9 +43,19 @@ class Patience {
 
 }  // namespace
 
+namespace {
+
+EvaluatorOptions withCache(EvaluatorOptions options) {
+  options.evaluation.comparer.cache = evaluate::FeatureCache::usual(
+      options.features_cache_gb, [](const std::string& line) { ROS_WARN("%s", line.c_str()); });
+  return options;
+}
+
+}  // namespace
+
 EvaluatorNode::EvaluatorNode(ros::NodeHandle node, ros::NodeHandle private_node,
                              const EvaluatorOptions& options)
-    : options_(options),
+    : options_(withCache(options)),
       lock_(options.evaluation.output_dir),
       localisation_(private_node, options.evaluation),
       activity_(private_node) {
@@ -68,7 +78,7 @@ EvaluatorNode::EvaluatorNode(ros::NodeHandle node, ros::NodeHandle private_node,
   callbacks.pair_done = [this](const evaluate::PairRecord& record, const cv::Mat& a, const cv::Mat& b) {
     onPairDone(record, a, b);
   };
-  evaluation_ = std::make_unique<evaluate::Evaluation>(options.evaluation, callbacks);
+  evaluation_ = std::make_unique<evaluate::Evaluation>(options_.evaluation, callbacks);
   publishProgress(evaluation_->counts().completed_poses);
 
   intake_ = std::make_unique<ImageIntake>(node, options.intake, *evaluation_);

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "ros/evaluator/detector_plugins.h"
 #include "sunlit/evaluate/differences/feature_difference.h"
+#include "sunlit/evaluate/features/detector_plugin.h"
 #include "sunlit/ros/node_rows.h"
 
 namespace sunlit::ros_interface {
@@ -87,6 +89,18 @@ std::vector<std::string> preprocessingWords() {
   return words;
 }
 
+/// One of those built in, or one that a package brings; empty where there is none.
+std::string typeOf(const ParameterReader& parameters, const std::string& key) {
+  const std::string type = parameters.text(key, "");
+  if (!isPluginName(type)) return parameters.choice(key, "", evaluate::detectorTypes());
+  const std::vector<std::string> all = pluginNames();
+  if (std::count(all.begin(), all.end(), type) == 0)
+    refuse("parameter " + parameters.fullName(key), '"' + type + '"',
+           "one of " + textOf(evaluate::detectorTypes()) + ", or of " + textOf(all) +
+               ", which packages on ROS_PACKAGE_PATH bring");
+  return type;
+}
+
 /// Detectors under names of their own: features/NAME/type says what they are, and features/NAME/preprocessing
 /// what they look through.
 void addDetectors(const ParameterReader& parameters, evaluate::Differences& known) {
@@ -94,14 +108,15 @@ void addDetectors(const ParameterReader& parameters, evaluate::Differences& know
   for (const std::string& name : parameters.namesBelow("features")) {
     if (name == "surf" || std::count(types.begin(), types.end(), name) > 0) continue;
     const std::string key = "features/" + name + "/type";
-    const std::string type = parameters.choice(key, "", types);
+    const std::string type = typeOf(parameters, key);
     if (type.empty())
       refuse("parameter " + parameters.fullName(key), "missing",
              "one of " + textOf(types) + ", since no detector is called " + name);
     const std::string seen_through = parameters.choice("features/" + name + "/preprocessing",
                                                        evaluate::kNoPreprocessing, preprocessingWords());
     evaluate::DetectorKind kind{type, seen_through == evaluate::kNoPreprocessing ? "" : seen_through};
-    known.add(name, evaluate::makeFeatureDifference(evaluate::makeOwnDetector(kind)));
+    auto of_type = isPluginName(type) ? loadDetector(type) : evaluate::makeDetector(type);
+    known.add(name, evaluate::makeFeatureDifference(evaluate::makeOwnDetector(kind, std::move(of_type))));
   }
 }
 
@@ -127,6 +142,7 @@ std::vector<Field> fieldsOf(EvaluatorOptions& options) {
                  fieldsOf(options.intake),
                  {diagnosticPeriodRow(&options.diagnostic_period_s)},
                  {{"memory_limit", &options.memory_limit_gb, "GB", {1e-3, 1e6}, "of images that wait"},
+                  evaluate::featuresCacheRow(&options.features_cache_gb),
                   {"idle_timeout",
                    &options.idle_timeout_s,
                    "s",

@@ -13,6 +13,7 @@ namespace sunlit::ros_interface {
 struct EvaluatorOptions {
   evaluate::EvaluationOptions evaluation;
   double memory_limit_gb = 1.0;  ///< evaluation.memory_limit_bytes, as people type it
+  double features_cache_gb = evaluate::kUsualFeaturesCache_gb;  ///< 0: no features are kept
   IntakeOptions intake;
   double idle_timeout_s =
       0.0;  ///< without any image, after which the node ends with what is missing named; 0: never

@@ -69,9 +69,9 @@ class TestBags(unittest.TestCase):
                                   stamp_of(pose))
                         bag.write(topic + 'capture', capture, stamp_of(pose))
 
-    def evaluate_bags(self, *arguments):
+    def evaluate_bags(self, *arguments, **environment):
         return subprocess.run([program('evaluate_bags')] + list(arguments), stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True, timeout=100)
+                              stderr=subprocess.STDOUT, text=True, timeout=100, env={**os.environ, **environment})
 
     def evaluator(self, name):
         return Evaluator({'streams': STREAMS, 'pairs': [['h04', 'h12'], {'a': 'h12', 'b': 'h20', 'every': 10}],
@@ -175,6 +175,37 @@ class TestBags(unittest.TestCase):
         done = self.evaluate_bags(*evaluate)
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn('with another setting: features/net/model_hash was ', done.stdout)
+
+    def test_features_that_another_run_found_give_the_same_bytes(self):
+        self.write_bags({'all.bag': [0, 1, 2]}, range(3))
+        kept = self.path('kept/features')
+
+        def run(out, *more, **environment):
+            done = self.evaluate_bags('--config', self.config, '--out', self.path(out), *more, self.path('all.bag'),
+                                      **{'SUNLIT_CACHE_DIR': self.path('kept'), **environment})
+            self.assertEqual(done.returncode, 0, done.stdout)
+            return done.stdout, [read(self.path(out), name) for name in RESULTS]
+
+        _, expected = run('none', '--features-cache-limit', '0')
+        self.assertFalse(os.path.exists(kept))
+        output, found = run('cold')
+        self.assertEqual(found, expected)
+        files = sorted(os.listdir(kept))
+        self.assertEqual(len(files), 14)  # of 3 x 2 pictures, and of h20 that of pose 0, by two detectors
+        # Each damaged file is read, named and mended.
+        for name in files:
+            with open(os.path.join(kept, name), 'r+b') as file:
+                whole = file.read()
+                file.seek(-1, os.SEEK_END)
+                file.write(bytes([whole[-1] ^ 1]))
+        output, found = run('mended')
+        self.assertEqual((found, output.count('features are found anew: ')), (expected, 14))
+        output, found = run('warm')
+        self.assertEqual((found, output.count('features are')), (expected, 0))
+        self.assertEqual(sorted(os.listdir(kept)), files)
+        # A file where the folder should be.
+        output, found = run('nowhere', SUNLIT_CACHE_DIR=self.path('all.bag'))
+        self.assertEqual((found, output.count('features are not kept for other runs: ')), (expected, 1))
 
     def test_about_may_be_any_text(self):
         self.write_bags({'all.bag': [0, 1]}, range(1))

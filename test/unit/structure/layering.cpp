@@ -45,7 +45,7 @@ struct LibraryRule {
 
 std::vector<LibraryRule> libraryRules() {
   const std::regex ros(
-      R"((ros|rosbag|rospack|tf2|tf2_[a-z]+|eigen_conversions|cv_bridge|image_transport|message_filters|nodelet|)"
+      R"((ros|rosbag|rospack|pluginlib|class_loader|tf2|tf2_[a-z]+|eigen_conversions|cv_bridge|image_transport|message_filters|nodelet|)"
       R"(diagnostic_updater|xmlrpcpp|std_srvs|[a-z]+_msgs)/.*|sunlit/[A-Z]\w*\.h|XmlRpc.*)");  // and our own
                                                                                                // messages
   return {

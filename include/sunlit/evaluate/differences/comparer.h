@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sunlit/evaluate/differences/differences.h"
+#include "sunlit/evaluate/features/feature_cache.h"
 
 namespace sunlit::evaluate {
 
@@ -19,6 +20,7 @@ struct ComparerOptions {
   Differences known;  ///< each with its options
   std::vector<std::string> differences = paperDifferences();
   RatioTest ratio_test;
+  std::shared_ptr<FeatureCache> cache;  ///< of features; null: none are kept
 };
 
 /// Rows of what decides the values: options of those differences only that are asked for.

@@ -31,6 +31,11 @@ class Detector {
   /// picture is the same to the bit for any number of threads. Not to be shared between threads: it may keep
   /// buffers.
   virtual cv::Ptr<cv::Feature2D> make() const = 0;
+  /// What its features may be kept under for other runs, beside its parameters and the picture that it sees:
+  /// who it is, and in which version. Empty: they are not kept.
+  virtual std::string version() const = 0;
+  /// That and its parameters; empty where version() is.
+  virtual std::string identity() const;
 };
 
 /// `sift surf orb brisk akaze kaze rootsift onnx`; surf only where it was built in.
@@ -66,7 +71,7 @@ std::unique_ptr<Detector> makeOwnDetector(const DetectorKind& kind);
 
 /// Throws std::runtime_error where OpenCV refuses the picture, such as one too small for BRISK.
 Features detectFeatures(const Detector& detector, const Picture& picture);
-/// The same by what `detector` made.
-Features detectFeatures(const Detector& detector, cv::Feature2D& worker, const Picture& picture);
+/// The same by what a detector made, in the picture that it sees.
+Features detectFeatures(cv::Feature2D& worker, const cv::Mat& seen);
 
 }  // namespace sunlit::evaluate

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sunlit/evaluate/differences/differences.h"
+#include "sunlit/evaluate/features/feature_cache.h"
 #include "sunlit/evaluate/localise/localiser.h"
 #include "sunlit/evaluate/posed_view.h"
 #include "sunlit/quantity/field.h"
@@ -18,6 +19,7 @@ struct LocalisationOptions {
   std::vector<std::string> detectors = {"sift", "orb"};
   double map_every_m = 5.0;  ///< for KeyFrameSpacing, which is whoever's that brings the views
   LocaliserOptions localiser;
+  std::shared_ptr<FeatureCache> cache;  ///< of features; null: none are kept
 };
 
 /// "map_every".

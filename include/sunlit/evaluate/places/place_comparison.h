@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "sunlit/evaluate/features/feature_cache.h"
 #include "sunlit/evaluate/places/picture_folder.h"
 #include "sunlit/evaluate/places/place_scores.h"
 
@@ -42,7 +44,9 @@ class PlaceComparison {
   /// `what` is done for `done` of `all` pictures. Called by one thread at a time.
   using Progress = std::function<void(const std::string& what, std::size_t done, std::size_t all)>;
 
-  PlaceComparison(const PictureFolder& map, const PictureFolder& queries, Progress progress);
+  /// Features that are in `cache` are not found again; null: none are kept.
+  PlaceComparison(const PictureFolder& map, const PictureFolder& queries, Progress progress,
+                  std::shared_ptr<FeatureCache> cache = nullptr);
 
   /// Throws std::invalid_argument where `method` cannot work with so few pictures, before any is read.
   void require(const PlaceMethod& method) const;
@@ -64,6 +68,7 @@ class PlaceComparison {
   PictureFolder map_;
   PictureFolder queries_;
   Progress progress_;
+  std::shared_ptr<FeatureCache> cache_;
   std::optional<ThumbnailComparison> thumbnails_;  ///< two methods go by them
 };
 

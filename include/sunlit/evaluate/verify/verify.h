@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sunlit/evaluate/differences/differences.h"
+#include "sunlit/evaluate/features/feature_cache.h"
 #include "sunlit/evaluate/features/features.h"
 #include "sunlit/evaluate/features/matching.h"
 #include "sunlit/evaluate/verify/point_maps.h"
@@ -86,6 +87,7 @@ struct VerifyOptions {
   Preprocessings preprocessings;                          ///< likewise
   std::vector<std::string> detectors = paperDetectors();  ///< some of detectorNames()
   RatioTest ratio_test;
+  std::shared_ptr<FeatureCache> cache;  ///< of features; null: none are kept
 };
 
 std::vector<Field> fieldsOf(VerifyOptions& options);

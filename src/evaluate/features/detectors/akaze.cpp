@@ -10,6 +10,7 @@ enum class Descriptor { kKazeUpright, kKaze, kMldbUpright, kMldb };
 class Akaze : public Detector {
  public:
   std::unique_ptr<Detector> clone() const override { return std::make_unique<Akaze>(*this); }
+  std::string version() const override { return "akaze"; }
   std::vector<Field> fields() override {
     return {{"descriptor_type",
              choiceOf(&descriptor_type_, {"kaze_upright", "kaze", "mldb_upright", "mldb"}),

@@ -7,6 +7,7 @@ namespace {
 class Brisk : public Detector {
  public:
   std::unique_ptr<Detector> clone() const override { return std::make_unique<Brisk>(*this); }
+  std::string version() const override { return "brisk"; }
   std::vector<Field> fields() override {
     return {{"threshold", &threshold_, "grey levels", {1, 255}, "of AGAST"},
             {"n_octaves", &n_octaves_, "", {0, 9}, "0: one scale"},

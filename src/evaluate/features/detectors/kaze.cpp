@@ -7,6 +7,7 @@ namespace {
 class Kaze : public Detector {
  public:
   std::unique_ptr<Detector> clone() const override { return std::make_unique<Kaze>(*this); }
+  std::string version() const override { return "kaze"; }
   std::vector<Field> fields() override {
     return {{"extended", &extended_, "", {}, "128 numbers a descriptor instead of 64"},
             {"upright", &upright_, "", {}, "no orientation"},

@@ -212,6 +212,7 @@ class OnnxWorker : public cv::Feature2D {
 class Onnx : public Detector {
  public:
   std::unique_ptr<Detector> clone() const override { return std::make_unique<Onnx>(*this); }
+  std::string version() const override { return "onnx"; }
   std::vector<Field> fields() override {
     std::vector<Field> rows = {
         {"model", &options_.model, "", {}, "file of the network, ONNX; required"},

@@ -7,6 +7,7 @@ namespace {
 class Orb : public Detector {
  public:
   std::unique_ptr<Detector> clone() const override { return std::make_unique<Orb>(*this); }
+  std::string version() const override { return "orb"; }
   std::vector<Field> fields() override {
     return {{"n_features", &n_features_, "", {1, kMostFeatures}, "best ones kept"},
             {"scale_factor", &scale_factor_, "", {1.01, 4}, "between pyramid levels"},

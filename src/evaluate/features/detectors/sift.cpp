@@ -10,6 +10,7 @@ namespace {
 class Sift : public Detector {
  public:
   std::unique_ptr<Detector> clone() const override { return std::make_unique<Sift>(*this); }
+  std::string version() const override { return "sift"; }
   std::vector<Field> fields() override {
     return {{"n_features", &n_features_, "", {0, kMostFeatures}, "best ones kept; 0: all"},
             {"n_octave_layers", &n_octave_layers_, "", {1, 10}, "layers of an octave"},
@@ -55,6 +56,7 @@ class RootSiftWorker : public cv::Feature2D {
 class RootSift : public Sift {
  public:
   std::unique_ptr<Detector> clone() const override { return std::make_unique<RootSift>(*this); }
+  std::string version() const override { return "rootsift"; }
   cv::Ptr<cv::Feature2D> make() const override { return cv::makePtr<RootSiftWorker>(Sift::make()); }
 };
 

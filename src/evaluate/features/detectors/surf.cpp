@@ -8,6 +8,7 @@ namespace {
 class SurfDetector : public Detector {
  public:
   std::unique_ptr<Detector> clone() const override { return std::make_unique<SurfDetector>(*this); }
+  std::string version() const override { return "surf"; }
   std::vector<Field> fields() override { return fieldsOf(options_); }
   int norm() const override { return cv::NORM_L2; }
   cv::Ptr<cv::Feature2D> make() const override { return createSurf(options_); }
