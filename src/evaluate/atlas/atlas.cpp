@@ -45,7 +45,7 @@ std::string queryDriveOf(const std::string& condition) {
 
 struct AtlasObserver::Method {
   Method(const std::string& called, const AtlasOptions& options)
-      : name(called), detector(detectorOf(options.verify, called)), pool(*detector) {}
+      : name(called), detector(detectorOf(options.verify, called)), pool(*detector, options.verify.cache) {}
   std::string name;
   std::unique_ptr<Detector> detector;
   mutable DetectorPool pool;
