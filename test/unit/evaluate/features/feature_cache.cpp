@@ -152,7 +152,8 @@ TEST_F(Cache, IsOneWarningWhereTheFolderCannotBeUsed) {
 
 TEST_F(Cache, RemovesWhatHasNotBeenUsedForLongestButNothingOfItsOwn) {
   const auto orb = makeDetector("orb");
-  fieldOf(orb->fields(), "n_features").set(30, "");  // as many in every picture, so that files are of one size
+  fieldOf(orb->fields(), "n_features")
+      .set(30, "");  // as many in every picture, so that files are of one size
   std::vector<fs::path> kept;
   for (int i = 0; i < 3; ++i) {
     find(*orb, greyOf(i));
