@@ -13,7 +13,7 @@ import psutil
 import yaml
 
 DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "orb", "brisk"]  # the paper's
-MORE_DIFFERENCES = ["akaze", "kaze", "rootsift"]
+MORE_DIFFERENCES = ["akaze", "kaze", "rootsift", "onnx"]
 DETECTORS = ["sift", "surf", "orb", "brisk"] + MORE_DIFFERENCES
 
 
@@ -139,6 +139,13 @@ def differences(text, features_text="{}"):
     if not isinstance(names, list) or not names or not set(map(str, names)) <= set(known):
         raise BadArgument("differences", text, allowed)
     return names
+
+
+def unused_features(features_text, differences_text):
+    """One line where detectors are set that nothing is measured by; nothing where all are used."""
+    compared = differences(differences_text, features_text)
+    unused = [name for name in features(features_text) if name not in compared]
+    return f"argument features sets {', '.join(unused)}, which no difference uses: add to differences" if unused else ""
 
 
 def _detectors(name, text, compared, features_text):

@@ -140,7 +140,10 @@ class Plan(unittest.TestCase):
         self.assertEqual(tree["features"], {"mine": {"type": "sift", "preprocessing": "gamma", "gamma": {"exponent": 0.4}}})
         self.assert_refused("argument differences is '[yours]', but must be all, or a list of some of boolean_rgb, ",
                             differences="[yours]", features=mine)
-        self.assert_refused("rootsift, mine", differences="[yours]", features=mine)
+        self.assertEqual(arguments.unused_features(mine, "[orb, mine]"), "")
+        self.assertEqual(arguments.unused_features("{mine: {type: sift}, orb: {n_features: 9}, kaze: {upright: true}}", "all"),
+                         "argument features sets mine, kaze, which no difference uses: add to differences")
+        self.assert_refused("rootsift, onnx, mine", differences="[yours]", features=mine)
         self.assertNotIn("features", planned()["evaluator"])
         self.assertEqual(planned(differences="[orb, mine]", features=mine, verify="[mine]")["evaluator"]["verify"], ["mine"])
 
