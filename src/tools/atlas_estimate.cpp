@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -34,21 +35,13 @@ double secondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// A file of its own that goes in the end.
-class ScratchFile {
- public:
-  ScratchFile() : path_(fs::temp_directory_path() / ("atlas_estimate_" + std::to_string(::getpid()))) {}
-  ~ScratchFile() {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-  }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-  std::string path() const { return path_.string(); }
-
- private:
-  fs::path path_;
-};
+/// Without a name as soon as it is open, so that nothing stays however the program ends.
+std::unique_ptr<ObservationFile> scratchFile() {
+  const fs::path path = fs::temp_directory_path() / ("atlas_estimate_" + std::to_string(::getpid()));
+  auto file = std::make_unique<ObservationFile>(path.string());
+  fs::remove(path);
+  return file;
+}
 
 /// Evenly spread over all of them.
 std::vector<std::size_t> someOf(std::size_t conditions) {
@@ -95,15 +88,14 @@ AtlasCost measureAt(const AtlasPose& pose, const AtlasRunOptions& options, Atlas
   Clock::time_point begin = Clock::now();
   camera->look(pose, {});
   cost.draw_s = secondsSince(begin);
-  const ScratchFile scratch;
-  ObservationFile file(scratch.path());
+  const std::unique_ptr<ObservationFile> file = scratchFile();
   const evaluate::AtlasObserver observer(options.atlas);
   begin = Clock::now();
-  for (evaluate::AtlasView& view : camera->look(pose, lights)) observer.observe(std::move(view), &file);
+  for (evaluate::AtlasView& view : camera->look(pose, lights)) observer.observe(std::move(view), file.get());
   cost.picture_s = std::max(0.0, secondsSince(begin) - cost.draw_s) / pictures;
-  cost.picture_bytes = static_cast<double>(fs::file_size(scratch.path())) / pictures;
-  standForSeveral(options.atlas.localiser.retrieved, pose.number, &file);
-  measureQueries(options, lights, file, &cost);
+  cost.picture_bytes = static_cast<double>(file->bytes()) / pictures;
+  standForSeveral(options.atlas.localiser.retrieved, pose.number, file.get());
+  measureQueries(options, lights, *file, &cost);
   return cost;
 }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """atlas, as people type it: whole, in shards, broken off, and as jobs of a cluster."""
 import csv
+import fcntl
 import os
 import pathlib
 import re
@@ -170,15 +171,13 @@ class Atlas(unittest.TestCase):
 
     def test_a_second_drive_is_looked_for_in_the_maps_of_the_first(self):
         noon = [*SMALL, "--count", "4", "--stride", "3", "--hours", "12", "--detectors", "sift", "--map-every", "0"]
-        self.make("alike", *noon)
         self.make("beside", *noon, "--query-offset", "0.5")
-        alike, beside = (table(self.path(name), "cells/sift/h12/h12.csv") for name in ("alike", "beside"))
-        for one, other in zip(alike, beside):
-            self.assertEqual((one["d"], one["matching_score_3px"]), (other["d"], other["matching_score_3px"]))
-            self.assertEqual(one["status"], "localised")
-            self.assertLess(float(one["error_m"]), 1e-6)  # its own picture is in the map
-            self.assertFalse(float(other["error_m"]) < 1e-4)
-            self.assertNotEqual(one["ev100"], other["ev100"])
+        rows = table(self.path("beside"), "cells/sift/h12/h12.csv")
+        self.assertEqual(len(rows), 2)
+        for row in rows:
+            # Equal poses are compared, which have equal pictures here; but no query is in the map itself.
+            self.assertEqual(float(row["matching_score_3px"]), 1)
+            self.assertTrue(row["status"] != "localised" or float(row["error_m"]) > 1e-4)
 
     def test_slurm_jobs_make_the_same_atlas(self):
         self.make("alone", *self.boxes())
@@ -212,6 +211,11 @@ class Atlas(unittest.TestCase):
         self.assertRegex(done.stderr, "sbatch: error: no such partition\natlas: .*observe.sh: sbatch did not take it\n")
         said = self.make("written", *self.boxes(), "--slurm", "--submit", "false")
         self.assertRegex(said, r"observe.sh, 4 tasks\n.*compare.sh, 2 tasks\n.*merge.sh\n$")
+        # No two processes work at one unit.
+        os.mkdir(self.path("written/observations"))
+        with open(self.path("written/observations/poses_0000002.bin.growing"), "wb") as growing:
+            fcntl.flock(growing, fcntl.LOCK_EX)
+            self.assertIn("poses_0000002.bin.growing: another process is at it", self.refused("written", *self.boxes()))
 
     def test_bad_arguments_are_one_line(self):
         for arguments, part in (

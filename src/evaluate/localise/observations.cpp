@@ -262,6 +262,11 @@ std::vector<ObservationKey> ObservationFile::keys() const {
   return keys;
 }
 
+std::uint64_t ObservationFile::bytes() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return end_;
+}
+
 ObservationFile::Entry ObservationFile::entryAt(std::size_t index) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return entries_.at(index);

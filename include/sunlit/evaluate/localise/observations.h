@@ -65,6 +65,8 @@ class ObservationFile {
   Observation read(std::size_t index) const;
   /// Of the same, for few hundred bytes of reading.
   ObservationHead head(std::size_t index) const;
+  /// Of all records.
+  std::uint64_t bytes() const;
   /// Bytes that opening cut off.
   std::size_t torn() const { return torn_; }
 

@@ -107,6 +107,7 @@ TEST(ObservationFile, IsWholeWhereverItWasTorn) {
     file.add({"h04", "sift", 3, 500}, observation(1.0F));
   }
   const auto first = std::filesystem::file_size(path);
+  EXPECT_EQ(ObservationFile(path).bytes(), first);
   {
     ObservationFile file(path);
     file.add({"h04", "sift", 4, 600}, observation(1.0F));
