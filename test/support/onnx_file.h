@@ -33,11 +33,14 @@ class ProtoMessage {
   std::string bytes_;
 };
 
-/// A convolution of one channel over squares of 8 x 8 px that stand side by side.
+/// A convolution; unless told otherwise of the picture, over squares of 8 x 8 px that stand side by side.
 struct Convolution {
   std::string output;          ///< its name
-  std::vector<float> weights;  ///< 64 an output channel, row by row
+  std::vector<float> weights;  ///< for each output channel, input channel and row of the square
   std::vector<float> biases;   ///< one an output channel
+  std::string input = "image";
+  std::uint64_t input_channels = 1, side = 8, stride = 8, padding = 0;
+  bool is_output = true;  ///< of the network
 };
 
 namespace onnx_parts {
@@ -68,21 +71,24 @@ inline ProtoMessage picture(const std::string& name, std::uint64_t channels) {
 
 }  // namespace onnx_parts
 
-/// The network whose outputs are `convolutions` of its input.
+/// The network of these convolutions, of which later ones may have earlier ones for their input.
 inline std::string onnxFile(const std::vector<Convolution>& convolutions) {
   ProtoMessage graph;
   graph.text(2, "graph");
   for (const Convolution& one : convolutions) {
     const std::uint64_t channels = one.biases.size();
     ProtoMessage node;
-    node.text(1, "image").text(1, one.output + "_weights").text(1, one.output + "_biases");
+    node.text(1, one.input).text(1, one.output + "_weights").text(1, one.output + "_biases");
     node.text(2, one.output).text(3, one.output).text(4, "Conv");
-    node.message(5, onnx_parts::list("kernel_shape", {8, 8}));
-    node.message(5, onnx_parts::list("strides", {8, 8}));
+    node.message(5, onnx_parts::list("kernel_shape", {one.side, one.side}));
+    node.message(5, onnx_parts::list("strides", {one.stride, one.stride}));
+    const std::uint64_t p = one.padding;
+    node.message(5, onnx_parts::list("pads", {p, p, p, p}));
     graph.message(1, node);
-    graph.message(5, onnx_parts::tensor(one.output + "_weights", {channels, 1, 8, 8}, one.weights));
+    graph.message(5, onnx_parts::tensor(one.output + "_weights",
+                                        {channels, one.input_channels, one.side, one.side}, one.weights));
     graph.message(5, onnx_parts::tensor(one.output + "_biases", {channels}, one.biases));
-    graph.message(12, onnx_parts::picture(one.output, channels));
+    if (one.is_output) graph.message(12, onnx_parts::picture(one.output, channels));
   }
   graph.message(11, onnx_parts::picture("image", 1));
   return ProtoMessage().number(1, 7).message(7, graph).message(8, ProtoMessage().number(2, 11)).bytes();

@@ -121,16 +121,28 @@ TEST_F(Onnx, FindsNothingInWhatIsEmptyOrSmallerThanACell) {
   }
 }
 
-/// Weights drawn at random, so that every order of sums rounds in its own way.
+/// Weights drawn at random, so that every order of sums rounds in its own way: 3 x 3 px, as in networks of
+/// this kind, and then heads of whole cells.
 std::string randomNetwork() {
   cv::RNG random(7);
-  Convolution points{"semi", std::vector<float>(65 * 64), std::vector<float>(65)};
-  Convolution descriptors{"desc", std::vector<float>(256 * 64), std::vector<float>(256)};
-  for (std::vector<float>* values :
-       {&points.weights, &points.biases, &descriptors.weights, &descriptors.biases}) {
-    for (float& value : *values) value = random.uniform(-1.0F, 1.0F);
-  }
-  return onnxFile({points, descriptors});
+  const auto layer = [&](const std::string& output, const std::string& input, std::uint64_t channels,
+                         std::uint64_t input_channels, std::uint64_t side) {
+    Convolution made{output,
+                     std::vector<float>(channels * input_channels * side * side),
+                     std::vector<float>(channels),
+                     input,
+                     input_channels,
+                     side};
+    const auto bound = static_cast<float>(2.0 / std::sqrt(static_cast<double>(input_channels * side * side)));
+    for (std::vector<float>* values : {&made.weights, &made.biases}) {
+      for (float& value : *values) value = random.uniform(-bound, bound);
+    }
+    if (side == 3) made.stride = made.padding = 1;
+    made.is_output = side == 8;
+    return made;
+  };
+  return onnxFile({layer("first", "image", 16, 1, 3), layer("second", "first", 24, 16, 3),
+                   layer("semi", "second", 65, 24, 8), layer("desc", "second", 256, 24, 8)});
 }
 
 TEST_F(Onnx, FindsTheSameForAnyNumberOfThreadsAndAtTheSameTime) {
