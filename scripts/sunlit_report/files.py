@@ -9,7 +9,7 @@ import re
 import numpy as np
 import yaml
 
-from . import comparison_rows, lost, queries, verified_rows
+from . import choice, comparison_rows, lost, queries, verified_rows
 from .csv_rows import ReportError, number, optional_whole, rows, whole
 
 DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "brisk", "orb"]
@@ -97,6 +97,11 @@ class Output:
     @property
     def all_pairs(self):
         return list(dict.fromkeys((a, b) for a, b, _ in self.summary))
+
+    @property
+    def shown_pairs(self):
+        """Those of different conditions that tables and figures have; the self-tests where there is nothing else."""
+        return choice.shown_pairs(self.pairs or self.self_pairs, {key[0] for key in self.queries})
 
     @property
     def differences(self):

@@ -7,7 +7,8 @@ import numpy as np
 from matplotlib import patheffects
 from PIL import Image
 
-from . import names, pictures
+from . import names
+from .choice import evenly_spread
 from .csv_rows import ReportError
 from .figures import STYLE, distance_along, grid_of, legend_above, svg
 from .localisation import LOST, USABLE
@@ -44,7 +45,7 @@ def path_on_map(output):
 def found_on_map(output):
     """Where the queries of each hour were found, a panel for each hour and method: SVG text, and the hours shown."""
     hours = list(dict.fromkeys(key[:2] for key in output.positions))
-    shown = pictures.evenly_spread(hours, SHOWN_HOURS)
+    shown = evenly_spread(hours, SHOWN_HOURS)
     keys = [key for pair in shown for key in output.positions if key[:2] == pair]
     columns = min(len(keys), max(1, len({key[2] for key in output.positions if key[:2] in shown})), 3)
     truth = np.concatenate([one.truth for one in output.positions.values()])

@@ -2,6 +2,8 @@
 
 import re
 
+LISTED = 8
+
 _DIFFERENCES = {
     "boolean_rgb": "Boolean RGB", "boolean_grey": "Boolean grey",
     "euclidean_rgb": "Euclidean RGB", "euclidean_grey": "Euclidean grey",
@@ -53,7 +55,9 @@ def condition_of_map(name):
 
 
 def conditions(several):
-    """'4, 12 and 20 h', or the names as they are."""
+    """'4, 12 and 20 h', or the names as they are; of many the first and the last."""
+    if len(several) > LISTED:
+        return f"{len(several)} conditions, {condition(several[0])} to {condition(several[-1])}"
     hours = [_hour(name) for name in several]
     shown = hours if all(hours) else list(several)
     listed = ", ".join(shown[:-1]) + " and " + shown[-1] if len(shown) > 1 else shown[0]

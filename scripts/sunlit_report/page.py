@@ -48,7 +48,7 @@ def matches(output):
 
 def plots(output):
     """The figures; pairs of different conditions, or the self-tests where there is nothing else."""
-    pairs = output.pairs or output.self_pairs
+    pairs = output.shown_pairs
     return {
         "usable_hours": pictures.svg_uri(localisation.usable_hours(output)) if output.queries else None,
         "errors_along_path": [pictures.svg_uri(localisation.errors_along_path(output, few))

@@ -6,10 +6,12 @@ import io
 from PIL import Image  # matplotlib needs it as well
 
 from . import names
+from .choice import SHOWN_CONDITIONS, evenly_spread
 from .csv_rows import ReportError
 
 POSES = 5
 LARGEST_WIDTH = 640  # px on the page
+GRID_WIDTH = 1920  # px of all columns together
 QUALITY = 88
 
 
@@ -36,23 +38,19 @@ def embedded(file, largest_width=LARGEST_WIDTH):
     return data_uri("image/jpeg", content.getvalue())
 
 
-def evenly_spread(poses, count):
-    """`count` of the sorted poses, first and last included."""
-    if len(poses) <= count:
-        return list(poses)
-    return [poses[round(k * (len(poses) - 1) / (count - 1))] for k in range(count)]
-
-
 def grid(output):
     """Columns (captions) and rows (pose, pictures by column); None where no pose has a picture of two conditions."""
-    conditions = [name for name in output.conditions if output.images.get(name)]
-    if not conditions:
+    kept = [name for name in output.conditions if output.images.get(name)]
+    if not kept:
         return None
+    conditions = evenly_spread(kept, SHOWN_CONDITIONS)
     common = sorted(set.intersection(*(set(output.images[name]) for name in conditions)))
     if not common:
         return None
     poses = evenly_spread(common, POSES)
+    width = min(LARGEST_WIDTH, GRID_WIDTH // len(conditions))
     return {
+        "of": len(kept),
         "columns": [names.condition(name) for name in conditions],
-        "rows": [(pose, [embedded(output.images[name][pose]) for name in conditions]) for pose in poses],
+        "rows": [(pose, [embedded(output.images[name][pose], width) for name in conditions]) for pose in poses],
     }

@@ -31,7 +31,7 @@ def interval(row):
 
 def main_tables(output):
     """In the paper's form, three pairs at a time: per algorithm E and s of each pair, and the paper's own."""
-    return [_table(output, pairs, fixed, lambda a, b: (a, b)) for pairs in chunks(output.pairs, PAIRS_PER_TABLE)]
+    return [_table(output, pairs, fixed, lambda a, b: (a, b)) for pairs in chunks([pair for pair in output.shown_pairs if pair in output.pairs], PAIRS_PER_TABLE)]
 
 
 def self_tables(output):
@@ -71,7 +71,8 @@ def _rests_on(summaries):
 def counts(output):
     """What each mean rests on."""
     rows = []
-    for (a, b, difference), row in output.summary.items():
+    shown = {*output.shown_pairs, *output.self_pairs}
+    for (a, b, difference), row in ((key, row) for key, row in output.summary.items() if key[:2] in shown):
         series = output.series.get((a, b, difference))
         has_features = series is not None and bool((series.features_a + series.features_b).any())
         rows.append({

@@ -4,7 +4,7 @@ import math
 
 import matplotlib.pyplot as plt
 
-from . import names, pictures
+from . import choice, names, pictures
 from .files import is_self_test
 from .figures import STYLE, colour_of, grid_of, legend_above, svg
 from .tables import MISSING
@@ -24,8 +24,13 @@ def pairs(output):
     return [pair for pair in found if not is_self_test(*pair)] or found
 
 
+def shown_pairs(output):
+    """Of which tables and figures tell."""
+    return choice.shown_pairs(pairs(output), {key[0] for key in output.queries})
+
+
 def _keys(output):
-    return [(a, b, detector) for a, b in pairs(output) for detector in output.verified.detectors
+    return [(a, b, detector) for a, b in shown_pairs(output) for detector in output.verified.detectors
             if (a, b, detector) in output.verified.means]
 
 
@@ -51,7 +56,7 @@ def table_rows(output):
 
 def accuracy(output):
     """MMA over its threshold, one panel a pair, one line a detector with its interval."""
-    shown = pairs(output)
+    shown = shown_pairs(output)
     with plt.rc_context(STYLE):
         figure, axes = grid_of(len(shown), min(len(shown), 3), (3.1, 2.3))
         for axis, (a, b) in zip(axes, shown):

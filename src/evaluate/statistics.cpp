@@ -137,6 +137,10 @@ Statistics momentsOf(const std::vector<double>& values) {
 Statistics statisticsOf(const std::vector<double>& values) {
   Statistics result = momentsOf(values);
   if (result.n < 2) return result;
+  if (result.sd == 0.0) {  // so would all resampled means be, to the bit
+    result.ci_low = result.ci_high = result.mean;
+    return result;
+  }
   const std::vector<double> series = definedOf(values);
   std::vector<double> means = resampledMeans(series, blockLength(series));
   std::sort(means.begin(), means.end());

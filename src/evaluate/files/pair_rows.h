@@ -2,6 +2,9 @@
 /// crash.
 #pragma once
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -102,8 +105,14 @@ LoadedValues<Value> loadValues(const std::string& path, const FramesLayout& layo
 template <typename Value>
 void writeValues(const std::string& path, const FramesLayout& layout,
                  const std::vector<PairValues<Value>>& records, const ValueColumns<Value>& columns) {
+  constexpr std::size_t kRecordsAtOnce = 1000;
+  std::vector<std::string> parts((records.size() + kRecordsAtOnce - 1) / kRecordsAtOnce);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
+    for (std::size_t i = p * kRecordsAtOnce; i < std::min((p + 1) * kRecordsAtOnce, records.size()); ++i)
+      parts[p] += textOf(layout, records[i], columns);
+  });
   std::string text = columns.header + "\n";
-  for (const auto& record : records) text += textOf(layout, record, columns);
+  for (const std::string& part : parts) text += part;
   image::writeFileAtomically(path, text);
 }
 

@@ -9,7 +9,7 @@
 namespace sunlit::evaluate {
 namespace {
 
-constexpr std::chrono::seconds kSummingAtMost{3};
+constexpr std::chrono::seconds kSummingAtMost{2};
 
 }  // namespace
 

@@ -17,7 +17,7 @@
 namespace sunlit::ros_interface {
 namespace {
 
-constexpr double kComparingAtMost_s = 3.0;  // once interrupted, of the 10 s until all is written
+constexpr double kComparingAtMost_s = 2.0;  // once interrupted, of the 10 s until all is written
 
 /// Lasts until so long after an interrupt.
 class Patience {

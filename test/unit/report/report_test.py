@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """What must hold of the report, on output folders made up here (output_folder.py)."""
 
+import dataclasses
+import itertools
 import math
 import os
 import re
@@ -9,16 +11,18 @@ import sys
 import tempfile
 import unittest
 
+import numpy as np
+from PIL import Image
+
 sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
 SCRIPTS = os.path.join(HERE, "..", "..", "..", "scripts")
 sys.path[:0] = [HERE, SCRIPTS]
 
-import numpy  # noqa: E402
 import output_folder as made  # noqa: E402
-from sunlit_report import atlas_figures, atlas_page, atlas_rows, comparisons, files, findings  # noqa: E402
+from sunlit_report import atlas_figures, atlas_page, atlas_rows, choice, comparisons, files, findings  # noqa: E402
 from sunlit_report import figures, localisation, lost, map_figure, names, page, pictures, queries, tables, verified  # noqa: E402
-from sunlit_report import matrices, warnings  # noqa: E402
+from sunlit_report import matrices, verified_rows, warnings  # noqa: E402
 from sunlit_report.csv_rows import ReportError  # noqa: E402
 
 REPORT = os.path.join(SCRIPTS, "report")
@@ -240,11 +244,10 @@ class Parts(unittest.TestCase):
         self.assertEqual(names.conditions(["h04", "h12", "h20"]), "4, 12 and 20 h")
 
     def test_pictures_are_spread_from_end_to_end(self):
-        self.assertEqual(pictures.evenly_spread(list(range(991)), 5), [0, 248, 495, 742, 990])
-        self.assertEqual(pictures.evenly_spread([3, 4], 5), [3, 4])
+        self.assertEqual(choice.evenly_spread(list(range(991)), 5), [0, 248, 495, 742, 990])
+        self.assertEqual(choice.evenly_spread([3, 4], 5), [3, 4])
 
     def test_running_median_skips_undefined_values(self):
-        import numpy as np
         got = figures.running_median(np.array([1.0, math.nan, 3.0, 100.0, 5.0, math.nan, math.nan, math.nan]), 3)
         np.testing.assert_array_equal(got, [1.0, 2.0, 51.5, 5.0, 52.5, 5.0, math.nan, math.nan])
 
@@ -319,7 +322,7 @@ class Matrices(InFolder):
         conditions, values = matrices.matrix(self.read(), "sift")
         self.assertEqual(conditions, ["h04", "h06", "h12", "h20"])
         nothing = math.nan  # h20 comes first in all its pairs
-        numpy.testing.assert_allclose(values, [[nothing, 0.12, 0.13, nothing], [nothing, 0.5, 0.23, nothing],
+        np.testing.assert_allclose(values, [[nothing, 0.12, 0.13, nothing], [nothing, 0.5, 0.23, nothing],
                                                [nothing] * 4, [0.01, 0.02, 0.03, nothing]])
         self.assertIn("<svg", matrices.of_all_pairs(self.read()))
         self.assertTrue(matrices.worth_showing(self.read()))
@@ -418,7 +421,7 @@ class Lost(InFolder):
         self.assert_refused("lost_features.csv:2: column, row and lost must be below 16, 12 and features")
 
     def test_of_many_pairs_those_that_lose_most_are_shown(self):
-        some = {(f"h{k:02d}", "h23", "sift"): lost.Lost(1, lost.np.full((12, 16), 100), lost.np.full((12, 16), k)) for k in range(9)}
+        some = {(f"h{k:02d}", "h23", "sift"): lost.Lost(1, np.full((12, 16), 100), np.full((12, 16), k)) for k in range(9)}
         self.assertEqual([a for a, _ in lost.shown_pairs(some)], [f"h{k:02d}" for k in range(3, 9)])
 
 
@@ -528,6 +531,42 @@ class Page(InFolder):
         self.assertIn("Until which hour a map of 12 h serves", html)
         self.assertNotIn("Differences between conditions", html)
         self.assertNotIn("published findings", html)
+
+    def test_every_hour_of_a_day_stays_within_20_megabytes(self):
+        """276 pairs and 991 poses; pictures of noise are the largest that there are. Files of that size are made in memory."""
+        made.write_all(self.folder)
+        output = self.read()
+        random = np.random.default_rng(1)
+        hours = [f"h{hour:02d}" for hour in range(24)]
+        noise = os.path.join(self.folder, "noise.png")
+        Image.fromarray(random.integers(0, 256, (480, 1280, 3), dtype=np.uint8)).save(noise)
+        poses = np.arange(991)
+        count = np.full(991, 400)
+        mean = dataclasses.replace(next(iter(output.verified.means.values()))["d"], n=991)
+        for pair in itertools.combinations(hours, 2):
+            for difference in made.DIFFERENCES:
+                value = random.uniform(0, 1, 991)
+                output.series[*pair, difference] = files.Series(poses, value, count, count, count, count, value, value)
+                output.summary[*pair, difference] = files.summarise(output.series[*pair, difference])
+            for detector in made.METHODS:
+                output.verified.poses[*pair, detector] = dict(zip(poses.tolist(), (poses % 50).tolist()))
+                output.verified.means[*pair, detector] = {name: mean for name in verified_rows.MEASURES}
+                output.matches["-".join(pair) + "/" + detector] = {0: noise, 49: noise}
+                cells = random.integers(1, 100, (12, 16))
+                output.lost[*pair, detector] = lost.Lost(991, cells, cells // 2)
+        for hour in hours:
+            output.images[hour] = {pose: noise for pose in (0, 248, 495, 742, 990)}
+            for detector in made.METHODS:
+                errors = random.uniform(0, 1, 991)
+                places = random.uniform(0, 500, (991, 2))
+                output.queries["h12", hour, detector] = queries.Queries(poses, errors, errors, count)
+                output.positions["h12", hour, detector] = queries.Positions(places + 0.1, places)
+        output.path = {"pose": poses, "x": poses * 1.0, "y": poses * 0.5}
+        html = page.render(output, findings.judge(output))
+        self.assertLess(len(html.encode()), 20e6)
+        self.assertIn("of 12 of the 276 pairs", html)
+        self.assertIn("6 of 24 conditions", html)
+        self.assertEqual({pair for pair in output.shown_pairs if "h12" not in pair}, set())
 
     def test_the_same_folder_gives_the_same_bytes(self):
         made.write_all(self.folder)
