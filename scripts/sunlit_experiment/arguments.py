@@ -128,6 +128,9 @@ def features(text):
     if not isinstance(detectors, dict) or not all(isinstance(name, str) and isinstance(detector, dict) and detector
                                                   for name, detector in detectors.items()):
         raise BadArgument("features", text, allowed)
+    for detector in detectors.values():
+        if isinstance(detector.get("model"), str):  # nodes have a folder of their own
+            detector["model"] = folder(detector["model"])
     return detectors
 
 

@@ -141,6 +141,8 @@ class Plan(unittest.TestCase):
         self.assert_refused("argument differences is '[yours]', but must be all, or a list of some of boolean_rgb, ",
                             differences="[yours]", features=mine)
         self.assertEqual(arguments.unused_features(mine, "[orb, mine]"), "")
+        net = planned(differences="[net]", features="{net: {type: onnx, model: nets/a.onnx}}")["evaluator"]["features"]["net"]
+        self.assertEqual(net["model"], os.path.abspath("nets/a.onnx"))
         self.assertEqual(arguments.unused_features("{mine: {type: sift}, orb: {n_features: 9}, kaze: {upright: true}}", "all"),
                          "argument features sets mine, kaze, which no difference uses: add to differences")
         self.assert_refused("rootsift, onnx, mine", differences="[yours]", features=mine)
