@@ -63,7 +63,9 @@ class TestLimits(unittest.TestCase):
 
     def start(self, **parameters):
         evaluator = Evaluator(dict({'streams': STREAMS, 'output_dir': self.out, 'differences': DIRECT,
-                                    'images': 'none'}, **parameters))
+                                    'images': 'none',
+                                    'features_cache_limit': 0.0},  # pictures come again, and must take as long
+                                   **parameters))
         self.streams.wait_for(evaluator)
         return evaluator
 
