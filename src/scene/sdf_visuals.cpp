@@ -48,13 +48,18 @@ void SdfVisuals::addModel(const sdf::Model& model, const Eigen::Isometry3d& map_
   addModelAt(model, map_from_parent * parentFrom(model, name), name);
 }
 
-void SdfVisuals::addModelAt(const sdf::Model& model, const Eigen::Isometry3d& map_from_model,
+Eigen::Isometry3d SdfVisuals::placed(const std::string& name, const Eigen::Isometry3d& map_from_own) const {
+  return state_ == nullptr ? map_from_own : state_->mapFrom(name).value_or(map_from_own);
+}
+
+void SdfVisuals::addModelAt(const sdf::Model& model, const Eigen::Isometry3d& map_from_file,
                             const std::string& name) {
+  if (state_ != nullptr && state_->isDeleted(name)) return;
+  const Eigen::Isometry3d map_from_model = placed(name, map_from_file);
   for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
     const sdf::Link& link = *model.LinkByIndex(i);
     const std::string link_name = name + "::" + link.Name();
-    const Eigen::Isometry3d map_from_link = map_from_model * parentFrom(link, link_name);
-    addLink(link, map_from_link, link_name);
+    addLink(link, placed(link_name, map_from_model * parentFrom(link, link_name)), link_name);
   }
   for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
     addModel(*model.ModelByIndex(i), map_from_model, name + "::");

@@ -10,6 +10,7 @@
 #include "scene/sdf_file.h"
 #include "scene/sdf_includes.h"
 #include "scene/sdf_pose.h"
+#include "scene/sdf_state.h"
 #include "scene/sdf_visuals.h"
 
 namespace sunlit::scene {
@@ -31,11 +32,16 @@ Scene loadSdf(const std::string& file, const ResourceFinder& finder) {
   sdf::Root root;
   readSdf(includes, SdfSharing::kShared, root, builder);
   SdfVisuals visuals(file, finder, builder);
+  // What was included counts as of the only world that files have in practice.
+  const SdfState state = root.WorldCount() > 0 ? SdfState(*root.WorldByIndex(0), builder) : SdfState();
+  visuals.standAs(state);
   for (std::uint64_t i = 0; i < root.WorldCount(); ++i) addWorld(*root.WorldByIndex(i), visuals, builder);
   if (root.Model() != nullptr) visuals.addModel(*root.Model(), Eigen::Isometry3d::Identity(), "");
   for (const SdfIncludes::Instance& instance : includes.instances()) {
     visuals.addModelAt(*instance.model, toEigen(instance.pose), instance.name);
   }
+  if (state.unknownModels() > 0)
+    builder.count("models of the <state> are not in the world", state.unknownModels());
   Scene scene = builder.finish();
   if (scene.meshes.empty()) throw std::runtime_error(file + ": there is nothing to see in this file");
   return scene;

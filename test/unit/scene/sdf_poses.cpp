@@ -1,6 +1,8 @@
 // Where SDF puts things.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "unit/scene/measure.h"
 #include "unit/scene/scene_files.h"
 
@@ -220,6 +222,61 @@ TEST_F(Sdf, AnythingElseIsNoWorld) {
 TEST_F(Sdf, AWorldWithNothingToSeeIsAnError) {
   const std::string file = write("test.world", world(""));
   EXPECT_EQ(errorOf(file), file + ": there is nothing to see in this file");
+}
+
+std::string state(const std::string& content) {
+  return "<state world_name='w'>" + content + "</state>";
+}
+
+// A saved world tells twice where its models are: as they were written, and as they stood when it was saved.
+TEST_F(Sdf, ModelsOfASavedWorldStandWhereItsStateSays) {
+  const std::string model =
+      "<model name='m'><pose>10 0 0 0 0 0</pose><link name='l'><pose>0 0 5 0 0 0</pose>" +
+      boxVisual("1 0 0 0 0 0") + "</link></model>";
+  for (const char* version : {"1.6", "1.9"}) {
+    const Scene scene =
+        loaded(world(model + state("<model name='m'><pose>-20 0 0 0 0 1.5707963267948966</pose>"
+                                   "<scale>1 1 1</scale></model>"),
+                     version));
+    expectBounds(scene, {-22, 0, 2}, {-18, 2, 8});  // the visual's metre east points north
+    EXPECT_TRUE(scene.warnings.empty());
+  }
+  // Poses of links are of the world, too.
+  expectBounds(loaded(world(model + state("<model name='m'><pose>-20 0 0 0 0 0</pose><link name='l'>"
+                                          "<pose>30 0 0 0 0 0</pose></link></model>"))),
+               {30, -2, -3}, {32, 2, 3});
+}
+
+TEST_F(Sdf, NestedModelsAndIncludesStandAsTheStateSays) {
+  expectBounds(
+      loaded(world("<model name='outer'><pose>1 0 0 0 0 0</pose><model name='inner'><pose>0 1 0 0 0 0"
+                   "</pose><link name='l'>" +
+                   boxVisual() + "</link></model></model>" +
+                   state("<model name='outer'><pose>5 0 0 0 0 0</pose><model name='inner'>"
+                         "<pose>50 0 0 0 0 0</pose></model></model>"))),
+      {49, -2, -3}, {51, 2, 3});
+  write("models/box/model.config", "<model><name>box</name><sdf version='1.9'>model.sdf</sdf></model>");
+  write("models/box/model.sdf",
+        "<sdf version='1.9'><model name='box'><link name='l'>" + boxVisual() + "</link></model></sdf>");
+  const Scene scene =
+      loaded(world("<include><uri>model://box</uri><name>here</name><pose>1 0 0 0 0 0</pose></include>"
+                   "<include><uri>model://box</uri><name>gone</name><pose>500 0 0 0 0 0</pose></include>" +
+                   state("<model name='here'><pose>100 0 0 0 0 0</pose></model>"
+                         "<deletions><name>gone</name></deletions>")),
+             {{pathOf("models")}});
+  expectBounds(scene, {99, -2, -3}, {101, 2, 3});
+}
+
+TEST_F(Sdf, WhatOfAStateIsNotAppliedIsNamed) {
+  const Scene scene =
+      loaded(world("<model name='m'><link name='l'>" + boxVisual() + "</link></model>" +
+                   state("<model name='m'><pose>0 0 0 0 0 0</pose><scale>2 1 1</scale></model>"
+                         "<model name='other'><pose>0 0 0 0 0 0</pose></model>"
+                         "<insertions><model name='new'><link name='l'/></model></insertions>")));
+  EXPECT_EQ(std::set<std::string>(scene.warnings.begin(), scene.warnings.end()),
+            (std::set<std::string>{"model m is drawn in its own size: the scale in <state> was not read",
+                                   "1 models of the <state> are not in the world",
+                                   "1 models that <state> inserts into the world were not read"}));
 }
 
 }  // namespace
