@@ -170,7 +170,7 @@ class LocaliseBags(unittest.TestCase):
                           preexec_fn=None if cores is None else lambda: os.sched_setaffinity(0, {min(os.sched_getaffinity(0))}))
             files.append({file.name: file.read_bytes() for file in sorted(pathlib.Path(self.path(out)).iterdir())
                           if file.suffix in (".csv", ".tum")})
-        self.assertEqual(len(files[0]), 7)
+        self.assertLess({"localisation.csv", "localisation_poses.csv", "comparisons.csv", "estimate_h20_sift.tum"}, set(files[0]))
         self.assertEqual(files[0], files[1])
         self.assertEqual(files[0], files[2])
 

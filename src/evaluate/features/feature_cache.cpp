@@ -1,5 +1,6 @@
 #include "sunlit/evaluate/features/feature_cache.h"
 
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,8 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using image::ContentHash;
 
-/// To be raised where a detector or a preprocessing of ours comes to find or make something else, or the file
-/// has another form.
+/// To be raised where the file has another form.
 constexpr std::uint32_t kVersion = 1;
 constexpr char kMagic[8] = {'s', 'u', 'n', 'l', 'i', 't', 'F', '\n'};
 constexpr const char* kEnding = ".features";
@@ -109,10 +109,19 @@ void write(const fs::path& file, const std::string& bytes) {
   fail(file, error ? error.message() : "cannot be written");
 }
 
+/// Of the library that holds our detectors and preprocessing: after any change of them all is found anew, and
+/// nobody has to think of it.
+std::string ourCode() {
+  ContentHash hash;
+  Dl_info where{};
+  if (dladdr(reinterpret_cast<const void*>(&featureKey), &where) != 0 && where.dli_fname != nullptr)
+    hash.addFile(where.dli_fname);
+  return SUNLIT_VERSION + hash.text();
+}
+
 /// Of all that is the same for every picture in this process.
 const std::string& machine() {
-  static const std::string text =
-      std::string(SUNLIT_VERSION) + cv::getBuildInformation() + cv::getCPUFeaturesLine();
+  static const std::string text = ourCode() + cv::getBuildInformation() + cv::getCPUFeaturesLine();
   return text;
 }
 

@@ -18,7 +18,8 @@
 namespace sunlit::evaluate {
 
 /// What they are kept under: the picture as the detector sees it, CV_8UC1; what Detector::identity() says;
-/// OpenCV's version, how it was built, and what the processor can, since sums may round otherwise on another.
+/// this library to the byte; OpenCV's version, how it was built, and what the processor can, since sums may
+/// round otherwise on another.
 /// 32 hexadecimal digits.
 std::string featureKey(const std::string& identity, const cv::Mat& seen);
 
