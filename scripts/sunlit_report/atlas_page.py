@@ -1,16 +1,12 @@
 """The page of an atlas, and what the terminal shows of it."""
 
-import os
-
-import jinja2
 import numpy as np
 
-from . import atlas_figures, names
+from . import atlas_figures, names, templating
 from .localisation import USABLE_SHARE
 from .pictures import data_uri
 from .text import aligned
 
-TEMPLATES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "templates")
 TABLE_HEADER = ["method", "best map", "lights that it serves", "worst map", "lights that it serves", "every map, on average"]
 
 
@@ -48,7 +44,7 @@ def facts(atlas):
     queries = int(next(iter(atlas.matrices.values()))["n"][0, 0])
     cells = len(atlas.methods) * len(atlas.conditions) ** 2
     return [(str(queries), "poses"), (str(len(atlas.conditions)), "lights"), (str(len(atlas.methods)), "methods"),
-            (f"{cells:,}".replace(",", "\u202f"), "cells")]
+            (templating.thousands(cells), "cells")]
 
 
 def condition_rows(atlas):
@@ -65,11 +61,9 @@ def setting(atlas, option):
 
 def render(atlas, drawn):
     """HTML text with everything in it."""
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True,
-                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     methods = [(names.method(method), [(metric[2], data_uri("image/png", drawn[f"{metric[1]}_{method}.png"]))
                                        for metric in atlas_figures.METRICS]) for method in atlas.methods]
-    return environment.get_template("atlas.html").render(
+    return templating.template("atlas.html").render(
         title=title(atlas), query_offset=setting(atlas, "--query-offset"), facts=facts(atlas), usable_hours=data_uri("image/png", drawn["usable_hours.png"]), methods=methods,
         table_header=TABLE_HEADER, table_rows=table_rows(atlas), conditions=condition_rows(atlas), settings=atlas.settings)
 

@@ -27,8 +27,7 @@ def detectors(queries):
 
 def conditions(queries, map_name):
     """Those asked of the map, by their hour where they are hours."""
-    found = list(dict.fromkeys(key[1] for key in queries if key[0] == map_name))
-    return sorted(found, key=names.hour_of) if all(names.hour_of(name) is not None for name in found) else found
+    return names.by_hour(list(dict.fromkeys(key[1] for key in queries if key[0] == map_name)))
 
 
 def _colour_of(share):

@@ -12,15 +12,13 @@ MOST_NUMBERED = 7  # conditions whose cells have room for a number
 
 
 def worth_showing(output):
-    return len({name for pair in output.pairs for name in pair}) >= LEAST_CONDITIONS
+    return len(output.pairs) > 0 and len(output.conditions) >= LEAST_CONDITIONS
 
 
 def matrix(output, difference):
     """(conditions, mean differences by row and column): row a, column b of the pair a, b; NaN where none was measured,
     and on the diagonal what the self-test found."""
-    conditions = list(dict.fromkeys(name for pair in output.pairs for name in pair))
-    if all(names.hour_of(name) is not None for name in conditions):
-        conditions.sort(key=names.hour_of)
+    conditions = names.by_hour(output.conditions)
     values = np.full((len(conditions), len(conditions)), np.nan)
     for (a, b, kind), row in output.summary.items():
         if kind != difference or a not in conditions:

@@ -39,6 +39,11 @@ def hour_of(name):
     return None if shown is None else sum(float(part) / 60**place for place, part in enumerate(shown.split(":")))
 
 
+def by_hour(several):
+    """In the order of the day where all are hours, else as they are."""
+    return sorted(several, key=hour_of) if all(hour_of(name) is not None for name in several) else list(several)
+
+
 def condition(name):
     hour = _hour(name)
     return f"{hour} h" if hour else name

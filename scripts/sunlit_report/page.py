@@ -1,23 +1,16 @@
 """Puts the page together."""
 
-import os
-
-import jinja2
-
-from . import comparison_rows, comparisons, figures, localisation, lost, map_figure, matrices, names, paper, pictures, tables, verified, warnings
+from . import comparison_rows, comparisons, figures, localisation, lost, map_figure, matrices, names, paper, pictures, tables, templating, verified, warnings
 from . import findings as judge
 
 SHOWN_PROBLEMS = 100
 PAIRS_PER_PLOT = 6  # as many lines can be told apart
-TEMPLATES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "templates")
 
 
 def render(output, findings):
     """HTML text with everything in it."""
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True,
-                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     significant, significant_count = comparisons.significant_rows(output)
-    return environment.get_template("report.html").render(
+    return templating.template("report.html").render(
         output=output, findings=findings, verdict_of_all=judge.verdict_of_all(findings), citation=paper.CITATION,
         title=title(output), facts=facts(output), warnings=warnings.warnings(output), verdict_class=_verdict_class,
         main_tables=tables.main_tables(output), self_tables=tables.self_tables(output), counts=tables.counts(output),
@@ -85,7 +78,7 @@ def title(output):
 def facts(output):
     """(number, what it counts) for the first lines."""
     undefined = sum(row.undefined for row in output.summary.values())
-    values = f"{sum(row.n for row in output.summary.values()):,}".replace(",", "\u202f")
+    values = templating.thousands(sum(row.n for row in output.summary.values()))
     found = [(f"{len(output.poses)}", "poses"), (f"{len(output.conditions)}", "conditions")]
     if output.series:
         found += [(f"{len(output.differences)}", "differences"), (values, "values"), (f"{undefined}", "undefined values")]
