@@ -1,12 +1,16 @@
 #include "sunlit/image/texture_files.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace sunlit::image {
@@ -50,15 +54,71 @@ std::vector<std::uint8_t> withoutProfile(const std::uint8_t* bytes, std::size_t 
   return kept;
 }
 
-}  // namespace
+struct Size {
+  std::int64_t width = 0;
+  std::int64_t height = 0;
 
-Rgba8Image decodeRgba(const std::uint8_t* bytes, std::size_t size, const std::string& name) {
+  std::int64_t longest() const { return std::max(width, height); }
+};
+
+std::int64_t bigEndian(const std::uint8_t* bytes, std::size_t count) {
+  std::int64_t value = 0;
+  for (std::size_t i = 0; i < count; ++i) value = value << 8 | bytes[i];
+  return value;
+}
+
+std::int64_t littleEndian(const std::uint8_t* bytes) {
+  return std::int64_t{bytes[3]} << 24 | std::int64_t{bytes[2]} << 16 | std::int64_t{bytes[1]} << 8 | bytes[0];
+}
+
+bool isJpeg(const std::uint8_t* bytes, std::size_t size) {
+  return size > 3 && bytes[0] == 0xFF && bytes[1] == 0xD8 && bytes[2] == 0xFF;
+}
+
+/// From the frame header, which follows any number of other segments (ITU-T T.81, B.1.1.4 and B.2.2).
+Size sizeOfJpeg(const std::uint8_t* bytes, std::size_t size) {
+  std::size_t at = 2;
+  while (at + 9 <= size && bytes[at] == 0xFF) {
+    const int marker = bytes[at + 1];
+    const bool is_frame =
+        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+    if (is_frame) return {bigEndian(bytes + at + 7, 2), bigEndian(bytes + at + 5, 2)};
+    at += marker == 0xFF ? 1 : 2 + static_cast<std::size_t>(bigEndian(bytes + at + 2, 2));
+  }
+  return {};
+}
+
+/// As the first bytes tell it; 0 × 0 where they do not.
+Size sizeInHeader(const std::uint8_t* bytes, std::size_t size) {
+  if (size >= 24 && std::memcmp(bytes + 1, "PNG", 3) == 0 && std::memcmp(bytes + 12, "IHDR", 4) == 0)
+    return {bigEndian(bytes + 16, 4), bigEndian(bytes + 20, 4)};
+  if (size >= 26 && bytes[0] == 'B' && bytes[1] == 'M') {
+    const auto height = static_cast<std::int32_t>(littleEndian(bytes + 22));  // below 0: top row first
+    return {littleEndian(bytes + 18), std::abs(std::int64_t{height})};
+  }
+  return isJpeg(bytes, size) ? sizeOfJpeg(bytes, size) : Size{};
+}
+
+/// As it is in the file, or, of a JPEG that is far too large, already smaller: libjpeg leaves out the finest
+/// waves by itself, without ever having the whole picture.
+int decodingFlags(int longest_px, const std::uint8_t* bytes, std::size_t size) {
+  if (!isJpeg(bytes, size)) return cv::IMREAD_UNCHANGED;
+  const std::int64_t longest = sizeOfJpeg(bytes, size).longest();
+  for (const auto& [divisor, flag] : {std::pair{8, cv::IMREAD_REDUCED_COLOR_8},
+                                      {4, cv::IMREAD_REDUCED_COLOR_4},
+                                      {2, cv::IMREAD_REDUCED_COLOR_2}}) {
+    if (longest / divisor >= longest_px) return flag | cv::IMREAD_IGNORE_ORIENTATION;
+  }
+  return cv::IMREAD_UNCHANGED;
+}
+
+cv::Mat decode(const std::uint8_t* bytes, std::size_t size, const std::string& name, int flags) {
   cv::Mat decoded;
   const std::vector<std::uint8_t> kept = withoutProfile(bytes, size);
   if (!kept.empty()) {
     const cv::Mat input(1, static_cast<int>(kept.size()), CV_8UC1, const_cast<std::uint8_t*>(kept.data()));
     try {
-      decoded = cv::imdecode(input, cv::IMREAD_UNCHANGED);
+      decoded = cv::imdecode(input, flags);
     } catch (const cv::Exception& error) {
       throw std::runtime_error(name + ": cannot decode this picture (" + error.err + ")");
     }
@@ -67,6 +127,10 @@ Rgba8Image decodeRgba(const std::uint8_t* bytes, std::size_t size, const std::st
     throw std::runtime_error(name +
                              ": cannot decode this picture; PNG, JPEG, BMP, TIFF and WebP are understood");
   }
+  return decoded;
+}
+
+Rgba8Image toRgba(const cv::Mat& decoded, const std::string& name) {
   const cv::Mat eight_bit = toEightBit(decoded, name);
   Rgba8Image picture(eight_bit.cols, eight_bit.rows);
   cv::Mat rgba(eight_bit.rows, eight_bit.cols, CV_8UC4, picture.data.data());
@@ -86,11 +150,51 @@ Rgba8Image decodeRgba(const std::uint8_t* bytes, std::size_t size, const std::st
   return picture;
 }
 
-Rgba8Image readRgba(const std::string& file) {
+cv::Mat shrunk(const cv::Mat& decoded, int longest_px) {
+  const double factor = static_cast<double>(longest_px) / std::max(decoded.cols, decoded.rows);
+  const auto side = [&](int px) { return std::max(1, static_cast<int>(std::lround(factor * px))); };
+  cv::Mat smaller;
+  cv::resize(decoded, smaller, cv::Size(side(decoded.cols), side(decoded.rows)), 0.0, 0.0, cv::INTER_AREA);
+  return smaller;
+}
+
+std::vector<std::uint8_t> contentOf(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (!stream.is_open() || stream.bad()) throw std::runtime_error(file + ": cannot read this picture");
-  return decodeRgba(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), file);
+  return bytes;
+}
+
+}  // namespace
+
+Rgba8Image decodeRgba(const std::uint8_t* bytes, std::size_t size, const std::string& name) {
+  return toRgba(decode(bytes, size, name, cv::IMREAD_UNCHANGED), name);
+}
+
+FittedImage decodeRgbaWithin(int longest_px, const std::uint8_t* bytes, std::size_t size,
+                             const std::string& name) {
+  static std::mutex one_large_at_a_time;
+  const Size told = sizeInHeader(bytes, size);
+  std::unique_lock<std::mutex> lock(one_large_at_a_time, std::defer_lock);
+  if (told.longest() > longest_px) lock.lock();
+  // No product: a side may be as large as 2^32.
+  if (told.width > 0 && told.height > kMostPixels / told.width) {
+    throw std::runtime_error(name + ": this picture has " + std::to_string(told.width) + " × " +
+                             std::to_string(told.height) + " px, more than the " +
+                             std::to_string(kMostPixels) + " that can be read");
+  }
+  cv::Mat decoded = decode(bytes, size, name, decodingFlags(longest_px, bytes, size));
+  FittedImage fitted;
+  fitted.width = told.width > 0 ? static_cast<int>(told.width) : decoded.cols;
+  fitted.height = told.height > 0 ? static_cast<int>(told.height) : decoded.rows;
+  if (std::max(decoded.cols, decoded.rows) > longest_px) decoded = shrunk(decoded, longest_px);
+  fitted.picture = toRgba(decoded, name);
+  return fitted;
+}
+
+FittedImage readRgbaWithin(int longest_px, const std::string& file) {
+  const std::vector<std::uint8_t> bytes = contentOf(file);
+  return decodeRgbaWithin(longest_px, bytes.data(), bytes.size(), file);
 }
 
 std::string encodePng(const Rgba8Image& picture) {

@@ -37,12 +37,11 @@ int addTexture(const std::string& name, const aiScene& scene, const MeshFileCont
   }
   const Found found = context.finder.findTexture(name, context.file);
   if (!found.file) {
-    context.builder.warn(context.file + ": texture " + name +
-                         " is missing, a neutral material takes its place");
+    context.builder.warn(kMissingTextures, name + " of " + context.file);
     return Material::kNoTexture;
   }
   if (found.other_case) {
-    context.builder.warn(context.file + ": texture " + name + " is spelt " + *found.file + " on disk");
+    context.builder.warn(kSpeltOtherwise, name + " of " + context.file + " is " + *found.file);
   }
   return context.builder.textureFromFile(*found.file);
 }
@@ -75,8 +74,8 @@ void readGltfAlpha(const aiMaterial& source, Material& material, const MeshFileC
   if (std::strcmp(mode.C_Str(), "BLEND") == 0) {
     material.alpha_mode = AlphaMode::kMask;
     material.alpha_cutoff = 0.5f;
-    context.builder.warn(context.file + ": material " + material.name +
-                         " is blended; it is cut out at alpha 0.5");
+    context.builder.warn("materials are blended, they are cut out at alpha 0.5",
+                         material.name + " of " + context.file);
   }
 }
 
@@ -110,8 +109,8 @@ std::optional<int> addMeshMaterial(const aiMaterial& source, const aiScene& scen
   material.name = source.GetName().C_Str();
   const bool gltf = context.is_gltf;
   if (isSeenThrough(source)) {
-    context.builder.warn(context.file + ": what has material " + material.name +
-                         " was left out: it is more than half transparent");
+    context.builder.warn("materials are more than half transparent, what has them was left out",
+                         material.name + " of " + context.file);
     return std::nullopt;
   }
   if (gltf) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scene/color.h"
 #include "sunlit/image/texture_files.h"
 
 namespace sunlit::scene {
@@ -21,6 +22,9 @@ constexpr double kTransparentShare = 0.01;
 /// Twice the area, m², below which a triangle is taken for none: no camera sees a hundredth of a square
 /// millimetre.
 constexpr double kNoArea_m2 = 1e-12;
+
+/// As many a person reads of a kind.
+constexpr std::size_t kExamples = 3;
 
 bool isCutOut(const Texture& texture) {
   const std::size_t texels = texture.rgba.size() / 4;
@@ -138,22 +142,51 @@ void SceneBuilder::warn(const std::string& line) {
   if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
 }
 
+void SceneBuilder::warn(const std::string& what, const std::string& where) {
+  Kind& kind = kinds_[what];
+  if (!kind.known.insert(where).second) return;
+  ++kind.times;
+  if (kind.examples.size() < kExamples) kind.examples.push_back(where);
+}
+
 void SceneBuilder::decodeTextures() {
   scene_.textures.resize(sources_.size());
   std::vector<std::string> errors(sources_.size());
+  std::vector<std::string> sizes(sources_.size());
   tbb::parallel_for(std::size_t{0}, sources_.size(), [&](std::size_t i) {
     const TextureSource& source = sources_[i];
     try {
-      image::Rgba8Image picture =
-          source.embedded ? image::decodeRgba(source.bytes.data(), source.bytes.size(), source.name)
-                          : image::readRgba(source.name);
+      image::FittedImage fitted = source.embedded
+                                      ? image::decodeRgbaWithin(kLongestTextureSide, source.bytes.data(),
+                                                                source.bytes.size(), source.name)
+                                      : image::readRgbaWithin(kLongestTextureSide, source.name);
+      image::Rgba8Image& picture = fitted.picture;
+      if (picture.width != fitted.width || picture.height != fitted.height)
+        sizes[i] = std::to_string(fitted.width) + " × " + std::to_string(fitted.height) + " px";
       scene_.textures[i] = Texture{source.name, picture.width, picture.height, std::move(picture.data)};
     } catch (const std::runtime_error& error) {
       errors[i] = error.what();
     }
   });
-  for (const std::string& error : errors) {
-    if (!error.empty()) throw std::runtime_error(error);
+  const std::string shrunk =
+      "textures were scaled down to a longest side of " + std::to_string(kLongestTextureSide) + " px";
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    if (!sizes[i].empty()) warn(shrunk, sources_[i].name + " of " + sizes[i]);
+    if (errors[i].empty()) continue;
+    warn("textures cannot be decoded, a neutral material takes their place", errors[i]);
+    forgetTexture(static_cast<int>(i));
+  }
+}
+
+/// Nothing of a scene may have a size of 0, so that a texel stays of it.
+void SceneBuilder::forgetTexture(int texture) {
+  scene_.textures[static_cast<std::size_t>(texture)] =
+      Texture{sources_[static_cast<std::size_t>(texture)].name, 1, 1, {255, 255, 255, 255}};
+  for (Material& material : scene_.materials) {
+    if (material.base_texture != texture) continue;
+    material.base_texture = Material::kNoTexture;
+    material.base_color = kNeutral;
+    material.alpha_mode = AlphaMode::kOpaque;
   }
 }
 
@@ -170,7 +203,12 @@ void SceneBuilder::settleAlpha() {
 Scene SceneBuilder::finish() {
   decodeTextures();
   settleAlpha();
-  for (const auto& [what, times] : counted_) warn(std::to_string(times) + " " + what);
+  for (const auto& [what, kind] : kinds_) {
+    std::string line = std::to_string(kind.times) + " " + what;
+    for (std::size_t i = 0; i < kind.examples.size(); ++i) line += (i == 0 ? ": " : "; ") + kind.examples[i];
+    if (!kind.examples.empty() && kind.examples.size() < kind.times) line += "; …";
+    warn(line);
+  }
   validate(scene_);
   Scene finished = std::move(scene_);
   *this = SceneBuilder("");

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,14 @@ enum class AlphaRule {
   kFromTexture,  ///< the file's format cannot say: cut out if the texture has a considerable transparent
                  ///< share
 };
+
+/// px. A larger texture shows nothing that a camera could see, and takes its memory: 8192² texels with their
+/// smaller copies are 0.36 GB.
+constexpr int kLongestTextureSide = 8192;
+
+/// Kinds of warnings that several importers have.
+constexpr const char* kMissingTextures = "textures are missing, a neutral material takes their place";
+constexpr const char* kSpeltOtherwise = "files are spelt otherwise on disk";
 
 class SceneBuilder {
  public:
@@ -38,11 +47,16 @@ class SceneBuilder {
 
   /// Adds a line to Scene::warnings, once for equal lines.
   void warn(const std::string& line);
-  /// One line for all of one kind: "<count> <what>".
-  void count(const std::string& what, std::size_t times = 1) { counted_[what] += times; }
+  /// One line for all of one kind, however many: "<count> <what>: <the first few of where>". Equal ones count
+  /// once. `what` is in the plural and says what was made of it: "textures are missing, a neutral grey takes
+  /// their place".
+  void warn(const std::string& what, const std::string& where);
+  /// The same where no example would tell more: "<count> <what>".
+  void count(const std::string& what, std::size_t times = 1) { kinds_[what].times += times; }
 
-  /// Decodes the textures, settles the cut-outs and checks the scene. Throws std::runtime_error naming a
-  /// texture that cannot be decoded. The builder is empty afterwards.
+  /// Decodes the textures, settles the cut-outs and checks the scene. A texture with a side of more than
+  /// kLongestTextureSide is scaled down, and one that cannot be decoded makes room for a neutral grey; both
+  /// are warnings. The builder is empty afterwards.
   Scene finish();
 
  private:
@@ -51,15 +65,21 @@ class SceneBuilder {
     std::vector<std::uint8_t> bytes;  ///< of an embedded picture
     bool embedded = false;
   };
+  struct Kind {
+    std::size_t times = 0;
+    std::vector<std::string> examples;
+    std::set<std::string> known;
+  };
   int addTexture(const std::string& key, TextureSource source);
   void decodeTextures();
+  void forgetTexture(int texture);
   void settleAlpha();
 
   Scene scene_;
   std::vector<TextureSource> sources_;
   std::map<std::string, int> texture_by_key_;
   std::vector<AlphaRule> alpha_rules_;
-  std::map<std::string, std::size_t> counted_;
+  std::map<std::string, Kind> kinds_;
 };
 
 }  // namespace sunlit::scene

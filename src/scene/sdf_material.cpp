@@ -45,7 +45,7 @@ int SdfMaterials::texture(const std::string& name, const std::string& from_file)
   Found found = finder_.findTexture(name, from_file);
   if (!found.file) found = finder_.find(name, from_file);
   if (!found.file) {
-    builder_.warn(from_file + ": texture " + name + " is missing, a neutral material takes its place");
+    builder_.warn(kMissingTextures, name + " of " + from_file);
     return Material::kNoTexture;
   }
   return builder_.textureFromFile(*found.file);
@@ -80,15 +80,15 @@ Material SdfMaterials::fromScript(const sdf::Material& source) {
       return material;
     }
   }
-  builder_.warn("material script " + material.name + " is not known, a neutral material takes its place");
+  builder_.warn("material scripts are not known, a neutral material takes their place", material.name);
   return material;
 }
 
 void SdfMaterials::readPbr(const sdf::Material& source, Material& material) {
   const sdf::PbrWorkflow* metal = source.PbrMaterial()->Workflow(sdf::PbrWorkflowType::METAL);
   if (metal == nullptr) {
-    builder_.warn("PBR material " + material.name +
-                  " is not of the metal workflow; its diffuse colour is used alone");
+    builder_.warn("PBR materials are not of the metal workflow, their diffuse colour is used alone",
+                  material.name);
     return;
   }
   material.roughness = std::clamp(static_cast<float>(metal->Roughness()), Material::kSmoothest, 1.0f);

@@ -78,16 +78,16 @@ void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Isometry3d& m
                            const std::string& scope) {
   const std::string name = scope + visual.Name();
   if (visual.Transparency() > kSeenThrough) {
-    builder_.warn("visual " + name + " was left out: it is more than half transparent");
+    builder_.warn("visuals were left out, they are more than half transparent", name);
     return;
   }
   if (visual.Transparency() > 0.0f)
-    builder_.warn("visual " + name + " is drawn opaque: it is less than half transparent");
+    builder_.warn("visuals are drawn opaque, they are less than half transparent", name);
   if (!visual.CastShadows())
     builder_.count("visuals cast shadows although their files say that they should not");
   const Eigen::Isometry3d map_from_visual = map_from_link * parentFrom(visual, name);
   if (visual.Geom() == nullptr || visual.Geom()->Type() == sdf::GeometryType::EMPTY) {
-    builder_.warn("visual " + name + " has no shape that can be drawn");
+    builder_.warn("visuals have no shape that can be drawn", name);
   } else if (visual.Geom()->Type() == sdf::GeometryType::MESH) {
     addMeshShape(visual, map_from_visual, name);
   } else if (std::optional<Mesh> shape = primitive(*visual.Geom())) {
@@ -107,7 +107,7 @@ const std::vector<MeshPart>& SdfVisuals::partsOf(const sdf::Mesh& mesh, const st
                              ": there is no mesh " + mesh.Uri() + "; it was looked for as " +
                              placesTried(found));
   }
-  if (found.other_case) builder_.warn("mesh " + mesh.Uri() + " is spelt " + *found.file + " on disk");
+  if (found.other_case) builder_.warn(kSpeltOtherwise, mesh.Uri() + " is " + *found.file);
   const auto known = parts_by_file_.find(*found.file);
   if (known != parts_by_file_.end()) return known->second;
   return parts_by_file_[*found.file] = readMeshFile(*found.file, UpAxis::kZ, finder_, builder_);
@@ -124,8 +124,9 @@ void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Isometry3d
     if (wanted) parts.push_back(part);
   }
   if (parts.empty()) {
-    builder_.warn("visual " + name + ": there is nothing to draw in " + mesh.Uri() +
-                  (mesh.Submesh().empty() ? "" : " by the name of " + mesh.Submesh()));
+    builder_.warn("meshes have nothing to draw",
+                  mesh.Uri() + (mesh.Submesh().empty() ? "" : " by the name of " + mesh.Submesh()) +
+                      " of visual " + name);
   }
   Eigen::Affine3d map_from_file = Eigen::Affine3d(map_from_visual) * Eigen::Scaling(toEigen(mesh.Scale()));
   if (!mesh.Submesh().empty() && mesh.CenterSubmesh()) {

@@ -16,8 +16,24 @@ using Rgba8Image = Picture<std::uint8_t, 4>;  ///< colour sRGB-encoded, alpha li
 /// decoded.
 Rgba8Image decodeRgba(const std::uint8_t* bytes, std::size_t size, const std::string& name);
 
-/// The same from a file. Throws std::runtime_error with its path if it cannot be read or decoded.
-Rgba8Image readRgba(const std::string& file);
+/// A picture, and the size, px, that it has in its file.
+struct FittedImage {
+  Rgba8Image picture;
+  int width = 0;
+  int height = 0;
+};
+
+/// px. OpenCV decodes a PNG as a whole, with up to 8 bytes a pixel.
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 29;
+
+/// As decodeRgba(), but a picture with a side of more than `longest_px` comes as the mean of its pixels with
+/// a longest side of `longest_px`. Also throws for one of more than kMostPixels, as far as its first bytes
+/// tell (PNG, JPEG and BMP; others OpenCV refuses beyond 2^30). One large picture is decoded at a time, for
+/// the memory that it takes.
+FittedImage decodeRgbaWithin(int longest_px, const std::uint8_t* bytes, std::size_t size,
+                             const std::string& name);
+/// The same from a file. Throws std::runtime_error with its path also if it cannot be read.
+FittedImage readRgbaWithin(int longest_px, const std::string& file);
 
 /// A PNG file in memory, lossless. Throws std::runtime_error if the picture is empty.
 std::string encodePng(const Rgba8Image& picture);

@@ -56,7 +56,7 @@ void UrdfVisuals::add(const urdf::Link& link, const std::string& place) {
 
 void UrdfVisuals::addVisual(const urdf::Visual& visual, const std::string& name, const std::string& place) {
   if (isLeftOut(visual)) {
-    builder_.warn(place + " was left out: it is more than half transparent");
+    builder_.warn("visuals were left out, they are more than half transparent", place);
     return;
   }
   const std::optional<int> own_material = material(visual, place);
@@ -77,8 +77,8 @@ void UrdfVisuals::addVisual(const urdf::Visual& visual, const std::string& name,
 std::optional<int> UrdfVisuals::material(const urdf::Visual& visual, const std::string& place) {
   const urdf::Material* source = visual.material.get();
   if (source == nullptr && !visual.material_name.empty()) {
-    builder_.warn(place + ": there is no material " + visual.material_name +
-                  ", a neutral one takes its place");
+    builder_.warn("materials do not exist, a neutral one takes their place",
+                  visual.material_name + " of " + place);
   }
   if (source == nullptr && visual.geometry && visual.geometry->type == urdf::Geometry::MESH)
     return std::nullopt;
@@ -102,8 +102,7 @@ std::optional<int> UrdfVisuals::material(const urdf::Visual& visual, const std::
       looks.base_texture = builder_.textureFromFile(*found.file);
       looks.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
     } else {
-      builder_.warn(place + ": texture " + source->texture_filename +
-                    " is missing, a neutral material takes its place");
+      builder_.warn(kMissingTextures, source->texture_filename + " of " + place);
     }
   }
   return material_by_content_[content.str()] = builder_.addMaterial(looks, AlphaRule::kFromTexture);
@@ -115,7 +114,7 @@ const std::vector<MeshPart>& UrdfVisuals::partsOf(const urdf::Mesh& shape, const
     throw std::runtime_error(place + ": there is no mesh " + shape.filename + "; it was looked for as " +
                              placesTried(found));
   }
-  if (found.other_case) builder_.warn("mesh " + shape.filename + " is spelt " + *found.file + " on disk");
+  if (found.other_case) builder_.warn(kSpeltOtherwise, shape.filename + " is " + *found.file);
   const auto known = parts_by_file_.find(*found.file);
   if (known != parts_by_file_.end()) return known->second;
   // As RViz and Gazebo do, the up axis of COLLADA files is ignored.
@@ -127,7 +126,7 @@ void UrdfVisuals::addMeshShape(const urdf::Mesh& shape, const MeshUse& use, cons
   const Eigen::Affine3d link_from_file =
       Eigen::Affine3d(use.link_from_visual) * Eigen::Scaling(shape.scale.x, shape.scale.y, shape.scale.z);
   const std::vector<MeshPart>& parts = partsOf(shape, place);
-  if (parts.empty()) builder_.warn(place + ": there is nothing to draw in " + shape.filename);
+  if (parts.empty()) builder_.warn("meshes have nothing to draw", shape.filename + " of " + place);
   for (MeshPart part : parts) {
     part.mesh.name = name + "/" + part.mesh.name;
     // As RViz does: the material of the URDF is for meshes that bring none.

@@ -199,7 +199,7 @@ class ExperimentRuns(unittest.TestCase):
               <material name="of_nowhere"/></visual></link></robot>""")
         run = small_experiment(os.path.join(self.folder, "warned"), robot=robot, self_test="false", poses=2)
         self.assertEqual(run.end(), 0, run.said())
-        warnings = [line for line in run.said().splitlines() if "there is no material of_nowhere" in line]
+        warnings = [line for line in run.said().splitlines() if "materials do not exist" in line and "of_nowhere" in line]
         self.assertEqual(len(warnings), 1, run.said())
         self.assertIn("[ WARN]", warnings[0])
 

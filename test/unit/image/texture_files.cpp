@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/message_of.h"
@@ -111,8 +113,61 @@ TEST(EncodePng, LosesNothing) {
   EXPECT_EQ(back.data, picture.data);
 }
 
-TEST(ReadRgba, NamesAMissingFile) {
-  EXPECT_THROW(readRgba("/nowhere/leaf.png"), std::runtime_error);
+FittedImage fitted(int longest_px, const std::string& file) {
+  return decodeRgbaWithin(longest_px, reinterpret_cast<const std::uint8_t*>(file.data()), file.size(),
+                          "test");
+}
+
+/// Columns that are black and white in turn.
+Rgba8Image stripes(int width, int height) {
+  Rgba8Image picture(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 4; ++c) picture.at(x, y)[c] = c == 3 || x % 2 == 1 ? 255 : 0;
+    }
+  }
+  return picture;
+}
+
+TEST(DecodeRgbaWithin, ALargePictureBecomesTheMeanOfItsPixels) {
+  const FittedImage image = fitted(20, encodePng(stripes(40, 8)));
+  EXPECT_EQ(image.width, 40);
+  EXPECT_EQ(image.height, 8);
+  ASSERT_EQ(image.picture.width, 20);
+  ASSERT_EQ(image.picture.height, 4);
+  for (std::size_t i = 0; i < image.picture.data.size(); ++i) {
+    if (i % 4 == 3) {
+      EXPECT_EQ(image.picture.data[i], 255);
+    } else {
+      EXPECT_NEAR(image.picture.data[i], 127.5, 0.5);  // of 0 and 255, rounded
+    }
+  }
+  EXPECT_EQ(fitted(40, encodePng(stripes(40, 8))).picture.data, stripes(40, 8).data);
+}
+
+TEST(DecodeRgbaWithin, ALargeJpegIsNeverDecodedWhole) {
+  const cv::Mat grey(90, 1000, CV_8UC3, cv::Scalar(60, 120, 180));
+  std::vector<std::uint8_t> bytes;
+  ASSERT_TRUE(cv::imencode(".jpg", grey, bytes));
+  const FittedImage image = fitted(100, {bytes.begin(), bytes.end()});
+  EXPECT_EQ(image.width, 1000);
+  EXPECT_EQ(image.height, 90);
+  EXPECT_EQ(image.picture.width, 100);
+  // 90 rows are 12 blocks of 8, of which libjpeg gives one pixel each for a side of 125 to 12: 125 × 12.
+  EXPECT_EQ(image.picture.height, 10);
+  for (const auto& [channel, value] : {std::pair{0, 180}, {1, 120}, {2, 60}})
+    EXPECT_NEAR(image.picture.at(50, 5)[channel], value, 3);  // JPEG's own loss of an even colour
+}
+
+TEST(DecodeRgbaWithin, RefusesWhatNoMemoryHoldsByItsHeader) {
+  std::string file = encodePng(stripes(2, 2));
+  file.replace(16, 8, word(40000) + word(30000));  // behind signature, length and name of the first chunk
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { fitted(8192, file); }),
+            "test: this picture has 40000 × 30000 px, more than the 536870912 that can be read");
+}
+
+TEST(ReadRgbaWithin, NamesAMissingFile) {
+  EXPECT_THROW(readRgbaWithin(8192, "/nowhere/leaf.png"), std::runtime_error);
 }
 
 }  // namespace

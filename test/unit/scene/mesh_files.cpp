@@ -1,6 +1,7 @@
 // COLLADA, glTF and OBJ files: size, orientation, textures, and what is done about broken ones.
 #include <gtest/gtest.h>
 
+#include "scene/scene_builder.h"
 #include "unit/scene/measure.h"
 #include "unit/scene/scene_files.h"
 
@@ -114,13 +115,14 @@ TEST_F(MeshFile, TexturesAreFoundInTheSearchPath) {
 TEST_F(MeshFile, ATextureInOtherCaseIsFoundWithAWarning) {
   writeTexture("PAINT.png");
   const Scene scene = load(write("t.dae", collada(kCentimetresZUp, "paint.png")), {});
-  expectOneWarning(scene, "texture paint.png is spelt " + pathOf("PAINT.png") + " on disk");
+  expectOneWarning(scene, "paint.png of " + pathOf("t.dae") + " is " + pathOf("PAINT.png"));
   EXPECT_EQ(scene.textures.size(), 1u);
 }
 
 TEST_F(MeshFile, AMissingTextureIsANamedWarningAndANeutralMaterial) {
   const Scene scene = load(write("t.dae", collada(kCentimetresZUp, "gone.png")), {});
-  expectOneWarning(scene, "t.dae: texture gone.png is missing, a neutral material takes its place");
+  expectOneWarning(
+      scene, "1 textures are missing, a neutral material takes their place: gone.png of " + pathOf("t.dae"));
   EXPECT_TRUE(scene.textures.empty());
   EXPECT_EQ(scene.materials[0].base_color.value[0], 0.18f);
 }
@@ -133,12 +135,40 @@ TEST_F(MeshFile, ATextureWithHolesIsCutOut) {
   EXPECT_EQ(load(pathOf("t.dae"), {}).materials[0].alpha_mode, AlphaMode::kOpaque);
 }
 
-TEST_F(MeshFile, ABrokenTextureIsAnErrorNamingIt) {
+TEST_F(MeshFile, ABrokenTextureIsANamedWarningAndANeutralMaterial) {
   const std::string mesh = write("t.dae", collada(kCentimetresZUp, "paint.png"));
-  write("paint.png", "this is not a picture");
-  EXPECT_EQ(errorOf(mesh).find(pathOf("paint.png") + ": cannot decode this picture"), 0u) << errorOf(mesh);
-  write("paint.png", "");
-  EXPECT_EQ(errorOf(mesh).find(pathOf("paint.png") + ": cannot decode this picture"), 0u) << errorOf(mesh);
+  for (const char* content : {"this is not a picture", ""}) {
+    write("paint.png", content);
+    const Scene scene = load(mesh, {});
+    expectOneWarning(scene, "1 textures cannot be decoded, a neutral material takes their place: " +
+                                pathOf("paint.png") + ": cannot decode this picture");
+    EXPECT_EQ(scene.materials[0].base_texture, Material::kNoTexture);
+    EXPECT_EQ(scene.materials[0].base_color.value[0], 0.18f);
+  }
+}
+
+TEST_F(MeshFile, ATextureThatIsTooLargeIsScaledDownWithAWarning) {
+  write("paint.png", image::encodePng(image::Rgba8Image(2 * kLongestTextureSide, 2)));
+  const Scene scene = load(write("t.dae", collada(kCentimetresZUp, "paint.png")), {});
+  ASSERT_EQ(scene.textures.size(), 1u);
+  EXPECT_EQ(scene.textures[0].width, kLongestTextureSide);
+  EXPECT_EQ(scene.textures[0].height, 1);
+  expectOneWarning(scene, "1 textures were scaled down to a longest side of 8192 px: " + pathOf("paint.png") +
+                              " of 16384 × 2 px");
+}
+
+TEST_F(MeshFile, AHundredWarningsOfAKindAreOneLine) {
+  std::string materials, faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib m.mtl\n";
+  for (int i = 100; i < 200; ++i) {
+    const std::string number = std::to_string(i);
+    materials += "newmtl m" + number + "\nmap_Kd gone" + number + ".png\n";
+    faces += "usemtl m" + number + "\nf 1 2 3\n";
+  }
+  write("m.mtl", materials);
+  const std::string mesh = write("t.obj", faces);
+  expectOneWarning(load(mesh, {}),
+                   "100 textures are missing, a neutral material takes their place: gone100.png of " + mesh +
+                       "; gone101.png of " + mesh + "; gone102.png of " + mesh + "; …");
 }
 
 TEST_F(MeshFile, ObjIsTakenAsZUpAndGetsNormals) {

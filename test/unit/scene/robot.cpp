@@ -134,7 +134,9 @@ TEST_F(UrdfFile, MaterialsAreColoursOrTextures) {
   EXPECT_EQ(robot.textures[0].width, 4);
   EXPECT_EQ(material(2).base_texture, Material::kNoTexture);
   ASSERT_EQ(robot.warnings.size(), 1u);
-  EXPECT_NE(robot.warnings[0].find("link base, visual 3 was left out"), std::string::npos)
+  EXPECT_NE(robot.warnings[0].find("more than half transparent: " + pathOf("robot/r.urdf") +
+                                   ":3: link base, visual 3"),
+            std::string::npos)
       << robot.warnings[0];
 }
 

@@ -49,7 +49,8 @@ TEST_F(SdfLook, UnknownScriptsAreANamedWarning) {
   const Scene scene =
       loaded("<material><script><uri>file://x.material</uri><name>Plaid</name></script></material>");
   ASSERT_EQ(scene.warnings.size(), 1u);
-  EXPECT_EQ(scene.warnings[0], "material script Plaid is not known, a neutral material takes its place");
+  EXPECT_EQ(scene.warnings[0],
+            "1 material scripts are not known, a neutral material takes their place: Plaid");
 }
 
 TEST_F(SdfLook, ScriptsOfModelsAreRead) {
@@ -96,7 +97,7 @@ TEST_F(SdfLook, MostlyTransparentVisualsAreLeftOut) {
   const Scene scene = loaded("", two);
   EXPECT_EQ(scene.meshes.size(), 1u);
   ASSERT_EQ(scene.warnings.size(), 1u);
-  EXPECT_EQ(scene.warnings[0], "visual m::l::v was left out: it is more than half transparent");
+  EXPECT_EQ(scene.warnings[0], "1 visuals were left out, they are more than half transparent: m::l::v");
 }
 
 TEST_F(SdfLook, WarningsOfTheParserAreCollected) {
