@@ -14,6 +14,18 @@ void addDetail(const scene::Detail& detail, image::ContentHash* hash) {
   for (const float channel : detail.tint) hash->add(channel);
 }
 
+void addLamp(const scene::Lamp& lamp, image::ContentHash* hash) {
+  for (const Eigen::Vector3f& vector : {lamp.position, lamp.direction})
+    for (const float value : vector) hash->add(value);
+  for (const float channel : lamp.intensity.value) hash->add(channel);
+  for (const float value : {lamp.constant, lamp.linear, lamp.quadratic, lamp.range_m, lamp.inner_rad,
+                            lamp.outer_rad, lamp.exponent, lamp.radius_m})
+    hash->add(value);
+  hash->add(static_cast<int>(lamp.relative));
+  hash->add(static_cast<int>(lamp.casts_shadows));
+  hash->add(std::vector<char>(lamp.group.begin(), lamp.group.end()));
+}
+
 }  // namespace
 
 World::World(std::shared_ptr<const scene::Scene> scene,
@@ -34,6 +46,7 @@ std::string fingerprint(const World& world) {
   else
     addContents(*world.geometry, &hash);
   for (const scene::Material& material : world.geometry->scene->materials) addDetail(material.detail, &hash);
+  for (const scene::Lamp& lamp : world.geometry->scene->lamps) addLamp(lamp, &hash);
   if (world.bodies) {
     const std::vector<Eigen::Isometry3d> at_home(world.bodies->count(), Eigen::Isometry3d::Identity());
     addContents(*world.bodies->placed(at_home), &hash);

@@ -1,6 +1,7 @@
 #include "sunlit/scene/scene.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "sunlit/quantity/range.h"
@@ -104,12 +105,36 @@ void checkMesh(const Mesh& mesh, std::size_t material_count) {
   }
 }
 
+void checkLamp(const Lamp& lamp) {
+  const auto failHere = [&](const std::string& wrong) { fail("lamp", lamp.name, wrong); };
+  if (!lamp.position.allFinite() || (lamp.position.array().abs() > kFarthest_m).any())
+    failHere("position is not finite or farther than 100 km from the origin");
+  // As for normals of meshes; written so that a NaN fails.
+  if (!(std::abs(lamp.direction.norm() - 1.0f) < 1e-3f)) failHere("direction is not of length 1");
+  for (const float channel : lamp.intensity.value) {
+    if (!std::isfinite(channel) || channel < 0.0f)
+      failHere(refusal("intensity", textOf(channel), "at least 0"));
+  }
+  const float largest = std::numeric_limits<float>::max();
+  checkRange("constant", lamp.constant, {0.0f, largest}, failHere);
+  checkRange("linear", lamp.linear, {0.0f, largest}, failHere);
+  checkRange("quadratic", lamp.quadratic, {0.0f, largest}, failHere);
+  if (!(lamp.constant + lamp.linear + lamp.quadratic > 0.0f))
+    failHere("constant, linear and quadratic must not all be 0");
+  if (!(lamp.range_m > 0.0f)) failHere(refusal("range_m", textOf(lamp.range_m), "above 0"));
+  checkRange("outer_rad", lamp.outer_rad, {0.0f, Lamp::kAllAround_rad}, failHere);
+  checkRange("inner_rad", lamp.inner_rad, {0.0f, lamp.outer_rad}, failHere);
+  checkRange("exponent", lamp.exponent, {0.0f, 100.0f}, failHere);
+  checkRange("radius_m", lamp.radius_m, {0.0f, 10.0f}, failHere);
+}
+
 }  // namespace
 
 void validate(const Scene& scene) {
   for (const Texture& texture : scene.textures) checkTexture(texture);
   for (const Material& material : scene.materials) checkMaterial(material, scene.textures.size());
   for (const Mesh& mesh : scene.meshes) checkMesh(mesh, scene.materials.size());
+  for (const Lamp& lamp : scene.lamps) checkLamp(lamp);
 }
 
 }  // namespace sunlit::scene

@@ -18,6 +18,7 @@ struct RobotLink {
   /// With the joint between them where Robot says.
   Eigen::Isometry3d parent_from_link = Eigen::Isometry3d::Identity();
   std::vector<Mesh> meshes;  ///< in the link's frame; `material` is an index into Robot::materials
+  std::vector<Lamp> lamps;   ///< in the link's frame
 };
 
 /// What there is to see of a robot, in the rest position of its joints: zero where the limits allow it, else

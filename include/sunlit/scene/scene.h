@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -76,11 +77,37 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
+/// A light made by people: a point or, with a cone, a spot. At the distance d, m, a plane that faces it gets
+/// intensity / (constant + linear · d + quadratic · d²), lx, up to `range_m`, and within the cone
+/// falloff(c) = ((c − cos outer) / (cos inner − cos outer))^exponent, cut off at 0 and 1, of that, where c is
+/// the cosine of the angle to the axis. The default is the inverse square, and `intensity` then in cd.
+struct Lamp {
+  static constexpr float kUsualRadius_m = 0.05f;
+  static constexpr float kAllAround_rad = 3.14159265f;
+
+  std::string name;
+  std::string group;  ///< of lamps that are switched together: the name of their model or file
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< m in `map`, within ±kFarthest_m
+  Eigen::Vector3f direction{0.0f, 0.0f, -1.0f};        ///< unit, of the cone's axis, away from the lamp
+  LinearRgb intensity;                                 ///< ≥ 0; cd, or no unit where `relative`
+  bool relative = false;  ///< `intensity` is a colour of a format that knows no unit
+  float constant = 0.0f, linear = 0.0f, quadratic = 1.0f;  ///< ≥ 0, not all 0; 1, 1/m, 1/m²
+  float range_m = std::numeric_limits<float>::infinity();  ///< > 0; no light beyond
+  float inner_rad = kAllAround_rad;                        ///< from the axis, 0 … outer_rad
+  float outer_rad = kAllAround_rad;                        ///< up to kAllAround_rad, which is no cone at all
+  float exponent = 2.0f;                                   ///< 0 … 100, of the falloff between them
+  float radius_m = kUsualRadius_m;  ///< of the ball that its light comes from, 0 … 10: how soft shadows are
+  bool casts_shadows = true;
+
+  bool isSpot() const { return outer_rad < kAllAround_rad; }
+};
+
 struct Scene {
   std::string name;
   std::vector<Texture> textures;
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
+  std::vector<Lamp> lamps;
   std::vector<std::string> warnings;  ///< what was amiss in its files and how it was made good, a line each
 
   std::size_t triangleCount() const {
@@ -90,8 +117,8 @@ struct Scene {
   }
 };
 
-/// Throws std::invalid_argument naming mesh or material and what is wrong: an index out of range, arrays of
-/// unequal length, a value that is not finite or out of the range given above.
+/// Throws std::invalid_argument naming mesh, material or lamp and what is wrong: an index out of range,
+/// arrays of unequal length, a value that is not finite or out of the range given above.
 void validate(const Scene& scene);
 
 }  // namespace sunlit::scene

@@ -99,5 +99,32 @@ TEST(Validate, NamesTheTexture) {
   EXPECT_EQ(errorAfter([](Scene& s) { s.textures[0].width = 0; }), "texture 'bricks': it has no pixels");
 }
 
+TEST(Validate, NamesTheLamp) {
+  const auto withLamp = [](const std::function<void(Lamp&)>& change) {
+    return errorAfter([&](Scene& scene) {
+      Lamp lamp;
+      lamp.name = "post";
+      change(lamp);
+      scene.lamps.push_back(lamp);
+    });
+  };
+  EXPECT_EQ(withLamp([](Lamp&) {}), "");
+  EXPECT_EQ(withLamp([](Lamp& l) { l.position.x() = kNan; }),
+            "lamp 'post': position is not finite or farther than 100 km from the origin");
+  EXPECT_EQ(withLamp([](Lamp& l) { l.direction *= 2.0f; }), "lamp 'post': direction is not of length 1");
+  EXPECT_EQ(withLamp([](Lamp& l) { l.intensity = LinearRgb(1.0f, -1.0f, 1.0f); }),
+            "lamp 'post': intensity is -1, but must be at least 0");
+  EXPECT_EQ(withLamp([](Lamp& l) { l.quadratic = 0.0f; }),
+            "lamp 'post': constant, linear and quadratic must not all be 0");
+  EXPECT_EQ(withLamp([](Lamp& l) { l.range_m = 0.0f; }), "lamp 'post': range_m is 0, but must be above 0");
+  EXPECT_EQ(withLamp([](Lamp& l) {
+              l.outer_rad = 0.5f;
+              l.inner_rad = 0.75f;
+            }),
+            "lamp 'post': inner_rad is 0.75, but must be from 0 to 0.5");
+  EXPECT_EQ(withLamp([](Lamp& l) { l.radius_m = kNan; }),
+            "lamp 'post': radius_m is nan, but must be from 0 to 10");
+}
+
 }  // namespace
 }  // namespace sunlit::scene
