@@ -31,6 +31,20 @@ void appendVertices(const scene::Mesh& mesh, Geometry* geometry) {
   geometry->texture_coordinates.insert(geometry->texture_coordinates.end(), mesh.texture_coordinates.begin(),
                                        mesh.texture_coordinates.end());
   geometry->texture_coordinates.resize(count, Eigen::Vector2f::Zero());
+  auto& more = geometry->more_texture_coordinates;
+  more.resize(std::max(more.size(), mesh.more_texture_coordinates.size()));
+  for (std::size_t set = 0; set < more.size(); ++set) {
+    more[set].resize(count - mesh.positions.size(), Eigen::Vector2f::Zero());
+    if (set < mesh.more_texture_coordinates.size())
+      more[set].insert(more[set].end(), mesh.more_texture_coordinates[set].begin(),
+                       mesh.more_texture_coordinates[set].end());
+    more[set].resize(count, Eigen::Vector2f::Zero());
+  }
+  if (!mesh.tangents.empty() || !geometry->tangents.empty()) {
+    geometry->tangents.resize(count - mesh.positions.size(), Eigen::Vector4f::Zero());
+    geometry->tangents.insert(geometry->tangents.end(), mesh.tangents.begin(), mesh.tangents.end());
+    geometry->tangents.resize(count, Eigen::Vector4f::Zero());
+  }
   geometry->colors.insert(geometry->colors.end(), mesh.colors.begin(), mesh.colors.end());
   geometry->colors.resize(count, Eigen::Array3f::Ones());
 }

@@ -51,8 +51,14 @@ float airDistance_m(int node) {
 }
 
 Reflection reflectionOf(const Surface& surface, const scene::Material& material) {
-  return {surface.shading_normal, surface.to_eye,     surface.albedo,
-          material.roughness,     material.metalness, material.transmission};
+  return {surface.shading_normal,
+          surface.to_eye,
+          surface.albedo,
+          surface.roughness,
+          surface.metalness,
+          material.transmission,
+          material.dielectric.value,
+          material.dielectric_grazing};
 }
 
 LightTable::LightTable(const Surfaces& surfaces, const scene::Scene& scene) : tiles_(surfaces.tiles.size()) {

@@ -12,7 +12,10 @@ namespace sunlit::light {
 namespace {
 
 Eigen::Array3f normalReflectance(const Reflection& r) {
-  return kDielectricF0 + (r.albedo - kDielectricF0) * r.metalness;
+  return r.dielectric + (r.albedo - r.dielectric) * r.metalness;
+}
+float grazingReflectance(const Reflection& r) {
+  return r.dielectric_grazing + (1.0f - r.dielectric_grazing) * r.metalness;
 }
 
 }  // namespace
@@ -32,7 +35,7 @@ Eigen::Array3f directReflectance(const Reflection& r, const Eigen::Vector3f& to_
   const float alpha = std::min(1.0f, r.roughness * r.roughness + 0.5f * source_radius_rad);
   const Ggx<float> facets(alpha);
   const Eigen::Array3f f0 = normalReflectance(r);
-  const Eigen::Array3f fresnel = f0 + (1.0f - f0) * schlick(v_h);
+  const Eigen::Array3f fresnel = f0 + (grazingReflectance(r) - f0) * schlick(v_h);
   const Eigen::Array3f diffuse =
       (1.0f - r.metalness) * (1.0f - r.transmission) / kPiFloat * r.albedo * (1.0f - fresnel);
   return (diffuse + fresnel * (facets.distribution(n_h) * facets.visibility(n_l, n_v))) * n_l;
@@ -42,8 +45,9 @@ AmbientReflectance ambientReflectance(const Reflection& r) {
   const float n_v = std::clamp(r.normal.dot(r.to_eye), 1e-3f, 1.0f);
   const Eigen::Array3f f0 = normalReflectance(r);
   const MirrorAlbedo mirror = mirrorAlbedo(r.roughness, n_v);
-  const Eigen::Array3f lobe = f0 * mirror.plain + mirror.grazing;
-  const Eigen::Array3f taken = f0 + (1.0f - f0) * meanGrazing(n_v);  // by Fresnel, from the Lambert part
+  const float f90 = grazingReflectance(r);
+  const Eigen::Array3f lobe = f0 * mirror.plain + f90 * mirror.grazing;
+  const Eigen::Array3f taken = f0 + (f90 - f0) * meanGrazing(n_v);  // by Fresnel, from the Lambert part
   const Eigen::Array3f lambert = (1.0f - r.metalness) / kPiFloat * r.albedo;
   return {(1.0f - r.transmission) * lambert * (1.0f - taken), r.transmission * lambert, lobe};
 }

@@ -53,7 +53,7 @@ void TileLighting::addSurfaces(const Tile& tile, image::LinearImage* image) cons
                              sun_shares.empty() ? 0.0f : sun_shares[i],
                              moon_shares.empty() ? 0.0f : moon_shares[i],
                              air_.before(number, i)};
-    pixel += luminance(surface, parts) * (weight * static_cast<float>(surface.samples));
+    pixel += luminance(surface, parts) * (weight * static_cast<float>(surface.samples) * surface.share);
   }
 }
 
@@ -67,14 +67,16 @@ Eigen::Array3f TileLighting::luminance(const Surface& surface, const SurfacePart
     return directReflectance(reflection, disc.towards(), disc.radius_rad()) *
            (share * lamp.illuminance.value);
   };
-  Eigen::Array3f leaving = material.emission.value;
+  Eigen::Array3f leaving = surface.emission;
   if (parts.sun > 0.0f) leaving += ofDisc(sun_, light_.day.sun(), parts.sun);
   if (parts.moon > 0.0f) leaving += ofDisc(moon_, light_.day.moon(), parts.moon);
 
   const AmbientReflectance& by = parts.ambient;
   const AmbientLight from =
       ambientLight(surface, {reflection.roughness, parts.mirrored, parts.gathered}, light_);
-  leaving += by.diffuse * from.front + by.through * from.behind + by.specular * from.mirrored;
+  const Eigen::Array3f ambient =
+      by.diffuse * from.front + by.through * from.behind + by.specular * from.mirrored;
+  leaving += surface.cavity * ambient;
 
   return leaving * parts.before.transmittance + parts.before.airlight;
 }

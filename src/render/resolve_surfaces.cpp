@@ -224,6 +224,10 @@ class TileResolver {
     surface.position = eye_high_ + (middle + eye_low_);
     surface.to_eye = -middle.normalized();
     surface.material = cluster.first.material;
+    const scene::Material& material = seen_.look(surface.material);
+    surface.emission = material.emission.value;
+    surface.roughness = material.roughness;
+    surface.metalness = material.metalness;
     surface.clearance_m = light::rayClearance_m(surface.position, cluster.first.depth);
     surface.triangle = cluster.first.triangle;
     surface.pixel = static_cast<std::uint32_t>(y * seen_.view.camera.width + x);
@@ -235,7 +239,7 @@ class TileResolver {
                           detailSpread_m(cluster.samples, seeing.footprint, seeing.shorter_m), middle});
     }
     const Eigen::Vector3f to_origin = eye_low_ + surface.clearance_m * surface.geometric_normal;
-    const float kept = seen_.look(surface.material).transmission > 0.0f ? 1.0f : kept_;
+    const float kept = material.transmission > 0.0f ? 1.0f : kept_;
     for (std::uint32_t i = 0; i < cluster.samples; ++i, ++origins_) {
       const Eigen::Vector3f origin = eye_high_ + (kept * cluster.relatives[i] + to_origin);
       tile_.origin_x[origins_] = origin.x();

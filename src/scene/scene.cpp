@@ -47,22 +47,85 @@ void checkDetail(const Material& material) {
   }
 }
 
+void checkTextureUse(const Material& material, const TextureUse& use, std::size_t texture_count) {
+  const bool known =
+      !use.given() || (use.texture >= 0 && static_cast<std::size_t>(use.texture) < texture_count);
+  if (!known) fail("material", material.name, "there is no texture " + std::to_string(use.texture));
+  if (use.channel < 0 || use.channel > 3) {
+    fail("material", material.name,
+         refusal("channel of a texture", std::to_string(use.channel), "from 0 to 3"));
+  }
+  if (use.coordinates < 0) {
+    fail("material", material.name,
+         refusal("coordinates of a texture", std::to_string(use.coordinates), "at least 0"));
+  }
+}
+
 void checkMaterial(const Material& material, std::size_t texture_count) {
   for (const float channel : material.base_color.value)
     checkRange(material, "base_color", channel, {0.0f, 1.0f});
   checkRange(material, "roughness", material.roughness, {Material::kSmoothest, 1.0f});
   checkRange(material, "metalness", material.metalness, {0.0f, 1.0f});
   checkRange(material, "alpha_cutoff", material.alpha_cutoff, {0.0f, 1.0f});
+  checkRange(material, "alpha", material.alpha, {0.0f, 1.0f});
+  checkRange(material, "normal_scale", material.normal_scale, {-8.0f, 8.0f});
+  checkRange(material, "occlusion_strength", material.occlusion_strength, {0.0f, 1.0f});
+  for (const float channel : material.dielectric.value)
+    checkRange(material, "dielectric", channel, {0.0f, 1.0f});
+  checkRange(material, "dielectric_grazing", material.dielectric_grazing, {0.0f, 1.0f});
   checkRange(material, "transmission", material.transmission, {0.0f, 1.0f});
   checkDetail(material);
   for (const float channel : material.emission.value) {
     if (!std::isfinite(channel) || channel < 0.0f)
       fail("material", material.name, refusal("emission", textOf(channel), "at least 0"));
   }
-  const bool known =
-      material.base_texture == Material::kNoTexture ||
-      (material.base_texture >= 0 && static_cast<std::size_t>(material.base_texture) < texture_count);
-  if (!known) fail("material", material.name, "there is no texture " + std::to_string(material.base_texture));
+  for (const TextureUse& use :
+       {TextureUse{material.base_texture}, material.roughness_map, material.metalness_map,
+        material.normal_map, material.occlusion_map, material.emission_map})
+    checkTextureUse(material, use, texture_count);
+}
+
+void checkLengths(const Mesh& mesh) {
+  const std::size_t count = mesh.positions.size();
+  if (mesh.normals.size() != count) fail("mesh", mesh.name, "it must have one normal a vertex");
+  if (!mesh.texture_coordinates.empty() && mesh.texture_coordinates.size() != count) {
+    fail("mesh", mesh.name, "it must have one texture coordinate a vertex, or none");
+  }
+  for (const auto& coordinates : mesh.more_texture_coordinates) {
+    if (!coordinates.empty() && coordinates.size() != count)
+      fail("mesh", mesh.name, "it must have one texture coordinate a vertex, or none, in each set");
+  }
+  if (!mesh.tangents.empty() && mesh.tangents.size() != count) {
+    fail("mesh", mesh.name, "it must have one tangent a vertex, or none");
+  }
+  if (!mesh.colors.empty() && mesh.colors.size() != count) {
+    fail("mesh", mesh.name, "it must have one colour a vertex, or none");
+  }
+}
+
+void checkVertex(const Mesh& mesh, std::size_t i) {
+  const auto failHere = [&](const std::string& wrong) {
+    fail("mesh", mesh.name, "vertex " + std::to_string(i) + ": " + wrong);
+  };
+  if (!mesh.positions[i].allFinite()) failHere("position is not finite");
+  if ((mesh.positions[i].array().abs() > kFarthest_m).any()) {
+    failHere(
+        "position is farther than 100 km from the origin, where coordinates are a centimetre apart; move "
+        "the world to its origin");
+  }
+  // Written so that a NaN fails; 1e-3 is far above what rounding and transforms do to a unit float vector.
+  if (!(std::abs(mesh.normals[i].norm() - 1.0f) < 1e-3f)) failHere("normal is not of length 1");
+  const Range coordinates{-kLargestTextureCoordinate, kLargestTextureCoordinate};
+  for (int k = 0; !mesh.texture_coordinates.empty() && k < 2; ++k)
+    checkRange("texture coordinate", mesh.texture_coordinates[i][k], coordinates, failHere);
+  for (const auto& more : mesh.more_texture_coordinates) {
+    for (int k = 0; !more.empty() && k < 2; ++k)
+      checkRange("texture coordinate", more[i][k], coordinates, failHere);
+  }
+  if (!mesh.tangents.empty() && !(std::abs(mesh.tangents[i].head<3>().norm() - 1.0f) < 1e-3f))
+    failHere("tangent is not of length 1");
+  for (int k = 0; !mesh.colors.empty() && k < 3; ++k)
+    checkRange("colour", mesh.colors[i][k], {0.0, 2.0}, failHere);
 }
 
 void checkMesh(const Mesh& mesh, std::size_t material_count) {
@@ -70,31 +133,8 @@ void checkMesh(const Mesh& mesh, std::size_t material_count) {
   if (mesh.material < 0 || static_cast<std::size_t>(mesh.material) >= material_count) {
     fail("mesh", mesh.name, "there is no material " + std::to_string(mesh.material));
   }
-  if (mesh.normals.size() != count) fail("mesh", mesh.name, "it must have one normal a vertex");
-  if (!mesh.texture_coordinates.empty() && mesh.texture_coordinates.size() != count) {
-    fail("mesh", mesh.name, "it must have one texture coordinate a vertex, or none");
-  }
-  if (!mesh.colors.empty() && mesh.colors.size() != count) {
-    fail("mesh", mesh.name, "it must have one colour a vertex, or none");
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto failHere = [&](const std::string& wrong) {
-      fail("mesh", mesh.name, "vertex " + std::to_string(i) + ": " + wrong);
-    };
-    if (!mesh.positions[i].allFinite()) failHere("position is not finite");
-    if ((mesh.positions[i].array().abs() > kFarthest_m).any()) {
-      failHere(
-          "position is farther than 100 km from the origin, where coordinates are a centimetre apart; move "
-          "the world to its origin");
-    }
-    // Written so that a NaN fails; 1e-3 is far above what rounding and transforms do to a unit float vector.
-    if (!(std::abs(mesh.normals[i].norm() - 1.0f) < 1e-3f)) failHere("normal is not of length 1");
-    const Range coordinates{-kLargestTextureCoordinate, kLargestTextureCoordinate};
-    for (int k = 0; !mesh.texture_coordinates.empty() && k < 2; ++k)
-      checkRange("texture coordinate", mesh.texture_coordinates[i][k], coordinates, failHere);
-    for (int k = 0; !mesh.colors.empty() && k < 3; ++k)
-      checkRange("colour", mesh.colors[i][k], {0.0, 2.0}, failHere);
-  }
+  checkLengths(mesh);
+  for (std::size_t i = 0; i < count; ++i) checkVertex(mesh, i);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (const std::uint32_t corner : mesh.triangles[i]) {
       if (corner >= count) {

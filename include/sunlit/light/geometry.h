@@ -40,7 +40,18 @@ struct Geometry {
   std::vector<Eigen::Vector3f>
       normals;  ///< of the file, in `map`; unit, or zero where the file's is unusable
   std::vector<Eigen::Vector2f> texture_coordinates;  ///< one a vertex; zero where the mesh has none
-  std::vector<Eigen::Array3f> colors;                ///< linear, one a vertex
+  /// Of sets 1 … of scene::TextureUse::coordinates; zero where a mesh lacks one. Empty if no mesh has any.
+  std::vector<std::vector<Eigen::Vector2f>> more_texture_coordinates;
+  /// Of scene::Mesh, in `map`; zero where a mesh has none. Empty if no mesh has any.
+  std::vector<Eigen::Vector4f> tangents;
+  std::vector<Eigen::Array3f> colors;  ///< linear, one a vertex
+
+  /// Of a set of scene::TextureUse: one a vertex; null: no mesh has it.
+  const std::vector<Eigen::Vector2f>* coordinates(int set) const {
+    if (set == 0) return &texture_coordinates;
+    const auto more = static_cast<std::size_t>(set - 1);
+    return more < more_texture_coordinates.size() ? &more_texture_coordinates[more] : nullptr;
+  }
 
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Plane> planes;            ///< one a triangle

@@ -15,6 +15,9 @@ struct Reflection {
   float roughness = 1.0f;     ///< perceptual, scene::Material::kSmoothest … 1
   float metalness = 0.0f;     ///< 0 … 1
   float transmission = 0.0f;  ///< share of the diffuse light that comes out on the other side, 0 … 1
+  /// Of what is not metal, at normal incidence and at grazing, 0 … 1.
+  Eigen::Array3f dielectric = Eigen::Array3f::Constant(0.04f);
+  float dielectric_grazing = 1.0f;
 };
 
 /// Luminance (cd/m²) towards the eye for 1 lx on a plane facing a small source in direction `to_light`; that

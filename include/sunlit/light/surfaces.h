@@ -71,11 +71,16 @@ struct Surface {
   Eigen::Vector3f geometric_normal;  ///< unit, of the triangle, on the side of the camera
   Eigen::Vector3f shading_normal;    ///< unit, interpolated, in the hemisphere of geometric_normal
   Eigen::Array3f albedo;             ///< linear base colour, 0 … 1
-  float clearance_m = 0.0f;          ///< how far off its triangle its rays start, along geometric_normal
-  std::int32_t material = 0;         ///< index into Scene::materials
-  std::uint32_t pixel = 0;           ///< y · width + x
-  std::uint32_t first_sample = 0;    ///< into Tile::origin_x …
-  std::uint32_t samples = 0;         ///< how many of the pixel's samples see it, > 0
+  Eigen::Array3f emission = Eigen::Array3f::Zero();  ///< luminance of its own, cd/m²
+  float roughness = 1.0f;                            ///< perceptual, scene::Material::kSmoothest … 1
+  float metalness = 0.0f;                            ///< 0 … 1
+  float cavity = 1.0f;  ///< share of the ambient light that the material's own map of occlusion leaves, 0 … 1
+  float share = 1.0f;  ///< of its samples' light that it sends: what is not hidden by what one sees through
+  float clearance_m = 0.0f;        ///< how far off its triangle its rays start, along geometric_normal
+  std::int32_t material = 0;       ///< index into Scene::materials
+  std::uint32_t pixel = 0;         ///< y · width + x
+  std::uint32_t first_sample = 0;  ///< into Tile::origin_x …
+  std::uint32_t samples = 0;       ///< how many of the pixel's samples see it, > 0
   std::uint32_t triangle = 0;  ///< one that it lies on: index into Geometry::triangles, beyond them bodies
   std::uint16_t mirror = 0;    ///< what it mirrors: index into Tile::mirrors, where `light` is known
   LightPlace light;            ///< set by Transport::locate()
@@ -99,6 +104,8 @@ struct Tile {
   std::vector<Mirror> mirrors;        ///< of its surfaces; set by Transport::locate()
   std::vector<GatheredSky> gathered;  ///< of its surfaces; empty unless FinalGather set it
   std::vector<std::uint8_t> sky;      ///< samples of each pixel of the tile (row-major) that see no surface
+  /// Of each pixel, what part of those samples' sky is seen through what blends; empty: all.
+  std::vector<float> sky_share;
 
   /// What was gathered for one of `surfaces`; null: nothing.
   const GatheredSky* gatheredFor(const Surface& surface) const {

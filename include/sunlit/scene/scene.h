@@ -13,13 +13,32 @@
 
 namespace sunlit::scene {
 
-/// 8-bit RGBA: colour sRGB-encoded, alpha linear. Row-major, top row first; texture coordinate (0, 0) is the
-/// top left corner (glTF). Repeats in both directions.
+/// How a texture goes on beyond its edges (glTF 2.0, section 3.8.2).
+enum class Wrap {
+  kRepeat,
+  kMirror,  ///< every second repeat is turned about
+  kClamp,   ///< the texels at the edge
+};
+
+/// 8-bit RGBA: colour sRGB-encoded, alpha linear; used as data, all four linear. Row-major, top row first;
+/// texture coordinate (0, 0) is the top left corner (glTF).
 struct Texture {
   std::string name;
   int width = 0;   ///< px, > 0
   int height = 0;  ///< px, > 0
   std::vector<std::uint8_t> rgba;
+  /// Cut-outs repeat all the same.
+  Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
+};
+
+/// Where a surface takes one of its properties from.
+struct TextureUse {
+  static constexpr int kNone = -1;
+  int texture = kNone;  ///< index into Scene::textures
+  int coordinates = 0;  ///< 0: Mesh::texture_coordinates; k: Mesh::more_texture_coordinates[k − 1]
+  int channel = 0;      ///< of a property of one number: 0 red … 3 alpha
+
+  bool given() const { return texture != kNone; }
 };
 
 /// Fractal variation of the albedo, computed from the position in `map` and therefore never repeated. Octaves
@@ -36,9 +55,11 @@ struct Detail {
 enum class AlphaMode {
   kOpaque,  ///< alpha is ignored
   kMask,    ///< cut out where alpha < alpha_cutoff, in the image and in the shadows alike
+  kBlend,   ///< alpha is the share of the surface that is there; the rest lets light through
 };
 
-/// Metallic-roughness material as in glTF 2.0.
+/// Metallic-roughness material as in glTF 2.0. Where a mesh lacks the texture coordinates of a map, the map
+/// does not count.
 struct Material {
   static constexpr int kNoTexture = -1;
   static constexpr float kSmoothest = 0.03f;  ///< the lowest roughness
@@ -48,9 +69,23 @@ struct Material {
   int base_texture = kNoTexture;           ///< index into Scene::textures
   float roughness = 0.9f;                  ///< perceptual, kSmoothest … 1
   float metalness = 0.0f;                  ///< 0 … 1
-  LinearRgb emission;                      ///< luminance that the surface gives off by itself, cd/m²
+  TextureUse roughness_map;                ///< data; times roughness, not below kSmoothest
+  TextureUse metalness_map;                ///< data; times metalness
+  /// Data: r g b are x, y, z of the normal, from −1 to 1, in the frame of the texture: x to its right, y to
+  /// its top, z out of it.
+  TextureUse normal_map;
+  float normal_scale = 1.0f;     ///< times x and y, −8 … 8
+  TextureUse occlusion_map;      ///< data: the share of ambient light that reaches the surface
+  float occlusion_strength = 1;  ///< how much of that counts, 0 … 1
+  LinearRgb emission;            ///< luminance that the surface gives off by itself, cd/m²
+  TextureUse emission_map;       ///< colour; times emission
+  /// Reflectance of what is not metal, at normal incidence and at grazing: 0 … 1. The former is that of a
+  /// refractive index of 1.5.
+  LinearRgb dielectric{0.04f, 0.04f, 0.04f};
+  float dielectric_grazing = 1.0f;
   AlphaMode alpha_mode = AlphaMode::kOpaque;
   float alpha_cutoff = 0.5f;  ///< 0 … 1
+  float alpha = 1.0f;         ///< of kBlend, times that of the texture; 0 … 1
   /// A thin sheet such as a leaf: the share of its diffuse light that comes out on the other side, 0 … 1.
   float transmission = 0.0f;
   bool double_sided = true;  ///< false: invisible from behind; still casts shadows
@@ -71,7 +106,12 @@ struct Mesh {
   std::vector<Eigen::Vector3f> positions;  ///< m, within ±kFarthest_m
   std::vector<Eigen::Vector3f> normals;    ///< one a vertex
   std::vector<Eigen::Vector2f>
-      texture_coordinates;  ///< one a vertex within ±kLargestTextureCoordinate, or empty
+      texture_coordinates;  ///< of the base texture: one a vertex within ±kLargestTextureCoordinate, or empty
+  /// Of other maps, see TextureUse: likewise.
+  std::vector<std::vector<Eigen::Vector2f>> more_texture_coordinates;
+  /// Unit vectors to the right of the normal map, and ±1: the bitangent, to its top, is cross(normal,
+  /// tangent) times that. One a vertex, or empty: they follow from the texture coordinates.
+  std::vector<Eigen::Vector4f> tangents;
   std::vector<Eigen::Array3f>
       colors;  ///< linear factor, 0 … 2 (above 1 lightens a texture), one a vertex, or empty for 1
   std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "light/mirror/mirror_sky.h"
 #include "light/mirror/open_patches.h"
 #include "light/mirror/rough_mirror.h"
@@ -14,7 +16,7 @@ Mirror findView(const TransportData& data, const scene::Material& material, cons
                 const Tile& tile) {
   const bool sheet = material.transmission > 0.0f;
   const OpenPatches open = openPatches(data, surface, tile.gatheredFor(surface), material.transmission);
-  if (material.roughness < kLeastRough) return smoothMirror(surface, material.roughness, sheet, open);
+  if (surface.roughness < kLeastRough) return smoothMirror(surface, surface.roughness, sheet, open);
   return roughMirror(surface, material, open);
 }
 
@@ -45,7 +47,8 @@ class ViewsOfTile {
     constexpr float kSameView = 0.9995f;    // 1.8°
     constexpr float kSameNormal = 0.9995f;  // the mirror turns by twice that
     constexpr float kSameLeaf = 0.98f;      // 11°: their lobes are wider than twice that
-    return a.material == b.material &&
+    constexpr float kSameRoughness = 0.02f;
+    return a.material == b.material && std::abs(a.roughness - b.roughness) <= kSameRoughness &&
            a.shading_normal.dot(b.shading_normal) > (leaf ? kSameLeaf : kSameNormal) &&
            a.to_eye.dot(b.to_eye) > kSameView;
   }

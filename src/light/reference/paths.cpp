@@ -104,7 +104,7 @@ float Paths::random(const Path& path, int bounce, std::size_t dimension) const {
 
 void Paths::addEmission() {
   for (const Path& path : paths_) {
-    const Eigen::Array3f& emission = path.vertex.material->emission.value;
+    const Eigen::Array3f& emission = path.vertex.emission;
     if (!(emission.maxCoeff() > 0.0f)) continue;
     for (Eigen::Array3f& sum : sums_[static_cast<std::size_t>(path.half)]) sum += path.throughput * emission;
   }

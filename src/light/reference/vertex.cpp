@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/light_table.h"
 #include "sunlit/image/srgb.h"
 #include "sunlit/light/surfaces.h"
 
@@ -39,12 +40,8 @@ Value interpolated(const std::vector<Value>& of_vertices, const std::array<std::
 Vertex seenVertex(const Tile& tile, const Surface& surface, const scene::Scene& scene, std::uint32_t sample) {
   Vertex vertex;
   vertex.material = &scene.materials[static_cast<std::size_t>(surface.material)];
-  vertex.reflection = {surface.shading_normal,
-                       surface.to_eye,
-                       surface.albedo,
-                       vertex.material->roughness,
-                       vertex.material->metalness,
-                       vertex.material->transmission};
+  vertex.reflection = reflectionOf(surface, *vertex.material);
+  vertex.emission = surface.emission;
   vertex.geometric_normal = surface.geometric_normal;
   const std::size_t at = surface.first_sample + sample;
   vertex.front = {tile.origin_x[at], tile.origin_y[at], tile.origin_z[at]};
@@ -69,7 +66,10 @@ Vertex SceneVertices::at(const Hit& hit, const Eigen::Vector3f& direction) const
                        albedo(hit, *vertex.material),
                        vertex.material->roughness,
                        vertex.material->metalness,
-                       vertex.material->transmission};
+                       vertex.material->transmission,
+                       vertex.material->dielectric.value,
+                       vertex.material->dielectric_grazing};
+  vertex.emission = vertex.material->emission.value;
   // Of the corners: far from where the ray started, they tell the place better than its length.
   const Eigen::Vector3f position = interpolated(geometry_.positions, corners, hit);
   const Eigen::Vector3f step = rayClearance_m(position, 0.0f) * vertex.geometric_normal;

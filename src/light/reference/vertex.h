@@ -16,6 +16,7 @@ struct Vertex {
   Reflection reflection;
   Eigen::Vector3f geometric_normal;  ///< unit, on the side of the eye
   Eigen::Vector3f front, behind;     ///< where rays on either side start, m in `map`
+  Eigen::Array3f emission;           ///< luminance of its own, cd/m²
   const scene::Material* material;
 
   /// Whether light can come from `towards` at all, as far as this surface itself is concerned.

@@ -103,7 +103,10 @@ int SkyPixel::skySamples(const Tile& tile, int x, int y) {
 }
 
 float SkyPixel::skyShare(const Tile& tile, int x, int y) const {
-  return static_cast<float>(skySamples(tile, x, y)) / static_cast<float>(surfaces_.samples_per_pixel);
+  const float share =
+      static_cast<float>(skySamples(tile, x, y)) / static_cast<float>(surfaces_.samples_per_pixel);
+  if (tile.sky_share.empty()) return share;
+  return share * tile.sky_share[static_cast<std::size_t>((y - tile.y) * tile.width + (x - tile.x))];
 }
 
 }  // namespace sunlit::light

@@ -1,6 +1,7 @@
 #include "light/transport/bake_key.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace sunlit::light {
 namespace {
@@ -15,6 +16,25 @@ void addMaterial(const scene::Material& material, image::ContentHash* hash) {
   hash->add(material.alpha_mode);
   hash->add(material.alpha_cutoff);
   hash->add(static_cast<int>(material.double_sided));
+  // What few materials have is added where it is there, behind a name: bakes of worlds without it stay good.
+  const auto addMap = [hash](const char* name, const scene::TextureUse& use) {
+    if (!use.given()) return;
+    hash->addBytes(name, std::strlen(name));
+    hash->add(use.texture);
+    hash->add(use.coordinates);
+    hash->add(use.channel);
+  };
+  addMap("roughness", material.roughness_map);
+  addMap("metalness", material.metalness_map);
+  addMap("emission", material.emission_map);
+  const scene::Material usual;
+  if ((material.dielectric.value != usual.dielectric.value).any() ||
+      material.dielectric_grazing != usual.dielectric_grazing) {
+    hash->addBytes("dielectric", 10);
+    for (const float channel : material.dielectric.value) hash->add(channel);
+    hash->add(material.dielectric_grazing);
+  }
+  if (material.alpha_mode == scene::AlphaMode::kBlend) hash->add(material.alpha);
 }
 
 }  // namespace
@@ -23,6 +43,7 @@ void addContents(const Geometry& geometry, image::ContentHash* hash) {
   hash->add(geometry.positions);
   hash->add(geometry.normals);
   hash->add(geometry.texture_coordinates);
+  for (const auto& more : geometry.more_texture_coordinates) hash->add(more);
   hash->add(geometry.colors);
   hash->add(geometry.triangles);
   hash->add(geometry.materials);
@@ -33,13 +54,19 @@ void addContents(const Geometry& geometry, image::ContentHash* hash) {
   for (std::size_t i = 0; i < materials; ++i) {
     const scene::Material& material = geometry.scene->materials[i];
     addMaterial(material, hash);
-    textures = std::max(textures, static_cast<std::size_t>(material.base_texture + 1));
+    for (const int texture : {material.base_texture, material.roughness_map.texture,
+                              material.metalness_map.texture, material.emission_map.texture})
+      textures = std::max(textures, static_cast<std::size_t>(texture + 1));
   }
   for (std::size_t i = 0; i < textures; ++i) {
     const scene::Texture& texture = geometry.scene->textures[i];
     hash->add(texture.width);
     hash->add(texture.height);
     hash->add(texture.rgba);
+    if (texture.wrap_u != scene::Wrap::kRepeat || texture.wrap_v != scene::Wrap::kRepeat) {
+      hash->add(texture.wrap_u);
+      hash->add(texture.wrap_v);
+    }
   }
 }
 

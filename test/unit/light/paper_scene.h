@@ -105,7 +105,11 @@ inline Surfaces rowOf(const std::vector<Looked>& points, const scene::Scene& sce
       surface.to_eye = points[k].to_eye.normalized();
       surface.geometric_normal = surface.shading_normal = points[k].normal;
       surface.material = points[k].material;
-      surface.albedo = scene.materials[static_cast<std::size_t>(surface.material)].base_color.value;
+      const scene::Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
+      surface.albedo = material.base_color.value;
+      surface.emission = material.emission.value;
+      surface.roughness = material.roughness;
+      surface.metalness = material.metalness;
       surface.clearance_m = 3e-4f;
       surface.pixel = static_cast<std::uint32_t>(k);
       surface.first_sample = static_cast<std::uint32_t>(tile.origin_x.size());

@@ -89,6 +89,12 @@ TEST(Validate, NamesTheMaterialKeyValueAndRange) {
             "material 'wall': there is no texture -2");
   EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].detail.finest_m = 9.0f; }),
             "material 'wall': detail must have 0 < finest_m < coarsest_m");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].normal_map.texture = 1; }),
+            "material 'wall': there is no texture 1");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].roughness_map.channel = 4; }),
+            "material 'wall': channel of a texture is 4, but must be from 0 to 3");
+  EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].alpha = 1.5f; }),
+            "material 'wall': alpha is 1.5, but must be from 0 to 1");
   EXPECT_EQ(errorAfter([](Scene& s) { s.materials[0].emission.value[0] = -1.0f; }),
             "material 'wall': emission is -1, but must be at least 0");
 }
