@@ -1,14 +1,18 @@
 #include "sunlit/scene/load.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "scene/mesh_file.h"
 #include "scene/resource_finder.h"
 #include "scene/scene_builder.h"
 #include "scene/sdf_world.h"
 #include "sunlit/scene/race_track.h"
+#include "sunlit/scene/robot.h"
 
 namespace sunlit::scene {
 namespace {
@@ -27,6 +31,34 @@ Scene loadMeshFile(const std::string& file, const ResourceFinder& finder) {
   return scene;
 }
 
+/// A robot at rest, its root link at the origin: how surroundings are spawned where SDF is not at hand.
+Scene loadUrdf(const std::string& file, const SearchPath& search_path) {
+  const Robot robot = loadRobot(file, search_path);
+  Scene scene;
+  scene.name = file;
+  scene.warnings = robot.warnings;
+  const std::vector<Eigen::Isometry3d> map_from_links = robot.baseFromLinks(0);
+  std::vector<std::vector<Mesh>> meshes_of_links = addLooks(robot, &scene);
+  for (std::size_t i = 0; i < meshes_of_links.size(); ++i) {
+    const Eigen::Isometry3f map_from_link = map_from_links[i].cast<float>();
+    for (Lamp lamp : robot.links[i].lamps) {
+      lamp.position = map_from_link * lamp.position;
+      lamp.direction = (map_from_link.linear() * lamp.direction).normalized();
+      scene.lamps.push_back(std::move(lamp));
+    }
+    for (Mesh& mesh : meshes_of_links[i]) {
+      for (Eigen::Vector3f& position : mesh.positions) position = map_from_link * position;
+      for (Eigen::Vector3f& normal : mesh.normals) normal = (map_from_link.linear() * normal).normalized();
+      for (Eigen::Vector4f& tangent : mesh.tangents)
+        tangent.head<3>() = map_from_link.linear() * tangent.head<3>();
+      mesh.name = robot.links[i].name + "/" + mesh.name;
+      scene.meshes.push_back(std::move(mesh));
+    }
+  }
+  validate(scene);
+  return scene;
+}
+
 }  // namespace
 
 Scene load(const std::string& world, const SearchPath& search_path) {
@@ -42,9 +74,10 @@ Scene load(const std::string& world, const SearchPath& search_path) {
   if (isOneOf(extension, {".dae", ".gltf", ".glb", ".obj"})) {
     return loadMeshFile(*found.file, ResourceFinder(search_path, *found.file));
   }
+  if (extension == ".urdf") return loadUrdf(*found.file, search_path);
   throw std::runtime_error(*found.file +
-                           ": cannot tell its format; its name must end in .world, .sdf, .dae, .gltf, .glb "
-                           "or .obj");
+                           ": cannot tell its format; its name must end in .world, .sdf, .urdf, .dae, .gltf, "
+                           ".glb or .obj");
 }
 
 }  // namespace sunlit::scene

@@ -127,6 +127,22 @@ void warnAboutExtensions(const std::string& file, SceneBuilder& builder) {
   }
 }
 
+/// The text of a COLLADA file that Assimp may take: it wants the numbers of a colour right behind the tag,
+/// and XML does not.
+std::string withoutBlanksBeforeColors(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::string mended;
+  std::size_t copied = 0;
+  for (std::size_t tag = text.find("<color"); tag != std::string::npos; tag = text.find("<color", copied)) {
+    const std::size_t end = text.find('>', tag);
+    if (end == std::string::npos) break;
+    mended.append(text, copied, end + 1 - copied);
+    copied = std::min(text.size(), text.find_first_not_of(" \t\r\n", end + 1));
+  }
+  return mended.append(text, copied, std::string::npos);
+}
+
 }  // namespace
 
 std::string extensionOf(const std::string& file) {
@@ -145,6 +161,10 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up_axis == UpAxis::kZ);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   const aiScene* scene = importer.ReadFile(file, kSteps);
+  if (scene == nullptr && collada) {
+    const std::string text = withoutBlanksBeforeColors(file);
+    scene = importer.ReadFileFromMemory(text.data(), text.size(), kSteps, "dae");
+  }
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw std::runtime_error(file + ": cannot read this mesh: " + importer.GetErrorString());
   }

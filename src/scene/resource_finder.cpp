@@ -97,10 +97,22 @@ std::string withoutScheme(const std::string& uri) {
   return end == std::string::npos ? uri : uri.substr(end + 3);
 }
 
+/// "a, b and c".
+std::string listed(const std::vector<std::string>& places) {
+  std::ostringstream text;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (i > 0) text << (i + 1 == places.size() ? " and " : ", ");
+    text << places[i];
+  }
+  return text.str();
+}
+
 }  // namespace
 
 ResourceFinder::ResourceFinder(const SearchPath& search_path, const std::string& scene_file)
-    : roots_(folderAndParents(scene_file)), package_folder_(search_path.package_folder) {
+    : roots_(folderAndParents(scene_file)),
+      package_folder_(search_path.package_folder),
+      missing_(search_path.missing) {
   roots_.insert(roots_.end(), search_path.folders.begin(), search_path.folders.end());
 }
 
@@ -137,13 +149,12 @@ Found ResourceFinder::findTexture(const std::string& name, const std::string& me
   return firstOf(candidates);
 }
 
+std::string ResourceFinder::roots() const {
+  return listed(roots_);
+}
+
 std::string placesTried(const Found& found) {
-  std::ostringstream text;
-  for (std::size_t i = 0; i < found.tried.size(); ++i) {
-    if (i > 0) text << (i + 1 == found.tried.size() ? " and " : ", ");
-    text << found.tried[i];
-  }
-  return text.str();
+  return listed(found.tried);
 }
 
 SearchPath SearchPath::withEnvironment(std::vector<std::string> folders) {

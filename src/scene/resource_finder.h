@@ -32,9 +32,15 @@ class ResourceFinder {
   /// usually have, then as find() does. The folder part of a path from another machine is dropped if need be.
   Found findTexture(const std::string& name, const std::string& mesh_file) const;
 
+  /// The folders that find() goes through for what the scene file names: "a, b and c".
+  std::string roots() const;
+  /// What is to become of a model or mesh that is not found.
+  Missing missing() const { return missing_; }
+
  private:
   std::vector<std::string> roots_;
   std::function<std::string(const std::string& package)> package_folder_;
+  Missing missing_;
 };
 
 /// "a, b and c", for messages about where something was looked for.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "scene/color.h"
+#include "scene/material_maps.h"
 #include "sunlit/image/texture_files.h"
 
 namespace sunlit::scene {
@@ -183,6 +184,9 @@ void SceneBuilder::forgetTexture(int texture) {
   scene_.textures[static_cast<std::size_t>(texture)] =
       Texture{sources_[static_cast<std::size_t>(texture)].name, 1, 1, {255, 255, 255, 255}};
   for (Material& material : scene_.materials) {
+    for (TextureUse* map : mapsOf(material)) {
+      if (map->texture == texture) *map = TextureUse();
+    }
     if (material.base_texture != texture) continue;
     material.base_texture = Material::kNoTexture;
     material.base_color = kNeutral;

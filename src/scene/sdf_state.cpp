@@ -1,59 +1,74 @@
 #include "scene/sdf_state.h"
 
 #include <algorithm>
-#include <sdf/Element.hh>
+#include <array>
+#include <cmath>
+#include <ignition/math/Pose3.hh>
+#include <sstream>
 #include <stdexcept>
 
 #include "scene/sdf_pose.h"
+#include "scene/sdf_xml.h"
 
 namespace sunlit::scene {
 namespace {
 
-constexpr const char* kModel = "model";
-constexpr const char* kInsertions = "insertions";
+using tinyxml2::XMLElement;
 
-Eigen::Isometry3d poseOf(sdf::Element& element, const std::string& name) {
-  const auto pose = element.Get<ignition::math::Pose3d>("pose");
-  if (!pose.IsFinite()) throw std::runtime_error(name + ": its pose in <state> is not finite");
-  return toEigen(pose);
+/// The numbers in the child `key` of `element`; `usual` where there is none.
+template <std::size_t n>
+std::array<double, n> numbersOf(const XMLElement& element, const char* key, std::array<double, n> usual,
+                                const std::string& name) {
+  const std::string text = childText(element, key);
+  if (text.empty()) return usual;
+  std::istringstream words(text);
+  std::array<double, n> numbers{};
+  for (double& number : numbers) {
+    if (!(words >> number) || !std::isfinite(number)) {
+      throw std::runtime_error(name + ": its " + key + " in <state> is not " + std::to_string(n) +
+                               " finite numbers");
+    }
+  }
+  return numbers;
+}
+
+Eigen::Isometry3d poseOf(const XMLElement& element, const std::string& name) {
+  const std::array<double, 6> p = numbersOf<6>(element, "pose", {}, name);
+  return toEigen(ignition::math::Pose3d(p[0], p[1], p[2], p[3], p[4], p[5]));
 }
 
 template <typename Each>
-void forEach(sdf::Element& parent, const std::string& kind, const Each& each) {
-  if (!parent.HasElement(kind)) return;
-  for (sdf::ElementPtr one = parent.GetElement(kind); one != nullptr; one = one->GetNextElement(kind))
+void forEach(const XMLElement& parent, const char* kind, const Each& each) {
+  for (const auto* one = parent.FirstChildElement(kind); one != nullptr; one = one->NextSiblingElement(kind))
     each(*one);
 }
 
 }  // namespace
 
-SdfState::SdfState(const sdf::World& world, SceneBuilder& builder) {
-  const sdf::ElementPtr element = world.Element();
-  if (element == nullptr || !element->HasElement("state")) return;
-  sdf::Element& state = *element->GetElement("state");
-  forEach(state, kModel, [&](sdf::Element& model) { readModel(model, "", builder); });
-  if (state.HasElement("deletions")) {
-    forEach(*state.GetElement("deletions"), "name",
-            [&](sdf::Element& name) { deleted_.insert(name.Get<std::string>()); });
-  }
-  if (state.HasElement(kInsertions)) {
-    forEach(*state.GetElement(kInsertions), kModel, [&](sdf::Element&) {
-      builder.count("models that <state> inserts into the world were not read");
+SdfState::SdfState(const tinyxml2::XMLDocument& document) {
+  const XMLElement& state = *document.FirstChildElement("state");
+  forEach(state, "model", [&](const XMLElement& model) { readModel(model, ""); });
+  forEach(state, "light", [&](const XMLElement& light) {
+    const std::string name = attributeOf(light, "name");
+    entries_[name] = {poseOf(light, name), false};
+  });
+  forEach(state, "deletions", [&](const XMLElement& deletions) {
+    forEach(deletions, "name", [&](const XMLElement& name) {
+      if (name.GetText() != nullptr) deleted_.insert(name.GetText());
     });
-  }
+  });
 }
 
-void SdfState::readModel(sdf::Element& model, const std::string& scope, SceneBuilder& builder) {
-  const std::string name = scope + model.Get<std::string>("name");
+void SdfState::readModel(const XMLElement& model, const std::string& scope) {
+  const std::string name = scope + attributeOf(model, "name");
   entries_[name] = {poseOf(model, name), true};
-  const auto scale = model.Get<ignition::math::Vector3d>("scale", ignition::math::Vector3d::One).first;
-  if (scale != ignition::math::Vector3d::One)
-    builder.warn("model " + name + " is drawn in its own size: the scale in <state> was not read");
-  forEach(model, "link", [&](sdf::Element& link) {
-    const std::string full_name = name + "::" + link.Get<std::string>("name");
+  const std::array<double, 3> scale = numbersOf<3>(model, "scale", {1.0, 1.0, 1.0}, name);
+  scales_[name] = {scale[0], scale[1], scale[2]};
+  forEach(model, "link", [&](const XMLElement& link) {
+    const std::string full_name = name + "::" + attributeOf(link, "name");
     entries_[full_name] = {poseOf(link, full_name), false};
   });
-  forEach(model, kModel, [&](sdf::Element& nested) { readModel(nested, name + "::", builder); });
+  forEach(model, "model", [&](const XMLElement& nested) { readModel(nested, name + "::"); });
 }
 
 std::optional<Eigen::Isometry3d> SdfState::mapFrom(const std::string& full_name) const {
@@ -61,6 +76,11 @@ std::optional<Eigen::Isometry3d> SdfState::mapFrom(const std::string& full_name)
   const auto found = entries_.find(full_name);
   if (found == entries_.end()) return std::nullopt;
   return found->second.map_from_frame;
+}
+
+Eigen::Vector3d SdfState::scaleOf(const std::string& model) const {
+  const auto found = scales_.find(model);
+  return found == scales_.end() ? Eigen::Vector3d::Ones() : found->second;
 }
 
 std::size_t SdfState::unknownModels() const {

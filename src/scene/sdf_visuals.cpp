@@ -8,7 +8,7 @@
 #include <sdf/Mesh.hh>
 #include <sdf/Plane.hh>
 #include <sdf/Sphere.hh>
-#include <stdexcept>
+#include <sdf/World.hh>
 
 #include "scene/primitives.h"
 #include "scene/sdf_pose.h"
@@ -42,31 +42,61 @@ std::optional<Mesh> primitive(const sdf::Geometry& geometry) {
 
 }  // namespace
 
-void SdfVisuals::addModel(const sdf::Model& model, const Eigen::Isometry3d& map_from_parent,
+void SdfVisuals::addFile(const SdfFile& file) {
+  for (std::uint64_t w = 0; w < file.root.WorldCount(); ++w) {
+    const sdf::World& world = *file.root.WorldByIndex(w);
+    for (std::uint64_t i = 0; i < world.ModelCount(); ++i)
+      addModel(*world.ModelByIndex(i), Eigen::Affine3d::Identity(), "");
+  }
+  const sdf::Model* model = file.root.Model();
+  if (model != nullptr) addModel(*model, Eigen::Affine3d::Identity(), "");
+  addIncluded(file, model != nullptr ? model->Name() : "");
+}
+
+/// `own_name` stands in for the name that the model of `file` has in the file.
+void SdfVisuals::addIncluded(const SdfFile& file, const std::string& own_name) {
+  for (const SdfFile::Included& one : file.included) {
+    std::string within = one.within;
+    if (file.root.Model() != nullptr) within.replace(0, file.root.Model()->Name().size(), own_name);
+    const auto place = map_from_models_.find(within);
+    if (!within.empty() && place == map_from_models_.end()) continue;  // deleted with what it is in
+    const Eigen::Affine3d map_from_within = within.empty() ? Eigen::Affine3d::Identity() : place->second;
+    const std::string name = within.empty() ? one.name : within + "::" + one.name;
+    addModelAt(*one.file->root.Model(), map_from_within * one.within_from_model, name);
+    addIncluded(*one.file, name);
+  }
+}
+
+void SdfVisuals::addModel(const sdf::Model& model, const Eigen::Affine3d& map_from_parent,
                           const std::string& scope) {
   const std::string name = scope + model.Name();
   addModelAt(model, map_from_parent * parentFrom(model, name), name);
 }
 
-Eigen::Isometry3d SdfVisuals::placed(const std::string& name, const Eigen::Isometry3d& map_from_own) const {
-  return state_ == nullptr ? map_from_own : state_->mapFrom(name).value_or(map_from_own);
-}
-
-void SdfVisuals::addModelAt(const sdf::Model& model, const Eigen::Isometry3d& map_from_file,
+/// `map_from_file`: of the model's own frame, unless a state says otherwise.
+void SdfVisuals::addModelAt(const sdf::Model& model, const Eigen::Affine3d& map_from_file,
                             const std::string& name) {
-  if (state_ != nullptr && state_->isDeleted(name)) return;
-  const Eigen::Isometry3d map_from_model = placed(name, map_from_file);
+  if (state_.isDeleted(name)) return;
+  const std::optional<Eigen::Isometry3d> stated = state_.mapFrom(name);
+  const Eigen::Affine3d map_from_unscaled = stated ? Eigen::Affine3d(*stated) : map_from_file;
+  const Eigen::Affine3d map_from_model = map_from_unscaled * Eigen::Scaling(state_.scaleOf(name));
+  map_from_models_[name] = map_from_model;
   for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
     const sdf::Link& link = *model.LinkByIndex(i);
     const std::string link_name = name + "::" + link.Name();
-    addLink(link, placed(link_name, map_from_model * parentFrom(link, link_name)), link_name);
+    // A state tells where links are without the scale, which moves them apart in the picture alone.
+    const std::optional<Eigen::Isometry3d> link_stated = state_.mapFrom(link_name);
+    addLink(link,
+            link_stated ? map_from_model * (map_from_unscaled.inverse() * *link_stated)
+                        : map_from_model * parentFrom(link, link_name),
+            link_name);
   }
   for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
     addModel(*model.ModelByIndex(i), map_from_model, name + "::");
   }
 }
 
-void SdfVisuals::addLink(const sdf::Link& link, const Eigen::Isometry3d& map_from_link,
+void SdfVisuals::addLink(const sdf::Link& link, const Eigen::Affine3d& map_from_link,
                          const std::string& name) {
   if (link.LightCount() > 0) builder_.count("lights of models were not read", link.LightCount());
   for (std::uint64_t i = 0; i < link.VisualCount(); ++i) {
@@ -74,7 +104,7 @@ void SdfVisuals::addLink(const sdf::Link& link, const Eigen::Isometry3d& map_fro
   }
 }
 
-void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Isometry3d& map_from_link,
+void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Affine3d& map_from_link,
                            const std::string& scope) {
   const std::string name = scope + visual.Name();
   if (visual.Transparency() > kSeenThrough) {
@@ -85,7 +115,7 @@ void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Isometry3d& m
     builder_.warn("visuals are drawn opaque, they are less than half transparent", name);
   if (!visual.CastShadows())
     builder_.count("visuals cast shadows although their files say that they should not");
-  const Eigen::Isometry3d map_from_visual = map_from_link * parentFrom(visual, name);
+  const Eigen::Affine3d map_from_visual = map_from_link * parentFrom(visual, name);
   if (visual.Geom() == nullptr || visual.Geom()->Type() == sdf::GeometryType::EMPTY) {
     builder_.warn("visuals have no shape that can be drawn", name);
   } else if (visual.Geom()->Type() == sdf::GeometryType::MESH) {
@@ -94,31 +124,21 @@ void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Isometry3d& m
     shape->name = name;
     const std::optional<int> material = materials_.add(visual.Material());
     shape->material = material ? *material : materials_.neutral();
-    builder_.addMesh(*shape, Eigen::Affine3d(map_from_visual));
+    builder_.addMesh(*shape, map_from_visual);
   } else {
     builder_.warn("visual " + name + " was left out: height maps are not supported");
   }
 }
 
-const std::vector<MeshPart>& SdfVisuals::partsOf(const sdf::Mesh& mesh, const std::string& name) {
-  const Found found = finder_.find(mesh.Uri(), mesh.FilePath().empty() ? file_ : mesh.FilePath());
-  if (!found.file) {
-    throw std::runtime_error((mesh.FilePath().empty() ? file_ : mesh.FilePath()) + ": visual " + name +
-                             ": there is no mesh " + mesh.Uri() + "; it was looked for as " +
-                             placesTried(found));
-  }
-  if (found.other_case) builder_.warn(kSpeltOtherwise, mesh.Uri() + " is " + *found.file);
-  const auto known = parts_by_file_.find(*found.file);
-  if (known != parts_by_file_.end()) return known->second;
-  return parts_by_file_[*found.file] = readMeshFile(*found.file, UpAxis::kZ, finder_, builder_);
-}
-
-void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Isometry3d& map_from_visual,
+void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Affine3d& map_from_visual,
                               const std::string& name) {
   const sdf::Mesh& mesh = *visual.Geom()->MeshShape();
   const std::optional<int> material = materials_.add(visual.Material());
+  const std::string& from = mesh.FilePath().empty() ? file_ : mesh.FilePath();
+  const std::vector<MeshPart>* all = meshes_.partsOf(mesh.Uri(), from, from + ": visual " + name);
+  if (all == nullptr) return;
   std::vector<MeshPart> parts;
-  for (const MeshPart& part : partsOf(mesh, name)) {
+  for (const MeshPart& part : *all) {
     const bool wanted =
         mesh.Submesh().empty() || mesh.Submesh() == part.node || mesh.Submesh() == part.geometry;
     if (wanted) parts.push_back(part);
@@ -128,7 +148,7 @@ void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Isometry3d
                   mesh.Uri() + (mesh.Submesh().empty() ? "" : " by the name of " + mesh.Submesh()) +
                       " of visual " + name);
   }
-  Eigen::Affine3d map_from_file = Eigen::Affine3d(map_from_visual) * Eigen::Scaling(toEigen(mesh.Scale()));
+  Eigen::Affine3d map_from_file = map_from_visual * Eigen::Scaling(toEigen(mesh.Scale()));
   if (!mesh.Submesh().empty() && mesh.CenterSubmesh()) {
     Eigen::AlignedBox3d box;
     for (const MeshPart& part : parts) {

@@ -12,6 +12,13 @@ namespace sunlit::scene {
 /// The name of the built-in world.
 constexpr const char* kRaceTrack = "race_track";
 
+/// What becomes of a model or mesh that is not there, or cannot be read. A missing texture or script of a
+/// material is always a line in Scene::warnings and a neutral material.
+enum class Missing {
+  kStop,  ///< an error: a world without what is in it is another world
+  kWarn,  ///< a line in Scene::warnings, and the rest is drawn
+};
+
 /// Where model:// and relative file:// addresses are looked for, in this order, after the folder of the file
 /// that names them and its parents.
 struct SearchPath {
@@ -19,6 +26,7 @@ struct SearchPath {
   /// The folder of a package, where package://name/… is looked for first; empty text for one that is not
   /// known. Unset: packages are looked for in `folders` alone.
   std::function<std::string(const std::string& package)> package_folder = {};
+  Missing missing = Missing::kStop;
   /// `folders`, then those of the environment variables SUNLIT_MODEL_PATH, GAZEBO_MODEL_PATH,
   /// GAZEBO_RESOURCE_PATH and SDF_PATH (colon-separated), then ~/.gazebo/models, then this package's own
   /// worlds/models, which has the `sun` and `ground_plane` that most Gazebo worlds include. Packages are
@@ -26,9 +34,9 @@ struct SearchPath {
   static SearchPath withEnvironment(std::vector<std::string> folders);
 };
 
-/// `world` is "race_track" or the path of a file, by its ending: .world .sdf (SDF), .dae, .gltf .glb, .obj.
-/// Throws std::runtime_error naming the file and place, and for a missing file where it was looked for.
-/// A missing texture is a line in Scene::warnings and a neutral material.
+/// `world` is "race_track" or the path of a file, by its ending: .world .sdf (SDF), .urdf (its joints at
+/// rest), .dae, .gltf .glb, .obj. Throws std::runtime_error naming the file and place, and for a missing file
+/// where it was looked for.
 Scene load(const std::string& world, const SearchPath& search_path);
 
 }  // namespace sunlit::scene

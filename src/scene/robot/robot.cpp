@@ -5,6 +5,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "scene/material_maps.h"
 #include "scene/mesh_file.h"
 #include "scene/resource_finder.h"
 #include "scene/robot/sdf_robot.h"
@@ -65,6 +66,9 @@ std::vector<std::vector<Mesh>> addLooks(const Robot& robot, Scene* scene) {
   scene->textures.insert(scene->textures.end(), robot.textures.begin(), robot.textures.end());
   for (Material material : robot.materials) {
     if (material.base_texture != Material::kNoTexture) material.base_texture += first_texture;
+    for (TextureUse* map : mapsOf(material)) {
+      if (map->given()) map->texture += first_texture;
+    }
     scene->materials.push_back(std::move(material));
   }
   std::vector<std::vector<Mesh>> meshes_of_links;

@@ -108,26 +108,14 @@ std::optional<int> UrdfVisuals::material(const urdf::Visual& visual, const std::
   return material_by_content_[content.str()] = builder_.addMaterial(looks, AlphaRule::kFromTexture);
 }
 
-const std::vector<MeshPart>& UrdfVisuals::partsOf(const urdf::Mesh& shape, const std::string& place) {
-  const Found found = finder_.find(shape.filename, origin_);
-  if (!found.file) {
-    throw std::runtime_error(place + ": there is no mesh " + shape.filename + "; it was looked for as " +
-                             placesTried(found));
-  }
-  if (found.other_case) builder_.warn(kSpeltOtherwise, shape.filename + " is " + *found.file);
-  const auto known = parts_by_file_.find(*found.file);
-  if (known != parts_by_file_.end()) return known->second;
-  // As RViz and Gazebo do, the up axis of COLLADA files is ignored.
-  return parts_by_file_[*found.file] = readMeshFile(*found.file, UpAxis::kZ, finder_, builder_);
-}
-
 void UrdfVisuals::addMeshShape(const urdf::Mesh& shape, const MeshUse& use, const std::string& name,
                                const std::string& place) {
   const Eigen::Affine3d link_from_file =
       Eigen::Affine3d(use.link_from_visual) * Eigen::Scaling(shape.scale.x, shape.scale.y, shape.scale.z);
-  const std::vector<MeshPart>& parts = partsOf(shape, place);
-  if (parts.empty()) builder_.warn("meshes have nothing to draw", shape.filename + " of " + place);
-  for (MeshPart part : parts) {
+  const std::vector<MeshPart>* parts = meshes_.partsOf(shape.filename, origin_, place);
+  if (parts == nullptr) return;
+  if (parts->empty()) builder_.warn("meshes have nothing to draw", shape.filename + " of " + place);
+  for (MeshPart part : *parts) {
     part.mesh.name = name + "/" + part.mesh.name;
     // As RViz does: the material of the URDF is for meshes that bring none.
     if (use.own_material && builder_.material(part.mesh.material).name == kNoMaterial) {

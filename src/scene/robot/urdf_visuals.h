@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/mesh_file.h"
+#include "scene/model_meshes.h"
 #include "scene/resource_finder.h"
 #include "scene/scene_builder.h"
 
@@ -27,7 +27,7 @@ class UrdfVisuals {
  public:
   /// `origin` is the file of the text, or what stands for it.
   UrdfVisuals(const std::string& origin, const ResourceFinder& finder, SceneBuilder& builder)
-      : origin_(origin), finder_(finder), builder_(builder) {}
+      : origin_(origin), finder_(finder), builder_(builder), meshes_(finder, builder) {}
 
   /// Adds everything to see of `link`, in its frame. `place` names the link in messages.
   void add(const urdf::Link& link, const std::string& place);
@@ -41,13 +41,12 @@ class UrdfVisuals {
   void addMeshShape(const urdf::Mesh& shape, const MeshUse& use, const std::string& name,
                     const std::string& place);
   std::optional<int> material(const urdf::Visual& visual, const std::string& place);
-  const std::vector<MeshPart>& partsOf(const urdf::Mesh& shape, const std::string& place);
 
   std::string origin_;
   const ResourceFinder& finder_;
   SceneBuilder& builder_;
   std::map<std::string, int> material_by_content_;
-  std::map<std::string, std::vector<MeshPart>> parts_by_file_;
+  ModelMeshes meshes_;
 };
 
 }  // namespace sunlit::scene

@@ -127,6 +127,15 @@ TEST_F(MeshFile, AMissingTextureIsANamedWarningAndANeutralMaterial) {
   EXPECT_EQ(scene.materials[0].base_color.value[0], 0.18f);
 }
 
+TEST_F(MeshFile, ABlankBeforeAColourIsRead) {
+  std::string text = collada(kCentimetresZUp, "");
+  const std::string color = "<color>";
+  ASSERT_NE(text.find(color), std::string::npos);
+  text.replace(text.find(color), color.size(), "<color>\n  ");
+  const Scene scene = load(write("t.dae", text), {});
+  EXPECT_NEAR(scene.materials[0].base_color.value[0], 1.0f, 1e-6f);
+}
+
 TEST_F(MeshFile, ATextureWithHolesIsCutOut) {
   writeTexture("paint.png", 1);
   const Scene holes = load(write("t.dae", collada(kCentimetresZUp, "paint.png")), {});

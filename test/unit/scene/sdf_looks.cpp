@@ -101,21 +101,14 @@ TEST_F(SdfLook, MostlyTransparentVisualsAreLeftOut) {
 }
 
 TEST_F(SdfLook, WarningsOfTheParserAreCollected) {
-  // The old name of model.config is something that the parser warns about.
-  write("models/old/manifest.xml",
-        "<?xml version='1.0'?><model><name>old</name><sdf version='1.6'>model.sdf</sdf></model>");
-  write("models/old/model.sdf",
-        "<?xml version='1.0'?><sdf version='1.6'><model name='old'><link name='l'><visual name='v'>"
-        "<geometry><box><size>1 1 1</size></box></geometry></visual></link></model></sdf>");
-  const std::string file = write(
-      "test.world",
-      "<?xml version='1.0'?><sdf version='1.6'><world name='w'><include><uri>model://old</uri></include>"
-      "<include><uri>model://old</uri><name>b</name></include></world></sdf>");
   ::testing::internal::CaptureStderr();
-  const Scene scene = load(file, {});
+  const Scene scene = loaded("<material><diffuse shade='dark'>1 0 0 1</diffuse></material>");
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   ASSERT_EQ(scene.warnings.size(), 1u);
-  EXPECT_EQ(scene.warnings[0].find("2 × libsdformat: The manifest.xml"), 0u) << scene.warnings[0];
+  EXPECT_EQ(scene.warnings[0].find("1 × libsdformat: XML Attribute[…] in element[…] not defined in SDF."), 0u)
+      << scene.warnings[0];
+  EXPECT_NE(scene.warnings[0].find("XML Attribute[shade] in element[diffuse]"), std::string::npos)
+      << scene.warnings[0];
 }
 
 }  // namespace

@@ -1,0 +1,34 @@
+#include "scene/model_meshes.h"
+
+#include <stdexcept>
+
+namespace sunlit::scene {
+
+const std::vector<MeshPart>* ModelMeshes::partsOf(const std::string& uri, const std::string& from_file,
+                                                  const std::string& place) {
+  const Found found = finder_.find(uri, from_file);
+  if (!found.file) {
+    if (finder_.missing() == Missing::kStop) {
+      throw std::runtime_error(place + ": there is no mesh " + uri + "; it was looked for as " +
+                               placesTried(found));
+    }
+    builder_.warn("meshes are missing and were left out", uri + " of " + place);
+    return nullptr;
+  }
+  if (found.other_case) builder_.warn(kSpeltOtherwise, uri + " is " + *found.file);
+  if (parts_by_file_.count(*found.file) == 0 && !read(*found.file)) return nullptr;
+  return &parts_by_file_.at(*found.file);
+}
+
+bool ModelMeshes::read(const std::string& file) {
+  try {
+    parts_by_file_[file] = readMeshFile(file, UpAxis::kZ, finder_, builder_);
+    return true;
+  } catch (const std::runtime_error& error) {
+    if (finder_.missing() == Missing::kStop) throw;
+    builder_.warn("meshes cannot be read and were left out", error.what());
+    return false;
+  }
+}
+
+}  // namespace sunlit::scene

@@ -1,0 +1,28 @@
+/// What libsdformat prints, kept for messages.
+#pragma once
+
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace sunlit::scene {
+
+/// Keeps what libsdformat would print, for as long as it lives. What it cannot read it tries as a robot
+/// description; the complaints about that are of no use to anyone and go nowhere.
+class SdfConsole {
+ public:
+  SdfConsole();
+  ~SdfConsole();
+  SdfConsole(const SdfConsole&) = delete;
+  SdfConsole& operator=(const SdfConsole&) = delete;
+
+  /// Line by line, without colours, and places in libsdformat's own source and in the text that it was given.
+  std::vector<std::string> lines() const;
+
+ private:
+  std::ostringstream text_;
+  std::ostream* before_;
+};
+
+}  // namespace sunlit::scene

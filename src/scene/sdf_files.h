@@ -1,0 +1,68 @@
+/// SDF files as libsdformat reads them, each once, however often it is included.
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <Eigen/Geometry>
+#include <map>
+#include <memory>
+#include <sdf/InterfaceElements.hh>
+#include <sdf/InterfaceModel.hh>
+#include <sdf/Model.hh>
+#include <sdf/Root.hh>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scene/resource_finder.h"
+#include "scene/scene_builder.h"
+
+namespace sunlit::scene {
+
+/// A file without what it includes.
+struct SdfFile {
+  /// A model that the file includes.
+  struct Included {
+    std::string within;   ///< full name of the model that includes it; empty: the world
+    std::string name;     ///< its own, there
+    const SdfFile* file;  ///< whose root.Model() it is
+    Eigen::Isometry3d within_from_model;
+  };
+
+  std::string path;
+  sdf::Root root;
+  std::vector<Included> included;
+  std::unique_ptr<tinyxml2::XMLDocument> state;  ///< a <state> element; null where the world has none
+};
+
+/// libsdformat reads a file anew for every <include>, 35 ms each, and gives up at the first that is missing.
+/// It lets other formats join in by interface models (its composition interface): the user of the library
+/// reads what is included, libsdformat puts its frames into the tree of poses. Here all includes of models go
+/// that way.
+class SdfFiles {
+ public:
+  SdfFiles(const ResourceFinder& finder, SceneBuilder& builder) : finder_(finder), builder_(builder) {}
+
+  /// Reads `file` and all that it includes; odd things in them become warnings of the builder. Throws
+  /// std::runtime_error naming file and line of what cannot be read, and for missing models where they were
+  /// looked for; but an included model that is missing or cannot be read is a warning where the finder says
+  /// so. The result lives as long as this.
+  const SdfFile& read(const std::string& file);
+
+ private:
+  const SdfFile& open(const std::string& path);
+  void resolveIncludes(tinyxml2::XMLElement& sdf, const SdfFile& file);
+  void resolveInclude(tinyxml2::XMLElement& include, const SdfFile& file);
+  const SdfFile* included(const tinyxml2::XMLElement& include, const SdfFile& file);
+  void parse(const tinyxml2::XMLDocument& document, SdfFile& file);
+  sdf::InterfaceModelPtr interfaceOf(const sdf::NestedInclude& include, SdfFile& file);
+
+  const ResourceFinder& finder_;
+  SceneBuilder& builder_;
+  std::map<std::string, std::unique_ptr<SdfFile>> files_;
+  std::set<std::string> open_;                  ///< being read
+  std::vector<const SdfFile*> by_token_;        ///< what stands in the place of an address
+  std::map<std::string, std::string> missing_;  ///< addresses looked for in vain, by where the first stands
+};
+
+}  // namespace sunlit::scene

@@ -1,0 +1,221 @@
+#include "scene/sdf_mend.h"
+
+#include <map>
+#include <set>
+#include <vector>
+
+#include "scene/sdf_xml.h"
+
+namespace sunlit::scene {
+namespace {
+
+using tinyxml2::XMLElement;
+using Words = std::set<std::string>;
+
+/// The children of an element, but for attributes and values.
+struct Children {
+  Words kept;
+  Words unseen;     ///< known, and nothing that a camera sees
+  Words not_drawn;  ///< seen in a simulator
+};
+
+/// SDF 1.4 to 1.9, elements.
+const std::map<std::string, Children> kChildren = {
+    {"sdf", {{"world", "model", "light"}, {}, {"actor"}}},
+    {"world",
+     {{"include", "model", "light", "frame", "road"},
+      {"atmosphere", "audio", "gravity", "gui", "joint", "magnetic_field", "physics", "plugin", "scene",
+       "spherical_coordinates", "wind"},
+      {"actor", "population"}}},
+    {"model",
+     {{"pose", "include", "model", "link", "frame", "joint"},
+      {"allow_auto_disable", "enable_wind", "gripper", "plugin", "self_collide", "static"},
+      {}}},
+    {"link",
+     {{"pose", "visual", "light"},
+      {"audio_sink", "audio_source", "battery", "collision", "enable_wind", "frame", "gravity", "inertial",
+       "kinematic", "must_be_base_link", "plugin", "self_collide", "sensor", "velocity_decay"},
+      {"particle_emitter", "projector"}}},
+    {"visual",
+     {{"pose", "geometry", "material", "transparency", "cast_shadows"},
+      {"frame", "laser_retro", "meta", "plugin", "visibility_flags"},
+      {}}},
+    {"geometry",
+     {{"box", "capsule", "cylinder", "ellipsoid", "empty", "heightmap", "image", "mesh", "plane", "polyline",
+       "sphere"},
+      {"frame"},
+      {}}},
+};
+
+/// The newest version that libsdformat 12 reads is 1.9, and the elements above are those from 1.4 on.
+constexpr int kNewest = 9;
+constexpr int kOldestPruned = 4;
+/// From here on "::" stands between the names of nested models, and in none of them.
+constexpr int kScopedNames = 8;
+
+/// n of version 1.n; −1 for any other.
+int minorVersion(const XMLElement& sdf) {
+  const std::string version = attributeOf(sdf, "version");
+  const bool plain = version.size() == 3 && version.compare(0, 2, "1.") == 0;
+  return plain && version[2] >= '0' && version[2] <= '9' ? version[2] - '0' : -1;
+}
+
+std::string described(const XMLElement& element, const std::string& file) {
+  const std::string name = attributeOf(element, "name");
+  return std::string("<") + element.Value() + ">" + (name.empty() ? "" : " " + name) + " of " +
+         placeOf(file, element);
+}
+
+class Mender {
+ public:
+  Mender(const std::string& file, int version, SceneBuilder& builder)
+      : file_(file), version_(version), builder_(builder) {}
+
+  void mend(XMLElement& sdf) {
+    if (version_ >= kOldestPruned) prune(sdf);
+    forEachBelow(sdf, [&](XMLElement& element) { noteReferences(element); });
+    mendBelow(sdf);
+  }
+
+ private:
+  void prune(XMLElement& parent) {
+    const auto known = kChildren.find(parent.Value());
+    if (known == kChildren.end()) return;
+    const Children& children = known->second;
+    for (XMLElement* child : childrenOf(parent)) {
+      const std::string name = child->Value();
+      if (children.kept.count(name) == 1) {
+        prune(*child);
+        continue;
+      }
+      const bool of_others = name.find(':') != std::string::npos;
+      if (children.not_drawn.count(name) == 1) {
+        builder_.warn("elements were left out, they are of kinds that are not drawn",
+                      described(*child, file_));
+      } else if (children.unseen.count(name) == 0 && !of_others) {
+        builder_.warn("elements were passed over, SDF has none of that name there",
+                      described(*child, file_) + " in <" + parent.Value() + ">");
+      }
+      parent.DeleteChild(child);
+    }
+  }
+
+  void noteReferences(const XMLElement& element) {
+    for (const char* attribute : {"relative_to", "attached_to", "placement_frame"})
+      noteReference(attributeOf(element, attribute));
+    if (std::string(element.Value()) == "include") noteReference(childText(element, "placement_frame"));
+  }
+
+  void noteReference(const std::string& name) {
+    const std::size_t scope = name.rfind("::");
+    referenced_.insert(scope == std::string::npos ? name : name.substr(scope + 2));
+  }
+
+  void mendBelow(XMLElement& parent) {
+    const std::string kind = parent.Value();
+    if (kind == "model") mendModel(parent);
+    if (kind == "visual") mendVisual(parent);
+    if (kind == "world" || kind == "model" || kind == "link") nameChildren(parent);
+    for (XMLElement* child : childrenOf(parent)) mendBelow(*child);
+  }
+
+  /// Nothing falls here, so that a model needs no link; and a frame stands where its joint would.
+  void mendModel(XMLElement& model) {
+    model.DeleteAttribute("canonical_link");
+    childIn(model, "static").SetText("true");
+    for (XMLElement* joint : childrenOf(model, "joint")) {
+      const std::string child = childText(*joint, "child");
+      if (child.empty() || referenced_.count(attributeOf(*joint, "name")) == 0) {
+        model.DeleteChild(joint);
+        continue;
+      }
+      joint->SetName("frame");
+      joint->DeleteAttribute("type");
+      joint->SetAttribute("attached_to", child.c_str());
+      for (XMLElement* part : childrenOf(*joint)) {
+        if (std::string(part->Value()) != "pose") joint->DeleteChild(part);
+      }
+    }
+  }
+
+  static void mendVisual(XMLElement& visual) {
+    XMLElement& geometry = childIn(visual, "geometry");
+    if (geometry.FirstChildElement() == nullptr) geometry.InsertNewChildElement("empty");
+  }
+
+  /// Models, links and frames of one scope are told apart by their names alone, visuals and lights among
+  /// themselves.
+  void nameChildren(XMLElement& parent) {
+    std::map<std::string, Words> taken;
+    for (XMLElement* child : childrenOf(parent)) {
+      const std::string kind = child->Value();
+      const bool frame = kind == "model" || kind == "link" || kind == "frame" || kind == "include";
+      if (!frame && kind != "visual" && kind != "light" && kind != "road") continue;
+      const bool include = kind == "include";
+      const std::string before = include ? childText(*child, "name") : attributeOf(*child, "name");
+      const std::string name = freeName(accepted(before, kind), &taken[frame ? "" : kind]);
+      if (name == before) continue;
+      builder_.warn("names are missing, reserved or given twice, others stand in for them",
+                    (before.empty() ? "none" : before) + " at " + placeOf(file_, *child) + " is now " + name);
+      if (include) {
+        childIn(*child, "name").SetText(name.c_str());
+      } else {
+        child->SetAttribute("name", name.c_str());
+      }
+    }
+  }
+
+  std::string accepted(std::string name, const std::string& kind) const {
+    if (name.empty()) name = kind;
+    for (std::size_t at = name.find("::"); version_ >= kScopedNames && at != std::string::npos;
+         at = name.find("::"))
+      name.replace(at, 2, "_");
+    const bool reserved = name == "world" || (name.size() >= 4 && name.compare(0, 2, "__") == 0 &&
+                                              name.compare(name.size() - 2, 2, "__") == 0);
+    return reserved ? name + "-" : name;
+  }
+
+  static std::string freeName(const std::string& wanted, Words* taken) {
+    std::string name = wanted;
+    for (int i = 2; !taken->insert(name).second; ++i) name = wanted + "-" + std::to_string(i);
+    return name;
+  }
+
+  const std::string& file_;
+  int version_;
+  SceneBuilder& builder_;
+  Words referenced_;
+};
+
+}  // namespace
+
+void mendSdf(XMLElement& sdf, const std::string& file, SceneBuilder& builder) {
+  int version = minorVersion(sdf);
+  if (version < 0) {
+    const std::string written = attributeOf(sdf, "version");
+    builder.warn("files are of a version of SDF that is not known, they are read as 1.9",
+                 file + " of " + (written.empty() ? "none" : written));
+    sdf.SetAttribute("version", "1.9");
+    version = kNewest;
+  }
+  Mender(file, version, builder).mend(sdf);
+}
+
+std::unique_ptr<tinyxml2::XMLDocument> takeState(XMLElement& sdf) {
+  std::unique_ptr<tinyxml2::XMLDocument> taken;
+  for (XMLElement* world : childrenOf(sdf, "world")) {
+    for (XMLElement* state : childrenOf(*world, "state")) {
+      if (!taken) {
+        for (XMLElement* insertions : childrenOf(*state, "insertions")) {
+          for (XMLElement* added : childrenOf(*insertions)) world->InsertEndChild(added);
+        }
+        taken = std::make_unique<tinyxml2::XMLDocument>();
+        taken->InsertEndChild(state->DeepClone(taken.get()));
+      }
+      world->DeleteChild(state);
+    }
+  }
+  return taken;
+}
+
+}  // namespace sunlit::scene

@@ -1,0 +1,25 @@
+/// What libsdformat must not see of an SDF file.
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <memory>
+#include <string>
+
+#include "scene/scene_builder.h"
+
+namespace sunlit::scene {
+
+/// libsdformat checks a world as a simulator needs it: one inertia that no body can have, one name that two
+/// links share, and nothing of it is read. A renderer has no use for most of that. Takes out of `sdf`, the
+/// root element of `file`, what no camera sees (collisions, inertias, joints, sensors, plugins …), and what
+/// cannot be drawn or SDF does not know, each kind of these a warning of `builder`; gives names that are
+/// missing, reserved or taken a form that libsdformat accepts, which is another warning; and takes versions
+/// that it does not know for its newest. Joints to which poses refer become frames.
+void mendSdf(tinyxml2::XMLElement& sdf, const std::string& file, SceneBuilder& builder);
+
+/// Takes the <state> elements out of the worlds in `sdf`, and gives the first one, in a document of its own,
+/// or null where there is none. What its <insertions> add becomes part of its world.
+std::unique_ptr<tinyxml2::XMLDocument> takeState(tinyxml2::XMLElement& sdf);
+
+}  // namespace sunlit::scene

@@ -1,0 +1,98 @@
+#include "scene/sdf_xml.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace sunlit::scene {
+namespace {
+
+class LineKeeper : public tinyxml2::XMLPrinter {
+ public:
+  LineKeeper() : XMLPrinter(nullptr, true) {}
+
+  bool VisitEnter(const tinyxml2::XMLElement& element, const tinyxml2::XMLAttribute* attributes) override {
+    SealElementIfJustOpened();
+    while (line_ < element.GetLineNum()) Putc('\n');
+    return XMLPrinter::VisitEnter(element, attributes);
+  }
+  using XMLPrinter::Visit;
+  bool Visit(const tinyxml2::XMLComment&) override { return true; }
+
+ protected:
+  void Write(const char* data, std::size_t size) override {
+    line_ += static_cast<int>(std::count(data, data + size, '\n'));
+    XMLPrinter::Write(data, size);
+  }
+  void Putc(char letter) override {
+    line_ += letter == '\n' ? 1 : 0;
+    XMLPrinter::Putc(letter);
+  }
+
+ private:
+  int line_ = 1;
+};
+
+}  // namespace
+
+std::unique_ptr<tinyxml2::XMLDocument> readSdfXml(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::runtime_error(file + ": cannot open this file");
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  auto document = std::make_unique<tinyxml2::XMLDocument>();
+  if (document->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    throw std::runtime_error(file + ":" + std::to_string(document->ErrorLineNum()) +
+                             ": the XML is broken here (" + document->ErrorName() + ")");
+  }
+  if (document->FirstChildElement("sdf") == nullptr)
+    throw std::runtime_error(file + ":1: there is no <sdf> element in this file");
+  return document;
+}
+
+std::string textOf(const tinyxml2::XMLDocument& document) {
+  LineKeeper printer;
+  document.Accept(&printer);
+  return printer.CStr();
+}
+
+std::string attributeOf(const tinyxml2::XMLElement& element, const char* name) {
+  const char* value = element.Attribute(name);
+  return value == nullptr ? "" : value;
+}
+
+std::string childText(const tinyxml2::XMLElement& element, const char* name) {
+  const tinyxml2::XMLElement* child = element.FirstChildElement(name);
+  const char* text = child == nullptr ? nullptr : child->GetText();
+  if (text == nullptr) return "";
+  const std::string whole = text;
+  const std::size_t begin = whole.find_first_not_of(" \t\r\n");
+  if (begin == std::string::npos) return "";
+  return whole.substr(begin, whole.find_last_not_of(" \t\r\n") + 1 - begin);
+}
+
+std::vector<tinyxml2::XMLElement*> childrenOf(tinyxml2::XMLElement& parent, const char* name) {
+  std::vector<tinyxml2::XMLElement*> children;
+  for (auto* child = parent.FirstChildElement(name); child != nullptr;
+       child = child->NextSiblingElement(name))
+    children.push_back(child);
+  return children;
+}
+
+tinyxml2::XMLElement& childIn(tinyxml2::XMLElement& parent, const char* name) {
+  tinyxml2::XMLElement* child = parent.FirstChildElement(name);
+  return child != nullptr ? *child : *parent.InsertNewChildElement(name);
+}
+
+std::string placeOf(const std::string& file, const tinyxml2::XMLElement& element) {
+  return file + ":" + std::to_string(element.GetLineNum());
+}
+
+void forEachBelow(tinyxml2::XMLElement& parent, const std::function<void(tinyxml2::XMLElement&)>& use) {
+  for (tinyxml2::XMLElement* child : childrenOf(parent)) {
+    use(*child);
+    forEachBelow(*child, use);
+  }
+}
+
+}  // namespace sunlit::scene

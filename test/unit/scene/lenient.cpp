@@ -1,0 +1,245 @@
+// What a renderer has no use for stops no world, and what is missing stops it only if so wished.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "unit/scene/measure.h"
+#include "unit/scene/scene_files.h"
+
+namespace sunlit::scene {
+namespace {
+
+const std::string kBox = "<geometry><box><size>2 4 6</size></box></geometry>";
+const std::string kVisual = "<visual name='v'>" + kBox + "</visual>";
+
+std::string model(const std::string& content, const std::string& name = "m") {
+  return "<model name='" + name + "'>" + content + "</model>";
+}
+
+std::string link(const std::string& content, const std::string& name = "l") {
+  return "<link name='" + name + "'>" + content + "</link>";
+}
+
+class Lenient : public SceneFiles {
+ protected:
+  std::string worldFile(const std::string& content, const std::string& version = "1.9") const {
+    return write("test.world", "<?xml version='1.0'?>\n<sdf version='" + version + "'>\n<world name='w'>\n" +
+                                   content + "\n</world></sdf>");
+  }
+  Scene loaded(const std::string& content, const std::string& version = "1.9") const {
+    SearchPath lenient;
+    lenient.missing = Missing::kWarn;
+    return load(worldFile(content, version), lenient);
+  }
+  void includeModel(const std::string& name, const std::string& content,
+                    const std::string& version = "1.9") const {
+    write("models/" + name + "/model.config",
+          "<model><name>" + name + "</name><sdf version='" + version + "'>model.sdf</sdf></model>");
+    write("models/" + name + "/model.sdf", "<sdf version='" + version + "'>\n" + content + "\n</sdf>");
+  }
+  static std::string include(const std::string& name, const std::string& more = "") {
+    return "<include><uri>model://" + name + "</uri>" + more + "</include>";
+  }
+};
+
+TEST_F(Lenient, WhatNoCameraSeesStopsNothing) {
+  const std::vector<std::string> contents = {
+      model(link("<inertial><mass>-1</mass><inertia><ixx>0</ixx></inertia></inertial>" + kVisual)),
+      model(
+          link("<inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>9</iyy><izz>1</izz></inertia></inertial>" +
+               kVisual)),
+      model(link("<gravity>1000</gravity>" + kVisual)),
+      model(link("<collision name='c'><geometry><box><size>0 0 x</size></box></geometry></collision>" +
+                 kVisual)),
+      model(link("<sensor name='s' type='none such'/><sensor name='s' type='camera'/>" + kVisual)),
+      model(link(kVisual) + "<joint name='j' type='revolute'><parent>gone</parent><child>l</child></joint>"),
+      model(link(kVisual) + "<joint name='l' type='fixed'><parent>world</parent><child>l</child></joint>"),
+      model(link(kVisual) + "<plugin name='p'/><plugin/>"),
+      "<physics type='none such'><max_step_size>x</max_step_size></physics><gravity>down</gravity>" +
+          model(link(kVisual)),
+  };
+  for (const std::string& content : contents) {
+    for (const char* version : {"1.4", "1.6", "1.7", "1.9"}) {
+      const Scene scene = load(worldFile(content, version), {});
+      EXPECT_EQ(scene.triangleCount(), 12u) << content;
+      EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    }
+  }
+}
+
+TEST_F(Lenient, NamesThatAreReservedMissingOrTakenAreReplaced) {
+  const Scene scene = loaded(model(link(kVisual + kVisual) + link(kVisual)) + model(link(kVisual)) +
+                             model(link(kVisual, "__link__"), "world") + "<model><link><visual>" + kBox +
+                             "</visual></link></model>");
+  EXPECT_EQ(scene.meshes.size(), 6u);
+  std::vector<std::string> names;
+  for (const Mesh& mesh : scene.meshes) names.push_back(mesh.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"m::l::v", "m::l::v-2", "m::l-2::v", "m-2::l::v",
+                                             "world-::__link__-::v", "model::link::visual"}));
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(
+      scene.warnings[0].find("8 names are missing, reserved or given twice, others stand in for them: "), 0u)
+      << scene.warnings[0];
+  EXPECT_NE(scene.warnings[0].find("m at " + pathOf("test.world") + ":4 is now m-2"), std::string::npos)
+      << scene.warnings[0];
+}
+
+TEST_F(Lenient, TheSameModelTwiceWithoutANameIsDrawnTwice) {
+  includeModel("crate", model(link(kVisual), "crate"));
+  const Scene scene = loaded(include("crate") + include("crate", "<pose>10 0 0 0 0 0</pose>"));
+  EXPECT_FLOAT_EQ(boundsOf(scene).max().x(), 11.0f);
+  EXPECT_EQ(scene.meshes.size(), 2u);
+}
+
+TEST_F(Lenient, WhatSdfDoesNotKnowAndWhatIsNotDrawnIsNamed) {
+  const Scene scene =
+      loaded("<actor name='walker'/><population name='trees'/><weather>wet</weather>" +
+             model(link("<particle_emitter name='smoke' type='point'/><visuals/>" + kVisual)) +
+             model("<lnk/>" + link("<other:thing/>" + kVisual), "n"));
+  EXPECT_EQ(scene.triangleCount(), 24u);
+  const std::string file = pathOf("test.world");
+  EXPECT_EQ(
+      scene.warnings,
+      (std::vector<std::string>{
+          "3 elements were left out, they are of kinds that are not drawn: <actor> walker of " + file +
+              ":4; <population> trees of " + file + ":4; <particle_emitter> smoke of " + file + ":4",
+          "3 elements were passed over, SDF has none of that name there: <weather> of " + file +
+              ":4 in <world>; <visuals> of " + file + ":4 in <link>; <lnk> of " + file + ":4 in <model>"}));
+}
+
+TEST_F(Lenient, ANewerVersionIsReadAsTheNewestThatIsKnown) {
+  for (const char* version : {"1.10", "1.12", "2.0", "", "new"}) {
+    const Scene scene = loaded(model(link(kVisual)), version);
+    EXPECT_EQ(scene.triangleCount(), 12u) << version;
+    ASSERT_EQ(scene.warnings.size(), 1u) << version;
+    EXPECT_EQ(
+        scene.warnings[0].find("1 files are of a version of SDF that is not known, they are read as 1.9: "),
+        0u);
+  }
+}
+
+TEST_F(Lenient, AShapeThatIsNotKnownLeavesOutItsVisual) {
+  const Scene scene =
+      loaded(model(link("<visual name='c'><geometry><cone><radius>1</radius></cone></geometry></visual>"
+                        "<visual name='d'/>" +
+                        kVisual)));
+  EXPECT_EQ(scene.triangleCount(), 12u);
+  const auto has = [&](const std::string& line) {
+    return std::count(scene.warnings.begin(), scene.warnings.end(), line) == 1;
+  };
+  EXPECT_TRUE(has("2 visuals have no shape that can be drawn: m::l::c; m::l::d"));
+  EXPECT_TRUE(has("1 elements were passed over, SDF has none of that name there: <cone> of " +
+                  pathOf("test.world") + ":4 in <geometry>"));
+}
+
+TEST_F(Lenient, APoseMayStillNameAJoint) {
+  // A joint stands in its child, here 10 m up, and half a metre beside it.
+  const Scene scene =
+      loaded(model("<link name='far'><pose>0 0 10 0 0 0</pose></link>"
+                   "<joint name='j' type='fixed'><pose>0.5 0 0 0 0 "
+                   "0</pose><parent>world</parent><child>far</child></joint>"
+                   "<link name='near'><pose relative_to='j'>0 0 1 0 0 0</pose>" +
+                   kVisual + "</link>"));
+  EXPECT_FLOAT_EQ(boundsOf(scene).max().z(), 14.0f);
+  EXPECT_FLOAT_EQ(boundsOf(scene).max().x(), 1.5f);
+}
+
+TEST_F(Lenient, AnErrorStillNamesTheLineOfTheFile) {
+  const std::string broken =
+      "<!-- two\nlines -->\n<physics>\n</physics>\n" + model(link(kVisual)) + "\n" +
+      model(link("<visual name='v'><geometry>\n<box>\n<size>1 1 x</size></box></geometry></visual>"), "n");
+  EXPECT_EQ(errorOf(worldFile(broken)).find(pathOf("test.world") + ":11: Error reading element <size>"), 0u)
+      << errorOf(worldFile(broken));
+  includeModel(
+      "bad",
+      "\n" + model(link("<visual name='v'><geometry><box><size>1 1 x</size></box></geometry></visual>")));
+  EXPECT_EQ(errorOf(worldFile(include("bad"))).find(pathOf("models/bad/model.sdf") + ":3: Error reading"), 0u)
+      << errorOf(worldFile(include("bad")));
+}
+
+TEST_F(Lenient, WhatLibsdformatAssertsIsAnErrorThatNamesTheFile) {
+  // Twice the same world: its own check of that is an assertion that ends the process in some versions.
+  const std::string file = write("test.sdf", "<sdf version='1.9'><world name='w'><model name='m'>" +
+                                                 link(kVisual) + "</model></world><world name='w'/></sdf>");
+  EXPECT_EQ(errorOf(file).find(file + ": "), 0u) << errorOf(file);
+}
+
+TEST_F(Lenient, AModelThatIncludesItselfIsAnError) {
+  includeModel("a", model(link(kVisual) + include("b"), "a"));
+  includeModel("b", model(link(kVisual) + include("a"), "b"));
+  const std::string error = errorOf(worldFile(include("a")));
+  EXPECT_EQ(error,
+            pathOf("models/b/model.sdf") + ":2: " + pathOf("models/a/model.sdf") + " includes itself here");
+}
+
+TEST_F(Lenient, MissingModelsAndMeshesAreLeftOutWithALineEach) {
+  includeModel("broken", "<model");
+  std::string content = model(link(kVisual) + include("nowhere"));
+  for (int i = 0; i < 100; ++i)
+    content += "\n" + include("nowhere", "<name>n" + std::to_string(i) + "</name>");
+  content += include("broken") + include("elsewhere") + "<include><pose>0 0 0 0 0 0</pose></include>";
+  for (const char* mesh : {"gone.dae", "bad.dae", "bad.obj"})
+    content += model(link("<visual name='v'><geometry><mesh><uri>" + std::string(mesh) +
+                          "</uri></mesh></geometry></visual>"),
+                     mesh);
+  write("bad.dae", "<COLLADA");
+  write("bad.obj", "");
+  const Scene scene = loaded(content);
+  EXPECT_EQ(scene.triangleCount(), 12u);
+  const auto begins = [&](const std::string& text) {
+    return std::count_if(scene.warnings.begin(), scene.warnings.end(),
+                         [&](const std::string& line) { return line.compare(0, text.size(), text) == 0; });
+  };
+  EXPECT_EQ(scene.warnings.size(), 6u);
+  EXPECT_EQ(begins("2 models are missing and were left out: model://nowhere; model://elsewhere"), 1);
+  EXPECT_EQ(begins("Models were looked for in " + pathOf("").substr(0, pathOf("").size() - 1)), 1);
+  EXPECT_EQ(begins("1 models cannot be read and were left out: " + pathOf("models/broken/model.sdf") + ":"),
+            1);
+  EXPECT_EQ(begins("1 includes were passed over, they have no address: " + pathOf("test.world") + ":104"), 1);
+  EXPECT_EQ(begins("1 meshes are missing and were left out: gone.dae of "), 1);
+  EXPECT_EQ(begins("2 meshes cannot be read and were left out: " + pathOf("bad.dae")), 1);
+}
+
+TEST_F(Lenient, IncludesWithinIncludesStandWhereTheyShould) {
+  includeModel("crate", model("<pose>0 0 100 0 0 0</pose>" + link(kVisual), "crate"));
+  includeModel("stack",
+               "<model name='stack' placement_frame='top'><pose>0 0 7 0 0 0</pose>"
+               "<frame name='top'><pose>0 0 20 0 0 0</pose></frame>" +
+                   include("crate", "<name>low</name><pose>5 0 0 0 0 1.5707963267948966</pose>") +
+                   model(include("crate", "<name>high</name>"), "inner") + "</model>");
+  // `top` is put 7 m up, so that the stack's own frame is at −13 m; the upper crate takes its own 100 m.
+  const Scene own = loaded(include("stack"));
+  ASSERT_EQ(own.meshes.size(), 2u);
+  EXPECT_EQ(own.meshes[1].name, "stack::low::l::v");
+  EXPECT_EQ(own.meshes[0].name, "stack::inner::high::l::v");
+  EXPECT_LT((boundsOf(own.meshes[1]).min() - Eigen::Vector3f(3, -1, -16)).norm(), 1e-5f);
+  EXPECT_LT((boundsOf(own.meshes[0]).min() - Eigen::Vector3f(-1, -2, 84)).norm(), 1e-5f);
+  // Below a frame of what is included twice removed.
+  const Scene on_top = loaded(include("stack", "<name>s</name>") +
+                              model("<pose relative_to='s::low::l'>0 0 50 0 0 0</pose>" + link(kVisual)));
+  EXPECT_NEAR(boundsOf(on_top.meshes[0]).min().z(), -13.0 + 50.0 - 3.0, 1e-5);
+  EXPECT_NEAR(boundsOf(on_top.meshes[0]).min().x(), 5.0 - 2.0, 1e-5);  // turned as the crate
+}
+
+TEST_F(Lenient, AWorldMayBeAUrdf) {
+  const std::string file =
+      write("house.urdf",
+            "<robot name='house'><link name='base'/><link name='wall'><visual><geometry><box size='2 4 "
+            "6'/></geometry>"
+            "</visual></link><joint name='j' type='fixed'><parent link='base'/><child link='wall'/>"
+            "<origin xyz='10 0 3' rpy='0 0 1.5707963267948966'/></joint></robot>");
+  const Scene scene = load(file, {});
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  EXPECT_LT((boundsOf(scene).min() - Eigen::Vector3f(8, -1, 0)).norm(), 1e-5f);
+  EXPECT_LT((boundsOf(scene).max() - Eigen::Vector3f(12, 1, 6)).norm(), 1e-5f);
+  for (std::size_t i = 0; i < scene.meshes[0].triangles.size(); ++i) {
+    const auto& triangle = scene.meshes[0].triangles[i];
+    EXPECT_GT(faceVector(scene.meshes[0], triangle).dot(scene.meshes[0].normals[triangle[0]].cast<double>()),
+              0.0);
+  }
+}
+
+}  // namespace
+}  // namespace sunlit::scene
