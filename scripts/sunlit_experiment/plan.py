@@ -106,6 +106,7 @@ def _renderer(typed, places, beginning):
         "conditions": list(read.clock_times(typed["hours"])),
         "world": read.file(typed["world"]),
         "model_path": read.folders(typed["model_path"]),
+        "missing": typed["missing"],
         "robot": {"file": read.robot(typed["robot"], places["robots"])},
         "path": {"file": read.file(typed["path"]), "spacing": read.number("spacing", typed["spacing"]),
                  "camera_height": read.number("camera_height", typed["camera_height"]), "count": beginning.poses,

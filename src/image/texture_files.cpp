@@ -171,18 +171,27 @@ Rgba8Image decodeRgba(const std::uint8_t* bytes, std::size_t size, const std::st
   return toRgba(decode(bytes, size, name, cv::IMREAD_UNCHANGED), name);
 }
 
-FittedImage decodeRgbaWithin(int longest_px, const std::uint8_t* bytes, std::size_t size,
-                             const std::string& name) {
-  static std::mutex one_large_at_a_time;
-  const Size told = sizeInHeader(bytes, size);
-  std::unique_lock<std::mutex> lock(one_large_at_a_time, std::defer_lock);
-  if (told.longest() > longest_px) lock.lock();
+namespace {
+
+/// Whether its header tells of a side longer than `longest_px`. Throws for more than kMostPixels.
+bool isLarge(const Size& told, int longest_px, const std::string& name) {
   // No product: a side may be as large as 2^32.
   if (told.width > 0 && told.height > kMostPixels / told.width) {
     throw std::runtime_error(name + ": this picture has " + std::to_string(told.width) + " × " +
                              std::to_string(told.height) + " px, more than the " +
                              std::to_string(kMostPixels) + " that can be read");
   }
+  return told.longest() > longest_px;
+}
+
+}  // namespace
+
+FittedImage decodeRgbaWithin(int longest_px, const std::uint8_t* bytes, std::size_t size,
+                             const std::string& name) {
+  static std::mutex one_large_at_a_time;
+  const Size told = sizeInHeader(bytes, size);
+  std::unique_lock<std::mutex> lock(one_large_at_a_time, std::defer_lock);
+  if (isLarge(told, longest_px, name)) lock.lock();
   cv::Mat decoded = decode(bytes, size, name, decodingFlags(longest_px, bytes, size));
   FittedImage fitted;
   fitted.width = told.width > 0 ? static_cast<int>(told.width) : decoded.cols;
@@ -195,6 +204,27 @@ FittedImage decodeRgbaWithin(int longest_px, const std::uint8_t* bytes, std::siz
 FittedImage readRgbaWithin(int longest_px, const std::string& file) {
   const std::vector<std::uint8_t> bytes = contentOf(file);
   return decodeRgbaWithin(longest_px, bytes.data(), bytes.size(), file);
+}
+
+Picture<float, 1> readGreyWithin(int longest_px, const std::string& file) {
+  const std::vector<std::uint8_t> bytes = contentOf(file);
+  isLarge(sizeInHeader(bytes.data(), bytes.size()), longest_px, file);
+  cv::Mat decoded = decode(bytes.data(), bytes.size(), file, cv::IMREAD_UNCHANGED);
+  const int depth = decoded.depth();
+  const double full = depth == CV_8U ? 255.0 : depth == CV_16U ? 65535.0 : 1.0;
+  decoded.convertTo(decoded, CV_32F, 1.0 / full);
+  if (std::max(decoded.cols, decoded.rows) > longest_px) decoded = shrunk(decoded, longest_px);
+  Picture<float, 1> grey(decoded.cols, decoded.rows);
+  const int channels = decoded.channels(), colors = std::min(channels, 3);
+  for (int y = 0; y < decoded.rows; ++y) {
+    const float* row = decoded.ptr<float>(y);
+    for (int x = 0; x < decoded.cols; ++x) {
+      float sum = 0.0f;
+      for (int c = 0; c < colors; ++c) sum += row[channels * x + c];
+      *grey.at(x, y) = sum / static_cast<float>(colors);
+    }
+  }
+  return grey;
 }
 
 std::string encodePng(const Rgba8Image& picture) {

@@ -59,25 +59,33 @@ Scene loadUrdf(const std::string& file, const SearchPath& search_path) {
   return scene;
 }
 
-}  // namespace
-
-Scene load(const std::string& world, const SearchPath& search_path) {
-  if (world == kRaceTrack) return raceTrack();
-  const ResourceFinder finder(search_path, world);
-  const Found found = finder.find(world, world);
+/// Throws std::runtime_error where there is none.
+std::string fileOf(const std::string& world, const SearchPath& search_path) {
+  const Found found = ResourceFinder(search_path, world).find(world, world);
   if (!found.file || std::filesystem::is_directory(*found.file)) {
     throw std::runtime_error("there is no world " + world + "; it was looked for as " + placesTried(found));
   }
-  const std::string extension = extensionOf(*found.file);
-  if (isOneOf(extension, {".world", ".sdf"}))
-    return loadSdf(*found.file, ResourceFinder(search_path, *found.file));
-  if (isOneOf(extension, {".dae", ".gltf", ".glb", ".obj"})) {
-    return loadMeshFile(*found.file, ResourceFinder(search_path, *found.file));
-  }
-  if (extension == ".urdf") return loadUrdf(*found.file, search_path);
+  if (isOneOf(extensionOf(*found.file), {".world", ".sdf", ".urdf", ".dae", ".gltf", ".glb", ".obj"}))
+    return *found.file;
   throw std::runtime_error(*found.file +
                            ": cannot tell its format; its name must end in .world, .sdf, .urdf, .dae, .gltf, "
                            ".glb or .obj");
+}
+
+}  // namespace
+
+void requireWorld(const std::string& world, const SearchPath& search_path) {
+  if (world != kRaceTrack) fileOf(world, search_path);
+}
+
+Scene load(const std::string& world, const SearchPath& search_path) {
+  if (world == kRaceTrack) return raceTrack();
+  const std::string file = fileOf(world, search_path);
+  const ResourceFinder finder(search_path, file);
+  const std::string extension = extensionOf(file);
+  if (isOneOf(extension, {".world", ".sdf"})) return loadSdf(file, finder);
+  if (extension == ".urdf") return loadUrdf(file, search_path);
+  return loadMeshFile(file, finder);
 }
 
 }  // namespace sunlit::scene

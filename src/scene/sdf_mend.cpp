@@ -115,6 +115,8 @@ class Mender {
     const std::string kind = parent.Value();
     if (kind == "model") mendModel(parent);
     if (kind == "visual") mendVisual(parent);
+    if (kind == "material") mendMaterial(parent);
+    if (kind == "heightmap") mendHeightmap(parent);
     if (kind == "world" || kind == "model" || kind == "link") nameChildren(parent);
     for (XMLElement* child : childrenOf(parent)) mendBelow(*child);
   }
@@ -141,6 +143,24 @@ class Mender {
   static void mendVisual(XMLElement& visual) {
     XMLElement& geometry = childIn(visual, "geometry");
     if (geometry.FirstChildElement() == nullptr) geometry.InsertNewChildElement("empty");
+  }
+
+  /// A script that names no file is one of Gazebo's own; one that names no material says nothing.
+  static void mendMaterial(XMLElement& material) {
+    for (XMLElement* script : childrenOf(material, "script")) {
+      if (childText(*script, "name").empty()) {
+        material.DeleteChild(script);
+      } else if (childText(*script, "uri").empty()) {
+        childIn(*script, "uri").SetText("file://media/materials/scripts/gazebo.material");
+      }
+    }
+  }
+
+  /// libsdformat wants a normal map, which is not read.
+  static void mendHeightmap(XMLElement& heightmap) {
+    for (XMLElement* texture : childrenOf(heightmap, "texture")) {
+      if (childText(*texture, "normal").empty()) childIn(*texture, "normal").SetText("none");
+    }
   }
 
   /// Models, links and frames of one scope are told apart by their names alone, visuals and lights among

@@ -8,10 +8,12 @@
 #include <sdf/Mesh.hh>
 #include <sdf/Plane.hh>
 #include <sdf/Sphere.hh>
-#include <sdf/World.hh>
 
+#include "scene/gazebo_material.h"
 #include "scene/primitives.h"
 #include "scene/sdf_pose.h"
+#include "scene/sdf_shapes.h"
+#include "scene/sdf_terrain.h"
 
 namespace sunlit::scene {
 namespace {
@@ -47,6 +49,7 @@ void SdfVisuals::addFile(const SdfFile& file) {
     const sdf::World& world = *file.root.WorldByIndex(w);
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i)
       addModel(*world.ModelByIndex(i), Eigen::Affine3d::Identity(), "");
+    addRoads(world);
   }
   const sdf::Model* model = file.root.Model();
   if (model != nullptr) addModel(*model, Eigen::Affine3d::Identity(), "");
@@ -116,18 +119,64 @@ void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Affine3d& map
   if (!visual.CastShadows())
     builder_.count("visuals cast shadows although their files say that they should not");
   const Eigen::Affine3d map_from_visual = map_from_link * parentFrom(visual, name);
-  if (visual.Geom() == nullptr || visual.Geom()->Type() == sdf::GeometryType::EMPTY) {
-    builder_.warn("visuals have no shape that can be drawn", name);
-  } else if (visual.Geom()->Type() == sdf::GeometryType::MESH) {
+  if (visual.Geom() != nullptr && visual.Geom()->Type() == sdf::GeometryType::MESH) {
     addMeshShape(visual, map_from_visual, name);
-  } else if (std::optional<Mesh> shape = primitive(*visual.Geom())) {
+  } else if (std::optional<Mesh> shape = shapeOf(visual, name)) {
     shape->name = name;
-    const std::optional<int> material = materials_.add(visual.Material());
-    shape->material = material ? *material : materials_.neutral();
     builder_.addMesh(*shape, map_from_visual);
-  } else {
-    builder_.warn("visual " + name + " was left out: height maps are not supported");
   }
+}
+
+/// None, after a warning, where there is nothing to draw.
+std::optional<Mesh> SdfVisuals::shapeOf(const sdf::Visual& visual, const std::string& name) {
+  const sdf::Geometry* geometry = visual.Geom();
+  const sdf::ElementPtr element = geometry == nullptr ? nullptr : geometry->Element();
+  const std::optional<int> own_material = materials_.add(visual.Material());
+  const int material = own_material ? *own_material : materials_.neutral();
+  if (geometry != nullptr && geometry->Type() == sdf::GeometryType::HEIGHTMAP)
+    return terrainOf(*geometry->HeightmapShape(), {material, name}, builder_, finder_);
+  std::optional<Mesh> shape = geometry == nullptr ? std::nullopt : primitive(*geometry);
+  if (!shape && element) shape = polylineOf(*element, name);
+  if (shape) {
+    shape->material = material;
+  } else {
+    const bool image = element && element->HasElement("image");
+    builder_.warn("visuals have no shape that can be drawn", name + (image ? " (an <image>)" : ""));
+  }
+  return shape;
+}
+
+void SdfVisuals::addRoads(const sdf::World& world) {
+  const sdf::ElementPtr element = world.Element();
+  for (sdf::ElementPtr road = element ? element->FindElement("road") : nullptr; road;
+       road = road->GetNextElement("road")) {
+    const auto name = road->Get<std::string>("name");
+    Mesh mesh = roadOf(*road, "road " + name);
+    mesh.name = name;
+    sdf::Material source;
+    std::optional<int> material;
+    if (road->HasElement("material")) {
+      const sdf::Errors errors = source.Load(road->GetElement("material"));
+      if (errors.empty()) material = materials_.add(&source);
+      if (!errors.empty())
+        builder_.warn("materials of roads cannot be read, they look like asphalt",
+                      errors[0].Message() + " of " + name);
+    }
+    mesh.material = material ? *material : bareRoad();
+    if (mesh.triangles.empty()) builder_.warn("roads have less than two points, they were left out", name);
+    builder_.addMesh(mesh, Eigen::Affine3d::Identity());
+  }
+}
+
+/// As a road looks in Gazebo that is given no material.
+int SdfVisuals::bareRoad() {
+  if (!bare_road_) {
+    Material asphalt;
+    asphalt.name = "Gazebo/Road";
+    asphalt.base_color = gazeboColor(asphalt.name).value();
+    bare_road_ = builder_.addMaterial(asphalt, AlphaRule::kDeclared);
+  }
+  return *bare_road_;
 }
 
 void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Affine3d& map_from_visual,

@@ -3,10 +3,12 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <optional>
 #include <sdf/Geometry.hh>
 #include <sdf/Link.hh>
 #include <sdf/Model.hh>
 #include <sdf/Visual.hh>
+#include <sdf/World.hh>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,9 @@ class SdfVisuals {
   void addModelAt(const sdf::Model& model, const Eigen::Affine3d& map_from_file, const std::string& name);
   void addIncluded(const SdfFile& file, const std::string& own_name);
   void addVisual(const sdf::Visual& visual, const Eigen::Affine3d& map_from_link, const std::string& scope);
+  void addRoads(const sdf::World& world);
+  int bareRoad();
+  std::optional<Mesh> shapeOf(const sdf::Visual& visual, const std::string& name);
   void addMeshShape(const sdf::Visual& visual, const Eigen::Affine3d& map_from_visual,
                     const std::string& name);
 
@@ -53,6 +58,7 @@ class SdfVisuals {
   SceneBuilder& builder_;
   SdfMaterials materials_;
   ModelMeshes meshes_;
+  std::optional<int> bare_road_;
   std::map<std::string, Eigen::Affine3d> map_from_models_;  ///< by full name, of those that are not deleted
 };
 

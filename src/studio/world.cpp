@@ -8,8 +8,18 @@
 
 namespace sunlit::studio {
 
+scene::SearchPath WorldOptions::searchPath() const {
+  scene::SearchPath path = scene::SearchPath::withEnvironment(model_path);
+  path.missing = missing;
+  return path;
+}
+
+void requireWorld(const WorldOptions& options) {
+  scene::requireWorld(options.name, options.searchPath());
+}
+
 scene::Scene loadScene(const WorldOptions& options, const Reports& reports) {
-  scene::Scene scene = scene::load(options.name, scene::SearchPath::withEnvironment(options.model_path));
+  scene::Scene scene = scene::load(options.name, options.searchPath());
   for (const std::string& warning : scene.warnings) tell(reports.warning, options.name + ": " + warning);
   tell(reports.note, "World " + options.name + ": " + std::to_string(scene.triangleCount()) + " triangles, " +
                          std::to_string(scene.textures.size()) + " textures");

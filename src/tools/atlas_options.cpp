@@ -204,7 +204,7 @@ std::vector<AtlasCondition> conditionsOf(const Words& words, const astronomy::Ci
   return conditions;
 }
 
-std::vector<AtlasPose> posesOf(const Words& words, const std::string& world) {
+std::vector<AtlasPose> posesOf(const Words& words, const studio::WorldOptions& world) {
   const std::vector<Eigen::Isometry3d> all = posesOf(words.path, world);
   PathWords beside = words.path;
   beside.sampling.offset_m += words.query_offset_m;
@@ -291,7 +291,7 @@ std::optional<AtlasRunOptions> parseAtlasOptions(const std::vector<std::string>&
   options.studio.noise = words.sensor.noise;
   render::validate(options.studio.render);
   options.conditions = conditionsOf(words, options.place.date);
-  options.poses = posesOf(words, options.studio.world.name);
+  options.poses = posesOf(words, options.studio.world);
   options.atlas.has_query_drive = words.query_offset_m != 0.0;
   if (line.has("--stage")) options.stage = words.stage;
   if (words.slurm) options.slurm = words.slurm_options;

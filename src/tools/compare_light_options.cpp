@@ -77,6 +77,7 @@ void requireThatAllCount(const studio::CommandLine& line, const CompareLightOpti
     if (line.has(of_path) && line.has("--view"))
       throw std::invalid_argument(of_path + " and --view are both given; one of them");
   }
+  studio::requireWorld(options.world);
   if (!line.has("--path") && !line.has("--view") && options.world.name != scene::kRaceTrack)
     throw std::invalid_argument("--path FILE or --view is missing: only race_track has a path of its own");
 }

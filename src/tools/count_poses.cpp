@@ -45,6 +45,7 @@ std::size_t countPoses(const std::string& world, const std::string& file, const 
   const std::vector<Field> rows = fieldsOf(options);
   fieldOf(rows, "spacing").setText(spacing, "argument spacing");
   fieldOf(rows, "poses").setText(poses, "argument poses");
+  scene::requireWorld(world, scene::SearchPath::withEnvironment({}));
   if (file.empty() && world != scene::kRaceTrack) {
     throw std::invalid_argument("argument path is empty, but only the world " +
                                 std::string(scene::kRaceTrack) +

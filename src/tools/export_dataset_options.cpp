@@ -78,7 +78,7 @@ std::string outputOf(const std::vector<std::string>& places) {
 }
 
 std::vector<DataSetFrame> framesOf(const PathWords& path, const ExportOptions& options) {
-  const std::vector<Eigen::Isometry3d> poses = posesOf(path, options.studio.world.name);
+  const std::vector<Eigen::Isometry3d> poses = posesOf(path, options.studio.world);
   std::vector<DataSetFrame> frames;
   const int end = path.selection.end(static_cast<int>(poses.size()));
   for (int i = path.selection.first; i < end; i += path.selection.stride)

@@ -20,9 +20,10 @@ void addPath(studio::CommandLine* line, PathWords* words) {
   line->add("--stride N", fieldOf(selection, "stride"));
 }
 
-std::vector<Eigen::Isometry3d> posesOf(const PathWords& words, const std::string& world) {
+std::vector<Eigen::Isometry3d> posesOf(const PathWords& words, const studio::WorldOptions& world) {
+  studio::requireWorld(world);
   const bool built_in = words.file.empty();
-  if (built_in && world != scene::kRaceTrack)
+  if (built_in && world.name != scene::kRaceTrack)
     throw std::invalid_argument(std::string("--path FILE is missing: only the world ") + scene::kRaceTrack +
                                 " has a path of its own");
   const path::Waypoints waypoints = built_in ? scene::raceTrackWaypoints() : path::readWaypoints(words.file);

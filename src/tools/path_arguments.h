@@ -7,6 +7,7 @@
 
 #include "sunlit/path/path.h"
 #include "sunlit/studio/command_line.h"
+#include "sunlit/studio/world.h"
 
 namespace sunlit::tools {
 
@@ -19,8 +20,9 @@ struct PathWords {
 /// --path, --spacing, --height, --first, --count and --stride.
 void addPath(studio::CommandLine* line, PathWords* words);
 
-/// map_from_camera_link of all poses along the path, of which those that are selected are there. Throws
-/// std::invalid_argument where `world` has no path of its own, and none is given; and what path.h throws.
-std::vector<Eigen::Isometry3d> posesOf(const PathWords& words, const std::string& world);
+/// map_from_camera_link of all poses along the path, of which those that are selected are there. Throws what
+/// studio::requireWorld() throws, std::invalid_argument where `world` has no path of its own, and none is
+/// given; and what path.h throws.
+std::vector<Eigen::Isometry3d> posesOf(const PathWords& words, const studio::WorldOptions& world);
 
 }  // namespace sunlit::tools

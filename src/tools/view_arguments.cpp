@@ -54,6 +54,7 @@ void ViewArguments::placeTopDown(ViewOptions* options) const {
 }
 
 void ViewArguments::placeOnPath(ViewOptions* options) const {
+  studio::requireWorld(options->studio.world);
   const bool built_in = path_file_.empty();
   if (built_in && options->studio.world.name != scene::kRaceTrack)
     throw std::invalid_argument(

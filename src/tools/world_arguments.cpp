@@ -4,10 +4,13 @@ namespace sunlit::tools {
 
 void addWorld(studio::CommandLine* line, studio::WorldOptions* options) {
   line->group("World");
-  line->add("--world race_track|FILE",
-            {"world", &options->name, "", {}, "built in, or a .world .sdf .dae .gltf .glb .obj"});
-  line->add("--model-path DIR",
-            {"model_path", &options->model_path, "", {}, "where model:// is looked for; may be repeated"});
+  const std::vector<Field> rows = fieldsOf(*options);
+  line->add(
+      "--world race_track|FILE",
+      studio::explainedAs(fieldOf(rows, "world"), "built in, or a .world .sdf .urdf .dae .gltf .glb .obj"));
+  line->add("--model-path DIR", studio::explainedAs(fieldOf(rows, "model_path"),
+                                                    "where model:// is looked for; may be repeated"));
+  line->add("--missing", fieldOf(rows, "missing"));
 }
 
 void addBounced(studio::CommandLine* line, studio::BakeOptions* options) {

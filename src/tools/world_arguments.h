@@ -7,7 +7,7 @@
 
 namespace sunlit::tools {
 
-/// --world and --model-path.
+/// --world, --model-path and --missing.
 void addWorld(studio::CommandLine* line, studio::WorldOptions* options);
 /// --bounced and --cache.
 void addBounced(studio::CommandLine* line, studio::BakeOptions* options);

@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # A word of each group of options, and what its row says of it.
 CAMERA = {"--size": "(default 640x480)", "--fov": "0.1 … 175 deg, default 90", "--supersampling": "1 … 4, default 2",
           "--final-gather": "0 … 16, default 0", "--rasterizer": "osmesa|egl|builtin"}
-WORLDS = {"--world": "default race_track", "--model-path": "may be repeated"}
+WORLDS = {"--world": "default race_track", "--model-path": "may be repeated", "--missing": "stop|warn"}
 BOUNCED = {"--bounced": "off|on", "--cache": "SUNLIT_CACHE_DIR"}
 PLACE = {"--site": "latitude (geodetic, positive north, -90 … 90 deg)", "--date": "default 2024-07-01",
          "--timezone": "-18 … 18 h, default 3", "--turbidity": "1 … 10, default 2", "--ozone": "0 … 600 DU, default 300"}
@@ -190,6 +190,9 @@ class CommandLines(unittest.TestCase):
         done = run("count_poses", "race_track", "", "1", "-1")
         self.assertEqual((done.returncode, done.stderr),
                          (1, "sunlit: argument poses is -1, but must be from 0 to 1000000000\n"))
+        for path in ("", "nowhere.csv"):  # the world comes first
+            self.assertIn("sunlit: there is no world nowhere.world; it was looked for as ",
+                          run("count_poses", "nowhere.world", path, "1", "0").stderr)
 
     def test_what_is_out_of_range_is_refused_by_every_tool_that_has_the_option(self):
         for option, value, said in REFUSED:

@@ -306,6 +306,8 @@ class ExportDataset(unittest.TestCase):
                 (one + [out, "--path", out + ".csv"], out + ".csv"), (one + [WORLD + "/x"], "the folder cannot be made"),
                 (one + [out, "--compensation", "1", "--ev", "9"], "--compensation needs --ev auto"),
                 (one + [out, "--world", out + ".world", "--path", str(self.waypoints)], ".world"),
+                (one + [out, "--world", out + ".world", "--path", out + ".csv"], "there is no world " + out),
+                (one + [out, "--world", out + ".world"], "there is no world " + out),
                 (one + [out, "--final-gather", "2", "--bounced", "off"], "leave out --bounced off")):
             self.assertIn(part, self.refused(*arguments), arguments)
             self.assertFalse(os.path.exists(out), arguments)

@@ -35,6 +35,10 @@ FittedImage decodeRgbaWithin(int longest_px, const std::uint8_t* bytes, std::siz
 /// The same from a file. Throws std::runtime_error with its path also if it cannot be read.
 FittedImage readRgbaWithin(int longest_px, const std::string& file);
 
+/// One value a pixel, such as heights: 8 and 16 bit as shares of their full range, floats as they are; of
+/// colours the mean of red, green and blue. Throws std::runtime_error as readRgbaWithin() does.
+Picture<float, 1> readGreyWithin(int longest_px, const std::string& file);
+
 /// A PNG file in memory, lossless. Throws std::runtime_error if the picture is empty.
 std::string encodePng(const Rgba8Image& picture);
 

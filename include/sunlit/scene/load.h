@@ -39,4 +39,7 @@ struct SearchPath {
 /// where it was looked for.
 Scene load(const std::string& world, const SearchPath& search_path);
 
+/// Throws what load() throws where it finds no file by that name, or of no kind that it knows. Takes no time.
+void requireWorld(const std::string& world, const SearchPath& search_path);
+
 }  // namespace sunlit::scene

@@ -19,7 +19,26 @@ namespace sunlit::studio {
 struct WorldOptions {
   std::string name = scene::kRaceTrack;  ///< as scene::load() takes it
   std::vector<std::string> model_path;   ///< folders searched before those of SearchPath::withEnvironment()
+  scene::Missing missing = scene::Missing::kStop;
+
+  /// Where all of the world is looked for, and a robot in it.
+  scene::SearchPath searchPath() const;
 };
+
+inline std::vector<Field> fieldsOf(WorldOptions& world) {
+  return {
+      {"world",
+       &world.name,
+       "",
+       {},
+       "race_track (built in), or a file: .world .sdf .urdf .dae .gltf .glb .obj"},
+      {"model_path", &world.model_path, "", {}, "folders searched first for model:// and relative addresses"},
+      {"missing",
+       choiceOf(&world.missing, {"stop", "warn"}),
+       "",
+       {},
+       "for a model or mesh that is not there or cannot be read; warn: the rest is drawn"}};
+}
 
 /// Sky light and bounced light, baked once per world.
 struct BakeOptions {
@@ -47,6 +66,9 @@ inline std::vector<Field> fieldsOf(BakeOptions& bake) {
 
 /// Where the bakes of these options are kept.
 light::BakeCache cacheOf(const BakeOptions& options);
+
+/// Throws what scene::requireWorld() throws.
+void requireWorld(const WorldOptions& options);
 
 /// What scene::load() gives; its warnings become those of `reports`. Throws as it does.
 scene::Scene loadScene(const WorldOptions& options, const Reports& reports);

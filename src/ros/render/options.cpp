@@ -183,12 +183,7 @@ studio::StudioOptions RenderNodeOptions::studioOptions() const {
 
 std::vector<Field> fieldsOf(RenderNodeOptions& options) {
   return joined(
-      {{{"world", &options.world.name, "", {}, "race_track, or a file: .world .sdf .dae .gltf .glb .obj"},
-        {"model_path",
-         &options.world.model_path,
-         "",
-         {},
-         "folders searched first for model:// and relative addresses"}},
+      {fieldsOf(options.world),
        under("path", fieldsOf(options.path)),
        under("camera", fieldsOf(options.camera)),
        under("robot", fieldsOf(options.robot)),
@@ -219,6 +214,7 @@ std::vector<Field> fieldsOf(RenderNodeOptions& options) {
 RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {
   RenderNodeOptions options;
   parameters.read(fieldsOf(options));
+  studio::requireWorld(options.world);
   readRobotForms(parameters, options.camera.follow_tf, &options.robot);
   options.sky.stars = options.night;
   parameters.check("exposure", [&] { image::validate(options.exposure); });

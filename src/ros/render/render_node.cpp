@@ -65,7 +65,7 @@ RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
       path_(options.camera.follow_tf ? nullptr
                                      : std::make_unique<PathSource>(node, options.path, options.frames.map)),
       sky_(options.sky, reports()),
-      robot_model_(loadRobot(options.robot, options.world.model_path)),
+      robot_model_(loadRobot(options.robot, options.world.searchPath())),
       studio_(options.studioOptions(), robot_model_, reports()),
       streams_(conditions, streamOptions(options), studio_, sky_),
       paused_(!options.pacing.autostart) {

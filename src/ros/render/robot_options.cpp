@@ -90,10 +90,8 @@ void readRobotForms(const ParameterReader& parameters, bool follows_tf, RobotOpt
   }
 }
 
-std::optional<scene::Robot> loadRobot(const RobotOptions& options,
-                                      const std::vector<std::string>& model_path) {
+std::optional<scene::Robot> loadRobot(const RobotOptions& options, const scene::SearchPath& search_path) {
   if (options.none()) return std::nullopt;
-  const scene::SearchPath search_path = scene::SearchPath::withEnvironment(model_path);
   const bool from_file = !options.file.empty();
   scene::Robot robot = from_file ? scene::loadRobot(options.file, search_path)
                                  : scene::parseUrdf(descriptionOf(options.description),

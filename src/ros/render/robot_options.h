@@ -37,10 +37,9 @@ std::vector<Field> fieldsOf(RobotOptions& robot);
 /// allowed.
 void readRobotForms(const ParameterReader& parameters, bool follows_tf, RobotOptions* robot);
 
-/// The robot that `options` name; none if they name none. Meshes are looked for in `model_path` and where
-/// SearchPath::withEnvironment() does. Throws std::invalid_argument for a parameter that does not hold a
-/// text, or a link that the robot does not have, and what scene::loadRobot() throws.
-std::optional<scene::Robot> loadRobot(const RobotOptions& options,
-                                      const std::vector<std::string>& model_path);
+/// The robot that `options` name; none if they name none. Meshes are looked for in `search_path`. Throws
+/// std::invalid_argument for a parameter that does not hold a text, or a link that the robot does not have,
+/// and what scene::loadRobot() throws.
+std::optional<scene::Robot> loadRobot(const RobotOptions& options, const scene::SearchPath& search_path);
 
 }  // namespace sunlit::ros_interface

@@ -28,7 +28,7 @@ class ExperimentArguments(unittest.TestCase):
         paths = os.path.join(SOURCE, "config", "paths")
         self.assertTrue(os.listdir(paths))
         for name in os.listdir(paths):
-            poses = subprocess.check_output([count_poses, "some.world", os.path.join(paths, name), "1.0", "0"])
+            poses = subprocess.check_output([count_poses, "race_track", os.path.join(paths, name), "1.0", "0"])
             self.assertGreater(int(poses), 100, name)
 
     def test_rviz_shows_each_condition(self):
@@ -92,6 +92,7 @@ class ExperimentArguments(unittest.TestCase):
         with tempfile.TemporaryDirectory() as home:
             with open(os.path.join(home, "w.csv"), "w") as waypoints:
                 waypoints.write("0,0,0\n3,0,0\n")
+            open(os.path.join(home, "some.world"), "w").close()
             found = self.parameters("world:=~/some.world", "path:=~/w.csv", HOME=home)
             self.assertEqual(found["/evaluator/poses"], 3)
             self.assertEqual(found["/render/path/file"], os.path.join(home, "w.csv"))

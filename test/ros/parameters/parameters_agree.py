@@ -14,7 +14,7 @@ import yaml
 SOURCE = os.environ["SUNLIT_SOURCE_DIR"]
 NUMBER = r"-?\d+(?:\.\d+)?(?:e\+?\d+)?"
 # Arguments of experiment.launch that are parameters of the renderer, and what differs on purpose.
-ARGUMENTS = {"spacing": "path/spacing", "offset": "path/offset", "yaw": "path/yaw", "camera_height": "path/camera_height",
+ARGUMENTS = {"missing": "missing", "spacing": "path/spacing", "offset": "path/offset", "yaw": "path/yaw", "camera_height": "path/camera_height",
              "width": "camera/width", "height": "camera/height", "horizontal_fov": "camera/horizontal_fov", "turbidity": "atmosphere/turbidity",
              "ozone": "atmosphere/ozone", "highlight_protection": "exposure/highlight_protection",
              "final_gather": "transport/final_gather", "night": "night/enabled", "noise": "noise/enabled",

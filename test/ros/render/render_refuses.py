@@ -9,7 +9,7 @@ import unittest
 import rospy
 import rostest
 import yaml
-from rendering import PACKAGE, RefusalTest, RenderNode, parameters
+from rendering import PACKAGE, WORLD, RefusalTest, RenderNode, parameters
 
 BOX = """<sdf version="1.6"><world name="w"><model name="m"><link name="l"><visual name="v"><geometry>
 <mesh><uri>file://%s</uri></mesh></geometry></visual></link></model></world></sdf>"""
@@ -71,7 +71,9 @@ class RenderRefuses(RefusalTest):
 
     def test_worlds(self):
         missing = os.path.join(self.folder, "missing.world")
-        self.assert_refused(parameters(world=missing), missing)
+        self.assert_refused(parameters(world=missing), "there is no world " + missing)
+        self.assert_refused(parameters(world=missing, path={"file": ""}), "there is no world " + missing)
+        self.assert_refused(parameters(world=WORLD, missing="ignore"), "/refused/missing", "ignore", "stop, warn")
         broken = self.file("broken.world", "<sdf version='1.6'>\n<world name='w'>\n<model>\n</sdf>")
         self.assert_refused(parameters(world=broken), broken)
         mesh = self.file("broken.dae", "<COLLADA>\n<library")

@@ -134,6 +134,18 @@ TEST_F(Lenient, AShapeThatIsNotKnownLeavesOutItsVisual) {
                   pathOf("test.world") + ":4 in <geometry>"));
 }
 
+TEST_F(Lenient, AScriptWithoutAFileIsGazebosOwn) {
+  const auto painted = [](const std::string& script) {
+    return model(
+        link("<visual name='v'>" + kBox + "<material><script>" + script + "</script></material></visual>"));
+  };
+  const Scene red = loaded(painted("<name>Gazebo/Red</name>"));
+  EXPECT_EQ(red.materials.at(static_cast<std::size_t>(red.meshes.at(0).material)).base_color.value[0], 1.0f);
+  EXPECT_EQ(red.materials.at(static_cast<std::size_t>(red.meshes.at(0).material)).base_color.value[1], 0.0f);
+  EXPECT_TRUE(red.warnings.empty());
+  EXPECT_EQ(loaded(painted("<uri>file://x.material</uri>")).triangleCount(), 12u);
+}
+
 TEST_F(Lenient, APoseMayStillNameAJoint) {
   // A joint stands in its child, here 10 m up, and half a metre beside it.
   const Scene scene =
