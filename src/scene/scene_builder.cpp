@@ -41,6 +41,12 @@ Eigen::Vector3d faceVector(const Mesh& mesh, const std::array<std::uint32_t, 3>&
   return (b - a).cross(c - a);
 }
 
+bool isFar(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  return std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t corner) {
+    return !(mesh.positions[corner].array().abs() <= kFarthest_m).all();
+  });
+}
+
 /// Normals that are missing, zero or not finite are replaced by the mean of the adjoining faces.
 void repairNormals(Mesh& mesh) {
   mesh.normals.resize(mesh.positions.size(), Eigen::Vector3f::Zero());
@@ -112,6 +118,8 @@ void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mes
     const double area = faceVector(moved, triangle).norm();
     if (!std::isfinite(area)) {
       count("triangles with coordinates that are not finite were left out");
+    } else if (isFar(moved, triangle)) {
+      warn("meshes reach farther than 100 km from the origin, what of them does was left out", mesh.name);
     } else if (area < kNoArea_m2) {
       count("triangles without area were left out");
     } else {
@@ -122,9 +130,18 @@ void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mes
   if (kept.empty()) return;
   moved.triangles = std::move(kept);
   for (Eigen::Vector3f& position : moved.positions) {
-    if (!position.allFinite()) position.setZero();  // of a vertex that no triangle uses any more
+    // Of a vertex that no triangle uses any more.
+    if (!(position.array().abs() <= kFarthest_m).all()) position.setZero();
   }
-  for (Eigen::Vector2f& coordinate : moved.texture_coordinates) {
+  repairCoordinates(moved.texture_coordinates);
+  for (auto& coordinates : moved.more_texture_coordinates) repairCoordinates(coordinates);
+  for (Eigen::Array3f& color : moved.colors) color = color.max(0.0f).min(1.0f);
+  repairNormals(moved);
+  scene_.meshes.push_back(std::move(moved));
+}
+
+void SceneBuilder::repairCoordinates(std::vector<Eigen::Vector2f>& coordinates) {
+  for (Eigen::Vector2f& coordinate : coordinates) {
     if (!coordinate.allFinite()) {
       coordinate.setZero();
       count("texture coordinates that are not finite were set to 0");
@@ -133,9 +150,6 @@ void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mes
       count("texture coordinates outside -1e6 … 1e6 were set to 0");
     }
   }
-  for (Eigen::Array3f& color : moved.colors) color = color.max(0.0f).min(1.0f);
-  repairNormals(moved);
-  scene_.meshes.push_back(std::move(moved));
 }
 
 void SceneBuilder::warn(const std::string& line) {

@@ -71,6 +71,7 @@ class SceneBuilder {
     std::set<std::string> known;
   };
   int addTexture(const std::string& key, TextureSource source);
+  void repairCoordinates(std::vector<Eigen::Vector2f>& coordinates);
   void decodeTextures();
   void forgetTexture(int texture);
   void settleAlpha();

@@ -113,6 +113,7 @@ class Mender {
 
   void mendBelow(XMLElement& parent) {
     const std::string kind = parent.Value();
+    if (kind == "sdf") nameWorlds(parent);
     if (kind == "model") mendModel(parent);
     if (kind == "visual") mendVisual(parent);
     if (kind == "material") mendMaterial(parent);
@@ -143,6 +144,13 @@ class Mender {
   static void mendVisual(XMLElement& visual) {
     XMLElement& geometry = childIn(visual, "geometry");
     if (geometry.FirstChildElement() == nullptr) geometry.InsertNewChildElement("empty");
+  }
+
+  /// Nothing refers to a world by its name, and many are called "world", which is reserved.
+  static void nameWorlds(XMLElement& sdf) {
+    int worlds = 0;
+    for (XMLElement* world : childrenOf(sdf, "world"))
+      world->SetAttribute("name", ("world " + std::to_string(++worlds)).c_str());
   }
 
   /// A script that names no file is one of Gazebo's own; one that names no material says nothing.

@@ -123,7 +123,12 @@ void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Affine3d& map
     addMeshShape(visual, map_from_visual, name);
   } else if (std::optional<Mesh> shape = shapeOf(visual, name)) {
     shape->name = name;
-    builder_.addMesh(*shape, map_from_visual);
+    // Gazebo overlooks where the model of a height map stands, and worlds are made to look right in it.
+    const bool ground = visual.Geom()->Type() == sdf::GeometryType::HEIGHTMAP;
+    if (ground && !map_from_visual.isApprox(Eigen::Affine3d::Identity()))
+      builder_.warn("height maps stand where their <pos> says, not where their models do, as in Gazebo",
+                    name);
+    builder_.addMesh(*shape, ground ? Eigen::Affine3d::Identity() : map_from_visual);
   }
 }
 

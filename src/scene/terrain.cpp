@@ -57,8 +57,9 @@ const std::uint8_t* texelAt(const Tile& tile, const Eigen::Vector2d& metres) {
 
 std::vector<float> terrainHeights(const image::Picture<float, 1>& values, double height) {
   const auto [low, high] = std::minmax_element(values.data.begin(), values.data.end());
-  const float base = std::min(0.0f, *low);
-  const float range = *high - base;
+  const bool shares = *low >= 0.0f && *high <= 1.0f;
+  const float base = shares ? 0.0f : *low;
+  const float range = shares ? 1.0f : *high - *low;
   std::vector<float> heights;
   for (const float value : values.data)
     heights.push_back(range > 0.0f ? static_cast<float>(height) * ((value - base) / range) : 0.0f);

@@ -14,9 +14,9 @@ namespace sunlit::scene {
 /// vertices a side; two triangles a square make two million at most.
 constexpr int kMostTerrainVertices = 1025;
 
-/// Heights of a terrain above its lowest point, m, top row in the north, from `values` such as
-/// image::readGreyWithin() gives: the highest is `height`, as Gazebo has it. Values below 0, of elevations
-/// below the sea, count from the lowest one.
+/// Heights of a terrain, m, top row in the north, from `values` such as image::readGreyWithin() gives: shares
+/// of `height` where all are from 0 to 1; else elevations, of which the lowest becomes 0 and the highest
+/// `height`.
 std::vector<float> terrainHeights(const image::Picture<float, 1>& values, double height);
 
 /// The ground on a grid of `width` × `depth` vertices over size.x × size.y m around the origin, x to the

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "scene/outline.h"
 #include "scene/ribbon.h"
@@ -81,19 +82,22 @@ TEST(Ribbon, ATurnBackAndPointsGivenTwiceAreNoTrouble) {
   EXPECT_TRUE(makeRibbon({{1, 1, 0}, {1, 1, 5}}, 2.0).triangles.empty());
 }
 
-TEST(Terrain, ItsHighestPointIsAsHighAsTheMap) {
+TEST(Terrain, WhiteIsAsHighAsTheMap) {
   image::Picture<float, 1> values(3, 2);
   values.data = {0.0f, 0.25f, 0.5f, 0.0f, 0.0f, 0.125f};
   TerrainGrid grid{3, 2, terrainHeights(values, 8.0), {20.0, 10.0}};
-  EXPECT_EQ(grid.heights, (std::vector<float>{0, 4, 8, 0, 0, 2}));
+  EXPECT_EQ(grid.heights, (std::vector<float>{0, 2, 4, 0, 0, 1}));
   const Mesh ground = makeTerrain(grid, 0.0);
   ASSERT_EQ(ground.triangles.size(), 4u);
   // The first row is in the north.
-  EXPECT_LT((ground.positions[2] - Eigen::Vector3f(10, 5, 8)).norm(), kTolerance);
+  EXPECT_LT((ground.positions[2] - Eigen::Vector3f(10, 5, 4)).norm(), kTolerance);
   EXPECT_LT((ground.positions[3] - Eigen::Vector3f(-10, -5, 0)).norm(), kTolerance);
   for (const auto& triangle : ground.triangles) EXPECT_GT(faceVector(ground, triangle).z(), 0.0);
   EXPECT_FLOAT_EQ(makeTerrain(grid, 5.0).texture_coordinates[5].x(), 4.0f);
   EXPECT_EQ(terrainHeights(image::Picture<float, 1>(2, 2), 8.0), (std::vector<float>(4, 0.0f)));
+  // Elevations, from 10 m below the sea to 30 m above it.
+  values.data = {-10.0f, 0.0f, 30.0f, 10.0f, 0.0f, 0.0f};
+  EXPECT_EQ(terrainHeights(values, 8.0), (std::vector<float>{0, 2, 8, 4, 2, 2}));
 }
 
 class SdfShape : public SceneFiles {
@@ -165,10 +169,20 @@ TEST_F(SdfShape, AHeightMapIsGround) {
   const Scene scene =
       loaded(visual("<heightmap><uri>hills.png</uri><size>40 20 8</size><pos>0 0 1</pos></heightmap>"));
   ASSERT_EQ(scene.meshes.size(), 1u);
-  EXPECT_LT((boundsOf(scene).min() - Eigen::Vector3f(80, -10, 1)).norm(), kTolerance);
-  EXPECT_LT((boundsOf(scene).max() - Eigen::Vector3f(120, 10, 9)).norm(), kTolerance);
+  EXPECT_LT((boundsOf(scene).min() - Eigen::Vector3f(-20, -10, 1)).norm(), kTolerance);
+  EXPECT_LT((boundsOf(scene).max() - Eigen::Vector3f(20, 10, 9)).norm(), kTolerance);
   // Steps of 63, 64, 64 and 64 of 255 are even to 1 %.
-  EXPECT_NEAR(nearestOnVertical(scene, {100, 3, 5})->z, 5.0, 0.01 * 8.0);
+  EXPECT_NEAR(nearestOnVertical(scene, {0, 3, 5})->z, 5.0, 0.01 * 8.0);
+}
+
+TEST_F(SdfShape, AHeightMapStandsAtItsPosAlone) {
+  writePicture("hills.png", 5, -1, 0);
+  const Scene scene = loaded(visual("<heightmap><uri>hills.png</uri><size>40 20 8</size></heightmap>"));
+  EXPECT_FLOAT_EQ(boundsOf(scene).max().x(), 20.0f);
+  EXPECT_EQ(scene.warnings,
+            (std::vector<std::string>{
+                "1 height maps stand where their <pos> says, not where their models do, as in "
+                "Gazebo: m::l::v"}));
 }
 
 TEST_F(SdfShape, LayersOfAHeightMapAreMixedByHeight) {
@@ -187,11 +201,11 @@ TEST_F(SdfShape, LayersOfAHeightMapAreMixedByHeight) {
     const auto x = static_cast<std::size_t>(share_east * texture.width);
     return static_cast<int>(texture.rgba[4 * (x + static_cast<std::size_t>(texture.width) * 7)]);
   };
-  EXPECT_EQ(red(0.1), 200);  // at 0.8 m
-  EXPECT_EQ(red(0.9), 0);    // at 7.2 m
+  EXPECT_EQ(red(0.1), 200);              // at 0.8 m
+  EXPECT_EQ(red(0.9), 0);                // at 7.2 m
+  ASSERT_EQ(scene.warnings.size(), 1u);  // of its place
   // Half way up, half the light: sRGB of half of what 200 is, 0.5 · ((200/255 + 0.055) / 1.055)^2.4, is 147.
   EXPECT_NEAR(red(0.5), 147, 2);  // a texel and a grey level beside the middle
-  EXPECT_TRUE(scene.warnings.empty());
   // One layer alone is no picture of its own, but repeated.
   const Scene one =
       loaded(visual("<heightmap><uri>hills.png</uri><size>40 40 8</size><texture><diffuse>sand.png</diffuse>"
