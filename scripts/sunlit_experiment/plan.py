@@ -13,7 +13,7 @@ START_STAMP_S = 1000.0
 FRAME_RATE_HZ = 10.0
 # What the evaluator writes down beside its results, as it was typed.
 ABOUT = ("world", "robot", "path", "site", "date", "timezone", "hours", "spacing", "offset", "yaw", "exposure", "ev100",
-         "highlight_protection", "final_gather", "rasterizer", "night", "noise", "noise_seed", "turbidity", "ozone")
+         "highlight_protection", "final_gather", "rasterizer", "night", "lamps", "noise", "noise_seed", "turbidity", "ozone")
 
 
 @dataclasses.dataclass
@@ -117,6 +117,7 @@ def _renderer(typed, places, beginning):
                      "highlight_protection": read.number("highlight_protection", typed["highlight_protection"])},
         "transport": {"final_gather": read.whole("final_gather", typed["final_gather"])},
         "night": {"enabled": read.flag("night", typed["night"])},
+        "lamps": typed["lamps"],
         "noise": {"enabled": read.flag("noise", typed["noise"]), "seed": read.whole("noise_seed", typed["noise_seed"])},
         "atmosphere": {"turbidity": read.number("turbidity", typed["turbidity"]),
                        "ozone": read.number("ozone", typed["ozone"])},

@@ -9,6 +9,11 @@
 namespace sunlit::light {
 namespace {
 
+const std::vector<scene::Lamp>& lampsOf(const Illumination& light) {
+  static const std::vector<scene::Lamp> none;
+  return light.lamps ? *light.lamps : none;
+}
+
 /// A disc that gives less, on a plane facing it, than a thousandth of what lies on the ground changes no
 /// pixel by a visible amount: such as the moon by day.
 float leastDisc_lx(const sky::Daylight& day) {
@@ -24,6 +29,8 @@ TileLighting::TileLighting(const Subject& subject, const Illumination& light)
       light_(light),
       sun_(light.day.sun(), leastDisc_lx(light.day), {surfaces_, table_, subject.visibility}),
       moon_(light.day.moon(), leastDisc_lx(light.day), {surfaces_, table_, subject.visibility}),
+      lamps_(lampsOf(light), light.day.groundIlluminance().value.maxCoeff(),
+             {surfaces_, scene_, subject.visibility}),
       air_(surfaces_, table_, light.day),
       sky_(surfaces_, light.day) {}
 
@@ -43,6 +50,8 @@ void TileLighting::addSurfaces(const Tile& tile, image::LinearImage* image) cons
     for (std::size_t i = 0; i < tile.mirrors.size(); ++i)
       mirrored[i] = mirroredBy(tile.mirrors[i], *light_.mirror_sky);
   }
+  thread_local std::vector<Eigen::Array3f> by_lamps;
+  lamps_.light(tile, &by_lamps);
   const float weight = 1.0f / static_cast<float>(surfaces_.samples_per_pixel);
   for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
     const Surface& surface = tile.surfaces[i];
@@ -52,6 +61,7 @@ void TileLighting::addSurfaces(const Tile& tile, image::LinearImage* image) cons
                              tile.gatheredFor(surface),
                              sun_shares.empty() ? 0.0f : sun_shares[i],
                              moon_shares.empty() ? 0.0f : moon_shares[i],
+                             by_lamps.empty() ? nullptr : &by_lamps[i],
                              air_.before(number, i)};
     pixel += luminance(surface, parts) * (weight * static_cast<float>(surface.samples) * surface.share);
   }
@@ -70,6 +80,7 @@ Eigen::Array3f TileLighting::luminance(const Surface& surface, const SurfacePart
   Eigen::Array3f leaving = surface.emission;
   if (parts.sun > 0.0f) leaving += ofDisc(sun_, light_.day.sun(), parts.sun);
   if (parts.moon > 0.0f) leaving += ofDisc(moon_, light_.day.moon(), parts.moon);
+  if (parts.lamps) leaving += *parts.lamps;
 
   const AmbientReflectance& by = parts.ambient;
   const AmbientLight from =

@@ -5,6 +5,7 @@
 
 #include "light/ambient.h"
 #include "light/disc/disc_visibility.h"
+#include "light/lamps/lamp_light.h"
 #include "light/light_table.h"
 #include "light/sky_in_view/picture_air.h"
 #include "light/sky_in_view/sky_pixel.h"
@@ -39,6 +40,7 @@ class TileLighting {
     const Mirrored& mirrored;     ///< where the light is baked
     const GatheredSky* gathered;  ///< null: FinalGather did not look there
     float sun, moon;              ///< shares of their discs that it sees
+    const Eigen::Array3f* lamps;  ///< its luminance by lamps; null: there are none
     sky::AirColumn before;        ///< between it and the camera
   };
   /// As the camera sees it, cd/m².
@@ -49,6 +51,7 @@ class TileLighting {
   const scene::Scene& scene_;
   const Illumination& light_;
   DiscVisibility sun_, moon_;
+  LampLight lamps_;
   PictureAir air_;
   SkyPixel sky_;
 };

@@ -76,9 +76,11 @@ void occludedPacket(const int* valid, RTCScene scene, RTCIntersectContext* conte
   rtcOccluded16(valid, scene, context, packet);
 }
 
-/// `Packet` holds kWidth rays.
+constexpr float kEndless = std::numeric_limits<float>::infinity();
+
+/// `Packet` holds kWidth rays, which reach so many times their direction's length.
 template <typename Packet, int kWidth>
-void occludedInPackets(RTCScene scene, const Rays& rays, std::uint8_t* blocked) {
+void occludedInPackets(RTCScene scene, const Rays& rays, float reach, std::uint8_t* blocked) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -96,7 +98,7 @@ void occludedInPackets(RTCScene scene, const Rays& rays, std::uint8_t* blocked) 
       packet.dir_y[i] = rays.direction_y[ray];
       packet.dir_z[i] = rays.direction_z[ray];
       packet.tnear[i] = 0.0f;
-      packet.tfar[i] = std::numeric_limits<float>::infinity();
+      packet.tfar[i] = reach;
       packet.mask[i] = ~0u;
     }
     occludedPacket(valid, scene, &context, &packet);
@@ -113,7 +115,7 @@ class Visibility::Implementation {
   explicit Implementation(std::shared_ptr<const Geometry> geometry);
   /// Shares the device of `other`.
   Implementation(std::shared_ptr<const Geometry> geometry, const Implementation& other);
-  void occluded(const Rays& rays, std::uint8_t* blocked) const;
+  void occluded(const Rays& rays, float reach, std::uint8_t* blocked) const;
   void closest(const Rays& rays, Hit* hits) const;
   Hit firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near) const;
   std::uint32_t triangleCount() const { return static_cast<std::uint32_t>(geometry_->triangles.size()); }
@@ -173,11 +175,11 @@ void Visibility::Implementation::attach(const std::vector<std::uint32_t>& triang
   light::attach(mesh, scene_.get(), number);
 }
 
-void Visibility::Implementation::occluded(const Rays& rays, std::uint8_t* blocked) const {
+void Visibility::Implementation::occluded(const Rays& rays, float reach, std::uint8_t* blocked) const {
   if (wide_) {
-    occludedInPackets<RTCRay16, 16>(scene_.get(), rays, blocked);
+    occludedInPackets<RTCRay16, 16>(scene_.get(), rays, reach, blocked);
   } else {
-    occludedInPackets<RTCRay8, 8>(scene_.get(), rays, blocked);
+    occludedInPackets<RTCRay8, 8>(scene_.get(), rays, reach, blocked);
   }
 }
 
@@ -245,17 +247,25 @@ Visibility::Visibility(std::shared_ptr<const Visibility> fixed, std::shared_ptr<
 Visibility::~Visibility() = default;
 
 void Visibility::occluded(const Rays& rays, std::uint8_t* blocked) const {
-  implementation_->occluded(rays, blocked);
+  occluded(rays, kEndless, blocked);
+}
+
+void Visibility::occludedWithin(const Rays& rays, std::uint8_t* blocked) const {
+  occluded(rays, 1.0f, blocked);
+}
+
+void Visibility::occluded(const Rays& rays, float reach, std::uint8_t* blocked) const {
+  implementation_->occluded(rays, reach, blocked);
   if (!fixed_) return;
   thread_local std::vector<std::uint8_t> by_moving;
   by_moving.assign(blocked, blocked + rays.count);
-  fixed_->occluded(rays, blocked);
+  fixed_->occluded(rays, reach, blocked);
   for (std::size_t i = 0; i < rays.count; ++i) blocked[i] |= by_moving[i];
 }
 
 void Visibility::occludedByMoving(const Rays& rays, std::uint8_t* blocked) const {
   if (fixed_) {
-    implementation_->occluded(rays, blocked);
+    implementation_->occluded(rays, kEndless, blocked);
   } else {
     std::fill(blocked, blocked + rays.count, std::uint8_t{0});
   }

@@ -35,8 +35,18 @@ World::World(std::shared_ptr<const scene::Scene> scene,
       bodies(meshes_of_bodies.empty() ? nullptr
                                       : std::make_shared<Bodies>(geometry->scene, meshes_of_bodies)) {}
 
-Illumination illumination(const World& world, const sky::Daylight& day) {
-  return world.transport ? world.transport->illumination(day) : Illumination(day);
+Illumination illumination(const World& world, const sky::Daylight& day, const LampOptions& lamps) {
+  Illumination light = world.transport ? world.transport->illumination(day) : Illumination(day);
+  if (!burnUnder(lamps, day)) return light;
+  light.lamps =
+      std::make_shared<const std::vector<scene::Lamp>>(burning(world.geometry->scene->lamps, lamps));
+  std::vector<BodyLamp> of_bodies;
+  for (std::uint32_t body = 0; body < world.lamps_of_bodies.size(); ++body) {
+    for (scene::Lamp& lamp : burning(world.lamps_of_bodies[body], lamps))
+      of_bodies.push_back({body, std::move(lamp)});
+  }
+  light.body_lamps = std::make_shared<const std::vector<BodyLamp>>(std::move(of_bodies));
+  return light;
 }
 
 std::string fingerprint(const World& world) {
@@ -50,6 +60,10 @@ std::string fingerprint(const World& world) {
   if (world.bodies) {
     const std::vector<Eigen::Isometry3d> at_home(world.bodies->count(), Eigen::Isometry3d::Identity());
     addContents(*world.bodies->placed(at_home), &hash);
+  }
+  for (const std::vector<scene::Lamp>& of_body : world.lamps_of_bodies) {
+    hash.add(static_cast<std::uint64_t>(of_body.size()));
+    for (const scene::Lamp& lamp : of_body) addLamp(lamp, &hash);
   }
   return hash.text();
 }

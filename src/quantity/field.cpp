@@ -44,9 +44,12 @@ std::optional<double> numberIn(const Value& value) {
 }
 
 std::optional<std::size_t> indexOf(const Choice& choice, const Value& value) {
-  const auto* word = std::get_if<std::string>(&value);
-  for (std::size_t i = 0; word != nullptr && i < choice.words.size(); ++i) {
-    if (choice.words[i] == *word) return i;
+  // YAML takes the words on and off for true and false (YAML 1.1, bool).
+  std::string word;
+  if (const auto* truth = std::get_if<bool>(&value)) word = *truth ? "on" : "off";
+  if (const auto* text = std::get_if<std::string>(&value)) word = *text;
+  for (std::size_t i = 0; i < choice.words.size(); ++i) {
+    if (choice.words[i] == word) return i;
   }
   return std::nullopt;
 }

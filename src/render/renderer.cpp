@@ -67,6 +67,7 @@ class Renderer::Implementation {
       light::Illumination here = light;
       here.bodies =
           std::make_shared<std::vector<light::AroundLight>>(body_light_->around(*seen_.body_views, light));
+      if (light.body_lamps) here.lamps = lampsHere(light);
       return light::illuminate(seen_.surfaces, *world_.geometry->scene, *seen_.visibility, here);
     }
     return light::illuminate(seen_.surfaces, *world_.geometry->scene, *seen_.visibility, light);
@@ -100,6 +101,15 @@ class Renderer::Implementation {
     std::vector<Sample> samples;
     light::Surfaces surfaces;
   };
+
+  /// Those of the world, and those of its bodies where they stand.
+  std::shared_ptr<const std::vector<scene::Lamp>> lampsHere(const light::Illumination& light) const {
+    std::vector<scene::Lamp> lamps;
+    if (light.lamps) lamps = *light.lamps;
+    for (const light::BodyLamp& lamp : *light.body_lamps)
+      lamps.push_back(light::placed(lamp.lamp, seen_.map_from_body[lamp.body]));
+    return std::make_shared<const std::vector<scene::Lamp>>(std::move(lamps));
+  }
 
   void place(const BodyPlaces& map_from_body, Pose& seen) const {
     seen.map_from_body = map_from_body;

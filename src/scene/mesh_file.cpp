@@ -15,6 +15,7 @@
 #include <regex>
 #include <stdexcept>
 
+#include "scene/color.h"
 #include "scene/mesh_material.h"
 
 namespace sunlit::scene {
@@ -112,6 +113,74 @@ std::vector<std::optional<int>> addMaterials(const aiScene& scene, const MeshFil
   return indices;
 }
 
+/// COLLADA colours may be brighter than a screen.
+LinearRgb colorOf(const aiColor3D& color, bool gltf) {
+  const Eigen::Array3f value(color.r, color.g, color.b);
+  if (gltf) return LinearRgb(value);
+  const float peak = std::max(value.maxCoeff(), 1.0f);
+  LinearRgb linear = linearFromSrgb({color.r / peak, color.g / peak, color.b / peak});
+  linear.value *= peak;
+  return linear;
+}
+
+/// Where a node stands in the file, to z up, and what it holds besides. Null: there is no such node.
+const aiNode* findNode(const aiScene& scene, const aiString& name, const Eigen::Affine3d& up_from_file,
+                       Eigen::Affine3d* up_from_node) {
+  const aiNode* const found = scene.mRootNode->FindNode(name);
+  Eigen::Affine3d file_from_node = Eigen::Affine3d::Identity();
+  for (const aiNode* node = found; node != nullptr; node = node->mParent)
+    file_from_node = toEigen(node->mTransformation) * file_from_node;
+  *up_from_node = up_from_file * file_from_node;
+  return found;
+}
+
+/// glTF gives cd and half angles (KHR_lights_punctual), COLLADA colours without a unit and whole cones.
+Lamp lampOf(const aiLight& light, const aiNode& node, const Eigen::Affine3d& up_from_node, bool gltf) {
+  Lamp lamp;
+  lamp.name = light.mName.C_Str();
+  lamp.relative = !gltf;
+  lamp.intensity = colorOf(light.mColorDiffuse, gltf);
+  const aiVector3D &at = light.mPosition, &to = light.mDirection;
+  lamp.position = (up_from_node * Eigen::Vector3d(at.x, at.y, at.z)).cast<float>();
+  float range = 0.0f;
+  if (gltf && node.mMetaData && node.mMetaData->Get("PBR_LightRange", range) && range > 0.0f)
+    lamp.range_m = range;
+  if (!gltf) {
+    lamp.constant = light.mAttenuationConstant;
+    lamp.linear = light.mAttenuationLinear;
+    lamp.quadratic = light.mAttenuationQuadratic;
+  }
+  if (light.mType != aiLightSource_SPOT) return lamp;
+  lamp.direction = (up_from_node.linear() * Eigen::Vector3d(to.x, to.y, to.z)).normalized().cast<float>();
+  const float share = gltf ? 1.0f : 0.5f;
+  lamp.outer_rad = std::clamp(share * light.mAngleOuterCone, 0.0f, Lamp::kAllAround_rad);
+  lamp.inner_rad = std::clamp(share * light.mAngleInnerCone, 0.0f, lamp.outer_rad);
+  return lamp;
+}
+
+void addLamps(const aiScene& scene, const Eigen::Affine3d& up_from_file, bool gltf, SceneBuilder& builder) {
+  for (unsigned i = 0; i < scene.mNumLights; ++i) {
+    const aiLight& light = *scene.mLights[i];
+    if (light.mType != aiLightSource_POINT && light.mType != aiLightSource_SPOT) {
+      builder.warn("lights that are no points and no spots were not read: the sky takes their place",
+                   light.mName.C_Str());
+      continue;
+    }
+    Eigen::Affine3d up_from_node;
+    const aiNode* const node = findNode(scene, light.mName, up_from_file, &up_from_node);
+    if (node == nullptr) continue;  // stands nowhere in the scene
+    Lamp lamp = lampOf(light, *node, up_from_node, gltf);
+    lamp.group = lamp.name;
+    if (lamp.constant + lamp.linear + lamp.quadratic > 0.0f && lamp.intensity.value.allFinite() &&
+        lamp.outer_rad > 0.0f && lamp.direction.norm() > 0.5f) {
+      builder.addLamp(std::move(lamp));
+    } else {
+      builder.warn("lights were left out: their angle, direction and attenuation must be above 0 and finite",
+                   lamp.name);
+    }
+  }
+}
+
 /// Assimp leaves out extensions that it does not know without a word.
 void warnAboutExtensions(const std::string& file, SceneBuilder& builder) {
   std::ifstream stream(file, std::ios::binary);
@@ -123,6 +192,7 @@ void warnAboutExtensions(const std::string& file, SceneBuilder& builder) {
   const std::string list = text.substr(begin, text.find(']', begin) - begin);
   const std::regex quoted("\"([^\"]*)\"");
   for (std::sregex_iterator name(list.begin(), list.end(), quoted), end; name != end; ++name) {
+    if ((*name)[1] == "KHR_lights_punctual") continue;
     builder.warn(file + ": glTF extension " + (*name)[1].str() + " is not read");
   }
 }
@@ -174,8 +244,10 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
       addMaterials(*scene, MeshFileContext{file, gltf, finder, builder});
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up.
   const bool y_up = gltf || (collada && up_axis == UpAxis::kAsDeclared);
+  const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();
   Collector collector{*scene, material_indices, {}};
-  collector.collect(*scene->mRootNode, y_up ? zUpFromYUp() : Eigen::Affine3d::Identity());
+  collector.collect(*scene->mRootNode, up_from_file);
+  if (up_axis == UpAxis::kAsDeclared) addLamps(*scene, up_from_file, gltf, builder);
   if (collector.lines_and_points > 0) {
     builder.warn(file + ": " + std::to_string(collector.lines_and_points) +
                  " lines and points have no surface and are left out");

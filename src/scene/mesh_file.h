@@ -28,8 +28,8 @@ struct MeshPart {
 /// The ending of a file's name in lower case, with its dot; empty if it has none.
 std::string extensionOf(const std::string& file);
 
-/// Reads `file`; its materials and textures go to `builder`. Throws std::runtime_error naming the file and
-/// what is wrong.
+/// Reads `file`; its materials and textures go to `builder`, and with kAsDeclared, which is for files that
+/// are a world of their own, its lights, too. Throws std::runtime_error naming the file and what is wrong.
 std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, const ResourceFinder& finder,
                                    SceneBuilder& builder);
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sunlit/scene/scene.h"
@@ -43,6 +44,9 @@ class SceneBuilder {
   /// `mesh` moved by `map_from_mesh`, without its broken triangles (counted for a warning of finish()).
   void addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mesh);
 
+  void addLamp(Lamp lamp) { scene_.lamps.push_back(std::move(lamp)); }
+
+  std::size_t lampCount() const { return scene_.lamps.size(); }
   std::size_t meshCount() const { return scene_.meshes.size(); }
 
   /// Adds a line to Scene::warnings, once for equal lines.

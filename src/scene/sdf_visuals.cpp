@@ -101,10 +101,23 @@ void SdfVisuals::addModelAt(const sdf::Model& model, const Eigen::Affine3d& map_
 
 void SdfVisuals::addLink(const sdf::Link& link, const Eigen::Affine3d& map_from_link,
                          const std::string& name) {
-  if (link.LightCount() > 0) builder_.count("lights of models were not read", link.LightCount());
+  // By the model: "lamp_post::link".
+  const std::string group = name.substr(0, name.rfind("::"));
+  for (std::uint64_t i = 0; i < link.LightCount(); ++i) {
+    const sdf::Light& light = *link.LightByIndex(i);
+    addLight(light, map_from_link, {name + "::" + light.Name(), group});
+  }
   for (std::uint64_t i = 0; i < link.VisualCount(); ++i) {
     addVisual(*link.VisualByIndex(i), map_from_link, name + "::");
   }
+}
+
+void SdfVisuals::addLight(const sdf::Light& light, const Eigen::Affine3d& map_from_parent,
+                          const LightName& name) {
+  Eigen::Affine3d map_from_light = map_from_parent * Eigen::Affine3d(parentFrom(light, name.name));
+  if (const std::optional<Eigen::Isometry3d> stood = state_.mapFrom(name.name)) map_from_light = *stood;
+  if (std::optional<Lamp> lamp = lampOf(light, map_from_light, name, builder_))
+    builder_.addLamp(*std::move(lamp));
 }
 
 void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Affine3d& map_from_link,

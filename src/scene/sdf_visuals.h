@@ -14,6 +14,7 @@
 
 #include "scene/model_meshes.h"
 #include "scene/sdf_files.h"
+#include "scene/sdf_light.h"
 #include "scene/sdf_material.h"
 #include "scene/sdf_state.h"
 
@@ -38,7 +39,10 @@ class SdfVisuals {
   /// What the state had to say of models that were never added.
   const SdfState& state() const { return state_; }
 
-  /// The visuals of one link at `map_from_link`; `name` is its full name.
+  /// A light of what stands at `map_from_parent`, of that full name, where no state says otherwise.
+  void addLight(const sdf::Light& light, const Eigen::Affine3d& map_from_parent, const LightName& name);
+
+  /// The visuals and lights of one link at `map_from_link`; `name` is its full name.
   void addLink(const sdf::Link& link, const Eigen::Affine3d& map_from_link, const std::string& name);
 
  private:

@@ -19,8 +19,11 @@ Scene loadSdf(const std::string& file, const ResourceFinder& finder) {
   if (read.state) visuals.standAs(SdfState(*read.state));
   visuals.addFile(read);
   for (std::uint64_t i = 0; i < read.root.WorldCount(); ++i) {
-    const std::uint64_t lights = read.root.WorldByIndex(i)->LightCount();
-    if (lights > 0) builder.count("lights of the world were not read", lights);
+    const sdf::World& world = *read.root.WorldByIndex(i);
+    for (std::uint64_t k = 0; k < world.LightCount(); ++k) {
+      const sdf::Light& light = *world.LightByIndex(k);
+      visuals.addLight(light, Eigen::Affine3d::Identity(), {light.Name(), light.Name()});
+    }
   }
   const std::size_t unknown = visuals.state().unknownModels();
   if (unknown > 0) builder.count("models of the <state> are not in the world", unknown);

@@ -24,6 +24,7 @@ const StudioOptions& checked(const StudioOptions& options) {
   image::validate(options.noise);
   render::validate(options.render);
   light::validate(options.bake.transport);
+  light::validate(options.lamps);
   render::requireStarts(options.render.rasterizer);
   return options;
 }
@@ -33,6 +34,7 @@ const StudioOptions& checked(const StudioOptions& options) {
 Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& robot, const Reports& reports)
     : options_(checked(options)),
       world_(stopwatch_.measure("load", "world", [&] { return loadWorld(options.world, robot, reports); })) {
+  requireGroups(world_, options.lamps);
   world_.transport =
       stopwatch_.measure("load", "transport", [&] { return bake(world_, options.bake, reports); });
   renderer_ = stopwatch_.measure("load", "renderer",
@@ -81,7 +83,7 @@ void Studio::lookAhead(const Eigen::Isometry3d& map_from_camera, const render::B
 }
 
 light::Illumination Studio::illumination(const sky::Daylight& daylight) const {
-  return light::illumination(world_, daylight);
+  return light::illumination(world_, daylight, options_.lamps);
 }
 
 Developed Studio::photograph(const light::Illumination& light, const image::PictureName& name) {

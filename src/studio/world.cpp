@@ -1,6 +1,7 @@
 #include "sunlit/studio/world.h"
 
 #include <cstdint>
+#include <set>
 #include <utility>
 
 #include "studio/tell.h"
@@ -22,7 +23,8 @@ scene::Scene loadScene(const WorldOptions& options, const Reports& reports) {
   scene::Scene scene = scene::load(options.name, options.searchPath());
   for (const std::string& warning : scene.warnings) tell(reports.warning, options.name + ": " + warning);
   tell(reports.note, "World " + options.name + ": " + std::to_string(scene.triangleCount()) + " triangles, " +
-                         std::to_string(scene.textures.size()) + " textures");
+                         std::to_string(scene.textures.size()) + " textures, " +
+                         std::to_string(scene.lamps.size()) + " lamps");
   return scene;
 }
 
@@ -31,7 +33,26 @@ light::World loadWorld(const WorldOptions& options, const std::optional<scene::R
   auto scene = std::make_shared<scene::Scene>(loadScene(options, reports));
   std::vector<std::vector<scene::Mesh>> meshes_of_links;
   if (robot) meshes_of_links = scene::addLooks(*robot, scene.get());
-  return light::World(std::move(scene), meshes_of_links);
+  light::World world(std::move(scene), meshes_of_links);
+  if (robot) {
+    for (const scene::RobotLink& link : robot->links) world.lamps_of_bodies.push_back(link.lamps);
+  }
+  return world;
+}
+
+void requireGroups(const light::World& world, const light::LampOptions& lamps) {
+  std::set<std::string> groups;
+  const auto note = [&](const std::vector<scene::Lamp>& those) {
+    for (const scene::Lamp& lamp : those) groups.insert(lamp.group);
+  };
+  note(world.geometry->scene->lamps);
+  for (const std::vector<scene::Lamp>& of_body : world.lamps_of_bodies) note(of_body);
+  std::string known;
+  for (const std::string& group : groups) known += (known.empty() ? "" : ", ") + group;
+  for (const std::string& group : lamps.off) {
+    if (groups.count(group) == 0)
+      refuse("lamps_off", group, groups.empty() ? "left out: there are no lamps" : "one of " + known);
+  }
 }
 
 light::BakeCache cacheOf(const BakeOptions& options) {

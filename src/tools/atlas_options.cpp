@@ -254,6 +254,7 @@ void addShared(studio::CommandLine* line, AtlasRunOptions* options, Words* words
   addSensor(line, &words->sensor);
   addWorld(line, &options->studio.world);
   addBounced(line, &options->studio.bake);
+  addLamps(line, &options->studio.lamps);
   addDetectors(line, &options->atlas.verify);
 }
 

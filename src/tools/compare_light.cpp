@@ -64,10 +64,9 @@ class Comparer {
     renderer_.look(map_from_camera * linkFromOptical());
     const EveryNthPixel chosen(options_.every);
     const light::Surfaces surfaces = chosen.of(renderer_.surfaces());
-    const std::vector<light::Traced> traced =
-        light::traceReference(surfaces, world_, days_, options_.reference);
+    const std::vector<light::Traced> traced = trace(surfaces);
     for (std::size_t i = 0; i < days_.size(); ++i) {
-      const image::LinearImage fast = renderer_.light(light::illumination(world_, days_[i]));
+      const image::LinearImage fast = renderer_.light(light::illumination(world_, days_[i], options_.lamps));
       const image::Picture<float, 1> errors = light::relativeErrors(fast, traced[i], surfaces);
       const std::string& name = options_.skies[i].name;
       rows_.push_back({view, name, static_cast<double>(days_[i].groundIlluminance().luminance()),
@@ -84,6 +83,24 @@ class Comparer {
   const std::vector<ComparisonRow>& rows() const { return rows_; }
 
  private:
+  /// One a day: those on which lamps burn apart from the others.
+  std::vector<light::Traced> trace(const light::Surfaces& surfaces) const {
+    std::vector<std::size_t> numbers[2];
+    for (std::size_t i = 0; i < days_.size(); ++i)
+      numbers[light::burnUnder(options_.lamps, days_[i]) ? 1 : 0].push_back(i);
+    std::vector<light::Traced> all(days_.size());
+    for (std::size_t burn = 0; burn < 2; ++burn) {
+      if (numbers[burn].empty()) continue;
+      std::vector<sky::Daylight> days;
+      for (const std::size_t i : numbers[burn]) days.push_back(days_[i]);
+      light::ReferenceOptions reference = options_.reference;
+      if (burn == 1) reference.lamps = light::burning(world_.geometry->scene->lamps, options_.lamps);
+      std::vector<light::Traced> some = light::traceReference(surfaces, world_, days, reference);
+      for (std::size_t k = 0; k < some.size(); ++k) all[numbers[burn][k]] = std::move(some[k]);
+    }
+    return all;
+  }
+
   const CompareLightOptions& options_;
   const light::World& world_;
   render::Renderer renderer_;
@@ -96,6 +113,7 @@ void run(const CompareLightOptions& options) {
   makeFolder(options.output);
   const auto load_start = Clock::now();
   light::World world = studio::loadWorld(options.world, std::nullopt, onTerminal());
+  studio::requireGroups(world, options.lamps);
   world.transport = studio::bake(world, options.bake, onTerminal());
   std::printf("world loaded and its light baked or read in %.1f s\n", secondsSince(load_start));
   const std::vector<Eigen::Isometry3d> views = viewsOf(options);

@@ -94,6 +94,7 @@ std::optional<CompareLightOptions> parseCompareLightOptions(const std::vector<st
   addCamera(&line, &words.camera);
   addWorld(&line, &options.world);
   addBounced(&line, &options.bake);
+  addLamps(&line, &options.lamps);
   if (!line.read(arguments)) return std::nullopt;
   requireThatAllCount(line, options);
   if (options.skies.empty()) {

@@ -38,8 +38,9 @@ inline std::vector<Field> fieldsOf(TypedBody& body) {
 struct CompareLightOptions {
   studio::WorldOptions world;
   studio::BakeOptions bake;  ///< without it the fast picture's sky is open
-  std::string path;          ///< waypoint file; empty: the built-in path
-  int views = 10;            ///< evenly along the path
+  light::LampOptions lamps;
+  std::string path;  ///< waypoint file; empty: the built-in path
+  int views = 10;    ///< evenly along the path
   path::PathOptions sampling;
   std::vector<Eigen::Isometry3d> map_from_camera;  ///< not empty: instead of a path
   std::vector<SkyToCompare> skies;

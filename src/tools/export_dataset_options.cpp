@@ -123,6 +123,7 @@ std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& 
   addSensor(&line, &words.sensor);
   addWorld(&line, &options.studio.world);
   addBounced(&line, &options.studio.bake);
+  addLamps(&line, &options.studio.lamps);
   if (!line.read(arguments)) return std::nullopt;
   requireSense(line, words, options);
   options.output = outputOf(words.places);

@@ -17,6 +17,7 @@ ViewArguments::ViewArguments(studio::CommandLine* line) : line_(line) {
   addSensor(line_, &sensor_);
   addWorld(line_, &options_.studio.world);
   addBounced(line_, &options_.studio.bake);
+  addLamps(line_, &options_.studio.lamps);
 }
 
 void ViewArguments::addPlaces() {

@@ -25,4 +25,14 @@ void addBounced(studio::CommandLine* line, studio::BakeOptions* options) {
                                 "or sunlit in XDG_CACHE_HOME, or ~/.cache/sunlit"));
 }
 
+void addLamps(studio::CommandLine* line, light::LampOptions* options) {
+  const std::vector<Field> rows = fieldsOf(*options);
+  line->add("--lamps", fieldOf(rows, "lamps"));
+  line->add("--lamps-dusk LX", fieldOf(rows, "lamps_dusk"));
+  line->add("--lamps-off NAME", studio::explainedAs(fieldOf(rows, "lamps_off"),
+                                                    "a group of lamps that stays dark: the name of a model, "
+                                                    "link or file; may be repeated"));
+  line->add("--lamps-colour LX", fieldOf(rows, "lamps_colour"));
+}
+
 }  // namespace sunlit::tools

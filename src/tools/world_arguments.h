@@ -12,4 +12,7 @@ void addWorld(studio::CommandLine* line, studio::WorldOptions* options);
 /// --bounced and --cache.
 void addBounced(studio::CommandLine* line, studio::BakeOptions* options);
 
+/// --lamps and what tells which and when.
+void addLamps(studio::CommandLine* line, light::LampOptions* options);
+
 }  // namespace sunlit::tools

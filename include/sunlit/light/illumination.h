@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "sunlit/light/lamps.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/sky/daylight.h"
 
@@ -50,11 +51,16 @@ struct Illumination {
   std::shared_ptr<const MirrorSky> mirror_sky;
   /// At each body that moves, for the pose that a renderer looks at, which sets it; null: open sky.
   std::shared_ptr<const std::vector<AroundLight>> bodies;
+  /// That burn, none of them relative: of the world and, for the pose that a renderer looks at, which adds
+  /// them, of bodies; null: none.
+  std::shared_ptr<const std::vector<scene::Lamp>> lamps;
+  /// That burn, of bodies, for renderers; null: none.
+  std::shared_ptr<const std::vector<BodyLamp>> body_lamps;
 };
 
 struct World;
 
-/// The light of `day` in `world`: relights its transport, if it has one.
-Illumination illumination(const World& world, const sky::Daylight& day);
+/// The light of `day` in `world`: relights its transport, if it has one, and lights the lamps that burn then.
+Illumination illumination(const World& world, const sky::Daylight& day, const LampOptions& lamps = {});
 
 }  // namespace sunlit::light

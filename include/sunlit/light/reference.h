@@ -17,6 +17,7 @@ struct ReferenceOptions {
   int samples_per_pixel = 256;
   int bounces = 16;  ///< from the fourth on a path goes on by chance (Russian roulette): as accurate
   std::uint32_t seed = 0;
+  std::vector<scene::Lamp> lamps;  ///< that burn under all skies; none is relative
 };
 
 inline std::vector<Field> fieldsOf(ReferenceOptions& options) {

@@ -46,7 +46,9 @@ class Visibility {
   /// Sets blocked[i] to 1 where anything lies along ray i at any distance, else to 0. Fastest for similar
   /// neighbours.
   void occluded(const Rays& rays, std::uint8_t* blocked) const;
-  /// The same of what moves alone; nothing, where there is nothing that moves.
+  /// The same of what lies between a ray's origin and origin + direction.
+  void occludedWithin(const Rays& rays, std::uint8_t* blocked) const;
+  /// The first of them of what moves alone; nothing, where there is nothing that moves.
   void occludedByMoving(const Rays& rays, std::uint8_t* blocked) const;
   /// Triangles that stand still: the number of the first one that moves.
   std::uint32_t fixedTriangles() const;
@@ -61,6 +63,8 @@ class Visibility {
                                          float near) const;
 
  private:
+  void occluded(const Rays& rays, float reach, std::uint8_t* blocked) const;
+
   class Implementation;
   std::shared_ptr<const Visibility> fixed_;  ///< null: there is nothing else
   std::unique_ptr<Implementation> implementation_;

@@ -16,12 +16,15 @@ class Transport;
 /// Cheap to copy.
 struct World {
   /// Flattens `scene` and builds its ray structure; bakes nothing. `meshes_of_bodies` as Bodies takes them.
+  /// The world's own lamps are those of `scene`.
   explicit World(std::shared_ptr<const scene::Scene> scene,
                  const std::vector<std::vector<scene::Mesh>>& meshes_of_bodies = {});
 
   std::shared_ptr<const Geometry> geometry;
   std::shared_ptr<const Visibility> visibility;
-  std::shared_ptr<const Bodies> bodies;        ///< what moves in it; null: nothing
+  std::shared_ptr<const Bodies> bodies;  ///< what moves in it; null: nothing
+  std::vector<std::vector<scene::Lamp>>
+      lamps_of_bodies;                         ///< in their frames; one list a body, or none at all
   std::shared_ptr<const Transport> transport;  ///< of sky and bounced light; null: an open sky is assumed
 };
 

@@ -38,7 +38,8 @@ struct Robot {
 };
 
 /// By the ending of the file's name: .urdf (or .xml), or .sdf with one model, whose root link then is a frame
-/// without looks, named after the model. Only visuals are read. Meshes are looked for as package:// of the
+/// without looks, named after the model. Only visuals and lights are read, of a URDF
+/// those in <gazebo reference="link">. Meshes are looked for as package:// of the
 /// folders in `search_path`, the folder of the file and its parents; file://; or by a relative path. Throws
 /// std::runtime_error naming file and place, and for a missing file where it was looked for.
 Robot loadRobot(const std::string& file, const SearchPath& search_path);

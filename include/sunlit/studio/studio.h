@@ -8,6 +8,7 @@
 
 #include "sunlit/image/exposure.h"
 #include "sunlit/image/sensor_noise.h"
+#include "sunlit/light/lamps.h"
 #include "sunlit/render/renderer.h"
 #include "sunlit/studio/stopwatch.h"
 #include "sunlit/studio/world.h"
@@ -20,6 +21,7 @@ struct StudioOptions {
   render::RenderOptions render;
   image::ExposureOptions exposure;
   image::NoiseOptions noise;
+  light::LampOptions lamps;
 };
 
 /// A developed image and the exposure value that it was developed with.
@@ -41,7 +43,7 @@ class Studio {
  public:
   /// Loads the world, with the `robot` in it if there is one, and bakes its light. Throws what loadWorld()
   /// and bake() throw, and before that std::invalid_argument for options out of range and
-  /// std::runtime_error for a rasterizer that cannot start.
+  /// std::runtime_error for a rasterizer that cannot start; and requireGroups().
   explicit Studio(const StudioOptions& options, const std::optional<scene::Robot>& robot = std::nullopt,
                   const Reports& reports = {});
 

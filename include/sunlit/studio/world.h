@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sunlit/light/lamps.h"
 #include "sunlit/light/transport.h"
 #include "sunlit/light/world.h"
 #include "sunlit/quantity/field.h"
@@ -76,6 +77,10 @@ scene::Scene loadScene(const WorldOptions& options, const Reports& reports);
 /// With the `robot`, if there is one, as what moves in it. Bakes nothing. Throws what scene::load() throws.
 light::World loadWorld(const WorldOptions& options, const std::optional<scene::Robot>& robot,
                        const Reports& reports);
+
+/// Throws std::invalid_argument, naming the groups that there are, for one that is to stay dark and that no
+/// lamp of `world` belongs to.
+void requireGroups(const light::World& world, const light::LampOptions& lamps);
 
 /// Bakes how light spreads in `world`, or reads it from the cache; null where the options want none. Throws
 /// as light::Transport::bake().

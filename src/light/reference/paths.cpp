@@ -32,7 +32,8 @@ PathScene::PathScene(const World& world_to_trace, const std::vector<sky::Dayligh
       days(days_to_trace),
       options(options_to_use),
       samples_per_pixel(samples_in_pixel),
-      vertices(*world_to_trace.geometry) {
+      vertices(*world_to_trace.geometry),
+      lamps(options.lamps.begin(), options.lamps.end()) {
   for (std::size_t day = 0; day < days.size(); ++day) {
     appendDisc(days[day].sun(), day, &discs);
     appendDisc(days[day].moon(), day, &discs);
@@ -86,6 +87,7 @@ std::array<Radiances, 2> Paths::luminance(const Tile& tile, const Surface& surfa
   for (int bounce = 0; !paths_.empty(); ++bounce) {
     addEmission();
     for (const Disc& disc : scene_.discs) addDisc(disc, bounce);
+    for (const LampBeam& lamp : scene_.lamps) addLamp(lamp, bounce);
     for (std::size_t day = 0; day < scene_.days.size(); ++day) addSkyOf(day, bounce);
     advance(bounce);
   }
@@ -127,6 +129,37 @@ void Paths::addDisc(const Disc& disc, int bounce) {
     weights_.push_back(paths_[i].throughput * weight * disc.illuminance);
   }
   castAndAdd(disc.day);
+}
+
+void Paths::addLamp(const LampBeam& lamp, int bounce) {
+  bundle_.clear();
+  weights_.clear();
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    const Vertex& vertex = paths_[i].vertex;
+    const Eigen::Vector3f middle = lamp.position() - vertex.front;
+    const float distance_m = middle.norm();
+    if (!(distance_m > lamp.radius_m())) continue;
+    const float radius = lamp.radius_m() * std::sqrt(random(paths_[i], bounce, kOnDisc));
+    const float angle = static_cast<float>(2.0 * kPi) * random(paths_[i], bounce, kOnDisc + 1);
+    const Eigen::Vector3f way =
+        middle + LampBeam::across(middle / distance_m) *
+                     Eigen::Vector2f(radius * std::cos(angle), radius * std::sin(angle));
+    const Eigen::Vector3f towards = way.normalized();
+    if (!vertex.faces(towards)) continue;
+    const Eigen::Array3f weight = directReflectance(vertex.reflection, towards, 0.0f) * lamp.at(vertex.front);
+    if (!(weight.maxCoeff() > 0.0f)) continue;
+    // What lies within the lamp's ball is part of it, and hides nothing.
+    const float ball_m = lamp.radius_m() + rayClearance_m(vertex.front, 0.0f);
+    bundle_.add(vertex.origin(towards), std::max(1.0f - ball_m / distance_m, 1e-6f) * way, i);
+    weights_.push_back(paths_[i].throughput * weight);
+  }
+  blocked_.resize(bundle_.path.size());
+  scene_.world.visibility->occludedWithin(bundle_.rays(), blocked_.data());
+  for (std::size_t i = 0; i < blocked_.size(); ++i) {
+    if (lamp.castsShadows() && blocked_[i]) continue;
+    for (Eigen::Array3f& sum : sums_[static_cast<std::size_t>(paths_[bundle_.path[i]].half)])
+      sum += weights_[i];
+  }
 }
 
 void Paths::castAndAdd(std::size_t day) {

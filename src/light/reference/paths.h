@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "light/disc_above_horizon.h"
+#include "light/lamps/lamp_beam.h"
 #include "light/reference/random.h"
 #include "light/reference/scatter.h"
 #include "light/reference/sky_sampler.h"
@@ -35,6 +36,7 @@ struct PathScene {
   int samples_per_pixel;  ///< Surfaces::samples_per_pixel
   SceneVertices vertices;
   std::vector<Disc> discs;
+  std::vector<LampBeam> lamps;
   std::vector<SkySampler> skies;  ///< one a day
 };
 
@@ -69,6 +71,8 @@ class Paths {
   float random(const Path& path, int bounce, std::size_t dimension) const;
   void addEmission();
   void addDisc(const Disc& disc, int bounce);
+  /// One lamp on all days.
+  void addLamp(const LampBeam& lamp, int bounce);
   /// Sky, by directions chosen for its brightness.
   void addSkyOf(std::size_t day, int bounce);
   /// Sky, where a ray chosen by the surface meets it.

@@ -172,7 +172,7 @@ CameraFrames RenderNodeOptions::cameraFrames() const {
 }
 
 studio::StudioOptions RenderNodeOptions::studioOptions() const {
-  studio::StudioOptions options{world, bake, {}, exposure, noise};
+  studio::StudioOptions options{world, bake, {}, exposure, noise, lamps};
   options.render.camera =
       image::PinholeCamera::fromFieldOfView(camera.width, camera.height, camera.horizontal_fov);
   options.render.supersampling = camera.supersampling;
@@ -189,6 +189,7 @@ std::vector<Field> fieldsOf(RenderNodeOptions& options) {
        under("robot", fieldsOf(options.robot)),
        under("exposure", fieldsOf(options.exposure)),
        under("noise", fieldsOf(options.noise)),
+       fieldsOf(options.lamps),
        {{"night/enabled", &options.night, "", {}, "moon and stars too; false: the sun alone"}},
        under("atmosphere", airFields(&options.sky)),
        under("transport",

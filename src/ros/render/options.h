@@ -70,6 +70,7 @@ struct RenderNodeOptions {
   RobotOptions robot;
   image::ExposureOptions exposure;
   image::NoiseOptions noise;
+  light::LampOptions lamps;
   studio::SkyOptions sky;
   studio::BakeOptions bake;
   int final_gather = 0;  ///< render::RenderOptions::final_gather

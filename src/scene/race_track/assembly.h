@@ -69,6 +69,7 @@ class Assembly {
   /// The mesh of that material in which parts near `place` are gathered.
   Mesh& mesh(int material, const Eigen::Vector3f& place);
   void add(Mesh mesh) { whole_.push_back(std::move(mesh)); }
+  void addLamp(Lamp lamp) { scene_.lamps.push_back(std::move(lamp)); }
   /// All of it.
   Scene finish(const std::string& name);
 

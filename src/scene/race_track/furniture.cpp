@@ -47,6 +47,20 @@ void addBoard(Assembly& assembly, const Frame& frame, const Board& board, const 
           picture.rect);
 }
 
+/// A lamp of 1200 cd that shines down from below its head's glass: some 20 lx on the road, as on a town's
+/// main streets (EN 13201-2, class C2). Warm white.
+void addStreetLight(Assembly& assembly, const Frame& head, std::uint32_t seed) {
+  Lamp lamp;
+  lamp.name = "street lamp " + std::to_string(seed);
+  lamp.group = "street_lamps";
+  lamp.radius_m = 0.1f;
+  lamp.position = head * Point(0.05f, 0.0f, -0.16f);
+  lamp.intensity = LinearRgb(1500.0f, 1164.0f, 720.0f);
+  lamp.inner_rad = 0.9f;
+  lamp.outer_rad = 1.35f;
+  assembly.addLamp(std::move(lamp));
+}
+
 void addLamp(Assembly& assembly, const TrackPlace& place, std::uint32_t seed) {
   Random random(seed);
   const Eigen::Vector2d left = leftOf(course().tangent(place.along));
@@ -69,6 +83,7 @@ void addLamp(Assembly& assembly, const TrackPlace& place, std::uint32_t seed) {
   addBox(assembly, {assembly.palette().matte, {0.22f, 0.22f, 0.23f}}, head, {0.7f, 0.28f, 0.12f});
   addBox(assembly, {assembly.palette().glass, {0.6f, 0.6f, 0.55f}}, shifted(head, {0.05f, 0, -0.05f}),
          {0.5f, 0.22f, 0.05f});
+  addStreetLight(assembly, head, seed);
   const Picture label = assembly.addPicture(
       paintSign({32, 24}, std::to_string(seed % 97u), {paintColor(random), {0.05f, 0.05f, 0.05f}, seed}));
   addBoard(assembly, facingDrivers({place.along, place.left}, 0.0f), {0.35f, 0.28f, 1.7f}, label);

@@ -144,6 +144,23 @@ void addRoof(Assembly& assembly, const Stand& stand) {
   }
 }
 
+/// Below the roof, some 40 lx on the seats.
+void addLights(Assembly& assembly, const Stand& stand) {
+  const float depth = kRow_m * static_cast<float>(stand.rows);
+  const float top = kFoot_m + kRise_m * static_cast<float>(stand.rows) + 3.0f;
+  for (float x = -0.5f * stand.width + 4.5f; x < 0.5f * stand.width; x += 9.0f) {
+    Lamp lamp;
+    lamp.name = "grandstand lamp";
+    lamp.group = "grandstand";
+    lamp.radius_m = 0.15f;
+    lamp.position = stand.frame * Point(x, 0.4f * depth, top + 0.2f);
+    lamp.intensity = LinearRgb(1600.0f, 1480.0f, 1250.0f);
+    lamp.inner_rad = 0.9f;
+    lamp.outer_rad = 1.4f;
+    assembly.addLamp(std::move(lamp));
+  }
+}
+
 void addRailing(Assembly& assembly, const Stand& stand) {
   const Paint steel{assembly.palette().metal, {0.45f, 0.45f, 0.44f}};
   const Frame& f = stand.frame;
@@ -183,7 +200,9 @@ void addGrandstands(Assembly& assembly) {
     addSteps(assembly, stand);
     addSeats(assembly, stand, crowd);
     addRailing(assembly, stand);
-    if (stand.roof) addRoof(assembly, stand);
+    if (!stand.roof) continue;
+    addRoof(assembly, stand);
+    addLights(assembly, stand);
   }
 }
 

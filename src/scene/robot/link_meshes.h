@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "scene/scene_builder.h"
@@ -17,14 +16,18 @@ class LinkMeshes {
 
   SceneBuilder& builder() { return builder_; }
   /// What is added from now on belongs to this index into Robot::links.
-  void begin(std::size_t link) { begins_.emplace_back(link, builder_.meshCount()); }
-  /// Fills in meshes, materials, textures and warnings. Throws std::runtime_error if there is nothing to see.
+  void begin(std::size_t link) { begins_.push_back({link, builder_.meshCount(), builder_.lampCount()}); }
+  /// Fills in meshes, lamps, materials, textures and warnings. Throws std::runtime_error if there is nothing
+  /// to see.
   void finish(Robot* robot);
 
  private:
+  struct Begin {
+    std::size_t link, mesh, lamp;  ///< its first ones
+  };
   std::string origin_;
   SceneBuilder builder_;
-  std::vector<std::pair<std::size_t, std::size_t>> begins_;  ///< link, its first mesh
+  std::vector<Begin> begins_;
 };
 
 }  // namespace sunlit::scene

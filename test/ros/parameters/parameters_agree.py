@@ -17,7 +17,7 @@ NUMBER = r"-?\d+(?:\.\d+)?(?:e\+?\d+)?"
 ARGUMENTS = {"missing": "missing", "spacing": "path/spacing", "offset": "path/offset", "yaw": "path/yaw", "camera_height": "path/camera_height",
              "width": "camera/width", "height": "camera/height", "horizontal_fov": "camera/horizontal_fov", "turbidity": "atmosphere/turbidity",
              "ozone": "atmosphere/ozone", "highlight_protection": "exposure/highlight_protection",
-             "final_gather": "transport/final_gather", "night": "night/enabled", "noise": "noise/enabled",
+             "final_gather": "transport/final_gather", "night": "night/enabled", "lamps": "lamps", "noise": "noise/enabled",
              "noise_seed": "noise/seed"}
 REQUIRED = ["streams", "output_dir"]  # of the evaluator: in the shipped file stands an example
 NODES = {"sun_position_node", "render_node", "evaluator_node"}

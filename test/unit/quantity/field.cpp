@@ -105,6 +105,20 @@ TEST(Field, OfSeveralWordsTakesNoneWhereThatIsAllowed) {
             "colours is [pink], but must be a list of some of red, green, blue, each once, or []");
 }
 
+TEST(Field, OfTheWordsOnAndOffTakesWhatYamlMakesOfThem) {
+  enum class When { kAuto, kOn, kOff } when = When::kAuto;
+  const Field row{"lamps", choiceOf(&when, {"auto", "on", "off"}), "", {}, ""};
+  row.set(true, "lamps");
+  EXPECT_EQ(row.text(), "on");
+  row.set(false, "lamps");
+  EXPECT_EQ(row.text(), "off");
+  row.set("auto", "lamps");
+  EXPECT_EQ(row.text(), "auto");
+  Options options;
+  const Field mode = fieldOf(fieldsOf(options), "mode");
+  EXPECT_THROW(mode.set(true, "mode"), std::invalid_argument);
+}
+
 TEST(Field, OfAWholeNumberOf64BitsTakesNoOther) {
   Options options;
   const Field stride = fieldOf(fieldsOf(options), "stride");

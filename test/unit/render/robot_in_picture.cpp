@@ -175,5 +175,41 @@ TEST(Robot, KeepsTheSkyFromTheGroundBeneathIt) {
   EXPECT_NEAR(beneath / open, expected, 1.0f / 32.0f + 0.02f);
 }
 
+TEST(Robot, ItsHeadlightsMoveWithIt) {
+  Stage stage;
+  scene::Lamp headlight;
+  headlight.name = "headlight";
+  headlight.position = {0.2f, 0.0f, 1.0f};  // of the base link, ahead of its mast
+  headlight.direction = Eigen::Vector3f(1.0f, 0.0f, -0.5f).normalized();
+  headlight.inner_rad = 0.2f;
+  headlight.outer_rad = 0.3f;
+  headlight.intensity = LinearRgb(100.0f, 100.0f, 100.0f);
+  stage.world.lamps_of_bodies = {{headlight}, {}};
+  MapView view;
+  render::Renderer renderer(stage.world, view.options);
+  const sky::Daylight night = daylightAt(90.0, -30.0);
+  light::LampOptions off;
+  off.mode = light::LampMode::kOff;
+  const light::Illumination lit = light::illumination(stage.world, night),
+                            dark = light::illumination(stage.world, night, off);
+  const auto byLamp = [&](double east, double north) {
+    return ground(renderer.light(lit), east, north) - ground(renderer.light(dark), east, north);
+  };
+  // Its axis meets the ground 2 m ahead of it: 100 cd, √5 m, cosine 1/√5, 3 % by Fresnel at that angle and
+  // more.
+  const float expected = 0.5f / kPiFloat * 100.0f / (5.0f * std::sqrt(5.0f));
+  renderer.look(view.pose(), stage.at(5.0, 3.0));
+  EXPECT_NEAR(byLamp(7.2, 3.0), expected, 0.15f * expected);
+  EXPECT_EQ(byLamp(2.8, 3.0), 0.0f);
+  Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
+  turned.translation() = Eigen::Vector3d(-4.0, 0.0, 0.0);
+  turned.rotate(Eigen::AngleAxisd(0.5 * kPi, Eigen::Vector3d::UnitZ()));
+  renderer.look(view.pose(), stage.at(turned));
+  EXPECT_NEAR(byLamp(-4.0, 2.2), expected, 0.15f * expected);
+  EXPECT_EQ(byLamp(7.2, 3.0), 0.0f);
+  renderer.look(view.pose(), kNobody);
+  EXPECT_EQ(byLamp(-4.0, 2.2), 0.0f);
+}
+
 }  // namespace
 }  // namespace sunlit::test

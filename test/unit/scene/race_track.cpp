@@ -243,5 +243,28 @@ TEST(RaceTrackNoise, IsSmoothAndBounded) {
   }
 }
 
+TEST(RaceTrack, ItsPathIsLitByStreetLampsAtNight) {
+  std::size_t street = 0, stands = 0;
+  for (const Lamp& lamp : world().lamps) {
+    (lamp.group == "street_lamps" ? street : stands) += 1;
+    EXPECT_TRUE(lamp.group == "street_lamps" || lamp.group == "grandstand") << lamp.group;
+    EXPECT_TRUE(lamp.isSpot());
+    EXPECT_FALSE(lamp.relative);
+  }
+  EXPECT_GT(street, 25u);  // one each 33 m of nearly 1 km
+  EXPECT_GT(stands, 0u);
+  // From each point of the path there is a street lamp above, not farther than half their distance and the
+  // road's width away.
+  for (const Eigen::Vector3d& point : raceTrackWaypoints()) {
+    double nearest = 1e9;
+    for (const Lamp& lamp : world().lamps) {
+      if (lamp.group != "street_lamps") continue;
+      const Eigen::Vector3d way = lamp.position.cast<double>() - point;
+      if (way.z() > 5.0 && way.z() < 12.0) nearest = std::min(nearest, way.head<2>().norm());
+    }
+    EXPECT_LT(nearest, 35.0);
+  }
+}
+
 }  // namespace
 }  // namespace sunlit::scene

@@ -90,6 +90,20 @@ TEST_F(AwsRaceTrack, OurLapStaysOnTheRoad) {
   }
 }
 
+TEST(AwsNight, ItsLampsStandWhereItsStateSays) {
+  SKIP_WITHOUT(kAws);
+  const Scene night = load(kAws + "/worlds/racetrack_night.world", {});
+  ASSERT_EQ(night.lamps.size(), 8u);  // as many <light> elements stand outside <state>
+  std::size_t spots = 0;
+  for (const Lamp& lamp : night.lamps) {
+    spots += lamp.isSpot() ? 1 : 0;
+    EXPECT_TRUE(lamp.relative);
+    EXPECT_FALSE(lamp.casts_shadows);
+    EXPECT_NEAR(lamp.position.z(), lamp.isSpot() ? 15.0f : 3.9f, 0.15f) << lamp.name;  // elsewhere 1 m
+  }
+  EXPECT_EQ(spots, 4u);
+}
+
 TEST(AwsModels, NameEveryMissingTexture) {
   SKIP_WITHOUT(kAws);
   std::vector<std::string> missing;

@@ -118,8 +118,14 @@ TEST(Structure, DependenciesPointOneWay) {
 
 // Of the rooms of a module: folders below its own. What stands beside them puts them together.
 const std::map<std::string, Modules> kRoomsOfLight = {
-    {"transport", {}}, {"mirror", {"transport"}}, {"final_gather", {"mirror"}},   {"bodies", {"transport"}},
-    {"disc", {}},      {"sky_in_view", {}},       {"reference", {"sky_in_view"}},
+    {"transport", {}},
+    {"mirror", {"transport"}},
+    {"final_gather", {"mirror"}},
+    {"bodies", {"transport"}},
+    {"disc", {}},
+    {"sky_in_view", {}},
+    {"reference", {"lamps", "sky_in_view"}},
+    {"lamps", {}},
 };
 
 const std::map<std::string, Modules> kRoomsOfEvaluate = {

@@ -1,0 +1,71 @@
+/// Lamps: when they burn, and what they give where nothing is in the way.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sunlit/quantity/field.h"
+#include "sunlit/scene/scene.h"
+#include "sunlit/sky/daylight.h"
+
+namespace sunlit::light {
+
+enum class LampMode {
+  kAuto,  ///< by a dusk switch
+  kOn,
+  kOff,
+};
+
+struct LampOptions {
+  LampMode mode = LampMode::kAuto;
+  double dusk_lx = 30.0;
+  std::vector<std::string> off;
+  /// White of 1 that gives as much on a plane facing it is a floodlit sports ground under the masts of
+  /// Gazebo's worlds, whose attenuation of 0.2 to 1 makes it 50 to 250 lx (EN 12193: 75 to 500 lx).
+  double colour_lx = 50.0;
+};
+
+inline std::vector<Field> fieldsOf(LampOptions& options) {
+  return {{"lamps",
+           choiceOf(&options.mode, {"auto", "on", "off"}),
+           "",
+           {},
+           "of the world and the robot; auto: by a dusk switch"},
+          {"lamps_dusk",
+           &options.dusk_lx,
+           "lx",
+           {0, 1e5},
+           "on level, open ground: auto switches on below it in the evening, off above 1.5 times it at dawn"},
+          {"lamps_off", &options.off, "", {}, "groups that stay dark: names of models, links or files"},
+          {"lamps_colour",
+           &options.colour_lx,
+           "lx",
+           {0, 1e6},
+           "that a light of colour 1 gives where its attenuation is 1, in formats without units (SDF)"}};
+}
+
+/// Throws std::invalid_argument naming key, value and range.
+void validate(const LampOptions& options);
+
+/// Whether lamps burn under `day`. For `auto` a function of the instant alone, so that no picture depends on
+/// those before: street lighting switches off at 1.5 times the light at which it switches on (EN 13201-5
+/// calls it the switching ratio), and here the one holds while the sun stands west of the meridian, the other
+/// while it stands east of it.
+bool burnUnder(const LampOptions& options, const sky::Daylight& day);
+
+/// Those of `lamps` that are not switched off by their group, with intensities that mean cd or lx: none is
+/// relative any more.
+std::vector<scene::Lamp> burning(const std::vector<scene::Lamp>& lamps, const LampOptions& options);
+
+/// `lamp` of a frame that stands at `map_from_frame`, in `map`.
+scene::Lamp placed(const scene::Lamp& lamp, const Eigen::Isometry3d& map_from_frame);
+
+/// A lamp of the body of that number in World::bodies, in its frame.
+struct BodyLamp {
+  std::uint32_t body;
+  scene::Lamp lamp;
+};
+
+}  // namespace sunlit::light

@@ -1,0 +1,53 @@
+#include "scene/robot/urdf_lamps.h"
+
+#include <tinyxml.h>
+
+#include <sdf/Light.hh>
+#include <sdf/Root.hh>
+
+#include "scene/sdf_light.h"
+#include "scene/sdf_pose.h"
+
+namespace sunlit::scene {
+namespace {
+
+void addLamp(const TiXmlElement& element, const std::string& link, SceneBuilder& builder,
+             std::vector<Lamp>* lamps) {
+  TiXmlPrinter printer;
+  element.Accept(&printer);
+  const char* const given = element.Attribute("name");
+  const std::string name = link + "::" + (given == nullptr ? "light" : given);
+  sdf::Root root;
+  const sdf::Errors errors =
+      root.LoadSdfString("<sdf version='1.9'>" + std::string(printer.CStr()) + "</sdf>");
+  if (root.Light() == nullptr) {
+    builder.warn("lights of <gazebo> elements could not be read",
+                 name + (errors.empty() ? "" : " (" + errors[0].Message() + ")"));
+    return;
+  }
+  // Of a light on its own, which stands in no other frame.
+  const Eigen::Affine3d link_from_light(toEigen(root.Light()->RawPose()));
+  if (std::optional<Lamp> lamp = lampOf(*root.Light(), link_from_light, {name, link}, builder))
+    lamps->push_back(*std::move(lamp));
+}
+
+}  // namespace
+
+std::map<std::string, std::vector<Lamp>> urdfLamps(const std::string& text, SceneBuilder& builder) {
+  TiXmlDocument document;
+  document.Parse(text.c_str(), nullptr, TIXML_ENCODING_UTF8);
+  std::map<std::string, std::vector<Lamp>> lamps;
+  const TiXmlElement* const robot = document.FirstChildElement("robot");
+  if (robot == nullptr) return lamps;
+  for (const TiXmlElement* gazebo = robot->FirstChildElement("gazebo"); gazebo != nullptr;
+       gazebo = gazebo->NextSiblingElement("gazebo")) {
+    const char* const link = gazebo->Attribute("reference");
+    if (link == nullptr) continue;
+    for (const TiXmlElement* light = gazebo->FirstChildElement("light"); light != nullptr;
+         light = light->NextSiblingElement("light"))
+      addLamp(*light, link, builder, &lamps[link]);
+  }
+  return lamps;
+}
+
+}  // namespace sunlit::scene

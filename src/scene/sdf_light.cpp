@@ -1,0 +1,70 @@
+#include "scene/sdf_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/color.h"
+#include "scene/sdf_pose.h"
+
+namespace sunlit::scene {
+namespace {
+
+LinearRgb intensityOf(const sdf::Light& light) {
+  const ignition::math::Color color = light.Diffuse();
+  LinearRgb linear = linearFromSrgb({color.R(), color.G(), color.B()});
+  linear.value *= static_cast<float>(std::max(light.Intensity(), 0.0));
+  return linear;
+}
+
+bool isFinite(const sdf::Light& light) {
+  double sum = light.Intensity() + light.AttenuationRange() + light.ConstantAttenuationFactor() +
+               light.LinearAttenuationFactor() + light.QuadraticAttenuationFactor();
+  if (light.Type() == sdf::LightType::SPOT)
+    sum += light.SpotInnerAngle().Radian() + light.SpotOuterAngle().Radian() + light.SpotFalloff();
+  return std::isfinite(sum) && light.Direction().IsFinite();
+}
+
+/// SDF's angles are those of whole cones.
+void readCone(const sdf::Light& light, const Eigen::Affine3d& map_from_light, Lamp* lamp) {
+  const Eigen::Vector3d direction = map_from_light.linear() * toEigen(light.Direction());
+  lamp->direction = direction.normalized().cast<float>();
+  const auto half = [](double angle) {
+    return std::clamp(static_cast<float>(0.5 * angle), 0.0f, Lamp::kAllAround_rad);
+  };
+  lamp->outer_rad = half(light.SpotOuterAngle().Radian());
+  lamp->inner_rad = std::min(half(light.SpotInnerAngle().Radian()), lamp->outer_rad);
+  lamp->exponent = std::clamp(static_cast<float>(light.SpotFalloff()), 0.0f, 100.0f);
+}
+
+}  // namespace
+
+std::optional<Lamp> lampOf(const sdf::Light& light, const Eigen::Affine3d& map_from_light,
+                           const LightName& name, SceneBuilder& builder) {
+  if (light.Type() == sdf::LightType::DIRECTIONAL) {
+    builder.warn("directional lights were not read: the sun of the sky takes their place", name.name);
+    return std::nullopt;
+  }
+  const bool spot = light.Type() == sdf::LightType::SPOT;
+  const auto factor = [](double value) { return std::max(static_cast<float>(value), 0.0f); };
+  Lamp lamp;
+  lamp.name = name.name;
+  lamp.group = name.group;
+  lamp.position = map_from_light.translation().cast<float>();
+  lamp.relative = true;
+  lamp.intensity = intensityOf(light);
+  lamp.range_m = static_cast<float>(light.AttenuationRange());
+  lamp.constant = factor(light.ConstantAttenuationFactor());
+  lamp.linear = factor(light.LinearAttenuationFactor());
+  lamp.quadratic = factor(light.QuadraticAttenuationFactor());
+  lamp.casts_shadows = light.CastShadows();
+  if (spot) readCone(light, map_from_light, &lamp);
+  const bool shines = isFinite(light) && lamp.range_m > 0.0f && lamp.outer_rad > 0.0f &&
+                      lamp.constant + lamp.linear + lamp.quadratic > 0.0f && lamp.direction.norm() > 0.5f;
+  if (shines) return lamp;
+  builder.warn(
+      "lights were left out: their range, angle, direction and attenuation must be above 0 and finite",
+      name.name);
+  return std::nullopt;
+}
+
+}  // namespace sunlit::scene

@@ -1,0 +1,141 @@
+// The lamps of worlds, mesh files and robots.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sunlit/scene/robot.h"
+#include "unit/scene/scene_files.h"
+
+namespace sunlit::scene {
+namespace {
+
+class LampFiles : public SceneFiles {
+ protected:
+  /// Of a world with one model, a ball, in whose link `in_link` stands, too.
+  Scene worldWith(const std::string& in_world, const std::string& in_link = "") const {
+    return load(
+        write(
+            "test.world",
+            "<?xml version='1.0'?><sdf version='1.9'><world name='w'>" + in_world +
+                "<model name='post'><pose>10 0 0 0 0 1.5707963</pose><link name='l'><pose>0 0 2 0 0 0</pose>"
+                "<visual name='v'><geometry><sphere><radius>1</radius></sphere></geometry></visual>" +
+                in_link + "</link></model></world></sdf>"),
+        {});
+  }
+};
+
+const std::string kSpot =
+    "<light name='lamp' type='spot'><pose>1 0 0 0 0 0</pose><diffuse>1 0.5 0 1</diffuse><direction>1 0 "
+    "-1</direction>"
+    "<intensity>3</intensity><attenuation><range>20</range><constant>0.2</constant><linear>0.1</linear>"
+    "<quadratic>0.01</quadratic></attenuation><spot><inner_angle>0.4</inner_angle><outer_angle>2.2</"
+    "outer_angle>"
+    "<falloff>2.1</falloff></spot><cast_shadows>false</cast_shadows></light>";
+
+TEST_F(LampFiles, OfLinksStandInTheirFrameAndGoByTheirModel) {
+  const Scene scene = worldWith("", kSpot);
+  ASSERT_EQ(scene.lamps.size(), 1u);
+  const Lamp& lamp = scene.lamps[0];
+  EXPECT_EQ(lamp.name, "post::l::lamp");
+  EXPECT_EQ(lamp.group, "post");
+  EXPECT_LT((lamp.position - Eigen::Vector3f(10.0f, 1.0f, 2.0f)).norm(), 1e-5f);
+  EXPECT_LT((lamp.direction - Eigen::Vector3f(0.0f, 1.0f, -1.0f).normalized()).norm(), 1e-6f);
+  EXPECT_TRUE(lamp.relative);
+  EXPECT_EQ(lamp.intensity.value[0], 3.0f);
+  EXPECT_NEAR(lamp.intensity.value[1], 3.0f * 0.2140f, 2e-4f);  // a display value
+  EXPECT_FLOAT_EQ(lamp.constant, 0.2f);
+  EXPECT_FLOAT_EQ(lamp.linear, 0.1f);
+  EXPECT_FLOAT_EQ(lamp.quadratic, 0.01f);
+  EXPECT_FLOAT_EQ(lamp.range_m, 20.0f);
+  EXPECT_FLOAT_EQ(lamp.inner_rad, 0.2f);  // SDF's are whole angles
+  EXPECT_FLOAT_EQ(lamp.outer_rad, 1.1f);
+  EXPECT_FLOAT_EQ(lamp.exponent, 2.1f);
+  EXPECT_FALSE(lamp.casts_shadows);
+}
+
+TEST_F(LampFiles, OfTheWorldArePointsToo) {
+  const Scene scene = worldWith(
+      "<light name='bulb' type='point'><pose>1 2 3 0 0 0</pose><diffuse>1 1 1 1</diffuse>"
+      "<attenuation><range>5</range><constant>1</constant></attenuation></light>");
+  ASSERT_EQ(scene.lamps.size(), 1u);
+  EXPECT_EQ(scene.lamps[0].group, "bulb");
+  EXPECT_FALSE(scene.lamps[0].isSpot());
+  EXPECT_EQ(scene.lamps[0].position, Eigen::Vector3f(1.0f, 2.0f, 3.0f));
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST_F(LampFiles, GazebosSunIsNamedAndLeftToOurs) {
+  const Scene scene = worldWith("<light name='sun' type='directional'><direction>0 0 -1</direction></light>");
+  EXPECT_TRUE(scene.lamps.empty());
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0],
+            "1 directional lights were not read: the sun of the sky takes their place: sun");
+}
+
+TEST_F(LampFiles, ThatCannotShineAreNamed) {
+  const Scene scene =
+      worldWith("<light name='dead' type='point'><attenuation><range>0</range></attenuation></light>");
+  EXPECT_TRUE(scene.lamps.empty());
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("dead"), std::string::npos);
+}
+
+TEST_F(LampFiles, OfGltfAreInCandela) {
+  const std::string file =
+      write("lamp.gltf", R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],
+    "extensionsUsed":["KHR_lights_punctual"],
+    "extensions":{"KHR_lights_punctual":{"lights":[{"name":"torch","type":"spot","color":[1,0.5,0.25],"intensity":40,
+      "range":12,"spot":{"innerConeAngle":0.2,"outerConeAngle":0.7}}]}},
+    "nodes":[{"mesh":0},{"name":"torch","translation":[1,2,3],"extensions":{"KHR_lights_punctual":{"light":0}}}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+    "bufferViews":[{"buffer":0,"byteLength":36}],
+    "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+  const Scene scene = load(file, {});
+  for (const std::string& warning : scene.warnings) ADD_FAILURE() << warning;
+  ASSERT_EQ(scene.lamps.size(), 1u);
+  const Lamp& lamp = scene.lamps[0];
+  EXPECT_FALSE(lamp.relative);
+  EXPECT_LT((lamp.intensity.value - Eigen::Array3f(40.0f, 20.0f, 10.0f)).abs().maxCoeff(), 1e-4f);
+  EXPECT_LT((lamp.position - Eigen::Vector3f(1.0f, -3.0f, 2.0f)).norm(), 1e-5f);  // z up
+  EXPECT_LT((lamp.direction - Eigen::Vector3f::UnitY()).norm(), 1e-5f);           // glTF's −z
+  EXPECT_FLOAT_EQ(lamp.inner_rad, 0.2f);
+  EXPECT_FLOAT_EQ(lamp.outer_rad, 0.7f);
+  EXPECT_FLOAT_EQ(lamp.range_m, 12.0f);
+  EXPECT_EQ(lamp.constant, 0.0f);
+  EXPECT_EQ(lamp.linear, 0.0f);
+  EXPECT_EQ(lamp.quadratic, 1.0f);
+}
+
+TEST_F(LampFiles, OfAUrdfStandInItsGazeboElements) {
+  const Robot robot = parseUrdf(
+      "<?xml version='1.0'?><robot name='r'><link name='base'><visual><geometry><box size='1 1 "
+      "1'/></geometry>"
+      "</visual></link><link name='head'/><joint name='j' type='fixed'><parent link='base'/><child "
+      "link='head'/>"
+      "</joint><gazebo reference='head'>" +
+          kSpot + "</gazebo></robot>",
+      "some.urdf", {});
+  for (const std::string& warning : robot.warnings) ADD_FAILURE() << warning;
+  ASSERT_EQ(robot.links.size(), 2u);
+  EXPECT_TRUE(robot.links[0].lamps.empty());
+  ASSERT_EQ(robot.links[1].lamps.size(), 1u);
+  EXPECT_EQ(robot.links[1].lamps[0].group, "head");
+  EXPECT_EQ(robot.links[1].lamps[0].position, Eigen::Vector3f(1.0f, 0.0f, 0.0f));
+  EXPECT_EQ(robot.links[1].lamps[0].intensity.value[0], 3.0f);
+}
+
+TEST_F(LampFiles, OfAnSdfRobotStandInItsLinks) {
+  const std::string file =
+      write("robot.sdf",
+            "<?xml version='1.0'?><sdf version='1.9'><model name='r'><link name='l'><pose>0 0 1 0 0 0</pose>"
+            "<visual name='v'><geometry><sphere><radius>1</radius></sphere></geometry></visual>" +
+                kSpot + "</link></model></sdf>");
+  const Robot robot = loadRobot(file, {});
+  const std::vector<Lamp>& lamps = robot.links[robot.indexOf("l").value()].lamps;
+  ASSERT_EQ(lamps.size(), 1u);
+  EXPECT_EQ(lamps[0].position, Eigen::Vector3f(1.0f, 0.0f, 0.0f));
+}
+
+}  // namespace
+}  // namespace sunlit::scene
