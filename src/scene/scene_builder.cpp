@@ -152,6 +152,15 @@ void SceneBuilder::repairCoordinates(std::vector<Eigen::Vector2f>& coordinates) 
   }
 }
 
+void SceneBuilder::addLamp(Lamp lamp) {
+  // Written so that a NaN is left out.
+  if (!(lamp.position.array().abs() <= kFarthest_m).all()) {
+    warn("lamps farther than 100 km from the origin were left out", lamp.name);
+    return;
+  }
+  scene_.lamps.push_back(std::move(lamp));
+}
+
 void SceneBuilder::warn(const std::string& line) {
   std::vector<std::string>& lines = scene_.warnings;
   if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);

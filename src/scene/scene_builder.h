@@ -44,7 +44,8 @@ class SceneBuilder {
   /// `mesh` moved by `map_from_mesh`, without its broken triangles (counted for a warning of finish()).
   void addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mesh);
 
-  void addLamp(Lamp lamp) { scene_.lamps.push_back(std::move(lamp)); }
+  /// Not one that is too far away, which is counted for a warning of finish().
+  void addLamp(Lamp lamp);
 
   std::size_t lampCount() const { return scene_.lamps.size(); }
   std::size_t meshCount() const { return scene_.meshes.size(); }

@@ -80,6 +80,13 @@ TEST_F(LampFiles, ThatCannotShineAreNamed) {
   EXPECT_NE(scene.warnings[0].find("dead"), std::string::npos);
 }
 
+TEST_F(LampFiles, ThatPhysicsCarriedFarAwayAreNamed) {
+  const Scene scene = worldWith("<light name='lost' type='point'><pose>0 0 -1e7 0 0 0</pose></light>");
+  EXPECT_TRUE(scene.lamps.empty());
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0], "1 lamps farther than 100 km from the origin were left out: lost");
+}
+
 TEST_F(LampFiles, OfGltfAreInCandela) {
   const std::string file =
       write("lamp.gltf", R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],
