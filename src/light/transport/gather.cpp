@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <mutex>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -13,7 +14,6 @@
 #include "light/transport/adaptive_probe.h"
 #include "light/transport/burial_test.h"
 #include "light/transport/ground_mirror.h"
-#include "light/transport/later_bounces.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/photometry.h"
 #include "sunlit/quantity/vector_clones.h"
@@ -29,6 +29,9 @@ constexpr std::size_t kPacket = RayPacket::kSize;
 constexpr float kMostInside = 0.6f;  ///< share of rays that may end inside bodies
 
 constexpr std::size_t kBlock = 256;  ///< samples, of one task
+
+/// Fewer were asked for to see just these.
+constexpr int kBouncesBeforeAll = 3;
 
 using Row = std::array<float, kPatches>;
 
@@ -67,14 +70,9 @@ class Gatherer {
       step(direct_share / static_cast<double>(packets));
     });
     if (options_.bounces > 0) lookIntoGround(*data);
-    LaterBounces above, below;
-    for (int bounce = 0; bounce < options_.bounces; ++bounce) {
+    for (int bounce = 0; bounce < options_.bounces; ++bounce)
       passOn(data, (1.0 - direct_share) / options_.bounces);
-      above.note(data->above);
-      below.note(data->below);
-    }
-    above.addTo(&data->above);
-    below.addTo(&data->below);
+    if (options_.bounces >= kBouncesBeforeAll) addLaterBounces(data);
     std::vector<bool> inside(count_);
     for (std::size_t i = 0; i < count_; ++i) inside[i] = seen_[i].inside;
     return inside;
@@ -184,13 +182,13 @@ class Gatherer {
 
   void finish(std::uint32_t sample, Look* look, TransportData* data) {
     // The quadrature of a cosine over the hemisphere is π; rays that end inside bodies tell nothing.
+    const Receiver& receiver = samples_.receivers[sample];
     const float told = std::max(look->all - look->inside, 0.05f * look->all);
-    const float scale = told > 0.0f ? kPiFloat / told : 0.0f;
+    const float scale = told > 0.0f ? kPiFloat * receiver.open() / told : 0.0f;
     for (float& value : look->row) value *= scale;
     data->direct.set(sample, look->row.data());
     data->above.hides[sample] = look->blocked_up * scale / kPiFloat;
     data->below.hides[sample] = look->blocked_down * scale / kPiFloat;
-    const Receiver& receiver = samples_.receivers[sample];
     SampleHits& seen = seen_[sample];
     seen.hits.assign(look->hits.begin(), look->hits.begin() + look->hit_count);
     seen.up = look->up;
@@ -251,15 +249,47 @@ class Gatherer {
               row->data());
   }
 
+  /// Light that a sample has from surfaces of one part, by the sum over the patches of the sky.
+  struct PartSums {
+    Eigen::Array3f color = Eigen::Array3f::Zero(), glow = Eigen::Array3f::Zero();
+  };
+  struct PassedOnSums {
+    PartSums above, below;
+    Eigen::Array3f color() const { return above.color + below.color; }
+    Eigen::Array3f glow() const { return above.glow + below.glow; }
+  };
+  /// Of every sample.
+  struct SumsOfAll {
+    std::vector<float> direct;
+    std::vector<PassedOnSums> passed_on;
+  };
+
+  static PartSums sumsOf(const PassedOn& part, std::size_t i) {
+    return {part.coefficients.sum(i) * Eigen::Map<const Eigen::Array3f>(part.tints[i].data()),
+            Eigen::Map<const Eigen::Array3f>(part.glows[i].data())};
+  }
+  SumsOfAll sumsOf(const TransportData& data) const {
+    SumsOfAll sums{std::vector<float>(count_), std::vector<PassedOnSums>(count_)};
+    tbb::parallel_for(std::size_t{0}, count_, [&](std::size_t i) {
+      sums.direct[i] = data.direct.sum(i);
+      sums.passed_on[i] = {sumsOf(data.above, i), sumsOf(data.below, i)};
+    });
+    return sums;
+  }
+
   /// Adds one bounce: what every sample passes on of all that it has by now.
   void passOn(TransportData* data, double share) {
     Coefficients sent;  // luminance × π
     sent.resize(count_);
     std::vector<Sent> others(count_);
+    const SumsOfAll has = sumsOf(*data);
     const std::size_t blocks = (count_ + kBlock - 1) / kBlock;
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      for (std::size_t i = block * kBlock; i < std::min(count_, (block + 1) * kBlock); ++i)
-        others[i] = send(*data, i, &sent);
+      for (std::size_t i = block * kBlock; i < std::min(count_, (block + 1) * kBlock); ++i) {
+        const Sending sends = sending(i);
+        others[i] = sentOf(sends, has, i);
+        sendRow(*data, sends, i, &sent);
+      }
     });
     step(0.2 * share);
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
@@ -275,18 +305,43 @@ class Gatherer {
     Eigen::Array3f glow;   ///< of others, that it reflects
   };
 
-  Sent send(const TransportData& data, std::size_t i, Coefficients* sent) const {
+  /// What a sample reflects of its own light, and passes on of that of the other side of its sheet.
+  struct Sending {
+    Eigen::Array3f direct, bounced;  ///< shares of light straight from the sky, and of other surfaces'
+    Eigen::Array3f through;
+    std::uint32_t other;  ///< the sample on the other side, or LightMesh::kNone
+  };
+  Sending sending(std::size_t i) const {
     const Reflectance mean = reflectance(samples_.paints[i], kMeanView);
     const Eigen::Array3f all = mean.all();
+    const OtherSide& other = samples_.other_side[i];
     // The sky that the ground mirrors has gone its own way.
-    const Eigen::Array3f spread = isGround(static_cast<std::uint32_t>(i)) ? mean.diffuse : all;
+    if (other.sample == LightMesh::kNone) {
+      const bool ground = isGround(static_cast<std::uint32_t>(i));
+      return {ground ? mean.diffuse : all, all, Eigen::Array3f::Zero(), other.sample};
+    }
+    const Eigen::Array3f through = other.share * mean.diffuse.min(all);  // what is mirrored stays on its side
+    return {all - through, all - through, through, other.sample};
+  }
+
+  /// The sums of what a sample has, and of what it has from the other side.
+  Sent sentOf(const Sending& sends, const SumsOfAll& has, std::size_t i) const {
+    Sent sent{sends.direct * has.direct[i] + sends.bounced * has.passed_on[i].color(),
+              sends.bounced * has.passed_on[i].glow()};
+    if (sends.other != LightMesh::kNone) {
+      const PassedOnSums& behind = has.passed_on[sends.other];
+      sent.color += sends.through * (has.direct[sends.other] + behind.color());
+      sent.glow += sends.through * behind.glow();
+    }
+    return sent;
+  }
+
+  /// The coefficients of what a sample sends.
+  void sendRow(const TransportData& data, const Sending& sends, std::size_t i, Coefficients* sent) const {
     Row row{};
-    Sent others{Eigen::Array3f::Zero(), Eigen::Array3f::Zero()};
     const auto addCoefficients = [&](const Coefficients& coefficients, std::size_t from,
                                      const Eigen::Array3f& color) {
-      const float factor = luminanceOf(color) * coefficients.scales[from];
-      addTimes(factor, coefficients.row(from), row.data());
-      others.color += color * coefficients.sum(from);
+      addTimes(luminanceOf(color) * coefficients.scales[from], coefficients.row(from), row.data());
     };
     const auto add = [&](std::size_t from, const Eigen::Array3f& of_direct,
                          const Eigen::Array3f& of_bounced) {
@@ -294,19 +349,11 @@ class Gatherer {
       for (const PassedOn* part : {&data.above, &data.below}) {
         addCoefficients(part->coefficients, from,
                         of_bounced * Eigen::Map<const Eigen::Array3f>(part->tints[from].data()));
-        others.glow += of_bounced * Eigen::Map<const Eigen::Array3f>(part->glows[from].data());
       }
     };
-    const OtherSide& other = samples_.other_side[i];
-    if (other.sample == LightMesh::kNone) {
-      add(i, spread, all);
-    } else {  // what is mirrored stays on its side
-      const Eigen::Array3f through = other.share * mean.diffuse.min(all);
-      add(i, all - through, all - through);
-      add(other.sample, through, through);
-    }
+    add(i, sends.direct, sends.bounced);
+    if (sends.other != LightMesh::kNone) add(sends.other, sends.through, sends.through);
     sent->set(i, row.data());
-    return others;
   }
 
   /// Ground scatters less towards a glancing ray than towards the mean one: Fresnel's share is larger there.
@@ -316,37 +363,84 @@ class Gatherer {
     return (1.0f - meanGrazing(-towards.z())) / mean;
   }
 
-  /// Sums over the surfaces of one part that a sample sees.
-  struct Received {
-    Row row{};
-    Eigen::Array3f color = Eigen::Array3f::Zero(), glow = Eigen::Array3f::Zero();
-  };
-
   void receive(const Coefficients& sent, const std::vector<Sent>& others, std::size_t i,
                TransportData* data) const {
-    Received above, below;
-    addTimes(mirrored_.scales[i], mirrored_.row(i), below.row.data());
-    below.color.setConstant(mirrored_sums_[i]);
+    Row above{}, below{};
+    addTimes(mirrored_.scales[i], mirrored_.row(i), below.data());
     for (std::size_t k = 0; k < seen_[i].hits.size(); ++k) {
-      Received& part = k < seen_[i].up ? above : below;
+      const RaySeen ray = raySeen(i, k);
+      addTimes(ray.weight * scattered(ray.from, ray.towards) * sent.scales[ray.from], sent.row(ray.from),
+               (k < seen_[i].up ? above : below).data());
+    }
+    const PassedOnSums sums = receivedSums(others, i);
+    data->above.coefficients.set(i, above.data());
+    data->below.coefficients.set(i, below.data());
+    store(sums.above, i, &data->above);
+    store(sums.below, i, &data->below);
+  }
+
+  PassedOnSums receivedSums(const std::vector<Sent>& others, std::size_t i) const {
+    PassedOnSums sums;
+    sums.below.color.setConstant(mirrored_sums_[i]);
+    for (std::size_t k = 0; k < seen_[i].hits.size(); ++k) {
+      PartSums& part = k < seen_[i].up ? sums.above : sums.below;
       const RaySeen ray = raySeen(i, k);
       const float weight = ray.weight * scattered(ray.from, ray.towards);
-      addTimes(weight * sent.scales[ray.from], sent.row(ray.from), part.row.data());
       part.color += weight * others[ray.from].color;
       // What shines by itself does so evenly.
       part.glow += weight * others[ray.from].glow + ray.weight * kPiFloat * samples_.emissions[ray.from];
     }
-    store(above, i, &data->above);
-    store(below, i, &data->below);
+    return sums;
   }
 
-  static void store(const Received& received, std::size_t i, PassedOn* part) {
-    part->coefficients.set(i, received.row.data());
-    part->glows[i] = {received.glow[0], received.glow[1], received.glow[2]};
-    const float luminance = luminanceOf(received.color);
-    Eigen::Map<Eigen::Array3f>(part->tints[i].data()) = luminance > 0.0f
-                                                            ? Eigen::Array3f(received.color / luminance)
-                                                            : Eigen::Array3f(Eigen::Array3f::Ones());
+  static void store(const PartSums& sums, std::size_t i, PassedOn* part) {
+    part->glows[i] = {sums.glow[0], sums.glow[1], sums.glow[2]};
+    const float luminance = luminanceOf(sums.color);
+    Eigen::Map<Eigen::Array3f>(part->tints[i].data()) =
+        luminance > 0.0f ? Eigen::Array3f(sums.color / luminance) : Eigen::Array3f(Eigen::Array3f::Ones());
+  }
+
+  /// All bounces that follow, by sums over the patches of the sky: until they add next to nothing. How the
+  /// light of single patches goes on, the traced bounces tell.
+  void addLaterBounces(TransportData* data) {
+    constexpr int kMost = 200;               // of white walls, that pass on 0.98
+    constexpr float kNextToNothing = 2e-4f;  // of what the samples have, on average; more still follows
+    SumsOfAll has = sumsOf(*data);
+    const std::vector<PassedOnSums> traced = has.passed_on;
+    std::vector<PassedOnSums> next(count_);
+    std::vector<Sent> sent(count_);
+    std::vector<double> changes((count_ + kBlock - 1) / kBlock);
+    double change = 1.0;
+    for (int bounce = 0; bounce < kMost && change > kNextToNothing; ++bounce) {
+      tbb::parallel_for(std::size_t{0}, count_, [&](std::size_t i) { sent[i] = sentOf(sending(i), has, i); });
+      tbb::parallel_for(std::size_t{0}, changes.size(), [&](std::size_t block) {
+        changes[block] = 0.0;
+        for (std::size_t i = block * kBlock; i < std::min(count_, (block + 1) * kBlock); ++i) {
+          next[i] = receivedSums(sent, i);
+          changes[block] += static_cast<double>(relativeChange(has.passed_on[i], next[i]));
+        }
+      });
+      change = std::accumulate(changes.begin(), changes.end(), 0.0) / static_cast<double>(count_);
+      has.passed_on.swap(next);
+    }
+    tbb::parallel_for(std::size_t{0}, count_, [&](std::size_t i) {
+      brighten(traced[i].above, has.passed_on[i].above, i, &data->above);
+      brighten(traced[i].below, has.passed_on[i].below, i, &data->below);
+    });
+  }
+
+  static float relativeChange(const PassedOnSums& before, const PassedOnSums& after) {
+    const auto change = [](const Eigen::Array3f& from, const Eigen::Array3f& to) {
+      const float most = to.maxCoeff();
+      return most > 0.0f ? (to - from).abs().maxCoeff() / most : 0.0f;
+    };
+    return std::max(change(before.color(), after.color()), change(before.glow(), after.glow()));
+  }
+
+  static void brighten(const PartSums& traced, const PartSums& all, std::size_t i, PassedOn* part) {
+    const float before = luminanceOf(traced.color);
+    if (before > 0.0f) part->coefficients.scales[i] *= luminanceOf(all.color) / before;
+    store(all, i, part);
   }
 
   const Geometry& geometry_;

@@ -10,9 +10,8 @@
 namespace sunlit::light {
 namespace {
 
-constexpr float kClear_m = 5e-3f;      ///< of a receiver above its surface
-constexpr float kInwards_m = 0.02f;    ///< of a receiver on an open edge, away from the edge
-constexpr float kMergeCosine = 0.92f;  ///< between normals that may belong to one node
+constexpr float kClear_m = 5e-3f;    ///< of a receiver above its surface
+constexpr float kInwards_m = 0.02f;  ///< of a receiver on an open edge, away from the edge
 /// Longest edge of a cell near which anything stands: no car may lie unseen amid it.
 constexpr float kCoarsest_m = 16.0f;
 /// Longest edge of a cell where nothing does.
@@ -60,18 +59,21 @@ Receiver MeshNode::receiver() const {
   const Eigen::Vector3f origin = position + pull;
   Receiver receiver;
   receiver.origins.fill(origin);
-  receiver.lifts.fill(kClear_m * normal);
+  receiver.lifts.fill(kClear_m * (face.isZero() ? normal : face));
   receiver.normal = normal;
+  receiver.face = face;
   return receiver;
 }
 
-std::uint32_t NodeIndex::at(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) {
+std::uint32_t NodeIndex::at(const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
+                            const Eigen::Vector3f& face) {
+  const Eigen::Vector3f bounding = boundingFace(normal, face);
   const auto added = static_cast<std::uint32_t>(nodes.size());
   const auto [entry, fresh] = first_.try_emplace(placeKey(position), added);
   std::uint32_t last = entry->second;
   if (!fresh) {
     for (std::uint32_t at = entry->second; at != LightMesh::kNone; at = next_[at]) {
-      if (nodes[at].normal.dot(normal) > kMergeCosine) return at;
+      if (nodes[at].normal.dot(normal) > kSharedCosine && sameFace(nodes[at].face, bounding)) return at;
       last = at;
     }
     next_[last] = added;
@@ -79,6 +81,7 @@ std::uint32_t NodeIndex::at(const Eigen::Vector3f& position, const Eigen::Vector
   MeshNode node;
   node.position = position;
   node.normal = normal;
+  node.face = bounding;
   nodes.push_back(node);
   next_.push_back(LightMesh::kNone);
   return added;
@@ -129,11 +132,11 @@ void MeshBuilder::plant(std::uint32_t triangle, int side) {
   LightMesh::Cell cell;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t v = geometry_.triangles[triangle][k];
-    // Smooth normals where the file's are sensible.
+    // As pictures are shaded.
     Eigen::Vector3f normal = geometry_.normals[v];
     if (normal.dot(flat) < 0.0f) normal = -normal;
-    if (normal.dot(flat) < 0.7f) normal = flat;
-    cell.corner[k] = index.at(geometry_.positions[v], normal);
+    if (normal.isZero()) normal = flat;
+    cell.corner[k] = index.at(geometry_.positions[v], normal, flat);
   }
   const auto number = static_cast<std::uint32_t>(mesh.cells.size());
   mesh.roots[triangle][static_cast<std::size_t>(side)] = number;
@@ -266,7 +269,8 @@ std::uint32_t MeshBuilder::middle(std::uint32_t a, std::uint32_t b) {
     const MeshNode& to = index.nodes[b];
     const Eigen::Vector3f position = 0.5f * (from.position + to.position);
     const Eigen::Vector3f normal = (from.normal + to.normal).normalized();
-    entry->second = index.at(position, normal);
+    const auto faceOf = [](const MeshNode& node) { return node.face.isZero() ? node.normal : node.face; };
+    entry->second = index.at(position, normal, (faceOf(from) + faceOf(to)).normalized());
   }
   return entry->second;
 }

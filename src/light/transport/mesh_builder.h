@@ -18,6 +18,7 @@ namespace sunlit::light {
 struct MeshNode {
   Eigen::Vector3f position;
   Eigen::Vector3f normal;                             ///< unit, on the lit side
+  Eigen::Vector3f face;                               ///< Receiver::face
   Eigen::Vector3f inwards = Eigen::Vector3f::Zero();  ///< sum of unit vectors to middles of cells around
   int cells = 0;                                      ///< how many
   float reach_m = 0.0f;                               ///< harmonic mean distance of what is seen
@@ -29,11 +30,13 @@ struct MeshNode {
   Receiver receiver() const;
 };
 
-/// Nodes of equal place and similar normal are one.
+/// Nodes of equal place, similar normal and the same face are one.
 class NodeIndex {
  public:
-  /// Index of the node at `position`, made if there is none yet.
-  std::uint32_t at(const Eigen::Vector3f& position, const Eigen::Vector3f& normal);
+  /// Index of the node at `position`, made if there is none yet, of a surface with normal `face` that is
+  /// shaded by `normal`, both unit.
+  std::uint32_t at(const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
+                   const Eigen::Vector3f& face);
   std::vector<MeshNode> nodes;
 
  private:

@@ -10,21 +10,43 @@
 
 namespace sunlit::light {
 
+/// Normals at least so near to one another, by their cosine, may share what is gathered: within 23°, where
+/// light from all around differs by less than 4 %.
+constexpr float kSharedCosine = 0.92f;
+
+/// Receiver::face of a surface with normal `face` that is shaded by `normal`, both unit.
+inline Eigen::Vector3f boundingFace(const Eigen::Vector3f& normal, const Eigen::Vector3f& face) {
+  return normal.dot(face) < kSharedCosine ? face : Eigen::Vector3f(Eigen::Vector3f::Zero());
+}
+
+/// Whether two values of Receiver::face are about the same.
+inline bool sameFace(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  constexpr float kFar = 2.0f - 2.0f * kSharedCosine;  // squared distance of unit vectors
+  return (a - b).squaredNorm() < kFar;
+}
+
 /// A point that gathers light, or some that do it together.
 struct Receiver {
   static constexpr int kOrigins = 4;
   std::array<Eigen::Vector3f, kOrigins> origins;  ///< on the surface; rays take them in turn
   std::array<Eigen::Vector3f, kOrigins> lifts;    ///< from there to where rays of the lit side start
-  Eigen::Vector3f normal;                         ///< unit
-  float transmission = 0.0f;                      ///< share of its light that it takes from behind
-  bool thin = false;                              ///< of a sheet: rays leave from either side of it
-  bool coarse = false;                            ///< the coarse rays are enough: there are many like it
+  Eigen::Vector3f normal;                         ///< unit, that the light is shaded by
+  /// Unit normal of the surface itself where `normal` leans far from it (see boundingFace()), else zero: what
+  /// lies below the surface gives no light, though it lies before `normal`.
+  Eigen::Vector3f face = Eigen::Vector3f::Zero();
+  float transmission = 0.0f;  ///< share of its light that it takes from behind
+  bool thin = false;          ///< of a sheet: rays leave from either side of it
+  bool coarse = false;        ///< the coarse rays are enough: there are many like it
 
-  /// What light from a direction counts, for a unit of solid angle; over the sphere it adds up to π.
+  /// What light from a direction counts, for a unit of solid angle; over the sphere it adds up to π times
+  /// open().
   float weight(const Eigen::Vector3f& towards) const {
+    if (face.dot(towards) < 0.0f) return 0.0f;
     const float cosine = normal.dot(towards);
     return cosine > 0.0f ? (1.0f - transmission) * cosine : -transmission * cosine;
   }
+  /// Share of what lies before `normal`, by cosine, that lies before `face` too.
+  float open() const { return face.isZero() ? 1.0f : 0.5f * (1.0f + normal.dot(face)); }
   Eigen::Vector3f start(std::size_t turn, const Eigen::Vector3f& towards) const {
     const Eigen::Vector3f& origin = origins[turn % kOrigins];
     const Eigen::Vector3f& lift = lifts[turn % kOrigins];

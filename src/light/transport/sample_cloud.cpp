@@ -41,7 +41,7 @@ void SampleCloud::cover(const Eigen::Vector3f& position, const Receiver& receive
   float nearest_m = spacing_m_;
   visitNear(position, [&](std::uint32_t at, float distance) {
     if (distance >= nearest_m || receivers_[at].normal.dot(receiver.normal) < cosine_) return;
-    if (depth(at, position) > depth_m_) return;
+    if (depth(at, position) > depth_m_ || !sameFace(receivers_[at].face, receiver.face)) return;
     nearest = at;
     nearest_m = distance;
   });
@@ -67,12 +67,13 @@ void SampleCloud::cover(const Eigen::Vector3f& position, const Receiver& receive
 }
 
 std::vector<LightMesh::Share> SampleCloud::around(const Eigen::Vector3f& position,
-                                                  const Eigen::Vector3f& normal) const {
+                                                  const Receiver& receiver) const {
   std::vector<LightMesh::Share> shares;
   visitNear(position, [&](std::uint32_t at, float distance) {
-    const float cosine = receivers_[at].normal.dot(normal);
+    const float cosine = receivers_[at].normal.dot(receiver.normal);
     const float least = cosine_ - 0.2f;
     if (cosine < least || depth(at, position) > kDeepest * depth_m_) return;
+    if (!sameFace(receivers_[at].face, receiver.face)) return;
     const float close = 1.0f - 0.5f * distance / spacing_m_;
     shares.push_back({at, close * close * close * close * (cosine - least + 0.05f)});
   });

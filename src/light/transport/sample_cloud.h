@@ -9,7 +9,7 @@
 
 namespace sunlit::light {
 
-/// Points at least `spacing` apart among those of similar normal.
+/// Points at least `spacing` apart among those of similar normal and the same face.
 class SampleCloud {
  public:
   /// Normals are similar whose product is at least `cosine`. Points share a receiver that lie at most
@@ -19,9 +19,9 @@ class SampleCloud {
 
   /// Adds a receiver where none is near enough; else lets one that is near gather from the new origin too.
   void cover(const Eigen::Vector3f& position, const Receiver& receiver);
-  /// Up to four receivers about `position`, indices into receivers(), the near ones weighing most; weights
-  /// sum to 1.
-  std::vector<LightMesh::Share> around(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const;
+  /// Up to four receivers about `position`, indices into receivers(), like `receiver`, which was covered; the
+  /// near ones weigh most; weights sum to 1.
+  std::vector<LightMesh::Share> around(const Eigen::Vector3f& position, const Receiver& receiver) const;
 
   const std::vector<Receiver>& receivers() const { return receivers_; }
 

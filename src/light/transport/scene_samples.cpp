@@ -170,6 +170,7 @@ class Sampler {
     receiver.coarse = isLeaf(traits_[t].kind);
     receiver.transmission = transmissionOf(t);
     receiver.thin = receiver.transmission > 0.0f;
+    if (!receiver.thin && !receiver.coarse) receiver.face = boundingFace(normal, flat);
     return {position, normal, receiver};
   }
 
@@ -208,11 +209,12 @@ class Sampler {
         const auto place =
             static_cast<std::uint64_t>(std::lround(corner.position[axis] / rule.merge_m)) & 0x3ffff;
         const auto tilt = static_cast<std::uint64_t>(std::lround(corner.normal[axis] * 1.5f) + 2) & 7;
-        key = (key << 18 | place) * 31 + tilt;
+        const auto slope = static_cast<std::uint64_t>(std::lround(corner.receiver.face[axis] * 1.5f) + 2) & 7;
+        key = ((key << 18 | place) * 31 + tilt) * 31 + slope;
       }
       const auto [entry, fresh] = node_of.try_emplace(key, static_cast<std::uint32_t>(shares_.size()));
       if (fresh) {
-        Shares shares = cloud.around(corner.position, corner.normal);
+        Shares shares = cloud.around(corner.position, corner.receiver);
         for (LightMesh::Share& share : shares) share.sample += base;
         shares_.push_back(std::move(shares));
       }

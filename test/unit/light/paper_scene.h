@@ -65,6 +65,7 @@ struct Looked {
   Eigen::Vector3f normal;
   Eigen::Vector3f to_eye;
   int material = 0;
+  Eigen::Vector3f shading_normal = Eigen::Vector3f::Zero();  ///< zero: `normal`
 };
 
 /// The triangle whose plane and outline hold `point`.
@@ -103,7 +104,9 @@ inline Surfaces rowOf(const std::vector<Looked>& points, const scene::Scene& sce
       Surface surface;
       surface.position = points[k].position;
       surface.to_eye = points[k].to_eye.normalized();
-      surface.geometric_normal = surface.shading_normal = points[k].normal;
+      surface.geometric_normal = points[k].normal;
+      surface.shading_normal =
+          points[k].shading_normal.isZero() ? points[k].normal : points[k].shading_normal;
       surface.material = points[k].material;
       const scene::Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
       surface.albedo = material.base_color.value;
