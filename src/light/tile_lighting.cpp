@@ -32,6 +32,7 @@ TileLighting::TileLighting(const Subject& subject, const Illumination& light)
       lamps_(lampsOf(light), light.day.groundIlluminance().value.maxCoeff(),
              {surfaces_, scene_, subject.visibility}),
       air_(surfaces_, table_, light.day),
+      open_air_(surfaces_, subject.visibility, light.node_open.get()),
       sky_(surfaces_, light.day) {}
 
 void TileLighting::light(const Tile& tile, image::LinearImage* image) const {
@@ -68,7 +69,7 @@ void TileLighting::addSurfaces(const Tile& tile, image::LinearImage* image) cons
 }
 
 // The light equation, which doc/equations.md explains, term by term:
-//   L = T (Lₑ + Σ f(l) V E + f₊ E₊ + f₋ E₋ + fₘ Lₘ) + Lₐ
+//   L = T (Lₑ + Σ f(l) V E + f₊ E₊ + f₋ E₋ + fₘ Lₘ) + Vₐ Lₐ
 Eigen::Array3f TileLighting::luminance(const Surface& surface, const SurfaceParts& parts) const {
   const scene::Material& material = scene_.materials[static_cast<std::size_t>(surface.material)];
   const Reflection reflection = reflectionOf(surface, material);
@@ -89,7 +90,7 @@ Eigen::Array3f TileLighting::luminance(const Surface& surface, const SurfacePart
       by.diffuse * from.front + by.through * from.behind + by.specular * from.mirrored;
   leaving += surface.cavity * ambient;
 
-  return leaving * parts.before.transmittance + parts.before.airlight;
+  return leaving * parts.before.transmittance + open_air_.before(surface) * parts.before.airlight;
 }
 
 }  // namespace sunlit::light

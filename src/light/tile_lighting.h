@@ -7,6 +7,7 @@
 #include "light/disc/disc_visibility.h"
 #include "light/lamps/lamp_light.h"
 #include "light/light_table.h"
+#include "light/sky_in_view/open_air.h"
 #include "light/sky_in_view/picture_air.h"
 #include "light/sky_in_view/sky_pixel.h"
 #include "sunlit/image/images.h"
@@ -53,6 +54,7 @@ class TileLighting {
   DiscVisibility sun_, moon_;
   LampLight lamps_;
   PictureAir air_;
+  OpenAir open_air_;
   SkyPixel sky_;
 };
 

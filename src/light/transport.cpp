@@ -59,7 +59,10 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
 
 Transport::Transport(std::shared_ptr<const Geometry> geometry, const TransportOptions& options,
                      std::unique_ptr<const TransportData> data)
-    : geometry_(std::move(geometry)), options_(options), data_(std::move(data)) {}
+    : geometry_(std::move(geometry)),
+      options_(options),
+      data_(std::move(data)),
+      node_open_(std::make_shared<const std::vector<float>>(openSky(*data_))) {}
 Transport::~Transport() = default;
 
 LightPlace Transport::placeOf(std::uint32_t triangle, bool front, const Eigen::Vector3f& position) const {
@@ -113,6 +116,7 @@ std::vector<NodeLight> Transport::relight(const sky::Daylight& day) const {
 Illumination Transport::illumination(const sky::Daylight& day) const {
   Illumination light(day);
   light.nodes = std::make_shared<const std::vector<NodeLight>>(relight(day));
+  light.node_open = node_open_;
   light.sky_sectors = std::make_shared<const SkySectors>(day);
   light.mirror_sky = std::make_shared<const MirrorSky>(day);
   return light;

@@ -45,6 +45,9 @@ struct Illumination {
   sky::Daylight day;
   /// Of the Transport that made it; null: open sky.
   std::shared_ptr<const std::vector<NodeLight>> nodes;
+  /// Share of the sky's light, by cosine, that reaches each node straight if the sky is even, 0 … 1; null as
+  /// `nodes`.
+  std::shared_ptr<const std::vector<float>> node_open;
   /// Of the sky alone, by what of it is open; null as `nodes`.
   std::shared_ptr<const SkySectors> sky_sectors;
   /// What is seen of the sky in mirrors; null as `nodes`.

@@ -14,8 +14,8 @@ void prepare(const scene::Scene& scene, Surfaces* surfaces);
 
 /// Luminance of each pixel, cd/m²: the discs of sun and moon where rays reach them, light of the sky and of
 /// other surfaces as far as `light` and `surfaces` know it (else of the open sky by surface direction),
-/// emission, the air before all that, and the sky with sun, moon and stars where no surface is seen.
-/// Parallel; the same bits for any thread count.
+/// emission, the air before all that, dark where no sky is open to it, and the sky with sun, moon and stars
+/// where no surface is seen. Parallel; the same bits for any thread count.
 image::LinearImage illuminate(const Surfaces& surfaces, const scene::Scene& scene,
                               const Visibility& visibility, const Illumination& light);
 

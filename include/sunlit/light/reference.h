@@ -1,5 +1,5 @@
 /// The slow truth that the fast picture is measured against: every path of light is traced, nothing is baked,
-/// interpolated or filtered. Same surfaces, same reflection, same sun, moon and sky as illuminate().
+/// interpolated or filtered. Same surfaces, same reflection, same sun, moon, sky and air as illuminate().
 #pragma once
 
 #include <cstdint>
@@ -41,8 +41,8 @@ struct Traced {
 /// What surfaces beyond the first add: texture at full resolution, vertex colours, interpolated normals;
 /// light meets one-sided triangles from both sides; Material::detail, whose mean is none, is left out. Bodies
 /// that move are lit where `surfaces` shows them, but hide and pass on nothing. Air lies between the eye and
-/// the first surface only. Random numbers are counted, not drawn: the same bits for
-/// any thread count.
+/// the first surface only, as much of it lit as illuminate() has it. Random numbers are counted, not drawn:
+/// the same bits for any thread count.
 std::vector<Traced> traceReference(const Surfaces& surfaces, const World& world,
                                    const std::vector<sky::Daylight>& days, const ReferenceOptions& options);
 

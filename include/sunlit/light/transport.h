@@ -104,6 +104,9 @@ class Transport {
   /// The same with all else that `day` means at the nodes: Illumination but for its bodies.
   Illumination illumination(const sky::Daylight& day) const;
 
+  /// Illumination::node_open.
+  const std::shared_ptr<const std::vector<float>>& nodeOpen() const { return node_open_; }
+
   const TransportOptions& options() const { return options_; }
   std::size_t sampleCount() const;
   std::size_t nodeCount() const;
@@ -115,6 +118,7 @@ class Transport {
   std::shared_ptr<const Geometry> geometry_;
   TransportOptions options_;
   std::unique_ptr<const TransportData> data_;
+  std::shared_ptr<const std::vector<float>> node_open_;
 };
 
 }  // namespace sunlit::light

@@ -8,7 +8,9 @@
 #include <string>
 
 #include "light/reference/paths.h"
+#include "light/sky_in_view/open_air.h"
 #include "light/sky_in_view/sky_pixel.h"
+#include "sunlit/light/transport.h"
 
 namespace sunlit::light {
 namespace {
@@ -16,7 +18,8 @@ namespace {
 /// Adds one surface's light to its pixel, by halves.
 using Halves = std::array<std::vector<image::LinearImage>, 2>;
 
-void traceTile(const Surfaces& surfaces, const Tile& tile, const PathScene& scene, Halves* halves) {
+void traceTile(const Surfaces& surfaces, const Tile& tile, const PathScene& scene, const OpenAir& open_air,
+               Halves* halves) {
   Paths paths(scene);
   for (const Surface& surface : tile.surfaces) {
     const float share = static_cast<float>(surface.samples) / static_cast<float>(surfaces.samples_per_pixel);
@@ -27,7 +30,7 @@ void traceTile(const Surfaces& surfaces, const Tile& tile, const PathScene& scen
       for (std::size_t half = 0; half < 2; ++half) {
         float* data = (*halves)[half][day].data.data() + 3 * static_cast<std::size_t>(surface.pixel);
         Eigen::Map<Eigen::Array3f> pixel(data);
-        pixel += share * (traced[half][day] * air.transmittance + air.airlight);
+        pixel += share * (traced[half][day] * air.transmittance + open_air.before(surface) * air.airlight);
       }
     }
   }
@@ -65,12 +68,14 @@ std::vector<Traced> traceReference(const Surfaces& surfaces, const World& world,
   std::vector<SkyPixel> skies;
   skies.reserve(days.size());
   for (const sky::Daylight& day : days) skies.emplace_back(surfaces, day);
+  const OpenAir open_air(surfaces, *world.visibility,
+                         world.transport ? world.transport->nodeOpen().get() : nullptr);
   tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(), [&](std::size_t i) {
     const Tile& tile = surfaces.tiles[i];
     for (auto& half : halves) {
       for (std::size_t day = 0; day < days.size(); ++day) skies[day].addTo(tile, &half[day]);
     }
-    traceTile(surfaces, tile, scene, &halves);
+    traceTile(surfaces, tile, scene, open_air, &halves);
   });
   std::vector<Traced> traced;
   for (std::size_t day = 0; day < days.size(); ++day) {

@@ -1,8 +1,11 @@
 #include "light/transport/transport_data.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::light {
@@ -58,6 +61,20 @@ void PassedOn::resize(std::size_t samples) {
   tints.assign(samples, {1.0f, 1.0f, 1.0f});
   glows.assign(samples, {0.0f, 0.0f, 0.0f});
   hides.assign(samples, 0.0f);
+}
+
+std::vector<float> openSky(const TransportData& data) {
+  std::vector<float> of_samples(data.sampleCount()), of_nodes(data.mesh.nodeCount());
+  tbb::parallel_for(std::size_t{0}, of_samples.size(), [&](std::size_t i) {
+    const float below = static_cast<float>(data.direct.row(i)[SkyPatches::kBelow]) * data.direct.scales[i];
+    of_samples[i] = (data.direct.sum(i) - below) / kPiFloat;
+  });
+  const LightMesh& mesh = data.mesh;
+  tbb::parallel_for(std::size_t{0}, of_nodes.size(), [&](std::size_t n) {
+    for (std::uint32_t s = mesh.first_share[n]; s < mesh.first_share[n + 1]; ++s)
+      of_nodes[n] += mesh.shares[s].weight * of_samples[mesh.shares[s].sample];
+  });
+  return of_nodes;
 }
 
 SUNLIT_WIDE_VECTOR_CLONES

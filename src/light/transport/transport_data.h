@@ -90,4 +90,7 @@ struct TransportData {
   std::size_t sampleCount() const { return direct.scales.size(); }
 };
 
+/// Share of the sky's light, by cosine, that each node of `data` would get straight of an even sky, 0 … 1.
+std::vector<float> openSky(const TransportData& data);
+
 }  // namespace sunlit::light
