@@ -15,11 +15,17 @@
 namespace sunlit::light {
 namespace {
 
+struct Picture {
+  const Surfaces& surfaces;
+  const PathScene& scene;
+  OpenAir open_air;
+};
+
 /// Adds one surface's light to its pixel, by halves.
 using Halves = std::array<std::vector<image::LinearImage>, 2>;
 
-void traceTile(const Surfaces& surfaces, const Tile& tile, const PathScene& scene, const OpenAir& open_air,
-               Halves* halves) {
+void traceTile(const Picture& picture, const Tile& tile, Halves* halves) {
+  const auto& [surfaces, scene, open_air] = picture;
   Paths paths(scene);
   for (const Surface& surface : tile.surfaces) {
     const float share = static_cast<float>(surface.samples) / static_cast<float>(surfaces.samples_per_pixel);
@@ -68,14 +74,14 @@ std::vector<Traced> traceReference(const Surfaces& surfaces, const World& world,
   std::vector<SkyPixel> skies;
   skies.reserve(days.size());
   for (const sky::Daylight& day : days) skies.emplace_back(surfaces, day);
-  const OpenAir open_air(surfaces, *world.visibility,
-                         world.transport ? world.transport->nodeOpen().get() : nullptr);
+  const std::vector<float>* const node_open = world.transport ? world.transport->nodeOpen().get() : nullptr;
+  const Picture picture{surfaces, scene, OpenAir(surfaces, *world.visibility, node_open)};
   tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(), [&](std::size_t i) {
     const Tile& tile = surfaces.tiles[i];
     for (auto& half : halves) {
       for (std::size_t day = 0; day < days.size(); ++day) skies[day].addTo(tile, &half[day]);
     }
-    traceTile(surfaces, tile, scene, open_air, &halves);
+    traceTile(picture, tile, &halves);
   });
   std::vector<Traced> traced;
   for (std::size_t day = 0; day < days.size(); ++day) {

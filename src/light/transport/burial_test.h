@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -11,12 +12,14 @@
 
 namespace sunlit::light {
 
-/// A wall goes on below the ground, and ground below a kerb: it is dark there, and what is seen of both must
-/// not become darker by interpolation.
+/// A wall goes on below the ground, and ground below a kerb: nobody sees the light there, be it none or that
+/// of the void under a sheet of ground, and what is seen of both must not take it by interpolation.
 class BurialTest {
  public:
-  /// A ray that left the point: what it counts, and the lane of `hits` that tells what it met.
+  /// A ray that left the point: the normal there, what it counts, and the lane of `hits` that tells what it
+  /// met.
   struct Cast {
+    const Eigen::Vector3f& normal;
     const Eigen::Vector3f& towards;
     float weight;
     const HitPacket& hits;
@@ -25,17 +28,21 @@ class BurialTest {
   void add(const Cast& ray, const Geometry& geometry, const std::vector<TriangleTraits>& traits) {
     const std::uint32_t hit = ray.hits.triangle[ray.lane];
     if (hit == HitPacket::kNothing) return addFree(ray.weight, ray.towards.z() > 0.0f);
-    const bool back = geometry.planes[hit].normal.dot(ray.towards) > 0.0f;
-    addHit(ray.weight, traits[hit], back, ray.hits.distance[ray.lane]);
+    const Eigen::Vector3f& met = geometry.planes[hit].normal;
+    const Hit what{traits[hit], met.dot(ray.towards) > 0.0f, std::abs(met.dot(ray.normal)) > kParallel};
+    addHit(ray.weight, what, ray.hits.distance[ray.lane]);
   }
 
-  /// Within a body, or covered, or in the joint of two bodies; or no sky and next to no front is seen, but
-  /// the void below the ground or something close by.
+  /// Within a body, or covered, or in the joint of two bodies, or under a sheet of ground with the void
+  /// below; or no sky and next to no front is seen, but that void, or a body from inside, or something close
+  /// by.
   bool buried() const {
     if (inside_ >= 0.5f * all_ || touching_ > 0.9f * all_) return true;
+    if (covered_ > 0.5f * all_ && up_ < 0.05f * all_) return true;
     if (touching_backs_ > 0.35f * all_ && up_ < 0.2f * all_) return true;
+    if (backs_ > 0.5f * all_ && down_ > 0.1f * all_ && up_ < 0.1f * all_) return true;
     if (up_ > 0.03f * all_ || fronts_ > 0.1f * all_) return false;
-    return down_ > 0.0f || inverse_distances_ * kClose_m > all_;
+    return down_ > 0.0f || inside_ > 0.2f * all_ || inverse_distances_ * kClose_m > all_;
   }
 
  private:
@@ -43,22 +50,33 @@ class BurialTest {
     all_ += weight;
     (up ? up_ : down_) += weight;
   }
-  void addHit(float weight, const TriangleTraits& triangle, bool back, float distance_m) {
+  struct Hit {
+    const TriangleTraits& triangle;
+    bool back;
+    bool parallel;  ///< to the surface that the point is on, about
+  };
+  void addHit(float weight, const Hit& hit, float distance_m) {
     all_ += weight;
-    if (back && triangle.solid) inside_ += weight;
-    if (!back || isLeaf(triangle.kind)) fronts_ += weight;
+    if (hit.back && hit.triangle.solid) inside_ += weight;
+    if (!hit.back || isLeaf(hit.triangle.kind))
+      fronts_ += weight;
+    else
+      backs_ += weight;
     if (distance_m < kTouching_m) {
       touching_ += weight;
-      if (back && !triangle.solid) touching_backs_ += weight;
+      if (hit.back && !hit.triangle.solid) touching_backs_ += weight;
+      if (hit.parallel) covered_ += weight;
     }
     inverse_distances_ += weight / std::max(distance_m, kLeast_m);
   }
 
+  static constexpr float kParallel = 0.7f;  ///< cosine between normals
   static constexpr float kTouching_m = 0.1f;
   static constexpr float kClose_m = 0.5f;
   static constexpr float kLeast_m = 1e-3f;
   float all_ = 0.0f, up_ = 0.0f, down_ = 0.0f;
-  float inside_ = 0.0f, fronts_ = 0.0f, touching_ = 0.0f, touching_backs_ = 0.0f;
+  float inside_ = 0.0f, fronts_ = 0.0f, backs_ = 0.0f;
+  float touching_ = 0.0f, touching_backs_ = 0.0f, covered_ = 0.0f;
   float inverse_distances_ = 0.0f;
 };
 

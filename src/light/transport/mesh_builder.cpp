@@ -177,7 +177,8 @@ void MeshBuilder::lookAround() {
             const auto i = static_cast<std::size_t>(lane);
             all[i] += weight;
             const std::uint32_t hit = hits.triangle[i];
-            burials[i].add({directions_[r].towards, weight, hits, lane}, geometry_, traits_);
+            burials[i].add({receivers[i].normal, directions_[r].towards, weight, hits, lane}, geometry_,
+                           traits_);
             if (hit == HitPacket::kNothing) {
               open[i] += weight * directions_[r].towards.homogeneous();
               return;

@@ -1,0 +1,148 @@
+#include "light/transport/exchange.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "light/mirror_lobe.h"
+#include "light/transport/reflectances.h"
+#include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/photometry.h"
+
+namespace sunlit::light {
+namespace {
+
+float luminanceOf(const Eigen::Array3f& rgb) {
+  return LinearRgb(rgb).luminance();
+}
+
+PartSums sumsOf(const PassedOn& part, std::size_t sample) {
+  return {part.coefficients.sum(sample) * Eigen::Map<const Eigen::Array3f>(part.tints[sample].data()),
+          Eigen::Map<const Eigen::Array3f>(part.glows[sample].data())};
+}
+
+float relativeChange(const PassedOnSums& before, const PassedOnSums& after) {
+  const auto change = [](const Eigen::Array3f& from, const Eigen::Array3f& to) {
+    const float most = to.maxCoeff();
+    return most > 0.0f ? (to - from).abs().maxCoeff() / most : 0.0f;
+  };
+  return std::max(change(before.color(), after.color()), change(before.glow(), after.glow()));
+}
+
+void brighten(const PartSums& traced, const PartSums& all, std::size_t sample, PassedOn* part) {
+  const float before = luminanceOf(traced.color);
+  if (before > 0.0f) part->coefficients.scales[sample] *= luminanceOf(all.color) / before;
+  store(all, sample, part);
+}
+
+}  // namespace
+
+SumsOfAll sumsOf(const TransportData& data) {
+  SumsOfAll sums{std::vector<float>(data.sampleCount()), std::vector<PassedOnSums>(data.sampleCount())};
+  tbb::parallel_for(std::size_t{0}, data.sampleCount(), [&](std::size_t i) {
+    sums.direct[i] = data.direct.sum(i);
+    sums.passed_on[i] = {sumsOf(data.above, i), sumsOf(data.below, i)};
+  });
+  return sums;
+}
+
+void store(const PartSums& sums, std::size_t sample, PassedOn* part) {
+  part->glows[sample] = {sums.glow[0], sums.glow[1], sums.glow[2]};
+  const float luminance = luminanceOf(sums.color);
+  Eigen::Map<Eigen::Array3f>(part->tints[sample].data()) =
+      luminance > 0.0f ? Eigen::Array3f(sums.color / luminance) : Eigen::Array3f(Eigen::Array3f::Ones());
+}
+
+RaySeen Exchange::ray(std::size_t sample, std::size_t hit) const {
+  const SampleHits& view = seen[sample];
+  const bool up = hit < view.up;
+  const std::uint32_t direction = view.hits[hit] >> kDirectionShift;
+  const SkyPatches::Ray& ray = patches_.coarseRays()[up ? direction : direction + SkyPatches::kAbove];
+  return {view.hits[hit] & kSampleMask, direction, ray.towards,  // the ray's own weight is in the scales
+          ray.solid_angle * samples_.receivers[sample].weight(ray.towards) *
+              (up ? view.scale_up : view.scale_down) / kPiFloat};
+}
+
+bool Exchange::isGround(std::uint32_t sample) const {
+  constexpr float kLevel = 0.97f;  // within 14°, half a patch
+  const Receiver& receiver = samples_.receivers[sample];
+  return receiver.normal.z() > kLevel && !receiver.thin && samples_.paints[sample].metalness < 0.5f;
+}
+
+float Exchange::scattered(const RaySeen& ray) const {
+  if (ray.towards.z() >= 0.0f || !isGround(ray.from)) return 1.0f;
+  static const float mean = 1.0f - meanGrazing(kMeanView);
+  return (1.0f - meanGrazing(-ray.towards.z())) / mean;
+}
+
+Sending Exchange::sending(std::size_t sample) const {
+  const Reflectance mean = reflectance(samples_.paints[sample], kMeanView);
+  const Eigen::Array3f all = mean.all();
+  const OtherSide& other = samples_.other_side[sample];
+  if (other.sample == LightMesh::kNone) {
+    // The sky that the ground mirrors has gone its own way.
+    const bool ground = isGround(static_cast<std::uint32_t>(sample));
+    return {ground ? mean.diffuse : all, all, Eigen::Array3f::Zero(), other.sample};
+  }
+  const Eigen::Array3f through = other.share * mean.diffuse.min(all);  // what is mirrored stays on its side
+  return {all - through, all - through, through, other.sample};
+}
+
+SentSums Exchange::sentBy(const Sending& sends, const SumsOfAll& has, std::size_t sample) {
+  SentSums sent{sends.direct * has.direct[sample] + sends.bounced * has.passed_on[sample].color(),
+                sends.bounced * has.passed_on[sample].glow()};
+  if (sends.other != LightMesh::kNone) {
+    const PassedOnSums& behind = has.passed_on[sends.other];
+    sent.color += sends.through * (has.direct[sends.other] + behind.color());
+    sent.glow += sends.through * behind.glow();
+  }
+  return sent;
+}
+
+PassedOnSums Exchange::received(const std::vector<SentSums>& sent, std::size_t sample) const {
+  PassedOnSums sums;
+  sums.below.color.setConstant(mirrored_sums[sample]);
+  const SampleHits& view = seen[sample];
+  for (std::size_t k = 0; k < view.hits.size(); ++k) {
+    PartSums& part = k < view.up ? sums.above : sums.below;
+    const RaySeen seen_along = ray(sample, k);
+    const float weight = seen_along.weight * scattered(seen_along);
+    part.color += weight * sent[seen_along.from].color;
+    // What shines by itself does so evenly.
+    part.glow += weight * sent[seen_along.from].glow +
+                 seen_along.weight * kPiFloat * samples_.emissions[seen_along.from];
+  }
+  return sums;
+}
+
+void Exchange::addLaterBounces(TransportData* data) const {
+  constexpr std::size_t kBlock = 256;      // samples, of one task
+  constexpr int kMost = 200;               // of white walls, that pass on 0.98
+  constexpr float kNextToNothing = 2e-4f;  // of what the samples have, on average; more still follows
+  const std::size_t count = seen.size();
+  SumsOfAll has = sumsOf(*data);
+  const std::vector<PassedOnSums> traced = has.passed_on;
+  std::vector<PassedOnSums> next(count);
+  std::vector<SentSums> sent(count);
+  std::vector<double> changes((count + kBlock - 1) / kBlock);
+  double change = 1.0;
+  for (int bounce = 0; bounce < kMost && change > kNextToNothing; ++bounce) {
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { sent[i] = sentBy(sending(i), has, i); });
+    tbb::parallel_for(std::size_t{0}, changes.size(), [&](std::size_t block) {
+      changes[block] = 0.0;
+      for (std::size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
+        next[i] = received(sent, i);
+        changes[block] += static_cast<double>(relativeChange(has.passed_on[i], next[i]));
+      }
+    });
+    change = std::accumulate(changes.begin(), changes.end(), 0.0) / static_cast<double>(count);
+    has.passed_on.swap(next);
+  }
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    brighten(traced[i].above, has.passed_on[i].above, i, &data->above);
+    brighten(traced[i].below, has.passed_on[i].below, i, &data->below);
+  });
+}
+
+}  // namespace sunlit::light

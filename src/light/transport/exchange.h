@@ -1,0 +1,105 @@
+/// Which samples of a scene see each other, and what each of them passes on.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "light/sky_patches.h"
+#include "light/transport/scene_samples.h"
+#include "light/transport/transport_data.h"
+
+namespace sunlit::light {
+
+/// What a sample's coarse rays hit.
+struct SampleHits {
+  std::vector<std::uint32_t> hits;           ///< as Exchange::hitOf(); directions of each half of the sphere
+  std::size_t up = 0;                        ///< the first of them, above the horizon
+  float scale_up = 0.0f, scale_down = 0.0f;  ///< of the hits' weights, by direction
+  bool inside = false;                       ///< of a body
+};
+
+/// A ray from a sample to one that it sees.
+struct RaySeen {
+  std::uint32_t from;       ///< the one that it sees
+  std::uint32_t direction;  ///< of its half of the sphere
+  Eigen::Vector3f towards;
+  float weight;  ///< of the luminance × π that arrives along it, in the sample's illuminance
+};
+
+/// What a sample reflects of its own light, and passes on of that of the other side of its sheet.
+struct Sending {
+  Eigen::Array3f direct, bounced;  ///< shares of light straight from the sky, and of other surfaces'
+  Eigen::Array3f through;
+  std::uint32_t other;  ///< the sample on the other side, or LightMesh::kNone
+};
+
+/// By the sum over the patches of the sky: what a sample sends, as luminance × π.
+struct SentSums {
+  Eigen::Array3f color;  ///< of light of the sky
+  Eigen::Array3f glow;   ///< of what shines by itself, that it reflects
+};
+
+/// Likewise, light that a sample has from the surfaces of one part, as illuminance.
+struct PartSums {
+  Eigen::Array3f color = Eigen::Array3f::Zero(), glow = Eigen::Array3f::Zero();
+};
+struct PassedOnSums {
+  PartSums above, below;
+  Eigen::Array3f color() const { return above.color + below.color; }
+  Eigen::Array3f glow() const { return above.glow + below.glow; }
+};
+/// Of every sample.
+struct SumsOfAll {
+  std::vector<float> direct;
+  std::vector<PassedOnSums> passed_on;
+};
+SumsOfAll sumsOf(const TransportData& data);
+
+/// Writes tint and glow of a sample's part, not its coefficients.
+void store(const PartSums& sums, std::size_t sample, PassedOn* part);
+
+class Exchange {
+ public:
+  static constexpr std::size_t kMostSamples = std::size_t{1} << 24;
+
+  /// Keeps references.
+  Exchange(const SceneSamples& samples, const SkyPatches& patches)
+      : seen(samples.receivers.size()),
+        mirrored_sums(samples.receivers.size(), 0.0f),
+        samples_(samples),
+        patches_(patches) {}
+
+  std::vector<SampleHits> seen;      ///< of each sample
+  std::vector<float> mirrored_sums;  ///< sky by way of the ground as a mirror, without colour, lx
+
+  /// In memory, a hit: the sample there, and the direction.
+  static std::uint32_t hitOf(std::uint32_t sample, std::uint32_t direction) {
+    return direction << kDirectionShift | sample;
+  }
+  RaySeen ray(std::size_t sample, std::size_t hit) const;
+  /// Whether a sample mirrors as GroundMirror says.
+  bool isGround(std::uint32_t sample) const;
+  /// Ground scatters less towards a glancing ray than towards the mean one: Fresnel's share is larger there.
+  float scattered(const RaySeen& ray) const;
+
+  Sending sending(std::size_t sample) const;
+  /// The sums of what a sample has, and of what it has from the other side.
+  static SentSums sentBy(const Sending& sends, const SumsOfAll& has, std::size_t sample);
+  /// What a sample gets of all that is sent, and of the ground's mirror.
+  PassedOnSums received(const std::vector<SentSums>& sent, std::size_t sample) const;
+
+  /// Adds all bounces that follow those that `data` has: by sums over the patches, until they add next to
+  /// nothing. How the light of single patches goes on, the bounces so far tell. Parallel.
+  void addLaterBounces(TransportData* data) const;
+
+ private:
+  static constexpr std::uint32_t kDirectionShift = 24;
+  static constexpr std::uint32_t kSampleMask = (1u << kDirectionShift) - 1;
+  static_assert(SkyPatches::kAbove <= 256 && SkyPatches::kDown <= 256, "a direction fits above a sample");
+
+  const SceneSamples& samples_;
+  const SkyPatches& patches_;
+};
+
+}  // namespace sunlit::light
