@@ -2,11 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace sunlit::light {
 namespace {
 
 constexpr int kNoMask = -1;
+
+/// What blends by its factor alone.
+const scene::Texture& white() {
+  static const scene::Texture texture{"white", 1, 1, {255, 255, 255, 255}};
+  return texture;
+}
+
+/// Evenly spread over 0 … 1, and alike for no neighbours.
+float hashed(float u, float v) {
+  std::uint32_t a, b;
+  std::memcpy(&a, &u, sizeof(a));
+  std::memcpy(&b, &v, sizeof(b));
+  std::uint32_t h = a * 0x9e3779b1u ^ (b + 0x85ebca6bu) * 0xc2b2ae35u;
+  h = (h ^ (h >> 16)) * 0x7feb352du;
+  h = (h ^ (h >> 15)) * 0x846ca68bu;
+  h ^= h >> 16;
+  return static_cast<float>(h >> 8) * (1.0f / (1u << 24));
+}
 
 }  // namespace
 
@@ -65,8 +84,18 @@ Cutouts::Triangle Cutouts::Mask::place(const std::array<Eigen::Vector2f, 3>& tex
   return triangle;
 }
 
+bool Cutouts::Query::there(float u, float v) const {
+  const Place at = placeOf(u, v);
+  const float alpha = mask_.blended * mask_.interpolated(at.x0, at.y0, at.fx, at.fy) / 255.0f;
+  return alpha > hashed(u, v);
+}
+
 // Squares first, without a branch, so that one look-up need not wait for another.
 void Cutouts::Query::solid(const float* u, const float* v, std::size_t count, std::uint8_t* solid) const {
+  if (blends()) {
+    for (std::size_t i = 0; i < count; ++i) solid[i] = there(u[i], v[i]) ? 1 : 0;
+    return;
+  }
   for (std::size_t i = 0; i < count; ++i) {
     const Place at = placeOf(u[i], v[i]);
     solid[i] = static_cast<std::uint8_t>(mask_.square(at.x0, at.y0));
@@ -78,6 +107,18 @@ void Cutouts::Query::solid(const float* u, const float* v, std::size_t count, st
   }
 }
 
+std::int32_t Cutouts::maskOf(const scene::Texture& texture, float alpha_cutoff, float blended) {
+  const auto same = std::find_if(masks_.begin(), masks_.end(), [&](const Mask& mask) {
+    return mask.texture == &texture && mask.cutoff == alpha_cutoff * 255.0f && mask.blended == blended;
+  });
+  const auto index = static_cast<std::int32_t>(same - masks_.begin());
+  if (same == masks_.end()) {
+    masks_.emplace_back(texture, alpha_cutoff);
+    masks_.back().blended = blended;
+  }
+  return index;
+}
+
 Cutouts::Cutouts(const Geometry& geometry) {
   const scene::Scene& scene = *geometry.scene;
   std::vector<std::int32_t> mask_of(scene.materials.size(), kNoMask);
@@ -86,15 +127,13 @@ Cutouts::Cutouts(const Geometry& geometry) {
   for (const std::int32_t material : geometry.materials) used[static_cast<std::size_t>(material)] = true;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const scene::Material& material = scene.materials[m];
-    if (!used[m] || material.alpha_mode != scene::AlphaMode::kMask ||
-        material.base_texture == scene::Material::kNoTexture)
-      continue;
-    const scene::Texture& texture = scene.textures[static_cast<std::size_t>(material.base_texture)];
-    const auto same = std::find_if(masks_.begin(), masks_.end(), [&](const Mask& mask) {
-      return mask.texture == &texture && mask.cutoff == material.alpha_cutoff * 255.0f;
-    });
-    mask_of[m] = static_cast<std::int32_t>(same - masks_.begin());
-    if (same == masks_.end()) masks_.emplace_back(texture, material.alpha_cutoff);
+    const bool blends = material.alpha_mode == scene::AlphaMode::kBlend;
+    const bool textured = material.base_texture != scene::Material::kNoTexture;
+    const bool masks = material.alpha_mode == scene::AlphaMode::kMask && textured;
+    if (!used[m] || !(masks || blends)) continue;
+    const scene::Texture& texture =
+        textured ? scene.textures[static_cast<std::size_t>(material.base_texture)] : white();
+    mask_of[m] = maskOf(texture, material.alpha_cutoff, blends ? material.alpha : Mask::kCutOut);
   }
   for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
     const std::int32_t mask = mask_of[static_cast<std::size_t>(geometry.materials[i])];

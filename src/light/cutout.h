@@ -13,7 +13,9 @@
 namespace sunlit::light {
 
 /// Sorts a scene's triangles into opaque and masked ones, and answers for the latter by their texture's full
-/// resolution, bilinearly filtered as in the image.
+/// resolution, bilinearly filtered as in the image. What blends is masked too: solid at a share of its points
+/// that is its alpha there, chosen by a hash of the point, so that of n rays a share of alpha ± √(alpha (1 −
+/// alpha) / n) is stopped, always the same.
 class Cutouts {
   struct Triangle;
   struct Mask;
@@ -38,7 +40,12 @@ class Cutouts {
     /// The same of `count` points: 1 or 0.
     void solid(const float* u, const float* v, std::size_t count, std::uint8_t* solid) const;
 
+    /// Whether it lets a share of light through, rather than having holes.
+    bool blends() const { return mask_.blended != Mask::kCutOut; }
+
    private:
+    /// Of what blends.
+    bool there(float u, float v) const;
     /// Between which texels a point lies, and how far from the first ones.
     struct Place {
       int x0, y0;
@@ -62,6 +69,8 @@ class Cutouts {
   /// stay in a core's cache.
   struct Mask {
     Mask(const scene::Texture& source, float alpha_cutoff);
+    static constexpr float kCutOut = -1.0f;
+    float blended = kCutOut;  ///< factor on alpha; kCutOut: solid where alpha reaches the cutoff
 
     enum Square : unsigned { kClear = 0, kSolid = 1, kMixed = 2 };
     /// Where the square stands whose top left corner is the centre of texel (x, y).
@@ -80,6 +89,9 @@ class Cutouts {
     std::vector<std::uint32_t> squares;
     int blocks_a_row;
   };
+  /// Index into masks_.
+  std::int32_t maskOf(const scene::Texture& texture, float alpha_cutoff, float blended);
+
   std::vector<std::uint32_t> opaque_, masked_;
   std::vector<Triangle> triangles_;  ///< parallel to masked_
   std::vector<Mask> masks_;          ///< one a texture and cutoff
@@ -101,6 +113,7 @@ inline Cutouts::Query::Place Cutouts::Query::placeOf(float u, float v) const {
 }
 
 inline bool Cutouts::Query::solid(float u, float v) const {
+  if (blends()) return there(u, v);
   const Place at = placeOf(u, v);
   const unsigned square = mask_.square(at.x0, at.y0);
   if (square != Mask::kMixed) return square == Mask::kSolid;

@@ -29,11 +29,12 @@ LightTable::Rows rowsOf(const Surfaces& surfaces, const Tile& tile, const scene:
   const auto width = static_cast<std::uint32_t>(surfaces.width);
   for (const Surface& surface : tile.surfaces) {
     const scene::Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
-    rows.targets.push_back(
-        {surface.geometric_normal, surface.shading_normal, surface.clearance_m, surface.first_sample,
-         static_cast<std::uint16_t>(surface.pixel % width), static_cast<std::uint16_t>(surface.pixel / width),
-         static_cast<std::uint16_t>(surface.samples), material.transmission > 0.0f,
-         material.alpha_mode == scene::AlphaMode::kMask, surface.gathered != Surface::kNotGathered});
+    rows.targets.push_back({surface.geometric_normal, surface.shading_normal, surface.clearance_m,
+                            surface.first_sample, static_cast<std::uint16_t>(surface.pixel % width),
+                            static_cast<std::uint16_t>(surface.pixel / width),
+                            static_cast<std::uint16_t>(surface.samples), material.transmission > 0.0f,
+                            material.alpha_mode == scene::AlphaMode::kMask,
+                            surface.gathered != Surface::kNotGathered, surface.share < 1.0f});
     rows.air.push_back(airPlace((surfaces.eye - surface.position).norm()));
     rows.air_nodes |= std::uint64_t{3} << rows.air.back().node;
     rows.ambient.push_back(ambientReflectance(reflectionOf(surface, material)));

@@ -30,6 +30,7 @@ class LightTable {
     bool thin;      ///< light shines through it
     bool leaves;    ///< it has holes, as foliage
     bool gathered;  ///< it is looked at closely: see FinalGather
+    bool veiled;    ///< it shares its samples with what it is seen through, or is seen through itself
   };
   /// Between which distances a surface lies.
   struct AirPlace {

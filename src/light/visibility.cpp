@@ -60,8 +60,13 @@ void passInvisible(const RTCFilterFunctionNArguments* arguments) {
     if (arguments->valid[i] != -1) continue;
     const std::uint32_t triangle = (*context.triangles[RTCHitN_geomID(
         arguments->hit, arguments->N, i)])[RTCHitN_primID(arguments->hit, arguments->N, i)];
-    const auto material = static_cast<std::size_t>(context.geometry->materials[triangle]);
-    if (context.geometry->scene->materials[material].double_sided) continue;
+    const scene::Material& material =
+        context.geometry->scene->materials[static_cast<std::size_t>(context.geometry->materials[triangle])];
+    if (material.alpha_mode == scene::AlphaMode::kBlend) {
+      arguments->valid[i] = 0;
+      continue;
+    }
+    if (material.double_sided) continue;
     const Eigen::Vector3f direction(RTCRayN_dir_x(arguments->ray, arguments->N, i),
                                     RTCRayN_dir_y(arguments->ray, arguments->N, i),
                                     RTCRayN_dir_z(arguments->ray, arguments->N, i));
@@ -118,17 +123,23 @@ class Visibility::Implementation {
   void occluded(const Rays& rays, float reach, std::uint8_t* blocked) const;
   void closest(const Rays& rays, Hit* hits) const;
   Hit firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near) const;
+  void addVeils(const Sight& sight, std::uint32_t first_triangle, std::vector<Hit>* hits) const;
+  bool hasVeils() const { return !veils_.empty(); }
   std::uint32_t triangleCount() const { return static_cast<std::uint32_t>(geometry_->triangles.size()); }
 
  private:
   void build(RTCBuildQuality quality);
   void attach(const std::vector<std::uint32_t>& triangles, unsigned number);
 
+  void buildVeils();
+
   std::shared_ptr<const Geometry> geometry_;
   Cutouts cutouts_;
+  std::vector<std::uint32_t> veils_;  ///< triangles that blend
   DevicePointer device_;
   ScenePointer scene_;
-  bool wide_ = false;  ///< the CPU takes 16 rays at once
+  ScenePointer veil_scene_;  ///< of them alone; null: none
+  bool wide_ = false;        ///< the CPU takes 16 rays at once
 };
 
 Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geometry)
@@ -156,11 +167,55 @@ void Visibility::Implementation::build(RTCBuildQuality quality) {
   rtcSetSceneBuildQuality(scene_.get(), quality);
   attach(cutouts_.opaqueTriangles(), kOpaque);
   attach(cutouts_.maskedTriangles(), kMasked);
+  buildVeils();
   rtcCommitScene(scene_.get());
   const RTCError error = rtcGetDeviceError(device_.get());
   if (error != RTC_ERROR_NONE) {
     throw std::runtime_error("ray library (Embree): cannot build the scene, error code " +
                              std::to_string(static_cast<int>(error)));
+  }
+}
+
+void Visibility::Implementation::buildVeils() {
+  for (std::uint32_t t = 0; t < geometry_->triangles.size(); ++t) {
+    const auto material = static_cast<std::size_t>(geometry_->materials[t]);
+    if (geometry_->scene->materials[material].alpha_mode == scene::AlphaMode::kBlend) veils_.push_back(t);
+  }
+  if (veils_.empty()) return;
+  veil_scene_.reset(rtcNewScene(device_.get()));
+  rtcSetSceneFlags(veil_scene_.get(), RTC_SCENE_FLAG_ROBUST);
+  light::attach(newTriangleMesh(device_.get(), *geometry_, veils_), veil_scene_.get(), 0);
+  rtcCommitScene(veil_scene_.get());
+}
+
+/// One after the other: each query begins just beyond the hit before.
+void Visibility::Implementation::addVeils(const Sight& sight, std::uint32_t first_triangle,
+                                          std::vector<Hit>* hits) const {
+  if (!veil_scene_) return;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  float near = sight.near;
+  for (std::size_t count = 0; count < kMostVeils && near < sight.far;) {
+    RTCRayHit query{};
+    query.ray.org_x = sight.origin.x();
+    query.ray.org_y = sight.origin.y();
+    query.ray.org_z = sight.origin.z();
+    query.ray.dir_x = sight.direction.x();
+    query.ray.dir_y = sight.direction.y();
+    query.ray.dir_z = sight.direction.z();
+    query.ray.tnear = near;
+    query.ray.tfar = sight.far;
+    query.ray.mask = ~0u;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(veil_scene_.get(), &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
+    near = std::nextafter(query.ray.tfar * (1.0f + 1e-6f), std::numeric_limits<float>::infinity());
+    const std::uint32_t triangle = veils_[query.hit.primID];
+    const auto material = static_cast<std::size_t>(geometry_->materials[triangle]);
+    const bool back = geometry_->planes[triangle].normal.dot(sight.direction) > 0.0f;
+    if (back && !geometry_->scene->materials[material].double_sided) continue;
+    hits->push_back({first_triangle + triangle, query.hit.u, query.hit.v, query.ray.tfar});
+    ++count;
   }
 }
 
@@ -293,6 +348,20 @@ std::optional<std::uint32_t> Visibility::firstSeen(const Eigen::Vector3f& origin
   }
   if (hit.triangle == Hit::kMiss) return std::nullopt;
   return hit.triangle;
+}
+
+void Visibility::veils(const Sight& sight, std::vector<Hit>* hits) const {
+  hits->clear();
+  if (fixed_) fixed_->implementation_->addVeils(sight, 0, hits);
+  implementation_->addVeils(sight, fixed_ ? fixed_->implementation_->triangleCount() : 0, hits);
+  if (!fixed_) return;
+  std::stable_sort(hits->begin(), hits->end(),
+                   [](const Hit& a, const Hit& b) { return a.distance < b.distance; });
+  if (hits->size() > kMostVeils) hits->resize(kMostVeils);
+}
+
+bool Visibility::hasVeils() const {
+  return implementation_->hasVeils() || (fixed_ && fixed_->implementation_->hasVeils());
 }
 
 }  // namespace sunlit::light

@@ -39,6 +39,8 @@ class Renderer::Implementation {
         view_(viewOf(options)),
         world_(world),
         pyramids_(*world.geometry->scene),
+        maps_(*world.geometry->scene,
+              world.transport ? static_cast<float>(light::TransportOptions().finest_m) : 0.0f),
         rasterizer_(
             makeRasterizer(options.rasterizer, {world.geometry, pyramids_, options.texture_lod_bias})) {
     if (world_.transport && options.final_gather > 0) {
@@ -154,8 +156,10 @@ class Renderer::Implementation {
             *world_.geometry,
             pose.bodies.get(),
             pyramids_,
+            maps_,
             static_cast<float>(options_.texture_lod_bias),
-            pose.samples};
+            pose.samples,
+            pose.visibility->hasVeils() ? pose.visibility.get() : nullptr};
   }
 
   void requireLook() const {
@@ -167,6 +171,7 @@ class Renderer::Implementation {
   View view_;  // without a pose
   light::World world_;
   TexturePyramids pyramids_;  // before the rasterizer, which refers to them
+  SurfaceMaps maps_;
   std::unique_ptr<Rasterizer> rasterizer_;
   std::unique_ptr<light::FinalGather> final_gather_;    // where it is asked for
   std::unique_ptr<const light::BodyLight> body_light_;  // where there are bodies

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/sample.h"
+#include "render/surface_maps.h"
 #include "render/texture_pyramid.h"
 #include "render/view.h"
 #include "sunlit/image/images.h"
@@ -19,8 +20,10 @@ struct Seen {
   const light::Geometry& geometry;
   const light::Geometry* bodies;    ///< what moves, its triangles numbered after those of `geometry`; or null
   const TexturePyramids& pyramids;  ///< of the scene
+  const SurfaceMaps& maps;          ///< of the scene
   float lod_bias;                   ///< levels
   const std::vector<Sample>& samples;
+  const light::Visibility* veils;  ///< knows what is seen through; null: nothing is
 
   const light::Plane& plane(std::uint32_t triangle) const {
     return of(triangle).planes[triangle - before(triangle)];

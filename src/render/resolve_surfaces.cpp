@@ -4,85 +4,30 @@
 #include <array>
 #include <cmath>
 
+#include "render/cluster.h"
 #include "render/resolve.h"
-#include "render/seen_triangle.h"
 #include "render/tile_detail.h"
 
 namespace sunlit::render {
 namespace {
 
-constexpr float kSameNormalCosine = 0.985f;  ///< 10°: shading changes by little more than its cosine, 1.5 %
-constexpr float kSameDepthRatio = 0.1f;
-constexpr std::size_t kMostSamples = 16;  ///< of a pixel
-
-/// What some samples of a pixel see of one triangle.
-struct Seeing {
-  std::uint32_t triangle;
-  std::int32_t material;
-  Eigen::Vector3f geometric_normal, shading_normal;
-  Eigen::Array3f albedo;
-  float depth;             ///< of the first sample
-  float footprint = 0.0f;  ///< of one sample, longer side, m; of materials with detail
-  float shorter_m = 0.0f;  ///< likewise
-  std::uint32_t samples = 0;
-  const Eigen::Vector3f* relatives;  ///< where its samples are: to the camera, along the axes of `map`
-};
-
-/// Alike parts of a pixel.
-struct Cluster {
-  Seeing first;
-  Eigen::Vector3f shading_normal;  ///< sum over the samples, and later unit
-  Eigen::Array3f albedo;           ///< sum over the samples
-  std::uint32_t samples = 0;
-  std::array<Eigen::Vector3f, kMostSamples> relatives;
-
-  bool alike(const Seeing& s) const {
-    return s.material == first.material &&
-           s.geometric_normal.dot(first.geometric_normal) > kSameNormalCosine &&
-           s.shading_normal.dot(first.shading_normal) > kSameNormalCosine &&
-           std::abs(s.depth - first.depth) < kSameDepthRatio * first.depth;
-  }
-  void start(const Seeing& s) {
-    first = s;
-    shading_normal.setZero();
-    albedo.setZero();
-    samples = 0;
-    add(s);
-  }
-  void add(const Seeing& s) {
-    shading_normal += static_cast<float>(s.samples) * s.shading_normal;
-    albedo += static_cast<float>(s.samples) * s.albedo;
-    for (std::uint32_t i = 0; i < s.samples; ++i) relatives[samples++] = s.relatives[i];
-  }
-};
-
-/// The triangles that were looked at last.
-class TriangleCache {
- public:
-  void forget() { numbers_.fill(kNone); }
-  const SeenTriangle& at(const Seen& seen, std::uint32_t number) {
-    const std::size_t slot = number % kSlots;
-    if (numbers_[slot] != number) {
-      numbers_[slot] = number;
-      triangles_[slot] = SeenTriangle(seen, number);
-    }
-    return triangles_[slot];
-  }
-
- private:
-  static constexpr std::size_t kSlots = 64;
-  static constexpr std::uint32_t kNone = 0xffffffffu;
-  std::array<std::uint32_t, kSlots> numbers_;
-  std::array<SeenTriangle, kSlots> triangles_;
-};
-
 class TileResolver {
  public:
+  /// One part of a triangle that is seen through, within a pixel.
+  struct Veil {
+    std::uint32_t triangle;
+    float covered = 0.0f;  ///< sum over the samples of what is seen of it
+    float depth = 0.0f;
+    std::vector<Eigen::Vector3f> relatives;
+  };
+
   /// What stays from tile to tile, one a thread.
   struct Memory {
     TileDetail detail;
     TriangleCache triangles;
     std::array<Cluster, kMostSamples> clusters;
+    std::vector<light::Hit> hits;
+    std::vector<Veil> veils;
   };
   TileResolver(const Seen& seen, const SceneDetail& scene_detail, Memory* memory, light::Tile* tile)
       : seen_(seen),
@@ -104,10 +49,12 @@ class TileResolver {
     for (auto* origin : {&tile_.origin_x, &tile_.origin_y, &tile_.origin_z})
       origin->resize(pixels * per_pixel_);
     tile_.sky.assign(pixels, 0);
+    tile_.sky_share.assign(seen_.veils ? pixels : 0, 1.0f);
     for (int row = 0; row < tile_.height; ++row) {
       for (int column = 0; column < tile_.width; ++column) {
         tile_.sky[static_cast<std::size_t>(row * tile_.width + column)] =
-            pixel(tile_.x + column, tile_.y + row);
+            seen_.veils ? veiledPixel(tile_.x + column, tile_.y + row)
+                        : pixel(tile_.x + column, tile_.y + row);
       }
     }
     for (auto* origin : {&tile_.origin_x, &tile_.origin_y, &tile_.origin_z}) origin->resize(origins_);
@@ -136,6 +83,76 @@ class TileResolver {
     look(samples[0].triangle - 1, &seeing);
     cluster.albedo = static_cast<float>(cluster.samples) * seeing.albedo;
     cluster.shading_normal = seeing.shading_normal;
+    cluster.mapped = seeing.mapped;
+    cluster.unveiled = 0.0f;
+    for (std::uint32_t i = 0; seen_.veils && i < cluster.samples; ++i) cluster.unveiled += unveiled_[i];
+    if (seeing.mapped) {
+      cluster.finish = Finish();
+      cluster.finish.add(static_cast<float>(cluster.samples), seeing.finish);
+    }
+    append(cluster, x, y);
+  }
+
+  /// As pixel(), with what is seen through before it: each sample's ray passes layer by layer, and each takes
+  /// its alpha of what is left.
+  std::uint8_t veiledPixel(int x, int y) {
+    const int s = seen_.view.supersampling;
+    memory_.veils.clear();
+    float sky = 0.0f;
+    int of_sky = 0;
+    for (int k = 0; k < s * s; ++k) {
+      const int column = x * s + k % s, row = y * s + k / s;
+      const Sample& sample = seen_.sample(column, row);
+      const float left = passVeils(sample, column, row);
+      unveiled_[static_cast<std::size_t>(k)] = left;
+      if (sample.sky()) sky += left;
+      if (sample.sky()) ++of_sky;
+    }
+    const std::uint8_t samples = pixel(x, y);
+    if (of_sky > 0)
+      tile_.sky_share[static_cast<std::size_t>((y - tile_.y) * tile_.width + x - tile_.x)] =
+          sky / static_cast<float>(of_sky);
+    for (const Veil& veil : memory_.veils) appendVeil(veil, x, y);
+    return samples;
+  }
+
+  /// What is left of a sample behind all that it is seen through, which goes to Memory::veils.
+  float passVeils(const Sample& sample, int column, int row) {
+    const Eigen::Vector3f ray = relative({0, 1.0f}, column, row);
+    const float far = sample.sky() ? static_cast<float>(seen_.view.far_m) : sample.depth;
+    seen_.veils->veils({eye_high_ + eye_low_, ray, static_cast<float>(seen_.view.near_m), far},
+                       &memory_.hits);
+    float left = 1.0f;
+    for (const light::Hit& hit : memory_.hits) {
+      const Eigen::Vector3f point = hit.distance * ray;
+      const SeenTriangle& triangle = memory_.triangles.at(seen_, hit.triangle);
+      const Footprint step =
+          triangle.footprint(point, hit.distance, scene_detail_.sample_right, scene_detail_.sample_down);
+      const SurfaceMaps::Place place = triangle.placeOnMaps(seen_, triangle.sharesAt(point), step, false);
+      const float alpha = seen_.maps.alpha(triangle.material(), place);
+      if (!(alpha > 0.0f)) continue;
+      std::vector<Veil>& veils = memory_.veils;
+      auto veil =
+          std::find_if(veils.begin(), veils.end(), [&](const Veil& v) { return v.triangle == hit.triangle; });
+      if (veil == veils.end()) veil = veils.insert(veil, Veil{hit.triangle, 0.0f, hit.distance, {}});
+      if (veil->relatives.size() == kMostSamples) continue;
+      veil->relatives.push_back(point);
+      veil->covered += left * alpha;
+      left *= 1.0f - alpha;
+    }
+    return left;
+  }
+
+  void appendVeil(const Veil& veil, int x, int y) {
+    Seeing seeing;
+    seeing.depth = veil.depth;
+    seeing.relatives = veil.relatives.data();
+    seeing.samples = static_cast<std::uint32_t>(veil.relatives.size());
+    look(veil.triangle, &seeing);
+    Cluster& cluster = memory_.clusters[0];
+    cluster.start(seeing);
+    cluster.shading_normal.normalize();
+    cluster.unveiled = veil.covered;
     append(cluster, x, y);
   }
 
@@ -163,9 +180,11 @@ class TileResolver {
       Seeing seeing;
       seeing.depth = samples[i].depth;
       seeing.relatives = relatives.data();
+      float unveiled = 0.0f;
       for (std::size_t k = i; k < count; ++k) {
         if (samples[k].triangle != triangle) continue;
         samples[k].triangle = kTaken;
+        if (seen_.veils) unveiled += unveiled_[k];
         const int column = x * s + static_cast<int>(k) % s, row = y * s + static_cast<int>(k) / s;
         relatives[seeing.samples++] = relative(samples[k], column, row);
       }
@@ -177,6 +196,7 @@ class TileResolver {
       } else {
         memory_.clusters[clusters++].start(seeing);
       }
+      memory_.clusters[k].unveiled += unveiled;
     }
     for (std::size_t k = 0; k < clusters; ++k) {
       memory_.clusters[k].shading_normal.normalize();
@@ -207,12 +227,34 @@ class TileResolver {
     const float side = sides_[seeing->samples];
     step.right *= side;
     step.down *= side;
-    seeing->albedo = triangle.albedo(seen_, shares, step, 4 * seeing->samples <= per_pixel_);
+    const bool small = 4 * seeing->samples <= per_pixel_;
+    seeing->albedo = triangle.albedo(seen_, shares, step, small);
+    seeing->mapped = seen_.maps.has(seeing->material);
+    if (seeing->mapped) lookAtMaps(triangle, {shares, step, small}, seeing);
+  }
+
+  struct Spot {
+    Eigen::Array2f shares;
+    Footprint step;
+    bool small;
+  };
+  void lookAtMaps(const SeenTriangle& triangle, const Spot& spot, Seeing* seeing) const {
+    const SurfaceMaps::Place place = triangle.placeOnMaps(seen_, spot.shares, spot.step, spot.small);
+    seeing->finish = seen_.maps.finish(seeing->material, place);
+    Eigen::Vector3f mapped;
+    if (!seen_.maps.normal(seeing->material, place, &mapped)) return;
+    const float length = triangle.mapNormal(seen_, spot.shares, mapped, &seeing->shading_normal);
+    seeing->finish.roughness = widenedRoughness(seeing->finish.roughness, length);
   }
 
   void append(const Cluster& cluster, int x, int y) {
     const float share = 1.0f / static_cast<float>(cluster.samples);
     const auto number = static_cast<std::uint32_t>(tile_.surfaces.size());
+    // What is seen through has samples beside those of the picture.
+    if (seen_.veils && origins_ + cluster.samples > tile_.origin_x.size()) {
+      for (auto* origin : {&tile_.origin_x, &tile_.origin_y, &tile_.origin_z})
+        origin->resize(2 * (origins_ + cluster.samples));
+    }
     tile_.surfaces.push_back(blank_);
     light::Surface& surface = tile_.surfaces.back();
     surface.geometric_normal = cluster.first.geometric_normal;
@@ -225,14 +267,22 @@ class TileResolver {
     surface.to_eye = -middle.normalized();
     surface.material = cluster.first.material;
     const scene::Material& material = seen_.look(surface.material);
-    surface.emission = material.emission.value;
-    surface.roughness = material.roughness;
-    surface.metalness = material.metalness;
+    if (cluster.mapped) {
+      surface.emission = share * cluster.finish.emission;
+      surface.roughness = share * cluster.finish.roughness;
+      surface.metalness = share * cluster.finish.metalness;
+      surface.cavity = share * cluster.finish.cavity;
+    } else {
+      surface.emission = material.emission.value;
+      surface.roughness = material.roughness;
+      surface.metalness = material.metalness;
+    }
     surface.clearance_m = light::rayClearance_m(surface.position, cluster.first.depth);
     surface.triangle = cluster.first.triangle;
     surface.pixel = static_cast<std::uint32_t>(y * seen_.view.camera.width + x);
     surface.first_sample = static_cast<std::uint32_t>(origins_);
     surface.samples = cluster.samples;
+    if (seen_.veils) surface.share = share * cluster.unveiled;
     if (scene_detail_.has(surface.material)) {
       const Seeing& seeing = cluster.first;
       memory_.detail.add({number, surface.material, seeing.footprint,
@@ -254,9 +304,10 @@ class TileResolver {
   const SceneDetail& scene_detail_;
   Memory& memory_;
   light::Tile& tile_;
-  std::size_t origins_ = 0;             ///< written so far
-  Eigen::Vector3f ray_;                 ///< of sample (0, 0), of depth 1 m
-  Eigen::Vector3f eye_high_, eye_low_;  ///< whose sum is the eye
+  std::size_t origins_ = 0;                     ///< written so far
+  std::array<float, kMostSamples> unveiled_{};  ///< of the pixel's samples, what is seen of them
+  Eigen::Vector3f ray_;                         ///< of sample (0, 0), of depth 1 m
+  Eigen::Vector3f eye_high_, eye_low_;          ///< whose sum is the eye
   /// Part of the way from the eye at which shadow rays start. Rounded corners let a sample at an edge be
   /// taken for the surface beside it, and its ray start beyond that edge, where the sun may shine. A
   /// sixteenth of a sample towards the eye, which sees both surfaces, brings it back. Thin sheets send rays

@@ -41,10 +41,27 @@ class SeenTriangle {
   Eigen::Array3f albedo(const Seen& seen, const Eigen::Array2f& shares, const Footprint& step,
                         bool small) const;
 
+  /// Where it is on the textures of a material that has maps: over the area that `step` spans.
+  SurfaceMaps::Place placeOnMaps(const Seen& seen, const Eigen::Array2f& shares, const Footprint& step,
+                                 bool small) const;
+  /// Turns a shading normal as the mean of a map of normals says. Gives the length of that mean, at most 1.
+  float mapNormal(const Seen& seen, const Eigen::Array2f& shares, const Eigen::Vector3f& mapped,
+                  Eigen::Vector3f* normal) const;
+
  private:
+  /// Of its first corner; of the others less that.
+  struct CornerCoordinates {
+    bool known = false;
+    Eigen::Array2f a = Eigen::Array2f::Zero(), b = Eigen::Array2f::Zero(), c = Eigen::Array2f::Zero();
+  };
+  CornerCoordinates coordinates(const Seen& seen, int set) const;
+  /// To the right of the map of normals; its top is cross(normal of the front, this) · hand.
+  Eigen::Vector3f tangent(const Seen& seen, const Eigen::Array2f& shares, float* hand) const;
   Eigen::Vector3f normalFrom(const Eigen::Vector3f& sum) const;
 
+  std::uint32_t number_ = 0;
   std::int32_t material_ = 0;
+  bool from_behind_ = false;
   Eigen::Vector3f normal_, corner_;
   Eigen::Vector3f towards_b_, towards_c_;  ///< (point − corner) · these are the shares
   Eigen::Vector3f normal_a_, normal_b_, normal_c_;

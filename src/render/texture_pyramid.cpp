@@ -11,6 +11,7 @@
 
 #include "sunlit/image/srgb.h"
 #include "sunlit/quantity/whole.h"
+#include "sunlit/scene/wrap.h"
 
 namespace sunlit::render {
 namespace {
@@ -77,7 +78,10 @@ TexturePyramid::Level::Level(MipLevel mip, bool masked) : width(mip.width), heig
 
 TexturePyramid::TexturePyramid(const scene::Texture& texture, float alpha_cutoff)
     : size_(static_cast<float>(texture.width), static_cast<float>(texture.height)),
-      cutoff_(alpha_cutoff * 255.0f) {
+      cutoff_(alpha_cutoff * 255.0f),
+      wrap_u_(texture.wrap_u),
+      wrap_v_(texture.wrap_v),
+      repeats_(wrap_u_ == scene::Wrap::kRepeat && wrap_v_ == scene::Wrap::kRepeat) {
   const bool masked = alpha_cutoff != kNoCutoff;
   levels_.emplace_back(MipLevel{texture.width, texture.height, texture.rgba}, masked);
   for (MipLevel& level : smallerLevels(texture, alpha_cutoff)) levels_.emplace_back(std::move(level), masked);
@@ -123,8 +127,8 @@ Texel bilinear(const Texels& texels, float u, float v) {
 
 Eigen::Array3f TexturePyramid::color(const Eigen::Array2f& at, float level) const {
   // Repeats by whole turns.
-  const float u = at.x() - static_cast<float>(floorOf(at.x()));
-  const float v = at.y() - static_cast<float>(floorOf(at.y()));
+  const float u = repeats_ ? at.x() - static_cast<float>(floorOf(at.x())) : scene::wrapped(at.x(), wrap_u_);
+  const float v = repeats_ ? at.y() - static_cast<float>(floorOf(at.y())) : scene::wrapped(at.y(), wrap_v_);
   const float last = static_cast<float>(levels_.size() - 1);
   const float clamped = level > 0.0f ? std::min(level, last) : 0.0f;
   const auto lower = static_cast<std::size_t>(clamped);
@@ -132,7 +136,15 @@ Eigen::Array3f TexturePyramid::color(const Eigen::Array2f& at, float level) cons
   // level does not show, and half of all look-ups need but one size.
   const float between = clamped - static_cast<float>(lower);
   const float share = std::clamp(2.0f * between - 0.5f, 0.0f, 1.0f);
-  const auto look = [&](const Level& l) { return bilinear({l.linear, l.width, l.height}, u, v); };
+  const auto look = [&](const Level& l) {
+    if (repeats_) return bilinear({l.linear, l.width, l.height}, u, v);
+    // Half a texel from an edge that does not repeat, its texels alone are seen.
+    const auto inset = [](float coordinate, int size, scene::Wrap wrap) {
+      const float half = 0.5f / static_cast<float>(size);
+      return wrap == scene::Wrap::kRepeat ? coordinate : std::clamp(coordinate, half, 1.0f - half);
+    };
+    return bilinear({l.linear, l.width, l.height}, inset(u, l.width, wrap_u_), inset(v, l.height, wrap_v_));
+  };
   Texel sum = look(levels_[share < 1.0f ? lower : lower + 1]);
   if (share > 0.0f && share < 1.0f) sum += share * (look(levels_[lower + 1]) - sum);
   return sum.head<3>() * (1.0f / 65535.0f);

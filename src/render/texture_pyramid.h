@@ -24,7 +24,7 @@ class TexturePyramid {
   /// Of the full size, in texels.
   Eigen::Array2f size() const { return size_; }
 
-  /// Linear colour about texture coordinate `at`, repeating: bilinear within a level, linear between two in
+  /// Linear colour about texture coordinate `at`: bilinear within a level, linear between two in
   /// the half about their middle. `level` 0 is the full size, each next one half of it.
   Eigen::Array3f color(const Eigen::Array2f& at, float level) const;
 
@@ -58,7 +58,9 @@ class TexturePyramid {
 
   std::vector<Level> levels_;
   Eigen::Array2f size_;
-  float cutoff_;  ///< of alpha, 0 … 255
+  float cutoff_;                 ///< of alpha, 0 … 255
+  scene::Wrap wrap_u_, wrap_v_;  ///< of its colour
+  bool repeats_;                 ///< in both directions
 };
 
 /// Of all textures that a scene's materials use: one a texture and cutoff.

@@ -21,7 +21,10 @@ void VisibleTriangles::addVisible(const View& view, const light::Geometry& geome
   const Eigen::Vector3f eye = view.eye().cast<float>();
   std::vector<std::pair<float, const light::Chunk*>> near_first;
   for (const light::Chunk& chunk : geometry.chunks) {
-    if (frustum.touches(chunk.box)) near_first.emplace_back(chunk.box.squaredExteriorDistance(eye), &chunk);
+    const auto material = static_cast<std::size_t>(chunk.material);
+    const bool blends = geometry.scene->materials[material].alpha_mode == scene::AlphaMode::kBlend;
+    if (!blends && frustum.touches(chunk.box))
+      near_first.emplace_back(chunk.box.squaredExteriorDistance(eye), &chunk);
   }
   // What is near hides what is far, before its samples are looked at.
   std::stable_sort(near_first.begin(), near_first.end(),

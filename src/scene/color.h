@@ -14,6 +14,10 @@ namespace sunlit::scene {
 /// outdoor scenes.
 inline const LinearRgb kNeutral(0.18f, 0.18f, 0.18f);
 
+/// Luminance of white on a display (IEC 61966-2-1): what an emission of 1 means in formats that know no
+/// units.
+constexpr float kDisplayWhite_cd_per_m2 = 80.0f;
+
 /// One display-encoded channel, 0 … 1, to linear (IEC 61966-2-1).
 inline float linearFromSrgb(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);

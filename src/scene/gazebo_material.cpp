@@ -55,6 +55,25 @@ constexpr std::array<NamedColor, 37> kColors = {{{"Grey", {0.7f, 0.7f, 0.7f}},
                                                  {"Rocky", {0.45f, 0.42f, 0.38f}},
                                                  {"Chrome", {0.75f, 0.75f, 0.75f}}}};
 
+/// What OGRE can do and we do not.
+const std::set<std::string> kLost = {"scene_blend",
+                                     "vertex_program_ref",
+                                     "fragment_program_ref",
+                                     "rtshader_system",
+                                     "env_map",
+                                     "scroll",
+                                     "scroll_anim",
+                                     "rotate_anim",
+                                     "wave_xform",
+                                     "rotate",
+                                     "scale",
+                                     "colour_op",
+                                     "colour_op_ex",
+                                     "cull_hardware",
+                                     "cull_software",
+                                     "tex_address_mode",
+                                     "tex_coord_set"};
+
 using Words = std::vector<std::string>;
 using Lines = std::vector<Words>;
 
@@ -95,6 +114,10 @@ void readLine(const Words& line, ScriptMaterial& material) {
     if (words[0] == "diffuse" && !material.diffuse) material.diffuse = colorOf(words);
     if (words[0] == "texture" && words.size() > 1 && !material.texture) material.texture = words[1];
     if (words[0] == "alpha_rejection") material.alpha_rejection = true;
+    if (words[0] == "emissive" && !material.emissive) material.emissive = colorOf(words);
+    if (kLost.count(words[0]) > 0) material.lost.insert(words[0]);
+    if (words[0] == "texture" && words.size() > 1 && material.texture && words[1] != *material.texture)
+      material.lost.insert("texture " + words[1]);
   }
 }
 
@@ -120,6 +143,8 @@ std::optional<ScriptMaterial> materialIn(const Lines& lines, std::size_t end, co
   if (!material->diffuse) material->diffuse = inherited->diffuse;
   if (!material->texture) material->texture = inherited->texture;
   material->alpha_rejection = material->alpha_rejection || inherited->alpha_rejection;
+  if (!material->emissive) material->emissive = inherited->emissive;
+  material->lost.insert(inherited->lost.begin(), inherited->lost.end());
   return material;
 }
 

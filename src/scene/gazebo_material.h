@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 
 #include "sunlit/quantity/photometry.h"
@@ -17,6 +18,8 @@ struct ScriptMaterial {
   std::optional<LinearRgb> diffuse;
   std::optional<std::string> texture;  ///< as written in the script
   bool alpha_rejection = false;        ///< cut out where transparent
+  std::optional<LinearRgb> emissive;   ///< as on a display
+  std::set<std::string> lost;          ///< keywords of what is not rendered
 };
 
 /// The material `name` in the text of a .material script, from its first technique and pass. None if it is

@@ -12,7 +12,6 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
-#include <regex>
 #include <stdexcept>
 
 #include "scene/color.h"
@@ -23,9 +22,11 @@ namespace {
 
 constexpr unsigned kSteps = aiProcess_Triangulate |            // polygons to triangles
                             aiProcess_JoinIdenticalVertices |  // COLLADA and OBJ index each array apart
-                            aiProcess_GenSmoothNormals |       // where the file has none
                             aiProcess_SortByPType |            // so that points and lines can be left out
                             aiProcess_FlipUVs;                 // texture coordinates from the top left corner
+
+/// Where a file without normals has edges, and where it is round.
+constexpr float kCrease_deg = 35.0f;
 
 /// glTF's +Y up (x right, z towards the viewer) to z up.
 Eigen::Affine3d zUpFromYUp() {
@@ -43,8 +44,36 @@ Eigen::Affine3d toEigen(const aiMatrix4x4& matrix) {
   return affine;
 }
 
-Mesh toMesh(const aiMesh& source) {
+/// Colours are linear in glTF, and display values elsewhere.
+Eigen::Array3f vertexColor(const aiColor4D& color, bool linear) {
+  if (linear) return {color.r, color.g, color.b};
+  return linearFromSrgb({color.r, color.g, color.b}).value;
+}
+
+std::vector<Eigen::Vector2f> coordinatesOf(const aiMesh& source, const CoordinateRecipe& recipe) {
+  std::vector<Eigen::Vector2f> coordinates;
+  const auto set = static_cast<unsigned>(recipe.set);
+  if (recipe.set < 0 || set >= AI_MAX_NUMBER_OF_TEXTURECOORDS || !source.HasTextureCoords(set))
+    return coordinates;
+  for (unsigned i = 0; i < source.mNumVertices; ++i)
+    coordinates.push_back(recipe({source.mTextureCoords[set][i].x, source.mTextureCoords[set][i].y}));
+  return coordinates;
+}
+
+std::vector<Eigen::Vector4f> tangentsOf(const aiMesh& source) {
+  std::vector<Eigen::Vector4f> tangents;
+  if (!source.HasTangentsAndBitangents() || !source.HasNormals()) return tangents;
+  for (unsigned i = 0; i < source.mNumVertices; ++i) {
+    const aiVector3D &t = source.mTangents[i], &b = source.mBitangents[i], &n = source.mNormals[i];
+    const float hand = ((n ^ t) * b) < 0.0f ? -1.0f : 1.0f;
+    tangents.emplace_back(t.x, t.y, t.z, hand);
+  }
+  return tangents;
+}
+
+Mesh toMesh(const aiMesh& source, const MeshLook& look, bool gltf) {
   Mesh mesh;
+  mesh.material = look.material;
   mesh.positions.reserve(source.mNumVertices);
   for (unsigned i = 0; i < source.mNumVertices; ++i) {
     const aiVector3D& position = source.mVertices[i];
@@ -53,15 +82,12 @@ Mesh toMesh(const aiMesh& source) {
       const aiVector3D& normal = source.mNormals[i];
       mesh.normals.emplace_back(normal.x, normal.y, normal.z);
     }
-    if (source.HasTextureCoords(0)) {
-      const aiVector3D& coordinate = source.mTextureCoords[0][i];
-      mesh.texture_coordinates.emplace_back(coordinate.x, coordinate.y);
-    }
-    if (source.HasVertexColors(0)) {
-      const aiColor4D& color = source.mColors[0][i];
-      mesh.colors.emplace_back(color.r, color.g, color.b);
-    }
+    if (source.HasVertexColors(0)) mesh.colors.push_back(vertexColor(source.mColors[0][i], gltf));
   }
+  mesh.texture_coordinates = coordinatesOf(source, look.coordinates.front());
+  for (std::size_t i = 1; i < look.coordinates.size(); ++i)
+    mesh.more_texture_coordinates.push_back(coordinatesOf(source, look.coordinates[i]));
+  if (gltf) mesh.tangents = tangentsOf(source);
   mesh.triangles.reserve(source.mNumFaces);
   for (unsigned i = 0; i < source.mNumFaces; ++i) {
     const aiFace& face = source.mFaces[i];
@@ -79,7 +105,8 @@ bool hasSurface(const aiMesh& mesh) {
 /// The parts below `node`, in the order of the file.
 struct Collector {
   const aiScene& scene;
-  const std::vector<std::optional<int>>& material_indices;
+  const std::vector<std::optional<MeshLook>>& looks;  ///< by material
+  bool gltf;
   std::vector<MeshPart> parts;
   std::size_t lines_and_points = 0;  ///< left out
 
@@ -87,13 +114,12 @@ struct Collector {
     const Eigen::Affine3d up_from_node = up_from_parent * toEigen(node.mTransformation);
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       const aiMesh& source = *scene.mMeshes[node.mMeshes[i]];
-      const std::optional<int> material = material_indices[source.mMaterialIndex];
+      const std::optional<MeshLook>& look = looks[source.mMaterialIndex];
       if (!hasSurface(source)) lines_and_points += source.mNumFaces;
-      if (!material || !hasSurface(source)) continue;
+      if (!look || !hasSurface(source)) continue;
       MeshPart part{node.mName.C_Str(), source.mName.C_Str(), {}, up_from_node};
-      part.mesh = toMesh(source);
+      part.mesh = toMesh(source, *look, gltf);
       part.mesh.name = part.node.empty() ? part.geometry : part.node;
-      part.mesh.material = *material;
       parts.push_back(std::move(part));
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i) collect(*node.mChildren[i], up_from_node);
@@ -101,16 +127,16 @@ struct Collector {
 };
 
 /// By their index in `scene`; none for those that no mesh uses, which Assimp adds of its own too.
-std::vector<std::optional<int>> addMaterials(const aiScene& scene, const MeshFileContext& context) {
-  std::vector<std::optional<int>> indices(scene.mNumMaterials);
+std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const MeshFileContext& context) {
+  std::vector<std::optional<MeshLook>> looks(scene.mNumMaterials);
   std::vector<bool> used(scene.mNumMaterials, false);
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
     if (hasSurface(*scene.mMeshes[i])) used[scene.mMeshes[i]->mMaterialIndex] = true;
   }
   for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
-    if (used[i]) indices[i] = addMeshMaterial(*scene.mMaterials[i], scene, context);
+    if (used[i]) looks[i] = addMeshMaterial(i, scene, context);
   }
-  return indices;
+  return looks;
 }
 
 /// COLLADA colours may be brighter than a screen.
@@ -181,22 +207,6 @@ void addLamps(const aiScene& scene, const Eigen::Affine3d& up_from_file, bool gl
   }
 }
 
-/// Assimp leaves out extensions that it does not know without a word.
-void warnAboutExtensions(const std::string& file, SceneBuilder& builder) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  const std::size_t key = text.find("\"extensionsUsed\"");
-  if (key == std::string::npos) return;
-  const std::size_t begin = text.find('[', key);
-  if (begin == std::string::npos) return;
-  const std::string list = text.substr(begin, text.find(']', begin) - begin);
-  const std::regex quoted("\"([^\"]*)\"");
-  for (std::sregex_iterator name(list.begin(), list.end(), quoted), end; name != end; ++name) {
-    if ((*name)[1] == "KHR_lights_punctual") continue;
-    builder.warn(file + ": glTF extension " + (*name)[1].str() + " is not read");
-  }
-}
-
 /// The text of a COLLADA file that Assimp may take: it wants the numbers of a colour right behind the tag,
 /// and XML does not.
 std::string withoutBlanksBeforeColors(const std::string& file) {
@@ -230,22 +240,28 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up_axis == UpAxis::kZ);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
-  const aiScene* scene = importer.ReadFile(file, kSteps);
+  importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCrease_deg);
+  // Normals where the file has none: glTF 2.0, section 3.7.2.1, wants them flat.
+  const unsigned normals = gltf ? aiProcess_GenNormals : aiProcess_GenSmoothNormals;
+  const aiScene* scene = importer.ReadFile(file, kSteps | normals);
   if (scene == nullptr && collada) {
     const std::string text = withoutBlanksBeforeColors(file);
-    scene = importer.ReadFileFromMemory(text.data(), text.size(), kSteps, "dae");
+    scene = importer.ReadFileFromMemory(text.data(), text.size(), kSteps | normals, "dae");
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw std::runtime_error(file + ": cannot read this mesh: " + importer.GetErrorString());
   }
 
-  if (gltf) warnAboutExtensions(file, builder);
-  const std::vector<std::optional<int>> material_indices =
-      addMaterials(*scene, MeshFileContext{file, gltf, finder, builder});
+  std::optional<GltfMaterials> gltf_materials;
+  if (gltf) gltf_materials.emplace(file, builder);
+  for (const std::string& name : gltf ? gltf_materials->unknownExtensions() : std::vector<std::string>())
+    builder.warn("glTF extensions are not read", name + " of " + file);
+  const std::vector<std::optional<MeshLook>> looks =
+      addMaterials(*scene, MeshFileContext{file, gltf ? &*gltf_materials : nullptr, finder, builder});
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up.
   const bool y_up = gltf || (collada && up_axis == UpAxis::kAsDeclared);
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();
-  Collector collector{*scene, material_indices, {}};
+  Collector collector{*scene, looks, gltf, {}};
   collector.collect(*scene->mRootNode, up_from_file);
   if (up_axis == UpAxis::kAsDeclared) addLamps(*scene, up_from_file, gltf, builder);
   if (collector.lines_and_points > 0) {

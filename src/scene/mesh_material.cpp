@@ -1,28 +1,20 @@
 #include "scene/mesh_material.h"
 
-#include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <optional>
 
 #include "scene/color.h"
+#include "scene/mesh_file.h"
 
 namespace sunlit::scene {
 namespace {
 
-std::optional<std::string> textureName(const aiMaterial& source) {
-  for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
-    aiString name;
-    if (source.GetTexture(type, 0, &name) == aiReturn_SUCCESS && name.length > 0) return name.C_Str();
-  }
-  return std::nullopt;
-}
-
 /// Index of the texture `name`, or kNoTexture with a warning if there is no such file.
-int addTexture(const std::string& name, const aiScene& scene, const MeshFileContext& context) {
+int addTexture(const std::string& name, const aiScene& scene, const MeshFileContext& context,
+               const Wraps& wraps) {
   if (const aiTexture* embedded = scene.GetEmbeddedTexture(name.c_str())) {
     if (embedded->mHeight != 0) {
       context.builder.warn(context.file + ": texture " + name +
@@ -33,7 +25,7 @@ int addTexture(const std::string& name, const aiScene& scene, const MeshFileCont
     const std::string label = embedded->mFilename.length > 0 ? embedded->mFilename.C_Str() : "";
     return context.builder.textureFromBytes(
         context.file + ": texture " + name + (label.empty() ? "" : " " + label),
-        {begin, begin + embedded->mWidth});
+        {begin, begin + embedded->mWidth}, wraps);
   }
   const Found found = context.finder.findTexture(name, context.file);
   if (!found.file) {
@@ -43,40 +35,7 @@ int addTexture(const std::string& name, const aiScene& scene, const MeshFileCont
   if (found.other_case) {
     context.builder.warn(kSpeltOtherwise, name + " of " + context.file + " is " + *found.file);
   }
-  return context.builder.textureFromFile(*found.file);
-}
-
-/// glTF 2.0's own metallic-roughness properties.
-void readGltf(const aiMaterial& source, Material& material) {
-  aiColor4D base;
-  if (source.Get(AI_MATKEY_BASE_COLOR, base) == aiReturn_SUCCESS) {
-    material.base_color = LinearRgb(base.r, base.g, base.b);
-  }
-  aiColor3D emission;
-  if (source.Get(AI_MATKEY_COLOR_EMISSIVE, emission) == aiReturn_SUCCESS) {
-    material.emission = LinearRgb(emission.r, emission.g, emission.b);
-  }
-  material.roughness = 1.0f;  // glTF's defaults are 1 and 1
-  material.metalness = 1.0f;
-  source.Get(AI_MATKEY_ROUGHNESS_FACTOR, material.roughness);
-  source.Get(AI_MATKEY_METALLIC_FACTOR, material.metalness);
-  material.roughness = std::clamp(material.roughness, Material::kSmoothest, 1.0f);
-  material.metalness = std::clamp(material.metalness, 0.0f, 1.0f);
-}
-
-/// The alpha mode of a glTF material; blending, which we do not have, becomes a cut-out.
-void readGltfAlpha(const aiMaterial& source, Material& material, const MeshFileContext& context) {
-  aiString mode;
-  source.Get(AI_MATKEY_GLTF_ALPHAMODE, mode);
-  source.Get(AI_MATKEY_GLTF_ALPHACUTOFF, material.alpha_cutoff);
-  material.alpha_cutoff = std::clamp(material.alpha_cutoff, 0.0f, 1.0f);
-  if (std::strcmp(mode.C_Str(), "MASK") == 0) material.alpha_mode = AlphaMode::kMask;
-  if (std::strcmp(mode.C_Str(), "BLEND") == 0) {
-    material.alpha_mode = AlphaMode::kMask;
-    material.alpha_cutoff = 0.5f;
-    context.builder.warn("materials are blended, they are cut out at alpha 0.5",
-                         material.name + " of " + context.file);
-  }
+  return context.builder.textureFromFile(*found.file, wraps);
 }
 
 /// Phong-style materials of COLLADA and OBJ. Their colours are display values.
@@ -101,37 +60,123 @@ bool isSeenThrough(const aiMaterial& source) {
   return opacity > 0.0f && opacity < 0.5f;
 }
 
-}  // namespace
+Wrap wrapOf(const aiMaterial& source, const char* key, aiTextureType type) {
+  int mode = aiTextureMapMode_Wrap;
+  source.Get(key, static_cast<unsigned>(type), 0, mode);
+  return mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal ? Wrap::kClamp
+         : mode == aiTextureMapMode_Mirror                                ? Wrap::kMirror
+                                                                          : Wrap::kRepeat;
+}
 
-std::optional<int> addMeshMaterial(const aiMaterial& source, const aiScene& scene,
-                                   const MeshFileContext& context) {
+/// Adds the texture of `type`; kNone if the material has none, or it is missing.
+int addTexture(aiTextureType type, const aiMaterial& source, const aiScene& scene,
+               const MeshFileContext& context) {
+  aiString name;
+  if (source.GetTexture(type, 0, &name) != aiReturn_SUCCESS || name.length == 0) return TextureUse::kNone;
+  const Wraps wraps{wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE, type),
+                    wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE, type)};
+  return addTexture(name.C_Str(), scene, context, wraps);
+}
+
+/// What COLLADA and OBJ say beside colour and highlight: emission is rendered, the rest named.
+void readPhongMaps(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context,
+                   Material& material) {
+  aiColor4D emission(0.0f, 0.0f, 0.0f, 1.0f);
+  source.Get(AI_MATKEY_COLOR_EMISSIVE, emission);
+  material.emission_map.texture = addTexture(aiTextureType_EMISSIVE, source, scene, context);
+  material.emission = material.emission_map.given() ? LinearRgb(1.0f, 1.0f, 1.0f)
+                                                    : linearFromSrgb({emission.r, emission.g, emission.b});
+  material.emission.value *= kDisplayWhite_cd_per_m2;
+  material.normal_map.texture = addTexture(aiTextureType_NORMALS, source, scene, context);
+  const auto name = [&](aiTextureType type, const char* what) {
+    if (source.GetTextureCount(type) > 0)
+      context.builder.warn(kNotRendered, material.name + " of " + context.file + ": " + what);
+  };
+  if (context.file.size() < 4 || extensionOf(context.file) != ".obj" || !material.normal_map.given())
+    name(aiTextureType_HEIGHT, "a bump map: without it");
+  name(aiTextureType_SPECULAR, "a texture of its highlights: without it");
+  name(aiTextureType_SHININESS, "a texture of its shininess: without it");
+  name(aiTextureType_DISPLACEMENT, "displacement: flat");
+  name(aiTextureType_REFLECTION, "a picture of what it mirrors: it mirrors what there is");
+}
+
+std::optional<int> addPhong(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context) {
   Material material;
   material.name = source.GetName().C_Str();
-  const bool gltf = context.is_gltf;
   if (isSeenThrough(source)) {
-    context.builder.warn("materials are more than half transparent, what has them was left out",
-                         material.name + " of " + context.file);
+    context.builder.warn(context.file + ": what has material " + material.name +
+                         " was left out: it is more than half transparent");
     return std::nullopt;
   }
-  if (gltf) {
-    readGltf(source, material);
-    readGltfAlpha(source, material, context);
-  } else {
-    readPhong(source, material);
+  readPhong(source, material);
+  int textured = TextureUse::kNone;
+  aiString name;
+  for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
+    if (textured == TextureUse::kNone) textured = addTexture(type, source, scene, context);
   }
-  int double_sided = gltf ? 0 : 1;
-  source.Get(AI_MATKEY_TWOSIDED, double_sided);
-  material.double_sided = !gltf || double_sided != 0;
-  if (const auto name = textureName(source)) {
-    material.base_texture = addTexture(*name, scene, context);
-    const bool missing = material.base_texture == Material::kNoTexture;
-    // In COLLADA and OBJ the texture stands in the place of the colour; in glTF it multiplies it.
-    if (missing) material.base_color = kNeutral;
-    if (!missing && !gltf) material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
-    if (missing) material.alpha_mode = AlphaMode::kOpaque;
-  }
+  material.base_texture = textured;
+  const bool wanted =
+      source.GetTexture(aiTextureType_DIFFUSE, 0, &name) == aiReturn_SUCCESS && name.length > 0;
+  // The texture stands in the place of the colour.
+  if (textured != TextureUse::kNone) material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
+  if (wanted && textured == TextureUse::kNone) material.base_color = kNeutral;
   material.base_color.value = material.base_color.value.max(0.0f).min(1.0f);
-  return context.builder.addMaterial(material, gltf ? AlphaRule::kDeclared : AlphaRule::kFromTexture);
+  readPhongMaps(source, scene, context, material);
+  return context.builder.addMaterial(material, AlphaRule::kFromTexture);
+}
+
+aiTextureType typeOf(GltfMaterials::Slot slot) {
+  switch (slot) {
+    case GltfMaterials::Slot::kBase:
+      return aiTextureType_BASE_COLOR;
+    case GltfMaterials::Slot::kDiffuse:
+      return aiTextureType_DIFFUSE;
+    case GltfMaterials::Slot::kMetallicRoughness:
+      return aiTextureType_UNKNOWN;
+    case GltfMaterials::Slot::kNormal:
+      return aiTextureType_NORMALS;
+    case GltfMaterials::Slot::kOcclusion:
+      return aiTextureType_LIGHTMAP;
+    case GltfMaterials::Slot::kEmissive:
+      return aiTextureType_EMISSIVE;
+  }
+  return aiTextureType_NONE;
+}
+
+}  // namespace
+
+std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
+                                        const MeshFileContext& context) {
+  const aiMaterial& source = *scene.mMaterials[index];
+  if (!context.gltf) {
+    const std::optional<int> material = addPhong(source, scene, context);
+    if (!material) return std::nullopt;
+    return MeshLook{*material, {CoordinateRecipe()}};
+  }
+  const std::optional<GltfLook> look = context.gltf->look(index, [&](GltfMaterials::Slot slot,
+                                                                     const Wraps& wraps) {
+    aiString name;
+    if (source.GetTexture(typeOf(slot), 0, &name) != aiReturn_SUCCESS || name.length == 0) {
+      context.builder.warn(kMissingTextures, std::string(source.GetName().C_Str()) + " of " + context.file);
+      return TextureUse::kNone;
+    }
+    return addTexture(name.C_Str(), scene, context, wraps);
+  });
+  if (!look) {  // glTF 2.0, section 3.7.2.1: the default material
+    Material material;
+    material.name = "default";
+    material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
+    material.roughness = 1.0f;
+    material.metalness = 1.0f;
+    material.double_sided = false;
+    return MeshLook{context.builder.addMaterial(material, AlphaRule::kDeclared), {CoordinateRecipe()}};
+  }
+  if (look->vanishes) {
+    context.builder.warn("materials are invisible by their alpha, and left out",
+                         look->material.name + " of " + context.file);
+    return std::nullopt;
+  }
+  return MeshLook{context.builder.addMaterial(look->material, AlphaRule::kDeclared), look->coordinates};
 }
 
 }  // namespace sunlit::scene

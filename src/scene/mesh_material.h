@@ -5,7 +5,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "scene/gltf_material.h"
 #include "scene/resource_finder.h"
 #include "scene/scene_builder.h"
 
@@ -14,15 +16,20 @@ namespace sunlit::scene {
 /// A mesh file being read.
 struct MeshFileContext {
   std::string file;
-  bool is_gltf;  ///< else COLLADA or OBJ, whose materials mean other things
+  const GltfMaterials* gltf;  ///< null: COLLADA or OBJ, whose materials mean other things
   const ResourceFinder& finder;
   SceneBuilder& builder;
 };
 
-/// Adds `source`, a material of `scene`, to the builder and gives its index there. A missing texture is a
-/// warning and a neutral grey. None, with a warning, if it is more than half transparent: we have surfaces
-/// and holes, nothing between.
-std::optional<int> addMeshMaterial(const aiMaterial& source, const aiScene& scene,
-                                   const MeshFileContext& context);
+/// A material in the builder, and the texture coordinates that it wants of its meshes.
+struct MeshLook {
+  int material;
+  std::vector<CoordinateRecipe> coordinates;  ///< the first is Mesh::texture_coordinates
+};
+
+/// Adds material `index` of `scene` to the builder. A missing texture is a warning and a neutral grey. None,
+/// with a warning, if nothing of it would be seen; and of COLLADA and OBJ, if it is more than half
+/// transparent: their files take transparency for opacity as often as not.
+std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene, const MeshFileContext& context);
 
 }  // namespace sunlit::scene

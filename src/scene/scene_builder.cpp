@@ -72,19 +72,22 @@ void repairNormals(Mesh& mesh) {
 
 }  // namespace
 
-int SceneBuilder::textureFromFile(const std::string& file) {
+int SceneBuilder::textureFromFile(const std::string& file, const Wraps& wraps) {
   std::error_code error;
   const std::filesystem::path canonical = std::filesystem::weakly_canonical(file, error);
   const std::string key = error ? file : canonical.string();
-  return addTexture(key, TextureSource{key, {}, false});
+  return addTexture(key, TextureSource{key, {}, false, wraps});
 }
 
-int SceneBuilder::textureFromBytes(const std::string& name, std::vector<std::uint8_t> bytes) {
-  return addTexture(name, TextureSource{name, std::move(bytes), true});
+int SceneBuilder::textureFromBytes(const std::string& name, std::vector<std::uint8_t> bytes,
+                                   const Wraps& wraps) {
+  return addTexture(name, TextureSource{name, std::move(bytes), true, wraps});
 }
 
 int SceneBuilder::addTexture(const std::string& key, TextureSource source) {
-  const auto [place, is_new] = texture_by_key_.emplace(key, static_cast<int>(sources_.size()));
+  const int wraps = 3 * static_cast<int>(source.wraps.u) + static_cast<int>(source.wraps.v);
+  const auto [place, is_new] =
+      texture_by_key_.emplace(std::make_pair(key, wraps), static_cast<int>(sources_.size()));
   if (is_new) sources_.push_back(std::move(source));
   return place->second;
 }
@@ -110,6 +113,14 @@ void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mes
   for (Eigen::Vector3f& normal : moved.normals) {
     const Eigen::Vector3d turned = normals_linear * normal.cast<double>();
     normal = turned.normalized().cast<float>();  // Eigen leaves a zero vector as it is; see repairNormals
+  }
+  for (Eigen::Vector4f& tangent : moved.tangents) {
+    tangent.head<3>() = (linear * tangent.head<3>().cast<double>()).normalized().cast<float>();
+    if (mirrored) tangent.w() = -tangent.w();
+    if (!(std::abs(tangent.head<3>().norm() - 1.0f) < 1e-3f)) {
+      moved.tangents.clear();  // those that follow from the coordinates are better than some
+      break;
+    }
   }
 
   std::vector<std::array<std::uint32_t, 3>> kept;
@@ -187,7 +198,8 @@ void SceneBuilder::decodeTextures() {
       image::Rgba8Image& picture = fitted.picture;
       if (picture.width != fitted.width || picture.height != fitted.height)
         sizes[i] = std::to_string(fitted.width) + " × " + std::to_string(fitted.height) + " px";
-      scene_.textures[i] = Texture{source.name, picture.width, picture.height, std::move(picture.data)};
+      scene_.textures[i] = Texture{source.name,    picture.width, picture.height, std::move(picture.data),
+                                   source.wraps.u, source.wraps.v};
     } catch (const std::runtime_error& error) {
       errors[i] = error.what();
     }
@@ -207,6 +219,7 @@ void SceneBuilder::forgetTexture(int texture) {
   scene_.textures[static_cast<std::size_t>(texture)] =
       Texture{sources_[static_cast<std::size_t>(texture)].name, 1, 1, {255, 255, 255, 255}};
   for (Material& material : scene_.materials) {
+    if (material.metalness_map.texture == texture) material.metalness = 0.0f;
     for (TextureUse* map : mapsOf(material)) {
       if (map->texture == texture) *map = TextureUse();
     }

@@ -27,16 +27,22 @@ constexpr int kLongestTextureSide = 8192;
 
 /// Kinds of warnings that several importers have.
 constexpr const char* kMissingTextures = "textures are missing, a neutral material takes their place";
+constexpr const char* kNotRendered = "materials have what is not rendered";
 constexpr const char* kSpeltOtherwise = "files are spelt otherwise on disk";
+
+/// How a texture goes on to the sides, and up and down.
+struct Wraps {
+  Wrap u = Wrap::kRepeat, v = Wrap::kRepeat;
+};
 
 class SceneBuilder {
  public:
   explicit SceneBuilder(const std::string& name) { scene_.name = name; }
 
-  /// Index of the texture in `file`; the same for the same file. It is decoded in finish().
-  int textureFromFile(const std::string& file);
-  /// Index of a texture inside another file, known as `name`; the same for the same name.
-  int textureFromBytes(const std::string& name, std::vector<std::uint8_t> bytes);
+  /// Index of the texture in `file`; the same for the same file and wraps. It is decoded in finish().
+  int textureFromFile(const std::string& file, const Wraps& wraps = {});
+  /// Index of a texture inside another file, known as `name`; the same for the same name and wraps.
+  int textureFromBytes(const std::string& name, std::vector<std::uint8_t> bytes, const Wraps& wraps = {});
 
   int addMaterial(const Material& material, AlphaRule rule);
   const Material& material(int index) const { return scene_.materials.at(static_cast<std::size_t>(index)); }
@@ -69,6 +75,7 @@ class SceneBuilder {
     std::string name;                 ///< path of the file, unless `bytes`
     std::vector<std::uint8_t> bytes;  ///< of an embedded picture
     bool embedded = false;
+    Wraps wraps = {};
   };
   struct Kind {
     std::size_t times = 0;
@@ -83,7 +90,7 @@ class SceneBuilder {
 
   Scene scene_;
   std::vector<TextureSource> sources_;
-  std::map<std::string, int> texture_by_key_;
+  std::map<std::pair<std::string, int>, int> texture_by_key_;  ///< by name and wraps
   std::vector<AlphaRule> alpha_rules_;
   std::map<std::string, Kind> kinds_;
 };

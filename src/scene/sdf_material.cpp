@@ -76,6 +76,9 @@ Material SdfMaterials::fromScript(const sdf::Material& source) {
       const bool textured = material.base_texture != Material::kNoTexture;
       if (textured) material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
       if (parsed->diffuse && !parsed->texture) material.base_color = *parsed->diffuse;
+      if (parsed->emissive) material.emission.value = kDisplayWhite_cd_per_m2 * parsed->emissive->value;
+      for (const std::string& lost : parsed->lost)
+        builder_.warn(kNotRendered, "script " + material.name + ": " + lost + ": without it");
       if (parsed->alpha_rejection && textured) material.alpha_mode = AlphaMode::kMask;
       return material;
     }
@@ -97,6 +100,27 @@ void SdfMaterials::readPbr(const sdf::Material& source, Material& material) {
     material.base_texture = texture(metal->AlbedoMap(), source.FilePath());
     if (material.base_texture == Material::kNoTexture) material.base_color = kNeutral;
   }
+  readMaps(*metal, source, material);
+}
+
+void SdfMaterials::readMaps(const sdf::PbrWorkflow& metal, const sdf::Material& source, Material& material) {
+  const auto map = [&](const std::string& name) {
+    return TextureUse{name.empty() ? TextureUse::kNone : texture(name, source.FilePath())};
+  };
+  material.normal_map = map(metal.NormalMap());
+  material.occlusion_map = map(metal.AmbientOcclusionMap());
+  // Grey pictures; a factor beside them would be the default that they stand in for.
+  material.roughness_map = map(metal.RoughnessMap());
+  if (material.roughness_map.given()) material.roughness = 1.0f;
+  material.metalness_map = map(metal.MetalnessMap());
+  if (material.metalness_map.given()) material.metalness = 1.0f;
+  material.emission_map = map(metal.EmissiveMap());
+  if (material.emission_map.given() && !source.Element()->HasElement("emissive"))
+    material.emission.value.setConstant(kDisplayWhite_cd_per_m2);
+  const std::string name = "PBR material of " + source.FilePath() + ": ";
+  if (!metal.EnvironmentMap().empty())
+    builder_.warn(kNotRendered, name + "an environment map: it mirrors what there is");
+  if (!metal.LightMap().empty()) builder_.warn(kNotRendered, name + "a light map: light is computed");
 }
 
 std::optional<int> SdfMaterials::add(const sdf::Material* source) {
@@ -105,7 +129,8 @@ std::optional<int> SdfMaterials::add(const sdf::Material* source) {
   const bool plain = element->HasElement("diffuse") || element->HasElement("ambient");
   const bool scripted = !source->ScriptName().empty() && element->HasElement("script");
   const bool pbr = source->PbrMaterial() != nullptr;
-  if (!plain && !scripted && !pbr) return std::nullopt;
+  const bool glows = element->HasElement("emissive") && toLinear(source->Emissive()).value.maxCoeff() > 0.0f;
+  if (!plain && !scripted && !pbr && !glows) return std::nullopt;
 
   const std::string content = source->FilePath() + element->ToString("");
   const auto known = index_by_content_.find(content);
@@ -121,6 +146,8 @@ std::optional<int> SdfMaterials::add(const sdf::Material* source) {
     const ignition::math::Color specular = source->Specular();
     if (std::max({specular.R(), specular.G(), specular.B()}) > 0.3f) material.roughness = 0.5f;
   }
+  if (element->HasElement("emissive"))
+    material.emission.value = kDisplayWhite_cd_per_m2 * toLinear(source->Emissive()).value;
   if (pbr) {
     if (!plain) material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
     readPbr(*source, material);

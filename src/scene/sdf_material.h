@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <sdf/Material.hh>
+#include <sdf/Pbr.hh>
 #include <string>
 
 #include "scene/resource_finder.h"
@@ -26,6 +27,7 @@ class SdfMaterials {
  private:
   Material fromScript(const sdf::Material& source);
   void readPbr(const sdf::Material& source, Material& material);
+  void readMaps(const sdf::PbrWorkflow& metal, const sdf::Material& source, Material& material);
   int texture(const std::string& name, const std::string& from_file);
 
   const ResourceFinder& finder_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "sunlit/light/geometry.h"
 
@@ -29,7 +30,8 @@ struct Hit {
   float distance = 0.0f;           ///< in lengths of the ray's direction
 };
 
-/// Materials of AlphaMode::kMask let light through where the image shows them cut out. Surfaces stop light
+/// Materials of AlphaMode::kMask let light through where the image shows them cut out; those of kBlend stop
+/// a share alpha of the rays, by a hash of where they meet them. Surfaces stop light
 /// from both sides. Immutable after construction; queries may run on many threads at once and give the same
 /// bits on any number.
 class Visibility {
@@ -57,10 +59,21 @@ class Visibility {
   void closest(const Rays& rays, Hit* hits) const;
 
   /// The triangle (index into Geometry::triangles) that a camera at `origin` sees first along `direction`, at
-  /// least `near` times its length away; a one-sided triangle is invisible from behind. Empty if there is
-  /// none.
+  /// least `near` times its length away; a one-sided triangle is invisible from behind, and what blends is
+  /// seen through. Empty if there is none.
   std::optional<std::uint32_t> firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                                          float near) const;
+
+  /// A ray of a camera: from `near` to `far` times the length of its direction.
+  struct Sight {
+    Eigen::Vector3f origin, direction;
+    float near, far;
+  };
+  /// What blends along it, nearest first, at most kMostVeils.
+  static constexpr std::size_t kMostVeils = 16;
+  void veils(const Sight& sight, std::vector<Hit>* hits) const;
+  /// Whether anything blends at all.
+  bool hasVeils() const;
 
  private:
   void occluded(const Rays& rays, float reach, std::uint8_t* blocked) const;

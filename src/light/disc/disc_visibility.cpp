@@ -74,7 +74,8 @@ bool DiscVisibility::facesDisc(const LightTable::DiscTarget& target) const {
 }
 
 bool DiscVisibility::fillsPixel(const LightTable::DiscTarget& target) const {
-  return !target.leaves && target.samples == static_cast<std::uint32_t>(surfaces_.samples_per_pixel);
+  return !target.leaves && !target.veiled &&
+         target.samples == static_cast<std::uint32_t>(surfaces_.samples_per_pixel);
 }
 
 std::uint8_t DiscVisibility::enoughMixed(const LightTable::DiscTarget& target, bool fills) {

@@ -15,7 +15,7 @@ constexpr float kLeastRough = 0.42f;
 Mirror findView(const TransportData& data, const scene::Material& material, const Surface& surface,
                 const Tile& tile) {
   const bool sheet = material.transmission > 0.0f;
-  const OpenPatches open = openPatches(data, surface, tile.gatheredFor(surface), material.transmission);
+  const OpenPatches open = openPatches(data, surface, tile.gatheredFor(surface), material);
   if (surface.roughness < kLeastRough) return smoothMirror(surface, surface.roughness, sheet, open);
   return roughMirror(surface, material, open);
 }

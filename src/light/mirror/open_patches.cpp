@@ -55,8 +55,10 @@ void divideByWhole(const float* normal, const float* __restrict sums, float* __r
   }
 }
 
-/// The samples' own: as in the bake, normals of the file count where they are sensible.
-const Eigen::Vector3f& bakedNormal(const Surface& surface) {
+/// The samples' own: as in the bake, normals of the file count where they are sensible, and maps of them do
+/// not.
+const Eigen::Vector3f& bakedNormal(const Surface& surface, const scene::Material& material) {
+  if (material.normal_map.given()) return surface.geometric_normal;
   constexpr float kSensible = 0.7f;
   return surface.shading_normal.dot(surface.geometric_normal) < kSensible ? surface.geometric_normal
                                                                           : surface.shading_normal;
@@ -90,7 +92,8 @@ OpenPatches ofLeaf(const LeafOpenness& leaves, const Surface& surface) {
 }  // namespace
 
 OpenPatches openPatches(const TransportData& data, const Surface& surface, const GatheredSky* gathered,
-                        float transmission) {
+                        const scene::Material& material) {
+  const float transmission = material.transmission;
   if (gathered) return ofGathered(*gathered, surface.geometric_normal, transmission > 0.0f);
   if (surface.sky.known) return ofLeaf(data.leaves, surface);
   const SampleRows samples(data, surface, transmission);
@@ -98,7 +101,8 @@ OpenPatches openPatches(const TransportData& data, const Surface& surface, const
   sums.fill(0.0f);
   for (std::size_t i = 0; i < samples.count; ++i)
     addTimes(samples.rows[i].weight, samples.rows[i].values, sums.data());
-  const Eigen::Vector3f& normal = transmission > 0.0f ? surface.shading_normal : bakedNormal(surface);
+  const Eigen::Vector3f& normal =
+      transmission > 0.0f ? surface.shading_normal : bakedNormal(surface, material);
   OpenPatches open;
   divideByWhole(normal.data(), sums.data(), open.share.data(), open.known.data());
   return open;

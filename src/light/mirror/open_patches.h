@@ -13,9 +13,9 @@ struct OpenPatches {
 };
 
 /// By what was gathered there, if `gathered` is not null; else by the surface's view of the sky as a leaf, or
-/// by the samples of `data` around it. `transmission` is its material's; thin sheets see the sky on both
-/// sides, but by samples.
+/// by the samples of `data` around it. `material` is its own; thin sheets see the sky on both sides, but by
+/// samples.
 OpenPatches openPatches(const TransportData& data, const Surface& surface, const GatheredSky* gathered,
-                        float transmission);
+                        const scene::Material& material);
 
 }  // namespace sunlit::light

@@ -6,25 +6,29 @@
 #include "light/light_table.h"
 #include "sunlit/image/srgb.h"
 #include "sunlit/light/surfaces.h"
+#include "sunlit/scene/wrap.h"
 
 namespace sunlit::light {
 namespace {
 
-/// The four texels about a texture coordinate, repeating.
+/// The four texels about a texture coordinate.
 struct Texels {
   int x0, x1, y0, y1;
   float fx, fy;
   Texels(const scene::Texture& texture, const Eigen::Vector2f& at) {
-    const float x = (at.x() - std::floor(at.x())) * static_cast<float>(texture.width) - 0.5f;
-    const float y = (at.y() - std::floor(at.y())) * static_cast<float>(texture.height) - 0.5f;
+    const float x = scene::wrapped(at.x(), texture.wrap_u) * static_cast<float>(texture.width) - 0.5f;
+    const float y = scene::wrapped(at.y(), texture.wrap_v) * static_cast<float>(texture.height) - 0.5f;
     const int left = static_cast<int>(std::floor(x));
     const int above = static_cast<int>(std::floor(y));
     fx = x - static_cast<float>(left);
     fy = y - static_cast<float>(above);
-    x0 = (left + texture.width) % texture.width;
-    x1 = (left + 1) % texture.width;
-    y0 = (above + texture.height) % texture.height;
-    y1 = (above + 1) % texture.height;
+    x0 = within(left, texture.width, texture.wrap_u);
+    x1 = within(left + 1, texture.width, texture.wrap_u);
+    y0 = within(above, texture.height, texture.wrap_v);
+    y1 = within(above + 1, texture.height, texture.wrap_v);
+  }
+  static int within(int i, int size, scene::Wrap wrap) {
+    return wrap == scene::Wrap::kRepeat ? (i + size) % size : std::clamp(i, 0, size - 1);
   }
 };
 
@@ -64,12 +68,14 @@ Vertex SceneVertices::at(const Hit& hit, const Eigen::Vector3f& direction) const
   vertex.reflection = {normal,
                        -direction,
                        albedo(hit, *vertex.material),
-                       vertex.material->roughness,
-                       vertex.material->metalness,
+                       roughness(hit, *vertex.material),
+                       metalness(hit, *vertex.material),
                        vertex.material->transmission,
                        vertex.material->dielectric.value,
                        vertex.material->dielectric_grazing};
   vertex.emission = vertex.material->emission.value;
+  if (const auto color = texel(hit, vertex.material->emission_map, TexelKind::kColor))
+    vertex.emission *= *color;
   // Of the corners: far from where the ray started, they tell the place better than its length.
   const Eigen::Vector3f position = interpolated(geometry_.positions, corners, hit);
   const Eigen::Vector3f step = rayClearance_m(position, 0.0f) * vertex.geometric_normal;
@@ -78,27 +84,44 @@ Vertex SceneVertices::at(const Hit& hit, const Eigen::Vector3f& direction) const
   return vertex;
 }
 
+std::optional<Eigen::Array3f> SceneVertices::texel(const Hit& hit, const scene::TextureUse& use,
+                                                   TexelKind kind) const {
+  if (!use.given() || !geometry_.coordinates(use.coordinates)) return std::nullopt;
+  const scene::Texture& texture = geometry_.scene->textures[static_cast<std::size_t>(use.texture)];
+  const auto& corners = geometry_.triangles[hit.triangle];
+  const Texels texels(texture, interpolated(*geometry_.coordinates(use.coordinates), corners, hit));
+  const std::array<float, 256>& linear = image::linearOfSrgb();
+  const auto at = [&](int x, int y) {
+    const std::uint8_t* rgba =
+        texture.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width) +
+                                   static_cast<std::size_t>(x));
+    if (kind == TexelKind::kData) return Eigen::Array3f(Eigen::Array3f(rgba[0], rgba[1], rgba[2]) / 255.0f);
+    return Eigen::Array3f(linear[rgba[0]], linear[rgba[1]], linear[rgba[2]]);
+  };
+  const Eigen::Array3f top =
+      at(texels.x0, texels.y0) * (1.0f - texels.fx) + at(texels.x1, texels.y0) * texels.fx;
+  const Eigen::Array3f bottom =
+      at(texels.x0, texels.y1) * (1.0f - texels.fx) + at(texels.x1, texels.y1) * texels.fx;
+  return Eigen::Array3f(top * (1.0f - texels.fy) + bottom * texels.fy);
+}
+
 Eigen::Array3f SceneVertices::albedo(const Hit& hit, const scene::Material& material) const {
   const auto& corners = geometry_.triangles[hit.triangle];
   Eigen::Array3f product = material.base_color.value * interpolated(geometry_.colors, corners, hit);
-  if (material.base_texture != scene::Material::kNoTexture) {
-    const scene::Texture& texture =
-        geometry_.scene->textures[static_cast<std::size_t>(material.base_texture)];
-    const Texels texels(texture, interpolated(geometry_.texture_coordinates, corners, hit));
-    const std::array<float, 256>& linear = image::linearOfSrgb();
-    const auto texel = [&](int x, int y) {
-      const std::uint8_t* rgba =
-          texture.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width) +
-                                     static_cast<std::size_t>(x));
-      return Eigen::Array3f(linear[rgba[0]], linear[rgba[1]], linear[rgba[2]]);
-    };
-    const Eigen::Array3f top =
-        texel(texels.x0, texels.y0) * (1.0f - texels.fx) + texel(texels.x1, texels.y0) * texels.fx;
-    const Eigen::Array3f bottom =
-        texel(texels.x0, texels.y1) * (1.0f - texels.fx) + texel(texels.x1, texels.y1) * texels.fx;
-    product *= top * (1.0f - texels.fy) + bottom * texels.fy;
-  }
+  if (const auto color = texel(hit, {material.base_texture}, TexelKind::kColor)) product *= *color;
   return product.max(0.0f).min(1.0f);
+}
+
+float SceneVertices::roughness(const Hit& hit, const scene::Material& material) const {
+  const auto value = texel(hit, material.roughness_map, TexelKind::kData);
+  if (!value || material.roughness_map.channel > 2) return material.roughness;
+  return std::max(material.roughness * (*value)[material.roughness_map.channel], scene::Material::kSmoothest);
+}
+
+float SceneVertices::metalness(const Hit& hit, const scene::Material& material) const {
+  const auto value = texel(hit, material.metalness_map, TexelKind::kData);
+  if (!value || material.metalness_map.channel > 2) return material.metalness;
+  return material.metalness * (*value)[material.metalness_map.channel];
 }
 
 }  // namespace sunlit::light

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "sunlit/light/geometry.h"
@@ -40,7 +41,12 @@ class SceneVertices {
   Vertex at(const Hit& hit, const Eigen::Vector3f& direction) const;
 
  private:
+  enum class TexelKind { kColor, kData };
+  /// Linear, between the texels of the full size.
+  std::optional<Eigen::Array3f> texel(const Hit& hit, const scene::TextureUse& use, TexelKind kind) const;
   Eigen::Array3f albedo(const Hit& hit, const scene::Material& material) const;
+  float roughness(const Hit& hit, const scene::Material& material) const;
+  float metalness(const Hit& hit, const scene::Material& material) const;
 
   const Geometry& geometry_;
 };

@@ -9,18 +9,28 @@
 #include "sunlit/image/srgb.h"
 #include "sunlit/light/shading.h"
 #include "sunlit/quantity/angle.h"
+#include "sunlit/scene/wrap.h"
 
 namespace sunlit::light {
 namespace {
 
-int wrapped(float coordinate) {
-  const float part = coordinate - std::floor(coordinate);
-  return std::min(static_cast<int>(part * 32.0f), 31);
+int squareOf(float coordinate, scene::Wrap wrap) {
+  return std::min(static_cast<int>(scene::wrapped(coordinate, wrap) * 32.0f), 31);
+}
+
+/// Textures that roughness or metalness are taken from.
+std::vector<bool> usedAsData(const scene::Scene& scene) {
+  std::vector<bool> used(scene.textures.size(), false);
+  for (const scene::Material& material : scene.materials) {
+    for (const scene::TextureUse& use : {material.roughness_map, material.metalness_map})
+      if (use.given()) used[static_cast<std::size_t>(use.texture)] = true;
+  }
+  return used;
 }
 
 }  // namespace
 
-Reflectances::Thumbnail Reflectances::shrink(const scene::Texture& texture) {
+Reflectances::Thumbnail Reflectances::shrink(const scene::Texture& texture, Kind kind) {
   const std::array<float, 256>& linear = image::linearOfSrgb();
   Thumbnail small;
   small.pixels.resize(Thumbnail::kSize * Thumbnail::kSize);
@@ -33,8 +43,10 @@ Reflectances::Thumbnail Reflectances::shrink(const scene::Texture& texture) {
       const std::uint8_t* rgba =
           texture.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width) +
                                      static_cast<std::size_t>(x));
-      const float weight = static_cast<float>(rgba[3]) + 1e-3f;
-      const Eigen::Array3f color(linear[rgba[0]], linear[rgba[1]], linear[rgba[2]]);
+      const bool data = kind == Kind::kData;
+      const float weight = data ? 1.0f : static_cast<float>(rgba[3]) + 1e-3f;
+      Eigen::Array3f color(linear[rgba[0]], linear[rgba[1]], linear[rgba[2]]);
+      if (data) color = Eigen::Array3f(rgba[0], rgba[1], rgba[2]) / 255.0f;
       const auto to = static_cast<std::size_t>(y * Thumbnail::kSize / texture.height * Thumbnail::kSize +
                                                x * Thumbnail::kSize / texture.width);
       small.pixels[to] += weight * color;
@@ -55,7 +67,12 @@ Reflectances::Reflectances(const Geometry& geometry) : geometry_(geometry) {
   const std::vector<scene::Texture>& textures = geometry.scene->textures;
   thumbnails_.resize(textures.size());
   tbb::parallel_for(std::size_t{0}, textures.size(),
-                    [&](std::size_t i) { thumbnails_[i] = shrink(textures[i]); });
+                    [&](std::size_t i) { thumbnails_[i] = shrink(textures[i], Kind::kColor); });
+  const std::vector<bool> as_data = usedAsData(*geometry.scene);
+  data_thumbnails_.resize(textures.size());
+  tbb::parallel_for(std::size_t{0}, textures.size(), [&](std::size_t i) {
+    if (as_data[i]) data_thumbnails_[i] = shrink(textures[i], Kind::kData);
+  });
 }
 
 Paint Reflectances::at(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const {
@@ -70,11 +87,45 @@ Paint Reflectances::at(std::uint32_t triangle, const Eigen::Vector3f& barycentri
   }
   albedo *= material.base_color.value;
   if (material.base_texture != scene::Material::kNoTexture) {
-    const Thumbnail& thumbnail = thumbnails_[static_cast<std::size_t>(material.base_texture)];
-    albedo *=
-        thumbnail.pixels[static_cast<std::size_t>(wrapped(uv.y()) * Thumbnail::kSize + wrapped(uv.x()))];
+    albedo *= look(thumbnails_, material.base_texture, uv);
   }
-  return {albedo.max(0.0f).min(1.0f), material.roughness, material.metalness};
+  return {albedo.max(0.0f).min(1.0f),
+          std::max(material.roughness * data(material.roughness_map, triangle, barycentric),
+                   scene::Material::kSmoothest),
+          material.metalness * data(material.metalness_map, triangle, barycentric)};
+}
+
+Eigen::Vector2f Reflectances::coordinates(std::uint32_t triangle, const Eigen::Vector3f& barycentric,
+                                          int set) const {
+  Eigen::Vector2f uv = Eigen::Vector2f::Zero();
+  const std::vector<Eigen::Vector2f>* const of_vertices = geometry_.coordinates(set);
+  for (int k = 0; of_vertices && k < 3; ++k)
+    uv += barycentric[k] * (*of_vertices)[geometry_.triangles[triangle][static_cast<std::size_t>(k)]];
+  return uv;
+}
+
+Eigen::Array3f Reflectances::look(const std::vector<Thumbnail>& thumbnails, int texture,
+                                  const Eigen::Vector2f& uv) const {
+  const auto number = static_cast<std::size_t>(texture);
+  const scene::Texture& source = geometry_.scene->textures[number];
+  return thumbnails[number].pixels[static_cast<std::size_t>(
+      squareOf(uv.y(), source.wrap_v) * Thumbnail::kSize + squareOf(uv.x(), source.wrap_u))];
+}
+
+float Reflectances::data(const scene::TextureUse& use, std::uint32_t triangle,
+                         const Eigen::Vector3f& barycentric) const {
+  if (!use.given() || use.channel > 2 || !geometry_.coordinates(use.coordinates)) return 1.0f;
+  return look(data_thumbnails_, use.texture,
+              coordinates(triangle, barycentric, use.coordinates))[use.channel];
+}
+
+Eigen::Array3f Reflectances::emission(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const {
+  const scene::Material& material =
+      geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[triangle])];
+  const scene::TextureUse& use = material.emission_map;
+  if (!use.given() || !geometry_.coordinates(use.coordinates)) return material.emission.value;
+  return material.emission.value *
+         look(thumbnails_, use.texture, coordinates(triangle, barycentric, use.coordinates));
 }
 
 void Paint::add(float area, const Paint& other) {

@@ -34,6 +34,8 @@ class Reflectances {
   explicit Reflectances(const Geometry& geometry);
   /// At a point of a triangle; of masked surfaces the solid part.
   Paint at(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const;
+  /// Luminance of its own there, cd/m².
+  Eigen::Array3f emission(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const;
 
  private:
   /// A texture averaged over kSize × kSize squares, linear.
@@ -41,10 +43,17 @@ class Reflectances {
     static constexpr int kSize = 32;
     std::vector<Eigen::Array3f> pixels;
   };
-  static Thumbnail shrink(const scene::Texture& texture);
+  enum class Kind { kColor, kData };
+  static Thumbnail shrink(const scene::Texture& texture, Kind kind);
+  Eigen::Vector2f coordinates(std::uint32_t triangle, const Eigen::Vector3f& barycentric, int set) const;
+  /// Of one of `thumbnails`, at a place in the texture `texture`.
+  Eigen::Array3f look(const std::vector<Thumbnail>& thumbnails, int texture, const Eigen::Vector2f& uv) const;
+  /// Value of a map of data there.
+  float data(const scene::TextureUse& use, std::uint32_t triangle, const Eigen::Vector3f& barycentric) const;
 
   const Geometry& geometry_;
   std::vector<Thumbnail> thumbnails_;
+  std::vector<Thumbnail> data_thumbnails_;  ///< of those that are used as data; others are empty
 };
 
 }  // namespace sunlit::light

@@ -53,13 +53,12 @@ void paintSamples(const Geometry& geometry, SceneSamples* samples) {
     const auto& c = geometry.triangles[t];
     const Eigen::Vector3f a = geometry.positions[c[0]];
     const float whole = (geometry.positions[c[1]] - a).cross(geometry.positions[c[2]] - a).norm();
-    const Eigen::Array3f& emission =
-        geometry.scene->materials[static_cast<std::size_t>(geometry.materials[t])].emission.value;
     for (std::uint32_t root : mesh.roots[t]) {
       if (!LightMesh::isCell(root)) continue;
       visitLeaves(mesh, root, Eigen::Matrix3f::Identity(),
                   [&](const LightMesh::Cell& cell, const Eigen::Matrix3f& corners) {
                     const Paint paint = reflectances.at(t, corners.rowwise().mean());
+                    const Eigen::Array3f emission = reflectances.emission(t, corners.rowwise().mean());
                     const float area = whole * std::abs(corners.determinant());
                     for (std::uint32_t node : cell.corner) {
                       const std::uint32_t sample = samples->nearest_sample[node];

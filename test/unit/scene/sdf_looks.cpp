@@ -77,6 +77,43 @@ TEST_F(SdfLook, PbrMetalIsRead) {
   EXPECT_EQ(look(scene).base_color.value[0], 1.0f);
 }
 
+TEST_F(SdfLook, MapsOfPbrMetalAreRead) {
+  for (const char* name : {"n.png", "r.png", "m.png", "e.png", "o.png"}) writeTexture(name);
+  const Scene scene = loaded(
+      "<material><pbr><metal><normal_map>n.png</normal_map><roughness_map>r.png</roughness_map>"
+      "<metalness_map>m.png</metalness_map><emissive_map>e.png</emissive_map>"
+      "<ambient_occlusion_map>o.png</ambient_occlusion_map><environment_map>n.png</environment_map>"
+      "</metal></pbr></material>");
+  const Material& m = look(scene);
+  EXPECT_TRUE(m.normal_map.given() && m.occlusion_map.given());
+  EXPECT_TRUE(m.roughness_map.given() && m.metalness_map.given());
+  EXPECT_EQ(m.roughness, 1.0f);
+  EXPECT_EQ(m.metalness, 1.0f);
+  EXPECT_EQ(m.emission.value[0], 80.0f);  // the white of a display, times the map
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("an environment map"), std::string::npos) << scene.warnings[0];
+}
+
+TEST_F(SdfLook, EmissiveGlowsAsADisplayWould) {
+  const Scene scene = loaded("<material><diffuse>1 1 1 1</diffuse><emissive>1 0.5 0 1</emissive></material>");
+  EXPECT_NEAR(look(scene).emission.value[0], 80.0f, 1e-3f);
+  EXPECT_NEAR(look(scene).emission.value[1], 80.0f * 0.2140f, 5e-3f);
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST_F(SdfLook, WhatScriptsSayAndIsNotRenderedIsNamed) {
+  write("models/field/materials/scripts/field.material",
+        "material Field/Glass\n{\n  technique\n  {\n    pass\n    {\n      diffuse 1 0 0 1\n      "
+        "emissive 1 1 1 1\n      scene_blend alpha_blend\n    }\n  }\n}\n");
+  const Scene scene = loaded(
+      "<material><script><uri>model://field/materials/scripts</uri><name>Field/Glass</name></script>"
+      "</material>");
+  EXPECT_EQ(look(scene).emission.value[0], 80.0f);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("script Field/Glass: scene_blend: without it"), std::string::npos)
+      << scene.warnings[0];
+}
+
 TEST_F(SdfLook, AMeshKeepsItsOwnMaterialUnlessTheVisualHasOne) {
   write("red.mtl", "newmtl red\nKd 1 0 0\n");
   write("t.obj", "mtllib red.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

@@ -16,7 +16,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[3]
 KEYS = {"Eigen3": "eigen", "TBB": "tbb", "OpenCV": "libopencv-dev", "sdformat12": "sdformat",
         "urdfdom_model": "liburdfdom-dev", "erfa": "liberfa-dev", "erfa.h": "liberfa-dev",
         "console_bridge": "libconsole-bridge-dev", "program_options": "libboost-program-options-dev",
-        "xxhash": "libxxhash-dev", "xxhash.h": "libxxhash-dev", "OSMesa": "libosmesa6-dev",
+        "xxhash": "libxxhash-dev", "xxhash.h": "libxxhash-dev", "nlohmann_json": "nlohmann-json-dev", "OSMesa": "libosmesa6-dev",
         "GL/osmesa.h": "libosmesa6-dev", "EGL": "libegl-dev", "EGL/egl.h": "libegl-dev", "GL": "libgl-dev"}
 # What Python imports, likewise.
 KEYS_OF_MODULES = {"PIL": "python3-pil", "cv2": "python3-opencv", "jinja2": "python3-jinja2",

@@ -55,7 +55,7 @@ std::vector<LibraryRule> libraryRules() {
       {std::regex("(GL|EGL|GLES[23]?|KHR|OpenGL)/.*"), {"render"}},
       {std::regex("embree3/.*"), {"light"}},
       {std::regex("xxhash\\.h"), {"image"}},
-      {std::regex("(sdf|assimp|urdf_[a-z]+)/.*|tinyxml2?.h"), {"scene"}},
+      {std::regex("(sdf|assimp|nlohmann|urdf_[a-z]+)/.*|tinyxml2?.h"), {"scene"}},
       {std::regex("boost/program_options.*"), {"studio"}},
       {std::regex("tbb/.*"), {"sky", "image", "scene", "light", "render", "evaluate", "ros"}},
   };

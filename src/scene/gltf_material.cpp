@@ -1,0 +1,319 @@
+#include "scene/gltf_material.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "scene/color.h"
+
+namespace sunlit::scene {
+namespace {
+
+using nlohmann::json;
+
+/// The JSON of a file: all of a .gltf, the first chunk of a .glb.
+std::string jsonText(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+  if (text.compare(0, 4, "glTF") != 0 || text.size() < kHeader + kChunkHeader) return text;
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    length |= static_cast<std::size_t>(static_cast<std::uint8_t>(text[kHeader + i])) << (8 * i);
+  return text.substr(kHeader + kChunkHeader, length);
+}
+
+/// Object `key` of `from`; an empty one if there is none.
+const json& child(const json& from, const char* key) {
+  static const json none = json::object();
+  const auto found = from.find(key);
+  return found == from.end() ? none : *found;
+}
+
+const json& extension(const json& from, const char* name) {
+  return child(child(from, "extensions"), name);
+}
+
+bool has(const json& from, const char* key) {
+  return from.find(key) != from.end();
+}
+
+LinearRgb color(const json& from, const char* key, const LinearRgb& usual) {
+  const json& value = child(from, key);
+  if (!value.is_array() || value.size() < 3) return usual;
+  LinearRgb result;
+  for (int c = 0; c < 3; ++c) result.value[c] = value.at(static_cast<std::size_t>(c)).get<float>();
+  return result;
+}
+
+LinearRgb clamped(LinearRgb color) {
+  color.value = color.value.max(0.0f).min(1.0f);
+  return color;
+}
+
+float within(float value, float low, float high) {
+  return std::isfinite(value) ? std::clamp(value, low, high) : high;
+}
+
+// glTF 2.0, section 5.26.
+Wrap wrapOf(const json& sampler, const char* key) {
+  constexpr int kClampToEdge = 33071, kMirroredRepeat = 33648, kRepeat = 10497;
+  const int mode = sampler.value(key, kRepeat);
+  return mode == kClampToEdge ? Wrap::kClamp : mode == kMirroredRepeat ? Wrap::kMirror : Wrap::kRepeat;
+}
+
+/// Rotation is counter-clockwise as seen, v running downwards: such that the first example of the extension's
+/// text shows the lower left quarter that it speaks of.
+CoordinateRecipe recipeOf(const json& use) {
+  CoordinateRecipe recipe;
+  recipe.set = use.value("texCoord", 0);
+  const json& transform = extension(use, "KHR_texture_transform");
+  recipe.set = transform.value("texCoord", recipe.set);
+  const auto pair = [&](const char* key, float usual) {
+    const std::array<float, 2> value = transform.value(key, std::array<float, 2>{usual, usual});
+    return Eigen::Vector2f(value[0], value[1]);
+  };
+  const float turn = transform.value("rotation", 0.0f);
+  Eigen::Matrix2f rotation;
+  rotation << std::cos(turn), std::sin(turn), -std::sin(turn), std::cos(turn);
+  recipe.linear = rotation * pair("scale", 1.0f).asDiagonal();
+  recipe.offset = pair("offset", 0.0f);
+  return recipe;
+}
+
+/// Makes a look of one material of the file.
+class Reader {
+ public:
+  Reader(const json& root, const json& source, const GltfMaterials::Picture& picture)
+      : root_(root), source_(source), picture_(picture) {}
+
+  GltfLook read() {
+    Material& material = look_.material;
+    material.name = source_.value("name", "");
+    material.double_sided = source_.value("doubleSided", false);
+    readMetallicRoughness();
+    readDielectric();
+    const json& older = extension(source_, "KHR_materials_pbrSpecularGlossiness");
+    if (!older.empty()) readSpecularGlossiness(older);
+    readEmission();
+    readNormalAndOcclusion();
+    readAlpha();
+    readThrough();
+    if (has(child(source_, "extensions"), "KHR_materials_unlit")) {
+      lost_.push_back("unlit: lit as matt paint");
+      material.roughness = 1.0f;
+      material.metalness = 0.0f;
+      material.roughness_map = material.metalness_map = TextureUse();
+      material.dielectric = LinearRgb(0.0f, 0.0f, 0.0f);
+      material.dielectric_grazing = 0.0f;
+    }
+    nameTheRest();
+    return std::move(look_);
+  }
+  /// What cannot be shown, and what is made of it.
+  const std::vector<std::string>& lost() const { return lost_; }
+
+ private:
+  /// Index of the coordinates that the texture `use` wants.
+  int coordinatesOf(const json& use) {
+    const CoordinateRecipe recipe = recipeOf(use);
+    const auto same = std::find(look_.coordinates.begin(), look_.coordinates.end(), recipe);
+    const auto index = static_cast<int>(same - look_.coordinates.begin());
+    if (same == look_.coordinates.end()) look_.coordinates.push_back(recipe);
+    return index;
+  }
+
+  TextureUse use(const json& of, const char* key, GltfMaterials::Slot slot, int channel) {
+    if (!has(of, key)) return {};
+    const json& info = child(of, key);
+    const int texture = picture_(slot, wrapsOf(info));
+    if (texture == TextureUse::kNone) return {};
+    return {texture, coordinatesOf(info), channel};
+  }
+
+  Wraps wrapsOf(const json& info) const {
+    const json& texture = child(root_, "textures").at(info.value("index", std::size_t{0}));
+    if (!has(texture, "sampler")) return {};
+    const json& sampler = child(root_, "samplers").at(texture.at("sampler").get<std::size_t>());
+    return {wrapOf(sampler, "wrapS"), wrapOf(sampler, "wrapT")};
+  }
+
+  void readMetallicRoughness() {
+    Material& material = look_.material;
+    const json& pbr = child(source_, "pbrMetallicRoughness");
+    material.base_color = clamped(color(pbr, "baseColorFactor", LinearRgb(1.0f, 1.0f, 1.0f)));
+    material.roughness = within(pbr.value("roughnessFactor", 1.0f), Material::kSmoothest, 1.0f);
+    material.metalness = within(pbr.value("metallicFactor", 1.0f), 0.0f, 1.0f);
+    material.base_texture = use(pbr, "baseColorTexture", GltfMaterials::Slot::kBase, 0).texture;
+    if (look_.coordinates.empty()) look_.coordinates.emplace_back();  // the first set is that of the colour
+    if (has(pbr, "baseColorTexture") && material.base_texture == Material::kNoTexture)
+      material.base_color = kNeutral;
+    const auto slot = GltfMaterials::Slot::kMetallicRoughness;
+    material.roughness_map = use(pbr, "metallicRoughnessTexture", slot, 1);
+    material.metalness_map = material.roughness_map;
+    if (material.metalness_map.given()) material.metalness_map.channel = 2;
+    // Without its picture, a factor of 1 is no word about the metal.
+    if (has(pbr, "metallicRoughnessTexture") && !material.metalness_map.given()) material.metalness = 0.0f;
+  }
+
+  /// The older workflow: what is specular is the reflectance of a dielectric.
+  void readSpecularGlossiness(const json& older) {
+    Material& material = look_.material;
+    lost_.push_back("specular and glossiness: by their factors and the texture of the diffuse colour");
+    look_.coordinates.clear();
+    material.base_color = clamped(color(older, "diffuseFactor", LinearRgb(1.0f, 1.0f, 1.0f)));
+    material.base_texture = use(older, "diffuseTexture", GltfMaterials::Slot::kDiffuse, 0).texture;
+    if (look_.coordinates.empty()) look_.coordinates.emplace_back();
+    material.roughness_map = material.metalness_map = TextureUse();
+    material.roughness = within(1.0f - older.value("glossinessFactor", 1.0f), Material::kSmoothest, 1.0f);
+    material.metalness = 0.0f;
+    material.dielectric = clamped(color(older, "specularFactor", LinearRgb(1.0f, 1.0f, 1.0f)));
+  }
+
+  void readEmission() {
+    Material& material = look_.material;
+    const float strength =
+        extension(source_, "KHR_materials_emissive_strength").value("emissiveStrength", 1.0f);
+    material.emission = color(source_, "emissiveFactor", LinearRgb());
+    material.emission.value = material.emission.value.max(0.0f) * std::max(strength, 0.0f);
+    if (!material.emission.value.allFinite()) material.emission = LinearRgb();
+    if (material.emission.value.maxCoeff() > 0.0f)
+      material.emission_map = use(source_, "emissiveTexture", GltfMaterials::Slot::kEmissive, 0);
+  }
+
+  void readNormalAndOcclusion() {
+    Material& material = look_.material;
+    material.normal_map = use(source_, "normalTexture", GltfMaterials::Slot::kNormal, 0);
+    material.normal_scale = within(child(source_, "normalTexture").value("scale", 1.0f), -8.0f, 8.0f);
+    material.occlusion_map = use(source_, "occlusionTexture", GltfMaterials::Slot::kOcclusion, 0);
+    material.occlusion_strength =
+        within(child(source_, "occlusionTexture").value("strength", 1.0f), 0.0f, 1.0f);
+  }
+
+  /// KHR_materials_ior and KHR_materials_specular: F0 = ((ior − 1) / (ior + 1))² · colour, at most 1, and all
+  /// of Fresnel times the factor.
+  void readDielectric() {
+    Material& material = look_.material;
+    const float index = extension(source_, "KHR_materials_ior").value("ior", 1.5f);
+    const json& specular = extension(source_, "KHR_materials_specular");
+    if (index == 1.5f && specular.empty()) return;
+    const float weight = within(specular.value("specularFactor", 1.0f), 0.0f, 1.0f);
+    const float root = index > 0.0f ? (index - 1.0f) / (index + 1.0f) : 1.0f;  // 0 stands for infinity
+    const LinearRgb tint = color(specular, "specularColorFactor", LinearRgb(1.0f, 1.0f, 1.0f));
+    material.dielectric.value = weight * (root * root * tint.value).max(0.0f).min(1.0f);
+    material.dielectric_grazing = weight;
+    if (has(specular, "specularTexture") || has(specular, "specularColorTexture"))
+      lost_.push_back("a texture of its specular reflection: its factor counts alone");
+  }
+
+  /// Cutoff and mode as written; the factor is taken out of the cutoff, so that the texture alone is
+  /// compared.
+  void readAlpha() {
+    Material& material = look_.material;
+    const json& factor = child(child(source_, "pbrMetallicRoughness"), "baseColorFactor");
+    const float alpha = factor.is_array() && factor.size() > 3 ? within(factor[3].get<float>(), 0, 1) : 1.0f;
+    const std::string mode = source_.value("alphaMode", "OPAQUE");
+    if (mode == "MASK") {
+      const float cutoff = std::max(source_.value("alphaCutoff", 0.5f), 0.0f);
+      material.alpha_mode = AlphaMode::kMask;
+      look_.vanishes = cutoff > alpha;
+      if (material.base_texture == Material::kNoTexture) material.alpha_mode = AlphaMode::kOpaque;
+      material.alpha_cutoff = alpha > 0.0f ? within(cutoff / alpha, 0.0f, 1.0f) : 1.0f;
+    } else if (mode == "BLEND") {
+      material.alpha_mode = AlphaMode::kBlend;
+      material.alpha = alpha;
+      if (material.base_texture == Material::kNoTexture && alpha >= 1.0f)
+        material.alpha_mode = AlphaMode::kOpaque;
+      look_.vanishes = alpha <= 0.0f;
+    }
+  }
+
+  /// What lets light through: thin sheets by their own model, glass by coverage.
+  void readThrough() {
+    Material& material = look_.material;
+    const json& diffuse = extension(source_, "KHR_materials_diffuse_transmission");
+    if (!diffuse.empty())
+      material.transmission = within(diffuse.value("diffuseTransmissionFactor", 0.0f), 0.0f, 1.0f);
+    if (has(diffuse, "diffuseTransmissionTexture") || has(diffuse, "diffuseTransmissionColorTexture"))
+      lost_.push_back("a texture of its diffuse transmission: its factor counts alone");
+    const json& glass = extension(source_, "KHR_materials_transmission");
+    const float through = within(glass.value("transmissionFactor", 0.0f), 0.0f, 1.0f);
+    if (!(through > 0.0f)) return;
+    lost_.push_back("transmission: what lies behind is seen unbent, through a surface that covers the rest");
+    material.alpha = (material.alpha_mode == AlphaMode::kBlend ? material.alpha : 1.0f) *
+                     (1.0f - through * (1.0f - material.metalness));
+    if (material.alpha < 1.0f) material.alpha_mode = AlphaMode::kBlend;
+    // So little of it is left that nothing but its reflection is seen.
+    material.alpha = std::max(material.alpha, 0.1f);
+  }
+
+  void nameTheRest() {
+    const json& extensions = child(source_, "extensions");
+    const auto name = [&](const char* extension, const char* what) {
+      if (has(extensions, extension)) lost_.push_back(what);
+    };
+    name("KHR_materials_clearcoat", "a clear coat: without it");
+    name("KHR_materials_sheen", "sheen: without it");
+    name("KHR_materials_volume", "a volume: as if it were hollow");
+    name("KHR_materials_iridescence", "iridescence: without it");
+    name("KHR_materials_anisotropy", "anisotropy: the same in all directions");
+    name("KHR_materials_dispersion", "dispersion: without it");
+  }
+
+  const json& root_;
+  const json& source_;
+  const GltfMaterials::Picture& picture_;
+  GltfLook look_;
+  std::vector<std::string> lost_;
+};
+
+}  // namespace
+
+struct GltfMaterials::Json {
+  json root;
+};
+
+GltfMaterials::GltfMaterials(const std::string& file, SceneBuilder& builder)
+    : file_(file), builder_(builder) {
+  try {
+    json_ = std::make_unique<const Json>(Json{json::parse(jsonText(file))});
+  } catch (const json::exception& error) {
+    throw std::runtime_error(file + ": cannot read its JSON: " + error.what());
+  }
+}
+
+GltfMaterials::~GltfMaterials() = default;
+
+std::optional<GltfLook> GltfMaterials::look(std::size_t index, const Picture& picture) const {
+  const json& materials = child(json_->root, "materials");
+  if (index >= materials.size()) return std::nullopt;
+  try {
+    Reader reader(json_->root, materials.at(index), picture);
+    GltfLook look = reader.read();
+    for (const std::string& lost : reader.lost())
+      builder_.warn(kNotRendered, look.material.name + " of " + file_ + ": " + lost);
+    return look;
+  } catch (const json::exception& error) {
+    throw std::runtime_error(file_ + ": material " + std::to_string(index) + ": " + error.what());
+  }
+}
+
+std::vector<std::string> GltfMaterials::unknownExtensions() const {
+  std::vector<std::string> unknown;
+  const json& used = child(json_->root, "extensionsUsed");
+  for (const json& name : used.is_array() ? used : json::array()) {
+    const std::string text = name.is_string() ? name.get<std::string>() : name.dump();
+    const bool of_materials = text.compare(0, 14, "KHR_materials_") == 0 && text != "KHR_materials_variants";
+    if (!of_materials && text != "KHR_texture_transform" && text != "KHR_mesh_quantization" &&
+        text != "KHR_lights_punctual")
+      unknown.push_back(text);
+  }
+  return unknown;
+}
+
+}  // namespace sunlit::scene

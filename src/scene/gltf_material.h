@@ -1,0 +1,61 @@
+/// What a glTF file says of its materials, read from its JSON: Assimp hands on but a part.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene_builder.h"
+#include "sunlit/scene/scene.h"
+
+namespace sunlit::scene {
+
+/// Texture coordinates as a texture wants them: a set of the mesh, scaled, turned and moved
+/// (KHR_texture_transform).
+struct CoordinateRecipe {
+  int set = 0;  ///< TEXCOORD_n
+  Eigen::Matrix2f linear = Eigen::Matrix2f::Identity();
+  Eigen::Vector2f offset = Eigen::Vector2f::Zero();
+
+  Eigen::Vector2f operator()(const Eigen::Vector2f& coordinate) const { return linear * coordinate + offset; }
+  bool operator==(const CoordinateRecipe& other) const {
+    return set == other.set && linear == other.linear && offset == other.offset;
+  }
+};
+
+/// A material with the coordinates of its textures: the first is Mesh::texture_coordinates.
+struct GltfLook {
+  Material material;
+  std::vector<CoordinateRecipe> coordinates;
+  bool vanishes = false;  ///< its alpha is below its cutoff everywhere
+};
+
+class GltfMaterials {
+ public:
+  /// Parses `file`, .gltf or .glb. Throws std::runtime_error naming it.
+  GltfMaterials(const std::string& file, SceneBuilder& builder);
+  ~GltfMaterials();
+
+  /// Where Assimp keeps the picture of a texture.
+  enum class Slot { kBase, kDiffuse, kMetallicRoughness, kNormal, kOcclusion, kEmissive };
+  /// Index of the picture in `slot` of the material, as it goes on beyond its edges; kNone if it is missing.
+  using Picture = std::function<int(Slot, const Wraps&)>;
+
+  /// Material number `index` of the file; none beyond its last: the one that stands for none. What of it
+  /// cannot be shown is a warning.
+  std::optional<GltfLook> look(std::size_t index, const Picture& picture) const;
+
+  /// Names of the extensions that are neither read here nor by whoever loads the geometry.
+  std::vector<std::string> unknownExtensions() const;
+
+ private:
+  struct Json;
+  std::string file_;
+  SceneBuilder& builder_;
+  std::unique_ptr<const Json> json_;
+};
+
+}  // namespace sunlit::scene

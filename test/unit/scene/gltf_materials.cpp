@@ -1,0 +1,189 @@
+// What glTF files say of their surfaces.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "unit/scene/scene_files.h"
+
+namespace sunlit::scene {
+namespace {
+
+std::string base64(const std::string& bytes) {
+  static const char* const letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned word = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      word = word << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k <= bytes.size() ? letters[word >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+class GltfMaterial : public SceneFiles {
+ protected:
+  /// A triangle in the plane of x and y with two sets of coordinates; `material` is the object of its
+  /// material, `more` goes to the top.
+  std::string file(const std::string& material, const std::string& more = "",
+                   const std::string& attributes = "") const {
+    std::string bytes;
+    const auto add = [&](std::initializer_list<float> numbers) {
+      for (const float number : numbers) bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+    };
+    add({0, 0, 0, 1, 0, 0, 0, 1, 0});           // POSITION, 36 bytes
+    add({0, 0, 1, 0, 0, 1});                    // TEXCOORD_0, 24
+    add({0.5f, 0.5f, 0.75f, 0.5f, 0.5f, 1});    // TEXCOORD_1, 24
+    add({0.5f, 0.5f, 0.5f, 1, 1, 1, 0, 0, 0});  // COLOR_0, 36
+    const auto accessor = [](int view, const char* type) {
+      return "{\"bufferView\":" + std::to_string(view) + ",\"componentType\":5126,\"count\":3,\"type\":\"" +
+             type + "\"";
+    };
+    return write(
+        "t.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1,\"TEXCOORD_1\":2" +
+            attributes + "},\"material\":0}]}],\"materials\":[" + material +
+            "],\"textures\":[{\"source\":0,\"sampler\":0},{\"source\":1}],"
+            "\"samplers\":[{\"wrapS\":33071,\"wrapT\":33648}],"
+            "\"images\":[{\"uri\":\"a.png\"},{\"uri\":\"b.png\"}]," +
+            more + "\"accessors\":[" + accessor(0, "VEC3") + ",\"min\":[0,0,0],\"max\":[1,1,0]}," +
+            accessor(1, "VEC2") + "}," + accessor(2, "VEC2") + "}," + accessor(3, "VEC3") +
+            "}],\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":36},"
+            "{\"buffer\":0,\"byteOffset\":36,\"byteLength\":24},{\"buffer\":0,\"byteOffset\":60,"
+            "\"byteLength\":24},{\"buffer\":0,\"byteOffset\":84,\"byteLength\":36}],"
+            "\"buffers\":[{\"byteLength\":120,\"uri\":\"data:application/octet-stream;base64," +
+            base64(bytes) + "\"}]}");
+  }
+  Scene loaded(const std::string& material, const std::string& more = "",
+               const std::string& attributes = "") const {
+    writeTexture("a.png");
+    writeTexture("b.png");
+    return load(file(material, more, attributes), {});
+  }
+  static std::string warningsOf(const Scene& scene) {
+    std::string text;
+    for (const std::string& line : scene.warnings) text += line + "\n";
+    return text;
+  }
+};
+
+TEST_F(GltfMaterial, AllItsTexturesAreFound) {
+  const Scene scene = loaded(
+      "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},"
+      "\"metallicRoughnessTexture\":{\"index\":1,\"texCoord\":1}},"
+      "\"normalTexture\":{\"index\":1,\"scale\":0.5},\"occlusionTexture\":{\"index\":1,\"strength\":0.25,"
+      "\"texCoord\":1},\"emissiveFactor\":[1,0.5,0],\"emissiveTexture\":{\"index\":0}}");
+  ASSERT_EQ(scene.materials.size(), 1u);
+  EXPECT_EQ(warningsOf(scene), "");
+  const Material& m = scene.materials[0];
+  EXPECT_EQ(scene.textures.size(), 2u);
+  EXPECT_EQ(m.base_texture, 0);
+  EXPECT_EQ(m.emission_map.texture, 0);
+  EXPECT_EQ(m.roughness_map.texture, 1);
+  EXPECT_EQ(m.roughness_map.channel, 1);
+  EXPECT_EQ(m.metalness_map.channel, 2);
+  EXPECT_EQ(m.roughness_map.coordinates, 1);
+  EXPECT_EQ(m.occlusion_map.coordinates, 1);
+  EXPECT_EQ(m.normal_map.coordinates, 0);
+  EXPECT_EQ(m.normal_scale, 0.5f);
+  EXPECT_EQ(m.occlusion_strength, 0.25f);
+  EXPECT_EQ(m.roughness, 1.0f);
+  EXPECT_EQ(m.metalness, 1.0f);
+  ASSERT_EQ(scene.meshes[0].more_texture_coordinates.size(), 1u);
+  EXPECT_EQ(scene.textures[0].wrap_u, Wrap::kClamp);
+  EXPECT_EQ(scene.textures[0].wrap_v, Wrap::kMirror);
+  EXPECT_EQ(scene.textures[1].wrap_u, Wrap::kRepeat);
+}
+
+TEST_F(GltfMaterial, TexturesAreMovedAsTheExtensionSays) {
+  // The first example of KHR_texture_transform: the lower left quarter, turned.
+  const Scene scene = loaded(
+      "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"extensions\":{\"KHR_texture_"
+      "transform\":"
+      "{\"offset\":[0,1],\"rotation\":1.57079632679,\"scale\":[0.5,0.5]}}}}}",
+      "\"extensionsUsed\":[\"KHR_texture_transform\"],");
+  EXPECT_EQ(warningsOf(scene), "");
+  const Mesh& mesh = scene.meshes[0];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector2f& c = mesh.texture_coordinates[i];
+    // glTF's x, y, z are x, z, −y here; u = x and v = y of the corners.
+    const float u = mesh.positions[i].x(), v = mesh.positions[i].z();
+    EXPECT_LT((c - Eigen::Vector2f(0.5f * v, 1.0f - 0.5f * u)).norm(), 1e-6f);
+    EXPECT_TRUE(c.x() >= -1e-6f && c.x() <= 0.5f + 1e-6f && c.y() >= 0.5f - 1e-6f && c.y() <= 1.0f + 1e-6f);
+  }
+}
+
+TEST_F(GltfMaterial, AlphaIsAsWritten) {
+  const std::string quarter = "\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,1,1,0.25]";
+  const Scene opaque = loaded("{" + quarter + "}}");
+  EXPECT_EQ(opaque.triangleCount(), 1u);
+  EXPECT_EQ(opaque.materials[0].alpha_mode, AlphaMode::kOpaque);
+  const Scene blend = loaded("{" + quarter + "},\"alphaMode\":\"BLEND\"}");
+  EXPECT_EQ(blend.materials[0].alpha_mode, AlphaMode::kBlend);
+  EXPECT_EQ(blend.materials[0].alpha, 0.25f);
+  EXPECT_EQ(warningsOf(blend), "");
+  // Of a cut-out, the factor multiplies the texture: half the cutoff over a quarter.
+  const Scene mask = loaded(
+      "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,1,1,0.5],"
+      "\"baseColorTexture\":{\"index\":0}},\"alphaMode\":\"MASK\",\"alphaCutoff\":0.25}");
+  EXPECT_EQ(mask.materials[0].alpha_mode, AlphaMode::kMask);
+  EXPECT_EQ(mask.materials[0].alpha_cutoff, 0.5f);
+  // Nothing is left of a cut-out whose factor alone is below its cutoff.
+  const std::string gone = file("{" + quarter + "},\"alphaMode\":\"MASK\"}");
+  EXPECT_NE(errorOf(gone).find("there is not a triangle"), std::string::npos) << errorOf(gone);
+}
+
+TEST_F(GltfMaterial, EmissionHasItsStrength) {
+  const Scene scene = loaded(
+      "{\"emissiveFactor\":[1,0.5,0],\"extensions\":{\"KHR_materials_emissive_strength\":"
+      "{\"emissiveStrength\":400}}}",
+      "\"extensionsUsed\":[\"KHR_materials_emissive_strength\"],");
+  EXPECT_EQ(warningsOf(scene), "");
+  EXPECT_FLOAT_EQ(scene.materials[0].emission.value[0], 400.0f);
+  EXPECT_FLOAT_EQ(scene.materials[0].emission.value[1], 200.0f);
+}
+
+TEST_F(GltfMaterial, IndexAndSpecularSetWhatADielectricReflects) {
+  const Scene water = loaded("{\"extensions\":{\"KHR_materials_ior\":{\"ior\":1.33}}}");
+  EXPECT_NEAR(water.materials[0].dielectric.value[1], 0.02006f, 1e-5f);  // (0.33 / 2.33)²
+  EXPECT_EQ(water.materials[0].dielectric_grazing, 1.0f);
+  const Scene dull = loaded(
+      "{\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0.5,\"specularColorFactor\":[1,2,0]}}"
+      "}");
+  EXPECT_NEAR(dull.materials[0].dielectric.value[0], 0.02f, 1e-6f);
+  EXPECT_NEAR(dull.materials[0].dielectric.value[1], 0.04f, 1e-6f);
+  EXPECT_EQ(dull.materials[0].dielectric.value[2], 0.0f);
+  EXPECT_EQ(dull.materials[0].dielectric_grazing, 0.5f);
+}
+
+TEST_F(GltfMaterial, WhatIsNotRenderedIsNamedInOneLine) {
+  const Scene scene = loaded(
+      "{\"name\":\"lacquer\",\"extensions\":{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":1},"
+      "\"KHR_materials_sheen\":{},\"KHR_materials_unlit\":{}}}",
+      "\"extensionsUsed\":[\"KHR_materials_clearcoat\",\"EXT_something\"],");
+  const std::string warnings = warningsOf(scene);
+  EXPECT_EQ(scene.warnings.size(), 2u) << warnings;
+  for (const char* part : {"3 materials have what is not rendered", "lacquer of ", "a clear coat: without it",
+                           "sheen: without it", "unlit: lit as matt paint", "EXT_something"})
+    EXPECT_NE(warnings.find(part), std::string::npos) << part << " in " << warnings;
+}
+
+TEST_F(GltfMaterial, AMissingMetallicTextureMakesNoMetal) {
+  const Scene scene =
+      load(file("{\"pbrMetallicRoughness\":{\"metallicRoughnessTexture\":{\"index\":0}}}"), {});
+  EXPECT_EQ(scene.materials[0].metalness, 0.0f);
+  EXPECT_NE(warningsOf(scene).find("a.png"), std::string::npos) << warningsOf(scene);
+}
+
+TEST_F(GltfMaterial, VertexColoursAreLinear) {
+  const Scene scene = loaded("{}", "", ",\"COLOR_0\":3");
+  const auto& colors = scene.meshes[0].colors;
+  ASSERT_EQ(colors.size(), 3u);
+  EXPECT_TRUE(std::any_of(colors.begin(), colors.end(),
+                          [](const Eigen::Array3f& c) { return (c - 0.5f).abs().maxCoeff() < 1e-6f; }));
+}
+
+}  // namespace
+}  // namespace sunlit::scene
