@@ -47,6 +47,18 @@ bool isFar(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   });
 }
 
+/// Without all of them if one is broken: those that follow from the coordinates are better than some.
+void turnTangents(const Eigen::Matrix3d& linear, Mesh& mesh) {
+  const float hand = linear.determinant() < 0.0 ? -1.0f : 1.0f;
+  bool broken = false;
+  for (Eigen::Vector4f& tangent : mesh.tangents) {
+    tangent.head<3>() = (linear * tangent.head<3>().cast<double>()).normalized().cast<float>();
+    tangent.w() *= hand;
+    broken |= !(std::abs(tangent.head<3>().norm() - 1.0f) < 1e-3f);
+  }
+  if (broken) mesh.tangents.clear();
+}
+
 /// Normals that are missing, zero or not finite are replaced by the mean of the adjoining faces.
 void repairNormals(Mesh& mesh) {
   mesh.normals.resize(mesh.positions.size(), Eigen::Vector3f::Zero());
@@ -114,14 +126,7 @@ void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mes
     const Eigen::Vector3d turned = normals_linear * normal.cast<double>();
     normal = turned.normalized().cast<float>();  // Eigen leaves a zero vector as it is; see repairNormals
   }
-  for (Eigen::Vector4f& tangent : moved.tangents) {
-    tangent.head<3>() = (linear * tangent.head<3>().cast<double>()).normalized().cast<float>();
-    if (mirrored) tangent.w() = -tangent.w();
-    if (!(std::abs(tangent.head<3>().norm() - 1.0f) < 1e-3f)) {
-      moved.tangents.clear();  // those that follow from the coordinates are better than some
-      break;
-    }
-  }
+  turnTangents(linear, moved);
 
   std::vector<std::array<std::uint32_t, 3>> kept;
   kept.reserve(moved.triangles.size());
