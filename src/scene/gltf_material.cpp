@@ -4,40 +4,15 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "scene/color.h"
+#include "scene/gltf_json.h"
 
 namespace sunlit::scene {
 namespace {
 
 using nlohmann::json;
-
-/// The JSON of a file: all of a .gltf, the first chunk of a .glb.
-std::string jsonText(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-  if (text.compare(0, 4, "glTF") != 0 || text.size() < kHeader + kChunkHeader) return text;
-  std::size_t length = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    length |= static_cast<std::size_t>(static_cast<std::uint8_t>(text[kHeader + i])) << (8 * i);
-  return text.substr(kHeader + kChunkHeader, length);
-}
-
-/// Object `key` of `from`; an empty one if there is none.
-const json& child(const json& from, const char* key) {
-  static const json none = json::object();
-  const auto found = from.find(key);
-  return found == from.end() ? none : *found;
-}
-
-const json& extension(const json& from, const char* name) {
-  return child(child(from, "extensions"), name);
-}
 
 bool has(const json& from, const char* key) {
   return from.find(key) != from.end();
@@ -143,6 +118,11 @@ class Reader {
     return {wrapOf(sampler, "wrapS"), wrapOf(sampler, "wrapT")};
   }
 
+  bool repeats(const json& info) const {
+    const Wraps wraps = wrapsOf(info);
+    return wraps.u == Wrap::kRepeat && wraps.v == Wrap::kRepeat;
+  }
+
   void readMetallicRoughness() {
     Material& material = look_.material;
     const json& pbr = child(source_, "pbrMetallicRoughness");
@@ -222,7 +202,10 @@ class Reader {
       const float cutoff = std::max(source_.value("alphaCutoff", 0.5f), 0.0f);
       material.alpha_mode = AlphaMode::kMask;
       look_.vanishes = cutoff > alpha;
-      if (material.base_texture == Material::kNoTexture) material.alpha_mode = AlphaMode::kOpaque;
+      if (material.base_texture == Material::kNoTexture)
+        material.alpha_mode = AlphaMode::kOpaque;
+      else if (!repeats(child(child(source_, "pbrMetallicRoughness"), "baseColorTexture")))
+        lost_.push_back("a wrap mode of a texture that cuts out: what is cut out repeats");
       material.alpha_cutoff = alpha > 0.0f ? within(cutoff / alpha, 0.0f, 1.0f) : 1.0f;
     } else if (mode == "BLEND") {
       material.alpha_mode = AlphaMode::kBlend;
@@ -280,11 +263,7 @@ struct GltfMaterials::Json {
 
 GltfMaterials::GltfMaterials(const std::string& file, SceneBuilder& builder)
     : file_(file), builder_(builder) {
-  try {
-    json_ = std::make_unique<const Json>(Json{json::parse(jsonText(file))});
-  } catch (const json::exception& error) {
-    throw std::runtime_error(file + ": cannot read its JSON: " + error.what());
-  }
+  json_ = std::make_unique<const Json>(Json{parseGltf(gltfText(file), file)});
 }
 
 GltfMaterials::~GltfMaterials() = default;

@@ -15,6 +15,7 @@
 #include <stdexcept>
 
 #include "scene/color.h"
+#include "scene/gltf_lights.h"
 #include "scene/mesh_material.h"
 
 namespace sunlit::scene {
@@ -97,6 +98,11 @@ Mesh toMesh(const aiMesh& source, const MeshLook& look, bool gltf) {
   return mesh;
 }
 
+bool hasAlpha(const aiColor4D* colors, unsigned count) {
+  return colors != nullptr &&
+         std::any_of(colors, colors + count, [](const aiColor4D& color) { return color.a < 1.0f; });
+}
+
 /// Lines and points have no surface to light.
 bool hasSurface(const aiMesh& mesh) {
   return (mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) != 0;
@@ -109,6 +115,7 @@ struct Collector {
   bool gltf;
   std::vector<MeshPart> parts;
   std::size_t lines_and_points = 0;  ///< left out
+  std::vector<std::size_t> fading;   ///< parts whose vertex colours have an alpha
 
   void collect(const aiNode& node, const Eigen::Affine3d& up_from_parent) {
     const Eigen::Affine3d up_from_node = up_from_parent * toEigen(node.mTransformation);
@@ -120,6 +127,7 @@ struct Collector {
       MeshPart part{node.mName.C_Str(), source.mName.C_Str(), {}, up_from_node};
       part.mesh = toMesh(source, *look, gltf);
       part.mesh.name = part.node.empty() ? part.geometry : part.node;
+      if (hasAlpha(source.mColors[0], source.mNumVertices)) fading.push_back(parts.size());
       parts.push_back(std::move(part));
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i) collect(*node.mChildren[i], up_from_node);
@@ -140,10 +148,8 @@ std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const Me
 }
 
 /// COLLADA colours may be brighter than a screen.
-LinearRgb colorOf(const aiColor3D& color, bool gltf) {
-  const Eigen::Array3f value(color.r, color.g, color.b);
-  if (gltf) return LinearRgb(value);
-  const float peak = std::max(value.maxCoeff(), 1.0f);
+LinearRgb colorOf(const aiColor3D& color) {
+  const float peak = std::max({color.r, color.g, color.b, 1.0f});
   LinearRgb linear = linearFromSrgb({color.r / peak, color.g / peak, color.b / peak});
   linear.value *= peak;
   return linear;
@@ -160,50 +166,35 @@ const aiNode* findNode(const aiScene& scene, const aiString& name, const Eigen::
   return found;
 }
 
-/// glTF gives cd and half angles (KHR_lights_punctual), COLLADA colours without a unit and whole cones.
-Lamp lampOf(const aiLight& light, const aiNode& node, const Eigen::Affine3d& up_from_node, bool gltf) {
+/// COLLADA gives colours without a unit and whole cones.
+Lamp lampOf(const aiLight& light, const Eigen::Affine3d& up_from_node) {
   Lamp lamp;
-  lamp.name = light.mName.C_Str();
-  lamp.relative = !gltf;
-  lamp.intensity = colorOf(light.mColorDiffuse, gltf);
+  lamp.name = lamp.group = light.mName.C_Str();
+  lamp.relative = true;
+  lamp.intensity = colorOf(light.mColorDiffuse);
   const aiVector3D &at = light.mPosition, &to = light.mDirection;
   lamp.position = (up_from_node * Eigen::Vector3d(at.x, at.y, at.z)).cast<float>();
-  float range = 0.0f;
-  if (gltf && node.mMetaData && node.mMetaData->Get("PBR_LightRange", range) && range > 0.0f)
-    lamp.range_m = range;
-  if (!gltf) {
-    lamp.constant = light.mAttenuationConstant;
-    lamp.linear = light.mAttenuationLinear;
-    lamp.quadratic = light.mAttenuationQuadratic;
-  }
+  lamp.constant = light.mAttenuationConstant;
+  lamp.linear = light.mAttenuationLinear;
+  lamp.quadratic = light.mAttenuationQuadratic;
   if (light.mType != aiLightSource_SPOT) return lamp;
   lamp.direction = (up_from_node.linear() * Eigen::Vector3d(to.x, to.y, to.z)).normalized().cast<float>();
-  const float share = gltf ? 1.0f : 0.5f;
-  lamp.outer_rad = std::clamp(share * light.mAngleOuterCone, 0.0f, Lamp::kAllAround_rad);
-  lamp.inner_rad = std::clamp(share * light.mAngleInnerCone, 0.0f, lamp.outer_rad);
+  lamp.outer_rad = std::clamp(0.5f * light.mAngleOuterCone, 0.0f, Lamp::kAllAround_rad);
+  lamp.inner_rad = std::clamp(0.5f * light.mAngleInnerCone, 0.0f, lamp.outer_rad);
   return lamp;
 }
 
-void addLamps(const aiScene& scene, const Eigen::Affine3d& up_from_file, bool gltf, SceneBuilder& builder) {
+/// Of COLLADA.
+void addLamps(const aiScene& scene, const Eigen::Affine3d& up_from_file, SceneBuilder& builder) {
   for (unsigned i = 0; i < scene.mNumLights; ++i) {
     const aiLight& light = *scene.mLights[i];
     if (light.mType != aiLightSource_POINT && light.mType != aiLightSource_SPOT) {
-      builder.warn("lights that are no points and no spots were not read: the sky takes their place",
-                   light.mName.C_Str());
+      builder.warn(kOtherLights, light.mName.C_Str());
       continue;
     }
     Eigen::Affine3d up_from_node;
     const aiNode* const node = findNode(scene, light.mName, up_from_file, &up_from_node);
-    if (node == nullptr) continue;  // stands nowhere in the scene
-    Lamp lamp = lampOf(light, *node, up_from_node, gltf);
-    lamp.group = lamp.name;
-    if (lamp.constant + lamp.linear + lamp.quadratic > 0.0f && lamp.intensity.value.allFinite() &&
-        lamp.outer_rad > 0.0f && lamp.direction.norm() > 0.5f) {
-      builder.addLamp(std::move(lamp));
-    } else {
-      builder.warn("lights were left out: their angle, direction and attenuation must be above 0 and finite",
-                   lamp.name);
-    }
+    if (node != nullptr) builder.addLamp(lampOf(light, up_from_node));  // else it stands nowhere
   }
 }
 
@@ -261,9 +252,15 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up.
   const bool y_up = gltf || (collada && up_axis == UpAxis::kAsDeclared);
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();
-  Collector collector{*scene, looks, gltf, {}};
+  Collector collector{*scene, looks, gltf, {}, 0, {}};
   collector.collect(*scene->mRootNode, up_from_file);
-  if (up_axis == UpAxis::kAsDeclared) addLamps(*scene, up_from_file, gltf, builder);
+  for (const std::size_t i : collector.fading) {
+    const Mesh& mesh = collector.parts[i].mesh;
+    if (builder.material(mesh.material).alpha_mode != AlphaMode::kOpaque)
+      builder.warn("alpha of vertex colours was left out", mesh.name + " of " + file);
+  }
+  if (up_axis == UpAxis::kAsDeclared && gltf) addGltfLights(file, up_from_file, builder);
+  if (up_axis == UpAxis::kAsDeclared && !gltf) addLamps(*scene, up_from_file, builder);
   if (collector.lines_and_points > 0) {
     builder.warn(file + ": " + std::to_string(collector.lines_and_points) +
                  " lines and points have no surface and are left out");

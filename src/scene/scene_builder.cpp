@@ -174,6 +174,14 @@ void SceneBuilder::addLamp(Lamp lamp) {
     warn("lamps farther than 100 km from the origin were left out", lamp.name);
     return;
   }
+  const bool shines = lamp.constant + lamp.linear + lamp.quadratic > 0.0f && lamp.range_m > 0.0f &&
+                      lamp.outer_rad > 0.0f && lamp.inner_rad <= lamp.outer_rad &&
+                      lamp.direction.norm() > 0.5f && (lamp.intensity.value >= 0.0f).all() &&
+                      lamp.intensity.value.allFinite();
+  if (!shines) {
+    warn(kDarkLights, lamp.name);
+    return;
+  }
   scene_.lamps.push_back(std::move(lamp));
 }
 

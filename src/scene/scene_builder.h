@@ -28,6 +28,10 @@ constexpr int kLongestTextureSide = 8192;
 /// Kinds of warnings that several importers have.
 constexpr const char* kMissingTextures = "textures are missing, a neutral material takes their place";
 constexpr const char* kNotRendered = "materials have what is not rendered";
+constexpr const char* kOtherLights =
+    "lights that are no points and no spots were not read: the sky takes their place";
+constexpr const char* kDarkLights =
+    "lights were left out: their range, angle, direction and attenuation must be above 0 and finite";
 constexpr const char* kSpeltOtherwise = "files are spelt otherwise on disk";
 
 /// How a texture goes on to the sides, and up and down.

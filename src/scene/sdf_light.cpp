@@ -61,9 +61,7 @@ std::optional<Lamp> lampOf(const sdf::Light& light, const Eigen::Affine3d& map_f
   const bool shines = isFinite(light) && lamp.range_m > 0.0f && lamp.outer_rad > 0.0f &&
                       lamp.constant + lamp.linear + lamp.quadratic > 0.0f && lamp.direction.norm() > 0.5f;
   if (shines) return lamp;
-  builder.warn(
-      "lights were left out: their range, angle, direction and attenuation must be above 0 and finite",
-      name.name);
+  builder.warn(kDarkLights, name.name);
   return std::nullopt;
 }
 

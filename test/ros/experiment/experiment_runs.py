@@ -393,6 +393,7 @@ class ExperimentRuns(unittest.TestCase):
                                 (dict(site="[91]"), "argument site is '[91]'"),
                                 (dict(poses=1000), "argument poses is 1000, but the path has only 20"),
                                 (dict(path="/nowhere.csv"), "/nowhere.csv"),
+                                (dict(world="/nowhere.world"), "there is no world /nowhere.world"),
                                 (dict(robot="cat"), "argument robot is 'cat'"),
                                 (dict(nosie="true"), "argument nosie is 'true', but must be one of the arguments of "
                                                      "experiment.launch; noise is one"),
@@ -407,9 +408,12 @@ class ExperimentRuns(unittest.TestCase):
             self.assertEqual(run.left_running(), [])
 
     def test_a_world_that_cannot_be_loaded_is_a_failure_with_a_reason(self):
-        run = small_experiment(os.path.join(self.folder, "worldless"), world="/nowhere.world")
+        broken = os.path.join(self.folder, "broken.world")
+        with open(broken, "w") as file:
+            file.write("<sdf version='1.6'><world name='w'>")
+        run = small_experiment(os.path.join(self.folder, "worldless"), world=broken)
         self.assertNotEqual(run.end(), 0)
-        self.assertTrue([line for line in run.said().splitlines() if "FATAL" in line and "/nowhere.world" in line])
+        self.assertTrue([line for line in run.said().splitlines() if "FATAL" in line and broken in line])
         self.assertEqual(run.left_running(), [])
 
 

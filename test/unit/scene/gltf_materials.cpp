@@ -32,10 +32,11 @@ class GltfMaterial : public SceneFiles {
     const auto add = [&](std::initializer_list<float> numbers) {
       for (const float number : numbers) bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
     };
-    add({0, 0, 0, 1, 0, 0, 0, 1, 0});           // POSITION, 36 bytes
-    add({0, 0, 1, 0, 0, 1});                    // TEXCOORD_0, 24
-    add({0.5f, 0.5f, 0.75f, 0.5f, 0.5f, 1});    // TEXCOORD_1, 24
-    add({0.5f, 0.5f, 0.5f, 1, 1, 1, 0, 0, 0});  // COLOR_0, 36
+    add({0, 0, 0, 1, 0, 0, 0, 1, 0});              // POSITION, 36 bytes
+    add({0, 0, 1, 0, 0, 1});                       // TEXCOORD_0, 24
+    add({0.5f, 0.5f, 0.75f, 0.5f, 0.5f, 1});       // TEXCOORD_1, 24
+    add({0.5f, 0.5f, 0.5f, 1, 1, 1, 0, 0, 0});     // COLOR_0, 36
+    add({1, 1, 1, 1, 1, 1, 1, 0.5f, 1, 1, 1, 0});  // another COLOR_0, with alpha, 48
     const auto accessor = [](int view, const char* type) {
       return "{\"bufferView\":" + std::to_string(view) + ",\"componentType\":5126,\"count\":3,\"type\":\"" +
              type + "\"";
@@ -49,11 +50,13 @@ class GltfMaterial : public SceneFiles {
             "\"samplers\":[{\"wrapS\":33071,\"wrapT\":33648}],"
             "\"images\":[{\"uri\":\"a.png\"},{\"uri\":\"b.png\"}]," +
             more + "\"accessors\":[" + accessor(0, "VEC3") + ",\"min\":[0,0,0],\"max\":[1,1,0]}," +
-            accessor(1, "VEC2") + "}," + accessor(2, "VEC2") + "}," + accessor(3, "VEC3") +
+            accessor(1, "VEC2") + "}," + accessor(2, "VEC2") + "}," + accessor(3, "VEC3") + "}," +
+            accessor(4, "VEC4") +
             "}],\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":36},"
             "{\"buffer\":0,\"byteOffset\":36,\"byteLength\":24},{\"buffer\":0,\"byteOffset\":60,"
-            "\"byteLength\":24},{\"buffer\":0,\"byteOffset\":84,\"byteLength\":36}],"
-            "\"buffers\":[{\"byteLength\":120,\"uri\":\"data:application/octet-stream;base64," +
+            "\"byteLength\":24},{\"buffer\":0,\"byteOffset\":84,\"byteLength\":36},{\"buffer\":0,"
+            "\"byteOffset\":120,\"byteLength\":48}],"
+            "\"buffers\":[{\"byteLength\":168,\"uri\":\"data:application/octet-stream;base64," +
             base64(bytes) + "\"}]}");
   }
   Scene loaded(const std::string& material, const std::string& more = "",
@@ -68,6 +71,27 @@ class GltfMaterial : public SceneFiles {
     return text;
   }
 };
+
+TEST_F(GltfMaterial, WhoseVerticesFadeIsNamedIfItAsksForAlpha) {
+  const std::string warning = "alpha of vertex colours was left out";
+  const auto warnings = [&](const std::string& mode) {
+    return warningsOf(
+        loaded("{\"alphaMode\":\"" + mode + "\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,1,1,0.5]}}",
+               "", ",\"COLOR_0\":4"));
+  };
+  EXPECT_NE(warnings("BLEND").find(warning), std::string::npos) << warnings("BLEND");
+  EXPECT_EQ(warnings("OPAQUE").find(warning), std::string::npos) << warnings("OPAQUE");
+}
+
+TEST_F(GltfMaterial, WhoseCutOutsDoNotRepeatIsNamed) {
+  const auto warnings = [&](const std::string& texture) {
+    return warningsOf(loaded(
+        "{\"alphaMode\":\"MASK\",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":" + texture +
+        "}}}"));
+  };
+  EXPECT_NE(warnings("0").find("wrap mode of a texture that cuts out"), std::string::npos) << warnings("0");
+  EXPECT_EQ(warnings("1").find("wrap mode of a texture that cuts out"), std::string::npos) << warnings("1");
+}
 
 TEST_F(GltfMaterial, AllItsTexturesAreFound) {
   const Scene scene = loaded(

@@ -1,8 +1,10 @@
 // The lamps of worlds, mesh files and robots.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
+#include "scene/scene_builder.h"
 #include "sunlit/scene/robot.h"
 #include "unit/scene/scene_files.h"
 
@@ -112,6 +114,37 @@ TEST_F(LampFiles, OfGltfAreInCandela) {
   EXPECT_EQ(lamp.constant, 0.0f);
   EXPECT_EQ(lamp.linear, 0.0f);
   EXPECT_EQ(lamp.quadratic, 1.0f);
+}
+
+TEST_F(LampFiles, OfGltfThatShareALightStandAtEachOfItsNodes) {
+  // One definition for a street of lamps, as modellers write it; two of them on one arm that is turned about
+  // y.
+  const std::string file =
+      write("street.gltf", R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],
+    "extensionsUsed":["KHR_lights_punctual"],
+    "extensions":{"KHR_lights_punctual":{"lights":[{"name":"bulb","type":"point","intensity":90},
+      {"name":"day","type":"directional"}]}},
+    "nodes":[{"mesh":0},{"name":"post","translation":[5,0,0],"extensions":{"KHR_lights_punctual":{"light":0}}},
+      {"translation":[0,6,0],"rotation":[0,0.70710678,0,0.70710678],"scale":[2,2,2],"children":[3,4,5]},
+      {"name":"left","translation":[1,0,0],"extensions":{"KHR_lights_punctual":{"light":0}}},
+      {"name":"right","translation":[-1,0,0],"extensions":{"KHR_lights_punctual":{"light":0}}},
+      {"name":"sun","extensions":{"KHR_lights_punctual":{"light":1}}}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+    "bufferViews":[{"buffer":0,"byteLength":36}],
+    "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+  const Scene scene = load(file, {});
+  ASSERT_EQ(scene.lamps.size(), 3u);
+  const std::array<Eigen::Vector3f, 3> places = {Eigen::Vector3f(5, 0, 0), Eigen::Vector3f(0, 2, 6),
+                                                 Eigen::Vector3f(0, -2, 6)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT((scene.lamps[i].position - places[i]).norm(), 1e-5f) << i;
+    EXPECT_EQ(scene.lamps[i].intensity.value[1], 90.0f);
+    EXPECT_EQ(scene.lamps[i].group, "bulb");
+  }
+  EXPECT_EQ(scene.lamps[1].name, "left");
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0], std::string("1 ") + kOtherLights + ": sun");
 }
 
 TEST_F(LampFiles, OfAUrdfStandInItsGazeboElements) {

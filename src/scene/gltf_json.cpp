@@ -1,0 +1,41 @@
+#include "scene/gltf_json.h"
+
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace sunlit::scene {
+
+using nlohmann::json;
+
+std::string gltfText(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+  if (text.compare(0, 4, "glTF") != 0 || text.size() < kHeader + kChunkHeader) return text;
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    length |= static_cast<std::size_t>(static_cast<std::uint8_t>(text[kHeader + i])) << (8 * i);
+  return text.substr(kHeader + kChunkHeader, length);
+}
+
+json parseGltf(const std::string& text, const std::string& file) {
+  try {
+    return json::parse(text);
+  } catch (const json::exception& error) {
+    throw std::runtime_error(file + ": cannot read its JSON: " + error.what());
+  }
+}
+
+const json& child(const json& from, const char* key) {
+  static const json none = json::object();
+  const auto found = from.find(key);
+  return found == from.end() ? none : *found;
+}
+
+const json& extension(const json& from, const char* name) {
+  return child(child(from, "extensions"), name);
+}
+
+}  // namespace sunlit::scene

@@ -1,0 +1,19 @@
+/// The JSON of glTF files.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace sunlit::scene {
+
+/// The text of it: all of a .gltf, the first chunk of a .glb.
+std::string gltfText(const std::string& file);
+/// Throws std::runtime_error naming `file`.
+nlohmann::json parseGltf(const std::string& text, const std::string& file);
+
+/// Object or array `key` of `from`; an empty object if there is none.
+const nlohmann::json& child(const nlohmann::json& from, const char* key);
+/// What `from` says in the words of an extension; empty if nothing.
+const nlohmann::json& extension(const nlohmann::json& from, const char* name);
+
+}  // namespace sunlit::scene
