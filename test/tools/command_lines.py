@@ -18,6 +18,8 @@ CAMERA = {"--size": "(default 640x480)", "--fov": "0.1 … 175 deg, default 90",
           "--final-gather": "0 … 16, default 0", "--rasterizer": "osmesa|egl|builtin"}
 WORLDS = {"--world": "default race_track", "--model-path": "may be repeated", "--missing": "stop|warn"}
 BOUNCED = {"--bounced": "off|on", "--cache": "SUNLIT_CACHE_DIR"}
+LAMPS = {"--lamps": "default auto", "--lamps-dusk": "0 … 100000 lx, default 30", "--lamps-off": "may be repeated",
+         "--lamps-colour": "0 … 1000000 lx, default 50"}
 PLACE = {"--site": "latitude (geodetic, positive north, -90 … 90 deg)", "--date": "default 2024-07-01",
          "--timezone": "-18 … 18 h, default 3", "--turbidity": "1 … 10, default 2", "--ozone": "0 … 600 DU, default 300"}
 SENSOR = {"--ev": "-16 … 24 EV, default auto", "--compensation": "-8 … 8 EV, default 0", "--noise": "0 … 2147483647"}
@@ -47,19 +49,19 @@ PREPROCESSING = {"--clahe-clip-limit": "1 … 256, default 2", "--clahe-tiles": 
                  "--illumination-invariant-peak-green": "500 … 560 nm, default 549.1",
                  "--illumination-invariant-peak-blue": "380 … 500 nm, default 464.2"}
 OPTIONS = {
-    "snapshot": {**CAMERA, **WORLDS, **BOUNCED, **PLACE, **VIEW, "--out": "FILE.png", "--depth": "portable float map",
+    "snapshot": {**CAMERA, **WORLDS, **BOUNCED, **LAMPS, **PLACE, **VIEW, "--out": "FILE.png", "--depth": "portable float map",
                  "--sun": "(default 180,40)", "--time": "minute (of the hour, 0 … 59 min)"},
-    "timelapse": {**CAMERA, **WORLDS, **BOUNCED, **PLACE, **VIEW, "--out": "FOLDER", "--caption": "none|hour|full",
+    "timelapse": {**CAMERA, **WORLDS, **BOUNCED, **LAMPS, **PLACE, **VIEW, "--out": "FOLDER", "--caption": "none|hour|full",
                   "--video": "H.264", "--fps": "1 … 120 Hz, default 25", "--contact-sheet": "16384 px",
                   "--columns": "1 … 100, default 6", "--thumbnail": "16 … 8192 px, default 320",
                   "--from": "-24 … 48 h, default 0", "--to": "-24 … 72 h, default 24",
                   "--step": "0.001 … 1440 min, default 30", "--frames": "1 … 100000"},
-    "compare_light": {**CAMERA, **WORLDS, **BOUNCED, "--out": "table.csv", "--path": "CSV or TUM",
+    "compare_light": {**CAMERA, **WORLDS, **BOUNCED, **LAMPS, "--out": "table.csv", "--path": "CSV or TUM",
                       "--views": "1 … 1000, default 10", "--height": "-1000 … 1000 m, default 1",
                       "--view": "may be repeated", "--sun": "elevation (-90 … 90 deg)", "--moon": "0 … 180 deg",
                       "--every": "1 … 64 px, default 8", "--samples": "2 … 65536, default 256",
                       "--bounces": "0 … 64, default 16"},
-    "export_dataset": {**CAMERA, **WORLDS, **BOUNCED, **PLACE, **SENSOR, "--format": "tum (TUM RGB-D), euroc",
+    "export_dataset": {**CAMERA, **WORLDS, **BOUNCED, **LAMPS, **PLACE, **SENSOR, "--format": "tum (TUM RGB-D), euroc",
                        "--hours": "0 … < 24 h, default 12", "--rate": "0.001 … 1000 Hz, default 10",
                        "--depth-scale": "0.1 … 1000000 1/m, default 5000", "--path": "CSV or TUM",
                        "--spacing": "0.001 … 1000 m, default 1", "--height": "-1000 … 1000 m, default 1",
@@ -93,7 +95,7 @@ OPTIONS["evaluate_pair"] = {
     **{"--%s-%s" % (name, option): part for name, options in DETECTORS.items() if name != "surf" or name in detectors()
        for option, part in options.items()}}
 OPTIONS["atlas"] = {
-    **CAMERA, **WORLDS, **BOUNCED, **PLACE, **SENSOR, "--out": "goes on there with the same options", "--path": "CSV or TUM",
+    **CAMERA, **WORLDS, **BOUNCED, **LAMPS, **PLACE, **SENSOR, "--out": "goes on there with the same options", "--path": "CSV or TUM",
     **{option: OPTIONS["export_dataset"][option] for option in ("--spacing", "--height", "--first", "--count", "--stride")},
     "--from": "0 … < 24 h, default 0", "--to": "> 0 … 24 h, default 24", "--step": "30min, 2h, 90s, or minutes (default 30min)",
     "--hours": "0 … < 24 h", "--dates": "each with all these times", "--detectors": "default sift,orb",
@@ -121,7 +123,9 @@ REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be fr
            ("--supersampling", "5", "--supersampling is 5, but must be from 1 to 4"),
            ("--supersampling", "1.5", "a whole number from 1 to 4"),
            ("--rasterizer", "gpu", "must be one of osmesa, egl, builtin"),
-           ("--bounced", "maybe", "must be one of off, on"),
+           ("--bounced", "maybe", "must be one of off, on"), ("--missing", "skip", "must be one of stop, warn"),
+           ("--lamps", "bright", "must be one of auto, on, off"),
+           ("--lamps-dusk", "-1", "--lamps-dusk is -1, but must be from 0 to 100000 lx"),
            ("--pose", "1,2", "must be 3 to 5 numbers separated by ',': X,Y,Z[,YAW[,PITCH]]"),
            ("--pose", "1,,3", 'y is "", but must be a number in m'),
            ("--view", "1,2,3,4,5,6", "must be 3 to 5 numbers"),
