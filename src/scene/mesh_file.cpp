@@ -98,9 +98,11 @@ Mesh toMesh(const aiMesh& source, const MeshLook& look, bool gltf) {
   return mesh;
 }
 
+/// Assimp gives colours without an alpha one of 0.
 bool hasAlpha(const aiColor4D* colors, unsigned count) {
-  return colors != nullptr &&
-         std::any_of(colors, colors + count, [](const aiColor4D& color) { return color.a < 1.0f; });
+  const auto any = [&](auto is) { return colors != nullptr && std::any_of(colors, colors + count, is); };
+  return any([](const aiColor4D& color) { return color.a < 1.0f; }) &&
+         any([](const aiColor4D& color) { return color.a > 0.0f; });
 }
 
 /// Lines and points have no surface to light.
