@@ -168,17 +168,19 @@ void SceneBuilder::repairCoordinates(std::vector<Eigen::Vector2f>& coordinates) 
   }
 }
 
+bool canShine(const Lamp& lamp) {
+  return lamp.constant + lamp.linear + lamp.quadratic > 0.0f && lamp.range_m > 0.0f &&
+         lamp.outer_rad > 0.0f && lamp.inner_rad <= lamp.outer_rad && lamp.direction.norm() > 0.5f &&
+         (lamp.intensity.value >= 0.0f).all() && lamp.intensity.value.allFinite();
+}
+
 void SceneBuilder::addLamp(Lamp lamp) {
   // Written so that a NaN is left out.
   if (!(lamp.position.array().abs() <= kFarthest_m).all()) {
     warn("lamps farther than 100 km from the origin were left out", lamp.name);
     return;
   }
-  const bool shines = lamp.constant + lamp.linear + lamp.quadratic > 0.0f && lamp.range_m > 0.0f &&
-                      lamp.outer_rad > 0.0f && lamp.inner_rad <= lamp.outer_rad &&
-                      lamp.direction.norm() > 0.5f && (lamp.intensity.value >= 0.0f).all() &&
-                      lamp.intensity.value.allFinite();
-  if (!shines) {
+  if (!canShine(lamp)) {
     warn(kDarkLights, lamp.name);
     return;
   }

@@ -34,6 +34,9 @@ constexpr const char* kDarkLights =
     "lights were left out: their range, angle, direction and attenuation must be above 0 and finite";
 constexpr const char* kSpeltOtherwise = "files are spelt otherwise on disk";
 
+/// Whether what a file says of a lamp makes one; else it is among kDarkLights.
+bool canShine(const Lamp& lamp);
+
 /// How a texture goes on to the sides, and up and down.
 struct Wraps {
   Wrap u = Wrap::kRepeat, v = Wrap::kRepeat;

@@ -58,9 +58,7 @@ std::optional<Lamp> lampOf(const sdf::Light& light, const Eigen::Affine3d& map_f
   lamp.quadratic = factor(light.QuadraticAttenuationFactor());
   lamp.casts_shadows = light.CastShadows();
   if (spot) readCone(light, map_from_light, &lamp);
-  const bool shines = isFinite(light) && lamp.range_m > 0.0f && lamp.outer_rad > 0.0f &&
-                      lamp.constant + lamp.linear + lamp.quadratic > 0.0f && lamp.direction.norm() > 0.5f;
-  if (shines) return lamp;
+  if (isFinite(light) && canShine(lamp)) return lamp;
   builder.warn(kDarkLights, name.name);
   return std::nullopt;
 }
