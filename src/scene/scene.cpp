@@ -74,6 +74,7 @@ void checkMaterial(const Material& material, std::size_t texture_count) {
     checkRange(material, "dielectric", channel, {0.0f, 1.0f});
   checkRange(material, "dielectric_grazing", material.dielectric_grazing, {0.0f, 1.0f});
   checkRange(material, "transmission", material.transmission, {0.0f, 1.0f});
+  checkRange(material, "glass", material.glass, {0.0f, 1.0f});
   checkDetail(material);
   for (const float channel : material.emission.value) {
     if (!std::isfinite(channel) || channel < 0.0f)

@@ -79,6 +79,9 @@ struct Material {
   float occlusion_strength = 1;  ///< how much of that counts, 0 … 1
   LinearRgb emission;            ///< luminance that the surface gives off by itself, cd/m²
   TextureUse emission_map;       ///< colour; times emission
+  /// Of a bulb or a lit window: it gives off its light only while the lamps of that group burn. Empty:
+  /// always.
+  std::string lamp_group;
   /// Reflectance of what is not metal, at normal incidence and at grazing: 0 … 1. The former is that of a
   /// refractive index of 1.5.
   LinearRgb dielectric{0.04f, 0.04f, 0.04f};
@@ -88,6 +91,9 @@ struct Material {
   float alpha = 1.0f;         ///< of kBlend, times that of the texture; 0 … 1
   /// A thin sheet such as a leaf: the share of its diffuse light that comes out on the other side, 0 … 1.
   float transmission = 0.0f;
+  /// A thin, clear sheet such as a window pane: the share of what neither face mirrors that goes straight
+  /// through, times base_color, 0 … 1. Not of sheets with transmission, nor of metal.
+  float glass = 0.0f;
   bool double_sided = true;  ///< false: invisible from behind; still casts shadows
   Detail detail;
 };

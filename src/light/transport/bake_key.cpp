@@ -35,6 +35,14 @@ void addMaterial(const scene::Material& material, image::ContentHash* hash) {
     hash->add(material.dielectric_grazing);
   }
   if (material.alpha_mode == scene::AlphaMode::kBlend) hash->add(material.alpha);
+  if (material.glass > 0.0f) {
+    hash->addBytes("glass", 5);
+    hash->add(material.glass);
+  }
+  if (!material.lamp_group.empty()) {
+    hash->addBytes("lamp group", 10);
+    hash->addBytes(material.lamp_group.data(), material.lamp_group.size());
+  }
 }
 
 }  // namespace
