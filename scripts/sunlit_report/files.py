@@ -73,6 +73,7 @@ class Output:
     has_summary_file: bool
     run: dict
     rasterizer: str  # what drew, and on what; None: unknown
+    ground_albedo: float  # of the land around the world; None: unknown
     inputs: dict  # name -> fingerprint of what the pictures were made from
     captures: dict  # stream -> {column: array}
     path: dict  # column -> array
@@ -149,6 +150,7 @@ def read_output(folder):
         run=read_yaml(os.path.join(folder, "run.yaml")),
         inputs=read_yaml(os.path.join(folder, "inputs.yaml")),
         rasterizer=read_yaml(os.path.join(folder, "rasterizer.yaml")).get("rasterizer"),
+        ground_albedo=read_yaml(os.path.join(folder, "ground.yaml")).get("ground_albedo"),
         captures=read_captures(os.path.join(folder, "captures.csv")),
         path=read_path(os.path.join(folder, "path.csv")),
         map_picture=existing(os.path.join(folder, "map.png")),

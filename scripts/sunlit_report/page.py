@@ -97,6 +97,8 @@ def settings(output):
         top["inputs"] = output.inputs
     if output.rasterizer:
         top["drawn by"] = output.rasterizer
+    if output.ground_albedo is not None:
+        top["albedo of the land around the world"] = output.ground_albedo
     for key, value in tables.flattened(tables.mapping(output.run, "settings")) + tables.flattened(top):
         group, _, rest = key.rpartition("/")
         groups.setdefault(group or "general", []).append((rest, value))

@@ -8,6 +8,7 @@
 #include "sunlit/astronomy/moon_position.h"
 #include "sunlit/astronomy/star_catalogue.h"
 #include "sunlit/astronomy/sun_position.h"
+#include "sunlit/light/land.h"
 
 namespace sunlit::studio {
 namespace {
@@ -22,7 +23,9 @@ sky::AtmosphereOptions airAt(double height_m, const SkyOptions& options) {
   return air;
 }
 
-const SkyOptions& checked(const SkyOptions& options) {
+/// With the ground that is fixed, if one is.
+SkyOptions checked(SkyOptions options) {
+  options.air.ground_albedo = options.fixed_ground_albedo.value_or(options.air.ground_albedo);
   sky::validate(airAt(options.fixed_height_m.value_or(0.0), options));
   return options;
 }
@@ -58,6 +61,17 @@ Sky::Sky(const SkyOptions& options, Reports reports)
     : options_(checked(options)),
       reports_(std::move(reports)),
       stars_(options.stars ? loadStars(reports_) : nullptr) {}
+
+void Sky::over(const light::World& world) {
+  std::string origin = "as given";
+  if (!options_.fixed_ground_albedo) {
+    const std::optional<double> seen = light::albedoFromAbove(world);
+    origin = seen ? "the mean of the world from above" : "as nothing of the world is seen from above";
+    options_.air.ground_albedo = seen.value_or(sky::AtmosphereOptions().ground_albedo);
+  }
+  airs_.clear();
+  tell(reports_.note, "Albedo of the land beyond the world: " + textOf(groundAlbedo()) + ", " + origin);
+}
 
 sky::Daylight Sky::daylight(const SkyBodies& bodies) {
   return airOver(bodies.site_elevation_m)

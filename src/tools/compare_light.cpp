@@ -6,6 +6,7 @@
 
 #include "sunlit/image/files.h"
 #include "sunlit/image/flip.h"
+#include "sunlit/light/land.h"
 #include "sunlit/path/path.h"
 #include "sunlit/quantity/duration.h"
 #include "sunlit/quantity/frames.h"
@@ -56,7 +57,10 @@ class Comparer {
  public:
   Comparer(const CompareLightOptions& options, const light::World& world)
       : options_(options), world_(world), renderer_(world, options.render) {
-    const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
+    sky::AtmosphereOptions air;
+    air.ground_albedo = light::albedoFromAbove(world).value_or(air.ground_albedo);
+    std::printf("albedo of the land beyond the world: %.3f\n", air.ground_albedo);
+    const sky::Atmosphere atmosphere(air);
     for (const SkyToCompare& what : options.skies) days_.push_back(daylightOf(what, atmosphere));
   }
 

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tools/terminal.h"
+
 namespace sunlit::tools {
 
 astronomy::CivilDate dateOf(const std::string& option, const std::string& text, double timezone) {
@@ -40,6 +42,18 @@ void addPlace(studio::CommandLine* line, PlaceOptions* options) {
   line->add("--timezone HOURS", timezone);
   line->add("--turbidity NUMBER", fieldOf(fieldsOf(options->air), "turbidity"));
   line->add("--ozone DU", fieldOf(fieldsOf(options->air), "ozone"));
+  Field ground = fieldOf(fieldsOf(options->air), "ground_albedo");
+  ground.place = NumberOrWord{&options->ground_albedo, "auto"};
+  line->add("--ground-albedo NUMBER", ground);
+}
+
+studio::Sky skyOver(const light::World& world, const PlaceOptions& place, bool stars) {
+  studio::Sky sky({place.air, std::nullopt, place.ground_albedo, stars}, onTerminal());
+  sky.over(world);
+  std::printf("albedo of the land beyond the world: %g%s\n", sky.groundAlbedo(),
+              place.ground_albedo ? ", as given" : "");
+  std::fflush(stdout);
+  return sky;
 }
 
 studio::SkyBodies bodiesOf(const PlaceOptions& place, double hour) {

@@ -1,6 +1,8 @@
 /// Command line options that say where on Earth and on which day.
 #pragma once
 
+#include <optional>
+
 #include "sunlit/astronomy/civil_time.h"
 #include "sunlit/quantity/site.h"
 #include "sunlit/studio/command_line.h"
@@ -11,7 +13,8 @@ namespace sunlit::tools {
 struct PlaceOptions {
   Site site{Angle::degrees(55.792115), Angle::degrees(49.122254), 90.0};  ///< of the experiment
   astronomy::CivilDate date{2024, 7, 1, 3.0};                             ///< with the time zone, h
-  sky::AtmosphereOptions air;  ///< but for the observer's height, which is the site's
+  sky::AtmosphereOptions air;  ///< but for the observer's height, which is the site's, and the ground
+  std::optional<double> ground_albedo;  ///< nothing: that of the world
 };
 
 /// "2024-07-01". Throws std::invalid_argument naming `option` for a day that there is not.
@@ -19,8 +22,11 @@ astronomy::CivilDate dateOf(const std::string& option, const std::string& text, 
 /// As a person would type it.
 std::string textOf(const astronomy::CivilDate& date);
 
-/// --site, --date, --timezone, --turbidity and --ozone.
+/// --site, --date, --timezone, --turbidity, --ozone and --ground-albedo.
 void addPlace(studio::CommandLine* line, PlaceOptions* options);
+
+/// The sky of `place`, over the land that goes on beyond `world`, whose albedo it prints.
+studio::Sky skyOver(const light::World& world, const PlaceOptions& place, bool stars = true);
 
 /// What is in the sky over `place` at an `hour` of its day, −24 … 72; outside 0 … 24 it is of the days before
 /// and after.

@@ -12,8 +12,8 @@
 namespace sunlit::tools {
 namespace {
 
-sky::Daylight daylightOf(const SnapshotOptions& options) {
-  studio::Sky sky({options.place.air, std::nullopt, options.hour.has_value()}, onTerminal());
+sky::Daylight daylightOf(const SnapshotOptions& options, const light::World& world) {
+  studio::Sky sky = skyOver(world, options.place, options.hour.has_value());
   if (options.hour) return sky.daylight(bodiesOf(options.place, *options.hour));
   return sky.daylight({{Direction(Azimuth(options.sun.azimuth), options.sun.elevation), 1.0}});
 }
@@ -21,7 +21,7 @@ sky::Daylight daylightOf(const SnapshotOptions& options) {
 void takeSnapshot(const SnapshotOptions& options) {
   const ViewOptions& view = options.view;
   studio::Studio studio(view.studio, std::nullopt, onTerminal());
-  const sky::Daylight day = daylightOf(options);
+  const sky::Daylight day = daylightOf(options, studio.world());
   studio.look(view.map_from_camera);
   const studio::Developed developed = studio.photograph(studio.illumination(day), {});
   image::writePng(options.output, developed.picture);

@@ -48,8 +48,8 @@ class Camera {
  public:
   explicit Camera(const TimelapseOptions& options)
       : options_(options),
-        sky_({options.place.air, std::nullopt}, onTerminal()),
-        studio_(options.view.studio, std::nullopt, onTerminal()) {
+        studio_(options.view.studio, std::nullopt, onTerminal()),
+        sky_(skyOver(studio_.world(), options.place)) {
     studio_.look(options.view.map_from_camera);
   }
 
@@ -72,8 +72,8 @@ class Camera {
 
  private:
   const TimelapseOptions& options_;
-  studio::Sky sky_;
   studio::Studio studio_;
+  studio::Sky sky_;
 };
 
 void makeFrames(const TimelapseOptions& options, FrameFolder* folder) {

@@ -21,7 +21,8 @@ BOUNCED = {"--bounced": "off|on", "--cache": "SUNLIT_CACHE_DIR"}
 LAMPS = {"--lamps": "default auto", "--lamps-dusk": "0 … 100000 lx, default 30", "--lamps-off": "may be repeated",
          "--lamps-colour": "0 … 1000000 lx, default 50"}
 PLACE = {"--site": "latitude (geodetic, positive north, -90 … 90 deg)", "--date": "default 2024-07-01",
-         "--timezone": "-18 … 18 h, default 3", "--turbidity": "1 … 10, default 2", "--ozone": "0 … 600 DU, default 300"}
+         "--timezone": "-18 … 18 h, default 3", "--turbidity": "1 … 10, default 2", "--ozone": "0 … 600 DU, default 300",
+         "--ground-albedo": "0 … 1, default auto"}
 SENSOR = {"--ev": "-16 … 24 EV, default auto", "--compensation": "-8 … 8 EV, default 0", "--noise": "0 … 2147483647"}
 VIEW = {**SENSOR, "--pose": "(default 0,0,1,0,0)", "--look-at": "towards a point", "--path-pose": "≥ 0",
         "--path": "CSV or TUM", "--top-down": "> 0 m"}

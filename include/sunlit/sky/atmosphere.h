@@ -33,7 +33,11 @@ struct AtmosphereOptions {
 inline std::vector<Field> fieldsOf(AtmosphereOptions& options) {
   return {{"turbidity", &options.turbidity, "", {1, 10}, "haziness: 1 is pure air, 2 a clear day, 10 haze"},
           {"ozone", &options.ozone_du, "DU", {0, 600}, "300 is the Earth's mean, 100 the ozone hole's"},
-          {"ground_albedo", &options.ground_albedo, "", {0, 1}, "of the land around the scene"},
+          {"ground_albedo",
+           &options.ground_albedo,
+           "",
+           {0, 1},
+           "of the land around the scene; auto: as the world is from above"},
           {"observer_height", &options.observer_height_m, "m", {0, 8000}, "above sea level"}};
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sunlit/astronomy/solar_coordinates.h"
+#include "sunlit/light/world.h"
 #include "sunlit/quantity/instant.h"
 #include "sunlit/quantity/site.h"
 #include "sunlit/sky/atmosphere.h"
@@ -32,10 +33,12 @@ SkyBodies bodiesAt(const Instant& instant, const Site& site, const Air& air = {}
 std::shared_ptr<const std::vector<sky::Star>> loadStars(const Reports& reports);
 
 struct SkyOptions {
-  sky::AtmosphereOptions air;  ///< but for the height, which is the next one's
+  sky::AtmosphereOptions air;  ///< but for height and ground, which are the next ones
   /// m above sea level, as AtmosphereOptions allows. Nothing: the site's elevation; where that is lower or
   /// higher than allowed, the nearest that is.
   std::optional<double> fixed_height_m;
+  /// Nothing: that of the world, see Sky::over(); where there is none, that of sky::AtmosphereOptions.
+  std::optional<double> fixed_ground_albedo;
   bool stars = true;
 };
 
@@ -45,6 +48,11 @@ class Sky {
  public:
   /// Reads the stars. Throws as sky::validate() and loadStars().
   explicit Sky(const SkyOptions& options, Reports reports = {});
+
+  /// The land goes on beyond `world` as it is seen there from above (light::albedoFromAbove()), unless the
+  /// options fix its albedo. Says which it is. Forgets the airs that are there.
+  void over(const light::World& world);
+  double groundAlbedo() const { return options_.air.ground_albedo; }
 
   sky::Daylight daylight(const SkyBodies& bodies);
   /// Makes the air that daylight() of the same site will need, if it is not there.

@@ -91,11 +91,12 @@ std::vector<Field> fieldsOf(PacingOptions& pacing) {
          "only skies of exactly a pose's stamp; with publish_clock it cannot be false"}}});
 }
 
-/// The air's rows, but that its height may be left to the site.
+/// The air's rows, but that its height may be left to the site, and its ground to the world.
 std::vector<Field> airFields(studio::SkyOptions* sky) {
   std::vector<Field> rows = fieldsOf(sky->air);
   for (Field& row : rows) {
     if (row.key == "observer_height") row.place = NumberOrWord{&sky->fixed_height_m, "auto"};
+    if (row.key == "ground_albedo") row.place = NumberOrWord{&sky->fixed_ground_albedo, "auto"};
   }
   return rows;
 }

@@ -69,6 +69,7 @@ RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
       studio_(options.studioOptions(), robot_model_, reports()),
       streams_(conditions, streamOptions(options), studio_, sky_),
       paused_(!options.pacing.autostart) {
+  sky_.over(studio_.world());
   if (robot_model_) {
     robot_ = std::make_unique<RobotPlaces>(
         *robot_model_, options_.robot, options_.cameraFrames(),
@@ -171,6 +172,7 @@ void RenderNode::keepTiming() {
 void RenderNode::beginFolder() {
   files_->keepInputs({light::fingerprint(studio_.world()), path_->fingerprint()});
   files_->keepRasterizer(studio_.rasterizer());
+  files_->keepGround(sky_.groundAlbedo());
   const studio::MapExtent extent = extentOf(*path_);
   studio::SkyBodies noon{{Direction(Azimuth::degrees(160.0), Angle::degrees(55.0)), 1.0}};
   noon.site_elevation_m = streams_.siteElevation();

@@ -69,6 +69,10 @@ void RunFiles::keepRasterizer(const std::string& rasterizer) const {
   image::writeFileAtomically(folder_ + "/rasterizer.yaml", "rasterizer: " + yamlQuoted(rasterizer) + "\n");
 }
 
+void RunFiles::keepGround(double albedo) const {
+  image::writeFileAtomically(folder_ + "/ground.yaml", "ground_albedo: " + textOf(albedo) + "\n");
+}
+
 void RunFiles::writeMap(const image::Rgb8Image& map, const studio::MapExtent& extent) const {
   image::writePng(folder_ + "/map.png", map);
   image::writeFileAtomically(folder_ + "/map.yaml", "x_min: " + textOf(extent.x_min) +

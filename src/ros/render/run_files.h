@@ -27,6 +27,8 @@ class RunFiles {
   void keepInputs(const RunInputs& inputs) const;
   /// rasterizer.yaml: what draws, see render::Renderer::rasterizer().
   void keepRasterizer(const std::string& rasterizer) const;
+  /// ground.yaml: `ground_albedo`, of the land around the world.
+  void keepGround(double albedo) const;
   /// map.png, north up, and map.yaml, which says what ground it shows: x_min, x_max, y_min, y_max in m.
   void writeMap(const image::Rgb8Image& map, const studio::MapExtent& extent) const;
   /// timing.csv: stage,what,count,seconds; with the times of the run that this one goes on with.

@@ -52,7 +52,7 @@ class ExperimentRuns(unittest.TestCase):
             if row["difference"] in ("boolean_rgb", "euclidean_grey"):
                 # Two processes, one sun: to the bit. Two suns: not.
                 self.assertEqual(float(row["mean"]) == 0.0, is_self_test, row)
-        for name in ("frames.csv", "captures.csv", "path.csv", "run.yaml", "map.png", "map.yaml", "timing.csv", "inputs.yaml", "rasterizer.yaml",
+        for name in ("frames.csv", "captures.csv", "path.csv", "run.yaml", "map.png", "map.yaml", "timing.csv", "inputs.yaml", "rasterizer.yaml", "ground.yaml",
                      "report.html", "images/h10/000000.png", "images/h12/000019.png"):
             self.assertTrue(os.path.exists(os.path.join(self.output, name)), name)
 

@@ -78,6 +78,8 @@ class RenderDiagnostics(RefusalTest):
                 self.assertEqual(run["robot"], "none")
                 with open(os.path.join(folder, "rasterizer.yaml")) as file:
                     self.assertEqual(file.read(), "rasterizer: '%s'\n" % run["rasterizer"])
+                with open(os.path.join(folder, "ground.yaml")) as file:
+                    self.assertRegex(file.read(), r"^ground_albedo: 0\.\d+\n$")
                 bakes = os.path.join(folder, "bakes")
                 self.assertEqual(run["cache of bakes"], bakes)
                 size = sum(entry.stat().st_size for entry in os.scandir(bakes) if entry.name.endswith(".light"))

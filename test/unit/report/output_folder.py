@@ -171,6 +171,7 @@ def write_all(folder):
           ["settings:", "  ratio: '0.5'", "  about/world: 'race_track'", "versions:", "  sunlit: '9.8.7'",
            "counters:", "  streams:", "    'h04': {received: 40, late: 17}"])
     write(folder, "rasterizer.yaml", ["rasterizer: 'osmesa: llvmpipe (LLVM 15.0.6, 256 bits)'"])
+    write(folder, "ground.yaml", ["ground_albedo: 0.173"])
     write(folder, "inputs.yaml", ["sunlit: '9.8.7'", "world: '00c0ffee'", "path: '0123456789abcdef'"])
     write(folder, "problems.csv", ["kind,pose,stamp,where,reason", "undecodable,,1.5,h12,\"cut <short>, it seems\""])
     write(folder, "timing.csv", ["stage,what,count,seconds", "render,geometry,40,0.8"])

@@ -504,7 +504,7 @@ class Page(InFolder):
         self.assertEqual(html.count("data:image/svg+xml"), 9)
         self.assertEqual(html.count("data:image/jpeg"), 5 * 3 + 4)  # and the best and worst of SIFT's matches of two pairs
         for text in ("0.84000", "0.84577", "9.8.7", "race_track", "4321", "geometry", "20.00", "00c0ffee",
-                     "osmesa: llvmpipe (LLVM 15.0.6, 256 bits)",
+                     "osmesa: llvmpipe (LLVM 15.0.6, 256 bits)", "albedo of the land around the world", "0.173",
                      "cut &lt;short&gt;, it seems", "<td>17</td>"):
             self.assertIn(text, html)
         self.assertNotIn('class="absent"', html)

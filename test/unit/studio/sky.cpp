@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "sunlit/astronomy/civil_time.h"
 #include "support/message_of.h"
+#include "support/patches.h"
 
 namespace sunlit::studio {
 namespace {
@@ -76,6 +78,40 @@ TEST(Sky, OfAFixedHeightDoesNotHeedTheSite) {
   SkyOptions options;
   options.fixed_height_m = 500.0;
   EXPECT_EQ(notesOf(options, {0.0, 1830.14}), std::vector<std::string>{"Air of a height of 500 m"});
+}
+
+light::World snowfield() {
+  scene::Scene scene;
+  scene.materials.emplace_back();
+  scene.materials[0].base_color = LinearRgb(0.8f, 0.8f, 0.8f);
+  test::addGround(&scene, 0, 50.0f);
+  return light::World(std::make_shared<const scene::Scene>(scene));
+}
+
+TEST(Sky, TakesTheLandBeyondFromTheWorldUnlessItIsFixed) {
+  std::string said;
+  Reports reports;
+  reports.note = [&](const std::string& line) { said = line; };
+  Sky sky({}, reports);
+  const float unknown = sky.daylight(lowSunOver(0.0)).skyLuminance(-Eigen::Vector3f::UnitZ()).value[1];
+  sky.over(snowfield());
+  EXPECT_NEAR(sky.groundAlbedo(), 0.8, 0.03);  // with what its face mirrors
+  EXPECT_NE(said.find(textOf(sky.groundAlbedo())), std::string::npos) << said;
+  const float snow = sky.daylight(lowSunOver(0.0)).skyLuminance(-Eigen::Vector3f::UnitZ()).value[1];
+  // Four times as bright, and more, since snow brightens its sky.
+  EXPECT_GT(snow, 4.0f * unknown);
+  EXPECT_LT(snow, 5.5f * unknown);
+
+  SkyOptions options;
+  options.fixed_ground_albedo = 0.3;
+  Sky fixed(options, reports);
+  EXPECT_EQ(fixed.groundAlbedo(), 0.3);
+  fixed.over(snowfield());
+  EXPECT_EQ(fixed.groundAlbedo(), 0.3);
+
+  Sky over_nothing({}, reports);
+  over_nothing.over(light::World(std::make_shared<const scene::Scene>()));
+  EXPECT_EQ(over_nothing.groundAlbedo(), sky::AtmosphereOptions().ground_albedo);
 }
 
 TEST(Sky, RefusesAirThatCannotBe) {
