@@ -2,9 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 
+#include "scene/export_json.h"
+#include "scene/export_lamps.h"
+#include "scene/export_losses.h"
+#include "scene/export_maps.h"
 #include "scene/glb_file.h"
 #include "sunlit/image/files.h"
 #include "sunlit/image/texture_files.h"
@@ -17,42 +20,31 @@ namespace {
 constexpr int kUnsignedInt = 5125;
 constexpr int kFloat = 5126;
 
-/// Enough digits to give a float back unchanged.
-std::string number(float value) {
-  std::ostringstream text;
-  text.precision(9);
-  text << value;
-  return text.str();
-}
-
-std::string vector3(const Eigen::Array3f& value) {
-  return jsonArray({number(value[0]), number(value[1]), number(value[2])});
-}
-
-/// +Y up from z up.
-Eigen::Vector3f yUp(const Eigen::Vector3f& map) {
-  return {map.x(), map.z(), -map.y()};
-}
-
 class Writer {
  public:
-  explicit Writer(const Scene& scene) : scene_(scene) {}
+  explicit Writer(const Scene& scene) : scene_(scene), maps_(scene) {}
 
   std::string glb() {
+    for (const Material& material : scene_.materials) packed_.push_back(maps_.of(material, &losses_));
     addTextures();
     for (const Material& material : scene_.materials) addMaterial(material);
     for (const Mesh& mesh : scene_.meshes) addMesh(mesh);
+    for (const Lamp& lamp : scene_.lamps) addLamp(lamp);
     std::vector<std::string> roots;
     for (std::size_t i = 0; i < nodes_.size(); ++i) roots.push_back(std::to_string(i));
     std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"sunlit\"}";
     std::vector<std::string> used;
+    if (!lights_.empty()) used.push_back("\"KHR_lights_punctual\"");
     if (transmits_) used.push_back("\"KHR_materials_diffuse_transmission\"");
     if (emits_) used.push_back("\"KHR_materials_emissive_strength\"");
     if (specular_) {
       used.push_back("\"KHR_materials_ior\"");
       used.push_back("\"KHR_materials_specular\"");
     }
+    if (glazed_) used.push_back("\"KHR_materials_transmission\"");
     append(json, "extensionsUsed", used);
+    if (!lights_.empty())
+      json += ",\"extensions\":{\"KHR_lights_punctual\":{\"lights\":" + jsonArray(lights_) + "}}";
     json += ",\"scene\":0,\"scenes\":[{\"nodes\":" + jsonArray(roots) + "}]";
     append(json, "nodes", nodes_);
     append(json, "meshes", meshes_);
@@ -66,25 +58,31 @@ class Writer {
     return glbFile(json, buffer_);
   }
 
+  /// What the file does not say.
+  std::vector<std::string> lost() const { return losses_.lines(); }
+
  private:
   static void append(std::string& json, const char* key, const std::vector<std::string>& items) {
     if (!items.empty()) json += ",\"" + std::string(key) + "\":" + jsonArray(items);
   }
 
   void addTextures() {
-    std::vector<std::string> pngs(scene_.textures.size());
+    std::vector<const Texture*> all;
+    for (const Texture& texture : scene_.textures) all.push_back(&texture);
+    for (const Texture& texture : maps_.textures()) all.push_back(&texture);
+    std::vector<std::string> pngs(all.size());
     tbb::parallel_for(std::size_t{0}, pngs.size(), [&](std::size_t i) {
       image::Rgba8Image picture;
-      picture.width = scene_.textures[i].width;
-      picture.height = scene_.textures[i].height;
-      picture.data = scene_.textures[i].rgba;
+      picture.width = all[i]->width;
+      picture.height = all[i]->height;
+      picture.data = all[i]->rgba;
       pngs[i] = image::encodePng(picture);
     });
     for (std::size_t i = 0; i < pngs.size(); ++i) {
       const std::size_t view = buffer_.add(pngs[i].data(), pngs[i].size());
-      images_.push_back("{\"mimeType\":\"image/png\",\"name\":" + jsonString(scene_.textures[i].name) +
+      images_.push_back("{\"mimeType\":\"image/png\",\"name\":" + jsonString(all[i]->name) +
                         ",\"bufferView\":" + std::to_string(view) + "}");
-      textures_.push_back("{\"source\":" + std::to_string(i) + samplerOf(scene_.textures[i]) + "}");
+      textures_.push_back("{\"source\":" + std::to_string(i) + samplerOf(*all[i]) + "}");
     }
   }
 
@@ -110,14 +108,15 @@ class Writer {
     if (material.base_texture != Material::kNoTexture) {
       json += ",\"baseColorTexture\":{\"index\":" + std::to_string(material.base_texture) + "}";
     }
-    json += metallicRoughnessJson(material);
+    json += mapJson("metallicRoughnessTexture", packed_[materials_.size()]);
     json += std::string("},\"doubleSided\":") + (material.double_sided ? "true" : "false");
     if (material.alpha_mode == AlphaMode::kMask) {
       json += ",\"alphaMode\":\"MASK\",\"alphaCutoff\":" + number(material.alpha_cutoff);
     }
     if (material.alpha_mode == AlphaMode::kBlend) json += ",\"alphaMode\":\"BLEND\"";
     json += mapJson("normalTexture", material.normal_map, ",\"scale\":" + number(material.normal_scale));
-    json += mapJson("occlusionTexture", material.occlusion_map,
+    const TextureUse& occlusion = material.occlusion_map;
+    json += mapJson("occlusionTexture", occlusion.channel == 0 ? occlusion : TextureUse(),
                     ",\"strength\":" + number(material.occlusion_strength));
     json += mapJson("emissiveTexture", material.emission_map);
     const float strength = material.emission.value.maxCoeff();
@@ -126,6 +125,8 @@ class Writer {
       json += ",\"emissiveFactor\":" + vector3(material.emission.value / strength);
     }
     json += extensionsJson(material, strength);
+    noteLosses(material);
+    glazed_ = glazed_ || material.glass > 0.0f;
     transmits_ = transmits_ || material.transmission > 0.0f;
     specular_ = specular_ || hasOwnDielectric(material);
     if (material.detail.contrast > 0.0f)
@@ -139,12 +140,20 @@ class Writer {
            ",\"texCoord\":" + std::to_string(use.coordinates) + more + "}";
   }
 
-  /// glTF has both in one texture: roughness in green, metalness in blue.
-  static std::string metallicRoughnessJson(const Material& material) {
-    const TextureUse &rough = material.roughness_map, &metal = material.metalness_map;
-    const bool as_gltf = rough.given() && metal.given() && rough.texture == metal.texture &&
-                         rough.coordinates == metal.coordinates && rough.channel == 1 && metal.channel == 2;
-    return as_gltf ? mapJson("metallicRoughnessTexture", rough) : "";
+  void noteLosses(const Material& material) {
+    if (material.occlusion_map.given() && material.occlusion_map.channel != 0)
+      losses_.add("materials keep occlusion in another channel than red, it is left out", material.name);
+    if (!material.lamp_group.empty() && material.emission.value.maxCoeff() > 0.0f)
+      losses_.add("materials glow with the lamps here, always there", material.name);
+    if (material.detail.contrast > 0.0f)
+      losses_.add("materials have fractal detail, which no other program knows", material.name);
+  }
+
+  void addLamp(const Lamp& lamp) {
+    if (lamp.relative)
+      throw std::invalid_argument("lamp " + lamp.name + ": its intensity has no unit, but must be in cd");
+    nodes_.push_back(lampNodeJson(lamp, lights_.size()));
+    lights_.push_back(lightJson(lamp, &losses_));
   }
 
   static bool hasOwnDielectric(const Material& material) {
@@ -167,6 +176,9 @@ class Writer {
       json += ",\"KHR_materials_diffuse_transmission\":{\"diffuseTransmissionFactor\":" +
               number(material.transmission) +
               ",\"diffuseTransmissionColorFactor\":" + vector3(material.base_color.value) + "}";
+    }
+    if (material.glass > 0.0f) {
+      json += ",\"KHR_materials_transmission\":{\"transmissionFactor\":" + number(material.glass) + "}";
     }
     if (emissive_strength > 0.0f) {
       json += ",\"KHR_materials_emissive_strength\":{\"emissiveStrength\":" + number(emissive_strength) + "}";
@@ -221,7 +233,12 @@ class Writer {
     }
     if (!mesh.colors.empty()) {
       std::vector<Eigen::Array3f> colors = mesh.colors;
-      for (Eigen::Array3f& color : colors) color = color.min(1.0f);  // glTF 2.0, section 3.7.2.1
+      bool cut = false;
+      for (Eigen::Array3f& color : colors) {
+        cut = cut || color.maxCoeff() > 1.0f;
+        color = color.min(1.0f);  // glTF 2.0, section 3.7.2.1
+      }
+      if (cut) losses_.add("meshes have vertex colours above 1, they are cut off there", mesh.name);
       attributes += ",\"COLOR_0\":" + addAccessor(colors, "VEC3");
     }
     const std::string name = jsonString(mesh.name);
@@ -232,9 +249,13 @@ class Writer {
   }
 
   const Scene& scene_;
+  ExportLosses losses_;
+  PackedMaps maps_;
+  std::vector<TextureUse> packed_;  ///< roughness and metalness of each material
   GlbBuffer buffer_;
-  std::vector<std::string> nodes_, meshes_, materials_, samplers_, textures_, images_, accessors_;
+  std::vector<std::string> nodes_, meshes_, materials_, samplers_, textures_, images_, accessors_, lights_;
   bool emits_ = false;
+  bool glazed_ = false;
   bool transmits_ = false;
   bool specular_ = false;
 };
@@ -244,15 +265,17 @@ static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(Eigen::Array3f) == 12 && s
 
 }  // namespace
 
-void writeGltf(const Scene& scene, const std::string& file) {
+std::vector<std::string> writeGltf(const Scene& scene, const std::string& file) {
   validate(scene);
+  Writer writer(scene);
   std::string glb;
   try {
-    glb = Writer(scene).glb();
+    glb = writer.glb();
   } catch (const std::length_error& error) {
     throw std::runtime_error(file + ": " + error.what());
   }
   image::writeFileAtomically(file, glb);
+  return writer.lost();
 }
 
 }  // namespace sunlit::scene

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "support/message_of.h"
@@ -193,6 +194,133 @@ TEST_F(ExportGltf, MapsAndBlendingComeBack) {
   EXPECT_EQ(m.dielectric_grazing, 0.5f);
   ASSERT_EQ(mesh.tangents.size(), mesh.positions.size());
   EXPECT_LT((mesh.tangents[0] - Eigen::Vector4f(1.0f, 0.0f, 0.0f, -1.0f)).norm(), 1e-6f);
+}
+
+Lamp spot() {
+  Lamp lamp;
+  lamp.name = "mast 3";
+  lamp.group = "masts";
+  lamp.position = {3.5f, -7.25f, 15.0f};
+  lamp.direction = Eigen::Vector3f(0.3f, -0.4f, -0.8f).normalized();
+  lamp.intensity = LinearRgb(4000.0f, 3000.0f, 2000.0f);
+  lamp.range_m = 80.0f;
+  lamp.inner_rad = 0.25f;
+  lamp.outer_rad = 0.75f;
+  return lamp;
+}
+
+void expectSame(const Lamp& a, const Lamp& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.group, b.group);
+  EXPECT_LT((a.position - b.position).norm(), 1e-5f);
+  if (a.isSpot()) {
+    EXPECT_LT((a.direction - b.direction).norm(), 1e-6f);
+  }
+  // Of a colour and its strength.
+  EXPECT_LT((a.intensity.value / b.intensity.value - 1.0f).abs().maxCoeff(), 1e-6f);
+  EXPECT_FALSE(b.relative);
+  EXPECT_EQ(a.range_m, b.range_m);
+  EXPECT_EQ(a.inner_rad, b.inner_rad);
+  EXPECT_EQ(a.outer_rad, b.outer_rad);
+  EXPECT_EQ(a.exponent, b.exponent);
+  EXPECT_EQ(std::vector<float>({b.constant, b.linear, b.quadratic}), std::vector<float>({0, 0, 1}));
+}
+
+TEST_F(ExportGltf, LampsComeBack) {
+  Scene scene = sample();
+  Lamp point;
+  point.name = point.group = "bulb";
+  point.position = {1.0f, 2.0f, 3.0f};
+  point.intensity = LinearRgb(100.0f, 90.0f, 80.0f);
+  Lamp straight_up = spot();
+  straight_up.direction = Eigen::Vector3f::UnitZ();
+  scene.lamps = {point, spot(), straight_up};
+  EXPECT_TRUE(writeGltf(scene, pathOf("scene.glb")).empty());
+  const Scene back = load(pathOf("scene.glb"), {});
+  EXPECT_TRUE(back.warnings.empty());
+  EXPECT_EQ(back.meshes.size(), scene.meshes.size());
+  ASSERT_EQ(back.lamps.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) expectSame(scene.lamps[i], back.lamps[i]);
+}
+
+TEST_F(ExportGltf, LampsThatFallOffOtherwiseAreAsBrightOnTheGroundAndNamed) {
+  Scene scene = sample();
+  Lamp lamp = spot();
+  lamp.constant = 0.5f;
+  lamp.linear = 0.1f;
+  lamp.quadratic = 0.01f;
+  lamp.exponent = 1.0f;
+  lamp.radius_m = 0.5f;
+  lamp.casts_shadows = false;
+  scene.lamps = {lamp};
+  const std::vector<std::string> lost = writeGltf(scene, pathOf("scene.glb"));
+  EXPECT_EQ(lost.size(), 4u);
+  for (const std::string& line : lost) {
+    EXPECT_EQ(line.find("1 lamps"), 0u) << line;
+    EXPECT_NE(line.find("mast 3"), std::string::npos) << line;
+  }
+  const Scene back = load(pathOf("scene.glb"), {});
+  ASSERT_EQ(back.lamps.size(), 1u);
+  // 15 m above z = 0: 0.5 + 1.5 + 2.25.
+  EXPECT_NEAR(back.lamps[0].intensity.value[0] / (15.0f * 15.0f), 4000.0f / 4.25f, 0.01f);
+}
+
+TEST_F(ExportGltf, RefusesLampsWithoutAUnit) {
+  Scene scene = sample();
+  scene.lamps = {spot()};
+  scene.lamps[0].relative = true;
+  EXPECT_NE(messageOf([&] { writeGltf(scene, pathOf("scene.glb")); }).find("mast 3"), std::string::npos);
+}
+
+TEST_F(ExportGltf, RoughnessAndMetalnessOfTexturesOfTheirOwnArePackedIntoOne) {
+  Scene scene = sample();
+  Texture coarse{"rough", 1, 1, {7, 8, 9, 200}};
+  Texture fine{"metal", 2, 1, {10, 20, 30, 255, 40, 50, 60, 255}};
+  scene.textures = {scene.textures[0], coarse, fine};
+  scene.materials[1].roughness_map = {1, 0, 3};
+  scene.materials[1].metalness_map = {2, 0, 0};
+  scene.materials[0].metalness_map = {2, 0, 1};
+  scene.meshes[1].texture_coordinates = scene.meshes[0].texture_coordinates;
+  EXPECT_TRUE(writeGltf(scene, pathOf("scene.glb")).empty());
+  const Scene back = load(pathOf("scene.glb"), {});
+  const auto texels = [&](const TextureUse& use) {
+    std::vector<int> values;
+    const Texture& texture = back.textures.at(static_cast<std::size_t>(use.texture));
+    for (std::size_t i = 0; i < texture.rgba.size(); i += 4)
+      values.push_back(texture.rgba[i + static_cast<std::size_t>(use.channel)]);
+    return values;
+  };
+  EXPECT_EQ(texels(back.materials[1].roughness_map), (std::vector<int>{200, 200}));
+  EXPECT_EQ(texels(back.materials[1].metalness_map), (std::vector<int>{10, 40}));
+  EXPECT_EQ(texels(back.materials[0].roughness_map), (std::vector<int>{255, 255}));
+  EXPECT_EQ(texels(back.materials[0].metalness_map), (std::vector<int>{20, 50}));
+}
+
+TEST_F(ExportGltf, NamesWhatOtherProgramsDoNotKnow) {
+  Scene scene = sample();
+  scene.materials[1].lamp_group = "masts";
+  scene.materials[0].detail.contrast = 0.2f;
+  scene.materials[0].occlusion_map = {0, 0, 2};
+  scene.materials[0].roughness_map = {0, 0, 1};
+  scene.materials[0].metalness_map = {0, 1, 2};
+  scene.meshes[0].colors[0][0] = 1.5f;
+  const std::vector<std::string> lost = writeGltf(scene, pathOf("scene.glb"));
+  EXPECT_EQ(lost.size(), 5u);
+  for (const char* what : {"occlusion", "glow", "fractal detail", "metalness", "vertex colours"}) {
+    EXPECT_TRUE(std::any_of(lost.begin(), lost.end(), [&](const std::string& line) {
+      return line.find(what) != std::string::npos;
+    })) << what;
+  }
+}
+
+TEST_F(ExportGltf, GlassIsWrittenAsTransmission) {
+  Scene scene = sample();
+  scene.materials[1].metalness = 0.0f;
+  scene.materials[1].glass = 0.75f;
+  writeGltf(scene, pathOf("scene.glb"));
+  std::ifstream stream(pathOf("scene.glb"), std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  EXPECT_NE(text.find("\"KHR_materials_transmission\":{\"transmissionFactor\":0.75}"), std::string::npos);
 }
 
 TEST_F(ExportGltf, WritesTheSameBytesEachTime) {
