@@ -68,7 +68,7 @@ OPTIONS = {
                        "--spacing": "0.001 … 1000 m, default 1", "--height": "-1000 … 1000 m, default 1",
                        "--first": "0 … 1000000000, default 0", "--count": "0: to the end",
                        "--stride": "1 … 1000000000, default 1"},
-    "export_world": {**WORLDS, "--out": "FILE.glb", "--lamps-colour": "default 50"},
+    "export_world": {**WORLDS, "--out": "FILE.glb", "--lamps-colour": "default 50", "--texel": "0.001 … 10 m", "--path": "CSV or TUM"},
     "evaluate_trajectory": {"--truth": "timestamp tx ty tz qx qy qz qw", "--estimate": "of the same body",
                             "--out": "trajectory.csv", "--align": "none|se3|sim3|yaw",
                             "--max-difference": "0 … 1000000 s, default 0.01", "--delta": "default 1m,10m,1frame",
