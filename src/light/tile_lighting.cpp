@@ -14,6 +14,13 @@ const std::vector<scene::Lamp>& lampsOf(const Illumination& light) {
   return light.lamps ? *light.lamps : none;
 }
 
+std::vector<bool> glowing(const std::vector<scene::Material>& materials,
+                          const std::vector<scene::Lamp>& lamps) {
+  std::vector<bool> are;
+  for (const scene::Material& material : materials) are.push_back(glows(material, lamps));
+  return are;
+}
+
 /// A disc that gives less, on a plane facing it, than a thousandth of what lies on the ground changes no
 /// pixel by a visible amount: such as the moon by day.
 float leastDisc_lx(const sky::Daylight& day) {
@@ -27,6 +34,7 @@ TileLighting::TileLighting(const Subject& subject, const Illumination& light)
       table_(subject.table),
       scene_(subject.scene),
       light_(light),
+      glows_(glowing(subject.scene.materials, lampsOf(light))),
       sun_(light.day.sun(), leastDisc_lx(light.day), {surfaces_, table_, subject.visibility}),
       moon_(light.day.moon(), leastDisc_lx(light.day), {surfaces_, table_, subject.visibility}),
       lamps_(lampsOf(light), light.day.groundIlluminance().value.maxCoeff(),
@@ -78,7 +86,8 @@ Eigen::Array3f TileLighting::luminance(const Surface& surface, const SurfacePart
     return directReflectance(reflection, disc.towards(), disc.radius_rad()) *
            (share * lamp.illuminance.value);
   };
-  Eigen::Array3f leaving = surface.emission;
+  Eigen::Array3f leaving = Eigen::Array3f::Zero();
+  if (glows_[static_cast<std::size_t>(surface.material)]) leaving = surface.emission;
   if (parts.sun > 0.0f) leaving += ofDisc(sun_, light_.day.sun(), parts.sun);
   if (parts.moon > 0.0f) leaving += ofDisc(moon_, light_.day.moon(), parts.moon);
   if (parts.lamps) leaving += *parts.lamps;

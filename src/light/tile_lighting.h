@@ -51,6 +51,7 @@ class TileLighting {
   const LightTable& table_;
   const scene::Scene& scene_;
   const Illumination& light_;
+  std::vector<bool> glows_;  ///< of each material
   DiscVisibility sun_, moon_;
   LampLight lamps_;
   PictureAir air_;

@@ -36,6 +36,7 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   const std::vector<TriangleTraits> traits = triangleTraits(*geometry, rays);
   const RefineLimits limits{static_cast<float>(options.finest_m), static_cast<std::size_t>(options.samples)};
   const BakeScene scene{*geometry, rays, traits};
+  const ShiningSurfaces shining(*geometry, rays, traits);
   constexpr double kLeaves = 0.2, kSampled = 0.4;
   auto data = std::make_unique<TransportData>();
   SceneSamples samples;
@@ -49,8 +50,8 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   // Side by side, since some of the sampling is work for one thread.
   tbb::parallel_invoke(
       [&] { data->leaves = leafOpenness(geometry, traits, [&](double share) { note(share, &leaves); }); },
-      [&] { samples = sampleScene(scene, limits, [&](double share) { note(share, &sampled); }); });
-  const GatherOptions gather{options.rays_per_patch, options.bounces,
+      [&] { samples = sampleScene(scene, shining, limits, [&](double share) { note(share, &sampled); }); });
+  const GatherOptions gather{options.rays_per_patch, options.bounces, shining,
                              [&](double share) { report(kSampled + (1.0 - kSampled) * share); }};
   samples.mesh.drop(gatherLight(scene, samples, gather, data.get()));
   data->mesh = std::move(samples.mesh);
@@ -109,13 +110,14 @@ void Transport::locate(Surfaces* surfaces, FinalGather* gather) const {
                     [&](std::size_t i) { findMirrors(*data_, scene, surfaces->width, &surfaces->tiles[i]); });
 }
 
-std::vector<NodeLight> Transport::relight(const sky::Daylight& day) const {
-  return light::relight(*data_, day);
+std::vector<NodeLight> Transport::relight(const sky::Daylight& day,
+                                          const std::vector<float>& lamp_shares) const {
+  return light::relight(*data_, day, lamp_shares);
 }
 
-Illumination Transport::illumination(const sky::Daylight& day) const {
+Illumination Transport::illumination(const sky::Daylight& day, const std::vector<float>& lamp_shares) const {
   Illumination light(day);
-  light.nodes = std::make_shared<const std::vector<NodeLight>>(relight(day));
+  light.nodes = std::make_shared<const std::vector<NodeLight>>(relight(day, lamp_shares));
   light.node_open = node_open_;
   light.sky_sectors = std::make_shared<const SkySectors>(day);
   light.mirror_sky = std::make_shared<const MirrorSky>(day);

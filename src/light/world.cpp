@@ -1,5 +1,6 @@
 #include "sunlit/light/world.h"
 
+#include "light/lamps/lamp_sets.h"
 #include "light/transport/bake_key.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/transport.h"
@@ -14,18 +15,6 @@ void addDetail(const scene::Detail& detail, image::ContentHash* hash) {
   for (const float channel : detail.tint) hash->add(channel);
 }
 
-void addLamp(const scene::Lamp& lamp, image::ContentHash* hash) {
-  for (const Eigen::Vector3f& vector : {lamp.position, lamp.direction})
-    for (const float value : vector) hash->add(value);
-  for (const float channel : lamp.intensity.value) hash->add(channel);
-  for (const float value : {lamp.constant, lamp.linear, lamp.quadratic, lamp.range_m, lamp.inner_rad,
-                            lamp.outer_rad, lamp.exponent, lamp.radius_m})
-    hash->add(value);
-  hash->add(static_cast<int>(lamp.relative));
-  hash->add(static_cast<int>(lamp.casts_shadows));
-  hash->add(std::vector<char>(lamp.group.begin(), lamp.group.end()));
-}
-
 }  // namespace
 
 World::World(std::shared_ptr<const scene::Scene> scene,
@@ -36,8 +25,11 @@ World::World(std::shared_ptr<const scene::Scene> scene,
                                       : std::make_shared<Bodies>(geometry->scene, meshes_of_bodies)) {}
 
 Illumination illumination(const World& world, const sky::Daylight& day, const LampOptions& lamps) {
-  Illumination light = world.transport ? world.transport->illumination(day) : Illumination(day);
-  if (!burnUnder(lamps, day)) return light;
+  const bool burn = burnUnder(lamps, day);
+  const std::vector<float> shares =
+      burn ? burningShares(world.geometry->scene->lamps, lamps) : std::vector<float>();
+  Illumination light = world.transport ? world.transport->illumination(day, shares) : Illumination(day);
+  if (!burn) return light;
   light.lamps =
       std::make_shared<const std::vector<scene::Lamp>>(burning(world.geometry->scene->lamps, lamps));
   std::vector<BodyLamp> of_bodies;
@@ -56,14 +48,14 @@ std::string fingerprint(const World& world) {
   else
     addContents(*world.geometry, &hash);
   for (const scene::Material& material : world.geometry->scene->materials) addDetail(material.detail, &hash);
-  for (const scene::Lamp& lamp : world.geometry->scene->lamps) addLamp(lamp, &hash);
+  if (!world.transport) addLamps(world.geometry->scene->lamps, &hash);
   if (world.bodies) {
     const std::vector<Eigen::Isometry3d> at_home(world.bodies->count(), Eigen::Isometry3d::Identity());
     addContents(*world.bodies->placed(at_home), &hash);
   }
   for (const std::vector<scene::Lamp>& of_body : world.lamps_of_bodies) {
     hash.add(static_cast<std::uint64_t>(of_body.size()));
-    for (const scene::Lamp& lamp : of_body) addLamp(lamp, &hash);
+    addLamps(of_body, &hash);
   }
   return hash.text();
 }

@@ -59,6 +59,9 @@ bool burnUnder(const LampOptions& options, const sky::Daylight& day);
 /// relative any more.
 std::vector<scene::Lamp> burning(const std::vector<scene::Lamp>& lamps, const LampOptions& options);
 
+/// Whether surfaces of `material` show their emission while these lamps burn.
+bool glows(const scene::Material& material, const std::vector<scene::Lamp>& burning);
+
 /// `lamp` of a frame that stands at `map_from_frame`, in `map`.
 scene::Lamp placed(const scene::Lamp& lamp, const Eigen::Isometry3d& map_from_frame);
 

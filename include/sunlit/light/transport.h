@@ -99,10 +99,11 @@ class Transport {
   /// Where a point of a triangle of the scene finds its light, on the front or the back.
   LightPlace placeOf(std::uint32_t triangle, bool front, const Eigen::Vector3f& position) const;
 
-  /// The light of each node.
-  std::vector<NodeLight> relight(const sky::Daylight& day) const;
-  /// The same with all else that `day` means at the nodes: Illumination but for its bodies.
-  Illumination illumination(const sky::Daylight& day) const;
+  /// The light of each node. Of lamps that stand in the scene, what surfaces pass on: a share for each set of
+  /// them that was baked together, as illumination(world, …) finds them.
+  std::vector<NodeLight> relight(const sky::Daylight& day, const std::vector<float>& lamp_shares = {}) const;
+  /// The same with all else that `day` means at the nodes: Illumination but for its bodies and lamps.
+  Illumination illumination(const sky::Daylight& day, const std::vector<float>& lamp_shares = {}) const;
 
   /// Illumination::node_open.
   const std::shared_ptr<const std::vector<float>>& nodeOpen() const { return node_open_; }

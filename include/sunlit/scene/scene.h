@@ -79,8 +79,8 @@ struct Material {
   float occlusion_strength = 1;  ///< how much of that counts, 0 … 1
   LinearRgb emission;            ///< luminance that the surface gives off by itself, cd/m²
   TextureUse emission_map;       ///< colour; times emission
-  /// Of a bulb or a lit window: it gives off its light only while the lamps of that group burn. Empty:
-  /// always.
+  /// Of a bulb or a lit window: it shows its emission only while lamps of that group burn, and lights nothing
+  /// by it, which is what those lamps are for. Empty: it shines always, and lights what is around.
   std::string lamp_group;
   /// Reflectance of what is not metal, at normal incidence and at grazing: 0 … 1. The former is that of a
   /// refractive index of 1.5.

@@ -157,6 +157,7 @@ void BodyLight::Implementation::addDisc(const Views& views, const sky::DiscLight
 std::vector<AroundLight> BodyLight::Implementation::around(const Views& views,
                                                            const Illumination& light) const {
   constexpr float kSolidAngle = 4.0f * kPiFloat / kDirections;
+  const std::vector<scene::Lamp> burning = light.lamps ? *light.lamps : std::vector<scene::Lamp>();
   std::vector<AroundLight> lights(views.bodies);
   for (const auto& [body, direction] : views.open) {
     const Eigen::Vector3f& towards = directions_[direction];
@@ -168,9 +169,10 @@ std::vector<AroundLight> BodyLight::Implementation::around(const Views& views,
   addDisc(views, light.day.moon(), &illuminance);
   for (std::size_t i = 0; i < views.met.size(); ++i) {
     const Met& met = views.met[i];
-    lights[met.body].add(directions_[met.direction], kSolidAngle,
-                         illuminance[i] * met.reflectance / kPiFloat +
-                             world_.geometry->scene->materials[met.material].emission.value);
+    const scene::Material& material = world_.geometry->scene->materials[met.material];
+    Eigen::Array3f luminance = illuminance[i] * met.reflectance / kPiFloat;
+    if (glows(material, burning)) luminance += material.emission.value;
+    lights[met.body].add(directions_[met.direction], kSolidAngle, luminance);
   }
   return lights;
 }

@@ -32,6 +32,13 @@ std::vector<scene::Lamp> burning(const std::vector<scene::Lamp>& lamps, const La
   return kept;
 }
 
+bool glows(const scene::Material& material, const std::vector<scene::Lamp>& burning) {
+  if (!(material.emission.value.maxCoeff() > 0.0f)) return false;
+  return material.lamp_group.empty() ||
+         std::any_of(burning.begin(), burning.end(),
+                     [&](const scene::Lamp& lamp) { return lamp.group == material.lamp_group; });
+}
+
 scene::Lamp placed(const scene::Lamp& lamp, const Eigen::Isometry3d& map_from_frame) {
   scene::Lamp moved = lamp;
   moved.position = (map_from_frame * lamp.position.cast<double>()).cast<float>();

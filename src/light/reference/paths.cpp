@@ -85,7 +85,7 @@ std::array<Radiances, 2> Paths::luminance(const Tile& tile, const Surface& surfa
   start(tile, surface);
   const auto per_half = static_cast<float>(paths_.size() / 2);
   for (int bounce = 0; !paths_.empty(); ++bounce) {
-    addEmission();
+    addEmission(bounce);
     for (const Disc& disc : scene_.discs) addDisc(disc, bounce);
     for (const LampBeam& lamp : scene_.lamps) addLamp(lamp, bounce);
     for (std::size_t day = 0; day < scene_.days.size(); ++day) addSkyOf(day, bounce);
@@ -104,10 +104,12 @@ float Paths::random(const Path& path, int bounce, std::size_t dimension) const {
   return uniform(path.key, static_cast<std::uint64_t>(bounce) * kPerBounce + dimension);
 }
 
-void Paths::addEmission() {
+void Paths::addEmission(int bounce) {
   for (const Path& path : paths_) {
     const Eigen::Array3f& emission = path.vertex.emission;
     if (!(emission.maxCoeff() > 0.0f)) continue;
+    const bool of_lamps = !path.vertex.material->lamp_group.empty();
+    if (of_lamps && (bounce > 0 || !glows(*path.vertex.material, scene_.options.lamps))) continue;
     for (Eigen::Array3f& sum : sums_[static_cast<std::size_t>(path.half)]) sum += path.throughput * emission;
   }
 }

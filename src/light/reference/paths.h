@@ -8,7 +8,7 @@
 
 #include "light/disc_above_horizon.h"
 #include "light/lamps/lamp_beam.h"
-#include "light/reference/random.h"
+#include "light/random.h"
 #include "light/reference/scatter.h"
 #include "light/reference/sky_sampler.h"
 #include "light/reference/vertex.h"
@@ -69,7 +69,7 @@ class Paths {
 
   void start(const Tile& tile, const Surface& surface);
   float random(const Path& path, int bounce, std::size_t dimension) const;
-  void addEmission();
+  void addEmission(int bounce);
   void addDisc(const Disc& disc, int bounce);
   /// One lamp on all days.
   void addLamp(const LampBeam& lamp, int bounce);

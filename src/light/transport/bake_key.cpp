@@ -78,6 +78,20 @@ void addContents(const Geometry& geometry, image::ContentHash* hash) {
   }
 }
 
+void addLamps(const std::vector<scene::Lamp>& lamps, image::ContentHash* hash) {
+  for (const scene::Lamp& lamp : lamps) {
+    for (const Eigen::Vector3f& vector : {lamp.position, lamp.direction})
+      for (const float value : vector) hash->add(value);
+    for (const float channel : lamp.intensity.value) hash->add(channel);
+    for (const float value : {lamp.constant, lamp.linear, lamp.quadratic, lamp.range_m, lamp.inner_rad,
+                              lamp.outer_rad, lamp.exponent, lamp.radius_m})
+      hash->add(value);
+    hash->add(static_cast<int>(lamp.relative));
+    hash->add(static_cast<int>(lamp.casts_shadows));
+    hash->add(std::vector<char>(lamp.group.begin(), lamp.group.end()));
+  }
+}
+
 image::ContentHash bakeKey(const Geometry& geometry, const TransportOptions& options) {
   image::ContentHash hash;
   hash.add(kBakeVersion);
@@ -86,6 +100,7 @@ image::ContentHash bakeKey(const Geometry& geometry, const TransportOptions& opt
   hash.add(options.finest_m);
   hash.add(options.samples);
   addContents(geometry, &hash);
+  addLamps(geometry.scene->lamps, &hash);
   return hash;
 }
 

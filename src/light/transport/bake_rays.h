@@ -1,6 +1,7 @@
 /// What rays of the bake meet first.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <memory>
 
@@ -14,6 +15,12 @@ struct RayPacket {
   alignas(64) float origin_x[kSize], origin_y[kSize], origin_z[kSize];  ///< m in `map`
   alignas(64) float towards_x[kSize], towards_y[kSize], towards_z[kSize];
   alignas(64) int valid[kSize];  ///< −1: cast it; 0: leave it out
+
+  void set(std::size_t lane, const Eigen::Vector3f& origin, const Eigen::Vector3f& towards, bool cast) {
+    origin_x[lane] = origin.x(), origin_y[lane] = origin.y(), origin_z[lane] = origin.z();
+    towards_x[lane] = towards.x(), towards_y[lane] = towards.y(), towards_z[lane] = towards.z();
+    valid[lane] = cast ? -1 : 0;
+  }
 };
 
 struct HitPacket {

@@ -23,10 +23,10 @@ struct Header {
   std::uint32_t version;
   std::uint32_t patches;
   Number key;
-  std::uint64_t counts[18];  ///< of the arrays, in the order of visitArrays()
+  std::uint64_t counts[21];  ///< of the arrays, in the order of visitArrays()
   Number checksum;           ///< of all that follows
 };
-static_assert(sizeof(Header) == 192, "no padding goes to the file");
+static_assert(sizeof(Header) == 216, "no padding goes to the file");
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what) {
   throw std::runtime_error(file.string() + ": " + what);
@@ -49,6 +49,9 @@ void visitArrays(Data& data, const Visit& visit) {
   }
   visit(data.leaves.first);
   visit(data.leaves.grids);
+  visit(data.lamps.first);
+  visit(data.lamps.blocks);
+  visit(data.lamps.light);
 }
 
 }  // namespace

@@ -22,12 +22,33 @@ PartSums sumsOf(const PassedOn& part, std::size_t sample) {
           Eigen::Map<const Eigen::Array3f>(part.glows[sample].data())};
 }
 
+constexpr float kNextToNothing = 2e-4f;  // of what the samples have, on average; more still follows
+
+float relativeChange(const Eigen::Array3f& before, const Eigen::Array3f& after) {
+  const float most = after.maxCoeff();
+  return most > 0.0f ? (after - before).abs().maxCoeff() / most : 0.0f;
+}
 float relativeChange(const PassedOnSums& before, const PassedOnSums& after) {
-  const auto change = [](const Eigen::Array3f& from, const Eigen::Array3f& to) {
-    const float most = to.maxCoeff();
-    return most > 0.0f ? (to - from).abs().maxCoeff() / most : 0.0f;
-  };
-  return std::max(change(before.color(), after.color()), change(before.glow(), after.glow()));
+  return std::max(relativeChange(before.color(), after.color()), relativeChange(before.glow(), after.glow()));
+}
+float relativeChange(const Arrived& before, const Arrived& after) {
+  return relativeChange(before.above + before.below, after.above + after.below);
+}
+
+/// Sets all of `next` by `receive`, and returns the mean relative change from `has`. Parallel; sums in one
+/// order for any number of threads.
+template <typename Value, typename Receive>
+double receiveAll(const std::vector<Value>& has, std::vector<Value>* next, const Receive& receive) {
+  constexpr std::size_t kBlock = 256;  // samples, of one task
+  const std::size_t count = has.size();
+  std::vector<double> changes((count + kBlock - 1) / kBlock, 0.0);
+  tbb::parallel_for(std::size_t{0}, changes.size(), [&](std::size_t block) {
+    for (std::size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
+      (*next)[i] = receive(i);
+      changes[block] += static_cast<double>(relativeChange(has[i], (*next)[i]));
+    }
+  });
+  return count > 0 ? std::accumulate(changes.begin(), changes.end(), 0.0) / static_cast<double>(count) : 0.0;
 }
 
 void brighten(const PartSums& traced, const PartSums& all, std::size_t sample, PassedOn* part) {
@@ -103,40 +124,58 @@ SentSums Exchange::sentBy(const Sending& sends, const SumsOfAll& has, std::size_
 PassedOnSums Exchange::received(const std::vector<SentSums>& sent, std::size_t sample) const {
   PassedOnSums sums;
   sums.below.color.setConstant(mirrored_sums[sample]);
+  sums.above.glow = shining[sample].above;
+  sums.below.glow = shining[sample].below;
   const SampleHits& view = seen[sample];
   for (std::size_t k = 0; k < view.hits.size(); ++k) {
     PartSums& part = k < view.up ? sums.above : sums.below;
     const RaySeen seen_along = ray(sample, k);
     const float weight = seen_along.weight * scattered(seen_along);
     part.color += weight * sent[seen_along.from].color;
-    // What shines by itself does so evenly.
-    part.glow += weight * sent[seen_along.from].glow +
-                 seen_along.weight * kPiFloat * samples_.emissions[seen_along.from];
+    part.glow += weight * sent[seen_along.from].glow;
   }
   return sums;
 }
 
+Arrived Exchange::receivedOf(const std::vector<Eigen::Array3f>& sent, std::size_t sample) const {
+  Arrived sum;
+  const SampleHits& view = seen[sample];
+  for (std::size_t k = 0; k < view.hits.size(); ++k) {
+    const RaySeen seen_along = ray(sample, k);
+    const Eigen::Array3f& from = sent[seen_along.from];
+    if (from.isZero(0.0f)) continue;
+    (k < view.up ? sum.above : sum.below) += seen_along.weight * scattered(seen_along) * from;
+  }
+  return sum;
+}
+
+std::vector<Arrived> Exchange::passedOn(const std::vector<Eigen::Array3f>& direct, int most) const {
+  std::vector<Arrived> has(seen.size()), next(seen.size());
+  std::vector<Eigen::Array3f> sent(seen.size());
+  const auto all = [&](std::size_t i) -> Eigen::Array3f { return direct[i] + has[i].above + has[i].below; };
+  double change = 1.0;
+  for (int bounce = 0; bounce < most && change > kNextToNothing; ++bounce) {
+    tbb::parallel_for(std::size_t{0}, sent.size(), [&](std::size_t i) {
+      const Sending sends = sending(i);
+      sent[i] = sends.bounced * all(i);
+      if (sends.other != LightMesh::kNone) sent[i] += sends.through * all(sends.other);
+    });
+    change = receiveAll(has, &next, [&](std::size_t i) { return receivedOf(sent, i); });
+    has.swap(next);
+  }
+  return has;
+}
+
 void Exchange::addLaterBounces(TransportData* data) const {
-  constexpr std::size_t kBlock = 256;      // samples, of one task
-  constexpr int kMost = 200;               // of white walls, that pass on 0.98
-  constexpr float kNextToNothing = 2e-4f;  // of what the samples have, on average; more still follows
   const std::size_t count = seen.size();
   SumsOfAll has = sumsOf(*data);
   const std::vector<PassedOnSums> traced = has.passed_on;
   std::vector<PassedOnSums> next(count);
   std::vector<SentSums> sent(count);
-  std::vector<double> changes((count + kBlock - 1) / kBlock);
   double change = 1.0;
-  for (int bounce = 0; bounce < kMost && change > kNextToNothing; ++bounce) {
+  for (int bounce = 0; bounce < kAllBounces && change > kNextToNothing; ++bounce) {
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { sent[i] = sentBy(sending(i), has, i); });
-    tbb::parallel_for(std::size_t{0}, changes.size(), [&](std::size_t block) {
-      changes[block] = 0.0;
-      for (std::size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
-        next[i] = received(sent, i);
-        changes[block] += static_cast<double>(relativeChange(has.passed_on[i], next[i]));
-      }
-    });
-    change = std::accumulate(changes.begin(), changes.end(), 0.0) / static_cast<double>(count);
+    change = receiveAll(has.passed_on, &next, [&](std::size_t i) { return received(sent, i); });
     has.passed_on.swap(next);
   }
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {

@@ -49,6 +49,11 @@ struct PassedOnSums {
   Eigen::Array3f color() const { return above.color + below.color; }
   Eigen::Array3f glow() const { return above.glow + below.glow; }
 };
+/// Illuminance by surfaces, lx.
+struct Arrived {
+  Eigen::Array3f above = Eigen::Array3f::Zero(), below = Eigen::Array3f::Zero();
+};
+
 /// Of every sample.
 struct SumsOfAll {
   std::vector<float> direct;
@@ -67,11 +72,13 @@ class Exchange {
   Exchange(const SceneSamples& samples, const SkyPatches& patches)
       : seen(samples.receivers.size()),
         mirrored_sums(samples.receivers.size(), 0.0f),
+        shining(samples.receivers.size()),
         samples_(samples),
         patches_(patches) {}
 
   std::vector<SampleHits> seen;      ///< of each sample
   std::vector<float> mirrored_sums;  ///< sky by way of the ground as a mirror, without colour, lx
+  std::vector<Arrived> shining;      ///< straight from surfaces that shine by themselves
 
   /// In memory, a hit: the sample there, and the direction.
   static std::uint32_t hitOf(std::uint32_t sample, std::uint32_t direction) {
@@ -89,6 +96,13 @@ class Exchange {
   /// What a sample gets of all that is sent, and of the ground's mirror.
   PassedOnSums received(const std::vector<SentSums>& sent, std::size_t sample) const;
 
+  /// What each sample has by surfaces that pass on `direct`, illuminance straight from lamps, lx: by `most`
+  /// bounces, or until they add next to nothing. Parallel.
+  std::vector<Arrived> passedOn(const std::vector<Eigen::Array3f>& direct, int most) const;
+
+  /// Bounces of white walls, that pass on 0.98, until next to nothing is left.
+  static constexpr int kAllBounces = 200;
+
   /// Adds all bounces that follow those that `data` has: by sums over the patches, until they add next to
   /// nothing. How the light of single patches goes on, the bounces so far tell. Parallel.
   void addLaterBounces(TransportData* data) const;
@@ -97,6 +111,8 @@ class Exchange {
   static constexpr std::uint32_t kDirectionShift = 24;
   static constexpr std::uint32_t kSampleMask = (1u << kDirectionShift) - 1;
   static_assert(SkyPatches::kAbove <= 256 && SkyPatches::kDown <= 256, "a direction fits above a sample");
+
+  Arrived receivedOf(const std::vector<Eigen::Array3f>& sent, std::size_t sample) const;
 
   const SceneSamples& samples_;
   const SkyPatches& patches_;

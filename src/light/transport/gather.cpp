@@ -14,6 +14,7 @@
 #include "light/transport/burial_test.h"
 #include "light/transport/exchange.h"
 #include "light/transport/ground_mirror.h"
+#include "light/transport/lamp_bounces.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/photometry.h"
 #include "sunlit/quantity/vector_clones.h"
@@ -46,7 +47,8 @@ void addShares(float factor, const float* shares, const std::uint8_t* coefficien
 class Gatherer {
  public:
   Gatherer(const BakeScene& scene, const SceneSamples& samples, const GatherOptions& options)
-      : geometry_(scene.geometry),
+      : scene_(scene),
+        geometry_(scene.geometry),
         traits_(scene.traits),
         samples_(samples),
         options_(options),
@@ -67,9 +69,12 @@ class Gatherer {
       step(direct_share / static_cast<double>(packets));
     });
     if (options_.bounces > 0) lookIntoGround(*data);
+    if (options_.bounces > 0) lookAtWhatShines();
     for (int bounce = 0; bounce < options_.bounces; ++bounce)
       passOn(data, (1.0 - direct_share) / options_.bounces);
-    if (options_.bounces >= kBouncesBeforeAll) exchange_.addLaterBounces(data);
+    const bool all = options_.bounces >= kBouncesBeforeAll;
+    if (all) exchange_.addLaterBounces(data);
+    data->lamps = bakeLamps(scene_, samples_, exchange_, all ? Exchange::kAllBounces : options_.bounces);
     std::vector<bool> inside(count_);
     for (std::size_t i = 0; i < count_; ++i) inside[i] = exchange_.seen[i].inside;
     return inside;
@@ -191,6 +196,14 @@ class Gatherer {
     }
   }
 
+  void lookAtWhatShines() {
+    if (!options_.shining.any()) return;
+    tbb::parallel_for(std::size_t{0}, count_, [&](std::size_t i) {
+      const ShiningSurfaces::Light light = options_.shining.at(samples_.receivers[i], i);
+      exchange_.shining[i] = {light.above, light.below};
+    });
+  }
+
   /// The sky that each sample sees mirrored by the ground.
   void lookIntoGround(const TransportData& data) {
     const GroundMirror mirror(patches_);
@@ -272,6 +285,7 @@ class Gatherer {
     store(sums.below, i, &data->below);
   }
 
+  const BakeScene& scene_;
   const Geometry& geometry_;
   const std::vector<TriangleTraits>& traits_;
   const SceneSamples& samples_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "light/transport/burial_test.h"
+#include "sunlit/quantity/photometry.h"
 
 namespace sunlit::light {
 namespace {
@@ -114,9 +115,12 @@ bool Occupancy::near(const std::vector<MeshNode>& nodes, const LightMesh::Cell& 
   return false;
 }
 
-MeshBuilder::MeshBuilder(const Geometry& geometry, const BakeRays& rays,
-                         const std::vector<TriangleTraits>& traits)
-    : geometry_(geometry), rays_(rays), traits_(traits), occupied_(geometry, traits) {
+MeshBuilder::MeshBuilder(const BakeScene& scene, const ShiningSurfaces& shining)
+    : geometry_(scene.geometry),
+      rays_(scene.rays),
+      traits_(scene.traits),
+      shining_(shining),
+      occupied_(scene.geometry, scene.traits) {
   const SkyPatches patches(1);
   const std::vector<SkyPatches::Ray>& all = patches.coarseRays();
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -124,7 +128,7 @@ MeshBuilder::MeshBuilder(const Geometry& geometry, const BakeRays& rays,
     if (SkyPatches::inHalf(static_cast<int>(i))) directions_.push_back(all[i]);
   }
   const auto rootOf = [&](bool sealed) { return sealed ? LightMesh::kSealed : LightMesh::kNone; };
-  for (const TriangleTraits& t : traits) mesh.roots.push_back({rootOf(t.sealed[0]), rootOf(t.sealed[1])});
+  for (const TriangleTraits& t : traits_) mesh.roots.push_back({rootOf(t.sealed[0]), rootOf(t.sealed[1])});
 }
 
 void MeshBuilder::plant(std::uint32_t triangle, int side) {
@@ -194,6 +198,10 @@ void MeshBuilder::lookAround() {
       node.reach_m = near[i] > 0.0f ? all[i] / near[i] : 1e9f;
       node.nearest_m = nearest[i];
       if (all[i] > 0.0f) node.open = open[i] / all[i];
+      if (!shining_.any()) continue;
+      const ShiningSurfaces::Light light = shining_.at(receivers[i], begin + i);
+      node.shone_lx = LinearRgb(light.above + light.below).luminance();
+      node.shining_m = light.distance_m;
     }
   });
   for (; looked_ < nodes.size(); ++looked_) valid_ += nodes[looked_].valid ? 1 : 0;
@@ -210,6 +218,24 @@ float MeshBuilder::variation(const LightMesh::Cell& cell) const {
     mean += here[3] / 3.0f;
   }
   return most / (kSmooth * std::max(mean, kLeastOpen));
+}
+
+/// By how much what shines lights the corners, valid ones among them, differently, in steps that may be
+/// interpolated; and no less than by how far off it is, lest a pool of light lies unseen amid the cell.
+float MeshBuilder::shoneUnevenly(const LightMesh::Cell& cell) const {
+  constexpr float kSmoothShine = 0.4f, kFaint_lx = 0.05f;
+  float least = 1e9f, most = 0.0f, longest = 0.0f, nearest = 1e9f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const MeshNode& node = index.nodes[cell.corner[k]];
+    longest = std::max(longest, (node.position - index.nodes[cell.corner[(k + 1) % 3]].position).norm());
+    if (!node.valid) continue;
+    least = std::min(least, node.shone_lx);
+    most = std::max(most, node.shone_lx);
+    nearest = std::min(nearest, node.shining_m);
+  }
+  if (!(most > 0.0f)) return 0.0f;
+  const float uneven = (most - least) / (kSmoothShine * std::max(0.5f * (most + least), kFaint_lx));
+  return std::max(uneven, longest / (kNearShare * nearest));
 }
 
 /// Above 1 where the cell must be halved.
@@ -230,7 +256,7 @@ float MeshBuilder::urgency(const LightMesh::Cell& cell, float finest_m, Pass pas
   if (valid < 3) reach = std::min(reach, finest_m * 2.0f);
   const float least = 1.0f / kMostLarger;
   const float share = pass == Pass::kAll || valid < 3 ? 1.0f : std::clamp(variation(cell), least, 1.0f);
-  return std::max({coarse, share * longest / std::max(finest_m, kReachShare * reach),
+  return std::max({coarse, shoneUnevenly(cell), share * longest / std::max(finest_m, kReachShare * reach),
                    share * longest / std::max(kNearLimit_m, kNearShare * nearest)});
 }
 
@@ -251,9 +277,7 @@ bool MeshBuilder::cut(const LightMesh::Cell& cell, float finest_m) const {
     const MeshNode& to = index.nodes[cell.corner[(i + 1) % 3]];
     const Eigen::Vector3f origin = from.position + kAbove_m * from.normal;
     const Eigen::Vector3f way = to.position + kAbove_m * to.normal - origin;
-    packet.valid[i] = i < 3 ? -1 : 0;
-    packet.origin_x[i] = origin.x(), packet.origin_y[i] = origin.y(), packet.origin_z[i] = origin.z();
-    packet.towards_x[i] = way.x(), packet.towards_y[i] = way.y(), packet.towards_z[i] = way.z();
+    packet.set(i, origin, way, i < 3);
   }
   rays_.cast(packet, &hits);
   for (int i = 0; i < 3; ++i) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "light/transport/probe.h"
+#include "light/transport/shining_surfaces.h"
 #include "light/transport/transport_data.h"
 #include "light/transport/triangle_kinds.h"
 
@@ -25,7 +26,9 @@ struct MeshNode {
   float nearest_m = 0.0f;                             ///< the closest of it that is not as level as the place
   /// Share of an even sphere's light, by cosine, that nothing hides; before it, times its mean direction.
   Eigen::Vector4f open = Eigen::Vector4f::Zero();
-  bool valid = true;  ///< not where no camera looks
+  float shone_lx = 0.0f;   ///< by surfaces that shine
+  float shining_m = 1e9f;  ///< how far off those are, as ShiningSurfaces tells
+  bool valid = true;       ///< not where no camera looks
 
   Receiver receiver() const;
 };
@@ -65,10 +68,17 @@ struct RefineLimits {
   std::size_t nodes;  ///< at most about as many where a camera may look
 };
 
+/// What a bake works on.
+struct BakeScene {
+  const Geometry& geometry;
+  const BakeRays& rays;
+  const std::vector<TriangleTraits>& traits;
+};
+
 class MeshBuilder {
  public:
   /// Keeps references.
-  MeshBuilder(const Geometry& geometry, const BakeRays& rays, const std::vector<TriangleTraits>& traits);
+  MeshBuilder(const BakeScene& scene, const ShiningSurfaces& shining);
 
   /// `progress` gets the share done, 0 … 1, about.
   void refine(const RefineLimits& limits, const std::function<void(double)>& progress);
@@ -93,6 +103,7 @@ class MeshBuilder {
   void addLeaf(std::uint32_t cell);
   void lookAround();
   float variation(const LightMesh::Cell& cell) const;
+  float shoneUnevenly(const LightMesh::Cell& cell) const;
   float urgency(const LightMesh::Cell& cell, float finest_m, Pass pass) const;
   void halveMostUrgent(const RefineLimits& limits, Pass pass);
   bool cut(const LightMesh::Cell& cell, float finest_m) const;
@@ -104,6 +115,7 @@ class MeshBuilder {
   const Geometry& geometry_;
   const BakeRays& rays_;
   const std::vector<TriangleTraits>& traits_;
+  const ShiningSurfaces& shining_;
   Occupancy occupied_;
   std::vector<SkyPatches::Ray> directions_;                   ///< in which nodes look around
   std::unordered_map<std::uint64_t, std::uint32_t> middles_;  ///< of halved edges

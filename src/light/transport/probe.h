@@ -91,10 +91,8 @@ class ReceiverGroup {
     const Eigen::Vector3f& towards = shot.towards;
     RayPacket packet;
     for (int i = 0; i < RayPacket::kSize; ++i) {
-      packet.valid[i] = has(shot.lanes, i) ? -1 : 0;
-      const Eigen::Vector3f origin = receivers_[std::min(i, count_ - 1)].start(shot.turn, towards);
-      packet.origin_x[i] = origin.x(), packet.origin_y[i] = origin.y(), packet.origin_z[i] = origin.z();
-      packet.towards_x[i] = towards.x(), packet.towards_y[i] = towards.y(), packet.towards_z[i] = towards.z();
+      packet.set(static_cast<std::size_t>(i), receivers_[std::min(i, count_ - 1)].start(shot.turn, towards),
+                 towards, has(shot.lanes, i));
     }
     scene.cast(packet, hits);
   }

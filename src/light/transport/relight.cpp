@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "light/patch_sky.h"
+#include "light/transport/lamp_bounces.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/vector_clones.h"
 
@@ -77,13 +78,20 @@ Surroundings surroundingsOf(const Eigen::Array3f& above, float hides_above, cons
           meanLuminance(below, hides_below) + (1.0f - known(hides_below)) * both};
 }
 
+/// By lamps, of every sample; empty: none burns.
+using ByLamps = std::vector<BakedLamps::Light>;
+
 SUNLIT_WIDE_VECTOR_CLONES
-void lightSamples(const TransportData& data, const Lights& lights,
+void lightSamples(const TransportData& data, const Lights& lights, const ByLamps& by_lamps,
                   const tbb::blocked_range<std::size_t>& samples, NodeLight* light) {
   const std::size_t end = samples.end();
   for (std::size_t i = samples.begin(); i != end; ++i) {
-    const Eigen::Array3f above = lights.passedOn(data.above, i);
-    const Eigen::Array3f below = lights.passedOn(data.below, i);
+    Eigen::Array3f above = lights.passedOn(data.above, i);
+    Eigen::Array3f below = lights.passedOn(data.below, i);
+    if (!by_lamps.empty()) {
+      above += Eigen::Map<const Eigen::Array3f>(by_lamps[i].data());
+      below += Eigen::Map<const Eigen::Array3f>(by_lamps[i].data() + 3);
+    }
     const float open = data.direct.row(i)[SkyPatches::kBelow] * data.direct.scales[i];
     light[i] = {lights.direct(data.direct, i) + above + below,
                 surroundingsOf(above, data.above.hides[i], below + lights.fromBelow(open),
@@ -91,19 +99,33 @@ void lightSamples(const TransportData& data, const Lights& lights,
   }
 }
 
-std::vector<NodeLight> sampleLight(const TransportData& data, const sky::Daylight& day) {
+ByLamps lampLight(const TransportData& data, const std::vector<float>& shares) {
+  ByLamps light;
+  for (std::size_t set = 0; set < std::min(shares.size(), data.lamps.setCount()); ++set) {
+    if (!(shares[set] > 0.0f)) continue;
+    light.resize(data.sampleCount(), BakedLamps::Light{});
+    addLamps(data.lamps, set, shares[set], &light);
+  }
+  return light;
+}
+
+std::vector<NodeLight> sampleLight(const TransportData& data, const sky::Daylight& day,
+                                   const std::vector<float>& lamp_shares) {
   const Lights lights(day);
+  const ByLamps by_lamps = lampLight(data, lamp_shares);
   std::vector<NodeLight> light(data.sampleCount());
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, light.size(), 1024),
-      [&](const tbb::blocked_range<std::size_t>& range) { lightSamples(data, lights, range, light.data()); });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, light.size(), 1024),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      lightSamples(data, lights, by_lamps, range, light.data());
+                    });
   return light;
 }
 
 }  // namespace
 
-std::vector<NodeLight> relight(const TransportData& data, const sky::Daylight& day) {
-  const std::vector<NodeLight> samples = sampleLight(data, day);
+std::vector<NodeLight> relight(const TransportData& data, const sky::Daylight& day,
+                               const std::vector<float>& lamp_shares) {
+  const std::vector<NodeLight> samples = sampleLight(data, day, lamp_shares);
   const LightMesh& mesh = data.mesh;
   std::vector<NodeLight> nodes(mesh.nodeCount());
   tbb::parallel_for(

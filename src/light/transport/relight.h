@@ -9,7 +9,9 @@
 
 namespace sunlit::light {
 
-/// At each node. Parallel; the same bits for any number of threads.
-std::vector<NodeLight> relight(const TransportData& data, const sky::Daylight& day);
+/// At each node, with these shares of the light of BakedLamps' sets; none beyond `lamp_shares`. Parallel; the
+/// same bits for any number of threads.
+std::vector<NodeLight> relight(const TransportData& data, const sky::Daylight& day,
+                               const std::vector<float>& lamp_shares);
 
 }  // namespace sunlit::light

@@ -1,4 +1,4 @@
-/// What the surfaces around each sample send back and give off.
+/// What the surfaces around each sample send back.
 #pragma once
 
 #include "light/transport/scene_samples.h"

@@ -48,8 +48,8 @@ void tidy(Shares* shares) {
 
 class Sampler {
  public:
-  Sampler(const Geometry& geometry, const BakeRays& rays, const std::vector<TriangleTraits>& traits)
-      : geometry_(geometry), traits_(traits), builder_(geometry, rays, traits) {}
+  Sampler(const BakeScene& scene, const ShiningSurfaces& shining)
+      : geometry_(scene.geometry), traits_(scene.traits), builder_(scene, shining) {}
 
   SceneSamples sample(const RefineLimits& limits, const std::function<void(double)>& progress) {
     const SampleCloud small = cloudOf(kSmallRule), foliage = cloudOf(kFoliageRule);
@@ -334,9 +334,9 @@ class Sampler {
 
 }  // namespace
 
-SceneSamples sampleScene(const BakeScene& scene, const RefineLimits& limits,
+SceneSamples sampleScene(const BakeScene& scene, const ShiningSurfaces& shining, const RefineLimits& limits,
                          const std::function<void(double)>& progress) {
-  return Sampler(scene.geometry, scene.rays, scene.traits).sample(limits, progress);
+  return Sampler(scene, shining).sample(limits, progress);
 }
 
 }  // namespace sunlit::light

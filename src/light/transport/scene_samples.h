@@ -23,19 +23,11 @@ struct SceneSamples {
   std::vector<Receiver> receivers;            ///< of each sample, neighbours close together
   std::vector<OtherSide> other_side;          ///< of each sample
   std::vector<Paint> paints;                  ///< of the surfaces around each sample
-  std::vector<Eigen::Array3f> emissions;      ///< what those surfaces give off by themselves, cd/m²
   std::vector<std::uint32_t> nearest_sample;  ///< the one of most weight, of each node
 };
 
-/// What a bake works on.
-struct BakeScene {
-  const Geometry& geometry;
-  const BakeRays& rays;
-  const std::vector<TriangleTraits>& traits;
-};
-
 /// `progress` gets the share done, 0 … 1, about.
-SceneSamples sampleScene(const BakeScene& scene, const RefineLimits& limits,
+SceneSamples sampleScene(const BakeScene& scene, const ShiningSurfaces& shining, const RefineLimits& limits,
                          const std::function<void(double)>& progress);
 
 }  // namespace sunlit::light

@@ -79,6 +79,20 @@ struct PassedOn {
   void resize(std::size_t samples);
 };
 
+/// What standing lamps give samples by way of surfaces, for each of lampSets(), by blocks of samples that have
+/// any of it.
+struct BakedLamps {
+  static constexpr std::size_t kBlock = 256;  ///< samples
+  /// Illuminance, lx, r g b: from surfaces above the horizon, from those below it.
+  using Light = std::array<float, 6>;
+
+  std::vector<std::uint32_t> first;   ///< of each set, into `blocks`; and the end
+  std::vector<std::uint32_t> blocks;  ///< their numbers
+  std::vector<Light> light;           ///< kBlock of each block
+
+  std::size_t setCount() const { return first.empty() ? 0 : first.size() - 1; }
+};
+
 struct TransportData {
   LightMesh mesh;
   Coefficients direct;  ///< straight from the sky
@@ -86,6 +100,7 @@ struct TransportData {
   /// ground: they differ in brightness, and mirrors look at the one or the other.
   PassedOn above, below;
   LeafOpenness leaves;
+  BakedLamps lamps;
 
   std::size_t sampleCount() const { return direct.scales.size(); }
 };

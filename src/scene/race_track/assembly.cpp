@@ -47,6 +47,14 @@ Assembly::Assembly() {
   palette_.cloth = addMaterial(plain("cloth", 0.9f, grain(0.12f, 1.0f, 0.02f, 0.8f)));
   Detail stalks = grain(0.40f, 0.5f, 0.01f, 1.0f);
   palette_.straw = addMaterial(plain("straw", 0.95f, stalks));
+  const auto bulb = [this](const char* group, const LinearRgb& luminance) {
+    Material material = plain(group, 0.08f, Detail());
+    material.emission = luminance;
+    material.lamp_group = group;
+    return addMaterial(std::move(material));
+  };
+  palette_.street_lamp = bulb(kStreetLamps, kStreetLamp_cd * (1.0f / kStreetLamp_m2));
+  palette_.grandstand_lamp = bulb(kGrandstandLamps, kGrandstandLamp_cd * (1.0f / kGrandstandLamp_m2));
 }
 
 int Assembly::addTexture(Texture texture) {

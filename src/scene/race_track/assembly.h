@@ -31,6 +31,12 @@ struct Picture {
   PictureRect rect;
 };
 
+/// Groups of lamps; what each of them gives along its axis, and how large its glass is, which shows as much.
+constexpr const char *kStreetLamps = "street_lamps", *kGrandstandLamps = "grandstand";
+inline const LinearRgb kStreetLamp_cd(1500.0f, 1164.0f, 720.0f),
+    kGrandstandLamp_cd(1600.0f, 1480.0f, 1250.0f);
+constexpr float kStreetLamp_m2 = 0.5f * 0.22f, kGrandstandLamp_m2 = 1.2f * 0.3f;
+
 /// The materials that have no picture of their own; each is tinted by its Paint.
 struct Palette {
   int matte = 0;  ///< house paint, plastic
@@ -42,6 +48,7 @@ struct Palette {
   int wood = 0;
   int rubber = 0;
   int glass = 0;
+  int street_lamp = 0, grandstand_lamp = 0;  ///< glass that is lit while those lamps burn
   int bark = 0;
   int stone = 0;
   int grass = 0;

@@ -52,10 +52,10 @@ void addBoard(Assembly& assembly, const Frame& frame, const Board& board, const 
 void addStreetLight(Assembly& assembly, const Frame& head, std::uint32_t seed) {
   Lamp lamp;
   lamp.name = "street lamp " + std::to_string(seed);
-  lamp.group = "street_lamps";
+  lamp.group = kStreetLamps;
   lamp.radius_m = 0.1f;
   lamp.position = head * Point(0.05f, 0.0f, -0.16f);
-  lamp.intensity = LinearRgb(1500.0f, 1164.0f, 720.0f);
+  lamp.intensity = kStreetLamp_cd;
   lamp.inner_rad = 0.9f;
   lamp.outer_rad = 1.35f;
   assembly.addLamp(std::move(lamp));
@@ -81,7 +81,7 @@ void addLamp(Assembly& assembly, const TrackPlace& place, std::uint32_t seed) {
           8);
   const Frame head = standing(top + 1.9f * in + Point(0, 0, 0.40f), std::atan2(in.y(), in.x()));
   addBox(assembly, {assembly.palette().matte, {0.22f, 0.22f, 0.23f}}, head, {0.7f, 0.28f, 0.12f});
-  addBox(assembly, {assembly.palette().glass, {0.6f, 0.6f, 0.55f}}, shifted(head, {0.05f, 0, -0.05f}),
+  addBox(assembly, {assembly.palette().street_lamp, {0.6f, 0.6f, 0.55f}}, shifted(head, {0.05f, 0, -0.05f}),
          {0.5f, 0.22f, 0.05f});
   addStreetLight(assembly, head, seed);
   const Picture label = assembly.addPicture(

@@ -151,12 +151,14 @@ void addLights(Assembly& assembly, const Stand& stand) {
   for (float x = -0.5f * stand.width + 4.5f; x < 0.5f * stand.width; x += 9.0f) {
     Lamp lamp;
     lamp.name = "grandstand lamp";
-    lamp.group = "grandstand";
+    lamp.group = kGrandstandLamps;
     lamp.radius_m = 0.15f;
     lamp.position = stand.frame * Point(x, 0.4f * depth, top + 0.2f);
-    lamp.intensity = LinearRgb(1600.0f, 1480.0f, 1250.0f);
+    lamp.intensity = kGrandstandLamp_cd;
     lamp.inner_rad = 0.9f;
     lamp.outer_rad = 1.4f;
+    addBox(assembly, {assembly.palette().grandstand_lamp, {0.6f, 0.6f, 0.6f}},
+           shifted(stand.frame, {x, 0.4f * depth, top + 0.25f}), {1.2f, 0.3f, 0.06f});
     assembly.addLamp(std::move(lamp));
   }
 }
