@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sunlit/light/lamps.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {

@@ -79,8 +79,8 @@ struct PassedOn {
   void resize(std::size_t samples);
 };
 
-/// What standing lamps give samples by way of surfaces, for each of lampSets(), by blocks of samples that have
-/// any of it.
+/// What standing lamps give samples by way of surfaces, for each of lampSets(), by blocks of samples that
+/// have any of it.
 struct BakedLamps {
   static constexpr std::size_t kBlock = 256;  ///< samples
   /// Illuminance, lx, r g b: from surfaces above the horizon, from those below it.
