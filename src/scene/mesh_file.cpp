@@ -16,6 +16,7 @@
 
 #include "scene/color.h"
 #include "scene/gltf_lights.h"
+#include "scene/gltf_order.h"
 #include "scene/mesh_material.h"
 
 namespace sunlit::scene {
@@ -249,8 +250,12 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   if (gltf) gltf_materials.emplace(file, builder);
   for (const std::string& name : gltf ? gltf_materials->unknownExtensions() : std::vector<std::string>())
     builder.warn("glTF extensions are not read", name + " of " + file);
+  std::vector<std::string> names;
+  for (unsigned i = 0; i < scene->mNumMaterials; ++i)
+    names.emplace_back(scene->mMaterials[i]->GetName().C_Str());
   const std::vector<std::optional<MeshLook>> looks =
-      addMaterials(*scene, MeshFileContext{file, gltf ? &*gltf_materials : nullptr, finder, builder});
+      addMaterials(*scene, MeshFileContext{file, gltf ? &*gltf_materials : nullptr, finder, builder,
+                                           gltf ? materialsInFile(file, names) : std::vector<std::size_t>()});
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up.
   const bool y_up = gltf || (collada && up_axis == UpAxis::kAsDeclared);
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();

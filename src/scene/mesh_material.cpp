@@ -153,15 +153,16 @@ std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
     if (!material) return std::nullopt;
     return MeshLook{*material, {CoordinateRecipe()}};
   }
-  const std::optional<GltfLook> look = context.gltf->look(index, [&](GltfMaterials::Slot slot,
-                                                                     const Wraps& wraps) {
-    aiString name;
-    if (source.GetTexture(typeOf(slot), 0, &name) != aiReturn_SUCCESS || name.length == 0) {
-      context.builder.warn(kMissingTextures, std::string(source.GetName().C_Str()) + " of " + context.file);
-      return TextureUse::kNone;
-    }
-    return addTexture(name.C_Str(), scene, context, wraps);
-  });
+  const std::optional<GltfLook> look =
+      context.gltf->look(context.gltf_order.at(index), [&](GltfMaterials::Slot slot, const Wraps& wraps) {
+        aiString name;
+        if (source.GetTexture(typeOf(slot), 0, &name) != aiReturn_SUCCESS || name.length == 0) {
+          context.builder.warn(kMissingTextures,
+                               std::string(source.GetName().C_Str()) + " of " + context.file);
+          return TextureUse::kNone;
+        }
+        return addTexture(name.C_Str(), scene, context, wraps);
+      });
   if (!look) {  // glTF 2.0, section 3.7.2.1: the default material
     Material material;
     material.name = "default";

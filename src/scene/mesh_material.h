@@ -19,6 +19,7 @@ struct MeshFileContext {
   const GltfMaterials* gltf;  ///< null: COLLADA or OBJ, whose materials mean other things
   const ResourceFinder& finder;
   SceneBuilder& builder;
+  std::vector<std::size_t> gltf_order = {};  ///< materialsInFile() of a glTF file
 };
 
 /// A material in the builder, and the texture coordinates that it wants of its meshes.

@@ -323,6 +323,34 @@ TEST_F(ExportGltf, GlassIsWrittenAsTransmission) {
   EXPECT_NE(text.find("\"KHR_materials_transmission\":{\"transmissionFactor\":0.75}"), std::string::npos);
 }
 
+TEST_F(ExportGltf, MaterialsComeBackInWhateverOrderMeshesUseThem) {
+  Scene scene = sample();
+  for (const float red : {0.125f, 0.25f, 0.5f}) {
+    Material paint;
+    paint.name = "paint";  // all alike
+    paint.base_color = LinearRgb(red, 0.0f, 0.0f);
+    scene.materials.push_back(paint);
+  }
+  scene.materials[4].base_texture = 0;
+  const Mesh mesh = scene.meshes[0];
+  scene.meshes.clear();
+  for (const int material : {4, 1, 3, 0, 4}) {  // and one that none uses
+    scene.meshes.push_back(mesh);
+    scene.meshes.back().material = material;
+  }
+  writeGltf(scene, pathOf("scene.glb"));
+  const Scene back = load(pathOf("scene.glb"), {});
+  EXPECT_TRUE(back.warnings.empty()) << back.warnings[0];
+  ASSERT_EQ(back.meshes.size(), scene.meshes.size());
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    const Material& a = scene.materials[static_cast<std::size_t>(scene.meshes[i].material)];
+    const Material& b = back.materials[static_cast<std::size_t>(back.meshes[i].material)];
+    EXPECT_EQ(a.name, b.name) << i;
+    EXPECT_TRUE((a.base_color.value == b.base_color.value).all()) << i;
+    EXPECT_EQ(a.base_texture == Material::kNoTexture, b.base_texture == Material::kNoTexture) << i;
+  }
+}
+
 TEST_F(ExportGltf, WritesTheSameBytesEachTime) {
   const auto bytes = [&](const std::string& name) {
     writeGltf(sample(), pathOf(name));
