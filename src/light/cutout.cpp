@@ -4,15 +4,35 @@
 #include <cmath>
 #include <cstring>
 
+#include "sunlit/light/shading.h"
+#include "sunlit/light/visibility.h"
+
 namespace sunlit::light {
 namespace {
 
-constexpr int kNoMask = -1;
+constexpr int kNoMask = -1, kNowhere = -2;
 
 /// What blends by its factor alone.
 const scene::Texture& white() {
   static const scene::Texture texture{"white", 1, 1, {255, 255, 255, 255}};
   return texture;
+}
+
+/// Luminance that comes through a sheet of glass, of one that a half sphere of even light gives.
+float meanThrough(const scene::Material& material) {
+  Reflection reflection = {Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitZ(), material.base_color.value};
+  reflection.metalness = material.metalness;
+  reflection.dielectric = material.dielectric.value;
+  reflection.dielectric_grazing = material.dielectric_grazing;
+  reflection.glass = material.glass;
+  constexpr int kParts = 64;  // of equal irradiance: even in the square of the cosine
+  float sum = 0.0f;
+  for (int i = 0; i < kParts; ++i) {
+    const float squared = (static_cast<float>(i) + 0.5f) / kParts;
+    reflection.to_eye = Eigen::Vector3f(std::sqrt(1.0f - squared), 0.0f, std::sqrt(squared));
+    sum += LinearRgb(straightThrough(reflection)).luminance();
+  }
+  return sum / kParts;
 }
 
 /// Evenly spread over 0 … 1, and alike for no neighbours.
@@ -119,7 +139,7 @@ std::int32_t Cutouts::maskOf(const scene::Texture& texture, float alpha_cutoff, 
   return index;
 }
 
-Cutouts::Cutouts(const Geometry& geometry) {
+Cutouts::Cutouts(const Geometry& geometry, Glass glass) {
   const scene::Scene& scene = *geometry.scene;
   std::vector<std::int32_t> mask_of(scene.materials.size(), kNoMask);
   // Bodies share the materials of the whole scene and use few of them.
@@ -130,6 +150,10 @@ Cutouts::Cutouts(const Geometry& geometry) {
     const bool blends = material.alpha_mode == scene::AlphaMode::kBlend;
     const bool textured = material.base_texture != scene::Material::kNoTexture;
     const bool masks = material.alpha_mode == scene::AlphaMode::kMask && textured;
+    if (used[m] && isGlass(material)) {
+      mask_of[m] = glass == Glass::kLeftOut ? kNowhere : maskOf(white(), 0.0f, 1.0f - meanThrough(material));
+      continue;
+    }
     if (!used[m] || !(masks || blends)) continue;
     const scene::Texture& texture =
         textured ? scene.textures[static_cast<std::size_t>(material.base_texture)] : white();
@@ -137,6 +161,7 @@ Cutouts::Cutouts(const Geometry& geometry) {
   }
   for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
     const std::int32_t mask = mask_of[static_cast<std::size_t>(geometry.materials[i])];
+    if (mask == kNowhere) continue;
     (mask != kNoMask ? masked_ : opaque_).push_back(i);
     if (mask == kNoMask) continue;
     std::array<Eigen::Vector2f, 3> texture_coordinates;

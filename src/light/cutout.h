@@ -21,7 +21,12 @@ class Cutouts {
   struct Mask;
 
  public:
-  explicit Cutouts(const Geometry& geometry);
+  enum class Glass {
+    kByChance,  ///< as what blends: it stops so many rays as it keeps light back on average over a half
+                ///< sphere
+    kLeftOut,   ///< in neither list
+  };
+  explicit Cutouts(const Geometry& geometry, Glass glass = Glass::kByChance);
 
   /// Indices into Geometry::triangles.
   const std::vector<std::uint32_t>& opaqueTriangles() const { return opaque_; }

@@ -34,7 +34,7 @@ LightTable::Rows rowsOf(const Surfaces& surfaces, const Tile& tile, const scene:
                             static_cast<std::uint16_t>(surface.pixel / width),
                             static_cast<std::uint16_t>(surface.samples), material.transmission > 0.0f,
                             material.alpha_mode == scene::AlphaMode::kMask,
-                            surface.gathered != Surface::kNotGathered, surface.share < 1.0f});
+                            surface.gathered != Surface::kNotGathered, (surface.share < 1.0f).any()});
     rows.air.push_back(airPlace((surfaces.eye - surface.position).norm()));
     rows.air_nodes |= std::uint64_t{3} << rows.air.back().node;
     rows.ambient.push_back(ambientReflectance(reflectionOf(surface, material)));
@@ -59,7 +59,8 @@ Reflection reflectionOf(const Surface& surface, const scene::Material& material)
           surface.metalness,
           material.transmission,
           material.dielectric.value,
-          material.dielectric_grazing};
+          material.dielectric_grazing,
+          material.glass};
 }
 
 LightTable::LightTable(const Surfaces& surfaces, const scene::Scene& scene) : tiles_(surfaces.tiles.size()) {

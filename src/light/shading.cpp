@@ -35,9 +35,10 @@ Eigen::Array3f directReflectance(const Reflection& r, const Eigen::Vector3f& to_
   const float alpha = std::min(1.0f, r.roughness * r.roughness + 0.5f * source_radius_rad);
   const Ggx<float> facets(alpha);
   const Eigen::Array3f f0 = normalReflectance(r);
-  const Eigen::Array3f fresnel = f0 + (grazingReflectance(r) - f0) * schlick(v_h);
-  const Eigen::Array3f diffuse =
-      (1.0f - r.metalness) * (1.0f - r.transmission) / kPiFloat * r.albedo * (1.0f - fresnel);
+  Eigen::Array3f fresnel = f0 + (grazingReflectance(r) - f0) * schlick(v_h);
+  if (r.glass > 0.0f) fresnel = ofBothFaces(fresnel);
+  const Eigen::Array3f diffuse = (1.0f - r.metalness) * (1.0f - r.transmission) * (1.0f - r.glass) /
+                                 kPiFloat * r.albedo * (1.0f - fresnel);
   return (diffuse + fresnel * (facets.distribution(n_h) * facets.visibility(n_l, n_v))) * n_l;
 }
 
@@ -46,10 +47,23 @@ AmbientReflectance ambientReflectance(const Reflection& r) {
   const Eigen::Array3f f0 = normalReflectance(r);
   const MirrorAlbedo mirror = mirrorAlbedo(r.roughness, n_v);
   const float f90 = grazingReflectance(r);
-  const Eigen::Array3f lobe = f0 * mirror.plain + f90 * mirror.grazing;
-  const Eigen::Array3f taken = f0 + (f90 - f0) * meanGrazing(n_v);  // by Fresnel, from the Lambert part
-  const Eigen::Array3f lambert = (1.0f - r.metalness) / kPiFloat * r.albedo;
+  Eigen::Array3f lobe = f0 * mirror.plain + f90 * mirror.grazing;
+  Eigen::Array3f taken = f0 + (f90 - f0) * meanGrazing(n_v);  // by Fresnel, from the Lambert part
+  Eigen::Array3f lambert = (1.0f - r.metalness) / kPiFloat * r.albedo;
+  if (r.glass > 0.0f) {
+    lobe = ofBothFaces(lobe);
+    taken = ofBothFaces(taken);
+    lambert *= 1.0f - r.glass;
+  }
   return {(1.0f - r.transmission) * lambert * (1.0f - taken), r.transmission * lambert, lobe};
+}
+
+Eigen::Array3f straightThrough(const Reflection& r) {
+  if (!(r.glass > 0.0f)) return Eigen::Array3f::Zero();
+  const Eigen::Array3f f0 = normalReflectance(r);
+  const float cosine = std::min(std::abs(r.normal.dot(r.to_eye)), 1.0f);
+  const Eigen::Array3f face = f0 + (grazingReflectance(r) - f0) * schlick(cosine);
+  return (1.0f - r.metalness) * r.glass * r.albedo * (1.0f - ofBothFaces(face));
 }
 
 }  // namespace sunlit::light

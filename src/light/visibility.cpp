@@ -124,7 +124,9 @@ class Visibility::Implementation {
   void closest(const Rays& rays, Hit* hits) const;
   Hit firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near) const;
   void addVeils(const Sight& sight, std::uint32_t first_triangle, std::vector<Hit>* hits) const;
+  const Geometry& geometry() const { return *geometry_; }
   bool hasVeils() const { return !veils_.empty(); }
+  bool hasGlass() const { return has_glass_; }
   std::uint32_t triangleCount() const { return static_cast<std::uint32_t>(geometry_->triangles.size()); }
 
  private:
@@ -135,7 +137,8 @@ class Visibility::Implementation {
 
   std::shared_ptr<const Geometry> geometry_;
   Cutouts cutouts_;
-  std::vector<std::uint32_t> veils_;  ///< triangles that blend
+  std::vector<std::uint32_t> veils_;  ///< triangles that blend, and glass
+  bool has_glass_ = false;
   DevicePointer device_;
   ScenePointer scene_;
   ScenePointer veil_scene_;  ///< of them alone; null: none
@@ -143,7 +146,9 @@ class Visibility::Implementation {
 };
 
 Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geometry)
-    : geometry_(std::move(geometry)), cutouts_(*geometry_), device_(rtcNewDevice(nullptr)) {
+    : geometry_(std::move(geometry)),
+      cutouts_(*geometry_, Cutouts::Glass::kLeftOut),
+      device_(rtcNewDevice(nullptr)) {
   if (!device_) {
     throw std::runtime_error("ray library (Embree): no device, error code " +
                              std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))));
@@ -154,7 +159,10 @@ Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geome
 
 Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geometry,
                                            const Implementation& other)
-    : geometry_(std::move(geometry)), cutouts_(*geometry_), device_(other.device_.get()), wide_(other.wide_) {
+    : geometry_(std::move(geometry)),
+      cutouts_(*geometry_, Cutouts::Glass::kLeftOut),
+      device_(other.device_.get()),
+      wide_(other.wide_) {
   rtcRetainDevice(device_.get());
   build(RTC_BUILD_QUALITY_LOW);  // it is for one pose
 }
@@ -178,8 +186,10 @@ void Visibility::Implementation::build(RTCBuildQuality quality) {
 
 void Visibility::Implementation::buildVeils() {
   for (std::uint32_t t = 0; t < geometry_->triangles.size(); ++t) {
-    const auto material = static_cast<std::size_t>(geometry_->materials[t]);
-    if (geometry_->scene->materials[material].alpha_mode == scene::AlphaMode::kBlend) veils_.push_back(t);
+    const scene::Material& material =
+        geometry_->scene->materials[static_cast<std::size_t>(geometry_->materials[t])];
+    if (seenThrough(material)) veils_.push_back(t);
+    has_glass_ |= isGlass(material);
   }
   if (veils_.empty()) return;
   veil_scene_.reset(rtcNewScene(device_.get()));
@@ -326,6 +336,13 @@ void Visibility::occludedByMoving(const Rays& rays, std::uint8_t* blocked) const
   }
 }
 
+const Geometry& Visibility::fixedGeometry() const {
+  return (fixed_ ? *fixed_ : *this).implementation_->geometry();
+}
+const Geometry* Visibility::movingGeometry() const {
+  return fixed_ ? &implementation_->geometry() : nullptr;
+}
+
 std::uint32_t Visibility::fixedTriangles() const {
   return (fixed_ ? *fixed_ : *this).implementation_->triangleCount();
 }
@@ -358,6 +375,10 @@ void Visibility::veils(const Sight& sight, std::vector<Hit>* hits) const {
   std::stable_sort(hits->begin(), hits->end(),
                    [](const Hit& a, const Hit& b) { return a.distance < b.distance; });
   if (hits->size() > kMostVeils) hits->resize(kMostVeils);
+}
+
+bool Visibility::hasGlass() const {
+  return implementation_->hasGlass() || (fixed_ && fixed_->implementation_->hasGlass());
 }
 
 bool Visibility::hasVeils() const {

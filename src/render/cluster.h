@@ -37,7 +37,8 @@ struct Cluster {
   Eigen::Array3f albedo;           ///< sum over the samples
   Finish finish;                   ///< sum over the samples, of materials with maps
   bool mapped = false;
-  float unveiled = 0.0f;  ///< sum over the samples of what is seen of them; where anything is seen through
+  /// Sum over the samples of what is seen of them; where anything is seen through.
+  Eigen::Array3f unveiled = Eigen::Array3f::Zero();
   std::uint32_t samples = 0;
   std::array<Eigen::Vector3f, kMostSamples> relatives;
 
@@ -53,7 +54,7 @@ struct Cluster {
     albedo.setZero();
     if (s.mapped) finish = Finish();
     mapped = s.mapped;
-    unveiled = 0.0f;
+    unveiled.setZero();
     samples = 0;
     add(s);
   }

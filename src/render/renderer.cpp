@@ -148,6 +148,7 @@ class Renderer::Implementation {
       seen.body_views = body_light_->look(*seen.bodies, seen.visibility);
       body_light_->hide(*seen.bodies, *seen.visibility, &seen.surfaces);
     }
+    light::reflect(world_, *seen.visibility, seen.bodies ? body_light_.get() : nullptr, &seen.surfaces);
     light::prepare(*world_.geometry->scene, &seen.surfaces);
   }
 

@@ -7,6 +7,7 @@
 #include "render/cluster.h"
 #include "render/resolve.h"
 #include "render/tile_detail.h"
+#include "sunlit/light/shading.h"
 
 namespace sunlit::render {
 namespace {
@@ -16,7 +17,7 @@ class TileResolver {
   /// One part of a triangle that is seen through, within a pixel.
   struct Veil {
     std::uint32_t triangle;
-    float covered = 0.0f;  ///< sum over the samples of what is seen of it
+    Eigen::Array3f covered = Eigen::Array3f::Zero();  ///< sum over the samples of what is seen of it
     float depth = 0.0f;
     std::vector<Eigen::Vector3f> relatives;
   };
@@ -49,7 +50,7 @@ class TileResolver {
     for (auto* origin : {&tile_.origin_x, &tile_.origin_y, &tile_.origin_z})
       origin->resize(pixels * per_pixel_);
     tile_.sky.assign(pixels, 0);
-    tile_.sky_share.assign(seen_.veils ? pixels : 0, 1.0f);
+    tile_.sky_share.assign(seen_.veils ? pixels : 0, Eigen::Array3f::Ones());
     for (int row = 0; row < tile_.height; ++row) {
       for (int column = 0; column < tile_.width; ++column) {
         tile_.sky[static_cast<std::size_t>(row * tile_.width + column)] =
@@ -62,6 +63,13 @@ class TileResolver {
   }
 
  private:
+  /// A place on a triangle.
+  struct Spot {
+    Eigen::Array2f shares;
+    Footprint step;
+    bool small;
+  };
+
   Eigen::Vector3f relative(const Sample& sample, int column, int row) const {
     return sample.depth * (ray_ + static_cast<float>(column) * scene_detail_.sample_right +
                            static_cast<float>(row) * scene_detail_.sample_down);
@@ -84,7 +92,7 @@ class TileResolver {
     cluster.albedo = static_cast<float>(cluster.samples) * seeing.albedo;
     cluster.shading_normal = seeing.shading_normal;
     cluster.mapped = seeing.mapped;
-    cluster.unveiled = 0.0f;
+    cluster.unveiled.setZero();
     for (std::uint32_t i = 0; seen_.veils && i < cluster.samples; ++i) cluster.unveiled += unveiled_[i];
     if (seeing.mapped) {
       cluster.finish = Finish();
@@ -98,12 +106,12 @@ class TileResolver {
   std::uint8_t veiledPixel(int x, int y) {
     const int s = seen_.view.supersampling;
     memory_.veils.clear();
-    float sky = 0.0f;
+    Eigen::Array3f sky = Eigen::Array3f::Zero();
     int of_sky = 0;
     for (int k = 0; k < s * s; ++k) {
       const int column = x * s + k % s, row = y * s + k / s;
       const Sample& sample = seen_.sample(column, row);
-      const float left = passVeils(sample, column, row);
+      const Eigen::Array3f left = passVeils(sample, column, row);
       unveiled_[static_cast<std::size_t>(k)] = left;
       if (sample.sky()) sky += left;
       if (sample.sky()) ++of_sky;
@@ -117,30 +125,53 @@ class TileResolver {
   }
 
   /// What is left of a sample behind all that it is seen through, which goes to Memory::veils.
-  float passVeils(const Sample& sample, int column, int row) {
+  Eigen::Array3f passVeils(const Sample& sample, int column, int row) {
     const Eigen::Vector3f ray = relative({0, 1.0f}, column, row);
     const float far = sample.sky() ? static_cast<float>(seen_.view.far_m) : sample.depth;
     seen_.veils->veils({eye_high_ + eye_low_, ray, static_cast<float>(seen_.view.near_m), far},
                        &memory_.hits);
-    float left = 1.0f;
+    Eigen::Array3f left = Eigen::Array3f::Ones();
     for (const light::Hit& hit : memory_.hits) {
       const Eigen::Vector3f point = hit.distance * ray;
       const SeenTriangle& triangle = memory_.triangles.at(seen_, hit.triangle);
       const Footprint step =
           triangle.footprint(point, hit.distance, scene_detail_.sample_right, scene_detail_.sample_down);
-      const SurfaceMaps::Place place = triangle.placeOnMaps(seen_, triangle.sharesAt(point), step, false);
-      const float alpha = seen_.maps.alpha(triangle.material(), place);
+      const Eigen::Array2f shares = triangle.sharesAt(point);
+      const scene::Material& material = seen_.look(triangle.material());
+      // Glass sends its own light whole, and lets through what it does not mirror.
+      float alpha = 1.0f;
+      Eigen::Array3f through = Eigen::Array3f::Zero();
+      if (light::isGlass(material)) {
+        through = throughGlass(triangle, {shares, step, false}, -ray.normalized());
+      } else {
+        alpha = seen_.maps.alpha(triangle.material(), triangle.placeOnMaps(seen_, shares, step, false));
+        through.setConstant(1.0f - alpha);
+      }
       if (!(alpha > 0.0f)) continue;
       std::vector<Veil>& veils = memory_.veils;
       auto veil =
           std::find_if(veils.begin(), veils.end(), [&](const Veil& v) { return v.triangle == hit.triangle; });
-      if (veil == veils.end()) veil = veils.insert(veil, Veil{hit.triangle, 0.0f, hit.distance, {}});
+      if (veil == veils.end())
+        veil = veils.insert(veil, Veil{hit.triangle, Eigen::Array3f::Zero(), hit.distance, {}});
       if (veil->relatives.size() == kMostSamples) continue;
       veil->relatives.push_back(point);
       veil->covered += left * alpha;
-      left *= 1.0f - alpha;
+      left *= through;
     }
     return left;
+  }
+
+  /// Share of the light that a clear sheet lets through to the eye.
+  Eigen::Array3f throughGlass(const SeenTriangle& triangle, const Spot& spot,
+                              const Eigen::Vector3f& to_eye) const {
+    const scene::Material& material = seen_.look(triangle.material());
+    light::Reflection reflection = {triangle.shadingNormal(spot.shares), to_eye,
+                                    triangle.albedo(seen_, spot.shares, spot.step, spot.small)};
+    reflection.metalness = material.metalness;
+    reflection.dielectric = material.dielectric.value;
+    reflection.dielectric_grazing = material.dielectric_grazing;
+    reflection.glass = material.glass;
+    return light::straightThrough(reflection);
   }
 
   void appendVeil(const Veil& veil, int x, int y) {
@@ -180,7 +211,7 @@ class TileResolver {
       Seeing seeing;
       seeing.depth = samples[i].depth;
       seeing.relatives = relatives.data();
-      float unveiled = 0.0f;
+      Eigen::Array3f unveiled = Eigen::Array3f::Zero();
       for (std::size_t k = i; k < count; ++k) {
         if (samples[k].triangle != triangle) continue;
         samples[k].triangle = kTaken;
@@ -233,11 +264,6 @@ class TileResolver {
     if (seeing->mapped) lookAtMaps(triangle, {shares, step, small}, seeing);
   }
 
-  struct Spot {
-    Eigen::Array2f shares;
-    Footprint step;
-    bool small;
-  };
   void lookAtMaps(const SeenTriangle& triangle, const Spot& spot, Seeing* seeing) const {
     const SurfaceMaps::Place place = triangle.placeOnMaps(seen_, spot.shares, spot.step, spot.small);
     seeing->finish = seen_.maps.finish(seeing->material, place);
@@ -304,10 +330,10 @@ class TileResolver {
   const SceneDetail& scene_detail_;
   Memory& memory_;
   light::Tile& tile_;
-  std::size_t origins_ = 0;                     ///< written so far
-  std::array<float, kMostSamples> unveiled_{};  ///< of the pixel's samples, what is seen of them
-  Eigen::Vector3f ray_;                         ///< of sample (0, 0), of depth 1 m
-  Eigen::Vector3f eye_high_, eye_low_;          ///< whose sum is the eye
+  std::size_t origins_ = 0;                              ///< written so far
+  std::array<Eigen::Array3f, kMostSamples> unveiled_{};  ///< of the pixel's samples, what is seen of them
+  Eigen::Vector3f ray_;                                  ///< of sample (0, 0), of depth 1 m
+  Eigen::Vector3f eye_high_, eye_low_;                   ///< whose sum is the eye
   /// Part of the way from the eye at which shadow rays start. Rounded corners let a sample at an edge be
   /// taken for the surface beside it, and its ray start beyond that edge, where the sun may shine. A
   /// sixteenth of a sample towards the eye, which sees both surfaces, brings it back. Thin sheets send rays
@@ -350,6 +376,7 @@ double planeDepth(const Seen& seen, std::uint32_t triangle, const Eigen::Vector3
 void resolveSurfaces(const Seen& seen, light::Surfaces* surfaces) {
   layOutTiles(seen.view, surfaces);
   surfaces->table.reset();  // of other surfaces
+  surfaces->reflections.reset();
   const SceneDetail scene_detail(*seen.geometry.scene, seen.view);
   tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(), [&](std::size_t i) {
     thread_local TileResolver::Memory memory;

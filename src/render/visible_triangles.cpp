@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "render/frustum.h"
+#include "sunlit/light/visibility.h"
 
 namespace sunlit::render {
 namespace {
@@ -22,8 +23,8 @@ void VisibleTriangles::addVisible(const View& view, const light::Geometry& geome
   std::vector<std::pair<float, const light::Chunk*>> near_first;
   for (const light::Chunk& chunk : geometry.chunks) {
     const auto material = static_cast<std::size_t>(chunk.material);
-    const bool blends = geometry.scene->materials[material].alpha_mode == scene::AlphaMode::kBlend;
-    if (!blends && frustum.touches(chunk.box))
+    const bool veils = light::seenThrough(geometry.scene->materials[material]);
+    if (!veils && frustum.touches(chunk.box))
       near_first.emplace_back(chunk.box.squaredExteriorDistance(eye), &chunk);
   }
   // What is near hides what is far, before its samples are looked at.

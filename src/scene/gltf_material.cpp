@@ -216,7 +216,7 @@ class Reader {
     }
   }
 
-  /// What lets light through: thin sheets by their own model, glass by coverage.
+  /// What lets light through: thin sheets such as leaves, and glass.
   void readThrough() {
     Material& material = look_.material;
     const json& diffuse = extension(source_, "KHR_materials_diffuse_transmission");
@@ -227,10 +227,19 @@ class Reader {
     const json& glass = extension(source_, "KHR_materials_transmission");
     const float through = within(glass.value("transmissionFactor", 0.0f), 0.0f, 1.0f);
     if (!(through > 0.0f)) return;
-    lost_.push_back("transmission: what lies behind is seen unbent, through a surface that covers the rest");
-    material.alpha = (material.alpha_mode == AlphaMode::kBlend ? material.alpha : 1.0f) *
-                     (1.0f - through * (1.0f - material.metalness));
-    if (material.alpha < 1.0f) material.alpha_mode = AlphaMode::kBlend;
+    if (has(glass, "transmissionTexture"))
+      lost_.push_back("a texture of its transmission: its factor counts alone");
+    if (material.alpha_mode == AlphaMode::kOpaque) {
+      material.glass = through;
+      constexpr float kClear = 0.1f;  // of roughness: it blurs by less than a degree
+      if (material.roughness > kClear)
+        lost_.push_back("transmission of a rough surface: what lies behind is seen sharp");
+      return;
+    }
+    lost_.push_back("transmission of what has an alpha: by a surface that covers the rest");
+    if (material.alpha_mode != AlphaMode::kBlend) material.alpha = 1.0f;
+    material.alpha_mode = AlphaMode::kBlend;
+    material.alpha *= 1.0f - through * (1.0f - material.metalness);
     // So little of it is left that nothing but its reflection is seen.
     material.alpha = std::max(material.alpha, 0.1f);
   }

@@ -5,8 +5,16 @@
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/visibility.h"
+#include "sunlit/light/world.h"
 
 namespace sunlit::light {
+
+class BodyLight;
+
+/// Sets Surfaces::reflections: what smooth surfaces mirror, by a ray from each of their samples, ready to be
+/// lit. To be called once the places of `surfaces` are known, see Transport::locate(). `visibility` may know
+/// bodies, which `bodies` then is of; else null. Parallel; next to nothing where nothing is smooth.
+void reflect(const World& world, const Visibility& visibility, const BodyLight* bodies, Surfaces* surfaces);
 
 /// Computes what illuminate() needs of `surfaces` for any light, which saves each condition that work. To be
 /// called once all else of them is set, and again when anything of them has changed. Parallel.

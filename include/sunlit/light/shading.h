@@ -18,6 +18,8 @@ struct Reflection {
   /// Of what is not metal, at normal incidence and at grazing, 0 … 1.
   Eigen::Array3f dielectric = Eigen::Array3f::Constant(0.04f);
   float dielectric_grazing = 1.0f;
+  /// A clear sheet, both of whose faces mirror: share of what neither does that goes straight through, 0 … 1.
+  float glass = 0.0f;
 };
 
 /// Luminance (cd/m²) towards the eye for 1 lx on a plane facing a small source in direction `to_light`; that
@@ -35,6 +37,16 @@ struct AmbientReflectance {
 };
 /// All are directReflectance() summed over a hemisphere of even light, from tables, within 2 %.
 AmbientReflectance ambientReflectance(const Reflection& reflection);
+
+/// Reflectance of a clear sheet whose faces mirror `face` each, all bounces between them summed; what is left
+/// goes through, (1 − F) / (1 + F).
+inline Eigen::Array3f ofBothFaces(const Eigen::Array3f& face) {
+  return 2.0f * face / (1.0f + face);
+}
+
+/// Share of the light that a clear sheet lets straight through towards the eye, without its mirrored and its
+/// scattered light: zero where `glass` is.
+Eigen::Array3f straightThrough(const Reflection& reflection);
 
 /// Mirror of `to_eye` at `normal`.
 inline Eigen::Vector3f mirrored(const Eigen::Vector3f& to_eye, const Eigen::Vector3f& normal) {

@@ -75,7 +75,9 @@ struct Surface {
   float roughness = 1.0f;                            ///< perceptual, scene::Material::kSmoothest … 1
   float metalness = 0.0f;                            ///< 0 … 1
   float cavity = 1.0f;  ///< share of the ambient light that the material's own map of occlusion leaves, 0 … 1
-  float share = 1.0f;  ///< of its samples' light that it sends: what is not hidden by what one sees through
+  /// Of its samples' light that it sends, by channel: what is not hidden, or coloured, by what one sees
+  /// through.
+  Eigen::Array3f share = Eigen::Array3f::Ones();
   float clearance_m = 0.0f;        ///< how far off its triangle its rays start, along geometric_normal
   std::int32_t material = 0;       ///< index into Scene::materials
   std::uint32_t pixel = 0;         ///< y · width + x
@@ -105,7 +107,7 @@ struct Tile {
   std::vector<GatheredSky> gathered;  ///< of its surfaces; empty unless FinalGather set it
   std::vector<std::uint8_t> sky;      ///< samples of each pixel of the tile (row-major) that see no surface
   /// Of each pixel, what part of those samples' sky is seen through what blends; empty: all.
-  std::vector<float> sky_share;
+  std::vector<Eigen::Array3f> sky_share;
 
   /// What was gathered for one of `surfaces`; null: nothing.
   const GatheredSky* gatheredFor(const Surface& surface) const {
@@ -114,6 +116,7 @@ struct Tile {
 };
 
 class LightTable;
+struct Reflections;
 
 struct Surfaces {
   static constexpr int kTileSize = 16;  ///< px
@@ -124,7 +127,8 @@ struct Surfaces {
   Eigen::Vector3f pixel_origin, pixel_right, pixel_down;
   Eigen::Vector3f eye = Eigen::Vector3f::Zero();  ///< the camera, m in `map`
   std::vector<Tile> tiles;
-  std::shared_ptr<const LightTable> table;  ///< set by prepare(); null: made anew for each light
+  std::shared_ptr<const Reflections> reflections;  ///< what smooth ones mirror; set by reflect(); null: none
+  std::shared_ptr<const LightTable> table;         ///< set by prepare(); null: made anew for each light
 };
 
 }  // namespace sunlit::light

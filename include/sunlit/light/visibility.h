@@ -30,10 +30,19 @@ struct Hit {
   float distance = 0.0f;           ///< in lengths of the ray's direction
 };
 
+/// Whether a surface is a clear sheet: see scene::Material::glass. What is cut out or blends is none.
+inline bool isGlass(const scene::Material& material) {
+  return material.glass > 0.0f && material.alpha_mode == scene::AlphaMode::kOpaque;
+}
+/// Whether what lies behind a surface is seen, too.
+inline bool seenThrough(const scene::Material& material) {
+  return material.alpha_mode == scene::AlphaMode::kBlend || isGlass(material);
+}
+
 /// Materials of AlphaMode::kMask let light through where the image shows them cut out; those of kBlend stop
-/// a share alpha of the rays, by a hash of where they meet them. Surfaces stop light
-/// from both sides. Immutable after construction; queries may run on many threads at once and give the same
-/// bits on any number.
+/// a share alpha of the rays, by a hash of where they meet them. Glass stops none: what it takes is for those
+/// to ask who add light up, by veils(). Surfaces stop light from both sides. Immutable after construction;
+/// queries may run on many threads at once and give the same bits on any number.
 class Visibility {
  public:
   /// Keeps `geometry` alive. Throws std::runtime_error if the ray library fails.
@@ -52,6 +61,9 @@ class Visibility {
   void occludedWithin(const Rays& rays, std::uint8_t* blocked) const;
   /// The first of them of what moves alone; nothing, where there is nothing that moves.
   void occludedByMoving(const Rays& rays, std::uint8_t* blocked) const;
+  /// What stands still, and what moves, whose triangles are numbered after those; null: nothing moves.
+  const Geometry& fixedGeometry() const;
+  const Geometry* movingGeometry() const;
   /// Triangles that stand still: the number of the first one that moves.
   std::uint32_t fixedTriangles() const;
 
@@ -69,11 +81,12 @@ class Visibility {
     Eigen::Vector3f origin, direction;
     float near, far;
   };
-  /// What blends along it, nearest first, at most kMostVeils.
+  /// What blends along it and glass, nearest first, at most kMostVeils.
   static constexpr std::size_t kMostVeils = 16;
   void veils(const Sight& sight, std::vector<Hit>* hits) const;
-  /// Whether anything blends at all.
+  /// Whether anything blends or is glass at all, and whether anything is glass.
   bool hasVeils() const;
+  bool hasGlass() const;
 
  private:
   void occluded(const Rays& rays, float reach, std::uint8_t* blocked) const;

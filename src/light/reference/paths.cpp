@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sunlit/light/lamps.h"
 #include "sunlit/quantity/angle.h"
@@ -13,6 +14,8 @@ namespace {
 /// the sky, one for its survival.
 enum Dimension : std::size_t { kDirection = 0, kOnDisc = 3, kInSky = 5, kSurvival = 7, kPerBounce = 8 };
 constexpr int kSureBounces = 3;
+/// Random numbers of glass on the way lie beyond those of all bounces.
+constexpr std::uint64_t kGlass = std::uint64_t{1} << 32;
 
 void appendDisc(const sky::DiscLight& light, std::size_t day, std::vector<Disc>* discs) {
   if (!(light.illuminance.value.maxCoeff() > 0.0f)) return;
@@ -34,6 +37,7 @@ PathScene::PathScene(const World& world_to_trace, const std::vector<sky::Dayligh
       options(options_to_use),
       samples_per_pixel(samples_in_pixel),
       vertices(*world_to_trace.geometry),
+      glass(*world_to_trace.visibility),
       lamps(options.lamps.begin(), options.lamps.end()) {
   for (std::size_t day = 0; day < days.size(); ++day) {
     appendDisc(days[day].sun(), day, &discs);
@@ -156,6 +160,7 @@ void Paths::addLamp(const LampBeam& lamp, int bounce) {
     bundle_.add(vertex.origin(towards), std::max(1.0f - ball_m / distance_m, 1e-6f) * way, i);
     weights_.push_back(paths_[i].throughput * weight);
   }
+  passGlass(1.0f);
   blocked_.resize(bundle_.path.size());
   scene_.world.visibility->occludedWithin(bundle_.rays(), blocked_.data());
   for (std::size_t i = 0; i < blocked_.size(); ++i) {
@@ -165,7 +170,34 @@ void Paths::addLamp(const LampBeam& lamp, int bounce) {
   }
 }
 
+void Paths::passGlass(float reach) {
+  if (!scene_.glass.any()) return;
+  for (std::size_t i = 0; i < weights_.size(); ++i)
+    weights_[i] *= scene_.glass.through({bundle_.origin(i), bundle_.direction(i), 0.0f, reach});
+}
+
+void Paths::passGlassTo(std::size_t i, int bounce, Path* path) {
+  if (!scene_.glass.any()) return;
+  const bool misses = hits_[i].triangle == Hit::kMiss;
+  const float reach = misses ? std::numeric_limits<float>::infinity() : hits_[i].distance;
+  const Eigen::Vector3f direction = bundle_.direction(i);
+  scene_.glass.sheets({bundle_.origin(i), direction, 0.0f, reach}, &sheets_);
+  for (std::size_t sheet = 0; sheet < sheets_.size(); ++sheet) {
+    const Eigen::Array3f through = straightThrough(scene_.glass.at(sheets_[sheet], direction).reflection);
+    // Neither is left to chance where little of it is.
+    const float odds = std::clamp(through.maxCoeff(), 0.1f, 0.9f);
+    const auto number = kGlass + static_cast<std::uint64_t>(bounce) * Visibility::kMostVeils + sheet;
+    if (uniform(path->key, number) >= odds) {
+      path->throughput /= 1.0f - odds;
+      hits_[i] = sheets_[sheet];
+      return;
+    }
+    path->throughput *= through / odds;
+  }
+}
+
 void Paths::castAndAdd(std::size_t day) {
+  passGlass(std::numeric_limits<float>::infinity());
   blocked_.resize(bundle_.path.size());
   scene_.world.visibility->occluded(bundle_.rays(), blocked_.data());
   for (std::size_t i = 0; i < blocked_.size(); ++i) {
@@ -222,6 +254,7 @@ void Paths::advance(int bounce) {
   next_.clear();
   for (std::size_t i = 0; i < hits_.size(); ++i) {
     Path& path = paths_[bundle_.path[i]];
+    passGlassTo(i, bounce, &path);
     if (hits_[i].triangle == Hit::kMiss) {
       addSkyMet(path, scattered_[i]);
       continue;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "light/disc_above_horizon.h"
+#include "light/glass_sheets.h"
 #include "light/lamps/lamp_beam.h"
 #include "light/random.h"
 #include "light/reference/scatter.h"
@@ -35,6 +36,7 @@ struct PathScene {
   ReferenceOptions options;
   int samples_per_pixel;  ///< Surfaces::samples_per_pixel
   SceneVertices vertices;
+  GlassSheets glass;
   std::vector<Disc> discs;
   std::vector<LampBeam> lamps;
   std::vector<SkySampler> skies;  ///< one a day
@@ -65,6 +67,8 @@ class Paths {
     void clear();
     void add(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, std::size_t of_path);
     Rays rays() const;
+    Eigen::Vector3f origin(std::size_t i) const { return {ox[i], oy[i], oz[i]}; }
+    Eigen::Vector3f direction(std::size_t i) const { return {dx[i], dy[i], dz[i]}; }
   };
 
   void start(const Tile& tile, const Surface& surface);
@@ -78,6 +82,11 @@ class Paths {
   /// Sky, where a ray chosen by the surface meets it.
   void addSkyMet(const Path& path, const Scattered& scattered);
   void castAndAdd(std::size_t day);
+  /// Takes from weights_ what glass on the way keeps back; rays reach so many times their length.
+  void passGlass(float reach);
+  /// The path of ray number `i` of the bundle passes the glass before hits_[i], or ends by chance at one of
+  /// the sheets, which hits_[i] then is.
+  void passGlassTo(std::size_t i, int bounce, Path* path);
   /// To the next surfaces. Paths that reach the sky or die are gone afterwards.
   void advance(int bounce);
   bool survives(int bounce, Path* path) const;
@@ -91,6 +100,7 @@ class Paths {
   std::vector<Eigen::Array3f> weights_;  ///< what each ray of the bundle adds if nothing stops it
   std::vector<Scattered> scattered_;
   std::vector<Hit> hits_;
+  std::vector<Hit> sheets_;
 };
 
 }  // namespace sunlit::light

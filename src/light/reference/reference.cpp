@@ -28,7 +28,9 @@ void traceTile(const Picture& picture, const Tile& tile, Halves* halves) {
   const auto& [surfaces, scene, open_air] = picture;
   Paths paths(scene);
   for (const Surface& surface : tile.surfaces) {
-    const float share = static_cast<float>(surface.samples) / static_cast<float>(surfaces.samples_per_pixel);
+    // What is seen through stands before others, in the same samples.
+    const Eigen::Array3f share =
+        surface.share * static_cast<float>(surface.samples) / static_cast<float>(surfaces.samples_per_pixel);
     const float distance = (surface.position - surfaces.eye).norm();
     const std::array<Radiances, 2> traced = paths.luminance(tile, surface);
     for (std::size_t day = 0; day < scene.days.size(); ++day) {

@@ -53,43 +53,59 @@ Vertex seenVertex(const Tile& tile, const Surface& surface, const scene::Scene& 
   return vertex;
 }
 
-SceneVertices::SceneVertices(const Geometry& geometry) : geometry_(geometry) {}
+SceneVertices::SceneVertices(const Geometry& geometry, const Geometry* bodies)
+    : geometry_(geometry), bodies_(bodies) {}
 
-Vertex SceneVertices::at(const Hit& hit, const Eigen::Vector3f& direction) const {
-  const auto& corners = geometry_.triangles[hit.triangle];
+SceneVertices::Point SceneVertices::pointOf(const Hit& hit) const {
+  const auto fixed = static_cast<std::uint32_t>(geometry_.triangles.size());
+  if (hit.triangle < fixed) return {geometry_, hit};
+  return {*bodies_, {hit.triangle - fixed, hit.u, hit.v, hit.distance}};
+}
+
+const scene::Material& SceneVertices::material(const Hit& hit) const {
+  const auto& [geometry, here] = pointOf(hit);
+  return geometry.scene->materials[static_cast<std::size_t>(geometry.materials[here.triangle])];
+}
+
+Vertex SceneVertices::at(const Hit& at_hit, const Eigen::Vector3f& direction) const {
+  const Point point = pointOf(at_hit);
+  const auto& [geometry, hit] = point;
+  const auto& corners = geometry.triangles[hit.triangle];
   Vertex vertex;
-  vertex.material = &geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[hit.triangle])];
-  const Eigen::Vector3f& front = geometry_.planes[hit.triangle].normal;
+  vertex.material = &geometry.scene->materials[static_cast<std::size_t>(geometry.materials[hit.triangle])];
+  const Eigen::Vector3f& front = geometry.planes[hit.triangle].normal;
   vertex.geometric_normal = front.dot(direction) > 0.0f ? Eigen::Vector3f(-front) : front;
-  Eigen::Vector3f normal = interpolated(geometry_.normals, corners, hit);
+  Eigen::Vector3f normal = interpolated(geometry.normals, corners, hit);
   const float length = normal.norm();
   normal = length > 1e-6f ? Eigen::Vector3f(normal / length) : vertex.geometric_normal;
   if (normal.dot(vertex.geometric_normal) < 0.0f) normal = -normal;
   vertex.reflection = {normal,
                        -direction,
-                       albedo(hit, *vertex.material),
-                       roughness(hit, *vertex.material),
-                       metalness(hit, *vertex.material),
+                       albedo(point, *vertex.material),
+                       roughness(point, *vertex.material),
+                       metalness(point, *vertex.material),
                        vertex.material->transmission,
                        vertex.material->dielectric.value,
-                       vertex.material->dielectric_grazing};
+                       vertex.material->dielectric_grazing,
+                       vertex.material->glass};
   vertex.emission = vertex.material->emission.value;
-  if (const auto color = texel(hit, vertex.material->emission_map, TexelKind::kColor))
+  if (const auto color = texel(point, vertex.material->emission_map, TexelKind::kColor))
     vertex.emission *= *color;
   // Of the corners: far from where the ray started, they tell the place better than its length.
-  const Eigen::Vector3f position = interpolated(geometry_.positions, corners, hit);
+  const Eigen::Vector3f position = interpolated(geometry.positions, corners, hit);
   const Eigen::Vector3f step = rayClearance_m(position, 0.0f) * vertex.geometric_normal;
   vertex.front = position + step;
   vertex.behind = position - step;
   return vertex;
 }
 
-std::optional<Eigen::Array3f> SceneVertices::texel(const Hit& hit, const scene::TextureUse& use,
+std::optional<Eigen::Array3f> SceneVertices::texel(const Point& point, const scene::TextureUse& use,
                                                    TexelKind kind) const {
-  if (!use.given() || !geometry_.coordinates(use.coordinates)) return std::nullopt;
-  const scene::Texture& texture = geometry_.scene->textures[static_cast<std::size_t>(use.texture)];
-  const auto& corners = geometry_.triangles[hit.triangle];
-  const Texels texels(texture, interpolated(*geometry_.coordinates(use.coordinates), corners, hit));
+  const auto& [geometry, hit] = point;
+  if (!use.given() || !geometry.coordinates(use.coordinates)) return std::nullopt;
+  const scene::Texture& texture = geometry.scene->textures[static_cast<std::size_t>(use.texture)];
+  const auto& corners = geometry.triangles[hit.triangle];
+  const Texels texels(texture, interpolated(*geometry.coordinates(use.coordinates), corners, hit));
   const std::array<float, 256>& linear = image::linearOfSrgb();
   const auto at = [&](int x, int y) {
     const std::uint8_t* rgba =
@@ -105,21 +121,22 @@ std::optional<Eigen::Array3f> SceneVertices::texel(const Hit& hit, const scene::
   return Eigen::Array3f(top * (1.0f - texels.fy) + bottom * texels.fy);
 }
 
-Eigen::Array3f SceneVertices::albedo(const Hit& hit, const scene::Material& material) const {
-  const auto& corners = geometry_.triangles[hit.triangle];
-  Eigen::Array3f product = material.base_color.value * interpolated(geometry_.colors, corners, hit);
-  if (const auto color = texel(hit, {material.base_texture}, TexelKind::kColor)) product *= *color;
+Eigen::Array3f SceneVertices::albedo(const Point& point, const scene::Material& material) const {
+  const auto& [geometry, hit] = point;
+  const auto& corners = geometry.triangles[hit.triangle];
+  Eigen::Array3f product = material.base_color.value * interpolated(geometry.colors, corners, hit);
+  if (const auto color = texel(point, {material.base_texture}, TexelKind::kColor)) product *= *color;
   return product.max(0.0f).min(1.0f);
 }
 
-float SceneVertices::roughness(const Hit& hit, const scene::Material& material) const {
-  const auto value = texel(hit, material.roughness_map, TexelKind::kData);
+float SceneVertices::roughness(const Point& point, const scene::Material& material) const {
+  const auto value = texel(point, material.roughness_map, TexelKind::kData);
   if (!value || material.roughness_map.channel > 2) return material.roughness;
   return std::max(material.roughness * (*value)[material.roughness_map.channel], scene::Material::kSmoothest);
 }
 
-float SceneVertices::metalness(const Hit& hit, const scene::Material& material) const {
-  const auto value = texel(hit, material.metalness_map, TexelKind::kData);
+float SceneVertices::metalness(const Point& point, const scene::Material& material) const {
+  const auto value = texel(point, material.metalness_map, TexelKind::kData);
   if (!value || material.metalness_map.channel > 2) return material.metalness;
   return material.metalness * (*value)[material.metalness_map.channel];
 }

@@ -35,20 +35,30 @@ Vertex seenVertex(const Tile& tile, const Surface& surface, const scene::Scene& 
 /// What bounced light meets.
 class SceneVertices {
  public:
-  explicit SceneVertices(const Geometry& geometry);
+  /// Keeps references. `bodies`: what moves, its triangles numbered after those of `geometry`; or null.
+  explicit SceneVertices(const Geometry& geometry, const Geometry* bodies = nullptr);
+
+  const scene::Material& material(const Hit& hit) const;
 
   /// Where a ray that came along unit vector `direction` ends.
   Vertex at(const Hit& hit, const Eigen::Vector3f& direction) const;
 
  private:
   enum class TexelKind { kColor, kData };
+  /// A point of a triangle of one of the two.
+  struct Point {
+    const Geometry& geometry;
+    Hit hit;
+  };
+  Point pointOf(const Hit& hit) const;
   /// Linear, between the texels of the full size.
-  std::optional<Eigen::Array3f> texel(const Hit& hit, const scene::TextureUse& use, TexelKind kind) const;
-  Eigen::Array3f albedo(const Hit& hit, const scene::Material& material) const;
-  float roughness(const Hit& hit, const scene::Material& material) const;
-  float metalness(const Hit& hit, const scene::Material& material) const;
+  std::optional<Eigen::Array3f> texel(const Point& point, const scene::TextureUse& use, TexelKind kind) const;
+  Eigen::Array3f albedo(const Point& point, const scene::Material& material) const;
+  float roughness(const Point& point, const scene::Material& material) const;
+  float metalness(const Point& point, const scene::Material& material) const;
 
   const Geometry& geometry_;
+  const Geometry* bodies_;
 };
 
 }  // namespace sunlit::light

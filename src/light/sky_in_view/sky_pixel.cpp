@@ -102,10 +102,10 @@ int SkyPixel::skySamples(const Tile& tile, int x, int y) {
   return tile.sky[static_cast<std::size_t>((y - tile.y) * tile.width + (x - tile.x))];
 }
 
-float SkyPixel::skyShare(const Tile& tile, int x, int y) const {
+Eigen::Array3f SkyPixel::skyShare(const Tile& tile, int x, int y) const {
   const float share =
       static_cast<float>(skySamples(tile, x, y)) / static_cast<float>(surfaces_.samples_per_pixel);
-  if (tile.sky_share.empty()) return share;
+  if (tile.sky_share.empty()) return Eigen::Array3f::Constant(share);
   return share * tile.sky_share[static_cast<std::size_t>((y - tile.y) * tile.width + (x - tile.x))];
 }
 

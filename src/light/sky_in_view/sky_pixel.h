@@ -39,7 +39,7 @@ class SkyPixel {
   Eigen::Vector3f towards(float x, float y) const;
   /// That see the sky.
   static int skySamples(const Tile& tile, int x, int y);
-  float skyShare(const Tile& tile, int x, int y) const;
+  Eigen::Array3f skyShare(const Tile& tile, int x, int y) const;
   void addCell(const Cell& cell, Corners* corners, image::LinearImage* image) const;
   /// Whether the sky in a cell is as between its corners.
   bool smooth(const Cell& cell, Corners* corners) const;

@@ -89,6 +89,7 @@ Paint Reflectances::at(std::uint32_t triangle, const Eigen::Vector3f& barycentri
   if (material.base_texture != scene::Material::kNoTexture) {
     albedo *= look(thumbnails_, material.base_texture, uv);
   }
+  albedo *= 1.0f - material.glass;  // what goes straight through is not scattered
   return {albedo.max(0.0f).min(1.0f),
           std::max(material.roughness * data(material.roughness_map, triangle, barycentric),
                    scene::Material::kSmoothest),

@@ -279,9 +279,9 @@ TEST(Blending, ShowsEachByItsShare) {
   for (const light::Tile& tile : seen.renderer.surfaces().tiles) {
     for (const light::Surface& s : tile.surfaces) {
       if (s.pixel != 24 * 64 + 32) continue;
-      EXPECT_NEAR(s.share, s.material == 1 ? 0.25f : 0.75f, 1e-5f);
+      EXPECT_NEAR(s.share[0], s.material == 1 ? 0.25f : 0.75f, 1e-5f);
       EXPECT_NEAR(s.position.z(), s.material == 1 ? 1.0f : 0.0f, 1e-4f);
-      total += static_cast<double>(s.share) * s.samples;
+      total += static_cast<double>(s.share[0]) * s.samples;
     }
   }
   EXPECT_NEAR(total, 4.0, 1e-4);
