@@ -8,8 +8,6 @@
 namespace sunlit::light {
 namespace {
 
-/// Of a lamp that is a point: where 1 / d² would grow without end.
-constexpr float kNearest_m = 1e-3f;
 /// Of a cone with a sharp edge, which else would be divided by.
 constexpr float kSharpest = 1e-6f;
 
@@ -21,24 +19,6 @@ LampBeam::LampBeam(const scene::Lamp& lamp)
       least_m_(std::max(lamp.radius_m, kNearest_m)),
       cos_outer_(std::cos(lamp.outer_rad)),
       per_cosine_(1.0f / std::max(std::cos(lamp.inner_rad) - cos_outer_, kSharpest)) {}
-
-float LampBeam::attenuation(float distance_m) const {
-  const float d = std::max(distance_m, least_m_);
-  return 1.0f / (lamp_.constant + d * (lamp_.linear + d * lamp_.quadratic));
-}
-
-float LampBeam::cone(float cosine) const {
-  if (!lamp_.isSpot()) return 1.0f;
-  const float edge = std::clamp((cosine - cos_outer_) * per_cosine_, 0.0f, 1.0f);
-  return edge <= 0.0f || edge >= 1.0f ? edge : std::pow(edge, lamp_.exponent);
-}
-
-float LampBeam::share(const Eigen::Vector3f& point) const {
-  const Eigen::Vector3f away = point - lamp_.position;
-  const float distance_m = away.norm();
-  if (distance_m > lamp_.range_m) return 0.0f;
-  return attenuation(distance_m) * cone(lamp_.direction.dot(away) / std::max(distance_m, kNearest_m));
-}
 
 LampBeam::Bounds LampBeam::within(const Eigen::AlignedBox3f& box) const {
   const Eigen::Vector3f middle = box.center() - lamp_.position;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 #include "sunlit/scene/scene.h"
 
@@ -31,9 +33,14 @@ class LampBeam {
   /// `towards`: the disc that the lamp's ball shows lies across them.
   static Eigen::Matrix<float, 3, 2> across(const Eigen::Vector3f& towards);
 
- private:
-  /// Of the intensity.
+  /// at() in parts of intensity(), brightestAt() in parts of brightest().
   float share(const Eigen::Vector3f& point) const;
+  const Eigen::Array3f& intensity() const { return lamp_.intensity.value; }
+  float brightest() const { return brightest_; }
+
+ private:
+  /// Of a lamp that is a point: where 1 / d² would grow without end.
+  static constexpr float kNearest_m = 1e-3f;
   /// By distance, within the range.
   float attenuation(float distance_m) const;
   /// By the cosine of the angle to the axis.
@@ -44,5 +51,24 @@ class LampBeam {
   float least_m_;  ///< nearer than that nothing gets brighter
   float cos_outer_, per_cosine_;
 };
+
+inline float LampBeam::attenuation(float distance_m) const {
+  const float d = std::max(distance_m, least_m_);
+  return 1.0f / (lamp_.constant + d * (lamp_.linear + d * lamp_.quadratic));
+}
+
+inline float LampBeam::cone(float cosine) const {
+  if (!lamp_.isSpot()) return 1.0f;
+  const float edge = std::clamp((cosine - cos_outer_) * per_cosine_, 0.0f, 1.0f);
+  if (edge <= 0.0f || edge >= 1.0f) return edge;
+  return lamp_.exponent == 2.0f ? edge * edge : std::pow(edge, lamp_.exponent);  // 2: of glTF
+}
+
+inline float LampBeam::share(const Eigen::Vector3f& point) const {
+  const Eigen::Vector3f away = point - lamp_.position;
+  const float distance_m = away.norm();
+  if (distance_m > lamp_.range_m) return 0.0f;
+  return attenuation(distance_m) * cone(lamp_.direction.dot(away) / std::max(distance_m, kNearest_m));
+}
 
 }  // namespace sunlit::light

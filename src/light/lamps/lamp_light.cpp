@@ -13,10 +13,13 @@
 namespace sunlit::light {
 namespace {
 
-constexpr int kPoints = 16, kFirst = 2, kPeriod = 4;
-/// How far a pixel looks for others that find it otherwise, px.
-constexpr int kReach = 2;
-constexpr std::uint8_t kLit = 1, kDark = 2;
+constexpr int kPoints = 16, kFew = 4, kPeriod = 4;
+/// Of the light that may reach a surface: a lamp that gives less is looked at with kFew rays instead of
+/// kPoints, whose scatter in a penumbra is a quarter of its light; and one that gives less than that by the
+/// mean of the pixels around.
+constexpr float kLookedAtByAll = 0.1f, kLookedAtByFew = 0.02f;
+/// How far a pixel looks for others that find it otherwise, and for those of which it takes the mean, px.
+constexpr int kReach = 2, kMeanReach = 4;
 
 /// Points that fill the unit disc evenly (a Fibonacci spiral), those at the rim first: they tell best whether
 /// an edge crosses the disc. Turned differently for each of 4 × 4 pixels, the same in all such blocks.
@@ -46,21 +49,50 @@ Eigen::AlignedBox3f boxOf(const Tile& tile) {
   return box;
 }
 
-/// What rays of one lamp met in a tile, a pixel each: kLit, kDark or both.
+/// What rays of one lamp met in a tile, by pixel.
 class Met {
  public:
-  void note(int x, int y, std::uint8_t what) { at_[index(x)][index(y)] |= what; }
-  bool mixedAround(int x, int y) const {
-    std::uint8_t found = 0;
-    for (int i = std::max(x - kReach, 0); i <= std::min(x + kReach, Surfaces::kTileSize - 1); ++i)
-      for (int k = std::max(y - kReach, 0); k <= std::min(y + kReach, Surfaces::kTileSize - 1); ++k)
-        found |= at_[index(i)][index(k)];
-    return found == (kLit | kDark);
+  struct Count {
+    int lit = 0, cast = 0;
+  };
+  void note(int x, int y, const Count& found) {
+    Count& count = at_[index(y)][index(x)];
+    count.lit += found.lit;
+    count.cast += found.cast;
+    if (found.lit > 0) lit_[index(y)] |= 1u << x;
+    if (found.lit < found.cast) dark_[index(y)] |= 1u << x;
+  }
+  Count around(int x, int y, int reach) const {
+    Count found;
+    for (int i = first(y, reach); i <= last(y, reach); ++i) {
+      for (int k = first(x, reach); k <= last(x, reach); ++k) {
+        found.lit += at_[index(i)][index(k)].lit;
+        found.cast += at_[index(i)][index(k)].cast;
+      }
+    }
+    return found;
+  }
+  struct Kinds {
+    bool lit, dark;
+  };
+  /// What is within kReach.
+  Kinds near(int x, int y) const {
+    unsigned lit = 0, dark = 0;
+    for (int i = first(y, kReach); i <= last(y, kReach); ++i) {
+      lit |= lit_[index(i)];
+      dark |= dark_[index(i)];
+    }
+    // Column x moved to bit kReach.
+    constexpr unsigned kWindow = (1u << (2 * kReach + 1)) - 1u;
+    return {((lit << kReach >> x) & kWindow) != 0, ((dark << kReach >> x) & kWindow) != 0};
   }
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  std::array<std::array<std::uint8_t, Surfaces::kTileSize>, Surfaces::kTileSize> at_ = {};
+  static int first(int i, int reach) { return std::max(i - reach, 0); }
+  static int last(int i, int reach) { return std::min(i + reach, Surfaces::kTileSize - 1); }
+  std::array<std::array<Count, Surfaces::kTileSize>, Surfaces::kTileSize> at_ = {};
+  std::array<unsigned, Surfaces::kTileSize> lit_ = {}, dark_ = {};  ///< a bit a column
 };
 
 }  // namespace
@@ -90,29 +122,29 @@ std::vector<std::uint32_t> LampLight::lampsOf(const Tile& tile) const {
 }
 
 std::vector<LampLight::Target> LampLight::targetsOf(const LampBeam& beam, const Tile& tile,
-                                                    const std::vector<float>& least_lx) const {
+                                                    const Lit& lit) const {
   std::vector<Target> targets;
   const auto width = static_cast<std::uint32_t>(picture_.surfaces.width);
   for (std::uint32_t i = 0; i < tile.surfaces.size(); ++i) {
+    if (!(lit.shares[i] * beam.brightest() > lit.least_lx[i])) continue;
     const Surface& surface = tile.surfaces[i];
-    if (!(beam.brightestAt(surface.position) > least_lx[i])) continue;
-    const scene::Material& material = picture_.scene.materials[static_cast<std::size_t>(surface.material)];
     const Eigen::Vector3f way = beam.position() - surface.position;
+    const Reflection& reflection = lit.reflections[i];
+    if (surface.geometric_normal.dot(way) <= 0.0f && !(reflection.transmission > 0.0f)) continue;
     const float distance_m = std::max(way.norm(), 1e-6f);
-    const Eigen::Vector3f towards = way / distance_m;
-    if (surface.geometric_normal.dot(towards) <= 0.0f && !(material.transmission > 0.0f)) continue;
     const Eigen::Array3f luminance =
-        directReflectance(reflectionOf(surface, material), towards, std::atan(beam.radius_m() / distance_m)) *
-        beam.at(surface.position);
+        directReflectance(reflection, way / distance_m, std::atan(beam.radius_m() / distance_m)) *
+        (beam.intensity() * lit.shares[i]);
     if (!(luminance.maxCoeff() > 0.0f)) continue;
+    const bool fills = surface.samples == static_cast<std::uint32_t>(picture_.surfaces.samples_per_pixel);
     targets.push_back({i, luminance, static_cast<std::uint8_t>(surface.pixel % width % Surfaces::kTileSize),
-                       static_cast<std::uint8_t>(surface.pixel / width % Surfaces::kTileSize), 0, 0});
+                       static_cast<std::uint8_t>(surface.pixel / width % Surfaces::kTileSize), 0, 0, fills,
+                       Closeness::kAll, 1.0f});
   }
   return targets;
 }
 
-void LampLight::cast(const LampBeam& beam, const Tile& tile, const std::vector<Target*>& targets,
-                     int up_to) const {
+void LampLight::cast(const LampBeam& beam, const Tile& tile, const std::vector<Target*>& targets) const {
   thread_local RayList rays;
   thread_local std::vector<std::uint8_t> blocked;
   rays.clear();
@@ -121,6 +153,7 @@ void LampLight::cast(const LampBeam& beam, const Tile& tile, const std::vector<T
     Target& target = *targets[k];
     const Surface& surface = tile.surfaces[target.surface];
     const PointsOfPixel& points = pointsOf(target.x, target.y);
+    const int up_to = target.cast == 0 ? 1 : (target.closeness == Closeness::kAll ? kPoints : kFew);
     for (; target.cast < up_to; ++target.cast) {
       const std::uint32_t at = surface.first_sample + (target.cast + target.x + target.y) % surface.samples;
       Eigen::Vector3f origin(tile.origin_x[at], tile.origin_y[at], tile.origin_z[at]);
@@ -144,44 +177,118 @@ void LampLight::cast(const LampBeam& beam, const Tile& tile, const std::vector<T
   for (std::size_t i = 0; i < rays.size(); ++i) targets[rays.number()[i]]->lit += 1 - blocked[i];
 }
 
-void LampLight::findShadows(const LampBeam& beam, const Tile& tile, std::vector<Target>* targets) const {
+void LampLight::findShadows(std::uint32_t lamp, const Tile& tile, std::vector<Target>* targets) const {
+  // Other pixels for other lamps, so that what they do not see does not fall together.
+  const int aside = static_cast<int>(lamp * 5 % (kPeriod * kPeriod));
+  const auto probes = [&](const Target& target) {
+    const int x = target.x + aside % kPeriod, y = target.y + aside / kPeriod;
+    switch (target.closeness) {
+      case Closeness::kAll:
+        return true;
+      case Closeness::kFew:
+        return !target.fills || (x + y) % 2 == 0;
+      case Closeness::kMean:
+        return x % kPeriod == 0 && y % kPeriod == 0;
+    }
+    return true;
+  };
+  const LampBeam& beam = beams_[lamp];
   std::vector<Target*> asked;
   asked.reserve(targets->size());
-  for (Target& target : *targets) asked.push_back(&target);
-  cast(beam, tile, asked, kFirst);
-  Met met;
-  for (const Target& target : *targets) {
-    if (target.lit > 0) met.note(target.x, target.y, kLit);
-    if (target.lit < target.cast) met.note(target.x, target.y, kDark);
-  }
-  asked.clear();
   for (Target& target : *targets)
-    if (met.mixedAround(target.x, target.y)) asked.push_back(&target);
-  cast(beam, tile, asked, kPoints);
+    if (probes(target)) asked.push_back(&target);
+  cast(beam, tile, asked);
+  Met met;
+  for (const Target* target : asked) met.note(target->x, target->y, {target->lit, target->cast});
+  asked.clear();
+  std::vector<Target*> alone;
+  for (Target& target : *targets) {
+    if (target.closeness == Closeness::kMean) {
+      const Met::Count found = met.around(target.x, target.y, kMeanReach);
+      if (found.cast == 0)
+        alone.push_back(&target);
+      else
+        target.seen = static_cast<float>(found.lit) / static_cast<float>(found.cast);
+      continue;
+    }
+    const Met::Kinds found = met.near(target.x, target.y);
+    if (found.lit != found.dark) {
+      target.seen = found.lit ? 1.0f : 0.0f;
+      continue;
+    }
+    if (target.cast == 0) alone.push_back(&target);
+    if (found.lit) asked.push_back(&target);
+  }
+  cast(beam, tile, alone);
+  cast(beam, tile, asked);
+  for (const std::vector<Target*>* list : {&alone, &asked})
+    for (Target* target : *list)
+      target->seen = static_cast<float>(target->lit) / static_cast<float>(target->cast);
+}
+
+std::vector<LampLight::OfLamp> LampLight::targetsOf(const Tile& tile) const {
+  const std::vector<std::uint32_t> lamps = lampsOf(tile);
+  if (lamps.empty()) return {};
+  const std::size_t count = tile.surfaces.size();
+  std::vector<Eigen::Vector3f> positions(count);
+  std::vector<Reflection> reflections;
+  reflections.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Surface& surface = tile.surfaces[i];
+    positions[i] = surface.position;
+    reflections.push_back(
+        reflectionOf(surface, picture_.scene.materials[static_cast<std::size_t>(surface.material)]));
+  }
+  std::vector<float> shares(lamps.size() * count), least_lx(count, day_lx_);
+  for (std::size_t k = 0; k < lamps.size(); ++k) {
+    const LampBeam& beam = beams_[lamps[k]];
+    for (std::size_t i = 0; i < count; ++i) {
+      const float share = beam.share(positions[i]);
+      shares[k * count + i] = share;
+      least_lx[i] += share * beam.brightest();
+    }
+  }
+  // The other half of kLeftOut: what each of the lamps may fall short of at each surface.
+  for (float& lx : least_lx) lx *= 0.5f * kLeftOut / static_cast<float>(lamps.size());
+  std::vector<OfLamp> all;
+  all.reserve(lamps.size());
+  for (std::size_t k = 0; k < lamps.size(); ++k) {
+    const Lit lit{shares.data() + k * count, least_lx, reflections};
+    OfLamp of{lamps[k], 0.0f, targetsOf(beams_[lamps[k]], tile, lit)};
+    if (of.targets.empty()) continue;
+    for (const Target& target : of.targets) of.sum += target.unhidden.maxCoeff();
+    all.push_back(std::move(of));
+  }
+  std::sort(all.begin(), all.end(), [](const OfLamp& a, const OfLamp& b) {
+    return a.sum != b.sum ? a.sum > b.sum : a.lamp < b.lamp;
+  });
+  return all;
 }
 
 void LampLight::light(const Tile& tile, std::vector<Eigen::Array3f>* luminances) const {
   luminances->clear();
   if (beams_.empty() || tile.surfaces.empty()) return;
-  const std::vector<std::uint32_t> lamps = lampsOf(tile);
-  if (lamps.empty()) return;
+  std::vector<OfLamp> all = targetsOf(tile);
+  if (all.empty()) return;
   luminances->assign(tile.surfaces.size(), Eigen::Array3f::Zero());
-  // The other half of kLeftOut: what each of the lamps may fall short of at each surface.
-  std::vector<float> least_lx(tile.surfaces.size());
-  const float each = 0.5f * kLeftOut / static_cast<float>(lamps.size());
-  for (std::size_t i = 0; i < least_lx.size(); ++i) {
-    float sum = day_lx_;
-    for (const std::uint32_t lamp : lamps) sum += beams_[lamp].brightestAt(tile.surfaces[i].position);
-    least_lx[i] = each * sum;
-  }
-  for (const std::uint32_t lamp : lamps) {
-    const LampBeam& beam = beams_[lamp];
-    std::vector<Target> targets = targetsOf(beam, tile, least_lx);
-    if (beam.castsShadows()) findShadows(beam, tile, &targets);
-    for (const Target& target : targets) {
-      const float seen =
-          target.cast == 0 ? 1.0f : static_cast<float>(target.lit) / static_cast<float>(target.cast);
-      (*luminances)[target.surface] += seen * target.unhidden;
+  // What may reach each surface: what did, and what lamps not yet looked at give where nothing is in the way.
+  std::vector<float> possible(tile.surfaces.size(), 0.0f);
+  for (const OfLamp& of : all)
+    for (const Target& target : of.targets) possible[target.surface] += target.unhidden.maxCoeff();
+  for (OfLamp& of : all) {
+    for (Target& target : of.targets) {
+      const float share = target.unhidden.maxCoeff() / possible[target.surface];
+      target.closeness = share >= kLookedAtByAll   ? Closeness::kAll
+                         : share >= kLookedAtByFew ? Closeness::kFew
+                                                   : Closeness::kMean;
+    }
+    if (beams_[of.lamp].castsShadows()) findShadows(of.lamp, tile, &of.targets);
+    for (const Target& target : of.targets) {
+      (*luminances)[target.surface] += target.seen * target.unhidden;
+      // Not less than what is there: rounding must not make it nothing.
+      possible[target.surface] =
+          std::max(possible[target.surface] - (1.0f - target.seen) * target.unhidden.maxCoeff(),
+                   (*luminances)[target.surface].maxCoeff());
     }
   }
 }

@@ -6,14 +6,17 @@
 #include <vector>
 
 #include "light/lamps/lamp_beam.h"
+#include "sunlit/light/shading.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/visibility.h"
 #include "sunlit/scene/scene.h"
 
 namespace sunlit::light {
 
-/// Shadows are soft by the lamps' size: two rays a surface and lamp, and where surfaces near it within its
-/// tile find both light and shade, as many as a lamp has points.
+/// Shadows are soft by the lamps' size. The more of a surface's light a lamp may give, the closer one looks:
+/// for most lamps all surfaces cast one ray, for weaker ones every second of what fills pixels, and where
+/// those near it within its tile find both light and shade, more; for the weakest every sixteenth pixel, of
+/// which one takes the mean.
 class LampLight {
  public:
   /// Lamps are left out of a surface that together would give a plane facing them at most this share of what
@@ -33,19 +36,38 @@ class LampLight {
   void light(const Tile& tile, std::vector<Eigen::Array3f>* luminances) const;
 
  private:
+  /// How closely one looks for shadows, by the share that a lamp may have of the light that reaches a
+  /// surface.
+  enum class Closeness : std::uint8_t { kMean, kFew, kAll };
   /// A surface that a lamp may light.
   struct Target {
     std::uint32_t surface;
     Eigen::Array3f unhidden;  ///< luminance by the lamp where nothing is in the way
     std::uint8_t x, y;        ///< pixel in the tile
     std::uint8_t lit, cast;   ///< rays
+    bool fills;               ///< alone in its pixel
+    Closeness closeness;
+    float seen;  ///< share of the lamp that is not hidden
   };
 
   std::vector<std::uint32_t> lampsOf(const Tile& tile) const;
-  std::vector<Target> targetsOf(const LampBeam& beam, const Tile& tile,
-                                const std::vector<float>& least_lx) const;
-  void findShadows(const LampBeam& beam, const Tile& tile, std::vector<Target>* targets) const;
-  void cast(const LampBeam& beam, const Tile& tile, const std::vector<Target*>& targets, int up_to) const;
+  /// What is known of a tile's surfaces before one lamp shines on them.
+  struct Lit {
+    const float* shares;  ///< LampBeam::share()
+    const std::vector<float>& least_lx;
+    const std::vector<Reflection>& reflections;
+  };
+  std::vector<Target> targetsOf(const LampBeam& beam, const Tile& tile, const Lit& lit) const;
+  /// Of lamps that matter, the brightest in the tile first: where they are hidden, the others are looked at
+  /// more closely.
+  struct OfLamp {
+    std::uint32_t lamp;
+    float sum;  ///< of all of its targets
+    std::vector<Target> targets;
+  };
+  std::vector<OfLamp> targetsOf(const Tile& tile) const;
+  void findShadows(std::uint32_t lamp, const Tile& tile, std::vector<Target>* targets) const;
+  void cast(const LampBeam& beam, const Tile& tile, const std::vector<Target*>& targets) const;
 
   std::vector<LampBeam> beams_;
   float day_lx_;

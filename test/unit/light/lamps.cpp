@@ -193,9 +193,10 @@ TEST(Lamps, LookAsByTracedPaths) {
       rowValues(traceReference(surfaces, world, {uniformDay(0.0f)}, options)[0].luminance);
   const std::vector<double> fast = lit(world, lamps, points);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    // A sixteenth of the soft lamp in its penumbra, which is 0.8 m wide; 1 % elsewhere, of lobes widened.
+    // A sixteenth of the soft lamp in its penumbra, which is 0.8 m wide; elsewhere 1 % of lobes widened, and,
+    // as the pixels are 0.2 m apart, the shadow of a lamp that gives less than 2 % may be that beside it.
     const bool penumbra = std::abs(points[i].position.x() - 2.0f) < 0.6f;
-    EXPECT_NEAR(fast[i], slow[i], (penumbra ? 0.08 : 0.015) * slow[i] + 1e-3) << points[i].position.x();
+    EXPECT_NEAR(fast[i], slow[i], (penumbra ? 0.08 : 0.03) * slow[i] + 1e-3) << points[i].position.x();
   }
 }
 
