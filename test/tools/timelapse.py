@@ -215,6 +215,20 @@ class Timelapse(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(pathlib.Path(self.path("world.glb")).read_bytes()[:4], b"glTF")
 
+    def test_export_world_bakes_vertex_colours_into_textures(self):
+        world = self.path("colours.obj")
+        pathlib.Path(world).write_text("v 0 0 0 1 0 0\nv 50 0 0 0 1 0\nv 0 50 0 0 0 1\nvn 0 0 1\nf 1//1 2//1 3//1\n",
+                                       encoding="ascii")
+        done = run("export_world", "--world", world, "--texel", "0.1", "--out", self.path("baked.glb"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"^1 textures of \d")
+        glb = pathlib.Path(self.path("baked.glb")).read_bytes()
+        self.assertIn(b"TEXCOORD_0", glb)
+        self.assertNotIn(b"COLOR_0", glb)
+        done = run("export_world", "--world", world, "--texel", "0.001", "--out", self.path("baked.glb"))
+        self.assertEqual(done.returncode, 0, done.stderr)  # as fine as a page allows
+        self.assertIn("too large for a page", done.stderr)
+
 
 if __name__ == "__main__":
     rosunit.unitrun("sunlit", "tools_timelapse", Timelapse, sysargs=sys.argv)

@@ -187,6 +187,31 @@ TEST_F(MeshFile, ObjIsTakenAsZUpAndGetsNormals) {
   for (const Eigen::Vector3f& normal : scene.meshes[0].normals) EXPECT_EQ(normal, Eigen::Vector3f(0, 0, 1));
 }
 
+TEST_F(MeshFile, VertexColoursOfObjAreDisplayValues) {
+  const std::string file = write("colors.obj",
+                                 "v 0 0 0 0.5 1 0\nv 1 0 0 0.5 1 0\nv 0 1 0 0.5 1 0\n"
+                                 "vn 0 0 1\nf 1//1 2//1 3//1\n");
+  const Scene scene = load(file, {});
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  ASSERT_EQ(scene.meshes[0].colors.size(), 3u);
+  // IEC 61966-2-1: ((0.5 + 0.055) / 1.055)^2.4.
+  for (const Eigen::Array3f& color : scene.meshes[0].colors)
+    EXPECT_LT((color - Eigen::Array3f(0.21404f, 1.0f, 0.0f)).abs().maxCoeff(), 1e-4f);
+}
+
+TEST_F(MeshFile, EmissionOfObjIsThatOfADisplay) {
+  write("glow.mtl", "newmtl glow\nKd 0.5 0.5 0.5\nKe 1 0.5 0\n");
+  const std::string file = write("glow.obj",
+                                 "mtllib glow.mtl\nusemtl glow\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                 "vn 0 0 1\nf 1//1 2//1 3//1\n");
+  const Scene scene = load(file, {});
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  const Material& glow = scene.materials[static_cast<std::size_t>(scene.meshes[0].material)];
+  // White of the reference display is 80 cd/m², half of its code 21.4 % of that.
+  EXPECT_LT((glow.emission.value - Eigen::Array3f(80.0f, 80.0f * 0.21404f, 0.0f)).abs().maxCoeff(), 0.05f)
+      << glow.emission.value.transpose();
+}
+
 TEST_F(MeshFile, BrokenTrianglesAreLeftOutAndCounted) {
   const Scene scene =
       load(write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n"), {});
