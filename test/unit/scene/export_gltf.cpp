@@ -313,7 +313,7 @@ TEST_F(ExportGltf, NamesWhatOtherProgramsDoNotKnow) {
   }
 }
 
-TEST_F(ExportGltf, GlassIsWrittenAsTransmission) {
+TEST_F(ExportGltf, GlassComesBackAsTransmission) {
   Scene scene = sample();
   scene.materials[1].metalness = 0.0f;
   scene.materials[1].glass = 0.75f;
@@ -321,6 +321,9 @@ TEST_F(ExportGltf, GlassIsWrittenAsTransmission) {
   std::ifstream stream(pathOf("scene.glb"), std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   EXPECT_NE(text.find("\"KHR_materials_transmission\":{\"transmissionFactor\":0.75}"), std::string::npos);
+  const Scene back = load(pathOf("scene.glb"), {});
+  EXPECT_EQ(back.materials[1].glass, 0.75f);
+  EXPECT_EQ(back.materials[1].alpha_mode, AlphaMode::kOpaque);
 }
 
 TEST_F(ExportGltf, MaterialsComeBackInWhateverOrderMeshesUseThem) {
