@@ -281,12 +281,12 @@ struct BakedLooks::Plan {
     }
     std::set<std::string> plain;
     for (const scene::Material& material : scene.materials) {
-      if (material.detail.contrast > 0.0f && material.alpha_mode != scene::AlphaMode::kOpaque)
-        plain.insert(material.name);
+      if (material.detail.contrast > 0.0f && !canBePainted(material)) plain.insert(material.name);
     }
     if (!plain.empty())
-      notes.push_back(std::to_string(plain.size()) +
-                      " materials are cut out or blend and lose their fractal detail: " + *plain.begin());
+      notes.push_back(
+          std::to_string(plain.size()) +
+          " materials are cut out, blend or are glass, and lose their fractal detail: " + *plain.begin());
     const Assembly assembly(scene, charts, pages);
     if (!assembly.cut().empty())
       notes.push_back(std::to_string(assembly.cut().size()) +

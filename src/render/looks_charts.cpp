@@ -92,13 +92,17 @@ bool isUniform(const scene::Mesh& mesh) {
 
 }  // namespace
 
+bool canBePainted(const scene::Material& material) {
+  return material.alpha_mode == scene::AlphaMode::kOpaque && material.glass == 0.0f;
+}
+
 Look lookOf(const scene::Mesh& mesh, const scene::Material& material) {
   const bool colored = std::any_of(mesh.colors.begin(), mesh.colors.end(),
                                    [](const Eigen::Array3f& color) { return (color != 1.0f).any(); });
   const bool detailed = material.detail.contrast > 0.0f;
   if (!colored && !detailed) return Look::kAsItIs;
   if (!detailed && isUniform(mesh)) return Look::kTinted;
-  return material.alpha_mode == scene::AlphaMode::kOpaque ? Look::kPainted : Look::kTinted;
+  return canBePainted(material) ? Look::kPainted : Look::kTinted;
 }
 
 std::vector<Chart> chartsOf(const scene::Scene& scene) {

@@ -36,6 +36,9 @@ struct Chart {
   Eigen::Array2f step_m() const { return extent_m / size.cast<float>(); }
 };
 
+/// Nothing is cut out of it and nothing seen through it.
+bool canBePainted(const scene::Material& material);
+
 /// What becomes of the colours and the detail of a mesh.
 enum class Look { kAsItIs, kTinted, kPainted };
 Look lookOf(const scene::Mesh& mesh, const scene::Material& material);

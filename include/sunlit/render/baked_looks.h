@@ -26,8 +26,8 @@ inline std::vector<Field> fieldsOf(BakedLooksOptions& options) {
 
 /// A scene without scene::Detail and vertex colours. Opaque surfaces that have them get a texture of their
 /// own: triangles, two by two where they lie in a plane, side by side on pages. Finer where their own
-/// texture is finer, to a quarter of the texel. Others, cut out or blending, keep their texture and are
-/// tinted by triangle, in steps of 1/32 of the root of a colour.
+/// texture is finer, to a quarter of the texel. Others, cut out, blending or of glass, keep their texture and
+/// are tinted by triangle, in steps of 1/32 of the root of a colour.
 class BakedLooks {
  public:
   static constexpr double kNear_m = 10.0;

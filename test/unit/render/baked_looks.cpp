@@ -121,6 +121,18 @@ TEST(BakedLooks, TintWhatIsCutOut) {
   EXPECT_LT(differenceOf(pictureOf(scene), pictureOf(baked)), 0.03);
 }
 
+TEST(BakedLooks, TintGlassAndNameWhatItLoses) {
+  scene::Scene scene = colorful(0.3f);
+  scene.materials[0].glass = 0.9f;
+  const BakedLooks looks(scene, texelsOf(0.01));
+  EXPECT_EQ(looks.pages(), 0u);
+  ASSERT_EQ(looks.notes().size(), 1u);
+  EXPECT_NE(looks.notes()[0].find("glass"), std::string::npos) << looks.notes()[0];
+  const scene::Scene baked = looks.make({});
+  expectWithoutLooks(baked);
+  for (const scene::Material& material : baked.materials) EXPECT_EQ(material.glass, 0.9f);
+}
+
 TEST(BakedLooks, LeaveAloneWhatHasNeither) {
   scene::Scene scene;
   scene.materials.emplace_back();
