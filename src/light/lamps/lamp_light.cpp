@@ -98,7 +98,7 @@ class Met {
 }  // namespace
 
 LampLight::LampLight(const std::vector<scene::Lamp>& lamps, float day_lx, const Picture& picture)
-    : beams_(lamps.begin(), lamps.end()), day_lx_(day_lx), picture_(picture) {}
+    : beams_(lamps.begin(), lamps.end()), day_lx_(day_lx), picture_(picture), glass_(picture.visibility) {}
 
 /// Without those, weakest first, whose sum is at most half of kLeftOut everywhere in the tile.
 std::vector<std::uint32_t> LampLight::lampsOf(const Tile& tile) const {
@@ -265,6 +265,18 @@ std::vector<LampLight::OfLamp> LampLight::targetsOf(const Tile& tile) const {
   return all;
 }
 
+Eigen::Array3f LampLight::throughGlass(const LampBeam& beam, const Tile& tile, const Surface& surface) const {
+  const std::size_t at = surface.first_sample;
+  Eigen::Vector3f origin(tile.origin_x[at], tile.origin_y[at], tile.origin_z[at]);
+  if (surface.geometric_normal.dot(beam.position() - origin) <= 0.0f)
+    origin -= 2.0f * surface.clearance_m * surface.geometric_normal;
+  const Eigen::Vector3f way = beam.position() - origin;
+  // What lies within the lamp's ball is part of it.
+  const float reach = 1.0f - beam.radius_m() / std::max(way.norm(), 1e-6f);
+  if (!(reach > 0.0f)) return Eigen::Array3f::Ones();
+  return glass_.through({origin, way, 0.0f, reach});
+}
+
 void LampLight::light(const Tile& tile, std::vector<Eigen::Array3f>* luminances) const {
   luminances->clear();
   if (beams_.empty() || tile.surfaces.empty()) return;
@@ -284,7 +296,10 @@ void LampLight::light(const Tile& tile, std::vector<Eigen::Array3f>* luminances)
     }
     if (beams_[of.lamp].castsShadows()) findShadows(of.lamp, tile, &of.targets);
     for (const Target& target : of.targets) {
-      (*luminances)[target.surface] += target.seen * target.unhidden;
+      Eigen::Array3f arrives = target.seen * target.unhidden;
+      if (glass_.any() && target.seen > 0.0f)
+        arrives *= throughGlass(beams_[of.lamp], tile, tile.surfaces[target.surface]);
+      (*luminances)[target.surface] += arrives;
       // Not less than what is there: rounding must not make it nothing.
       possible[target.surface] =
           std::max(possible[target.surface] - (1.0f - target.seen) * target.unhidden.maxCoeff(),

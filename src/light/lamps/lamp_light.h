@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "light/glass_sheets.h"
 #include "light/lamps/lamp_beam.h"
 #include "sunlit/light/shading.h"
 #include "sunlit/light/surfaces.h"
@@ -69,9 +70,13 @@ class LampLight {
   void findShadows(std::uint32_t lamp, const Tile& tile, std::vector<Target>* targets) const;
   void cast(const LampBeam& beam, const Tile& tile, const std::vector<Target*>& targets) const;
 
+  /// Share of a lamp's light that glass on the way leaves to a surface.
+  Eigen::Array3f throughGlass(const LampBeam& beam, const Tile& tile, const Surface& surface) const;
+
   std::vector<LampBeam> beams_;
   float day_lx_;
   Picture picture_;
+  GlassSheets glass_;
 };
 
 }  // namespace sunlit::light

@@ -116,6 +116,25 @@ TEST(SunBehindGlass, IsDimmedByTheAngleAtWhichItPasses) {
   }
 }
 
+TEST(LampBehindGlass, IsDimmedByTheAngleAtWhichItPasses) {
+  const auto seen = [&](bool glazed) {
+    scene::Scene scene;
+    addGround(&scene, addMaterial(&scene, {0.5f, 0.5f, 0.5f}), 50.0f);
+    const int pane = addGlass(&scene);
+    if (glazed) addPatch(&scene, pane, {-30.0f, -30.0f, 3.0f}, {60.0f, 0.0f, 0.0f}, {0.0f, 60.0f, 0.0f});
+    light::World world(shared(scene));
+    render::Renderer renderer(world, smallCamera(33, 33, 5.0));
+    renderer.look(lookingAt({0.0, 0.0, 2.0}, {0.0, 0.0, 0.0}));
+    scene::Lamp lamp;
+    lamp.position = {std::sqrt(75.0f), 0.0f, 5.0f};  // 60° from the zenith
+    lamp.intensity = LinearRgb(1000.0f, 1000.0f, 1000.0f);
+    light::Illumination light(night());
+    light.lamps = std::make_shared<const std::vector<scene::Lamp>>(1, lamp);
+    return at(renderer.light(light), 16, 16)[1];
+  };
+  EXPECT_NEAR(seen(true) / seen(false), through(0.5f), 0.005f);  // the pixel sees it at 60 ± 0.2°
+}
+
 /// Pixel that shows `point`.
 Eigen::Vector2i pixelOf(const Eigen::Isometry3d& map_from_optical, const image::PinholeCamera& camera,
                         const Eigen::Vector3d& point) {
