@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "light/reference/vertex.h"
+#include "light/vertex.h"
 #include "sunlit/light/visibility.h"
 
 namespace sunlit::light {

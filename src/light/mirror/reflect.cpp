@@ -7,7 +7,7 @@
 #include "light/glass_sheets.h"
 #include "light/mirror/reflections.h"
 #include "light/ray_list.h"
-#include "light/reference/vertex.h"
+#include "light/vertex.h"
 #include "sunlit/light/body_light.h"
 #include "sunlit/light/lighting.h"
 #include "sunlit/light/shading.h"

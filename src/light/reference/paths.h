@@ -12,7 +12,7 @@
 #include "light/random.h"
 #include "light/reference/scatter.h"
 #include "light/reference/sky_sampler.h"
-#include "light/reference/vertex.h"
+#include "light/vertex.h"
 #include "sunlit/light/reference.h"
 
 namespace sunlit::light {

@@ -1,4 +1,4 @@
-#include "light/reference/vertex.h"
+#include "light/vertex.h"
 
 #include <algorithm>
 #include <cmath>
