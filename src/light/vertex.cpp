@@ -88,7 +88,8 @@ Vertex SceneVertices::at(const Hit& at_hit, const Eigen::Vector3f& direction) co
                        vertex.material->dielectric.value,
                        vertex.material->dielectric_grazing,
                        vertex.material->glass};
-  vertex.emission = vertex.material->emission.value;
+  const bool shines = vertex.material->double_sided || front.dot(direction) <= 0.0f;
+  vertex.emission = shines ? vertex.material->emission.value : Eigen::Array3f(Eigen::Array3f::Zero());
   if (const auto color = texel(point, vertex.material->emission_map, TexelKind::kColor))
     vertex.emission *= *color;
   // Of the corners: far from where the ray started, they tell the place better than its length.

@@ -16,6 +16,8 @@ enum Dimension : std::size_t { kDirection = 0, kOnDisc = 3, kInSky = 5, kSurviva
 constexpr int kSureBounces = 3;
 /// Random numbers of glass on the way lie beyond those of all bounces.
 constexpr std::uint64_t kGlass = std::uint64_t{1} << 32;
+/// Likewise those of points that shine, three a bounce.
+constexpr std::uint64_t kShining = std::uint64_t{1} << 33;
 
 void appendDisc(const sky::DiscLight& light, std::size_t day, std::vector<Disc>* discs) {
   if (!(light.illuminance.value.maxCoeff() > 0.0f)) return;
@@ -38,6 +40,7 @@ PathScene::PathScene(const World& world_to_trace, const std::vector<sky::Dayligh
       samples_per_pixel(samples_in_pixel),
       vertices(*world_to_trace.geometry),
       glass(*world_to_trace.visibility),
+      emitters(*world_to_trace.geometry),
       lamps(options.lamps.begin(), options.lamps.end()) {
   for (std::size_t day = 0; day < days.size(); ++day) {
     appendDisc(days[day].sun(), day, &discs);
@@ -90,7 +93,8 @@ std::array<Radiances, 2> Paths::luminance(const Tile& tile, const Surface& surfa
   start(tile, surface);
   const auto per_half = static_cast<float>(paths_.size() / 2);
   for (int bounce = 0; !paths_.empty(); ++bounce) {
-    addEmission(bounce);
+    if (bounce == 0) addEmission();
+    addShining(bounce);
     for (const Disc& disc : scene_.discs) addDisc(disc, bounce);
     for (const LampBeam& lamp : scene_.lamps) addLamp(lamp, bounce);
     for (std::size_t day = 0; day < scene_.days.size(); ++day) addSkyOf(day, bounce);
@@ -109,14 +113,51 @@ float Paths::random(const Path& path, int bounce, std::size_t dimension) const {
   return uniform(path.key, static_cast<std::uint64_t>(bounce) * kPerBounce + dimension);
 }
 
-void Paths::addEmission(int bounce) {
+void Paths::addEmission() {
   for (const Path& path : paths_) {
     const Eigen::Array3f& emission = path.vertex.emission;
-    if (!(emission.maxCoeff() > 0.0f)) continue;
-    const bool of_lamps = !path.vertex.material->lamp_group.empty();
-    if (of_lamps && (bounce > 0 || !glows(*path.vertex.material, scene_.options.lamps))) continue;
+    if (!(emission.maxCoeff() > 0.0f) || !glows(*path.vertex.material, scene_.options.lamps)) continue;
     for (Eigen::Array3f& sum : sums_[static_cast<std::size_t>(path.half)]) sum += path.throughput * emission;
   }
+}
+
+// Weighed as the sky's directions are, see addSkyOf().
+void Paths::addShining(int bounce) {
+  if (!scene_.emitters.any()) return;
+  bundle_.clear();
+  weights_.clear();
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    const Vertex& vertex = paths_[i].vertex;
+    const std::uint64_t number = kShining + 3 * static_cast<std::uint64_t>(bounce);
+    const std::uint64_t key = paths_[i].key;
+    const Emitters::Point point =
+        scene_.emitters.sample({uniform(key, number), uniform(key, number + 1), uniform(key, number + 2)});
+    const Eigen::Vector3f middle = point.position - vertex.front;
+    const float distance_m = middle.norm();
+    if (!(distance_m > 0.0f)) continue;
+    const Eigen::Vector3f towards = middle / distance_m;
+    if (!vertex.faces(towards)) continue;
+    const Eigen::Array3f emission = scene_.vertices.at(point.hit, towards).emission;
+    const Eigen::Array3f weight = directReflectance(vertex.reflection, towards, 0.0f) * emission;
+    if (!(weight.maxCoeff() > 0.0f)) continue;
+    const float density =
+        scene_.emitters.density(point.hit, towards, distance_m) + scatterDensity(vertex.reflection, towards);
+    const Eigen::Vector3f way = point.position - vertex.origin(towards);
+    const float clear = 2.0f * rayClearance_m(point.position, 0.0f) / way.norm();
+    bundle_.add(vertex.origin(towards), std::max(1.0f - clear, 1e-6f) * way, i);
+    weights_.push_back(paths_[i].throughput * weight / density);
+  }
+  castAndAddOnAllDays(true);
+}
+
+void Paths::addShineMet(std::size_t i, const Path& path) {
+  const Vertex met = scene_.vertices.at(hits_[i], scattered_[i].towards);
+  if (!(met.emission.maxCoeff() > 0.0f) || !met.material->lamp_group.empty()) return;
+  const float distance_m = (met.front - path.vertex.front).norm();
+  const float density =
+      scattered_[i].density + scene_.emitters.density(hits_[i], scattered_[i].towards, distance_m);
+  const Eigen::Array3f weight = path.throughput * scattered_[i].reflectance / density;
+  for (Eigen::Array3f& sum : sums_[static_cast<std::size_t>(path.half)]) sum += weight * met.emission;
 }
 
 void Paths::addDisc(const Disc& disc, int bounce) {
@@ -160,11 +201,15 @@ void Paths::addLamp(const LampBeam& lamp, int bounce) {
     bundle_.add(vertex.origin(towards), std::max(1.0f - ball_m / distance_m, 1e-6f) * way, i);
     weights_.push_back(paths_[i].throughput * weight);
   }
+  castAndAddOnAllDays(lamp.castsShadows());
+}
+
+void Paths::castAndAddOnAllDays(bool shadows) {
   passGlass(1.0f);
-  blocked_.resize(bundle_.path.size());
-  scene_.world.visibility->occludedWithin(bundle_.rays(), blocked_.data());
+  blocked_.assign(bundle_.path.size(), 0);
+  if (shadows) scene_.world.visibility->occludedWithin(bundle_.rays(), blocked_.data());
   for (std::size_t i = 0; i < blocked_.size(); ++i) {
-    if (lamp.castsShadows() && blocked_[i]) continue;
+    if (blocked_[i]) continue;
     for (Eigen::Array3f& sum : sums_[static_cast<std::size_t>(paths_[bundle_.path[i]].half)])
       sum += weights_[i];
   }
@@ -259,6 +304,7 @@ void Paths::advance(int bounce) {
       addSkyMet(path, scattered_[i]);
       continue;
     }
+    addShineMet(i, path);
     path.throughput *= scattered_[i].reflectance / scattered_[i].density;
     if (bounce >= scene_.options.bounces || !survives(bounce, &path)) continue;
     path.vertex = scene_.vertices.at(hits_[i], scattered_[i].towards);

@@ -10,6 +10,7 @@
 #include "light/glass_sheets.h"
 #include "light/lamps/lamp_beam.h"
 #include "light/random.h"
+#include "light/reference/emitters.h"
 #include "light/reference/scatter.h"
 #include "light/reference/sky_sampler.h"
 #include "light/vertex.h"
@@ -37,6 +38,7 @@ struct PathScene {
   int samples_per_pixel;  ///< Surfaces::samples_per_pixel
   SceneVertices vertices;
   GlassSheets glass;
+  Emitters emitters;
   std::vector<Disc> discs;
   std::vector<LampBeam> lamps;
   std::vector<SkySampler> skies;  ///< one a day
@@ -73,7 +75,14 @@ class Paths {
 
   void start(const Tile& tile, const Surface& surface);
   float random(const Path& path, int bounce, std::size_t dimension) const;
-  void addEmission(int bounce);
+  /// What the surfaces of the picture give off themselves.
+  void addEmission();
+  /// Surfaces that shine, by points chosen for what they give.
+  void addShining(int bounce);
+  /// Surfaces that shine, where a ray chosen by the surface meets one, at hits_[i].
+  void addShineMet(std::size_t i, const Path& path);
+  /// On all days, of rays that end with their direction.
+  void castAndAddOnAllDays(bool shadows);
   void addDisc(const Disc& disc, int bounce);
   /// One lamp on all days.
   void addLamp(const LampBeam& lamp, int bounce);

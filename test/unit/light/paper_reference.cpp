@@ -70,6 +70,22 @@ TEST(Furnace, AGlowingRoomFillsUpToItsEmissionOverWhatItSwallows) {
   }
 }
 
+TEST(Panel, OfAHandsWidthLightsTheFloorOfAHallByItsSolidAngle) {
+  scene::Scene scene;
+  scene.materials = {paint(0.5f), paint(0.0f, 10000.0f)};
+  scene.materials[1].double_sided = false;
+  addGround(&scene, 0, 20.0f);
+  addPatch(&scene, 1, {-0.05f, -0.05f, 8.0f}, {0.0f, 0.1f, 0.0f}, {0.1f, 0.0f, 0.0f});
+  addPatch(&scene, 1, {4.95f, -0.05f, 4.0f}, {0.1f, 0.0f, 0.0f}, {0.0f, 0.1f, 0.0f});  // faces the sky
+  const Looked below{{0.0f, 0.0f, 0.0f}, kUp, kUp};
+  const Reflection reflection{kUp, kUp, Eigen::Array3f::Constant(0.5f), 1.0f, 0.0f};
+  const double expected =
+      static_cast<double>(directReflectance(reflection, kUp, 0.0f)[1]) * 10000.0 * 0.01 / 64.0;
+  // Half of the points lie on the other panel, which shows its back: by 20,000 of them, 0.7 %; three times
+  // that.
+  EXPECT_NEAR(traced(worldOf(scene), {below}, uniformDay(0.0f), 20000)[0], expected, 0.02 * expected);
+}
+
 TEST(Plates, TwoParallelOnesPassLightOnWithoutEnd) {
   // Two plates so wide that hardly anything leaves between them: as in the room, but the geometric series
   // goes to and fro between two surfaces, of which only one glows: L1 = e + R L2, L2 = R L1.
