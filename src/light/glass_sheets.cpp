@@ -12,7 +12,9 @@ GlassSheets::GlassSheets(const Visibility& visibility)
 void GlassSheets::sheets(const Visibility::Sight& sight, std::vector<Hit>* hits) const {
   hits->clear();
   if (!any_) return;
-  visibility_.veils(sight, hits);
+  Visibility::Sight all = sight;
+  all.backs = true;
+  visibility_.veils(all, hits);
   hits->erase(std::remove_if(hits->begin(), hits->end(),
                              [this](const Hit& hit) { return !isGlass(vertices_.material(hit)); }),
               hits->end());

@@ -27,14 +27,23 @@ LightTable::Rows rowsOf(const Surfaces& surfaces, const Tile& tile, const scene:
   rows.ambient.reserve(tile.surfaces.size());
   rows.mirror.reserve(tile.surfaces.size());
   const auto width = static_cast<std::uint32_t>(surfaces.width);
+  // Of the tile's pixels. More than there are: some surfaces lie before others, or mirror others.
+  std::array<std::uint32_t, Surfaces::kTileSize * Surfaces::kTileSize> samples{};
+  const auto samplesOf = [&](const Surface& surface) -> std::uint32_t& {
+    const std::uint32_t x = surface.pixel % width - static_cast<std::uint32_t>(tile.x);
+    const std::uint32_t y = surface.pixel / width - static_cast<std::uint32_t>(tile.y);
+    return samples[y * Surfaces::kTileSize + x];
+  };
+  for (const Surface& surface : tile.surfaces) samplesOf(surface) += surface.samples;
+  const auto all = static_cast<std::uint32_t>(surfaces.samples_per_pixel);
   for (const Surface& surface : tile.surfaces) {
     const scene::Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
-    rows.targets.push_back({surface.geometric_normal, surface.shading_normal, surface.clearance_m,
-                            surface.first_sample, static_cast<std::uint16_t>(surface.pixel % width),
-                            static_cast<std::uint16_t>(surface.pixel / width),
-                            static_cast<std::uint16_t>(surface.samples), material.transmission > 0.0f,
-                            material.alpha_mode == scene::AlphaMode::kMask,
-                            surface.gathered != Surface::kNotGathered, (surface.share < 1.0f).any()});
+    rows.targets.push_back(
+        {surface.geometric_normal, surface.shading_normal, surface.clearance_m, surface.first_sample,
+         static_cast<std::uint16_t>(surface.pixel % width), static_cast<std::uint16_t>(surface.pixel / width),
+         static_cast<std::uint16_t>(surface.samples), material.transmission > 0.0f,
+         material.alpha_mode == scene::AlphaMode::kMask, surface.gathered != Surface::kNotGathered,
+         (surface.share < 1.0f).any() || samplesOf(surface) > all});
     rows.air.push_back(airPlace((surfaces.eye - surface.position).norm()));
     rows.air_nodes |= std::uint64_t{3} << rows.air.back().node;
     rows.ambient.push_back(ambientReflectance(reflectionOf(surface, material)));

@@ -14,6 +14,14 @@ namespace {
 Eigen::Array3f normalReflectance(const Reflection& r) {
   return r.dielectric + (r.albedo - r.dielectric) * r.metalness;
 }
+/// How much of it is a clear sheet: no metal is.
+float clearness(const Reflection& r) {
+  return r.glass * (1.0f - r.metalness);
+}
+/// Of a sheet, as much as it is clear, both faces mirror.
+Eigen::Array3f ofSheet(const Reflection& r, const Eigen::Array3f& of_face) {
+  return of_face + clearness(r) * (ofBothFaces(of_face) - of_face);
+}
 float grazingReflectance(const Reflection& r) {
   return r.dielectric_grazing + (1.0f - r.dielectric_grazing) * r.metalness;
 }
@@ -36,7 +44,7 @@ Eigen::Array3f directReflectance(const Reflection& r, const Eigen::Vector3f& to_
   const Ggx<float> facets(alpha);
   const Eigen::Array3f f0 = normalReflectance(r);
   Eigen::Array3f fresnel = f0 + (grazingReflectance(r) - f0) * schlick(v_h);
-  if (r.glass > 0.0f) fresnel = ofBothFaces(fresnel);
+  if (r.glass > 0.0f) fresnel = ofSheet(r, fresnel);
   const Eigen::Array3f diffuse = (1.0f - r.metalness) * (1.0f - r.transmission) * (1.0f - r.glass) /
                                  kPiFloat * r.albedo * (1.0f - fresnel);
   return (diffuse + fresnel * (facets.distribution(n_h) * facets.visibility(n_l, n_v))) * n_l;
@@ -51,8 +59,8 @@ AmbientReflectance ambientReflectance(const Reflection& r) {
   Eigen::Array3f taken = f0 + (f90 - f0) * meanGrazing(n_v);  // by Fresnel, from the Lambert part
   Eigen::Array3f lambert = (1.0f - r.metalness) / kPiFloat * r.albedo;
   if (r.glass > 0.0f) {
-    lobe = ofBothFaces(lobe);
-    taken = ofBothFaces(taken);
+    lobe = ofSheet(r, lobe);
+    taken = ofSheet(r, taken);
     lambert *= 1.0f - r.glass;
   }
   return {(1.0f - r.transmission) * lambert * (1.0f - taken), r.transmission * lambert, lobe};

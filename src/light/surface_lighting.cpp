@@ -13,10 +13,10 @@ const std::vector<scene::Lamp>& lampsOf(const Illumination& light) {
   return light.lamps ? *light.lamps : none;
 }
 
-std::vector<bool> glowing(const std::vector<scene::Material>& materials,
-                          const std::vector<scene::Lamp>& lamps) {
+std::vector<bool> glowing(const SurfaceLighting::Subject& subject, const std::vector<scene::Lamp>& lamps) {
   std::vector<bool> are;
-  for (const scene::Material& material : materials) are.push_back(glows(material, lamps));
+  for (const scene::Material& material : subject.scene.materials)
+    are.push_back(glows(material, lamps) && (!subject.in_mirrors || material.lamp_group.empty()));
   return are;
 }
 
@@ -33,7 +33,7 @@ SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& lig
       table_(subject.table),
       scene_(subject.scene),
       light_(light),
-      glows_(glowing(subject.scene.materials, lampsOf(light))),
+      glows_(glowing(subject, lampsOf(light))),
       sun_(light.day.sun(), leastDisc_lx(light.day), {surfaces_, table_, subject.visibility}),
       moon_(light.day.moon(), leastDisc_lx(light.day), {surfaces_, table_, subject.visibility}),
       lamps_(lampsOf(light), light.day.groundIlluminance().value.maxCoeff(),

@@ -23,6 +23,7 @@ class SurfaceLighting {
     const LightTable& table;  ///< of `surfaces`
     const scene::Scene& scene;
     const Visibility& visibility;
+    bool in_mirrors = false;  ///< lamps' own glass is left out: their highlights show them
   };
   /// Keeps references. Casts the rays to sun and moon, in parallel.
   SurfaceLighting(const Subject& subject, const Illumination& light);

@@ -12,7 +12,7 @@ std::unique_ptr<const SurfaceLighting> lightingInMirrors(const SurfaceLighting::
   if (!subject.surfaces.reflections) return nullptr;
   const Surfaces& seen = subject.surfaces.reflections->seen;
   return std::make_unique<const SurfaceLighting>(
-      SurfaceLighting::Subject{seen, *seen.table, subject.scene, subject.visibility}, light);
+      SurfaceLighting::Subject{seen, *seen.table, subject.scene, subject.visibility, true}, light);
 }
 
 }  // namespace

@@ -223,7 +223,7 @@ void Visibility::Implementation::addVeils(const Sight& sight, std::uint32_t firs
     const std::uint32_t triangle = veils_[query.hit.primID];
     const auto material = static_cast<std::size_t>(geometry_->materials[triangle]);
     const bool back = geometry_->planes[triangle].normal.dot(sight.direction) > 0.0f;
-    if (back && !geometry_->scene->materials[material].double_sided) continue;
+    if (back && !sight.backs && !geometry_->scene->materials[material].double_sided) continue;
     hits->push_back({first_triangle + triangle, query.hit.u, query.hit.v, query.ray.tfar});
     ++count;
   }

@@ -308,7 +308,7 @@ struct BakedLooks::Plan {
     char text[240];
     std::snprintf(
         text, sizeof text,
-        "texel is %g m, which takes %.0f million texels, but there may be %.0f million; %.2g m fits", texel_m,
+        "texel is %g m, which takes %.0f million texels, but there may be %.0f million; %.3f m fits", texel_m,
         1e-6 * wanted, 1e-6 * static_cast<double>(kMost), std::ceil(1000.0 * scale * texel_m) / 1000.0);
     throw std::invalid_argument(text);
   }

@@ -168,6 +168,10 @@ class TileResolver {
     light::Reflection reflection = {triangle.shadingNormal(spot.shares), to_eye,
                                     triangle.albedo(seen_, spot.shares, spot.step, spot.small)};
     reflection.metalness = material.metalness;
+    if (material.metalness_map.given()) {
+      const SurfaceMaps::Place place = triangle.placeOnMaps(seen_, spot.shares, spot.step, spot.small);
+      reflection.metalness = seen_.maps.finish(triangle.material(), place).metalness;
+    }
     reflection.dielectric = material.dielectric.value;
     reflection.dielectric_grazing = material.dielectric_grazing;
     reflection.glass = material.glass;

@@ -9,7 +9,7 @@
 namespace sunlit::scene {
 namespace {
 
-constexpr float kWidestCone_rad = 1.57079633f;  // π/2, by the extension
+constexpr float kWidestCone_rad = 1.5707962f;  // at most π/2, by the extension
 
 /// cd of the inverse square that stands for the lamp's own fall-off.
 Eigen::Array3f inverseSquare(const Lamp& lamp, ExportLosses* losses) {

@@ -6,6 +6,8 @@ namespace sunlit::scene {
 namespace {
 
 constexpr int kGreen = 1, kBlue = 2;
+/// The channel of a map that is left out.
+constexpr int kDropped = -1;
 
 /// The texel of `texture` at the place of texel (x, y) of a grid of `width` by `height`.
 std::uint8_t at(const Texture& texture, int channel, const Eigen::Vector2i& texel,
@@ -30,9 +32,12 @@ TextureUse PackedMaps::of(const Material& material, ExportLosses* losses) {
     const Texture& a = scene_.textures[static_cast<std::size_t>(rough.texture)];
     const Texture& b = scene_.textures[static_cast<std::size_t>(metal.texture)];
     if (rough.coordinates != metal.coordinates || a.wrap_u != b.wrap_u || a.wrap_v != b.wrap_v) {
-      losses->add("materials take metalness at other coordinates than roughness, which counts alone",
-                  material.name);
+      losses->add(
+          "materials take metalness at other coordinates than roughness: roughness counts alone, as of no "
+          "metal",
+          material.name);
       metal = {};
+      metal.channel = kDropped;
     }
   }
   return packed(rough, metal);
@@ -56,10 +61,12 @@ TextureUse PackedMaps::packed(const TextureUse& rough, const TextureUse& metal) 
   made.wrap_v = edges.wrap_v;
   made.width = size.x();
   made.height = size.y();
+  const auto unknown = static_cast<std::uint8_t>(metal.channel == kDropped ? 0 : 255);
   made.rgba.assign(4 * static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()), 255);
   std::uint8_t* texel = made.rgba.data();
   for (int y = 0; y < size.y(); ++y) {
     for (int x = 0; x < size.x(); ++x, texel += 4) {
+      texel[kBlue] = unknown;
       for (const auto& [use, channel] : {std::pair(rough, kGreen), std::pair(metal, kBlue)}) {
         if (use.given())
           texel[channel] =

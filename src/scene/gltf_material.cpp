@@ -236,6 +236,7 @@ class Reader {
         lost_.push_back("transmission of a rough surface: what lies behind is seen sharp");
       return;
     }
+    if (!(through * (1.0f - material.metalness) > 0.0f)) return;
     lost_.push_back("transmission of what has an alpha: by a surface that covers the rest");
     if (material.alpha_mode != AlphaMode::kBlend) material.alpha = 1.0f;
     material.alpha_mode = AlphaMode::kBlend;

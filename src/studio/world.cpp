@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "studio/tell.h"
 #include "sunlit/image/cache_folder.h"
+#include "sunlit/light/lamps.h"
 
 namespace sunlit::studio {
 
@@ -25,6 +27,14 @@ scene::Scene loadScene(const WorldOptions& options, const Reports& reports) {
   tell(reports.note, "World " + options.name + ": " + std::to_string(scene.triangleCount()) + " triangles, " +
                          std::to_string(scene.textures.size()) + " textures, " +
                          std::to_string(scene.lamps.size()) + " lamps");
+  std::set<std::pair<std::string, bool>> groups;
+  for (const scene::Lamp& lamp : scene.lamps) groups.emplace(lamp.group, lamp.relative);
+  if (groups.size() > light::kMostLampSets) {
+    tell(reports.warning,
+         options.name + ": " + std::to_string(groups.size()) +
+             " groups of lamps: lamps_off switches what surfaces pass on of the light of all but the first " +
+             std::to_string(light::kMostLampSets - 1) + " as one, by the share that burns");
+  }
   return scene;
 }
 

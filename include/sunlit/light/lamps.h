@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -64,6 +65,9 @@ bool glows(const scene::Material& material, const std::vector<scene::Lamp>& burn
 
 /// `lamp` of a frame that stands at `map_from_frame`, in `map`.
 scene::Lamp placed(const scene::Lamp& lamp, const Eigen::Isometry3d& map_from_frame);
+
+/// Groups whose light by way of surfaces is baked apart; what is beyond is baked, and switched, as one.
+constexpr std::size_t kMostLampSets = 32;
 
 /// A lamp of the body of that number in World::bodies, in its frame.
 struct BodyLamp {

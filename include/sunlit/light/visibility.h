@@ -80,6 +80,7 @@ class Visibility {
   struct Sight {
     Eigen::Vector3f origin, direction;
     float near, far;
+    bool backs = false;  ///< counts one-sided triangles from behind too, as light does and eyes do not
   };
   /// What blends along it and glass, nearest first, at most kMostVeils.
   static constexpr std::size_t kMostVeils = 16;

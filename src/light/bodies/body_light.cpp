@@ -157,7 +157,6 @@ void BodyLight::Implementation::addDisc(const Views& views, const sky::DiscLight
 std::vector<AroundLight> BodyLight::Implementation::around(const Views& views,
                                                            const Illumination& light) const {
   constexpr float kSolidAngle = 4.0f * kPiFloat / kDirections;
-  const std::vector<scene::Lamp> burning = light.lamps ? *light.lamps : std::vector<scene::Lamp>();
   std::vector<AroundLight> lights(views.bodies);
   for (const auto& [body, direction] : views.open) {
     const Eigen::Vector3f& towards = directions_[direction];
@@ -171,7 +170,8 @@ std::vector<AroundLight> BodyLight::Implementation::around(const Views& views,
     const Met& met = views.met[i];
     const scene::Material& material = world_.geometry->scene->materials[met.material];
     Eigen::Array3f luminance = illuminance[i] * met.reflectance / kPiFloat;
-    if (glows(material, burning)) luminance += material.emission.value;
+    // Of lamps' own glass the lamps are the light.
+    if (material.lamp_group.empty()) luminance += material.emission.value;
     lights[met.body].add(directions_[met.direction], kSolidAngle, luminance);
   }
   return lights;

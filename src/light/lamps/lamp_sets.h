@@ -13,7 +13,6 @@ namespace sunlit::light {
 struct LampSet {
   std::vector<std::uint32_t> lamps;  ///< indices into Scene::lamps, ascending
 };
-constexpr std::size_t kMostLampSets = 32;
 
 /// In the order of their first lamps. A function of `lamps` alone.
 std::vector<LampSet> lampSets(const std::vector<scene::Lamp>& lamps);

@@ -156,7 +156,7 @@ class TileMirror {
     surface.first_sample = static_cast<std::uint32_t>(seen->origin_x.size());
     for (std::size_t i = first; i < met->size(); ++i) {
       Met& other = (*met)[i];
-      if (other.taken || !(*met)[first].alike(other)) continue;
+      if (other.taken || (i != first && !(*met)[first].alike(other))) continue;
       other.taken = true;
       ++surface.samples;
       const Reflection& reflection = other.vertex.reflection;

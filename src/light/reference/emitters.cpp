@@ -24,7 +24,8 @@ float Emitters::luminanceOf(std::uint32_t triangle) const {
   if (triangle >= geometry_.triangles.size()) return 0.0f;  // of what moves
   const scene::Material& material =
       geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[triangle])];
-  return material.lamp_group.empty() ? material.emission.luminance() : 0.0f;
+  const bool solid = material.alpha_mode == scene::AlphaMode::kOpaque;
+  return solid && material.lamp_group.empty() ? material.emission.luminance() : 0.0f;
 }
 
 Emitters::Point Emitters::sample(const std::array<float, 3>& random) const {

@@ -10,8 +10,8 @@
 
 namespace sunlit::light {
 
-/// Triangles whose material has emission that belongs to no group of lamps. Textures of it are left to who
-/// looks at the point.
+/// Solid triangles whose material has emission that belongs to no group of lamps; those with holes are left
+/// to chance. Textures are left to who looks at the point.
 class Emitters {
  public:
   /// Keeps a reference.

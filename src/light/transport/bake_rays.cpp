@@ -213,4 +213,22 @@ void BakeRays::cast(const RayPacket& rays, HitPacket* hits) const {
   }
 }
 
+void BakeRays::hide(const std::vector<BakeSight>& sights, std::vector<std::uint8_t>* hidden) const {
+  hidden->assign(sights.size(), 0);
+  RayPacket packet;
+  HitPacket hits;
+  for (std::size_t first = 0; first < sights.size(); first += RayPacket::kSize) {
+    const std::size_t count = std::min<std::size_t>(RayPacket::kSize, sights.size() - first);
+    for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
+      const BakeSight& sight = sights[first + std::min(i, count - 1)];
+      packet.set(i, sight.origin, sight.way, i < count);
+    }
+    cast(packet, &hits);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool met = hits.triangle[i] != HitPacket::kNothing;
+      (*hidden)[first + i] = met && hits.distance[i] < sights[first + i].reach ? 1 : 0;
+    }
+  }
+}
+
 }  // namespace sunlit::light

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "sunlit/light/geometry.h"
 
@@ -30,6 +31,13 @@ struct HitPacket {
   float distance[RayPacket::kSize];                ///< in lengths of the direction
 };
 
+/// A look from one point at another.
+struct BakeSight {
+  Eigen::Vector3f origin;  ///< m in `map`
+  Eigen::Vector3f way;     ///< to the other, m
+  float reach;             ///< share of it that must be free
+};
+
 /// Surfaces stop light from both sides; masked ones let it through where they are cut out.
 class BakeRays {
  public:
@@ -40,6 +48,8 @@ class BakeRays {
   BakeRays& operator=(const BakeRays&) = delete;
 
   void cast(const RayPacket& rays, HitPacket* hits) const;
+  /// Sets hidden[i] to 1 where something stands in the way of sights[i], else to 0.
+  void hide(const std::vector<BakeSight>& sights, std::vector<std::uint8_t>* hidden) const;
 
  private:
   struct Implementation;

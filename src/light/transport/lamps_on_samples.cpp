@@ -149,7 +149,7 @@ class LampsOnTriangles {
           }
         }
         weights_.push_back(part_m2 / points);
-        ends_.push_back(rays_.size());
+        ends_.push_back(sights_.size());
       }
       cast(lamps_[lamp].castsShadows(), &sums);
     }
@@ -171,38 +171,24 @@ class LampsOnTriangles {
     if (!(cosine > 0.0f)) return;
     const float clearance_m = rayClearance_m(point, distance_m);
     const float reach = 1.0f - (lamp.radius_m() + clearance_m) / std::max(distance_m, 1e-6f);
-    rays_.push_back({point + clearance_m * face_, way, std::max(reach, 0.0f), cosine * lamp.at(point)});
+    sights_.push_back({point + clearance_m * face_, way, std::max(reach, 0.0f)});
+    light_.push_back(cosine * lamp.at(point));
   }
 
   /// Casts the rays that were aimed, and adds what arrives.
   void cast(bool shadows, std::array<Eigen::Array3f, 3>* sums) {
+    hidden_.assign(sights_.size(), 0);
+    if (shadows) scene_.rays.hide(sights_, &hidden_);
     std::size_t corner = 0;
-    HitPacket hits;
-    RayPacket packet;
-    for (std::size_t first = 0; first < rays_.size(); first += RayPacket::kSize) {
-      const std::size_t count = std::min<std::size_t>(RayPacket::kSize, rays_.size() - first);
-      for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
-        const Aimed& ray = rays_[first + std::min(i, count - 1)];
-        packet.set(i, ray.origin, ray.way, i < count);
-      }
-      if (shadows) scene_.rays.cast(packet, &hits);
-      for (std::size_t i = 0; i < count; ++i) {
-        while (first + i >= ends_[corner]) ++corner;
-        const Aimed& ray = rays_[first + i];
-        const bool dark = shadows && hits.triangle[i] != HitPacket::kNothing && hits.distance[i] < ray.reach;
-        if (!dark) (*sums)[corner] += weights_[corner] * ray.light;
-      }
+    for (std::size_t i = 0; i < sights_.size(); ++i) {
+      while (i >= ends_[corner]) ++corner;
+      if (!hidden_[i]) (*sums)[corner] += weights_[corner] * light_[i];
     }
-    rays_.clear();
+    sights_.clear();
+    light_.clear();
     weights_.clear();
     ends_.clear();
   }
-
-  struct Aimed {
-    Eigen::Vector3f origin, way;
-    float reach;  ///< of `way`
-    Eigen::Array3f light;
-  };
 
   const BakeScene& scene_;
   const SceneSamples& samples_;
@@ -213,7 +199,9 @@ class LampsOnTriangles {
   float whole_m2_ = 0.0f;
   std::vector<std::uint32_t> all_, of_triangle_, of_leaf_;
   std::vector<std::pair<float, std::uint32_t>> at_most_;
-  std::vector<Aimed> rays_;
+  std::vector<BakeSight> sights_;
+  std::vector<Eigen::Array3f> light_;  ///< lx, of each sight if nothing hides the lamp
+  std::vector<std::uint8_t> hidden_;
   std::vector<float> weights_;     ///< of each corner's points
   std::vector<std::size_t> ends_;  ///< of each corner's rays
 };

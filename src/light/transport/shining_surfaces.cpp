@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
+#include "light/cutout.h"
 #include "light/random.h"
 #include "light/transport/reflectances.h"
 #include "sunlit/light/surfaces.h"
@@ -15,11 +17,13 @@ namespace {
 constexpr float kWidest = 0.25f;
 /// Of all that a place would get: of what gives less, some are asked for and count for more.
 constexpr float kSmall = 0.002f;
-/// A textured triangle is cut into the square of so many pieces.
+/// A triangle that shines unevenly is cut into the square of so many pieces, as long as all of them are not
+/// more than that.
 constexpr int kAcross = 8;
-/// Of the distance: as long as pieces may be before they are quartered, and how often that is done at most.
+constexpr double kMostPieces = 1e6;
+/// Of the distance: as long as pieces may be before they are halved, and how often that is done at most.
 constexpr float kLongest = 0.5f;
-constexpr int kMostQuartered = 10;
+constexpr int kMostHalved = 20;
 /// Of a place, as far as kMostRays to each part allow.
 constexpr std::size_t kRays = 32, kMostRays = 8;
 
@@ -51,6 +55,38 @@ std::vector<std::array<Eigen::Vector2f, 3>> partsOf(int across) {
   return parts;
 }
 
+bool shines(const scene::Material& material) {
+  return material.emission.value.maxCoeff() > 0.0f && material.lamp_group.empty();
+}
+
+/// How much of a triangle is there, where it is cut out or blends.
+class Solidity {
+ public:
+  explicit Solidity(const Geometry& geometry) : cutouts_(geometry) {
+    const std::vector<std::uint32_t>& masked = cutouts_.maskedTriangles();
+    for (std::uint32_t i = 0; i < masked.size(); ++i) number_.emplace(masked[i], i);
+  }
+
+  /// 0 … 1, of a part by (u, v) of its corners: by sixteen points of it.
+  float share(std::uint32_t triangle, const std::array<Eigen::Vector2f, 3>& part) const {
+    const auto found = number_.find(triangle);
+    if (found == number_.end()) return 1.0f;
+    constexpr int kSteps = 4;
+    int solid = 0;
+    for (const auto& [a, b, c] : partsOf(kSteps)) {
+      const Eigen::Vector2f middle = (a + b + c) / 3.0f;
+      const Eigen::Vector2f at =
+          part[0] + middle.x() * (part[1] - part[0]) + middle.y() * (part[2] - part[0]);
+      solid += cutouts_.solid(found->second, at.x(), at.y()) ? 1 : 0;
+    }
+    return static_cast<float>(solid) / static_cast<float>(kSteps * kSteps);
+  }
+
+ private:
+  Cutouts cutouts_;
+  std::unordered_map<std::uint32_t, std::uint32_t> number_;  ///< among the masked ones
+};
+
 }  // namespace
 
 /// Illuminance, lx per cd/m², of a plane at `point` with the unit normal `normal` by a triangle that shines
@@ -80,32 +116,48 @@ ShiningSurfaces::ShiningSurfaces(const Geometry& geometry, const BakeRays& rays,
                                  const std::vector<TriangleTraits>& traits)
     : rays_(rays) {
   const std::vector<scene::Material>& materials = geometry.scene->materials;
-  const auto shines = [&](std::int32_t number) {
-    const scene::Material& material = materials[static_cast<std::size_t>(number)];
-    return material.emission.value.maxCoeff() > 0.0f && material.lamp_group.empty();
-  };
-  if (std::none_of(geometry.materials.begin(), geometry.materials.end(), shines)) return;
+  if (std::none_of(materials.begin(), materials.end(), shines)) return;
+  add(geometry, traits);
+  if (any()) build(0, static_cast<std::uint32_t>(pieces_.size()));
+}
+
+void ShiningSurfaces::add(const Geometry& geometry, const std::vector<TriangleTraits>& traits) {
   const Reflectances reflectances(geometry);
+  const Solidity solidity(geometry);
+  std::vector<std::uint32_t> shining;
+  std::size_t uneven = 0;
+  const auto materialOf = [&](std::uint32_t t) -> const scene::Material& {
+    return geometry.scene->materials[static_cast<std::size_t>(geometry.materials[t])];
+  };
+  const auto isUneven = [&](std::uint32_t t) {
+    return materialOf(t).emission_map.given() || materialOf(t).alpha_mode != scene::AlphaMode::kOpaque;
+  };
   for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
-    if (!shines(geometry.materials[t])) continue;
-    const scene::Material& material = materials[static_cast<std::size_t>(geometry.materials[t])];
+    if (!shines(materialOf(t))) continue;
+    shining.push_back(t);
+    uneven += isUneven(t) ? 1 : 0;
+  }
+  const double each = std::sqrt(kMostPieces / static_cast<double>(std::max<std::size_t>(uneven, 1)));
+  const int most_across = std::clamp(static_cast<int>(each), 1, kAcross);
+  for (const std::uint32_t t : shining) {
+    const scene::Material& material = materialOf(t);
     const auto& corners = geometry.triangles[t];
     const Eigen::Vector3f& a = geometry.positions[corners[0]];
     const Eigen::Vector3f ab = geometry.positions[corners[1]] - a, ac = geometry.positions[corners[2]] - a;
-    const int across = material.emission_map.given() ? kAcross : 1;
+    const int across = isUneven(t) ? most_across : 1;
     for (const auto& part : partsOf(across)) {
       const Eigen::Vector2f middle = (part[0] + part[1] + part[2]) / 3.0f;
       Piece piece;
       for (std::size_t k = 0; k < 3; ++k) piece.corner[k] = a + part[k].x() * ab + part[k].y() * ac;
       piece.normal = geometry.planes[t].normal;
-      piece.luminance = reflectances.emission(t, {1.0f - middle.sum(), middle.x(), middle.y()});
+      piece.luminance =
+          solidity.share(t, part) * reflectances.emission(t, {1.0f - middle.sum(), middle.x(), middle.y()});
       piece.both = material.double_sided && !traits[t].sealed[1];
       const float area = 0.5f * ab.cross(ac).norm() / static_cast<float>(across * across);
       piece.power = LinearRgb(piece.luminance).luminance() * area * (piece.both ? 2.0f : 1.0f);
       if (piece.power > 0.0f) pieces_.push_back(piece);
     }
   }
-  if (any()) build(0, static_cast<std::uint32_t>(pieces_.size()));
 }
 
 void ShiningSurfaces::build(std::uint32_t first, std::uint32_t end) {
@@ -148,7 +200,9 @@ class ShiningSurfaces::Look {
  public:
   Look(const ShiningSurfaces& sources, const Receiver& receiver, std::uint64_t key)
       : sources_(sources), receiver_(receiver), key_(scrambled(key)) {
-    for (const Eigen::Vector3f& origin : receiver.origins) middle_ += origin / Receiver::kOrigins;
+    // Clear of the surface, lest one that shines lights itself.
+    for (std::size_t k = 0; k < Receiver::kOrigins; ++k)
+      middle_ += (receiver.origins[k] + receiver.lifts[k]) / Receiver::kOrigins;
   }
 
   Light all() {
@@ -173,12 +227,8 @@ class ShiningSurfaces::Look {
     Triangle corner;
     Eigen::Array3f light;  ///< lx
     float size;            ///< luminance of it
+    float side;            ///< of the receiver, 1 or −1: before or behind its normal
   };
-  struct Aimed {
-    Eigen::Vector3f origin, way;
-    Eigen::Array3f light;
-  };
-
   float chance() { return uniform(key_, drawn_++); }
 
   void gather(std::uint32_t number) {
@@ -194,24 +244,35 @@ class ShiningSurfaces::Look {
     ask(piece, cluster.power / piece.power, 0);
   }
 
-  /// Asks for a piece that stands for `times` as much, or for its quarters.
-  void ask(const Piece& piece, float times, int quartered) {
-    const auto& [a, b, c] = piece.corner;
+  /// Asks for a piece that stands for `times` as much, or for its halves.
+  void ask(const Piece& piece, float times, int halved) {
     if (longestEdge(piece.corner) > kLongest * boxOf(piece.corner).exteriorDistance(middle_) &&
-        quartered < kMostQuartered) {
-      const Eigen::Vector3f ab = 0.5f * (a + b), bc = 0.5f * (b + c), ca = 0.5f * (c + a);
-      for (const Triangle& corners :
-           {Triangle{a, ab, ca}, Triangle{ab, b, bc}, Triangle{ca, bc, c}, Triangle{ab, bc, ca}}) {
-        Piece quarter = piece;
-        quarter.corner = corners;
-        ask(quarter, times, quartered + 1);
+        halved < kMostHalved) {
+      std::size_t from = 0;
+      float longest = 0.0f;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const float edge = (piece.corner[k] - piece.corner[(k + 1) % 3]).squaredNorm();
+        if (edge > longest) longest = edge, from = k;
+      }
+      const std::size_t to = (from + 1) % 3;
+      const Eigen::Vector3f between = 0.5f * (piece.corner[from] + piece.corner[to]);
+      for (const std::size_t moved : {from, to}) {
+        Piece half = piece;
+        half.corner[moved] = between;
+        ask(half, times, halved + 1);
       }
       return;
     }
-    const float factor = formFactor(piece, middle_, receiver_.normal);
+    askFrom(1.0f, (1.0f - receiver_.transmission) * times, piece);
+    if (receiver_.transmission > 0.0f) askFrom(-1.0f, receiver_.transmission * times, piece);
+  }
+
+  /// From one side of the receiver.
+  void askFrom(float side, float times, const Piece& piece) {
+    const float factor = formFactor(piece, middle_, side * receiver_.normal);
     if (!(factor > 0.0f)) return;
     const Eigen::Array3f light = piece.luminance * (factor * times);
-    asked_.push_back({piece.corner, light, LinearRgb(light).luminance()});
+    asked_.push_back({piece.corner, light, LinearRgb(light).luminance(), side});
   }
 
   void aim(const Asked& asked, float least, std::size_t rays) {
@@ -224,41 +285,34 @@ class ShiningSurfaces::Look {
     }
     for (std::size_t k = 0; k < rays; ++k) {
       Eigen::Vector3f at;
-      if (!pointBefore(asked.corner, &at)) continue;
-      const Eigen::Vector3f origin = receiver_.start(rays_.size(), at - middle_);
-      rays_.push_back({origin, at - origin, light / static_cast<float>(rays)});
+      if (!pointBefore(asked, &at)) continue;
+      const Eigen::Vector3f origin = receiver_.start(sights_.size(), at - middle_);
+      const Eigen::Vector3f way = at - origin;
+      const float clear = 2.0f * rayClearance_m(origin, 0.0f) / std::max(way.norm(), 1e-6f);
+      sights_.push_back({origin, way, 1.0f - clear});
+      lights_.push_back(light / static_cast<float>(rays));
     }
   }
 
   /// A point of a triangle at random, before the receiver's plane: what is not was cut off from the sum.
-  bool pointBefore(const Triangle& corner, Eigen::Vector3f* at) {
+  bool pointBefore(const Asked& asked, Eigen::Vector3f* at) {
     constexpr int kTries = 16;
     for (int i = 0; i < kTries; ++i) {
       float u = chance(), v = chance();
       if (u + v > 1.0f) u = 1.0f - u, v = 1.0f - v;
-      *at = corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0]);
-      if (receiver_.weight(*at - middle_) > 0.0f) return true;
+      const auto& [a, b, c] = asked.corner;
+      *at = a + u * (b - a) + v * (c - a);
+      const Eigen::Vector3f towards = *at - middle_;
+      if (asked.side * receiver_.normal.dot(towards) > 0.0f && receiver_.weight(towards) > 0.0f) return true;
     }
     return false;
   }
 
   void cast() {
-    HitPacket hits;
-    RayPacket packet;
-    for (std::size_t first = 0; first < rays_.size(); first += RayPacket::kSize) {
-      const std::size_t count = std::min<std::size_t>(RayPacket::kSize, rays_.size() - first);
-      for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
-        const Aimed& ray = rays_[first + std::min(i, count - 1)];
-        packet.set(i, ray.origin, ray.way, i < count);
-      }
-      sources_.rays_.cast(packet, &hits);
-      for (std::size_t i = 0; i < count; ++i) {
-        const Aimed& ray = rays_[first + i];
-        const float reach = 1.0f - 2.0f * rayClearance_m(ray.origin, 0.0f) / std::max(ray.way.norm(), 1e-6f);
-        if (hits.triangle[i] != HitPacket::kNothing && hits.distance[i] < reach) continue;
-        (ray.way.z() > 0.0f ? light_.above : light_.below) += ray.light;
-      }
-    }
+    std::vector<std::uint8_t> hidden;
+    sources_.rays_.hide(sights_, &hidden);
+    for (std::size_t i = 0; i < sights_.size(); ++i)
+      if (!hidden[i]) (sights_[i].way.z() > 0.0f ? light_.above : light_.below) += lights_[i];
   }
 
   const ShiningSurfaces& sources_;
@@ -267,8 +321,9 @@ class ShiningSurfaces::Look {
   std::uint64_t drawn_ = 0;  ///< random numbers
   Eigen::Vector3f middle_ = Eigen::Vector3f::Zero();
   std::vector<Asked> asked_;
-  std::vector<Aimed> rays_;
-  float passed_over_ = 0.0f;  ///< lx
+  std::vector<BakeSight> sights_;
+  std::vector<Eigen::Array3f> lights_;  ///< of each sight if nothing hides it, lx
+  float passed_over_ = 0.0f;            ///< lx
   Light light_;
 };
 

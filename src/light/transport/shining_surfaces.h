@@ -52,6 +52,7 @@ class ShiningSurfaces {
     std::uint32_t second = 0;  ///< the second half; the first one follows its whole. 0: one piece alone
   };
 
+  void add(const Geometry& geometry, const std::vector<TriangleTraits>& traits);
   static float formFactor(const Piece& piece, const Eigen::Vector3f& point, const Eigen::Vector3f& normal);
   void build(std::uint32_t first, std::uint32_t end);
   const Piece& pick(const Cluster& cluster, float chance) const;

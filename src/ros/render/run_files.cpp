@@ -70,7 +70,15 @@ void RunFiles::keepRasterizer(const std::string& rasterizer) const {
 }
 
 void RunFiles::keepGround(double albedo) const {
-  image::writeFileAtomically(folder_ + "/ground.yaml", "ground_albedo: " + textOf(albedo) + "\n");
+  const std::string path = folder_ + "/ground.yaml", now = "ground_albedo: " + textOf(albedo) + "\n";
+  std::ifstream file(path);
+  const std::string then{std::istreambuf_iterator<char>(file), {}};
+  if (goes_on_ && !then.empty() && then != now) {
+    throw std::runtime_error(path + ": the run that was broken off in this folder has " +
+                             then.substr(0, then.find('\n')) + ", and now it is " + textOf(albedo) +
+                             "; choose another output folder, or atmosphere/ground_albedo as it was");
+  }
+  image::writeFileAtomically(path, now);
 }
 
 void RunFiles::writeMap(const image::Rgb8Image& map, const studio::MapExtent& extent) const {

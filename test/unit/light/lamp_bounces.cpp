@@ -76,14 +76,6 @@ std::vector<double> tracedWithLamps(const World& world, const std::vector<Looked
   return rowValues(traceReference(surfaces, world, {uniformDay(0.0f)}, options)[0].luminance);
 }
 
-/// Of matt paint, as light comes back from it on average.
-double albedoOf(float base) {
-  const Reflection reflection{kUp, Eigen::Vector3f(0.77f, 0.0f, 0.64f), Eigen::Array3f::Constant(base), 1.0f,
-                              0.0f};
-  const AmbientReflectance ambient = ambientReflectance(reflection);
-  return static_cast<double>(ambient.diffuse[1] * kPiFloat + ambient.specular[1]);
-}
-
 TEST(LampBounces, FillAClosedRoomByItsAlbedo) {
   for (const float base : {0.5f, 0.8f}) {
     scene::Scene scene;
@@ -231,6 +223,43 @@ TEST(ShiningSurfaces, OfManyPiecesGiveWhatTheyGiveTogether) {
   const World world = baked(std::move(scene));
   // Some 60 clusters, each off by what its panels differ: a tenth, at random.
   EXPECT_NEAR(illuminance(world, {1.0f, 0.0f, 0.0f}), expected, 0.03 * expected);
+}
+
+TEST(ShiningSurfaces, DoNotLightThemselves) {
+  scene::Scene scene;
+  scene.materials = {paint(0.0f), paint(0.5f, 1000.0f)};
+  addGround(&scene, 0, 20.0f);
+  // Double-sided, and aslant, where rounding puts points of a plane on either side of it.
+  addPatch(&scene, 1, {5.1f, 3.3f, 2.0f}, {1.6f, 0.3f, 1.2f}, {-0.3f, 2.0f, 0.1f});
+  const World world = baked(std::move(scene));
+  const Eigen::Vector3f middle = Eigen::Vector3f(5.1f, 3.3f, 2.0f) + 0.5f * Eigen::Vector3f(1.3f, 2.3f, 1.3f);
+  const Eigen::Vector3f normal =
+      Eigen::Vector3f(1.6f, 0.3f, 1.2f).cross(Eigen::Vector3f(-0.3f, 2.0f, 0.1f)).normalized();
+  // Black ground mirrors 4 % of what the panel gives it.
+  EXPECT_LT(illuminance(world, middle + 0.2f * Eigen::Vector3f(1.6f, 0.3f, 1.2f), normal),
+            0.01 * kPi * 1000.0);
+}
+
+TEST(ShiningSurfaces, WithHolesGiveAsMuchAsIsThere) {
+  // Stripes, of which every second is cut out, or blends by half.
+  const auto lit = [](scene::AlphaMode mode, std::uint8_t clear, std::uint8_t solid) {
+    scene::Scene scene = panelAboveFloor(1.0f, 6.0f);
+    scene::Texture stripes;
+    stripes.name = "stripes";
+    stripes.width = 32;
+    stripes.height = 32;
+    for (int i = 0; i < 32 * 32; ++i)
+      stripes.rgba.insert(stripes.rgba.end(), {255, 255, 255, i / 4 % 2 == 0 ? clear : solid});
+    scene.textures.push_back(stripes);
+    scene.materials[1].base_texture = 0;
+    scene.materials[1].alpha_mode = mode;
+    return illuminance(baked(std::move(scene)), {0.0f, 0.0f, 0.0f});
+  };
+  const double whole = lit(scene::AlphaMode::kOpaque, 0, 255);
+  EXPECT_GT(whole, 0.0);
+  // Cut off between texels of 0 and 255, so half is there; sixteen points of each of 128 parts tell how much.
+  EXPECT_NEAR(lit(scene::AlphaMode::kMask, 0, 255) / whole, 0.5, 0.04);
+  EXPECT_NEAR(lit(scene::AlphaMode::kBlend, 128, 128) / whole, 0.5, 0.04);
 }
 
 TEST(ShiningSurfaces, LookAsByTracedPaths) {

@@ -180,6 +180,14 @@ double underSky(const scene::Material& material, const Eigen::Vector3f& to_eye, 
   return sum * 4.0 * kPi / (kRings * kSectors);
 }
 
+/// Of matt paint, as light comes back from it on average.
+inline double albedoOf(float base) {
+  const Reflection reflection{Eigen::Vector3f::UnitZ(), Eigen::Vector3f(0.77f, 0.0f, 0.64f),
+                              Eigen::Array3f::Constant(base), 1.0f, 0.0f};
+  const AmbientReflectance ambient = ambientReflectance(reflection);
+  return static_cast<double>(ambient.diffuse[1] * kPiFloat + ambient.specular[1]);
+}
+
 inline bool everywhere(const Eigen::Vector3f&) {
   return true;
 }

@@ -175,6 +175,16 @@ TEST(Leaf, OfMetalLetsNothingThrough) {
   EXPECT_EQ(directReflectance(foil, towards(120.0, 0.0), 0.0f).maxCoeff(), 0.0f);
 }
 
+TEST(Glass, OfMetalIsMetal) {
+  const Reflection metal = surface(towards(20.0, 0.0), 0.6f, 0.3f, 1.0f);
+  Reflection sheet = metal;
+  sheet.glass = 1.0f;
+  const Eigen::Vector3f light = towards(25.0, 180.0);
+  EXPECT_TRUE((directReflectance(sheet, light, 0.0f) == directReflectance(metal, light, 0.0f)).all());
+  EXPECT_TRUE((ambientReflectance(sheet).specular == ambientReflectance(metal).specular).all());
+  EXPECT_EQ(straightThrough(sheet).maxCoeff(), 0.0f);
+}
+
 TEST(Mirrored, TurnsAboutTheNormal) {
   const Eigen::Vector3f mirror = mirrored(towards(30.0, 20.0), Eigen::Vector3f::UnitZ());
   EXPECT_NEAR((mirror - towards(30.0, 200.0)).norm(), 0.0f, 1e-6f);

@@ -165,14 +165,6 @@ TEST(BakedLight, TakesNoMoreSamplesThanAllowed) {
   }
 }
 
-/// What a surface of this base colour passes on of light from all around.
-double albedoOf(float base) {
-  const Reflection reflection{kUp, Eigen::Vector3f(0.77f, 0.0f, 0.64f), Eigen::Array3f::Constant(base), 1.0f,
-                              0.0f};
-  const AmbientReflectance ambient = ambientReflectance(reflection);
-  return static_cast<double>(ambient.diffuse[1] * kPiFloat + ambient.specular[1]);
-}
-
 TEST(BakedLight, ARoomThatGlowsFillsUp) {
   for (const float base : {0.5f, 0.9f}) {
     scene::Scene scene;

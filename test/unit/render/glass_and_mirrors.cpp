@@ -98,16 +98,20 @@ TEST(Glass, IsSeenThroughFromTheSky) {
 }
 
 TEST(SunBehindGlass, IsDimmedByTheAngleAtWhichItPasses) {
-  for (const double elevation_deg : {90.0, 30.0}) {
-    const auto seen = [&](bool glazed) {
+  // One-sided panes face upwards here, so that rays to the sun meet their backs: it is the eye alone that
+  // does not.
+  for (const auto& [elevation_deg, double_sided] :
+       {std::pair(90.0, true), std::pair(30.0, true), std::pair(30.0, false)}) {
+    const auto seen = [&, elevation = elevation_deg, both = double_sided](bool glazed) {
       scene::Scene scene;
       addGround(&scene, addMaterial(&scene, {0.5f, 0.5f, 0.5f}), 50.0f);
       const int pane = addGlass(&scene);
+      scene.materials.back().double_sided = both;
       if (glazed) addPatch(&scene, pane, {-30.0f, -30.0f, 3.0f}, {60.0f, 0.0f, 0.0f}, {0.0f, 60.0f, 0.0f});
       render::Renderer renderer(shared(scene), smallCamera(32, 32, 20.0));
       renderer.look(lookingAt({0.0, 0.0, 2.0}, {0.0, 0.1, 0.0}));
       sky::UniformSky sky{LinearRgb(0.0f, 0.0f, 0.0f), 0.0, {}};
-      sky.sun = daylightAt(180.0, elevation_deg).sun();
+      sky.sun = daylightAt(180.0, elevation).sun();
       return at(renderer.light(sky::uniformDaylight(sky)), 16, 16)[1];
     };
     const float expected = through(static_cast<float>(std::sin(elevation_deg * kRadPerDeg)));
