@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "light/ray_start.h"
 #include "sunlit/light/shading.h"
 
 namespace sunlit::light {
@@ -43,10 +44,7 @@ SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& lig
 Eigen::Array3f SurfaceLighting::ofDisc(const DiscVisibility& disc, float share, const Tile& tile,
                                        const Surface& surface) const {
   if (!glass_.any() || !(share > 0.0f)) return Eigen::Array3f::Constant(share);
-  const std::size_t at = surface.first_sample;
-  Eigen::Vector3f origin(tile.origin_x[at], tile.origin_y[at], tile.origin_z[at]);
-  if (surface.geometric_normal.dot(disc.towards()) < 0.0f)
-    origin -= 2.0f * surface.clearance_m * surface.geometric_normal;
+  const Eigen::Vector3f origin = rayStart(tile, surface.first_sample, surface, disc.towards());
   return share * glass_.through({origin, disc.towards(), 0.0f, std::numeric_limits<float>::infinity()});
 }
 

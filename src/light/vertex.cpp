@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "light/light_table.h"
+#include "light/ray_start.h"
 #include "sunlit/image/srgb.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/scene/wrap.h"
@@ -48,7 +49,7 @@ Vertex seenVertex(const Tile& tile, const Surface& surface, const scene::Scene& 
   vertex.emission = surface.emission;
   vertex.geometric_normal = surface.geometric_normal;
   const std::size_t at = surface.first_sample + sample;
-  vertex.front = {tile.origin_x[at], tile.origin_y[at], tile.origin_z[at]};
+  vertex.front = rayStart(tile, at);
   vertex.behind = vertex.front - 2.0f * surface.clearance_m * surface.geometric_normal;
   return vertex;
 }

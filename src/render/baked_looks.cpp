@@ -14,6 +14,7 @@
 
 #include "render/looks_charts.h"
 #include "render/looks_paint.h"
+#include "sunlit/scene/material_maps.h"
 
 namespace sunlit::render {
 namespace {
@@ -77,12 +78,6 @@ Tint tintOf(const scene::Mesh& mesh, const std::array<std::uint32_t, 3>& v) {
   for (int c = 2; c >= 0; --c)
     tint = tint * 1024 + static_cast<int>(std::lround(kTintSteps * std::sqrt(color[c])));
   return tint;
-}
-
-/// The maps of a material but its base texture.
-std::vector<scene::TextureUse*> mapsOf(scene::Material* material) {
-  return {&material->roughness_map, &material->metalness_map, &material->normal_map, &material->occlusion_map,
-          &material->emission_map};
 }
 
 /// Some triangles of a mesh, with the vertices that they need.
@@ -166,7 +161,7 @@ class Assembly {
     };
     for (scene::Material& material : made_.materials) {
       renumber(&material.base_texture);
-      for (scene::TextureUse* use : mapsOf(&material)) renumber(&use->texture);
+      for (scene::TextureUse* use : mapsOf(material)) renumber(&use->texture);
     }
     return std::move(made_);
   }
@@ -186,7 +181,7 @@ class Assembly {
     if (page >= 0) {
       material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
       material.base_texture = static_cast<int>(scene_.textures.size()) + page;
-      for (scene::TextureUse* use : mapsOf(&material)) ++use->coordinates;
+      for (scene::TextureUse* use : mapsOf(material)) ++use->coordinates;
     }
     for (int c = 0; c < 3 && tint != kNoTint; ++c) {
       const float root = static_cast<float>((tint >> (10 * c)) & 1023) / kTintSteps;
@@ -230,8 +225,7 @@ class Assembly {
     }
     for (std::size_t p = 0; p < parts.size(); ++p) {
       scene::Mesh& made = parts[p].mesh();
-      const std::vector<scene::TextureUse*> maps =
-          mapsOf(&made_.materials[static_cast<std::size_t>(made.material)]);
+      const auto maps = mapsOf(made_.materials[static_cast<std::size_t>(made.material)]);
       if (std::any_of(maps.begin(), maps.end(), [](const auto* use) { return use->given(); }))
         made.more_texture_coordinates.insert(made.more_texture_coordinates.begin(),
                                              std::move(made.texture_coordinates));

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "scene/color.h"
-#include "scene/material_maps.h"
 #include "sunlit/image/texture_files.h"
+#include "sunlit/scene/material_maps.h"
 
 namespace sunlit::scene {
 namespace {

@@ -20,10 +20,8 @@ class LampBeam {
 
   /// Illuminance of a plane at `point` that faces the lamp, lx. Within the lamp's ball: as on its surface.
   Eigen::Array3f at(const Eigen::Vector3f& point) const { return lamp_.intensity.value * share(point); }
-  /// The largest channel of at().
-  float brightestAt(const Eigen::Vector3f& point) const { return brightest_ * share(point); }
 
-  /// Between these lies brightestAt() of all points of a box, whatever is in the way.
+  /// Between these lies the largest channel of at() of all points of a box, whatever is in the way.
   struct Bounds {
     float low, high;
   };
@@ -33,7 +31,7 @@ class LampBeam {
   /// `towards`: the disc that the lamp's ball shows lies across them.
   static Eigen::Matrix<float, 3, 2> across(const Eigen::Vector3f& towards);
 
-  /// at() in parts of intensity(), brightestAt() in parts of brightest().
+  /// at() in parts of intensity(), and its largest channel in parts of brightest().
   float share(const Eigen::Vector3f& point) const;
   const Eigen::Array3f& intensity() const { return lamp_.intensity.value; }
   float brightest() const { return brightest_; }

@@ -7,6 +7,7 @@
 #include "light/angles.h"
 #include "light/light_table.h"
 #include "light/ray_list.h"
+#include "light/ray_start.h"
 #include "sunlit/light/shading.h"
 #include "sunlit/quantity/angle.h"
 
@@ -156,10 +157,7 @@ void LampLight::cast(const LampBeam& beam, const Tile& tile, const std::vector<T
     const int up_to = target.cast == 0 ? 1 : (target.closeness == Closeness::kAll ? kPoints : kFew);
     for (; target.cast < up_to; ++target.cast) {
       const std::uint32_t at = surface.first_sample + (target.cast + target.x + target.y) % surface.samples;
-      Eigen::Vector3f origin(tile.origin_x[at], tile.origin_y[at], tile.origin_z[at]);
-      const Eigen::Vector3f middle = beam.position() - origin;
-      const bool behind = surface.geometric_normal.dot(middle) <= 0.0f;
-      if (behind) origin -= 2.0f * surface.clearance_m * surface.geometric_normal;
+      const Eigen::Vector3f middle = beam.position() - rayStart(tile, at);
       const float distance_m = middle.norm();
       // What lies within the lamp's ball, such as its bulb, is part of it and hides nothing.
       if (distance_m <= beam.radius_m() + surface.clearance_m) {
@@ -169,7 +167,7 @@ void LampLight::cast(const LampBeam& beam, const Tile& tile, const std::vector<T
       const Eigen::Vector3f aside = LampBeam::across(middle / distance_m) *
                                     (beam.radius_m() * points[static_cast<std::size_t>(target.cast)]);
       const float reach = 1.0f - (beam.radius_m() + surface.clearance_m) / distance_m;
-      rays.add(k, origin, reach * (middle + aside));
+      rays.add(k, rayStart(tile, at, surface, middle), reach * (middle + aside));
     }
   }
   blocked.resize(rays.size());
@@ -267,9 +265,7 @@ std::vector<LampLight::OfLamp> LampLight::targetsOf(const Tile& tile) const {
 
 Eigen::Array3f LampLight::throughGlass(const LampBeam& beam, const Tile& tile, const Surface& surface) const {
   const std::size_t at = surface.first_sample;
-  Eigen::Vector3f origin(tile.origin_x[at], tile.origin_y[at], tile.origin_z[at]);
-  if (surface.geometric_normal.dot(beam.position() - origin) <= 0.0f)
-    origin -= 2.0f * surface.clearance_m * surface.geometric_normal;
+  const Eigen::Vector3f origin = rayStart(tile, at, surface, beam.position() - rayStart(tile, at));
   const Eigen::Vector3f way = beam.position() - origin;
   // What lies within the lamp's ball is part of it.
   const float reach = 1.0f - beam.radius_m() / std::max(way.norm(), 1e-6f);

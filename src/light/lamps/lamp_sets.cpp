@@ -19,10 +19,11 @@ std::vector<LampSet> lampSets(const std::vector<scene::Lamp>& lamps) {
   return sets;
 }
 
-std::vector<scene::Lamp> lampsOf(const LampSet& set, const std::vector<scene::Lamp>& lamps) {
+std::vector<scene::Lamp> lampsOf(const LampSet& set, const std::vector<scene::Lamp>& lamps,
+                                 const LampOptions& options) {
   std::vector<scene::Lamp> members;
   for (const std::uint32_t i : set.lamps) members.push_back(lamps[i]);
-  return burning(members, LampOptions());
+  return burning(members, options);
 }
 
 std::vector<float> burningShares(const std::vector<scene::Lamp>& lamps, const LampOptions& options) {
@@ -33,10 +34,8 @@ std::vector<float> burningShares(const std::vector<scene::Lamp>& lamps, const La
   };
   std::vector<float> shares;
   for (const LampSet& set : lampSets(lamps)) {
-    std::vector<scene::Lamp> members;
-    for (const std::uint32_t i : set.lamps) members.push_back(lamps[i]);
-    const float all = sum(burning(members, LampOptions()));
-    shares.push_back(all > 0.0f ? sum(burning(members, options)) / all : 0.0f);
+    const float all = sum(lampsOf(set, lamps));
+    shares.push_back(all > 0.0f ? sum(lampsOf(set, lamps, options)) / all : 0.0f);
   }
   return shares;
 }

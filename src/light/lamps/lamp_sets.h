@@ -17,8 +17,9 @@ struct LampSet {
 /// In the order of their first lamps. A function of `lamps` alone.
 std::vector<LampSet> lampSets(const std::vector<scene::Lamp>& lamps);
 
-/// Its lamps as they are baked: all burn, with the usual LampOptions.
-std::vector<scene::Lamp> lampsOf(const LampSet& set, const std::vector<scene::Lamp>& lamps);
+/// Those of its lamps that burn; with the usual options all do, as they are baked.
+std::vector<scene::Lamp> lampsOf(const LampSet& set, const std::vector<scene::Lamp>& lamps,
+                                 const LampOptions& options = {});
 
 /// What to multiply the baked light of each of lampSets(lamps) by: 0 where none burns. Of a set of several
 /// groups, of which some are switched off, the share of the intensity that burns.

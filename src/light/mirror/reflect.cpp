@@ -7,6 +7,7 @@
 #include "light/glass_sheets.h"
 #include "light/mirror/reflections.h"
 #include "light/ray_list.h"
+#include "light/ray_start.h"
 #include "light/vertex.h"
 #include "sunlit/light/body_light.h"
 #include "sunlit/light/lighting.h"
@@ -96,7 +97,7 @@ class TileMirror {
     rays->reserve(surface.samples);
     for (std::uint32_t i = 0; i < surface.samples; ++i) {
       const std::size_t at = surface.first_sample + i;
-      const Eigen::Vector3f origin(tile.origin_x[at], tile.origin_y[at], tile.origin_z[at]);
+      const Eigen::Vector3f origin = rayStart(tile, at);
       rays->add(number, origin, mirroredClear(surface, (surfaces_.eye - origin).normalized()));
     }
   }

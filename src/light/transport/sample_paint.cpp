@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "light/transport/mesh_leaves.h"
 #include "light/transport/reflectances.h"
@@ -49,9 +50,10 @@ void paintSamples(const Geometry& geometry, SceneSamples* samples) {
     }
   }
   for (std::size_t i = 0; i < areas.size(); ++i) {
-    if (areas[i] <= 0.0f) continue;
-    samples->paints[i].divide(areas[i]);
+    if (areas[i] > 0.0f) samples->paints[i].divide(areas[i]);
+    areas[i] /= 6.0f;  // half of the cross product, and a third of each cell
   }
+  samples->areas_m2 = std::move(areas);
 }
 
 }  // namespace sunlit::light

@@ -23,6 +23,7 @@ struct SceneSamples {
   std::vector<Receiver> receivers;            ///< of each sample, neighbours close together
   std::vector<OtherSide> other_side;          ///< of each sample
   std::vector<Paint> paints;                  ///< of the surfaces around each sample
+  std::vector<float> areas_m2;                ///< of those surfaces: the third of each cell nearest to it
   std::vector<std::uint32_t> nearest_sample;  ///< the one of most weight, of each node
 };
 

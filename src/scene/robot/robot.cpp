@@ -5,10 +5,10 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "scene/material_maps.h"
 #include "scene/mesh_file.h"
 #include "scene/resource_finder.h"
 #include "scene/robot/sdf_robot.h"
+#include "sunlit/scene/material_maps.h"
 
 namespace sunlit::scene {
 
