@@ -18,25 +18,43 @@ const scene::Texture& white() {
   return texture;
 }
 
-/// Luminance that comes through a sheet of glass, of one that a half sphere of even light gives.
-float meanThrough(const scene::Material& material) {
+/// Luminance that comes through a sheet of glass, of one on its other side, by steps of the cosine to its
+/// normal from 0 to 1.
+std::vector<float> through(const scene::Material& material) {
   Reflection reflection = {Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitZ(), material.base_color.value};
   reflection.metalness = material.metalness;
   reflection.dielectric = material.dielectric.value;
   reflection.dielectric_grazing = material.dielectric_grazing;
   reflection.glass = material.glass;
+  constexpr int kSteps = 64;
+  std::vector<float> shares;
+  for (int i = 0; i <= kSteps; ++i) {
+    const float cosine = static_cast<float>(i) / kSteps;
+    reflection.to_eye = Eigen::Vector3f(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
+    shares.push_back(LinearRgb(straightThrough(reflection)).luminance());
+  }
+  return shares;
+}
+
+float atCosine(const std::vector<float>& through, float cosine) {
+  const float at = cosine * static_cast<float>(through.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(at), through.size() - 2);
+  return through[below] + (at - static_cast<float>(below)) * (through[below + 1] - through[below]);
+}
+
+/// Of even light from a half sphere.
+float mean(const std::vector<float>& through) {
   constexpr int kParts = 64;  // of equal irradiance: even in the square of the cosine
   float sum = 0.0f;
-  for (int i = 0; i < kParts; ++i) {
-    const float squared = (static_cast<float>(i) + 0.5f) / kParts;
-    reflection.to_eye = Eigen::Vector3f(std::sqrt(1.0f - squared), 0.0f, std::sqrt(squared));
-    sum += LinearRgb(straightThrough(reflection)).luminance();
-  }
+  for (int i = 0; i < kParts; ++i)
+    sum += atCosine(through, std::sqrt((static_cast<float>(i) + 0.5f) / kParts));
   return sum / kParts;
 }
 
+}  // namespace
+
 /// Evenly spread over 0 … 1, and alike for no neighbours.
-float hashed(float u, float v) {
+float Cutouts::Query::hashed(float u, float v) {
   std::uint32_t a, b;
   std::memcpy(&a, &u, sizeof(a));
   std::memcpy(&b, &v, sizeof(b));
@@ -46,8 +64,6 @@ float hashed(float u, float v) {
   h ^= h >> 16;
   return static_cast<float>(h >> 8) * (1.0f / (1u << 24));
 }
-
-}  // namespace
 
 Cutouts::Mask::Mask(const scene::Texture& source, float alpha_cutoff)
     : texture(&source),
@@ -110,6 +126,11 @@ bool Cutouts::Query::there(float u, float v) const {
   return alpha > hashed(u, v);
 }
 
+bool Cutouts::Query::solid(float u, float v, float cosine) const {
+  if (!isGlass()) return solid(u, v);
+  return 1.0f - atCosine(mask_.through, std::min(cosine, 1.0f)) > hashed(u, v);
+}
+
 // Squares first, without a branch, so that one look-up need not wait for another.
 void Cutouts::Query::solid(const float* u, const float* v, std::size_t count, std::uint8_t* solid) const {
   if (blends()) {
@@ -127,14 +148,17 @@ void Cutouts::Query::solid(const float* u, const float* v, std::size_t count, st
   }
 }
 
-std::int32_t Cutouts::maskOf(const scene::Texture& texture, float alpha_cutoff, float blended) {
+std::int32_t Cutouts::maskOf(const scene::Texture& texture, float alpha_cutoff, float blended,
+                             const std::vector<float>& through) {
   const auto same = std::find_if(masks_.begin(), masks_.end(), [&](const Mask& mask) {
-    return mask.texture == &texture && mask.cutoff == alpha_cutoff * 255.0f && mask.blended == blended;
+    return mask.texture == &texture && mask.cutoff == alpha_cutoff * 255.0f && mask.blended == blended &&
+           mask.through == through;
   });
   const auto index = static_cast<std::int32_t>(same - masks_.begin());
   if (same == masks_.end()) {
     masks_.emplace_back(texture, alpha_cutoff);
     masks_.back().blended = blended;
+    masks_.back().through = through;
   }
   return index;
 }
@@ -151,7 +175,8 @@ Cutouts::Cutouts(const Geometry& geometry, Glass glass) {
     const bool textured = material.base_texture != scene::Material::kNoTexture;
     const bool masks = material.alpha_mode == scene::AlphaMode::kMask && textured;
     if (used[m] && isGlass(material)) {
-      mask_of[m] = glass == Glass::kLeftOut ? kNowhere : maskOf(white(), 0.0f, 1.0f - meanThrough(material));
+      const std::vector<float> shares = through(material);
+      mask_of[m] = glass == Glass::kLeftOut ? kNowhere : maskOf(white(), 0.0f, 1.0f - mean(shares), shares);
       continue;
     }
     if (!used[m] || !(masks || blends)) continue;

@@ -22,9 +22,9 @@ class Cutouts {
 
  public:
   enum class Glass {
-    kByChance,  ///< as what blends: it stops so many rays as it keeps light back on average over a half
-                ///< sphere
-    kLeftOut,   ///< in neither list
+    kByChance,  ///< as what blends: it stops so many rays as it keeps light back, by their angle where that
+                ///< is told, else on average over a half sphere
+    kLeftOut,  ///< in neither list
   };
   explicit Cutouts(const Geometry& geometry, Glass glass = Glass::kByChance);
 
@@ -42,6 +42,9 @@ class Cutouts {
         : triangle_(cutouts.triangles_[masked_triangle]),
           mask_(cutouts.masks_[static_cast<std::size_t>(triangle_.mask)]) {}
     bool solid(float u, float v) const;
+    /// The same of light that meets it by this cosine to its normal, which glass asks for.
+    bool solid(float u, float v, float cosine) const;
+    bool isGlass() const { return !mask_.through.empty(); }
     /// The same of `count` points: 1 or 0.
     void solid(const float* u, const float* v, std::size_t count, std::uint8_t* solid) const;
 
@@ -51,6 +54,7 @@ class Cutouts {
    private:
     /// Of what blends.
     bool there(float u, float v) const;
+    static float hashed(float u, float v);
     /// Between which texels a point lies, and how far from the first ones.
     struct Place {
       int x0, y0;
@@ -76,6 +80,8 @@ class Cutouts {
     Mask(const scene::Texture& source, float alpha_cutoff);
     static constexpr float kCutOut = -1.0f;
     float blended = kCutOut;  ///< factor on alpha; kCutOut: solid where alpha reaches the cutoff
+    /// Of glass: luminance that comes through, by steps of the cosine from 0 to 1; else empty.
+    std::vector<float> through;
 
     enum Square : unsigned { kClear = 0, kSolid = 1, kMixed = 2 };
     /// Where the square stands whose top left corner is the centre of texel (x, y).
@@ -95,7 +101,8 @@ class Cutouts {
     int blocks_a_row;
   };
   /// Index into masks_.
-  std::int32_t maskOf(const scene::Texture& texture, float alpha_cutoff, float blended);
+  std::int32_t maskOf(const scene::Texture& texture, float alpha_cutoff, float blended,
+                      const std::vector<float>& through = {});
 
   std::vector<std::uint32_t> opaque_, masked_;
   std::vector<Triangle> triangles_;  ///< parallel to masked_

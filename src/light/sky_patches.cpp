@@ -47,6 +47,16 @@ std::size_t SkyPatches::ringOf(int patch) {
   return ring;
 }
 
+int SkyPatches::patchAt(const Eigen::Vector3f& towards) {
+  if (!(towards.z() > 0.0f)) return kBelow;
+  const double elevation_deg = std::asin(std::min<double>(towards.z(), 1.0)) / kRadPerDeg;
+  const auto ring = std::find_if(kRings.begin(), kRings.end() - 1,
+                                 [&](const Ring& candidate) { return elevation_deg < candidate.high_deg; });
+  double turns = std::atan2(static_cast<double>(towards.y()), static_cast<double>(towards.x())) / (2.0 * kPi);
+  if (turns < 0.0) turns += 1.0;
+  return ring->first + std::min(static_cast<int>(turns * ring->patches), ring->patches - 1);
+}
+
 std::vector<int> SkyPatches::neighbours(int patch) {
   const std::size_t ring = ringOf(patch);
   const int count = kRings[ring].patches, place = patch - kRings[ring].first;

@@ -69,6 +69,8 @@ class SkyPatches {
   static std::array<PatchShare, 4> around(const Eigen::Vector3f& towards);
   /// The point of a patch above the horizon at shares (u, v) of its azimuth and of the sine of its elevation.
   static Eigen::Vector3f pointIn(int patch, double u, double v);
+  /// The patch that a direction, unit, lies in.
+  static int patchAt(const Eigen::Vector3f& towards);
   /// Index into kRings of the ring that a patch above the horizon is in.
   static std::size_t ringOf(int patch);
   /// Patches above the horizon that share a border with one.

@@ -110,14 +110,15 @@ void Transport::locate(Surfaces* surfaces, FinalGather* gather) const {
                     [&](std::size_t i) { findMirrors(*data_, scene, surfaces->width, &surfaces->tiles[i]); });
 }
 
-std::vector<NodeLight> Transport::relight(const sky::Daylight& day,
-                                          const std::vector<float>& lamp_shares) const {
-  return light::relight(*data_, day, lamp_shares);
+std::vector<NodeLight> Transport::relight(const sky::Daylight& day, const std::vector<float>& lamp_shares,
+                                          const Visibility* visibility) const {
+  return light::relight(*data_, {day, lamp_shares, visibility});
 }
 
-Illumination Transport::illumination(const sky::Daylight& day, const std::vector<float>& lamp_shares) const {
+Illumination Transport::illumination(const sky::Daylight& day, const std::vector<float>& lamp_shares,
+                                     const Visibility* visibility) const {
   Illumination light(day);
-  light.nodes = std::make_shared<const std::vector<NodeLight>>(relight(day, lamp_shares));
+  light.nodes = std::make_shared<const std::vector<NodeLight>>(relight(day, lamp_shares, visibility));
   light.node_open = node_open_;
   light.sky_sectors = std::make_shared<const SkySectors>(day);
   light.mirror_sky = std::make_shared<const MirrorSky>(day);

@@ -13,6 +13,7 @@
 #include "sunlit/light/geometry.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/surfaces.h"
+#include "sunlit/light/visibility.h"
 #include "sunlit/quantity/field.h"
 #include "sunlit/sky/daylight.h"
 
@@ -100,10 +101,14 @@ class Transport {
   LightPlace placeOf(std::uint32_t triangle, bool front, const Eigen::Vector3f& position) const;
 
   /// The light of each node. Of lamps that stand in the scene, what surfaces pass on: a share for each set of
-  /// them that was baked together, as illumination(world, …) finds them.
-  std::vector<NodeLight> relight(const sky::Daylight& day, const std::vector<float>& lamp_shares = {}) const;
+  /// them that was baked together, as illumination(world, …) finds them. `visibility`, of the scene, finds
+  /// where sun and moon shine into rooms, streets and tunnels; without it their light is spread over the
+  /// patches of the sky around them before it is passed on.
+  std::vector<NodeLight> relight(const sky::Daylight& day, const std::vector<float>& lamp_shares = {},
+                                 const Visibility* visibility = nullptr) const;
   /// The same with all else that `day` means at the nodes: Illumination but for its bodies and lamps.
-  Illumination illumination(const sky::Daylight& day, const std::vector<float>& lamp_shares = {}) const;
+  Illumination illumination(const sky::Daylight& day, const std::vector<float>& lamp_shares = {},
+                            const Visibility* visibility = nullptr) const;
 
   /// Illumination::node_open.
   const std::shared_ptr<const std::vector<float>>& nodeOpen() const { return node_open_; }

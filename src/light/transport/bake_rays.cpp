@@ -25,6 +25,15 @@ struct MaskedGroup {
   std::vector<std::uint32_t> masked;  ///< index into Cutouts::maskedTriangles(), by Embree's number
 };
 
+/// Of a ray to the normal of what it meets.
+float cosineOf(const RTCFilterFunctionNArguments& at, unsigned i) {
+  const Eigen::Vector3f normal(RTCHitN_Ng_x(at.hit, at.N, i), RTCHitN_Ng_y(at.hit, at.N, i),
+                               RTCHitN_Ng_z(at.hit, at.N, i));
+  const Eigen::Vector3f way(RTCRayN_dir_x(at.ray, at.N, i), RTCRayN_dir_y(at.ray, at.N, i),
+                            RTCRayN_dir_z(at.ray, at.N, i));
+  return std::abs(normal.normalized().dot(way.normalized()));
+}
+
 /// Lets a ray pass where the surface is cut out.
 void passCutouts(const RTCFilterFunctionNArguments* arguments) {
   const auto& group = *static_cast<const MaskedGroup*>(arguments->geometryUserPtr);
@@ -33,7 +42,9 @@ void passCutouts(const RTCFilterFunctionNArguments* arguments) {
     const float u = RTCHitN_u(arguments->hit, arguments->N, i);
     const float v = RTCHitN_v(arguments->hit, arguments->N, i);
     const std::uint32_t masked = group.masked[RTCHitN_primID(arguments->hit, arguments->N, i)];
-    if (!group.cutouts->solid(masked, u, v)) arguments->valid[i] = 0;
+    const Cutouts::Query surface(*group.cutouts, masked);
+    const bool solid = surface.isGlass() ? surface.solid(u, v, cosineOf(*arguments, i)) : surface.solid(u, v);
+    if (!solid) arguments->valid[i] = 0;
   }
 }
 

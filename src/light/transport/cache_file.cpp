@@ -23,10 +23,10 @@ struct Header {
   std::uint32_t version;
   std::uint32_t patches;
   Number key;
-  std::uint64_t counts[21];  ///< of the arrays, in the order of visitArrays()
+  std::uint64_t counts[30];  ///< of the arrays, in the order of visitArrays()
   Number checksum;           ///< of all that follows
 };
-static_assert(sizeof(Header) == 216, "no padding goes to the file");
+static_assert(sizeof(Header) == 288, "no padding goes to the file");
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what) {
   throw std::runtime_error(file.string() + ": " + what);
@@ -52,6 +52,15 @@ void visitArrays(Data& data, const Visit& visit) {
   visit(data.lamps.first);
   visit(data.lamps.blocks);
   visit(data.lamps.light);
+  visit(data.rooms.samples);
+  visit(data.rooms.first);
+  visit(data.rooms.below);
+  visit(data.rooms.scales);
+  visit(data.rooms.links);
+  visit(data.rooms.mirrored.rows);
+  visit(data.rooms.mirrored.scales);
+  visit(data.rooms.sources);
+  visit(data.rooms.points);
 }
 
 }  // namespace

@@ -75,12 +75,18 @@ void store(const PartSums& sums, std::size_t sample, PassedOn* part) {
       luminance > 0.0f ? Eigen::Array3f(sums.color / luminance) : Eigen::Array3f(Eigen::Array3f::Ones());
 }
 
+void Exchange::useRooms() {
+  if (rooms_.samples.empty()) return;
+  room_of_.assign(seen.size(), LightMesh::kNone);
+  for (std::uint32_t room = 0; room < rooms_.samples.size(); ++room) room_of_[rooms_.samples[room]] = room;
+}
+
 RaySeen Exchange::ray(std::size_t sample, std::size_t hit) const {
   const SampleHits& view = seen[sample];
   const bool up = hit < view.up;
   const std::uint32_t direction = view.hits[hit] >> kDirectionShift;
   const SkyPatches::Ray& ray = patches_.coarseRays()[up ? direction : direction + SkyPatches::kAbove];
-  return {view.hits[hit] & kSampleMask, direction, ray.towards,  // the ray's own weight is in the scales
+  return {sampleOf(view.hits[hit]), direction, ray.towards,  // the ray's own weight is in the scales
           ray.solid_angle * samples_.receivers[sample].weight(ray.towards) *
               (up ? view.scale_up : view.scale_down) / kPiFloat};
 }
@@ -91,10 +97,10 @@ bool Exchange::isGround(std::uint32_t sample) const {
   return receiver.normal.z() > kLevel && !receiver.thin && samples_.paints[sample].metalness < 0.5f;
 }
 
-float Exchange::scattered(const RaySeen& ray) const {
-  if (ray.towards.z() >= 0.0f || !isGround(ray.from)) return 1.0f;
+float Exchange::scattered(std::uint32_t from, const Eigen::Vector3f& towards) const {
+  if (towards.z() >= 0.0f || !isGround(from)) return 1.0f;
   static const float mean = 1.0f - meanGrazing(kMeanView);
-  return (1.0f - meanGrazing(-ray.towards.z())) / mean;
+  return (1.0f - meanGrazing(-towards.z())) / mean;
 }
 
 Sending Exchange::sending(std::size_t sample) const {
@@ -126,37 +132,37 @@ PassedOnSums Exchange::received(const std::vector<SentSums>& sent, std::size_t s
   sums.below.color.setConstant(mirrored_sums[sample]);
   sums.above.glow = shining[sample].above;
   sums.below.glow = shining[sample].below;
-  const SampleHits& view = seen[sample];
-  for (std::size_t k = 0; k < view.hits.size(); ++k) {
-    PartSums& part = k < view.up ? sums.above : sums.below;
-    const RaySeen seen_along = ray(sample, k);
-    const float weight = seen_along.weight * scattered(seen_along);
-    part.color += weight * sent[seen_along.from].color;
-    part.glow += weight * sent[seen_along.from].glow;
-  }
+  visitSeen(sample, [&](const SampleSeen& other, bool up) {
+    PartSums& part = up ? sums.above : sums.below;
+    part.color += other.weight * sent[other.sample].color;
+    part.glow += other.weight * sent[other.sample].glow;
+  });
   return sums;
 }
 
 Arrived Exchange::receivedOf(const std::vector<Eigen::Array3f>& sent, std::size_t sample) const {
   Arrived sum;
-  const SampleHits& view = seen[sample];
-  for (std::size_t k = 0; k < view.hits.size(); ++k) {
-    const RaySeen seen_along = ray(sample, k);
-    const Eigen::Array3f& from = sent[seen_along.from];
-    if (from.isZero(0.0f)) continue;
-    (k < view.up ? sum.above : sum.below) += seen_along.weight * scattered(seen_along) * from;
-  }
+  visitSeen(sample, [&](const SampleSeen& other, bool up) {
+    (up ? sum.above : sum.below) += other.weight * sent[other.sample];
+  });
   return sum;
+}
+
+std::vector<Sending> Exchange::sendings() const {
+  std::vector<Sending> all(seen.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { all[i] = sending(i); });
+  return all;
 }
 
 std::vector<Arrived> Exchange::passedOn(const std::vector<Eigen::Array3f>& direct, int most) const {
   std::vector<Arrived> has(seen.size()), next(seen.size());
   std::vector<Eigen::Array3f> sent(seen.size());
+  const std::vector<Sending> sends_of = sendings();
   const auto all = [&](std::size_t i) -> Eigen::Array3f { return direct[i] + has[i].above + has[i].below; };
   double change = 1.0;
   for (int bounce = 0; bounce < most && change > kNextToNothing; ++bounce) {
     tbb::parallel_for(std::size_t{0}, sent.size(), [&](std::size_t i) {
-      const Sending sends = sending(i);
+      const Sending& sends = sends_of[i];
       sent[i] = sends.bounced * all(i);
       if (sends.other != LightMesh::kNone) sent[i] += sends.through * all(sends.other);
     });
@@ -172,9 +178,10 @@ void Exchange::addLaterBounces(TransportData* data) const {
   const std::vector<PassedOnSums> traced = has.passed_on;
   std::vector<PassedOnSums> next(count);
   std::vector<SentSums> sent(count);
+  const std::vector<Sending> sends_of = sendings();
   double change = 1.0;
   for (int bounce = 0; bounce < kAllBounces && change > kNextToNothing; ++bounce) {
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { sent[i] = sentBy(sending(i), has, i); });
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { sent[i] = sentBy(sends_of[i], has, i); });
     change = receiveAll(has.passed_on, &next, [&](std::size_t i) { return received(sent, i); });
     has.passed_on.swap(next);
   }

@@ -17,6 +17,13 @@ struct SampleHits {
   std::size_t up = 0;                        ///< the first of them, above the horizon
   float scale_up = 0.0f, scale_down = 0.0f;  ///< of the hits' weights, by direction
   bool inside = false;                       ///< of a body
+  bool walled_in = false;                    ///< sees little but surfaces, other than leaves
+};
+
+/// A sample that another one sees, and what its luminance × π counts there, in illuminance.
+struct SampleSeen {
+  std::uint32_t sample;
+  float weight;
 };
 
 /// A ray from a sample to one that it sees.
@@ -64,17 +71,31 @@ SumsOfAll sumsOf(const TransportData& data);
 /// Writes tint and glow of a sample's part, not its coefficients.
 void store(const PartSums& sums, std::size_t sample, PassedOn* part);
 
+/// Calls visit(SampleSeen, whether it is seen above the horizon) for all that a room sees.
+template <typename Visit>
+void visitLinks(const BakedRooms& rooms, std::size_t room, const Visit& visit) {
+  for (std::uint32_t k = rooms.first[room]; k < rooms.first[room + 1]; ++k) {
+    const BakedRooms::Link link = rooms.links[k];
+    visit(SampleSeen{BakedRooms::sampleOf(link), rooms.scales[room] * BakedRooms::weightOf(link)},
+          k < rooms.below[room]);
+  }
+}
+
 class Exchange {
  public:
   static constexpr std::size_t kMostSamples = std::size_t{1} << 24;
 
-  /// Keeps references.
-  Exchange(const SceneSamples& samples, const SkyPatches& patches)
+  /// Keeps references. Of `rooms`, which may be filled later, those that setRooms() was called for.
+  Exchange(const SceneSamples& samples, const SkyPatches& patches, const BakedRooms& rooms)
       : seen(samples.receivers.size()),
         mirrored_sums(samples.receivers.size(), 0.0f),
         shining(samples.receivers.size()),
         samples_(samples),
-        patches_(patches) {}
+        patches_(patches),
+        rooms_(rooms) {}
+
+  /// To be called when `rooms` is filled: what they see is then known by their links, not by `seen`.
+  void useRooms();
 
   std::vector<SampleHits> seen;      ///< of each sample
   std::vector<float> mirrored_sums;  ///< sky by way of the ground as a mirror, without colour, lx
@@ -84,11 +105,15 @@ class Exchange {
   static std::uint32_t hitOf(std::uint32_t sample, std::uint32_t direction) {
     return direction << kDirectionShift | sample;
   }
+  static std::uint32_t sampleOf(std::uint32_t hit) { return hit & kSampleMask; }
   RaySeen ray(std::size_t sample, std::size_t hit) const;
   /// Whether a sample mirrors as GroundMirror says.
   bool isGround(std::uint32_t sample) const;
   /// Ground scatters less towards a glancing ray than towards the mean one: Fresnel's share is larger there.
-  float scattered(const RaySeen& ray) const;
+  float scattered(std::uint32_t from, const Eigen::Vector3f& towards) const;
+  /// Calls visit(SampleSeen, whether it is seen above the horizon) for all that light reaches a sample from.
+  template <typename Visit>
+  void visitSeen(std::size_t sample, const Visit& visit) const;
 
   Sending sending(std::size_t sample) const;
   /// The sums of what a sample has, and of what it has from the other side.
@@ -113,9 +138,24 @@ class Exchange {
   static_assert(SkyPatches::kAbove <= 256 && SkyPatches::kDown <= 256, "a direction fits above a sample");
 
   Arrived receivedOf(const std::vector<Eigen::Array3f>& sent, std::size_t sample) const;
+  /// sending() of all samples, for who needs it many times.
+  std::vector<Sending> sendings() const;
 
   const SceneSamples& samples_;
   const SkyPatches& patches_;
+  const BakedRooms& rooms_;
+  std::vector<std::uint32_t> room_of_;  ///< of each sample, or LightMesh::kNone; empty: there are none
 };
+
+template <typename Visit>
+void Exchange::visitSeen(std::size_t sample, const Visit& visit) const {
+  const std::uint32_t room = room_of_.empty() ? LightMesh::kNone : room_of_[sample];
+  if (room != LightMesh::kNone) return visitLinks(rooms_, room, visit);
+  const SampleHits& view = seen[sample];
+  for (std::size_t k = 0; k < view.hits.size(); ++k) {
+    const RaySeen along = ray(sample, k);
+    visit(SampleSeen{along.from, along.weight * scattered(along.from, along.towards)}, k < view.up);
+  }
+}
 
 }  // namespace sunlit::light

@@ -15,6 +15,7 @@
 #include "light/transport/exchange.h"
 #include "light/transport/ground_mirror.h"
 #include "light/transport/lamp_bounces.h"
+#include "light/transport/rooms.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/photometry.h"
 #include "sunlit/quantity/vector_clones.h"
@@ -25,6 +26,9 @@ namespace {
 constexpr std::size_t kPatches = SkyPatches::kCount;
 constexpr std::size_t kPacket = RayPacket::kSize;
 constexpr float kMostInside = 0.6f;  ///< share of rays that may end inside bodies
+/// Of what a sample looks at, by cosine, walls and the like: where they are less, most light comes from the
+/// sky, or in many parts through leaves.
+constexpr float kWalls = 0.8f;
 
 constexpr std::size_t kBlock = 256;  ///< samples, of one task
 
@@ -46,7 +50,8 @@ void addShares(float factor, const float* shares, const std::uint8_t* coefficien
 
 class Gatherer {
  public:
-  Gatherer(const BakeScene& scene, const SceneSamples& samples, const GatherOptions& options)
+  Gatherer(const BakeScene& scene, const SceneSamples& samples, const GatherOptions& options,
+           const BakedRooms& rooms)
       : scene_(scene),
         geometry_(scene.geometry),
         traits_(scene.traits),
@@ -54,7 +59,7 @@ class Gatherer {
         options_(options),
         patches_(options.rays_per_patch),
         probe_(scene.rays, scene.traits, patches_),
-        exchange_(samples, patches_),
+        exchange_(samples, patches_, rooms),
         count_(samples.receivers.size()) {}
 
   std::vector<bool> gather(TransportData* data) {
@@ -68,8 +73,14 @@ class Gatherer {
       lookAround(p * kPacket, data);
       step(direct_share / static_cast<double>(packets));
     });
-    if (options_.bounces > 0) lookIntoGround(*data);
-    if (options_.bounces > 0) lookAtWhatShines();
+    if (options_.bounces > 0) {
+      const RoomBaker rooms(scene_, samples_, exchange_);
+      rooms.look(data);
+      exchange_.useRooms();
+      lookIntoGround(*data);
+      lookAtWhatShines();
+      rooms.finish(mirrored_, &data->rooms);
+    }
     for (int bounce = 0; bounce < options_.bounces; ++bounce)
       passOn(data, (1.0 - direct_share) / options_.bounces);
     const bool all = options_.bounces >= kBouncesBeforeAll;
@@ -85,7 +96,7 @@ class Gatherer {
   struct Look {
     Row row{};
     BurialTest burial;
-    float all = 0.0f, inside = 0.0f, blocked_up = 0.0f, blocked_down = 0.0f, coarse_blocked_up = 0.0f;
+    float all = 0.0f, inside = 0.0f, leaves = 0.0f, blocked_up = 0.0f, blocked_down = 0.0f, coarse_blocked_up = 0.0f;
     std::array<std::uint32_t, SkyPatches::kCoarse> hits;  ///< as SampleHits::hits
     std::size_t hit_count = 0, up = 0;
   };
@@ -94,24 +105,6 @@ class Gatherer {
     const std::lock_guard<std::mutex> lock(progress_mutex_);
     done_ += share;
     if (options_.progress) options_.progress(std::min(done_, 1.0));
-  }
-
-  /// Whose light a ray meets: a cell tree, or kNone for the inside of a body.
-  std::uint32_t rootAt(const HitPacket& hits, int lane, const Eigen::Vector3f& towards) const {
-    const std::uint32_t t = hits.triangle[lane];
-    const std::size_t side = geometry_.planes[t].normal.dot(towards) > 0.0f ? 1 : 0;
-    if (side == 1 && traits_[t].solid) return LightMesh::kNone;
-    const std::uint32_t root = samples_.mesh.roots[t][side];
-    const std::uint32_t other = samples_.mesh.roots[t][1 - side];
-    if (LightMesh::isCell(root)) return root;
-    return LightMesh::isCell(other) ? other : LightMesh::kNone;
-  }
-
-  /// The sample nearest to where a ray hit.
-  std::uint32_t sampleAt(std::uint32_t root, float u, float v) const {
-    const LightMesh::Place place = samples_.mesh.locate(root, {1.0f - u - v, u, v});
-    const auto largest = std::max_element(place.weight.begin(), place.weight.end()) - place.weight.begin();
-    return samples_.nearest_sample[place.node[static_cast<std::size_t>(largest)]];
   }
 
   /// Of two samples on both sides of a sheet, rays of the first serve both.
@@ -157,11 +150,12 @@ class Gatherer {
       look->row[static_cast<std::size_t>(ray.patch)] += cast.weight;
       return;
     }
-    const std::uint32_t root = rootAt(cast.hits, cast.lane, ray.towards);
-    if (root == LightMesh::kNone) {
+    const std::uint32_t from = sampleAt(scene_, samples_, {cast.hits, cast.lane, ray.towards});
+    if (from == LightMesh::kNone) {
       look->inside += cast.weight;
       return;
     }
+    if (isLeaf(traits_[cast.hits.triangle[cast.lane]].kind)) look->leaves += cast.weight;
     const bool up = ray.patch != SkyPatches::kBelow;
     (up ? look->blocked_up : look->blocked_down) += cast.weight;
     if (ray.coarse == SkyPatches::Ray::kFineOnly) return;
@@ -169,7 +163,6 @@ class Gatherer {
       look->coarse_blocked_up +=
           SkyPatches::solidAngle(ray.patch) * samples_.receivers[sample].weight(ray.towards);
     }
-    const std::uint32_t from = sampleAt(root, cast.hits.u[cast.lane], cast.hits.v[cast.lane]);
     const auto direction = static_cast<std::uint32_t>(up ? ray.coarse : ray.coarse - SkyPatches::kAbove);
     look->hits[look->hit_count++] = Exchange::hitOf(from, direction);
     look->up += up;
@@ -188,6 +181,7 @@ class Gatherer {
     seen.hits.assign(look->hits.begin(), look->hits.begin() + look->hit_count);
     seen.up = look->up;
     seen.inside = look->inside > kMostInside * look->all || (!receiver.thin && look->burial.buried());
+    seen.walled_in = look->blocked_up + look->blocked_down - look->leaves > kWalls * told;
     seen.scale_down = scale;
     seen.scale_up = scale;
     if (look->coarse_blocked_up > 0.0f && !receiver.coarse) {
@@ -273,11 +267,9 @@ class Gatherer {
                TransportData* data) const {
     Row above{}, below{};
     addTimes(mirrored_.scales[i], mirrored_.row(i), below.data());
-    for (std::size_t k = 0; k < exchange_.seen[i].hits.size(); ++k) {
-      const RaySeen ray = exchange_.ray(i, k);
-      addTimes(ray.weight * exchange_.scattered(ray) * sent.scales[ray.from], sent.row(ray.from),
-               (k < exchange_.seen[i].up ? above : below).data());
-    }
+    exchange_.visitSeen(i, [&](const SampleSeen& seen, bool up) {
+      addTimes(seen.weight * sent.scales[seen.sample], sent.row(seen.sample), (up ? above : below).data());
+    });
     const PassedOnSums sums = exchange_.received(others, i);
     data->above.coefficients.set(i, above.data());
     data->below.coefficients.set(i, below.data());
@@ -308,7 +300,7 @@ std::vector<bool> gatherLight(const BakeScene& scene, const SceneSamples& sample
     throw std::runtime_error("bake of light: the scene takes " + std::to_string(samples.receivers.size()) +
                              " samples, of at most " + std::to_string(Exchange::kMostSamples));
   }
-  return Gatherer(scene, samples, options).gather(data);
+  return Gatherer(scene, samples, options, data->rooms).gather(data);
 }
 
 }  // namespace sunlit::light

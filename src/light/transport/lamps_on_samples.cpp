@@ -22,44 +22,6 @@ constexpr float kNextToNothing_lx = 1e-4f;
 constexpr float kSpacing = 0.3f;
 constexpr int kMostAcross = 8;
 
-/// The part of a triangle that is nearest to a corner of a leaf, by barycentric coordinates of the leaf.
-struct Part {
-  std::array<Eigen::Vector3f, 3> corner;
-};
-/// Corner, middle of an edge, middle of the leaf; and the same by the other edge.
-const std::array<std::array<Part, 2>, 3>& partsOfCorners() {
-  static const auto all = [] {
-    std::array<std::array<Part, 2>, 3> parts;
-    const Eigen::Vector3f middle = Eigen::Vector3f::Constant(1.0f / 3.0f);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Eigen::Vector3f own = Eigen::Vector3f::Unit(static_cast<Eigen::Index>(k));
-      for (std::size_t side = 0; side < 2; ++side) {
-        const Eigen::Vector3f other = Eigen::Vector3f::Unit(static_cast<Eigen::Index>((k + 1 + side) % 3));
-        parts[k][side] = {own, 0.5f * (own + other), middle};
-      }
-    }
-    return parts;
-  }();
-  return all;
-}
-
-/// Middles of the across² equal triangles that a triangle falls into, by its own barycentric coordinates.
-template <typename Visit>
-void visitMiddles(int across, const Visit& visit) {
-  const float step = 1.0f / static_cast<float>(across);
-  for (int i = 0; i < across; ++i) {
-    for (int j = 0; i + j < across; ++j) {
-      const Eigen::Vector2f at(static_cast<float>(i), static_cast<float>(j));
-      const auto see = [&](float shift) {
-        const Eigen::Vector2f uv = step * (at + Eigen::Vector2f::Constant(shift));
-        visit(Eigen::Vector3f(1.0f - uv.sum(), uv.x(), uv.y()));
-      };
-      see(1.0f / 3.0f);
-      if (i + j + 1 < across) see(2.0f / 3.0f);
-    }
-  }
-}
-
 /// What a triangle adds to a sample.
 struct Arrival {
   std::uint32_t sample;
@@ -135,19 +97,10 @@ class LampsOnTriangles {
           static_cast<int>(std::ceil(0.5f * longest / std::max(kSpacing * away, 1e-3f))), 1, kMostAcross);
       for (std::size_t k = 0; k < 3; ++k) {
         float points = 0.0f;
-        if (across == 1) {
-          Eigen::Vector3f middle = Eigen::Vector3f::Constant(7.0f / 36.0f);  // of the part's area
-          middle[static_cast<Eigen::Index>(k)] = 22.0f / 36.0f;
-          aim(lamp, within * middle);
-          points = 1.0f;
-        } else {
-          for (const Part& part : partsOfCorners()[k]) {
-            visitMiddles(across, [&](const Eigen::Vector3f& b) {
-              aim(lamp, within * (b[0] * part.corner[0] + b[1] * part.corner[1] + b[2] * part.corner[2]));
-              points += 1.0f;
-            });
-          }
-        }
+        visitPart(k, across, [&](const Eigen::Vector3f& b) {
+          aim(lamp, within * b);
+          points += 1.0f;
+        });
         weights_.push_back(part_m2 / points);
         ends_.push_back(sights_.size());
       }
@@ -206,27 +159,6 @@ class LampsOnTriangles {
   std::vector<std::size_t> ends_;  ///< of each corner's rays
 };
 
-/// Of the surfaces around each sample, m².
-std::vector<float> areasOf(const BakeScene& scene, const SceneSamples& samples) {
-  std::vector<float> areas(samples.receivers.size(), 0.0f);
-  for (std::uint32_t t = 0; t < samples.mesh.roots.size(); ++t) {
-    const auto& corners = scene.geometry.triangles[t];
-    const Eigen::Vector3f first = scene.geometry.positions[corners[0]];
-    const float whole = 0.5f * (scene.geometry.positions[corners[1]] - first)
-                                   .cross(scene.geometry.positions[corners[2]] - first)
-                                   .norm();
-    for (const std::uint32_t root : samples.mesh.roots[t]) {
-      if (!LightMesh::isCell(root)) continue;
-      visitLeaves(samples.mesh, root, Eigen::Matrix3f::Identity(),
-                  [&](const LightMesh::Cell& cell, const Eigen::Matrix3f& within) {
-                    const float part = whole * std::abs(within.determinant()) / 3.0f;
-                    for (const std::uint32_t node : cell.corner) areas[samples.nearest_sample[node]] += part;
-                  });
-    }
-  }
-  return areas;
-}
-
 }  // namespace
 
 std::vector<Eigen::Array3f> lampsOnSamples(const BakeScene& scene, const SceneSamples& samples,
@@ -242,9 +174,8 @@ std::vector<Eigen::Array3f> lampsOnSamples(const BakeScene& scene, const SceneSa
   std::vector<Eigen::Array3f> sums(samples.receivers.size(), Eigen::Array3f::Zero());
   for (const std::vector<Arrival>& block : arrivals)
     for (const Arrival& arrival : block) sums[arrival.sample] += arrival.light;
-  const std::vector<float> areas = areasOf(scene, samples);
   for (std::size_t i = 0; i < sums.size(); ++i)
-    if (areas[i] > 0.0f) sums[i] /= areas[i];
+    if (samples.areas_m2[i] > 0.0f) sums[i] /= samples.areas_m2[i];
   return sums;
 }
 

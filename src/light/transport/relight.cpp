@@ -8,7 +8,9 @@
 #include <cmath>
 
 #include "light/patch_sky.h"
+#include "light/transport/discs_in_rooms.h"
 #include "light/transport/lamp_bounces.h"
+#include "light/transport/small_light.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/vector_clones.h"
 
@@ -17,23 +19,6 @@ namespace {
 
 /// Of an even sphere's light: surfaces that hide less are too few to tell how bright they are.
 constexpr float kLeastHidden = 0.02f;
-
-/// A disc as additional luminance of the patches around it.
-struct SmallLight {
-  std::array<PatchShare, 4> shares;
-  std::array<Eigen::Array3f, 4> luminances;
-
-  explicit SmallLight(const sky::DiscLight& disc) {
-    shares = SkyPatches::around(disc.towards.vector().cast<float>());
-    for (std::size_t k = 0; k < 4; ++k)
-      luminances[k] = disc.illuminance.value * (shares[k].share / SkyPatches::solidAngle(shares[k].patch));
-  }
-  Eigen::Array3f times(const std::uint8_t* row) const {
-    Eigen::Array3f sum = Eigen::Array3f::Zero();
-    for (std::size_t k = 0; k < 4; ++k) sum += luminances[k] * static_cast<float>(row[shares[k].patch]);
-    return sum;
-  }
-};
 
 /// What lights the samples of a scene.
 class Lights {
@@ -55,6 +40,12 @@ class Lights {
     const Eigen::Array3f tint = Eigen::Map<const Eigen::Array3f>(part.tints[sample].data());
     return (sky_.times(row) + sun_.times(row) + moon_.times(row)) *
                (part.coefficients.scales[sample] * tint) +
+           Eigen::Map<const Eigen::Array3f>(part.glows[sample].data());
+  }
+  /// The same without sun and moon.
+  Eigen::Array3f ofSky(const PassedOn& part, std::size_t sample) const {
+    const Eigen::Array3f tint = Eigen::Map<const Eigen::Array3f>(part.tints[sample].data());
+    return sky_.times(part.coefficients.row(sample)) * (part.coefficients.scales[sample] * tint) +
            Eigen::Map<const Eigen::Array3f>(part.glows[sample].data());
   }
 
@@ -81,21 +72,33 @@ Surroundings surroundingsOf(const Eigen::Array3f& above, float hides_above, cons
 /// By lamps, of every sample; empty: none burns.
 using ByLamps = std::vector<BakedLamps::Light>;
 
+/// A sample's light from surfaces above the horizon and below it, lx.
+struct FromSurfaces {
+  Eigen::Array3f above, below;
+};
+
+NodeLight lightOf(const TransportData& data, const Lights& lights, std::size_t sample,
+                  const FromSurfaces& from) {
+  const float open = data.direct.row(sample)[SkyPatches::kBelow] * data.direct.scales[sample];
+  return {lights.direct(data.direct, sample) + from.above + from.below,
+          surroundingsOf(from.above, data.above.hides[sample], from.below + lights.fromBelow(open),
+                         data.below.hides[sample] + open / kPiFloat)};
+}
+
+void addLampsTo(FromSurfaces* from, const ByLamps& by_lamps, std::size_t sample) {
+  if (by_lamps.empty()) return;
+  from->above += Eigen::Map<const Eigen::Array3f>(by_lamps[sample].data());
+  from->below += Eigen::Map<const Eigen::Array3f>(by_lamps[sample].data() + 3);
+}
+
 SUNLIT_WIDE_VECTOR_CLONES
 void lightSamples(const TransportData& data, const Lights& lights, const ByLamps& by_lamps,
                   const tbb::blocked_range<std::size_t>& samples, NodeLight* light) {
   const std::size_t end = samples.end();
   for (std::size_t i = samples.begin(); i != end; ++i) {
-    Eigen::Array3f above = lights.passedOn(data.above, i);
-    Eigen::Array3f below = lights.passedOn(data.below, i);
-    if (!by_lamps.empty()) {
-      above += Eigen::Map<const Eigen::Array3f>(by_lamps[i].data());
-      below += Eigen::Map<const Eigen::Array3f>(by_lamps[i].data() + 3);
-    }
-    const float open = data.direct.row(i)[SkyPatches::kBelow] * data.direct.scales[i];
-    light[i] = {lights.direct(data.direct, i) + above + below,
-                surroundingsOf(above, data.above.hides[i], below + lights.fromBelow(open),
-                               data.below.hides[i] + open / kPiFloat)};
+    FromSurfaces from{lights.passedOn(data.above, i), lights.passedOn(data.below, i)};
+    addLampsTo(&from, by_lamps, i);
+    light[i] = lightOf(data, lights, i, from);
   }
 }
 
@@ -109,23 +112,31 @@ ByLamps lampLight(const TransportData& data, const std::vector<float>& shares) {
   return light;
 }
 
-std::vector<NodeLight> sampleLight(const TransportData& data, const sky::Daylight& day,
-                                   const std::vector<float>& lamp_shares) {
-  const Lights lights(day);
-  const ByLamps by_lamps = lampLight(data, lamp_shares);
+std::vector<NodeLight> sampleLight(const TransportData& data, const Conditions& conditions) {
+  const Lights lights(conditions.day);
+  const ByLamps by_lamps = lampLight(data, conditions.lamp_shares);
   std::vector<NodeLight> light(data.sampleCount());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, light.size(), 1024),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       lightSamples(data, lights, by_lamps, range, light.data());
                     });
+  if (!conditions.visibility || data.rooms.samples.empty()) return light;
+  const DiscsInRooms discs(data, conditions.day, *conditions.visibility);
+  if (discs.dark()) return light;
+  tbb::parallel_for(std::size_t{0}, data.rooms.samples.size(), [&](std::size_t room) {
+    const std::uint32_t sample = data.rooms.samples[room];
+    FromSurfaces from{lights.ofSky(data.above, sample) + discs.at(room).above,
+                      lights.ofSky(data.below, sample) + discs.at(room).below};
+    addLampsTo(&from, by_lamps, sample);
+    light[sample] = lightOf(data, lights, sample, from);
+  });
   return light;
 }
 
 }  // namespace
 
-std::vector<NodeLight> relight(const TransportData& data, const sky::Daylight& day,
-                               const std::vector<float>& lamp_shares) {
-  const std::vector<NodeLight> samples = sampleLight(data, day, lamp_shares);
+std::vector<NodeLight> relight(const TransportData& data, const Conditions& conditions) {
+  const std::vector<NodeLight> samples = sampleLight(data, conditions);
   const LightMesh& mesh = data.mesh;
   std::vector<NodeLight> nodes(mesh.nodeCount());
   tbb::parallel_for(

@@ -50,6 +50,11 @@ void Coefficients::set(std::size_t sample, const float* row) {
   for (int p = 0; p < SkyPatches::kCount; ++p) to[p] = static_cast<std::uint8_t>(row[p] * inverse + 0.5f);
 }
 
+void Coefficients::copy(const Coefficients& others, std::size_t from, std::size_t sample) {
+  std::copy_n(others.row(from), SkyPatches::kCount, rows.data() + sample * SkyPatches::kCount);
+  scales[sample] = others.scales[from];
+}
+
 float Coefficients::sum(std::size_t sample) const {
   std::uint32_t sum = 0;
   for (int p = 0; p < SkyPatches::kCount; ++p) sum += row(sample)[p];

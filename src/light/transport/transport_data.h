@@ -61,6 +61,8 @@ struct Coefficients {
   void resize(std::size_t samples);
   /// Stores `row` of SkyPatches::kCount values ≥ 0.
   void set(std::size_t sample, const float* row);
+  /// Stores the row `from` of others.
+  void copy(const Coefficients& others, std::size_t from, std::size_t sample);
   const std::uint8_t* row(std::size_t sample) const { return rows.data() + sample * SkyPatches::kCount; }
   /// For 1 cd/m² of all patches.
   float sum(std::size_t sample) const;
@@ -93,6 +95,43 @@ struct BakedLamps {
   std::size_t setCount() const { return first.empty() ? 0 : first.size() - 1; }
 };
 
+/// Samples that see little but other surfaces, as in rooms, streets and tunnels, where the sun lights few
+/// places and these the rest: which samples they see, so that light of sun and moon comes from where it
+/// really lies.
+struct BakedRooms {
+  /// One that is seen: its number below kSampleBits, above them how much its luminance × π counts in
+  /// illuminance: a root, 1 … 255, of parts of the room's scale, for most count little beside a few.
+  using Link = std::uint32_t;
+  static constexpr std::uint32_t kSampleBits = 24;
+  static std::uint32_t sampleOf(Link link) { return link & ((1u << kSampleBits) - 1); }
+  static float weightOf(Link link) {
+    const auto root = static_cast<float>(link >> kSampleBits);
+    return root * root;
+  }
+
+  std::vector<std::uint32_t> samples;  ///< that look so, in rising order: below called rooms
+  std::vector<std::uint32_t> first;    ///< of each room, into `links`; and the end
+  std::vector<std::uint32_t> below;    ///< of each, into `links`: the first that is seen below the horizon
+  std::vector<float> scales;           ///< of each room's weights
+  std::vector<Link> links;
+
+  Coefficients mirrored;  ///< of each room: sky by way of the ground as a mirror, without colour
+
+  /// A sample that is seen.
+  struct Source {
+    std::uint32_t sample, other;  ///< and the one on the other side of its sheet, or LightMesh::kNone
+    std::array<float, 3> direct, bounced, through;  ///< as Sending
+    std::array<float, 3> normal;
+    std::uint32_t first_point, points;  ///< 0: its light is told by its coefficients
+  };
+  struct Point {
+    float x, y, z;  ///< m in `map`, clear of the surface
+    float share;    ///< of its source's area
+  };
+  std::vector<Source> sources;  ///< in rising order of samples
+  std::vector<Point> points;
+};
+
 struct TransportData {
   LightMesh mesh;
   Coefficients direct;  ///< straight from the sky
@@ -101,6 +140,7 @@ struct TransportData {
   PassedOn above, below;
   LeafOpenness leaves;
   BakedLamps lamps;
+  BakedRooms rooms;
 
   std::size_t sampleCount() const { return direct.scales.size(); }
 };

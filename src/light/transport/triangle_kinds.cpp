@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "light/transport/probe.h"
+#include "sunlit/light/visibility.h"
 
 namespace sunlit::light {
 namespace {
@@ -94,6 +95,10 @@ Outlooks outlooks(const Surrounding& around, const Side* first, int count, const
   return result;
 }
 
+bool isClear(const Geometry& geometry, std::uint32_t t) {
+  return isGlass(geometry.scene->materials[static_cast<std::size_t>(geometry.materials[t])]);
+}
+
 }  // namespace
 
 TriangleKind triangleKind(const Geometry& geometry, std::uint32_t t) {
@@ -137,7 +142,10 @@ std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeR
           outlooks(around, sides.data() + first, static_cast<int>(end - first), kPlaces[place]);
       for (std::size_t i = first; i < end; ++i) {
         const Outlook& outlook = from_there[i - first];
-        if (place == 0 && sides[i].side == 1) traits[sides[i].triangle].solid = outlook.inside();
+        if (place == 0 && sides[i].side == 1) {
+          TriangleTraits& to = traits[sides[i].triangle];
+          to.solid = outlook.inside() && !isClear(geometry, sides[i].triangle);
+        }
         sealed[i] = outlook.sealed() ? 1 : 0;
         useless[i] = outlook.sealed() || outlook.buried() ? 1 : 0;
       }

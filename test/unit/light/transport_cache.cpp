@@ -106,7 +106,7 @@ TEST_F(TransportCache, RebuildsWhatIsDamagedCutShortOrForeign) {
   setContent(file, damaged);
   expectRebuilt(world, "is damaged", expected);
 
-  for (const std::size_t size : {good.size() - 1, good.size() / 2, std::size_t{250}}) {
+  for (const std::size_t size : {good.size() - 1, good.size() / 2, std::size_t{300}}) {
     setContent(file, good.substr(0, size));
     expectRebuilt(world, "is cut short", expected);
   }

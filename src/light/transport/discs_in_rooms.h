@@ -1,0 +1,41 @@
+/// Sun and moon by way of the surfaces that they really light.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "light/transport/exchange.h"
+#include "light/transport/transport_data.h"
+#include "sunlit/light/visibility.h"
+#include "sunlit/sky/daylight.h"
+
+namespace sunlit::light {
+
+/// What surfaces pass on of them in BakedRooms: by rays from the surfaces that are seen there to the discs,
+/// and from surface to surface until it changes little. It starts from what the patches of the sky tell, and
+/// where no room is, that stays.
+class DiscsInRooms {
+ public:
+  /// Parallel; the same bits for any number of threads. Keeps a reference to `data`.
+  DiscsInRooms(const TransportData& data, const sky::Daylight& day, const Visibility& visibility);
+
+  /// Whether neither shines at all; at() is zero then.
+  bool dark() const { return dark_; }
+  /// Illuminance of a room's sample by surfaces, lx.
+  const Arrived& at(std::size_t room) const { return arrived_[room]; }
+
+ private:
+  void startFromPatches(const sky::DiscLight& disc);
+  void send();
+  double receive();
+
+  const TransportData& data_;
+  bool dark_ = true;
+  std::vector<Eigen::Array3f> direct_;  ///< of each source: luminance × π by light straight from the discs
+  std::vector<Eigen::Array3f> has_;     ///< of each sample: illuminance by surfaces, lx
+  std::vector<Eigen::Array3f> sent_;    ///< of each sample: luminance × π
+  std::vector<Eigen::Array3f> mirrored_;  ///< of each room: by way of the ground as a mirror, lx
+  std::vector<Arrived> arrived_;          ///< of each room
+};
+
+}  // namespace sunlit::light
