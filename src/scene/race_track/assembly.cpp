@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/race_track/facade.h"
+
 namespace sunlit::scene::race_track {
 namespace {
 
@@ -67,16 +69,26 @@ int Assembly::addMaterial(Material material) {
   return static_cast<int>(scene_.materials.size()) - 1;
 }
 
-void Assembly::openSheet(Sheet* sheet) {
+int Assembly::addPage(const std::string& name, const Sheet& sheet) {
   Texture texture;
-  texture.name = sheet->name + std::string(" ") + std::to_string(scene_.textures.size());
-  texture.width = sheet->width_px;
-  texture.height = sheet->height_px;
+  texture.name = name;
+  texture.width = sheet.width_px;
+  texture.height = sheet.height_px;
   texture.rgba.resize(static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height) * 4);
-  Material material =
-      plain(texture.name.c_str(), 0.8f, sheet->masked ? Detail() : grain(0.07f, 1.0f, 0.01f, 0.8f));
-  sheet->texture = addTexture(std::move(texture));
+  return addTexture(std::move(texture));
+}
+
+void Assembly::openSheet(Sheet* sheet) {
+  const std::string name = sheet->name + std::string(" ") + std::to_string(scene_.textures.size());
+  Material material = plain(name.c_str(), 0.8f, sheet->masked ? Detail() : grain(0.07f, 1.0f, 0.01f, 0.8f));
+  sheet->texture = addPage(name, *sheet);
   material.base_texture = sheet->texture;
+  if (sheet->lit) {
+    sheet->lit_texture = addPage("lit " + name, *sheet);
+    material.emission = LinearRgb(Eigen::Array3f::Constant(kFullWindow_cd_per_m2));
+    material.emission_map.texture = sheet->lit_texture;
+    material.lamp_group = kWindowLamps;
+  }
   if (sheet->masked) material.alpha_mode = AlphaMode::kMask;
   material.double_sided = sheet->double_sided;
   material.transmission = sheet->transmission;
@@ -103,20 +115,25 @@ Assembly::Shelf* Assembly::findShelf(Sheet* sheet, int width, int height) {
   return &sheet->shelves.back();
 }
 
-Picture Assembly::place(const Canvas& canvas, Sheet* sheet) {
-  Shelf* shelf = findShelf(sheet, canvas.width(), canvas.height());
+void Assembly::copyTo(int texture, const Canvas& canvas, const Eigen::Vector2i& corner) {
   const Texture picture = canvas.texture("");
-  Texture& page = scene_.textures[static_cast<std::size_t>(sheet->texture)];
+  Texture& page = scene_.textures[static_cast<std::size_t>(texture)];
   const std::ptrdiff_t row = 4 * canvas.width();
   for (int y = 0; y < canvas.height(); ++y) {
     const auto from = picture.rgba.begin() + row * y;
     std::copy(
         from, from + row,
-        page.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(shelf->y + y) * page.width + shelf->filled));
+        page.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(corner.y() + y) * page.width + corner.x()));
   }
+}
+
+Picture Assembly::place(const Canvas& canvas, Sheet* sheet, const Canvas* lit) {
+  Shelf* shelf = findShelf(sheet, canvas.width(), canvas.height());
+  copyTo(sheet->texture, canvas, {shelf->filled, shelf->y});
+  if (lit) copyTo(sheet->lit_texture, *lit, {shelf->filled, shelf->y});
   const Eigen::Array2f corner(static_cast<float>(shelf->filled), static_cast<float>(shelf->y));
   const Eigen::Array2f extent(static_cast<float>(canvas.width()), static_cast<float>(canvas.height()));
-  const Eigen::Array2f sheet_size(static_cast<float>(page.width), static_cast<float>(page.height));
+  const Eigen::Array2f sheet_size(static_cast<float>(sheet->width_px), static_cast<float>(sheet->height_px));
   shelf->filled += canvas.width();
   // Half a pixel inside, so that filtering stays within.
   return {sheet->material,

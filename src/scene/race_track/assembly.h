@@ -31,8 +31,10 @@ struct Picture {
   PictureRect rect;
 };
 
-/// Groups of lamps; what each of them gives along its axis, and how large its glass is, which shows as much.
-constexpr const char *kStreetLamps = "street_lamps", *kGrandstandLamps = "grandstand";
+/// Groups of lamps; what each of the first two gives along its axis, and how large its glass is, which shows
+/// as much.
+constexpr const char *kStreetLamps = "street_lamps", *kGrandstandLamps = "grandstand",
+                     *kWindowLamps = "windows";
 inline const LinearRgb kStreetLamp_cd(1500.0f, 1164.0f, 720.0f),
     kGrandstandLamp_cd(1600.0f, 1480.0f, 1250.0f);
 constexpr float kStreetLamp_m2 = 0.5f * 0.22f, kGrandstandLamp_m2 = 1.2f * 0.3f;
@@ -66,6 +68,8 @@ class Assembly {
   int addMaterial(Material material);
   /// Puts an opaque picture on a sheet.
   Picture addPicture(const Canvas& canvas) { return place(canvas, &pictures_); }
+  /// Puts the front of a house on a sheet, with what its windows show while their lamps burn; of one size.
+  Picture addFacade(const Canvas& front, const Canvas& lit) { return place(front, &facades_, &lit); }
   /// Puts a picture with holes on a sheet.
   Picture addCutOut(const Canvas& canvas) { return place(canvas, &cut_outs_); }
   /// The same, of something thin that light shines through.
@@ -94,17 +98,22 @@ class Assembly {
     bool masked;
     bool double_sided;
     float transmission = 0.0f;
+    bool lit = false;  ///< with a second page, for what it shows while lamps of kWindowLamps burn
     int texture = -1;
+    int lit_texture = -1;
     int material = -1;
     std::vector<Shelf> shelves{};
   };
-  Picture place(const Canvas& canvas, Sheet* sheet);
+  Picture place(const Canvas& canvas, Sheet* sheet, const Canvas* lit = nullptr);
+  int addPage(const std::string& name, const Sheet& sheet);
+  void copyTo(int texture, const Canvas& canvas, const Eigen::Vector2i& corner);
   void openSheet(Sheet* sheet);
   /// Where a picture of this size goes; opens a shelf or a sheet if need be.
   Shelf* findShelf(Sheet* sheet, int width, int height);
 
   Scene scene_;
   Sheet pictures_{"pictures", 2048, 1024, false, true};
+  Sheet facades_{"facades", 2048, 1024, false, true, 0.0f, true};
   Sheet cut_outs_{"cut-outs", 1536, 1280, true, true};
   // Leaves send on about as much light as they reflect; blades of grass, which stand close, less.
   Sheet leaves_{"leaves", 1728, 1024, true, true, 0.45f};

@@ -23,10 +23,32 @@ struct House {
   std::uint32_t seed;
 };
 
+/// Light out of a window, `frame` at the middle of its glass: as of an even, matt sheet, by the cosine.
+void addWindowLight(Assembly& assembly, const Frame& frame, const Opening& window,
+                    const LinearRgb& intensity) {
+  if (!(intensity.luminance() > 0.0f)) return;
+  // Where a wall that faces the window gets so little, the light of the next street lamp is a hundred times
+  // it.
+  constexpr float kLeast_lx = 0.2f;
+  Lamp lamp;
+  lamp.name = "window";
+  lamp.group = kWindowLamps;
+  lamp.radius_m = std::sqrt(window.width * window.height / kPiFloat);
+  lamp.position = frame * Point(0.0f, -0.05f, 0.0f);
+  lamp.direction = -frame.linear().col(1);
+  lamp.intensity = intensity;
+  lamp.inner_rad = 0.0f;
+  lamp.outer_rad = 0.5f * kPiFloat;
+  lamp.exponent = 1.0f;
+  lamp.range_m = std::sqrt(intensity.luminance() / kLeast_lx);
+  assembly.addLamp(std::move(lamp));
+}
+
 // One wall, `frame` at the middle of its foot, looking to −y, with its sills and frames in relief.
 void addWall(Assembly& assembly, const Frame& frame, const FacadePlan& plan) {
   const std::vector<Opening> openings = planOpenings(plan);
-  const Picture picture = assembly.addPicture(paintFacade(plan, openings));
+  const Canvas lit = paintLitWindows(plan, openings);
+  const Picture picture = assembly.addFacade(paintFacade(plan, openings), lit);
   const float x = 0.5f * plan.width_m;
   addQuad(assembly, {picture.material, Color::Ones()},
           {frame * Point(-x, 0, 0), frame * Point(x, 0, 0), frame * Point(x, 0, plan.height_m),
@@ -46,6 +68,8 @@ void addWall(Assembly& assembly, const Frame& frame, const FacadePlan& plan) {
     for (const float side : {-0.5f, 0.5f})
       addBox(assembly, wood, shifted(frame, {middle + side * (o.width + 0.06f), -0.03f, o.z}),
              {0.06f, 0.06f, o.height});
+    addWindowLight(assembly, shifted(frame, {middle, 0.0f, o.z + 0.5f * o.height}), o,
+                   windowIntensity(lit, o));
   }
 }
 

@@ -31,6 +31,7 @@ class Canvas {
 
   int width() const { return width_; }
   int height() const { return height_; }
+  const Color& color(int x, int y) const { return colors_[static_cast<std::size_t>(y) * width_ + x]; }
   Color& color(int x, int y) { return colors_[static_cast<std::size_t>(y) * width_ + x]; }
   float& alpha(int x, int y) { return alphas_[static_cast<std::size_t>(y) * width_ + x]; }
   void blend(int x, int y, const Ink& ink);

@@ -1,6 +1,7 @@
 #include "scene/race_track/facade.h"
 
 #include <cmath>
+#include <optional>
 
 namespace sunlit::scene::race_track {
 namespace {
@@ -59,14 +60,28 @@ void glaze(Canvas& canvas, const Pixel& low, const Pixel& high, Random& random) 
   }
 }
 
+/// What the windows of one front have in common.
+struct WindowStyle {
+  WindowStyle(const FacadePlan& plan, const Opening& opening) {
+    Random random(632u, plan.seed);
+    frame = random.chance(0.6f) ? Color(0.62f, 0.60f, 0.56f) : Color(0.16f, 0.09f, 0.05f);
+    trim = random.range(0.4f, 0.9f) * Color(0.7f, 0.68f, 0.62f);
+    for (int i = 0; i < (opening.width > 1.6f ? 3 : 2); ++i) barred.push_back(random.chance(0.5f));
+    if (random.chance(0.35f)) shutter = Color(0.05f, 0.14f, 0.09f) * random.range(0.5f, 3.0f);
+  }
+
+  Color frame, trim;
+  std::vector<bool> barred;  ///< one a pane
+  std::optional<Color> shutter;
+};
+
 void paintOpening(Canvas& canvas, const FacadePlan& plan, const Opening& opening, Random& random) {
   const float h = static_cast<float>(canvas.height());
   const Pixel low(opening.x * kScale, h - (opening.z + opening.height) * kScale);
   const Pixel high((opening.x + opening.width) * kScale, h - opening.z * kScale);
-  Random style(632u, plan.seed);
-  const Color frame = style.chance(0.6f) ? Color(0.62f, 0.60f, 0.56f) : Color(0.16f, 0.09f, 0.05f);
-  const Color trim = style.range(0.4f, 0.9f) * Color(0.7f, 0.68f, 0.62f);
-  canvas.rectangle(low - Pixel(4, 4), high + Pixel(4, opening.door ? 0 : 4), {trim, 0.9f});
+  const WindowStyle style(plan, opening);
+  const Color& frame = style.frame;
+  canvas.rectangle(low - Pixel(4, 4), high + Pixel(4, opening.door ? 0 : 4), {style.trim, 0.9f});
   canvas.rectangle(low - Pixel(1.5f, 1.5f), high + Pixel(1.5f, 1.5f), {0.3f * frame, 1.0f});
   canvas.rectangle(low, high, {frame * random.range(0.8f, 1.1f), 1.0f});
   if (opening.door) {
@@ -77,22 +92,16 @@ void paintOpening(Canvas& canvas, const FacadePlan& plan, const Opening& opening
                      {high.x() - 4, 0.5f * (low.y() + high.y()) + 2}, {{0.6f, 0.55f, 0.4f}, 1.0f});
     return;
   }
-  const int panes = opening.width > 1.6f ? 3 : 2;
-  const float step = (high.x() - low.x()) / panes;
-  for (int i = 0; i < panes; ++i) {
-    const Pixel a(low.x() + i * step + 1.5f, low.y() + 2.0f);
-    const Pixel b(low.x() + (i + 1) * step - 1.5f, high.y() - 2.0f);
-    glaze(canvas, a, b, random);
-    if (style.chance(0.5f))
-      canvas.rectangle({a.x(), 0.5f * (a.y() + b.y())}, {b.x(), 0.5f * (a.y() + b.y()) + 1.5f},
-                       {frame, 1.0f});
+  for (const Pane& pane : panesOf(plan, opening, h)) {
+    glaze(canvas, pane.low, pane.high, random);
+    if (pane.barred) canvas.rectangle(pane.barLow(), pane.barHigh(), {frame, 1.0f});
   }
-  if (style.chance(0.35f)) {
-    const Color shutter = Color(0.05f, 0.14f, 0.09f) * style.range(0.5f, 3.0f);
-    for (const float x : {low.x() - 4.0f - 0.5f * step, high.x() + 4.0f}) {
-      canvas.rectangle({x, low.y()}, {x + 0.5f * step, high.y()}, {shutter, 1.0f});
+  if (style.shutter) {
+    const float half = 0.5f * (high.x() - low.x()) / static_cast<float>(style.barred.size());
+    for (const float x : {low.x() - 4.0f - half, high.x() + 4.0f}) {
+      canvas.rectangle({x, low.y()}, {x + half, high.y()}, {*style.shutter, 1.0f});
       for (float y = low.y(); y < high.y(); y += 3.0f)
-        canvas.rectangle({x + 1, y}, {x + 0.5f * step - 1, y + 1}, {0.5f * shutter, 1.0f});
+        canvas.rectangle({x + 1, y}, {x + half - 1, y + 1}, {0.5f * *style.shutter, 1.0f});
     }
   }
   // Rain has washed dirt off the sill.
@@ -105,6 +114,19 @@ void paintOpening(Canvas& canvas, const FacadePlan& plan, const Opening& opening
 }
 
 }  // namespace
+
+std::vector<Pane> panesOf(const FacadePlan& plan, const Opening& opening, float canvas_height) {
+  const std::vector<bool> barred = WindowStyle(plan, opening).barred;
+  const float left = opening.x * kScale, step = opening.width * kScale / static_cast<float>(barred.size());
+  std::vector<Pane> panes;
+  for (std::size_t i = 0; i < barred.size(); ++i) {
+    const float x = left + static_cast<float>(i) * step;
+    panes.push_back({{x + 1.5f, canvas_height - (opening.z + opening.height) * kScale + 2.0f},
+                     {x + step - 1.5f, canvas_height - opening.z * kScale - 2.0f},
+                     barred[i]});
+  }
+  return panes;
+}
 
 std::vector<Opening> planOpenings(const FacadePlan& plan) {
   Random random(633u, plan.seed);

@@ -28,9 +28,27 @@ struct Opening {
   bool door;
 };
 
+/// A sheet of glass between the frames of a window, as painted, px.
+struct Pane {
+  Pixel low;
+  Pixel high;
+  bool barred;  ///< by a bar at half its height
+
+  Pixel barLow() const { return {low.x(), 0.5f * (low.y() + high.y())}; }
+  Pixel barHigh() const { return {high.x(), barLow().y() + 1.5f}; }
+};
+
 constexpr float kFacadePixelsPerMetre = 30.0f;
+/// Of a picture of lit windows: what 1 stands for.
+constexpr float kFullWindow_cd_per_m2 = 300.0f;
 
 std::vector<Opening> planOpenings(const FacadePlan& plan);
+/// Of a window, from left to right.
+std::vector<Pane> panesOf(const FacadePlan& plan, const Opening& opening, float canvas_height);
 Canvas paintFacade(const FacadePlan& plan, const std::vector<Opening>& openings);
+/// What its windows show by night where somebody is in: luminance, where 1 is kFullWindow_cd_per_m2.
+Canvas paintLitWindows(const FacadePlan& plan, const std::vector<Opening>& openings);
+/// Of what the opening shows on that picture, along its normal, cd; nothing where it is dark.
+LinearRgb windowIntensity(const Canvas& lit, const Opening& opening);
 
 }  // namespace sunlit::scene::race_track

@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 
 #include "paper_scene.h"
+#include "sunlit/scene/race_track.h"
 
 namespace sunlit::light {
 namespace {
@@ -260,6 +261,31 @@ TEST(LampGroups, AreSwitchedOffByName) {
   EXPECT_EQ(left[0].group, "signs");
   EXPECT_FALSE(left[0].relative);
   EXPECT_FLOAT_EQ(left[0].intensity.value[0], 200.0f);
+}
+
+TEST(LampGroups, OfTheBuiltInWorldsWindowsDarkenItsPanes) {
+  const scene::Scene world = scene::raceTrack();
+  std::size_t panes = 0;
+  const auto shining = [&](const LampOptions& options) {
+    const std::vector<scene::Lamp> lamps = burning(world.lamps, options);
+    std::size_t count = 0;
+    panes = 0;
+    for (const scene::Material& material : world.materials) {
+      if (material.lamp_group != "windows") continue;
+      ++panes;
+      count += glows(material, lamps) ? 1 : 0;
+    }
+    return count;
+  };
+  LampOptions options;
+  EXPECT_EQ(shining(options), panes);
+  EXPECT_GT(panes, 0u);
+  options.off = {"street_lamps", "grandstand"};
+  EXPECT_EQ(shining(options), panes);
+  options.off = {"windows"};
+  EXPECT_EQ(shining(options), 0u);
+  // By day nothing burns at all.
+  for (const scene::Material& material : world.materials) EXPECT_FALSE(glows(material, {})) << material.name;
 }
 
 }  // namespace
