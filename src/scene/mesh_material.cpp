@@ -92,7 +92,11 @@ void readPhongMaps(const aiMaterial& source, const aiScene& scene, const MeshFil
     if (source.GetTextureCount(type) > 0)
       context.builder.warn(kNotRendered, material.name + " of " + context.file + ": " + what);
   };
-  if (context.file.size() < 4 || extensionOf(context.file) != ".obj" || !material.normal_map.given())
+  // Assimp may give one picture both ways.
+  aiString heights, normals;
+  source.GetTexture(aiTextureType_HEIGHT, 0, &heights);
+  source.GetTexture(aiTextureType_NORMALS, 0, &normals);
+  if (!material.normal_map.given() || !(heights == normals))
     name(aiTextureType_HEIGHT, "a bump map: without it");
   name(aiTextureType_SPECULAR, "a texture of its highlights: without it");
   name(aiTextureType_SHININESS, "a texture of its shininess: without it");

@@ -2,25 +2,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <utility>
 
+#include "scene/fuel_cache.h"
 #include "scene/package_folder.h"
+#include "scene/uri_text.h"
 
 namespace sunlit::scene {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kPackageScheme = "package://";
-
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
 
 bool isFile(const fs::path& path) {
   std::error_code error;
@@ -75,28 +70,6 @@ std::vector<std::string> folderAndParents(const std::string& file) {
   return folders;
 }
 
-/// Turns %20 and its like into the characters that they stand for.
-std::string withoutEscapes(const std::string& text) {
-  std::string plain;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool escape = text[i] == '%' && i + 2 < text.size() &&
-                        std::isxdigit(static_cast<unsigned char>(text[i + 1])) &&
-                        std::isxdigit(static_cast<unsigned char>(text[i + 2]));
-    if (!escape) {
-      plain += text[i];
-      continue;
-    }
-    plain += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
-    i += 2;
-  }
-  return plain;
-}
-
-std::string withoutScheme(const std::string& uri) {
-  const std::size_t end = uri.find("://");
-  return end == std::string::npos ? uri : uri.substr(end + 3);
-}
-
 /// "a, b and c".
 std::string listed(const std::vector<std::string>& places) {
   std::ostringstream text;
@@ -112,11 +85,16 @@ std::string listed(const std::vector<std::string>& places) {
 ResourceFinder::ResourceFinder(const SearchPath& search_path, const std::string& scene_file)
     : roots_(folderAndParents(scene_file)),
       package_folder_(search_path.package_folder),
+      fuel_caches_(search_path.fuel_caches),
       missing_(search_path.missing) {
   roots_.insert(roots_.end(), search_path.folders.begin(), search_path.folders.end());
 }
 
 Found ResourceFinder::find(const std::string& uri, const std::string& from_file) const {
+  if (const std::optional<FuelAddress> fuel = fuelAddress(uri)) {
+    const std::vector<std::string> places = fuelPlaces(*fuel, fuel_caches_);
+    return firstOf({places.begin(), places.end()});
+  }
   const fs::path path = withoutScheme(uri);
   if (path.is_absolute()) return firstOf({path});
   std::vector<std::string> roots = folderAndParents(from_file);
@@ -153,6 +131,12 @@ std::string ResourceFinder::roots() const {
   return listed(roots_);
 }
 
+std::string ResourceFinder::rootsOf(const std::string& uri) const {
+  if (!fuelAddress(uri)) return roots();
+  return "Fuel's cache" + (fuel_caches_.empty() ? ", which has no folder" : " in " + listed(fuel_caches_)) +
+         "; nothing is fetched from the network, `gz fuel download -u ADDRESS` does that";
+}
+
 std::string placesTried(const Found& found) {
   return listed(found.tried);
 }
@@ -173,6 +157,7 @@ SearchPath SearchPath::withEnvironment(std::vector<std::string> folders) {
   const std::string own = packageFolder("sunlit");
   if (!own.empty()) search_path.folders.push_back(own + "/worlds/models");
   search_path.package_folder = packageFolder;
+  search_path.fuel_caches = fuelCachesOfEnvironment();
   return search_path;
 }
 

@@ -25,7 +25,8 @@ class ResourceFinder {
 
   /// What `uri` means where it is written in `from_file`: model://name/…, file://…, package://name/… or a
   /// plain path. A relative one is looked for in from_file's folder and its parents, beside the scene file
-  /// and its parents, and in the search path, each with and without a "models" folder.
+  /// and its parents, and in the search path, each with and without a "models" folder. An address of Fuel,
+  /// http(s)://SERVER/…/models/NAME/…, is looked for in Fuel's caches alone.
   Found find(const std::string& uri, const std::string& from_file) const;
 
   /// The picture that the mesh in `mesh_file` calls `name`: beside it, in the textures folders that models
@@ -34,12 +35,15 @@ class ResourceFinder {
 
   /// The folders that find() goes through for what the scene file names: "a, b and c".
   std::string roots() const;
+  /// Those that find() goes through for `uri` there; of an address of Fuel also that nothing is fetched.
+  std::string rootsOf(const std::string& uri) const;
   /// What is to become of a model or mesh that is not found.
   Missing missing() const { return missing_; }
 
  private:
   std::vector<std::string> roots_;
   std::function<std::string(const std::string& package)> package_folder_;
+  std::vector<std::string> fuel_caches_;
   Missing missing_;
 };
 

@@ -82,6 +82,16 @@ void repairNormals(Mesh& mesh) {
   }
 }
 
+/// Of normals x, y and z are hardly equal anywhere: they would lean by 55°.
+bool isGrey(const Texture& texture) {
+  constexpr int kCompressed = 12;  // by as much a JPEG may tint a grey
+  for (std::size_t i = 0; i < texture.rgba.size(); i += 4) {
+    const auto [low, high] = std::minmax({texture.rgba[i], texture.rgba[i + 1], texture.rgba[i + 2]});
+    if (high - low > kCompressed) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 int SceneBuilder::textureFromFile(const std::string& file, const Wraps& wraps) {
@@ -255,8 +265,20 @@ void SceneBuilder::settleAlpha() {
   }
 }
 
+/// COLLADA's bump is normals or heights, and often does not say which.
+void SceneBuilder::dropHeights() {
+  for (Material& material : scene_.materials) {
+    if (!material.normal_map.given()) continue;
+    const auto texture = static_cast<std::size_t>(material.normal_map.texture);
+    if (!isGrey(scene_.textures[texture])) continue;
+    warn(kNotRendered, material.name + ": a bump map, " + sources_[texture].name + ": without it");
+    material.normal_map = TextureUse();
+  }
+}
+
 Scene SceneBuilder::finish() {
   decodeTextures();
+  dropHeights();
   settleAlpha();
   for (const auto& [what, kind] : kinds_) {
     std::string line = std::to_string(kind.times) + " " + what;

@@ -73,8 +73,9 @@ class SceneBuilder {
   void count(const std::string& what, std::size_t times = 1) { kinds_[what].times += times; }
 
   /// Decodes the textures, settles the cut-outs and checks the scene. A texture with a side of more than
-  /// kLongestTextureSide is scaled down, and one that cannot be decoded makes room for a neutral grey; both
-  /// are warnings. The builder is empty afterwards.
+  /// kLongestTextureSide is scaled down, one that cannot be decoded makes room for a neutral grey, and a
+  /// normal map that is all grey, which is one of heights, is dropped; all are warnings. The builder is empty
+  /// afterwards.
   Scene finish();
 
  private:
@@ -94,6 +95,7 @@ class SceneBuilder {
   void decodeTextures();
   void forgetTexture(int texture);
   void settleAlpha();
+  void dropHeights();
 
   Scene scene_;
   std::vector<TextureSource> sources_;

@@ -1,5 +1,6 @@
 #include "scene/sdf_files.h"
 
+#include <cstring>
 #include <filesystem>
 #include <iomanip>
 #include <regex>
@@ -140,7 +141,6 @@ void write(const ignition::math::Pose3d& pose, XMLElement& element) {
 
 /// What an include does not say its model says, which libsdformat 12 overlooks in interface models.
 void fillIn(XMLElement& include, const sdf::Model& model) {
-  include.DeleteAttribute("merge");
   if (childText(include, "name").empty()) childIn(include, "name").SetText(model.Name().c_str());
   if (include.FirstChildElement("pose") == nullptr) write(model.RawPose(), childIn(include, "pose"));
   if (include.FirstChildElement("placement_frame") == nullptr && !model.PlacementFrameName().empty())
@@ -148,7 +148,56 @@ void fillIn(XMLElement& include, const sdf::Model& model) {
   for (XMLElement* plugin : childrenOf(include, "plugin")) include.DeleteChild(plugin);
 }
 
+/// libsdformat 12 merges no interface models, so that the model is nested, under a name by which it is known
+/// again, and its parent has a frame wherever the model has a link, frame or model: what is written in the
+/// parent finds them there. A name that the parent has, too, remains the parent's.
+void merge(XMLElement& include, const SdfFile& source, const std::string& place, SceneBuilder& builder) {
+  XMLElement& parent = *include.Parent()->ToElement();
+  std::set<std::string> taken;
+  for (const XMLElement* child : childrenOf(parent)) {
+    taken.insert(attributeOf(*child, "name"));
+    if (std::string(child->Value()) == "include") taken.insert(childText(*child, "name"));
+  }
+  const std::string name = kMergedPrefix + childText(include, "name");
+  childIn(include, "name").SetText(name.c_str());
+  const auto add = [&](const std::string& part) {
+    if (isMerged(part)) return;  // it has its own frames
+    if (taken.count(part) == 1) {
+      builder.warn(
+          "names of merged models are taken where they are included, they mean what is written there",
+          part + " of " + place);
+      return;
+    }
+    XMLElement& frame = *parent.InsertNewChildElement("frame");
+    frame.SetAttribute("name", part.c_str());
+    frame.SetAttribute("attached_to", (name + "::" + part).c_str());
+  };
+  const sdf::Model& model = *source.root.Model();
+  for (std::uint64_t i = 0; i < model.LinkCount(); ++i) add(model.LinkByIndex(i)->Name());
+  for (std::uint64_t i = 0; i < model.FrameCount(); ++i) add(model.FrameByIndex(i)->Name());
+  for (std::uint64_t i = 0; i < model.ModelCount(); ++i) add(model.ModelByIndex(i)->Name());
+  for (const SdfFile::Included& one : source.included) {
+    if (one.within == model.Name()) add(one.name);
+  }
+}
+
 }  // namespace
+
+bool isMerged(const std::string& full_name) {
+  const std::size_t scope = full_name.rfind("::");
+  return full_name.compare(scope == std::string::npos ? 0 : scope + 2, std::strlen(kMergedPrefix),
+                           kMergedPrefix) == 0;
+}
+
+std::string withoutMerged(const std::string& full_name) {
+  std::string kept;
+  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 2) {
+    end = full_name.find("::", begin);
+    const std::string name = full_name.substr(begin, end == std::string::npos ? end : end - begin);
+    if (!isMerged(name)) kept += (kept.empty() ? "" : "::") + name;
+  }
+  return kept;
+}
 
 const SdfFile& SdfFiles::read(const std::string& file) {
   const SdfFile& read = open(file);
@@ -163,7 +212,7 @@ const SdfFile& SdfFiles::read(const std::string& file) {
     }
     text << (named++ == 0 ? "" : ", ") << uri;
   }
-  text << "; looked for in " << finder_.roots();
+  text << "; looked for in " << finder_.rootsOf(missing_.begin()->first);
   throw std::runtime_error(text.str());
 }
 
@@ -197,6 +246,9 @@ void SdfFiles::resolveInclude(XMLElement& include, const SdfFile& file) {
   tinyxml2::XMLNode& parent = *include.Parent();
   if (found != nullptr && found->root.Model() != nullptr) {
     fillIn(include, *found->root.Model());
+    if (include.BoolAttribute("merge") && std::string(parent.Value()) == "model")
+      merge(include, *found, placeOf(file.path, include), builder_);
+    include.DeleteAttribute("merge");
     childIn(include, "uri").SetText((kToken + std::to_string(by_token_.size())).c_str());
     by_token_.push_back(found);
     return;
@@ -235,7 +287,7 @@ const SdfFile* SdfFiles::included(const XMLElement& include, const SdfFile& file
       missing_.emplace(uri, place);
     } else {
       builder_.warn("models are missing and were left out", uri);
-      builder_.warn("Models were looked for in " + finder_.roots());
+      builder_.warn("Models were looked for in " + finder_.rootsOf(uri));
     }
     return nullptr;
   }

@@ -19,6 +19,15 @@
 
 namespace sunlit::scene {
 
+/// Names of models that are merged into those that include them begin with it, as libsdformat calls their
+/// frames.
+constexpr const char* kMergedPrefix = "_merged__";
+
+/// `full_name` without the models that are merged into others: their links are those of the others.
+std::string withoutMerged(const std::string& full_name);
+/// Whether the model of this full name, or of this name, is merged into the one that includes it.
+bool isMerged(const std::string& full_name);
+
 /// A file without what it includes.
 struct SdfFile {
   /// A model that the file includes.

@@ -76,14 +76,18 @@ void SdfVisuals::addModel(const sdf::Model& model, const Eigen::Affine3d& map_fr
   addModelAt(model, map_from_parent * parentFrom(model, name), name);
 }
 
-/// `map_from_file`: of the model's own frame, unless a state says otherwise.
+/// `map_from_file`: of the model's own frame, unless a state says otherwise, to which models that are merged
+/// into others are not known.
 void SdfVisuals::addModelAt(const sdf::Model& model, const Eigen::Affine3d& map_from_file,
-                            const std::string& name) {
+                            const std::string& full_name) {
+  const std::string name = withoutMerged(full_name);
   if (state_.isDeleted(name)) return;
-  const std::optional<Eigen::Isometry3d> stated = state_.mapFrom(name);
+  const bool merged = isMerged(full_name);
+  const std::optional<Eigen::Isometry3d> stated = merged ? std::nullopt : state_.mapFrom(name);
   const Eigen::Affine3d map_from_unscaled = stated ? Eigen::Affine3d(*stated) : map_from_file;
-  const Eigen::Affine3d map_from_model = map_from_unscaled * Eigen::Scaling(state_.scaleOf(name));
-  map_from_models_[name] = map_from_model;
+  const Eigen::Affine3d map_from_model =
+      merged ? map_from_file : map_from_unscaled * Eigen::Scaling(state_.scaleOf(name));
+  map_from_models_[full_name] = map_from_model;
   for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
     const sdf::Link& link = *model.LinkByIndex(i);
     const std::string link_name = name + "::" + link.Name();
@@ -95,7 +99,7 @@ void SdfVisuals::addModelAt(const sdf::Model& model, const Eigen::Affine3d& map_
             link_name);
   }
   for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
-    addModel(*model.ModelByIndex(i), map_from_model, name + "::");
+    addModel(*model.ModelByIndex(i), map_from_model, full_name + "::");
   }
 }
 

@@ -47,7 +47,8 @@ class SdfVisuals {
 
  private:
   void addModel(const sdf::Model& model, const Eigen::Affine3d& map_from_parent, const std::string& scope);
-  void addModelAt(const sdf::Model& model, const Eigen::Affine3d& map_from_file, const std::string& name);
+  void addModelAt(const sdf::Model& model, const Eigen::Affine3d& map_from_file,
+                  const std::string& full_name);
   void addIncluded(const SdfFile& file, const std::string& own_name);
   void addVisual(const sdf::Visual& visual, const Eigen::Affine3d& map_from_link, const std::string& scope);
   void addRoads(const sdf::World& world);
@@ -63,7 +64,8 @@ class SdfVisuals {
   SdfMaterials materials_;
   ModelMeshes meshes_;
   std::optional<int> bare_road_;
-  std::map<std::string, Eigen::Affine3d> map_from_models_;  ///< by full name, of those that are not deleted
+  std::map<std::string, Eigen::Affine3d>
+      map_from_models_;  ///< by full name, merged ones included, of those that are not deleted
 };
 
 }  // namespace sunlit::scene

@@ -27,6 +27,9 @@ struct SearchPath {
   /// known. Unset: packages are looked for in `folders` alone.
   std::function<std::string(const std::string& package)> package_folder = {};
   Missing missing = Missing::kStop;
+  /// Where addresses of Fuel, https://fuel.gazebosim.org/1.0/OWNER/models/NAME, are looked for: folders as
+  /// `gz fuel download` makes them. Nothing is fetched from the network.
+  std::vector<std::string> fuel_caches = {};
   /// `folders`, then those of the environment variables SUNLIT_MODEL_PATH, GAZEBO_MODEL_PATH,
   /// GAZEBO_RESOURCE_PATH and SDF_PATH (colon-separated), then ~/.gazebo/models, then this package's own
   /// worlds/models, which has the `sun` and `ground_plane` that most Gazebo worlds include. Packages are

@@ -55,6 +55,20 @@ std::string collada(const std::string& asset, const std::string& image = "",
 
 const std::string kCentimetresZUp = "<unit meter='0.01' name='centimeter'/><up_axis>Z_UP</up_axis>";
 
+/// A PNG of one colour.
+std::string evenPicture(std::uint8_t red_and_green, std::uint8_t blue) {
+  image::Rgba8Image picture(4, 4);
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      std::uint8_t* texel = picture.at(x, y);
+      texel[0] = texel[1] = red_and_green;
+      texel[2] = blue;
+      texel[3] = 255;
+    }
+  }
+  return image::encodePng(picture);
+}
+
 class MeshFile : public SceneFiles {
  protected:
   void expectOneWarning(const Scene& scene, const std::string& part) {
@@ -210,6 +224,87 @@ TEST_F(MeshFile, EmissionOfObjIsThatOfADisplay) {
   // White of the reference display is 80 cd/m², half of its code 21.4 % of that.
   EXPECT_LT((glow.emission.value - Eigen::Array3f(80.0f, 80.0f * 0.21404f, 0.0f)).abs().maxCoeff(), 0.05f)
       << glow.emission.value.transpose();
+}
+
+TEST_F(MeshFile, MapsOfMtlAreRenderedOrNamed) {
+  writeTexture("glow.png");
+  write("normal.png", evenPicture(128, 255));
+  const std::string triangle =
+      "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\n"
+      "f 1/1/1 2/2/1 3/3/1\n";
+  const auto materialOf = [&](const std::string& maps) {
+    write("m.mtl", "newmtl m\nKd 0.5 0.5 0.5\n" + maps);
+    return load(write("m.obj", triangle), {});
+  };
+  const Scene shining = materialOf("Ke 0 0 0\nmap_Ke glow.png\n");
+  const Material& glow = shining.materials.at(static_cast<std::size_t>(shining.meshes.at(0).material));
+  ASSERT_TRUE(glow.emission_map.given());
+  EXPECT_FLOAT_EQ(glow.emission.value.minCoeff(), 80.0f);
+  EXPECT_TRUE(shining.warnings.empty());
+
+  for (const char* word : {"norm", "map_Kn"}) {
+    const Scene scene = materialOf(word + std::string(" normal.png\n"));
+    const Material& bumpy = scene.materials.at(static_cast<std::size_t>(scene.meshes.at(0).material));
+    ASSERT_TRUE(bumpy.normal_map.given()) << word;
+    EXPECT_NE(scene.textures.at(static_cast<std::size_t>(bumpy.normal_map.texture)).name.find("normal.png"),
+              std::string::npos);
+    EXPECT_TRUE(scene.warnings.empty()) << word << ": " << scene.warnings[0];
+  }
+  for (const char* word : {"bump", "map_bump", "map_Bump", "map_Bump -bm 0.5"}) {
+    const Scene scene = materialOf(word + std::string(" normal.png\n"));
+    EXPECT_FALSE(
+        scene.materials.at(static_cast<std::size_t>(scene.meshes.at(0).material)).normal_map.given());
+    expectOneWarning(scene, "m.obj: a bump map: without it");
+  }
+  // Beside a normal map, too.
+  expectOneWarning(materialOf("norm normal.png\nmap_Bump glow.png\n"), "m.obj: a bump map: without it");
+}
+
+TEST_F(MeshFile, MapsOfColladaAreRenderedOrNamed) {
+  writeTexture("glow.png");
+  write("normal.png", evenPicture(128, 255));
+  write("grey.png", evenPicture(90, 90));
+  const std::string sampled = "<texture texture='picture-sampler' texcoord='uv'/>";
+  const auto withEffect = [&](const std::string& picture, const std::string& old_part,
+                              const std::string& new_part) {
+    std::string text = collada(kCentimetresZUp, picture);
+    const std::size_t at = text.find(old_part);
+    EXPECT_NE(at, std::string::npos);
+    return load(write("m.dae", text.replace(at, old_part.size(), new_part)), {});
+  };
+  const auto lookOf = [](const Scene& scene) {
+    return scene.materials.at(static_cast<std::size_t>(scene.meshes.at(0).material));
+  };
+  const std::string diffuse = "<diffuse>" + sampled + "</diffuse>";
+  const Scene shining = withEffect("glow.png", diffuse, "<emission>" + sampled + "</emission>" + diffuse);
+  EXPECT_TRUE(lookOf(shining).emission_map.given());
+  EXPECT_FLOAT_EQ(lookOf(shining).emission.value.minCoeff(), 80.0f);
+  const Scene coloured =
+      withEffect("glow.png", diffuse, "<emission><color>1 0.5 0 1</color></emission>" + diffuse);
+  EXPECT_FALSE(lookOf(coloured).emission_map.given());
+  EXPECT_LT(
+      (lookOf(coloured).emission.value - Eigen::Array3f(80.0f, 80.0f * 0.21404f, 0.0f)).abs().maxCoeff(),
+      0.05f);
+
+  // As OpenCOLLADA and Blender write it, in either of the two places.
+  const auto bump = [&](const std::string& profile, const std::string& type) {
+    return "<extra><technique profile='" + profile + "'><bump" + type + ">" + sampled +
+           "</bump></technique></extra>";
+  };
+  const std::string end = "</lambert></technique>";
+  for (const std::string& extra :
+       {bump("FCOLLADA", ""), bump("OpenCOLLADA3dsMax", " bumptype='NORMALMAP'")}) {
+    const Scene scene = withEffect("normal.png", end, "</lambert>" + extra + "</technique>");
+    EXPECT_TRUE(lookOf(scene).normal_map.given()) << extra;
+    EXPECT_TRUE(scene.warnings.empty()) << extra << scene.warnings[0];
+  }
+  // Heights, which are grey, are no normals.
+  for (const std::string& extra :
+       {bump("FCOLLADA", ""), bump("OpenCOLLADA3dsMax", " bumptype='HEIGHTFIELD'")}) {
+    const Scene scene = withEffect("grey.png", end, "</lambert>" + extra + "</technique>");
+    EXPECT_FALSE(lookOf(scene).normal_map.given()) << extra;
+    expectOneWarning(scene, ": a bump map, ");
+  }
 }
 
 TEST_F(MeshFile, BrokenTrianglesAreLeftOutAndCounted) {

@@ -6,22 +6,13 @@
 
 #include "unit/scene/measure.h"
 #include "unit/scene/scene_files.h"
+#include "unit/scene/sdf_texts.h"
 
 namespace sunlit::scene {
 namespace {
 
 // Poses come from sines and cosines of typed angles and end as floats of a few metres.
 constexpr float kTolerance = 2e-6f;
-
-std::string world(const std::string& content, const std::string& version = "1.9") {
-  return "<?xml version='1.0'?><sdf version='" + version + "'><world name='w'>" + content + "</world></sdf>";
-}
-
-/// A box of 2 × 4 × 6 m.
-std::string boxVisual(const std::string& pose = "") {
-  return "<visual name='v'>" + (pose.empty() ? "" : "<pose>" + pose + "</pose>") +
-         "<geometry><box><size>2 4 6</size></box></geometry></visual>";
-}
 
 class Sdf : public SceneFiles {
  protected:

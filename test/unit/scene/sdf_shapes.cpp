@@ -100,6 +100,23 @@ TEST(Terrain, WhiteIsAsHighAsTheMap) {
   EXPECT_EQ(terrainHeights(values, 8.0), (std::vector<float>{0, 2, 8, 4, 2, 2}));
 }
 
+TEST(Terrain, IsBilinearWhereItIsSampledMoreFinely) {
+  // A saddle: two triangles would have a ridge or a valley in its middle.
+  const TerrainGrid grid{3, 2, {0, 1, 0, 1, 0, 5}, {20.0, 10.0}};
+  const TerrainGrid finer = sampled(grid, 2);
+  EXPECT_EQ(finer.width, 5);
+  EXPECT_EQ(finer.depth, 3);
+  EXPECT_EQ(finer.heights,
+            (std::vector<float>{0, 0.5f, 1, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1.5f, 2.5f, 1, 0.5f, 0, 2.5f, 5}));
+  EXPECT_EQ(finer.size, grid.size);
+  EXPECT_EQ(sampled(grid, 0).heights, grid.heights);
+  EXPECT_EQ(sampled(grid, 1).heights, grid.heights);
+  // Never more than there may be.
+  EXPECT_EQ(sampled(grid, 4000000000u).width, kMostTerrainVertices);
+  const TerrainGrid large{601, 2, std::vector<float>(1202, 0.0f), {20.0, 10.0}};
+  EXPECT_EQ(sampled(large, 2).width, 601);
+}
+
 class SdfShape : public SceneFiles {
  protected:
   Scene loaded(const std::string& content, Missing missing = Missing::kStop) const {
@@ -173,6 +190,16 @@ TEST_F(SdfShape, AHeightMapIsGround) {
   EXPECT_LT((boundsOf(scene).max() - Eigen::Vector3f(20, 10, 9)).norm(), kTolerance);
   // Steps of 63, 64, 64 and 64 of 255 are even to 1 %.
   EXPECT_NEAR(nearestOnVertical(scene, {0, 3, 5})->z, 5.0, 0.01 * 8.0);
+}
+
+TEST_F(SdfShape, AHeightMapHasAsManySamplesAsItSays) {
+  writePicture("hills.png", 5, -1, 0);
+  const auto triangles = [&](const std::string& sampling) {
+    return loaded(visual("<heightmap><uri>hills.png</uri><size>40 20 8</size>" + sampling + "</heightmap>"))
+        .triangleCount();
+  };
+  EXPECT_EQ(triangles(""), 2u * 4u * 4u);
+  EXPECT_EQ(triangles("<sampling>3</sampling>"), 2u * 12u * 12u);
 }
 
 TEST_F(SdfShape, AHeightMapStandsAtItsPosAlone) {

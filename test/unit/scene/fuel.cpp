@@ -1,0 +1,92 @@
+// Models of Fuel, Gazebo's server, from the folders in which its tools keep what they have downloaded.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "unit/scene/measure.h"
+#include "unit/scene/scene_files.h"
+
+namespace sunlit::scene {
+namespace {
+
+class Fuel : public SceneFiles {
+ protected:
+  /// A model whose mesh is a triangle at x = 0 to `width`, at the address' place in the cache folder "fuel".
+  void keep(const std::string& place, int width) const {
+    const std::string folder = "fuel/" + place;
+    write(folder + "/model.config",
+          "<?xml version='1.0'?><model><name>m</name><sdf version='1.6'>model.sdf</sdf></model>");
+    // Meshes by addresses of Fuel, as its server writes them into models that are downloaded, and beside
+    // them.
+    write(folder + "/model.sdf",
+          "<?xml version='1.0'?><sdf version='1.6'><model name='m'><link name='l'><visual "
+          "name='v'><geometry><mesh><uri>meshes/t.obj</uri></mesh></geometry></visual></link></model></sdf>");
+    write(folder + "/meshes/t.obj", "v 0 0 0\nv " + std::to_string(width) + " 0 0\nv 0 1 0\nf 1 2 3\n");
+  }
+  std::string worldOf(const std::string& content) const {
+    return write("test.world",
+                 "<?xml version='1.0'?><sdf version='1.9'><world name='w'>" + content + "</world></sdf>");
+  }
+  std::string including(const std::string& address) const {
+    return worldOf("<include><uri>" + address + "</uri></include>");
+  }
+  SearchPath cached() const {
+    SearchPath path;
+    path.fuel_caches = {pathOf("fuel")};
+    return path;
+  }
+  /// East of what the address gives.
+  float widthOf(const std::string& address) const {
+    return boundsOf(load(including(address), cached())).max().x();
+  }
+};
+
+TEST_F(Fuel, ModelsAreFoundByOwnerNameAndVersion) {
+  keep("fuel.gazebosim.org/openrobotics/models/ice cream van/2", 2);
+  keep("fuel.gazebosim.org/openrobotics/models/ice cream van/10", 10);
+  const std::string address = "https://fuel.gazebosim.org/1.0/OpenRobotics/models/Ice Cream Van";
+  EXPECT_EQ(widthOf(address), 10.0f);  // the newest, by number and not by letters
+  EXPECT_EQ(widthOf(address + "/tip"), 10.0f);
+  EXPECT_EQ(widthOf(address + "/2"), 2.0f);
+  EXPECT_EQ(widthOf("https://fuel.gazebosim.org/1.0/OpenRobotics/models/Ice%20Cream%20Van/2/"), 2.0f);
+  EXPECT_EQ(widthOf("http://fuel.gazebosim.org/openrobotics/models/ice cream van"), 10.0f);
+}
+
+TEST_F(Fuel, TheServersOldNameIsTheSameServer) {
+  keep("fuel.ignitionrobotics.org/openrobotics/models/van/1", 1);
+  EXPECT_EQ(widthOf("https://fuel.gazebosim.org/1.0/OpenRobotics/models/van"), 1.0f);
+  keep("fuel.gazebosim.org/openrobotics/models/van/3", 3);
+  EXPECT_EQ(widthOf("https://fuel.gazebosim.org/1.0/OpenRobotics/models/van"), 3.0f);  // its own name first
+  keep("fuel.example.org/openrobotics/models/bus/4", 4);
+  EXPECT_NE(errorOf(including("https://fuel.gazebosim.org/1.0/OpenRobotics/models/bus"), cached()), "");
+  EXPECT_EQ(widthOf("https://fuel.example.org/1.0/OpenRobotics/models/bus"), 4.0f);
+}
+
+TEST_F(Fuel, FilesOfModelsAreFound) {
+  keep("fuel.gazebosim.org/openrobotics/models/van/7", 7);
+  const std::string world = worldOf(
+      "<model name='a'><link name='l'><visual name='v'><geometry><mesh><uri>https://fuel.gazebosim.org/1.0/"
+      "openrobotics/models/van/tip/files/meshes/t.obj</uri></mesh></geometry></visual></link></model>");
+  EXPECT_EQ(boundsOf(load(world, cached())).max().x(), 7.0f);
+}
+
+TEST_F(Fuel, WhatIsNotInTheCacheIsNamedWithThatNothingIsFetched) {
+  keep("fuel.gazebosim.org/openrobotics/models/van/7", 7);
+  const std::string address = "https://fuel.gazebosim.org/1.0/openrobotics/models/van/8";
+  const std::string world = including(address);
+  EXPECT_EQ(errorOf(world, cached()),
+            world + ":1: there is no " + address + "; looked for in Fuel's cache in " + pathOf("fuel") +
+                "; nothing is fetched from the network, `gz fuel download -u ADDRESS` does that");
+  EXPECT_NE(errorOf(world).find("Fuel's cache, which has no folder; nothing is fetched"), std::string::npos);
+}
+
+TEST_F(Fuel, NoAddressLeavesTheCache) {
+  keep("fuel.gazebosim.org/openrobotics/models/van/7", 7);
+  keep("elsewhere", 8);
+  const std::string address = "https://fuel.gazebosim.org/1.0/openrobotics/models/van/7/";
+  EXPECT_EQ(widthOf(address), 7.0f);
+  EXPECT_NE(errorOf(including(address + "../../../../../elsewhere"), cached()), "");
+}
+
+}  // namespace
+}  // namespace sunlit::scene
