@@ -33,13 +33,16 @@ class BurialTest {
     addHit(ray.weight, what, ray.hits.distance[ray.lane]);
   }
 
-  /// Within a body, or covered, or in the joint of two bodies, or under a sheet of ground with the void
-  /// below; or no sky and next to no front is seen, but that void, or a body from inside, or something close
-  /// by.
+  /// Within a body, or covered, or in the joint of two bodies; under a sheet of ground, or right under its
+  /// edge, with the void below; among the backs of things, partly within a body or right behind a wall; or no
+  /// sky and next to no front is seen, but that void, or a body from inside, or something close by.
   bool buried() const {
     if (inside_ >= 0.5f * all_ || touching_ > 0.9f * all_) return true;
     if (covered_ > 0.5f * all_ && up_ < 0.05f * all_) return true;
     if (touching_backs_ > 0.35f * all_ && up_ < 0.2f * all_) return true;
+    if (touching_backs_ > 0.15f * all_ && down_ > 0.3f * all_) return true;
+    const bool in_or_behind = inside_ > 0.1f * all_ || near_backs_ > 0.3f * all_;
+    if (backs_ > 0.7f * all_ && up_ < 0.05f * all_ && in_or_behind) return true;
     if (backs_ > 0.5f * all_ && down_ > 0.1f * all_ && up_ < 0.1f * all_) return true;
     if (up_ > 0.03f * all_ || fronts_ > 0.1f * all_) return false;
     return down_ > 0.0f || inside_ > 0.2f * all_ || inverse_distances_ * kClose_m > all_;
@@ -67,6 +70,8 @@ class BurialTest {
       if (hit.back && !hit.triangle.solid) touching_backs_ += weight;
       if (hit.parallel) covered_ += weight;
     }
+    if (hit.back && !hit.triangle.solid && !isLeaf(hit.triangle.kind) && distance_m < kClose_m)
+      near_backs_ += weight;
     inverse_distances_ += weight / std::max(distance_m, kLeast_m);
   }
 
@@ -76,7 +81,7 @@ class BurialTest {
   static constexpr float kLeast_m = 1e-3f;
   float all_ = 0.0f, up_ = 0.0f, down_ = 0.0f;
   float inside_ = 0.0f, fronts_ = 0.0f, backs_ = 0.0f;
-  float touching_ = 0.0f, touching_backs_ = 0.0f, covered_ = 0.0f;
+  float touching_ = 0.0f, touching_backs_ = 0.0f, near_backs_ = 0.0f, covered_ = 0.0f;
   float inverse_distances_ = 0.0f;
 };
 

@@ -107,6 +107,8 @@ class Exchange {
   }
   static std::uint32_t sampleOf(std::uint32_t hit) { return hit & kSampleMask; }
   RaySeen ray(std::size_t sample, std::size_t hit) const;
+  /// Of all that is `seen`, puts samples beside it in the place of those that are of no use. Parallel.
+  void passOver(const std::vector<bool>& useless);
   /// Whether a sample mirrors as GroundMirror says.
   bool isGround(std::uint32_t sample) const;
   /// Ground scatters less towards a glancing ray than towards the mean one: Fresnel's share is larger there.

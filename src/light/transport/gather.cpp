@@ -73,6 +73,9 @@ class Gatherer {
       lookAround(p * kPacket, data);
       step(direct_share / static_cast<double>(packets));
     });
+    std::vector<bool> inside(count_);
+    for (std::size_t i = 0; i < count_; ++i) inside[i] = exchange_.seen[i].inside;
+    exchange_.passOver(inside);
     if (options_.bounces > 0) {
       const RoomBaker rooms(scene_, samples_, exchange_);
       rooms.look(data);
@@ -86,8 +89,6 @@ class Gatherer {
     const bool all = options_.bounces >= kBouncesBeforeAll;
     if (all) exchange_.addLaterBounces(data);
     data->lamps = bakeLamps(scene_, samples_, exchange_, all ? Exchange::kAllBounces : options_.bounces);
-    std::vector<bool> inside(count_);
-    for (std::size_t i = 0; i < count_; ++i) inside[i] = exchange_.seen[i].inside;
     return inside;
   }
 

@@ -26,14 +26,40 @@ LightMesh::Place LightMesh::locate(std::uint32_t root, std::array<float, 3> bary
   return {cells[at].corner, barycentric};
 }
 
-void LightMesh::drop(const std::vector<bool>& useless) {
+std::vector<std::uint32_t> LightMesh::usefulSamples(const std::vector<bool>& useless) const {
+  constexpr int kRings = 4;  // as many as SceneSamples are filled over
+  std::vector<std::uint32_t> samples(nodeCount(), kNone);
   for (std::size_t n = 0; n < nodeCount(); ++n) {
-    float useful = 0.0f;
+    float most = 0.0f;
+    for (std::uint32_t s = first_share[n]; s < first_share[n + 1]; ++s) {
+      if (useless[shares[s].sample] || shares[s].weight <= most) continue;
+      most = shares[s].weight;
+      samples[n] = shares[s].sample;
+    }
+  }
+  for (int ring = 0; ring < kRings; ++ring) {
+    const std::vector<std::uint32_t> before = samples;
+    for (const Cell& cell : cells) {
+      if (cell.inner()) continue;
+      for (const std::uint32_t n : cell.corner) {
+        for (const std::uint32_t from : cell.corner)
+          if (samples[n] == kNone) samples[n] = before[from];
+      }
+    }
+  }
+  return samples;
+}
+
+void LightMesh::drop(const std::vector<bool>& useless) {
+  const std::vector<std::uint32_t> useful = usefulSamples(useless);
+  for (std::size_t n = 0; n < nodeCount(); ++n) {
+    if (useful[n] == kNone) continue;
+    float sum = 0.0f;
     for (std::uint32_t s = first_share[n]; s < first_share[n + 1]; ++s)
-      useful += useless[shares[s].sample] ? 0.0f : shares[s].weight;
-    if (useful <= 0.0f) continue;
+      sum += useless[shares[s].sample] ? 0.0f : shares[s].weight;
     for (std::uint32_t s = first_share[n]; s < first_share[n + 1]; ++s)
-      shares[s].weight *= useless[shares[s].sample] ? 0.0f : 1.0f / useful;
+      shares[s].weight *= useless[shares[s].sample] ? 0.0f : 1.0f / sum;
+    if (sum <= 0.0f) shares[first_share[n]] = {useful[n], 1.0f};
   }
 }
 

@@ -48,7 +48,10 @@ struct LightMesh {
   /// Of a point within the leaf tree of `root`, given by its barycentric coordinates.
   Place locate(std::uint32_t root, std::array<float, 3> barycentric) const;
 
-  /// Takes samples that are of no use out of nodes that have others.
+  /// Of each node, the sample that counts most in it among those that are of use; where there is none, that
+  /// of the nearest nodes that have one, over a few cells; kNone beyond.
+  std::vector<std::uint32_t> usefulSamples(const std::vector<bool>& useless) const;
+  /// Takes samples that are of no use out of nodes; those left with none get that of usefulSamples().
   void drop(const std::vector<bool>& useless);
 };
 

@@ -68,6 +68,35 @@ TEST(Burial, UnderASheetOfGroundThatHasAHole) {
   EXPECT_FALSE(Outlook().nothingAbove(0.2f).nothingBelow(0.25f).back(0.55f, 1.0f).buried());
 }
 
+TEST(Burial, RightUnderTheEdgeOfASheetOfGround) {
+  // Measured at the foot of a wall that a bank ends at, a few millimetres below it: sky beyond the bank, too.
+  EXPECT_TRUE(
+      Outlook().nothingAbove(0.22f).nothingBelow(0.5f).back(0.19f, 0.02f).front(0.09f, 3.0f).buried());
+  // A wall on the edge of the world under the eaves of a single sheet, which are farther away.
+  EXPECT_FALSE(
+      Outlook().nothingAbove(0.22f).nothingBelow(0.5f).back(0.19f, 0.5f).front(0.09f, 3.0f).buried());
+}
+
+TEST(Burial, BehindAWallOfASingleSheet) {
+  // Measured at the ends of beams that go through the wall of a tunnel: they see a bank behind it.
+  EXPECT_TRUE(Outlook().back(0.71f, 0.3f).back(0.06f, 4.0f).front(0.23f, 4.0f).buried());
+  // A wall of sheets that are turned the wrong way round, beside its neighbour and a road.
+  EXPECT_FALSE(Outlook().back(0.71f, 3.0f).front(0.29f, 4.0f).buried());
+  // Under a roof on posts, at its rim.
+  EXPECT_FALSE(Outlook().back(0.71f, 0.3f).nothingAbove(0.1f).front(0.19f, 4.0f).buried());
+}
+
+TEST(Burial, WithinTheSlabOfABridge) {
+  // Measured at the upper end of a beam: much of the bridge is of single sheets.
+  EXPECT_TRUE(Outlook()
+                  .backOfBody(0.25f, 3.0f)
+                  .back(0.56f, 6.0f)
+                  .nothingAbove(0.03f)
+                  .nothingBelow(0.02f)
+                  .front(0.14f, 9.0f)
+                  .buried());
+}
+
 TEST(Burial, HalfWithinABody) {
   EXPECT_TRUE(Outlook().backOfBody(0.38f, 2.0f).back(0.59f, 2.0f).front(0.03f, 2.0f).buried());
 }

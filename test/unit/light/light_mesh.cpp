@@ -1,0 +1,81 @@
+// Which samples the nodes of a mesh, and rays that meet them, are left with where others are of no use.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "light/transport/exchange.h"
+#include "light/transport/transport_data.h"
+
+namespace sunlit::light {
+namespace {
+
+using Expected = std::vector<std::uint32_t>;
+
+/// A strip of triangles: nodes n, n + 1 and n + 2 are the corners of cell n. Node n has the sample n alone.
+LightMesh strip(std::uint32_t nodes) {
+  LightMesh mesh;
+  for (std::uint32_t n = 0; n + 2 < nodes; ++n) mesh.cells.push_back({{n, n + 1, n + 2}});
+  for (std::uint32_t n = 0; n < nodes; ++n) {
+    mesh.first_share.push_back(n);
+    mesh.shares.push_back({n, 1.0f});
+  }
+  mesh.first_share.push_back(nodes);
+  return mesh;
+}
+
+TEST(LightMesh, ANodeWithoutUsefulSamplesHasThatOfTheNearest) {
+  LightMesh mesh = strip(5);
+  const std::vector<bool> useless = {false, false, true, true, true};
+  // Node 2 is in a cell with 0 and 1, node 3 with 1 alone, node 4 with 2 and 3, which had none either.
+  EXPECT_EQ(mesh.usefulSamples(useless), (Expected{0, 1, 0, 1, 0}));
+  mesh.drop(useless);
+  EXPECT_EQ(mesh.shares[3].sample, 1u);
+  EXPECT_EQ(mesh.shares[3].weight, 1.0f);
+  EXPECT_EQ(mesh.shares[0].sample, 0u);
+}
+
+TEST(LightMesh, FarFromUsefulSamplesNodesKeepTheirOwn) {
+  LightMesh mesh = strip(11);
+  std::vector<bool> useless(11, true);
+  useless[0] = false;
+  // Four rings of cells reach nodes 1 and 2, 3 and 4, 5 and 6, 7 and 8.
+  EXPECT_EQ(mesh.usefulSamples(useless)[8], 0u);
+  EXPECT_EQ(mesh.usefulSamples(useless)[9], LightMesh::kNone);
+  mesh.drop(useless);
+  EXPECT_EQ(mesh.shares[8].sample, 0u);
+  EXPECT_EQ(mesh.shares[9].sample, 9u);
+}
+
+TEST(LightMesh, OfSeveralSamplesTheUsefulOnesShareAllTheWeight) {
+  LightMesh mesh = strip(3);
+  mesh.first_share = {0, 3, 4, 5};
+  mesh.shares = {{0, 0.5f}, {1, 0.2f}, {2, 0.3f}, {1, 1.0f}, {2, 1.0f}};
+  const std::vector<bool> useless = {true, false, false};
+  EXPECT_EQ(mesh.usefulSamples(useless)[0], 2u);
+  mesh.drop(useless);
+  EXPECT_EQ(mesh.shares[0].weight, 0.0f);
+  EXPECT_FLOAT_EQ(mesh.shares[1].weight, 0.4f);
+  EXPECT_FLOAT_EQ(mesh.shares[2].weight, 0.6f);
+}
+
+TEST(Exchange, RaysThatMeetUselessSamplesMeetThoseBeside) {
+  SceneSamples samples;
+  samples.mesh = strip(11);
+  samples.receivers.resize(11);
+  samples.nearest_sample.resize(11);
+  std::iota(samples.nearest_sample.begin(), samples.nearest_sample.end(), 0u);
+  const SkyPatches patches(1);
+  const BakedRooms none;
+  Exchange exchange(samples, patches, none);
+  exchange.seen[0].hits = {Exchange::hitOf(1, 7), Exchange::hitOf(4, 7), Exchange::hitOf(10, 9)};
+  exchange.seen[0].up = 3;
+  // 4 is amid others; the cells around 10 and those beside them hold none that is of use.
+  exchange.passOver({false, false, true, true, true, true, true, true, true, true, true});
+  EXPECT_EQ(exchange.ray(0, 0).from, 1u);
+  EXPECT_EQ(exchange.ray(0, 1).from, 0u);
+  EXPECT_EQ(exchange.ray(0, 1).direction, 7u);
+  EXPECT_EQ(exchange.ray(0, 2).from, 10u);
+}
+
+}  // namespace
+}  // namespace sunlit::light
