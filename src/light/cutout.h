@@ -24,7 +24,7 @@ class Cutouts {
   enum class Glass {
     kByChance,  ///< as what blends: it stops so many rays as it keeps light back, by their angle where that
                 ///< is told, else on average over a half sphere
-    kLeftOut,  ///< in neither list
+    kLeftOut,   ///< in neither list
   };
   explicit Cutouts(const Geometry& geometry, Glass glass = Glass::kByChance);
 

@@ -28,9 +28,8 @@ Illumination illumination(const World& world, const sky::Daylight& day, const La
   const bool burn = burnUnder(lamps, day);
   const std::vector<float> shares =
       burn ? burningShares(world.geometry->scene->lamps, lamps) : std::vector<float>();
-  Illumination light = world.transport
-                           ? world.transport->illumination(day, shares, world.visibility.get())
-                           : Illumination(day);
+  Illumination light = world.transport ? world.transport->illumination(day, shares, world.visibility.get())
+                                       : Illumination(day);
   if (!burn) return light;
   light.lamps =
       std::make_shared<const std::vector<scene::Lamp>>(burning(world.geometry->scene->lamps, lamps));

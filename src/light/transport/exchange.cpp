@@ -93,15 +93,14 @@ RaySeen Exchange::ray(std::size_t sample, std::size_t hit) const {
 
 void Exchange::passOver(const std::vector<bool>& useless) {
   const std::vector<std::uint32_t> useful = samples_.mesh.usefulSamples(useless);
-  std::vector<std::uint32_t> instead(useless.size(), LightMesh::kNone);
+  instead_.assign(useless.size(), LightMesh::kNone);
   for (std::size_t n = 0; n < useful.size(); ++n) {
     const std::uint32_t sample = samples_.nearest_sample[n];
-    if (useless[sample] && instead[sample] == LightMesh::kNone) instead[sample] = useful[n];
+    if (useless[sample] && instead_[sample] == LightMesh::kNone) instead_[sample] = useful[n];
   }
   tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
     for (std::uint32_t& hit : seen[i].hits) {
-      const std::uint32_t other = instead[hit & kSampleMask];
-      if (other != LightMesh::kNone) hit = hitOf(other, hit >> kDirectionShift);
+      hit = hitOf(usefulBeside(sampleOf(hit)), hit >> kDirectionShift);
     }
   });
 }

@@ -109,6 +109,11 @@ class Exchange {
   RaySeen ray(std::size_t sample, std::size_t hit) const;
   /// Of all that is `seen`, puts samples beside it in the place of those that are of no use. Parallel.
   void passOver(const std::vector<bool>& useless);
+  /// The sample itself, or the one that passOver() puts in its place.
+  std::uint32_t usefulBeside(std::uint32_t sample) const {
+    const std::uint32_t other = instead_.empty() ? LightMesh::kNone : instead_[sample];
+    return other != LightMesh::kNone ? other : sample;
+  }
   /// Whether a sample mirrors as GroundMirror says.
   bool isGround(std::uint32_t sample) const;
   /// Ground scatters less towards a glancing ray than towards the mean one: Fresnel's share is larger there.
@@ -146,6 +151,7 @@ class Exchange {
   const SceneSamples& samples_;
   const SkyPatches& patches_;
   const BakedRooms& rooms_;
+  std::vector<std::uint32_t> instead_;  ///< of each sample of no use: one that is, or LightMesh::kNone
   std::vector<std::uint32_t> room_of_;  ///< of each sample, or LightMesh::kNone; empty: there are none
 };
 

@@ -97,7 +97,8 @@ class Gatherer {
   struct Look {
     Row row{};
     BurialTest burial;
-    float all = 0.0f, inside = 0.0f, leaves = 0.0f, blocked_up = 0.0f, blocked_down = 0.0f, coarse_blocked_up = 0.0f;
+    float all = 0.0f, inside = 0.0f, leaves = 0.0f, blocked_up = 0.0f, blocked_down = 0.0f,
+          coarse_blocked_up = 0.0f;
     std::array<std::uint32_t, SkyPatches::kCoarse> hits;  ///< as SampleHits::hits
     std::size_t hit_count = 0, up = 0;
   };

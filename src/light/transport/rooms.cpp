@@ -193,8 +193,9 @@ std::vector<RoomBaker::View> RoomBaker::lookFrom(const std::uint32_t* lookers, s
         view.open[static_cast<std::size_t>(patch)] += weights[lane];
         continue;
       }
-      const std::uint32_t from = sampleAt(scene_, samples_, {hits, lane, towards});
-      if (from == LightMesh::kNone) continue;
+      const std::uint32_t met = sampleAt(scene_, samples_, {hits, lane, towards});
+      if (met == LightMesh::kNone) continue;
+      const std::uint32_t from = exchange_.usefulBeside(met);
       view.add({from, weights[lane]}, exchange_.scattered(from, towards), patch != SkyPatches::kBelow);
     }
   }

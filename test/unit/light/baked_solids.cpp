@@ -279,8 +279,8 @@ TEST(BakedSolids, AMetalWallMirrorsTheGroundFromAboveAndTheBoardFromBelow) {
     // The ground that the board's foot hides is taken for as bright as the rest: measured 6 %.
     EXPECT_LT(found.worst, 0.08) << roughness;
     const std::vector<double> picture = fast(world, below, day), truth = traced(world, below, day, 20000);
-    // Of a hundred: measured 0.81. With one mean of all that is around, these would be 16 to 33 off and those above half too
-    // dark.
+    // Of a hundred: measured 0.81. With one mean of all that is around, these would be 16 to 33 off and those
+    // above half too dark.
     for (std::size_t i = 0; i < below.size(); ++i) EXPECT_NEAR(picture[i], truth[i], 0.9) << roughness;
   }
 }
