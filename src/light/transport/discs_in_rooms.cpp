@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 
+#include "light/disc_above_horizon.h"
 #include "light/glass_sheets.h"
 #include "light/ray_list.h"
 #include "light/transport/small_light.h"
@@ -17,13 +18,21 @@ namespace {
 constexpr int kMostBounces = 8;
 constexpr double kLittle = 0.005;  // of the rooms' light, on average; less still follows
 
-/// Rays of each source; where they are at odds, all of its points cast one.
-constexpr std::uint32_t kProbes = 32;
 constexpr float kWhole = 0.999f;  ///< share of a source, but for rounding
 
 constexpr std::size_t kBlock = 256;  ///< of one task
 std::size_t blocks(std::size_t count) {
   return (count + kBlock - 1) / kBlock;
+}
+
+/// Towards the middle of the part of a disc that is above the horizon.
+Eigen::Vector3f middleOf(const sky::DiscLight& disc) {
+  const Eigen::Vector3f towards = disc.towards.vector().cast<float>();
+  const double radius_rad = disc.angular_radius.rad();
+  const auto height = static_cast<float>(
+      radius_rad * DiscAboveHorizon(towards, radius_rad).place(Eigen::Vector2d::Zero()).y());
+  const Eigen::Vector3f up = Eigen::Vector3f::UnitZ() - towards.z() * towards;
+  return up.squaredNorm() > 1e-6f ? (towards + height * up.normalized()).normalized() : towards;
 }
 
 /// One of sun and moon, over many sources.
@@ -32,7 +41,7 @@ class DiscOnSources {
   DiscOnSources(const TransportData& data, const sky::DiscLight& disc, const Visibility& visibility)
       : data_(data),
         by_patches_(disc),
-        towards_(disc.towards.vector().cast<float>()),
+        towards_(middleOf(disc)),
         illuminance_(disc.illuminance.value),
         visibility_(visibility),
         glass_(visibility) {}
@@ -51,14 +60,15 @@ class DiscOnSources {
       if (source.other != LightMesh::kNone)
         (*sent)[s] += Eigen::Map<const Eigen::Array3f>(source.through.data()) * byPatches(source.other);
     }
-    look(kProbes, &lit);
+    look([](const BakedRooms::Source& source) { return source.probes; }, &lit);
     for (const Lit& here : lit) {
-      if (here.share > 0.0f && here.share < kWhole)
+      const BakedRooms::Source& source = rooms.sources[here.source];
+      if (here.share > 0.0f && here.share < kWhole && source.probes < source.points)
         edges.push_back(here);
       else
         send(here, sent);
     }
-    look(std::numeric_limits<std::uint32_t>::max(), &edges);
+    look([](const BakedRooms::Source& source) { return source.points; }, &edges);
     for (const Lit& here : edges) send(here, sent);
   }
 
@@ -70,15 +80,16 @@ class DiscOnSources {
     std::uint32_t point = 0;  ///< one of its points that it shines on
   };
 
-  /// Sets `share` and `point`, by at most so many points of each source.
-  void look(std::uint32_t most, std::vector<Lit>* sources) const {
+  /// Sets `share` and `point`, by pointsOf(source) of the points of each.
+  template <typename PointsOf>
+  void look(const PointsOf& pointsOf, std::vector<Lit>* sources) const {
     thread_local RayList rays;
     thread_local std::vector<std::uint8_t> blocked;
     rays.clear();
     const auto visit = [&](const auto& see) {
       for (Lit& here : *sources) {
         const BakedRooms::Source& source = data_.rooms.sources[here.source];
-        const std::uint32_t count = std::min(source.points, most);
+        const std::uint32_t count = pointsOf(source);
         for (std::uint32_t k = 0; k < count; ++k) see(&here, source, k * source.points / count);
       }
     };
@@ -92,8 +103,9 @@ class DiscOnSources {
     std::size_t ray = 0;
     visit([&](Lit* here, const BakedRooms::Source& source, std::uint32_t k) {
       if (blocked[ray++] != 0) return;
-      const bool all = source.points <= most;
-      here->share += all ? data_.rooms.points[source.first_point + k].share : 1.0f / static_cast<float>(most);
+      const std::uint32_t count = pointsOf(source);
+      here->share += count == source.points ? data_.rooms.points[source.first_point + k].share
+                                            : 1.0f / static_cast<float>(count);
       here->point = k;
     });
   }

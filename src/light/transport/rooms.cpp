@@ -248,13 +248,14 @@ void RoomBaker::addSources(BakedRooms* rooms) const {
     if (!seen[i]) continue;
     const Sending sends = exchange_.sending(i);
     rooms->sources.push_back({i, sends.other, stored(sends.direct), stored(sends.bounced),
-                              stored(sends.through), stored(samples_.receivers[i].normal.array()), 0, 0});
+                              stored(sends.through), stored(samples_.receivers[i].normal.array()), 0, 0, 0});
   }
 }
 
 void RoomBaker::addPoints(BakedRooms* rooms) const {
   // What is no room itself, such as the ground before a window, mostly lies in the sun as a whole, or not.
   constexpr std::uint32_t kMostOfRooms = 144, kMostOfOthers = 12;
+  constexpr std::uint32_t kProbesOfRooms = 32, kProbesOfOthers = 4;
   std::vector<std::uint32_t> source_of(samples_.receivers.size(), LightMesh::kNone);
   std::vector<std::uint32_t> most(rooms->sources.size(), kMostOfOthers);
   for (std::uint32_t s = 0; s < rooms->sources.size(); ++s) {
@@ -290,6 +291,7 @@ void RoomBaker::addPoints(BakedRooms* rooms) const {
     const auto has = static_cast<std::uint32_t>(points[s].size()), kept = std::min(has, most[s]);
     rooms->sources[s].first_point = static_cast<std::uint32_t>(rooms->points.size());
     rooms->sources[s].points = kept;
+    rooms->sources[s].probes = std::min(kept, most[s] == kMostOfRooms ? kProbesOfRooms : kProbesOfOthers);
     float all = 0.0f;
     for (std::uint32_t k = 0; k < kept; ++k) all += points[s][k * has / kept].share;
     for (std::uint32_t k = 0; k < kept; ++k) {

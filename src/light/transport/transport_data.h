@@ -126,6 +126,7 @@ struct BakedRooms {
     std::array<float, 3> direct, bounced, through;  ///< as Sending
     std::array<float, 3> normal;
     std::uint32_t first_point, points;  ///< 0: its light is told by its coefficients
+    std::uint32_t probes;               ///< so many of them cast a ray first; where these are at odds, all do
   };
   struct Point {
     float x, y, z;  ///< m in `map`, clear of the surface
