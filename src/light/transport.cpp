@@ -112,7 +112,9 @@ void Transport::locate(Surfaces* surfaces, FinalGather* gather) const {
 
 std::vector<NodeLight> Transport::relight(const sky::Daylight& day, const std::vector<float>& lamp_shares,
                                           const Visibility* visibility) const {
-  return light::relight(*data_, {day, lamp_shares, visibility});
+  // Rooms follow the sun for as many bounces as there are.
+  const bool all = options_.bounces >= kBouncesBeforeAll;
+  return light::relight(*data_, {day, lamp_shares, all ? visibility : nullptr});
 }
 
 Illumination Transport::illumination(const sky::Daylight& day, const std::vector<float>& lamp_shares,

@@ -70,8 +70,9 @@ struct BakeCache {
 struct TransportData;
 
 /// Daylight coefficients (Tregenza & Waters 1983) at samples of the scene's surfaces: how much light arrives
-/// for each patch of the sky, directly and passed on by surfaces. Linear in sky, sun and moon, so that
-/// another sky costs a product per sample. Immutable; may be read by many threads.
+/// for each patch of the sky, directly and passed on by surfaces. Linear in the sky, so that another
+/// one costs a product per sample; in rooms, streets and tunnels rays find what sun and moon shine on, too.
+/// Immutable; may be read by many threads.
 class Transport {
  public:
   /// Traces the scene, which takes seconds to a minute. Parallel; the same bits for any number of threads.

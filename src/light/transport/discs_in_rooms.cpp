@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 
 #include "light/disc_above_horizon.h"
 #include "light/glass_sheets.h"
@@ -16,7 +17,7 @@ namespace {
 
 /// Bounces that are followed: of white walls' light a sixth is left to be as the patches told.
 constexpr int kMostBounces = 8;
-constexpr double kLittle = 0.005;  // of the rooms' light, on average; less still follows
+constexpr double kLittle = 0.005;  // of a room's light, on average; less still follows
 
 constexpr float kWhole = 0.999f;  ///< share of a source, but for rounding
 
@@ -180,8 +181,9 @@ void DiscsInRooms::startFromPatches(const sky::DiscLight& disc) {
     }
   });
   const Coefficients& mirrored = data_.rooms.mirrored;
-  for (std::size_t room = 0; room < mirrored_.size(); ++room)
+  tbb::parallel_for(std::size_t{0}, mirrored_.size(), [&](std::size_t room) {
     mirrored_[room] += light.times(mirrored.row(room)) * mirrored.scales[room];
+  });
 }
 
 void DiscsInRooms::send() {
@@ -196,12 +198,12 @@ void DiscsInRooms::send() {
   });
 }
 
-/// Returns by how much the rooms' light has changed, as a share of it.
+/// Returns by how much the light of rooms has changed, as a share of it, on average over rooms.
 double DiscsInRooms::receive() {
   const BakedRooms& rooms = data_.rooms;
   const std::size_t count = rooms.samples.size();
-  std::vector<std::array<double, 2>> sums(blocks(count), {0.0, 0.0});
-  tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t block) {
+  std::vector<double> changes(blocks(count), 0.0);
+  tbb::parallel_for(std::size_t{0}, changes.size(), [&](std::size_t block) {
     for (std::size_t room = block * kBlock; room < std::min(count, (block + 1) * kBlock); ++room) {
       Arrived sum;
       visitLinks(rooms, room, [&](const SampleSeen& other, bool up) {
@@ -211,14 +213,12 @@ double DiscsInRooms::receive() {
       arrived_[room] = sum;
       Eigen::Array3f& has = has_[rooms.samples[room]];
       const Eigen::Array3f all = sum.above + sum.below;
-      sums[block][0] += static_cast<double>((all - has).abs().sum());
-      sums[block][1] += static_cast<double>(all.sum());
+      const float most = all.maxCoeff();
+      if (most > 0.0f) changes[block] += static_cast<double>((all - has).abs().maxCoeff() / most);
       has = all;
     }
   });
-  std::array<double, 2> all{};
-  for (const auto& [change, light] : sums) all[0] += change, all[1] += light;
-  return all[1] > 0.0 ? all[0] / all[1] : 0.0;
+  return std::accumulate(changes.begin(), changes.end(), 0.0) / static_cast<double>(count);
 }
 
 }  // namespace sunlit::light

@@ -146,7 +146,7 @@ PassedOnSums Exchange::received(const std::vector<SentSums>& sent, std::size_t s
   sums.below.color.setConstant(mirrored_sums[sample]);
   sums.above.glow = shining[sample].above;
   sums.below.glow = shining[sample].below;
-  visitSeen(sample, [&](const SampleSeen& other, bool up) {
+  visitSeen(sample, all, [&](const SampleSeen& other, bool up) {
     PartSums& part = up ? sums.above : sums.below;
     part.color += other.weight * sent[other.sample].color;
     part.glow += other.weight * sent[other.sample].glow;
@@ -156,7 +156,8 @@ PassedOnSums Exchange::received(const std::vector<SentSums>& sent, std::size_t s
 
 Arrived Exchange::receivedOf(const std::vector<Eigen::Array3f>& sent, std::size_t sample) const {
   Arrived sum;
-  visitSeen(sample, [&](const SampleSeen& other, bool up) {
+  const auto lit = [&](std::uint32_t other) { return !sent[other].isZero(0.0f); };
+  visitSeen(sample, lit, [&](const SampleSeen& other, bool up) {
     (up ? sum.above : sum.below) += other.weight * sent[other.sample];
   });
   return sum;

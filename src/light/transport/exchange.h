@@ -85,7 +85,7 @@ class Exchange {
  public:
   static constexpr std::size_t kMostSamples = std::size_t{1} << 24;
 
-  /// Keeps references. Of `rooms`, which may be filled later, those that setRooms() was called for.
+  /// Keeps references. `rooms` counts once useRooms() was called.
   Exchange(const SceneSamples& samples, const SkyPatches& patches, const BakedRooms& rooms)
       : seen(samples.receivers.size()),
         mirrored_sums(samples.receivers.size(), 0.0f),
@@ -118,9 +118,11 @@ class Exchange {
   bool isGround(std::uint32_t sample) const;
   /// Ground scatters less towards a glancing ray than towards the mean one: Fresnel's share is larger there.
   float scattered(std::uint32_t from, const Eigen::Vector3f& towards) const;
-  /// Calls visit(SampleSeen, whether it is seen above the horizon) for all that light reaches a sample from.
-  template <typename Visit>
-  void visitSeen(std::size_t sample, const Visit& visit) const;
+  /// Calls visit(SampleSeen, whether it is seen above the horizon) for those samples with wanted(number) that
+  /// light reaches a sample from.
+  template <typename Wanted, typename Visit>
+  void visitSeen(std::size_t sample, const Wanted& wanted, const Visit& visit) const;
+  static bool all(std::uint32_t) { return true; }
 
   Sending sending(std::size_t sample) const;
   /// The sums of what a sample has, and of what it has from the other side.
@@ -155,12 +157,17 @@ class Exchange {
   std::vector<std::uint32_t> room_of_;  ///< of each sample, or LightMesh::kNone; empty: there are none
 };
 
-template <typename Visit>
-void Exchange::visitSeen(std::size_t sample, const Visit& visit) const {
+template <typename Wanted, typename Visit>
+void Exchange::visitSeen(std::size_t sample, const Wanted& wanted, const Visit& visit) const {
   const std::uint32_t room = room_of_.empty() ? LightMesh::kNone : room_of_[sample];
-  if (room != LightMesh::kNone) return visitLinks(rooms_, room, visit);
+  if (room != LightMesh::kNone) {
+    return visitLinks(rooms_, room, [&](const SampleSeen& other, bool up) {
+      if (wanted(other.sample)) visit(other, up);
+    });
+  }
   const SampleHits& view = seen[sample];
   for (std::size_t k = 0; k < view.hits.size(); ++k) {
+    if (!wanted(sampleOf(view.hits[k]))) continue;
     const RaySeen along = ray(sample, k);
     visit(SampleSeen{along.from, along.weight * scattered(along.from, along.towards)}, k < view.up);
   }

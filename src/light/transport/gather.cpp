@@ -32,9 +32,6 @@ constexpr float kWalls = 0.8f;
 
 constexpr std::size_t kBlock = 256;  ///< samples, of one task
 
-/// Fewer were asked for to see just these.
-constexpr int kBouncesBeforeAll = 3;
-
 using Row = std::array<float, kPatches>;
 
 float luminanceOf(const Eigen::Array3f& rgb) {
@@ -269,7 +266,7 @@ class Gatherer {
                TransportData* data) const {
     Row above{}, below{};
     addTimes(mirrored_.scales[i], mirrored_.row(i), below.data());
-    exchange_.visitSeen(i, [&](const SampleSeen& seen, bool up) {
+    exchange_.visitSeen(i, Exchange::all, [&](const SampleSeen& seen, bool up) {
       addTimes(seen.weight * sent.scales[seen.sample], sent.row(seen.sample), (up ? above : below).data());
     });
     const PassedOnSums sums = exchange_.received(others, i);

@@ -8,6 +8,9 @@
 
 namespace sunlit::light {
 
+/// After so many bounces by single patches all others follow. Who asks for fewer wants to see just these.
+constexpr int kBouncesBeforeAll = 3;
+
 /// Share of the work done, 0 … 1; may come from any thread, but never from two at once.
 using GatherProgress = std::function<void(double)>;
 

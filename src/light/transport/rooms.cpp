@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kPacket = RayPacket::kSize;
 /// Over the sphere. A patch of the sun that takes a twentieth of what a wall looks at is met by fifty of
-/// them; fewer where there are many rooms, so that their links take 800 MB at most, about.
+/// them; fewer where there are many rooms, so that the links of the first 780,000 take 800 MB at most, about.
 constexpr std::size_t kMostDirections = 2048, kFewestDirections = 512;
 constexpr std::size_t kMostLinks = 200'000'000;
 
@@ -39,7 +39,7 @@ void merge(std::vector<SampleSeen>* seen) {
 /// Returns where those below the horizon begin.
 std::uint32_t pack(const std::array<std::vector<SampleSeen>, 2>& seen, std::vector<BakedRooms::Link>* links,
                    float* scale) {
-  float most = 0.0f, all = 0.0f, packed = 0.0f;
+  float most = 1e-12f, all = 0.0f, packed = 0.0f;
   for (const auto& half : seen)
     for (const SampleSeen& other : half) most = std::max(most, other.weight);
   std::uint32_t below = 0;
@@ -142,7 +142,8 @@ struct RoomBaker::View {
     constexpr float kNew =
         2.0f / 3.0f;  // several times as many rays, but not along the edges of what is open
     const float all = std::accumulate(open.begin(), open.end(), hidden[0] + hidden[1]);
-    const float scale = all > 0.0f ? receiver.open() / all : 0.0f;
+    if (!(all > 0.0f)) return;
+    const float scale = receiver.open() / all;
     std::array<float, SkyPatches::kCount> row{};
     addTimes((1.0f - kNew) * data->direct.scales[sample], data->direct.row(sample), row.data());
     for (std::size_t p = 0; p < row.size(); ++p) row[p] += kNew * kPiFloat * scale * open[p];
@@ -223,6 +224,9 @@ void RoomBaker::look(TransportData* data) const {
       rooms.below[first + i] = pack(views[i].seen, &packed, &rooms.scales[first + i]);
     }
   });
+  std::size_t sum = 0;
+  for (const auto& of_room : links) sum += of_room.size();
+  rooms.links.reserve(sum);
   for (std::size_t room = 0; room < count; ++room) {
     const auto start = static_cast<std::uint32_t>(rooms.links.size());
     rooms.first.push_back(start);
@@ -287,18 +291,45 @@ void RoomBaker::addPoints(BakedRooms* rooms) const {
       visitLeaves(samples_.mesh, root, Eigen::Matrix3f::Identity(), addLeaf);
     }
   }
+  tbb::parallel_for(std::size_t{0}, points.size(),
+                    [&](std::size_t s) { dropHidden(rooms->sources[s], &points[s]); });
   for (std::size_t s = 0; s < points.size(); ++s) {
     const auto has = static_cast<std::uint32_t>(points[s].size()), kept = std::min(has, most[s]);
-    rooms->sources[s].first_point = static_cast<std::uint32_t>(rooms->points.size());
-    rooms->sources[s].points = kept;
-    rooms->sources[s].probes = std::min(kept, most[s] == kMostOfRooms ? kProbesOfRooms : kProbesOfOthers);
     float all = 0.0f;
     for (std::uint32_t k = 0; k < kept; ++k) all += points[s][k * has / kept].share;
+    if (!(all > 0.0f)) continue;
+    BakedRooms::Source& source = rooms->sources[s];
+    source.first_point = static_cast<std::uint32_t>(rooms->points.size());
+    source.points = kept;
+    source.probes = std::min(kept, most[s] == kMostOfRooms ? kProbesOfRooms : kProbesOfOthers);
     for (std::uint32_t k = 0; k < kept; ++k) {
       rooms->points.push_back(points[s][k * has / kept]);
       rooms->points.back().share /= all;
     }
+    std::vector<BakedRooms::Point>().swap(points[s]);
   }
+}
+
+/// A floor goes on below the wall that stands on it: what lies there is of no room.
+void RoomBaker::dropHidden(const BakedRooms::Source& source, std::vector<BakedRooms::Point>* points) const {
+  const Eigen::Vector3f away = Eigen::Map<const Eigen::Vector3f>(source.normal.data());
+  std::vector<BakedRooms::Point> open;
+  RayPacket rays;
+  HitPacket hits;
+  for (std::size_t first = 0; first < points->size(); first += kPacket) {
+    const std::size_t count = std::min(kPacket, points->size() - first);
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {
+      const BakedRooms::Point& point = (*points)[first + std::min(lane, count - 1)];
+      rays.set(lane, {point.x, point.y, point.z}, away, lane < count);
+    }
+    scene_.rays.cast(rays, &hits);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const bool free = hits.triangle[lane] == HitPacket::kNothing;
+      if (free || sampleAt(scene_, samples_, {hits, static_cast<int>(lane), away}) != LightMesh::kNone)
+        open.push_back((*points)[first + lane]);
+    }
+  }
+  points->swap(open);
 }
 
 }  // namespace sunlit::light

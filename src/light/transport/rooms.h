@@ -36,6 +36,7 @@ class RoomBaker {
                              const std::vector<Direction>& directions) const;
   void addSources(BakedRooms* rooms) const;
   void addPoints(BakedRooms* rooms) const;
+  void dropHidden(const BakedRooms::Source& source, std::vector<BakedRooms::Point>* points) const;
 
   const BakeScene& scene_;
   const SceneSamples& samples_;
