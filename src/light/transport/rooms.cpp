@@ -88,6 +88,27 @@ void addPart(const LeafPart& part, std::vector<BakedRooms::Point>* points) {
   }
 }
 
+// What is no room itself, such as the ground before a window, mostly lies in the sun as a whole, or not.
+constexpr std::uint32_t kMostOfRooms = 144, kMostOfOthers = 12;  ///< points of a source
+constexpr std::uint32_t kProbesOfRooms = 32, kProbesOfOthers = 4;
+
+/// Adds at most `most` of a source's points.
+void addSome(const std::vector<BakedRooms::Point>& points, std::uint32_t most, std::size_t number,
+             BakedRooms* rooms) {
+  const auto has = static_cast<std::uint32_t>(points.size()), kept = std::min(has, most);
+  float all = 0.0f;
+  for (std::uint32_t k = 0; k < kept; ++k) all += points[k * has / kept].share;
+  if (!(all > 0.0f)) return;
+  BakedRooms::Source& source = rooms->sources[number];
+  source.first_point = static_cast<std::uint32_t>(rooms->points.size());
+  source.points = kept;
+  source.probes = std::min(kept, most == kMostOfRooms ? kProbesOfRooms : kProbesOfOthers);
+  for (std::uint32_t k = 0; k < kept; ++k) {
+    rooms->points.push_back(points[k * has / kept]);
+    rooms->points.back().share /= all;
+  }
+}
+
 std::array<float, 3> stored(const Eigen::Array3f& rgb) {
   return {rgb[0], rgb[1], rgb[2]};
 }
@@ -257,9 +278,6 @@ void RoomBaker::addSources(BakedRooms* rooms) const {
 }
 
 void RoomBaker::addPoints(BakedRooms* rooms) const {
-  // What is no room itself, such as the ground before a window, mostly lies in the sun as a whole, or not.
-  constexpr std::uint32_t kMostOfRooms = 144, kMostOfOthers = 12;
-  constexpr std::uint32_t kProbesOfRooms = 32, kProbesOfOthers = 4;
   std::vector<std::uint32_t> source_of(samples_.receivers.size(), LightMesh::kNone);
   std::vector<std::uint32_t> most(rooms->sources.size(), kMostOfOthers);
   for (std::uint32_t s = 0; s < rooms->sources.size(); ++s) {
@@ -294,18 +312,7 @@ void RoomBaker::addPoints(BakedRooms* rooms) const {
   tbb::parallel_for(std::size_t{0}, points.size(),
                     [&](std::size_t s) { dropHidden(rooms->sources[s], &points[s]); });
   for (std::size_t s = 0; s < points.size(); ++s) {
-    const auto has = static_cast<std::uint32_t>(points[s].size()), kept = std::min(has, most[s]);
-    float all = 0.0f;
-    for (std::uint32_t k = 0; k < kept; ++k) all += points[s][k * has / kept].share;
-    if (!(all > 0.0f)) continue;
-    BakedRooms::Source& source = rooms->sources[s];
-    source.first_point = static_cast<std::uint32_t>(rooms->points.size());
-    source.points = kept;
-    source.probes = std::min(kept, most[s] == kMostOfRooms ? kProbesOfRooms : kProbesOfOthers);
-    for (std::uint32_t k = 0; k < kept; ++k) {
-      rooms->points.push_back(points[s][k * has / kept]);
-      rooms->points.back().share /= all;
-    }
+    addSome(points[s], most[s], s, rooms);
     std::vector<BakedRooms::Point>().swap(points[s]);
   }
 }
