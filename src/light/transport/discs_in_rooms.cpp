@@ -155,6 +155,7 @@ DiscsInRooms::DiscsInRooms(const TransportData& data, const sky::Daylight& day, 
       sent_.resize(data_.sampleCount(), Eigen::Array3f::Zero());
       mirrored_.resize(data_.rooms.samples.size(), Eigen::Array3f::Zero());
       arrived_.resize(data_.rooms.samples.size());
+      findAsked();
     }
     dark_ = false;
     const DiscOnSources work(data_, *disc, visibility);
@@ -171,15 +172,27 @@ DiscsInRooms::DiscsInRooms(const TransportData& data, const sky::Daylight& day, 
   }
 }
 
+void DiscsInRooms::findAsked() {
+  std::vector<char> asked(data_.sampleCount(), 0);
+  for (const std::uint32_t sample : data_.rooms.samples) asked[sample] = 1;
+  for (const BakedRooms::Source& source : data_.rooms.sources) {
+    asked[source.sample] = 1;
+    if (source.other != LightMesh::kNone) asked[source.other] = 1;
+  }
+  for (std::uint32_t i = 0; i < asked.size(); ++i)
+    if (asked[i] != 0) asked_.push_back(i);
+}
+
 /// Adds what the patches around the disc tell.
 void DiscsInRooms::startFromPatches(const sky::DiscLight& disc) {
   const SmallLight light(disc);
-  tbb::parallel_for(std::size_t{0}, has_.size(), [&](std::size_t i) {
+  const auto add = [&](std::uint32_t sample) {
     for (const PassedOn* part : {&data_.above, &data_.below}) {
-      has_[i] += light.times(part->coefficients.row(i)) * part->coefficients.scales[i] *
-                 Eigen::Map<const Eigen::Array3f>(part->tints[i].data());
+      has_[sample] += light.times(part->coefficients.row(sample)) * part->coefficients.scales[sample] *
+                      Eigen::Map<const Eigen::Array3f>(part->tints[sample].data());
     }
-  });
+  };
+  tbb::parallel_for(std::size_t{0}, asked_.size(), [&](std::size_t k) { add(asked_[k]); });
   const Coefficients& mirrored = data_.rooms.mirrored;
   tbb::parallel_for(std::size_t{0}, mirrored_.size(), [&](std::size_t room) {
     mirrored_[room] += light.times(mirrored.row(room)) * mirrored.scales[room];

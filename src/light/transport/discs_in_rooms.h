@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "light/transport/exchange.h"
@@ -25,14 +26,16 @@ class DiscsInRooms {
   const Arrived& at(std::size_t room) const { return arrived_[room]; }
 
  private:
+  void findAsked();
   void startFromPatches(const sky::DiscLight& disc);
   void send();
   double receive();
 
   const TransportData& data_;
   bool dark_ = true;
+  std::vector<std::uint32_t> asked_;    ///< samples whose light matters here: rooms and what they see
   std::vector<Eigen::Array3f> direct_;  ///< of each source: luminance × π by light straight from the discs
-  std::vector<Eigen::Array3f> has_;     ///< of each sample: illuminance by surfaces, lx
+  std::vector<Eigen::Array3f> has_;     ///< of each sample that is asked: illuminance by surfaces, lx
   std::vector<Eigen::Array3f> sent_;    ///< of each sample: luminance × π
   std::vector<Eigen::Array3f> mirrored_;  ///< of each room: by way of the ground as a mirror, lx
   std::vector<Arrived> arrived_;          ///< of each room
