@@ -3,32 +3,14 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "baked_scene.h"
 #include "light/sky_patches.h"
-#include "paper_scene.h"
-#include "sunlit/light/illumination.h"
-#include "sunlit/light/transport.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
 namespace {
 
 const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ();
-
-World baked(scene::Scene scene) {
-  World world = worldOf(std::move(scene));
-  world.transport = Transport::bake(world.geometry, {});
-  return world;
-}
-
-std::vector<double> fast(const World& world, const std::vector<Looked>& points, const sky::Daylight& day) {
-  Surfaces surfaces = rowOf(points, *world.geometry->scene);
-  for (Tile& tile : surfaces.tiles) {
-    for (Surface& surface : tile.surfaces)
-      surface.triangle = triangleAt(*world.geometry, surface.position, surface.geometric_normal);
-  }
-  world.transport->locate(&surfaces);
-  return rowValues(illuminate(surfaces, *world.geometry->scene, *world.visibility, illumination(world, day)));
-}
 
 struct Errors {
   double mean = 0.0, worst = 0.0;

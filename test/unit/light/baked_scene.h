@@ -1,0 +1,33 @@
+/// Scenes as pictures see them: with baked light.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "paper_scene.h"
+#include "sunlit/light/illumination.h"
+#include "sunlit/light/transport.h"
+
+namespace sunlit::light {
+
+inline World baked(scene::Scene scene, const TransportOptions& options = TransportOptions()) {
+  World world = worldOf(std::move(scene));
+  world.transport = Transport::bake(world.geometry, options);
+  return world;
+}
+
+/// Luminances as a renderer gets them, cd/m².
+inline std::vector<double> fast(const World& world, const std::vector<Looked>& points,
+                                const sky::Daylight& day) {
+  Surfaces surfaces = rowOf(points, *world.geometry->scene);
+  for (Tile& tile : surfaces.tiles) {
+    for (Surface& surface : tile.surfaces)
+      surface.triangle = triangleAt(*world.geometry, surface.position, surface.geometric_normal);
+  }
+  world.transport->locate(&surfaces);
+  for (const Tile& tile : surfaces.tiles) {
+    for (const Surface& surface : tile.surfaces) EXPECT_TRUE(surface.light.known());
+  }
+  return rowValues(illuminate(surfaces, *world.geometry->scene, *world.visibility, illumination(world, day)));
+}
+
+}  // namespace sunlit::light
