@@ -33,6 +33,14 @@ inline LinearRgb linearFromSrgb(const std::array<float, 3>& encoded) {
   return linear;
 }
 
+/// Likewise of what shines, whose colours may be brighter than a screen: by its brightest channel above 1.
+inline LinearRgb linearFromBright(const std::array<float, 3>& encoded) {
+  const float peak = std::max({encoded[0], encoded[1], encoded[2], 1.0f});
+  LinearRgb linear = linearFromSrgb({encoded[0] / peak, encoded[1] / peak, encoded[2] / peak});
+  linear.value *= peak;
+  return linear;
+}
+
 /// Perceptual roughness whose GGX lobe is about as wide as Blinn and Phong's of the exponent `shininess`, >
 /// 0: α² = 2 / (n + 2) (Walter et al. 2007, section 5.2, after Beckmann), roughness = √α.
 inline float roughnessOfPhong(float shininess) {

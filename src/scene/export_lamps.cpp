@@ -19,7 +19,8 @@ Eigen::Array3f inverseSquare(const Lamp& lamp, ExportLosses* losses) {
       "(z = 0, 1 to 20 m away) and brighter near by",
       lamp.name);
   const float d = std::min(std::clamp(lamp.position.z(), 1.0f, 20.0f), 0.5f * lamp.range_m);
-  return lamp.intensity.value * (d * d / (lamp.constant + lamp.linear * d + lamp.quadratic * d * d));
+  const float part = d / lamp.range_m, window = lamp.ends_sharply ? 1.0f - std::pow(part, 4.0f) : 1.0f;
+  return lamp.intensity.value / window * (d * d / (lamp.constant + lamp.linear * d + lamp.quadratic * d * d));
 }
 
 std::string spotJson(const Lamp& lamp, ExportLosses* losses) {
@@ -45,6 +46,8 @@ std::string lightJson(const Lamp& lamp, ExportLosses* losses) {
   std::string json = "{\"type\":\"" + std::string(lamp.isSpot() ? "spot" : "point") + "\"";
   if (!lamp.group.empty()) json += ",\"name\":" + jsonString(lamp.group);
   json += ",\"color\":" + vector3(color) + ",\"intensity\":" + number(strength);
+  if (lamp.ends_sharply && std::isfinite(lamp.range_m))
+    losses->add("lamps end sharply at their range, they fade towards it", lamp.name);
   if (std::isfinite(lamp.range_m)) json += ",\"range\":" + number(lamp.range_m);
   if (lamp.isSpot()) json += spotJson(lamp, losses);
   return json + "}";

@@ -59,15 +59,26 @@ Scene loadUrdf(const std::string& file, const SearchPath& search_path) {
   return scene;
 }
 
+/// The one world in a folder, such as of Fuel. Throws std::runtime_error unless there is just one.
+std::string worldIn(const std::string& folder) {
+  std::vector<std::string> worlds;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (isOneOf(extensionOf(entry.path().string()), {".world", ".sdf"}))
+      worlds.push_back(entry.path().string());
+  }
+  if (worlds.size() == 1) return worlds[0];
+  throw std::runtime_error(folder + ": there are " + std::to_string(worlds.size()) +
+                           " worlds in this folder, of names that end in .world or .sdf: name one of them");
+}
+
 /// Throws std::runtime_error where there is none.
 std::string fileOf(const std::string& world, const SearchPath& search_path) {
   const Found found = ResourceFinder(search_path, world).find(world, world);
-  if (!found.file || std::filesystem::is_directory(*found.file)) {
+  if (!found.file)
     throw std::runtime_error("there is no world " + world + "; it was looked for as " + placesTried(found));
-  }
-  if (isOneOf(extensionOf(*found.file), {".world", ".sdf", ".urdf", ".dae", ".gltf", ".glb", ".obj"}))
-    return *found.file;
-  throw std::runtime_error(*found.file +
+  const std::string file = std::filesystem::is_directory(*found.file) ? worldIn(*found.file) : *found.file;
+  if (isOneOf(extensionOf(file), {".world", ".sdf", ".urdf", ".dae", ".gltf", ".glb", ".obj"})) return file;
+  throw std::runtime_error(file +
                            ": cannot tell its format; its name must end in .world, .sdf, .urdf, .dae, .gltf, "
                            ".glb or .obj");
 }

@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <assimp/Importer.hpp>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -18,6 +17,7 @@
 #include "scene/gltf_lights.h"
 #include "scene/gltf_order.h"
 #include "scene/mesh_material.h"
+#include "scene/uri_text.h"
 
 namespace sunlit::scene {
 namespace {
@@ -150,14 +150,6 @@ std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const Me
   return looks;
 }
 
-/// COLLADA colours may be brighter than a screen.
-LinearRgb colorOf(const aiColor3D& color) {
-  const float peak = std::max({color.r, color.g, color.b, 1.0f});
-  LinearRgb linear = linearFromSrgb({color.r / peak, color.g / peak, color.b / peak});
-  linear.value *= peak;
-  return linear;
-}
-
 /// Where a node stands in the file, to z up, and what it holds besides. Null: there is no such node.
 const aiNode* findNode(const aiScene& scene, const aiString& name, const Eigen::Affine3d& up_from_file,
                        Eigen::Affine3d* up_from_node) {
@@ -174,7 +166,8 @@ Lamp lampOf(const aiLight& light, const Eigen::Affine3d& up_from_node) {
   Lamp lamp;
   lamp.name = lamp.group = light.mName.C_Str();
   lamp.relative = true;
-  lamp.intensity = colorOf(light.mColorDiffuse);
+  const aiColor3D& color = light.mColorDiffuse;
+  lamp.intensity = linearFromBright({color.r, color.g, color.b});
   const aiVector3D &at = light.mPosition, &to = light.mDirection;
   lamp.position = (up_from_node * Eigen::Vector3d(at.x, at.y, at.z)).cast<float>();
   lamp.constant = light.mAttenuationConstant;
@@ -220,10 +213,7 @@ std::string withoutBlanksBeforeColors(const std::string& file) {
 }  // namespace
 
 std::string extensionOf(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return extension;
+  return lowerCase(std::filesystem::path(file).extension().string());
 }
 
 std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, const ResourceFinder& finder,

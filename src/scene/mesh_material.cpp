@@ -85,7 +85,7 @@ void readPhongMaps(const aiMaterial& source, const aiScene& scene, const MeshFil
   source.Get(AI_MATKEY_COLOR_EMISSIVE, emission);
   material.emission_map.texture = addTexture(aiTextureType_EMISSIVE, source, scene, context);
   material.emission = material.emission_map.given() ? LinearRgb(1.0f, 1.0f, 1.0f)
-                                                    : linearFromSrgb({emission.r, emission.g, emission.b});
+                                                    : linearFromBright({emission.r, emission.g, emission.b});
   material.emission.value *= kDisplayWhite_cd_per_m2;
   material.normal_map.texture = addTexture(aiTextureType_NORMALS, source, scene, context);
   const auto name = [&](aiTextureType type, const char* what) {
@@ -126,7 +126,7 @@ std::optional<int> addPhong(const aiMaterial& source, const aiScene& scene, cons
   if (wanted && textured == TextureUse::kNone) material.base_color = kNeutral;
   material.base_color.value = material.base_color.value.max(0.0f).min(1.0f);
   readPhongMaps(source, scene, context, material);
-  return context.builder.addMaterial(material, AlphaRule::kFromTexture);
+  return context.builder.addMaterial(material, AlphaRule::kFromTexture, NormalsRule::kMaybeHeights);
 }
 
 aiTextureType typeOf(GltfMaterials::Slot slot) {

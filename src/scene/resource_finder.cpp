@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kPackageScheme = "package://";
+constexpr const char* kFileScheme = "file://";
 
 bool isFile(const fs::path& path) {
   std::error_code error;
@@ -112,6 +113,10 @@ Found ResourceFinder::find(const std::string& uri, const std::string& from_file)
 }
 
 Found ResourceFinder::findTexture(const std::string& name, const std::string& mesh_file) const {
+  if (name.find("://") != std::string::npos && name.rfind(kFileScheme, 0) != 0) {
+    Found exact = find(name, mesh_file);
+    if (exact.file && !exact.other_case) return exact;
+  }
   std::string plain = withoutScheme(name);
   std::replace(plain.begin(), plain.end(), '\\', '/');
   const fs::path folder = fs::absolute(mesh_file).parent_path();

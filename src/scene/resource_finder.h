@@ -29,8 +29,9 @@ class ResourceFinder {
   /// http(s)://SERVER/…/models/NAME/…, is looked for in Fuel's caches alone.
   Found find(const std::string& uri, const std::string& from_file) const;
 
-  /// The picture that the mesh in `mesh_file` calls `name`: beside it, in the textures folders that models
-  /// usually have, then as find() does. The folder part of a path from another machine is dropped if need be.
+  /// The picture that the mesh in `mesh_file` calls `name`: at that address, if it is one of a model, package
+  /// or Fuel; else beside the mesh, in the textures folders that models usually have, then as find() does.
+  /// The folder part of a path from another machine is dropped if need be.
   Found findTexture(const std::string& name, const std::string& mesh_file) const;
 
   /// The folders that find() goes through for what the scene file names: "a, b and c".

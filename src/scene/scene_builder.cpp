@@ -92,6 +92,14 @@ bool isGrey(const Texture& texture) {
   return true;
 }
 
+/// Normals lean by less than 60° in the mean; what does more is a picture of something else.
+bool leansLittle(const Texture& texture) {
+  std::size_t sum = 0;
+  for (std::size_t i = 2; i < texture.rgba.size(); i += 4) sum += texture.rgba[i];
+  const double texels = static_cast<double>(texture.rgba.size()) / 4.0;
+  return 2.0 * static_cast<double>(sum) / (255.0 * texels) - 1.0 >= 0.5;
+}
+
 }  // namespace
 
 int SceneBuilder::textureFromFile(const std::string& file, const Wraps& wraps) {
@@ -114,9 +122,10 @@ int SceneBuilder::addTexture(const std::string& key, TextureSource source) {
   return place->second;
 }
 
-int SceneBuilder::addMaterial(const Material& material, AlphaRule rule) {
+int SceneBuilder::addMaterial(const Material& material, AlphaRule alpha, NormalsRule normals) {
   scene_.materials.push_back(material);
-  alpha_rules_.push_back(rule);
+  alpha_rules_.push_back(alpha);
+  normals_rules_.push_back(normals);
   return static_cast<int>(scene_.materials.size()) - 1;
 }
 
@@ -265,12 +274,18 @@ void SceneBuilder::settleAlpha() {
   }
 }
 
-/// COLLADA's bump is normals or heights, and often does not say which.
 void SceneBuilder::dropHeights() {
-  for (Material& material : scene_.materials) {
+  for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+    Material& material = scene_.materials[i];
     if (!material.normal_map.given()) continue;
     const auto texture = static_cast<std::size_t>(material.normal_map.texture);
-    if (!isGrey(scene_.textures[texture])) continue;
+    const bool shared =
+        material.base_texture != Material::kNoTexture &&
+        sources_[static_cast<std::size_t>(material.base_texture)].name == sources_[texture].name;
+    const bool doubtful = normals_rules_[i] == NormalsRule::kMaybeHeights;
+    if (!isGrey(scene_.textures[texture]) &&
+        !(doubtful && (shared || !leansLittle(scene_.textures[texture]))))
+      continue;
     warn(kNotRendered, material.name + ": a bump map, " + sources_[texture].name + ": without it");
     material.normal_map = TextureUse();
   }

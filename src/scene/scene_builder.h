@@ -21,6 +21,12 @@ enum class AlphaRule {
                  ///< share
 };
 
+/// How a material's normal map is taken.
+enum class NormalsRule {
+  kDeclared,      ///< the file says that it is one
+  kMaybeHeights,  ///< the file's format has one word for maps of normals and of heights
+};
+
 /// px. A larger texture shows nothing that a camera could see, and takes its memory: 8192² texels with their
 /// smaller copies are 0.36 GB.
 constexpr int kLongestTextureSide = 8192;
@@ -51,7 +57,7 @@ class SceneBuilder {
   /// Index of a texture inside another file, known as `name`; the same for the same name and wraps.
   int textureFromBytes(const std::string& name, std::vector<std::uint8_t> bytes, const Wraps& wraps = {});
 
-  int addMaterial(const Material& material, AlphaRule rule);
+  int addMaterial(const Material& material, AlphaRule alpha, NormalsRule normals = NormalsRule::kDeclared);
   const Material& material(int index) const { return scene_.materials.at(static_cast<std::size_t>(index)); }
 
   /// `mesh` moved by `map_from_mesh`, without its broken triangles (counted for a warning of finish()).
@@ -74,8 +80,8 @@ class SceneBuilder {
 
   /// Decodes the textures, settles the cut-outs and checks the scene. A texture with a side of more than
   /// kLongestTextureSide is scaled down, one that cannot be decoded makes room for a neutral grey, and a
-  /// normal map that is all grey, which is one of heights, is dropped; all are warnings. The builder is empty
-  /// afterwards.
+  /// normal map that is all grey, or may be one of heights and looks like no normals, is dropped; all are
+  /// warnings. The builder is empty afterwards.
   Scene finish();
 
  private:
@@ -100,7 +106,8 @@ class SceneBuilder {
   Scene scene_;
   std::vector<TextureSource> sources_;
   std::map<std::pair<std::string, int>, int> texture_by_key_;  ///< by name and wraps
-  std::vector<AlphaRule> alpha_rules_;
+  std::vector<AlphaRule> alpha_rules_;                         ///< of each material
+  std::vector<NormalsRule> normals_rules_;                     ///< of each material
   std::map<std::string, Kind> kinds_;
 };
 

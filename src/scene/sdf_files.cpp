@@ -155,10 +155,16 @@ void merge(XMLElement& include, const SdfFile& source, const std::string& place,
   XMLElement& parent = *include.Parent()->ToElement();
   std::set<std::string> taken;
   for (const XMLElement* child : childrenOf(parent)) {
-    taken.insert(attributeOf(*child, "name"));
-    if (std::string(child->Value()) == "include") taken.insert(childText(*child, "name"));
+    const std::string kind = child->Value();
+    if (kind == "include" && !child->BoolAttribute("merge")) taken.insert(childText(*child, "name"));
+    if (kind == "model" || kind == "link" || kind == "frame" || kind == "joint")
+      taken.insert(attributeOf(*child, "name"));
   }
-  const std::string name = kMergedPrefix + childText(include, "name");
+  // As mendSdf() would have it, so that it remains.
+  std::string name = kMergedPrefix + childText(include, "name");
+  for (std::size_t at = name.find("::"); at != std::string::npos; at = name.find("::"))
+    name.replace(at, 2, "_");
+  while (taken.count(name) == 1) name += "-";
   childIn(include, "name").SetText(name.c_str());
   const auto add = [&](const std::string& part) {
     if (isMerged(part)) return;  // it has its own frames

@@ -53,6 +53,7 @@ std::optional<Lamp> lampOf(const sdf::Light& light, const Eigen::Affine3d& map_f
   lamp.relative = true;
   lamp.intensity = intensityOf(light);
   lamp.range_m = static_cast<float>(light.AttenuationRange());
+  lamp.ends_sharply = true;
   lamp.constant = factor(light.ConstantAttenuationFactor());
   lamp.linear = factor(light.LinearAttenuationFactor());
   lamp.quadratic = factor(light.QuadraticAttenuationFactor());

@@ -122,13 +122,30 @@ class Mender {
     for (XMLElement* child : childrenOf(parent)) mendBelow(*child);
   }
 
+  /// Whether others that include this file may refer to a joint, which must then not be one that
+  /// libsdformat refuses as a frame: of a link, at a place of its own, by a name of its own.
+  static bool isAsked(const XMLElement& joint, XMLElement& model) {
+    if (std::string(model.Parent()->Value()) != "sdf") return false;
+    const std::string name = attributeOf(joint, "name"), child = childText(joint, "child");
+    const XMLElement* pose = joint.FirstChildElement("pose");
+    if (name.empty() || (pose != nullptr && !attributeOf(*pose, "relative_to").empty())) return false;
+    bool of_link = false, taken = false;
+    for (const XMLElement* other : childrenOf(model)) {
+      const bool include = std::string(other->Value()) == "include";
+      const std::string other_name = include ? childText(*other, "name") : attributeOf(*other, "name");
+      of_link |= std::string(other->Value()) == "link" && other_name == child;
+      taken |= other != &joint && other_name == name;
+    }
+    return of_link && !taken;
+  }
+
   /// Nothing falls here, so that a model needs no link; and a frame stands where its joint would.
   void mendModel(XMLElement& model) {
     model.DeleteAttribute("canonical_link");
     childIn(model, "static").SetText("true");
     for (XMLElement* joint : childrenOf(model, "joint")) {
       const std::string child = childText(*joint, "child");
-      if (child.empty() || referenced_.count(attributeOf(*joint, "name")) == 0) {
+      if (child.empty() || (referenced_.count(attributeOf(*joint, "name")) == 0 && !isAsked(*joint, model))) {
         model.DeleteChild(joint);
         continue;
       }

@@ -15,7 +15,8 @@ namespace sunlit::scene {
 /// root element of `file`, what no camera sees (collisions, inertias, joints, sensors, plugins …), and what
 /// cannot be drawn or SDF does not know, each kind of these a warning of `builder`; gives names that are
 /// missing, reserved or taken a form that libsdformat accepts, which is another warning; and takes versions
-/// that it does not know for its newest. Joints to which poses refer become frames.
+/// that it does not know for its newest. Joints to which poses refer, or others that
+/// include the file may, become frames.
 void mendSdf(tinyxml2::XMLElement& sdf, const std::string& file, SceneBuilder& builder);
 
 /// Takes the <state> elements out of the worlds in `sdf`, and gives the first one, in a document of its own,

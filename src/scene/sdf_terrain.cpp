@@ -81,7 +81,10 @@ std::optional<Mesh> terrainOf(const sdf::Heightmap& source, const TerrainUse& us
     grid.size = {source.Size().X(), source.Size().Y()};
     if (grid.width < 2 || grid.depth < 2 || !(grid.size.minCoeff() > 0.0))
       throw std::runtime_error(place + ": its height map has no area");
-    grid = sampled(grid, source.Sampling());
+    if (source.Sampling() > 1)
+      builder.warn(
+          "height maps ask for a <sampling> that adds nothing to them, they have a vertex for each pixel",
+          use.visual);
     Mesh mesh = covered(grid, layersOf(source, builder, finder), use.material, builder);
     const Eigen::Vector3f position = toEigen(source.Position()).cast<float>();
     for (Eigen::Vector3f& vertex : mesh.positions) vertex += position;

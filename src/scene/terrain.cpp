@@ -55,22 +55,6 @@ const std::uint8_t* texelAt(const Tile& tile, const Eigen::Vector2d& metres) {
 
 }  // namespace
 
-TerrainGrid sampled(const TerrainGrid& grid, unsigned samples) {
-  const int most = (kMostTerrainVertices - 1) / (std::max(grid.width, grid.depth) - 1);
-  const int each = std::clamp(static_cast<int>(std::min(samples, 1024u)), 1, std::max(most, 1));
-  if (each == 1) return grid;
-  TerrainGrid finer;
-  finer.size = grid.size;
-  finer.width = (grid.width - 1) * each + 1;
-  finer.depth = (grid.depth - 1) * each + 1;
-  for (int row = 0; row < finer.depth; ++row) {
-    for (int column = 0; column < finer.width; ++column)
-      finer.heights.push_back(
-          static_cast<float>(heightAt(grid, column / (finer.width - 1.0), row / (finer.depth - 1.0))));
-  }
-  return finer;
-}
-
 std::vector<float> terrainHeights(const image::Picture<float, 1>& values, double height) {
   const auto [low, high] = std::minmax_element(values.data.begin(), values.data.end());
   const bool shares = *low >= 0.0f && *high <= 1.0f;

@@ -29,10 +29,6 @@ struct TerrainGrid {
 };
 Mesh makeTerrain(const TerrainGrid& grid, double tile_m);
 
-/// `samples` vertices a side for each of the grid's, bilinear between them: (width − 1) · samples + 1, as
-/// Gazebo's <sampling>; fewer where that would be more than kMostTerrainVertices. ≥ 1; of at least 2 × 2.
-TerrainGrid sampled(const TerrainGrid& grid, unsigned samples);
-
 /// One ground cover of a terrain: a picture repeated every `tile_m`, from `min_height` up, where it comes in
 /// over `fade_m`; the lowest one is everywhere.
 struct TerrainLayer {

@@ -38,8 +38,8 @@ struct SearchPath {
 };
 
 /// `world` is "race_track" or the path of a file, by its ending: .world .sdf (SDF), .urdf (its joints at
-/// rest), .dae, .gltf .glb, .obj. Throws std::runtime_error naming the file and place, and for a missing file
-/// where it was looked for.
+/// rest), .dae, .gltf .glb, .obj; or an address of Fuel, or a folder, with one SDF file in it. Throws
+/// std::runtime_error naming the file and place, and for a missing file where it was looked for.
 Scene load(const std::string& world, const SearchPath& search_path);
 
 /// Throws what load() throws where it finds no file by that name, or of no kind that it knows. Takes no time.

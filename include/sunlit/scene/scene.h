@@ -124,7 +124,8 @@ struct Mesh {
 };
 
 /// A light made by people: a point or, with a cone, a spot. At the distance d, m, a plane that faces it gets
-/// intensity / (constant + linear · d + quadratic · d²), lx, up to `range_m`, and within the cone
+/// intensity / (constant + linear · d + quadratic · d²), lx, times 1 − (d / range_m)⁴ up to `range_m`
+/// (KHR_lights_punctual), and within the cone
 /// falloff(c) = ((c − cos outer) / (cos inner − cos outer))^exponent, cut off at 0 and 1, of that, where c is
 /// the cosine of the angle to the axis. The default is the inverse square, and `intensity` then in cd.
 struct Lamp {
@@ -139,9 +140,10 @@ struct Lamp {
   bool relative = false;  ///< `intensity` is a colour of a format that knows no unit
   float constant = 0.0f, linear = 0.0f, quadratic = 1.0f;  ///< ≥ 0, not all 0; 1, 1/m, 1/m²
   float range_m = std::numeric_limits<float>::infinity();  ///< > 0; no light beyond
-  float inner_rad = kAllAround_rad;                        ///< from the axis, 0 … outer_rad
-  float outer_rad = kAllAround_rad;                        ///< up to kAllAround_rad, which is no cone at all
-  float exponent = 2.0f;                                   ///< 0 … 100, of the falloff between them
+  bool ends_sharply = false;         ///< at `range_m`, as lights of SDF do, instead of fading towards it
+  float inner_rad = kAllAround_rad;  ///< from the axis, 0 … outer_rad
+  float outer_rad = kAllAround_rad;  ///< up to kAllAround_rad, which is no cone at all
+  float exponent = 2.0f;             ///< 0 … 100, of the falloff between them
   float radius_m = kUsualRadius_m;  ///< of the ball that its light comes from, 0 … 10: how soft shadows are
   bool casts_shadows = true;
 

@@ -27,9 +27,9 @@ struct House {
 void addWindowLight(Assembly& assembly, const Frame& frame, const Opening& window,
                     const LinearRgb& intensity) {
   if (!(intensity.luminance() > 0.0f)) return;
-  // Where a wall that faces the window gets so little, the light of the next street lamp is a hundred times
-  // it.
-  constexpr float kLeast_lx = 0.2f;
+  // What a wall that faces the window loses of its light by the range R, anywhere: at most I d² / R⁴ ≤ I /
+  // R². 0.2 lx are still seen by a night without moon, where nothing but windows shines.
+  constexpr float kLost_lx = 0.05f;
   Lamp lamp;
   lamp.name = "window";
   lamp.group = kWindowLamps;
@@ -40,7 +40,7 @@ void addWindowLight(Assembly& assembly, const Frame& frame, const Opening& windo
   lamp.inner_rad = 0.0f;
   lamp.outer_rad = 0.5f * kPiFloat;
   lamp.exponent = 1.0f;
-  lamp.range_m = std::sqrt(intensity.luminance() / kLeast_lx);
+  lamp.range_m = std::sqrt(intensity.luminance() / kLost_lx);
   assembly.addLamp(std::move(lamp));
 }
 

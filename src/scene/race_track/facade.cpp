@@ -77,8 +77,7 @@ struct WindowStyle {
 
 void paintOpening(Canvas& canvas, const FacadePlan& plan, const Opening& opening, Random& random) {
   const float h = static_cast<float>(canvas.height());
-  const Pixel low(opening.x * kScale, h - (opening.z + opening.height) * kScale);
-  const Pixel high((opening.x + opening.width) * kScale, h - opening.z * kScale);
+  const auto [low, high] = OpeningPixels(opening, h);
   const WindowStyle style(plan, opening);
   const Color& frame = style.frame;
   canvas.rectangle(low - Pixel(4, 4), high + Pixel(4, opening.door ? 0 : 4), {style.trim, 0.9f});
@@ -115,15 +114,22 @@ void paintOpening(Canvas& canvas, const FacadePlan& plan, const Opening& opening
 
 }  // namespace
 
+Canvas emptyFront(const FacadePlan& plan, const Color& color) {
+  return Canvas(static_cast<int>(plan.width_m * kScale), static_cast<int>(plan.height_m * kScale), color);
+}
+
+OpeningPixels::OpeningPixels(const Opening& opening, float canvas_height)
+    : low(opening.x * kScale, canvas_height - (opening.z + opening.height) * kScale),
+      high((opening.x + opening.width) * kScale, canvas_height - opening.z * kScale) {}
+
 std::vector<Pane> panesOf(const FacadePlan& plan, const Opening& opening, float canvas_height) {
   const std::vector<bool> barred = WindowStyle(plan, opening).barred;
-  const float left = opening.x * kScale, step = opening.width * kScale / static_cast<float>(barred.size());
+  const auto [low, high] = OpeningPixels(opening, canvas_height);
+  const float step = opening.width * kScale / static_cast<float>(barred.size());
   std::vector<Pane> panes;
   for (std::size_t i = 0; i < barred.size(); ++i) {
-    const float x = left + static_cast<float>(i) * step;
-    panes.push_back({{x + 1.5f, canvas_height - (opening.z + opening.height) * kScale + 2.0f},
-                     {x + step - 1.5f, canvas_height - opening.z * kScale - 2.0f},
-                     barred[i]});
+    const float x = low.x() + static_cast<float>(i) * step;
+    panes.push_back({{x + 1.5f, low.y() + 2.0f}, {x + step - 1.5f, high.y() - 2.0f}, barred[i]});
   }
   return panes;
 }
@@ -152,7 +158,7 @@ std::vector<Opening> planOpenings(const FacadePlan& plan) {
 
 Canvas paintFacade(const FacadePlan& plan, const std::vector<Opening>& openings) {
   Random random(634u, plan.seed);
-  Canvas canvas(static_cast<int>(plan.width_m * kScale), static_cast<int>(plan.height_m * kScale), plan.wall);
+  Canvas canvas = emptyFront(plan, plan.wall);
   if (plan.kind == WallKind::kBrick) layBricks(canvas, plan, random);
   if (plan.kind == WallKind::kTimber || plan.kind == WallKind::kSheet) layBoards(canvas, plan, random);
   canvas.mottle(70.0f, 0.18f, random.bits());

@@ -42,6 +42,14 @@ constexpr float kFacadePixelsPerMetre = 30.0f;
 /// Of a picture of lit windows: what 1 stands for.
 constexpr float kFullWindow_cd_per_m2 = 300.0f;
 
+/// A picture of the whole front, all of one colour.
+Canvas emptyFront(const FacadePlan& plan, const Color& color);
+/// Where an opening is on a picture of the front that is `canvas_height` px high.
+struct OpeningPixels {
+  OpeningPixels(const Opening& opening, float canvas_height);
+  Pixel low, high;
+};
+
 std::vector<Opening> planOpenings(const FacadePlan& plan);
 /// Of a window, from left to right.
 std::vector<Pane> panesOf(const FacadePlan& plan, const Opening& opening, float canvas_height);

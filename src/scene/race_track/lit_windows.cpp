@@ -53,8 +53,7 @@ struct Room {
 }  // namespace
 
 Canvas paintLitWindows(const FacadePlan& plan, const std::vector<Opening>& openings) {
-  Canvas canvas(static_cast<int>(plan.width_m * kFacadePixelsPerMetre),
-                static_cast<int>(plan.height_m * kFacadePixelsPerMetre), Color::Zero());
+  Canvas canvas = emptyFront(plan, Color::Zero());
   for (std::size_t i = 0; i < openings.size(); ++i) {
     Random random(636u, mix(plan.seed, static_cast<std::uint32_t>(i)));
     if (openings[i].door || !random.chance(kLitShare)) continue;
@@ -75,14 +74,11 @@ Canvas paintLitWindows(const FacadePlan& plan, const std::vector<Opening>& openi
 }
 
 LinearRgb windowIntensity(const Canvas& lit, const Opening& opening) {
-  const auto height = static_cast<float>(lit.height());
-  const int left = static_cast<int>(opening.x * kFacadePixelsPerMetre);
-  const int top = static_cast<int>(height - (opening.z + opening.height) * kFacadePixelsPerMetre);
-  const int right = static_cast<int>((opening.x + opening.width) * kFacadePixelsPerMetre);
-  const int bottom = static_cast<int>(height - opening.z * kFacadePixelsPerMetre);
+  const OpeningPixels at(opening, static_cast<float>(lit.height()));
+  const Eigen::Vector2i low = at.low.cast<int>(), high = at.high.cast<int>();
   Color sum = Color::Zero();
-  for (int y = std::max(top, 0); y < std::min(bottom, lit.height()); ++y)
-    for (int x = std::max(left, 0); x < std::min(right, lit.width()); ++x) sum += lit.color(x, y);
+  for (int y = std::max(low.y(), 0); y < std::min(high.y(), lit.height()); ++y)
+    for (int x = std::max(low.x(), 0); x < std::min(high.x(), lit.width()); ++x) sum += lit.color(x, y);
   return LinearRgb(sum * (kFullWindow_cd_per_m2 / (kFacadePixelsPerMetre * kFacadePixelsPerMetre)));
 }
 

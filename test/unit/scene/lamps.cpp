@@ -49,6 +49,7 @@ TEST_F(LampFiles, OfLinksStandInTheirFrameAndGoByTheirModel) {
   EXPECT_FLOAT_EQ(lamp.linear, 0.1f);
   EXPECT_FLOAT_EQ(lamp.quadratic, 0.01f);
   EXPECT_FLOAT_EQ(lamp.range_m, 20.0f);
+  EXPECT_TRUE(lamp.ends_sharply);
   EXPECT_FLOAT_EQ(lamp.inner_rad, 0.2f);  // SDF's are whole angles
   EXPECT_FLOAT_EQ(lamp.outer_rad, 1.1f);
   EXPECT_FLOAT_EQ(lamp.exponent, 2.1f);
@@ -111,6 +112,7 @@ TEST_F(LampFiles, OfGltfAreInCandela) {
   EXPECT_FLOAT_EQ(lamp.inner_rad, 0.2f);
   EXPECT_FLOAT_EQ(lamp.outer_rad, 0.7f);
   EXPECT_FLOAT_EQ(lamp.range_m, 12.0f);
+  EXPECT_FALSE(lamp.ends_sharply);
   EXPECT_EQ(lamp.constant, 0.0f);
   EXPECT_EQ(lamp.linear, 0.0f);
   EXPECT_EQ(lamp.quadratic, 1.0f);

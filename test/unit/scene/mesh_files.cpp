@@ -292,9 +292,12 @@ TEST_F(MeshFile, MapsOfColladaAreRenderedOrNamed) {
            "</bump></technique></extra>";
   };
   const std::string end = "</lambert></technique>";
+  // The picture of the colour is none of normals.
+  expectOneWarning(withEffect("normal.png", end, "</lambert>" + bump("FCOLLADA", "") + "</technique>"),
+                   ": a bump map, ");
   for (const std::string& extra :
        {bump("FCOLLADA", ""), bump("OpenCOLLADA3dsMax", " bumptype='NORMALMAP'")}) {
-    const Scene scene = withEffect("normal.png", end, "</lambert>" + extra + "</technique>");
+    const Scene scene = withEffect("normal.png", diffuse + end, "</lambert>" + extra + "</technique>");
     EXPECT_TRUE(lookOf(scene).normal_map.given()) << extra;
     EXPECT_TRUE(scene.warnings.empty()) << extra << scene.warnings[0];
   }

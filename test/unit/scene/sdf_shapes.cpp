@@ -100,23 +100,6 @@ TEST(Terrain, WhiteIsAsHighAsTheMap) {
   EXPECT_EQ(terrainHeights(values, 8.0), (std::vector<float>{0, 2, 8, 4, 2, 2}));
 }
 
-TEST(Terrain, IsBilinearWhereItIsSampledMoreFinely) {
-  // A saddle: two triangles would have a ridge or a valley in its middle.
-  const TerrainGrid grid{3, 2, {0, 1, 0, 1, 0, 5}, {20.0, 10.0}};
-  const TerrainGrid finer = sampled(grid, 2);
-  EXPECT_EQ(finer.width, 5);
-  EXPECT_EQ(finer.depth, 3);
-  EXPECT_EQ(finer.heights,
-            (std::vector<float>{0, 0.5f, 1, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1.5f, 2.5f, 1, 0.5f, 0, 2.5f, 5}));
-  EXPECT_EQ(finer.size, grid.size);
-  EXPECT_EQ(sampled(grid, 0).heights, grid.heights);
-  EXPECT_EQ(sampled(grid, 1).heights, grid.heights);
-  // Never more than there may be.
-  EXPECT_EQ(sampled(grid, 4000000000u).width, kMostTerrainVertices);
-  const TerrainGrid large{601, 2, std::vector<float>(1202, 0.0f), {20.0, 10.0}};
-  EXPECT_EQ(sampled(large, 2).width, 601);
-}
-
 class SdfShape : public SceneFiles {
  protected:
   Scene loaded(const std::string& content, Missing missing = Missing::kStop) const {
@@ -192,14 +175,20 @@ TEST_F(SdfShape, AHeightMapIsGround) {
   EXPECT_NEAR(nearestOnVertical(scene, {0, 3, 5})->z, 5.0, 0.01 * 8.0);
 }
 
-TEST_F(SdfShape, AHeightMapHasAsManySamplesAsItSays) {
+TEST_F(SdfShape, AHeightMapHasAVertexForEachPixelWhateverItsSampling) {
   writePicture("hills.png", 5, -1, 0);
-  const auto triangles = [&](const std::string& sampling) {
-    return loaded(visual("<heightmap><uri>hills.png</uri><size>40 20 8</size>" + sampling + "</heightmap>"))
-        .triangleCount();
+  const auto with = [&](const std::string& sampling) {
+    return loaded(visual("<heightmap><uri>hills.png</uri><size>40 20 8</size>" + sampling + "</heightmap>"));
   };
-  EXPECT_EQ(triangles(""), 2u * 4u * 4u);
-  EXPECT_EQ(triangles("<sampling>3</sampling>"), 2u * 12u * 12u);
+  const Scene plain = with("");
+  EXPECT_EQ(plain.triangleCount(), 2u * 4u * 4u);
+  for (const std::string sampling : {"2", "16", "-1"}) {
+    const Scene scene = with("<sampling>" + sampling + "</sampling>");
+    EXPECT_EQ(scene.meshes[0].positions, plain.meshes[0].positions);
+    ASSERT_EQ(scene.warnings.size(), plain.warnings.size() + 1) << sampling;
+    EXPECT_NE(scene.warnings[0].find("<sampling>") == std::string::npos,
+              scene.warnings.back().find("<sampling>") == std::string::npos);
+  }
 }
 
 TEST_F(SdfShape, AHeightMapStandsAtItsPosAlone) {

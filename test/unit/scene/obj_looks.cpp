@@ -1,0 +1,55 @@
+// Materials of OBJ files that say more than their format means.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "scene/color.h"
+#include "unit/scene/scene_files.h"
+
+namespace sunlit::scene {
+namespace {
+
+class ObjLooks : public SceneFiles {
+ protected:
+  /// Of a triangle with a material of these lines.
+  Scene lookOf(const std::string& lines) const {
+    write("m.mtl", "newmtl m\nKd 1 1 1\n" + lines);
+    return load(write("m.obj",
+                      "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 "
+                      "2/2 3/3\n"),
+                {});
+  }
+  static const Material& materialOf(const Scene& scene) {
+    return scene.materials.at(static_cast<std::size_t>(scene.meshes.at(0).material));
+  }
+  void paint(const std::string& name, const std::array<std::uint8_t, 3>& color) const {
+    image::Rgba8Image picture(1, 1);
+    picture.data = {color[0], color[1], color[2], 255};
+    write(name, image::encodePng(picture));
+  }
+};
+
+TEST_F(ObjLooks, EmissionIsBrighterThanAScreenWhereItSaysSo) {
+  const Eigen::Array3f five = materialOf(lookOf("Ke 5 5 0\n")).emission.value;
+  EXPECT_FLOAT_EQ(five[0], 5.0f * kDisplayWhite_cd_per_m2);
+  EXPECT_EQ(five[2], 0.0f);
+  EXPECT_FLOAT_EQ(materialOf(lookOf("Ke 1 1 1\n")).emission.value[1], kDisplayWhite_cd_per_m2);
+}
+
+TEST_F(ObjLooks, PicturesThatAreNoNormalsAreNamed) {
+  paint("normal.png", {128, 100, 240});
+  paint("brick.png", {180, 60, 40});
+  EXPECT_TRUE(materialOf(lookOf("norm normal.png\n")).normal_map.given());
+  for (const std::string lines : {"norm brick.png\n", "map_Kd normal.png\nnorm normal.png\n"}) {
+    const Scene scene = lookOf(lines);
+    EXPECT_FALSE(materialOf(scene).normal_map.given()) << lines;
+    ASSERT_EQ(scene.warnings.size(), 1u) << lines;
+    EXPECT_NE(scene.warnings[0].find("without it"), std::string::npos) << scene.warnings[0];
+  }
+}
+
+}  // namespace
+}  // namespace sunlit::scene
