@@ -1,7 +1,7 @@
 // Which points of a grove's leaves light from 175 directions reaches, on one core: by meeting every triangle
 // with the points, as the bake does (there half of the directions each), and by a ray from each point, the
 // points of a direction together.
-#include "light/transport/crown_shadows.h"
+#include "light/bake/samples/crown_shadows.h"
 
 #include <benchmark/benchmark.h>
 
@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "light/sky_patches.h"
-#include "light/transport/triangle_kinds.h"
+#include "light/bake/samples/triangle_kinds.h"
+#include "light/patches/sky_patches.h"
 #include "sunlit/light/world.h"
 #include "sunlit/scene/load.h"
 #include "sunlit/scene/race_track.h"

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "drive.h"
-#include "light/disc/disc_visibility.h"
-#include "light/light_table.h"
-#include "light/sky_in_view/sky_pixel.h"
+#include "light/picture/disc/disc_visibility.h"
+#include "light/picture/sky/sky_pixel.h"
+#include "light/picture/table/light_table.h"
 #include "sunlit/image/cache_folder.h"
 #include "sunlit/image/exposure.h"
 #include "sunlit/light/lighting.h"

@@ -52,6 +52,8 @@ struct Stage {
     geometry = std::make_shared<const light::Geometry>(scene);
     visibility = std::make_shared<light::Visibility>(geometry);
     pyramids = std::make_unique<render::TexturePyramids>(*scene);
+    maps =
+        std::make_unique<render::SurfaceMaps>(*scene, static_cast<float>(light::TransportOptions().finest_m));
     rasterizer = make(render::defaultRasterizer());
   }
   std::unique_ptr<render::Rasterizer> make(render::RasterizerKind kind) const {
@@ -62,7 +64,7 @@ struct Stage {
         poses[pose % poses.size()] * Eigen::Translation3d(metres_on * Eigen::Vector3d::UnitZ());
     rasterizer->draw(view, nullptr, &samples);
   }
-  render::Seen seen() const { return {view, *geometry, nullptr, *pyramids, 0.0f, samples}; }
+  render::Seen seen() const { return {view, *geometry, nullptr, *pyramids, *maps, 0.0f, samples, nullptr}; }
   void resolve() { render::resolveSurfaces(seen(), &surfaces); }
   const light::Transport& baked() {
     if (!transport) transport = light::Transport::cached(geometry, {}, image::usualCacheFolder());
@@ -75,6 +77,7 @@ struct Stage {
   std::shared_ptr<const light::Visibility> visibility;
   std::shared_ptr<const light::Transport> transport;  ///< see baked()
   std::unique_ptr<render::TexturePyramids> pyramids;
+  std::unique_ptr<render::SurfaceMaps> maps;
   std::unique_ptr<render::Rasterizer> rasterizer;
   std::vector<render::Sample> samples;
   light::Surfaces surfaces;

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "light/transport/bake_rays.h"
-#include "light/transport/probe.h"
-#include "light/transport/relight.h"
-#include "light/transport/transport_data.h"
+#include "light/bake/gather/relight.h"
+#include "light/bake/samples/bake_rays.h"
+#include "light/bake/samples/probe.h"
+#include "light/bake/samples/transport_data.h"
 #include "sunlit/light/transport.h"
 #include "sunlit/light/world.h"
 #include "sunlit/quantity/frames.h"

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "light/transport/reflectances.h"
+#include "light/shading/reflectances.h"
 
 namespace sunlit::light {
 namespace {

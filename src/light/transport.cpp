@@ -10,12 +10,13 @@
 #include <optional>
 #include <stdexcept>
 
-#include "light/corners.h"
-#include "light/mirror/mirror_sky.h"
-#include "light/sky_sectors.h"
-#include "light/transport/gather.h"
-#include "light/transport/relight.h"
-#include "light/transport/scene_samples.h"
+#include "light/bake/gather/gather.h"
+#include "light/bake/gather/relight.h"
+#include "light/bake/samples/scene_samples.h"
+#include "light/geometry/corners.h"
+#include "light/patches/mirror_sky.h"
+#include "light/patches/sky_sectors.h"
+#include "light/picture/mirror/find_mirrors.h"
 #include "sunlit/light/final_gather.h"
 
 namespace sunlit::light {
@@ -112,9 +113,7 @@ void Transport::locate(Surfaces* surfaces, FinalGather* gather) const {
 
 std::vector<NodeLight> Transport::relight(const sky::Daylight& day, const std::vector<float>& lamp_shares,
                                           const Visibility* visibility) const {
-  // Rooms follow the sun for as many bounces as there are.
-  const bool all = options_.bounces >= kBouncesBeforeAll;
-  return light::relight(*data_, {day, lamp_shares, all ? visibility : nullptr});
+  return light::relight(*data_, {day, lamp_shares, visibility});
 }
 
 Illumination Transport::illumination(const sky::Daylight& day, const std::vector<float>& lamp_shares,

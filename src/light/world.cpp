@@ -1,7 +1,7 @@
 #include "sunlit/light/world.h"
 
+#include "light/bake/cache/bake_key.h"
 #include "light/lamps/lamp_sets.h"
-#include "light/transport/bake_key.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/transport.h"
 

@@ -4,12 +4,46 @@
 #include <cmath>
 
 #include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::light {
 namespace {
 
 /// Of a cone with a sharp edge, which else would be divided by.
 constexpr float kSharpest = 1e-6f;
+/// Of cosines, by which a box must lie outside a cone to be known to without a look at the angles.
+constexpr float kClearlyOutside = 1e-4f;
+
+/// Of a lamp whose cone falls off linearly or by the square.
+struct Falloff {
+  Eigen::Vector3f position, axis;
+  float constant, linear, quadratic;
+  float range_m, per_range, least_m, nearest_m;
+  float cos_outer, per_cosine;
+  bool squares;
+};
+
+SUNLIT_WIDE_VECTOR_CLONES
+void sharesOf(const Falloff& lamp, const LampBeam::Points& points, float* __restrict shares) {
+  const float lamp_x = lamp.position.x(), lamp_y = lamp.position.y(), lamp_z = lamp.position.z();
+  const float axis_x = lamp.axis.x(), axis_y = lamp.axis.y(), axis_z = lamp.axis.z();
+  const float constant = lamp.constant, linear = lamp.linear, quadratic = lamp.quadratic;
+  const float range_m = lamp.range_m, per_range = lamp.per_range;
+  const float least_m = lamp.least_m, nearest_m = lamp.nearest_m;
+  const float cos_outer = lamp.cos_outer, per_cosine = lamp.per_cosine;
+  const bool squares = lamp.squares;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const float x = points.x[i] - lamp_x, y = points.y[i] - lamp_y, z = points.z[i] - lamp_z;
+    const float distance_m = std::sqrt(x * x + y * y + z * z);
+    const float d = std::max(distance_m, least_m);
+    const float cosine = (axis_x * x + axis_y * y + axis_z * z) / std::max(distance_m, nearest_m);
+    const float edge = std::min(std::max((cosine - cos_outer) * per_cosine, 0.0f), 1.0f);
+    const float part = distance_m * per_range, square = part * part;
+    const float faded = std::max(1.0f - square * square, 0.0f);
+    const float share = faded * edge * (squares ? edge : 1.0f) / (constant + d * (linear + d * quadratic));
+    shares[i] = distance_m <= range_m ? share : 0.0f;
+  }
+}
 
 }  // namespace
 
@@ -17,6 +51,7 @@ LampBeam::LampBeam(const scene::Lamp& lamp)
     : lamp_(lamp),
       brightest_(lamp.intensity.value.maxCoeff()),
       least_m_(std::max(lamp.radius_m, kNearest_m)),
+      per_range_(lamp.ends_sharply ? 0.0f : 1.0f / lamp.range_m),
       cos_outer_(std::cos(lamp.outer_rad)),
       per_cosine_(1.0f / std::max(std::cos(lamp.inner_rad) - cos_outer_, kSharpest)) {}
 
@@ -25,6 +60,13 @@ LampBeam::Bounds LampBeam::within(const Eigen::AlignedBox3f& box) const {
   const float radius = 0.5f * box.diagonal().norm(), distance = middle.norm();
   const float nearest = box.exteriorDistance(lamp_.position), farthest = distance + radius;
   if (nearest > lamp_.range_m) return {0.0f, 0.0f};
+  if (lamp_.isSpot() && distance > radius) {
+    // Most boxes see nothing of most lamps: known by the cosine of the angle to the axis less the ball's.
+    const float cosine = lamp_.direction.dot(middle) / distance, sine = radius / distance;
+    const float cos_ball = std::sqrt(1.0f - sine * sine);
+    const float nearest_cosine = cosine * cos_ball + std::sqrt(std::max(1.0f - cosine * cosine, 0.0f)) * sine;
+    if (cosine < cos_ball && nearest_cosine < cos_outer_ - kClearlyOutside) return {0.0f, 0.0f};
+  }
   // The angles to the axis that the ball around the box covers.
   float least = 0.0f, most = kPiFloat;
   if (lamp_.isSpot() && distance > radius) {
@@ -37,13 +79,17 @@ LampBeam::Bounds LampBeam::within(const Eigen::AlignedBox3f& box) const {
   return {brightest_ * low, brightest_ * attenuation(nearest) * cone(std::cos(least))};
 }
 
-Eigen::Matrix<float, 3, 2> LampBeam::across(const Eigen::Vector3f& towards) {
-  const Eigen::Vector3f aside =
-      std::abs(towards.z()) < 0.9f ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX();
-  Eigen::Matrix<float, 3, 2> axes;
-  axes.col(0) = aside.cross(towards).normalized();
-  axes.col(1) = towards.cross(axes.col(0));
-  return axes;
+void LampBeam::shares(const Points& points, float* shares) const {
+  constexpr float kSquare = 2.0f, kLinear = 1.0f;
+  if (lamp_.isSpot() && lamp_.exponent != kSquare && lamp_.exponent != kLinear) {
+    for (std::size_t i = 0; i < points.count; ++i) shares[i] = share({points.x[i], points.y[i], points.z[i]});
+    return;
+  }
+  // Of one that shines all around every cosine lies in the cone.
+  sharesOf({lamp_.position, lamp_.direction, lamp_.constant, lamp_.linear, lamp_.quadratic, lamp_.range_m,
+            per_range_, least_m_, kNearest_m, lamp_.isSpot() ? cos_outer_ : -3.0f,
+            lamp_.isSpot() ? per_cosine_ : 1.0f, lamp_.exponent == kSquare},
+           points, shares);
 }
 
 }  // namespace sunlit::light

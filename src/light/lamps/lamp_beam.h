@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "sunlit/scene/scene.h"
 
@@ -33,26 +34,50 @@ class LampBeam {
 
   /// at() in parts of intensity(), and its largest channel in parts of brightest().
   float share(const Eigen::Vector3f& point) const;
+  /// Points side by side.
+  struct Points {
+    const float *x, *y, *z;
+    std::size_t count;
+  };
+  /// share() of each of them, within rounding.
+  void shares(const Points& points, float* shares) const;
   const Eigen::Array3f& intensity() const { return lamp_.intensity.value; }
   float brightest() const { return brightest_; }
 
  private:
   /// Of a lamp that is a point: where 1 / d² would grow without end.
   static constexpr float kNearest_m = 1e-3f;
-  /// By distance, within the range.
+  /// By distance, up to the range.
   float attenuation(float distance_m) const;
   /// By the cosine of the angle to the axis.
   float cone(float cosine) const;
 
   scene::Lamp lamp_;
   float brightest_;
-  float least_m_;  ///< nearer than that nothing gets brighter
+  float least_m_;    ///< nearer than that nothing gets brighter
+  float per_range_;  ///< 1/m, of one that fades towards its range; else 0
   float cos_outer_, per_cosine_;
 };
 
+inline Eigen::Matrix<float, 3, 2> LampBeam::across(const Eigen::Vector3f& towards) {
+  // At right angles to the vertical, or where it hardly tells, to the x axis.
+  const float x = towards.x(), y = towards.y(), z = towards.z();
+  Eigen::Matrix<float, 3, 2> axes;
+  if (std::abs(z) < 0.9f) {
+    const float per = 1.0f / std::sqrt(x * x + y * y);
+    axes.col(0) = Eigen::Vector3f(-y * per, x * per, 0.0f);
+  } else {
+    const float per = 1.0f / std::sqrt(y * y + z * z);
+    axes.col(0) = Eigen::Vector3f(0.0f, -z * per, y * per);
+  }
+  axes.col(1) = towards.cross(axes.col(0));
+  return axes;
+}
+
 inline float LampBeam::attenuation(float distance_m) const {
   const float d = std::max(distance_m, least_m_);
-  return 1.0f / (lamp_.constant + d * (lamp_.linear + d * lamp_.quadratic));
+  const float part = distance_m * per_range_, square = part * part;
+  return std::max(1.0f - square * square, 0.0f) / (lamp_.constant + d * (lamp_.linear + d * lamp_.quadratic));
 }
 
 inline float LampBeam::cone(float cosine) const {

@@ -6,14 +6,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "light/disc_above_horizon.h"
-#include "light/glass_sheets.h"
 #include "light/lamps/lamp_beam.h"
-#include "light/random.h"
+#include "light/patches/disc_above_horizon.h"
+#include "light/patches/random.h"
 #include "light/reference/emitters.h"
-#include "light/reference/scatter.h"
 #include "light/reference/sky_sampler.h"
-#include "light/vertex.h"
+#include "light/shading/glass_sheets.h"
+#include "light/shading/scatter.h"
+#include "light/shading/vertex.h"
 #include "sunlit/light/reference.h"
 
 namespace sunlit::light {

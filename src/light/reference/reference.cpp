@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "light/picture/sky/open_air.h"
+#include "light/picture/sky/sky_pixel.h"
 #include "light/reference/paths.h"
-#include "light/sky_in_view/open_air.h"
-#include "light/sky_in_view/sky_pixel.h"
 #include "sunlit/light/transport.h"
 
 namespace sunlit::light {

@@ -1,5 +1,5 @@
 // Rays that are cast only where they tell more, against all of them.
-#include "light/transport/adaptive_probe.h"
+#include "light/bake/samples/adaptive_probe.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "light/transport/triangle_kinds.h"
+#include "light/bake/samples/triangle_kinds.h"
 #include "paper_scene.h"
 
 namespace sunlit::light {

@@ -30,4 +30,20 @@ inline std::vector<double> fast(const World& world, const std::vector<Looked>& p
   return rowValues(illuminate(surfaces, *world.geometry->scene, *world.visibility, illumination(world, day)));
 }
 
+/// Relative, of some pixels.
+struct Errors {
+  double mean = 0.0, worst = 0.0, bias = 0.0;
+};
+
+inline Errors errors(const std::vector<double>& picture, const std::vector<double>& truth) {
+  Errors result;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double error = picture[i] / truth[i] - 1.0;
+    result.mean += std::abs(error) / static_cast<double>(truth.size());
+    result.bias += error / static_cast<double>(truth.size());
+    result.worst = std::max(result.worst, std::abs(error));
+  }
+  return result;
+}
+
 }  // namespace sunlit::light

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "baked_scene.h"
-#include "light/corners.h"
+#include "light/geometry/corners.h"
 #include "sunlit/sky/atmosphere.h"
 
 namespace sunlit::light {
@@ -25,21 +25,6 @@ Looked seenAlong(double azimuth_deg, double cosine, const Eigen::Vector3f& posit
   const double sine = std::sqrt(1.0 - cosine * cosine), azimuth = azimuth_deg * kRadPerDeg;
   const Eigen::Vector3d to_eye(-sine * std::sin(azimuth), -sine * std::cos(azimuth), cosine);
   return {position, kUp, to_eye.cast<float>()};
-}
-
-struct Errors {
-  double mean = 0.0, worst = 0.0, bias = 0.0;
-};
-
-Errors errors(const std::vector<double>& picture, const std::vector<double>& truth) {
-  Errors result;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    const double error = picture[i] / truth[i] - 1.0;
-    result.mean += std::abs(error) / static_cast<double>(truth.size());
-    result.bias += error / static_cast<double>(truth.size());
-    result.worst = std::max(result.worst, std::abs(error));
-  }
-  return result;
 }
 
 constexpr double kSunAzimuth_deg = 250.0;

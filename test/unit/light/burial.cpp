@@ -1,5 +1,5 @@
 // Which points of a scene nobody sees, by what the rays that leave them meet.
-#include "light/transport/burial_test.h"
+#include "light/bake/samples/burial_test.h"
 
 #include <gtest/gtest.h>
 

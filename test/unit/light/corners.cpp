@@ -1,4 +1,4 @@
-#include "light/corners.h"
+#include "light/geometry/corners.h"
 
 #include <gtest/gtest.h>
 

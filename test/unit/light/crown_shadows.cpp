@@ -1,5 +1,5 @@
 // Points among leaves find the same light as rays from each of them do.
-#include "light/transport/crown_shadows.h"
+#include "light/bake/samples/crown_shadows.h"
 
 #include <gtest/gtest.h>
 

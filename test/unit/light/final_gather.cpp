@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "leaf_scenes.h"
-#include "light/final_gather/gathered_light.h"
-#include "light/final_gather/kept_nodes.h"
-#include "light/sky_patches.h"
+#include "light/patches/sky_patches.h"
+#include "light/picture/gather/gathered_light.h"
+#include "light/picture/gather/kept_nodes.h"
 #include "paper_scene.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/transport.h"

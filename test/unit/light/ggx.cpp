@@ -1,5 +1,5 @@
 // What makes a distribution of microfacets one, by sums over the hemisphere.
-#include "light/ggx.h"
+#include "light/shading/ggx.h"
 
 #include <gtest/gtest.h>
 

@@ -4,42 +4,11 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "paper_scene.h"
+#include "lamp_scene.h"
 #include "sunlit/scene/race_track.h"
 
 namespace sunlit::light {
 namespace {
-
-const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ();
-
-scene::Lamp lampAt(const Eigen::Vector3f& position, float cd = 100.0f) {
-  scene::Lamp lamp;
-  lamp.name = "lamp";
-  lamp.position = position;
-  lamp.intensity = LinearRgb(cd, cd, cd);
-  return lamp;
-}
-
-/// A matt floor of 100 m, black, so that no ray but the lamps' matters, at night.
-World floorWorld() {
-  scene::Scene scene;
-  scene.materials = {paint(0.5f), paint(0.0f)};
-  addGround(&scene, 0, 100.0f);
-  return worldOf(std::move(scene));
-}
-
-Looked floorAt(float x, float y = 0.0f) {
-  return {{x, y, 0.0f}, kUp, kUp, 0};
-}
-
-/// The luminance of points of `world` by nothing but `lamps`.
-std::vector<double> lit(const World& world, const std::vector<scene::Lamp>& lamps,
-                        const std::vector<Looked>& points) {
-  Illumination light(uniformDay(0.0f));
-  light.lamps = std::make_shared<const std::vector<scene::Lamp>>(lamps);
-  const scene::Scene& scene = *world.geometry->scene;
-  return rowValues(illuminate(rowOf(points, scene), scene, *world.visibility, light));
-}
 
 double reflectance(const World& world, const Looked& point, const Eigen::Vector3f& lamp) {
   const scene::Material& material =
@@ -103,6 +72,7 @@ TEST(Lamps, OfACone) {
   EXPECT_GT(seen[3], 0.0);
   EXPECT_EQ(seen[4], 0.0);
   spot.range_m = 10.5f;
+  spot.ends_sharply = true;
   const std::vector<double> ranged = lit(world, {spot}, points);
   EXPECT_DOUBLE_EQ(ranged[1], seen[1]);  // 10.44 m away
   EXPECT_EQ(ranged[2], 0.0);             // 11.1 m

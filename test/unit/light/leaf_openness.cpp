@@ -1,5 +1,5 @@
 // How much of the sky leaves see, where it can be worked out on paper, and against traced light.
-#include "light/transport/leaf_openness.h"
+#include "light/bake/samples/leaf_openness.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "leaf_scenes.h"
-#include "light/sky_sectors.h"
-#include "light/transport/bake_rays.h"
+#include "light/bake/samples/bake_rays.h"
+#include "light/patches/sky_sectors.h"
 #include "paper_scene.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/transport.h"

@@ -3,8 +3,8 @@
 
 #include <numeric>
 
-#include "light/transport/exchange.h"
-#include "light/transport/transport_data.h"
+#include "light/bake/gather/exchange.h"
+#include "light/bake/samples/transport_data.h"
 
 namespace sunlit::light {
 namespace {
@@ -67,7 +67,7 @@ TEST(Exchange, RaysThatMeetUselessSamplesMeetThoseBeside) {
   const SkyPatches patches(1);
   const BakedRooms none;
   Exchange exchange(samples, patches, none);
-  exchange.seen[0].hits = {Exchange::hitOf(1, 7), Exchange::hitOf(4, 7), Exchange::hitOf(10, 9)};
+  exchange.seen[0].hits = {SampleAndByte::of(1, 7), SampleAndByte::of(4, 7), SampleAndByte::of(10, 9)};
   exchange.seen[0].up = 3;
   // 4 is amid others; the cells around 10 and those beside them hold none that is of use.
   exchange.passOver({false, false, true, true, true, true, true, true, true, true, true});

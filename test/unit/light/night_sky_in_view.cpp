@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "light/sky_in_view/disc_in_view.h"
-#include "light/sky_in_view/sky_pixel.h"
-#include "light/sky_in_view/star_field.h"
+#include "light/picture/sky/disc_in_view.h"
+#include "light/picture/sky/sky_pixel.h"
+#include "light/picture/sky/star_field.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/sky/atmosphere.h"
 

@@ -1,5 +1,5 @@
 // Daylight in the air of rooms and of the open.
-#include "light/sky_in_view/open_air.h"
+#include "light/picture/sky/open_air.h"
 
 #include <gtest/gtest.h>
 

@@ -4,27 +4,13 @@
 #include <tbb/global_control.h>
 
 #include "baked_scene.h"
-#include "light/sky_patches.h"
+#include "light/patches/sky_patches.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
 namespace {
 
 const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ();
-
-struct Errors {
-  double mean = 0.0, worst = 0.0;
-};
-
-Errors errors(const std::vector<double>& picture, const std::vector<double>& truth) {
-  Errors result;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    const double error = std::abs(picture[i] / truth[i] - 1.0);
-    result.mean += error / static_cast<double>(truth.size());
-    result.worst = std::max(result.worst, error);
-  }
-  return result;
-}
 
 /// 6 m × 5 m × 3 m, with a hole of 1.2 m × 1.2 m in its ceiling.
 scene::Scene roomWithAHole(float albedo) {

@@ -1,7 +1,7 @@
 // A sun that the horizon cuts.
 #include <gtest/gtest.h>
 
-#include "light/disc_above_horizon.h"
+#include "light/patches/disc_above_horizon.h"
 #include "paper_scene.h"
 #include "sunlit/light/illumination.h"
 

@@ -1,5 +1,5 @@
 // What pixels learn from the rays of their neighbours, and what must not be lost by it.
-#include "light/disc/share_windows.h"
+#include "light/picture/disc/share_windows.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <functional>
 #include <random>
 
-#include "light/disc/disc_points.h"
+#include "light/picture/disc/disc_points.h"
 
 namespace sunlit::light {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <random>
 
-#include "light/disc/pixel_map.h"
-#include "light/sky_in_view/sky_pixel.h"
+#include "light/picture/disc/pixel_map.h"
+#include "light/picture/sky/sky_pixel.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/sky/atmosphere.h"
 

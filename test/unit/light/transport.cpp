@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "light/sky_patches.h"
+#include "light/patches/sky_patches.h"
 #include "paper_scene.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/quantity/angle.h"

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <thread>
 
-#include "light/transport/cache_file.h"
+#include "light/bake/cache/cache_file.h"
 #include "paper_scene.h"
 #include "sunlit/image/cache_folder.h"
 #include "sunlit/light/transport.h"

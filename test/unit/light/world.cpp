@@ -60,6 +60,10 @@ TEST(Fingerprint, ChangesWithAllThatPicturesShow) {
       [](Contents& c) { c.scene.materials[0].roughness = 0.5f; },
       [](Contents& c) { c.scene.lamps.emplace_back(); },
       [](Contents& c) { c.scene.lamps.emplace_back().range_m = 20.0f; },
+      [](Contents& c) {
+        c.scene.lamps.emplace_back().range_m = 20.0f;
+        c.scene.lamps[0].ends_sharply = true;
+      },
       [](Contents& c) { c.scene.lamps.emplace_back().group = "posts"; },
       [](Contents& c) { c.scene.materials[0].detail.contrast = 0.1f; },
       [](Contents& c) { c.scene.materials[0].detail.tint[2] = 0.9f; },

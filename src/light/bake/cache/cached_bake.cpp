@@ -1,0 +1,98 @@
+// A bake is looked for on disk first, and left there.
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+
+#include "light/bake/cache/cache_file.h"
+#include "sunlit/image/cache_folder.h"
+#include "sunlit/light/transport.h"
+
+namespace sunlit::light {
+namespace {
+
+namespace fs = std::filesystem;
+using Log = image::CacheFolder::Log;
+
+constexpr const char* kEnding = ".light";
+
+std::unique_ptr<TransportData> readIfThere(const fs::path& file, const image::ContentHash& key,
+                                           const Log& log) {
+  std::error_code error;
+  if (!fs::exists(file, error)) return nullptr;
+  try {
+    return readBake(file, key);
+  } catch (const std::exception& problem) {
+    if (log) log(std::string("baked light is made anew: ") + problem.what());
+    return nullptr;
+  }
+}
+
+/// Empty if the folder can't be used.
+std::optional<fs::path> usableFolder(const std::string& folder, const Log& log) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return fs::path(folder);
+  if (log) log("baked light is not kept: " + folder + ": " + error.message());
+  return std::nullopt;
+}
+
+std::optional<image::CacheTurn> turnFor(const fs::path& file, const Log& log) {
+  try {
+    return image::CacheTurn::await(file);
+  } catch (const std::exception& problem) {
+    if (log) log(std::string("baked light is not kept: ") + problem.what());
+    return std::nullopt;
+  }
+}
+
+void keep(const fs::path& file, const image::ContentHash& key, const TransportData& data, const Log& log) {
+  try {
+    writeBake(file, key, data);
+  } catch (const std::exception& problem) {
+    if (log) log(std::string("baked light is not kept: ") + problem.what());
+  }
+}
+
+/// What cached() gives away: as long as it is used, its file stays.
+struct KeptTransport {
+  std::optional<image::CacheUse> in_use;
+  std::shared_ptr<const Transport> transport;
+};
+
+}  // namespace
+
+std::uintmax_t BakeCache::usedBytes() const {
+  return image::CacheFolder{folder, kEnding}.usedBytes();
+}
+
+std::shared_ptr<const Transport> Transport::cached(std::shared_ptr<const Geometry> geometry,
+                                                   const TransportOptions& options, const BakeCache& cache,
+                                                   const BakeListener& listener) {
+  const auto& [progress, log] = listener;
+  validate(options);
+  const std::optional<fs::path> folder = usableFolder(cache.folder, log);
+  if (!folder) return bake(std::move(geometry), options, progress);
+  const image::ContentHash key = bakeKey(*geometry, options);
+  const fs::path file = *folder / (key.text() + kEnding);
+  auto kept = std::make_shared<KeptTransport>();
+  kept->in_use.emplace(file);  // from here on nobody removes it
+  std::unique_ptr<TransportData> data = readIfThere(file, key, nullptr);
+  std::optional<image::CacheTurn> turn;
+  if (!data) {
+    turn = turnFor(file, log);
+    if (!turn) return bake(std::move(geometry), options, progress);
+    data = readIfThere(file, key, log);  // another process may have finished it meanwhile
+  }
+  if (data) {
+    kept->transport = std::make_shared<const Transport>(std::move(geometry), options, std::move(data));
+  } else {
+    kept->transport = bake(std::move(geometry), options, progress);
+    keep(file, key, *kept->transport->data_, log);
+  }
+  kept->in_use.emplace(file);  // which may have come only now
+  turn.reset();
+  image::CacheFolder{*folder, kEnding}.tidy(cache.limit_bytes, log);
+  return {kept, kept->transport.get()};
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,207 @@
+#include "light/bake/gather/exchange.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "light/shading/mirror_lobe.h"
+#include "light/shading/reflectances.h"
+#include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/photometry.h"
+
+namespace sunlit::light {
+namespace {
+
+float luminanceOf(const Eigen::Array3f& rgb) {
+  return LinearRgb(rgb).luminance();
+}
+
+PartSums sumsOf(const PassedOn& part, std::size_t sample) {
+  return {part.coefficients.sum(sample) * Eigen::Map<const Eigen::Array3f>(part.tints[sample].data()),
+          Eigen::Map<const Eigen::Array3f>(part.glows[sample].data())};
+}
+
+constexpr float kNextToNothing = 2e-4f;  // of what the samples have, on average; more still follows
+
+float relativeChange(const Eigen::Array3f& before, const Eigen::Array3f& after) {
+  const float most = after.maxCoeff();
+  return most > 0.0f ? (after - before).abs().maxCoeff() / most : 0.0f;
+}
+float relativeChange(const PassedOnSums& before, const PassedOnSums& after) {
+  return std::max(relativeChange(before.color(), after.color()), relativeChange(before.glow(), after.glow()));
+}
+float relativeChange(const Arrived& before, const Arrived& after) {
+  return relativeChange(before.above + before.below, after.above + after.below);
+}
+
+/// Sets all of `next` by `receive`, and returns the mean relative change from `has`. Parallel; sums in one
+/// order for any number of threads.
+template <typename Value, typename Receive>
+double receiveAll(const std::vector<Value>& has, std::vector<Value>* next, const Receive& receive) {
+  constexpr std::size_t kBlock = 256;  // samples, of one task
+  const std::size_t count = has.size();
+  std::vector<double> changes((count + kBlock - 1) / kBlock, 0.0);
+  tbb::parallel_for(std::size_t{0}, changes.size(), [&](std::size_t block) {
+    for (std::size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
+      (*next)[i] = receive(i);
+      changes[block] += static_cast<double>(relativeChange(has[i], (*next)[i]));
+    }
+  });
+  return count > 0 ? std::accumulate(changes.begin(), changes.end(), 0.0) / static_cast<double>(count) : 0.0;
+}
+
+void brighten(const PartSums& traced, const PartSums& all, std::size_t sample, PassedOn* part) {
+  const float before = luminanceOf(traced.color);
+  if (before > 0.0f) part->coefficients.scales[sample] *= luminanceOf(all.color) / before;
+  store(all, sample, part);
+}
+
+}  // namespace
+
+SumsOfAll sumsOf(const TransportData& data) {
+  SumsOfAll sums{std::vector<float>(data.sampleCount()), std::vector<PassedOnSums>(data.sampleCount())};
+  tbb::parallel_for(std::size_t{0}, data.sampleCount(), [&](std::size_t i) {
+    sums.direct[i] = data.direct.sum(i);
+    sums.passed_on[i] = {sumsOf(data.above, i), sumsOf(data.below, i)};
+  });
+  return sums;
+}
+
+void store(const PartSums& sums, std::size_t sample, PassedOn* part) {
+  part->glows[sample] = {sums.glow[0], sums.glow[1], sums.glow[2]};
+  const float luminance = luminanceOf(sums.color);
+  Eigen::Map<Eigen::Array3f>(part->tints[sample].data()) =
+      luminance > 0.0f ? Eigen::Array3f(sums.color / luminance) : Eigen::Array3f(Eigen::Array3f::Ones());
+}
+
+void Exchange::useRooms() {
+  if (rooms_.samples.empty()) return;
+  room_of_.assign(seen.size(), LightMesh::kNone);
+  for (std::uint32_t room = 0; room < rooms_.samples.size(); ++room) room_of_[rooms_.samples[room]] = room;
+}
+
+RaySeen Exchange::ray(std::size_t sample, std::size_t hit) const {
+  const SampleHits& view = seen[sample];
+  const bool up = hit < view.up;
+  const std::uint32_t direction = view.hits[hit].byte();
+  const SkyPatches::Ray& ray = patches_.coarseRays()[up ? direction : direction + SkyPatches::kAbove];
+  return {view.hits[hit].sample(), direction, ray.towards,  // the ray's own weight is in the scales
+          ray.solid_angle * samples_.receivers[sample].weight(ray.towards) *
+              (up ? view.scale_up : view.scale_down) / kPiFloat};
+}
+
+void Exchange::passOver(const std::vector<bool>& useless) {
+  const std::vector<std::uint32_t> useful = samples_.mesh.usefulSamples(useless);
+  instead_.assign(useless.size(), LightMesh::kNone);
+  for (std::size_t n = 0; n < useful.size(); ++n) {
+    const std::uint32_t sample = samples_.nearest_sample[n];
+    if (useless[sample] && instead_[sample] == LightMesh::kNone) instead_[sample] = useful[n];
+  }
+  tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
+    for (SampleAndByte& hit : seen[i].hits) hit = SampleAndByte::of(usefulBeside(hit.sample()), hit.byte());
+  });
+}
+
+bool Exchange::isGround(std::uint32_t sample) const {
+  constexpr float kLevel = 0.97f;  // within 14°, half a patch
+  const Receiver& receiver = samples_.receivers[sample];
+  return receiver.normal.z() > kLevel && !receiver.thin && samples_.paints[sample].metalness < 0.5f;
+}
+
+float Exchange::scattered(std::uint32_t from, const Eigen::Vector3f& towards) const {
+  if (towards.z() >= 0.0f || !isGround(from)) return 1.0f;
+  static const float mean = 1.0f - meanGrazing(kMeanView);
+  return (1.0f - meanGrazing(-towards.z())) / mean;
+}
+
+Sending Exchange::sending(std::size_t sample) const {
+  const Reflectance mean = reflectance(samples_.paints[sample], kMeanView);
+  const Eigen::Array3f all = mean.all();
+  const OtherSide& other = samples_.other_side[sample];
+  if (other.sample == LightMesh::kNone) {
+    // The sky that the ground mirrors has gone its own way.
+    const bool ground = isGround(static_cast<std::uint32_t>(sample));
+    return {ground ? mean.diffuse : all, all, Eigen::Array3f::Zero(), other.sample};
+  }
+  const Eigen::Array3f through = other.share * mean.diffuse.min(all);  // what is mirrored stays on its side
+  return {all - through, all - through, through, other.sample};
+}
+
+SentSums Exchange::sentBy(const Sending& sends, const SumsOfAll& has, std::size_t sample) {
+  SentSums sent{sends.direct * has.direct[sample] + sends.bounced * has.passed_on[sample].color(),
+                sends.bounced * has.passed_on[sample].glow()};
+  if (sends.other != LightMesh::kNone) {
+    const PassedOnSums& behind = has.passed_on[sends.other];
+    sent.color += sends.through * (has.direct[sends.other] + behind.color());
+    sent.glow += sends.through * behind.glow();
+  }
+  return sent;
+}
+
+PassedOnSums Exchange::received(const std::vector<SentSums>& sent, std::size_t sample) const {
+  PassedOnSums sums;
+  sums.below.color.setConstant(mirrored_sums[sample]);
+  sums.above.glow = shining[sample].above;
+  sums.below.glow = shining[sample].below;
+  visitSeen(sample, all, [&](const SampleSeen& other, bool up) {
+    PartSums& part = up ? sums.above : sums.below;
+    part.color += other.weight * sent[other.sample].color;
+    part.glow += other.weight * sent[other.sample].glow;
+  });
+  return sums;
+}
+
+Arrived Exchange::receivedOf(const std::vector<Eigen::Array3f>& sent, std::size_t sample) const {
+  Arrived sum;
+  const auto lit = [&](std::uint32_t other) { return !sent[other].isZero(0.0f); };
+  visitSeen(sample, lit, [&](const SampleSeen& other, bool up) {
+    (up ? sum.above : sum.below) += other.weight * sent[other.sample];
+  });
+  return sum;
+}
+
+std::vector<Sending> Exchange::sendings() const {
+  std::vector<Sending> all(seen.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { all[i] = sending(i); });
+  return all;
+}
+
+std::vector<Arrived> Exchange::passedOn(const std::vector<Eigen::Array3f>& direct, int most) const {
+  std::vector<Arrived> has(seen.size()), next(seen.size());
+  std::vector<Eigen::Array3f> sent(seen.size());
+  const std::vector<Sending> sends_of = sendings();
+  const auto all = [&](std::size_t i) -> Eigen::Array3f { return direct[i] + has[i].above + has[i].below; };
+  double change = 1.0;
+  for (int bounce = 0; bounce < most && change > kNextToNothing; ++bounce) {
+    tbb::parallel_for(std::size_t{0}, sent.size(), [&](std::size_t i) {
+      const Sending& sends = sends_of[i];
+      sent[i] = sends.bounced * all(i);
+      if (sends.other != LightMesh::kNone) sent[i] += sends.through * all(sends.other);
+    });
+    change = receiveAll(has, &next, [&](std::size_t i) { return receivedOf(sent, i); });
+    has.swap(next);
+  }
+  return has;
+}
+
+void Exchange::addLaterBounces(TransportData* data) const {
+  const std::size_t count = seen.size();
+  SumsOfAll has = sumsOf(*data);
+  const std::vector<PassedOnSums> traced = has.passed_on;
+  std::vector<PassedOnSums> next(count);
+  std::vector<SentSums> sent(count);
+  const std::vector<Sending> sends_of = sendings();
+  double change = 1.0;
+  for (int bounce = 0; bounce < kAllBounces && change > kNextToNothing; ++bounce) {
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { sent[i] = sentBy(sends_of[i], has, i); });
+    change = receiveAll(has.passed_on, &next, [&](std::size_t i) { return received(sent, i); });
+    has.passed_on.swap(next);
+  }
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    brighten(traced[i].above, has.passed_on[i].above, i, &data->above);
+    brighten(traced[i].below, has.passed_on[i].below, i, &data->below);
+  });
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,168 @@
+/// Which samples of a scene see each other, and what each of them passes on.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "light/bake/samples/scene_samples.h"
+#include "light/bake/samples/transport_data.h"
+#include "light/patches/sky_patches.h"
+
+namespace sunlit::light {
+
+/// What a sample's coarse rays hit.
+struct SampleHits {
+  std::vector<SampleAndByte> hits;           ///< with the direction, of its half of the sphere
+  std::size_t up = 0;                        ///< the first of them, above the horizon
+  float scale_up = 0.0f, scale_down = 0.0f;  ///< of the hits' weights, by direction
+  bool inside = false;                       ///< of a body
+  bool walled_in = false;                    ///< sees little but surfaces, other than leaves
+};
+
+/// A sample that another one sees, and what its luminance × π counts there, in illuminance.
+struct SampleSeen {
+  std::uint32_t sample;
+  float weight;
+};
+
+/// A ray from a sample to one that it sees.
+struct RaySeen {
+  std::uint32_t from;       ///< the one that it sees
+  std::uint32_t direction;  ///< of its half of the sphere
+  Eigen::Vector3f towards;
+  float weight;  ///< of the luminance × π that arrives along it, in the sample's illuminance
+};
+
+/// What a sample reflects of its own light, and passes on of that of the other side of its sheet.
+struct Sending {
+  Eigen::Array3f direct, bounced;  ///< shares of light straight from the sky, and of other surfaces'
+  Eigen::Array3f through;
+  std::uint32_t other;  ///< the sample on the other side, or LightMesh::kNone
+};
+
+/// By the sum over the patches of the sky: what a sample sends, as luminance × π.
+struct SentSums {
+  Eigen::Array3f color;  ///< of light of the sky
+  Eigen::Array3f glow;   ///< of what shines by itself, that it reflects
+};
+
+/// Likewise, light that a sample has from the surfaces of one part, as illuminance.
+struct PartSums {
+  Eigen::Array3f color = Eigen::Array3f::Zero(), glow = Eigen::Array3f::Zero();
+};
+struct PassedOnSums {
+  PartSums above, below;
+  Eigen::Array3f color() const { return above.color + below.color; }
+  Eigen::Array3f glow() const { return above.glow + below.glow; }
+};
+/// Illuminance by surfaces, lx.
+struct Arrived {
+  Eigen::Array3f above = Eigen::Array3f::Zero(), below = Eigen::Array3f::Zero();
+};
+
+/// Of every sample.
+struct SumsOfAll {
+  std::vector<float> direct;
+  std::vector<PassedOnSums> passed_on;
+};
+SumsOfAll sumsOf(const TransportData& data);
+
+/// Writes tint and glow of a sample's part, not its coefficients.
+void store(const PartSums& sums, std::size_t sample, PassedOn* part);
+
+/// Calls visit(SampleSeen, whether it is seen above the horizon) for all that a room sees.
+template <typename Visit>
+void visitLinks(const BakedRooms& rooms, std::size_t room, const Visit& visit) {
+  for (std::uint32_t k = rooms.first[room]; k < rooms.first[room + 1]; ++k) {
+    const BakedRooms::Link link = rooms.links[k];
+    visit(SampleSeen{link.sample(), rooms.scales[room] * BakedRooms::weightOf(link)}, k < rooms.below[room]);
+  }
+}
+
+class Exchange {
+ public:
+  static constexpr std::size_t kMostSamples = std::size_t{1} << SampleAndByte::kSampleBits;
+
+  /// Keeps references. `rooms` counts once useRooms() was called.
+  Exchange(const SceneSamples& samples, const SkyPatches& patches, const BakedRooms& rooms)
+      : seen(samples.receivers.size()),
+        mirrored_sums(samples.receivers.size(), 0.0f),
+        shining(samples.receivers.size()),
+        samples_(samples),
+        patches_(patches),
+        rooms_(rooms) {}
+
+  /// To be called when `rooms` is filled: what they see is then known by their links, not by `seen`.
+  void useRooms();
+
+  std::vector<SampleHits> seen;      ///< of each sample
+  std::vector<float> mirrored_sums;  ///< sky by way of the ground as a mirror, without colour, lx
+  std::vector<Arrived> shining;      ///< straight from surfaces that shine by themselves
+
+  RaySeen ray(std::size_t sample, std::size_t hit) const;
+  /// Of all that is `seen`, puts samples beside it in the place of those that are of no use. Parallel.
+  void passOver(const std::vector<bool>& useless);
+  /// The sample itself, or the one that passOver() puts in its place.
+  std::uint32_t usefulBeside(std::uint32_t sample) const {
+    const std::uint32_t other = instead_.empty() ? LightMesh::kNone : instead_[sample];
+    return other != LightMesh::kNone ? other : sample;
+  }
+  /// Whether a sample mirrors as GroundMirror says.
+  bool isGround(std::uint32_t sample) const;
+  /// Ground scatters less towards a glancing ray than towards the mean one: Fresnel's share is larger there.
+  float scattered(std::uint32_t from, const Eigen::Vector3f& towards) const;
+  /// Calls visit(SampleSeen, whether it is seen above the horizon) for those samples with wanted(number) that
+  /// light reaches a sample from.
+  template <typename Wanted, typename Visit>
+  void visitSeen(std::size_t sample, const Wanted& wanted, const Visit& visit) const;
+  static bool all(std::uint32_t) { return true; }
+
+  Sending sending(std::size_t sample) const;
+  /// The sums of what a sample has, and of what it has from the other side.
+  static SentSums sentBy(const Sending& sends, const SumsOfAll& has, std::size_t sample);
+  /// What a sample gets of all that is sent, and of the ground's mirror.
+  PassedOnSums received(const std::vector<SentSums>& sent, std::size_t sample) const;
+
+  /// What each sample has by surfaces that pass on `direct`, illuminance straight from lamps, lx: by `most`
+  /// bounces, or until they add next to nothing. Parallel.
+  std::vector<Arrived> passedOn(const std::vector<Eigen::Array3f>& direct, int most) const;
+
+  /// Bounces of white walls, that pass on 0.98, until next to nothing is left.
+  static constexpr int kAllBounces = 200;
+
+  /// Adds all bounces that follow those that `data` has: by sums over the patches, until they add next to
+  /// nothing. How the light of single patches goes on, the bounces so far tell. Parallel.
+  void addLaterBounces(TransportData* data) const;
+
+ private:
+  static_assert(SkyPatches::kAbove <= 256 && SkyPatches::kDown <= 256, "a direction fits above a sample");
+
+  Arrived receivedOf(const std::vector<Eigen::Array3f>& sent, std::size_t sample) const;
+  /// sending() of all samples, for who needs it many times.
+  std::vector<Sending> sendings() const;
+
+  const SceneSamples& samples_;
+  const SkyPatches& patches_;
+  const BakedRooms& rooms_;
+  std::vector<std::uint32_t> instead_;  ///< of each sample of no use: one that is, or LightMesh::kNone
+  std::vector<std::uint32_t> room_of_;  ///< of each sample, or LightMesh::kNone; empty: there are none
+};
+
+template <typename Wanted, typename Visit>
+void Exchange::visitSeen(std::size_t sample, const Wanted& wanted, const Visit& visit) const {
+  const std::uint32_t room = room_of_.empty() ? LightMesh::kNone : room_of_[sample];
+  if (room != LightMesh::kNone) {
+    return visitLinks(rooms_, room, [&](const SampleSeen& other, bool up) {
+      if (wanted(other.sample)) visit(other, up);
+    });
+  }
+  const SampleHits& view = seen[sample];
+  for (std::size_t k = 0; k < view.hits.size(); ++k) {
+    if (!wanted(view.hits[k].sample())) continue;
+    const RaySeen along = ray(sample, k);
+    visit(SampleSeen{along.from, along.weight * scattered(along.from, along.towards)}, k < view.up);
+  }
+}
+
+}  // namespace sunlit::light

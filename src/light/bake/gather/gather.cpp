@@ -1,0 +1,308 @@
+#include "light/bake/gather/gather.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+
+#include "light/bake/gather/exchange.h"
+#include "light/bake/gather/ground_mirror.h"
+#include "light/bake/gather/lamp_bounces.h"
+#include "light/bake/gather/rooms.h"
+#include "light/bake/samples/adaptive_probe.h"
+#include "light/bake/samples/burial_test.h"
+#include "light/patches/angles.h"
+#include "light/shading/mirror_lobe.h"
+#include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/photometry.h"
+#include "sunlit/quantity/vector_clones.h"
+
+namespace sunlit::light {
+namespace {
+
+constexpr std::size_t kPatches = SkyPatches::kCount;
+constexpr std::size_t kPacket = RayPacket::kSize;
+constexpr float kMostInside = 0.6f;  ///< share of rays that may end inside bodies
+/// Of what a sample looks at, by cosine, walls and the like: where they are less, most light comes from the
+/// sky, or in many parts through leaves.
+constexpr float kWalls = 0.8f;
+
+constexpr std::size_t kBlock = 256;  ///< samples, of one task
+
+/// Fewer were asked for to see just these.
+constexpr int kBouncesBeforeAll = 3;
+
+using Row = std::array<float, kPatches>;
+
+float luminanceOf(const Eigen::Array3f& rgb) {
+  return LinearRgb(rgb).luminance();
+}
+
+/// Adds a row of coefficients, each times `factor` and one of `shares`.
+SUNLIT_WIDE_VECTOR_CLONES
+void addShares(float factor, const float* shares, const std::uint8_t* coefficients, float* row) {
+  for (std::size_t p = 0; p < kPatches; ++p)
+    row[p] += factor * shares[p] * static_cast<float>(coefficients[p]);
+}
+
+class Gatherer {
+ public:
+  Gatherer(const BakeScene& scene, const SceneSamples& samples, const GatherOptions& options,
+           const BakedRooms& rooms)
+      : scene_(scene),
+        geometry_(scene.geometry),
+        traits_(scene.traits),
+        samples_(samples),
+        options_(options),
+        patches_(options.rays_per_patch),
+        probe_(scene.rays, scene.traits, patches_),
+        exchange_(samples, patches_, rooms),
+        count_(samples.receivers.size()) {}
+
+  std::vector<bool> gather(TransportData* data) {
+    data->direct.resize(count_);
+    data->above.resize(count_);
+    data->below.resize(count_);
+    findStarts();
+    const std::size_t packets = (starts_.size() + kPacket - 1) / kPacket;
+    const double direct_share = options_.bounces > 0 ? 0.7 : 1.0;
+    tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
+      lookAround(p * kPacket, data);
+      step(direct_share / static_cast<double>(packets));
+    });
+    std::vector<bool> inside(count_);
+    for (std::size_t i = 0; i < count_; ++i) inside[i] = exchange_.seen[i].inside;
+    exchange_.passOver(inside);
+    const bool all = options_.bounces >= kBouncesBeforeAll;
+    if (options_.bounces > 0) {
+      const RoomBaker rooms(scene_, samples_, exchange_);
+      rooms.look(data);
+      exchange_.useRooms();
+      lookIntoGround(*data);
+      lookAtWhatShines();
+      if (all) rooms.finish(mirrored_, &data->rooms);
+    }
+    for (int bounce = 0; bounce < options_.bounces; ++bounce)
+      passOn(data, (1.0 - direct_share) / options_.bounces);
+    if (all) exchange_.addLaterBounces(data);
+    data->lamps = bakeLamps(scene_, samples_, exchange_, all ? Exchange::kAllBounces : options_.bounces);
+    return inside;
+  }
+
+ private:
+  /// Sums over the rays of one sample.
+  struct Look {
+    Row row{};
+    BurialTest burial;
+    float all = 0.0f, inside = 0.0f, leaves = 0.0f, blocked_up = 0.0f, blocked_down = 0.0f,
+          coarse_blocked_up = 0.0f;
+    std::array<SampleAndByte, SkyPatches::kCoarse> hits;  ///< as SampleHits::hits
+    std::size_t hit_count = 0, up = 0;
+  };
+
+  void step(double share) {
+    const std::lock_guard<std::mutex> lock(progress_mutex_);
+    done_ += share;
+    if (options_.progress) options_.progress(std::min(done_, 1.0));
+  }
+
+  /// Of two samples on both sides of a sheet, rays of the first serve both.
+  void findStarts() {
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      if (samples_.other_side[i].sample > i) starts_.push_back(i);  // or there is none
+    }
+  }
+
+  void lookAround(std::size_t first, TransportData* data) {
+    const std::size_t count = std::min(kPacket, starts_.size() - first);
+    std::array<Receiver, kPacket> receivers;
+    std::array<std::array<Look, 2>, kPacket> looks;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t sample = starts_[first + i];
+      receivers[i] = samples_.receivers[sample];
+      // Half: both sides' rays count alike. Doubled again below, for each sample has one side to itself.
+      if (samples_.other_side[sample].sample != LightMesh::kNone) receivers[i].transmission = 0.5f;
+    }
+    const auto& rays = patches_.rays();
+    probe_.look({receivers.data(), static_cast<int>(count)}, [&](int lane, std::size_t r, float weight,
+                                                                 const HitPacket& hits) {
+      const auto i = static_cast<std::size_t>(lane);
+      const std::uint32_t sample = starts_[first + i], behind = samples_.other_side[sample].sample;
+      const bool two_sided = behind != LightMesh::kNone;
+      const bool turned = two_sided && receivers[i].normal.dot(rays[r].towards) < 0.0f;
+      if (two_sided) weight *= 2.0f;
+      note(rays[r], {receivers[i].normal, rays[r].towards, weight, hits, lane}, turned ? behind : sample,
+           &looks[i][turned ? 1 : 0]);
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t sample = starts_[first + i], behind = samples_.other_side[sample].sample;
+      finish(sample, &looks[i][0], data);
+      if (behind != LightMesh::kNone) finish(behind, &looks[i][1], data);
+    }
+  }
+
+  void note(const SkyPatches::Ray& ray, const BurialTest::Cast& cast, std::uint32_t sample,
+            Look* look) const {
+    look->all += cast.weight;
+    look->burial.add(cast, geometry_, traits_);
+    if (cast.hits.triangle[cast.lane] == HitPacket::kNothing) {
+      look->row[static_cast<std::size_t>(ray.patch)] += cast.weight;
+      return;
+    }
+    const std::uint32_t from = sampleAt(scene_, samples_, {cast.hits, cast.lane, ray.towards});
+    if (from == LightMesh::kNone) {
+      look->inside += cast.weight;
+      return;
+    }
+    if (isLeaf(traits_[cast.hits.triangle[cast.lane]].kind)) look->leaves += cast.weight;
+    const bool up = ray.patch != SkyPatches::kBelow;
+    (up ? look->blocked_up : look->blocked_down) += cast.weight;
+    if (ray.coarse == SkyPatches::Ray::kFineOnly) return;
+    if (up) {
+      look->coarse_blocked_up +=
+          SkyPatches::solidAngle(ray.patch) * samples_.receivers[sample].weight(ray.towards);
+    }
+    const auto direction = static_cast<std::uint32_t>(up ? ray.coarse : ray.coarse - SkyPatches::kAbove);
+    look->hits[look->hit_count++] = SampleAndByte::of(from, direction);
+    look->up += up;
+  }
+
+  void finish(std::uint32_t sample, Look* look, TransportData* data) {
+    // The quadrature of a cosine over the hemisphere is π; rays that end inside bodies tell nothing.
+    const Receiver& receiver = samples_.receivers[sample];
+    const float told = std::max(look->all - look->inside, 0.05f * look->all);
+    const float scale = told > 0.0f ? kPiFloat * receiver.open() / told : 0.0f;
+    for (float& value : look->row) value *= scale;
+    data->direct.set(sample, look->row.data());
+    data->above.hides[sample] = look->blocked_up * scale / kPiFloat;
+    data->below.hides[sample] = look->blocked_down * scale / kPiFloat;
+    SampleHits& seen = exchange_.seen[sample];
+    seen.hits.assign(look->hits.begin(), look->hits.begin() + look->hit_count);
+    seen.up = look->up;
+    seen.inside = look->inside > kMostInside * look->all || (!receiver.thin && look->burial.buried());
+    seen.walled_in = look->blocked_up + look->blocked_down - look->leaves > kWalls * told;
+    seen.scale_down = scale;
+    seen.scale_up = scale;
+    if (look->coarse_blocked_up > 0.0f && !receiver.coarse) {
+      // The coarse rays stand for all that hit something.
+      seen.scale_up *= std::clamp(look->blocked_up / look->coarse_blocked_up, 0.25f, 4.0f);
+    }
+  }
+
+  void lookAtWhatShines() {
+    if (!options_.shining.any()) return;
+    tbb::parallel_for(std::size_t{0}, count_, [&](std::size_t i) {
+      const ShiningSurfaces::Light light = options_.shining.at(samples_.receivers[i], i);
+      exchange_.shining[i] = {light.above, light.below};
+    });
+  }
+
+  /// The sky that each sample sees mirrored by the ground.
+  void lookIntoGround(const TransportData& data) {
+    const GroundMirror mirror(patches_);
+    mirrored_.resize(count_);
+    tbb::parallel_for(std::size_t{0}, (count_ + kBlock - 1) / kBlock, [&](std::size_t block) {
+      for (std::size_t i = block * kBlock; i < std::min(count_, (block + 1) * kBlock); ++i) {
+        Row row{};
+        for (std::size_t k = exchange_.seen[i].up; k < exchange_.seen[i].hits.size(); ++k)
+          addMirrored(data, mirror, exchange_.ray(i, k), &row);
+        mirrored_.set(i, row.data());
+        for (const float value : row) exchange_.mirrored_sums[i] += value;
+      }
+    });
+  }
+
+  void addMirrored(const TransportData& data, const GroundMirror& mirror, const RaySeen& ray,
+                   Row* row) const {
+    if (!exchange_.isGround(ray.from)) return;
+    const GroundMirror::Row& shares = mirror.towards(ray.direction, samples_.paints[ray.from].roughness);
+    addShares(ray.weight * data.direct.scales[ray.from], shares.data(), data.direct.row(ray.from),
+              row->data());
+  }
+
+  /// Adds one bounce: what every sample passes on of all that it has by now.
+  void passOn(TransportData* data, double share) {
+    Coefficients sent;  // luminance × π
+    sent.resize(count_);
+    std::vector<SentSums> others(count_);
+    const SumsOfAll has = sumsOf(*data);
+    const std::size_t blocks = (count_ + kBlock - 1) / kBlock;
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      for (std::size_t i = block * kBlock; i < std::min(count_, (block + 1) * kBlock); ++i) {
+        const Sending sends = exchange_.sending(i);
+        others[i] = Exchange::sentBy(sends, has, i);
+        sendRow(*data, sends, i, &sent);
+      }
+    });
+    step(0.2 * share);
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      for (std::size_t i = block * kBlock; i < std::min(count_, (block + 1) * kBlock); ++i)
+        receive(sent, others, i, data);
+      step(0.8 * share / static_cast<double>(blocks));
+    });
+  }
+
+  /// The coefficients of what a sample sends.
+  void sendRow(const TransportData& data, const Sending& sends, std::size_t i, Coefficients* sent) const {
+    Row row{};
+    const auto addCoefficients = [&](const Coefficients& coefficients, std::size_t from,
+                                     const Eigen::Array3f& color) {
+      addTimes(luminanceOf(color) * coefficients.scales[from], coefficients.row(from), row.data());
+    };
+    const auto add = [&](std::size_t from, const Eigen::Array3f& of_direct,
+                         const Eigen::Array3f& of_bounced) {
+      addCoefficients(data.direct, from, of_direct);
+      for (const PassedOn* part : {&data.above, &data.below}) {
+        addCoefficients(part->coefficients, from,
+                        of_bounced * Eigen::Map<const Eigen::Array3f>(part->tints[from].data()));
+      }
+    };
+    add(i, sends.direct, sends.bounced);
+    if (sends.other != LightMesh::kNone) add(sends.other, sends.through, sends.through);
+    sent->set(i, row.data());
+  }
+
+  void receive(const Coefficients& sent, const std::vector<SentSums>& others, std::size_t i,
+               TransportData* data) const {
+    Row above{}, below{};
+    addTimes(mirrored_.scales[i], mirrored_.row(i), below.data());
+    exchange_.visitSeen(i, Exchange::all, [&](const SampleSeen& seen, bool up) {
+      addTimes(seen.weight * sent.scales[seen.sample], sent.row(seen.sample), (up ? above : below).data());
+    });
+    const PassedOnSums sums = exchange_.received(others, i);
+    data->above.coefficients.set(i, above.data());
+    data->below.coefficients.set(i, below.data());
+    store(sums.above, i, &data->above);
+    store(sums.below, i, &data->below);
+  }
+
+  const BakeScene& scene_;
+  const Geometry& geometry_;
+  const std::vector<TriangleTraits>& traits_;
+  const SceneSamples& samples_;
+  const GatherOptions& options_;
+  SkyPatches patches_;
+  AdaptiveProbe probe_;
+  Exchange exchange_;
+  std::size_t count_;
+  std::vector<std::uint32_t> starts_;  ///< samples whose rays are cast
+  Coefficients mirrored_;              ///< sky by way of the ground as a mirror, without colour
+  std::mutex progress_mutex_;
+  double done_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<bool> gatherLight(const BakeScene& scene, const SceneSamples& samples,
+                              const GatherOptions& options, TransportData* data) {
+  if (samples.receivers.size() > Exchange::kMostSamples) {
+    throw std::runtime_error("bake of light: the scene takes " + std::to_string(samples.receivers.size()) +
+                             " samples, of at most " + std::to_string(Exchange::kMostSamples));
+  }
+  return Gatherer(scene, samples, options, data->rooms).gather(data);
+}
+
+}  // namespace sunlit::light

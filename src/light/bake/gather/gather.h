@@ -1,0 +1,27 @@
+/// How much of each sky patch's light arrives at the samples of a scene.
+#pragma once
+
+#include <functional>
+
+#include "light/bake/samples/scene_samples.h"
+#include "light/bake/samples/transport_data.h"
+
+namespace sunlit::light {
+
+/// Share of the work done, 0 … 1; may come from any thread, but never from two at once.
+using GatherProgress = std::function<void(double)>;
+
+struct GatherOptions {
+  int rays_per_patch = 3;
+  int bounces = 3;
+  const ShiningSurfaces& shining;
+  GatherProgress progress;
+};
+
+/// Fills `data` but for its mesh. Returns for each sample whether it lies inside a body, where its light is
+/// of no use. Parallel; the same bits for any number of threads. Throws std::runtime_error for more than 2^24
+/// samples.
+std::vector<bool> gatherLight(const BakeScene& scene, const SceneSamples& samples,
+                              const GatherOptions& options, TransportData* data);
+
+}  // namespace sunlit::light

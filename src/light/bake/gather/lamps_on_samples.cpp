@@ -1,0 +1,218 @@
+#include "light/bake/gather/lamps_on_samples.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "light/bake/samples/mesh_leaves.h"
+#include "sunlit/light/surfaces.h"
+
+namespace sunlit::light {
+namespace {
+
+/// Of what all lamps give: less is left out.
+constexpr float kLeftOut = 0.01f;
+/// lx of all that is left out beyond that: a tenth of what a moonless sky gives.
+constexpr float kNextToNothing_lx = 1e-4f;
+/// Points lie so far apart, at most, as a share of the distance to the lamp: its light, the cosine and 1 /
+/// d², then changes by less than a tenth from one to the next.
+constexpr float kSpacing = 0.3f;
+constexpr int kMostAcross = 8;
+
+/// Visits the middles of the across² equal triangles that a triangle falls into, by its own barycentric
+/// coordinates.
+template <typename Visit>
+void visitMiddles(int across, const Visit& visit) {
+  const float step = 1.0f / static_cast<float>(across);
+  for (int i = 0; i < across; ++i) {
+    for (int j = 0; i + j < across; ++j) {
+      const Eigen::Vector2f at(static_cast<float>(i), static_cast<float>(j));
+      const auto see = [&](float shift) {
+        const Eigen::Vector2f uv = step * (at + Eigen::Vector2f::Constant(shift));
+        visit(Eigen::Vector3f(1.0f - uv.sum(), uv.x(), uv.y()));
+      };
+      see(1.0f / 3.0f);
+      if (i + j + 1 < across) see(2.0f / 3.0f);
+    }
+  }
+}
+
+/// Visits points, evenly spread, of the part of a leaf that is nearest to its corner k, by barycentric
+/// coordinates of the leaf: the middle of that part, or 2 across² points.
+template <typename Visit>
+void visitPart(std::size_t k, int across, const Visit& visit) {
+  const auto corner = static_cast<Eigen::Index>(k);
+  if (across == 1) {
+    Eigen::Vector3f middle = Eigen::Vector3f::Constant(7.0f / 36.0f);  // of the part's area
+    middle[corner] = 22.0f / 36.0f;
+    return visit(middle);
+  }
+  // Corner, middle of an edge, middle of the leaf; and the same by the other edge.
+  const Eigen::Vector3f own = Eigen::Vector3f::Unit(corner), middle = Eigen::Vector3f::Constant(1.0f / 3.0f);
+  for (Eigen::Index side = 1; side <= 2; ++side) {
+    const Eigen::Vector3f edge = 0.5f * (own + Eigen::Vector3f::Unit((corner + side) % 3));
+    visitMiddles(across, [&](const Eigen::Vector3f& b) { visit(b[0] * own + b[1] * edge + b[2] * middle); });
+  }
+}
+
+/// What a triangle adds to a sample.
+struct Arrival {
+  std::uint32_t sample;
+  Eigen::Array3f light;  ///< lx m²
+};
+
+class LampsOnTriangles {
+ public:
+  LampsOnTriangles(const BakeScene& scene, const SceneSamples& samples, const std::vector<LampBeam>& lamps)
+      : scene_(scene), samples_(samples), lamps_(lamps) {}
+
+  void light(std::uint32_t triangle, std::vector<Arrival>* arrivals) {
+    const auto& roots = samples_.mesh.roots[triangle];
+    if (!LightMesh::isCell(roots[0]) && !LightMesh::isCell(roots[1])) return;
+    const auto& corners = scene_.geometry.triangles[triangle];
+    Eigen::AlignedBox3f box;
+    for (std::size_t k = 0; k < 3; ++k) {
+      at_.col(static_cast<Eigen::Index>(k)) = scene_.geometry.positions[corners[k]];
+      normals_.col(static_cast<Eigen::Index>(k)) = scene_.geometry.normals[corners[k]];
+      box.extend(scene_.geometry.positions[corners[k]]);
+    }
+    all_.resize(lamps_.size());
+    for (std::size_t i = 0; i < all_.size(); ++i) all_[i] = static_cast<std::uint32_t>(i);
+    choose(box, all_, &of_triangle_);
+    if (of_triangle_.empty()) return;
+    triangle_ = triangle;
+    whole_m2_ = 0.5f * (at_.col(1) - at_.col(0)).cross(at_.col(2) - at_.col(0)).norm();
+    for (int side = 0; side < 2; ++side) {
+      const std::uint32_t root = roots[static_cast<std::size_t>(side)];
+      if (!LightMesh::isCell(root)) continue;
+      face_ = sideNormal(scene_.geometry, triangle, side);
+      visitLeaves(samples_.mesh, root, Eigen::Matrix3f::Identity(),
+                  [&](const LightMesh::Cell& cell, const Eigen::Matrix3f& within) {
+                    lightLeaf(cell, within, arrivals);
+                  });
+    }
+  }
+
+ private:
+  /// Those of `from` that matter somewhere in `box`.
+  void choose(const Eigen::AlignedBox3f& box, const std::vector<std::uint32_t>& from,
+              std::vector<std::uint32_t>* chosen) {
+    at_most_.clear();
+    float certain = 0.0f, left_out = 0.0f;
+    for (const std::uint32_t i : from) {
+      const LampBeam::Bounds bounds = lamps_[i].within(box);
+      certain += bounds.low;
+      if (bounds.high > 0.0f) at_most_.emplace_back(bounds.high, i);
+    }
+    std::sort(at_most_.begin(), at_most_.end());
+    chosen->clear();
+    for (const auto& [high, lamp] : at_most_) {
+      left_out += high;
+      if (left_out > std::max(kLeftOut * certain, kNextToNothing_lx)) chosen->push_back(lamp);
+    }
+    std::sort(chosen->begin(), chosen->end());
+  }
+
+  void lightLeaf(const LightMesh::Cell& cell, const Eigen::Matrix3f& within, std::vector<Arrival>* arrivals) {
+    const Eigen::Matrix3f corners = at_ * within;
+    Eigen::AlignedBox3f box;
+    for (Eigen::Index k = 0; k < 3; ++k) box.extend(Eigen::Vector3f(corners.col(k)));
+    choose(box, of_triangle_, &of_leaf_);
+    if (of_leaf_.empty()) return;
+    const float part_m2 = whole_m2_ * std::abs(within.determinant()) / 3.0f;
+    std::array<Eigen::Array3f, 3> sums;
+    sums.fill(Eigen::Array3f::Zero());
+    for (const std::uint32_t lamp : of_leaf_) {
+      const float away = std::max(box.exteriorDistance(lamps_[lamp].position()), lamps_[lamp].radius_m());
+      const float longest = box.diagonal().norm();
+      // Of each corner's part, half as wide as the leaf.
+      const int across = std::clamp(
+          static_cast<int>(std::ceil(0.5f * longest / std::max(kSpacing * away, 1e-3f))), 1, kMostAcross);
+      for (std::size_t k = 0; k < 3; ++k) {
+        float points = 0.0f;
+        visitPart(k, across, [&](const Eigen::Vector3f& b) {
+          aim(lamp, within * b);
+          points += 1.0f;
+        });
+        weights_.push_back(part_m2 / points);
+        ends_.push_back(sights_.size());
+      }
+      cast(lamps_[lamp].castsShadows(), &sums);
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+      if (sums[k].maxCoeff() > 0.0f) arrivals->push_back({samples_.nearest_sample[cell.corner[k]], sums[k]});
+  }
+
+  /// Adds a ray from a point of the triangle to the lamp, unless it turns away.
+  void aim(std::uint32_t number, const Eigen::Vector3f& within) {
+    const LampBeam& lamp = lamps_[number];
+    const Eigen::Vector3f point = at_ * within;
+    const Eigen::Vector3f way = lamp.position() - point;
+    const float distance_m = way.norm();
+    if (face_.dot(way) <= 0.0f) return;
+    Eigen::Vector3f normal = normals_ * within;
+    if (normal.dot(face_) < 0.0f) normal = -normal;
+    if (!(normal.squaredNorm() > 1e-6f)) normal = face_;
+    const float cosine = normal.normalized().dot(way) / std::max(distance_m, 1e-6f);
+    if (!(cosine > 0.0f)) return;
+    const float clearance_m = rayClearance_m(point, distance_m);
+    const float reach = 1.0f - (lamp.radius_m() + clearance_m) / std::max(distance_m, 1e-6f);
+    sights_.push_back({point + clearance_m * face_, way, std::max(reach, 0.0f)});
+    light_.push_back(cosine * lamp.at(point));
+  }
+
+  /// Casts the rays that were aimed, and adds what arrives.
+  void cast(bool shadows, std::array<Eigen::Array3f, 3>* sums) {
+    hidden_.assign(sights_.size(), 0);
+    if (shadows) scene_.rays.hide(sights_, &hidden_);
+    std::size_t corner = 0;
+    for (std::size_t i = 0; i < sights_.size(); ++i) {
+      while (i >= ends_[corner]) ++corner;
+      if (!hidden_[i]) (*sums)[corner] += weights_[corner] * light_[i];
+    }
+    sights_.clear();
+    light_.clear();
+    weights_.clear();
+    ends_.clear();
+  }
+
+  const BakeScene& scene_;
+  const SceneSamples& samples_;
+  const std::vector<LampBeam>& lamps_;
+  std::uint32_t triangle_ = 0;
+  Eigen::Matrix3f at_, normals_;  ///< of the triangle's corners
+  Eigen::Vector3f face_;          ///< of the side that is lit
+  float whole_m2_ = 0.0f;
+  std::vector<std::uint32_t> all_, of_triangle_, of_leaf_;
+  std::vector<std::pair<float, std::uint32_t>> at_most_;
+  std::vector<BakeSight> sights_;
+  std::vector<Eigen::Array3f> light_;  ///< lx, of each sight if nothing hides the lamp
+  std::vector<std::uint8_t> hidden_;
+  std::vector<float> weights_;     ///< of each corner's points
+  std::vector<std::size_t> ends_;  ///< of each corner's rays
+};
+
+}  // namespace
+
+std::vector<Eigen::Array3f> lampsOnSamples(const BakeScene& scene, const SceneSamples& samples,
+                                           const std::vector<LampBeam>& lamps) {
+  constexpr std::size_t kBlock = 512;  // triangles, of one task
+  const std::size_t count = samples.mesh.roots.size();
+  std::vector<std::vector<Arrival>> arrivals((count + kBlock - 1) / kBlock);
+  tbb::parallel_for(std::size_t{0}, arrivals.size(), [&](std::size_t block) {
+    LampsOnTriangles work(scene, samples, lamps);
+    for (std::size_t t = block * kBlock; t < std::min(count, (block + 1) * kBlock); ++t)
+      work.light(static_cast<std::uint32_t>(t), &arrivals[block]);
+  });
+  std::vector<Eigen::Array3f> sums(samples.receivers.size(), Eigen::Array3f::Zero());
+  for (const std::vector<Arrival>& block : arrivals)
+    for (const Arrival& arrival : block) sums[arrival.sample] += arrival.light;
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    if (samples.areas_m2[i] > 0.0f) sums[i] /= samples.areas_m2[i];
+  return sums;
+}
+
+}  // namespace sunlit::light

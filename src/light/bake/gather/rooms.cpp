@@ -1,0 +1,317 @@
+#include "light/bake/gather/rooms.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "light/bake/samples/mesh_leaves.h"
+#include "light/patches/even_directions.h"
+#include "light/patches/random.h"
+#include "sunlit/light/surfaces.h"
+#include "sunlit/quantity/angle.h"
+
+namespace sunlit::light {
+namespace {
+
+constexpr std::size_t kPacket = RayPacket::kSize;
+/// Over the sphere. A patch of the sun that takes a twentieth of what a wall looks at is met by fifty of
+/// them; fewer where there are many rooms, so that the links of the first 780,000 take 800 MB at most, about.
+constexpr std::size_t kMostDirections = 2048, kFewestDirections = 512;
+constexpr std::size_t kMostLinks = 200'000'000;
+
+/// Puts together what was seen twice.
+void merge(std::vector<SampleSeen>* seen) {
+  std::stable_sort(seen->begin(), seen->end(),
+                   [](const SampleSeen& a, const SampleSeen& b) { return a.sample < b.sample; });
+  std::size_t kept = 0;
+  for (const SampleSeen& other : *seen) {
+    if (kept > 0 && (*seen)[kept - 1].sample == other.sample) {
+      (*seen)[kept - 1].weight += other.weight;
+    } else {
+      (*seen)[kept++] = other;
+    }
+  }
+  seen->resize(kept);
+}
+
+/// Returns where those below the horizon begin.
+std::uint32_t pack(const std::array<std::vector<SampleSeen>, 2>& seen, std::vector<BakedRooms::Link>* links,
+                   float* scale) {
+  float most = 1e-12f, all = 0.0f, packed = 0.0f;
+  for (const auto& half : seen)
+    for (const SampleSeen& other : half) most = std::max(most, other.weight);
+  std::uint32_t below = 0;
+  for (const auto& half : seen) {
+    below = static_cast<std::uint32_t>(links->size());
+    for (const SampleSeen& other : half) {
+      const auto root = static_cast<std::uint32_t>(std::lround(255.0f * std::sqrt(other.weight / most)));
+      links->push_back(BakedRooms::Link::of(other.sample, std::max(root, 1u)));
+      all += other.weight;
+      packed += BakedRooms::weightOf(links->back());
+    }
+  }
+  *scale = packed > 0.0f ? all / packed : 0.0f;
+  return below;
+}
+
+/// The part of a leaf that is nearest to one of its corners.
+struct LeafPart {
+  const Eigen::Matrix3f& corners;  ///< of the leaf, m in `map`
+  std::size_t nearest;             ///< of them
+  const Eigen::Vector3f& face;     ///< its normal, to the side that is lit
+  bool finely;                     ///< to be looked at
+  std::uint64_t key;               ///< of chance
+};
+
+/// Scattered over the part, for edges of shadows may run along any rows. Their shares are areas, m².
+void addPart(const LeafPart& part, std::vector<BakedRooms::Point>* points) {
+  constexpr float kEach_m2 = 0.01f;
+  constexpr int kMostOfPart = 24, kCoarsely = 2;
+  const Eigen::Vector3f own = part.corners.col(static_cast<Eigen::Index>(part.nearest));
+  const Eigen::Vector3f one = part.corners.col(static_cast<Eigen::Index>((part.nearest + 1) % 3)) - own;
+  const Eigen::Vector3f two = part.corners.col(static_cast<Eigen::Index>((part.nearest + 2) % 3)) - own;
+  const float part_m2 = one.cross(two).norm() / 6.0f;
+  const int count =
+      part.finely ? std::clamp(static_cast<int>(part_m2 / kEach_m2), 1, kMostOfPart) : kCoarsely;
+  const EvenPoints even(part.key);
+  for (int i = 0; i < count; ++i) {
+    // In a parallelogram, folded to the half that lies at the corner: one of the two triangles that meet in
+    // the middle of the leaf.
+    float u = even.at(static_cast<std::uint32_t>(i), 0), v = even.at(static_cast<std::uint32_t>(i), 1);
+    if (u + v > 1.0f) u = 1.0f - u, v = 1.0f - v;
+    const Eigen::Vector3f edge = 0.5f * (i % 2 == 0 ? one : two), middle = (one + two) / 3.0f;
+    const Eigen::Vector3f point = own + u * edge + v * middle;
+    const Eigen::Vector3f clear = point + rayClearance_m(point, 0.0f) * part.face;
+    points->push_back({clear.x(), clear.y(), clear.z(), part_m2 / static_cast<float>(count)});
+  }
+}
+
+// What is no room itself, such as the ground before a window, mostly lies in the sun as a whole, or not.
+constexpr std::uint32_t kMostOfRooms = 144, kMostOfOthers = 12;  ///< points of a source
+constexpr std::uint32_t kProbesOfRooms = 32, kProbesOfOthers = 4;
+
+/// Adds at most `most` of a source's points.
+void addSome(const std::vector<BakedRooms::Point>& points, std::uint32_t most, std::size_t number,
+             BakedRooms* rooms) {
+  const auto has = static_cast<std::uint32_t>(points.size()), kept = std::min(has, most);
+  float all = 0.0f;
+  for (std::uint32_t k = 0; k < kept; ++k) all += points[k * has / kept].share;
+  if (!(all > 0.0f)) return;
+  BakedRooms::Source& source = rooms->sources[number];
+  source.first_point = static_cast<std::uint32_t>(rooms->points.size());
+  source.points = kept;
+  source.probes = std::min(kept, most == kMostOfRooms ? kProbesOfRooms : kProbesOfOthers);
+  for (std::uint32_t k = 0; k < kept; ++k) {
+    rooms->points.push_back(points[k * has / kept]);
+    rooms->points.back().share /= all;
+  }
+}
+
+std::array<float, 3> stored(const Eigen::Array3f& rgb) {
+  return {rgb[0], rgb[1], rgb[2]};
+}
+
+}  // namespace
+
+struct RoomBaker::Direction {
+  Eigen::Vector3f towards;  ///< unit
+  int patch;
+};
+
+/// What a sample sees along many rays: numbers are sums of their weights.
+struct RoomBaker::View {
+  std::array<std::vector<SampleSeen>, 2> seen;  ///< above the horizon and below it
+  std::array<float, 2> hidden{};
+  std::array<float, SkyPatches::kCount> open{};
+
+  void add(const SampleSeen& other, float scattered, bool up) {
+    hidden[up ? 0 : 1] += other.weight;
+    seen[up ? 0 : 1].push_back({other.sample, other.weight * scattered});
+  }
+  /// Makes sums of weights illuminance for a luminance of 1 / π, with what fewer rays have told before.
+  void finish(const Receiver& receiver, std::size_t sample, TransportData* data) {
+    // Several times as many rays, but not along the edges of what is open.
+    constexpr float kNew = 2.0f / 3.0f;
+    const float all = std::accumulate(open.begin(), open.end(), hidden[0] + hidden[1]);
+    if (!(all > 0.0f)) return;
+    const float scale = receiver.open() / all;
+    std::array<float, SkyPatches::kCount> row{};
+    addTimes((1.0f - kNew) * data->direct.scales[sample], data->direct.row(sample), row.data());
+    for (std::size_t p = 0; p < row.size(); ++p) row[p] += kNew * kPiFloat * scale * open[p];
+    data->direct.set(sample, row.data());
+    for (std::size_t half = 0; half < 2; ++half) {
+      float& hides = (half == 0 ? data->above : data->below).hides[sample];
+      hides += kNew * (scale * hidden[half] - hides);
+      merge(&seen[half]);
+      for (SampleSeen& other : seen[half]) other.weight *= hides / hidden[half];
+    }
+  }
+};
+
+/// Not those in joints and gaps, which see but few others, close by.
+std::vector<std::uint32_t> RoomBaker::lookers() const {
+  std::vector<std::uint32_t> found;
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t i = 0; i < samples_.receivers.size(); ++i) {
+    const Receiver& receiver = samples_.receivers[i];
+    const SampleHits& seen = exchange_.seen[i];
+    if (!seen.walled_in || seen.inside || receiver.coarse || receiver.thin) continue;
+    others.clear();
+    for (const SampleAndByte hit : seen.hits) others.push_back(hit.sample());
+    std::sort(others.begin(), others.end());
+    const auto distinct = std::unique(others.begin(), others.end()) - others.begin();
+    if (2 * static_cast<std::size_t>(distinct) > others.size()) found.push_back(i);
+  }
+  return found;
+}
+
+std::vector<RoomBaker::View> RoomBaker::lookFrom(const std::uint32_t* lookers, std::size_t count,
+                                                 const std::vector<Direction>& directions) const {
+  std::array<Receiver, kPacket> receivers;
+  for (std::size_t i = 0; i < count; ++i) receivers[i] = samples_.receivers[lookers[i]];
+  const ReceiverGroup group(receivers.data(), static_cast<int>(count));
+  std::vector<View> views(count);
+  HitPacket hits;
+  float weights[kPacket];
+  for (std::size_t r = 0; r < directions.size(); ++r) {
+    const auto& [towards, patch] = directions[r];
+    const ReceiverGroup::Lanes lanes = group.weigh(towards, weights);
+    if (lanes == 0) continue;
+    group.cast(scene_.rays, {r, towards, lanes}, &hits);
+    for (int lane = 0; lane < group.count(); ++lane) {
+      if (!ReceiverGroup::has(lanes, lane)) continue;
+      View& view = views[static_cast<std::size_t>(lane)];
+      if (hits.triangle[lane] == HitPacket::kNothing) {
+        view.open[static_cast<std::size_t>(patch)] += weights[lane];
+        continue;
+      }
+      const std::uint32_t met = sampleAt(scene_, samples_, {hits, lane, towards});
+      if (met == LightMesh::kNone) continue;
+      const std::uint32_t from = exchange_.usefulBeside(met);
+      view.add({from, weights[lane]}, exchange_.scattered(from, towards), patch != SkyPatches::kBelow);
+    }
+  }
+  return views;
+}
+
+void RoomBaker::look(TransportData* data) const {
+  BakedRooms& rooms = data->rooms;
+  rooms.samples = lookers();
+  const std::size_t count = rooms.samples.size();
+  if (count == 0) return;
+  std::vector<Direction> directions;
+  for (const Eigen::Vector3f& towards :
+       evenDirections(std::clamp(2 * kMostLinks / count, kFewestDirections, kMostDirections)))
+    directions.push_back({towards, SkyPatches::patchAt(towards)});
+  std::vector<std::vector<BakedRooms::Link>> links(count);
+  rooms.below.resize(count);
+  rooms.scales.resize(count);
+  tbb::parallel_for(std::size_t{0}, (count + kPacket - 1) / kPacket, [&](std::size_t p) {
+    const std::size_t first = p * kPacket;
+    std::vector<View> views =
+        lookFrom(rooms.samples.data() + first, std::min(kPacket, count - first), directions);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const std::uint32_t sample = rooms.samples[first + i];
+      views[i].finish(samples_.receivers[sample], sample, data);
+      std::vector<BakedRooms::Link>& packed = links[first + i];
+      rooms.below[first + i] = pack(views[i].seen, &packed, &rooms.scales[first + i]);
+    }
+  });
+  std::size_t sum = 0;
+  for (const auto& of_room : links) sum += of_room.size();
+  rooms.links.reserve(sum);
+  for (std::size_t room = 0; room < count; ++room) {
+    const auto start = static_cast<std::uint32_t>(rooms.links.size());
+    rooms.first.push_back(start);
+    rooms.below[room] += start;
+    rooms.links.insert(rooms.links.end(), links[room].begin(), links[room].end());
+    std::vector<BakedRooms::Link>().swap(links[room]);
+  }
+  rooms.first.push_back(static_cast<std::uint32_t>(rooms.links.size()));
+}
+
+void RoomBaker::finish(const Coefficients& mirrored, BakedRooms* rooms) const {
+  rooms->mirrored.resize(rooms->samples.size());
+  for (std::size_t room = 0; room < rooms->samples.size(); ++room)
+    rooms->mirrored.copy(mirrored, rooms->samples[room], room);
+  addSources(rooms);
+  addPoints(rooms);
+}
+
+void RoomBaker::addSources(BakedRooms* rooms) const {
+  std::vector<bool> seen(samples_.receivers.size(), false);
+  for (const BakedRooms::Link link : rooms->links) seen[link.sample()] = true;
+  for (std::uint32_t i = 0; i < seen.size(); ++i) {
+    if (!seen[i]) continue;
+    const Sending sends = exchange_.sending(i);
+    rooms->sources.push_back({i, sends.other, stored(sends.direct), stored(sends.bounced),
+                              stored(sends.through), stored(samples_.receivers[i].normal.array()), 0, 0, 0});
+  }
+}
+
+void RoomBaker::addPoints(BakedRooms* rooms) const {
+  std::vector<std::uint32_t> source_of(samples_.receivers.size(), LightMesh::kNone);
+  std::vector<std::uint32_t> most(rooms->sources.size(), kMostOfOthers);
+  for (std::uint32_t s = 0; s < rooms->sources.size(); ++s) {
+    const BakedRooms::Source& source = rooms->sources[s];
+    const Receiver& receiver = samples_.receivers[source.sample];
+    if (source.other == LightMesh::kNone && !receiver.coarse && !receiver.thin) source_of[source.sample] = s;
+    if (std::binary_search(rooms->samples.begin(), rooms->samples.end(), source.sample))
+      most[s] = kMostOfRooms;
+  }
+  std::vector<std::vector<BakedRooms::Point>> points(rooms->sources.size());
+  for (std::uint32_t t = 0; t < samples_.mesh.roots.size(); ++t) {
+    const auto& v = scene_.geometry.triangles[t];
+    Eigen::Matrix3f at;
+    for (Eigen::Index k = 0; k < 3; ++k)
+      at.col(k) = scene_.geometry.positions[v[static_cast<std::size_t>(k)]];
+    for (int side = 0; side < 2; ++side) {
+      const std::uint32_t root = samples_.mesh.roots[t][static_cast<std::size_t>(side)];
+      if (!LightMesh::isCell(root)) continue;
+      const Eigen::Vector3f face = sideNormal(scene_.geometry, t, side);
+      const auto addLeaf = [&](const LightMesh::Cell& cell, const Eigen::Matrix3f& within) {
+        const Eigen::Matrix3f corners = at * within;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::uint32_t s = source_of[samples_.nearest_sample[cell.corner[k]]];
+          if (s == LightMesh::kNone) continue;
+          const std::uint64_t key = std::uint64_t{s} << 32 | points[s].size();
+          addPart({corners, k, face, most[s] == kMostOfRooms, key}, &points[s]);
+        }
+      };
+      visitLeaves(samples_.mesh, root, Eigen::Matrix3f::Identity(), addLeaf);
+    }
+  }
+  tbb::parallel_for(std::size_t{0}, points.size(),
+                    [&](std::size_t s) { dropHidden(rooms->sources[s], &points[s]); });
+  for (std::size_t s = 0; s < points.size(); ++s) {
+    addSome(points[s], most[s], s, rooms);
+    std::vector<BakedRooms::Point>().swap(points[s]);
+  }
+}
+
+/// A floor goes on below the wall that stands on it: what lies there is of no room.
+void RoomBaker::dropHidden(const BakedRooms::Source& source, std::vector<BakedRooms::Point>* points) const {
+  const Eigen::Vector3f away = Eigen::Map<const Eigen::Vector3f>(source.normal.data());
+  std::vector<BakedRooms::Point> open;
+  RayPacket rays;
+  HitPacket hits;
+  for (std::size_t first = 0; first < points->size(); first += kPacket) {
+    const std::size_t count = std::min(kPacket, points->size() - first);
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {
+      const BakedRooms::Point& point = (*points)[first + std::min(lane, count - 1)];
+      rays.set(lane, {point.x, point.y, point.z}, away, lane < count);
+    }
+    scene_.rays.cast(rays, &hits);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const bool free = hits.triangle[lane] == HitPacket::kNothing;
+      if (free || sampleAt(scene_, samples_, {hits, static_cast<int>(lane), away}) != LightMesh::kNone)
+        open.push_back((*points)[first + lane]);
+    }
+  }
+  points->swap(open);
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,392 @@
+#include "light/bake/samples/mesh_builder.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "light/bake/samples/burial_test.h"
+#include "sunlit/quantity/photometry.h"
+
+namespace sunlit::light {
+namespace {
+
+constexpr float kClear_m = 5e-3f;    ///< of a receiver above its surface
+constexpr float kInwards_m = 0.02f;  ///< of a receiver on an open edge, away from the edge
+/// Longest edge of a cell near which anything stands: no car may lie unseen amid it.
+constexpr float kCoarsest_m = 16.0f;
+/// Longest edge of a cell where nothing does.
+constexpr float kEmptiest_m = 128.0f;
+/// Longest edge of a cell, in harmonic mean distances of what its corners see.
+constexpr float kReachShare = 0.6f;
+/// Longest edge of a cell, in distances of the closest thing that its corners see.
+constexpr float kNearShare = 0.7f;
+/// Edges shorter than this are not halved for kNearShare.
+constexpr float kNearLimit_m = 2.0f;
+/// Cosine between planes: ground beside ground that slopes more is no thing that stands on it.
+constexpr float kSamePlane = 0.9f;
+/// Difference of light between the corners of a cell, in means of it, from which on it may not be larger.
+constexpr float kSmooth = 0.6f;
+/// How many times larger a cell of even light may be at most: something thin may stand amid it.
+constexpr float kMostLarger = 10.0f;
+/// How many times finer than elsewhere cells may become at walls.
+constexpr float kFinerAtWalls = 4.0f;
+/// Shortest edge that may be halved, as a share of its distance from the origin.
+constexpr float kLeastShare = 2e-6f;
+/// Urgency of a cell with a wall amid it, where light leaks.
+constexpr float kCutUrgency = 4.0f;
+/// Height of normals: below it, as on trunks, leaves nearby count as walls do; ground has too many above it.
+constexpr float kSteep = 0.5f;
+constexpr std::size_t kNodesAtOnce = RayPacket::kSize;
+
+std::uint64_t pairKey(std::uint32_t a, std::uint32_t b) {
+  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
+}
+
+std::uint64_t placeKey(const Eigen::Vector3f& position) {
+  std::uint64_t key = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto step = static_cast<std::int64_t>(std::lround(static_cast<double>(position[axis]) * 1000.0));
+    key = (key ^ static_cast<std::uint64_t>(step & 0x1fffffffffff)) * 0x9e3779b97f4a7c15ull;
+    key ^= key >> 29;
+  }
+  return key;
+}
+
+}  // namespace
+
+Receiver MeshNode::receiver() const {
+  const Eigen::Vector3f pull = inwards * (kInwards_m / static_cast<float>(std::max(cells, 1)));
+  const Eigen::Vector3f origin = position + pull;
+  Receiver receiver;
+  receiver.origins.fill(origin);
+  receiver.lifts.fill(kClear_m * (face.isZero() ? normal : face));
+  receiver.normal = normal;
+  receiver.face = face;
+  return receiver;
+}
+
+std::uint32_t NodeIndex::at(const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
+                            const Eigen::Vector3f& face) {
+  const Eigen::Vector3f bounding = boundingFace(normal, face);
+  const auto added = static_cast<std::uint32_t>(nodes.size());
+  const auto [entry, fresh] = first_.try_emplace(placeKey(position), added);
+  std::uint32_t last = entry->second;
+  if (!fresh) {
+    for (std::uint32_t at = entry->second; at != LightMesh::kNone; at = next_[at]) {
+      if (nodes[at].normal.dot(normal) > kSharedCosine && sameFace(nodes[at].face, bounding)) return at;
+      last = at;
+    }
+    next_[last] = added;
+  }
+  MeshNode node;
+  node.position = position;
+  node.normal = normal;
+  node.face = bounding;
+  nodes.push_back(node);
+  next_.push_back(LightMesh::kNone);
+  return added;
+}
+
+Occupancy::Occupancy(const Geometry& geometry, const std::vector<TriangleTraits>& traits) {
+  constexpr float kTerrain_m2 = 60.0f;  ///< larger triangles are no things on the ground, but the ground
+  for (std::uint32_t t = 0; t < traits.size(); ++t) {
+    if (isLeaf(traits[t].kind)) continue;
+    const auto& corners = geometry.triangles[t];
+    const Eigen::Vector3f a = geometry.positions[corners[0]];
+    const Eigen::Vector3f b = geometry.positions[corners[1]], c = geometry.positions[corners[2]];
+    if (0.5f * (b - a).cross(c - a).norm() > kTerrain_m2) continue;
+    const Eigen::Vector3f middle = (a + b + c) / 3.0f;
+    squares_.insert(square(step(middle.x()), step(middle.y())));
+  }
+}
+
+bool Occupancy::near(const std::vector<MeshNode>& nodes, const LightMesh::Cell& cell) const {
+  Eigen::AlignedBox3f box;
+  for (std::uint32_t node : cell.corner) box.extend(nodes[node].position);
+  constexpr int kMost = 32;  // squares an axis; larger cells are halved in any case
+  const int left = step(box.min().x()) - 1, right = std::min(step(box.max().x()) + 1, left + kMost);
+  const int low = step(box.min().y()) - 1, high = std::min(step(box.max().y()) + 1, low + kMost);
+  for (int x = left; x <= right; ++x) {
+    for (int y = low; y <= high; ++y) {
+      if (squares_.count(square(x, y)) != 0) return true;
+    }
+  }
+  return false;
+}
+
+MeshBuilder::MeshBuilder(const BakeScene& scene, const ShiningSurfaces& shining)
+    : geometry_(scene.geometry),
+      rays_(scene.rays),
+      traits_(scene.traits),
+      shining_(shining),
+      occupied_(scene.geometry, scene.traits) {
+  const SkyPatches patches(1);
+  const std::vector<SkyPatches::Ray>& all = patches.coarseRays();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    // Half of the directions tell distances well enough.
+    if (SkyPatches::inHalf(static_cast<int>(i))) directions_.push_back(all[i]);
+  }
+  const auto rootOf = [&](bool sealed) { return sealed ? LightMesh::kSealed : LightMesh::kNone; };
+  for (const TriangleTraits& t : traits_) mesh.roots.push_back({rootOf(t.sealed[0]), rootOf(t.sealed[1])});
+}
+
+void MeshBuilder::plant(std::uint32_t triangle, int side) {
+  const Eigen::Vector3f flat = sideNormal(geometry_, triangle, side);
+  LightMesh::Cell cell;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t v = geometry_.triangles[triangle][k];
+    // As pictures are shaded.
+    Eigen::Vector3f normal = geometry_.normals[v];
+    if (normal.dot(flat) < 0.0f) normal = -normal;
+    if (normal.isZero()) normal = flat;
+    cell.corner[k] = index.at(geometry_.positions[v], normal, flat);
+  }
+  const auto number = static_cast<std::uint32_t>(mesh.cells.size());
+  mesh.roots[triangle][static_cast<std::size_t>(side)] = number;
+  mesh.cells.push_back(cell);
+  addLeaf(number);
+}
+
+void MeshBuilder::addLeaf(std::uint32_t number) {
+  const LightMesh::Cell& cell = mesh.cells[number];
+  Eigen::Vector3f centre = Eigen::Vector3f::Zero();
+  for (std::uint32_t node : cell.corner) centre += index.nodes[node].position / 3.0f;
+  for (std::uint32_t n : cell.corner) {
+    MeshNode& node = index.nodes[n];
+    node.inwards += (centre - node.position).normalized();
+    ++node.cells;
+  }
+  active_.push_back(number);
+}
+
+/// From those nodes that have not yet.
+void MeshBuilder::lookAround() {
+  std::vector<MeshNode>& nodes = index.nodes;
+  const std::size_t first_node = looked_;
+  const std::size_t packets = (nodes.size() - first_node + kNodesAtOnce - 1) / kNodesAtOnce;
+  tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
+    const std::size_t begin = first_node + p * kNodesAtOnce;
+    const int count = static_cast<int>(std::min(kNodesAtOnce, nodes.size() - begin));
+    std::array<Receiver, kNodesAtOnce> receivers;
+    std::array<float, kNodesAtOnce> all{}, near{}, nearest;
+    std::array<BurialTest, kNodesAtOnce> burials;
+    std::array<Eigen::Vector4f, kNodesAtOnce> open;
+    open.fill(Eigen::Vector4f::Zero());
+    nearest.fill(1e9f);
+    for (int i = 0; i < count; ++i)
+      receivers[static_cast<std::size_t>(i)] = nodes[begin + static_cast<std::size_t>(i)].receiver();
+    probe(rays_, directions_, {receivers.data(), count},
+          [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
+            const auto i = static_cast<std::size_t>(lane);
+            all[i] += weight;
+            const std::uint32_t hit = hits.triangle[i];
+            burials[i].add({receivers[i].normal, directions_[r].towards, weight, hits, lane}, geometry_,
+                           traits_);
+            if (hit == HitPacket::kNothing) {
+              open[i] += weight * directions_[r].towards.homogeneous();
+              return;
+            }
+            if (isLeaf(traits_[hit].kind) && receivers[i].normal.z() > kSteep) return;
+            near[i] += weight / std::max(hits.distance[i], 0.05f);
+            if (std::abs(geometry_.planes[hit].normal.dot(receivers[i].normal)) < kSamePlane)
+              nearest[i] = std::min(nearest[i], hits.distance[i]);
+          });
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      MeshNode& node = nodes[begin + i];
+      node.valid = !burials[i].buried();
+      node.reach_m = near[i] > 0.0f ? all[i] / near[i] : 1e9f;
+      node.nearest_m = nearest[i];
+      if (all[i] > 0.0f) node.open = open[i] / all[i];
+      if (!shining_.any()) continue;
+      const ShiningSurfaces::Light light = shining_.at(receivers[i], begin + i);
+      node.shone_lx = LinearRgb(light.above + light.below).luminance();
+      node.shining_m = light.distance_m;
+    }
+  });
+  for (; looked_ < nodes.size(); ++looked_) valid_ += nodes[looked_].valid ? 1 : 0;
+}
+
+/// By how much light differs between the corners, all of them valid, in steps that may be interpolated.
+float MeshBuilder::variation(const LightMesh::Cell& cell) const {
+  constexpr float kLeastOpen = 0.05f;
+  float most = 0.0f, mean = 0.0f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector4f& here = index.nodes[cell.corner[k]].open;
+    const Eigen::Vector4f& next = index.nodes[cell.corner[(k + 1) % 3]].open;
+    most = std::max(most, (here - next).norm());
+    mean += here[3] / 3.0f;
+  }
+  return most / (kSmooth * std::max(mean, kLeastOpen));
+}
+
+/// By how much what shines lights the corners, valid ones among them, differently, in steps that may be
+/// interpolated; and no less than by how far off it is, lest a pool of light lies unseen amid the cell.
+float MeshBuilder::shoneUnevenly(const LightMesh::Cell& cell) const {
+  constexpr float kSmoothShine = 0.4f, kFaint_lx = 0.05f;
+  float least = 1e9f, most = 0.0f, longest = 0.0f, nearest = 1e9f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const MeshNode& node = index.nodes[cell.corner[k]];
+    longest = std::max(longest, (node.position - index.nodes[cell.corner[(k + 1) % 3]].position).norm());
+    if (!node.valid) continue;
+    least = std::min(least, node.shone_lx);
+    most = std::max(most, node.shone_lx);
+    nearest = std::min(nearest, node.shining_m);
+  }
+  if (!(most > 0.0f)) return 0.0f;
+  const float uneven = (most - least) / (kSmoothShine * std::max(0.5f * (most + least), kFaint_lx));
+  return std::max(uneven, longest / (kNearShare * nearest));
+}
+
+/// Above 1 where the cell must be halved.
+float MeshBuilder::urgency(const LightMesh::Cell& cell, float finest_m, Pass pass) const {
+  float longest = 0.0f, reach = 1e9f, nearest = 1e9f;
+  int valid = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const MeshNode& node = index.nodes[cell.corner[k]];
+    longest = std::max(longest, (node.position - index.nodes[cell.corner[(k + 1) % 3]].position).norm());
+    if (!node.valid) continue;
+    ++valid;
+    reach = std::min(reach, node.reach_m);
+    nearest = std::min(nearest, node.nearest_m);
+  }
+  if (longest <= finest_m) return 0.0f;
+  const float coarse = longest / (occupied_.near(index.nodes, cell) ? kCoarsest_m : kEmptiest_m);
+  if (valid == 0) return coarse;
+  if (valid < 3) reach = std::min(reach, finest_m * 2.0f);
+  const float least = 1.0f / kMostLarger;
+  const float share = pass == Pass::kAll || valid < 3 ? 1.0f : std::clamp(variation(cell), least, 1.0f);
+  return std::max({coarse, shoneUnevenly(cell), share * longest / std::max(finest_m, kReachShare * reach),
+                   share * longest / std::max(kNearLimit_m, kNearShare * nearest)});
+}
+
+/// Whether a wall stands between the corners of a small cell: light on both its sides would be mixed there.
+bool MeshBuilder::cut(const LightMesh::Cell& cell, float finest_m) const {
+  constexpr float kAbove_m = 0.03f;  // over bumps of the ground
+  float longest = 0.0f, nearest = 1e9f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const MeshNode& node = index.nodes[cell.corner[k]];
+    longest = std::max(longest, (node.position - index.nodes[cell.corner[(k + 1) % 3]].position).norm());
+    nearest = std::min(nearest, node.nearest_m);
+  }
+  if (longest <= finest_m / kFinerAtWalls || nearest > 2.0f * longest) return false;
+  RayPacket packet;
+  HitPacket hits;
+  for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
+    const MeshNode& from = index.nodes[cell.corner[i % 3]];
+    const MeshNode& to = index.nodes[cell.corner[(i + 1) % 3]];
+    const Eigen::Vector3f origin = from.position + kAbove_m * from.normal;
+    const Eigen::Vector3f way = to.position + kAbove_m * to.normal - origin;
+    packet.set(i, origin, way, i < 3);
+  }
+  rays_.cast(packet, &hits);
+  for (int i = 0; i < 3; ++i) {
+    const std::uint32_t hit = hits.triangle[i];
+    if (hit != HitPacket::kNothing && hits.distance[i] < 1.0f && !isLeaf(traits_[hit].kind)) return true;
+  }
+  return false;
+}
+
+std::uint32_t MeshBuilder::middle(std::uint32_t a, std::uint32_t b) {
+  const auto [entry, fresh] = middles_.try_emplace(pairKey(a, b), 0u);
+  if (fresh) {
+    const MeshNode& from = index.nodes[a];
+    const MeshNode& to = index.nodes[b];
+    const Eigen::Vector3f position = 0.5f * (from.position + to.position);
+    const Eigen::Vector3f normal = (from.normal + to.normal).normalized();
+    const auto faceOf = [](const MeshNode& node) { return node.face.isZero() ? node.normal : node.face; };
+    entry->second = index.at(position, normal, (faceOf(from) + faceOf(to)).normalized());
+  }
+  return entry->second;
+}
+
+void MeshBuilder::split(std::uint32_t number) {
+  const std::array<std::uint32_t, 3> corner = mesh.cells[number].corner;
+  std::size_t longest = 0;
+  float length = 0.0f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float edge =
+        (index.nodes[corner[k]].position - index.nodes[corner[(k + 1) % 3]].position).squaredNorm();
+    if (edge > length) {
+      length = edge;
+      longest = k;
+    }
+  }
+  const std::uint32_t from = corner[longest], to = corner[(longest + 1) % 3],
+                      apex = corner[(longest + 2) % 3];
+  // Below some 16 steps of single precision the halves would not come out shorter: it would never end.
+  if (std::sqrt(length) < kLeastShare * index.nodes[from].position.cwiseAbs().maxCoeff()) return;
+  const std::uint32_t between = middle(from, to);
+  const auto child = static_cast<std::uint32_t>(mesh.cells.size());
+  mesh.cells.push_back({{from, between, apex}});
+  mesh.cells.push_back({{between, to, apex}});
+  mesh.cells[number].corner = {LightMesh::kInner | child, static_cast<std::uint32_t>(longest), 0};
+  addLeaf(child);
+  addLeaf(child + 1);
+}
+
+void MeshBuilder::refine(const RefineLimits& limits, const std::function<void(double)>& progress) {
+  for (std::uint32_t t = 0; t < geometry_.triangles.size(); ++t) {
+    if (traits_[t].kind != TriangleKind::kLarge) continue;
+    for (int side = 0; side < 2; ++side) {
+      if (traits_[t].used[side]) plant(t, side);
+    }
+  }
+  for (const Pass pass : {Pass::kVaried, Pass::kAll}) {
+    while (!active_.empty()) {
+      lookAround();
+      progress(std::min(1.0, static_cast<double>(valid_) / static_cast<double>(limits.nodes)));
+      halveMostUrgent(limits, pass);
+    }
+    active_.swap(left_);
+  }
+  findHanging();
+}
+
+void MeshBuilder::halveMostUrgent(const RefineLimits& limits, Pass pass) {
+  // Every halving makes at most one node.
+  const std::size_t room = limits.nodes > valid_ ? limits.nodes - valid_ : 0;
+  if (room == 0) return active_.clear();
+  std::vector<float> urgencies(active_.size());
+  tbb::parallel_for(std::size_t{0}, active_.size(), [&](std::size_t i) {
+    const LightMesh::Cell& cell = mesh.cells[active_[i]];
+    urgencies[i] = urgency(cell, limits.finest_m, pass);
+    if (urgencies[i] <= 1.0f && cut(cell, limits.finest_m)) urgencies[i] = kCutUrgency;
+  });
+  std::vector<Split> splits;
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    if (urgencies[i] > 1.0f) {
+      splits.push_back({active_[i], urgencies[i]});
+    } else if (pass == Pass::kVaried) {
+      left_.push_back(active_[i]);
+    }
+  }
+  active_.clear();
+  if (splits.size() > room) {
+    std::sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) {
+      return a.urgency != b.urgency ? a.urgency > b.urgency : a.cell < b.cell;
+    });
+    splits.resize(room);
+  }
+  for (const Split& s : splits) split(s.cell);
+}
+
+void MeshBuilder::hang(std::uint32_t a, std::uint32_t b) {
+  const auto entry = middles_.find(pairKey(a, b));
+  if (entry == middles_.end()) return;
+  const std::uint32_t between = entry->second;
+  if (hangs_between[between][0] != LightMesh::kNone) return;
+  hangs_between[between] = {a, b};
+  hang(a, between);
+  hang(between, b);
+}
+
+void MeshBuilder::findHanging() {
+  hangs_between.assign(index.nodes.size(), {LightMesh::kNone, LightMesh::kNone});
+  for (const LightMesh::Cell& cell : mesh.cells) {
+    if (cell.inner()) continue;
+    for (std::size_t k = 0; k < 3; ++k) hang(cell.corner[k], cell.corner[(k + 1) % 3]);
+  }
+}
+
+}  // namespace sunlit::light

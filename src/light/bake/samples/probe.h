@@ -1,0 +1,124 @@
+/// Rays of one fixed pattern around points of the scene, many points at a time.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "light/bake/samples/bake_rays.h"
+#include "light/patches/sky_patches.h"
+
+namespace sunlit::light {
+
+/// Normals at least so near to one another, by their cosine, may share what is gathered: within 23°, where
+/// light from all around differs by less than 4 %.
+constexpr float kSharedCosine = 0.92f;
+
+/// Receiver::face of a surface with normal `face` that is shaded by `normal`, both unit.
+inline Eigen::Vector3f boundingFace(const Eigen::Vector3f& normal, const Eigen::Vector3f& face) {
+  return normal.dot(face) < kSharedCosine ? face : Eigen::Vector3f(Eigen::Vector3f::Zero());
+}
+
+/// Whether two values of Receiver::face are about the same.
+inline bool sameFace(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  constexpr float kFar = 2.0f - 2.0f * kSharedCosine;  // squared distance of unit vectors
+  return (a - b).squaredNorm() < kFar;
+}
+
+/// A point that gathers light, or some that do it together.
+struct Receiver {
+  static constexpr int kOrigins = 4;
+  std::array<Eigen::Vector3f, kOrigins> origins;  ///< on the surface; rays take them in turn
+  std::array<Eigen::Vector3f, kOrigins> lifts;    ///< from there to where rays of the lit side start
+  Eigen::Vector3f normal;                         ///< unit, that the light is shaded by
+  /// Unit normal of the surface itself where `normal` leans far from it (see boundingFace()), else zero: what
+  /// lies below the surface gives no light, though it lies before `normal`.
+  Eigen::Vector3f face = Eigen::Vector3f::Zero();
+  float transmission = 0.0f;  ///< share of its light that it takes from behind
+  bool thin = false;          ///< of a sheet: rays leave from either side of it
+  bool coarse = false;        ///< the coarse rays are enough: there are many like it
+
+  /// What light from a direction counts, for a unit of solid angle; over the sphere it adds up to π times
+  /// open().
+  float weight(const Eigen::Vector3f& towards) const {
+    if (face.dot(towards) < 0.0f) return 0.0f;
+    const float cosine = normal.dot(towards);
+    return cosine > 0.0f ? (1.0f - transmission) * cosine : -transmission * cosine;
+  }
+  /// Share of what lies before `normal`, by cosine, that lies before `face` too.
+  float open() const { return face.isZero() ? 1.0f : 0.5f * (1.0f + normal.dot(face)); }
+  Eigen::Vector3f start(std::size_t turn, const Eigen::Vector3f& towards) const {
+    const Eigen::Vector3f& origin = origins[turn % kOrigins];
+    const Eigen::Vector3f& lift = lifts[turn % kOrigins];
+    return lift.dot(towards) > 0.0f || !thin ? Eigen::Vector3f(origin + lift)
+                                             : Eigen::Vector3f(origin - lift);
+  }
+};
+
+/// Up to a packet of receivers whose rays of one direction travel together: they should be neighbours.
+class ReceiverGroup {
+ public:
+  /// One bit for each receiver.
+  using Lanes = std::uint32_t;
+  static bool has(Lanes lanes, int receiver) { return (lanes >> receiver & 1u) != 0; }
+
+  /// Keeps `receivers`, of which there are 1 … RayPacket::kSize.
+  ReceiverGroup(const Receiver* receivers, int count) : receivers_(receivers), count_(count) {}
+  int count() const { return count_; }
+  /// Those whose coarse rays are enough.
+  Lanes coarse() const {
+    Lanes lanes = 0;
+    for (int i = 0; i < count_; ++i) lanes |= Lanes{receivers_[i].coarse} << i;
+    return lanes;
+  }
+
+  /// Sets Receiver::weight() of each receiver; zero beyond them. Returns those that it is not zero for.
+  Lanes weigh(const Eigen::Vector3f& towards, float* weights) const {
+    Lanes lanes = 0;
+    for (int i = 0; i < RayPacket::kSize; ++i) {
+      weights[i] = i < count_ ? receivers_[i].weight(towards) : 0.0f;
+      if (weights[i] > 0.0f) lanes |= Lanes{1} << i;
+    }
+    return lanes;
+  }
+  /// Rays of one direction.
+  struct Shot {
+    std::size_t turn;  ///< whose it is among the origins of each receiver
+    const Eigen::Vector3f& towards;
+    Lanes lanes;  ///< receivers that cast one
+  };
+  void cast(const BakeRays& scene, const Shot& shot, HitPacket* hits) const {
+    const Eigen::Vector3f& towards = shot.towards;
+    RayPacket packet;
+    for (int i = 0; i < RayPacket::kSize; ++i) {
+      packet.set(static_cast<std::size_t>(i), receivers_[std::min(i, count_ - 1)].start(shot.turn, towards),
+                 towards, has(shot.lanes, i));
+    }
+    scene.cast(packet, hits);
+  }
+
+ private:
+  const Receiver* receivers_;
+  int count_;
+};
+
+/// Casts each of `rays` that counts for a receiver, and calls visit(i, ray, weight, hits): the index of the
+/// receiver
+/// (< 16), that of the ray, Receiver::weight() times the ray's solid angle, and the hits, of which lane i is
+/// the receiver's.
+template <typename Visit>
+void probe(const BakeRays& scene, const std::vector<SkyPatches::Ray>& rays, const ReceiverGroup& receivers,
+           const Visit& visit) {
+  HitPacket hits;
+  float weights[RayPacket::kSize];
+  for (std::size_t r = 0; r < rays.size(); ++r) {
+    const ReceiverGroup::Lanes lanes = receivers.weigh(rays[r].towards, weights);
+    if (lanes == 0) continue;
+    receivers.cast(scene, {r, rays[r].towards, lanes}, &hits);
+    for (int i = 0; i < receivers.count(); ++i) {
+      if (ReceiverGroup::has(lanes, i)) visit(i, r, weights[i] * rays[r].solid_angle, hits);
+    }
+  }
+}
+
+}  // namespace sunlit::light

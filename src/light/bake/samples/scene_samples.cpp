@@ -1,0 +1,355 @@
+#include "light/bake/samples/scene_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "light/bake/samples/sample_cloud.h"
+#include "light/bake/samples/sample_order.h"
+#include "light/bake/samples/sample_paint.h"
+
+namespace sunlit::light {
+namespace {
+
+using Shares = std::vector<LightMesh::Share>;
+
+/// How samples are spread over small triangles.
+struct CloudRule {
+  TriangleKind kind;
+  float spacing_m;
+  float cosine;   ///< of normals that may share a sample
+  float depth_m;  ///< how far off its plane such may lie
+  float merge_m;  ///< vertices in a cube of this size share a node
+};
+constexpr CloudRule kSmallRule{TriangleKind::kSmall, 0.12f, 0.9f, 0.04f, 0.03f};
+constexpr CloudRule kFoliageRule{TriangleKind::kFoliage, 1.0f, 0.5f, 2.0f, 0.4f};
+constexpr float kClear_m = 5e-3f;
+constexpr std::size_t kMostShares = 6;
+
+/// Equal samples put together, the smallest shares dropped, sum 1.
+void tidy(Shares* shares) {
+  std::sort(shares->begin(), shares->end(),
+            [](const LightMesh::Share& a, const LightMesh::Share& b) { return a.sample < b.sample; });
+  Shares merged;
+  for (const LightMesh::Share& share : *shares) {
+    if (!merged.empty() && merged.back().sample == share.sample) {
+      merged.back().weight += share.weight;
+    } else {
+      merged.push_back(share);
+    }
+  }
+  std::stable_sort(merged.begin(), merged.end(),
+                   [](const LightMesh::Share& a, const LightMesh::Share& b) { return a.weight > b.weight; });
+  if (merged.size() > kMostShares) merged.resize(kMostShares);
+  float sum = 0.0f;
+  for (const LightMesh::Share& share : merged) sum += share.weight;
+  for (LightMesh::Share& share : merged) share.weight /= sum;
+  *shares = std::move(merged);
+}
+
+class Sampler {
+ public:
+  Sampler(const BakeScene& scene, const ShiningSurfaces& shining)
+      : geometry_(scene.geometry), traits_(scene.traits), builder_(scene, shining) {}
+
+  SceneSamples sample(const RefineLimits& limits, const std::function<void(double)>& progress) {
+    const SampleCloud small = cloudOf(kSmallRule), foliage = cloudOf(kFoliageRule);
+    const std::size_t taken = small.receivers().size() + foliage.receivers().size() + countCardSides();
+    builder_.refine(withoutTaken(limits, taken), progress);
+    sampleTrees();
+    fillInvalid();
+    hang();
+    addCloud(kSmallRule, small);
+    addCloud(kFoliageRule, foliage);
+    addCards();
+    SceneSamples samples = finish();
+    orderSamples(&samples);
+    paintSamples(geometry_, &samples);
+    return samples;
+  }
+
+ private:
+  /// Two triangles at most, whose sides share two samples and nodes.
+  struct Card {
+    std::uint32_t first;  ///< triangle
+    std::uint32_t node, first_sample;
+    float transmission;
+    int triangles = 1;
+    std::uint32_t sample(std::size_t side) const { return first_sample + static_cast<std::uint32_t>(side); }
+  };
+
+  /// What is left to large triangles.
+  static RefineLimits withoutTaken(RefineLimits limits, std::size_t taken) {
+    constexpr std::size_t kLeastPart = 4;
+    limits.nodes = std::max(limits.nodes / kLeastPart, limits.nodes - std::min(limits.nodes, taken));
+    return limits;
+  }
+
+  void sampleTrees() {
+    const std::vector<MeshNode>& nodes = builder_.index.nodes;
+    shares_.resize(nodes.size());
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      if (nodes[n].valid && builder_.hangs_between[n][0] == LightMesh::kNone) addSample(n);
+    }
+  }
+
+  /// Nodes inside bodies take the light of their neighbours, ring by ring: it is interpolated towards them.
+  void fillInvalid() {
+    constexpr int kRings = 4;
+    for (int ring = 0; ring < kRings; ++ring) {
+      std::vector<std::pair<std::uint32_t, Shares>> found;
+      std::vector<std::uint32_t> slot(shares_.size(), LightMesh::kNone);
+      for (const LightMesh::Cell& cell : builder_.mesh.cells) {
+        if (cell.inner()) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::uint32_t n = cell.corner[k];
+          if (!shares_[n].empty() || builder_.hangs_between[n][0] != LightMesh::kNone) continue;
+          if (slot[n] == LightMesh::kNone) {
+            slot[n] = static_cast<std::uint32_t>(found.size());
+            found.push_back({n, {}});
+          }
+          for (std::uint32_t from : {cell.corner[(k + 1) % 3], cell.corner[(k + 2) % 3]}) {
+            const Shares& other = shares_[from];
+            Shares& to = found[slot[n]].second;
+            to.insert(to.end(), other.begin(), other.end());
+          }
+        }
+      }
+      for (auto& [n, shares] : found) {
+        if (shares.empty()) continue;
+        tidy(&shares);
+        shares_[n] = std::move(shares);
+      }
+    }
+    for (std::uint32_t n = 0; n < shares_.size(); ++n) {
+      if (shares_[n].empty() && builder_.hangs_between[n][0] == LightMesh::kNone) addSample(n);
+    }
+  }
+
+  /// A node amid an undivided edge has the mean light of the edge's ends, so that light is continuous there.
+  void hang() {
+    under_way_.assign(shares_.size(), false);
+    for (std::uint32_t n = 0; n < shares_.size(); ++n) hang(n);
+  }
+  void hang(std::uint32_t n) {
+    if (!shares_[n].empty()) return;
+    if (under_way_[n]) return addSample(n);  // sheets that overlap may have it hang from itself
+    under_way_[n] = true;
+    Shares mean;
+    for (std::uint32_t end : builder_.hangs_between[n]) {
+      hang(end);
+      mean.insert(mean.end(), shares_[end].begin(), shares_[end].end());
+    }
+    if (!shares_[n].empty()) return;
+    tidy(&mean);
+    shares_[n] = std::move(mean);
+  }
+
+  void addSample(std::uint32_t node) {
+    shares_[node] = {{static_cast<std::uint32_t>(receivers_.size()), 1.0f}};
+    receivers_.push_back(builder_.index.nodes[node].receiver());
+  }
+
+  struct Corner {
+    Eigen::Vector3f position, normal;
+    Receiver receiver;
+  };
+  Corner cornerOf(std::uint32_t t, int side, std::size_t k) const {
+    const Eigen::Vector3f flat = sideNormal(geometry_, t, side);
+    Eigen::Vector3f centre = Eigen::Vector3f::Zero();
+    for (std::uint32_t v : geometry_.triangles[t]) centre += geometry_.positions[v] / 3.0f;
+    const std::uint32_t v = geometry_.triangles[t][k];
+    Eigen::Vector3f normal = geometry_.normals[v];
+    if (normal.dot(flat) < 0.0f) normal = -normal;
+    if (normal.squaredNorm() < 0.5f) normal = flat;
+    const Eigen::Vector3f& position = geometry_.positions[v];
+    Receiver receiver;
+    receiver.origins.fill(isLeaf(traits_[t].kind) ? centre
+                                                  : Eigen::Vector3f(position + 0.4f * (centre - position)));
+    receiver.lifts.fill(kClear_m * flat);
+    receiver.normal = normal;
+    receiver.coarse = isLeaf(traits_[t].kind);
+    receiver.transmission = transmissionOf(t);
+    receiver.thin = receiver.transmission > 0.0f;
+    if (!receiver.thin && !receiver.coarse) receiver.face = boundingFace(normal, flat);
+    return {position, normal, receiver};
+  }
+
+  float transmissionOf(std::uint32_t t) const {
+    return geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[t])].transmission;
+  }
+
+  /// Visits each corner of each lit side of the triangles of `kind`.
+  template <typename Visit>
+  void visitCorners(TriangleKind kind, const Visit& visit) const {
+    for (std::uint32_t t = 0; t < traits_.size(); ++t) {
+      if (traits_[t].kind != kind) continue;
+      for (int side = 0; side < 2; ++side) {
+        if (!traits_[t].used[side]) continue;
+        for (std::size_t k = 0; k < 3; ++k) visit(t, side, k, cornerOf(t, side, k));
+      }
+    }
+  }
+
+  SampleCloud cloudOf(const CloudRule& rule) const {
+    SampleCloud cloud(rule.spacing_m, rule.cosine, rule.depth_m);
+    visitCorners(rule.kind, [&](std::uint32_t, int, std::size_t, const Corner& corner) {
+      cloud.cover(corner.position, corner.receiver);
+    });
+    return cloud;
+  }
+
+  void addCloud(const CloudRule& rule, const SampleCloud& cloud) {
+    const auto base = static_cast<std::uint32_t>(receivers_.size());
+    receivers_.insert(receivers_.end(), cloud.receivers().begin(), cloud.receivers().end());
+    std::unordered_map<std::uint64_t, std::uint32_t> node_of;
+    std::array<std::uint32_t, 3> nodes;
+    visitCorners(rule.kind, [&](std::uint32_t t, int side, std::size_t k, const Corner& corner) {
+      std::uint64_t key = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto place =
+            static_cast<std::uint64_t>(std::lround(corner.position[axis] / rule.merge_m)) & 0x3ffff;
+        const auto tilt = static_cast<std::uint64_t>(std::lround(corner.normal[axis] * 1.5f) + 2) & 7;
+        const auto slope = static_cast<std::uint64_t>(std::lround(corner.receiver.face[axis] * 1.5f) + 2) & 7;
+        key = ((key << 18 | place) * 31 + tilt) * 31 + slope;
+      }
+      const auto [entry, fresh] = node_of.try_emplace(key, static_cast<std::uint32_t>(shares_.size()));
+      if (fresh) {
+        Shares shares = cloud.around(corner.position, corner.receiver);
+        for (LightMesh::Share& share : shares) share.sample += base;
+        shares_.push_back(std::move(shares));
+      }
+      nodes[k] = entry->second;
+      if (k < 2) return;
+      builder_.mesh.roots[t][static_cast<std::size_t>(side)] =
+          static_cast<std::uint32_t>(builder_.mesh.cells.size());
+      builder_.mesh.cells.push_back({nodes});
+    });
+  }
+
+  bool isCard(std::uint32_t t) const {
+    return traits_[t].kind == TriangleKind::kSpray || traits_[t].kind == TriangleKind::kCanopy;
+  }
+  /// Two a card, of two triangles.
+  std::size_t countCardSides() const {
+    std::size_t count = 0;
+    for (std::uint32_t t = 0; t < traits_.size(); ++t) count += isCard(t) ? 1 : 0;
+    return count;
+  }
+
+  /// One sample on each side of a card; LeafOpenness knows what lies open of it.
+  void addCards() {
+    std::vector<std::uint32_t> card_at(geometry_.positions.size(), LightMesh::kNone);
+    for (std::uint32_t t = 0; t < traits_.size(); ++t) {
+      if (!isCard(t)) continue;
+      std::uint32_t number = LightMesh::kNone;
+      for (const std::uint32_t v : geometry_.triangles[t]) {
+        if (card_at[v] != LightMesh::kNone && cards_[card_at[v]].triangles < 2) number = card_at[v];
+      }
+      if (number == LightMesh::kNone) {
+        number = static_cast<std::uint32_t>(cards_.size());
+        addCard(t);
+      } else {
+        addOtherHalf(t, &cards_[number]);
+      }
+      for (const std::uint32_t v : geometry_.triangles[t]) card_at[v] = number;
+      const Card& card = cards_[number];
+      const bool turned = isTurned(t, card);
+      for (std::size_t side = 0; side < 2; ++side) {
+        const std::uint32_t node = card.node + static_cast<std::uint32_t>(turned ? 1 - side : side);
+        builder_.mesh.roots[t][side] = static_cast<std::uint32_t>(builder_.mesh.cells.size());
+        builder_.mesh.cells.push_back({{node, node, node}});
+      }
+    }
+    for (const Card& card : cards_) {
+      receivers_[card.sample(1)] = receivers_[card.sample(0)];
+      receivers_[card.sample(1)].normal *= -1.0f;
+    }
+  }
+
+  void addCard(std::uint32_t t) {
+    cards_.push_back({t, static_cast<std::uint32_t>(shares_.size()),
+                      static_cast<std::uint32_t>(receivers_.size()), transmissionOf(t)});
+    for (std::size_t side = 0; side < 2; ++side) {
+      shares_.push_back({{cards_.back().sample(side), 1.0f}});
+      receivers_.push_back(middleOf(t));
+    }
+  }
+
+  /// Whether the front of a card's triangle is on the side of the first one's back.
+  bool isTurned(std::uint32_t t, const Card& card) const {
+    return geometry_.planes[t].normal.dot(geometry_.planes[card.first].normal) < 0.0f;
+  }
+
+  void addOtherHalf(std::uint32_t t, Card* card) {
+    const Receiver receiver = middleOf(t);
+    Receiver& first = receivers_[card->sample(0)];
+    for (std::size_t i = 1; i < Receiver::kOrigins; i += 2) {
+      first.origins[i] = receiver.origins[i];
+      first.lifts[i] = receiver.lifts[i];
+    }
+    const Eigen::Vector3f sum = isTurned(t, *card) ? Eigen::Vector3f(first.normal - receiver.normal)
+                                                   : Eigen::Vector3f(first.normal + receiver.normal);
+    // Normals of the file may point anywhere: then that of the first half stands for both.
+    if (sum.squaredNorm() > 1e-6f) first.normal = sum.normalized();
+    ++card->triangles;
+  }
+
+  /// Looks from four points of a card's triangle.
+  Receiver middleOf(std::uint32_t t) const {
+    Receiver receiver = cornerOf(t, 0, 0).receiver;  // with the triangle's middle as its origin
+    Eigen::Vector3f normal = receiver.normal;
+    for (std::size_t k = 1; k < 3; ++k) normal += cornerOf(t, 0, k).receiver.normal;
+    receiver.normal = normal.normalized();
+    for (std::size_t i = 0; i < 3; ++i)
+      receiver.origins[i] += 0.5f * (geometry_.positions[geometry_.triangles[t][i]] - receiver.origins[3]);
+    receiver.transmission = 0.0f;  // what comes from behind is added as it is passed on
+    return receiver;
+  }
+
+  SceneSamples finish() {
+    SceneSamples samples;
+    samples.mesh = std::move(builder_.mesh);
+    samples.receivers = std::move(receivers_);
+    samples.other_side.resize(samples.receivers.size());
+    for (const Card& card : cards_) {
+      for (std::size_t side = 0; side < 2; ++side)
+        samples.other_side[card.sample(side)] = {card.sample(1 - side), card.transmission};
+    }
+    samples.mesh.first_share.push_back(0);
+    for (const Shares& shares : shares_) {
+      samples.mesh.shares.insert(samples.mesh.shares.end(), shares.begin(), shares.end());
+      samples.mesh.first_share.push_back(static_cast<std::uint32_t>(samples.mesh.shares.size()));
+    }
+    return samples;
+  }
+
+  const Geometry& geometry_;
+  const std::vector<TriangleTraits>& traits_;
+  MeshBuilder builder_;
+  std::vector<Receiver> receivers_;
+  std::vector<Shares> shares_;   ///< of each node
+  std::vector<bool> under_way_;  ///< nodes whose ends are being looked at
+  std::vector<Card> cards_;
+};
+
+}  // namespace
+
+std::uint32_t sampleAt(const BakeScene& scene, const SceneSamples& samples, const LaneHit& hit) {
+  const std::uint32_t t = hit.hits.triangle[hit.lane];
+  const std::size_t side = scene.geometry.planes[t].normal.dot(hit.towards) > 0.0f ? 1 : 0;
+  if (side == 1 && scene.traits[t].solid) return LightMesh::kNone;
+  std::uint32_t root = samples.mesh.roots[t][side];
+  if (!LightMesh::isCell(root)) root = samples.mesh.roots[t][1 - side];
+  if (!LightMesh::isCell(root)) return LightMesh::kNone;
+  const float u = hit.hits.u[hit.lane], v = hit.hits.v[hit.lane];
+  const LightMesh::Place place = samples.mesh.locate(root, {1.0f - u - v, u, v});
+  const auto largest = std::max_element(place.weight.begin(), place.weight.end()) - place.weight.begin();
+  return samples.nearest_sample[place.node[static_cast<std::size_t>(largest)]];
+}
+
+SceneSamples sampleScene(const BakeScene& scene, const ShiningSurfaces& shining, const RefineLimits& limits,
+                         const std::function<void(double)>& progress) {
+  return Sampler(scene, shining).sample(limits, progress);
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,43 @@
+/// Where in a scene transport is sampled, and how surfaces find their samples.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "light/bake/samples/mesh_builder.h"
+#include "light/bake/samples/probe.h"
+#include "light/bake/samples/transport_data.h"
+#include "light/bake/samples/triangle_kinds.h"
+#include "light/shading/reflectances.h"
+
+namespace sunlit::light {
+
+/// The sample on the other side of a thin sheet.
+struct OtherSide {
+  std::uint32_t sample = LightMesh::kNone;
+  float share = 0.0f;  ///< of its diffuse light that comes out on this side
+};
+
+struct SceneSamples {
+  LightMesh mesh;
+  std::vector<Receiver> receivers;            ///< of each sample, neighbours close together
+  std::vector<OtherSide> other_side;          ///< of each sample
+  std::vector<Paint> paints;                  ///< of the surfaces around each sample
+  std::vector<float> areas_m2;                ///< of those surfaces: the third of each cell nearest to it
+  std::vector<std::uint32_t> nearest_sample;  ///< the one of most weight, of each node
+};
+
+/// One lane of rays that were cast.
+struct LaneHit {
+  const HitPacket& hits;
+  int lane;
+  const Eigen::Vector3f& towards;
+};
+/// The sample nearest to where a ray has met a triangle, or LightMesh::kNone for the inside of a body.
+std::uint32_t sampleAt(const BakeScene& scene, const SceneSamples& samples, const LaneHit& hit);
+
+/// `progress` gets the share done, 0 … 1, about.
+SceneSamples sampleScene(const BakeScene& scene, const ShiningSurfaces& shining, const RefineLimits& limits,
+                         const std::function<void(double)>& progress);
+
+}  // namespace sunlit::light

@@ -1,0 +1,66 @@
+/// Light of surfaces that shine by themselves, sampled by what they give rather than met by chance: a panel
+/// of a hand's width lights a hall.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "light/bake/samples/probe.h"
+#include "light/bake/samples/triangle_kinds.h"
+
+namespace sunlit::light {
+
+/// Surfaces with Material::emission that belongs to no group of lamps, cut into pieces that shine evenly.
+class ShiningSurfaces {
+ public:
+  /// Keeps a reference to `rays`.
+  ShiningSurfaces(const Geometry& geometry, const BakeRays& rays, const std::vector<TriangleTraits>& traits);
+
+  /// Whether there are any.
+  bool any() const { return !pieces_.empty(); }
+
+  /// Illuminance by them straight, lx: from above the horizon, from below it; and how far off they are that
+  /// would give it if nothing hid them, m (harmonic mean).
+  struct Light {
+    Eigen::Array3f above = Eigen::Array3f::Zero(), below = Eigen::Array3f::Zero();
+    float distance_m = 1e9f;
+  };
+  /// Near ones are summed exactly but for what hides them, which rays to each part of them tell; far ones are
+  /// taken together in clusters no wider than a quarter of their distance, each told by one of them that is
+  /// chosen by its power. The same for equal `key`, which chooses.
+  Light at(const Receiver& receiver, std::uint64_t key) const;
+
+ private:
+  class Look;
+  /// Part of a triangle that shines evenly.
+  struct Piece {
+    std::array<Eigen::Vector3f, 3> corner;
+    Eigen::Vector3f normal;    ///< unit, to the front
+    Eigen::Array3f luminance;  ///< cd/m²
+    float power;               ///< luminance times area, times the sides that shine
+    bool both;                 ///< sides shine
+
+    Eigen::Vector3f middle() const { return (corner[0] + corner[1] + corner[2]) / 3.0f; }
+  };
+  /// Halves of halves of pieces that lie close together.
+  struct Cluster {
+    Eigen::AlignedBox3f box;
+    float power = 0.0f;
+    std::uint32_t first = 0, end = 0;  ///< pieces
+    std::uint32_t second = 0;  ///< the second half; the first one follows its whole. 0: one piece alone
+  };
+
+  void add(const Geometry& geometry, const std::vector<TriangleTraits>& traits);
+  static float formFactor(const Piece& piece, const Eigen::Vector3f& point, const Eigen::Vector3f& normal);
+  void build(std::uint32_t first, std::uint32_t end);
+  const Piece& pick(const Cluster& cluster, float chance) const;
+
+  const BakeRays& rays_;
+  std::vector<Piece> pieces_;
+  std::vector<Cluster> clusters_;
+  std::vector<double> powers_;  ///< of each piece and all before it
+};
+
+}  // namespace sunlit::light

@@ -1,0 +1,116 @@
+#include "light/bake/samples/transport_data.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/vector_clones.h"
+
+namespace sunlit::light {
+
+LightMesh::Place LightMesh::locate(std::uint32_t root, std::array<float, 3> barycentric) const {
+  std::uint32_t at = root;
+  while (cells[at].inner()) {
+    const std::size_t k = cells[at].corner[1];
+    const float from = barycentric[k];
+    const float to = barycentric[(k + 1) % 3];
+    const float apex = barycentric[(k + 2) % 3];
+    // The children are (from, middle, apex) and (middle, to, apex).
+    const bool first = from >= to;
+    barycentric = first ? std::array<float, 3>{from - to, 2.0f * to, apex}
+                        : std::array<float, 3>{2.0f * from, to - from, apex};
+    at = cells[at].child() + (first ? 0u : 1u);
+  }
+  return {cells[at].corner, barycentric};
+}
+
+std::vector<std::uint32_t> LightMesh::usefulSamples(const std::vector<bool>& useless) const {
+  constexpr int kRings = 4;  // as many as SceneSamples are filled over
+  std::vector<std::uint32_t> samples(nodeCount(), kNone);
+  for (std::size_t n = 0; n < nodeCount(); ++n) {
+    float most = 0.0f;
+    for (std::uint32_t s = first_share[n]; s < first_share[n + 1]; ++s) {
+      if (useless[shares[s].sample] || shares[s].weight <= most) continue;
+      most = shares[s].weight;
+      samples[n] = shares[s].sample;
+    }
+  }
+  for (int ring = 0; ring < kRings; ++ring) {
+    const std::vector<std::uint32_t> before = samples;
+    for (const Cell& cell : cells) {
+      if (cell.inner()) continue;
+      for (const std::uint32_t n : cell.corner) {
+        for (const std::uint32_t from : cell.corner)
+          if (samples[n] == kNone) samples[n] = before[from];
+      }
+    }
+  }
+  return samples;
+}
+
+void LightMesh::drop(const std::vector<bool>& useless) {
+  const std::vector<std::uint32_t> useful = usefulSamples(useless);
+  for (std::size_t n = 0; n < nodeCount(); ++n) {
+    if (useful[n] == kNone) continue;
+    float sum = 0.0f;
+    for (std::uint32_t s = first_share[n]; s < first_share[n + 1]; ++s)
+      sum += useless[shares[s].sample] ? 0.0f : shares[s].weight;
+    for (std::uint32_t s = first_share[n]; s < first_share[n + 1]; ++s)
+      shares[s].weight *= useless[shares[s].sample] ? 0.0f : 1.0f / sum;
+    if (sum <= 0.0f) shares[first_share[n]] = {useful[n], 1.0f};
+  }
+}
+
+void Coefficients::resize(std::size_t samples) {
+  rows.assign(samples * SkyPatches::kCount, 0);
+  scales.assign(samples, 0.0f);
+}
+
+void Coefficients::set(std::size_t sample, const float* row) {
+  const float largest = *std::max_element(row, row + SkyPatches::kCount);
+  scales[sample] = largest / 255.0f;
+  const float inverse = largest > 0.0f ? 255.0f / largest : 0.0f;
+  std::uint8_t* to = rows.data() + sample * SkyPatches::kCount;
+  for (int p = 0; p < SkyPatches::kCount; ++p) to[p] = static_cast<std::uint8_t>(row[p] * inverse + 0.5f);
+}
+
+void Coefficients::copy(const Coefficients& others, std::size_t from, std::size_t sample) {
+  std::copy_n(others.row(from), SkyPatches::kCount, rows.data() + sample * SkyPatches::kCount);
+  scales[sample] = others.scales[from];
+}
+
+float Coefficients::sum(std::size_t sample) const {
+  std::uint32_t sum = 0;
+  for (int p = 0; p < SkyPatches::kCount; ++p) sum += row(sample)[p];
+  return static_cast<float>(sum) * scales[sample];
+}
+
+void PassedOn::resize(std::size_t samples) {
+  coefficients.resize(samples);
+  tints.assign(samples, {1.0f, 1.0f, 1.0f});
+  glows.assign(samples, {0.0f, 0.0f, 0.0f});
+  hides.assign(samples, 0.0f);
+}
+
+std::vector<float> openSky(const TransportData& data) {
+  std::vector<float> of_samples(data.sampleCount()), of_nodes(data.mesh.nodeCount());
+  tbb::parallel_for(std::size_t{0}, of_samples.size(), [&](std::size_t i) {
+    const float below = static_cast<float>(data.direct.row(i)[SkyPatches::kBelow]) * data.direct.scales[i];
+    of_samples[i] = (data.direct.sum(i) - below) / kPiFloat;
+  });
+  const LightMesh& mesh = data.mesh;
+  tbb::parallel_for(std::size_t{0}, of_nodes.size(), [&](std::size_t n) {
+    for (std::uint32_t s = mesh.first_share[n]; s < mesh.first_share[n + 1]; ++s)
+      of_nodes[n] += mesh.shares[s].weight * of_samples[mesh.shares[s].sample];
+  });
+  return of_nodes;
+}
+
+SUNLIT_WIDE_VECTOR_CLONES
+void addTimes(float factor, const std::uint8_t* coefficients, float* __restrict row) {
+  for (std::size_t p = 0; p < SkyPatches::kCount; ++p) row[p] += factor * static_cast<float>(coefficients[p]);
+}
+
+}  // namespace sunlit::light

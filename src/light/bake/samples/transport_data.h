@@ -1,0 +1,163 @@
+/// What a bake leaves behind, and its cache file holds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "light/bake/samples/leaf_openness.h"
+#include "light/patches/sky_patches.h"
+
+namespace sunlit::light {
+
+/// Places on the scene's triangles. Each side of a triangle that can be lit has a tree of cells: the
+/// triangle, halved again and again at its longest edge. At the corners of the leaves lie nodes, between
+/// which light is interpolated; a node's light is that of one or several samples.
+struct LightMesh {
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kSealed = 0xfffffffeu;
+  static constexpr std::uint32_t kInner = 0x80000000u;
+
+  /// Leaf: three nodes. Inner cell: kInner | first of its two children, and which edge was halved (0 … 2,
+  /// from that corner to the next).
+  struct Cell {
+    std::array<std::uint32_t, 3> corner;
+    bool inner() const { return (corner[0] & kInner) != 0; }
+    std::uint32_t child() const { return corner[0] & ~kInner; }
+  };
+  struct Share {
+    std::uint32_t sample;
+    float weight;
+  };
+
+  /// Of each triangle's front and back: a cell; kNone, if nobody sees it or it sees but the void; kSealed, if
+  /// it lies within a closed body, where it is dark.
+  std::vector<std::array<std::uint32_t, 2>> roots;
+  std::vector<Cell> cells;
+  std::vector<std::uint32_t> first_share;  ///< of each node, and the end
+  std::vector<Share> shares;               ///< weights of a node sum to 1
+
+  static bool isCell(std::uint32_t root) { return root < kSealed; }
+  std::size_t nodeCount() const { return first_share.size() - 1; }
+
+  /// Three nodes and their weights.
+  struct Place {
+    std::array<std::uint32_t, 3> node;
+    std::array<float, 3> weight;
+  };
+  /// Of a point within the leaf tree of `root`, given by its barycentric coordinates.
+  Place locate(std::uint32_t root, std::array<float, 3> barycentric) const;
+
+  /// Of each node, the sample that counts most in it among those that are of use; where there is none, that
+  /// of the nearest nodes that have one, over a few cells; kNone beyond.
+  std::vector<std::uint32_t> usefulSamples(const std::vector<bool>& useless) const;
+  /// Takes samples that are of no use out of nodes; those left with none get that of usefulSamples().
+  void drop(const std::vector<bool>& useless);
+};
+
+/// Illuminance of each sample for 1 cd/m² of each sky patch, lx.
+struct Coefficients {
+  /// One row of SkyPatches::kCount bytes a sample; times the sample's scale.
+  std::vector<std::uint8_t> rows;
+  std::vector<float> scales;
+
+  void resize(std::size_t samples);
+  /// Stores `row` of SkyPatches::kCount values ≥ 0.
+  void set(std::size_t sample, const float* row);
+  /// Stores the row `from` of others.
+  void copy(const Coefficients& others, std::size_t from, std::size_t sample);
+  const std::uint8_t* row(std::size_t sample) const { return rows.data() + sample * SkyPatches::kCount; }
+  /// For 1 cd/m² of all patches.
+  float sum(std::size_t sample) const;
+};
+
+/// Adds a row of Coefficients, without its scale, times `factor` to the SkyPatches::kCount values of `row`.
+void addTimes(float factor, const std::uint8_t* coefficients, float* row);
+
+/// What surfaces pass on to each sample.
+struct PassedOn {
+  Coefficients coefficients;                ///< luminance of it
+  std::vector<std::array<float, 3>> tints;  ///< its colour, of luminance 1
+  std::vector<std::array<float, 3>> glows;  ///< illuminance, lx, from surfaces that shine by themselves
+  std::vector<float> hides;  ///< share of an even sphere's light, by cosine, that these surfaces hide
+
+  void resize(std::size_t samples);
+};
+
+/// What standing lamps give samples by way of surfaces, for each of lampSets(), by blocks of samples that
+/// have any of it.
+struct BakedLamps {
+  static constexpr std::size_t kBlock = 256;  ///< samples
+  /// Illuminance, lx, r g b: from surfaces above the horizon, from those below it.
+  using Light = std::array<float, 6>;
+
+  std::vector<std::uint32_t> first;   ///< of each set, into `blocks`; and the end
+  std::vector<std::uint32_t> blocks;  ///< their numbers
+  std::vector<Light> light;           ///< kBlock of each block
+
+  std::size_t setCount() const { return first.empty() ? 0 : first.size() - 1; }
+};
+
+/// The number of a sample, and something about it below 256, in four bytes.
+struct SampleAndByte {
+  static constexpr std::uint32_t kSampleBits = 24;
+  std::uint32_t both;
+
+  static SampleAndByte of(std::uint32_t sample, std::uint32_t byte) { return {byte << kSampleBits | sample}; }
+  std::uint32_t sample() const { return both & ((1u << kSampleBits) - 1); }
+  std::uint32_t byte() const { return both >> kSampleBits; }
+};
+
+/// Samples that see little but other surfaces, as in rooms, streets and tunnels, where the sun lights few
+/// places and these the rest: which samples they see, so that light of sun and moon comes from where it
+/// really lies.
+struct BakedRooms {
+  /// One that is seen, and how much its luminance × π counts in illuminance: a root, 1 … 255, of parts of the
+  /// room's scale, for most count little beside a few.
+  using Link = SampleAndByte;
+  static float weightOf(Link link) {
+    const auto root = static_cast<float>(link.byte());
+    return root * root;
+  }
+
+  std::vector<std::uint32_t> samples;  ///< that look so, in rising order: below called rooms
+  std::vector<std::uint32_t> first;    ///< of each room, into `links`; and the end
+  std::vector<std::uint32_t> below;    ///< of each, into `links`: the first that is seen below the horizon
+  std::vector<float> scales;           ///< of each room's weights
+  std::vector<Link> links;
+
+  Coefficients mirrored;  ///< of each room: sky by way of the ground as a mirror, without colour
+
+  /// A sample that is seen.
+  struct Source {
+    std::uint32_t sample, other;  ///< and the one on the other side of its sheet, or LightMesh::kNone
+    std::array<float, 3> direct, bounced, through;  ///< as Sending
+    std::array<float, 3> normal;
+    std::uint32_t first_point, points;  ///< 0: its light is told by its coefficients
+    std::uint32_t probes;               ///< so many of them cast a ray first; where these are at odds, all do
+  };
+  struct Point {
+    float x, y, z;  ///< m in `map`, clear of the surface
+    float share;    ///< of its source's area
+  };
+  std::vector<Source> sources;  ///< in rising order of samples
+  std::vector<Point> points;
+};
+
+struct TransportData {
+  LightMesh mesh;
+  Coefficients direct;  ///< straight from the sky
+  /// Surfaces that a sample sees above the horizon, such as walls and leaves, and below it, mostly the
+  /// ground: they differ in brightness, and mirrors look at the one or the other.
+  PassedOn above, below;
+  LeafOpenness leaves;
+  BakedLamps lamps;
+  BakedRooms rooms;
+
+  std::size_t sampleCount() const { return direct.scales.size(); }
+};
+
+/// Share of the sky's light, by cosine, that each node of `data` would get straight of an even sky, 0 … 1.
+std::vector<float> openSky(const TransportData& data);
+
+}  // namespace sunlit::light

@@ -1,0 +1,172 @@
+#include "light/bake/samples/triangle_kinds.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "light/bake/samples/probe.h"
+#include "sunlit/light/visibility.h"
+
+namespace sunlit::light {
+namespace {
+
+constexpr float kLargeEdge_m = 1.0f;  ///< posts stand half in the open, half behind a board
+constexpr float kLargeArea_m2 = 0.3f;
+constexpr float kLargestLeaf_m2 = 2.0f;
+constexpr float kSmallestSpray_m2 = 0.3f;
+constexpr float kLargestSpray_m2 = 4.0f;
+constexpr float kClear_m = 2e-3f;
+
+/// Shares of what one side of a triangle sees from its middle.
+struct Outlook {
+  float up = 0.0f, down = 0.0f, backs = 0.0f, fronts = 0.0f;
+  float all() const { return up + down + backs + fronts; }
+  /// Nothing escapes, and much of what is seen is seen from behind: within a body, maybe a hollow one.
+  bool inside() const { return up + down <= 0.0f && backs > 0.4f * all(); }
+  /// Within one that nobody looks into.
+  bool sealed() const { return inside() && backs > 0.8f * all(); }
+  /// Nothing of the scene and nothing of the sky: the underside of the world.
+  bool buried() const { return up + backs + fronts <= 0.0f; }
+};
+
+using Outlooks = std::array<Outlook, RayPacket::kSize>;
+
+/// Places on a triangle, by the shares of its corners.
+const std::array<Eigen::Vector3f, 10> kPlaces = {{{0.3333f, 0.3333f, 0.3334f},
+                                                  {0.9f, 0.05f, 0.05f},
+                                                  {0.05f, 0.9f, 0.05f},
+                                                  {0.05f, 0.05f, 0.9f},
+                                                  {0.48f, 0.48f, 0.04f},
+                                                  {0.04f, 0.48f, 0.48f},
+                                                  {0.48f, 0.04f, 0.48f},
+                                                  {0.7f, 0.15f, 0.15f},
+                                                  {0.15f, 0.7f, 0.15f},
+                                                  {0.15f, 0.15f, 0.7f}}};
+constexpr std::size_t kPlacesOfSmall = 4;
+
+struct Side {
+  std::uint32_t triangle;
+  int side;
+};
+
+/// Whether a camera may see the side at all.
+bool seen(const Geometry& geometry, const Side& side) {
+  const auto material = static_cast<std::size_t>(geometry.materials[side.triangle]);
+  return side.side == 0 || geometry.scene->materials[material].double_sided;
+}
+
+/// What is looked at, and along which rays.
+struct Surrounding {
+  const Geometry& geometry;
+  const BakeRays& rays;
+  std::vector<SkyPatches::Ray> pattern;
+};
+
+/// Of up to a packet of sides from `first` on, each seen from one place on its triangle.
+Outlooks outlooks(const Surrounding& around, const Side* first, int count, const Eigen::Vector3f& place) {
+  const Geometry& geometry = around.geometry;
+  const std::vector<SkyPatches::Ray>& pattern = around.pattern;
+  std::array<Receiver, RayPacket::kSize> receivers;
+  for (int i = 0; i < count; ++i) {
+    Receiver& receiver = receivers[static_cast<std::size_t>(i)];
+    receiver.normal = sideNormal(geometry, first[i].triangle, first[i].side);
+    receiver.lifts.fill(kClear_m * receiver.normal);
+    const auto& corners = geometry.triangles[first[i].triangle];
+    Eigen::Vector3f origin = Eigen::Vector3f::Zero();
+    for (std::size_t k = 0; k < 3; ++k) origin += place[static_cast<int>(k)] * geometry.positions[corners[k]];
+    receiver.origins.fill(origin);
+  }
+  Outlooks result;
+  probe(around.rays, pattern, {receivers.data(), count},
+        [&](int i, std::size_t r, float weight, const HitPacket& hits) {
+          Outlook& outlook = result[static_cast<std::size_t>(i)];
+          const std::uint32_t hit = hits.triangle[i];
+          if (hit == HitPacket::kNothing) {
+            (pattern[r].towards.z() > 0.0f ? outlook.up : outlook.down) += weight;
+          } else {
+            // Leaves turn their backs to all sides.
+            const bool back = geometry.planes[hit].normal.dot(pattern[r].towards) > 0.0f &&
+                              !isLeaf(triangleKind(geometry, hit));
+            (back ? outlook.backs : outlook.fronts) += weight;
+          }
+        });
+  return result;
+}
+
+bool isClear(const Geometry& geometry, std::uint32_t t) {
+  return isGlass(geometry.scene->materials[static_cast<std::size_t>(geometry.materials[t])]);
+}
+
+}  // namespace
+
+TriangleKind triangleKind(const Geometry& geometry, std::uint32_t t) {
+  const auto& corners = geometry.triangles[t];
+  const Eigen::Vector3f a = geometry.positions[corners[0]];
+  const Eigen::Vector3f ab = geometry.positions[corners[1]] - a, ac = geometry.positions[corners[2]] - a;
+  const float longest = std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()}));
+  const float area = 0.5f * ab.cross(ac).norm();
+  const scene::Material& material =
+      geometry.scene->materials[static_cast<std::size_t>(geometry.materials[t])];
+  if (material.alpha_mode == scene::AlphaMode::kMask) {
+    const bool leaf = material.transmission > 0.0f;
+    if (leaf && area > kLargestSpray_m2) return TriangleKind::kCanopy;
+    if (leaf && area > kSmallestSpray_m2) return TriangleKind::kSpray;
+    if (area < kLargestLeaf_m2) return TriangleKind::kFoliage;
+  }
+  return longest < kLargeEdge_m && area < kLargeArea_m2 ? TriangleKind::kSmall : TriangleKind::kLarge;
+}
+
+std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeRays& rays) {
+  std::vector<TriangleTraits> traits(geometry.triangles.size());
+  std::vector<Side> sides;
+  for (std::uint32_t t = 0; t < traits.size(); ++t) {
+    traits[t].kind = triangleKind(geometry, t);
+    if (isLeaf(traits[t].kind)) continue;
+    sides.push_back({t, 0});
+    sides.push_back({t, 1});
+  }
+  std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.side < b.side; });
+  Surrounding around{geometry, rays, {}};
+  const SkyPatches patches(1);
+  for (std::size_t i = 0; i < patches.coarseRays().size(); i += 6)
+    around.pattern.push_back(patches.coarseRays()[i]);
+  for (std::size_t place = 0; place < kPlaces.size() && !sides.empty(); ++place) {
+    std::vector<std::uint8_t> useless(sides.size()), sealed(sides.size());
+    const std::size_t packets = (sides.size() + RayPacket::kSize - 1) / RayPacket::kSize;
+    tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
+      const std::size_t first = p * RayPacket::kSize;
+      const std::size_t end = std::min(first + RayPacket::kSize, sides.size());
+      const Outlooks from_there =
+          outlooks(around, sides.data() + first, static_cast<int>(end - first), kPlaces[place]);
+      for (std::size_t i = first; i < end; ++i) {
+        const Outlook& outlook = from_there[i - first];
+        if (place == 0 && sides[i].side == 1) {
+          TriangleTraits& to = traits[sides[i].triangle];
+          to.solid = outlook.inside() && !isClear(geometry, sides[i].triangle);
+        }
+        sealed[i] = outlook.sealed() ? 1 : 0;
+        useless[i] = outlook.sealed() || outlook.buried() ? 1 : 0;
+      }
+    });
+    // What is hidden in one place may be seen in another: a slab half sunk into the ground.
+    std::vector<Side> left;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      TriangleTraits& to = traits[sides[i].triangle];
+      to.used[sides[i].side] = useless[i] == 0;
+      to.sealed[sides[i].side] = sealed[i] != 0 && (place == 0 || to.sealed[sides[i].side]);
+      const bool large = to.kind == TriangleKind::kLarge;
+      if (useless[i] != 0 && (large || place + 1 < kPlacesOfSmall) && seen(geometry, sides[i]))
+        left.push_back(sides[i]);
+    }
+    sides.swap(left);
+  }
+  for (std::uint32_t t = 0; t < traits.size(); ++t) {
+    for (int side = 0; side < 2; ++side)
+      traits[t].used[side] = traits[t].used[side] && seen(geometry, {t, side});
+  }
+  return traits;
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,388 @@
+#include "sunlit/light/visibility.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "light/geometry/cutout.h"
+#include "light/geometry/triangle_mesh.h"
+
+namespace sunlit::light {
+namespace {
+
+/// Marks, while the others are looked at, a ray that has been stopped.
+constexpr int kAccepted = 1;
+
+enum GeometryNumber : unsigned { kOpaque = 0, kMasked = 1 };
+
+/// Lets a ray pass where the surface is cut out.
+void passCutouts(const RTCFilterFunctionNArguments* arguments) {
+  const auto& cutouts = *static_cast<const Cutouts*>(arguments->geometryUserPtr);
+  const unsigned count = arguments->N;
+  int* const valid = arguments->valid;
+  unsigned i = 0;
+  while (i < count && valid[i] != -1) ++i;
+  while (i < count) {
+    // Rays of a packet mostly meet one triangle.
+    const unsigned triangle = RTCHitN_primID(arguments->hit, count, i);
+    const Cutouts::Query query(cutouts, triangle);
+    for (unsigned next = i; next < count; ++next) {
+      if (valid[next] != -1 || RTCHitN_primID(arguments->hit, count, next) != triangle) continue;
+      if (!query.solid(RTCHitN_u(arguments->hit, count, next), RTCHitN_v(arguments->hit, count, next)))
+        valid[next] = 0;
+      else
+        valid[next] = kAccepted;
+    }
+    while (i < count && valid[i] != -1) ++i;
+  }
+  for (i = 0; i < count; ++i)
+    if (valid[i] == kAccepted) valid[i] = -1;
+}
+
+/// What a query for the first triangle needs to know, beside Embree's own context (which must come first).
+struct SeeingContext {
+  RTCIntersectContext embree;
+  const Geometry* geometry;                        ///< null: one-sided triangles are met from both sides
+  const std::vector<std::uint32_t>* triangles[2];  ///< by Embree's geometry number: opaque, masked
+};
+
+/// Lets a camera's ray pass where there is nothing to see: cut out, or the back of a one-sided triangle.
+void passInvisible(const RTCFilterFunctionNArguments* arguments) {
+  if (arguments->geometryUserPtr) passCutouts(arguments);
+  const auto& context = *reinterpret_cast<const SeeingContext*>(arguments->context);
+  if (!context.geometry) return;
+  for (unsigned i = 0; i < arguments->N; ++i) {
+    if (arguments->valid[i] != -1) continue;
+    const std::uint32_t triangle = (*context.triangles[RTCHitN_geomID(
+        arguments->hit, arguments->N, i)])[RTCHitN_primID(arguments->hit, arguments->N, i)];
+    const scene::Material& material =
+        context.geometry->scene->materials[static_cast<std::size_t>(context.geometry->materials[triangle])];
+    if (material.alpha_mode == scene::AlphaMode::kBlend) {
+      arguments->valid[i] = 0;
+      continue;
+    }
+    if (material.double_sided) continue;
+    const Eigen::Vector3f direction(RTCRayN_dir_x(arguments->ray, arguments->N, i),
+                                    RTCRayN_dir_y(arguments->ray, arguments->N, i),
+                                    RTCRayN_dir_z(arguments->ray, arguments->N, i));
+    if (context.geometry->planes[triangle].normal.dot(direction) > 0.0f) arguments->valid[i] = 0;
+  }
+}
+
+void occludedPacket(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay8* packet) {
+  rtcOccluded8(valid, scene, context, packet);
+}
+void occludedPacket(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay16* packet) {
+  rtcOccluded16(valid, scene, context, packet);
+}
+
+constexpr float kEndless = std::numeric_limits<float>::infinity();
+
+/// `Packet` holds kWidth rays, which reach so many times their direction's length.
+template <typename Packet, int kWidth>
+void occludedInPackets(RTCScene scene, const Rays& rays, float reach, std::uint8_t* blocked) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(64) Packet packet{};
+  alignas(64) int valid[kWidth];
+  for (std::size_t begin = 0; begin < rays.count; begin += kWidth) {
+    const int in_use = static_cast<int>(std::min<std::size_t>(kWidth, rays.count - begin));
+    for (int i = 0; i < kWidth; ++i) {
+      const std::size_t ray = begin + static_cast<std::size_t>(std::min(i, in_use - 1));
+      valid[i] = i < in_use ? -1 : 0;
+      packet.org_x[i] = rays.origin_x[ray];
+      packet.org_y[i] = rays.origin_y[ray];
+      packet.org_z[i] = rays.origin_z[ray];
+      packet.dir_x[i] = rays.direction_x[ray];
+      packet.dir_y[i] = rays.direction_y[ray];
+      packet.dir_z[i] = rays.direction_z[ray];
+      packet.tnear[i] = 0.0f;
+      packet.tfar[i] = reach;
+      packet.mask[i] = ~0u;
+    }
+    occludedPacket(valid, scene, &context, &packet);
+    for (int i = 0; i < in_use; ++i) {
+      blocked[begin + static_cast<std::size_t>(i)] = packet.tfar[i] < 0.0f ? 1 : 0;  // −∞ marks a hit
+    }
+  }
+}
+
+}  // namespace
+
+class Visibility::Implementation {
+ public:
+  explicit Implementation(std::shared_ptr<const Geometry> geometry);
+  /// Shares the device of `other`.
+  Implementation(std::shared_ptr<const Geometry> geometry, const Implementation& other);
+  void occluded(const Rays& rays, float reach, std::uint8_t* blocked) const;
+  void closest(const Rays& rays, Hit* hits) const;
+  Hit firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near) const;
+  void addVeils(const Sight& sight, std::uint32_t first_triangle, std::vector<Hit>* hits) const;
+  const Geometry& geometry() const { return *geometry_; }
+  bool hasVeils() const { return !veils_.empty(); }
+  bool hasGlass() const { return has_glass_; }
+  std::uint32_t triangleCount() const { return static_cast<std::uint32_t>(geometry_->triangles.size()); }
+
+ private:
+  void build(RTCBuildQuality quality);
+  void attach(const std::vector<std::uint32_t>& triangles, unsigned number);
+
+  void buildVeils();
+
+  std::shared_ptr<const Geometry> geometry_;
+  Cutouts cutouts_;
+  std::vector<std::uint32_t> veils_;  ///< triangles that blend, and glass
+  bool has_glass_ = false;
+  DevicePointer device_;
+  ScenePointer scene_;
+  ScenePointer veil_scene_;  ///< of them alone; null: none
+  bool wide_ = false;        ///< the CPU takes 16 rays at once
+};
+
+Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geometry)
+    : geometry_(std::move(geometry)),
+      cutouts_(*geometry_, Cutouts::Glass::kLeftOut),
+      device_(rtcNewDevice(nullptr)) {
+  if (!device_) {
+    throw std::runtime_error("ray library (Embree): no device, error code " +
+                             std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))));
+  }
+  wide_ = rtcGetDeviceProperty(device_.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
+  build(RTC_BUILD_QUALITY_HIGH);
+}
+
+Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geometry,
+                                           const Implementation& other)
+    : geometry_(std::move(geometry)),
+      cutouts_(*geometry_, Cutouts::Glass::kLeftOut),
+      device_(other.device_.get()),
+      wide_(other.wide_) {
+  rtcRetainDevice(device_.get());
+  build(RTC_BUILD_QUALITY_LOW);  // it is for one pose
+}
+
+void Visibility::Implementation::build(RTCBuildQuality quality) {
+  scene_.reset(rtcNewScene(device_.get()));
+  // Without ROBUST, a ray may slip through the edge between two triangles, depending on how the tree was
+  // built.
+  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(scene_.get(), quality);
+  attach(cutouts_.opaqueTriangles(), kOpaque);
+  attach(cutouts_.maskedTriangles(), kMasked);
+  buildVeils();
+  rtcCommitScene(scene_.get());
+  const RTCError error = rtcGetDeviceError(device_.get());
+  if (error != RTC_ERROR_NONE) {
+    throw std::runtime_error("ray library (Embree): cannot build the scene, error code " +
+                             std::to_string(static_cast<int>(error)));
+  }
+}
+
+void Visibility::Implementation::buildVeils() {
+  for (std::uint32_t t = 0; t < geometry_->triangles.size(); ++t) {
+    const scene::Material& material =
+        geometry_->scene->materials[static_cast<std::size_t>(geometry_->materials[t])];
+    if (seenThrough(material)) veils_.push_back(t);
+    has_glass_ |= isGlass(material);
+  }
+  if (veils_.empty()) return;
+  veil_scene_.reset(rtcNewScene(device_.get()));
+  rtcSetSceneFlags(veil_scene_.get(), RTC_SCENE_FLAG_ROBUST);
+  light::attach(newTriangleMesh(device_.get(), *geometry_, veils_), veil_scene_.get(), 0);
+  rtcCommitScene(veil_scene_.get());
+}
+
+/// One after the other: each query begins just beyond the hit before.
+void Visibility::Implementation::addVeils(const Sight& sight, std::uint32_t first_triangle,
+                                          std::vector<Hit>* hits) const {
+  if (!veil_scene_) return;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  float near = sight.near;
+  for (std::size_t count = 0; count < kMostVeils && near < sight.far;) {
+    RTCRayHit query{};
+    query.ray.org_x = sight.origin.x();
+    query.ray.org_y = sight.origin.y();
+    query.ray.org_z = sight.origin.z();
+    query.ray.dir_x = sight.direction.x();
+    query.ray.dir_y = sight.direction.y();
+    query.ray.dir_z = sight.direction.z();
+    query.ray.tnear = near;
+    query.ray.tfar = sight.far;
+    query.ray.mask = ~0u;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(veil_scene_.get(), &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
+    near = std::nextafter(query.ray.tfar * (1.0f + 1e-6f), std::numeric_limits<float>::infinity());
+    const std::uint32_t triangle = veils_[query.hit.primID];
+    const auto material = static_cast<std::size_t>(geometry_->materials[triangle]);
+    const bool back = geometry_->planes[triangle].normal.dot(sight.direction) > 0.0f;
+    if (back && !sight.backs && !geometry_->scene->materials[material].double_sided) continue;
+    hits->push_back({first_triangle + triangle, query.hit.u, query.hit.v, query.ray.tfar});
+    ++count;
+  }
+}
+
+void Visibility::Implementation::attach(const std::vector<std::uint32_t>& triangles, unsigned number) {
+  if (triangles.empty()) return;
+  const TriangleMesh mesh = newTriangleMesh(device_.get(), *geometry_, triangles);
+  if (number == kMasked) {
+    rtcSetGeometryUserData(mesh.handle, &cutouts_);
+    rtcSetGeometryOccludedFilterFunction(mesh.handle, passCutouts);
+  }
+  rtcSetGeometryIntersectFilterFunction(mesh.handle, passInvisible);
+  light::attach(mesh, scene_.get(), number);
+}
+
+void Visibility::Implementation::occluded(const Rays& rays, float reach, std::uint8_t* blocked) const {
+  if (wide_) {
+    occludedInPackets<RTCRay16, 16>(scene_.get(), rays, reach, blocked);
+  } else {
+    occludedInPackets<RTCRay8, 8>(scene_.get(), rays, reach, blocked);
+  }
+}
+
+void Visibility::Implementation::closest(const Rays& rays, Hit* hits) const {
+  SeeingContext context{{}, nullptr, {&cutouts_.opaqueTriangles(), &cutouts_.maskedTriangles()}};
+  rtcInitIntersectContext(&context.embree);
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    RTCRayHit query{};
+    query.ray.org_x = rays.origin_x[i];
+    query.ray.org_y = rays.origin_y[i];
+    query.ray.org_z = rays.origin_z[i];
+    query.ray.dir_x = rays.direction_x[i];
+    query.ray.dir_y = rays.direction_y[i];
+    query.ray.dir_z = rays.direction_z[i];
+    query.ray.tfar = std::numeric_limits<float>::infinity();
+    query.ray.mask = ~0u;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_.get(), &context.embree, &query);
+    hits[i] = Hit();
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
+    hits[i].triangle = (*context.triangles[query.hit.geomID])[query.hit.primID];
+    hits[i].u = query.hit.u;
+    hits[i].v = query.hit.v;
+    hits[i].distance = query.ray.tfar;
+  }
+}
+
+Hit Visibility::Implementation::firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+                                          float near) const {
+  SeeingContext context{{}, geometry_.get(), {&cutouts_.opaqueTriangles(), &cutouts_.maskedTriangles()}};
+  rtcInitIntersectContext(&context.embree);
+  RTCRayHit query{};
+  query.ray.org_x = origin.x();
+  query.ray.org_y = origin.y();
+  query.ray.org_z = origin.z();
+  query.ray.dir_x = direction.x();
+  query.ray.dir_y = direction.y();
+  query.ray.dir_z = direction.z();
+  query.ray.tnear = near;
+  query.ray.tfar = std::numeric_limits<float>::infinity();
+  query.ray.mask = ~0u;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene_.get(), &context.embree, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Hit();
+  return {(*context.triangles[query.hit.geomID])[query.hit.primID], query.hit.u, query.hit.v, query.ray.tfar};
+}
+
+namespace {
+
+/// The nearer of two hits, the second of which counts its triangles from `first_triangle` on.
+Hit nearer(const Hit& fixed, Hit moving, std::uint32_t first_triangle) {
+  if (moving.triangle == Hit::kMiss) return fixed;
+  if (fixed.triangle != Hit::kMiss && fixed.distance <= moving.distance) return fixed;
+  moving.triangle += first_triangle;
+  return moving;
+}
+
+}  // namespace
+
+Visibility::Visibility(std::shared_ptr<const Geometry> geometry)
+    : implementation_(std::make_unique<Implementation>(std::move(geometry))) {}
+Visibility::Visibility(std::shared_ptr<const Visibility> fixed, std::shared_ptr<const Geometry> moving)
+    : fixed_(std::move(fixed)),
+      implementation_(std::make_unique<Implementation>(std::move(moving), *fixed_->implementation_)) {}
+Visibility::~Visibility() = default;
+
+void Visibility::occluded(const Rays& rays, std::uint8_t* blocked) const {
+  occluded(rays, kEndless, blocked);
+}
+
+void Visibility::occludedWithin(const Rays& rays, std::uint8_t* blocked) const {
+  occluded(rays, 1.0f, blocked);
+}
+
+void Visibility::occluded(const Rays& rays, float reach, std::uint8_t* blocked) const {
+  implementation_->occluded(rays, reach, blocked);
+  if (!fixed_) return;
+  thread_local std::vector<std::uint8_t> by_moving;
+  by_moving.assign(blocked, blocked + rays.count);
+  fixed_->occluded(rays, reach, blocked);
+  for (std::size_t i = 0; i < rays.count; ++i) blocked[i] |= by_moving[i];
+}
+
+void Visibility::occludedByMoving(const Rays& rays, std::uint8_t* blocked) const {
+  if (fixed_) {
+    implementation_->occluded(rays, kEndless, blocked);
+  } else {
+    std::fill(blocked, blocked + rays.count, std::uint8_t{0});
+  }
+}
+
+const Geometry& Visibility::fixedGeometry() const {
+  return (fixed_ ? *fixed_ : *this).implementation_->geometry();
+}
+const Geometry* Visibility::movingGeometry() const {
+  return fixed_ ? &implementation_->geometry() : nullptr;
+}
+
+std::uint32_t Visibility::fixedTriangles() const {
+  return (fixed_ ? *fixed_ : *this).implementation_->triangleCount();
+}
+
+void Visibility::closest(const Rays& rays, Hit* hits) const {
+  implementation_->closest(rays, hits);
+  if (!fixed_) return;
+  const std::vector<Hit> moving(hits, hits + rays.count);
+  fixed_->closest(rays, hits);
+  for (std::size_t i = 0; i < rays.count; ++i)
+    hits[i] = nearer(hits[i], moving[i], fixed_->implementation_->triangleCount());
+}
+
+std::optional<std::uint32_t> Visibility::firstSeen(const Eigen::Vector3f& origin,
+                                                   const Eigen::Vector3f& direction, float near) const {
+  Hit hit = implementation_->firstSeen(origin, direction, near);
+  if (fixed_) {
+    hit = nearer(fixed_->implementation_->firstSeen(origin, direction, near), hit,
+                 fixed_->implementation_->triangleCount());
+  }
+  if (hit.triangle == Hit::kMiss) return std::nullopt;
+  return hit.triangle;
+}
+
+void Visibility::veils(const Sight& sight, std::vector<Hit>* hits) const {
+  hits->clear();
+  if (fixed_) fixed_->implementation_->addVeils(sight, 0, hits);
+  implementation_->addVeils(sight, fixed_ ? fixed_->implementation_->triangleCount() : 0, hits);
+  if (!fixed_) return;
+  std::stable_sort(hits->begin(), hits->end(),
+                   [](const Hit& a, const Hit& b) { return a.distance < b.distance; });
+  if (hits->size() > kMostVeils) hits->resize(kMostVeils);
+}
+
+bool Visibility::hasGlass() const {
+  return implementation_->hasGlass() || (fixed_ && fixed_->implementation_->hasGlass());
+}
+
+bool Visibility::hasVeils() const {
+  return implementation_->hasVeils() || (fixed_ && fixed_->implementation_->hasVeils());
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,119 @@
+#include "light/picture/ambient.h"
+
+#include <algorithm>
+
+#include "light/patches/mirror_sky.h"
+#include "light/patches/sky_sectors.h"
+#include "light/picture/gather/gathered_light.h"
+#include "sunlit/light/body_light.h"
+#include "sunlit/light/shading.h"
+#include "sunlit/quantity/angle.h"
+
+namespace sunlit::light {
+namespace {
+
+/// What shares of surfaces above and below the horizon add up to.
+Eigen::Array3f seenAround(const LightPlace& place, float above, float below,
+                          const std::vector<NodeLight>& nodes) {
+  Eigen::Array3f sum = Eigen::Array3f::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Surroundings& around = nodes[place.node[k]].around;
+    sum += place.weight[k] * (above * around.above + below * around.below);
+  }
+  return sum;
+}
+
+/// By light of the sky, lx, and the share of the half sphere that it comes from. What hides the rest is as
+/// bright as what the nodes have around them.
+Eigen::Array3f withSurroundings(const Eigen::Array4f& open, const LightPlace& place, float normal_z,
+                                const Illumination& light) {
+  const float up = 0.5f * (1.0f + normal_z);  // of an even sphere's light by cosine
+  return open.head<3>() + kPiFloat * seenAround(place, std::max(up - open[3], 0.0f), 1.0f - up, *light.nodes);
+}
+
+/// What arrives at a surface and, where light gets through it, behind it.
+struct Irradiance {
+  Eigen::Array3f front, behind;
+};
+Irradiance irradianceOf(const Surface& surface, const GatheredSky* gathered, const Illumination& light) {
+  const Eigen::Vector3f& normal = surface.shading_normal;
+  const LightPlace& behind = surface.behind;
+  const bool both = behind.known();
+  Irradiance sum;
+  if (gathered && light.mirror_sky) {
+    const GatheredLight open = gatheredLight(*gathered, light.mirror_sky->patches(), normal);
+    sum.front = withSurroundings(open.front, surface.light, normal.z(), light);
+    if (both) sum.behind = withSurroundings(open.behind, behind, -normal.z(), light);
+  } else if (surface.sky.known && light.sky_sectors) {
+    const SkySectors& sectors = *light.sky_sectors;
+    sum.front = withSurroundings(sectors.irradiance(surface.sky, normal), surface.light, normal.z(), light);
+    if (both)
+      sum.behind = withSurroundings(sectors.irradiance(surface.sky, -normal), behind, -normal.z(), light);
+  } else {
+    sum.front = irradianceAt(surface.light, *light.nodes);
+    if (both) sum.behind = irradianceAt(behind, *light.nodes);
+  }
+  if (!both) sum.behind = sum.front;
+  return sum;
+}
+
+/// As the bake knows it.
+AmbientLight bakedLight(const Surface& surface, const AmbientSources& sources, const Illumination& light) {
+  const Irradiance arriving = irradianceOf(surface, sources.gathered, light);
+  const Mirrored& mirrored = sources.mirrored;
+  const Eigen::Array3f seen =
+      mirrored.sky + seenAround(surface.light, mirrored.hidden_above, mirrored.hidden_below, *light.nodes);
+  return {arriving.front * surface.unhidden, arriving.behind * surface.unhidden, seen * surface.unhidden};
+}
+
+/// At a body that moves, as its surroundings tell; null: of the open sky.
+AmbientLight unbakedLight(const Surface& surface, float roughness, const AroundLight* body,
+                          const Illumination& light) {
+  const Eigen::Vector3f& normal = surface.shading_normal;
+  const Eigen::Array3f open = light.day.skyIlluminance(normal).value;
+  Eigen::Array3f irradiance = open;
+  if (body) irradiance = body->illuminance(normal);
+  irradiance *= surface.unhidden;
+  // A rough lobe spreads over the hemisphere, a smooth one mirrors a point of the sky.
+  const Eigen::Array3f spread = irradiance / kPiFloat;
+  const float smooth = std::max(0.0f, 1.0f - roughness * roughness * 1.5f);
+  if (smooth <= 0.0f) return {irradiance, irradiance, spread};
+  Eigen::Array3f point = light.day.skyLuminance(mirrored(surface.to_eye, normal).normalized()).value;
+  // What stands around hides the sky in the mirror as it does over the hemisphere.
+  if (body) point *= (irradiance / open.max(1e-9f)).min(1.0f);
+  return {irradiance, irradiance, smooth * point + (1.0f - smooth) * spread};
+}
+
+}  // namespace
+
+Mirrored mirroredBy(const Mirror& mirror, const MirrorSky& sky) {
+  Mirrored mirrored;
+  if (const auto* rough = std::get_if<RoughMirror>(&mirror)) {
+    mirrored.sky = sky.patches().times(rough->share.data()) * rough->scale;
+    mirrored.hidden_above = rough->hidden_above;
+    mirrored.hidden_below = rough->hidden_below;
+  } else {
+    const auto& smooth = std::get<SmoothMirror>(mirror);
+    Eigen::Array4f sum = Eigen::Array4f::Zero();
+    float open = 0.0f;
+    for (std::size_t k = 0; k < SmoothMirror::kParts; ++k) {
+      const auto share = static_cast<float>(smooth.open[k]);
+      sum += sky.luminance(smooth.place[k]) * share;
+      open += share;
+    }
+    constexpr float kAll = 255.0f * SmoothMirror::kParts;
+    mirrored.sky = sum.head<3>() / kAll;
+    mirrored.hidden_above = std::max(1.0f - open / kAll - smooth.hidden_below, 0.0f);
+    mirrored.hidden_below = smooth.hidden_below;
+  }
+  return mirrored;
+}
+
+AmbientLight ambientLight(const Surface& surface, const AmbientSources& sources, const Illumination& light) {
+  const bool moves = light.bodies && surface.body != Surface::kNoBody;
+  if (light.nodes && surface.light.known() && !moves) return bakedLight(surface, sources, light);
+  const AroundLight* const body = moves ? &(*light.bodies)[static_cast<std::size_t>(surface.body)] : nullptr;
+  return unbakedLight(surface, sources.roughness, body, light);
+}
+
+}  // namespace sunlit::light

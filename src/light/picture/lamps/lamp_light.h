@@ -1,0 +1,85 @@
+/// Direct light of lamps on what a camera sees.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "light/lamps/lamp_beam.h"
+#include "light/picture/lamps/lit_rows.h"
+#include "light/shading/glass_sheets.h"
+#include "sunlit/light/surfaces.h"
+#include "sunlit/light/visibility.h"
+#include "sunlit/scene/scene.h"
+
+namespace sunlit::light {
+
+/// Shadows are soft by the lamps' size. The more of a surface's light a lamp may give, the closer one looks:
+/// for most lamps all surfaces cast one ray, for weaker ones every second of what fills pixels, and where
+/// those near it within its tile find both light and shade, more; for the weakest every sixteenth pixel, of
+/// which one takes the mean.
+class LampLight {
+ public:
+  /// Lamps are left out of a surface that together would give a plane facing them at most this share of what
+  /// all lamps and the sky would give it, were nothing in the way.
+  static constexpr float kLeftOut = 0.01f;
+
+  struct Picture {
+    const Surfaces& surfaces;
+    const scene::Scene& scene;
+    const Visibility& visibility;
+  };
+  /// Keeps references to all of `picture`. `day_lx`: illuminance of level, open ground without lamps.
+  LampLight(const std::vector<scene::Lamp>& lamps, float day_lx, const Picture& picture);
+
+  /// Luminance of each of the tile's surfaces by the lamps, cd/m², without the air before it; empty where no
+  /// lamp matters.
+  void light(const Tile& tile, std::vector<Eigen::Array3f>* luminances) const;
+
+ private:
+  /// How closely one looks for shadows, by the share that a lamp may have of the light that reaches a
+  /// surface.
+  enum class Closeness : std::uint8_t { kMean, kFew, kAll };
+  /// Where a surface is seen.
+  struct Place {
+    std::uint8_t x, y;  ///< pixel in the tile
+    bool fills;         ///< alone in its pixel
+  };
+  /// A surface that a lamp may light.
+  struct Target {
+    std::uint32_t surface;
+    Eigen::Array3f unhidden;  ///< luminance by the lamp where nothing is in the way
+    float brightest;          ///< its largest channel
+    Place at;
+    std::uint8_t lit = 0, cast = 0;  ///< rays
+    Closeness closeness = Closeness::kAll;
+    float seen = 1.0f;  ///< share of the lamp that is not hidden
+  };
+
+  std::vector<std::uint32_t> lampsOf(const Tile& tile) const;
+  /// Of all surfaces.
+  std::vector<Place> placesOf(const Tile& tile) const;
+  /// Of those to which a lamp gives light.
+  static std::vector<Target> targetsOf(const LitRows::Reflected& reflected, const LitRows& rows,
+                                       const std::vector<Place>& places);
+  /// Of lamps that matter, the brightest in the tile first: where they are hidden, the others are looked at
+  /// more closely.
+  struct OfLamp {
+    std::uint32_t lamp;
+    float sum;  ///< of all of its targets
+    std::vector<Target> targets;
+  };
+  std::vector<OfLamp> targetsOf(const Tile& tile) const;
+  void findShadows(std::uint32_t lamp, const Tile& tile, std::vector<Target>* targets) const;
+  void cast(const LampBeam& beam, const Tile& tile, const std::vector<Target*>& targets) const;
+
+  /// Share of a lamp's light that glass on the way leaves to a surface.
+  Eigen::Array3f throughGlass(const LampBeam& beam, const Tile& tile, const Surface& surface) const;
+
+  std::vector<LampBeam> beams_;
+  float day_lx_;
+  Picture picture_;
+  GlassSheets glass_;
+};
+
+}  // namespace sunlit::light

@@ -1,0 +1,195 @@
+#include "light/picture/lamps/lit_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "light/shading/direct_parts.h"
+#include "light/shading/ggx.h"
+#include "light/shading/schlick.h"
+#include "light/shading/surface_reflection.h"
+#include "sunlit/quantity/vector_clones.h"
+
+namespace sunlit::light {
+namespace {
+
+/// Vectors and colours are three rows each.
+enum Row : std::size_t {
+  kPosition = 0,
+  kGeometricNormal = 3,
+  kNormal = 6,
+  kToEye = 9,
+  kF0 = 12,
+  kLambert = 15,
+  kThrough = 18,
+  kGrazing = 21,
+  kClear,
+  kNormalEye,  ///< cosine between them
+  kAlpha,
+  kOpaque,  ///< 1: nothing of what falls on its other side comes through, 0: of some it does
+  kRowCount
+};
+
+struct Rows {
+  const float* values;
+  std::size_t stride;
+  const float* operator[](std::size_t row) const { return values + row * stride; }
+};
+
+struct Source {
+  Eigen::Vector3f position;
+  float radius_m;
+  Eigen::Array3f intensity;
+  float brightest;
+};
+
+/// Half of atan(x), x ≥ 0, within 0.003.
+inline __attribute__((always_inline)) float halfAngle(float x) {
+  const float square = x * x;
+  const float narrow = x / (1.0f + 0.28f * square), wide = 0.5f * kPiFloat - x / (square + 0.28f);
+  return 0.5f * (x <= 1.0f ? narrow : wide);
+}
+
+/// How a block of surfaces sees a lamp.
+struct Seen {
+  alignas(64) float lx[LitRows::kBlock];  ///< on its plane for 1 cd of intensity; < 0: on its other side
+  alignas(64) float fresnel[LitRows::kBlock], lobe[LitRows::kBlock];
+};
+
+struct Target {
+  float* values;
+  std::uint32_t* blocks;
+};
+
+/// Keeps what matters of the shares of a block; returns whether anything does.
+inline __attribute__((always_inline)) bool choose(const float* shares, const float* least_lx, float brightest,
+                                                  float* __restrict chosen) {
+  int any = 0;
+  for (std::size_t k = 0; k < LitRows::kBlock; ++k) {
+    const bool enough = shares[k] * brightest > least_lx[k];
+    chosen[k] = enough ? shares[k] : 0.0f;
+    any |= enough ? 1 : 0;
+  }
+  return any != 0;
+}
+
+/// `rows` begin with the block's.
+inline __attribute__((always_inline)) void look(const Source& lamp, const Rows& rows, const float* shares,
+                                                Seen* __restrict seen) {
+  const float lamp_x = lamp.position.x(), lamp_y = lamp.position.y(), lamp_z = lamp.position.z();
+  const float radius_m = lamp.radius_m;
+  for (std::size_t k = 0; k < LitRows::kBlock; ++k) {
+    const auto dot = [&](std::size_t row, float x, float y, float z) {
+      return rows[row][k] * x + rows[row + 1][k] * y + rows[row + 2][k] * z;
+    };
+    const float x = lamp_x - rows[kPosition][k], y = lamp_y - rows[kPosition + 1][k],
+                z = lamp_z - rows[kPosition + 2][k];
+    const float per_m = 1.0f / std::max(std::sqrt(x * x + y * y + z * z), 1e-6f);
+    const float n_l = per_m * dot(kNormal, x, y, z), v_l = per_m * dot(kToEye, x, y, z);
+    const float n_v = rows[kNormalEye][k];
+    // The half vector is (l + v) / (2 v_h).
+    const float v_h = std::sqrt(std::min(std::max(0.5f * (1.0f + v_l), 1e-6f), 1.0f));
+    const float n_h = std::min(std::max((n_l + n_v) / (2.0f * v_h), 0.0f), 1.0f);
+    const Ggx<float> facets(std::min(rows[kAlpha][k] + halfAngle(radius_m * per_m), 1.0f));
+    const bool lost = (rows[kOpaque][k] > 0.0f) & (dot(kGeometricNormal, x, y, z) <= 0.0f);
+    seen->lx[k] = lost ? 0.0f : n_l * shares[k];
+    seen->fresnel[k] = schlick(v_h);
+    seen->lobe[k] = facets.distribution(n_h) * facets.visibility(std::max(n_l, 0.0f), std::max(n_v, 1e-3f));
+  }
+}
+
+/// What a block reflects of one channel.
+struct Channel {
+  const float *f0, *lambert, *through, *grazing, *clear;
+  float intensity;
+};
+
+Channel channelOf(const Rows& rows, std::size_t channel, const Source& lamp) {
+  return {rows[kF0 + channel],
+          rows[kLambert + channel],
+          rows[kThrough + channel],
+          rows[kGrazing],
+          rows[kClear],
+          lamp.intensity[static_cast<Eigen::Index>(channel)]};
+}
+
+// The sums of directReflectance().
+inline __attribute__((always_inline)) void reflectChannel(const Seen& seen, const Channel& channel,
+                                                          float* __restrict luminances) {
+  const float *const f0 = channel.f0, *const lambert = channel.lambert, *const through = channel.through;
+  const float *const grazing = channel.grazing, *const clear = channel.clear;
+  const float intensity = channel.intensity;
+  for (std::size_t k = 0; k < LitRows::kBlock; ++k) {
+    const float face = f0[k] + (grazing[k] - f0[k]) * seen.fresnel[k];
+    const float mirrored = face + clear[k] * (2.0f * face / (1.0f + face) - face);
+    const float reflectance = lambert[k] * (1.0f - mirrored) + mirrored * seen.lobe[k];
+    luminances[k] = intensity * (seen.lx[k] > 0.0f ? reflectance * seen.lx[k] : through[k] * -seen.lx[k]);
+  }
+}
+
+/// Sets what is said of LitRows::Reflected. `blocks` has room for all of them; returns how many are in use.
+SUNLIT_WIDE_VECTOR_CLONES
+std::size_t reflectAll(const Source& lamp, const Rows& rows, const LitRows::Arriving& arriving,
+                       const Target& target) {
+  Seen seen;
+  alignas(64) float chosen[LitRows::kBlock];
+  std::size_t count = 0;
+  for (std::size_t begin = 0; begin < rows.stride; begin += LitRows::kBlock) {
+    if (!choose(arriving.shares + begin, arriving.least_lx + begin, lamp.brightest, chosen)) continue;
+    target.blocks[count++] = static_cast<std::uint32_t>(begin);
+    const Rows block{rows.values + begin, rows.stride};
+    look(lamp, block, chosen, &seen);
+    float* const red = target.values + begin;
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      reflectChannel(seen, channelOf(block, channel, lamp), red + channel * rows.stride);
+    const float *const green = red + rows.stride, *const blue = green + rows.stride;
+    float* const largest = red + 3 * rows.stride;
+    for (std::size_t k = 0; k < LitRows::kBlock; ++k)
+      largest[k] = std::max(std::max(red[k], green[k]), blue[k]);
+  }
+  return count;
+}
+
+}  // namespace
+
+void LitRows::set(const Tile& tile, const scene::Scene& scene) {
+  count_ = tile.surfaces.size();
+  stride_ = (count_ + kBlock - 1) / kBlock * kBlock;
+  rows_.assign(kRowCount * stride_, 0.0f);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Surface& surface = tile.surfaces[i];
+    const Reflection reflection =
+        reflectionOf(surface, scene.materials[static_cast<std::size_t>(surface.material)]);
+    const DirectParts parts = directParts(reflection);
+    const auto put = [&](std::size_t row, const auto& three) {
+      for (std::size_t k = 0; k < 3; ++k)
+        rows_[(row + k) * stride_ + i] = three[static_cast<Eigen::Index>(k)];
+    };
+    put(kPosition, surface.position);
+    put(kGeometricNormal, surface.geometric_normal);
+    put(kNormal, reflection.normal);
+    put(kToEye, reflection.to_eye);
+    put(kF0, parts.f0);
+    put(kLambert, parts.lambert);
+    put(kThrough, parts.through);
+    rows_[kGrazing * stride_ + i] = parts.grazing;
+    rows_[kClear * stride_ + i] = parts.clear;
+    rows_[kNormalEye * stride_ + i] = reflection.normal.dot(reflection.to_eye);
+    rows_[kAlpha * stride_ + i] = reflection.roughness * reflection.roughness;
+    rows_[kOpaque * stride_ + i] = reflection.transmission > 0.0f ? 0.0f : 1.0f;
+  }
+}
+
+LampBeam::Points LitRows::positions() const {
+  const Rows rows{rows_.data(), stride_};
+  return {rows[kPosition], rows[kPosition + 1], rows[kPosition + 2], stride_};
+}
+
+void LitRows::reflect(const LampBeam& beam, const Arriving& arriving, Reflected* reflected) const {
+  reflected->values.resize(4 * stride_);
+  reflected->blocks.resize(stride_ / kBlock);
+  reflected->blocks.resize(reflectAll({beam.position(), beam.radius_m(), beam.intensity(), beam.brightest()},
+                                      {rows_.data(), stride_}, arriving,
+                                      {reflected->values.data(), reflected->blocks.data()}));
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,21 @@
+/// How much of the sky a surface has before it, patch by patch.
+#pragma once
+
+#include "light/bake/samples/transport_data.h"
+#include "light/patches/mirror_places.h"
+#include "sunlit/light/surfaces.h"
+
+namespace sunlit::light {
+
+struct OpenPatches {
+  PatchValues share;  ///< 0 … 1
+  PatchValues known;  ///< 1, or 0 where the surface's samples don't tell, and `share` is 0
+};
+
+/// By what was gathered there, if `gathered` is not null; else by the surface's view of the sky as a leaf, or
+/// by the samples of `data` around it. `material` is its own; thin sheets see the sky on both sides, but by
+/// samples.
+OpenPatches openPatches(const TransportData& data, const Surface& surface, const GatheredSky* gathered,
+                        const scene::Material& material);
+
+}  // namespace sunlit::light

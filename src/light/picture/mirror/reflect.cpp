@@ -1,0 +1,235 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "light/geometry/ray_list.h"
+#include "light/geometry/ray_start.h"
+#include "light/picture/mirror/reflections.h"
+#include "light/shading/glass_sheets.h"
+#include "light/shading/vertex.h"
+#include "sunlit/light/body_light.h"
+#include "sunlit/light/lighting.h"
+#include "sunlit/light/shading.h"
+#include "sunlit/light/transport.h"
+
+namespace sunlit::light {
+namespace {
+
+/// Rays of one surface that meet triangles of one material, nearly in one plane, are one surface in its
+/// mirror, too.
+constexpr float kSamePlane = 0.985f, kSameDistance = 0.1f;
+
+/// Smooth enough, and no sheet that light shines through, such as a leaf: those mirror by their lobe.
+bool canMirror(const scene::Material& material) {
+  return material.transmission == 0.0f &&
+         (material.roughness < kMirrorsByLobe || material.roughness_map.given());
+}
+
+bool anyMirrors(const scene::Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(), canMirror);
+}
+
+/// Mirrors about the shading normal, but never into the surface.
+Eigen::Vector3f mirroredClear(const Surface& surface, const Eigen::Vector3f& to_eye) {
+  constexpr float kLeast = 1e-3f;
+  Eigen::Vector3f towards = mirrored(to_eye, surface.shading_normal);
+  const float lifted = surface.geometric_normal.dot(towards);
+  if (lifted < kLeast) towards += (kLeast - lifted) * surface.geometric_normal;
+  return towards.normalized();
+}
+
+class TileMirror {
+ public:
+  TileMirror(const Surfaces& surfaces, const scene::Scene& scene, const Visibility& visibility)
+      : surfaces_(surfaces),
+        scene_(scene),
+        visibility_(visibility),
+        vertices_(visibility.fixedGeometry(), visibility.movingGeometry()),
+        glass_(visibility) {}
+
+  void look(const Tile& tile, std::vector<Reflections::Mirroring>* all, Tile* seen) const {
+    thread_local RayList rays;
+    thread_local std::vector<Hit> hits;
+    rays.clear();
+    for (std::uint32_t i = 0; i < tile.surfaces.size(); ++i) {
+      const Surface& surface = tile.surfaces[i];
+      if (!(surface.roughness < kMirrorsByLobe)) continue;
+      if (!canMirror(scene_.materials[static_cast<std::size_t>(surface.material)])) continue;
+      const float rougher = (kMirrorsByLobe - surface.roughness) / (kMirrorsByLobe - kMirrorsByRays);
+      Reflections::Mirroring mirroring;
+      mirroring.surface = i;
+      mirroring.by_rays = std::min(rougher, 1.0f);
+      mirroring.rays = surface.samples;
+      all->push_back(mirroring);
+      addRays(tile, surface, static_cast<std::uint32_t>(all->size() - 1), &rays);
+    }
+    if (all->empty()) return;
+    hits.resize(rays.size());
+    visibility_.closest(rays.rays(), hits.data());
+    for (std::size_t begin = 0; begin < rays.size();) {
+      Reflections::Mirroring& mirroring = (*all)[rays.number()[begin]];
+      sort({tile.surfaces[mirroring.surface], rays, hits, begin, begin + mirroring.rays}, &mirroring, seen);
+      begin += mirroring.rays;
+    }
+  }
+
+ private:
+  /// One surface's rays, and what they met.
+  struct Looked {
+    const Surface& surface;
+    const RayList& rays;
+    const std::vector<Hit>& hits;
+    std::size_t begin, end;
+
+    Eigen::Vector3f origin(std::size_t i) const {
+      const Rays all = rays.rays();
+      return {all.origin_x[i], all.origin_y[i], all.origin_z[i]};
+    }
+    Eigen::Vector3f towards(std::size_t i) const {
+      const Rays all = rays.rays();
+      return {all.direction_x[i], all.direction_y[i], all.direction_z[i]};
+    }
+  };
+
+  void addRays(const Tile& tile, const Surface& surface, std::uint32_t number, RayList* rays) const {
+    rays->reserve(surface.samples);
+    for (std::uint32_t i = 0; i < surface.samples; ++i) {
+      const std::size_t at = surface.first_sample + i;
+      const Eigen::Vector3f origin = rayStart(tile, at);
+      rays->add(number, origin, mirroredClear(surface, (surfaces_.eye - origin).normalized()));
+    }
+  }
+
+  /// What one ray met.
+  struct Met {
+    Hit hit;
+    Vertex vertex;
+    Eigen::Array3f through;
+    bool taken = false;
+
+    bool alike(const Met& other) const {
+      return vertex.material == other.vertex.material &&
+             vertex.geometric_normal.dot(other.vertex.geometric_normal) > kSamePlane &&
+             vertex.reflection.normal.dot(other.vertex.reflection.normal) > kSamePlane &&
+             std::abs(hit.distance - other.hit.distance) < kSameDistance * hit.distance;
+    }
+  };
+
+  void sort(const Looked& looked, Reflections::Mirroring* mirroring, Tile* seen) const {
+    mirroring->first = static_cast<std::uint32_t>(seen->surfaces.size());
+    thread_local std::vector<Met> met;
+    met.clear();
+    Eigen::Vector3f open = Eigen::Vector3f::Zero();
+    for (std::size_t i = looked.begin; i < looked.end; ++i) {
+      const Hit& hit = looked.hits[i];
+      const bool misses = hit.triangle == Hit::kMiss;
+      const float reach = misses ? std::numeric_limits<float>::infinity() : hit.distance;
+      Eigen::Array3f through = Eigen::Array3f::Ones();
+      if (glass_.any()) through = glass_.through({looked.origin(i), looked.towards(i), 0.0f, reach});
+      if (misses) {
+        open += looked.towards(i);
+        mirroring->sky += through;
+      } else {
+        met.push_back({hit, vertices_.at(hit, looked.towards(i)), through});
+      }
+    }
+    for (std::size_t i = 0; i < met.size(); ++i) {
+      if (!met[i].taken) add(looked.surface, i, &met, seen);
+    }
+    mirroring->count = static_cast<std::uint32_t>(seen->surfaces.size()) - mirroring->first;
+    mirroring->sky /= static_cast<float>(mirroring->rays);
+    mirroring->towards = open.normalized();
+  }
+
+  /// What the rays from number `first` on met that is like what that one did.
+  void add(const Surface& mirror, std::size_t first, std::vector<Met>* met, Tile* seen) const {
+    const Vertex& vertex = (*met)[first].vertex;
+    Surface surface;
+    surface.geometric_normal = vertex.geometric_normal;
+    surface.position = surface.to_eye = surface.shading_normal = Eigen::Vector3f::Zero();
+    surface.albedo = surface.emission = surface.share = Eigen::Array3f::Zero();
+    surface.roughness = surface.metalness = 0.0f;
+    surface.material = static_cast<std::int32_t>(vertex.material - scene_.materials.data());
+    surface.pixel = mirror.pixel;
+    surface.triangle = (*met)[first].hit.triangle;
+    surface.first_sample = static_cast<std::uint32_t>(seen->origin_x.size());
+    for (std::size_t i = first; i < met->size(); ++i) {
+      Met& other = (*met)[i];
+      if (other.taken || (i != first && !(*met)[first].alike(other))) continue;
+      other.taken = true;
+      ++surface.samples;
+      const Reflection& reflection = other.vertex.reflection;
+      surface.position += 0.5f * (other.vertex.front + other.vertex.behind);
+      surface.to_eye += reflection.to_eye;
+      surface.shading_normal += reflection.normal;
+      surface.albedo += reflection.albedo;
+      surface.emission += other.vertex.emission;
+      surface.roughness += reflection.roughness;
+      surface.metalness += reflection.metalness;
+      surface.share += other.through;
+      seen->origin_x.push_back(other.vertex.front.x());
+      seen->origin_y.push_back(other.vertex.front.y());
+      seen->origin_z.push_back(other.vertex.front.z());
+    }
+    const float each = 1.0f / static_cast<float>(surface.samples);
+    surface.position *= each;
+    surface.to_eye.normalize();
+    surface.shading_normal.normalize();
+    for (Eigen::Array3f* sum : {&surface.albedo, &surface.emission, &surface.share}) *sum *= each;
+    surface.roughness *= each;
+    surface.metalness *= each;
+    surface.clearance_m = rayClearance_m(surface.position, 0.0f);
+    seen->surfaces.push_back(surface);
+  }
+
+  const Surfaces& surfaces_;
+  const scene::Scene& scene_;
+  const Visibility& visibility_;
+  SceneVertices vertices_;
+  GlassSheets glass_;
+};
+
+void layOutLike(const Surfaces& surfaces, Surfaces* seen) {
+  seen->width = surfaces.width;
+  seen->height = surfaces.height;
+  seen->samples_per_pixel = surfaces.samples_per_pixel;
+  seen->pixel_origin = surfaces.pixel_origin;
+  seen->pixel_right = surfaces.pixel_right;
+  seen->pixel_down = surfaces.pixel_down;
+  seen->eye = surfaces.eye;
+  seen->tiles.resize(surfaces.tiles.size());
+  for (std::size_t i = 0; i < surfaces.tiles.size(); ++i) {
+    const Tile& tile = surfaces.tiles[i];
+    Tile& other = seen->tiles[i];
+    other.x = tile.x;
+    other.y = tile.y;
+    other.width = tile.width;
+    other.height = tile.height;
+  }
+}
+
+}  // namespace
+
+void reflect(const World& world, const Visibility& visibility, const BodyLight* bodies, Surfaces* surfaces) {
+  surfaces->reflections.reset();
+  const scene::Scene& scene = *world.geometry->scene;
+  if (!anyMirrors(scene)) return;
+  auto made = std::make_shared<Reflections>();
+  made->tiles.resize(surfaces->tiles.size());
+  layOutLike(*surfaces, &made->seen);
+  const TileMirror mirror(*surfaces, scene, visibility);
+  tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(), [&](std::size_t i) {
+    mirror.look(surfaces->tiles[i], &made->tiles[i], &made->seen.tiles[i]);
+  });
+  if (std::all_of(made->tiles.begin(), made->tiles.end(), [](const auto& tile) { return tile.empty(); }))
+    return;
+  if (world.transport) world.transport->locate(&made->seen);
+  if (bodies && visibility.movingGeometry())
+    bodies->hide(*visibility.movingGeometry(), visibility, &made->seen);
+  prepare(scene, &made->seen);
+  surfaces->reflections = std::move(made);
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,85 @@
+#include "light/picture/sky/disc_in_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sunlit/quantity/angle.h"
+#include "sunlit/sky/disc_segment.h"
+
+namespace sunlit::light {
+namespace {
+
+/// Points across the radius of a disc that its edge and its phase are averaged over, at least.
+constexpr double kPointsPerRadius = 32.0;
+/// Points across a crescent's width, at least, until kMostPointsPerRadius are not enough.
+constexpr double kPointsPerCrescent = 16.0;
+constexpr double kMostPointsPerRadius = 128.0;
+
+/// Brightness of a whole Lommel-Seeliger sphere at a phase angle, relative to full: 1 − sin(α/2) tan(α/2)
+/// ln cot(α/4) (Lester, McCall and Tatum 1979).
+double lommelSeeligerPhase(double alpha) {
+  if (alpha < 1e-6) return 1.0;
+  if (alpha > kPi - 1e-6) return 0.0;
+  return 1.0 - std::sin(0.5 * alpha) * std::tan(0.5 * alpha) * -std::log(std::tan(0.25 * alpha));
+}
+
+}  // namespace
+
+DiscInView::DiscInView(const Surfaces& surfaces, const sky::DiscLight& disc)
+    : surfaces_(surfaces), towards_(disc.towards.vector().cast<float>()), centre_(disc.towards.vector()) {
+  const double radius = disc.angular_radius.rad();
+  disc_cosine_ = static_cast<float>(std::cos(radius));
+  disc_sine_ = std::sin(radius);
+  // No pixel spans a larger angle than at the image centre, where it is its size at depth 1.
+  const double pixel = std::hypot(surfaces.pixel_right.norm(), surfaces.pixel_down.norm());
+  near_cosine_ = static_cast<float>(std::cos(std::min(radius + 2.0 * pixel, kPi)));
+  const double above = sky::discSegment(disc.towards.elevation().rad() / radius);
+  double lit = 1.0;
+  double points_per_radius = kPointsPerRadius;
+  if (disc.lit_from) {
+    lit_from_ = disc.lit_from->vector();
+    const double cosine = -disc.lit_from->vector().dot(disc.towards.vector());
+    lit = lommelSeeligerPhase(std::acos(std::clamp(cosine, -1.0, 1.0)));
+    const double width = std::max(1.0 + cosine, 1e-3);  // of the lit part, in radii
+    points_per_radius = std::clamp(kPointsPerCrescent / width, kPointsPerRadius, kMostPointsPerRadius);
+    // At full phase µ0 = µ: one half everywhere.
+    brightness_scale_ = 2.0 / std::max(lit, 1e-9);
+  }
+  shines_ = disc.illuminance.value.maxCoeff() > 0.0f && above > 1e-4 && lit > 1e-6;
+  const double radius_px = radius * std::sqrt(2.0) / pixel;
+  grid_ = static_cast<int>(std::clamp(std::ceil(points_per_radius / radius_px), 4.0, 256.0));
+  // The disc fills a solid angle of 2π (1 − cos r), here without cancellation.
+  const double half_sine = std::sin(0.5 * radius);
+  mean_luminance_ =
+      disc.illuminance.value / static_cast<float>(4.0 * kPi * half_sine * half_sine * std::max(above, 1e-4));
+}
+
+double DiscInView::brightness(const Eigen::Vector3d& towards) const {
+  // Where on the disc this is seen, in radii from its centre.
+  const Eigen::Vector3d across = (towards - towards.dot(centre_) * centre_) / disc_sine_;
+  const double square = across.squaredNorm();
+  if (square > 1.0) return 0.0;
+  if (!lit_from_) return 1.0;
+  // The normal of the sphere there has this cosine to the line of sight.
+  const double mu = std::sqrt(1.0 - square);
+  const double mu0 = (across - mu * centre_).dot(*lit_from_);
+  return mu0 > 0.0 ? brightness_scale_ * mu0 / (mu0 + mu) : 0.0;
+}
+
+Eigen::Array3f DiscInView::luminance(int x, int y) const {
+  const Eigen::Vector3d right = surfaces_.pixel_right.cast<double>();
+  const Eigen::Vector3d down = surfaces_.pixel_down.cast<double>();
+  const double step = 1.0 / grid_;
+  const Eigen::Vector3d corner =
+      surfaces_.pixel_origin.cast<double>() + (x - 0.5 + 0.5 * step) * right + (y - 0.5 + 0.5 * step) * down;
+  double sum = 0.0;
+  for (int j = 0; j < grid_; ++j) {
+    for (int i = 0; i < grid_; ++i) {
+      const Eigen::Vector3d towards = (corner + i * step * right + j * step * down).normalized();
+      if (towards.z() > 0.0) sum += brightness(towards);
+    }
+  }
+  return static_cast<float>(sum * step * step) * mean_luminance_;
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,106 @@
+#include "light/picture/surface_lighting.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "light/geometry/ray_start.h"
+#include "light/shading/surface_reflection.h"
+#include "sunlit/light/shading.h"
+
+namespace sunlit::light {
+namespace {
+
+const std::vector<scene::Lamp>& lampsOf(const Illumination& light) {
+  static const std::vector<scene::Lamp> none;
+  return light.lamps ? *light.lamps : none;
+}
+
+std::vector<bool> glowing(const SurfaceLighting::Subject& subject, const std::vector<scene::Lamp>& lamps) {
+  std::vector<bool> are;
+  for (const scene::Material& material : subject.scene.materials)
+    are.push_back(glows(material, lamps) && (!subject.in_mirrors || material.lamp_group.empty()));
+  return are;
+}
+
+/// A disc that gives less, on a plane facing it, than a thousandth of what lies on the ground changes no
+/// pixel by a visible amount: such as the moon by day.
+float leastDisc_lx(const sky::Daylight& day) {
+  return 1e-3f * day.groundIlluminance().value.maxCoeff();
+}
+
+}  // namespace
+
+SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& light)
+    : surfaces_(subject.surfaces),
+      table_(subject.table),
+      scene_(subject.scene),
+      light_(light),
+      glows_(glowing(subject, lampsOf(light))),
+      sun_(light.day.sun(), leastDisc_lx(light.day), {surfaces_, table_, subject.visibility}),
+      moon_(light.day.moon(), leastDisc_lx(light.day), {surfaces_, table_, subject.visibility}),
+      lamps_(lampsOf(light), light.day.groundIlluminance().value.maxCoeff(),
+             {surfaces_, scene_, subject.visibility}),
+      glass_(subject.visibility) {}
+
+Eigen::Array3f SurfaceLighting::ofDisc(const DiscVisibility& disc, float share, const Tile& tile,
+                                       const Surface& surface) const {
+  if (!glass_.any() || !(share > 0.0f)) return Eigen::Array3f::Constant(share);
+  const Eigen::Vector3f origin = rayStart(tile, surface.first_sample, surface, disc.towards());
+  return share * glass_.through({origin, disc.towards(), 0.0f, std::numeric_limits<float>::infinity()});
+}
+
+void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& by_rays,
+                            std::vector<Eigen::Array3f>* luminances) const {
+  const Tile& tile = surfaces_.tiles[number];
+  const std::vector<float>& sun_shares = sun_.visibleShares(number);
+  const std::vector<float>& moon_shares = moon_.visibleShares(number);
+  const LightTable::Rows& rows = table_.tile(number);
+  thread_local std::vector<Mirrored> mirrored;
+  mirrored.assign(std::max<std::size_t>(tile.mirrors.size(), 1), Mirrored());
+  if (light_.mirror_sky) {
+    for (std::size_t i = 0; i < tile.mirrors.size(); ++i)
+      mirrored[i] = mirroredBy(tile.mirrors[i], *light_.mirror_sky);
+  }
+  thread_local std::vector<Eigen::Array3f> by_lamps;
+  lamps_.light(tile, &by_lamps);
+  luminances->resize(tile.surfaces.size());
+  auto next = by_rays.begin();
+  for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
+    const Surface& surface = tile.surfaces[i];
+    const bool rays = next != by_rays.end() && next->surface == i;
+    const SurfaceParts parts{rows.ambient[i],
+                             mirrored[rows.mirror[i]],
+                             tile.gatheredFor(surface),
+                             ofDisc(sun_, sun_shares.empty() ? 0.0f : sun_shares[i], tile, surface),
+                             ofDisc(moon_, moon_shares.empty() ? 0.0f : moon_shares[i], tile, surface),
+                             by_lamps.empty() ? nullptr : &by_lamps[i],
+                             rays ? &*next++ : nullptr};
+    (*luminances)[i] = luminance(surface, parts);
+  }
+}
+
+// The light equation, which doc/equations.md explains, term by term, without the air:
+//   Lₑ + Σ f(l) V E + f₊ E₊ + f₋ E₋ + fₘ Lₘ
+Eigen::Array3f SurfaceLighting::luminance(const Surface& surface, const SurfaceParts& parts) const {
+  const scene::Material& material = scene_.materials[static_cast<std::size_t>(surface.material)];
+  const Reflection reflection = reflectionOf(surface, material);
+  const auto direct = [&](const DiscVisibility& disc, const sky::DiscLight& lamp,
+                          const Eigen::Array3f& share) -> Eigen::Array3f {
+    return directReflectance(reflection, disc.towards(), disc.radius_rad()) *
+           (share * lamp.illuminance.value);
+  };
+  Eigen::Array3f leaving = Eigen::Array3f::Zero();
+  if (glows_[static_cast<std::size_t>(surface.material)]) leaving = surface.emission;
+  if (parts.sun.maxCoeff() > 0.0f) leaving += direct(sun_, light_.day.sun(), parts.sun);
+  if (parts.moon.maxCoeff() > 0.0f) leaving += direct(moon_, light_.day.moon(), parts.moon);
+  if (parts.lamps) leaving += *parts.lamps;
+
+  const AmbientReflectance& by = parts.ambient;
+  AmbientLight from = ambientLight(surface, {reflection.roughness, parts.mirrored, parts.gathered}, light_);
+  if (parts.by_rays) from.mirrored += parts.by_rays->share * (parts.by_rays->luminance - from.mirrored);
+  const Eigen::Array3f ambient =
+      by.diffuse * from.front + by.through * from.behind + by.specular * from.mirrored;
+  return leaving + surface.cavity * ambient;
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,67 @@
+/// Light that surfaces send towards whoever sees them: the camera, or a mirror.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "light/picture/ambient.h"
+#include "light/picture/disc/disc_visibility.h"
+#include "light/picture/lamps/lamp_light.h"
+#include "light/picture/table/light_table.h"
+#include "light/shading/glass_sheets.h"
+#include "sunlit/light/illumination.h"
+#include "sunlit/light/surfaces.h"
+#include "sunlit/light/visibility.h"
+
+namespace sunlit::light {
+
+class SurfaceLighting {
+ public:
+  /// What is lit, and what stands in the way.
+  struct Subject {
+    const Surfaces& surfaces;
+    const LightTable& table;  ///< of `surfaces`
+    const scene::Scene& scene;
+    const Visibility& visibility;
+    bool in_mirrors = false;  ///< lamps' own glass is left out: their highlights show them
+  };
+  /// Keeps references. Casts the rays to sun and moon, in parallel.
+  SurfaceLighting(const Subject& subject, const Illumination& light);
+
+  /// What one of a tile's surfaces mirrors, as rays met it.
+  struct SeenByRays {
+    std::uint32_t surface;     ///< index into Tile::surfaces
+    float share;               ///< of its mirrored light, 0 … 1; the rest is that of its lobe
+    Eigen::Array3f luminance;  ///< cd/m²
+  };
+  /// Luminance of each of Surfaces::tiles[tile].surfaces, cd/m², without the air before it. `by_rays` is in
+  /// their order.
+  void light(std::size_t tile, const std::vector<SeenByRays>& by_rays,
+             std::vector<Eigen::Array3f>* luminances) const;
+
+ private:
+  /// What is known of a surface before it is lit.
+  struct SurfaceParts {
+    const AmbientReflectance& ambient;
+    const Mirrored& mirrored;     ///< where the light is baked
+    const GatheredSky* gathered;  ///< null: FinalGather did not look there
+    Eigen::Array3f sun, moon;     ///< shares of their discs that it sees, coloured by glass
+    const Eigen::Array3f* lamps;  ///< its luminance by lamps; null: there are none
+    const SeenByRays* by_rays;    ///< null: none
+  };
+  Eigen::Array3f luminance(const Surface& surface, const SurfaceParts& parts) const;
+  /// Share of a disc's light that a surface gets, where it sees `share` of it.
+  Eigen::Array3f ofDisc(const DiscVisibility& disc, float share, const Tile& tile,
+                        const Surface& surface) const;
+
+  const Surfaces& surfaces_;
+  const LightTable& table_;
+  const scene::Scene& scene_;
+  const Illumination& light_;
+  std::vector<bool> glows_;  ///< of each material
+  DiscVisibility sun_, moon_;
+  LampLight lamps_;
+  GlassSheets glass_;
+};
+
+}  // namespace sunlit::light

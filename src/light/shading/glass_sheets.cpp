@@ -1,0 +1,31 @@
+#include "light/shading/glass_sheets.h"
+
+#include <algorithm>
+
+namespace sunlit::light {
+
+GlassSheets::GlassSheets(const Visibility& visibility)
+    : vertices_(visibility.fixedGeometry(), visibility.movingGeometry()),
+      visibility_(visibility),
+      any_(visibility.hasGlass()) {}
+
+void GlassSheets::sheets(const Visibility::Sight& sight, std::vector<Hit>* hits) const {
+  hits->clear();
+  if (!any_) return;
+  Visibility::Sight all = sight;
+  all.backs = true;
+  visibility_.veils(all, hits);
+  hits->erase(std::remove_if(hits->begin(), hits->end(),
+                             [this](const Hit& hit) { return !isGlass(vertices_.material(hit)); }),
+              hits->end());
+}
+
+Eigen::Array3f GlassSheets::through(const Visibility::Sight& sight) const {
+  Eigen::Array3f product = Eigen::Array3f::Ones();
+  thread_local std::vector<Hit> hits;
+  sheets(sight, &hits);
+  for (const Hit& hit : hits) product *= straightThrough(at(hit, sight.direction.normalized()).reflection);
+  return product;
+}
+
+}  // namespace sunlit::light

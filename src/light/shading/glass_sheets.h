@@ -1,0 +1,33 @@
+/// Light on its way through sheets of glass.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "light/shading/vertex.h"
+#include "sunlit/light/visibility.h"
+
+namespace sunlit::light {
+
+/// Beside Visibility, whose rays glass does not stop.
+class GlassSheets {
+ public:
+  /// Keeps a reference.
+  explicit GlassSheets(const Visibility& visibility);
+
+  bool any() const { return any_; }
+  /// Share of the light that gets through along `sight` in all of its sheets, by channel. The ray may go
+  /// either way.
+  Eigen::Array3f through(const Visibility::Sight& sight) const;
+  /// The sheets on its way, nearest first.
+  void sheets(const Visibility::Sight& sight, std::vector<Hit>* hits) const;
+  /// One of them, met along `direction`.
+  Vertex at(const Hit& hit, const Eigen::Vector3f& direction) const { return vertices_.at(hit, direction); }
+
+ private:
+  SceneVertices vertices_;
+  const Visibility& visibility_;
+  bool any_;
+};
+
+}  // namespace sunlit::light
