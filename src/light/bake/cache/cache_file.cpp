@@ -61,6 +61,7 @@ void visitArrays(Data& data, const Visit& visit) {
   visit(data.rooms.mirrored.scales);
   visit(data.rooms.sources);
   visit(data.rooms.points);
+  visit(data.rooms.glossy);
 }
 
 }  // namespace

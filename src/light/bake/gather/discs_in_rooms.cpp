@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "light/bake/gather/floor_glints.h"
 #include "light/bake/gather/small_light.h"
 #include "light/geometry/ray_list.h"
 #include "light/patches/disc_above_horizon.h"
@@ -162,6 +163,7 @@ DiscsInRooms::DiscsInRooms(const TransportData& data, const sky::Daylight& day, 
       work.add(block * kBlock, std::min(count, (block + 1) * kBlock), &direct_);
     });
     startFromPatches(*disc);
+    FloorGlints(data_, *disc, visibility).addTo(&mirrored_);
   }
   double change = 1.0;
   for (int bounce = 0; bounce < kMostBounces && change > kLittle; ++bounce) {

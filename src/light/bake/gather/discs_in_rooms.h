@@ -36,7 +36,7 @@ class DiscsInRooms {
   std::vector<Eigen::Array3f> direct_;  ///< of each source: luminance × π by light straight from the discs
   std::vector<Eigen::Array3f> has_;     ///< of each sample that is asked: illuminance by surfaces, lx
   std::vector<Eigen::Array3f> sent_;    ///< of each sample: luminance × π
-  std::vector<Eigen::Array3f> mirrored_;  ///< of each room: by way of the ground as a mirror, lx
+  std::vector<Eigen::Array3f> mirrored_;  ///< of each room: by way of floors as mirrors, lx
   std::vector<Arrived> arrived_;          ///< of each room
 };
 

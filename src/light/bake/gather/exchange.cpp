@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "light/bake/gather/floor_glints.h"
 #include "light/shading/mirror_lobe.h"
 #include "light/shading/reflectances.h"
 #include "sunlit/quantity/angle.h"
@@ -107,6 +108,11 @@ bool Exchange::isGround(std::uint32_t sample) const {
   constexpr float kLevel = 0.97f;  // within 14°, half a patch
   const Receiver& receiver = samples_.receivers[sample];
   return receiver.normal.z() > kLevel && !receiver.thin && samples_.paints[sample].metalness < 0.5f;
+}
+
+bool Exchange::isPolished(std::uint32_t sample) const {
+  return isGround(sample) && samples_.receivers[sample].normal.z() > kFlat &&
+         samples_.paints[sample].roughness < kPolished;
 }
 
 float Exchange::scattered(std::uint32_t from, const Eigen::Vector3f& towards) const {

@@ -110,6 +110,8 @@ class Exchange {
   }
   /// Whether a sample mirrors as GroundMirror says.
   bool isGround(std::uint32_t sample) const;
+  /// Whether it is level and so smooth that sun and moon in it are as in a mirror.
+  bool isPolished(std::uint32_t sample) const;
   /// Ground scatters less towards a glancing ray than towards the mean one: Fresnel's share is larger there.
   float scattered(std::uint32_t from, const Eigen::Vector3f& towards) const;
   /// Calls visit(SampleSeen, whether it is seen above the horizon) for those samples with wanted(number) that

@@ -83,7 +83,10 @@ class Gatherer {
       exchange_.useRooms();
       lookIntoGround(*data);
       lookAtWhatShines();
-      if (all) rooms.finish(mirrored_, &data->rooms);
+      if (all) {
+        rooms.finish(&data->rooms);
+        lookIntoGroundOfRooms(data);
+      }
     }
     for (int bounce = 0; bounce < options_.bounces; ++bounce)
       passOn(data, (1.0 - direct_share) / options_.bounces);
@@ -212,6 +215,24 @@ class Gatherer {
         mirrored_.set(i, row.data());
         for (const float value : row) exchange_.mirrored_sums[i] += value;
       }
+    });
+  }
+
+  /// Sun and moon in polished floors are looked for by rays, sky by sky.
+  void lookIntoGroundOfRooms(TransportData* data) const {
+    BakedRooms& rooms = data->rooms;
+    rooms.mirrored.resize(rooms.samples.size());
+    for (std::size_t room = 0; room < rooms.samples.size(); ++room)
+      rooms.mirrored.copy(mirrored_, rooms.samples[room], room);
+    const GroundMirror mirror(patches_);
+    tbb::parallel_for(std::size_t{0}, rooms.glossy.size(), [&](std::size_t g) {
+      const std::uint32_t room = rooms.glossy[g].room, sample = rooms.samples[room];
+      Row row{};
+      for (std::size_t k = exchange_.seen[sample].up; k < exchange_.seen[sample].hits.size(); ++k) {
+        const RaySeen ray = exchange_.ray(sample, k);
+        if (!exchange_.isPolished(ray.from)) addMirrored(*data, mirror, ray, &row);
+      }
+      rooms.mirrored.set(room, row.data());
     });
   }
 

@@ -233,12 +233,10 @@ void RoomBaker::look(TransportData* data) const {
   rooms.first.push_back(static_cast<std::uint32_t>(rooms.links.size()));
 }
 
-void RoomBaker::finish(const Coefficients& mirrored, BakedRooms* rooms) const {
-  rooms->mirrored.resize(rooms->samples.size());
-  for (std::size_t room = 0; room < rooms->samples.size(); ++room)
-    rooms->mirrored.copy(mirrored, rooms->samples[room], room);
+void RoomBaker::finish(BakedRooms* rooms) const {
   addSources(rooms);
   addPoints(rooms);
+  addGlossy(rooms);
 }
 
 void RoomBaker::addSources(BakedRooms* rooms) const {
@@ -289,6 +287,25 @@ void RoomBaker::addPoints(BakedRooms* rooms) const {
   for (std::size_t s = 0; s < points.size(); ++s) {
     addSome(points[s], most[s], s, rooms);
     std::vector<BakedRooms::Point>().swap(points[s]);
+  }
+}
+
+void RoomBaker::addGlossy(BakedRooms* rooms) const {
+  for (std::uint32_t room = 0; room < rooms->samples.size(); ++room) {
+    float weights = 0.0f, roughness = 0.0f;
+    visitLinks(*rooms, room, [&](const SampleSeen& other, bool) {
+      if (!exchange_.isPolished(other.sample)) return;
+      weights += other.weight;
+      roughness += other.weight * samples_.paints[other.sample].roughness;
+    });
+    if (!(weights > 0.0f)) continue;
+    const auto source = std::lower_bound(
+        rooms->sources.begin(), rooms->sources.end(), rooms->samples[room],
+        [](const BakedRooms::Source& other, std::uint32_t sample) { return other.sample < sample; });
+    if (source == rooms->sources.end() || source->sample != rooms->samples[room] || source->points == 0)
+      continue;
+    rooms->glossy.push_back(
+        {room, static_cast<std::uint32_t>(source - rooms->sources.begin()), roughness / weights});
   }
 }
 

@@ -16,9 +16,8 @@ class RoomBaker {
   /// Once `data` has direct light and tells what is hidden: finds the rooms and their links, and has these
   /// two known better there.
   void look(TransportData* data) const;
-  /// Adds what it takes to follow sun and moon there, for all bounces. `mirrored`: of each sample, sky by way
-  /// of the ground as a mirror.
-  void finish(const Coefficients& mirrored, BakedRooms* rooms) const;
+  /// Adds what it takes to follow sun and moon there, for all bounces, but for BakedRooms::mirrored.
+  void finish(BakedRooms* rooms) const;
 
  private:
   struct Direction;
@@ -28,6 +27,7 @@ class RoomBaker {
                              const std::vector<Direction>& directions) const;
   void addSources(BakedRooms* rooms) const;
   void addPoints(BakedRooms* rooms) const;
+  void addGlossy(BakedRooms* rooms) const;
   void dropHidden(const BakedRooms::Source& source, std::vector<BakedRooms::Point>* points) const;
 
   const BakeScene& scene_;

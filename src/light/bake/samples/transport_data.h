@@ -126,7 +126,9 @@ struct BakedRooms {
   std::vector<float> scales;           ///< of each room's weights
   std::vector<Link> links;
 
-  Coefficients mirrored;  ///< of each room: sky by way of the ground as a mirror, without colour
+  /// Of each room: sky by way of the ground as a mirror, without colour; of those in `glossy` but for floors
+  /// that are polished.
+  Coefficients mirrored;
 
   /// A sample that is seen.
   struct Source {
@@ -140,8 +142,15 @@ struct BakedRooms {
     float x, y, z;  ///< m in `map`, clear of the surface
     float share;    ///< of its source's area
   };
+  /// A room that sees polished floor, on which sun and moon shine into it as in a mirror.
+  struct Glossy {
+    std::uint32_t room;
+    std::uint32_t source;  ///< the same sample, as it is seen
+    float roughness;       ///< of the floor, in the mean
+  };
   std::vector<Source> sources;  ///< in rising order of samples
   std::vector<Point> points;
+  std::vector<Glossy> glossy;  ///< in rising order of rooms
 };
 
 struct TransportData {

@@ -1,0 +1,130 @@
+#include "light/bake/gather/floor_glints.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "light/geometry/ray_list.h"
+#include "light/patches/random.h"
+#include "light/shading/direct_parts.h"
+#include "light/shading/ggx.h"
+#include "light/shading/schlick.h"
+#include "sunlit/quantity/angle.h"
+
+namespace sunlit::light {
+namespace {
+
+constexpr std::size_t kBlock = 64;  ///< rooms, of one task
+/// Rays of a room: the rest only where one of the first arrives.
+constexpr std::uint32_t kProbes = 16, kAll = 96;
+
+}  // namespace
+
+FloorGlints::FloorGlints(const TransportData& data, const sky::DiscLight& disc, const Visibility& visibility)
+    : data_(data),
+      visibility_(visibility),
+      towards_(disc.towards.vector().cast<float>()),
+      above_(towards_, disc.angular_radius.rad()),
+      illuminance_(disc.illuminance.value),
+      vertices_(visibility.fixedGeometry()),
+      glass_(visibility) {
+  const Eigen::Vector3f across =
+      std::abs(towards_.z()) < 0.9f ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX();
+  right_ = across.cross(towards_).normalized() * static_cast<float>(std::tan(disc.angular_radius.rad()));
+  up_ = towards_.cross(right_);
+}
+
+void FloorGlints::addTo(std::vector<Eigen::Array3f>* rooms) const {
+  const std::vector<BakedRooms::Glossy>& glossy = data_.rooms.glossy;
+  tbb::parallel_for(std::size_t{0}, (glossy.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
+    const std::size_t first = block * kBlock, end = std::min(glossy.size(), first + kBlock);
+    std::vector<Way> ways;
+    std::vector<Sum> sums(end - first);
+    for (std::size_t g = first; g < end; ++g)
+      addWays(g, static_cast<std::uint32_t>(g - first), 0, kProbes, &ways);
+    follow(ways, sums.data());
+    ways.clear();
+    for (std::size_t g = first; g < end; ++g) {
+      if (sums[g - first].light.maxCoeff() > 0.0f)
+        addWays(g, static_cast<std::uint32_t>(g - first), kProbes, kAll, &ways);
+    }
+    follow(ways, sums.data());
+    for (std::size_t g = first; g < end; ++g) {
+      const Sum& sum = sums[g - first];
+      if (sum.areas > 0.0f) (*rooms)[glossy[g].room] += sum.light * illuminance_ / sum.areas;
+    }
+  });
+}
+
+void FloorGlints::addWays(std::size_t glossy, std::uint32_t number, std::uint32_t first, std::uint32_t end,
+                          std::vector<Way>* ways) const {
+  const BakedRooms::Source& source = data_.rooms.sources[data_.rooms.glossy[glossy].source];
+  const Eigen::Vector3f normal = Eigen::Map<const Eigen::Vector3f>(source.normal.data());
+  const auto facets = Ggx<float>::ofRoughness(data_.rooms.glossy[glossy].roughness);
+  // The same facets for all: what chance does to one would be seen beside the next.
+  static const EvenPoints even(0);
+  for (std::uint32_t k = first; k < end; ++k) {
+    const BakedRooms::Point& point =
+        data_.rooms.points[source.first_point + k * 31u % source.points];  // 31: first ones lie side by side
+    const float radius = std::sqrt(even.at(k, 0)), turn = 2.0f * kPiFloat * even.at(k, 1);
+    const Eigen::Vector2f at = above_.place({radius * std::cos(turn), radius * std::sin(turn)}).cast<float>();
+    const Eigen::Vector3f to_disc = (towards_ + at.x() * right_ + at.y() * up_).normalized();
+    const float n_h = facets.normalsCosine(even.at(k, 2)), side = 2.0f * kPiFloat * even.at(k, 3);
+    const float sine = std::sqrt(std::max(0.0f, 1.0f - n_h * n_h));
+    const Eigen::Vector3f facet(sine * std::cos(side), sine * std::sin(side), n_h);
+    const float cosine = facet.dot(to_disc);
+    const Eigen::Vector3f to_floor = -mirrored(to_disc, facet).normalized();
+    Way way{number, {point.x, point.y, point.z}, to_floor, to_disc, cosine, 0.0f, point.share};
+    const float falls = normal.dot(to_floor), rises = -to_floor.z();
+    // What is chosen with the density D n_h, seen along the mirrored way: Walter et al. 2007, eq. 20 and 14.
+    if (cosine > 0.0f && falls > 0.0f && rises > 0.0f && to_disc.z() > 0.0f)
+      way.factor = 4.0f * to_disc.z() * facets.visibility(to_disc.z(), rises) * cosine / n_h * falls;
+    ways->push_back(way);
+  }
+}
+
+Eigen::Array3f FloorGlints::reflectance(const Vertex& floor, float cosine) const {
+  const DirectParts parts = directParts(floor.reflection);
+  return parts.f0 + (parts.grazing - parts.f0) * schlick(cosine);
+}
+
+void FloorGlints::follow(const std::vector<Way>& ways, Sum* sums) const {
+  thread_local RayList down, up;
+  thread_local std::vector<Hit> hits;
+  thread_local std::vector<std::uint8_t> blocked;
+  down.clear();
+  up.clear();
+  down.reserve(ways.size());
+  for (std::uint32_t i = 0; i < ways.size(); ++i) {
+    sums[ways[i].glossy].areas += ways[i].area;
+    if (ways[i].factor > 0.0f) down.add(i, ways[i].origin, ways[i].to_floor);
+  }
+  hits.resize(down.size());
+  visibility_.closest(down.rays(), hits.data());
+  std::vector<Eigen::Array3f> light;
+  up.reserve(down.size());
+  for (std::size_t k = 0; k < down.size(); ++k) {
+    const Way& way = ways[down.number()[k]];
+    if (hits[k].triangle == Hit::kMiss) continue;
+    const Vertex floor = vertices_.at(hits[k], way.to_floor);
+    const Reflection& look = floor.reflection;
+    if (floor.geometric_normal.z() < kFlat || !(look.roughness < kPolished) || look.metalness >= 0.5f ||
+        look.transmission > 0.0f || look.glass > 0.0f)
+      continue;
+    Eigen::Array3f part = way.factor * way.area * reflectance(floor, way.cosine);
+    if (glass_.any()) {
+      part *= glass_.through({way.origin, way.to_floor, 0.0f, hits[k].distance}) *
+              glass_.through({floor.front, way.to_disc, 0.0f, std::numeric_limits<float>::infinity()});
+    }
+    up.add(way.glossy, floor.front, way.to_disc);
+    light.push_back(part);
+  }
+  blocked.resize(up.size());
+  visibility_.occluded(up.rays(), blocked.data());
+  for (std::size_t k = 0; k < up.size(); ++k)
+    if (blocked[k] == 0) sums[up.number()[k]].light += light[k];
+}
+
+}  // namespace sunlit::light

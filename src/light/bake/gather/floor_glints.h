@@ -1,0 +1,62 @@
+/// Sun and moon that polished floors throw on walls and ceilings.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "light/bake/samples/transport_data.h"
+#include "light/patches/disc_above_horizon.h"
+#include "light/shading/glass_sheets.h"
+#include "light/shading/vertex.h"
+#include "sunlit/light/visibility.h"
+#include "sunlit/sky/daylight.h"
+
+namespace sunlit::light {
+
+/// Floors of less roughness are polished: their highlight of the sun is narrower than a patch of the sky.
+constexpr float kPolished = 0.25f;
+/// Cosine of how far a floor may be from level: what a mirror turns by an angle, light turns by twice that.
+constexpr float kFlat = 0.9998f;
+
+/// What each of BakedRooms::glossy gets of one disc by way of such floors: by rays to the disc's picture in
+/// the floor, for facets of the floor that are chosen as GGX spreads them, and on from there to the disc.
+class FloorGlints {
+ public:
+  /// Keeps references.
+  FloorGlints(const TransportData& data, const sky::DiscLight& disc, const Visibility& visibility);
+
+  /// Illuminance of each room, lx. Parallel; the same bits for any number of threads.
+  void addTo(std::vector<Eigen::Array3f>* rooms) const;
+
+ private:
+  /// From a room's point to the floor and on to the disc.
+  struct Way {
+    std::uint32_t glossy;      ///< of the block
+    Eigen::Vector3f origin;    ///< the point
+    Eigen::Vector3f to_floor;  ///< unit
+    Eigen::Vector3f to_disc;   ///< unit, from there
+    float cosine;              ///< between `to_disc` and the facet's normal
+    float factor;              ///< illuminance of the point for 1 lx of the disc, without Fresnel and glass
+    float area;                ///< that the point stands for
+  };
+  struct Sum {
+    Eigen::Array3f light = Eigen::Array3f::Zero();  ///< times areas
+    float areas = 0.0f;
+  };
+  void addWays(std::size_t glossy, std::uint32_t number, std::uint32_t first, std::uint32_t end,
+               std::vector<Way>* ways) const;
+  /// Adds what arrives by `ways`, each to the sum of its room.
+  void follow(const std::vector<Way>& ways, Sum* sums) const;
+  Eigen::Array3f reflectance(const Vertex& floor, float cosine) const;
+
+  const TransportData& data_;
+  const Visibility& visibility_;
+  Eigen::Vector3f towards_, right_, up_;  ///< the latter two as long as the tangent of the disc's radius
+  DiscAboveHorizon above_;
+  Eigen::Array3f illuminance_;
+  SceneVertices vertices_;
+  GlassSheets glass_;
+};
+
+}  // namespace sunlit::light
