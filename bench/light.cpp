@@ -17,7 +17,6 @@
 #include "light/picture/table/light_table.h"
 #include "sunlit/image/cache_folder.h"
 #include "sunlit/image/exposure.h"
-#include "sunlit/light/lighting.h"
 #include "sunlit/light/transport.h"
 #include "sunlit/light/world.h"
 #include "sunlit/render/renderer.h"
@@ -48,9 +47,17 @@ struct Stage {
     renderer = std::make_unique<render::Renderer>(world, options());
   }
 
+  void look(std::size_t pose) {
+    renderer->look(poses[pose % kPoses]);
+    light::Outlooks outlooks;
+    light::forget(renderer->surfaces(), &outlooks);
+    table = light::LightTable(renderer->surfaces(), outlooks, *world.geometry->scene);
+  }
+
   light::World world;
   std::vector<Eigen::Isometry3d> poses;
   std::unique_ptr<render::Renderer> renderer;
+  light::LightTable table;  ///< of what the renderer looks at
 };
 
 Stage* stage(benchmark::State& state) {
@@ -74,7 +81,7 @@ void onPoses(benchmark::State& state, Work work) {
   std::size_t pose = 0;
   for (auto _ : state) {
     state.PauseTiming();
-    s->renderer->look(s->poses[pose++ % kPoses]);
+    s->look(pose++);
     state.ResumeTiming();
     work(*s, light);
   }
@@ -95,7 +102,7 @@ void sunShares(benchmark::State& state) {
   std::size_t rays = 0;
   onPoses(state, [&rays](Stage& s, const light::Illumination& light) {
     const light::Surfaces& surfaces = s.renderer->surfaces();
-    const light::DiscVisibility sun(light.day.sun(), 0.0f, {surfaces, *surfaces.table, *s.world.visibility});
+    const light::DiscVisibility sun(light.day.sun(), 0.0f, {surfaces, s.table, *s.world.visibility});
     rays += sun.raysCast();
   });
   state.counters["rays"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kAvgIterations);
@@ -113,7 +120,7 @@ void plainRays(benchmark::State& state, bool leaves) {
     for (std::size_t t = 0; t < surfaces.tiles.size(); ++t) {
       const light::Tile& tile = surfaces.tiles[t];
       for (auto& list : values) list.clear();
-      for (const light::LightTable::DiscTarget& target : surfaces.table->tile(t).targets) {
+      for (const light::LightTable::DiscTarget& target : s.table.tile(t).targets) {
         if (target.leaves != leaves) continue;
         for (std::uint32_t i = target.first_sample; i < target.first_sample + target.samples; ++i) {
           const std::array<float, 6> ray = {tile.origin_x[i], tile.origin_y[i], tile.origin_z[i],

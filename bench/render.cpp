@@ -17,13 +17,13 @@
 #include <vector>
 
 #include "drive.h"
+#include "light/picture/ready_picture.h"
 #include "render/frustum.h"
 #include "render/rasterizer.h"
 #include "render/resolve.h"
 #include "sunlit/image/cache_folder.h"
 #include "sunlit/image/exposure.h"
-#include "sunlit/light/final_gather.h"
-#include "sunlit/light/lighting.h"
+#include "sunlit/light/picture.h"
 #include "sunlit/light/transport.h"
 #include "sunlit/scene/load.h"
 #include "sunlit/scene/race_track.h"
@@ -38,49 +38,68 @@ constexpr std::size_t kPoses = 24;
 
 /// One world with everything that looks at it.
 struct Stage {
-  explicit Stage(int world) {
-    const bool circuit = world == kCircuitWorld;
-    scene::Scene loaded = scene::load(circuit ? kCircuit : scene::kRaceTrack, scene::SearchPath{});
-    if (world == kPlainWorld) {
-      for (scene::Material& material : loaded.materials) material.detail.contrast = 0.0f;
-    }
-    const auto scene = std::make_shared<const scene::Scene>(std::move(loaded));
+  explicit Stage(int which) : world(sceneOf(which)) {
+    const bool circuit = which == kCircuitWorld;
     const auto points = circuit ? circuitPoints() : scene::raceTrackWaypoints();
     for (std::size_t i = 0; i < kPoses; ++i) poses.push_back(poseAt(points, i * points.size() / kPoses));
     view.camera = image::PinholeCamera::fromFieldOfView(640, 480, Angle::degrees(60.0));
     view.supersampling = 2;
-    geometry = std::make_shared<const light::Geometry>(scene);
-    visibility = std::make_shared<light::Visibility>(geometry);
-    pyramids = std::make_unique<render::TexturePyramids>(*scene);
+    const scene::Scene& scene = *world.geometry->scene;
+    pyramids = std::make_unique<render::TexturePyramids>(scene);
     maps =
-        std::make_unique<render::SurfaceMaps>(*scene, static_cast<float>(light::TransportOptions().finest_m));
+        std::make_unique<render::SurfaceMaps>(scene, static_cast<float>(light::TransportOptions().finest_m));
     rasterizer = make(render::defaultRasterizer());
   }
+  static std::shared_ptr<const scene::Scene> sceneOf(int which) {
+    const bool circuit = which == kCircuitWorld;
+    scene::Scene loaded = scene::load(circuit ? kCircuit : scene::kRaceTrack, scene::SearchPath{});
+    if (which == kPlainWorld) {
+      for (scene::Material& material : loaded.materials) material.detail.contrast = 0.0f;
+    }
+    return std::make_shared<const scene::Scene>(std::move(loaded));
+  }
   std::unique_ptr<render::Rasterizer> make(render::RasterizerKind kind) const {
-    return render::makeRasterizer(kind, {geometry, *pyramids, 0.0});
+    return render::makeRasterizer(kind, {world.geometry, *pyramids, 0.0});
   }
   void look(std::size_t pose, double metres_on = 0.0) {
     view.map_from_optical =
         poses[pose % poses.size()] * Eigen::Translation3d(metres_on * Eigen::Vector3d::UnitZ());
     rasterizer->draw(view, nullptr, &samples);
   }
-  render::Seen seen() const { return {view, *geometry, nullptr, *pyramids, *maps, 0.0f, samples, nullptr}; }
+  render::Seen seen() const {
+    return {view, *world.geometry, nullptr, *pyramids, *maps, 0.0f, samples, nullptr};
+  }
   void resolve() { render::resolveSurfaces(seen(), &surfaces); }
-  const light::Transport& baked() {
-    if (!transport) transport = light::Transport::cached(geometry, {}, image::usualCacheFolder());
-    return *transport;
+  const light::World& baked() {
+    if (!world.transport)
+      world.transport = light::Transport::cached(world.geometry, {}, image::usualCacheFolder());
+    return world;
+  }
+  light::PicturePreparer preparerWithoutBake() const {
+    light::World bare = world;
+    bare.transport = nullptr;
+    return light::PicturePreparer(bare);
+  }
+  /// What is seen, in the memory of what was prepared before.
+  void prepare(light::PicturePreparer* preparer) {
+    surfaces = picture.takeSurfaces();
+    resolve();
+    preparer->prepare({std::move(surfaces), world.visibility, {}}, &picture);
+  }
+  void findOutlooks(light::FinalGather* gather = nullptr) {
+    light::findOutlooks(surfaces, {baked(), *world.visibility, nullptr, gather}, &outlooks);
   }
 
+  light::World world;  ///< see baked()
   std::vector<Eigen::Isometry3d> poses;
   render::View view;
-  std::shared_ptr<const light::Geometry> geometry;
-  std::shared_ptr<const light::Visibility> visibility;
-  std::shared_ptr<const light::Transport> transport;  ///< see baked()
   std::unique_ptr<render::TexturePyramids> pyramids;
   std::unique_ptr<render::SurfaceMaps> maps;
   std::unique_ptr<render::Rasterizer> rasterizer;
   std::vector<render::Sample> samples;
   light::Surfaces surfaces;
+  light::Outlooks outlooks;
+  light::PreparedPicture picture;
 };
 
 Stage* stage(benchmark::State& state) {
@@ -128,7 +147,7 @@ void draw(benchmark::State& state) {
   for (std::size_t i = 0; i < pose; ++i) {
     s->view.map_from_optical = s->poses[i % s->poses.size()];
     const render::Frustum frustum(s->view);
-    for (const light::Chunk& chunk : s->geometry->chunks)
+    for (const light::Chunk& chunk : s->world.geometry->chunks)
       triangles += frustum.touches(chunk.box) ? chunk.count : 0;
   }
   state.SetLabel(render::nameOf(kind) + " " + rasterizer->device());
@@ -175,13 +194,14 @@ void resolve(benchmark::State& state) {
   onPoses(state, false, [](Stage& s) { s.resolve(); });
 }
 
+/// What surfaces have around them, as baked.
 void locate(benchmark::State& state) {
   if (Stage* s = stage(state)) {  // the first call reads the bake and makes tables
     s->look(0);
     s->resolve();
-    s->baked().locate(&s->surfaces);
+    s->findOutlooks();
   }
-  onPoses(state, true, [](Stage& s) { s.baked().locate(&s.surfaces); });
+  onPoses(state, true, [](Stage& s) { s.findOutlooks(); });
 }
 
 /// Final gathering with `state.range(1)` rays a patch, at a place that is new, or after some metres that led
@@ -192,19 +212,18 @@ void finalGather(benchmark::State& state) {
   constexpr int kMetres = 6;
   const auto rays = static_cast<int>(state.range(1));
   const bool drives = state.range(2) != 0;
-  const light::Transport& transport = s->baked();
   std::size_t number = 0, nodes = 0, cast = 0, rays_cast = 0;
   for (auto _ : state) {
     state.PauseTiming();
-    light::FinalGather gather(s->geometry, s->visibility, rays);
+    light::FinalGather gather(s->world.geometry, s->world.visibility, rays);
     for (int metre = drives ? 0 : kMetres; metre <= kMetres; ++metre) {
       s->look(number, metre);
       s->resolve();
-      transport.locate(&s->surfaces, metre < kMetres ? &gather : nullptr);
+      s->findOutlooks(metre < kMetres ? &gather : nullptr);
     }
     number += 4;
     state.ResumeTiming();
-    gather.look(&s->surfaces);
+    gather.look(s->surfaces, &s->outlooks);
     nodes += gather.nodesSeen();
     cast += gather.nodesCast();
     rays_cast += gather.raysCast();
@@ -216,20 +235,33 @@ void finalGather(benchmark::State& state) {
       benchmark::Counter(static_cast<double>(rays_cast), benchmark::Counter::kIsRate);
 }
 
+/// What of them all lights need.
 void prepare(benchmark::State& state) {
-  onPoses(state, true, [](Stage& s) { light::prepare(*s.geometry->scene, &s.surfaces); });
+  onPoses(state, true, [](Stage& s) {
+    light::forget(s.surfaces, &s.outlooks);
+    benchmark::DoNotOptimize(light::LightTable(s.surfaces, s.outlooks, *s.world.geometry->scene));
+  });
 }
 
 void depth(benchmark::State& state) {
   onPoses(state, false,
-          [](Stage& s) { benchmark::DoNotOptimize(render::resolveDepth(s.seen(), *s.visibility)); });
+          [](Stage& s) { benchmark::DoNotOptimize(render::resolveDepth(s.seen(), *s.world.visibility)); });
 }
 
+/// Of a picture that is prepared, without baked light.
 void light(benchmark::State& state) {
+  Stage* s = stage(state);
+  if (!s) return;
   const sky::Daylight day = daylightAt(static_cast<double>(state.range(1)));
-  onPoses(state, true, [&day](Stage& s) {
-    benchmark::DoNotOptimize(light::illuminate(s.surfaces, *s.geometry->scene, *s.visibility, day));
-  });
+  light::PicturePreparer preparer = s->preparerWithoutBake();
+  std::size_t pose = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    s->look(pose++);
+    s->prepare(&preparer);
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(s->picture.illuminate(day));
+  }
 }
 
 /// What a pose costs with its depth and the light, baked light included, of `state.range(1)` conditions, sun
@@ -237,18 +269,17 @@ void light(benchmark::State& state) {
 void pose(benchmark::State& state) {
   Stage* s = stage(state);
   if (!s) return;
-  const light::Transport& transport = s->baked();
-  const std::array<light::Illumination, 2> lights = {transport.illumination(daylightAt(50.0)),
-                                                     transport.illumination(daylightAt(15.0))};
+  const light::World& world = s->baked();
+  const std::array<light::Illumination, 2> lights = {world.transport->illumination(daylightAt(50.0)),
+                                                     world.transport->illumination(daylightAt(15.0))};
+  light::PicturePreparer preparer(world);
   std::size_t number = 0;
   for (auto _ : state) {
     s->look(number++);
-    s->resolve();
-    transport.locate(&s->surfaces);
-    benchmark::DoNotOptimize(render::resolveDepth(s->seen(), *s->visibility));
+    s->prepare(&preparer);
+    benchmark::DoNotOptimize(render::resolveDepth(s->seen(), *world.visibility));
     for (std::int64_t i = 0; i < state.range(1); ++i) {
-      benchmark::DoNotOptimize(light::illuminate(s->surfaces, *s->geometry->scene, *s->visibility,
-                                                 lights[(number + static_cast<std::size_t>(i)) % 2]));
+      benchmark::DoNotOptimize(s->picture.illuminate(lights[(number + static_cast<std::size_t>(i)) % 2]));
     }
   }
   state.counters["images_per_second"] = benchmark::Counter(
@@ -280,11 +311,11 @@ void castRays(benchmark::State& state, bool from_camera) {
       const light::Rays all{from_x.data(), from_y.data(), from_z.data(), x.data(), y.data(), z.data(), n};
       if (from_camera) {
         std::vector<light::Hit> hits(n);
-        s.visibility->closest(all, hits.data());
+        s.world.visibility->closest(all, hits.data());
         benchmark::DoNotOptimize(hits.data());
       } else {
         std::vector<std::uint8_t> blocked(n);
-        s.visibility->occluded(all, blocked.data());
+        s.world.visibility->occluded(all, blocked.data());
         benchmark::DoNotOptimize(blocked.data());
       }
       rays.local() += n;
@@ -306,9 +337,9 @@ void develop(benchmark::State& state) {
   Stage* s = stage(state);
   if (!s) return;
   s->look(0);
-  s->resolve();
-  const image::LinearImage image =
-      light::illuminate(s->surfaces, *s->geometry->scene, *s->visibility, daylightAt(20.0));
+  light::PicturePreparer preparer = s->preparerWithoutBake();
+  s->prepare(&preparer);
+  const image::LinearImage image = s->picture.illuminate(daylightAt(20.0));
   for (auto _ : state) benchmark::DoNotOptimize(image::develop(image, image::chooseEv100(image, {})));
 }
 

@@ -12,6 +12,7 @@
 #include "light/bake/samples/bake_rays.h"
 #include "light/bake/samples/probe.h"
 #include "light/bake/samples/transport_data.h"
+#include "light/picture/ready_picture.h"
 #include "sunlit/light/transport.h"
 #include "sunlit/light/world.h"
 #include "sunlit/quantity/frames.h"
@@ -130,14 +131,17 @@ void findPlaces(benchmark::State& state) {
   if (!s) return;
   render::RenderOptions options;
   options.camera = image::PinholeCamera::fromFieldOfView(640, 480, Angle::degrees(60.0));
-  render::Renderer renderer(s->world, options);
+  light::World world = s->world;
+  world.transport = s->transport;
+  render::Renderer renderer(world, options);
   Eigen::Isometry3d map_from_link = Eigen::Isometry3d::Identity();
   map_from_link.translation() = scene::raceTrackWaypoints()[0] + Eigen::Vector3d::UnitZ();
   renderer.look(map_from_link * linkFromOptical());
-  light::Surfaces surfaces = renderer.surfaces();
+  const light::Surfaces& surfaces = renderer.surfaces();
+  light::Outlooks outlooks;
   std::size_t count = 0;
   for (const light::Tile& tile : surfaces.tiles) count += tile.surfaces.size();
-  for (auto _ : state) s->transport->locate(&surfaces);
+  for (auto _ : state) light::findOutlooks(surfaces, {world, *world.visibility}, &outlooks);
   state.counters["surfaces"] = static_cast<double>(count);
 }
 

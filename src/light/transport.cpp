@@ -1,23 +1,18 @@
 #include "sunlit/light/transport.h"
 
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
 
 #include "light/bake/gather/gather.h"
 #include "light/bake/gather/relight.h"
 #include "light/bake/samples/scene_samples.h"
-#include "light/geometry/corners.h"
 #include "light/patches/mirror_sky.h"
 #include "light/patches/sky_sectors.h"
-#include "light/picture/mirror/find_mirrors.h"
-#include "sunlit/light/final_gather.h"
 
 namespace sunlit::light {
 void validate(const TransportOptions& options) {
@@ -56,60 +51,14 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
                              [&](double share) { report(kSampled + (1.0 - kSampled) * share); }};
   samples.mesh.drop(gatherLight(scene, samples, gather, data.get()));
   data->mesh = std::move(samples.mesh);
-  return std::make_shared<const Transport>(std::move(geometry), options, std::move(data));
+  return std::make_shared<const Transport>(options, std::move(data));
 }
 
-Transport::Transport(std::shared_ptr<const Geometry> geometry, const TransportOptions& options,
-                     std::unique_ptr<const TransportData> data)
-    : geometry_(std::move(geometry)),
-      options_(options),
+Transport::Transport(const TransportOptions& options, std::unique_ptr<const TransportData> data)
+    : options_(options),
       data_(std::move(data)),
       node_open_(std::make_shared<const std::vector<float>>(openSky(*data_))) {}
 Transport::~Transport() = default;
-
-LightPlace Transport::placeOf(std::uint32_t triangle, bool front, const Eigen::Vector3f& position) const {
-  return placeWithin(triangle, front, Corners(*geometry_, triangle).within(position));
-}
-
-LightPlace Transport::placeWithin(std::uint32_t triangle, bool front,
-                                  const std::array<float, 3>& within) const {
-  LightPlace light;
-  const std::uint32_t root = data_->mesh.roots[triangle][front ? 0 : 1];
-  if (root == LightMesh::kSealed && data_->mesh.nodeCount() > 0) {
-    light.node.fill(0);
-    light.weight.fill(0.0f);
-  }
-  if (!LightMesh::isCell(root)) return light;
-  const LightMesh::Place place = data_->mesh.locate(root, within);
-  light.node = place.node;
-  light.weight = place.weight;
-  return light;
-}
-
-void Transport::locate(Surfaces* surfaces, FinalGather* gather) const {
-  const scene::Scene& scene = *geometry_->scene;
-  tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(), [&](std::size_t i) {
-    std::uint32_t last = 0xffffffffu;  // neighbours often lie on one triangle
-    std::optional<Corners> corners;
-    for (Surface& surface : surfaces->tiles[i].surfaces) {
-      surface.light = surface.behind = LightPlace();
-      surface.sky = SkyOpenness();
-      surface.gathered = Surface::kNotGathered;
-      if (surface.triangle >= geometry_->triangles.size()) continue;  // a body that moves: see BodyLight
-      const bool front = geometry_->planes[surface.triangle].normal.dot(surface.geometric_normal) > 0.0f;
-      if (surface.triangle != last) corners.emplace(*geometry_, last = surface.triangle);
-      const std::array<float, 3> within = corners->within(surface.position);
-      surface.light = placeWithin(surface.triangle, front, within);
-      if (scene.materials[static_cast<std::size_t>(surface.material)].transmission > 0.0f)
-        surface.behind = placeWithin(surface.triangle, !front, within);
-      if (data_->leaves.known(surface.triangle)) surface.sky = data_->leaves.at(surface.triangle, within);
-    }
-    surfaces->tiles[i].gathered.clear();
-  });
-  if (gather) gather->look(surfaces);
-  tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(),
-                    [&](std::size_t i) { findMirrors(*data_, scene, surfaces->width, &surfaces->tiles[i]); });
-}
 
 std::vector<NodeLight> Transport::relight(const sky::Daylight& day, const std::vector<float>& lamp_shares,
                                           const Visibility* visibility) const {

@@ -7,9 +7,7 @@
 
 #include "render/rasterizer.h"
 #include "render/resolve.h"
-#include "sunlit/light/body_light.h"
-#include "sunlit/light/final_gather.h"
-#include "sunlit/light/lighting.h"
+#include "sunlit/light/picture.h"
 #include "sunlit/light/transport.h"
 
 namespace sunlit::render {
@@ -42,13 +40,8 @@ class Renderer::Implementation {
         maps_(*world.geometry->scene,
               world.transport ? static_cast<float>(light::TransportOptions().finest_m) : 0.0f),
         rasterizer_(
-            makeRasterizer(options.rasterizer, {world.geometry, pyramids_, options.texture_lod_bias})) {
-    if (world_.transport && options.final_gather > 0) {
-      final_gather_ =
-          std::make_unique<light::FinalGather>(world_.geometry, world_.visibility, options.final_gather);
-    }
-    if (world_.bodies) body_light_ = std::make_unique<light::BodyLight>(world_);
-  }
+            makeRasterizer(options.rasterizer, {world.geometry, pyramids_, options.texture_lod_bias})),
+        preparer_(world, options.final_gather) {}
 
   void look(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {
     const bool drawn_ahead = !ahead_.samples.empty() &&
@@ -65,14 +58,7 @@ class Renderer::Implementation {
 
   image::LinearImage light(const light::Illumination& light) const {
     requireLook();
-    if (seen_.body_views) {
-      light::Illumination here = light;
-      here.bodies =
-          std::make_shared<std::vector<light::AroundLight>>(body_light_->around(*seen_.body_views, light));
-      if (light.body_lamps) here.lamps = lampsHere(light);
-      return light::illuminate(seen_.surfaces, *world_.geometry->scene, *seen_.visibility, here);
-    }
-    return light::illuminate(seen_.surfaces, *world_.geometry->scene, *seen_.visibility, light);
+    return seen_.picture.illuminate(light);
   }
 
   image::DepthImage depth() const {
@@ -82,7 +68,7 @@ class Renderer::Implementation {
 
   const light::Surfaces& surfaces() const {
     requireLook();
-    return seen_.surfaces;
+    return seen_.picture.surfaces();
   }
 
   const RenderOptions& options() const { return options_; }
@@ -99,19 +85,9 @@ class Renderer::Implementation {
     BodyPlaces map_from_body;
     std::shared_ptr<const light::Geometry> bodies;  ///< at these places; null: none
     std::shared_ptr<const light::Visibility> visibility;
-    std::shared_ptr<const light::BodyLight::Views> body_views;  ///< null: no bodies
     std::vector<Sample> samples;
-    light::Surfaces surfaces;
+    light::PreparedPicture picture;
   };
-
-  /// Those of the world, and those of its bodies where they stand.
-  std::shared_ptr<const std::vector<scene::Lamp>> lampsHere(const light::Illumination& light) const {
-    std::vector<scene::Lamp> lamps;
-    if (light.lamps) lamps = *light.lamps;
-    for (const light::BodyLamp& lamp : *light.body_lamps)
-      lamps.push_back(light::placed(lamp.lamp, seen_.map_from_body[lamp.body]));
-    return std::make_shared<const std::vector<scene::Lamp>>(std::move(lamps));
-  }
 
   void place(const BodyPlaces& map_from_body, Pose& seen) const {
     seen.map_from_body = map_from_body;
@@ -141,15 +117,9 @@ class Renderer::Implementation {
   }
 
   void resolve(Pose& seen) {
-    resolveSurfaces(bufferOf(seen), &seen.surfaces);
-    if (world_.transport) world_.transport->locate(&seen.surfaces, final_gather_.get());
-    seen.body_views = nullptr;
-    if (seen.bodies) {
-      seen.body_views = body_light_->look(*seen.bodies, seen.visibility);
-      body_light_->hide(*seen.bodies, *seen.visibility, &seen.surfaces);
-    }
-    light::reflect(world_, *seen.visibility, seen.bodies ? body_light_.get() : nullptr, &seen.surfaces);
-    light::prepare(*world_.geometry->scene, &seen.surfaces);
+    light::Surfaces surfaces = seen.picture.takeSurfaces();
+    resolveSurfaces(bufferOf(seen), &surfaces);
+    preparer_.prepare({std::move(surfaces), seen.visibility, seen.map_from_body}, &seen.picture);
   }
 
   Seen bufferOf(const Pose& pose) const {
@@ -174,8 +144,7 @@ class Renderer::Implementation {
   TexturePyramids pyramids_;  // before the rasterizer, which refers to them
   SurfaceMaps maps_;
   std::unique_ptr<Rasterizer> rasterizer_;
-  std::unique_ptr<light::FinalGather> final_gather_;    // where it is asked for
-  std::unique_ptr<const light::BodyLight> body_light_;  // where there are bodies
+  light::PicturePreparer preparer_;
   Pose seen_;
   Pose ahead_;
 };

@@ -7,7 +7,7 @@
 #include "render/cluster.h"
 #include "render/resolve.h"
 #include "render/tile_detail.h"
-#include "sunlit/light/shading.h"
+#include "sunlit/light/reflection.h"
 
 namespace sunlit::render {
 namespace {
@@ -379,8 +379,6 @@ double planeDepth(const Seen& seen, std::uint32_t triangle, const Eigen::Vector3
 
 void resolveSurfaces(const Seen& seen, light::Surfaces* surfaces) {
   layOutTiles(seen.view, surfaces);
-  surfaces->table.reset();  // of other surfaces
-  surfaces->reflections.reset();
   const SceneDetail scene_detail(*seen.geometry.scene, seen.view);
   tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(), [&](std::size_t i) {
     thread_local TileResolver::Memory memory;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "sunlit/light/lamps.h"
-#include "sunlit/light/surfaces.h"
 #include "sunlit/sky/daylight.h"
 
 namespace sunlit::light {
@@ -29,13 +28,6 @@ struct NodeLight {
   Eigen::Array3f irradiance;
   Surroundings around;
 };
-
-/// Illuminance at a place between `nodes`, lx.
-inline Eigen::Array3f irradianceAt(const LightPlace& place, const std::vector<NodeLight>& nodes) {
-  Eigen::Array3f sum = Eigen::Array3f::Zero();
-  for (std::size_t k = 0; k < 3; ++k) sum += place.weight[k] * nodes[place.node[k]].irradiance;
-  return sum;
-}
 
 struct Illumination {
   /// Without `nodes`: every surface sees the whole sky that it faces, and no light is bounced.

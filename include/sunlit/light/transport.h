@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -12,14 +11,11 @@
 
 #include "sunlit/light/geometry.h"
 #include "sunlit/light/illumination.h"
-#include "sunlit/light/surfaces.h"
 #include "sunlit/light/visibility.h"
 #include "sunlit/quantity/field.h"
 #include "sunlit/sky/daylight.h"
 
 namespace sunlit::light {
-
-class FinalGather;
 
 struct TransportOptions {
   int rays_per_patch = 3;
@@ -89,17 +85,9 @@ class Transport {
                                                  const TransportOptions& options, const BakeCache& cache,
                                                  const BakeListener& listener = {});
 
-  /// `data` is a bake of `geometry` with `options`.
-  Transport(std::shared_ptr<const Geometry> geometry, const TransportOptions& options,
-            std::unique_ptr<const TransportData> data);
+  /// `data` is a bake with `options`.
+  Transport(const TransportOptions& options, std::unique_ptr<const TransportData> data);
   ~Transport();
-
-  /// Sets Surface::light, Surface::behind, Surface::sky and Surface::mirror of all surfaces but those of
-  /// bodies that move, and Tile::mirrors. With `gather`, those that it cares for then see the sky by rays of
-  /// their own.
-  void locate(Surfaces* surfaces, FinalGather* gather = nullptr) const;
-  /// Where a point of a triangle of the scene finds its light, on the front or the back.
-  LightPlace placeOf(std::uint32_t triangle, bool front, const Eigen::Vector3f& position) const;
 
   /// The light of each node. Of lamps that stand in the scene, what surfaces pass on: a share for each set of
   /// them that was baked together, as illumination(world, …) finds them. `visibility`, of the scene, finds
@@ -114,15 +102,13 @@ class Transport {
   /// Illumination::node_open.
   const std::shared_ptr<const std::vector<float>>& nodeOpen() const { return node_open_; }
 
+  /// All that the bake keeps, for those who light by it.
+  const TransportData& data() const { return *data_; }
   const TransportOptions& options() const { return options_; }
   std::size_t sampleCount() const;
   std::size_t nodeCount() const;
 
  private:
-  /// Of a point given by its barycentric coordinates.
-  LightPlace placeWithin(std::uint32_t triangle, bool front, const std::array<float, 3>& within) const;
-
-  std::shared_ptr<const Geometry> geometry_;
   TransportOptions options_;
   std::unique_ptr<const TransportData> data_;
   std::shared_ptr<const std::vector<float>> node_open_;

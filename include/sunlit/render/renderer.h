@@ -8,8 +8,8 @@
 
 #include "sunlit/image/camera.h"
 #include "sunlit/image/images.h"
-#include "sunlit/light/final_gather.h"
 #include "sunlit/light/illumination.h"
+#include "sunlit/light/picture.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/world.h"
 #include "sunlit/quantity/field.h"
@@ -24,8 +24,8 @@ struct RenderOptions {
   double near_m = 0.05;
   double far_m = 20000.0;  ///< above near_m
   double texture_lod_bias = 0.0;
-  /// 0: the sky is seen as baked. Else light::FinalGather with so many rays a patch looks closer, where light
-  /// is baked. What that brings and costs: README.md.
+  /// 0: the sky is seen as baked. Else leaves, twigs and wires look closer, with so many rays a patch, where
+  /// light is baked. What that brings and costs: README.md.
   int final_gather = 0;
   RasterizerKind rasterizer = defaultRasterizer();
 };
@@ -40,7 +40,7 @@ inline std::vector<Field> fieldsOf(RenderOptions& options) {
         {"final_gather",
          &options.final_gather,
          "",
-         {0, light::FinalGather::kMostRays},
+         {0, light::PicturePreparer::kMostRays},
          "leaves, twigs and wires look closer at the sky: rays to each of its patches; 0: as baked"},
         {"rasterizer",
          choiceOf(&options.rasterizer, rasterizerNames()),

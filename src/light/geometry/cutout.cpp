@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "sunlit/light/shading.h"
+#include "sunlit/light/reflection.h"
 #include "sunlit/light/visibility.h"
 
 namespace sunlit::light {

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "light/patches/sky_openness.h"
 #include "light/patches/sky_patches.h"
-#include "sunlit/light/surfaces.h"
 #include "sunlit/sky/daylight.h"
 
 namespace sunlit::light {

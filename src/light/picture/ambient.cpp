@@ -4,9 +4,9 @@
 
 #include "light/patches/mirror_sky.h"
 #include "light/patches/sky_sectors.h"
+#include "light/picture/bodies/body_light.h"
 #include "light/picture/gather/gathered_light.h"
-#include "sunlit/light/body_light.h"
-#include "sunlit/light/shading.h"
+#include "light/shading/shading.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
@@ -35,22 +35,23 @@ Eigen::Array3f withSurroundings(const Eigen::Array4f& open, const LightPlace& pl
 struct Irradiance {
   Eigen::Array3f front, behind;
 };
-Irradiance irradianceOf(const Surface& surface, const GatheredSky* gathered, const Illumination& light) {
-  const Eigen::Vector3f& normal = surface.shading_normal;
-  const LightPlace& behind = surface.behind;
+Irradiance irradianceOf(const Eigen::Vector3f& normal, const AmbientSources& sources,
+                        const Illumination& light) {
+  const Outlook& outlook = sources.outlook;
+  const LightPlace& behind = outlook.behind;
   const bool both = behind.known();
   Irradiance sum;
-  if (gathered && light.mirror_sky) {
-    const GatheredLight open = gatheredLight(*gathered, light.mirror_sky->patches(), normal);
-    sum.front = withSurroundings(open.front, surface.light, normal.z(), light);
+  if (sources.gathered && light.mirror_sky) {
+    const GatheredLight open = gatheredLight(*sources.gathered, light.mirror_sky->patches(), normal);
+    sum.front = withSurroundings(open.front, outlook.light, normal.z(), light);
     if (both) sum.behind = withSurroundings(open.behind, behind, -normal.z(), light);
-  } else if (surface.sky.known && light.sky_sectors) {
+  } else if (outlook.sky.known && light.sky_sectors) {
     const SkySectors& sectors = *light.sky_sectors;
-    sum.front = withSurroundings(sectors.irradiance(surface.sky, normal), surface.light, normal.z(), light);
+    sum.front = withSurroundings(sectors.irradiance(outlook.sky, normal), outlook.light, normal.z(), light);
     if (both)
-      sum.behind = withSurroundings(sectors.irradiance(surface.sky, -normal), behind, -normal.z(), light);
+      sum.behind = withSurroundings(sectors.irradiance(outlook.sky, -normal), behind, -normal.z(), light);
   } else {
-    sum.front = irradianceAt(surface.light, *light.nodes);
+    sum.front = irradianceAt(outlook.light, *light.nodes);
     if (both) sum.behind = irradianceAt(behind, *light.nodes);
   }
   if (!both) sum.behind = sum.front;
@@ -59,24 +60,25 @@ Irradiance irradianceOf(const Surface& surface, const GatheredSky* gathered, con
 
 /// As the bake knows it.
 AmbientLight bakedLight(const Surface& surface, const AmbientSources& sources, const Illumination& light) {
-  const Irradiance arriving = irradianceOf(surface, sources.gathered, light);
+  const Outlook& outlook = sources.outlook;
+  const Irradiance arriving = irradianceOf(surface.shading_normal, sources, light);
   const Mirrored& mirrored = sources.mirrored;
   const Eigen::Array3f seen =
-      mirrored.sky + seenAround(surface.light, mirrored.hidden_above, mirrored.hidden_below, *light.nodes);
-  return {arriving.front * surface.unhidden, arriving.behind * surface.unhidden, seen * surface.unhidden};
+      mirrored.sky + seenAround(outlook.light, mirrored.hidden_above, mirrored.hidden_below, *light.nodes);
+  return {arriving.front * outlook.unhidden, arriving.behind * outlook.unhidden, seen * outlook.unhidden};
 }
 
 /// At a body that moves, as its surroundings tell; null: of the open sky.
-AmbientLight unbakedLight(const Surface& surface, float roughness, const AroundLight* body,
+AmbientLight unbakedLight(const Surface& surface, const AmbientSources& sources, const AroundLight* body,
                           const Illumination& light) {
   const Eigen::Vector3f& normal = surface.shading_normal;
   const Eigen::Array3f open = light.day.skyIlluminance(normal).value;
   Eigen::Array3f irradiance = open;
   if (body) irradiance = body->illuminance(normal);
-  irradiance *= surface.unhidden;
+  irradiance *= sources.outlook.unhidden;
   // A rough lobe spreads over the hemisphere, a smooth one mirrors a point of the sky.
   const Eigen::Array3f spread = irradiance / kPiFloat;
-  const float smooth = std::max(0.0f, 1.0f - roughness * roughness * 1.5f);
+  const float smooth = std::max(0.0f, 1.0f - sources.roughness * sources.roughness * 1.5f);
   if (smooth <= 0.0f) return {irradiance, irradiance, spread};
   Eigen::Array3f point = light.day.skyLuminance(mirrored(surface.to_eye, normal).normalized()).value;
   // What stands around hides the sky in the mirror as it does over the hemisphere.
@@ -110,10 +112,11 @@ Mirrored mirroredBy(const Mirror& mirror, const MirrorSky& sky) {
 }
 
 AmbientLight ambientLight(const Surface& surface, const AmbientSources& sources, const Illumination& light) {
-  const bool moves = light.bodies && surface.body != Surface::kNoBody;
-  if (light.nodes && surface.light.known() && !moves) return bakedLight(surface, sources, light);
-  const AroundLight* const body = moves ? &(*light.bodies)[static_cast<std::size_t>(surface.body)] : nullptr;
-  return unbakedLight(surface, sources.roughness, body, light);
+  const Outlook& outlook = sources.outlook;
+  const bool moves = light.bodies && outlook.body != Outlook::kNoBody;
+  if (light.nodes && outlook.light.known() && !moves) return bakedLight(surface, sources, light);
+  const AroundLight* const body = moves ? &(*light.bodies)[static_cast<std::size_t>(outlook.body)] : nullptr;
+  return unbakedLight(surface, sources, body, light);
 }
 
 }  // namespace sunlit::light

@@ -1,6 +1,7 @@
 /// Light of the sky and of other surfaces, as it arrives at one surface.
 #pragma once
 
+#include "light/picture/outlook/outlook.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/surfaces.h"
 
@@ -16,6 +17,7 @@ Mirrored mirroredBy(const Mirror& mirror, const MirrorSky& sky);
 
 /// What the light on a surface depends on beside the surface itself.
 struct AmbientSources {
+  const Outlook& outlook;       ///< its own
   float roughness;              ///< of its material
   const Mirrored& mirrored;     ///< where the light is baked
   const GatheredSky* gathered;  ///< null: FinalGather did not look there
@@ -26,7 +28,7 @@ struct AmbientLight {
   Eigen::Array3f front, behind;  ///< illuminance of the surface and of its other side, lx
   Eigen::Array3f mirrored;       ///< mean luminance of what the mirror-like lobe looks at, cd/m²
 };
-/// By what `light` knows of the surface: the bake's nodes, and of the sky what was gathered there or leaves
+/// By what is known of the surface: the bake's nodes, and of the sky what was gathered there or leaves
 /// know; else, on a body that moves, its surroundings; else the open sky.
 AmbientLight ambientLight(const Surface& surface, const AmbientSources& sources, const Illumination& light);
 

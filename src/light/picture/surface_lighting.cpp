@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "light/geometry/ray_start.h"
+#include "light/shading/shading.h"
 #include "light/shading/surface_reflection.h"
-#include "sunlit/light/shading.h"
 
 namespace sunlit::light {
 namespace {
@@ -31,8 +31,9 @@ float leastDisc_lx(const sky::Daylight& day) {
 }  // namespace
 
 SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& light)
-    : surfaces_(subject.surfaces),
-      table_(subject.table),
+    : surfaces_(subject.ready.surfaces),
+      outlooks_(subject.ready.outlooks),
+      table_(subject.ready.table),
       scene_(subject.scene),
       light_(light),
       glows_(glowing(subject, lampsOf(light))),
@@ -52,14 +53,15 @@ Eigen::Array3f SurfaceLighting::ofDisc(const DiscVisibility& disc, float share, 
 void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& by_rays,
                             std::vector<Eigen::Array3f>* luminances) const {
   const Tile& tile = surfaces_.tiles[number];
+  const TileOutlooks& outlooks = outlooks_[number];
   const std::vector<float>& sun_shares = sun_.visibleShares(number);
   const std::vector<float>& moon_shares = moon_.visibleShares(number);
   const LightTable::Rows& rows = table_.tile(number);
   thread_local std::vector<Mirrored> mirrored;
-  mirrored.assign(std::max<std::size_t>(tile.mirrors.size(), 1), Mirrored());
+  mirrored.assign(std::max<std::size_t>(outlooks.mirrors.size(), 1), Mirrored());
   if (light_.mirror_sky) {
-    for (std::size_t i = 0; i < tile.mirrors.size(); ++i)
-      mirrored[i] = mirroredBy(tile.mirrors[i], *light_.mirror_sky);
+    for (std::size_t i = 0; i < outlooks.mirrors.size(); ++i)
+      mirrored[i] = mirroredBy(outlooks.mirrors[i], *light_.mirror_sky);
   }
   thread_local std::vector<Eigen::Array3f> by_lamps;
   lamps_.light(tile, &by_lamps);
@@ -68,9 +70,11 @@ void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& b
   for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
     const Surface& surface = tile.surfaces[i];
     const bool rays = next != by_rays.end() && next->surface == i;
-    const SurfaceParts parts{rows.ambient[i],
-                             mirrored[rows.mirror[i]],
-                             tile.gatheredFor(surface),
+    const Outlook& outlook = outlooks.surfaces[i];
+    const SurfaceParts parts{outlook,
+                             rows.ambient[i],
+                             mirrored[outlook.mirror],
+                             outlooks.gatheredFor(outlook),
                              ofDisc(sun_, sun_shares.empty() ? 0.0f : sun_shares[i], tile, surface),
                              ofDisc(moon_, moon_shares.empty() ? 0.0f : moon_shares[i], tile, surface),
                              by_lamps.empty() ? nullptr : &by_lamps[i],
@@ -96,7 +100,8 @@ Eigen::Array3f SurfaceLighting::luminance(const Surface& surface, const SurfaceP
   if (parts.lamps) leaving += *parts.lamps;
 
   const AmbientReflectance& by = parts.ambient;
-  AmbientLight from = ambientLight(surface, {reflection.roughness, parts.mirrored, parts.gathered}, light_);
+  AmbientLight from =
+      ambientLight(surface, {parts.outlook, reflection.roughness, parts.mirrored, parts.gathered}, light_);
   if (parts.by_rays) from.mirrored += parts.by_rays->share * (parts.by_rays->luminance - from.mirrored);
   const Eigen::Array3f ambient =
       by.diffuse * from.front + by.through * from.behind + by.specular * from.mirrored;

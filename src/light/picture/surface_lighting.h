@@ -7,7 +7,7 @@
 #include "light/picture/ambient.h"
 #include "light/picture/disc/disc_visibility.h"
 #include "light/picture/lamps/lamp_light.h"
-#include "light/picture/table/light_table.h"
+#include "light/picture/ready_picture.h"
 #include "light/shading/glass_sheets.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/surfaces.h"
@@ -19,8 +19,7 @@ class SurfaceLighting {
  public:
   /// What is lit, and what stands in the way.
   struct Subject {
-    const Surfaces& surfaces;
-    const LightTable& table;  ///< of `surfaces`
+    const ReadySurfaces& ready;
     const scene::Scene& scene;
     const Visibility& visibility;
     bool in_mirrors = false;  ///< lamps' own glass is left out: their highlights show them
@@ -42,6 +41,7 @@ class SurfaceLighting {
  private:
   /// What is known of a surface before it is lit.
   struct SurfaceParts {
+    const Outlook& outlook;
     const AmbientReflectance& ambient;
     const Mirrored& mirrored;     ///< where the light is baked
     const GatheredSky* gathered;  ///< null: FinalGather did not look there
@@ -55,6 +55,7 @@ class SurfaceLighting {
                         const Surface& surface) const;
 
   const Surfaces& surfaces_;
+  const Outlooks& outlooks_;
   const LightTable& table_;
   const scene::Scene& scene_;
   const Illumination& light_;

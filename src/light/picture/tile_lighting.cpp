@@ -2,44 +2,41 @@
 
 #include <algorithm>
 
-#include "light/picture/mirror/reflections.h"
-
 namespace sunlit::light {
 namespace {
 
-std::unique_ptr<const SurfaceLighting> lightingInMirrors(const SurfaceLighting::Subject& subject,
+std::unique_ptr<const SurfaceLighting> lightingInMirrors(const ReadyPicture& picture,
+                                                         const TileLighting::Surroundings& in,
                                                          const Illumination& light) {
-  if (!subject.surfaces.reflections) return nullptr;
-  const Surfaces& seen = subject.surfaces.reflections->seen;
+  if (picture.reflections.tiles.empty()) return nullptr;
   return std::make_unique<const SurfaceLighting>(
-      SurfaceLighting::Subject{seen, *seen.table, subject.scene, subject.visibility, true}, light);
+      SurfaceLighting::Subject{picture.mirrored, in.scene, in.visibility, true}, light);
 }
 
 }  // namespace
 
-TileLighting::TileLighting(const SurfaceLighting::Subject& subject, const Illumination& light)
-    : surfaces_(subject.surfaces),
+TileLighting::TileLighting(const ReadyPicture& picture, const Surroundings& in, const Illumination& light)
+    : picture_(picture),
       light_(light),
-      lit_(subject, light),
-      in_mirrors_(lightingInMirrors(subject, light)),
-      air_(surfaces_, subject.table, light.day),
-      open_air_(surfaces_, subject.visibility, light.node_open.get()),
-      sky_(surfaces_, light.day) {}
+      lit_({picture.seen, in.scene, in.visibility}, light),
+      in_mirrors_(lightingInMirrors(picture, in, light)),
+      air_(picture.seen.surfaces, picture.seen.table, light.day),
+      open_air_(picture.seen.surfaces, in.visibility, light.node_open.get()),
+      sky_(picture.seen.surfaces, light.day) {}
 
-void TileLighting::light(const Tile& tile, image::LinearImage* image) const {
-  sky_.addTo(tile, image);
+void TileLighting::light(std::size_t tile, image::LinearImage* image) const {
+  sky_.addTo(picture_.seen.surfaces.tiles[tile], image);
   addSurfaces(tile, image);
 }
 
 void TileLighting::lightMirrored(std::size_t number, std::vector<SurfaceLighting::SeenByRays>* seen) const {
   seen->clear();
   if (!in_mirrors_) return;
-  const Reflections& reflections = *surfaces_.reflections;
-  const std::vector<Reflections::Mirroring>& all = reflections.tiles[number];
+  const std::vector<Reflections::Mirroring>& all = picture_.reflections.tiles[number];
   if (all.empty()) return;
   thread_local std::vector<Eigen::Array3f> leaving;
   in_mirrors_->light(number, {}, &leaving);
-  const std::vector<Surface>& met = reflections.seen.tiles[number].surfaces;
+  const std::vector<Surface>& met = picture_.mirrored.surfaces.tiles[number].surfaces;
   for (const Reflections::Mirroring& mirroring : all) {
     Eigen::Array3f sum = Eigen::Array3f::Zero();
     for (std::uint32_t i = mirroring.first; i < mirroring.first + mirroring.count; ++i)
@@ -51,18 +48,20 @@ void TileLighting::lightMirrored(std::size_t number, std::vector<SurfaceLighting
   }
 }
 
-void TileLighting::addSurfaces(const Tile& tile, image::LinearImage* image) const {
-  const auto number = static_cast<std::size_t>(&tile - surfaces_.tiles.data());
+void TileLighting::addSurfaces(std::size_t number, image::LinearImage* image) const {
+  const Surfaces& surfaces = picture_.seen.surfaces;
+  const Tile& tile = surfaces.tiles[number];
+  const TileOutlooks& outlooks = picture_.seen.outlooks[number];
   thread_local std::vector<SurfaceLighting::SeenByRays> by_rays;
   lightMirrored(number, &by_rays);
   thread_local std::vector<Eigen::Array3f> leaving;
   lit_.light(number, by_rays, &leaving);
-  const float weight = 1.0f / static_cast<float>(surfaces_.samples_per_pixel);
+  const float weight = 1.0f / static_cast<float>(surfaces.samples_per_pixel);
   for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
     const Surface& surface = tile.surfaces[i];
     const sky::AirColumn before = air_.before(number, i);
     const Eigen::Array3f luminance =
-        leaving[i] * before.transmittance + open_air_.before(surface) * before.airlight;
+        leaving[i] * before.transmittance + open_air_.before(outlooks.surfaces[i].light) * before.airlight;
     Eigen::Map<Eigen::Array3f> pixel(image->data.data() + 3 * static_cast<std::size_t>(surface.pixel));
     pixel += luminance * (weight * static_cast<float>(surface.samples) * surface.share);
   }

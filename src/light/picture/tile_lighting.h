@@ -4,11 +4,11 @@
 #include <memory>
 #include <vector>
 
+#include "light/picture/ready_picture.h"
 #include "light/picture/sky/open_air.h"
 #include "light/picture/sky/picture_air.h"
 #include "light/picture/sky/sky_pixel.h"
 #include "light/picture/surface_lighting.h"
-#include "light/picture/table/light_table.h"
 #include "sunlit/image/images.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/surfaces.h"
@@ -19,18 +19,23 @@ namespace sunlit::light {
 
 class TileLighting {
  public:
+  /// What stands in the way.
+  struct Surroundings {
+    const scene::Scene& scene;
+    const Visibility& visibility;
+  };
   /// Keeps references. Casts the rays to sun and moon, in parallel.
-  TileLighting(const SurfaceLighting::Subject& subject, const Illumination& light);
+  TileLighting(const ReadyPicture& picture, const Surroundings& in, const Illumination& light);
 
-  /// Writes the pixels of `tile`, and no others.
-  void light(const Tile& tile, image::LinearImage* image) const;
+  /// Writes the pixels of the tile of that number, and no others.
+  void light(std::size_t tile, image::LinearImage* image) const;
 
  private:
-  void addSurfaces(const Tile& tile, image::LinearImage* image) const;
+  void addSurfaces(std::size_t tile, image::LinearImage* image) const;
   /// What the tile's mirroring surfaces see by their rays.
   void lightMirrored(std::size_t tile, std::vector<SurfaceLighting::SeenByRays>* seen) const;
 
-  const Surfaces& surfaces_;
+  const ReadyPicture& picture_;
   const Illumination& light_;
   SurfaceLighting lit_;
   std::unique_ptr<const SurfaceLighting> in_mirrors_;  ///< null: nothing mirrors by rays

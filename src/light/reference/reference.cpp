@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "light/bake/samples/transport_data.h"
+#include "light/geometry/corners.h"
 #include "light/picture/sky/open_air.h"
 #include "light/picture/sky/sky_pixel.h"
 #include "light/reference/paths.h"
@@ -17,28 +19,39 @@ namespace {
 
 struct Picture {
   const Surfaces& surfaces;
+  const World& world;
   const PathScene& scene;
   OpenAir open_air;
 };
+
+/// Where a surface of the scene lies in its bake, if it has one.
+LightPlace placeOf(const Surface& surface, const World& world) {
+  const Geometry& geometry = *world.geometry;
+  if (!world.transport || surface.triangle >= geometry.triangles.size()) return {};
+  const bool front = geometry.planes[surface.triangle].normal.dot(surface.geometric_normal) > 0.0f;
+  return lightPlace(world.transport->data().mesh, {surface.triangle, front},
+                    Corners(geometry, surface.triangle).within(surface.position));
+}
 
 /// Adds one surface's light to its pixel, by halves.
 using Halves = std::array<std::vector<image::LinearImage>, 2>;
 
 void traceTile(const Picture& picture, const Tile& tile, Halves* halves) {
-  const auto& [surfaces, scene, open_air] = picture;
+  const auto& [surfaces, world, scene, open_air] = picture;
   Paths paths(scene);
   for (const Surface& surface : tile.surfaces) {
     // What is seen through stands before others, in the same samples.
     const Eigen::Array3f share =
         surface.share * static_cast<float>(surface.samples) / static_cast<float>(surfaces.samples_per_pixel);
     const float distance = (surface.position - surfaces.eye).norm();
+    const float open = open_air.before(placeOf(surface, world));
     const std::array<Radiances, 2> traced = paths.luminance(tile, surface);
     for (std::size_t day = 0; day < scene.days.size(); ++day) {
       const sky::AirColumn air = scene.days[day].airOver(-surface.to_eye, distance);
       for (std::size_t half = 0; half < 2; ++half) {
         float* data = (*halves)[half][day].data.data() + 3 * static_cast<std::size_t>(surface.pixel);
         Eigen::Map<Eigen::Array3f> pixel(data);
-        pixel += share * (traced[half][day] * air.transmittance + open_air.before(surface) * air.airlight);
+        pixel += share * (traced[half][day] * air.transmittance + open * air.airlight);
       }
     }
   }
@@ -77,7 +90,7 @@ std::vector<Traced> traceReference(const Surfaces& surfaces, const World& world,
   skies.reserve(days.size());
   for (const sky::Daylight& day : days) skies.emplace_back(surfaces, day);
   const std::vector<float>* const node_open = world.transport ? world.transport->nodeOpen().get() : nullptr;
-  const Picture picture{surfaces, scene, OpenAir(surfaces, *world.visibility, node_open)};
+  const Picture picture{surfaces, world, scene, OpenAir(surfaces, *world.visibility, node_open)};
   tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(), [&](std::size_t i) {
     const Tile& tile = surfaces.tiles[i];
     for (auto& half : halves) {

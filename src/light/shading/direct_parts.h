@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "sunlit/light/shading.h"
+#include "light/shading/shading.h"
 
 namespace sunlit::light {
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "light/shading/shading.h"
 #include "sunlit/image/srgb.h"
-#include "sunlit/light/shading.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/scene/wrap.h"
 

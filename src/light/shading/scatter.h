@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "sunlit/light/shading.h"
+#include "light/shading/shading.h"
 
 namespace sunlit::light {
 

@@ -1,4 +1,4 @@
-#include "sunlit/light/shading.h"
+#include "light/shading/shading.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 /// How a surface of a picture reflects light.
 #pragma once
 
-#include "sunlit/light/shading.h"
+#include "light/shading/shading.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/scene/scene.h"
 

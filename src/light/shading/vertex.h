@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "light/shading/shading.h"
 #include "sunlit/light/geometry.h"
-#include "sunlit/light/shading.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/visibility.h"
 

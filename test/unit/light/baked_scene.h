@@ -23,11 +23,11 @@ inline std::vector<double> fast(const World& world, const std::vector<Looked>& p
     for (Surface& surface : tile.surfaces)
       surface.triangle = triangleAt(*world.geometry, surface.position, surface.geometric_normal);
   }
-  world.transport->locate(&surfaces);
-  for (const Tile& tile : surfaces.tiles) {
-    for (const Surface& surface : tile.surfaces) EXPECT_TRUE(surface.light.known());
+  const Outlooks outlooks = outlooksOf(surfaces, world);
+  for (const TileOutlooks& tile : outlooks) {
+    for (const Outlook& outlook : tile.surfaces) EXPECT_TRUE(outlook.light.known());
   }
-  return rowValues(illuminate(surfaces, *world.geometry->scene, *world.visibility, illumination(world, day)));
+  return rowValues(surfaces, outlooks, world, illumination(world, day));
 }
 
 /// Relative, of some pixels.

@@ -1,5 +1,5 @@
 // Light from all around a body, in surroundings whose light can be worked out on paper.
-#include "sunlit/light/body_light.h"
+#include "light/picture/bodies/body_light.h"
 
 #include <gtest/gtest.h>
 

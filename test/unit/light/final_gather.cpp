@@ -1,6 +1,6 @@
 // What surfaces see of the sky by rays of their own, where it can be worked out on paper, and against traced
 // light.
-#include "sunlit/light/final_gather.h"
+#include "light/picture/gather/final_gather.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -17,6 +17,7 @@
 #include "light/picture/gather/kept_nodes.h"
 #include "paper_scene.h"
 #include "sunlit/light/illumination.h"
+#include "sunlit/light/picture.h"
 #include "sunlit/light/transport.h"
 #include "sunlit/quantity/angle.h"
 #include "support/message_of.h"
@@ -27,19 +28,28 @@ namespace {
 const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ();
 
 /// As after a bake, as far as final gathering asks for it.
-Surfaces located(const std::vector<Looked>& points, const World& world) {
-  Surfaces surfaces = onTriangles(points, world);
-  for (Tile& tile : surfaces.tiles) {
-    for (Surface& surface : tile.surfaces) {
-      surface.light.node = {0, 0, 0};
-      surface.sky.known = surface.material == kLeaf;
+struct Located {
+  Surfaces surfaces;
+  Outlooks outlooks;
+
+  Located(const std::vector<Looked>& points, const World& world) : surfaces(onTriangles(points, world)) {
+    forget(surfaces, &outlooks);
+    for (std::size_t t = 0; t < outlooks.size(); ++t) {
+      for (std::size_t i = 0; i < outlooks[t].surfaces.size(); ++i) {
+        outlooks[t].surfaces[i].light.node = {0, 0, 0};
+        outlooks[t].surfaces[i].sky.known = surfaces.tiles[t].surfaces[i].material == kLeaf;
+      }
     }
   }
-  return surfaces;
-}
+  void look(FinalGather* gather) { gather->look(surfaces, &outlooks); }
+  void look(const World& world, int rays) {
+    FinalGather gather(world.geometry, world.visibility, rays);
+    look(&gather);
+  }
+};
 
-const GatheredSky& skyOf(const Surfaces& surfaces, std::size_t point) {
-  const Tile& tile = surfaces.tiles[point / Surfaces::kTileSize];
+const GatheredSky& skyOf(const Outlooks& outlooks, std::size_t point) {
+  const TileOutlooks& tile = outlooks[point / Surfaces::kTileSize];
   return tile.gathered.at(tile.surfaces[point % Surfaces::kTileSize].gathered);
 }
 
@@ -52,11 +62,11 @@ struct Shares {
   float front, behind;
 };
 std::vector<Shares> openAround(const std::vector<Looked>& points, const World& world, int rays) {
-  Surfaces surfaces = located(points, world);
-  FinalGather(world.geometry, world.visibility, rays).look(&surfaces);
+  Located located(points, world);
+  located.look(world, rays);
   std::vector<Shares> shares;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const GatheredLight light = gatheredLight(skyOf(surfaces, i), evenSky(), points[i].normal);
+    const GatheredLight light = gatheredLight(skyOf(located.outlooks, i), evenSky(), points[i].normal);
     // Light of 1 cd/m² from all of the half sphere is π lx.
     EXPECT_NEAR(light.front[1], kPiFloat * light.front[3], 1e-3f);
     shares.push_back({light.front[3], light.behind[3]});
@@ -152,11 +162,10 @@ TEST(FinalGather, APlateOverNothingIsLitFromBelowAsTracedPathsSay) {
   const Eigen::Vector3f normal = Eigen::Vector3f::UnitX();
   const std::vector<Looked> points = {{{0.0f, -0.2f, 1.3f}, normal, normal, kBoard}};
   FinalGather gather(world.geometry, world.visibility, 1);
-  Surfaces surfaces = onTriangles(points, world);
-  world.transport->locate(&surfaces, &gather);
-  ASSERT_EQ(surfaces.tiles[0].gathered.size(), 1u);
-  const std::vector<double> fast =
-      rowValues(illuminate(surfaces, *world.geometry->scene, *world.visibility, illumination(world, day)));
+  const Surfaces surfaces = onTriangles(points, world);
+  const Outlooks outlooks = outlooksOf(surfaces, world, &gather);
+  ASSERT_EQ(outlooks[0].gathered.size(), 1u);
+  const std::vector<double> fast = rowValues(surfaces, outlooks, world, illumination(world, day));
   const std::vector<double> slow = traced(world, points, day, 4096);
   EXPECT_GT(slow[0], 100.0);
   EXPECT_NEAR(fast[0], slow[0], 0.03 * slow[0]);  // 160 directions below the horizon, and 1 % noise
@@ -168,20 +177,21 @@ TEST(FinalGather, LeavesLargeTrianglesAndWhatIsNotBakedAlone) {
   addPatch(&scene, kBoard, {-0.5f, -0.5f, 1.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f});
   addPatch(&scene, kLeaf, {-4.0f, -4.0f, 2.0f}, {8.0f, 0.0f, 0.0f}, {0.0f, 8.0f, 0.0f});
   const World world = worldOf(std::move(scene));
-  Surfaces surfaces = located({{{1.0f, 0.2f, 0.0f}, kUp, kUp, kBoard},
-                               {{0.1f, 0.2f, 1.0f}, kUp, kUp, kBoard},
-                               {{0.1f, 0.2f, 1.0f}, kUp, kUp, kBoard},
-                               {{0.1f, 0.2f, 1.0f}, kUp, kUp, kBoard},
-                               {{1.0f, 0.2f, 2.0f}, kUp, kUp, kLeaf}},
-                              world);
-  Tile& tile = surfaces.tiles[0];
-  tile.surfaces[1].light = LightPlace();  // of a place that the bake left out
-  tile.surfaces[2].triangle = static_cast<std::uint32_t>(world.geometry->triangles.size());  // of a body
+  Located located({{{1.0f, 0.2f, 0.0f}, kUp, kUp, kBoard},
+                   {{0.1f, 0.2f, 1.0f}, kUp, kUp, kBoard},
+                   {{0.1f, 0.2f, 1.0f}, kUp, kUp, kBoard},
+                   {{0.1f, 0.2f, 1.0f}, kUp, kUp, kBoard},
+                   {{1.0f, 0.2f, 2.0f}, kUp, kUp, kLeaf}},
+                  world);
+  const TileOutlooks& tile = located.outlooks[0];
+  located.outlooks[0].surfaces[1].light = LightPlace();  // of a place that the bake left out
+  located.surfaces.tiles[0].surfaces[2].triangle =
+      static_cast<std::uint32_t>(world.geometry->triangles.size());  // of a body
   FinalGather gather(world.geometry, world.visibility, 1);
-  gather.look(&surfaces);
+  located.look(&gather);
   ASSERT_EQ(tile.gathered.size(), 2u);
   for (const std::size_t alone : {0u, 1u, 2u})
-    EXPECT_EQ(tile.surfaces[alone].gathered, Surface::kNotGathered) << alone;
+    EXPECT_EQ(tile.surfaces[alone].gathered, Outlook::kNotGathered) << alone;
   EXPECT_EQ(tile.surfaces[3].gathered, 0u);
   EXPECT_EQ(tile.surfaces[4].gathered, 1u);
   EXPECT_EQ(gather.nodesSeen(), 6u);
@@ -192,28 +202,28 @@ TEST(FinalGather, IsTheSameForAnyNumberOfThreadsAndWhateverWasSeenBefore) {
   std::vector<Looked> points;
   const World world = worldOf(crown(&points));
   const std::vector<Looked> half(points.begin(), points.begin() + 60);
-  const auto bytes = [](const Surfaces& surfaces) {
+  const auto bytes = [](const Located& located) {
     std::vector<std::uint8_t> all;
-    for (const Tile& tile : surfaces.tiles)
+    for (const TileOutlooks& tile : located.outlooks)
       for (const GatheredSky& sky : tile.gathered) all.insert(all.end(), sky.open.begin(), sky.open.end());
     return all;
   };
   FinalGather gather(world.geometry, world.visibility, 2);
-  Surfaces first = located(points, world);
-  gather.look(&first);
+  Located first(points, world);
+  first.look(&gather);
   const std::size_t seen = gather.nodesSeen();
   EXPECT_EQ(gather.nodesCast(), seen);
-  Surfaces other = located(half, world);
-  gather.look(&other);
+  Located other(half, world);
+  other.look(&gather);
   EXPECT_EQ(gather.nodesCast(), 0u);  // all of them are known
-  Surfaces again = located(points, world);
-  gather.look(&again);
+  Located again(points, world);
+  again.look(&gather);
   EXPECT_EQ(gather.nodesSeen(), seen);
   EXPECT_EQ(bytes(again), bytes(first));
 
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  Surfaces alone = located(half, world);
-  FinalGather(world.geometry, world.visibility, 2).look(&alone);
+  Located alone(half, world);
+  alone.look(world, 2);
   EXPECT_EQ(bytes(alone), bytes(other));
   EXPECT_FALSE(bytes(alone).empty());
 }
@@ -224,10 +234,9 @@ TEST(FinalGather, LightsACrownAsTracedPathsDo) {
   world.transport = Transport::bake(world.geometry, {});
   FinalGather gather(world.geometry, world.visibility, 2);
   const auto error = [&](const sky::Daylight& day, FinalGather* closely) {
-    Surfaces surfaces = onTriangles(points, world);
-    world.transport->locate(&surfaces, closely);
+    const Surfaces surfaces = onTriangles(points, world);
     const std::vector<double> fast =
-        rowValues(illuminate(surfaces, *world.geometry->scene, *world.visibility, illumination(world, day)));
+        rowValues(surfaces, outlooksOf(surfaces, world, closely), world, illumination(world, day));
     const std::vector<double> slow = traced(world, points, day, 512);
     return differenceOf(fast, slow);
   };
@@ -254,10 +263,9 @@ TEST(FinalGather, LeavesSeeTheirShareOfTheSunWithinPenumbrae) {
     points.push_back({{x, 0.01f, 1.0f}, kUp, kUp, kLeaf});
   }
   const auto error = [&](bool closely) {
-    Surfaces surfaces = located(points, world);
-    if (closely) FinalGather(world.geometry, world.visibility, 1).look(&surfaces);
-    const std::vector<double> light =
-        rowValues(illuminate(surfaces, *world.geometry->scene, *world.visibility, day));
+    Located located(points, world);
+    if (closely) located.look(world, 1);
+    const std::vector<double> light = rowValues(located.surfaces, located.outlooks, world, day);
     double sum = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       // Of a disc cut by a chord at x radii from its middle: 1/2 + (asin x + x √(1 − x²)) / π.
@@ -273,11 +281,11 @@ TEST(FinalGather, LeavesSeeTheirShareOfTheSunWithinPenumbrae) {
   EXPECT_LT(closely, 0.7 * sparingly);
 }
 
-TEST(FinalGather, RefusesANumberOfRaysOutOfRange) {
+TEST(PicturePreparer, RefusesANumberOfRaysOutOfRange) {
   const World world = worldOf(levelLeaf());
-  for (const int rays : {0, 17}) {
-    EXPECT_EQ(messageOf([&] { FinalGather(world.geometry, world.visibility, rays); }),
-              "final_gather is " + std::to_string(rays) + ", but must be from 1 to 16");
+  for (const int rays : {-1, 17}) {
+    EXPECT_EQ(messageOf([&] { PicturePreparer(world, rays); }),
+              "final_gather is " + std::to_string(rays) + ", but must be from 0 to 16");
   }
 }
 

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "light/lamps/lamp_sets.h"
+#include "light/shading/shading.h"
 #include "paper_scene.h"
-#include "sunlit/light/shading.h"
 #include "sunlit/light/transport.h"
 #include "sunlit/quantity/angle.h"
 
@@ -36,12 +36,11 @@ World baked(scene::Scene scene, const TransportOptions& options = {}) {
   return world;
 }
 
-Surfaces located(const World& world, const std::vector<Looked>& points) {
+Surfaces onTriangles(const World& world, const std::vector<Looked>& points) {
   Surfaces surfaces = rowOf(points, *world.geometry->scene);
   for (Tile& tile : surfaces.tiles)
     for (Surface& surface : tile.surfaces)
       surface.triangle = triangleAt(*world.geometry, surface.position, surface.geometric_normal);
-  world.transport->locate(&surfaces);
   return surfaces;
 }
 
@@ -50,9 +49,9 @@ std::vector<double> illuminances(const World& world, const std::vector<Looked>& 
                                  const LampOptions& options = kOn) {
   const Illumination light = illumination(world, uniformDay(0.0f), options);
   std::vector<double> values;
-  for (const Tile& tile : located(world, points).tiles)
-    for (const Surface& surface : tile.surfaces)
-      values.push_back(static_cast<double>(irradianceAt(surface.light, *light.nodes)[1]));
+  for (const TileOutlooks& tile : outlooksOf(onTriangles(world, points), world))
+    for (const Outlook& outlook : tile.surfaces)
+      values.push_back(static_cast<double>(irradianceAt(outlook.light, *light.nodes)[1]));
   return values;
 }
 
@@ -62,9 +61,7 @@ double illuminance(const World& world, const Eigen::Vector3f& position, const Ei
 }
 
 std::vector<double> pictured(const World& world, const std::vector<Looked>& points) {
-  const Surfaces surfaces = located(world, points);
-  return rowValues(illuminate(surfaces, *world.geometry->scene, *world.visibility,
-                              illumination(world, uniformDay(0.0f), kOn)));
+  return rowValues(onTriangles(world, points), world, illumination(world, uniformDay(0.0f), kOn));
 }
 
 std::vector<double> tracedWithLamps(const World& world, const std::vector<Looked>& points, int samples) {

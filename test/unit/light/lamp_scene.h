@@ -36,8 +36,7 @@ inline std::vector<double> lit(const World& world, const std::vector<scene::Lamp
                                const std::vector<Looked>& points) {
   Illumination light(uniformDay(0.0f));
   light.lamps = std::make_shared<const std::vector<scene::Lamp>>(lamps);
-  const scene::Scene& scene = *world.geometry->scene;
-  return rowValues(illuminate(rowOf(points, scene), scene, *world.visibility, light));
+  return rowValues(rowOf(points, *world.geometry->scene), world, light);
 }
 
 }  // namespace sunlit::light

@@ -11,6 +11,9 @@
 
 #include "leaf_scenes.h"
 #include "light/bake/samples/bake_rays.h"
+#include "light/bake/samples/light_place.h"
+#include "light/bake/samples/transport_data.h"
+#include "light/geometry/corners.h"
 #include "light/patches/sky_sectors.h"
 #include "paper_scene.h"
 #include "sunlit/light/illumination.h"
@@ -187,7 +190,8 @@ TEST(LeafOpenness, EachSideOfALeafHasLightOfItsOwn) {
   const std::uint32_t leaf = triangleAt(*world.geometry, point, Eigen::Vector3f::UnitZ());
   const auto light = [&](bool up) {
     const bool front = (world.geometry->planes[leaf].normal.z() > 0.0f) == up;
-    return irradianceAt(transport->placeOf(leaf, front, point), nodes)[1];
+    const std::array<float, 3> within = Corners(*world.geometry, leaf).within(point);
+    return irradianceAt(lightPlace(transport->data().mesh, {leaf, front}, within), nodes)[1];
   };
   EXPECT_NEAR(light(true), kPiFloat, 0.01f * kPiFloat);
   // 8 %: the leaf's own shade, 1 m² seen from 3 m, is 1 / 9π of what it looks at; paint mirrors a little
@@ -200,10 +204,7 @@ TEST(LeafOpenness, LightsACrownAsTracedPathsDo) {
   World world = worldOf(crown(&points));
   world.transport = Transport::bake(world.geometry, {});
   const sky::Daylight day = uniformDay(1000.0f);
-  Surfaces surfaces = onTriangles(points, world);
-  world.transport->locate(&surfaces);
-  const std::vector<double> fast =
-      rowValues(illuminate(surfaces, *world.geometry->scene, *world.visibility, illumination(world, day)));
+  const std::vector<double> fast = rowValues(onTriangles(points, world), world, illumination(world, day));
   const std::vector<double> slow = traced(world, points, day, 512);
   // 0.125 measured; by the nodes alone, without grids, 0.20. What is left: edges of shade within a step of
   // the grids, light passed on, and 1 % noise of the traced light.

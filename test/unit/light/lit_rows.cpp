@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "light/shading/shading.h"
 #include "light/shading/surface_reflection.h"
-#include "sunlit/light/shading.h"
 
 namespace sunlit::light {
 namespace {

@@ -56,11 +56,10 @@ Seen seen(const World& world, const Eigen::Vector3f& eye, const Eigen::Vector3f&
   surfaces.eye = eye;
   Surface& surface = surfaces.tiles[0].surfaces[0];
   surface.triangle = triangleAt(*world.geometry, place, normal);
-  world.transport->locate(&surfaces);
+  const Outlooks outlooks = outlooksOf(surfaces, world);
   const OpenAir air(surfaces, *world.visibility, world.transport->nodeOpen().get());
-  return {rowValues(illuminate(surfaces, *world.geometry->scene, *world.visibility,
-                               illumination(world, hazyNoon())))[0],
-          static_cast<double>(air.before(surface))};
+  return {rowValues(surfaces, outlooks, world, illumination(world, hazyNoon()))[0],
+          static_cast<double>(air.before(outlooks[0].surfaces[0].light))};
 }
 
 TEST(OpenAir, IsDarkInAClosedHall) {
@@ -88,8 +87,8 @@ TEST(OpenAir, IsLitOutsideAndBeforeTheMouthOfAHall) {
 
 TEST(OpenAir, IsAsItWasWhereNothingIsBaked) {
   World world = hall(false);
-  Surfaces surfaces = rowOf({{{20.0f, 0.7f, 2.1f}, -kEast, -kEast, 1}}, *world.geometry->scene);
-  EXPECT_EQ(OpenAir(surfaces, *world.visibility, nullptr).before(surfaces.tiles[0].surfaces[0]), 1.0f);
+  const Surfaces surfaces = rowOf({{{20.0f, 0.7f, 2.1f}, -kEast, -kEast, 1}}, *world.geometry->scene);
+  EXPECT_EQ(OpenAir(surfaces, *world.visibility, nullptr).before(LightPlace()), 1.0f);
 }
 
 }  // namespace

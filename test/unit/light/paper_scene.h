@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "sunlit/light/lighting.h"
+#include "light/picture/lighting.h"
+#include "light/shading/shading.h"
 #include "sunlit/light/reference.h"
-#include "sunlit/light/shading.h"
 #include "sunlit/light/world.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/sky/uniform_sky.h"
@@ -133,6 +133,26 @@ inline std::vector<double> rowValues(const image::LinearImage& image) {
   std::vector<double> values;
   for (int x = 0; x < image.width; ++x) values.push_back(static_cast<double>(image.at(x, 0)[1]));
   return values;
+}
+
+/// What surfaces have around them, as far as the light of `world` is baked.
+inline Outlooks outlooksOf(const Surfaces& surfaces, const World& world, FinalGather* gather = nullptr) {
+  Outlooks outlooks;
+  findOutlooks(surfaces, {world, *world.visibility, nullptr, gather}, &outlooks);
+  return outlooks;
+}
+
+/// Of surfaces that have these around them, without what they mirror by rays.
+inline std::vector<double> rowValues(const Surfaces& surfaces, const Outlooks& outlooks, const World& world,
+                                     const Illumination& light) {
+  const scene::Scene& scene = *world.geometry->scene;
+  ReadyPicture ready;
+  ready.seen = {surfaces, outlooks, LightTable(surfaces, outlooks, scene)};
+  return rowValues(illuminate(ready, scene, *world.visibility, light));
+}
+inline std::vector<double> rowValues(const Surfaces& surfaces, const World& world,
+                                     const Illumination& light) {
+  return rowValues(surfaces, outlooksOf(surfaces, world), world, light);
 }
 
 inline std::vector<double> traced(const World& world, const std::vector<Looked>& points,

@@ -44,8 +44,7 @@ TEST(SettingSun, LightsAWallByAllOfItThatIsAboveTheHorizon) {
   const Eigen::Vector3f south = -Eigen::Vector3f::UnitY();
   const std::vector<Looked> points(16, {{0.3f, 0.0f, 0.5f}, south, south});
   const auto fast = [&](const World& of, const sky::Daylight& day) {
-    const Surfaces surfaces = rowOf(points, *of.geometry->scene);
-    return rowValues(illuminate(surfaces, *of.geometry->scene, *of.visibility, illumination(of, day)));
+    return rowValues(rowOf(points, *of.geometry->scene), of, illumination(of, day));
   };
   for (const double elevation_deg : {0.3, 0.15, 0.0, -0.15, -0.25}) {
     const sky::Daylight day = onlySun(180.0, elevation_deg);

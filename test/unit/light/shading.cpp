@@ -1,5 +1,5 @@
 // Reflection by known answers: energy, reciprocity, limits.
-#include "sunlit/light/shading.h"
+#include "light/shading/shading.h"
 
 #include <gtest/gtest.h>
 

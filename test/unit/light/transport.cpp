@@ -37,13 +37,12 @@ std::vector<Eigen::Array3f> illuminances(const World& world, const sky::Daylight
     for (Surface& surface : tile.surfaces)
       surface.triangle = triangleAt(*world.geometry, surface.position, surface.geometric_normal);
   }
-  world.transport->locate(&surfaces);
   const Illumination light = illumination(world, day);
   std::vector<Eigen::Array3f> values;
-  for (const Tile& tile : surfaces.tiles) {
-    for (const Surface& surface : tile.surfaces) {
-      EXPECT_TRUE(surface.light.known());
-      values.push_back(irradianceAt(surface.light, *light.nodes));
+  for (const TileOutlooks& tile : outlooksOf(surfaces, world)) {
+    for (const Outlook& outlook : tile.surfaces) {
+      EXPECT_TRUE(outlook.light.known());
+      values.push_back(irradianceAt(outlook.light, *light.nodes));
     }
   }
   return values;

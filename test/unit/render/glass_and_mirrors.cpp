@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "light/picture/mirror/reflections.h"
 #include "sunlit/light/luminance_error.h"
 #include "sunlit/light/transport.h"
 #include "sunlit/sky/uniform_sky.h"
@@ -199,9 +200,11 @@ TEST(RoughSurfaces, CastNoRaysOfMirrors) {
   scene::Scene scene;
   addGround(&scene, addMaterial(&scene, {0.5f, 0.5f, 0.5f}), 40.0f);
   scene.materials.back().roughness = 0.35f;
-  render::Renderer renderer(shared(scene), smallCamera());
+  const light::World world(shared(scene));
+  render::Renderer renderer(world, smallCamera());
   renderer.look(lookingAt({0.0, 0.0, 1.5}, {3.0, 0.0, 0.0}));
-  EXPECT_EQ(renderer.surfaces().reflections, nullptr);
+  light::Surfaces met;
+  EXPECT_TRUE(light::reflect(renderer.surfaces(), scene, *world.visibility, &met).tiles.empty());
 }
 
 /// A room of 5 × 4 × 3 m with a polished floor, whose south side is a pane.

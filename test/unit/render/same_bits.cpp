@@ -6,7 +6,7 @@
 #include <future>
 #include <random>
 
-#include "sunlit/light/lighting.h"
+#include "sunlit/light/picture.h"
 #include "sunlit/light/transport.h"
 #include "test_scenes.h"
 
@@ -130,17 +130,16 @@ TEST(Picture, IsTheSameByFinalGatheringForAnyNumberOfThreadsAndWhateverWasSeenBe
   EXPECT_TRUE(sameBits(picture(&alone), first));
 }
 
-TEST(Picture, IsTheSameWithAndWithoutWhatAPoseKeepsForItsConditions) {
+TEST(Picture, IsTheSameWhereAnotherPreparesWhatIsSeen) {
   const light::World world(shared(town()));
   render::Renderer renderer(world, smallCamera(200, 150, 80.0));
   renderer.look(kPose);
-  light::Surfaces bare = renderer.surfaces();
-  ASSERT_TRUE(bare.table);
-  bare.table = nullptr;
+  light::PicturePreparer preparer(world);
+  light::PreparedPicture picture;
+  preparer.prepare({renderer.surfaces(), world.visibility, {}}, &picture);
   for (const double elevation_deg : {12.0, -8.0}) {
     const sky::Daylight day = daylightAt(100.0, elevation_deg);
-    EXPECT_TRUE(sameBits(light::illuminate(bare, *world.geometry->scene, *world.visibility, day).data,
-                         renderer.light(day).data))
+    EXPECT_TRUE(sameBits(picture.illuminate(day).data, renderer.light(day).data))
         << "sun at " << elevation_deg;
   }
 }

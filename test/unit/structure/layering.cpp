@@ -126,17 +126,18 @@ const std::map<std::string, Modules> kRoomsOfLight = {
     {"bake/samples", {"geometry", "patches", "shading"}},
     {"bake/gather", {"bake/samples", "geometry", "lamps", "patches", "shading"}},
     {"bake/cache", {"bake/samples"}},
-    {"picture/table", {"shading"}},
+    {"picture/outlook", {"bake/samples", "patches"}},
+    {"picture/table", {"picture/outlook", "shading"}},
     {"picture/disc", {"geometry", "patches", "picture/table"}},
     {"picture/lamps", {"geometry", "lamps", "patches", "shading"}},
-    {"picture/mirror", {"bake/samples", "geometry", "patches", "shading"}},
-    {"picture/gather", {"geometry", "patches"}},
-    {"picture/bodies", {"patches", "shading"}},
-    {"picture/sky", {"geometry", "patches", "picture/table"}},
+    {"picture/mirror", {"bake/samples", "geometry", "patches", "picture/outlook", "shading"}},
+    {"picture/gather", {"geometry", "patches", "picture/outlook"}},
+    {"picture/bodies", {"bake/samples", "geometry", "patches", "picture/outlook", "shading"}},
+    {"picture/sky", {"bake/samples", "geometry", "patches", "picture/table"}},
     {"picture",
-     {"geometry", "patches", "picture/disc", "picture/gather", "picture/lamps", "picture/mirror",
-      "picture/sky", "picture/table", "shading"}},
-    {"reference", {"geometry", "lamps", "patches", "picture/sky", "shading"}},
+     {"bake/samples", "geometry", "patches", "picture/bodies", "picture/disc", "picture/gather",
+      "picture/lamps", "picture/mirror", "picture/outlook", "picture/sky", "picture/table", "shading"}},
+    {"reference", {"bake/samples", "geometry", "lamps", "patches", "picture/sky", "shading"}},
 };
 
 const std::map<std::string, Modules> kRoomsOfEvaluate = {
@@ -192,6 +193,20 @@ TEST(Structure, NoHeaderStandsBesideTheRoomsOfLight) {
   const fs::path beside = fs::path(SUNLIT_SOURCE_DIR) / "src/light";
   for (const SourceFile& file : sources())
     EXPECT_TRUE(file.path.parent_path() != beside || file.path.extension() != ".h") << file.path;
+}
+
+/// Those that only light itself would include lie in its rooms.
+TEST(Structure, PublicHeadersOfLightAreThoseThatOthersInclude) {
+  std::set<std::string> included, headers;
+  for (const SourceFile& file : sources()) {
+    const std::string path = file.path.lexically_relative(fs::path(SUNLIT_SOURCE_DIR)).generic_string();
+    const bool public_header = path.rfind("include/sunlit/light/", 0) == 0;
+    if (public_header) headers.insert(path.substr(8));
+    if (!public_header && file.module == "light") continue;
+    for (const std::string& include : includesOf(file)) included.insert(include);
+  }
+  EXPECT_GT(headers.size(), 8u);
+  for (const std::string& header : headers) EXPECT_EQ(included.count(header), 1u) << header;
 }
 
 TEST(Structure, RoomsOfEvaluatePointOneWay) {

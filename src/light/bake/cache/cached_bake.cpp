@@ -84,7 +84,7 @@ std::shared_ptr<const Transport> Transport::cached(std::shared_ptr<const Geometr
     data = readIfThere(file, key, log);  // another process may have finished it meanwhile
   }
   if (data) {
-    kept->transport = std::make_shared<const Transport>(std::move(geometry), options, std::move(data));
+    kept->transport = std::make_shared<const Transport>(options, std::move(data));
   } else {
     kept->transport = bake(std::move(geometry), options, progress);
     keep(file, key, *kept->transport->data_, log);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sunlit/light/shading.h"
+#include "light/shading/shading.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/scene/scene.h"
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "light/bake/samples/triangle_kinds.h"
+#include "light/patches/sky_openness.h"
 #include "light/patches/sky_patches.h"
 #include "sunlit/light/geometry.h"
-#include "sunlit/light/surfaces.h"
 
 namespace sunlit::light {
 

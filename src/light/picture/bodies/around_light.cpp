@@ -1,4 +1,4 @@
-#include "sunlit/light/body_light.h"
+#include "light/picture/bodies/body_light.h"
 
 namespace sunlit::light {
 namespace {

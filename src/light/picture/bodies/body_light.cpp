@@ -1,10 +1,12 @@
-#include "sunlit/light/body_light.h"
+#include "light/picture/bodies/body_light.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "light/bake/samples/transport_data.h"
+#include "light/geometry/corners.h"
 #include "light/patches/even_directions.h"
 #include "light/picture/bodies/body_shade.h"
 #include "light/shading/reflectances.h"
@@ -77,7 +79,10 @@ void BodyLight::Implementation::keep(std::uint32_t body, std::uint32_t direction
   const Eigen::Vector3f normal = front ? plane_normal : Eigen::Vector3f(-plane_normal);
   const float clear = 1e-3f + 1e-6f * position.cwiseAbs().maxCoeff();
   LightPlace light;
-  if (world_.transport) light = world_.transport->placeOf(hit.triangle, front, position);
+  if (world_.transport) {
+    const std::array<float, 3> within = Corners(geometry, hit.triangle).within(position);
+    light = lightPlace(world_.transport->data().mesh, {hit.triangle, front}, within);
+  }
   views->met.push_back({body, direction, static_cast<std::size_t>(geometry.materials[hit.triangle]),
                         reflectanceAt(hit.triangle, weights), normal, position + clear * normal, light});
 }
@@ -177,10 +182,10 @@ std::vector<AroundLight> BodyLight::around(const Views& views, const Illuminatio
   return implementation_->around(views, light);
 }
 
-void BodyLight::hide(const Geometry& bodies, const Visibility& visibility, Surfaces* surfaces) const {
-  const BodyShade shade(implementation_->bodies(), bodies, visibility);
-  tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(),
-                    [&](std::size_t i) { shade.apply(&surfaces->tiles[i]); });
+void BodyLight::hide(const Surfaces& surfaces, const Visibility& visibility, Outlooks* outlooks) const {
+  const BodyShade shade(implementation_->bodies(), *visibility.movingGeometry(), visibility);
+  tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(),
+                    [&](std::size_t i) { shade.apply(surfaces.tiles[i], &(*outlooks)[i]); });
 }
 
 }  // namespace sunlit::light

@@ -131,28 +131,29 @@ void BodyShade::cast(const RayList& rays, std::vector<float>* hidden) const {
   }
 }
 
-void BodyShade::apply(Tile* tile) const {
+void BodyShade::apply(const Tile& tile, TileOutlooks* outlooks) const {
   thread_local RayList rays;
   thread_local std::vector<float> hidden, near;
-  hidden.assign(tile->surfaces.size(), 0.0f);
-  near.assign(tile->surfaces.size(), 0.0f);
+  hidden.assign(tile.surfaces.size(), 0.0f);
+  near.assign(tile.surfaces.size(), 0.0f);
   rays.clear();
-  for (std::uint32_t i = 0; i < tile->surfaces.size(); ++i) {
-    Surface& surface = tile->surfaces[i];
-    surface.body = surface.triangle >= first_triangle_
-                       ? static_cast<std::int32_t>(bodies_.bodyOf(surface.triangle - first_triangle_))
-                       : Surface::kNoBody;
+  for (std::uint32_t i = 0; i < tile.surfaces.size(); ++i) {
+    const Surface& surface = tile.surfaces[i];
+    outlooks->surfaces[i].body =
+        surface.triangle >= first_triangle_
+            ? static_cast<std::int32_t>(bodies_.bodyOf(surface.triangle - first_triangle_))
+            : Outlook::kNoBody;
     near[i] = nearness(surface);
-    if (near[i] > 0.0f) appendRays(*tile, i, true, &rays);
+    if (near[i] > 0.0f) appendRays(tile, i, true, &rays);
   }
   cast(rays, &hidden);
   rays.clear();
   for (std::uint32_t i = 0; i < hidden.size(); ++i) {
-    if (hidden[i] > 0.0f) appendRays(*tile, i, false, &rays);
+    if (hidden[i] > 0.0f) appendRays(tile, i, false, &rays);
   }
   cast(rays, &hidden);
   for (std::size_t i = 0; i < hidden.size(); ++i)
-    tile->surfaces[i].unhidden = std::max(1.0f - near[i] * hidden[i], 0.0f);
+    outlooks->surfaces[i].unhidden = std::max(1.0f - near[i] * hidden[i], 0.0f);
 }
 
 }  // namespace sunlit::light

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "light/picture/outlook/outlook.h"
 #include "sunlit/light/bodies.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/visibility.h"
@@ -15,8 +16,8 @@ class BodyShade {
   /// `placed`: the bodies where they stand, as `visibility` has them beside the scene. Keeps references.
   BodyShade(const Bodies& bodies, const Geometry& placed, const Visibility& visibility);
 
-  /// Sets Surface::body and Surface::unhidden.
-  void apply(Tile* tile) const;
+  /// Sets Outlook::body and Outlook::unhidden.
+  void apply(const Tile& tile, TileOutlooks* outlooks) const;
 
  private:
   struct RayList;

@@ -1,4 +1,4 @@
-#include "sunlit/light/final_gather.h"
+#include "light/picture/gather/final_gather.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
@@ -7,8 +7,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,7 +16,6 @@
 #include "light/geometry/triangle_grid.h"
 #include "light/patches/sky_patches.h"
 #include "light/picture/gather/kept_nodes.h"
-#include "sunlit/quantity/range.h"
 #include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::light {
@@ -137,7 +134,6 @@ class FinalGather::Implementation {
   Implementation(std::shared_ptr<const Geometry> geometry, std::shared_ptr<const Visibility> visibility,
                  int rays_per_patch)
       : geometry_(std::move(geometry)), visibility_(std::move(visibility)) {
-    require("final_gather", rays_per_patch, {1, kMostRays});
     // The rays of each aim fill a patch evenly, and those of all together do.
     const SkyPatches all(static_cast<int>(kAims) * rays_per_patch);
     std::array<std::size_t, SkyPatches::kAbove> number{};
@@ -147,10 +143,11 @@ class FinalGather::Implementation {
     }
   }
 
-  void look(Surfaces* surfaces) {
-    std::vector<std::vector<Place>> places(surfaces->tiles.size());
+  void look(const Surfaces& surfaces, Outlooks* outlooks) {
+    std::vector<std::vector<Place>> places(surfaces.tiles.size());
+    const Camera camera{surfaces.eye, surfaces.pixel_right.norm()};
     tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
-      places[i] = placesIn(surfaces->tiles[i], surfaces->eye, surfaces->pixel_right.norm());
+      places[i] = placesIn(surfaces.tiles[i], (*outlooks)[i], camera);
     });
     const std::vector<KeptNodes::Key> wanted = keysOf(places);
     seen_ = wanted.size();
@@ -161,7 +158,7 @@ class FinalGather::Implementation {
       throw;
     }
     tbb::parallel_for(std::size_t{0}, places.size(),
-                      [&](std::size_t i) { fill(places[i], &surfaces->tiles[i]); });
+                      [&](std::size_t i) { fill(places[i], &(*outlooks)[i]); });
   }
 
   std::size_t nodesSeen() const { return seen_; }
@@ -174,22 +171,28 @@ class FinalGather::Implementation {
     Eigen::Vector3f towards;
     int patch;
   };
+  struct Camera {
+    Eigen::Vector3f eye;
+    float pixel;  ///< its width at a depth of 1 m, m
+  };
 
   bool isThin(std::uint32_t triangle) const {
     const auto material = static_cast<std::size_t>(geometry_->materials[triangle]);
     return geometry_->scene->materials[material].transmission > 0.0f;
   }
 
-  std::vector<Place> placesIn(const Tile& tile, const Eigen::Vector3f& eye, float pixel) const {
+  std::vector<Place> placesIn(const Tile& tile, const TileOutlooks& outlooks, const Camera& camera) const {
     std::vector<Place> places;
     for (std::uint32_t i = 0; i < tile.surfaces.size(); ++i) {
       const Surface& surface = tile.surfaces[i];
-      if (surface.triangle >= geometry_->triangles.size() || !surface.light.known()) continue;
+      const Outlook& outlook = outlooks.surfaces[i];
+      if (surface.triangle >= geometry_->triangles.size() || !outlook.light.known()) continue;
       const float edge = edgeOf(*geometry_, surface.triangle);
-      if (!surface.sky.known && edge > kLargest_m) continue;
+      if (!outlook.sky.known && edge > kLargest_m) continue;
       const float span = spanOf(edge, longestEdge(*geometry_, surface.triangle));
       float step = kFinest_m;
-      for (const float most = kPixels * pixel * (surface.position - eye).norm(); step < most;) step *= 2.0f;
+      const float most = kPixels * camera.pixel * (surface.position - camera.eye).norm();
+      while (step < most) step *= 2.0f;
       const int steps = std::clamp(static_cast<int>(std::ceil(span / step)), 1, kMostSteps);
       const std::array<float, 3> within = Corners(*geometry_, surface.triangle).within(surface.position);
       const GridPlace place(within[1], within[2], steps);
@@ -296,15 +299,15 @@ class FinalGather::Implementation {
     for (std::size_t i = 0; i < keys.size(); ++i) kept_.at(keys[i]) = skyOf(counts[i]);
   }
 
-  void fill(const std::vector<Place>& places, Tile* tile) const {
-    tile->gathered.resize(places.size());
+  void fill(const std::vector<Place>& places, TileOutlooks* outlooks) const {
+    outlooks->gathered.resize(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
       const Place& place = places[i];
       const std::array<const std::uint8_t*, 3> skies = {kept_.at(place.key[0]).open.data(),
                                                         kept_.at(place.key[1]).open.data(),
                                                         kept_.at(place.key[2]).open.data()};
-      blend(skies, place.weight, tile->gathered[i].open.data());
-      tile->surfaces[place.surface].gathered = static_cast<std::uint32_t>(i);
+      blend(skies, place.weight, outlooks->gathered[i].open.data());
+      outlooks->surfaces[place.surface].gathered = static_cast<std::uint32_t>(i);
     }
   }
 
@@ -322,8 +325,8 @@ FinalGather::FinalGather(std::shared_ptr<const Geometry> geometry,
           std::make_unique<Implementation>(std::move(geometry), std::move(visibility), rays_per_patch)) {}
 FinalGather::~FinalGather() = default;
 
-void FinalGather::look(Surfaces* surfaces) {
-  implementation_->look(surfaces);
+void FinalGather::look(const Surfaces& surfaces, Outlooks* outlooks) {
+  implementation_->look(surfaces, outlooks);
 }
 std::size_t FinalGather::nodesSeen() const {
   return implementation_->nodesSeen();

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "light/patches/patch_sky.h"
-#include "sunlit/light/surfaces.h"
+#include "light/picture/outlook/outlook.h"
 
 namespace sunlit::light {
 

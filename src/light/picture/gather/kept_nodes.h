@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "sunlit/light/surfaces.h"
+#include "light/picture/outlook/outlook.h"
 
 namespace sunlit::light {
 

@@ -7,7 +7,7 @@
 #include "light/geometry/ray_list.h"
 #include "light/geometry/ray_start.h"
 #include "light/patches/angles.h"
-#include "sunlit/light/shading.h"
+#include "light/shading/shading.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {

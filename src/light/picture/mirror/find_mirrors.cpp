@@ -14,26 +14,26 @@ namespace {
 constexpr float kLeastRough = 0.42f;
 
 Mirror findView(const TransportData& data, const scene::Material& material, const Surface& surface,
-                const Tile& tile) {
+                const SkyInView& sky) {
   const bool sheet = material.transmission > 0.0f;
-  const OpenPatches open = openPatches(data, surface, tile.gatheredFor(surface), material);
+  const OpenPatches open = openPatches(data, surface, sky, material);
   if (surface.roughness < kLeastRough) return smoothMirror(surface, surface.roughness, sheet, open);
-  return roughMirror(surface, material, open);
+  return roughMirror(surface, material, open, sky.outlook.sky.known);
 }
 
 /// What surfaces of a tile mirror, found once for all that are alike.
 class ViewsOfTile {
  public:
-  ViewsOfTile(int picture_width, Tile* tile) : picture_width_(picture_width), tile_(*tile) {}
+  ViewsOfTile(int picture_width, const Tile& tile) : picture_width_(picture_width), tile_(tile) {}
 
   /// A surface that mirrors what `surface` does, or null.
-  const Surface* like(const Surface& surface, bool leaf) {
-    if (surface.gathered != Surface::kNotGathered) return nullptr;  // differs from place to place
+  const Surface* like(const Surface& surface, const Outlook& outlook, bool leaf) {
+    if (outlook.gathered != Outlook::kNotGathered) return nullptr;  // differs from place to place
     const Surface* const of_triangle = *triangle(surface);
     if (of_triangle && of_triangle->triangle == surface.triangle && near(*of_triangle, surface) &&
         alike(*of_triangle, surface, leaf))
       return of_triangle;
-    if (surface.sky.known) return nullptr;  // differs from leaf to leaf
+    if (outlook.sky.known) return nullptr;  // differs from leaf to leaf
     const Surface* const of_block = *block(surface);
     if (!of_block || !alike(*of_block, surface, leaf)) return nullptr;
     return *triangle(surface) = of_block;
@@ -75,20 +75,23 @@ class ViewsOfTile {
 
 }  // namespace
 
-void findMirrors(const TransportData& data, const scene::Scene& scene, int picture_width, Tile* tile) {
-  tile->mirrors.clear();
-  ViewsOfTile views(picture_width, tile);
-  for (Surface& surface : tile->surfaces) {
-    if (!surface.light.known()) continue;
-    const scene::Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
-    const Surface* const like = views.like(surface, material.transmission > 0.0f);
+void findMirrors(const TransportData& data, const TileToMirror& of, TileOutlooks* outlooks) {
+  const std::vector<Surface>& surfaces = of.tile.surfaces;
+  outlooks->mirrors.clear();
+  ViewsOfTile views(of.picture_width, of.tile);
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const Surface& surface = surfaces[i];
+    Outlook& outlook = outlooks->surfaces[i];
+    if (!outlook.light.known()) continue;
+    const scene::Material& material = of.scene.materials[static_cast<std::size_t>(surface.material)];
+    const Surface* const like = views.like(surface, outlook, material.transmission > 0.0f);
     if (like) {
-      surface.mirror = like->mirror;
+      outlook.mirror = outlooks->surfaces[static_cast<std::size_t>(like - surfaces.data())].mirror;
       continue;
     }
-    surface.mirror = static_cast<std::uint16_t>(tile->mirrors.size());
-    tile->mirrors.push_back(findView(data, material, surface, *tile));
-    if (surface.gathered == Surface::kNotGathered) views.keep(surface);
+    outlook.mirror = static_cast<std::uint16_t>(outlooks->mirrors.size());
+    outlooks->mirrors.push_back(findView(data, material, surface, {outlook, outlooks->gatheredFor(outlook)}));
+    if (outlook.gathered == Outlook::kNotGathered) views.keep(surface);
   }
 }
 

@@ -17,16 +17,16 @@ struct SampleRows {
   std::size_t count = 0;
 
   /// Samples of thin sheets take but part of their light from this side.
-  SampleRows(const TransportData& data, const Surface& surface, float transmission) {
+  SampleRows(const TransportData& data, const LightPlace& place, float transmission) {
     const LightMesh& mesh = data.mesh;
     const float scale = 1.0f / (1.0f - std::min(transmission, 0.9f));
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t node = surface.light.node[k];
+      const std::uint32_t node = place.node[k];
       for (std::uint32_t s = mesh.first_share[node]; s < mesh.first_share[node + 1]; ++s) {
         if (count == rows.size()) break;  // a node of more samples than this needs no more of them
         const std::uint32_t sample = mesh.shares[s].sample;
-        rows[count++] = {data.direct.row(sample), scale * surface.light.weight[k] * mesh.shares[s].weight *
-                                                      data.direct.scales[sample]};
+        rows[count++] = {data.direct.row(sample),
+                         scale * place.weight[k] * mesh.shares[s].weight * data.direct.scales[sample]};
       }
     }
   }
@@ -85,18 +85,18 @@ OpenPatches ofGathered(const GatheredSky& gathered, const Eigen::Vector3f& norma
   return open;
 }
 
-OpenPatches ofLeaf(const LeafOpenness& leaves, const Surface& surface) {
-  return ofBytes(leaves.patches(surface.triangle, surface.sky.within));
+OpenPatches ofLeaf(const LeafOpenness& leaves, const Surface& surface, const SkyOpenness& sky) {
+  return ofBytes(leaves.patches(surface.triangle, sky.within));
 }
 
 }  // namespace
 
-OpenPatches openPatches(const TransportData& data, const Surface& surface, const GatheredSky* gathered,
+OpenPatches openPatches(const TransportData& data, const Surface& surface, const SkyInView& sky,
                         const scene::Material& material) {
   const float transmission = material.transmission;
-  if (gathered) return ofGathered(*gathered, surface.geometric_normal, transmission > 0.0f);
-  if (surface.sky.known) return ofLeaf(data.leaves, surface);
-  const SampleRows samples(data, surface, transmission);
+  if (sky.gathered) return ofGathered(*sky.gathered, surface.geometric_normal, transmission > 0.0f);
+  if (sky.outlook.sky.known) return ofLeaf(data.leaves, surface, sky.outlook.sky);
+  const SampleRows samples(data, sky.outlook.light, transmission);
   PatchValues sums;
   sums.fill(0.0f);
   for (std::size_t i = 0; i < samples.count; ++i)

@@ -3,6 +3,7 @@
 
 #include "light/bake/samples/transport_data.h"
 #include "light/patches/mirror_places.h"
+#include "light/picture/outlook/outlook.h"
 #include "sunlit/light/surfaces.h"
 
 namespace sunlit::light {
@@ -12,10 +13,14 @@ struct OpenPatches {
   PatchValues known;  ///< 1, or 0 where the surface's samples don't tell, and `share` is 0
 };
 
-/// By what was gathered there, if `gathered` is not null; else by the surface's view of the sky as a leaf, or
-/// by the samples of `data` around it. `material` is its own; thin sheets see the sky on both sides, but by
-/// samples.
-OpenPatches openPatches(const TransportData& data, const Surface& surface, const GatheredSky* gathered,
+/// What is known of the sky before a surface.
+struct SkyInView {
+  const Outlook& outlook;       ///< its own
+  const GatheredSky* gathered;  ///< null: nothing
+};
+/// By what was gathered there, if anything; else by the surface's view of the sky as a leaf, or by the
+/// samples of `data` around it. `material` is its own; thin sheets see the sky on both sides, but by samples.
+OpenPatches openPatches(const TransportData& data, const Surface& surface, const SkyInView& sky,
                         const scene::Material& material);
 
 }  // namespace sunlit::light

@@ -1,3 +1,5 @@
+#include "light/picture/mirror/reflections.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -6,13 +8,9 @@
 
 #include "light/geometry/ray_list.h"
 #include "light/geometry/ray_start.h"
-#include "light/picture/mirror/reflections.h"
 #include "light/shading/glass_sheets.h"
+#include "light/shading/shading.h"
 #include "light/shading/vertex.h"
-#include "sunlit/light/body_light.h"
-#include "sunlit/light/lighting.h"
-#include "sunlit/light/shading.h"
-#include "sunlit/light/transport.h"
 
 namespace sunlit::light {
 namespace {
@@ -212,24 +210,18 @@ void layOutLike(const Surfaces& surfaces, Surfaces* seen) {
 
 }  // namespace
 
-void reflect(const World& world, const Visibility& visibility, const BodyLight* bodies, Surfaces* surfaces) {
-  surfaces->reflections.reset();
-  const scene::Scene& scene = *world.geometry->scene;
-  if (!anyMirrors(scene)) return;
-  auto made = std::make_shared<Reflections>();
-  made->tiles.resize(surfaces->tiles.size());
-  layOutLike(*surfaces, &made->seen);
-  const TileMirror mirror(*surfaces, scene, visibility);
-  tbb::parallel_for(std::size_t{0}, surfaces->tiles.size(), [&](std::size_t i) {
-    mirror.look(surfaces->tiles[i], &made->tiles[i], &made->seen.tiles[i]);
-  });
-  if (std::all_of(made->tiles.begin(), made->tiles.end(), [](const auto& tile) { return tile.empty(); }))
-    return;
-  if (world.transport) world.transport->locate(&made->seen);
-  if (bodies && visibility.movingGeometry())
-    bodies->hide(*visibility.movingGeometry(), visibility, &made->seen);
-  prepare(scene, &made->seen);
-  surfaces->reflections = std::move(made);
+Reflections reflect(const Surfaces& surfaces, const scene::Scene& scene, const Visibility& visibility,
+                    Surfaces* seen) {
+  if (!anyMirrors(scene)) return {};
+  Reflections made;
+  made.tiles.resize(surfaces.tiles.size());
+  layOutLike(surfaces, seen);
+  const TileMirror mirror(surfaces, scene, visibility);
+  tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(),
+                    [&](std::size_t i) { mirror.look(surfaces.tiles[i], &made.tiles[i], &seen->tiles[i]); });
+  if (std::all_of(made.tiles.begin(), made.tiles.end(), [](const auto& tile) { return tile.empty(); }))
+    return {};
+  return made;
 }
 
 }  // namespace sunlit::light

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "sunlit/light/surfaces.h"
+#include "sunlit/light/visibility.h"
+#include "sunlit/scene/scene.h"
 
 namespace sunlit::light {
 
@@ -18,17 +20,21 @@ struct Reflections {
   struct Mirroring {
     std::uint32_t surface;  ///< index into Tile::surfaces
     float by_rays;          ///< share of its mirrored light that rays tell, 0 … 1
-    /// Those that its rays met, in the tile of `seen`: parts of all of its rays by Surface::samples, each
+    /// Those that its rays met, in their tile: parts of all of its rays by Surface::samples, each
     /// coloured by Surface::share.
     std::uint32_t first = 0, count = 0;
     std::uint32_t rays = 0;
     Eigen::Array3f sky = Eigen::Array3f::Zero();  ///< share of the rays that met nothing, coloured by glass
     Eigen::Vector3f towards = Eigen::Vector3f::UnitZ();  ///< where these look, unit
   };
-  /// In the order of their surfaces; one list a tile.
+  /// In the order of their surfaces; one list a tile, or none at all where nothing mirrors by rays.
   std::vector<std::vector<Mirroring>> tiles;
-  /// What the rays met, in the pixel of the surface that mirrors it, seen from there.
-  Surfaces seen;
 };
+
+/// What smooth ones of `surfaces` mirror, by a ray from each of their samples. What these rays met goes to
+/// `seen`, which is empty before, each in the pixel of the surface that mirrors it, as seen from there.
+/// `visibility` is of `scene` and may know bodies. Parallel; next to nothing where nothing is smooth.
+Reflections reflect(const Surfaces& surfaces, const scene::Scene& scene, const Visibility& visibility,
+                    Surfaces* seen);
 
 }  // namespace sunlit::light

@@ -145,9 +145,9 @@ Lobe lobeOf(const Surface& surface, const scene::Material& material) {
 
 }  // namespace
 
-RoughMirror roughMirror(const Surface& surface, const scene::Material& material, const OpenPatches& open) {
-  // Among leaves, each of which mirrors something else than its neighbour, less will do.
-  const int in_patch = surface.sky.known ? 1 : Sphere::kMost;
+RoughMirror roughMirror(const Surface& surface, const scene::Material& material, const OpenPatches& open,
+                        bool leaf) {
+  const int in_patch = leaf ? 1 : Sphere::kMost;
   static const std::array<Sphere, Sphere::kMost> spheres = {Sphere(1), Sphere(2)};
   LobeSums sums;
   addUp(lobeOf(surface, material), spheres[static_cast<std::size_t>(in_patch - 1)], in_patch, &sums);

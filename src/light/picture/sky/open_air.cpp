@@ -45,12 +45,11 @@ OpenAir::OpenAir(const Surfaces& surfaces, const Visibility& visibility, const s
   if (at_eye_ >= kAsInTheOpen) node_open_ = nullptr;
 }
 
-float OpenAir::before(const Surface& surface) const {
+float OpenAir::before(const LightPlace& place) const {
   if (!node_open_) return 1.0f;
   float at_surface = 0.0f;
-  if (surface.light.known()) {
-    for (std::size_t k = 0; k < 3; ++k)
-      at_surface += surface.light.weight[k] * (*node_open_)[surface.light.node[k]];
+  if (place.known()) {
+    for (std::size_t k = 0; k < 3; ++k) at_surface += place.weight[k] * (*node_open_)[place.node[k]];
   }
   return litBy(std::max(at_eye_, at_surface));
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "light/bake/samples/light_place.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/visibility.h"
 
@@ -21,8 +22,8 @@ class OpenAir {
   /// Keeps references. `node_open` is Illumination::node_open; null: the air is open everywhere.
   OpenAir(const Surfaces& surfaces, const Visibility& visibility, const std::vector<float>* node_open);
 
-  /// 0 … 1.
-  float before(const Surface& surface) const;
+  /// Before a surface that finds its light at `place`; 0 … 1.
+  float before(const LightPlace& place) const;
 
  private:
   const std::vector<float>* node_open_;  ///< null: open everywhere

@@ -22,12 +22,12 @@ LightTable::AirPlace airPlace(float distance_m) {
   return {node, std::min((distance_m - near) / (airDistance_m(node + 1) - near), 1.0f)};
 }
 
-LightTable::Rows rowsOf(const Surfaces& surfaces, const Tile& tile, const scene::Scene& scene) {
+LightTable::Rows rowsOf(const Surfaces& surfaces, const Tile& tile, const TileOutlooks& outlooks,
+                        const scene::Scene& scene) {
   LightTable::Rows rows;
   rows.targets.reserve(tile.surfaces.size());
   rows.air.reserve(tile.surfaces.size());
   rows.ambient.reserve(tile.surfaces.size());
-  rows.mirror.reserve(tile.surfaces.size());
   const auto width = static_cast<std::uint32_t>(surfaces.width);
   // Of the tile's pixels. More than there are: some surfaces lie before others, or mirror others.
   std::array<std::uint32_t, Surfaces::kTileSize * Surfaces::kTileSize> samples{};
@@ -38,18 +38,19 @@ LightTable::Rows rowsOf(const Surfaces& surfaces, const Tile& tile, const scene:
   };
   for (const Surface& surface : tile.surfaces) samplesOf(surface) += surface.samples;
   const auto all = static_cast<std::uint32_t>(surfaces.samples_per_pixel);
-  for (const Surface& surface : tile.surfaces) {
+  for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
+    const Surface& surface = tile.surfaces[i];
     const scene::Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
-    rows.targets.push_back(
-        {surface.geometric_normal, surface.shading_normal, surface.clearance_m, surface.first_sample,
-         static_cast<std::uint16_t>(surface.pixel % width), static_cast<std::uint16_t>(surface.pixel / width),
-         static_cast<std::uint16_t>(surface.samples), material.transmission > 0.0f,
-         material.alpha_mode == scene::AlphaMode::kMask, surface.gathered != Surface::kNotGathered,
-         (surface.share < 1.0f).any() || samplesOf(surface) > all});
+    rows.targets.push_back({surface.geometric_normal, surface.shading_normal, surface.clearance_m,
+                            surface.first_sample, static_cast<std::uint16_t>(surface.pixel % width),
+                            static_cast<std::uint16_t>(surface.pixel / width),
+                            static_cast<std::uint16_t>(surface.samples), material.transmission > 0.0f,
+                            material.alpha_mode == scene::AlphaMode::kMask,
+                            outlooks.surfaces[i].gathered != Outlook::kNotGathered,
+                            (surface.share < 1.0f).any() || samplesOf(surface) > all});
     rows.air.push_back(airPlace((surfaces.eye - surface.position).norm()));
     rows.air_nodes |= std::uint64_t{3} << rows.air.back().node;
     rows.ambient.push_back(ambientReflectance(reflectionOf(surface, material)));
-    rows.mirror.push_back(surface.mirror);
   }
   return rows;
 }
@@ -62,9 +63,11 @@ float airDistance_m(int node) {
   return node % 2 == 1 ? octave : octave * 1.41421356f;
 }
 
-LightTable::LightTable(const Surfaces& surfaces, const scene::Scene& scene) : tiles_(surfaces.tiles.size()) {
-  tbb::parallel_for(std::size_t{0}, tiles_.size(),
-                    [&](std::size_t i) { tiles_[i] = rowsOf(surfaces, surfaces.tiles[i], scene); });
+LightTable::LightTable(const Surfaces& surfaces, const Outlooks& outlooks, const scene::Scene& scene)
+    : tiles_(surfaces.tiles.size()) {
+  tbb::parallel_for(std::size_t{0}, tiles_.size(), [&](std::size_t i) {
+    tiles_[i] = rowsOf(surfaces, surfaces.tiles[i], outlooks[i], scene);
+  });
 }
 
 }  // namespace sunlit::light

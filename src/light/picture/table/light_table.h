@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "sunlit/light/shading.h"
+#include "light/picture/outlook/outlook.h"
+#include "light/shading/shading.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/scene/scene.h"
 
@@ -42,11 +43,12 @@ class LightTable {
     std::vector<DiscTarget> targets;
     std::vector<AirPlace> air;
     std::vector<AmbientReflectance> ambient;
-    std::vector<std::uint16_t> mirror;  ///< of each surface, into Tile::mirrors; all 0 without baked light
-    std::uint64_t air_nodes = 0;        ///< that the tile needs, one bit each
+    std::uint64_t air_nodes = 0;  ///< that the tile needs, one bit each
   };
 
-  LightTable(const Surfaces& surfaces, const scene::Scene& scene);
+  LightTable() = default;
+  /// Parallel.
+  LightTable(const Surfaces& surfaces, const Outlooks& outlooks, const scene::Scene& scene);
 
   const Rows& tile(std::size_t number) const { return tiles_[number]; }
 

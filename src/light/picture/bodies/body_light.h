@@ -6,8 +6,10 @@
 #include <memory>
 #include <vector>
 
+#include "light/picture/outlook/outlook.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/surfaces.h"
+#include "sunlit/light/visibility.h"
 #include "sunlit/light/world.h"
 
 namespace sunlit::light {
@@ -42,8 +44,9 @@ class BodyLight {
                                     std::shared_ptr<const Visibility> visibility) const;
   /// At each body, in its order.
   std::vector<AroundLight> around(const Views& views, const Illumination& light) const;
-  /// Sets Surface::body and Surface::unhidden of all surfaces.
-  void hide(const Geometry& bodies, const Visibility& visibility, Surfaces* surfaces) const;
+  /// Sets Outlook::body and Outlook::unhidden of all surfaces. `visibility` knows the bodies where they
+  /// stand.
+  void hide(const Surfaces& surfaces, const Visibility& visibility, Outlooks* outlooks) const;
 
  private:
   class Implementation;

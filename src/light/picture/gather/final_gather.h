@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 
+#include "light/picture/outlook/outlook.h"
 #include "sunlit/light/geometry.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/visibility.h"
@@ -19,21 +20,19 @@ namespace sunlit::light {
 /// What surfaces pass on still comes from the bake.
 class FinalGather {
  public:
-  static constexpr int kMostRays = 16;
-
-  /// Keeps all that it is given. `rays_per_patch`, 1 … kMostRays: of each of the sky's 175 patches, from each
-  /// node of the grids; a surface lies between three nodes, which aim at different points of a patch. Throws
-  /// std::invalid_argument naming the range.
+  /// Keeps all that it is given. `rays_per_patch`, 1 … PicturePreparer::kMostRays: of each of the sky's 175
+  /// patches, from each node of the grids; a surface lies between three nodes, which aim at different points
+  /// of a patch.
   FinalGather(std::shared_ptr<const Geometry> geometry, std::shared_ptr<const Visibility> visibility,
               int rays_per_patch);
   ~FinalGather();
   FinalGather(const FinalGather&) = delete;
   FinalGather& operator=(const FinalGather&) = delete;
 
-  /// Sets Tile::gathered, and Surface::gathered of leaves and of surfaces on triangles up to half as large as
-  /// a square of 2 m, where Surface::light is known: for Transport::locate(), between places and mirror
-  /// views. Parallel; the same bits for any number of threads and whatever was looked at before.
-  void look(Surfaces* surfaces);
+  /// Sets TileOutlooks::gathered, and Outlook::gathered of leaves and of surfaces on triangles up to half as
+  /// large as a square of 2 m, where Outlook::light is known. Parallel; the same bits for any number of
+  /// threads and whatever was looked at before.
+  void look(const Surfaces& surfaces, Outlooks* outlooks);
 
   /// Nodes that the last look() needed, those of them that it had to cast rays for, and these rays.
   std::size_t nodesSeen() const;

@@ -1,0 +1,39 @@
+/// Where surfaces find their light among what a bake keeps.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sunlit/light/illumination.h"
+
+namespace sunlit::light {
+
+struct LightMesh;
+
+/// Where a surface finds its sky light and bounced light: the weighted mean of three nodes of the Transport.
+struct LightPlace {
+  static constexpr std::uint32_t kNowhere = 0xffffffffu;
+  std::array<std::uint32_t, 3> node = {kNowhere, kNowhere, kNowhere};  ///< all or none kNowhere
+  std::array<float, 3> weight = {1.0f, 0.0f, 0.0f};                    ///< sum 1; 0 in a closed body
+
+  bool known() const { return node[0] != kNowhere; }
+};
+
+/// One side of a triangle of the scene that was baked.
+struct TriangleSide {
+  std::uint32_t triangle;
+  bool front;
+};
+/// Of a point of it, given by its barycentric coordinates.
+LightPlace lightPlace(const LightMesh& mesh, const TriangleSide& side, const std::array<float, 3>& within);
+
+/// Illuminance at a place between `nodes`, lx.
+inline Eigen::Array3f irradianceAt(const LightPlace& place, const std::vector<NodeLight>& nodes) {
+  Eigen::Array3f sum = Eigen::Array3f::Zero();
+  for (std::size_t k = 0; k < 3; ++k) sum += place.weight[k] * nodes[place.node[k]].irradiance;
+  return sum;
+}
+
+}  // namespace sunlit::light

@@ -1,0 +1,76 @@
+#include "light/picture/ready_picture.h"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <optional>
+
+#include "light/bake/samples/transport_data.h"
+#include "light/geometry/corners.h"
+#include "light/picture/mirror/find_mirrors.h"
+#include "sunlit/light/transport.h"
+
+namespace sunlit::light {
+namespace {
+
+/// Sets Outlook::light, Outlook::behind and Outlook::sky of surfaces of the scene that was baked.
+void findPlaces(const Geometry& geometry, const TransportData& data, const Tile& tile,
+                TileOutlooks* outlooks) {
+  const std::vector<scene::Material>& materials = geometry.scene->materials;
+  std::uint32_t last = 0xffffffffu;  // neighbours often lie on one triangle
+  std::optional<Corners> corners;
+  for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
+    const Surface& surface = tile.surfaces[i];
+    const std::uint32_t triangle = surface.triangle;
+    if (triangle >= geometry.triangles.size()) continue;  // a body that moves: see BodyLight
+    Outlook& outlook = outlooks->surfaces[i];
+    const bool front = geometry.planes[triangle].normal.dot(surface.geometric_normal) > 0.0f;
+    if (triangle != last) corners.emplace(geometry, last = triangle);
+    const std::array<float, 3> within = corners->within(surface.position);
+    outlook.light = lightPlace(data.mesh, {triangle, front}, within);
+    if (materials[static_cast<std::size_t>(surface.material)].transmission > 0.0f)
+      outlook.behind = lightPlace(data.mesh, {triangle, !front}, within);
+    if (data.leaves.known(triangle)) outlook.sky = data.leaves.at(triangle, within);
+  }
+}
+
+void findBaked(const Surfaces& surfaces, const OutlookSources& sources, Outlooks* outlooks) {
+  const Geometry& geometry = *sources.world.geometry;
+  const TransportData& data = sources.world.transport->data();
+  tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(),
+                    [&](std::size_t i) { findPlaces(geometry, data, surfaces.tiles[i], &(*outlooks)[i]); });
+  if (sources.gather) sources.gather->look(surfaces, outlooks);
+  tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(), [&](std::size_t i) {
+    findMirrors(data, {*geometry.scene, surfaces.width, surfaces.tiles[i]}, &(*outlooks)[i]);
+  });
+}
+
+void makeReady(const OutlookSources& sources, ReadySurfaces* ready) {
+  findOutlooks(ready->surfaces, sources, &ready->outlooks);
+  ready->table = LightTable(ready->surfaces, ready->outlooks, *sources.world.geometry->scene);
+}
+
+}  // namespace
+
+void findOutlooks(const Surfaces& surfaces, const OutlookSources& sources, Outlooks* outlooks) {
+  outlooks->resize(surfaces.tiles.size());
+  tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(),
+                    [&](std::size_t i) { (*outlooks)[i].forget(surfaces.tiles[i].surfaces.size()); });
+  if (sources.world.transport) findBaked(surfaces, sources, outlooks);
+  if (sources.bodies) sources.bodies->hide(surfaces, sources.visibility, outlooks);
+}
+
+void makeReady(const OutlookSources& sources, ReadyPicture* picture) {
+  makeReady(sources, &picture->seen);
+  picture->mirrored = ReadySurfaces();
+  picture->reflections = reflect(picture->seen.surfaces, *sources.world.geometry->scene, sources.visibility,
+                                 &picture->mirrored.surfaces);
+  if (picture->reflections.tiles.empty()) {
+    picture->mirrored = ReadySurfaces();
+    return;
+  }
+  // What mirrors show needs no closer look.
+  makeReady({sources.world, sources.visibility, sources.bodies, nullptr}, &picture->mirrored);
+}
+
+}  // namespace sunlit::light
