@@ -102,7 +102,8 @@ void sunShares(benchmark::State& state) {
   std::size_t rays = 0;
   onPoses(state, [&rays](Stage& s, const light::Illumination& light) {
     const light::Surfaces& surfaces = s.renderer->surfaces();
-    const light::DiscVisibility sun(light.day.sun(), 0.0f, {surfaces, s.table, *s.world.visibility});
+    const light::DiscVisibility sun(
+        light::DiscVisibility::straight(light.day.sun(), 0.0f, *s.world.visibility), {surfaces, s.table});
     rays += sun.raysCast();
   });
   state.counters["rays"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kAvgIterations);

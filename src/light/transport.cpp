@@ -57,7 +57,8 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
 Transport::Transport(const TransportOptions& options, std::unique_ptr<const TransportData> data)
     : options_(options),
       data_(std::move(data)),
-      node_open_(std::make_shared<const std::vector<float>>(openSky(*data_))) {}
+      node_open_(std::make_shared<const std::vector<float>>(openSky(*data_))),
+      glint_nodes_(glintNodes(*data_)) {}
 Transport::~Transport() = default;
 
 std::vector<NodeLight> Transport::relight(const sky::Daylight& day, const std::vector<float>& lamp_shares,
@@ -70,6 +71,7 @@ Illumination Transport::illumination(const sky::Daylight& day, const std::vector
   Illumination light(day);
   light.nodes = std::make_shared<const std::vector<NodeLight>>(relight(day, lamp_shares, visibility));
   light.node_open = node_open_;
+  if (visibility) light.glint_nodes = glint_nodes_;
   light.sky_sectors = std::make_shared<const SkySectors>(day);
   light.mirror_sky = std::make_shared<const MirrorSky>(day);
   return light;

@@ -12,6 +12,7 @@
 namespace sunlit::light {
 
 class AroundLight;
+struct GlintNodes;
 class MirrorSky;
 class SkySectors;
 
@@ -40,6 +41,9 @@ struct Illumination {
   /// Share of the sky's light, by cosine, that reaches each node straight if the sky is even, 0 … 1; null as
   /// `nodes`.
   std::shared_ptr<const std::vector<float>> node_open;
+  /// Where `nodes` are without what sun and moon throw on walls and ceilings by way of polished floors, since
+  /// pictures add it; null: nowhere.
+  std::shared_ptr<const GlintNodes> glint_nodes;
   /// Of the sky alone, by what of it is open; null as `nodes`.
   std::shared_ptr<const SkySectors> sky_sectors;
   /// What is seen of the sky in mirrors; null as `nodes`.

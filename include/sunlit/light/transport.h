@@ -112,6 +112,7 @@ class Transport {
   TransportOptions options_;
   std::unique_ptr<const TransportData> data_;
   std::shared_ptr<const std::vector<float>> node_open_;
+  std::shared_ptr<const GlintNodes> glint_nodes_;  ///< null: none
 };
 
 }  // namespace sunlit::light

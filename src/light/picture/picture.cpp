@@ -25,8 +25,7 @@ struct PreparedPicture::Implementation {
     Surfaces surfaces = std::move(ready.seen.surfaces);
     ready.seen.surfaces = Surfaces();
     ready.seen.table = LightTable();  // not kept beside the next one
-    ready.reflections = Reflections();
-    ready.mirrored = ReadySurfaces();
+    ready.mirrors.clear();
     return surfaces;
   }
 

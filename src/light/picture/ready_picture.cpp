@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "light/bake/samples/transport_data.h"
 #include "light/geometry/corners.h"
@@ -62,15 +63,18 @@ void findOutlooks(const Surfaces& surfaces, const OutlookSources& sources, Outlo
 
 void makeReady(const OutlookSources& sources, ReadyPicture* picture) {
   makeReady(sources, &picture->seen);
-  picture->mirrored = ReadySurfaces();
-  picture->reflections = reflect(picture->seen.surfaces, *sources.world.geometry->scene, sources.visibility,
-                                 &picture->mirrored.surfaces);
-  if (picture->reflections.tiles.empty()) {
-    picture->mirrored = ReadySurfaces();
-    return;
+  picture->mirrors.clear();
+  const MirroredWorld world{*sources.world.geometry->scene, sources.visibility};
+  while (picture->mirrors.size() < ReadyPicture::kMostMirrors) {
+    const bool first = picture->mirrors.empty();
+    ReadyMirrors next;
+    next.reflections = reflect(first ? picture->seen.surfaces : picture->mirrors.back().met.surfaces,
+                               first ? Onlooker::kCamera : Onlooker::kMirrors, world, &next.met.surfaces);
+    if (next.reflections.tiles.empty()) return;
+    // What mirrors show needs no closer look.
+    makeReady({sources.world, sources.visibility, sources.bodies, nullptr}, &next.met);
+    picture->mirrors.push_back(std::move(next));
   }
-  // What mirrors show needs no closer look.
-  makeReady({sources.world, sources.visibility, sources.bodies, nullptr}, &picture->mirrored);
 }
 
 }  // namespace sunlit::light

@@ -19,10 +19,19 @@ struct ReadySurfaces {
   LightTable table;
 };
 
+/// What smooth surfaces mirror.
+struct ReadyMirrors {
+  Reflections reflections;
+  ReadySurfaces met;  ///< by the rays of `reflections`
+};
+
 struct ReadyPicture {
-  ReadySurfaces seen;       ///< by the camera
-  Reflections reflections;  ///< of those
-  ReadySurfaces mirrored;   ///< what `reflections` met; nothing where they are none
+  /// A mirror in a mirror in a mirror shows the mean of what is around it.
+  static constexpr std::size_t kMostMirrors = 3;
+
+  ReadySurfaces seen;  ///< by the camera
+  /// Of those, then each of what the one before met; ends where nothing mirrors by rays.
+  std::vector<ReadyMirrors> mirrors;
 };
 
 /// Who tells what surfaces have around them.

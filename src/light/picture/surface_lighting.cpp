@@ -28,6 +28,12 @@ float leastDisc_lx(const sky::Daylight& day) {
   return 1e-3f * day.groundIlluminance().value.maxCoeff();
 }
 
+std::unique_ptr<const Glints> glintsOf(const sky::DiscLight& disc, const SurfaceLighting::Subject& subject,
+                                       const Illumination& light) {
+  if (!light.glint_nodes) return nullptr;
+  return Glints::of(disc, leastDisc_lx(light.day), {subject.ready, subject.visibility, *light.glint_nodes});
+}
+
 }  // namespace
 
 SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& light)
@@ -37,8 +43,12 @@ SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& lig
       scene_(subject.scene),
       light_(light),
       glows_(glowing(subject, lampsOf(light))),
-      sun_(light.day.sun(), leastDisc_lx(light.day), {surfaces_, table_, subject.visibility}),
-      moon_(light.day.moon(), leastDisc_lx(light.day), {surfaces_, table_, subject.visibility}),
+      sun_(DiscVisibility::straight(light.day.sun(), leastDisc_lx(light.day), subject.visibility),
+           {surfaces_, table_}),
+      moon_(DiscVisibility::straight(light.day.moon(), leastDisc_lx(light.day), subject.visibility),
+            {surfaces_, table_}),
+      sun_glints_(glintsOf(light.day.sun(), subject, light)),
+      moon_glints_(glintsOf(light.day.moon(), subject, light)),
       lamps_(lampsOf(light), light.day.groundIlluminance().value.maxCoeff(),
              {surfaces_, scene_, subject.visibility}),
       glass_(subject.visibility) {}
@@ -71,12 +81,17 @@ void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& b
     const Surface& surface = tile.surfaces[i];
     const bool rays = next != by_rays.end() && next->surface == i;
     const Outlook& outlook = outlooks.surfaces[i];
+    const auto glint = [&](const std::unique_ptr<const Glints>& glints) -> Eigen::Array3f {
+      return glints ? glints->illuminance(number, i) : Eigen::Array3f(Eigen::Array3f::Zero());
+    };
     const SurfaceParts parts{outlook,
                              rows.ambient[i],
                              mirrored[outlook.mirror],
                              outlooks.gatheredFor(outlook),
                              ofDisc(sun_, sun_shares.empty() ? 0.0f : sun_shares[i], tile, surface),
                              ofDisc(moon_, moon_shares.empty() ? 0.0f : moon_shares[i], tile, surface),
+                             glint(sun_glints_),
+                             glint(moon_glints_),
                              by_lamps.empty() ? nullptr : &by_lamps[i],
                              rays ? &*next++ : nullptr};
     (*luminances)[i] = luminance(surface, parts);
@@ -97,6 +112,11 @@ Eigen::Array3f SurfaceLighting::luminance(const Surface& surface, const SurfaceP
   if (glows_[static_cast<std::size_t>(surface.material)]) leaving = surface.emission;
   if (parts.sun.maxCoeff() > 0.0f) leaving += direct(sun_, light_.day.sun(), parts.sun);
   if (parts.moon.maxCoeff() > 0.0f) leaving += direct(moon_, light_.day.moon(), parts.moon);
+  const auto byFloor = [&](const Glints& glints, const Eigen::Array3f& lux) -> Eigen::Array3f {
+    return directReflectance(reflection, glints.towards(), glints.radius_rad()) * lux;
+  };
+  if (parts.sun_glint.maxCoeff() > 0.0f) leaving += byFloor(*sun_glints_, parts.sun_glint);
+  if (parts.moon_glint.maxCoeff() > 0.0f) leaving += byFloor(*moon_glints_, parts.moon_glint);
   if (parts.lamps) leaving += *parts.lamps;
 
   const AmbientReflectance& by = parts.ambient;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "light/picture/ambient.h"
 #include "light/picture/disc/disc_visibility.h"
+#include "light/picture/glints.h"
 #include "light/picture/lamps/lamp_light.h"
 #include "light/picture/ready_picture.h"
 #include "light/shading/glass_sheets.h"
@@ -43,11 +45,12 @@ class SurfaceLighting {
   struct SurfaceParts {
     const Outlook& outlook;
     const AmbientReflectance& ambient;
-    const Mirrored& mirrored;     ///< where the light is baked
-    const GatheredSky* gathered;  ///< null: FinalGather did not look there
-    Eigen::Array3f sun, moon;     ///< shares of their discs that it sees, coloured by glass
-    const Eigen::Array3f* lamps;  ///< its luminance by lamps; null: there are none
-    const SeenByRays* by_rays;    ///< null: none
+    const Mirrored& mirrored;              ///< where the light is baked
+    const GatheredSky* gathered;           ///< null: FinalGather did not look there
+    Eigen::Array3f sun, moon;              ///< shares of their discs that it sees, coloured by glass
+    Eigen::Array3f sun_glint, moon_glint;  ///< by way of polished floors, lx on a plane facing them
+    const Eigen::Array3f* lamps;           ///< its luminance by lamps; null: there are none
+    const SeenByRays* by_rays;             ///< null: none
   };
   Eigen::Array3f luminance(const Surface& surface, const SurfaceParts& parts) const;
   /// Share of a disc's light that a surface gets, where it sees `share` of it.
@@ -61,6 +64,7 @@ class SurfaceLighting {
   const Illumination& light_;
   std::vector<bool> glows_;  ///< of each material
   DiscVisibility sun_, moon_;
+  std::unique_ptr<const Glints> sun_glints_, moon_glints_;  ///< null: none
   LampLight lamps_;
   GlassSheets glass_;
 };

@@ -5,12 +5,15 @@
 namespace sunlit::light {
 namespace {
 
-std::unique_ptr<const SurfaceLighting> lightingInMirrors(const ReadyPicture& picture,
-                                                         const TileLighting::Surroundings& in,
-                                                         const Illumination& light) {
-  if (picture.reflections.tiles.empty()) return nullptr;
-  return std::make_unique<const SurfaceLighting>(
-      SurfaceLighting::Subject{picture.mirrored, in.scene, in.visibility, true}, light);
+std::vector<std::unique_ptr<const SurfaceLighting>> lightingInMirrors(const ReadyPicture& picture,
+                                                                      const TileLighting::Surroundings& in,
+                                                                      const Illumination& light) {
+  std::vector<std::unique_ptr<const SurfaceLighting>> all;
+  for (const ReadyMirrors& mirrors : picture.mirrors) {
+    all.push_back(std::make_unique<const SurfaceLighting>(
+        SurfaceLighting::Subject{mirrors.met, in.scene, in.visibility, true}, light));
+  }
+  return all;
 }
 
 }  // namespace
@@ -29,14 +32,18 @@ void TileLighting::light(std::size_t tile, image::LinearImage* image) const {
   addSurfaces(tile, image);
 }
 
-void TileLighting::lightMirrored(std::size_t number, std::vector<SurfaceLighting::SeenByRays>* seen) const {
+void TileLighting::lightMirrored(std::size_t number, std::size_t depth,
+                                 std::vector<SurfaceLighting::SeenByRays>* seen) const {
   seen->clear();
-  if (!in_mirrors_) return;
-  const std::vector<Reflections::Mirroring>& all = picture_.reflections.tiles[number];
+  if (depth >= in_mirrors_.size()) return;
+  const ReadyMirrors& mirrors = picture_.mirrors[depth];
+  const std::vector<Reflections::Mirroring>& all = mirrors.reflections.tiles[number];
   if (all.empty()) return;
-  thread_local std::vector<Eigen::Array3f> leaving;
-  in_mirrors_->light(number, {}, &leaving);
-  const std::vector<Surface>& met = picture_.mirrored.surfaces.tiles[number].surfaces;
+  std::vector<SurfaceLighting::SeenByRays> deeper;
+  lightMirrored(number, depth + 1, &deeper);
+  thread_local std::vector<Eigen::Array3f> leaving;  // once those within are done
+  in_mirrors_[depth]->light(number, deeper, &leaving);
+  const std::vector<Surface>& met = mirrors.met.surfaces.tiles[number].surfaces;
   for (const Reflections::Mirroring& mirroring : all) {
     Eigen::Array3f sum = Eigen::Array3f::Zero();
     for (std::uint32_t i = mirroring.first; i < mirroring.first + mirroring.count; ++i)
@@ -53,7 +60,7 @@ void TileLighting::addSurfaces(std::size_t number, image::LinearImage* image) co
   const Tile& tile = surfaces.tiles[number];
   const TileOutlooks& outlooks = picture_.seen.outlooks[number];
   thread_local std::vector<SurfaceLighting::SeenByRays> by_rays;
-  lightMirrored(number, &by_rays);
+  lightMirrored(number, 0, &by_rays);
   thread_local std::vector<Eigen::Array3f> leaving;
   lit_.light(number, by_rays, &leaving);
   const float weight = 1.0f / static_cast<float>(surfaces.samples_per_pixel);

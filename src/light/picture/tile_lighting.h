@@ -32,13 +32,14 @@ class TileLighting {
 
  private:
   void addSurfaces(std::size_t tile, image::LinearImage* image) const;
-  /// What the tile's mirroring surfaces see by their rays.
-  void lightMirrored(std::size_t tile, std::vector<SurfaceLighting::SeenByRays>* seen) const;
+  /// What the tile's mirroring surfaces see by their rays, of ReadyPicture::mirrors[depth].
+  void lightMirrored(std::size_t tile, std::size_t depth,
+                     std::vector<SurfaceLighting::SeenByRays>* seen) const;
 
   const ReadyPicture& picture_;
   const Illumination& light_;
   SurfaceLighting lit_;
-  std::unique_ptr<const SurfaceLighting> in_mirrors_;  ///< null: nothing mirrors by rays
+  std::vector<std::unique_ptr<const SurfaceLighting>> in_mirrors_;  ///< of each of ReadyPicture::mirrors
   PictureAir air_;
   OpenAir open_air_;
   SkyPixel sky_;

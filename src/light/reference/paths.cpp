@@ -32,6 +32,12 @@ void appendDisc(const sky::DiscLight& light, std::size_t day, std::vector<Disc>*
 
 }  // namespace
 
+Eigen::Vector3f Disc::point(float random_radius, float random_turn) const {
+  const float radius = std::sqrt(random_radius), angle = static_cast<float>(2.0 * kPi) * random_turn;
+  const Eigen::Vector2f at = above.place({radius * std::cos(angle), radius * std::sin(angle)}).cast<float>();
+  return (towards + at.x() * right + at.y() * up).normalized();
+}
+
 PathScene::PathScene(const World& world_to_trace, const std::vector<sky::Daylight>& days_to_trace,
                      const ReferenceOptions& options_to_use, int samples_in_pixel)
     : world(world_to_trace),
@@ -41,7 +47,8 @@ PathScene::PathScene(const World& world_to_trace, const std::vector<sky::Dayligh
       vertices(*world_to_trace.geometry),
       glass(*world_to_trace.visibility),
       emitters(*world_to_trace.geometry),
-      lamps(options.lamps.begin(), options.lamps.end()) {
+      lamps(options.lamps.begin(), options.lamps.end()),
+      floors(facetsOfFloors(*world_to_trace.geometry)) {
   for (std::size_t day = 0; day < days.size(); ++day) {
     appendDisc(days[day].sun(), day, &discs);
     appendDisc(days[day].moon(), day, &discs);
@@ -83,7 +90,7 @@ void Paths::start(const Tile& tile, const Surface& surface) {
     even_.emplace_back(key);
     for (std::uint32_t i = 0; i < count; ++i) {
       paths_.push_back({seenVertex(tile, surface, *scene_.world.geometry->scene, i % surface.samples),
-                        Eigen::Array3f::Ones(), scrambled(key + 1 + i), i, half});
+                        Eigen::Array3f::Ones(), scrambled(key + 1 + i), 0.0f, i, half});
     }
   }
   for (Radiances& sums : sums_) sums.assign(scene_.days.size(), Eigen::Array3f::Zero());
@@ -95,7 +102,10 @@ std::array<Radiances, 2> Paths::luminance(const Tile& tile, const Surface& surfa
   for (int bounce = 0; !paths_.empty(); ++bounce) {
     if (bounce == 0) addEmission();
     addShining(bounce);
-    for (const Disc& disc : scene_.discs) addDisc(disc, bounce);
+    for (const Disc& disc : scene_.discs) {
+      addDisc(disc, bounce);
+      addDiscInFloors(disc, bounce);
+    }
     for (const LampBeam& lamp : scene_.lamps) addLamp(lamp, bounce);
     for (std::size_t day = 0; day < scene_.days.size(); ++day) addSkyOf(day, bounce);
     advance(bounce);
@@ -165,16 +175,15 @@ void Paths::addDisc(const Disc& disc, int bounce) {
   weights_.clear();
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     const Vertex& vertex = paths_[i].vertex;
-    const float radius = std::sqrt(random(paths_[i], bounce, kOnDisc));
-    const float angle = static_cast<float>(2.0 * kPi) * random(paths_[i], bounce, kOnDisc + 1);
-    const Eigen::Vector2f at =
-        disc.above.place({radius * std::cos(angle), radius * std::sin(angle)}).cast<float>();
-    const Eigen::Vector3f towards = (disc.towards + at.x() * disc.right + at.y() * disc.up).normalized();
+    const Eigen::Vector3f towards =
+        disc.point(random(paths_[i], bounce, kOnDisc), random(paths_[i], bounce, kOnDisc + 1));
     if (!vertex.faces(towards)) continue;
     const Eigen::Array3f weight = directReflectance(vertex.reflection, towards, 0.0f);
     if (!(weight.maxCoeff() > 0.0f)) continue;
+    const float by_chance = paths_[i].density, by_floors = densityInFloors(paths_[i], towards);
+    const float share = by_floors > 0.0f ? by_chance / (by_chance + by_floors) : 1.0f;
     bundle_.add(vertex.origin(towards), towards, i);
-    weights_.push_back(paths_[i].throughput * weight * disc.illuminance);
+    weights_.push_back(share * paths_[i].throughput * weight * disc.illuminance);
   }
   castAndAdd(disc.day);
 }
@@ -306,6 +315,7 @@ void Paths::advance(int bounce) {
     }
     addShineMet(i, path);
     path.throughput *= scattered_[i].reflectance / scattered_[i].density;
+    path.density = scattered_[i].density;
     if (bounce >= scene_.options.bounces || !survives(bounce, &path)) continue;
     path.vertex = scene_.vertices.at(hits_[i], scattered_[i].towards);
     next_.push_back(path);

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "light/lamps/lamp_beam.h"
@@ -11,6 +12,7 @@
 #include "light/patches/random.h"
 #include "light/reference/emitters.h"
 #include "light/reference/sky_sampler.h"
+#include "light/shading/ggx.h"
 #include "light/shading/glass_sheets.h"
 #include "light/shading/scatter.h"
 #include "light/shading/vertex.h"
@@ -25,7 +27,13 @@ struct Disc {
   Eigen::Vector3f right, up;  ///< span it; as long as the tangent of its radius
   Eigen::Array3f illuminance;
   DiscAboveHorizon above;  ///< where the illuminance comes from
+
+  /// Unit, towards the point of it that two numbers in [0, 1) choose, evenly.
+  Eigen::Vector3f point(float random_radius, float random_turn) const;
 };
+
+/// Of polished floors, by their mean roughness; none: there are none.
+std::optional<Ggx<float>> facetsOfFloors(const Geometry& geometry);
 
 /// What all pixels share.
 struct PathScene {
@@ -41,7 +49,8 @@ struct PathScene {
   Emitters emitters;
   std::vector<Disc> discs;
   std::vector<LampBeam> lamps;
-  std::vector<SkySampler> skies;  ///< one a day
+  std::vector<SkySampler> skies;     ///< one a day
+  std::optional<Ggx<float>> floors;  ///< facetsOfFloors()
 };
 
 /// Of one half of the paths, one a day.
@@ -58,8 +67,9 @@ class Paths {
   struct Path {
     Vertex vertex;
     Eigen::Array3f throughput;
-    std::uint64_t key;    ///< of its random numbers
-    std::uint32_t index;  ///< within its half
+    std::uint64_t key;     ///< of its random numbers
+    float density = 0.0f;  ///< with which `vertex` was chosen by the one before, 1/sr; 0: there was none
+    std::uint32_t index;   ///< within its half
     int half;
   };
   /// Rays as arrays, and the path that each belongs to.
@@ -84,6 +94,14 @@ class Paths {
   /// On all days, of rays that end with their direction.
   void castAndAddOnAllDays(bool shadows);
   void addDisc(const Disc& disc, int bounce);
+  /// The same by way of polished floors: chance alone rarely meets the spot that mirrors it.
+  void addDiscInFloors(const Disc& disc, int bounce);
+  /// Has the bundle's rays go on from the polished floors that they meet, each to one of `points`; others
+  /// end.
+  void goOnFromFloors(const std::vector<Eigen::Vector3f>& points);
+  /// With which density addDiscInFloors() would have chosen `path`'s last step, were `towards` the disc's
+  /// point; 0: never.
+  float densityInFloors(const Path& path, const Eigen::Vector3f& towards) const;
   /// One lamp on all days.
   void addLamp(const LampBeam& lamp, int bounce);
   /// Sky, by directions chosen for its brightness.

@@ -128,7 +128,7 @@ const std::map<std::string, Modules> kRoomsOfLight = {
     {"bake/cache", {"bake/samples"}},
     {"picture/outlook", {"bake/samples", "patches"}},
     {"picture/table", {"picture/outlook", "shading"}},
-    {"picture/disc", {"geometry", "patches", "picture/table"}},
+    {"picture/disc", {"geometry", "patches", "picture/table", "shading"}},
     {"picture/lamps", {"geometry", "lamps", "patches", "shading"}},
     {"picture/mirror", {"bake/samples", "geometry", "patches", "picture/outlook", "shading"}},
     {"picture/gather", {"geometry", "patches", "picture/outlook"}},

@@ -155,6 +155,7 @@ DiscsInRooms::DiscsInRooms(const TransportData& data, const sky::Daylight& day, 
   has_.resize(data_.sampleCount(), Eigen::Array3f::Zero());
   sent_.resize(data_.sampleCount(), Eigen::Array3f::Zero());
   mirrored_.resize(data_.rooms.samples.size(), Eigen::Array3f::Zero());
+  glints_.resize(data_.rooms.samples.size(), Eigen::Array3f::Zero());
   arrived_.resize(data_.rooms.samples.size());
   findAsked();
   for (const sky::DiscLight* disc : shining) {
@@ -163,7 +164,7 @@ DiscsInRooms::DiscsInRooms(const TransportData& data, const sky::Daylight& day, 
       work.add(block * kBlock, std::min(count, (block + 1) * kBlock), &direct_);
     });
     startFromPatches(*disc);
-    FloorGlints(data_, *disc, visibility).addTo(&mirrored_);
+    FloorGlints(data_, *disc, visibility).addTo(&glints_);
   }
   double change = 1.0;
   for (int bounce = 0; bounce < kMostBounces && change > kLittle; ++bounce) {
@@ -225,7 +226,7 @@ double DiscsInRooms::receive() {
       sum.below += mirrored_[room];
       arrived_[room] = sum;
       Eigen::Array3f& has = has_[rooms.samples[room]];
-      const Eigen::Array3f all = sum.above + sum.below;
+      const Eigen::Array3f all = sum.above + sum.below + glints_[room];
       const float most = all.maxCoeff();
       if (most > 0.0f) changes[block] += static_cast<double>((all - has).abs().maxCoeff() / most);
       has = all;

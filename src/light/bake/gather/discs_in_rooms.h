@@ -22,7 +22,8 @@ class DiscsInRooms {
 
   /// Whether neither shines at all, or no room is to be followed; at() must not be asked then.
   bool none() const { return arrived_.empty(); }
-  /// Illuminance of a room's sample by surfaces, lx.
+  /// Illuminance of a room's sample by surfaces, lx; but not straight from discs by way of polished floors,
+  /// which pictures add: see GlintNodes.
   const Arrived& at(std::size_t room) const { return arrived_[room]; }
 
  private:
@@ -36,7 +37,8 @@ class DiscsInRooms {
   std::vector<Eigen::Array3f> direct_;  ///< of each source: luminance × π by light straight from the discs
   std::vector<Eigen::Array3f> has_;     ///< of each sample that is asked: illuminance by surfaces, lx
   std::vector<Eigen::Array3f> sent_;    ///< of each sample: luminance × π
-  std::vector<Eigen::Array3f> mirrored_;  ///< of each room: by way of floors as mirrors, lx
+  std::vector<Eigen::Array3f> mirrored_;  ///< of each room: by way of the ground as a mirror, lx
+  std::vector<Eigen::Array3f> glints_;    ///< of each room: by way of polished floors, lx
   std::vector<Arrived> arrived_;          ///< of each room
 };
 

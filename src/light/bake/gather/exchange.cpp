@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "light/bake/gather/floor_glints.h"
 #include "light/shading/mirror_lobe.h"
+#include "light/shading/polished_floor.h"
 #include "light/shading/reflectances.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/photometry.h"

@@ -8,9 +8,8 @@
 
 #include "light/geometry/ray_list.h"
 #include "light/patches/random.h"
-#include "light/shading/direct_parts.h"
 #include "light/shading/ggx.h"
-#include "light/shading/schlick.h"
+#include "light/shading/polished_floor.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
@@ -85,11 +84,6 @@ void FloorGlints::addWays(std::size_t glossy, std::uint32_t number, std::uint32_
   }
 }
 
-Eigen::Array3f FloorGlints::reflectance(const Vertex& floor, float cosine) const {
-  const DirectParts parts = directParts(floor.reflection);
-  return parts.f0 + (parts.grazing - parts.f0) * schlick(cosine);
-}
-
 void FloorGlints::follow(const std::vector<Way>& ways, Sum* sums) const {
   thread_local RayList down, up;
   thread_local std::vector<Hit> hits;
@@ -109,11 +103,8 @@ void FloorGlints::follow(const std::vector<Way>& ways, Sum* sums) const {
     const Way& way = ways[down.number()[k]];
     if (hits[k].triangle == Hit::kMiss) continue;
     const Vertex floor = vertices_.at(hits[k], way.to_floor);
-    const Reflection& look = floor.reflection;
-    if (floor.geometric_normal.z() < kFlat || !(look.roughness < kPolished) || look.metalness >= 0.5f ||
-        look.transmission > 0.0f || look.glass > 0.0f)
-      continue;
-    Eigen::Array3f part = way.factor * way.area * reflectance(floor, way.cosine);
+    if (!isPolishedFloor(floor)) continue;
+    Eigen::Array3f part = way.factor * way.area * mirroredShare(floor, way.cosine);
     if (glass_.any()) {
       part *= glass_.through({way.origin, way.to_floor, 0.0f, hits[k].distance}) *
               glass_.through({floor.front, way.to_disc, 0.0f, std::numeric_limits<float>::infinity()});

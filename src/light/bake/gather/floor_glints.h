@@ -14,11 +14,6 @@
 
 namespace sunlit::light {
 
-/// Floors of less roughness are polished: their highlight of the sun is narrower than a patch of the sky.
-constexpr float kPolished = 0.25f;
-/// Cosine of how far a floor may be from level: what a mirror turns by an angle, light turns by twice that.
-constexpr float kFlat = 0.9998f;
-
 /// What each of BakedRooms::glossy gets of one disc by way of such floors: by rays to the disc's picture in
 /// the floor, for facets of the floor that are chosen as GGX spreads them, and on from there to the disc.
 class FloorGlints {
@@ -48,7 +43,6 @@ class FloorGlints {
                std::vector<Way>* ways) const;
   /// Adds what arrives by `ways`, each to the sum of its room.
   void follow(const std::vector<Way>& ways, Sum* sums) const;
-  Eigen::Array3f reflectance(const Vertex& floor, float cosine) const;
 
   const TransportData& data_;
   const Visibility& visibility_;

@@ -7,10 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "light/bake/samples/mesh_leaves.h"
 #include "light/patches/even_directions.h"
-#include "light/patches/random.h"
-#include "sunlit/light/surfaces.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
@@ -21,6 +18,9 @@ constexpr std::size_t kPacket = RayPacket::kSize;
 /// them; fewer where there are many rooms, so that the links of the first 780,000 take 800 MB at most, about.
 constexpr std::size_t kMostDirections = 2048, kFewestDirections = 512;
 constexpr std::size_t kMostLinks = 200'000'000;
+/// So many directions stand in the place of one where what is open ends: most of a room's light may come
+/// through a window that takes a hundredth of all that is seen.
+constexpr std::size_t kFine = 8;
 
 /// Puts together what was seen twice.
 void merge(std::vector<SampleSeen>* seen) {
@@ -57,68 +57,41 @@ std::uint32_t pack(const std::array<std::vector<SampleSeen>, 2>& seen, std::vect
   return below;
 }
 
-/// The part of a leaf that is nearest to one of its corners.
-struct LeafPart {
-  const Eigen::Matrix3f& corners;  ///< of the leaf, m in `map`
-  std::size_t nearest;             ///< of them
-  const Eigen::Vector3f& face;     ///< its normal, to the side that is lit
-  bool finely;                     ///< to be looked at
-  std::uint64_t key;               ///< of chance
-};
-
-/// Scattered over the part, for edges of shadows may run along any rows. Their shares are areas, m².
-void addPart(const LeafPart& part, std::vector<BakedRooms::Point>* points) {
-  constexpr float kEach_m2 = 0.01f;
-  constexpr int kMostOfPart = 24, kCoarsely = 2;
-  const Eigen::Vector3f own = part.corners.col(static_cast<Eigen::Index>(part.nearest));
-  const Eigen::Vector3f one = part.corners.col(static_cast<Eigen::Index>((part.nearest + 1) % 3)) - own;
-  const Eigen::Vector3f two = part.corners.col(static_cast<Eigen::Index>((part.nearest + 2) % 3)) - own;
-  const float part_m2 = one.cross(two).norm() / 6.0f;
-  const int count =
-      part.finely ? std::clamp(static_cast<int>(part_m2 / kEach_m2), 1, kMostOfPart) : kCoarsely;
-  const EvenPoints even(part.key);
-  for (int i = 0; i < count; ++i) {
-    // In a parallelogram, folded to the half that lies at the corner: one of the two triangles that meet in
-    // the middle of the leaf.
-    float u = even.at(static_cast<std::uint32_t>(i), 0), v = even.at(static_cast<std::uint32_t>(i), 1);
-    if (u + v > 1.0f) u = 1.0f - u, v = 1.0f - v;
-    const Eigen::Vector3f edge = 0.5f * (i % 2 == 0 ? one : two), middle = (one + two) / 3.0f;
-    const Eigen::Vector3f point = own + u * edge + v * middle;
-    const Eigen::Vector3f clear = point + rayClearance_m(point, 0.0f) * part.face;
-    points->push_back({clear.x(), clear.y(), clear.z(), part_m2 / static_cast<float>(count)});
-  }
-}
-
-// What is no room itself, such as the ground before a window, mostly lies in the sun as a whole, or not.
-constexpr std::uint32_t kMostOfRooms = 144, kMostOfOthers = 12;  ///< points of a source
-constexpr std::uint32_t kProbesOfRooms = 32, kProbesOfOthers = 4;
-
-/// Adds at most `most` of a source's points.
-void addSome(const std::vector<BakedRooms::Point>& points, std::uint32_t most, std::size_t number,
-             BakedRooms* rooms) {
-  const auto has = static_cast<std::uint32_t>(points.size()), kept = std::min(has, most);
-  float all = 0.0f;
-  for (std::uint32_t k = 0; k < kept; ++k) all += points[k * has / kept].share;
-  if (!(all > 0.0f)) return;
-  BakedRooms::Source& source = rooms->sources[number];
-  source.first_point = static_cast<std::uint32_t>(rooms->points.size());
-  source.points = kept;
-  source.probes = std::min(kept, most == kMostOfRooms ? kProbesOfRooms : kProbesOfOthers);
-  for (std::uint32_t k = 0; k < kept; ++k) {
-    rooms->points.push_back(points[k * has / kept]);
-    rooms->points.back().share /= all;
-  }
-}
-
-std::array<float, 3> stored(const Eigen::Array3f& rgb) {
-  return {rgb[0], rgb[1], rgb[2]};
-}
-
 }  // namespace
 
-struct RoomBaker::Direction {
-  Eigen::Vector3f towards;  ///< unit
-  int patch;
+/// Directions all around, some of which are looked along first.
+struct RoomBaker::Sphere {
+  struct Direction {
+    Eigen::Vector3f towards;  ///< unit
+    int patch;
+  };
+  explicit Sphere(std::size_t count) {
+    for (const Eigen::Vector3f& towards : evenDirections(count))
+      coarse.push_back({towards, SkyPatches::patchAt(towards)});
+    const float beyond = std::cos(1.7f * std::sqrt(4.0f * kPiFloat / static_cast<float>(count)));
+    for (std::uint32_t i = 0; i < count; ++i) {
+      first_beside.push_back(static_cast<std::uint32_t>(beside.size()));
+      for (std::uint32_t k = 0; k < count; ++k)
+        if (k != i && coarse[i].towards.dot(coarse[k].towards) > beyond) beside.push_back(k);
+    }
+    first_beside.push_back(static_cast<std::uint32_t>(beside.size()));
+    std::vector<std::vector<Direction>> nearest(count);
+    for (const Eigen::Vector3f& towards : evenDirections(kFine * count)) {
+      std::size_t best = 0;
+      for (std::size_t i = 1; i < count; ++i)
+        if (coarse[i].towards.dot(towards) > coarse[best].towards.dot(towards)) best = i;
+      nearest[best].push_back({towards, SkyPatches::patchAt(towards)});
+    }
+    for (const std::vector<Direction>& near : nearest) {
+      first_fine.push_back(static_cast<std::uint32_t>(fine.size()));
+      fine.insert(fine.end(), near.begin(), near.end());
+    }
+    first_fine.push_back(static_cast<std::uint32_t>(fine.size()));
+  }
+
+  std::vector<Direction> coarse, fine;
+  std::vector<std::uint32_t> first_fine;            ///< of those nearest to each coarse one; and the end
+  std::vector<std::uint32_t> beside, first_beside;  ///< other coarse ones about each; and the end
 };
 
 /// What a sample sees along many rays: numbers are sums of their weights.
@@ -133,18 +106,15 @@ struct RoomBaker::View {
   }
   /// Makes sums of weights illuminance for a luminance of 1 / π, with what fewer rays have told before.
   void finish(const Receiver& receiver, std::size_t sample, TransportData* data) {
-    // Several times as many rays, but not along the edges of what is open.
-    constexpr float kNew = 2.0f / 3.0f;
     const float all = std::accumulate(open.begin(), open.end(), hidden[0] + hidden[1]);
     if (!(all > 0.0f)) return;
     const float scale = receiver.open() / all;
     std::array<float, SkyPatches::kCount> row{};
-    addTimes((1.0f - kNew) * data->direct.scales[sample], data->direct.row(sample), row.data());
-    for (std::size_t p = 0; p < row.size(); ++p) row[p] += kNew * kPiFloat * scale * open[p];
+    for (std::size_t p = 0; p < row.size(); ++p) row[p] = kPiFloat * scale * open[p];
     data->direct.set(sample, row.data());
     for (std::size_t half = 0; half < 2; ++half) {
       float& hides = (half == 0 ? data->above : data->below).hides[sample];
-      hides += kNew * (scale * hidden[half] - hides);
+      hides = scale * hidden[half];
       merge(&seen[half]);
       for (SampleSeen& other : seen[half]) other.weight *= hides / hidden[half];
     }
@@ -168,33 +138,88 @@ std::vector<std::uint32_t> RoomBaker::lookers() const {
   return found;
 }
 
-std::vector<RoomBaker::View> RoomBaker::lookFrom(const std::uint32_t* lookers, std::size_t count,
-                                                 const std::vector<Direction>& directions) const {
-  std::array<Receiver, kPacket> receivers;
-  for (std::size_t i = 0; i < count; ++i) receivers[i] = samples_.receivers[lookers[i]];
-  const ReceiverGroup group(receivers.data(), static_cast<int>(count));
-  std::vector<View> views(count);
-  HitPacket hits;
-  float weights[kPacket];
-  for (std::size_t r = 0; r < directions.size(); ++r) {
-    const auto& [towards, patch] = directions[r];
-    const ReceiverGroup::Lanes lanes = group.weigh(towards, weights);
-    if (lanes == 0) continue;
-    group.cast(scene_.rays, {r, towards, lanes}, &hits);
-    for (int lane = 0; lane < group.count(); ++lane) {
-      if (!ReceiverGroup::has(lanes, lane)) continue;
-      View& view = views[static_cast<std::size_t>(lane)];
-      if (hits.triangle[lane] == HitPacket::kNothing) {
-        view.open[static_cast<std::size_t>(patch)] += weights[lane];
+/// A packet of samples looks around.
+class RoomBaker::Looking {
+ public:
+  Looking(const RoomBaker& baker, const Receiver* receivers, std::size_t count)
+      : baker_(baker), group_(receivers, static_cast<int>(count)), views_(count) {}
+
+  std::vector<View> around(const Sphere& sphere) {
+    std::vector<Met> all(sphere.coarse.size());
+    for (std::size_t r = 0; r < all.size(); ++r) cast(r, sphere.coarse[r], ~Lanes{0}, &all[r]);
+    Met met;
+    for (std::size_t r = 0; r < all.size(); ++r) {
+      const Lanes edges = edgesAt(sphere, r, all);
+      const std::uint32_t first = sphere.first_fine[r], end = sphere.first_fine[r + 1];
+      add(sphere.coarse[r], all[r], {~edges, static_cast<float>(end - first)});
+      for (std::uint32_t f = first; f < end && edges != 0; ++f) {
+        cast(r + f, sphere.fine[f], edges, &met);
+        add(sphere.fine[f], met, {edges, 1.0f});
+      }
+    }
+    return std::move(views_);
+  }
+
+ private:
+  using Lanes = ReceiverGroup::Lanes;
+  struct Met {
+    Lanes cast = 0, open = 0;
+    std::array<float, kPacket> weights;
+    HitPacket hits;
+  };
+  /// Who takes what was met, and for how many directions it stands.
+  struct Takers {
+    Lanes lanes;
+    float directions;
+  };
+
+  void cast(std::size_t turn, const Sphere::Direction& direction, Lanes lanes, Met* met) const {
+    met->cast = lanes & group_.weigh(direction.towards, met->weights.data());
+    met->open = 0;
+    if (met->cast == 0) return;
+    group_.cast(baker_.scene_.rays, {turn, direction.towards, met->cast}, &met->hits);
+    for (int lane = 0; lane < group_.count(); ++lane)
+      if (met->hits.triangle[lane] == HitPacket::kNothing) met->open |= Lanes{1} << lane;
+    met->open &= met->cast;
+  }
+  /// Those for whom sky ends at a coarse direction or beside it.
+  static Lanes edgesAt(const Sphere& sphere, std::size_t r, const std::vector<Met>& all) {
+    Lanes open = all[r].open, shut = all[r].cast & ~all[r].open;
+    for (std::uint32_t k = sphere.first_beside[r]; k < sphere.first_beside[r + 1]; ++k) {
+      const Met& other = all[sphere.beside[k]];
+      open |= other.open;
+      shut |= other.cast & ~other.open;
+    }
+    return open & shut;
+  }
+  void add(const Sphere::Direction& direction, const Met& met, const Takers& takers) {
+    for (int lane = 0; lane < group_.count(); ++lane) {
+      if (!ReceiverGroup::has(takers.lanes & met.cast, lane)) continue;
+      const float weight = takers.directions * met.weights[static_cast<std::size_t>(lane)];
+      View& view = views_[static_cast<std::size_t>(lane)];
+      if (ReceiverGroup::has(met.open, lane)) {
+        view.open[static_cast<std::size_t>(direction.patch)] += weight;
         continue;
       }
-      const std::uint32_t met = sampleAt(scene_, samples_, {hits, lane, towards});
-      if (met == LightMesh::kNone) continue;
-      const std::uint32_t from = exchange_.usefulBeside(met);
-      view.add({from, weights[lane]}, exchange_.scattered(from, towards), patch != SkyPatches::kBelow);
+      const LaneHit hit{met.hits, lane, direction.towards};
+      const std::uint32_t sample = sampleAt(baker_.scene_, baker_.samples_, hit);
+      if (sample == LightMesh::kNone) continue;
+      const std::uint32_t from = baker_.exchange_.usefulBeside(sample);
+      view.add({from, weight}, baker_.exchange_.scattered(from, direction.towards),
+               direction.patch != SkyPatches::kBelow);
     }
   }
-  return views;
+
+  const RoomBaker& baker_;
+  ReceiverGroup group_;
+  std::vector<View> views_;
+};
+
+std::vector<RoomBaker::View> RoomBaker::lookFrom(const std::uint32_t* lookers, std::size_t count,
+                                                 const Sphere& sphere) const {
+  std::array<Receiver, kPacket> receivers;
+  for (std::size_t i = 0; i < count; ++i) receivers[i] = samples_.receivers[lookers[i]];
+  return Looking(*this, receivers.data(), count).around(sphere);
 }
 
 void RoomBaker::look(TransportData* data) const {
@@ -202,17 +227,14 @@ void RoomBaker::look(TransportData* data) const {
   rooms.samples = lookers();
   const std::size_t count = rooms.samples.size();
   if (count == 0) return;
-  std::vector<Direction> directions;
-  for (const Eigen::Vector3f& towards :
-       evenDirections(std::clamp(2 * kMostLinks / count, kFewestDirections, kMostDirections)))
-    directions.push_back({towards, SkyPatches::patchAt(towards)});
+  const Sphere sphere(std::clamp(2 * kMostLinks / count, kFewestDirections, kMostDirections));
   std::vector<std::vector<BakedRooms::Link>> links(count);
   rooms.below.resize(count);
   rooms.scales.resize(count);
   tbb::parallel_for(std::size_t{0}, (count + kPacket - 1) / kPacket, [&](std::size_t p) {
     const std::size_t first = p * kPacket;
     std::vector<View> views =
-        lookFrom(rooms.samples.data() + first, std::min(kPacket, count - first), directions);
+        lookFrom(rooms.samples.data() + first, std::min(kPacket, count - first), sphere);
     for (std::size_t i = 0; i < views.size(); ++i) {
       const std::uint32_t sample = rooms.samples[first + i];
       views[i].finish(samples_.receivers[sample], sample, data);
@@ -231,104 +253,6 @@ void RoomBaker::look(TransportData* data) const {
     std::vector<BakedRooms::Link>().swap(links[room]);
   }
   rooms.first.push_back(static_cast<std::uint32_t>(rooms.links.size()));
-}
-
-void RoomBaker::finish(BakedRooms* rooms) const {
-  addSources(rooms);
-  addPoints(rooms);
-  addGlossy(rooms);
-}
-
-void RoomBaker::addSources(BakedRooms* rooms) const {
-  std::vector<bool> seen(samples_.receivers.size(), false);
-  for (const BakedRooms::Link link : rooms->links) seen[link.sample()] = true;
-  for (std::uint32_t i = 0; i < seen.size(); ++i) {
-    if (!seen[i]) continue;
-    const Sending sends = exchange_.sending(i);
-    rooms->sources.push_back({i, sends.other, stored(sends.direct), stored(sends.bounced),
-                              stored(sends.through), stored(samples_.receivers[i].normal.array()), 0, 0, 0});
-  }
-}
-
-void RoomBaker::addPoints(BakedRooms* rooms) const {
-  std::vector<std::uint32_t> source_of(samples_.receivers.size(), LightMesh::kNone);
-  std::vector<std::uint32_t> most(rooms->sources.size(), kMostOfOthers);
-  for (std::uint32_t s = 0; s < rooms->sources.size(); ++s) {
-    const BakedRooms::Source& source = rooms->sources[s];
-    const Receiver& receiver = samples_.receivers[source.sample];
-    if (source.other == LightMesh::kNone && !receiver.coarse && !receiver.thin) source_of[source.sample] = s;
-    if (std::binary_search(rooms->samples.begin(), rooms->samples.end(), source.sample))
-      most[s] = kMostOfRooms;
-  }
-  std::vector<std::vector<BakedRooms::Point>> points(rooms->sources.size());
-  for (std::uint32_t t = 0; t < samples_.mesh.roots.size(); ++t) {
-    const auto& v = scene_.geometry.triangles[t];
-    Eigen::Matrix3f at;
-    for (Eigen::Index k = 0; k < 3; ++k)
-      at.col(k) = scene_.geometry.positions[v[static_cast<std::size_t>(k)]];
-    for (int side = 0; side < 2; ++side) {
-      const std::uint32_t root = samples_.mesh.roots[t][static_cast<std::size_t>(side)];
-      if (!LightMesh::isCell(root)) continue;
-      const Eigen::Vector3f face = sideNormal(scene_.geometry, t, side);
-      const auto addLeaf = [&](const LightMesh::Cell& cell, const Eigen::Matrix3f& within) {
-        const Eigen::Matrix3f corners = at * within;
-        for (std::size_t k = 0; k < 3; ++k) {
-          const std::uint32_t s = source_of[samples_.nearest_sample[cell.corner[k]]];
-          if (s == LightMesh::kNone) continue;
-          const std::uint64_t key = std::uint64_t{s} << 32 | points[s].size();
-          addPart({corners, k, face, most[s] == kMostOfRooms, key}, &points[s]);
-        }
-      };
-      visitLeaves(samples_.mesh, root, Eigen::Matrix3f::Identity(), addLeaf);
-    }
-  }
-  tbb::parallel_for(std::size_t{0}, points.size(),
-                    [&](std::size_t s) { dropHidden(rooms->sources[s], &points[s]); });
-  for (std::size_t s = 0; s < points.size(); ++s) {
-    addSome(points[s], most[s], s, rooms);
-    std::vector<BakedRooms::Point>().swap(points[s]);
-  }
-}
-
-void RoomBaker::addGlossy(BakedRooms* rooms) const {
-  for (std::uint32_t room = 0; room < rooms->samples.size(); ++room) {
-    float weights = 0.0f, roughness = 0.0f;
-    visitLinks(*rooms, room, [&](const SampleSeen& other, bool) {
-      if (!exchange_.isPolished(other.sample)) return;
-      weights += other.weight;
-      roughness += other.weight * samples_.paints[other.sample].roughness;
-    });
-    if (!(weights > 0.0f)) continue;
-    const auto source = std::lower_bound(
-        rooms->sources.begin(), rooms->sources.end(), rooms->samples[room],
-        [](const BakedRooms::Source& other, std::uint32_t sample) { return other.sample < sample; });
-    if (source == rooms->sources.end() || source->sample != rooms->samples[room] || source->points == 0)
-      continue;
-    rooms->glossy.push_back(
-        {room, static_cast<std::uint32_t>(source - rooms->sources.begin()), roughness / weights});
-  }
-}
-
-/// A floor goes on below the wall that stands on it: what lies there is of no room.
-void RoomBaker::dropHidden(const BakedRooms::Source& source, std::vector<BakedRooms::Point>* points) const {
-  const Eigen::Vector3f away = Eigen::Map<const Eigen::Vector3f>(source.normal.data());
-  std::vector<BakedRooms::Point> open;
-  RayPacket rays;
-  HitPacket hits;
-  for (std::size_t first = 0; first < points->size(); first += kPacket) {
-    const std::size_t count = std::min(kPacket, points->size() - first);
-    for (std::size_t lane = 0; lane < kPacket; ++lane) {
-      const BakedRooms::Point& point = (*points)[first + std::min(lane, count - 1)];
-      rays.set(lane, {point.x, point.y, point.z}, away, lane < count);
-    }
-    scene_.rays.cast(rays, &hits);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const bool free = hits.triangle[lane] == HitPacket::kNothing;
-      if (free || sampleAt(scene_, samples_, {hits, static_cast<int>(lane), away}) != LightMesh::kNone)
-        open.push_back((*points)[first + lane]);
-    }
-  }
-  points->swap(open);
 }
 
 }  // namespace sunlit::light

@@ -20,11 +20,11 @@ class RoomBaker {
   void finish(BakedRooms* rooms) const;
 
  private:
-  struct Direction;
+  struct Sphere;
   struct View;
+  class Looking;
   std::vector<std::uint32_t> lookers() const;
-  std::vector<View> lookFrom(const std::uint32_t* lookers, std::size_t count,
-                             const std::vector<Direction>& directions) const;
+  std::vector<View> lookFrom(const std::uint32_t* lookers, std::size_t count, const Sphere& sphere) const;
   void addSources(BakedRooms* rooms) const;
   void addPoints(BakedRooms* rooms) const;
   void addGlossy(BakedRooms* rooms) const;

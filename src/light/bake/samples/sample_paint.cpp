@@ -8,7 +8,8 @@
 
 #include "light/bake/samples/mesh_leaves.h"
 #include "light/shading/reflectances.h"
-#include "sunlit/light/shading.h"
+#include "light/shading/shading.h"
+#include "sunlit/light/reflection.h"
 #include "sunlit/light/visibility.h"
 #include "sunlit/quantity/angle.h"
 

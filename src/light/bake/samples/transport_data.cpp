@@ -108,6 +108,22 @@ std::vector<float> openSky(const TransportData& data) {
   return of_nodes;
 }
 
+std::shared_ptr<const GlintNodes> glintNodes(const TransportData& data) {
+  const BakedRooms& rooms = data.rooms;
+  if (rooms.glossy.empty()) return nullptr;
+  GlintNodes nodes{std::vector<float>(data.mesh.nodeCount(), 0.0f), 0.0f};
+  std::vector<char> glossy(data.sampleCount(), 0);
+  for (const BakedRooms::Glossy& one : rooms.glossy) {
+    glossy[rooms.samples[one.room]] = 1;
+    nodes.roughness += one.roughness / static_cast<float>(rooms.glossy.size());
+  }
+  for (std::size_t n = 0; n < nodes.shares.size(); ++n) {
+    for (std::uint32_t s = data.mesh.first_share[n]; s < data.mesh.first_share[n + 1]; ++s)
+      if (glossy[data.mesh.shares[s].sample] != 0) nodes.shares[n] += data.mesh.shares[s].weight;
+  }
+  return std::make_shared<const GlintNodes>(std::move(nodes));
+}
+
 SUNLIT_WIDE_VECTOR_CLONES
 void addTimes(float factor, const std::uint8_t* coefficients, float* __restrict row) {
   for (std::size_t p = 0; p < SkyPatches::kCount; ++p) row[p] += factor * static_cast<float>(coefficients[p]);

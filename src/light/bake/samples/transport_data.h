@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "light/bake/samples/leaf_openness.h"
@@ -165,6 +166,15 @@ struct TransportData {
 
   std::size_t sampleCount() const { return direct.scales.size(); }
 };
+
+/// Nodes whose light is without what discs throw on them by way of polished floors. Its edges are as sharp as
+/// those of patches of sun, so that pictures look for it by rays of their own.
+struct GlintNodes {
+  std::vector<float> shares;  ///< of each node, of such samples
+  float roughness;            ///< of the floors, in the mean
+};
+/// Null: there are none.
+std::shared_ptr<const GlintNodes> glintNodes(const TransportData& data);
 
 /// Share of the sky's light, by cosine, that each node of `data` would get straight of an even sky, 0 … 1.
 std::vector<float> openSky(const TransportData& data);

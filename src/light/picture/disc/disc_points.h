@@ -18,6 +18,9 @@ class DiscPoints {
 
   /// About the unit vector `towards`, of angular radius `radius_rad`; of what is above the horizon.
   DiscPoints(const Eigen::Vector3f& towards, float radius_rad);
+  /// The same disc as a level mirror of that `alpha` (see Ggx) shows it: below the horizon, and as far aside
+  /// as its facets lean.
+  static DiscPoints inFloor(const Eigen::Vector3f& towards, float radius_rad, float alpha);
 
   /// Unit vectors at right angles to the way to the disc and to each other.
   const Eigen::Vector3f& across() const { return across_; }
@@ -43,6 +46,8 @@ class DiscPoints {
 
  private:
   static constexpr std::size_t kPeriod = 4;
+  /// `alpha` 0: of the disc itself.
+  DiscPoints(const Eigen::Vector3f& towards, float radius_rad, float alpha);
 
   Eigen::Vector3f across_, up_;
   std::array<std::array<std::array<Eigen::Vector3f, kPoints>, kPeriod>, kPeriod> directions_;

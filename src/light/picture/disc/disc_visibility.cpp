@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "light/geometry/ray_list.h"
 
@@ -32,14 +33,18 @@ Lists& lists() {
 
 }  // namespace
 
-DiscVisibility::DiscVisibility(const sky::DiscLight& disc, float least_lx, const Picture& picture)
-    : visibility_(picture.visibility),
+DiscVisibility::Seen DiscVisibility::straight(const sky::DiscLight& disc, float least_lx,
+                                              const Visibility& visibility) {
+  const Eigen::Vector3f towards = disc.towards.vector().cast<float>();
+  const auto radius_rad = static_cast<float>(disc.angular_radius.rad());
+  return {disc.illuminance.value.maxCoeff() > least_lx, towards, radius_rad, DiscPoints(towards, radius_rad),
+          std::make_shared<const StraightWay>(visibility)};
+}
+
+DiscVisibility::DiscVisibility(Seen disc, const Picture& picture)
+    : disc_(std::move(disc)),
       table_(picture.table),
       surfaces_(picture.surfaces),
-      shines_(disc.illuminance.value.maxCoeff() > least_lx),
-      towards_(disc.towards.vector().cast<float>()),
-      radius_rad_(static_cast<float>(disc.angular_radius.rad())),
-      points_(towards_, radius_rad_),
       tallies_(surfaces_.tiles.size()),
       shares_(surfaces_.tiles.size()),
       met_(surfaces_.width, surfaces_.height),
@@ -50,7 +55,7 @@ DiscVisibility::DiscVisibility(const sky::DiscLight& disc, float least_lx, const
 }
 
 void DiscVisibility::castAll() {
-  if (!shines_) return;
+  if (!disc_.shines) return;
   const auto eachTile = [this](auto step) {
     tbb::parallel_for(std::size_t{0}, surfaces_.tiles.size(), step);
   };
@@ -69,8 +74,8 @@ int DiscVisibility::raysAfter(Step step, int samples, bool fills) const {
 }
 
 bool DiscVisibility::facesDisc(const LightTable::DiscTarget& target) const {
-  return target.thin || (target.geometric_normal.dot(towards_) > -std::sin(radius_rad_) &&
-                         target.shading_normal.dot(towards_) > 0.0f);
+  return target.thin || (target.geometric_normal.dot(disc_.towards) > -std::sin(disc_.radius_rad) &&
+                         target.shading_normal.dot(disc_.towards) > 0.0f);
 }
 
 bool DiscVisibility::fillsPixel(const LightTable::DiscTarget& target) const {
@@ -95,7 +100,7 @@ void DiscVisibility::appendRays(std::size_t number, std::uint32_t index, Step st
   RayList& rays = target.leaves ? lists().leaves : lists().solid;
   const auto end = static_cast<std::uint32_t>(raysAfter(step, target.samples, tally.fills));
   if (tally.cast >= end) return;
-  const DiscPoints::OfPixel points = points_.ofPixel(target.x, target.y);
+  const DiscPoints::OfPixel points = disc_.points.ofPixel(target.x, target.y);
   const std::uint32_t parity = (target.x >> 1 & 1u) + 2u * (target.y & 1u);
   std::uint32_t sample = (tally.cast + parity) % target.samples;
   rays.reserve(end - tally.cast);
@@ -120,13 +125,13 @@ void DiscVisibility::cast(std::size_t number) {
   const auto castList = [&](const RayList& list) {
     rays_cast_ += list.size();
     blocked.resize(list.size());
-    visibility_.occluded(list.rays(), blocked.data());
+    disc_.way->stopped(list.rays(), blocked.data());
     for (std::size_t i = 0; i < list.size(); ++i) tallies[list.number()[i]].lit += 1 - blocked[i];
   };
   Lists& rays = lists();
   if (rays.solid.size() > 0) castList(rays.solid);
   if (rays.leaves.size() == 0) return;
-  rays.in_columns.setInColumns(rays.leaves, points_.across(), points_.up());
+  rays.in_columns.setInColumns(rays.leaves, disc_.points.across(), disc_.points.up());
   castList(rays.in_columns);
 }
 
@@ -144,7 +149,7 @@ void DiscVisibility::probe(std::size_t number) {
     tally.y = static_cast<std::uint8_t>(target.y - tile.y);
     tally.fills = fillsPixel(target);
     tally.enough = enoughMixed(target, tally.fills);
-    if (!facesDisc(target)) continue;
+    if (!facesDisc(target) || !(disc_.wanted.empty() || disc_.wanted[number][i])) continue;
     tally.waits = tally.fills && ((target.x + target.y) & 1) == 1;
     if (!tally.waits) appendRays(number, i, Step::kProbe);
   }

@@ -4,9 +4,11 @@
 #include <Eigen/Core>
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "light/picture/disc/disc_points.h"
+#include "light/picture/disc/disc_way.h"
 #include "light/picture/disc/pixel_map.h"
 #include "light/picture/disc/share_windows.h"
 #include "light/picture/table/light_table.h"
@@ -18,18 +20,28 @@ namespace sunlit::light {
 
 class DiscVisibility {
  public:
-  /// What the disc may shine on, and what stands in its way.
+  /// What the disc may shine on.
   struct Picture {
     const Surfaces& surfaces;
     const LightTable& table;  ///< of `surfaces`
-    const Visibility& visibility;
   };
-  /// Casts all rays, in parallel, unless the disc gives less than `least_lx` on a plane facing it. Keeps
-  /// what `picture` refers to.
-  DiscVisibility(const sky::DiscLight& disc, float least_lx, const Picture& picture);
+  /// A disc as surfaces see it.
+  struct Seen {
+    bool shines;  ///< false: no rays are cast
+    Eigen::Vector3f towards;
+    float radius_rad;
+    DiscPoints points;
+    std::shared_ptr<const DiscWay> way;
+    /// Of each tile's surfaces: whether it may shine on them at all; empty: on all.
+    std::vector<std::vector<bool>> wanted = {};
+  };
+  /// Straight; it shines unless it gives less than `least_lx` on a plane facing it. Keeps a reference.
+  static Seen straight(const sky::DiscLight& disc, float least_lx, const Visibility& visibility);
+  /// Casts all rays, in parallel. Keeps what `picture` refers to.
+  DiscVisibility(Seen disc, const Picture& picture);
 
-  const Eigen::Vector3f& towards() const { return towards_; }
-  float radius_rad() const { return radius_rad_; }
+  const Eigen::Vector3f& towards() const { return disc_.towards; }
+  float radius_rad() const { return disc_.radius_rad; }
 
   /// For each surface of Surfaces::tiles[tile] the share of the disc, 0 … 1, that is not hidden, averaged
   /// over its samples; also behind a thin sheet that light shines through. 0 where the surface is turned
@@ -80,13 +92,9 @@ class DiscVisibility {
   /// How many rays a surface of so many samples has had once `step` is done.
   int raysAfter(Step step, int samples, bool fills) const;
 
-  const Visibility& visibility_;
+  const Seen disc_;
   const LightTable& table_;
   const Surfaces& surfaces_;
-  bool shines_;  ///< false when it gives no light worth casting rays for
-  Eigen::Vector3f towards_;
-  float radius_rad_;
-  DiscPoints points_;
   std::vector<std::vector<Tally>> tallies_;
   std::vector<std::vector<float>> shares_;
   std::atomic<std::size_t> rays_cast_{0};

@@ -40,12 +40,13 @@ Eigen::Vector3f mirroredClear(const Surface& surface, const Eigen::Vector3f& to_
 
 class TileMirror {
  public:
-  TileMirror(const Surfaces& surfaces, const scene::Scene& scene, const Visibility& visibility)
+  TileMirror(const Surfaces& surfaces, Onlooker onlooker, const MirroredWorld& world)
       : surfaces_(surfaces),
-        scene_(scene),
-        visibility_(visibility),
-        vertices_(visibility.fixedGeometry(), visibility.movingGeometry()),
-        glass_(visibility) {}
+        onlooker_(onlooker),
+        scene_(world.scene),
+        visibility_(world.visibility),
+        vertices_(visibility_.fixedGeometry(), visibility_.movingGeometry()),
+        glass_(visibility_) {}
 
   void look(const Tile& tile, std::vector<Reflections::Mirroring>* all, Tile* seen) const {
     thread_local RayList rays;
@@ -96,7 +97,9 @@ class TileMirror {
     for (std::uint32_t i = 0; i < surface.samples; ++i) {
       const std::size_t at = surface.first_sample + i;
       const Eigen::Vector3f origin = rayStart(tile, at);
-      rays->add(number, origin, mirroredClear(surface, (surfaces_.eye - origin).normalized()));
+      const Eigen::Vector3f to_eye =
+          onlooker_ == Onlooker::kCamera ? (surfaces_.eye - origin).normalized() : surface.to_eye;
+      rays->add(number, origin, mirroredClear(surface, to_eye));
     }
   }
 
@@ -183,6 +186,7 @@ class TileMirror {
   }
 
   const Surfaces& surfaces_;
+  Onlooker onlooker_;
   const scene::Scene& scene_;
   const Visibility& visibility_;
   SceneVertices vertices_;
@@ -210,13 +214,12 @@ void layOutLike(const Surfaces& surfaces, Surfaces* seen) {
 
 }  // namespace
 
-Reflections reflect(const Surfaces& surfaces, const scene::Scene& scene, const Visibility& visibility,
-                    Surfaces* seen) {
-  if (!anyMirrors(scene)) return {};
+Reflections reflect(const Surfaces& surfaces, Onlooker onlooker, const MirroredWorld& world, Surfaces* seen) {
+  if (!anyMirrors(world.scene)) return {};
   Reflections made;
   made.tiles.resize(surfaces.tiles.size());
   layOutLike(surfaces, seen);
-  const TileMirror mirror(surfaces, scene, visibility);
+  const TileMirror mirror(surfaces, onlooker, world);
   tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(),
                     [&](std::size_t i) { mirror.look(surfaces.tiles[i], &made.tiles[i], &seen->tiles[i]); });
   if (std::all_of(made.tiles.begin(), made.tiles.end(), [](const auto& tile) { return tile.empty(); }))

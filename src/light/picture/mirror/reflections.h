@@ -31,10 +31,18 @@ struct Reflections {
   std::vector<std::vector<Mirroring>> tiles;
 };
 
+/// Who looks at what mirrors: the camera, or other mirrors, whose rays go on as Surface::to_eye tells.
+enum class Onlooker { kCamera, kMirrors };
+
+/// What there is to be mirrored.
+struct MirroredWorld {
+  const scene::Scene& scene;
+  const Visibility& visibility;  ///< of `scene`; may know bodies
+};
+
 /// What smooth ones of `surfaces` mirror, by a ray from each of their samples. What these rays met goes to
 /// `seen`, which is empty before, each in the pixel of the surface that mirrors it, as seen from there.
-/// `visibility` is of `scene` and may know bodies. Parallel; next to nothing where nothing is smooth.
-Reflections reflect(const Surfaces& surfaces, const scene::Scene& scene, const Visibility& visibility,
-                    Surfaces* seen);
+/// Parallel; next to nothing where nothing is smooth.
+Reflections reflect(const Surfaces& surfaces, Onlooker onlooker, const MirroredWorld& world, Surfaces* seen);
 
 }  // namespace sunlit::light

@@ -1,0 +1,43 @@
+#include "light/picture/disc/floor_mirror.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "light/geometry/ray_list.h"
+#include "light/shading/polished_floor.h"
+
+namespace sunlit::light {
+
+void FloorMirror::stopped(const Rays& rays, std::uint8_t* stopped) const {
+  thread_local std::vector<Hit> hits;
+  thread_local RayList up;
+  thread_local std::vector<std::uint8_t> blocked;
+  hits.resize(rays.count);
+  visibility_.closest(rays, hits.data());
+  up.clear();
+  up.reserve(rays.count);
+  for (std::uint32_t i = 0; i < rays.count; ++i) {
+    stopped[i] = 1;
+    if (hits[i].triangle == Hit::kMiss) continue;
+    const Eigen::Vector3f down(rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]);
+    const Vertex floor = vertices_.at(hits[i], down.normalized());
+    if (isPolishedFloor(floor)) up.add(i, floor.front, mirrored(down));
+  }
+  blocked.resize(up.size());
+  visibility_.occluded(up.rays(), blocked.data());
+  for (std::size_t k = 0; k < up.size(); ++k) stopped[up.number()[k]] = blocked[k];
+}
+
+std::optional<Vertex> FloorMirror::floorAlong(const Eigen::Vector3f& origin,
+                                              const Eigen::Vector3f& down) const {
+  RayList ray;
+  ray.reserve(1);
+  ray.add(0, origin, down);
+  Hit hit;
+  visibility_.closest(ray.rays(), &hit);
+  if (hit.triangle == Hit::kMiss) return std::nullopt;
+  const Vertex floor = vertices_.at(hit, down);
+  return isPolishedFloor(floor) ? std::optional<Vertex>(floor) : std::nullopt;
+}
+
+}  // namespace sunlit::light
