@@ -48,12 +48,12 @@ struct Illumination {
   std::shared_ptr<const SkySectors> sky_sectors;
   /// What is seen of the sky in mirrors; null as `nodes`.
   std::shared_ptr<const MirrorSky> mirror_sky;
-  /// At each body that moves, for the pose that a renderer looks at, which sets it; null: open sky.
+  /// At each body that moves, for one pose: PreparedPicture sets it; null: open sky.
   std::shared_ptr<const std::vector<AroundLight>> bodies;
-  /// That burn, none of them relative: of the world and, for the pose that a renderer looks at, which adds
-  /// them, of bodies; null: none.
+  /// That burn, none of them relative: of the world and, where PreparedPicture adds them for its pose, of
+  /// bodies; null: none.
   std::shared_ptr<const std::vector<scene::Lamp>> lamps;
-  /// That burn, of bodies, for renderers; null: none.
+  /// That burn, of bodies, in their frames, for PreparedPicture; null: none.
   std::shared_ptr<const std::vector<BodyLamp>> body_lamps;
 };
 

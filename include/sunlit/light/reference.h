@@ -1,5 +1,5 @@
 /// The slow truth that the fast picture is measured against: every path of light is traced, nothing is baked,
-/// interpolated or filtered. Same surfaces, same reflection, same sun, moon, sky and air as illuminate().
+/// interpolated or filtered. Same surfaces, same reflection, same sun, moon, sky and air as in a PreparedPicture.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ void validate(const ReferenceOptions& options);
 
 /// A picture and how far to trust it.
 struct Traced {
-  image::LinearImage luminance;  ///< cd/m², as from illuminate()
+  image::LinearImage luminance;  ///< cd/m², as of a PreparedPicture
   /// Standard error of each pixel's luminance, cd/m²: half the difference of two halves of the paths, which
   /// share no random numbers. One pixel's value is itself a guess; averages over many are good.
   image::Picture<float, 1> noise;
@@ -41,7 +41,7 @@ struct Traced {
 /// What surfaces beyond the first add: texture at full resolution, vertex colours, interpolated normals;
 /// light meets one-sided triangles from both sides; Material::detail, whose mean is none, is left out. Bodies
 /// that move are lit where `surfaces` shows them, but hide and pass on nothing. Air lies between the eye and
-/// the first surface only, as much of it lit as illuminate() has it. Random numbers are counted, not drawn:
+/// the first surface only, as much of it lit as in a PreparedPicture. Random numbers are counted, not drawn:
 /// the same bits for any thread count.
 std::vector<Traced> traceReference(const Surfaces& surfaces, const World& world,
                                    const std::vector<sky::Daylight>& days, const ReferenceOptions& options);
