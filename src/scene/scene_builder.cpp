@@ -187,6 +187,12 @@ void SceneBuilder::repairCoordinates(std::vector<Eigen::Vector2f>& coordinates) 
   }
 }
 
+std::string reasonsOf(const std::vector<std::string>& warnings) {
+  std::string text;
+  for (const std::string& warning : warnings) text += "; " + warning;
+  return text;
+}
+
 bool canShine(const Lamp& lamp) {
   return lamp.constant + lamp.linear + lamp.quadratic > 0.0f && lamp.range_m > 0.0f &&
          lamp.outer_rad > 0.0f && lamp.inner_rad <= lamp.outer_rad && lamp.direction.norm() > 0.5f &&

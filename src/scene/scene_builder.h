@@ -43,6 +43,9 @@ constexpr const char* kSpeltOtherwise = "files are spelt otherwise on disk";
 /// Whether what a file says of a lamp makes one; else it is among kDarkLights.
 bool canShine(const Lamp& lamp);
 
+/// "; " before each of the warnings of a scene in which there is nothing: why that is so.
+std::string reasonsOf(const std::vector<std::string>& warnings);
+
 /// How a texture goes on to the sides, and up and down.
 struct Wraps {
   Wrap u = Wrap::kRepeat, v = Wrap::kRepeat;
