@@ -27,7 +27,10 @@ Scene loadMeshFile(const std::string& file, const ResourceFinder& finder) {
     builder.addMesh(part.mesh, part.file_from_node);
   }
   Scene scene = builder.finish();
-  if (scene.meshes.empty()) throw std::runtime_error(file + ": there is not a triangle in this file");
+  if (scene.meshes.empty()) {
+    throw std::runtime_error(file + ": there is not a triangle in this file that could be drawn" +
+                             reasonsOf(scene.warnings));
+  }
   return scene;
 }
 

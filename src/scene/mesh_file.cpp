@@ -13,10 +13,12 @@
 #include <optional>
 #include <stdexcept>
 
+#include "scene/assimp_nodes.h"
 #include "scene/color.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_order.h"
 #include "scene/mesh_material.h"
+#include "scene/mesh_rest.h"
 #include "scene/uri_text.h"
 
 namespace sunlit::scene {
@@ -37,13 +39,6 @@ Eigen::Affine3d zUpFromYUp() {
       0, 0, -1,                  //
       0, 1, 0;
   return rotation;
-}
-
-Eigen::Affine3d toEigen(const aiMatrix4x4& matrix) {
-  Eigen::Affine3d affine = Eigen::Affine3d::Identity();
-  affine.matrix() << matrix.a1, matrix.a2, matrix.a3, matrix.a4, matrix.b1, matrix.b2, matrix.b3, matrix.b4,
-      matrix.c1, matrix.c2, matrix.c3, matrix.c4, 0.0, 0.0, 0.0, 1.0;
-  return affine;
 }
 
 /// Colours are linear in glTF, and display values elsewhere.
@@ -116,6 +111,7 @@ struct Collector {
   const aiScene& scene;
   const std::vector<std::optional<MeshLook>>& looks;  ///< by material
   bool gltf;
+  const Eigen::Affine3d up_from_file;
   std::vector<MeshPart> parts;
   std::size_t lines_and_points = 0;  ///< left out
   std::vector<std::size_t> fading;   ///< parts whose vertex colours have an alpha
@@ -129,6 +125,8 @@ struct Collector {
       if (!look || !hasSurface(source)) continue;
       MeshPart part{node.mName.C_Str(), source.mName.C_Str(), {}, up_from_node};
       part.mesh = toMesh(source, *look, gltf);
+      if (gltf) blendTargets(source, part.mesh);
+      if (gltf && standOnBones(source, scene, part.mesh)) part.file_from_node = up_from_file;
       part.mesh.name = part.node.empty() ? part.geometry : part.node;
       if (hasAlpha(source.mColors[0], source.mNumVertices)) fading.push_back(parts.size());
       parts.push_back(std::move(part));
@@ -148,17 +146,6 @@ std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const Me
     if (used[i]) looks[i] = addMeshMaterial(i, scene, context);
   }
   return looks;
-}
-
-/// Where a node stands in the file, to z up, and what it holds besides. Null: there is no such node.
-const aiNode* findNode(const aiScene& scene, const aiString& name, const Eigen::Affine3d& up_from_file,
-                       Eigen::Affine3d* up_from_node) {
-  const aiNode* const found = scene.mRootNode->FindNode(name);
-  Eigen::Affine3d file_from_node = Eigen::Affine3d::Identity();
-  for (const aiNode* node = found; node != nullptr; node = node->mParent)
-    file_from_node = toEigen(node->mTransformation) * file_from_node;
-  *up_from_node = up_from_file * file_from_node;
-  return found;
 }
 
 /// COLLADA gives colours without a unit and whole cones.
@@ -188,9 +175,9 @@ void addLamps(const aiScene& scene, const Eigen::Affine3d& up_from_file, SceneBu
       builder.warn(kOtherLights, light.mName.C_Str());
       continue;
     }
-    Eigen::Affine3d up_from_node;
-    const aiNode* const node = findNode(scene, light.mName, up_from_file, &up_from_node);
-    if (node != nullptr) builder.addLamp(lampOf(light, up_from_node));  // else it stands nowhere
+    const aiNode* const node = scene.mRootNode->FindNode(light.mName);
+    // Without a node it stands nowhere.
+    if (node != nullptr) builder.addLamp(lampOf(light, up_from_file * fileFromNode(*node)));
   }
 }
 
@@ -222,6 +209,11 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   const bool collada = extension == ".dae";
   const bool gltf = extension == ".gltf" || extension == ".glb";
   Assimp::Importer importer;
+  std::optional<GltfMaterials> gltf_materials;
+  if (gltf) {
+    gltf_materials.emplace(file, builder);
+    importer.SetIOHandler(gltf_materials->input().release());
+  }
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up_axis == UpAxis::kZ);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCrease_deg);
@@ -233,13 +225,11 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
     scene = importer.ReadFileFromMemory(text.data(), text.size(), kSteps | normals, "dae");
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw std::runtime_error(file + ": cannot read this mesh: " + importer.GetErrorString());
+    throw std::runtime_error(file + ": cannot read this mesh: " + importer.GetErrorString() +
+                             (gltf ? gltf_materials->whatItNeeds() : ""));
   }
 
-  std::optional<GltfMaterials> gltf_materials;
-  if (gltf) gltf_materials.emplace(file, builder);
-  for (const std::string& name : gltf ? gltf_materials->unknownExtensions() : std::vector<std::string>())
-    builder.warn("glTF extensions are not read", name + " of " + file);
+  if (gltf) gltf_materials->nameTheRest();
   std::vector<std::string> names;
   for (unsigned i = 0; i < scene->mNumMaterials; ++i)
     names.emplace_back(scene->mMaterials[i]->GetName().C_Str());
@@ -249,7 +239,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up.
   const bool y_up = gltf || (collada && up_axis == UpAxis::kAsDeclared);
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();
-  Collector collector{*scene, looks, gltf, {}, 0, {}};
+  Collector collector{*scene, looks, gltf, up_from_file, {}, 0, {}};
   collector.collect(*scene->mRootNode, up_from_file);
   for (const std::size_t i : collector.fading) {
     const Mesh& mesh = collector.parts[i].mesh;
