@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "scene/assimp_nodes.h"
+#include "scene/collada_text.h"
 #include "scene/color.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_order.h"
@@ -181,20 +182,17 @@ void addLamps(const aiScene& scene, const Eigen::Affine3d& up_from_file, SceneBu
   }
 }
 
-/// The text of a COLLADA file that Assimp may take: it wants the numbers of a colour right behind the tag,
-/// and XML does not.
-std::string withoutBlanksBeforeColors(const std::string& file) {
+/// What Assimp makes of a COLLADA file that it refused as it stands; null for nothing.
+const aiScene* readMended(const std::string& file, unsigned steps, Assimp::Importer& importer,
+                          SceneBuilder& builder) {
   std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  std::string mended;
-  std::size_t copied = 0;
-  for (std::size_t tag = text.find("<color"); tag != std::string::npos; tag = text.find("<color", copied)) {
-    const std::size_t end = text.find('>', tag);
-    if (end == std::string::npos) break;
-    mended.append(text, copied, end + 1 - copied);
-    copied = std::min(text.size(), text.find_first_not_of(" \t\r\n", end + 1));
-  }
-  return mended.append(text, copied, std::string::npos);
+  const ColladaText readable =
+      readableCollada({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()});
+  const aiScene* scene =
+      importer.ReadFileFromMemory(readable.text.data(), readable.text.size(), steps, "dae");
+  if (scene != nullptr && readable.holes > 0)
+    builder.warn("meshes have polygons with holes, which are filled", file);
+  return scene;
 }
 
 }  // namespace
@@ -220,10 +218,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   // Normals where the file has none: glTF 2.0, section 3.7.2.1, wants them flat.
   const unsigned normals = gltf ? aiProcess_GenNormals : aiProcess_GenSmoothNormals;
   const aiScene* scene = importer.ReadFile(file, kSteps | normals);
-  if (scene == nullptr && collada) {
-    const std::string text = withoutBlanksBeforeColors(file);
-    scene = importer.ReadFileFromMemory(text.data(), text.size(), kSteps | normals, "dae");
-  }
+  if (scene == nullptr && collada) scene = readMended(file, kSteps | normals, importer, builder);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw std::runtime_error(file + ": cannot read this mesh: " + importer.GetErrorString() +
                              (gltf ? gltf_materials->whatItNeeds() : ""));
@@ -249,8 +244,8 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   if (up_axis == UpAxis::kAsDeclared && gltf) addGltfLights(file, up_from_file, builder);
   if (up_axis == UpAxis::kAsDeclared && !gltf) addLamps(*scene, up_from_file, builder);
   if (collector.lines_and_points > 0) {
-    builder.warn(file + ": " + std::to_string(collector.lines_and_points) +
-                 " lines and points have no surface and are left out");
+    builder.warn("files have lines and points, which have no surface and are left out",
+                 std::to_string(collector.lines_and_points) + " in " + file);
   }
   return std::move(collector.parts);
 }

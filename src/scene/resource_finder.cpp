@@ -109,7 +109,16 @@ Found ResourceFinder::find(const std::string& uri, const std::string& from_file)
     candidates.push_back(fs::path(root) / path);
     candidates.push_back(fs::path(root) / "models" / path);
   }
-  return firstOf(candidates);
+  const Found found = firstOf(candidates);
+  if (found.file) return found;
+  // Where Gazebo classic looks besides, and hardly anyone keeps anything: not worth telling.
+  std::vector<fs::path> media;
+  for (const std::string& root : roots) {
+    for (const char* folder : {"media/models", "Media/models"})
+      media.push_back(fs::path(root) / folder / path);
+  }
+  const Found besides = firstOf(media);
+  return besides.file ? besides : found;
 }
 
 Found ResourceFinder::findTexture(const std::string& name, const std::string& mesh_file) const {

@@ -200,7 +200,7 @@ class Mender {
     for (XMLElement* script : childrenOf(material, "script")) {
       if (childText(*script, "name").empty()) {
         material.DeleteChild(script);
-      } else if (childText(*script, "uri").empty()) {
+      } else if (const std::string uri = childText(*script, "uri"); uri.empty() || uri == "__default__") {
         childIn(*script, "uri").SetText("file://media/materials/scripts/gazebo.material");
       }
     }

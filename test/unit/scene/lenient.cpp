@@ -162,6 +162,7 @@ TEST_F(Lenient, AScriptWithoutAFileIsGazebosOwn) {
   EXPECT_EQ(red.materials.at(static_cast<std::size_t>(red.meshes.at(0).material)).base_color.value[0], 1.0f);
   EXPECT_EQ(red.materials.at(static_cast<std::size_t>(red.meshes.at(0).material)).base_color.value[1], 0.0f);
   EXPECT_TRUE(red.warnings.empty());
+  EXPECT_EQ(loaded(painted("<uri>__default__</uri><name>Gazebo/Red</name>")).triangleCount(), 12u);
   EXPECT_EQ(loaded(painted("<uri>file://x.material</uri>")).triangleCount(), 12u);
 }
 

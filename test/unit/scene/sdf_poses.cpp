@@ -181,6 +181,15 @@ TEST_F(Sdf, AMissingIncludeNamesTheFileAndThePlacesOnce) {
   EXPECT_LT(error.size(), 500u);
 }
 
+TEST_F(Sdf, MeshesAreFoundInMediaOfAResourcePath) {
+  write("package/Media/models/land.obj", "v 0 0 0\nv 3 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string file =
+      write("package/worlds/test.world",
+            world("<model name='m'><link name='l'><visual name='v'><geometry><mesh><uri>file://land.obj</uri>"
+                  "</mesh></geometry></visual></link></model>"));
+  EXPECT_EQ(boundsOf(load(file, {})).max().x(), 3.0f);
+}
+
 TEST_F(Sdf, AMissingMeshNamesTheVisualAndThePlaces) {
   const std::string file = write(
       "test.world", world("<model name='m'><link name='l'><visual name='v'><geometry><mesh>"
