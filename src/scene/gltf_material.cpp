@@ -293,7 +293,9 @@ std::optional<GltfLook> GltfMaterials::look(std::size_t index, const Picture& pi
     Reader reader(json_->root, materials.at(index), picture);
     GltfLook look = reader.read();
     for (const std::string& lost : reader.lost())
-      builder_.warn(kNotRendered, look.material.name + " of " + file_ + ": " + lost);
+      builder_.warn(kNotRendered,
+                    (look.material.name.empty() ? "material " + std::to_string(index) : look.material.name) +
+                        " of " + file_ + ": " + lost);
     return look;
   } catch (const json::exception& error) {
     throw std::runtime_error(file_ + ": material " + std::to_string(index) + ": " + error.what());

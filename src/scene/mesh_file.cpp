@@ -203,6 +203,11 @@ std::string extensionOf(const std::string& file) {
 
 std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, const ResourceFinder& finder,
                                    SceneBuilder& builder) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    throw std::runtime_error(file + ": this is a folder, and no mesh");
+  if (std::filesystem::file_size(file, error) == 0 && !error)
+    throw std::runtime_error(file + ": this file is empty");
   const std::string extension = extensionOf(file);
   const bool collada = extension == ".dae";
   const bool gltf = extension == ".gltf" || extension == ".glb";

@@ -162,8 +162,10 @@ std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
       context.gltf->look(context.gltf_order.at(index), [&](GltfMaterials::Slot slot, const Wraps& wraps) {
         aiString name;
         if (source.GetTexture(typeOf(slot), 0, &name) != aiReturn_SUCCESS || name.length == 0) {
-          context.builder.warn(kMissingTextures,
-                               std::string(source.GetName().C_Str()) + " of " + context.file);
+          const std::string material = source.GetName().C_Str();
+          context.builder.warn(
+              kMissingTextures,
+              "one of " + (material.empty() ? "a material" : "material " + material) + " of " + context.file);
           return TextureUse::kNone;
         }
         return addTexture(name.C_Str(), scene, context, wraps);

@@ -361,6 +361,11 @@ TEST_F(MeshFile, ABrokenFileIsAnErrorNamingIt) {
   }
 }
 
+TEST_F(MeshFile, AnEmptyFileIsSaidToBeEmpty) {
+  for (const char* name : {"e.dae", "e.glb", "e.gltf", "e.obj"})
+    EXPECT_EQ(errorOf(write(name, "")), pathOf(name) + ": this file is empty");
+}
+
 TEST_F(MeshFile, AMissingFileNamesThePlaces) {
   const std::string error = errorOf("worlds/nowhere.dae", SearchPath{{"/some/folder"}});
   EXPECT_EQ(error.find("there is no world worlds/nowhere.dae; it was looked for as "), 0u) << error;
