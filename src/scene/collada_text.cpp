@@ -32,6 +32,16 @@ std::string withoutBlanksBeforeColors(const std::string& text) {
   return mended.append(text, copied, std::string::npos);
 }
 
+void nameFilesOfImages(std::string& text) {
+  const std::string begin = "<image ", end = "</image>", file = "<init_from>", data = "<data>";
+  for (std::size_t from = text.find(begin); from != std::string::npos; from = text.find(begin, from + 1)) {
+    const std::size_t to = text.find(end, from);
+    if (to == std::string::npos) return;
+    if (std::min(text.find(file, from), text.find(data, from)) > to)
+      text.insert(to, file + "not given</init_from>");
+  }
+}
+
 }  // namespace
 
 ColladaText readableCollada(const std::string& text) {
@@ -40,6 +50,7 @@ ColladaText readableCollada(const std::string& text) {
   readable.text = without(text, "<!--", "-->", &comments);
   readable.text = without(readable.text, "<h>", "</h>", &readable.holes);
   readable.text = withoutBlanksBeforeColors(readable.text);
+  nameFilesOfImages(readable.text);
   return readable;
 }
 

@@ -11,7 +11,8 @@ struct ColladaText {
   std::size_t holes = 0;  ///< of polygons, which are filled: Assimp knows none
 };
 
-/// `text` without comments, without blanks between the tag of a colour and its numbers, and without holes.
+/// `text` without comments, without blanks between the tag of a colour and its numbers, and without holes;
+/// and pictures without a file have one that is not there.
 ColladaText readableCollada(const std::string& text);
 
 }  // namespace sunlit::scene

@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "scene/assimp_nodes.h"
+#include "scene/back_to_back.h"
 #include "scene/collada_text.h"
 #include "scene/color.h"
 #include "scene/gltf_lights.h"
@@ -252,6 +253,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
     builder.warn("files have lines and points, which have no surface and are left out",
                  std::to_string(collector.lines_and_points) + " in " + file);
   }
+  if (!gltf) partBackToBack(collector.parts, builder);  // which says itself what is one-sided
   return std::move(collector.parts);
 }
 

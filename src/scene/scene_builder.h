@@ -61,6 +61,8 @@ class SceneBuilder {
   int textureFromBytes(const std::string& name, std::vector<std::uint8_t> bytes, const Wraps& wraps = {});
 
   int addMaterial(const Material& material, AlphaRule alpha, NormalsRule normals = NormalsRule::kDeclared);
+  /// The same, but invisible from behind; the same one each time.
+  int oneSided(int material);
   const Material& material(int index) const { return scene_.materials.at(static_cast<std::size_t>(index)); }
 
   /// `mesh` moved by `map_from_mesh`, without its broken triangles (counted for a warning of finish()).
@@ -111,6 +113,7 @@ class SceneBuilder {
   std::map<std::pair<std::string, int>, int> texture_by_key_;  ///< by name and wraps
   std::vector<AlphaRule> alpha_rules_;                         ///< of each material
   std::vector<NormalsRule> normals_rules_;                     ///< of each material
+  std::map<int, int> one_sided_;                               ///< of materials that are not
   std::map<std::string, Kind> kinds_;
 };
 

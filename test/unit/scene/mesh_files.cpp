@@ -361,6 +361,15 @@ TEST_F(MeshFile, ABrokenFileIsAnErrorNamingIt) {
   }
 }
 
+TEST_F(MeshFile, APictureWithoutAFileIsAMissingTexture) {
+  std::string text = collada(kCentimetresZUp, "paint.png");
+  const std::string file = "<init_from>paint.png</init_from>";
+  text.replace(text.find(file), file.size(), "<!--" + file + "-->");
+  const Scene scene = load(write("t.dae", text), {});
+  EXPECT_EQ(scene.triangleCount(), 1u);
+  expectOneWarning(scene, "1 textures are missing, a neutral material takes their place: not given of ");
+}
+
 TEST_F(MeshFile, AnEmptyFileIsSaidToBeEmpty) {
   for (const char* name : {"e.dae", "e.glb", "e.gltf", "e.obj"})
     EXPECT_EQ(errorOf(write(name, "")), pathOf(name) + ": this file is empty");
