@@ -9,9 +9,15 @@ namespace sunlit::scene {
 
 using nlohmann::json;
 
-std::string gltfText(const std::string& file) {
+std::string bytesOf(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream.is_open() || stream.bad()) throw std::runtime_error(file + ": cannot read this file");
+  return bytes;
+}
+
+std::string gltfText(const std::string& file) {
+  const std::string text = bytesOf(file);
   constexpr std::size_t kHeader = 12, kChunkHeader = 8;
   if (text.compare(0, 4, "glTF") != 0 || text.size() < kHeader + kChunkHeader) return text;
   std::size_t length = 0;

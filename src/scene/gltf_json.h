@@ -6,7 +6,9 @@
 
 namespace sunlit::scene {
 
-/// The text of it: all of a .gltf, the first chunk of a .glb.
+/// All of a file. Throws std::runtime_error naming it if it cannot be read.
+std::string bytesOf(const std::string& file);
+/// The text of it: all of a .gltf, the first chunk of a .glb. Throws as bytesOf().
 std::string gltfText(const std::string& file);
 /// Throws std::runtime_error naming `file`.
 nlohmann::json parseGltf(const std::string& text, const std::string& file);

@@ -4,10 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "scene/color.h"
+#include "scene/gltf_input.h"
 #include "scene/gltf_json.h"
+#include "scene/gltf_rest.h"
 
 namespace sunlit::scene {
 namespace {
@@ -268,12 +272,16 @@ class Reader {
 }  // namespace
 
 struct GltfMaterials::Json {
+  std::string text;
   json root;
 };
 
 GltfMaterials::GltfMaterials(const std::string& file, SceneBuilder& builder)
     : file_(file), builder_(builder) {
-  json_ = std::make_unique<const Json>(Json{parseGltf(gltfText(file), file)});
+  std::string text = gltfText(file);
+  json root = parseGltf(text, file);
+  requireGltf2(root, file);
+  json_ = std::make_unique<const Json>(Json{std::move(text), std::move(root)});
 }
 
 GltfMaterials::~GltfMaterials() = default;
@@ -285,22 +293,42 @@ std::optional<GltfLook> GltfMaterials::look(std::size_t index, const Picture& pi
     Reader reader(json_->root, materials.at(index), picture);
     GltfLook look = reader.read();
     for (const std::string& lost : reader.lost())
-      builder_.warn(kNotRendered, look.material.name + " of " + file_ + ": " + lost);
+      builder_.warn(kNotRendered,
+                    (look.material.name.empty() ? "material " + std::to_string(index) : look.material.name) +
+                        " of " + file_ + ": " + lost);
     return look;
   } catch (const json::exception& error) {
     throw std::runtime_error(file_ + ": material " + std::to_string(index) + ": " + error.what());
   }
 }
 
-std::vector<std::string> GltfMaterials::unknownExtensions() const {
+std::unique_ptr<GltfInput> GltfMaterials::input() const {
+  return std::make_unique<GltfInput>(file_, json_->text, json_->root);
+}
+
+void GltfMaterials::nameTheRest() const {
+  for (const std::string& name : unknown("extensionsUsed"))
+    builder_.warn("glTF extensions are not read", name + " of " + file_);
+  for (const std::string& lost : shapesNotRead(json_->root, file_))
+    builder_.warn("nodes have a shape that is not read whole", lost);
+}
+
+std::string GltfMaterials::whatItNeeds() const {
+  std::string text;
+  for (const std::string& name : unknown("extensionsRequired")) text += (text.empty() ? " " : ", ") + name;
+  return text.empty() ? text : "; it needs" + text + ", not read here: export it without";
+}
+
+std::vector<std::string> GltfMaterials::unknown(const char* list) const {
+  // Assimp reads the last two, or says that it was built without.
+  static const std::set<std::string> known = {"KHR_texture_transform", "KHR_lights_punctual",
+                                              "KHR_mesh_quantization", "KHR_draco_mesh_compression"};
   std::vector<std::string> unknown;
-  const json& used = child(json_->root, "extensionsUsed");
+  const json& used = child(json_->root, list);
   for (const json& name : used.is_array() ? used : json::array()) {
     const std::string text = name.is_string() ? name.get<std::string>() : name.dump();
     const bool of_materials = text.compare(0, 14, "KHR_materials_") == 0 && text != "KHR_materials_variants";
-    if (!of_materials && text != "KHR_texture_transform" && text != "KHR_mesh_quantization" &&
-        text != "KHR_lights_punctual")
-      unknown.push_back(text);
+    if (!of_materials && known.count(text) == 0) unknown.push_back(text);
   }
   return unknown;
 }

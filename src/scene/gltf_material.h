@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/gltf_input.h"
 #include "scene/scene_builder.h"
 #include "sunlit/scene/scene.h"
 
@@ -48,11 +49,19 @@ class GltfMaterials {
   /// cannot be shown is a warning.
   std::optional<GltfLook> look(std::size_t index, const Picture& picture) const;
 
-  /// Names of the extensions that are neither read here nor by whoever loads the geometry.
-  std::vector<std::string> unknownExtensions() const;
+  /// What Assimp reads the file through.
+  std::unique_ptr<GltfInput> input() const;
+
+  /// Warns of what the file says beside its materials, and neither this package nor Assimp reads.
+  void nameTheRest() const;
+  /// "; it needs …" with the extensions that are not read, which the file says it cannot do without; or
+  /// nothing.
+  std::string whatItNeeds() const;
 
  private:
   struct Json;
+  std::vector<std::string> unknown(const char* list) const;
+
   std::string file_;
   SceneBuilder& builder_;
   std::unique_ptr<const Json> json_;

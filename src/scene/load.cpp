@@ -27,7 +27,10 @@ Scene loadMeshFile(const std::string& file, const ResourceFinder& finder) {
     builder.addMesh(part.mesh, part.file_from_node);
   }
   Scene scene = builder.finish();
-  if (scene.meshes.empty()) throw std::runtime_error(file + ": there is not a triangle in this file");
+  if (scene.meshes.empty()) {
+    throw std::runtime_error(file + ": there is not a triangle in this file that could be drawn" +
+                             reasonsOf(scene.warnings));
+  }
   return scene;
 }
 
@@ -77,6 +80,8 @@ std::string fileOf(const std::string& world, const SearchPath& search_path) {
   if (!found.file)
     throw std::runtime_error("there is no world " + world + "; it was looked for as " + placesTried(found));
   const std::string file = std::filesystem::is_directory(*found.file) ? worldIn(*found.file) : *found.file;
+  if (std::filesystem::is_fifo(file) || std::filesystem::is_character_file(file))
+    throw std::runtime_error(file + ": this is a pipe or a device, and no file");
   if (isOneOf(extensionOf(file), {".world", ".sdf", ".urdf", ".dae", ".gltf", ".glb", ".obj"})) return file;
   throw std::runtime_error(file +
                            ": cannot tell its format; its name must end in .world, .sdf, .urdf, .dae, .gltf, "

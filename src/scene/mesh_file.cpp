@@ -13,10 +13,14 @@
 #include <optional>
 #include <stdexcept>
 
+#include "scene/assimp_nodes.h"
+#include "scene/back_to_back.h"
+#include "scene/collada_text.h"
 #include "scene/color.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_order.h"
 #include "scene/mesh_material.h"
+#include "scene/mesh_rest.h"
 #include "scene/uri_text.h"
 
 namespace sunlit::scene {
@@ -37,13 +41,6 @@ Eigen::Affine3d zUpFromYUp() {
       0, 0, -1,                  //
       0, 1, 0;
   return rotation;
-}
-
-Eigen::Affine3d toEigen(const aiMatrix4x4& matrix) {
-  Eigen::Affine3d affine = Eigen::Affine3d::Identity();
-  affine.matrix() << matrix.a1, matrix.a2, matrix.a3, matrix.a4, matrix.b1, matrix.b2, matrix.b3, matrix.b4,
-      matrix.c1, matrix.c2, matrix.c3, matrix.c4, 0.0, 0.0, 0.0, 1.0;
-  return affine;
 }
 
 /// Colours are linear in glTF, and display values elsewhere.
@@ -116,6 +113,7 @@ struct Collector {
   const aiScene& scene;
   const std::vector<std::optional<MeshLook>>& looks;  ///< by material
   bool gltf;
+  const Eigen::Affine3d up_from_file;
   std::vector<MeshPart> parts;
   std::size_t lines_and_points = 0;  ///< left out
   std::vector<std::size_t> fading;   ///< parts whose vertex colours have an alpha
@@ -129,6 +127,8 @@ struct Collector {
       if (!look || !hasSurface(source)) continue;
       MeshPart part{node.mName.C_Str(), source.mName.C_Str(), {}, up_from_node};
       part.mesh = toMesh(source, *look, gltf);
+      if (gltf) blendTargets(source, part.mesh);
+      if (gltf && standOnBones(source, scene, part.mesh)) part.file_from_node = up_from_file;
       part.mesh.name = part.node.empty() ? part.geometry : part.node;
       if (hasAlpha(source.mColors[0], source.mNumVertices)) fading.push_back(parts.size());
       parts.push_back(std::move(part));
@@ -148,17 +148,6 @@ std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const Me
     if (used[i]) looks[i] = addMeshMaterial(i, scene, context);
   }
   return looks;
-}
-
-/// Where a node stands in the file, to z up, and what it holds besides. Null: there is no such node.
-const aiNode* findNode(const aiScene& scene, const aiString& name, const Eigen::Affine3d& up_from_file,
-                       Eigen::Affine3d* up_from_node) {
-  const aiNode* const found = scene.mRootNode->FindNode(name);
-  Eigen::Affine3d file_from_node = Eigen::Affine3d::Identity();
-  for (const aiNode* node = found; node != nullptr; node = node->mParent)
-    file_from_node = toEigen(node->mTransformation) * file_from_node;
-  *up_from_node = up_from_file * file_from_node;
-  return found;
 }
 
 /// COLLADA gives colours without a unit and whole cones.
@@ -188,26 +177,23 @@ void addLamps(const aiScene& scene, const Eigen::Affine3d& up_from_file, SceneBu
       builder.warn(kOtherLights, light.mName.C_Str());
       continue;
     }
-    Eigen::Affine3d up_from_node;
-    const aiNode* const node = findNode(scene, light.mName, up_from_file, &up_from_node);
-    if (node != nullptr) builder.addLamp(lampOf(light, up_from_node));  // else it stands nowhere
+    const aiNode* const node = scene.mRootNode->FindNode(light.mName);
+    // Without a node it stands nowhere.
+    if (node != nullptr) builder.addLamp(lampOf(light, up_from_file * fileFromNode(*node)));
   }
 }
 
-/// The text of a COLLADA file that Assimp may take: it wants the numbers of a colour right behind the tag,
-/// and XML does not.
-std::string withoutBlanksBeforeColors(const std::string& file) {
+/// What Assimp makes of a COLLADA file that it refused as it stands; null for nothing.
+const aiScene* readMended(const std::string& file, unsigned steps, Assimp::Importer& importer,
+                          SceneBuilder& builder) {
   std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  std::string mended;
-  std::size_t copied = 0;
-  for (std::size_t tag = text.find("<color"); tag != std::string::npos; tag = text.find("<color", copied)) {
-    const std::size_t end = text.find('>', tag);
-    if (end == std::string::npos) break;
-    mended.append(text, copied, end + 1 - copied);
-    copied = std::min(text.size(), text.find_first_not_of(" \t\r\n", end + 1));
-  }
-  return mended.append(text, copied, std::string::npos);
+  const ColladaText readable =
+      readableCollada({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()});
+  const aiScene* scene =
+      importer.ReadFileFromMemory(readable.text.data(), readable.text.size(), steps, "dae");
+  if (scene != nullptr && readable.holes > 0)
+    builder.warn("meshes have polygons with holes, which are filled", file);
+  return scene;
 }
 
 }  // namespace
@@ -218,28 +204,33 @@ std::string extensionOf(const std::string& file) {
 
 std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, const ResourceFinder& finder,
                                    SceneBuilder& builder) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    throw std::runtime_error(file + ": this is a folder, and no mesh");
+  if (std::filesystem::file_size(file, error) == 0 && !error)
+    throw std::runtime_error(file + ": this file is empty");
   const std::string extension = extensionOf(file);
   const bool collada = extension == ".dae";
   const bool gltf = extension == ".gltf" || extension == ".glb";
   Assimp::Importer importer;
+  std::optional<GltfMaterials> gltf_materials;
+  if (gltf) {
+    gltf_materials.emplace(file, builder);
+    importer.SetIOHandler(gltf_materials->input().release());
+  }
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up_axis == UpAxis::kZ);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCrease_deg);
   // Normals where the file has none: glTF 2.0, section 3.7.2.1, wants them flat.
   const unsigned normals = gltf ? aiProcess_GenNormals : aiProcess_GenSmoothNormals;
   const aiScene* scene = importer.ReadFile(file, kSteps | normals);
-  if (scene == nullptr && collada) {
-    const std::string text = withoutBlanksBeforeColors(file);
-    scene = importer.ReadFileFromMemory(text.data(), text.size(), kSteps | normals, "dae");
-  }
+  if (scene == nullptr && collada) scene = readMended(file, kSteps | normals, importer, builder);
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw std::runtime_error(file + ": cannot read this mesh: " + importer.GetErrorString());
+    throw std::runtime_error(file + ": cannot read this mesh: " + importer.GetErrorString() +
+                             (gltf ? gltf_materials->whatItNeeds() : ""));
   }
 
-  std::optional<GltfMaterials> gltf_materials;
-  if (gltf) gltf_materials.emplace(file, builder);
-  for (const std::string& name : gltf ? gltf_materials->unknownExtensions() : std::vector<std::string>())
-    builder.warn("glTF extensions are not read", name + " of " + file);
+  if (gltf) gltf_materials->nameTheRest();
   std::vector<std::string> names;
   for (unsigned i = 0; i < scene->mNumMaterials; ++i)
     names.emplace_back(scene->mMaterials[i]->GetName().C_Str());
@@ -249,7 +240,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up.
   const bool y_up = gltf || (collada && up_axis == UpAxis::kAsDeclared);
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();
-  Collector collector{*scene, looks, gltf, {}, 0, {}};
+  Collector collector{*scene, looks, gltf, up_from_file, {}, 0, {}};
   collector.collect(*scene->mRootNode, up_from_file);
   for (const std::size_t i : collector.fading) {
     const Mesh& mesh = collector.parts[i].mesh;
@@ -259,9 +250,10 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   if (up_axis == UpAxis::kAsDeclared && gltf) addGltfLights(file, up_from_file, builder);
   if (up_axis == UpAxis::kAsDeclared && !gltf) addLamps(*scene, up_from_file, builder);
   if (collector.lines_and_points > 0) {
-    builder.warn(file + ": " + std::to_string(collector.lines_and_points) +
-                 " lines and points have no surface and are left out");
+    builder.warn("files have lines and points, which have no surface and are left out",
+                 std::to_string(collector.lines_and_points) + " in " + file);
   }
+  if (!gltf) partBackToBack(collector.parts, builder);  // which says itself what is one-sided
   return std::move(collector.parts);
 }
 

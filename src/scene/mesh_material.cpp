@@ -17,8 +17,9 @@ int addTexture(const std::string& name, const aiScene& scene, const MeshFileCont
                const Wraps& wraps) {
   if (const aiTexture* embedded = scene.GetEmbeddedTexture(name.c_str())) {
     if (embedded->mHeight != 0) {
-      context.builder.warn(context.file + ": texture " + name +
-                           " is embedded as raw texels, which is not supported");
+      context.builder.warn(
+          "textures are embedded as raw texels, which are not read, a neutral material takes their place",
+          name + " of " + context.file);
       return Material::kNoTexture;
     }
     const auto* begin = reinterpret_cast<const std::uint8_t*>(embedded->pcData);
@@ -108,8 +109,8 @@ std::optional<int> addPhong(const aiMaterial& source, const aiScene& scene, cons
   Material material;
   material.name = source.GetName().C_Str();
   if (isSeenThrough(source)) {
-    context.builder.warn(context.file + ": what has material " + material.name +
-                         " was left out: it is more than half transparent");
+    context.builder.warn("materials are more than half transparent, what has them was left out",
+                         material.name + " of " + context.file);
     return std::nullopt;
   }
   readPhong(source, material);
@@ -161,8 +162,10 @@ std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
       context.gltf->look(context.gltf_order.at(index), [&](GltfMaterials::Slot slot, const Wraps& wraps) {
         aiString name;
         if (source.GetTexture(typeOf(slot), 0, &name) != aiReturn_SUCCESS || name.length == 0) {
-          context.builder.warn(kMissingTextures,
-                               std::string(source.GetName().C_Str()) + " of " + context.file);
+          const std::string material = source.GetName().C_Str();
+          context.builder.warn(
+              kMissingTextures,
+              "one of " + (material.empty() ? "a material" : "material " + material) + " of " + context.file);
           return TextureUse::kNone;
         }
         return addTexture(name.C_Str(), scene, context, wraps);

@@ -71,6 +71,22 @@ std::vector<std::string> folderAndParents(const std::string& file) {
   return folders;
 }
 
+/// With / where Windows has \, and without escapes.
+std::string plainAddress(const std::string& uri) {
+  if (fuelAddress(uri)) return uri;  // which has its own rules
+  std::string plain = withoutEscapes(uri);
+  std::replace(plain.begin(), plain.end(), '\\', '/');
+  return plain;
+}
+
+/// Of the two models of Fuel that most worlds of gz-sim begin with: by which name they are kept without it.
+std::string stockModel(const FuelAddress& address) {
+  if (lowerCase(address.owner) != "openrobotics" || address.kind != "models" || !address.within.empty())
+    return "";
+  const std::string name = lowerCase(withoutEscapes(address.name));
+  return name == "ground plane" ? "ground_plane" : name == "sun" ? "sun" : "";
+}
+
 /// "a, b and c".
 std::string listed(const std::vector<std::string>& places) {
   std::ostringstream text;
@@ -92,11 +108,23 @@ ResourceFinder::ResourceFinder(const SearchPath& search_path, const std::string&
 }
 
 Found ResourceFinder::find(const std::string& uri, const std::string& from_file) const {
+  Found found = findAsWritten(uri, from_file);
+  const std::string plain = plainAddress(uri);
+  if (found.file || plain == uri) return found;
+  const Found meant = findAsWritten(plain, from_file);
+  return meant.file ? meant : found;
+}
+
+Found ResourceFinder::findAsWritten(const std::string& uri, const std::string& from_file) const {
   if (const std::optional<FuelAddress> fuel = fuelAddress(uri)) {
     const std::vector<std::string> places = fuelPlaces(*fuel, fuel_caches_);
-    return firstOf({places.begin(), places.end()});
+    Found found = firstOf({places.begin(), places.end()});
+    if (found.file || stockModel(*fuel).empty()) return found;
+    const Found own = findAsWritten("model://" + stockModel(*fuel), from_file);
+    return own.file ? own : found;
   }
   const fs::path path = withoutScheme(uri);
+  if (path.empty()) return {};
   if (path.is_absolute()) return firstOf({path});
   std::vector<std::string> roots = folderAndParents(from_file);
   roots.insert(roots.end(), roots_.begin(), roots_.end());
@@ -109,7 +137,16 @@ Found ResourceFinder::find(const std::string& uri, const std::string& from_file)
     candidates.push_back(fs::path(root) / path);
     candidates.push_back(fs::path(root) / "models" / path);
   }
-  return firstOf(candidates);
+  const Found found = firstOf(candidates);
+  if (found.file) return found;
+  // Where Gazebo classic looks besides, and hardly anyone keeps anything: not worth telling.
+  std::vector<fs::path> media;
+  for (const std::string& root : roots) {
+    for (const char* folder : {"media/models", "Media/models"})
+      media.push_back(fs::path(root) / folder / path);
+  }
+  const Found besides = firstOf(media);
+  return besides.file ? besides : found;
 }
 
 Found ResourceFinder::findTexture(const std::string& name, const std::string& mesh_file) const {

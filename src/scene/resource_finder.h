@@ -26,7 +26,9 @@ class ResourceFinder {
   /// What `uri` means where it is written in `from_file`: model://name/…, file://…, package://name/… or a
   /// plain path. A relative one is looked for in from_file's folder and its parents, beside the scene file
   /// and its parents, and in the search path, each with and without a "models" folder. An address of Fuel,
-  /// http(s)://SERVER/…/models/NAME/…, is looked for in Fuel's caches alone.
+  /// http(s)://SERVER/…/models/NAME/…, is looked for in Fuel's caches alone, but for "Ground Plane" and "Sun"
+  /// of OpenRobotics, which are model://ground_plane and model://sun besides. Where nothing is found, \ is
+  /// taken for / and escapes (%20) for what they stand for.
   Found find(const std::string& uri, const std::string& from_file) const;
 
   /// The picture that the mesh in `mesh_file` calls `name`: at that address, if it is one of a model, package
@@ -42,6 +44,8 @@ class ResourceFinder {
   Missing missing() const { return missing_; }
 
  private:
+  Found findAsWritten(const std::string& uri, const std::string& from_file) const;
+
   std::vector<std::string> roots_;
   std::function<std::string(const std::string& package)> package_folder_;
   std::vector<std::string> fuel_caches_;

@@ -129,6 +129,16 @@ int SceneBuilder::addMaterial(const Material& material, AlphaRule alpha, Normals
   return static_cast<int>(scene_.materials.size()) - 1;
 }
 
+int SceneBuilder::oneSided(int material) {
+  const auto index = static_cast<std::size_t>(material);
+  if (!scene_.materials.at(index).double_sided) return material;
+  const auto known = one_sided_.find(material);
+  if (known != one_sided_.end()) return known->second;
+  Material front = scene_.materials[index];
+  front.double_sided = false;
+  return one_sided_[material] = addMaterial(front, alpha_rules_[index], normals_rules_[index]);
+}
+
 void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mesh) {
   Mesh moved = mesh;
   const Eigen::Matrix3d linear = map_from_mesh.linear();
@@ -185,6 +195,12 @@ void SceneBuilder::repairCoordinates(std::vector<Eigen::Vector2f>& coordinates) 
       count("texture coordinates outside -1e6 … 1e6 were set to 0");
     }
   }
+}
+
+std::string reasonsOf(const std::vector<std::string>& warnings) {
+  std::string text;
+  for (const std::string& warning : warnings) text += "; " + warning;
+  return text;
 }
 
 bool canShine(const Lamp& lamp) {

@@ -43,6 +43,9 @@ constexpr const char* kSpeltOtherwise = "files are spelt otherwise on disk";
 /// Whether what a file says of a lamp makes one; else it is among kDarkLights.
 bool canShine(const Lamp& lamp);
 
+/// "; " before each of the warnings of a scene in which there is nothing: why that is so.
+std::string reasonsOf(const std::vector<std::string>& warnings);
+
 /// How a texture goes on to the sides, and up and down.
 struct Wraps {
   Wrap u = Wrap::kRepeat, v = Wrap::kRepeat;
@@ -58,6 +61,8 @@ class SceneBuilder {
   int textureFromBytes(const std::string& name, std::vector<std::uint8_t> bytes, const Wraps& wraps = {});
 
   int addMaterial(const Material& material, AlphaRule alpha, NormalsRule normals = NormalsRule::kDeclared);
+  /// The same, but invisible from behind; the same one each time.
+  int oneSided(int material);
   const Material& material(int index) const { return scene_.materials.at(static_cast<std::size_t>(index)); }
 
   /// `mesh` moved by `map_from_mesh`, without its broken triangles (counted for a warning of finish()).
@@ -108,6 +113,7 @@ class SceneBuilder {
   std::map<std::pair<std::string, int>, int> texture_by_key_;  ///< by name and wraps
   std::vector<AlphaRule> alpha_rules_;                         ///< of each material
   std::vector<NormalsRule> normals_rules_;                     ///< of each material
+  std::map<int, int> one_sided_;                               ///< of materials that are not
   std::map<std::string, Kind> kinds_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <set>
+#include <sstream>
 #include <vector>
 
 #include "scene/sdf_xml.h"
@@ -66,6 +67,14 @@ std::string described(const XMLElement& element, const std::string& file) {
          placeOf(file, element);
 }
 
+/// How many numbers there are in `text`; 0 where there is anything else.
+std::size_t numbersIn(const std::string& text) {
+  std::istringstream words(text);
+  std::size_t numbers = 0;
+  for (double number; words >> number;) ++numbers;
+  return words.eof() ? numbers : 0;
+}
+
 class Mender {
  public:
   Mender(const std::string& file, int version, SceneBuilder& builder)
@@ -115,6 +124,7 @@ class Mender {
     const std::string kind = parent.Value();
     if (kind == "sdf") nameWorlds(parent);
     if (kind == "model") mendModel(parent);
+    if (kind == "pose") mendPose(parent);
     if (kind == "visual") mendVisual(parent);
     if (kind == "material") mendMaterial(parent);
     if (kind == "heightmap") mendHeightmap(parent);
@@ -158,6 +168,21 @@ class Mender {
     }
   }
 
+  /// Gazebo takes less than six numbers; and on a frame without a name libsdformat's converter gives up.
+  void mendPose(XMLElement& pose) {
+    for (const char* frame : {"frame", "relative_to"}) {
+      if (attributeOf(pose, frame).empty()) pose.DeleteAttribute(frame);
+    }
+    const std::string text = pose.GetText() == nullptr ? "" : pose.GetText();
+    const std::string format = attributeOf(pose, "rotation_format");
+    const std::size_t given = numbersIn(text);
+    if (given == 0 || given >= 6 || !(format.empty() || format == "euler_rpy")) return;
+    std::string whole = text;
+    for (std::size_t i = given; i < 6; ++i) whole += " 0";
+    pose.SetText(whole.c_str());
+    builder_.warn("poses have less than six numbers, the others are 0", text + " at " + placeOf(file_, pose));
+  }
+
   static void mendVisual(XMLElement& visual) {
     XMLElement& geometry = childIn(visual, "geometry");
     if (geometry.FirstChildElement() == nullptr) geometry.InsertNewChildElement("empty");
@@ -175,7 +200,7 @@ class Mender {
     for (XMLElement* script : childrenOf(material, "script")) {
       if (childText(*script, "name").empty()) {
         material.DeleteChild(script);
-      } else if (childText(*script, "uri").empty()) {
+      } else if (const std::string uri = childText(*script, "uri"); uri.empty() || uri == "__default__") {
         childIn(*script, "uri").SetText("file://media/materials/scripts/gazebo.material");
       }
     }

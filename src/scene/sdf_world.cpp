@@ -28,7 +28,8 @@ Scene loadSdf(const std::string& file, const ResourceFinder& finder) {
   const std::size_t unknown = visuals.state().unknownModels();
   if (unknown > 0) builder.count("models of the <state> are not in the world", unknown);
   Scene scene = builder.finish();
-  if (scene.meshes.empty()) throw std::runtime_error(file + ": there is nothing to see in this file");
+  if (scene.meshes.empty())
+    throw std::runtime_error(file + ": there is nothing to see in this file" + reasonsOf(scene.warnings));
   return scene;
 }
 

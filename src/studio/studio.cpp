@@ -34,7 +34,7 @@ const StudioOptions& checked(const StudioOptions& options) {
 Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& robot, const Reports& reports)
     : options_(checked(options)),
       world_(stopwatch_.measure("load", "world", [&] { return loadWorld(options.world, robot, reports); })) {
-  requireGroups(world_, options.lamps);
+  requireGroups(world_, options.lamps, reports);
   world_.transport =
       stopwatch_.measure("load", "transport", [&] { return bake(world_, options.bake, reports); });
   renderer_ = stopwatch_.measure("load", "renderer",

@@ -27,14 +27,6 @@ scene::Scene loadScene(const WorldOptions& options, const Reports& reports) {
   tell(reports.note, "World " + options.name + ": " + std::to_string(scene.triangleCount()) + " triangles, " +
                          std::to_string(scene.textures.size()) + " textures, " +
                          std::to_string(scene.lamps.size()) + " lamps");
-  std::set<std::pair<std::string, bool>> groups;
-  for (const scene::Lamp& lamp : scene.lamps) groups.emplace(lamp.group, lamp.relative);
-  if (groups.size() > light::kMostLampSets) {
-    tell(reports.warning,
-         options.name + ": " + std::to_string(groups.size()) +
-             " groups of lamps: lamps_off switches what surfaces pass on of the light of all but the first " +
-             std::to_string(light::kMostLampSets - 1) + " as one, by the share that burns");
-  }
   return scene;
 }
 
@@ -50,7 +42,7 @@ light::World loadWorld(const WorldOptions& options, const std::optional<scene::R
   return world;
 }
 
-void requireGroups(const light::World& world, const light::LampOptions& lamps) {
+void requireGroups(const light::World& world, const light::LampOptions& lamps, const Reports& reports) {
   std::set<std::string> groups;
   const auto note = [&](const std::vector<scene::Lamp>& those) {
     for (const scene::Lamp& lamp : those) groups.insert(lamp.group);
@@ -62,6 +54,15 @@ void requireGroups(const light::World& world, const light::LampOptions& lamps) {
   for (const std::string& group : lamps.off) {
     if (groups.count(group) == 0)
       refuse("lamps_off", group, groups.empty() ? "left out: there are no lamps" : "one of " + known);
+  }
+  std::set<std::pair<std::string, bool>> sets;
+  for (const scene::Lamp& lamp : world.geometry->scene->lamps) sets.emplace(lamp.group, lamp.relative);
+  if (!lamps.off.empty() && sets.size() > light::kMostLampSets) {
+    tell(reports.warning,
+         "there are " + std::to_string(sets.size()) +
+             " groups of lamps: lamps_off switches what surfaces pass on of the light of all "
+             "but the first " +
+             std::to_string(light::kMostLampSets - 1) + " as one, by the share that burns");
   }
 }
 

@@ -117,7 +117,7 @@ void run(const CompareLightOptions& options) {
   makeFolder(options.output);
   const auto load_start = Clock::now();
   light::World world = studio::loadWorld(options.world, std::nullopt, onTerminal());
-  studio::requireGroups(world, options.lamps);
+  studio::requireGroups(world, options.lamps, onTerminal());
   world.transport = studio::bake(world, options.bake, onTerminal());
   std::printf("world loaded and its light baked or read in %.1f s\n", secondsSince(load_start));
   const std::vector<Eigen::Isometry3d> views = viewsOf(options);

@@ -1,8 +1,13 @@
 // One picture of a world under a given sun.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include "sunlit/image/files.h"
+#include "sunlit/quantity/range.h"
 #include "sunlit/studio/command_line.h"
 #include "sunlit/studio/sky.h"
 #include "sunlit/studio/studio.h"
@@ -18,6 +23,20 @@ sky::Daylight daylightOf(const SnapshotOptions& options, const light::World& wor
   return sky.daylight({{Direction(Azimuth(options.sun.azimuth), options.sun.elevation), 1.0}});
 }
 
+/// Where a camera would find the world: "which reaches from …".
+std::string placeOf(const scene::Scene& scene) {
+  Eigen::AlignedBox3f box;
+  for (const scene::Mesh& mesh : scene.meshes) {
+    for (const Eigen::Vector3f& position : mesh.positions) box.extend(position);
+  }
+  const auto corner = [](const Eigen::Vector3f& point) {
+    return sunlit::textOf(point.x(), 4) + "," + sunlit::textOf(point.y(), 4) + "," +
+           sunlit::textOf(point.z(), 4);
+  };
+  return "which reaches from " + corner(box.min()) + " to " + corner(box.max()) +
+         " m; surfaces with one side do not show the other";
+}
+
 void takeSnapshot(const SnapshotOptions& options) {
   const ViewOptions& view = options.view;
   studio::Studio studio(view.studio, std::nullopt, onTerminal());
@@ -25,7 +44,11 @@ void takeSnapshot(const SnapshotOptions& options) {
   studio.look(view.map_from_camera);
   const studio::Developed developed = studio.photograph(studio.illumination(day), {});
   image::writePng(options.output, developed.picture);
-  if (!options.depth_output.empty()) image::writePfm(options.depth_output, studio.depth());
+  const image::DepthImage depth = studio.depth();
+  if (!options.depth_output.empty()) image::writePfm(options.depth_output, depth);
+  if (std::none_of(depth.data.begin(), depth.data.end(), [](float metres) { return std::isfinite(metres); }))
+    std::fprintf(stderr, "warning: nothing of the world is in view, %s\n",
+                 placeOf(*studio.world().geometry->scene).c_str());
   std::printf("%s: %zu triangles, EV100 %.2f, %.3g lx on level ground\n", options.output.c_str(),
               studio.world().geometry->scene->triangleCount(), developed.ev100,
               static_cast<double>(day.groundIlluminance().luminance()));

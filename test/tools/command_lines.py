@@ -228,6 +228,13 @@ class CommandLines(unittest.TestCase):
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertEqual(len({picture.read_bytes() for picture in pictures}), 1)
 
+    def test_a_picture_of_nothing_says_where_the_world_is(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = run("snapshot", "--world", WORLD, "--bounced", "off", "--size", "32x24", "--pose", "5000,0,1",
+                       "--sun", "285,40", "--out", str(pathlib.Path(folder, "nothing.png")))
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("warning: nothing of the world is in view, which reaches from ", done.stderr)
+
     def test_tools_take_the_options_of_the_readme(self):
         examples = re.findall("^rosrun sunlit ((?:%s) .*)$" % "|".join(OPTIONS), (ROOT / "README.md").read_text(),
                               re.MULTILINE)

@@ -79,8 +79,8 @@ light::World loadWorld(const WorldOptions& options, const std::optional<scene::R
                        const Reports& reports);
 
 /// Throws std::invalid_argument, naming the groups that there are, for one that is to stay dark and that no
-/// lamp of `world` belongs to.
-void requireGroups(const light::World& world, const light::LampOptions& lamps);
+/// lamp of `world` belongs to. Warns where there are more groups than the bake tells apart.
+void requireGroups(const light::World& world, const light::LampOptions& lamps, const Reports& reports);
 
 /// Bakes how light spreads in `world`, or reads it from the cache; null where the options want none. Throws
 /// as light::Transport::bake().

@@ -7,7 +7,8 @@ namespace sunlit::scene {
 
 void LinkMeshes::finish(Robot* robot) {
   Scene scene = builder_.finish();
-  if (scene.meshes.empty()) throw std::runtime_error(origin_ + ": there is nothing to see of this robot");
+  if (scene.meshes.empty())
+    throw std::runtime_error(origin_ + ": there is nothing to see of this robot" + reasonsOf(scene.warnings));
   for (std::size_t i = 0; i < begins_.size(); ++i) {
     const Begin begin = begins_[i];
     const Begin end =

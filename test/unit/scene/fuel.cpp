@@ -49,6 +49,26 @@ TEST_F(Fuel, WhatIsNotInTheCacheIsNamedWithThatNothingIsFetched) {
   EXPECT_NE(errorOf(world).find("Fuel's cache, which has no folder; nothing is fetched"), std::string::npos);
 }
 
+TEST_F(Fuel, TheGroundAndTheSunThatMostWorldsBeginWithNeedNoCache) {
+  const auto model = [](const std::string& content) {
+    return "<sdf version='1.6'><model name='m'><link name='l'>" + content + "</link></model></sdf>";
+  };
+  write("own/ground_plane/model.config", "<model><sdf version='1.6'>model.sdf</sdf></model>");
+  write("own/ground_plane/model.sdf",
+        model("<visual name='v'><geometry><box><size>8 1 1</size></box></geometry></visual>"));
+  write("own/sun/model.config", "<model><sdf version='1.6'>model.sdf</sdf></model>");
+  write("own/sun/model.sdf", model(""));
+  SearchPath path = cached();
+  path.folders = {pathOf("own")};
+  const std::string begin = "<include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/";
+  const std::string world = worldOf(begin + "Sun</uri></include>" + begin + "Ground%20Plane</uri></include>");
+  EXPECT_EQ(boundsOf(load(world, path)).max().x(), 4.0f);
+  // One that was downloaded comes first.
+  keep("fuel.gazebosim.org/openrobotics/models/ground plane/1", 7);
+  EXPECT_EQ(boundsOf(load(world, path)).max().x(), 7.0f);
+  EXPECT_NE(errorOf(including("https://fuel.gazebosim.org/1.0/someone/models/Sun"), path), "");
+}
+
 TEST_F(Fuel, NoAddressLeavesTheCache) {
   keep("fuel.gazebosim.org/openrobotics/models/van/7", 7);
   keep("elsewhere", 8);

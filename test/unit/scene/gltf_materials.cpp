@@ -98,7 +98,9 @@ TEST_F(GltfMaterial, OfSpecularAndGlossinessIsADielectricAndNamed) {
       "{\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{\"diffuseFactor\":[0.5,0.25,0.125,1],"
       "\"specularFactor\":[0.25,0.5,0.75],\"glossinessFactor\":0.75}}}");
   ASSERT_EQ(scene.warnings.size(), 1u);
-  EXPECT_NE(scene.warnings[0].find("specular and glossiness"), std::string::npos) << scene.warnings[0];
+  EXPECT_NE(scene.warnings[0].find("material 0 of " + pathOf("t.gltf") + ": specular and glossiness"),
+            std::string::npos)
+      << scene.warnings[0];
   const Material& material = scene.materials[0];
   EXPECT_TRUE((material.base_color.value == Eigen::Array3f(0.5f, 0.25f, 0.125f)).all());
   EXPECT_TRUE((material.dielectric.value == Eigen::Array3f(0.25f, 0.5f, 0.75f)).all());

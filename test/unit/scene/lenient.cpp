@@ -162,6 +162,7 @@ TEST_F(Lenient, AScriptWithoutAFileIsGazebosOwn) {
   EXPECT_EQ(red.materials.at(static_cast<std::size_t>(red.meshes.at(0).material)).base_color.value[0], 1.0f);
   EXPECT_EQ(red.materials.at(static_cast<std::size_t>(red.meshes.at(0).material)).base_color.value[1], 0.0f);
   EXPECT_TRUE(red.warnings.empty());
+  EXPECT_EQ(loaded(painted("<uri>__default__</uri><name>Gazebo/Red</name>")).triangleCount(), 12u);
   EXPECT_EQ(loaded(painted("<uri>file://x.material</uri>")).triangleCount(), 12u);
 }
 
@@ -175,6 +176,33 @@ TEST_F(Lenient, APoseMayStillNameAJoint) {
                    kVisual + "</link>"));
   EXPECT_FLOAT_EQ(boundsOf(scene).max().z(), 14.0f);
   EXPECT_FLOAT_EQ(boundsOf(scene).max().x(), 1.5f);
+}
+
+TEST_F(Lenient, APoseOfLessThanSixNumbersEndsInZeros) {
+  const Scene scene =
+      loaded(model("<pose>10 0 3</pose>" + link("<pose>1 0 0 0 0</pose>" + kVisual)) +
+             model("<pose rotation_format='quat_xyzw'>1 2 3 0 0 0 1</pose>" + link(kVisual), "whole"));
+  EXPECT_LT((boundsOf(scene).max() - Eigen::Vector3f(12, 4, 6)).norm(), 1e-6f);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0].find("2 poses have less than six numbers, the others are 0: 10 0 3 at "), 0u)
+      << scene.warnings[0];
+  EXPECT_NE(errorOf(worldFile(model("<pose>1 2 3 x</pose>" + link(kVisual)))), "");
+}
+
+// As Gazebo 9 saves models within models; libsdformat's converter asserts that the frame is one of the
+// model's.
+TEST_F(Lenient, APoseMayNameNoFrame) {
+  const Scene scene =
+      loaded(model(link(kVisual) + link("<pose frame=''>5 0 0 0 0 0</pose>" + kVisual, "a::l")), "1.6");
+  EXPECT_EQ(boundsOf(scene).max().x(), 6.0f);
+}
+
+TEST_F(Lenient, AWorldWithNothingToSeeSaysWhy) {
+  SearchPath lenient;
+  lenient.missing = Missing::kWarn;
+  const std::string error = errorOf(worldFile(include("nowhere")), lenient);
+  EXPECT_EQ(error.find(pathOf("test.world") + ": there is nothing to see in this file; "), 0u) << error;
+  EXPECT_NE(error.find("models are missing and were left out: model://nowhere"), std::string::npos) << error;
 }
 
 TEST_F(Lenient, AnErrorStillNamesTheLineOfTheFile) {

@@ -171,6 +171,16 @@ TEST_F(UrdfFile, AMissingMeshIsNamedWithItsLinkAndThePlaces) {
   EXPECT_NE(error.find(pathOf("robot/none.stl")), std::string::npos) << error;
 }
 
+TEST_F(UrdfFile, WithNothingToSeeSaysWhy) {
+  const std::string file =
+      write("r.urdf", robotText(link("base", visual("<mesh filename='package://unknown/none.stl'/>"))));
+  SearchPath lenient;
+  lenient.missing = Missing::kWarn;
+  const std::string error = messageOf<std::runtime_error>([&] { loadRobot(file, lenient); });
+  EXPECT_EQ(error.find(file + ": there is nothing to see of this robot; "), 0u) << error;
+  EXPECT_NE(error.find("package://unknown/none.stl"), std::string::npos) << error;
+}
+
 TEST(Urdf, WhatIsWrongIsNamedWithItsPlace) {
   EXPECT_EQ(errorOfText("<?xml version='1.0'?>\n<robot name='r'>\n<link name='a'>\n</robot>"),
             "some.urdf:4: the XML is broken here (Error reading end tag.)");

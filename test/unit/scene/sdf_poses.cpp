@@ -181,6 +181,38 @@ TEST_F(Sdf, AMissingIncludeNamesTheFileAndThePlacesOnce) {
   EXPECT_LT(error.size(), 500u);
 }
 
+TEST_F(Sdf, MeshesAreFoundInMediaOfAResourcePath) {
+  write("package/Media/models/land.obj", "v 0 0 0\nv 3 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string file =
+      write("package/worlds/test.world",
+            world("<model name='m'><link name='l'><visual name='v'><geometry><mesh><uri>file://land.obj</uri>"
+                  "</mesh></geometry></visual></link></model>"));
+  EXPECT_EQ(boundsOf(load(file, {})).max().x(), 3.0f);
+}
+
+TEST_F(Sdf, MeshesAreFoundByBackslashesAndEscapes) {
+  write("models/häuser/my house.obj", "v 0 0 0\nv 3 0 0\nv 0 1 0\nf 1 2 3\n");
+  for (const char* uri : {"model://häuser/my house.obj", "model://h%C3%A4user/my%20house.obj",
+                          "model://häuser\\my house.obj", "häuser\\my%20house.obj"}) {
+    const std::string file =
+        write("test.world", world("<model name='m'><link name='l'><visual name='v'><geometry><mesh><uri>" +
+                                  std::string(uri) + "</uri></mesh></geometry></visual></link></model>"));
+    EXPECT_EQ(errorOf(file), "") << uri;
+  }
+}
+
+TEST_F(Sdf, AnAddressOfAFolderOrOfNothingIsAnErrorThatSaysSo) {
+  write("models/house/a.txt", "");
+  const auto error_of = [&](const std::string& uri) {
+    return errorOf(
+        write("test.world", world("<model name='m'><link name='l'><visual name='v'><geometry><mesh><uri>" +
+                                  uri + "</uri></mesh></geometry></visual></link></model>")));
+  };
+  EXPECT_EQ(error_of("model://house"), pathOf("models/house") + ": this is a folder, and no mesh");
+  EXPECT_NE(error_of("model://").find("visual m::l::v: there is no mesh model://"), std::string::npos)
+      << error_of("model://");
+}
+
 TEST_F(Sdf, AMissingMeshNamesTheVisualAndThePlaces) {
   const std::string file = write(
       "test.world", world("<model name='m'><link name='l'><visual name='v'><geometry><mesh>"

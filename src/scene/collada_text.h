@@ -1,0 +1,18 @@
+/// COLLADA that Assimp 5.2 refuses, though XML or COLLADA allows it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace sunlit::scene {
+
+struct ColladaText {
+  std::string text;
+  std::size_t holes = 0;  ///< of polygons, which are filled: Assimp knows none
+};
+
+/// `text` without comments, without blanks between the tag of a colour and its numbers, and without holes;
+/// and pictures without a file have one that is not there.
+ColladaText readableCollada(const std::string& text);
+
+}  // namespace sunlit::scene

@@ -1,0 +1,121 @@
+#include "scene/gltf_input.h"
+
+#include <assimp/MemoryIOWrapper.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+#include "scene/gltf_json.h"
+#include "scene/uri_text.h"
+
+namespace sunlit::scene {
+namespace {
+
+using nlohmann::json;
+
+/// The address of a file that is nowhere but here.
+constexpr const char* kUnitMatrices = "sunlit_unit_matrices.bin";
+
+bool hasEnding(const std::string& text, const std::string& ending) {
+  return text.size() >= ending.size() &&
+         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+/// The number of joints of the largest skin without matrices.
+std::size_t jointsWithoutMatrices(const json& root) {
+  std::size_t most = 0;
+  for (const json& skin : child(root, "skins")) {
+    if (!skin.contains("inverseBindMatrices")) most = std::max(most, child(skin, "joints").size());
+  }
+  return most;
+}
+
+template <typename Value>
+std::size_t append(json& root, const char* list, Value value) {
+  root[list].push_back(std::move(value));
+  return root[list].size() - 1;
+}
+
+/// Gives skins without matrices some of `most` unit matrices.
+void giveMatrices(json& root, std::size_t most) {
+  constexpr std::size_t kMatrix_bytes = 64;
+  const std::size_t bytes = most * kMatrix_bytes;
+  const std::size_t buffer = append(root, "buffers", json{{"uri", kUnitMatrices}, {"byteLength", bytes}});
+  const std::size_t view = append(root, "bufferViews", json{{"buffer", buffer}, {"byteLength", bytes}});
+  for (json& skin : root["skins"]) {
+    if (skin.contains("inverseBindMatrices")) continue;
+    skin["inverseBindMatrices"] = append(root, "accessors",
+                                         json{{"bufferView", view},
+                                              {"componentType", 5126},
+                                              {"count", child(skin, "joints").size()},
+                                              {"type", "MAT4"}});
+  }
+}
+
+void appendWord(std::string& bytes, std::size_t value) {
+  for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>((value >> shift) & 0xFF);
+}
+
+/// `file` with another JSON: all of a .gltf, the first chunk of a .glb.
+std::string withJson(const std::string& file, std::string text, std::size_t old_length) {
+  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+  const std::string old = bytesOf(file);
+  if (old.compare(0, 4, "glTF") != 0) return text;
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const std::string rest = old.substr(std::min(old.size(), kHeader + kChunkHeader + old_length));
+  std::string bytes = old.substr(0, 8);
+  appendWord(bytes, kHeader + kChunkHeader + text.size() + rest.size());
+  appendWord(bytes, text.size());
+  return bytes + "JSON" + text + rest;
+}
+
+/// As Assimp's destructor expects it.
+Assimp::IOStream* streamOf(const std::string& bytes) {
+  auto* const copy = new std::uint8_t[bytes.size()];
+  std::copy(bytes.begin(), bytes.end(), copy);
+  return new Assimp::MemoryIOStream(copy, bytes.size(), true);
+}
+
+std::string unitMatrices(std::size_t count) {
+  std::vector<float> numbers;
+  for (std::size_t i = 0; i < 16 * count; ++i) numbers.push_back(i % 16 % 5 == 0 ? 1.0f : 0.0f);
+  return {reinterpret_cast<const char*>(numbers.data()), sizeof(float) * numbers.size()};
+}
+
+}  // namespace
+
+void requireGltf2(const json& root, const std::string& file) {
+  const json& version = child(child(root, "asset"), "version");
+  if (!version.is_string()) return;  // Assimp says what it misses
+  const std::string text = version.get<std::string>();
+  if (text.compare(0, 2, "2.") != 0 && text != "2")
+    throw std::runtime_error(file + ": this is glTF " + (text.empty() ? "without a version" : text) +
+                             ", and only 2.0 is read: convert it, by Blender or gltf-pipeline");
+}
+
+GltfInput::GltfInput(const std::string& file, const std::string& text, json root) : file_(file) {
+  joints_ = jointsWithoutMatrices(root);
+  if (joints_ == 0) return;
+  giveMatrices(root, joints_);
+  mended_ = withJson(file, root.dump(), text.size());
+}
+
+bool GltfInput::Exists(const char* path) const {
+  return hasEnding(path, kUnitMatrices) || DefaultIOSystem::Exists(placeOf(path).c_str());
+}
+
+Assimp::IOStream* GltfInput::Open(const char* path, const char* mode) {
+  if (!mended_.empty() && path == file_) return streamOf(mended_);
+  if (hasEnding(path, kUnitMatrices)) return streamOf(unitMatrices(joints_));
+  return DefaultIOSystem::Open(placeOf(path).c_str(), mode);
+}
+
+std::string GltfInput::placeOf(const std::string& path) const {
+  std::error_code error;
+  const std::string plain = withoutEscapes(path);
+  return std::filesystem::exists(path, error) || !std::filesystem::exists(plain, error) ? path : plain;
+}
+
+}  // namespace sunlit::scene

@@ -1,0 +1,33 @@
+/// What Assimp is given of a glTF file.
+#pragma once
+
+#include <assimp/DefaultIOSystem.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace sunlit::scene {
+
+/// Throws std::runtime_error that says what to do about a file of another version than 2.
+void requireGltf2(const nlohmann::json& root, const std::string& file);
+
+/// Opens the files of a glTF file such that Assimp 5.2 may read them: those whose addresses are written with
+/// escapes (RFC 3986), and skins without matrices of their own, which it does not expect, with those that
+/// section 3.7.3.1 gives them.
+class GltfInput : public Assimp::DefaultIOSystem {
+ public:
+  /// `text` and `root` are those of `file`.
+  GltfInput(const std::string& file, const std::string& text, nlohmann::json root);
+
+  bool Exists(const char* path) const override;
+  Assimp::IOStream* Open(const char* path, const char* mode = "rb") override;
+
+ private:
+  std::string placeOf(const std::string& path) const;
+
+  std::string file_;
+  std::string mended_;      ///< instead of the file's bytes; empty: nothing to mend
+  std::size_t joints_ = 0;  ///< that the largest skin without matrices has
+};
+
+}  // namespace sunlit::scene

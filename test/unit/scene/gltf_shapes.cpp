@@ -1,0 +1,161 @@
+// Which shapes glTF files have at rest, how their own files are found, and what is said of those that cannot
+// be read.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "unit/scene/measure.h"
+#include "unit/scene/scene_files.h"
+
+namespace sunlit::scene {
+namespace {
+
+std::string bytesOfFloats(const std::vector<float>& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), sizeof(float) * numbers.size()};
+}
+
+/// A triangle; a target that moves it by 2 m along the file's y; joints and weights, all of the first joint;
+/// a matrix that moves by −1 m along x.
+const std::string kNumbers = bytesOfFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}) +
+                             bytesOfFloats({0, 2, 0, 0, 2, 0, 0, 2, 0}) + std::string(24, '\0') +
+                             bytesOfFloats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}) +
+                             bytesOfFloats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1});
+
+struct Parts {
+  std::string uri = "numbers.bin";
+  std::string nodes = R"([{"mesh":0}])";
+  std::string primitive = R"("attributes":{"POSITION":0})";
+  std::string mesh, more;
+  std::string version = "2.0";
+};
+
+std::string gltf(const Parts& parts) {
+  const auto view = [](int from, int length) {
+    return R"({"buffer":0,"byteOffset":)" + std::to_string(from) + R"(,"byteLength":)" +
+           std::to_string(length) + "}";
+  };
+  return R"({"asset":{"version":")" + parts.version + R"("},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" +
+         parts.nodes + R"(,"meshes":[{"primitives":[{)" + parts.primitive + "}]" + parts.mesh + "}]," +
+         parts.more +
+         R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+         {"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"},
+         {"bufferView":2,"componentType":5123,"count":3,"type":"VEC4"},
+         {"bufferView":3,"componentType":5126,"count":3,"type":"VEC4"},
+         {"bufferView":4,"componentType":5126,"count":1,"type":"MAT4"}],"bufferViews":[)" +
+         view(0, 36) + "," + view(36, 36) + "," + view(72, 24) + "," + view(96, 48) + "," + view(144, 64) +
+         R"(],"buffers":[{"byteLength":208,"uri":")" + parts.uri + "\"}]}";
+}
+
+class GltfShape : public SceneFiles {
+ protected:
+  std::string file(const Parts& parts) const {
+    write("numbers.bin", kNumbers);
+    return write("t.gltf", gltf(parts));
+  }
+  Scene loaded(const Parts& parts) const { return load(file(parts), {}); }
+  std::string errorOfParts(const Parts& parts) const { return errorOf(file(parts)); }
+};
+
+/// A mesh that its joint, 5 m up and 3 m to the right, holds, whatever its own node says.
+Parts skinned(const std::string& matrices) {
+  Parts parts;
+  parts.nodes =
+      R"([{"children":[1,2]},{"mesh":0,"skin":0,"translation":[70,70,70]},{"translation":[3,5,0]}])";
+  parts.primitive = R"("attributes":{"POSITION":0,"JOINTS_0":2,"WEIGHTS_0":3})";
+  parts.more = R"("skins":[{"joints":[2])" + matrices + "}],";
+  return parts;
+}
+
+TEST_F(GltfShape, OfASkinIsWhereItsJointsHoldIt) {
+  const Scene scene = loaded(skinned(R"(,"inverseBindMatrices":4)"));
+  EXPECT_TRUE(scene.warnings.empty());
+  EXPECT_LT((boundsOf(scene).min() - Eigen::Vector3f(2, 0, 5)).norm(), 1e-6f);
+  EXPECT_LT((boundsOf(scene).max() - Eigen::Vector3f(3, 0, 6)).norm(), 1e-6f);
+  EXPECT_LT((scene.meshes[0].normals[0] - Eigen::Vector3f(0, -1, 0)).norm(), 1e-6f);
+}
+
+TEST_F(GltfShape, OfASkinWithoutMatricesHasUnitMatrices) {
+  const Scene scene = loaded(skinned(""));
+  EXPECT_LT((boundsOf(scene).min() - Eigen::Vector3f(3, 0, 5)).norm(), 1e-6f);
+
+  // In a binary file the numbers stand behind what is mended.
+  Parts parts = skinned("");
+  std::string json = gltf(parts);
+  json.replace(json.find(R"(,"uri":"numbers.bin")"), 20, "");
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const auto word = [](std::size_t value) {
+    std::string bytes;
+    for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 0xFF);
+    return bytes;
+  };
+  const std::string glb = "glTF" + word(2) + word(28 + json.size() + kNumbers.size()) + word(json.size()) +
+                          "JSON" + json + word(kNumbers.size()) + std::string("BIN\0", 4) + kNumbers;
+  EXPECT_LT((boundsOf(load(write("t.glb", glb), {})).min() - Eigen::Vector3f(3, 0, 5)).norm(), 1e-6f);
+}
+
+TEST_F(GltfShape, OfMorphTargetsIsThatOfTheirWeights) {
+  Parts parts;
+  parts.primitive += R"(,"targets":[{"POSITION":1}])";
+  parts.mesh = R"(,"weights":[0.5])";
+  const Scene scene = loaded(parts);
+  EXPECT_TRUE(scene.warnings.empty());
+  EXPECT_LT((boundsOf(scene).min() - Eigen::Vector3f(0, 0, 1)).norm(), 1e-6f);
+
+  parts.nodes = R"([{"mesh":0,"name":"face","weights":[1]}])";
+  const Scene other = loaded(parts);
+  ASSERT_EQ(other.warnings.size(), 1u);
+  EXPECT_NE(other.warnings[0].find("face of "), std::string::npos) << other.warnings[0];
+}
+
+TEST_F(GltfShape, IsFoundWhateverTheNameOfItsNumbers) {
+  write("größe 1.bin", kNumbers);
+  for (const char* uri : {"größe 1.bin", "gr%C3%B6%C3%9Fe%201.bin"}) {
+    Parts parts;
+    parts.uri = uri;
+    EXPECT_EQ(loaded(parts).triangleCount(), 1u) << uri;
+  }
+}
+
+TEST_F(GltfShape, OfOtherVersionsIsAnErrorThatSaysWhatToDo) {
+  Parts parts;
+  parts.version = "1.0";
+  EXPECT_EQ(
+      errorOfParts(parts),
+      pathOf("t.gltf") + ": this is glTF 1.0, and only 2.0 is read: convert it, by Blender or gltf-pipeline");
+}
+
+TEST_F(GltfShape, ThatNeedsWhatIsNotReadSaysSo) {
+  Parts parts;
+  parts.uri = "gone.bin";
+  parts.more = R"("extensionsRequired":["EXT_meshopt_compression"],)";
+  const std::string error = errorOfParts(parts);
+  EXPECT_NE(error.find("gone.bin"), std::string::npos) << error;
+  EXPECT_NE(error.find("it needs EXT_meshopt_compression, not read here"), std::string::npos) << error;
+}
+
+TEST_F(GltfShape, OfDracoIsNotSaidToBeUnread) {
+  Parts parts;
+  parts.more = R"("extensionsUsed":["KHR_draco_mesh_compression"],)";
+  EXPECT_TRUE(loaded(parts).warnings.empty());
+}
+
+TEST_F(GltfShape, OfWhichNothingIsDrawnSaysWhy) {
+  Parts parts;
+  parts.primitive += R"(,"mode":1)";
+  parts.more = R"("extensionsUsed":["EXT_of_mine"],)";
+  const std::string error = errorOfParts(parts);
+  EXPECT_NE(error.find("there is not a triangle in this file that could be drawn; "), std::string::npos)
+      << error;
+  EXPECT_NE(error.find("lines and points"), std::string::npos) << error;
+  EXPECT_NE(error.find("EXT_of_mine"), std::string::npos) << error;
+}
+
+TEST_F(GltfShape, OfBrokenJsonNamesThePlace) {
+  const std::string error = errorOf(write("t.gltf", "{\"asset\":{\"version\":\"2.0\"},\n\"scenes\":["));
+  EXPECT_EQ(error.find(pathOf("t.gltf") + ": cannot read its JSON: "), 0u) << error;
+  EXPECT_NE(error.find("line 2"), std::string::npos) << error;
+}
+
+}  // namespace
+}  // namespace sunlit::scene
