@@ -14,6 +14,7 @@ BY_RISING_DIFFERENCE = ["sift", "surf", "brisk", "orb"]
 HOUR_PAIRS = ["4–12", "4–20", "12–20"]
 EQUAL_WITHIN = 0.01  # the paper's boolean differences of noon to morning and evening differ by 0.0006 and 0.0002
 SLIGHTLY_ABOVE = 1.5  # the paper's ratio is 1.11
+FEW = 0.5  # of the paper's poses
 SMALL_RESIDUE = 0.02  # the paper's largest is 0.0127
 
 
@@ -54,13 +55,19 @@ def count(findings, verdict=REPRODUCED):
     return sum(finding.verdict == verdict for finding in findings)
 
 
-def verdict_of_all(findings):
-    """How many hold, in words; those that this run cannot tell anything of are not held against it."""
+def verdict_of_all(findings, output):
+    """How many hold, in words; those that this run cannot tell anything of are not held against it. A part of the way
+    need not show what holds for the whole, so a run of few poses says that it is one."""
     not_judged = count(findings, NOT_JUDGED)
     if not_judged == len(findings):
         return f"none of the {len(findings)} can be judged from these conditions"
     text = f"{count(findings)} of {len(findings)} reproduced"
-    return f"{text}, {not_judged} cannot be judged" if not_judged else text
+    if not_judged:
+        text += f", {not_judged} cannot be judged"
+    poses = len(output.poses)
+    if poses < FEW * paper.POSES:
+        text += f", by {poses} poses; the paper's findings are those of {paper.POSES}"
+    return text
 
 
 def _judged(output, claim, criterion, rule):

@@ -11,7 +11,7 @@ def render(output, findings):
     """HTML text with everything in it."""
     significant, significant_count = comparisons.significant_rows(output)
     return templating.template("report.html").render(
-        output=output, findings=findings, verdict_of_all=judge.verdict_of_all(findings), citation=paper.CITATION,
+        output=output, findings=findings, verdict_of_all=judge.verdict_of_all(findings, output), citation=paper.CITATION,
         title=title(output), facts=facts(output), warnings=warnings.warnings(output), verdict_class=_verdict_class,
         main_tables=tables.main_tables(output), self_tables=tables.self_tables(output), counts=tables.counts(output),
         conditions=tables.conditions(output), timing=tables.timing(output), problems=tables.problems(output),

@@ -4,6 +4,7 @@ Gazebo for Vision-Based Applications Under Varying Light Conditions", ICINCO 202
 CITATION = ("R. Sultanov, R. Safin, E. A. Martínez-García, E. Magid: Modeling Sunlight in Gazebo for Vision-Based "
             "Applications Under Varying Light Conditions. ICINCO 2024, pp. 519–526, doi:10.5220/0013068700003822")
 
+POSES = 991
 MORNING, NOON, EVENING = "h04", "h12", "h20"
 PAIRS = [(MORNING, NOON), (MORNING, EVENING), (NOON, EVENING)]
 

@@ -43,5 +43,5 @@ def whole(output, findings):
         parts += ["Each hour against itself (two independent renderings)"] + [_of_table(table) for table in self_tables]
     lines = [f"{number}. {finding.verdict}: {finding.claim}" + (f" It {finding.extent}." if finding.extent else "")
              for number, finding in enumerate(findings, start=1)]
-    parts.append(f"The paper's findings: {judge.verdict_of_all(findings)}\n" + "\n".join(lines))
+    parts.append(f"The paper's findings: {judge.verdict_of_all(findings, output)}\n" + "\n".join(lines))
     return "\n\n".join(parts)

@@ -196,6 +196,15 @@ const aiScene* readMended(const std::string& file, unsigned steps, Assimp::Impor
   return scene;
 }
 
+/// Assimp would find no reader for a folder, and miss anything but content in an empty file.
+void requireContent(const std::string& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    throw std::runtime_error(file + ": this is a folder, and no mesh");
+  if (std::filesystem::file_size(file, error) == 0 && !error)
+    throw std::runtime_error(file + ": this file is empty");
+}
+
 }  // namespace
 
 std::string extensionOf(const std::string& file) {
@@ -204,11 +213,7 @@ std::string extensionOf(const std::string& file) {
 
 std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, const ResourceFinder& finder,
                                    SceneBuilder& builder) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error))
-    throw std::runtime_error(file + ": this is a folder, and no mesh");
-  if (std::filesystem::file_size(file, error) == 0 && !error)
-    throw std::runtime_error(file + ": this file is empty");
+  requireContent(file);
   const std::string extension = extensionOf(file);
   const bool collada = extension == ".dae";
   const bool gltf = extension == ".gltf" || extension == ".glb";

@@ -104,10 +104,17 @@ class Findings(InFolder):
 
     def test_other_hours_cannot_be_judged(self):
         self.write("frames.csv", [line.replace("h04", "h06") for line in made.frames()])
-        judged = findings.judge(self.read())
+        output = self.read()
+        judged = findings.judge(output)
         self.assertEqual([one.verdict for one in judged], [findings.NOT_JUDGED] * 6)
-        self.assertEqual(findings.verdict_of_all(judged), "none of the 6 can be judged from these conditions")
+        self.assertEqual(findings.verdict_of_all(judged, output), "none of the 6 can be judged from these conditions")
         self.assertIn("h04", judged[0].reason)
+
+    def test_a_run_of_few_poses_says_that_it_is_one(self):
+        self.write("frames.csv", made.frames())
+        output = self.read()
+        self.assertEqual(findings.verdict_of_all(findings.judge(output), output),
+                         "5 of 6 reproduced, 1 cannot be judged, by 40 poses; the paper's findings are those of 991")
 
     def test_missing_algorithms_cannot_be_judged(self):
         self.write("frames.csv", made.frames(differences=["boolean_rgb", "orb"]))
