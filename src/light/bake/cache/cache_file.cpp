@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -23,10 +24,10 @@ struct Header {
   std::uint32_t version;
   std::uint32_t patches;
   Number key;
-  std::uint64_t counts[30];  ///< of the arrays, in the order of visitArrays()
-  Number checksum;           ///< of all that follows
+  std::array<std::uint64_t, 31> counts;  ///< of the arrays, in the order of visitArrays()
+  Number checksum;                       ///< of all that follows
 };
-static_assert(sizeof(Header) == 288, "no padding goes to the file");
+static_assert(sizeof(Header) == 296, "no padding goes to the file");
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what) {
   throw std::runtime_error(file.string() + ": " + what);
@@ -81,7 +82,7 @@ std::unique_ptr<TransportData> readBake(const fs::path& file, const image::Conte
   std::uint64_t expected = sizeof(header);
   std::size_t array = 0;
   visitArrays(*data, [&](auto& values) {
-    const std::uint64_t count = header.counts[array++];
+    const std::uint64_t count = header.counts.at(array++);
     if (count >> 40 != 0) fail(file, "is damaged");  // and the sum of sizes would overflow
     expected += count * sizeof(values[0]);
   });
@@ -89,7 +90,7 @@ std::unique_ptr<TransportData> readBake(const fs::path& file, const image::Conte
   image::ContentHash checksum;
   array = 0;
   visitArrays(*data, [&](auto& values) {
-    values.resize(header.counts[array++]);
+    values.resize(header.counts.at(array++));
     stream.read(reinterpret_cast<char*>(values.data()),
                 static_cast<std::streamsize>(values.size() * sizeof(values[0])));
     checksum.add(values);
@@ -108,7 +109,7 @@ void writeBake(const fs::path& file, const image::ContentHash& key, const Transp
   image::ContentHash checksum;
   std::size_t array = 0;
   visitArrays(data, [&](const auto& values) {
-    header.counts[array++] = values.size();
+    header.counts.at(array++) = values.size();
     checksum.add(values);
   });
   header.checksum = checksum.number();
