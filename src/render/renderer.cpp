@@ -8,6 +8,7 @@
 #include "render/rasterizer.h"
 #include "render/resolve.h"
 #include "sunlit/light/body_light.h"
+#include "sunlit/light/bounced_light.h"
 #include "sunlit/light/final_gather.h"
 #include "sunlit/light/lighting.h"
 #include "sunlit/light/transport.h"
@@ -67,8 +68,12 @@ class Renderer::Implementation {
     requireLook();
     if (seen_.body_views) {
       light::Illumination here = light;
+      if (light.body_lamps)
+        here.bounced = std::make_shared<const std::vector<light::BouncedLight>>(
+            light::bouncedLight(*light.body_lamps, seen_.map_from_body, *seen_.visibility));
+      // Before the lamps of bodies are among those of the world: of their light, bodies see what is bounced.
       here.bodies =
-          std::make_shared<std::vector<light::AroundLight>>(body_light_->around(*seen_.body_views, light));
+          std::make_shared<std::vector<light::AroundLight>>(body_light_->around(*seen_.body_views, here));
       if (light.body_lamps) here.lamps = lampsHere(light);
       return light::illuminate(seen_.surfaces, *world_.geometry->scene, *seen_.visibility, here);
     }

@@ -15,6 +15,11 @@ const std::vector<scene::Lamp>& lampsOf(const Illumination& light) {
   return light.lamps ? *light.lamps : none;
 }
 
+const std::vector<BouncedLight>& bouncedOf(const Illumination& light) {
+  static const std::vector<BouncedLight> none;
+  return light.bounced ? *light.bounced : none;
+}
+
 std::vector<bool> glowing(const SurfaceLighting::Subject& subject, const std::vector<scene::Lamp>& lamps) {
   std::vector<bool> are;
   for (const scene::Material& material : subject.scene.materials)
@@ -38,7 +43,7 @@ SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& lig
       glows_(glowing(subject, lampsOf(light))),
       sun_(light.day.sun(), leastDisc_lx(light.day), {surfaces_, table_, subject.visibility}),
       moon_(light.day.moon(), leastDisc_lx(light.day), {surfaces_, table_, subject.visibility}),
-      lamps_(lampsOf(light), light.day.groundIlluminance().value.maxCoeff(),
+      lamps_({lampsOf(light), bouncedOf(light)}, light.day.groundIlluminance().value.maxCoeff(),
              {surfaces_, scene_, subject.visibility}),
       glass_(subject.visibility) {}
 
