@@ -131,7 +131,7 @@ const std::map<std::string, Modules> kRoomsOfLight = {
     {"picture/lamps", {"geometry", "lamps", "patches", "shading"}},
     {"picture/mirror", {"bake/samples", "geometry", "patches", "shading"}},
     {"picture/gather", {"geometry", "patches"}},
-    {"picture/bodies", {"patches", "shading"}},
+    {"picture/bodies", {"geometry", "lamps", "patches", "shading"}},
     {"picture/sky", {"geometry", "patches", "picture/table"}},
     {"picture",
      {"geometry", "patches", "picture/disc", "picture/gather", "picture/lamps", "picture/mirror",
