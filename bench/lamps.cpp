@@ -1,6 +1,7 @@
 // What lamps cost a picture: the built-in world at night, 640×480 with four samples a pixel, with baked light
 // and street lamps along its path, as posts have them: 5 m beside it, 6 m above it. Argument: how many, 0 for
-// none; the lines of one run are to be compared.
+// none; the lines of one run are to be compared. Headlights: a pair that moves with the camera, all else
+// dark; 1: with what surfaces pass on of their light.
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -70,6 +71,48 @@ void picture(benchmark::State& state, bool spots) {
   }
 }
 
+/// On a body without looks, 0.7 m below the camera.
+void headlights(benchmark::State& state) {
+  Stage& s = stage();
+  static const light::World world = [&] {
+    light::World with_body(s.world.geometry->scene, {{}});
+    with_body.transport = s.world.transport;
+    return with_body;
+  }();
+  render::Renderer renderer(world, s.renderer->options());
+  std::vector<light::BodyLamp> pair(2);
+  for (light::BodyLamp& of_body : pair) {
+    of_body.body = 0;
+    of_body.lamp.direction = Eigen::Vector3f(1.0f, 0.0f, -0.05f).normalized();
+    of_body.lamp.inner_rad = 0.175f;
+    of_body.lamp.outer_rad = 0.45f;
+    of_body.lamp.intensity = LinearRgb(300.0f, 285.0f, 264.0f);
+    of_body.lamp.position = {0.5f, 0.1f, -0.7f};
+  }
+  pair[1].lamp.position.y() = -0.1f;
+  light::Illumination light(light::illumination(world, bench::daylightAt(-20.0)));
+  std::size_t pose = 0;
+  for (auto _ : state) {
+    const Eigen::Isometry3d map_from_optical =
+        bench::poseAt(s.points, pose++ % kPoses * s.points.size() / kPoses);
+    const render::BodyPlaces places = {map_from_optical * linkFromOptical().inverse()};
+    std::vector<scene::Lamp> placed;
+    for (const light::BodyLamp& of_body : pair) placed.push_back(light::placed(of_body.lamp, places[0]));
+    const bool bounced = state.range(0) != 0;
+    light.body_lamps = bounced ? std::make_shared<const std::vector<light::BodyLamp>>(pair) : nullptr;
+    light.lamps = bounced ? nullptr : std::make_shared<const std::vector<scene::Lamp>>(placed);
+    renderer.look(map_from_optical, places);
+    benchmark::DoNotOptimize(renderer.light(light));
+  }
+}
+
+BENCHMARK(headlights)
+    ->ArgName("bounced")
+    ->Arg(0)
+    ->Arg(1)
+    ->Iterations(kPoses)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
 BENCHMARK_CAPTURE(picture, spots, true)
     ->ArgName("lamps")
     ->Arg(0)

@@ -55,6 +55,8 @@ struct Illumination {
   std::shared_ptr<const std::vector<scene::Lamp>> lamps;
   /// That burn, of bodies, in their frames, for PreparedPicture; null: none.
   std::shared_ptr<const std::vector<BodyLamp>> body_lamps;
+  /// What surfaces pass on of these, for the pose that a renderer looks at, which sets it; null: nothing.
+  std::shared_ptr<const std::vector<BouncedLight>> bounced;
 };
 
 struct World;

@@ -66,6 +66,14 @@ bool glows(const scene::Material& material, const std::vector<scene::Lamp>& burn
 /// `lamp` of a frame that stands at `map_from_frame`, in `map`.
 scene::Lamp placed(const scene::Lamp& lamp, const Eigen::Isometry3d& map_from_frame);
 
+/// Light that a part of a surface passes on, as matt surfaces do: by the cosine to `normal`, as from a disc.
+struct BouncedLight {
+  Eigen::Vector3f position;  ///< its middle, m in `map`
+  Eigen::Vector3f normal;    ///< unit
+  float radius_m;            ///< of the disc, > 0
+  Eigen::Array3f intensity;  ///< along the normal, cd: what leaves it, lm, over π
+};
+
 /// Groups whose light by way of surfaces is baked apart; what is beyond is baked, and switched, as one.
 constexpr std::size_t kMostLampSets = 32;
 

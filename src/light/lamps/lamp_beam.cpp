@@ -14,6 +14,26 @@ constexpr float kSharpest = 1e-6f;
 /// Of cosines, by which a box must lie outside a cone to be known to without a look at the angles.
 constexpr float kClearlyOutside = 1e-4f;
 
+/// Of a disc that passes light on: near it, light grows as towards a smaller one (the disc's own radius is
+/// right on its axis, too large beside it), and its ball stands for what of it shows past things before it.
+constexpr float kSoftened = 0.5f, kLeastBall_m = 0.02f, kMostBall_m = 0.5f;
+/// The ball's middle lies so many of its radii above the disc: a little clear of unevenness.
+constexpr float kRests = 1.1f;
+
+scene::Lamp lampOf(const BouncedLight& light) {
+  const float softened_m = kSoftened * light.radius_m;
+  scene::Lamp lamp;
+  lamp.position = light.position;
+  lamp.direction = light.normal;
+  lamp.intensity = LinearRgb(light.intensity);
+  lamp.constant = softened_m * softened_m;
+  lamp.inner_rad = 0.0f;
+  lamp.outer_rad = 0.5f * kPiFloat;
+  lamp.exponent = 1.0f;
+  lamp.radius_m = std::clamp(softened_m, kLeastBall_m, kMostBall_m);
+  return lamp;
+}
+
 /// Of a lamp whose cone falls off linearly or by the square.
 struct Falloff {
   Eigen::Vector3f position, axis;
@@ -49,11 +69,19 @@ void sharesOf(const Falloff& lamp, const LampBeam::Points& points, float* __rest
 
 LampBeam::LampBeam(const scene::Lamp& lamp)
     : lamp_(lamp),
+      ball_(lamp.position),
+      shown_radius_m_(lamp.radius_m),
       brightest_(lamp.intensity.value.maxCoeff()),
       least_m_(std::max(lamp.radius_m, kNearest_m)),
       per_range_(lamp.ends_sharply ? 0.0f : 1.0f / lamp.range_m),
       cos_outer_(std::cos(lamp.outer_rad)),
       per_cosine_(1.0f / std::max(std::cos(lamp.inner_rad) - cos_outer_, kSharpest)) {}
+
+LampBeam::LampBeam(const BouncedLight& light) : LampBeam(lampOf(light)) {
+  ball_ = light.position + kRests * lamp_.radius_m * light.normal;
+  shown_radius_m_ = light.radius_m;
+  bounced_ = true;
+}
 
 LampBeam::Bounds LampBeam::within(const Eigen::AlignedBox3f& box) const {
   const Eigen::Vector3f middle = box.center() - lamp_.position;

@@ -1,4 +1,4 @@
-/// What one lamp gives where nothing is in the way.
+/// What one lamp, or a surface that passes light on, gives where nothing is in the way.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "sunlit/light/lamps.h"
 #include "sunlit/scene/scene.h"
 
 namespace sunlit::light {
@@ -14,9 +15,17 @@ class LampBeam {
  public:
   /// `lamp` is not relative.
   explicit LampBeam(const scene::Lamp& lamp);
+  /// Gives I cos / (r² / 4 + d²), the cosine that of the angle to the disc's normal, r its radius.
+  explicit LampBeam(const BouncedLight& light);
 
   const Eigen::Vector3f& position() const { return lamp_.position; }
+  /// The ball that rays look for: of a lamp about position(); of a surface it rests on that, so that rays end
+  /// before it and not below.
+  const Eigen::Vector3f& ball() const { return ball_; }
   float radius_m() const { return lamp_.radius_m; }
+  /// How large it shows in surfaces that mirror it.
+  float shownRadius_m() const { return shown_radius_m_; }
+  bool isBounced() const { return bounced_; }
   bool castsShadows() const { return lamp_.casts_shadows; }
 
   /// Illuminance of a plane at `point` that faces the lamp, lx. Within the lamp's ball: as on its surface.
@@ -53,6 +62,9 @@ class LampBeam {
   float cone(float cosine) const;
 
   scene::Lamp lamp_;
+  Eigen::Vector3f ball_;
+  float shown_radius_m_;
+  bool bounced_ = false;
   float brightest_;
   float least_m_;    ///< nearer than that nothing gets brighter
   float per_range_;  ///< 1/m, of one that fades towards its range; else 0

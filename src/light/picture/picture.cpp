@@ -4,6 +4,7 @@
 
 #include "light/picture/bodies/body_light.h"
 #include "light/picture/gather/final_gather.h"
+#include "light/picture/lamps/bounced_light.h"
 #include "light/picture/lighting.h"
 #include "light/picture/ready_picture.h"
 #include "sunlit/light/lamps.h"
@@ -15,7 +16,12 @@ struct PreparedPicture::Implementation {
   image::LinearImage illuminate(const Illumination& light) const {
     if (!views) return light::illuminate(ready, *scene, *visibility, light);
     Illumination here = light;
-    here.bodies = std::make_shared<const std::vector<AroundLight>>(body_light->around(*views, light));
+    if (light.body_lamps) {
+      here.bounced = std::make_shared<const std::vector<BouncedLight>>(
+          bouncedLight(*light.body_lamps, map_from_body, *visibility));
+    }
+    // Before the lamps of bodies are among those of the world: of their light, bodies see what is bounced.
+    here.bodies = std::make_shared<const std::vector<AroundLight>>(body_light->around(*views, here));
     if (light.body_lamps) here.lamps = lampsHere(light);
     return light::illuminate(ready, *scene, *visibility, here);
   }

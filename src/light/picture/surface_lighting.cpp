@@ -15,6 +15,11 @@ const std::vector<scene::Lamp>& lampsOf(const Illumination& light) {
   return light.lamps ? *light.lamps : none;
 }
 
+const std::vector<BouncedLight>& bouncedOf(const Illumination& light) {
+  static const std::vector<BouncedLight> none;
+  return light.bounced ? *light.bounced : none;
+}
+
 std::vector<bool> glowing(const SurfaceLighting::Subject& subject, const std::vector<scene::Lamp>& lamps) {
   std::vector<bool> are;
   for (const scene::Material& material : subject.scene.materials)
@@ -49,7 +54,7 @@ SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& lig
             {surfaces_, table_}),
       sun_glints_(glintsOf(light.day.sun(), subject, light)),
       moon_glints_(glintsOf(light.day.moon(), subject, light)),
-      lamps_(lampsOf(light), light.day.groundIlluminance().value.maxCoeff(),
+      lamps_({lampsOf(light), bouncedOf(light)}, light.day.groundIlluminance().value.maxCoeff(),
              {surfaces_, scene_, subject.visibility}),
       glass_(subject.visibility) {}
 

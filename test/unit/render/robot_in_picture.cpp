@@ -175,6 +175,32 @@ TEST(Robot, KeepsTheSkyFromTheGroundBeneathIt) {
   EXPECT_NEAR(beneath / open, expected, 1.0f / 32.0f + 0.02f);
 }
 
+/// A spot on the ground, from which light comes back to the robot's own arm.
+TEST(Robot, ItsHeadlightsLightWhatTheyDoNotReachByWayOfTheGround) {
+  Stage stage;
+  scene::Lamp headlight;
+  headlight.position = {1.5f, 0.0f, 2.0f};
+  headlight.direction = {0.0f, 0.0f, -1.0f};
+  headlight.inner_rad = headlight.outer_rad = 0.1f;
+  headlight.intensity = LinearRgb(1000.0f, 1000.0f, 1000.0f);
+  stage.world.lamps_of_bodies = {{headlight}, {}};
+  render::Renderer renderer(stage.world, smallCamera());
+  const sky::Daylight night = daylightAt(90.0, -30.0);
+  light::LampOptions off;
+  off.mode = light::LampMode::kOff;
+  // The underside of the arm's box, 2.5 m up.
+  const Eigen::Vector3d seen(5.2, 3.0, 2.5);
+  renderer.look(lookingAt({5.6, 1.0, 0.5}, seen), stage.at(5.0, 3.0));
+  const float by_lamp = at(renderer.light(light::illumination(stage.world, night)), 80, 60)[1] -
+                        at(renderer.light(light::illumination(stage.world, night, off)), 80, 60)[1];
+  // I 2π (1 − cos 0.1) lm times the ground's albedo of 0.5, over π; cosines of 2.5 m and 1.3 m aside. 15 %:
+  // the mirror-like parts of both surfaces.
+  const float cd = 1000.0f * 2.0f * (1.0f - std::cos(0.1f)) * 0.5f, square = 2.5f * 2.5f + 1.3f * 1.3f;
+  const float arm = stage.world.geometry->scene->materials.back().base_color.value[1];
+  const float expected = arm / kPiFloat * cd * 2.5f * 2.5f / (square * square);
+  EXPECT_NEAR(by_lamp, expected, 0.15f * expected);
+}
+
 TEST(Robot, ItsHeadlightsMoveWithIt) {
   Stage stage;
   scene::Lamp headlight;

@@ -132,7 +132,7 @@ const std::map<std::string, Modules> kRoomsOfLight = {
     {"picture/lamps", {"geometry", "lamps", "patches", "shading"}},
     {"picture/mirror", {"bake/samples", "geometry", "patches", "picture/outlook", "shading"}},
     {"picture/gather", {"geometry", "patches", "picture/outlook"}},
-    {"picture/bodies", {"bake/samples", "geometry", "patches", "picture/outlook", "shading"}},
+    {"picture/bodies", {"bake/samples", "geometry", "lamps", "patches", "picture/outlook", "shading"}},
     {"picture/sky", {"bake/samples", "geometry", "patches", "picture/table"}},
     {"picture",
      {"bake/samples", "geometry", "patches", "picture/bodies", "picture/disc", "picture/gather",

@@ -9,6 +9,7 @@
 #include "light/geometry/corners.h"
 #include "light/patches/even_directions.h"
 #include "light/picture/bodies/body_shade.h"
+#include "light/picture/bodies/lamps_on_places.h"
 #include "light/shading/reflectances.h"
 #include "sunlit/light/transport.h"
 #include "sunlit/quantity/angle.h"
@@ -59,6 +60,9 @@ class BodyLight::Implementation {
   /// Adds the light of a disc to the illuminance of each place that it reaches.
   static void addDisc(const Views& views, const sky::DiscLight& disc,
                       std::vector<Eigen::Array3f>* illuminance);
+  /// The same of lamps, and of surfaces that pass their light on.
+  static void addLamps(const Views& views, const Illumination& light,
+                       std::vector<Eigen::Array3f>* illuminance);
 
   World world_;
   Reflectances reflectances_;
@@ -147,6 +151,20 @@ void BodyLight::Implementation::addDisc(const Views& views, const sky::DiscLight
   }
 }
 
+void BodyLight::Implementation::addLamps(const Views& views, const Illumination& light,
+                                         std::vector<Eigen::Array3f>* illuminance) {
+  std::vector<LampBeam> beams;
+  if (light.lamps)
+    for (const scene::Lamp& lamp : *light.lamps) beams.emplace_back(lamp);
+  if (light.bounced)
+    for (const BouncedLight& bounced : *light.bounced) beams.emplace_back(bounced);
+  if (beams.empty()) return;
+  std::vector<LitPlace> places;
+  for (const Met& met : views.met) places.push_back({met.origin, met.normal});
+  addLampLight({beams, light.day.groundIlluminance().value.maxCoeff(), *views.visibility}, places,
+               illuminance);
+}
+
 std::vector<AroundLight> BodyLight::Implementation::around(const Views& views,
                                                            const Illumination& light) const {
   constexpr float kSolidAngle = 4.0f * kPiFloat / kDirections;
@@ -159,6 +177,7 @@ std::vector<AroundLight> BodyLight::Implementation::around(const Views& views,
   for (const Met& met : views.met) illuminance.push_back(arriving(met, light));
   addDisc(views, light.day.sun(), &illuminance);
   addDisc(views, light.day.moon(), &illuminance);
+  addLamps(views, light, &illuminance);
   for (std::size_t i = 0; i < views.met.size(); ++i) {
     const Met& met = views.met[i];
     const scene::Material& material = world_.geometry->scene->materials[met.material];

@@ -29,9 +29,9 @@ class AroundLight {
   static std::array<Eigen::Array3f, 9> zeros();
 };
 
-/// Without the direct light of sun and moon, which meet bodies by rays as they meet everything else. A body
-/// is taken as small: one place, the middle of it, stands for all of it, and what other bodies hide is told
-/// surface by surface. Light that bodies pass on is left out.
+/// Without the direct light of sun, moon and lamps, which meet bodies by rays as they meet everything else. A
+/// body is taken as small: one place, the middle of it, stands for all of it, and what other bodies hide is
+/// told surface by surface. Light that bodies pass on is left out.
 class BodyLight {
  public:
   /// Of the bodies of `world`, which must have some.
@@ -42,7 +42,8 @@ class BodyLight {
   struct Views;
   std::shared_ptr<const Views> look(const Geometry& bodies,
                                     std::shared_ptr<const Visibility> visibility) const;
-  /// At each body, in its order.
+  /// At each body, in its order. The lamps of `light` are those that stand: what surfaces pass on of others
+  /// meets bodies by rays.
   std::vector<AroundLight> around(const Views& views, const Illumination& light) const;
   /// Sets Outlook::body and Outlook::unhidden of all surfaces. `visibility` knows the bodies where they
   /// stand.

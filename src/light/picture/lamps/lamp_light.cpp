@@ -18,6 +18,8 @@ constexpr int kPoints = 16, kFew = 4, kPeriod = 4;
 /// kPoints, whose scatter in a penumbra is a quarter of its light; and one that gives less than that by the
 /// mean of the pixels around.
 constexpr float kLookedAtByAll = 0.1f, kLookedAtByFew = 0.02f;
+/// The same of light that a surface passes on.
+constexpr float kBouncedByFew = 0.2f;
 /// How far a pixel looks for others that find it otherwise, and for those of which it takes the mean, px.
 constexpr int kReach = 2, kMeanReach = 4;
 
@@ -109,8 +111,13 @@ class Met {
 
 }  // namespace
 
-LampLight::LampLight(const std::vector<scene::Lamp>& lamps, float day_lx, const Picture& picture)
-    : beams_(lamps.begin(), lamps.end()), day_lx_(day_lx), picture_(picture), glass_(picture.visibility) {}
+LampLight::LampLight(const Sources& sources, float day_lx, const Picture& picture)
+    : beams_(sources.lamps.begin(), sources.lamps.end()),
+      day_lx_(day_lx),
+      picture_(picture),
+      glass_(picture.visibility) {
+  for (const BouncedLight& bounced : sources.bounced) beams_.emplace_back(bounced);
+}
 
 /// Without those, weakest first, whose sum is at most half of kLeftOut everywhere in the tile.
 std::vector<std::uint32_t> LampLight::lampsOf(const Tile& tile) const {
@@ -154,12 +161,15 @@ void LampLight::cast(const LampBeam& beam, const Tile& tile, const std::vector<T
     Target& target = *targets[k];
     const Surface& surface = tile.surfaces[target.surface];
     const PointsOfPixel& points = pointsOf(target.at.x, target.at.y);
+    // Probes lie a block apart, where all points are turned alike: of a wide ball they look for other points.
+    const int first =
+        beam.isBounced() ? target.at.y / kPeriod * (kPoints / kPeriod) + target.at.x / kPeriod : 0;
     const int up_to = target.cast == 0 ? 1 : (target.closeness == Closeness::kAll ? kPoints : kFew);
     std::uint32_t sample = (target.cast + target.at.x + target.at.y) % surface.samples;
     for (; target.cast < up_to; ++target.cast) {
       const std::uint32_t at = surface.first_sample + sample;
       if (++sample == surface.samples) sample = 0;
-      const Eigen::Vector3f middle = beam.position() - rayStart(tile, at);
+      const Eigen::Vector3f middle = beam.ball() - rayStart(tile, at);
       const float distance_m = middle.norm();
       // What lies within the lamp's ball, such as its bulb, is part of it and hides nothing.
       if (distance_m <= beam.radius_m() + surface.clearance_m) {
@@ -167,8 +177,9 @@ void LampLight::cast(const LampBeam& beam, const Tile& tile, const std::vector<T
         continue;
       }
       const float per_m = 1.0f / distance_m;
-      const Eigen::Vector3f aside = LampBeam::across(middle * per_m) *
-                                    (beam.radius_m() * points[static_cast<std::size_t>(target.cast)]);
+      const Eigen::Vector3f aside =
+          LampBeam::across(middle * per_m) *
+          (beam.radius_m() * points[static_cast<std::size_t>((target.cast + first) % kPoints)]);
       const float reach = 1.0f - (beam.radius_m() + surface.clearance_m) * per_m;
       rays.add(k, rayStart(tile, at, surface, middle), reach * (middle + aside));
     }
@@ -228,6 +239,14 @@ void LampLight::findShadows(std::uint32_t lamp, const Tile& tile, std::vector<Ta
       target->seen = static_cast<float>(target->lit) / static_cast<float>(target->cast);
 }
 
+LampLight::Closeness LampLight::closenessOf(const LampBeam& beam, float share) {
+  // What surfaces pass on has no sharp shadows.
+  if (beam.isBounced()) return share >= kBouncedByFew ? Closeness::kFew : Closeness::kMean;
+  return share >= kLookedAtByAll   ? Closeness::kAll
+         : share >= kLookedAtByFew ? Closeness::kFew
+                                   : Closeness::kMean;
+}
+
 std::vector<LampLight::Target> LampLight::targetsOf(const LitRows::Reflected& reflected, const LitRows& rows,
                                                     const std::vector<Place>& places) {
   const std::size_t stride = rows.stride();
@@ -281,8 +300,8 @@ std::vector<LampLight::OfLamp> LampLight::targetsOf(const Tile& tile) const {
 
 Eigen::Array3f LampLight::throughGlass(const LampBeam& beam, const Tile& tile, const Surface& surface) const {
   const std::size_t at = surface.first_sample;
-  const Eigen::Vector3f origin = rayStart(tile, at, surface, beam.position() - rayStart(tile, at));
-  const Eigen::Vector3f way = beam.position() - origin;
+  const Eigen::Vector3f origin = rayStart(tile, at, surface, beam.ball() - rayStart(tile, at));
+  const Eigen::Vector3f way = beam.ball() - origin;
   // What lies within the lamp's ball is part of it.
   const float reach = 1.0f - beam.radius_m() / std::max(way.norm(), 1e-6f);
   if (!(reach > 0.0f)) return Eigen::Array3f::Ones();
@@ -300,12 +319,8 @@ void LampLight::light(const Tile& tile, std::vector<Eigen::Array3f>* luminances)
   for (const OfLamp& of : all)
     for (const Target& target : of.targets) possible[target.surface] += target.brightest;
   for (OfLamp& of : all) {
-    for (Target& target : of.targets) {
-      const float share = target.brightest / possible[target.surface];
-      target.closeness = share >= kLookedAtByAll   ? Closeness::kAll
-                         : share >= kLookedAtByFew ? Closeness::kFew
-                                                   : Closeness::kMean;
-    }
+    for (Target& target : of.targets)
+      target.closeness = closenessOf(beams_[of.lamp], target.brightest / possible[target.surface]);
     if (beams_[of.lamp].castsShadows()) findShadows(of.lamp, tile, &of.targets);
     for (const Target& target : of.targets) {
       Eigen::Array3f arrives = target.seen * target.unhidden;

@@ -1,4 +1,4 @@
-/// Direct light of lamps on what a camera sees.
+/// Direct light of lamps, and of surfaces that pass it on, on what a camera sees.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +8,7 @@
 #include "light/lamps/lamp_beam.h"
 #include "light/picture/lamps/lit_rows.h"
 #include "light/shading/glass_sheets.h"
+#include "sunlit/light/lamps.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/visibility.h"
 #include "sunlit/scene/scene.h"
@@ -29,8 +30,12 @@ class LampLight {
     const scene::Scene& scene;
     const Visibility& visibility;
   };
+  struct Sources {
+    const std::vector<scene::Lamp>& lamps;
+    const std::vector<BouncedLight>& bounced;
+  };
   /// Keeps references to all of `picture`. `day_lx`: illuminance of level, open ground without lamps.
-  LampLight(const std::vector<scene::Lamp>& lamps, float day_lx, const Picture& picture);
+  LampLight(const Sources& sources, float day_lx, const Picture& picture);
 
   /// Luminance of each of the tile's surfaces by the lamps, cd/m², without the air before it; empty where no
   /// lamp matters.
@@ -40,6 +45,7 @@ class LampLight {
   /// How closely one looks for shadows, by the share that a lamp may have of the light that reaches a
   /// surface.
   enum class Closeness : std::uint8_t { kMean, kFew, kAll };
+  static Closeness closenessOf(const LampBeam& beam, float share);
   /// Where a surface is seen.
   struct Place {
     std::uint8_t x, y;  ///< pixel in the tile

@@ -5,6 +5,7 @@
 
 #include "light/shading/direct_parts.h"
 #include "light/shading/ggx.h"
+#include "light/shading/mirrored_by_rays.h"
 #include "light/shading/schlick.h"
 #include "light/shading/surface_reflection.h"
 #include "sunlit/quantity/vector_clones.h"
@@ -25,6 +26,7 @@ enum Row : std::size_t {
   kClear,
   kNormalEye,  ///< cosine between them
   kAlpha,
+  kByLobe,  ///< share of its surroundings that its lobe shows; rays show the rest
   kOpaque,  ///< 1: nothing of what falls on its other side comes through, 0: of some it does
   kRowCount
 };
@@ -37,7 +39,8 @@ struct Rows {
 
 struct Source {
   Eigen::Vector3f position;
-  float radius_m;
+  float shown_radius_m;
+  float shown_at_least;  ///< by lobes: 1 of a lamp; 0 of a surface, which mirrors show by rays
   Eigen::Array3f intensity;
   float brightest;
 };
@@ -76,7 +79,7 @@ inline __attribute__((always_inline)) bool choose(const float* shares, const flo
 inline __attribute__((always_inline)) void look(const Source& lamp, const Rows& rows, const float* shares,
                                                 Seen* __restrict seen) {
   const float lamp_x = lamp.position.x(), lamp_y = lamp.position.y(), lamp_z = lamp.position.z();
-  const float radius_m = lamp.radius_m;
+  const float radius_m = lamp.shown_radius_m, at_least = lamp.shown_at_least;
   for (std::size_t k = 0; k < LitRows::kBlock; ++k) {
     const auto dot = [&](std::size_t row, float x, float y, float z) {
       return rows[row][k] * x + rows[row + 1][k] * y + rows[row + 2][k] * z;
@@ -93,7 +96,8 @@ inline __attribute__((always_inline)) void look(const Source& lamp, const Rows& 
     const bool lost = (rows[kOpaque][k] > 0.0f) & (dot(kGeometricNormal, x, y, z) <= 0.0f);
     seen->lx[k] = lost ? 0.0f : n_l * shares[k];
     seen->fresnel[k] = schlick(v_h);
-    seen->lobe[k] = facets.distribution(n_h) * facets.visibility(std::max(n_l, 0.0f), std::max(n_v, 1e-3f));
+    seen->lobe[k] = facets.distribution(n_h) * facets.visibility(std::max(n_l, 0.0f), std::max(n_v, 1e-3f)) *
+                    std::max(rows[kByLobe][k], at_least);
   }
 }
 
@@ -175,6 +179,8 @@ void LitRows::set(const Tile& tile, const scene::Scene& scene) {
     rows_[kClear * stride_ + i] = parts.clear;
     rows_[kNormalEye * stride_ + i] = reflection.normal.dot(reflection.to_eye);
     rows_[kAlpha * stride_ + i] = reflection.roughness * reflection.roughness;
+    rows_[kByLobe * stride_ + i] =
+        reflection.transmission > 0.0f ? 1.0f : 1.0f - mirroredByRays(reflection.roughness);
     rows_[kOpaque * stride_ + i] = reflection.transmission > 0.0f ? 0.0f : 1.0f;
   }
 }
@@ -187,7 +193,8 @@ LampBeam::Points LitRows::positions() const {
 void LitRows::reflect(const LampBeam& beam, const Arriving& arriving, Reflected* reflected) const {
   reflected->values.resize(4 * stride_);
   reflected->blocks.resize(stride_ / kBlock);
-  reflected->blocks.resize(reflectAll({beam.position(), beam.radius_m(), beam.intensity(), beam.brightest()},
+  reflected->blocks.resize(reflectAll({beam.position(), beam.shownRadius_m(), beam.isBounced() ? 0.0f : 1.0f,
+                                       beam.intensity(), beam.brightest()},
                                       {rows_.data(), stride_}, arriving,
                                       {reflected->values.data(), reflected->blocks.data()}));
 }

@@ -38,7 +38,8 @@ class LitRows {
     std::vector<std::uint32_t> blocks;  ///< where they begin; elsewhere nothing arrives, and no value is set
   };
   /// directReflectance() times what arrives, within 0.1 % for roughness from 0.2 (3 % near a ball as wide as
-  /// it is far); 0 of a surface left out or turned away.
+  /// it is far); 0 of a surface left out or turned away. Of light that a surface passes on without what is
+  /// mirrored by rays.
   void reflect(const LampBeam& beam, const Arriving& arriving, Reflected* reflected) const;
 
  private:

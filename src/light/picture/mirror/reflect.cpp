@@ -9,6 +9,7 @@
 #include "light/geometry/ray_list.h"
 #include "light/geometry/ray_start.h"
 #include "light/shading/glass_sheets.h"
+#include "light/shading/mirrored_by_rays.h"
 #include "light/shading/shading.h"
 #include "light/shading/vertex.h"
 
@@ -56,10 +57,9 @@ class TileMirror {
       const Surface& surface = tile.surfaces[i];
       if (!(surface.roughness < kMirrorsByLobe)) continue;
       if (!canMirror(scene_.materials[static_cast<std::size_t>(surface.material)])) continue;
-      const float rougher = (kMirrorsByLobe - surface.roughness) / (kMirrorsByLobe - kMirrorsByRays);
       Reflections::Mirroring mirroring;
       mirroring.surface = i;
-      mirroring.by_rays = std::min(rougher, 1.0f);
+      mirroring.by_rays = mirroredByRays(surface.roughness);
       mirroring.rays = surface.samples;
       all->push_back(mirroring);
       addRays(tile, surface, static_cast<std::uint32_t>(all->size() - 1), &rays);

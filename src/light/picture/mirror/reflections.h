@@ -11,10 +11,6 @@
 
 namespace sunlit::light {
 
-/// Surfaces so smooth mirror by rays alone; towards the rougher limit the lobe of MirrorSky and of the nodes
-/// takes over, evenly, so that no edge appears.
-constexpr float kMirrorsByRays = 0.25f, kMirrorsByLobe = 0.35f;
-
 struct Reflections {
   /// One of a tile's surfaces.
   struct Mirroring {
