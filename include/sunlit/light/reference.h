@@ -1,5 +1,6 @@
 /// The slow truth that the fast picture is measured against: every path of light is traced, nothing is baked,
-/// interpolated or filtered. Same surfaces, same reflection, same sun, moon, sky and air as in a PreparedPicture.
+/// interpolated or filtered. Same surfaces, same reflection, same sun, moon, sky and air as in a
+/// PreparedPicture.
 #pragma once
 
 #include <cstdint>
