@@ -56,7 +56,8 @@ std::vector<double> litBy(const World& world, const std::vector<BouncedLight>& b
   const scene::Scene& scene = *world.geometry->scene;
   std::vector<double> values;
   for (const Looked& point : points) {
-    const image::LinearImage seen = illuminate(tileOf(point, scene), scene, *world.visibility, light);
+    const Surfaces surfaces = tileOf(point, scene);
+    const image::LinearImage seen = pictureOf(surfaces, outlooksOf(surfaces, world), world, light, scene);
     double sum = 0.0;
     for (std::size_t i = 1; i < seen.data.size(); i += 3) sum += static_cast<double>(seen.data[i]);
     values.push_back(3.0 * sum / static_cast<double>(seen.data.size()));
@@ -311,7 +312,8 @@ TEST(BouncedLight, IsNoLampInPolishedSurfaces) {
     Illumination light(uniformDay(0.0f));
     light.bounced = std::make_shared<const std::vector<BouncedLight>>(1, wall);
     const Looked glint{{1.0f, 0.0f, 0.0f}, kUp, {1.0f, 0.0f, 1.0f}};
-    return rowValues(illuminate(rowOf({glint}, scene), scene, *world.visibility, light))[0];
+    const Surfaces surfaces = rowOf({glint}, scene);
+    return rowValues(pictureOf(surfaces, outlooksOf(surfaces, world), world, light, scene))[0];
   };
   // The matt part alone: albedo / π less what Fresnel takes at 45°, I cos 45° / (r² / 4 + 2), again cos 45°.
   const double matt = 0.5 / kPi * (1.0 - 0.042) * 10.0 * 0.5 / 2.01;
