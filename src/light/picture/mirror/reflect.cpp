@@ -126,9 +126,7 @@ class TileMirror {
     for (std::size_t i = looked.begin; i < looked.end; ++i) {
       const Hit& hit = looked.hits[i];
       const bool misses = hit.triangle == Hit::kMiss;
-      const float reach = misses ? std::numeric_limits<float>::infinity() : hit.distance;
-      Eigen::Array3f through = Eigen::Array3f::Ones();
-      if (glass_.any()) through = glass_.through({looked.origin(i), looked.towards(i), 0.0f, reach});
+      const Eigen::Array3f through = passGlass(looked, i, &met);
       if (misses) {
         open += looked.towards(i);
         mirroring->sky += through;
@@ -142,6 +140,22 @@ class TileMirror {
     mirroring->count = static_cast<std::uint32_t>(seen->surfaces.size()) - mirroring->first;
     mirroring->sky /= static_cast<float>(mirroring->rays);
     mirroring->towards = open.normalized();
+  }
+
+  /// Adds the sheets of glass on the way of ray `i`, which mirror as well, and returns what they let through.
+  Eigen::Array3f passGlass(const Looked& looked, std::size_t i, std::vector<Met>* met) const {
+    Eigen::Array3f through = Eigen::Array3f::Ones();
+    if (!glass_.any()) return through;
+    thread_local std::vector<Hit> sheets;
+    const Hit& end = looked.hits[i];
+    const float reach = end.triangle == Hit::kMiss ? std::numeric_limits<float>::infinity() : end.distance;
+    glass_.sheets({looked.origin(i), looked.towards(i), 0.0f, reach}, &sheets);
+    for (const Hit& sheet : sheets) {
+      const Vertex vertex = glass_.at(sheet, looked.towards(i));
+      met->push_back({sheet, vertex, through});
+      through *= straightThrough(vertex.reflection);
+    }
+    return through;
   }
 
   /// What the rays from number `first` on met that is like what that one did.
