@@ -25,7 +25,7 @@ struct Surroundings {
 /// At one node of a Transport.
 struct NodeLight {
   /// Illuminance, lx: from the sky, and from sun, moon and sky by way of other surfaces. Without the direct
-  /// light of sun and moon.
+  /// light of sun and moon, nor, at GlintNodes, what of it comes by way of polished floors.
   Eigen::Array3f irradiance;
   Surroundings around;
 };

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -25,7 +26,8 @@ Glints::Glints(const sky::DiscLight& disc, const Subject& subject)
       illuminance_(disc.illuminance.value),
       disc_towards_(disc.towards.vector().cast<float>()),
       disc_radius_rad_(static_cast<float>(disc.angular_radius.rad())),
-      floor_(std::make_shared<const FloorMirror>(subject.visibility)),
+      floor_(
+          std::make_shared<const FloorMirror>(subject.visibility, disc_towards_, std::tan(disc_radius_rad_))),
       glass_(subject.visibility),
       shares_(subject.ready.surfaces.tiles.size()) {}
 
@@ -35,9 +37,7 @@ bool Glints::findWanted() {
     const std::vector<Outlook>& outlooks = subject_.ready.outlooks[t].surfaces;
     shares_[t].assign(outlooks.size(), 0.0f);
     for (std::size_t i = 0; i < outlooks.size(); ++i) {
-      const LightPlace& place = outlooks[i].light;
-      for (std::size_t k = 0; k < 3 && place.known(); ++k)
-        shares_[t][i] += place.weight[k] * subject_.nodes.shares[place.node[k]];
+      shares_[t][i] = subject_.nodes.at(outlooks[i].light);
       if (shares_[t][i] > 0.0f) any[t] = 1;
     }
   });

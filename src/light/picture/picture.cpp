@@ -1,5 +1,6 @@
 #include "sunlit/light/picture.h"
 
+#include <cassert>
 #include <utility>
 
 #include "light/picture/bodies/body_light.h"
@@ -14,6 +15,7 @@ namespace sunlit::light {
 
 struct PreparedPicture::Implementation {
   image::LinearImage illuminate(const Illumination& light) const {
+    assert(scene);  // else nothing was prepared
     if (!views) return light::illuminate(ready, *scene, *visibility, light);
     Illumination here = light;
     if (light.body_lamps) {

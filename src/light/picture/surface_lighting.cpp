@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "light/geometry/ray_start.h"
+#include "light/shading/direct_parts.h"
 #include "light/shading/shading.h"
 #include "light/shading/surface_reflection.h"
 
@@ -118,7 +119,12 @@ Eigen::Array3f SurfaceLighting::luminance(const Surface& surface, const SurfaceP
   if (parts.sun.maxCoeff() > 0.0f) leaving += direct(sun_, light_.day.sun(), parts.sun);
   if (parts.moon.maxCoeff() > 0.0f) leaving += direct(moon_, light_.day.moon(), parts.moon);
   const auto byFloor = [&](const Glints& glints, const Eigen::Array3f& lux) -> Eigen::Array3f {
-    return directReflectance(reflection, glints.towards(), glints.radius_rad()) * lux;
+    Eigen::Array3f all = directReflectance(reflection, glints.towards(), glints.radius_rad());
+    if (parts.by_rays) {  // which show the floor, with the disc in it
+      const float cosine = std::max(reflection.normal.dot(glints.towards()), 0.0f);
+      all -= parts.by_rays->share * (all - all.min(cosine * directParts(reflection).lambert));
+    }
+    return all * lux;
   };
   if (parts.sun_glint.maxCoeff() > 0.0f) leaving += byFloor(*sun_glints_, parts.sun_glint);
   if (parts.moon_glint.maxCoeff() > 0.0f) leaving += byFloor(*moon_glints_, parts.moon_glint);

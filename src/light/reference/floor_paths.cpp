@@ -22,6 +22,8 @@ std::optional<Ggx<float>> facetsOfFloors(const Geometry& geometry) {
     const scene::Material& material =
         geometry.scene->materials[static_cast<std::size_t>(geometry.materials[t])];
     if (std::abs(geometry.planes[t].normal.z()) < kFlat || !(material.roughness < kPolished)) continue;
+    const bool metal = material.metalness >= 0.5f && !material.metalness_map.given();
+    if (material.glass > 0.0f || material.transmission > 0.0f || metal) continue;
     const auto& c = geometry.triangles[t];
     const Eigen::Vector3f& a = geometry.positions[c[0]];
     const auto area =

@@ -57,7 +57,7 @@ std::vector<double> litBy(const World& world, const std::vector<BouncedLight>& b
   std::vector<double> values;
   for (const Looked& point : points) {
     const Surfaces surfaces = tileOf(point, scene);
-    const image::LinearImage seen = pictureOf(surfaces, outlooksOf(surfaces, world), world, light, scene);
+    const image::LinearImage seen = pictureOf(surfaces, outlooksOf(surfaces, world), world, light);
     double sum = 0.0;
     for (std::size_t i = 1; i < seen.data.size(); i += 3) sum += static_cast<double>(seen.data[i]);
     values.push_back(3.0 * sum / static_cast<double>(seen.data.size()));
@@ -303,17 +303,18 @@ TEST(BouncedLight, OfAPairOfHeadlightsIsTakenTogether) {
 
 /// Rays show polished surfaces what lies around them: another glint of it were too much.
 TEST(BouncedLight, IsNoLampInPolishedSurfaces) {
-  const World world = cornerWorld();
+  const World plain = cornerWorld();
   const BouncedLight wall{
       {0.0f, 0.0f, 1.0f}, Eigen::Vector3f::UnitX(), 0.2f, Eigen::Array3f::Constant(10.0f)};
   const auto seen = [&](float roughness) {
-    auto scene = *world.geometry->scene;
+    scene::Scene scene = *plain.geometry->scene;
     scene.materials[0].roughness = roughness;
+    const World world = worldOf(scene);
     Illumination light(uniformDay(0.0f));
     light.bounced = std::make_shared<const std::vector<BouncedLight>>(1, wall);
     const Looked glint{{1.0f, 0.0f, 0.0f}, kUp, {1.0f, 0.0f, 1.0f}};
     const Surfaces surfaces = rowOf({glint}, scene);
-    return rowValues(pictureOf(surfaces, outlooksOf(surfaces, world), world, light, scene))[0];
+    return rowValues(pictureOf(surfaces, outlooksOf(surfaces, world), world, light))[0];
   };
   // The matt part alone: albedo / π less what Fresnel takes at 45°, I cos 45° / (r² / 4 + 2), again cos 45°.
   const double matt = 0.5 / kPi * (1.0 - 0.042) * 10.0 * 0.5 / 2.01;

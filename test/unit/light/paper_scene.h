@@ -144,14 +144,15 @@ inline Outlooks outlooksOf(const Surfaces& surfaces, const World& world, FinalGa
 
 /// Of surfaces that have these around them, without what they mirror by rays.
 inline image::LinearImage pictureOf(const Surfaces& surfaces, const Outlooks& outlooks, const World& world,
-                                    const Illumination& light, const scene::Scene& scene) {
+                                    const Illumination& light) {
+  const scene::Scene& scene = *world.geometry->scene;
   ReadyPicture ready;
   ready.seen = {surfaces, outlooks, LightTable(surfaces, outlooks, scene)};
   return illuminate(ready, scene, *world.visibility, light);
 }
 inline std::vector<double> rowValues(const Surfaces& surfaces, const Outlooks& outlooks, const World& world,
                                      const Illumination& light) {
-  return rowValues(pictureOf(surfaces, outlooks, world, light, *world.geometry->scene));
+  return rowValues(pictureOf(surfaces, outlooks, world, light));
 }
 inline std::vector<double> rowValues(const Surfaces& surfaces, const World& world,
                                      const Illumination& light) {

@@ -22,8 +22,8 @@ class DiscsInRooms {
 
   /// Whether neither shines at all, or no room is to be followed; at() must not be asked then.
   bool none() const { return arrived_.empty(); }
-  /// Illuminance of a room's sample by surfaces, lx; but not straight from discs by way of polished floors,
-  /// which pictures add: see GlintNodes.
+  /// Illuminance of a room's sample by surfaces, lx; of those in BakedRooms::glossy but not straight from
+  /// discs by way of polished floors, which pictures add: see GlintNodes.
   const Arrived& at(std::size_t room) const { return arrived_[room]; }
 
  private:

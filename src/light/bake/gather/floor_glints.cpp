@@ -27,7 +27,7 @@ FloorGlints::FloorGlints(const TransportData& data, const sky::DiscLight& disc, 
       towards_(disc.towards.vector().cast<float>()),
       above_(towards_, disc.angular_radius.rad()),
       illuminance_(disc.illuminance.value),
-      vertices_(visibility.fixedGeometry()),
+      vertices_(visibility.fixedGeometry(), visibility.movingGeometry()),
       glass_(visibility) {
   const Eigen::Vector3f across =
       std::abs(towards_.z()) < 0.9f ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX();
@@ -42,12 +42,12 @@ void FloorGlints::addTo(std::vector<Eigen::Array3f>* rooms) const {
     std::vector<Way> ways;
     std::vector<Sum> sums(end - first);
     for (std::size_t g = first; g < end; ++g)
-      addWays(g, static_cast<std::uint32_t>(g - first), 0, kProbes, &ways);
+      addWays(g, {static_cast<std::uint32_t>(g - first), 0, kProbes}, &ways);
     follow(ways, sums.data());
     ways.clear();
     for (std::size_t g = first; g < end; ++g) {
       if (sums[g - first].light.maxCoeff() > 0.0f)
-        addWays(g, static_cast<std::uint32_t>(g - first), kProbes, kAll, &ways);
+        addWays(g, {static_cast<std::uint32_t>(g - first), kProbes, kAll}, &ways);
     }
     follow(ways, sums.data());
     for (std::size_t g = first; g < end; ++g) {
@@ -57,25 +57,26 @@ void FloorGlints::addTo(std::vector<Eigen::Array3f>* rooms) const {
   });
 }
 
-void FloorGlints::addWays(std::size_t glossy, std::uint32_t number, std::uint32_t first, std::uint32_t end,
-                          std::vector<Way>* ways) const {
+void FloorGlints::addWays(std::size_t glossy, const Turn& turn, std::vector<Way>* ways) const {
   const BakedRooms::Source& source = data_.rooms.sources[data_.rooms.glossy[glossy].source];
   const Eigen::Vector3f normal = Eigen::Map<const Eigen::Vector3f>(source.normal.data());
   const auto facets = Ggx<float>::ofRoughness(data_.rooms.glossy[glossy].roughness);
   // The same facets for all: what chance does to one would be seen beside the next.
   static const EvenPoints even(0);
-  for (std::uint32_t k = first; k < end; ++k) {
+  for (std::uint32_t k = turn.first; k < turn.end; ++k) {
+    const auto at_point = static_cast<std::uint32_t>(even.at(k, 4) * static_cast<float>(source.points));
     const BakedRooms::Point& point =
-        data_.rooms.points[source.first_point + k * 31u % source.points];  // 31: first ones lie side by side
-    const float radius = std::sqrt(even.at(k, 0)), turn = 2.0f * kPiFloat * even.at(k, 1);
-    const Eigen::Vector2f at = above_.place({radius * std::cos(turn), radius * std::sin(turn)}).cast<float>();
+        data_.rooms.points[source.first_point + std::min(at_point, source.points - 1)];
+    const float radius = std::sqrt(even.at(k, 0)), angle = 2.0f * kPiFloat * even.at(k, 1);
+    const Eigen::Vector2f at =
+        above_.place({radius * std::cos(angle), radius * std::sin(angle)}).cast<float>();
     const Eigen::Vector3f to_disc = (towards_ + at.x() * right_ + at.y() * up_).normalized();
     const float n_h = facets.normalsCosine(even.at(k, 2)), side = 2.0f * kPiFloat * even.at(k, 3);
     const float sine = std::sqrt(std::max(0.0f, 1.0f - n_h * n_h));
     const Eigen::Vector3f facet(sine * std::cos(side), sine * std::sin(side), n_h);
     const float cosine = facet.dot(to_disc);
     const Eigen::Vector3f to_floor = -mirrored(to_disc, facet).normalized();
-    Way way{number, {point.x, point.y, point.z}, to_floor, to_disc, cosine, 0.0f, point.share};
+    Way way{turn.number, {point.x, point.y, point.z}, to_floor, to_disc, cosine, 0.0f, point.share};
     const float falls = normal.dot(to_floor), rises = -to_floor.z();
     // What is chosen with the density D n_h, seen along the mirrored way: Walter et al. 2007, eq. 20 and 14.
     if (cosine > 0.0f && falls > 0.0f && rises > 0.0f && to_disc.z() > 0.0f)

@@ -39,8 +39,11 @@ class FloorGlints {
     Eigen::Array3f light = Eigen::Array3f::Zero();  ///< times areas
     float areas = 0.0f;
   };
-  void addWays(std::size_t glossy, std::uint32_t number, std::uint32_t first, std::uint32_t end,
-               std::vector<Way>* ways) const;
+  /// Those of its rays that are cast together, and its number in the block.
+  struct Turn {
+    std::uint32_t number, first, end;
+  };
+  void addWays(std::size_t glossy, const Turn& turn, std::vector<Way>* ways) const;
   /// Adds what arrives by `ways`, each to the sum of its room.
   void follow(const std::vector<Way>& ways, Sum* sums) const;
 

@@ -224,6 +224,7 @@ class Gatherer {
     rooms.mirrored.resize(rooms.samples.size());
     for (std::size_t room = 0; room < rooms.samples.size(); ++room)
       rooms.mirrored.copy(mirrored_, rooms.samples[room], room);
+    if (rooms.glossy.empty()) return;
     const GroundMirror mirror(patches_);
     tbb::parallel_for(std::size_t{0}, rooms.glossy.size(), [&](std::size_t g) {
       const std::uint32_t room = rooms.glossy[g].room, sample = rooms.samples[room];

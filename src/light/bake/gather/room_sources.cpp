@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "light/bake/gather/rooms.h"
 #include "light/bake/samples/mesh_leaves.h"
@@ -131,10 +132,13 @@ void RoomBaker::addPoints(BakedRooms* rooms) const {
 }
 
 void RoomBaker::addGlossy(BakedRooms* rooms) const {
+  std::vector<char> polished(samples_.receivers.size());
+  for (std::uint32_t i = 0; i < polished.size(); ++i) polished[i] = exchange_.isPolished(i) ? 1 : 0;
+  if (std::find(polished.begin(), polished.end(), 1) == polished.end()) return;
   for (std::uint32_t room = 0; room < rooms->samples.size(); ++room) {
     float weights = 0.0f, roughness = 0.0f;
     visitLinks(*rooms, room, [&](const SampleSeen& other, bool) {
-      if (!exchange_.isPolished(other.sample)) return;
+      if (polished[other.sample] == 0) return;
       weights += other.weight;
       roughness += other.weight * samples_.paints[other.sample].roughness;
     });

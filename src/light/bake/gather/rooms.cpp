@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <stdexcept>
 
 #include "light/patches/even_directions.h"
 #include "sunlit/quantity/angle.h"
@@ -244,6 +246,8 @@ void RoomBaker::look(TransportData* data) const {
   });
   std::size_t sum = 0;
   for (const auto& of_room : links) sum += of_room.size();
+  if (sum > std::numeric_limits<std::uint32_t>::max())
+    throw std::runtime_error("bake of light: rooms of this scene see too much of each other; fewer samples");
   rooms.links.reserve(sum);
   for (std::size_t room = 0; room < count; ++room) {
     const auto start = static_cast<std::uint32_t>(rooms.links.size());

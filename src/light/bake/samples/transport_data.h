@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "light/bake/samples/leaf_openness.h"
+#include "light/bake/samples/light_place.h"
 #include "light/patches/sky_patches.h"
 
 namespace sunlit::light {
@@ -172,6 +173,13 @@ struct TransportData {
 struct GlintNodes {
   std::vector<float> shares;  ///< of each node, of such samples
   float roughness;            ///< of the floors, in the mean
+
+  /// How much a place lacks of that light, 0 … 1; nothing where it is unknown.
+  float at(const LightPlace& place) const {
+    float sum = 0.0f;
+    for (std::size_t k = 0; k < 3 && place.known(); ++k) sum += place.weight[k] * shares[place.node[k]];
+    return sum;
+  }
 };
 /// Null: there are none.
 std::shared_ptr<const GlintNodes> glintNodes(const TransportData& data);

@@ -7,9 +7,12 @@
 
 #include "light/bake/samples/transport_data.h"
 #include "light/geometry/corners.h"
+#include "light/geometry/ray_list.h"
 #include "light/patches/even_directions.h"
 #include "light/picture/bodies/body_shade.h"
 #include "light/picture/bodies/lamps_on_places.h"
+#include "light/picture/disc/floor_mirror.h"
+#include "light/shading/polished_floor.h"
 #include "light/shading/reflectances.h"
 #include "sunlit/light/transport.h"
 #include "sunlit/quantity/angle.h"
@@ -60,6 +63,9 @@ class BodyLight::Implementation {
   /// Adds the light of a disc to the illuminance of each place that it reaches.
   static void addDisc(const Views& views, const sky::DiscLight& disc,
                       std::vector<Eigen::Array3f>* illuminance);
+  /// The same by way of polished floors, where nodes lack that light.
+  static void addGlints(const Views& views, const sky::DiscLight& disc, const GlintNodes& nodes,
+                        std::vector<Eigen::Array3f>* illuminance);
   /// The same of lamps, and of surfaces that pass their light on.
   static void addLamps(const Views& views, const Illumination& light,
                        std::vector<Eigen::Array3f>* illuminance);
@@ -151,6 +157,30 @@ void BodyLight::Implementation::addDisc(const Views& views, const sky::DiscLight
   }
 }
 
+void BodyLight::Implementation::addGlints(const Views& views, const sky::DiscLight& disc,
+                                          const GlintNodes& nodes, std::vector<Eigen::Array3f>* illuminance) {
+  if (!(disc.illuminance.value.maxCoeff() > 0.0f)) return;
+  const Eigen::Vector3f to_disc = disc.towards.vector().cast<float>(), down = FloorMirror::mirrored(to_disc);
+  const FloorMirror mirror(*views.visibility, to_disc, 0.0f);
+  RayList rays;
+  rays.reserve(views.met.size());
+  for (std::uint32_t i = 0; i < views.met.size(); ++i)
+    if (nodes.at(views.met[i].light) * views.met[i].normal.dot(down) > 0.0f)
+      rays.add(i, views.met[i].origin, down);
+  std::vector<std::uint8_t> stopped(rays.size(), 1);
+  mirror.stopped(rays.rays(), stopped.data());
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    const std::uint32_t i = rays.number()[k];
+    const Met& met = views.met[i];
+    if (stopped[k] != 0) continue;
+    const auto floor = mirror.floorAlong(met.origin, down);
+    if (floor) {
+      (*illuminance)[i] += nodes.at(met.light) * met.normal.dot(down) * disc.illuminance.value *
+                           mirroredShare(*floor, to_disc.z());
+    }
+  }
+}
+
 void BodyLight::Implementation::addLamps(const Views& views, const Illumination& light,
                                          std::vector<Eigen::Array3f>* illuminance) {
   std::vector<LampBeam> beams;
@@ -177,6 +207,10 @@ std::vector<AroundLight> BodyLight::Implementation::around(const Views& views,
   for (const Met& met : views.met) illuminance.push_back(arriving(met, light));
   addDisc(views, light.day.sun(), &illuminance);
   addDisc(views, light.day.moon(), &illuminance);
+  if (light.glint_nodes) {
+    addGlints(views, light.day.sun(), *light.glint_nodes, &illuminance);
+    addGlints(views, light.day.moon(), *light.glint_nodes, &illuminance);
+  }
   addLamps(views, light, &illuminance);
   for (std::size_t i = 0; i < views.met.size(); ++i) {
     const Met& met = views.met[i];

@@ -19,7 +19,7 @@ class DiscPoints {
   /// About the unit vector `towards`, of angular radius `radius_rad`; of what is above the horizon.
   DiscPoints(const Eigen::Vector3f& towards, float radius_rad);
   /// The same disc as a level mirror of that `alpha` (see Ggx) shows it: below the horizon, and as far aside
-  /// as its facets lean.
+  /// as its facets, leaning, turn it.
   static DiscPoints inFloor(const Eigen::Vector3f& towards, float radius_rad, float alpha);
 
   /// Unit vectors at right angles to the way to the disc and to each other.

@@ -67,10 +67,12 @@ void DiscVisibility::castAll() {
 
 int DiscVisibility::raysAfter(Step step, int samples, bool fills) const {
   if (step == Step::kProbe) return 1;
+  // In mirrors a ray counts once for each sheet of glass that it passes, of which several may be one surface.
+  samples = std::min(samples, surfaces_.samples_per_pixel);
   // One a sample, except where neighbours help; but a whole pixel gets a quad, however few samples it has.
   const int pixel = surfaces_.samples_per_pixel;
   const int first = fills ? kQuad : std::max(samples, kQuad * samples / pixel);
-  return step == Step::kSample ? first : std::max(first, kPoints * samples / pixel);
+  return std::min(step == Step::kSample ? first : std::max(first, kPoints * samples / pixel), kPoints);
 }
 
 bool DiscVisibility::facesDisc(const LightTable::DiscTarget& target) const {

@@ -21,11 +21,22 @@ void FloorMirror::stopped(const Rays& rays, std::uint8_t* stopped) const {
     if (hits[i].triangle == Hit::kMiss) continue;
     const Eigen::Vector3f down(rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]);
     const Vertex floor = vertices_.at(hits[i], down.normalized());
-    if (isPolishedFloor(floor)) up.add(i, floor.front, mirrored(down));
+    if (isPolishedFloor(floor)) up.add(i, floor.front, onDisc(mirrored(down)));
   }
   blocked.resize(up.size());
   visibility_.occluded(up.rays(), blocked.data());
   for (std::size_t k = 0; k < up.size(); ++k) stopped[up.number()[k]] = blocked[k];
+}
+
+/// The point of the disc in the direction that facets have spread: what they have turned they turn back.
+Eigen::Vector3f FloorMirror::onDisc(const Eigen::Vector3f& spread) const {
+  constexpr float kAboveHorizon = 1e-4f;
+  Eigen::Vector3f aside = spread - towards_;
+  const float far = aside.norm();
+  if (far > tan_radius_) aside *= tan_radius_ / far;
+  Eigen::Vector3f point = towards_ + aside;
+  point.z() = std::max(point.z(), kAboveHorizon);
+  return point;
 }
 
 std::optional<Vertex> FloorMirror::floorAlong(const Eigen::Vector3f& origin,

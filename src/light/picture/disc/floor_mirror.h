@@ -10,13 +10,16 @@
 
 namespace sunlit::light {
 
-/// Rays go down to the disc's picture in a level floor, and on from there to the disc. What is not a polished
-/// floor stops them.
+/// Rays go down to the disc's picture in a level floor, whose facets lean and spread it, and on from there to
+/// the disc itself. What is not a polished floor stops them.
 class FloorMirror : public DiscWay {
  public:
-  /// Keeps a reference.
-  explicit FloorMirror(const Visibility& visibility)
-      : visibility_(visibility), vertices_(visibility.fixedGeometry(), visibility.movingGeometry()) {}
+  /// Of a disc about the unit vector `towards`, whose radius has the tangent `tan_radius`. Keeps a reference.
+  FloorMirror(const Visibility& visibility, const Eigen::Vector3f& towards, float tan_radius)
+      : visibility_(visibility),
+        vertices_(visibility.fixedGeometry(), visibility.movingGeometry()),
+        towards_(towards),
+        tan_radius_(tan_radius) {}
 
   void stopped(const Rays& rays, std::uint8_t* stopped) const override;
 
@@ -29,8 +32,12 @@ class FloorMirror : public DiscWay {
   }
 
  private:
+  Eigen::Vector3f onDisc(const Eigen::Vector3f& spread) const;
+
   const Visibility& visibility_;
   SceneVertices vertices_;
+  Eigen::Vector3f towards_;
+  float tan_radius_;
 };
 
 }  // namespace sunlit::light
