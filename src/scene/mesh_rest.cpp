@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/assimp_nodes.h"
+#include "scene/cofactors.h"
 
 namespace sunlit::scene {
 namespace {
@@ -55,11 +56,8 @@ bool standOnBones(const aiMesh& source, const aiScene& scene, Mesh& mesh) {
     const Eigen::Matrix3d linear = pose.topLeftCorner<3, 3>();
     mesh.positions[i] =
         (linear * mesh.positions[i].cast<double>() + pose.topRightCorner<3, 1>()).cast<float>();
-    // Normals go by the cofactors; see SceneBuilder::addMesh.
-    Eigen::Matrix3d cofactors;
-    cofactors << linear.col(1).cross(linear.col(2)), linear.col(2).cross(linear.col(0)),
-        linear.col(0).cross(linear.col(1));
-    if (i < mesh.normals.size()) mesh.normals[i] = (cofactors * mesh.normals[i].cast<double>()).cast<float>();
+    if (i < mesh.normals.size())
+      mesh.normals[i] = (cofactors(linear) * mesh.normals[i].cast<double>()).cast<float>();
     if (i < mesh.tangents.size())
       mesh.tangents[i].head<3>() =
           (linear * mesh.tangents[i].head<3>().cast<double>()).normalized().cast<float>();

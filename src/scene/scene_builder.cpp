@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scene/cofactors.h"
 #include "scene/color.h"
 #include "sunlit/image/texture_files.h"
 #include "sunlit/scene/material_maps.h"
@@ -142,10 +143,7 @@ int SceneBuilder::oneSided(int material) {
 void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mesh) {
   Mesh moved = mesh;
   const Eigen::Matrix3d linear = map_from_mesh.linear();
-  // Normals go by the cofactors of the linear part, which are defined for flattening scales too.
-  Eigen::Matrix3d normals_linear;
-  normals_linear << linear.col(1).cross(linear.col(2)), linear.col(2).cross(linear.col(0)),
-      linear.col(0).cross(linear.col(1));
+  Eigen::Matrix3d normals_linear = cofactors(linear);
   const bool mirrored = linear.determinant() < 0.0;
   if (mirrored) normals_linear = -normals_linear;
   for (Eigen::Vector3f& position : moved.positions) {

@@ -45,8 +45,8 @@ struct OutlookSources {
 /// Parallel; the same bits for any number of threads.
 void findOutlooks(const Surfaces& surfaces, const OutlookSources& sources, Outlooks* outlooks);
 
-/// Derives all of `picture` but the surfaces that the camera sees, which are given. Reuses memory. Parallel;
-/// the same bits for any number of threads.
+/// Derives all of `picture` but the surfaces that the camera sees, which are given. Reuses memory but of
+/// mirrors. Parallel; the same bits for any number of threads.
 void makeReady(const OutlookSources& sources, ReadyPicture* picture);
 
 }  // namespace sunlit::light

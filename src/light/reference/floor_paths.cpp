@@ -53,10 +53,8 @@ void Paths::addDiscInFloors(const Disc& disc, int bounce) {
     const std::uint64_t number =
         kInFloors + 4 * (static_cast<std::uint64_t>(bounce) * scene_.days.size() + disc.day);
     const auto next = [&](std::uint64_t k) { return uniform(path.key, number + k); };
-    const Eigen::Vector3f point = disc.point(next(0), next(1));
-    const float n_h = scene_.floors->normalsCosine(next(2)), angle = static_cast<float>(2.0 * kPi) * next(3);
-    const float sine = std::sqrt(std::max(0.0f, 1.0f - n_h * n_h));
-    const Eigen::Vector3f facet(sine * std::cos(angle), sine * std::sin(angle), n_h);
+    const Eigen::Vector3f point = disc.area.point(next(0), next(1));
+    const Eigen::Vector3f facet = scene_.floors->normal(next(2), next(3));
     const float cosine = facet.dot(point);
     if (!(cosine > 0.0f)) continue;
     const Eigen::Vector3f down = -mirrored(point, facet).normalized();
@@ -64,7 +62,7 @@ void Paths::addDiscInFloors(const Disc& disc, int bounce) {
     const Eigen::Array3f reflectance = directReflectance(path.vertex.reflection, down, 0.0f);
     if (!(reflectance.maxCoeff() > 0.0f)) continue;
     const float density =
-        scene_.floors->mirroredDensity(n_h, cosine) + scatterDensity(path.vertex.reflection, down);
+        scene_.floors->mirroredDensity(facet.z(), cosine) + scatterDensity(path.vertex.reflection, down);
     bundle_.add(path.vertex.origin(down), down, i);
     weights_.push_back(path.throughput * reflectance * disc.illuminance / density);
     points.push_back(point);

@@ -20,23 +20,11 @@ constexpr std::uint64_t kGlass = std::uint64_t{1} << 32;
 constexpr std::uint64_t kShining = std::uint64_t{1} << 33;
 
 void appendDisc(const sky::DiscLight& light, std::size_t day, std::vector<Disc>* discs) {
-  if (!(light.illuminance.value.maxCoeff() > 0.0f)) return;
-  const Eigen::Vector3f towards = light.towards.vector().cast<float>();
-  const double radius_rad = light.angular_radius.rad();
-  const Eigen::Vector3f across =
-      std::abs(towards.z()) < 0.9f ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX();
-  const Eigen::Vector3f right = across.cross(towards).normalized() * static_cast<float>(std::tan(radius_rad));
-  discs->push_back({day, towards, right, towards.cross(right), light.illuminance.value,
-                    DiscAboveHorizon(towards, radius_rad)});
+  if (light.illuminance.value.maxCoeff() > 0.0f)
+    discs->push_back({day, DiscArea(light), light.illuminance.value});
 }
 
 }  // namespace
-
-Eigen::Vector3f Disc::point(float random_radius, float random_turn) const {
-  const float radius = std::sqrt(random_radius), angle = static_cast<float>(2.0 * kPi) * random_turn;
-  const Eigen::Vector2f at = above.place({radius * std::cos(angle), radius * std::sin(angle)}).cast<float>();
-  return (towards + at.x() * right + at.y() * up).normalized();
-}
 
 PathScene::PathScene(const World& world_to_trace, const std::vector<sky::Daylight>& days_to_trace,
                      const ReferenceOptions& options_to_use, int samples_in_pixel)
@@ -176,7 +164,7 @@ void Paths::addDisc(const Disc& disc, int bounce) {
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     const Vertex& vertex = paths_[i].vertex;
     const Eigen::Vector3f towards =
-        disc.point(random(paths_[i], bounce, kOnDisc), random(paths_[i], bounce, kOnDisc + 1));
+        disc.area.point(random(paths_[i], bounce, kOnDisc), random(paths_[i], bounce, kOnDisc + 1));
     if (!vertex.faces(towards)) continue;
     const Eigen::Array3f weight = directReflectance(vertex.reflection, towards, 0.0f);
     if (!(weight.maxCoeff() > 0.0f)) continue;

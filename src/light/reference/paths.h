@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "light/lamps/lamp_beam.h"
-#include "light/patches/disc_above_horizon.h"
+#include "light/patches/disc_area.h"
 #include "light/patches/random.h"
 #include "light/reference/emitters.h"
 #include "light/reference/sky_sampler.h"
@@ -23,13 +23,8 @@ namespace sunlit::light {
 /// A sun or moon that shines.
 struct Disc {
   std::size_t day;
-  Eigen::Vector3f towards;
-  Eigen::Vector3f right, up;  ///< span it; as long as the tangent of its radius
+  DiscArea area;
   Eigen::Array3f illuminance;
-  DiscAboveHorizon above;  ///< where the illuminance comes from
-
-  /// Unit, towards the point of it that two numbers in [0, 1) choose, evenly.
-  Eigen::Vector3f point(float random_radius, float random_turn) const;
 };
 
 /// Of polished floors, by their mean roughness; none: there are none.

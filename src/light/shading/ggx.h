@@ -46,6 +46,12 @@ class Ggx {
 
   /// Cosine n_h of a normal chosen with the density D n_h, by a number in [0, 1); [W] eq. 35.
   Real normalsCosine(Real random) const { return std::sqrt((1 - random) / (1 + (alpha2_ - 1) * random)); }
+  /// Such a normal, turned about the surface's by a second number.
+  Vector normal(Real random, Real random_turn) const {
+    const Real cosine = normalsCosine(random), turn = static_cast<Real>(2 * kPi) * random_turn;
+    const Real sine = std::sqrt(std::max<Real>(0, 1 - cosine * cosine));
+    return {sine * std::cos(turn), sine * std::sin(turn), cosine};
+  }
   /// With which density, 1/sr, light comes from where such a normal mirrors the eye; [W] eq. 24 and 14.
   Real mirroredDensity(Real n_h, Real v_h) const { return distribution(n_h) * n_h / (4 * v_h); }
 

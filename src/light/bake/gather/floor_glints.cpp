@@ -24,16 +24,10 @@ constexpr std::uint32_t kProbes = 16, kAll = 96;
 FloorGlints::FloorGlints(const TransportData& data, const sky::DiscLight& disc, const Visibility& visibility)
     : data_(data),
       visibility_(visibility),
-      towards_(disc.towards.vector().cast<float>()),
-      above_(towards_, disc.angular_radius.rad()),
+      disc_(disc),
       illuminance_(disc.illuminance.value),
       vertices_(visibility.fixedGeometry(), visibility.movingGeometry()),
-      glass_(visibility) {
-  const Eigen::Vector3f across =
-      std::abs(towards_.z()) < 0.9f ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX();
-  right_ = across.cross(towards_).normalized() * static_cast<float>(std::tan(disc.angular_radius.rad()));
-  up_ = towards_.cross(right_);
-}
+      glass_(visibility) {}
 
 void FloorGlints::addTo(std::vector<Eigen::Array3f>* rooms) const {
   const std::vector<BakedRooms::Glossy>& glossy = data_.rooms.glossy;
@@ -67,20 +61,15 @@ void FloorGlints::addWays(std::size_t glossy, const Turn& turn, std::vector<Way>
     const auto at_point = static_cast<std::uint32_t>(even.at(k, 4) * static_cast<float>(source.points));
     const BakedRooms::Point& point =
         data_.rooms.points[source.first_point + std::min(at_point, source.points - 1)];
-    const float radius = std::sqrt(even.at(k, 0)), angle = 2.0f * kPiFloat * even.at(k, 1);
-    const Eigen::Vector2f at =
-        above_.place({radius * std::cos(angle), radius * std::sin(angle)}).cast<float>();
-    const Eigen::Vector3f to_disc = (towards_ + at.x() * right_ + at.y() * up_).normalized();
-    const float n_h = facets.normalsCosine(even.at(k, 2)), side = 2.0f * kPiFloat * even.at(k, 3);
-    const float sine = std::sqrt(std::max(0.0f, 1.0f - n_h * n_h));
-    const Eigen::Vector3f facet(sine * std::cos(side), sine * std::sin(side), n_h);
+    const Eigen::Vector3f to_disc = disc_.point(even.at(k, 0), even.at(k, 1));
+    const Eigen::Vector3f facet = facets.normal(even.at(k, 2), even.at(k, 3));
     const float cosine = facet.dot(to_disc);
     const Eigen::Vector3f to_floor = -mirrored(to_disc, facet).normalized();
     Way way{turn.number, {point.x, point.y, point.z}, to_floor, to_disc, cosine, 0.0f, point.share};
     const float falls = normal.dot(to_floor), rises = -to_floor.z();
     // What is chosen with the density D n_h, seen along the mirrored way: Walter et al. 2007, eq. 20 and 14.
     if (cosine > 0.0f && falls > 0.0f && rises > 0.0f && to_disc.z() > 0.0f)
-      way.factor = 4.0f * to_disc.z() * facets.visibility(to_disc.z(), rises) * cosine / n_h * falls;
+      way.factor = 4.0f * to_disc.z() * facets.visibility(to_disc.z(), rises) * cosine / facet.z() * falls;
     ways->push_back(way);
   }
 }

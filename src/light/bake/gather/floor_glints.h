@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "light/bake/samples/transport_data.h"
-#include "light/patches/disc_above_horizon.h"
+#include "light/patches/disc_area.h"
 #include "light/shading/glass_sheets.h"
 #include "light/shading/vertex.h"
 #include "sunlit/light/visibility.h"
@@ -49,8 +49,7 @@ class FloorGlints {
 
   const TransportData& data_;
   const Visibility& visibility_;
-  Eigen::Vector3f towards_, right_, up_;  ///< the latter two as long as the tangent of the disc's radius
-  DiscAboveHorizon above_;
+  DiscArea disc_;
   Eigen::Array3f illuminance_;
   SceneVertices vertices_;
   GlassSheets glass_;

@@ -209,9 +209,7 @@ class Gatherer {
     mirrored_.resize(count_);
     tbb::parallel_for(std::size_t{0}, (count_ + kBlock - 1) / kBlock, [&](std::size_t block) {
       for (std::size_t i = block * kBlock; i < std::min(count_, (block + 1) * kBlock); ++i) {
-        Row row{};
-        for (std::size_t k = exchange_.seen[i].up; k < exchange_.seen[i].hits.size(); ++k)
-          addMirrored(data, mirror, exchange_.ray(i, k), &row);
+        const Row row = mirroredBy(data, mirror, i, Exchange::all);
         mirrored_.set(i, row.data());
         for (const float value : row) exchange_.mirrored_sums[i] += value;
       }
@@ -227,14 +225,22 @@ class Gatherer {
     if (rooms.glossy.empty()) return;
     const GroundMirror mirror(patches_);
     tbb::parallel_for(std::size_t{0}, rooms.glossy.size(), [&](std::size_t g) {
-      const std::uint32_t room = rooms.glossy[g].room, sample = rooms.samples[room];
-      Row row{};
-      for (std::size_t k = exchange_.seen[sample].up; k < exchange_.seen[sample].hits.size(); ++k) {
-        const RaySeen ray = exchange_.ray(sample, k);
-        if (!exchange_.isPolished(ray.from)) addMirrored(*data, mirror, ray, &row);
-      }
-      rooms.mirrored.set(room, row.data());
+      const std::uint32_t room = rooms.glossy[g].room;
+      const auto rough = [this](std::uint32_t ground) { return !exchange_.isPolished(ground); };
+      rooms.mirrored.set(room, mirroredBy(*data, mirror, rooms.samples[room], rough).data());
     });
+  }
+
+  /// What a sample sees mirrored by ground samples that are wanted(number).
+  template <typename Wanted>
+  Row mirroredBy(const TransportData& data, const GroundMirror& mirror, std::size_t sample,
+                 const Wanted& wanted) const {
+    Row row{};
+    for (std::size_t k = exchange_.seen[sample].up; k < exchange_.seen[sample].hits.size(); ++k) {
+      const RaySeen ray = exchange_.ray(sample, k);
+      if (wanted(ray.from)) addMirrored(data, mirror, ray, &row);
+    }
+    return row;
   }
 
   void addMirrored(const TransportData& data, const GroundMirror& mirror, const RaySeen& ray,

@@ -41,11 +41,9 @@ Eigen::Vector3f FloorMirror::onDisc(const Eigen::Vector3f& spread) const {
 
 std::optional<Vertex> FloorMirror::floorAlong(const Eigen::Vector3f& origin,
                                               const Eigen::Vector3f& down) const {
-  RayList ray;
-  ray.reserve(1);
-  ray.add(0, origin, down);
+  const float *from = origin.data(), *towards = down.data();
   Hit hit;
-  visibility_.closest(ray.rays(), &hit);
+  visibility_.closest({from, from + 1, from + 2, towards, towards + 1, towards + 2, 1}, &hit);
   if (hit.triangle == Hit::kMiss) return std::nullopt;
   const Vertex floor = vertices_.at(hit, down);
   return isPolishedFloor(floor) ? std::optional<Vertex>(floor) : std::nullopt;
