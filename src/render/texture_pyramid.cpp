@@ -54,52 +54,38 @@ std::vector<float> firstCutoffs(const scene::Scene& scene) {
 
 }  // namespace
 
-/// Each row ends with its first texel once more, so that neighbours always lie side by side.
-TexturePyramid::Level::Level(MipLevel mip, bool masked) : width(mip.width), height(mip.height) {
-  static const std::array<std::uint16_t, 256> codes = [] {
-    std::array<std::uint16_t, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = static_cast<std::uint16_t>(std::lround(image::linearOfSrgb()[i] * 65535.0f));
-    return values;
-  }();
-  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
-  linear.resize(4 * (columns + 1) * rows);
-  if (masked) alpha.resize(columns * rows);
-  for (std::size_t row = 0; row < rows; ++row) {
-    std::uint16_t* const out = &linear[4 * row * (columns + 1)];
-    for (std::size_t column = 0; column < columns; ++column) {
-      const std::uint8_t* const texel = &mip.rgba[4 * (row * columns + column)];
-      for (std::size_t c = 0; c < 3; ++c) out[4 * column + c] = codes[texel[c]];
-      if (masked) alpha[row * columns + column] = texel[3];
-    }
-    std::copy_n(out, 4, out + 4 * columns);
-  }
+TexturePyramid::Level::Level(int columns, int rows, const std::uint8_t* texels, bool masked)
+    : width(columns), height(rows), rgba(texels) {
+  if (!masked) return;
+  alpha.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (std::size_t i = 0; i < alpha.size(); ++i) alpha[i] = rgba[4 * i + 3];
 }
 
 TexturePyramid::TexturePyramid(const scene::Texture& texture, float alpha_cutoff)
-    : size_(static_cast<float>(texture.width), static_cast<float>(texture.height)),
+    : smaller_(smallerLevels(texture, alpha_cutoff)),
+      size_(static_cast<float>(texture.width), static_cast<float>(texture.height)),
       cutoff_(alpha_cutoff * 255.0f),
       wrap_u_(texture.wrap_u),
       wrap_v_(texture.wrap_v),
       repeats_(wrap_u_ == scene::Wrap::kRepeat && wrap_v_ == scene::Wrap::kRepeat) {
   const bool masked = alpha_cutoff != kNoCutoff;
-  levels_.emplace_back(MipLevel{texture.width, texture.height, texture.rgba}, masked);
-  for (MipLevel& level : smallerLevels(texture, alpha_cutoff)) levels_.emplace_back(std::move(level), masked);
+  levels_.emplace_back(texture.width, texture.height, texture.rgba.data(), masked);
+  for (const MipLevel& level : smaller_)
+    levels_.emplace_back(level.width, level.height, level.rgba.data(), masked);
 }
 
 namespace {
 
-using Texel = Eigen::Array4f;
+using Texel = Eigen::Array3f;
 
 /// Of one size of a texture, as TexturePyramid keeps them.
 struct Texels {
-  const std::vector<std::uint16_t>& linear;
+  const std::uint8_t* rgba;
   int width, height;
 };
 
-/// Between the four texels about a point, `u` and `v` of a whole turn, in units of 1 / 65535.
+/// Between the four texels about a point, `u` and `v` of a whole turn.
 Texel bilinear(const Texels& texels, float u, float v) {
-  const std::vector<std::uint16_t>& linear = texels.linear;
   const int width = texels.width, height = texels.height;
   // Texel centres lie at half-integers; half a texel less and one more keeps what is rounded positive.
   const float x = u * static_cast<float>(width) + 0.5f, y = v * static_cast<float>(height) + 0.5f;
@@ -108,19 +94,21 @@ Texel bilinear(const Texels& texels, float u, float v) {
   // Rounding may take a coordinate just below a whole number to the end of the row.
   const int x0 = left == 0 ? width - 1 : std::min(left, width) - 1;
   const int y0 = above == 0 ? height - 1 : std::min(above, height) - 1;
-  const int y1 = y0 + 1 == height ? 0 : y0 + 1;
-  const auto at = [&](int row) {
-    return &linear[4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width + 1) +
-                        static_cast<std::size_t>(x0))];
+  const int x1 = x0 + 1 == width ? 0 : x0 + 1, y1 = y0 + 1 == height ? 0 : y0 + 1;
+  const auto at = [&](int column, int row) {
+    return texels.rgba + 4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                              static_cast<std::size_t>(column));
   };
-  const std::uint16_t *const upper = at(y0), *const lower = at(y1);
-  // Two texels at once, in a form that compilers turn into vector code.
-  alignas(16) float column[8], beside[8];
-  for (int i = 0; i < 8; ++i) column[i] = static_cast<float>(upper[i]);
-  for (int i = 0; i < 8; ++i) beside[i] = static_cast<float>(lower[i]);
-  const Eigen::Map<const Texel, Eigen::Aligned16> a(column), b(column + 4), c(beside), d(beside + 4);
-  const Texel first = a + down * (c - a), second = b + down * (d - b);
-  return first + right * (second - first);
+  const std::uint8_t *const a = at(x0, y0), *const b = at(x1, y0), *const c = at(x0, y1),
+                            *const d = at(x1, y1);
+  const float* const linear = image::linearOfSrgb().data();
+  Texel sum;
+  for (int i = 0; i < 3; ++i) {
+    const float first = linear[a[i]] + down * (linear[c[i]] - linear[a[i]]);
+    const float second = linear[b[i]] + down * (linear[d[i]] - linear[b[i]]);
+    sum[i] = first + right * (second - first);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -137,17 +125,17 @@ Eigen::Array3f TexturePyramid::color(const Eigen::Array2f& at, float level) cons
   const float between = clamped - static_cast<float>(lower);
   const float share = std::clamp(2.0f * between - 0.5f, 0.0f, 1.0f);
   const auto look = [&](const Level& l) {
-    if (repeats_) return bilinear({l.linear, l.width, l.height}, u, v);
+    if (repeats_) return bilinear({l.rgba, l.width, l.height}, u, v);
     // Half a texel from an edge that does not repeat, its texels alone are seen.
     const auto inset = [](float coordinate, int size, scene::Wrap wrap) {
       const float half = 0.5f / static_cast<float>(size);
       return wrap == scene::Wrap::kRepeat ? coordinate : std::clamp(coordinate, half, 1.0f - half);
     };
-    return bilinear({l.linear, l.width, l.height}, inset(u, l.width, wrap_u_), inset(v, l.height, wrap_v_));
+    return bilinear({l.rgba, l.width, l.height}, inset(u, l.width, wrap_u_), inset(v, l.height, wrap_v_));
   };
   Texel sum = look(levels_[share < 1.0f ? lower : lower + 1]);
   if (share > 0.0f && share < 1.0f) sum += share * (look(levels_[lower + 1]) - sum);
-  return sum.head<3>() * (1.0f / 65535.0f);
+  return sum;
 }
 
 TexturePyramid::Mask TexturePyramid::mask(float texels_squared) const {

@@ -18,8 +18,10 @@ inline bool isMasked(const scene::Material& material) {
 
 class TexturePyramid {
  public:
-  /// `alpha_cutoff` 0 … 1, or kNoCutoff for a texture that masks nothing.
+  /// `alpha_cutoff` 0 … 1, or kNoCutoff for a texture that masks nothing. Looks up the full size in `texture`
+  /// itself, which must outlive it.
   TexturePyramid(const scene::Texture& texture, float alpha_cutoff);
+  TexturePyramid(scene::Texture&&, float) = delete;
 
   /// Of the full size, in texels.
   Eigen::Array2f size() const { return size_; }
@@ -50,13 +52,14 @@ class TexturePyramid {
  private:
   struct Level {
     int width, height;
-    std::vector<std::uint16_t> linear;  ///< r g b and padding of each texel, in linear light, 65535 for 1
-    std::vector<std::uint8_t> alpha;    ///< of a mask
-    Level(MipLevel mip, bool masked);
+    const std::uint8_t* rgba;         ///< as scene::Texture
+    std::vector<std::uint8_t> alpha;  ///< of a mask, by itself: it is looked up most
+    Level(int width, int height, const std::uint8_t* rgba, bool masked);
   };
   Mask maskOf(const Level& level) const;
 
-  std::vector<Level> levels_;
+  std::vector<MipLevel> smaller_;
+  std::vector<Level> levels_;  ///< of the texture and of smaller_
   Eigen::Array2f size_;
   float cutoff_;                 ///< of alpha, 0 … 255
   scene::Wrap wrap_u_, wrap_v_;  ///< of its colour
@@ -66,7 +69,9 @@ class TexturePyramid {
 /// Of all textures that a scene's materials use: one a texture and cutoff.
 class TexturePyramids {
  public:
+  /// `scene` must outlive it.
   explicit TexturePyramids(const scene::Scene& scene);
+  TexturePyramids(scene::Scene&&) = delete;
 
   /// Null for a material without a texture. One that masks nothing shares the sizes of its texture's first
   /// mask, if there is any.

@@ -8,7 +8,10 @@
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
+#include <type_traits>
+#include <utility>
 
+#include "sunlit/image/file_bytes.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::light {
@@ -28,6 +31,12 @@ struct Header {
   Number checksum;                       ///< of all that follows
 };
 static_assert(sizeof(Header) == 296, "no padding goes to the file");
+
+/// Arrays begin at multiples of it, for those who read them where they lie.
+constexpr std::size_t kAlignment = 64;
+std::size_t aligned(std::size_t offset) {
+  return (offset + kAlignment - 1) / kAlignment * kAlignment;
+}
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what) {
   throw std::runtime_error(file.string() + ": " + what);
@@ -65,37 +74,86 @@ void visitArrays(Data& data, const Visit& visit) {
   visit(data.rooms.glossy);
 }
 
-}  // namespace
+template <typename Array>
+void addTo(const Array& values, image::ContentHash* checksum) {
+  checksum->add(static_cast<std::uint64_t>(values.size()));
+  checksum->addBytes(values.data(), values.size() * sizeof(values[0]));
+}
 
-std::unique_ptr<TransportData> readBake(const fs::path& file, const image::ContentHash& key) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) fail(file, "cannot be read");
+/// The header, if the file is as long as it says.
+Header checkedHeader(const fs::path& file, const image::FileBytes& bytes, const image::ContentHash& key) {
   Header header;
-  if (!stream.read(reinterpret_cast<char*>(&header), sizeof(header)) ||
-      std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0)
-    fail(file, "is no baked light");
+  if (bytes.size() < sizeof(header)) fail(file, "is no baked light");
+  std::memcpy(&header, bytes.data(), sizeof(header));
+  if (std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0) fail(file, "is no baked light");
   if (header.version != kBakeVersion || header.patches != SkyPatches::kCount)
     fail(file, "is of another version");
   if (header.key != key.number()) fail(file, "is of another scene");
-  auto data = std::make_unique<TransportData>();
-  const std::uint64_t size = fs::file_size(file);
-  std::uint64_t expected = sizeof(header);
-  std::size_t array = 0;
-  visitArrays(*data, [&](auto& values) {
+  std::size_t expected = sizeof(header), array = 0;
+  const TransportData empty;
+  visitArrays(empty, [&](const auto& values) {
     const std::uint64_t count = header.counts.at(array++);
     if (count >> 40 != 0) fail(file, "is damaged");  // and the sum of sizes would overflow
-    expected += count * sizeof(values[0]);
+    expected = aligned(expected) + count * sizeof(values[0]);
   });
-  if (size != expected) fail(file, size < expected ? "is cut short" : "is longer than it should be");
+  if (bytes.size() != expected)
+    fail(file, bytes.size() < expected ? "is cut short" : "is longer than it should be");
+  return header;
+}
+
+/// Written beside its place first; removed again where anything fails.
+class Unfinished {
+ public:
+  explicit Unfinished(const fs::path& place)
+      : place_(place),
+        path_(place.string() + "." + std::to_string(getpid()) + ".part"),
+        stream_(path_, std::ios::binary | std::ios::trunc) {}
+  ~Unfinished() {
+    std::error_code ignored;
+    if (!kept_) fs::remove(path_, ignored);
+  }
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+
+  void write(const void* data, std::size_t size) {
+    stream_.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
+    size_ += size;
+  }
+  void align() {
+    constexpr char kZeros[kAlignment] = {};
+    write(kZeros, aligned(size_) - size_);
+  }
+  void keep() {
+    stream_.close();
+    if (!stream_) fail(place_, "cannot be written");
+    image::moveIntoPlace(path_, place_);
+    kept_ = true;
+  }
+
+ private:
+  fs::path place_, path_;
+  std::ofstream stream_;
+  std::size_t size_ = 0;
+  bool kept_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<const TransportData> readBake(const fs::path& file, const image::ContentHash& key) {
+  const auto bytes = std::make_shared<const image::FileBytes>(file);
+  const Header header = checkedHeader(file, *bytes, key);
+  auto data = std::make_unique<TransportData>();
   image::ContentHash checksum;
-  array = 0;
+  std::size_t offset = sizeof(header), array = 0;
   visitArrays(*data, [&](auto& values) {
-    values.resize(header.counts.at(array++));
-    stream.read(reinterpret_cast<char*>(values.data()),
-                static_cast<std::streamsize>(values.size() * sizeof(values[0])));
-    checksum.add(values);
+    using Array = std::remove_reference_t<decltype(values)>;
+    using Value = std::remove_cv_t<std::remove_reference_t<decltype(values[0])>>;
+    const std::uint64_t count = header.counts.at(array++);
+    offset = aligned(offset);
+    values = Array(reinterpret_cast<const Value*>(bytes->data() + offset), count, bytes);
+    offset += count * sizeof(Value);
+    addTo(std::as_const(values), &checksum);
   });
-  if (!stream) fail(file, "cannot be read to its end");
   if (checksum.number() != header.checksum) fail(file, "is damaged");
   return data;
 }
@@ -110,28 +168,16 @@ void writeBake(const fs::path& file, const image::ContentHash& key, const Transp
   std::size_t array = 0;
   visitArrays(data, [&](const auto& values) {
     header.counts.at(array++) = values.size();
-    checksum.add(values);
+    addTo(values, &checksum);
   });
   header.checksum = checksum.number();
-  const fs::path unfinished = file.string() + "." + std::to_string(getpid()) + ".part";
-  std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
-  stream.write(reinterpret_cast<const char*>(&header), sizeof(header));
+  Unfinished unfinished(file);
+  unfinished.write(&header, sizeof(header));
   visitArrays(data, [&](const auto& values) {
-    stream.write(reinterpret_cast<const char*>(values.data()),
-                 static_cast<std::streamsize>(values.size() * sizeof(values[0])));
+    unfinished.align();
+    unfinished.write(values.data(), values.size() * sizeof(values[0]));
   });
-  stream.close();
-  std::error_code ignored;
-  if (!stream) {
-    fs::remove(unfinished, ignored);
-    fail(file, "cannot be written");
-  }
-  try {
-    image::moveIntoPlace(unfinished, file);
-  } catch (const std::runtime_error&) {
-    fs::remove(unfinished, ignored);
-    throw;
-  }
+  unfinished.keep();
 }
 
 }  // namespace sunlit::light

@@ -15,8 +15,8 @@ using Log = image::CacheFolder::Log;
 
 constexpr const char* kEnding = ".light";
 
-std::unique_ptr<TransportData> readIfThere(const fs::path& file, const image::ContentHash& key,
-                                           const Log& log) {
+std::unique_ptr<const TransportData> readIfThere(const fs::path& file, const image::ContentHash& key,
+                                                 const Log& log) {
   std::error_code error;
   if (!fs::exists(file, error)) return nullptr;
   try {
@@ -76,19 +76,19 @@ std::shared_ptr<const Transport> Transport::cached(std::shared_ptr<const Geometr
   const fs::path file = *folder / (key.text() + kEnding);
   auto kept = std::make_shared<KeptTransport>();
   kept->in_use.emplace(file);  // from here on nobody removes it
-  std::unique_ptr<TransportData> data = readIfThere(file, key, nullptr);
+  std::unique_ptr<const TransportData> data = readIfThere(file, key, nullptr);
   std::optional<image::CacheTurn> turn;
   if (!data) {
     turn = turnFor(file, log);
     if (!turn) return bake(std::move(geometry), options, progress);
     data = readIfThere(file, key, log);  // another process may have finished it meanwhile
   }
-  if (data) {
-    kept->transport = std::make_shared<const Transport>(options, std::move(data));
-  } else {
+  if (!data) {
     kept->transport = bake(std::move(geometry), options, progress);
     keep(file, key, *kept->transport->data_, log);
+    data = readIfThere(file, key, nullptr);  // whose memory is shared
   }
+  if (data) kept->transport = std::make_shared<const Transport>(options, std::move(data));
   kept->in_use.emplace(file);  // which may have come only now
   turn.reset();
   image::CacheFolder{*folder, kEnding}.tidy(cache.limit_bytes, log);

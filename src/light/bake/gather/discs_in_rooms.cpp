@@ -201,7 +201,7 @@ void DiscsInRooms::startFromPatches(const sky::DiscLight& disc) {
 }
 
 void DiscsInRooms::send() {
-  const std::vector<BakedRooms::Source>& sources = data_.rooms.sources;
+  const BakedArray<BakedRooms::Source>& sources = data_.rooms.sources;
   tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t s) {
     const BakedRooms::Source& source = sources[s];
     Eigen::Array3f sum =

@@ -30,7 +30,7 @@ FloorGlints::FloorGlints(const TransportData& data, const sky::DiscLight& disc, 
       glass_(visibility) {}
 
 void FloorGlints::addTo(std::vector<Eigen::Array3f>* rooms) const {
-  const std::vector<BakedRooms::Glossy>& glossy = data_.rooms.glossy;
+  const BakedArray<BakedRooms::Glossy>& glossy = data_.rooms.glossy;
   tbb::parallel_for(std::size_t{0}, (glossy.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
     const std::size_t first = block * kBlock, end = std::min(glossy.size(), first + kBlock);
     std::vector<Way> ways;

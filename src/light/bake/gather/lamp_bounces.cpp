@@ -27,8 +27,8 @@ void store(const std::vector<Arrived>& arrived, BakedLamps* baked) {
     });
     if (!lit) continue;
     baked->blocks.push_back(static_cast<std::uint32_t>(block));
-    std::transform(first, end, std::back_inserter(baked->light), stored);
-    baked->light.resize(baked->blocks.size() * kBlock, BakedLamps::Light{});
+    baked->light.resize(baked->blocks.size() * kBlock);
+    std::transform(first, end, baked->light.end() - kBlock, stored);
   }
   baked->first.push_back(static_cast<std::uint32_t>(baked->blocks.size()));
 }

@@ -248,15 +248,16 @@ void RoomBaker::look(TransportData* data) const {
   for (const auto& of_room : links) sum += of_room.size();
   if (sum > std::numeric_limits<std::uint32_t>::max())
     throw std::runtime_error("bake of light: rooms of this scene see too much of each other; fewer samples");
-  rooms.links.reserve(sum);
+  std::vector<BakedRooms::Link>& all = rooms.links.own();
+  all.reserve(sum);
   for (std::size_t room = 0; room < count; ++room) {
-    const auto start = static_cast<std::uint32_t>(rooms.links.size());
+    const auto start = static_cast<std::uint32_t>(all.size());
     rooms.first.push_back(start);
     rooms.below[room] += start;
-    rooms.links.insert(rooms.links.end(), links[room].begin(), links[room].end());
+    all.insert(all.end(), links[room].begin(), links[room].end());
     std::vector<BakedRooms::Link>().swap(links[room]);
   }
-  rooms.first.push_back(static_cast<std::uint32_t>(rooms.links.size()));
+  rooms.first.push_back(static_cast<std::uint32_t>(all.size()));
 }
 
 }  // namespace sunlit::light

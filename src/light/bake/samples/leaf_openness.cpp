@@ -78,7 +78,7 @@ class Looker {
         throw std::runtime_error("bake of light: too many leaves for 4 GB of grids");
     }
     openness_.grids.resize(at);
-    if (groups_.empty()) openness_.first.clear();
+    if (groups_.empty()) openness_.first.own().clear();
   }
 
   LeafOpenness look(const std::function<void(double)>& progress) {

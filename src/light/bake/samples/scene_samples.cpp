@@ -317,7 +317,8 @@ class Sampler {
     }
     samples.mesh.first_share.push_back(0);
     for (const Shares& shares : shares_) {
-      samples.mesh.shares.insert(samples.mesh.shares.end(), shares.begin(), shares.end());
+      std::vector<LightMesh::Share>& all = samples.mesh.shares.own();
+      all.insert(all.end(), shares.begin(), shares.end());
       samples.mesh.first_share.push_back(static_cast<std::uint32_t>(samples.mesh.shares.size()));
     }
     return samples;

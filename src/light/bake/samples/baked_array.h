@@ -1,0 +1,53 @@
+/// Numbers of a bake: in memory while they are made, or where their file is mapped.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace sunlit::light {
+
+/// A std::vector to those who fill it. What lies in a file is only read; the first to write to it gets a
+/// copy.
+template <typename T>
+class BakedArray {
+ public:
+  BakedArray() = default;
+  BakedArray(std::vector<T> values) : own_(std::move(values)) {}  // NOLINT: a vector is one
+  /// `count` of them from `first` on, as long as `holder` lives.
+  BakedArray(const T* first, std::size_t count, std::shared_ptr<const void> holder)
+      : holder_(std::move(holder)), first_(first), count_(count) {}
+
+  std::size_t size() const { return holder_ ? count_ : own_.size(); }
+  bool empty() const { return size() == 0; }
+  const T* data() const { return holder_ ? first_ : own_.data(); }
+  const T& operator[](std::size_t i) const { return data()[i]; }
+  const T* begin() const { return data(); }
+  const T* end() const { return data() + size(); }
+
+  T* data() { return own().data(); }
+  T& operator[](std::size_t i) { return own()[i]; }
+  T* begin() { return data(); }
+  T* end() { return data() + own_.size(); }
+  T& back() { return own().back(); }
+  void push_back(const T& value) { own().push_back(value); }
+  void resize(std::size_t count) { own().resize(count); }
+  void assign(std::size_t count, const T& value) { own().assign(count, value); }
+  /// To change them in any other way.
+  std::vector<T>& own() {
+    if (holder_) {
+      own_.assign(first_, first_ + count_);
+      holder_.reset();
+    }
+    return own_;
+  }
+
+ private:
+  std::vector<T> own_;
+  std::shared_ptr<const void> holder_;  ///< null: they are in own_
+  const T* first_ = nullptr;
+  std::size_t count_ = 0;
+};
+
+}  // namespace sunlit::light
