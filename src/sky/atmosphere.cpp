@@ -45,9 +45,9 @@ constexpr double kGlowDrowned = 0.0;
 }  // namespace
 
 struct Atmosphere::Tables {
-  explicit Tables(const AtmosphereOptions& options)
+  Tables(const AtmosphereOptions& options, const TableStore& kept)
       : altitude_km(options.observer_height_m * 1e-3),
-        transfer(mediumOf(options)),
+        transfer(mediumOf(options), kept),
         extinction(transfer, altitude_km),
         glow(transfer, extinction),
         sights(std::make_shared<AirSights>(transfer, altitude_km)) {}
@@ -71,9 +71,9 @@ void validate(const AtmosphereOptions& options) {
   requireFields(options);
 }
 
-Atmosphere::Atmosphere(const AtmosphereOptions& options) {
+Atmosphere::Atmosphere(const AtmosphereOptions& options, const TableStore& kept) {
   validate(options);
-  tables_ = std::make_unique<const Tables>(options);
+  tables_ = std::make_unique<const Tables>(options, kept);
 }
 
 Atmosphere::~Atmosphere() = default;

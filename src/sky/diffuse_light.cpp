@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <string>
 
 #include "heights.h"
 #include "quadrature.h"
@@ -101,6 +103,19 @@ Moments zeroMoments() {
   return zero;
 }
 
+/// Goes up whenever the numbers of the same medium change.
+constexpr int kVersion = 1;
+
+/// Of the numbers of a medium, exactly.
+std::string nameOf(const MediumParameters& medium) {
+  std::ostringstream name;
+  name << "diffuse light " << kVersion << std::hexfloat;
+  for (const double value :
+       {medium.turbidity, medium.aerosol_albedo, medium.ozone_du, medium.ground_albedo, medium.refractivity})
+    name << ' ' << value;
+  return name.str();
+}
+
 /// Calls visit(cosine to the sun, x of the direction) over half the azimuths; the other half mirrors them.
 template <typename Visit>
 void overAzimuths(const SightPath& path, double sun_cos_zenith, const Visit& visit) {
@@ -113,11 +128,20 @@ void overAzimuths(const SightPath& path, double sun_cos_zenith, const Visit& vis
 
 }  // namespace
 
-DiffuseLight::DiffuseLight(const Medium& medium, const Sunlight& sunlight)
-    : rays_(kHeights),
-      once_(static_cast<std::size_t>(kHeights * kSuns), zeroMoments()),
-      ground_once_(static_cast<std::size_t>(kSuns), Spectrum::Zero()),
+DiffuseLight::DiffuseLight(const Medium& medium, const Sunlight& sunlight, const TableStore& kept)
+    : field_(static_cast<std::size_t>(kHeights * kSuns), zeroMoments()),
+      ground_(static_cast<std::size_t>(kSuns), Spectrum::Zero()),
       ground_scale_(static_cast<float>(medium.parameters().ground_albedo / kPi)) {
+  const std::string name = nameOf(medium.parameters());
+  if (kept.find && take(kept.find(name))) return;
+  compute(medium, sunlight);
+  if (kept.keep) kept.keep(name, numbers());
+}
+
+void DiffuseLight::compute(const Medium& medium, const Sunlight& sunlight) {
+  rays_.resize(kHeights);
+  once_ = field_;
+  ground_once_ = ground_;
   scatterOnce(medium, sunlight);
   field_ = once_;
   ground_ = ground_once_;
@@ -132,6 +156,34 @@ DiffuseLight::DiffuseLight(const Medium& medium, const Sunlight& sunlight)
   }
   gatherAt(0, &ground_);
   rays_.clear();
+  once_ = Field();
+  ground_once_ = Spectra();
+}
+
+/// The field, node by node, and the ground.
+std::vector<float> DiffuseLight::numbers() const {
+  std::vector<float> numbers;
+  const auto add = [&](const Spectrum& spectrum) {
+    numbers.insert(numbers.end(), spectrum.data(), spectrum.data() + kBands);
+  };
+  for (const Moments& node : field_)
+    for (const Spectrum& moment : node) add(moment);
+  for (const Spectrum& ground : ground_) add(ground);
+  return numbers;
+}
+
+/// False: these are no numbers().
+bool DiffuseLight::take(const std::vector<float>& numbers) {
+  if (numbers.size() != (field_.size() * kMoments + ground_.size()) * kBands) return false;
+  const float* next = numbers.data();
+  const auto set = [&](Spectrum* spectrum) {
+    std::copy_n(next, kBands, spectrum->data());
+    next += kBands;
+  };
+  for (Moments& node : field_)
+    for (Spectrum& moment : node) set(&moment);
+  for (Spectrum& ground : ground_) set(&ground);
+  return true;
 }
 
 std::vector<DiffuseLight::Ray> DiffuseLight::raysFrom(const Medium& medium, double altitude_km) const {

@@ -7,6 +7,7 @@
 
 #include "sight_path.h"
 #include "sunlight.h"
+#include "sunlit/sky/table_store.h"
 
 namespace sunlit::sky {
 
@@ -24,7 +25,8 @@ class DiffuseLight {
   /// Sine of the elevation of the lowest sun whose light reaches the air; lower, all is zero.
   static constexpr float kLowestSun = -0.375F;
 
-  DiffuseLight(const Medium& medium, const Sunlight& sunlight);
+  /// Takes seconds, unless they are among what is `kept`.
+  DiffuseLight(const Medium& medium, const Sunlight& sunlight, const TableStore& kept);
 
   /// What one step of a line of sight scatters towards the eye of light scattered before; relative to the
   /// sun's irradiance, 1/sr.
@@ -44,6 +46,9 @@ class DiffuseLight {
   using Field = std::vector<Moments, Eigen::aligned_allocator<Moments>>;
   using Spectra = std::vector<Spectrum, Eigen::aligned_allocator<Spectrum>>;
 
+  void compute(const Medium& medium, const Sunlight& sunlight);
+  std::vector<float> numbers() const;
+  bool take(const std::vector<float>& numbers);
   std::vector<Ray> raysFrom(const Medium& medium, double altitude_km) const;
   template <typename Radiance>
   Gathered gather(const std::vector<Ray>& rays, double sun_cos_zenith, const Radiance& radiance) const;
@@ -51,9 +56,12 @@ class DiffuseLight {
   Field gatherAt(int height, Spectra* ground) const;
   float addOrder(Spectra* gained, Spectra* rest);
 
-  std::vector<std::vector<Ray>> rays_;  // by height; empty once all is gathered
-  Field once_, field_;                  // by height and sun
-  Spectra ground_once_, ground_;        // by sun
+  Field field_;     // by height and sun
+  Spectra ground_;  // by sun
+  // Empty once all is gathered:
+  std::vector<std::vector<Ray>> rays_;  // by height
+  Field once_;                          // as field_
+  Spectra ground_once_;                 // as ground_
   float ground_scale_;
 };
 

@@ -34,8 +34,8 @@ struct Scattered {
 /// DiffuseLight. Safe to read from many threads.
 class RadiativeTransfer {
  public:
-  explicit RadiativeTransfer(const MediumParameters& parameters)
-      : medium_(parameters), sunlight_(medium_), diffuse_(medium_, sunlight_) {}
+  explicit RadiativeTransfer(const MediumParameters& parameters, const TableStore& kept = {})
+      : medium_(parameters), sunlight_(medium_), diffuse_(medium_, sunlight_, kept) {}
 
   const Medium& medium() const { return medium_; }
   const Sunlight& sunlight() const { return sunlight_; }

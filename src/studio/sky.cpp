@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "studio/air_tables.h"
 #include "studio/tell.h"
 #include "sunlit/astronomy/celestial.h"
 #include "sunlit/astronomy/moon_position.h"
@@ -60,6 +61,7 @@ std::shared_ptr<const std::vector<sky::Star>> loadStars(const Reports& reports) 
 Sky::Sky(const SkyOptions& options, Reports reports)
     : options_(checked(options)),
       reports_(std::move(reports)),
+      air_tables_(options.cache_dir.empty() ? sky::TableStore() : airTablesIn(options.cache_dir, reports_)),
       stars_(options.stars ? loadStars(reports_) : nullptr) {}
 
 void Sky::over(const light::World& world) {
@@ -101,7 +103,7 @@ const sky::Atmosphere& Sky::airOver(double site_elevation_m) {
   }
   tell(reports_.note, "Air of a height of " + textOf(height_m) + " m");
   if (airs_.size() == kMostAirs) airs_.erase(airs_.begin());
-  airs_.emplace_back(height_m, sky::Atmosphere(airAt(height_m, options_)));
+  airs_.emplace_back(height_m, sky::Atmosphere(airAt(height_m, options_), air_tables_));
   return airs_.back().second;
 }
 

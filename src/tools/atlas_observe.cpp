@@ -50,7 +50,7 @@ WholePictures wholeIn(const AtlasRunOptions& options, const ObservationFile& fil
 
 AtlasCamera::AtlasCamera(const AtlasRunOptions& options)
     : options_(options), studio_(options.studio, std::nullopt, onTerminal()) {
-  studio::Sky sky = skyOver(studio_.world(), options.place);
+  studio::Sky sky = skyOver(studio_, options.place);
   for (const AtlasCondition& condition : options.conditions) {
     const studio::SkyBodies bodies = bodiesOf(placeOf(options, condition), condition.time.hour());
     const sky::Daylight daylight = sky.daylight(bodies);

@@ -69,7 +69,7 @@ std::vector<Hour> hoursOf(const ExportOptions& options) {
 class Camera {
  public:
   explicit Camera(const ExportOptions& options) : studio_(options.studio, std::nullopt, onTerminal()) {
-    studio::Sky sky = skyOver(studio_.world(), options.place);
+    studio::Sky sky = skyOver(studio_, options.place);
     for (const TimeOfDay& when : options.hours)
       lights_.push_back(studio_.illumination(sky.daylight(bodiesOf(options.place, when.hour()))));
   }

@@ -47,9 +47,9 @@ void addPlace(studio::CommandLine* line, PlaceOptions* options) {
   line->add("--ground-albedo NUMBER", ground);
 }
 
-studio::Sky skyOver(const light::World& world, const PlaceOptions& place, bool stars) {
-  studio::Sky sky({place.air, std::nullopt, place.ground_albedo, stars}, onTerminal());
-  sky.over(world);
+studio::Sky skyOver(const studio::Studio& studio, const PlaceOptions& place, bool stars) {
+  studio::Sky sky({place.air, std::nullopt, place.ground_albedo, stars, studio.cacheFolder()}, onTerminal());
+  sky.over(studio.world());
   std::printf("albedo of the land beyond the world: %g%s\n", sky.groundAlbedo(),
               place.ground_albedo ? ", as given" : "");
   std::fflush(stdout);

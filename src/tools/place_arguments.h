@@ -7,6 +7,7 @@
 #include "sunlit/quantity/site.h"
 #include "sunlit/studio/command_line.h"
 #include "sunlit/studio/sky.h"
+#include "sunlit/studio/studio.h"
 
 namespace sunlit::tools {
 
@@ -25,8 +26,8 @@ std::string textOf(const astronomy::CivilDate& date);
 /// --site, --date, --timezone, --turbidity, --ozone and --ground-albedo.
 void addPlace(studio::CommandLine* line, PlaceOptions* options);
 
-/// The sky of `place`, over the land that goes on beyond `world`, whose albedo it prints.
-studio::Sky skyOver(const light::World& world, const PlaceOptions& place, bool stars = true);
+/// The sky of `place`, over the land that goes on beyond the world of `studio`, whose albedo it prints.
+studio::Sky skyOver(const studio::Studio& studio, const PlaceOptions& place, bool stars = true);
 
 /// What is in the sky over `place` at an `hour` of its day, −24 … 72; outside 0 … 24 it is of the days before
 /// and after.

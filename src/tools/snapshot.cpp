@@ -17,8 +17,8 @@
 namespace sunlit::tools {
 namespace {
 
-sky::Daylight daylightOf(const SnapshotOptions& options, const light::World& world) {
-  studio::Sky sky = skyOver(world, options.place, options.hour.has_value());
+sky::Daylight daylightOf(const SnapshotOptions& options, const studio::Studio& studio) {
+  studio::Sky sky = skyOver(studio, options.place, options.hour.has_value());
   if (options.hour) return sky.daylight(bodiesOf(options.place, *options.hour));
   return sky.daylight({{Direction(Azimuth(options.sun.azimuth), options.sun.elevation), 1.0}});
 }
@@ -40,7 +40,7 @@ std::string placeOf(const scene::Scene& scene) {
 void takeSnapshot(const SnapshotOptions& options) {
   const ViewOptions& view = options.view;
   studio::Studio studio(view.studio, std::nullopt, onTerminal());
-  const sky::Daylight day = daylightOf(options, studio.world());
+  const sky::Daylight day = daylightOf(options, studio);
   studio.look(view.map_from_camera);
   const studio::Developed developed = studio.photograph(studio.illumination(day), {});
   image::writePng(options.output, developed.picture);

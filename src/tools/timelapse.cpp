@@ -49,7 +49,7 @@ class Camera {
   explicit Camera(const TimelapseOptions& options)
       : options_(options),
         studio_(options.view.studio, std::nullopt, onTerminal()),
-        sky_(skyOver(studio_.world(), options.place)) {
+        sky_(skyOver(studio_, options.place)) {
     studio_.look(options.view.map_from_camera);
   }
 

@@ -16,6 +16,7 @@
 #include "sunlit/quantity/direction.h"
 #include "sunlit/quantity/field.h"
 #include "sunlit/sky/daylight.h"
+#include "sunlit/sky/table_store.h"
 
 namespace sunlit::sky {
 
@@ -53,12 +54,13 @@ struct SunInSky {
   std::optional<Direction> geometric = std::nullopt;
 };
 
-/// Precomputes what does not depend on sun and moon (3 s of processor time); daylight() then costs 30 ms of
+/// Precomputes what does not depend on sun and moon (3 s of processor time, next to nothing where `kept` has
+/// the tables of such air); daylight() then costs 30 ms of
 /// it, and as much again for a moon, and may be called from many threads. Both use TBB inside, and give the
 /// same bits for any thread count.
 class Atmosphere {
  public:
-  explicit Atmosphere(const AtmosphereOptions& options);
+  explicit Atmosphere(const AtmosphereOptions& options, const TableStore& kept = {});
   ~Atmosphere();
   Atmosphere(Atmosphere&&) noexcept;
   Atmosphere& operator=(Atmosphere&&) noexcept;

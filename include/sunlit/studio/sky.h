@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "sunlit/quantity/instant.h"
 #include "sunlit/quantity/site.h"
 #include "sunlit/sky/atmosphere.h"
+#include "sunlit/sky/table_store.h"
 #include "sunlit/studio/reports.h"
 
 namespace sunlit::studio {
@@ -40,10 +42,12 @@ struct SkyOptions {
   /// Nothing: that of the world, see Sky::over(); where there is none, that of sky::AtmosphereOptions.
   std::optional<double> fixed_ground_albedo;
   bool stars = true;
+  /// Where tables of the air are kept for the next time; empty: nowhere.
+  std::string cache_dir = {};
 };
 
-/// Makes the tables of the air when they are first needed, which takes two or three seconds, says so, and
-/// keeps those of the heights that were used last. One thread at a time.
+/// Makes the tables of the air when they are first needed, which takes two or three seconds where the
+/// cache does not have them, says so, and keeps those of the heights that were used last. One thread at a time.
 class Sky {
  public:
   /// Reads the stars. Throws as sky::validate() and loadStars().
@@ -65,6 +69,7 @@ class Sky {
 
   SkyOptions options_;
   Reports reports_;
+  sky::TableStore air_tables_;
   std::shared_ptr<const std::vector<sky::Star>> stars_;
   std::vector<std::pair<double, sky::Atmosphere>>
       airs_;  ///< by height, m; the one that was used last is the last

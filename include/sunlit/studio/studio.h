@@ -61,6 +61,8 @@ class Studio {
   image::DepthImage depth();
 
   const light::World& world() const { return world_; }
+  /// Where what takes long to make is kept for the next time.
+  std::string cacheFolder() const { return cacheOf(options_.bake).folder; }
   /// As render::Renderer::rasterizer().
   std::string rasterizer() const;
   const image::PinholeCamera& camera() const { return options_.render.camera; }

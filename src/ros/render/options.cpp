@@ -219,6 +219,7 @@ RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {
   studio::requireWorld(options.world);
   readRobotForms(parameters, options.camera.follow_tf, &options.robot);
   options.sky.stars = options.night;
+  options.sky.cache_dir = studio::cacheOf(options.bake).folder;
   parameters.check("exposure", [&] { image::validate(options.exposure); });
   requireFrames(parameters, options);
   requireOnePath(parameters, options.path);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "sunlit/astronomy/civil_time.h"
 #include "support/message_of.h"
 #include "support/patches.h"
+#include "support/temporary_folder.h"
 
 namespace sunlit::studio {
 namespace {
@@ -112,6 +114,16 @@ TEST(Sky, TakesTheLandBeyondFromTheWorldUnlessItIsFixed) {
   Sky over_nothing({}, reports);
   over_nothing.over(light::World(std::make_shared<const scene::Scene>()));
   EXPECT_EQ(over_nothing.groundAlbedo(), sky::AtmosphereOptions().ground_albedo);
+}
+
+TEST(Sky, ThatFindsItsTablesIsTheSame) {
+  const TemporaryFolder folder;
+  SkyOptions options;
+  options.cache_dir = folder.path();
+  const std::vector<float> made = figuresOf(Sky(options).daylight(lowSunOver(0.0)));
+  EXPECT_FALSE(std::filesystem::is_empty(folder.path()));
+  EXPECT_EQ(figuresOf(Sky(options).daylight(lowSunOver(0.0))), made);
+  EXPECT_EQ(made, figuresAt(0.0));
 }
 
 TEST(Sky, RefusesAirThatCannotBe) {
