@@ -18,14 +18,31 @@ struct LinearLevel {
   std::vector<float> rgba;
 };
 
-/// The nearest 8-bit code: found in the table of the decoder, so that both agree to the bit.
+/// Where to begin to look in the table of the decoder: for each of these steps of linear light, its first
+/// code that is not below.
+constexpr int kSteps = 4096;
+const std::array<std::uint8_t, kSteps>& firstCodes() {
+  static const std::array<std::uint8_t, kSteps> codes = [] {
+    const auto& table = image::linearOfSrgb();
+    std::array<std::uint8_t, kSteps> first{};
+    for (int i = 0; i < kSteps; ++i) {
+      const float linear = static_cast<float>(i) / kSteps;
+      first[static_cast<std::size_t>(i)] =
+          static_cast<std::uint8_t>(std::lower_bound(table.begin(), table.end(), linear) - table.begin());
+    }
+    return first;
+  }();
+  return codes;
+}
+
+/// The nearest 8-bit code of 0 … 1: found in the table of the decoder, so that both agree to the bit.
 std::uint8_t srgbOfLinear(float linear) {
+  if (!(linear > 0.0f)) return 0;
+  if (linear >= 1.0f) return 255;
   const auto& table = image::linearOfSrgb();
-  const auto above = std::lower_bound(table.begin(), table.end(), linear);
-  if (above == table.begin()) return 0;
-  if (above == table.end()) return 255;
-  const auto below = above - 1;
-  return static_cast<std::uint8_t>((linear - *below < *above - linear ? below : above) - table.begin());
+  std::size_t above = firstCodes()[static_cast<std::size_t>(linear * kSteps)];
+  while (table[above] < linear) ++above;
+  return static_cast<std::uint8_t>(linear - table[above - 1] < table[above] - linear ? above - 1 : above);
 }
 
 LinearLevel linearised(const scene::Texture& texture) {
