@@ -49,27 +49,37 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylig
   const double north_m = extent.y_max - extent.y_min;
   const double longest_m = std::max(east_m, north_m);
   const double distance_m = kDistance * longest_m;
-
-  render::RenderOptions options = options_.render;
-  options.final_gather = 0;  // the whole world at a glance: its leaves are smaller than pixels
   const double px_per_m = kLongSidePx / longest_m;
   const int width = std::max(16, static_cast<int>(std::lround(east_m * px_per_m)));
   const int height = std::max(16, static_cast<int>(std::lround(north_m * px_per_m)));
+
+  // From above one strip after another, each by a camera over its own middle: a whole map at once would take
+  // a gigabyte.
+  constexpr int kStripPx = 256;
+  render::RenderOptions options = options_.render;
+  options.final_gather = 0;  // the whole world at a glance: its leaves are smaller than pixels
+  const int strip = std::min(height, kStripPx);
   const double focal_px = px_per_m * distance_m;
-  options.camera = {width, height, focal_px, focal_px, 0.5 * (width - 1), 0.5 * (height - 1)};
+  options.camera = {width, strip, focal_px, focal_px, 0.5 * (width - 1), 0.5 * (strip - 1)};
   options.near_m = 0.5 * distance_m;
   options.far_m = 2.0 * distance_m;
-
+  render::Renderer from_above(world_, options);
   Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
   map_from_optical.linear() =
       Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();  // right east, down south, forward down
-  map_from_optical.translation() =
-      Eigen::Vector3d(0.5 * (extent.x_min + extent.x_max), 0.5 * (extent.y_min + extent.y_max),
-                      topOf(*world_.geometry->scene) + distance_m);
-  render::Renderer from_above(world_, options);
-  from_above.look(map_from_optical);
-  const image::LinearImage light = from_above.light(illumination(daylight));
-  return image::develop(light, image::chooseEv100(light, image::ExposureOptions{}));
+  const light::Illumination light = illumination(daylight);
+  const double top_m = topOf(*world_.geometry->scene);
+  image::LinearImage whole(width, height);
+  for (int row = 0; row < height; row += strip) {
+    const double from_north_m = (row + 0.5 * strip) / px_per_m;
+    map_from_optical.translation() =
+        Eigen::Vector3d(0.5 * (extent.x_min + extent.x_max), extent.y_max - from_north_m, top_m + distance_m);
+    from_above.look(map_from_optical);
+    const image::LinearImage part = from_above.light(light);
+    const int rows = std::min(strip, height - row);
+    std::copy_n(part.data.begin(), rows * width * 3, whole.at(0, row));
+  }
+  return image::develop(whole, image::chooseEv100(whole, image::ExposureOptions{}));
 }
 
 void Studio::look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links) {
