@@ -4,6 +4,7 @@ import argparse
 import collections
 import os
 import random
+import signal
 import sys
 import tempfile
 import time
@@ -31,6 +32,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1, help="of the generator that says when and whom (default: 1)")
     parser.add_argument("--keep", metavar="DIR", help="a folder in which everything stays, to be looked at")
     asked = parser.parse_args()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("torture: interrupted"))  # whatever it started ends with it
     generator = random.Random(asked.seed)
     done, faults = [], []
     with tempfile.TemporaryDirectory() as temporary:
