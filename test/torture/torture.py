@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Kills an experiment at random moments until it had enough, and says what came of it."""
+"""Kills an experiment at random moments until it had enough, and says what came of it; or does to it what else machines do."""
 import argparse
 import collections
 import os
@@ -10,6 +10,7 @@ import tempfile
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+import faults as machine  # noqa: E402  pylint: disable=wrong-import-position
 import kills  # noqa: E402  pylint: disable=wrong-import-position
 from launching import kill_leftovers  # noqa: E402  pylint: disable=wrong-import-position,wrong-import-order
 
@@ -26,39 +27,66 @@ def table(done):
     return "\n".join(lines)
 
 
+def say(*words):
+    print(time.strftime("%H:%M:%S"), *words, flush=True)
+
+
+def torture(folder, reference, asked):
+    """All the kills; whether nothing was wrong."""
+    generator = random.Random(asked.seed)
+    done, broken = [], []
+    rounds = -(-asked.kills // KILLS_A_ROUND)
+    for number in range(rounds):
+        count = min(KILLS_A_ROUND, asked.kills - len(done))
+        changes = dict(record="true") if number % 3 == 2 else {}
+        now, fault = kills.round_of_kills(os.path.join(folder, "round_%d" % number if asked.keep else "round"),
+                                          generator, count, reference, **changes)
+        done += now
+        for kill in now:
+            say("%3d %-11s %-13s %5d %6.1f s  %s" % (number, kill.stage, kill.target, kill.status, kill.seconds, kill.result))
+        say("%3d then %s" % (number, fault or "completed, as undisturbed"))
+        if fault:
+            broken.append("round %d: %s" % (number, fault))
+    holes = [kill for kill in done if kill.is_hole()]
+    if done:
+        print("\n%s\n\n%d kills, %d of them with something wrong; %d of %d experiments did not complete as undisturbed" % (
+            table(done), len(done), len(holes), len(broken), rounds), *broken, sep="\n")
+    return not holes and not broken
+
+
+def suffer(folder, reference, names):
+    """What else machines do; whether nothing was wrong."""
+    is_well = True
+    for name in names:
+        for what, result in machine.ALL[name](os.path.join(folder, name), reference):
+            say("%-30s %s" % (what, result))
+            is_well = is_well and not result.startswith("HOLE")
+    return is_well
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--kills", type=int, default=40, metavar="N", help="how many (default: 40; about 8 s each)")
+    parser.add_argument("--kills", type=int, metavar="N", help="how many (default: 40, none with --faults; about 8 s each)")
     parser.add_argument("--seed", type=int, default=1, help="of the generator that says when and whom (default: 1)")
+    parser.add_argument("--faults", metavar="LIST", default="", help="what else, some of %s, or all" % ",".join(machine.ALL))
     parser.add_argument("--keep", metavar="DIR", help="a folder in which everything stays, to be looked at")
     asked = parser.parse_args()
+    names = list(machine.ALL) if asked.faults == "all" else [name for name in asked.faults.split(",") if name]
+    unknown = [name for name in names if name not in machine.ALL]
+    if unknown:
+        parser.error("there is no fault %s, only %s and all" % (unknown[0], ", ".join(machine.ALL)))
+    if asked.kills is None:
+        asked.kills = 0 if names else 40
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("torture: interrupted"))  # whatever it started ends with it
-    generator = random.Random(asked.seed)
-    done, faults = [], []
     with tempfile.TemporaryDirectory() as temporary:
         folder = asked.keep or temporary
         try:
             reference = kills.undisturbed(os.path.join(folder, "undisturbed"))
-            for number in range(-(-asked.kills // KILLS_A_ROUND)):
-                count = min(KILLS_A_ROUND, asked.kills - len(done))
-                changes = dict(record="true") if number % 3 == 2 else {}
-                now, fault = kills.round_of_kills(os.path.join(folder, "round_%d" % number if asked.keep else "round"),
-                                                  generator, count, reference, **changes)
-                done += now
-                for kill in now:
-                    print("%s %3d %-11s %-13s %5d %6.1f s  %s" % (time.strftime("%H:%M:%S"), number, kill.stage, kill.target,
-                                                                 kill.status, kill.seconds, kill.result), flush=True)
-                print("%12d then %s" % (number, fault or "completed, as undisturbed"), flush=True)
-                if fault:
-                    faults.append("round %d: %s" % (number, fault))
+            is_well = torture(folder, reference, asked)
+            is_well = suffer(folder, reference, names) and is_well
         finally:
             kill_leftovers()
-    holes = [kill for kill in done if kill.is_hole()]
-    print("\n%s\n\n%d kills, %d of them with something wrong; %d of %d experiments did not complete as undisturbed" % (
-        table(done), len(done), len(holes), len(faults), -(-asked.kills // KILLS_A_ROUND)))
-    for fault in faults:
-        print(fault)
-    return 1 if holes or faults else 0
+    return 0 if is_well else 1
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import time
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "ros", "experiment"))
-from launching import WAYPOINTS, WORLD, Launched  # noqa: E402  pylint: disable=wrong-import-position
+from launching import WAYPOINTS, WORLD, Launched, kill_leftovers  # noqa: E402,F401  pylint: disable=wrong-import-position,unused-import
 
 POSES = 60
 PATIENCE_S = 120.0

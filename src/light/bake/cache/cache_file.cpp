@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -114,6 +115,7 @@ void writeBake(const fs::path& file, const image::ContentHash& key, const Transp
   });
   header.checksum = checksum.number();
   const fs::path unfinished = file.string() + "." + std::to_string(getpid()) + ".part";
+  errno = 0;
   std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
   stream.write(reinterpret_cast<const char*>(&header), sizeof(header));
   visitArrays(data, [&](const auto& values) {
@@ -123,8 +125,9 @@ void writeBake(const fs::path& file, const image::ContentHash& key, const Transp
   stream.close();
   std::error_code ignored;
   if (!stream) {
+    const std::string reason = errno != 0 ? ": " + image::reasonOf(errno) : "";
     fs::remove(unfinished, ignored);
-    fail(file, "cannot be written");
+    fail(file, "cannot be written" + reason);
   }
   try {
     image::moveIntoPlace(unfinished, file);
