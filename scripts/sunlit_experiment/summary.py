@@ -5,6 +5,7 @@ import os
 
 from sunlit_experiment.launch import Failure
 
+WRITTEN = ("summary", "comparisons")  # of an evaluator at its end the first and the last
 DIRECT = ("boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey")
 
 
@@ -18,10 +19,18 @@ def identity(path):
     return f"{found.st_ino} {found.st_mtime_ns}"
 
 
-def read(path, earlier):
-    """Its rows; it has to be another than the one that was there `earlier`, by its identity."""
-    if identity(path) in ("", earlier):
-        raise Failure("evaluator ended without a result; its reason stands above")
+def identities(folder):
+    """Of what an earlier run wrote at its end."""
+    return {name: identity(os.path.join(folder, name + ".csv")) for name in WRITTEN}
+
+
+def read(folder, earlier):
+    """The rows of summary.csv. Each of `earlier`, identities by name, has to be another file by now: an evaluator that is
+    killed between the two is not told from one that has ended."""
+    for name, before in earlier.items():
+        if identity(os.path.join(folder, name + ".csv")) in ("", before):
+            raise Failure(f"evaluator ended before it had written {name}.csv; its reason stands above")
+    path = os.path.join(folder, "summary.csv")
     with open(path, encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     if not rows:

@@ -69,12 +69,11 @@ class Killer:
     def __init__(self, generator, trial, reference):
         self.generator, self.trial, self.reference = generator, trial, reference
         self.is_done = False
+        self.wanted = []  # who is to be killed, in order of preference; else somebody
 
     def _victim(self, alive):
         """The first of a shuffled list that lives, and its processes."""
-        wanted = list(TARGETS)
-        self.generator.shuffle(wanted)
-        for name in wanted:
+        for name in self.wanted or self.generator.sample(TARGETS, len(TARGETS)):
             if name in alive:
                 return name, alive[name]
         return EVERYTHING, [pid for pids in alive.values() for pid in pids]
@@ -150,9 +149,9 @@ class Killer:
         return "; ".join(faults)
 
 
-def undisturbed(folder):
+def undisturbed(folder, **changes):
     """The trial that others are compared with."""
-    trial = Trial(folder)
+    trial = Trial(folder, **changes)
     run = trial.start()
     status = run.end()
     if status != 0 or left_running(run):

@@ -73,7 +73,8 @@ class Trial:
         return (content(os.path.join(self.output, "frames.csv")) or b"").count(b"\n")
 
     def rows_when_evaluated(self):
-        pairs = POSES + 2 * -(-POSES // self.arguments["self_test_every"])
+        poses = self.arguments["poses"]
+        pairs = poses + 2 * -(-poses // self.arguments["self_test_every"])
         return 1 + pairs * self.arguments["differences"].count(",") + pairs
 
     def cached(self, ending):

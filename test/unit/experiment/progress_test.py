@@ -130,15 +130,17 @@ class AtTheEnd(unittest.TestCase):
                 os.replace(path + ".part", path)
 
             self.assertEqual(summary.identity(path), "")
-            with self.assertRaisesRegex(Failure, "evaluator ended without a result"):
-                summary.read(path, "")
+            with self.assertRaisesRegex(Failure, "evaluator ended before it had written summary.csv"):
+                summary.read(folder, {"summary": ""})
             write("h04,h12\n", 2e9)
-            self.assertEqual(len(summary.read(path, "")), 1)
+            self.assertEqual(len(summary.read(folder, {"summary": ""})), 1)
             earlier = summary.identity(path)
-            with self.assertRaisesRegex(Failure, "evaluator ended without a result"):
-                summary.read(path, earlier)
+            with self.assertRaisesRegex(Failure, "evaluator ended before it had written summary.csv"):
+                summary.read(folder, {"summary": earlier})
             write("h04,h12\nh04,h20\n", 1e9)  # by a clock that was set back meanwhile
-            self.assertEqual(len(summary.read(path, earlier)), 2)
+            self.assertEqual(len(summary.read(folder, {"summary": earlier})), 2)
+            with self.assertRaisesRegex(Failure, "before it had written comparisons.csv"):
+                summary.read(folder, {"summary": earlier, "comparisons": ""})
 
 
 class OnATerminal(unittest.TestCase):
