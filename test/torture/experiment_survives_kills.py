@@ -36,7 +36,7 @@ class ExperimentSurvivesKills(unittest.TestCase):
         reference = kills.undisturbed(os.path.join(self.folder, "undisturbed"), **FEW)
         killer = kills.Killer(random.Random(1), Trial(os.path.join(self.folder, "killed"), **FEW), reference)
         for stage, target in CHOSEN:
-            killer.wanted = [target]
+            killer.wanted = (target,)
             done = killer.kill_once(next(moment for moment in kills.MOMENTS if moment.stage == stage))
             print(done)
             self.assertFalse(done.is_hole(), done)

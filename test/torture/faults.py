@@ -94,7 +94,7 @@ def full_cache(folder, reference, size):
         status, said, faults = end(trial.start())
         told = [line for line in said.splitlines() if disk.folder in line and "not kept" in line]
         return fault_of(trial, reference, status, said, faults) or (
-            "as undisturbed; told: " + told[0].replace(disk.folder, "CACHE")[:90] if told else "HOLE: nothing is said of it\n" + said)
+            "as undisturbed; told: " + told[0][told[0].index(disk.folder):][:90] if told else "HOLE: nothing is said of it\n" + said)
 
 
 def disk(folder, reference):

@@ -66,14 +66,14 @@ class Stages:
 class Killer:
     """Does it again and again to one trial, by a generator with a seed."""
 
-    def __init__(self, generator, trial, reference):
-        self.generator, self.trial, self.reference = generator, trial, reference
+    def __init__(self, generator, trial, reference, wanted=TARGETS):
+        """`wanted`: who is to be killed: each time the first that lives, of these in a new order."""
+        self.generator, self.trial, self.reference, self.wanted = generator, trial, reference, wanted
         self.is_done = False
-        self.wanted = []  # who is to be killed, in order of preference; else somebody
 
     def _victim(self, alive):
         """The first of a shuffled list that lives, and its processes."""
-        for name in self.wanted or self.generator.sample(TARGETS, len(TARGETS)):
+        for name in self.generator.sample(self.wanted, len(self.wanted)):
             if name in alive:
                 return name, alive[name]
         return EVERYTHING, [pid for pids in alive.values() for pid in pids]
@@ -87,6 +87,8 @@ class Killer:
         if self.is_done:  # what was killed last did not matter: once more from the beginning
             self.trial.forget()
             self.is_done = False
+        if moment.stage in ("baking", "caching"):  # else there is none where a kill came after the bake
+            self.trial.forget_bake()
         delay_s = self.generator.uniform(0.0, moment.longest_s)
         done = Kill(moment.stage)
         first = self.trial.rows()
@@ -168,10 +170,9 @@ def sequence(generator, kills):
     return [MOMENTS[i] for i in sorted(chosen)]
 
 
-def round_of_kills(folder, generator, kills, reference, **changes):
-    """The kills, and what is wrong at the end of all, or nothing."""
+def round_of_kills(folder, killer_of, kills):
+    """The kills, and what is wrong at the end of all, or nothing. `killer_of`: makes the killer of a trial in a folder."""
     shutil.rmtree(folder, ignore_errors=True)
-    trial = Trial(folder, **changes)
-    killer = Killer(generator, trial, reference)
-    done = [killer.kill_once(moment) for moment in sequence(generator, kills)]
+    killer = killer_of(folder)
+    done = [killer.kill_once(moment) for moment in sequence(killer.generator, kills)]
     return done, killer.complete()

@@ -12,7 +12,7 @@ import time
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import faults as machine  # noqa: E402  pylint: disable=wrong-import-position
 import kills  # noqa: E402  pylint: disable=wrong-import-position
-from launching import kill_leftovers  # noqa: E402  pylint: disable=wrong-import-position,wrong-import-order
+from trial import Trial, kill_leftovers  # noqa: E402  pylint: disable=wrong-import-position
 
 KILLS_A_ROUND = 4
 
@@ -39,8 +39,9 @@ def torture(folder, reference, asked):
     for number in range(rounds):
         count = min(KILLS_A_ROUND, asked.kills - len(done))
         changes = dict(record="true") if number % 3 == 2 else {}
-        now, fault = kills.round_of_kills(os.path.join(folder, "round_%d" % number if asked.keep else "round"),
-                                          generator, count, reference, **changes)
+        now, fault = kills.round_of_kills(
+            os.path.join(folder, "round_%d" % number if asked.keep else "round"),
+            lambda place, more=changes: kills.Killer(generator, Trial(place, **more), reference, asked.whom), count)
         done += now
         for kill in now:
             say("%3d %-11s %-13s %5d %6.1f s  %s" % (number, kill.stage, kill.target, kill.status, kill.seconds, kill.result))
@@ -67,6 +68,8 @@ def suffer(folder, reference, names):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--kills", type=int, metavar="N", help="how many (default: 40, none with --faults; about 8 s each)")
+    parser.add_argument("--whom", type=lambda text: text.split(","), default=kills.TARGETS, metavar="LIST",
+                        help="who is killed, some of " + ",".join(kills.TARGETS))
     parser.add_argument("--seed", type=int, default=1, help="of the generator that says when and whom (default: 1)")
     parser.add_argument("--faults", metavar="LIST", default="", help="what else, some of %s, or all" % ",".join(machine.ALL))
     parser.add_argument("--keep", metavar="DIR", help="a folder in which everything stays, to be looked at")
@@ -75,6 +78,8 @@ def main():
     unknown = [name for name in names if name not in machine.ALL]
     if unknown:
         parser.error("there is no fault %s, only %s and all" % (unknown[0], ", ".join(machine.ALL)))
+    if not set(asked.whom) <= set(kills.TARGETS):
+        parser.error("--whom is %s, but must be some of %s" % (",".join(asked.whom), ",".join(kills.TARGETS)))
     if asked.kills is None:
         asked.kills = 0 if names else 40
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("torture: interrupted"))  # whatever it started ends with it

@@ -8,7 +8,8 @@ import time
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "ros", "experiment"))
-from launching import WAYPOINTS, WORLD, Launched, kill_leftovers  # noqa: E402,F401  pylint: disable=wrong-import-position,unused-import
+# pylint: disable-next=wrong-import-position,unused-import
+from launching import WAYPOINTS, WORLD, Launched, kill_leftovers  # noqa: E402,F401
 
 POSES = 60
 PATIENCE_S = 120.0
@@ -64,6 +65,10 @@ class Trial:
         shutil.rmtree(self.output, ignore_errors=True)
         shutil.rmtree(self.cache, ignore_errors=True)
         os.makedirs(self.cache)
+
+    def forget_bake(self):
+        for name in self.cached(".light"):
+            os.remove(os.path.join(self.cache, name))
 
     def start(self, **surroundings):
         return Launched("experiment.launch", dict(self.surroundings, **surroundings), **self.arguments)
