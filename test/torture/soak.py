@@ -87,7 +87,7 @@ def measure(asked, nodes):
     rospy.wait_for_service("/render/render_view", STARTING_S)
     path = rospy.wait_for_message("/path", Path, STARTING_S).poses[::asked.every]
     rows, began = [], time.monotonic()
-    with open(asked.csv, "w", newline="") as file:
+    with open(asked.csv, "w", buffering=1, newline="") as file:
         writer = csv.writer(file)
         writer.writerow(COLUMNS)
         while time.monotonic() - began < 60.0 * asked.minutes:
