@@ -107,6 +107,8 @@ class Killer:
         began = time.monotonic()
         if reached and run.process.poll() is None:
             kill(pids)
+            if target == EVERYTHING:
+                run.kill()  # whom roslaunch had just started, too
             done.target = target
         self._judge(run, done)
         done.seconds = time.monotonic() - began
