@@ -68,7 +68,7 @@ class Experiment:
         self.self_test_every = rospy.get_param("~self_test_every")
         self.needed = set(rospy.get_param("~needed"))
         self.report = rospy.get_param("~report", "")
-        self.started = launch.started()
+        self.earlier = rospy.get_param("~earlier", {"summary": ""})
         plan = rospy.get_param("~recording", {})
         self.recorder = Recorder(self.output, plan, self.poses, rospy.get_param("~verbose")) if plan else None
         self.missed_since = None  # a renderer, while not everything seemed evaluated
@@ -79,7 +79,7 @@ class Experiment:
         """The lines that are to be said when all is done."""
         try:
             self._await_evaluator()
-            rows = summary.read(os.path.join(self.output, "summary.csv"), self.started)
+            rows = summary.read(self.output, self.earlier)
             summary.check(rows, self.poses, self.self_test_every)
             # What the evaluator has, the recorder may not have yet: only the renderer's end says so. With no pose left to
             # render it may have begun too late to hear of its end from an evaluator that had nothing to do.

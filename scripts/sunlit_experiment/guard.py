@@ -1,5 +1,6 @@
 """The guard of experiment_node: should the node end without a word, killed by the kernel, say, it breaks off the experiment in
-its stead. Without it roslaunch would end all the same, but with status 0, as if everything had been evaluated.
+its stead. Without it roslaunch would end all the same, but with status 0, as if everything had been evaluated. Likewise where
+roslaunch has gone and the node does nothing about it: without a master it waits for one, as rospy has it, forever.
 """
 
 import contextlib
@@ -7,11 +8,13 @@ import os
 import select
 import subprocess
 import sys
+import time
 
 from sunlit_experiment import display
 from sunlit_experiment.launch import Launch
 
 LOOK_EVERY_S = 1.0
+PATIENCE_S = 5.0  # with a node whose roslaunch has gone
 IN_ORDER = b"."  # what the node says before it leaves
 
 
@@ -38,13 +41,24 @@ class Guard:
             self.process.communicate(IN_ORDER)
 
 
-def main():
-    launch = Launch(int(sys.argv[1]), sys.argv[2])
+def reason_to_act(launch):
+    """Once there is one; None where the node has left in order."""
+    gone_since = None
     while not select.select([sys.stdin], [], [], LOOK_EVERY_S)[0]:
         launch.look()
-    if os.read(sys.stdin.fileno(), 1) != IN_ORDER:
+        if launch.is_gone():
+            gone_since = gone_since or time.monotonic()
+            if time.monotonic() - gone_since > PATIENCE_S:
+                return "roslaunch has gone"
+    return None if os.read(sys.stdin.fileno(), 1) == IN_ORDER else "the node that watches over it was killed"
+
+
+def main():
+    launch = Launch(int(sys.argv[1]), sys.argv[2])
+    reason = reason_to_act(launch)
+    if reason:
         display.restore(sys.stdout)
-        launch.break_off("the node that watches over it was killed")
+        launch.break_off(reason)
 
 
 if __name__ == "__main__":

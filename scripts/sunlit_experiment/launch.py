@@ -31,13 +31,6 @@ def is_alive(process):
         return False
 
 
-def started_at(process):
-    """s since 1970, by the clock that dates files: psutil's own is off by up to a second."""
-    # Not since when psutil says that the machine is up, which in some containers is that of the container.
-    since_boot_s = process.create_time() - psutil.boot_time()
-    return time.time() - (time.clock_gettime(time.CLOCK_BOOTTIME) - since_boot_s)
-
-
 def leads_its_group(process):
     """As roslaunch has it for each child, so that a whole group can be ended."""
     with contextlib.suppress(ProcessLookupError):
@@ -65,9 +58,8 @@ class Launch:
         self.log_folder = log_folder
         try:
             self.process = psutil.Process(pid)
-            self.started_at = started_at(self.process)
         except psutil.Error:
-            self.process = self.started_at = None
+            self.process = None
         self.server = None
         self.children = set()
         # Whoever else it is, its children are none of our business. Process 1 inherits those of others.
@@ -80,12 +72,6 @@ class Launch:
 
     def is_gone(self):
         return self.process is None or not is_alive(self.process)
-
-    def started(self):
-        """When it was, s since 1970: before all its nodes, some of which may have done their work before we began."""
-        if self.started_at is None:
-            raise Failure("roslaunch has gone")
-        return self.started_at
 
     def is_roslaunch(self):
         """Not so under rostest, which judges by itself how its nodes ended."""

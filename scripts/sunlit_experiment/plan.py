@@ -22,6 +22,7 @@ class Beginning:
     poses: int             # of the whole run
     evaluated: int = 0     # the first pose that is not evaluated
     recorded: int = 0      # the first pose that no bag holds; as `evaluated` where nothing is recorded
+    written: dict = dataclasses.field(default_factory=dict)  # what it wrote at its end, as summary.identities() has it
 
     def render_at(self):
         return min(self.evaluated, self.recorded)
@@ -88,6 +89,8 @@ def _experiment(typed, given, places, beginning):
         tree["recording"] = {"topics": recorded_topics(typed),
                              "start_stamp": START_STAMP_S, "frame_rate": FRAME_RATE_HZ,
                              "begin": beginning.render_at()}
+    if beginning.written:
+        tree["earlier"] = beginning.written
     if read.flag("report", typed["report"]):
         tree["report"] = places["report"]
     return tree

@@ -1,5 +1,6 @@
 """rosbag record beside an experiment, and the account of what all bags of its folder hold at the end."""
 
+import contextlib
 import ctypes
 import os
 import signal
@@ -61,8 +62,14 @@ class Recorder:
 
     def _list(self, union):
         path = os.path.join(self.output, LIST)
-        with open(path + ".part", "w", encoding="utf-8") as file:
-            file.write("bag,first_pose,last_pose,poses\n")
-            for bag, first, last, count in union.table():
-                file.write(f"{bag},{'' if first is None else first},{'' if last is None else last},{count}\n")
-        os.replace(path + ".part", path)
+        draft = path + ".part"
+        try:
+            with open(draft, "w", encoding="utf-8") as file:
+                file.write("bag,first_pose,last_pose,poses\n")
+                for bag, first, last, count in union.table():
+                    file.write(f"{bag},{'' if first is None else first},{'' if last is None else last},{count}\n")
+            os.replace(draft, path)
+        except OSError as error:
+            with contextlib.suppress(OSError):
+                os.remove(draft)
+            raise Failure(f"{path} cannot be written: {error.strerror}; start the same again once it can") from None

@@ -5,13 +5,32 @@ import os
 
 from sunlit_experiment.launch import Failure
 
+WRITTEN = ("summary", "comparisons")  # of an evaluator at its end the first and the last
 DIRECT = ("boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey")
 
 
-def read(path, since):
-    """Its rows; it has to be newer than `since`, s since 1970."""
-    if not os.path.exists(path) or os.path.getmtime(path) < since:
-        raise Failure("evaluator ended without a result; its reason stands above")
+def identity(path):
+    """Of the file that is there now, another after each time that it is written; empty where there is none. By no clock:
+    that may be set back meanwhile."""
+    try:
+        found = os.stat(path)
+    except FileNotFoundError:
+        return ""
+    return f"{found.st_ino} {found.st_mtime_ns}"
+
+
+def identities(folder):
+    """Of what an earlier run wrote at its end."""
+    return {name: identity(os.path.join(folder, name + ".csv")) for name in WRITTEN}
+
+
+def read(folder, earlier):
+    """The rows of summary.csv. Each of `earlier`, identities by name, has to be another file by now: an evaluator that is
+    killed between the two is not told from one that has ended."""
+    for name, before in earlier.items():
+        if identity(os.path.join(folder, name + ".csv")) in ("", before):
+            raise Failure(f"evaluator ended before it had written {name}.csv; its reason stands above")
+    path = os.path.join(folder, "summary.csv")
     with open(path, encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     if not rows:

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <regex>
 #include <set>
 #include <stdexcept>
@@ -16,6 +15,8 @@
 #include <tuple>
 #include <utility>
 #include <vector>
+
+#include "sunlit/image/files.h"
 
 namespace sunlit::image {
 namespace {
@@ -130,7 +131,7 @@ std::string usualCacheFolder() {
 CacheTurn CacheTurn::await(const fs::path& kept) {
   const fs::path file = turnFile(kept);
   const int descriptor = lockedFile(file, Patience::kWait);
-  if (descriptor < 0) throw std::runtime_error(file.string() + ": " + std::strerror(errno));
+  if (descriptor < 0) throw std::runtime_error(file.string() + ": " + reasonOf(errno));
   return CacheTurn(file, descriptor);
 }
 

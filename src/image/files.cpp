@@ -19,7 +19,7 @@ namespace sunlit::image {
 namespace {
 
 [[noreturn]] void fail(const std::string& path, const char* what) {
-  throw std::runtime_error(path + ": " + what + ": " + std::strerror(errno));
+  throw std::runtime_error(path + ": " + what + ": " + reasonOf(errno));
 }
 
 constexpr const char* kUnfinished = ".part";
@@ -123,6 +123,14 @@ Picture<float, kChannels> readMap(const std::string& path) {
 }
 
 }  // namespace
+
+std::string reasonOf(int error) {
+  const std::string said = std::strerror(error);
+  const bool is_room = error == ENOSPC || error == EDQUOT;
+  if (is_room) return said + "; make room there and start the same again";
+  if (error == EFBIG) return said + "; raise the limit (ulimit -f) and start the same again";
+  return said;
+}
 
 std::string readWholeFile(const std::string& path) {
   errno = 0;

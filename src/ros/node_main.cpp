@@ -41,6 +41,7 @@ int runNode(int argc, char** argv, const std::string& name, const std::function<
   // roscpp and its console end with the last handle: without this one, an exception that destroys the node's
   // own handles on its way here could no longer be printed.
   std::signal(SIGTERM, onTermination);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond ulimit -f is an error with a name, no silent end
   const ros::NodeHandle alive;
   try {
     return node();

@@ -8,6 +8,9 @@
 
 namespace sunlit::image {
 
+/// What the system says of `error`, an errno; of a full disk, quota or limit also what to do.
+std::string reasonOf(int error);
+
 /// Writes `bytes` beside `path` under another name, makes them durable (fsync), then renames. The folder must
 /// exist.
 void writeFileAtomically(const std::string& path, const std::string& bytes);

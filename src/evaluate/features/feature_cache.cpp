@@ -96,17 +96,20 @@ Features featuresOf(const fs::path& file, const std::string& key) {
 /// Not made durable: what a crash of the machine damages is found by its checksum.
 void write(const fs::path& file, const std::string& bytes) {
   const fs::path unfinished = file.string() + "." + std::to_string(getpid()) + ".part";
+  errno = 0;
   std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
   stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   stream.close();
-  std::error_code error;
+  std::string reason = errno != 0 ? ": " + image::reasonOf(errno) : "";
   if (stream) {
+    std::error_code error;
     fs::rename(unfinished, file, error);
     if (!error) return;
+    reason = ": " + error.message();
   }
   std::error_code ignored;
   fs::remove(unfinished, ignored);
-  fail(file, error ? error.message() : "cannot be written");
+  fail(file, "cannot be written" + reason);
 }
 
 /// Of the library that holds our detectors and preprocessing: after any change of them all is found anew, and

@@ -8,16 +8,17 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+
+#include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
 namespace {
 
 [[noreturn]] void failWith(const std::string& path, const std::string& what) {
-  throw std::runtime_error(path + ": " + what + ": " + std::strerror(errno));
+  throw std::runtime_error(path + ": " + what + ": " + image::reasonOf(errno));
 }
 
 // How much of the text was written: all of it, or errno says why not.

@@ -13,6 +13,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sunlit/image/files.h"
+
 namespace sunlit::evaluate {
 namespace {
 
@@ -21,7 +23,7 @@ constexpr std::uint64_t kHead = 2 * sizeof(std::uint64_t);
 constexpr std::uint64_t kLongestHead = 4096;  // names of streams and detectors are far shorter
 
 [[noreturn]] void failWith(const std::string& path, const std::string& what) {
-  throw std::runtime_error(path + ": " + what + ": " + std::strerror(errno));
+  throw std::runtime_error(path + ": " + what + ": " + image::reasonOf(errno));
 }
 
 class Writer {

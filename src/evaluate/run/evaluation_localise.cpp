@@ -91,6 +91,7 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   if (!observer_) return outcome;
   if (isLocalised()) {
     localised_ = measuredOf(loadLocalisation(file(kRows)));
+    if (isWholeAlone()) std::filesystem::remove(file(kObservations));  // the empty one of this run
     return outcome;
   }
   std::vector<std::unique_ptr<ObservationFile>> merged;

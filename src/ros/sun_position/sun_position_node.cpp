@@ -59,8 +59,8 @@ SunPositionNode::SunPositionNode(const ros::NodeHandle& node, const ros::NodeHan
   now_ = ros::Time::now();
   publish();
   if (ros::Time::isSimTime()) {
-    standing_ = node_.createWallTimer(
-        kStandstill, [this](const ros::WallTimerEvent&) { publish(); }, true, false);
+    standing_ = node_.createSteadyTimer(
+        kStandstill, [this](const ros::SteadyTimerEvent&) { publish(); }, true, false);
     const boost::function<void(const rosgraph_msgs::ClockConstPtr&)> heard =
         [this](const rosgraph_msgs::ClockConstPtr& clock) { onClock(clock->clock); };
     ros_clock_ = node_.subscribe<rosgraph_msgs::Clock>(topics::kClock, 1000, heard);
@@ -70,10 +70,10 @@ SunPositionNode::SunPositionNode(const ros::NodeHandle& node, const ros::NodeHan
       publish();
     });
   }
-  // By the wall clock: a stopped /clock is worth a diagnosis too.
+  // By no clock that somebody can stop or set: a stopped /clock is worth a diagnosis too.
   diagnostics_timer_ =
-      node_.createWallTimer(ros::WallDuration(diagnostics_.getPeriod()),
-                            [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
+      node_.createSteadyTimer(ros::WallDuration(diagnostics_.getPeriod()),
+                              [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
 }
 
 void SunPositionNode::onClock(const ros::Time& now) {

@@ -58,8 +58,8 @@ class SunPositionNode {
   std::vector<ros::ServiceServer> services_;
   ros::Timer timer_;           ///< under the wall clock
   ros::Subscriber ros_clock_;  ///< else
-  ros::WallTimer standing_;    ///< ends when /clock has stood still for long enough
-  ros::WallTimer diagnostics_timer_;
+  ros::SteadyTimer standing_;  ///< ends when /clock has stood still for long enough
+  ros::SteadyTimer diagnostics_timer_;
 };
 
 }  // namespace sunlit::ros_interface

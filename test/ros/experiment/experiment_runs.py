@@ -272,6 +272,11 @@ class ExperimentRuns(unittest.TestCase):
             pass
         self.assertEqual(run.end(), 0, run.said())
 
+    def test_an_evaluator_that_dies_between_its_first_and_its_last_result_is_a_failure(self):
+        run, _ = self.watched("half", watcher='earlier: {summary: "", comparisons: ""}')
+        self.assertNotEqual(run.end(), 0)
+        self.assertIn("experiment: FAILED: evaluator ended before it had written comparisons.csv", run.said())
+
     def test_what_the_renderer_sends_after_the_last_value_is_recorded(self):
         topics = "[/camera/depth/image_raw, /h10/camera/image_raw]"
         run, output = self.watched("late", "images: 3, topics: " + topics, watcher=self.recording(topics))

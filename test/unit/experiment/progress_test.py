@@ -7,6 +7,7 @@ import os
 import pty
 import struct
 import sys
+import tempfile
 import termios
 import unittest
 from types import SimpleNamespace
@@ -21,6 +22,7 @@ sys.path[:0] = [os.path.join(SOURCE, "test", "support"), os.path.join(SOURCE, "s
 
 from screen import Screen  # noqa: E402
 from sunlit_experiment import display, progress, summary  # noqa: E402
+from sunlit_experiment.launch import Failure  # noqa: E402
 
 
 def rendering(done, total=991, **changes):
@@ -116,6 +118,29 @@ class AtTheEnd(unittest.TestCase):
                                          row("h04", "self_test/h04", "orb", "0")]),
                          "mean difference  h04-h12  h04-h20\norb              0.25000        -\n\n"
                          "with itself      h04\norb          0.00000")
+
+    def test_a_summary_is_this_run_s_by_being_another_file_whatever_the_clock_says(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "summary.csv")
+
+            def write(pairs, when):
+                with open(path + ".part", "w") as file:
+                    file.write("a,b\n" + pairs)
+                os.utime(path + ".part", (when, when))
+                os.replace(path + ".part", path)
+
+            self.assertEqual(summary.identity(path), "")
+            with self.assertRaisesRegex(Failure, "evaluator ended before it had written summary.csv"):
+                summary.read(folder, {"summary": ""})
+            write("h04,h12\n", 2e9)
+            self.assertEqual(len(summary.read(folder, {"summary": ""})), 1)
+            earlier = summary.identity(path)
+            with self.assertRaisesRegex(Failure, "evaluator ended before it had written summary.csv"):
+                summary.read(folder, {"summary": earlier})
+            write("h04,h12\nh04,h20\n", 1e9)  # by a clock that was set back meanwhile
+            self.assertEqual(len(summary.read(folder, {"summary": earlier})), 2)
+            with self.assertRaisesRegex(Failure, "before it had written comparisons.csv"):
+                summary.read(folder, {"summary": earlier, "comparisons": ""})
 
 
 class OnATerminal(unittest.TestCase):

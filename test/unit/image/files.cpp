@@ -1,11 +1,14 @@
 #include "sunlit/image/files.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -66,6 +69,25 @@ TEST_F(Files, LeftUnfinishedByProcessesThatHaveEndedAreRemoved) {
   }
   for (const std::string& name : others) EXPECT_TRUE(fs::exists(path(name))) << name;
   removeUnfinished(path("nowhere"));  // nothing to do
+}
+
+TEST_F(Files, WhatFindsNoRoomLeavesTheOldFileAndSaysWhatToDo) {
+  writeFileAtomically(path("kept"), "old");
+  rlimit before;
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit little{1000, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &little), 0);
+  const std::string said =
+      messageOf<std::runtime_error>([&] { writeFileAtomically(path("kept"), std::string(2000, 'x')); });
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(said,
+            path("kept") + ": write: File too large; raise the limit (ulimit -f) and start the same again");
+  EXPECT_EQ(readWholeFile(path("kept")), "old");
+  EXPECT_EQ(fileCount(), 1u) << "nothing unfinished";
+  EXPECT_EQ(reasonOf(ENOSPC), "No space left on device; make room there and start the same again");
+  EXPECT_EQ(reasonOf(EACCES), "Permission denied");
 }
 
 TEST_F(Files, PngReturnsTheSamePixels) {

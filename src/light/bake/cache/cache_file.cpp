@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -105,9 +106,10 @@ Header checkedHeader(const fs::path& file, const image::FileBytes& bytes, const 
 class Unfinished {
  public:
   explicit Unfinished(const fs::path& place)
-      : place_(place),
-        path_(place.string() + "." + std::to_string(getpid()) + ".part"),
-        stream_(path_, std::ios::binary | std::ios::trunc) {}
+      : place_(place), path_(place.string() + "." + std::to_string(getpid()) + ".part") {
+    errno = 0;  // for what keep() says
+    stream_.open(path_, std::ios::binary | std::ios::trunc);
+  }
   ~Unfinished() {
     std::error_code ignored;
     if (!kept_) fs::remove(path_, ignored);
@@ -125,7 +127,7 @@ class Unfinished {
   }
   void keep() {
     stream_.close();
-    if (!stream_) fail(place_, "cannot be written");
+    if (!stream_) fail(place_, "cannot be written" + (errno != 0 ? ": " + image::reasonOf(errno) : ""));
     image::moveIntoPlace(path_, place_);
     kept_ = true;
   }

@@ -209,6 +209,7 @@ TEST(EvaluationLocalise, ABrokenOffRunIsTakenUpAgain) {
   const LocalisationOutcome outcome = finishAndLocalise(again);
   EXPECT_FALSE(outcome.is_asked);
   EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
+  EXPECT_FALSE(std::filesystem::exists(folder.file("out/observations.bin"))) << "nor is an empty file left";
   again.compareMethods();
   EXPECT_EQ(contentOf(folder.file("out/comparisons.csv")), compared)
       << "queries by what localisation.csv says";
