@@ -55,6 +55,16 @@ def number(name, text):
     return value
 
 
+def number_or_auto(name, text):
+    """A number as above, or the word auto for what the node finds by itself."""
+    if text == "auto":
+        return text
+    try:
+        return number(name, text)
+    except BadArgument:
+        raise BadArgument(name, text, "auto or a number") from None
+
+
 def whole(name, text, at_least=None):
     allowed = "a whole number" + ("" if at_least is None else f" of at least {at_least}")
     try:

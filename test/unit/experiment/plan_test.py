@@ -133,6 +133,15 @@ class Plan(unittest.TestCase):
         for text in ("sift", "[sift]", "{mine: sift}", "{mine: {}}", "{1: {type: sift}}", "{mine: {type"):
             self.assert_refused("argument features is %r, but must be a map of detectors by name" % text, features=text)
 
+    def test_the_land_beyond_the_world_reflects_as_typed_or_as_the_world_does(self):
+        for typed, told in (({}, "auto"), ({"ground_albedo": "0.6"}, 0.6)):
+            tree = planned(**typed)
+            self.assertEqual(tree["render"]["atmosphere"]["ground_albedo"], told)
+            self.assertEqual(tree["self_test"]["render"]["atmosphere"]["ground_albedo"], told)
+            self.assertEqual(tree["evaluator"]["about"]["ground_albedo"], str(told))
+        for text in ("snow", "nan", ""):
+            self.assert_refused("argument ground_albedo is %r, but must be auto or a number" % text, ground_albedo=text)
+
     def test_detectors_under_names_of_ones_own_can_be_differences(self):
         mine = "{mine: {type: sift, preprocessing: gamma, gamma: {exponent: 0.4}}}"
         tree = planned(differences="[orb, mine]", features=mine)["evaluator"]
