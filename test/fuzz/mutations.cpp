@@ -40,6 +40,16 @@ std::string inputOf(std::size_t number, const std::vector<std::string>& all) {
   return input;
 }
 
+/// A seed is read without complaint.
+std::string faultOfSeed(const std::string& seed) {
+  try {
+    read(seed);
+  } catch (const std::exception& error) {
+    return std::string("is a seed, but is refused: ") + error.what();
+  }
+  return "";
+}
+
 /// All from `first` on. Ends the process at the first that is no good, with what is known of it in `shared`.
 [[noreturn]] void readAll(std::size_t first, Shared* shared) {
   const rlimit memory{kMostMemory_bytes, kMostMemory_bytes}, no_core{0, 0};
@@ -55,12 +65,7 @@ std::string inputOf(std::size_t number, const std::vector<std::string>& all) {
     std::memcpy(shared->input, input.data(), input.size());
     const itimerval time{{0, 0}, {kMostTime_s, 0}};
     ::setitimer(ITIMER_REAL, &time, nullptr);
-    std::string fault;
-    if (i < all.size()) {
-      read(input);  // what a seed throws ends the process
-    } else {
-      fault = faultOf(input);
-    }
+    const std::string fault = i < all.size() ? faultOfSeed(input) : faultOf(input);
     if (!fault.empty()) {
       std::strncpy(shared->fault, fault.c_str(), sizeof(shared->fault) - 1);
       ::_exit(1);
