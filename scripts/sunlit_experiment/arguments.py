@@ -28,7 +28,7 @@ def parse(name, text, allowed):
     """`text` as YAML."""
     try:
         return yaml.safe_load(text)
-    except yaml.YAMLError:
+    except (yaml.YAMLError, ValueError, RecursionError):  # of a date that is none; of very many brackets
         raise BadArgument(name, text, allowed) from None
 
 
