@@ -9,6 +9,16 @@ target_compile_options(sunlit_flags INTERFACE
 if(SUNLIT_WERROR)
   target_compile_options(sunlit_flags INTERFACE -Werror)
 endif()
+if(SUNLIT_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "SUNLIT_FUZZ is ON, but the compiler is ${CMAKE_CXX_COMPILER_ID}: it must be Clang, for its libFuzzer")
+  endif()
+  # What a library does that was built without them is seen where it touches our memory alone. Types behind pointers are left
+  # out: those of other libraries are not known.
+  set(sunlit_sanitizers -fsanitize=address,undefined,float-cast-overflow -fno-sanitize=vptr,function -fno-sanitize-recover=all)
+  target_compile_options(sunlit_flags INTERFACE ${sunlit_sanitizers} -fsanitize=fuzzer-no-link -fno-omit-frame-pointer -g1)
+  target_link_options(sunlit_flags INTERFACE ${sunlit_sanitizers})
+endif()
 
 # sunlit_library(MODULE SOURCES file... [PUBLIC library...] [PRIVATE library...])
 # The library sunlit_MODULE of src/MODULE, with headers in include/sunlit/MODULE.

@@ -28,7 +28,7 @@ def parse(name, text, allowed):
     """`text` as YAML."""
     try:
         return yaml.safe_load(text)
-    except yaml.YAMLError:
+    except (yaml.YAMLError, ValueError, RecursionError):  # of a date that is none; of very many brackets
         raise BadArgument(name, text, allowed) from None
 
 
@@ -53,6 +53,16 @@ def number(name, text):
     if not math.isfinite(value):
         raise BadArgument(name, text, "a number")
     return value
+
+
+def number_or_auto(name, text):
+    """A number as above, or the word auto for what the node finds by itself."""
+    if text == "auto":
+        return text
+    try:
+        return number(name, text)
+    except BadArgument:
+        raise BadArgument(name, text, "auto or a number") from None
 
 
 def whole(name, text, at_least=None):

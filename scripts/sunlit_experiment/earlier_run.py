@@ -15,8 +15,9 @@ def _settings(folder):
     try:
         with open(os.path.join(folder, "run.yaml"), encoding="utf-8") as run:
             settings = yaml.safe_load(run)["settings"]
-            return {name: yaml.safe_load(settings[name]) for name in ("differences", "verify") if name in settings}
-    except (OSError, yaml.YAMLError, KeyError, TypeError):  # no run of ours; the evaluator will say so, if need be
+            lists = {name: yaml.safe_load(settings[name]) for name in ("differences", "verify") if name in settings}
+            return {name: names for name, names in lists.items() if isinstance(names, list)}
+    except (OSError, yaml.YAMLError, AttributeError, KeyError, RecursionError, TypeError, ValueError):  # no run of ours; the evaluator will say so, if need be
         return {}
 
 
@@ -27,7 +28,7 @@ def _rows(folder, name):
         with open(os.path.join(folder, name), encoding="utf-8", errors="replace") as lines:
             for line in lines:
                 fields = line.split(",")
-                if line.endswith("\n") and fields[0].isdigit() and len(fields) > 4:
+                if line.endswith("\n") and fields[0].isdecimal() and len(fields[0]) < 19 and len(fields) > 4:
                     rows[int(fields[0]), fields[2], fields[3]] += 1
     except FileNotFoundError:
         return None

@@ -13,7 +13,8 @@ START_STAMP_S = 1000.0
 FRAME_RATE_HZ = 10.0
 # What the evaluator writes down beside its results, as it was typed.
 ABOUT = ("world", "robot", "path", "site", "date", "timezone", "hours", "spacing", "offset", "yaw", "exposure", "ev100",
-         "highlight_protection", "final_gather", "rasterizer", "night", "lamps", "noise", "noise_seed", "turbidity", "ozone")
+         "highlight_protection", "final_gather", "rasterizer", "night", "lamps", "noise", "noise_seed", "turbidity", "ozone",
+         "ground_albedo")
 
 
 @dataclasses.dataclass
@@ -39,6 +40,7 @@ def check(typed):
         read.whole(name, typed[name])
     for name in ("horizontal_fov", "camera_height", "offset", "yaw", "ev100", "highlight_protection", "turbidity", "ozone"):
         read.number(name, typed[name])
+    read.number_or_auto("ground_albedo", typed["ground_albedo"])
     read.date_time(typed["date"], typed["timezone"])
     read.site(typed["site"])
     read.folders(typed["model_path"])
@@ -123,7 +125,8 @@ def _renderer(typed, places, beginning):
         "lamps": typed["lamps"],
         "noise": {"enabled": read.flag("noise", typed["noise"]), "seed": read.whole("noise_seed", typed["noise_seed"])},
         "atmosphere": {"turbidity": read.number("turbidity", typed["turbidity"]),
-                       "ozone": read.number("ozone", typed["ozone"])},
+                       "ozone": read.number("ozone", typed["ozone"]),
+                       "ground_albedo": read.number_or_auto("ground_albedo", typed["ground_albedo"])},
         "frame_rate": FRAME_RATE_HZ,
         "start_stamp": START_STAMP_S,
         "compressed": read.flag("compressed", typed["compressed"]),

@@ -227,6 +227,12 @@ def read_yaml(path):
     try:
         with open(path, encoding="utf-8") as file:
             content = yaml.safe_load(file)
+    except UnicodeDecodeError as error:
+        raise ReportError(f"{path}: byte {error.start} is no UTF-8") from None
+    except ValueError as error:  # a date that is none
+        raise ReportError(f"{path}: {error}") from None
+    except RecursionError:
+        raise ReportError(f"{path}: lists lie within each other on too many levels") from None
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         raise ReportError(f"{path}:{mark.line + 1 if mark else 1}: {getattr(error, 'problem', 'is no YAML')}") from None

@@ -44,6 +44,20 @@ void nameFilesOfImages(std::string& text) {
 
 }  // namespace
 
+std::string withoutAnimations(const std::string& text) {
+  const std::string begin = "<library_animations", end = "</library_animations>";
+  std::string kept = text;
+  for (std::size_t from = kept.find(begin); from != std::string::npos; from = kept.find(begin, from)) {
+    const std::size_t found = kept.find(end, from);
+    if (found == std::string::npos) return text;  // XML that is broken, or empty elements
+    const std::size_t to = found + end.size();
+    const auto lines = std::count(kept.begin() + static_cast<std::ptrdiff_t>(from),
+                                  kept.begin() + static_cast<std::ptrdiff_t>(to), '\n');
+    kept.replace(from, to - from, static_cast<std::size_t>(lines), '\n');
+  }
+  return kept;
+}
+
 ColladaText readableCollada(const std::string& text) {
   ColladaText readable;
   std::size_t comments = 0;

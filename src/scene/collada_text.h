@@ -11,6 +11,10 @@ struct ColladaText {
   std::size_t holes = 0;  ///< of polygons, which are filled: Assimp knows none
 };
 
+/// `text` without its animations, each line where it was: Assimp would not check their numbers, and models
+/// are seen at rest.
+std::string withoutAnimations(const std::string& text);
+
 /// `text` without comments, without blanks between the tag of a colour and its numbers, and without holes;
 /// and pictures without a file have one that is not there.
 ColladaText readableCollada(const std::string& text);

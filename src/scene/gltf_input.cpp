@@ -23,11 +23,15 @@ bool hasEnding(const std::string& text, const std::string& ending) {
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-/// The number of joints of the largest skin without matrices.
+bool lacksMatrices(const json& skin) {
+  return skin.is_object() && !skin.contains("inverseBindMatrices");
+}
+
+/// The number of joints of the largest skin without matrices, at least 1; 0 where there is no such skin.
 std::size_t jointsWithoutMatrices(const json& root) {
   std::size_t most = 0;
   for (const json& skin : child(root, "skins")) {
-    if (!skin.contains("inverseBindMatrices")) most = std::max(most, child(skin, "joints").size());
+    if (lacksMatrices(skin)) most = std::max({most, child(skin, "joints").size(), std::size_t{1}});
   }
   return most;
 }
@@ -45,12 +49,13 @@ void giveMatrices(json& root, std::size_t most) {
   const std::size_t buffer = append(root, "buffers", json{{"uri", kUnitMatrices}, {"byteLength", bytes}});
   const std::size_t view = append(root, "bufferViews", json{{"buffer", buffer}, {"byteLength", bytes}});
   for (json& skin : root["skins"]) {
-    if (skin.contains("inverseBindMatrices")) continue;
-    skin["inverseBindMatrices"] = append(root, "accessors",
-                                         json{{"bufferView", view},
-                                              {"componentType", 5126},
-                                              {"count", child(skin, "joints").size()},
-                                              {"type", "MAT4"}});
+    if (!lacksMatrices(skin)) continue;
+    skin["inverseBindMatrices"] =
+        append(root, "accessors",
+               json{{"bufferView", view},
+                    {"componentType", 5126},
+                    {"count", std::max(child(skin, "joints").size(), std::size_t{1})},
+                    {"type", "MAT4"}});
   }
 }
 
@@ -97,8 +102,9 @@ void requireGltf2(const json& root, const std::string& file) {
 
 GltfInput::GltfInput(const std::string& file, const std::string& text, json root) : file_(file) {
   joints_ = jointsWithoutMatrices(root);
-  if (joints_ == 0) return;
-  giveMatrices(root, joints_);
+  const bool moves = root.erase("animations") > 0;  // whose numbers Assimp would not check, for nothing
+  if (joints_ == 0 && !moves) return;
+  if (joints_ > 0) giveMatrices(root, joints_);
   mended_ = withJson(file, root.dump(), text.size());
 }
 

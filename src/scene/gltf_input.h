@@ -13,7 +13,7 @@ void requireGltf2(const nlohmann::json& root, const std::string& file);
 
 /// Opens the files of a glTF file such that Assimp 5.2 may read them: those whose addresses are written with
 /// escapes (RFC 3986), and skins without matrices of their own, which it does not expect, with those that
-/// section 3.7.3.1 gives them.
+/// section 3.7.3.1 gives them; and without animations.
 class GltfInput : public Assimp::DefaultIOSystem {
  public:
   /// `text` and `root` are those of `file`.

@@ -28,7 +28,9 @@ std::string gltfText(const std::string& file) {
 
 json parseGltf(const std::string& text, const std::string& file) {
   try {
-    return json::parse(text);
+    json root = json::parse(text);
+    if (!root.is_object()) throw std::runtime_error(file + ": its JSON is no object");
+    return root;
   } catch (const json::exception& error) {
     throw std::runtime_error(file + ": cannot read its JSON: " + error.what());
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "scene/color.h"
+#include "scene/gltf_check.h"
 #include "scene/gltf_input.h"
 #include "scene/gltf_json.h"
 #include "scene/gltf_rest.h"
@@ -281,6 +282,11 @@ GltfMaterials::GltfMaterials(const std::string& file, SceneBuilder& builder)
   std::string text = gltfText(file);
   json root = parseGltf(text, file);
   requireGltf2(root, file);
+  try {
+    requireReadableGltf(root, file);
+  } catch (const json::exception& error) {
+    throw std::runtime_error(file + ": its accessors, meshes and skins: " + error.what());
+  }
   json_ = std::make_unique<const Json>(Json{std::move(text), std::move(root)});
 }
 

@@ -65,12 +65,12 @@ std::vector<std::size_t> materialsInFile(const std::string& file, const std::vec
   std::vector<std::size_t> order;
   try {
     order = Walk(root).materials();
+    if (!fits(order, materials, names)) {
+      order.resize(std::min(names.size(), materials.size()));
+      for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    }
   } catch (const json::exception& error) {
-    throw std::runtime_error(file + ": its nodes and meshes: " + error.what());
-  }
-  if (!fits(order, materials, names)) {
-    order.resize(std::min(names.size(), materials.size()));
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    throw std::runtime_error(file + ": its nodes, meshes and materials: " + error.what());
   }
   order.resize(names.size(), materials.size());
   return order;

@@ -58,7 +58,11 @@ Scene loadUrdf(const std::string& file, const SearchPath& search_path) {
       scene.meshes.push_back(std::move(mesh));
     }
   }
-  validate(scene);
+  try {
+    validate(scene);
+  } catch (const std::invalid_argument& error) {  // which knows no files
+    throw std::runtime_error(file + ": " + error.what());
+  }
   return scene;
 }
 

@@ -10,17 +10,20 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 
 #include "scene/assimp_nodes.h"
 #include "scene/back_to_back.h"
+#include "scene/collada_check.h"
 #include "scene/collada_text.h"
 #include "scene/color.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_order.h"
 #include "scene/mesh_material.h"
 #include "scene/mesh_rest.h"
+#include "scene/obj_input.h"
 #include "scene/uri_text.h"
 
 namespace sunlit::scene {
@@ -183,17 +186,29 @@ void addLamps(const aiScene& scene, const Eigen::Affine3d& up_from_file, SceneBu
   }
 }
 
-/// What Assimp makes of a COLLADA file that it refused as it stands; null for nothing.
-const aiScene* readMended(const std::string& file, unsigned steps, Assimp::Importer& importer,
-                          SceneBuilder& builder) {
+/// What Assimp makes of a COLLADA file, as it stands or, where it refuses that, mended; null for nothing.
+const aiScene* readCollada(const std::string& file, unsigned steps, Assimp::Importer& importer,
+                           SceneBuilder& builder) {
   std::ifstream stream(file, std::ios::binary);
-  const ColladaText readable =
-      readableCollada({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()});
-  const aiScene* scene =
-      importer.ReadFileFromMemory(readable.text.data(), readable.text.size(), steps, "dae");
+  const std::string text =
+      withoutAnimations({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()});
+  requireReadableCollada(text, file);
+  const aiScene* scene = importer.ReadFileFromMemory(text.data(), text.size(), steps, "dae");
+  if (scene != nullptr) return scene;
+  const ColladaText readable = readableCollada(text);
+  scene = importer.ReadFileFromMemory(readable.text.data(), readable.text.size(), steps, "dae");
   if (scene != nullptr && readable.holes > 0)
     builder.warn("meshes have polygons with holes, which are filled", file);
   return scene;
+}
+
+/// Alpha of vertex colours, where it would matter.
+void warnOfFading(const Collector& collector, const std::string& file, SceneBuilder& builder) {
+  for (const std::size_t i : collector.fading) {
+    const Mesh& mesh = collector.parts[i].mesh;
+    if (builder.material(mesh.material).alpha_mode != AlphaMode::kOpaque)
+      builder.warn("alpha of vertex colours was left out", mesh.name + " of " + file);
+  }
 }
 
 /// Assimp would find no reader for a folder, and miss anything but content in an empty file.
@@ -222,14 +237,16 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   if (gltf) {
     gltf_materials.emplace(file, builder);
     importer.SetIOHandler(gltf_materials->input().release());
+  } else if (extension == ".obj") {
+    importer.SetIOHandler(std::make_unique<ObjInput>().release());
   }
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up_axis == UpAxis::kZ);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCrease_deg);
   // Normals where the file has none: glTF 2.0, section 3.7.2.1, wants them flat.
   const unsigned normals = gltf ? aiProcess_GenNormals : aiProcess_GenSmoothNormals;
-  const aiScene* scene = importer.ReadFile(file, kSteps | normals);
-  if (scene == nullptr && collada) scene = readMended(file, kSteps | normals, importer, builder);
+  const aiScene* scene = collada ? readCollada(file, kSteps | normals, importer, builder)
+                                 : importer.ReadFile(file, kSteps | normals);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw std::runtime_error(file + ": cannot read this mesh: " + importer.GetErrorString() +
                              (gltf ? gltf_materials->whatItNeeds() : ""));
@@ -247,11 +264,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();
   Collector collector{*scene, looks, gltf, up_from_file, {}, 0, {}};
   collector.collect(*scene->mRootNode, up_from_file);
-  for (const std::size_t i : collector.fading) {
-    const Mesh& mesh = collector.parts[i].mesh;
-    if (builder.material(mesh.material).alpha_mode != AlphaMode::kOpaque)
-      builder.warn("alpha of vertex colours was left out", mesh.name + " of " + file);
-  }
+  warnOfFading(collector, file, builder);
   if (up_axis == UpAxis::kAsDeclared && gltf) addGltfLights(file, up_from_file, builder);
   if (up_axis == UpAxis::kAsDeclared && !gltf) addLamps(*scene, up_from_file, builder);
   if (collector.lines_and_points > 0) {

@@ -202,9 +202,12 @@ std::string reasonsOf(const std::vector<std::string>& warnings) {
 }
 
 bool canShine(const Lamp& lamp) {
-  return lamp.constant + lamp.linear + lamp.quadratic > 0.0f && lamp.range_m > 0.0f &&
-         lamp.outer_rad > 0.0f && lamp.inner_rad <= lamp.outer_rad && lamp.direction.norm() > 0.5f &&
-         (lamp.intensity.value >= 0.0f).all() && lamp.intensity.value.allFinite();
+  const float falling = lamp.constant + lamp.linear + lamp.quadratic;
+  return falling > 0.0f && std::isfinite(falling) &&
+         std::min({lamp.constant, lamp.linear, lamp.quadratic, lamp.inner_rad}) >= 0.0f &&
+         lamp.range_m > 0.0f && lamp.outer_rad > 0.0f && lamp.inner_rad <= lamp.outer_rad &&
+         lamp.direction.norm() > 0.5f && (lamp.intensity.value >= 0.0f).all() &&
+         lamp.intensity.value.allFinite();
 }
 
 void SceneBuilder::addLamp(Lamp lamp) {
@@ -315,7 +318,11 @@ Scene SceneBuilder::finish() {
     if (!kind.examples.empty() && kind.examples.size() < kind.times) line += "; …";
     warn(line);
   }
-  validate(scene_);
+  try {
+    validate(scene_);
+  } catch (const std::invalid_argument& error) {  // which knows no files
+    throw std::runtime_error(scene_.name + ": " + error.what());
+  }
   Scene finished = std::move(scene_);
   *this = SceneBuilder("");
   return finished;

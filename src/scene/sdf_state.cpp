@@ -45,12 +45,12 @@ void forEach(const XMLElement& parent, const char* kind, const Each& each) {
 
 }  // namespace
 
-SdfState::SdfState(const tinyxml2::XMLDocument& document) {
+SdfState::SdfState(const tinyxml2::XMLDocument& document, const std::string& file) : file_(file) {
   const XMLElement& state = *document.FirstChildElement("state");
   forEach(state, "model", [&](const XMLElement& model) { readModel(model, ""); });
   forEach(state, "light", [&](const XMLElement& light) {
     const std::string name = attributeOf(light, "name");
-    entries_[name] = {poseOf(light, name), false};
+    entries_[name] = {poseOf(light, file_ + ": " + name), false};
   });
   forEach(state, "deletions", [&](const XMLElement& deletions) {
     forEach(deletions, "name", [&](const XMLElement& name) {
@@ -61,12 +61,12 @@ SdfState::SdfState(const tinyxml2::XMLDocument& document) {
 
 void SdfState::readModel(const XMLElement& model, const std::string& scope) {
   const std::string name = scope + attributeOf(model, "name");
-  entries_[name] = {poseOf(model, name), true};
-  const std::array<double, 3> scale = numbersOf<3>(model, "scale", {1.0, 1.0, 1.0}, name);
+  entries_[name] = {poseOf(model, file_ + ": " + name), true};
+  const std::array<double, 3> scale = numbersOf<3>(model, "scale", {1.0, 1.0, 1.0}, file_ + ": " + name);
   scales_[name] = {scale[0], scale[1], scale[2]};
   forEach(model, "link", [&](const XMLElement& link) {
     const std::string full_name = name + "::" + attributeOf(link, "name");
-    entries_[full_name] = {poseOf(link, full_name), false};
+    entries_[full_name] = {poseOf(link, file_ + ": " + full_name), false};
   });
   forEach(model, "model", [&](const XMLElement& nested) { readModel(nested, name + "::"); });
 }

@@ -17,9 +17,9 @@ class SdfState {
  public:
   /// Of a world without a <state>.
   SdfState() = default;
-  /// The <state> element of `document`. Throws std::runtime_error naming the model for a pose or scale that
-  /// is no row of finite numbers.
-  explicit SdfState(const tinyxml2::XMLDocument& document);
+  /// The <state> element of `document`, which is that of `file`. Throws std::runtime_error naming file and
+  /// model for a pose or scale that is no row of finite numbers.
+  SdfState(const tinyxml2::XMLDocument& document, const std::string& file);
 
   /// Where the own frame of the model, link or light stands in the world; nothing where the state is silent.
   std::optional<Eigen::Isometry3d> mapFrom(const std::string& full_name) const;
@@ -36,6 +36,7 @@ class SdfState {
     Eigen::Isometry3d map_from_frame;
     bool is_model;
   };
+  std::string file_;
   std::map<std::string, Entry> entries_;
   std::map<std::string, Eigen::Vector3d> scales_;
   std::set<std::string> deleted_;

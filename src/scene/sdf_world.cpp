@@ -16,7 +16,7 @@ Scene loadSdf(const std::string& file, const ResourceFinder& finder) {
   SdfFiles files(finder, builder);
   const SdfFile& read = files.read(file);
   SdfVisuals visuals(file, finder, builder);
-  if (read.state) visuals.standAs(SdfState(*read.state));
+  if (read.state) visuals.standAs(SdfState(*read.state, read.path));
   visuals.addFile(read);
   for (std::uint64_t i = 0; i < read.root.WorldCount(); ++i) {
     const sdf::World& world = *read.root.WorldByIndex(i);

@@ -74,6 +74,19 @@ std::string bytesOf(const std::string& key, const Features& features) {
   return bytes;
 }
 
+/// Whether what follows the header is as long as the header says. The checksum is no proof of that: it finds
+/// what was damaged, not what was written wrongly.
+bool fits(const Header& header, std::size_t bytes) {
+  if (header.rows < 0 || header.columns < 0 || header.type != CV_MAT_TYPE(header.type)) return false;
+  const std::uint64_t points = std::uint64_t{header.points} * sizeof(cv::KeyPoint);
+  const std::uint64_t numbers =
+      static_cast<std::uint64_t>(header.rows) * static_cast<std::uint64_t>(header.columns);
+  const std::uint64_t each = CV_ELEM_SIZE(header.type);
+  if (points > bytes || numbers > bytes) return false;
+  return points + numbers * each == bytes &&
+         (numbers == 0 ? header.points == 0 : static_cast<std::uint32_t>(header.rows) == header.points);
+}
+
 Features featuresOf(const fs::path& file, const std::string& key) {
   const std::string bytes = image::readWholeFile(file.string());
   Header header;
@@ -83,6 +96,8 @@ Features featuresOf(const fs::path& file, const std::string& key) {
     fail(file, "holds no features of this version");
   const char* const data = bytes.data() + sizeof(header);
   if (checksumOf(key, bytes) != header.checksum) fail(file, "is damaged");
+  if (!fits(header, bytes.size() - sizeof(header)))
+    fail(file, "holds other numbers of features than it says");
   Features features;
   const std::size_t point_bytes = header.points * sizeof(cv::KeyPoint);
   const std::size_t descriptor_bytes = bytes.size() - sizeof(header) - point_bytes;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -122,6 +123,18 @@ CsvLines readCsv(const std::string& path, const std::string& header) {
   return result;
 }
 
+void forEachCsvRow(const std::string& path, const std::string& header,
+                   const std::function<void(const std::vector<std::string>& fields)>& use) {
+  const CsvLines lines = readCsv(path, header);
+  for (std::size_t i = 0; i < lines.rows.size(); ++i) {
+    try {
+      use(lines.rows[i]);
+    } catch (const std::exception& error) {
+      throw std::runtime_error(path + ":" + std::to_string(i + 2) + ": " + error.what());
+    }
+  }
+}
+
 std::string formatNumber(double value) {
   if (std::isnan(value)) return "nan";
   char buffer[40];
@@ -155,7 +168,24 @@ std::int64_t parseStamp(const std::string& text) {
   }
   std::string digits = text;
   digits.erase(point, 1);
-  return std::stoll(digits);
+  // By a bound of its own: what is beyond is as far from any clock as a slip can be, and its negative, and
+  // how far it is from another stamp, are numbers, too.
+  constexpr std::int64_t kFarthest = std::int64_t{1} << 61;
+  std::int64_t nanoseconds = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [stopped, error] = std::from_chars(digits.data(), end, nanoseconds);
+  if (error != std::errc() || stopped != end || nanoseconds < -kFarthest || nanoseconds > kFarthest)
+    throw std::runtime_error("\"" + text + "\" is not a stamp within 2.3e9 s");
+  return nanoseconds;
+}
+
+std::int64_t parsePose(const std::string& text) {
+  const double value = parseNumber(text);
+  constexpr double kExact = 9007199254740992.0;  // 2⁵³: doubles beyond are not all the whole numbers
+  if (!(std::abs(value) <= kExact) || value != std::floor(value)) {
+    throw std::runtime_error("\"" + text + "\" is not a pose number");
+  }
+  return static_cast<std::int64_t>(value);
 }
 
 std::string csvField(const std::string& text) {

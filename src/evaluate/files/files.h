@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,11 @@ struct CsvLines {
 /// or number of fields.
 CsvLines readCsv(const std::string& path, const std::string& header);
 
+/// Calls `use` with the fields of each row of a file as readCsv() reads it. What `use` throws becomes
+/// std::runtime_error with path and line.
+void forEachCsvRow(const std::string& path, const std::string& header,
+                   const std::function<void(const std::vector<std::string>& fields)>& use);
+
 /// 17 digits, so that reading gives the same number back; "nan" for NaN.
 std::string formatNumber(double value);
 /// Reads formatNumber() and any other decimal number. Throws std::runtime_error.
@@ -45,6 +51,8 @@ double parseNumber(const std::string& text);
 /// "secs.nsecs" with nine digits after the point.
 std::string formatStamp(std::int64_t nanoseconds);
 std::int64_t parseStamp(const std::string& text);
+/// A whole number that a double knows exactly. Throws std::runtime_error.
+std::int64_t parsePose(const std::string& text);
 /// A field of a CSV file: in quotes where it has commas, quotes or line ends.
 std::string csvField(const std::string& text);
 

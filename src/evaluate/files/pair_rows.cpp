@@ -6,15 +6,6 @@
 namespace sunlit::evaluate {
 namespace {
 
-std::int64_t parsePose(const std::string& text) {
-  const double value = parseNumber(text);
-  constexpr double kExact = 9007199254740992.0;  // 2⁵³: doubles beyond are not all the whole numbers
-  if (!(std::abs(value) <= kExact) || value != std::floor(value)) {
-    throw std::runtime_error("\"" + text + "\" is not a pose number");
-  }
-  return static_cast<std::int64_t>(value);
-}
-
 std::size_t pairNamed(const FramesLayout& layout, const std::string& a, const std::string& b) {
   const auto found = std::find(layout.pairs.begin(), layout.pairs.end(), std::make_pair(a, b));
   if (found == layout.pairs.end())

@@ -55,7 +55,7 @@ class Reader {
   }
   void get(void* data, std::size_t bytes) {
     if (bytes > bytes_.size() - at_) throw std::runtime_error(path_ + ": holds a record that is cut off");
-    std::memcpy(data, bytes_.data() + at_, bytes);
+    if (bytes > 0) std::memcpy(data, bytes_.data() + at_, bytes);
     at_ += bytes;
   }
   /// How many of so many bytes each follow, which must all be there.
@@ -65,6 +65,11 @@ class Reader {
       throw std::runtime_error(path_ + ": holds a record that is cut off");
     return static_cast<std::size_t>(count);
   }
+  /// Refuses a record whose parts do not fit each other.
+  void require(bool fits) const {
+    if (!fits) throw std::runtime_error(path_ + ": holds a record whose numbers of features do not fit");
+  }
+  std::size_t left() const { return bytes_.size() - at_; }
   std::string text() {
     std::string text(count(1), '\0');
     get(text.data(), text.size());
@@ -127,6 +132,8 @@ void takePlaces(Reader& in, Observation& observation) {
     key_point.response = in.get<float>();
   }
   observation.points.resize(in.count(sizeof(double) * 3));
+  in.require(observation.points.empty() ||
+             observation.points.size() == observation.features.key_points.size());
   for (Eigen::Vector3d& point : observation.points) in.get(point.data(), sizeof(double) * 3);
 }
 
@@ -140,13 +147,17 @@ void putDescriptors(Writer& out, const cv::Mat& descriptors) {
   for (int i = 0; i < compact.rows; ++i) out.put(compact.ptr(i), row_bytes);
 }
 
-cv::Mat takeDescriptors(Reader& in) {
+/// One a key point.
+cv::Mat takeDescriptors(Reader& in, std::size_t key_points) {
   const int type = in.get<int>();
   const int compact_type = in.get<int>();
   const int rows = in.get<int>();
   const int columns = in.get<int>();
+  in.require(rows >= 0 && columns >= 0 && static_cast<std::size_t>(rows) == key_points &&
+             type == CV_MAT_TYPE(type) && compact_type == CV_MAT_TYPE(compact_type));
+  const std::size_t row_bytes = static_cast<std::size_t>(columns) * CV_ELEM_SIZE(compact_type);
+  in.require(rows == 0 || row_bytes <= in.left() / static_cast<std::size_t>(rows));
   cv::Mat compact(rows, columns, compact_type);
-  const std::size_t row_bytes = static_cast<std::size_t>(columns) * compact.elemSize();
   for (int i = 0; i < rows; ++i) in.get(compact.ptr(i), row_bytes);
   if (type == compact_type) return compact;
   cv::Mat descriptors;
@@ -285,7 +296,7 @@ Observation ObservationFile::read(std::size_t index) const {
   observation.map_from_optical = head.map_from_optical;
   observation.ev100 = head.ev100;
   takePlaces(in, observation);
-  observation.features.descriptors = takeDescriptors(in);
+  observation.features.descriptors = takeDescriptors(in, observation.features.key_points.size());
   return observation;
 }
 

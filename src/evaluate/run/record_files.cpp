@@ -44,19 +44,19 @@ void RecordFiles::merge(const std::string& other_folder, PoseIndex& poses) {
 }
 
 void RecordFiles::read(const std::string& folder, PoseIndex& poses) {
-  for (const auto& f : readCsv(folder + "/captures.csv", kCapturesHeader).rows) {
-    requireStreamName(f[0], "a name in " + folder + "/captures.csv");
-    const CaptureRecord capture{std::stoll(f[1]),  parseStamp(f[2]),  parseNumber(f[3]),
+  forEachCsvRow(folder + "/captures.csv", kCapturesHeader, [&](const std::vector<std::string>& f) {
+    requireStreamName(f[0], "stream");
+    const CaptureRecord capture{parsePose(f[1]),   parseStamp(f[2]),  parseNumber(f[3]),
                                 parseNumber(f[4]), parseNumber(f[5]), parseNumber(f[6]),
                                 parseNumber(f[7]), parseNumber(f[8]), parseNumber(f[9])};
     captures_[{f[0], capture.pose}] = capture;
     poses.learn(capture.stamp_ns, capture.pose);
-  }
-  for (const auto& f : readCsv(folder + "/path.csv", kPathHeader).rows) {
+  });
+  forEachCsvRow(folder + "/path.csv", kPathHeader, [&](const std::vector<std::string>& f) {
     const PlaceRecord place{parseStamp(f[1]), parseNumber(f[2]), parseNumber(f[3]), parseNumber(f[4]),
                             parseNumber(f[5])};
     places_[place.stamp_ns] = place;
-  }
+  });
   if (!captures_.empty() || !places_.empty()) finish({}, poses);  // without torn ends, before going on
 }
 
@@ -102,12 +102,12 @@ void RecordFiles::finish(const std::vector<std::string>& streams, const PoseInde
 }
 
 ProblemFile::ProblemFile(const std::string& folder) : path_(folder + "/problems.csv") {
-  for (const auto& f : readCsv(path_, kProblemsHeader).rows) {
+  forEachCsvRow(path_, kProblemsHeader, [&](const std::vector<std::string>& f) {
     Problem problem{f[0], std::nullopt, std::nullopt, f[3], f[4]};
-    if (!f[1].empty()) problem.pose = std::stoll(f[1]);
+    if (!f[1].empty()) problem.pose = parsePose(f[1]);
     if (!f[2].empty()) problem.stamp_ns = parseStamp(f[2]);
     if (known_.insert(keyOf(problem)).second) problems_.push_back(problem);
-  }
+  });
   image::writeFileAtomically(path_, text());  // without a torn end, before going on
   file_.open(path_, kProblemsHeader);
 }

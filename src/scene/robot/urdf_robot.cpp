@@ -52,8 +52,10 @@ void appendLinks(const urdf::Link& link, int parent, const UrdfText& text, std::
   added.name = link.name;
   added.parent = parent;
   if (link.parent_joint) added.parent_from_link = parentFromChild(*link.parent_joint, text);
-  if (!added.parent_from_link.matrix().allFinite())
-    throw std::runtime_error(text.place("joint", link.parent_joint->name) + ": its origin is not finite");
+  if (!(added.parent_from_link.matrix().array().abs() <= kFarthest_m).all()) {  // NaN too
+    throw std::runtime_error(text.place("joint", link.parent_joint->name) +
+                             ": its origin is not finite, or farther than 100 km away");
+  }
   const int index = static_cast<int>(links->size());
   links->push_back(std::move(added));
   for (const urdf::LinkSharedPtr& child : link.child_links) appendLinks(*child, index, text, links);

@@ -2,6 +2,7 @@
 
 #include <console_bridge/console.h>
 #include <tinyxml.h>
+#include <tinyxml2.h>
 #include <urdf_parser/urdf_parser.h>
 
 #include <stdexcept>
@@ -51,6 +52,12 @@ UrdfText::UrdfText(const std::string& text, const std::string& origin) : origin_
 }
 
 void UrdfText::readLines(const std::string& text) {
+  // TinyXML, which urdfdom uses, calls itself for each level, until the stack ends.
+  tinyxml2::XMLDocument levels;
+  if (levels.Parse(text.data(), text.size()) == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
+    throw std::runtime_error(origin_ + ":" + std::to_string(levels.ErrorLineNum()) +
+                             ": elements lie within each other on too many levels");
+  }
   TiXmlDocument document;
   document.Parse(text.c_str(), nullptr, TIXML_ENCODING_UTF8);
   if (document.Error()) {

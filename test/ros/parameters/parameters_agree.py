@@ -16,7 +16,7 @@ NUMBER = r"-?\d+(?:\.\d+)?(?:e\+?\d+)?"
 # Arguments of experiment.launch that are parameters of the renderer, and what differs on purpose.
 ARGUMENTS = {"missing": "missing", "spacing": "path/spacing", "offset": "path/offset", "yaw": "path/yaw", "camera_height": "path/camera_height",
              "width": "camera/width", "height": "camera/height", "horizontal_fov": "camera/horizontal_fov", "turbidity": "atmosphere/turbidity",
-             "ozone": "atmosphere/ozone", "highlight_protection": "exposure/highlight_protection",
+             "ozone": "atmosphere/ozone", "ground_albedo": "atmosphere/ground_albedo", "highlight_protection": "exposure/highlight_protection",
              "final_gather": "transport/final_gather", "night": "night/enabled", "lamps": "lamps", "noise": "noise/enabled",
              "noise_seed": "noise/seed"}
 REQUIRED = ["streams", "output_dir"]  # of the evaluator: in the shipped file stands an example

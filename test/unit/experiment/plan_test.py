@@ -51,7 +51,8 @@ class Arguments(unittest.TestCase):
         self.assertEqual(names("[23.99999]"), ["h23_59_59"])
 
     def test_bad_hours_are_refused(self):
-        for hours in ("[]", "[24]", "[-1]", "[4, 4.0]", "[true]", "[.nan]", "{4: 5}", "[4", "noon"):
+        # The last two are no YAML for other reasons: a date that is none, and more brackets than Python goes into.
+        for hours in ("2024-99-99", "[" * 5000, "[]", "[24]", "[-1]", "[4, 4.0]", "[true]", "[.nan]", "{4: 5}", "[4", "noon"):
             self.assert_refused("argument hours is", arguments.clock_times, hours)
 
     def test_robots_are_ours_by_name_or_files(self):
@@ -133,6 +134,15 @@ class Plan(unittest.TestCase):
         for text in ("sift", "[sift]", "{mine: sift}", "{mine: {}}", "{1: {type: sift}}", "{mine: {type"):
             self.assert_refused("argument features is %r, but must be a map of detectors by name" % text, features=text)
 
+    def test_the_land_beyond_the_world_reflects_as_typed_or_as_the_world_does(self):
+        for typed, told in (({}, "auto"), ({"ground_albedo": "0.6"}, 0.6)):
+            tree = planned(**typed)
+            self.assertEqual(tree["render"]["atmosphere"]["ground_albedo"], told)
+            self.assertEqual(tree["self_test"]["render"]["atmosphere"]["ground_albedo"], told)
+            self.assertEqual(tree["evaluator"]["about"]["ground_albedo"], str(told))
+        for text in ("snow", "nan", ""):
+            self.assert_refused("argument ground_albedo is %r, but must be auto or a number" % text, ground_albedo=text)
+
     def test_detectors_under_names_of_ones_own_can_be_differences(self):
         mine = "{mine: {type: sift, preprocessing: gamma, gamma: {exponent: 0.4}}}"
         tree = planned(differences="[orb, mine]", features=mine)["evaluator"]
@@ -196,6 +206,17 @@ class Plan(unittest.TestCase):
                              ({"localise": "[akaze]"}, "argument localise is '[akaze]'")):
             with self.assertRaisesRegex(arguments.BadArgument, re.escape(words)):
                 planned(**typed)
+
+    def test_what_is_no_run_of_ours_is_rendered_from_the_beginning(self):
+        """The evaluator then says what is wrong with it."""
+        for run in (b"\xa1", b"settings: {differences: 3}", b"settings: {differences: '3'}", b"settings: text", b"[" * 5000,
+                    b"settings: 2024-99-99", b"3"):
+            with tempfile.TemporaryDirectory() as folder:
+                with open(os.path.join(folder, "run.yaml"), "wb") as file:
+                    file.write(run)
+                with open(os.path.join(folder, "frames.csv"), "w", encoding="utf-8") as file:
+                    file.write("pose,stamp,a,b,difference\n²,1000.0,h04,h12,orb\n" + "9" * 5000 + ",1000.0,h04,h12,orb\n")
+                self.assertEqual(earlier_run.first_not_evaluated(folder, arguments.pairs("[4, 12]", False, 1), "[orb]"), 0)
 
     def test_rendering_waits_for_a_recorder(self):
         self.assertEqual(planned()["render"]["subscribers"], {"images": 1, "poses": 1, "truth": 1, "others": 0})

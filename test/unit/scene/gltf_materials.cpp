@@ -224,5 +224,10 @@ TEST_F(GltfMaterial, VertexColoursAreLinear) {
                           [](const Eigen::Array3f& c) { return (c - 0.5f).abs().maxCoeff() < 1e-6f; }));
 }
 
+TEST_F(GltfMaterial, WhoseNameIsNoTextIsRefusedByTheNameOfItsFile) {
+  const std::string error = errorOf(file("{\"name\":{}}"));
+  EXPECT_EQ(error.find(pathOf("t.gltf") + ": "), 0u) << error;
+}
+
 }  // namespace
 }  // namespace sunlit::scene

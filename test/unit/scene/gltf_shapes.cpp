@@ -157,5 +157,40 @@ TEST_F(GltfShape, OfBrokenJsonNamesThePlace) {
   EXPECT_NE(error.find("line 2"), std::string::npos) << error;
 }
 
+TEST_F(GltfShape, OfASkinWithoutJointsIsReadAsItStands) {
+  Parts parts = skinned("");
+  parts.more = R"("skins":[{"joints":[]}],)";
+  EXPECT_EQ(loaded(parts).triangleCount(), 1u);
+  parts.more = R"("skins":[{}],)";
+  EXPECT_EQ(loaded(parts).triangleCount(), 1u);
+}
+
+TEST_F(GltfShape, OfFewerMatricesThanJointsIsRefused) {
+  Parts parts = skinned(R"(,"inverseBindMatrices":4)");
+  parts.more = R"("skins":[{"joints":[1,2],"inverseBindMatrices":4}],)";
+  EXPECT_EQ(errorOfParts(parts), pathOf("t.gltf") + ": skin 0 has fewer matrices than its 2 joints");
+}
+
+TEST_F(GltfShape, BeyondItsNumbersIsRefused) {
+  std::string text = gltf({});
+  write("numbers.bin", kNumbers);
+  const std::string type = R"("count":3,"type":"VEC3","min")";
+  text.replace(text.find(type), type.size(), R"("count":3,"byteOffset":4,"type":"VEC3","min")");
+  EXPECT_EQ(errorOf(write("t.gltf", text)),
+            pathOf("t.gltf") + ": accessor 0 reaches to byte 40 of its view, which has 36");
+}
+
+TEST_F(GltfShape, OfAStripTooShortIsRefused) {
+  Parts parts;
+  parts.primitive = R"("mode":5,"attributes":{"POSITION":4})";
+  const std::string error = errorOfParts(parts);
+  EXPECT_NE(error.find("a strip, loop or fan of 1 corners, but it must have 3 or more"), std::string::npos)
+      << error;
+}
+
+TEST_F(GltfShape, OfJsonThatIsNoObjectIsRefused) {
+  EXPECT_EQ(errorOf(write("t.gltf", "\"text\"")), pathOf("t.gltf") + ": its JSON is no object");
+}
+
 }  // namespace
 }  // namespace sunlit::scene

@@ -83,6 +83,25 @@ TEST_F(LampFiles, ThatCannotShineAreNamed) {
   EXPECT_NE(scene.warnings[0].find("dead"), std::string::npos);
 }
 
+TEST_F(LampFiles, OfNumbersThatNoLampHasAreNamedAndLeftOut) {
+  SceneBuilder builder("numbers");
+  const auto add = [&](float constant, float linear, float inner) {
+    Lamp lamp;
+    lamp.name = "wrong";
+    lamp.constant = constant;
+    lamp.linear = linear;
+    lamp.inner_rad = inner;
+    builder.addLamp(lamp);
+  };
+  add(INFINITY, 0.0f, 0.0f);
+  add(5.0f, -1.0f, 0.0f);
+  add(1.0f, 0.0f, -9e18f);
+  const Scene scene = builder.finish();
+  EXPECT_TRUE(scene.lamps.empty());
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("wrong"), std::string::npos);
+}
+
 TEST_F(LampFiles, ThatPhysicsCarriedFarAwayAreNamed) {
   const Scene scene = worldWith("<light name='lost' type='point'><pose>0 0 -1e7 0 0 0</pose></light>");
   EXPECT_TRUE(scene.lamps.empty());

@@ -1,5 +1,6 @@
 // COLLADA, glTF and OBJ files: size, orientation, textures, and what is done about broken ones.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "scene/scene_builder.h"
 #include "unit/scene/measure.h"
@@ -384,6 +385,17 @@ TEST_F(MeshFile, AMissingFileNamesThePlaces) {
 TEST_F(MeshFile, AnUnknownEndingIsAnError) {
   const std::string file = write("world.blend", "");
   EXPECT_EQ(errorOf(file).find(file + ": cannot tell its format"), 0u) << errorOf(file);
+}
+
+TEST_F(MeshFile, APipeIsRefusedInsteadOfWaitedFor) {
+  // Nobody writes to them: whoever opens one to read waits for ever.
+  for (const char* name : {"p.world", "p.sdf", "p.urdf", "p.dae", "p.glb", "p.gltf", "p.obj", "p"}) {
+    const std::string pipe = pathOf(name);
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const std::string refusal = pipe + ": this is a pipe or a device, and no file";
+    EXPECT_EQ(errorOf(pipe), refusal);
+    EXPECT_EQ(messageOf<std::runtime_error>([&] { requireWorld(pipe, {}); }), refusal);
+  }
 }
 
 }  // namespace

@@ -69,5 +69,22 @@ TEST_F(ObjLooks, FacesBackToBackAreOneSided) {
   for (const Material& material : twice.materials) EXPECT_TRUE(material.double_sided) << material.name;
 }
 
+// Assimp writes to the material before the first, which is none.
+TEST_F(ObjLooks, AreRefusedWhereWordsStandBeforeTheFirstMaterial) {
+  const std::string object = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  for (const std::string first : {"0 a", "mtllib a", "f a", " newmtl a", "# newmtl a"}) {
+    write("m.mtl", first + "\nKd 1 0 0\nmap_Kd a.png\n");
+    const std::string error = errorOf(write("m.obj", object));
+    EXPECT_NE(error.find("m.obj: cannot read this mesh: "), std::string::npos) << error;
+    EXPECT_NE(error.find("stands before the first newmtl"), std::string::npos) << error;
+  }
+}
+
+TEST_F(ObjLooks, OfNumbersThatAreNoneAreRefusedByTheNameOfTheFile) {
+  write("m.mtl", "newmtl m\nKd 1 1 1\nKe nan 0 0\n");
+  const std::string file = write("m.obj", "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(errorOf(file), file + ": material 'm': emission is nan, but must be at least 0");
+}
+
 }  // namespace
 }  // namespace sunlit::scene

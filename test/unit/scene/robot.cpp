@@ -229,6 +229,17 @@ TEST_F(UrdfFile, SdfModelsAreRobotsToo) {
   EXPECT_NE(errorOfRobot(write("r.txt", "")).find("must end in"), std::string::npos);
 }
 
+TEST_F(UrdfFile, ThatIsTooDeepOrTooFarIsRefused) {
+  std::string deep = "<robot name='r'><link name='a'>";
+  for (int i = 0; i < 100000; ++i) deep += "<a>";
+  EXPECT_NE(errorOfRobot(write("deep.urdf", deep)).find("elements lie within each other on too many levels"),
+            std::string::npos);
+  const std::string far = errorOfText(robotText(link("base", visual(kBox)) + link("arm") +
+                                                joint("j", "fixed", "arm", "<origin xyz='1e6 0 0'/>")));
+  EXPECT_NE(far.find("joint j: its origin is not finite, or farther than 100 km away"), std::string::npos)
+      << far;
+}
+
 TEST(Robot, BringsItsLooksIntoAScene) {
   Scene scene;
   scene.textures.resize(2);

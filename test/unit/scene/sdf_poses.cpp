@@ -334,7 +334,7 @@ TEST_F(Sdf, ABrokenPoseOfAStateIsNamed) {
   EXPECT_EQ(
       errorOf(write("test.world", world("<model name='m'><link name='l'>" + boxVisual() + "</link></model>" +
                                         state("<model name='m'><pose>0 0 nan 0 0 0</pose></model>")))),
-      "m: its pose in <state> is not 6 finite numbers");
+      pathOf("test.world") + ": m: its pose in <state> is not 6 finite numbers");
 }
 
 TEST_F(Sdf, ModelsOfAStateThatAreNotThereAreNamed) {

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sunlit/quantity/frames.h"
@@ -88,6 +90,58 @@ TEST(Studio, TellsWhatItLoadsToWhoListens) {
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find(std::to_string(scene.triangleCount()) + " triangles"), std::string::npos)
       << notes[0];
+}
+
+/// A triangle, and a lamp of each of these groups.
+light::World lampsOf(const std::vector<std::string>& groups) {
+  auto scene = std::make_shared<scene::Scene>();
+  scene->materials.emplace_back();
+  scene::Mesh triangle;
+  triangle.positions = {{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
+  triangle.normals.assign(3, Eigen::Vector3f::UnitZ());
+  triangle.triangles = {{0, 1, 2}};
+  scene->meshes.push_back(triangle);
+  for (const std::string& group : groups) scene->lamps.emplace_back().group = group;
+  return light::World(std::move(scene));
+}
+
+/// What a person is told of these groups that are to stay dark: the refusal, or else the warnings.
+std::string toldOf(const light::World& world, const std::vector<std::string>& off) {
+  light::LampOptions lamps;
+  lamps.off = off;
+  std::string warnings;
+  Reports reports;
+  reports.warning = [&](const std::string& line) { warnings += line; };
+  const std::string refusal = messageOf([&] { requireGroups(world, lamps, reports); });
+  return refusal.empty() ? warnings : refusal;
+}
+
+TEST(LampGroups, ThatAreToStayDarkMustBeThere) {
+  const light::World street = lampsOf({"post", "sign", "post"});
+  EXPECT_EQ(toldOf(street, {}), "");
+  EXPECT_EQ(toldOf(street, {"sign", "post"}), "");
+  EXPECT_EQ(toldOf(street, {"sign", "poles"}), "lamps_off is poles, but must be one of post, sign");
+  EXPECT_EQ(toldOf(lampsOf({}), {"post"}), "lamps_off is post, but must be left out: there are no lamps");
+}
+
+TEST(LampGroups, OfABodyCountToo) {
+  light::World street = lampsOf({"post"});
+  street.lamps_of_bodies = {{}, {scene::Lamp()}};
+  street.lamps_of_bodies[1][0].group = "headlight";
+  EXPECT_EQ(toldOf(street, {"headlight"}), "");
+  EXPECT_EQ(toldOf(street, {"rear"}), "lamps_off is rear, but must be one of headlight, post");
+}
+
+TEST(LampGroups, BeyondThoseThatTheBakeTellsApartAreWarnedOfWhereOneIsSwitched) {
+  std::vector<std::string> groups;
+  for (std::size_t i = 0; i < light::kMostLampSets; ++i) groups.push_back("lamp" + std::to_string(i));
+  EXPECT_EQ(toldOf(lampsOf(groups), {"lamp0"}), "");
+  groups.push_back("one too many");
+  EXPECT_EQ(toldOf(lampsOf(groups), {}), "");
+  EXPECT_EQ(
+      toldOf(lampsOf(groups), {"lamp0"}),
+      "there are 33 groups of lamps: lamps_off switches what surfaces pass on of the light of all but the "
+      "first 31 as one, by the share that burns");
 }
 
 }  // namespace

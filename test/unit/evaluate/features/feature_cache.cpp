@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "evaluate/features/detector_pool.h"
+#include "sunlit/image/content_hash.h"
 #include "support/temporary_folder.h"
 
 namespace sunlit::evaluate {
@@ -195,6 +196,47 @@ TEST_F(Cache, MayBeUsedByManyAtTheSameTime) {
   });
   EXPECT_EQ(different, 0);
   EXPECT_EQ(files().size(), 3u);  // nothing half-written is left
+}
+
+/// `bytes` of a file kept under `key`, with the checksum that is right for it.
+std::string withChecksum(std::string bytes, const std::string& key) {
+  constexpr std::size_t kChecksumAt = 32, kHeader = 48;
+  image::ContentHash hash;
+  hash.addBytes(key.data(), key.size());
+  hash.addBytes(bytes.data(), kChecksumAt);
+  hash.addBytes(bytes.data() + kHeader, bytes.size() - kHeader);
+  const auto number = hash.number();
+  bytes.replace(kChecksumAt, sizeof(number), reinterpret_cast<const char*>(&number), sizeof(number));
+  return bytes;
+}
+
+TEST_F(Cache, BelievesNoNumbersThatDoNotFitWhateverTheChecksumSays) {
+  const std::string key = "0123456789abcdef0123456789abcdef";
+  Features features;
+  features.key_points.resize(2);
+  features.descriptors = cv::Mat::ones(2, 8, CV_32F);
+  const auto cache = open();
+  cache->keep(key, features);
+  ASSERT_TRUE(cache->find(key));
+  const std::string file = files().at(0), good = contentOf(file);
+  // Points, rows, columns and type of the header.
+  for (const auto& [at, number] : {std::pair{12, 3},
+                                   {12, -1},
+                                   {16, -1},
+                                   {16, 1},
+                                   {16, 0x7FFFFFFF},
+                                   {20, 9},
+                                   {24, CV_64F},
+                                   {24, 1 << 20}}) {
+    std::string wrong = good;
+    wrong.replace(static_cast<std::size_t>(at), sizeof(number), reinterpret_cast<const char*>(&number),
+                  sizeof(number));
+    setContent(file, withChecksum(wrong, key));
+    log_.clear();
+    EXPECT_FALSE(cache->find(key)) << at << " " << number;
+    ASSERT_EQ(log_.size(), 1u);
+    EXPECT_NE(log_[0].find("holds other numbers of features than it says"), std::string::npos) << log_[0];
+  }
 }
 
 }  // namespace

@@ -165,5 +165,18 @@ TEST(Summary, CountsUndefinedAndHasARowForAnEmptyPair) {
   EXPECT_EQ(rows[2].statistics.n + rows[2].statistics.undefined, 0u);
 }
 
+TEST(Stamps, BeyondAllClocksAreNone) {
+  for (const std::string text : {"-9223372036.854775808", "9223372036.854775807", "99999999999999.000000000",
+                                 "2305843010.000000000", "1.2.4567890", "-.00000000a"})
+    EXPECT_NE(sunlit::messageOf<std::runtime_error>([&] { parseStamp(text); }), "") << text;
+  EXPECT_EQ(parseStamp("-1.000000001"), -1000000001);
+}
+
+TEST(Poses, AreWholeNumbersThatADoubleKnows) {
+  EXPECT_EQ(parsePose("-1"), -1);
+  for (const std::string text : {"9223372036854775807", "0.5", "nan", "", "1x"})
+    EXPECT_NE(sunlit::messageOf<std::runtime_error>([&] { parsePose(text); }), "") << text;
+}
+
 }  // namespace
 }  // namespace sunlit::evaluate

@@ -68,6 +68,8 @@ TEST(ObservationFile, TellsTheHeadWithoutTheRest) {
   const std::string path = folder.file("observations");
   Observation large = observation(1.0F);
   large.features.key_points.resize(3000);
+  large.features.descriptors = cv::Mat::ones(3000, 3, CV_32F);
+  large.points.resize(3000);
   large.ev100 = -1.25;
   {
     ObservationFile file(path);
@@ -136,6 +138,27 @@ TEST(ObservationFile, RefusesAnotherFile) {
               ObservationFile{folder.file("no/such/folder")};
             }).find("cannot be opened"),
             std::string::npos);
+}
+
+// A row count of −1, and one beyond all memory, where descriptors begin.
+TEST(ObservationFile, RefusesARecordWhosePartsDoNotFit) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("observations");
+  {
+    ObservationFile file(path);
+    file.add({"h04", "sift", 3, 500}, observation(1.0F));
+  }
+  const std::string good = contentOf(path);
+  const std::size_t rows_at =
+      good.size() - 6 - 2 * sizeof(std::int32_t);  // before 2 × 3 bytes, and their columns
+  for (const std::int32_t rows : {-1, 1, 3, 0x7FFFFFFF}) {
+    std::string wrong = good;
+    wrong.replace(rows_at, sizeof(rows), reinterpret_cast<const char*>(&rows), sizeof(rows));
+    setContent(path, wrong);
+    EXPECT_EQ(messageOf<std::runtime_error>([&] { ObservationFile(path).read(0); }),
+              path + ": holds a record whose numbers of features do not fit")
+        << rows;
+  }
 }
 
 }  // namespace

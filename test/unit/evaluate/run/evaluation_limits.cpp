@@ -302,8 +302,30 @@ TEST(StreamNames, AreAskedForByEveryDoor) {
   }
   std::string captures = contentOf(folder.file("out/captures.csv"));
   setContent(folder.file("out/captures.csv"), captures.replace(captures.find("\nh04,"), 5, "\n../h04,"));
-  const std::string refused = messageOf([&] { const Evaluation evaluation(options, {}); });
-  EXPECT_NE(refused.find("captures.csv is \"../h04\""), std::string::npos) << refused;
+  const std::string refused =
+      messageOf<std::runtime_error>([&] { const Evaluation evaluation(options, {}); });
+  EXPECT_NE(refused.find("captures.csv:2: stream is \"../h04\""), std::string::npos) << refused;
+}
+
+TEST(TakenUpRun, NamesFileAndLineOfWhatItCannotRead) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& name, const std::string& text) {
+    setContent(folder.file("out/") + name, text);
+    const std::string told =
+        messageOf<std::runtime_error>([&] { Evaluation evaluation(optionsFor(folder), {}); });
+    std::filesystem::remove(folder.file("out/") + name);
+    return told;
+  };
+  const std::string out = folder.file("out");
+  EXPECT_EQ(refusal("path.csv", "pose,stamp,x,y,z,yaw_deg\n0,1000.000000000,0,0,,90\n"),
+            out + "/path.csv:2: \"\" is not a number");
+  EXPECT_EQ(refusal("problems.csv", "kind,pose,stamp,where,reason\nlost,9223372036854775808,,a,b\n"),
+            out + "/problems.csv:2: \"9223372036854775808\" is not a pose number");
+  EXPECT_EQ(
+      refusal("captures.csv",
+              "stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,moon_azimuth_deg,moon_elevation_deg,"
+              "moon_illuminated_fraction,scene_illuminance\nh04,0,1,14,90,20,nan,nan,nan,5\n"),
+      out + "/captures.csv:2: \"1\" is not a stamp with nine digits after the point");
 }
 
 }  // namespace

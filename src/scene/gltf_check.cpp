@@ -1,0 +1,183 @@
+#include "scene/gltf_check.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "scene/gltf_json.h"
+
+namespace sunlit::scene {
+namespace {
+
+using nlohmann::json;
+
+/// glTF 2.0, sections 3.6.2.2 and 3.6.2.3. Assimp takes unknown types for single numbers.
+std::uint64_t numbersOf(const std::string& type) {
+  static const std::map<std::string, std::uint64_t> kNumbers = {{"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4},
+                                                                {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
+  const auto found = kNumbers.find(type);
+  return found == kNumbers.end() ? 1 : found->second;
+}
+
+std::uint64_t bytesOfComponent(std::uint64_t type) {
+  constexpr std::uint64_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123;
+  return type == kByte || type == kUnsignedByte ? 1 : type == kShort || type == kUnsignedShort ? 2 : 4;
+}
+
+class Check {
+ public:
+  Check(const json& root, const std::string& file) : root_(root), file_(file) {}
+
+  void run() {
+    for (std::size_t i = 0; i < list("accessors").size(); ++i)
+      checkAccessor(list("accessors")[i], "accessor " + std::to_string(i));
+    for (std::size_t i = 0; i < list("meshes").size(); ++i) {
+      for (const json& primitive : child(list("meshes")[i], "primitives"))
+        checkPrimitive(primitive, "mesh " + std::to_string(i));
+    }
+    for (std::size_t i = 0; i < list("skins").size(); ++i)
+      checkSkin(list("skins")[i], "skin " + std::to_string(i));
+    checkLevels();
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& place, const std::string& wrong) const {
+    throw std::runtime_error(file_ + ": " + place + " " + wrong);
+  }
+
+  /// Of objects; empty where there is none.
+  const json& list(const char* name) const {
+    static const json none = json::array();
+    const json& found = child(root_, name);
+    return found.is_array() ? found : none;
+  }
+
+  std::uint64_t whole(const json& from, const char* key, std::uint64_t usual,
+                      const std::string& place) const {
+    const auto found = from.find(key);
+    if (found == from.end()) return usual;
+    constexpr std::uint64_t kLargest = 0xFFFFFFFF;
+    if (!found->is_number_unsigned() || found->get<std::uint64_t>() > kLargest)
+      fail(place, std::string("has ") + key + " " + found->dump() +
+                      ", but it must be a whole number from 0 to 4294967295");
+    return found->get<std::uint64_t>();
+  }
+
+  /// The one of `name` that `key` of `from` tells; null where there is none, which Assimp finds.
+  const json* one(const char* name, const json& from, const char* key) const {
+    const auto found = from.find(key);
+    if (found == from.end() || !found->is_number_unsigned()) return nullptr;
+    const auto index = found->get<std::uint64_t>();
+    return index < list(name).size() ? &list(name)[index] : nullptr;
+  }
+
+  /// `bytes` from `offset` on are within the view that `from` tells.
+  void requireWithin(const json& from, std::uint64_t offset, std::uint64_t bytes,
+                     const std::string& place) const {
+    const json* const view = one("bufferViews", from, "bufferView");
+    if (view == nullptr) return;
+    const std::uint64_t length = whole(*view, "byteLength", 0, place + ": its view");
+    if (offset + bytes > length) {
+      fail(place, "reaches to byte " + std::to_string(offset + bytes) + " of its view, which has " +
+                      std::to_string(length));
+    }
+  }
+
+  void checkAccessor(const json& accessor, const std::string& place) const {
+    if (!accessor.is_object()) return;
+    const std::uint64_t count = whole(accessor, "count", 0, place);
+    const json& type = child(accessor, "type");
+    const std::uint64_t element = bytesOfComponent(whole(accessor, "componentType", 0, place)) *
+                                  numbersOf(type.is_string() ? type.get<std::string>() : "");
+    const std::uint64_t offset = whole(accessor, "byteOffset", 0, place);
+    if (const json* const view = one("bufferViews", accessor, "bufferView")) {
+      const std::uint64_t stride = whole(*view, "byteStride", 0, place + ": its view");
+      // Assimp counts the stride of the last element, too.
+      if (count > 0)
+        requireWithin(accessor, offset, (count - 1) * (stride == 0 ? element : stride) + element, place);
+    }
+    const json& sparse = child(accessor, "sparse");
+    if (sparse.empty()) return;
+    constexpr std::uint64_t kMost_bytes = std::uint64_t{1} << 30;
+    if (count * element > kMost_bytes) fail(place, "is sparse, and of more than 1 GiB");
+    requireWithin(accessor, offset, count * element, place);
+    const std::uint64_t changed = whole(sparse, "count", 0, place);
+    for (const char* const part : {"indices", "values"}) {
+      const json& there = child(sparse, part);
+      if (one("bufferViews", there, "bufferView") == nullptr)
+        fail(place, std::string("is sparse, but has no ") + part);
+      const bool is_index = std::string(part) == "indices";
+      const std::uint64_t each =
+          is_index ? bytesOfComponent(whole(there, "componentType", 0, place)) : element;
+      requireWithin(there, whole(there, "byteOffset", 0, place), changed * each, place + ": " + part);
+    }
+  }
+
+  std::uint64_t countOf(const json& from, const char* key, const std::string& place) const {
+    const json* const accessor = one("accessors", from, key);
+    return accessor == nullptr ? 0 : whole(*accessor, "count", 0, place);
+  }
+
+  void checkPrimitive(const json& primitive, const std::string& place) const {
+    const json& attributes = child(primitive, "attributes");
+    const std::uint64_t mode = whole(primitive, "mode", 4, place);
+    const std::uint64_t corners = primitive.contains("indices") ? countOf(primitive, "indices", place)
+                                                                : countOf(attributes, "POSITION", place);
+    const std::uint64_t least = mode == 2 || mode == 3 ? 2 : mode == 5 || mode == 6 ? 3 : 0;
+    if (corners < least)
+      fail(place, "has a strip, loop or fan of " + std::to_string(corners) + " corners, but it must have " +
+                      std::to_string(least) + " or more");
+    const std::uint64_t weights = countOf(attributes, "WEIGHTS_0", place);
+    std::size_t sets[2] = {0, 0};
+    for (const auto& [name, value] : attributes.items()) {
+      const bool is_joints = name.compare(0, 6, "JOINTS") == 0,
+                 is_weights = name.compare(0, 7, "WEIGHTS") == 0;
+      if (!is_joints && !is_weights) continue;
+      ++sets[is_joints ? 0 : 1];
+      if (countOf(attributes, name.c_str(), place) != weights)
+        fail(place, "has another number of " + name + " than of WEIGHTS_0");
+    }
+    if (sets[0] != sets[1]) fail(place, "has not as many sets of joints as of weights");
+    if (weights > countOf(attributes, "POSITION", place)) fail(place, "has more weights than vertices");
+  }
+
+  void checkSkin(const json& skin, const std::string& place) const {
+    if (one("accessors", skin, "inverseBindMatrices") == nullptr) return;
+    const std::size_t joints = child(skin, "joints").size();
+    if (countOf(skin, "inverseBindMatrices", place) < joints)
+      fail(place, "has fewer matrices than its " + std::to_string(joints) + " joints");
+  }
+
+  /// Of nodes below each other. Circles Assimp finds itself.
+  void checkLevels() const {
+    constexpr std::size_t kMost = 1000;
+    const json& nodes = list("nodes");
+    std::set<std::size_t> at;
+    for (std::size_t i = 0; i < nodes.size(); ++i) at.insert(i);
+    for (std::size_t depth = 0; !at.empty(); ++depth) {
+      if (depth == kMost) fail("its nodes", "lie on more than 1000 levels, or go in circles");
+      std::set<std::size_t> below;
+      for (const std::size_t i : at) {
+        for (const json& one : child(nodes[i], "children")) {
+          if (one.is_number_unsigned() && one.get<std::size_t>() < nodes.size())
+            below.insert(one.get<std::size_t>());
+        }
+      }
+      at = std::move(below);
+    }
+  }
+
+  const json& root_;
+  const std::string& file_;
+};
+
+}  // namespace
+
+void requireReadableGltf(const json& root, const std::string& file) {
+  Check(root, file).run();
+}
+
+}  // namespace sunlit::scene

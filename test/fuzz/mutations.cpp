@@ -1,0 +1,116 @@
+// Slightly wrong inputs, the same each time, end no process, hang none and need no absurd memory.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <string>
+
+#include "fuzz/mutate.h"
+#include "fuzz/reader.h"
+#include "support/temporary_folder.h"
+
+namespace sunlit::fuzz {
+namespace {
+
+constexpr std::size_t kLongest_bytes = std::size_t{1} << 20;
+constexpr rlim_t kMostMemory_bytes = rlim_t{4} << 30;  // of addresses; threads reserve some
+constexpr int kMostTime_s = 30;                        // of the wall clock, on a busy machine
+constexpr std::size_t kMostFaults = 10;
+
+/// What parent and child share: what is being read.
+struct Shared {
+  std::size_t number, size;
+  std::size_t read;  ///< so many were taken without complaint
+  char input[kLongest_bytes];
+  char fault[4096];
+};
+
+std::string inputOf(std::size_t number, const std::vector<std::string>& all) {
+  if (number < all.size()) return all[number];
+  Dice dice(number);
+  std::string input = mutated(all[dice.below(all.size())], all, dice);
+  input.resize(std::min(input.size(), kLongest_bytes));
+  return input;
+}
+
+/// A seed is read without complaint.
+std::string faultOfSeed(const std::string& seed) {
+  try {
+    read(seed);
+  } catch (const std::exception& error) {
+    return std::string("is a seed, but is refused: ") + error.what();
+  }
+  return "";
+}
+
+/// All from `first` on. Ends the process at the first that is no good, with what is known of it in `shared`.
+[[noreturn]] void readAll(std::size_t first, Shared* shared) {
+  const rlimit memory{kMostMemory_bytes, kMostMemory_bytes}, no_core{0, 0};
+  ::setrlimit(RLIMIT_AS, &memory);
+  ::setrlimit(RLIMIT_CORE, &no_core);
+  if (std::freopen("/dev/null", "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr)
+    ::_exit(2);
+  const std::vector<std::string> all = seeds();
+  for (std::size_t i = first; i < SUNLIT_FUZZ_CASES; ++i) {
+    const std::string input = inputOf(i, all);
+    shared->number = i;
+    shared->size = input.size();
+    std::memcpy(shared->input, input.data(), input.size());
+    const itimerval time{{0, 0}, {kMostTime_s, 0}};
+    ::setitimer(ITIMER_REAL, &time, nullptr);
+    const std::string fault = i < all.size() ? faultOfSeed(input) : faultOf(input);
+    if (!fault.empty()) {
+      std::strncpy(shared->fault, fault.c_str(), sizeof(shared->fault) - 1);
+      ::_exit(1);
+    }
+    ++shared->read;
+  }
+  ::_exit(0);
+}
+
+std::string told(int status, const Shared& shared) {
+  if (WIFEXITED(status)) return WEXITSTATUS(status) == 1 ? shared.fault : "ended the process";
+  if (WTERMSIG(status) == SIGALRM) return "was not read within " + std::to_string(kMostTime_s) + " s";
+  return std::string("ended the process: ") + ::strsignal(WTERMSIG(status));
+}
+
+/// The file that keeps what `shared` holds.
+std::string keep(const Shared& shared) {
+  const std::string file =
+      std::string(SUNLIT_FUZZ_KEPT) + "/" + SUNLIT_FUZZ_READER + "_" + std::to_string(shared.number);
+  setContent(file, std::string(shared.input, shared.size));
+  return file;
+}
+
+TEST(SlightlyWrongInputs, AreReadOrRefused) {
+  const TemporaryFolder folder;
+  std::filesystem::current_path(folder.path());
+  void* const memory =
+      ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(memory, MAP_FAILED);
+  auto* const shared = static_cast<Shared*>(memory);
+  std::size_t first = 0;
+  for (std::size_t faults = 0; first < SUNLIT_FUZZ_CASES && faults < kMostFaults; ++faults) {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) readAll(first, shared);
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) break;
+    ADD_FAILURE() << SUNLIT_FUZZ_READER << ", input " << shared->number << " " << told(status, *shared)
+                  << "\nIt is kept in " << keep(*shared);
+    first = shared->number + 1;
+  }
+  std::filesystem::current_path("/");
+  ::munmap(memory, sizeof(Shared));
+}
+
+}  // namespace
+}  // namespace sunlit::fuzz

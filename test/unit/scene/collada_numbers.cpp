@@ -1,0 +1,66 @@
+// COLLADA files whose counts and indices do not fit their arrays: Assimp would read what is not theirs.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "unit/scene/scene_files.h"
+
+namespace sunlit::scene {
+namespace {
+
+const std::string kGood =
+    "<COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'><library_geometries>"
+    "<geometry id='g' name='g'><mesh><source id='p'><float_array id='a' count='9'>0 0 0 1 0 0 0 1 "
+    "0</float_array>"
+    "<technique_common><accessor source='#a' count='3' stride='3'><param name='X' type='float'/><param "
+    "name='Y' "
+    "type='float'/><param name='Z' type='float'/></accessor></technique_common></source><vertices "
+    "id='v'><input "
+    "semantic='POSITION' source='#p'/></vertices>\n<triangles count='1'><input semantic='VERTEX' source='#v' "
+    "offset='0'/><p>0 1 2</p></triangles></mesh></geometry></library_geometries><library_visual_scenes>"
+    "<visual_scene id='s'><node id='n'><instance_geometry "
+    "url='#g'/></node></visual_scene></library_visual_scenes>"
+    "<scene><instance_visual_scene url='#s'/></scene></COLLADA>";
+
+class ColladaNumbers : public SceneFiles {
+ protected:
+  /// The error of the good file in which `was` is `is`; without the file's name.
+  std::string errorWith(const std::string& was, const std::string& is) const {
+    std::string text = kGood;
+    text.replace(text.find(was), was.size(), is);
+    const std::string error = errorOf(write("t.dae", text));
+    EXPECT_EQ(error.find(pathOf("t.dae") + ":"), 0u) << error;
+    return error.substr(std::min(error.size(), pathOf("t.dae").size() + 1));
+  }
+};
+
+TEST_F(ColladaNumbers, ThatFitAreRead) {
+  EXPECT_EQ(load(write("t.dae", kGood), {}).triangleCount(), 1u);
+}
+
+TEST_F(ColladaNumbers, OfAnAccessorBeyondItsArrayAreRefused) {
+  EXPECT_EQ(errorWith("stride='3'", "stride='2147483647'"),
+            "1: <accessor>: reaches to value 4294967297 of 'a', which has 9");
+  EXPECT_EQ(errorWith("count='9'", "count='0.5'"),
+            "1: <float_array>: count is '0.5', but must be a whole number from 0 to 2147483647");
+  EXPECT_EQ(errorWith("count='3'", "count='-1'"),
+            "1: <accessor>: count is '-1', but must be a whole number from 0 to 2147483647");
+}
+
+TEST_F(ColladaNumbers, OfPrimitivesMustBeWholeAndAsManyAsCounted) {
+  EXPECT_EQ(errorWith("0 1 2<", "0 1 nan<"),
+            "2: <p>: holds what is no whole number from 0 to 2147483647 behind 2 others");
+  EXPECT_EQ(errorWith("<p>0 1 2</p>", ""),
+            "2: <triangles>: count is 1, for which there must be 1 <p>, and there are 0");
+  EXPECT_EQ(errorWith("'VERTEX'", "'NORMAL'"), "2: <triangles>: has no input of VERTEX");
+  EXPECT_EQ(errorWith("'POSITION'", "'NORMAL'"),
+            "2: <triangles>: its mesh has 0 inputs of POSITION, but must have one");
+}
+
+TEST_F(ColladaNumbers, OfNodesThatContainThemselvesAreRefused) {
+  EXPECT_EQ(errorWith("<instance_geometry url='#g'/>", "<instance_node url='#n'/>"),
+            "2: <node>: contains an instance of itself");
+}
+
+}  // namespace
+}  // namespace sunlit::scene
