@@ -61,7 +61,8 @@ class Check {
     if (found == from.end()) return usual;
     constexpr std::uint64_t kLargest = 0xFFFFFFFF;
     if (!found->is_number_unsigned() || found->get<std::uint64_t>() > kLargest)
-      fail(place, std::string("has ") + key + " " + found->dump() +
+      fail(place, std::string("has ") + key + " " +
+                      found->dump(-1, ' ', false, json::error_handler_t::replace) +
                       ", but it must be a whole number from 0 to 4294967295");
     return found->get<std::uint64_t>();
   }

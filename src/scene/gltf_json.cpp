@@ -42,6 +42,17 @@ const json& child(const json& from, const char* key) {
   return found == from.end() ? none : *found;
 }
 
+std::size_t indexOf(const json& number) {
+  if (number.is_number_unsigned()) return number.get<std::size_t>();
+  throw std::runtime_error(number.dump(-1, ' ', false, json::error_handler_t::replace) +
+                           " is no whole number of at least 0");
+}
+
+std::size_t indexOf(const json& from, const char* key, std::size_t usual) {
+  const auto found = from.find(key);
+  return found == from.end() ? usual : indexOf(*found);
+}
+
 const json& extension(const json& from, const char* name) {
   return child(child(from, "extensions"), name);
 }

@@ -15,6 +15,11 @@ nlohmann::json parseGltf(const std::string& text, const std::string& file);
 
 /// Object or array `key` of `from`; an empty object if there is none.
 const nlohmann::json& child(const nlohmann::json& from, const char* key);
+/// A number that counts something: converting others, such as 1e308, has no meaning. Throws
+/// std::runtime_error with what stands there.
+std::size_t indexOf(const nlohmann::json& number);
+/// That of `key`; `usual` where there is none.
+std::size_t indexOf(const nlohmann::json& from, const char* key, std::size_t usual);
 /// What `from` says in the words of an extension; empty if nothing.
 const nlohmann::json& extension(const nlohmann::json& from, const char* name);
 

@@ -58,9 +58,9 @@ class Reader {
     if (depth > kDeepest) throw std::runtime_error("its nodes go in circles");
     const Eigen::Affine3d up_from_node = up_from_parent * parentFrom(node);
     const json& use = extension(node, kLights);
-    if (use.contains("light")) add(lights_.at(use.at("light").get<std::size_t>()), node, up_from_node);
+    if (use.contains("light")) add(lights_.at(indexOf(use.at("light"))), node, up_from_node);
     for (const json& index : child(node, "children"))
-      read(nodes_.at(index.get<std::size_t>()), up_from_node, depth + 1);
+      read(nodes_.at(indexOf(index)), up_from_node, depth + 1);
   }
 
  private:
@@ -92,9 +92,9 @@ void addGltfLights(const std::string& file, const Eigen::Affine3d& up_from_file,
     Reader reader(root, builder);
     const json& scenes = child(root, "scenes");
     if (scenes.empty()) return;
-    const json& scene = scenes.at(root.value("scene", std::size_t{0}));
+    const json& scene = scenes.at(indexOf(root, "scene", 0));
     for (const json& index : child(scene, "nodes"))
-      reader.read(child(root, "nodes").at(index.get<std::size_t>()), up_from_file, 0);
+      reader.read(child(root, "nodes").at(indexOf(index)), up_from_file, 0);
   } catch (const std::exception& error) {
     throw std::runtime_error(file + ": its lights: " + error.what());
   }

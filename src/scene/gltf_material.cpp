@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -42,8 +43,8 @@ float within(float value, float low, float high) {
 
 // glTF 2.0, section 5.26.
 Wrap wrapOf(const json& sampler, const char* key) {
-  constexpr int kClampToEdge = 33071, kMirroredRepeat = 33648, kRepeat = 10497;
-  const int mode = sampler.value(key, kRepeat);
+  constexpr std::size_t kClampToEdge = 33071, kMirroredRepeat = 33648, kRepeat = 10497;
+  const std::size_t mode = indexOf(sampler, key, kRepeat);
   return mode == kClampToEdge ? Wrap::kClamp : mode == kMirroredRepeat ? Wrap::kMirror : Wrap::kRepeat;
 }
 
@@ -51,9 +52,10 @@ Wrap wrapOf(const json& sampler, const char* key) {
 /// text shows the lower left quarter that it speaks of.
 CoordinateRecipe recipeOf(const json& use) {
   CoordinateRecipe recipe;
-  recipe.set = use.value("texCoord", 0);
+  std::size_t set = indexOf(use, "texCoord", 0);
   const json& transform = extension(use, "KHR_texture_transform");
-  recipe.set = transform.value("texCoord", recipe.set);
+  set = indexOf(transform, "texCoord", set);
+  recipe.set = static_cast<int>(std::min<std::size_t>(set, std::numeric_limits<int>::max()));
   const auto pair = [&](const char* key, float usual) {
     const std::array<float, 2> value = transform.value(key, std::array<float, 2>{usual, usual});
     return Eigen::Vector2f(value[0], value[1]);
@@ -117,9 +119,9 @@ class Reader {
   }
 
   Wraps wrapsOf(const json& info) const {
-    const json& texture = child(root_, "textures").at(info.value("index", std::size_t{0}));
+    const json& texture = child(root_, "textures").at(indexOf(info, "index", 0));
     if (!has(texture, "sampler")) return {};
-    const json& sampler = child(root_, "samplers").at(texture.at("sampler").get<std::size_t>());
+    const json& sampler = child(root_, "samplers").at(indexOf(texture.at("sampler")));
     return {wrapOf(sampler, "wrapS"), wrapOf(sampler, "wrapT")};
   }
 
@@ -303,7 +305,7 @@ std::optional<GltfLook> GltfMaterials::look(std::size_t index, const Picture& pi
                     (look.material.name.empty() ? "material " + std::to_string(index) : look.material.name) +
                         " of " + file_ + ": " + lost);
     return look;
-  } catch (const json::exception& error) {
+  } catch (const std::exception& error) {
     throw std::runtime_error(file_ + ": material " + std::to_string(index) + ": " + error.what());
   }
 }

@@ -16,9 +16,9 @@ class Walk {
  public:
   explicit Walk(const json& root) : root_(root) {
     const json& scenes = child(root, "scenes");
-    const auto number = root.value("scene", std::size_t{0});
+    const auto number = indexOf(root, "scene", 0);
     if (!scenes.is_array() || number >= scenes.size()) return;
-    for (const json& node : child(scenes.at(number), "nodes")) enter(node.get<std::size_t>());
+    for (const json& node : child(scenes.at(number), "nodes")) enter(indexOf(node));
   }
   const std::vector<std::size_t>& materials() const { return materials_; }
 
@@ -27,15 +27,15 @@ class Walk {
     const json& nodes = child(root_, "nodes");
     if (number >= nodes.size() || !nodes_.insert(number).second) return;
     const json& node = nodes.at(number);
-    for (const json& below : child(node, "children")) enter(below.get<std::size_t>());
-    if (node.contains("mesh")) look(node.at("mesh").get<std::size_t>());
+    for (const json& below : child(node, "children")) enter(indexOf(below));
+    if (node.contains("mesh")) look(indexOf(node.at("mesh")));
   }
   void look(std::size_t number) {
     const json& meshes = child(root_, "meshes");
     if (number >= meshes.size() || !meshes_.insert(number).second) return;
     for (const json& primitive : child(meshes.at(number), "primitives")) {
       if (!primitive.contains("material")) continue;
-      const auto material = primitive.at("material").get<std::size_t>();
+      const auto material = indexOf(primitive.at("material"));
       if (std::find(materials_.begin(), materials_.end(), material) == materials_.end())
         materials_.push_back(material);
     }
@@ -69,7 +69,7 @@ std::vector<std::size_t> materialsInFile(const std::string& file, const std::vec
       order.resize(std::min(names.size(), materials.size()));
       for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     }
-  } catch (const json::exception& error) {
+  } catch (const std::exception& error) {
     throw std::runtime_error(file + ": its nodes, meshes and materials: " + error.what());
   }
   order.resize(names.size(), materials.size());

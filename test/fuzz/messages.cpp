@@ -100,7 +100,7 @@ std::vector<std::string> seeds() {
 }
 
 void read(const std::string& input) {
-#ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+#ifndef SUNLIT_FUZZ
   // So that roscpp is refused at once what a length of 2 GB says, instead of filling it with zeros.
   static const rlimit kMemory{rlim_t{1} << 30, rlim_t{1} << 30};
   static const int limited = ::setrlimit(RLIMIT_AS, &kMemory);

@@ -188,6 +188,15 @@ TEST_F(GltfShape, OfAStripTooShortIsRefused) {
       << error;
 }
 
+TEST_F(GltfShape, OfAnIndexThatCountsNothingIsRefused) {
+  for (const std::string number : {"-1e308", "-1", "0.5", "[0]"}) {
+    std::string text = gltf({});
+    text.replace(text.find("\"nodes\":[0]"), 11, "\"nodes\":[" + number + "]");
+    write("numbers.bin", kNumbers);
+    EXPECT_EQ(errorOf(write("t.gltf", text)).find(pathOf("t.gltf") + ": "), 0u) << number;
+  }
+}
+
 TEST_F(GltfShape, OfJsonThatIsNoObjectIsRefused) {
   EXPECT_EQ(errorOf(write("t.gltf", "\"text\"")), pathOf("t.gltf") + ": its JSON is no object");
 }
