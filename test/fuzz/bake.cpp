@@ -11,10 +11,10 @@ namespace sunlit::fuzz {
 std::vector<std::string> seeds() {
   const TemporaryFolder folder;
   light::TransportData data;
-  data.mesh.roots = {{0, light::LightMesh::kNone}};
+  data.mesh.roots.own() = {{0, light::LightMesh::kNone}};
   data.mesh.cells.resize(1);
-  data.mesh.first_share = {0, 1, 2, 3};
-  data.mesh.shares = {{0, 1.0f}, {0, 1.0f}, {0, 1.0f}};
+  data.mesh.first_share.own() = {0, 1, 2, 3};
+  data.mesh.shares.own() = {{0, 1.0f}, {0, 1.0f}, {0, 1.0f}};
   data.direct.resize(1);
   data.above.resize(1);
   data.below.resize(1);
