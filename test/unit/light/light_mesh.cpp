@@ -48,8 +48,8 @@ TEST(LightMesh, FarFromUsefulSamplesNodesKeepTheirOwn) {
 
 TEST(LightMesh, OfSeveralSamplesTheUsefulOnesShareAllTheWeight) {
   LightMesh mesh = strip(3);
-  mesh.first_share = {0, 3, 4, 5};
-  mesh.shares = {{0, 0.5f}, {1, 0.2f}, {2, 0.3f}, {1, 1.0f}, {2, 1.0f}};
+  mesh.first_share.own() = {0, 3, 4, 5};
+  mesh.shares.own() = {{0, 0.5f}, {1, 0.2f}, {2, 0.3f}, {1, 1.0f}, {2, 1.0f}};
   const std::vector<bool> useless = {true, false, false};
   EXPECT_EQ(mesh.usefulSamples(useless)[0], 2u);
   mesh.drop(useless);

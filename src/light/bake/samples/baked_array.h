@@ -1,6 +1,7 @@
 /// Numbers of a bake: in memory while they are made, or where their file is mapped.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -25,6 +26,10 @@ class BakedArray {
   const T& operator[](std::size_t i) const { return data()[i]; }
   const T* begin() const { return data(); }
   const T* end() const { return data() + size(); }
+
+  friend bool operator==(const BakedArray& a, const BakedArray& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
 
   T* data() { return own().data(); }
   T& operator[](std::size_t i) { return own()[i]; }
