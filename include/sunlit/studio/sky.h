@@ -47,7 +47,8 @@ struct SkyOptions {
 };
 
 /// Makes the tables of the air when they are first needed, which takes two or three seconds where the
-/// cache does not have them, says so, and keeps those of the heights that were used last. One thread at a time.
+/// cache does not have them, says so, and keeps those of the heights that were used last. One thread at a
+/// time.
 class Sky {
  public:
   /// Reads the stars. Throws as sky::validate() and loadStars().
