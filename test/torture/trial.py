@@ -20,7 +20,7 @@ RESULTS = ("summary.csv", "frames.csv", "verified.csv", "verified_summary.csv", 
            "localisation.csv", "localisation_poses.csv", "localisation_summary.csv", "captures.csv", "path.csv",
            "problems.csv", "inputs.yaml", "rasterizer.yaml", "ground.yaml", "map.png", "map.yaml")
 # What a finished experiment has; bags are called by the time when they begin.
-CACHED = (".light", ".features")
+CACHED = (".light", ".features", ".air")
 # Part of a command line -> who that is. The first that fits counts.
 PARTS = (("sunlit_experiment.guard", "guard"), ("experiment_node", "experiment"), ("sun_position_node", "sun_position"),
          ("__name:=recorder", "recorder"), ("scripts/report", "report"), ("evaluator_node", "evaluator"),
