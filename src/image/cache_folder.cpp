@@ -85,7 +85,7 @@ struct CacheContent {
 };
 
 CacheContent contentOf(const CacheFolder& cache) {
-  const std::regex name("([0-9a-f]{32}\\" + cache.ending + R"()(\.lock|\.[0-9]+\.part)?)");
+  const std::regex name("([0-9a-f]{32}\\" + cache.ending + R"()(\.lock|(\.[0-9]+){1,2}\.part)?)");
   CacheContent content;
   std::error_code error;
   for (fs::directory_iterator entry(cache.path, error), end; !error && entry != end; entry.increment(error)) {

@@ -50,16 +50,20 @@ std::vector<float> read(const fs::path& folder, const std::string& name) {
 
 void write(const fs::path& folder, const std::string& name, const std::vector<float>& numbers) {
   fs::create_directories(folder);
+  const fs::path file = fileOf(folder, name);
+  const image::CacheTurn turn = image::CacheTurn::await(file);
   const image::ContentHash::Number seal = sealOf(name, numbers);
   std::string bytes(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(float));
   bytes.append(reinterpret_cast<const char*>(&seal), sizeof(seal));
-  image::writeFileAtomically(fileOf(folder, name), bytes);
+  image::writeFileAtomically(file, bytes);
 }
 
 }  // namespace
 
 sky::TableStore airTablesIn(const fs::path& folder, const Reports& reports) {
   const auto warn = [reports](const std::string& line) { tell(reports.warning, line); };
+  // What was left by a process that was killed goes, also where all tables are there.
+  image::CacheFolder{folder, kEnding}.tidy(kLimit_bytes, nullptr);
   sky::TableStore store;
   store.find = [folder](const std::string& name) -> std::vector<float> {
     try {

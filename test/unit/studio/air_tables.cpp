@@ -57,6 +57,16 @@ TEST(AirTables, ThatAreDamagedAreNone) {
   EXPECT_EQ(store.find("some"), Numbers());
 }
 
+TEST(AirTables, LeaveNothingOfAProcessThatWasKilled) {
+  const TemporaryFolder folder;
+  airTablesIn(folder.path(), {}).keep("some", {1.0f});
+  const std::string file = fileIn(folder.path());
+  image::writeFileAtomically(file + ".lock", "");
+  image::writeFileAtomically(file + ".999999999.0.part", "half");
+  EXPECT_EQ(airTablesIn(folder.path(), {}).find("some"), Numbers{1.0f});
+  EXPECT_EQ(fileIn(folder.path()), file);
+}
+
 TEST(AirTables, ThatCannotBeKeptAreWarnedOf) {
   const TemporaryFolder folder;
   image::writeFileAtomically(folder.file("file"), "");
