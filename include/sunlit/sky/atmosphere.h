@@ -55,9 +55,8 @@ struct SunInSky {
 };
 
 /// Precomputes what does not depend on sun and moon (3 s of processor time, next to nothing where `kept` has
-/// the tables of such air); daylight() then costs 30 ms of
-/// it, and as much again for a moon, and may be called from many threads. Both use TBB inside, and give the
-/// same bits for any thread count.
+/// the tables of such air); daylight() then costs 30 ms of it, and as much again for a moon, and may be
+/// called from many threads. Both use TBB inside, and give the same bits for any thread count.
 class Atmosphere {
  public:
   explicit Atmosphere(const AtmosphereOptions& options, const TableStore& kept = {});

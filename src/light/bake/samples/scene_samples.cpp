@@ -316,10 +316,10 @@ class Sampler {
         samples.other_side[card.sample(side)] = {card.sample(1 - side), card.transmission};
     }
     samples.mesh.first_share.push_back(0);
+    std::vector<LightMesh::Share>& all = samples.mesh.shares.own();
     for (const Shares& shares : shares_) {
-      std::vector<LightMesh::Share>& all = samples.mesh.shares.own();
       all.insert(all.end(), shares.begin(), shares.end());
-      samples.mesh.first_share.push_back(static_cast<std::uint32_t>(samples.mesh.shares.size()));
+      samples.mesh.first_share.push_back(static_cast<std::uint32_t>(all.size()));
     }
     return samples;
   }
