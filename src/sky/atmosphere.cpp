@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <utility>
 
 #include "moonlight.h"
@@ -50,7 +51,8 @@ struct Atmosphere::Tables {
         transfer(mediumOf(options), kept),
         extinction(transfer, altitude_km),
         glow(transfer, extinction),
-        sights(std::make_shared<AirSights>(transfer, altitude_km)) {}
+        sights(std::make_shared<AirSights>(transfer, altitude_km)),
+        store(kept) {}
 
   static MediumParameters mediumOf(const AtmosphereOptions& options) {
     MediumParameters parameters;
@@ -65,6 +67,11 @@ struct Atmosphere::Tables {
   Extinction extinction;
   NightGlow glow;
   std::shared_ptr<const AirSights> sights;
+  TableStore store;
+  // Made when weather first needs them:
+  mutable std::once_flag weather_once;
+  mutable std::unique_ptr<const Droplets> droplets;
+  mutable float clear_at_horizon_lx = 0.0F;
 };
 
 void validate(const AtmosphereOptions& options) {
@@ -80,7 +87,7 @@ Atmosphere::~Atmosphere() = default;
 Atmosphere::Atmosphere(Atmosphere&&) noexcept = default;
 Atmosphere& Atmosphere::operator=(Atmosphere&&) noexcept = default;
 
-Daylight Atmosphere::daylight(const SunInSky& sun, const NightSky& night) const {
+Daylight Atmosphere::daylight(const SunInSky& sun, const NightSky& night, const Weather& weather) const {
   require("distance_au", sun.distance_au, {0.97, 1.03}, "AU");
   const Tables& tables = *tables_;
   const Direction sun_lights = sun.geometric.value_or(sun.apparent);
@@ -109,8 +116,34 @@ Daylight Atmosphere::daylight(const SunInSky& sun, const NightSky& night) const 
   const LinearRgb clear = colourOf((air.extinction * -1.0F).exp());
   const LinearRgb white = colourOf(Spectrum::Ones());
   table->haze_per_km = -(clear.value / white.value).log();
+  if (!isClear(weather)) addWeather(weather, {sun, night}, table.get());
   gatherIlluminance(static_cast<float>(tables.transfer.medium().parameters().ground_albedo), table.get());
   return Daylight(std::move(table));
+}
+
+void Atmosphere::addWeather(const Weather& weather, const Lamps& lamps, SkyTable* table) const {
+  validate(weather);
+  const Tables& tables = *tables_;
+  std::call_once(tables.weather_once, [&] {
+    tables.droplets = std::make_unique<const Droplets>(tables.store);
+    const Direction east(Azimuth::degrees(90.0), Angle());
+    tables.clear_at_horizon_lx = daylight({east, 1.0}).groundIlluminance().luminance();
+  });
+  const double distance_au = lamps.sun.distance_au;
+  CieLevels levels{static_cast<float>(1.0 / (distance_au * distance_au)), 0.0F, tables.clear_at_horizon_lx};
+  if (lamps.night.moon) {
+    levels.moon = static_cast<float>(
+        static_cast<double>(colourOf(moonStrength(*lamps.night.moon, distance_au)).luminance()) /
+        kLuminousSolarConstant_lx);
+  }
+  const WeatherGround ground{static_cast<float>(tables.transfer.medium().parameters().ground_albedo),
+                             LinearRgb(table->haze_per_km).luminance() * 1e-3F};
+  const auto made = std::make_shared<const WeatherSky>(weather, *tables.droplets, ground, *table, levels);
+  const auto dim = [&](double z, LinearRgb* light) { *light = *light * made->passed(static_cast<float>(z)); };
+  dim(table->sun.towards.vector().z(), &table->sun.illuminance);
+  dim(table->moon.towards.vector().z(), &table->moon.illuminance);
+  for (PointLight& star : table->stars) dim(static_cast<double>(star.towards.z()), &star.illuminance);
+  table->weather = made;
 }
 
 void Atmosphere::addMoon(const MoonInSky& moon, const SunInSky& sun, SkyTable* table) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hemisphere.h"
 #include "sphere.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/sky/octahedral.h"
@@ -21,46 +22,24 @@ Eigen::Array4f padded(const Eigen::Array3f& colour) {
   return {colour[0], colour[1], colour[2], 0.0F};
 }
 
-struct Patch {
+/// A piece of the sky with its light.
+struct LitPiece {
   Eigen::Vector3f towards;
   Eigen::Array4f light;  // luminance × solid angle, lx
 };
+using LitPieces = std::vector<LitPiece, Eigen::aligned_allocator<LitPiece>>;
 
-/// Elevations of the edges of belts, closer near the horizon, where a sky after sunset is brightest.
-float beltEdge(float part) {
-  return kHalfPi * part * (0.4F + 0.6F * part);
+LitPieces litPieces(const SkyTable& table) {
+  LitPieces pieces;
+  for (const SkyPiece& piece : hemisphere(headingOf(table.sun.towards.vector().cast<float>())))
+    pieces.push_back({piece.towards, padded(table.skyLuminance(piece.towards) * piece.solid_angle)});
+  return pieces;
 }
 
-/// The upper hemisphere in patches, small enough that an aureole is no more than a patch or so too bright.
-std::vector<Patch, Eigen::aligned_allocator<Patch>> patches(const SkyTable& table) {
-  constexpr int kBelts = 40;
-  constexpr int kSectors = 64;
-  std::vector<Patch, Eigen::aligned_allocator<Patch>> result;
-  const Eigen::Vector2f heading = headingOf(table.sun.towards.vector().cast<float>());
-  for (int belt = 0; belt < kBelts; ++belt) {
-    // The midpoint in the sine of elevation has the patch's mean cosine on level ground.
-    const float low = std::sin(beltEdge(static_cast<float>(belt) / kBelts));
-    const float high = std::sin(beltEdge(static_cast<float>(belt + 1) / kBelts));
-    const float z = 0.5F * (low + high);
-    const float across = std::sqrt(1.0F - z * z);
-    const float solid_angle = (high - low) * static_cast<float>(2.0 * kPi / kSectors);
-    for (int sector = 0; sector < kSectors; ++sector) {
-      const double azimuth = 2.0 * kPi * (sector + 0.5) / kSectors;
-      const auto along = static_cast<float>(std::cos(azimuth)) * across;
-      const auto aside = static_cast<float>(std::sin(azimuth)) * across;
-      const Eigen::Vector3f towards(heading.x() * along - heading.y() * aside,
-                                    heading.y() * along + heading.x() * aside, z);
-      result.push_back({towards, padded(table.skyLuminance(towards) * solid_angle)});
-    }
-  }
-  return result;
-}
-
-Eigen::Array4f gather(const std::vector<Patch, Eigen::aligned_allocator<Patch>>& sky,
-                      const Eigen::Vector3f& normal) {
+Eigen::Array4f gather(const LitPieces& sky, const Eigen::Vector3f& normal) {
   Eigen::Array4f sum = Eigen::Array4f::Zero();
-  for (const Patch& patch : sky) {
-    sum += patch.light * std::max(0.0F, patch.towards.dot(normal));
+  for (const LitPiece& piece : sky) {
+    sum += piece.light * std::max(0.0F, piece.towards.dot(normal));
   }
   return sum;
 }
@@ -73,7 +52,7 @@ Eigen::Array3f onLevelGround(const DiscLight& disc) {
 }  // namespace
 
 void gatherIlluminance(float ground_albedo, SkyTable* table) {
-  const auto sky = patches(*table);
+  const LitPieces sky = litPieces(*table);
   const Eigen::Array4f from_sky = gather(sky, Eigen::Vector3f::UnitZ());
   table->ground_illuminance = from_sky.head<3>() + onLevelGround(table->sun) + onLevelGround(table->moon);
   table->ground_luminance = table->ground_illuminance * (ground_albedo / kPiFloat);
@@ -93,6 +72,12 @@ void gatherIlluminance(float ground_albedo, SkyTable* table) {
 }
 
 Eigen::Array3f SkyTable::skyLuminance(const Eigen::Vector3f& towards) const {
+  if (!weather) return clearLuminance(towards);
+  return weather->luminance(towards,
+                            [&](const Eigen::Vector3f& direction) { return clearLuminance(direction); });
+}
+
+Eigen::Array3f SkyTable::clearLuminance(const Eigen::Vector3f& towards) const {
   Eigen::Array3f sum = even;
   if (sun_sky) {
     sum += sun_sky->luminance(towards);
@@ -121,6 +106,11 @@ Eigen::Array3f SkyTable::luminance(const Eigen::Vector3f& towards) const {
 }
 
 AirColumn SkyTable::airOver(const Eigen::Vector3f& towards, float distance_m) const {
+  const AirColumn clear = clearAir(towards, distance_m);
+  return weather ? weather->airOver(clear, towards, distance_m) : clear;
+}
+
+AirColumn SkyTable::clearAir(const Eigen::Vector3f& towards, float distance_m) const {
   if (!sights) {
     return {Eigen::Array3f::Ones(), Eigen::Array3f::Zero()};
   }

@@ -11,6 +11,7 @@
 #include "night_glow.h"
 #include "scattered_sky.h"
 #include "sunlit/sky/daylight.h"
+#include "weather_sky.h"
 
 namespace sunlit::sky {
 
@@ -25,6 +26,7 @@ struct SkyTable {
   Eigen::Array3f even = Eigen::Array3f::Zero();  // cd/m², the same from everywhere above
   DiscLight sun;
   DiscLight moon;
+  std::shared_ptr<const WeatherSky> weather;  // null: clear
   std::vector<PointLight> stars;
   std::vector<Eigen::Array4f, Eigen::aligned_allocator<Eigen::Array4f>>
       illuminance;                                             // lx, by normal, in `map`
@@ -32,11 +34,16 @@ struct SkyTable {
   Eigen::Array3f ground_illuminance = Eigen::Array3f::Zero();  // lx
   Eigen::Array3f haze_per_km = Eigen::Array3f::Zero();         // extinction near the ground
 
+  /// Of the sky without weather; below the horizon, of the horizon.
+  Eigen::Array3f clearLuminance(const Eigen::Vector3f& towards) const;
   /// Of the sky; below the horizon, of the horizon.
   Eigen::Array3f skyLuminance(const Eigen::Vector3f& towards) const;
   Eigen::Array3f luminance(const Eigen::Vector3f& towards) const;
   Eigen::Array3f illuminanceOn(const Eigen::Vector3f& normal) const;
   AirColumn airOver(const Eigen::Vector3f& towards, float distance_m) const;
+
+ private:
+  AirColumn clearAir(const Eigen::Vector3f& towards, float distance_m) const;
 };
 
 /// Fills the parts of `table` that follow from its sky and discs.

@@ -1,4 +1,5 @@
-/// A clear atmosphere: what sun, moon and the night's own glow become on their way to the ground.
+/// The atmosphere, clear unless weather is asked for: what sun, moon and the night's own glow become on their
+/// way to the ground.
 ///
 /// Molecules, aerosol and ozone around a spherical Earth, in twelve wavelength bands; light scattered any
 /// number of times, and bent by refraction. Sunlight and daylight of a clear day are within 5 % of lighting
@@ -17,6 +18,7 @@
 #include "sunlit/quantity/field.h"
 #include "sunlit/sky/daylight.h"
 #include "sunlit/sky/table_store.h"
+#include "sunlit/sky/weather.h"
 
 namespace sunlit::sky {
 
@@ -67,10 +69,17 @@ class Atmosphere {
   /// Sun, moon and glow together. What is drowned is left out: the moon's sky with the sun above 10°, the
   /// glow with the sun up, and the sun's sky with the sun below −22°. Throws std::invalid_argument for a
   /// distance or phase angle outside its range.
-  Daylight daylight(const SunInSky& sun, const NightSky& night = {}) const;
+  /// Cloud and fog change only what they are in the way of. Throws also what validate() does, and for a
+  /// visibility beyond that of the clear air.
+  Daylight daylight(const SunInSky& sun, const NightSky& night = {}, const Weather& weather = {}) const;
 
  private:
   struct Tables;
+  struct Lamps {
+    const SunInSky& sun;
+    const NightSky& night;
+  };
+  void addWeather(const Weather& weather, const Lamps& lamps, SkyTable* table) const;
   void addMoon(const MoonInSky& moon, const SunInSky& sun, SkyTable* table) const;
   std::unique_ptr<const Tables> tables_;
 };

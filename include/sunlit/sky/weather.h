@@ -1,0 +1,57 @@
+/// What stands between the clear sky and the ground: cloud and fog, in units.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sunlit/quantity/field.h"
+
+namespace sunlit::sky {
+
+/// How the light below a closed cover is found.
+enum class Overcast {
+  kLayer,  ///< an even layer of droplets of `optical_depth` under the clear sky of the hour
+  kCie,  ///< CIE S 011/E:2003 type 1, of 300 + 21,000 sin h lx under a sun of elevation h (Radiance's gensky)
+};
+
+/// The default is no weather at all: the clear sky, to the bit.
+struct Weather {
+  double cover_oktas = 0.0;
+  /// Of the cloud, vertical, where there is some. Nothing: kUsualOpticalDepth.
+  std::optional<double> optical_depth;
+  Overcast overcast = Overcast::kLayer;
+  /// Meteorological optical range: a black board at this distance has a contrast of 5 % (CIE 17-28-020).
+  /// Nothing: as far as the clear air lets one see.
+  std::optional<double> visibility_m;
+  double fog_top_m = 300.0;
+
+  static constexpr double kUsualOpticalDepth = 30.0;
+};
+
+inline std::vector<Field> fieldsOf(Weather& weather) {
+  return {{"cover", &weather.cover_oktas, "oktas", {0, 8}, "of the sky by cloud: 0 clear, 8 closed"},
+          {"optical_depth",
+           NumberOrWord{&weather.optical_depth, "auto"},
+           "",
+           {0.1, 200},
+           "of the cloud; auto: 30. The sun is lost at 12 overhead"},
+          {"overcast",
+           choiceOf(&weather.overcast, {"layer", "cie"}),
+           "",
+           {},
+           "a closed cover: layer (of droplets, of optical_depth) or cie (the standard overcast sky)"},
+          {"visibility",
+           NumberOrWord{&weather.visibility_m, "clear"},
+           "m",
+           {50, 100000},
+           "meteorological optical range (contrast 5 %); clear: of the clear air"},
+          {"fog_top", &weather.fog_top_m, "m", {10, 3000}, "height of the fog or haze above the ground"}};
+}
+
+/// Throws std::invalid_argument naming key, value and what is allowed.
+void validate(const Weather& weather);
+
+/// Whether there is neither cloud nor fog.
+bool isClear(const Weather& weather);
+
+}  // namespace sunlit::sky

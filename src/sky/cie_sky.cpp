@@ -1,0 +1,77 @@
+#include "cie_sky.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hemisphere.h"
+#include "quadrature.h"
+#include "sky_table.h"
+#include "sphere.h"
+#include "sunlit/quantity/angle.h"
+
+namespace sunlit::sky {
+namespace {
+
+/// Of the night's glow, which comes from all the sky: what the standard sky has of the clear one with the sun
+/// at 42°, above and below which lies half of a level plane's sky.
+constexpr float kOfGlow = 0.19F;
+
+/// Relative to the zenith: CIE S 011/E:2003, eq. 1 and 2.
+double gradation(double z) {
+  const auto phi = [](double cosine) { return 1.0 + 4.0 * std::exp(-0.7 / std::max(cosine, 1e-4)); };
+  return phi(z) / phi(1.0);
+}
+
+/// Illuminance of level ground of a zenith of 1 cd/m²: 0.7797 π.
+double levelOfZenith() {
+  double sum = 0.0;
+  for (const Node& node : gaussLegendre(64, 0.0, 1.0))
+    sum += 2.0 * kPi * node.weight * node.x * gradation(node.x);
+  return sum;
+}
+
+/// What one lamp gives level ground, directly and by the clear sky, in its colour; scaled to the overcast.
+Eigen::Array3f overcast(const Eigen::Array3f& clear, float sine, float strength, float at_horizon_share) {
+  const float luminance = LinearRgb(clear).luminance();
+  if (luminance <= 0.0F) return Eigen::Array3f::Zero();
+  if (sine < 0.0F) return clear * at_horizon_share;
+  return clear * (cieIlluminance_lx(sine) * strength / luminance);
+}
+
+Eigen::Array3f direct(const DiscLight& disc) {
+  return disc.illuminance.value * static_cast<float>(std::max(0.0, disc.towards.vector().z()));
+}
+
+}  // namespace
+
+float cieIlluminance_lx(float sine_of_elevation) {
+  return static_cast<float>(kPi * 7.0 / 9.0) * (8600.0F * sine_of_elevation + 123.0F);
+}
+
+CieSky::CieSky(const SkyTable& clear, const CieLevels& levels) {
+  const auto pieces = hemisphere(headingOf(clear.sun.towards.vector().cast<float>()));
+  const float share = cieIlluminance_lx(0.0F) / levels.clear_at_horizon_lx;
+  Eigen::Array3f level = Eigen::Array3f::Zero();
+  const auto add = [&](const DiscLight& disc, const auto& scattered, float strength) {
+    Eigen::Array3f lit = direct(disc);
+    if (scattered)
+      lit += levelIlluminance(pieces,
+                              [&](const Eigen::Vector3f& towards) { return scattered->luminance(towards); });
+    level += overcast(lit, static_cast<float>(disc.towards.vector().z()), strength, share);
+  };
+  add(clear.sun, clear.sun_sky, levels.sun);
+  add(clear.moon, clear.moon_sky, levels.moon);
+  if (clear.glow) {
+    level += kOfGlow * levelIlluminance(pieces, [&](const Eigen::Vector3f& towards) {
+               return clear.glow->luminance(towards);
+             });
+  }
+  static const auto kLevel = static_cast<float>(levelOfZenith());
+  zenith_ = level / kLevel;
+}
+
+Eigen::Array3f CieSky::luminance(float z) const {
+  return zenith_ * static_cast<float>(gradation(std::max(0.0, static_cast<double>(z))));
+}
+
+}  // namespace sunlit::sky

@@ -1,0 +1,47 @@
+/// The sky below an even layer of cloud or fog.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/StdVector>
+#include <functional>
+#include <vector>
+
+#include "droplets.h"
+#include "sunlit/sky/daylight.h"
+
+namespace sunlit::sky {
+
+/// What falls on a layer from above.
+struct LightAbove {
+  std::vector<DiscLight> discs;
+  std::function<Eigen::Array3f(const Eigen::Vector3f& towards)>
+      luminance;  ///< cd/m²; only asked above the horizon
+};
+
+/// Luminance of the light that a layer scatters down, of the discs and of the sky above it, and of the ground
+/// below, back and forth. Of the sky above, which the layer blurs, only the mean all round counts. Tabulated
+/// by elevation = 90° · (row / (kRows − 1))² and azimuth.
+class LayerSky {
+ public:
+  /// `albedo_below`: of all below the layer.
+  LayerSky(const DropletLayer& layer, const LightAbove& above, float albedo_below);
+
+  /// cd/m²; of the horizon below it. `towards` is a unit vector in `map`.
+  Eigen::Array3f scattered(const Eigen::Vector3f& towards) const;
+  /// What of the light above goes straight through at an elevation of sine `z`.
+  float passed(float z) const;
+
+ private:
+  static constexpr int kRows = 64;
+  static constexpr int kColumns = 96;
+
+  void addSky(const DropletLayer& layer, const LightAbove& above);
+  void addDisc(const DropletLayer& layer, const DiscLight& disc);
+  void addGround(const DropletLayer& layer, const LightAbove& above, float albedo_below);
+
+  float depth_;
+  std::vector<Eigen::Array4f, Eigen::aligned_allocator<Eigen::Array4f>>
+      nodes_;  // cd/m²; the fourth is padding
+};
+
+}  // namespace sunlit::sky
