@@ -72,6 +72,7 @@ struct Atmosphere::Tables {
   mutable std::once_flag weather_once;
   mutable std::unique_ptr<const Droplets> droplets;
   mutable float clear_at_horizon_lx = 0.0F;
+  mutable CloudMaps clouds;
 };
 
 void validate(const AtmosphereOptions& options) {
@@ -136,9 +137,10 @@ void Atmosphere::addWeather(const Weather& weather, const Lamps& lamps, SkyTable
         static_cast<double>(colourOf(moonStrength(*lamps.night.moon, distance_au)).luminance()) /
         kLuminousSolarConstant_lx);
   }
-  const WeatherGround ground{static_cast<float>(tables.transfer.medium().parameters().ground_albedo),
-                             LinearRgb(table->haze_per_km).luminance() * 1e-3F};
-  const auto made = std::make_shared<const WeatherSky>(weather, *tables.droplets, ground, *table, levels);
+  const WeatherTables made_of{*tables.droplets, isBroken(weather) ? tables.clouds.of(weather) : nullptr,
+                              levels, static_cast<float>(tables.transfer.medium().parameters().ground_albedo),
+                              LinearRgb(table->haze_per_km).luminance() * 1e-3F};
+  const auto made = std::make_shared<const WeatherSky>(weather, made_of, *table);
   const auto dim = [&](double z, LinearRgb* light) { *light = *light * made->passed(static_cast<float>(z)); };
   dim(table->sun.towards.vector().z(), &table->sun.illuminance);
   dim(table->moon.towards.vector().z(), &table->moon.illuminance);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "droplets.h"
 #include "hemisphere.h"
 #include "quadrature.h"
 #include "sky_table.h"
@@ -67,7 +68,7 @@ CieSky::CieSky(const SkyTable& clear, const CieLevels& levels) {
              });
   }
   static const auto kLevel = static_cast<float>(levelOfZenith());
-  zenith_ = level / kLevel;
+  zenith_ = level * kOvercastBluing / kLevel;
 }
 
 Eigen::Array3f CieSky::luminance(float z) const {

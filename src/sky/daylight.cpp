@@ -9,7 +9,23 @@ namespace sunlit::sky {
 Daylight::Daylight(std::shared_ptr<const SkyTable> table) : table_(std::move(table)) {}
 
 LinearRgb Daylight::skyLuminance(const Eigen::Vector3f& towards) const {
-  return LinearRgb(table_->luminance(towards));
+  return LinearRgb(table_->luminance(towards, from_));
+}
+
+Daylight Daylight::seenFrom(const Eigen::Vector3f& place) const {
+  Daylight there = *this;
+  there.from_ = place;
+  return there;
+}
+
+float Daylight::throughCloud(const DiscLight& disc, const Eigen::Vector3f& place) const {
+  if (!table_->weather) return 1.0F;
+  const Eigen::Vector3f towards = disc.towards.vector().cast<float>();
+  return table_->weather->passedThere({towards, place});
+}
+
+bool Daylight::hasBrokenCloud() const {
+  return table_->weather && table_->weather->isBroken();
 }
 
 LinearRgb Daylight::skyIlluminance(const Eigen::Vector3f& normal) const {

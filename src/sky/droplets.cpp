@@ -253,6 +253,12 @@ float DropletLayer::once(float mu, float mu0, float cos_angle) const {
   return 4.0F * dropletPhase(cos_angle) * static_cast<float>(through) * mu0;
 }
 
+Eigen::Array3f DropletLayer::bluing() const {
+  constexpr float kOfThickCloud = 0.77F;  // albedo at an optical depth of 30
+  const float part = std::min(1.0F, spherical_albedo_ / kOfThickCloud);
+  return 1.0F + (kOvercastBluing - 1.0F) * part;
+}
+
 float DropletLayer::reflected(float angle_rad) const {
   const Blend seen = between(angle_rad);
   float sum = 0.0F;

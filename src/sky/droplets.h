@@ -1,6 +1,7 @@
 /// Light through even, level layers of cloud or fog droplets, scattered any number of times.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -9,8 +10,13 @@
 
 namespace sunlit::sky {
 
-/// Droplets absorb no light and scatter it by the function of Henyey and Greenstein 1941 with this mean
-/// cosine (of cloud in visible light: Slingo 1989). Real droplets have a narrower peak and bows besides.
+/// What a thick cloud makes of the colour of a high sun's clear hour, which is 5,600 K here: D65, the CIE's
+/// illuminant of overcast skies.
+const Eigen::Array3f kOvercastBluing(0.902F, 1.019F, 1.098F);
+
+/// Droplets take no light (but see DropletLayer::bluing()) and scatter it by the function of Henyey and
+/// Greenstein 1941 with this mean cosine (of cloud in visible light: Slingo 1989). Real droplets have a
+/// narrower peak and bows besides.
 constexpr double kDropletAsymmetry = 0.86;
 
 /// Scattered into 1 sr, relative to all that is scattered.
@@ -68,6 +74,9 @@ class DropletLayer {
   float once(float mu, float mu0, float cos_angle) const;
   /// Luminance seen at `angle_rad` from the vertical of the side that even light of luminance 1 falls on.
   float reflected(float angle_rad) const;
+  /// What absorption in water makes of the colour of light that was scattered: bluer, the more the thicker
+  /// (Lee & Hernández-Andrés 2005, Appl. Opt. 44, 5712). Of the same luminance.
+  Eigen::Array3f bluing() const;
   /// Part of even light that is thrown back.
   float sphericalAlbedo() const { return spherical_albedo_; }
 

@@ -35,12 +35,28 @@ float onceAllRound(const DropletLayer& layer, float mu, float mu0) {
 
 }  // namespace
 
-LayerSky::LayerSky(const DropletLayer& layer, const LightAbove& above, float albedo_below)
+Eigen::Array3f levelOf(const LightAbove& above) {
+  Eigen::Array3f level = levelIlluminance(hemisphere(Eigen::Vector2f::UnitY()), above.luminance);
+  for (const DiscLight& disc : above.discs)
+    level += disc.illuminance.value * std::max(0.0F, static_cast<float>(disc.towards.vector().z()));
+  return level;
+}
+
+LayerSky::LayerSky(const DropletLayer& layer, const LightAbove& above)
     : depth_(layer.opticalDepth()),
       nodes_(static_cast<std::size_t>(kRows * kColumns), Eigen::Array4f::Zero()) {
   addSky(layer, above);
   for (const DiscLight& disc : above.discs) addDisc(layer, disc);
-  addGround(layer, above, albedo_below);
+  Eigen::Array4f blued = Eigen::Array4f::Ones();
+  blued.head<3>() = layer.bluing();
+  for (Eigen::Array4f& node : nodes_) node *= blued;
+  level_ = levelBelow(layer, above);
+}
+
+LayerSky::LayerSky(const DropletLayer& layer, const LightAbove& above, float albedo_below)
+    : LayerSky(layer, above) {
+  const float both = 1.0F - albedo_below * layer.sphericalAlbedo();
+  addFromBelow(layer, level_ * (albedo_below / (both * static_cast<float>(kPi))));
 }
 
 float LayerSky::passed(float z) const {
@@ -107,25 +123,28 @@ void LayerSky::addDisc(const DropletLayer& layer, const DiscLight& disc) {
   }
 }
 
-void LayerSky::addGround(const DropletLayer& layer, const LightAbove& above, float albedo_below) {
+Eigen::Array3f LayerSky::levelBelow(const DropletLayer& layer, const LightAbove& above) const {
   Eigen::Array3f level =
       levelIlluminance(hemisphere(Eigen::Vector2f::UnitY()), [&](const Eigen::Vector3f& towards) {
-        const float passed = layer.passed(towards.z());
+        const float straight = layer.passed(towards.z());
         Eigen::Array3f sum = scattered(towards);
-        if (passed > 1e-6F) sum += above.luminance(towards) * passed;
+        if (straight > 1e-6F) sum += above.luminance(towards) * straight;
         return sum;
       });
   for (const DiscLight& disc : above.discs) {
     const auto z = static_cast<float>(disc.towards.vector().z());
     if (z > 0.0F) level += disc.illuminance.value * (layer.passed(z) * z);
   }
-  const float both = 1.0F - albedo_below * layer.sphericalAlbedo();
-  Eigen::Array4f ground = Eigen::Array4f::Zero();
-  ground.head<3>() = level * (albedo_below / (both * static_cast<float>(kPi)));
+  return level;
+}
+
+void LayerSky::addFromBelow(const DropletLayer& layer, const Eigen::Array3f& luminance_below) {
+  Eigen::Array4f below = Eigen::Array4f::Zero();
+  below.head<3>() = luminance_below;
   for (int row = 0; row < kRows; ++row) {
     const float share = layer.reflected(kHalfPi - rowElevation(row, kRows));
     for (int column = 0; column < kColumns; ++column)
-      nodes_[static_cast<std::size_t>(row * kColumns + column)] += ground * share;
+      nodes_[static_cast<std::size_t>(row * kColumns + column)] += below * share;
   }
 }
 

@@ -18,13 +18,23 @@ struct LightAbove {
       luminance;  ///< cd/m²; only asked above the horizon
 };
 
+/// Illuminance of level ground by it, lx.
+Eigen::Array3f levelOf(const LightAbove& above);
+
 /// Luminance of the light that a layer scatters down, of the discs and of the sky above it, and of the ground
-/// below, back and forth. Of the sky above, which the layer blurs, only the mean all round counts. Tabulated
-/// by elevation = 90° · (row / (kRows − 1))² and azimuth.
+/// below. Of the sky above, which the layer blurs, only the mean all round counts. Tabulated by elevation =
+/// 90° · (row / (kRows − 1))² and azimuth.
 class LayerSky {
  public:
-  /// `albedo_below`: of all below the layer.
+  /// Over black ground.
+  LayerSky(const DropletLayer& layer, const LightAbove& above);
+  /// Over ground that throws back the part `albedo_below` of what falls on it, again and again.
   LayerSky(const DropletLayer& layer, const LightAbove& above, float albedo_below);
+  /// Adds what the layer throws back of even light from below.
+  void addFromBelow(const DropletLayer& layer, const Eigen::Array3f& luminance_below);
+
+  /// Illuminance of level ground, lx, as it was over black ground.
+  const Eigen::Array3f& level() const { return level_; }
 
   /// cd/m²; of the horizon below it. `towards` is a unit vector in `map`.
   Eigen::Array3f scattered(const Eigen::Vector3f& towards) const;
@@ -37,9 +47,10 @@ class LayerSky {
 
   void addSky(const DropletLayer& layer, const LightAbove& above);
   void addDisc(const DropletLayer& layer, const DiscLight& disc);
-  void addGround(const DropletLayer& layer, const LightAbove& above, float albedo_below);
+  Eigen::Array3f levelBelow(const DropletLayer& layer, const LightAbove& above) const;
 
   float depth_;
+  Eigen::Array3f level_ = Eigen::Array3f::Zero();
   std::vector<Eigen::Array4f, Eigen::aligned_allocator<Eigen::Array4f>>
       nodes_;  // cd/m²; the fourth is padding
 };

@@ -32,7 +32,8 @@ using LitPieces = std::vector<LitPiece, Eigen::aligned_allocator<LitPiece>>;
 LitPieces litPieces(const SkyTable& table) {
   LitPieces pieces;
   for (const SkyPiece& piece : hemisphere(headingOf(table.sun.towards.vector().cast<float>())))
-    pieces.push_back({piece.towards, padded(table.skyLuminance(piece.towards) * piece.solid_angle)});
+    pieces.push_back({piece.towards, padded(table.skyLuminance(piece.towards, Eigen::Vector3f::Zero()) *
+                                            piece.solid_angle)});
   return pieces;
 }
 
@@ -71,10 +72,8 @@ void gatherIlluminance(float ground_albedo, SkyTable* table) {
   });
 }
 
-Eigen::Array3f SkyTable::skyLuminance(const Eigen::Vector3f& towards) const {
-  if (!weather) return clearLuminance(towards);
-  return weather->luminance(towards,
-                            [&](const Eigen::Vector3f& direction) { return clearLuminance(direction); });
+Eigen::Array3f SkyTable::skyLuminance(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const {
+  return weather ? weather->luminance(*this, {towards, from}) : clearLuminance(towards);
 }
 
 Eigen::Array3f SkyTable::clearLuminance(const Eigen::Vector3f& towards) const {
@@ -91,8 +90,8 @@ Eigen::Array3f SkyTable::clearLuminance(const Eigen::Vector3f& towards) const {
   return sum;
 }
 
-Eigen::Array3f SkyTable::luminance(const Eigen::Vector3f& towards) const {
-  Eigen::Array3f above = skyLuminance(towards);
+Eigen::Array3f SkyTable::luminance(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const {
+  Eigen::Array3f above = skyLuminance(towards, from);
   if (towards.z() >= 0.0F) {
     return above;
   }

@@ -36,13 +36,12 @@ struct SkyTable {
 
   /// Of the sky without weather; below the horizon, of the horizon.
   Eigen::Array3f clearLuminance(const Eigen::Vector3f& towards) const;
-  /// Of the sky; below the horizon, of the horizon.
-  Eigen::Array3f skyLuminance(const Eigen::Vector3f& towards) const;
-  Eigen::Array3f luminance(const Eigen::Vector3f& towards) const;
+  /// Of the sky, seen from a place in `map`; below the horizon, of the horizon.
+  Eigen::Array3f skyLuminance(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const;
+  Eigen::Array3f luminance(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const;
   Eigen::Array3f illuminanceOn(const Eigen::Vector3f& normal) const;
   AirColumn airOver(const Eigen::Vector3f& towards, float distance_m) const;
-
- private:
+  /// Without weather.
   AirColumn clearAir(const Eigen::Vector3f& towards, float distance_m) const;
 };
 

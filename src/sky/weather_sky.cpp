@@ -23,17 +23,19 @@ double fogPerMetre(double visibility_m, double haze_per_m) {
   return fog;
 }
 
-DiscLight dimmed(DiscLight disc, float passed) {
-  disc.illuminance = disc.illuminance * passed;
-  return disc;
+/// In whole millimetres, and of a wind that has blown for any time.
+Eigen::Vector2d driftOf(const Weather& weather) {
+  const double way_m = weather.wind_m_per_s * weather.clock_s;
+  const auto along = [&](double part) { return std::nearbyint(1e3 * way_m * part) * 1e-3; };
+  return {along(-sin(weather.wind_from)), along(-cos(weather.wind_from))};
 }
+
+const Eigen::Vector3f kOrigin = Eigen::Vector3f::Zero();
 
 }  // namespace
 
 void validate(const Weather& weather) {
   requireFields(weather);
-  if (weather.cover_oktas > 0.0 && weather.cover_oktas < 8.0)
-    refuse("cover", textOf(weather.cover_oktas), "0 or 8");
   if (weather.overcast != Overcast::kCie) return;
   if (weather.cover_oktas < 8.0)
     refuse("cover", textOf(weather.cover_oktas), "8 where overcast is cie, which is a closed sky");
@@ -45,56 +47,106 @@ bool isClear(const Weather& weather) {
   return weather.cover_oktas <= 0.0 && !weather.visibility_m;
 }
 
-WeatherSky::WeatherSky(const Weather& weather, const Droplets& droplets, const WeatherGround& ground,
-                       const SkyTable& clear, const CieLevels& cie) {
+bool isBroken(const Weather& weather) {
+  return weather.cover_oktas > 0.0 && weather.cover_oktas < 8.0;
+}
+
+bool moves(const Weather& weather) {
+  return isBroken(weather) && weather.wind_m_per_s > 0.0;
+}
+
+WeatherSky::WeatherSky(const Weather& weather, const WeatherTables& tables, const SkyTable& clear) {
   std::optional<DropletLayer> fog;
-  float below = ground.albedo;
+  float below = tables.ground_albedo;
   if (weather.visibility_m) {
-    const double per_m = fogPerMetre(*weather.visibility_m, static_cast<double>(ground.haze_per_m));
+    const double per_m = fogPerMetre(*weather.visibility_m, static_cast<double>(tables.haze_per_m));
     fog_per_m_ = static_cast<float>(per_m);
     fog_top_m_ = static_cast<float>(weather.fog_top_m);
-    fog.emplace(droplets, per_m * weather.fog_top_m);
+    fog.emplace(tables.droplets, per_m * weather.fog_top_m);
     const float back = fog->sphericalAlbedo();
-    below = back + (1.0F - back) * (1.0F - back) * ground.albedo / (1.0F - ground.albedo * back);
+    below = back + (1.0F - back) * (1.0F - back) * below / (1.0F - below * back);
   }
-  const auto clearSky = [&](const Eigen::Vector3f& towards) { return clear.clearLuminance(towards); };
-  LightAbove above{{clear.sun, clear.moon}, clearSky};
-  if (weather.cover_oktas > 0.0) {
-    if (weather.overcast == Overcast::kCie) {
-      cie_.emplace(clear, cie);
-      above.discs.clear();
-    } else {
-      const DropletLayer cloud(droplets, weather.optical_depth.value_or(Weather::kUsualOpticalDepth));
-      cover_.emplace(cloud, above, below);
-      for (DiscLight& disc : above.discs)
-        disc = dimmed(disc, cloud.passed(static_cast<float>(disc.towards.vector().z())));
-    }
-  }
+  LightAbove above{{clear.sun, clear.moon},
+                   [&](const Eigen::Vector3f& towards) { return clear.clearLuminance(towards); }};
+  if (weather.cover_oktas > 0.0) cover(weather, tables, below, clear, &above);
   if (!fog) return;
-  above.luminance = [&](const Eigen::Vector3f& towards) { return covered(towards, clearSky); };
-  fog_.emplace(*fog, above, ground.albedo);
+  above.luminance = [&](const Eigen::Vector3f& towards) { return covered(clear, {towards, kOrigin}); };
+  fog_.emplace(*fog, above, tables.ground_albedo);
+}
+
+void WeatherSky::cover(const Weather& weather, const WeatherTables& tables, float below,
+                       const SkyTable& clear, LightAbove* above) {
+  if (weather.overcast == Overcast::kCie) {
+    cie_.emplace(clear, tables.cie);
+    above->discs.clear();
+    return;
+  }
+  if (sky::isBroken(weather)) {
+    broken_.emplace(tables.clouds, CloudPlace{weather.cloud_base_m, driftOf(weather)});
+    broken_->light(*above, tables.droplets, below);
+    broken_share_ =
+        LinearRgb(broken_->level()).luminance() / std::max(LinearRgb(levelOf(*above)).luminance(), 1e-12F);
+  } else {
+    const DropletLayer cloud(tables.droplets, weather.optical_depth.value_or(Weather::kUsualOpticalDepth));
+    cover_.emplace(cloud, *above, below);
+  }
+  for (DiscLight& disc : above->discs)
+    disc.illuminance = disc.illuminance * passed(static_cast<float>(disc.towards.vector().z()));
+}
+
+Eigen::Array3f WeatherSky::luminance(const SkyTable& clear, const Sight& sight) const {
+  Eigen::Array3f light = covered(clear, sight);
+  if (fog_) light = fog_->scattered(sight.towards) + light * fog_->passed(sight.towards.z());
+  return light;
+}
+
+Eigen::Array3f WeatherSky::covered(const SkyTable& clear, const Sight& sight) const {
+  if (cie_) return cie_->luminance(sight.towards.z());
+  if (broken_) return between(clear, sight);
+  if (!cover_) return clear.clearLuminance(sight.towards);
+  const float straight = cover_->passed(sight.towards.z());
+  Eigen::Array3f light = cover_->scattered(sight.towards);
+  if (straight > kNothing) light += clear.clearLuminance(sight.towards) * straight;
+  return light;
+}
+
+Eigen::Array3f WeatherSky::between(const SkyTable& clear, const Sight& sight) const {
+  const BrokenCover::Seen cloud = broken_->seen(sight.towards, sight.from);
+  Eigen::Array3f light = clear.clearLuminance(sight.towards);
+  if (cloud.passed >= 1.0F) return light;
+  const AirColumn before = clear.clearAir(sight.towards, cloud.distance_m);
+  light *= cloud.passed;
+  return light + (1.0F - cloud.passed) * broken_share_ * before.airlight +
+         cloud.scattered * before.transmittance;
 }
 
 float WeatherSky::passed(float z) const {
   if (cie_) return 0.0F;
-  const float passed = (cover_ ? cover_->passed(z) : 1.0F) * (fog_ ? fog_->passed(z) : 1.0F);
+  float passed = fog_ ? fog_->passed(z) : 1.0F;
+  if (cover_) passed *= cover_->passed(z);
+  if (broken_) passed *= broken_->meanPassed(z);
   return passed > kNothing ? passed : 0.0F;
 }
 
-AirColumn WeatherSky::airOver(const AirColumn& clear, const Eigen::Vector3f& towards,
+float WeatherSky::passedThere(const Sight& sight) const {
+  if (!broken_) return 1.0F;
+  const float mean = broken_->meanPassed(sight.towards.z());
+  return mean > 0.0F ? broken_->passed(sight.towards, sight.from) / mean : 1.0F;
+}
+
+AirColumn WeatherSky::airOver(const AirColumn& clear_air, const Eigen::Vector3f& towards,
                               float distance_m) const {
-  AirColumn air = clear;
-  if (isCovered()) {
-    const auto nothing = [](const Eigen::Vector3f&) { return Eigen::Array3f(Eigen::Array3f::Zero()); };
-    air.airlight = covered(towards, nothing) * (1.0F - clear.transmittance);
-  }
+  AirColumn air = clear_air;
+  if (cie_) air.airlight = cie_->luminance(towards.z()) * (1.0F - air.transmittance);
+  if (cover_) air.airlight = cover_->scattered(towards) * (1.0F - air.transmittance);
+  if (broken_) air.airlight *= broken_share_;
   if (!fog_) return air;
   const float way_m = towards.z() > 0.0F ? std::min(distance_m, fog_top_m_ / towards.z()) : distance_m;
-  const float passed = std::exp(-fog_per_m_ * way_m);
+  const float straight = std::exp(-fog_per_m_ * way_m);
   // All the way up, fog puts in what it puts into the sky; of a part of the way, as much as that takes out.
-  const float source = (1.0F - passed) / (1.0F - fog_->passed(towards.z()));
-  air.airlight = fog_->scattered(towards) * source + air.airlight * passed;
-  air.transmittance *= passed;
+  const float source = (1.0F - straight) / (1.0F - fog_->passed(towards.z()));
+  air.airlight = fog_->scattered(towards) * source + air.airlight * straight;
+  air.transmittance *= straight;
   return air;
 }
 

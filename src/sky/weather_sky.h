@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "broken_cover.h"
 #include "cie_sky.h"
 #include "droplets.h"
 #include "layer_sky.h"
@@ -15,51 +16,54 @@ namespace sunlit::sky {
 
 struct SkyTable;
 
-/// Where weather takes place.
-struct WeatherGround {
-  float albedo;
-  float haze_per_m;  ///< extinction of the clear air there, by luminance
+/// What is made beforehand, and where weather takes place.
+struct WeatherTables {
+  const Droplets& droplets;
+  std::shared_ptr<const CloudMap> clouds;  ///< of a broken cover; else null
+  CieLevels cie;
+  float ground_albedo;
+  float haze_per_m;  ///< extinction of the clear air near the ground, by luminance
+};
+
+/// A line of sight: towards a unit vector, from a place in `map`.
+struct Sight {
+  const Eigen::Vector3f& towards;
+  const Eigen::Vector3f& from;
 };
 
 /// Cloud above all air that counts, and fog from the ground up, one after another: each throws light back at
-/// what lies below it. Air between the eye and the cloud is as bright as the cloud behind it.
+/// what lies below it. Air between the eye and a closed cover is as bright as the cloud behind it; before
+/// broken cloud it is as bright as clear air, by what of all light comes through.
 class WeatherSky {
  public:
   /// `clear`: sun, moon and sky as they would be without weather. Throws std::invalid_argument for a
   /// visibility that the clear air does not have.
-  WeatherSky(const Weather& weather, const Droplets& droplets, const WeatherGround& ground,
-             const SkyTable& clear, const CieLevels& cie);
+  WeatherSky(const Weather& weather, const WeatherTables& tables, const SkyTable& clear);
 
-  /// cd/m² of the sky above the horizon; of the horizon below it. `clear(towards)` is the sky without
-  /// weather.
-  template <typename Clear>
-  Eigen::Array3f luminance(const Eigen::Vector3f& towards, const Clear& clear) const {
-    Eigen::Array3f light = covered(towards, clear);
-    if (fog_) light = fog_->scattered(towards) + light * fog_->passed(towards.z());
-    return light;
-  }
-  /// What goes straight through at an elevation of sine `z`.
+  /// cd/m² of the sky above the horizon; of the horizon below it.
+  Eigen::Array3f luminance(const SkyTable& clear, const Sight& sight) const;
+  /// What goes straight through at an elevation of sine `z`; of broken cloud the mean over all places.
   float passed(float z) const;
-  /// The air on the first `distance_m` of the way, `clear` without weather.
-  AirColumn airOver(const AirColumn& clear, const Eigen::Vector3f& towards, float distance_m) const;
+  /// Whether it differs from place to place.
+  bool isBroken() const { return broken_.has_value(); }
+  /// How much more than that comes through to a place from a disc that stands `towards`.
+  float passedThere(const Sight& sight) const;
+  /// The air on the first `distance_m` of the way, `clear_air` without weather.
+  AirColumn airOver(const AirColumn& clear_air, const Eigen::Vector3f& towards, float distance_m) const;
 
  private:
   /// Below the cloud, above the fog.
-  template <typename Clear>
-  Eigen::Array3f covered(const Eigen::Vector3f& towards, const Clear& clear) const {
-    if (cie_) return cie_->luminance(towards.z());
-    if (!cover_) return clear(towards);
-    const float passed = cover_->passed(towards.z());
-    Eigen::Array3f light = cover_->scattered(towards);
-    if (passed > kNothing) light += clear(towards) * passed;
-    return light;
-  }
-  bool isCovered() const { return cie_ || cover_; }
+  Eigen::Array3f covered(const SkyTable& clear, const Sight& sight) const;
+  Eigen::Array3f between(const SkyTable& clear, const Sight& sight) const;
+  void cover(const Weather& weather, const WeatherTables& tables, float below, const SkyTable& clear,
+             LightAbove* above);
 
   static constexpr float kNothing = 1e-7F;
 
   std::optional<CieSky> cie_;
   std::optional<LayerSky> cover_, fog_;
+  std::optional<BrokenCover> broken_;
+  float broken_share_ = 1.0F;  ///< of the clear hour's light that comes through, the mean
   float fog_per_m_ = 0.0F, fog_top_m_ = 0.0F;
 };
 

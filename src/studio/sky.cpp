@@ -75,9 +75,9 @@ void Sky::over(const light::World& world) {
   tell(reports_.note, "Albedo of the land beyond the world: " + textOf(groundAlbedo()) + ", " + origin);
 }
 
-sky::Daylight Sky::daylight(const SkyBodies& bodies) {
+sky::Daylight Sky::daylight(const SkyBodies& bodies, const sky::Weather& weather) {
   return airOver(bodies.site_elevation_m)
-      .daylight(bodies.sun, {bodies.moon, bodies.map_from_celestial, stars_});
+      .daylight(bodies.sun, {bodies.moon, bodies.map_from_celestial, stars_}, weather);
 }
 
 double Sky::heightOver(double site_elevation_m) const {

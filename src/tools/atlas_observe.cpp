@@ -53,7 +53,7 @@ AtlasCamera::AtlasCamera(const AtlasRunOptions& options)
   studio::Sky sky = skyOver(studio_, options.place);
   for (const AtlasCondition& condition : options.conditions) {
     const studio::SkyBodies bodies = bodiesOf(placeOf(options, condition), condition.time.hour());
-    const sky::Daylight daylight = sky.daylight(bodies);
+    const sky::Daylight daylight = sky.daylight(bodies, weatherAt(options.place, condition.time.hour()));
     lights_.push_back(studio_.illumination(daylight));
     lines_.push_back(lineOf(condition, bodies, daylight.groundIlluminance().luminance()));
   }

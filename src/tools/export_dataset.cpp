@@ -71,7 +71,8 @@ class Camera {
   explicit Camera(const ExportOptions& options) : studio_(options.studio, std::nullopt, onTerminal()) {
     studio::Sky sky = skyOver(studio_, options.place);
     for (const TimeOfDay& when : options.hours)
-      lights_.push_back(studio_.illumination(sky.daylight(bodiesOf(options.place, when.hour()))));
+      lights_.push_back(studio_.illumination(
+          sky.daylight(bodiesOf(options.place, when.hour()), weatherAt(options.place, when.hour()))));
   }
 
   /// Returns how many pictures it took: of those hours that do not have the frame.

@@ -29,6 +29,24 @@ std::string textOf(const astronomy::CivilDate& date) {
   return text;
 }
 
+namespace {
+
+void addWeather(studio::CommandLine* line, sky::Weather* weather) {
+  line->group("Weather");
+  const std::vector<Field> rows = fieldsOf(*weather);
+  line->add("--cover OKTAS", fieldOf(rows, "cover"));
+  line->add("--optical-depth NUMBER", fieldOf(rows, "optical_depth"));
+  line->add("--overcast", fieldOf(rows, "overcast"));
+  line->add("--visibility M", fieldOf(rows, "visibility"));
+  line->add("--fog-top M", fieldOf(rows, "fog_top"));
+  line->add("--cloud-base M", fieldOf(rows, "cloud_base"));
+  line->add("--wind M/S", fieldOf(rows, "wind"));
+  line->add("--wind-from DEG", fieldOf(rows, "wind_from"));
+  line->add("--cloud-seed N", fieldOf(rows, "cloud_seed"));
+}
+
+}  // namespace
+
 void addPlace(studio::CommandLine* line, PlaceOptions* options) {
   line->group("Place, day and air");
   line->add("--site LAT,LON[,ELEVATION]", "", fieldsOf(options->site));
@@ -45,6 +63,7 @@ void addPlace(studio::CommandLine* line, PlaceOptions* options) {
   Field ground = fieldOf(fieldsOf(options->air), "ground_albedo");
   ground.place = NumberOrWord{&options->ground_albedo, "auto"};
   line->add("--ground-albedo NUMBER", ground);
+  addWeather(line, &options->weather);
 }
 
 studio::Sky skyOver(const studio::Studio& studio, const PlaceOptions& place, bool stars) {
@@ -54,6 +73,12 @@ studio::Sky skyOver(const studio::Studio& studio, const PlaceOptions& place, boo
               place.ground_albedo ? ", as given" : "");
   std::fflush(stdout);
   return sky;
+}
+
+sky::Weather weatherAt(const PlaceOptions& place, double hour) {
+  sky::Weather weather = place.weather;
+  weather.clock_s = hour * 3600.0;
+  return weather;
 }
 
 studio::SkyBodies bodiesOf(const PlaceOptions& place, double hour) {

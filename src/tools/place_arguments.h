@@ -16,6 +16,7 @@ struct PlaceOptions {
   astronomy::CivilDate date{2024, 7, 1, 3.0};                             ///< with the time zone, h
   sky::AtmosphereOptions air;  ///< but for the observer's height, which is the site's, and the ground
   std::optional<double> ground_albedo;  ///< nothing: that of the world
+  sky::Weather weather;
 };
 
 /// "2024-07-01". Throws std::invalid_argument naming `option` for a day that there is not.
@@ -23,11 +24,14 @@ astronomy::CivilDate dateOf(const std::string& option, const std::string& text, 
 /// As a person would type it.
 std::string textOf(const astronomy::CivilDate& date);
 
-/// --site, --date, --timezone, --turbidity, --ozone and --ground-albedo.
+/// --site, --date, --timezone, --turbidity, --ozone, --ground-albedo and the weather.
 void addPlace(studio::CommandLine* line, PlaceOptions* options);
 
 /// The sky of `place`, over the land that goes on beyond the world of `studio`, whose albedo it prints.
 studio::Sky skyOver(const studio::Studio& studio, const PlaceOptions& place, bool stars = true);
+
+/// The weather of `place` at an `hour` of its day: the wind has blown since midnight.
+sky::Weather weatherAt(const PlaceOptions& place, double hour);
 
 /// What is in the sky over `place` at an `hour` of its day, −24 … 72; outside 0 … 24 it is of the days before
 /// and after.

@@ -19,8 +19,10 @@ namespace {
 
 sky::Daylight daylightOf(const SnapshotOptions& options, const studio::Studio& studio) {
   studio::Sky sky = skyOver(studio, options.place, options.hour.has_value());
-  if (options.hour) return sky.daylight(bodiesOf(options.place, *options.hour));
-  return sky.daylight({{Direction(Azimuth(options.sun.azimuth), options.sun.elevation), 1.0}});
+  if (options.hour)
+    return sky.daylight(bodiesOf(options.place, *options.hour), weatherAt(options.place, *options.hour));
+  return sky.daylight({{Direction(Azimuth(options.sun.azimuth), options.sun.elevation), 1.0}},
+                      options.place.weather);
 }
 
 /// Where a camera would find the world: "which reaches from …".

@@ -56,7 +56,7 @@ class Camera {
   image::Rgb8Image take(int frame) {
     const double hour = options_.hourOf(frame);
     const studio::SkyBodies bodies = bodiesOf(options_.place, hour);
-    const sky::Daylight day = sky_.daylight(bodies);
+    const sky::Daylight day = sky_.daylight(bodies, weatherAt(options_.place, hour));
     studio::Developed developed = studio_.photograph(studio_.illumination(day), {frame, "timelapse"});
     const Sun sun{bodies.sun.apparent.elevation().deg(), day.groundIlluminance().luminance()};
     if (options_.caption != Caption::kNone) {

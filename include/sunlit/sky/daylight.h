@@ -43,6 +43,14 @@ class Daylight {
  public:
   explicit Daylight(std::shared_ptr<const SkyTable> table);
 
+  /// The same light, but that clouds are seen from a place in `map`; else they are seen from its origin.
+  Daylight seenFrom(const Eigen::Vector3f& place) const;
+  /// Whether there is cloud with gaps in it, so that sun and moon do not shine alike everywhere.
+  bool hasBrokenCloud() const;
+  /// By how much sun or moon are brighter at a place, under gaps and clouds, than DiscLight::illuminance,
+  /// which is the mean over all places; 1 without broken cloud.
+  float throughCloud(const DiscLight& disc, const Eigen::Vector3f& place) const;
+
   /// Luminance of the sky behind the scene by sun, moon and night glow, cd/m², without the discs and stars.
   /// Below the horizon: the luminance of the ground far away, continuous at the horizon.
   LinearRgb skyLuminance(const Eigen::Vector3f& towards) const;
@@ -63,6 +71,7 @@ class Daylight {
 
  private:
   std::shared_ptr<const SkyTable> table_;
+  Eigen::Vector3f from_ = Eigen::Vector3f::Zero();
 };
 
 }  // namespace sunlit::sky

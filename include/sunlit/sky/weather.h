@@ -24,6 +24,14 @@ struct Weather {
   /// Nothing: as far as the clear air lets one see.
   std::optional<double> visibility_m;
   double fog_top_m = 300.0;
+  // Of a cover that is not closed:
+  double cloud_base_m = 1500.0;
+  double wind_m_per_s = 0.0;
+  Angle wind_from = Angle::degrees(270.0);  ///< compass azimuth
+  int seed = 0;
+  /// How long the wind has blown since the cloud was where the seed has it, s. The same clock, the same
+  /// cloud.
+  double clock_s = 0.0;
 
   static constexpr double kUsualOpticalDepth = 30.0;
 };
@@ -45,7 +53,15 @@ inline std::vector<Field> fieldsOf(Weather& weather) {
            "m",
            {50, 100000},
            "meteorological optical range (contrast 5 %); clear: of the clear air"},
-          {"fog_top", &weather.fog_top_m, "m", {10, 3000}, "height of the fog or haze above the ground"}};
+          {"fog_top", &weather.fog_top_m, "m", {10, 3000}, "height of the fog or haze above the ground"},
+          {"cloud_base", &weather.cloud_base_m, "m", {100, 12000}, "height of broken cloud above the ground"},
+          {"wind",
+           &weather.wind_m_per_s,
+           "m/s",
+           {0, 100},
+           "that moves broken cloud and its shadows; 0: they stand"},
+          {"wind_from", &weather.wind_from, "deg", {-360, 360}, "clockwise from north: 270 is a west wind"},
+          {"cloud_seed", &weather.seed, "", {0, 2147483647}, "another seed, other clouds"}};
 }
 
 /// Throws std::invalid_argument naming key, value and what is allowed.
@@ -53,5 +69,11 @@ void validate(const Weather& weather);
 
 /// Whether there is neither cloud nor fog.
 bool isClear(const Weather& weather);
+
+/// Whether there is cloud with gaps in it.
+bool isBroken(const Weather& weather);
+
+/// Whether the light depends on the clock.
+bool moves(const Weather& weather);
 
 }  // namespace sunlit::sky

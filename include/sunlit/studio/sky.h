@@ -14,6 +14,7 @@
 #include "sunlit/quantity/site.h"
 #include "sunlit/sky/atmosphere.h"
 #include "sunlit/sky/table_store.h"
+#include "sunlit/sky/weather.h"
 #include "sunlit/studio/reports.h"
 
 namespace sunlit::studio {
@@ -59,7 +60,7 @@ class Sky {
   void over(const light::World& world);
   double groundAlbedo() const { return options_.air.ground_albedo; }
 
-  sky::Daylight daylight(const SkyBodies& bodies);
+  sky::Daylight daylight(const SkyBodies& bodies, const sky::Weather& weather = {});
   /// Makes the air that daylight() of the same site will need, if it is not there.
   void prepare(double site_elevation_m) { airOver(site_elevation_m); }
   bool isPrepared(double site_elevation_m) const;

@@ -57,21 +57,26 @@ SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& lig
       moon_glints_(glintsOf(light.day.moon(), subject, light)),
       lamps_({lampsOf(light), bouncedOf(light)}, light.day.groundIlluminance().value.maxCoeff(),
              {surfaces_, scene_, subject.visibility}),
-      glass_(subject.visibility) {}
+      glass_(subject.visibility),
+      broken_cloud_(light.day.hasBrokenCloud()) {}
 
-Eigen::Array3f SurfaceLighting::ofDisc(const DiscVisibility& disc, float share, const Tile& tile,
-                                       const Surface& surface) const {
-  if (!glass_.any() || !(share > 0.0f)) return Eigen::Array3f::Constant(share);
-  const Eigen::Vector3f origin = rayStart(tile, surface.first_sample, surface, disc.towards());
-  return share * glass_.through({origin, disc.towards(), 0.0f, std::numeric_limits<float>::infinity()});
+Eigen::Array3f SurfaceLighting::ofDisc(const Disc& disc, const Tile& tile, std::size_t index) const {
+  float share = disc.shares.empty() ? 0.0f : disc.shares[index];
+  if (!(share > 0.0f)) return Eigen::Array3f::Constant(share);
+  const Surface& surface = tile.surfaces[index];
+  if (broken_cloud_) share *= light_.day.throughCloud(disc.light, surface.position);
+  if (!glass_.any()) return Eigen::Array3f::Constant(share);
+  const Eigen::Vector3f& towards = disc.visibility.towards();
+  const Eigen::Vector3f origin = rayStart(tile, surface.first_sample, surface, towards);
+  return share * glass_.through({origin, towards, 0.0f, std::numeric_limits<float>::infinity()});
 }
 
 void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& by_rays,
                             std::vector<Eigen::Array3f>* luminances) const {
   const Tile& tile = surfaces_.tiles[number];
   const TileOutlooks& outlooks = outlooks_[number];
-  const std::vector<float>& sun_shares = sun_.visibleShares(number);
-  const std::vector<float>& moon_shares = moon_.visibleShares(number);
+  const Disc sun{sun_, light_.day.sun(), sun_.visibleShares(number)};
+  const Disc moon{moon_, light_.day.moon(), moon_.visibleShares(number)};
   const LightTable::Rows& rows = table_.tile(number);
   thread_local std::vector<Mirrored> mirrored;
   mirrored.assign(std::max<std::size_t>(outlooks.mirrors.size(), 1), Mirrored());
@@ -94,8 +99,8 @@ void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& b
                              rows.ambient[i],
                              mirrored[outlook.mirror],
                              outlooks.gatheredFor(outlook),
-                             ofDisc(sun_, sun_shares.empty() ? 0.0f : sun_shares[i], tile, surface),
-                             ofDisc(moon_, moon_shares.empty() ? 0.0f : moon_shares[i], tile, surface),
+                             ofDisc(sun, tile, i),
+                             ofDisc(moon, tile, i),
                              glint(sun_glints_),
                              glint(moon_glints_),
                              by_lamps.empty() ? nullptr : &by_lamps[i],

@@ -53,9 +53,13 @@ class SurfaceLighting {
     const SeenByRays* by_rays;             ///< null: none
   };
   Eigen::Array3f luminance(const Surface& surface, const SurfaceParts& parts) const;
-  /// Share of a disc's light that a surface gets, where it sees `share` of it.
-  Eigen::Array3f ofDisc(const DiscVisibility& disc, float share, const Tile& tile,
-                        const Surface& surface) const;
+  /// Share of a disc's light that one of a tile's surfaces gets.
+  struct Disc {
+    const DiscVisibility& visibility;
+    const sky::DiscLight& light;
+    const std::vector<float>& shares;  ///< of a tile's surfaces; empty: it gives too little
+  };
+  Eigen::Array3f ofDisc(const Disc& disc, const Tile& tile, std::size_t index) const;
 
   const Surfaces& surfaces_;
   const Outlooks& outlooks_;
@@ -67,6 +71,7 @@ class SurfaceLighting {
   std::unique_ptr<const Glints> sun_glints_, moon_glints_;  ///< null: none
   LampLight lamps_;
   GlassSheets glass_;
+  bool broken_cloud_;  ///< whether discs shine more on some places than on others
 };
 
 }  // namespace sunlit::light

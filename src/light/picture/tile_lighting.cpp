@@ -20,7 +20,7 @@ std::vector<std::unique_ptr<const SurfaceLighting>> lightingInMirrors(const Read
 
 TileLighting::TileLighting(const ReadyPicture& picture, const Surroundings& in, const Illumination& light)
     : picture_(picture),
-      light_(light),
+      day_(light.day.seenFrom(picture.seen.surfaces.eye)),
       lit_({picture.seen, in.scene, in.visibility}, light),
       in_mirrors_(lightingInMirrors(picture, in, light)),
       air_(picture.seen.surfaces, picture.seen.table, light.day),
@@ -49,8 +49,7 @@ void TileLighting::lightMirrored(std::size_t number, std::size_t depth,
     for (std::uint32_t i = mirroring.first; i < mirroring.first + mirroring.count; ++i)
       sum += leaving[i] * met[i].share * static_cast<float>(met[i].samples);
     sum /= static_cast<float>(mirroring.rays);
-    if (mirroring.sky.maxCoeff() > 0.0f)
-      sum += mirroring.sky * light_.day.skyLuminance(mirroring.towards).value;
+    if (mirroring.sky.maxCoeff() > 0.0f) sum += mirroring.sky * day_.skyLuminance(mirroring.towards).value;
     seen->push_back({mirroring.surface, mirroring.by_rays, sum});
   }
 }

@@ -37,7 +37,7 @@ class TileLighting {
                      std::vector<SurfaceLighting::SeenByRays>* seen) const;
 
   const ReadyPicture& picture_;
-  const Illumination& light_;
+  sky::Daylight day_;  ///< seen from the camera
   SurfaceLighting lit_;
   std::vector<std::unique_ptr<const SurfaceLighting>> in_mirrors_;  ///< of each of ReadyPicture::mirrors
   PictureAir air_;

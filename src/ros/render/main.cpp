@@ -15,8 +15,7 @@ int run() {
   const ros::NodeHandle private_node("~");
   const ParameterReader parameters(private_node);
   const RenderNodeOptions options = readRenderNodeOptions(parameters);
-  const std::vector<Condition> conditions = readConditions(parameters);
-  for (const Condition& condition : conditions) condition.parameters.rejectUnknown();  // only the sun differs
+  const std::vector<RenderCondition> conditions = readRenderConditions(parameters);
   parameters.rejectUnknown();
   std::optional<tbb::global_control> limit;
   if (options.threads > 0)

@@ -193,6 +193,7 @@ std::vector<Field> fieldsOf(RenderNodeOptions& options) {
        fieldsOf(options.lamps),
        {{"night/enabled", &options.night, "", {}, "moon and stars too; false: the sun alone"}},
        under("atmosphere", airFields(&options.sky)),
+       under("weather", fieldsOf(options.weather)),
        under("transport",
              joined({fieldsOf(options.bake), {rendererRow("final_gather", &options.final_gather)}})),
        fieldsOf(options.pacing),
@@ -211,6 +212,18 @@ std::vector<Field> fieldsOf(RenderNodeOptions& options) {
        {{"output_dir", &options.output_dir, "", {}, "for map.png, map.yaml and timing.csv; empty: nowhere"},
         {"threads", &options.threads, "", {0, 1024}, "0: as many as there are cores"},
         diagnosticPeriodRow(&options.diagnostic_period_s)}});
+}
+
+std::vector<RenderCondition> readRenderConditions(const ParameterReader& parameters) {
+  std::vector<RenderCondition> conditions;
+  for (const Condition& named : readConditions(parameters)) {
+    sky::Weather weather;
+    named.parameters.read(under("weather", fieldsOf(weather)));
+    named.parameters.check("weather", [&] { sky::validate(weather); });
+    named.parameters.rejectUnknown();
+    conditions.push_back({named, weather});
+  }
+  return conditions;
 }
 
 RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {

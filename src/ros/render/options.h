@@ -13,7 +13,9 @@
 #include "sunlit/path/path.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/render/renderer.h"
+#include "sunlit/ros/conditions.h"
 #include "sunlit/ros/parameter_reader.h"
+#include "sunlit/sky/weather.h"
 #include "sunlit/studio/sky.h"
 #include "sunlit/studio/studio.h"
 
@@ -72,6 +74,7 @@ struct RenderNodeOptions {
   image::NoiseOptions noise;
   light::LampOptions lamps;
   studio::SkyOptions sky;
+  sky::Weather weather;  ///< of every condition that does not say otherwise
   studio::BakeOptions bake;
   int final_gather = 0;  ///< render::RenderOptions::final_gather
   PacingOptions pacing;
@@ -91,6 +94,15 @@ struct RenderNodeOptions {
 
 /// One row for each parameter but ~conditions.
 std::vector<Field> fieldsOf(RenderNodeOptions& options);
+
+/// A condition of the renderer: its sun is its topics' business, its weather the renderer's.
+struct RenderCondition {
+  Condition named;
+  sky::Weather weather;
+};
+
+/// ~conditions, whose weathers may differ. Throws std::invalid_argument with name, value and what is allowed.
+std::vector<RenderCondition> readRenderConditions(const ParameterReader& parameters);
 
 /// All parameters but ~conditions. Throws std::invalid_argument with name, value and what is allowed.
 RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters);

@@ -52,7 +52,7 @@ std::unique_ptr<ClockSource> clockSource(const ros::NodeHandle& node, const Paci
 }  // namespace
 
 RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                       const RenderNodeOptions& options, const std::vector<Condition>& conditions)
+                       const RenderNodeOptions& options, const std::vector<RenderCondition>& conditions)
     : node_(node),
       private_node_(private_node),
       options_(withStart(options)),

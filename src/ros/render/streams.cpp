@@ -22,20 +22,21 @@ std::string skyPrefix(const Condition& condition, const StreamOptions& options) 
 
 }  // namespace
 
-Streams::Stream::Stream(const Condition& condition, const StreamOptions& options)
-    : name(condition.name),
-      sky(skyNode(condition, options),
-          {skyPrefix(condition, options), options.night, options.sky, options.output.frames.map}),
-      output(condition.node(), options.output),
-      state{condition.name} {}
+Streams::Stream::Stream(const RenderCondition& condition, const StreamOptions& options)
+    : name(condition.named.name),
+      weather(condition.weather),
+      sky(skyNode(condition.named, options),
+          {skyPrefix(condition.named, options), options.night, options.sky, options.output.frames.map}),
+      output(condition.named.node(), options.output),
+      state{name} {}
 
-Streams::Streams(const std::vector<Condition>& conditions, const StreamOptions& options,
+Streams::Streams(const std::vector<RenderCondition>& conditions, const StreamOptions& options,
                  studio::Studio& studio, studio::Sky& sky)
     : studio_(studio),
       sky_(sky),
       wanted_(options.wanted_subscribers),
       pose_output_(ros::NodeHandle(), ros::NodeHandle("~"), options.output) {
-  for (const Condition& condition : conditions)
+  for (const RenderCondition& condition : conditions)
     streams_.push_back(std::make_unique<Stream>(condition, options));
 }
 
@@ -69,7 +70,7 @@ const light::Illumination& Streams::lightOf(Stream& stream, const SkyBodies& bod
     if (!sky_.isPrepared(in_sky.site_elevation_m)) {
       studio_.stopwatch().measure("load", "atmosphere", [&] { sky_.prepare(in_sky.site_elevation_m); });
     }
-    stream.light = studio_.illumination(sky_.daylight(in_sky));
+    stream.light = studio_.illumination(sky_.daylight(in_sky, stream.weather));
     stream.lit_by = bodies;
   });
   return *stream.light;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ros/render/condition_output.h"
+#include "ros/render/options.h"
 #include "ros/render/pose_output.h"
 #include "ros/render/sky_input.h"
 #include "sunlit/ros/conditions.h"
@@ -44,8 +45,8 @@ struct StreamState {
 class Streams {
  public:
   /// `studio` and `sky` outlive this.
-  Streams(const std::vector<Condition>& conditions, const StreamOptions& options, studio::Studio& studio,
-          studio::Sky& sky);
+  Streams(const std::vector<RenderCondition>& conditions, const StreamOptions& options,
+          studio::Studio& studio, studio::Sky& sky);
 
   /// Renders the shot under every condition's sky of its stamp and publishes all of it with that. Only when
   /// every sky is there; stamps never go back by more than a clock does. Meanwhile draws the geometry of the
@@ -75,8 +76,9 @@ class Streams {
 
  private:
   struct Stream {
-    Stream(const Condition& condition, const StreamOptions& options);
+    Stream(const RenderCondition& condition, const StreamOptions& options);
     std::string name;
+    sky::Weather weather;
     SkyInput sky;
     ConditionOutput output;
     std::optional<light::Illumination> light;

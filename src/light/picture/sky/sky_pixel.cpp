@@ -8,6 +8,12 @@ namespace {
 /// How far, in parts of it, the sky in the middle of a cell may be from the mean of its corners.
 constexpr float kMostBent = 1e-3f;
 
+/// As it shines on the camera, through gaps and clouds.
+sky::DiscLight seenThroughCloud(const sky::Daylight& day, sky::DiscLight disc, const Eigen::Vector3f& eye) {
+  disc.illuminance = disc.illuminance * day.throughCloud(disc, eye);
+  return disc;
+}
+
 }  // namespace
 
 struct SkyPixel::Cell {
@@ -35,10 +41,10 @@ struct SkyPixel::Cell {
 
 SkyPixel::SkyPixel(const Surfaces& surfaces, const sky::Daylight& day)
     : surfaces_(surfaces),
-      daylight_(day),
-      sun_(surfaces, day.sun()),
-      moon_(surfaces, day.moon()),
-      stars_(surfaces, day, moon_) {}
+      daylight_(day.seenFrom(surfaces.eye)),
+      sun_(surfaces, seenThroughCloud(day, day.sun(), surfaces.eye)),
+      moon_(surfaces, seenThroughCloud(day, day.moon(), surfaces.eye)),
+      stars_(surfaces, daylight_, moon_) {}
 
 Eigen::Vector3f SkyPixel::towards(float x, float y) const {
   return (surfaces_.pixel_origin + x * surfaces_.pixel_right + y * surfaces_.pixel_down).normalized();

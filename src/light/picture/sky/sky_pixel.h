@@ -45,7 +45,7 @@ class SkyPixel {
   bool smooth(const Cell& cell, Corners* corners) const;
 
   const Surfaces& surfaces_;
-  const sky::Daylight& daylight_;
+  sky::Daylight daylight_;  ///< seen from the camera
   DiscInView sun_, moon_;
   StarField stars_;
 };

@@ -1,0 +1,61 @@
+/// A layer of broken cloud, seen from above.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "sunlit/sky/weather.h"
+
+namespace sunlit::sky {
+
+/// Optical depth of the cloud over each place of a square that repeats itself. Fractal value noise of hashed
+/// whole numbers, so that the same seed gives the same bits everywhere; its highest values are cloud, so many
+/// that exactly so many oktas of the cells are covered. Of the cloudy cells as many have any depth as any
+/// other, from 0 at the edge to twice the mean, which is the optical depth asked for.
+class CloudMap {
+ public:
+  static constexpr int kSide = 1024;
+  static constexpr float kCell_m = 10.0F;  ///< below the penumbra of a cloud at 1 km
+
+  /// `cover_oktas` above 0 and below 8; 0.3 s of processor time.
+  CloudMap(double cover_oktas, double optical_depth, std::uint32_t seed);
+
+  /// Mean of about `width_m` around a place, m from a corner of the square, in any of its repetitions.
+  float opticalDepth(const Eigen::Vector2d& place_m, float width_m) const;
+  double coveredShare() const { return covered_share_; }
+  /// Of the cloudy cells, the depth below which the part `share` of them is.
+  double depthAt(double share) const { return thickest_ * share; }
+  /// Mean over all cells of what comes straight through at a cosine from the vertical.
+  double meanPassed(double cosine) const;
+  /// Of each cell, row by row.
+  const std::vector<float>& cells() const { return levels_.front(); }
+
+ private:
+  static constexpr int kLevels = 8;  // of cells twice as wide each
+
+  float at(int level, const Eigen::Vector2d& place_m) const;
+
+  double covered_share_, thickest_;
+  std::array<std::vector<float>, kLevels> levels_;
+};
+
+/// Those that were asked for last. For many threads.
+class CloudMaps {
+ public:
+  std::shared_ptr<const CloudMap> of(const Weather& weather);
+
+ private:
+  struct Kept {
+    double cover_oktas, optical_depth;
+    int seed;
+    std::shared_ptr<const CloudMap> map;
+  };
+  std::mutex mutex_;
+  std::vector<Kept> kept_;
+};
+
+}  // namespace sunlit::sky
