@@ -6,6 +6,7 @@ import difflib
 import itertools
 import math
 import os
+import re
 import tempfile
 from xml.etree import ElementTree
 
@@ -96,6 +97,46 @@ def clock_times(text):
     return times
 
 
+TIMES = ("hour", "minute", "second", "year", "month", "day")
+WEATHER = ("cover", "optical_depth", "overcast", "visibility", "fog_top", "cloud_base", "wind", "wind_from", "cloud_seed")
+
+
+def conditions(text, hours):
+    """'{grey: {hour: 12.5, cover: 8}}' -> {'grey': {hour: 12, minute: 30, second: 0.0, cover: 8}}, in the order given; those
+    of `hours` where there are none. The range of all but the hour is the business of the node that gets it."""
+    allowed = "a map from names to what differs, such as {noon: {hour: 12}, grey: {hour: 12, cover: 8, overcast: cie}}"
+    asked = parse("conditions", text, allowed) if text.strip() else {}
+    if not isinstance(asked, dict):
+        raise BadArgument("conditions", text, allowed)
+    if not asked:
+        return clock_times(hours)
+    found = {}
+    for name, differs in asked.items():
+        if not isinstance(name, str) or not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name):
+            raise BadArgument("conditions", text, f"with names of letters, digits and _, a letter first, not {name!r}")
+        if not isinstance(differs, dict) or not is_number(differs.get("hour")) or not 0 <= differs["hour"] < 24:
+            raise BadArgument("conditions", text, f"with an hour, at least 0 and below 24, for {name}: {allowed}")
+        for key in differs:
+            if key not in TIMES + WEATHER:
+                near = difflib.get_close_matches(str(key), TIMES + WEATHER, 1)
+                raise BadArgument("conditions", text, f"without {key} in {name}"
+                                  + (f" (did you mean {near[0]}?)" if near else f"; known are {', '.join(TIMES + WEATHER)}"))
+        (of_hour,) = clock_times(str(differs["hour"])).values()
+        found[name] = {**of_hour, **{key: value for key, value in differs.items() if key != "hour"}}
+    return found
+
+
+def times_of(asked):
+    """What of the conditions is the business of the sun."""
+    return {name: {key: value for key, value in one.items() if key in TIMES} for name, one in asked.items()}
+
+
+def weathers_of(asked):
+    """What is the business of the renderers: a list of names where there is no weather."""
+    weathers = {name: {key: value for key, value in one.items() if key in WEATHER} for name, one in asked.items()}
+    return weathers if any(weathers.values()) else list(weathers)
+
+
 def date_time(date, timezone):
     try:
         day = datetime.date.fromisoformat(date)
@@ -120,14 +161,13 @@ def self_test_stream(name):
     return f"self_test/{name}"
 
 
-def pairs(hours, self_test, every):
-    """All pairs of hours, and each hour against itself by a second renderer."""
-    names = list(clock_times(hours))
+def pairs(names, self_test, every):
+    """All pairs of conditions, and each against itself by a second renderer."""
     both = [{"a": a, "b": b} for a, b in itertools.combinations(names, 2)]
     if self_test:
         both += [{"a": name, "b": self_test_stream(name), "every": every} for name in names]
     if not both:
-        raise BadArgument("hours", hours, "two hours or more, or one with self_test:=true")
+        raise BadArgument("hours", ", ".join(names), "two hours or more, or one with self_test:=true")
     return both
 
 
@@ -191,11 +231,11 @@ def map_streams(text, times):
     hours = {name: time["hour"] + time.get("minute", 0) / 60 + time.get("second", 0) / 3600 for name, time in times.items()}
     if text == "auto":
         return [min(hours, key=lambda name: abs(hours[name] - 12.0))]
-    allowed = "auto (the hour nearest to noon), one of the hours, or a list of some but not all of them, each once"
+    allowed = "auto (the hour nearest to noon), one of the hours or conditions, or a list of some but not all, each once"
     asked = parse("map", text, allowed)
     asked = asked if isinstance(asked, list) else [asked]
     found = [name for hour in asked for name, one in hours.items()
-             if is_number(hour) and abs(one - hour) * 3600 < 0.5]
+             if name == hour or (is_number(hour) and abs(one - hour) * 3600 < 0.5)]
     if not found or len(found) != len(asked) or len(set(found)) != len(found) or len(found) == len(hours) > 1:
         raise BadArgument("map", text, allowed)
     return found

@@ -12,7 +12,7 @@ from sunlit_experiment import recording
 START_STAMP_S = 1000.0
 FRAME_RATE_HZ = 10.0
 # What the evaluator writes down beside its results, as it was typed.
-ABOUT = ("world", "robot", "path", "site", "date", "timezone", "hours", "spacing", "offset", "yaw", "exposure", "ev100",
+ABOUT = ("world", "robot", "path", "site", "date", "timezone", "hours", "conditions", "spacing", "offset", "yaw", "exposure", "ev100",
          "highlight_protection", "final_gather", "rasterizer", "night", "lamps", "noise", "noise_seed", "turbidity", "ozone",
          "ground_albedo")
 
@@ -50,14 +50,19 @@ def check(typed):
     pairs(typed)
 
 
+def conditions(typed):
+    """What each differs in, by name."""
+    return read.conditions(typed["conditions"], typed["hours"])
+
+
 def pairs(typed):
-    return read.pairs(typed["hours"], read.flag("self_test", typed["self_test"]),
+    return read.pairs(list(conditions(typed)), read.flag("self_test", typed["self_test"]),
                       read.whole("self_test_every", typed["self_test_every"], 1))
 
 
 def map_streams(typed):
     """The conditions that the others are looked for in; none where nothing is localised."""
-    times = read.clock_times(typed["hours"])
+    times = conditions(typed)
     asked = read.map_streams(typed["map"], times)
     return asked if len(times) > 1 and localising(typed) else []
 
@@ -67,7 +72,7 @@ def localising(typed):
 
 
 def recorded_topics(typed):
-    return recording.topics(list(read.clock_times(typed["hours"])), read.flag("compressed", typed["compressed"]))
+    return recording.topics(list(conditions(typed)), read.flag("compressed", typed["compressed"]))
 
 
 def parameters(typed, given, places, beginning):
@@ -84,7 +89,7 @@ def parameters(typed, given, places, beginning):
 def _experiment(typed, given, places, beginning):
     has_self_test = read.flag("self_test", typed["self_test"])
     tree = {"arguments": given, "output": places["output"], "poses": beginning.poses,
-            "verbose": read.flag("verbose", typed["verbose"]), "images_a_pose": len(read.clock_times(typed["hours"])),
+            "verbose": read.flag("verbose", typed["verbose"]), "images_a_pose": len(conditions(typed)),
             "self_test_every": read.whole("self_test_every", typed["self_test_every"]),
             "needed": ["sun_position", "render", "evaluator"] + (["self_test/render"] if has_self_test else [])}
     if read.flag("record", typed["record"]):
@@ -100,7 +105,7 @@ def _experiment(typed, given, places, beginning):
 
 def _sun_position(typed):
     return {"date_time": read.date_time(typed["date"], typed["timezone"]), "site": read.site(typed["site"]),
-            "conditions": read.clock_times(typed["hours"])}
+            "conditions": read.times_of(conditions(typed))}
 
 
 def _renderer(typed, places, beginning):
@@ -108,7 +113,7 @@ def _renderer(typed, places, beginning):
     # Without a name, the renderer draws by the first that was built.
     rasterizer = {"rasterizer": typed["rasterizer"]} if typed["rasterizer"] else {}
     return {
-        "conditions": list(read.clock_times(typed["hours"])),
+        "conditions": read.weathers_of(conditions(typed)),
         "world": read.file(typed["world"]),
         "model_path": read.folders(typed["model_path"]),
         "missing": typed["missing"],
@@ -172,7 +177,7 @@ def _self_test_renderer(typed, places, beginning):
 
 
 def _evaluator(typed, places, beginning):
-    names = list(read.clock_times(typed["hours"]))
+    names = list(conditions(typed))
     if read.flag("self_test", typed["self_test"]):
         names += [read.self_test_stream(name) for name in names]
     tree = {"streams": names, "pairs": pairs(typed), "poses": beginning.poses,
@@ -192,7 +197,7 @@ def _evaluator(typed, places, beginning):
     if verified is not None:  # else its own default
         tree["verify"] = verified
     if of_map := map_streams(typed):
-        hours = list(read.clock_times(typed["hours"]))
+        hours = list(conditions(typed))
         tree["localisation"] = {"map": "+".join(of_map), "queries": [name for name in hours if name not in of_map],
                                 "detectors": localising(typed)}
     return tree

@@ -134,7 +134,7 @@ float CloudMap::opticalDepth(const Eigen::Vector2d& place_m, float width_m) cons
 
 std::shared_ptr<const CloudMap> CloudMaps::of(const Weather& weather) {
   constexpr std::size_t kMost = 8;  // of 5 MB
-  const double depth = weather.optical_depth.value_or(Weather::kUsualOpticalDepth);
+  const double depth = opticalDepthOf(weather);
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const Kept& kept : kept_) {
     if (kept.cover_oktas == weather.cover_oktas && kept.optical_depth == depth && kept.seed == weather.seed)

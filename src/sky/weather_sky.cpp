@@ -47,6 +47,10 @@ bool isClear(const Weather& weather) {
   return weather.cover_oktas <= 0.0 && !weather.visibility_m;
 }
 
+double opticalDepthOf(const Weather& weather) {
+  return weather.optical_depth.value_or(30.0 * std::pow(weather.cover_oktas / 8.0, 1.5));
+}
+
 bool isBroken(const Weather& weather) {
   return weather.cover_oktas > 0.0 && weather.cover_oktas < 8.0;
 }
@@ -87,7 +91,7 @@ void WeatherSky::cover(const Weather& weather, const WeatherTables& tables, floa
     broken_share_ =
         LinearRgb(broken_->level()).luminance() / std::max(LinearRgb(levelOf(*above)).luminance(), 1e-12F);
   } else {
-    const DropletLayer cloud(tables.droplets, weather.optical_depth.value_or(Weather::kUsualOpticalDepth));
+    const DropletLayer cloud(tables.droplets, opticalDepthOf(weather));
     cover_.emplace(cloud, *above, below);
   }
   for (DiscLight& disc : above->discs)

@@ -17,7 +17,7 @@ enum class Overcast {
 /// The default is no weather at all: the clear sky, to the bit.
 struct Weather {
   double cover_oktas = 0.0;
-  /// Of the cloud, vertical, where there is some. Nothing: kUsualOpticalDepth.
+  /// Of the cloud, vertical, the mean where there is some. Nothing: usualOpticalDepth().
   std::optional<double> optical_depth;
   Overcast overcast = Overcast::kLayer;
   /// Meteorological optical range: a black board at this distance has a contrast of 5 % (CIE 17-28-020).
@@ -32,8 +32,6 @@ struct Weather {
   /// How long the wind has blown since the cloud was where the seed has it, s. The same clock, the same
   /// cloud.
   double clock_s = 0.0;
-
-  static constexpr double kUsualOpticalDepth = 30.0;
 };
 
 inline std::vector<Field> fieldsOf(Weather& weather) {
@@ -42,7 +40,7 @@ inline std::vector<Field> fieldsOf(Weather& weather) {
            NumberOrWord{&weather.optical_depth, "auto"},
            "",
            {0.1, 200},
-           "of the cloud; auto: 30. The sun is lost at 12 overhead"},
+           "of the cloud; auto: 30 closed, less broken. The sun is lost at 12 overhead"},
           {"overcast",
            choiceOf(&weather.overcast, {"layer", "cie"}),
            "",
@@ -69,6 +67,11 @@ void validate(const Weather& weather);
 
 /// Whether there is neither cloud nor fog.
 bool isClear(const Weather& weather);
+
+/// The optical depth asked for, or 30 (cover / 8)^1.5: broken cloud is thinner, and so the mean illuminance
+/// of a cover is what has been measured, 1 − 0.75 (cover / 8)^3.4 of the clear hour's (Kasten & Czeplak
+/// 1980).
+double opticalDepthOf(const Weather& weather);
 
 /// Whether there is cloud with gaps in it.
 bool isBroken(const Weather& weather);

@@ -54,7 +54,7 @@ void Streams::expose(const Shot& shot) {
   for (const auto& stream : streams_) {
     stream->sky.forgetBefore(shot.stamp);
     const SkyBodies bodies = stream->sky.at(shot.stamp).value();
-    const light::Illumination& light = lightOf(*stream, bodies);
+    const light::Illumination& light = lightOf(*stream, bodies, shot.stamp);
     studio::Developed developed = studio_.photograph(light, {shot.pose_index, stream->name});
     const Photograph photograph{shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture)};
     stopwatch.measure("send", stream->name, [&] { stream->output.publish(photograph, {bodies, light.day}); });
@@ -62,9 +62,11 @@ void Streams::expose(const Shot& shot) {
   }
 }
 
-const light::Illumination& Streams::lightOf(Stream& stream, const SkyBodies& bodies) {
+const light::Illumination& Streams::lightOf(Stream& stream, const SkyBodies& bodies, const ros::Time& stamp) {
   studio_.stopwatch().measure("daylight", stream.name, [&] {
-    if (stream.light && shineAlike(stream.lit_by, bodies)) return;
+    const bool drifts = sky::moves(stream.weather) && stream.weather.clock_s != stamp.toSec();
+    if (stream.light && shineAlike(stream.lit_by, bodies) && !drifts) return;
+    stream.weather.clock_s = stamp.toSec();
     const studio::SkyBodies in_sky{*bodies.sun, bodies.moon, bodies.map_from_celestial,
                                    bodies.site_elevation_m};
     if (!sky_.isPrepared(in_sky.site_elevation_m)) {
@@ -95,7 +97,7 @@ Photograph Streams::view(const Shot& shot, const std::string& condition) {
   }
   studio_.look(shot.map_from_camera, shot.map_from_links);
   studio::Developed developed =
-      studio_.photograph(lightOf(stream, *stream.sky.newest()), {shot.pose_index, stream.name});
+      studio_.photograph(lightOf(stream, *stream.sky.newest(), shot.stamp), {shot.pose_index, stream.name});
   return {shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture)};
 }
 

@@ -78,7 +78,7 @@ class Streams {
   struct Stream {
     Stream(const RenderCondition& condition, const StreamOptions& options);
     std::string name;
-    sky::Weather weather;
+    sky::Weather weather;  ///< at the stamp that `light` is of
     SkyInput sky;
     ConditionOutput output;
     std::optional<light::Illumination> light;
@@ -86,7 +86,7 @@ class Streams {
     StreamState state;
   };
   /// Made anew only when something in the sky has moved.
-  const light::Illumination& lightOf(Stream& stream, const SkyBodies& bodies);
+  const light::Illumination& lightOf(Stream& stream, const SkyBodies& bodies, const ros::Time& stamp);
   /// Lights and publishes what the studio looks at.
   void expose(const Shot& shot);
   Stream& find(const std::string& condition);

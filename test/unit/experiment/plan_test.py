@@ -50,6 +50,29 @@ class Arguments(unittest.TestCase):
         # The last half second of a day does not spill into the next.
         self.assertEqual(names("[23.99999]"), ["h23_59_59"])
 
+    def test_conditions_stand_for_hours(self):
+        typed = "{noon: {hour: 12}, fog: {hour: 12.5, month: 11, visibility: 150}, grey: {hour: 9, cover: 8, overcast: cie}}"
+        tree = planned(conditions=typed)
+        self.assertEqual(tree["sun_position"]["conditions"],
+                         {"noon": {"hour": 12, "minute": 0, "second": 0.0},
+                          "fog": {"hour": 12, "minute": 30, "second": 0.0, "month": 11},
+                          "grey": {"hour": 9, "minute": 0, "second": 0.0}})
+        self.assertEqual(tree["render"]["conditions"],
+                         {"noon": {}, "fog": {"visibility": 150}, "grey": {"cover": 8, "overcast": "cie"}})
+        self.assertEqual(tree["self_test"]["render"]["conditions"], tree["render"]["conditions"])
+        self.assertIn({"a": "noon", "b": "fog"}, tree["evaluator"]["pairs"])
+        self.assertEqual(tree["evaluator"]["localisation"]["map"], "noon")
+        self.assertEqual(planned(conditions=typed, map="[grey]")["evaluator"]["localisation"]["map"], "grey")
+        self.assertEqual(planned()["render"]["conditions"], ["h04", "h12", "h20"])
+
+    def test_bad_conditions_are_refused(self):
+        for text, part in (("[4]", "a map from names"), ("{a: 4}", "with an hour"), ("{a: {cover: 8}}", "with an hour"),
+                           ("{a: {hour: 24}}", "with an hour"), ("{a: {hour: 4, covr: 8}}", "did you mean cover"),
+                           ("{a: {hour: 4, x: 8}}", "known are hour"), ("{a-b: {hour: 4}}", "with names of"),
+                           ("{a: {hour: 4}", "a map from names"), ("{4: {hour: 4}}", "with names of")):
+            self.assert_refused("argument conditions is", arguments.conditions, text, "[4]")
+            self.assert_refused(part, arguments.conditions, text, "[4]")
+
     def test_bad_hours_are_refused(self):
         # The last two are no YAML for other reasons: a date that is none, and more brackets than Python goes into.
         for hours in ("2024-99-99", "[" * 5000, "[]", "[24]", "[-1]", "[4, 4.0]", "[true]", "[.nan]", "{4: 5}", "[4", "noon"):
@@ -70,13 +93,13 @@ class Arguments(unittest.TestCase):
                                 arguments.condition_names, text)
 
     def test_all_pairs_and_each_hour_with_itself(self):
-        self.assertEqual(arguments.pairs("[4, 12, 20]", True, 10),
+        self.assertEqual(arguments.pairs(["h04", "h12", "h20"], True, 10),
                          [{"a": "h04", "b": "h12"}, {"a": "h04", "b": "h20"}, {"a": "h12", "b": "h20"},
                           {"a": "h04", "b": "self_test/h04", "every": 10},
                           {"a": "h12", "b": "self_test/h12", "every": 10},
                           {"a": "h20", "b": "self_test/h20", "every": 10}])
-        self.assertEqual(arguments.pairs("[4, 12]", False, 10), [{"a": "h04", "b": "h12"}])
-        self.assert_refused("two hours or more", arguments.pairs, "[4]", False, 10)
+        self.assertEqual(arguments.pairs(["h04", "h12"], False, 10), [{"a": "h04", "b": "h12"}])
+        self.assert_refused("two hours or more", arguments.pairs, ["h04"], False, 10)
 
     def test_dates_and_places(self):
         self.assertEqual(arguments.date_time("2024-07-01", "3"),
@@ -216,7 +239,7 @@ class Plan(unittest.TestCase):
                     file.write(run)
                 with open(os.path.join(folder, "frames.csv"), "w", encoding="utf-8") as file:
                     file.write("pose,stamp,a,b,difference\n²,1000.0,h04,h12,orb\n" + "9" * 5000 + ",1000.0,h04,h12,orb\n")
-                self.assertEqual(earlier_run.first_not_evaluated(folder, arguments.pairs("[4, 12]", False, 1), "[orb]"), 0)
+                self.assertEqual(earlier_run.first_not_evaluated(folder, arguments.pairs(["h04", "h12"], False, 1), "[orb]"), 0)
 
     def test_rendering_waits_for_a_recorder(self):
         self.assertEqual(planned()["render"]["subscribers"], {"images": 1, "poses": 1, "truth": 1, "others": 0})
@@ -242,7 +265,7 @@ class Plan(unittest.TestCase):
 
     def test_an_earlier_run_is_taken_up_where_it_has_a_gap(self):
         with tempfile.TemporaryDirectory() as folder:
-            pairs = arguments.pairs("[4, 12]", True, 2)
+            pairs = arguments.pairs(["h04", "h12"], True, 2)
             begins = lambda differences: earlier_run.first_not_evaluated(folder, pairs, differences)
             self.assertEqual(begins("[boolean_rgb, orb]"), 0)
             rows = ["pose,stamp,a,b,difference,value,features_a,features_b,matches,zero_second"]
