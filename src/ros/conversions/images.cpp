@@ -1,7 +1,6 @@
 #include "ros/conversions/images.h"
 
 #include <cv_bridge/cv_bridge.h>
-#include <sensor_msgs/distortion_models.h>
 #include <sensor_msgs/image_encodings.h>
 #include <boost/make_shared.hpp>
 
@@ -45,16 +44,17 @@ sensor_msgs::CompressedImagePtr toPngMessage(const image::Rgb8Image& picture,
   return message;
 }
 
-sensor_msgs::CameraInfo toCameraInfo(const image::PinholeCamera& camera, const std_msgs::Header& header) {
+sensor_msgs::CameraInfo toCameraInfo(const image::Calibration& calibration, const std_msgs::Header& header) {
+  const image::PinholeCamera& camera = calibration.camera;
   sensor_msgs::CameraInfo info;
   info.header = header;
   info.width = static_cast<std::uint32_t>(camera.width);
   info.height = static_cast<std::uint32_t>(camera.height);
-  info.distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
-  info.D.assign(5, 0.0);
+  info.distortion_model = image::nameOf(calibration.distortion.model);
+  info.D = calibration.distortion.coefficients;
   info.K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
-  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  info.P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
+  std::copy(calibration.rectification.begin(), calibration.rectification.end(), info.R.begin());
+  std::copy(calibration.projection.begin(), calibration.projection.end(), info.P.begin());
   return info;
 }
 
