@@ -84,10 +84,9 @@ class TileResolver {
 
   /// Turns right_ and down_ to a pixel of a lens.
   void aim(int x, int y) {
-    const light::PixelRays& pixels = *lens_->pixels();
     const float part = 1.0f / static_cast<float>(seen_.view.supersampling);
-    right_ = part * (map_from_optical_ * pixels.right(x, y).cast<float>());
-    down_ = part * (map_from_optical_ * pixels.down(x, y).cast<float>());
+    right_ = part * (map_from_optical_ * lens_->pixels()->right(x, y).cast<float>());
+    down_ = part * (map_from_optical_ * lens_->pixels()->down(x, y).cast<float>());
   }
 
   /// All samples of the pixel see one triangle.
