@@ -62,6 +62,10 @@ image::PinholeCamera fromCameraInfo(const sensor_msgs::CameraInfo& info) {
   const auto isNot0 = [](double number) { return number != 0.0; };
   if (std::any_of(info.D.begin(), info.D.end(), isNot0))
     throw std::invalid_argument("camera_info has distortion: rectify the images first (image_proc)");
+  if (const std::string& model = info.distortion_model; model == image::nameOf(image::LensModel::kEquidistant) ||
+                                                        model == image::nameOf(image::LensModel::kOmni))
+    throw std::invalid_argument("camera_info is of a lens that is " + model +
+                                ": rectify the images first (image_proc)");
   if (info.K[1] != 0.0) throw std::invalid_argument("camera_info has skew, but must have none");
   const bool is_whole = (info.roi.width == 0 || info.roi.width == info.width) &&
                         (info.roi.height == 0 || info.roi.height == info.height);
