@@ -24,6 +24,18 @@ sensor_msgs::ImagePtr packed(const image::Picture<Value, kChannels>& picture, co
   return cv_bridge::CvImage(header, encoding, pixels).toImageMsg();
 }
 
+/// Without coefficients there is none, whatever the model is called.
+image::Distortion distortionOf(const sensor_msgs::CameraInfo& info) {
+  if (info.D.empty()) return {};
+  image::Distortion distortion;
+  Field model{
+      "camera_info/distortion_model", choiceOf(&distortion.model, image::lensModelNames()), "", {}, ""};
+  model.set(info.distortion_model, model.key);
+  distortion.coefficients = info.D;
+  image::requireCoefficients(distortion, "camera_info/D");
+  return distortion;
+}
+
 }  // namespace
 
 sensor_msgs::ImagePtr toImageMessage(const image::Rgb8Image& picture, const std_msgs::Header& header) {
@@ -58,28 +70,25 @@ sensor_msgs::CameraInfo toCameraInfo(const image::Calibration& calibration, cons
   return info;
 }
 
-image::PinholeCamera fromCameraInfo(const sensor_msgs::CameraInfo& info) {
-  const auto isNot0 = [](double number) { return number != 0.0; };
-  if (std::any_of(info.D.begin(), info.D.end(), isNot0))
-    throw std::invalid_argument("camera_info has distortion: rectify the images first (image_proc)");
-  if (const std::string& model = info.distortion_model; model == image::nameOf(image::LensModel::kEquidistant) ||
-                                                        model == image::nameOf(image::LensModel::kOmni))
-    throw std::invalid_argument("camera_info is of a lens that is " + model +
-                                ": rectify the images first (image_proc)");
+image::Calibration fromCameraInfo(const sensor_msgs::CameraInfo& info) {
   if (info.K[1] != 0.0) throw std::invalid_argument("camera_info has skew, but must have none");
   const bool is_whole = (info.roi.width == 0 || info.roi.width == info.width) &&
                         (info.roi.height == 0 || info.roi.height == info.height);
   if (info.binning_x > 1 || info.binning_y > 1 || !is_whole)
     throw std::invalid_argument("camera_info has binning or a region of interest, but must have neither");
   if (info.width > INT_MAX || info.height > INT_MAX) throw std::invalid_argument("camera_info has no size");
-  image::PinholeCamera camera{static_cast<int>(info.width),
-                              static_cast<int>(info.height),
-                              info.K[0],
-                              info.K[4],
-                              info.K[2],
-                              info.K[5]};
-  for (const Field& field : under("camera_info", fieldsOf(camera))) field.require();
-  return camera;
+  image::Calibration read;
+  read.camera = {static_cast<int>(info.width),
+                 static_cast<int>(info.height),
+                 info.K[0],
+                 info.K[4],
+                 info.K[2],
+                 info.K[5]};
+  for (const Field& field : under("camera_info", fieldsOf(read.camera))) field.require();
+  read.distortion = distortionOf(info);
+  std::copy(info.R.begin(), info.R.end(), read.rectification.begin());
+  std::copy(info.P.begin(), info.P.end(), read.projection.begin());
+  return read;
 }
 
 }  // namespace sunlit::ros_interface

@@ -18,8 +18,9 @@ sensor_msgs::CompressedImagePtr toPngMessage(const image::Rgb8Image& picture, co
 sensor_msgs::ImagePtr toImageMessage(const image::DepthImage& depth, const std_msgs::Header& header);
 /// All numbers as they are.
 sensor_msgs::CameraInfo toCameraInfo(const image::Calibration& camera, const std_msgs::Header& header);
-/// Throws std::invalid_argument, saying what is wrong, for a camera with distortion, of a model wider than a pinhole, with skew, binning or a
-/// region of interest, and for numbers out of the ranges of fieldsOf(PinholeCamera).
-image::PinholeCamera fromCameraInfo(const sensor_msgs::CameraInfo& info);
+/// Throws std::invalid_argument, saying what is wrong, for skew, binning or a region of interest, for a model
+/// that image::lensModelNames() does not have or another number of coefficients than it has, and for numbers
+/// out of the ranges of fieldsOf(PinholeCamera).
+image::Calibration fromCameraInfo(const sensor_msgs::CameraInfo& info);
 
 }  // namespace sunlit::ros_interface

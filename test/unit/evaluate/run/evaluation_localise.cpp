@@ -55,7 +55,7 @@ void feedTruth(Evaluation& evaluation, std::int64_t pose) {
 
 void feedImages(Evaluation& evaluation, std::int64_t pose) {
   for (std::size_t s = 0; s < 3; ++s) {
-    evaluation.addCamera(s, told(kCamera));
+    evaluation.addCamera(s, told(ViewCamera(kCamera)));
     evaluation.addImage(s, stampOf(pose), lit(pose, s));
   }
 }
