@@ -9,6 +9,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "sunlit/scene/robot.h"
 #include "support/message_of.h"
 #include "support/published_lenses.h"
 #include "test_scenes.h"
@@ -319,6 +320,7 @@ TEST(LensPicture, CalibratingABoardFindsTheFocalLengthsOfTumVi) {
 scene::Scene yard() {
   scene::Scene scene;
   const int stone = addMaterial(&scene, {0.4f, 0.35f, 0.3f}), red = addMaterial(&scene, {0.6f, 0.1f, 0.1f});
+  scene.materials[1].roughness = 0.05f;  // mirrors sky and ground
   addGround(&scene, stone, 60.0f);
   for (int i = 0; i < 40; ++i) {
     const auto along = static_cast<float>(i);
@@ -388,6 +390,46 @@ TEST(LensPicture, OfEachRasterizerIsTheSameButForEdges) {
       EXPECT_LT(static_cast<double>(differing), 5e-4 * static_cast<double>(depths[k].data.size()));
     }
   }
+}
+
+/// A panel of 2 m by 2 m whose front is at its own origin.
+constexpr const char* kPanel = R"(<?xml version="1.0"?>
+<robot name="panel"><material name="red"><color rgba="0.8 0.1 0.1 1"/></material>
+  <link name="base_link"><visual><origin xyz="0.05 0 0"/><geometry><box size="0.1 2 2"/></geometry>
+    <material name="red"/></visual></link></robot>)";
+
+// What moves is drawn on every face of the canvas: a panel that stands across a seam, 45° aside, is there
+// whole.
+TEST(LensPicture, ShowsARobotAcrossTheSeamsOfItsFaces) {
+  const scene::Robot robot = scene::parseUrdf(kPanel, "panel.urdf", {});
+  scene::Scene scene;
+  addGround(&scene, addMaterial(&scene, {0.5f, 0.5f, 0.5f}), 60.0f);
+  const auto meshes = scene::addLooks(robot, &scene);
+  const light::World world(shared(std::move(scene)), meshes);
+  const PublishedLens published = tumViLens();
+  render::Renderer renderer(world, cameraOf(published, 1));
+  const Eigen::Isometry3d map_from_optical = lookingAt({0.0, 0.0, 1.5}, {10.0, 0.0, 1.5});
+  Eigen::Isometry3d panel = Eigen::Isometry3d::Identity();
+  panel.translation() = Eigen::Vector3d(3.0, 3.0, 1.5);
+  panel.linear() = Eigen::AngleAxisd(0.25 * kPi, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  renderer.look(map_from_optical, {panel});
+  const image::DepthImage depth = renderer.depth();
+  const image::Lens lens = published.lens();
+  int checked = 0;
+  for (int y = 0; y < depth.height; ++y) {
+    for (int x = 0; x < depth.width; ++x) {
+      const Eigen::Vector3d ray = map_from_optical.linear() * lens.unproject({x, y}).value();
+      // The panel's front is the plane x = 0 of its frame.
+      const Eigen::Vector3d eye = panel.inverse() * map_from_optical.translation();
+      const Eigen::Vector3d along = panel.linear().transpose() * ray;
+      const double there = -eye.x() / along.x();
+      const Eigen::Vector3d at = eye + there * along;
+      if (!(there > 0.0) || std::abs(at.y()) > 0.97 || std::abs(at.z()) > 0.97) continue;
+      ++checked;
+      EXPECT_NEAR(static_cast<double>(*depth.at(x, y)) / there, 1.0, 1e-5) << x << ' ' << y;
+    }
+  }
+  EXPECT_GT(checked, 3000);
 }
 
 // With nothing in the way each pixel has the sky of its own ray, but for what is interpolated, 0.1 %, and the
