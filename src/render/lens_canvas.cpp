@@ -34,10 +34,12 @@ Eigen::Vector2d onFace(const Eigen::Matrix3d& optical_from_face, const Eigen::Ve
   return there.head<2>() / there.z();
 }
 
+constexpr double kUnknown = 1e300;
+
 /// What the rays that a face serves need of it.
 struct Extent {
   Eigen::Array2d least = Eigen::Array2d::Constant(1e300), most = Eigen::Array2d::Constant(-1e300);
-  double densest = 1e300;  ///< the smallest area at depth 1 that is one sample of the picture
+  double densest = kUnknown;  ///< the smallest area at depth 1 that is one sample of the picture
 
   void add(const Eigen::Vector2d& at) {
     least = least.min(at.array());
@@ -88,7 +90,8 @@ void LensCanvas::layOutFaces(bool cube) {
       const std::size_t f = faceOf(here);
       const Eigen::Vector2d at = onFace(faces_[f].optical_from_face, here);
       extents[f].add(at);
-      if (column % kLookEvery > 0 || row % kLookEvery > 0) continue;
+      const bool is_looked_at = column % kLookEvery == 0 && row % kLookEvery == 0;
+      if (!is_looked_at && extents[f].densest < kUnknown) continue;
       const Eigen::Vector3d right = ray(column + (column + 1 < columns_ ? 1 : -1), row).cast<double>();
       const Eigen::Vector3d down = ray(column, row + (row + 1 < rows_ ? 1 : -1)).cast<double>();
       Eigen::Matrix2d sides;

@@ -1,6 +1,7 @@
 // What a camera with a lens sees lies where the lens puts it, at its own depth, without seams between the
 // pictures that it is drawn on.
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <array>
 #include <cmath>
@@ -346,6 +347,20 @@ TEST(LensPicture, OfALensThatHardlyBendsIsThePinholesPicture) {
   for (std::size_t i = 0; i < a.data.size(); ++i)
     differing += std::abs(a.data[i] - b.data[i]) > 0.01f * a.data[i] ? 1 : 0;
   EXPECT_LT(static_cast<double>(differing), 0.01 * static_cast<double>(a.data.size()));
+}
+
+TEST(LensPicture, HasTheSameBitsForAnyNumberOfThreads) {
+  const auto scene = shared(yard());
+  const sky::Daylight day = daylightAt(200.0, 40.0);
+  std::vector<std::vector<float>> pictures;
+  for (const std::size_t threads : {1, 3, 8}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    render::Renderer renderer(scene, cameraOf(tumViLens(), 2));
+    renderer.look(lookingAt({-6.0, -5.0, 2.0}, {3.0, 4.0, 0.5}));
+    pictures.push_back(renderer.light(day).data);
+  }
+  EXPECT_EQ(pictures[1], pictures[0]);
+  EXPECT_EQ(pictures[2], pictures[0]);
 }
 
 TEST(LensPicture, WithoutDistortionHasThePinholesBits) {
