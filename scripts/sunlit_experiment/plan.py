@@ -80,9 +80,9 @@ def parameters(typed, given, places, beginning):
     gave; `places`: files and folders by name (output, robots, report)."""
     has_self_test = read.flag("self_test", typed["self_test"])
     tree = {"experiment": _experiment(typed, given, places, beginning), "sun_position": _sun_position(typed),
-            "render": _main_renderer(typed, places, beginning), "evaluator": _evaluator(typed, places, beginning)}
+            "render": _main_renderer(typed, given, places, beginning), "evaluator": _evaluator(typed, places, beginning)}
     if has_self_test:
-        tree["self_test"] = {"render": _self_test_renderer(typed, places, beginning)}
+        tree["self_test"] = {"render": _self_test_renderer(typed, given, places, beginning)}
     return tree
 
 
@@ -108,7 +108,16 @@ def _sun_position(typed):
             "conditions": read.times_of(conditions(typed))}
 
 
-def _renderer(typed, places, beginning):
+def _camera(typed, given):
+    """A pinhole, or what a file says; beside that only what the user gave, which the renderer compares with it."""
+    pinhole = {"width": read.whole("width", typed["width"]), "height": read.whole("height", typed["height"]),
+               "horizontal_fov": read.number("horizontal_fov", typed["horizontal_fov"])}
+    if not typed["calibration"]:
+        return pinhole
+    return {"calibration": read.file(typed["calibration"]), **{name: pinhole[name] for name in pinhole if name in given}}
+
+
+def _renderer(typed, given, places, beginning):
     """What both renderers share."""
     # Without a name, the renderer draws by the first that was built.
     rasterizer = {"rasterizer": typed["rasterizer"]} if typed["rasterizer"] else {}
@@ -121,8 +130,7 @@ def _renderer(typed, places, beginning):
         "path": {"file": read.file(typed["path"]), "spacing": read.number("spacing", typed["spacing"]),
                  "camera_height": read.number("camera_height", typed["camera_height"]), "count": beginning.poses,
                  "offset": read.number("offset", typed["offset"]), "yaw": read.number("yaw", typed["yaw"])},
-        "camera": {"width": read.whole("width", typed["width"]), "height": read.whole("height", typed["height"]),
-                   "horizontal_fov": read.number("horizontal_fov", typed["horizontal_fov"]), **rasterizer},
+        "camera": {**_camera(typed, given), **rasterizer},
         "exposure": {"mode": typed["exposure"], "ev100": read.number("ev100", typed["ev100"]),
                      "highlight_protection": read.number("highlight_protection", typed["highlight_protection"])},
         "transport": {"final_gather": read.whole("final_gather", typed["final_gather"])},
@@ -140,7 +148,7 @@ def _renderer(typed, places, beginning):
     }
 
 
-def _main_renderer(typed, places, beginning):
+def _main_renderer(typed, given, places, beginning):
     readers = ["/evaluator/progress"]
     if read.flag("self_test", typed["self_test"]):
         readers.append("/self_test/render/progress")  # counts as one, so that the two keep abreast
@@ -149,7 +157,7 @@ def _main_renderer(typed, places, beginning):
     if recorders and beginning.is_evaluated() and beginning.recorded < beginning.poses:
         evaluators = 0  # it ends at once, having nothing to do; only the recorder is left to wait for
         readers = []
-    tree = _renderer(typed, places, beginning)
+    tree = _renderer(typed, given, places, beginning)
     tree.update(
         resume_at=beginning.render_at(),
         publish_clock=True,
@@ -161,9 +169,9 @@ def _main_renderer(typed, places, beginning):
     return tree
 
 
-def _self_test_renderer(typed, places, beginning):
+def _self_test_renderer(typed, given, places, beginning):
     """The second one, of each hour against itself; it is not recorded."""
-    tree = _renderer(typed, places, beginning)
+    tree = _renderer(typed, given, places, beginning)
     tree["path"]["stride"] = read.whole("self_test_every", typed["self_test_every"])
     tree.update(
         resume_at=beginning.evaluated,
@@ -176,6 +184,10 @@ def _self_test_renderer(typed, places, beginning):
     return tree
 
 
+def _about_camera(typed):
+    return typed["calibration"] or f"{typed['width']} x {typed['height']}, {typed['horizontal_fov']} deg"
+
+
 def _evaluator(typed, places, beginning):
     names = list(conditions(typed))
     if read.flag("self_test", typed["self_test"]):
@@ -184,8 +196,7 @@ def _evaluator(typed, places, beginning):
             "frame_rate": FRAME_RATE_HZ, "stamp_start": START_STAMP_S, "output_dir": places["output"],
             "images": "all" if read.flag("images", typed["images"]) else "samples", "exit_when_done": True,
             "about": dict({name: typed[name] for name in ABOUT},
-                          camera=f"{typed['width']} x {typed['height']}, {typed['horizontal_fov']} deg, "
-                                 f"{typed['camera_height']} m")}
+                          camera=f"{_about_camera(typed)}, {typed['camera_height']} m")}
     if read.flag("compressed", typed["compressed"]):
         tree["image_transport"] = "compressed"
     if typed["differences"] != "all":  # else its own default

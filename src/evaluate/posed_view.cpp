@@ -80,8 +80,9 @@ std::optional<double> depthAt(const cv::Mat& depth, const Eigen::Vector2d& pixel
 
 std::optional<Eigen::Vector3d> pointAt(const PosedView& view, const Eigen::Vector2d& pixel) {
   const auto depth = depthAt(view.depth, pixel);
-  if (!depth) return std::nullopt;
-  return view.map_from_optical * (*depth * view.camera.unproject(pixel));
+  const auto ray = view.camera.unproject(pixel);
+  if (!depth || !ray) return std::nullopt;
+  return view.map_from_optical * (*depth * *ray);
 }
 
 }  // namespace sunlit::evaluate

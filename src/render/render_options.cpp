@@ -7,6 +7,8 @@ namespace sunlit::render {
 
 void validate(const RenderOptions& options) {
   requireFields(options);
+  image::requireCoefficients(options.distortion, "distortion_coefficients");
+  if (!options.distortion.none()) static_cast<void>(image::Lens(options.camera, options.distortion).widest());
   require("far", options.far_m, Range::above(options.near_m, 1e7), "m");
   // Samples a side: products of two places in the picture then stay exact, see ScreenProjection and
   // TileRaster.

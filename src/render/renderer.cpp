@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/lens_canvas.h"
 #include "render/rasterizer.h"
 #include "render/resolve.h"
 #include "sunlit/light/picture.h"
@@ -23,6 +24,11 @@ View viewOf(const RenderOptions& options) {
   return view;
 }
 
+std::shared_ptr<LensCanvas> lensOf(const RenderOptions& options) {
+  if (options.distortion.none()) return nullptr;
+  return std::make_shared<LensCanvas>(image::Lens(options.camera, options.distortion), options.supersampling);
+}
+
 bool same(const BodyPlaces& a, const BodyPlaces& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const auto& x, const auto& y) { return x.matrix() == y.matrix(); });
@@ -35,6 +41,7 @@ class Renderer::Implementation {
   Implementation(const light::World& world, const RenderOptions& options)
       : options_(options),
         view_(viewOf(options)),
+        lens_(lensOf(options)),
         world_(world),
         pyramids_(*world.geometry->scene),
         maps_(*world.geometry->scene,
@@ -106,9 +113,13 @@ class Renderer::Implementation {
     seen.samples.clear();  // so that nobody takes a pose that failed for one that was drawn
     place(map_from_body, seen);
     seen.view = view_;
+    seen.view.lens = lens_;
     seen.view.map_from_optical = map_from_optical;
     try {
-      rasterizer_->draw(seen.view, seen.bodies.get(), &seen.samples);
+      if (lens_)
+        lens_->draw(rasterizer_.get(), bufferOf(seen), &seen.samples);
+      else
+        rasterizer_->draw(seen.view, seen.bodies.get(), &seen.samples);
       resolve(seen);
     } catch (...) {
       seen.samples.clear();
@@ -139,7 +150,8 @@ class Renderer::Implementation {
   }
 
   RenderOptions options_;
-  View view_;  // without a pose
+  View view_;                         // without a pose
+  std::shared_ptr<LensCanvas> lens_;  // null: a pinhole
   light::World world_;
   TexturePyramids pyramids_;  // before the rasterizer, which refers to them
   SurfaceMaps maps_;

@@ -56,6 +56,10 @@ struct Seen {
 /// it.
 double planeDepth(const Seen& seen, std::uint32_t triangle, const Eigen::Vector3d& ray);
 
+/// Whether `ray` from the eye passes through the triangle: it then lies on the same side of all three edges.
+/// Exact on shared edges up to rounding, which counts as inside.
+bool passesThrough(const Seen& seen, std::uint32_t triangle, const Eigen::Vector3d& ray);
+
 /// Samples of a pixel that look alike become one surface. Reuses the memory of `surfaces`.
 void resolveSurfaces(const Seen& seen, light::Surfaces* surfaces);
 

@@ -10,21 +10,6 @@
 namespace sunlit::render {
 namespace {
 
-/// Whether `ray` from the eye passes through the triangle: it then lies on the same side of all three edges.
-/// Exact on shared edges up to rounding, which counts as inside.
-bool passesThrough(const Seen& seen, std::uint32_t triangle, const Eigen::Vector3d& ray) {
-  const Eigen::Vector3d eye = seen.view.eye();
-  std::array<Eigen::Vector3d, 3> corners;
-  for (std::size_t i = 0; i < 3; ++i) corners[i] = seen.corner(triangle, i).cast<double>() - eye;
-  int positive = 0, negative = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double side = corners[i].cross(corners[(i + 1) % 3]).dot(ray);
-    positive += side > 0.0 ? 1 : 0;
-    negative += side < 0.0 ? 1 : 0;
-  }
-  return positive == 0 || negative == 0;
-}
-
 bool inReach(const Seen& seen, double depth) {
   return depth >= seen.view.near_m && depth <= seen.view.far_m;
 }
@@ -81,6 +66,25 @@ float centreDepth(const Seen& seen, const light::Visibility& visibility, int x, 
 }
 
 }  // namespace
+
+double planeDepth(const Seen& seen, std::uint32_t triangle, const Eigen::Vector3d& ray) {
+  const light::Plane& plane = seen.plane(triangle);
+  const Eigen::Vector3d normal = plane.normal.cast<double>();
+  return (plane.offset - normal.dot(seen.view.eye())) / normal.dot(ray);
+}
+
+bool passesThrough(const Seen& seen, std::uint32_t triangle, const Eigen::Vector3d& ray) {
+  const Eigen::Vector3d eye = seen.view.eye();
+  std::array<Eigen::Vector3d, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) corners[i] = seen.corner(triangle, i).cast<double>() - eye;
+  int positive = 0, negative = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double side = corners[i].cross(corners[(i + 1) % 3]).dot(ray);
+    positive += side > 0.0 ? 1 : 0;
+    negative += side < 0.0 ? 1 : 0;
+  }
+  return positive == 0 || negative == 0;
+}
 
 image::DepthImage resolveDepth(const Seen& seen, const light::Visibility& visibility) {
   image::DepthImage depth(seen.view.camera.width, seen.view.camera.height);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/cluster.h"
+#include "render/lens_canvas.h"
 #include "render/resolve.h"
 #include "render/tile_detail.h"
 #include "sunlit/light/reflection.h"
@@ -38,6 +39,10 @@ class TileResolver {
         ray_(seen.view.ray(seen.view.pixelOfSample(0), seen.view.pixelOfSample(0)).cast<float>()),
         eye_high_(seen.view.eye().cast<float>()),
         eye_low_((seen.view.eye() - eye_high_.cast<double>()).cast<float>()),
+        lens_(seen.view.lens.get()),
+        map_from_optical_(seen.view.map_from_optical.linear().cast<float>()),
+        right_(scene_detail.sample_right),
+        down_(scene_detail.sample_down),
         kept_(1.0f - scene_detail.sample_right.norm() / 16.0f),
         per_pixel_(static_cast<std::uint32_t>(seen.view.supersampling * seen.view.supersampling)) {
     for (std::size_t i = 0; i < sides_.size(); ++i) sides_[i] = std::sqrt(static_cast<float>(i));
@@ -53,6 +58,7 @@ class TileResolver {
     tile_.sky_share.assign(seen_.veils ? pixels : 0, Eigen::Array3f::Ones());
     for (int row = 0; row < tile_.height; ++row) {
       for (int column = 0; column < tile_.width; ++column) {
+        if (lens_) aim(tile_.x + column, tile_.y + row);
         tile_.sky[static_cast<std::size_t>(row * tile_.width + column)] =
             seen_.veils ? veiledPixel(tile_.x + column, tile_.y + row)
                         : pixel(tile_.x + column, tile_.y + row);
@@ -71,8 +77,16 @@ class TileResolver {
   };
 
   Eigen::Vector3f relative(const Sample& sample, int column, int row) const {
+    if (lens_) return sample.depth * (map_from_optical_ * lens_->ray(column, row));
     return sample.depth * (ray_ + static_cast<float>(column) * scene_detail_.sample_right +
                            static_cast<float>(row) * scene_detail_.sample_down);
+  }
+
+  /// Turns right_ and down_ to a pixel of a lens.
+  void aim(int x, int y) {
+    const float part = 1.0f / static_cast<float>(seen_.view.supersampling);
+    right_ = part * (map_from_optical_ * lens_->pixels()->right(x, y).cast<float>());
+    down_ = part * (map_from_optical_ * lens_->pixels()->down(x, y).cast<float>());
   }
 
   /// All samples of the pixel see one triangle.
@@ -134,8 +148,7 @@ class TileResolver {
     for (const light::Hit& hit : memory_.hits) {
       const Eigen::Vector3f point = hit.distance * ray;
       const SeenTriangle& triangle = memory_.triangles.at(seen_, hit.triangle);
-      const Footprint step =
-          triangle.footprint(point, hit.distance, scene_detail_.sample_right, scene_detail_.sample_down);
+      const Footprint step = triangle.footprint(point, hit.distance, right_, down_);
       const Eigen::Array2f shares = triangle.sharesAt(point);
       const scene::Material& material = seen_.look(triangle.material());
       // Glass sends its own light whole, and lets through what it does not mirror.
@@ -251,8 +264,7 @@ class TileResolver {
     seeing->geometric_normal = triangle.geometricNormal();
     const Eigen::Array2f shares = triangle.sharesAt(middle);
     seeing->shading_normal = triangle.shadingNormal(shares);
-    Footprint step =
-        triangle.footprint(middle, seeing->depth, scene_detail_.sample_right, scene_detail_.sample_down);
+    Footprint step = triangle.footprint(middle, seeing->depth, right_, down_);
     if (scene_detail_.has(seeing->material)) {
       const float right = step.right.norm(), down = step.down.norm();
       seeing->footprint = std::max(right, down);
@@ -338,6 +350,9 @@ class TileResolver {
   std::array<Eigen::Array3f, kMostSamples> unveiled_{};  ///< of the pixel's samples, what is seen of them
   Eigen::Vector3f ray_;                                  ///< of sample (0, 0), of depth 1 m
   Eigen::Vector3f eye_high_, eye_low_;                   ///< whose sum is the eye
+  const LensCanvas* lens_;                               ///< null: a pinhole
+  Eigen::Matrix3f map_from_optical_;
+  Eigen::Vector3f right_, down_;  ///< from one sample to the next, of depth 1 m
   /// Part of the way from the eye at which shadow rays start. Rounded corners let a sample at an edge be
   /// taken for the surface beside it, and its ray start beyond that edge, where the sun may shine. A
   /// sixteenth of a sample towards the eye, which sees both surfaces, brings it back. Thin sheets send rays
@@ -355,8 +370,10 @@ void layOutTiles(const View& view, light::Surfaces* surfaces) {
   surfaces->samples_per_pixel = view.supersampling * view.supersampling;
   surfaces->eye = view.eye().cast<float>();
   surfaces->pixel_origin = view.ray(0.0, 0.0).cast<float>();
-  surfaces->pixel_right = (view.ray(1.0, 0.0) - view.ray(0.0, 0.0)).cast<float>();
-  surfaces->pixel_down = (view.ray(0.0, 1.0) - view.ray(0.0, 0.0)).cast<float>();
+  surfaces->pixel_right = view.pixelRight().cast<float>();
+  surfaces->pixel_down = view.pixelDown().cast<float>();
+  surfaces->bent = view.lens ? view.lens->pixels() : nullptr;
+  surfaces->map_from_optical = view.map_from_optical.linear();
   const int columns = (surfaces->width + size - 1) / size;
   const int rows = (surfaces->height + size - 1) / size;
   surfaces->tiles.resize(static_cast<std::size_t>(columns * rows));
@@ -370,12 +387,6 @@ void layOutTiles(const View& view, light::Surfaces* surfaces) {
 }
 
 }  // namespace
-
-double planeDepth(const Seen& seen, std::uint32_t triangle, const Eigen::Vector3d& ray) {
-  const light::Plane& plane = seen.plane(triangle);
-  const Eigen::Vector3d normal = plane.normal.cast<double>();
-  return (plane.offset - normal.dot(seen.view.eye())) / normal.dot(ray);
-}
 
 void resolveSurfaces(const Seen& seen, light::Surfaces* surfaces) {
   layOutTiles(seen.view, surfaces);

@@ -35,9 +35,8 @@ SceneDetail::SceneDetail(const scene::Scene& scene, const View& view)
     tints[i] = detail.tint;
     if (detail.contrast > 0.0f) octaves[i].emplace(detail, view.eye());
   }
-  const Eigen::Vector3d origin = view.ray(0.0, 0.0);
-  sample_right = ((view.ray(1.0, 0.0) - origin) / view.supersampling).cast<float>();
-  sample_down = ((view.ray(0.0, 1.0) - origin) / view.supersampling).cast<float>();
+  sample_right = (view.pixelRight() / view.supersampling).cast<float>();
+  sample_down = (view.pixelDown() / view.supersampling).cast<float>();
 }
 
 void TileDetail::add(const Entry& entry) {

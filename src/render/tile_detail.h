@@ -19,7 +19,8 @@ struct SceneDetail {
 
   std::vector<std::optional<DetailOctaves>> octaves;  ///< by material; empty for one without detail
   std::vector<Eigen::Array3f> tints;                  ///< by material
-  Eigen::Vector3f sample_right, sample_down;          ///< from one sample to the next, in `map`, at depth 1 m
+  Eigen::Vector3f sample_right,
+      sample_down;  ///< from one sample to the next at depth 1 m, as View::pixelRight()
 };
 
 /// Collects the surfaces that have detail, and evaluates it for many of one material together.

@@ -57,6 +57,7 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylig
   // a gigabyte.
   constexpr int kStripPx = 256;
   render::RenderOptions options = options_.render;
+  options.distortion = image::Distortion();
   options.final_gather = 0;  // the whole world at a glance: its leaves are smaller than pixels
   const int strip = std::min(height, kStripPx);
   const double focal_px = px_per_m * distance_m;

@@ -291,6 +291,7 @@ std::optional<AtlasRunOptions> parseAtlasOptions(const std::vector<std::string>&
   options.studio.exposure = words.sensor.exposureOptions();
   options.studio.noise = words.sensor.noise;
   render::validate(options.studio.render);
+  requireNoDistortion(options.studio.render, "queries are localised with");
   options.conditions = conditionsOf(words, options.place.date);
   options.poses = posesOf(words, options.studio.world);
   options.atlas.has_query_drive = words.query_offset_m != 0.0;

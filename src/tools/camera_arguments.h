@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <string>
 #include <vector>
 
+#include "sunlit/image/calibration.h"
 #include "sunlit/quantity/field.h"
 #include "sunlit/render/renderer.h"
 #include "sunlit/studio/command_line.h"
@@ -11,19 +13,24 @@
 
 namespace sunlit::tools {
 
-/// What must be known in full before a camera can be made.
+/// What must be known in full before a camera can be made. Stays where it is once addCamera() knows it.
 struct CameraWords {
   render::RenderOptions render;  ///< but for what the field of view says of its camera
   double fov_deg = 90.0;
+  std::string calibration;  ///< a file; empty: size and field of view say it
+  std::vector<image::TypedBeside> typed;
 
-  /// Not validated.
+  /// Not validated. Throws what image::readCalibration() and image::requireAgreement() throw.
   render::RenderOptions options() const;
   /// Throws std::invalid_argument if the camera can't have what it asks for of a world baked like this.
   void requireSense(const studio::BakeOptions& bake) const;
 };
 
-/// --size, --fov, --supersampling, --final-gather and --rasterizer.
+/// --size, --fov, --calibration, --supersampling, --final-gather and --rasterizer.
 void addCamera(studio::CommandLine* line, CameraWords* words);
+
+/// Throws std::invalid_argument for a lens that bends, of a tool whose `purpose` are pinholes.
+void requireNoDistortion(const render::RenderOptions& options, const std::string& purpose);
 
 /// Where a camera stands and how it is turned.
 struct TypedPose {

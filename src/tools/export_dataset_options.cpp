@@ -131,6 +131,7 @@ std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& 
   options.studio.exposure = words.sensor.exposureOptions();
   options.studio.noise = words.sensor.noise;
   render::validate(options.studio.render);
+  requireNoDistortion(options.studio.render, "data sets are of");
   options.data_set.camera = options.studio.render.camera;
   options.data_set.rate_hz = options.rate_hz / words.path.selection.stride;
   options.frames = framesOf(words.path, options);

@@ -90,6 +90,8 @@ void ViewArguments::requireThatAllCount() const {
     what = "--path-pose places the camera already; leave out --pose, --look-at and --top-down";
   } else if (has_top_down && (has_pose || has_look_at)) {
     what = "--top-down places the camera already; leave out --pose and --look-at";
+  } else if (has_top_down && line_->has("--calibration")) {
+    what = "--top-down has a camera of its own; leave out --calibration";
   } else if (has_top_down && line_->has("--fov")) {
     what = "--top-down has its own field of view, by its EXTENT; leave out --fov";
   } else if (has_look_at && turned_) {

@@ -91,7 +91,9 @@ std::vector<std::string> seeds() {
           wire('d', imageOf(encodings::TYPE_32FC1, 4)),
           wire('d', imageOf(encodings::TYPE_16UC1, 2)),
           wire('c', png),
-          wire('k', toCameraInfo(image::PinholeCamera::fromFieldOfView(64, 48, Angle::degrees(60.0)), {})),
+          wire('k', toCameraInfo(image::calibrationOf(
+                                     image::PinholeCamera::fromFieldOfView(64, 48, Angle::degrees(60.0))),
+                                 {})),
           wire('p', pose),
           wire('s', sun),
           wire('m', moon),

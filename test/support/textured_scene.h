@@ -45,8 +45,8 @@ class TexturedScene {
     for (const TexturedRectangle& rectangle : rectangles_) textures_.push_back(blobs(rectangle.seed));
   }
 
-  /// By one ray through the centre of each pixel; black, and NaN in depth, where nothing is.
-  PosedView seenFrom(const Eigen::Isometry3d& map_from_optical, const image::PinholeCamera& camera) const {
+  /// By one ray through the centre of each pixel, by its lens; black, and NaN in depth, where nothing is.
+  PosedView seenFrom(const Eigen::Isometry3d& map_from_optical, const ViewCamera& camera) const {
     PosedView view;
     view.camera = camera;
     view.map_from_optical = map_from_optical;
@@ -63,7 +63,9 @@ class TexturedScene {
  private:
   void look(PosedView* view, cv::Mat* rgb, int x, int y) const {
     const Eigen::Vector3d origin = view->map_from_optical.translation();
-    const Eigen::Vector3d ray = view->map_from_optical.linear() * view->camera.unproject({x, y});
+    const auto optical_ray = view->camera.unproject({x, y});
+    if (!optical_ray) return;
+    const Eigen::Vector3d ray = view->map_from_optical.linear() * *optical_ray;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < rectangles_.size(); ++i) {
       const TexturedRectangle& r = rectangles_[i];

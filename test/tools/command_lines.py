@@ -3,6 +3,7 @@
 import pathlib
 import re
 import shlex
+import struct
 import sys
 import tempfile
 import unittest
@@ -14,7 +15,8 @@ from timelapse import WORLD, run
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # A word of each group of options, and what its row says of it.
-CAMERA = {"--size": "(default 640x480)", "--fov": "0.1 … 175 deg, default 90", "--supersampling": "1 … 4, default 2",
+CAMERA = {"--size": "(default 640x480)", "--fov": "0.1 … 175 deg, default 90", "--calibration": "camera_info_manager",
+          "--supersampling": "1 … 4, default 2",
           "--final-gather": "0 … 16, default 0", "--rasterizer": "osmesa|egl|builtin"}
 WORLDS = {"--world": "default race_track", "--model-path": "may be repeated", "--missing": "stop|warn"}
 BOUNCED = {"--bounced": "off|on", "--cache": "SUNLIT_CACHE_DIR"}
@@ -205,6 +207,28 @@ class CommandLines(unittest.TestCase):
             self.assertTrue(programs, option)
             for program in programs:
                 self.assertIn(said, self.refused(program, option, value))
+
+    def test_a_calibration_goes_with_nothing_that_it_contradicts(self):
+        file = str(ROOT / "test/support/cameras/euroc.yaml")
+        with tempfile.TemporaryDirectory() as folder:
+            out = str(pathlib.Path(folder) / "picture.png")
+            for program, options in (("snapshot", ["--out", out]), ("timelapse", ["--out", folder]),
+                                     ("compare_light", ["--out", folder])):
+                said = self.refused(program, *options, "--calibration", file, "--size", "640x480")
+                self.assertIn("--size (width) is 640, but must be 752 px as in " + file, said)
+                said = self.refused(program, *options, "--calibration", file, "--fov", "60")
+                self.assertIn("--fov is 60, but must be 93.1", said)
+                self.assertIn("/nowhere.yaml: cannot be opened", self.refused(program, *options, "--calibration", "/nowhere.yaml"))
+            self.assertIn("--top-down has a camera of its own; leave out --calibration",
+                          self.refused("snapshot", "--out", out, "--calibration", file, "--top-down", "0,0,10"))
+            self.assertIn("--calibration is of a lens with distortion (plumb_bob), but data sets are of cameras without",
+                          self.refused("export_dataset", "--format", "tum", folder + "/set", "--calibration", file))
+            self.assertIn("but queries are localised with cameras without",
+                          self.refused("atlas", "--out", folder + "/atlas", "--calibration", file))
+            done = run("snapshot", "--world", WORLD, "--bounced", "off", "--calibration", file, "--out", out)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(out, "rb") as picture:
+                self.assertEqual(struct.unpack(">II", picture.read(24)[16:]), (752, 480))
 
     def test_an_option_is_spelt_in_full(self):
         for program in OPTIONS:

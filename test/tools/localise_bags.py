@@ -293,9 +293,10 @@ class LocaliseBags(unittest.TestCase):
 
     def test_what_cannot_be_used_at_all_is_refused(self):
         noon, dusk = self.bags()
-        bent = self.write("bent.bag", "h20/", [0.5], distortion=[0.1, 0, 0, 0, 0])
+        bent = self.write("bent.bag", "h20/", [0.5], distortion=[0.1, 0, 0])
         self.assertIn("no query can be used: 1 images could not be used", self.refused("--map", noon, "--query", bent))
-        self.assertIn("camera_info has distortion: rectify the images first", self.refused("--map", noon, "--query", bent))
+        self.assertIn("camera_info/D is 3 numbers, but must be 4 or 5, k1 k2 p1 p2 [k3], for plumb_bob",
+                      self.refused("--map", noon, "--query", bent))
         self.assertIn("the map has no key frame", self.refused("--map", bent, "--query", noon))
         for arguments in (["--map", noon], ["--query", dusk]):
             self.assertIn("--map and --query need each other", self.refused(*arguments))

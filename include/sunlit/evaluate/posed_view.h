@@ -6,16 +6,16 @@
 #include <optional>
 
 #include "sunlit/evaluate/picture.h"
-#include "sunlit/image/camera.h"
+#include "sunlit/evaluate/view_camera.h"
 
 namespace sunlit::evaluate {
 
 struct PosedView {
   Picture picture;
-  image::PinholeCamera camera;
+  ViewCamera camera;
   /// The optical frame (z forward, x right, y down) in the frame that all views share.
   Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
-  /// CV_32FC1, m along z of the optical frame, at the centres of the camera's pixels; what is not finite or
+  /// CV_32FC1, m as ViewCamera::depthOf(), at the centres of the camera's pixels; what is not finite or
   /// not above 0 shows nothing. Empty: nothing is known.
   cv::Mat depth;
 };

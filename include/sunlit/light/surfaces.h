@@ -4,7 +4,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
+
+#include "sunlit/light/pixel_rays.h"
 
 namespace sunlit::light {
 
@@ -60,7 +63,17 @@ struct Surfaces {
   Eigen::Vector3f pixel_origin = Eigen::Vector3f::Zero();
   Eigen::Vector3f pixel_right = Eigen::Vector3f::Zero(), pixel_down = Eigen::Vector3f::Zero();
   Eigen::Vector3f eye = Eigen::Vector3f::Zero();  ///< the camera, m in `map`
+  /// Of a lens that bends, along whose rays pixels look; then the three say it of the middle alone. Else
+  /// null.
+  std::shared_ptr<const PixelRays> bent;
+  Eigen::Matrix3d map_from_optical = Eigen::Matrix3d::Identity();  ///< that `bent` is turned by
   std::vector<Tile> tiles;
+
+  /// Where (x, y) looks, unit.
+  Eigen::Vector3f towards(float x, float y) const {
+    if (bent) return (map_from_optical * bent->at(x, y)).normalized().cast<float>();
+    return (pixel_origin + x * pixel_right + y * pixel_down).normalized();
+  }
 };
 
 }  // namespace sunlit::light

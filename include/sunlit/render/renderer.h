@@ -8,6 +8,7 @@
 
 #include "sunlit/image/camera.h"
 #include "sunlit/image/images.h"
+#include "sunlit/image/lens.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/picture.h"
 #include "sunlit/light/surfaces.h"
@@ -20,7 +21,8 @@ namespace sunlit::render {
 
 struct RenderOptions {
   image::PinholeCamera camera;
-  int supersampling = 2;  ///< 2 is four samples a pixel
+  image::Distortion distortion;  ///< of its lens; one that bends nothing makes a pinhole of it
+  int supersampling = 2;         ///< 2 is four samples a pixel
   double near_m = 0.05;
   double far_m = 20000.0;  ///< above near_m
   double texture_lod_bias = 0.0;
@@ -76,7 +78,8 @@ class Renderer {
   void lookAhead(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body = {});
   /// Luminance of each pixel, cd/m². `light` is of this renderer's world, or just a sky::Daylight.
   image::LinearImage light(const light::Illumination& light) const;
-  /// Depth of what the centre of each pixel sees, m along the optical axis; NaN for sky.
+  /// Depth of what the centre of each pixel sees, m along the optical axis; before a lens that is
+  /// image::Lens::wide(), where that would be 0 at the side, the distance from the camera. NaN for sky.
   image::DepthImage depth() const;
 
   /// What light() lights: valid until the next look().

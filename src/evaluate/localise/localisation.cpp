@@ -88,7 +88,7 @@ std::vector<std::vector<LocalisedQuery>> Localisation::localise(const std::vecto
   tbb::parallel_for(std::size_t{0}, queries.size() * detectors_.size(), [&](std::size_t task) {
     const PosedView& query = queries[task / detectors_.size()];
     PerDetector& detector = *detectors_[task % detectors_.size()];
-    const Features features = detector.pool.detect(query.picture);
+    const Features features = straightened(detector.pool.detect(query.picture), query.camera);
     results[task / detectors_.size()][task % detectors_.size()] =
         detector.localiser.localise({features, query.camera, query.map_from_optical});
   });

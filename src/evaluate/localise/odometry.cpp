@@ -19,7 +19,8 @@ Eigen::Isometry3d Odometry::follow(const PosedView& view, const Features& featur
     takeAsKeyFrame(view, features);
     return map_from_optical_;
   }
-  const LocalisedQuery found = key_frame_->localise({features, view.camera, map_from_optical_});
+  const Features straight = straightened(features, view.camera);
+  const LocalisedQuery found = key_frame_->localise({straight, view.camera, map_from_optical_});
   const bool is_lost = found.status != LocalisationStatus::kLocalised;
   const Eigen::Isometry3d before = map_from_optical_;
   map_from_optical_ = is_lost ? before * before_from_last_ : found.estimate.map_from_optical;

@@ -75,7 +75,7 @@ void Evaluation::addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d
   state_->addTruePose(stamp_ns, map_from_optical);
 }
 
-void Evaluation::addCamera(std::size_t stream, const Told<image::PinholeCamera>& camera) {
+void Evaluation::addCamera(std::size_t stream, const Told<ViewCamera>& camera) {
   state_->addCamera(stream, camera);
 }
 

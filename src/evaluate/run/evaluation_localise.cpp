@@ -50,7 +50,7 @@ void Evaluation::State::addTruePose(std::int64_t stamp_ns, const Told<Eigen::Iso
   addTruth(stamp_ns, [&](GroundTruth& truth) { truth.addPose(stamp_ns, map_from_optical); });
 }
 
-void Evaluation::State::addCamera(std::size_t stream, const Told<image::PinholeCamera>& camera) {
+void Evaluation::State::addCamera(std::size_t stream, const Told<ViewCamera>& camera) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_finished_ || !observer_) return;
   const bool is_first = !observer_->truth().camera(stream).has_come;

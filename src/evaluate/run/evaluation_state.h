@@ -41,7 +41,7 @@ class Evaluation::State {
   void add(const PlaceRecord& place);
   void addDepth(std::int64_t stamp_ns, const Told<cv::Mat>& depth);
   void addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d>& map_from_optical);
-  void addCamera(std::size_t stream, const Told<image::PinholeCamera>& camera);
+  void addCamera(std::size_t stream, const Told<ViewCamera>& camera);
   LocalisationOutcome localise(const LocaliseCallbacks& callbacks);
   void compareMethods(const StopToken& stop);
   void addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns);

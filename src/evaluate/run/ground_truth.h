@@ -11,7 +11,7 @@
 
 #include "evaluate/run/stamp_sets.h"
 #include "sunlit/evaluate/run/told.h"
-#include "sunlit/image/camera.h"
+#include "sunlit/evaluate/view_camera.h"
 
 namespace sunlit::evaluate {
 
@@ -21,7 +21,7 @@ class GroundTruth {
  public:
   using Pose = Told<Eigen::Isometry3d>;  ///< map_from_optical
   using Depth = Told<cv::Mat>;           ///< as in PosedView
-  using Camera = Told<image::PinholeCamera>;
+  using Camera = Told<ViewCamera>;
 
   /// Of one stamp.
   struct View {

@@ -54,7 +54,7 @@ std::string Observer::faultOf(std::size_t stream, const GroundTruth::View& truth
       firstFaultOf({{truth.map_from_optical.has_come, truth.map_from_optical.fault, "camera/pose"},
                     {truth.cameras.at(stream).has_come, truth.cameras[stream].fault, "camera/camera_info"}});
   if (!fault.empty()) return fault;
-  const image::PinholeCamera& camera = truth.cameras[stream].value;
+  const ViewCamera& camera = truth.cameras[stream].value;
   const cv::Size of_camera(camera.width, camera.height);
   if (size != of_camera) return "is " + sizeOf(size) + ", but its camera_info " + sizeOf(of_camera);
   if (roles_[stream] != Role::kMap) return "";
@@ -79,8 +79,10 @@ void Observer::observe(const ObservedPicture& picture, const GroundTruth::View& 
   view.camera = truth.cameras.at(picture.stream).value;
   view.map_from_optical = truth.map_from_optical.value;
   view.depth = truth.depth.value;
-  Observation observation{view.camera, view.map_from_optical, features, {}};
-  if (roles_[picture.stream] == Role::kMap) observation.points = pointsOf(view, features);
+  // From here on the camera is a pinhole, and so are its key points.
+  Observation observation{view.camera, view.map_from_optical, straightened(features, view.camera), {}};
+  if (roles_[picture.stream] == Role::kMap)
+    observation.points = pointsOf(view, straightOnes(features, view.camera));
   file_.add({setup_.streams[picture.stream], detector, picture.pose, picture.stamp_ns}, observation);
 }
 

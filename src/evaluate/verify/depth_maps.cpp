@@ -13,9 +13,11 @@ PointMap mapBetween(const PosedView& from, const PosedView& to) {
     if (!place) return std::nullopt;
     const Eigen::Vector3d seen = to_from_map * *place;
     if (!(seen.z() > 0.0)) return std::nullopt;
-    const Eigen::Vector2d there = to.camera.project(seen);
-    const auto shown = depthAt(to.depth, there);
-    if (!shown || std::abs(*shown - seen.z()) > kSameDepth * seen.z()) return std::nullopt;
+    const auto there = to.camera.project(seen);
+    if (!there) return std::nullopt;
+    const auto shown = depthAt(to.depth, *there);
+    const double depth = to.camera.depthOf(seen);
+    if (!shown || std::abs(*shown - depth) > kSameDepth * depth) return std::nullopt;
     return there;
   };
 }

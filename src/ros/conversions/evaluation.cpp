@@ -52,11 +52,12 @@ evaluate::Told<Eigen::Isometry3d> truePoseOf(const geometry_msgs::PoseStamped& m
   }
 }
 
-evaluate::Told<image::PinholeCamera> cameraOf(const sensor_msgs::CameraInfo& message) {
+evaluate::Told<evaluate::ViewCamera> cameraOf(const sensor_msgs::CameraInfo& message) {
   try {
-    return evaluate::told(fromCameraInfo(message));
+    const image::Calibration read = fromCameraInfo(message);
+    return evaluate::told(evaluate::ViewCamera(read.camera, read.distortion));
   } catch (const std::invalid_argument& error) {
-    return evaluate::unusable<image::PinholeCamera>(error.what());
+    return evaluate::unusable<evaluate::ViewCamera>(error.what());
   }
 }
 

@@ -24,7 +24,7 @@ evaluate::CaptureRecord captureOf(const Capture& message);
 evaluate::PlaceRecord placeOf(const geometry_msgs::PoseStamped& message);
 /// Where the camera's optical frame stood in `map`, from the pose of camera_link.
 evaluate::Told<Eigen::Isometry3d> truePoseOf(const geometry_msgs::PoseStamped& message);
-evaluate::Told<image::PinholeCamera> cameraOf(const sensor_msgs::CameraInfo& message);
+evaluate::Told<evaluate::ViewCamera> cameraOf(const sensor_msgs::CameraInfo& message);
 evaluate::Told<cv::Mat> depthOf(const sensor_msgs::Image& message, std::size_t max_pixels);
 PairDifference messageOf(const evaluate::EvaluationOptions& options, const evaluate::PairRecord& record);
 /// rgb8.

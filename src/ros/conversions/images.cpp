@@ -1,7 +1,6 @@
 #include "ros/conversions/images.h"
 
 #include <cv_bridge/cv_bridge.h>
-#include <sensor_msgs/distortion_models.h>
 #include <sensor_msgs/image_encodings.h>
 #include <boost/make_shared.hpp>
 
@@ -25,6 +24,18 @@ sensor_msgs::ImagePtr packed(const image::Picture<Value, kChannels>& picture, co
   return cv_bridge::CvImage(header, encoding, pixels).toImageMsg();
 }
 
+/// Without coefficients there is none, whatever the model is called.
+image::Distortion distortionOf(const sensor_msgs::CameraInfo& info) {
+  if (info.D.empty()) return {};
+  image::Distortion distortion;
+  Field model{
+      "camera_info/distortion_model", choiceOf(&distortion.model, image::lensModelNames()), "", {}, ""};
+  model.set(info.distortion_model, model.key);
+  distortion.coefficients = info.D;
+  image::requireCoefficients(distortion, "camera_info/D");
+  return distortion;
+}
+
 }  // namespace
 
 sensor_msgs::ImagePtr toImageMessage(const image::Rgb8Image& picture, const std_msgs::Header& header) {
@@ -45,37 +56,39 @@ sensor_msgs::CompressedImagePtr toPngMessage(const image::Rgb8Image& picture,
   return message;
 }
 
-sensor_msgs::CameraInfo toCameraInfo(const image::PinholeCamera& camera, const std_msgs::Header& header) {
+sensor_msgs::CameraInfo toCameraInfo(const image::Calibration& calibration, const std_msgs::Header& header) {
+  const image::PinholeCamera& camera = calibration.camera;
   sensor_msgs::CameraInfo info;
   info.header = header;
   info.width = static_cast<std::uint32_t>(camera.width);
   info.height = static_cast<std::uint32_t>(camera.height);
-  info.distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
-  info.D.assign(5, 0.0);
+  info.distortion_model = image::nameOf(calibration.distortion.model);
+  info.D = calibration.distortion.coefficients;
   info.K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
-  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  info.P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
+  std::copy(calibration.rectification.begin(), calibration.rectification.end(), info.R.begin());
+  std::copy(calibration.projection.begin(), calibration.projection.end(), info.P.begin());
   return info;
 }
 
-image::PinholeCamera fromCameraInfo(const sensor_msgs::CameraInfo& info) {
-  const auto isNot0 = [](double number) { return number != 0.0; };
-  if (std::any_of(info.D.begin(), info.D.end(), isNot0))
-    throw std::invalid_argument("camera_info has distortion: rectify the images first (image_proc)");
+image::Calibration fromCameraInfo(const sensor_msgs::CameraInfo& info) {
   if (info.K[1] != 0.0) throw std::invalid_argument("camera_info has skew, but must have none");
   const bool is_whole = (info.roi.width == 0 || info.roi.width == info.width) &&
                         (info.roi.height == 0 || info.roi.height == info.height);
   if (info.binning_x > 1 || info.binning_y > 1 || !is_whole)
     throw std::invalid_argument("camera_info has binning or a region of interest, but must have neither");
   if (info.width > INT_MAX || info.height > INT_MAX) throw std::invalid_argument("camera_info has no size");
-  image::PinholeCamera camera{static_cast<int>(info.width),
-                              static_cast<int>(info.height),
-                              info.K[0],
-                              info.K[4],
-                              info.K[2],
-                              info.K[5]};
-  for (const Field& field : under("camera_info", fieldsOf(camera))) field.require();
-  return camera;
+  image::Calibration read;
+  read.camera = {static_cast<int>(info.width),
+                 static_cast<int>(info.height),
+                 info.K[0],
+                 info.K[4],
+                 info.K[2],
+                 info.K[5]};
+  for (const Field& field : under("camera_info", fieldsOf(read.camera))) field.require();
+  read.distortion = distortionOf(info);
+  std::copy(info.R.begin(), info.R.end(), read.rectification.begin());
+  std::copy(info.P.begin(), info.P.end(), read.projection.begin());
+  return read;
 }
 
 }  // namespace sunlit::ros_interface

@@ -5,7 +5,7 @@
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 
-#include "sunlit/image/camera.h"
+#include "sunlit/image/calibration.h"
 #include "sunlit/image/images.h"
 
 namespace sunlit::ros_interface {
@@ -14,12 +14,13 @@ namespace sunlit::ros_interface {
 sensor_msgs::ImagePtr toImageMessage(const image::Rgb8Image& picture, const std_msgs::Header& header);
 /// Without loss; the format is named as compressed_image_transport does.
 sensor_msgs::CompressedImagePtr toPngMessage(const image::Rgb8Image& picture, const std_msgs::Header& header);
-/// Encoding 32FC1, m along the optical axis, NaN where there is nothing (REP-117, REP-118).
+/// Encoding 32FC1, m as render::Renderer::depth(), NaN where there is nothing (REP-117, REP-118).
 sensor_msgs::ImagePtr toImageMessage(const image::DepthImage& depth, const std_msgs::Header& header);
-/// No distortion: model plumb_bob with zeros, rectification the identity.
-sensor_msgs::CameraInfo toCameraInfo(const image::PinholeCamera& camera, const std_msgs::Header& header);
-/// Throws std::invalid_argument, saying what is wrong, for a camera with distortion, skew, binning or a
-/// region of interest, and for numbers out of the ranges of fieldsOf(PinholeCamera).
-image::PinholeCamera fromCameraInfo(const sensor_msgs::CameraInfo& info);
+/// All numbers as they are.
+sensor_msgs::CameraInfo toCameraInfo(const image::Calibration& camera, const std_msgs::Header& header);
+/// Throws std::invalid_argument, saying what is wrong, for skew, binning or a region of interest, for a model
+/// that image::lensModelNames() does not have or another number of coefficients than it has, and for numbers
+/// out of the ranges of fieldsOf(PinholeCamera).
+image::Calibration fromCameraInfo(const sensor_msgs::CameraInfo& info);
 
 }  // namespace sunlit::ros_interface

@@ -191,13 +191,14 @@ BagViews::Entry BagViews::entryOf(std::int64_t stamp_ns) const {
   return entry;
 }
 
-image::PinholeCamera BagViews::cameraAt(std::int64_t stamp_ns) const {
+evaluate::ViewCamera BagViews::cameraAt(std::int64_t stamp_ns) const {
   const ByStamp<sensor_msgs::CameraInfo>& cameras = index_->cameras;
   const auto found = nearest(cameras, stamp_ns);
   const bool is_near = found != cameras.end() && std::abs(found->first - stamp_ns) <= toleranceOf(topics_);
   if (!is_near && cameras.size() != 1)
     throw std::invalid_argument(lackOf(calledOr(topics_.camera_info, "camera_info"), cameras, stamp_ns));
-  return fromCameraInfo(found->second);
+  const image::Calibration read = fromCameraInfo(found->second);
+  return {read.camera, read.distortion};
 }
 
 Eigen::Isometry3d BagViews::poseAt(std::int64_t stamp_ns) const {

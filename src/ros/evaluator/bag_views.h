@@ -30,7 +30,7 @@ class BagViews {
     std::int64_t stamp_ns = 0;
     /// As camera/capture numbers them where it does so for all, rising; else by rising stamp from 0.
     std::size_t pose = 0;
-    image::PinholeCamera camera;
+    evaluate::ViewCamera camera;
     Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
     std::string fault;  ///< of camera or pose, "no camera_info of this stamp"; empty where both are there
     std::optional<std::int64_t> depth_stamp_ns;
@@ -60,7 +60,7 @@ class BagViews {
   void readIndex();
   void makeEntries();
   Entry entryOf(std::int64_t stamp_ns) const;
-  image::PinholeCamera cameraAt(std::int64_t stamp_ns) const;
+  evaluate::ViewCamera cameraAt(std::int64_t stamp_ns) const;
   Eigen::Isometry3d poseAt(std::int64_t stamp_ns) const;
   std::string readDepth(const Entry& entry, cv::Mat* depth) const;
 

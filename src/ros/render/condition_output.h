@@ -10,7 +10,7 @@
 #include "ros/render/camera_output.h"
 #include "ros/render/options.h"
 #include "ros/render/sky_moments.h"
-#include "sunlit/image/camera.h"
+#include "sunlit/image/calibration.h"
 #include "sunlit/image/images.h"
 #include "sunlit/sky/daylight.h"
 
@@ -32,7 +32,7 @@ struct SkyMoment {
 
 /// Of all that leaves the node.
 struct OutputOptions {
-  image::PinholeCamera camera;
+  image::Calibration camera;
   CameraFrames frames;
   std::uint32_t queue_size = 10;  ///< messages kept for a subscriber that is slow to read
   bool compressed = false;        ///< pictures in PNG

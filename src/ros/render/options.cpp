@@ -33,6 +33,7 @@ std::vector<Field> fieldsOf(CameraOptions& camera) {
   return {rendererRow("width", &camera.width),
           rendererRow("height", &camera.height),
           image::fieldOfViewRow(&camera.horizontal_fov),
+          image::calibrationRow(&camera.calibration_file),
           rendererRow("supersampling", &camera.supersampling),
           rendererRow("rasterizer", choiceOf(&camera.rasterizer, render::rasterizerNames())),
           Field{"follow",
@@ -99,6 +100,19 @@ std::vector<Field> airFields(studio::SkyOptions* sky) {
     if (row.key == "ground_albedo") row.place = NumberOrWord{&sky->fixed_ground_albedo, "auto"};
   }
   return rows;
+}
+
+/// Reads the camera's own file, if there is one; what is typed beside must be in it.
+void readCalibration(const ParameterReader& parameters, CameraOptions* camera) {
+  if (camera->calibration_file.empty()) return;
+  camera->calibration = image::readCalibration(camera->calibration_file);
+  for (const Field& row : fieldsOf(*camera)) {
+    const bool counts = row.key == "width" || row.key == "height" || row.key == "horizontal_fov";
+    if (!counts || !parameters.has("camera/" + row.key)) continue;
+    const double typed = parameters.number("camera/" + row.key, 0.0);
+    image::requireAgreement(*camera->calibration, camera->calibration_file,
+                            {row.key, "parameter " + parameters.fullName("camera/" + row.key), typed});
+  }
 }
 
 void requireOnePath(const ParameterReader& parameters, const PathSourceOptions& path) {
@@ -172,10 +186,17 @@ CameraFrames RenderNodeOptions::cameraFrames() const {
   return cameras;
 }
 
+image::Calibration RenderNodeOptions::calibration() const {
+  if (camera.calibration) return *camera.calibration;
+  return image::calibrationOf(
+      image::PinholeCamera::fromFieldOfView(camera.width, camera.height, camera.horizontal_fov));
+}
+
 studio::StudioOptions RenderNodeOptions::studioOptions() const {
   studio::StudioOptions options{world, bake, {}, exposure, noise, lamps};
-  options.render.camera =
-      image::PinholeCamera::fromFieldOfView(camera.width, camera.height, camera.horizontal_fov);
+  const image::Calibration calibrated = calibration();
+  options.render.camera = calibrated.camera;
+  options.render.distortion = calibrated.distortion;
   options.render.supersampling = camera.supersampling;
   options.render.rasterizer = camera.rasterizer;
   options.render.final_gather = final_gather;
@@ -230,6 +251,7 @@ RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {
   RenderNodeOptions options;
   parameters.read(fieldsOf(options));
   studio::requireWorld(options.world);
+  readCalibration(parameters, &options.camera);
   readRobotForms(parameters, options.camera.follow_tf, &options.robot);
   options.sky.stars = options.night;
   options.sky.cache_dir = studio::cacheOf(options.bake).folder;

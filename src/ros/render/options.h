@@ -8,6 +8,7 @@
 
 #include "ros/render/camera_frames.h"
 #include "ros/render/robot_options.h"
+#include "sunlit/image/calibration.h"
 #include "sunlit/image/exposure.h"
 #include "sunlit/image/sensor_noise.h"
 #include "sunlit/path/path.h"
@@ -34,6 +35,8 @@ struct CameraOptions {
   int width = 640;
   int height = 480;
   Angle horizontal_fov = Angle::degrees(60.0);
+  std::string calibration_file;                   ///< empty: size and field of view say what the camera is
+  std::optional<image::Calibration> calibration;  ///< what was read there
   int supersampling = 2;
   render::RasterizerKind rasterizer = render::defaultRasterizer();
   bool follow_tf = false;
@@ -88,6 +91,8 @@ struct RenderNodeOptions {
   double diagnostic_period_s = 1.0;  ///< which the WallUpdater reads by itself
 
   studio::StudioOptions studioOptions() const;
+  /// As it stands in camera_info.
+  image::Calibration calibration() const;
   /// The camera's is the one that is followed, where one is.
   CameraFrames cameraFrames() const;
 };

@@ -19,7 +19,7 @@ namespace {
 
 StreamOptions streamOptions(const RenderNodeOptions& options) {
   StreamOptions streams;
-  streams.output.camera = options.studioOptions().render.camera;
+  streams.output.camera = options.calibration();
   streams.output.frames = options.cameraFrames();
   streams.output.compressed = options.compressed;
   streams.output.publish_tf = options.publish_tf;
@@ -209,7 +209,7 @@ bool RenderNode::onView(RenderView::Request& request, RenderView::Response& resp
         streams_.view({0, ros::Time::now(), fromPose(request.pose), run_->mapFromLinks()}, request.condition);
     const std_msgs::Header header = headerOf(options_.frames.optical, photograph.stamp);
     response.image = *toImageMessage(photograph.picture, header);
-    response.camera_info = toCameraInfo(studio_.camera(), header);
+    response.camera_info = toCameraInfo(options_.calibration(), header);
     response.success = true;
   } catch (const std::invalid_argument& error) {
     response.success = false;

@@ -58,7 +58,8 @@ class ExperimentArguments(unittest.TestCase):
         found = self.parameters()
         for renderer in ("/render/", "/self_test/render/"):
             self.assertEqual(found[renderer + "exposure/mode"], "fixed")  # the one that differs, with its value
-            for group, key in (("night", "enabled"), ("noise", "enabled"), ("noise", "seed"), ("camera", "horizontal_fov"),
+            self.assertEqual([found[renderer + "camera/" + key] for key in ("width", "height", "horizontal_fov")], [640, 480, 60.0])
+            for group, key in (("night", "enabled"), ("noise", "enabled"), ("noise", "seed"),
                                ("exposure", "highlight_protection"), ("atmosphere", "turbidity"),
                                ("atmosphere", "ozone"), ("atmosphere", "ground_albedo"), ("transport", "final_gather")):
                 self.assertEqual(found[renderer + group + "/" + key], shipped[group][key], renderer + group + "/" + key)

@@ -195,6 +195,15 @@ class Plan(unittest.TestCase):
                          ({"enabled": False}, {"enabled": True, "seed": 7}, "auto", 320))
         self.assertEqual({**main["path"], "stride": 10}, other["path"])
 
+    def test_a_calibration_stands_for_what_is_not_typed_beside_it(self):
+        tree = planned(calibration="my.yaml")
+        for renderer in (tree["render"], tree["self_test"]["render"]):
+            self.assertEqual(renderer["camera"], {"calibration": os.path.abspath("my.yaml")})
+        self.assertEqual(planned(calibration="my.yaml", width="752")["render"]["camera"],
+                         {"calibration": os.path.abspath("my.yaml"), "width": 752})  # which the renderer compares
+        self.assertEqual(tree["evaluator"]["about"]["camera"], "my.yaml, 1.0 m")
+        self.assertEqual(planned()["render"]["camera"], {"width": 640, "height": 480, "horizontal_fov": 60.0})
+
     def test_the_evaluator_chooses_what_it_verifies_unless_told(self):
         self.assertNotIn("verify", planned()["evaluator"])
         self.assertEqual(planned(verify="[]")["evaluator"]["verify"], [])

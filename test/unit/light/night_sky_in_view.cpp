@@ -209,6 +209,41 @@ TEST(Stars, AreWhereTheyStand) {
   EXPECT_NEAR(centre.y() / weight, 31.5 - 7.5, 1e-3);
 }
 
+// r = f θ: a fisheye of 22 px to the radian has what stands 100° from its axis 38.4 px from the middle,
+// towards a corner. Pixels are 2.6° wide, so that those of a spline differ in solid angle by a hundredth or
+// two.
+TEST(Stars, StandWhereAFisheyeHasThemAlsoBehindIt) {
+  const sky::Daylight day = skyWithStar(-30.0);
+  const Eigen::Vector3d star = day.stars().at(0).towards.cast<double>();
+  const image::Lens fisheye({64, 64, 22.0, 22.0, 31.5, 31.5}, {image::LensModel::kEquidistant, {0, 0, 0, 0}});
+  const auto rays = std::make_shared<const PixelRays>(fisheye);
+  for (const double deg : {0.0, 50.0, 88.0, 100.0}) {
+    Surfaces camera = cameraTowards(Eigen::Vector3d::UnitX(), 20.0);
+    // In the optical frame the star lies to the lower right, so far from the axis.
+    const double angle = deg * kRadPerDeg, part = std::sin(angle) * std::sqrt(0.5);
+    camera.map_from_optical =
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(part, part, std::cos(angle)), star)
+            .toRotationMatrix();
+    camera.bent = rays;
+    const StarField field(camera, day, DiscInView(camera, day.moon()));
+    Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+    double weight = 0.0, illuminance = 0.0;
+    for (const Tile& tile : camera.tiles) {
+      for (const StarField::Spot& spot : field.in(tile)) {
+        centre += spot.luminance[1] * Eigen::Vector2d(spot.x, spot.y);
+        weight += spot.luminance[1];
+        const Eigen::Vector3d right = rays->right(spot.x, spot.y), below = rays->down(spot.x, spot.y);
+        illuminance += LinearRgb(spot.luminance).luminance() * right.cross(below).norm();
+      }
+    }
+    ASSERT_GT(weight, 0.0) << deg;
+    const double expected = 31.5 + 22.0 * angle * std::sqrt(0.5);
+    EXPECT_NEAR(centre.x() / weight, expected, 1e-3) << deg;
+    EXPECT_NEAR(centre.y() / weight, expected, 1e-3) << deg;
+    EXPECT_NEAR(illuminance / day.stars()[0].illuminance.luminance(), 1.0, 0.02) << deg;
+  }
+}
+
 TEST(Stars, AreNotSeenByDayNorBehindTheMoonNorBehindTheCamera) {
   const Eigen::Vector3d towards = skyWithStar(-30.0).stars().at(0).towards.cast<double>();
   const Surfaces camera = cameraTowards(towards, 20.0);

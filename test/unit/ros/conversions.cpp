@@ -30,7 +30,7 @@ TEST(Messages, ADepthImageKeepsItsBits) {
 
 TEST(Messages, CameraInfoProjectsLikeTheCamera) {
   const auto camera = image::PinholeCamera::fromFieldOfView(64, 48, Angle::degrees(90.0));
-  const sensor_msgs::CameraInfo info = toCameraInfo(camera, kHeader);
+  const sensor_msgs::CameraInfo info = toCameraInfo(image::calibrationOf(camera), kHeader);
   const Eigen::Vector3d point(0.3, -0.2, 2.0);
   const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> k(info.K.data());
   const Eigen::Vector2d pixel = (k * point).hnormalized();

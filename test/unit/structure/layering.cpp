@@ -57,6 +57,7 @@ std::vector<LibraryRule> libraryRules() {
       {std::regex("xxhash\\.h"), {"image"}},
       {std::regex("(sdf|assimp|nlohmann|urdf_[a-z]+)/.*|tinyxml2?.h"), {"scene"}},
       {std::regex("boost/program_options.*"), {"studio"}},
+      {std::regex("yaml-cpp/.*"), {"image", "ros"}},
       {std::regex("tbb/.*"), {"sky", "image", "scene", "light", "render", "evaluate", "ros"}},
   };
 }

@@ -156,7 +156,7 @@ class Evaluation {
   /// them.
   void addDepth(std::int64_t stamp_ns, const Told<cv::Mat>& depth);
   void addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d>& map_from_optical);
-  void addCamera(std::size_t stream, const Told<image::PinholeCamera>& camera);
+  void addCamera(std::size_t stream, const Told<ViewCamera>& camera);
 
   const EvaluationOptions& options() const;
   /// Of work for pair_done that takes long: stops it once the run is broken off.

@@ -214,6 +214,8 @@ void layOutLike(const Surfaces& surfaces, Surfaces* seen) {
   seen->pixel_origin = surfaces.pixel_origin;
   seen->pixel_right = surfaces.pixel_right;
   seen->pixel_down = surfaces.pixel_down;
+  seen->bent = surfaces.bent;
+  seen->map_from_optical = surfaces.map_from_optical;
   seen->eye = surfaces.eye;
   seen->tiles.resize(surfaces.tiles.size());
   for (std::size_t i = 0; i < surfaces.tiles.size(); ++i) {

@@ -30,8 +30,9 @@ DiscInView::DiscInView(const Surfaces& surfaces, const sky::DiscLight& disc)
   const double radius = disc.angular_radius.rad();
   disc_cosine_ = static_cast<float>(std::cos(radius));
   disc_sine_ = std::sin(radius);
-  // No pixel spans a larger angle than at the image centre, where it is its size at depth 1.
-  const double pixel = std::hypot(surfaces.pixel_right.norm(), surfaces.pixel_down.norm());
+  // Of a pinhole no pixel spans a larger angle than at the image centre, where it is its size at depth 1.
+  const double pixel = surfaces.bent ? surfaces.bent->widestPixel()
+                                     : std::hypot(surfaces.pixel_right.norm(), surfaces.pixel_down.norm());
   near_cosine_ = static_cast<float>(std::cos(std::min(radius + 2.0 * pixel, kPi)));
   const double above = sky::discSegment(disc.towards.elevation().rad() / radius);
   double lit = 1.0;
@@ -67,11 +68,16 @@ double DiscInView::brightness(const Eigen::Vector3d& towards) const {
 }
 
 Eigen::Array3f DiscInView::luminance(int x, int y) const {
-  const Eigen::Vector3d right = surfaces_.pixel_right.cast<double>();
-  const Eigen::Vector3d down = surfaces_.pixel_down.cast<double>();
+  Eigen::Vector3d right = surfaces_.pixel_right.cast<double>();
+  Eigen::Vector3d down = surfaces_.pixel_down.cast<double>();
   const double step = 1.0 / grid_;
-  const Eigen::Vector3d corner =
+  Eigen::Vector3d corner =
       surfaces_.pixel_origin.cast<double>() + (x - 0.5 + 0.5 * step) * right + (y - 0.5 + 0.5 * step) * down;
+  if (surfaces_.bent) {  // straight within a pixel
+    right = surfaces_.map_from_optical * surfaces_.bent->right(x, y);
+    down = surfaces_.map_from_optical * surfaces_.bent->down(x, y);
+    corner = surfaces_.map_from_optical * surfaces_.bent->at(x, y) + (0.5 * step - 0.5) * (right + down);
+  }
   double sum = 0.0;
   for (int j = 0; j < grid_; ++j) {
     for (int i = 0; i < grid_; ++i) {

@@ -28,8 +28,7 @@ std::uint64_t PictureAir::needed(int column, int row) const {
 void PictureAir::find(const sky::Daylight& day, int column, int row) {
   const auto x = static_cast<float>(column * Surfaces::kTileSize) - 0.5f;
   const auto y = static_cast<float>(row * Surfaces::kTileSize) - 0.5f;
-  const Eigen::Vector3f towards =
-      (surfaces_.pixel_origin + x * surfaces_.pixel_right + y * surfaces_.pixel_down).normalized();
+  const Eigen::Vector3f towards = surfaces_.towards(x, y);
   Six* const nodes = &nodes_[place(column, row)];
   const std::uint64_t all = needed(column, row);
   for (int k = 0; k < kAirNodes; ++k) {

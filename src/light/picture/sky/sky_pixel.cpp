@@ -46,12 +46,8 @@ SkyPixel::SkyPixel(const Surfaces& surfaces, const sky::Daylight& day)
       moon_(surfaces, seenThroughCloud(day, day.moon(), surfaces.eye)),
       stars_(surfaces, daylight_, moon_) {}
 
-Eigen::Vector3f SkyPixel::towards(float x, float y) const {
-  return (surfaces_.pixel_origin + x * surfaces_.pixel_right + y * surfaces_.pixel_down).normalized();
-}
-
 Eigen::Array3f SkyPixel::luminance(int x, int y) const {
-  const Eigen::Vector3f direction = towards(static_cast<float>(x), static_cast<float>(y));
+  const Eigen::Vector3f direction = surfaces_.towards(static_cast<float>(x), static_cast<float>(y));
   Eigen::Array3f sum = daylight_.skyLuminance(direction).value;
   if (sun_.near(direction)) sum += sun_.luminance(x, y);
   if (moon_.near(direction)) sum += moon_.luminance(x, y);
@@ -86,14 +82,14 @@ void SkyPixel::addCell(const Cell& cell, Corners* corners, image::LinearImage* i
 bool SkyPixel::smooth(const Cell& cell, Corners* corners) const {
   const float left = static_cast<float>(cell.left()) - 0.5f, top = static_cast<float>(cell.top()) - 0.5f;
   constexpr float kHalf = 0.5f * kCell;
-  const Eigen::Vector3f middle = towards(left + kHalf, top + kHalf);
+  const Eigen::Vector3f middle = surfaces_.towards(left + kHalf, top + kHalf);
   if (sun_.near(middle) || moon_.near(middle)) return false;
   Eigen::Array3f sum = Eigen::Array3f::Zero();
   for (int i = 0; i < 4; ++i) {
     Corner& corner = cell.corner(*corners, i / 2, i % 2);
     if (!corner.known) {
-      const Eigen::Vector3f direction =
-          towards(left + static_cast<float>(i % 2 * kCell), top + static_cast<float>(i / 2 * kCell));
+      const Eigen::Vector3f direction = surfaces_.towards(left + static_cast<float>(i % 2 * kCell),
+                                                          top + static_cast<float>(i / 2 * kCell));
       corner = {daylight_.skyLuminance(direction).value, direction.z(), true};
     }
     // At the horizon it breaks off.

@@ -36,7 +36,6 @@ class SkyPixel {
   static constexpr int kCorners = Surfaces::kTileSize / kCell + 1;
   using Corners = std::array<std::array<Corner, kCorners>, kCorners>;  ///< of a tile, by row and column
 
-  Eigen::Vector3f towards(float x, float y) const;
   /// That see the sky.
   static int skySamples(const Tile& tile, int x, int y);
   Eigen::Array3f skyShare(const Tile& tile, int x, int y) const;

@@ -64,6 +64,33 @@ TEST(Localisation, FindsAQueryOffTheLineToMillimetres) {
   }
 }
 
+// As through a pinhole: what the lens moved by up to 30 px is moved back. Before the fisheye's picture pixels
+// are coarser, 110 px to the radian.
+TEST(Localisation, FindsAQueryThroughALens) {
+  const ViewCamera barrel({320, 240, 195.0, 194.0, 156.0, 121.0},
+                          {image::LensModel::kPlumbBob, {-0.283, 0.074, 2e-4, 2e-5}});
+  const ViewCamera fisheye({320, 320, 110.0, 110.0, 159.0, 160.0},
+                           {image::LensModel::kEquidistant, {0.0035, 0.0007, -0.002, 0.0002}});
+  const double bounds_m[] = {0.01, 0.02};
+  std::size_t bound = 0;
+  for (const ViewCamera& camera : {barrel, fisheye}) {
+    std::vector<PosedView> map;
+    for (const double x : {0.0, 1.0, 2.0})
+      map.push_back(corridor().seenFrom(lookingAlongX({x, 0, 0}), camera));
+    const PosedView view = corridor().seenFrom(lookingAlongX({0.6, -0.4, 0.1}, 0.12), camera);
+    const LocalisedQuery sift = localised(map, view)[0];
+    EXPECT_EQ(sift.status, LocalisationStatus::kLocalised);
+    EXPECT_LT(sift.error_m, bounds_m[bound]);
+    EXPECT_LT(sift.error_deg, 0.2);
+    // Taken for a pinhole, the same pictures lead astray.
+    PosedView plain = view;
+    plain.camera = image::PinholeCamera(camera);
+    const LocalisedQuery wrong = localised(map, plain)[0];
+    EXPECT_TRUE(wrong.status != LocalisationStatus::kLocalised || wrong.error_m > 5.0 * sift.error_m);
+    ++bound;
+  }
+}
+
 TEST(Localisation, StandsAnotherExposure) {
   PosedView dark = query();
   dark.picture = makePicture(dark.picture.rgb * 0.4);

@@ -16,18 +16,30 @@ namespace sunlit::evaluate {
 namespace {
 
 const image::PinholeCamera kCamera{200, 150, 173.0, 173.0, 99.5, 74.5};
+const ViewCamera kBent({200, 150, 125.0, 125.0, 98.0, 75.0},
+                       {image::LensModel::kPlumbBob, {-0.28, 0.07, 0, 0}});
 constexpr std::int64_t kPoses = 4;
 const std::vector<std::string> kStreams = {"noon", "dusk", "night"};
 
+std::vector<PosedView> driveBy(const ViewCamera& camera) {
+  std::vector<PosedView> all;
+  for (std::int64_t p = 0; p < kPoses; ++p)
+    all.push_back(corridor().seenFrom(lookingAlongX({0.5 * static_cast<double>(p), 0, 0}), camera));
+  return all;
+}
+
+/// Whether all of what follows is seen through kBent; while it lives.
+class ThroughLens {
+ public:
+  ThroughLens() { is_on = true; }
+  ~ThroughLens() { is_on = false; }
+  static inline bool is_on = false;
+};
+
 /// A drive along the corridor, half a metre a pose.
 const PosedView& viewOf(std::int64_t pose) {
-  static const std::vector<PosedView> views = [] {
-    std::vector<PosedView> all;
-    for (std::int64_t p = 0; p < kPoses; ++p)
-      all.push_back(corridor().seenFrom(lookingAlongX({0.5 * static_cast<double>(p), 0, 0}), kCamera));
-    return all;
-  }();
-  return views.at(static_cast<std::size_t>(pose));
+  static const std::vector<PosedView> straight = driveBy(kCamera), bent = driveBy(kBent);
+  return (ThroughLens::is_on ? bent : straight).at(static_cast<std::size_t>(pose));
 }
 
 /// Stream 0 is the map; the others are darker.
@@ -55,7 +67,7 @@ void feedTruth(Evaluation& evaluation, std::int64_t pose) {
 
 void feedImages(Evaluation& evaluation, std::int64_t pose) {
   for (std::size_t s = 0; s < 3; ++s) {
-    evaluation.addCamera(s, told(kCamera));
+    evaluation.addCamera(s, told(viewOf(pose).camera));
     evaluation.addImage(s, stampOf(pose), lit(pose, s));
   }
 }
@@ -122,6 +134,19 @@ TEST(EvaluationLocalise, GivesWhatThePicturesThemselvesGive) {
     EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expected);
     EXPECT_FALSE(std::filesystem::exists(folder.file("out/observations.bin"))) << "nobody will ask again";
   }
+}
+
+TEST(EvaluationLocalise, GivesTheSameThroughALens) {
+  const ThroughLens lens;
+  const TemporaryFolder folder;
+  Evaluation evaluation(localising(folder), {});
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+    feedTruth(evaluation, pose);
+    feedImages(evaluation, pose);
+  }
+  const LocalisationOutcome outcome = finishAndLocalise(evaluation);
+  EXPECT_EQ(outcome.summary.at(0).failures, 0u);
+  EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
 }
 
 TEST(EvaluationLocalise, FindsKeyFramesByTheirMatchesAlike) {

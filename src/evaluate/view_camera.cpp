@@ -1,0 +1,41 @@
+#include "sunlit/evaluate/view_camera.h"
+
+#include <cmath>
+
+#include "sunlit/quantity/angle.h"
+
+namespace sunlit::evaluate {
+namespace {
+
+/// Where the pinhole has what the lens shows at `pixel`.
+std::optional<Eigen::Vector2d> straight(const ViewCamera& camera, const cv::Point2f& pixel) {
+  const std::optional<Eigen::Vector3d> ray = camera.unproject({pixel.x, pixel.y});
+  if (!ray || std::atan2(ray->head<2>().norm(), ray->z()) > kStraightWithin_deg * kRadPerDeg)
+    return std::nullopt;
+  return camera.image::PinholeCamera::project(*ray);
+}
+
+}  // namespace
+
+Features straightOnes(const Features& features, const ViewCamera& camera) {
+  if (!camera.lens) return features;
+  Features ones;
+  for (std::size_t i = 0; i < features.key_points.size(); ++i) {
+    if (!straight(camera, features.key_points[i].pt)) continue;
+    ones.key_points.push_back(features.key_points[i]);
+    ones.descriptors.push_back(features.descriptors.row(static_cast<int>(i)));
+  }
+  return ones;
+}
+
+Features straightened(const Features& features, const ViewCamera& camera) {
+  Features ones = straightOnes(features, camera);
+  if (!camera.lens) return ones;
+  for (cv::KeyPoint& key_point : ones.key_points) {
+    const Eigen::Vector2d at = straight(camera, key_point.pt).value();
+    key_point.pt = {static_cast<float>(at.x()), static_cast<float>(at.y())};
+  }
+  return ones;
+}
+
+}  // namespace sunlit::evaluate

@@ -1,0 +1,68 @@
+/// What a lens sees, drawn by rasterizers that know pinholes alone.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "render/rasterizer.h"
+#include "sunlit/image/lens.h"
+#include "sunlit/light/pixel_rays.h"
+
+namespace sunlit::render {
+
+struct Seen;
+
+/// Directions are moved, not pixels. Rasterizers draw which triangle is seen on one pinhole picture, or on up
+/// to five faces of a cube, in which samples lie at least as dense as in the picture wanted. Each sample of
+/// that has its own true ray: among the triangles of the four drawn samples about it, it sees the nearest
+/// that its ray passes through. Where it meets that triangle's plane is exact; what none of the four shows,
+/// less than a sample wide, may be missed, and the edges of textures that cut holes are those of the nearest
+/// drawn sample.
+class LensCanvas {
+ public:
+  /// Throws as image::Lens::widest().
+  LensCanvas(const image::Lens& lens, int supersampling);
+
+  const std::shared_ptr<const light::PixelRays>& pixels() const { return pixels_; }
+  /// Of a sample of the picture, in the optical frame, of depth 1 m.
+  const Eigen::Vector3f& ray(int column, int row) const { return rays_[index(column, row)]; }
+
+  /// A picture by a pinhole, one sample a pixel.
+  struct Face {
+    image::PinholeCamera camera;
+    Eigen::Matrix3d optical_from_face;
+  };
+  const std::vector<Face>& faces() const { return faces_; }
+
+  /// Draws `seen`, but for its samples, which go to `samples`. One call at a time.
+  void draw(Rasterizer* rasterizer, const Seen& seen, std::vector<Sample>* samples);
+
+ private:
+  /// The four drawn samples about a ray, by the first of them, and which is nearest.
+  struct Cell {
+    std::uint32_t first;
+    std::uint8_t face, nearest;
+  };
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
+  std::size_t faceOf(const Eigen::Vector3d& ray) const;
+  void layOutFaces(bool cube);
+  void findRays();
+  void findCells();
+  Sample sampleAt(const Seen& seen, std::size_t i) const;
+  Sample atEdge(const Seen& seen, std::size_t i) const;
+  Sample drawnNearest(const Seen& seen, std::size_t i) const;
+
+  std::shared_ptr<const light::PixelRays> pixels_;
+  int supersampling_, columns_, rows_;
+  std::vector<Eigen::Vector3f> rays_;
+  std::vector<Face> faces_;
+  std::vector<Cell> cells_;
+  std::vector<std::vector<Sample>> drawn_;  ///< by face
+};
+
+}  // namespace sunlit::render
