@@ -1,7 +1,7 @@
 /// What libsdformat prints, kept for messages.
 #pragma once
 
-#include <ostream>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -22,7 +22,7 @@ class SdfConsole {
 
  private:
   std::ostringstream text_;
-  std::ostream* before_;
+  std::function<void()> put_back_;  ///< what was there before
 };
 
 }  // namespace sunlit::scene
