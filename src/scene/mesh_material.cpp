@@ -155,6 +155,16 @@ aiTextureType typeOf(GltfMaterials::Slot slot) {
   return aiTextureType_NONE;
 }
 
+/// Empty where there is none. Assimp 5.0 calls the base a diffuse colour.
+aiString textureOf(const aiMaterial& source, GltfMaterials::Slot slot) {
+  aiString name;
+  if (source.GetTexture(typeOf(slot), 0, &name) == aiReturn_SUCCESS && name.length > 0) return name;
+  if (slot != GltfMaterials::Slot::kBase ||
+      source.GetTexture(aiTextureType_DIFFUSE, 0, &name) != aiReturn_SUCCESS)
+    return aiString();
+  return name;
+}
+
 }  // namespace
 
 std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
@@ -167,8 +177,8 @@ std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
   }
   const std::optional<GltfLook> look =
       context.gltf->look(context.gltf_order.at(index), [&](GltfMaterials::Slot slot, const Wraps& wraps) {
-        aiString name;
-        if (source.GetTexture(typeOf(slot), 0, &name) != aiReturn_SUCCESS || name.length == 0) {
+        const aiString name = textureOf(source, slot);
+        if (name.length == 0) {
           const std::string material = nameOf(source);
           context.builder.warn(
               kMissingTextures,

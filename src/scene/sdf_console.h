@@ -19,6 +19,8 @@ class SdfConsole {
 
   /// Line by line, without colours, and places in libsdformat's own source and in the text that it was given.
   std::vector<std::string> lines() const;
+  /// Those of them that are errors, where libsdformat (9) tells of errors in no other way.
+  std::vector<std::string> errors() const;
 
  private:
   std::ostringstream text_;

@@ -18,4 +18,8 @@ SdfConsole::~SdfConsole() {
   console_bridge::restorePreviousOutputHandler();
 }
 
+std::vector<std::string> SdfConsole::errors() const {
+  return {};
+}
+
 }  // namespace sunlit::scene

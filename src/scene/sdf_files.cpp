@@ -61,11 +61,12 @@ void write(const ignition::math::Pose3d& pose, XMLElement& element) {
 }
 
 /// What an include does not say its model says, which libsdformat 12 overlooks in interface models.
-void fillIn(XMLElement& include, const sdf::Model& model) {
+void fillIn(XMLElement& include, const SdfFile& source) {
+  const sdf::Model& model = *modelOf(source.root);
   if (childText(include, "name").empty()) childIn(include, "name").SetText(model.Name().c_str());
   if (include.FirstChildElement("pose") == nullptr) write(model.RawPose(), childIn(include, "pose"));
-  if (include.FirstChildElement("placement_frame") == nullptr && !placementFrameOf(model).empty())
-    childIn(include, "placement_frame").SetText(placementFrameOf(model).c_str());
+  if (include.FirstChildElement("placement_frame") == nullptr && !source.placement_frame.empty())
+    childIn(include, "placement_frame").SetText(source.placement_frame.c_str());
   for (XMLElement* plugin : childrenOf(include, "plugin")) include.DeleteChild(plugin);
 }
 
@@ -174,7 +175,7 @@ void SdfFiles::resolveInclude(XMLElement& include, const SdfFile& file) {
   const SdfFile* found = included(include, file);
   tinyxml2::XMLNode& parent = *include.Parent();
   if (found != nullptr && modelOf(found->root) != nullptr) {
-    fillIn(include, *modelOf(found->root));
+    fillIn(include, *found);
     if (include.BoolAttribute("merge") && std::string(parent.Value()) == "model")
       merge(include, *found, placeOf(file.path, include), builder_);
     include.DeleteAttribute("merge");
@@ -243,6 +244,7 @@ void SdfFiles::parse(tinyxml2::XMLDocument& document, SdfFile& file) {
     throw std::runtime_error(file.path + ": libsdformat gives up: " + error.what());
   }
   const std::vector<std::string> printed = console.lines();
+  for (const std::string& error : console.errors()) errors.emplace_back(sdf::ErrorCode::STRING_READ, error);
   if (!errors.empty()) fail(file.path, errors.front(), printed);
   for (const std::string& line : printed) remark(line, builder_);
 }

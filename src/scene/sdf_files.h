@@ -38,6 +38,7 @@ struct SdfFile {
 
   std::string path;
   sdf::Root root;
+  std::string placement_frame;  ///< of modelOf(root)
   std::vector<Included> included;
   std::unique_ptr<tinyxml2::XMLDocument> state;  ///< a <state> element; null where the world has none
 };

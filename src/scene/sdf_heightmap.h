@@ -66,7 +66,7 @@ inline SdfHeightmap::SdfHeightmap(sdf::Element& element)
       file_(element.FilePath()),
       size_(element.Get<ignition::math::Vector3d>("size", ignition::math::Vector3d::One).first),
       position_(element.Get<ignition::math::Vector3d>("pos", ignition::math::Vector3d::Zero).first),
-      sampling_(element.Get<unsigned>("sampling", 1).first) {
+      sampling_(element.HasElement("sampling") ? element.Get<unsigned>("sampling") : 1) {
   for (sdf::ElementPtr one = firstIn(element, "texture"); one; one = one->GetNextElement("texture"))
     textures_.push_back({one->Get<double>("size", 10.0).first, one->Get<std::string>("diffuse", "").first});
   for (sdf::ElementPtr one = firstIn(element, "blend"); one; one = one->GetNextElement("blend"))

@@ -56,9 +56,6 @@ inline const sdf::Light* lightOf(const sdf::Root& root) {
   return root.Light();
 }
 
-inline std::string placementFrameOf(const sdf::Model& model) {
-  return model.PlacementFrameName();
-}
 inline double strengthOf(const sdf::Light& light) {
   return light.Intensity();
 }
@@ -88,10 +85,6 @@ inline const sdf::Light* lightOf(const sdf::Root& root) {
   return root.LightByIndex(0);
 }
 
-/// 9 knows no such frame.
-inline std::string placementFrameOf(const sdf::Model&) {
-  return "";
-}
 inline double strengthOf(const sdf::Light& light) {
   return light.Element() ? light.Element()->Get<double>("intensity", 1.0).first : 1.0;
 }

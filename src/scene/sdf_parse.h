@@ -15,8 +15,8 @@ namespace sunlit::scene {
 /// that libsdformat takes for a file of its own.
 constexpr const char* kSdfToken = "included:";
 
-/// Fills file.root from `document`, which it may change, and file.included. Poses of the file may refer to
-/// frames of what it includes. Returns errors of libsdformat, or throws its exceptions.
+/// Fills file.root from `document`, which it may change, and what is in it and included. Poses of the file
+/// may refer to frames of what it includes. Returns errors of libsdformat, or throws its exceptions.
 sdf::Errors loadRoot(tinyxml2::XMLDocument& document, const std::vector<const SdfFile*>& sources,
                      SdfFile& file);
 

@@ -117,6 +117,7 @@ sdf::Errors loadRoot(tinyxml2::XMLDocument& document, const std::vector<const Sd
     errors.emplace_back(sdf::ErrorCode::STRING_READ, "libsdformat cannot read this file");
   }
   if (!errors.empty()) return errors;
+  if (file.root.Model() != nullptr) file.placement_frame = file.root.Model()->PlacementFrameName();
   for (SdfFile::Included& one : file.included)
     one.within_from_model = rootFrom(file.root, one.within).inverse() * one.within_from_model;
   return errors;

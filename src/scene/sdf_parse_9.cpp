@@ -1,6 +1,7 @@
 /// libsdformat 9 knows SDF up to 1.7, in which models that are included are merged into those that include
 /// them. Here a frame stands in the place of each, with those of its own links, frames and models that poses
 /// refer to, as "included::link". What is newer than 1.7 is brought down to it, as far as it can be seen.
+#include <algorithm>
 #include <iomanip>
 #include <optional>
 #include <sdf/Frame.hh>
@@ -71,6 +72,12 @@ std::string scopeOf(const XMLElement& element) {
   return scope;
 }
 
+int depthOf(const XMLElement& element) {
+  int depth = 0;
+  for (const tinyxml2::XMLNode* node = &element; node != nullptr; node = node->Parent()) ++depth;
+  return depth;
+}
+
 std::optional<Eigen::Isometry3d> poseOf(const sdf::SemanticPose& pose) {
   ignition::math::Pose3d resolved;
   if (!pose.Resolve(resolved, "__model__").empty()) return std::nullopt;
@@ -116,6 +123,9 @@ class Includes {
         if (name.find("::") != std::string::npos) referenced_.insert(name);
       }
     });
+    // As libsdformat 12 tells of them: the innermost first.
+    std::stable_sort(includes.begin(), includes.end(),
+                     [](const XMLElement* a, const XMLElement* b) { return depthOf(*a) > depthOf(*b); });
     for (XMLElement* include : includes) replace(*include);
   }
 
@@ -206,6 +216,10 @@ sdf::Errors loadRoot(tinyxml2::XMLDocument& document, const std::vector<const Sd
                      SdfFile& file) {
   XMLElement& sdf = *document.FirstChildElement("sdf");
   bringDown(sdf);
+  for (XMLElement* model : childrenOf(sdf, "model")) {
+    file.placement_frame = attributeOf(*model, "placement_frame");
+    model->DeleteAttribute("placement_frame");
+  }
   Includes(sources, file).replaceIn(sdf);
   sdf::Errors errors;
   const sdf::SDFPtr parsed = emptySdf();
