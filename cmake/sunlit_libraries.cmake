@@ -25,9 +25,10 @@ set_target_properties(assimp::assimp PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${
 find_path(URDF_MODEL_INCLUDE_DIR urdf_model/model.h PATH_SUFFIXES urdfdom_headers urdfdom REQUIRED)
 find_path(URDF_PARSER_INCLUDE_DIR urdf_parser/urdf_parser.h PATH_SUFFIXES urdfdom REQUIRED)
 
-# SUNLIT_SDFORMAT, the target of libsdformat, and SUNLIT_SDFORMAT_VERSION, 12 or 9; empty where there is neither, and then
-# no SDF is read.
+# SUNLIT_SDFORMAT, the target of libsdformat, and SUNLIT_SDFORMAT_VERSION, 12 or 9; empty and 0 where there is neither, and
+# then no SDF is read.
 set(SUNLIT_SDFORMAT)
+set(SUNLIT_SDFORMAT_VERSION 0)
 find_package(sdformat12 QUIET)
 find_package(sdformat9 9.3 QUIET)
 if(sdformat12_FOUND)

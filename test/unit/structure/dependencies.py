@@ -116,6 +116,7 @@ class Dependencies(unittest.TestCase):
         self.assertEqual({key: file for key, file in found.items() if key not in asked}, {})
         self.assertGreaterEqual(set(found), {"roscpp", "eigen", "liberfa-dev", "catkin", "rostest"})
 
+    @unittest.skipIf(sys.version_info < (3, 10), "Python does not know which modules are its own before 3.10")
     def test_package_xml_names_all_that_python_imports(self):
         asked = set(keys())
         own = {"sunlit"} | {path.stem for folder in ("scripts", "test") for path in (SOURCE / folder).rglob("*")}
