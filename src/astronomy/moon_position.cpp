@@ -1,6 +1,5 @@
 #include "sunlit/astronomy/moon_position.h"
 
-#include <erfa.h>
 #include <erfam.h>
 
 #include <Eigen/Geometry>
@@ -8,6 +7,7 @@
 
 #include "astronomy/degrees.h"
 #include "astronomy/geocentric_sun.h"
+#include "astronomy/moon_of_date.h"
 #include "astronomy/observer.h"
 #include "sunlit/astronomy/celestial.h"
 #include "sunlit/astronomy/refraction.h"
@@ -46,26 +46,8 @@ Angle MoonPosition::angularRadius() const {
 }
 
 LunarCoordinates lunarCoordinates(const Instant& instant, const EarthRotation& earth) {
-  constexpr double kJ2000 = 2451545.0;
   const JulianTimes times = julianTimes(instant, earth);
-  const double tt_days = times.jce * 36525.0;
-  double moon_au[2][3];
-  eraMoon98(kJ2000, tt_days, moon_au);
-  // ERFA left out the light time that Meeus has in his mean longitude.
-  const double light_time_days = eraPm(moon_au[0]) * ERFA_AULT / ERFA_DAYSEC;
-  double seen_au[3];
-  eraPpsp(moon_au[0], -light_time_days, moon_au[1], seen_au);
-
-  // The same precession by which eraMoon98 came from the ecliptic of date, so that its errors in a far year
-  // cancel.
-  const Nutation wobble = nutation(times.jce);
-  double obliquity, bias[3][3], precession[3][3], both[3][3], nutation_matrix[3][3],
-      true_from_celestial[3][3];
-  eraPn06(kJ2000, tt_days, wobble.longitude_deg * kRadPerDeg, wobble.obliquity_deg * kRadPerDeg, &obliquity,
-          bias, precession, both, nutation_matrix, true_from_celestial);
-  double of_date_au[3];
-  eraRxp(true_from_celestial, seen_au, of_date_au);
-  const Eigen::Vector3d of_date(of_date_au[0], of_date_au[1], of_date_au[2]);
+  const Eigen::Vector3d of_date = moonOfDate(times.jce, nutation(times.jce));
   const Spherical spherical = sphericalOf(of_date);
   return {spherical.right_ascension, spherical.declination, of_date.norm() * ERFA_DAU};
 }

@@ -44,7 +44,7 @@ void TileDetail::add(const Entry& entry) {
   if (material >= entries_.size()) entries_.resize(material + 1);
   entries_[material].push_back(entry);
   // Seen exactly from the side, a surface has no finite footprint.
-  constexpr float kLargest_m = 1e9f;
+  static constexpr float kLargest_m = 1e9f;  // static, so that GCC before 11 needs no capture
   const auto bounded = [](float value) { return value < kLargest_m ? std::max(value, 1e-9f) : kLargest_m; };
   Entry& added = entries_[material].back();
   added.footprint = bounded(entry.footprint);

@@ -63,6 +63,9 @@ ColladaText readableCollada(const std::string& text) {
   std::size_t comments = 0;
   readable.text = without(text, "<!--", "-->", &comments);
   readable.text = without(readable.text, "<h>", "</h>", &readable.holes);
+  // What remains are polygons as others are, and Assimp 5.0 knows no <ph>.
+  std::size_t tags = 0;
+  for (const char* tag : {"<ph", "</ph"}) readable.text = without(readable.text, tag, ">", &tags);
   readable.text = withoutBlanksBeforeColors(readable.text);
   nameFilesOfImages(readable.text);
   return readable;

@@ -39,6 +39,13 @@ int addTexture(const std::string& name, const aiScene& scene, const MeshFileCont
   return context.builder.textureFromFile(*found.file, wraps);
 }
 
+/// GetName(), which in Assimp 5.0 is not for constant materials.
+std::string nameOf(const aiMaterial& source) {
+  aiString name;
+  source.Get(AI_MATKEY_NAME, name);
+  return name.C_Str();
+}
+
 /// Phong-style materials of COLLADA and OBJ. Their colours are display values.
 void readPhong(const aiMaterial& source, Material& material) {
   aiColor4D diffuse(0.8f, 0.8f, 0.8f, 1.0f);
@@ -107,7 +114,7 @@ void readPhongMaps(const aiMaterial& source, const aiScene& scene, const MeshFil
 
 std::optional<int> addPhong(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context) {
   Material material;
-  material.name = source.GetName().C_Str();
+  material.name = nameOf(source);
   if (isSeenThrough(source)) {
     context.builder.warn("materials are more than half transparent, what has them was left out",
                          material.name + " of " + context.file);
@@ -148,6 +155,16 @@ aiTextureType typeOf(GltfMaterials::Slot slot) {
   return aiTextureType_NONE;
 }
 
+/// Empty where there is none. Assimp 5.0 calls the base a diffuse colour.
+aiString textureOf(const aiMaterial& source, GltfMaterials::Slot slot) {
+  aiString name;
+  if (source.GetTexture(typeOf(slot), 0, &name) == aiReturn_SUCCESS && name.length > 0) return name;
+  if (slot != GltfMaterials::Slot::kBase ||
+      source.GetTexture(aiTextureType_DIFFUSE, 0, &name) != aiReturn_SUCCESS)
+    return aiString();
+  return name;
+}
+
 }  // namespace
 
 std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
@@ -160,9 +177,9 @@ std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
   }
   const std::optional<GltfLook> look =
       context.gltf->look(context.gltf_order.at(index), [&](GltfMaterials::Slot slot, const Wraps& wraps) {
-        aiString name;
-        if (source.GetTexture(typeOf(slot), 0, &name) != aiReturn_SUCCESS || name.length == 0) {
-          const std::string material = source.GetName().C_Str();
+        const aiString name = textureOf(source, slot);
+        if (name.length == 0) {
+          const std::string material = nameOf(source);
           context.builder.warn(
               kMissingTextures,
               "one of " + (material.empty() ? "a material" : "material " + material) + " of " + context.file);

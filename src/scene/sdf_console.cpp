@@ -1,28 +1,8 @@
 #include "scene/sdf_console.h"
 
-#include <console_bridge/console.h>
-
 #include <regex>
-#include <sdf/Console.hh>
 
 namespace sunlit::scene {
-namespace {
-
-sdf::Console::ConsoleStream& stream() {
-  return sdf::Console::Instance()->GetMsgStream();
-}
-
-}  // namespace
-
-SdfConsole::SdfConsole() : before_(stream().GetStream()) {
-  stream().SetStream(&text_);
-  console_bridge::noOutputHandler();
-}
-
-SdfConsole::~SdfConsole() {
-  stream().SetStream(before_);
-  console_bridge::restorePreviousOutputHandler();
-}
 
 std::vector<std::string> SdfConsole::lines() const {
   const std::regex colors("\x1b\\[[0-9;]*m");

@@ -1,7 +1,7 @@
 /// What libsdformat prints, kept for messages.
 #pragma once
 
-#include <ostream>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -19,10 +19,12 @@ class SdfConsole {
 
   /// Line by line, without colours, and places in libsdformat's own source and in the text that it was given.
   std::vector<std::string> lines() const;
+  /// Those of them that are errors, where libsdformat (9) tells of errors in no other way.
+  std::vector<std::string> errors() const;
 
  private:
   std::ostringstream text_;
-  std::ostream* before_;
+  std::function<void()> put_back_;  ///< what was there before
 };
 
 }  // namespace sunlit::scene

@@ -6,20 +6,17 @@
 #include <regex>
 #include <sdf/Exception.hh>
 #include <sdf/Frame.hh>
-#include <sdf/InterfaceFrame.hh>
-#include <sdf/InterfaceLink.hh>
-#include <sdf/InterfaceModelPoseGraph.hh>
 #include <sdf/Link.hh>
-#include <sdf/ParserConfig.hh>
 #include <sdf/World.hh>
-#include <sdf/parser.hh>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "scene/sdf_console.h"
+#include "scene/sdf_library.h"
 #include "scene/sdf_mend.h"
 #include "scene/sdf_model_folder.h"
+#include "scene/sdf_parse.h"
 #include "scene/sdf_pose.h"
 #include "scene/sdf_xml.h"
 
@@ -29,39 +26,18 @@ namespace {
 namespace fs = std::filesystem;
 using tinyxml2::XMLElement;
 
-/// What an address is replaced by, before its number: no ending that libsdformat takes for a file of its own.
-constexpr const char* kToken = "included:";
-
 /// As many missing models as a person reads of.
 constexpr std::size_t kNamed = 5;
-
-ignition::math::Pose3d toIgnition(const Eigen::Isometry3d& pose) {
-  const Eigen::Quaterniond q(pose.linear());
-  const Eigen::Vector3d t = pose.translation();
-  return {t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z()};
-}
 
 /// One line about the first of `errors`.
 [[noreturn]] void fail(const std::string& file, const sdf::Error& error,
                        const std::vector<std::string>& printed) {
   std::ostringstream text;
   text << file;
-  if (error.LineNumber()) text << ":" << *error.LineNumber();
+  if (const std::optional<int> line = lineOf(error)) text << ":" << *line;
   text << ": " << error.Message();
   if (!printed.empty()) text << " (" << printed.front() << ")";
   throw std::runtime_error(text.str());
-}
-
-/// libsdformat's whole schema, which takes 35 ms to read.
-sdf::SDFPtr emptySdf() {
-  static const sdf::SDFPtr schema = [] {
-    auto made = std::make_shared<sdf::SDF>();
-    sdf::init(made);
-    return made;
-  }();
-  auto copy = std::make_shared<sdf::SDF>();
-  copy->Root(schema->Root()->Clone());
-  return copy;
 }
 
 /// One of libsdformat's remarks, with others that differ from it in what stands in brackets alone.
@@ -75,61 +51,6 @@ void remark(const std::string& line, SceneBuilder& builder) {
   }
 }
 
-/// A model as far as poses may refer to what is in it.
-struct Shown {
-  std::string name;
-  std::string within;  ///< its full name in its own file
-  ignition::math::Pose3d pose;
-  sdf::RepostureFunction reposture = nullptr;
-};
-
-sdf::InterfaceModelPtr interfaceTo(const SdfFile& file, const sdf::Model& model, const Shown& as) {
-  auto shown = std::make_shared<sdf::InterfaceModel>(as.name, as.reposture, true, "", as.pose);
-  ignition::math::Pose3d pose;
-  for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
-    const sdf::Link& link = *model.LinkByIndex(i);
-    if (link.SemanticPose().Resolve(pose).empty()) shown->AddLink({link.Name(), pose});
-  }
-  for (std::uint64_t i = 0; i < model.FrameCount(); ++i) {
-    const sdf::Frame& frame = *model.FrameByIndex(i);
-    if (frame.SemanticPose().Resolve(pose, "__model__").empty())
-      shown->AddFrame({frame.Name(), "__model__", pose});
-  }
-  for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
-    const sdf::Model& nested = *model.ModelByIndex(i);
-    if (!nested.SemanticPose().Resolve(pose).empty()) continue;
-    shown->AddNestedModel(interfaceTo(file, nested, {nested.Name(), as.within + "::" + nested.Name(), pose}));
-  }
-  for (const SdfFile::Included& one : file.included) {
-    if (one.within != as.within) continue;
-    const sdf::Model& nested = *one.file->root.Model();
-    shown->AddNestedModel(
-        interfaceTo(*one.file, nested, {one.name, nested.Name(), toIgnition(one.within_from_model)}));
-  }
-  return shown;
-}
-
-/// Where the model of this full name stands in the root of its file.
-Eigen::Isometry3d rootFrom(const sdf::Root& root, const std::string& full_name) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  const sdf::Model* model = nullptr;
-  for (std::size_t begin = 0, end = 0; !full_name.empty() && end != std::string::npos; begin = end + 2) {
-    end = full_name.find("::", begin);
-    const std::string name = full_name.substr(begin, end == std::string::npos ? end : end - begin);
-    if (model != nullptr) {
-      model = model->ModelByName(name);
-    } else if (root.Model() != nullptr) {
-      model = root.Model();
-    } else {
-      for (std::uint64_t i = 0; model == nullptr && i < root.WorldCount(); ++i)
-        model = root.WorldByIndex(i)->ModelByName(name);
-    }
-    if (model == nullptr) throw std::runtime_error(full_name + ": there is no such model");
-    pose = pose * parentFrom(*model, full_name);
-  }
-  return pose;
-}
-
 /// A pose as text that reads back as the same numbers.
 void write(const ignition::math::Pose3d& pose, XMLElement& element) {
   std::ostringstream text;
@@ -140,11 +61,12 @@ void write(const ignition::math::Pose3d& pose, XMLElement& element) {
 }
 
 /// What an include does not say its model says, which libsdformat 12 overlooks in interface models.
-void fillIn(XMLElement& include, const sdf::Model& model) {
+void fillIn(XMLElement& include, const SdfFile& source) {
+  const sdf::Model& model = *modelOf(source.root);
   if (childText(include, "name").empty()) childIn(include, "name").SetText(model.Name().c_str());
   if (include.FirstChildElement("pose") == nullptr) write(model.RawPose(), childIn(include, "pose"));
-  if (include.FirstChildElement("placement_frame") == nullptr && !model.PlacementFrameName().empty())
-    childIn(include, "placement_frame").SetText(model.PlacementFrameName().c_str());
+  if (include.FirstChildElement("placement_frame") == nullptr && !source.placement_frame.empty())
+    childIn(include, "placement_frame").SetText(source.placement_frame.c_str());
   for (XMLElement* plugin : childrenOf(include, "plugin")) include.DeleteChild(plugin);
 }
 
@@ -166,19 +88,21 @@ void merge(XMLElement& include, const SdfFile& source, const std::string& place,
     name.replace(at, 2, "_");
   while (taken.count(name) == 1) name += "-";
   childIn(include, "name").SetText(name.c_str());
+  std::set<std::string> added;
   const auto add = [&](const std::string& part) {
-    if (isMerged(part)) return;  // it has its own frames
+    if (isMerged(part) || standsForIncluded(part)) return;  // these have their own frames
+    if (!added.insert(part).second) return;
     if (taken.count(part) == 1) {
       builder.warn(
           "names of merged models are taken where they are included, they mean what is written there",
           part + " of " + place);
       return;
     }
-    XMLElement& frame = *parent.InsertNewChildElement("frame");
+    XMLElement& frame = newChildIn(parent, "frame");
     frame.SetAttribute("name", part.c_str());
     frame.SetAttribute("attached_to", (name + "::" + part).c_str());
   };
-  const sdf::Model& model = *source.root.Model();
+  const sdf::Model& model = *modelOf(source.root);
   for (std::uint64_t i = 0; i < model.LinkCount(); ++i) add(model.LinkByIndex(i)->Name());
   for (std::uint64_t i = 0; i < model.FrameCount(); ++i) add(model.FrameByIndex(i)->Name());
   for (std::uint64_t i = 0; i < model.ModelCount(); ++i) add(model.ModelByIndex(i)->Name());
@@ -250,16 +174,16 @@ void SdfFiles::resolveIncludes(XMLElement& sdf, const SdfFile& file) {
 void SdfFiles::resolveInclude(XMLElement& include, const SdfFile& file) {
   const SdfFile* found = included(include, file);
   tinyxml2::XMLNode& parent = *include.Parent();
-  if (found != nullptr && found->root.Model() != nullptr) {
-    fillIn(include, *found->root.Model());
+  if (found != nullptr && modelOf(found->root) != nullptr) {
+    fillIn(include, *found);
     if (include.BoolAttribute("merge") && std::string(parent.Value()) == "model")
       merge(include, *found, placeOf(file.path, include), builder_);
     include.DeleteAttribute("merge");
-    childIn(include, "uri").SetText((kToken + std::to_string(by_token_.size())).c_str());
+    childIn(include, "uri").SetText((kSdfToken + std::to_string(by_token_.size())).c_str());
     by_token_.push_back(found);
     return;
   }
-  const sdf::Light* light = found == nullptr ? nullptr : found->root.Light();
+  const sdf::Light* light = found == nullptr ? nullptr : lightOf(found->root);
   if (light != nullptr) {
     tinyxml2::XMLDocument source;
     source.Parse(light->Element()->ToString("").c_str());
@@ -309,47 +233,20 @@ const SdfFile* SdfFiles::included(const XMLElement& include, const SdfFile& file
   }
 }
 
-void SdfFiles::parse(const tinyxml2::XMLDocument& document, SdfFile& file) {
-  sdf::ParserConfig config;
-  config.SetFindCallback([](const std::string& token) { return token; });
-  config.RegisterCustomModelParser(
-      [&](const sdf::NestedInclude& include, sdf::Errors&) { return interfaceOf(include, file); });
+void SdfFiles::parse(tinyxml2::XMLDocument& document, SdfFile& file) {
   const SdfConsole console;
   sdf::Errors errors;
   try {
-    const sdf::SDFPtr parsed = emptySdf();
-    parsed->Root()->SetFilePath(file.path);  // which its elements inherit
-    if (sdf::readString(textOf(document), config, parsed, errors)) {
-      const sdf::Errors more = file.root.Load(parsed, config);
-      errors.insert(errors.end(), more.begin(), more.end());
-    } else if (errors.empty()) {
-      errors.emplace_back(sdf::ErrorCode::STRING_READ, "libsdformat cannot read this file");
-    }
+    errors = loadRoot(document, by_token_, file);
   } catch (const sdf::Exception& error) {  // which is no std::exception
     throw std::runtime_error(file.path + ": libsdformat gives up: " + error.GetErrorStr());
   } catch (const std::exception& error) {
     throw std::runtime_error(file.path + ": libsdformat gives up: " + error.what());
   }
   const std::vector<std::string> printed = console.lines();
+  for (const std::string& error : console.errors()) errors.emplace_back(sdf::ErrorCode::STRING_READ, error);
   if (!errors.empty()) fail(file.path, errors.front(), printed);
   for (const std::string& line : printed) remark(line, builder_);
-  for (SdfFile::Included& one : file.included)
-    one.within_from_model = rootFrom(file.root, one.within).inverse() * one.within_from_model;
-}
-
-sdf::InterfaceModelPtr SdfFiles::interfaceOf(const sdf::NestedInclude& include, SdfFile& file) {
-  const std::string token = include.Uri().substr(std::string(kToken).size());
-  const SdfFile* source = by_token_.at(std::stoul(token));
-  const sdf::Model& model = *source->root.Model();
-  const std::string name = include.LocalModelName().value_or(model.Name());
-  const std::string within = include.AbsoluteParentName();
-  Shown shown{name, model.Name(), model.RawPose()};
-  shown.reposture = [&file, name, within, source](const sdf::InterfaceModelPoseGraph& graph) {
-    ignition::math::Pose3d pose;  // in the root of the file; parse() makes it that of `within`
-    if (graph.ResolveNestedModelFramePoseInWorldFrame(pose).empty())
-      file.included.push_back({within, name, source, toEigen(pose)});
-  };
-  return interfaceTo(*source, model, shown);
 }
 
 }  // namespace sunlit::scene

@@ -6,8 +6,6 @@
 #include <Eigen/Geometry>
 #include <map>
 #include <memory>
-#include <sdf/InterfaceElements.hh>
-#include <sdf/InterfaceModel.hh>
 #include <sdf/Model.hh>
 #include <sdf/Root.hh>
 #include <set>
@@ -34,20 +32,20 @@ struct SdfFile {
   struct Included {
     std::string within;   ///< full name of the model that includes it; empty: the world
     std::string name;     ///< its own, there
-    const SdfFile* file;  ///< whose root.Model() it is
+    const SdfFile* file;  ///< whose modelOf() it is
     Eigen::Isometry3d within_from_model;
   };
 
   std::string path;
   sdf::Root root;
+  std::string placement_frame;  ///< of modelOf(root)
   std::vector<Included> included;
   std::unique_ptr<tinyxml2::XMLDocument> state;  ///< a <state> element; null where the world has none
 };
 
 /// libsdformat reads a file anew for every <include>, 35 ms each, and gives up at the first that is missing.
-/// It lets other formats join in by interface models (its composition interface): the user of the library
-/// reads what is included, libsdformat puts its frames into the tree of poses. Here all includes of models go
-/// that way.
+/// So each file is read by itself, and where it includes a model, libsdformat is told of the frames in that
+/// alone, by loadRoot().
 class SdfFiles {
  public:
   SdfFiles(const ResourceFinder& finder, SceneBuilder& builder) : finder_(finder), builder_(builder) {}
@@ -63,8 +61,7 @@ class SdfFiles {
   void resolveIncludes(tinyxml2::XMLElement& sdf, const SdfFile& file);
   void resolveInclude(tinyxml2::XMLElement& include, const SdfFile& file);
   const SdfFile* included(const tinyxml2::XMLElement& include, const SdfFile& file);
-  void parse(const tinyxml2::XMLDocument& document, SdfFile& file);
-  sdf::InterfaceModelPtr interfaceOf(const sdf::NestedInclude& include, SdfFile& file);
+  void parse(tinyxml2::XMLDocument& document, SdfFile& file);
 
   const ResourceFinder& finder_;
   SceneBuilder& builder_;

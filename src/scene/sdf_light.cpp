@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/color.h"
+#include "scene/sdf_library.h"
 #include "scene/sdf_pose.h"
 
 namespace sunlit::scene {
@@ -12,12 +13,12 @@ namespace {
 LinearRgb intensityOf(const sdf::Light& light) {
   const ignition::math::Color color = light.Diffuse();
   LinearRgb linear = linearFromSrgb({color.R(), color.G(), color.B()});
-  linear.value *= static_cast<float>(std::max(light.Intensity(), 0.0));
+  linear.value *= static_cast<float>(std::max(strengthOf(light), 0.0));
   return linear;
 }
 
 bool isFinite(const sdf::Light& light) {
-  double sum = light.Intensity() + light.AttenuationRange() + light.ConstantAttenuationFactor() +
+  double sum = strengthOf(light) + light.AttenuationRange() + light.ConstantAttenuationFactor() +
                light.LinearAttenuationFactor() + light.QuadraticAttenuationFactor();
   if (light.Type() == sdf::LightType::SPOT)
     sum += light.SpotInnerAngle().Radian() + light.SpotOuterAngle().Radian() + light.SpotFalloff();

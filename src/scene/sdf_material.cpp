@@ -9,6 +9,7 @@
 
 #include "scene/color.h"
 #include "scene/gazebo_material.h"
+#include "scene/sdf_library.h"
 
 namespace sunlit::scene {
 namespace {
@@ -61,8 +62,8 @@ Material SdfMaterials::fromScript(const sdf::Material& source) {
   }
   // <script> may hold several <uri>; sdf::Material keeps the first only.
   std::vector<std::string> uris{source.ScriptUri()};
-  const sdf::ElementPtr script = source.Element() ? source.Element()->FindElement("script") : nullptr;
-  for (sdf::ElementPtr uri = script ? script->FindElement("uri") : nullptr; uri;
+  const sdf::ElementPtr script = source.Element() ? firstIn(*source.Element(), "script") : nullptr;
+  for (sdf::ElementPtr uri = script ? firstIn(*script, "uri") : nullptr; uri;
        uri = uri->GetNextElement("uri")) {
     uris.push_back(uri->Get<std::string>());
   }
@@ -120,7 +121,7 @@ void SdfMaterials::readMaps(const sdf::PbrWorkflow& metal, const sdf::Material& 
   const std::string name = "PBR material of " + source.FilePath() + ": ";
   if (!metal.EnvironmentMap().empty())
     builder_.warn(kNotRendered, name + "an environment map: it mirrors what there is");
-  if (!metal.LightMap().empty()) builder_.warn(kNotRendered, name + "a light map: light is computed");
+  if (!lightMapOf(metal).empty()) builder_.warn(kNotRendered, name + "a light map: light is computed");
 }
 
 std::optional<int> SdfMaterials::add(const sdf::Material* source) {

@@ -185,7 +185,7 @@ class Mender {
 
   static void mendVisual(XMLElement& visual) {
     XMLElement& geometry = childIn(visual, "geometry");
-    if (geometry.FirstChildElement() == nullptr) geometry.InsertNewChildElement("empty");
+    if (geometry.FirstChildElement() == nullptr) newChildIn(geometry, "empty");
   }
 
   /// Nothing refers to a world by its name, and many are called "world", which is reserved.

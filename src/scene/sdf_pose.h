@@ -27,7 +27,14 @@ inline Eigen::Isometry3d toEigen(const ignition::math::Pose3d& pose) {
 template <typename Element>
 Eigen::Isometry3d parentFrom(const Element& element, const std::string& name) {
   ignition::math::Pose3d pose;
-  const sdf::Errors errors = element.SemanticPose().Resolve(pose);
+  sdf::Errors errors = element.SemanticPose().Resolve(pose);
+#if SDF_MAJOR_VERSION < 12
+  // A model that is in no world stands in no tree of poses there.
+  if (!errors.empty() && element.PoseRelativeTo().empty()) {
+    pose = element.RawPose();
+    errors.clear();
+  }
+#endif
   if (!errors.empty())
     throw std::runtime_error(name + ": its pose cannot be resolved: " + errors[0].Message());
   return toEigen(pose);

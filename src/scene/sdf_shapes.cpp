@@ -8,6 +8,7 @@
 
 #include "scene/outline.h"
 #include "scene/ribbon.h"
+#include "scene/sdf_library.h"
 #include "scene/sdf_pose.h"
 #include "sunlit/quantity/range.h"
 
@@ -22,7 +23,7 @@ double positive(sdf::Element& element, const char* key, const std::string& name)
 
 template <typename Point, typename Use>
 void forEachPoint(sdf::Element& element, const Use& use) {
-  for (sdf::ElementPtr point = element.FindElement("point"); point; point = point->GetNextElement("point"))
+  for (sdf::ElementPtr point = firstIn(element, "point"); point; point = point->GetNextElement("point"))
     use(point->Get<Point>());
 }
 
@@ -31,7 +32,7 @@ void forEachPoint(sdf::Element& element, const Use& use) {
 std::optional<Mesh> polylineOf(sdf::Element& geometry, const std::string& name) {
   std::vector<Outline> outlines;
   double height = 0.0;
-  for (sdf::ElementPtr one = geometry.FindElement("polyline"); one; one = one->GetNextElement("polyline")) {
+  for (sdf::ElementPtr one = firstIn(geometry, "polyline"); one; one = one->GetNextElement("polyline")) {
     if (outlines.empty()) height = positive(*one, "height", name);
     Outline outline;
     forEachPoint<ignition::math::Vector2d>(

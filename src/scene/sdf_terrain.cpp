@@ -17,11 +17,11 @@ namespace {
 constexpr int kBakedSide = 2048;
 
 /// Those whose pictures are there.
-std::vector<TerrainLayer> layersOf(const sdf::Heightmap& source, SceneBuilder& builder,
+std::vector<TerrainLayer> layersOf(const SdfHeightmap& source, SceneBuilder& builder,
                                    const ResourceFinder& finder) {
   std::vector<TerrainLayer> layers;
   for (std::uint64_t i = 0; i < source.TextureCount(); ++i) {
-    const sdf::HeightmapTexture& texture = *source.TextureByIndex(i);
+    const auto& texture = *source.TextureByIndex(i);
     Found found = finder.find(texture.Diffuse(), source.FilePath());
     if (!found.file) found = finder.findTexture(texture.Diffuse(), source.FilePath());
     if (!found.file) {
@@ -64,7 +64,7 @@ Mesh covered(const TerrainGrid& grid, const std::vector<TerrainLayer>& layers, i
 
 }  // namespace
 
-std::optional<Mesh> terrainOf(const sdf::Heightmap& source, const TerrainUse& use, SceneBuilder& builder,
+std::optional<Mesh> terrainOf(const SdfHeightmap& source, const TerrainUse& use, SceneBuilder& builder,
                               const ResourceFinder& finder) {
   const std::string place = source.FilePath() + ": visual " + use.visual;
   try {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <optional>
-#include <sdf/Heightmap.hh>
 #include <string>
 
 #include "scene/resource_finder.h"
 #include "scene/scene_builder.h"
+#include "scene/sdf_heightmap.h"
 
 namespace sunlit::scene {
 
@@ -19,7 +19,7 @@ struct TerrainUse {
 /// reads; a GeoTIFF is read as a TIFF, so that its size is that of the file alone. With one <texture> that is
 /// its material, with several they are baked into one picture of 2048² px; none: that of `use`. Where the
 /// picture is missing or cannot be read, none and a warning, or std::runtime_error, as the finder says.
-std::optional<Mesh> terrainOf(const sdf::Heightmap& source, const TerrainUse& use, SceneBuilder& builder,
+std::optional<Mesh> terrainOf(const SdfHeightmap& source, const TerrainUse& use, SceneBuilder& builder,
                               const ResourceFinder& finder);
 
 }  // namespace sunlit::scene

@@ -2,15 +2,14 @@
 
 #include <optional>
 #include <sdf/Box.hh>
-#include <sdf/Capsule.hh>
 #include <sdf/Cylinder.hh>
-#include <sdf/Ellipsoid.hh>
 #include <sdf/Mesh.hh>
 #include <sdf/Plane.hh>
 #include <sdf/Sphere.hh>
 
 #include "scene/gazebo_material.h"
 #include "scene/primitives.h"
+#include "scene/sdf_library.h"
 #include "scene/sdf_pose.h"
 #include "scene/sdf_shapes.h"
 #include "scene/sdf_terrain.h"
@@ -22,17 +21,16 @@ namespace {
 constexpr float kSeenThrough = 0.5f;
 
 std::optional<Mesh> primitive(const sdf::Geometry& geometry) {
+  if (const std::optional<Eigen::Vector3d> radii = ellipsoidRadii(geometry)) return makeEllipsoid(*radii);
+  if (const std::optional<CapsuleSize> size = capsuleOf(geometry))
+    return makeCapsule(size->radius, size->length);
   switch (geometry.Type()) {
     case sdf::GeometryType::BOX:
       return makeBox(toEigen(geometry.BoxShape()->Size()));
     case sdf::GeometryType::SPHERE:
       return makeEllipsoid(Eigen::Vector3d::Constant(geometry.SphereShape()->Radius()));
-    case sdf::GeometryType::ELLIPSOID:
-      return makeEllipsoid(toEigen(geometry.EllipsoidShape()->Radii()));
     case sdf::GeometryType::CYLINDER:
       return makeCylinder(geometry.CylinderShape()->Radius(), geometry.CylinderShape()->Length());
-    case sdf::GeometryType::CAPSULE:
-      return makeCapsule(geometry.CapsuleShape()->Radius(), geometry.CapsuleShape()->Length());
     case sdf::GeometryType::PLANE: {
       const ignition::math::Vector2d size = geometry.PlaneShape()->Size();
       return makePlane({size.X(), size.Y()}, toEigen(geometry.PlaneShape()->Normal()));
@@ -51,7 +49,7 @@ void SdfVisuals::addFile(const SdfFile& file) {
       addModel(*world.ModelByIndex(i), Eigen::Affine3d::Identity(), "");
     addRoads(world);
   }
-  const sdf::Model* model = file.root.Model();
+  const sdf::Model* model = modelOf(file.root);
   if (model != nullptr) addModel(*model, Eigen::Affine3d::Identity(), "");
   addIncluded(file, model != nullptr ? model->Name() : "");
 }
@@ -60,12 +58,12 @@ void SdfVisuals::addFile(const SdfFile& file) {
 void SdfVisuals::addIncluded(const SdfFile& file, const std::string& own_name) {
   for (const SdfFile::Included& one : file.included) {
     std::string within = one.within;
-    if (file.root.Model() != nullptr) within.replace(0, file.root.Model()->Name().size(), own_name);
+    if (modelOf(file.root) != nullptr) within.replace(0, modelOf(file.root)->Name().size(), own_name);
     const auto place = map_from_models_.find(within);
     if (!within.empty() && place == map_from_models_.end()) continue;  // deleted with what it is in
     const Eigen::Affine3d map_from_within = within.empty() ? Eigen::Affine3d::Identity() : place->second;
     const std::string name = within.empty() ? one.name : within + "::" + one.name;
-    addModelAt(*one.file->root.Model(), map_from_within * one.within_from_model, name);
+    addModelAt(*modelOf(one.file->root), map_from_within * one.within_from_model, name);
     addIncluded(*one.file, name);
   }
 }
@@ -141,7 +139,7 @@ void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Affine3d& map
   } else if (std::optional<Mesh> shape = shapeOf(visual, name)) {
     shape->name = name;
     // Gazebo overlooks where the model of a height map stands, and worlds are made to look right in it.
-    const bool ground = visual.Geom()->Type() == sdf::GeometryType::HEIGHTMAP;
+    const bool ground = heightmapOf(*visual.Geom()).has_value();
     if (ground && !map_from_visual.isApprox(Eigen::Affine3d::Identity()))
       builder_.warn("height maps stand where their <pos> says, not where their models do, as in Gazebo",
                     name);
@@ -155,8 +153,10 @@ std::optional<Mesh> SdfVisuals::shapeOf(const sdf::Visual& visual, const std::st
   const sdf::ElementPtr element = geometry == nullptr ? nullptr : geometry->Element();
   const std::optional<int> own_material = materials_.add(visual.Material());
   const int material = own_material ? *own_material : materials_.neutral();
-  if (geometry != nullptr && geometry->Type() == sdf::GeometryType::HEIGHTMAP)
-    return terrainOf(*geometry->HeightmapShape(), {material, name}, builder_, finder_);
+  if (geometry != nullptr) {
+    if (const std::optional<SdfHeightmap> ground = heightmapOf(*geometry))
+      return terrainOf(*ground, {material, name}, builder_, finder_);
+  }
   std::optional<Mesh> shape = geometry == nullptr ? std::nullopt : primitive(*geometry);
   if (!shape && element) shape = polylineOf(*element, name);
   if (shape) {
@@ -170,7 +170,7 @@ std::optional<Mesh> SdfVisuals::shapeOf(const sdf::Visual& visual, const std::st
 
 void SdfVisuals::addRoads(const sdf::World& world) {
   const sdf::ElementPtr element = world.Element();
-  for (sdf::ElementPtr road = element ? element->FindElement("road") : nullptr; road;
+  for (sdf::ElementPtr road = element ? firstIn(*element, "road") : nullptr; road;
        road = road->GetNextElement("road")) {
     const auto name = road->Get<std::string>("name");
     Mesh mesh = roadOf(*road, "road " + name);

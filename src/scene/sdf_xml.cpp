@@ -14,24 +14,19 @@ class LineKeeper : public tinyxml2::XMLPrinter {
 
   bool VisitEnter(const tinyxml2::XMLElement& element, const tinyxml2::XMLAttribute* attributes) override {
     SealElementIfJustOpened();
-    while (line_ < element.GetLineNum()) Putc('\n');
+    const char* const text = CStr();
+    const int size = CStrSize() - 1;  // without the end of the string
+    line_ += static_cast<int>(std::count(text + counted_, text + size, '\n'));
+    counted_ = size;
+    for (; line_ < element.GetLineNum(); ++line_, ++counted_) Putc('\n');
     return XMLPrinter::VisitEnter(element, attributes);
   }
   using XMLPrinter::Visit;
   bool Visit(const tinyxml2::XMLComment&) override { return true; }
 
- protected:
-  void Write(const char* data, std::size_t size) override {
-    line_ += static_cast<int>(std::count(data, data + size, '\n'));
-    XMLPrinter::Write(data, size);
-  }
-  void Putc(char letter) override {
-    line_ += letter == '\n' ? 1 : 0;
-    XMLPrinter::Putc(letter);
-  }
-
  private:
   int line_ = 1;
+  int counted_ = 0;  ///< of the text, for its lines
 };
 
 }  // namespace
@@ -81,7 +76,11 @@ std::vector<tinyxml2::XMLElement*> childrenOf(tinyxml2::XMLElement& parent, cons
 
 tinyxml2::XMLElement& childIn(tinyxml2::XMLElement& parent, const char* name) {
   tinyxml2::XMLElement* child = parent.FirstChildElement(name);
-  return child != nullptr ? *child : *parent.InsertNewChildElement(name);
+  return child != nullptr ? *child : newChildIn(parent, name);
+}
+
+tinyxml2::XMLElement& newChildIn(tinyxml2::XMLElement& parent, const char* name) {
+  return *parent.InsertEndChild(parent.GetDocument()->NewElement(name))->ToElement();
 }
 
 std::string placeOf(const std::string& file, const tinyxml2::XMLElement& element) {

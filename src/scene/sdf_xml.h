@@ -27,6 +27,8 @@ std::vector<tinyxml2::XMLElement*> childrenOf(tinyxml2::XMLElement& parent, cons
 
 /// The first child of this name, which is made if need be.
 tinyxml2::XMLElement& childIn(tinyxml2::XMLElement& parent, const char* name);
+/// A new one behind the others; tinyxml2's own word for that is only in 8 and newer.
+tinyxml2::XMLElement& newChildIn(tinyxml2::XMLElement& parent, const char* name);
 
 /// "<file>:<line>".
 std::string placeOf(const std::string& file, const tinyxml2::XMLElement& element);

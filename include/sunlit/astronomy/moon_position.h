@@ -18,11 +18,12 @@ struct LunarCoordinates {
 };
 
 /// Meeus, Astronomical Algorithms (2nd ed. 1998), chapter 47, as ERFA's eraMoon98 computes it, with light
-/// time; precession IAU 2006, nutation as in SPA. Against S. L. Moshier's ephemeris, which follows JPL's
-/// DE404: 3″ rms, 10″ at most and 13 km from 1950 to 2050, 37″ at most from −1300 to 3000; ERFA states 18″
-/// for its own comparison. Any instant from year −2000 to 6000 is accepted. Far from today the unknown
-/// rotation of the Earth counts more than the series: 1 s of ΔT moves the moon by 0.5″ among the stars, and
-/// ΔT of −1300 is known to several minutes only.
+/// time, or, where ERFA is older than that, a series of our own, 0.1″ from it; precession IAU 2006, nutation
+/// as in SPA. Against S. L. Moshier's ephemeris, which follows JPL's DE404: 3″ rms, 10″ at most and 13 km
+/// from 1950 to 2050, 37″ at most from −1300 to 3000; ERFA states 18″ for its own comparison. Any instant
+/// from year −2000 to 6000 is accepted. Far from today the unknown rotation of the Earth counts more than the
+/// series: 1 s of ΔT moves the moon by 0.5″ among the stars, and ΔT of −1300 is known to several minutes
+/// only.
 LunarCoordinates lunarCoordinates(const Instant& instant, const EarthRotation& earth);
 
 /// Topocentric: parallax is in it. All but `bright_limb` are of the centre of the disc.

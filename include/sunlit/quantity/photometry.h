@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "sunlit/quantity/eigen_ranges.h"
+
 namespace sunlit {
 
 /// Linear RGB with sRGB (Rec. 709) primaries and D65 white. Of what (reflectance, cd/m², lx) is said where it

@@ -78,7 +78,10 @@ std::vector<Field> Differences::fieldsOf(const std::vector<std::string>& names) 
 }
 
 std::vector<std::string> paperDifferences() {
-  return {"boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift",
+  return {"boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey",
+#ifdef SUNLIT_SIFT
+          "sift",
+#endif
 #ifdef SUNLIT_SURF
           "surf",
 #endif

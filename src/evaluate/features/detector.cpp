@@ -20,13 +20,18 @@ struct DetectorType {
 
 /// Those of the paper in the order of its tables, then others.
 const std::vector<DetectorType>& table() {
-  static const std::vector<DetectorType> rows = {{"sift", makeSift},
-#ifdef SUNLIT_SURF
-                                                 {"surf", makeSurf},
+  static const std::vector<DetectorType> rows = {
+#ifdef SUNLIT_SIFT
+      {"sift", makeSift},
 #endif
-                                                 {"orb", makeOrb},           {"brisk", makeBrisk},
-                                                 {"akaze", makeAkaze},       {"kaze", makeKaze},
-                                                 {"rootsift", makeRootSift}, {"onnx", makeOnnx, false}};
+#ifdef SUNLIT_SURF
+      {"surf", makeSurf},
+#endif
+      {"orb", makeOrb},           {"brisk", makeBrisk}, {"akaze", makeAkaze}, {"kaze", makeKaze},
+#ifdef SUNLIT_SIFT
+      {"rootsift", makeRootSift},
+#endif
+      {"onnx", makeOnnx, false}};
   return rows;
 }
 
@@ -98,6 +103,19 @@ const std::vector<std::string>& detectorTypes() {
   return names;
 }
 
+const std::vector<AbsentDetector>& absentDetectors() {
+  static const std::vector<AbsentDetector> rows = {
+#ifndef SUNLIT_SIFT
+      {"sift", "OpenCV must be 4.4 or newer for it, and is " CV_VERSION},
+      {"rootsift", "OpenCV must be 4.4 or newer for it, and is " CV_VERSION},
+#endif
+#ifndef SUNLIT_SURF
+      {"surf", "option SUNLIT_SURF is off"},
+#endif
+  };
+  return rows;
+}
+
 const std::vector<std::string>& readyDetectorTypes() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> ready;
@@ -127,7 +145,11 @@ std::unique_ptr<Detector> makeDetector(const std::string& type) {
   for (const DetectorType& row : table()) {
     if (row.name == type) return row.make();
   }
-  refuse("detector", '"' + type + '"', "one of " + textOf(detectorTypes()));
+  std::string allowed = "one of " + textOf(detectorTypes());
+  for (const AbsentDetector& absent : absentDetectors()) {
+    if (absent.type == type) allowed += ", as this build has no " + type + " (" + absent.why + ")";
+  }
+  refuse("detector", '"' + type + '"', allowed);
 }
 
 std::unique_ptr<Detector> makeDetector(const DetectorKind& kind) {

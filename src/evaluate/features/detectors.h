@@ -15,9 +15,11 @@ inline const std::vector<std::string> kDiffusivities = {"pm_g1", "pm_g2", "weick
 constexpr const char* kDiffusivityDoc =
     "of the blur: Perona and Malik's first or second, Weickert's, Charbonnier's";
 
+#ifdef SUNLIT_SIFT
 std::unique_ptr<Detector> makeSift();
 /// SIFT with the descriptors of rootSift().
 std::unique_ptr<Detector> makeRootSift();
+#endif
 #ifdef SUNLIT_SURF
 std::unique_ptr<Detector> makeSurf();
 #endif

@@ -8,6 +8,7 @@
 #include "evaluate/files/files.h"
 #include "evaluate/files/pair_rows.h"
 #include "sunlit/image/files.h"
+#include "sunlit/quantity/eigen_ranges.h"
 #include "sunlit/quantity/frames.h"
 #include "sunlit/quantity/range.h"
 
@@ -170,7 +171,8 @@ void writeLocalisationPoses(const std::string& path, const std::vector<Localisat
     for (const double number : {link.translation().x(), link.translation().y(), link.translation().z(),
                                 turned.x(), turned.y(), turned.z(), turned.w()})
       text += "," + (is_localised ? formatNumber(number) : "nan");
-    for (const double number : row.truth.translation()) text += "," + formatNumber(number);
+    const Eigen::Vector3d truth = row.truth.translation();
+    for (const double number : truth) text += "," + formatNumber(number);
     text += "\n";
   }
   image::writeFileAtomically(path, text);

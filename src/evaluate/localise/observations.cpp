@@ -118,7 +118,8 @@ ObservationHead takeHead(Reader& in) {
 void putPlaces(Writer& out, const Observation& observation) {
   out.put(static_cast<std::uint64_t>(observation.features.key_points.size()));
   for (const cv::KeyPoint& key_point : observation.features.key_points) {
-    out.put(key_point.pt);
+    out.put(key_point.pt.x);
+    out.put(key_point.pt.y);
     out.put(key_point.response);
   }
   out.put(static_cast<std::uint64_t>(observation.points.size()));
@@ -126,9 +127,10 @@ void putPlaces(Writer& out, const Observation& observation) {
 }
 
 void takePlaces(Reader& in, Observation& observation) {
-  observation.features.key_points.resize(in.count(sizeof(cv::Point2f) + sizeof(float)));
+  observation.features.key_points.resize(in.count(3 * sizeof(float)));
   for (cv::KeyPoint& key_point : observation.features.key_points) {
-    key_point.pt = in.get<cv::Point2f>();
+    key_point.pt.x = in.get<float>();
+    key_point.pt.y = in.get<float>();
     key_point.response = in.get<float>();
   }
   observation.points.resize(in.count(sizeof(double) * 3));

@@ -1,8 +1,6 @@
 /// Triangles for the ray library.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
@@ -11,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "light/geometry/embree.h"
 #include "sunlit/light/geometry.h"
 
 namespace sunlit::light {

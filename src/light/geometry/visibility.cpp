@@ -1,7 +1,5 @@
 #include "sunlit/light/visibility.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -46,7 +44,7 @@ void passCutouts(const RTCFilterFunctionNArguments* arguments) {
 
 /// What a query for the first triangle needs to know, beside Embree's own context (which must come first).
 struct SeeingContext {
-  RTCIntersectContext embree;
+  RayContext embree;
   const Geometry* geometry;                        ///< null: one-sided triangles are met from both sides
   const std::vector<std::uint32_t>* triangles[2];  ///< by Embree's geometry number: opaque, masked
 };
@@ -74,21 +72,11 @@ void passInvisible(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
-void occludedPacket(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay8* packet) {
-  rtcOccluded8(valid, scene, context, packet);
-}
-void occludedPacket(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay16* packet) {
-  rtcOccluded16(valid, scene, context, packet);
-}
-
 constexpr float kEndless = std::numeric_limits<float>::infinity();
 
 /// `Packet` holds kWidth rays, which reach so many times their direction's length.
 template <typename Packet, int kWidth>
 void occludedInPackets(RTCScene scene, const Rays& rays, float reach, std::uint8_t* blocked) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   alignas(64) Packet packet{};
   alignas(64) int valid[kWidth];
   for (std::size_t begin = 0; begin < rays.count; begin += kWidth) {
@@ -106,7 +94,7 @@ void occludedInPackets(RTCScene scene, const Rays& rays, float reach, std::uint8
       packet.tfar[i] = reach;
       packet.mask[i] = ~0u;
     }
-    occludedPacket(valid, scene, &context, &packet);
+    light::occluded<kCoherent>(valid, scene, &packet);
     for (int i = 0; i < in_use; ++i) {
       blocked[begin + static_cast<std::size_t>(i)] = packet.tfar[i] < 0.0f ? 1 : 0;  // −∞ marks a hit
     }
@@ -202,8 +190,8 @@ void Visibility::Implementation::buildVeils() {
 void Visibility::Implementation::addVeils(const Sight& sight, std::uint32_t first_triangle,
                                           std::vector<Hit>* hits) const {
   if (!veil_scene_) return;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  RayContext context;
+  begin(&context);
   float near = sight.near;
   for (std::size_t count = 0; count < kMostVeils && near < sight.far;) {
     RTCRayHit query{};
@@ -217,7 +205,7 @@ void Visibility::Implementation::addVeils(const Sight& sight, std::uint32_t firs
     query.ray.tfar = sight.far;
     query.ray.mask = ~0u;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(veil_scene_.get(), &context, &query);
+    intersect(veil_scene_.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
     near = std::nextafter(query.ray.tfar * (1.0f + 1e-6f), std::numeric_limits<float>::infinity());
     const std::uint32_t triangle = veils_[query.hit.primID];
@@ -250,7 +238,7 @@ void Visibility::Implementation::occluded(const Rays& rays, float reach, std::ui
 
 void Visibility::Implementation::closest(const Rays& rays, Hit* hits) const {
   SeeingContext context{{}, nullptr, {&cutouts_.opaqueTriangles(), &cutouts_.maskedTriangles()}};
-  rtcInitIntersectContext(&context.embree);
+  begin(&context.embree);
   for (std::size_t i = 0; i < rays.count; ++i) {
     RTCRayHit query{};
     query.ray.org_x = rays.origin_x[i];
@@ -262,7 +250,7 @@ void Visibility::Implementation::closest(const Rays& rays, Hit* hits) const {
     query.ray.tfar = std::numeric_limits<float>::infinity();
     query.ray.mask = ~0u;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_.get(), &context.embree, &query);
+    intersect(scene_.get(), &context.embree, &query);
     hits[i] = Hit();
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
     hits[i].triangle = (*context.triangles[query.hit.geomID])[query.hit.primID];
@@ -275,7 +263,7 @@ void Visibility::Implementation::closest(const Rays& rays, Hit* hits) const {
 Hit Visibility::Implementation::firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                                           float near) const {
   SeeingContext context{{}, geometry_.get(), {&cutouts_.opaqueTriangles(), &cutouts_.maskedTriangles()}};
-  rtcInitIntersectContext(&context.embree);
+  begin(&context.embree);
   RTCRayHit query{};
   query.ray.org_x = origin.x();
   query.ray.org_y = origin.y();
@@ -287,7 +275,7 @@ Hit Visibility::Implementation::firstSeen(const Eigen::Vector3f& origin, const E
   query.ray.tfar = std::numeric_limits<float>::infinity();
   query.ray.mask = ~0u;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene_.get(), &context.embree, &query);
+  intersect(scene_.get(), &context.embree, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Hit();
   return {(*context.triangles[query.hit.geomID])[query.hit.primID], query.hit.u, query.hit.v, query.ray.tfar};
 }

@@ -101,12 +101,20 @@ std::string typeOf(const ParameterReader& parameters, const std::string& key) {
   return type;
 }
 
+/// Whether a detector of this name is in this build, or in others.
+bool isBuiltIn(const std::string& name) {
+  const std::vector<std::string>& types = evaluate::detectorTypes();
+  const std::vector<evaluate::AbsentDetector>& absent = evaluate::absentDetectors();
+  return std::count(types.begin(), types.end(), name) > 0 ||
+         std::any_of(absent.begin(), absent.end(), [&](const auto& one) { return one.type == name; });
+}
+
 /// Detectors under names of their own: features/NAME/type says what they are, and features/NAME/preprocessing
 /// what they look through.
 void addDetectors(const ParameterReader& parameters, evaluate::Differences& known) {
   const std::vector<std::string>& types = evaluate::detectorTypes();
   for (const std::string& name : parameters.namesBelow("features")) {
-    if (name == "surf" || std::count(types.begin(), types.end(), name) > 0) continue;
+    if (isBuiltIn(name)) continue;
     const std::string key = "features/" + name + "/type";
     const std::string type = typeOf(parameters, key);
     if (type.empty())
@@ -120,20 +128,18 @@ void addDetectors(const ParameterReader& parameters, evaluate::Differences& know
   }
 }
 
-#ifdef SUNLIT_SURF
-void takeSurf(const ParameterReader&) {}
-#else
-/// One file serves both builds: its features/surf is known, though without effect.
-void takeSurf(const ParameterReader& parameters) {
-  parameters.value("features/surf");
-  XmlRpcValue names = parameters.value("differences");
-  for (int i = 0; names.getType() == XmlRpcValue::TypeArray && i < names.size(); ++i) {
-    if (plainText(names[i]) == "surf")
-      refuse("parameter " + parameters.fullName("differences"), plainText(names),
-             "without surf, which this build does not have (option SUNLIT_SURF is off)");
+/// One file serves all builds: features/ of detectors that this one lacks are known, though without effect.
+void takeAbsent(const ParameterReader& parameters) {
+  for (const auto& [type, why] : evaluate::absentDetectors()) {
+    parameters.value("features/" + type);
+    XmlRpcValue names = parameters.value("differences");
+    for (int i = 0; names.getType() == XmlRpcValue::TypeArray && i < names.size(); ++i) {
+      if (plainText(names[i]) == type)
+        refuse("parameter " + parameters.fullName("differences"), plainText(names),
+               "without " + type + ", which this build does not have (" + why + ")");
+    }
   }
 }
-#endif
 
 }  // namespace
 
@@ -164,7 +170,7 @@ EvaluatorOptions readEvaluatorOptions(const ParameterReader& parameters) {
   evaluate::EvaluationOptions& e = options.evaluation;
   addDetectors(parameters, e.comparer.known);
   const std::vector<Field> rows = fieldsOf(options);
-  takeSurf(parameters);
+  takeAbsent(parameters);
   parameters.read(rows);
   if (e.streams.empty())
     refuse("parameter " + parameters.fullName("streams"), "missing",

@@ -9,6 +9,7 @@
 
 #include "scene/robot/link_meshes.h"
 #include "scene/sdf_files.h"
+#include "scene/sdf_library.h"
 #include "scene/sdf_pose.h"
 #include "scene/sdf_visuals.h"
 
@@ -24,7 +25,7 @@ class RobotLinks {
   /// The model of `file`, whose frame is links[frame], with all that it includes. `scope` is before the names
   /// of its links.
   void append(const SdfFile& file, int frame, const std::string& scope) {
-    const sdf::Model& model = *file.root.Model();
+    const sdf::Model& model = *modelOf(file.root);
     frames_[scope] = frame;
     appendModel(model, frame, scope);
     for (const SdfFile::Included& one : file.included) {
@@ -75,10 +76,10 @@ Robot loadSdfRobot(const std::string& file, const ResourceFinder& finder) {
   LinkMeshes meshes(file);
   SdfFiles files(finder, meshes.builder());
   const SdfFile& read = files.read(file);
-  if (read.root.Model() == nullptr)
+  if (modelOf(read.root) == nullptr)
     throw std::runtime_error(file + ": a robot is one <model>, and this is none");
   Robot robot;
-  robot.name = read.root.Model()->Name();
+  robot.name = modelOf(read.root)->Name();
   RobotLink frame;
   frame.name = robot.name;
   meshes.begin(0);

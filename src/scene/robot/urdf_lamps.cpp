@@ -5,6 +5,7 @@
 #include <sdf/Light.hh>
 #include <sdf/Root.hh>
 
+#include "scene/sdf_library.h"
 #include "scene/sdf_light.h"
 #include "scene/sdf_pose.h"
 
@@ -19,15 +20,15 @@ void addLamp(const TiXmlElement& element, const std::string& link, SceneBuilder&
   const std::string name = link + "::" + (given == nullptr ? "light" : given);
   sdf::Root root;
   const sdf::Errors errors =
-      root.LoadSdfString("<sdf version='1.9'>" + std::string(printer.CStr()) + "</sdf>");
-  if (root.Light() == nullptr) {
+      root.LoadSdfString("<sdf version='" SDF_PROTOCOL_VERSION "'>" + std::string(printer.CStr()) + "</sdf>");
+  if (lightOf(root) == nullptr) {
     builder.warn("lights of <gazebo> elements could not be read",
                  name + (errors.empty() ? "" : " (" + errors[0].Message() + ")"));
     return;
   }
   // Of a light on its own, which stands in no other frame.
-  const Eigen::Affine3d link_from_light(toEigen(root.Light()->RawPose()));
-  if (std::optional<Lamp> lamp = lampOf(*root.Light(), link_from_light, {name, link}, builder))
+  const Eigen::Affine3d link_from_light(toEigen(lightOf(root)->RawPose()));
+  if (std::optional<Lamp> lamp = lampOf(*lightOf(root), link_from_light, {name, link}, builder))
     lamps->push_back(*std::move(lamp));
 }
 

@@ -10,7 +10,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Pose, PoseStamped, TransformStamped
 from nav_msgs.msg import Path
-from rendering import BOX_FACE_M, Process, Reader, RenderNode, Sun, TIMEOUT_S, Transforms, parameters
+from rendering import BOX_FACE_M, Process, Reader, RenderNode, Sun, TIMEOUT_S, Transforms, instant_of, parameters
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import CameraInfo, Image
 from std_srvs.srv import Trigger
@@ -181,10 +181,10 @@ class RenderControl(unittest.TestCase):
                 RenderNode("live", parameters(start_stamp="now", subscribers={"images": 1})):
             captures = reader.wait("/camera/capture", 10)
         first = captures[0]
-        begin = datetime.datetime.fromisoformat(first.utc)
+        begin = instant_of(first)
         for pose, capture in enumerate(captures):
             self.assertEqual((capture.header.stamp - first.header.stamp).to_nsec(), pose * 125 * 10**6)
-            elapsed = datetime.datetime.fromisoformat(capture.utc) - begin
+            elapsed = instant_of(capture) - begin
             self.assertAlmostEqual(elapsed.total_seconds(), 75.0 * pose, delta=0.0011)  # both are rounded to 1 ms
         for now, capture in arrivals:
             self.assertGreaterEqual(now, capture.header.stamp)

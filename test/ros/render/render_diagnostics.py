@@ -54,6 +54,11 @@ def sun_by_the_clock():
 
 class RenderDiagnostics(RefusalTest):
 
+    def enter(self, context):
+        """As enterContext(), which is in Python 3.11 and newer."""
+        context.__enter__()
+        self.addCleanup(context.__exit__, None, None, None)
+
     def setUp(self):
         rospy.set_param("/use_sim_time", True)  # a renderer that was the clock takes this back as it ends
 
@@ -70,7 +75,7 @@ class RenderDiagnostics(RefusalTest):
                 self.assertEqual((waits[0][2]["poses done"], waits[0][2]["poses to do"]), ("0", "20"))
                 diagnostics.wait("a/camera", DiagnosticStatus.OK, images="0", images_a_second="0.00")
 
-                self.enterContext(sun_by_the_clock())
+                self.enter(sun_by_the_clock())
                 reader.done(2)
                 _, status, run = diagnostics.wait("run", DiagnosticStatus.WARN, poses_done="5")[0]
                 self.assertEqual(status.message, "waits for progress on /reader/progress, which stands at 2")
@@ -123,7 +128,7 @@ class RenderDiagnostics(RefusalTest):
         with RenderNode("guesses", clock_owner(robot=robot, path={"count": 2})):
             status = diagnostics.wait("a/camera", DiagnosticStatus.WARN, messages_of_its_sky_refused="1")[0][1]
             self.assertEqual(status.message, "messages of its sky refused: 1")
-            self.enterContext(sun_by_the_clock())
+            self.enter(sun_by_the_clock())
             status = diagnostics.wait("run", DiagnosticStatus.WARN, activity="done")[0][1]
             self.assertIn("in rest position for want of a transform on TF", status.message)
             self.assertIn("in 2 of 2 poses", status.message)

@@ -1,4 +1,5 @@
 """A render node under test: its process, its suns, and a reader of all its streams."""
+import datetime
 import os
 import subprocess
 import threading
@@ -28,6 +29,11 @@ def parameters(**changes):
     for key, value in changes.items():
         tree[key] = dict(tree[key], **value) if isinstance(tree.get(key), dict) else value
     return tree
+
+
+def instant_of(capture):
+    """Of its `utc`; Python reads a Z from 3.11 on."""
+    return datetime.datetime.fromisoformat(capture.utc.replace("Z", "+00:00"))
 
 
 class Process:

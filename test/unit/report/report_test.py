@@ -553,14 +553,14 @@ class Page(InFolder):
         for pair in itertools.combinations(hours, 2):
             for difference in made.DIFFERENCES:
                 value = random.uniform(0, 1, 991)
-                output.series[*pair, difference] = files.Series(poses, value, count, count, count, count, value, value)
-                output.summary[*pair, difference] = files.summarise(output.series[*pair, difference])
+                output.series[(*pair, difference)] = files.Series(poses, value, count, count, count, count, value, value)
+                output.summary[(*pair, difference)] = files.summarise(output.series[(*pair, difference)])
             for detector in made.METHODS:
-                output.verified.poses[*pair, detector] = dict(zip(poses.tolist(), (poses % 50).tolist()))
-                output.verified.means[*pair, detector] = {name: mean for name in verified_rows.MEASURES}
+                output.verified.poses[(*pair, detector)] = dict(zip(poses.tolist(), (poses % 50).tolist()))
+                output.verified.means[(*pair, detector)] = {name: mean for name in verified_rows.MEASURES}
                 output.matches["-".join(pair) + "/" + detector] = {0: noise, 49: noise}
                 cells = random.integers(1, 100, (12, 16))
-                output.lost[*pair, detector] = lost.Lost(991, cells, cells // 2)
+                output.lost[(*pair, detector)] = lost.Lost(991, cells, cells // 2)
         for hour in hours:
             output.images[hour] = {pose: noise for pose in (0, 248, 495, 742, 990)}
             for detector in made.METHODS:

@@ -130,7 +130,9 @@ TEST_F(GltfShape, ThatNeedsWhatIsNotReadSaysSo) {
   parts.uri = "gone.bin";
   parts.more = R"("extensionsRequired":["EXT_meshopt_compression"],)";
   const std::string error = errorOfParts(parts);
+#ifndef SUNLIT_OLD_ASSIMP  // which gives no reason
   EXPECT_NE(error.find("gone.bin"), std::string::npos) << error;
+#endif
   EXPECT_NE(error.find("it needs EXT_meshopt_compression, not read here"), std::string::npos) << error;
 }
 
@@ -141,6 +143,9 @@ TEST_F(GltfShape, OfDracoIsNotSaidToBeUnread) {
 }
 
 TEST_F(GltfShape, OfWhichNothingIsDrawnSaysWhy) {
+#ifdef SUNLIT_OLD_ASSIMP
+  GTEST_SKIP() << "Assimp 5.0 ends the process where lines have an odd number of ends";
+#endif
   Parts parts;
   parts.primitive += R"(,"mode":1)";
   parts.more = R"("extensionsUsed":["EXT_of_mine"],)";

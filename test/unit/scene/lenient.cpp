@@ -209,6 +209,9 @@ TEST_F(Lenient, AnErrorStillNamesTheLineOfTheFile) {
   const std::string broken =
       "<!-- two\nlines -->\n<physics>\n</physics>\n" + model(link(kVisual)) + "\n" +
       model(link("<visual name='v'><geometry>\n<box>\n<size>1 1 x</size></box></geometry></visual>"), "n");
+#if SUNLIT_SDFORMAT_VERSION < 12
+  GTEST_SKIP() << "libsdformat 9 names no lines";
+#endif
   EXPECT_EQ(errorOf(worldFile(broken)).find(pathOf("test.world") + ":11: Error reading element <size>"), 0u)
       << errorOf(worldFile(broken));
   includeModel(
@@ -221,6 +224,9 @@ TEST_F(Lenient, AnErrorStillNamesTheLineOfTheFile) {
 TEST_F(Lenient, WhatLibsdformatAssertsIsAnErrorThatNamesTheFile) {
   // A frame of a nested model, as versions before 1.8 write it, attached to something outside: an assertion
   // of its converter, thrown as nothing that C++ knows.
+#if SUNLIT_SDFORMAT_VERSION < 12
+  GTEST_SKIP() << "libsdformat 9 asserts nothing of that";
+#endif
   const std::string file =
       worldFile(model(link(kVisual) + link("", "a::l") + "<frame name='a::f' attached_to='l'/>"), "1.7");
   EXPECT_EQ(errorOf(file).find(file + ": libsdformat gives up: "), 0u) << errorOf(file);

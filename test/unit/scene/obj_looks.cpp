@@ -41,6 +41,9 @@ TEST_F(ObjLooks, EmissionIsBrighterThanAScreenWhereItSaysSo) {
 }
 
 TEST_F(ObjLooks, PicturesThatAreNoNormalsAreNamed) {
+#ifdef SUNLIT_OLD_ASSIMP
+  GTEST_SKIP() << "Assimp 5.0 does not know norm";
+#endif
   paint("normal.png", {128, 100, 240});
   paint("brick.png", {180, 60, 40});
   EXPECT_TRUE(materialOf(lookOf("norm normal.png\n")).normal_map.given());

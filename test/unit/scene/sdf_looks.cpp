@@ -142,7 +142,7 @@ TEST_F(SdfLook, WarningsOfTheParserAreCollected) {
   const Scene scene = loaded("<material><diffuse shade='dark'>1 0 0 1</diffuse></material>");
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   ASSERT_EQ(scene.warnings.size(), 1u);
-  EXPECT_EQ(scene.warnings[0].find("1 × libsdformat: XML Attribute[…] in element[…] not defined in SDF."), 0u)
+  EXPECT_EQ(scene.warnings[0].find("1 × libsdformat: XML Attribute[…] in element[…] not defined in SDF"), 0u)
       << scene.warnings[0];
   EXPECT_NE(scene.warnings[0].find("XML Attribute[shade] in element[diffuse]"), std::string::npos)
       << scene.warnings[0];

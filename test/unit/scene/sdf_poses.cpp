@@ -237,6 +237,11 @@ TEST_F(Sdf, AWrongValueNamesTheLine) {
       write("test.world",
             world("\n<model name='m'><link name='l'><visual name='v'><geometry><box><size>1 1 x</size>"
                   "</box></geometry></visual></link></model>"));
+#if SUNLIT_SDFORMAT_VERSION < 12  // which names no lines
+  EXPECT_EQ(errorOf(file).find(file + ": "), 0u) << errorOf(file);
+  EXPECT_NE(errorOf(file).find("Unable to set value [1 1 x"), std::string::npos) << errorOf(file);
+  return;
+#endif
   EXPECT_EQ(
       errorOf(file),
       file + ":2: Error reading element <size> (Unknown error. Unable to set value [1 1 x ] for key[size])");

@@ -53,7 +53,7 @@ std::vector<LibraryRule> libraryRules() {
       {std::regex("opencv2/.*"), {"image", "evaluate", "ros"}},
       {std::regex("erfam?\\.h"), {"astronomy"}},
       {std::regex("(GL|EGL|GLES[23]?|KHR|OpenGL)/.*"), {"render"}},
-      {std::regex("embree3/.*"), {"light"}},
+      {std::regex("embree[34]/.*"), {"light"}},
       {std::regex("xxhash\\.h"), {"image"}},
       {std::regex("(sdf|assimp|nlohmann|urdf_[a-z]+)/.*|tinyxml2?.h"), {"scene"}},
       {std::regex("boost/program_options.*"), {"studio"}},

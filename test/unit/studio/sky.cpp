@@ -26,7 +26,7 @@ SkyBodies lowSunOver(double site_elevation_m) {
 std::vector<float> figuresOf(const sky::Daylight& day) {
   std::vector<float> figures;
   const auto add = [&](const LinearRgb& rgb) {
-    figures.insert(figures.end(), rgb.value.begin(), rgb.value.end());
+    figures.insert(figures.end(), rgb.value.data(), rgb.value.data() + 3);
   };
   add(day.sun().illuminance);
   add(day.groundIlluminance());

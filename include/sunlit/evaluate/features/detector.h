@@ -38,8 +38,16 @@ class Detector {
   virtual std::string identity() const;
 };
 
-/// `sift surf orb brisk akaze kaze rootsift onnx`; surf only where it was built in.
+/// `sift surf orb brisk akaze kaze rootsift onnx`, but for absentDetectors().
 const std::vector<std::string>& detectorTypes();
+
+/// A detector that other builds have.
+struct AbsentDetector {
+  std::string type;
+  std::string why;
+};
+const std::vector<AbsentDetector>& absentDetectors();
+
 /// Those that find features with their usual parameters: all but `onnx`, which needs a network.
 const std::vector<std::string>& readyDetectorTypes();
 

@@ -1,6 +1,5 @@
 #include "light/bake/samples/bake_rays.h"
 
-#include <embree3/rtcore.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 
 #include "light/bake/samples/triangle_kinds.h"
 #include "light/geometry/cutout.h"
+#include "light/geometry/embree.h"
 #include "light/geometry/triangle_mesh.h"
 
 namespace sunlit::light {
@@ -187,10 +187,6 @@ BakeRays::~BakeRays() = default;
 
 void BakeRays::cast(const RayPacket& rays, HitPacket* hits) const {
   constexpr int n = RayPacket::kSize;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  // Rays of one direction from places metres apart soon part among leaves.
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   alignas(64) RTCRayHit16 packet;
   std::memcpy(packet.ray.org_x, rays.origin_x, sizeof(rays.origin_x));
   std::memcpy(packet.ray.org_y, rays.origin_y, sizeof(rays.origin_y));
@@ -207,7 +203,8 @@ void BakeRays::cast(const RayPacket& rays, HitPacket* hits) const {
     packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  rtcIntersect16(rays.valid, implementation_->scene.get(), &context, &packet);
+  // Rays of one direction from places metres apart soon part among leaves.
+  intersect<kIncoherent>(rays.valid, implementation_->scene.get(), &packet);
   for (int i = 0; i < n; ++i) {
     const unsigned number = packet.hit.geomID[i];
     if (!rays.valid[i] || number == RTC_INVALID_GEOMETRY_ID) {

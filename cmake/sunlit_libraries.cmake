@@ -1,0 +1,42 @@
+# Libraries that come in several versions, or with CMake files of theirs that do not fit all systems.
+
+# TBB::tbb, of oneTBB 2021 or of TBB 2020, whose packages may bring no CMake files.
+find_package(TBB QUIET)
+if(NOT TARGET TBB::tbb)
+  find_library(TBB_LIBRARY tbb REQUIRED)
+  add_library(TBB::tbb UNKNOWN IMPORTED)
+  set_target_properties(TBB::tbb PROPERTIES IMPORTED_LOCATION ${TBB_LIBRARY})
+endif()
+
+# embree, and SUNLIT_EMBREE, 3 or 4.
+find_package(embree 3 QUIET)
+set(SUNLIT_EMBREE 3)
+if(NOT embree_FOUND)
+  find_package(embree 4 REQUIRED)
+  set(SUNLIT_EMBREE 4)
+endif()
+
+# assimp::assimp. That of Assimp 5.0 names a folder of headers that is elsewhere.
+find_package(assimp REQUIRED)
+find_path(ASSIMP_INCLUDE_DIR assimp/scene.h REQUIRED)
+set_target_properties(assimp::assimp PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${ASSIMP_INCLUDE_DIR})
+
+# Headers of urdfdom, which from 4 on are in folders of their own.
+find_path(URDF_MODEL_INCLUDE_DIR urdf_model/model.h PATH_SUFFIXES urdfdom_headers urdfdom REQUIRED)
+find_path(URDF_PARSER_INCLUDE_DIR urdf_parser/urdf_parser.h PATH_SUFFIXES urdfdom REQUIRED)
+
+# SUNLIT_SDFORMAT, the target of libsdformat, and SUNLIT_SDFORMAT_VERSION, 12 or 9; empty and 0 where there is neither, and
+# then no SDF is read.
+set(SUNLIT_SDFORMAT)
+set(SUNLIT_SDFORMAT_VERSION 0)
+find_package(sdformat12 QUIET)
+find_package(sdformat9 9.3 QUIET)
+if(sdformat12_FOUND)
+  set(SUNLIT_SDFORMAT sdformat12::sdformat12)
+  set(SUNLIT_SDFORMAT_VERSION 12)
+elseif(sdformat9_FOUND)
+  set(SUNLIT_SDFORMAT sdformat9::sdformat9)
+  set(SUNLIT_SDFORMAT_VERSION 9)
+else()
+  message(STATUS "Neither libsdformat 12 nor 9 was found: sunlit will read no SDF")
+endif()

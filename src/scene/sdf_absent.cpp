@@ -1,0 +1,42 @@
+/// In the place of all that reads SDF, where the build has no libsdformat for it.
+#include <tinyxml2.h>
+
+#include <stdexcept>
+
+#include "scene/robot/sdf_robot.h"
+#include "scene/robot/urdf_lamps.h"
+#include "scene/sdf_world.h"
+
+namespace sunlit::scene {
+namespace {
+
+[[noreturn]] void refuse(const std::string& file) {
+  throw std::runtime_error(file +
+                           ": this build of sunlit reads no SDF, as libsdformat was not found when it was "
+                           "configured; it reads .urdf, .dae, .gltf, .glb and .obj");
+}
+
+}  // namespace
+
+Scene loadSdf(const std::string& file, const ResourceFinder&) {
+  refuse(file);
+}
+
+Robot loadSdfRobot(const std::string& file, const ResourceFinder&) {
+  refuse(file);
+}
+
+std::map<std::string, std::vector<Lamp>> urdfLamps(const std::string& text, SceneBuilder& builder) {
+  tinyxml2::XMLDocument document;
+  document.Parse(text.c_str());
+  const tinyxml2::XMLElement* const robot = document.FirstChildElement("robot");
+  for (const tinyxml2::XMLElement* gazebo = robot == nullptr ? nullptr : robot->FirstChildElement("gazebo");
+       gazebo != nullptr; gazebo = gazebo->NextSiblingElement("gazebo")) {
+    const char* const link = gazebo->Attribute("reference");
+    if (link != nullptr && gazebo->FirstChildElement("light") != nullptr)
+      builder.warn("lights of <gazebo> elements are not read by this build, which has no libsdformat", link);
+  }
+  return {};
+}
+
+}  // namespace sunlit::scene
