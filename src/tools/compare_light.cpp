@@ -41,16 +41,17 @@ std::vector<Eigen::Isometry3d> viewsOf(const CompareLightOptions& options) {
   return views;
 }
 
-sky::Daylight daylightOf(const SkyToCompare& what, const sky::Atmosphere& atmosphere) {
+sky::Daylight daylightOf(const SkyToCompare& what, const sky::Weather& weather,
+                         const sky::Atmosphere& atmosphere) {
   const Direction towards(Azimuth::degrees(what.azimuth_deg), Angle::degrees(what.elevation_deg));
-  if (!what.moon_phase_deg) return atmosphere.daylight({towards, 1.0});
+  if (!what.moon_phase_deg) return atmosphere.daylight({towards, 1.0}, {}, weather);
   constexpr double kDeepNight_deg = -40.0;
   const Direction sun(Azimuth::degrees(what.azimuth_deg + 180.0), Angle::degrees(kDeepNight_deg));
   sky::NightSky night;
   night.moon.emplace();
   night.moon->apparent = towards;
   night.moon->phase_angle = Angle::degrees(*what.moon_phase_deg);
-  return atmosphere.daylight({sun, 1.0}, night);
+  return atmosphere.daylight({sun, 1.0}, night, weather);
 }
 
 class Comparer {
@@ -61,7 +62,8 @@ class Comparer {
     air.ground_albedo = light::albedoFromAbove(world).value_or(air.ground_albedo);
     std::printf("albedo of the land beyond the world: %.3f\n", air.ground_albedo);
     const sky::Atmosphere atmosphere(air);
-    for (const SkyToCompare& what : options.skies) days_.push_back(daylightOf(what, atmosphere));
+    for (const SkyToCompare& what : options.skies)
+      days_.push_back(daylightOf(what, options.weather, atmosphere));
   }
 
   void compare(int view, const Eigen::Isometry3d& map_from_camera) {

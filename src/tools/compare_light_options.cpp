@@ -7,6 +7,7 @@
 
 #include "sunlit/studio/command_line.h"
 #include "tools/camera_arguments.h"
+#include "tools/place_arguments.h"
 #include "tools/world_arguments.h"
 
 namespace sunlit::tools {
@@ -95,6 +96,7 @@ std::optional<CompareLightOptions> parseCompareLightOptions(const std::vector<st
   addWorld(&line, &options.world);
   addBounced(&line, &options.bake);
   addLamps(&line, &options.lamps);
+  addWeather(&line, &options.weather);
   if (!line.read(arguments)) return std::nullopt;
   requireThatAllCount(line, options);
   if (options.skies.empty()) {

@@ -10,6 +10,7 @@
 #include "sunlit/path/path.h"
 #include "sunlit/quantity/field.h"
 #include "sunlit/render/renderer.h"
+#include "sunlit/sky/weather.h"
 #include "sunlit/studio/world.h"
 
 namespace sunlit::tools {
@@ -39,8 +40,9 @@ struct CompareLightOptions {
   studio::WorldOptions world;
   studio::BakeOptions bake;  ///< without it the fast picture's sky is open
   light::LampOptions lamps;
-  std::string path;  ///< waypoint file; empty: the built-in path
-  int views = 10;    ///< evenly along the path
+  sky::Weather weather;  ///< of all skies
+  std::string path;      ///< waypoint file; empty: the built-in path
+  int views = 10;        ///< evenly along the path
   path::PathOptions sampling;
   std::vector<Eigen::Isometry3d> map_from_camera;  ///< not empty: instead of a path
   std::vector<SkyToCompare> skies;

@@ -29,8 +29,6 @@ std::string textOf(const astronomy::CivilDate& date) {
   return text;
 }
 
-namespace {
-
 void addWeather(studio::CommandLine* line, sky::Weather* weather) {
   line->group("Weather");
   const std::vector<Field> rows = fieldsOf(*weather);
@@ -44,8 +42,6 @@ void addWeather(studio::CommandLine* line, sky::Weather* weather) {
   line->add("--wind-from DEG", fieldOf(rows, "wind_from"));
   line->add("--cloud-seed N", fieldOf(rows, "cloud_seed"));
 }
-
-}  // namespace
 
 void addPlace(studio::CommandLine* line, PlaceOptions* options) {
   line->group("Place, day and air");

@@ -24,6 +24,9 @@ astronomy::CivilDate dateOf(const std::string& option, const std::string& text, 
 /// As a person would type it.
 std::string textOf(const astronomy::CivilDate& date);
 
+/// --cover, --visibility and the other rows of the weather.
+void addWeather(studio::CommandLine* line, sky::Weather* weather);
+
 /// --site, --date, --timezone, --turbidity, --ozone, --ground-albedo and the weather.
 void addPlace(studio::CommandLine* line, PlaceOptions* options);
 
