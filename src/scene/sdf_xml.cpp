@@ -22,6 +22,7 @@ class LineKeeper : public tinyxml2::XMLPrinter {
     return XMLPrinter::VisitEnter(element, attributes);
   }
   using XMLPrinter::Visit;
+  using XMLPrinter::VisitEnter;
   bool Visit(const tinyxml2::XMLComment&) override { return true; }
 
  private:

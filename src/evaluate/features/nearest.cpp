@@ -36,7 +36,7 @@ using Table16 = Table<std::int16_t>;
 
 // As bytes, or as floats in steps of 1 / scale.
 template <typename Source>
-Table16 tableOf(const cv::Mat& matrix, double scale) {
+Table16 tableOf(const cv::Mat& matrix, [[maybe_unused]] double scale) {
   Table16 table;
   table.rows = static_cast<std::size_t>(matrix.rows);
   const auto columns = static_cast<std::size_t>(matrix.cols);
