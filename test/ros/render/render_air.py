@@ -89,7 +89,7 @@ class RenderAir(unittest.TestCase):
             self.assertIn("of 0 m", node.line_with("Air of a height"))
 
     def test_a_height_that_is_given_is_kept(self):
-        # What differs beside the air is the sun's parallax, far less than a level.
+        # What differs beside the air is the sun's parallax, far less than a level, which may turn a rounding.
         with render_node("diver", atmosphere={"observer_height": 0.0}):
             Camera("diver").until_it_is(self.low, levels=1)
 

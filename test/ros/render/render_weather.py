@@ -1,0 +1,74 @@
+#!/usr/bin/python3
+"""Weather by condition, through the topics: its light, its clouds by the stamp, and what is refused."""
+import unittest
+
+import numpy
+import rospy
+import rostest
+from rendering import RefusalTest, RenderNode, Reader, Sun, parameters
+
+WEATHERS = {"clear": {}, "grey": {"cover": 8, "overcast": "cie"}, "fog": {"visibility": 60.0},
+            "windy": {"cover": 4, "wind": 30.0, "cloud_seed": 3}}
+SUN_UP = 0.8  # the sine of its elevation, as rendering.Sun has it
+
+
+def pixels(message):
+    return numpy.frombuffer(message.data, numpy.uint8).reshape(message.height, message.width, 3)
+
+
+def run(name, poses, conditions=None, **changes):
+    """Pictures and illuminances of each weather, pose by pose."""
+    weathers = conditions or WEATHERS
+    reader = Reader(list(weathers), node="/" + name)
+    suns = [Sun("/%s/sun" % condition) for condition in weathers]
+    tree = parameters(conditions=weathers, subscribers={"images": 1}, wait_for=["/reader/progress"], frame_rate=0.1,
+                      path={"count": poses}, exposure={"mode": "fixed", "ev100": 14.0}, max_ahead=100, **changes)
+    with RenderNode(name, tree):
+        found = {condition: ([pixels(one) for one in reader.wait("/%s/camera/image_raw" % condition, poses)],
+                             [one.scene_illuminance for one in reader.wait("/%s/camera/capture" % condition, poses)])
+                 for condition in weathers}
+    reader.close()
+    del suns
+    return found
+
+
+class RenderWeather(RefusalTest):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.found = run("weather", 4)
+
+    def lux(self, condition):
+        return self.found[condition][1]
+
+    def test_the_standard_overcast_sky_has_its_illuminance(self):
+        self.assertAlmostEqual(self.lux("grey")[0], 300.0 + 21000.0 * SUN_UP, delta=0.01 * 17100.0)
+        self.assertGreater(self.lux("clear")[0], 4.0 * self.lux("grey")[0])
+
+    def test_what_stands_still_stays_as_it_is(self):
+        for condition in ("clear", "grey", "fog"):
+            self.assertEqual(len(set(self.lux(condition))), 1, condition)
+
+    def test_fog_takes_contrast_away(self):
+        spread = {condition: float(self.found[condition][0][0].std()) for condition in ("clear", "fog")}
+        self.assertLess(spread["fog"], 0.6 * spread["clear"])
+
+    def test_clouds_move_with_the_stamps(self):
+        # 30 m/s and 10 s a pose: 300 m each, of clouds a kilometre wide.
+        self.assertEqual(len(set(self.lux("windy"))), 4)
+
+    def test_the_same_stamps_have_the_same_clouds_wherever_a_run_begins(self):
+        again = run("weather_again", 3, {"windy": WEATHERS["windy"]}, resume_at=1)
+        for first, second in zip(self.found["windy"][0][1:], again["windy"][0]):
+            self.assertTrue(numpy.array_equal(first, second))
+
+    def test_weather_that_cannot_be_is_refused(self):
+        self.assert_refused(parameters(weather={"cover": 9}), "/refused/weather/cover", "9", "8")
+        self.assert_refused(parameters(weather={"overcast": "cie"}), "cover is 0", "8 where overcast is cie")
+        self.assert_refused(parameters(conditions={"a": {"visibility": 10}}), "/refused/conditions/a/visibility", "10", "50")
+        self.assert_refused(parameters(conditions={"a": {"covr": 3}}), "covr", "did you mean cover?")
+
+
+if __name__ == "__main__":
+    rospy.init_node("render_weather")
+    rostest.rosrun("sunlit", "render_weather", RenderWeather)
