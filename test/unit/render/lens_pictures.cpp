@@ -239,15 +239,15 @@ scene::Scene boardScene() {
 }
 
 /// Pictures of the board all over the camera's, and where its corners are in them.
-struct Session {
+struct BoardPictures {
   std::vector<std::vector<cv::Point3f>> points;
   std::vector<std::vector<cv::Point2f>> pixels;
 };
 
-Session sessionOf(const PublishedLens& published, int pictures) {
+BoardPictures boardPictures(const PublishedLens& published, int pictures) {
   render::Renderer renderer(shared(boardScene()), cameraOf(published, 4));
   const image::Lens lens = published.lens();
-  Session session;
+  BoardPictures board_pictures;
   std::vector<cv::Point3f> board;
   for (int j = 0; j + 1 < kBoardDown; ++j)
     for (int i = 0; i + 1 < kBoardAcross; ++i)
@@ -280,23 +280,23 @@ Session sessionOf(const PublishedLens& published, int pictures) {
     if (!cv::findChessboardCorners(grey, {kBoardAcross - 1, kBoardDown - 1}, pixels)) continue;
     cv::cornerSubPix(grey, pixels, {4, 4}, {-1, -1},
                      {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 100, 1e-4});
-    session.points.push_back(board);
-    session.pixels.push_back(pixels);
+    board_pictures.points.push_back(board);
+    board_pictures.pixels.push_back(pixels);
   }
-  return session;
+  return board_pictures;
 }
 
 // Corners are found to a few hundredths of a pixel, some 1,000 of them: 0.1 % of f is what that leaves with
 // ease.
 TEST(LensPicture, CalibratingABoardFindsTheFocalLengthsOfEuroc) {
   const PublishedLens published = eurocLens();
-  const Session session = sessionOf(published, 24);
-  ASSERT_GE(session.points.size(), 15u);
+  const BoardPictures board_pictures = boardPictures(published, 24);
+  ASSERT_GE(board_pictures.points.size(), 15u);
   cv::Mat k, d;
   std::vector<cv::Mat> r, t;
   const double rms =
-      cv::calibrateCamera(session.points, session.pixels, {published.camera.width, published.camera.height},
-                          k, d, r, t, cv::CALIB_FIX_K3);
+      cv::calibrateCamera(board_pictures.points, board_pictures.pixels,
+                          {published.camera.width, published.camera.height}, k, d, r, t, cv::CALIB_FIX_K3);
   EXPECT_LT(rms, 0.1);
   EXPECT_NEAR(k.at<double>(0, 0) / published.camera.fx, 1.0, 1e-3);
   EXPECT_NEAR(k.at<double>(1, 1) / published.camera.fy, 1.0, 1e-3);
@@ -305,13 +305,13 @@ TEST(LensPicture, CalibratingABoardFindsTheFocalLengthsOfEuroc) {
 
 TEST(LensPicture, CalibratingABoardFindsTheFocalLengthsOfTumVi) {
   const PublishedLens published = tumViLens();
-  const Session session = sessionOf(published, 24);
-  ASSERT_GE(session.points.size(), 15u);
+  const BoardPictures board_pictures = boardPictures(published, 24);
+  ASSERT_GE(board_pictures.points.size(), 15u);
   cv::Mat k, d;
   std::vector<cv::Mat> r, t;
   const double rms = cv::fisheye::calibrate(
-      session.points, session.pixels, {published.camera.width, published.camera.height}, k, d, r, t,
-      cv::fisheye::CALIB_RECOMPUTE_EXTRINSIC | cv::fisheye::CALIB_FIX_SKEW);
+      board_pictures.points, board_pictures.pixels, {published.camera.width, published.camera.height}, k, d,
+      r, t, cv::fisheye::CALIB_RECOMPUTE_EXTRINSIC | cv::fisheye::CALIB_FIX_SKEW);
   EXPECT_LT(rms, 0.1);
   EXPECT_NEAR(k.at<double>(0, 0) / published.camera.fx, 1.0, 1e-3);
   EXPECT_NEAR(k.at<double>(1, 1) / published.camera.fy, 1.0, 1e-3);
