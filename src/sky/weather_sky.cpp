@@ -72,27 +72,27 @@ WeatherSky::WeatherSky(const Weather& weather, const WeatherTables& tables, cons
   }
   LightAbove above{{clear.sun, clear.moon},
                    [&](const Eigen::Vector3f& towards) { return clear.clearLuminance(towards); }};
-  if (weather.cover_oktas > 0.0) cover(weather, tables, below, clear, &above);
+  if (weather.cover_oktas > 0.0) cover(weather, {tables, clear, below}, &above);
   if (!fog) return;
   above.luminance = [&](const Eigen::Vector3f& towards) { return covered(clear, {towards, kOrigin}); };
   fog_.emplace(*fog, above, tables.ground_albedo);
 }
 
-void WeatherSky::cover(const Weather& weather, const WeatherTables& tables, float below,
-                       const SkyTable& clear, LightAbove* above) {
+void WeatherSky::cover(const Weather& weather, const Around& around, LightAbove* above) {
+  const WeatherTables& tables = around.tables;
   if (weather.overcast == Overcast::kCie) {
-    cie_.emplace(clear, tables.cie);
+    cie_.emplace(around.clear, tables.cie);
     above->discs.clear();
     return;
   }
   if (sky::isBroken(weather)) {
     broken_.emplace(tables.clouds, CloudPlace{weather.cloud_base_m, driftOf(weather)});
-    broken_->light(*above, tables.droplets, below);
+    broken_->light(*above, tables.droplets, around.albedo_below);
     broken_share_ =
         LinearRgb(broken_->level()).luminance() / std::max(LinearRgb(levelOf(*above)).luminance(), 1e-12F);
   } else {
     const DropletLayer cloud(tables.droplets, opticalDepthOf(weather));
-    cover_.emplace(cloud, *above, below);
+    cover_.emplace(cloud, *above, around.albedo_below);
   }
   for (DiscLight& disc : above->discs)
     disc.illuminance = disc.illuminance * passed(static_cast<float>(disc.towards.vector().z()));

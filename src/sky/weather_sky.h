@@ -55,8 +55,13 @@ class WeatherSky {
   /// Below the cloud, above the fog.
   Eigen::Array3f covered(const SkyTable& clear, const Sight& sight) const;
   Eigen::Array3f between(const SkyTable& clear, const Sight& sight) const;
-  void cover(const Weather& weather, const WeatherTables& tables, float below, const SkyTable& clear,
-             LightAbove* above);
+  struct Around {
+    const WeatherTables& tables;
+    const SkyTable& clear;
+    float albedo_below;
+  };
+  /// Puts the cover between `above` and what lies below.
+  void cover(const Weather& weather, const Around& around, LightAbove* above);
 
   static constexpr float kNothing = 1e-7F;
 

@@ -26,9 +26,13 @@ const auto kNothing = [](const Eigen::Vector3f&) { return Eigen::Array3f(Eigen::
 
 float levelOf(const LayerSky& sky,
               const std::function<Eigen::Array3f(const Eigen::Vector3f&)>& straight = kNothing) {
-  return levelIlluminance(hemisphere(Eigen::Vector2f::UnitX()), [&](const Eigen::Vector3f& towards) {
-    return Eigen::Array3f(sky.scattered(towards) + straight(towards) * sky.passed(towards.z()));
-  })[0];
+  const auto pieces = hemisphere(Eigen::Vector2f::UnitX());
+  return LinearRgb(levelIlluminance(pieces,
+                                    [&](const Eigen::Vector3f& towards) {
+                                      return Eigen::Array3f(sky.scattered(towards) +
+                                                            straight(towards) * sky.passed(towards.z()));
+                                    }))
+      .luminance();
 }
 
 TEST(Droplets, WhatIsNotThrownBackOfEvenLightComesThrough) {
@@ -67,7 +71,7 @@ TEST_P(TracedLayer, IsMet) {
        {std::pair{88.0, 10.0}, {60.0, 90.0}, {30.0, 250.0}, {8.0, 120.0}, {sun_deg - 4.0, 94.0}}) {
     const Eigen::Vector3d towards = Direction(Azimuth::degrees(azimuth), Angle::degrees(elevation)).vector();
     const auto expected = traced.luminance(towards, 40000);
-    const auto found = static_cast<double>(sky.scattered(towards.cast<float>())[0]);
+    const auto found = static_cast<double>(LinearRgb(sky.scattered(towards.cast<float>())).luminance());
     // 2 %: between rows and columns of the table; and three standard errors.
     EXPECT_NEAR(found, expected.mean, 0.02 * expected.mean + 3.0 * expected.error)
         << "optical depth " << depth << ", sun at " << sun_deg << ", seen at " << elevation << ", "
