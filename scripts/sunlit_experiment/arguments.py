@@ -134,7 +134,8 @@ def times_of(asked):
 def weathers_of(asked):
     """What is the business of the renderers: a list of names where there is no weather."""
     weathers = {name: {key: value for key, value in one.items() if key in WEATHER} for name, one in asked.items()}
-    return weathers if any(weathers.values()) else list(weathers)
+    # A map without keys would get lost on its way through the parameter server.
+    return {name: weather or {"cover": 0} for name, weather in weathers.items()} if any(weathers.values()) else list(weathers)
 
 
 def date_time(date, timezone):

@@ -58,7 +58,7 @@ class Arguments(unittest.TestCase):
                           "fog": {"hour": 12, "minute": 30, "second": 0.0, "month": 11},
                           "grey": {"hour": 9, "minute": 0, "second": 0.0}})
         self.assertEqual(tree["render"]["conditions"],
-                         {"noon": {}, "fog": {"visibility": 150}, "grey": {"cover": 8, "overcast": "cie"}})
+                         {"noon": {"cover": 0}, "fog": {"visibility": 150}, "grey": {"cover": 8, "overcast": "cie"}})
         self.assertEqual(tree["self_test"]["render"]["conditions"], tree["render"]["conditions"])
         self.assertIn({"a": "noon", "b": "fog"}, tree["evaluator"]["pairs"])
         self.assertEqual(tree["evaluator"]["localisation"]["map"], "noon")
