@@ -22,7 +22,11 @@ WORLDS = {"--world": "default race_track", "--model-path": "may be repeated", "-
 BOUNCED = {"--bounced": "off|on", "--cache": "SUNLIT_CACHE_DIR"}
 LAMPS = {"--lamps": "default auto", "--lamps-dusk": "0 … 100000 lx, default 30", "--lamps-off": "may be repeated",
          "--lamps-colour": "0 … 1000000 lx, default 50"}
-PLACE = {"--site": "latitude (geodetic, positive north, -90 … 90 deg)", "--date": "default 2024-07-01",
+WEATHER = {"--cover": "0 … 8 oktas, default 0", "--optical-depth": "0.1 … 200, default auto", "--overcast": "layer|cie",
+           "--visibility": "50 … 100000 m, default clear", "--fog-top": "10 … 3000 m, default 300",
+           "--cloud-base": "100 … 12000 m, default 1500", "--wind": "0 … 100 m/s, default 0",
+           "--wind-from": "-360 … 360 deg, default 270", "--cloud-seed": "0 … 2147483647, default 0"}
+PLACE = {**WEATHER, "--site": "latitude (geodetic, positive north, -90 … 90 deg)", "--date": "default 2024-07-01",
          "--timezone": "-18 … 18 h, default 3", "--turbidity": "1 … 10, default 2", "--ozone": "0 … 600 DU, default 300",
          "--ground-albedo": "0 … 1, default auto"}
 SENSOR = {"--ev": "-16 … 24 EV, default auto", "--compensation": "-8 … 8 EV, default 0", "--noise": "0 … 2147483647"}
@@ -59,7 +63,7 @@ OPTIONS = {
                   "--columns": "1 … 100, default 6", "--thumbnail": "16 … 8192 px, default 320",
                   "--from": "-24 … 48 h, default 0", "--to": "-24 … 72 h, default 24",
                   "--step": "0.001 … 1440 min, default 30", "--frames": "1 … 100000"},
-    "compare_light": {**CAMERA, **WORLDS, **BOUNCED, **LAMPS, "--out": "table.csv", "--path": "CSV or TUM",
+    "compare_light": {**CAMERA, **WORLDS, **BOUNCED, **LAMPS, **WEATHER, "--out": "table.csv", "--path": "CSV or TUM",
                       "--views": "1 … 1000, default 10", "--height": "-1000 … 1000 m, default 1",
                       "--view": "may be repeated", "--sun": "elevation (-90 … 90 deg)", "--moon": "0 … 180 deg",
                       "--every": "1 … 64 px, default 8", "--samples": "2 … 65536, default 256",
