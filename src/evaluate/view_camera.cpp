@@ -15,27 +15,32 @@ std::optional<Eigen::Vector2d> straight(const ViewCamera& camera, const cv::Poin
   return camera.image::PinholeCamera::project(*ray);
 }
 
-}  // namespace
-
-Features straightOnes(const Features& features, const ViewCamera& camera) {
+/// Those features, after move(key point, where the pinhole has it).
+template <typename Move>
+Features keepStraight(const Features& features, const ViewCamera& camera, const Move& move) {
   if (!camera.lens) return features;
   Features ones;
   for (std::size_t i = 0; i < features.key_points.size(); ++i) {
-    if (!straight(camera, features.key_points[i].pt)) continue;
-    ones.key_points.push_back(features.key_points[i]);
+    cv::KeyPoint key_point = features.key_points[i];
+    const std::optional<Eigen::Vector2d> at = straight(camera, key_point.pt);
+    if (!at) continue;
+    move(&key_point, *at);
+    ones.key_points.push_back(key_point);
     ones.descriptors.push_back(features.descriptors.row(static_cast<int>(i)));
   }
   return ones;
 }
 
+}  // namespace
+
+Features straightOnes(const Features& features, const ViewCamera& camera) {
+  return keepStraight(features, camera, [](cv::KeyPoint*, const Eigen::Vector2d&) {});
+}
+
 Features straightened(const Features& features, const ViewCamera& camera) {
-  Features ones = straightOnes(features, camera);
-  if (!camera.lens) return ones;
-  for (cv::KeyPoint& key_point : ones.key_points) {
-    const Eigen::Vector2d at = straight(camera, key_point.pt).value();
-    key_point.pt = {static_cast<float>(at.x()), static_cast<float>(at.y())};
-  }
-  return ones;
+  return keepStraight(features, camera, [](cv::KeyPoint* key_point, const Eigen::Vector2d& at) {
+    key_point->pt = {static_cast<float>(at.x()), static_cast<float>(at.y())};
+  });
 }
 
 }  // namespace sunlit::evaluate

@@ -10,26 +10,44 @@
 namespace sunlit::sky {
 namespace {
 
-// Optical depths of the tables: kThinnest · 2^i, up to the thickest of any cloud.
+// Optical depths of the tables: kThinnest · 2^i.
 constexpr float kThinnest = 0.25F;
-constexpr int kSkies = 11;
 
 float depthOf(std::size_t sky) {
   return std::ldexp(kThinnest, static_cast<int>(sky));
 }
 
-/// Between which tables an optical depth lies; of thinner ones than the thinnest the first has a share below
-/// 1, and the rest is clear.
+/// As many as reach the thickest cloud; two at least.
+std::size_t skiesUpTo(double thickest) {
+  return static_cast<std::size_t>(
+             std::ceil(std::max(1.0, std::log2(thickest / static_cast<double>(kThinnest))))) +
+         1;
+}
+
+/// Between which of so many tables an optical depth lies; of thinner ones than the thinnest the first has a
+/// share below 1, and the rest is clear.
 struct Between {
   std::size_t first;
   float weights[2];
 };
-Between between(float depth) {
+Between between(float depth, std::size_t skies) {
   if (depth <= kThinnest) return {0, {depth / kThinnest, 0.0F}};
-  const float at = std::min(std::log2(depth / kThinnest), static_cast<float>(kSkies - 1));
-  const std::size_t first = std::min(static_cast<std::size_t>(at), static_cast<std::size_t>(kSkies - 2));
+  const float at = std::min(std::log2(depth / kThinnest), static_cast<float>(skies - 1));
+  const std::size_t first = std::min(static_cast<std::size_t>(at), skies - 2);
   const float beyond = at - static_cast<float>(first);
   return {first, {1.0F - beyond, beyond}};
+}
+
+/// Of all places, those of about the optical depth of each table.
+std::vector<float> sharesOf(const CloudMap& map, std::size_t skies) {
+  std::vector<float> shares(skies, 0.0F);
+  constexpr int kParts = 1024;
+  for (int i = 0; i < kParts; ++i) {
+    const Between at = between(static_cast<float>(map.depthAt((i + 0.5) / kParts)), skies);
+    for (std::size_t k = 0; k < 2; ++k)
+      shares[at.first + k] += at.weights[k] * static_cast<float>(map.coveredShare() / kParts);
+  }
+  return shares;
 }
 
 /// A pixel's width as seen from the camera, rad: what of the cloud is finer is not seen.
@@ -37,27 +55,19 @@ constexpr float kFinest_rad = 1.5e-3F;
 
 }  // namespace
 
-BrokenCover::BrokenCover(std::shared_ptr<const CloudMap> map, const CloudPlace& place)
-    : map_(std::move(map)), place_(place), shares_(kSkies, 0.0F) {
-  constexpr int kParts = 1024;
-  for (int i = 0; i < kParts; ++i) {
-    const Between at = between(static_cast<float>(map_->depthAt((i + 0.5) / kParts)));
-    for (std::size_t k = 0; k < 2; ++k)
-      shares_[at.first + k] += at.weights[k] * static_cast<float>(map_->coveredShare() / kParts);
-  }
-}
-
-void BrokenCover::light(const LightAbove& above, const Droplets& droplets, float albedo_below) {
+BrokenCover::BrokenCover(const CloudPlace& place, const LightAbove& above, const Droplets& droplets,
+                         float albedo_below)
+    : place_(place) {
+  const std::vector<float> shares = sharesOf(*place_.map, skiesUpTo(place_.map->depthAt(1.0)));
   std::vector<DropletLayer> layers;
   float clear = 1.0F, thrown_back = 0.0F;
   Eigen::Array3f level = Eigen::Array3f::Zero();
-  skies_.clear();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kSkies); ++i) {
+  for (std::size_t i = 0; i < shares.size(); ++i) {
     layers.emplace_back(droplets, static_cast<double>(depthOf(i)));
     skies_.emplace_back(layers.back(), above);
-    clear -= shares_[i];
-    thrown_back += shares_[i] * layers.back().sphericalAlbedo();
-    level += shares_[i] * skies_.back().level();
+    clear -= shares[i];
+    thrown_back += shares[i] * layers.back().sphericalAlbedo();
+    level += shares[i] * skies_.back().level();
   }
   level += clear * levelOf(above);
   level_ = level / (1.0F - albedo_below * thrown_back);
@@ -81,7 +91,8 @@ BrokenCover::Way BrokenCover::wayUp(const Eigen::Vector3f& towards, const Eigen:
 
 BrokenCover::Seen BrokenCover::seen(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const {
   const Way way = wayUp(towards, from);
-  const float depth = map_->opticalDepth(way.place_m, way.distance_m * kFinest_rad / std::sqrt(way.cosine));
+  const float depth =
+      place_.map->opticalDepth(way.place_m, way.distance_m * kFinest_rad / std::sqrt(way.cosine));
   Seen seen{Eigen::Array3f::Zero(), std::exp(-depth / way.cosine), way.distance_m};
   if (depth <= 0.0F) return seen;
   // As it is seen where the line of sight meets the cloud, which lies lower there.
@@ -89,7 +100,7 @@ BrokenCover::Seen BrokenCover::seen(const Eigen::Vector3f& towards, const Eigen:
   const float across = met.norm();
   if (across > 0.0F) met *= std::sqrt(std::max(0.0F, 1.0F - way.cosine * way.cosine)) / across;
   met.z() = way.cosine;
-  const Between at = between(depth);
+  const Between at = between(depth, skies_.size());
   for (std::size_t i = 0; i < 2; ++i) {
     if (at.weights[i] > 0.0F) seen.scattered += at.weights[i] * skies_[at.first + i].scattered(met);
   }
@@ -102,13 +113,13 @@ float BrokenCover::passed(const Eigen::Vector3f& towards, const Eigen::Vector3f&
   // The disc's own width blurs the edge of a shadow.
   const float width_m =
       way.distance_m * static_cast<float>(2.0 * sin(kSunRadiusAtOneAu)) / std::sqrt(way.cosine);
-  return std::exp(-map_->opticalDepth(way.place_m, width_m) / way.cosine);
+  return std::exp(-place_.map->opticalDepth(way.place_m, width_m) / way.cosine);
 }
 
 float BrokenCover::meanPassed(float z) const {
   const float cosine =
       wayUp({std::sqrt(std::max(0.0F, 1.0F - z * z)), 0.0F, z}, Eigen::Vector3f::Zero()).cosine;
-  return static_cast<float>(map_->meanPassed(static_cast<double>(cosine)));
+  return static_cast<float>(place_.map->meanPassed(static_cast<double>(cosine)));
 }
 
 }  // namespace sunlit::sky

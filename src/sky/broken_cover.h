@@ -13,6 +13,7 @@ namespace sunlit::sky {
 
 /// How a cloud layer lies over `map`.
 struct CloudPlace {
+  std::shared_ptr<const CloudMap> map;
   double base_m;            ///< above the ground
   Eigen::Vector2d drift_m;  ///< how far it has moved
 };
@@ -22,10 +23,8 @@ struct CloudPlace {
 /// pass on to each other is that of their means.
 class BrokenCover {
  public:
-  BrokenCover(std::shared_ptr<const CloudMap> map, const CloudPlace& place);
-
-  /// Tables of what shines through, where `above` falls on it.
-  void light(const LightAbove& above, const Droplets& droplets, float albedo_below);
+  /// Where `above` falls on it.
+  BrokenCover(const CloudPlace& place, const LightAbove& above, const Droplets& droplets, float albedo_below);
 
   /// What is seen of the cloud from a place in `map`.
   struct Seen {
@@ -49,9 +48,7 @@ class BrokenCover {
   };
   Way wayUp(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const;
 
-  std::shared_ptr<const CloudMap> map_;
   CloudPlace place_;
-  std::vector<float> shares_;  // of places of about the optical depth of each of skies_; the first are clear
   std::vector<LayerSky> skies_;  // by optical depth
   Eigen::Array3f level_ = Eigen::Array3f::Zero();
 };

@@ -39,10 +39,6 @@ Eigen::Array3f overcast(const Eigen::Array3f& clear, float sine, float strength,
   return clear * (cieIlluminance_lx(sine) * strength / luminance);
 }
 
-Eigen::Array3f direct(const DiscLight& disc) {
-  return disc.illuminance.value * static_cast<float>(std::max(0.0, disc.towards.vector().z()));
-}
-
 }  // namespace
 
 float cieIlluminance_lx(float sine_of_elevation) {
@@ -54,7 +50,7 @@ CieSky::CieSky(const SkyTable& clear, const CieLevels& levels) {
   const float share = cieIlluminance_lx(0.0F) / levels.clear_at_horizon_lx;
   Eigen::Array3f level = Eigen::Array3f::Zero();
   const auto add = [&](const DiscLight& disc, const auto& scattered, float strength) {
-    Eigen::Array3f lit = direct(disc);
+    Eigen::Array3f lit = onLevelGround(disc);
     if (scattered)
       lit += levelIlluminance(pieces,
                               [&](const Eigen::Vector3f& towards) { return scattered->luminance(towards); });

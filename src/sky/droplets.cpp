@@ -17,6 +17,7 @@ using Vector = Eigen::VectorXd;
 
 constexpr int kDegrees = 64;         // 0.86^64 is 6e-5
 constexpr int kFirstDoublings = 13;  // from a layer so thin that what is scattered twice in it does not count
+constexpr float kGrazing = 1e-3F;    // the least cosine from the vertical that is told from the horizon
 constexpr char kName[] = "droplets-2-g0.86";
 
 /// Normalised associated Legendre functions of one order at one cosine, by degree.
@@ -141,6 +142,10 @@ float dropletPhase(float cos_angle) {
   return (1.0F - g * g) / (4.0F * static_cast<float>(kPi) * root * root * root);
 }
 
+float passedStraight(float optical_depth, float mu) {
+  return std::exp(-optical_depth / std::max(mu, kGrazing));
+}
+
 Droplets::Droplets(const TableStore& kept) {
   std::vector<double> cosines{1.0}, weights{0.0};
   for (const Node& node : gaussLegendre(kNodes - 1, 0.0, 1.0)) {
@@ -213,10 +218,6 @@ DropletLayer::DropletLayer(const Droplets& droplets, double optical_depth)
   spherical_albedo_ = static_cast<float>(sum);
 }
 
-float DropletLayer::passed(float mu) const {
-  return std::exp(-depth_ / std::max(mu, 1e-3F));
-}
-
 DropletLayer::Blend DropletLayer::between(float angle_rad) const {
   const auto [first, weights] = cubic(angles_, std::min(angle_rad, angles_.back()));
   return {first, weights};
@@ -247,10 +248,14 @@ float DropletLayer::evenMode(float seen_rad, float lit_rad) const {
          static_cast<float>(kPi);
 }
 
-float DropletLayer::once(float mu, float mu0, float cos_angle) const {
+DropletLayer::Once DropletLayer::once(float mu, float mu0) const {
+  const double through = transmittedOnce(std::max(mu, kGrazing), std::max(mu0, kGrazing), depth_);
+  return {static_cast<float>(through), mu0};
+}
+
+float DropletLayer::Once::under(float cos_angle) const {
   // The factor 4π makes of a share into 1 sr the phase function of transmittedOnce().
-  const double through = transmittedOnce(std::max(mu, 1e-3F), std::max(mu0, 1e-3F), depth_);
-  return 4.0F * dropletPhase(cos_angle) * static_cast<float>(through) * mu0;
+  return 4.0F * dropletPhase(cos_angle) * through * mu0;
 }
 
 Eigen::Array3f DropletLayer::bluing() const {

@@ -56,22 +56,29 @@ class Droplets {
   std::vector<float> numbers_;
 };
 
+/// Share of light that goes straight through a layer at a cosine from the vertical of `mu` ≥ 0.
+float passedStraight(float optical_depth, float mu);
+
 /// One of these layers, of any depth.
 class DropletLayer {
  public:
   DropletLayer(const Droplets& droplets, double optical_depth);
 
   float opticalDepth() const { return depth_; }
-  /// Share of light that goes straight through at a cosine from the vertical of `mu` ≥ 0.
-  float passed(float mu) const;
+  float passed(float mu) const { return passedStraight(depth_, mu); }
 
   /// Amplitudes of cos(m Δφ) of what is seen at an angle from the zenith of light from another, scattered at
   /// least twice: luminance for an illuminance of 1 of a plane facing the light.
   std::array<float, Droplets::kModes> modes(float seen_rad, float lit_rad) const;
   /// The first of these: of light from all round alike.
   float evenMode(float seen_rad, float lit_rad) const;
-  /// The same of light scattered once, seen at cosine `mu`, lit at `mu0`, under an angle between the two.
-  float once(float mu, float mu0, float cos_angle) const;
+  /// The same of light scattered once, seen at one cosine from the vertical and lit at another.
+  struct Once {
+    float through, mu0;
+    /// An angle between the two.
+    float under(float cos_angle) const;
+  };
+  Once once(float mu, float mu0) const;
   /// Luminance seen at `angle_rad` from the vertical of the side that even light of luminance 1 falls on.
   float reflected(float angle_rad) const;
   /// What absorption in water makes of the colour of light that was scattered: bluer, the more the thicker

@@ -1,5 +1,6 @@
 #include "hemisphere.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sphere.h"
@@ -37,6 +38,10 @@ std::vector<SkyPiece> hemisphere(const Eigen::Vector2f& heading) {
     }
   }
   return pieces;
+}
+
+Eigen::Array3f onLevelGround(const DiscLight& disc) {
+  return disc.illuminance.value * static_cast<float>(std::max(0.0, disc.towards.vector().z()));
 }
 
 }  // namespace sunlit::sky

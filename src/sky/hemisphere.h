@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "sunlit/sky/daylight.h"
+
 namespace sunlit::sky {
 
 struct SkyPiece {
@@ -23,5 +25,8 @@ Eigen::Array3f levelIlluminance(const std::vector<SkyPiece>& pieces, const Lumin
     sum += luminance(piece.towards) * (piece.solid_angle * piece.towards.z());
   return sum;
 }
+
+/// The same by the direct light of a disc.
+Eigen::Array3f onLevelGround(const DiscLight& disc);
 
 }  // namespace sunlit::sky

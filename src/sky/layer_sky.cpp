@@ -25,10 +25,11 @@ Eigen::Vector3f at(float elevation, float azimuth) {
 float onceAllRound(const DropletLayer& layer, float mu, float mu0) {
   constexpr int kAzimuths = 24;
   const float both = std::sqrt((1.0F - mu * mu) * (1.0F - mu0 * mu0));
+  const DropletLayer::Once once = layer.once(mu, mu0);
   float sum = 0.0F;
   for (int i = 0; i < kAzimuths; ++i) {
     const auto azimuth = static_cast<float>(kPi * (i + 0.5) / kAzimuths);
-    sum += layer.once(mu, mu0, std::min(1.0F, mu * mu0 + both * std::cos(azimuth)));
+    sum += once.under(std::min(1.0F, mu * mu0 + both * std::cos(azimuth)));
   }
   return sum / kAzimuths;
 }
@@ -37,8 +38,7 @@ float onceAllRound(const DropletLayer& layer, float mu, float mu0) {
 
 Eigen::Array3f levelOf(const LightAbove& above) {
   Eigen::Array3f level = levelIlluminance(hemisphere(Eigen::Vector2f::UnitY()), above.luminance);
-  for (const DiscLight& disc : above.discs)
-    level += disc.illuminance.value * std::max(0.0F, static_cast<float>(disc.towards.vector().z()));
+  for (const DiscLight& disc : above.discs) level += onLevelGround(disc);
   return level;
 }
 
@@ -60,7 +60,7 @@ LayerSky::LayerSky(const DropletLayer& layer, const LightAbove& above, float alb
 }
 
 float LayerSky::passed(float z) const {
-  return std::exp(-depth_ / std::max(z, 1e-3F));
+  return passedStraight(depth_, z);
 }
 
 void LayerSky::addSky(const DropletLayer& layer, const LightAbove& above) {
@@ -104,6 +104,7 @@ void LayerSky::addDisc(const DropletLayer& layer, const DiscLight& disc) {
   for (int row = 0; row < kRows; ++row) {
     const float elevation = rowElevation(row, kRows);
     const auto modes = layer.modes(kHalfPi - elevation, lit);
+    const DropletLayer::Once once = layer.once(std::sin(elevation), mu0);
     for (int column = 0; column < kColumns; ++column) {
       const Eigen::Vector3f seen = at(elevation, static_cast<float>(2.0 * kPi * column / kColumns));
       const float turn = azimuthFrom(heading, seen);
@@ -117,7 +118,7 @@ void LayerSky::addDisc(const DropletLayer& layer, const DiscLight& disc) {
         before = now;
         now = next;
       }
-      sum += layer.once(seen.z(), mu0, std::clamp(seen.dot(towards), -1.0F, 1.0F));
+      sum += once.under(std::clamp(seen.dot(towards), -1.0F, 1.0F));
       nodes_[static_cast<std::size_t>(row * kColumns + column)] += light * std::max(0.0F, sum);
     }
   }
@@ -131,10 +132,8 @@ Eigen::Array3f LayerSky::levelBelow(const DropletLayer& layer, const LightAbove&
         if (straight > 1e-6F) sum += above.luminance(towards) * straight;
         return sum;
       });
-  for (const DiscLight& disc : above.discs) {
-    const auto z = static_cast<float>(disc.towards.vector().z());
-    if (z > 0.0F) level += disc.illuminance.value * (layer.passed(z) * z);
-  }
+  for (const DiscLight& disc : above.discs)
+    level += onLevelGround(disc) * layer.passed(static_cast<float>(disc.towards.vector().z()));
   return level;
 }
 

@@ -45,11 +45,6 @@ Eigen::Array4f gather(const LitPieces& sky, const Eigen::Vector3f& normal) {
   return sum;
 }
 
-/// Direct light of a disc on level ground.
-Eigen::Array3f onLevelGround(const DiscLight& disc) {
-  return disc.illuminance.value * static_cast<float>(std::max(0.0, disc.towards.vector().z()));
-}
-
 }  // namespace
 
 void gatherIlluminance(float ground_albedo, SkyTable* table) {

@@ -34,31 +34,6 @@ const Eigen::Vector3f kOrigin = Eigen::Vector3f::Zero();
 
 }  // namespace
 
-void validate(const Weather& weather) {
-  requireFields(weather);
-  if (weather.overcast != Overcast::kCie) return;
-  if (weather.cover_oktas < 8.0)
-    refuse("cover", textOf(weather.cover_oktas), "8 where overcast is cie, which is a closed sky");
-  if (weather.optical_depth)
-    refuse("optical_depth", textOf(*weather.optical_depth), "auto where overcast is cie, which has none");
-}
-
-bool isClear(const Weather& weather) {
-  return weather.cover_oktas <= 0.0 && !weather.visibility_m;
-}
-
-double opticalDepthOf(const Weather& weather) {
-  return weather.optical_depth.value_or(30.0 * std::pow(weather.cover_oktas / 8.0, 1.5));
-}
-
-bool isBroken(const Weather& weather) {
-  return weather.cover_oktas > 0.0 && weather.cover_oktas < 8.0;
-}
-
-bool moves(const Weather& weather) {
-  return isBroken(weather) && weather.wind_m_per_s > 0.0;
-}
-
 WeatherSky::WeatherSky(const Weather& weather, const WeatherTables& tables, const SkyTable& clear) {
   std::optional<DropletLayer> fog;
   float below = tables.ground_albedo;
@@ -86,8 +61,8 @@ void WeatherSky::cover(const Weather& weather, const Around& around, LightAbove*
     return;
   }
   if (sky::isBroken(weather)) {
-    broken_.emplace(tables.clouds, CloudPlace{weather.cloud_base_m, driftOf(weather)});
-    broken_->light(*above, tables.droplets, around.albedo_below);
+    broken_.emplace(CloudPlace{tables.clouds, weather.cloud_base_m, driftOf(weather)}, *above,
+                    tables.droplets, around.albedo_below);
     broken_share_ =
         LinearRgb(broken_->level()).luminance() / std::max(LinearRgb(levelOf(*above)).luminance(), 1e-12F);
   } else {

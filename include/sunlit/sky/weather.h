@@ -17,7 +17,7 @@ enum class Overcast {
 /// The default is no weather at all: the clear sky, to the bit.
 struct Weather {
   double cover_oktas = 0.0;
-  /// Of the cloud, vertical, the mean where there is some. Nothing: usualOpticalDepth().
+  /// Of the cloud, vertical, the mean where there is some. Nothing: as opticalDepthOf() has it.
   std::optional<double> optical_depth;
   Overcast overcast = Overcast::kLayer;
   /// Meteorological optical range: a black board at this distance has a contrast of 5 % (CIE 17-28-020).

@@ -24,27 +24,13 @@ inline void intersect(RTCScene scene, RayContext* context, RTCRayHit* ray) {
   rtcIntersect1(scene, context, ray);
 }
 
-/// Rays of a packet that take much the same way, or do not.
-template <auto coherence>
-void intersect(const int* valid, RTCScene scene, RTCRayHit16* packet) {
+/// Asks `query` for a packet.
+template <auto coherence, auto query, typename Packet>
+void ask(const int* valid, RTCScene scene, Packet* packet) {
   RayContext context;
   begin(&context);
   context.flags = coherence;
-  rtcIntersect16(valid, scene, &context, packet);
-}
-template <auto coherence>
-void occluded(const int* valid, RTCScene scene, RTCRay8* packet) {
-  RayContext context;
-  begin(&context);
-  context.flags = coherence;
-  rtcOccluded8(valid, scene, &context, packet);
-}
-template <auto coherence>
-void occluded(const int* valid, RTCScene scene, RTCRay16* packet) {
-  RayContext context;
-  begin(&context);
-  context.flags = coherence;
-  rtcOccluded16(valid, scene, &context, packet);
+  query(valid, scene, &context, packet);
 }
 
 #else
@@ -64,28 +50,40 @@ inline void intersect(RTCScene scene, RayContext* context, RTCRayHit* ray) {
   rtcIntersect1(scene, ray, &arguments);
 }
 
-template <auto coherence>
-void intersect(const int* valid, RTCScene scene, RTCRayHit16* packet) {
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
-  arguments.flags = coherence;
-  rtcIntersect16(valid, scene, packet, &arguments);
+inline void begin(RTCIntersectArguments* arguments) {
+  rtcInitIntersectArguments(arguments);
 }
-template <auto coherence>
-void occluded(const int* valid, RTCScene scene, RTCRay8* packet) {
-  RTCOccludedArguments arguments;
-  rtcInitOccludedArguments(&arguments);
-  arguments.flags = coherence;
-  rtcOccluded8(valid, scene, packet, &arguments);
+inline void begin(RTCOccludedArguments* arguments) {
+  rtcInitOccludedArguments(arguments);
 }
-template <auto coherence>
-void occluded(const int* valid, RTCScene scene, RTCRay16* packet) {
-  RTCOccludedArguments arguments;
-  rtcInitOccludedArguments(&arguments);
+
+template <auto coherence, typename Packet, typename Arguments>
+void ask(void (*query)(const int*, RTCScene, Packet*, Arguments*), const int* valid, RTCScene scene,
+         Packet* packet) {
+  Arguments arguments;
+  begin(&arguments);
   arguments.flags = coherence;
-  rtcOccluded16(valid, scene, packet, &arguments);
+  query(valid, scene, packet, &arguments);
+}
+template <auto coherence, auto query, typename Packet>
+void ask(const int* valid, RTCScene scene, Packet* packet) {
+  ask<coherence>(query, valid, scene, packet);
 }
 
 #endif
+
+/// Rays of a packet that take much the same way, or do not.
+template <auto coherence>
+void intersect(const int* valid, RTCScene scene, RTCRayHit16* packet) {
+  ask<coherence, rtcIntersect16>(valid, scene, packet);
+}
+template <auto coherence>
+void occluded(const int* valid, RTCScene scene, RTCRay8* packet) {
+  ask<coherence, rtcOccluded8>(valid, scene, packet);
+}
+template <auto coherence>
+void occluded(const int* valid, RTCScene scene, RTCRay16* packet) {
+  ask<coherence, rtcOccluded16>(valid, scene, packet);
+}
 
 }  // namespace sunlit::light

@@ -12,6 +12,11 @@ import rosunit
 import yaml
 
 SOURCE = os.environ["SUNLIT_SOURCE_DIR"]
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(SOURCE, "scripts"))
+
+from sunlit_experiment import arguments  # noqa: E402
+
 NUMBER = r"-?\d+(?:\.\d+)?(?:e\+?\d+)?"
 # Arguments of experiment.launch that are parameters of the renderer, and what differs on purpose.
 ARGUMENTS = {"missing": "missing", "spacing": "path/spacing", "offset": "path/offset", "yaw": "path/yaw", "camera_height": "path/camera_height",
@@ -143,6 +148,10 @@ class ParametersAgree(unittest.TestCase):
                 self.assertEqual(yaml.safe_load(arguments[argument].get("default")), rows[key]["default"])
                 told = ranges(arguments[argument].get("doc"))
                 self.assertLessEqual(told, ranges(rows[key]["allowed"]))
+
+    def test_weather_of_the_experiments_conditions(self):
+        rows = programmed()["render_node"]
+        self.assertEqual(sorted(arguments.WEATHER), sorted(key.split("/")[1] for key in rows if key.startswith("weather/")))
 
     def test_parameters_that_launch_files_set(self):
         """Each is a parameter of its node, and the argument that it comes from names no other range."""

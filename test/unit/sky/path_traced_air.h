@@ -4,15 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <random>
 
 #include "sky/radiative_transfer.h"
 #include "sky/ray_path.h"
 #include "sunlit/quantity/angle.h"
+#include "traced_paths.h"
 
 namespace sunlit::sky {
 
-class PathTracedAir {
+class PathTracedAir : public TracedPaths {
  public:
   /// `transfer` lends its medium and its exact transmittance() to the sun, not its scattering tables.
   PathTracedAir(const RadiativeTransfer& transfer, int band, double sun_elevation_rad)
@@ -21,40 +21,16 @@ class PathTracedAir {
         towards_sun_(std::cos(sun_elevation_rad), 0.0, std::sin(sun_elevation_rad)),
         thickest_(transfer.medium().at(0.0).extinction[band]) {}
 
-  struct Estimate {
-    double mean, error;  ///< radiance relative to the sun's irradiance, 1/sr; its standard error
-  };
   /// From the ground towards `towards` (unit, z up, sun at azimuth 0 towards +x).
   Estimate radiance(const Eigen::Vector3d& towards, int paths) {
-    double sum = 0.0;
-    double squares = 0.0;
-    for (int i = 0; i < paths; ++i) {
-      const double value = path(towards);
-      sum += value;
-      squares += value * value;
-    }
-    const double mean = sum / paths;
-    return {mean, std::sqrt((squares / paths - mean * mean) / paths)};
+    return meanOf(paths, [&] { return path(towards); });
   }
 
  private:
-  double uniform() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
-
   double sunlight(const Eigen::Vector3d& from_centre_km) const {
     const double r = from_centre_km.norm();
     return transfer_.transmittance(std::max(0.0, r - kEarthRadius_km),
                                    from_centre_km.dot(towards_sun_) / r)[band_];
-  }
-
-  /// A direction at `cos_angle` from `axis`, all round alike.
-  Eigen::Vector3d around(const Eigen::Vector3d& axis, double cos_angle) {
-    const Eigen::Vector3d side =
-        axis.cross(std::abs(axis.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX())
-            .normalized();
-    const double turn = 2.0 * kPi * uniform();
-    const double across = std::sqrt(std::max(0.0, 1.0 - cos_angle * cos_angle));
-    return (axis * cos_angle + (side * std::cos(turn) + axis.cross(side) * std::sin(turn)) * across)
-        .normalized();
   }
 
   /// Drawn by trial and error from a phase function that is largest straight ahead.
@@ -128,7 +104,6 @@ class PathTracedAir {
   int band_;
   Eigen::Vector3d towards_sun_;
   double thickest_;
-  std::mt19937_64 random_{20240701};
 };
 
 }  // namespace sunlit::sky

@@ -3,36 +3,24 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <random>
 
 #include "sky/droplets.h"
 #include "sunlit/quantity/angle.h"
+#include "traced_paths.h"
 
 namespace sunlit::sky {
 
-class PathTracedLayer {
+class PathTracedLayer : public TracedPaths {
  public:
   PathTracedLayer(double optical_depth, const Eigen::Vector3d& towards_sun, double ground_albedo = 0.0)
       : depth_(optical_depth), towards_sun_(towards_sun), albedo_(ground_albedo) {}
 
-  struct Estimate {
-    double mean, error;
-  };
   /// Luminance seen towards `towards` (unit, upwards) of light of 1 lx from the sun, without its disc.
   Estimate luminance(const Eigen::Vector3d& towards, int paths) {
-    double sum = 0.0, squares = 0.0;
-    for (int i = 0; i < paths; ++i) {
-      const double value = path(towards);
-      sum += value;
-      squares += value * value;
-    }
-    const double mean = sum / paths;
-    return {mean, std::sqrt((squares / paths - mean * mean) / paths)};
+    return meanOf(paths, [&] { return path(towards); });
   }
 
  private:
-  double uniform() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
-
   double path(Eigen::Vector3d direction) {
     double height = 0.0;  // in optical depth above the ground
     double weight = 1.0, sum = 0.0;
@@ -60,20 +48,9 @@ class PathTracedLayer {
     return (1.0 + g * g - root * root) / (2.0 * g);
   }
 
-  Eigen::Vector3d around(const Eigen::Vector3d& axis, double cos_angle) {
-    const Eigen::Vector3d side =
-        axis.cross(std::abs(axis.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX())
-            .normalized();
-    const double turn = 2.0 * kPi * uniform();
-    const double across = std::sqrt(std::max(0.0, 1.0 - cos_angle * cos_angle));
-    return (axis * cos_angle + (side * std::cos(turn) + axis.cross(side) * std::sin(turn)) * across)
-        .normalized();
-  }
-
   double depth_;
   Eigen::Vector3d towards_sun_;
   double albedo_;
-  std::mt19937_64 random_{20240701};
 };
 
 }  // namespace sunlit::sky

@@ -109,6 +109,14 @@ std::string expectedRows(Retrieval retrieval = Retrieval::kTruth, std::size_t ma
   return contentOf(folder.file("rows"));
 }
 
+/// Truth and images of the poses from `first` up to `end`.
+void feed(Evaluation& evaluation, std::int64_t first, std::int64_t end) {
+  for (std::int64_t pose = first; pose < end; ++pose) {
+    feedTruth(evaluation, pose);
+    feedImages(evaluation, pose);
+  }
+}
+
 LocalisationOutcome finishAndLocalise(Evaluation& evaluation) {
   EXPECT_TRUE(evaluation.finish().isWhole());
   return evaluation.localise({});
@@ -121,10 +129,7 @@ TEST(EvaluationLocalise, GivesWhatThePicturesThemselvesGive) {
                                       static_cast<std::size_t>(threads));
     const TemporaryFolder folder;
     Evaluation evaluation(localising(folder), {});
-    for (std::int64_t pose = 0; pose < kPoses; ++pose) {
-      feedTruth(evaluation, pose);
-      feedImages(evaluation, pose);
-    }
+    feed(evaluation, 0, kPoses);
     const LocalisationOutcome outcome = finishAndLocalise(evaluation);
     EXPECT_TRUE(outcome.isWhole());
     EXPECT_EQ(outcome.key_frames, 2u);
@@ -140,10 +145,7 @@ TEST(EvaluationLocalise, GivesTheSameThroughALens) {
   const ThroughLens lens;
   const TemporaryFolder folder;
   Evaluation evaluation(localising(folder), {});
-  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
-    feedTruth(evaluation, pose);
-    feedImages(evaluation, pose);
-  }
+  feed(evaluation, 0, kPoses);
   const LocalisationOutcome outcome = finishAndLocalise(evaluation);
   EXPECT_EQ(outcome.summary.at(0).failures, 0u);
   EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
@@ -154,10 +156,7 @@ TEST(EvaluationLocalise, FindsKeyFramesByTheirMatchesAlike) {
   EvaluationOptions options = localising(folder);
   options.localisation.localiser.retrieval = Retrieval::kAll;
   Evaluation evaluation(options, {});
-  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
-    feedTruth(evaluation, pose);
-    feedImages(evaluation, pose);
-  }
+  feed(evaluation, 0, kPoses);
   EXPECT_TRUE(finishAndLocalise(evaluation).isWhole());
   EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows(Retrieval::kAll));
 }
@@ -167,10 +166,7 @@ TEST(EvaluationLocalise, AMapMayBeMadeOfSeveralStreams) {
   EvaluationOptions options = localising(folder);
   options.localisation.map = "noon+dusk";
   Evaluation evaluation(options, {});
-  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
-    feedTruth(evaluation, pose);
-    feedImages(evaluation, pose);
-  }
+  feed(evaluation, 0, kPoses);
   EXPECT_TRUE(evaluation.finish().isWhole());
   std::set<std::pair<std::string, std::int64_t>> named;
   LocaliseCallbacks callbacks;
@@ -201,10 +197,7 @@ TEST(EvaluationLocalise, ABrokenOffRunIsTakenUpAgain) {
   const TemporaryFolder folder;
   {
     Evaluation evaluation(localising(folder), {});
-    for (std::int64_t pose = 0; pose < 2; ++pose) {
-      feedTruth(evaluation, pose);
-      feedImages(evaluation, pose);
-    }
+    feed(evaluation, 0, 2);
     evaluation.waitForRoom(0);
   }
   // Torn in the midst of a record, as by a kill.
@@ -215,10 +208,7 @@ TEST(EvaluationLocalise, ABrokenOffRunIsTakenUpAgain) {
   Evaluation evaluation(localising(folder), callbacks);
   EXPECT_NE(notes.find("observations.bin: 8 bytes of a torn end were left out"), std::string::npos) << notes;
   EXPECT_EQ(evaluation.counts().completed_poses, 2u);
-  for (std::int64_t pose = 2; pose < kPoses; ++pose) {
-    feedTruth(evaluation, pose);
-    feedImages(evaluation, pose);
-  }
+  feed(evaluation, 2, kPoses);
   EXPECT_TRUE(finishAndLocalise(evaluation).isWhole());
   EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
   evaluation.compareMethods();

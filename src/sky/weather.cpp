@@ -1,0 +1,34 @@
+#include "sunlit/sky/weather.h"
+
+#include <cmath>
+
+#include "sunlit/quantity/range.h"
+
+namespace sunlit::sky {
+
+void validate(const Weather& weather) {
+  requireFields(weather);
+  if (weather.overcast != Overcast::kCie) return;
+  if (weather.cover_oktas < 8.0)
+    refuse("cover", textOf(weather.cover_oktas), "8 where overcast is cie, which is a closed sky");
+  if (weather.optical_depth)
+    refuse("optical_depth", textOf(*weather.optical_depth), "auto where overcast is cie, which has none");
+}
+
+bool isClear(const Weather& weather) {
+  return weather.cover_oktas <= 0.0 && !weather.visibility_m;
+}
+
+double opticalDepthOf(const Weather& weather) {
+  return weather.optical_depth.value_or(30.0 * std::pow(weather.cover_oktas / 8.0, 1.5));
+}
+
+bool isBroken(const Weather& weather) {
+  return weather.cover_oktas > 0.0 && weather.cover_oktas < 8.0;
+}
+
+bool moves(const Weather& weather) {
+  return isBroken(weather) && weather.wind_m_per_s > 0.0;
+}
+
+}  // namespace sunlit::sky
