@@ -98,7 +98,8 @@ def clock_times(text):
 
 
 TIMES = ("hour", "minute", "second", "year", "month", "day")
-WEATHER = ("cover", "optical_depth", "overcast", "visibility", "fog_top", "cloud_base", "wind", "wind_from", "cloud_seed")
+WEATHER = ("cover", "optical_depth", "overcast", "visibility", "fog_top", "rain", "cloud_base", "wind", "wind_from", "cloud_seed",
+           "wet", "puddles", "snow", "ground_seed")
 
 
 def conditions(text, hours):

@@ -4,6 +4,7 @@
 #include "light/lamps/lamp_sets.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/transport.h"
+#include "sunlit/scene/weathering.h"
 
 namespace sunlit::light {
 namespace {
@@ -23,6 +24,17 @@ World::World(std::shared_ptr<const scene::Scene> scene,
       visibility(std::make_shared<Visibility>(geometry)),
       bodies(meshes_of_bodies.empty() ? nullptr
                                       : std::make_shared<Bodies>(geometry->scene, meshes_of_bodies)) {}
+
+World weathered(const World& dry, const scene::SurfaceState& state) {
+  World world = dry;
+  world.transport = nullptr;
+  if (scene::isDry(state)) return world;
+  auto geometry = std::make_shared<Geometry>(*dry.geometry);
+  geometry->weathering = std::make_shared<const scene::Weathering>(*geometry->scene, state);
+  world.geometry = std::move(geometry);
+  world.visibility = std::make_shared<Visibility>(world.geometry);
+  return world;
+}
 
 Illumination illumination(const World& world, const sky::Daylight& day, const LampOptions& lamps) {
   const bool burn = burnUnder(lamps, day);

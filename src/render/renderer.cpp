@@ -1,6 +1,7 @@
 #include "sunlit/render/renderer.h"
 
 #include <algorithm>
+#include <deque>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "render/lens_canvas.h"
 #include "render/rasterizer.h"
 #include "render/resolve.h"
+#include "render/weather_surfaces.h"
 #include "sunlit/light/picture.h"
 #include "sunlit/light/transport.h"
 
@@ -29,6 +31,11 @@ std::shared_ptr<LensCanvas> lensOf(const RenderOptions& options) {
   return std::make_shared<LensCanvas>(image::Lens(options.camera, options.distortion), options.supersampling);
 }
 
+const light::World& firstOf(const std::vector<light::World>& states) {
+  if (states.empty()) throw std::invalid_argument("states is empty, but must hold one world at least");
+  return states.front();
+}
+
 bool same(const BodyPlaces& a, const BodyPlaces& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const auto& x, const auto& y) { return x.matrix() == y.matrix(); });
@@ -38,17 +45,18 @@ bool same(const BodyPlaces& a, const BodyPlaces& b) {
 
 class Renderer::Implementation {
  public:
-  Implementation(const light::World& world, const RenderOptions& options)
+  Implementation(const std::vector<light::World>& states, const RenderOptions& options)
       : options_(options),
         view_(viewOf(options)),
         lens_(lensOf(options)),
-        world_(world),
-        pyramids_(*world.geometry->scene),
-        maps_(*world.geometry->scene,
-              world.transport ? static_cast<float>(light::TransportOptions().finest_m) : 0.0f),
+        world_(firstOf(states)),
+        pyramids_(*world_.geometry->scene),
+        maps_(*world_.geometry->scene,
+              world_.transport ? static_cast<float>(light::TransportOptions().finest_m) : 0.0f),
         rasterizer_(
-            makeRasterizer(options.rasterizer, {world.geometry, pyramids_, options.texture_lod_bias})),
-        preparer_(world, options.final_gather) {}
+            makeRasterizer(options.rasterizer, {world_.geometry, pyramids_, options.texture_lod_bias})) {
+    for (const light::World& state : states) states_.emplace_back(state, options.final_gather);
+  }
 
   void look(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {
     const bool drawn_ahead = !ahead_.samples.empty() &&
@@ -63,9 +71,9 @@ class Renderer::Implementation {
     draw(map_from_optical, map_from_body, ahead_);
   }
 
-  image::LinearImage light(const light::Illumination& light) const {
+  image::LinearImage light(const light::Illumination& light, std::size_t state) const {
     requireLook();
-    return seen_.picture.illuminate(light);
+    return seen_.pictures.at(state).illuminate(light);
   }
 
   image::DepthImage depth() const {
@@ -73,9 +81,9 @@ class Renderer::Implementation {
     return resolveDepth(bufferOf(seen_), *seen_.visibility);
   }
 
-  const light::Surfaces& surfaces() const {
+  const light::Surfaces& surfaces(std::size_t state) const {
     requireLook();
-    return seen_.picture.surfaces();
+    return seen_.pictures.at(state).surfaces();
   }
 
   const RenderOptions& options() const { return options_; }
@@ -93,19 +101,27 @@ class Renderer::Implementation {
     std::shared_ptr<const light::Geometry> bodies;  ///< at these places; null: none
     std::shared_ptr<const light::Visibility> visibility;
     std::vector<Sample> samples;
-    light::PreparedPicture picture;
+    std::vector<light::PreparedPicture> pictures;  ///< one a state
+  };
+  /// A state of the surfaces.
+  struct State {
+    State(const light::World& world_in_it, int final_gather)
+        : world(world_in_it), preparer(world, final_gather) {}
+    light::World world;
+    light::PicturePreparer preparer;
   };
 
   void place(const BodyPlaces& map_from_body, Pose& seen) const {
+    if (!map_from_body.empty() && !world_.bodies)
+      throw std::invalid_argument("map_from_body is given, but this world has no bodies");
     seen.map_from_body = map_from_body;
-    if (map_from_body.empty()) {
-      seen.bodies = nullptr;
-      seen.visibility = world_.visibility;
-      return;
-    }
-    if (!world_.bodies) throw std::invalid_argument("map_from_body is given, but this world has no bodies");
-    seen.bodies = world_.bodies->placed(map_from_body);
-    seen.visibility = std::make_shared<light::Visibility>(world_.visibility, seen.bodies);
+    seen.bodies = map_from_body.empty() ? nullptr : world_.bodies->placed(map_from_body);
+    seen.visibility = visibilityOf(world_, seen);
+  }
+  /// Of a world with what moves at its places in `seen`.
+  static std::shared_ptr<const light::Visibility> visibilityOf(const light::World& world, const Pose& seen) {
+    if (!seen.bodies) return world.visibility;
+    return std::make_shared<light::Visibility>(world.visibility, seen.bodies);
   }
 
   void draw(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body, Pose& seen) {
@@ -128,9 +144,17 @@ class Renderer::Implementation {
   }
 
   void resolve(Pose& seen) {
-    light::Surfaces surfaces = seen.picture.takeSurfaces();
-    resolveSurfaces(bufferOf(seen), &surfaces);
-    preparer_.prepare({std::move(surfaces), seen.visibility, seen.map_from_body}, &seen.picture);
+    seen.pictures.resize(states_.size());
+    light::Surfaces dry = seen.pictures.back().takeSurfaces();
+    resolveSurfaces(bufferOf(seen), &dry);
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const light::World& world = states_[i].world;
+      light::Surfaces surfaces = i + 1 < states_.size() ? dry : std::move(dry);
+      weatherSurfaces(*world.geometry, &surfaces);
+      states_[i].preparer.prepare(
+          {std::move(surfaces), i == 0 ? seen.visibility : visibilityOf(world, seen), seen.map_from_body},
+          &seen.pictures[i]);
+    }
   }
 
   Seen bufferOf(const Pose& pose) const {
@@ -152,17 +176,19 @@ class Renderer::Implementation {
   RenderOptions options_;
   View view_;                         // without a pose
   std::shared_ptr<LensCanvas> lens_;  // null: a pinhole
-  light::World world_;
-  TexturePyramids pyramids_;  // before the rasterizer, which refers to them
+  light::World world_;                // in the first of its states
+  TexturePyramids pyramids_;          // before the rasterizer, which refers to them
   SurfaceMaps maps_;
   std::unique_ptr<Rasterizer> rasterizer_;
-  light::PicturePreparer preparer_;
+  std::deque<State> states_;  // which stay where they are
   Pose seen_;
   Pose ahead_;
 };
 
 Renderer::Renderer(const light::World& world, const RenderOptions& options)
-    : implementation_(std::make_unique<Implementation>(world, options)) {}
+    : Renderer(std::vector<light::World>{world}, options) {}
+Renderer::Renderer(const std::vector<light::World>& states, const RenderOptions& options)
+    : implementation_(std::make_unique<Implementation>(states, options)) {}
 Renderer::Renderer(std::shared_ptr<const scene::Scene> scene, const RenderOptions& options)
     : Renderer(light::World(std::move(scene)), options) {}
 Renderer::~Renderer() = default;
@@ -173,14 +199,14 @@ void Renderer::look(const Eigen::Isometry3d& map_from_optical, const BodyPlaces&
 void Renderer::lookAhead(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {
   implementation_->lookAhead(map_from_optical, map_from_body);
 }
-image::LinearImage Renderer::light(const light::Illumination& light) const {
-  return implementation_->light(light);
+image::LinearImage Renderer::light(const light::Illumination& light, std::size_t state) const {
+  return implementation_->light(light, state);
 }
 image::DepthImage Renderer::depth() const {
   return implementation_->depth();
 }
-const light::Surfaces& Renderer::surfaces() const {
-  return implementation_->surfaces();
+const light::Surfaces& Renderer::surfaces(std::size_t state) const {
+  return implementation_->surfaces(state);
 }
 const RenderOptions& Renderer::options() const {
   return implementation_->options();

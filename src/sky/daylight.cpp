@@ -24,6 +24,10 @@ float Daylight::throughCloud(const DiscLight& disc, const Eigen::Vector3f& place
   return table_->weather->passedThere({towards, place});
 }
 
+Rain Daylight::rain() const {
+  return table_->weather ? table_->weather->rain() : Rain();
+}
+
 bool Daylight::hasBrokenCloud() const {
   return table_->weather && table_->weather->isBroken();
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/range.h"
 
 namespace sunlit::sky {
@@ -16,11 +17,17 @@ void validate(const Weather& weather) {
 }
 
 bool isClear(const Weather& weather) {
-  return weather.cover_oktas <= 0.0 && !weather.visibility_m;
+  return weather.cover_oktas <= 0.0 && !weather.visibility_m && weather.rain_mm_per_h <= 0.0;
 }
 
 double opticalDepthOf(const Weather& weather) {
   return weather.optical_depth.value_or(30.0 * std::pow(weather.cover_oktas / 8.0, 1.5));
+}
+
+double rainPerMetre(double rain_mm_per_h) {
+  constexpr double kDropsAtZero = 8000.0, kSlope = 4.1;                            // 1/m³/mm; 1/mm at 1 mm/h
+  const double shadows = kPi * kDropsAtZero / (2.0 * std::pow(kSlope, 3)) * 1e-6;  // mm² in m²
+  return shadows * std::pow(rain_mm_per_h, 0.63);
 }
 
 bool isBroken(const Weather& weather) {

@@ -34,14 +34,19 @@ const Eigen::Vector3f kOrigin = Eigen::Vector3f::Zero();
 
 }  // namespace
 
-WeatherSky::WeatherSky(const Weather& weather, const WeatherTables& tables, const SkyTable& clear) {
+WeatherSky::WeatherSky(const Weather& weather, const WeatherTables& tables, const SkyTable& clear)
+    : rain_{weather.rain_mm_per_h, static_cast<std::uint64_t>(weather.seed)} {
   std::optional<DropletLayer> fog;
   float below = tables.ground_albedo;
-  if (weather.visibility_m) {
-    const double per_m = fogPerMetre(*weather.visibility_m, static_cast<double>(tables.haze_per_m));
+  if (weather.visibility_m || weather.rain_mm_per_h > 0.0) {
+    double per_m = rainPerMetre(weather.rain_mm_per_h);
+    if (weather.visibility_m)
+      per_m += fogPerMetre(*weather.visibility_m, static_cast<double>(tables.haze_per_m));
+    // Of rain in fog, what is above the fog does not count beside it.
+    const double top_m = weather.visibility_m ? weather.fog_top_m : weather.cloud_base_m;
     fog_per_m_ = static_cast<float>(per_m);
-    fog_top_m_ = static_cast<float>(weather.fog_top_m);
-    fog.emplace(tables.droplets, per_m * weather.fog_top_m);
+    fog_top_m_ = static_cast<float>(top_m);
+    fog.emplace(tables.droplets, per_m * top_m);
     const float back = fog->sphericalAlbedo();
     below = back + (1.0F - back) * (1.0F - back) * below / (1.0F - below * back);
   }

@@ -48,6 +48,7 @@ class WeatherSky {
   bool isBroken() const { return broken_.has_value(); }
   /// How much more than that comes through to a place from a disc that stands `towards`.
   float passedThere(const Sight& sight) const;
+  const Rain& rain() const { return rain_; }
   /// The air on the first `distance_m` of the way, `clear_air` without weather.
   AirColumn airOver(const AirColumn& clear_air, const Eigen::Vector3f& towards, float distance_m) const;
 
@@ -65,6 +66,7 @@ class WeatherSky {
 
   static constexpr float kNothing = 1e-7F;
 
+  Rain rain_;
   std::optional<CieSky> cie_;
   std::optional<LayerSky> cover_, fog_;
   std::optional<BrokenCover> broken_;

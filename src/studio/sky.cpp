@@ -14,20 +14,15 @@
 namespace sunlit::studio {
 namespace {
 
-/// Of different heights at a time: conditions of one run may have sites of their own.
+/// At a time: conditions of one run may have sites and states of the ground of their own.
 constexpr std::size_t kMostAirs = 8;
-
-/// The options of the air at a height.
-sky::AtmosphereOptions airAt(double height_m, const SkyOptions& options) {
-  sky::AtmosphereOptions air = options.air;
-  air.observer_height_m = height_m;
-  return air;
-}
 
 /// With the ground that is fixed, if one is.
 SkyOptions checked(SkyOptions options) {
   options.air.ground_albedo = options.fixed_ground_albedo.value_or(options.air.ground_albedo);
-  sky::validate(airAt(options.fixed_height_m.value_or(0.0), options));
+  sky::AtmosphereOptions air = options.air;
+  air.observer_height_m = options.fixed_height_m.value_or(0.0);
+  sky::validate(air);
   return options;
 }
 
@@ -62,49 +57,60 @@ Sky::Sky(const SkyOptions& options, Reports reports)
     : options_(checked(options)),
       reports_(std::move(reports)),
       air_tables_(options.cache_dir.empty() ? sky::TableStore() : airTablesIn(options.cache_dir, reports_)),
-      stars_(options.stars ? loadStars(reports_) : nullptr) {}
+      stars_(options.stars ? loadStars(reports_) : nullptr),
+      ground_albedos_{options_.air.ground_albedo} {}
 
-void Sky::over(const light::World& world) {
-  std::string origin = "as given";
-  if (!options_.fixed_ground_albedo) {
-    const std::optional<double> seen = light::albedoFromAbove(world);
-    origin = seen ? "the mean of the world from above" : "as nothing of the world is seen from above";
-    options_.air.ground_albedo = seen.value_or(sky::AtmosphereOptions().ground_albedo);
+void Sky::over(const std::vector<light::World>& states) {
+  ground_albedos_.clear();
+  for (const light::World& world : states) {
+    std::string origin = "as given";
+    double albedo = options_.air.ground_albedo;
+    if (!options_.fixed_ground_albedo) {
+      const std::optional<double> seen = light::albedoFromAbove(world);
+      origin = seen ? "the mean of the world from above" : "as nothing of the world is seen from above";
+      albedo = seen.value_or(sky::AtmosphereOptions().ground_albedo);
+    }
+    ground_albedos_.push_back(albedo);
+    tell(reports_.note, "Albedo of the land beyond the world: " + textOf(albedo) + ", " + origin);
   }
   airs_.clear();
-  tell(reports_.note, "Albedo of the land beyond the world: " + textOf(groundAlbedo()) + ", " + origin);
 }
 
-sky::Daylight Sky::daylight(const SkyBodies& bodies, const sky::Weather& weather) {
-  return airOver(bodies.site_elevation_m)
+sky::Daylight Sky::daylight(const SkyBodies& bodies, const sky::Weather& weather, std::size_t state) {
+  return airOver(bodies.site_elevation_m, state)
       .daylight(bodies.sun, {bodies.moon, bodies.map_from_celestial, stars_}, weather);
 }
 
-double Sky::heightOver(double site_elevation_m) const {
-  if (options_.fixed_height_m) return *options_.fixed_height_m;
-  sky::AtmosphereOptions air;
+sky::AtmosphereOptions Sky::airAt(double site_elevation_m, std::size_t state) const {
+  sky::AtmosphereOptions air = options_.air;
+  air.ground_albedo = groundAlbedo(state);
   const std::vector<Field> rows = fieldsOf(air);
   const Range& allowed = fieldOf(rows, "observer_height").range;
-  return std::clamp(site_elevation_m, allowed.low, allowed.high);
+  air.observer_height_m =
+      options_.fixed_height_m.value_or(std::clamp(site_elevation_m, allowed.low, allowed.high));
+  return air;
 }
 
-bool Sky::isPrepared(double site_elevation_m) const {
-  const double height_m = heightOver(site_elevation_m);
-  return std::any_of(airs_.begin(), airs_.end(), [&](const auto& air) { return air.first == height_m; });
+bool Sky::isPrepared(double site_elevation_m, std::size_t state) const {
+  const sky::AtmosphereOptions wanted = airAt(site_elevation_m, state);
+  return std::any_of(airs_.begin(), airs_.end(), [&](const Air& air) {
+    return air.height_m == wanted.observer_height_m && air.ground_albedo == wanted.ground_albedo;
+  });
 }
 
-const sky::Atmosphere& Sky::airOver(double site_elevation_m) {
-  const double height_m = heightOver(site_elevation_m);
-  const auto known =
-      std::find_if(airs_.begin(), airs_.end(), [&](const auto& air) { return air.first == height_m; });
+const sky::Atmosphere& Sky::airOver(double site_elevation_m, std::size_t state) {
+  const sky::AtmosphereOptions wanted = airAt(site_elevation_m, state);
+  const auto known = std::find_if(airs_.begin(), airs_.end(), [&](const Air& air) {
+    return air.height_m == wanted.observer_height_m && air.ground_albedo == wanted.ground_albedo;
+  });
   if (known != airs_.end()) {
     std::rotate(known, known + 1, airs_.end());
-    return airs_.back().second;
+    return airs_.back().atmosphere;
   }
-  tell(reports_.note, "Air of a height of " + textOf(height_m) + " m");
+  tell(reports_.note, "Air of a height of " + textOf(wanted.observer_height_m) + " m");
   if (airs_.size() == kMostAirs) airs_.erase(airs_.begin());
-  airs_.emplace_back(height_m, sky::Atmosphere(airAt(height_m, options_), air_tables_));
-  return airs_.back().second;
+  airs_.push_back({wanted.observer_height_m, wanted.ground_albedo, sky::Atmosphere(wanted, air_tables_)});
+  return airs_.back().atmosphere;
 }
 
 }  // namespace sunlit::studio

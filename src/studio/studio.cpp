@@ -3,11 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studio/tell.h"
+#include "sunlit/image/rain_streaks.h"
+#include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/frames.h"
 
 namespace sunlit::studio {
 
 namespace {
+
+/// "wet 1, snow 0.05 m".
+std::string textOf(scene::SurfaceState state) {
+  std::string text;
+  for (const Field& row : fieldsOf(state)) {
+    if (row.key != "ground_seed" && row.text() != "0")
+      text +=
+          (text.empty() ? "" : ", ") + row.key + " " + row.text() + (row.unit.empty() ? "" : " " + row.unit);
+  }
+  return text;
+}
 
 /// The highest point of the scene.
 double topOf(const scene::Scene& scene) {
@@ -25,20 +39,52 @@ const StudioOptions& checked(const StudioOptions& options) {
   render::validate(options.render);
   light::validate(options.bake.transport);
   light::validate(options.lamps);
+  for (const scene::SurfaceState& state : options.surfaces) scene::validate(state);
   render::requireStarts(options.render.rasterizer);
   return options;
+}
+
+/// A picture that is about to be developed.
+struct Exposed {
+  std::int64_t index;
+  double ev100;
+};
+
+/// The drops that fall before a camera meanwhile.
+void addRain(const render::Renderer& renderer, const sky::Daylight& day, const Exposed& exposed,
+             image::LinearImage* luminance) {
+  const sky::Rain rain = day.rain();
+  if (!(rain.mm_per_h > 0.0)) return;
+  // A drop gathers what is before the camera, and what is above.
+  Eigen::Array3d before = Eigen::Array3d::Zero();
+  for (std::size_t i = 0; i < luminance->data.size(); ++i)
+    before[static_cast<Eigen::Index>(i % 3)] += static_cast<double>(luminance->data[i]);
+  before /= static_cast<double>(luminance->data.size() / 3);
+  const Eigen::Array3f above = day.groundIlluminance().value / kPiFloat;
+  const image::RainStreaks streaks{rain.mm_per_h, rain.seed, exposed.index,
+                                   image::exposureTime_s(exposed.ev100),
+                                   0.5f * (before.cast<float>() + above)};
+  const Eigen::Vector3d down = -renderer.surfaces().map_from_optical.row(2).transpose();
+  const image::DepthImage depth = renderer.depth();
+  image::addRain(streaks, {renderer.options().camera, down, depth}, luminance);
 }
 
 }  // namespace
 
 Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& robot, const Reports& reports)
-    : options_(checked(options)),
-      world_(stopwatch_.measure("load", "world", [&] { return loadWorld(options.world, robot, reports); })) {
-  requireGroups(world_, options.lamps, reports);
-  world_.transport =
-      stopwatch_.measure("load", "transport", [&] { return bake(world_, options.bake, reports); });
+    : options_(checked(options)) {
+  const light::World dry =
+      stopwatch_.measure("load", "world", [&] { return loadWorld(options.world, robot, reports); });
+  requireGroups(dry, options.lamps, reports);
+  for (const scene::SurfaceState& state : options.surfaces) {
+    light::World& world = worlds_.emplace_back(
+        stopwatch_.measure("load", "surfaces", [&] { return light::weathered(dry, state); }));
+    if (!scene::isDry(state)) tell(reports.note, "Surfaces " + textOf(state));
+    world.transport =
+        stopwatch_.measure("load", "transport", [&] { return bake(world, options.bake, reports); });
+  }
   renderer_ = stopwatch_.measure("load", "renderer",
-                                 [&] { return std::make_unique<render::Renderer>(world_, options.render); });
+                                 [&] { return std::make_unique<render::Renderer>(worlds_, options.render); });
 }
 
 image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylight& daylight) const {
@@ -64,12 +110,12 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylig
   options.camera = {width, strip, focal_px, focal_px, 0.5 * (width - 1), 0.5 * (strip - 1)};
   options.near_m = 0.5 * distance_m;
   options.far_m = 2.0 * distance_m;
-  render::Renderer from_above(world_, options);
+  render::Renderer from_above(world(), options);
   Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
   map_from_optical.linear() =
       Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();  // right east, down south, forward down
   const light::Illumination light = illumination(daylight);
-  const double top_m = topOf(*world_.geometry->scene);
+  const double top_m = topOf(*world().geometry->scene);
   image::LinearImage whole(width, height);
   for (int row = 0; row < height; row += strip) {
     const double from_north_m = (row + 0.5 * strip) / px_per_m;
@@ -93,15 +139,17 @@ void Studio::lookAhead(const Eigen::Isometry3d& map_from_camera, const render::B
                      [&] { renderer_->lookAhead(map_from_camera * linkFromOptical(), map_from_links); });
 }
 
-light::Illumination Studio::illumination(const sky::Daylight& daylight) const {
-  return light::illumination(world_, daylight, options_.lamps);
+light::Illumination Studio::illumination(const sky::Daylight& daylight, std::size_t state) const {
+  return light::illumination(worlds_.at(state), daylight, options_.lamps);
 }
 
-Developed Studio::photograph(const light::Illumination& light, const image::PictureName& name) {
+Developed Studio::photograph(const light::Illumination& light, const image::PictureName& name,
+                             std::size_t state) {
   image::LinearImage luminance =
-      stopwatch_.measure("light", name.series, [&] { return renderer_->light(light); });
+      stopwatch_.measure("light", name.series, [&] { return renderer_->light(light, state); });
   return stopwatch_.measure("develop", name.series, [&] {
     const double ev100 = image::chooseEv100(luminance, options_.exposure);
+    addRain(*renderer_, light.day, {name.index, ev100}, &luminance);
     if (options_.noise.enabled) image::addSensorNoise(ev100, options_.noise, name, &luminance);
     return Developed{image::develop(luminance, ev100), ev100};
   });

@@ -290,6 +290,7 @@ std::optional<AtlasRunOptions> parseAtlasOptions(const std::vector<std::string>&
   options.studio.render = words.camera.options();
   options.studio.exposure = words.sensor.exposureOptions();
   options.studio.noise = words.sensor.noise;
+  options.studio.surfaces = {options.place.surfaces};
   render::validate(options.studio.render);
   requireNoDistortion(options.studio.render, "queries are localised with");
   options.conditions = conditionsOf(words, options.place.date);

@@ -96,7 +96,7 @@ std::optional<CompareLightOptions> parseCompareLightOptions(const std::vector<st
   addWorld(&line, &options.world);
   addBounced(&line, &options.bake);
   addLamps(&line, &options.lamps);
-  addWeather(&line, &options.weather);
+  addWeather(&line, &options.weather, &options.surfaces);
   if (!line.read(arguments)) return std::nullopt;
   requireThatAllCount(line, options);
   if (options.skies.empty()) {

@@ -10,6 +10,7 @@
 #include "sunlit/path/path.h"
 #include "sunlit/quantity/field.h"
 #include "sunlit/render/renderer.h"
+#include "sunlit/scene/weathering.h"
 #include "sunlit/sky/weather.h"
 #include "sunlit/studio/world.h"
 
@@ -41,8 +42,9 @@ struct CompareLightOptions {
   studio::BakeOptions bake;  ///< without it the fast picture's sky is open
   light::LampOptions lamps;
   sky::Weather weather;  ///< of all skies
-  std::string path;      ///< waypoint file; empty: the built-in path
-  int views = 10;        ///< evenly along the path
+  scene::SurfaceState surfaces;
+  std::string path;  ///< waypoint file; empty: the built-in path
+  int views = 10;    ///< evenly along the path
   path::PathOptions sampling;
   std::vector<Eigen::Isometry3d> map_from_camera;  ///< not empty: instead of a path
   std::vector<SkyToCompare> skies;

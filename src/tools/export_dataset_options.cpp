@@ -130,6 +130,7 @@ std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& 
   options.studio.render = words.camera.options();
   options.studio.exposure = words.sensor.exposureOptions();
   options.studio.noise = words.sensor.noise;
+  options.studio.surfaces = {options.place.surfaces};
   render::validate(options.studio.render);
   requireNoDistortion(options.studio.render, "data sets are of");
   options.data_set.camera = options.studio.render.camera;

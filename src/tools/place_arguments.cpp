@@ -29,7 +29,7 @@ std::string textOf(const astronomy::CivilDate& date) {
   return text;
 }
 
-void addWeather(studio::CommandLine* line, sky::Weather* weather) {
+void addWeather(studio::CommandLine* line, sky::Weather* weather, scene::SurfaceState* surfaces) {
   line->group("Weather");
   const std::vector<Field> rows = fieldsOf(*weather);
   line->add("--cover OKTAS", fieldOf(rows, "cover"));
@@ -37,10 +37,16 @@ void addWeather(studio::CommandLine* line, sky::Weather* weather) {
   line->add("--overcast", fieldOf(rows, "overcast"));
   line->add("--visibility M", fieldOf(rows, "visibility"));
   line->add("--fog-top M", fieldOf(rows, "fog_top"));
+  line->add("--rain MM/H", fieldOf(rows, "rain"));
   line->add("--cloud-base M", fieldOf(rows, "cloud_base"));
   line->add("--wind M/S", fieldOf(rows, "wind"));
   line->add("--wind-from DEG", fieldOf(rows, "wind_from"));
   line->add("--cloud-seed N", fieldOf(rows, "cloud_seed"));
+  const std::vector<Field> left = fieldsOf(*surfaces);
+  line->add("--wet SHARE", fieldOf(left, "wet"));
+  line->add("--puddles SHARE", fieldOf(left, "puddles"));
+  line->add("--snow M", fieldOf(left, "snow"));
+  line->add("--ground-seed N", fieldOf(left, "ground_seed"));
 }
 
 void addPlace(studio::CommandLine* line, PlaceOptions* options) {
@@ -59,12 +65,12 @@ void addPlace(studio::CommandLine* line, PlaceOptions* options) {
   Field ground = fieldOf(fieldsOf(options->air), "ground_albedo");
   ground.place = NumberOrWord{&options->ground_albedo, "auto"};
   line->add("--ground-albedo NUMBER", ground);
-  addWeather(line, &options->weather);
+  addWeather(line, &options->weather, &options->surfaces);
 }
 
 studio::Sky skyOver(const studio::Studio& studio, const PlaceOptions& place, bool stars) {
   studio::Sky sky({place.air, std::nullopt, place.ground_albedo, stars, studio.cacheFolder()}, onTerminal());
-  sky.over(studio.world());
+  sky.over(studio.worlds());
   std::printf("albedo of the land beyond the world: %g%s\n", sky.groundAlbedo(),
               place.ground_albedo ? ", as given" : "");
   std::fflush(stdout);

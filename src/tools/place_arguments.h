@@ -17,6 +17,7 @@ struct PlaceOptions {
   sky::AtmosphereOptions air;  ///< but for the observer's height, which is the site's, and the ground
   std::optional<double> ground_albedo;  ///< nothing: that of the world
   sky::Weather weather;
+  scene::SurfaceState surfaces;
 };
 
 /// "2024-07-01". Throws std::invalid_argument naming `option` for a day that there is not.
@@ -24,8 +25,8 @@ astronomy::CivilDate dateOf(const std::string& option, const std::string& text, 
 /// As a person would type it.
 std::string textOf(const astronomy::CivilDate& date);
 
-/// --cover, --visibility and the other rows of the weather.
-void addWeather(studio::CommandLine* line, sky::Weather* weather);
+/// --cover, --visibility and the other rows of the weather, --wet, --snow and those of what it leaves.
+void addWeather(studio::CommandLine* line, sky::Weather* weather, scene::SurfaceState* surfaces);
 
 /// --site, --date, --timezone, --turbidity, --ozone, --ground-albedo and the weather.
 void addPlace(studio::CommandLine* line, PlaceOptions* options);

@@ -47,6 +47,7 @@ std::optional<SnapshotOptions> parseSnapshotOptions(const std::vector<std::strin
   for (const char* option : {"--site", "--date", "--timezone"}) line.requireWith(option, "--time");
   if (line.has("--time")) options.hour = clock.hour + clock.minute / 60.0 + clock.second / 3600.0;
   options.view = view.options();
+  options.view.studio.surfaces = {options.place.surfaces};
   return options;
 }
 

@@ -103,6 +103,7 @@ std::optional<TimelapseOptions> parseTimelapseOptions(const std::vector<std::str
     throw std::invalid_argument("--frames and --step are both given; one of them");
   divide(span, &options);
   options.view = view.options();
+  options.view.studio.surfaces = {options.place.surfaces};
   requireSensibleSheet(options);
   options.recipe = recipeOf(line, kOfNoFrame, options.view.studio.world.name);
   return options;

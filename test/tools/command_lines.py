@@ -24,8 +24,11 @@ LAMPS = {"--lamps": "default auto", "--lamps-dusk": "0 … 100000 lx, default 30
          "--lamps-colour": "0 … 1000000 lx, default 50"}
 WEATHER = {"--cover": "0 … 8 oktas, default 0", "--optical-depth": "0.1 … 200, default auto", "--overcast": "layer|cie",
            "--visibility": "50 … 100000 m, default clear", "--fog-top": "10 … 3000 m, default 300",
+           "--rain": "0 … 200 mm/h, default 0",
            "--cloud-base": "100 … 12000 m, default 1500", "--wind": "0 … 100 m/s, default 0",
-           "--wind-from": "-360 … 360 deg, default 270", "--cloud-seed": "0 … 2147483647, default 0"}
+           "--wind-from": "-360 … 360 deg, default 270", "--cloud-seed": "0 … 2147483647, default 0",
+           "--wet": "0 … 1, default 0", "--puddles": "0 … 0.9, default 0", "--snow": "0 … 0.5 m, default 0",
+           "--ground-seed": "0 … 2147483647, default 0"}
 PLACE = {**WEATHER, "--site": "latitude (geodetic, positive north, -90 … 90 deg)", "--date": "default 2024-07-01",
          "--timezone": "-18 … 18 h, default 3", "--turbidity": "1 … 10, default 2", "--ozone": "0 … 600 DU, default 300",
          "--ground-albedo": "0 … 1, default auto"}

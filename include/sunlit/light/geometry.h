@@ -10,6 +10,10 @@
 
 #include "sunlit/scene/scene.h"
 
+namespace sunlit::scene {
+class Weathering;
+}
+
 namespace sunlit::light {
 
 /// The plane that a triangle lies in: points p with normal · p = offset.
@@ -35,6 +39,7 @@ struct Geometry {
   explicit Geometry(std::shared_ptr<const scene::Scene> scene);
 
   std::shared_ptr<const scene::Scene> scene;  ///< whose materials and textures the indices below mean
+  std::shared_ptr<const scene::Weathering> weathering;  ///< what lies on its surfaces; null: nothing
 
   std::vector<Eigen::Vector3f> positions;  ///< m in `map`
   std::vector<Eigen::Vector3f>

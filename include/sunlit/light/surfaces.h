@@ -28,6 +28,7 @@ struct Surface {
   Eigen::Array3f emission = Eigen::Array3f::Zero();  ///< luminance of its own, cd/m²
   float roughness = 1.0f;                            ///< perceptual, scene::Material::kSmoothest … 1
   float metalness = 0.0f;                            ///< 0 … 1
+  float film = 0.0f;    ///< share under a film of water, scene::Weathering::Look, 0 … 1
   float cavity = 1.0f;  ///< share of the ambient light that the material's own map of occlusion leaves, 0 … 1
   /// Of its samples' light that it sends, by channel: what is not hidden, or coloured, by what one sees
   /// through.

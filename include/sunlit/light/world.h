@@ -9,6 +9,10 @@
 #include "sunlit/light/geometry.h"
 #include "sunlit/light/visibility.h"
 
+namespace sunlit::scene {
+struct SurfaceState;
+}
+
 namespace sunlit::light {
 
 class Transport;
@@ -27,6 +31,10 @@ struct World {
       lamps_of_bodies;                         ///< in their frames; one list a body, or none at all
   std::shared_ptr<const Transport> transport;  ///< of sky and bounced light; null: an open sky is assumed
 };
+
+/// The same world with its surfaces in another state; what moves stays dry. `dry` is so, and what it was
+/// baked with is left behind. Takes as long as World() and weathering together.
+World weathered(const World& dry, const scene::SurfaceState& state);
 
 /// Tells worlds apart by what decides their pictures: shape, looks, what moves, and how `transport` was
 /// baked, if there is one. 32 hexadecimal digits; the same wherever equal contents were loaded from.

@@ -64,6 +64,9 @@ class Renderer {
   /// Throws std::invalid_argument by validate(), and std::runtime_error if the rasterizer cannot start here,
   /// naming those that can.
   Renderer(const light::World& world, const RenderOptions& options);
+  /// One world with its surfaces in several states, as light::weathered() makes them: what is drawn serves
+  /// all. Throws std::invalid_argument where there is none.
+  Renderer(const std::vector<light::World>& states, const RenderOptions& options);
   /// A world of its own, in which surfaces see the whole sky that they face.
   Renderer(std::shared_ptr<const scene::Scene> scene, const RenderOptions& options);
   ~Renderer();
@@ -76,14 +79,15 @@ class Renderer {
   /// Draws a pose that look() will be called with later, which then costs nothing. light() and depth() still
   /// speak of the present pose, and other threads may be in them meanwhile.
   void lookAhead(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body = {});
-  /// Luminance of each pixel, cd/m². `light` is of this renderer's world, or just a sky::Daylight.
-  image::LinearImage light(const light::Illumination& light) const;
+  /// Luminance of each pixel, cd/m². `light` is of this renderer's world, in its state number `state`, or
+  /// just a sky::Daylight.
+  image::LinearImage light(const light::Illumination& light, std::size_t state = 0) const;
   /// Depth of what the centre of each pixel sees, m along the optical axis; before a lens that is
   /// image::Lens::wide(), where that would be 0 at the side, the distance from the camera. NaN for sky.
   image::DepthImage depth() const;
 
   /// What light() lights: valid until the next look().
-  const light::Surfaces& surfaces() const;
+  const light::Surfaces& surfaces(std::size_t state = 0) const;
 
   const RenderOptions& options() const;
   /// Which rasterizer draws, and on what, such as "osmesa: llvmpipe (LLVM 15.0.6, 256 bits)".

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -32,6 +33,12 @@ struct DiscLight {
 struct AirColumn {
   Eigen::Array3f transmittance;  ///< 0 … 1
   Eigen::Array3f airlight;       ///< cd/m²
+};
+
+/// Rain that falls through the air.
+struct Rain {
+  double mm_per_h = 0.0;
+  std::uint64_t seed = 0;  ///< of its drops
 };
 
 /// Tabulated sky; see atmosphere.h for how it is computed.
@@ -68,6 +75,7 @@ class Daylight {
   AirColumn airOver(const Eigen::Vector3f& towards, float distance_m) const;
   /// Illuminance of level, open ground: sun, moon and sky together, lx.
   LinearRgb groundIlluminance() const;
+  Rain rain() const;
 
  private:
   std::shared_ptr<const SkyTable> table_;

@@ -24,6 +24,7 @@ struct Weather {
   /// Nothing: as far as the clear air lets one see.
   std::optional<double> visibility_m;
   double fog_top_m = 300.0;
+  double rain_mm_per_h = 0.0;
   // Of a cover that is not closed:
   double cloud_base_m = 1500.0;
   double wind_m_per_s = 0.0;
@@ -52,6 +53,11 @@ inline std::vector<Field> fieldsOf(Weather& weather) {
            {50, 100000},
            "meteorological optical range (contrast 5 %); clear: of the clear air"},
           {"fog_top", &weather.fog_top_m, "m", {10, 3000}, "height of the fog or haze above the ground"},
+          {"rain",
+           &weather.rain_mm_per_h,
+           "mm/h",
+           {0, 200},
+           "that falls: 2.5 is light, 10 moderate, 50 heavy. It does not wet by itself: see wet"},
           {"cloud_base", &weather.cloud_base_m, "m", {100, 12000}, "height of broken cloud above the ground"},
           {"wind",
            &weather.wind_m_per_s,
@@ -65,13 +71,18 @@ inline std::vector<Field> fieldsOf(Weather& weather) {
 /// Throws std::invalid_argument naming key, value and what is allowed.
 void validate(const Weather& weather);
 
-/// Whether there is neither cloud nor fog.
+/// Whether there is neither cloud, fog nor rain.
 bool isClear(const Weather& weather);
 
 /// The optical depth asked for, or 30 (cover / 8)^1.5: broken cloud is thinner, and so the mean illuminance
 /// of a cover is what has been measured, 1 − 0.75 (cover / 8)^3.4 of the clear hour's (Kasten & Czeplak
 /// 1980).
 double opticalDepthOf(const Weather& weather);
+
+/// What rain takes from a ray that a camera follows, 1/m: half of what its drops' shadows would by geometric
+/// optics twice over, π N₀ / Λ³ of Marshall & Palmer's drops, 3.65e-4 R^0.63. The other half is diffracted by
+/// less than 0.1°, and still seen.
+double rainPerMetre(double rain_mm_per_h);
 
 /// Whether there is cloud with gaps in it.
 bool isBroken(const Weather& weather);

@@ -55,26 +55,32 @@ class Sky {
   /// Reads the stars. Throws as sky::validate() and loadStars().
   explicit Sky(const SkyOptions& options, Reports reports = {});
 
-  /// The land goes on beyond `world` as it is seen there from above (light::albedoFromAbove()), unless the
-  /// options fix its albedo. Says which it is. Forgets the airs that are there.
-  void over(const light::World& world);
-  double groundAlbedo() const { return options_.air.ground_albedo; }
+  /// The land goes on beyond the world as it is seen there from above (light::albedoFromAbove()), in each of
+  /// its `states`, unless the options fix its albedo. Says which it is. Forgets the airs that are there.
+  void over(const std::vector<light::World>& states);
+  double groundAlbedo(std::size_t state = 0) const { return ground_albedos_.at(state); }
 
-  sky::Daylight daylight(const SkyBodies& bodies, const sky::Weather& weather = {});
+  /// Over the land in its state number `state`.
+  sky::Daylight daylight(const SkyBodies& bodies, const sky::Weather& weather = {}, std::size_t state = 0);
   /// Makes the air that daylight() of the same site will need, if it is not there.
-  void prepare(double site_elevation_m) { airOver(site_elevation_m); }
-  bool isPrepared(double site_elevation_m) const;
+  void prepare(double site_elevation_m, std::size_t state = 0) { airOver(site_elevation_m, state); }
+  bool isPrepared(double site_elevation_m, std::size_t state = 0) const;
 
  private:
-  double heightOver(double site_elevation_m) const;
-  const sky::Atmosphere& airOver(double site_elevation_m);
+  /// The options of the air that is needed there.
+  sky::AtmosphereOptions airAt(double site_elevation_m, std::size_t state) const;
+  const sky::Atmosphere& airOver(double site_elevation_m, std::size_t state);
 
   SkyOptions options_;
   Reports reports_;
   sky::TableStore air_tables_;
   std::shared_ptr<const std::vector<sky::Star>> stars_;
-  std::vector<std::pair<double, sky::Atmosphere>>
-      airs_;  ///< by height, m; the one that was used last is the last
+  std::vector<double> ground_albedos_;  ///< one a state
+  struct Air {
+    double height_m, ground_albedo;
+    sky::Atmosphere atmosphere;
+  };
+  std::vector<Air> airs_;  ///< the one that was used last is the last
 };
 
 }  // namespace sunlit::studio

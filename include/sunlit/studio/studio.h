@@ -5,11 +5,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sunlit/image/exposure.h"
 #include "sunlit/image/sensor_noise.h"
 #include "sunlit/light/lamps.h"
 #include "sunlit/render/renderer.h"
+#include "sunlit/scene/weathering.h"
 #include "sunlit/studio/stopwatch.h"
 #include "sunlit/studio/world.h"
 
@@ -22,6 +24,9 @@ struct StudioOptions {
   image::ExposureOptions exposure;
   image::NoiseOptions noise;
   light::LampOptions lamps;
+  /// States of the world's surfaces that pictures are taken in, one at least; their numbers are the `state`
+  /// of Studio's functions.
+  std::vector<scene::SurfaceState> surfaces = {{}};
 };
 
 /// A developed image and the exposure value that it was developed with.
@@ -41,7 +46,8 @@ struct MapExtent {
 /// One thread at a time may use it, except where a function says otherwise. Times its stages.
 class Studio {
  public:
-  /// Loads the world, with the `robot` in it if there is one, and bakes its light. Throws what loadWorld()
+  /// Loads the world, with the `robot` in it if there is one, and bakes its light, once for each state of its
+  /// surfaces. Throws what loadWorld()
   /// and bake() throw, and before that std::invalid_argument for options out of range and
   /// std::runtime_error for a rasterizer that cannot start; and requireGroups().
   explicit Studio(const StudioOptions& options, const std::optional<scene::Robot>& robot = std::nullopt,
@@ -55,12 +61,16 @@ class Studio {
   /// Draws what look() will look at later. Another thread may photograph() meanwhile.
   void lookAhead(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links = {});
   /// What does not depend on the camera.
-  light::Illumination illumination(const sky::Daylight& daylight) const;
-  /// What look() looks at under `light`; the picture's series names it on the time sheet too.
-  Developed photograph(const light::Illumination& light, const image::PictureName& name);
+  light::Illumination illumination(const sky::Daylight& daylight, std::size_t state = 0) const;
+  /// What look() looks at under `light`, which is of the same state; the picture's series names it on the
+  /// time sheet too.
+  Developed photograph(const light::Illumination& light, const image::PictureName& name,
+                       std::size_t state = 0);
   image::DepthImage depth();
 
-  const light::World& world() const { return world_; }
+  const light::World& world() const { return worlds_.front(); }
+  /// One a state.
+  const std::vector<light::World>& worlds() const { return worlds_; }
   /// Where what takes long to make is kept for the next time.
   std::string cacheFolder() const { return cacheOf(options_.bake).folder; }
   /// As render::Renderer::rasterizer().
@@ -71,7 +81,7 @@ class Studio {
  private:
   Stopwatch stopwatch_;
   StudioOptions options_;
-  light::World world_;
+  std::vector<light::World> worlds_;
   std::unique_ptr<render::Renderer> renderer_;
 };
 

@@ -9,6 +9,7 @@
 #include "light/shading/shading.h"
 #include "sunlit/image/srgb.h"
 #include "sunlit/quantity/angle.h"
+#include "sunlit/scene/weathering.h"
 #include "sunlit/scene/wrap.h"
 
 namespace sunlit::light {
@@ -75,7 +76,7 @@ Reflectances::Reflectances(const Geometry& geometry) : geometry_(geometry) {
   });
 }
 
-Paint Reflectances::at(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const {
+Paint Reflectances::at(std::uint32_t triangle, Side side, const Eigen::Vector3f& barycentric) const {
   const scene::Material& material =
       geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[triangle])];
   Eigen::Array3f albedo = Eigen::Array3f::Zero();
@@ -90,10 +91,27 @@ Paint Reflectances::at(std::uint32_t triangle, const Eigen::Vector3f& barycentri
     albedo *= look(thumbnails_, material.base_texture, uv);
   }
   albedo *= 1.0f - material.glass;  // what goes straight through is not scattered
-  return {albedo.max(0.0f).min(1.0f),
-          std::max(material.roughness * data(material.roughness_map, triangle, barycentric),
-                   scene::Material::kSmoothest),
-          material.metalness * data(material.metalness_map, triangle, barycentric)};
+  const Paint paint{albedo.max(0.0f).min(1.0f),
+                    std::max(material.roughness * data(material.roughness_map, triangle, barycentric),
+                             scene::Material::kSmoothest),
+                    material.metalness * data(material.metalness_map, triangle, barycentric)};
+  return geometry_.weathering ? weathered(paint, triangle, side, barycentric) : paint;
+}
+
+Paint Reflectances::weathered(const Paint& paint, std::uint32_t triangle, Side side,
+                              const Eigen::Vector3f& barycentric) const {
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();
+  for (int k = 0; k < 3; ++k)
+    position +=
+        barycentric[k] * geometry_.positions[geometry_.triangles[triangle][static_cast<std::size_t>(k)]];
+  const float sign = side == Side::kFront ? 1.0f : -1.0f;
+  const Eigen::Vector3f face = sign * geometry_.planes[triangle].normal;
+  scene::Weathering::Look look{paint.albedo, face, paint.roughness, paint.metalness};
+  constexpr float kCell_m = 1.0f;  // about what a place in the bake stands for
+  geometry_.weathering->apply(
+      {position, face, kCell_m},
+      geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[triangle])], &look);
+  return {look.albedo, look.roughness, look.metalness};
 }
 
 Eigen::Vector2f Reflectances::coordinates(std::uint32_t triangle, const Eigen::Vector3f& barycentric,

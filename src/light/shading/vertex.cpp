@@ -7,6 +7,7 @@
 #include "light/shading/surface_reflection.h"
 #include "sunlit/image/srgb.h"
 #include "sunlit/light/surfaces.h"
+#include "sunlit/scene/weathering.h"
 #include "sunlit/scene/wrap.h"
 
 namespace sunlit::light {
@@ -47,6 +48,7 @@ Vertex seenVertex(const Tile& tile, const Surface& surface, const scene::Scene& 
   vertex.material = &scene.materials[static_cast<std::size_t>(surface.material)];
   vertex.reflection = reflectionOf(surface, *vertex.material);
   vertex.emission = surface.emission;
+  vertex.film = surface.film;
   vertex.geometric_normal = surface.geometric_normal;
   const std::size_t at = surface.first_sample + sample;
   vertex.front = rayStart(tile, at);
@@ -98,7 +100,22 @@ Vertex SceneVertices::at(const Hit& at_hit, const Eigen::Vector3f& direction) co
   const Eigen::Vector3f step = rayClearance_m(position, 0.0f) * vertex.geometric_normal;
   vertex.front = position + step;
   vertex.behind = position - step;
+  if (geometry.weathering) weather(geometry, position, &vertex);
   return vertex;
+}
+
+void SceneVertices::weather(const Geometry& geometry, const Eigen::Vector3f& position, Vertex* vertex) {
+  Reflection& reflection = vertex->reflection;
+  scene::Weathering::Look look{reflection.albedo, reflection.normal, reflection.roughness,
+                               reflection.metalness};
+  constexpr float kPoint_m = 0.0f;
+  geometry.weathering->apply({position, vertex->geometric_normal, kPoint_m}, *vertex->material, &look);
+  reflection.albedo = look.albedo;
+  reflection.normal = look.normal;
+  reflection.roughness = look.roughness;
+  reflection.metalness = look.metalness;
+  reflection.dielectric = dielectricUnder(look.film, *vertex->material);
+  vertex->film = look.film;
 }
 
 std::optional<Eigen::Array3f> SceneVertices::texel(const Point& point, const scene::TextureUse& use,

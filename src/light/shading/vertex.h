@@ -18,6 +18,7 @@ struct Vertex {
   Eigen::Vector3f geometric_normal;  ///< unit, on the side of the eye
   Eigen::Vector3f front, behind;     ///< where rays on either side start, m in `map`
   Eigen::Array3f emission;           ///< luminance of its own, cd/m²
+  float film = 0.0f;                 ///< Surface::film
   const scene::Material* material;
 
   /// Whether light can come from `towards` at all, as far as this surface itself is concerned.
@@ -56,6 +57,7 @@ class SceneVertices {
   Eigen::Array3f albedo(const Point& point, const scene::Material& material) const;
   float roughness(const Point& point, const scene::Material& material) const;
   float metalness(const Point& point, const scene::Material& material) const;
+  static void weather(const Geometry& geometry, const Eigen::Vector3f& position, Vertex* vertex);
 
   const Geometry& geometry_;
   const Geometry* bodies_;

@@ -15,7 +15,7 @@ int run() {
   const ros::NodeHandle private_node("~");
   const ParameterReader parameters(private_node);
   const RenderNodeOptions options = readRenderNodeOptions(parameters);
-  const std::vector<RenderCondition> conditions = readRenderConditions(parameters);
+  const RenderConditions conditions = readRenderConditions(parameters);
   parameters.rejectUnknown();
   std::optional<tbb::global_control> limit;
   if (options.threads > 0)

@@ -214,7 +214,7 @@ std::vector<Field> fieldsOf(RenderNodeOptions& options) {
        fieldsOf(options.lamps),
        {{"night/enabled", &options.night, "", {}, "moon and stars too; false: the sun alone"}},
        under("atmosphere", airFields(&options.sky)),
-       under("weather", fieldsOf(options.weather)),
+       under("weather", joined({fieldsOf(options.weather), fieldsOf(options.surfaces)})),
        under("transport",
              joined({fieldsOf(options.bake), {rendererRow("final_gather", &options.final_gather)}})),
        fieldsOf(options.pacing),
@@ -235,14 +235,17 @@ std::vector<Field> fieldsOf(RenderNodeOptions& options) {
         diagnosticPeriodRow(&options.diagnostic_period_s)}});
 }
 
-std::vector<RenderCondition> readRenderConditions(const ParameterReader& parameters) {
-  std::vector<RenderCondition> conditions;
+RenderConditions readRenderConditions(const ParameterReader& parameters) {
+  RenderConditions conditions;
   for (const Condition& named : readConditions(parameters)) {
     sky::Weather weather;
-    named.parameters.read(under("weather", fieldsOf(weather)));
+    scene::SurfaceState surfaces;
+    named.parameters.read(under("weather", joined({fieldsOf(weather), fieldsOf(surfaces)})));
     named.parameters.check("weather", [&] { sky::validate(weather); });
     named.parameters.rejectUnknown();
-    conditions.push_back({named, weather});
+    const auto same = std::find(conditions.states.begin(), conditions.states.end(), surfaces);
+    conditions.all.push_back({named, weather, static_cast<std::size_t>(same - conditions.states.begin())});
+    if (same == conditions.states.end()) conditions.states.push_back(surfaces);
   }
   return conditions;
 }

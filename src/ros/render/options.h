@@ -77,7 +77,8 @@ struct RenderNodeOptions {
   image::NoiseOptions noise;
   light::LampOptions lamps;
   studio::SkyOptions sky;
-  sky::Weather weather;  ///< of every condition that does not say otherwise
+  sky::Weather weather;          ///< of every condition that does not say otherwise
+  scene::SurfaceState surfaces;  ///< likewise
   studio::BakeOptions bake;
   int final_gather = 0;  ///< render::RenderOptions::final_gather
   PacingOptions pacing;
@@ -100,14 +101,20 @@ struct RenderNodeOptions {
 /// One row for each parameter but ~conditions.
 std::vector<Field> fieldsOf(RenderNodeOptions& options);
 
-/// A condition of the renderer: its sun is its topics' business, its weather the renderer's.
+/// A condition of the renderer: its sun is its topics' business, its weather the renderer's, and what that
+/// leaves on surfaces.
 struct RenderCondition {
   Condition named;
   sky::Weather weather;
+  std::size_t state = 0;  ///< of the surfaces, number in RenderConditions::states
+};
+struct RenderConditions {
+  std::vector<RenderCondition> all;
+  std::vector<scene::SurfaceState> states;  ///< that they need, each once
 };
 
 /// ~conditions, whose weathers may differ. Throws std::invalid_argument with name, value and what is allowed.
-std::vector<RenderCondition> readRenderConditions(const ParameterReader& parameters);
+RenderConditions readRenderConditions(const ParameterReader& parameters);
 
 /// All parameters but ~conditions. Throws std::invalid_argument with name, value and what is allowed.
 RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters);

@@ -33,6 +33,12 @@ StreamOptions streamOptions(const RenderNodeOptions& options) {
   return streams;
 }
 
+studio::StudioOptions studioOptions(const RenderNodeOptions& options, const RenderConditions& conditions) {
+  studio::StudioOptions studio = options.studioOptions();
+  studio.surfaces = conditions.states;
+  return studio;
+}
+
 /// Where this node is the time of all, there is no other to begin at than the wall clock's.
 RenderNodeOptions withStart(RenderNodeOptions options) {
   PacingOptions& pacing = options.pacing;
@@ -52,7 +58,7 @@ std::unique_ptr<ClockSource> clockSource(const ros::NodeHandle& node, const Paci
 }  // namespace
 
 RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                       const RenderNodeOptions& options, const std::vector<RenderCondition>& conditions)
+                       const RenderNodeOptions& options, const RenderConditions& conditions)
     : node_(node),
       private_node_(private_node),
       options_(withStart(options)),
@@ -66,10 +72,10 @@ RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
                                      : std::make_unique<PathSource>(node, options.path, options.frames.map)),
       sky_(options.sky, reports()),
       robot_model_(loadRobot(options.robot, options.world.searchPath())),
-      studio_(options.studioOptions(), robot_model_, reports()),
-      streams_(conditions, streamOptions(options), studio_, sky_),
+      studio_(studioOptions(options, conditions), robot_model_, reports()),
+      streams_(conditions.all, streamOptions(options), studio_, sky_),
       paused_(!options.pacing.autostart) {
-  sky_.over(studio_.world());
+  sky_.over(studio_.worlds());
   if (robot_model_) {
     robot_ = std::make_unique<RobotPlaces>(
         *robot_model_, options_.robot, options_.cameraFrames(),

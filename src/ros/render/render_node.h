@@ -30,7 +30,7 @@ namespace sunlit::ros_interface {
 class RenderNode {
  public:
   RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-             const RenderNodeOptions& options, const std::vector<RenderCondition>& conditions);
+             const RenderNodeOptions& options, const RenderConditions& conditions);
 
   /// Until ROS shuts down, or all is rendered and the options say to end then. The exit status.
   int run();

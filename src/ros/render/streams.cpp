@@ -25,6 +25,7 @@ std::string skyPrefix(const Condition& condition, const StreamOptions& options) 
 Streams::Stream::Stream(const RenderCondition& condition, const StreamOptions& options)
     : name(condition.named.name),
       weather(condition.weather),
+      state_of_surfaces(condition.state),
       sky(skyNode(condition.named, options),
           {skyPrefix(condition.named, options), options.night, options.sky, options.output.frames.map}),
       output(condition.named.node(), options.output),
@@ -55,7 +56,8 @@ void Streams::expose(const Shot& shot) {
     stream->sky.forgetBefore(shot.stamp);
     const SkyBodies bodies = stream->sky.at(shot.stamp).value();
     const light::Illumination& light = lightOf(*stream, bodies, shot.stamp);
-    studio::Developed developed = studio_.photograph(light, {shot.pose_index, stream->name});
+    studio::Developed developed =
+        studio_.photograph(light, {shot.pose_index, stream->name}, stream->state_of_surfaces);
     const Photograph photograph{shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture)};
     stopwatch.measure("send", stream->name, [&] { stream->output.publish(photograph, {bodies, light.day}); });
     stream->state = {stream->name, stream->state.images + 1, photograph.stamp, photograph.ev100};
@@ -69,10 +71,11 @@ const light::Illumination& Streams::lightOf(Stream& stream, const SkyBodies& bod
     stream.weather.clock_s = stamp.toSec();
     const studio::SkyBodies in_sky{*bodies.sun, bodies.moon, bodies.map_from_celestial,
                                    bodies.site_elevation_m};
-    if (!sky_.isPrepared(in_sky.site_elevation_m)) {
-      studio_.stopwatch().measure("load", "atmosphere", [&] { sky_.prepare(in_sky.site_elevation_m); });
-    }
-    stream.light = studio_.illumination(sky_.daylight(in_sky, stream.weather));
+    const std::size_t state = stream.state_of_surfaces;
+    if (!sky_.isPrepared(in_sky.site_elevation_m, state))
+      studio_.stopwatch().measure("load", "atmosphere",
+                                  [&] { sky_.prepare(in_sky.site_elevation_m, state); });
+    stream.light = studio_.illumination(sky_.daylight(in_sky, stream.weather, state), state);
     stream.lit_by = bodies;
   });
   return *stream.light;
@@ -96,8 +99,8 @@ Photograph Streams::view(const Shot& shot, const std::string& condition) {
                                 stream.sky.missing());
   }
   studio_.look(shot.map_from_camera, shot.map_from_links);
-  studio::Developed developed =
-      studio_.photograph(lightOf(stream, *stream.sky.newest(), shot.stamp), {shot.pose_index, stream.name});
+  studio::Developed developed = studio_.photograph(lightOf(stream, *stream.sky.newest(), shot.stamp),
+                                                   {shot.pose_index, stream.name}, stream.state_of_surfaces);
   return {shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture)};
 }
 

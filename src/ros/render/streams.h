@@ -79,6 +79,7 @@ class Streams {
     Stream(const RenderCondition& condition, const StreamOptions& options);
     std::string name;
     sky::Weather weather;  ///< at the stamp that `light` is of
+    std::size_t state_of_surfaces;
     SkyInput sky;
     ConditionOutput output;
     std::optional<light::Illumination> light;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/race_track/noise.h"
+#include "scene/noise.h"
 #include "sunlit/scene/scene.h"
 
 namespace sunlit::scene::race_track {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scene/race_track/noise.h"
+#include "scene/noise.h"
 
 namespace sunlit::scene::race_track {
 

@@ -15,7 +15,6 @@ set(race_track_sources
   race_track/layout.cpp
   race_track/lettering.cpp
   race_track/lit_windows.cpp
-  race_track/noise.cpp
   race_track/paddock.cpp
   race_track/poster.cpp
   race_track/race_track.cpp

@@ -8,7 +8,8 @@ import rostest
 from rendering import RefusalTest, RenderNode, Reader, Sun, parameters
 
 WEATHERS = {"clear": {}, "grey": {"cover": 8, "overcast": "cie"}, "fog": {"visibility": 60.0},
-            "windy": {"cover": 4, "wind": 30.0, "cloud_seed": 3}}
+            "windy": {"cover": 4, "wind": 30.0, "cloud_seed": 3},
+            "rainy": {"cover": 8, "overcast": "cie", "rain": 50.0, "wet": 1.0, "puddles": 0.3}, "snowy": {"snow": 0.1}}
 POSES = 4
 SUN_UP = 0.8  # the sine of its elevation, as rendering.Sun has it
 
@@ -55,6 +56,15 @@ class RenderWeather(RefusalTest):
         self.assertGreater(self.lux("fog")[0], 0.33 * self.lux("clear")[0])
         self.assertLess(self.lux("fog")[0], 0.67 * self.lux("clear")[0])
 
+    def mean(self, condition):
+        """Of the lower half, which is ground for the most part, after the display's curve is undone."""
+        lower = self.found[condition][0][0][self.found[condition][0][0].shape[0] // 2:] / 255.0
+        return float((lower ** 2.2).mean())
+
+    def test_snow_is_brighter_and_wet_ground_darker_than_dry(self):
+        self.assertGreater(self.mean("snowy"), 1.5 * self.mean("clear"))
+        self.assertLess(self.mean("rainy"), 0.98 * self.mean("grey"))
+
     def test_clouds_move_with_the_stamps(self):
         # 30 m/s and 10 s a pose: 300 m each, of clouds a kilometre wide.
         self.assertEqual(len(set(self.lux("windy"))), POSES)
@@ -68,6 +78,7 @@ class RenderWeather(RefusalTest):
         self.assert_refused(parameters(weather={"cover": 9}), "/refused/weather/cover", "9", "8")
         self.assert_refused(parameters(weather={"overcast": "cie"}), "cover is 0", "8 where overcast is cie")
         self.assert_refused(parameters(conditions={"a": {"visibility": 10}}), "/refused/conditions/a/visibility", "10", "50")
+        self.assert_refused(parameters(conditions={"a": {"snow": 2}}), "/refused/conditions/a/snow", "2", "0.5")
         self.assert_refused(parameters(conditions={"a": {"covr": 3}}), "covr", "did you mean cover?")
 
 

@@ -8,22 +8,6 @@
 namespace sunlit::test {
 namespace {
 
-/// A yard: ground, two walls that meet, a roof on a wall, and a box.
-scene::Scene yard() {
-  scene::Scene scene;
-  const int ground = addMaterial(&scene, {0.3f, 0.3f, 0.28f});
-  const int wall = addMaterial(&scene, {0.6f, 0.5f, 0.4f});
-  const int box = addMaterial(&scene, {0.5f, 0.15f, 0.1f});
-  scene.materials[static_cast<std::size_t>(ground)].roughness = 0.85f;
-  scene.materials[static_cast<std::size_t>(box)].roughness = 0.5f;
-  addGround(&scene, ground, 60.0f);
-  addBlock(&scene, wall, {8.0f, -12.0f, 0.0f}, {0.5f, 20.0f, 5.0f});
-  addBlock(&scene, wall, {-6.0f, 8.0f, 0.0f}, {14.5f, 0.5f, 4.0f});
-  addBlock(&scene, wall, {5.0f, -4.0f, 3.5f}, {3.0f, 6.0f, 0.2f});
-  addBlock(&scene, box, {2.0f, 3.0f, 0.0f}, {2.0f, 2.0f, 1.5f});
-  return scene;
-}
-
 TEST(FastLight, AgreesWithPathTracedLightFromNoonToTwilight) {
   light::World world(shared(yard()));
   light::TransportOptions options;

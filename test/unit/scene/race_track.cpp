@@ -12,8 +12,8 @@
 #include <optional>
 #include <set>
 
+#include "scene/noise.h"
 #include "scene/race_track/course.h"
-#include "scene/race_track/noise.h"
 #include "sunlit/image/content_hash.h"
 #include "sunlit/path/path.h"
 

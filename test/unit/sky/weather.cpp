@@ -110,6 +110,21 @@ TEST(Weather, ABlackBoardHasFivePercentContrastAtTheVisibility) {
   }
 }
 
+TEST(Weather, RainTakesHalfOfWhatItsDropsCover) {
+  // Marshall & Palmer's drops cover π/4 ∫ N D² dD = π N₀ / (2 Λ³) of a path; twice that goes by geometric
+  // optics, half of that still reaches a camera: 0.78 a kilometre at 10 mm/h.
+  EXPECT_NEAR(rainPerMetre(10.0), 0.78e-3, 0.01e-3);
+  Weather wet = standardOvercast();
+  wet.rain_mm_per_h = 50.0;
+  const Daylight rainy = under(35.0, wet), grey = under(35.0, standardOvercast());
+  const auto passed = [](const Daylight& day) {
+    return static_cast<double>(day.airOver(towards(0.0, 20.0), 800.0F).transmittance[1]);
+  };
+  EXPECT_NEAR(passed(rainy) / passed(grey), std::exp(-rainPerMetre(50.0) * 800.0), 1e-3);
+  EXPECT_EQ(rainy.rain().mm_per_h, 50.0);
+  EXPECT_EQ(grey.rain().mm_per_h, 0.0);
+}
+
 TEST(Weather, FogThinsOutAboveItsTop) {
   Weather low = fog(150.0);
   low.fog_top_m = 20.0;

@@ -96,7 +96,7 @@ TEST(Sky, TakesTheLandBeyondFromTheWorldUnlessItIsFixed) {
   reports.note = [&](const std::string& line) { said = line; };
   Sky sky({}, reports);
   const float unknown = sky.daylight(lowSunOver(0.0)).skyLuminance(-Eigen::Vector3f::UnitZ()).value[1];
-  sky.over(snowfield());
+  sky.over({snowfield()});
   EXPECT_NEAR(sky.groundAlbedo(), 0.8, 0.03);  // with what its face mirrors
   EXPECT_NE(said.find(textOf(sky.groundAlbedo())), std::string::npos) << said;
   const float snow = sky.daylight(lowSunOver(0.0)).skyLuminance(-Eigen::Vector3f::UnitZ()).value[1];
@@ -108,11 +108,11 @@ TEST(Sky, TakesTheLandBeyondFromTheWorldUnlessItIsFixed) {
   options.fixed_ground_albedo = 0.3;
   Sky fixed(options, reports);
   EXPECT_EQ(fixed.groundAlbedo(), 0.3);
-  fixed.over(snowfield());
+  fixed.over({snowfield()});
   EXPECT_EQ(fixed.groundAlbedo(), 0.3);
 
   Sky over_nothing({}, reports);
-  over_nothing.over(light::World(std::make_shared<const scene::Scene>()));
+  over_nothing.over({light::World(std::make_shared<const scene::Scene>())});
   EXPECT_EQ(over_nothing.groundAlbedo(), sky::AtmosphereOptions().ground_albedo);
 }
 

@@ -1,4 +1,5 @@
 #include "light/bake/cache/bake_key.h"
+#include "sunlit/scene/weathering.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +79,11 @@ void addContents(const Geometry& geometry, image::ContentHash* hash) {
       hash->add(texture.wrap_v);
     }
   }
+  if (!geometry.weathering) return;
+  const scene::SurfaceState& state = geometry.weathering->state();
+  hash->addBytes("weathering", 10);
+  for (const double value : {state.wet, state.puddles, state.snow_m}) hash->add(value);
+  hash->add(state.seed);
 }
 
 void addLamps(const std::vector<scene::Lamp>& lamps, image::ContentHash* hash) {

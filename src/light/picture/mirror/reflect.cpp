@@ -20,14 +20,18 @@ namespace {
 /// mirror, too.
 constexpr float kSamePlane = 0.985f, kSameDistance = 0.1f;
 
-/// Smooth enough, and no sheet that light shines through, such as a leaf: those mirror by their lobe.
+/// Sheets that light shines through, such as leaves, mirror by their lobe.
 bool canMirror(const scene::Material& material) {
-  return material.transmission == 0.0f &&
-         (material.roughness < kMirrorsByLobe || material.roughness_map.given());
+  return material.transmission == 0.0f;
 }
 
-bool anyMirrors(const scene::Scene& scene) {
-  return std::any_of(scene.materials.begin(), scene.materials.end(), canMirror);
+/// Whether any surface may be smooth enough.
+bool anyMirrors(const MirroredWorld& world) {
+  if (world.visibility.fixedGeometry().weathering) return true;
+  const std::vector<scene::Material>& materials = world.scene.materials;
+  return std::any_of(materials.begin(), materials.end(), [](const scene::Material& material) {
+    return canMirror(material) && (material.roughness < kMirrorsByLobe || material.roughness_map.given());
+  });
 }
 
 /// Mirrors about the shading normal, but never into the surface.
@@ -165,7 +169,7 @@ class TileMirror {
     surface.geometric_normal = vertex.geometric_normal;
     surface.position = surface.to_eye = surface.shading_normal = Eigen::Vector3f::Zero();
     surface.albedo = surface.emission = surface.share = Eigen::Array3f::Zero();
-    surface.roughness = surface.metalness = 0.0f;
+    surface.roughness = surface.metalness = surface.film = 0.0f;
     surface.material = static_cast<std::int32_t>(vertex.material - scene_.materials.data());
     surface.pixel = mirror.pixel;
     surface.triangle = (*met)[first].hit.triangle;
@@ -183,6 +187,7 @@ class TileMirror {
       surface.emission += other.vertex.emission;
       surface.roughness += reflection.roughness;
       surface.metalness += reflection.metalness;
+      surface.film += other.vertex.film;
       surface.share += other.through;
       seen->origin_x.push_back(other.vertex.front.x());
       seen->origin_y.push_back(other.vertex.front.y());
@@ -195,6 +200,7 @@ class TileMirror {
     for (Eigen::Array3f* sum : {&surface.albedo, &surface.emission, &surface.share}) *sum *= each;
     surface.roughness *= each;
     surface.metalness *= each;
+    surface.film *= each;
     surface.clearance_m = rayClearance_m(surface.position, 0.0f);
     seen->surfaces.push_back(surface);
   }
@@ -231,7 +237,7 @@ void layOutLike(const Surfaces& surfaces, Surfaces* seen) {
 }  // namespace
 
 Reflections reflect(const Surfaces& surfaces, Onlooker onlooker, const MirroredWorld& world, Surfaces* seen) {
-  if (!anyMirrors(world.scene)) return {};
+  if (!anyMirrors(world)) return {};
   Reflections made;
   made.tiles.resize(surfaces.tiles.size());
   layOutLike(surfaces, seen);

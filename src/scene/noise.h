@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace sunlit::scene::race_track {
+namespace sunlit::scene {
 
 /// A well-mixed 32-bit hash of up to three integers.
 std::uint32_t mix(std::uint32_t a, std::uint32_t b = 0, std::uint32_t c = 0);
@@ -59,4 +59,4 @@ Cell cellular(float x, float y, std::uint32_t seed);
 /// 0 below `low`, 1 above `high`, smooth between.
 float smoothStep(float low, float high, float value);
 
-}  // namespace sunlit::scene::race_track
+}  // namespace sunlit::scene

@@ -1,11 +1,11 @@
-#include "scene/race_track/noise.h"
+#include "scene/noise.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "sunlit/quantity/vector_clones.h"
 
-namespace sunlit::scene::race_track {
+namespace sunlit::scene {
 namespace {
 
 // Faster than std::floor where the instruction set has no rounding.
@@ -125,4 +125,4 @@ float smoothStep(float low, float high, float value) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-}  // namespace sunlit::scene::race_track
+}  // namespace sunlit::scene
