@@ -68,6 +68,11 @@ class Renderer::Implementation {
     return seen_.picture.illuminate(light);
   }
 
+  std::vector<image::LightOutside> lightsOutside(const light::Illumination& light) const {
+    requireLook();
+    return seen_.picture.lightsOutside(light, static_cast<float>(options_.near_m));
+  }
+
   image::DepthImage depth() const {
     requireLook();
     return resolveDepth(bufferOf(seen_), *seen_.visibility);
@@ -175,6 +180,9 @@ void Renderer::lookAhead(const Eigen::Isometry3d& map_from_optical, const BodyPl
 }
 image::LinearImage Renderer::light(const light::Illumination& light) const {
   return implementation_->light(light);
+}
+std::vector<image::LightOutside> Renderer::lightsOutside(const light::Illumination& light) const {
+  return implementation_->lightsOutside(light);
 }
 image::DepthImage Renderer::depth() const {
   return implementation_->depth();

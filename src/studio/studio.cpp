@@ -33,6 +33,8 @@ const StudioOptions& checked(const StudioOptions& options) {
 
 Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& robot, const Reports& reports)
     : options_(checked(options)),
+      vignetting_(image::Lens(options.render.camera, options.render.distortion), options.vignetting),
+      glare_(vignetting_, options.glare),
       world_(stopwatch_.measure("load", "world", [&] { return loadWorld(options.world, robot, reports); })) {
   requireGroups(world_, options.lamps, reports);
   world_.transport =
@@ -101,9 +103,11 @@ Developed Studio::photograph(const light::Illumination& light, const image::Pict
   image::LinearImage luminance =
       stopwatch_.measure("light", name.series, [&] { return renderer_->light(light); });
   return stopwatch_.measure("develop", name.series, [&] {
+    if (!vignetting_.none()) vignetting_.apply(&luminance);
+    if (!glare_.none()) glare_.apply(renderer_->lightsOutside(light), &luminance);
     const double ev100 = image::chooseEv100(luminance, options_.exposure);
     if (options_.noise.enabled) image::addSensorNoise(ev100, options_.noise, name, &luminance);
-    return Developed{image::develop(luminance, ev100), ev100};
+    return Developed{image::throughMosaic(image::develop(luminance, ev100), options_.mosaic), ev100};
   });
 }
 

@@ -128,8 +128,7 @@ std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& 
   requireSense(line, words, options);
   options.output = outputOf(words.places);
   options.studio.render = words.camera.options();
-  options.studio.exposure = words.sensor.exposureOptions();
-  options.studio.noise = words.sensor.noise;
+  words.sensor.putInto(&options.studio);
   render::validate(options.studio.render);
   requireNoDistortion(options.studio.render, "data sets are of");
   options.data_set.camera = options.studio.render.camera;

@@ -7,7 +7,10 @@
 #include <string>
 
 #include "sunlit/image/exposure.h"
+#include "sunlit/image/mosaic.h"
 #include "sunlit/image/sensor_noise.h"
+#include "sunlit/image/veiling_glare.h"
+#include "sunlit/image/vignetting.h"
 #include "sunlit/light/lamps.h"
 #include "sunlit/render/renderer.h"
 #include "sunlit/studio/stopwatch.h"
@@ -22,6 +25,9 @@ struct StudioOptions {
   image::ExposureOptions exposure;
   image::NoiseOptions noise;
   light::LampOptions lamps;
+  image::VignettingOptions vignetting;
+  image::GlareOptions glare;
+  image::MosaicOptions mosaic;
 };
 
 /// A developed image and the exposure value that it was developed with.
@@ -56,7 +62,8 @@ class Studio {
   void lookAhead(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links = {});
   /// What does not depend on the camera.
   light::Illumination illumination(const sky::Daylight& daylight) const;
-  /// What look() looks at under `light`; the picture's series names it on the time sheet too.
+  /// What look() looks at under `light`: the lens takes light away and strews some, the sensor counts what it
+  /// gets. The picture's series names it on the time sheet too.
   Developed photograph(const light::Illumination& light, const image::PictureName& name);
   image::DepthImage depth();
 
@@ -71,6 +78,8 @@ class Studio {
  private:
   Stopwatch stopwatch_;
   StudioOptions options_;
+  image::Vignetting vignetting_;
+  image::VeilingGlare glare_;
   light::World world_;
   std::unique_ptr<render::Renderer> renderer_;
 };

@@ -1,0 +1,95 @@
+#include "glare_wings.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace sunlit::image {
+namespace {
+
+/// 1 4 6 4 1, the samples `step` apart, once for each power of two: a variance of 1 + 4 + 16 + … and so, to a
+/// percent, a Gaussian (the algorithm "à trous": Holschneider et al. 1989).
+constexpr std::array<float, 3> kWeights = {6.0F / 16.0F, 4.0F / 16.0F, 1.0F / 16.0F};
+constexpr int kOctaves = 6;
+constexpr double kWidestPart = 0.25;  // of the longer side, standard deviation
+
+/// Standard deviation after so many steps, px.
+double widthAfter(int steps) {
+  return std::sqrt((std::pow(4.0, steps) - 1.0) / 3.0);
+}
+
+int stepsFor(int longer_px) {
+  int steps = 1;
+  while (widthAfter(steps + 1) <= kWidestPart * longer_px) ++steps;
+  return steps;
+}
+
+/// A row beyond the edge is the one as far within it, so that no light is lost: what each sends to others it
+/// gets from them.
+int mirrored(int place, int count) {
+  const int turn = place % (2 * count);
+  const int within = turn < 0 ? turn + 2 * count : turn;
+  return within < count ? within : 2 * count - 1 - within;
+}
+
+template <typename OfRow>
+void eachRow(int height, const OfRow& of_row) {
+  tbb::parallel_for(tbb::blocked_range<int>(0, height, 8), [&](const tbb::blocked_range<int>& rows) {
+    for (int y = rows.begin(); y < rows.end(); ++y) of_row(y);
+  });
+}
+
+/// out[i] of the five lines, from far before to far behind.
+void blend(const std::array<const float*, 5>& lines, std::size_t count, float* out) {
+  const float *a = lines[0], *b = lines[1], *c = lines[2], *d = lines[3], *e = lines[4];
+  for (std::size_t i = 0; i < count; ++i)
+    out[i] = kWeights[0] * c[i] + kWeights[1] * (b[i] + d[i]) + kWeights[2] * (a[i] + e[i]);
+}
+
+void blurAcross(const LinearImage& from, int step, LinearImage* to) {
+  eachRow(from.height, [&](int y) {
+    thread_local std::vector<float> wide;
+    wide.resize(3 * static_cast<std::size_t>(from.width + 4 * step));
+    float* out = wide.data();
+    for (int x = -2 * step; x < from.width + 2 * step; ++x, out += 3)
+      std::copy_n(from.at(mirrored(x, from.width), y), 3, out);
+    const std::size_t apart = 3 * static_cast<std::size_t>(step);
+    const float* first = wide.data();
+    blend({first, first + apart, first + 2 * apart, first + 3 * apart, first + 4 * apart},
+          3 * static_cast<std::size_t>(from.width), to->at(0, y));
+  });
+}
+
+void blurDown(const LinearImage& from, int step, LinearImage* to) {
+  const auto row = [&](int y) { return from.at(0, mirrored(y, from.height)); };
+  eachRow(from.height, [&](int y) {
+    blend({row(y - 2 * step), row(y - step), row(y), row(y + step), row(y + 2 * step)},
+          3 * static_cast<std::size_t>(from.width), to->at(0, y));
+  });
+}
+
+}  // namespace
+
+LinearImage glareWings(const LinearImage& picture) {
+  const int steps = stepsFor(std::max(picture.width, picture.height));
+  const int kept = std::min(steps, kOctaves);
+  const float part = 1.0F / static_cast<float>(kept);
+  LinearImage blurred = picture, across(picture.width, picture.height), sum(picture.width, picture.height);
+  for (int i = 0; i < steps; ++i) {
+    blurAcross(blurred, 1 << i, &across);
+    blurDown(across, 1 << i, &blurred);
+    if (i < steps - kept) continue;
+    eachRow(sum.height, [&](int y) {
+      const float* from = blurred.at(0, y);
+      float* to = sum.at(0, y);
+      for (int k = 0; k < 3 * sum.width; ++k) to[k] += part * from[k];
+    });
+  }
+  return sum;
+}
+
+}  // namespace sunlit::image
