@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sunlit/image/exposure.h"
+#include "sunlit/image/lens_blur.h"
 #include "sunlit/image/mosaic.h"
 #include "sunlit/image/sensor_noise.h"
 #include "sunlit/image/veiling_glare.h"
@@ -68,6 +69,10 @@ void veilingGlare(benchmark::State& state, double wings) {
   onCopies(state, light(), [&](image::LinearImage* picture) { glare.apply({}, picture); });
 }
 
+void blurring(benchmark::State& state) {
+  onCopies(state, light(), [](image::LinearImage* picture) { image::blur({0.5}, picture); });
+}
+
 void noise(benchmark::State& state) {
   onCopies(state, light(),
            [](image::LinearImage* picture) { image::addSensorNoise(kEv100, {}, {}, picture); });
@@ -89,6 +94,7 @@ BENCHMARK_CAPTURE(veilingGlare, wings, 0.5)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime();
+BENCHMARK(blurring)->UseRealTime()->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 BENCHMARK(noise)->UseRealTime()->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 BENCHMARK_CAPTURE(mosaic, bilinear, image::Demosaic::kBilinear)
     ->UseRealTime()

@@ -1,12 +1,12 @@
 #include "glare_wings.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
+
+#include "rows.h"
 
 namespace sunlit::image {
 namespace {
@@ -28,21 +28,6 @@ int stepsFor(int longer_px) {
   return steps;
 }
 
-/// A row beyond the edge is the one as far within it, so that no light is lost: what each sends to others it
-/// gets from them.
-int mirrored(int place, int count) {
-  const int turn = place % (2 * count);
-  const int within = turn < 0 ? turn + 2 * count : turn;
-  return within < count ? within : 2 * count - 1 - within;
-}
-
-template <typename OfRow>
-void eachRow(int height, const OfRow& of_row) {
-  tbb::parallel_for(tbb::blocked_range<int>(0, height, 8), [&](const tbb::blocked_range<int>& rows) {
-    for (int y = rows.begin(); y < rows.end(); ++y) of_row(y);
-  });
-}
-
 /// out[i] of the five lines, from far before to far behind.
 void blend(const std::array<const float*, 5>& lines, std::size_t count, float* out) {
   const float *a = lines[0], *b = lines[1], *c = lines[2], *d = lines[3], *e = lines[4];
@@ -54,8 +39,11 @@ void blurAcross(const LinearImage& from, int step, LinearImage* to) {
   eachRow(from.height, [&](int y) {
     thread_local std::vector<float> wide;
     wide.resize(3 * static_cast<std::size_t>(from.width + 4 * step));
+    const int margin = 2 * step;
     float* out = wide.data();
-    for (int x = -2 * step; x < from.width + 2 * step; ++x, out += 3)
+    for (int x = -margin; x < 0; ++x, out += 3) std::copy_n(from.at(mirrored(x, from.width), y), 3, out);
+    out = std::copy_n(from.at(0, y), 3 * from.width, out);
+    for (int x = from.width; x < from.width + margin; ++x, out += 3)
       std::copy_n(from.at(mirrored(x, from.width), y), 3, out);
     const std::size_t apart = 3 * static_cast<std::size_t>(step);
     const float* first = wide.data();
@@ -64,11 +52,14 @@ void blurAcross(const LinearImage& from, int step, LinearImage* to) {
   });
 }
 
-void blurDown(const LinearImage& from, int step, LinearImage* to) {
+/// Calls `done` with the number of each row of `to` as soon as it is there.
+template <typename Done>
+void blurDown(const LinearImage& from, int step, LinearImage* to, const Done& done) {
   const auto row = [&](int y) { return from.at(0, mirrored(y, from.height)); };
   eachRow(from.height, [&](int y) {
     blend({row(y - 2 * step), row(y - step), row(y), row(y + step), row(y + 2 * step)},
           3 * static_cast<std::size_t>(from.width), to->at(0, y));
+    done(y);
   });
 }
 
@@ -81,9 +72,8 @@ LinearImage glareWings(const LinearImage& picture) {
   LinearImage blurred = picture, across(picture.width, picture.height), sum(picture.width, picture.height);
   for (int i = 0; i < steps; ++i) {
     blurAcross(blurred, 1 << i, &across);
-    blurDown(across, 1 << i, &blurred);
-    if (i < steps - kept) continue;
-    eachRow(sum.height, [&](int y) {
+    blurDown(across, 1 << i, &blurred, [&](int y) {
+      if (i < steps - kept) return;
       const float* from = blurred.at(0, y);
       float* to = sum.at(0, y);
       for (int k = 0; k < 3 * sum.width; ++k) to[k] += part * from[k];

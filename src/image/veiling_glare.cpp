@@ -1,14 +1,12 @@
 #include "sunlit/image/veiling_glare.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "finite_luminance.h"
 #include "glare_wings.h"
+#include "rows.h"
 
 namespace sunlit::image {
 namespace {
@@ -91,17 +89,15 @@ void VeilingGlare::apply(const std::vector<LightOutside>& outside, LinearImage* 
   Eigen::Array3d even = (1.0 - options_.wings) * meanOfPixels(*picture);
   for (const LightOutside& light : outside) even += meanOf(light).value.cast<double>();
   const Eigen::Array3f veil = (options_.share * even).cast<float>();
-  const LinearImage blurred = options_.wings > 0.0 ? glareWings(*picture) : *picture;
-  tbb::parallel_for(tbb::blocked_range<int>(0, picture->height, 16),
-                    [&](const tbb::blocked_range<int>& rows) {
-                      for (int y = rows.begin(); y < rows.end(); ++y) {
-                        float* pixel = picture->at(0, y);
-                        const float* wing = blurred.at(0, y);
-                        for (int x = 0; x < picture->width; ++x, pixel += 3, wing += 3)
-                          for (int c = 0; c < 3; ++c)
-                            pixel[c] = (1.0f - share) * pixel[c] + share * wings * wing[c] + veil[c];
-                      }
-                    });
+  LinearImage with_wings;
+  if (wings > 0.0f) with_wings = glareWings(*picture);
+  const LinearImage& blurred = wings > 0.0f ? with_wings : *picture;
+  eachRow(picture->height, [&](int y) {
+    float* pixel = picture->at(0, y);
+    const float* wing = blurred.at(0, y);
+    for (int x = 0; x < picture->width; ++x, pixel += 3, wing += 3)
+      for (int c = 0; c < 3; ++c) pixel[c] = (1.0f - share) * pixel[c] + share * wings * wing[c] + veil[c];
+  });
 }
 
 }  // namespace sunlit::image

@@ -1,11 +1,9 @@
 #include "sunlit/image/vignetting.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "rows.h"
 #include "sunlit/quantity/range.h"
 
 namespace sunlit::image {
@@ -19,13 +17,6 @@ double cornerDistance(const PinholeCamera& camera) {
   const double across = std::max(std::abs(camera.cx + 0.5), std::abs(camera.width - 0.5 - camera.cx));
   const double down = std::max(std::abs(camera.cy + 0.5), std::abs(camera.height - 0.5 - camera.cy));
   return std::hypot(across, down);
-}
-
-template <typename OfRow>
-void eachRow(int height, const OfRow& of_row) {
-  tbb::parallel_for(tbb::blocked_range<int>(0, height, 16), [&](const tbb::blocked_range<int>& rows) {
-    for (int y = rows.begin(); y < rows.end(); ++y) of_row(y);
-  });
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ double topOf(const scene::Scene& scene) {
 const StudioOptions& checked(const StudioOptions& options) {
   image::validate(options.exposure);
   image::validate(options.noise);
+  image::validate(options.blur);
   render::validate(options.render);
   light::validate(options.bake.transport);
   light::validate(options.lamps);
@@ -105,6 +106,7 @@ Developed Studio::photograph(const light::Illumination& light, const image::Pict
   return stopwatch_.measure("develop", name.series, [&] {
     if (!vignetting_.none()) vignetting_.apply(&luminance);
     if (!glare_.none()) glare_.apply(renderer_->lightsOutside(light), &luminance);
+    image::blur(options_.blur, &luminance);
     const double ev100 = image::chooseEv100(luminance, options_.exposure);
     if (options_.noise.enabled) image::addSensorNoise(ev100, options_.noise, name, &luminance);
     return Developed{image::throughMosaic(image::develop(luminance, ev100), options_.mosaic), ev100};

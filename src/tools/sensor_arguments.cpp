@@ -16,6 +16,7 @@ void addOptics(studio::CommandLine* line, SensorWords* words) {
   line->add("--glare SHARE", fieldOf(glare, "share"));
   line->add("--glare-wings SHARE", fieldOf(glare, "wings"));
   line->add("--hood DEG", fieldOf(glare, "hood"));
+  line->add("--blur PX", fieldOf(fieldsOf(words->blur), "sigma"));
 }
 
 void addMosaic(studio::CommandLine* line, SensorWords* words) {
@@ -35,6 +36,7 @@ void SensorWords::putInto(studio::StudioOptions* options) const {
   options->noise = noise;
   options->vignetting = vignetting;
   options->glare = glare;
+  options->blur = blur;
   options->mosaic = mosaic;
 }
 

@@ -14,6 +14,7 @@ struct SensorWords {
   image::NoiseOptions noise;
   image::VignettingOptions vignetting;
   image::GlareOptions glare;
+  image::BlurOptions blur;
   image::MosaicOptions mosaic;
   std::optional<double> ev100;  ///< empty: auto
 
@@ -22,7 +23,7 @@ struct SensorWords {
   void requireSense(const studio::CommandLine& line) const;
 };
 
-/// --ev, --compensation, --noise, and those of vignetting, glare and mosaic.
+/// --ev, --compensation, --noise, and those of vignetting, glare, blur and mosaic.
 void addSensor(studio::CommandLine* line, SensorWords* words);
 
 }  // namespace sunlit::tools

@@ -31,7 +31,7 @@ PLACE = {**WEATHER, "--site": "latitude (geodetic, positive north, -90 … 90 de
          "--ground-albedo": "0 … 1, default auto"}
 SENSOR = {"--ev": "-16 … 24 EV, default auto", "--compensation": "-8 … 8 EV, default 0", "--noise": "0 … 2147483647",
           "--vignetting": "none|cos4", "--falloff": "a3 (-10 … 10) (default 0,0,0)", "--glare": "0 … 0.2, default 0",
-          "--glare-wings": "0 … 1, default 0.5", "--hood": "0 … 90 deg, default 60",
+          "--glare-wings": "0 … 1, default 0.5", "--hood": "0 … 90 deg, default 60", "--blur": "0 … 10 px, default 0",
           "--mosaic": "none|rggb|bggr|grbg|gbrg", "--demosaic": "bilinear|vng|edge_aware"}
 VIEW = {**SENSOR, "--pose": "(default 0,0,1,0,0)", "--look-at": "towards a point", "--path-pose": "≥ 0",
         "--path": "CSV or TUM", "--top-down": "> 0 m"}

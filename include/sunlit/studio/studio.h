@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sunlit/image/exposure.h"
+#include "sunlit/image/lens_blur.h"
 #include "sunlit/image/mosaic.h"
 #include "sunlit/image/sensor_noise.h"
 #include "sunlit/image/veiling_glare.h"
@@ -27,6 +28,7 @@ struct StudioOptions {
   light::LampOptions lamps;
   image::VignettingOptions vignetting;
   image::GlareOptions glare;
+  image::BlurOptions blur;
   image::MosaicOptions mosaic;
 };
 

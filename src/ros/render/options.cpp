@@ -193,7 +193,7 @@ image::Calibration RenderNodeOptions::calibration() const {
 }
 
 studio::StudioOptions RenderNodeOptions::studioOptions() const {
-  studio::StudioOptions options{world, bake, {}, exposure, noise, lamps, vignetting, glare, mosaic};
+  studio::StudioOptions options{world, bake, {}, exposure, noise, lamps, vignetting, glare, blur, mosaic};
   const image::Calibration calibrated = calibration();
   options.render.camera = calibrated.camera;
   options.render.distortion = calibrated.distortion;
@@ -211,6 +211,7 @@ std::vector<Field> fieldsOf(RenderNodeOptions& options) {
        under("robot", fieldsOf(options.robot)),
        under("vignetting", fieldsOf(options.vignetting)),
        under("glare", fieldsOf(options.glare)),
+       under("blur", fieldsOf(options.blur)),
        under("exposure", fieldsOf(options.exposure)),
        under("noise", fieldsOf(options.noise)),
        under("mosaic", fieldsOf(options.mosaic)),

@@ -10,6 +10,7 @@
 #include "ros/render/robot_options.h"
 #include "sunlit/image/calibration.h"
 #include "sunlit/image/exposure.h"
+#include "sunlit/image/lens_blur.h"
 #include "sunlit/image/mosaic.h"
 #include "sunlit/image/sensor_noise.h"
 #include "sunlit/image/veiling_glare.h"
@@ -80,6 +81,7 @@ struct RenderNodeOptions {
   image::NoiseOptions noise;
   image::VignettingOptions vignetting;
   image::GlareOptions glare;
+  image::BlurOptions blur;
   image::MosaicOptions mosaic;
   light::LampOptions lamps;
   studio::SkyOptions sky;

@@ -59,7 +59,7 @@ class RenderOptics(RefusalTest):
         self.assertTrue(hooded + 0.015 < veiled < hooded + 0.08, (hooded, veiled))
 
     def test_all_at_once_are_the_same_again(self):
-        everything = {"vignetting": {"natural": "cos4", "a1": -0.1}, "glare": {"share": 0.02},
+        everything = {"vignetting": {"natural": "cos4", "a1": -0.1}, "glare": {"share": 0.02}, "blur": {"sigma": 0.5},
                       "noise": {"enabled": True, "seed": 5}, "mosaic": {"pattern": "grbg", "demosaic": "edge_aware"}}
         sun = (0.9, 0.3, 0.316)
         first = self.picture("first", sun, **everything)

@@ -48,6 +48,9 @@ TEST(Studio, RefusesBadOptionsBeforeItLoadsTheWorld) {
   options.glare.share = 0.5;
   EXPECT_NE(refusal().find("share"), std::string::npos) << refusal();
   options.glare.share = 0.0;
+  options.blur.sigma_px = 11.0;
+  EXPECT_NE(refusal().find("sigma"), std::string::npos) << refusal();
+  options.blur.sigma_px = 0.0;
   options.vignetting.a1 = -2.0;
   EXPECT_NE(refusal().find("a1"), std::string::npos) << refusal();
 }
@@ -57,6 +60,7 @@ TEST(Studio, TakesThePictureThatItsPartsMake) {
   options.noise.enabled = true;
   options.vignetting.cos4 = true;
   options.glare.share = 0.02;
+  options.blur.sigma_px = 0.5;
   options.mosaic.pattern = image::MosaicPattern::kRggb;
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
   map_from_camera.translation().z() = 1.0;
@@ -76,6 +80,7 @@ TEST(Studio, TakesThePictureThatItsPartsMake) {
   const std::vector<image::LightOutside> outside = renderer.lightsOutside(day);
   EXPECT_EQ(outside.size(), 1u);  // the sun, high above what the camera sees
   image::VeilingGlare(vignetting, options.glare).apply(outside, &luminance);
+  image::blur(options.blur, &luminance);
   const double ev100 = image::chooseEv100(luminance, options.exposure);
   image::addSensorNoise(ev100, options.noise, name, &luminance);
   EXPECT_EQ(developed.ev100, ev100);
