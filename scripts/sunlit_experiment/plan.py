@@ -13,8 +13,8 @@ START_STAMP_S = 1000.0
 FRAME_RATE_HZ = 10.0
 # What the evaluator writes down beside its results, as it was typed.
 ABOUT = ("world", "robot", "path", "site", "date", "timezone", "hours", "conditions", "spacing", "offset", "yaw", "exposure", "ev100",
-         "highlight_protection", "final_gather", "rasterizer", "night", "lamps", "noise", "noise_seed", "turbidity", "ozone",
-         "ground_albedo")
+         "highlight_protection", "final_gather", "rasterizer", "night", "lamps", "noise", "noise_seed", "vignetting", "glare",
+         "mosaic", "turbidity", "ozone", "ground_albedo")
 
 
 @dataclasses.dataclass
@@ -38,7 +38,8 @@ def check(typed):
         read.flag(name, typed[name])
     for name in ("width", "height", "noise_seed", "final_gather", "max_ahead"):
         read.whole(name, typed[name])
-    for name in ("horizontal_fov", "camera_height", "offset", "yaw", "ev100", "highlight_protection", "turbidity", "ozone"):
+    for name in ("horizontal_fov", "camera_height", "offset", "yaw", "ev100", "highlight_protection", "glare", "turbidity",
+                 "ozone"):
         read.number(name, typed[name])
     read.number_or_auto("ground_albedo", typed["ground_albedo"])
     read.date_time(typed["date"], typed["timezone"])
@@ -137,6 +138,9 @@ def _renderer(typed, given, places, beginning):
         "night": {"enabled": read.flag("night", typed["night"])},
         "lamps": typed["lamps"],
         "noise": {"enabled": read.flag("noise", typed["noise"]), "seed": read.whole("noise_seed", typed["noise_seed"])},
+        "vignetting": {"natural": typed["vignetting"]},
+        "glare": {"share": read.number("glare", typed["glare"])},
+        "mosaic": {"pattern": typed["mosaic"]},
         "atmosphere": {"turbidity": read.number("turbidity", typed["turbidity"]),
                        "ozone": read.number("ozone", typed["ozone"]),
                        "ground_albedo": read.number_or_auto("ground_albedo", typed["ground_albedo"])},

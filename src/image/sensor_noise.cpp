@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finite_luminance.h"
 #include "random_sequence.h"
 #include "sunlit/image/exposure.h"
 
@@ -13,7 +14,6 @@ namespace sunlit::image {
 namespace {
 
 constexpr std::uint64_t kNumbersAValue = 8;  // of a random sequence; poisson() and normal() take 6 at most
-constexpr float kBrightest = 1e12F;          // cd/m², so that infinity stays a number
 constexpr std::size_t kValuesAtOnce = 8192;  // for one thread
 
 /// FNV-1a of 64 bits (Fowler, Noll, Vo): what a seed gives must stay what it was.
@@ -46,9 +46,7 @@ void addSensorNoise(double ev100, const NoiseOptions& options, const PictureName
                     [&](const tbb::blocked_range<std::size_t>& part) {
                       for (std::size_t i = part.begin(); i < part.end(); ++i) {
                         RandomSequence random(start, i * kNumbersAValue);
-                        // NaN becomes black here, as it does in develop().
-                        const float luminance = std::min(std::max(0.0F, picture->data[i]), kBrightest);
-                        const double mean = luminance / luminance_per_electron;
+                        const double mean = finiteLuminance(picture->data[i]) / luminance_per_electron;
                         const double electrons = random.poisson(mean) + options.read_e * random.normal();
                         picture->data[i] = static_cast<float>(electrons * luminance_per_electron);
                       }

@@ -76,6 +76,11 @@ class Renderer::Implementation {
     return seen_.pictures.at(state).illuminate(light);
   }
 
+  std::vector<image::LightOutside> lightsOutside(const light::Illumination& light) const {
+    requireLook();
+    return seen_.picture.lightsOutside(light, static_cast<float>(options_.near_m));
+  }
+
   image::DepthImage depth() const {
     requireLook();
     return resolveDepth(bufferOf(seen_), *seen_.visibility);
@@ -201,6 +206,9 @@ void Renderer::lookAhead(const Eigen::Isometry3d& map_from_optical, const BodyPl
 }
 image::LinearImage Renderer::light(const light::Illumination& light, std::size_t state) const {
   return implementation_->light(light, state);
+}
+std::vector<image::LightOutside> Renderer::lightsOutside(const light::Illumination& light) const {
+  return implementation_->lightsOutside(light);
 }
 image::DepthImage Renderer::depth() const {
   return implementation_->depth();

@@ -36,6 +36,7 @@ double topOf(const scene::Scene& scene) {
 const StudioOptions& checked(const StudioOptions& options) {
   image::validate(options.exposure);
   image::validate(options.noise);
+  image::validate(options.blur);
   render::validate(options.render);
   light::validate(options.bake.transport);
   light::validate(options.lamps);
@@ -72,7 +73,9 @@ void addRain(const render::Renderer& renderer, const sky::Daylight& day, const E
 }  // namespace
 
 Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& robot, const Reports& reports)
-    : options_(checked(options)) {
+    : options_(checked(options)),
+      vignetting_(image::Lens(options.render.camera, options.render.distortion), options.vignetting),
+      glare_(vignetting_, options.glare) {
   const light::World dry =
       stopwatch_.measure("load", "world", [&] { return loadWorld(options.world, robot, reports); });
   requireGroups(dry, options.lamps, reports);
@@ -148,10 +151,13 @@ Developed Studio::photograph(const light::Illumination& light, const image::Pict
   image::LinearImage luminance =
       stopwatch_.measure("light", name.series, [&] { return renderer_->light(light, state); });
   return stopwatch_.measure("develop", name.series, [&] {
+    if (!vignetting_.none()) vignetting_.apply(&luminance);
+    if (!glare_.none()) glare_.apply(renderer_->lightsOutside(light), &luminance);
+    image::blur(options_.blur, &luminance);
     const double ev100 = image::chooseEv100(luminance, options_.exposure);
     addRain(*renderer_, light.day, {name.index, ev100}, &luminance);
     if (options_.noise.enabled) image::addSensorNoise(ev100, options_.noise, name, &luminance);
-    return Developed{image::develop(luminance, ev100), ev100};
+    return Developed{image::throughMosaic(image::develop(luminance, ev100), options_.mosaic), ev100};
   });
 }
 

@@ -288,8 +288,7 @@ std::optional<AtlasRunOptions> parseAtlasOptions(const std::vector<std::string>&
   if (!line.has("--out")) throw std::invalid_argument("--out FOLDER is missing; --help lists all options");
   requireSense(line, words, options);
   options.studio.render = words.camera.options();
-  options.studio.exposure = words.sensor.exposureOptions();
-  options.studio.noise = words.sensor.noise;
+  words.sensor.putInto(&options.studio);
   options.studio.surfaces = {options.place.surfaces};
   render::validate(options.studio.render);
   requireNoDistortion(options.studio.render, "queries are localised with");

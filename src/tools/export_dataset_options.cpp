@@ -128,8 +128,7 @@ std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& 
   requireSense(line, words, options);
   options.output = outputOf(words.places);
   options.studio.render = words.camera.options();
-  options.studio.exposure = words.sensor.exposureOptions();
-  options.studio.noise = words.sensor.noise;
+  words.sensor.putInto(&options.studio);
   options.studio.surfaces = {options.place.surfaces};
   render::validate(options.studio.render);
   requireNoDistortion(options.studio.render, "data sets are of");

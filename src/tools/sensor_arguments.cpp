@@ -4,17 +4,47 @@
 
 namespace sunlit::tools {
 
-image::ExposureOptions SensorWords::exposureOptions() const {
-  image::ExposureOptions options = exposure;
+namespace {
+
+void addOptics(studio::CommandLine* line, SensorWords* words) {
+  const std::vector<Field> vignetting = fieldsOf(words->vignetting), glare = fieldsOf(words->glare);
+  line->add("--vignetting", fieldOf(vignetting, "natural"));
+  std::vector<Field> polynomial;
+  for (const char* key : {"a1", "a2", "a3"})
+    polynomial.push_back(studio::explainedAs(fieldOf(vignetting, key), ""));
+  line->add("--falloff A1,A2,A3", fieldOf(vignetting, "a1").doc, polynomial);
+  line->add("--glare SHARE", fieldOf(glare, "share"));
+  line->add("--glare-wings SHARE", fieldOf(glare, "wings"));
+  line->add("--hood DEG", fieldOf(glare, "hood"));
+  line->add("--blur PX", fieldOf(fieldsOf(words->blur), "sigma"));
+}
+
+void addMosaic(studio::CommandLine* line, SensorWords* words) {
+  const std::vector<Field> rows = fieldsOf(words->mosaic);
+  line->add("--mosaic", fieldOf(rows, "pattern"));
+  line->add("--demosaic", fieldOf(rows, "demosaic"));
+}
+
+}  // namespace
+
+void SensorWords::putInto(studio::StudioOptions* options) const {
+  options->exposure = exposure;
   if (ev100) {
-    options.mode = image::ExposureMode::kFixed;
-    options.ev100 = *ev100;
+    options->exposure.mode = image::ExposureMode::kFixed;
+    options->exposure.ev100 = *ev100;
   }
-  return options;
+  options->noise = noise;
+  options->vignetting = vignetting;
+  options->glare = glare;
+  options->blur = blur;
+  options->mosaic = mosaic;
 }
 
 void SensorWords::requireSense(const studio::CommandLine& line) const {
   if (line.has("--compensation") && ev100) throw std::invalid_argument("--compensation needs --ev auto");
+  line.requireWith("--glare-wings", "--glare");
+  line.requireWith("--hood", "--glare");
+  line.requireWith("--demosaic", "--mosaic");
 }
 
 void addSensor(studio::CommandLine* line, SensorWords* words) {
@@ -27,6 +57,8 @@ void addSensor(studio::CommandLine* line, SensorWords* words) {
                                                 "adds the noise of a sensor, with this seed"))
       .then([words](const std::string&, const std::string&) { words->noise.enabled = true; })
       .withoutDefault();
+  addOptics(line, words);
+  addMosaic(line, words);
 }
 
 }  // namespace sunlit::tools

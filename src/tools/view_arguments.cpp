@@ -107,8 +107,7 @@ ViewOptions ViewArguments::options() const {
   requireThatAllCount();
   ViewOptions options = options_;
   options.studio.render = camera_.options();
-  options.studio.exposure = sensor_.exposureOptions();
-  options.studio.noise = sensor_.noise;
+  sensor_.putInto(&options.studio);
   if (line_->has("--top-down")) {
     placeTopDown(&options);
   } else if (line_->has("--path-pose")) {

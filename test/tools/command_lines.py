@@ -32,7 +32,10 @@ WEATHER = {"--cover": "0 … 8 oktas, default 0", "--optical-depth": "0.1 … 20
 PLACE = {**WEATHER, "--site": "latitude (geodetic, positive north, -90 … 90 deg)", "--date": "default 2024-07-01",
          "--timezone": "-18 … 18 h, default 3", "--turbidity": "1 … 10, default 2", "--ozone": "0 … 600 DU, default 300",
          "--ground-albedo": "0 … 1, default auto"}
-SENSOR = {"--ev": "-16 … 24 EV, default auto", "--compensation": "-8 … 8 EV, default 0", "--noise": "0 … 2147483647"}
+SENSOR = {"--ev": "-16 … 24 EV, default auto", "--compensation": "-8 … 8 EV, default 0", "--noise": "0 … 2147483647",
+          "--vignetting": "none|cos4", "--falloff": "a3 (-10 … 10) (default 0,0,0)", "--glare": "0 … 0.2, default 0",
+          "--glare-wings": "0 … 1, default 0.5", "--hood": "0 … 90 deg, default 60", "--blur": "0 … 10 px, default 0",
+          "--mosaic": "none|rggb|bggr|grbg|gbrg", "--demosaic": "bilinear|vng|edge_aware"}
 VIEW = {**SENSOR, "--pose": "(default 0,0,1,0,0)", "--look-at": "towards a point", "--path-pose": "≥ 0",
         "--path": "CSV or TUM", "--top-down": "> 0 m"}
 # By detector, behind its name.
@@ -149,6 +152,8 @@ REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be fr
            ("--turbidity", "0", "--turbidity is 0, but must be from 1 to 10"),
            ("--ev", "dark", 'must be "auto" or a number from -16 to 24 EV'),
            ("--noise", "-1", "--noise is -1, but must be from 0 to 2147483647"),
+           ("--glare", "0.3", "--glare is 0.3, but must be from 0 to 0.2"),
+           ("--mosaic", "rgbg", '--mosaic is "rgbg", but must be one of none, rggb, bggr, grbg, gbrg'),
            ("--views", "0", "must be from 1 to 1000"), ("--every", "65", "must be from 1 to 64 px"),
            ("--ratio", "1.1", "--ratio is 1.1, but must be"),
            ("--inclusive", "perhaps", '--inclusive is "perhaps", but must be true or false'),

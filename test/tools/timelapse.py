@@ -183,6 +183,7 @@ class Timelapse(unittest.TestCase):
                                 (["--top-down", "0,0,9"], "leave out --pose"),
                                 (["--look-at", "1,2,3", "--pose", "0,0,1,90"], "leave YAW and PITCH out"),
                                 (["--compensation", "1", "--ev", "9"], "--compensation needs --ev auto"),
+                                (["--hood", "50"], "--hood needs --glare too"), (["--demosaic", "vng"], "--demosaic needs --mosaic too"),
                                 (["--fov", "wide"], "must be a number"), (["--sun", "4"], "must be 2 numbers"),
                                 (["--final-gather", "17"], "--final-gather is 17, but must be from 0 to 16"),
                                 (["--final-gather", "2"], "leave out --bounced off"),

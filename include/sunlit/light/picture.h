@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sunlit/image/images.h"
+#include "sunlit/image/veiling_glare.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/light/visibility.h"
@@ -36,6 +37,10 @@ class PreparedPicture {
   /// moon and stars where no surface is seen. `light` is of the same world, or just a sky::Daylight.
   /// Parallel; the same bits for any thread count.
   image::LinearImage illuminate(const Illumination& light) const;
+  /// Sun, moon and lamps as far as they are not in the picture, by the part of them that nothing hides from
+  /// the camera: by rays, which begin `nearest_m` from it and pass glass. What only shows, such as surfaces
+  /// that glow, is not among them.
+  std::vector<image::LightOutside> lightsOutside(const Illumination& light, float nearest_m) const;
 
   const Surfaces& surfaces() const;
   /// Ends this picture, whose memory then serves the next one's geometry.

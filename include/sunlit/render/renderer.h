@@ -9,6 +9,7 @@
 #include "sunlit/image/camera.h"
 #include "sunlit/image/images.h"
 #include "sunlit/image/lens.h"
+#include "sunlit/image/veiling_glare.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/picture.h"
 #include "sunlit/light/surfaces.h"
@@ -82,6 +83,9 @@ class Renderer {
   /// Luminance of each pixel, cd/m². `light` is of this renderer's world, in its state number `state`, or
   /// just a sky::Daylight.
   image::LinearImage light(const light::Illumination& light, std::size_t state = 0) const;
+  /// What of `light` shines on the lens from beside the picture, as PreparedPicture::lightsOutside(); what is
+  /// too near to be drawn hides nothing.
+  std::vector<image::LightOutside> lightsOutside(const light::Illumination& light) const;
   /// Depth of what the centre of each pixel sees, m along the optical axis; before a lens that is
   /// image::Lens::wide(), where that would be 0 at the side, the distance from the camera. NaN for sky.
   image::DepthImage depth() const;

@@ -8,7 +8,11 @@
 #include <vector>
 
 #include "sunlit/image/exposure.h"
+#include "sunlit/image/lens_blur.h"
+#include "sunlit/image/mosaic.h"
 #include "sunlit/image/sensor_noise.h"
+#include "sunlit/image/veiling_glare.h"
+#include "sunlit/image/vignetting.h"
 #include "sunlit/light/lamps.h"
 #include "sunlit/render/renderer.h"
 #include "sunlit/scene/weathering.h"
@@ -24,6 +28,10 @@ struct StudioOptions {
   image::ExposureOptions exposure;
   image::NoiseOptions noise;
   light::LampOptions lamps;
+  image::VignettingOptions vignetting;
+  image::GlareOptions glare;
+  image::BlurOptions blur;
+  image::MosaicOptions mosaic;
   /// States of the world's surfaces that pictures are taken in, one at least; their numbers are the `state`
   /// of Studio's functions.
   std::vector<scene::SurfaceState> surfaces = {{}};
@@ -62,8 +70,8 @@ class Studio {
   void lookAhead(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links = {});
   /// What does not depend on the camera.
   light::Illumination illumination(const sky::Daylight& daylight, std::size_t state = 0) const;
-  /// What look() looks at under `light`, which is of the same state; the picture's series names it on the
-  /// time sheet too.
+  /// What look() looks at under `light`, which is of the same state: the lens takes light away and strews some,
+  /// the sensor counts what it gets. The picture's series names it on the time sheet too.
   Developed photograph(const light::Illumination& light, const image::PictureName& name,
                        std::size_t state = 0);
   image::DepthImage depth();
@@ -81,6 +89,8 @@ class Studio {
  private:
   Stopwatch stopwatch_;
   StudioOptions options_;
+  image::Vignetting vignetting_;
+  image::VeilingGlare glare_;
   std::vector<light::World> worlds_;
   std::unique_ptr<render::Renderer> renderer_;
 };

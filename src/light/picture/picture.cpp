@@ -7,6 +7,7 @@
 #include "light/picture/gather/final_gather.h"
 #include "light/picture/lamps/bounced_light.h"
 #include "light/picture/lighting.h"
+#include "light/picture/lights_outside.h"
 #include "light/picture/ready_picture.h"
 #include "sunlit/light/lamps.h"
 #include "sunlit/quantity/range.h"
@@ -26,6 +27,12 @@ struct PreparedPicture::Implementation {
     here.bodies = std::make_shared<const std::vector<AroundLight>>(body_light->around(*views, here));
     if (light.body_lamps) here.lamps = lampsHere(light);
     return light::illuminate(ready, *scene, *visibility, here);
+  }
+
+  std::vector<image::LightOutside> lightsOutside(const Illumination& light, float nearest_m) const {
+    Illumination here = light;
+    if (views && light.body_lamps) here.lamps = lampsHere(light);
+    return light::lightsOutside(surfaces(), *visibility, here, nearest_m);
   }
 
   const Surfaces& surfaces() const { return ready.seen.surfaces; }
@@ -89,6 +96,10 @@ PreparedPicture& PreparedPicture::operator=(PreparedPicture&&) noexcept = defaul
 
 image::LinearImage PreparedPicture::illuminate(const Illumination& light) const {
   return implementation_->illuminate(light);
+}
+std::vector<image::LightOutside> PreparedPicture::lightsOutside(const Illumination& light,
+                                                                float nearest_m) const {
+  return implementation_->lightsOutside(light, nearest_m);
 }
 const Surfaces& PreparedPicture::surfaces() const {
   return implementation_->surfaces();

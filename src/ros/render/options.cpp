@@ -193,7 +193,7 @@ image::Calibration RenderNodeOptions::calibration() const {
 }
 
 studio::StudioOptions RenderNodeOptions::studioOptions() const {
-  studio::StudioOptions options{world, bake, {}, exposure, noise, lamps};
+  studio::StudioOptions options{world, bake, {}, exposure, noise, lamps, vignetting, glare, blur, mosaic};
   const image::Calibration calibrated = calibration();
   options.render.camera = calibrated.camera;
   options.render.distortion = calibrated.distortion;
@@ -209,8 +209,12 @@ std::vector<Field> fieldsOf(RenderNodeOptions& options) {
        under("path", fieldsOf(options.path)),
        under("camera", fieldsOf(options.camera)),
        under("robot", fieldsOf(options.robot)),
+       under("vignetting", fieldsOf(options.vignetting)),
+       under("glare", fieldsOf(options.glare)),
+       under("blur", fieldsOf(options.blur)),
        under("exposure", fieldsOf(options.exposure)),
        under("noise", fieldsOf(options.noise)),
+       under("mosaic", fieldsOf(options.mosaic)),
        fieldsOf(options.lamps),
        {{"night/enabled", &options.night, "", {}, "moon and stars too; false: the sun alone"}},
        under("atmosphere", airFields(&options.sky)),
@@ -259,6 +263,7 @@ RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {
   options.sky.stars = options.night;
   options.sky.cache_dir = studio::cacheOf(options.bake).folder;
   parameters.check("exposure", [&] { image::validate(options.exposure); });
+  parameters.check("vignetting", [&] { image::validate(options.vignetting); });
   requireFrames(parameters, options);
   requireOnePath(parameters, options.path);
   requireBakeForGather(parameters, options);

@@ -10,7 +10,11 @@
 #include "ros/render/robot_options.h"
 #include "sunlit/image/calibration.h"
 #include "sunlit/image/exposure.h"
+#include "sunlit/image/lens_blur.h"
+#include "sunlit/image/mosaic.h"
 #include "sunlit/image/sensor_noise.h"
+#include "sunlit/image/veiling_glare.h"
+#include "sunlit/image/vignetting.h"
 #include "sunlit/path/path.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/render/renderer.h"
@@ -75,6 +79,10 @@ struct RenderNodeOptions {
   RobotOptions robot;
   image::ExposureOptions exposure;
   image::NoiseOptions noise;
+  image::VignettingOptions vignetting;
+  image::GlareOptions glare;
+  image::BlurOptions blur;
+  image::MosaicOptions mosaic;
   light::LampOptions lamps;
   studio::SkyOptions sky;
   sky::Weather weather;          ///< of every condition that does not say otherwise

@@ -60,18 +60,21 @@ class ExperimentArguments(unittest.TestCase):
             self.assertEqual(found[renderer + "exposure/mode"], "fixed")  # the one that differs, with its value
             self.assertEqual([found[renderer + "camera/" + key] for key in ("width", "height", "horizontal_fov")], [640, 480, 60.0])
             for group, key in (("night", "enabled"), ("noise", "enabled"), ("noise", "seed"),
+                               ("vignetting", "natural"), ("glare", "share"), ("mosaic", "pattern"),
                                ("exposure", "highlight_protection"), ("atmosphere", "turbidity"),
                                ("atmosphere", "ozone"), ("atmosphere", "ground_albedo"), ("transport", "final_gather")):
                 self.assertEqual(found[renderer + group + "/" + key], shipped[group][key], renderer + group + "/" + key)
 
     def test_what_pictures_look_like_reaches_both_renderers(self):
         found = self.parameters("night:=false", "noise:=true", "noise_seed:=7", "exposure:=auto", "highlight_protection:=0",
-                                "final_gather:=2", "rasterizer:=builtin", "ground_albedo:=0.6")
+                                "final_gather:=2", "rasterizer:=builtin", "ground_albedo:=0.6", "vignetting:=cos4", "glare:=0.02",
+                                "mosaic:=rggb")
         for renderer in ("/render/", "/self_test/render/"):
             self.assertEqual([found[renderer + key] for key in ("night/enabled", "noise/enabled", "noise/seed", "exposure/mode",
                                                                 "exposure/highlight_protection", "transport/final_gather",
-                                                                "camera/rasterizer", "atmosphere/ground_albedo")],
-                             [False, True, 7, "auto", 0.0, 2, "builtin", 0.6])
+                                                                "camera/rasterizer", "atmosphere/ground_albedo", "vignetting/natural",
+                                                                "glare/share", "mosaic/pattern")],
+                             [False, True, 7, "auto", 0.0, 2, "builtin", 0.6, "cos4", 0.02, "rggb"])
         self.assertEqual(found["/experiment/arguments/noise_seed"], "7")
 
     def test_a_launch_file_of_the_same_name_may_have_arguments_of_its_own(self):

@@ -184,7 +184,7 @@ class Plan(unittest.TestCase):
 
     def test_both_renderers_make_the_same_pictures(self):
         tree = planned(night="false", noise="true", noise_seed="7", exposure="auto", highlight_protection="0",
-                       final_gather="2", robot="rover", width="320")
+                       final_gather="2", robot="rover", width="320", vignetting="cos4", glare="0.02", mosaic="rggb")
         main, other = tree["render"], tree["self_test"]["render"]
         ours = {"path", "resume_at", "wait_for", "subscribers"}  # what poses they draw, and when
         for key in (main.keys() & other.keys()) - ours:
@@ -193,6 +193,8 @@ class Plan(unittest.TestCase):
         self.assertEqual(other.keys() - main.keys(), {"sun_namespace", "publish_tf", "count_skipped", "exact_sky"})
         self.assertEqual((main["night"], main["noise"], main["exposure"]["mode"], main["camera"]["width"]),
                          ({"enabled": False}, {"enabled": True, "seed": 7}, "auto", 320))
+        self.assertEqual((main["vignetting"], main["glare"], main["mosaic"]),
+                         ({"natural": "cos4"}, {"share": 0.02}, {"pattern": "rggb"}))
         self.assertEqual({**main["path"], "stride": 10}, other["path"])
 
     def test_a_calibration_stands_for_what_is_not_typed_beside_it(self):

@@ -137,7 +137,7 @@ const std::map<std::string, Modules> kRoomsOfLight = {
      {"bake/samples", "geometry", "lamps", "patches", "picture/disc", "picture/outlook", "shading"}},
     {"picture/sky", {"bake/samples", "geometry", "patches", "picture/table"}},
     {"picture",
-     {"bake/samples", "geometry", "patches", "picture/bodies", "picture/disc", "picture/gather",
+     {"bake/samples", "geometry", "lamps", "patches", "picture/bodies", "picture/disc", "picture/gather",
       "picture/lamps", "picture/mirror", "picture/outlook", "picture/sky", "picture/table", "shading"}},
     {"reference", {"bake/samples", "geometry", "lamps", "patches", "picture/sky", "shading"}},
 };

@@ -44,11 +44,24 @@ TEST(Studio, RefusesBadOptionsBeforeItLoadsTheWorld) {
   options.bake.transport.bounces = 3;
   options.render.supersampling = 9;
   EXPECT_NE(refusal().find("supersampling"), std::string::npos) << refusal();
+  options.render.supersampling = 2;
+  options.glare.share = 0.5;
+  EXPECT_NE(refusal().find("share"), std::string::npos) << refusal();
+  options.glare.share = 0.0;
+  options.blur.sigma_px = 11.0;
+  EXPECT_NE(refusal().find("sigma"), std::string::npos) << refusal();
+  options.blur.sigma_px = 0.0;
+  options.vignetting.a1 = -2.0;
+  EXPECT_NE(refusal().find("a1"), std::string::npos) << refusal();
 }
 
 TEST(Studio, TakesThePictureThatItsPartsMake) {
   StudioOptions options = boxes();
   options.noise.enabled = true;
+  options.vignetting.cos4 = true;
+  options.glare.share = 0.02;
+  options.blur.sigma_px = 0.5;
+  options.mosaic.pattern = image::MosaicPattern::kRggb;
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
   map_from_camera.translation().z() = 1.0;
   const sky::Daylight day = Sky({}).daylight({kHighSun});
@@ -62,10 +75,17 @@ TEST(Studio, TakesThePictureThatItsPartsMake) {
   render::Renderer renderer(world, options.render);
   renderer.look(map_from_camera * linkFromOptical());
   image::LinearImage luminance = renderer.light(day);
+  const image::Vignetting vignetting(image::Lens(options.render.camera, {}), options.vignetting);
+  vignetting.apply(&luminance);
+  const std::vector<image::LightOutside> outside = renderer.lightsOutside(day);
+  EXPECT_EQ(outside.size(), 1u);  // the sun, high above what the camera sees
+  image::VeilingGlare(vignetting, options.glare).apply(outside, &luminance);
+  image::blur(options.blur, &luminance);
   const double ev100 = image::chooseEv100(luminance, options.exposure);
   image::addSensorNoise(ev100, options.noise, name, &luminance);
   EXPECT_EQ(developed.ev100, ev100);
-  EXPECT_EQ(developed.picture.data, image::develop(luminance, ev100).data);
+  EXPECT_EQ(developed.picture.data,
+            image::throughMosaic(image::develop(luminance, ev100), options.mosaic).data);
 }
 
 TEST(Studio, AMapLeavesWhatTheCameraLooksAt) {

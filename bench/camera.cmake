@@ -1,0 +1,1 @@
+sunlit_bench(camera LIBRARIES sunlit_image)

@@ -1,0 +1,103 @@
+#include "sunlit/image/veiling_glare.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "finite_luminance.h"
+#include "glare_wings.h"
+#include "rows.h"
+
+namespace sunlit::image {
+namespace {
+
+/// Of all pixels; by rows, so that it does not depend on who sums up.
+Eigen::Array3d meanOfPixels(const LinearImage& picture) {
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  for (int y = 0; y < picture.height; ++y) {
+    Eigen::Array3d of_row = Eigen::Array3d::Zero();
+    for (int x = 0; x < picture.width; ++x)
+      of_row += Eigen::Map<const Eigen::Array3f>(picture.at(x, y)).cast<double>();
+    sum += of_row;
+  }
+  return sum / (static_cast<double>(picture.width) * static_cast<double>(picture.height));
+}
+
+double cosineFromAxis(const Eigen::Vector3d& ray) {
+  return ray.z() / ray.norm();
+}
+
+/// sr
+double solidAngleAt(const Lens& lens, const Eigen::Vector2d& pixel, const Eigen::Vector3d& ray) {
+  // Of a hundredth of a pixel, which lies in the picture's direction of any edge as well as beside it.
+  constexpr double kStep = 0.01;
+  const auto right = lens.unproject(pixel + Eigen::Vector2d(kStep, 0.0));
+  const auto down = lens.unproject(pixel + Eigen::Vector2d(0.0, kStep));
+  if (!right || !down) return 0.0;
+  Eigen::Matrix3d sides;
+  sides << (*right - ray) / kStep, (*down - ray) / kStep, ray;
+  return std::abs(sides.determinant()) / std::pow(ray.norm(), 3);
+}
+
+}  // namespace
+
+void validate(const GlareOptions& options) {
+  requireFields(options);
+}
+
+VeilingGlare::VeilingGlare(const Vignetting& vignetting, const GlareOptions& options)
+    : vignetting_(vignetting), options_(options) {
+  validate(options);
+}
+
+/// The pixel at the edge of the picture on the way from its middle to where `towards` would lie.
+Eigen::Vector2d VeilingGlare::edgeTowards(const Eigen::Vector3d& towards) const {
+  const PinholeCamera& camera = vignetting_.lens().camera();
+  const Eigen::Vector2d last(camera.width - 1.0, camera.height - 1.0);
+  const Eigen::Vector2d middle = Eigen::Vector2d(camera.cx, camera.cy).cwiseMax(0.0).cwiseMin(last);
+  const Eigen::Vector2d way(camera.fx * towards.x(), camera.fy * towards.y());
+  double reach = way.isZero() ? 0.0 : 1e300;
+  for (int i = 0; i < 2; ++i) {
+    if (way[i] > 0.0) reach = std::min(reach, (last[i] - middle[i]) / way[i]);
+    if (way[i] < 0.0) reach = std::min(reach, -middle[i] / way[i]);
+  }
+  return middle + reach * way;
+}
+
+LinearRgb VeilingGlare::meanOf(const LightOutside& light) const {
+  const Lens& lens = vignetting_.lens();
+  const Eigen::Vector2d pixel = edgeTowards(light.towards);
+  const std::optional<Eigen::Vector3d> ray = lens.unproject(pixel);
+  const double cosine = light.towards.z();
+  if (!ray || !(cosine > 0.0)) return {};
+  const double edge_cosine = cosineFromAxis(*ray), solid_angle = solidAngleAt(lens, pixel, *ray);
+  if (!(edge_cosine > 0.0) || !(solid_angle > 0.0)) return {};
+  const double edge = std::acos(std::min(edge_cosine, 1.0)), angle = std::acos(std::min(cosine, 1.0));
+  double part = 1.0;
+  if (angle > edge) {
+    if (!(angle < options_.hood.rad())) return {};
+    part = (options_.hood.rad() - angle) / (options_.hood.rad() - edge) * cosine / edge_cosine;
+  }
+  const double pixels = static_cast<double>(lens.camera().width) * lens.camera().height;
+  return light.illuminance * static_cast<float>(part * vignetting_.at(pixel) / (solid_angle * pixels));
+}
+
+void VeilingGlare::apply(const std::vector<LightOutside>& outside, LinearImage* picture) const {
+  if (none()) return;
+  for (float& value : picture->data) value = finiteLuminance(value);
+  const auto share = static_cast<float>(options_.share), wings = static_cast<float>(options_.wings);
+  Eigen::Array3d even = (1.0 - options_.wings) * meanOfPixels(*picture);
+  for (const LightOutside& light : outside) even += meanOf(light).value.cast<double>();
+  const Eigen::Array3f veil = (options_.share * even).cast<float>();
+  LinearImage with_wings;
+  if (wings > 0.0f) with_wings = glareWings(*picture);
+  const LinearImage& blurred = wings > 0.0f ? with_wings : *picture;
+  eachRow(picture->height, [&](int y) {
+    float* pixel = picture->at(0, y);
+    const float* wing = blurred.at(0, y);
+    for (int x = 0; x < picture->width; ++x, pixel += 3, wing += 3)
+      for (int c = 0; c < 3; ++c) pixel[c] = (1.0f - share) * pixel[c] + share * wings * wing[c] + veil[c];
+  });
+}
+
+}  // namespace sunlit::image

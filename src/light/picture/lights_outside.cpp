@@ -1,0 +1,102 @@
+#include "light/picture/lights_outside.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "light/geometry/ray_list.h"
+#include "light/lamps/lamp_beam.h"
+#include "light/picture/disc/disc_points.h"
+#include "light/picture/sky/pixel_of_direction.h"
+
+namespace sunlit::light {
+namespace {
+
+/// Rows of DiscPoints, each turned otherwise: with 64 points in all a disc that goes behind an edge, or out
+/// of the picture, does so in steps of 2 %.
+constexpr std::size_t kRows = 4;
+
+class Outside {
+ public:
+  Outside(const Surfaces& surfaces, const Visibility& visibility, float nearest_m)
+      : surfaces_(surfaces), visibility_(visibility), nearest_m_(nearest_m), pixels_(surfaces) {}
+
+  /// Of sun or moon, under clouds as they stand over the camera.
+  void add(const sky::DiscLight& disc, const sky::Daylight& day) {
+    if (!(disc.illuminance.value.maxCoeff() > 0.0f)) return;
+    const Eigen::Vector3f middle = disc.towards.vector().cast<float>();
+    const DiscPoints points(middle, static_cast<float>(disc.angular_radius.rad()));
+    RayList rays;
+    rays.reserve(kRows * DiscPoints::kPoints);
+    for (std::size_t row = 0; row < kRows; ++row) {
+      const DiscPoints::OfPixel of_row = points.ofPixel(0, row);
+      for (std::size_t i = 0; i < DiscPoints::kPoints; ++i) {
+        const Eigen::Vector3f towards = of_row[i].normalized();
+        if (!inPicture(towards)) rays.add(0, surfaces_.eye + nearest_m_ * towards, towards);
+      }
+    }
+    if (rays.size() == 0) return;
+    std::vector<std::uint8_t> blocked(rays.size());
+    visibility_.occluded(rays.rays(), blocked.data());
+    float open = 0.0f;
+    for (const std::uint8_t hidden : blocked) open += hidden ? 0.0f : 1.0f;
+    add(middle, disc.illuminance * (day.throughCloud(disc, surfaces_.eye) * open /
+                                    static_cast<float>(kRows * DiscPoints::kPoints)));
+  }
+
+  /// Small enough to be seen whole or not at all.
+  void add(const scene::Lamp& lamp) {
+    const LampBeam beam(lamp);
+    const Eigen::Array3f lx = beam.at(surfaces_.eye);
+    const Eigen::Vector3f way = beam.ball() - surfaces_.eye;
+    const float distance_m = way.norm();
+    if (!(lx.maxCoeff() > 0.0f) || !(distance_m > beam.radius_m() + nearest_m_)) return;
+    const Eigen::Vector3f towards = way / distance_m;
+    if (inPicture(towards) || (beam.castsShadows() && hidden(towards, distance_m - beam.radius_m()))) return;
+    add(towards, LinearRgb(lx));
+  }
+
+  std::vector<image::LightOutside> take() { return std::move(lights_); }
+
+ private:
+  void add(const Eigen::Vector3f& towards, const LinearRgb& illuminance) {
+    if (illuminance.value.maxCoeff() > 0.0f)
+      lights_.push_back({surfaces_.map_from_optical.transpose() * towards.cast<double>(), illuminance});
+  }
+  bool inPicture(const Eigen::Vector3f& towards) const {
+    const std::optional<PixelOfDirection::Place> place = pixels_.at(towards.cast<double>());
+    if (!place) return false;
+    const Eigen::Vector2d& pixel = place->pixel;
+    return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < surfaces_.width - 0.5 &&
+           pixel.y() < surfaces_.height - 0.5;
+  }
+  bool hidden(const Eigen::Vector3f& towards, float distance_m) const {
+    RayList ray;
+    ray.reserve(1);
+    ray.add(0, surfaces_.eye + nearest_m_ * towards, (distance_m - nearest_m_) * towards);
+    std::uint8_t blocked = 0;
+    visibility_.occludedWithin(ray.rays(), &blocked);
+    return blocked != 0;
+  }
+
+  const Surfaces& surfaces_;
+  const Visibility& visibility_;
+  float nearest_m_;
+  PixelOfDirection pixels_;
+  std::vector<image::LightOutside> lights_;
+};
+
+}  // namespace
+
+std::vector<image::LightOutside> lightsOutside(const Surfaces& surfaces, const Visibility& visibility,
+                                               const Illumination& light, float nearest_m) {
+  Outside outside(surfaces, visibility, nearest_m);
+  outside.add(light.day.sun(), light.day);
+  outside.add(light.day.moon(), light.day);
+  if (light.lamps) {
+    for (const scene::Lamp& lamp : *light.lamps) outside.add(lamp);
+  }
+  return outside.take();
+}
+
+}  // namespace sunlit::light

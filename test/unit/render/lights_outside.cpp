@@ -1,0 +1,122 @@
+// What shines on a camera from beside its picture: by how much, from where, and what hides it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sunlit/light/illumination.h"
+#include "sunlit/sky/uniform_sky.h"
+#include "test_scenes.h"
+
+namespace sunlit::test {
+namespace {
+
+constexpr float kSun_lx = 1e5f;
+const Eigen::Vector3d kEye(0.0, 0.0, 2.0);
+
+/// Ground, and a wall to the right of a camera that looks along x: all that is below 45 degrees up there lies
+/// behind it.
+scene::Scene groundAndWall() {
+  scene::Scene scene;
+  const int paint = addMaterial(&scene, Eigen::Array3f::Constant(0.5f));
+  addGround(&scene, paint, 50.0f);
+  addBlock(&scene, paint, {-40.0f, -6.0f, 0.0f}, {80.0f, 1.0f, 7.0f});
+  return scene;
+}
+
+/// 60 degrees across, 47 down, level, along x (east).
+class LightsOutside : public testing::Test {
+ protected:
+  LightsOutside() : renderer_(shared(groundAndWall()), smallCamera(640, 480)) {
+    renderer_.look(lookingAt(kEye, kEye + Eigen::Vector3d::UnitX()));
+  }
+
+  /// The sun to the left of the axis.
+  static sky::Daylight sunAt(double left_deg, double up_deg) {
+    sky::UniformSky sky;
+    sky.sun.towards = Direction(Azimuth::degrees(90.0 - left_deg), Angle::degrees(up_deg));
+    sky.sun.illuminance = LinearRgb(kSun_lx, kSun_lx, kSun_lx);
+    return sky::uniformDaylight(sky);
+  }
+  float illuminance(const light::Illumination& light) const {
+    float sum = 0.0f;
+    for (const image::LightOutside& outside : renderer_.lightsOutside(light))
+      sum += outside.illuminance.value[1];
+    return sum;
+  }
+
+  render::Renderer renderer_;
+};
+
+TEST_F(LightsOutside, AreNotThoseInThePicture) {
+  EXPECT_TRUE(renderer_.lightsOutside(sunAt(0.0, 10.0)).empty());
+  EXPECT_TRUE(renderer_.lightsOutside(sunAt(29.7, 1.0)).empty());
+  EXPECT_TRUE(renderer_.lightsOutside(sunAt(0.0, 23.1)).empty());
+}
+
+TEST_F(LightsOutside, AreToldOfByWhereTheyStandBeforeTheCamera) {
+  const auto lights = renderer_.lightsOutside(sunAt(40.0, 0.5));
+  ASSERT_EQ(lights.size(), 1u);
+  EXPECT_EQ(lights[0].illuminance.value[1], kSun_lx);
+  const double left = 40.0 * kRadPerDeg, up = 0.5 * kRadPerDeg;
+  const Eigen::Vector3d expected(-std::sin(left) * std::cos(up), -std::sin(up),
+                                 std::cos(left) * std::cos(up));
+  EXPECT_LT((lights[0].towards - expected).norm(), 1e-6);
+  EXPECT_EQ(illuminance(sunAt(150.0, 20.0)), kSun_lx);  // behind it
+}
+
+TEST_F(LightsOutside, AreCutByTheEdgeOfThePicture) {
+  // The whole sun is 0.533 degrees wide, a pixel at the edge 0.08: with its middle on the edge, half of it is
+  // out. 64 points and their steps: 3 %.
+  EXPECT_NEAR(illuminance(sunAt(30.0, 1.0)), 0.5f * kSun_lx, 0.04f * kSun_lx);
+  float before = 0.0f;
+  for (double left_deg = 29.6; left_deg < 30.4; left_deg += 0.05) {
+    const float now = illuminance(sunAt(left_deg, 1.0));
+    EXPECT_GE(now, before);
+    EXPECT_LE(now - before, 0.2f * kSun_lx);
+    before = now;
+  }
+  EXPECT_EQ(before, kSun_lx);
+}
+
+TEST_F(LightsOutside, AreHiddenByWalls) {
+  EXPECT_EQ(illuminance(sunAt(-90.0, 44.0)), 0.0f);
+  EXPECT_EQ(illuminance(sunAt(-90.0, 46.0)), kSun_lx);
+  // The wall's upper edge stands 5 m above the camera and 5 m away.
+  EXPECT_NEAR(illuminance(sunAt(-90.0, 45.0)), 0.5f * kSun_lx, 0.04f * kSun_lx);
+}
+
+TEST_F(LightsOutside, AreLampsToo) {
+  light::Illumination night = sunAt(0.0, -20.0);
+  ASSERT_TRUE(renderer_.lightsOutside(night).empty());
+  scene::Lamp beside, hidden, seen;
+  beside.position = Eigen::Vector3f(0.0f, 10.0f, 2.0f);
+  hidden.position = Eigen::Vector3f(0.0f, -10.0f, 2.0f);
+  seen.position = Eigen::Vector3f(10.0f, 0.0f, 2.0f);
+  for (scene::Lamp* lamp : {&beside, &hidden, &seen}) lamp->intensity = LinearRgb(100.0f, 100.0f, 100.0f);
+  night.lamps =
+      std::make_shared<const std::vector<scene::Lamp>>(std::vector<scene::Lamp>{beside, hidden, seen});
+  const auto lights = renderer_.lightsOutside(night);
+  ASSERT_EQ(lights.size(), 1u);
+  EXPECT_NEAR(lights[0].illuminance.value[1], 1.0, 1e-5);  // 100 cd at 10 m
+  EXPECT_LT((lights[0].towards + Eigen::Vector3d::UnitX()).norm(), 1e-6);
+}
+
+TEST_F(LightsOutside, InThePictureAreInItsPixelsWithAllTheirLight) {
+  // What veiling glare takes the mean of: nothing is cut off at what a display shows.
+  const image::LinearImage with = renderer_.light(sunAt(0.0, 12.0)),
+                           without = renderer_.light(sunAt(0.0, -12.0));
+  const image::PinholeCamera& camera = renderer_.options().camera;
+  double sum = 0.0;
+  for (int y = 60; y < 180; ++y) {
+    for (int x = 260; x < 380; ++x) {
+      const Eigen::Vector3d ray = camera.unproject({1.0 * x, 1.0 * y});
+      sum += static_cast<double>(with.at(x, y)[1] - without.at(x, y)[1]) /
+             (camera.fx * camera.fy * std::pow(ray.norm(), 3));
+    }
+  }
+  EXPECT_NEAR(sum, static_cast<double>(kSun_lx),
+              0.01 * static_cast<double>(kSun_lx));  // as DiscInView has it
+}
+
+}  // namespace
+}  // namespace sunlit::test
