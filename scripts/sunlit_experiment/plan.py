@@ -39,7 +39,7 @@ def check(typed):
     for name in ("width", "height", "noise_seed", "final_gather", "max_ahead"):
         read.whole(name, typed[name])
     for name in ("horizontal_fov", "camera_height", "offset", "yaw", "ev100", "highlight_protection", "glare", "turbidity",
-                 "ozone"):
+                 "ozone", "baseline"):
         read.number(name, typed[name])
     read.number_or_auto("ground_albedo", typed["ground_albedo"])
     read.date_time(typed["date"], typed["timezone"])
@@ -73,7 +73,7 @@ def localising(typed):
 
 
 def recorded_topics(typed):
-    return recording.topics(list(conditions(typed)), read.flag("compressed", typed["compressed"]))
+    return recording.topics(list(conditions(typed)), read.flag("compressed", typed["compressed"]), bool(_right(typed)))
 
 
 def parameters(typed, given, places, beginning):
@@ -116,6 +116,16 @@ def _camera(typed, given):
     if not typed["calibration"]:
         return pinhole
     return {"calibration": read.file(typed["calibration"]), **{name: pinhole[name] for name in pinhole if name in given}}
+
+
+def _right(typed):
+    """The right camera's parameters below `camera`; none where there is no such camera."""
+    tree = {}
+    if typed["right_calibration"]:
+        tree["right"] = {"calibration": read.file(typed["right_calibration"])}
+    if read.number("baseline", typed["baseline"]):
+        tree["baseline"] = read.number("baseline", typed["baseline"])
+    return tree
 
 
 def _renderer(typed, given, places, beginning):
@@ -162,6 +172,7 @@ def _main_renderer(typed, given, places, beginning):
         evaluators = 0  # it ends at once, having nothing to do; only the recorder is left to wait for
         readers = []
     tree = _renderer(typed, given, places, beginning)
+    tree["camera"].update(_right(typed))
     tree.update(
         resume_at=beginning.render_at(),
         publish_clock=True,
@@ -170,6 +181,8 @@ def _main_renderer(typed, given, places, beginning):
         # Of each kind of topic before the first image leaves.
         subscribers={"images": evaluators + recorders, "poses": evaluators + recorders,
                      "truth": (evaluators if map_streams(typed) else 0) + recorders, "others": recorders})
+    if _right(typed):
+        tree["subscribers"]["right"] = recorders
     return tree
 
 

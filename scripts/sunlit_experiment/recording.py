@@ -23,13 +23,14 @@ class RecordingError(Exception):
     """A bag that cannot be dealt with, and why."""
 
 
-def topics(conditions, compressed=False):
+def topics(conditions, compressed=False, stereo=False):
     """What is recorded; of each topic below .../camera/ one message a pose."""
     names = ["/clock", "/tf", "/tf_static", "/path", "/camera/pose", "/camera/depth/image_raw", "/camera/depth/camera_info"]
-    image = "camera/image_raw/compressed" if compressed else "camera/image_raw"
+    image = "image_raw/compressed" if compressed else "image_raw"
+    right = ("camera/right/" + image, "camera/right/camera_info") if stereo else ()
     for condition in conditions:
         names += [f"/{condition}/{topic}" for topic in
-                  ("sun", "moon", "celestial", image, "camera/camera_info", "camera/capture")]
+                  ("sun", "moon", "celestial", "camera/" + image, "camera/camera_info", "camera/capture", *right)]
     return names
 
 

@@ -78,7 +78,7 @@ class Renderer::Implementation {
 
   std::vector<image::LightOutside> lightsOutside(const light::Illumination& light) const {
     requireLook();
-    return seen_.picture.lightsOutside(light, static_cast<float>(options_.near_m));
+    return seen_.pictures.front().lightsOutside(light, static_cast<float>(options_.near_m));
   }
 
   image::DepthImage depth() const {

@@ -70,12 +70,28 @@ void addRain(const render::Renderer& renderer, const sky::Daylight& day, const E
   image::addRain(streaks, {renderer.options().camera, down, depth}, luminance);
 }
 
+/// What draws for the right camera: as for the left, but for the lens.
+render::RenderOptions rightRender(const StudioOptions& options) {
+  render::RenderOptions right = options.render;
+  right.camera = options.right->calibration.camera;
+  right.distortion = options.right->calibration.distortion;
+  return right;
+}
+
+Eigen::Isometry3d mapFromRight(const Eigen::Isometry3d& map_from_camera, const StudioOptions& options) {
+  return map_from_camera * linkFromOptical() * options.right->left_from_right;
+}
+
 }  // namespace
 
+Studio::Camera::Camera(const std::vector<light::World>& worlds, const render::RenderOptions& render,
+                       const StudioOptions& options)
+    : renderer(worlds, render),
+      vignetting(image::Lens(render.camera, render.distortion), options.vignetting),
+      glare(vignetting, options.glare) {}
+
 Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& robot, const Reports& reports)
-    : options_(checked(options)),
-      vignetting_(image::Lens(options.render.camera, options.render.distortion), options.vignetting),
-      glare_(vignetting_, options.glare) {
+    : options_(checked(options)) {
   const light::World dry =
       stopwatch_.measure("load", "world", [&] { return loadWorld(options.world, robot, reports); });
   requireGroups(dry, options.lamps, reports);
@@ -86,8 +102,12 @@ Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& 
     world.transport =
         stopwatch_.measure("load", "transport", [&] { return bake(world, options.bake, reports); });
   }
-  renderer_ = stopwatch_.measure("load", "renderer",
-                                 [&] { return std::make_unique<render::Renderer>(worlds_, options.render); });
+  camera_ = stopwatch_.measure("load", "renderer",
+                                 [&] { return std::make_unique<Camera>(worlds_, options.render, options); });
+  if (options.right) {
+    right_ = stopwatch_.measure(
+        "load", "right", [&] { return std::make_unique<Camera>(worlds_, rightRender(options), options); });
+  }
 }
 
 image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylight& daylight) const {
@@ -134,12 +154,20 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylig
 
 void Studio::look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links) {
   stopwatch_.measure("geometry", "pose",
-                     [&] { renderer_->look(map_from_camera * linkFromOptical(), map_from_links); });
+                     [&] { camera_->renderer.look(map_from_camera * linkFromOptical(), map_from_links); });
+  if (right_) {
+    stopwatch_.measure("geometry", "right",
+                       [&] { right_->renderer.look(mapFromRight(map_from_camera, options_), map_from_links); });
+  }
 }
 
 void Studio::lookAhead(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links) {
   stopwatch_.measure("geometry", "ahead",
-                     [&] { renderer_->lookAhead(map_from_camera * linkFromOptical(), map_from_links); });
+                     [&] { camera_->renderer.lookAhead(map_from_camera * linkFromOptical(), map_from_links); });
+  if (right_) {
+    stopwatch_.measure("geometry", "right ahead",
+                       [&] { right_->renderer.lookAhead(mapFromRight(map_from_camera, options_), map_from_links); });
+  }
 }
 
 light::Illumination Studio::illumination(const sky::Daylight& daylight, std::size_t state) const {
@@ -148,25 +176,36 @@ light::Illumination Studio::illumination(const sky::Daylight& daylight, std::siz
 
 Developed Studio::photograph(const light::Illumination& light, const image::PictureName& name,
                              std::size_t state) {
+  return expose(*camera_, {light, state}, name, std::nullopt);
+}
+
+image::Rgb8Image Studio::photographRight(const light::Illumination& light, const image::PictureName& name,
+                                         double ev100, std::size_t state) {
+  // No name of a condition has a space.
+  return expose(*right_, {light, state}, {name.index, name.series + " right"}, ev100).picture;
+}
+
+Developed Studio::expose(const Camera& camera, const Lit& lit, const image::PictureName& name,
+                         std::optional<double> ev100) {
   image::LinearImage luminance =
-      stopwatch_.measure("light", name.series, [&] { return renderer_->light(light, state); });
+      stopwatch_.measure("light", name.series, [&] { return camera.renderer.light(lit.light, lit.state); });
   return stopwatch_.measure("develop", name.series, [&] {
-    if (!vignetting_.none()) vignetting_.apply(&luminance);
-    if (!glare_.none()) glare_.apply(renderer_->lightsOutside(light), &luminance);
+    if (!camera.vignetting.none()) camera.vignetting.apply(&luminance);
+    if (!camera.glare.none()) camera.glare.apply(camera.renderer.lightsOutside(lit.light), &luminance);
     image::blur(options_.blur, &luminance);
-    const double ev100 = image::chooseEv100(luminance, options_.exposure);
-    addRain(*renderer_, light.day, {name.index, ev100}, &luminance);
-    if (options_.noise.enabled) image::addSensorNoise(ev100, options_.noise, name, &luminance);
-    return Developed{image::throughMosaic(image::develop(luminance, ev100), options_.mosaic), ev100};
+    const double exposed = ev100 ? *ev100 : image::chooseEv100(luminance, options_.exposure);
+    addRain(camera.renderer, lit.light.day, {name.index, exposed}, &luminance);
+    if (options_.noise.enabled) image::addSensorNoise(exposed, options_.noise, name, &luminance);
+    return Developed{image::throughMosaic(image::develop(luminance, exposed), options_.mosaic), exposed};
   });
 }
 
 std::string Studio::rasterizer() const {
-  return renderer_->rasterizer();
+  return camera_->renderer.rasterizer();
 }
 
 image::DepthImage Studio::depth() {
-  return stopwatch_.measure("depth", "pose", [&] { return renderer_->depth(); });
+  return stopwatch_.measure("depth", "pose", [&] { return camera_->renderer.depth(); });
 }
 
 }  // namespace sunlit::studio

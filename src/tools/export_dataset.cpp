@@ -43,6 +43,11 @@ struct Hour {
   bool has(const DataSetFrame& frame) const {
     return std::all_of(parts.begin(), parts.end(), [&](const Part& part) { return part.folder.has(frame); });
   }
+  void writeRight(const DataSetFrame& frame, const image::Rgb8Image& picture) {
+    for (const Part& part : parts) {
+      if (part.folder.hasRight()) part.folder.writeRight(frame, picture);
+    }
+  }
   void write(const DataSetFrame& frame, const image::Rgb8Image& picture, const image::DepthImage& depth) {
     for (Part& part : parts) {
       const DepthRoom room = part.folder.write(frame, picture, depth);
@@ -83,7 +88,11 @@ class Camera {
     for (std::size_t i = 0; i < hours->size(); ++i) {
       Hour& hour = (*hours)[i];
       if (hour.has(frame)) continue;
-      hour.write(frame, studio_.photograph(lights_[i], {frame.number, hour.when.name()}).picture, depth);
+      const image::PictureName name{frame.number, hour.when.name()};
+      const studio::Developed developed = studio_.photograph(lights_[i], name);
+      if (studio_.hasRight())
+        hour.writeRight(frame, studio_.photographRight(lights_[i], name, developed.ev100));
+      hour.write(frame, developed.picture, depth);
       ++taken;
     }
     return taken;

@@ -68,6 +68,9 @@ void addOwn(studio::CommandLine* line, ExportOptions* options) {
       "--rate HZ",
       {"rate", &options->rate_hz, "Hz", {0.001, 1000}, "pose k of the path has the stamp 1000 s + k / rate"});
   line->add("--depth-scale NUMBER", evaluate::depthScaleRow(&options->data_set.depth_scale));
+  line->add("--baseline M",
+            studio::explainedAs(image::baselineRow(&options->data_set.baseline_m),
+                                "of euroc: to a right camera, cam1, like this one; 0: there is none"));
 }
 
 std::string outputOf(const std::vector<std::string>& places) {
@@ -95,6 +98,10 @@ void requireSense(const studio::CommandLine& line, const Words& words, const Exp
                                      [](DataSetFormat format) { return format != DataSetFormat::kColmap; });
   if (line.has("--depth-scale") && !has_steps)
     throw std::invalid_argument("--depth-scale is of tum and euroc; depth of colmap is in m, without steps");
+  const bool has_right = std::any_of(options.formats.begin(), options.formats.end(),
+                                     [](DataSetFormat format) { return format == DataSetFormat::kEuroc; });
+  if (options.data_set.baseline_m > 0.0 && !has_right)
+    throw std::invalid_argument("--baseline is of euroc; tum and colmap have one camera");
   words.sensor.requireSense(line);
   words.camera.requireSense(options.studio.bake);
 }
@@ -133,6 +140,9 @@ std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& 
   render::validate(options.studio.render);
   requireNoDistortion(options.studio.render, "data sets are of");
   options.data_set.camera = options.studio.render.camera;
+  if (options.data_set.baseline_m > 0.0)
+    options.studio.right =
+        image::idealRight(image::calibrationOf(options.data_set.camera), options.data_set.baseline_m, "");
   options.data_set.rate_hz = options.rate_hz / words.path.selection.stride;
   options.frames = framesOf(words.path, options);
   options.recipe = recipeOf(line, {"--cache"}, options.studio.world.name);

@@ -76,7 +76,7 @@ OPTIONS = {
                       "--bounces": "0 … 64, default 16"},
     "export_dataset": {**CAMERA, **WORLDS, **BOUNCED, **LAMPS, **PLACE, **SENSOR, "--format": "tum (TUM RGB-D), euroc",
                        "--hours": "0 … < 24 h, default 12", "--rate": "0.001 … 1000 Hz, default 10",
-                       "--depth-scale": "0.1 … 1000000 1/m, default 5000", "--path": "CSV or TUM",
+                       "--depth-scale": "0.1 … 1000000 1/m, default 5000", "--baseline": "0 … 100 m, default 0", "--path": "CSV or TUM",
                        "--spacing": "0.001 … 1000 m, default 1", "--height": "-1000 … 1000 m, default 1",
                        "--first": "0 … 1000000000, default 0", "--count": "0: to the end",
                        "--stride": "1 … 1000000000, default 1"},

@@ -176,6 +176,41 @@ class ExportDataset(unittest.TestCase):
                 self.assertLess(hidden.mean(), 0.1, (name, i, j))
                 self.assertLess(np.sqrt(np.mean(errors[~hidden] ** 2)), bound, (name, i, j))
 
+    def test_a_point_is_in_the_right_picture_where_baseline_and_depth_say(self):
+        self.make("mono", "--format", "euroc", "--count", "1", "--depth-scale", "2000")
+        self.make("set", "--format", "euroc,tum", "--count", "1", "--depth-scale", "2000", "--baseline", "0.25")
+        root = self.folder / "set/euroc"
+        camera, ((_, depth, left),) = read_euroc(root)
+        mav0 = [yaml.safe_load((root / "mav0" / name / "sensor.yaml").read_text()) for name in ("cam0", "cam1")]
+        body_from_left, body_from_right = [np.array(sensor["T_BS"]["data"]).reshape(4, 4) for sensor in mav0]
+        left_from_right = np.linalg.inv(body_from_left) @ body_from_right
+        np.testing.assert_allclose(left_from_right, transform(np.eye(3), [0.25, 0, 0]), rtol=0, atol=1e-9)
+        for key in ("intrinsics", "resolution", "distortion_coefficients"):
+            self.assertEqual(mav0[0][key], mav0[1][key])
+        self.assertEqual(lines_of(root / "mav0/cam1/data.csv"), lines_of(root / "mav0/cam0/data.csv"))
+        right = cv2.imread(str(root / "mav0/cam1/data/1000000000000.png"), cv2.IMREAD_UNCHANGED)
+        # The wall of the box stands before the sky and the ground: its left edge, the steepest step of its row.
+        row = left.shape[0] // 2
+        edges = [int(np.argmax(np.abs(np.diff(picture[row].astype(int))))) for picture in (left, right)]
+        near = depth[row, edges[0] - 2:edges[0] + 4]
+        disparity = camera[0] * 0.25 / near[near > 0].min()
+        self.assertLessEqual(abs(edges[0] - edges[1] - disparity), 1.0)  # both edges are whole pixels
+        self.assertGreater(disparity, 1.5)
+        # What has one camera is as without the other, and the left one, too.
+        self.assertFalse((self.folder / "set/tum/mav0").exists())
+        self.assertIn("Camera.bf: 8.", (self.folder / "set/tum/orb_slam.yaml").read_text())
+        alone, both = self.content("mono"), self.content("set/euroc")
+        for name in ("mav0/cam0/data/1000000000000.png", "mav0/depth0/data/1000000000000.png", "mav0/cam0/sensor.yaml"):
+            self.assertEqual(alone[name], both[name])
+        settings = cv2.FileStorage(str(root / "orb_slam.yaml"), cv2.FILE_STORAGE_READ)
+        self.assertAlmostEqual(settings.getNode("Camera.bf").real(), 0.25 * camera[0], 8)
+        self.assertAlmostEqual(settings.getNode("RIGHT.P").mat()[0, 3], -0.25 * camera[0], 8)
+        self.assertEqual(settings.getNode("LEFT.P").mat()[0, 3], 0)
+        # One that is missing is made again.
+        (root / "mav0/cam1/data/1000000000000.png").unlink()
+        self.make("set", "--format", "euroc,tum", "--count", "1", "--depth-scale", "2000", "--baseline", "0.25")
+        self.assertEqual(self.content("set/euroc"), both)
+
     def test_half_a_pixel_would_show(self):
         self.make("set", "--format", "colmap", "--count", "6")
         camera, frames = read_colmap(self.folder / "set")
@@ -298,6 +333,8 @@ class ExportDataset(unittest.TestCase):
                 (one + [out, "--hours", "4,4.0001"], "--hours names h04 twice"),
                 (one + [out, "--depth-scale", "0"], "--depth-scale is 0, but must be from 0.1 to 1000000 1/m"),
                 (["--format", "colmap", out, "--depth-scale", "500"], "--depth-scale is of tum and euroc"),
+                (one + [out, "--baseline", "0.1"], "--baseline is of euroc"),
+                (["--format", "euroc", out, "--baseline", "-1"], "--baseline is -1, but must be from 0 to 100 m"),
                 (one + [out, "--rate", "0"], "--rate is 0, but must be from 0.001 to 1000 Hz"),
                 (one + [out, "--first", "991"], "--first 991 and --count 0 ask for more than the path's 991 poses"),
                 (one + [out, "--count", "992"], "--count 992 ask for more"), (one + [out, "--count", "-1"], "--count is -1"),

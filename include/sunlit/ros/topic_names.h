@@ -14,6 +14,9 @@ constexpr const char* kImage = "camera/image_raw";
 constexpr const char* kCompressedImage = "camera/image_raw/compressed";
 constexpr const char* kCameraInfo = "camera/camera_info";
 constexpr const char* kCapture = "camera/capture";
+// Of a stereo camera, whose left picture is kImage too.
+constexpr const char* kLeftImage = "camera/left/image_raw";
+constexpr const char* kRightImage = "camera/right/image_raw";
 
 // Of a pose, whatever the condition.
 constexpr const char* kDepth = "camera/depth/image_raw";

@@ -11,6 +11,7 @@
 #include "sunlit/image/lens_blur.h"
 #include "sunlit/image/mosaic.h"
 #include "sunlit/image/sensor_noise.h"
+#include "sunlit/image/stereo.h"
 #include "sunlit/image/veiling_glare.h"
 #include "sunlit/image/vignetting.h"
 #include "sunlit/light/lamps.h"
@@ -35,6 +36,7 @@ struct StudioOptions {
   /// States of the world's surfaces that pictures are taken in, one at least; their numbers are the `state`
   /// of Studio's functions.
   std::vector<scene::SurfaceState> surfaces = {{}};
+  std::optional<image::RightCamera> right = {};  ///< beside the camera of `render`, which is the left one
 };
 
 /// A developed image and the exposure value that it was developed with.
@@ -74,6 +76,10 @@ class Studio {
   /// the sensor counts what it gets. The picture's series names it on the time sheet too.
   Developed photograph(const light::Illumination& light, const image::PictureName& name,
                        std::size_t state = 0);
+  /// What the right camera sees, where there is one: exposed like the left one's picture of that name and state,
+  /// with grain of its own. Both are looked at by look() and lookAhead().
+  image::Rgb8Image photographRight(const light::Illumination& light, const image::PictureName& name,
+                                   double ev100, std::size_t state = 0);
   image::DepthImage depth();
 
   const light::World& world() const { return worlds_.front(); }
@@ -86,13 +92,31 @@ class Studio {
   const image::PinholeCamera& camera() const { return options_.render.camera; }
   Stopwatch& stopwatch() { return stopwatch_; }
 
+  bool hasRight() const { return right_ != nullptr; }
+
  private:
+  /// A camera, and what its lens makes of the light.
+  struct Camera {
+    Camera(const std::vector<light::World>& worlds, const render::RenderOptions& render,
+           const StudioOptions& options);
+    render::Renderer renderer;
+    image::Vignetting vignetting;
+    image::VeilingGlare glare;
+  };
+  /// Light of a state.
+  struct Lit {
+    const light::Illumination& light;
+    std::size_t state;
+  };
+  /// Develops with `ev100`, or else one of its own.
+  Developed expose(const Camera& camera, const Lit& lit, const image::PictureName& name,
+                   std::optional<double> ev100);
+
   Stopwatch stopwatch_;
   StudioOptions options_;
-  image::Vignetting vignetting_;
-  image::VeilingGlare glare_;
   std::vector<light::World> worlds_;
-  std::unique_ptr<render::Renderer> renderer_;
+  std::unique_ptr<Camera> camera_;
+  std::unique_ptr<Camera> right_;  ///< null: there is none
 };
 
 }  // namespace sunlit::studio

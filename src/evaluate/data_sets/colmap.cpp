@@ -58,7 +58,7 @@ std::vector<TextFile> texts(const DataSetOptions& options, const std::vector<Dat
 }  // namespace
 
 const DataSetLayout& colmapLayout() {
-  static const DataSetLayout layout{"images/", "depth/", nameOf, false, true, texts};
+  static const DataSetLayout layout{"images/", "depth/", "", nameOf, false, true, texts};
   return layout;
 }
 

@@ -10,6 +10,7 @@
 
 #include "evaluate/data_sets/layout.h"
 #include "sunlit/image/files.h"
+#include "sunlit/image/stereo.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -90,10 +91,16 @@ DataSetFolder::DataSetFolder(const std::string& folder, DataSetFormat format, co
   requireFields(options_.camera);
   sunlit::require("rate", options_.rate_hz, Range::above(0), "Hz");
   depthScaleRow(&options_.depth_scale).require();
+  image::baselineRow(&options_.baseline_m).require();
+  if (layout_.right_folder.empty()) options_.baseline_m = 0.0;
 }
 
-std::string DataSetFolder::pictureFile(const DataSetFrame& frame) const {
-  return folder_ + '/' + layout_.picture_folder + layout_.name(frame) + ".png";
+bool DataSetFolder::hasRight() const {
+  return options_.baseline_m > 0.0;
+}
+
+std::string DataSetFolder::pictureFile(const std::string& of_layout, const DataSetFrame& frame) const {
+  return folder_ + '/' + of_layout + layout_.name(frame) + ".png";
 }
 
 std::string DataSetFolder::depthFile(const DataSetFrame& frame) const {
@@ -102,14 +109,16 @@ std::string DataSetFolder::depthFile(const DataSetFrame& frame) const {
 }
 
 bool DataSetFolder::has(const DataSetFrame& frame) const {
-  const std::string picture = pictureFile(frame), depth = depthFile(frame);
-  if (!fs::exists(picture) || !fs::exists(depth)) return false;
+  const std::string picture = pictureFile(layout_.picture_folder, frame), depth = depthFile(frame);
+  const std::string right = pictureFile(layout_.right_folder, frame);
+  if (!fs::exists(picture) || !fs::exists(depth) || (hasRight() && !fs::exists(right))) return false;
   try {
     const bool has_depth =
         layout_.has_float_depth
             ? fs::file_size(depth) == sizeOfFloats(options_.camera.width, options_.camera.height)
             : isOf(options_.camera, image::readGrey16Png(depth));
-    return has_depth && isOf(options_.camera, image::readPng(picture));
+    const bool has_right = !hasRight() || isOf(options_.camera, image::readPng(right));
+    return has_depth && has_right && isOf(options_.camera, image::readPng(picture));
   } catch (const std::runtime_error&) {
     return false;  // broken: it is made again
   }
@@ -129,15 +138,25 @@ DepthRoom DataSetFolder::write(const DataSetFrame& frame, const image::Rgb8Image
                                const image::DepthImage& depth) const {
   if (!isOf(options_.camera, picture) || !isOf(options_.camera, depth))
     throw std::invalid_argument("picture and depth of a data set must be of its camera's size");
-  const std::string picture_file = pictureFile(frame), depth_file = depthFile(frame);
-  makeFolderOf(picture_file);
+  writePicture(pictureFile(layout_.picture_folder, frame), picture);
+  const std::string depth_file = depthFile(frame);
   makeFolderOf(depth_file);
-  if (layout_.is_grey) {
-    image::writePng(picture_file, greyOf(picture));
-  } else {
-    image::writePng(picture_file, picture);
-  }
   return writeDepth(depth_file, depth);
+}
+
+void DataSetFolder::writePicture(const std::string& file, const image::Rgb8Image& picture) const {
+  makeFolderOf(file);
+  if (layout_.is_grey) {
+    image::writePng(file, greyOf(picture));
+  } else {
+    image::writePng(file, picture);
+  }
+}
+
+void DataSetFolder::writeRight(const DataSetFrame& frame, const image::Rgb8Image& picture) const {
+  if (!isOf(options_.camera, picture))
+    throw std::invalid_argument("the right picture of a data set must be of its camera's size");
+  writePicture(pictureFile(layout_.right_folder, frame), picture);
 }
 
 void DataSetFolder::finish(const std::vector<DataSetFrame>& frames) const {

@@ -20,12 +20,13 @@ std::string transformText(const Eigen::Matrix4d& transform) {
   return "T_BS:\n  cols: 4\n  rows: 4\n" + rows + "]\n";
 }
 
-std::string sensorText(const std::string& type, const DataSetOptions& options) {
+/// `right_m`: to the right of cam0.
+std::string sensorText(const std::string& type, const DataSetOptions& options, double right_m = 0.0) {
   const image::PinholeCamera& camera = options.camera;
   return "sensor_type: " + type + "\ncomment: simulated, without distortion\n\n" +
-         transformText(linkFromOptical().matrix()) + "\nrate_hz: " + fixedText(options.rate_hz) +
-         "\nresolution: [" + std::to_string(camera.width) + ", " + std::to_string(camera.height) +
-         "]\ncamera_model: pinhole\nintrinsics: [" +
+         transformText((linkFromOptical() * Eigen::Translation3d(right_m, 0.0, 0.0)).matrix()) +
+         "\nrate_hz: " + fixedText(options.rate_hz) + "\nresolution: [" + std::to_string(camera.width) +
+         ", " + std::to_string(camera.height) + "]\ncamera_model: pinhole\nintrinsics: [" +
          fixedTexts({camera.fx, camera.fy, camera.cx, camera.cy}, ", ") +
          "] #fu, fv, cu, cv\ndistortion_model: radial-tangential\n"
          "distortion_coefficients: [0.0, 0.0, 0.0, 0.0]\n";
@@ -64,7 +65,7 @@ std::vector<TextFile> texts(const DataSetOptions& options, const std::vector<Dat
     stamps += stampOf(frame) + '\n';
   }
   const std::string depth = "\n# of the 16-bit pictures, 0 where there is none\ndepth_steps_per_metre: ";
-  return {
+  std::vector<TextFile> files{
       {"mav0/body.yaml", "comment: the body is the camera's link, x forward, y left, z up\n"},
       {"mav0/cam0/data.csv", list},
       {"mav0/cam0/sensor.yaml", sensorText("camera", options)},
@@ -78,12 +79,18 @@ std::vector<TextFile> texts(const DataSetOptions& options, const std::vector<Dat
       truthOf(frames),
       {"timestamps.txt", stamps},
       orbSlamSettings(options)};
+  if (options.baseline_m > 0.0) {
+    files.push_back({"mav0/cam1/data.csv", list});
+    files.push_back({"mav0/cam1/sensor.yaml", sensorText("camera", options, options.baseline_m)});
+  }
+  return files;
 }
 
 }  // namespace
 
 const DataSetLayout& eurocLayout() {
-  static const DataSetLayout layout{"mav0/cam0/data/", "mav0/depth0/data/", stampOf, true, false, texts};
+  static const DataSetLayout layout{
+      "mav0/cam0/data/", "mav0/depth0/data/", "mav0/cam1/data/", stampOf, true, false, texts};
   return layout;
 }
 

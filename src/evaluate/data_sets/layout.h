@@ -15,6 +15,7 @@ struct TextFile {
 
 struct DataSetLayout {
   std::string picture_folder, depth_folder;  ///< within the folder, with a slash at the end
+  std::string right_folder;                  ///< likewise, of the right camera; empty: it knows one alone
   /// Of both, without what tells the kind of file.
   std::string (*name)(const DataSetFrame& frame);
   bool is_grey = false;

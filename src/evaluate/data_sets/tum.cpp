@@ -46,7 +46,7 @@ std::vector<TextFile> texts(const DataSetOptions& options, const std::vector<Dat
 }  // namespace
 
 const DataSetLayout& tumLayout() {
-  static const DataSetLayout layout{"rgb/", "depth/", stampOf, false, false, texts};
+  static const DataSetLayout layout{"rgb/", "depth/", "", stampOf, false, false, texts};
   return layout;
 }
 

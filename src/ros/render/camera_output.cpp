@@ -64,4 +64,10 @@ std::string PngOutput::lonelyTopic(const CameraSubscribers& wanted) const {
   return std::string();
 }
 
+PictureOutput pictureOutput(const ros::NodeHandle& node, const std::string& topic,
+                            const PictureTransport& transport) {
+  if (transport.compressed) return PngOutput(node, topic, transport.queue_size);
+  return CameraOutput(node, topic, transport.queue_size);
+}
+
 }  // namespace sunlit::ros_interface

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <variant>
 
 #include "sunlit/image/images.h"
 
@@ -25,6 +26,8 @@ class CameraOutput {
 
   void publish(const image::Rgb8Image& picture, const sensor_msgs::CameraInfo& info) const;
   void publish(const image::DepthImage& depth, const sensor_msgs::CameraInfo& info) const;
+  /// Whether anybody listens to either.
+  bool isHeard() const { return counted_->images > 0 || counted_->infos > 0; }
   /// The first topic with too few subscribers; empty if there is none.
   std::string lonelyTopic(const CameraSubscribers& wanted) const;
 
@@ -41,11 +44,22 @@ class PngOutput {
   PngOutput(ros::NodeHandle node, const std::string& topic, std::uint32_t queue_size);
 
   void publish(const image::Rgb8Image& picture, const sensor_msgs::CameraInfo& info) const;
+  bool isHeard() const { return images_.getNumSubscribers() > 0 || infos_.getNumSubscribers() > 0; }
   std::string lonelyTopic(const CameraSubscribers& wanted) const;
 
  private:
   ros::Publisher images_;
   ros::Publisher infos_;
 };
+
+using PictureOutput = std::variant<CameraOutput, PngOutput>;
+
+struct PictureTransport {
+  std::uint32_t queue_size = 10;
+  bool compressed = false;
+};
+
+PictureOutput pictureOutput(const ros::NodeHandle& node, const std::string& topic,
+                            const PictureTransport& transport);
 
 }  // namespace sunlit::ros_interface

@@ -20,17 +20,14 @@ void fillMoon(const std::optional<sky::MoonInSky>& moon, Capture* capture) {
   capture->moon_illuminated_fraction = moon ? 0.5 * (1.0 + cos(moon->phase_angle)) : kNothing;
 }
 
-std::variant<CameraOutput, PngOutput> advertised(const ros::NodeHandle& node, const OutputOptions& options) {
-  if (options.compressed) return PngOutput(node, topics::kImage, options.queue_size);
-  return CameraOutput(node, topics::kImage, options.queue_size);
-}
-
 }  // namespace
 
 ConditionOutput::ConditionOutput(const ros::NodeHandle& node, const OutputOptions& options)
     : options_(options),
-      images_(advertised(node, options)),
-      capture_(ros::NodeHandle(node).advertise<Capture>(topics::kCapture, options.queue_size)) {}
+      images_(pictureOutput(node, topics::kImage, {options.queue_size, options.compressed})),
+      capture_(ros::NodeHandle(node).advertise<Capture>(topics::kCapture, options.queue_size)) {
+  if (options.right) stereo_.emplace(node, options);
+}
 
 void ConditionOutput::publish(const Photograph& photograph, const SkyMoment& sky) const {
   const std_msgs::Header header = headerOf(options_.frames.optical, photograph.stamp);
@@ -47,6 +44,7 @@ void ConditionOutput::publish(const Photograph& photograph, const SkyMoment& sky
   capture_.publish(capture);
   const sensor_msgs::CameraInfo info = toCameraInfo(options_.camera, header);
   std::visit([&](const auto& images) { images.publish(photograph.picture, info); }, images_);
+  if (stereo_) stereo_->publish(photograph);
 }
 
 std::string ConditionOutput::lonelyTopic(const WantedSubscribers& wanted) const {
@@ -56,7 +54,8 @@ std::string ConditionOutput::lonelyTopic(const WantedSubscribers& wanted) const 
   std::string topic = lonely({wanted.images, 0});
   if (!topic.empty()) return topic;
   if (static_cast<int>(capture_.getNumSubscribers()) < wanted.images) return capture_.getTopic();
-  return lonely({0, wanted.ofTruth()});
+  topic = lonely({0, wanted.ofTruth()});
+  return topic.empty() && stereo_ ? stereo_->lonelyTopic(wanted.right) : topic;
 }
 
 }  // namespace sunlit::ros_interface

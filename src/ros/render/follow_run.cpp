@@ -13,7 +13,7 @@ constexpr std::chrono::seconds kHold(1);
 
 FollowRun::FollowRun(const FollowOptions& options, Streams& streams, RobotPlaces* robot)
     : frames_(options.frames), period_(1.0 / options.frame_rate), streams_(streams), robot_(robot) {
-  if (options.publish_tf) optical_.emplace(frames_);
+  if (options.publish_tf) optical_.emplace(frames_, options.right);
 }
 
 bool FollowRun::begin() {

@@ -3,6 +3,8 @@
 #include <ros/console.h>
 #include <tf2/exceptions.h>
 
+#include <algorithm>
+
 #include "ros/conversions/geometry.h"
 #include "ros/render/tf_lookup.h"
 #include "sunlit/quantity/frames.h"
@@ -16,31 +18,44 @@ constexpr std::chrono::seconds kPatience(1);
 
 }  // namespace
 
-void OpticalFrame::publish() {
-  is_settled_ = true;
-  broadcaster_.sendTransform(toTransform(Eigen::Isometry3d(linkFromOptical()),
-                                         headerOf(frames_.camera, ros::Time::now()), frames_.optical));
+OpticalFrames::OpticalFrames(const CameraFrames& frames, const std::optional<image::RightCamera>& right)
+    : frames_(frames), opticals_{{frames.optical, "frames/optical", linkFromOptical()}} {
+  if (right)
+    opticals_.push_back(
+        {frames.right_optical, "frames/right_optical", linkFromOptical() * right->left_from_right});
 }
 
-void OpticalFrame::publishWhereMissing(const tf2_ros::Buffer& tf) {
-  if (is_settled_) return;
-  std::string parent;
-  if (tf._getParent(frames_.optical, ros::Time(0), parent)) {
-    is_settled_ = true;
-    ROS_INFO("TF has the frame %s below %s: it is left to whoever sends it", frames_.optical.c_str(),
+void OpticalFrames::publish() {
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  for (Optical& optical : opticals_) {
+    if (optical.is_settled) continue;
+    optical.is_settled = true;
+    transforms.push_back(
+        toTransform(optical.link_from_optical, headerOf(frames_.camera, ros::Time::now()), optical.frame));
+  }
+  if (!transforms.empty()) broadcaster_.sendTransform(transforms);
+}
+
+void OpticalFrames::publishWhereMissing(const tf2_ros::Buffer& tf) {
+  if (std::all_of(opticals_.begin(), opticals_.end(), [](const Optical& one) { return one.is_settled; }))
+    return;
+  for (Optical& optical : opticals_) {
+    std::string parent;
+    if (optical.is_settled || !tf._getParent(optical.frame, ros::Time(0), parent)) continue;
+    optical.is_settled = true;
+    ROS_INFO("TF has the frame %s below %s: it is left to whoever sends it", optical.frame.c_str(),
              parent.c_str());
-    return compare(tf);
+    compare(tf, optical);
   }
   if (!looked_since_) looked_since_ = Clock::now();
   if (Clock::now() - *looked_since_ >= kPatience) publish();
 }
 
-void OpticalFrame::compare(const tf2_ros::Buffer& tf) const {
+void OpticalFrames::compare(const tf2_ros::Buffer& tf, const Optical& optical) const {
   constexpr double kAgrees = 1e-3;  // rad and m: less than what calibrations are good for
   try {
-    const Eigen::Isometry3d found =
-        lookUp(tf, frames_.camera, frames_.optical, ros::Time(0)).parent_from_child;
-    if (found.isApprox(Eigen::Isometry3d(linkFromOptical()), kAgrees)) return;
+    const Eigen::Isometry3d found = lookUp(tf, frames_.camera, optical.frame, ros::Time(0)).parent_from_child;
+    if (found.isApprox(optical.link_from_optical, kAgrees)) return;
   } catch (const tf2::TransformException&) {  // not of one tree
   }
   ROS_WARN(

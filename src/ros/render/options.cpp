@@ -29,11 +29,20 @@ std::vector<Field> fieldsOf(PathSourceOptions& path) {
        fieldsOf(path.selection)});
 }
 
+Field rightCalibrationRow(std::string* file) {
+  Field row = image::calibrationRow(file);
+  row.key = "right/calibration";
+  row.doc = "of a stereo camera's right one, by the same calibration";
+  return row;
+}
+
 std::vector<Field> fieldsOf(CameraOptions& camera) {
   return {rendererRow("width", &camera.width),
           rendererRow("height", &camera.height),
           image::fieldOfViewRow(&camera.horizontal_fov),
           image::calibrationRow(&camera.calibration_file),
+          rightCalibrationRow(&camera.right_calibration_file),
+          image::baselineRow(&camera.baseline_m),
           rendererRow("supersampling", &camera.supersampling),
           rendererRow("rasterizer", choiceOf(&camera.rasterizer, render::rasterizerNames())),
           Field{"follow",
@@ -49,7 +58,8 @@ std::vector<Field> fieldsOf(WantedSubscribers& wanted) {
   return {{"images", &wanted.images, "", some, "of camera/image_raw and camera/capture"},
           {"poses", &wanted.poses, "", some, "of camera/pose"},
           {"truth", &wanted.truth, "", some, "of camera_info and camera/depth/image_raw"},
-          {"others", &wanted.others, "", some, "of these, camera/depth/camera_info and /tf"}};
+          {"others", &wanted.others, "", some, "of these, camera/depth/camera_info and /tf"},
+          {"right", &wanted.right, "", some, "of camera/right/image_raw and its camera_info"}};
 }
 
 std::vector<Field> fieldsOf(PacingOptions& pacing) {
@@ -115,6 +125,29 @@ void readCalibration(const ParameterReader& parameters, CameraOptions* camera) {
   }
 }
 
+/// Makes the right camera, of its own file or by the baseline, where there is one.
+void readRight(const ParameterReader& parameters, RenderNodeOptions* options) {
+  CameraOptions& camera = options->camera;
+  const std::string file = parameters.fullName("camera/right/calibration"),
+                    baseline = parameters.fullName("camera/baseline");
+  if (camera.right_calibration_file.empty()) {
+    if (camera.baseline_m > 0.0)
+      camera.right = image::idealRight(options->calibration(), camera.baseline_m,
+                                       "parameter " + baseline + " asks for a right camera, but ");
+    return;
+  }
+  if (camera.baseline_m > 0.0)
+    throw std::invalid_argument("parameters " + file + " and " + baseline +
+                                " are both given, but the file says how far away the right camera is");
+  if (!camera.calibration)
+    throw std::invalid_argument("parameter " + file + " is given, but " +
+                                parameters.fullName("camera/calibration") +
+                                " is not: the left camera is of the same calibration");
+  camera.right =
+      image::calibratedRight(*camera.calibration, image::readCalibration(camera.right_calibration_file),
+                             camera.right_calibration_file + ": ");
+}
+
 void requireOnePath(const ParameterReader& parameters, const PathSourceOptions& path) {
   if (path.file.empty() || path.topic.empty()) return;
   throw std::invalid_argument("parameters " + parameters.fullName("path/file") + " and " +
@@ -131,6 +164,7 @@ void requireFrames(const ParameterReader& parameters, const RenderNodeOptions& o
   CameraFrames frames = options.cameraFrames();
   std::vector<Field> rows = under("frames", fieldsOf(frames));
   if (options.camera.follow_tf) rows[1].key = "camera/follow_frame";
+  if (!options.camera.right) rows.pop_back();
   requireFrameNames(parameters, rows);
 }
 
@@ -177,7 +211,12 @@ void refuseWithoutPath(const ParameterReader& parameters, const PacingOptions& p
 std::vector<Field> fieldsOf(CameraFrames& frames) {
   return {{"map", &frames.map, "", {}, "TF frame of world and path: x east, y north, z up"},
           {"camera", &frames.camera, "", {}, "TF frame of the camera on a path: x forward, y left, z up"},
-          {"optical", &frames.optical, "", {}, "TF frame of images: z forward, x right, y down"}};
+          {"optical", &frames.optical, "", {}, "TF frame of images: z forward, x right, y down"},
+          {"right_optical",
+           &frames.right_optical,
+           "",
+           {},
+           "TF frame of a stereo camera's right one; headers of its images name optical"}};
 }
 
 CameraFrames RenderNodeOptions::cameraFrames() const {
@@ -200,6 +239,7 @@ studio::StudioOptions RenderNodeOptions::studioOptions() const {
   options.render.supersampling = camera.supersampling;
   options.render.rasterizer = camera.rasterizer;
   options.render.final_gather = final_gather;
+  options.right = camera.right;
   return options;
 }
 
@@ -259,6 +299,7 @@ RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {
   parameters.read(fieldsOf(options));
   studio::requireWorld(options.world);
   readCalibration(parameters, &options.camera);
+  readRight(parameters, &options);
   readRobotForms(parameters, options.camera.follow_tf, &options.robot);
   options.sky.stars = options.night;
   options.sky.cache_dir = studio::cacheOf(options.bake).folder;

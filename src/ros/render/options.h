@@ -13,6 +13,7 @@
 #include "sunlit/image/lens_blur.h"
 #include "sunlit/image/mosaic.h"
 #include "sunlit/image/sensor_noise.h"
+#include "sunlit/image/stereo.h"
 #include "sunlit/image/veiling_glare.h"
 #include "sunlit/image/vignetting.h"
 #include "sunlit/path/path.h"
@@ -41,6 +42,9 @@ struct CameraOptions {
   Angle horizontal_fov = Angle::degrees(60.0);
   std::string calibration_file;                   ///< empty: size and field of view say what the camera is
   std::optional<image::Calibration> calibration;  ///< what was read there
+  std::string right_calibration_file;             ///< of a stereo camera's right one; empty: see baseline_m
+  double baseline_m = 0.0;                        ///< above 0: to a right camera like this one
+  std::optional<image::RightCamera> right;        ///< what these two make
   int supersampling = 2;
   render::RasterizerKind rasterizer = render::defaultRasterizer();
   bool follow_tf = false;
@@ -53,6 +57,7 @@ struct WantedSubscribers {
   int poses = 0;   ///< of camera/pose
   int truth = 0;   ///< of camera/camera_info and camera/depth/image_raw
   int others = 0;  ///< of these, camera/depth/camera_info and TF
+  int right = 0;   ///< of camera/right/image_raw and camera/right/camera_info, where there is a right camera
   /// Of camera/camera_info and camera/depth/image_raw.
   int ofTruth() const { return std::max(truth, others); }
 };

@@ -20,7 +20,7 @@ PoseOutput::PoseOutput(ros::NodeHandle node, ros::NodeHandle private_node, const
   // A publisher of our own, and not a tf2_ros::TransformBroadcaster, for the sake of its queue and subscriber
   // count.
   tf_ = node.advertise<tf2_msgs::TFMessage>(topics::kTf, options.queue_size);
-  optical_.emplace(options.frames).publish();
+  optical_.emplace(options.frames, options.right).publish();
 }
 
 void PoseOutput::publishPath(const PathSource& path, const ros::Time& start, double frame_rate) const {

@@ -7,15 +7,17 @@
 #include <optional>
 #include <string>
 
-#include "ros/render/condition_output.h"
+#include "ros/render/camera_output.h"
 #include "ros/render/optical_frame.h"
+#include "ros/render/options.h"
+#include "ros/render/output.h"
 #include "ros/render/path_source.h"
 #include "sunlit/image/images.h"
 
 namespace sunlit::ros_interface {
 
 /// Publishes camera/depth/image_raw and camera_info, camera/pose, path and progress; and on TF, where the
-/// camera's frame is this node's own, that and the optical frame.
+/// camera's frame is this node's own, that and the optical frames.
 class PoseOutput {
  public:
   PoseOutput(ros::NodeHandle node, ros::NodeHandle private_node, const OutputOptions& options);
@@ -35,7 +37,7 @@ class PoseOutput {
   ros::Publisher path_;
   ros::Publisher progress_;
   ros::Publisher tf_;
-  std::optional<OpticalFrame> optical_;
+  std::optional<OpticalFrames> optical_;
 };
 
 }  // namespace sunlit::ros_interface

@@ -20,6 +20,7 @@ namespace {
 StreamOptions streamOptions(const RenderNodeOptions& options) {
   StreamOptions streams;
   streams.output.camera = options.calibration();
+  streams.output.right = options.camera.right;
   streams.output.frames = options.cameraFrames();
   streams.output.compressed = options.compressed;
   streams.output.publish_tf = options.publish_tf;
@@ -87,9 +88,9 @@ RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
     path_run_ = run.get();
     run_ = std::move(run);
   } else {
-    run_ = std::make_unique<FollowRun>(
-        FollowOptions{options_.cameraFrames(), options_.pacing.frame_rate, options_.publish_tf}, streams_,
-        robot_.get());
+    run_ = std::make_unique<FollowRun>(FollowOptions{options_.cameraFrames(), options_.pacing.frame_rate,
+                                                     options_.publish_tf, options_.camera.right},
+                                       streams_, robot_.get());
   }
   diagnostics_.watch({studio_, streams_, *run_, robot_.get()});
   services_ = {private_node_.advertiseService("start", &RenderNode::onStart, this),

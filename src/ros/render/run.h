@@ -110,7 +110,8 @@ class PathRun : public Run {
 struct FollowOptions {
   CameraFrames frames;  ///< the camera's is followed
   double frame_rate = 10.0;
-  bool publish_tf = true;  ///< the optical frame, where nobody else does
+  bool publish_tf = true;  ///< the optical frames, where nobody else does
+  std::optional<image::RightCamera> right = {};
 };
 
 class FollowRun : public Run {
@@ -129,7 +130,7 @@ class FollowRun : public Run {
 
   CameraFrames frames_;
   ros::Duration period_;
-  std::optional<OpticalFrame> optical_;
+  std::optional<OpticalFrames> optical_;
   Streams& streams_;
   RobotPlaces* robot_;
   TfInput tf_;

@@ -56,9 +56,12 @@ void Streams::expose(const Shot& shot) {
     stream->sky.forgetBefore(shot.stamp);
     const SkyBodies bodies = stream->sky.at(shot.stamp).value();
     const light::Illumination& light = lightOf(*stream, bodies, shot.stamp);
-    studio::Developed developed =
-        studio_.photograph(light, {shot.pose_index, stream->name}, stream->state_of_surfaces);
-    const Photograph photograph{shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture)};
+    const std::size_t state = stream->state_of_surfaces;
+    studio::Developed developed = studio_.photograph(light, {shot.pose_index, stream->name}, state);
+    Photograph photograph{shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture)};
+    if (studio_.hasRight())
+      photograph.right =
+          studio_.photographRight(light, {shot.pose_index, stream->name}, photograph.ev100, state);
     stopwatch.measure("send", stream->name, [&] { stream->output.publish(photograph, {bodies, light.day}); });
     stream->state = {stream->name, stream->state.images + 1, photograph.stamp, photograph.ev100};
   }

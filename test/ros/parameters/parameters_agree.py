@@ -23,7 +23,8 @@ ARGUMENTS = {"missing": "missing", "spacing": "path/spacing", "offset": "path/of
              "width": "camera/width", "height": "camera/height", "horizontal_fov": "camera/horizontal_fov", "turbidity": "atmosphere/turbidity",
              "ozone": "atmosphere/ozone", "ground_albedo": "atmosphere/ground_albedo", "highlight_protection": "exposure/highlight_protection",
              "final_gather": "transport/final_gather", "night": "night/enabled", "lamps": "lamps", "noise": "noise/enabled",
-             "noise_seed": "noise/seed", "vignetting": "vignetting/natural", "glare": "glare/share", "mosaic": "mosaic/pattern"}
+             "noise_seed": "noise/seed", "vignetting": "vignetting/natural", "glare": "glare/share", "mosaic": "mosaic/pattern",
+             "baseline": "camera/baseline"}
 REQUIRED = ["streams", "output_dir"]  # of the evaluator: in the shipped file stands an example
 NODES = {"sun_position_node", "render_node", "evaluator_node"}
 

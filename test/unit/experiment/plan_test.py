@@ -197,6 +197,22 @@ class Plan(unittest.TestCase):
                          ({"natural": "cos4"}, {"share": 0.02}, {"pattern": "rggb"}))
         self.assertEqual({**main["path"], "stride": 10}, other["path"])
 
+    def test_a_right_camera_is_rendered_once_and_recorded(self):
+        self.assertNotIn("right", planned(record="true")["render"]["subscribers"])
+        self.assertNotIn("right", planned()["render"]["camera"])
+        self.assertNotIn("baseline", planned()["render"]["camera"])
+        tree = planned(calibration="my.yaml", right_calibration="right.yaml", record="true")
+        self.assertEqual(tree["render"]["camera"]["right"], {"calibration": os.path.abspath("right.yaml")})
+        self.assertNotIn("right", tree["self_test"]["render"]["camera"])  # whose pictures are compared, and not recorded
+        self.assertEqual(tree["render"]["subscribers"]["right"], 1)
+        topics = tree["experiment"]["recording"]["topics"]
+        self.assertIn("/h04/camera/right/image_raw", topics)
+        self.assertIn("/h04/camera/right/camera_info", topics)
+        tree = planned(baseline="0.12", compressed="true", record="true")
+        self.assertEqual(tree["render"]["camera"]["baseline"], 0.12)
+        self.assertIn("/h04/camera/right/image_raw/compressed", tree["experiment"]["recording"]["topics"])
+        self.assertEqual(planned(baseline="0.12")["render"]["subscribers"]["right"], 0)
+
     def test_a_calibration_stands_for_what_is_not_typed_beside_it(self):
         tree = planned(calibration="my.yaml")
         for renderer in (tree["render"], tree["self_test"]["render"]):

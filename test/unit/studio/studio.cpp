@@ -88,6 +88,47 @@ TEST(Studio, TakesThePictureThatItsPartsMake) {
             image::throughMosaic(image::develop(luminance, ev100), options.mosaic).data);
 }
 
+TEST(Studio, TheRightCameraSeesWhatOneInItsPlaceWouldAtTheLeftsExposureWithGrainOfItsOwn) {
+  StudioOptions options = boxes();
+  options.noise.enabled = true;
+  Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
+  map_from_camera.translation().z() = 1.0;
+  const sky::Daylight day = Sky({}).daylight({kHighSun});
+  const image::PictureName name{7, "noon"};
+  Studio alone(options);
+  alone.look(map_from_camera);
+  const Developed without = alone.photograph(alone.illumination(day), name);
+
+  options.right = image::idealRight(image::calibrationOf(options.render.camera), 0.3, "");
+  Studio studio(options);
+  studio.look(map_from_camera);
+  const light::Illumination light = studio.illumination(day);
+  const Developed left = studio.photograph(light, name);
+  const image::Rgb8Image right = studio.photographRight(light, name, left.ev100);
+  EXPECT_EQ(left.picture.data, without.picture.data);
+
+  const light::World world = loadWorld(options.world, std::nullopt, {});
+  render::Renderer renderer(world, options.render);
+  // y is to the left.
+  renderer.look(map_from_camera * Eigen::Translation3d(0.0, -0.3, 0.0) * linkFromOptical());
+  image::LinearImage luminance = renderer.light(day);
+  image::LinearImage same_grain = luminance;
+  image::addSensorNoise(left.ev100, options.noise, {7, "noon right"}, &luminance);
+  EXPECT_EQ(right.data, image::develop(luminance, left.ev100).data);
+  image::addSensorNoise(left.ev100, options.noise, name, &same_grain);
+  EXPECT_NE(right.data, image::develop(same_grain, left.ev100).data);
+
+  // Drawn ahead is the same.
+  map_from_camera.translation().x() = 1.0;
+  studio.lookAhead(map_from_camera);
+  EXPECT_EQ(studio.photographRight(light, name, left.ev100).data, right.data);
+  studio.look(map_from_camera);
+  const image::Rgb8Image ahead = studio.photographRight(light, name, left.ev100);
+  Studio other(options);
+  other.look(map_from_camera);
+  EXPECT_EQ(ahead.data, other.photographRight(light, name, left.ev100).data);
+}
+
 TEST(Studio, AMapLeavesWhatTheCameraLooksAt) {
   Studio studio(boxes());
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();

@@ -20,8 +20,8 @@ namespace sunlit::evaluate {
 ///
 /// EuRoC (M. Burri et al., The EuRoC micro aerial vehicle datasets, IJRR 35 (10), 2016): mav0/cam0 in grey,
 /// as theirs; mav0/state_groundtruth_estimate0 has map_from_body, the body being the camera's link, and T_BS
-/// of cam0 is body_from_optical. mav0/depth0 is not of theirs: depth as TUM has it, of the same camera.
-/// timestamps.txt is the list that ORB-SLAM3 takes.
+/// of cam0 is body_from_optical. A stereo camera's right one is mav0/cam1, rectified. mav0/depth0 is not of
+/// theirs: depth as TUM has it, of the same camera. timestamps.txt is the list that ORB-SLAM3 takes.
 ///
 /// COLMAP 3.8: images/, and in sparse/0 a text model whose poses are known and which has no points yet:
 /// optical_from_map, and a principal point 0.5 px to the right and down of ours, since its pixel (0, 0) is a
@@ -38,6 +38,7 @@ struct DataSetOptions {
   image::PinholeCamera camera;
   double rate_hz = 10.0;        ///< of its pictures, above 0
   double depth_scale = 5000.0;  ///< steps of 16-bit depth in a metre, above 0
+  double baseline_m = 0.0;      ///< of EuRoC: to a right camera, like this one; 0: there is none
 };
 
 inline Field depthScaleRow(double* place) {
@@ -70,17 +71,22 @@ class DataSetFolder {
   /// Makes nothing. Throws std::invalid_argument for options out of range.
   DataSetFolder(const std::string& folder, DataSetFormat format, const DataSetOptions& options);
 
-  /// Whether picture and depth are there, whole, and of the camera's size.
+  /// Whether pictures and depth are there, whole, and of the camera's size.
   bool has(const DataSetFrame& frame) const;
   /// Both of the camera's size, or std::invalid_argument.
   DepthRoom write(const DataSetFrame& frame, const image::Rgb8Image& picture,
                   const image::DepthImage& depth) const;
+  /// Whether there is a place for what a right camera sees: in EuRoC's form, with a baseline.
+  bool hasRight() const;
+  /// Where hasRight(). As write().
+  void writeRight(const DataSetFrame& frame, const image::Rgb8Image& picture) const;
   /// Calibration, truth and lists of all `frames`, by number and stamp: last, so that a folder that has them
   /// has all.
   void finish(const std::vector<DataSetFrame>& frames) const;
 
  private:
-  std::string pictureFile(const DataSetFrame& frame) const;
+  std::string pictureFile(const std::string& of_layout, const DataSetFrame& frame) const;
+  void writePicture(const std::string& file, const image::Rgb8Image& picture) const;
   std::string depthFile(const DataSetFrame& frame) const;
   DepthRoom writeDepth(const std::string& file, const image::DepthImage& depth) const;
 

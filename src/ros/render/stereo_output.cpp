@@ -1,0 +1,32 @@
+#include "ros/render/stereo_output.h"
+
+#include "ros/conversions/geometry.h"
+#include "ros/conversions/images.h"
+#include "sunlit/ros/topic_names.h"
+
+namespace sunlit::ros_interface {
+
+StereoOutput::StereoOutput(const ros::NodeHandle& node, const OutputOptions& options)
+    : options_(options),
+      left_(pictureOutput(node, topics::kLeftImage, {options.queue_size, options.compressed})),
+      right_(pictureOutput(node, topics::kRightImage, {options.queue_size, options.compressed})) {}
+
+void StereoOutput::publish(const Photograph& photograph) const {
+  // Both of the left frame, which P of the right one speaks of: image_geometry, and with it all of
+  // stereo_image_proc, ends where the frames of a pair differ.
+  const std_msgs::Header header = headerOf(options_.frames.optical, photograph.stamp);
+  const sensor_msgs::CameraInfo left = toCameraInfo(options_.camera, header),
+                                right = toCameraInfo(options_.right->calibration, header);
+  std::visit(
+      [&](const auto& images) {
+        if (images.isHeard()) images.publish(photograph.picture, left);
+      },
+      left_);
+  std::visit([&](const auto& images) { images.publish(photograph.right.value(), right); }, right_);
+}
+
+std::string StereoOutput::lonelyTopic(int wanted) const {
+  return std::visit([&](const auto& images) { return images.lonelyTopic({wanted, wanted}); }, right_);
+}
+
+}  // namespace sunlit::ros_interface

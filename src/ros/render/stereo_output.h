@@ -1,0 +1,31 @@
+/// What a stereo camera adds to the topics of a condition.
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+
+#include "ros/render/camera_output.h"
+#include "ros/render/output.h"
+
+namespace sunlit::ros_interface {
+
+/// Publishes camera/left and camera/right, each image_raw (or image_raw/compressed) and camera_info: where
+/// stereo_image_proc looks for them in the namespace camera. The left ones are camera/image_raw and
+/// camera/camera_info once more, and are only made for whoever listens.
+class StereoOutput {
+ public:
+  /// `options.right` is there.
+  StereoOutput(const ros::NodeHandle& node, const OutputOptions& options);
+
+  /// With a right picture.
+  void publish(const Photograph& photograph) const;
+  /// The first topic of the right camera with fewer subscribers; empty if there is none.
+  std::string lonelyTopic(int wanted) const;
+
+ private:
+  OutputOptions options_;
+  PictureOutput left_, right_;
+};
+
+}  // namespace sunlit::ros_interface
