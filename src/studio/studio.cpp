@@ -103,7 +103,7 @@ Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& 
         stopwatch_.measure("load", "transport", [&] { return bake(world, options.bake, reports); });
   }
   camera_ = stopwatch_.measure("load", "renderer",
-                                 [&] { return std::make_unique<Camera>(worlds_, options.render, options); });
+                               [&] { return std::make_unique<Camera>(worlds_, options.render, options); });
   if (options.right) {
     right_ = stopwatch_.measure(
         "load", "right", [&] { return std::make_unique<Camera>(worlds_, rightRender(options), options); });
@@ -156,17 +156,20 @@ void Studio::look(const Eigen::Isometry3d& map_from_camera, const render::BodyPl
   stopwatch_.measure("geometry", "pose",
                      [&] { camera_->renderer.look(map_from_camera * linkFromOptical(), map_from_links); });
   if (right_) {
-    stopwatch_.measure("geometry", "right",
-                       [&] { right_->renderer.look(mapFromRight(map_from_camera, options_), map_from_links); });
+    stopwatch_.measure("geometry", "right", [&] {
+      right_->renderer.look(mapFromRight(map_from_camera, options_), map_from_links);
+    });
   }
 }
 
 void Studio::lookAhead(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links) {
-  stopwatch_.measure("geometry", "ahead",
-                     [&] { camera_->renderer.lookAhead(map_from_camera * linkFromOptical(), map_from_links); });
+  stopwatch_.measure("geometry", "ahead", [&] {
+    camera_->renderer.lookAhead(map_from_camera * linkFromOptical(), map_from_links);
+  });
   if (right_) {
-    stopwatch_.measure("geometry", "right ahead",
-                       [&] { right_->renderer.lookAhead(mapFromRight(map_from_camera, options_), map_from_links); });
+    stopwatch_.measure("geometry", "right ahead", [&] {
+      right_->renderer.lookAhead(mapFromRight(map_from_camera, options_), map_from_links);
+    });
   }
 }
 

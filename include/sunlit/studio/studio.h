@@ -72,12 +72,12 @@ class Studio {
   void lookAhead(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links = {});
   /// What does not depend on the camera.
   light::Illumination illumination(const sky::Daylight& daylight, std::size_t state = 0) const;
-  /// What look() looks at under `light`, which is of the same state: the lens takes light away and strews some,
-  /// the sensor counts what it gets. The picture's series names it on the time sheet too.
+  /// What look() looks at under `light`, which is of the same state: the lens takes light away and strews
+  /// some, the sensor counts what it gets. The picture's series names it on the time sheet too.
   Developed photograph(const light::Illumination& light, const image::PictureName& name,
                        std::size_t state = 0);
-  /// What the right camera sees, where there is one: exposed like the left one's picture of that name and state,
-  /// with grain of its own. Both are looked at by look() and lookAhead().
+  /// What the right camera sees, where there is one: exposed like the left one's picture of that name and
+  /// state, with grain of its own. Both are looked at by look() and lookAhead().
   image::Rgb8Image photographRight(const light::Illumination& light, const image::PictureName& name,
                                    double ev100, std::size_t state = 0);
   image::DepthImage depth();

@@ -236,10 +236,10 @@ TEST(RaceTrackPictures, OpaqueOnesAreShownOnce) {
 TEST(RaceTrackNoise, IsSmoothAndBounded) {
   for (int i = 0; i < 2000; ++i) {
     const float x = 0.037f * static_cast<float>(i) - 20.0f;
-    const float here = race_track::noise(x, 1.7f, 5u);
+    const float here = noise(x, 1.7f, 5u);
     EXPECT_LE(std::abs(here), 1.0f);
     // Its steepest slope is 15/8 of the step between lattice values, at most 2.
-    EXPECT_LE(std::abs(race_track::noise(x + 0.001f, 1.7f, 5u) - here), 0.001f * 3.75f + 1e-5f);
+    EXPECT_LE(std::abs(noise(x + 0.001f, 1.7f, 5u) - here), 0.001f * 3.75f + 1e-5f);
   }
 }
 
