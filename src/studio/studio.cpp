@@ -41,6 +41,10 @@ const StudioOptions& checked(const StudioOptions& options) {
   light::validate(options.bake.transport);
   light::validate(options.lamps);
   for (const scene::SurfaceState& state : options.surfaces) scene::validate(state);
+  // Some of what a lens may not be is known by its rays alone.
+  const image::Vignetting vignetting(image::Lens(options.render.camera, options.render.distortion),
+                                     options.vignetting);
+  const image::VeilingGlare glare(vignetting, options.glare);
   render::requireStarts(options.render.rasterizer);
   return options;
 }
