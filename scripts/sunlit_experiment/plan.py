@@ -123,8 +123,9 @@ def _right(typed):
     tree = {}
     if typed["right_calibration"]:
         tree["right"] = {"calibration": read.file(typed["right_calibration"])}
-    if read.number("baseline", typed["baseline"]):
-        tree["baseline"] = read.number("baseline", typed["baseline"])
+    baseline = read.number("baseline", typed["baseline"])
+    if baseline:
+        tree["baseline"] = baseline
     return tree
 
 

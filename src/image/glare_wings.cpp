@@ -38,13 +38,7 @@ void blend(const std::array<const float*, 5>& lines, std::size_t count, float* o
 void blurAcross(const LinearImage& from, int step, LinearImage* to) {
   eachRow(from.height, [&](int y) {
     thread_local std::vector<float> wide;
-    wide.resize(3 * static_cast<std::size_t>(from.width + 4 * step));
-    const int margin = 2 * step;
-    float* out = wide.data();
-    for (int x = -margin; x < 0; ++x, out += 3) std::copy_n(from.at(mirrored(x, from.width), y), 3, out);
-    out = std::copy_n(from.at(0, y), 3 * from.width, out);
-    for (int x = from.width; x < from.width + margin; ++x, out += 3)
-      std::copy_n(from.at(mirrored(x, from.width), y), 3, out);
+    copyWide(from, y, 2 * step, &wide);
     const std::size_t apart = 3 * static_cast<std::size_t>(step);
     const float* first = wide.data();
     blend({first, first + apart, first + 2 * apart, first + 3 * apart, first + 4 * apart},

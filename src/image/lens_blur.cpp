@@ -27,14 +27,12 @@ void addScaled(const float* from, float weight, std::size_t count, float* to) {
 }
 
 void blurAcross(const std::vector<float>& weights, LinearImage* picture) {
-  const int width = picture->width, reach = static_cast<int>(weights.size()) - 1;
-  const std::size_t count = 3 * static_cast<std::size_t>(width);
+  const int reach = static_cast<int>(weights.size()) - 1;
+  const std::size_t count = 3 * static_cast<std::size_t>(picture->width);
   eachRow(picture->height, [&](int y) {
     thread_local std::vector<float> wide;
-    wide.resize(3 * static_cast<std::size_t>(width + 2 * reach));
-    float* to = wide.data();
-    for (int x = -reach; x < width + reach; ++x, to += 3)
-      for (int c = 0; c < 3; ++c) to[c] = finiteLuminance(picture->at(mirrored(x, width), y)[c]);
+    copyWide(*picture, y, reach, &wide);
+    for (float& value : wide) value = finiteLuminance(value);
     float* row = picture->at(0, y);
     std::fill_n(row, count, 0.0F);
     for (int i = -reach; i <= reach; ++i)

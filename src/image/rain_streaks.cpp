@@ -5,17 +5,12 @@
 
 #include "random_sequence.h"
 #include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/raindrops.h"
 
 namespace sunlit::image {
 namespace {
 
 constexpr double kSmallest_mm = 1.0, kFarthest_m = 5.0, kNearest_m = 0.1;
-
-/// Marshall & Palmer 1948: per m³ and mm, and 1/mm.
-constexpr double kDropsAtZero = 8000.0;
-double slopeOf(double mm_per_h) {
-  return 4.1 * std::pow(mm_per_h, -0.21);
-}
 
 /// One drop in the optical frame.
 struct Drop {
@@ -86,9 +81,9 @@ void addRain(const RainStreaks& rain, const RainedView& view, LinearImage* pictu
   const double margin = 0.1 * camera.height;
   const double wide = camera.width + 2.0 * margin, high = camera.height + 2.0 * margin;
   const double volume_m3 = wide * high / (camera.fx * camera.fy) * std::pow(kFarthest_m, 3) / 3.0;
-  const double slope = slopeOf(rain.mm_per_h);
+  const double slope = raindropSlope(rain.mm_per_h);
   RandomSequence random(mixed(rain.series), static_cast<std::uint64_t>(rain.index) << 24U);
-  const double count = random.poisson(volume_m3 * kDropsAtZero / slope * std::exp(-slope * kSmallest_mm));
+  const double count = random.poisson(volume_m3 * kRaindropsAtZero / slope * std::exp(-slope * kSmallest_mm));
   Painter painter(rain, view, picture);
   for (double i = 0.0; i < count; i += 1.0) {
     const double u = wide * random.uniform() - margin - 0.5, v = high * random.uniform() - margin - 0.5;

@@ -7,21 +7,10 @@
 #include "finite_luminance.h"
 #include "glare_wings.h"
 #include "rows.h"
+#include "sunlit/image/mean_luminance.h"
 
 namespace sunlit::image {
 namespace {
-
-/// Of all pixels; by rows, so that it does not depend on who sums up.
-Eigen::Array3d meanOfPixels(const LinearImage& picture) {
-  Eigen::Array3d sum = Eigen::Array3d::Zero();
-  for (int y = 0; y < picture.height; ++y) {
-    Eigen::Array3d of_row = Eigen::Array3d::Zero();
-    for (int x = 0; x < picture.width; ++x)
-      of_row += Eigen::Map<const Eigen::Array3f>(picture.at(x, y)).cast<double>();
-    sum += of_row;
-  }
-  return sum / (static_cast<double>(picture.width) * static_cast<double>(picture.height));
-}
 
 double cosineFromAxis(const Eigen::Vector3d& ray) {
   return ray.z() / ray.norm();
@@ -86,7 +75,7 @@ void VeilingGlare::apply(const std::vector<LightOutside>& outside, LinearImage* 
   if (none()) return;
   for (float& value : picture->data) value = finiteLuminance(value);
   const auto share = static_cast<float>(options_.share), wings = static_cast<float>(options_.wings);
-  Eigen::Array3d even = (1.0 - options_.wings) * meanOfPixels(*picture);
+  Eigen::Array3d even = (1.0 - options_.wings) * meanLuminance(*picture);
   for (const LightOutside& light : outside) even += meanOf(light).value.cast<double>();
   const Eigen::Array3f veil = (options_.share * even).cast<float>();
   LinearImage with_wings;

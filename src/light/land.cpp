@@ -89,9 +89,7 @@ class FromAbove {
     eye.z() = eye_height_m_;
     const auto first = visibility_.firstSeen(eye, -Eigen::Vector3f::UnitZ(), 0.0f);
     if (!first || *first != triangle) return;
-    const auto side =
-        geometry_.planes[triangle].normal.z() > 0.0f ? Reflectances::Side::kFront : Reflectances::Side::kBack;
-    Paint paint = reflectances_.at(triangle, side, within);
+    Paint paint = reflectances_.at({triangle, geometry_.planes[triangle].normal.z() > 0.0f}, within);
     paint.albedo *= 1.0f - materialOf(triangle).transmission;
     seen->albedo += static_cast<double>(LinearRgb(reflectance(paint, kMeanView).all()).luminance());
     ++seen->count;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/raindrops.h"
 #include "sunlit/quantity/range.h"
 
 namespace sunlit::sky {
@@ -25,9 +26,8 @@ double opticalDepthOf(const Weather& weather) {
 }
 
 double rainPerMetre(double rain_mm_per_h) {
-  constexpr double kDropsAtZero = 8000.0, kSlope = 4.1;                            // 1/m³/mm; 1/mm at 1 mm/h
-  const double shadows = kPi * kDropsAtZero / (2.0 * std::pow(kSlope, 3)) * 1e-6;  // mm² in m²
-  return shadows * std::pow(rain_mm_per_h, 0.63);
+  const double shadows_mm2 = kPi * kRaindropsAtZero / (2.0 * std::pow(raindropSlope(rain_mm_per_h), 3));
+  return 1e-6 * shadows_mm2;  // in a m³
 }
 
 bool isBroken(const Weather& weather) {

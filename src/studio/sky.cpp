@@ -93,16 +93,13 @@ sky::AtmosphereOptions Sky::airAt(double site_elevation_m, std::size_t state) co
 
 bool Sky::isPrepared(double site_elevation_m, std::size_t state) const {
   const sky::AtmosphereOptions wanted = airAt(site_elevation_m, state);
-  return std::any_of(airs_.begin(), airs_.end(), [&](const Air& air) {
-    return air.height_m == wanted.observer_height_m && air.ground_albedo == wanted.ground_albedo;
-  });
+  return std::any_of(airs_.begin(), airs_.end(), [&](const Air& air) { return air.isOf(wanted); });
 }
 
 const sky::Atmosphere& Sky::airOver(double site_elevation_m, std::size_t state) {
   const sky::AtmosphereOptions wanted = airAt(site_elevation_m, state);
-  const auto known = std::find_if(airs_.begin(), airs_.end(), [&](const Air& air) {
-    return air.height_m == wanted.observer_height_m && air.ground_albedo == wanted.ground_albedo;
-  });
+  const auto known =
+      std::find_if(airs_.begin(), airs_.end(), [&](const Air& air) { return air.isOf(wanted); });
   if (known != airs_.end()) {
     std::rotate(known, known + 1, airs_.end());
     return airs_.back().atmosphere;

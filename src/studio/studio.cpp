@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "studio/tell.h"
+#include "sunlit/image/mean_luminance.h"
 #include "sunlit/image/rain_streaks.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/frames.h"
@@ -41,10 +42,6 @@ const StudioOptions& checked(const StudioOptions& options) {
   light::validate(options.bake.transport);
   light::validate(options.lamps);
   for (const scene::SurfaceState& state : options.surfaces) scene::validate(state);
-  // Some of what a lens may not be is known by its rays alone.
-  const image::Vignetting vignetting(image::Lens(options.render.camera, options.render.distortion),
-                                     options.vignetting);
-  const image::VeilingGlare glare(vignetting, options.glare);
   render::requireStarts(options.render.rasterizer);
   return options;
 }
@@ -61,14 +58,10 @@ void addRain(const render::Renderer& renderer, const sky::Daylight& day, const E
   const sky::Rain rain = day.rain();
   if (!(rain.mm_per_h > 0.0)) return;
   // A drop gathers what is before the camera, and what is above.
-  Eigen::Array3d before = Eigen::Array3d::Zero();
-  for (std::size_t i = 0; i < luminance->data.size(); ++i)
-    before[static_cast<Eigen::Index>(i % 3)] += static_cast<double>(luminance->data[i]);
-  before /= static_cast<double>(luminance->data.size() / 3);
+  const Eigen::Array3f before = image::meanLuminance(*luminance).cast<float>();
   const Eigen::Array3f above = day.groundIlluminance().value / kPiFloat;
   const image::RainStreaks streaks{rain.mm_per_h, rain.seed, exposed.index,
-                                   image::exposureTime_s(exposed.ev100),
-                                   0.5f * (before.cast<float>() + above)};
+                                   image::exposureTime_s(exposed.ev100), 0.5f * (before + above)};
   const Eigen::Vector3d down = -renderer.surfaces().map_from_optical.row(2).transpose();
   const image::DepthImage depth = renderer.depth();
   image::addRain(streaks, {renderer.options().camera, down, depth}, luminance);
@@ -88,14 +81,13 @@ Eigen::Isometry3d mapFromRight(const Eigen::Isometry3d& map_from_camera, const S
 
 }  // namespace
 
-Studio::Camera::Camera(const std::vector<light::World>& worlds, const render::RenderOptions& render,
-                       const StudioOptions& options)
-    : renderer(worlds, render),
-      vignetting(image::Lens(render.camera, render.distortion), options.vignetting),
+Studio::Camera::Camera(const render::RenderOptions& render, const StudioOptions& options)
+    : vignetting(image::Lens(render.camera, render.distortion), options.vignetting),
       glare(vignetting, options.glare) {}
 
 Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& robot, const Reports& reports)
-    : options_(checked(options)) {
+    : options_(checked(options)), camera_(options.render, options) {
+  if (options.right) right_.emplace(rightRender(options), options);
   const light::World dry =
       stopwatch_.measure("load", "world", [&] { return loadWorld(options.world, robot, reports); });
   requireGroups(dry, options.lamps, reports);
@@ -106,11 +98,11 @@ Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& 
     world.transport =
         stopwatch_.measure("load", "transport", [&] { return bake(world, options.bake, reports); });
   }
-  camera_ = stopwatch_.measure("load", "renderer",
-                               [&] { return std::make_unique<Camera>(worlds_, options.render, options); });
-  if (options.right) {
-    right_ = stopwatch_.measure(
-        "load", "right", [&] { return std::make_unique<Camera>(worlds_, rightRender(options), options); });
+  camera_.renderer = stopwatch_.measure(
+      "load", "renderer", [&] { return std::make_unique<render::Renderer>(worlds_, options.render); });
+  if (right_) {
+    right_->renderer = stopwatch_.measure(
+        "load", "right", [&] { return std::make_unique<render::Renderer>(worlds_, rightRender(options)); });
   }
 }
 
@@ -158,21 +150,21 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylig
 
 void Studio::look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links) {
   stopwatch_.measure("geometry", "pose",
-                     [&] { camera_->renderer.look(map_from_camera * linkFromOptical(), map_from_links); });
+                     [&] { camera_.renderer->look(map_from_camera * linkFromOptical(), map_from_links); });
   if (right_) {
     stopwatch_.measure("geometry", "right", [&] {
-      right_->renderer.look(mapFromRight(map_from_camera, options_), map_from_links);
+      right_->renderer->look(mapFromRight(map_from_camera, options_), map_from_links);
     });
   }
 }
 
 void Studio::lookAhead(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links) {
   stopwatch_.measure("geometry", "ahead", [&] {
-    camera_->renderer.lookAhead(map_from_camera * linkFromOptical(), map_from_links);
+    camera_.renderer->lookAhead(map_from_camera * linkFromOptical(), map_from_links);
   });
   if (right_) {
     stopwatch_.measure("geometry", "right ahead", [&] {
-      right_->renderer.lookAhead(mapFromRight(map_from_camera, options_), map_from_links);
+      right_->renderer->lookAhead(mapFromRight(map_from_camera, options_), map_from_links);
     });
   }
 }
@@ -183,7 +175,7 @@ light::Illumination Studio::illumination(const sky::Daylight& daylight, std::siz
 
 Developed Studio::photograph(const light::Illumination& light, const image::PictureName& name,
                              std::size_t state) {
-  return expose(*camera_, {light, state}, name, std::nullopt);
+  return expose(camera_, {light, state}, name, std::nullopt);
 }
 
 image::Rgb8Image Studio::photographRight(const light::Illumination& light, const image::PictureName& name,
@@ -195,24 +187,24 @@ image::Rgb8Image Studio::photographRight(const light::Illumination& light, const
 Developed Studio::expose(const Camera& camera, const Lit& lit, const image::PictureName& name,
                          std::optional<double> ev100) {
   image::LinearImage luminance =
-      stopwatch_.measure("light", name.series, [&] { return camera.renderer.light(lit.light, lit.state); });
+      stopwatch_.measure("light", name.series, [&] { return camera.renderer->light(lit.light, lit.state); });
   return stopwatch_.measure("develop", name.series, [&] {
     if (!camera.vignetting.none()) camera.vignetting.apply(&luminance);
-    if (!camera.glare.none()) camera.glare.apply(camera.renderer.lightsOutside(lit.light), &luminance);
+    if (!camera.glare.none()) camera.glare.apply(camera.renderer->lightsOutside(lit.light), &luminance);
     image::blur(options_.blur, &luminance);
     const double exposed = ev100 ? *ev100 : image::chooseEv100(luminance, options_.exposure);
-    addRain(camera.renderer, lit.light.day, {name.index, exposed}, &luminance);
+    addRain(*camera.renderer, lit.light.day, {name.index, exposed}, &luminance);
     if (options_.noise.enabled) image::addSensorNoise(exposed, options_.noise, name, &luminance);
     return Developed{image::throughMosaic(image::develop(luminance, exposed), options_.mosaic), exposed};
   });
 }
 
 std::string Studio::rasterizer() const {
-  return camera_->renderer.rasterizer();
+  return camera_.renderer->rasterizer();
 }
 
 image::DepthImage Studio::depth() {
-  return stopwatch_.measure("depth", "pose", [&] { return camera_->renderer.depth(); });
+  return stopwatch_.measure("depth", "pose", [&] { return camera_.renderer->depth(); });
 }
 
 }  // namespace sunlit::studio

@@ -79,6 +79,10 @@ class Sky {
   struct Air {
     double height_m, ground_albedo;
     sky::Atmosphere atmosphere;
+
+    bool isOf(const sky::AtmosphereOptions& wanted) const {
+      return height_m == wanted.observer_height_m && ground_albedo == wanted.ground_albedo;
+    }
   };
   std::vector<Air> airs_;  ///< the one that was used last is the last
 };

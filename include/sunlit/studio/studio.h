@@ -92,16 +92,15 @@ class Studio {
   const image::PinholeCamera& camera() const { return options_.render.camera; }
   Stopwatch& stopwatch() { return stopwatch_; }
 
-  bool hasRight() const { return right_ != nullptr; }
+  bool hasRight() const { return right_.has_value(); }
 
  private:
   /// A camera, and what its lens makes of the light.
   struct Camera {
-    Camera(const std::vector<light::World>& worlds, const render::RenderOptions& render,
-           const StudioOptions& options);
-    render::Renderer renderer;
+    Camera(const render::RenderOptions& render, const StudioOptions& options);
     image::Vignetting vignetting;
     image::VeilingGlare glare;
+    std::unique_ptr<render::Renderer> renderer;  ///< once the world is there
   };
   /// Light of a state.
   struct Lit {
@@ -114,9 +113,9 @@ class Studio {
 
   Stopwatch stopwatch_;
   StudioOptions options_;
+  Camera camera_;
+  std::optional<Camera> right_;
   std::vector<light::World> worlds_;
-  std::unique_ptr<Camera> camera_;
-  std::unique_ptr<Camera> right_;  ///< null: there is none
 };
 
 }  // namespace sunlit::studio

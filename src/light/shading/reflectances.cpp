@@ -76,7 +76,8 @@ Reflectances::Reflectances(const Geometry& geometry) : geometry_(geometry) {
   });
 }
 
-Paint Reflectances::at(std::uint32_t triangle, Side side, const Eigen::Vector3f& barycentric) const {
+Paint Reflectances::at(const TriangleSide& side, const Eigen::Vector3f& barycentric) const {
+  const std::uint32_t triangle = side.triangle;
   const scene::Material& material =
       geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[triangle])];
   Eigen::Array3f albedo = Eigen::Array3f::Zero();
@@ -95,16 +96,17 @@ Paint Reflectances::at(std::uint32_t triangle, Side side, const Eigen::Vector3f&
                     std::max(material.roughness * data(material.roughness_map, triangle, barycentric),
                              scene::Material::kSmoothest),
                     material.metalness * data(material.metalness_map, triangle, barycentric)};
-  return geometry_.weathering ? weathered(paint, triangle, side, barycentric) : paint;
+  return geometry_.weathering ? weathered(paint, side, barycentric) : paint;
 }
 
-Paint Reflectances::weathered(const Paint& paint, std::uint32_t triangle, Side side,
+Paint Reflectances::weathered(const Paint& paint, const TriangleSide& side,
                               const Eigen::Vector3f& barycentric) const {
+  const std::uint32_t triangle = side.triangle;
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
   for (int k = 0; k < 3; ++k)
     position +=
         barycentric[k] * geometry_.positions[geometry_.triangles[triangle][static_cast<std::size_t>(k)]];
-  const float sign = side == Side::kFront ? 1.0f : -1.0f;
+  const float sign = side.front ? 1.0f : -1.0f;
   const Eigen::Vector3f face = sign * geometry_.planes[triangle].normal;
   scene::Weathering::Look look{paint.albedo, face, paint.roughness, paint.metalness};
   constexpr float kCell_m = 1.0f;  // about what a place in the bake stands for

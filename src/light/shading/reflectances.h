@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "light/geometry/triangle_side.h"
 #include "sunlit/light/geometry.h"
 
 namespace sunlit::light {
@@ -32,9 +33,8 @@ class Reflectances {
  public:
   /// Keeps a reference.
   explicit Reflectances(const Geometry& geometry);
-  enum class Side { kFront, kBack };
   /// At a point of a triangle; of masked surfaces the solid part.
-  Paint at(std::uint32_t triangle, Side side, const Eigen::Vector3f& barycentric) const;
+  Paint at(const TriangleSide& side, const Eigen::Vector3f& barycentric) const;
   /// Luminance of its own there, cd/m².
   Eigen::Array3f emission(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const;
 
@@ -47,8 +47,7 @@ class Reflectances {
   enum class Kind { kColor, kData };
   static Thumbnail shrink(const scene::Texture& texture, Kind kind);
   /// What water and snow make of it.
-  Paint weathered(const Paint& paint, std::uint32_t triangle, Side side,
-                  const Eigen::Vector3f& barycentric) const;
+  Paint weathered(const Paint& paint, const TriangleSide& side, const Eigen::Vector3f& barycentric) const;
   Eigen::Vector2f coordinates(std::uint32_t triangle, const Eigen::Vector3f& barycentric, int set) const;
   /// Of one of `thumbnails`, at a place in the texture `texture`.
   Eigen::Array3f look(const std::vector<Thumbnail>& thumbnails, int texture, const Eigen::Vector2f& uv) const;

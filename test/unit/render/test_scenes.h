@@ -4,7 +4,10 @@
 #include <Eigen/Geometry>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "sunlit/light/luminance_error.h"
+#include "sunlit/light/reference.h"
 #include "sunlit/quantity/frames.h"
 #include "sunlit/render/renderer.h"
 #include "sunlit/scene/scene.h"
@@ -75,6 +78,26 @@ inline scene::Scene yard() {
   addBlock(&scene, wall, {5.0f, -4.0f, 3.5f}, {3.0f, 6.0f, 0.2f});
   addBlock(&scene, box, {2.0f, 3.0f, 0.0f}, {2.0f, 2.0f, 1.5f});
   return scene;
+}
+
+/// Of a picture of 64 × 48 px, against light traced by so many paths a pixel, under suns of these elevations.
+inline std::vector<light::LuminanceError> errorsAgainstTraced(const light::World& world,
+                                                              const Eigen::Isometry3d& map_from_optical,
+                                                              const std::vector<double>& elevations_deg,
+                                                              int samples_per_pixel) {
+  render::Renderer renderer(world, smallCamera(64, 48, 90.0));
+  renderer.look(map_from_optical);
+  std::vector<sky::Daylight> days;
+  for (const double elevation : elevations_deg) days.push_back(daylightAt(230.0, elevation));
+  light::ReferenceOptions reference;
+  reference.samples_per_pixel = samples_per_pixel;
+  const std::vector<light::Traced> traced =
+      light::traceReference(renderer.surfaces(), world, days, reference);
+  std::vector<light::LuminanceError> errors;
+  for (std::size_t i = 0; i < days.size(); ++i)
+    errors.push_back(light::luminanceError(renderer.light(light::illumination(world, days[i])), traced[i],
+                                           renderer.surfaces()));
+  return errors;
 }
 
 }  // namespace sunlit::test

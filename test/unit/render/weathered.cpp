@@ -59,19 +59,11 @@ TEST(Weathered, NothingLeftIsTheDryWorldToTheBit) {
 
 /// Against path-traced light under suns at these elevations.
 void expectAgrees(const scene::SurfaceState& left, double mean, double p95) {
-  const light::World world = bakedYard(left);
-  render::Renderer renderer(world, smallCamera(64, 48, 90.0));
-  renderer.look(view());
   const std::vector<double> elevations = {60.0, 20.0, -4.0};
-  std::vector<sky::Daylight> days;
-  for (const double elevation : elevations) days.push_back(daylightAt(230.0, elevation));
-  light::ReferenceOptions reference;
-  reference.samples_per_pixel = 1024;
-  const std::vector<light::Traced> traced =
-      light::traceReference(renderer.surfaces(), world, days, reference);
-  for (std::size_t i = 0; i < days.size(); ++i) {
-    const light::LuminanceError error = light::luminanceError(
-        renderer.light(light::illumination(world, days[i])), traced[i], renderer.surfaces());
+  const std::vector<light::LuminanceError> errors =
+      errorsAgainstTraced(bakedYard(left), view(), elevations, 1024);
+  for (std::size_t i = 0; i < elevations.size(); ++i) {
+    const light::LuminanceError& error = errors[i];
     EXPECT_LT(error.mean, mean) << elevations[i];
     EXPECT_LT(error.p95, p95) << elevations[i];
     EXPECT_LT(std::abs(error.bias), 0.03) << elevations[i];

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "light/geometry/triangle_side.h"
 #include "sunlit/light/illumination.h"
 
 namespace sunlit::light {
@@ -21,12 +22,7 @@ struct LightPlace {
   bool known() const { return node[0] != kNowhere; }
 };
 
-/// One side of a triangle of the scene that was baked.
-struct TriangleSide {
-  std::uint32_t triangle;
-  bool front;
-};
-/// Of a point of it, given by its barycentric coordinates.
+/// Of a point of a side, given by its barycentric coordinates.
 LightPlace lightPlace(const LightMesh& mesh, const TriangleSide& side, const std::array<float, 3>& within);
 
 /// Illuminance at a place between `nodes`, lx.

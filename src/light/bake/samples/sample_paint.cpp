@@ -72,13 +72,13 @@ void paintSamples(const Geometry& geometry, SceneSamples* samples) {
     const auto& c = geometry.triangles[t];
     const Eigen::Vector3f a = geometry.positions[c[0]];
     const float whole = (geometry.positions[c[1]] - a).cross(geometry.positions[c[2]] - a).norm();
-    for (const auto side : {Reflectances::Side::kFront, Reflectances::Side::kBack}) {
-      const std::uint32_t root = mesh.roots[t][side == Reflectances::Side::kFront ? 0 : 1];
+    for (const bool front : {true, false}) {
+      const std::uint32_t root = mesh.roots[t][front ? 0 : 1];
       if (!LightMesh::isCell(root)) continue;
       visitLeaves(mesh, root, Eigen::Matrix3f::Identity(),
                   [&](const LightMesh::Cell& cell, const Eigen::Matrix3f& corners) {
                     const std::optional<Paint>& pane = glass[static_cast<std::size_t>(geometry.materials[t])];
-                    const Paint paint = pane ? *pane : reflectances.at(t, side, corners.rowwise().mean());
+                    const Paint paint = pane ? *pane : reflectances.at({t, front}, corners.rowwise().mean());
                     const float area = whole * std::abs(corners.determinant());
                     for (std::uint32_t node : cell.corner) {
                       const std::uint32_t sample = samples->nearest_sample[node];

@@ -55,9 +55,8 @@ class BodyLight::Implementation {
 
  private:
   void castFrom(std::uint32_t body, const Eigen::Vector3f& middle, Views* views) const;
-  Eigen::Array3f reflectanceAt(std::uint32_t triangle, bool front, const Eigen::Vector3f& barycentric) const {
-    const auto side = front ? Reflectances::Side::kFront : Reflectances::Side::kBack;
-    return reflectance(reflectances_.at(triangle, side, barycentric), kMeanView).all();
+  Eigen::Array3f reflectanceAt(const TriangleSide& side, const Eigen::Vector3f& barycentric) const {
+    return reflectance(reflectances_.at(side, barycentric), kMeanView).all();
   }
   void keep(std::uint32_t body, std::uint32_t direction, const Hit& hit, Views* views) const;
   static Eigen::Array3f arriving(const Met& met, const Illumination& light);
@@ -95,7 +94,7 @@ void BodyLight::Implementation::keep(std::uint32_t body, std::uint32_t direction
     light = lightPlace(world_.transport->data().mesh, {hit.triangle, front}, within);
   }
   views->met.push_back({body, direction, static_cast<std::size_t>(geometry.materials[hit.triangle]),
-                        reflectanceAt(hit.triangle, front, weights), normal, position + clear * normal,
+                        reflectanceAt({hit.triangle, front}, weights), normal, position + clear * normal,
                         light});
 }
 
