@@ -100,6 +100,11 @@ def clock_times(text):
 TIMES = ("hour", "minute", "second", "year", "month", "day")
 WEATHER = ("cover", "optical_depth", "overcast", "visibility", "fog_top", "rain", "cloud_base", "wind", "wind_from", "cloud_seed",
            "wet", "puddles", "snow", "ground_seed")
+# What of its own a camera has in one of the conditions, by where the renderer has it.
+CAMERA = {"vignetting": ("vignetting", "natural"), "glare": ("glare", "share"), "blur": ("blur", "sigma"),
+          "line_delay": ("shutter", "line_delay"), "exposure_time": ("shutter", "exposure_time"),
+          "adaptation": ("exposure", "adaptation"), "exposure": ("exposure", "mode"), "ev100": ("exposure", "ev100"),
+          "noise": ("noise", "enabled"), "mosaic": ("mosaic", "pattern")}
 
 
 def conditions(text, hours):
@@ -118,10 +123,11 @@ def conditions(text, hours):
         if not isinstance(differs, dict) or not is_number(differs.get("hour")) or not 0 <= differs["hour"] < 24:
             raise BadArgument("conditions", text, f"with an hour, at least 0 and below 24, for {name}: {allowed}")
         for key in differs:
-            if key not in TIMES + WEATHER:
-                near = difflib.get_close_matches(str(key), TIMES + WEATHER, 1)
+            known = (*TIMES, *WEATHER, *CAMERA)
+            if key not in known:
+                near = difflib.get_close_matches(str(key), known, 1)
                 raise BadArgument("conditions", text, f"without {key} in {name}"
-                                  + (f" (did you mean {near[0]}?)" if near else f"; known are {', '.join(TIMES + WEATHER)}"))
+                                  + (f" (did you mean {near[0]}?)" if near else f"; known are {', '.join(known)}"))
         (of_hour,) = clock_times(str(differs["hour"])).values()
         found[name] = {**of_hour, **{key: value for key, value in differs.items() if key != "hour"}}
     return found
@@ -132,11 +138,17 @@ def times_of(asked):
     return {name: {key: value for key, value in one.items() if key in TIMES} for name, one in asked.items()}
 
 
-def weathers_of(asked):
-    """What is the business of the renderers: a list of names where there is no weather."""
-    weathers = {name: {key: value for key, value in one.items() if key in WEATHER} for name, one in asked.items()}
+def rendered_of(asked):
+    """What is the business of the renderers, weather and camera: a list of names where there is none."""
+    rendered = {}
+    for name, one in asked.items():
+        rendered[name] = {key: value for key, value in one.items() if key in WEATHER}
+        for key, value in one.items():
+            if key in CAMERA:
+                group, row = CAMERA[key]
+                rendered[name].setdefault(group, {})[row] = value
     # A map without keys would get lost on its way through the parameter server.
-    return {name: weather or {"cover": 0} for name, weather in weathers.items()} if any(weathers.values()) else list(weathers)
+    return {name: one or {"cover": 0} for name, one in rendered.items()} if any(rendered.values()) else list(rendered)
 
 
 def date_time(date, timezone):

@@ -14,7 +14,7 @@ FRAME_RATE_HZ = 10.0
 # What the evaluator writes down beside its results, as it was typed.
 ABOUT = ("world", "robot", "path", "site", "date", "timezone", "hours", "conditions", "spacing", "offset", "yaw", "exposure", "ev100",
          "highlight_protection", "final_gather", "rasterizer", "night", "lamps", "noise", "noise_seed", "vignetting", "glare",
-         "mosaic", "turbidity", "ozone", "ground_albedo")
+         "blur", "mosaic", "line_delay", "exposure_time", "speed", "adaptation", "turbidity", "ozone", "ground_albedo")
 
 
 @dataclasses.dataclass
@@ -38,10 +38,11 @@ def check(typed):
         read.flag(name, typed[name])
     for name in ("width", "height", "noise_seed", "final_gather", "max_ahead"):
         read.whole(name, typed[name])
-    for name in ("horizontal_fov", "camera_height", "offset", "yaw", "ev100", "highlight_protection", "glare", "turbidity",
-                 "ozone", "baseline"):
+    for name in ("horizontal_fov", "camera_height", "offset", "yaw", "ev100", "highlight_protection", "adaptation", "glare", "blur",
+                 "line_delay", "turbidity", "ozone", "baseline"):
         read.number(name, typed[name])
-    read.number_or_auto("ground_albedo", typed["ground_albedo"])
+    for name in ("ground_albedo", "exposure_time", "speed"):
+        read.number_or_auto(name, typed[name])
     read.date_time(typed["date"], typed["timezone"])
     read.site(typed["site"])
     read.folders(typed["model_path"])
@@ -134,23 +135,28 @@ def _renderer(typed, given, places, beginning):
     # Without a name, the renderer draws by the first that was built.
     rasterizer = {"rasterizer": typed["rasterizer"]} if typed["rasterizer"] else {}
     return {
-        "conditions": read.weathers_of(conditions(typed)),
+        "conditions": read.rendered_of(conditions(typed)),
         "world": read.file(typed["world"]),
         "model_path": read.folders(typed["model_path"]),
         "missing": typed["missing"],
         "robot": {"file": read.robot(typed["robot"], places["robots"])},
         "path": {"file": read.file(typed["path"]), "spacing": read.number("spacing", typed["spacing"]),
                  "camera_height": read.number("camera_height", typed["camera_height"]), "count": beginning.poses,
-                 "offset": read.number("offset", typed["offset"]), "yaw": read.number("yaw", typed["yaw"])},
+                 "offset": read.number("offset", typed["offset"]), "yaw": read.number("yaw", typed["yaw"]),
+                 "speed": read.number_or_auto("speed", typed["speed"])},
         "camera": {**_camera(typed, given), **rasterizer},
         "exposure": {"mode": typed["exposure"], "ev100": read.number("ev100", typed["ev100"]),
-                     "highlight_protection": read.number("highlight_protection", typed["highlight_protection"])},
+                     "highlight_protection": read.number("highlight_protection", typed["highlight_protection"]),
+                     "adaptation": read.number("adaptation", typed["adaptation"])},
+        "shutter": {"line_delay": read.number("line_delay", typed["line_delay"]),
+                    "exposure_time": read.number_or_auto("exposure_time", typed["exposure_time"])},
         "transport": {"final_gather": read.whole("final_gather", typed["final_gather"])},
         "night": {"enabled": read.flag("night", typed["night"])},
         "lamps": typed["lamps"],
         "noise": {"enabled": read.flag("noise", typed["noise"]), "seed": read.whole("noise_seed", typed["noise_seed"])},
         "vignetting": {"natural": typed["vignetting"]},
         "glare": {"share": read.number("glare", typed["glare"])},
+        "blur": {"sigma": read.number("blur", typed["blur"])},
         "mosaic": {"pattern": typed["mosaic"]},
         "atmosphere": {"turbidity": read.number("turbidity", typed["turbidity"]),
                        "ozone": read.number("ozone", typed["ozone"]),

@@ -69,11 +69,6 @@ class Painter {
 
 }  // namespace
 
-double exposureTime_s(double ev100) {
-  constexpr double kStop = 2.8, kLongest_s = 1.0 / 30.0;
-  return std::min(kStop * kStop / std::exp2(ev100), kLongest_s);
-}
-
 void addRain(const RainStreaks& rain, const RainedView& view, LinearImage* picture) {
   if (!(rain.mm_per_h > 0.0)) return;
   const PinholeCamera& camera = view.camera;

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
+#include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "render/image_motion.h"
 #include "render/lens_canvas.h"
 #include "render/rasterizer.h"
 #include "render/resolve.h"
@@ -16,19 +20,55 @@
 namespace sunlit::render {
 namespace {
 
-View viewOf(const RenderOptions& options) {
+const RenderOptions& checked(const RenderOptions& options) {
   validate(options);
-  View view;
-  view.camera = options.camera;
-  view.supersampling = options.supersampling;
-  view.near_m = options.near_m;
-  view.far_m = options.far_m;
-  return view;
+  return options;
 }
 
-std::shared_ptr<LensCanvas> lensOf(const RenderOptions& options) {
-  if (options.distortion.none()) return nullptr;
-  return std::make_shared<LensCanvas>(image::Lens(options.camera, options.distortion), options.supersampling);
+/// What a camera sees by, wherever it stands.
+struct Optics {
+  View view;                         // without a pose
+  std::shared_ptr<LensCanvas> lens;  // null: a pinhole
+};
+
+/// Of `options`, by another camera of the same lens.
+Optics opticsOf(const RenderOptions& options, const image::PinholeCamera& camera) {
+  Optics optics;
+  optics.view.camera = camera;
+  optics.view.supersampling = options.supersampling;
+  optics.view.near_m = options.near_m;
+  optics.view.far_m = options.far_m;
+  if (!options.distortion.none()) {
+    optics.lens =
+        std::make_shared<LensCanvas>(image::Lens(camera, options.distortion), options.supersampling);
+    optics.view.lens = optics.lens;
+  }
+  return optics;
+}
+
+/// Rows of the picture that see at one moment.
+struct Band {
+  int first_row, rows;
+  Optics optics;
+
+  /// After the first row of the picture.
+  double middle_s(double line_delay_s) const { return (first_row + 0.5 * (rows - 1)) * line_delay_s; }
+};
+
+std::vector<Band> bandsOf(const RenderOptions& options, int count) {
+  std::vector<Band> bands;
+  const int rows = (options.camera.height + count - 1) / count;
+  for (int first = 0; first < options.camera.height; first += rows) {
+    const int of_band = std::min(rows, options.camera.height - first);
+    bands.push_back({first, of_band, opticsOf(options, rowsOf(options.camera, first, of_band))});
+  }
+  return bands;
+}
+
+/// Adds `part` to the rows of `whole` from `first` on.
+void addRows(const image::LinearImage& part, int first, float weight, image::LinearImage* whole) {
+  float* const to = whole->at(0, first);
+  for (std::size_t i = 0; i < part.data.size(); ++i) to[i] += weight * part.data[i];
 }
 
 const light::World& firstOf(const std::vector<light::World>& states) {
@@ -46,9 +86,8 @@ bool same(const BodyPlaces& a, const BodyPlaces& b) {
 class Renderer::Implementation {
  public:
   Implementation(const std::vector<light::World>& states, const RenderOptions& options)
-      : options_(options),
-        view_(viewOf(options)),
-        lens_(lensOf(options)),
+      : options_(checked(options)),
+        optics_(opticsOf(options, options.camera)),
         world_(firstOf(states)),
         pyramids_(*world_.geometry->scene),
         maps_(*world_.geometry->scene,
@@ -62,18 +101,44 @@ class Renderer::Implementation {
     const bool drawn_ahead = !ahead_.samples.empty() &&
                              ahead_.view.map_from_optical.matrix() == map_from_optical.matrix() &&
                              same(ahead_.map_from_body, map_from_body);
-    if (!drawn_ahead) draw(map_from_optical, map_from_body, ahead_);
+    if (!drawn_ahead) lookAhead(map_from_optical, map_from_body);
     std::swap(seen_, ahead_);
     ahead_.samples.clear();
   }
 
   void lookAhead(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {
-    draw(map_from_optical, map_from_body, ahead_);
+    const std::lock_guard<std::mutex> lock(drawing_);
+    draw({optics_, map_from_optical, map_from_body}, std::nullopt, ahead_);
   }
 
   image::LinearImage light(const light::Illumination& light, std::size_t state) const {
     requireLook();
     return seen_.pictures.at(state).illuminate(light);
+  }
+
+  image::LinearImage light(const light::Illumination& light, std::size_t state, const UnderWay& way) {
+    requireLook();
+    const double speed_px_s = speedOf(way);
+    const int height = options_.camera.height;
+    const int exposures = exposuresOf(speed_px_s * way.exposure_s, way.exposures);
+    const int bands = bandsOf(speed_px_s * way.line_delay_s * height, height);
+    if (exposures == 1 && bands == 1) return this->light(light, state);
+    const std::lock_guard<std::mutex> lock(drawing_);
+    image::LinearImage mean(options_.camera.width, height);
+    for (int i = 0; i < exposures; ++i) {
+      const double moment_s = ((i + 0.5) / exposures - 0.5) * way.exposure_s;
+      for (const Band& band : dividedInto(bands)) {
+        drawMoved(band.optics, way.motion, moment_s + band.middle_s(way.line_delay_s), state);
+        addRows(moved_.pictures.at(state).illuminate(light), band.first_row,
+                1.0f / static_cast<float>(exposures), &mean);
+      }
+    }
+    return mean;
+  }
+
+  int exposures(const UnderWay& way) const {
+    requireLook();
+    return exposuresOf(speedOf(way) * way.exposure_s, way.exposures);
   }
 
   std::vector<image::LightOutside> lightsOutside(const light::Illumination& light) const {
@@ -129,32 +194,64 @@ class Renderer::Implementation {
     return std::make_shared<light::Visibility>(world.visibility, seen.bodies);
   }
 
-  void draw(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body, Pose& seen) {
-    if (!map_from_optical.matrix().allFinite()) throw std::invalid_argument("map_from_optical is not finite");
+  /// From where, by what, and where all stands.
+  struct Stand {
+    const Optics& optics;
+    const Eigen::Isometry3d& map_from_optical;
+    const BodyPlaces& map_from_body;
+  };
+
+  /// Prepares pictures of all states, or of `only` one. Of drawing_.
+  void draw(const Stand& from, std::optional<std::size_t> only, Pose& seen) {
+    if (!from.map_from_optical.matrix().allFinite())
+      throw std::invalid_argument("map_from_optical is not finite");
     seen.samples.clear();  // so that nobody takes a pose that failed for one that was drawn
-    place(map_from_body, seen);
-    seen.view = view_;
-    seen.view.lens = lens_;
-    seen.view.map_from_optical = map_from_optical;
+    place(from.map_from_body, seen);
+    seen.view = from.optics.view;
+    seen.view.map_from_optical = from.map_from_optical;
     try {
-      if (lens_)
-        lens_->draw(rasterizer_.get(), bufferOf(seen), &seen.samples);
+      if (from.optics.lens)
+        from.optics.lens->draw(rasterizer_.get(), bufferOf(seen), &seen.samples);
       else
         rasterizer_->draw(seen.view, seen.bodies.get(), &seen.samples);
-      resolve(seen);
+      resolve(only, seen);
     } catch (...) {
       seen.samples.clear();
       throw;
     }
   }
 
-  void resolve(Pose& seen) {
+  /// What look() looks at, from where it is seen `seconds` later.
+  void drawMoved(const Optics& optics, const Motion& motion, double seconds, std::size_t state) {
+    const Eigen::Isometry3d moved = motion.after(seconds, seen_.view.eye());
+    BodyPlaces bodies = seen_.map_from_body;
+    for (Eigen::Isometry3d& map_from_body : bodies) map_from_body = moved * map_from_body;
+    draw({optics, moved * seen_.view.map_from_optical, bodies}, state, moved_);
+  }
+
+  /// Of what look() looks at over the picture, px/s.
+  double speedOf(const UnderWay& way) const {
+    if (way.none()) return 0.0;
+    const Eigen::Matrix3d optical_from_map = seen_.view.map_from_optical.linear().transpose();
+    return imageMotion_px_s(
+        depth(), image::Lens(options_.camera, options_.distortion),
+        {optical_from_map * way.motion.velocity_m_s, optical_from_map * way.motion.turning_rad_s});
+  }
+
+  const std::vector<Band>& dividedInto(int count) {
+    std::vector<Band>& bands = bands_[count];
+    if (bands.empty()) bands = bandsOf(options_, count);
+    return bands;
+  }
+
+  void resolve(std::optional<std::size_t> only, Pose& seen) {
     seen.pictures.resize(states_.size());
-    light::Surfaces dry = seen.pictures.back().takeSurfaces();
+    const std::size_t begin = only ? *only : 0, end = only ? *only + 1 : states_.size();
+    light::Surfaces dry = seen.pictures.at(end - 1).takeSurfaces();
     resolveSurfaces(bufferOf(seen), &dry);
-    for (std::size_t i = 0; i < states_.size(); ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
       const light::World& world = states_[i].world;
-      light::Surfaces surfaces = i + 1 < states_.size() ? dry : std::move(dry);
+      light::Surfaces surfaces = i + 1 < end ? dry : std::move(dry);
       weatherSurfaces(*world.geometry, &surfaces);
       states_[i].preparer.prepare(
           {std::move(surfaces), i == 0 ? seen.visibility : visibilityOf(world, seen), seen.map_from_body},
@@ -179,15 +276,17 @@ class Renderer::Implementation {
   }
 
   RenderOptions options_;
-  View view_;                         // without a pose
-  std::shared_ptr<LensCanvas> lens_;  // null: a pinhole
-  light::World world_;                // in the first of its states
-  TexturePyramids pyramids_;          // before the rasterizer, which refers to them
+  Optics optics_;
+  light::World world_;        // in the first of its states
+  TexturePyramids pyramids_;  // before the rasterizer, which refers to them
   SurfaceMaps maps_;
   std::unique_ptr<Rasterizer> rasterizer_;
   std::deque<State> states_;  // which stay where they are
   Pose seen_;
+  std::mutex drawing_;  // of all below, and of rasterizer_, lenses and preparers
   Pose ahead_;
+  Pose moved_;                              // a part of what a moving camera sees
+  std::map<int, std::vector<Band>> bands_;  // by how many, once needed
 };
 
 Renderer::Renderer(const light::World& world, const RenderOptions& options)
@@ -206,6 +305,12 @@ void Renderer::lookAhead(const Eigen::Isometry3d& map_from_optical, const BodyPl
 }
 image::LinearImage Renderer::light(const light::Illumination& light, std::size_t state) const {
   return implementation_->light(light, state);
+}
+image::LinearImage Renderer::light(const light::Illumination& light, std::size_t state, const UnderWay& way) {
+  return implementation_->light(light, state, way);
+}
+int Renderer::exposures(const UnderWay& way) const {
+  return implementation_->exposures(way);
 }
 std::vector<image::LightOutside> Renderer::lightsOutside(const light::Illumination& light) const {
   return implementation_->lightsOutside(light);

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studio/camera.h"
 #include "studio/tell.h"
-#include "sunlit/image/mean_luminance.h"
-#include "sunlit/image/rain_streaks.h"
-#include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/frames.h"
 
 namespace sunlit::studio {
@@ -35,36 +33,13 @@ double topOf(const scene::Scene& scene) {
 
 /// Before anything that takes time. Throws std::invalid_argument.
 const StudioOptions& checked(const StudioOptions& options) {
-  image::validate(options.exposure);
-  image::validate(options.noise);
-  image::validate(options.blur);
+  for (const ChainOptions& chain : options.chains) validate(chain);
   render::validate(options.render);
   light::validate(options.bake.transport);
   light::validate(options.lamps);
   for (const scene::SurfaceState& state : options.surfaces) scene::validate(state);
   render::requireStarts(options.render.rasterizer);
   return options;
-}
-
-/// A picture that is about to be developed.
-struct Exposed {
-  std::int64_t index;
-  double ev100;
-};
-
-/// The drops that fall before a camera meanwhile.
-void addRain(const render::Renderer& renderer, const sky::Daylight& day, const Exposed& exposed,
-             image::LinearImage* luminance) {
-  const sky::Rain rain = day.rain();
-  if (!(rain.mm_per_h > 0.0)) return;
-  // A drop gathers what is before the camera, and what is above.
-  const Eigen::Array3f before = image::meanLuminance(*luminance).cast<float>();
-  const Eigen::Array3f above = day.groundIlluminance().value / kPiFloat;
-  const image::RainStreaks streaks{rain.mm_per_h, rain.seed, exposed.index,
-                                   image::exposureTime_s(exposed.ev100), 0.5f * (before + above)};
-  const Eigen::Vector3d down = -renderer.surfaces().map_from_optical.row(2).transpose();
-  const image::DepthImage depth = renderer.depth();
-  image::addRain(streaks, {renderer.options().camera, down, depth}, luminance);
 }
 
 /// What draws for the right camera: as for the left, but for the lens.
@@ -79,15 +54,16 @@ Eigen::Isometry3d mapFromRight(const Eigen::Isometry3d& map_from_camera, const S
   return map_from_camera * linkFromOptical() * options.right->left_from_right;
 }
 
+/// The motion of what is fixed to a thing that moves, `away` from it in `map`.
+Motion carried(const Motion& motion, const Eigen::Vector3d& away) {
+  return {motion.velocity_m_s + motion.turning_rad_s.cross(away), motion.turning_rad_s};
+}
+
 }  // namespace
 
-Studio::Camera::Camera(const render::RenderOptions& render, const StudioOptions& options)
-    : vignetting(image::Lens(render.camera, render.distortion), options.vignetting),
-      glare(vignetting, options.glare) {}
-
 Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& robot, const Reports& reports)
-    : options_(checked(options)), camera_(options.render, options) {
-  if (options.right) right_.emplace(rightRender(options), options);
+    : options_(checked(options)), camera_(std::make_unique<Camera>(options.render, options.chains)) {
+  if (options.right) right_ = std::make_unique<Camera>(rightRender(options), options.chains);
   const light::World dry =
       stopwatch_.measure("load", "world", [&] { return loadWorld(options.world, robot, reports); });
   requireGroups(dry, options.lamps, reports);
@@ -98,13 +74,11 @@ Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& 
     world.transport =
         stopwatch_.measure("load", "transport", [&] { return bake(world, options.bake, reports); });
   }
-  camera_.renderer = stopwatch_.measure(
-      "load", "renderer", [&] { return std::make_unique<render::Renderer>(worlds_, options.render); });
-  if (right_) {
-    right_->renderer = stopwatch_.measure(
-        "load", "right", [&] { return std::make_unique<render::Renderer>(worlds_, rightRender(options)); });
-  }
+  stopwatch_.measure("load", "renderer", [&] { camera_->enter(worlds_); });
+  if (right_) stopwatch_.measure("load", "right", [&] { right_->enter(worlds_); });
 }
+
+Studio::~Studio() = default;
 
 image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylight& daylight) const {
   constexpr double kLongSidePx = 1600.0;
@@ -148,24 +122,25 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylig
   return image::develop(whole, image::chooseEv100(whole, image::ExposureOptions{}));
 }
 
-void Studio::look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links) {
+void Studio::look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links,
+                  const Motion& motion) {
   stopwatch_.measure("geometry", "pose",
-                     [&] { camera_.renderer->look(map_from_camera * linkFromOptical(), map_from_links); });
+                     [&] { camera_->look(map_from_camera * linkFromOptical(), map_from_links, motion); });
   if (right_) {
     stopwatch_.measure("geometry", "right", [&] {
-      right_->renderer->look(mapFromRight(map_from_camera, options_), map_from_links);
+      const Eigen::Isometry3d map_from_right = mapFromRight(map_from_camera, options_);
+      right_->look(map_from_right, map_from_links,
+                   carried(motion, map_from_right.translation() - map_from_camera.translation()));
     });
   }
 }
 
 void Studio::lookAhead(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links) {
-  stopwatch_.measure("geometry", "ahead", [&] {
-    camera_.renderer->lookAhead(map_from_camera * linkFromOptical(), map_from_links);
-  });
+  stopwatch_.measure("geometry", "ahead",
+                     [&] { camera_->lookAhead(map_from_camera * linkFromOptical(), map_from_links); });
   if (right_) {
-    stopwatch_.measure("geometry", "right ahead", [&] {
-      right_->renderer->lookAhead(mapFromRight(map_from_camera, options_), map_from_links);
-    });
+    stopwatch_.measure("geometry", "right ahead",
+                       [&] { right_->lookAhead(mapFromRight(map_from_camera, options_), map_from_links); });
   }
 }
 
@@ -174,37 +149,28 @@ light::Illumination Studio::illumination(const sky::Daylight& daylight, std::siz
 }
 
 Developed Studio::photograph(const light::Illumination& light, const image::PictureName& name,
-                             std::size_t state) {
-  return expose(camera_, {light, state}, name, std::nullopt);
+                             const Setting& setting) {
+  return camera_->photograph({light, name, setting}, std::nullopt, &stopwatch_);
+}
+
+double Studio::meter(const light::Illumination& light, const image::PictureName& name,
+                     const Setting& setting) {
+  return camera_->meter({light, name, setting}, &stopwatch_);
 }
 
 image::Rgb8Image Studio::photographRight(const light::Illumination& light, const image::PictureName& name,
-                                         double ev100, std::size_t state) {
+                                         double ev100, const Setting& setting) {
   // No name of a condition has a space.
-  return expose(*right_, {light, state}, {name.index, name.series + " right"}, ev100).picture;
-}
-
-Developed Studio::expose(const Camera& camera, const Lit& lit, const image::PictureName& name,
-                         std::optional<double> ev100) {
-  image::LinearImage luminance =
-      stopwatch_.measure("light", name.series, [&] { return camera.renderer->light(lit.light, lit.state); });
-  return stopwatch_.measure("develop", name.series, [&] {
-    if (!camera.vignetting.none()) camera.vignetting.apply(&luminance);
-    if (!camera.glare.none()) camera.glare.apply(camera.renderer->lightsOutside(lit.light), &luminance);
-    image::blur(options_.blur, &luminance);
-    const double exposed = ev100 ? *ev100 : image::chooseEv100(luminance, options_.exposure);
-    addRain(*camera.renderer, lit.light.day, {name.index, exposed}, &luminance);
-    if (options_.noise.enabled) image::addSensorNoise(exposed, options_.noise, name, &luminance);
-    return Developed{image::throughMosaic(image::develop(luminance, exposed), options_.mosaic), exposed};
-  });
+  const image::PictureName of_right{name.index, name.series + " right"};
+  return right_->photograph({light, of_right, setting}, ev100, &stopwatch_).picture;
 }
 
 std::string Studio::rasterizer() const {
-  return camera_.renderer->rasterizer();
+  return camera_->rasterizer();
 }
 
 image::DepthImage Studio::depth() {
-  return stopwatch_.measure("depth", "pose", [&] { return camera_.renderer->depth(); });
+  return stopwatch_.measure("depth", "pose", [&] { return camera_->depth(); });
 }
 
 }  // namespace sunlit::studio

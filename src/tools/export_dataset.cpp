@@ -81,8 +81,8 @@ class Camera {
   }
 
   /// Returns how many pictures it took: of those hours that do not have the frame.
-  int take(const DataSetFrame& frame, std::vector<Hour>* hours) {
-    studio_.look(frame.map_from_camera);
+  int take(const DataSetFrame& frame, const Motion& motion, std::vector<Hour>* hours) {
+    studio_.look(frame.map_from_camera, {}, motion);
     const image::DepthImage depth = studio_.depth();
     int taken = 0;
     for (std::size_t i = 0; i < hours->size(); ++i) {
@@ -103,19 +103,20 @@ class Camera {
   std::vector<light::Illumination> lights_;  ///< of each hour
 };
 
-std::vector<DataSetFrame> missingFrames(const ExportOptions& options, const std::vector<Hour>& hours) {
-  std::vector<DataSetFrame> missing;
-  for (const DataSetFrame& frame : options.frames) {
-    const bool is_there =
-        std::all_of(hours.begin(), hours.end(), [&](const Hour& hour) { return hour.has(frame); });
-    if (!is_there) missing.push_back(frame);
+/// Numbers of those frames that an hour lacks.
+std::vector<std::size_t> missingFrames(const ExportOptions& options, const std::vector<Hour>& hours) {
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < options.frames.size(); ++i) {
+    const bool is_there = std::all_of(hours.begin(), hours.end(),
+                                      [&](const Hour& hour) { return hour.has(options.frames[i]); });
+    if (!is_there) missing.push_back(i);
   }
   return missing;
 }
 
 void makePictures(const ExportOptions& options, const FolderRecipe& recipe, std::vector<Hour>* hours) {
   using Clock = std::chrono::steady_clock;
-  const std::vector<DataSetFrame> wanted = missingFrames(options, *hours);
+  const std::vector<std::size_t> wanted = missingFrames(options, *hours);
   if (wanted.size() < options.frames.size())
     std::printf("%zu poses are there already\n", options.frames.size() - wanted.size());
   if (wanted.empty()) return;
@@ -123,8 +124,8 @@ void makePictures(const ExportOptions& options, const FolderRecipe& recipe, std:
   recipe.note();  // not before the world was found to be one
   const Clock::time_point begin = Clock::now();
   for (std::size_t done = 0; done < wanted.size();) {
-    const DataSetFrame& frame = wanted[done];
-    const int taken = camera->take(frame, hours);
+    const DataSetFrame& frame = options.frames[wanted[done]];
+    const int taken = camera->take(frame, options.motions[wanted[done]], hours);
     ++done;
     const double spent_s = std::chrono::duration<double>(Clock::now() - begin).count();
     const double left_s = spent_s / static_cast<double>(done) * static_cast<double>(wanted.size() - done);

@@ -27,6 +27,7 @@ struct Words {
   CameraWords camera;
   SensorWords sensor;
   PathWords path;
+  std::optional<double> speed_m_s;  ///< nothing: from stamp to stamp
   std::vector<std::string> places;  ///< OUTPUT
 };
 
@@ -80,14 +81,17 @@ std::string outputOf(const std::vector<std::string>& places) {
   return places[0];
 }
 
-std::vector<DataSetFrame> framesOf(const PathWords& path, const ExportOptions& options) {
-  const std::vector<Eigen::Isometry3d> poses = posesOf(path, options.studio.world);
-  std::vector<DataSetFrame> frames;
-  const int end = path.selection.end(static_cast<int>(poses.size()));
-  for (int i = path.selection.first; i < end; i += path.selection.stride)
-    frames.push_back(
-        {i, kStart_ns + path::nanosecondsTo(i, options.rate_hz), poses[static_cast<std::size_t>(i)]});
-  return frames;
+/// What is taken, and how the camera moves meanwhile.
+void layOut(const Words& words, ExportOptions* options) {
+  const path::PoseSelection& selection = words.path.selection;
+  const std::vector<Eigen::Isometry3d> poses = posesOf(words.path, options->studio.world);
+  const int end = selection.end(static_cast<int>(poses.size()));
+  for (int i = selection.first; i < end; i += selection.stride) {
+    options->frames.push_back(
+        {i, kStart_ns + path::nanosecondsTo(i, options->rate_hz), poses[static_cast<std::size_t>(i)]});
+    const Motion by_stamps = path::motionAt(poses, i, options->rate_hz);
+    options->motions.push_back(words.speed_m_s ? by_stamps.at(*words.speed_m_s) : by_stamps);
+  }
 }
 
 /// Throws for words that do not go together.
@@ -128,6 +132,12 @@ std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& 
   addPlace(&line, &options.place);
   addCamera(&line, &words.camera);
   addSensor(&line, &words.sensor);
+  addShutter(&line, &words.sensor);
+  line.add("--speed auto|M/S", {"speed",
+                                NumberOrWord{&words.speed_m_s, "auto"},
+                                "m/s",
+                                {0, 1000},
+                                "of the camera while a picture is taken; auto: as stamps say"});
   addWorld(&line, &options.studio.world);
   addBounced(&line, &options.studio.bake);
   addLamps(&line, &options.studio.lamps);
@@ -144,7 +154,7 @@ std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& 
     options.studio.right =
         image::idealRight(image::calibrationOf(options.data_set.camera), options.data_set.baseline_m, "");
   options.data_set.rate_hz = options.rate_hz / words.path.selection.stride;
-  options.frames = framesOf(words.path, options);
+  layOut(words, &options);
   options.recipe = recipeOf(line, {"--cache"}, options.studio.world.name);
   return options;
 }

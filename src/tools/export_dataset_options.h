@@ -21,6 +21,7 @@ struct ExportOptions {
   double rate_hz = 10.0;                         ///< of the poses of the whole path
   evaluate::DataSetOptions data_set;             ///< of the poses that are taken
   std::vector<evaluate::DataSetFrame> frames;    ///< one or more
+  std::vector<Motion> motions;                   ///< of the camera, one a frame
   std::string output;                            ///< folder
   std::vector<std::string> recipe;               ///< what decides what is written
 

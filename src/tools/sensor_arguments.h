@@ -10,12 +10,7 @@
 namespace sunlit::tools {
 
 struct SensorWords {
-  image::ExposureOptions exposure;  ///< but for its mode
-  image::NoiseOptions noise;
-  image::VignettingOptions vignetting;
-  image::GlareOptions glare;
-  image::BlurOptions blur;
-  image::MosaicOptions mosaic;
+  studio::ChainOptions chain;   ///< but for the mode of its exposure
   std::optional<double> ev100;  ///< empty: auto
 
   void putInto(studio::StudioOptions* options) const;
@@ -25,5 +20,7 @@ struct SensorWords {
 
 /// --ev, --compensation, --noise, and those of vignetting, glare, blur and mosaic.
 void addSensor(studio::CommandLine* line, SensorWords* words);
+/// Of tools whose camera moves: --line-delay, --exposure-time and --exposures.
+void addShutter(studio::CommandLine* line, SensorWords* words);
 
 }  // namespace sunlit::tools

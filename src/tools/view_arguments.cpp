@@ -15,6 +15,8 @@ ViewArguments::ViewArguments(studio::CommandLine* line) : line_(line) {
   addPlaces();
   addCamera(line_, &camera_);
   addSensor(line_, &sensor_);
+  addShutter(line_, &sensor_);
+  addDrive();
   addWorld(line_, &options_.studio.world);
   addBounced(line_, &options_.studio.bake);
   addLamps(line_, &options_.studio.lamps);
@@ -41,6 +43,12 @@ void ViewArguments::addPlaces() {
             "from straight above, north up, with a field of view of its own instead of --fov",
             fieldsOf(top_down_))
       .withoutDefault();
+}
+
+void ViewArguments::addDrive() {
+  line_->add("--speed M/S", {"speed", &drive_.speed_m_s, "m/s", {-1000, 1000}, "of the camera, forward"});
+  line_->add("--turning DEG/S",
+             {"turning", &drive_.turning_deg_s, "deg/s", {-3600, 3600}, "of the camera, to the left"});
 }
 
 void ViewArguments::placeTopDown(ViewOptions* options) const {
@@ -116,6 +124,8 @@ ViewOptions ViewArguments::options() const {
     placeFree(&options);
   }
   render::validate(options.studio.render);
+  const Eigen::Matrix3d& axes = options.map_from_camera.linear();
+  options.motion = {drive_.speed_m_s * axes.col(0), drive_.turning_deg_s * kRadPerDeg * axes.col(2)};
   return options;
 }
 

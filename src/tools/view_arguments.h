@@ -16,6 +16,13 @@ namespace sunlit::tools {
 struct ViewOptions {
   studio::StudioOptions studio;
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();  ///< x forward, z up
+  Motion motion;                                                      ///< of the camera
+};
+
+/// How a camera drives.
+struct Drive {
+  double speed_m_s = 0.0;
+  double turning_deg_s = 0.0;
 };
 
 /// A point that a camera is turned towards.
@@ -53,6 +60,7 @@ class ViewArguments {
 
  private:
   void addPlaces();
+  void addDrive();
   /// Throws for an option that another one makes meaningless.
   void requireThatAllCount() const;
   void placeTopDown(ViewOptions* options) const;
@@ -67,6 +75,7 @@ class ViewArguments {
   TopDown top_down_;
   int path_pose_ = 0;
   std::string path_file_;
+  Drive drive_;
   CameraWords camera_;
   SensorWords sensor_;
 };

@@ -36,7 +36,8 @@ SENSOR = {"--ev": "-16 … 24 EV, default auto", "--compensation": "-8 … 8 EV,
           "--vignetting": "none|cos4", "--falloff": "a3 (-10 … 10) (default 0,0,0)", "--glare": "0 … 0.2, default 0",
           "--glare-wings": "0 … 1, default 0.5", "--hood": "0 … 90 deg, default 60", "--blur": "0 … 10 px, default 0",
           "--mosaic": "none|rggb|bggr|grbg|gbrg", "--demosaic": "bilinear|vng|edge_aware"}
-VIEW = {**SENSOR, "--pose": "(default 0,0,1,0,0)", "--look-at": "towards a point", "--path-pose": "≥ 0",
+SHUTTER = {"--line-delay": "0 … 1000 us, default 0", "--exposure-time": "0 … 1000 ms, default 0", "--exposures": "2 … 64, default 16"}
+VIEW = {**SENSOR, **SHUTTER, "--speed": "-1000 … 1000 m/s, default 0", "--turning": "-3600 … 3600 deg/s, default 0", "--pose": "(default 0,0,1,0,0)", "--look-at": "towards a point", "--path-pose": "≥ 0",
         "--path": "CSV or TUM", "--top-down": "> 0 m"}
 # By detector, behind its name.
 SIFT = {"n-features": "0 … 1000000, default 0", "n-octave-layers": "1 … 10, default 3",
@@ -74,7 +75,8 @@ OPTIONS = {
                       "--view": "may be repeated", "--sun": "elevation (-90 … 90 deg)", "--moon": "0 … 180 deg",
                       "--every": "1 … 64 px, default 8", "--samples": "2 … 65536, default 256",
                       "--bounces": "0 … 64, default 16"},
-    "export_dataset": {**CAMERA, **WORLDS, **BOUNCED, **LAMPS, **PLACE, **SENSOR, "--format": "tum (TUM RGB-D), euroc",
+    "export_dataset": {**CAMERA, **WORLDS, **BOUNCED, **LAMPS, **PLACE, **SENSOR, **SHUTTER, "--speed": "0 … 1000 m/s, default auto",
+                       "--format": "tum (TUM RGB-D), euroc",
                        "--hours": "0 … < 24 h, default 12", "--rate": "0.001 … 1000 Hz, default 10",
                        "--depth-scale": "0.1 … 1000000 1/m, default 5000", "--baseline": "0 … 100 m, default 0", "--path": "CSV or TUM",
                        "--spacing": "0.001 … 1000 m, default 1", "--height": "-1000 … 1000 m, default 1",

@@ -18,6 +18,8 @@ struct ExposureOptions {
   double highlight_protection = 10.0;
   double min_ev100 = -8.0;
   double max_ev100 = 17.0;  ///< at least min_ev100
+  double adaptation = 1.0;  ///< see ExposureLag
+  int delay = 0;            ///< likewise
 };
 
 inline std::vector<Field> fieldsOf(ExposureOptions& options) {
@@ -43,7 +45,17 @@ inline std::vector<Field> fieldsOf(ExposureOptions& options) {
            &options.max_ev100,
            "EV",
            {-16, 24},
-           "auto: the brightest that it adapts to, min_ev100 at least"}};
+           "auto: the brightest that it adapts to, min_ev100 at least"},
+          {"adaptation",
+           &options.adaptation,
+           "",
+           {0.05, 1},
+           "auto: how far it goes from one picture to the next towards what it meters; 1: all the way"},
+          {"delay",
+           &options.delay,
+           "",
+           {0, 10},
+           "auto: pictures until what was metered is used; 3 or 4 are usual, 0 is at once"}};
 }
 
 /// Throws std::invalid_argument naming key, value and range.

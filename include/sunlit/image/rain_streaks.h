@@ -25,9 +25,6 @@ struct RainedView {
   const DepthImage& depth;
 };
 
-/// Time that a picture of this EV100 is exposed for: f/2.8 at ISO 100, 1/30 s at most.
-double exposureTime_s(double ev100);
-
 /// Drops of one picture, apart from those of others. Diameters are distributed as Marshall & Palmer (1948)
 /// found, N(D) = 8000 e^(−4.1 R^−0.21 D) per m³ and mm; each falls by 9.65 − 10.3 e^(−0.6 D) m/s (Atlas,
 /// Srivastava & Sekhon 1973), R in mm/h, D in mm. Of 1 mm up, and as far as 5 m, they are drawn one by one,

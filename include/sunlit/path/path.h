@@ -8,6 +8,7 @@
 
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/field.h"
+#include "sunlit/quantity/motion.h"
 
 namespace sunlit::path {
 
@@ -66,6 +67,10 @@ std::int64_t nanosecondsTo(int index, double rate_hz);
 /// std::invalid_argument naming the waypoint for fewer than two points, a coordinate that is not within
 /// ±10,000 km, two consecutive points less than 1 mm apart in plan view, or more than 10 million poses.
 std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const PathOptions& options);
+
+/// How a camera moves that is at `poses` one after another, so many a second, when it leaves pose `index`
+/// towards the next; at the last, as it came there. None of a single pose.
+Motion motionAt(const std::vector<Eigen::Isometry3d>& poses, int index, double rate_hz);
 
 /// Waypoints from a file: CSV (x,y,z or x,y a line, m; an optional header line; # comments) or TUM trajectory
 /// (timestamp tx ty tz qx qy qz qw, blank-separated; the orientation is not used). Which of the two is told

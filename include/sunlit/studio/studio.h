@@ -2,21 +2,19 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "sunlit/image/exposure.h"
-#include "sunlit/image/lens_blur.h"
-#include "sunlit/image/mosaic.h"
 #include "sunlit/image/sensor_noise.h"
 #include "sunlit/image/stereo.h"
-#include "sunlit/image/veiling_glare.h"
-#include "sunlit/image/vignetting.h"
 #include "sunlit/light/lamps.h"
+#include "sunlit/quantity/motion.h"
 #include "sunlit/render/renderer.h"
 #include "sunlit/scene/weathering.h"
+#include "sunlit/studio/chain.h"
 #include "sunlit/studio/stopwatch.h"
 #include "sunlit/studio/world.h"
 
@@ -26,17 +24,20 @@ struct StudioOptions {
   WorldOptions world;
   BakeOptions bake;
   render::RenderOptions render;
-  image::ExposureOptions exposure;
-  image::NoiseOptions noise;
   light::LampOptions lamps;
-  image::VignettingOptions vignetting;
-  image::GlareOptions glare;
-  image::BlurOptions blur;
-  image::MosaicOptions mosaic;
-  /// States of the world's surfaces that pictures are taken in, one at least; their numbers are the `state`
-  /// of Studio's functions.
+  /// States of the world's surfaces that pictures are taken in, one at least.
   std::vector<scene::SurfaceState> surfaces = {{}};
+  /// What they are taken with, one at least.
+  std::vector<ChainOptions> chains = {{}};
   std::optional<image::RightCamera> right = {};  ///< beside the camera of `render`, which is the left one
+};
+
+/// In what, and with what, a picture is taken.
+struct Setting {
+  std::size_t state = 0;  ///< number of StudioOptions::surfaces
+  std::size_t chain = 0;  ///< number of StudioOptions::chains
+  /// EV100 that a picture is exposed with which by itself would have this one; unset: that.
+  std::function<double(double metered_ev100)> adapted = {};
 };
 
 /// A developed image and the exposure value that it was developed with.
@@ -53,33 +54,43 @@ struct MapExtent {
   double y_max = 0.0;
 };
 
+class Camera;
+
 /// One thread at a time may use it, except where a function says otherwise. Times its stages.
 class Studio {
  public:
   /// Loads the world, with the `robot` in it if there is one, and bakes its light, once for each state of its
-  /// surfaces. Throws what loadWorld()
-  /// and bake() throw, and before that std::invalid_argument for options out of range and
-  /// std::runtime_error for a rasterizer that cannot start; and requireGroups().
+  /// surfaces. Throws what loadWorld() and bake() throw, and before that std::invalid_argument for options
+  /// out of range and std::runtime_error for a rasterizer that cannot start; and requireGroups().
   explicit Studio(const StudioOptions& options, const std::optional<scene::Robot>& robot = std::nullopt,
                   const Reports& reports = {});
+  ~Studio();
+  Studio(const Studio&) = delete;
+  Studio& operator=(const Studio&) = delete;
 
   /// A picture from above, north up, close to orthographic. Leaves alone what look() looked at.
   image::Rgb8Image mapFromAbove(const MapExtent& extent, const sky::Daylight& daylight) const;
 
   /// `map_from_camera`: of its link, x forward, z up. `map_from_links`: of the robot; empty: it is not there.
-  void look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links = {});
+  /// `motion`: of the camera, and the robot with it.
+  void look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links = {},
+            const Motion& motion = {});
   /// Draws what look() will look at later. Another thread may photograph() meanwhile.
   void lookAhead(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links = {});
   /// What does not depend on the camera.
   light::Illumination illumination(const sky::Daylight& daylight, std::size_t state = 0) const;
-  /// What look() looks at under `light`, which is of the same state: the lens takes light away and strews
-  /// some, the sensor counts what it gets. The picture's series names it on the time sheet too.
+  /// What look() looks at under `light`, which is of the same state: rows see one after another while the
+  /// camera moves, the lens takes light away and strews some, the sensor counts what it gets. The picture's
+  /// series names it on the time sheet too.
   Developed photograph(const light::Illumination& light, const image::PictureName& name,
-                       std::size_t state = 0);
+                       const Setting& setting = {});
+  /// EV100 that photograph() would develop with by itself.
+  double meter(const light::Illumination& light, const image::PictureName& name, const Setting& setting = {});
   /// What the right camera sees, where there is one: exposed like the left one's picture of that name and
-  /// state, with grain of its own. Both are looked at by look() and lookAhead().
+  /// setting, with grain of its own. Both are looked at by look() and lookAhead().
   image::Rgb8Image photographRight(const light::Illumination& light, const image::PictureName& name,
-                                   double ev100, std::size_t state = 0);
+                                   double ev100, const Setting& setting = {});
+  /// At the moment of look(), all rows at once.
   image::DepthImage depth();
 
   const light::World& world() const { return worlds_.front(); }
@@ -92,29 +103,13 @@ class Studio {
   const image::PinholeCamera& camera() const { return options_.render.camera; }
   Stopwatch& stopwatch() { return stopwatch_; }
 
-  bool hasRight() const { return right_.has_value(); }
+  bool hasRight() const { return right_ != nullptr; }
 
  private:
-  /// A camera, and what its lens makes of the light.
-  struct Camera {
-    Camera(const render::RenderOptions& render, const StudioOptions& options);
-    image::Vignetting vignetting;
-    image::VeilingGlare glare;
-    std::unique_ptr<render::Renderer> renderer;  ///< once the world is there
-  };
-  /// Light of a state.
-  struct Lit {
-    const light::Illumination& light;
-    std::size_t state;
-  };
-  /// Develops with `ev100`, or else one of its own.
-  Developed expose(const Camera& camera, const Lit& lit, const image::PictureName& name,
-                   std::optional<double> ev100);
-
   Stopwatch stopwatch_;
   StudioOptions options_;
-  Camera camera_;
-  std::optional<Camera> right_;
+  std::unique_ptr<Camera> camera_;
+  std::unique_ptr<Camera> right_;  // null: there is none
   std::vector<light::World> worlds_;
 };
 

@@ -1,3 +1,4 @@
+#include <ros/console.h>
 #include <tf2/exceptions.h>
 
 #include "ros/render/run.h"
@@ -12,13 +13,33 @@ constexpr std::chrono::seconds kHold(1);
 }  // namespace
 
 FollowRun::FollowRun(const FollowOptions& options, Streams& streams, RobotPlaces* robot)
-    : frames_(options.frames), period_(1.0 / options.frame_rate), streams_(streams), robot_(robot) {
+    : frames_(options.frames),
+      period_(1.0 / options.frame_rate),
+      shutter_(options.shutter),
+      streams_(streams),
+      robot_(robot) {
   if (options.publish_tf) optical_.emplace(frames_, options.right);
 }
 
 bool FollowRun::begin() {
   waits_for_ = streams_.waitsForSubscribers();
   return waits_for_.empty();
+}
+
+Motion FollowRun::motionOf(const FoundTransform& found) {
+  if (!shutter_ || found.stamp.isZero()) return {};  // static
+  // Over a moment that senders at 50 Hz know, or else slower ones.
+  for (const double before_s : {0.02, 0.1, 0.5}) {
+    try {
+      const FoundTransform earlier =
+          lookUp(tf_.buffer, frames_.map, frames_.camera, found.stamp - ros::Duration(before_s));
+      return Motion::between(earlier.parent_from_child, found.parent_from_child, before_s);
+    } catch (const tf2::TransformException&) {
+    }
+  }
+  ROS_WARN_ONCE("Pictures of which TF does not know how %s moved before are sharp and straight",
+                frames_.camera.c_str());
+  return {};
 }
 
 std::optional<Shot> FollowRun::nextShot() {
@@ -44,6 +65,7 @@ std::optional<Shot> FollowRun::nextShot() {
     return std::nullopt;
   }
   Shot shot{taken_, stamp, found.parent_from_child};
+  shot.motion = motionOf(found);
   if (robot_) {
     std::optional<render::BodyPlaces> places = robot_->byTf(tf_.buffer, found.stamp);
     if (!places) {

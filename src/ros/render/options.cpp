@@ -26,7 +26,12 @@ std::vector<Field> fieldsOf(PathSourceOptions& path) {
       {{{"file", &path.file, "", {}, "waypoints, m, in map: CSV (x,y,z) or TUM"},
         {"topic", &path.topic, "", {}, "or a nav_msgs/Path topic; neither: the path of race_track"}},
        fieldsOf(path.sampling),
-       fieldsOf(path.selection)});
+       fieldsOf(path.selection),
+       {{"speed",
+         NumberOrWord{&path.speed_m_s, "auto"},
+         "m/s",
+         {0, 1000},
+         "of the camera while a picture is taken, see shutter; auto: as stamps say"}}});
 }
 
 Field rightCalibrationRow(std::string* file) {
@@ -232,7 +237,10 @@ image::Calibration RenderNodeOptions::calibration() const {
 }
 
 studio::StudioOptions RenderNodeOptions::studioOptions() const {
-  studio::StudioOptions options{world, bake, {}, exposure, noise, lamps, vignetting, glare, blur, mosaic};
+  studio::StudioOptions options;
+  options.world = world;
+  options.bake = bake;
+  options.lamps = lamps;
   const image::Calibration calibrated = calibration();
   options.render.camera = calibrated.camera;
   options.render.distortion = calibrated.distortion;
@@ -249,12 +257,7 @@ std::vector<Field> fieldsOf(RenderNodeOptions& options) {
        under("path", fieldsOf(options.path)),
        under("camera", fieldsOf(options.camera)),
        under("robot", fieldsOf(options.robot)),
-       under("vignetting", fieldsOf(options.vignetting)),
-       under("glare", fieldsOf(options.glare)),
-       under("blur", fieldsOf(options.blur)),
-       under("exposure", fieldsOf(options.exposure)),
-       under("noise", fieldsOf(options.noise)),
-       under("mosaic", fieldsOf(options.mosaic)),
+       fieldsOf(options.chain),
        fieldsOf(options.lamps),
        {{"night/enabled", &options.night, "", {}, "moon and stars too; false: the sun alone"}},
        under("atmosphere", airFields(&options.sky)),
@@ -284,8 +287,13 @@ RenderConditions readRenderConditions(const ParameterReader& parameters) {
   for (const Condition& named : readConditions(parameters)) {
     sky::Weather weather;
     scene::SurfaceState surfaces;
+    studio::ChainOptions chain;
     named.parameters.read(under("weather", joined({fieldsOf(weather), fieldsOf(surfaces)})));
     named.parameters.check("weather", [&] { sky::validate(weather); });
+    named.parameters.read(fieldsOf(chain));
+    named.parameters.check("exposure", [&] { image::validate(chain.exposure); });
+    named.parameters.check("vignetting", [&] { image::validate(chain.vignetting); });
+    conditions.chains.push_back(chain);
     named.parameters.rejectUnknown();
     const auto same = std::find(conditions.states.begin(), conditions.states.end(), surfaces);
     conditions.all.push_back({named, weather, static_cast<std::size_t>(same - conditions.states.begin())});
@@ -303,8 +311,8 @@ RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {
   readRobotForms(parameters, options.camera.follow_tf, &options.robot);
   options.sky.stars = options.night;
   options.sky.cache_dir = studio::cacheOf(options.bake).folder;
-  parameters.check("exposure", [&] { image::validate(options.exposure); });
-  parameters.check("vignetting", [&] { image::validate(options.vignetting); });
+  parameters.check("exposure", [&] { image::validate(options.chain.exposure); });
+  parameters.check("vignetting", [&] { image::validate(options.chain.vignetting); });
   requireFrames(parameters, options);
   requireOnePath(parameters, options.path);
   requireBakeForGather(parameters, options);

@@ -34,6 +34,8 @@ struct PathSourceOptions {
       topic;  ///< nav_msgs/Path; empty: not from a topic. Neither: the built-in path of the built-in world
   path::PathOptions sampling;  ///< spacing and camera height
   path::PoseSelection selection;
+  std::optional<double>
+      speed_m_s;  ///< by which pictures are skewed and smeared; nothing: from stamp to stamp
 };
 
 struct CameraOptions {
@@ -82,15 +84,10 @@ struct RenderNodeOptions {
   PathSourceOptions path;
   CameraOptions camera;
   RobotOptions robot;
-  image::ExposureOptions exposure;
-  image::NoiseOptions noise;
-  image::VignettingOptions vignetting;
-  image::GlareOptions glare;
-  image::BlurOptions blur;
-  image::MosaicOptions mosaic;
+  studio::ChainOptions chain;  ///< of every condition that does not say otherwise
   light::LampOptions lamps;
   studio::SkyOptions sky;
-  sky::Weather weather;          ///< of every condition that does not say otherwise
+  sky::Weather weather;          ///< of every condition that does not say otherwise, too
   scene::SurfaceState surfaces;  ///< likewise
   studio::BakeOptions bake;
   int final_gather = 0;  ///< render::RenderOptions::final_gather
@@ -114,8 +111,8 @@ struct RenderNodeOptions {
 /// One row for each parameter but ~conditions.
 std::vector<Field> fieldsOf(RenderNodeOptions& options);
 
-/// A condition of the renderer: its sun is its topics' business, its weather the renderer's, and what that
-/// leaves on surfaces.
+/// A condition of the renderer: its sun is its topics' business, its weather the renderer's, what that leaves
+/// on surfaces, and what pictures are taken with.
 struct RenderCondition {
   Condition named;
   sky::Weather weather;
@@ -123,10 +120,12 @@ struct RenderCondition {
 };
 struct RenderConditions {
   std::vector<RenderCondition> all;
-  std::vector<scene::SurfaceState> states;  ///< that they need, each once
+  std::vector<scene::SurfaceState> states;   ///< that they need, each once
+  std::vector<studio::ChainOptions> chains;  ///< one a condition, in their order
 };
 
-/// ~conditions, whose weathers may differ. Throws std::invalid_argument with name, value and what is allowed.
+/// ~conditions, whose weathers and chains may differ. Throws std::invalid_argument with name, value and what
+/// is allowed.
 RenderConditions readRenderConditions(const ParameterReader& parameters);
 
 /// All parameters but ~conditions. Throws std::invalid_argument with name, value and what is allowed.

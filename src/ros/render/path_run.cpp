@@ -66,6 +66,7 @@ bool PathRun::begin() {
 Shot PathRun::shotAt(int position) {
   const int index = path_.first() + position;
   Shot shot{index, stampOfPose(start_, index, options_.frame_rate), path_.mapFromCamera(index)};
+  shot.motion = path_.motionAt(index, options_.frame_rate);
   if (robot_) shot.map_from_links = robot_->onPath(shot.map_from_camera, tf_ ? &tf_->buffer : nullptr);
   return shot;
 }
@@ -90,6 +91,13 @@ RunProgress PathRun::progress() const {
   return progress;
 }
 
+void PathRun::meterBefore(const Shot& shot) {
+  // What a run that began earlier, or passes over fewer poses, has metered, under the sky that is there.
+  for (auto index = static_cast<int>(streams_.firstUnmetered(shot.pose_index)); index < shot.pose_index;
+       ++index)
+    streams_.meter(shotAt(index - path_.first()), shot.stamp);
+}
+
 Step PathRun::step() {
   if (start_.isZero()) setStart(ros::Time::now());
   if (position_ >= positions()) {
@@ -105,6 +113,7 @@ Step PathRun::step() {
     position_ += path_.stride();
     next_.reset();
     if (position_ < positions()) next_ = shotAt(position_);
+    meterBefore(shot);
     streams_.take(shot, next_);
     streams_.poseOutput().publishProgress(position());
     return Step::kTook;

@@ -27,6 +27,11 @@ PathSource::PathSource(ros::NodeHandle node, const PathSourceOptions& options, c
   }
 }
 
+Motion PathSource::motionAt(int index, double frame_rate) const {
+  const Motion by_stamps = path::motionAt(map_from_camera_, index, frame_rate);
+  return options_.speed_m_s ? by_stamps.at(*options_.speed_m_s) : by_stamps;
+}
+
 std::string PathSource::fingerprint() const {
   image::ContentHash print;
   for (const Eigen::Isometry3d& pose : map_from_camera_)

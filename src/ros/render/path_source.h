@@ -31,6 +31,8 @@ class PathSource {
   const Eigen::Isometry3d& mapFromCamera(int index) const {
     return map_from_camera_[static_cast<std::size_t>(index)];
   }
+  /// As path::motionAt(), at the speed that the options ask for.
+  Motion motionAt(int index, double frame_rate) const;
   /// Tells paths apart by all their poses; 16 hexadecimal digits.
   std::string fingerprint() const;
   int size() const { return static_cast<int>(map_from_camera_.size()); }

@@ -37,6 +37,7 @@ StreamOptions streamOptions(const RenderNodeOptions& options) {
 studio::StudioOptions studioOptions(const RenderNodeOptions& options, const RenderConditions& conditions) {
   studio::StudioOptions studio = options.studioOptions();
   studio.surfaces = conditions.states;
+  studio.chains = conditions.chains;
   return studio;
 }
 
@@ -74,7 +75,7 @@ RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
       sky_(options.sky, reports()),
       robot_model_(loadRobot(options.robot, options.world.searchPath())),
       studio_(studioOptions(options, conditions), robot_model_, reports()),
-      streams_(conditions.all, streamOptions(options), studio_, sky_),
+      streams_(conditions, streamOptions(options), studio_, sky_),
       paused_(!options.pacing.autostart) {
   sky_.over(studio_.worlds());
   if (robot_model_) {
@@ -88,9 +89,10 @@ RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
     path_run_ = run.get();
     run_ = std::move(run);
   } else {
-    run_ = std::make_unique<FollowRun>(FollowOptions{options_.cameraFrames(), options_.pacing.frame_rate,
-                                                     options_.publish_tf, options_.camera.right},
-                                       streams_, robot_.get());
+    FollowOptions follow{options_.cameraFrames(), options_.pacing.frame_rate, options_.publish_tf,
+                         options_.camera.right};
+    for (const studio::ChainOptions& chain : conditions.chains) follow.shutter |= !chain.shutter.none();
+    run_ = std::make_unique<FollowRun>(follow, streams_, robot_.get());
   }
   diagnostics_.watch({studio_, streams_, *run_, robot_.get()});
   services_ = {private_node_.advertiseService("start", &RenderNode::onStart, this),

@@ -89,6 +89,8 @@ class PathRun : public Run {
   /// Whether the time of a pose has come.
   bool isTime(const ros::Time& stamp);
   Shot shotAt(int position);
+  /// Lets exposures that lag see what comes before `shot`.
+  void meterBefore(const Shot& shot);
   /// The poses before `position` as readers count them.
   int counted(int position) const;
 
@@ -112,6 +114,7 @@ struct FollowOptions {
   double frame_rate = 10.0;
   bool publish_tf = true;  ///< the optical frames, where nobody else does
   std::optional<image::RightCamera> right = {};
+  bool shutter = false;  ///< whether it matters to pictures how the camera moves
 };
 
 class FollowRun : public Run {
@@ -127,9 +130,12 @@ class FollowRun : public Run {
  private:
   /// The next moment of the frame and the robot; none where it has to be waited for.
   std::optional<Shot> nextShot();
+  /// By TF just before.
+  Motion motionOf(const FoundTransform& found);
 
   CameraFrames frames_;
   ros::Duration period_;
+  bool shutter_;
   std::optional<OpticalFrames> optical_;
   Streams& streams_;
   RobotPlaces* robot_;

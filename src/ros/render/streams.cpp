@@ -22,27 +22,38 @@ std::string skyPrefix(const Condition& condition, const StreamOptions& options) 
 
 }  // namespace
 
-Streams::Stream::Stream(const RenderCondition& condition, const StreamOptions& options)
-    : name(condition.named.name),
-      weather(condition.weather),
-      state_of_surfaces(condition.state),
-      sky(skyNode(condition.named, options),
-          {skyPrefix(condition.named, options), options.night, options.sky, options.output.frames.map}),
-      output(condition.named.node(), options.output),
+Streams::Stream::Stream(const RenderConditions& conditions, std::size_t index, const StreamOptions& options)
+    : name(conditions.all[index].named.name),
+      weather(conditions.all[index].weather),
+      setting{conditions.all[index].state, index},
+      lag(conditions.chains[index].exposure),
+      sky(skyNode(conditions.all[index].named, options),
+          {skyPrefix(conditions.all[index].named, options), options.night, options.sky,
+           options.output.frames.map}),
+      output(conditions.all[index].named.node(), options.output),
       state{name} {}
 
-Streams::Streams(const std::vector<RenderCondition>& conditions, const StreamOptions& options,
-                 studio::Studio& studio, studio::Sky& sky)
+studio::Setting Streams::Stream::inTurn(std::int64_t index) {
+  studio::Setting in_turn = setting;
+  in_turn.adapted = [this, index](double metered_ev100) {
+    lag.add(index, metered_ev100);
+    return lag.ev100();
+  };
+  return in_turn;
+}
+
+Streams::Streams(const RenderConditions& conditions, const StreamOptions& options, studio::Studio& studio,
+                 studio::Sky& sky)
     : studio_(studio),
       sky_(sky),
       wanted_(options.wanted_subscribers),
       pose_output_(ros::NodeHandle(), ros::NodeHandle("~"), options.output) {
-  for (const RenderCondition& condition : conditions)
-    streams_.push_back(std::make_unique<Stream>(condition, options));
+  for (std::size_t i = 0; i < conditions.all.size(); ++i)
+    streams_.push_back(std::make_unique<Stream>(conditions, i, options));
 }
 
 void Streams::take(const Shot& shot, const std::optional<Shot>& next) {
-  studio_.look(shot.map_from_camera, shot.map_from_links);
+  studio_.look(shot.map_from_camera, shot.map_from_links, shot.motion);
   std::future<void> exposed = std::async(std::launch::async, [&] { expose(shot); });
   if (next) studio_.lookAhead(next->map_from_camera, next->map_from_links);
   exposed.get();
@@ -56,14 +67,30 @@ void Streams::expose(const Shot& shot) {
     stream->sky.forgetBefore(shot.stamp);
     const SkyBodies bodies = stream->sky.at(shot.stamp).value();
     const light::Illumination& light = lightOf(*stream, bodies, shot.stamp);
-    const std::size_t state = stream->state_of_surfaces;
-    studio::Developed developed = studio_.photograph(light, {shot.pose_index, stream->name}, state);
+    const image::PictureName name{shot.pose_index, stream->name};
+    studio::Developed developed = studio_.photograph(light, name, stream->inTurn(shot.pose_index));
     Photograph photograph{shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture)};
     if (studio_.hasRight())
-      photograph.right =
-          studio_.photographRight(light, {shot.pose_index, stream->name}, photograph.ev100, state);
+      photograph.right = studio_.photographRight(light, name, photograph.ev100, stream->setting);
     stopwatch.measure("send", stream->name, [&] { stream->output.publish(photograph, {bodies, light.day}); });
     stream->state = {stream->name, stream->state.images + 1, photograph.stamp, photograph.ev100};
+  }
+}
+
+std::int64_t Streams::firstUnmetered(std::int64_t index) const {
+  std::int64_t first = index;
+  for (const auto& stream : streams_) {
+    if (stream->lag.memory() > 0) first = std::min(first, stream->lag.firstMissing(index));
+  }
+  return first;
+}
+
+void Streams::meter(const Shot& shot, const ros::Time& sky_stamp) {
+  studio_.look(shot.map_from_camera, shot.map_from_links, shot.motion);
+  for (const auto& stream : streams_) {
+    if (stream->lag.firstMissing(shot.pose_index) > shot.pose_index) continue;
+    const light::Illumination& light = lightOf(*stream, stream->sky.at(sky_stamp).value(), shot.stamp);
+    stream->lag.add(shot.pose_index, studio_.meter(light, {shot.pose_index, stream->name}, stream->setting));
   }
 }
 
@@ -74,7 +101,7 @@ const light::Illumination& Streams::lightOf(Stream& stream, const SkyBodies& bod
     stream.weather.clock_s = stamp.toSec();
     const studio::SkyBodies in_sky{*bodies.sun, bodies.moon, bodies.map_from_celestial,
                                    bodies.site_elevation_m};
-    const std::size_t state = stream.state_of_surfaces;
+    const std::size_t state = stream.setting.state;
     if (!sky_.isPrepared(in_sky.site_elevation_m, state))
       studio_.stopwatch().measure("load", "atmosphere",
                                   [&] { sky_.prepare(in_sky.site_elevation_m, state); });
@@ -101,9 +128,9 @@ Photograph Streams::view(const Shot& shot, const std::string& condition) {
     throw std::invalid_argument("condition \"" + condition + "\" has no sky yet: it waits for " +
                                 stream.sky.missing());
   }
-  studio_.look(shot.map_from_camera, shot.map_from_links);
+  studio_.look(shot.map_from_camera, shot.map_from_links, shot.motion);
   studio::Developed developed = studio_.photograph(lightOf(stream, *stream.sky.newest(), shot.stamp),
-                                                   {shot.pose_index, stream.name}, stream.state_of_surfaces);
+                                                   {shot.pose_index, stream.name}, stream.setting);
   return {shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture)};
 }
 

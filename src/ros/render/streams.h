@@ -12,6 +12,7 @@
 #include "ros/render/options.h"
 #include "ros/render/pose_output.h"
 #include "ros/render/sky_input.h"
+#include "sunlit/image/exposure_lag.h"
 #include "sunlit/ros/conditions.h"
 #include "sunlit/studio/sky.h"
 #include "sunlit/studio/studio.h"
@@ -24,6 +25,7 @@ struct Shot {
   ros::Time stamp;
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
   render::BodyPlaces map_from_links = {};  ///< of the robot; empty: it is not there
+  Motion motion = {};                      ///< of the camera, with the robot
 };
 
 struct StreamOptions {
@@ -45,15 +47,20 @@ struct StreamState {
 class Streams {
  public:
   /// `studio` and `sky` outlive this.
-  Streams(const std::vector<RenderCondition>& conditions, const StreamOptions& options,
-          studio::Studio& studio, studio::Sky& sky);
+  Streams(const RenderConditions& conditions, const StreamOptions& options, studio::Studio& studio,
+          studio::Sky& sky);
 
   /// Renders the shot under every condition's sky of its stamp and publishes all of it with that. Only when
   /// every sky is there; stamps never go back by more than a clock does. Meanwhile draws the geometry of the
   /// next shot, if there is one, since drawing leaves cores idle.
   void take(const Shot& shot, const std::optional<Shot>& next = std::nullopt);
-  /// One image of `condition` under its newest sky. Throws std::invalid_argument naming what is wrong with
-  /// the condition.
+  /// The first picture before that of pose `index` which an exposure that lags must meter() before it;
+  /// `index` itself where none is missing.
+  std::int64_t firstUnmetered(std::int64_t index) const;
+  /// Lets exposures that lag see what nobody gets a picture of. Under the sky of `stamp`, which is there.
+  void meter(const Shot& shot, const ros::Time& sky_stamp);
+  /// One image of `condition` under its newest sky, exposed as if it had been looking there for long. Throws
+  /// std::invalid_argument naming what is wrong with the condition.
   Photograph view(const Shot& shot, const std::string& condition);
 
   /// Of conditions.
@@ -76,10 +83,13 @@ class Streams {
 
  private:
   struct Stream {
-    Stream(const RenderCondition& condition, const StreamOptions& options);
+    Stream(const RenderConditions& conditions, std::size_t index, const StreamOptions& options);
+    /// In what its picture is taken that metered so much, in its turn.
+    studio::Setting inTurn(std::int64_t index);
     std::string name;
-    sky::Weather weather;  ///< at the stamp that `light` is of
-    std::size_t state_of_surfaces;
+    sky::Weather weather;     ///< at the stamp that `light` is of
+    studio::Setting setting;  ///< of a picture by itself
+    image::ExposureLag lag;
     SkyInput sky;
     ConditionOutput output;
     std::optional<light::Illumination> light;

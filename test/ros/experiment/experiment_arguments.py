@@ -68,13 +68,18 @@ class ExperimentArguments(unittest.TestCase):
     def test_what_pictures_look_like_reaches_both_renderers(self):
         found = self.parameters("night:=false", "noise:=true", "noise_seed:=7", "exposure:=auto", "highlight_protection:=0",
                                 "final_gather:=2", "rasterizer:=builtin", "ground_albedo:=0.6", "vignetting:=cos4", "glare:=0.02",
-                                "mosaic:=rggb")
+                                "mosaic:=rggb", "blur:=0.7", "line_delay:=30", "exposure_time:=auto", "speed:=2.5", "adaptation:=0.2",
+                                "conditions:={a: {hour: 12}, b: {hour: 12, wet: 1, glare: 0.03, line_delay: 20}}")
         for renderer in ("/render/", "/self_test/render/"):
             self.assertEqual([found[renderer + key] for key in ("night/enabled", "noise/enabled", "noise/seed", "exposure/mode",
                                                                 "exposure/highlight_protection", "transport/final_gather",
                                                                 "camera/rasterizer", "atmosphere/ground_albedo", "vignetting/natural",
-                                                                "glare/share", "mosaic/pattern")],
-                             [False, True, 7, "auto", 0.0, 2, "builtin", 0.6, "cos4", 0.02, "rggb"])
+                                                                "glare/share", "mosaic/pattern", "blur/sigma", "shutter/line_delay",
+                                                                "shutter/exposure_time", "path/speed", "exposure/adaptation",
+                                                                "conditions/a/cover", "conditions/b/wet", "conditions/b/glare/share",
+                                                                "conditions/b/shutter/line_delay")],
+                             [False, True, 7, "auto", 0.0, 2, "builtin", 0.6, "cos4", 0.02, "rggb", 0.7, 30.0, "auto", 2.5, 0.2, 0, 1,
+                              0.03, 20])
         self.assertEqual(found["/experiment/arguments/noise_seed"], "7")
 
     def test_a_launch_file_of_the_same_name_may_have_arguments_of_its_own(self):

@@ -154,6 +154,12 @@ class ParametersAgree(unittest.TestCase):
         rows = programmed()["render_node"]
         self.assertEqual(sorted(arguments.WEATHER), sorted(key.split("/")[1] for key in rows if key.startswith("weather/")))
 
+    def test_cameras_of_the_experiments_conditions(self):
+        rows = programmed()["render_node"]
+        for name, (group, row) in arguments.CAMERA.items():
+            with self.subTest(name=name):
+                self.assertIn(group + "/" + row, rows)
+
     def test_parameters_that_launch_files_set(self):
         """Each is a parameter of its node, and the argument that it comes from names no other range."""
         checked = 0

@@ -78,11 +78,5 @@ TEST(RainStreaks, OfOnePictureAreTheSameAgainAndOfAnotherOthers) {
   EXPECT_NE(pictureOf(1, 5), pictureOf(2, 5));
 }
 
-TEST(RainStreaks, ExposureIsThatOfTheLens) {
-  EXPECT_NEAR(exposureTime_s(15.0), 0.24e-3, 0.005e-3);
-  EXPECT_NEAR(exposureTime_s(12.0), 1.9e-3, 0.05e-3);
-  EXPECT_EQ(exposureTime_s(0.0), 1.0 / 30.0);
-}
-
 }  // namespace
 }  // namespace sunlit::image

@@ -1,0 +1,51 @@
+#include "render/image_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace sunlit::render {
+
+double imageMotion_px_s(const image::DepthImage& depth, const image::Lens& lens, const Motion& motion) {
+  constexpr int kStep_px = 8;
+  constexpr double kFar_m = 1e6, kMoment_s = 1e-5;
+  std::vector<double> speeds;
+  for (int y = kStep_px / 2; y < depth.height; y += kStep_px) {
+    for (int x = kStep_px / 2; x < depth.width; x += kStep_px) {
+      const std::optional<Eigen::Vector3d> ray = lens.unproject({x, y});
+      if (!ray) continue;
+      const auto metres = static_cast<double>(*depth.at(x, y));
+      const Eigen::Vector3d point = (std::isfinite(metres) ? metres : kFar_m) * *ray;
+      // Seen from the camera all goes the other way.
+      const std::optional<Eigen::Vector2d> then =
+          lens.project(motion.after(kMoment_s, Eigen::Vector3d::Zero()).inverse() * point);
+      if (then) speeds.push_back((*then - Eigen::Vector2d(x, y)).norm() / kMoment_s);
+    }
+  }
+  if (speeds.empty()) return 0.0;
+  const auto nth = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() * 19 / 20);
+  std::nth_element(speeds.begin(), nth, speeds.end());
+  return *nth;
+}
+
+int exposuresOf(double smear_px, int most) {
+  return static_cast<int>(std::clamp(std::ceil(smear_px), 1.0, static_cast<double>(most)));
+}
+
+int bandsOf(double skew_px, int height) {
+  constexpr double kWithinBand_px = 0.25;
+  constexpr int kFewestRows = 4;
+  int bands = 1;
+  while (bands < kMostBands && bands * kWithinBand_px < skew_px) bands *= 4;
+  return std::max(1, std::min(bands, height / kFewestRows));
+}
+
+image::PinholeCamera rowsOf(const image::PinholeCamera& camera, int first, int count) {
+  image::PinholeCamera rows = camera;
+  rows.height = count;
+  rows.cy -= first;
+  return rows;
+}
+
+}  // namespace sunlit::render

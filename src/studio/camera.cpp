@@ -1,0 +1,100 @@
+#include "studio/camera.h"
+
+#include "sunlit/image/mean_luminance.h"
+#include "sunlit/image/rain_streaks.h"
+#include "sunlit/quantity/angle.h"
+
+namespace sunlit::studio {
+
+Camera::Chain::Chain(const image::Lens& lens, const ChainOptions& chain)
+    : options(chain), vignetting(lens, chain.vignetting), glare(vignetting, chain.glare) {}
+
+Camera::Camera(const render::RenderOptions& render, const std::vector<ChainOptions>& chains)
+    : render_(render) {
+  const image::Lens lens(render.camera, render.distortion);
+  for (const ChainOptions& chain : chains) chains_.emplace_back(lens, chain);
+}
+
+void Camera::enter(const std::vector<light::World>& worlds) {
+  renderer_ = std::make_unique<render::Renderer>(worlds, render_);
+}
+
+void Camera::look(const Eigen::Isometry3d& map_from_optical, const render::BodyPlaces& map_from_links,
+                  const Motion& motion) {
+  renderer_->look(map_from_optical, map_from_links);
+  motion_ = motion;
+}
+
+void Camera::lookAhead(const Eigen::Isometry3d& map_from_optical, const render::BodyPlaces& map_from_links) {
+  renderer_->lookAhead(map_from_optical, map_from_links);
+}
+
+render::UnderWay Camera::wayOf(const Chain& chain, double exposure_s) const {
+  const image::ShutterOptions& shutter = chain.options.shutter;
+  return {motion_, 1e-6 * shutter.line_delay_us, exposure_s, shutter.exposures};
+}
+
+image::LinearImage Camera::throughLens(const Lit& lit, const render::UnderWay& way,
+                                       Stopwatch* stopwatch) const {
+  image::LinearImage luminance = stopwatch->measure(
+      "light", lit.name.series, [&] { return renderer_->light(lit.light, lit.setting.state, way); });
+  stopwatch->measure("develop", lit.name.series, [&] {
+    const Chain& chain = chainOf(lit);
+    if (!chain.vignetting.none()) chain.vignetting.apply(&luminance);
+    if (!chain.glare.none()) chain.glare.apply(renderer_->lightsOutside(lit.light), &luminance);
+    image::blur(chain.options.blur, &luminance);
+  });
+  return luminance;
+}
+
+Camera::OnSensor Camera::onSensor(const Lit& lit, double exposure_s, Stopwatch* stopwatch) const {
+  const Chain& chain = chainOf(lit);
+  OnSensor on_sensor{throughLens(lit, wayOf(chain, exposure_s), stopwatch), 0.0};
+  on_sensor.metered_ev100 = stopwatch->measure("develop", lit.name.series, [&] {
+    return image::chooseEv100(on_sensor.luminance, chain.options.exposure);
+  });
+  return on_sensor;
+}
+
+/// The drops that fall before a camera meanwhile.
+void Camera::addRain(const Lit& lit, double ev100, image::LinearImage* luminance) const {
+  const sky::Daylight& day = lit.light.day;
+  const sky::Rain rain = day.rain();
+  if (!(rain.mm_per_h > 0.0)) return;
+  // A drop gathers what is before the camera, and what is above.
+  const Eigen::Array3f before = image::meanLuminance(*luminance).cast<float>();
+  const Eigen::Array3f above = day.groundIlluminance().value / kPiFloat;
+  const image::RainStreaks streaks{rain.mm_per_h, rain.seed, lit.name.index,
+                                   image::streakTime_s(chainOf(lit).options.shutter, ev100),
+                                   0.5f * (before + above)};
+  const Eigen::Vector3d down = -renderer_->surfaces().map_from_optical.row(2).transpose();
+  image::addRain(streaks, {render_.camera, down, renderer_->depth()}, luminance);
+}
+
+double Camera::meter(const Lit& lit, Stopwatch* stopwatch) const {
+  const image::ShutterOptions& shutter = chainOf(lit).options.shutter;
+  return onSensor(lit, 1e-3 * shutter.exposure_ms.value_or(0.0), stopwatch).metered_ev100;
+}
+
+Developed Camera::photograph(const Lit& lit, std::optional<double> ev100, Stopwatch* stopwatch) const {
+  const ChainOptions& chain = chainOf(lit).options;
+  // How long light smears depends on the exposure, and hardly the other way round: what is metered is sharp.
+  const double known_s =
+      ev100 ? image::smearTime_s(chain.shutter, *ev100) : 1e-3 * chain.shutter.exposure_ms.value_or(0.0);
+  OnSensor on_sensor = onSensor(lit, known_s, stopwatch);
+  const double metered = on_sensor.metered_ev100;
+  const double exposed = ev100 ? *ev100 : lit.setting.adapted ? lit.setting.adapted(metered) : metered;
+  const double smear_s = image::smearTime_s(chain.shutter, exposed);
+  if (smear_s != known_s && !motion_.none()) {
+    const render::UnderWay way = wayOf(chainOf(lit), smear_s);
+    if (renderer_->exposures(way) > 1) on_sensor.luminance = throughLens(lit, way, stopwatch);
+  }
+  return stopwatch->measure("develop", lit.name.series, [&] {
+    image::LinearImage& luminance = on_sensor.luminance;
+    addRain(lit, exposed, &luminance);
+    if (chain.noise.enabled) image::addSensorNoise(exposed, chain.noise, lit.name, &luminance);
+    return Developed{image::throughMosaic(image::develop(luminance, exposed), chain.mosaic), exposed};
+  });
+}
+
+}  // namespace sunlit::studio

@@ -1,0 +1,62 @@
+/// One camera of a studio: what draws for it, and what makes pictures of the light.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sunlit/studio/studio.h"
+
+namespace sunlit::studio {
+
+/// Light, and what is taken by it.
+struct Lit {
+  const light::Illumination& light;
+  const image::PictureName& name;
+  const Setting& setting;
+};
+
+class Camera {
+ public:
+  /// Before the world is there. Throws std::invalid_argument for a lens or a chain that cannot be.
+  Camera(const render::RenderOptions& render, const std::vector<ChainOptions>& chains);
+
+  void enter(const std::vector<light::World>& worlds);
+  void look(const Eigen::Isometry3d& map_from_optical, const render::BodyPlaces& map_from_links,
+            const Motion& motion);
+  void lookAhead(const Eigen::Isometry3d& map_from_optical, const render::BodyPlaces& map_from_links);
+
+  /// Exposed with `ev100`, or else as it meters and the setting has it.
+  Developed photograph(const Lit& lit, std::optional<double> ev100, Stopwatch* stopwatch) const;
+  double meter(const Lit& lit, Stopwatch* stopwatch) const;
+  image::DepthImage depth() const { return renderer_->depth(); }
+  std::string rasterizer() const { return renderer_->rasterizer(); }
+
+ private:
+  /// What lens, shutter and sensor make of the light, made ready.
+  struct Chain {
+    Chain(const image::Lens& lens, const ChainOptions& options);
+    ChainOptions options;
+    image::Vignetting vignetting;
+    image::VeilingGlare glare;
+  };
+  /// What reaches the sensor, and the EV that it meters.
+  struct OnSensor {
+    image::LinearImage luminance;
+    double metered_ev100;
+  };
+
+  const Chain& chainOf(const Lit& lit) const { return chains_.at(lit.setting.chain); }
+  render::UnderWay wayOf(const Chain& chain, double exposure_s) const;
+  image::LinearImage throughLens(const Lit& lit, const render::UnderWay& way, Stopwatch* stopwatch) const;
+  OnSensor onSensor(const Lit& lit, double exposure_s, Stopwatch* stopwatch) const;
+  void addRain(const Lit& lit, double ev100, image::LinearImage* luminance) const;
+
+  render::RenderOptions render_;
+  std::vector<Chain> chains_;
+  std::unique_ptr<render::Renderer> renderer_;  ///< once the world is there
+  Motion motion_;
+};
+
+}  // namespace sunlit::studio

@@ -1,0 +1,216 @@
+// What a camera sees that moves while its rows see, one after another, and for some time.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/published_lenses.h"
+#include "test_scenes.h"
+
+namespace sunlit::test {
+namespace {
+
+using render::Renderer;
+using render::UnderWay;
+
+constexpr double kWall_m = 5.0;
+
+/// A wall before the camera at the origin that looks east, dark on its left and bright on its right.
+scene::Scene halves() {
+  scene::Scene scene;
+  for (const float side : {1.0f, -1.0f}) {
+    scene::Material glows;
+    glows.name = side > 0.0f ? "dark" : "bright";
+    glows.base_color = LinearRgb(Eigen::Array3f::Constant(0.0f));
+    glows.emission = LinearRgb(Eigen::Array3f::Constant(side > 0.0f ? 1.0f : 1000.0f));
+    scene.materials.push_back(glows);
+    scene::Mesh mesh;
+    mesh.name = glows.name;
+    mesh.material = static_cast<int>(scene.materials.size()) - 1;
+    const auto x = static_cast<float>(kWall_m);
+    mesh.positions = {
+        {x, 0.0f, -20.0f}, {x, 20.0f * side, -20.0f}, {x, 20.0f * side, 20.0f}, {x, 0.0f, 20.0f}};
+    mesh.normals.assign(4, Eigen::Vector3f(-1.0f, 0.0f, 0.0f));
+    if (side > 0.0f)
+      mesh.triangles = {{0, 2, 1}, {0, 3, 2}};
+    else
+      mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    scene.meshes.push_back(mesh);
+  }
+  return scene;
+}
+
+Eigen::Isometry3d eastward() {
+  return lookingAt(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX());
+}
+
+render::RenderOptions camera(int supersampling = 4) {
+  render::RenderOptions options = smallCamera(320, 240);
+  options.supersampling = supersampling;
+  return options;
+}
+
+/// Where in a row dark becomes bright, px: what is missing of the brightness all through the row.
+double edgeOf(const image::LinearImage& picture, int row) {
+  const double dark = *picture.at(0, row), bright = *picture.at(picture.width - 1, row);
+  double light = 0.0;
+  for (int x = 0; x < picture.width; ++x) light += *picture.at(x, row);
+  return picture.width - 0.5 - (light - dark * picture.width) / (bright - dark);
+}
+
+UnderWay turning(double deg_s, double line_delay_s) {
+  UnderWay way;
+  way.motion.turning_rad_s = {0.0, 0.0, deg_s * kRadPerDeg};
+  way.line_delay_s = line_delay_s;
+  return way;
+}
+
+UnderWay driving(const Eigen::Vector3d& velocity_m_s, double line_delay_s, double exposure_s = 0.0) {
+  UnderWay way;
+  way.motion.velocity_m_s = velocity_m_s;
+  way.line_delay_s = line_delay_s;
+  way.exposure_s = exposure_s;
+  return way;
+}
+
+/// All that lights is what glows.
+sky::Daylight nightfall() {
+  return daylightAt(180.0, -18.0);
+}
+
+TEST(UnderWay, WithoutMotionOrWithoutTimeItIsTheSamePictureToTheBit) {
+  Renderer renderer(shared(halves()), camera());
+  renderer.look(eastward());
+  const light::Illumination light(nightfall());
+  const image::LinearImage still = renderer.light(light);
+  EXPECT_EQ(renderer.light(light, 0, UnderWay()).data, still.data);
+  EXPECT_EQ(renderer.light(light, 0, driving({5.0, 0.0, 0.0}, 0.0)).data, still.data);
+  EXPECT_EQ(renderer.light(light, 0, driving(Eigen::Vector3d::Zero(), 5e-5, 0.03)).data, still.data);
+}
+
+TEST(UnderWay, ACameraThatTurnsSeesRowsTurnedByTheTimeBetweenThem) {
+  // 60°/s over a readout of 30 ms, as in a telephone: 1.8° from the first row to the last. To the left the
+  // camera turns, to the right go the edges: f tan(ω δ r).
+  const double line_delay_s = 0.03 / 240;
+  Renderer renderer(shared(halves()), camera());
+  renderer.look(eastward());
+  const light::Illumination light(nightfall());
+  const image::LinearImage still = renderer.light(light);
+  const image::LinearImage rolled = renderer.light(light, 0, turning(60.0, line_delay_s));
+  const double f = camera().camera.fx;
+  for (int row = 0; row < 240; row += 13) {
+    const double skew = f * std::tan(60.0 * kRadPerDeg * line_delay_s * row);
+    // Rows of a band see at one moment: an eighth of a pixel; and samples lie a quarter of one apart.
+    EXPECT_NEAR(edgeOf(rolled, row) - edgeOf(still, row), skew, 0.125 + 0.125) << row;
+  }
+}
+
+TEST(UnderWay, ACameraThatDrivesSeesWhatIsNearSkewed) {
+  // f v δ r / Z, to the left of where it goes: 10 m/s to the north, 5 m before the wall.
+  const double line_delay_s = 4e-5;
+  Renderer renderer(shared(halves()), camera());
+  renderer.look(eastward());
+  const light::Illumination light(nightfall());
+  const image::LinearImage still = renderer.light(light);
+  const image::LinearImage rolled = renderer.light(light, 0, driving({0.0, 10.0, 0.0}, line_delay_s));
+  for (int row = 0; row < 240; row += 13) {
+    const double skew = camera().camera.fx * 10.0 * line_delay_s * row / kWall_m;
+    EXPECT_NEAR(edgeOf(rolled, row) - edgeOf(still, row), skew, 0.125 + 0.125) << row;
+  }
+}
+
+TEST(UnderWay, WhatMovesIsSmearedEvenlyOverTheExposure) {
+  // f v T / Z = 277 · 10 · 0.02 / 5 = 11.1 px: a ramp of that length about where the edge is sharp.
+  Renderer renderer(shared(halves()), camera());
+  renderer.look(eastward());
+  const light::Illumination light(nightfall());
+  const image::LinearImage still = renderer.light(light);
+  const UnderWay way = driving({0.0, 10.0, 0.0}, 0.0, 0.02);
+  EXPECT_EQ(renderer.exposures(way), 12);
+  const image::LinearImage smeared = renderer.light(light, 0, way);
+  const double length = camera().camera.fx * 10.0 * 0.02 / kWall_m;
+  constexpr int kRow = 120;
+  // No light is lost: the middle of the ramp stays where the edge was.
+  EXPECT_NEAR(edgeOf(smeared, kRow), edgeOf(still, kRow), 0.05);
+  const double dark = *still.at(0, kRow), bright = *still.at(319, kRow);
+  for (int x = 140; x < 180; ++x) {
+    const double along = std::clamp((x - edgeOf(still, kRow)) / length + 0.5, 0.0, 1.0);
+    // Twelve steps, each of a pixel, where the ramp has none.
+    EXPECT_NEAR((*smeared.at(x, kRow) - dark) / (bright - dark), along, 0.6 / 12) << x;
+  }
+}
+
+TEST(UnderWay, EachBandIsWhatACameraSeesThatStandsThere) {
+  // Also of what penumbras, mirrors and edges make: a band is not a picture of its own.
+  const scene::Scene scene = yard();
+  const Eigen::Isometry3d pose = lookingAt({-4.0, -6.0, 1.5}, {4.0, 2.0, 1.0});
+  const light::Illumination light(daylightAt(140.0, 35.0));
+  const std::vector<render::RenderOptions> cameras = [] {
+    std::vector<render::RenderOptions> all = {camera(2)};
+    all.push_back(all.front());
+    all.back().distortion.coefficients = {-0.28, 0.07, 2e-4, 2e-5, 0.0};
+    return all;
+  }();
+  for (const render::RenderOptions& options : cameras) {
+    Renderer renderer(shared(yard()), options);
+    renderer.look(pose);
+    const UnderWay way = turning(60.0, 0.03 / 240);  // 8 px of skew: 64 bands of 4 rows
+    const image::LinearImage rolled = renderer.light(light, 0, way);
+    Renderer standing(shared(scene), options);
+    for (const int first : {0, 4, 120, 236}) {
+      const double moment_s = (first + 1.5) * way.line_delay_s;
+      standing.look(way.motion.after(moment_s, pose.translation()) * pose);
+      const image::LinearImage still = standing.light(light);
+      double worst = 0.0, mean = 0.0;
+      for (int row = first; row < first + 4; ++row) {
+        for (int x = 0; x < still.width; ++x) {
+          const double off =
+              std::abs(*rolled.at(x, row) - *still.at(x, row)) / static_cast<double>(*still.at(x, row));
+          worst = std::max(worst, off);
+          mean += off / (4.0 * still.width);
+        }
+      }
+      // Samples at the very edge of a triangle may fall to either side by rounding, and rows of points on the
+      // sun's disc begin anew in each band.
+      EXPECT_LT(mean, 2e-3) << first << " " << options.distortion.none() << " worst " << worst;
+    }
+  }
+}
+
+TEST(UnderWay, HasTheSameBitsWhateverWasSeenBeforeAndForAnyThreads) {
+  const Eigen::Isometry3d pose = lookingAt({-4.0, -6.0, 1.5}, {4.0, 2.0, 1.0});
+  const light::Illumination light(daylightAt(140.0, 35.0));
+  UnderWay way = driving({3.0, 2.0, 0.0}, 5e-5, 0.01);
+  way.motion.turning_rad_s = {0.1, 0.0, 0.5};
+  const auto taken = [&](int threads, bool has_looked_around) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    Renderer renderer(shared(yard()), camera(2));
+    if (has_looked_around) {
+      renderer.look(eastward());
+      static_cast<void>(renderer.light(light, 0, turning(90.0, 1e-4)));
+    }
+    renderer.look(pose);
+    if (has_looked_around) renderer.lookAhead(eastward());
+    return renderer.light(light, 0, way).data;
+  };
+  const std::vector<float> first = taken(1, false);
+  EXPECT_EQ(taken(4, true), first);
+}
+
+TEST(UnderWay, LeavesAloneWhatLookLooksAt) {
+  Renderer renderer(shared(yard()), camera(2));
+  renderer.look(lookingAt({-4.0, -6.0, 1.5}, {4.0, 2.0, 1.0}));
+  const light::Illumination light(daylightAt(140.0, 35.0));
+  const image::LinearImage still = renderer.light(light);
+  const image::DepthImage depth = renderer.depth();
+  static_cast<void>(renderer.light(light, 0, driving({5.0, 0.0, 0.0}, 5e-5, 0.02)));
+  EXPECT_EQ(renderer.light(light).data, still.data);
+  const image::DepthImage after = renderer.depth();
+  EXPECT_TRUE(std::equal(depth.data.begin(), depth.data.end(), after.data.begin(),
+                         [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); }));
+}
+
+}  // namespace
+}  // namespace sunlit::test
