@@ -42,7 +42,7 @@ TEST(Options, WithoutParametersAreTheDefaultsOfTheBuiltInWorld) {
   EXPECT_EQ(options.world.name, "race_track");
   EXPECT_EQ(options.studioOptions().render.camera.width, 640);
   EXPECT_FALSE(options.pacing.start_stamp_s.has_value());
-  EXPECT_EQ(options.exposure.mode, image::ExposureMode::kAuto);
+  EXPECT_EQ(options.chain.exposure.mode, image::ExposureMode::kAuto);
 }
 
 class RunFolder : public testing::Test {

@@ -33,35 +33,38 @@ TEST(Studio, RefusesBadOptionsBeforeItLoadsTheWorld) {
   options.world.name = "no_such.world";
   const auto refusal = [&] { return messageOf<std::exception>([&] { Studio studio(options); }); };
   EXPECT_NE(refusal().find("no_such.world"), std::string::npos);
-  options.noise.read_e = -1.0;
+  options.chains[0].noise.read_e = -1.0;
   EXPECT_NE(refusal().find("read_e"), std::string::npos) << refusal();
-  options.noise.read_e = 3.0;
-  options.exposure.max_ev100 = options.exposure.min_ev100 - 1.0;
+  options.chains[0].noise.read_e = 3.0;
+  options.chains[0].exposure.max_ev100 = options.chains[0].exposure.min_ev100 - 1.0;
   EXPECT_NE(refusal().find("ev100"), std::string::npos) << refusal();
-  options.exposure = {};
+  options.chains[0].exposure = {};
   options.bake.transport.bounces = -1;
   EXPECT_NE(refusal().find("bounces"), std::string::npos) << refusal();
   options.bake.transport.bounces = 3;
   options.render.supersampling = 9;
   EXPECT_NE(refusal().find("supersampling"), std::string::npos) << refusal();
   options.render.supersampling = 2;
-  options.glare.share = 0.5;
+  options.chains[0].glare.share = 0.5;
   EXPECT_NE(refusal().find("share"), std::string::npos) << refusal();
-  options.glare.share = 0.0;
-  options.blur.sigma_px = 11.0;
+  options.chains[0].glare.share = 0.0;
+  options.chains[0].blur.sigma_px = 11.0;
   EXPECT_NE(refusal().find("sigma"), std::string::npos) << refusal();
-  options.blur.sigma_px = 0.0;
-  options.vignetting.a1 = -2.0;
+  options.chains[0].blur.sigma_px = 0.0;
+  options.chains[0].vignetting.a1 = -2.0;
   EXPECT_NE(refusal().find("a1"), std::string::npos) << refusal();
+  options.chains[0].vignetting.a1 = 0.0;
+  options.chains.emplace_back().shutter.line_delay_us = -1.0;
+  EXPECT_NE(refusal().find("line_delay"), std::string::npos) << refusal();
 }
 
 TEST(Studio, TakesThePictureThatItsPartsMake) {
   StudioOptions options = boxes();
-  options.noise.enabled = true;
-  options.vignetting.cos4 = true;
-  options.glare.share = 0.02;
-  options.blur.sigma_px = 0.5;
-  options.mosaic.pattern = image::MosaicPattern::kRggb;
+  options.chains[0].noise.enabled = true;
+  options.chains[0].vignetting.cos4 = true;
+  options.chains[0].glare.share = 0.02;
+  options.chains[0].blur.sigma_px = 0.5;
+  options.chains[0].mosaic.pattern = image::MosaicPattern::kRggb;
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
   map_from_camera.translation().z() = 1.0;
   const sky::Daylight day = Sky({}).daylight({kHighSun});
@@ -75,22 +78,83 @@ TEST(Studio, TakesThePictureThatItsPartsMake) {
   render::Renderer renderer(world, options.render);
   renderer.look(map_from_camera * linkFromOptical());
   image::LinearImage luminance = renderer.light(day);
-  const image::Vignetting vignetting(image::Lens(options.render.camera, {}), options.vignetting);
+  const image::Vignetting vignetting(image::Lens(options.render.camera, {}), options.chains[0].vignetting);
   vignetting.apply(&luminance);
   const std::vector<image::LightOutside> outside = renderer.lightsOutside(day);
   EXPECT_EQ(outside.size(), 1u);  // the sun, high above what the camera sees
-  image::VeilingGlare(vignetting, options.glare).apply(outside, &luminance);
-  image::blur(options.blur, &luminance);
-  const double ev100 = image::chooseEv100(luminance, options.exposure);
-  image::addSensorNoise(ev100, options.noise, name, &luminance);
+  image::VeilingGlare(vignetting, options.chains[0].glare).apply(outside, &luminance);
+  image::blur(options.chains[0].blur, &luminance);
+  const double ev100 = image::chooseEv100(luminance, options.chains[0].exposure);
+  image::addSensorNoise(ev100, options.chains[0].noise, name, &luminance);
   EXPECT_EQ(developed.ev100, ev100);
   EXPECT_EQ(developed.picture.data,
-            image::throughMosaic(image::develop(luminance, ev100), options.mosaic).data);
+            image::throughMosaic(image::develop(luminance, ev100), options.chains[0].mosaic).data);
+}
+
+TEST(Studio, TakesPicturesWithAsManyChainsAsItHas) {
+  StudioOptions options = boxes();
+  ChainOptions soft, rolling, long_exposed;
+  soft.blur.sigma_px = 2.0;
+  rolling.shutter.line_delay_us = 1000.0;
+  long_exposed.shutter.exposure_ms = std::nullopt;
+  options.chains = {{}, soft, rolling, long_exposed};
+  Studio studio(options);
+  Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
+  map_from_camera.translation().z() = 1.0;
+  const light::Illumination light = studio.illumination(Sky({}).daylight({kHighSun}));
+  const auto taken = [&](std::size_t chain, const Motion& motion) {
+    studio.look(map_from_camera, {}, motion);
+    return studio.photograph(light, {}, {0, chain}).picture.data;
+  };
+  Motion fast;
+  fast.velocity_m_s = {0.0, 20.0, 0.0};
+  fast.turning_rad_s = {0.0, 0.0, 20.0};
+  const auto sharp = taken(0, {});
+  EXPECT_NE(taken(1, {}), sharp);
+  EXPECT_EQ(taken(2, {}), sharp);
+  EXPECT_NE(taken(2, fast), sharp);
+  // By its own exposure it sees for less than it takes to run a pixel; two stops darker not.
+  EXPECT_EQ(taken(3, fast), sharp);
+  studio.look(map_from_camera, {}, fast);
+  const auto dark = [&](std::size_t chain) {
+    Setting setting{0, chain};
+    setting.adapted = [](double) { return 11.0; };
+    return studio.photograph(light, {}, setting);
+  };
+  EXPECT_EQ(dark(3).ev100, 11.0);
+  EXPECT_NE(dark(3).picture.data, dark(0).picture.data);
+  EXPECT_EQ(studio.meter(light, {}), studio.photograph(light, {}).ev100);
+}
+
+TEST(Studio, TheRightCameraOfOneThatTurnsIsCarriedAlong) {
+  StudioOptions options = boxes();
+  options.chains[0].shutter.line_delay_us = 1000.0;
+  constexpr double kBaseline_m = 2.0;
+  options.right = image::idealRight(image::calibrationOf(options.render.camera), kBaseline_m, "");
+  Studio studio(options);
+  Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
+  map_from_camera.translation().z() = 1.0;
+  Motion motion;
+  motion.velocity_m_s = {1.0, 0.0, 0.0};
+  motion.turning_rad_s = {0.0, 0.0, 2.0};
+  studio.look(map_from_camera, {}, motion);
+  const light::Illumination light = studio.illumination(Sky({}).daylight({kHighSun}));
+  const Developed left = studio.photograph(light, {});
+
+  // Alone in the right one's place, which lies at y = −2 m and so goes forward by 4 m/s more.
+  StudioOptions in_its_place = boxes();
+  in_its_place.chains = options.chains;
+  in_its_place.chains[0].exposure.mode = image::ExposureMode::kFixed;
+  in_its_place.chains[0].exposure.ev100 = left.ev100;
+  Studio alone(in_its_place);
+  motion.velocity_m_s.x() += 2.0 * kBaseline_m;
+  alone.look(map_from_camera * Eigen::Translation3d(0.0, -kBaseline_m, 0.0), {}, motion);
+  EXPECT_EQ(studio.photographRight(light, {}, left.ev100).data, alone.photograph(light, {}).picture.data);
 }
 
 TEST(Studio, TheRightCameraSeesWhatOneInItsPlaceWouldAtTheLeftsExposureWithGrainOfItsOwn) {
   StudioOptions options = boxes();
-  options.noise.enabled = true;
+  options.chains[0].noise.enabled = true;
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
   map_from_camera.translation().z() = 1.0;
   const sky::Daylight day = Sky({}).daylight({kHighSun});
@@ -113,9 +177,9 @@ TEST(Studio, TheRightCameraSeesWhatOneInItsPlaceWouldAtTheLeftsExposureWithGrain
   renderer.look(map_from_camera * Eigen::Translation3d(0.0, -0.3, 0.0) * linkFromOptical());
   image::LinearImage luminance = renderer.light(day);
   image::LinearImage same_grain = luminance;
-  image::addSensorNoise(left.ev100, options.noise, {7, "noon right"}, &luminance);
+  image::addSensorNoise(left.ev100, options.chains[0].noise, {7, "noon right"}, &luminance);
   EXPECT_EQ(right.data, image::develop(luminance, left.ev100).data);
-  image::addSensorNoise(left.ev100, options.noise, name, &same_grain);
+  image::addSensorNoise(left.ev100, options.chains[0].noise, name, &same_grain);
   EXPECT_NE(right.data, image::develop(same_grain, left.ev100).data);
 
   // Drawn ahead is the same.
