@@ -28,6 +28,10 @@ Rain Daylight::rain() const {
   return table_->weather ? table_->weather->rain() : Rain();
 }
 
+Fog Daylight::fog() const {
+  return table_->weather ? table_->weather->fog() : Fog();
+}
+
 bool Daylight::hasBrokenCloud() const {
   return table_->weather && table_->weather->isBroken();
 }

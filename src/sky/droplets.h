@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "sunlit/sky/fog.h"
 #include "sunlit/sky/table_store.h"
 
 namespace sunlit::sky {
@@ -14,18 +15,10 @@ namespace sunlit::sky {
 /// illuminant of overcast skies.
 const Eigen::Array3f kOvercastBluing(0.902F, 1.019F, 1.098F);
 
-/// Droplets take no light (but see DropletLayer::bluing()) and scatter it by the function of Henyey and
-/// Greenstein 1941 with this mean cosine (of cloud in visible light: Slingo 1989). Real droplets have a
-/// narrower peak and bows besides.
-constexpr double kDropletAsymmetry = 0.86;
-
-/// Scattered into 1 sr, relative to all that is scattered.
-float dropletPhase(float cos_angle);
-
-/// Of layers of many optical depths: adding and doubling (van de Hulst 1963; de Haan, Bosma & Hovenier 1987)
-/// in 33 azimuthal modes and 32 directions of Gauss up and down. What is scattered once is left out, since it
-/// has a closed form. Depths lie a factor of √2 apart: at 2 the light about a low sun errs by 10 % between
-/// them.
+/// Of layers of many optical depths, whose droplets take no light (but see DropletLayer::bluing()): adding
+/// and doubling (van de Hulst 1963; de Haan, Bosma & Hovenier 1987) in 33 azimuthal modes and 32 directions
+/// of Gauss up and down. What is scattered once is left out, since it has a closed form. Depths lie a factor
+/// of √2 apart: at 2 the light about a low sun errs by 10 % between them.
 class Droplets {
  public:
   static constexpr int kModes = 33;

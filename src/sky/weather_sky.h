@@ -49,6 +49,7 @@ class WeatherSky {
   /// How much more than that comes through to a place from a disc that stands `towards`.
   float passedThere(const Sight& sight) const;
   const Rain& rain() const { return rain_; }
+  Fog fog() const { return {fog_per_m_, fog_top_m_}; }
   /// The air on the first `distance_m` of the way, `clear_air` without weather.
   AirColumn airOver(const AirColumn& clear_air, const Eigen::Vector3f& towards, float distance_m) const;
 

@@ -10,6 +10,7 @@
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/direction.h"
 #include "sunlit/quantity/photometry.h"
+#include "sunlit/sky/fog.h"
 #include "sunlit/sky/night.h"
 
 namespace sunlit::sky {
@@ -76,6 +77,8 @@ class Daylight {
   /// Illuminance of level, open ground: sun, moon and sky together, lx.
   LinearRgb groundIlluminance() const;
   Rain rain() const;
+  /// That airOver() has in it.
+  Fog fog() const;
 
  private:
   std::shared_ptr<const SkyTable> table_;

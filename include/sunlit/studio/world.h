@@ -46,7 +46,7 @@ struct BakeOptions {
   bool enabled = true;
   light::TransportOptions transport;
   std::string cache_dir;  ///< empty: as image::usualCacheFolder()
-  double cache_limit_gb = 2.0;
+  double cache_limit_gb = 6.0;
 };
 
 inline std::vector<Field> fieldsOf(BakeOptions& bake) {

@@ -25,11 +25,13 @@ TileLighting::TileLighting(const ReadyPicture& picture, const Surroundings& in, 
       in_mirrors_(lightingInMirrors(picture, in, light)),
       air_(picture.seen.surfaces, picture.seen.table, light.day),
       open_air_(picture.seen.surfaces, in.visibility, light.node_open.get()),
-      sky_(picture.seen.surfaces, light.day) {}
+      sky_(picture.seen.surfaces, light.day),
+      glow_(light.lamps.get(), light.day.fog(), picture.seen.surfaces, in.visibility) {}
 
 void TileLighting::light(std::size_t tile, image::LinearImage* image) const {
   sky_.addTo(picture_.seen.surfaces.tiles[tile], image);
   addSurfaces(tile, image);
+  glow_.addTo(picture_.seen.surfaces.tiles[tile], sky_, image);
 }
 
 void TileLighting::lightMirrored(std::size_t number, std::size_t depth,

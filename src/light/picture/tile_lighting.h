@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "light/picture/lamps/lamp_glow.h"
 #include "light/picture/ready_picture.h"
 #include "light/picture/sky/open_air.h"
 #include "light/picture/sky/picture_air.h"
@@ -43,6 +44,7 @@ class TileLighting {
   PictureAir air_;
   OpenAir open_air_;
   SkyPixel sky_;
+  LampGlow glow_;
 };
 
 }  // namespace sunlit::light

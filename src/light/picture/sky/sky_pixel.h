@@ -23,6 +23,10 @@ class SkyPixel {
   /// within 0.1 % of luminance().
   void addTo(const Tile& tile, image::LinearImage* image) const;
 
+  /// Of a pixel's samples, those that see the sky; and what of its light that is, by channel.
+  static int skySamples(const Tile& tile, int x, int y);
+  Eigen::Array3f skyShare(const Tile& tile, int x, int y) const;
+
  private:
   /// A square of neighbouring pixels.
   struct Cell;
@@ -36,9 +40,6 @@ class SkyPixel {
   static constexpr int kCorners = Surfaces::kTileSize / kCell + 1;
   using Corners = std::array<std::array<Corner, kCorners>, kCorners>;  ///< of a tile, by row and column
 
-  /// That see the sky.
-  static int skySamples(const Tile& tile, int x, int y);
-  Eigen::Array3f skyShare(const Tile& tile, int x, int y) const;
   void addCell(const Cell& cell, Corners* corners, image::LinearImage* image) const;
   /// Whether the sky in a cell is as between its corners.
   bool smooth(const Cell& cell, Corners* corners) const;

@@ -1,0 +1,1 @@
+sunlit_bench(under_way LIBRARIES sunlit_render sunlit_scene sunlit_image sunlit_path)

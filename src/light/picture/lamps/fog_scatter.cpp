@@ -1,0 +1,88 @@
+#include "light/picture/lamps/fog_scatter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sunlit/quantity/angle.h"
+
+namespace sunlit::light {
+namespace {
+
+constexpr float kDepths = 8.0f;  ///< of fog, beyond which nothing is seen
+constexpr float kFarthest_m = 1000.0f;
+constexpr float kGrowth = 200.0f;  ///< the last slice is about so many times as long as the first
+constexpr float kHalved_rad = 5.0f * static_cast<float>(kRadPerDeg);  ///< where k is a half: see FogScatter
+constexpr float kStep_rad = 0.1f;  ///< of what a slice is divided into, seen from the lamp
+
+float leastExtinction() {
+  constexpr auto kAsymmetry = static_cast<float>(sky::kDropletAsymmetry);
+  return 1.0f - kAsymmetry * kAsymmetry;
+}
+
+}  // namespace
+
+FogSlices::FogSlices(const sky::Fog& fog) {
+  const float last_m = std::min(kDepths / fog.per_m, kFarthest_m);
+  for (std::size_t i = 0; i <= kCount; ++i)
+    ends_[i] = last_m * std::expm1(std::log1p(kGrowth) * static_cast<float>(i) / kCount) / kGrowth;
+}
+
+float FogSlices::place(float distance_m) const {
+  const float share = std::min(distance_m / last(), 1.0f);
+  return std::log1p(kGrowth * share) / std::log1p(kGrowth) * kCount;
+}
+
+struct FogScatter::Line {
+  Line(const FogScatter& of, const Eigen::Vector3f& towards) {
+    const Eigen::Vector3f way = of.beam_.position() - of.eye_;
+    nearest_m = towards.dot(way);
+    beside_m = std::max((way - nearest_m * towards).norm(), std::max(of.beam_.radius_m(), 1e-3f));
+    angle_rad = std::atan2(beside_m, nearest_m);
+  }
+  /// From the lamp, at a right angle to the line or more.
+  float angleAt(float distance_m) const { return std::atan((distance_m - nearest_m) / beside_m); }
+  float distanceAt(float angle) const { return nearest_m + beside_m * std::tan(angle); }
+
+  float nearest_m;  ///< from the eye to where the line is nearest to the lamp; behind it below 0
+  float beside_m;   ///< from there to the lamp
+  float angle_rad;  ///< between the line and the lamp
+};
+
+FogScatter::FogScatter(const LampBeam& beam, const sky::Fog& fog, const Eigen::Vector3f& eye)
+    : beam_(beam), fog_(fog), eye_(eye) {}
+
+float FogScatter::middle(const Eigen::Vector3f& towards, const FogSlices& slices, std::size_t slice) const {
+  const Line line(*this, towards);
+  return line.distanceAt(0.5f * (line.angleAt(slices.end(slice)) + line.angleAt(slices.end(slice + 1))));
+}
+
+void FogScatter::addAlong(const Eigen::Vector3f& towards, const FogSlices& slices, const OpenSlices& open,
+                          GlowProfile* profile) const {
+  const Line line(*this, towards);
+  const float per_m = fog_.per_m * std::max(1.0f / (1.0f + line.angle_rad / kHalved_rad), leastExtinction());
+  Eigen::Array3f sum = Eigen::Array3f::Zero();
+  float from = line.angleAt(0.0f);
+  for (std::size_t i = 0; i < FogSlices::kCount; ++i) {
+    const float to = line.angleAt(slices.end(i + 1));
+    float of_slice = 0.0f;
+    const int steps = open[i] > 0.0f ? 1 + static_cast<int>(std::ceil((to - from) / kStep_rad)) : 0;
+    for (int k = 0; k < steps; ++k) {
+      // By equal angles from the lamp its 1 / r² is met: ds = r² / D dθ.
+      const float distance_m =
+          line.distanceAt(from + (to - from) * (static_cast<float>(k) + 0.5f) / static_cast<float>(steps));
+      const Eigen::Vector3f point = eye_ + distance_m * towards;
+      if (point.z() - eye_.z() > fog_.top_m) continue;
+      const Eigen::Vector3f away = point - beam_.position();
+      const float r = std::max(away.norm(), line.beside_m);
+      of_slice += beam_.share(point) * sky::dropletPhase(-towards.dot(away) / r) *
+                  std::exp(-per_m * (distance_m + r)) * r * r;
+    }
+    if (steps > 0)
+      sum += beam_.intensity() *
+             (of_slice * open[i] * fog_.per_m * (to - from) / (static_cast<float>(steps) * line.beside_m));
+    (*profile)[i + 1] += sum;
+    from = to;
+  }
+}
+
+}  // namespace sunlit::light
