@@ -10,6 +10,7 @@
 
 #include "sunlit/quantity/frames.h"
 #include "sunlit/sky/atmosphere.h"
+#include "sunlit/sky/weather.h"
 
 namespace sunlit::bench {
 
@@ -36,9 +37,10 @@ inline std::vector<Eigen::Vector3d> circuitPoints() {
   return points;
 }
 
-inline sky::Daylight daylightAt(double elevation_deg) {
+inline sky::Daylight daylightAt(double elevation_deg, const sky::Weather& weather = {}) {
   static const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
-  return atmosphere.daylight({Direction(Azimuth::degrees(120.0), Angle::degrees(elevation_deg)), 1.0});
+  const Direction towards(Azimuth::degrees(120.0), Angle::degrees(elevation_deg));
+  return atmosphere.daylight({towards, 1.0}, {}, weather);
 }
 
 }  // namespace sunlit::bench

@@ -98,6 +98,36 @@ void skyLuminance(benchmark::State& state) {
 }
 BENCHMARK(skyLuminance)->Arg(40)->Arg(-30);
 
+Daylight underBrokenCloud() {
+  Weather weather;
+  weather.cover_oktas = 4.0;
+  return clearAir().daylight(sunAt(40.0), {}, weather);
+}
+
+void skyLuminanceBroken(benchmark::State& state) {
+  const Daylight day = underBrokenCloud();
+  const std::vector<Eigen::Vector3f> towards = directions();
+  for (auto _ : state) {
+    for (const Eigen::Vector3f& v : towards) {
+      benchmark::DoNotOptimize(day.skyLuminance(v));
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(towards.size()));
+}
+BENCHMARK(skyLuminanceBroken);
+
+void throughCloud(benchmark::State& state) {
+  const Daylight day = underBrokenCloud();
+  const std::vector<Eigen::Vector3f> places = directions();
+  for (auto _ : state) {
+    for (const Eigen::Vector3f& place : places) {
+      benchmark::DoNotOptimize(day.throughCloud(day.sun(), 100.0F * place));
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(places.size()));
+}
+BENCHMARK(throughCloud);
+
 void airOver(benchmark::State& state) {
   const Daylight day = clearAir().daylight(sunAt(static_cast<double>(state.range(0))), starryNight());
   const std::vector<Eigen::Vector3f> towards = directions();

@@ -107,9 +107,12 @@ CAMERA = {"vignetting": ("vignetting", "natural"), "glare": ("glare", "share"), 
           "noise": ("noise", "enabled"), "mosaic": ("mosaic", "pattern")}
 
 
+USUAL_HOURS = "[4, 12, 20]"  # of experiment.launch: roslaunch does not tell what was typed from what was not
+
+
 def conditions(text, hours):
     """'{grey: {hour: 12.5, cover: 8}}' -> {'grey': {hour: 12, minute: 30, second: 0.0, cover: 8}}, in the order given; those
-    of `hours` where there are none. The range of all but the hour is the business of the node that gets it."""
+    of `hours` where there are none, and not both. The range of all but the hour is the business of the node that gets it."""
     allowed = "a map from names to what differs, such as {noon: {hour: 12}, grey: {hour: 12, cover: 8, overcast: cie}}"
     asked = parse("conditions", text, allowed) if text.strip() else {}
     if not isinstance(asked, dict):
@@ -130,6 +133,9 @@ def conditions(text, hours):
                                   + (f" (did you mean {near[0]}?)" if near else f"; known are {', '.join(known)}"))
         (of_hour,) = clock_times(str(differs["hour"])).values()
         found[name] = {**of_hour, **{key: value for key, value in differs.items() if key != "hour"}}
+    instead = "left out beside conditions, which have hours of their own: " + ", ".join(found)
+    if parse("hours", hours, instead) != parse("hours", USUAL_HOURS, instead):
+        raise BadArgument("hours", hours, instead)
     return found
 
 

@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -15,6 +14,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sunlit/image/unfinished_file.h"
+
 namespace sunlit::image {
 namespace {
 
@@ -22,64 +23,13 @@ namespace {
   throw std::runtime_error(path + ": " + what + ": " + reasonOf(errno));
 }
 
-constexpr const char* kUnfinished = ".part";
-
-/// Whether a file of this name was left by a TemporaryFile of a process that has ended.
+/// Whether a file of this name was left by an UnfinishedFile of a process that has ended.
 bool isAbandoned(const std::string& name) {
-  static const std::regex form(std::string(R"(.+\.([0-9]{1,9})\.[0-9]+\)") + kUnfinished);
+  static const std::regex form(std::string(R"(.+\.([0-9]{1,9})\.[0-9]+\)") + UnfinishedFile::kEnding);
   std::smatch match;
   if (!std::regex_match(name, match, form)) return false;
   return ::kill(static_cast<pid_t>(std::stol(match[1])), 0) != 0 && errno == ESRCH;
 }
-
-/// An open file that is removed again unless it was kept.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& target) {
-    static std::atomic<unsigned> count{0};  // two threads may write the same picture
-    path_ = target + "." + std::to_string(::getpid()) + "." + std::to_string(count++) + kUnfinished;
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) {
-      fail(target, "create");
-    }
-  }
-  ~TemporaryFile() {
-    if (descriptor_ >= 0) {
-      ::close(descriptor_);
-    }
-    if (!kept_) {
-      ::unlink(path_.c_str());
-    }
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  void write(const std::string& target, const std::string& bytes) const {
-    std::size_t done = 0;
-    while (done < bytes.size()) {
-      const ssize_t written = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
-      if (written < 0 && errno != EINTR) {
-        fail(target, "write");
-      }
-      done += written > 0 ? static_cast<std::size_t>(written) : 0;
-    }
-  }
-
-  void moveTo(const std::string& target) {
-    const int descriptor = descriptor_;
-    descriptor_ = -1;
-    if (::close(descriptor) != 0) {
-      fail(target, "close");
-    }
-    moveIntoPlace(path_, target);
-    kept_ = true;
-  }
-
- private:
-  std::string path_;
-  int descriptor_ = -1;
-  bool kept_ = false;
-};
 
 template <int kChannels>
 void writeMap(const std::string& path, const Picture<float, kChannels>& image) {
@@ -170,9 +120,9 @@ void moveIntoPlace(const std::string& finished, const std::string& path) {
 }
 
 void writeFileAtomically(const std::string& path, const std::string& bytes) {
-  TemporaryFile file(path);
-  file.write(path, bytes);
-  file.moveTo(path);
+  UnfinishedFile file(path);
+  file.write(bytes.data(), bytes.size());
+  file.keep();
 }
 
 void removeUnfinished(const std::string& folder) {

@@ -32,7 +32,7 @@ World weathered(const World& dry, const scene::SurfaceState& state) {
   auto geometry = std::make_shared<Geometry>(*dry.geometry);
   geometry->weathering = std::make_shared<const scene::Weathering>(*geometry->scene, state);
   world.geometry = std::move(geometry);
-  world.visibility = std::make_shared<Visibility>(world.geometry);
+  world.visibility = std::make_shared<Visibility>(*dry.visibility, world.geometry);
   return world;
 }
 

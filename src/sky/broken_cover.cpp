@@ -73,6 +73,10 @@ BrokenCover::BrokenCover(const CloudPlace& place, const LightAbove& above, const
   level_ = level / (1.0F - albedo_below * thrown_back);
   for (std::size_t i = 0; i < skies_.size(); ++i)
     skies_[i].addFromBelow(layers[i], level_ * (albedo_below / static_cast<float>(kPi)));
+  for (const DiscLight& disc : above.discs) {
+    const auto z = static_cast<float>(disc.towards.vector().z());
+    means_.push_back({z, meanPassed(z)});
+  }
 }
 
 BrokenCover::Way BrokenCover::wayUp(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const {
@@ -101,8 +105,9 @@ BrokenCover::Seen BrokenCover::seen(const Eigen::Vector3f& towards, const Eigen:
   if (across > 0.0F) met *= std::sqrt(std::max(0.0F, 1.0F - way.cosine * way.cosine)) / across;
   met.z() = way.cosine;
   const Between at = between(depth, skies_.size());
+  const LayerSky::Place towards_it = LayerSky::placeOf(met);
   for (std::size_t i = 0; i < 2; ++i) {
-    if (at.weights[i] > 0.0F) seen.scattered += at.weights[i] * skies_[at.first + i].scattered(met);
+    if (at.weights[i] > 0.0F) seen.scattered += at.weights[i] * skies_[at.first + i].scattered(towards_it);
   }
   return seen;
 }
@@ -117,6 +122,9 @@ float BrokenCover::passed(const Eigen::Vector3f& towards, const Eigen::Vector3f&
 }
 
 float BrokenCover::meanPassed(float z) const {
+  for (const Mean& mean : means_) {
+    if (mean.z == z) return mean.passed;
+  }
   const float cosine =
       wayUp({std::sqrt(std::max(0.0F, 1.0F - z * z)), 0.0F, z}, Eigen::Vector3f::Zero()).cosine;
   return static_cast<float>(place_.map->meanPassed(static_cast<double>(cosine)));

@@ -46,10 +46,14 @@ class BrokenCover {
     float cosine;  ///< of the angle to the vertical, at the cloud
     float distance_m;
   };
+  struct Mean {
+    float z, passed;
+  };
   Way wayUp(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const;
 
   CloudPlace place_;
   std::vector<LayerSky> skies_;  // by optical depth
+  std::vector<Mean> means_;      // of sun and moon, which every surface asks for
   Eigen::Array3f level_ = Eigen::Array3f::Zero();
 };
 

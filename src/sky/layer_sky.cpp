@@ -147,20 +147,26 @@ void LayerSky::addFromBelow(const DropletLayer& layer, const Eigen::Array3f& lum
   }
 }
 
-Eigen::Array3f LayerSky::scattered(const Eigen::Vector3f& towards) const {
+LayerSky::Place LayerSky::placeOf(const Eigen::Vector3f& towards) {
   const float elevation = elevationAboveHorizon(towards);
   const TablePlace row = placeAt(std::sqrt(elevation / kHalfPi) * (kRows - 1), kRows);
   const float from_east = azimuthFrom(Eigen::Vector2f::UnitX(), towards);
   const float azimuth = towards.y() >= 0.0F ? from_east : static_cast<float>(2.0 * kPi) - from_east;
   const float at_column = azimuth * static_cast<float>(kColumns / (2.0 * kPi));
-  const int whole = std::min(static_cast<int>(at_column), kColumns - 1);
-  const float u = std::min(at_column - static_cast<float>(whole), 1.0F);
+  const int column = std::min(static_cast<int>(at_column), kColumns - 1);
+  const float u = std::min(at_column - static_cast<float>(column), 1.0F);
   const float v = row.fraction;
-  const int next = whole + 1 == kColumns ? 0 : whole + 1;
-  const Eigen::Array4f* low = &nodes_[static_cast<std::size_t>(row.index * kColumns)];
+  return {row.index * kColumns,
+          column,
+          column + 1 == kColumns ? 0 : column + 1,
+          {(1.0F - u) * (1.0F - v), u * (1.0F - v), (1.0F - u) * v, u * v}};
+}
+
+Eigen::Array3f LayerSky::scattered(const Place& place) const {
+  const Eigen::Array4f* low = &nodes_[static_cast<std::size_t>(place.row)];
   const Eigen::Array4f* high = low + kColumns;
-  const Eigen::Array4f sum = low[whole] * ((1.0F - u) * (1.0F - v)) + low[next] * (u * (1.0F - v)) +
-                             high[whole] * ((1.0F - u) * v) + high[next] * (u * v);
+  const Eigen::Array4f sum = low[place.column] * place.weights[0] + low[place.next] * place.weights[1] +
+                             high[place.column] * place.weights[2] + high[place.next] * place.weights[3];
   return sum.head<3>();
 }
 

@@ -36,8 +36,17 @@ class LayerSky {
   /// Illuminance of level ground, lx, as it was over black ground.
   const Eigen::Array3f& level() const { return level_; }
 
-  /// cd/m²; of the horizon below it. `towards` is a unit vector in `map`.
-  Eigen::Array3f scattered(const Eigen::Vector3f& towards) const;
+  /// Where a direction lies in the table of every layer.
+  struct Place {
+    int row;           ///< its first node
+    int column, next;  ///< around it
+    float weights[4];  ///< of both, in this row and in that above
+  };
+  /// `towards` is a unit vector in `map`.
+  static Place placeOf(const Eigen::Vector3f& towards);
+  /// cd/m²; of the horizon below it.
+  Eigen::Array3f scattered(const Eigen::Vector3f& towards) const { return scattered(placeOf(towards)); }
+  Eigen::Array3f scattered(const Place& place) const;
   /// What of the light above goes straight through at an elevation of sine `z`.
   float passed(float z) const;
 

@@ -1,7 +1,7 @@
 /// A folder of what would take long to make again, shared by processes.
 ///
 /// Files are named by the hash of what they were made from. Whoever makes one takes its turn first, writes
-/// beside it (NAME.NUMBER.part, or by writeFileAtomically()) and renames, so that only whole files have the
+/// beside it (NAME.NUMBER.part, or an UnfinishedFile) and renames, so that only whole files have the
 /// name.
 #pragma once
 

@@ -34,12 +34,10 @@ struct Chunk {
   Eigen::AlignedBox3f box;  ///< around all of them, m in `map`
 };
 
-/// Triangles without area are left out: they can neither be seen nor cast a shadow.
-struct Geometry {
-  explicit Geometry(std::shared_ptr<const scene::Scene> scene);
-
-  std::shared_ptr<const scene::Scene> scene;  ///< whose materials and textures the indices below mean
-  std::shared_ptr<const scene::Weathering> weathering;  ///< what lies on its surfaces; null: nothing
+/// Where the triangles of a scene are and what they are made of. Triangles without area are left out: they
+/// can neither be seen nor cast a shadow.
+struct Shape {
+  explicit Shape(const scene::Scene& scene);
 
   std::vector<Eigen::Vector3f> positions;  ///< m in `map`
   std::vector<Eigen::Vector3f>
@@ -51,19 +49,42 @@ struct Geometry {
   std::vector<Eigen::Vector4f> tangents;
   std::vector<Eigen::Array3f> colors;  ///< linear, one a vertex
 
-  /// Of a set of scene::TextureUse: one a vertex; null: no mesh has it.
-  const std::vector<Eigen::Vector2f>* coordinates(int set) const {
-    if (set == 0) return &texture_coordinates;
-    const auto more = static_cast<std::size_t>(set - 1);
-    return more < more_texture_coordinates.size() ? &more_texture_coordinates[more] : nullptr;
-  }
-
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Plane> planes;            ///< one a triangle
   std::vector<std::int32_t> materials;  ///< one a triangle
   std::vector<Chunk> chunks;            ///< cover all triangles, in order
 
   static constexpr float kCellSize_m = 64.0f;
+};
+
+/// A scene's triangles in one state of their surfaces. Cheap to copy: copies, and other states, share the
+/// shape.
+struct Geometry {
+  explicit Geometry(std::shared_ptr<const scene::Scene> scene);
+  /// Of a shape that has the materials of `scene`.
+  Geometry(std::shared_ptr<const scene::Scene> scene, std::shared_ptr<const Shape> shape);
+
+  std::shared_ptr<const scene::Scene> scene;  ///< whose materials and textures the indices below mean
+  std::shared_ptr<const scene::Weathering> weathering;  ///< what lies on its surfaces; null: nothing
+  std::shared_ptr<const Shape> shape;                   ///< whose all that follows is
+
+  const std::vector<Eigen::Vector3f>& positions;
+  const std::vector<Eigen::Vector3f>& normals;
+  const std::vector<Eigen::Vector2f>& texture_coordinates;
+  const std::vector<std::vector<Eigen::Vector2f>>& more_texture_coordinates;
+  const std::vector<Eigen::Vector4f>& tangents;
+  const std::vector<Eigen::Array3f>& colors;
+  const std::vector<std::array<std::uint32_t, 3>>& triangles;
+  const std::vector<Plane>& planes;
+  const std::vector<std::int32_t>& materials;
+  const std::vector<Chunk>& chunks;
+
+  /// Of a set of scene::TextureUse: one a vertex; null: no mesh has it.
+  const std::vector<Eigen::Vector2f>* coordinates(int set) const {
+    if (set == 0) return &texture_coordinates;
+    const auto more = static_cast<std::size_t>(set - 1);
+    return more < more_texture_coordinates.size() ? &more_texture_coordinates[more] : nullptr;
+  }
 };
 
 }  // namespace sunlit::light

@@ -50,6 +50,9 @@ class Visibility {
   /// All that `fixed` knows, with `moving` beside it, whose triangles are numbered after those of `fixed`.
   /// Quickly made for a few thousand triangles. `fixed` is none of this kind itself.
   Visibility(std::shared_ptr<const Visibility> fixed, std::shared_ptr<const Geometry> moving);
+  /// All that `other` knows, where nothing moves, of its triangles in another state of their surfaces, which
+  /// stops the same rays: what rays need is shared. `geometry` differs by its weathering alone.
+  Visibility(const Visibility& other, std::shared_ptr<const Geometry> geometry);
   ~Visibility();
   Visibility(const Visibility&) = delete;
   Visibility& operator=(const Visibility&) = delete;
@@ -94,7 +97,8 @@ class Visibility {
 
   class Implementation;
   std::shared_ptr<const Visibility> fixed_;  ///< null: there is nothing else
-  std::unique_ptr<Implementation> implementation_;
+  std::shared_ptr<const Geometry> geometry_;
+  std::shared_ptr<const Implementation> implementation_;
 };
 
 }  // namespace sunlit::light

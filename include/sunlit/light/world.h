@@ -33,7 +33,7 @@ struct World {
 };
 
 /// The same world with its surfaces in another state; what moves stays dry. `dry` is so, and what it was
-/// baked with is left behind. Takes as long as World() and weathering together.
+/// baked with is left behind. Shares its triangles and rays, and takes as long as weathering alone.
 World weathered(const World& dry, const scene::SurfaceState& state);
 
 /// Tells worlds apart by what decides their pictures: shape, looks, what moves, and how `transport` was

@@ -8,12 +8,10 @@ namespace {
 
 Geometry geometryOf(std::shared_ptr<const scene::Scene> scene,
                     const std::vector<std::vector<scene::Mesh>>& meshes_of_bodies) {
-  auto meshes_only = std::make_shared<scene::Scene>();
+  scene::Scene meshes_only;
   for (const auto& meshes : meshes_of_bodies)
-    meshes_only->meshes.insert(meshes_only->meshes.end(), meshes.begin(), meshes.end());
-  Geometry geometry(meshes_only);
-  geometry.scene = std::move(scene);
-  return geometry;
+    meshes_only.meshes.insert(meshes_only.meshes.end(), meshes.begin(), meshes.end());
+  return Geometry(std::move(scene), std::make_shared<const Shape>(meshes_only));
 }
 
 std::vector<std::uint32_t> firstVertices(const std::vector<std::vector<scene::Mesh>>& meshes_of_bodies) {
@@ -29,11 +27,11 @@ std::vector<std::uint32_t> firstVertices(const std::vector<std::vector<scene::Me
 
 /// The plane that the corners of triangle `t` lie in; `before` turned by `rotation` where rounding has left
 /// it no area.
-Plane placedPlane(const Geometry& geometry, std::size_t t, const Eigen::Vector3f& before,
+Plane placedPlane(const Shape& shape, std::size_t t, const Eigen::Vector3f& before,
                   const Eigen::Matrix3d& rotation) {
-  const auto& corners = geometry.triangles[t];
-  const Eigen::Vector3f& a = geometry.positions[corners[0]];
-  if (const auto plane = planeThrough(a, geometry.positions[corners[1]], geometry.positions[corners[2]]))
+  const auto& corners = shape.triangles[t];
+  const Eigen::Vector3f& a = shape.positions[corners[0]];
+  if (const auto plane = planeThrough(a, shape.positions[corners[1]], shape.positions[corners[2]]))
     return *plane;
   Plane plane;
   plane.normal = (rotation * before.cast<double>()).cast<float>().normalized();
@@ -70,27 +68,27 @@ std::shared_ptr<const Geometry> Bodies::placed(const std::vector<Eigen::Isometry
     throw std::invalid_argument("map_from_body holds " + std::to_string(map_from_body.size()) +
                                 " transforms, but there are " + std::to_string(count()) + " bodies");
   }
-  auto geometry = std::make_shared<Geometry>(at_home_);
+  auto shape = std::make_shared<Shape>(*at_home_.shape);
   for (std::size_t body = 0; body < count(); ++body) {
     const Eigen::Isometry3d& place = map_from_body[body];
     if (!place.matrix().allFinite())
       throw std::invalid_argument("map_from_body[" + std::to_string(body) + "] is not finite");
     for (std::uint32_t i = first_vertices_[body]; i < first_vertices_[body + 1]; ++i) {
-      geometry->positions[i] = (place * at_home_.positions[i].cast<double>()).cast<float>();
-      geometry->normals[i] = (place.linear() * at_home_.normals[i].cast<double>()).cast<float>();
+      shape->positions[i] = (place * at_home_.positions[i].cast<double>()).cast<float>();
+      shape->normals[i] = (place.linear() * at_home_.normals[i].cast<double>()).cast<float>();
     }
   }
-  for (std::size_t t = 0; t < geometry->triangles.size(); ++t) {
+  for (std::size_t t = 0; t < shape->triangles.size(); ++t) {
     const Eigen::Isometry3d& place = map_from_body[bodyOf(static_cast<std::uint32_t>(t))];
-    geometry->planes[t] = placedPlane(*geometry, t, at_home_.planes[t].normal, place.linear());
+    shape->planes[t] = placedPlane(*shape, t, at_home_.planes[t].normal, place.linear());
   }
-  for (Chunk& chunk : geometry->chunks) {
+  for (Chunk& chunk : shape->chunks) {
     chunk.box.setEmpty();
     for (std::uint32_t t = chunk.first; t < chunk.first + chunk.count; ++t) {
-      for (const std::uint32_t vertex : geometry->triangles[t]) chunk.box.extend(geometry->positions[vertex]);
+      for (const std::uint32_t vertex : shape->triangles[t]) chunk.box.extend(shape->positions[vertex]);
     }
   }
-  return geometry;
+  return std::make_shared<const Geometry>(at_home_.scene, std::move(shape));
 }
 
 }  // namespace sunlit::light

@@ -18,20 +18,20 @@ struct Placed {
   }
 };
 
-void appendVertices(const scene::Mesh& mesh, Geometry* geometry) {
-  geometry->positions.insert(geometry->positions.end(), mesh.positions.begin(), mesh.positions.end());
-  const std::size_t count = geometry->positions.size();
+void appendVertices(const scene::Mesh& mesh, Shape* shape) {
+  shape->positions.insert(shape->positions.end(), mesh.positions.begin(), mesh.positions.end());
+  const std::size_t count = shape->positions.size();
   for (const Eigen::Vector3f& normal : mesh.normals) {
     const float length = normal.norm();
-    geometry->normals.push_back(std::isfinite(length) && length > 1e-6f
-                                    ? Eigen::Vector3f(normal / length)
-                                    : Eigen::Vector3f(Eigen::Vector3f::Zero()));
+    shape->normals.push_back(std::isfinite(length) && length > 1e-6f
+                                 ? Eigen::Vector3f(normal / length)
+                                 : Eigen::Vector3f(Eigen::Vector3f::Zero()));
   }
-  geometry->normals.resize(count, Eigen::Vector3f::Zero());
-  geometry->texture_coordinates.insert(geometry->texture_coordinates.end(), mesh.texture_coordinates.begin(),
-                                       mesh.texture_coordinates.end());
-  geometry->texture_coordinates.resize(count, Eigen::Vector2f::Zero());
-  auto& more = geometry->more_texture_coordinates;
+  shape->normals.resize(count, Eigen::Vector3f::Zero());
+  shape->texture_coordinates.insert(shape->texture_coordinates.end(), mesh.texture_coordinates.begin(),
+                                    mesh.texture_coordinates.end());
+  shape->texture_coordinates.resize(count, Eigen::Vector2f::Zero());
+  auto& more = shape->more_texture_coordinates;
   more.resize(std::max(more.size(), mesh.more_texture_coordinates.size()));
   for (std::size_t set = 0; set < more.size(); ++set) {
     more[set].resize(count - mesh.positions.size(), Eigen::Vector2f::Zero());
@@ -40,13 +40,13 @@ void appendVertices(const scene::Mesh& mesh, Geometry* geometry) {
                        mesh.more_texture_coordinates[set].end());
     more[set].resize(count, Eigen::Vector2f::Zero());
   }
-  if (!mesh.tangents.empty() || !geometry->tangents.empty()) {
-    geometry->tangents.resize(count - mesh.positions.size(), Eigen::Vector4f::Zero());
-    geometry->tangents.insert(geometry->tangents.end(), mesh.tangents.begin(), mesh.tangents.end());
-    geometry->tangents.resize(count, Eigen::Vector4f::Zero());
+  if (!mesh.tangents.empty() || !shape->tangents.empty()) {
+    shape->tangents.resize(count - mesh.positions.size(), Eigen::Vector4f::Zero());
+    shape->tangents.insert(shape->tangents.end(), mesh.tangents.begin(), mesh.tangents.end());
+    shape->tangents.resize(count, Eigen::Vector4f::Zero());
   }
-  geometry->colors.insert(geometry->colors.end(), mesh.colors.begin(), mesh.colors.end());
-  geometry->colors.resize(count, Eigen::Array3f::Ones());
+  shape->colors.insert(shape->colors.end(), mesh.colors.begin(), mesh.colors.end());
+  shape->colors.resize(count, Eigen::Array3f::Ones());
 }
 
 Eigen::Vector3d centreOf(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
@@ -54,32 +54,32 @@ Eigen::Vector3d centreOf(const Eigen::Vector3f& a, const Eigen::Vector3f& b, con
 }
 
 /// False for a triangle without area.
-bool place(const Geometry& geometry, Placed* triangle) {
-  const Eigen::Vector3f& a = geometry.positions[triangle->vertices[0]];
-  const Eigen::Vector3f& b = geometry.positions[triangle->vertices[1]];
-  const Eigen::Vector3f& c = geometry.positions[triangle->vertices[2]];
+bool place(const Shape& shape, Placed* triangle) {
+  const Eigen::Vector3f& a = shape.positions[triangle->vertices[0]];
+  const Eigen::Vector3f& b = shape.positions[triangle->vertices[1]];
+  const Eigen::Vector3f& c = shape.positions[triangle->vertices[2]];
   const std::optional<Plane> plane = planeThrough(a, b, c);
   if (!plane) return false;
   triangle->plane = *plane;
   const Eigen::Vector3d centre = centreOf(a, b, c);
-  triangle->cell_x = static_cast<int>(std::floor(centre.x() / Geometry::kCellSize_m));
-  triangle->cell_y = static_cast<int>(std::floor(centre.y() / Geometry::kCellSize_m));
+  triangle->cell_x = static_cast<int>(std::floor(centre.x() / Shape::kCellSize_m));
+  triangle->cell_y = static_cast<int>(std::floor(centre.y() / Shape::kCellSize_m));
   return true;
 }
 
-void appendTriangle(const Placed& triangle, bool starts_chunk, Geometry* geometry) {
+void appendTriangle(const Placed& triangle, bool starts_chunk, Shape* shape) {
   if (starts_chunk) {
     Chunk chunk;
     chunk.material = triangle.material;
-    chunk.first = static_cast<std::uint32_t>(geometry->triangles.size());
-    geometry->chunks.push_back(chunk);
+    chunk.first = static_cast<std::uint32_t>(shape->triangles.size());
+    shape->chunks.push_back(chunk);
   }
-  Chunk& chunk = geometry->chunks.back();
+  Chunk& chunk = shape->chunks.back();
   ++chunk.count;
-  for (std::uint32_t vertex : triangle.vertices) chunk.box.extend(geometry->positions[vertex]);
-  geometry->triangles.push_back(triangle.vertices);
-  geometry->planes.push_back(triangle.plane);
-  geometry->materials.push_back(triangle.material);
+  for (std::uint32_t vertex : triangle.vertices) chunk.box.extend(shape->positions[vertex]);
+  shape->triangles.push_back(triangle.vertices);
+  shape->planes.push_back(triangle.plane);
+  shape->materials.push_back(triangle.material);
 }
 
 }  // namespace
@@ -96,11 +96,10 @@ std::optional<Plane> planeThrough(const Eigen::Vector3f& a, const Eigen::Vector3
   return plane;
 }
 
-Geometry::Geometry(std::shared_ptr<const scene::Scene> scene_to_flatten)
-    : scene(std::move(scene_to_flatten)) {
+Shape::Shape(const scene::Scene& scene) {
   std::vector<Placed> placed;
-  placed.reserve(scene->triangleCount());
-  for (const scene::Mesh& mesh : scene->meshes) {
+  placed.reserve(scene.triangleCount());
+  for (const scene::Mesh& mesh : scene.meshes) {
     const auto base = static_cast<std::uint32_t>(positions.size());
     appendVertices(mesh, this);
     for (const auto& t : mesh.triangles) {
@@ -120,5 +119,22 @@ Geometry::Geometry(std::shared_ptr<const scene::Scene> scene_to_flatten)
     appendTriangle(placed[i], i == 0 || !placed[i].sameChunk(placed[i - 1]), this);
   }
 }
+
+Geometry::Geometry(std::shared_ptr<const scene::Scene> scene_to_flatten)
+    : Geometry(scene_to_flatten, std::make_shared<const Shape>(*scene_to_flatten)) {}
+
+Geometry::Geometry(std::shared_ptr<const scene::Scene> of_scene, std::shared_ptr<const Shape> of_shape)
+    : scene(std::move(of_scene)),
+      shape(std::move(of_shape)),
+      positions(shape->positions),
+      normals(shape->normals),
+      texture_coordinates(shape->texture_coordinates),
+      more_texture_coordinates(shape->more_texture_coordinates),
+      tangents(shape->tangents),
+      colors(shape->colors),
+      triangles(shape->triangles),
+      planes(shape->planes),
+      materials(shape->materials),
+      chunks(shape->chunks) {}
 
 }  // namespace sunlit::light

@@ -112,7 +112,6 @@ class Visibility::Implementation {
   void closest(const Rays& rays, Hit* hits) const;
   Hit firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near) const;
   void addVeils(const Sight& sight, std::uint32_t first_triangle, std::vector<Hit>* hits) const;
-  const Geometry& geometry() const { return *geometry_; }
   bool hasVeils() const { return !veils_.empty(); }
   bool hasGlass() const { return has_glass_; }
   std::uint32_t triangleCount() const { return static_cast<std::uint32_t>(geometry_->triangles.size()); }
@@ -293,10 +292,13 @@ Hit nearer(const Hit& fixed, Hit moving, std::uint32_t first_triangle) {
 }  // namespace
 
 Visibility::Visibility(std::shared_ptr<const Geometry> geometry)
-    : implementation_(std::make_unique<Implementation>(std::move(geometry))) {}
+    : geometry_(std::move(geometry)), implementation_(std::make_shared<const Implementation>(geometry_)) {}
 Visibility::Visibility(std::shared_ptr<const Visibility> fixed, std::shared_ptr<const Geometry> moving)
     : fixed_(std::move(fixed)),
-      implementation_(std::make_unique<Implementation>(std::move(moving), *fixed_->implementation_)) {}
+      geometry_(std::move(moving)),
+      implementation_(std::make_shared<const Implementation>(geometry_, *fixed_->implementation_)) {}
+Visibility::Visibility(const Visibility& other, std::shared_ptr<const Geometry> geometry)
+    : geometry_(std::move(geometry)), implementation_(other.implementation_) {}
 Visibility::~Visibility() = default;
 
 void Visibility::occluded(const Rays& rays, std::uint8_t* blocked) const {
@@ -325,10 +327,10 @@ void Visibility::occludedByMoving(const Rays& rays, std::uint8_t* blocked) const
 }
 
 const Geometry& Visibility::fixedGeometry() const {
-  return (fixed_ ? *fixed_ : *this).implementation_->geometry();
+  return fixed_ ? *fixed_->geometry_ : *geometry_;
 }
 const Geometry* Visibility::movingGeometry() const {
-  return fixed_ ? &implementation_->geometry() : nullptr;
+  return fixed_ ? geometry_.get() : nullptr;
 }
 
 std::uint32_t Visibility::fixedTriangles() const {

@@ -73,6 +73,18 @@ class Arguments(unittest.TestCase):
             self.assert_refused("argument conditions is", arguments.conditions, text, "[4]")
             self.assert_refused(part, arguments.conditions, text, "[4]")
 
+    def test_hours_beside_conditions_are_refused(self):
+        self.assertEqual(arguments.USUAL_HOURS, defaults()["hours"])
+        typed = "{noon: {hour: 12}, grey: {hour: 12, cover: 8}}"
+        for hours in ("[6, 18]", "[4, 12]", "12", ""):
+            with self.assertRaises(arguments.BadArgument) as caught:
+                planned(conditions=typed, hours=hours)
+            self.assertEqual(str(caught.exception), f"argument hours is {hours!r}, but must be left out beside conditions, "
+                             "which have hours of their own: noon, grey")
+        # What roslaunch fills in, however it is spelt, is not told from what was left out.
+        self.assertEqual(list(planned(conditions=typed, hours="[4,12, 20]")["render"]["conditions"]), ["noon", "grey"])
+        self.assertEqual(planned(conditions="{}", hours="[6, 18]")["render"]["conditions"], ["h06", "h18"])
+
     def test_bad_hours_are_refused(self):
         # The last two are no YAML for other reasons: a date that is none, and more brackets than Python goes into.
         for hours in ("2024-99-99", "[" * 5000, "[]", "[24]", "[-1]", "[4, 4.0]", "[true]", "[.nan]", "{4: 5}", "[4", "noon"):

@@ -161,7 +161,7 @@ TEST_F(TransportCache, LeavesNothingHalfWrittenWhereTheDiskIsFull) {
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   ASSERT_EQ(log_.size(), 1u);
-  EXPECT_NE(log_[0].find("cannot be written: File too large"), std::string::npos) << log_[0];
+  EXPECT_NE(log_[0].find(": write: File too large"), std::string::npos) << log_[0];
   EXPECT_TRUE(files().empty());
   EXPECT_EQ(light(world), values);
   EXPECT_TRUE(baked_);

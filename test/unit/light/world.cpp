@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <memory>
 #include <set>
 
 #include "paper_scene.h"
 #include "sunlit/light/transport.h"
+#include "sunlit/scene/weathering.h"
 
 namespace sunlit::light {
 namespace {
@@ -87,6 +89,24 @@ TEST(Fingerprint, ChangesWithAllThatPicturesShow) {
     prints.insert(contents.print());
   }
   EXPECT_EQ(prints.size(), changes.size());
+}
+
+TEST(Weathered, SharesTrianglesAndRaysButNotWhatLiesOnThem) {
+  auto dry = std::make_unique<const World>(std::make_shared<const scene::Scene>(Contents().scene));
+  scene::SurfaceState state;
+  state.wet = 1.0;
+  const World wet = weathered(*dry, state);
+  EXPECT_EQ(wet.geometry->shape, dry->geometry->shape);
+  EXPECT_EQ(&wet.visibility->fixedGeometry(), wet.geometry.get());
+  EXPECT_NE(wet.geometry->weathering, nullptr);
+  EXPECT_EQ(dry->visibility->fixedGeometry().weathering, nullptr);
+  const auto met = [](const Visibility& visibility) {
+    return visibility.firstSeen({0.3f, 0.2f, 5.0f}, {0.0f, 0.0f, -1.0f}, 0.1f);
+  };
+  const auto expected = met(*dry->visibility);
+  ASSERT_TRUE(expected.has_value());
+  dry.reset();
+  EXPECT_EQ(met(*wet.visibility), expected);
 }
 
 }  // namespace

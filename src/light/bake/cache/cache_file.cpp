@@ -1,19 +1,14 @@
 #include "light/bake/cache/cache_file.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
-#include <system_error>
 #include <type_traits>
 #include <utility>
 
 #include "sunlit/image/file_bytes.h"
-#include "sunlit/image/files.h"
+#include "sunlit/image/unfinished_file.h"
 
 namespace sunlit::light {
 namespace {
@@ -102,43 +97,6 @@ Header checkedHeader(const fs::path& file, const image::FileBytes& bytes, const 
   return header;
 }
 
-/// Written beside its place first; removed again where anything fails.
-class Unfinished {
- public:
-  explicit Unfinished(const fs::path& place)
-      : place_(place), path_(place.string() + "." + std::to_string(getpid()) + ".part") {
-    errno = 0;  // for what keep() says
-    stream_.open(path_, std::ios::binary | std::ios::trunc);
-  }
-  ~Unfinished() {
-    std::error_code ignored;
-    if (!kept_) fs::remove(path_, ignored);
-  }
-  Unfinished(const Unfinished&) = delete;
-  Unfinished& operator=(const Unfinished&) = delete;
-
-  void write(const void* data, std::size_t size) {
-    stream_.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
-    size_ += size;
-  }
-  void align() {
-    constexpr char kZeros[kAlignment] = {};
-    write(kZeros, aligned(size_) - size_);
-  }
-  void keep() {
-    stream_.close();
-    if (!stream_) fail(place_, "cannot be written" + (errno != 0 ? ": " + image::reasonOf(errno) : ""));
-    image::moveIntoPlace(path_, place_);
-    kept_ = true;
-  }
-
- private:
-  fs::path place_, path_;
-  std::ofstream stream_;
-  std::size_t size_ = 0;
-  bool kept_ = false;
-};
-
 }  // namespace
 
 std::unique_ptr<const TransportData> readBake(const fs::path& file, const image::ContentHash& key) {
@@ -173,10 +131,11 @@ void writeBake(const fs::path& file, const image::ContentHash& key, const Transp
     addTo(values, &checksum);
   });
   header.checksum = checksum.number();
-  Unfinished unfinished(file);
+  image::UnfinishedFile unfinished(file);
   unfinished.write(&header, sizeof(header));
   visitArrays(data, [&](const auto& values) {
-    unfinished.align();
+    constexpr char kZeros[kAlignment] = {};
+    unfinished.write(kZeros, aligned(unfinished.size()) - unfinished.size());
     unfinished.write(values.data(), values.size() * sizeof(values[0]));
   });
   unfinished.keep();

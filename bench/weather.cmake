@@ -1,0 +1,1 @@
+sunlit_bench(weather LIBRARIES sunlit_render sunlit_light sunlit_scene sunlit_sky sunlit_image)

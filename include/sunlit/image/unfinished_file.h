@@ -1,0 +1,36 @@
+/// A file on its way: whole or not there at all.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+namespace sunlit::image {
+
+/// Written beside its place under another name, NAME.PROCESS.NUMBER.part, and removed again unless it is
+/// kept: what was in its place stays there until then, even if the process is killed or the power fails. What
+/// killed ones leave removeUnfinished() takes away. Throws std::runtime_error "path: what failed: why", of
+/// the path that was meant.
+class UnfinishedFile {
+ public:
+  static constexpr const char* kEnding = ".part";
+
+  /// The folder of `place` must exist.
+  explicit UnfinishedFile(std::filesystem::path place);
+  ~UnfinishedFile();
+  UnfinishedFile(const UnfinishedFile&) = delete;
+  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
+
+  void write(const void* data, std::size_t size);
+  /// What has been written so far.
+  std::size_t size() const { return size_; }
+  /// Makes it durable (fsync), and gives it its name. Nothing can be written any more.
+  void keep();
+
+ private:
+  std::filesystem::path place_, path_;
+  int descriptor_ = -1;
+  std::size_t size_ = 0;
+  bool kept_ = false;
+};
+
+}  // namespace sunlit::image
