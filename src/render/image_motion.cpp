@@ -41,6 +41,20 @@ int bandsOf(double skew_px, int height) {
   return std::max(1, std::min(bands, height / kFewestRows));
 }
 
+image::PinholeCamera shifted(const image::PinholeCamera& camera, int pattern) {
+  if (pattern == 0) return camera;
+  // Bits of a number from the last to the first are far apart for numbers that follow each other: the points
+  // of Hammersley, of which any few are spread over the square.
+  int turned = 0;
+  for (int bit = 1, to = kPatterns / 2; bit < kPatterns; bit *= 2, to /= 2)
+    turned += (pattern & bit) != 0 ? to : 0;
+  constexpr int kApart = 7;  // without a common divisor: neither do those along x follow each other
+  image::PinholeCamera aside = camera;
+  aside.cx += (turned + 0.5) / kPatterns - 0.5;
+  aside.cy += (pattern * kApart % kPatterns + 0.5) / kPatterns - 0.5;
+  return aside;
+}
+
 image::PinholeCamera rowsOf(const image::PinholeCamera& camera, int first, int count) {
   image::PinholeCamera rows = camera;
   rows.height = count;

@@ -22,6 +22,11 @@ int exposuresOf(double smear_px, int most);
 int bandsOf(double skew_px, int height);
 constexpr int kMostBands = 64;
 
+/// `camera`, whose pixels look a part of a pixel aside: number 0 nowhere, 1 to kPatterns each otherwise,
+/// evenly over the pixel.
+constexpr int kPatterns = 16;
+image::PinholeCamera shifted(const image::PinholeCamera& camera, int pattern);
+
 /// The camera of some rows of `camera`.
 image::PinholeCamera rowsOf(const image::PinholeCamera& camera, int first, int count);
 

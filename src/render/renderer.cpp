@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -55,9 +56,22 @@ struct Band {
   double middle_s(double line_delay_s) const { return (first_row + 0.5 * (rows - 1)) * line_delay_s; }
 };
 
-std::vector<Band> bandsOf(const RenderOptions& options, int count) {
+/// How a picture is divided.
+struct Division {
+  int bands;
+  int samples;  ///< per pixel and axis
+  int pattern;  ///< that shifts them, see shifted()
+
+  bool operator<(const Division& other) const {
+    return std::tie(bands, samples, pattern) < std::tie(other.bands, other.samples, other.pattern);
+  }
+};
+
+std::vector<Band> bandsOf(RenderOptions options, const Division& division) {
   std::vector<Band> bands;
-  const int rows = (options.camera.height + count - 1) / count;
+  options.supersampling = division.samples;
+  options.camera = shifted(options.camera, division.pattern);
+  const int count = division.bands, rows = (options.camera.height + count - 1) / count;
   for (int first = 0; first < options.camera.height; first += rows) {
     const int of_band = std::min(rows, options.camera.height - first);
     bands.push_back({first, of_band, opticsOf(options, rowsOf(options.camera, first, of_band))});
@@ -125,9 +139,12 @@ class Renderer::Implementation {
     if (exposures == 1 && bands == 1) return this->light(light, state);
     const std::lock_guard<std::mutex> lock(drawing_);
     image::LinearImage mean(options_.camera.width, height);
+    // Many exposures find by themselves what lies within a pixel, if each looks at another place in it.
+    const bool many = exposures >= options_.supersampling * options_.supersampling;
     for (int i = 0; i < exposures; ++i) {
       const double moment_s = ((i + 0.5) / exposures - 0.5) * way.exposure_s;
-      for (const Band& band : dividedInto(bands)) {
+      const Division division{bands, many ? 1 : options_.supersampling, many ? 1 + i % kPatterns : 0};
+      for (const Band& band : dividedInto(division)) {
         drawMoved(band.optics, way.motion, moment_s + band.middle_s(way.line_delay_s), state);
         addRows(moved_.pictures.at(state).illuminate(light), band.first_row,
                 1.0f / static_cast<float>(exposures), &mean);
@@ -238,9 +255,9 @@ class Renderer::Implementation {
         {optical_from_map * way.motion.velocity_m_s, optical_from_map * way.motion.turning_rad_s});
   }
 
-  const std::vector<Band>& dividedInto(int count) {
-    std::vector<Band>& bands = bands_[count];
-    if (bands.empty()) bands = bandsOf(options_, count);
+  const std::vector<Band>& dividedInto(const Division& division) {
+    std::vector<Band>& bands = bands_[division];
+    if (bands.empty()) bands = bandsOf(options_, division);
     return bands;
   }
 
@@ -285,8 +302,8 @@ class Renderer::Implementation {
   Pose seen_;
   std::mutex drawing_;  // of all below, and of rasterizer_, lenses and preparers
   Pose ahead_;
-  Pose moved_;                              // a part of what a moving camera sees
-  std::map<int, std::vector<Band>> bands_;  // by how many, once needed
+  Pose moved_;                                   // a part of what a moving camera sees
+  std::map<Division, std::vector<Band>> bands_;  // once needed
 };
 
 Renderer::Renderer(const light::World& world, const RenderOptions& options)

@@ -178,6 +178,34 @@ TEST(UnderWay, EachBandIsWhatACameraSeesThatStandsThere) {
   }
 }
 
+TEST(UnderWay, AManyTimesExposedPictureIsTheMeanOfWhatStandingCamerasSee) {
+  const Eigen::Isometry3d pose = lookingAt({-4.0, -6.0, 1.5}, {4.0, 2.0, 1.0});
+  const light::Illumination light(daylightAt(140.0, 35.0));
+  Renderer renderer(shared(yard()), camera(2));
+  renderer.look(pose);
+  const UnderWay way = driving({0.0, 6.0, 0.0}, 0.0, 0.05);
+  const int exposures = renderer.exposures(way);
+  EXPECT_EQ(exposures, 16);
+  const image::LinearImage smeared = renderer.light(light, 0, way);
+  Renderer standing(shared(yard()), camera(4));
+  std::vector<double> mean(smeared.data.size(), 0.0);
+  for (int i = 0; i < exposures; ++i) {
+    const double moment_s = ((i + 0.5) / exposures - 0.5) * way.exposure_s;
+    standing.look(way.motion.after(moment_s, pose.translation()) * pose);
+    const image::LinearImage still = standing.light(light);
+    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += static_cast<double>(still.data[k]) / exposures;
+  }
+  double off = 0.0, bias = 0.0;
+  for (std::size_t k = 0; k < mean.size(); ++k) {
+    const double part = static_cast<double>(smeared.data[k]) / mean[k] - 1.0;
+    off += std::abs(part) / static_cast<double>(mean.size());
+    bias += part / static_cast<double>(mean.size());
+  }
+  // One sample a pixel each time, where the others have sixteen: what differs is at edges, and even about it.
+  EXPECT_LT(off, 0.01);
+  EXPECT_LT(std::abs(bias), 0.001);
+}
+
 TEST(UnderWay, HasTheSameBitsWhateverWasSeenBeforeAndForAnyThreads) {
   const Eigen::Isometry3d pose = lookingAt({-4.0, -6.0, 1.5}, {4.0, 2.0, 1.0});
   const light::Illumination light(daylightAt(140.0, 35.0));
