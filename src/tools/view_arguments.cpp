@@ -107,6 +107,14 @@ void ViewArguments::requireThatAllCount() const {
   }
   if (what != nullptr) throw std::invalid_argument(what);
   line_->requireWith("--path", "--path-pose");
+  const bool has_shutter = line_->has("--line-delay") || line_->has("--exposure-time");
+  const bool moves = line_->has("--speed") || line_->has("--turning");
+  if (has_shutter && !moves)
+    throw std::invalid_argument(
+        "--line-delay and --exposure-time are of a camera that moves; give --speed or --turning");
+  if (moves && !has_shutter)
+    throw std::invalid_argument(
+        "--speed and --turning show in a picture that takes time; give --line-delay or --exposure-time");
   sensor_.requireSense(*line_);
   camera_.requireSense(options_.studio.bake);
 }

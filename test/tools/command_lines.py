@@ -256,6 +256,22 @@ class CommandLines(unittest.TestCase):
             said = self.refused(program, "stray")
             self.assertRegex(said, option + " [A-Z]* is missing" if program in TAKES_WORDS else "no option stray;", said)
 
+    def test_what_takes_time_and_what_moves_need_each_other(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = folder + "/picture.png"
+            for arguments, said in ((["--line-delay", "30"], "give --speed or --turning"),
+                                    (["--exposure-time", "auto", "--compensation", "1"], "give --speed or --turning"),
+                                    (["--turning", "20"], "give --line-delay or --exposure-time"),
+                                    (["--exposures", "4", "--line-delay", "30", "--speed", "1"], "--exposure-time")):
+                self.assertIn(said, self.refused("snapshot", "--out", out, *arguments))
+            pictures = []
+            for arguments in ([], ["--speed", "10", "--turning", "40", "--line-delay", "200"], ["--turning", "-40", "--exposure-time", "40"]):
+                done = run("snapshot", "--out", out, "--world", WORLD, "--bounced", "off", "--pose", "0,0,1", "--size", "64x48", *arguments)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                with open(out, "rb") as picture:
+                    pictures.append(picture.read())
+            self.assertEqual(len(set(pictures)), 3)
+
     def test_negative_numbers_are_values(self):
         with tempfile.TemporaryDirectory() as folder:
             pictures = []

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "light/picture/lamps/lamp_glow.h"
+#include "light/picture/fog/lamp_glow.h"
 #include "light/picture/ready_picture.h"
 #include "light/picture/sky/open_air.h"
 #include "light/picture/sky/picture_air.h"

@@ -136,9 +136,11 @@ const std::map<std::string, Modules> kRoomsOfLight = {
     {"picture/bodies",
      {"bake/samples", "geometry", "lamps", "patches", "picture/disc", "picture/outlook", "shading"}},
     {"picture/sky", {"bake/samples", "geometry", "patches", "picture/table"}},
+    {"picture/fog", {"geometry", "lamps", "picture/sky"}},
     {"picture",
-     {"bake/samples", "geometry", "lamps", "patches", "picture/bodies", "picture/disc", "picture/gather",
-      "picture/lamps", "picture/mirror", "picture/outlook", "picture/sky", "picture/table", "shading"}},
+     {"bake/samples", "geometry", "lamps", "patches", "picture/bodies", "picture/disc", "picture/fog",
+      "picture/gather", "picture/lamps", "picture/mirror", "picture/outlook", "picture/sky", "picture/table",
+      "shading"}},
     {"reference", {"bake/samples", "geometry", "lamps", "patches", "picture/sky", "shading"}},
 };
 

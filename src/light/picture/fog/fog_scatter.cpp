@@ -1,4 +1,4 @@
-#include "light/picture/lamps/fog_scatter.h"
+#include "light/picture/fog/fog_scatter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "light/lamps/lamp_beam.h"
-#include "light/picture/lamps/fog_scatter.h"
+#include "light/picture/fog/fog_scatter.h"
 #include "light/picture/sky/pixel_of_direction.h"
 #include "light/picture/sky/sky_pixel.h"
 #include "sunlit/image/images.h"

@@ -1,4 +1,4 @@
-#include "light/picture/lamps/lamp_glow.h"
+#include "light/picture/fog/lamp_glow.h"
 
 #include <tbb/parallel_for.h>
 
