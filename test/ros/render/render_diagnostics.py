@@ -89,7 +89,7 @@ class RenderDiagnostics(RefusalTest):
                 self.assertEqual(run["cache of bakes"], bakes)
                 size = sum(entry.stat().st_size for entry in os.scandir(bakes) if entry.name.endswith(".light"))
                 self.assertGreater(size, 0)
-                self.assertEqual(run["size of the cache"], "%.1f of 2000.0 MB" % (size / 1e6))
+                self.assertEqual(run["size of the cache"], "%.1f of 6000.0 MB" % (size / 1e6))
 
                 newest = reader.wait("/a/camera/capture", 5)[4]
                 camera = diagnostics.wait("a/camera", DiagnosticStatus.OK, images="5")[0][2]
