@@ -43,7 +43,7 @@ class RenderRefuses(RefusalTest):
         self.assert_refused(parameters(publish_clock=True, exact_sky=False), "/refused/exact_sky is false",
                             "/refused/publish_clock is true", "leave exact_sky out")
         self.assert_refused(parameters(conditions=["a", "a"]), "/refused/conditions", "twice")
-        self.assert_refused(parameters(conditions={"a": {"turbidity": 3}}), "turbidity", "is unknown", "cloud_base, cloud_seed, cover")
+        self.assert_refused(parameters(conditions={"a": {"turbidity": 3}}), "turbidity", "is unknown", "cloud_base, cloud_seed, compensation, cover")
         self.assert_refused(parameters(path={"file": ""}), "/refused/path/file", "race_track")
         self.assert_refused(parameters(path={"count": 1000}), "path/count", "1000", "20 poses")
         self.assert_refused(parameters(path={"topic": "route"}), "path/file", "path/topic")
