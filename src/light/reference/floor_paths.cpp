@@ -68,6 +68,7 @@ void Paths::addDiscInFloors(const Disc& disc, int bounce) {
     points.push_back(point);
   }
   goOnFromFloors(points);
+  throughCloud(disc);
   castAndAdd(disc.day);
 }
 

@@ -21,7 +21,7 @@ constexpr std::uint64_t kShining = std::uint64_t{1} << 33;
 
 void appendDisc(const sky::DiscLight& light, std::size_t day, std::vector<Disc>* discs) {
   if (light.illuminance.value.maxCoeff() > 0.0f)
-    discs->push_back({day, DiscArea(light), light.illuminance.value});
+    discs->push_back({day, DiscArea(light), light.illuminance.value, light});
 }
 
 }  // namespace
@@ -173,7 +173,15 @@ void Paths::addDisc(const Disc& disc, int bounce) {
     bundle_.add(vertex.origin(towards), towards, i);
     weights_.push_back(share * paths_[i].throughput * weight * disc.illuminance);
   }
+  throughCloud(disc);
   castAndAdd(disc.day);
+}
+
+void Paths::throughCloud(const Disc& disc) {
+  const sky::Daylight& day = scene_.days[disc.day];
+  if (!day.hasBrokenCloud()) return;
+  for (std::size_t k = 0; k < weights_.size(); ++k)
+    weights_[k] *= day.throughCloud(disc.light, bundle_.origin(k));
 }
 
 void Paths::addLamp(const LampBeam& lamp, int bounce) {

@@ -24,7 +24,8 @@ namespace sunlit::light {
 struct Disc {
   std::size_t day;
   DiscArea area;
-  Eigen::Array3f illuminance;
+  Eigen::Array3f illuminance;  ///< the mean over all places, where there is broken cloud
+  sky::DiscLight light;
 };
 
 /// Of polished floors, by their mean roughness; none: there are none.
@@ -89,6 +90,8 @@ class Paths {
   /// On all days, of rays that end with their direction.
   void castAndAddOnAllDays(bool shadows);
   void addDisc(const Disc& disc, int bounce);
+  /// Where each of the bundle's rays begins, gaps and clouds make more or less of the disc.
+  void throughCloud(const Disc& disc);
   /// The same by way of polished floors: chance alone rarely meets the spot that mirrors it.
   void addDiscInFloors(const Disc& disc, int bounce);
   /// Has the bundle's rays go on from the polished floors that they meet, each to one of `points`; others

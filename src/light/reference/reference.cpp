@@ -9,6 +9,7 @@
 
 #include "light/bake/samples/transport_data.h"
 #include "light/geometry/corners.h"
+#include "light/picture/fog/lamp_glow.h"
 #include "light/picture/sky/open_air.h"
 #include "light/picture/sky/sky_pixel.h"
 #include "light/reference/paths.h"
@@ -88,13 +89,21 @@ std::vector<Traced> traceReference(const Surfaces& surfaces, const World& world,
   for (auto& half : halves) half.assign(days.size(), image::LinearImage(surfaces.width, surfaces.height));
   std::vector<SkyPixel> skies;
   skies.reserve(days.size());
-  for (const sky::Daylight& day : days) skies.emplace_back(surfaces, day);
+  std::vector<LampGlow> glows;  // like the air, what lies before surfaces is the picture's
+  glows.reserve(days.size());
+  for (const sky::Daylight& day : days) {
+    skies.emplace_back(surfaces, day);
+    glows.emplace_back(&options.lamps, day.fog(), surfaces, *world.visibility);
+  }
   const std::vector<float>* const node_open = world.transport ? world.transport->nodeOpen().get() : nullptr;
   const Picture picture{surfaces, world, scene, OpenAir(surfaces, *world.visibility, node_open)};
   tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(), [&](std::size_t i) {
     const Tile& tile = surfaces.tiles[i];
     for (auto& half : halves) {
-      for (std::size_t day = 0; day < days.size(); ++day) skies[day].addTo(tile, &half[day]);
+      for (std::size_t day = 0; day < days.size(); ++day) {
+        skies[day].addTo(tile, &half[day]);
+        glows[day].addTo(tile, skies[day], &half[day]);
+      }
     }
     traceTile(picture, tile, &halves);
   });

@@ -80,15 +80,13 @@ inline scene::Scene yard() {
   return scene;
 }
 
-/// Of a picture of 64 × 48 px, against light traced by so many paths a pixel, under suns of these elevations.
+/// Of a picture of 64 × 48 px, against light traced by so many paths a pixel.
 inline std::vector<light::LuminanceError> errorsAgainstTraced(const light::World& world,
                                                               const Eigen::Isometry3d& map_from_optical,
-                                                              const std::vector<double>& elevations_deg,
+                                                              const std::vector<sky::Daylight>& days,
                                                               int samples_per_pixel) {
   render::Renderer renderer(world, smallCamera(64, 48, 90.0));
   renderer.look(map_from_optical);
-  std::vector<sky::Daylight> days;
-  for (const double elevation : elevations_deg) days.push_back(daylightAt(230.0, elevation));
   light::ReferenceOptions reference;
   reference.samples_per_pixel = samples_per_pixel;
   const std::vector<light::Traced> traced =
@@ -98,6 +96,16 @@ inline std::vector<light::LuminanceError> errorsAgainstTraced(const light::World
     errors.push_back(light::luminanceError(renderer.light(light::illumination(world, days[i])), traced[i],
                                            renderer.surfaces()));
   return errors;
+}
+
+/// The same under suns of these elevations.
+inline std::vector<light::LuminanceError> errorsAgainstTraced(const light::World& world,
+                                                              const Eigen::Isometry3d& map_from_optical,
+                                                              const std::vector<double>& elevations_deg,
+                                                              int samples_per_pixel) {
+  std::vector<sky::Daylight> days;
+  for (const double elevation : elevations_deg) days.push_back(daylightAt(230.0, elevation));
+  return errorsAgainstTraced(world, map_from_optical, days, samples_per_pixel);
 }
 
 }  // namespace sunlit::test

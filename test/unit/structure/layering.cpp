@@ -141,7 +141,7 @@ const std::map<std::string, Modules> kRoomsOfLight = {
      {"bake/samples", "geometry", "lamps", "patches", "picture/bodies", "picture/disc", "picture/fog",
       "picture/gather", "picture/lamps", "picture/mirror", "picture/outlook", "picture/sky", "picture/table",
       "shading"}},
-    {"reference", {"bake/samples", "geometry", "lamps", "patches", "picture/sky", "shading"}},
+    {"reference", {"bake/samples", "geometry", "lamps", "patches", "picture/fog", "picture/sky", "shading"}},
 };
 
 const std::map<std::string, Modules> kRoomsOfEvaluate = {
