@@ -28,6 +28,41 @@ TEST(FastLight, AgreesWithPathTracedLightFromNoonToTwilight) {
   }
 }
 
+TEST(FastLight, AgreesWithPathTracedLightUnderGapsAndCloudsAndInFog) {
+  light::World world(shared(yard()));
+  light::TransportOptions options;
+  options.samples = 20000;
+  world.transport = light::Transport::bake(world.geometry, options);
+  const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
+  std::vector<sky::Daylight> days;
+  const auto add = [&](const sky::Weather& weather) {
+    days.push_back(
+        atmosphere.daylight({Direction(Azimuth::degrees(230.0), Angle::degrees(40.0)), 1.0}, {}, weather));
+  };
+  float least = 1e9f, most = 0.0f;
+  for (int seed = 0; seed < 6; ++seed) {
+    sky::Weather broken;
+    broken.cover_oktas = 4.0;
+    broken.seed = seed;
+    add(broken);
+    const float through = days.back().throughCloud(days.back().sun(), Eigen::Vector3f::Zero());
+    least = std::min(least, through);
+    most = std::max(most, through);
+  }
+  ASSERT_LT(least, 0.2f);  // in the shadow of a cloud,
+  ASSERT_GT(most, 1.2f);   // and under a gap
+  sky::Weather fog;
+  fog.visibility_m = 100.0;
+  add(fog);
+  const std::vector<light::LuminanceError> errors =
+      errorsAgainstTraced(world, lookingAt({-5.0, -6.0, 1.6}, {4.0, 4.0, 1.5}), days, 128);
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    EXPECT_LT(errors[i].mean, 0.04) << i;
+    EXPECT_LT(std::abs(errors[i].bias), 0.03) << i;
+    EXPECT_LT(errors[i].noise, 0.03) << i;
+  }
+}
+
 TEST(LuminanceError, IsThatOfAPictureTooBrightByATenth) {
   light::World world(shared(yard()));
   render::Renderer renderer(world, smallCamera(32, 32, 90.0));

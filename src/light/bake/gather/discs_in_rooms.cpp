@@ -40,8 +40,11 @@ Eigen::Vector3f middleOf(const sky::DiscLight& disc) {
 /// One of sun and moon, over many sources.
 class DiscOnSources {
  public:
-  DiscOnSources(const TransportData& data, const sky::DiscLight& disc, const Visibility& visibility)
+  DiscOnSources(const TransportData& data, const sky::DiscLight& disc, const Visibility& visibility,
+                const ThroughCloud& through)
       : data_(data),
+        disc_(disc),
+        through_(through),
         by_patches_(disc),
         towards_(middleOf(disc)),
         illuminance_(disc.illuminance.value),
@@ -116,7 +119,8 @@ class DiscOnSources {
     if (!(lit.share > 0.0f)) return;
     const BakedRooms::Source& source = data_.rooms.sources[lit.source];
     (*sent)[lit.source] += Eigen::Map<const Eigen::Array3f>(source.direct.data()) * illuminance_ *
-                           (cosine(source) * lit.share) * throughGlass(at(source, lit.point));
+                           (cosine(source) * lit.share * through_.of(disc_, source.sample)) *
+                           throughGlass(at(source, lit.point));
   }
 
   Eigen::Vector3f at(const BakedRooms::Source& source, std::uint32_t k) const {
@@ -127,7 +131,8 @@ class DiscOnSources {
     return Eigen::Map<const Eigen::Vector3f>(source.normal.data()).dot(towards_);
   }
   Eigen::Array3f byPatches(std::uint32_t sample) const {
-    return by_patches_.times(data_.direct.row(sample)) * data_.direct.scales[sample];
+    return by_patches_.times(data_.direct.row(sample)) *
+           (data_.direct.scales[sample] * through_.of(disc_, sample));
   }
   Eigen::Array3f throughGlass(const Eigen::Vector3f& point) const {
     if (!glass_.any()) return Eigen::Array3f::Ones();
@@ -135,6 +140,8 @@ class DiscOnSources {
   }
 
   const TransportData& data_;
+  const sky::DiscLight& disc_;
+  const ThroughCloud& through_;
   SmallLight by_patches_;
   Eigen::Vector3f towards_;
   Eigen::Array3f illuminance_;
@@ -144,8 +151,9 @@ class DiscOnSources {
 
 }  // namespace
 
-DiscsInRooms::DiscsInRooms(const TransportData& data, const sky::Daylight& day, const Visibility& visibility)
-    : data_(data) {
+DiscsInRooms::DiscsInRooms(const TransportData& data, const sky::Daylight& day, const Visibility& visibility,
+                           const ThroughCloud& through)
+    : data_(data), through_(through) {
   const std::size_t count = data_.rooms.sources.size();
   std::vector<const sky::DiscLight*> shining;
   for (const sky::DiscLight* disc : {&day.sun(), &day.moon()})
@@ -159,12 +167,12 @@ DiscsInRooms::DiscsInRooms(const TransportData& data, const sky::Daylight& day, 
   arrived_.resize(data_.rooms.samples.size());
   findAsked();
   for (const sky::DiscLight* disc : shining) {
-    const DiscOnSources work(data_, *disc, visibility);
+    const DiscOnSources work(data_, *disc, visibility, through);
     tbb::parallel_for(std::size_t{0}, blocks(count), [&](std::size_t block) {
       work.add(block * kBlock, std::min(count, (block + 1) * kBlock), &direct_);
     });
     startFromPatches(*disc);
-    FloorGlints(data_, *disc, visibility).addTo(&glints_);
+    addGlints(*disc, visibility);
   }
   double change = 1.0;
   for (int bounce = 0; bounce < kMostBounces && change > kLittle; ++bounce) {
@@ -189,15 +197,24 @@ void DiscsInRooms::startFromPatches(const sky::DiscLight& disc) {
   const SmallLight light(disc);
   const auto add = [&](std::uint32_t sample) {
     for (const PassedOn* part : {&data_.above, &data_.below}) {
-      has_[sample] += light.times(part->coefficients.row(sample)) * part->coefficients.scales[sample] *
+      has_[sample] += light.times(part->coefficients.row(sample)) *
+                      (part->coefficients.scales[sample] * through_.of(disc, sample)) *
                       Eigen::Map<const Eigen::Array3f>(part->tints[sample].data());
     }
   };
   tbb::parallel_for(std::size_t{0}, asked_.size(), [&](std::size_t k) { add(asked_[k]); });
   const Coefficients& mirrored = data_.rooms.mirrored;
   tbb::parallel_for(std::size_t{0}, mirrored_.size(), [&](std::size_t room) {
-    mirrored_[room] += light.times(mirrored.row(room)) * mirrored.scales[room];
+    mirrored_[room] += light.times(mirrored.row(room)) *
+                       (mirrored.scales[room] * through_.of(disc, data_.rooms.samples[room]));
   });
+}
+
+void DiscsInRooms::addGlints(const sky::DiscLight& disc, const Visibility& visibility) {
+  std::vector<Eigen::Array3f> glints(glints_.size(), Eigen::Array3f::Zero());
+  FloorGlints(data_, disc, visibility).addTo(&glints);
+  for (std::size_t room = 0; room < glints.size(); ++room)
+    glints_[room] += glints[room] * through_.of(disc, data_.rooms.samples[room]);
 }
 
 void DiscsInRooms::send() {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "light/bake/gather/exchange.h"
+#include "light/bake/gather/through_cloud.h"
 #include "light/bake/samples/transport_data.h"
 #include "sunlit/light/visibility.h"
 #include "sunlit/sky/daylight.h"
@@ -17,8 +18,9 @@ namespace sunlit::light {
 /// where no room is, that stays.
 class DiscsInRooms {
  public:
-  /// Parallel; the same bits for any number of threads. Keeps a reference to `data`.
-  DiscsInRooms(const TransportData& data, const sky::Daylight& day, const Visibility& visibility);
+  /// Parallel; the same bits for any number of threads. Keeps references to `data` and `through`.
+  DiscsInRooms(const TransportData& data, const sky::Daylight& day, const Visibility& visibility,
+               const ThroughCloud& through);
 
   /// Whether neither shines at all, or no room is to be followed; at() must not be asked then.
   bool none() const { return arrived_.empty(); }
@@ -29,10 +31,12 @@ class DiscsInRooms {
  private:
   void findAsked();
   void startFromPatches(const sky::DiscLight& disc);
+  void addGlints(const sky::DiscLight& disc, const Visibility& visibility);
   void send();
   double receive();
 
   const TransportData& data_;
+  const ThroughCloud& through_;
   std::vector<std::uint32_t> asked_;    ///< samples whose light matters here: rooms and what they see
   std::vector<Eigen::Array3f> direct_;  ///< of each source: luminance × π by light straight from the discs
   std::vector<Eigen::Array3f> has_;     ///< of each sample that is asked: illuminance by surfaces, lx

@@ -10,6 +10,7 @@
 #include "light/bake/gather/discs_in_rooms.h"
 #include "light/bake/gather/lamp_bounces.h"
 #include "light/bake/gather/small_light.h"
+#include "light/bake/gather/through_cloud.h"
 #include "light/patches/patch_sky.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/vector_clones.h"
@@ -23,8 +24,12 @@ constexpr float kLeastHidden = 0.02f;
 /// What lights the samples of a scene.
 class Lights {
  public:
-  explicit Lights(const sky::Daylight& day)
-      : sky_(SkyPatches::luminances(day, SkyPatches::Weight::kCosine)), sun_(day.sun()), moon_(day.moon()) {}
+  /// Keeps a reference to `through`.
+  Lights(const sky::Daylight& day, const ThroughCloud& through)
+      : sky_(SkyPatches::luminances(day, SkyPatches::Weight::kCosine)),
+        sun_(day.sun()),
+        moon_(day.moon()),
+        through_(through) {}
 
   /// Illuminance of a sample by the sky that it sees, lx.
   Eigen::Array3f direct(const Coefficients& direct, std::size_t sample) const {
@@ -37,7 +42,9 @@ class Lights {
   /// And by surfaces.
   Eigen::Array3f passedOn(const PassedOn& part, std::size_t sample) const {
     const std::uint8_t* row = part.coefficients.row(sample);
-    return coloured(sky_.times(row) + sun_.times(row) + moon_.times(row), part, sample);
+    return coloured(
+        sky_.times(row) + sun_.times(row) * through_.sun(sample) + moon_.times(row) * through_.moon(sample),
+        part, sample);
   }
   /// The same without sun and moon.
   Eigen::Array3f ofSky(const PassedOn& part, std::size_t sample) const {
@@ -53,6 +60,7 @@ class Lights {
 
   PatchSky sky_;
   SmallLight sun_, moon_;
+  const ThroughCloud& through_;
 };
 
 /// Mean luminance of surfaces that hide the share `hides` and give `illuminance`, lx.
@@ -114,7 +122,9 @@ ByLamps lampLight(const TransportData& data, const std::vector<float>& shares) {
 }
 
 std::vector<NodeLight> sampleLight(const TransportData& data, const Conditions& conditions) {
-  const Lights lights(conditions.day);
+  const Geometry* const geometry = conditions.visibility ? &conditions.visibility->fixedGeometry() : nullptr;
+  const ThroughCloud through(data, geometry, conditions.day);
+  const Lights lights(conditions.day, through);
   const ByLamps by_lamps = lampLight(data, conditions.lamp_shares);
   std::vector<NodeLight> light(data.sampleCount());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, light.size(), 1024),
@@ -122,7 +132,7 @@ std::vector<NodeLight> sampleLight(const TransportData& data, const Conditions& 
                       lightSamples(data, lights, by_lamps, range, light.data());
                     });
   if (!conditions.visibility) return light;
-  const DiscsInRooms discs(data, conditions.day, *conditions.visibility);
+  const DiscsInRooms discs(data, conditions.day, *conditions.visibility, through);
   if (discs.none()) return light;
   tbb::parallel_for(std::size_t{0}, data.rooms.samples.size(), [&](std::size_t room) {
     const std::uint32_t sample = data.rooms.samples[room];

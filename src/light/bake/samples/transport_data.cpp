@@ -26,6 +26,47 @@ LightMesh::Place LightMesh::locate(std::uint32_t root, std::array<float, 3> bary
   return {cells[at].corner, barycentric};
 }
 
+const std::vector<Eigen::Vector3f>& TransportData::places(const Geometry& geometry) const {
+  std::call_once(places_found_, [&] {
+    places_.assign(sampleCount(), Eigen::Vector3f::Zero());
+    struct Part {
+      std::uint32_t cell;
+      std::array<Eigen::Vector3f, 3> corners;
+    };
+    std::vector<Part> parts;
+    for (std::size_t t = 0; t < mesh.roots.size(); ++t) {
+      for (const std::uint32_t root : mesh.roots[t]) {
+        if (!LightMesh::isCell(root)) continue;
+        const auto& corners = geometry.triangles[t];
+        parts.push_back({root,
+                         {geometry.positions[corners[0]], geometry.positions[corners[1]],
+                          geometry.positions[corners[2]]}});
+      }
+      while (!parts.empty()) {
+        const Part part = parts.back();
+        parts.pop_back();
+        const LightMesh::Cell& cell = mesh.cells[part.cell];
+        if (!cell.inner()) {
+          for (std::size_t k = 0; k < 3; ++k) {
+            for (std::uint32_t s = mesh.first_share[cell.corner[k]]; s < mesh.first_share[cell.corner[k] + 1];
+                 ++s)
+              places_[mesh.shares[s].sample] = part.corners[k];
+          }
+          continue;
+        }
+        // As locate() has it.
+        const std::size_t k = cell.corner[1];
+        const Eigen::Vector3f &from = part.corners[k], &to = part.corners[(k + 1) % 3],
+                              &apex = part.corners[(k + 2) % 3];
+        const Eigen::Vector3f middle = 0.5f * (from + to);
+        parts.push_back({cell.child(), {from, middle, apex}});
+        parts.push_back({cell.child() + 1, {middle, to, apex}});
+      }
+    }
+  });
+  return places_;
+}
+
 std::vector<std::uint32_t> LightMesh::usefulSamples(const std::vector<bool>& useless) const {
   constexpr int kRings = 4;  // as many as SceneSamples are filled over
   std::vector<std::uint32_t> samples(nodeCount(), kNone);

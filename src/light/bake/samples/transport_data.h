@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "light/bake/samples/baked_array.h"
@@ -167,6 +168,12 @@ struct TransportData {
   BakedRooms rooms;
 
   std::size_t sampleCount() const { return direct.scales.size(); }
+  /// Where each sample lies, about: at one of the nodes that have its light. Found when first asked for.
+  const std::vector<Eigen::Vector3f>& places(const Geometry& geometry) const;
+
+ private:
+  mutable std::once_flag places_found_;
+  mutable std::vector<Eigen::Vector3f> places_;
 };
 
 /// Nodes whose light is without what discs throw on them by way of polished floors. Its edges are as sharp as

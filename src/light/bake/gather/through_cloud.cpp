@@ -1,0 +1,25 @@
+#include "light/bake/gather/through_cloud.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace sunlit::light {
+
+ThroughCloud::ThroughCloud(const TransportData& data, const Geometry* geometry, const sky::Daylight& day)
+    : sun_disc_(&day.sun()) {
+  if (geometry == nullptr || !day.hasBrokenCloud()) return;
+  const std::vector<Eigen::Vector3f>& places = data.places(*geometry);
+  const auto find = [&](const sky::DiscLight& disc, std::vector<float>* shares) {
+    if (!(disc.illuminance.value.maxCoeff() > 0.0f)) return;
+    shares->resize(places.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size(), 4096),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        for (std::size_t i = range.begin(); i != range.end(); ++i)
+                          (*shares)[i] = day.throughCloud(disc, places[i]);
+                      });
+  };
+  find(day.sun(), &sun_);
+  find(day.moon(), &moon_);
+}
+
+}  // namespace sunlit::light
