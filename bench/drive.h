@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -35,6 +36,14 @@ inline std::vector<Eigen::Vector3d> circuitPoints() {
     if (std::sscanf(line.c_str(), "%lf,%lf,%lf", &p.x(), &p.y(), &p.z()) == 3) points.push_back(p);
   }
   return points;
+}
+
+/// That `work` takes.
+template <typename Work>
+double secondsOf(const Work& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 inline sky::Daylight daylightAt(double elevation_deg, const sky::Weather& weather = {}) {

@@ -11,11 +11,8 @@
 #include <vector>
 
 #include "drive.h"
-#include "sunlit/image/cache_folder.h"
-#include "sunlit/light/transport.h"
+#include "race_track.h"
 #include "sunlit/render/renderer.h"
-#include "sunlit/scene/load.h"
-#include "sunlit/scene/race_track.h"
 #include "support/published_lenses.h"
 
 namespace {
@@ -23,16 +20,6 @@ namespace {
 using namespace sunlit;
 
 constexpr std::size_t kPoses = 24;
-
-const light::World& world() {
-  static const light::World baked = [] {
-    light::World made(
-        std::make_shared<const scene::Scene>(scene::load(scene::kRaceTrack, scene::SearchPath{})));
-    made.transport = light::Transport::cached(made.geometry, {}, image::usualCacheFolder());
-    return made;
-  }();
-  return baked;
-}
 
 /// The rows of publishedLenses() that are measured.
 PublishedLens lensOf(const benchmark::State& state) {
@@ -44,7 +31,7 @@ std::unique_ptr<render::Renderer> rendererOf(const PublishedLens& lens, render::
   options.camera = lens.camera;
   options.distortion = lens.distortion;
   options.rasterizer = kind;
-  return std::make_unique<render::Renderer>(world(), options);
+  return std::make_unique<render::Renderer>(bench::bakedRaceTrack(), options);
 }
 
 /// The same size, and as wide as a pinhole is asked for: 60 degrees as the node has it by default.
@@ -73,7 +60,7 @@ void picture(benchmark::State& state) {
   } catch (const std::runtime_error& error) {
     return state.SkipWithError(error.what());
   }
-  const light::Illumination light = world().transport->illumination(bench::daylightAt(50.0));
+  const light::Illumination light = bench::bakedRaceTrack().transport->illumination(bench::daylightAt(50.0));
   const auto points = scene::raceTrackWaypoints();
   double of_bent = 0.0, of_straight = 0.0;
   std::size_t number = 0;

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -23,14 +22,12 @@
 #include <vector>
 
 #include "drive.h"
-#include "sunlit/image/cache_folder.h"
+#include "race_track.h"
 #include "sunlit/image/exposure.h"
 #include "sunlit/image/mean_luminance.h"
 #include "sunlit/image/rain_streaks.h"
-#include "sunlit/light/transport.h"
+#include "sunlit/image/shutter.h"
 #include "sunlit/render/renderer.h"
-#include "sunlit/scene/load.h"
-#include "sunlit/scene/race_track.h"
 #include "sunlit/scene/weathering.h"
 
 namespace {
@@ -41,12 +38,6 @@ constexpr std::size_t kPoses = 24;
 constexpr double kSunElevation_deg = 50.0;
 
 int samples_of_states = 1000;
-
-double secondsOf(const std::function<void()>& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 double medianOf(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
@@ -62,21 +53,6 @@ double resident_MiB() {
   return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-const light::World& bareWorld() {
-  static const light::World world(
-      std::make_shared<const scene::Scene>(scene::load(scene::kRaceTrack, scene::SearchPath{})));
-  return world;
-}
-
-const light::World& usualWorld() {
-  static const light::World baked = [] {
-    light::World world = bareWorld();
-    world.transport = light::Transport::cached(world.geometry, {}, image::usualCacheFolder());
-    return world;
-  }();
-  return baked;
-}
-
 void bake(light::World* world) {
   light::TransportOptions options;
   options.samples = samples_of_states;
@@ -87,7 +63,7 @@ void bake(light::World* world) {
 
 const light::World& dryWorld() {
   static const light::World baked = [] {
-    light::World world = bareWorld();
+    light::World world = bench::raceTrack();
     bake(&world);
     return world;
   }();
@@ -136,8 +112,8 @@ class Times {
   /// caches. Returns what the changed one took.
   double add(double drawing, const Pair& pair) {
     const bool swapped = changed_.size() % 2 != 0;
-    const double first = secondsOf(swapped ? pair.clear : pair.changed);
-    const double second = secondsOf(swapped ? pair.changed : pair.clear);
+    const double first = bench::secondsOf(swapped ? pair.clear : pair.changed);
+    const double second = bench::secondsOf(swapped ? pair.changed : pair.clear);
     drawing_.push_back(drawing);
     changed_.push_back(swapped ? second : first);
     clear_.push_back(swapped ? first : second);
@@ -161,15 +137,15 @@ class Times {
 
 /// The sky is made beforehand, as of an hour whose weather stands still.
 void standing(benchmark::State& state, const sky::Weather& weather) {
-  const auto renderer = rendererOf({usualWorld()});
-  const light::Illumination clear = lightOf(usualWorld(), {});
-  const light::Illumination changed = lightOf(usualWorld(), weather);
+  const auto renderer = rendererOf({bench::bakedRaceTrack()});
+  const light::Illumination clear = lightOf(bench::bakedRaceTrack(), {});
+  const light::Illumination changed = lightOf(bench::bakedRaceTrack(), weather);
   renderer->look(poseOf(0));  // buffers
   takePicture(*renderer, clear);
   Times times;
   std::size_t number = 0;
   for (auto _ : state) {
-    const double drawing = secondsOf([&] { renderer->look(poseOf(number++)); });
+    const double drawing = bench::secondsOf([&] { renderer->look(poseOf(number++)); });
     state.SetIterationTime(times.add(
         drawing, {[&] { takePicture(*renderer, changed); }, [&] { takePicture(*renderer, clear); }}));
   }
@@ -178,21 +154,24 @@ void standing(benchmark::State& state, const sky::Weather& weather) {
 
 /// A sky, and its light at all nodes, for each picture.
 void moving(benchmark::State& state, sky::Weather weather) {
-  const auto renderer = rendererOf({usualWorld()});
+  const auto renderer = rendererOf({bench::bakedRaceTrack()});
   renderer->look(poseOf(0));  // buffers
-  takePicture(*renderer, lightOf(usualWorld(), weather));
+  takePicture(*renderer, lightOf(bench::bakedRaceTrack(), weather));
   Times times;
   std::vector<double> skies, relights;
   std::size_t number = 0;
   for (auto _ : state) {
-    const double drawing = secondsOf([&] { renderer->look(poseOf(number++)); });
+    const double drawing = bench::secondsOf([&] { renderer->look(poseOf(number++)); });
     weather.clock_s = 0.1 * static_cast<double>(number);
-    const auto anew = [&](const sky::Weather& now) { takePicture(*renderer, lightOf(usualWorld(), now)); };
+    const auto anew = [&](const sky::Weather& now) {
+      takePicture(*renderer, lightOf(bench::bakedRaceTrack(), now));
+    };
     state.SetIterationTime(times.add(drawing, {[&] { anew(weather); }, [&] { anew({}); }}));
     skies.push_back(
-        secondsOf([&] { benchmark::DoNotOptimize(bench::daylightAt(kSunElevation_deg, weather)); }));
+        bench::secondsOf([&] { benchmark::DoNotOptimize(bench::daylightAt(kSunElevation_deg, weather)); }));
     const sky::Daylight day = bench::daylightAt(kSunElevation_deg, weather);
-    relights.push_back(secondsOf([&] { benchmark::DoNotOptimize(light::illumination(usualWorld(), day)); }));
+    relights.push_back(bench::secondsOf(
+        [&] { benchmark::DoNotOptimize(light::illumination(bench::bakedRaceTrack(), day)); }));
   }
   times.tell(&state);
   state.counters["sky_ms"] = 1e3 * medianOf(skies);
@@ -205,12 +184,13 @@ void further(benchmark::State& state, const scene::SurfaceState& surfaces) {
   const light::World& dry = dryWorld();
   const auto of_dry = rendererOf({dry});
   const auto drawn = [](render::Renderer* renderer) {
-    return secondsOf([&] { renderer->look(poseOf(0)); }) + secondsOf([&] { renderer->look(poseOf(1)); });
+    return bench::secondsOf([&] { renderer->look(poseOf(0)); }) +
+           bench::secondsOf([&] { renderer->look(poseOf(1)); });
   };
   drawn(of_dry.get());
   resident[0] = resident_MiB();
   light::World changed = dry;
-  state.counters["weathered_s"] = secondsOf([&] { changed = light::weathered(dry, surfaces); });
+  state.counters["weathered_s"] = bench::secondsOf([&] { changed = light::weathered(dry, surfaces); });
   resident[1] = resident_MiB();
   bake(&changed);
   resident[2] = resident_MiB();
@@ -232,8 +212,8 @@ void further(benchmark::State& state, const scene::SurfaceState& surfaces) {
   std::size_t number = 0;
   for (auto _ : state) {
     const Eigen::Isometry3d pose = poseOf(number++);
-    const double alone = secondsOf([&] { of_dry->look(pose); });
-    more.push_back(secondsOf([&] { of_both->look(pose); }) - alone);
+    const double alone = bench::secondsOf([&] { of_dry->look(pose); });
+    more.push_back(bench::secondsOf([&] { of_both->look(pose); }) - alone);
     state.SetIterationTime(times.add(
         alone, {[&] { takePicture(*of_both, of_changed, 1); }, [&] { takePicture(*of_both, of_clear, 0); }}));
   }

@@ -95,11 +95,12 @@ std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const Path
   return poses;
 }
 
-Motion motionAt(const std::vector<Eigen::Isometry3d>& poses, int index, double rate_hz) {
+Motion motionAt(const std::vector<Eigen::Isometry3d>& poses, int index, const Pace& pace) {
   const int last = static_cast<int>(poses.size()) - 1;
   if (last < 1) return {};
   const auto from = static_cast<std::size_t>(std::min(index, last - 1));
-  return Motion::between(poses[from], poses[from + 1], 1.0 / rate_hz);
+  const Motion by_rate = Motion::between(poses[from], poses[from + 1], 1.0 / pace.rate_hz);
+  return pace.speed_m_s ? by_rate.at(*pace.speed_m_s) : by_rate;
 }
 
 }  // namespace sunlit::path

@@ -33,7 +33,7 @@ int exposuresOf(double smear_px, int most) {
   return static_cast<int>(std::clamp(std::ceil(smear_px), 1.0, static_cast<double>(most)));
 }
 
-int bandsOf(double skew_px, int height) {
+int bandCount(double skew_px, int height) {
   constexpr double kWithinBand_px = 0.25;
   constexpr int kFewestRows = 4;
   int bands = 1;

@@ -1,8 +1,6 @@
 /// How fast what a moving camera sees runs over its picture, and how finely that picture is divided for it.
 #pragma once
 
-#include <cstddef>
-
 #include "sunlit/image/images.h"
 #include "sunlit/image/lens.h"
 #include "sunlit/quantity/motion.h"
@@ -19,7 +17,7 @@ int exposuresOf(double smear_px, int most);
 /// Bands of rows that each see at one moment, of a picture in which all runs by `skew_px` from the first row
 /// to the last: within a band by a quarter of a pixel, where kMostBands are enough. Few different numbers,
 /// so that what is made for one is used again.
-int bandsOf(double skew_px, int height);
+int bandCount(double skew_px, int height);
 constexpr int kMostBands = 64;
 
 /// `camera`, whose pixels look a part of a pixel aside: number 0 nowhere, 1 to kPatterns each otherwise,

@@ -135,7 +135,7 @@ class Renderer::Implementation {
     const double speed_px_s = speedOf(way);
     const int height = options_.camera.height;
     const int exposures = exposuresOf(speed_px_s * way.exposure_s, way.exposures);
-    const int bands = bandsOf(speed_px_s * way.line_delay_s * height, height);
+    const int bands = bandCount(speed_px_s * way.line_delay_s * height, height);
     if (exposures == 1 && bands == 1) return this->light(light, state);
     const std::lock_guard<std::mutex> lock(drawing_);
     image::LinearImage mean(options_.camera.width, height);
@@ -165,7 +165,15 @@ class Renderer::Implementation {
 
   image::DepthImage depth() const {
     requireLook();
-    return resolveDepth(bufferOf(seen_), *seen_.visibility);
+    {
+      const std::lock_guard<std::mutex> lock(depth_);
+      if (seen_.depth) return *seen_.depth;
+    }
+    // Not within the lock: whoever waits for parallel work may be given other work, and that may ask as well.
+    image::DepthImage depth = resolveDepth(bufferOf(seen_), *seen_.visibility);
+    const std::lock_guard<std::mutex> lock(depth_);
+    seen_.depth = depth;
+    return depth;
   }
 
   const light::Surfaces& surfaces(std::size_t state) const {
@@ -188,7 +196,8 @@ class Renderer::Implementation {
     std::shared_ptr<const light::Geometry> bodies;  ///< at these places; null: none
     std::shared_ptr<const light::Visibility> visibility;
     std::vector<Sample> samples;
-    std::vector<light::PreparedPicture> pictures;  ///< one a state
+    std::vector<light::PreparedPicture> pictures;    ///< one a state
+    mutable std::optional<image::DepthImage> depth;  ///< once it was asked for
   };
   /// A state of the surfaces.
   struct State {
@@ -223,6 +232,7 @@ class Renderer::Implementation {
     if (!from.map_from_optical.matrix().allFinite())
       throw std::invalid_argument("map_from_optical is not finite");
     seen.samples.clear();  // so that nobody takes a pose that failed for one that was drawn
+    seen.depth.reset();
     place(from.map_from_body, seen);
     seen.view = from.optics.view;
     seen.view.map_from_optical = from.map_from_optical;
@@ -300,7 +310,8 @@ class Renderer::Implementation {
   std::unique_ptr<Rasterizer> rasterizer_;
   std::deque<State> states_;  // which stay where they are
   Pose seen_;
-  std::mutex drawing_;  // of all below, and of rasterizer_, lenses and preparers
+  mutable std::mutex depth_;  // of seen_
+  std::mutex drawing_;        // of all below, and of rasterizer_, lenses and preparers
   Pose ahead_;
   Pose moved_;                                   // a part of what a moving camera sees
   std::map<Division, std::vector<Band>> bands_;  // once needed

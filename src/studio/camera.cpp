@@ -6,6 +6,16 @@
 
 namespace sunlit::studio {
 
+namespace {
+
+/// As far as it does not hang on the exposure, s; how long light smears depends on that, and hardly the other
+/// way round.
+double knownSmear_s(const image::ShutterOptions& shutter) {
+  return 1e-3 * shutter.exposure_ms.value_or(0.0);
+}
+
+}  // namespace
+
 Camera::Chain::Chain(const image::Lens& lens, const ChainOptions& chain)
     : options(chain), vignetting(lens, chain.vignetting), glare(vignetting, chain.glare) {}
 
@@ -72,15 +82,12 @@ void Camera::addRain(const Lit& lit, double ev100, image::LinearImage* luminance
 }
 
 double Camera::meter(const Lit& lit, Stopwatch* stopwatch) const {
-  const image::ShutterOptions& shutter = chainOf(lit).options.shutter;
-  return onSensor(lit, 1e-3 * shutter.exposure_ms.value_or(0.0), stopwatch).metered_ev100;
+  return onSensor(lit, knownSmear_s(chainOf(lit).options.shutter), stopwatch).metered_ev100;
 }
 
 Developed Camera::photograph(const Lit& lit, std::optional<double> ev100, Stopwatch* stopwatch) const {
   const ChainOptions& chain = chainOf(lit).options;
-  // How long light smears depends on the exposure, and hardly the other way round: what is metered is sharp.
-  const double known_s =
-      ev100 ? image::smearTime_s(chain.shutter, *ev100) : 1e-3 * chain.shutter.exposure_ms.value_or(0.0);
+  const double known_s = ev100 ? image::smearTime_s(chain.shutter, *ev100) : knownSmear_s(chain.shutter);
   OnSensor on_sensor = onSensor(lit, known_s, stopwatch);
   const double metered = on_sensor.metered_ev100;
   const double exposed = ev100 ? *ev100 : lit.setting.adapted ? lit.setting.adapted(metered) : metered;

@@ -89,8 +89,7 @@ void layOut(const Words& words, ExportOptions* options) {
   for (int i = selection.first; i < end; i += selection.stride) {
     options->frames.push_back(
         {i, kStart_ns + path::nanosecondsTo(i, options->rate_hz), poses[static_cast<std::size_t>(i)]});
-    const Motion by_stamps = path::motionAt(poses, i, options->rate_hz);
-    options->motions.push_back(words.speed_m_s ? by_stamps.at(*words.speed_m_s) : by_stamps);
+    options->motions.push_back(path::motionAt(poses, i, {options->rate_hz, words.speed_m_s}));
   }
 }
 
@@ -133,11 +132,7 @@ std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& 
   addCamera(&line, &words.camera);
   addSensor(&line, &words.sensor);
   addShutter(&line, &words.sensor);
-  line.add("--speed auto|M/S", {"speed",
-                                NumberOrWord{&words.speed_m_s, "auto"},
-                                "m/s",
-                                {0, 1000},
-                                "of the camera while a picture is taken; auto: as stamps say"});
+  line.add("--speed auto|M/S", path::speedRow(&words.speed_m_s));
   addWorld(&line, &options.studio.world);
   addBounced(&line, &options.studio.bake);
   addLamps(&line, &options.studio.lamps);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,9 +69,24 @@ std::int64_t nanosecondsTo(int index, double rate_hz);
 /// ±10,000 km, two consecutive points less than 1 mm apart in plan view, or more than 10 million poses.
 std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const PathOptions& options);
 
-/// How a camera moves that is at `poses` one after another, so many a second, when it leaves pose `index`
-/// towards the next; at the last, as it came there. None of a single pose.
-Motion motionAt(const std::vector<Eigen::Isometry3d>& poses, int index, double rate_hz);
+/// How fast poses follow each other.
+struct Pace {
+  double rate_hz = 10.0;
+  std::optional<double> speed_m_s = {};  ///< the same way at that speed; nothing: as the rate has it
+};
+
+/// What people may ask for beside a rate, kept at `place`.
+inline Field speedRow(std::optional<double>* place) {
+  return {"speed",
+          NumberOrWord{place, "auto"},
+          "m/s",
+          {0, 1000},
+          "of the camera while a picture is taken; auto: as stamps say"};
+}
+
+/// How a camera moves that is at `poses` one after another, when it leaves pose `index` towards the next; at
+/// the last, as it came there. None of a single pose.
+Motion motionAt(const std::vector<Eigen::Isometry3d>& poses, int index, const Pace& pace);
 
 /// Waypoints from a file: CSV (x,y,z or x,y a line, m; an optional header line; # comments) or TUM trajectory
 /// (timestamp tx ty tz qx qy qz qw, blank-separated; the orientation is not used). Which of the two is told

@@ -64,7 +64,7 @@ void Paths::addDiscInFloors(const Disc& disc, int bounce) {
     const float density =
         scene_.floors->mirroredDensity(facet.z(), cosine) + scatterDensity(path.vertex.reflection, down);
     bundle_.add(path.vertex.origin(down), down, i);
-    weights_.push_back(path.throughput * reflectance * disc.illuminance / density);
+    weights_.push_back(path.throughput * reflectance * disc.light.illuminance.value / density);
     points.push_back(point);
   }
   goOnFromFloors(points);

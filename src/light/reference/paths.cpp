@@ -20,8 +20,7 @@ constexpr std::uint64_t kGlass = std::uint64_t{1} << 32;
 constexpr std::uint64_t kShining = std::uint64_t{1} << 33;
 
 void appendDisc(const sky::DiscLight& light, std::size_t day, std::vector<Disc>* discs) {
-  if (light.illuminance.value.maxCoeff() > 0.0f)
-    discs->push_back({day, DiscArea(light), light.illuminance.value, light});
+  if (light.illuminance.value.maxCoeff() > 0.0f) discs->push_back({day, DiscArea(light), light});
 }
 
 }  // namespace
@@ -171,7 +170,7 @@ void Paths::addDisc(const Disc& disc, int bounce) {
     const float by_chance = paths_[i].density, by_floors = densityInFloors(paths_[i], towards);
     const float share = by_floors > 0.0f ? by_chance / (by_chance + by_floors) : 1.0f;
     bundle_.add(vertex.origin(towards), towards, i);
-    weights_.push_back(share * paths_[i].throughput * weight * disc.illuminance);
+    weights_.push_back(share * paths_[i].throughput * weight * disc.light.illuminance.value);
   }
   throughCloud(disc);
   castAndAdd(disc.day);

@@ -24,7 +24,6 @@ namespace sunlit::light {
 struct Disc {
   std::size_t day;
   DiscArea area;
-  Eigen::Array3f illuminance;  ///< the mean over all places, where there is broken cloud
   sky::DiscLight light;
 };
 

@@ -27,11 +27,7 @@ std::vector<Field> fieldsOf(PathSourceOptions& path) {
         {"topic", &path.topic, "", {}, "or a nav_msgs/Path topic; neither: the path of race_track"}},
        fieldsOf(path.sampling),
        fieldsOf(path.selection),
-       {{"speed",
-         NumberOrWord{&path.speed_m_s, "auto"},
-         "m/s",
-         {0, 1000},
-         "of the camera while a picture is taken, see shutter; auto: as stamps say"}}});
+       {path::speedRow(&path.speed_m_s)}});
 }
 
 Field rightCalibrationRow(std::string* file) {
@@ -151,6 +147,12 @@ void readRight(const ParameterReader& parameters, RenderNodeOptions* options) {
   camera.right =
       image::calibratedRight(*camera.calibration, image::readCalibration(camera.right_calibration_file),
                              camera.right_calibration_file + ": ");
+}
+
+/// What its rows alone do not tell.
+void checkChain(const ParameterReader& parameters, const studio::ChainOptions& chain) {
+  parameters.check("exposure", [&] { image::validate(chain.exposure); });
+  parameters.check("vignetting", [&] { image::validate(chain.vignetting); });
 }
 
 void requireOnePath(const ParameterReader& parameters, const PathSourceOptions& path) {
@@ -291,8 +293,7 @@ RenderConditions readRenderConditions(const ParameterReader& parameters) {
     named.parameters.read(under("weather", joined({fieldsOf(weather), fieldsOf(surfaces)})));
     named.parameters.check("weather", [&] { sky::validate(weather); });
     named.parameters.read(fieldsOf(chain));
-    named.parameters.check("exposure", [&] { image::validate(chain.exposure); });
-    named.parameters.check("vignetting", [&] { image::validate(chain.vignetting); });
+    checkChain(named.parameters, chain);
     conditions.chains.push_back(chain);
     named.parameters.rejectUnknown();
     const auto same = std::find(conditions.states.begin(), conditions.states.end(), surfaces);
@@ -311,8 +312,7 @@ RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {
   readRobotForms(parameters, options.camera.follow_tf, &options.robot);
   options.sky.stars = options.night;
   options.sky.cache_dir = studio::cacheOf(options.bake).folder;
-  parameters.check("exposure", [&] { image::validate(options.chain.exposure); });
-  parameters.check("vignetting", [&] { image::validate(options.chain.vignetting); });
+  checkChain(parameters, options.chain);
   requireFrames(parameters, options);
   requireOnePath(parameters, options.path);
   requireBakeForGather(parameters, options);

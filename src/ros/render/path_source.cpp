@@ -28,8 +28,7 @@ PathSource::PathSource(ros::NodeHandle node, const PathSourceOptions& options, c
 }
 
 Motion PathSource::motionAt(int index, double frame_rate) const {
-  const Motion by_stamps = path::motionAt(map_from_camera_, index, frame_rate);
-  return options_.speed_m_s ? by_stamps.at(*options_.speed_m_s) : by_stamps;
+  return path::motionAt(map_from_camera_, index, {frame_rate, options_.speed_m_s});
 }
 
 std::string PathSource::fingerprint() const {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "support/published_lenses.h"
 #include "test_scenes.h"
 
 namespace sunlit::test {

@@ -43,7 +43,6 @@ class DiscOnSources {
   DiscOnSources(const TransportData& data, const sky::DiscLight& disc, const Visibility& visibility,
                 const ThroughCloud& through)
       : data_(data),
-        disc_(disc),
         through_(through),
         by_patches_(disc),
         towards_(middleOf(disc)),
@@ -119,7 +118,7 @@ class DiscOnSources {
     if (!(lit.share > 0.0f)) return;
     const BakedRooms::Source& source = data_.rooms.sources[lit.source];
     (*sent)[lit.source] += Eigen::Map<const Eigen::Array3f>(source.direct.data()) * illuminance_ *
-                           (cosine(source) * lit.share * through_.of(disc_, source.sample)) *
+                           (cosine(source) * lit.share * through_.at(source.sample)) *
                            throughGlass(at(source, lit.point));
   }
 
@@ -131,8 +130,7 @@ class DiscOnSources {
     return Eigen::Map<const Eigen::Vector3f>(source.normal.data()).dot(towards_);
   }
   Eigen::Array3f byPatches(std::uint32_t sample) const {
-    return by_patches_.times(data_.direct.row(sample)) *
-           (data_.direct.scales[sample] * through_.of(disc_, sample));
+    return by_patches_.times(data_.direct.row(sample)) * (data_.direct.scales[sample] * through_.at(sample));
   }
   Eigen::Array3f throughGlass(const Eigen::Vector3f& point) const {
     if (!glass_.any()) return Eigen::Array3f::Ones();
@@ -140,7 +138,6 @@ class DiscOnSources {
   }
 
   const TransportData& data_;
-  const sky::DiscLight& disc_;
   const ThroughCloud& through_;
   SmallLight by_patches_;
   Eigen::Vector3f towards_;
@@ -152,12 +149,16 @@ class DiscOnSources {
 }  // namespace
 
 DiscsInRooms::DiscsInRooms(const TransportData& data, const sky::Daylight& day, const Visibility& visibility,
-                           const ThroughCloud& through)
-    : data_(data), through_(through) {
+                           const DiscsThroughCloud& through)
+    : data_(data) {
   const std::size_t count = data_.rooms.sources.size();
-  std::vector<const sky::DiscLight*> shining;
-  for (const sky::DiscLight* disc : {&day.sun(), &day.moon()})
-    if (disc->illuminance.value.maxCoeff() > 0.0f) shining.push_back(disc);
+  struct Shining {
+    const sky::DiscLight& disc;
+    const ThroughCloud& through;
+  };
+  std::vector<Shining> shining;
+  for (const Shining& one : {Shining{day.sun(), through.sun}, Shining{day.moon(), through.moon}})
+    if (one.disc.illuminance.value.maxCoeff() > 0.0f) shining.push_back(one);
   if (count == 0 || shining.empty()) return;
   direct_.resize(count, Eigen::Array3f::Zero());
   has_.resize(data_.sampleCount(), Eigen::Array3f::Zero());
@@ -166,13 +167,13 @@ DiscsInRooms::DiscsInRooms(const TransportData& data, const sky::Daylight& day, 
   glints_.resize(data_.rooms.samples.size(), Eigen::Array3f::Zero());
   arrived_.resize(data_.rooms.samples.size());
   findAsked();
-  for (const sky::DiscLight* disc : shining) {
-    const DiscOnSources work(data_, *disc, visibility, through);
+  for (const auto& [disc, through_to] : shining) {
+    const DiscOnSources work(data_, disc, visibility, through_to);
     tbb::parallel_for(std::size_t{0}, blocks(count), [&](std::size_t block) {
       work.add(block * kBlock, std::min(count, (block + 1) * kBlock), &direct_);
     });
-    startFromPatches(*disc);
-    addGlints(*disc, visibility);
+    startFromPatches(disc, through_to);
+    FloorGlints(data_, disc, visibility, through_to).addTo(&glints_);
   }
   double change = 1.0;
   for (int bounce = 0; bounce < kMostBounces && change > kLittle; ++bounce) {
@@ -193,28 +194,21 @@ void DiscsInRooms::findAsked() {
 }
 
 /// Adds what the patches around the disc tell.
-void DiscsInRooms::startFromPatches(const sky::DiscLight& disc) {
+void DiscsInRooms::startFromPatches(const sky::DiscLight& disc, const ThroughCloud& through) {
   const SmallLight light(disc);
   const auto add = [&](std::uint32_t sample) {
     for (const PassedOn* part : {&data_.above, &data_.below}) {
       has_[sample] += light.times(part->coefficients.row(sample)) *
-                      (part->coefficients.scales[sample] * through_.of(disc, sample)) *
+                      (part->coefficients.scales[sample] * through.at(sample)) *
                       Eigen::Map<const Eigen::Array3f>(part->tints[sample].data());
     }
   };
   tbb::parallel_for(std::size_t{0}, asked_.size(), [&](std::size_t k) { add(asked_[k]); });
   const Coefficients& mirrored = data_.rooms.mirrored;
   tbb::parallel_for(std::size_t{0}, mirrored_.size(), [&](std::size_t room) {
-    mirrored_[room] += light.times(mirrored.row(room)) *
-                       (mirrored.scales[room] * through_.of(disc, data_.rooms.samples[room]));
+    mirrored_[room] +=
+        light.times(mirrored.row(room)) * (mirrored.scales[room] * through.at(data_.rooms.samples[room]));
   });
-}
-
-void DiscsInRooms::addGlints(const sky::DiscLight& disc, const Visibility& visibility) {
-  std::vector<Eigen::Array3f> glints(glints_.size(), Eigen::Array3f::Zero());
-  FloorGlints(data_, disc, visibility).addTo(&glints);
-  for (std::size_t room = 0; room < glints.size(); ++room)
-    glints_[room] += glints[room] * through_.of(disc, data_.rooms.samples[room]);
 }
 
 void DiscsInRooms::send() {

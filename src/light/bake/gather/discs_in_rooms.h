@@ -18,9 +18,9 @@ namespace sunlit::light {
 /// where no room is, that stays.
 class DiscsInRooms {
  public:
-  /// Parallel; the same bits for any number of threads. Keeps references to `data` and `through`.
+  /// Parallel; the same bits for any number of threads. Keeps a reference to `data`.
   DiscsInRooms(const TransportData& data, const sky::Daylight& day, const Visibility& visibility,
-               const ThroughCloud& through);
+               const DiscsThroughCloud& through);
 
   /// Whether neither shines at all, or no room is to be followed; at() must not be asked then.
   bool none() const { return arrived_.empty(); }
@@ -30,13 +30,11 @@ class DiscsInRooms {
 
  private:
   void findAsked();
-  void startFromPatches(const sky::DiscLight& disc);
-  void addGlints(const sky::DiscLight& disc, const Visibility& visibility);
+  void startFromPatches(const sky::DiscLight& disc, const ThroughCloud& through);
   void send();
   double receive();
 
   const TransportData& data_;
-  const ThroughCloud& through_;
   std::vector<std::uint32_t> asked_;    ///< samples whose light matters here: rooms and what they see
   std::vector<Eigen::Array3f> direct_;  ///< of each source: luminance × π by light straight from the discs
   std::vector<Eigen::Array3f> has_;     ///< of each sample that is asked: illuminance by surfaces, lx

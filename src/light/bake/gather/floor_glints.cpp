@@ -21,9 +21,11 @@ constexpr std::uint32_t kProbes = 16, kAll = 96;
 
 }  // namespace
 
-FloorGlints::FloorGlints(const TransportData& data, const sky::DiscLight& disc, const Visibility& visibility)
+FloorGlints::FloorGlints(const TransportData& data, const sky::DiscLight& disc, const Visibility& visibility,
+                         const ThroughCloud& through)
     : data_(data),
       visibility_(visibility),
+      through_(through),
       disc_(disc),
       illuminance_(disc.illuminance.value),
       vertices_(visibility.fixedGeometry(), visibility.movingGeometry()),
@@ -46,7 +48,9 @@ void FloorGlints::addTo(std::vector<Eigen::Array3f>* rooms) const {
     follow(ways, sums.data());
     for (std::size_t g = first; g < end; ++g) {
       const Sum& sum = sums[g - first];
-      if (sum.areas > 0.0f) (*rooms)[glossy[g].room] += sum.light * illuminance_ / sum.areas;
+      const std::uint32_t room = glossy[g].room;
+      if (sum.areas > 0.0f)
+        (*rooms)[room] += sum.light * illuminance_ / sum.areas * through_.at(data_.rooms.samples[room]);
     }
   });
 }

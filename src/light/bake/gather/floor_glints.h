@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "light/bake/gather/through_cloud.h"
 #include "light/bake/samples/transport_data.h"
 #include "light/patches/disc_area.h"
 #include "light/shading/glass_sheets.h"
@@ -19,7 +20,8 @@ namespace sunlit::light {
 class FloorGlints {
  public:
   /// Keeps references.
-  FloorGlints(const TransportData& data, const sky::DiscLight& disc, const Visibility& visibility);
+  FloorGlints(const TransportData& data, const sky::DiscLight& disc, const Visibility& visibility,
+              const ThroughCloud& through);
 
   /// Illuminance of each room, lx. Parallel; the same bits for any number of threads.
   void addTo(std::vector<Eigen::Array3f>* rooms) const;
@@ -49,6 +51,7 @@ class FloorGlints {
 
   const TransportData& data_;
   const Visibility& visibility_;
+  const ThroughCloud& through_;
   DiscArea disc_;
   Eigen::Array3f illuminance_;
   SceneVertices vertices_;

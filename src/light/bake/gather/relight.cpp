@@ -25,7 +25,7 @@ constexpr float kLeastHidden = 0.02f;
 class Lights {
  public:
   /// Keeps a reference to `through`.
-  Lights(const sky::Daylight& day, const ThroughCloud& through)
+  Lights(const sky::Daylight& day, const DiscsThroughCloud& through)
       : sky_(SkyPatches::luminances(day, SkyPatches::Weight::kCosine)),
         sun_(day.sun()),
         moon_(day.moon()),
@@ -42,9 +42,9 @@ class Lights {
   /// And by surfaces.
   Eigen::Array3f passedOn(const PassedOn& part, std::size_t sample) const {
     const std::uint8_t* row = part.coefficients.row(sample);
-    return coloured(
-        sky_.times(row) + sun_.times(row) * through_.sun(sample) + moon_.times(row) * through_.moon(sample),
-        part, sample);
+    return coloured(sky_.times(row) + sun_.times(row) * through_.sun.at(sample) +
+                        moon_.times(row) * through_.moon.at(sample),
+                    part, sample);
   }
   /// The same without sun and moon.
   Eigen::Array3f ofSky(const PassedOn& part, std::size_t sample) const {
@@ -60,7 +60,7 @@ class Lights {
 
   PatchSky sky_;
   SmallLight sun_, moon_;
-  const ThroughCloud& through_;
+  const DiscsThroughCloud& through_;
 };
 
 /// Mean luminance of surfaces that hide the share `hides` and give `illuminance`, lx.
@@ -123,7 +123,7 @@ ByLamps lampLight(const TransportData& data, const std::vector<float>& shares) {
 
 std::vector<NodeLight> sampleLight(const TransportData& data, const Conditions& conditions) {
   const Geometry* const geometry = conditions.visibility ? &conditions.visibility->fixedGeometry() : nullptr;
-  const ThroughCloud through(data, geometry, conditions.day);
+  const DiscsThroughCloud through(data, geometry, conditions.day);
   const Lights lights(conditions.day, through);
   const ByLamps by_lamps = lampLight(data, conditions.lamp_shares);
   std::vector<NodeLight> light(data.sampleCount());

@@ -5,21 +5,17 @@
 
 namespace sunlit::light {
 
-ThroughCloud::ThroughCloud(const TransportData& data, const Geometry* geometry, const sky::Daylight& day)
-    : sun_disc_(&day.sun()) {
-  if (geometry == nullptr || !day.hasBrokenCloud()) return;
+ThroughCloud::ThroughCloud(const TransportData& data, const Geometry* geometry, const sky::Daylight& day,
+                           const sky::DiscLight& disc) {
+  const bool shines = disc.illuminance.value.maxCoeff() > 0.0f;
+  if (geometry == nullptr || !shines || !day.hasBrokenCloud()) return;
   const std::vector<Eigen::Vector3f>& places = data.places(*geometry);
-  const auto find = [&](const sky::DiscLight& disc, std::vector<float>* shares) {
-    if (!(disc.illuminance.value.maxCoeff() > 0.0f)) return;
-    shares->resize(places.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size(), 4096),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        for (std::size_t i = range.begin(); i != range.end(); ++i)
-                          (*shares)[i] = day.throughCloud(disc, places[i]);
-                      });
-  };
-  find(day.sun(), &sun_);
-  find(day.moon(), &moon_);
+  shares_.resize(places.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size(), 4096),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i != range.end(); ++i)
+                        shares_[i] = day.throughCloud(disc, places[i]);
+                    });
 }
 
 }  // namespace sunlit::light

@@ -10,23 +10,26 @@
 
 namespace sunlit::light {
 
-/// By sample: sky::Daylight::throughCloud() there. Light that surfaces near a place pass on to it went
-/// through the cloud over them, which is the one over the place: clouds are far larger.
+/// Of one disc, by sample: sky::Daylight::throughCloud() there. Light that surfaces near a place pass on to
+/// it went through the cloud over them, which is the one over the place: clouds are far larger.
 class ThroughCloud {
  public:
-  /// 1 everywhere without broken cloud, or where `geometry`, of which `data` is a bake, is null.
-  ThroughCloud(const TransportData& data, const Geometry* geometry, const sky::Daylight& day);
+  /// `disc` is of `day`. 1 everywhere without broken cloud, or where `geometry`, of which `data` is a bake,
+  /// is null.
+  ThroughCloud(const TransportData& data, const Geometry* geometry, const sky::Daylight& day,
+               const sky::DiscLight& disc);
 
-  float sun(std::size_t sample) const { return sun_.empty() ? 1.0f : sun_[sample]; }
-  float moon(std::size_t sample) const { return moon_.empty() ? 1.0f : moon_[sample]; }
-  /// Of that disc of the day.
-  float of(const sky::DiscLight& disc, std::size_t sample) const {
-    return &disc == sun_disc_ ? sun(sample) : moon(sample);
-  }
+  float at(std::size_t sample) const { return shares_.empty() ? 1.0f : shares_[sample]; }
 
  private:
-  const sky::DiscLight* sun_disc_;
-  std::vector<float> sun_, moon_;
+  std::vector<float> shares_;
+};
+
+/// Of both discs of a day.
+struct DiscsThroughCloud {
+  DiscsThroughCloud(const TransportData& data, const Geometry* geometry, const sky::Daylight& day)
+      : sun(data, geometry, day, day.sun()), moon(data, geometry, day, day.moon()) {}
+  ThroughCloud sun, moon;
 };
 
 }  // namespace sunlit::light

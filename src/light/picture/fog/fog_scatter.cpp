@@ -14,11 +14,6 @@ constexpr float kGrowth = 200.0f;  ///< the last slice is about so many times as
 constexpr float kHalved_rad = 5.0f * static_cast<float>(kRadPerDeg);  ///< where k is a half: see FogScatter
 constexpr float kStep_rad = 0.1f;  ///< of what a slice is divided into, seen from the lamp
 
-float leastExtinction() {
-  constexpr auto kAsymmetry = static_cast<float>(sky::kDropletAsymmetry);
-  return 1.0f - kAsymmetry * kAsymmetry;
-}
-
 }  // namespace
 
 FogSlices::FogSlices(const sky::Fog& fog) {
@@ -59,7 +54,7 @@ float FogScatter::middle(const Eigen::Vector3f& towards, const FogSlices& slices
 void FogScatter::addAlong(const Eigen::Vector3f& towards, const FogSlices& slices, const OpenSlices& open,
                           GlowProfile* profile) const {
   const Line line(*this, towards);
-  const float per_m = fog_.per_m * std::max(1.0f / (1.0f + line.angle_rad / kHalved_rad), leastExtinction());
+  const float per_m = fog_.per_m * std::max(1.0f / (1.0f + line.angle_rad / kHalved_rad), kLeastExtinction);
   Eigen::Array3f sum = Eigen::Array3f::Zero();
   float from = line.angleAt(0.0f);
   for (std::size_t i = 0; i < FogSlices::kCount; ++i) {

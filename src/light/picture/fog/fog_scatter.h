@@ -33,12 +33,15 @@ using OpenSlices = std::array<float, FogSlices::kCount>;
 
 /// Single scattering, with less extinction than there is, since light that droplets hardly turn is not lost
 /// to the glow: k times that, on the way from the lamp as on that to the eye, k = 1 / (1 + a / 5°), at least
-/// 1 − g² (g: sky::kDropletAsymmetry), a being the angle between the line of sight and the lamp. A fit of our
+/// kLeastExtinction = 1 − g², a being the angle between the line of sight and the lamp. A fit of our
 /// own to a Monte Carlo of all orders of scattering: within a sixth of it from 1 to 15° about a lamp in 0.4
 /// optical depths, two fifths in 1.2; 15 % for headlights beside the eye at a visibility of 150 m, a quarter
 /// at 50 m. Farther about a lamp in thick fog it is too dark, where there is little light.
 class FogScatter {
  public:
+  static constexpr auto kAsymmetry = static_cast<float>(sky::kDropletAsymmetry);
+  static constexpr float kLeastExtinction = 1.0f - kAsymmetry * kAsymmetry;
+
   FogScatter(const LampBeam& beam, const sky::Fog& fog, const Eigen::Vector3f& eye);
 
   /// Adds the lamp's light on the way `towards`, a unit vector, to the slices' ends.

@@ -30,14 +30,13 @@ Eigen::Array3f at(const GlowProfile& profile, float place) {
 /// Those that make all but a small share of the glow, by what of each may reach the eye, as they come.
 std::vector<LampBeam> worthSeeing(const std::vector<scene::Lamp>& lamps, const sky::Fog& fog,
                                   const Eigen::Vector3f& eye, float left_out) {
-  constexpr auto kAsymmetry = static_cast<float>(sky::kDropletAsymmetry);
   std::vector<LampBeam> beams;
   std::vector<float> most;
   for (const scene::Lamp& lamp : lamps) {
     const LampBeam& beam = beams.emplace_back(lamp);
     const float distance_m = std::max((beam.position() - eye).norm(), 1.0f);
     most.push_back(beam.brightest() / distance_m *
-                   std::exp(-(1.0f - kAsymmetry * kAsymmetry) * fog.per_m * distance_m));
+                   std::exp(-FogScatter::kLeastExtinction * fog.per_m * distance_m));
   }
   std::vector<std::size_t> order(beams.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
