@@ -202,7 +202,9 @@ void Weathering::apply(const Place& place, const Material& material, Look* look)
   const float level = material.transmission > 0.0f ? 0.0f : smoothStep(0.9903f, 0.9986f, up);
   const float standing = open_share * level * puddles_.cover(x, y, place.footprint_m);
   const float faces = std::min(up + 0.5f, 1.0f);
-  const float film = std::max(standing, static_cast<float>(state_.wet) * open_share * faces);
+  // Water stands on leaves in drops.
+  const float takes = material.transmission > 0.0f ? 0.0f : 1.0f;
+  const float film = std::max(standing, takes * static_cast<float>(state_.wet) * open_share * faces);
   if (film > 0.0f) wet(film, standing, material, look);
   const float flat = smoothStep(0.5f, 0.766f, up);  // 60° and 40°
   const float snow = open_share * flat * snow_.cover(x, y, place.footprint_m);

@@ -1,5 +1,7 @@
 #include "light/picture/tile_lighting.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 namespace sunlit::light {
@@ -23,6 +25,7 @@ TileLighting::TileLighting(const ReadyPicture& picture, const Surroundings& in, 
       day_(light.day.seenFrom(picture.seen.surfaces.eye)),
       lit_({picture.seen, in.scene, in.visibility}, light),
       in_mirrors_(lightingInMirrors(picture, in, light)),
+      mirrored_(allMirrored()),
       air_(picture.seen.surfaces, picture.seen.table, light.day),
       open_air_(picture.seen.surfaces, in.visibility, light.node_open.get()),
       sky_(picture.seen.surfaces, light.day),
@@ -34,36 +37,55 @@ void TileLighting::light(std::size_t tile, image::LinearImage* image) const {
   glow_.addTo(picture_.seen.surfaces.tiles[tile], sky_, image);
 }
 
+MirroredLuminances TileLighting::allMirrored() const {
+  if (in_mirrors_.empty()) return {};
+  const Surfaces& surfaces = picture_.seen.surfaces;
+  MirroredLuminances all(surfaces.tiles.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { lightMirrored(i, 0, &all[i]); });
+  shareLobes(surfaces, picture_.mirrors.front().reflections, &all);
+  return all;
+}
+
 void TileLighting::lightMirrored(std::size_t number, std::size_t depth,
-                                 std::vector<SurfaceLighting::SeenByRays>* seen) const {
-  seen->clear();
+                                 std::vector<Eigen::Array3f>* luminances) const {
+  luminances->clear();
   if (depth >= in_mirrors_.size()) return;
   const ReadyMirrors& mirrors = picture_.mirrors[depth];
-  const std::vector<Reflections::Mirroring>& all = mirrors.reflections.tiles[number];
-  if (all.empty()) return;
-  std::vector<SurfaceLighting::SeenByRays> deeper;
+  const Reflections::TileReflections& reflections = mirrors.reflections.tiles[number];
+  if (reflections.surfaces.empty()) return;
+  std::vector<Eigen::Array3f> deeper;
   lightMirrored(number, depth + 1, &deeper);
   thread_local std::vector<Eigen::Array3f> leaving;  // once those within are done
-  in_mirrors_[depth]->light(number, deeper, &leaving);
+  in_mirrors_[depth]->light(number, seenByRays(number, depth + 1, deeper), &leaving);
   const std::vector<Surface>& met = mirrors.met.surfaces.tiles[number].surfaces;
-  for (const Reflections::Mirroring& mirroring : all) {
+  for (const Reflections::Mirroring& mirroring : reflections.surfaces) {
     Eigen::Array3f sum = Eigen::Array3f::Zero();
     for (std::uint32_t i = mirroring.first; i < mirroring.first + mirroring.count; ++i)
-      sum += leaving[i] * met[i].share * static_cast<float>(met[i].samples);
-    sum /= static_cast<float>(mirroring.rays);
-    if (mirroring.sky.maxCoeff() > 0.0f) sum += mirroring.sky * day_.skyLuminance(mirroring.towards).value;
-    seen->push_back({mirroring.surface, mirroring.by_rays, sum});
+      sum += leaving[i] * met[i].share;
+    for (std::uint32_t i = mirroring.first_open; i < mirroring.first_open + mirroring.open_count; ++i)
+      sum += reflections.open[i].share * day_.skyLuminance(reflections.open[i].towards).value;
+    luminances->push_back(sum);
   }
+}
+
+std::vector<SurfaceLighting::SeenByRays> TileLighting::seenByRays(
+    std::size_t number, std::size_t depth, const std::vector<Eigen::Array3f>& luminances) const {
+  std::vector<SurfaceLighting::SeenByRays> seen;
+  seen.reserve(luminances.size());
+  for (std::size_t i = 0; i < luminances.size(); ++i) {
+    const Reflections::Mirroring& by = picture_.mirrors[depth].reflections.tiles[number].surfaces[i];
+    seen.push_back({by.surface, by.by_rays, luminances[i]});
+  }
+  return seen;
 }
 
 void TileLighting::addSurfaces(std::size_t number, image::LinearImage* image) const {
   const Surfaces& surfaces = picture_.seen.surfaces;
   const Tile& tile = surfaces.tiles[number];
   const TileOutlooks& outlooks = picture_.seen.outlooks[number];
-  thread_local std::vector<SurfaceLighting::SeenByRays> by_rays;
-  lightMirrored(number, 0, &by_rays);
+  static const std::vector<SurfaceLighting::SeenByRays> none;
   thread_local std::vector<Eigen::Array3f> leaving;
-  lit_.light(number, by_rays, &leaving);
+  lit_.light(number, mirrored_.empty() ? none : seenByRays(number, 0, mirrored_[number]), &leaving);
   const float weight = 1.0f / static_cast<float>(surfaces.samples_per_pixel);
   for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
     const Surface& surface = tile.surfaces[i];

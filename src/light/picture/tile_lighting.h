@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "light/picture/fog/lamp_glow.h"
+#include "light/picture/mirror/shared_lobes.h"
 #include "light/picture/ready_picture.h"
 #include "light/picture/sky/open_air.h"
 #include "light/picture/sky/picture_air.h"
@@ -25,7 +26,7 @@ class TileLighting {
     const scene::Scene& scene;
     const Visibility& visibility;
   };
-  /// Keeps references. Casts the rays to sun and moon, in parallel.
+  /// Keeps references. Casts the rays to sun and moon and lights what mirrors show, in parallel.
   TileLighting(const ReadyPicture& picture, const Surroundings& in, const Illumination& light);
 
   /// Writes the pixels of the tile of that number, and no others.
@@ -33,14 +34,19 @@ class TileLighting {
 
  private:
   void addSurfaces(std::size_t tile, image::LinearImage* image) const;
-  /// What the tile's mirroring surfaces see by their rays, of ReadyPicture::mirrors[depth].
-  void lightMirrored(std::size_t tile, std::size_t depth,
-                     std::vector<SurfaceLighting::SeenByRays>* seen) const;
+  /// What all mirroring surfaces of the picture show by their rays.
+  MirroredLuminances allMirrored() const;
+  /// Likewise a tile's of ReadyPicture::mirrors[depth], each by its own.
+  void lightMirrored(std::size_t tile, std::size_t depth, std::vector<Eigen::Array3f>* luminances) const;
+  /// `luminances` are of these.
+  std::vector<SurfaceLighting::SeenByRays> seenByRays(std::size_t tile, std::size_t depth,
+                                                      const std::vector<Eigen::Array3f>& luminances) const;
 
   const ReadyPicture& picture_;
   sky::Daylight day_;  ///< seen from the camera
   SurfaceLighting lit_;
   std::vector<std::unique_ptr<const SurfaceLighting>> in_mirrors_;  ///< of each of ReadyPicture::mirrors
+  MirroredLuminances mirrored_;                                     ///< empty: nothing mirrors by rays
   PictureAir air_;
   OpenAir open_air_;
   SkyPixel sky_;

@@ -30,6 +30,21 @@ class Ggx {
     const Real base = (n_h * alpha2_ - n_h) * n_h + 1;
     return alpha2_ / (static_cast<Real>(kPi) * base * base);
   }
+  /// Mean of D, 1/sr, over the facets that mirror the points of a round, even source of the angular radius
+  /// `radius_rad`; n_h and v_h are of its middle. By the sines of their angles facets are spread as points of
+  /// a ball, even over it, are on a plane that they are thrown upon from its pole: a source's disc is a cap
+  /// there. The facets of a source are an ellipse, taken for a disc of its area.
+  Real meanDistribution(Real n_h, Real v_h, Real radius_rad) const {
+    const Real narrowness = std::max<Real>(1 - alpha2_, static_cast<Real>(1e-4)),
+               ball2 = alpha2_ / narrowness;
+    const Real middle2 = (1 - n_h * n_h) / ball2, radius2 = radius_rad * radius_rad * n_h / (4 * v_h * ball2);
+    const Real near = 1 + middle2 - radius2;
+    const Real whole = std::sqrt(near * near + 4 * radius2);
+    // Two ways to write (1 − near / whole) / (2 radius²), each exact for one sign.
+    const Real cap = near > 0 ? 2 / (whole * (whole + near))
+                              : (whole - near) / (2 * whole * std::max(radius2, static_cast<Real>(1e-9)));
+    return cap / (static_cast<Real>(kPi) * alpha2_);
+  }
 
   /// Λ of the eye or the light: area that is hidden, for a unit of that which is seen; [H] eq. 72.
   Real lambda(Real n_v) const {
@@ -56,7 +71,7 @@ class Ggx {
   Real mirroredDensity(Real n_h, Real v_h) const { return distribution(n_h) * n_h / (4 * v_h); }
 
   /// A normal among those that the eye sees, each as often as it is seen. `eye` lies in the plane of x and z,
-  /// z ≥ 0; `disc` is a point of the unit disc, evenly chosen, x along the plane; [V] appendix A.
+  /// x ≤ 0, z ≥ 0; `disc` is a point of the unit disc, evenly chosen, x along the plane; [V] appendix A.
   Vector visibleNormal(const Vector& eye, const Eigen::Matrix<Real, 2, 1>& disc) const {
     const Vector stretched = Vector(alpha_ * eye.x(), 0, eye.z()).normalized();
     const Vector second(stretched.z(), 0, -stretched.x());  // in the plane, across `stretched`

@@ -7,7 +7,7 @@ namespace sunlit::light {
 
 /// Surfaces so smooth mirror by rays alone; towards the rougher limit the lobe of MirrorSky and of the nodes
 /// takes over, evenly, so that no edge appears.
-constexpr float kMirrorsByRays = 0.25f, kMirrorsByLobe = 0.35f;
+constexpr float kMirrorsByRays = 0.42f, kMirrorsByLobe = 0.48f;
 
 /// Share of its surroundings that a surface, no thin sheet, mirrors by rays.
 inline float mirroredByRays(float roughness) {

@@ -1,6 +1,8 @@
 #include "light/shading/shading.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "light/shading/direct_parts.h"
@@ -30,6 +32,65 @@ Eigen::Array3f lambert(const Reflection& r) {
   return (1.0f - r.metalness) * (1.0f - r.transmission) * (1.0f - r.glass) / kPiFloat * r.albedo;
 }
 
+/// Mean of D over the facets that mirror the points of a disc, as Ggx::meanDistribution() is, but over the
+/// ellipse that they are: where the disc is wide beside the lobe, at a low sun in water, that is several
+/// times as long across the way to the disc as along it. Exact across, by five points (Gauss and Chebyshev's)
+/// along.
+float meanOverEllipse(const Reflection& r, const Eigen::Vector3f& to_light, const Eigen::Vector3f& half,
+                      float radius_rad) {
+  constexpr int kPoints = 5;
+  struct Points {
+    std::array<float, kPoints> at, root, weight;
+    Points() : at(), root(), weight() {
+      for (int i = 0; i < kPoints; ++i) {
+        const float angle = kPiFloat * static_cast<float>(i + 1) / (kPoints + 1);
+        const auto k = static_cast<std::size_t>(i);
+        at[k] = std::cos(angle);
+        root[k] = std::sin(angle);
+        weight[k] = 2.0f / (kPoints + 1) * root[k] * root[k];
+      }
+    }
+  };
+  static const Points points;
+  const float alpha = r.roughness * r.roughness, narrowness = std::max(1.0f - alpha * alpha, 1e-4f);
+  const float ball2 = alpha * alpha / narrowness;
+  const Eigen::Vector3f apart = to_light - r.to_eye;
+  const float sine2 = apart.norm();
+  const Eigen::Vector3f along = sine2 > 1e-6f ? Eigen::Vector3f(apart / sine2) : half.unitOrthogonal();
+  const float x = r.normal.dot(along), y = r.normal.dot(half.cross(along));
+  const float v_h = std::max(r.to_eye.dot(half), 1e-3f);
+  const float height = 0.5f * radius_rad, width = height / v_h;
+  float sum = 0.0f;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const float aside = x + height * points.at[i];
+    const float c2 = ball2 + aside * aside, c = std::sqrt(c2);
+    const float reach = width * points.root[i];
+    const auto upTo = [&](float end) { return end / (c2 + end * end) + std::atan(end / c) / c; };
+    sum += points.weight[i] * (upTo(y + reach) - upTo(y - reach)) / (4.0f * reach * c2);
+  }
+  return ball2 / narrowness / kPiFloat * sum;
+}
+
+/// The mirror-like part without Fresnel, 1/sr.
+float lobe(const Reflection& r, const Eigen::Vector3f& to_light, const Eigen::Vector3f& half,
+           float radius_rad) {
+  // Of the disc's facets: beside the lobe's, and beside how far off they are. What is wider than a small disc
+  // in the sky, such as a lamp close by, has no ellipse of facets.
+  constexpr float kWide = 0.3f, kFar = 12.0f, kDisc_rad = 0.05f;
+  const float n_l = r.normal.dot(to_light);
+  // A shading normal may turn away from the eye near silhouettes; the surface is seen all the same.
+  const float n_v = std::max(r.normal.dot(r.to_eye), 1e-3f);
+  const float n_h = std::clamp(r.normal.dot(half), 0.0f, 1.0f);
+  const float v_h = std::clamp(r.to_eye.dot(half), 1e-3f, 1.0f);
+  const auto facets = Ggx<float>::ofRoughness(r.roughness);
+  const float width = 0.5f * radius_rad / v_h;
+  const bool wide = radius_rad < kDisc_rad && width > kWide * r.roughness * r.roughness &&
+                    1.0f - n_h * n_h < kFar * width * kFar * width;
+  const float distribution =
+      wide ? meanOverEllipse(r, to_light, half, radius_rad) : facets.meanDistribution(n_h, v_h, radius_rad);
+  return distribution * facets.visibility(n_l, n_v);
+}
+
 }  // namespace
 
 DirectParts directParts(const Reflection& r) {
@@ -41,22 +102,12 @@ Eigen::Array3f directReflectance(const Reflection& r, const Eigen::Vector3f& to_
                                  float source_radius_rad) {
   const float n_l = r.normal.dot(to_light);
   if (n_l <= 0.0f) return (1.0f - r.metalness) * r.transmission / kPiFloat * -n_l * r.albedo;
-  // A shading normal may turn away from the eye near silhouettes; the surface is seen all the same.
-  const float n_v = std::max(r.normal.dot(r.to_eye), 1e-3f);
   const Eigen::Vector3f half = (to_light + r.to_eye).normalized();
-  const float n_h = std::clamp(r.normal.dot(half), 0.0f, 1.0f);
   const float v_h = std::clamp(r.to_eye.dot(half), 0.0f, 1.0f);
-
-  // Half the source's radius adds to the half vector's spread: the lobe is that of the surface blurred by the
-  // source.
-  const float alpha = std::min(1.0f, r.roughness * r.roughness + 0.5f * source_radius_rad);
-  const Ggx<float> facets(alpha);
   const Eigen::Array3f f0 = normalReflectance(r);
   Eigen::Array3f fresnel = f0 + (grazingReflectance(r) - f0) * schlick(v_h);
   if (r.glass > 0.0f) fresnel = ofSheet(r, fresnel);
-  return (lambert(r) * (1.0f - fresnel) +
-          fresnel * (facets.distribution(n_h) * facets.visibility(n_l, n_v))) *
-         n_l;
+  return (lambert(r) * (1.0f - fresnel) + fresnel * lobe(r, to_light, half, source_radius_rad)) * n_l;
 }
 
 AmbientReflectance ambientReflectance(const Reflection& r) {

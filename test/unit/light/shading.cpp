@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "sunlit/quantity/angle.h"
@@ -79,6 +80,46 @@ TEST(Highlight, IsBrightestInTheMirroredDirectionAndBlurredByTheSource) {
   EXPECT_GT(at(40.0, 0.0f), 3.0f * at(37.0, 0.0f));
   EXPECT_LT(at(40.0, 0.05f), at(40.0, 0.0f));
   EXPECT_GT(at(50.0, 0.05f), at(50.0, 0.0f));
+}
+
+/// Of the points of a disc in direction `to_light`, one by one.
+double meanOverDisc(const Reflection& reflection, const Eigen::Vector3f& to_light, double radius_rad) {
+  constexpr int kRings = 200, kTurns = 720;
+  const Eigen::Vector3f right = to_light.unitOrthogonal(), up = to_light.cross(right);
+  double sum = 0.0;
+  for (int i = 0; i < kRings; ++i) {
+    const double radius = radius_rad * std::sqrt((i + 0.5) / kRings);
+    for (int k = 0; k < kTurns; ++k) {
+      const double turn = 2.0 * kPi * (k + 0.5) / kTurns;
+      const Eigen::Vector3f point = to_light + static_cast<float>(radius * std::cos(turn)) * right +
+                                    static_cast<float>(radius * std::sin(turn)) * up;
+      sum += static_cast<double>(directReflectance(reflection, point.normalized(), 0.0f)[0]);
+    }
+  }
+  return sum / (kRings * kTurns);
+}
+
+// In the middle of the sun's picture in a window, at its edge, where what the window sends falls to a
+// thousandth, and beyond, where it is the window's own haze, whatever the sun's width.
+TEST(Highlight, OfADiscIsThatOfItsPoints) {
+  constexpr float kSun = 0.00465f;
+  for (const double zenith : {5.0, 40.0, 70.0}) {
+    const Eigen::Vector3f to_light = towards(zenith, 0.0);
+    for (const float roughness : {0.04f, 0.08f, 0.2f, 0.35f, 0.7f}) {
+      double middle = 0.0;
+      for (const double off_deg : {0.0, 0.1, 0.2, 0.27, 0.4, 0.7, 1.5, 4.0, 10.0}) {
+        for (const double azimuth : {180.0, 180.0 + off_deg / std::sin(zenith * kRadPerDeg)}) {
+          const double eye = azimuth == 180.0 ? zenith + off_deg : zenith;
+          const Reflection reflection = surface(towards(eye, azimuth), 0.0f, roughness, 0.0f);
+          const double points = meanOverDisc(reflection, to_light, kSun);
+          middle = std::max(middle, points);
+          const double disc = static_cast<double>(directReflectance(reflection, to_light, kSun)[0]);
+          EXPECT_NEAR(disc / points, 1.0, 0.05) << roughness << " from " << zenith << ", " << off_deg
+                                                << " off, " << azimuth << ", of " << points / middle;
+        }
+      }
+    }
+  }
 }
 
 /// What an eye sees under even light of 1 cd/m² from all sides, or only from behind, by a sum over the

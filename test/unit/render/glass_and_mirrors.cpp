@@ -203,7 +203,7 @@ TEST(PolishedFloor, ShowsBodiesThatMove) {
 TEST(RoughSurfaces, CastNoRaysOfMirrors) {
   scene::Scene scene;
   addGround(&scene, addMaterial(&scene, {0.5f, 0.5f, 0.5f}), 40.0f);
-  scene.materials.back().roughness = 0.35f;
+  scene.materials.back().roughness = 0.48f;
   const light::World world(shared(scene));
   render::Renderer renderer(world, smallCamera());
   renderer.look(lookingAt({0.0, 0.0, 1.5}, {3.0, 0.0, 0.0}));

@@ -79,7 +79,7 @@ TEST(Wet, BelowARoofItIsDryAndOnItWet) {
   EXPECT_EQ(seen(soaked, {0.0f, 0.0f, 3.0f}, -kUp).albedo[0], 0.2f);
 }
 
-TEST(Wet, LeavesAreNotSoakedAndLetRainThrough) {
+TEST(Wet, LeavesHoldNoFilmAndLetRainThrough) {
   Scene scene = roofedGround();
   scene.materials.push_back(Material());
   scene.materials[1].transmission = 0.3f;
@@ -89,7 +89,8 @@ TEST(Wet, LeavesAreNotSoakedAndLetRainThrough) {
   Weathering::Look leaf = dryLook(0.2f);
   soaked.apply({{0.0f, 0.0f, 3.0f}, kUp, 0.01f}, scene.materials[1], &leaf);
   EXPECT_EQ(leaf.albedo[0], 0.2f);
-  EXPECT_LT(leaf.roughness, 0.9f);
+  EXPECT_EQ(leaf.roughness, dryLook(0.2f).roughness);
+  EXPECT_EQ(leaf.film, 0.0f);
 }
 
 TEST(Wet, AWallUnderTheSkyIsHalfWetAndARoofedOneDry) {

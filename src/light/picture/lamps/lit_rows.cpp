@@ -45,11 +45,11 @@ struct Source {
   float brightest;
 };
 
-/// Half of atan(x), x ≥ 0, within 0.003.
-inline __attribute__((always_inline)) float halfAngle(float x) {
+/// atan(x), x ≥ 0, within 0.006.
+inline __attribute__((always_inline)) float angleOf(float x) {
   const float square = x * x;
   const float narrow = x / (1.0f + 0.28f * square), wide = 0.5f * kPiFloat - x / (square + 0.28f);
-  return 0.5f * (x <= 1.0f ? narrow : wide);
+  return x <= 1.0f ? narrow : wide;
 }
 
 /// How a block of surfaces sees a lamp.
@@ -92,11 +92,12 @@ inline __attribute__((always_inline)) void look(const Source& lamp, const Rows& 
     // The half vector is (l + v) / (2 v_h).
     const float v_h = std::sqrt(std::min(std::max(0.5f * (1.0f + v_l), 1e-6f), 1.0f));
     const float n_h = std::min(std::max((n_l + n_v) / (2.0f * v_h), 0.0f), 1.0f);
-    const Ggx<float> facets(std::min(rows[kAlpha][k] + halfAngle(radius_m * per_m), 1.0f));
+    const Ggx<float> facets(rows[kAlpha][k]);
     const bool lost = (rows[kOpaque][k] > 0.0f) & (dot(kGeometricNormal, x, y, z) <= 0.0f);
     seen->lx[k] = lost ? 0.0f : n_l * shares[k];
     seen->fresnel[k] = schlick(v_h);
-    seen->lobe[k] = facets.distribution(n_h) * facets.visibility(std::max(n_l, 0.0f), std::max(n_v, 1e-3f)) *
+    seen->lobe[k] = facets.meanDistribution(n_h, v_h, angleOf(radius_m * per_m)) *
+                    facets.visibility(std::max(n_l, 0.0f), std::max(n_v, 1e-3f)) *
                     std::max(rows[kByLobe][k], at_least);
   }
 }

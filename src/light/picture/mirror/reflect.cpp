@@ -8,6 +8,7 @@
 
 #include "light/geometry/ray_list.h"
 #include "light/geometry/ray_start.h"
+#include "light/picture/mirror/lobe_rays.h"
 #include "light/shading/glass_sheets.h"
 #include "light/shading/mirrored_by_rays.h"
 #include "light/shading/shading.h"
@@ -34,10 +35,9 @@ bool anyMirrors(const MirroredWorld& world) {
   });
 }
 
-/// Mirrors about the shading normal, but never into the surface.
-Eigen::Vector3f mirroredClear(const Surface& surface, const Eigen::Vector3f& to_eye) {
+/// Never into the surface.
+Eigen::Vector3f clear(const Surface& surface, Eigen::Vector3f towards) {
   constexpr float kLeast = 1e-3f;
-  Eigen::Vector3f towards = mirrored(to_eye, surface.shading_normal);
   const float lifted = surface.geometric_normal.dot(towards);
   if (lifted < kLeast) towards += (kLeast - lifted) * surface.geometric_normal;
   return towards.normalized();
@@ -53,10 +53,11 @@ class TileMirror {
         vertices_(visibility_.fixedGeometry(), visibility_.movingGeometry()),
         glass_(visibility_) {}
 
-  void look(const Tile& tile, std::vector<Reflections::Mirroring>* all, Tile* seen) const {
-    thread_local RayList rays;
+  void look(const Tile& tile, Reflections::TileReflections* found, Tile* seen) const {
+    std::vector<Reflections::Mirroring>* const all = &found->surfaces;
+    thread_local LobeRays cast;
     thread_local std::vector<Hit> hits;
-    rays.clear();
+    cast.clear();
     for (std::uint32_t i = 0; i < tile.surfaces.size(); ++i) {
       const Surface& surface = tile.surfaces[i];
       if (!(surface.roughness < kMirrorsByLobe)) continue;
@@ -66,44 +67,58 @@ class TileMirror {
       mirroring.by_rays = mirroredByRays(surface.roughness);
       mirroring.rays = surface.samples;
       all->push_back(mirroring);
-      addRays(tile, surface, static_cast<std::uint32_t>(all->size() - 1), &rays);
+      addRays(tile, surface, static_cast<std::uint32_t>(all->size() - 1), &cast);
     }
     if (all->empty()) return;
-    hits.resize(rays.size());
-    visibility_.closest(rays.rays(), hits.data());
-    for (std::size_t begin = 0; begin < rays.size();) {
-      Reflections::Mirroring& mirroring = (*all)[rays.number()[begin]];
-      sort({tile.surfaces[mirroring.surface], rays, hits, begin, begin + mirroring.rays}, &mirroring, seen);
+    hits.resize(cast.rays.size());
+    visibility_.closest(cast.rays.rays(), hits.data());
+    for (std::size_t begin = 0; begin < hits.size();) {
+      Reflections::Mirroring& mirroring = (*all)[cast.rays.number()[begin]];
+      sort({tile.surfaces[mirroring.surface], cast, hits, begin, begin + mirroring.rays}, &mirroring,
+           &found->open, seen);
       begin += mirroring.rays;
     }
   }
 
  private:
+  /// Rays of several surfaces, and their LobeRay::weight.
+  struct LobeRays {
+    RayList rays;
+    std::vector<float> weights;
+    void clear() {
+      rays.clear();
+      weights.clear();
+    }
+  };
+
   /// One surface's rays, and what they met.
   struct Looked {
     const Surface& surface;
-    const RayList& rays;
+    const LobeRays& cast;
     const std::vector<Hit>& hits;
     std::size_t begin, end;
 
     Eigen::Vector3f origin(std::size_t i) const {
-      const Rays all = rays.rays();
+      const Rays all = cast.rays.rays();
       return {all.origin_x[i], all.origin_y[i], all.origin_z[i]};
     }
     Eigen::Vector3f towards(std::size_t i) const {
-      const Rays all = rays.rays();
+      const Rays all = cast.rays.rays();
       return {all.direction_x[i], all.direction_y[i], all.direction_z[i]};
     }
   };
 
-  void addRays(const Tile& tile, const Surface& surface, std::uint32_t number, RayList* rays) const {
-    rays->reserve(surface.samples);
+  void addRays(const Tile& tile, const Surface& surface, std::uint32_t number, LobeRays* cast) const {
+    cast->rays.reserve(surface.samples);
     for (std::uint32_t i = 0; i < surface.samples; ++i) {
       const std::size_t at = surface.first_sample + i;
       const Eigen::Vector3f origin = rayStart(tile, at);
       const Eigen::Vector3f to_eye =
           onlooker_ == Onlooker::kCamera ? (surfaces_.eye - origin).normalized() : surface.to_eye;
-      rays->add(number, origin, mirroredClear(surface, to_eye));
+      LobeRay ray{mirrored(to_eye, surface.shading_normal), 1.0f};
+      if (surface.roughness > kSharpest) ray = lobeRay(surface, to_eye, surfaces_.width, i);
+      cast->rays.add(number, origin, clear(surface, ray.towards));
+      cast->weights.push_back(ray.weight);
     }
   }
 
@@ -122,33 +137,49 @@ class TileMirror {
     }
   };
 
-  void sort(const Looked& looked, Reflections::Mirroring* mirroring, Tile* seen) const {
+  void sort(const Looked& looked, Reflections::Mirroring* mirroring, std::vector<Reflections::Open>* open,
+            Tile* seen) const {
     mirroring->first = static_cast<std::uint32_t>(seen->surfaces.size());
+    mirroring->first_open = static_cast<std::uint32_t>(open->size());
+    for (std::size_t i = looked.begin; i < looked.end; ++i) mirroring->weight += looked.cast.weights[i];
+    if (!(mirroring->weight > 0.0f)) return;
     thread_local std::vector<Met> met;
     met.clear();
-    Eigen::Vector3f open = Eigen::Vector3f::Zero();
     for (std::size_t i = looked.begin; i < looked.end; ++i) {
+      const float part = looked.cast.weights[i] / mirroring->weight;
+      if (!(part > 0.0f)) continue;
       const Hit& hit = looked.hits[i];
       const bool misses = hit.triangle == Hit::kMiss;
-      const Eigen::Array3f through = passGlass(looked, i, &met);
-      if (misses) {
-        open += looked.towards(i);
-        mirroring->sky += through;
-      } else {
+      const Eigen::Array3f through = passGlass(looked, i, part, &met);
+      if (misses)
+        open->push_back({looked.towards(i), through});
+      else
         met.push_back({hit, vertices_.at(hit, looked.towards(i)), through});
-      }
     }
     for (std::size_t i = 0; i < met.size(); ++i) {
       if (!met[i].taken) add(looked.surface, i, &met, seen);
     }
+    if (!(looked.surface.roughness > kSharpest)) joinFrom(mirroring->first_open, open);
+    mirroring->open_count = static_cast<std::uint32_t>(open->size()) - mirroring->first_open;
     mirroring->count = static_cast<std::uint32_t>(seen->surfaces.size()) - mirroring->first;
-    mirroring->sky /= static_cast<float>(mirroring->rays);
-    mirroring->towards = open.normalized();
+  }
+
+  /// Rays that hardly part look at one place of the sky.
+  static void joinFrom(std::size_t first, std::vector<Reflections::Open>* open) {
+    if (open->size() < first + 2) return;
+    Reflections::Open joined{Eigen::Vector3f::Zero(), Eigen::Array3f::Zero()};
+    for (std::size_t i = first; i < open->size(); ++i) {
+      joined.towards += (*open)[i].towards;
+      joined.share += (*open)[i].share;
+    }
+    joined.towards.normalize();
+    open->resize(first);
+    open->push_back(joined);
   }
 
   /// Adds the sheets of glass on the way of ray `i`, which mirror as well, and returns what they let through.
-  Eigen::Array3f passGlass(const Looked& looked, std::size_t i, std::vector<Met>* met) const {
-    Eigen::Array3f through = Eigen::Array3f::Ones();
+  Eigen::Array3f passGlass(const Looked& looked, std::size_t i, float part, std::vector<Met>* met) const {
+    Eigen::Array3f through = Eigen::Array3f::Constant(part);
     if (!glass_.any()) return through;
     thread_local std::vector<Hit> sheets;
     const Hit& end = looked.hits[i];
@@ -197,7 +228,7 @@ class TileMirror {
     surface.position *= each;
     surface.to_eye.normalize();
     surface.shading_normal.normalize();
-    for (Eigen::Array3f* sum : {&surface.albedo, &surface.emission, &surface.share}) *sum *= each;
+    for (Eigen::Array3f* sum : {&surface.albedo, &surface.emission}) *sum *= each;
     surface.roughness *= each;
     surface.metalness *= each;
     surface.film *= each;
@@ -244,7 +275,8 @@ Reflections reflect(const Surfaces& surfaces, Onlooker onlooker, const MirroredW
   const TileMirror mirror(surfaces, onlooker, world);
   tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(),
                     [&](std::size_t i) { mirror.look(surfaces.tiles[i], &made.tiles[i], &seen->tiles[i]); });
-  if (std::all_of(made.tiles.begin(), made.tiles.end(), [](const auto& tile) { return tile.empty(); }))
+  if (std::all_of(made.tiles.begin(), made.tiles.end(),
+                  [](const auto& tile) { return tile.surfaces.empty(); }))
     return {};
   return made;
 }

@@ -16,15 +16,22 @@ struct Reflections {
   struct Mirroring {
     std::uint32_t surface;  ///< index into Tile::surfaces
     float by_rays;          ///< share of its mirrored light that rays tell, 0 … 1
-    /// Those that its rays met, in their tile: parts of all of its rays by Surface::samples, each
-    /// coloured by Surface::share.
-    std::uint32_t first = 0, count = 0;
     std::uint32_t rays = 0;
-    Eigen::Array3f sky = Eigen::Array3f::Zero();  ///< share of the rays that met nothing, coloured by glass
-    Eigen::Vector3f towards = Eigen::Vector3f::UnitZ();  ///< where these look, unit
+    float weight = 0.0f;  ///< of its rays together, by LobeRay::weight, which all shares are parts of
+    std::uint32_t first = 0, count = 0;  ///< what they met, in `seen`; Surface::share is of all of them
+    std::uint32_t first_open = 0, open_count = 0;  ///< those that met nothing, in TileReflections::open
   };
-  /// In the order of their surfaces; one list a tile, or none at all where nothing mirrors by rays.
-  std::vector<std::vector<Mirroring>> tiles;
+  /// Rays that met nothing.
+  struct Open {
+    Eigen::Vector3f towards;  ///< unit
+    Eigen::Array3f share;     ///< of all of their surface's, coloured by glass
+  };
+  struct TileReflections {
+    std::vector<Mirroring> surfaces;  ///< in their order
+    std::vector<Open> open;
+  };
+  /// One a tile, or none at all where nothing mirrors by rays.
+  std::vector<TileReflections> tiles;
 };
 
 /// Who looks at what mirrors: the camera, or other mirrors, whose rays go on as Surface::to_eye tells.

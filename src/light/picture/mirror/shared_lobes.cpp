@@ -1,0 +1,153 @@
+#include "light/picture/mirror/shared_lobes.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "light/picture/mirror/lobe_rays.h"
+
+namespace sunlit::light {
+namespace {
+
+/// A rough surface that mirrors, as others are compared with it.
+struct Rough {
+  Eigen::Vector3f position, shading_normal, geometric_normal;
+  float roughness, metalness;
+  int x, y;
+};
+
+/// What one shows, or several together.
+struct Shown {
+  Eigen::Array3f sum = Eigen::Array3f::Zero();
+  float weight = 0.0f;
+
+  void add(float times, const Shown& other) {
+    sum += times * other.sum;
+    weight += times * other.weight;
+  }
+};
+
+/// All of a picture, by pixels.
+struct RoughOnes {
+  std::vector<Rough> all;
+  std::vector<Shown> shown;
+  std::vector<Eigen::Array3f*> luminances;  ///< of each
+  std::vector<std::uint32_t> first;         ///< of a pixel, and of one beyond the last
+};
+
+RoughOnes collect(const Surfaces& surfaces, const Reflections& reflections, MirroredLuminances* luminances) {
+  RoughOnes ones;
+  const auto width = static_cast<std::uint32_t>(surfaces.width);
+  ones.first.assign(static_cast<std::size_t>(surfaces.width) * static_cast<std::size_t>(surfaces.height) + 1,
+                    0);
+  const auto forEach = [&](const auto& visit) {
+    for (std::size_t t = 0; t < reflections.tiles.size(); ++t) {
+      const std::vector<Reflections::Mirroring>& mirroring = reflections.tiles[t].surfaces;
+      for (std::size_t i = 0; i < mirroring.size(); ++i) {
+        const Surface& surface = surfaces.tiles[t].surfaces[mirroring[i].surface];
+        if (surface.roughness > kSharpest) visit(surface, mirroring[i], &(*luminances)[t][i]);
+      }
+    }
+  };
+  forEach([&](const Surface& surface, const auto&, const auto*) { ++ones.first[surface.pixel + 1]; });
+  for (std::size_t i = 1; i < ones.first.size(); ++i) ones.first[i] += ones.first[i - 1];
+  ones.all.resize(ones.first.back());
+  ones.shown.resize(ones.all.size());
+  ones.luminances.resize(ones.all.size());
+  std::vector<std::uint32_t> next = ones.first;
+  forEach([&](const Surface& surface, const Reflections::Mirroring& mirroring, Eigen::Array3f* luminance) {
+    const std::uint32_t at = next[surface.pixel]++;
+    ones.all[at] = {surface.position,
+                    surface.shading_normal,
+                    surface.geometric_normal,
+                    surface.roughness,
+                    surface.metalness,
+                    static_cast<int>(surface.pixel % width),
+                    static_cast<int>(surface.pixel / width)};
+    ones.shown[at] = {mirroring.weight * *luminance, mirroring.weight};
+    ones.luminances[at] = luminance;
+  });
+  return ones;
+}
+
+/// Pixels about one along an axis, as many of each column, or row, of a block.
+struct Window {
+  int first, last;
+  bool even;  ///< one more than blocks have, its ends by half
+
+  Window(int at, int half, int length)
+      : first(at - half), last(at + half), even(first >= 0 && last < length) {
+    if (even) return;
+    first = std::clamp(first, 0, std::max(length - 2 * half, 0));
+    last = std::min(first + 2 * half, length) - 1;
+  }
+  float weight(int at) const { return even && (at == first || at == last) ? 0.5f : 1.0f; }
+};
+
+/// How far light is shared, px: where surfaces are rough, lobes are wide; and up and down wider than across,
+/// since most that mirror much are seen from the side.
+struct Reach {
+  int across, down;
+};
+Reach reachOf(float roughness) {
+  constexpr int kBlock = kLobePixels / 2;
+  if (roughness < 0.2f) return {kBlock, kBlock};
+  if (roughness < 0.3f) return {kBlock, 2 * kBlock};
+  return {2 * kBlock, 4 * kBlock};
+}
+
+/// Whether surfaces mirror much the same.
+bool alike(const Rough& a, const Rough& b) {
+  constexpr float kSameNormal = 0.995f;  // 6°
+  constexpr float kSameRoughness = 0.06f;
+  constexpr float kThickness_m = 0.02f, kSlope = 0.01f;  // of one plane
+  const Eigen::Vector3f apart = b.position - a.position;
+  const float off = a.geometric_normal.dot(apart), allowed = kSlope * kSlope * apart.squaredNorm();
+  return std::abs(a.roughness - b.roughness) < kSameRoughness &&
+         (a.metalness > 0.5f) == (b.metalness > 0.5f) &&
+         a.shading_normal.dot(b.shading_normal) > kSameNormal &&
+         off * off < kThickness_m * kThickness_m + allowed;
+}
+
+/// For each what those of one row, or column, show together that are like it.
+template <typename WindowOf, typename PixelAt>
+std::vector<Shown> shared(const RoughOnes& ones, const std::vector<Shown>& shown, const WindowOf& windowOf,
+                          const PixelAt& pixelAt) {
+  std::vector<Shown> sums(shown.size());
+  constexpr std::size_t kGrain = 1024;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, shown.size(), kGrain), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const Rough& one = ones.all[i];
+      const Window window = windowOf(one);
+      for (int at = window.first; at <= window.last; ++at) {
+        const std::size_t pixel = pixelAt(one, at);
+        for (std::uint32_t k = ones.first[pixel]; k < ones.first[pixel + 1]; ++k)
+          if (alike(one, ones.all[k])) sums[i].add(window.weight(at), shown[k]);
+      }
+    }
+  });
+  return sums;
+}
+
+}  // namespace
+
+void shareLobes(const Surfaces& surfaces, const Reflections& reflections, MirroredLuminances* luminances) {
+  const RoughOnes ones = collect(surfaces, reflections, luminances);
+  if (ones.all.empty()) return;
+  const auto pixel = [&](int x, int y) { return static_cast<std::size_t>(y * surfaces.width + x); };
+  const std::vector<Shown> rows = shared(
+      ones, ones.shown,
+      [&](const Rough& one) { return Window(one.x, reachOf(one.roughness).across, surfaces.width); },
+      [&](const Rough& one, int x) { return pixel(x, one.y); });
+  const std::vector<Shown> blocks = shared(
+      ones, rows,
+      [&](const Rough& one) { return Window(one.y, reachOf(one.roughness).down, surfaces.height); },
+      [&](const Rough& one, int y) { return pixel(one.x, y); });
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    if (blocks[i].weight > 0.0f) *ones.luminances[i] = blocks[i].sum / blocks[i].weight;
+}
+
+}  // namespace sunlit::light

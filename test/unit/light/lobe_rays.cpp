@@ -1,0 +1,133 @@
+// Rays of a surface's lobe against the lobe itself.
+#include "light/picture/mirror/lobe_rays.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "light/picture/mirror/shared_lobes.h"
+#include "light/shading/shading.h"
+#include "sunlit/quantity/angle.h"
+
+namespace sunlit::light {
+namespace {
+
+constexpr int kWidth = 160;  ///< px
+
+/// A bright horizon, brighter ahead than behind: what makes the most of rays that go wrong.
+double luminanceFrom(const Eigen::Vector3f& towards) {
+  const double z = static_cast<double>(towards.z()), x = static_cast<double>(towards.x());
+  return std::exp(-6.0 * std::abs(z)) * (1.0 + 0.5 * x);
+}
+
+Surface seenFrom(double n_v, float roughness) {
+  Surface surface;
+  surface.position.setZero();
+  surface.shading_normal = surface.geometric_normal = Eigen::Vector3f::UnitZ();
+  surface.to_eye = Eigen::Vector3d(-std::sqrt(1.0 - n_v * n_v), 0.0, n_v).cast<float>();
+  surface.albedo.setZero();
+  surface.roughness = roughness;
+  surface.samples = 4;
+  return surface;
+}
+
+/// What the lobe of a black one shows, beside what it would show of 1 cd/m² from everywhere.
+double byTheLobe(const Surface& surface) {
+  constexpr int kHeights = 1500, kTurns = 1000;
+  const Reflection reflection{surface.shading_normal, surface.to_eye, Eigen::Array3f::Zero(),
+                              surface.roughness,      0.0f,           0.0f};
+  double sum = 0.0, all = 0.0;
+  for (int i = 0; i < kHeights; ++i) {
+    const double step = (i + 0.5) / kHeights, z = step * step;  // closer to the horizon
+    for (int k = 0; k < kTurns; ++k) {
+      const double aside = 2.0 * (k + 0.5) / kTurns - 1.0;  // closer to straight ahead
+      const double turn = kPi * aside * aside * aside, sine = std::sqrt(1.0 - z * z);
+      const Eigen::Vector3f towards =
+          Eigen::Vector3d(sine * std::cos(turn), sine * std::sin(turn), z).cast<float>();
+      const double weight =
+          step * aside * aside * static_cast<double>(directReflectance(reflection, towards, 0.0f)[0]);
+      all += weight;
+      sum += weight * luminanceFrom(towards);
+    }
+  }
+  return sum / all;
+}
+
+// 160 by 160 pixels have 102,400 rays, of which the brightest are ten times as bright as the mean: 0.5 to 2 %
+// of noise where they are few.
+TEST(LobeRays, TogetherSeeWhatTheLobeDoes) {
+  for (const double n_v : {0.03, 0.2, 0.6, 0.9}) {
+    for (const float roughness : {0.12f, 0.25f, 0.35f, 0.45f}) {
+      Surface surface = seenFrom(n_v, roughness);
+      double sum = 0.0, weights = 0.0;
+      for (surface.pixel = 0; surface.pixel < kWidth * kWidth; ++surface.pixel) {
+        for (std::uint32_t sample = 0; sample < surface.samples; ++sample) {
+          const LobeRay ray = lobeRay(surface, surface.to_eye, kWidth, sample);
+          EXPECT_NEAR(ray.towards.norm(), 1.0f, 1e-5f);
+          sum += static_cast<double>(ray.weight) * luminanceFrom(ray.towards);
+          weights += static_cast<double>(ray.weight);
+        }
+      }
+      const double expected = byTheLobe(surface);
+      EXPECT_NEAR(sum / weights, expected, 0.025 * expected) << n_v << ", roughness " << roughness;
+    }
+  }
+}
+
+// A wall of one colour that two tiles share, its rays half as bright as that in every second pixel and half
+// as bright again in the others.
+struct Floor {
+  Surfaces surfaces;
+  Reflections reflections;
+  MirroredLuminances luminances;
+
+  explicit Floor(float roughness) {
+    surfaces.width = 2 * Surfaces::kTileSize;
+    surfaces.height = Surfaces::kTileSize;
+    surfaces.tiles.resize(2);
+    reflections.tiles.resize(2);
+    luminances.resize(2);
+    for (int x = 0; x < surfaces.width * surfaces.height; ++x) {
+      const int column = x % surfaces.width, row = x / surfaces.width;
+      const auto tile = static_cast<std::size_t>(column / Surfaces::kTileSize);
+      Surface surface = seenFrom(0.3, roughness);
+      surface.position =
+          Eigen::Vector3f(0.1f * static_cast<float>(row), 0.1f * static_cast<float>(column), 0.0f);
+      surface.pixel = static_cast<std::uint32_t>(x);
+      Reflections::Mirroring mirroring;
+      mirroring.surface = static_cast<std::uint32_t>(surfaces.tiles[tile].surfaces.size());
+      mirroring.weight = 1.0f;
+      surfaces.tiles[tile].surfaces.push_back(surface);
+      reflections.tiles[tile].surfaces.push_back(mirroring);
+      luminances[tile].push_back(Eigen::Array3f::Constant((column + row) % 2 == 0 ? 0.5f : 1.5f));
+    }
+  }
+  void share() { shareLobes(surfaces, reflections, &luminances); }
+};
+
+TEST(SharedLobes, AreOfWholeBlocksAtEveryPixel) {
+  Floor floor(0.35f);
+  floor.share();
+  for (const auto& tile : floor.luminances)
+    for (const Eigen::Array3f& luminance : tile) EXPECT_NEAR(luminance[0], 1.0f, 1e-5f);
+}
+
+TEST(SharedLobes, LeaveSharpMirrorsAsTheyAre) {
+  Floor floor(0.08f);
+  floor.share();
+  EXPECT_EQ(floor.luminances[0][0][0], 0.5f);
+  EXPECT_EQ(floor.luminances[0][1][0], 1.5f);
+}
+
+// The right tile's floor lies 0.1 m lower: none of its light comes over.
+TEST(SharedLobes, EndAtAnEdge) {
+  Floor floor(0.35f);
+  for (Surface& surface : floor.surfaces.tiles[1].surfaces) surface.position.z() -= 0.1f;
+  for (Eigen::Array3f& luminance : floor.luminances[1]) luminance *= 10.0f;
+  floor.share();
+  for (const Eigen::Array3f& luminance : floor.luminances[0]) EXPECT_LT(luminance[0], 1.2f);
+  for (const Eigen::Array3f& luminance : floor.luminances[1]) EXPECT_GT(luminance[0], 8.0f);
+}
+
+}  // namespace
+}  // namespace sunlit::light
