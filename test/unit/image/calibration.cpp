@@ -68,9 +68,9 @@ TEST_F(CalibrationFile, OfWhatOthersPublishIsReadAsItStands) {
                                         {"omni", omniLens()}}) {
     const Calibration read = readCalibration(SUNLIT_SOURCE_DIR "/test/support/cameras/" + name + ".yaml");
     const PinholeCamera &camera = read.camera, &expected = published.camera;
-    EXPECT_EQ(std::make_tuple(camera.width, camera.height, camera.fx, camera.fy, camera.cx, camera.cy),
-              std::make_tuple(expected.width, expected.height, expected.fx, expected.fy, expected.cx,
-                              expected.cy))
+    EXPECT_EQ(
+        std::make_tuple(camera.width, camera.height, camera.fx, camera.fy, camera.cx, camera.cy),
+        std::make_tuple(expected.width, expected.height, expected.fx, expected.fy, expected.cx, expected.cy))
         << name;
     EXPECT_EQ(read.distortion.model, published.distortion.model) << name;
     EXPECT_EQ(read.distortion.none(), published.distortion.none()) << name;
