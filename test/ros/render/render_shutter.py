@@ -5,6 +5,7 @@ import numpy
 import rospy
 import rostest
 from geometry_msgs.msg import TransformStamped
+from pixels import right_edge
 from rendering import BOX_FACE_M, Reader, RefusalTest, RenderNode, Sun, Transforms, parameters
 
 FIXED = {"mode": "fixed", "ev100": 15.0}
@@ -14,25 +15,10 @@ LINE_S = 1e-3
 CAMERA_X_M = 5.0
 
 
-def linear(level):
-    display = level / 255.0
-    return ((display + 0.055) / 1.055) ** 2.4 if display > 0.04045 else display / 12.92
-
-
 def steepest(image):
     """The largest step of green from pixel to pixel along a row."""
     rows = [image.data[y * image.step + 1:(y + 1) * image.step:3] for y in range(image.height)]
     return max(abs(b - a) for row in rows for a, b in zip(row, row[1:]))
-
-
-def right_edge(image, row):
-    """Of the red box that fills the middle of a row, px: up to where pixels are red, the last one by its share."""
-    def red(x):
-        r, _, b = (linear(level) for level in image.data[row * image.step + 3 * x:][:3])
-        return r - b
-    first, last = image.width // 2, image.width - 4
-    inside, outside = red(first), red(last)
-    return first - 0.5 + sum((red(x) - outside) / (inside - outside) for x in range(first, last + 1))
 
 
 class RenderShutter(RefusalTest):
