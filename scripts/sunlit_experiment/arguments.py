@@ -105,6 +105,13 @@ CAMERA = {"vignetting": ("vignetting", "natural"), "glare": ("glare", "share"), 
           "line_delay": ("shutter", "line_delay"), "exposure_time": ("shutter", "exposure_time"),
           "adaptation": ("exposure", "adaptation"), "exposure": ("exposure", "mode"), "ev100": ("exposure", "ev100"),
           "noise": ("noise", "enabled"), "mosaic": ("mosaic", "pattern")}
+# Parameters of the sun's node that may differ, by their last parts, and groups of them; and those groups of the renderer.
+SUN = (*TIMES, "timezone", "rate", "start_stamp", "wait_for_subscriber", "latitude", "longitude", "elevation", "pressure",
+       "temperature", "atmospheric_refraction", "delta_ut1", "delta_t", "publish_rate", "tf_distance", "date_time", "site",
+       "atmosphere", "earth", "frames")
+RENDERED = ("weather", *dict.fromkeys(group for group, _ in CAMERA.values()))
+# What differs in nothing, for both nodes: a map without keys gets lost on its way through the parameter server.
+NOTHING = ""
 
 
 USUAL_HOURS = "[4, 12, 20]"  # of experiment.launch: roslaunch does not tell what was typed from what was not
@@ -128,15 +135,19 @@ def conditions(text, hours):
         for key in differs:
             known = (*TIMES, *WEATHER, *CAMERA)
             if key not in known:
-                near = difflib.get_close_matches(str(key), known, 1)
-                raise BadArgument("conditions", text, f"without {key} in {name}"
-                                  + (f" (did you mean {near[0]}?)" if near else f"; known are {', '.join(known)}"))
+                raise _unknown(text, key, name, known)
         (of_hour,) = clock_times(str(differs["hour"])).values()
         found[name] = {**of_hour, **{key: value for key, value in differs.items() if key != "hour"}}
     instead = "left out beside conditions, which have hours of their own: " + ", ".join(found)
     if parse("hours", hours, instead) != parse("hours", USUAL_HOURS, instead):
         raise BadArgument("hours", hours, instead)
     return found
+
+
+def _unknown(text, key, name, known):
+    near = difflib.get_close_matches(str(key), known, 1)
+    return BadArgument("conditions", text, f"without {key} in {name}"
+                       + (f" (did you mean {near[0]}?)" if near else f"; known are {', '.join(dict.fromkeys(known))}"))
 
 
 def times_of(asked):
@@ -150,11 +161,18 @@ def rendered_of(asked):
     for name, one in asked.items():
         rendered[name] = {key: value for key, value in one.items() if key in WEATHER}
         for key, value in one.items():
-            if key in CAMERA:
+            if key in RENDERED and isinstance(value, dict):
+                rendered[name].setdefault(key, {}).update(value)
+            elif key in CAMERA:
                 group, row = CAMERA[key]
                 rendered[name].setdefault(group, {})[row] = value
-    # A map without keys would get lost on its way through the parameter server.
-    return {name: one or {"cover": 0} for name, one in rendered.items()} if any(rendered.values()) else list(rendered)
+    return _sent(rendered)
+
+
+def _sent(differing):
+    """As a node gets it."""
+    kept = {name: {key: value for key, value in one.items() if value != {}} for name, one in differing.items()}
+    return {name: one or NOTHING for name, one in kept.items()} if any(kept.values()) else list(kept)
 
 
 def date_time(date, timezone):
@@ -261,13 +279,35 @@ def map_streams(text, times):
     return found
 
 
-def condition_names(text):
-    """Names of a list, [morning, noon], or of a map from names to what differs."""
+def named_conditions(text, known=(*SUN, *WEATHER, *CAMERA, *RENDERED)):
+    """A list of names, [morning, noon], or a map from names to what differs, of what is `known`."""
     allowed = "a list of names, [morning, noon], or a map from names to what differs, {h04: {hour: 4}}"
-    names = parse("conditions", text, allowed)
-    if not isinstance(names, (list, dict)):
+    asked = parse("conditions", text, allowed)
+    if not isinstance(asked, (list, dict)):
         raise BadArgument("conditions", text, allowed)
-    return list(names)
+    for name, differs in asked.items() if isinstance(asked, dict) else ():
+        if not isinstance(differs, dict):
+            raise BadArgument("conditions", text, allowed)
+        for key in differs:
+            if key not in known:
+                raise _unknown(text, key, name, known)
+    return asked
+
+
+def condition_names(text):
+    return list(named_conditions(text))
+
+
+def of_sun(text, known=(*SUN, *WEATHER, *CAMERA, *RENDERED)):
+    """What of these conditions is the business of the sun."""
+    asked = named_conditions(text, known)
+    return asked if isinstance(asked, list) else _sent({name: {key: value for key, value in one.items() if key in SUN}
+                                                        for name, one in asked.items()})
+
+
+def of_renderer(text):
+    asked = named_conditions(text)
+    return asked if isinstance(asked, list) else rendered_of(asked)
 
 
 def folder(text):

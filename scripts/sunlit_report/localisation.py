@@ -14,6 +14,7 @@ USABLE_SHARE = 0.9
 SOME_SHARE = 0.5
 # Okabe and Ito's green, light orange and vermilion: told apart by colour-blind readers and in grey.
 USABLE, PARTLY, LOST = "#009E73", "#F2C879", "#B5473C"
+LEAST_ELEVATIONS_DEG = 0.1  # from the lowest to the highest sun of a figure over its elevation
 WIDEST_CELL_H = 1.0  # either side of an hour that was measured; what lies further is not known
 
 
@@ -163,9 +164,18 @@ def judged_twice(output):
     return {key: sorted(values, key=lambda value: value[:2]) for key, values in found.items()}
 
 
+def _over_elevations(output):
+    """As judged_twice(), of those whose hours differ in elevation: weathers of one hour would stand on top of each other."""
+    return {key: values for key, values in judged_twice(output).items()
+            if values[-1][0] - values[0][0] >= LEAST_ELEVATIONS_DEG}
+
+
 def over_elevation(output):
-    """What localisation says and what D says, over the elevation of the sun: the shaded gap is where they disagree."""
-    judged = judged_twice(output)
+    """What localisation says and what D says, over the elevation of the sun: the shaded gap is where they disagree. None where
+    all stood at one elevation."""
+    judged = _over_elevations(output)
+    if not judged:
+        return None
     with plt.rc_context(STYLE):
         figure, axes = grid_of(len(judged), min(len(judged), 2), (4.6, 2.5))
         for axis, ((map_name, detector), values) in zip(axes, judged.items()):

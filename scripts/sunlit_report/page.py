@@ -50,12 +50,16 @@ def plots(output):
                        for few in tables.chunks(pairs, PAIRS_PER_PLOT)],
         "matrices": pictures.svg_uri(matrices.of_all_pairs(output)) if matrices.worth_showing(output) else None,
         "boxes": pictures.svg_uri(figures.boxes(output, pairs)) if pairs else None,
-        "over_elevation": pictures.svg_uri(localisation.over_elevation(output)) if localisation.judged_twice(output) else None,
+        "over_elevation": _uri(localisation.over_elevation(output)),
         "found_on_map": _found_on_map(output),
         "lost": pictures.svg_uri(lost.heat_maps(output)) if output.lost else None,
         "lost_rows": lost.table_rows(output), "lost_header": lost.TABLE_HEADER, "least_features": lost.LEAST_FEATURES,
         "map": pictures.svg_uri(map_figure.path_on_map(output)) if output.path else None,
     }
+
+
+def _uri(figure):
+    return pictures.svg_uri(figure) if figure else None
 
 
 def _found_on_map(output):

@@ -20,6 +20,12 @@ void requireName(const std::string& name, const std::string& parameter) {
     refuse("a name in parameter " + parameter, '"' + name + '"', "letters, digits and _, a letter first");
 }
 
+/// The parameter server keeps no empty map from a launch file, so an empty text stands for one.
+bool differsInNothing(const XmlRpcValue& overrides) {
+  return overrides.getType() == XmlRpcValue::TypeString &&
+         static_cast<std::string>(XmlRpcValue(overrides)).empty();
+}
+
 }  // namespace
 
 ros::NodeHandle Condition::node() const {
@@ -50,7 +56,8 @@ std::vector<Condition> readConditions(const ParameterReader& parameters) {
   const auto add = [&](const std::string& name, const XmlRpcValue& overrides) {
     requireName(name, parameter);
     if (!names.insert(name).second) refuseAll("without \"" + name + "\" twice");
-    conditions.push_back({name, parameters.withOverrides(overrides, parameter + "/" + name)});
+    const XmlRpcValue differing = differsInNothing(overrides) ? XmlRpcValue() : overrides;
+    conditions.push_back({name, parameters.withOverrides(differing, parameter + "/" + name)});
   };
   if (value.getType() == XmlRpcValue::TypeArray) {
     for (int i = 0; i < value.size(); ++i) {

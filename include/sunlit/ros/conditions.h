@@ -25,8 +25,8 @@ struct Condition {
 };
 
 /// From `~conditions`: a list of names, or a map from name to what differs ({h04: {hour: 4}, h12: {hour:
-/// 12}}); one unnamed condition where it is absent. Throws std::invalid_argument for an empty or repeated
-/// name, or one that ROS would refuse.
+/// 12}}), an empty text where nothing does; one unnamed condition where it is absent. Throws
+/// std::invalid_argument for an empty or repeated name, or one that ROS would refuse.
 std::vector<Condition> readConditions(const ParameterReader& parameters);
 
 }  // namespace sunlit::ros_interface

@@ -89,11 +89,11 @@ class Truth:
     def wait_for(self, evaluator):
         wait_until(lambda: all(one.impl.has_connection('/' + evaluator.name) for one in self.all()), 'connections')
 
-    def send(self, pose):
+    def send(self, pose, deep=depth, info=camera_info):
         self.poses.publish(place(pose))
-        self.depths.publish(depth(pose))
+        self.depths.publish(deep(pose))
         for camera in self.cameras:
-            camera.publish(camera_info(pose))
+            camera.publish(info(pose))
 
     def close(self):
         for publisher in self.all():

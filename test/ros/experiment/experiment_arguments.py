@@ -76,9 +76,9 @@ class ExperimentArguments(unittest.TestCase):
                                                                 "camera/rasterizer", "atmosphere/ground_albedo", "vignetting/natural",
                                                                 "glare/share", "mosaic/pattern", "blur/sigma", "shutter/line_delay",
                                                                 "shutter/exposure_time", "path/speed", "exposure/adaptation",
-                                                                "conditions/a/cover", "conditions/b/wet", "conditions/b/glare/share",
+                                                                "conditions/a", "conditions/b/wet", "conditions/b/glare/share",
                                                                 "conditions/b/shutter/line_delay")],
-                             [False, True, 7, "auto", 0.0, 2, "builtin", 0.6, "cos4", 0.02, "rggb", 0.7, 30.0, "auto", 2.5, 0.2, 0, 1,
+                             [False, True, 7, "auto", 0.0, 2, "builtin", 0.6, "cos4", 0.02, "rggb", 0.7, 30.0, "auto", 2.5, 0.2, "", 1,
                               0.03, 20])
         self.assertEqual(found["/experiment/arguments/noise_seed"], "7")
 

@@ -98,6 +98,31 @@ class LaunchFilesStart(unittest.TestCase):
         self.check(Launched("render.launch", world=WORLD, path=WAYPOINTS, conditions=conditions), "/a/sun", "/b/sun", "/path",
                    conditions=conditions)
 
+    def test_conditions_of_render_differ_in_weather_too(self):
+        config = os.path.join(self.folder(), "small.yaml")
+        with open(config, "w") as file:
+            yaml.safe_dump(dict(world=WORLD, path=dict(file=WAYPOINTS), camera=dict(width=32, height=24), autostart=False,
+                                transport=dict(enabled=False), exposure=dict(mode="fixed", ev100=14.0)), file)
+        launched = Launched("render.launch", config=config,
+                            conditions="{clear: {hour: 9}, grey: {hour: 9, cover: 8, overcast: cie}, usual: {}}")
+        service = "/render/render_view"
+        launched.wait_for(lambda: launched.ros("rosservice", "info", service).returncode == 0, "advertised " + service)
+        grey, clear, usual = (self.view_of(launched, service, condition) for condition in ("grey", "clear", "usual"))
+        self.assertLess(sum(grey), 0.7 * sum(clear))
+        self.assertNotEqual(usual, clear)  # of noon, as the shipped file has it
+        self.finish(launched)
+
+    def view_of(self, launched, service, condition):
+        request = "{condition: %s, pose: {position: {z: 1.0}, orientation: {w: 1.0}}}" % condition
+        replies = []
+
+        def answered():
+            said = launched.ros("rosservice", "call", service, request)
+            replies.append(yaml.safe_load(said.stdout) if said.returncode == 0 else {})
+            return replies[-1].get("success")  # not until its sun has been heard
+        launched.wait_for(answered, "rendered " + condition)
+        return replies[-1]["image"]["data"]
+
     def test_render_with_a_robot(self):
         launched = Launched("render.launch", world=os.path.relpath(WORLD), path=os.path.relpath(WAYPOINTS), robot="rover")
         launched.wait_for(lambda: "Robot rover" in launched.said(), "loaded the robot")

@@ -154,6 +154,12 @@ class ParametersAgree(unittest.TestCase):
         rows = programmed()["render_node"]
         self.assertEqual(sorted(arguments.WEATHER), sorted(key.split("/")[1] for key in rows if key.startswith("weather/")))
 
+    def test_suns_of_the_conditions_of_launch_files(self):
+        """Each parameter that may differ is known by its last part or by its group, and nothing else is."""
+        rows = [key.split("/") for key in programmed()["sun_position_node"] if key not in ("conditions", "diagnostic_period")]
+        groups = {key[0] for key in rows if len(key) > 1}
+        self.assertEqual(set(arguments.SUN), groups | {key[-1] for key in rows if key[0] != "frames"})
+
     def test_cameras_of_the_experiments_conditions(self):
         rows = programmed()["render_node"]
         for name, (group, row) in arguments.CAMERA.items():

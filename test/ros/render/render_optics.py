@@ -6,19 +6,11 @@ import unittest
 
 import rospy
 import rostest
+from pixels import linear, pixel
 from rendering import Reader, RefusalTest, RenderNode, Sun, parameters
 
 FOCAL_PX = 48 * 3 ** 0.5  # 96 px across 60 degrees
 FIXED = {"mode": "fixed", "ev100": 15.0}
-
-
-def linear(level):
-    display = level / 255.0
-    return ((display + 0.055) / 1.055) ** 2.4 if display > 0.04045 else display / 12.92
-
-
-def pixel(image, x, y):
-    return [linear(image.data[y * image.step + 3 * x + c]) for c in range(3)]
 
 
 class RenderOptics(RefusalTest):

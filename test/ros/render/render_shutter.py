@@ -1,13 +1,18 @@
 #!/usr/bin/python3
 """What moves, and what comes late, by the topics: rows that see one after another, smear, and an exposure that depends on
 poses that nobody gets."""
+import numpy
 import rospy
 import rostest
 from geometry_msgs.msg import TransformStamped
-from rendering import Reader, RefusalTest, RenderNode, Sun, Transforms, parameters
+from pixels import right_edge
+from rendering import BOX_FACE_M, Reader, RefusalTest, RenderNode, Sun, Transforms, parameters
 
 FIXED = {"mode": "fixed", "ev100": 15.0}
 SUN = (-0.6, 0.0, 0.8)
+FOCAL_PX = 48 * 3 ** 0.5  # 96 px across 60 degrees
+LINE_S = 1e-3
+CAMERA_X_M = 5.0
 
 
 def steepest(image):
@@ -79,14 +84,14 @@ class RenderShutter(RefusalTest):
                 self.assertEqual([image.data for image in found[name][0]], [whole[name][0][i].data for i in indices], name)
 
     def follow(self, name, before):
-        """The picture of a camera at one place that TF knows from `before`, metres north of there 20 ms earlier, too."""
+        """The picture of a camera CAMERA_X_M east, which TF knows from `before`, metres north of there 20 ms earlier, too."""
         transforms = Transforms()
         sun = Sun("/a/sun", *SUN)
         reader = Reader(["a"], node="/" + name, says_progress=False)
-        tree = parameters(conditions={"a": {"line_delay": 1000.0}}, exposure=FIXED, subscribers={"images": 1},
+        tree = parameters(conditions={"a": {"line_delay": 1e6 * LINE_S}}, exposure=FIXED, subscribers={"images": 1},
                           publish_tf=False, start_stamp="now")
         tree.pop("path"), tree.pop("start_stamp")
-        tree["camera"] = dict(tree["camera"], follow="tf", follow_frame="body")
+        tree["camera"] = dict(tree["camera"], follow="tf", follow_frame="body", supersampling=4)
         with RenderNode(name, tree) as node:
             node.line_with("Waiting for the TF frame body")
             transforms.wait_for_readers(2)  # the node, and the reader here
@@ -95,7 +100,7 @@ class RenderShutter(RefusalTest):
                 message = TransformStamped(child_frame_id="body")
                 message.header.frame_id = "map"
                 message.header.stamp = rospy.Time.from_sec(seconds)
-                message.transform.translation.x, message.transform.translation.y = 5.0, north
+                message.transform.translation.x, message.transform.translation.y = CAMERA_X_M, north
                 message.transform.translation.z = 1.0
                 message.transform.rotation.w = 1.0
                 sent.append(message)
@@ -110,8 +115,21 @@ class RenderShutter(RefusalTest):
 
     def test_a_camera_that_follows_tf_moves_as_tf_says(self):
         stands = self.follow("stands_on_tf", 0.0)
-        moves = self.follow("moves_on_tf", 0.4)
-        self.assertNotEqual(moves.data, stands.data)
+        moves = self.follow("moves_on_tf", 0.4)  # southwards, so that the box goes to the left, by 20 m/s
+        rows = numpy.arange(24, 48)  # that the box fills: six bands of four, which is what moves as one here
+        found = numpy.array([right_edge(stands, row) - right_edge(moves, row) for row in rows])
+        px_a_row = FOCAL_PX * 20.0 * LINE_S / (BOX_FACE_M - CAMERA_X_M)
+        off = found - px_a_row * rows
+        slope = numpy.polyfit(rows, found, 1)[0]
+        print("skew: %.3f px in row %d, %.3f px in row %d; off by %.3f px in the mean, %.3f px at most; %.4f px a row of %.4f" %
+              (found[0], rows[0], found[-1], rows[-1], off.mean(), abs(off).max(), slope, px_a_row))
+        # A row is at most one and a half from the middle of its band, and each of the two edges is known to an eighth of a pixel,
+        # half of what is between samples.
+        self.assertLess(abs(off).max(), 1.5 * px_a_row + 2 * 0.125)
+        # Bands are even about their middles, and their eighths differ: what is left is that of the box that stands.
+        self.assertLess(abs(off.mean()), 0.2)
+        # Three standard deviations of the slope through six places that are known so well.
+        self.assertAlmostEqual(slope, px_a_row, delta=0.013)
 
     def test_what_no_shutter_does_is_refused_by_its_name(self):
         self.assert_refused(parameters(shutter={"line_delay": -1.0}), "/refused/shutter/line_delay is -1",

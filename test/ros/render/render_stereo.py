@@ -9,7 +9,9 @@ import roslib.packages
 import rospkg
 import rospy
 import rostest
-from rendering import PACKAGE, Process, Reader, RefusalTest, RenderNode, Sun, parameters
+from image_geometry import StereoCameraModel
+from pixels import right_edge
+from rendering import BOX_FACE_M, PACKAGE, Process, Reader, RefusalTest, RenderNode, Sun, parameters
 from sensor_msgs.msg import CameraInfo, CompressedImage, Image, PointCloud2
 
 CAMERAS = os.path.join(PACKAGE, "test", "support", "cameras")
@@ -79,6 +81,7 @@ class RenderStereo(RefusalTest):
         self.assertEqual((info.K[0], info.K[2], info.P[3]), (457.587, 379.999, -47.90639384423901))
         self.assertEqual(list(info.D), [-0.28368365, 0.07451284, -0.00010473, -3.555907e-05, 0.0])
         self.assertNotEqual(left.data, right.data)
+        self.assert_measures(left_info, info, 47.90639384423901 / 435.2046959714599, 9.581)
         frames = {transform.child_frame_id: transform for transform in static.transforms}
         self.assertEqual(set(frames), {"camera_optical_frame", "camera_right_optical_frame"})
         place = frames["camera_right_optical_frame"]
@@ -86,6 +89,39 @@ class RenderStereo(RefusalTest):
         # 0.1101 m to the right, which is -y, give or take the two degrees by which the pair is turned.
         self.assertAlmostEqual(place.transform.translation.y, -0.1101, delta=1e-4)
         self.assertAlmostEqual(place.transform.translation.x, 0.0, delta=2e-3)
+
+    def assert_measures(self, left_info, right_info, baseline_m, disparity_at_5_m):
+        """As all of image_pipeline reads a pair; z by a disparity, and a disparity by z."""
+        model = StereoCameraModel()
+        model.fromCameraInfo(left_info, right_info)
+        self.assertAlmostEqual(-model.right.P[0, 3] / model.right.P[0, 0], baseline_m, delta=1e-9)
+        self.assertAlmostEqual(model.getDisparity(5.0), disparity_at_5_m, delta=0.005)
+        self.assertAlmostEqual(model.getZ(disparity_at_5_m), 5.0, delta=0.005)
+        return model
+
+    def test_image_geometry_has_a_known_point_where_both_pictures_show_it(self):
+        reader = StereoReader("known")
+        tree = parameters(conditions=["a"], path={"count": 1}, subscribers={"images": 1, "truth": 1, "others": 1, "right": 1})
+        tree["camera"].update(baseline=1.0, supersampling=4)
+        with RenderNode("known", tree):
+            left, = reader.of_pair("left/image_raw")
+            right, = reader.of_pair("right/image_raw")
+            left_info, = reader.of_pair("left/camera_info")
+            right_info, = reader.of_pair("right/camera_info")
+            pose, = reader.wait("/camera/pose", 1)
+        reader.close()
+        focal_px = 48 * 3 ** 0.5  # 96 px across 60 degrees
+        model = self.assert_measures(left_info, right_info, 1.0, focal_px / 5.0)
+        # The upright edge of the box that is nearest on its right: 2 m beside its middle, which is ahead.
+        place = pose.pose.position
+        away_m = BOX_FACE_M - place.x
+        expected = model.project3dToPixel((place.y + 2.0, 0.0, away_m))
+        self.assertAlmostEqual(expected[0][0] - expected[1][0], focal_px / away_m, delta=1e-9)
+        found = [np.mean([right_edge(image, row) for row in range(31, 36)]) for image in (left, right)]
+        print("edge at %.3f and %.3f px, found at %.3f and %.3f px" % (expected[0][0], expected[1][0], *found))
+        # Four samples a pixel know it to an eighth; levels and the sky's gradient are worth a few hundredths.
+        for (x, _), measured in zip(expected, found):
+            self.assertAlmostEqual(measured, x, delta=0.2)
 
     def test_what_is_no_pair_is_refused(self):
         def refused(camera, *parts):

@@ -58,7 +58,7 @@ class Arguments(unittest.TestCase):
                           "fog": {"hour": 12, "minute": 30, "second": 0.0, "month": 11},
                           "grey": {"hour": 9, "minute": 0, "second": 0.0}})
         self.assertEqual(tree["render"]["conditions"],
-                         {"noon": {"cover": 0}, "fog": {"visibility": 150}, "grey": {"cover": 8, "overcast": "cie"}})
+                         {"noon": "", "fog": {"visibility": 150}, "grey": {"cover": 8, "overcast": "cie"}})
         self.assertEqual(tree["self_test"]["render"]["conditions"], tree["render"]["conditions"])
         self.assertIn({"a": "noon", "b": "fog"}, tree["evaluator"]["pairs"])
         self.assertEqual(tree["evaluator"]["localisation"]["map"], "noon")
@@ -103,6 +103,20 @@ class Arguments(unittest.TestCase):
         for text in ("morning", "5"):  # not the letters m, o, r ...
             self.assert_refused("argument conditions is '%s', but must be a list of names" % text,
                                 arguments.condition_names, text)
+
+    def test_conditions_of_render_launch_are_split_between_sun_and_renderer(self):
+        typed = "{a: {hour: 9, cover: 8, glare: 0.03, site: {latitude: 10}}, b: {hour: 9, glare: {wings: 0.2}, blur: {}}, c: {}}"
+        # The parameter server keeps no empty map, and the nodes read an empty text as one.
+        self.assertEqual(arguments.of_sun(typed), {"a": {"hour": 9, "site": {"latitude": 10}}, "b": {"hour": 9}, "c": ""})
+        self.assertEqual(arguments.of_renderer(typed),
+                         {"a": {"cover": 8, "glare": {"share": 0.03}}, "b": {"glare": {"wings": 0.2}}, "c": ""})
+        self.assertEqual(arguments.of_renderer("{a: {hour: 9}, b: {}}"), ["a", "b"])
+        for function in (arguments.of_sun, arguments.of_renderer):
+            self.assertEqual(function("[a, b]"), ["a", "b"])
+            self.assert_refused("without covr in a (did you mean cover?)", function, "{a: {hour: 9, covr: 8}}")
+            self.assert_refused("must be a list of names", function, "{a: 9}")
+        # Where there is no renderer, nobody would heed it.
+        self.assert_refused("without cover in a", arguments.of_sun, "{a: {cover: 8}}", arguments.SUN)
 
     def test_all_pairs_and_each_hour_with_itself(self):
         self.assertEqual(arguments.pairs(["h04", "h12", "h20"], True, 10),

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <tuple>
 
 #include "support/message_of.h"
 #include "support/published_lenses.h"
@@ -58,6 +59,25 @@ TEST_F(CalibrationFile, OfAFisheyeIsReadAsItStands) {
   const Calibration read = readCalibration(SUNLIT_SOURCE_DIR "/test/support/cameras/tum_vi.yaml");
   EXPECT_EQ(read.distortion.model, LensModel::kEquidistant);
   EXPECT_EQ(read.distortion.coefficients, tumViLens().distortion.coefficients);
+}
+
+TEST_F(CalibrationFile, OfWhatOthersPublishIsReadAsItStands) {
+  for (const auto& [name, published] : {std::pair<std::string, PublishedLens>{"kitti", kittiLens()},
+                                        {"d435i", d435iLens()},
+                                        {"rational", rationalLens()},
+                                        {"omni", omniLens()}}) {
+    const Calibration read = readCalibration(SUNLIT_SOURCE_DIR "/test/support/cameras/" + name + ".yaml");
+    const PinholeCamera &camera = read.camera, &expected = published.camera;
+    EXPECT_EQ(
+        std::make_tuple(camera.width, camera.height, camera.fx, camera.fy, camera.cx, camera.cy),
+        std::make_tuple(expected.width, expected.height, expected.fx, expected.fy, expected.cx, expected.cy))
+        << name;
+    EXPECT_EQ(read.distortion.model, published.distortion.model) << name;
+    EXPECT_EQ(read.distortion.none(), published.distortion.none()) << name;
+    if (!read.distortion.none()) {
+      EXPECT_EQ(read.distortion.coefficients, published.distortion.coefficients) << name;
+    }
+  }
 }
 
 TEST_F(CalibrationFile, WithoutAModelIsPlumbBobAndRowsAndColumnsOfCoefficientsDoNotCount) {

@@ -3,12 +3,10 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "sunlit/scene/robot.h"
 #include "support/message_of.h"
@@ -217,105 +215,6 @@ TEST_P(LensPictureBy, SeesNoHolesAndNoSeamsInARoom) {
 
 INSTANTIATE_TEST_SUITE_P(By, LensPictureBy, testing::ValuesIn(render::builtRasterizers()),
                          [](const auto& each) { return render::nameOf(each.param); });
-
-/// Squares of a board, corner (0, 0) of which lies at the origin of its frame, facing −z.
-constexpr int kBoardAcross = 9, kBoardDown = 7;  // squares; corners are one fewer
-constexpr double kSquare_m = 0.06;
-
-scene::Scene boardScene() {
-  scene::Scene scene;
-  const int white = addMaterial(&scene, {0.9f, 0.9f, 0.9f}),
-            black = addMaterial(&scene, {0.02f, 0.02f, 0.02f});
-  const auto side = static_cast<float>(kSquare_m);
-  for (int j = -1; j <= kBoardDown; ++j) {
-    for (int i = -1; i <= kBoardAcross; ++i) {
-      const bool rim = i < 0 || j < 0 || i == kBoardAcross || j == kBoardDown;
-      const int material = !rim && (i + j) % 2 == 0 ? black : white;
-      addPatch(&scene, material, {side * static_cast<float>(i - 1), side * static_cast<float>(j), 0.0f},
-               {0.0f, -side, 0.0f}, {side, 0.0f, 0.0f});
-    }
-  }
-  return scene;
-}
-
-/// Pictures of the board all over the camera's, and where its corners are in them.
-struct BoardPictures {
-  std::vector<std::vector<cv::Point3f>> points;
-  std::vector<std::vector<cv::Point2f>> pixels;
-};
-
-BoardPictures boardPictures(const PublishedLens& published, int pictures) {
-  render::Renderer renderer(shared(boardScene()), cameraOf(published, 4));
-  const image::Lens lens = published.lens();
-  BoardPictures board_pictures;
-  std::vector<cv::Point3f> board;
-  for (int j = 0; j + 1 < kBoardDown; ++j)
-    for (int i = 0; i + 1 < kBoardAcross; ++i)
-      board.emplace_back(static_cast<float>(i * kSquare_m), static_cast<float>(j * kSquare_m), 0.0f);
-  const Eigen::Vector3d middle(0.5 * (kBoardAcross - 2) * kSquare_m, 0.5 * (kBoardDown - 2) * kSquare_m, 0.0);
-  for (int n = 0; n < pictures; ++n) {
-    // Where its middle is to be seen: round the picture, at several distances and slants.
-    const double turn = 2.4 * n, out = 0.3 * std::sqrt((n % 6) / 5.0);
-    const Eigen::Vector2d at(published.camera.width * (0.5 + out * std::cos(turn)),
-                             published.camera.height * (0.5 + out * std::sin(turn)));
-    const Eigen::Vector3d towards = lens.unproject(at).value().normalized() * (0.5 + 0.08 * (n % 4));
-    const Eigen::Matrix3d turned = (Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), towards) *
-                                    Eigen::AngleAxisd(0.5 * std::sin(1.7 * n), Eigen::Vector3d::UnitX()) *
-                                    Eigen::AngleAxisd(0.5 * std::cos(1.1 * n), Eigen::Vector3d::UnitY()))
-                                       .toRotationMatrix();
-    Eigen::Isometry3d optical_from_board = Eigen::Isometry3d::Identity();
-    optical_from_board.linear() = turned;
-    optical_from_board.translation() = towards - turned * middle;
-    renderer.look(optical_from_board.inverse());
-    cv::Mat grey(published.camera.height, published.camera.width, CV_8UC1, cv::Scalar(128));
-    for (const light::Tile& tile : renderer.surfaces().tiles) {
-      std::map<std::uint32_t, double> sums;
-      for (const light::Surface& surface : tile.surfaces)
-        sums[surface.pixel] += (surface.material == 0 ? 220.0 : 20.0) * surface.samples / 16.0;
-      for (const auto& [pixel, sum] : sums)
-        grey.at<std::uint8_t>(static_cast<int>(pixel) / grey.cols, static_cast<int>(pixel) % grey.cols) =
-            cv::saturate_cast<std::uint8_t>(sum);
-    }
-    std::vector<cv::Point2f> pixels;
-    if (!cv::findChessboardCorners(grey, {kBoardAcross - 1, kBoardDown - 1}, pixels)) continue;
-    cv::cornerSubPix(grey, pixels, {4, 4}, {-1, -1},
-                     {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 100, 1e-4});
-    board_pictures.points.push_back(board);
-    board_pictures.pixels.push_back(pixels);
-  }
-  return board_pictures;
-}
-
-// Corners are found to a few hundredths of a pixel, some 1,000 of them: 0.1 % of f is what that leaves with
-// ease.
-TEST(LensPicture, CalibratingABoardFindsTheFocalLengthsOfEuroc) {
-  const PublishedLens published = eurocLens();
-  const BoardPictures board_pictures = boardPictures(published, 24);
-  ASSERT_GE(board_pictures.points.size(), 15u);
-  cv::Mat k, d;
-  std::vector<cv::Mat> r, t;
-  const double rms =
-      cv::calibrateCamera(board_pictures.points, board_pictures.pixels,
-                          {published.camera.width, published.camera.height}, k, d, r, t, cv::CALIB_FIX_K3);
-  EXPECT_LT(rms, 0.1);
-  EXPECT_NEAR(k.at<double>(0, 0) / published.camera.fx, 1.0, 1e-3);
-  EXPECT_NEAR(k.at<double>(1, 1) / published.camera.fy, 1.0, 1e-3);
-  EXPECT_NEAR(d.at<double>(0), published.distortion.coefficients[0], 0.005);
-}
-
-TEST(LensPicture, CalibratingABoardFindsTheFocalLengthsOfTumVi) {
-  const PublishedLens published = tumViLens();
-  const BoardPictures board_pictures = boardPictures(published, 24);
-  ASSERT_GE(board_pictures.points.size(), 15u);
-  cv::Mat k, d;
-  std::vector<cv::Mat> r, t;
-  const double rms = cv::fisheye::calibrate(
-      board_pictures.points, board_pictures.pixels, {published.camera.width, published.camera.height}, k, d,
-      r, t, cv::fisheye::CALIB_RECOMPUTE_EXTRINSIC | cv::fisheye::CALIB_FIX_SKEW);
-  EXPECT_LT(rms, 0.1);
-  EXPECT_NEAR(k.at<double>(0, 0) / published.camera.fx, 1.0, 1e-3);
-  EXPECT_NEAR(k.at<double>(1, 1) / published.camera.fy, 1.0, 1e-3);
-}
 
 /// Hills, a fence of posts, and blocks.
 scene::Scene yard() {

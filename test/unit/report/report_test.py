@@ -447,6 +447,19 @@ class Elevation(InFolder):
         self.assertEqual(localisation.judged_twice(output), {})
         self.assertNotIn("over the elevation", page.render(output, findings.judge(output)))
 
+    def test_weathers_of_one_hour_have_no_such_figure(self):
+        made.write_all(self.folder)
+        with open(os.path.join(self.folder, "captures.csv"), encoding="utf-8") as file:
+            heading, *rows = [line.split(",") for line in file.read().splitlines()]
+        column = heading.index("sun_elevation_deg")
+        for elevations, is_shown in (({"h04": 5.0, "h20": 5.0}, False), ({"h04": 5.0, "h20": 5.0004}, False),
+                                     ({"h04": 5.0, "h20": 7.0}, True)):
+            changed = [[*row[:column], str(elevations.get(row[0], 60.0)), *row[column + 1:]] for row in rows]
+            self.write("captures.csv", [",".join(row) for row in [heading, *changed]])
+            output = self.read()
+            self.assertEqual(localisation.over_elevation(output) is not None, is_shown, elevations)
+            self.assertEqual("over the elevation" in page.render(output, findings.judge(output)), is_shown, elevations)
+
     def test_positions_of_many_hours_are_shown_of_some(self):
         self.write("localisation.csv", made.queries())
         lines = [f"{k},0.0,h12,q{hour:02d},sift,{k}.1,0,1,0,0,0,1,{k},0,1" for hour in range(20) for k in range(3)]

@@ -119,6 +119,13 @@ TEST(Conditions, AreAListOfNamesOrAMapOrASingleUnnamedOne) {
   EXPECT_EQ(hours[0].parameters.integer("date_time/hour", 0), 4);
   EXPECT_EQ(hours[1].parameters.integer("date_time/hour", 0), 12);
 
+  XmlRpcValue alike;  // from a launch file, which cannot hand on an empty map
+  alike["conditions"]["usual"] = std::string();
+  alike["date_time"]["hour"] = 7;
+  const auto usual = readConditions(ParameterReader(alike, "/node"));
+  ASSERT_EQ(usual.size(), 1u);
+  EXPECT_EQ(usual[0].parameters.integer("date_time/hour", 0), 7);
+
   const auto single = readConditions(ParameterReader(exampleTree(), "/node"));
   ASSERT_EQ(single.size(), 1u);
   EXPECT_EQ(single[0].frame("sun"), "sun");

@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "sunlit/image/mean_luminance.h"
+#include "sunlit/image/rain_streaks.h"
+#include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/frames.h"
 #include "sunlit/studio/sky.h"
 #include "support/message_of.h"
@@ -58,37 +61,82 @@ TEST(Studio, RefusesBadOptionsBeforeItLoadsTheWorld) {
   EXPECT_NE(refusal().find("line_delay"), std::string::npos) << refusal();
 }
 
-TEST(Studio, TakesThePictureThatItsPartsMake) {
+/// All that a lens and a sensor can do, while it turns in the rain.
+StudioOptions everythingOn() {
   StudioOptions options = boxes();
-  options.chains[0].noise.enabled = true;
-  options.chains[0].vignetting.cos4 = true;
-  options.chains[0].glare.share = 0.02;
-  options.chains[0].blur.sigma_px = 0.5;
-  options.chains[0].mosaic.pattern = image::MosaicPattern::kRggb;
-  Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
-  map_from_camera.translation().z() = 1.0;
-  const sky::Daylight day = Sky({}).daylight({kHighSun});
-  const image::PictureName name{7, "noon"};
+  ChainOptions& chain = options.chains[0];
+  chain.shutter.line_delay_us = 1000.0;
+  chain.shutter.exposure_ms = 60.0;
+  chain.vignetting.cos4 = true;
+  chain.vignetting.a1 = -0.1;
+  chain.glare.share = 0.05;
+  chain.blur.sigma_px = 0.5;
+  chain.exposure.compensation_ev = 0.5;
+  chain.noise.enabled = true;
+  chain.mosaic.pattern = image::MosaicPattern::kRggb;
+  return options;
+}
 
-  Studio studio(options);
-  studio.look(map_from_camera);
-  const Developed developed = studio.photograph(studio.illumination(day), name);
+/// What is photographed, and how the camera moves meanwhile.
+struct Taken {
+  image::PictureName name;
+  Eigen::Isometry3d map_from_camera;
+  Motion motion;
+  sky::Daylight day;
+};
 
+Taken inRain() {
+  sky::Weather rainy;
+  rainy.rain_mm_per_h = 100.0;
+  return {{7, "noon"},
+          Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 1.0)),
+          {{0.0, 2.0, 0.0}, {0.0, 0.0, 2.0}},
+          Sky({}).daylight({kHighSun}, rainy)};
+}
+
+/// The steps of the first chain one by one; `glare_first`: before the vignetting.
+Developed byHand(const StudioOptions& options, const Taken& taken, bool glare_first) {
+  const ChainOptions& chain = options.chains[0];
   const light::World world = loadWorld(options.world, std::nullopt, {});
   render::Renderer renderer(world, options.render);
-  renderer.look(map_from_camera * linkFromOptical());
-  image::LinearImage luminance = renderer.light(day);
-  const image::Vignetting vignetting(image::Lens(options.render.camera, {}), options.chains[0].vignetting);
-  vignetting.apply(&luminance);
-  const std::vector<image::LightOutside> outside = renderer.lightsOutside(day);
+  renderer.look(taken.map_from_camera * linkFromOptical());
+  const light::Illumination light = light::illumination(world, taken.day, options.lamps);
+  const render::UnderWay way{taken.motion, 1e-6 * chain.shutter.line_delay_us,
+                             1e-3 * chain.shutter.exposure_ms.value(), chain.shutter.exposures};
+  image::LinearImage luminance = renderer.light(light, 0, way);
+  const image::Vignetting vignetting(image::Lens(options.render.camera, {}), chain.vignetting);
+  const std::vector<image::LightOutside> outside = renderer.lightsOutside(light);
   EXPECT_EQ(outside.size(), 1u);  // the sun, high above what the camera sees
-  image::VeilingGlare(vignetting, options.chains[0].glare).apply(outside, &luminance);
-  image::blur(options.chains[0].blur, &luminance);
-  const double ev100 = image::chooseEv100(luminance, options.chains[0].exposure);
-  image::addSensorNoise(ev100, options.chains[0].noise, name, &luminance);
-  EXPECT_EQ(developed.ev100, ev100);
-  EXPECT_EQ(developed.picture.data,
-            image::throughMosaic(image::develop(luminance, ev100), options.chains[0].mosaic).data);
+  if (!glare_first) vignetting.apply(&luminance);
+  image::VeilingGlare(vignetting, chain.glare).apply(outside, &luminance);
+  if (glare_first) vignetting.apply(&luminance);
+  image::blur(chain.blur, &luminance);
+  const double ev100 = image::chooseEv100(luminance, chain.exposure);
+  const Eigen::Array3f before = image::meanLuminance(luminance).cast<float>();
+  const Eigen::Array3f above = taken.day.groundIlluminance().value / kPiFloat;
+  const sky::Rain rain = taken.day.rain();
+  const Eigen::Vector3d down = -renderer.surfaces().map_from_optical.row(2).transpose();
+  image::addRain({rain.mm_per_h, rain.seed, taken.name.index, image::streakTime_s(chain.shutter, ev100),
+                  0.5F * (before + above)},
+                 {options.render.camera, down, renderer.depth()}, &luminance);
+  image::addSensorNoise(ev100, chain.noise, taken.name, &luminance);
+  return {image::throughMosaic(image::develop(luminance, ev100), chain.mosaic), ev100};
+}
+
+TEST(Studio, TakesThePictureThatItsPartsMakeInTheirOrder) {
+  const StudioOptions options = everythingOn();
+  const Taken taken = inRain();
+  const auto photographed = [&](const StudioOptions& with) {
+    Studio studio(with);
+    studio.look(taken.map_from_camera, {}, taken.motion);
+    return studio.photograph(studio.illumination(taken.day), taken.name);
+  };
+  const Developed developed = photographed(options);
+  const Developed expected = byHand(options, taken, false);
+  EXPECT_EQ(developed.ev100, expected.ev100);
+  EXPECT_EQ(developed.picture.data, expected.picture.data);
+  // It would show if glare came first.
+  EXPECT_NE(byHand(options, taken, true).picture.data, expected.picture.data);
 }
 
 TEST(Studio, TakesPicturesWithAsManyChainsAsItHas) {
