@@ -104,6 +104,24 @@ TEST(Weather, InDeepFogTheHorizonIsBetweenTheLightOfTheSkyAndOfTheGround) {
   }
 }
 
+TEST(Weather, FogHidesTheLandBelowTheHorizonToo) {
+  const auto luminance = [](const Weather& weather, double elevation_deg) {
+    return static_cast<double>(under(35.0, weather).skyLuminance(towards(elevation_deg)).luminance());
+  };
+  // The land is looked at from 100 m up: at −5° it is 1,150 m away, behind seventeen times the optical depth
+  // of fog of 200 m; without fog it is darker than the sky above it.
+  const double sky = luminance(fog(200.0), 0.0);
+  for (const double elevation : {-0.3, -1.0, -5.0})
+    EXPECT_NEAR(luminance(fog(200.0), elevation), sky, 1e-3 * sky) << elevation;
+  EXPECT_LT(luminance({}, -5.0), 0.9 * luminance({}, 0.0));
+  // Of ground fog of 10 m a tenth of that way is left.
+  Weather low = fog(200.0);
+  low.fog_top_m = 10.0;
+  const double behind = luminance(low, 0.0), land = luminance(low, -89.9), seen = luminance(low, -5.0);
+  const double way_m = 100.0 / std::tan(5.0 * kRadPerDeg);
+  EXPECT_NEAR((seen - behind) / (land - behind), std::exp(-std::log(20.0) / 200.0 * 0.1 * way_m), 0.03);
+}
+
 TEST(Weather, RainTakesHalfOfWhatItsDropsCover) {
   // Marshall & Palmer's drops cover π/4 ∫ N D² dD = π N₀ / (2 Λ³) of a path; twice that goes by geometric
   // optics, half of that still reaches a camera: 0.78 a kilometre at 10 mm/h.
