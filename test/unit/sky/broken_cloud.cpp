@@ -1,9 +1,12 @@
 /// Shadows of broken cloud and what is seen of it beside the sun.
 #include <gtest/gtest.h>
 
+#include <tbb/global_control.h>
 #include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "sky/cloud_map.h"
@@ -158,6 +161,17 @@ double passed(const Daylight& day, const CloudMap& map, double elevation_deg, co
   light.towards = sunAt(elevation_deg);
   return static_cast<double>(day.throughCloud(light, place)) *
          map.meanPassed(std::sin(elevation_deg * kRadPerDeg));
+}
+
+TEST(CloudMap, HasTheSameBitsForAnyThreads) {
+  const auto made = [](int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    const CloudMap map(4.0, 20.0, 4);
+    return std::pair{map.cells(), map.passed(0.5).cells()};
+  };
+  const auto alone = made(1);
+  for (const int threads : {2, 3, 8}) EXPECT_TRUE(made(threads) == alone) << threads;
 }
 
 TEST(SilverLining, AThinEdgeBesideAHiddenSunIsBrighterThanAThickMiddle) {
