@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <tbb/global_control.h>
-#include <Eigen/Geometry>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -172,6 +172,27 @@ TEST(CloudMap, HasTheSameBitsForAnyThreads) {
   };
   const auto alone = made(1);
   for (const int threads : {2, 3, 8}) EXPECT_TRUE(made(threads) == alone) << threads;
+}
+
+TEST(CloudMap, LetsThroughEachCellWhatItsDepthLeaves) {
+  constexpr double kCosine = 0.4;
+  const CloudMap map(4.0, 3.0, 4);
+  const CellMeans passed = map.passed(kCosine);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < map.cells().size(); ++i) {
+    const double expected = std::exp(-static_cast<double>(map.cells()[i]) / kCosine);
+    ASSERT_NEAR(static_cast<double>(passed.cells()[i]), expected, 1e-6) << i;  // floats
+    sum += expected;
+  }
+  EXPECT_NEAR(map.meanPassed(kCosine), sum / static_cast<double>(map.cells().size()), 1e-4);
+  // Over a square that repeats itself, whatever it is blurred by, the mean stays.
+  for (const float width_m : {0.0F, 25.0F, 600.0F}) {
+    double blurred = 0.0;
+    constexpr int kSide = 256;
+    for (int i = 0; i < kSide * kSide; ++i)
+      blurred += static_cast<double>(passed.around({40.0 * (i % kSide), 40.0 * (i / kSide)}, width_m));
+    EXPECT_NEAR(blurred / (kSide * kSide), map.meanPassed(kCosine), 0.002) << width_m;  // of 40 m steps
+  }
 }
 
 TEST(SilverLining, AThinEdgeBesideAHiddenSunIsBrighterThanAThickMiddle) {
