@@ -74,8 +74,11 @@ BrokenCover::BrokenCover(const CloudPlace& place, const LightAbove& above, const
   for (std::size_t i = 0; i < skies_.size(); ++i)
     skies_[i].addFromBelow(layers[i], level_ * (albedo_below / static_cast<float>(kPi)));
   for (const DiscLight& disc : above.discs) {
-    const auto z = static_cast<float>(disc.towards.vector().z());
-    means_.push_back({z, meanPassed(z)});
+    const Eigen::Vector3f towards = disc.towards.vector().cast<float>();
+    if (towards.z() <= 0.0F || disc.illuminance.value.maxCoeff() <= 0.0F) continue;
+    const float cosine = wayUp(towards, Eigen::Vector3f::Zero()).cosine;
+    shadows_.push_back(
+        {towards.z(), meanPassed(towards.z()), place_.map->passed(static_cast<double>(cosine))});
   }
 }
 
@@ -115,15 +118,19 @@ BrokenCover::Seen BrokenCover::seen(const Eigen::Vector3f& towards, const Eigen:
 float BrokenCover::passed(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const {
   if (towards.z() <= 0.0F) return meanPassed(0.0F);
   const Way way = wayUp(towards, from);
-  // The disc's own width blurs the edge of a shadow.
-  const float width_m =
-      way.distance_m * static_cast<float>(2.0 * sin(kSunRadiusAtOneAu)) / std::sqrt(way.cosine);
-  return std::exp(-place_.map->opticalDepth(way.place_m, width_m) / way.cosine);
+  for (const Shadows& shadows : shadows_) {
+    if (shadows.z != towards.z()) continue;
+    // Between cells of half the disc's width lies as much around a place as there is of the disc: both
+    // spread by a quarter of that width.
+    const float width_m = way.distance_m * static_cast<float>(sin(kSunRadiusAtOneAu)) / std::sqrt(way.cosine);
+    return shadows.passed.around(way.place_m, width_m);
+  }
+  return std::exp(-place_.map->opticalDepth(way.place_m, 0.0F) / way.cosine);
 }
 
 float BrokenCover::meanPassed(float z) const {
-  for (const Mean& mean : means_) {
-    if (mean.z == z) return mean.passed;
+  for (const Shadows& shadows : shadows_) {
+    if (shadows.z == z) return shadows.mean;
   }
   const float cosine =
       wayUp({std::sqrt(std::max(0.0F, 1.0F - z * z)), 0.0F, z}, Eigen::Vector3f::Zero()).cosine;

@@ -33,7 +33,8 @@ class BrokenCover {
     float distance_m;
   };
   Seen seen(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const;
-  /// What of light from straight `towards` comes through to a place; 0 from below the horizon.
+  /// What of light from straight `towards` comes through to a place: of a disc of the width of sun and moon
+  /// that is one of those above, or else through a thin line. The mean from below the horizon.
   float passed(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const;
   /// The mean of that over all places.
   float meanPassed(float z) const;
@@ -46,14 +47,16 @@ class BrokenCover {
     float cosine;  ///< of the angle to the vertical, at the cloud
     float distance_m;
   };
-  struct Mean {
-    float z, passed;
+  /// What comes through from a disc at an elevation of sine `z`, which every surface asks for.
+  struct Shadows {
+    float z, mean;
+    CellMeans passed;
   };
   Way wayUp(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const;
 
   CloudPlace place_;
-  std::vector<LayerSky> skies_;  // by optical depth
-  std::vector<Mean> means_;      // of sun and moon, which every surface asks for
+  std::vector<LayerSky> skies_;   // by optical depth
+  std::vector<Shadows> shadows_;  // of sun and moon
   Eigen::Array3f level_ = Eigen::Array3f::Zero();
 };
 

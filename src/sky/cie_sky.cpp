@@ -17,17 +17,11 @@ namespace {
 /// at 42°, above and below which lies half of a level plane's sky.
 constexpr float kOfGlow = 0.19F;
 
-/// Relative to the zenith: CIE S 011/E:2003, eq. 1 and 2.
-double gradation(double z) {
-  const auto phi = [](double cosine) { return 1.0 + 4.0 * std::exp(-0.7 / std::max(cosine, 1e-4)); };
-  return phi(z) / phi(1.0);
-}
-
 /// Illuminance of level ground of a zenith of 1 cd/m²: 0.7797 π.
 double levelOfZenith() {
   double sum = 0.0;
   for (const Node& node : gaussLegendre(64, 0.0, 1.0))
-    sum += 2.0 * kPi * node.weight * node.x * gradation(node.x);
+    sum += 2.0 * kPi * node.weight * node.x * Gradation().ofZenith(node.x);
   return sum;
 }
 
@@ -40,6 +34,11 @@ Eigen::Array3f overcast(const Eigen::Array3f& clear, float sine, float strength,
 }
 
 }  // namespace
+
+double Gradation::ofZenith(double z) const {
+  const auto phi = [&](double cosine) { return 1.0 + a * std::exp(b / std::max(cosine, 1e-4)); };
+  return phi(z) / phi(1.0);
+}
 
 float cieIlluminance_lx(float sine_of_elevation) {
   return static_cast<float>(kPi * 7.0 / 9.0) * (8600.0F * sine_of_elevation + 123.0F);
@@ -68,7 +67,7 @@ CieSky::CieSky(const SkyTable& clear, const CieLevels& levels) {
 }
 
 Eigen::Array3f CieSky::luminance(float z) const {
-  return zenith_ * static_cast<float>(gradation(std::max(0.0, static_cast<double>(z))));
+  return zenith_ * static_cast<float>(Gradation().ofZenith(std::max(0.0, static_cast<double>(z))));
 }
 
 }  // namespace sunlit::sky

@@ -17,11 +17,19 @@ struct CieLevels {
   float clear_at_horizon_lx = 1.0F;
 };
 
+/// How a sky of CIE S 011/E:2003 changes with elevation, eq. 1 and 2; type 1's unless told otherwise.
+struct Gradation {
+  double a = 4.0, b = -0.7;
+
+  /// Luminance at an elevation of sine `z` ≥ 0, relative to the zenith.
+  double ofZenith(double z) const;
+};
+
 /// Illuminance of level ground under an overcast sky by a sun of so much elevation ≥ 0 at 1 AU, lx: π · 7/9
 /// of Radiance's gensky zenith luminance, 8,600 sin h + 123 cd/m².
 float cieIlluminance_lx(float sine_of_elevation);
 
-/// CIE S 011/E:2003 type 1, gradation (4, −0.7), the same all round. As bright as cieIlluminance_lx() says,
+/// CIE S 011/E:2003 type 1, the same all round. As bright as cieIlluminance_lx() says,
 /// of the colour of the clear hour; below the horizon, sun and moon keep the share that they had there.
 class CieSky {
  public:

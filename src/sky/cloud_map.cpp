@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace sunlit::sky {
 namespace {
@@ -52,23 +53,6 @@ float cloudNoise(int x, int y, std::uint32_t seed) {
   return sum;
 }
 
-/// Beyond it, a double has no digits behind the point.
-constexpr double kAllWhole = 0x1p52;
-
-/// Asked for at every pixel of the sky: std::floor and std::fmod are function calls, and slow ones.
-double floorOf(double value) {
-  if (!(std::abs(value) < kAllWhole)) return value;
-  const auto truncated = static_cast<double>(static_cast<std::int64_t>(value));
-  return truncated > value ? truncated - 1.0 : truncated;
-}
-
-/// Remainder of a whole number by last + 1, a power of two. Of one so large that neighbours are not told
-/// apart, any will do.
-int wrapped(double whole, int last) {
-  if (!(std::abs(whole) < kAllWhole)) whole = std::fmod(whole, last + 1);
-  return static_cast<int>(static_cast<std::int64_t>(whole) & last);
-}
-
 struct Ranked {
   float value;
   std::uint32_t cell;
@@ -77,38 +61,32 @@ struct Ranked {
   }
 };
 
-}  // namespace
-
-CloudMap::CloudMap(double cover_oktas, double optical_depth, std::uint32_t seed)
-    : covered_share_(cover_oktas / 8.0), thickest_(2.0 * optical_depth) {
-  constexpr std::size_t kCells = static_cast<std::size_t>(kSide) * kSide;
+/// Of each cell.
+std::vector<float> depthsOf(double covered_share, double thickest, std::uint32_t seed) {
+  constexpr std::size_t kCells = static_cast<std::size_t>(CloudMap::kSide) * CloudMap::kSide;
   std::vector<Ranked> ranked(kCells);
-  tbb::parallel_for(0, static_cast<int>(kSide), [&](int y) {
-    for (int x = 0; x < kSide; ++x) {
-      const auto cell = static_cast<std::uint32_t>(y * kSide + x);
+  tbb::parallel_for(0, static_cast<int>(CloudMap::kSide), [&](int y) {
+    for (int x = 0; x < CloudMap::kSide; ++x) {
+      const auto cell = static_cast<std::uint32_t>(y * CloudMap::kSide + x);
       ranked[cell] = {cloudNoise(x, y, seed), cell};
     }
   });
   tbb::parallel_sort(ranked.begin(), ranked.end());
-  const auto cloudy = static_cast<std::size_t>(std::lround(covered_share_ * static_cast<double>(kCells)));
-  levels_[0].assign(kCells, 0.0F);
+  const auto cloudy = static_cast<std::size_t>(std::lround(covered_share * static_cast<double>(kCells)));
+  std::vector<float> depths(kCells, 0.0F);
   for (std::size_t i = kCells - cloudy; i < kCells; ++i) {
     const double share = (static_cast<double>(i - (kCells - cloudy)) + 0.5) / static_cast<double>(cloudy);
-    levels_[0][ranked[i].cell] = static_cast<float>(depthAt(share));
+    depths[ranked[i].cell] = static_cast<float>(thickest * share);
   }
-  for (std::size_t level = 1; level < kLevels; ++level) {
-    const std::vector<float>& finer = levels_[level - 1];
-    const std::size_t side = static_cast<std::size_t>(kSide) >> level;
-    levels_[level].resize(side * side);
-    for (std::size_t y = 0; y < side; ++y) {
-      for (std::size_t x = 0; x < side; ++x) {
-        const float* corner = &finer[2 * y * 2 * side + 2 * x];
-        levels_[level][y * side + x] =
-            0.25F * (corner[0] + corner[1] + corner[2 * side] + corner[2 * side + 1]);
-      }
-    }
-  }
+  return depths;
 }
+
+}  // namespace
+
+CloudMap::CloudMap(double cover_oktas, double optical_depth, std::uint32_t seed)
+    : covered_share_(cover_oktas / 8.0),
+      thickest_(2.0 * optical_depth),
+      depths_(depthsOf(covered_share_, thickest_, seed)) {}
 
 double CloudMap::meanPassed(double cosine) const {
   // ∫₀¹ e^(−a s) ds
@@ -117,34 +95,17 @@ double CloudMap::meanPassed(double cosine) const {
   return 1.0 - covered_share_ * (1.0 - through);
 }
 
-float CloudMap::at(int level, const Eigen::Vector2d& place_m) const {
-  const int last = (kSide >> level) - 1;  // all its bits are 1
-  const double width_m = static_cast<double>(kCell_m) * (1 << level);
-  const auto split = [&](double along_m, int* cell) {
-    const double at = along_m / width_m - 0.5;
-    const double whole = floorOf(at);
-    *cell = wrapped(whole, last);
-    return static_cast<float>(at - whole);
-  };
-  int x = 0, y = 0;
-  const float u = split(place_m.x(), &x), v = split(place_m.y(), &y);
-  const std::vector<float>& cells = levels_[static_cast<std::size_t>(level)];
-  const auto cell = [&](int right, int down) {
-    return cells[static_cast<std::size_t>(((y + down) & last) * (last + 1) + ((x + right) & last))];
-  };
-  const float above = cell(0, 0) + u * (cell(1, 0) - cell(0, 0));
-  const float below = cell(0, 1) + u * (cell(1, 1) - cell(0, 1));
-  return above + v * (below - above);
-}
-
-float CloudMap::opticalDepth(const Eigen::Vector2d& place_m, float width_m) const {
-  const float level =
-      std::clamp(std::log2(std::max(width_m / kCell_m, 1.0F)), 0.0F, static_cast<float>(kLevels - 1));
-  const int finer = std::min(static_cast<int>(level), kLevels - 2);
-  const float beyond = level - static_cast<float>(finer);
-  if (beyond <= 0.0F) return at(finer, place_m);
-  const float fine = at(finer, place_m);
-  return fine + beyond * (at(finer + 1, place_m) - fine);
+CellMeans CloudMap::passed(double cosine) const {
+  const auto slant = static_cast<float>(1.0 / std::max(cosine, 1e-6));
+  std::vector<float> cells(depths_.cells().size());
+  tbb::parallel_for(0, kSide, [&](int y) {
+    const std::size_t row = static_cast<std::size_t>(y) * kSide;
+    for (std::size_t i = row; i < row + kSide; ++i) {
+      const float depth = depths_.cells()[i];
+      cells[i] = depth > 0.0F ? std::exp(-depth * slant) : 1.0F;
+    }
+  });
+  return CellMeans(std::move(cells));
 }
 
 std::shared_ptr<const CloudMap> CloudMaps::of(const Weather& weather) {

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <vector>
 
+#include "cell_means.h"
 #include "sunlit/sky/weather.h"
 
 namespace sunlit::sky {
@@ -18,29 +18,28 @@ namespace sunlit::sky {
 /// other, from 0 at the edge to twice the mean, which is the optical depth asked for.
 class CloudMap {
  public:
-  static constexpr int kSide = 1024;
-  static constexpr float kCell_m = 10.0F;  ///< below the penumbra of a cloud at 1 km
+  static constexpr int kSide = CellMeans::kSide;
 
   /// `cover_oktas` above 0 and below 8; 0.3 s of processor time.
   CloudMap(double cover_oktas, double optical_depth, std::uint32_t seed);
 
   /// Mean of about `width_m` around a place, m from a corner of the square, in any of its repetitions.
-  float opticalDepth(const Eigen::Vector2d& place_m, float width_m) const;
+  float opticalDepth(const Eigen::Vector2d& place_m, float width_m) const {
+    return depths_.around(place_m, width_m);
+  }
+  /// What comes straight through each cell at a cosine from the vertical.
+  CellMeans passed(double cosine) const;
   double coveredShare() const { return covered_share_; }
   /// Of the cloudy cells, the depth below which the part `share` of them is.
   double depthAt(double share) const { return thickest_ * share; }
   /// Mean over all cells of what comes straight through at a cosine from the vertical.
   double meanPassed(double cosine) const;
   /// Of each cell, row by row.
-  const std::vector<float>& cells() const { return levels_.front(); }
+  const std::vector<float>& cells() const { return depths_.cells(); }
 
  private:
-  static constexpr int kLevels = 8;  // of cells twice as wide each
-
-  float at(int level, const Eigen::Vector2d& place_m) const;
-
   double covered_share_, thickest_;
-  std::array<std::vector<float>, kLevels> levels_;
+  CellMeans depths_;
 };
 
 /// Those that were asked for last. For many threads.

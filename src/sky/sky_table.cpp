@@ -95,7 +95,12 @@ Eigen::Array3f SkyTable::luminance(const Eigen::Vector3f& towards, const Eigen::
   constexpr float kEye_km = 0.1F;
   const float across = std::sqrt(towards.x() * towards.x() + towards.y() * towards.y());
   const float distance_km = kEye_km * across / -towards.z();
-  const Eigen::Array3f clear = (haze_per_km * -distance_km).exp();
+  Eigen::Array3f per_km = haze_per_km;
+  if (weather) {
+    const Fog fog = weather->fog();
+    per_km += 1e3F * fog.per_m * std::min(1.0F, fog.top_m / (1e3F * kEye_km));
+  }
+  const Eigen::Array3f clear = (per_km * -distance_km).exp();
   return above * (1.0F - clear) + ground_luminance * clear;
 }
 

@@ -64,6 +64,20 @@ TEST(Wet, ASoakedSurfaceIsAsDarkAsLeknerAndDorfFound) {
   }
 }
 
+TEST(Wet, ASoakedSurfaceHasThePublishedShareOfItsDryLight) {
+  // (1 − R) (1 − p) / (1 − p ρ) with R = 0.0204 and p = 0.4749, worked out by hand: what is scattered,
+  // without what the film mirrors, in parts of ρ.
+  constexpr struct {
+    double albedo, share;
+  } kPublished[] = {{0.05, 0.5269}, {0.1, 0.5400}, {0.2, 0.5684}, {0.3, 0.5998}, {0.5, 0.6745}};
+  const Weathering soaked(roofedGround(), state(1.0, 0.0, 0.0));
+  for (const auto& [albedo, share] : kPublished) {
+    const auto look = seen(soaked, {20.0f, 20.0f, 0.0f}, kUp, static_cast<float>(albedo));
+    const double through_film = 1.0 - static_cast<double>(Weathering::kFilmReflectance);
+    EXPECT_NEAR(through_film * static_cast<double>(look.albedo[0]) / albedo, share, 1e-3) << albedo;
+  }
+}
+
 TEST(Wet, WhatSendsBackEverythingStillDoes) {
   const Weathering soaked(roofedGround(), state(1.0, 0.0, 0.0));
   EXPECT_NEAR(seen(soaked, {20.0f, 20.0f, 0.0f}, kUp, 1.0f).albedo[0], 1.0f, 1e-6f);

@@ -84,6 +84,20 @@ INSTANTIATE_TEST_SUITE_P(Depths, TracedLayer,
                                            Case{10.0, 35.0, 0.0}, Case{40.0, 60.0, 0.0},
                                            Case{40.0, 10.0, 0.0}, Case{10.0, 35.0, 0.8}));
 
+TEST(Droplets, AThickLayerIsDarkestAlongItsEdge) {
+  // From straight up to the horizon, black ground below: 3/7 (1 + 2 μ) of the mean would fall by 3 : 1.
+  // Forward scattering takes more of it off at the last, since what comes from below is black.
+  constexpr double kSun_deg = 35.0, kAlongGround_deg = 0.2;
+  const DropletLayer layer(droplets(), 20.0);
+  const DiscLight sun = sunAt(kSun_deg);
+  const LayerSky sky(layer, {{sun}, kNothing}, 0.0F);
+  const Eigen::Vector3d along = Direction(Azimuth::degrees(250.0), Angle::degrees(kAlongGround_deg)).vector();
+  const auto traced = PathTracedLayer(20.0, sun.towards.vector(), 0.0).luminance(along, 800000);
+  const auto found = static_cast<double>(LinearRgb(sky.scattered(along.cast<float>())).luminance());
+  EXPECT_NEAR(found, traced.mean, 0.02 * traced.mean + 3.0 * traced.error);
+  EXPECT_NEAR(found * kPi / static_cast<double>(levelOf(sky)), 0.29, 0.01);  // 3/7 without that
+}
+
 TEST(Droplets, LightGoesBackAndForthBetweenSnowAndCloud) {
   const DropletLayer layer(droplets(), 50.0);
   const DiscLight sun = sunAt(40.0, 100000.0F);
