@@ -11,31 +11,64 @@
 namespace sunlit::light {
 namespace {
 
-/// A point of the unit square. Each pixel of a block has a cell of its own, and each of its samples a part of
-/// that, so that what one pixel's rays meet lies together.
-Eigen::Vector2f pointOf(std::uint32_t pixel, int picture_width, std::uint32_t sample, std::uint32_t samples) {
-  const auto width = static_cast<std::uint32_t>(picture_width);
+constexpr std::uint32_t kMostBlocks = 4;
+constexpr float kPart = 0.8f;  ///< of the lobe's half width, that blocks may be high
+
+}  // namespace
+
+LobePixels lobePixels(const Surfaces& surfaces) {
+  const auto x = static_cast<float>(surfaces.width / 2), y = static_cast<float>(surfaces.height / 2);
+  return {static_cast<std::uint32_t>(surfaces.width),
+          (surfaces.towards(x, y) - surfaces.towards(x - 1.0f, y)).norm()};
+}
+
+LobeReach lobeReach(float roughness, const LobePixels& pixels) {
+  const float fit = kPart * roughness * roughness / (pixels.rad * static_cast<float>(kLobePixels));
+  std::uint32_t down = kMostBlocks;
+  while (down > 1 && static_cast<float>(down) > fit) down /= 2;
+  return {std::max(down / 2, 1u), down};
+}
+
+std::uint32_t lobeRays(const Surface& surface, const LobePixels& pixels) {
+  const bool sharp = !(surface.roughness > kSharpest);
+  if (sharp || lobeReach(surface.roughness, pixels).down == 1) return surface.samples;
+  return std::min(surface.samples, 2u);
+}
+
+namespace {
+
+/// A point of the unit square. Each pixel of a block has a cell of its own, and of that each of its rays and
+/// of the blocks about that share theirs another part.
+Eigen::Vector2f pointOf(const Surface& surface, const LobePixels& pixels, std::uint32_t ray) {
+  const std::uint32_t pixel = surface.pixel, rays = lobeRays(surface, pixels);
+  const LobeReach reach = lobeReach(surface.roughness, pixels);
   constexpr std::uint32_t kAcross = kLobePixels;
-  const std::uint32_t column = pixel % width % kAcross, row = pixel / width % kAcross;
+  const std::uint32_t x = pixel % pixels.width, y = pixel / pixels.width;
   // Neighbours get cells far apart: any two by two of them see all of the lobe, roughly.
   constexpr std::uint32_t kOrder[kAcross] = {0, 2, 1, 3};
-  const float along = (static_cast<float>(sample) + uniform(pixel, 2 * sample)) / static_cast<float>(samples);
-  const float across = uniform(pixel, 2 * sample + 1);
-  return {(static_cast<float>(kOrder[(column + 2 * (row % 2)) % kAcross]) + along) / kAcross,
-          (static_cast<float>(kOrder[row]) + across) / kAcross};
+  const std::uint32_t column = kOrder[(x + 2 * (y % 2)) % kAcross], row = kOrder[y % kAcross];
+  const std::uint32_t block_x = x / kAcross, block_y = y / kAcross;
+  const std::uint32_t part = ray + rays * (block_x % reach.across);
+  const std::uint32_t other = block_y % reach.down;
+  const auto within = [](std::uint32_t cell, std::uint32_t of, std::uint32_t cells, float random) {
+    return (static_cast<float>(cell) + (static_cast<float>(of) + random) / static_cast<float>(cells)) /
+           kAcross;
+  };
+  return {within(column, part, rays * reach.across, uniform(pixel, 2 * ray)),
+          within(row, other, reach.down, uniform(pixel, 2 * ray + 1))};
 }
 
 }  // namespace
 
-LobeRay lobeRay(const Surface& surface, const Eigen::Vector3f& to_eye, int picture_width,
-                std::uint32_t sample) {
+LobeRay lobeRay(const Surface& surface, const Eigen::Vector3f& to_eye, const LobePixels& pixels,
+                std::uint32_t ray) {
   const Eigen::Vector3f& normal = surface.shading_normal;
   const float n_v = std::clamp(normal.dot(to_eye), 1e-3f, 1.0f);
   Eigen::Vector3f along = normal.dot(to_eye) * normal - to_eye;
   const float length = along.norm();
   along = length > 1e-4f ? Eigen::Vector3f(along / length) : normal.unitOrthogonal();
   const Eigen::Vector3f eye(-std::sqrt(1.0f - n_v * n_v), 0.0f, n_v);
-  const Eigen::Vector2f point = pointOf(surface.pixel, picture_width, sample, surface.samples);
+  const Eigen::Vector2f point = pointOf(surface, pixels, ray);
   const float radius = std::sqrt(point.x()), turn = 2.0f * kPiFloat * point.y();
   const auto facets = Ggx<float>::ofRoughness(surface.roughness);
   const Eigen::Vector3f half = facets.visibleNormal(eye, {radius * std::cos(turn), radius * std::sin(turn)});

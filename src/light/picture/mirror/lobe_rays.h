@@ -8,21 +8,38 @@
 
 namespace sunlit::light {
 
-/// Smoother surfaces mirror a point a sample: the lobe of this one is as wide as the pixel of a camera of 640
-/// px and 90°.
+/// Smoother surfaces mirror a point a sample: the lobe of this one is as wide as a few pixels of a camera of
+/// 640 px and 90°.
 constexpr float kSharpest = 0.1f;
 
-/// Pixels across and down whose rays together fill a lobe.
+/// Pixels across and down of a block, whose rays together fill a lobe.
 constexpr int kLobePixels = 4;
+
+/// Pixels as lobes are seen by them.
+struct LobePixels {
+  std::uint32_t width;  ///< of the picture
+  float rad;            ///< of one, in the picture's middle
+};
+LobePixels lobePixels(const Surfaces& surfaces);
+
+/// Blocks about a pixel whose rays count there: no more than a lobe is wide, and up and down more than
+/// across, since most that mirror much are seen from the side.
+struct LobeReach {
+  std::uint32_t across, down;
+};
+LobeReach lobeReach(float roughness, const LobePixels& pixels);
+
+/// Rays of a surface: as many as its samples, or fewer where many pixels share them.
+std::uint32_t lobeRays(const Surface& surface, const LobePixels& pixels);
 
 struct LobeRay {
   Eigen::Vector3f towards;  ///< unit, in `map`, before the surface's shading normal
   float weight;             ///< of what comes from there, relative; 0: nothing does
 };
 
-/// Ray of a sample of `surface`, one that mirrors towards `to_eye`, among its pixel's Surface::samples: by
-/// the facets that the eye sees, as bright as a dielectric's mirror.
-LobeRay lobeRay(const Surface& surface, const Eigen::Vector3f& to_eye, int picture_width,
-                std::uint32_t sample);
+/// Ray number `ray` of lobeRays() for an eye in direction `to_eye`: by the facets that it sees, as bright as
+/// a dielectric's mirror.
+LobeRay lobeRay(const Surface& surface, const Eigen::Vector3f& to_eye, const LobePixels& pixels,
+                std::uint32_t ray);
 
 }  // namespace sunlit::light

@@ -47,6 +47,7 @@ class TileMirror {
  public:
   TileMirror(const Surfaces& surfaces, Onlooker onlooker, const MirroredWorld& world)
       : surfaces_(surfaces),
+        pixels_(lobePixels(surfaces)),
         onlooker_(onlooker),
         scene_(world.scene),
         visibility_(world.visibility),
@@ -55,7 +56,7 @@ class TileMirror {
 
   void look(const Tile& tile, Reflections::TileReflections* found, Tile* seen) const {
     std::vector<Reflections::Mirroring>* const all = &found->surfaces;
-    thread_local LobeRays cast;
+    thread_local CastRays cast;
     thread_local std::vector<Hit> hits;
     cast.clear();
     for (std::uint32_t i = 0; i < tile.surfaces.size(); ++i) {
@@ -65,7 +66,7 @@ class TileMirror {
       Reflections::Mirroring mirroring;
       mirroring.surface = i;
       mirroring.by_rays = mirroredByRays(surface.roughness);
-      mirroring.rays = surface.samples;
+      mirroring.rays = lobeRays(surface, pixels_);
       all->push_back(mirroring);
       addRays(tile, surface, static_cast<std::uint32_t>(all->size() - 1), &cast);
     }
@@ -82,7 +83,7 @@ class TileMirror {
 
  private:
   /// Rays of several surfaces, and their LobeRay::weight.
-  struct LobeRays {
+  struct CastRays {
     RayList rays;
     std::vector<float> weights;
     void clear() {
@@ -94,7 +95,7 @@ class TileMirror {
   /// One surface's rays, and what they met.
   struct Looked {
     const Surface& surface;
-    const LobeRays& cast;
+    const CastRays& cast;
     const std::vector<Hit>& hits;
     std::size_t begin, end;
 
@@ -108,15 +109,16 @@ class TileMirror {
     }
   };
 
-  void addRays(const Tile& tile, const Surface& surface, std::uint32_t number, LobeRays* cast) const {
-    cast->rays.reserve(surface.samples);
-    for (std::uint32_t i = 0; i < surface.samples; ++i) {
+  void addRays(const Tile& tile, const Surface& surface, std::uint32_t number, CastRays* cast) const {
+    const std::uint32_t count = lobeRays(surface, pixels_);
+    cast->rays.reserve(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
       const std::size_t at = surface.first_sample + i;
       const Eigen::Vector3f origin = rayStart(tile, at);
       const Eigen::Vector3f to_eye =
           onlooker_ == Onlooker::kCamera ? (surfaces_.eye - origin).normalized() : surface.to_eye;
       LobeRay ray{mirrored(to_eye, surface.shading_normal), 1.0f};
-      if (surface.roughness > kSharpest) ray = lobeRay(surface, to_eye, surfaces_.width, i);
+      if (surface.roughness > kSharpest) ray = lobeRay(surface, to_eye, pixels_, i);
       cast->rays.add(number, origin, clear(surface, ray.towards));
       cast->weights.push_back(ray.weight);
     }
@@ -237,6 +239,7 @@ class TileMirror {
   }
 
   const Surfaces& surfaces_;
+  LobePixels pixels_;
   Onlooker onlooker_;
   const scene::Scene& scene_;
   const Visibility& visibility_;

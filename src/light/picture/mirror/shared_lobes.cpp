@@ -73,13 +73,16 @@ RoughOnes collect(const Surfaces& surfaces, const Reflections& reflections, Mirr
   return ones;
 }
 
-/// Pixels about one along an axis, as many of each column, or row, of a block.
+/// Pixels of so many blocks about one along an axis, as many of each column, or row, of a block.
 struct Window {
   int first, last;
   bool even;  ///< one more than blocks have, its ends by half
 
-  Window(int at, int half, int length)
-      : first(at - half), last(at + half), even(first >= 0 && last < length) {
+  Window(int at, std::uint32_t blocks, int length) {
+    const int half = static_cast<int>(blocks) * kLobePixels / 2;
+    first = at - half;
+    last = at + half;
+    even = first >= 0 && last < length;
     if (even) return;
     first = std::clamp(first, 0, std::max(length - 2 * half, 0));
     last = std::min(first + 2 * half, length) - 1;
@@ -87,22 +90,10 @@ struct Window {
   float weight(int at) const { return even && (at == first || at == last) ? 0.5f : 1.0f; }
 };
 
-/// How far light is shared, px: where surfaces are rough, lobes are wide; and up and down wider than across,
-/// since most that mirror much are seen from the side.
-struct Reach {
-  int across, down;
-};
-Reach reachOf(float roughness) {
-  constexpr int kBlock = kLobePixels / 2;
-  if (roughness < 0.2f) return {kBlock, kBlock};
-  if (roughness < 0.3f) return {kBlock, 2 * kBlock};
-  return {2 * kBlock, 4 * kBlock};
-}
-
 /// Whether surfaces mirror much the same.
 bool alike(const Rough& a, const Rough& b) {
   constexpr float kSameNormal = 0.995f;  // 6°
-  constexpr float kSameRoughness = 0.06f;
+  constexpr float kSameRoughness = 0.1f;
   constexpr float kThickness_m = 0.02f, kSlope = 0.01f;  // of one plane
   const Eigen::Vector3f apart = b.position - a.position;
   const float off = a.geometric_normal.dot(apart), allowed = kSlope * kSlope * apart.squaredNorm();
@@ -137,14 +128,17 @@ std::vector<Shown> shared(const RoughOnes& ones, const std::vector<Shown>& shown
 void shareLobes(const Surfaces& surfaces, const Reflections& reflections, MirroredLuminances* luminances) {
   const RoughOnes ones = collect(surfaces, reflections, luminances);
   if (ones.all.empty()) return;
+  const LobePixels pixels = lobePixels(surfaces);
   const auto pixel = [&](int x, int y) { return static_cast<std::size_t>(y * surfaces.width + x); };
   const std::vector<Shown> rows = shared(
       ones, ones.shown,
-      [&](const Rough& one) { return Window(one.x, reachOf(one.roughness).across, surfaces.width); },
+      [&](const Rough& one) {
+        return Window(one.x, lobeReach(one.roughness, pixels).across, surfaces.width);
+      },
       [&](const Rough& one, int x) { return pixel(x, one.y); });
   const std::vector<Shown> blocks = shared(
       ones, rows,
-      [&](const Rough& one) { return Window(one.y, reachOf(one.roughness).down, surfaces.height); },
+      [&](const Rough& one) { return Window(one.y, lobeReach(one.roughness, pixels).down, surfaces.height); },
       [&](const Rough& one, int y) { return pixel(one.x, y); });
   for (std::size_t i = 0; i < blocks.size(); ++i)
     if (blocks[i].weight > 0.0f) *ones.luminances[i] = blocks[i].sum / blocks[i].weight;
