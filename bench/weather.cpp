@@ -93,9 +93,16 @@ void takePicture(const render::Renderer& renderer, const light::Illumination& li
   if (rain.mm_per_h > 0.0) {
     const Eigen::Array3f luminance =
         0.5f * (image::meanLuminance(picture).cast<float>() + light.day.groundIlluminance().value / kPiFloat);
-    const image::RainStreaks streaks{rain.mm_per_h, rain.seed, 0, image::exposureTime_s(ev100), luminance};
-    const Eigen::Vector3d down = -renderer.surfaces().map_from_optical.row(2).transpose();
-    image::addRain(streaks, {renderer.options().camera, down, renderer.depth()}, &picture);
+    image::RainStreaks streaks;
+    streaks.mm_per_h = rain.mm_per_h;
+    streaks.seed = rain.seed;
+    streaks.exposure_s = image::exposureTime_s(ev100);
+    streaks.luminance = luminance;
+    const image::Lens lens(renderer.options().camera, {});
+    Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
+    map_from_optical.linear() = renderer.surfaces().map_from_optical;
+    map_from_optical.translation() = renderer.surfaces().eye.cast<double>();
+    image::addRain(streaks, {lens, map_from_optical, Motion(), renderer.depth()}, &picture);
   }
   benchmark::DoNotOptimize(image::develop(picture, ev100));
 }

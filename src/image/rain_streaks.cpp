@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "random_sequence.h"
 #include "sunlit/quantity/angle.h"
@@ -11,11 +12,12 @@ namespace sunlit::image {
 namespace {
 
 constexpr double kSmallest_mm = 1.0, kFarthest_m = 5.0, kNearest_m = 0.1;
+constexpr double kCell_m = 1.0;  ///< of `map`, that drops are counted in
 
-/// One drop in the optical frame.
+/// One drop in the picture.
 struct Drop {
-  double u, v;  ///< px, where it is at the middle of the exposure
-  double depth_m;
+  double u, v;     ///< px, where it is at the middle of the exposure
+  double depth_m;  ///< as the picture's are
   double diameter_px;
   Eigen::Vector2d path_px;  ///< during the exposure
 };
@@ -29,6 +31,9 @@ class Painter {
   void paint(const Drop& drop) {
     // The drop's shadow, in pixels' areas, spread along its way in steps of half its width.
     const double width = std::max(drop.diameter_px, 1.0);
+    const Eigen::Vector2d reach = 0.5 * drop.path_px.cwiseAbs().array() + width;
+    if (drop.u + reach.x() < 0.0 || drop.u - reach.x() > picture_.width) return;
+    if (drop.v + reach.y() < 0.0 || drop.v - reach.y() > picture_.height) return;
     const double area = 0.25 * kPi * drop.diameter_px * drop.diameter_px;
     const int steps = 1 + static_cast<int>(2.0 * drop.path_px.norm() / width);
     for (int i = 0; i < steps; ++i) {
@@ -67,31 +72,106 @@ class Painter {
   LinearImage& picture_;
 };
 
+/// Cells of space about a camera.
+class Cells {
+ public:
+  explicit Cells(const RainedView& view)
+      : eye_(view.map_from_optical.translation()),
+        axis_(view.map_from_optical.linear().col(2)),
+        widest_rad_(view.lens.widest().rad()) {}
+
+  /// Calls visit(lowest corner) for those that the camera may see drops in.
+  template <typename Visit>
+  void forEach(const Visit& visit) const {
+    const Eigen::Vector3d low = ((eye_.array() - kFarthest_m) / kCell_m).floor();
+    const int across = static_cast<int>(2.0 * kFarthest_m / kCell_m) + 1;
+    for (int i = 0; i < across * across * across; ++i) {
+      const Eigen::Vector3d cell =
+          low + Eigen::Vector3d(i % across, i / across % across, i / (across * across));
+      if (seen(cell)) visit(cell);
+    }
+  }
+
+ private:
+  /// By the ball about a cell.
+  bool seen(const Eigen::Vector3d& cell) const {
+    const double radius_m = 0.5 * std::sqrt(3.0) * kCell_m;
+    const Eigen::Vector3d middle = kCell_m * (cell.array() + 0.5).matrix() - eye_;
+    const double away_m = middle.norm();
+    if (away_m <= radius_m) return true;
+    if (away_m > kFarthest_m + radius_m) return false;
+    // A streak begins up to this far out of the picture.
+    constexpr double kMargin_rad = 0.1;
+    const double off_rad = std::acos(std::clamp(middle.dot(axis_) / away_m, -1.0, 1.0));
+    return off_rad <= widest_rad_ + kMargin_rad + std::asin(radius_m / away_m);
+  }
+
+  Eigen::Vector3d eye_, axis_;
+  double widest_rad_;
+};
+
+/// Drops as a camera sees them.
+class Rain {
+ public:
+  Rain(const RainStreaks& rain, const RainedView& view)
+      : rain_(rain),
+        view_(view),
+        optical_from_map_(view.map_from_optical.inverse()),
+        focal_px_(std::sqrt(view.lens.camera().fx * view.lens.camera().fy)),
+        slope_(raindropSlope(rain.mm_per_h)),
+        start_(randomStart(rain.seed, rain.moment)) {}
+
+  /// Those of a cell, from lowest corner on.
+  void fallIn(const Eigen::Vector3d& cell, Painter* painter) const {
+    std::uint64_t place = start_;
+    for (const double coordinate : {cell.x(), cell.y(), cell.z()})
+      place = mixed(place ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(coordinate)));
+    RandomSequence random(place, 0);
+    const double in_m3 = kRaindropsAtZero / slope_ * std::exp(-slope_ * kSmallest_mm);
+    const double count = random.poisson(in_m3 * kCell_m * kCell_m * kCell_m);
+    for (double i = 0.0; i < count; i += 1.0) {
+      const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+      const double diameter_mm = kSmallest_mm - std::log1p(-random.uniform()) / slope_;
+      if (const auto drop = seen(kCell_m * (cell + Eigen::Vector3d(x, y, z)), diameter_mm))
+        painter->paint(*drop);
+    }
+  }
+
+ private:
+  /// At `place` in the middle of the exposure.
+  std::optional<Drop> seen(const Eigen::Vector3d& place, double diameter_mm) const {
+    const Eigen::Vector3d middle = optical_from_map_ * place;
+    const double away_m = middle.norm();
+    if (away_m < kNearest_m || away_m > kFarthest_m) return std::nullopt;
+    const Eigen::Vector3d from_eye = place - view_.map_from_optical.translation();
+    const double speed = 9.65 - 10.3 * std::exp(-0.6 * diameter_mm);
+    const Eigen::Vector3d past = -speed * Eigen::Vector3d::UnitZ() - view_.motion.velocity_m_s -
+                                 view_.motion.turning_rad_s.cross(from_eye);
+    const Eigen::Vector3d half = 0.5 * rain_.exposure_s * (optical_from_map_.linear() * past);
+    const std::optional<Eigen::Vector2d> at = view_.lens.project(middle);
+    if (!at) return std::nullopt;
+    const std::optional<Eigen::Vector2d> from = view_.lens.project(middle - half),
+                                         to = view_.lens.project(middle + half);
+    if (!from || !to) return std::nullopt;  // passes the camera itself
+    const double depth_m = view_.lens.wide() ? away_m : middle.z();
+    return Drop{at->x(), at->y(), depth_m, 1e-3 * diameter_mm * focal_px_ / depth_m, *to - *from};
+  }
+
+  const RainStreaks& rain_;
+  const RainedView& view_;
+  Eigen::Isometry3d optical_from_map_;
+  double focal_px_;
+  double slope_;
+  std::uint64_t start_;
+};
+
 }  // namespace
 
 void addRain(const RainStreaks& rain, const RainedView& view, LinearImage* picture) {
   if (!(rain.mm_per_h > 0.0)) return;
-  const PinholeCamera& camera = view.camera;
-  // Streaks whose middle is out of the picture show, too.
-  const double margin = 0.1 * camera.height;
-  const double wide = camera.width + 2.0 * margin, high = camera.height + 2.0 * margin;
-  const double volume_m3 = wide * high / (camera.fx * camera.fy) * std::pow(kFarthest_m, 3) / 3.0;
-  const double slope = raindropSlope(rain.mm_per_h);
-  RandomSequence random(mixed(rain.series), static_cast<std::uint64_t>(rain.index) << 24U);
-  const double count = random.poisson(volume_m3 * kRaindropsAtZero / slope * std::exp(-slope * kSmallest_mm));
+  const Rain drops(rain, view);
   Painter painter(rain, view, picture);
-  for (double i = 0.0; i < count; i += 1.0) {
-    const double u = wide * random.uniform() - margin - 0.5, v = high * random.uniform() - margin - 0.5;
-    const double z = kFarthest_m * std::cbrt(random.uniform());
-    const double diameter_mm = kSmallest_mm - std::log1p(-random.uniform()) / slope;
-    if (z < kNearest_m) continue;
-    const double speed = 9.65 - 10.3 * std::exp(-0.6 * diameter_mm);
-    const Eigen::Vector3d way = speed * rain.exposure_s * view.down;
-    const Eigen::Vector3d place = z * camera.unproject({u, v});
-    const Eigen::Vector2d path(camera.fx * (way.x() - place.x() / z * way.z()) / z,
-                               camera.fy * (way.y() - place.y() / z * way.z()) / z);
-    painter.paint({u, v, z, 1e-3 * diameter_mm * std::sqrt(camera.fx * camera.fy) / z, path});
-  }
+  Cells(view).forEach([&](const Eigen::Vector3d& cell) { drops.fallIn(cell, &painter); });
 }
 
 }  // namespace sunlit::image

@@ -16,18 +16,6 @@ namespace {
 constexpr std::uint64_t kNumbersAValue = 8;  // of a random sequence; poisson() and normal() take 6 at most
 constexpr std::size_t kValuesAtOnce = 8192;  // for one thread
 
-/// FNV-1a of 64 bits (Fowler, Noll, Vo): what a seed gives must stay what it was.
-std::uint64_t numberOf(const std::string& series) {
-  std::uint64_t number = 14695981039346656037u;
-  for (const char letter : series) number = (number ^ static_cast<unsigned char>(letter)) * 1099511628211u;
-  return number;
-}
-
-std::uint64_t startOf(int seed, const PictureName& name) {
-  const std::uint64_t start = mixed(static_cast<std::uint64_t>(seed));
-  return mixed(mixed(start ^ static_cast<std::uint64_t>(name.index)) ^ numberOf(name.series));
-}
-
 }  // namespace
 
 void validate(const NoiseOptions& options) {
@@ -41,7 +29,7 @@ double electronsAtSaturation(double ev100, const NoiseOptions& options) {
 void addSensorNoise(double ev100, const NoiseOptions& options, const PictureName& name,
                     LinearImage* picture) {
   const double luminance_per_electron = saturationLuminance(ev100) / electronsAtSaturation(ev100, options);
-  const std::uint64_t start = startOf(options.seed, name);
+  const std::uint64_t start = randomStart(static_cast<std::uint64_t>(options.seed), name);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, picture->data.size(), kValuesAtOnce),
                     [&](const tbb::blocked_range<std::size_t>& part) {
                       for (std::size_t i = part.begin(); i < part.end(); ++i) {

@@ -20,9 +20,8 @@ Camera::Chain::Chain(const image::Lens& lens, const ChainOptions& chain)
     : options(chain), vignetting(lens, chain.vignetting), glare(vignetting, chain.glare) {}
 
 Camera::Camera(const render::RenderOptions& render, const std::vector<ChainOptions>& chains)
-    : render_(render) {
-  const image::Lens lens(render.camera, render.distortion);
-  for (const ChainOptions& chain : chains) chains_.emplace_back(lens, chain);
+    : render_(render), lens_(render.camera, render.distortion) {
+  for (const ChainOptions& chain : chains) chains_.emplace_back(lens_, chain);
 }
 
 void Camera::enter(const std::vector<light::World>& worlds) {
@@ -32,6 +31,7 @@ void Camera::enter(const std::vector<light::World>& worlds) {
 void Camera::look(const Eigen::Isometry3d& map_from_optical, const render::BodyPlaces& map_from_links,
                   const Motion& motion) {
   renderer_->look(map_from_optical, map_from_links);
+  map_from_optical_ = map_from_optical;
   motion_ = motion;
 }
 
@@ -74,11 +74,10 @@ void Camera::addRain(const Lit& lit, double ev100, image::LinearImage* luminance
   // A drop gathers what is before the camera, and what is above.
   const Eigen::Array3f before = image::meanLuminance(*luminance).cast<float>();
   const Eigen::Array3f above = day.groundIlluminance().value / kPiFloat;
-  const image::RainStreaks streaks{rain.mm_per_h, rain.seed, lit.name.index,
+  const image::RainStreaks streaks{rain.mm_per_h, rain.seed, lit.moment,
                                    image::streakTime_s(chainOf(lit).options.shutter, ev100),
                                    0.5f * (before + above)};
-  const Eigen::Vector3d down = -renderer_->surfaces().map_from_optical.row(2).transpose();
-  image::addRain(streaks, {render_.camera, down, renderer_->depth()}, luminance);
+  image::addRain(streaks, {lens_, map_from_optical_, motion_, renderer_->depth()}, luminance);
 }
 
 double Camera::meter(const Lit& lit, Stopwatch* stopwatch) const {

@@ -14,6 +14,7 @@ namespace sunlit::studio {
 struct Lit {
   const light::Illumination& light;
   const image::PictureName& name;
+  const image::PictureName& moment;  ///< the name of the left picture of a pair
   const Setting& setting;
 };
 
@@ -54,8 +55,10 @@ class Camera {
   void addRain(const Lit& lit, double ev100, image::LinearImage* luminance) const;
 
   render::RenderOptions render_;
+  image::Lens lens_;
   std::vector<Chain> chains_;
   std::unique_ptr<render::Renderer> renderer_;  ///< once the world is there
+  Eigen::Isometry3d map_from_optical_ = Eigen::Isometry3d::Identity();
   Motion motion_;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sunlit/image/images.h"
+#include "sunlit/image/picture_name.h"
 #include "sunlit/quantity/field.h"
 
 namespace sunlit::image {
@@ -45,12 +46,6 @@ inline std::vector<Field> fieldsOf(NoiseOptions& options) {
 
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const NoiseOptions& options);
-
-/// Which picture of a series it is: pictures that differ in either have grain that is independent.
-struct PictureName {
-  std::int64_t index = 0;
-  std::string series;
-};
 
 /// Electrons that a pixel holds where a picture of this EV100 is just white.
 double electronsAtSaturation(double ev100, const NoiseOptions& options);

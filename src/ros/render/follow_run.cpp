@@ -66,6 +66,8 @@ std::optional<Shot> FollowRun::nextShot() {
   }
   Shot shot{taken_, stamp, found.parent_from_child};
   shot.motion = motionOf(found);
+  // By the stamp, so that a bag played again gives the same, whatever is left out.
+  shot.chance = static_cast<std::int64_t>(stamp.toNSec() / 1000000U);
   if (robot_) {
     std::optional<render::BodyPlaces> places = robot_->byTf(tf_.buffer, found.stamp);
     if (!places) {

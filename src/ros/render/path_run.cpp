@@ -66,6 +66,7 @@ bool PathRun::begin() {
 Shot PathRun::shotAt(int position) {
   const int index = path_.first() + position;
   Shot shot{index, stampOfPose(start_, index, options_.frame_rate), path_.mapFromCamera(index)};
+  shot.chance = index;
   shot.motion = path_.motionAt(index, options_.frame_rate);
   if (robot_) shot.map_from_links = robot_->onPath(shot.map_from_camera, tf_ ? &tf_->buffer : nullptr);
   return shot;

@@ -6,11 +6,21 @@
 #include <cmath>
 #include <limits>
 
+#include "sunlit/quantity/frames.h"
+
 namespace sunlit::image {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
-const Eigen::Vector3d kDown = Eigen::Vector3d::UnitY();
+
+/// Looks along x of `map`, left along y.
+Eigen::Isometry3d level(const Eigen::Vector3d& eye) {
+  return Eigen::Translation3d(eye) * linkFromOptical();
+}
+
+Lens pinhole() {
+  return Lens(PinholeCamera::fromFieldOfView(kWidth, kHeight, Angle::degrees(60.0)), {});
+}
 
 LinearImage grey(float luminance) {
   LinearImage picture(kWidth, kHeight);
@@ -26,13 +36,13 @@ DepthImage at(float depth_m) {
 
 /// Mean over `pictures` of the share of a white wall that rain takes away.
 double taken(double mm_per_h, float wall_m, double exposure_s, int pictures) {
-  const PinholeCamera camera = PinholeCamera::fromFieldOfView(kWidth, kHeight, Angle::degrees(60.0));
+  const Lens lens = pinhole();
   const DepthImage depth = at(wall_m);
   double sum = 0.0;
   for (int i = 0; i < pictures; ++i) {
-    RainStreaks rain{mm_per_h, 7, i, exposure_s};
+    RainStreaks rain{mm_per_h, 7, {i, ""}, exposure_s};
     LinearImage picture = grey(1.0f);
-    addRain(rain, {camera, kDown, depth}, &picture);
+    addRain(rain, {lens, level({3.2, -1.1, 1.0}), Motion(), depth}, &picture);
     for (const float value : picture.data) sum += 1.0 - static_cast<double>(value);
   }
   return sum / (3.0 * kWidth * kHeight * pictures);
@@ -66,16 +76,100 @@ TEST(RainStreaks, AreNoneBeforeWhatIsNearerOrWithoutRain) {
 }
 
 TEST(RainStreaks, OfOnePictureAreTheSameAgainAndOfAnotherOthers) {
-  const PinholeCamera camera = PinholeCamera::fromFieldOfView(kWidth, kHeight, Angle::degrees(60.0));
+  const Lens lens = pinhole();
   const DepthImage sky = at(std::numeric_limits<float>::quiet_NaN());
-  const auto pictureOf = [&](std::uint64_t series, std::int64_t index) {
+  const auto pictureOf = [&](std::uint64_t seed, std::int64_t index, const std::string& series = "noon") {
     LinearImage picture = grey(1.0f);
-    addRain({30.0, series, index, 0.002}, {camera, kDown, sky}, &picture);
+    addRain({30.0, seed, {index, series}, 0.002}, {lens, level({0.0, 0.0, 1.0}), Motion(), sky}, &picture);
     return picture.data;
   };
   EXPECT_EQ(pictureOf(1, 5), pictureOf(1, 5));
   EXPECT_NE(pictureOf(1, 5), pictureOf(1, 6));
   EXPECT_NE(pictureOf(1, 5), pictureOf(2, 5));
+  EXPECT_NE(pictureOf(1, 5), pictureOf(1, 5, "grey"));
+}
+
+/// What is brighter than black, in the mean: how much, where, and how wide.
+struct Blot {
+  double sum = 0.0;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero(), variance = Eigen::Vector2d::Zero();
+};
+Blot blotIn(const LinearImage& picture) {
+  Blot blot;
+  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const double value = static_cast<double>(picture.at(x, y)[0]);
+      const Eigen::Vector2d at(x, y);
+      blot.sum += value;
+      blot.middle += value * at;
+      squares += value * at.cwiseProduct(at);
+    }
+  }
+  blot.middle /= blot.sum;
+  blot.variance = squares / blot.sum - blot.middle.cwiseProduct(blot.middle);
+  return blot;
+}
+
+/// So little rain that most pictures have no drop, and hardly any two.
+Blot drizzled(std::int64_t index, const Lens& lens, const Eigen::Vector3d& eye, const Motion& motion = {}) {
+  LinearImage picture(kWidth, kHeight);
+  const DepthImage sky = at(std::numeric_limits<float>::quiet_NaN());
+  RainStreaks rain{0.02, 3, {index, ""}, motion.none() ? 1e-6 : 0.0003};
+  rain.luminance.setOnes();
+  addRain(rain, {lens, level(eye), motion, sky}, &picture);
+  return blotIn(picture);
+}
+
+/// Whether there is one drop, which the picture has all of.
+bool isDot(const Blot& blot) {
+  return blot.sum > 0.0 && blot.variance.maxCoeff() < 1.0 && blot.middle.x() > 5.0 && blot.middle.y() > 5.0 &&
+         blot.middle.x() < kWidth - 6.0 && blot.middle.y() < kHeight - 6.0;
+}
+
+// Three cameras 2 cm apart: from one to the next a drop moves by f B / z, level, and twice that to the third.
+// Its place is then known, and a fisheye has it where its formula says.
+TEST(RainStreaks, ArePlacesInSpaceForEveryCamera) {
+  const Lens lens = pinhole();
+  const Lens fisheye({kWidth, kHeight, 100.0, 100.0, 159.5, 119.5},
+                     {LensModel::kEquidistant, {0.01, -0.002, 0.0, 0.0}});
+  int dots = 0;
+  for (std::int64_t i = 0; i < 400; ++i) {
+    const Blot left = drizzled(i, lens, {0.0, 0.02, 1.0});
+    const Blot middle = drizzled(i, lens, {0.0, 0.0, 1.0});
+    const Blot right = drizzled(i, lens, {0.0, -0.02, 1.0});
+    if (!isDot(left) || !isDot(middle) || !isDot(right)) continue;
+    ++dots;
+    const double moved = left.middle.x() - middle.middle.x();
+    EXPECT_NEAR(middle.middle.x() - right.middle.x(), moved, 0.01) << i;
+    EXPECT_NEAR(left.middle.y(), middle.middle.y(), 0.01) << i;
+    const double z = lens.camera().fx * 0.02 / moved;
+    EXPECT_GT(z, 0.05) << i;
+    EXPECT_LT(z, 5.3) << i;  // of the last, moved by 1 px, 0.01 px are 1 %
+    const Blot bent = drizzled(i, fisheye, {0.0, 0.0, 1.0});
+    if (!isDot(bent)) continue;  // of another drop, too
+    const Eigen::Vector2d expected = fisheye.project(z * lens.unproject(middle.middle).value()).value();
+    EXPECT_LT((bent.middle - expected).norm(), 0.05) << i;
+  }
+  EXPECT_GT(dots, 20);
+}
+
+// Beside a camera's 300 m/s what drops fall by, 3 % of that, is little: they pass as level streaks, or as
+// steep ones. In one picture of ten another drop comes in meanwhile.
+TEST(RainStreaks, SlantAsTheCameraMoves) {
+  const Lens lens = pinhole();
+  int streaks = 0, level = 0, steep = 0;
+  for (std::int64_t i = 0; i < 400; ++i) {
+    if (!isDot(drizzled(i, lens, {0.0, 0.0, 1.0}))) continue;
+    ++streaks;
+    const Blot across = drizzled(i, lens, {0.0, 0.0, 1.0}, {{0.0, -300.0, 0.0}, Eigen::Vector3d::Zero()});
+    const Blot down = drizzled(i, lens, {0.0, 0.0, 1.0}, {{0.0, 0.0, -300.0}, Eigen::Vector3d::Zero()});
+    level += across.variance.x() > 10.0 * across.variance.y() ? 1 : 0;
+    steep += down.variance.y() > 10.0 * down.variance.x() ? 1 : 0;
+  }
+  EXPECT_GT(streaks, 20);
+  EXPECT_GT(level, 0.8 * streaks);
+  EXPECT_GT(steep, 0.8 * streaks);
 }
 
 }  // namespace

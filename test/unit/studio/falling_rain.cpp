@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "sunlit/image/rain_streaks.h"
+#include "sunlit/quantity/frames.h"
 #include "sunlit/sky/weather.h"
 
 namespace sunlit::studio {
@@ -18,7 +19,8 @@ struct Spread {
 /// Of all pixels of so many pictures of a wall 4 m away.
 Spread taken(double mm_per_h, double exposure_s, int pictures) {
   const image::PinholeCamera camera = image::PinholeCamera::fromFieldOfView(320, 240, Angle::degrees(60.0));
-  const Eigen::Vector3d down = Eigen::Vector3d::UnitY();
+  const image::Lens lens(camera, {});
+  const Eigen::Isometry3d level(linkFromOptical());
   image::DepthImage depth(camera.width, camera.height);
   std::fill(depth.data.begin(), depth.data.end(), 4.0f);
   double sum = 0.0, squares = 0.0;
@@ -27,10 +29,10 @@ Spread taken(double mm_per_h, double exposure_s, int pictures) {
     std::fill(picture.data.begin(), picture.data.end(), 1.0f);
     image::RainStreaks rain;
     rain.mm_per_h = mm_per_h;
-    rain.series = 11;
-    rain.index = i;
+    rain.seed = 11;
+    rain.moment.index = i;
     rain.exposure_s = exposure_s;
-    image::addRain(rain, {camera, down, depth}, &picture);
+    image::addRain(rain, {lens, level, Motion(), depth}, &picture);
     for (std::size_t p = 0; p < picture.data.size(); p += 3) {
       const double lost = 1.0 - static_cast<double>(picture.data[p]);
       sum += lost;

@@ -115,10 +115,12 @@ Developed byHand(const StudioOptions& options, const Taken& taken, bool glare_fi
   const Eigen::Array3f before = image::meanLuminance(luminance).cast<float>();
   const Eigen::Array3f above = taken.day.groundIlluminance().value / kPiFloat;
   const sky::Rain rain = taken.day.rain();
-  const Eigen::Vector3d down = -renderer.surfaces().map_from_optical.row(2).transpose();
-  image::addRain({rain.mm_per_h, rain.seed, taken.name.index, image::streakTime_s(chain.shutter, ev100),
-                  0.5F * (before + above)},
-                 {options.render.camera, down, renderer.depth()}, &luminance);
+  const image::RainStreaks streaks{rain.mm_per_h, rain.seed, taken.name,
+                                   image::streakTime_s(chain.shutter, ev100), 0.5F * (before + above)};
+  image::addRain(streaks,
+                 {image::Lens(options.render.camera, {}), taken.map_from_camera * linkFromOptical(),
+                  taken.motion, renderer.depth()},
+                 &luminance);
   image::addSensorNoise(ev100, chain.noise, taken.name, &luminance);
   return {image::throughMosaic(image::develop(luminance, ev100), chain.mosaic), ev100};
 }
