@@ -4,9 +4,18 @@
 #include <ros/init.h>
 #include <ros/node_handle.h>
 
+#include <unistd.h>
+
+#include <chrono>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
 
 namespace sunlit::ros_interface {
 
@@ -24,6 +33,47 @@ void onTermination(int) {
   ros::requestShutdown();
 }
 
+/// roslaunch tells each node where to log.
+bool isOfRoslaunch(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i)
+    if (std::strncmp(argv[i], "__log:=", 7) == 0) return true;
+  return false;
+}
+
+/// While it lives, the end of the process that started this one ends it: who waits for a master that was
+/// killed together with its roslaunch would wait for ever, and keep what it holds.
+class EndsWithItsParent {
+ public:
+  EndsWithItsParent() : parent_(getppid()), watch_([this] { watch(); }) {}
+  EndsWithItsParent(const EndsWithItsParent&) = delete;
+  EndsWithItsParent& operator=(const EndsWithItsParent&) = delete;
+  ~EndsWithItsParent() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      done_ = true;
+    }
+    changed_.notify_all();
+    watch_.join();
+  }
+
+ private:
+  void watch() {
+    constexpr std::chrono::milliseconds kPeriod(200);
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (!changed_.wait_for(lock, kPeriod, [this] { return done_; })) {
+      if (getppid() == parent_) continue;
+      std::fputs("roslaunch ended before a master could be reached: this node ends, too\n", stderr);
+      std::_Exit(1);
+    }
+  }
+
+  const pid_t parent_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool done_ = false;
+  std::thread watch_;
+};
+
 int refuse(const std::string& word, const std::string& name) {
   const bool help = word == "--help" || word == "-h";
   if (!help) std::fprintf(stderr, "%s: there is no option %s\n", name.c_str(), word.c_str());
@@ -36,13 +86,16 @@ int refuse(const std::string& word, const std::string& name) {
 }  // namespace
 
 int runNode(int argc, char** argv, const std::string& name, const std::function<int()>& node) {
+  std::optional<EndsWithItsParent> alone;
+  if (isOfRoslaunch(argc, argv)) alone.emplace();
   ros::init(argc, argv, name);
   if (argc > 1) return refuse(argv[1], name);  // ROS has taken what it knows
   // roscpp and its console end with the last handle: without this one, an exception that destroys the node's
   // own handles on its way here could no longer be printed.
   std::signal(SIGTERM, onTermination);
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond ulimit -f is an error with a name, no silent end
-  const ros::NodeHandle alive;
+  const ros::NodeHandle alive;    // waits for a master
+  alone.reset();
   try {
     return node();
   } catch (const std::exception& error) {
