@@ -319,8 +319,8 @@ TEST(BouncedLight, IsNoLampInPolishedSurfaces) {
   // The matt part alone: albedo / π less what Fresnel takes at 45°, I cos 45° / (r² / 4 + 2), again cos 45°.
   const double matt = 0.5 / kPi * (1.0 - 0.042) * 10.0 * 0.5 / 2.01;
   EXPECT_NEAR(seen(0.1f), matt, 0.01 * matt);
-  EXPECT_NEAR(seen(0.25f), matt, 0.01 * matt);
-  EXPECT_GT(seen(0.36f), 1.2 * matt);
+  EXPECT_NEAR(seen(0.42f), matt, 0.01 * matt);
+  EXPECT_GT(seen(0.48f), 1.2 * matt);
 }
 
 TEST(BouncedLight, IsNoneWhereRaysMeetNothingAndWhereNoLampBurns) {
