@@ -110,6 +110,7 @@ SUN = (*TIMES, "timezone", "rate", "start_stamp", "wait_for_subscriber", "latitu
        "temperature", "atmospheric_refraction", "delta_ut1", "delta_t", "publish_rate", "tf_distance", "date_time", "site",
        "atmosphere", "earth", "frames")
 RENDERED = ("weather", *dict.fromkeys(group for group, _ in CAMERA.values()))
+DIFFERING = (*SUN, *WEATHER, *CAMERA, *RENDERED)  # all that may
 # What differs in nothing, for both nodes: a map without keys gets lost on its way through the parameter server.
 NOTHING = ""
 
@@ -279,7 +280,7 @@ def map_streams(text, times):
     return found
 
 
-def named_conditions(text, known=(*SUN, *WEATHER, *CAMERA, *RENDERED)):
+def named_conditions(text, known=DIFFERING):
     """A list of names, [morning, noon], or a map from names to what differs, of what is `known`."""
     allowed = "a list of names, [morning, noon], or a map from names to what differs, {h04: {hour: 4}}"
     asked = parse("conditions", text, allowed)
@@ -298,7 +299,7 @@ def condition_names(text):
     return list(named_conditions(text))
 
 
-def of_sun(text, known=(*SUN, *WEATHER, *CAMERA, *RENDERED)):
+def of_sun(text, known=DIFFERING):
     """What of these conditions is the business of the sun."""
     asked = named_conditions(text, known)
     return asked if isinstance(asked, list) else _sent({name: {key: value for key, value in one.items() if key in SUN}

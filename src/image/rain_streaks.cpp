@@ -119,6 +119,7 @@ class Rain {
         optical_from_map_(view.map_from_optical.inverse()),
         focal_px_(std::sqrt(view.lens.camera().fx * view.lens.camera().fy)),
         slope_(raindropSlope(rain.mm_per_h)),
+        in_cell_(kRaindropsAtZero / slope_ * std::exp(-slope_ * kSmallest_mm) * kCell_m * kCell_m * kCell_m),
         start_(randomStart(rain.seed, rain.moment)) {}
 
   /// Those of a cell, from lowest corner on.
@@ -127,8 +128,7 @@ class Rain {
     for (const double coordinate : {cell.x(), cell.y(), cell.z()})
       place = mixed(place ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(coordinate)));
     RandomSequence random(place, 0);
-    const double in_m3 = kRaindropsAtZero / slope_ * std::exp(-slope_ * kSmallest_mm);
-    const double count = random.poisson(in_m3 * kCell_m * kCell_m * kCell_m);
+    const double count = random.poisson(in_cell_);
     for (double i = 0.0; i < count; i += 1.0) {
       const double x = random.uniform(), y = random.uniform(), z = random.uniform();
       const double diameter_mm = kSmallest_mm - std::log1p(-random.uniform()) / slope_;
@@ -162,6 +162,7 @@ class Rain {
   Eigen::Isometry3d optical_from_map_;
   double focal_px_;
   double slope_;
+  double in_cell_;  ///< drops, in the mean
   std::uint64_t start_;
 };
 

@@ -38,9 +38,9 @@ void TileLighting::light(std::size_t tile, image::LinearImage* image) const {
 }
 
 MirroredLuminances TileLighting::allMirrored() const {
-  if (in_mirrors_.empty()) return {};
   const Surfaces& surfaces = picture_.seen.surfaces;
   MirroredLuminances all(surfaces.tiles.size());
+  if (in_mirrors_.empty()) return all;
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { lightMirrored(i, 0, &all[i]); });
   shareLobes(surfaces, picture_.mirrors.front().reflections, &all);
   return all;
@@ -83,9 +83,8 @@ void TileLighting::addSurfaces(std::size_t number, image::LinearImage* image) co
   const Surfaces& surfaces = picture_.seen.surfaces;
   const Tile& tile = surfaces.tiles[number];
   const TileOutlooks& outlooks = picture_.seen.outlooks[number];
-  static const std::vector<SurfaceLighting::SeenByRays> none;
   thread_local std::vector<Eigen::Array3f> leaving;
-  lit_.light(number, mirrored_.empty() ? none : seenByRays(number, 0, mirrored_[number]), &leaving);
+  lit_.light(number, seenByRays(number, 0, mirrored_[number]), &leaving);
   const float weight = 1.0f / static_cast<float>(surfaces.samples_per_pixel);
   for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
     const Surface& surface = tile.surfaces[i];

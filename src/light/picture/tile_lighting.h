@@ -46,7 +46,7 @@ class TileLighting {
   sky::Daylight day_;  ///< seen from the camera
   SurfaceLighting lit_;
   std::vector<std::unique_ptr<const SurfaceLighting>> in_mirrors_;  ///< of each of ReadyPicture::mirrors
-  MirroredLuminances mirrored_;                                     ///< empty: nothing mirrors by rays
+  MirroredLuminances mirrored_;                                     ///< of each tile
   PictureAir air_;
   OpenAir open_air_;
   SkyPixel sky_;

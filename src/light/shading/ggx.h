@@ -30,14 +30,17 @@ class Ggx {
     const Real base = (n_h * alpha2_ - n_h) * n_h + 1;
     return alpha2_ / (static_cast<Real>(kPi) * base * base);
   }
+  /// By the sines of their angles to the normal facets are spread as points of a ball of this squared radius,
+  /// even over it, are on a plane that they are thrown upon from its pole: D = ball2 / (π narrowness (ball2 +
+  /// sine²)²).
+  Real ball2() const { return alpha2_ / narrowness(); }
+  Real narrowness() const { return std::max<Real>(1 - alpha2_, static_cast<Real>(1e-4)); }
   /// Mean of D, 1/sr, over the facets that mirror the points of a round, even source of the angular radius
-  /// `radius_rad`; n_h and v_h are of its middle. By the sines of their angles facets are spread as points of
-  /// a ball, even over it, are on a plane that they are thrown upon from its pole: a source's disc is a cap
-  /// there. The facets of a source are an ellipse, taken for a disc of its area.
+  /// `radius_rad`; n_h and v_h are of its middle. A source's disc is a cap of the ball that ball2() tells of.
+  /// The facets of a source are an ellipse, taken for a disc of its area.
   Real meanDistribution(Real n_h, Real v_h, Real radius_rad) const {
-    const Real narrowness = std::max<Real>(1 - alpha2_, static_cast<Real>(1e-4)),
-               ball2 = alpha2_ / narrowness;
-    const Real middle2 = (1 - n_h * n_h) / ball2, radius2 = radius_rad * radius_rad * n_h / (4 * v_h * ball2);
+    const Real middle2 = (1 - n_h * n_h) / ball2(),
+               radius2 = radius_rad * radius_rad * n_h / (4 * v_h * ball2());
     const Real near = 1 + middle2 - radius2;
     const Real whole = std::sqrt(near * near + 4 * radius2);
     // Two ways to write (1 − near / whole) / (2 radius²), each exact for one sign.

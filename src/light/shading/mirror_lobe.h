@@ -1,7 +1,7 @@
 /// The mirror-like part of a surface's reflection.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 
 namespace sunlit::light {
@@ -12,6 +12,21 @@ namespace sunlit::light {
 struct MirrorLobe {
   static constexpr int kParts = 16;
   std::array<Eigen::Vector3f, kParts> towards;
+};
+
+/// The axes of MirrorLobe::towards in `map`.
+struct MirrorFrame {
+  Eigen::Vector3f along, left, normal;
+
+  MirrorFrame(const Eigen::Vector3f& of_surface, const Eigen::Vector3f& to_eye)
+      : along(of_surface.dot(to_eye) * of_surface - to_eye), normal(of_surface) {
+    const float length = along.norm();
+    along = length > 1e-4f ? Eigen::Vector3f(along / length) : normal.unitOrthogonal();
+    left = normal.cross(along);
+  }
+  Eigen::Vector3f inMap(const Eigen::Vector3f& towards) const {
+    return towards.x() * along + towards.y() * left + towards.z() * normal;
+  }
 };
 
 /// Interpolated in a table, made at the first call. `n_v`: cosine between normal and eye.

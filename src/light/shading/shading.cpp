@@ -52,8 +52,8 @@ float meanOverEllipse(const Reflection& r, const Eigen::Vector3f& to_light, cons
     }
   };
   static const Points points;
-  const float alpha = r.roughness * r.roughness, narrowness = std::max(1.0f - alpha * alpha, 1e-4f);
-  const float ball2 = alpha * alpha / narrowness;
+  const auto facets = Ggx<float>::ofRoughness(r.roughness);
+  const float ball2 = facets.ball2();
   const Eigen::Vector3f apart = to_light - r.to_eye;
   const float sine2 = apart.norm();
   const Eigen::Vector3f along = sine2 > 1e-6f ? Eigen::Vector3f(apart / sine2) : half.unitOrthogonal();
@@ -68,7 +68,7 @@ float meanOverEllipse(const Reflection& r, const Eigen::Vector3f& to_light, cons
     const auto upTo = [&](float end) { return end / (c2 + end * end) + std::atan(end / c) / c; };
     sum += points.weight[i] * (upTo(y + reach) - upTo(y - reach)) / (4.0f * reach * c2);
   }
-  return ball2 / narrowness / kPiFloat * sum;
+  return ball2 / facets.narrowness() / kPiFloat * sum;
 }
 
 /// The mirror-like part without Fresnel, 1/sr.

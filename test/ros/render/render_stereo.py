@@ -49,6 +49,12 @@ class StereoReader(Reader):
     def of_pair(self, topic, count=1):
         return self.wait("/a/camera/" + topic, count)
 
+    def one_of_each(self, *topics):
+        """The message of each topic, and there is no second one."""
+        for topic in topics:
+            message, = self.of_pair(topic)
+            yield message
+
 
 class RenderStereo(RefusalTest):
 
@@ -65,12 +71,8 @@ class RenderStereo(RefusalTest):
                           subscribers={"images": 1, "truth": 1, "others": 1, "right": 1})
         tree["camera"] = {"calibration": LEFT, "right": {"calibration": RIGHT}, "supersampling": 1}
         with RenderNode("pair", tree):
-            left, = reader.of_pair("left/image_raw")
-            right, = reader.of_pair("right/image_raw")
-            image, = reader.of_pair("image_raw")
-            info, = reader.of_pair("right/camera_info")
-            left_info, = reader.of_pair("left/camera_info")
-            usual_info, = reader.of_pair("camera_info")
+            left, right, image, info, left_info, usual_info = reader.one_of_each(
+                "left/image_raw", "right/image_raw", "image_raw", "right/camera_info", "left/camera_info", "camera_info")
             static, = reader.wait("/tf_static", 1)
         reader.close()
         self.assertEqual((left.data, left.header.stamp, left_info), (image.data, image.header.stamp, usual_info))
@@ -104,10 +106,8 @@ class RenderStereo(RefusalTest):
         tree = parameters(conditions=["a"], path={"count": 1}, subscribers={"images": 1, "truth": 1, "others": 1, "right": 1})
         tree["camera"].update(baseline=1.0, supersampling=4)
         with RenderNode("known", tree):
-            left, = reader.of_pair("left/image_raw")
-            right, = reader.of_pair("right/image_raw")
-            left_info, = reader.of_pair("left/camera_info")
-            right_info, = reader.of_pair("right/camera_info")
+            left, right, left_info, right_info = reader.one_of_each(
+                "left/image_raw", "right/image_raw", "left/camera_info", "right/camera_info")
             pose, = reader.wait("/camera/pose", 1)
         reader.close()
         focal_px = 48 * 3 ** 0.5  # 96 px across 60 degrees
@@ -145,9 +145,8 @@ class RenderStereo(RefusalTest):
         packed = {side + "/image_raw/compressed": CompressedImage for side in ("left", "right")}
         reader = StereoReader("packed", {**packed, "right/camera_info": CameraInfo}, compressed=True)
         with RenderNode("packed", stereo(compressed=True)):
-            left, = reader.of_pair("left/image_raw/compressed")
-            right, = reader.of_pair("right/image_raw/compressed")
-            usual, = reader.of_pair("image_raw/compressed")
+            left, right, usual = reader.one_of_each(
+                "left/image_raw/compressed", "right/image_raw/compressed", "image_raw/compressed")
         reader.close()
         self.assertEqual(left.data, usual.data)
         self.assertNotEqual(left.data, right.data)

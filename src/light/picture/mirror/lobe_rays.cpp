@@ -1,12 +1,13 @@
 #include "light/picture/mirror/lobe_rays.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "light/patches/random.h"
 #include "light/shading/ggx.h"
+#include "light/shading/mirror_lobe.h"
 #include "light/shading/schlick.h"
+#include "light/shading/shading.h"
 
 namespace sunlit::light {
 namespace {
@@ -30,8 +31,7 @@ LobeReach lobeReach(float roughness, const LobePixels& pixels) {
 }
 
 std::uint32_t lobeRays(const Surface& surface, const LobePixels& pixels) {
-  const bool sharp = !(surface.roughness > kSharpest);
-  if (sharp || lobeReach(surface.roughness, pixels).down == 1) return surface.samples;
+  if (!fillsLobe(surface) || lobeReach(surface.roughness, pixels).down == 1) return surface.samples;
   return std::min(surface.samples, 2u);
 }
 
@@ -63,10 +63,8 @@ Eigen::Vector2f pointOf(const Surface& surface, const LobePixels& pixels, std::u
 LobeRay lobeRay(const Surface& surface, const Eigen::Vector3f& to_eye, const LobePixels& pixels,
                 std::uint32_t ray) {
   const Eigen::Vector3f& normal = surface.shading_normal;
+  if (!fillsLobe(surface)) return {mirrored(to_eye, normal), 1.0f};
   const float n_v = std::clamp(normal.dot(to_eye), 1e-3f, 1.0f);
-  Eigen::Vector3f along = normal.dot(to_eye) * normal - to_eye;
-  const float length = along.norm();
-  along = length > 1e-4f ? Eigen::Vector3f(along / length) : normal.unitOrthogonal();
   const Eigen::Vector3f eye(-std::sqrt(1.0f - n_v * n_v), 0.0f, n_v);
   const Eigen::Vector2f point = pointOf(surface, pixels, ray);
   const float radius = std::sqrt(point.x()), turn = 2.0f * kPiFloat * point.y();
@@ -74,7 +72,7 @@ LobeRay lobeRay(const Surface& surface, const Eigen::Vector3f& to_eye, const Lob
   const Eigen::Vector3f half = facets.visibleNormal(eye, {radius * std::cos(turn), radius * std::sin(turn)});
   const float v_h = std::clamp(eye.dot(half), 0.0f, 1.0f);
   const Eigen::Vector3f to = 2.0f * v_h * half - eye;
-  const Eigen::Vector3f towards = to.x() * along + to.y() * normal.cross(along) + to.z() * normal;
+  const Eigen::Vector3f towards = MirrorFrame(normal, to_eye).inMap(to);
   if (!(to.z() > 1e-4f)) return {towards.normalized(), 0.0f};
   const float fresnel = kDielectricF0 + (1.0f - kDielectricF0) * schlick(v_h);
   return {towards.normalized(), fresnel * facets.shadowing(to.z(), n_v)};

@@ -8,9 +8,11 @@
 
 namespace sunlit::light {
 
-/// Smoother surfaces mirror a point a sample: the lobe of this one is as wide as a few pixels of a camera of
-/// 640 px and 90°.
-constexpr float kSharpest = 0.1f;
+/// Whether a surface's rays fill its lobe. Smoother ones mirror a point a sample: at this roughness a lobe is
+/// as wide as a few pixels of a camera of 640 px and 90°.
+inline bool fillsLobe(const Surface& surface) {
+  return surface.roughness > 0.1f;
+}
 
 /// Pixels across and down of a block, whose rays together fill a lobe.
 constexpr int kLobePixels = 4;
@@ -38,7 +40,7 @@ struct LobeRay {
 };
 
 /// Ray number `ray` of lobeRays() for an eye in direction `to_eye`: by the facets that it sees, as bright as
-/// a dielectric's mirror.
+/// a dielectric's mirror; where fillsLobe() is false, the mirrored direction.
 LobeRay lobeRay(const Surface& surface, const Eigen::Vector3f& to_eye, const LobePixels& pixels,
                 std::uint32_t ray);
 

@@ -68,7 +68,7 @@ class TileMirror {
       mirroring.by_rays = mirroredByRays(surface.roughness);
       mirroring.rays = lobeRays(surface, pixels_);
       all->push_back(mirroring);
-      addRays(tile, surface, static_cast<std::uint32_t>(all->size() - 1), &cast);
+      addRays(tile, mirroring, static_cast<std::uint32_t>(all->size() - 1), &cast);
     }
     if (all->empty()) return;
     hits.resize(cast.rays.size());
@@ -109,16 +109,16 @@ class TileMirror {
     }
   };
 
-  void addRays(const Tile& tile, const Surface& surface, std::uint32_t number, CastRays* cast) const {
-    const std::uint32_t count = lobeRays(surface, pixels_);
-    cast->rays.reserve(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
+  void addRays(const Tile& tile, const Reflections::Mirroring& mirroring, std::uint32_t number,
+               CastRays* cast) const {
+    const Surface& surface = tile.surfaces[mirroring.surface];
+    cast->rays.reserve(mirroring.rays);
+    for (std::uint32_t i = 0; i < mirroring.rays; ++i) {
       const std::size_t at = surface.first_sample + i;
       const Eigen::Vector3f origin = rayStart(tile, at);
       const Eigen::Vector3f to_eye =
           onlooker_ == Onlooker::kCamera ? (surfaces_.eye - origin).normalized() : surface.to_eye;
-      LobeRay ray{mirrored(to_eye, surface.shading_normal), 1.0f};
-      if (surface.roughness > kSharpest) ray = lobeRay(surface, to_eye, pixels_, i);
+      const LobeRay ray = lobeRay(surface, to_eye, pixels_, i);
       cast->rays.add(number, origin, clear(surface, ray.towards));
       cast->weights.push_back(ray.weight);
     }
@@ -161,7 +161,7 @@ class TileMirror {
     for (std::size_t i = 0; i < met.size(); ++i) {
       if (!met[i].taken) add(looked.surface, i, &met, seen);
     }
-    if (!(looked.surface.roughness > kSharpest)) joinFrom(mirroring->first_open, open);
+    if (!fillsLobe(looked.surface)) joinFrom(mirroring->first_open, open);
     mirroring->open_count = static_cast<std::uint32_t>(open->size()) - mirroring->first_open;
     mirroring->count = static_cast<std::uint32_t>(seen->surfaces.size()) - mirroring->first;
   }

@@ -48,7 +48,7 @@ RoughOnes collect(const Surfaces& surfaces, const Reflections& reflections, Mirr
       const std::vector<Reflections::Mirroring>& mirroring = reflections.tiles[t].surfaces;
       for (std::size_t i = 0; i < mirroring.size(); ++i) {
         const Surface& surface = surfaces.tiles[t].surfaces[mirroring[i].surface];
-        if (surface.roughness > kSharpest) visit(surface, mirroring[i], &(*luminances)[t][i]);
+        if (fillsLobe(surface)) visit(surface, mirroring[i], &(*luminances)[t][i]);
       }
     }
   };

@@ -1,6 +1,5 @@
 #include "light/picture/mirror/smooth_mirror.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -45,15 +44,9 @@ Parts partsOf(const Surface& surface, float roughness) {
   const Eigen::Vector3f& normal = surface.shading_normal;
   const float n_v = normal.dot(surface.to_eye);
   const MirrorLobe lobe = mirrorLobe(roughness, n_v);
-  Eigen::Vector3f along = n_v * normal - surface.to_eye;
-  const float length = along.norm();
-  along = length > 1e-4f ? Eigen::Vector3f(along / length) : normal.unitOrthogonal();
-  const Eigen::Vector3f left = normal.cross(along);
+  const MirrorFrame frame(normal, surface.to_eye);
   Parts parts;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    const Eigen::Vector3f& t = lobe.towards[k];
-    parts[k] = t.x() * along + t.y() * left + t.z() * normal;
-  }
+  for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = frame.inMap(lobe.towards[k]);
   return parts;
 }
 
