@@ -84,17 +84,37 @@ def clock_times(text):
     hours = hours if isinstance(hours, list) else [hours]
     times = {}
     for hour in hours:
-        if not is_number(hour) or not 0 <= hour < 24:
+        if not _is_hour(hour):
             raise BadArgument("hours", text, allowed)
-        whole_seconds = min(round(hour * 3600), 24 * 3600 - 1)
-        h, m, s = whole_seconds // 3600, whole_seconds // 60 % 60, whole_seconds % 60
+        time = _clock_time(hour)
+        h, m, s = time["hour"], time["minute"], int(time["second"])
         name = f"h{h:02d}" + (f"_{m:02d}" if m or s else "") + (f"_{s:02d}" if s else "")
         if name in times:
             raise BadArgument("hours", text, allowed)
-        times[name] = {"hour": h, "minute": m, "second": float(s)}
+        times[name] = time
     if not times:
         raise BadArgument("hours", text, allowed)
     return times
+
+
+def _is_hour(value):
+    return is_number(value) and 0 <= value < 24
+
+
+def _clock_time(hour):
+    seconds = min(round(hour * 3600), 24 * 3600 - 1)
+    return {"hour": seconds // 3600, "minute": seconds // 60 % 60, "second": float(seconds % 60)}
+
+
+def _at_clock_time(name, differs, text):
+    """What differs in a condition, 12.5 told as half past twelve. What is no hour stays, for the node to refuse."""
+    hour = differs.get("hour")
+    if not _is_hour(hour) or hour == int(hour):
+        return differs
+    for part in ("minute", "second"):
+        if part in differs:
+            raise BadArgument("conditions", text, f"without {part} in {name}, whose hour {hour} has a fraction")
+    return {**differs, **_clock_time(hour)}
 
 
 TIMES = ("hour", "minute", "second", "year", "month", "day")
@@ -131,14 +151,13 @@ def conditions(text, hours):
     for name, differs in asked.items():
         if not isinstance(name, str) or not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name):
             raise BadArgument("conditions", text, f"with names of letters, digits and _, a letter first, not {name!r}")
-        if not isinstance(differs, dict) or not is_number(differs.get("hour")) or not 0 <= differs["hour"] < 24:
+        if not isinstance(differs, dict) or not _is_hour(differs.get("hour")):
             raise BadArgument("conditions", text, f"with an hour, at least 0 and below 24, for {name}: {allowed}")
         for key in differs:
             known = (*TIMES, *WEATHER, *CAMERA)
             if key not in known:
                 raise _unknown(text, key, name, known)
-        (of_hour,) = clock_times(str(differs["hour"])).values()
-        found[name] = {**of_hour, **{key: value for key, value in differs.items() if key != "hour"}}
+        found[name] = {**_clock_time(differs["hour"]), **_at_clock_time(name, differs, text)}
     instead = "left out beside conditions, which have hours of their own: " + ", ".join(found)
     if parse("hours", hours, instead) != parse("hours", USUAL_HOURS, instead):
         raise BadArgument("hours", hours, instead)
@@ -286,13 +305,15 @@ def named_conditions(text, known=DIFFERING):
     asked = parse("conditions", text, allowed)
     if not isinstance(asked, (list, dict)):
         raise BadArgument("conditions", text, allowed)
-    for name, differs in asked.items() if isinstance(asked, dict) else ():
+    if isinstance(asked, list):
+        return asked
+    for name, differs in asked.items():
         if not isinstance(differs, dict):
             raise BadArgument("conditions", text, allowed)
         for key in differs:
             if key not in known:
                 raise _unknown(text, key, name, known)
-    return asked
+    return {name: _at_clock_time(name, differs, text) for name, differs in asked.items()}
 
 
 def condition_names(text):

@@ -9,6 +9,7 @@ import sys
 import tempfile
 import unittest
 
+import roslib.packages
 import rosunit
 
 NODES = ("evaluator_node", "render_node", "sun_position_node")
@@ -17,7 +18,10 @@ MEANWHILE_s = 1.5  # some rounds of the watch
 
 
 def path_of(node):
-    return os.path.join(os.environ["SUNLIT_DEVEL_DIR"], "lib", "sunlit", node)
+    found = roslib.packages.find_node("sunlit", node)
+    if not found:
+        raise AssertionError("sunlit has no node %s" % node)
+    return found[0]
 
 
 def free_port():

@@ -69,7 +69,8 @@ class Arguments(unittest.TestCase):
         for text, part in (("[4]", "a map from names"), ("{a: 4}", "with an hour"), ("{a: {cover: 8}}", "with an hour"),
                            ("{a: {hour: 24}}", "with an hour"), ("{a: {hour: 4, covr: 8}}", "did you mean cover"),
                            ("{a: {hour: 4, x: 8}}", "known are hour"), ("{a-b: {hour: 4}}", "with names of"),
-                           ("{a: {hour: 4}", "a map from names"), ("{4: {hour: 4}}", "with names of")):
+                           ("{a: {hour: 4}", "a map from names"), ("{4: {hour: 4}}", "with names of"),
+                           ("{a: {hour: 12.5, minute: 10}}", "without minute in a, whose hour 12.5 has a fraction")):
             self.assert_refused("argument conditions is", arguments.conditions, text, "[4]")
             self.assert_refused(part, arguments.conditions, text, "[4]")
 
@@ -103,6 +104,15 @@ class Arguments(unittest.TestCase):
         for text in ("morning", "5"):  # not the letters m, o, r ...
             self.assert_refused("argument conditions is '%s', but must be a list of names" % text,
                                 arguments.condition_names, text)
+
+    def test_hours_of_conditions_may_have_fractions(self):
+        for split in (arguments.of_sun, lambda text: arguments.of_sun(text, arguments.SUN)):
+            self.assertEqual(split("{a: {hour: 18.75}, b: {hour: 9, minute: 5}}"),
+                             {"a": {"hour": 18, "minute": 45, "second": 0.0}, "b": {"hour": 9, "minute": 5}})
+            self.assertEqual(split("{a: {hour: 25.5}}"), {"a": {"hour": 25.5}})  # which the node refuses, with its range
+            self.assert_refused("without second in a, whose hour 9.5 has a fraction", split, "{a: {hour: 9.5, second: 0}}")
+        self.assertEqual(arguments.conditions("{a: {hour: 9, minute: 5}}", arguments.USUAL_HOURS),
+                         {"a": {"hour": 9, "minute": 5, "second": 0.0}})
 
     def test_conditions_of_render_launch_are_split_between_sun_and_renderer(self):
         typed = "{a: {hour: 9, cover: 8, glare: 0.03, site: {latitude: 10}}, b: {hour: 9, glare: {wings: 0.2}, blur: {}}, c: {}}"
