@@ -25,8 +25,9 @@ std::shared_ptr<const Transport> Transport::bake(std::shared_ptr<const Geometry>
   validate(options);
   const auto start = std::chrono::steady_clock::now();
   const auto report = [&](double share) {
+    constexpr double kTells = 0.05;  // of the whole; what a bake begins with is told by no share of its own
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    if (progress) progress(share, share > 0.0 ? taken.count() * (1.0 - share) / share : 0.0);
+    if (progress) progress(share, share < kTells ? std::nan("") : taken.count() * (1.0 - share) / share);
   };
   const BakeRays rays(geometry);
   const std::vector<TriangleTraits> traits = triangleTraits(*geometry, rays);

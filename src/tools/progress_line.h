@@ -1,6 +1,8 @@
 /// One line at a terminal that is written over.
 #pragma once
 
+#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -16,13 +18,17 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine() { end(); }
 
+  /// `seconds_left`: NaN where nobody can tell yet.
   void show(const std::string& work, double share, double seconds_left) {
     const int percent = static_cast<int>(100.0 * share);
-    if (percent == percent_ || (!shown_ && seconds_left < 1.0)) return;
+    constexpr std::chrono::seconds kMoment(1);
+    if (percent_ < 0) begin_ = Clock::now();
+    const bool lasts = seconds_left >= 1.0 || Clock::now() - begin_ >= kMoment;
+    if (percent == percent_ || (!shown_ && !lasts)) return;
     percent_ = percent;
     shown_ = true;
-    std::fprintf(stderr, "\r%s: %d %%, %s left      ", work.c_str(), percent,
-                 textOfDuration(seconds_left).c_str());
+    const std::string left = std::isnan(seconds_left) ? "" : ", " + textOfDuration(seconds_left) + " left";
+    std::fprintf(stderr, "\r%s: %d %%%s      ", work.c_str(), percent, left.c_str());
   }
   /// What follows stands below it.
   void end() {
@@ -31,6 +37,8 @@ class ProgressLine {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begin_;  ///< of the work
   int percent_ = -1;
   bool shown_ = false;
 };

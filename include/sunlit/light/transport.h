@@ -38,8 +38,8 @@ inline std::vector<Field> fieldsOf(TransportOptions& options) {
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const TransportOptions& options);
 
-/// How far a bake is: share done, 0 … 1, and seconds left by the time taken so far. Never called by two
-/// threads at once.
+/// How far a bake is: share done, 0 … 1, and seconds left by the time taken so far, NaN while too little is
+/// done to tell. Never called by two threads at once.
 using BakeProgress = std::function<void(double share, double seconds_left)>;
 
 /// Who is told of a bake.

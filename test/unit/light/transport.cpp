@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "light/patches/sky_patches.h"
 #include "paper_scene.h"
@@ -364,6 +366,22 @@ TEST(BakedLight, HasTheSameBitsOnAnyNumberOfThreads) {
   }
   ASSERT_EQ(results[0].size(), results[1].size());
   for (std::size_t i = 0; i < results[0].size(); ++i) ASSERT_TRUE(same(results[0][i], results[1][i])) << i;
+}
+
+TEST(BakedLight, TellsTheTimeLeftOnceItCan) {
+  TransportOptions options;
+  options.samples = 2000;
+  double latest = 0.0;
+  int reports = 0;
+  Transport::bake(worldOf(shed()).geometry, options, [&](double share, double seconds_left) {
+    ++reports;
+    EXPECT_EQ(std::isnan(seconds_left), share < 0.05) << share;
+    EXPECT_FALSE(seconds_left < 0.0);
+    EXPECT_LE(share, 1.0);
+    latest = std::max(latest, share);
+  });
+  EXPECT_GT(reports, 1);
+  EXPECT_GT(latest, 0.9);
 }
 
 TEST(BakedLight, RefusesOptionsOutOfRange) {
