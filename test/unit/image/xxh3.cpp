@@ -34,7 +34,8 @@ std::string folded(std::size_t part) {
 
 // By XXH3_128bits of xxHash 0.8.1, over the numbers of the first 0, 1, … 5000 bytes.
 TEST(Xxh3, IsThatOfXxHash08ForEverySizeHoweverItComes) {
-  for (const std::size_t part : {5000, 1000, 1024, 77}) EXPECT_EQ(folded(part), "b6f79ec0f7ad73cba201a1f775823fcb") << part;
+  for (const std::size_t part : {5000, 1000, 1024, 77})
+    EXPECT_EQ(folded(part), "b6f79ec0f7ad73cba201a1f775823fcb") << part;
 }
 
 // Where the system's xxHash is of 0.8, ContentHash is another's word.
