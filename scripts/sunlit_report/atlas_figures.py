@@ -1,5 +1,6 @@
 """Heat maps of an atlas: a map a row, a query a column, the sun's elevation and the illuminance along both axes."""
 
+import copy
 import io
 import math
 
@@ -209,7 +210,7 @@ def heat_map(atlas, method, metric):
     with plt.rc_context(STYLE):
         figure, axis, bar = _frame(atlas.conditions)
         norm = _norm([shown(of_method[column]) for of_method in atlas.matrices.values()], low, high)
-        palette = plt.get_cmap(palette).copy()
+        palette = copy.copy(plt.get_cmap(palette))  # before 3.4 they have no copy() of their own
         palette.set_bad(NO_POSE)
         axis.set_facecolor(NO_POSE)
         masked = np.ma.masked_invalid(values)
