@@ -32,7 +32,7 @@ def matrix(output, difference):
 
 def _draw(axis, output, difference):
     conditions, values = matrix(output, difference)
-    largest = max(np.nanmax(values, initial=0.0), 1e-12)  # Euclidean ones are a tenth of the others
+    largest = max(np.nanmax(np.append(values, 0.0)), 1e-12)  # Euclidean ones are a tenth of the others
     image = axis.imshow(values, cmap="viridis", vmin=0.0, vmax=largest, origin="lower")
     axis.figure.colorbar(image, ax=axis, shrink=0.75).ax.tick_params(labelsize=6)
     shown = [names.condition(name) for name in conditions]
