@@ -8,10 +8,14 @@ if(NOT TARGET TBB::tbb)
   set_target_properties(TBB::tbb PROPERTIES IMPORTED_LOCATION ${TBB_LIBRARY})
 endif()
 
-# embree, and SUNLIT_EMBREE, 3 or 4.
+# embree, and SUNLIT_EMBREE, 3 or 4. Packages of 3.8 may bring no CMake files.
 find_package(embree 3 QUIET)
+find_library(EMBREE3_LIBRARY embree3)
 set(SUNLIT_EMBREE 3)
-if(NOT embree_FOUND)
+if(NOT embree_FOUND AND EMBREE3_LIBRARY)
+  add_library(embree UNKNOWN IMPORTED)
+  set_target_properties(embree PROPERTIES IMPORTED_LOCATION ${EMBREE3_LIBRARY})
+elseif(NOT embree_FOUND)
   find_package(embree 4 REQUIRED)
   set(SUNLIT_EMBREE 4)
 endif()

@@ -375,10 +375,12 @@ def output_folder(text):
 def roslaunch_words():
     """The command line of the roslaunch that asks us; nothing where we were not asked by one."""
     with contextlib.suppress(psutil.Error):  # one of them ended while we looked
-        for process in psutil.Process().parents():
+        process = psutil.Process().parent()
+        while process is not None:
             words = process.cmdline()
             if any(os.path.basename(word) == "roslaunch" for word in words):
                 return words
+            process = process.parent()
     return []
 
 

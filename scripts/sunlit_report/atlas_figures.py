@@ -1,5 +1,6 @@
 """Heat maps of an atlas: a map a row, a query a column, the sun's elevation and the illuminance along both axes."""
 
+import copy
 import io
 import math
 
@@ -132,7 +133,7 @@ def _strip(axis, conditions, which, along_x):
     axis.tick_params(axis="both", length=0, labelsize=6)
     axis.tick_params(axis="x" if along_x else "y", labelbottom=False, labelleft=False)
     axis.tick_params(axis="y" if along_x else "x", length=2, labelcolor=colour)
-    axis.grid(visible=False)
+    axis.grid(False)
     for side in ("top", "right", "left", "bottom"):
         axis.spines[side].set_visible(True)
         axis.spines[side].set_linewidth(0.4)
@@ -170,7 +171,7 @@ def _finish_matrix(axis, conditions):
                       ha="right", va="center", rotation=90, **name)
     axis.set_xlim(-0.5, len(conditions) - 0.5)
     axis.set_ylim(-0.5, len(conditions) - 0.5)
-    axis.grid(visible=False)
+    axis.grid(False)
     for place in _day_breaks(conditions):
         axis.axvline(place, color="white", linewidth=1.2)
         axis.axhline(place, color="white", linewidth=1.2)
@@ -209,7 +210,7 @@ def heat_map(atlas, method, metric):
     with plt.rc_context(STYLE):
         figure, axis, bar = _frame(atlas.conditions)
         norm = _norm([shown(of_method[column]) for of_method in atlas.matrices.values()], low, high)
-        palette = plt.get_cmap(palette).copy()
+        palette = copy.copy(plt.get_cmap(palette))  # before 3.4 they have no copy() of their own
         palette.set_bad(NO_POSE)
         axis.set_facecolor(NO_POSE)
         masked = np.ma.masked_invalid(values)
@@ -218,7 +219,7 @@ def heat_map(atlas, method, metric):
             _outline(axis, values >= 100 * USABLE_SHARE)
             title += f"; outlined: at least {100 * USABLE_SHARE:.0f} %"
         _finish_matrix(axis, atlas.conditions)
-        bar.grid(visible=False)
+        bar.grid(False)
         figure.colorbar(picture, cax=bar, extend="min" if low is None and np.nanmin(values) < norm.vmin else "neither")
         bar.set_ylabel(unit)
         if column == "median_error_m":
@@ -261,7 +262,7 @@ def usable_hours(atlas):
             axis.imshow(usable_shares(atlas, method), origin="lower", cmap=palette, norm=norm, aspect="equal",
                         interpolation="nearest")
             _finish_matrix(axis, conditions)
-            axis.set_title(names.method(method))
+            axis.set_title(names.method(method), loc="left")
             for line in range(1, len(conditions)):
                 axis.axhline(line - 0.5, color="white", linewidth=0.8 if len(conditions) <= 30 else 0.4)
         for number, axis in enumerate(axes.flat[:len(methods)]):

@@ -16,7 +16,7 @@ SMOOTHED_OVER = 25  # poses of the running median
 
 STYLE = {
     "font.family": "DejaVu Sans", "font.size": 8, "axes.titlesize": 9, "axes.titleweight": "bold",
-    "axes.titlelocation": "left", "axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False,
+    "axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False,
     "axes.edgecolor": "#555555", "xtick.color": "#333333", "ytick.color": "#333333", "xtick.major.width": 0.6,
     "ytick.major.width": 0.6, "axes.grid": True, "grid.color": "#e4e4e4", "grid.linewidth": 0.6,
     "legend.frameon": False, "svg.fonttype": "path", "svg.hashsalt": "sunlit", "path.simplify": True,
@@ -51,7 +51,7 @@ def _abscissa(output, poses):
 def running_median(values, width):
     """Median of the defined values within half a width on either side; NaN where there is none."""
     padded = np.concatenate([np.full(width // 2, np.nan), values, np.full(width - 1 - width // 2, np.nan)])
-    windows = np.lib.stride_tricks.sliding_window_view(padded, width)
+    windows = padded[np.arange(len(values))[:, None] + np.arange(width)]
     result = np.full(len(values), np.nan)
     defined = ~np.isnan(windows).all(axis=1)
     result[defined] = np.nanmedian(windows[defined], axis=1)
@@ -85,7 +85,7 @@ def panels_over_path(output, along, shown, draw):
         figure, axes = grid_of(len(shown), columns, (4.6, 1.75))
         for index, (axis, name) in enumerate(zip(axes, shown)):
             draw(axis, name, to_x)
-            axis.set_title(names.difference(name))
+            axis.set_title(names.difference(name), loc="left")
             axis.margins(x=0.01)
             if index >= len(shown) - columns:
                 axis.set_xlabel(x_name)
@@ -131,8 +131,8 @@ def boxes(output, pairs):
                     drawn.append((number, values))
             if drawn:
                 _draw_boxes(axis, drawn, [names.pair(*pair) for pair in pairs])
-            axis.set_title(names.difference(difference))
-            axis.grid(axis="x", visible=False)
+            axis.set_title(names.difference(difference), loc="left")
+            axis.grid(False, axis="x")
         for axis in list(axes)[::columns]:
             axis.set_ylabel("D")
         return svg(figure)

@@ -61,8 +61,8 @@ def _draw_bands(axis, queries, map_name, asked, places):
     axis.set_yticks(range(len(methods)))
     axis.set_yticklabels([names.difference(name) for name in methods])
     axis.invert_yaxis()
-    axis.set_title(f"With a map of {names.condition_of_map(map_name)}")
-    axis.grid(visible=False)
+    axis.set_title(f"With a map of {names.condition_of_map(map_name)}", loc="left")
+    axis.grid(False)
 
 
 def _draw_hours(axis, output, map_name, asked):
@@ -83,7 +83,7 @@ def _draw_hours(axis, output, map_name, asked):
     top.set_xticklabels([f"{elevation:+.0f}°" for _, elevation in shown], fontsize=6.5)
     top.set_xlabel("elevation of the sun", fontsize=7)
     axis.title.set_position((0.0, 1.0))
-    axis.set_title(axis.get_title(loc="left"), pad=22)
+    axis.set_title(axis.get_title(loc="left"), loc="left", pad=22)
 
 
 def _draw_names(axis, asked):
@@ -180,7 +180,7 @@ def over_elevation(output):
         figure, axes = grid_of(len(judged), min(len(judged), 2), (4.6, 2.5))
         for axis, ((map_name, detector), values) in zip(axes, judged.items()):
             _draw_judged(axis, values)
-            axis.set_title(f"{names.difference(detector)}, map of {names.condition(map_name)}")
+            axis.set_title(f"{names.difference(detector)}, map of {names.condition(map_name)}", loc="left")
             axis.set_xlabel("elevation of the sun / °")
             axis.set_ylim(-0.02, 1.08)
         legend_above(figure, axes)

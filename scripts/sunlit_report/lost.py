@@ -95,7 +95,7 @@ def heat_maps(output):
         figure, axes = grid_of(len(wanted), columns, (width, width * max(heights) + 0.3))
         for axis, (a, b, detector) in zip(axes, wanted):
             heat = _draw_heat(axis, output.lost[a, b, detector], backgrounds[a])
-            axis.set_title(f"{names.pair(a, b)}, {names.difference(detector)}: {100 * output.lost[a, b, detector].share_of_all:.0f} % lost")
+            axis.set_title(f"{names.pair(a, b)}, {names.difference(detector)}: {100 * output.lost[a, b, detector].share_of_all:.0f} % lost", loc="left")
         bar = figure.colorbar(heat, ax=list(axes), location="top", fraction=0.12, aspect=60, shrink=0.6, pad=0.02)
         bar.set_label("share of features without a right match", fontsize=7)
         bar.ax.tick_params(labelsize=6.5)

@@ -32,14 +32,16 @@ def matrix(output, difference):
 
 def _draw(axis, output, difference):
     conditions, values = matrix(output, difference)
-    largest = max(np.nanmax(values, initial=0.0), 1e-12)  # Euclidean ones are a tenth of the others
+    largest = max(np.nanmax(np.append(values, 0.0)), 1e-12)  # Euclidean ones are a tenth of the others
     image = axis.imshow(values, cmap="viridis", vmin=0.0, vmax=largest, origin="lower")
     axis.figure.colorbar(image, ax=axis, shrink=0.75).ax.tick_params(labelsize=6)
     shown = [names.condition(name) for name in conditions]
-    axis.set_xticks(range(len(shown)), shown, fontsize=6, rotation=90)
-    axis.set_yticks(range(len(shown)), shown, fontsize=6)
-    axis.grid(visible=False)
-    axis.set_title(names.difference(difference))
+    axis.set_xticks(range(len(shown)))
+    axis.set_xticklabels(shown, fontsize=6, rotation=90)
+    axis.set_yticks(range(len(shown)))
+    axis.set_yticklabels(shown, fontsize=6)
+    axis.grid(False)
+    axis.set_title(names.difference(difference), loc="left")
     if len(conditions) <= MOST_NUMBERED:
         for row, column in zip(*np.nonzero(np.isfinite(values))):
             value = values[row, column]

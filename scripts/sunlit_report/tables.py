@@ -100,7 +100,7 @@ def conditions(output):
         capture = output.captures.get(stream)
         if capture is not None:
             illuminance = capture["scene_illuminance"]
-            digits = 0 if np.nanmin(illuminance, initial=math.inf) >= 100 else 3
+            digits = 0 if np.nanmin(np.append(illuminance, math.inf)) >= 100 else 3
             rows.append([names.condition(stream), str(len(capture["pose"])), _range(capture["sun_azimuth_deg"], 2),
                          _range(capture["sun_elevation_deg"], 2), _range(illuminance, digits),
                          _range(capture["ev100"], 2)])

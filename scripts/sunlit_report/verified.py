@@ -69,7 +69,7 @@ def accuracy(output):
                           color=colour_of(index), label=names.difference(detector))
                 axis.fill_between(ACCURACY_PX, [step.ci_low for step in steps], [step.ci_high for step in steps],
                                   color=colour_of(index), alpha=0.18, linewidth=0)
-            axis.set_title(names.pair(a, b))
+            axis.set_title(names.pair(a, b), loc="left")
             axis.set_xlabel("within / px")
             axis.set_ylabel("MMA")
             axis.set_ylim(0.0, 1.02)

@@ -26,12 +26,17 @@ std::string lastPart(const std::string& key) {
   return slash == std::string::npos ? key : key.substr(slash + 1);
 }
 
+/// XmlRpcValue of ROS 1.14 shows its members to those alone who may change it.
+XmlRpcValue& withMembers(const XmlRpcValue& value) {
+  return const_cast<XmlRpcValue&>(value);
+}
+
 const XmlRpcValue* descend(const XmlRpcValue& tree, const std::string& key) {
   const XmlRpcValue* at = &tree;
   std::istringstream parts(key);
   for (std::string part; std::getline(parts, part, '/');) {
     if (at->getType() != XmlRpcValue::TypeStruct || !at->hasMember(part)) return nullptr;
-    at = &(*at)[part];
+    at = &withMembers(*at)[part];
   }
   return at;
 }
@@ -110,10 +115,9 @@ std::string suggestion(const std::string& unknown, const std::set<std::string>& 
 /// The first leaf of `tree` that no asked key equals or contains.
 std::optional<std::string> firstUnknown(const XmlRpcValue& tree, const std::string& prefix,
                                         const std::set<std::string>& asked) {
-  for (auto member = tree.begin(); member != tree.end(); ++member) {
-    const std::string key = prefix + member->first;
+  for (const auto& [name, value] : withMembers(tree)) {
+    const std::string key = prefix + name;
     if (asked.count(key) != 0) continue;
-    const XmlRpcValue& value = member->second;
     if (value.getType() != XmlRpcValue::TypeStruct || value.size() == 0) return key;
     if (auto unknown = firstUnknown(value, key + "/", asked)) return unknown;
   }
@@ -268,7 +272,7 @@ std::vector<std::string> ParameterReader::namesBelow(const std::string& key) con
     if (!layer->tree.valid()) continue;
     const XmlRpcValue* group = descend(layer->tree, key);
     if (group == nullptr || group->getType() != XmlRpcValue::TypeStruct) continue;
-    for (auto member = group->begin(); member != group->end(); ++member) names.insert(member->first);
+    for (const auto& member : withMembers(*group)) names.insert(member.first);
   }
   return {names.begin(), names.end()};
 }

@@ -8,8 +8,6 @@
 #include <type_traits>
 #include <vector>
 
-struct XXH3_state_s;
-
 namespace sunlit::image {
 
 /// 128 bits over all bytes added, in order: XXH3 of xxHash 0.8. Not against forgery; the same on all machines
@@ -45,10 +43,8 @@ class ContentHash {
   std::string text() const;  ///< 32 hexadecimal digits
 
  private:
-  struct Free {
-    void operator()(XXH3_state_s* state) const;
-  };
-  std::unique_ptr<XXH3_state_s, Free> state_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace sunlit::image

@@ -6,12 +6,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "evaluate/localise/pose_search.h"
+
 namespace sunlit::evaluate {
 namespace {
 
 constexpr int kMostRefinements = 3;
 
-/// Points and pixels as OpenCV takes them. It keeps single precision on its way, so points are taken from
+/// Points and pixels for OpenCV. It keeps single precision on its way, so points are taken from
 /// their own midst: coordinates of a large grid would lose their centimetres.
 class Problem {
  public:
@@ -20,46 +22,35 @@ class Problem {
     middle_ /= static_cast<double>(sightings.size());
     for (const Sighting& sighting : sightings) {
       const Eigen::Vector3d point = sighting.point - middle_;
-      points_.emplace_back(point.x(), point.y(), point.z());
-      pixels_.emplace_back(sighting.pixel.x(), sighting.pixel.y());
+      search_.points.emplace_back(point.x(), point.y(), point.z());
+      search_.pixels.emplace_back(sighting.pixel.x(), sighting.pixel.y());
     }
-    matrix_ = (cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+    search_.matrix = (cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
   }
 
   bool search(const PoseOptions& options) {
-    cv::UsacParams usac;
-    usac.confidence = options.confidence;
-    usac.isParallel = false;
-    usac.maxIterations = options.iterations;
-    usac.randomGeneratorState = options.seed;
-    usac.sampler = cv::SAMPLING_UNIFORM;
-    usac.score = cv::SCORE_METHOD_MSAC;
-    usac.loMethod = cv::LOCAL_OPTIM_INNER_LO;
-    usac.threshold = options.reprojection_px;
-    cv::Mat inliers;
-    cv::Mat matrix = matrix_.clone();
-    if (!cv::solvePnPRansac(points_, pixels_, matrix, cv::noArray(), rotation_, translation_, inliers, usac))
-      return false;
-    return cv::checkRange(rotation_) && cv::checkRange(translation_);
+    return searchPose(options, &search_) && cv::checkRange(search_.rotation) &&
+           cv::checkRange(search_.translation);
   }
 
   void refine(const std::vector<std::size_t>& inliers) {
     std::vector<cv::Point3d> points;
     std::vector<cv::Point2d> pixels;
     for (const std::size_t i : inliers) {
-      points.push_back(points_[i]);
-      pixels.push_back(pixels_[i]);
+      points.push_back(search_.points[i]);
+      pixels.push_back(search_.pixels[i]);
     }
-    cv::solvePnPRefineLM(points, pixels, matrix_, cv::noArray(), rotation_, translation_);
+    cv::solvePnPRefineLM(points, pixels, search_.matrix, cv::noArray(), search_.rotation,
+                         search_.translation);
   }
 
   Eigen::Isometry3d mapFromOptical() const {
     cv::Mat matrix;
-    cv::Rodrigues(rotation_, matrix);
+    cv::Rodrigues(search_.rotation, matrix);
     Eigen::Matrix3d rotation;
     Eigen::Vector3d translation;
     cv::cv2eigen(matrix, rotation);
-    cv::cv2eigen(translation_, translation);
+    cv::cv2eigen(search_.translation, translation);
     return Eigen::Translation3d(middle_ - rotation.transpose() * translation) *
            Eigen::Quaterniond(rotation.transpose()).normalized();
   }
@@ -67,9 +58,7 @@ class Problem {
  private:
   const image::PinholeCamera& camera_;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
-  std::vector<cv::Point3d> points_;
-  std::vector<cv::Point2d> pixels_;
-  cv::Mat matrix_, rotation_, translation_;
+  PoseSearch search_;
 };
 
 std::vector<std::size_t> inliersOf(const std::vector<Sighting>& sightings, const image::PinholeCamera& camera,

@@ -13,7 +13,7 @@ import yaml
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
 
 # What CMake looks for and its key of package.xml. Other names, such as those of catkin's components, are keys.
-KEYS = {"Eigen3": "eigen", "TBB": "tbb", "OpenCV": "libopencv-dev", "sdformat12": "sdformat", "sdformat9": "sdformat",
+KEYS = {"Eigen3": "eigen", "TBB": "tbb", "OpenCV": "libopencv-dev", "embree3": "embree", "sdformat12": "sdformat", "sdformat9": "sdformat",
         "urdfdom_model": "liburdfdom-dev", "erfa": "liberfa-dev", "erfa.h": "liberfa-dev",
         "console_bridge": "libconsole-bridge-dev", "program_options": "libboost-program-options-dev",
         "xxhash": "libxxhash-dev", "xxhash.h": "libxxhash-dev", "nlohmann_json": "nlohmann-json-dev", "OSMesa": "libosmesa6-dev",
@@ -64,7 +64,7 @@ def looked_for(text):
         words = arguments.split()
         if function == "find_package":
             components = words[words.index("COMPONENTS") + 1:] if words[0] in ("catkin", "Boost") else []
-            yield from components or words[:1]
+            yield from [name for name in components if not name.startswith("$")] or words[:1]
             if words[0] == "catkin":
                 yield "catkin"
         else:

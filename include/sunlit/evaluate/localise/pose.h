@@ -51,10 +51,10 @@ struct PoseEstimate {
   std::vector<std::size_t> inliers;  ///< indices of sightings within reprojection_px, ascending
 };
 
-/// Perspective-n-point by RANSAC (OpenCV's USAC, one thread, seeded; it draws three points at a time),
-/// refined by Levenberg and Marquardt on what supports it until that changes no more, three times at most.
-/// None where fewer than min_inliers sightings support a pose. Result depends on the arguments alone. Throws
-/// std::invalid_argument for options out of range and sightings that are not finite.
+/// Perspective-n-point by RANSAC (OpenCV's USAC, before 4.5 its older one; one thread, seeded, three points
+/// at a time), refined by Levenberg and Marquardt on what supports it until that changes no more, three times
+/// at most. None where fewer than min_inliers sightings support a pose. Result depends on the arguments
+/// alone. Throws std::invalid_argument for options out of range and sightings that are not finite.
 std::optional<PoseEstimate> estimatePose(const std::vector<Sighting>& sightings,
                                          const image::PinholeCamera& camera, const PoseOptions& options);
 

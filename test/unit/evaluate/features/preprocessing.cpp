@@ -184,19 +184,19 @@ TEST(Preprocessing, KeepsTheSizeOfAnyPictureAndDoesNotDependOnThreads) {
 
 TEST(Preprocessing, StandsBeforeADetectorUnderANameOfOnesOwn) {
   ComparerOptions options;
-  options.known.add("sift_clahe", makeFeatureDifference(makeOwnDetector({"sift", "clahe"})));
-  options.differences = {"sift", "sift_clahe"};
+  options.known.add("brisk_clahe", makeFeatureDifference(makeOwnDetector({"brisk", "clahe"})));
+  options.differences = {"brisk", "brisk_clahe"};
   const auto deciding = decidingFieldsOf(options);
-  EXPECT_EQ(fieldOf(deciding, "features/sift_clahe/type").text(), "sift");
-  EXPECT_EQ(fieldOf(deciding, "features/sift_clahe/preprocessing").text(), "clahe");
-  fieldOf(deciding, "features/sift_clahe/clahe/clip_limit").set(5.0, "");
+  EXPECT_EQ(fieldOf(deciding, "features/brisk_clahe/type").text(), "brisk");
+  EXPECT_EQ(fieldOf(deciding, "features/brisk_clahe/preprocessing").text(), "clahe");
+  fieldOf(deciding, "features/brisk_clahe/clahe/clip_limit").set(5.0, "");
   cv::Mat rgb = noise({320, 240}).rgb;
   cv::GaussianBlur(rgb, rgb, {}, 1.5);
   const auto values = Comparer(options).compare({rgb, rgb}, {{0, 1}})[0];
   cv::Mat equalised;
   cv::createCLAHE(5.0, {8, 8})->apply(makePicture(rgb).grey, equalised);
   std::vector<cv::KeyPoint> expected;
-  cv::SIFT::create()->detect(equalised, expected);
+  cv::BRISK::create()->detect(equalised, expected);
   EXPECT_EQ(values[1].features_a, expected.size());
   EXPECT_NE(values[0].features_a, expected.size());
 }
