@@ -233,6 +233,7 @@ def _evaluator(typed, places, beginning):
         tree["verify"] = verified
     if of_map := map_streams(typed):
         hours = list(conditions(typed))
-        tree["localisation"] = {"map": "+".join(of_map), "queries": [name for name in hours if name not in of_map],
-                                "detectors": localising(typed)}
+        tree["localisation"] = {"map": "+".join(of_map), "queries": [name for name in hours if name not in of_map]}
+        if typed["localise"] != "auto":  # else those of its own that this build of it has
+            tree["localisation"]["detectors"] = localising(typed)
     return tree

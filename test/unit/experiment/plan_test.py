@@ -272,12 +272,14 @@ class Plan(unittest.TestCase):
 
     def test_other_hours_are_looked_for_in_the_map_of_the_one_nearest_to_noon(self):
         tree = planned()["evaluator"]["localisation"]
-        self.assertEqual(tree, {"map": "h12", "queries": ["h04", "h20"], "detectors": ["sift", "orb"]})
+        self.assertEqual(tree, {"map": "h12", "queries": ["h04", "h20"]})
         tree = planned(hours="[4, 10.5, 20]", map="20", localise="[brisk]")["evaluator"]["localisation"]
         self.assertEqual(tree, {"map": "h20", "queries": ["h04", "h10_30"], "detectors": ["brisk"]})
         self.assertEqual(planned(hours="[4, 10.5, 20]")["evaluator"]["localisation"]["map"], "h10_30")
         tree = planned(map="[4, 20]")["evaluator"]["localisation"]
-        self.assertEqual(tree, {"map": "h04+h20", "queries": ["h12"], "detectors": ["sift", "orb"]})
+        self.assertEqual(tree, {"map": "h04+h20", "queries": ["h12"]})  # by those that the evaluator has
+        tree = planned(localise="[sift]")["evaluator"]["localisation"]
+        self.assertEqual(tree["detectors"], ["sift"])
 
     def test_nothing_is_localised_without_detectors_or_a_second_hour(self):
         for typed in ({"localise": "[]"}, {"hours": "[12]"}, {"differences": "[boolean_rgb]"}):
