@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "sunlit/evaluate/differences/comparer.h"
 #include "sunlit/evaluate/localise/localisation.h"
 #include "sunlit/quantity/columns.h"
 #include "tools/camera_arguments.h"
@@ -269,7 +270,7 @@ constexpr const char* kAbout =
 
 std::optional<AtlasRunOptions> parseAtlasOptions(const std::vector<std::string>& arguments) {
   AtlasRunOptions options;
-  options.atlas.verify.detectors = {"sift", "orb"};
+  options.atlas.verify.detectors = evaluate::usualDetectors(evaluate::ComparerOptions());
   Words words;
   studio::CommandLine line(kAbout, "atlas --out FOLDER [options]");
   line.group("Output");

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sunlit/evaluate/differences/differences.h"
+#include "sunlit/evaluate/differences/comparer.h"
 #include "sunlit/evaluate/features/feature_cache.h"
 #include "sunlit/evaluate/localise/localiser.h"
 #include "sunlit/evaluate/posed_view.h"
@@ -16,7 +16,7 @@ namespace sunlit::evaluate {
 
 struct LocalisationOptions {
   Differences known;  ///< whose detectors are used, with their parameters
-  std::vector<std::string> detectors = {"sift", "orb"};
+  std::vector<std::string> detectors = usualDetectors(ComparerOptions());
   double map_every_m = 5.0;  ///< for KeyFrameSpacing, which is whoever's that brings the views
   LocaliserOptions localiser;
   std::shared_ptr<FeatureCache> cache;  ///< of features; null: none are kept
