@@ -9,6 +9,7 @@ from PIL import Image
 from . import names
 from .csv_rows import ReportError, rows, whole
 from .figures import STYLE, grid_of, svg
+from .tables import MISSING
 
 HEADER = "a,b,detector,poses,column,row,features,lost"
 COLUMNS, ROWS = 16, 12
@@ -33,7 +34,9 @@ class Lost:
 
     @property
     def share_of_all(self):
-        return float(self.lost.sum() / max(self.features.sum(), 1))
+        """NaN where there are no features, as in black pictures."""
+        features = self.features.sum()
+        return float(self.lost.sum() / features) if features else np.nan
 
 
 def read(path):
@@ -54,14 +57,14 @@ def shown_pairs(lost):
     """Those that lose most, in the order of the file."""
     shares = {}
     for (a, b, _), one in lost.items():
-        shares[a, b] = max(shares.get((a, b), 0.0), one.share_of_all)
+        shares[a, b] = np.fmax(shares.get((a, b), 0.0), one.share_of_all)
     most = sorted(shares, key=lambda pair: -shares[pair])[:SHOWN_PAIRS]
     return [pair for pair in shares if pair in most]
 
 
 def table_rows(output):
     return [[names.pair(a, b), names.difference(detector), str(one.poses), f"{one.features.sum():.0f}", f"{one.lost.sum():.0f}",
-             f"{100 * one.share_of_all:.1f}"]
+             MISSING if np.isnan(one.share_of_all) else f"{100 * one.share_of_all:.1f}"]
             for (a, b, detector), one in output.lost.items() if (a, b) in shown_pairs(output.lost)]
 
 
@@ -95,7 +98,9 @@ def heat_maps(output):
         figure, axes = grid_of(len(wanted), columns, (width, width * max(heights) + 0.3))
         for axis, (a, b, detector) in zip(axes, wanted):
             heat = _draw_heat(axis, output.lost[a, b, detector], backgrounds[a])
-            axis.set_title(f"{names.pair(a, b)}, {names.difference(detector)}: {100 * output.lost[a, b, detector].share_of_all:.0f} % lost", loc="left")
+            share = output.lost[a, b, detector].share_of_all
+            told = "no features" if np.isnan(share) else f"{100 * share:.0f} % lost"
+            axis.set_title(f"{names.pair(a, b)}, {names.difference(detector)}: {told}", loc="left")
         bar = figure.colorbar(heat, ax=list(axes), location="top", fraction=0.12, aspect=60, shrink=0.6, pad=0.02)
         bar.set_label("share of features without a right match", fontsize=7)
         bar.ax.tick_params(labelsize=6.5)

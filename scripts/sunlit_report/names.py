@@ -44,6 +44,11 @@ def by_hour(several):
     return sorted(several, key=hour_of) if all(hour_of(name) is not None for name in several) else list(several)
 
 
+def until_which(several):
+    """How a title about maps begins."""
+    return "Until which hour" if all(map(_hour, several)) else "Under which conditions"
+
+
 def condition(name):
     hour = _hour(name)
     return f"{hour} h" if hour else name

@@ -12,7 +12,7 @@ def render(output, findings):
     significant, significant_count = comparisons.significant_rows(output)
     return templating.template("report.html").render(
         output=output, findings=findings, verdict_of_all=judge.verdict_of_all(findings, output), citation=paper.CITATION,
-        title=title(output), facts=facts(output), warnings=warnings.warnings(output), verdict_class=_verdict_class,
+        title=title(output), until_which=names.until_which(output.conditions), facts=facts(output), warnings=warnings.warnings(output), verdict_class=_verdict_class,
         main_tables=tables.main_tables(output), self_tables=tables.self_tables(output), counts=tables.counts(output),
         conditions=tables.conditions(output), timing=tables.timing(output), problems=tables.problems(output),
         shown_problems=output.problems[:SHOWN_PROBLEMS], counters=tables.counters(output.run),
@@ -75,7 +75,7 @@ def title(output):
         return f"How far images of one place drift apart between {listed}"
     if not output.self_pairs:
         maps = " or ".join(names.condition_of_map(name) for name in localisation.maps(output.queries))
-        return f"Until which hour a map of {maps} serves"
+        return f"{names.until_which(output.conditions)} a map of {maps} serves"
     return f"How far images of one place at {listed} differ from themselves"
 
 

@@ -427,6 +427,13 @@ class Lost(InFolder):
         self.write("lost_features.csv", [lost.HEADER, "h04,h12,sift,40,0,0,5,6"])
         self.assert_refused("lost_features.csv:2: column, row and lost must be below 16, 12 and features")
 
+    def test_pictures_without_features_lose_none_and_keep_none(self):
+        self.write("frames.csv", made.frames())
+        self.write("lost_features.csv", [lost.HEADER, "h04,h12,sift,40,0,0,0,0", "h12,h20,sift,40,0,0,50,10"])
+        output = self.read()
+        self.assertEqual([cells[-1] for cells in lost.table_rows(output)], ["–", "20.0"])
+        lost.heat_maps(output)
+
     def test_of_many_pairs_those_that_lose_most_are_shown(self):
         some = {(f"h{k:02d}", "h23", "sift"): lost.Lost(1, np.full((12, 16), 100), np.full((12, 16), k)) for k in range(9)}
         self.assertEqual([a for a, _ in lost.shown_pairs(some)], [f"h{k:02d}" for k in range(3, 9)])
@@ -534,6 +541,10 @@ class Page(InFolder):
         self.assertRegex(done.stdout, r"paper +0\.84577 +0\.63501")
         self.assertRegex(done.stdout, r"4–12 h +SIFT +40( +0\.812){7}")
         self.assertRegex(done.stdout, r"methods +D +3 +2 +39 +1 +0")
+
+    def test_maps_serve_until_hours_or_under_conditions(self):
+        self.assertEqual(names.until_which(["h04", "h12_30"]), "Until which hour")
+        self.assertEqual(names.until_which(["h04", "fog"]), "Under which conditions")
 
     def test_every_absent_file_is_named_in_place(self):
         self.write("frames.csv", made.frames())
