@@ -101,6 +101,7 @@ std::string listed(const std::vector<std::string>& places) {
 
 ResourceFinder::ResourceFinder(const SearchPath& search_path, const std::string& scene_file)
     : roots_(folderAndParents(scene_file)),
+      parents_(roots_.size() - std::min<std::size_t>(roots_.size(), 1)),
       package_folder_(search_path.package_folder),
       fuel_caches_(search_path.fuel_caches),
       missing_(search_path.missing) {
@@ -164,7 +165,10 @@ Found ResourceFinder::findTexture(const std::string& name, const std::string& me
       candidates.push_back(folder / place / path.filename());
     }
     if (path.is_absolute()) continue;
-    for (const std::string& root : roots_) candidates.push_back(fs::path(root) / path);
+    // A mere name means too little to be taken from any folder up to the root of all files.
+    const std::size_t parents = path.has_parent_path() ? 0 : parents_;
+    for (std::size_t i = 0; i < roots_.size(); ++i)
+      if (i == 0 || i > parents) candidates.push_back(fs::path(roots_[i]) / path);
   }
   return firstOf(candidates);
 }

@@ -32,8 +32,9 @@ class ResourceFinder {
   Found find(const std::string& uri, const std::string& from_file) const;
 
   /// The picture that the mesh in `mesh_file` calls `name`: at that address, if it is one of a model, package
-  /// or Fuel; else beside the mesh, in the textures folders that models usually have, then as find() does.
-  /// The folder part of a path from another machine is dropped if need be.
+  /// or Fuel; else beside the mesh, in the textures folders that models usually have, then as find() does,
+  /// but a mere name in none of the folders above the scene's. The folder part of a path from another machine
+  /// is dropped if need be.
   Found findTexture(const std::string& name, const std::string& mesh_file) const;
 
   /// The folders that find() goes through for what the scene file names: "a, b and c".
@@ -46,7 +47,8 @@ class ResourceFinder {
  private:
   Found findAsWritten(const std::string& uri, const std::string& from_file) const;
 
-  std::vector<std::string> roots_;
+  std::vector<std::string> roots_;  ///< the scene's folder, those above it, and those that were named
+  std::size_t parents_;             ///< how many are above it
   std::function<std::string(const std::string& package)> package_folder_;
   std::vector<std::string> fuel_caches_;
   Missing missing_;

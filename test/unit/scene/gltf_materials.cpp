@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 
 #include "support/base64.h"
 #include "unit/scene/scene_files.h"
@@ -202,6 +203,18 @@ TEST_F(GltfMaterial, AMissingMetallicTextureMakesNoMetal) {
       load(file("{\"pbrMetallicRoughness\":{\"metallicRoughnessTexture\":{\"index\":0}}}"), {});
   EXPECT_EQ(scene.materials[0].metalness, 0.0f);
   EXPECT_NE(warningsOf(scene).find("a.png"), std::string::npos) << warningsOf(scene);
+}
+
+TEST_F(GltfMaterial, AMereNameIsNoTextureOfAFolderAboveTheScene) {
+  writeTexture("a.png");
+  const std::string below = pathOf("below");
+  std::filesystem::create_directory(below);
+  const std::string inside = below + "/t.gltf";
+  std::filesystem::copy_file(file("{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}"), inside);
+  EXPECT_NE(warningsOf(load(inside, {})).find("a.png"), std::string::npos);
+  SearchPath named;
+  named.folders = {below + "/.."};
+  EXPECT_EQ(warningsOf(load(inside, named)), "");
 }
 
 TEST_F(GltfMaterial, VertexColoursAreLinear) {
