@@ -18,4 +18,8 @@ std::string textOfDuration(double seconds) {
   return text;
 }
 
+std::string textOfTimeLeft(double seconds) {
+  return std::isnan(seconds) ? "" : ", " + textOfDuration(seconds) + " left";
+}
+
 }  // namespace sunlit

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -27,8 +26,7 @@ class ProgressLine {
     if (percent == percent_ || (!shown_ && !lasts)) return;
     percent_ = percent;
     shown_ = true;
-    const std::string left = std::isnan(seconds_left) ? "" : ", " + textOfDuration(seconds_left) + " left";
-    std::fprintf(stderr, "\r%s: %d %%%s      ", work.c_str(), percent, left.c_str());
+    std::fprintf(stderr, "\r%s: %d %%%s      ", work.c_str(), percent, textOfTimeLeft(seconds_left).c_str());
   }
   /// What follows stands below it.
   void end() {

@@ -9,4 +9,7 @@ namespace sunlit {
 /// in scripts/sunlit_experiment/progress.py, reads alike.
 std::string textOfDuration(double seconds);
 
+/// What goes on "40 %": ", 12 s left"; nothing for NaN, where nobody can tell yet.
+std::string textOfTimeLeft(double seconds);
+
 }  // namespace sunlit

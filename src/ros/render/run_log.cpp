@@ -2,8 +2,6 @@
 
 #include <ros/console.h>
 
-#include <cmath>
-
 #include "sunlit/quantity/duration.h"
 
 namespace sunlit::ros_interface {
@@ -21,8 +19,8 @@ class BakeLog {
     const Clock::time_point now = Clock::now();
     if (now - latest_ < kInterval) return;
     latest_ = now;
-    const std::string left = std::isnan(seconds_left) ? "" : ", " + textOfDuration(seconds_left) + " left";
-    ROS_INFO("Baking sky light and bounced light: %.0f %%%s", 100.0 * share, left.c_str());
+    ROS_INFO("Baking sky light and bounced light: %.0f %%%s", 100.0 * share,
+             textOfTimeLeft(seconds_left).c_str());
   }
 
  private:

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace sunlit {
 namespace {
 
@@ -12,6 +14,11 @@ TEST(Duration, ReadsAsPeopleSayIt) {
   EXPECT_EQ(textOfDuration(59.6), "1 min 00 s");
   EXPECT_EQ(textOfDuration(3599.4), "59 min 59 s");
   EXPECT_EQ(textOfDuration(7260.0), "2 h 01 min");
+}
+
+TEST(Duration, OfTheTimeLeftIsToldWhereItIsKnown) {
+  EXPECT_EQ(textOfTimeLeft(12.0), ", 12 s left");
+  EXPECT_EQ(textOfTimeLeft(std::nan("")), "");
 }
 
 }  // namespace
