@@ -145,8 +145,9 @@ class Rain {
     if (away_m < kNearest_m || away_m > kFarthest_m) return std::nullopt;
     const Eigen::Vector3d from_eye = place - view_.map_from_optical.translation();
     const double speed = 9.65 - 10.3 * std::exp(-0.6 * diameter_mm);
-    const Eigen::Vector3d past = -speed * Eigen::Vector3d::UnitZ() - view_.motion.velocity_m_s -
-                                 view_.motion.turning_rad_s.cross(from_eye);
+    const Eigen::Vector3d falls(rain_.wind_m_s.x(), rain_.wind_m_s.y(), -speed);
+    const Eigen::Vector3d past =
+        falls - view_.motion.velocity_m_s - view_.motion.turning_rad_s.cross(from_eye);
     const Eigen::Vector3d half = 0.5 * rain_.exposure_s * (optical_from_map_.linear() * past);
     const std::optional<Eigen::Vector2d> at = view_.lens.project(middle);
     if (!at) return std::nullopt;

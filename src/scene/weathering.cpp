@@ -3,22 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "scene/noise.h"
+#include "scene/top_heights.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::scene {
 namespace {
-
-/// Cells of the grid along its longer side, at most.
-constexpr float kMostCells = 4096.0f;
-/// Wider worlds have a margin whose places all count as open.
-constexpr float kWidest_m = 4096.0f;
-constexpr float kNothing = -1e9f;
-
-/// Whether rain stops there.
-bool shelters(const Material& material) {
-  return material.alpha_mode == AlphaMode::kOpaque && !(material.transmission > 0.0f);
-}
 
 /// Share of its pores that a surface has open to water: none of leaves and metal, all of what is rough.
 float porosity(const Material& material, const Weathering::Look& look) {
@@ -51,65 +43,6 @@ bool operator==(const SurfaceState& a, const SurfaceState& b) {
   return a.wet == b.wet && a.puddles == b.puddles && a.snow_m == b.snow_m && (!patchy || a.seed == b.seed);
 }
 
-float Weathering::Tops::at(int column, int row) const {
-  if (column < 0 || row < 0 || column >= columns || row >= rows) return kNothing;
-  return height_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                  static_cast<std::size_t>(column)];
-}
-
-void Weathering::Tops::add(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
-  const Eigen::Vector2f u = (b - a).head<2>(), v = (c - a).head<2>();
-  const float area = u.x() * v.y() - u.y() * v.x();
-  if (!(std::abs(area) > 1e-9f)) return;
-  const auto cellOf = [&](float low, float coordinate, int count) {
-    return std::clamp(static_cast<int>(std::floor((coordinate - low) / cell_m)), 0, count - 1);
-  };
-  const int left = cellOf(origin.x(), std::min({a.x(), b.x(), c.x()}), columns);
-  const int right = cellOf(origin.x(), std::max({a.x(), b.x(), c.x()}), columns);
-  const int low = cellOf(origin.y(), std::min({a.y(), b.y(), c.y()}), rows);
-  const int high = cellOf(origin.y(), std::max({a.y(), b.y(), c.y()}), rows);
-  for (int row = low; row <= high; ++row) {
-    for (int column = left; column <= right; ++column) {
-      const Eigen::Vector2f middle = origin + cell_m * Eigen::Vector2f(static_cast<float>(column) + 0.5f,
-                                                                       static_cast<float>(row) + 0.5f);
-      const Eigen::Vector2f to = middle - a.head<2>();
-      const float s = (to.x() * v.y() - to.y() * v.x()) / area, t = (u.x() * to.y() - u.y() * to.x()) / area;
-      if (s < 0.0f || t < 0.0f || s + t > 1.0f) continue;
-      float& top = height_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                            static_cast<std::size_t>(column)];
-      top = std::max(top, a.z() + s * (b.z() - a.z()) + t * (c.z() - a.z()));
-    }
-  }
-}
-
-Weathering::Tops Weathering::topsOf(const Scene& scene) {
-  Eigen::Array2f low = Eigen::Array2f::Constant(1e9f), high = -low;
-  for (const Mesh& mesh : scene.meshes) {
-    if (!shelters(scene.materials[static_cast<std::size_t>(mesh.material)])) continue;
-    for (const Eigen::Vector3f& position : mesh.positions) {
-      low = low.min(position.head<2>().array());
-      high = high.max(position.head<2>().array());
-    }
-  }
-  Tops tops;
-  if ((low > high).any()) return tops;
-  const Eigen::Array2f middle = 0.5f * (low + high);
-  low = low.max(middle - 0.5f * kWidest_m);
-  high = high.min(middle + 0.5f * kWidest_m);
-  tops.origin = low.matrix();
-  tops.cell_m = std::max(tops.cell_m, (high - low).maxCoeff() / kMostCells);
-  tops.columns = static_cast<int>((high - low).x() / tops.cell_m) + 1;
-  tops.rows = static_cast<int>((high - low).y() / tops.cell_m) + 1;
-  tops.height_m.assign(static_cast<std::size_t>(tops.columns) * static_cast<std::size_t>(tops.rows),
-                       kNothing);
-  for (const Mesh& mesh : scene.meshes) {
-    if (!shelters(scene.materials[static_cast<std::size_t>(mesh.material)])) continue;
-    for (const auto& [a, b, c] : mesh.triangles)
-      tops.add(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
-  }
-  return tops;
-}
-
 Weathering::Patches::Patches(float wavelength, std::uint32_t of, double wanted)
     : wavelength_m(wavelength), seed(of), share(static_cast<float>(wanted)) {
   if (!(share > 0.0f)) return;
@@ -119,8 +52,12 @@ Weathering::Patches::Patches(float wavelength, std::uint32_t of, double wanted)
   for (int i = 0; i < kSide * kSide; ++i)
     values.push_back(noise(0.619f * wavelength * static_cast<float>(i % kSide),
                            0.619f * wavelength * static_cast<float>(i / kSide)));
+  divide(std::move(values));
+}
+
+void Weathering::Patches::divide(std::vector<float> values) {
   const auto below =
-      std::min(values.size() - 1, static_cast<std::size_t>(wanted * static_cast<double>(values.size())));
+      std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<float>(values.size())));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(below), values.end());
   threshold = values[below];
 }
@@ -130,41 +67,83 @@ float Weathering::Patches::noise(float x, float y) const {
   return fractal(x / wavelength_m, y / wavelength_m, kOctaves, seed);
 }
 
-float Weathering::Patches::cover(float x, float y, float width_m) const {
+float Weathering::Patches::cover(float x, float y, float width_m, float lift) const {
   if (!(share > 0.0f)) return 0.0f;
   // Seen from so far that patches run together, there is but their share.
   const float together = smoothStep(0.25f * wavelength_m, wavelength_m, width_m);
   if (together >= 1.0f) return share;
   const float edge = 0.04f + width_m / wavelength_m;
-  const float sharp = std::clamp(0.5f + (threshold - noise(x, y)) / edge, 0.0f, 1.0f);
+  const float sharp = std::clamp(0.5f + (threshold - noise(x, y) - lift) / edge, 0.0f, 1.0f);
   return mixed(sharp, share, together);
 }
 
-Weathering::Weathering(const Scene& scene, const SurfaceState& state) : state_(state), tops_(topsOf(scene)) {
+Weathering::Weathering(const Scene& scene, const SurfaceState& state)
+    : state_(state), tops_(std::make_shared<const TopHeights>(scene)) {
   validate(state);
   constexpr float kPuddle_m = 3.0f, kSnow_m = 1.2f;
   constexpr double kRoughGround_m = 0.01;
   const auto seed = static_cast<std::uint32_t>(state.seed);
   puddles_ = Patches(kPuddle_m, mix(seed, 1), state.puddles);
+  if (state.puddles > 0.0) floodHollows();
   // What stands above the threshold still shows at 10 cm: one part in 3000.
   snow_ = Patches(kSnow_m, mix(seed, 2), std::tanh(state.snow_m / (2.5 * kRoughGround_m)));
 }
 
+void Weathering::floodHollows() {
+  // Worlds without so many level cells have the share that chance gives them.
+  constexpr std::size_t kEnough = 1024;
+  constexpr int kAcross = 256;
+  relief_ = tops_->relief();
+  const float steepest = std::tan(5.5f * static_cast<float>(kRadPerDeg));  // half of the water stands there
+  const auto isLevel = [&](int column, int row) {
+    const float most = 2.0f * tops_->cell_m() * steepest;
+    const float across = tops_->at(column + 1, row) - tops_->at(column - 1, row);
+    const float along = tops_->at(column, row + 1) - tops_->at(column, row - 1);
+    return tops_->at(column, row) != TopHeights::kNothing && across * across + along * along < most * most;
+  };
+  std::vector<float> values;
+  const int column_step = 1 + tops_->columns() / kAcross, row_step = 1 + tops_->rows() / kAcross;
+  for (int row = 0; row < tops_->rows(); row += row_step) {
+    for (int column = 0; column < tops_->columns(); column += column_step) {
+      if (!isLevel(column, row)) continue;
+      const Eigen::Vector2f middle = tops_->middle(column, row);
+      values.push_back(puddles_.noise(middle.x(), middle.y()) + lift(middle));
+    }
+  }
+  if (values.size() >= kEnough) puddles_.divide(std::move(values));
+}
+
+float Weathering::lift(const Eigen::Vector2f& place) const {
+  // Unevenness that noise of 1 stands for: of roads 4 mm are allowed under a straightedge of 4 m, and this
+  // noise has a standard deviation of 0.3 or so.
+  constexpr float kRough_m = 0.01f;
+  if (tops_->empty()) return 0.0f;
+  const TopHeights::Cell cell = tops_->cellAt(place);
+  const auto at = [&](int right, int up) {
+    const int column = std::clamp(cell.column + right, 0, tops_->columns() - 1);
+    const int row = std::clamp(cell.row + up, 0, tops_->rows() - 1);
+    return static_cast<float>(relief_[tops_->index(column, row)]);
+  };
+  const float steps =
+      mixed(mixed(at(0, 0), at(1, 0), cell.right), mixed(at(0, 1), at(1, 1), cell.right), cell.up);
+  return steps * (TopHeights::kReliefReach_m / 127.0f) / kRough_m;
+}
+
 float Weathering::open(const Place& place) const {
-  if (tops_.columns == 0) return 1.0f;
+  if (tops_->empty()) return 1.0f;
   // Before a wall, not in it; and a slope does not shelter itself.
   constexpr float kBefore = 0.75f, kSlack_m = 0.15f, kSteepest = 3.0f;
   const float across = place.face.head<2>().norm();
   const float slope = std::min(across / std::max(std::abs(place.face.z()), 1e-3f), kSteepest);
-  const Eigen::Vector2f at = place.position.head<2>() +
-                             kBefore * tops_.cell_m * (across > 1e-3f ? 1.0f : 0.0f) * place.face.head<2>();
-  const float least = place.position.z() + kSlack_m + tops_.cell_m * slope;
-  const Eigen::Vector2f cell = (at - tops_.origin) / tops_.cell_m - Eigen::Vector2f::Constant(0.5f);
-  const int column = static_cast<int>(std::floor(cell.x())), row = static_cast<int>(std::floor(cell.y()));
-  const float right = cell.x() - static_cast<float>(column), up = cell.y() - static_cast<float>(row);
-  const auto isOpen = [&](int c, int r) { return tops_.at(c, r) <= least ? 1.0f : 0.0f; };
-  return mixed(mixed(isOpen(column, row), isOpen(column + 1, row), right),
-               mixed(isOpen(column, row + 1), isOpen(column + 1, row + 1), right), up);
+  const Eigen::Vector2f at = place.position.head<2>() + kBefore * tops_->cell_m() *
+                                                            (across > 1e-3f ? 1.0f : 0.0f) *
+                                                            place.face.head<2>();
+  const float least = place.position.z() + kSlack_m + tops_->cell_m() * slope;
+  const auto [column, row, right, up] = tops_->cellAt(at);
+  const auto isOpen = [&, column = column, row = row](int beside, int beyond) {
+    return tops_->at(column + beside, row + beyond) <= least ? 1.0f : 0.0f;
+  };
+  return mixed(mixed(isOpen(0, 0), isOpen(1, 0), right), mixed(isOpen(0, 1), isOpen(1, 1), right), up);
 }
 
 /// How snow as the wind left it leans, by its slope.
@@ -200,7 +179,9 @@ void Weathering::apply(const Place& place, const Material& material, Look* look)
   const float x = place.position.x(), y = place.position.y();
   // 3° and 8° from level.
   const float level = material.transmission > 0.0f ? 0.0f : smoothStep(0.9903f, 0.9986f, up);
-  const float standing = open_share * level * puddles_.cover(x, y, place.footprint_m);
+  const float standing = level > 0.0f && puddles_.share > 0.0f
+                             ? open_share * level * puddles_.cover(x, y, place.footprint_m, lift({x, y}))
+                             : 0.0f;
   const float faces = std::min(up + 0.5f, 1.0f);
   // Water stands on leaves in drops.
   const float takes = material.transmission > 0.0f ? 0.0f : 1.0f;

@@ -30,6 +30,12 @@ double rainPerMetre(double rain_mm_per_h) {
   return 1e-6 * shadows_mm2;  // in a m³
 }
 
+Eigen::Vector2d windNearGround(const Weather& weather) {
+  constexpr double kHeight_m = 2.0, kExponent = 1.0 / 7.0;
+  const double speed = weather.wind_m_per_s * std::pow(kHeight_m / weather.cloud_base_m, kExponent);
+  return {-speed * sin(weather.wind_from), -speed * cos(weather.wind_from)};
+}
+
 bool isBroken(const Weather& weather) {
   return weather.cover_oktas > 0.0 && weather.cover_oktas < 8.0;
 }

@@ -35,7 +35,7 @@ const Eigen::Vector3f kOrigin = Eigen::Vector3f::Zero();
 }  // namespace
 
 WeatherSky::WeatherSky(const Weather& weather, const WeatherTables& tables, const SkyTable& clear)
-    : rain_{weather.rain_mm_per_h, static_cast<std::uint64_t>(weather.seed)} {
+    : rain_{weather.rain_mm_per_h, static_cast<std::uint64_t>(weather.seed), windNearGround(weather)} {
   std::optional<DropletLayer> fog;
   float below = tables.ground_albedo;
   if (weather.visibility_m || weather.rain_mm_per_h > 0.0) {

@@ -1,5 +1,7 @@
 #include "studio/camera.h"
 
+#include <utility>
+
 #include "sunlit/image/mean_luminance.h"
 #include "sunlit/image/rain_streaks.h"
 #include "sunlit/quantity/angle.h"
@@ -44,10 +46,14 @@ render::UnderWay Camera::wayOf(const Chain& chain, double exposure_s) const {
   return {motion_, 1e-6 * shutter.line_delay_us, exposure_s, shutter.exposures};
 }
 
-image::LinearImage Camera::throughLens(const Lit& lit, const render::UnderWay& way,
+image::LinearImage Camera::beforeLens(const Lit& lit, double exposure_s, Stopwatch* stopwatch) const {
+  const render::UnderWay way = wayOf(chainOf(lit), exposure_s);
+  return stopwatch->measure("light", lit.name.series,
+                            [&] { return renderer_->light(lit.light, lit.setting.state, way); });
+}
+
+image::LinearImage Camera::throughLens(const Lit& lit, image::LinearImage luminance,
                                        Stopwatch* stopwatch) const {
-  image::LinearImage luminance = stopwatch->measure(
-      "light", lit.name.series, [&] { return renderer_->light(lit.light, lit.setting.state, way); });
   stopwatch->measure("develop", lit.name.series, [&] {
     const Chain& chain = chainOf(lit);
     if (!chain.vignetting.none()) chain.vignetting.apply(&luminance);
@@ -57,47 +63,48 @@ image::LinearImage Camera::throughLens(const Lit& lit, const render::UnderWay& w
   return luminance;
 }
 
-Camera::OnSensor Camera::onSensor(const Lit& lit, double exposure_s, Stopwatch* stopwatch) const {
-  const Chain& chain = chainOf(lit);
-  OnSensor on_sensor{throughLens(lit, wayOf(chain, exposure_s), stopwatch), 0.0};
-  on_sensor.metered_ev100 = stopwatch->measure("develop", lit.name.series, [&] {
-    return image::chooseEv100(on_sensor.luminance, chain.options.exposure);
-  });
-  return on_sensor;
+double Camera::metered(const Lit& lit, const image::LinearImage& on_sensor, Stopwatch* stopwatch) const {
+  return stopwatch->measure("develop", lit.name.series,
+                            [&] { return image::chooseEv100(on_sensor, chainOf(lit).options.exposure); });
 }
 
 /// The drops that fall before a camera meanwhile.
 void Camera::addRain(const Lit& lit, double ev100, image::LinearImage* luminance) const {
   const sky::Daylight& day = lit.light.day;
   const sky::Rain rain = day.rain();
-  if (!(rain.mm_per_h > 0.0)) return;
   // A drop gathers what is before the camera, and what is above.
   const Eigen::Array3f before = image::meanLuminance(*luminance).cast<float>();
   const Eigen::Array3f above = day.groundIlluminance().value / kPiFloat;
-  const image::RainStreaks streaks{rain.mm_per_h, rain.seed, lit.moment,
+  const image::RainStreaks streaks{rain.mm_per_h,
+                                   rain.seed,
+                                   lit.moment,
                                    image::streakTime_s(chainOf(lit).options.shutter, ev100),
-                                   0.5f * (before + above)};
+                                   0.5f * (before + above),
+                                   rain.wind_m_s};
   image::addRain(streaks, {lens_, map_from_optical_, motion_, renderer_->depth()}, luminance);
 }
 
 double Camera::meter(const Lit& lit, Stopwatch* stopwatch) const {
-  return onSensor(lit, knownSmear_s(chainOf(lit).options.shutter), stopwatch).metered_ev100;
+  const double smear_s = knownSmear_s(chainOf(lit).options.shutter);
+  return metered(lit, throughLens(lit, beforeLens(lit, smear_s, stopwatch), stopwatch), stopwatch);
 }
 
 Developed Camera::photograph(const Lit& lit, std::optional<double> ev100, Stopwatch* stopwatch) const {
   const ChainOptions& chain = chainOf(lit).options;
   const double known_s = ev100 ? image::smearTime_s(chain.shutter, *ev100) : knownSmear_s(chain.shutter);
-  OnSensor on_sensor = onSensor(lit, known_s, stopwatch);
-  const double metered = on_sensor.metered_ev100;
-  const double exposed = ev100 ? *ev100 : lit.setting.adapted ? lit.setting.adapted(metered) : metered;
+  image::LinearImage arriving = beforeLens(lit, known_s, stopwatch);
+  image::LinearImage luminance = throughLens(lit, arriving, stopwatch);
+  const double meters = metered(lit, luminance, stopwatch);
+  const double exposed = ev100 ? *ev100 : lit.setting.adapted ? lit.setting.adapted(meters) : meters;
+  // How long the shutter is open is known only now, and with it what smears and how far drops fall.
   const double smear_s = image::smearTime_s(chain.shutter, exposed);
-  if (smear_s != known_s && !motion_.none()) {
-    const render::UnderWay way = wayOf(chainOf(lit), smear_s);
-    if (renderer_->exposures(way) > 1) on_sensor.luminance = throughLens(lit, way, stopwatch);
-  }
+  const bool smears =
+      smear_s != known_s && !motion_.none() && renderer_->exposures(wayOf(chainOf(lit), smear_s)) > 1;
+  const bool rains = lit.light.day.rain().mm_per_h > 0.0;
+  if (smears) arriving = beforeLens(lit, smear_s, stopwatch);
+  if (rains) stopwatch->measure("develop", lit.name.series, [&] { addRain(lit, exposed, &arriving); });
+  if (smears || rains) luminance = throughLens(lit, std::move(arriving), stopwatch);
   return stopwatch->measure("develop", lit.name.series, [&] {
-    image::LinearImage& luminance = on_sensor.luminance;
-    addRain(lit, exposed, &luminance);
     if (chain.noise.enabled) image::addSensorNoise(exposed, chain.noise, lit.name, &luminance);
     return Developed{image::throughMosaic(image::develop(luminance, exposed), chain.mosaic), exposed};
   });

@@ -42,16 +42,12 @@ class Camera {
     image::Vignetting vignetting;
     image::VeilingGlare glare;
   };
-  /// What reaches the sensor, and the EV that it meters.
-  struct OnSensor {
-    image::LinearImage luminance;
-    double metered_ev100;
-  };
-
   const Chain& chainOf(const Lit& lit) const { return chains_.at(lit.setting.chain); }
   render::UnderWay wayOf(const Chain& chain, double exposure_s) const;
-  image::LinearImage throughLens(const Lit& lit, const render::UnderWay& way, Stopwatch* stopwatch) const;
-  OnSensor onSensor(const Lit& lit, double exposure_s, Stopwatch* stopwatch) const;
+  /// What comes to the lens while light smears for `exposure_s`; then what of it reaches the sensor.
+  image::LinearImage beforeLens(const Lit& lit, double exposure_s, Stopwatch* stopwatch) const;
+  image::LinearImage throughLens(const Lit& lit, image::LinearImage luminance, Stopwatch* stopwatch) const;
+  double metered(const Lit& lit, const image::LinearImage& on_sensor, Stopwatch* stopwatch) const;
   void addRain(const Lit& lit, double ev100, image::LinearImage* luminance) const;
 
   render::RenderOptions render_;

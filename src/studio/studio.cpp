@@ -64,8 +64,8 @@ Motion carried(const Motion& motion, const Eigen::Vector3d& away) {
 Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& robot, const Reports& reports)
     : options_(checked(options)), camera_(std::make_unique<Camera>(options.render, options.chains)) {
   if (options.right) right_ = std::make_unique<Camera>(rightRender(options), options.chains);
-  const light::World dry =
-      stopwatch_.measure("load", "world", [&] { return loadWorld(options.world, robot, reports); });
+  const light::World dry = stopwatch_.measure(
+      "load", "world", [&] { return loadWorld(options.world, cacheFolder(), robot, reports); });
   requireGroups(dry, options.lamps, reports);
   for (const scene::SurfaceState& state : options.surfaces) {
     light::World& world = worlds_.emplace_back(

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "studio/kept_track.h"
 #include "studio/tell.h"
 #include "sunlit/image/cache_folder.h"
 #include "sunlit/light/lamps.h"
@@ -21,8 +22,9 @@ void requireWorld(const WorldOptions& options) {
   scene::requireWorld(options.name, options.searchPath());
 }
 
-scene::Scene loadScene(const WorldOptions& options, const Reports& reports) {
-  scene::Scene scene = scene::load(options.name, options.searchPath());
+scene::Scene loadScene(const WorldOptions& options, const std::string& cache_folder, const Reports& reports) {
+  scene::Scene scene = options.name == scene::kRaceTrack ? keptRaceTrack(cache_folder, reports)
+                                                         : scene::load(options.name, options.searchPath());
   for (const std::string& warning : scene.warnings) tell(reports.warning, options.name + ": " + warning);
   tell(reports.note, "World " + options.name + ": " + std::to_string(scene.triangleCount()) + " triangles, " +
                          std::to_string(scene.textures.size()) + " textures, " +
@@ -30,9 +32,9 @@ scene::Scene loadScene(const WorldOptions& options, const Reports& reports) {
   return scene;
 }
 
-light::World loadWorld(const WorldOptions& options, const std::optional<scene::Robot>& robot,
-                       const Reports& reports) {
-  auto scene = std::make_shared<scene::Scene>(loadScene(options, reports));
+light::World loadWorld(const WorldOptions& options, const std::string& cache_folder,
+                       const std::optional<scene::Robot>& robot, const Reports& reports) {
+  auto scene = std::make_shared<scene::Scene>(loadScene(options, cache_folder, reports));
   std::vector<std::vector<scene::Mesh>> meshes_of_links;
   if (robot) meshes_of_links = scene::addLooks(*robot, scene.get());
   light::World world(std::move(scene), meshes_of_links);

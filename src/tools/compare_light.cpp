@@ -118,7 +118,8 @@ class Comparer {
 void run(const CompareLightOptions& options) {
   makeFolder(options.output);
   const auto load_start = Clock::now();
-  const light::World dry = studio::loadWorld(options.world, std::nullopt, onTerminal());
+  const light::World dry =
+      studio::loadWorld(options.world, studio::cacheOf(options.bake).folder, std::nullopt, onTerminal());
   light::World world = light::weathered(dry, options.surfaces);
   studio::requireGroups(world, options.lamps, onTerminal());
   world.transport = studio::bake(world, options.bake, onTerminal());

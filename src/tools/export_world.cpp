@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sunlit/image/cache_folder.h"
 #include "sunlit/light/lamps.h"
 #include "sunlit/path/path.h"
 #include "sunlit/render/baked_looks.h"
@@ -91,7 +92,7 @@ scene::Scene withBakedLooks(const scene::Scene& world, const ExportOptions& opti
 
 void exportWorld(const ExportOptions& options) {
   const studio::Reports reports = onTerminal();
-  scene::Scene world = studio::loadScene(options.world, reports);
+  scene::Scene world = studio::loadScene(options.world, image::usualCacheFolder(), reports);
   world.lamps = light::burning(world.lamps, options.lamps);  // in cd
   if (options.bakes) world = withBakedLooks(world, options, reports);
   for (const std::string& lost : scene::writeGltf(world, options.output)) reports.warning(lost);

@@ -18,6 +18,7 @@ struct RainStreaks {
   double exposure_s = 0.001;
   /// What a drop shows, cd/m²: it gathers light from nearly all that is before it.
   Eigen::Array3f luminance = Eigen::Array3f::Zero();
+  Eigen::Vector2d wind_m_s = Eigen::Vector2d::Zero();  ///< x and y in `map`; drops go with it
 };
 
 /// What a camera looks at, from where, and how it moves.
@@ -30,10 +31,10 @@ struct RainedView {
 
 /// Drops of one moment, apart from those of others, each at its place in `map`. Diameters are distributed as
 /// Marshall & Palmer (1948) found, N(D) = 8000 e^(−4.1 R^−0.21 D) per m³ and mm; each falls by 9.65 − 10.3
-/// e^(−0.6 D) m/s (Atlas, Srivastava & Sekhon 1973), R in mm/h, D in mm, straight down in `map`, past a
-/// camera that moves. Of 1 mm up, and from 0.1 to 5 m away, they are drawn one by one, and each takes away
-/// and sends light as its shadow does in the mean over the exposure; the rest is the air's. Depends on the
-/// arguments alone.
+/// e^(−0.6 D) m/s (Atlas, Srivastava & Sekhon 1973), R in mm/h, D in mm, straight down in `map` or slanted by
+/// the wind, past a camera that moves. Of 1 mm up, and from 0.1 to 5 m away, they are drawn one by one, and
+/// each takes away and sends light as its shadow does in the mean over the exposure; the rest is the air's.
+/// Depends on the arguments alone.
 void addRain(const RainStreaks& rain, const RainedView& view, LinearImage* picture);
 
 }  // namespace sunlit::image

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -40,12 +41,14 @@ bool isDry(const SurfaceState& state);
 /// Whether they make the same surfaces.
 bool operator==(const SurfaceState& a, const SurfaceState& b);
 
+class TopHeights;
+
 /// Water and snow of one state on one scene. Rain and snow fall straight down, past what is cut out or
 /// blends, onto all that stands under the open sky; what lies deeper than the topmost surface stays dry.
 /// Immutable.
 class Weathering {
  public:
-  /// Takes tenths of a second. The same bits for any number of threads.
+  /// Takes tenths of a second, about one with puddles. The same bits for any number of threads.
   Weathering(const Scene& scene, const SurfaceState& state);
 
   /// What is looked at.
@@ -61,10 +64,13 @@ class Weathering {
     float roughness, metalness;
     float film = 0.0f;  ///< share that mirrors as water does, 0 … 1: kFilmReflectance at normal incidence
   };
-  /// Water: a soaked rough dielectric of albedo ρ has ρ (1 − p) / (1 − p ρ), p = 0.4749, under its film
-  /// (Lekner & Dorf 1988, Applied Optics 27, 1278, eq. 10 with n = 4/3: kInnerReflectance). Film and gloss:
-  /// see equations.md. Snow: kSnowAlbedo on the share tanh(depth / 0.025 m) of what faces up (Yang et al.
-  /// 1997, of 1 cm rough ground), on slopes up to 40°, less and less up to 60°.
+  /// Puddles stand on level ground, first where it lies below the land around it within 2 m, by the map of
+  /// the topmost surfaces; what that does not know (unevenness of some millimetres) the
+  /// seed does. Water: a soaked rough dielectric of albedo ρ has ρ (1 − p) / (1 − p ρ),
+  /// p = 0.4749, under its film (Lekner & Dorf 1988, Applied Optics 27, 1278, eq. 10 with n = 4/3:
+  /// kInnerReflectance). Film and gloss: see equations.md. Snow: kSnowAlbedo on the share tanh(depth / 0.025
+  /// m) of what faces up (Yang et al. 1997, of 1 cm rough ground), on slopes up to 40°, less and less up to
+  /// 60°.
   void apply(const Place& place, const Material& material, Look* look) const;
 
   const SurfaceState& state() const { return state_; }
@@ -78,16 +84,6 @@ class Weathering {
   static constexpr float kSnowAlbedo = 0.9f;
 
  private:
-  /// The height of the topmost surface over each cell of a grid.
-  struct Tops {
-    Eigen::Vector2f origin = Eigen::Vector2f::Zero();  ///< m, the outer corner of cell (0, 0)
-    float cell_m = 0.25f;
-    int columns = 0, rows = 0;
-    std::vector<float> height_m;
-
-    void add(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c);
-    float at(int column, int row) const;
-  };
   /// Noise of which a share is below a threshold.
   struct Patches {
     float wavelength_m = 1.0f;
@@ -98,17 +94,23 @@ class Weathering {
     Patches() = default;
     Patches(float wavelength_m, std::uint32_t seed, double share);
     float noise(float x, float y) const;
-    /// Of a square so wide about (x, y), how much lies in a patch.
-    float cover(float x, float y, float width_m) const;
+    /// What the share asked for of `values` lies below becomes the threshold.
+    void divide(std::vector<float> values);
+    /// Of a square so wide about (x, y), how much lies in a patch, where the noise is raised by `lift`.
+    float cover(float x, float y, float width_m, float lift = 0.0f) const;
   };
-  static Tops topsOf(const Scene& scene);
+  /// Puddles of the share asked for, first in the hollows of the land.
+  void floodHollows();
+  /// How far a place lies above the land around it, in parts of puddles_' noise.
+  float lift(const Eigen::Vector2f& place) const;
   /// Share of the rain that gets there.
   float open(const Place& place) const;
   Eigen::Vector3f drifts(const Place& place) const;
   void wet(float film, float standing, const Material& material, Look* look) const;
 
   SurfaceState state_;
-  Tops tops_;
+  std::shared_ptr<const TopHeights> tops_;
+  std::vector<std::int8_t> relief_;  ///< TopHeights::relief(), where there are puddles
   Patches puddles_, snow_;
 };
 

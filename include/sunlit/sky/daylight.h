@@ -39,7 +39,8 @@ struct AirColumn {
 /// Rain that falls through the air.
 struct Rain {
   double mm_per_h = 0.0;
-  std::uint64_t seed = 0;  ///< of its drops
+  std::uint64_t seed = 0;                              ///< of its drops
+  Eigen::Vector2d wind_m_s = Eigen::Vector2d::Zero();  ///< x and y in `map`, that carries them
 };
 
 /// Tabulated sky; see atmosphere.h for how it is computed.

@@ -1,6 +1,7 @@
 /// What stands between the clear sky and the ground: cloud and fog, in units.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
@@ -63,7 +64,7 @@ inline std::vector<Field> fieldsOf(Weather& weather) {
            &weather.wind_m_per_s,
            "m/s",
            {0, 100},
-           "that moves broken cloud and its shadows; 0: they stand"},
+           "of the clouds: moves them and their shadows, and slants rain; 0: they stand"},
           {"wind_from", &weather.wind_from, "deg", {-360, 360}, "clockwise from north: 270 is a west wind"},
           {"cloud_seed", &weather.seed, "", {0, 2147483647}, "another seed, other clouds"}};
 }
@@ -83,6 +84,10 @@ double opticalDepthOf(const Weather& weather);
 /// optics twice over, π N₀ / Λ³ of Marshall & Palmer's drops, 3.65e-4 R^0.63. The other half is diffracted by
 /// less than 0.1°, and still seen.
 double rainPerMetre(double rain_mm_per_h);
+
+/// At a camera's height, 2 m, along x and y of `map`: wind (2 m / cloud_base)^(1/7), the power law of neutral
+/// air over open land.
+Eigen::Vector2d windNearGround(const Weather& weather);
 
 /// Whether there is cloud with gaps in it.
 bool isBroken(const Weather& weather);

@@ -71,12 +71,13 @@ light::BakeCache cacheOf(const BakeOptions& options);
 /// Throws what scene::requireWorld() throws.
 void requireWorld(const WorldOptions& options);
 
-/// What scene::load() gives; its warnings become those of `reports`. Throws as it does.
-scene::Scene loadScene(const WorldOptions& options, const Reports& reports);
+/// What scene::load() gives; its warnings become those of `reports`. Throws as it does. The built-in world is
+/// kept in `cache_folder`.
+scene::Scene loadScene(const WorldOptions& options, const std::string& cache_folder, const Reports& reports);
 
 /// With the `robot`, if there is one, as what moves in it. Bakes nothing. Throws what scene::load() throws.
-light::World loadWorld(const WorldOptions& options, const std::optional<scene::Robot>& robot,
-                       const Reports& reports);
+light::World loadWorld(const WorldOptions& options, const std::string& cache_folder,
+                       const std::optional<scene::Robot>& robot, const Reports& reports);
 
 /// Throws std::invalid_argument, naming the groups that there are, for one that is to stay dark and that no
 /// lamp of `world` belongs to. Warns where there are more groups than the bake tells apart.

@@ -9,10 +9,21 @@
 
 namespace sunlit::light {
 
+/// What filter functions are given of the query that they are called for.
+#if SUNLIT_EMBREE == 3
+using RayContext = RTCIntersectContext;
+#else
+using RayContext = RTCRayQueryContext;
+#endif
+
+/// Besides what filters the geometries have, hits must pass that of the query, which is given its context.
+struct QueryFilter {
+  RTCFilterFunctionN filter;
+  RayContext* context;  ///< begun
+};
+
 #if SUNLIT_EMBREE == 3
 
-/// What filter functions are given of the query that they are called for.
-using RayContext = RTCIntersectContext;
 constexpr auto kCoherent = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
 constexpr auto kIncoherent = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
 
@@ -22,6 +33,15 @@ inline void begin(RayContext* context) {
 
 inline void intersect(RTCScene scene, RayContext* context, RTCRayHit* ray) {
   rtcIntersect1(scene, context, ray);
+}
+
+/// What a scene needs whose queries bring a filter.
+constexpr auto kFilterOfQuery = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+
+inline void intersect(const int* valid, RTCScene scene, const QueryFilter& query, RTCRayHit16* packet) {
+  query.context->flags = kIncoherent;
+  query.context->filter = query.filter;
+  rtcIntersect16(valid, scene, query.context, packet);
 }
 
 /// Asks `query` for a packet.
@@ -35,7 +55,6 @@ void ask(const int* valid, RTCScene scene, Packet* packet) {
 
 #else
 
-using RayContext = RTCRayQueryContext;
 constexpr auto kCoherent = RTC_RAY_QUERY_FLAG_COHERENT;
 constexpr auto kIncoherent = RTC_RAY_QUERY_FLAG_INCOHERENT;
 
@@ -48,6 +67,17 @@ inline void intersect(RTCScene scene, RayContext* context, RTCRayHit* ray) {
   rtcInitIntersectArguments(&arguments);
   arguments.context = context;
   rtcIntersect1(scene, ray, &arguments);
+}
+
+constexpr auto kFilterOfQuery = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+
+inline void intersect(const int* valid, RTCScene scene, const QueryFilter& query, RTCRayHit16* packet) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = static_cast<RTCRayQueryFlags>(kIncoherent | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+  arguments.context = query.context;
+  arguments.filter = query.filter;
+  rtcIntersect16(valid, scene, packet, &arguments);
 }
 
 inline void begin(RTCIntersectArguments* arguments) {

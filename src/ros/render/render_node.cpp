@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 #include "ros/conversions/geometry.h"
 #include "ros/conversions/images.h"
@@ -161,6 +162,7 @@ void RenderNode::report(Step step) {
   const bool waits_long = wait_log_.report(step == Step::kWaits ? run_->waitsFor() : std::string());
   if (waits_long) activity_.say("waiting", run_->waitsFor());
   if (step != Step::kTook) return;
+  drawMap();
   keepTiming();
   if (path_run_ == nullptr) return activity_.say("rendering");
   const int position = path_run_->position(), positions = path_run_->positions();
@@ -182,6 +184,12 @@ void RenderNode::beginFolder() {
   files_->keepInputs({light::fingerprint(studio_.world()), path_->fingerprint()});
   files_->keepRasterizer(studio_.rasterizer());
   files_->keepGround(sky_.groundAlbedo());
+  map_due_ = !files_->hasMap();
+}
+
+/// While others look at the first picture: it takes seconds in which they would wait for it.
+void RenderNode::drawMap() {
+  if (!std::exchange(map_due_, false)) return;
   const studio::MapExtent extent = extentOf(*path_);
   studio::SkyBodies noon{{Direction(Azimuth::degrees(160.0), Angle::degrees(55.0)), 1.0}};
   noon.site_elevation_m = streams_.siteElevation();
@@ -190,6 +198,7 @@ void RenderNode::beginFolder() {
 }
 
 void RenderNode::finish() {
+  drawMap();
   finished_ = true;
   activity_.say("done", "", {1.0, 0.0});
   if (files_) files_->writeTiming(studio_.stopwatch());

@@ -48,6 +48,7 @@ class RenderNode {
   /// Before the first pose, once all readers were heard: an evaluator that refuses its folder never is, and
   /// what the folder holds must then stay as it is.
   void beginFolder();
+  void drawMap();
   void finish();
   void reportRobot() const;
 
@@ -72,8 +73,9 @@ class RenderNode {
   WaitLog wait_log_;
   bool paused_;
   std::optional<std::chrono::steady_clock::time_point> timing_kept_;  // when it was written last
-  bool has_begun_ = false;                                            // and may write into its folder
-  bool finished_ = false;                                             // all is rendered
+  bool map_due_ = false;
+  bool has_begun_ = false;  // and may write into its folder
+  bool finished_ = false;   // all is rendered
   std::vector<ros::ServiceServer> services_;
 };
 

@@ -89,6 +89,11 @@ void RunFiles::writeMap(const image::Rgb8Image& map, const studio::MapExtent& ex
                                                         "\ny_max: " + textOf(extent.y_max) + "\n");
 }
 
+bool RunFiles::hasMap() const {
+  return goes_on_ && std::filesystem::exists(folder_ + "/map.png") &&
+         std::filesystem::exists(folder_ + "/map.yaml");
+}
+
 void RunFiles::writeTiming(const studio::Stopwatch& stopwatch) const {
   studio::Stopwatch whole;
   whole.add(earlier_);

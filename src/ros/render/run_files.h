@@ -31,6 +31,8 @@ class RunFiles {
   void keepGround(double albedo) const;
   /// map.png, north up, and map.yaml, which says what ground it shows: x_min, x_max, y_min, y_max in m.
   void writeMap(const image::Rgb8Image& map, const studio::MapExtent& extent) const;
+  /// Whether the run that this one goes on with has left both.
+  bool hasMap() const;
   /// timing.csv: stage,what,count,seconds; with the times of the run that this one goes on with.
   void writeTiming(const studio::Stopwatch& stopwatch) const;
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "sunlit/quantity/frames.h"
 
@@ -170,6 +171,21 @@ TEST(RainStreaks, SlantAsTheCameraMoves) {
   EXPECT_GT(streaks, 20);
   EXPECT_GT(level, 0.8 * streaks);
   EXPECT_GT(steep, 0.8 * streaks);
+}
+
+TEST(RainStreaks, GoWithTheWindAsPastACameraThatGoesAgainstIt) {
+  const Lens lens = pinhole();
+  const DepthImage sky = at(std::numeric_limits<float>::quiet_NaN());
+  const auto picture = [&](const Eigen::Vector2d& wind_m_s, const Motion& motion) {
+    LinearImage rained = grey(1.0f);
+    RainStreaks rain{30.0, 5, {1, ""}, 0.01};
+    rain.wind_m_s = wind_m_s;
+    addRain(rain, {lens, level({0.0, 0.0, 1.0}), motion, sky}, &rained);
+    return rained.data;
+  };
+  const std::vector<float> blown = picture({4.0, -7.0}, {});
+  EXPECT_EQ(blown, picture({0.0, 0.0}, {{-4.0, 7.0, 0.0}, Eigen::Vector3d::Zero()}));
+  EXPECT_NE(blown, picture({0.0, 0.0}, {}));
 }
 
 }  // namespace

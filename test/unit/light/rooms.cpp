@@ -54,9 +54,10 @@ TEST(Rooms, AreLitByThePatchOfTheSunFromWhereItLies) {
   for (const auto& [azimuth_deg, elevation_deg] : {std::pair(180.0, 66.0), {225.0, 60.0}, {250.0, 45.0}}) {
     const sky::Daylight day = onlySun(azimuth_deg, elevation_deg);
     const Errors found = errors(fast(world, places, day), traced(world, places, day, 60000));
-    // Measured 3.3 to 4.5 % and 7 to 17 %, of which 2.5 % is noise of the traced light; by four patches of
-    // the sky and 160 directions of each sample 12 to 21 % and 32 to 55 %.
-    EXPECT_LT(found.mean, 0.06) << azimuth_deg;
+    // Measured 3.0 to 6.1 % and 7 to 18 % with the ray library's code for SSE, AVX, AVX2 and AVX-512, of
+    // which 2.5 % is noise of the traced light; by four patches of the sky and 160 directions of each sample
+    // 12 to 21 % and 32 to 55 %.
+    EXPECT_LT(found.mean, 0.07) << azimuth_deg;
     EXPECT_LT(found.worst, 0.2) << azimuth_deg;
   }
 }
@@ -111,8 +112,8 @@ TEST(Rooms, AreLitByTheSkyThatTheirOpeningsShow) {
   EXPECT_LT(found.worst, 0.16);
 }
 
-TEST(Rooms, GetBackWhatTheirPanesMirror) {
-  // 4 m × 4 m × 3 m, white; its south side is a pane before a black world.
+/// 4 m × 4 m × 3 m, white; its south side is a pane before a black world, that goes so far into the walls.
+scene::Scene roomWithAPane(float into_m) {
   scene::Scene scene;
   scene::Material pane = paint(1.0f);
   pane.glass = 1.0f;
@@ -123,18 +124,29 @@ TEST(Rooms, GetBackWhatTheirPanesMirror) {
   addBlock(&scene, 0, {-2.3f, -2.0f, 0.0f}, {0.3f, 4.3f, 3.0f});
   addBlock(&scene, 0, {2.0f, -2.0f, 0.0f}, {0.3f, 4.3f, 3.0f});
   addBlock(&scene, 0, {-2.0f, 2.0f, 0.0f}, {4.0f, 0.3f, 3.0f});
-  addPatch(&scene, 1, {-2.0f, -1.99f, 0.0f}, 4.0f * Eigen::Vector3f::UnitX(), 3.0f * kUp);
-  const World world = baked(std::move(scene));
+  addPatch(&scene, 1, {-2.0f - into_m, -1.99f, 0.0f}, (4.0f + 2.0f * into_m) * Eigen::Vector3f::UnitX(),
+           3.0f * kUp);
+  return scene;
+}
+
+TEST(Rooms, GetBackWhatTheirPanesMirror) {
   std::vector<Looked> places;
   for (const float x : {-1.5f, -0.5f, 0.5f, 1.5f}) {
     for (const float y : {-1.5f, 0.0f, 1.5f}) places.push_back({{x, y, 3.0f}, -kUp, {0.2f, 0.3f, -0.9f}});
     places.push_back({{x, 2.0f, 2.0f}, -Eigen::Vector3f::UnitY(), {0.1f, -0.9f, 0.1f}});
   }
   const sky::Daylight day = onlySun(180.0, 50.0);
-  const Errors found = errors(fast(world, places, day), traced(world, places, day, 30000));
-  // Measured -2.9 and 3.6 %.
-  EXPECT_LT(std::abs(found.bias), 0.04);
-  EXPECT_LT(found.mean, 0.05);
+  // Which rays of the bake a pane stops is up to a hash of where they meet it: each of these is another draw.
+  Errors of_all;
+  for (const float into_m : {0.0f, 1e-4f, 2e-4f, 3e-4f}) {
+    const World world = baked(roomWithAPane(into_m));
+    const Errors found = errors(fast(world, places, day), traced(world, places, day, 30000));
+    of_all.bias += 0.25 * found.bias;
+    of_all.mean += 0.25 * found.mean;
+  }
+  // Of nine panes -2.0 to -5.9 % (mean -3.8, standard deviation 1.3) and 2.7 to 5.9 %.
+  EXPECT_LT(std::abs(of_all.bias), 0.05);
+  EXPECT_LT(of_all.mean, 0.055);
 }
 
 TEST(Rooms, StreetsAreLitByTheSideThatTheSunShinesOn) {

@@ -137,6 +137,17 @@ TEST(Weather, RainTakesHalfOfWhatItsDropsCover) {
   EXPECT_EQ(grey.rain().mm_per_h, 0.0);
 }
 
+TEST(Weather, WindNearTheGroundIsThatOfTheCloudsByThePowerLaw) {
+  Weather weather;
+  weather.wind_m_per_s = 10.0;  // from the west: to +x, and at 2 m 10 (2 / 1500)^(1/7) = 3.884 m/s
+  EXPECT_LT((windNearGround(weather) - Eigen::Vector2d(3.884, 0.0)).norm(), 1e-3);
+  weather.wind_from = Angle::degrees(0.0);
+  weather.cloud_base_m = 200.0;  // from the north, 10 (1 / 100)^(1/7) = 5.179
+  EXPECT_LT((windNearGround(weather) - Eigen::Vector2d(0.0, -5.179)).norm(), 1e-3);
+  weather.rain_mm_per_h = 10.0;
+  EXPECT_EQ(under(35.0, weather).rain().wind_m_s, windNearGround(weather));
+}
+
 TEST(Weather, FogThinsOutAboveItsTop) {
   Weather low = fog(150.0);
   low.fog_top_m = 20.0;

@@ -88,6 +88,7 @@ struct Taken {
 Taken inRain() {
   sky::Weather rainy;
   rainy.rain_mm_per_h = 100.0;
+  rainy.wind_m_per_s = 10.0;
   return {{7, "noon"},
           Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 1.0)),
           {{0.0, 2.0, 0.0}, {0.0, 0.0, 2.0}},
@@ -97,30 +98,35 @@ Taken inRain() {
 /// The steps of the first chain one by one; `glare_first`: before the vignetting.
 Developed byHand(const StudioOptions& options, const Taken& taken, bool glare_first) {
   const ChainOptions& chain = options.chains[0];
-  const light::World world = loadWorld(options.world, std::nullopt, {});
+  const light::World world = loadWorld(options.world, "", std::nullopt, {});
   render::Renderer renderer(world, options.render);
   renderer.look(taken.map_from_camera * linkFromOptical());
   const light::Illumination light = light::illumination(world, taken.day, options.lamps);
   const render::UnderWay way{taken.motion, 1e-6 * chain.shutter.line_delay_us,
                              1e-3 * chain.shutter.exposure_ms.value(), chain.shutter.exposures};
   image::LinearImage luminance = renderer.light(light, 0, way);
-  const image::Vignetting vignetting(image::Lens(options.render.camera, {}), chain.vignetting);
+  const image::Lens lens(options.render.camera, {});
+  const image::Vignetting vignetting(lens, chain.vignetting);
   const std::vector<image::LightOutside> outside = renderer.lightsOutside(light);
   EXPECT_EQ(outside.size(), 1u);  // the sun, high above what the camera sees
-  if (!glare_first) vignetting.apply(&luminance);
-  image::VeilingGlare(vignetting, chain.glare).apply(outside, &luminance);
-  if (glare_first) vignetting.apply(&luminance);
-  image::blur(chain.blur, &luminance);
-  const double ev100 = image::chooseEv100(luminance, chain.exposure);
+  const auto passLens = [&](image::LinearImage* passing) {
+    if (!glare_first) vignetting.apply(passing);
+    image::VeilingGlare(vignetting, chain.glare).apply(outside, passing);
+    if (glare_first) vignetting.apply(passing);
+    image::blur(chain.blur, passing);
+  };
+  image::LinearImage dry = luminance;
+  passLens(&dry);
+  const double ev100 = image::chooseEv100(dry, chain.exposure);
   const Eigen::Array3f before = image::meanLuminance(luminance).cast<float>();
   const Eigen::Array3f above = taken.day.groundIlluminance().value / kPiFloat;
   const sky::Rain rain = taken.day.rain();
-  const image::RainStreaks streaks{rain.mm_per_h, rain.seed, taken.name,
-                                   image::streakTime_s(chain.shutter, ev100), 0.5F * (before + above)};
-  image::addRain(streaks,
-                 {image::Lens(options.render.camera, {}), taken.map_from_camera * linkFromOptical(),
-                  taken.motion, renderer.depth()},
+  const image::RainStreaks streaks{
+      rain.mm_per_h,           rain.seed,    taken.name, image::streakTime_s(chain.shutter, ev100),
+      0.5F * (before + above), rain.wind_m_s};
+  image::addRain(streaks, {lens, taken.map_from_camera * linkFromOptical(), taken.motion, renderer.depth()},
                  &luminance);
+  passLens(&luminance);
   image::addSensorNoise(ev100, chain.noise, taken.name, &luminance);
   return {image::throughMosaic(image::develop(luminance, ev100), chain.mosaic), ev100};
 }
@@ -221,7 +227,7 @@ TEST(Studio, TheRightCameraSeesWhatOneInItsPlaceWouldAtTheLeftsExposureWithGrain
   const image::Rgb8Image right = studio.photographRight(light, name, left.ev100);
   EXPECT_EQ(left.picture.data, without.picture.data);
 
-  const light::World world = loadWorld(options.world, std::nullopt, {});
+  const light::World world = loadWorld(options.world, "", std::nullopt, {});
   render::Renderer renderer(world, options.render);
   // y is to the left.
   renderer.look(map_from_camera * Eigen::Translation3d(0.0, -0.3, 0.0) * linkFromOptical());
@@ -261,7 +267,7 @@ TEST(Studio, TellsWhatItLoadsToWhoListens) {
   std::vector<std::string> notes;
   Reports reports;
   reports.note = [&](const std::string& line) { notes.push_back(line); };
-  const scene::Scene scene = loadScene(boxes().world, reports);
+  const scene::Scene scene = loadScene(boxes().world, "", reports);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find(std::to_string(scene.triangleCount()) + " triangles"), std::string::npos)
       << notes[0];

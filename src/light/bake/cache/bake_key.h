@@ -11,7 +11,7 @@
 namespace sunlit::light {
 
 /// Goes up whenever the bake or the layout of its file changes.
-constexpr std::uint32_t kBakeVersion = 26;
+constexpr std::uint32_t kBakeVersion = 27;
 
 /// Shape, and of the looks what decides how light goes on from it.
 void addContents(const Geometry& geometry, image::ContentHash* hash);

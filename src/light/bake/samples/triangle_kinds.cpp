@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "light/bake/samples/probe.h"
+#include "light/bake/samples/triangle_places.h"
 #include "sunlit/light/visibility.h"
 
 namespace sunlit::light {
@@ -33,17 +34,6 @@ struct Outlook {
 
 using Outlooks = std::array<Outlook, RayPacket::kSize>;
 
-/// Places on a triangle, by the shares of its corners.
-const std::array<Eigen::Vector3f, 10> kPlaces = {{{0.3333f, 0.3333f, 0.3334f},
-                                                  {0.9f, 0.05f, 0.05f},
-                                                  {0.05f, 0.9f, 0.05f},
-                                                  {0.05f, 0.05f, 0.9f},
-                                                  {0.48f, 0.48f, 0.04f},
-                                                  {0.04f, 0.48f, 0.48f},
-                                                  {0.48f, 0.04f, 0.48f},
-                                                  {0.7f, 0.15f, 0.15f},
-                                                  {0.15f, 0.7f, 0.15f},
-                                                  {0.15f, 0.15f, 0.7f}}};
 constexpr std::size_t kPlacesOfSmall = 4;
 
 struct Side {
@@ -73,10 +63,7 @@ Outlooks outlooks(const Surrounding& around, const Side* first, int count, const
     Receiver& receiver = receivers[static_cast<std::size_t>(i)];
     receiver.normal = sideNormal(geometry, first[i].triangle, first[i].side);
     receiver.lifts.fill(kClear_m * receiver.normal);
-    const auto& corners = geometry.triangles[first[i].triangle];
-    Eigen::Vector3f origin = Eigen::Vector3f::Zero();
-    for (std::size_t k = 0; k < 3; ++k) origin += place[static_cast<int>(k)] * geometry.positions[corners[k]];
-    receiver.origins.fill(origin);
+    receiver.origins.fill(placeOn(geometry, first[i].triangle, place));
   }
   Outlooks result;
   probe(around.rays, pattern, {receivers.data(), count},
@@ -132,14 +119,14 @@ std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeR
   const SkyPatches patches(1);
   for (std::size_t i = 0; i < patches.coarseRays().size(); i += 6)
     around.pattern.push_back(patches.coarseRays()[i]);
-  for (std::size_t place = 0; place < kPlaces.size() && !sides.empty(); ++place) {
+  for (std::size_t place = 0; place < kTrianglePlaces.size() && !sides.empty(); ++place) {
     std::vector<std::uint8_t> useless(sides.size()), sealed(sides.size());
     const std::size_t packets = (sides.size() + RayPacket::kSize - 1) / RayPacket::kSize;
     tbb::parallel_for(std::size_t{0}, packets, [&](std::size_t p) {
       const std::size_t first = p * RayPacket::kSize;
       const std::size_t end = std::min(first + RayPacket::kSize, sides.size());
       const Outlooks from_there =
-          outlooks(around, sides.data() + first, static_cast<int>(end - first), kPlaces[place]);
+          outlooks(around, sides.data() + first, static_cast<int>(end - first), kTrianglePlaces[place]);
       for (std::size_t i = first; i < end; ++i) {
         const Outlook& outlook = from_there[i - first];
         if (place == 0 && sides[i].side == 1) {

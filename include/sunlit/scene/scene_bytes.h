@@ -1,0 +1,20 @@
+/// A scene as bytes, to be read again by the same build of the program on the same kind of machine.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "sunlit/scene/scene.h"
+
+namespace sunlit::scene {
+
+/// Takes bytes in the order in which they come.
+using ByteSink = std::function<void(const void* data, std::size_t size)>;
+
+void writeBytes(const Scene& scene, const ByteSink& sink);
+
+/// What writeBytes() wrote, all of it. Throws std::runtime_error where the bytes end too soon or go on behind
+/// it; whether they are those that were written is the caller's to know.
+Scene sceneOf(const std::byte* data, std::size_t size);
+
+}  // namespace sunlit::scene

@@ -1,0 +1,37 @@
+/// The scene as rays of the bake meet it.
+#pragma once
+
+#include <memory>
+
+#include "light/bake/samples/ray_packet.h"
+#include "sunlit/light/geometry.h"
+
+namespace sunlit::light {
+
+/// Surfaces stop light from both sides; masked ones let it through where they are cut out, leaves by smaller
+/// triangles of as much area.
+class RayScene {
+ public:
+  enum class Facing {
+    kTowards,  ///< its front, towards the ray
+    kAway,     ///< its back
+  };
+
+  /// Keeps `geometry` alive. Throws std::runtime_error if the ray library fails.
+  explicit RayScene(std::shared_ptr<const Geometry> geometry);
+  ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+
+  const Geometry& geometry() const;
+
+  void cast(const RayPacket& rays, HitPacket* hits) const;
+  /// Of what shows the ray one of its sides, and is no leaf.
+  void castAmong(Facing facing, const RayPacket& rays, const RayReach& reach, HitPacket* hits) const;
+
+ private:
+  struct Embree;
+  std::unique_ptr<Embree> embree_;
+};
+
+}  // namespace sunlit::light

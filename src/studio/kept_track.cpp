@@ -1,0 +1,56 @@
+#include "studio/kept_track.h"
+
+#include <dlfcn.h>
+
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "studio/sealed_files.h"
+#include "studio/tell.h"
+#include "sunlit/image/content_hash.h"
+#include "sunlit/scene/race_track.h"
+#include "sunlit/scene/scene_bytes.h"
+
+namespace sunlit::studio {
+namespace {
+
+/// Of the library that makes the world: another build may make another one. Empty where it cannot be found.
+std::string maker() {
+  Dl_info library{};
+  if (dladdr(reinterpret_cast<const void*>(&scene::raceTrack), &library) == 0) return {};
+  image::ContentHash hash;
+  const std::string none = hash.text();
+  hash.addFile(library.dli_fname);
+  return hash.text() == none ? std::string() : hash.text();
+}
+
+std::optional<scene::Scene> found(const SealedFiles& files, const std::string& name) {
+  const std::unique_ptr<const SealedFiles::Content> content = files.find(name);
+  if (!content) return std::nullopt;
+  return scene::sceneOf(content->data(), content->size());
+}
+
+}  // namespace
+
+scene::Scene keptRaceTrack(const std::filesystem::path& folder, const Reports& reports) {
+  constexpr std::uintmax_t kLimit_bytes = 500'000'000;  // that of two builds
+  const std::string name = maker();
+  if (name.empty()) return scene::raceTrack();
+  std::optional<scene::Scene> scene;
+  try {
+    const SealedFiles files(folder, ".scene", kLimit_bytes);
+    if ((scene = found(files, name))) return *std::move(scene);
+    const image::CacheTurn turn = files.turn(name);
+    if ((scene = found(files, name))) return *std::move(scene);
+    scene = scene::raceTrack();
+    files.keep(name, [&](const SealedFiles::Sink& sink) { scene::writeBytes(*scene, sink); });
+    files.tidy([&](const std::string& line) { tell(reports.warning, line); });
+  } catch (const std::exception& problem) {
+    tell(reports.warning, std::string("the built-in world is not kept: ") + problem.what());
+  }
+  return scene ? *std::move(scene) : scene::raceTrack();
+}
+
+}  // namespace sunlit::studio

@@ -1,0 +1,15 @@
+/// The built-in world on disk: to make it takes seconds, most of them to paint its textures.
+#pragma once
+
+#include <filesystem>
+
+#include "sunlit/scene/scene.h"
+#include "sunlit/studio/reports.h"
+
+namespace sunlit::studio {
+
+/// scene::raceTrack(), to the bit, kept in `folder` as image::CacheFolder has it and taken from there by
+/// those that run the same build. What is damaged is made anew. Warns where it cannot be kept.
+scene::Scene keptRaceTrack(const std::filesystem::path& folder, const Reports& reports);
+
+}  // namespace sunlit::studio

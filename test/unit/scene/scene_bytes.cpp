@@ -1,0 +1,80 @@
+#include "sunlit/scene/scene_bytes.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace sunlit::scene {
+namespace {
+
+std::string bytesOf(const Scene& scene) {
+  std::string bytes;
+  writeBytes(scene,
+             [&](const void* data, std::size_t size) { bytes.append(static_cast<const char*>(data), size); });
+  return bytes;
+}
+
+Scene read(const std::string& bytes) {
+  return sceneOf(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size());
+}
+
+/// With something in every list.
+Scene small() {
+  Scene scene;
+  scene.name = "small";
+  scene.textures = {{"dots", 2, 1, {1, 2, 3, 4, 5, 6, 7, 8}, Wrap::kMirror, Wrap::kClamp}};
+  scene.materials.resize(2);
+  scene.materials[1].name = "pane";
+  scene.materials[1].base_color = LinearRgb(0.1f, 0.2f, 0.3f);
+  scene.materials[1].normal_map = {0, 1, 2};
+  scene.materials[1].alpha_mode = AlphaMode::kBlend;
+  scene.materials[1].lamp_group = "windows";
+  scene.materials[1].double_sided = false;
+  scene.materials[1].detail = {0.1f, 4.0f, 0.02f, 0.7f, {1.0f, 0.5f, 0.25f}};
+  Mesh mesh;
+  mesh.name = "triangle";
+  mesh.material = 1;
+  mesh.positions = {{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, -0.0f}};
+  mesh.normals.assign(3, Eigen::Vector3f::UnitZ());
+  mesh.more_texture_coordinates = {{}, {{0.0f, 0.5f}, {1.0f, 0.5f}, {2.0f, 0.5f}}};
+  mesh.tangents.assign(3, Eigen::Vector4f(1.0f, 0.0f, 0.0f, -1.0f));
+  mesh.colors.assign(3, Eigen::Array3f(0.1f, 0.2f, 2.0f));
+  mesh.triangles = {{0, 1, 2}};
+  scene.meshes = {mesh, {}};
+  scene.lamps.resize(1);
+  scene.lamps[0].group = "windows";
+  scene.lamps[0].casts_shadows = false;
+  scene.warnings = {"one", ""};
+  return scene;
+}
+
+TEST(SceneBytes, MakeTheSameSceneAgain) {
+  const Scene scene = small(), again = read(bytesOf(scene));
+  EXPECT_EQ(bytesOf(again), bytesOf(scene));
+  EXPECT_EQ(again.name, "small");
+  EXPECT_EQ(again.textures.at(0).rgba, scene.textures[0].rgba);
+  EXPECT_EQ(again.textures[0].wrap_v, Wrap::kClamp);
+  EXPECT_EQ(again.materials.at(1).lamp_group, "windows");
+  EXPECT_EQ(again.materials[1].normal_map.channel, 2);
+  EXPECT_FALSE(again.materials[1].double_sided);
+  EXPECT_EQ(again.materials[1].detail.tint[2], 0.25f);
+  EXPECT_EQ(again.meshes.at(0).positions, scene.meshes[0].positions);
+  EXPECT_EQ(again.meshes[0].more_texture_coordinates, scene.meshes[0].more_texture_coordinates);
+  EXPECT_EQ(again.meshes[0].triangles, scene.meshes[0].triangles);
+  EXPECT_TRUE(again.meshes.at(1).positions.empty());
+  EXPECT_FALSE(again.lamps.at(0).casts_shadows);
+  EXPECT_EQ(again.warnings, scene.warnings);
+}
+
+TEST(SceneBytes, ThatEndTooSoonOrGoOnAreRefused) {
+  const std::string bytes = bytesOf(small());
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_THROW(read(bytes.substr(0, size)), std::runtime_error) << size;
+  EXPECT_THROW(read(bytes + '\0'), std::runtime_error);
+  // A count of a whole address space is not asked for.
+  EXPECT_THROW(read(std::string(bytes.size(), '\xff')), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace sunlit::scene

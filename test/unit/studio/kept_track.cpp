@@ -1,0 +1,61 @@
+#include "studio/kept_track.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sunlit/image/content_hash.h"
+#include "sunlit/image/files.h"
+#include "sunlit/scene/race_track.h"
+#include "sunlit/scene/scene_bytes.h"
+#include "support/temporary_folder.h"
+
+namespace sunlit::studio {
+namespace {
+
+/// Of every byte of a scene.
+std::string hashOf(const scene::Scene& scene) {
+  image::ContentHash hash;
+  scene::writeBytes(scene, [&](const void* data, std::size_t size) { hash.addBytes(data, size); });
+  return hash.text();
+}
+
+std::vector<std::string> filesIn(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
+  return files;
+}
+
+TEST(KeptTrack, IsTheOneThatIsMadeAlsoFromAFileAndBesideADamagedOne) {
+  const TemporaryFolder folder;
+  const std::string made = hashOf(scene::raceTrack()), cache = folder.file("made/when needed");
+  EXPECT_EQ(hashOf(keptRaceTrack(cache, {})), made);
+  const std::vector<std::string> files = filesIn(cache);
+  ASSERT_EQ(files.size(), 1u);
+  const auto written = std::filesystem::last_write_time(files[0]);
+  EXPECT_EQ(hashOf(keptRaceTrack(cache, {})), made);
+  EXPECT_EQ(filesIn(cache), files);
+  std::string damaged = contentOf(files[0]);
+  damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 1);
+  image::writeFileAtomically(files[0], damaged);
+  EXPECT_EQ(hashOf(keptRaceTrack(cache, {})), made);
+  EXPECT_NE(contentOf(files[0]), damaged);
+  EXPECT_EQ(filesIn(cache), files);
+  EXPECT_NE(std::filesystem::last_write_time(files[0]), written);
+}
+
+TEST(KeptTrack, ThatCannotBeKeptIsWarnedOf) {
+  const TemporaryFolder folder;
+  image::writeFileAtomically(folder.file("file"), "");
+  std::vector<std::string> warnings;
+  Reports reports;
+  reports.warning = [&](const std::string& line) { warnings.push_back(line); };
+  EXPECT_GT(keptRaceTrack(folder.file("file") + "/below", reports).triangleCount(), 0u);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find(folder.file("file")), std::string::npos) << warnings[0];
+}
+
+}  // namespace
+}  // namespace sunlit::studio
