@@ -94,7 +94,7 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylig
 
   // From above one strip after another, each by a camera over its own middle: a whole map at once would take
   // a gigabyte.
-  constexpr int kStripPx = 256;
+  constexpr int kStripPx = 64;
   render::RenderOptions options = options_.render;
   options.distortion = image::Distortion();
   options.final_gather = 0;  // the whole world at a glance: its leaves are smaller than pixels
