@@ -25,10 +25,25 @@ class BadArgument(Exception):
         super().__init__(f"argument {name} is {value!r}, but must be {allowed}")
 
 
+class _Loader(yaml.SafeLoader):
+    """YAML whose maps have each key once: of two, one would be lost without a word."""
+
+    def construct_mapping(self, node, deep=False):
+        keys = [self.construct_object(key, deep=True) for key, _ in node.value]
+        twice = [key for i, key in enumerate(keys) if key in keys[:i]]
+        if twice:
+            raise yaml.constructor.ConstructorError(None, None, f"{twice[0]} twice", node.start_mark)
+        return super().construct_mapping(node, deep)
+
+
 def parse(name, text, allowed):
     """`text` as YAML."""
     try:
-        return yaml.safe_load(text)
+        return yaml.load(text, Loader=_Loader)
+    except yaml.constructor.ConstructorError as error:
+        if error.problem and error.problem.endswith(" twice"):
+            raise BadArgument(name, text, f"without {error.problem}") from None
+        raise BadArgument(name, text, allowed) from None
     except (yaml.YAMLError, ValueError, RecursionError):  # of a date that is none; of very many brackets
         raise BadArgument(name, text, allowed) from None
 
@@ -157,6 +172,8 @@ def conditions(text, hours):
             known = (*TIMES, *WEATHER, *CAMERA)
             if key not in known:
                 raise _unknown(text, key, name, known)
+            if differs[key] is None:
+                raise BadArgument("conditions", text, f"with a value for {key} in {name}")
         found[name] = {**_clock_time(differs["hour"]), **_at_clock_time(name, differs, text)}
     instead = "left out beside conditions, which have hours of their own: " + ", ".join(found)
     if parse("hours", hours, instead) != parse("hours", USUAL_HOURS, instead):

@@ -57,7 +57,45 @@ void blurDown(const LinearImage& from, int step, LinearImage* to, const Done& do
   });
 }
 
+/// Of a point at `place`, with what comes in again at both ends, for each of `count` pixels; together 1.
+std::vector<double> profile(double place, double width, int count) {
+  std::vector<double> values;
+  double sum = 0.0;
+  for (int i = 0; i < count; ++i) {
+    double value = 0.0;
+    for (const double at : {static_cast<double>(i), -1.0 - i, 2.0 * count - 1.0 - i})
+      value += std::exp(-0.5 * (at - place) * (at - place) / (width * width));
+    values.push_back(value);
+    sum += value;
+  }
+  for (double& value : values) value /= sum;
+  return values;
+}
+
 }  // namespace
+
+double addWings(const WingsFromBeyond& from, LinearImage* wings) {
+  const int steps = stepsFor(std::max(wings->width, wings->height));
+  const int kept = std::min(steps, kOctaves);
+  double left = 1.0;
+  for (int i = steps - kept; i < steps; ++i) {
+    const double width = widthAfter(i + 1);
+    const double part = std::exp(-0.5 * from.away_px * from.away_px / (width * width)) / kept;
+    if (!(part > 1e-6)) continue;
+    left -= part;
+    const std::vector<double> across = profile(from.edge.x(), width, wings->width);
+    const std::vector<double> down = profile(from.edge.y(), width, wings->height);
+    eachRow(wings->height, [&](int y) {
+      float* pixel = wings->at(0, y);
+      for (int x = 0; x < wings->width; ++x, pixel += 3) {
+        const auto there = static_cast<float>(part * down[static_cast<std::size_t>(y)] *
+                                              across[static_cast<std::size_t>(x)]);
+        for (int c = 0; c < 3; ++c) pixel[c] += there * from.light[c];
+      }
+    });
+  }
+  return left;
+}
 
 LinearImage glareWings(const LinearImage& picture) {
   const int steps = stepsFor(std::max(picture.width, picture.height));

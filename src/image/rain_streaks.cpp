@@ -47,20 +47,27 @@ class Painter {
   struct Mark {
     double width_px, area_px;
   };
-  /// A square of even opacity.
+  /// A disc whose edge is a pixel wide; of a pixel or two a square, whose middle is where it should be.
   void splat(double u, double v, double depth_m, const Mark& mark) {
-    const double half = 0.5 * mark.width_px, opacity = mark.area_px / (mark.width_px * mark.width_px);
-    const int left = std::max(static_cast<int>(std::ceil(u - half - 0.5)), 0);
-    const int right = std::min(static_cast<int>(std::floor(u + half + 0.5)), picture_.width - 1);
-    const int top = std::max(static_cast<int>(std::ceil(v - half - 0.5)), 0);
-    const int bottom = std::min(static_cast<int>(std::floor(v + half + 0.5)), picture_.height - 1);
-    const auto overlap = [half](double middle, int pixel) {
-      return std::max(0.0, std::min(middle + half, pixel + 0.5) - std::max(middle - half, pixel - 0.5));
+    const double reach = 0.5 * mark.width_px + 0.5;
+    const int left = static_cast<int>(std::ceil(u - reach)), right = static_cast<int>(std::floor(u + reach));
+    const int top = static_cast<int>(std::ceil(v - reach)), bottom = static_cast<int>(std::floor(v + reach));
+    const auto overlap = [&](double middle, int pixel) {
+      return std::clamp(reach - std::abs(pixel - middle), 0.0, std::min(1.0, mark.width_px));
     };
-    for (int y = top; y <= bottom; ++y) {
-      for (int x = left; x <= right; ++x) {
+    constexpr double kDisc_px = 2.5;
+    const auto covered = [&](int x, int y) {
+      return mark.width_px > kDisc_px ? std::clamp(reach - std::hypot(x - u, y - v), 0.0, 1.0)
+                                      : overlap(u, x) * overlap(v, y);
+    };
+    double all = 0.0;
+    for (int y = top; y <= bottom; ++y)
+      for (int x = left; x <= right; ++x) all += covered(x, y);
+    if (!(all > 0.0)) return;
+    for (int y = std::max(top, 0); y <= std::min(bottom, picture_.height - 1); ++y) {
+      for (int x = std::max(left, 0); x <= std::min(right, picture_.width - 1); ++x) {
         if (*view_.depth.at(x, y) < static_cast<float>(depth_m)) continue;  // behind what is seen
-        const auto share = static_cast<float>(std::min(opacity * overlap(u, x) * overlap(v, y), 1.0));
+        const auto share = static_cast<float>(std::min(mark.area_px * covered(x, y) / all, 1.0));
         float* const rgb = picture_.at(x, y);
         for (int c = 0; c < 3; ++c) rgb[c] += share * (rain_.luminance[c] - rgb[c]);
       }
@@ -143,6 +150,7 @@ class Rain {
     const Eigen::Vector3d middle = optical_from_map_ * place;
     const double away_m = middle.norm();
     if (away_m < kNearest_m || away_m > kFarthest_m) return std::nullopt;
+    if (view_.open && !view_.open(place)) return std::nullopt;
     const Eigen::Vector3d from_eye = place - view_.map_from_optical.translation();
     const double speed = 9.65 - 10.3 * std::exp(-0.6 * diameter_mm);
     const Eigen::Vector3d falls(rain_.wind_m_s.x(), rain_.wind_m_s.y(), -speed);

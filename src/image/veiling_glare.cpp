@@ -71,15 +71,30 @@ LinearRgb VeilingGlare::meanOf(const LightOutside& light) const {
   return light.illuminance * static_cast<float>(part * vignetting_.at(pixel) / (solid_angle * pixels));
 }
 
+WingsFromBeyond VeilingGlare::wingsOf(const LightOutside& light) const {
+  const Lens& lens = vignetting_.lens();
+  const PinholeCamera& camera = lens.camera();
+  const Eigen::Vector2d edge = edgeTowards(light.towards);
+  const std::optional<Eigen::Vector3d> ray = lens.unproject(edge);
+  const double edge_rad = ray ? std::acos(std::min(cosineFromAxis(*ray), 1.0)) : 0.0;
+  const double away_rad = std::max(std::acos(std::min(light.towards.z(), 1.0)) - edge_rad, 0.0);
+  const float pixels = static_cast<float>(camera.width) * static_cast<float>(camera.height);
+  return {edge, away_rad * std::sqrt(camera.fx * camera.fy), pixels * meanOf(light).value};
+}
+
 void VeilingGlare::apply(const std::vector<LightOutside>& outside, LinearImage* picture) const {
   if (none()) return;
   for (float& value : picture->data) value = finiteLuminance(value);
   const auto share = static_cast<float>(options_.share), wings = static_cast<float>(options_.wings);
   Eigen::Array3d even = (1.0 - options_.wings) * meanLuminance(*picture);
-  for (const LightOutside& light : outside) even += meanOf(light).value.cast<double>();
-  const Eigen::Array3f veil = (options_.share * even).cast<float>();
   LinearImage with_wings;
   if (wings > 0.0f) with_wings = glareWings(*picture);
+  for (const LightOutside& light : outside) {
+    double evenly = 1.0;
+    if (wings > 0.0f) evenly += options_.wings * (addWings(wingsOf(light), &with_wings) - 1.0);
+    even += evenly * meanOf(light).value.cast<double>();
+  }
+  const Eigen::Array3f veil = (options_.share * even).cast<float>();
   const LinearImage& blurred = wings > 0.0f ? with_wings : *picture;
   eachRow(picture->height, [&](int y) {
     float* pixel = picture->at(0, y);

@@ -75,7 +75,7 @@ TopHeights::Cell TopHeights::cellAt(const Eigen::Vector2f& place) const {
 }
 
 std::vector<std::int8_t> TopHeights::relief() const {
-  constexpr float kAround_m[] = {1.0f, 2.0f}, kNoLand_m = 0.3f;
+  constexpr float kAround_m[] = {1.0f, 2.0f, 4.0f}, kNoLand_m = 0.3f;
   constexpr int kDirections = 8;
   struct Offset {
     int right, up;

@@ -39,7 +39,7 @@ class TopHeights {
   };
   Cell cellAt(const Eigen::Vector2f& place) const;
 
-  /// Of every cell, row by row: how far it lies above the land around it within 2 m, −127 … 127 for
+  /// Of every cell, row by row: how far it lies above the land around it within 4 m, −127 … 127 for
   /// −kReliefReach_m … kReliefReach_m. Walls, posts and edges of roofs, from 0.3 m up, are no land.
   static constexpr float kReliefReach_m = 0.05f;
   std::vector<std::int8_t> relief() const;

@@ -115,8 +115,9 @@ void Weathering::floodHollows() {
 
 float Weathering::lift(const Eigen::Vector2f& place) const {
   // Unevenness that noise of 1 stands for: of roads 4 mm are allowed under a straightedge of 4 m, and this
-  // noise has a standard deviation of 0.3 or so.
-  constexpr float kRough_m = 0.01f;
+  // noise has a standard deviation of 0.3 or so. More than twice that counts no more, or puddles would have
+  // the straight edges that the triangles of the land have.
+  constexpr float kRough_m = 0.01f, kMost = 0.6f;
   if (tops_->empty()) return 0.0f;
   const TopHeights::Cell cell = tops_->cellAt(place);
   const auto at = [&](int right, int up) {
@@ -126,7 +127,8 @@ float Weathering::lift(const Eigen::Vector2f& place) const {
   };
   const float steps =
       mixed(mixed(at(0, 0), at(1, 0), cell.right), mixed(at(0, 1), at(1, 1), cell.right), cell.up);
-  return steps * (TopHeights::kReliefReach_m / 127.0f) / kRough_m;
+  const float lift = steps * (TopHeights::kReliefReach_m / 127.0f) / kRough_m;
+  return kMost * std::tanh(lift / kMost);
 }
 
 float Weathering::open(const Place& place) const {

@@ -117,13 +117,13 @@ Daylight Atmosphere::daylight(const SunInSky& sun, const NightSky& night, const 
   const LinearRgb clear = colourOf((air.extinction * -1.0F).exp());
   const LinearRgb white = colourOf(Spectrum::Ones());
   table->haze_per_km = -(clear.value / white.value).log();
+  validate(weather);
   if (!isClear(weather)) addWeather(weather, {sun, night}, table.get());
   gatherIlluminance(static_cast<float>(tables.transfer.medium().parameters().ground_albedo), table.get());
   return Daylight(std::move(table));
 }
 
 void Atmosphere::addWeather(const Weather& weather, const Lamps& lamps, SkyTable* table) const {
-  validate(weather);
   const Tables& tables = *tables_;
   std::call_once(tables.weather_once, [&] {
     tables.droplets = std::make_unique<const Droplets>(tables.store);

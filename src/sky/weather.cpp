@@ -1,6 +1,7 @@
 #include "sunlit/sky/weather.h"
 
 #include <cmath>
+#include <string>
 
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/raindrops.h"
@@ -8,8 +9,19 @@
 
 namespace sunlit::sky {
 
+namespace {
+
+/// Not so little that single precision loses it.
+void requireNoneOrAtLeast(const char* key, double value, double least, const std::string& most) {
+  if (value > 0.0 && value < least) refuse(key, textOf(value), "0 or from " + textOf(least) + " to " + most);
+}
+
+}  // namespace
+
 void validate(const Weather& weather) {
   requireFields(weather);
+  requireNoneOrAtLeast("cover", weather.cover_oktas, 0.01, "8 oktas");
+  requireNoneOrAtLeast("rain", weather.rain_mm_per_h, 0.001, "200 mm/h");
   if (weather.overcast != Overcast::kCie) return;
   if (weather.cover_oktas < 8.0)
     refuse("cover", textOf(weather.cover_oktas), "8 where overcast is cie, which is a closed sky");

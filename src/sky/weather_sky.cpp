@@ -39,11 +39,14 @@ WeatherSky::WeatherSky(const Weather& weather, const WeatherTables& tables, cons
   std::optional<DropletLayer> fog;
   float below = tables.ground_albedo;
   if (weather.visibility_m || weather.rain_mm_per_h > 0.0) {
-    double per_m = rainPerMetre(weather.rain_mm_per_h);
-    if (weather.visibility_m)
-      per_m += fogPerMetre(*weather.visibility_m, static_cast<double>(tables.haze_per_m));
-    // Of rain in fog, what is above the fog does not count beside it.
-    const double top_m = weather.visibility_m ? weather.fog_top_m : weather.cloud_base_m;
+    const double of_rain = rainPerMetre(weather.rain_mm_per_h);
+    const double of_fog = weather.visibility_m
+                              ? fogPerMetre(*weather.visibility_m, static_cast<double>(tables.haze_per_m))
+                              : 0.0;
+    const double per_m = of_rain + of_fog;
+    // One layer for both: as high as the one that takes more of the light from above.
+    const bool rain_rules = of_rain * weather.cloud_base_m > of_fog * weather.fog_top_m;
+    const double top_m = rain_rules ? weather.cloud_base_m : weather.fog_top_m;
     fog_per_m_ = static_cast<float>(per_m);
     fog_top_m_ = static_cast<float>(top_m);
     fog.emplace(tables.droplets, per_m * top_m);

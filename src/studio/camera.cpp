@@ -28,6 +28,7 @@ Camera::Camera(const render::RenderOptions& render, const std::vector<ChainOptio
 
 void Camera::enter(const std::vector<light::World>& worlds) {
   renderer_ = std::make_unique<render::Renderer>(worlds, render_);
+  scene_ = worlds.front().geometry->scene;
 }
 
 void Camera::look(const Eigen::Isometry3d& map_from_optical, const render::BodyPlaces& map_from_links,
@@ -72,6 +73,7 @@ double Camera::metered(const Lit& lit, const image::LinearImage& on_sensor, Stop
 void Camera::addRain(const Lit& lit, double ev100, image::LinearImage* luminance) const {
   const sky::Daylight& day = lit.light.day;
   const sky::Rain rain = day.rain();
+  std::call_once(rained_, [this] { shelter_ = std::make_unique<const scene::Shelter>(*scene_); });
   // A drop gathers what is before the camera, and what is above.
   const Eigen::Array3f before = image::meanLuminance(*luminance).cast<float>();
   const Eigen::Array3f above = day.groundIlluminance().value / kPiFloat;
@@ -81,7 +83,10 @@ void Camera::addRain(const Lit& lit, double ev100, image::LinearImage* luminance
                                    image::streakTime_s(chainOf(lit).options.shutter, ev100),
                                    0.5f * (before + above),
                                    rain.wind_m_s};
-  image::addRain(streaks, {lens_, map_from_optical_, motion_, renderer_->depth()}, luminance);
+  image::addRain(streaks,
+                 {lens_, map_from_optical_, motion_, renderer_->depth(),
+                  [this](const Eigen::Vector3d& place) { return shelter_->open(place); }},
+                 luminance);
 }
 
 double Camera::meter(const Lit& lit, Stopwatch* stopwatch) const {

@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
+#include "sunlit/scene/shelter.h"
 #include "sunlit/studio/studio.h"
 
 namespace sunlit::studio {
@@ -53,7 +55,10 @@ class Camera {
   render::RenderOptions render_;
   image::Lens lens_;
   std::vector<Chain> chains_;
-  std::unique_ptr<render::Renderer> renderer_;  ///< once the world is there
+  std::unique_ptr<render::Renderer> renderer_;  ///< once the world is there, as the next
+  std::shared_ptr<const scene::Scene> scene_;
+  mutable std::once_flag rained_;
+  mutable std::unique_ptr<const scene::Shelter> shelter_;  ///< once it has
   Eigen::Isometry3d map_from_optical_ = Eigen::Isometry3d::Identity();
   Motion motion_;
 };

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 
 #include "sunlit/image/images.h"
 #include "sunlit/image/lens.h"
@@ -27,6 +28,8 @@ struct RainedView {
   const Eigen::Isometry3d& map_from_optical;
   const Motion& motion;
   const DepthImage& depth;  ///< m along the axis, or from the camera if lens.wide()
+  /// Whether rain gets to a place in `map`; empty: everywhere.
+  std::function<bool(const Eigen::Vector3d&)> open = {};
 };
 
 /// Drops of one moment, apart from those of others, each at its place in `map`. Diameters are distributed as

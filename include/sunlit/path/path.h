@@ -24,7 +24,7 @@ struct PathOptions {
 };
 
 inline std::vector<Field> fieldsOf(PathOptions& options) {
-  return {{"spacing", &options.spacing_m, "m", {0.001, 1000}, "between poses of one segment"},
+  return {{"spacing", &options.spacing_m, "m", {0.001, 1000}, "between poses, from each waypoint on"},
           {"camera_height", &options.height_m, "m", {-1000, 1000}, "of the camera above the waypoints"},
           {"offset", &options.offset_m, "m", {-1000, 1000}, "of the camera to the left of the path"},
           {"yaw", &options.yaw, "deg", {-180, 180}, "of the camera, to the left of where it goes"}};

@@ -64,7 +64,7 @@ class Weathering {
     float roughness, metalness;
     float film = 0.0f;  ///< share that mirrors as water does, 0 … 1: kFilmReflectance at normal incidence
   };
-  /// Puddles stand on level ground, first where it lies below the land around it within 2 m, by the map of
+  /// Puddles stand on level ground, first where it lies below the land around it within 4 m, by the map of
   /// the topmost surfaces; what that does not know (unevenness of some millimetres) the
   /// seed does. Water: a soaked rough dielectric of albedo ρ has ρ (1 − p) / (1 − p ρ),
   /// p = 0.4749, under its film (Lekner & Dorf 1988, Applied Optics 27, 1278, eq. 10 with n = 4/3:

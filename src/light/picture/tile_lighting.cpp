@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace sunlit::light {
 namespace {
@@ -37,25 +38,29 @@ void TileLighting::light(std::size_t tile, image::LinearImage* image) const {
   glow_.addTo(picture_.seen.surfaces.tiles[tile], sky_, image);
 }
 
+/// What is met in mirrors first, the deepest of all, since it is part of what those before it show.
 MirroredLuminances TileLighting::allMirrored() const {
-  const Surfaces& surfaces = picture_.seen.surfaces;
-  MirroredLuminances all(surfaces.tiles.size());
-  if (in_mirrors_.empty()) return all;
-  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { lightMirrored(i, 0, &all[i]); });
-  shareLobes(surfaces, picture_.mirrors.front().reflections, &all);
+  const std::size_t tiles = picture_.seen.surfaces.tiles.size();
+  MirroredLuminances all(tiles);
+  for (std::size_t depth = in_mirrors_.size(); depth-- > 0;) {
+    const MirroredLuminances deeper = std::exchange(all, MirroredLuminances(tiles));
+    tbb::parallel_for(std::size_t{0}, tiles, [&](std::size_t i) {
+      lightMirrored({i, depth}, deeper[i], &all[i]);
+    });
+    const ReadyMirrors& mirrors = picture_.mirrors[depth];
+    shareLobes(depth == 0 ? picture_.seen.surfaces : picture_.mirrors[depth - 1].met.surfaces,
+               mirrors.reflections, &all);
+  }
   return all;
 }
 
-void TileLighting::lightMirrored(std::size_t number, std::size_t depth,
+void TileLighting::lightMirrored(const TileInMirrors& tile, const std::vector<Eigen::Array3f>& deeper,
                                  std::vector<Eigen::Array3f>* luminances) const {
-  luminances->clear();
-  if (depth >= in_mirrors_.size()) return;
+  const auto [number, depth] = tile;
   const ReadyMirrors& mirrors = picture_.mirrors[depth];
   const Reflections::TileReflections& reflections = mirrors.reflections.tiles[number];
   if (reflections.surfaces.empty()) return;
-  std::vector<Eigen::Array3f> deeper;
-  lightMirrored(number, depth + 1, &deeper);
-  thread_local std::vector<Eigen::Array3f> leaving;  // once those within are done
+  thread_local std::vector<Eigen::Array3f> leaving;
   in_mirrors_[depth]->light(number, seenByRays(number, depth + 1, deeper), &leaving);
   const std::vector<Surface>& met = mirrors.met.surfaces.tiles[number].surfaces;
   for (const Reflections::Mirroring& mirroring : reflections.surfaces) {

@@ -36,8 +36,13 @@ class TileLighting {
   void addSurfaces(std::size_t tile, image::LinearImage* image) const;
   /// What all mirroring surfaces of the picture show by their rays.
   MirroredLuminances allMirrored() const;
-  /// Likewise a tile's of ReadyPicture::mirrors[depth], each by its own.
-  void lightMirrored(std::size_t tile, std::size_t depth, std::vector<Eigen::Array3f>* luminances) const;
+  /// One tile of ReadyPicture::mirrors[depth].
+  struct TileInMirrors {
+    std::size_t number, depth;
+  };
+  /// What those mirroring surfaces show, each by its own rays; `deeper` is what those of the next depth do.
+  void lightMirrored(const TileInMirrors& tile, const std::vector<Eigen::Array3f>& deeper,
+                     std::vector<Eigen::Array3f>* luminances) const;
   /// `luminances` are of these.
   std::vector<SurfaceLighting::SeenByRays> seenByRays(std::size_t tile, std::size_t depth,
                                                       const std::vector<Eigen::Array3f>& luminances) const;

@@ -70,6 +70,10 @@ class Arguments(unittest.TestCase):
                            ("{a: {hour: 24}}", "with an hour"), ("{a: {hour: 4, covr: 8}}", "did you mean cover"),
                            ("{a: {hour: 4, x: 8}}", "known are hour"), ("{a-b: {hour: 4}}", "with names of"),
                            ("{a: {hour: 4}", "a map from names"), ("{4: {hour: 4}}", "with names of"),
+                           ("{a: {hour: 12, rain: }, b: {hour: 12}}", "with a value for rain in a"),
+                           ("{a: {hour: 12}, a: {hour: 13}}", "without a twice"),
+                           ("{a: {hour: 12, rain: 5, rain: 10}}", "without rain twice"),
+                           ("{a: {hour: 12, ? [1] : 2}}", "a map from names"),
                            ("{a: {hour: 12.5, minute: 10}}", "without minute in a, whose hour 12.5 has a fraction")):
             self.assert_refused("argument conditions is", arguments.conditions, text, "[4]")
             self.assert_refused(part, arguments.conditions, text, "[4]")

@@ -76,6 +76,30 @@ TEST(RainStreaks, AreNoneBeforeWhatIsNearerOrWithoutRain) {
   EXPECT_EQ(taken(0.0, 4.0f, 0.001, 2), 0.0);
 }
 
+TEST(RainStreaks, AreNoneUnderARoof) {
+  const Lens lens = pinhole();
+  const DepthImage wall = at(4.0f);
+  const auto picture = [&](const std::function<bool(const Eigen::Vector3d&)>& open) {
+    LinearImage rained = grey(1.0f);
+    addRain({50.0, 7, {1, ""}, 0.001}, {lens, level({0.0, 0.0, 1.0}), Motion(), wall, open}, &rained);
+    return rained.data;
+  };
+  EXPECT_EQ(picture([](const Eigen::Vector3d&) { return false; }), grey(1.0f).data);
+  EXPECT_EQ(picture([](const Eigen::Vector3d&) { return true; }), picture({}));
+  // A roof over the left half of what is seen, which looks along x: y > 0.
+  const std::vector<float> half = picture([](const Eigen::Vector3d& place) { return place.y() < 0.0; });
+  double left = 0.0, right = 0.0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      // Drops near the middle reach over it by their width.
+      const double lost = 1.0 - static_cast<double>(half[3 * static_cast<std::size_t>(y * kWidth + x)]);
+      (x < kWidth / 2 - 10 ? left : right) += lost;
+    }
+  }
+  EXPECT_EQ(left, 0.0);
+  EXPECT_GT(right, 10.0);
+}
+
 TEST(RainStreaks, OfOnePictureAreTheSameAgainAndOfAnotherOthers) {
   const Lens lens = pinhole();
   const DepthImage sky = at(std::numeric_limits<float>::quiet_NaN());

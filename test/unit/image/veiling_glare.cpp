@@ -173,11 +173,37 @@ TEST(VeilingGlare, OfALightOutsideFadesUpToTheHood) {
   }
 }
 
+TEST(VeilingGlare, LiesAboutTheEdgeThatALightHasPassed) {
+  const Lens lens = usual();
+  const VeilingGlare veil = before(lens, glare(0.05, 0.5));
+  const struct {
+    int x, y;
+    double right_deg, up_deg;
+  } edges[] = {{639, 240, 30.001, 0.0}, {320, 0, 0.0, 23.42}, {0, 0, -30.0, 23.42}};
+  for (const auto& edge : edges) {
+    LinearImage inside = sunAt(lens, edge.x, edge.y), outside = even(lens, 0.0F);
+    veil.apply({}, &inside);
+    veil.apply({at(edge.right_deg, edge.up_deg)}, &outside);
+    for (int y = 20; y < 480; y += 40) {
+      for (int x = 20; x < 640; x += 40) {
+        const float seen = inside.at(x, y)[1];
+        // By a Gaussian for five taps, which are a twentieth off, and the half pixel of the edge.
+        EXPECT_NEAR(outside.at(x, y)[1], seen, 0.06F * seen)
+            << x << " " << y << " " << edge.x << " " << edge.y;
+      }
+    }
+  }
+  // Far beyond, 250 px, it is even but for what the widest Gaussian, of 146 px, has left there.
+  LinearImage far = even(lens, 0.0F);
+  veil.apply({at(58.0, 0.0)}, &far);
+  EXPECT_NEAR(far.at(630, 240)[1] / far.at(10, 240)[1], 1.0, 0.1);
+}
+
 TEST(VeilingGlare, OfALightOutsideLiesEvenlyAndInItsColour) {
   LinearImage picture = even(usual(), 100.0F);
   LightOutside lamp = at(31.0, 5.0);
   lamp.illuminance = LinearRgb(10.0F, 5.0F, 0.0F);
-  const VeilingGlare veil = before(usual(), glare(0.02));
+  const VeilingGlare veil = before(usual(), glare(0.02, 0.0));
   veil.apply({lamp, lamp}, &picture);
   const LinearRgb mean = veil.meanOf(lamp);
   for (const int x : {0, 300, 639})

@@ -137,6 +137,20 @@ TEST(Weather, RainTakesHalfOfWhatItsDropsCover) {
   EXPECT_EQ(grey.rain().mm_per_h, 0.0);
 }
 
+TEST(Weather, ALittleHazeMakesNoRainThinner) {
+  Weather rainy = covered(8.0);
+  rainy.rain_mm_per_h = 100.0;
+  Weather hazy = rainy;
+  hazy.visibility_m = 40000.0;
+  const double rain = under(40.0, rainy).groundIlluminance().luminance();
+  EXPECT_NEAR(under(40.0, hazy).groundIlluminance().luminance(), rain, 0.02 * rain);
+  // Dense fog is as high as it is, whatever falls through it.
+  Weather foggy = rainy;
+  foggy.rain_mm_per_h = 1.0;
+  foggy.visibility_m = 100.0;
+  EXPECT_EQ(under(40.0, foggy).fog().top_m, 300.0F);
+}
+
 TEST(Weather, WindNearTheGroundIsThatOfTheCloudsByThePowerLaw) {
   Weather weather;
   weather.wind_m_per_s = 10.0;  // from the west: to +x, and at 2 m 10 (2 / 1500)^(1/7) = 3.884 m/s
@@ -280,6 +294,13 @@ TEST(Weather, WhatCannotBeIsRefused) {
     return std::string();
   };
   EXPECT_EQ(refused(covered(9.0)), "cover is 9, but must be from 0 to 8 oktas");
+  EXPECT_EQ(refused(covered(1e-30)), "cover is 1e-30, but must be 0 or from 0.01 to 8 oktas");
+  Weather drizzle;
+  drizzle.rain_mm_per_h = 1e-15;
+  EXPECT_EQ(refused(drizzle), "rain is 1e-15, but must be 0 or from 0.001 to 200 mm/h");
+  Weather coverless;
+  coverless.overcast = Overcast::kCie;
+  EXPECT_EQ(refused(coverless), "cover is 0, but must be 8 where overcast is cie, which is a closed sky");
   Weather cie = standardOvercast();
   cie.cover_oktas = 6.0;
   EXPECT_EQ(refused(cie), "cover is 6, but must be 8 where overcast is cie, which is a closed sky");

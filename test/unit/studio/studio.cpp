@@ -12,6 +12,7 @@
 #include "sunlit/image/rain_streaks.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/frames.h"
+#include "sunlit/scene/shelter.h"
 #include "sunlit/studio/sky.h"
 #include "support/message_of.h"
 
@@ -124,7 +125,10 @@ Developed byHand(const StudioOptions& options, const Taken& taken, bool glare_fi
   const image::RainStreaks streaks{
       rain.mm_per_h,           rain.seed,    taken.name, image::streakTime_s(chain.shutter, ev100),
       0.5F * (before + above), rain.wind_m_s};
-  image::addRain(streaks, {lens, taken.map_from_camera * linkFromOptical(), taken.motion, renderer.depth()},
+  const scene::Shelter shelter(*world.geometry->scene);
+  image::addRain(streaks,
+                 {lens, taken.map_from_camera * linkFromOptical(), taken.motion, renderer.depth(),
+                  [&](const Eigen::Vector3d& place) { return shelter.open(place); }},
                  &luminance);
   passLens(&luminance);
   image::addSensorNoise(ev100, chain.noise, taken.name, &luminance);
