@@ -80,8 +80,8 @@ TEST(Weathered, WetGroundIsLitAsByTracedPaths) {
   expectAgrees(state(1.0, 0.0, 0.0), 0.03, 0.08);
 }
 
-// Pixels that a puddle's edge crosses besides, and what puddles throw up of a low sun: measured, by five seeds,
-// 4.8 to 6.4 and 15 to 17.5 % under that at 20°, else up to 1.6 and 5.1 %.
+// Pixels that a puddle's edge crosses besides, and what puddles throw up of a low sun: measured, by five
+// seeds, 4.8 to 6.4 and 15 to 17.5 % under that at 20°, else up to 1.6 and 5.1 %.
 TEST(Weathered, PuddlesAreLitAsByTracedPaths) {
   expectAgrees(state(0.5, 0.5, 0.0), 0.07, 0.18);
 }
