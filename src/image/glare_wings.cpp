@@ -75,6 +75,7 @@ std::vector<double> profile(double place, double width, int count) {
 }  // namespace
 
 double addWings(const WingsFromBeyond& from, LinearImage* wings) {
+  if (!(from.light > 0.0f).any()) return 1.0;  // behind the hood
   const int steps = stepsFor(std::max(wings->width, wings->height));
   const int kept = std::min(steps, kOctaves);
   double left = 1.0;

@@ -9,10 +9,9 @@ Shelter::~Shelter() = default;
 
 bool Shelter::open(const Eigen::Vector3d& place) const {
   if (tops_->empty()) return true;
-  constexpr float kSlack_m = 0.15f;
   const TopHeights::Cell cell = tops_->cellAt(place.head<2>().cast<float>());
   const int column = cell.column + (cell.right < 0.5f ? 0 : 1), row = cell.row + (cell.up < 0.5f ? 0 : 1);
-  return tops_->at(column, row) <= static_cast<float>(place.z()) + kSlack_m;
+  return tops_->at(column, row) <= static_cast<float>(place.z()) + TopHeights::kSlack_m;
 }
 
 }  // namespace sunlit::scene

@@ -14,6 +14,8 @@ namespace sunlit::scene {
 class TopHeights {
  public:
   static constexpr float kNothing = -1e9f;
+  /// What lies no deeper below the topmost surface is of it: cells are coarse, and land uneven.
+  static constexpr float kSlack_m = 0.15f;
 
   /// The same bits for any number of threads.
   explicit TopHeights(const Scene& scene);

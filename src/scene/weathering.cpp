@@ -134,13 +134,13 @@ float Weathering::lift(const Eigen::Vector2f& place) const {
 float Weathering::open(const Place& place) const {
   if (tops_->empty()) return 1.0f;
   // Before a wall, not in it; and a slope does not shelter itself.
-  constexpr float kBefore = 0.75f, kSlack_m = 0.15f, kSteepest = 3.0f;
+  constexpr float kBefore = 0.75f, kSteepest = 3.0f;
   const float across = place.face.head<2>().norm();
   const float slope = std::min(across / std::max(std::abs(place.face.z()), 1e-3f), kSteepest);
   const Eigen::Vector2f at = place.position.head<2>() + kBefore * tops_->cell_m() *
                                                             (across > 1e-3f ? 1.0f : 0.0f) *
                                                             place.face.head<2>();
-  const float least = place.position.z() + kSlack_m + tops_->cell_m() * slope;
+  const float least = place.position.z() + TopHeights::kSlack_m + tops_->cell_m() * slope;
   const auto [column, row, right, up] = tops_->cellAt(at);
   const auto isOpen = [&, column = column, row = row](int beside, int beyond) {
     return tops_->at(column + beside, row + beyond) <= least ? 1.0f : 0.0f;

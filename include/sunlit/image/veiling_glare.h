@@ -51,10 +51,10 @@ struct LightOutside {
 /// (1 − V) L + V ((1 − w) mean + w wings), V the share, w that of the wings: `mean` of all pixels, `wings`
 /// the picture blurred by Gaussians of which each is twice as wide as the one before, up to a quarter of the
 /// longer side, of equal parts: about 1 / r² around a point. What leaves the picture comes in again at the
-/// same edge, so the sum of all pixels stays. A light outside is added as if
-/// its image lay on the edge nearest to it, where it passes on without a step to one that is seen; of each
-/// Gaussian what reaches the edge lies about there, all else evenly. From the edge on it fades by its cosine
-/// and evenly with the angle up to the hood, where the last of the lens lies in its shadow.
+/// same edge, so the sum of all pixels stays. A light outside is added as if its image lay on the edge
+/// nearest to it, where it passes on without a step to one that is seen; of each Gaussian what reaches the
+/// edge lies about there, all else evenly. From the edge on it fades by its cosine and evenly with the angle
+/// up to the hood, where the last of the lens lies in its shadow.
 class VeilingGlare {
  public:
   /// Keeps what it needs of `vignetting`, which the picture has been through. Throws as validate().
