@@ -11,6 +11,7 @@ from sunlit_experiment import recording
 
 START_STAMP_S = 1000.0
 FRAME_RATE_HZ = 10.0
+EVALUATOR, RECORDER = "/evaluator", "/recorder"  # nodes
 # What the evaluator writes down beside its results, as it was typed.
 ABOUT = ("world", "robot", "path", "site", "date", "timezone", "hours", "conditions", "spacing", "offset", "yaw", "exposure", "ev100",
          "highlight_protection", "final_gather", "rasterizer", "night", "lamps", "noise", "noise_seed", "vignetting", "glare",
@@ -178,6 +179,8 @@ def _main_renderer(typed, given, places, beginning):
     if recorders and beginning.is_evaluated() and beginning.recorded < beginning.poses:
         evaluators = 0  # it ends at once, having nothing to do; only the recorder is left to wait for
         readers = []
+    # By name: a viewer that listens, or an evaluator about to leave, is none of those who must miss nothing.
+    counted = [EVALUATOR] * evaluators + [RECORDER] * recorders
     tree = _renderer(typed, given, places, beginning)
     tree["camera"].update(_right(typed))
     tree.update(
@@ -187,7 +190,7 @@ def _main_renderer(typed, given, places, beginning):
         wait_for=readers,
         # Of each kind of topic before the first image leaves.
         subscribers={"images": evaluators + recorders, "poses": evaluators + recorders,
-                     "truth": (evaluators if map_streams(typed) else 0) + recorders, "others": recorders})
+                     "truth": (evaluators if map_streams(typed) else 0) + recorders, "others": recorders, "of": counted})
     if _right(typed):
         tree["subscribers"]["right"] = recorders
     return tree
@@ -201,7 +204,7 @@ def _self_test_renderer(typed, given, places, beginning):
         resume_at=beginning.evaluated,
         exact_sky=True,
         wait_for=["/evaluator/progress"],
-        subscribers={"images": 1},
+        subscribers={"images": 1, "of": [EVALUATOR]},
         sun_namespace="/",
         publish_tf=False,
         count_skipped=True)  # the evaluator counts what both have rendered

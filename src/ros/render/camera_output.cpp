@@ -9,30 +9,20 @@ namespace sunlit::ros_interface {
 
 namespace {
 
-/// ROS calls it on the thread that has its callbacks.
-template <typename Link>
-boost::function<void(const Link&)> adding(const std::shared_ptr<CameraSubscribers>& counted,
-                                          int CameraSubscribers::*number, int change) {
-  return [counted, number, change](const Link& /*link*/) { (*counted).*number += change; };
-}
-
 image_transport::CameraPublisher advertised(const ros::NodeHandle& node, const std::string& topic,
-                                            std::uint32_t queue_size,
-                                            const std::shared_ptr<CameraSubscribers>& counted) {
+                                            std::uint32_t queue_size, const Subscribers& images,
+                                            const Subscribers& infos) {
   using ImageLink = image_transport::SingleSubscriberPublisher;
   using InfoLink = ros::SingleSubscriberPublisher;
   return image_transport::ImageTransport(node).advertiseCamera(
-      topic, queue_size, adding<ImageLink>(counted, &CameraSubscribers::images, 1),
-      adding<ImageLink>(counted, &CameraSubscribers::images, -1),
-      adding<InfoLink>(counted, &CameraSubscribers::infos, 1),
-      adding<InfoLink>(counted, &CameraSubscribers::infos, -1));
+      topic, queue_size, images.joining<ImageLink>(), images.leaving<ImageLink>(), infos.joining<InfoLink>(),
+      infos.leaving<InfoLink>());
 }
 
 }  // namespace
 
 CameraOutput::CameraOutput(const ros::NodeHandle& node, const std::string& topic, std::uint32_t queue_size)
-    : counted_(std::make_shared<CameraSubscribers>()),
-      publisher_(advertised(node, topic, queue_size, counted_)) {}
+    : publisher_(advertised(node, topic, queue_size, images_, infos_)) {}
 
 void CameraOutput::publish(const image::Rgb8Image& picture, const sensor_msgs::CameraInfo& info) const {
   publisher_.publish(toImageMessage(picture, info.header), boost::make_shared<sensor_msgs::CameraInfo>(info));
@@ -42,26 +32,25 @@ void CameraOutput::publish(const image::DepthImage& depth, const sensor_msgs::Ca
   publisher_.publish(toImageMessage(depth, info.header), boost::make_shared<sensor_msgs::CameraInfo>(info));
 }
 
-std::string CameraOutput::lonelyTopic(const CameraSubscribers& wanted) const {
-  if (counted_->images < wanted.images) return publisher_.getTopic();
-  if (counted_->infos < wanted.infos) return publisher_.getInfoTopic();
+std::string CameraOutput::lonelyTopic(const CameraAudience& wanted) const {
+  if (!images_.are(wanted.images)) return publisher_.getTopic();
+  if (!infos_.are(wanted.infos)) return publisher_.getInfoTopic();
   return std::string();
 }
 
 PngOutput::PngOutput(ros::NodeHandle node, const std::string& topic, std::uint32_t queue_size)
-    : images_(node.advertise<sensor_msgs::CompressedImage>(topic + "/compressed", queue_size)),
-      infos_(
-          node.advertise<sensor_msgs::CameraInfo>(image_transport::getCameraInfoTopic(topic), queue_size)) {}
+    : images_(HeardTopic::of<sensor_msgs::CompressedImage>(node, topic + "/compressed", queue_size)),
+      infos_(HeardTopic::of<sensor_msgs::CameraInfo>(node, image_transport::getCameraInfoTopic(topic),
+                                                     queue_size)) {}
 
 void PngOutput::publish(const image::Rgb8Image& picture, const sensor_msgs::CameraInfo& info) const {
-  images_.publish(toPngMessage(picture, info.header));
-  infos_.publish(info);
+  images_.publisher.publish(toPngMessage(picture, info.header));
+  infos_.publisher.publish(info);
 }
 
-std::string PngOutput::lonelyTopic(const CameraSubscribers& wanted) const {
-  if (static_cast<int>(images_.getNumSubscribers()) < wanted.images) return images_.getTopic();
-  if (static_cast<int>(infos_.getNumSubscribers()) < wanted.infos) return infos_.getTopic();
-  return std::string();
+std::string PngOutput::lonelyTopic(const CameraAudience& wanted) const {
+  const std::string lonely = images_.ifLonely(wanted.images);
+  return lonely.empty() ? infos_.ifLonely(wanted.infos) : lonely;
 }
 
 PictureOutput pictureOutput(const ros::NodeHandle& node, const std::string& topic,

@@ -4,18 +4,18 @@
 #include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 
-#include <memory>
 #include <string>
 #include <variant>
 
+#include "ros/render/subscribers.h"
 #include "sunlit/image/images.h"
 
 namespace sunlit::ros_interface {
 
-/// How many subscribers the topics of a camera must have.
-struct CameraSubscribers {
-  int images = 0;
-  int infos = 0;
+/// Who shall listen to the topics of a camera.
+struct CameraAudience {
+  Audience images;
+  Audience infos;
 };
 
 /// `topic` by an image_transport::CameraPublisher, with camera_info beside it.
@@ -27,13 +27,12 @@ class CameraOutput {
   void publish(const image::Rgb8Image& picture, const sensor_msgs::CameraInfo& info) const;
   void publish(const image::DepthImage& depth, const sensor_msgs::CameraInfo& info) const;
   /// Whether anybody listens to either.
-  bool isHeard() const { return counted_->images > 0 || counted_->infos > 0; }
+  bool isHeard() const { return images_.are({1, {}}) || infos_.are({1, {}}); }
   /// The first topic with too few subscribers; empty if there is none.
-  std::string lonelyTopic(const CameraSubscribers& wanted) const;
+  std::string lonelyTopic(const CameraAudience& wanted) const;
 
  private:
-  /// By whatever transport. A CameraPublisher only tells the greater of its two numbers.
-  std::shared_ptr<CameraSubscribers> counted_;
+  Subscribers images_, infos_;  // a CameraPublisher only tells the greater of the two numbers
   image_transport::CameraPublisher publisher_;
 };
 
@@ -44,12 +43,12 @@ class PngOutput {
   PngOutput(ros::NodeHandle node, const std::string& topic, std::uint32_t queue_size);
 
   void publish(const image::Rgb8Image& picture, const sensor_msgs::CameraInfo& info) const;
-  bool isHeard() const { return images_.getNumSubscribers() > 0 || infos_.getNumSubscribers() > 0; }
-  std::string lonelyTopic(const CameraSubscribers& wanted) const;
+  bool isHeard() const { return images_.subscribers.are({1, {}}) || infos_.subscribers.are({1, {}}); }
+  std::string lonelyTopic(const CameraAudience& wanted) const;
 
  private:
-  ros::Publisher images_;
-  ros::Publisher infos_;
+  HeardTopic images_;
+  HeardTopic infos_;
 };
 
 using PictureOutput = std::variant<CameraOutput, PngOutput>;

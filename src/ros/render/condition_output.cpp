@@ -25,7 +25,7 @@ void fillMoon(const std::optional<sky::MoonInSky>& moon, Capture* capture) {
 ConditionOutput::ConditionOutput(const ros::NodeHandle& node, const OutputOptions& options)
     : options_(options),
       images_(pictureOutput(node, topics::kImage, {options.queue_size, options.compressed})),
-      capture_(ros::NodeHandle(node).advertise<Capture>(topics::kCapture, options.queue_size)) {
+      capture_(HeardTopic::of<Capture>(node, topics::kCapture, options.queue_size)) {
   if (options.right) stereo_.emplace(node, options);
 }
 
@@ -41,21 +41,20 @@ void ConditionOutput::publish(const Photograph& photograph, const SkyMoment& sky
   fillMoon(sky.bodies.moon, &capture);
   capture.scene_illuminance = static_cast<double>(sky.light.groundIlluminance().luminance());
   // Before the image: who has that can expect it.
-  capture_.publish(capture);
+  capture_.publisher.publish(capture);
   const sensor_msgs::CameraInfo info = toCameraInfo(options_.camera, header);
   std::visit([&](const auto& images) { images.publish(photograph.picture, info); }, images_);
   if (stereo_) stereo_->publish(photograph);
 }
 
 std::string ConditionOutput::lonelyTopic(const WantedSubscribers& wanted) const {
-  const auto lonely = [&](const CameraSubscribers& both) {
+  const auto lonely = [&](const CameraAudience& both) {
     return std::visit([&](const auto& images) { return images.lonelyTopic(both); }, images_);
   };
-  std::string topic = lonely({wanted.images, 0});
-  if (!topic.empty()) return topic;
-  if (static_cast<int>(capture_.getNumSubscribers()) < wanted.images) return capture_.getTopic();
-  topic = lonely({0, wanted.ofTruth()});
-  return topic.empty() && stereo_ ? stereo_->lonelyTopic(wanted.right) : topic;
+  std::string topic = lonely({wanted.audience(wanted.images), {}});
+  if (topic.empty()) topic = capture_.ifLonely(wanted.audience(wanted.images));
+  if (topic.empty()) topic = lonely({{}, wanted.audience(wanted.ofTruth())});
+  return topic.empty() && stereo_ ? stereo_->lonelyTopic(wanted.audience(wanted.right)) : topic;
 }
 
 }  // namespace sunlit::ros_interface

@@ -35,7 +35,7 @@ class ConditionOutput {
   OutputOptions options_;
   PictureOutput images_;
   std::optional<StereoOutput> stereo_;
-  ros::Publisher capture_;
+  HeardTopic capture_;
 };
 
 }  // namespace sunlit::ros_interface

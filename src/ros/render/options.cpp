@@ -1,5 +1,8 @@
 #include "ros/render/options.h"
 
+#include <ros/names.h>
+
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -60,7 +63,8 @@ std::vector<Field> fieldsOf(WantedSubscribers& wanted) {
           {"poses", &wanted.poses, "", some, "of camera/pose"},
           {"truth", &wanted.truth, "", some, "of camera_info and camera/depth/image_raw"},
           {"others", &wanted.others, "", some, "of these, camera/depth/camera_info and /tf"},
-          {"right", &wanted.right, "", some, "of camera/right/image_raw and its camera_info"}};
+          {"right", &wanted.right, "", some, "of camera/right/image_raw and its camera_info"},
+          {"of", &wanted.of, "", {}, "nodes that are counted; empty: whoever listens"}};
 }
 
 std::vector<Field> fieldsOf(PacingOptions& pacing) {
@@ -181,6 +185,27 @@ void requireBakeForGather(const ParameterReader& parameters, const RenderNodeOpt
                               std::to_string(options.final_gather) + ", but " +
                               parameters.fullName("transport/enabled") +
                               " is false: it looks closer where light is baked");
+}
+
+/// Makes whole names of the nodes that are counted, of which there must be enough.
+void nameSubscribers(const ParameterReader& parameters, WantedSubscribers* wanted) {
+  const std::string of = parameters.fullName("subscribers/of");
+  for (std::string& node : wanted->of) {
+    std::string reason = "it is empty";
+    if (node.empty() || !ros::names::validate(node, reason))
+      throw std::invalid_argument("parameter " + of + " has '" + node +
+                                  "', which is no node's name: " + reason);
+    node = ros::names::resolve(node, false);
+  }
+  if (wanted->of.empty()) return;
+  const int named = static_cast<int>(std::set<std::string>(wanted->of.begin(), wanted->of.end()).size());
+  for (const Field& row : fieldsOf(*wanted)) {
+    const auto* const* size = std::get_if<int*>(&row.place);
+    if (size == nullptr || **size <= named) continue;
+    throw std::invalid_argument("parameter " + parameters.fullName("subscribers/" + row.key) + " is " +
+                                std::to_string(**size) + ", but " + of + " names " + std::to_string(named) +
+                                ", and only these are counted");
+  }
 }
 
 /// The clock of this node stands still until the sky of the pose's very stamp is there.
@@ -318,6 +343,7 @@ RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {
   requireBakeForGather(parameters, options);
   if (options.camera.follow_tf) refuseWithoutPath(parameters, options.pacing);
   requireExactSky(parameters, &options.pacing);
+  nameSubscribers(parameters, &options.pacing.subscribers);
   if (options.world.name != scene::kRaceTrack && options.path.file.empty() && options.path.topic.empty() &&
       !options.camera.follow_tf) {
     throw std::invalid_argument("parameter " + parameters.fullName("path/file") +

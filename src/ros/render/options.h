@@ -8,6 +8,7 @@
 
 #include "ros/render/camera_frames.h"
 #include "ros/render/robot_options.h"
+#include "ros/render/subscribers.h"
 #include "sunlit/image/calibration.h"
 #include "sunlit/image/exposure.h"
 #include "sunlit/image/lens_blur.h"
@@ -60,8 +61,10 @@ struct WantedSubscribers {
   int truth = 0;   ///< of camera/camera_info and camera/depth/image_raw
   int others = 0;  ///< of these, camera/depth/camera_info and TF
   int right = 0;   ///< of camera/right/image_raw and camera/right/camera_info, where there is a right camera
+  std::vector<std::string> of;  ///< which nodes are counted; empty: whoever
   /// Of camera/camera_info and camera/depth/image_raw.
   int ofTruth() const { return std::max(truth, others); }
+  Audience audience(int size) const { return {size, of}; }
 };
 
 /// When a pose may be rendered.

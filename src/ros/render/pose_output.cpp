@@ -13,13 +13,13 @@ namespace sunlit::ros_interface {
 PoseOutput::PoseOutput(ros::NodeHandle node, ros::NodeHandle private_node, const OutputOptions& options)
     : options_(options),
       depth_(node, topics::kDepth, options.queue_size),
-      pose_(node.advertise<geometry_msgs::PoseStamped>(topics::kPose, options.queue_size)),
+      pose_(HeardTopic::of<geometry_msgs::PoseStamped>(node, topics::kPose, options.queue_size)),
       path_(node.advertise<nav_msgs::Path>(topics::kPath, 1, true)),
       progress_(private_node.advertise<std_msgs::UInt32>(topics::kProgress, 1, true)) {
   if (!options.publish_tf || options.follows_tf) return;
   // A publisher of our own, and not a tf2_ros::TransformBroadcaster, for the sake of its queue and subscriber
   // count.
-  tf_ = node.advertise<tf2_msgs::TFMessage>(topics::kTf, options.queue_size);
+  tf_ = HeardTopic::of<tf2_msgs::TFMessage>(node, topics::kTf, options.queue_size);
   optical_.emplace(options.frames, options.right).publish();
 }
 
@@ -43,9 +43,9 @@ void PoseOutput::publish(const Eigen::Isometry3d& map_from_camera, const image::
   if (tf_) {
     tf2_msgs::TFMessage transforms;
     transforms.transforms.push_back(toTransform(map_from_camera, pose.header, options_.frames.camera));
-    tf_.publish(transforms);
+    tf_->publisher.publish(transforms);
   }
-  pose_.publish(pose);
+  pose_.publisher.publish(pose);
   depth_.publish(depth, toCameraInfo(options_.camera, headerOf(options_.frames.optical, stamp)));
 }
 
@@ -56,9 +56,10 @@ void PoseOutput::publishProgress(int poses) const {
 }
 
 std::string PoseOutput::lonelyTopic(const WantedSubscribers& wanted) const {
-  if (static_cast<int>(pose_.getNumSubscribers()) < wanted.poses) return pose_.getTopic();
-  if (tf_ && static_cast<int>(tf_.getNumSubscribers()) < wanted.others) return tf_.getTopic();
-  return depth_.lonelyTopic({wanted.ofTruth(), wanted.others});
+  std::string topic = pose_.ifLonely(wanted.audience(wanted.poses));
+  if (topic.empty() && tf_) topic = tf_->ifLonely(wanted.audience(wanted.others));
+  if (!topic.empty()) return topic;
+  return depth_.lonelyTopic({wanted.audience(wanted.ofTruth()), wanted.audience(wanted.others)});
 }
 
 }  // namespace sunlit::ros_interface

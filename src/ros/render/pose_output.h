@@ -33,10 +33,10 @@ class PoseOutput {
  private:
   OutputOptions options_;
   CameraOutput depth_;
-  ros::Publisher pose_;
+  HeardTopic pose_;
   ros::Publisher path_;
   ros::Publisher progress_;
-  ros::Publisher tf_;
+  std::optional<HeardTopic> tf_;
   std::optional<OpticalFrames> optical_;
 };
 

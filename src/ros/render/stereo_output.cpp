@@ -25,7 +25,7 @@ void StereoOutput::publish(const Photograph& photograph) const {
   std::visit([&](const auto& images) { images.publish(photograph.right.value(), right); }, right_);
 }
 
-std::string StereoOutput::lonelyTopic(int wanted) const {
+std::string StereoOutput::lonelyTopic(const Audience& wanted) const {
   return std::visit([&](const auto& images) { return images.lonelyTopic({wanted, wanted}); }, right_);
 }
 

@@ -21,7 +21,7 @@ class StereoOutput {
   /// With a right picture.
   void publish(const Photograph& photograph) const;
   /// The first topic of the right camera with fewer subscribers; empty if there is none.
-  std::string lonelyTopic(int wanted) const;
+  std::string lonelyTopic(const Audience& wanted) const;
 
  private:
   OutputOptions options_;

@@ -156,12 +156,15 @@ bool Streams::missedSky(const ros::Time& stamp) const {
 }
 
 std::string Streams::waitsForSubscribers() const {
-  for (const auto& stream : streams_) {
-    const std::string topic = stream->output.lonelyTopic(wanted_);
-    if (!topic.empty()) return "subscribers of " + topic;
-  }
-  const std::string topic = pose_output_.lonelyTopic(wanted_);
-  return topic.empty() ? topic : "subscribers of " + topic;
+  std::string topic;
+  for (const auto& stream : streams_)
+    if (topic.empty()) topic = stream->output.lonelyTopic(wanted_);
+  if (topic.empty()) topic = pose_output_.lonelyTopic(wanted_);
+  if (topic.empty()) return topic;
+  std::string waited_for = "subscribers of " + topic;
+  if (!wanted_.of.empty()) waited_for += ", of which only these count:";
+  for (const std::string& node : wanted_.of) waited_for += " " + node;
+  return waited_for;
 }
 
 }  // namespace sunlit::ros_interface

@@ -2,10 +2,13 @@
 """Start, pause, single views, following a TF frame, and what the node says while it waits."""
 import datetime
 import math
+import os
 import struct
+import tempfile
 import threading
 import unittest
 
+import rosbag
 import rospy
 import rostest
 from geometry_msgs.msg import Pose, PoseStamped, TransformStamped
@@ -161,6 +164,23 @@ class RenderControl(unittest.TestCase):
             self.assertTrue(arrived.wait(TIMEOUT_S))
         for reader in readers:
             reader.unregister()
+
+    def test_a_viewer_does_not_count_for_the_recorder(self):
+        topics = ["/a/camera/image_raw", "/a/camera/camera_info", "/a/camera/capture", "/camera/pose", "/camera/depth/image_raw",
+                  "/camera/depth/camera_info"]
+        viewer = Reader(["a"], node="/patient")
+        self.addCleanup(viewer.close)
+        tree = parameters(conditions=["a"], exit_when_done=True, subscribers={"images": 1, "poses": 1, "others": 1, "of": ["recorder"]})
+        with tempfile.TemporaryDirectory() as folder, RenderNode("patient", tree) as node:
+            self.assertIn("count: /recorder", node.line_with("Waiting for subscribers of /a/camera/image_raw"))
+            record = Process("recorder", {}, "record", package="rosbag",
+                             arguments=["-O", os.path.join(folder, "all.bag"), *topics, "/tf"])
+            with record:
+                status, said = node.end()
+                self.assertEqual(status, 0, said)
+            with rosbag.Bag(os.path.join(folder, "all.bag")) as bag:
+                for topic in topics:
+                    self.assertEqual(bag.get_message_count(topic), 20, topic)
 
     def test_waits_for_readers_of_what_localisation_needs(self):
         arrived = threading.Event()

@@ -34,6 +34,9 @@ class RenderRefuses(RefusalTest):
         self.assert_refused(parameters(camera={"widht": 96}), "/refused/camera/widht", "unknown")
         self.assert_refused(parameters(camera={"width": 8}), "/refused/camera/width", "8", "16")
         self.assert_refused(parameters(exposure={"mode": "bright"}), "/refused/exposure/mode", "bright", "fixed, auto")
+        self.assert_refused(parameters(subscribers={"of": ["my recorder"]}), "/refused/subscribers/of", "'my recorder'", "no node's name")
+        self.assert_refused(parameters(subscribers={"of": [""]}), "/refused/subscribers/of", "''", "empty")
+        self.assert_refused(parameters(subscribers={"images": 2, "of": ["/recorder"]}), "/refused/subscribers/images is 2", "names 1")
         self.assert_refused(parameters(camera={"rasterizer": "mesa"}), "/refused/camera/rasterizer", "mesa",
                             "osmesa, egl, builtin")
         self.assert_refused(parameters(transport={"final_gather": 17}), "/refused/transport/final_gather", "17", "16")

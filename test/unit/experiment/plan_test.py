@@ -311,8 +311,9 @@ class Plan(unittest.TestCase):
                 self.assertEqual(earlier_run.first_not_evaluated(folder, arguments.pairs(["h04", "h12"], False, 1), "[orb]"), 0)
 
     def test_rendering_waits_for_a_recorder(self):
-        self.assertEqual(planned()["render"]["subscribers"], {"images": 1, "poses": 1, "truth": 1, "others": 0})
-        self.assertEqual(planned(record="true")["render"]["subscribers"], {"images": 2, "poses": 2, "truth": 2, "others": 1})
+        self.assertEqual(planned()["render"]["subscribers"], {"images": 1, "poses": 1, "truth": 1, "others": 0, "of": ["/evaluator"]})
+        self.assertEqual(planned(record="true")["render"]["subscribers"], {"images": 2, "poses": 2, "truth": 2, "others": 1,
+                                                                                "of": ["/evaluator", "/recorder"]})
 
     def test_the_recording_holds_what_each_image_was_made_under(self):
         topics = planned(record="true", hours="[4, 5]")["experiment"]["recording"]["topics"]
@@ -330,7 +331,7 @@ class Plan(unittest.TestCase):
     def test_where_all_is_evaluated_only_the_recorder_is_waited_for(self):
         tree = planned(plan.Beginning(20, evaluated=20, recorded=8), record="true")
         self.assertEqual(tree["render"]["wait_for"], [])
-        self.assertEqual(tree["render"]["subscribers"], {"images": 1, "poses": 1, "truth": 1, "others": 1})
+        self.assertEqual(tree["render"]["subscribers"], {"images": 1, "poses": 1, "truth": 1, "others": 1, "of": ["/recorder"]})
 
     def test_an_earlier_run_is_taken_up_where_it_has_a_gap(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -46,8 +46,9 @@ Eigen::Vector2f pointOf(const Surface& surface, const LobePixels& pixels, std::u
   const std::uint32_t x = pixel % pixels.width, y = pixel / pixels.width;
   // Neighbours get cells far apart: any two by two of them see all of the lobe, roughly.
   constexpr std::uint32_t kOrder[kAcross] = {0, 2, 1, 3};
-  const std::uint32_t column = kOrder[(x + 2 * (y % 2)) % kAcross], row = kOrder[y % kAcross];
   const std::uint32_t block_x = x / kAcross, block_y = y / kAcross;
+  // So many blocks of one row see all of it, too.
+  const std::uint32_t column = kOrder[(x + 2 * (y % 2)) % kAcross], row = kOrder[(y + block_x) % kAcross];
   const std::uint32_t part = ray + rays * (block_x % reach.across);
   const std::uint32_t other = block_y % reach.down;
   const auto within = [](std::uint32_t cell, std::uint32_t of, std::uint32_t cells, float random) {

@@ -152,6 +152,7 @@ class TileMirror {
       if (!(part > 0.0f)) continue;
       const Hit& hit = looked.hits[i];
       const bool misses = hit.triangle == Hit::kMiss;
+      if (!misses) mirroring->nearest_m = std::min(mirroring->nearest_m, hit.distance);
       const Eigen::Array3f through = passGlass(looked, i, part, &met);
       if (misses)
         open->push_back({looked.towards(i), through});

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "sunlit/light/surfaces.h"
@@ -20,6 +21,7 @@ struct Reflections {
     float weight = 0.0f;  ///< of its rays together, by LobeRay::weight, which all shares are parts of
     std::uint32_t first = 0, count = 0;  ///< what they met, in `seen`; Surface::share is of all of them
     std::uint32_t first_open = 0, open_count = 0;  ///< those that met nothing, in TileReflections::open
+    float nearest_m = std::numeric_limits<float>::infinity();  ///< that they met
   };
   /// Rays that met nothing.
   struct Open {

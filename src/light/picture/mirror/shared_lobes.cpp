@@ -16,6 +16,7 @@ namespace {
 struct Rough {
   Eigen::Vector3f position, shading_normal, geometric_normal;
   float roughness, metalness;
+  float reach_m;  ///< as far others may be that show it the same
   int x, y;
 };
 
@@ -65,6 +66,7 @@ RoughOnes collect(const Surfaces& surfaces, const Reflections& reflections, Mirr
                     surface.geometric_normal,
                     surface.roughness,
                     surface.metalness,
+                    mirroring.nearest_m,
                     static_cast<int>(surface.pixel % width),
                     static_cast<int>(surface.pixel / width)};
     ones.shown[at] = {mirroring.weight * *luminance, mirroring.weight};
@@ -103,6 +105,37 @@ bool alike(const Rough& a, const Rough& b) {
          off * off < kThickness_m * kThickness_m + allowed;
 }
 
+bool isNear(const Rough& a, const Rough& b) {
+  return (a.position - b.position).squaredNorm() <= a.reach_m * a.reach_m;
+}
+
+/// Of what rays met, others may be so far from where they started.
+constexpr float kNear = 1.0f;
+
+/// Sets reach_m, which is what each one's own rays met at the nearest, to what they may share by what those
+/// of its block have met.
+template <typename PixelAt>
+void findReaches(const Surfaces& surfaces, const PixelAt& pixelAt, RoughOnes* ones) {
+  std::vector<float> reaches(ones->all.size());
+  constexpr std::size_t kGrain = 1024;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, reaches.size(), kGrain), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const Rough& one = ones->all[i];
+      const Window across(one.x, 1, surfaces.width), down(one.y, 1, surfaces.height);
+      float nearest = one.reach_m;
+      for (int y = down.first; y <= down.last; ++y) {
+        for (int x = across.first; x <= across.last; ++x) {
+          const std::size_t pixel = pixelAt(x, y);
+          for (std::uint32_t k = ones->first[pixel]; k < ones->first[pixel + 1]; ++k)
+            if (alike(one, ones->all[k])) nearest = std::min(nearest, ones->all[k].reach_m);
+        }
+      }
+      reaches[i] = kNear * nearest;
+    }
+  });
+  for (std::size_t i = 0; i < reaches.size(); ++i) ones->all[i].reach_m = reaches[i];
+}
+
 /// For each what those of one row, or column, show together that are like it.
 template <typename WindowOf, typename PixelAt>
 std::vector<Shown> shared(const RoughOnes& ones, const std::vector<Shown>& shown, const WindowOf& windowOf,
@@ -116,7 +149,7 @@ std::vector<Shown> shared(const RoughOnes& ones, const std::vector<Shown>& shown
       for (int at = window.first; at <= window.last; ++at) {
         const std::size_t pixel = pixelAt(one, at);
         for (std::uint32_t k = ones.first[pixel]; k < ones.first[pixel + 1]; ++k)
-          if (alike(one, ones.all[k])) sums[i].add(window.weight(at), shown[k]);
+          if (alike(one, ones.all[k]) && isNear(one, ones.all[k])) sums[i].add(window.weight(at), shown[k]);
       }
     }
   });
@@ -126,14 +159,16 @@ std::vector<Shown> shared(const RoughOnes& ones, const std::vector<Shown>& shown
 }  // namespace
 
 void shareLobes(const Surfaces& surfaces, const Reflections& reflections, MirroredLuminances* luminances) {
-  const RoughOnes ones = collect(surfaces, reflections, luminances);
+  RoughOnes ones = collect(surfaces, reflections, luminances);
   if (ones.all.empty()) return;
   const LobePixels pixels = lobePixels(surfaces);
   const auto pixel = [&](int x, int y) { return static_cast<std::size_t>(y * surfaces.width + x); };
+  findReaches(surfaces, pixel, &ones);
   const std::vector<Shown> rows = shared(
       ones, ones.shown,
       [&](const Rough& one) {
-        return Window(one.x, lobeReach(one.roughness, pixels).across, surfaces.width);
+        const LobeReach reach = lobeReach(one.roughness, pixels);
+        return Window(one.x, std::isinf(one.reach_m) ? reach.across : reach.down, surfaces.width);
       },
       [&](const Rough& one, int x) { return pixel(x, one.y); });
   const std::vector<Shown> blocks = shared(

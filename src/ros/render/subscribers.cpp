@@ -1,0 +1,17 @@
+#include "ros/render/subscribers.h"
+
+#include <algorithm>
+
+namespace sunlit::ros_interface {
+
+bool Subscribers::are(const Audience& wanted) const {
+  int listen = 0;
+  for (const auto& [node, links] : *links_) {
+    const bool counts =
+        wanted.of.empty() || std::find(wanted.of.begin(), wanted.of.end(), node) != wanted.of.end();
+    if (counts && links > 0) ++listen;
+  }
+  return listen >= wanted.size;
+}
+
+}  // namespace sunlit::ros_interface
