@@ -10,19 +10,18 @@ namespace sunlit::ros_interface {
 namespace {
 
 image_transport::CameraPublisher advertised(const ros::NodeHandle& node, const std::string& topic,
-                                            std::uint32_t queue_size, const Subscribers& images,
-                                            const Subscribers& infos) {
+                                            std::uint32_t queue_size, const CameraSubscribers& of) {
   using ImageLink = image_transport::SingleSubscriberPublisher;
   using InfoLink = ros::SingleSubscriberPublisher;
   return image_transport::ImageTransport(node).advertiseCamera(
-      topic, queue_size, images.joining<ImageLink>(), images.leaving<ImageLink>(), infos.joining<InfoLink>(),
-      infos.leaving<InfoLink>());
+      topic, queue_size, of.images.joining<ImageLink>(), of.images.leaving<ImageLink>(),
+      of.infos.joining<InfoLink>(), of.infos.leaving<InfoLink>());
 }
 
 }  // namespace
 
 CameraOutput::CameraOutput(const ros::NodeHandle& node, const std::string& topic, std::uint32_t queue_size)
-    : publisher_(advertised(node, topic, queue_size, images_, infos_)) {}
+    : publisher_(advertised(node, topic, queue_size, subscribers_)) {}
 
 void CameraOutput::publish(const image::Rgb8Image& picture, const sensor_msgs::CameraInfo& info) const {
   publisher_.publish(toImageMessage(picture, info.header), boost::make_shared<sensor_msgs::CameraInfo>(info));
@@ -33,8 +32,8 @@ void CameraOutput::publish(const image::DepthImage& depth, const sensor_msgs::Ca
 }
 
 std::string CameraOutput::lonelyTopic(const CameraAudience& wanted) const {
-  if (!images_.are(wanted.images)) return publisher_.getTopic();
-  if (!infos_.are(wanted.infos)) return publisher_.getInfoTopic();
+  if (!subscribers_.images.are(wanted.images)) return publisher_.getTopic();
+  if (!subscribers_.infos.are(wanted.infos)) return publisher_.getInfoTopic();
   return std::string();
 }
 

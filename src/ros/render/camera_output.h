@@ -12,7 +12,12 @@
 
 namespace sunlit::ros_interface {
 
-/// Who shall listen to the topics of a camera.
+/// Who listens to the topics of a camera. A CameraPublisher only tells the greater of the two numbers.
+struct CameraSubscribers {
+  Subscribers images, infos;
+};
+
+/// Who shall.
 struct CameraAudience {
   Audience images;
   Audience infos;
@@ -27,12 +32,12 @@ class CameraOutput {
   void publish(const image::Rgb8Image& picture, const sensor_msgs::CameraInfo& info) const;
   void publish(const image::DepthImage& depth, const sensor_msgs::CameraInfo& info) const;
   /// Whether anybody listens to either.
-  bool isHeard() const { return images_.are({1, {}}) || infos_.are({1, {}}); }
+  bool isHeard() const { return subscribers_.images.are({1, {}}) || subscribers_.infos.are({1, {}}); }
   /// The first topic with too few subscribers; empty if there is none.
   std::string lonelyTopic(const CameraAudience& wanted) const;
 
  private:
-  Subscribers images_, infos_;  // a CameraPublisher only tells the greater of the two numbers
+  CameraSubscribers subscribers_;
   image_transport::CameraPublisher publisher_;
 };
 

@@ -135,6 +135,53 @@ TEST(SharedLobes, LeaveSharpMirrorsAsTheyAre) {
   EXPECT_EQ(floor.luminances[0][1][0], 1.5f);
 }
 
+// Rows 0 to 7, 0.1 m apart, mirror something bright, the others nothing. Where that is 0.25 m away, rows that
+// are farther apart mirror different things.
+TEST(SharedLobes, ReachNoFartherThanWhatTheyShowIsAway) {
+  for (const float nearest_m : {0.25f, 100.0f}) {
+    Floor floor(0.35f);
+    for (std::size_t t = 0; t < floor.luminances.size(); ++t) {
+      for (std::size_t i = 0; i < floor.luminances[t].size(); ++i) {
+        floor.reflections.tiles[t].surfaces[i].nearest_m = nearest_m;
+        const std::uint32_t row = floor.surfaces.tiles[t].surfaces[i].pixel / floor.surfaces.width;
+        floor.luminances[t][i] = Eigen::Array3f::Constant(row < 8 ? 1.0f : 0.0f);
+      }
+    }
+    floor.share();
+    const auto of_row = [&](std::uint32_t row) {
+      for (std::size_t i = 0; i < floor.luminances[0].size(); ++i)
+        if (floor.surfaces.tiles[0].surfaces[i].pixel == row * floor.surfaces.width)
+          return floor.luminances[0][i][0];
+      return -1.0f;
+    };
+    EXPECT_EQ(of_row(5) == 1.0f, nearest_m < 1.0f) << nearest_m;
+    EXPECT_EQ(of_row(10) == 0.0f, nearest_m < 1.0f) << nearest_m;
+  }
+}
+
+// 16 pixels of a row have rays in all of the 4 by 4 cells that a lobe is cut into, as 4 by 4 pixels have.
+TEST(LobeRays, OfARowSeeAllOfTheLobe) {
+  Surface surface = seenFrom(0.6, 0.3f);
+  const double expected = byTheLobe(surface);
+  double squares = 0.0;
+  constexpr std::uint32_t kRows = 64, kLong = 16;
+  for (std::uint32_t row = 0; row < kRows; ++row) {
+    double sum = 0.0, weights = 0.0;
+    for (std::uint32_t x = 0; x < kLong; ++x) {
+      surface.pixel = row * kWidth + x;
+      for (std::uint32_t k = 0; k < lobeRays(surface, kPixels); ++k) {
+        const LobeRay ray = lobeRay(surface, surface.to_eye, kPixels, k);
+        sum += static_cast<double>(ray.weight) * luminanceFrom(ray.towards);
+        weights += static_cast<double>(ray.weight);
+      }
+    }
+    const double error = sum / weights / expected - 1.0;
+    squares += error * error / kRows;
+  }
+  // 0.08 with rays of every part, 0.39 where a row has the same quarter of them throughout.
+  EXPECT_LT(std::sqrt(squares), 0.12);
+}
+
 // The right tile's floor lies 0.1 m lower: none of its light comes over.
 TEST(SharedLobes, EndAtAnEdge) {
   Floor floor(0.35f);
