@@ -109,9 +109,12 @@ void ViewArguments::requireThatAllCount() const {
   line_->requireWith("--path", "--path-pose");
   const bool has_shutter = line_->has("--line-delay") || line_->has("--exposure-time");
   const bool moves = line_->has("--speed") || line_->has("--turning");
-  if (has_shutter && !moves)
+  // To a camera that stands, only drops move.
+  const bool streaks = line_->has("--exposure-time") && line_->has("--rain") && !line_->has("--line-delay");
+  if (has_shutter && !moves && !streaks)
     throw std::invalid_argument(
-        "--line-delay and --exposure-time are of a camera that moves; give --speed or --turning");
+        "--line-delay and --exposure-time are of a camera that moves; give --speed or --turning (or "
+        "--exposure-time with --rain, for its streaks)");
   if (moves && !has_shutter)
     throw std::invalid_argument(
         "--speed and --turning show in a picture that takes time; give --line-delay or --exposure-time");

@@ -261,16 +261,18 @@ class CommandLines(unittest.TestCase):
             out = folder + "/picture.png"
             for arguments, said in ((["--line-delay", "30"], "give --speed or --turning"),
                                     (["--exposure-time", "auto", "--compensation", "1"], "give --speed or --turning"),
+                                    (["--rain", "5", "--line-delay", "30", "--exposure-time", "1"], "give --speed or --turning"),
                                     (["--turning", "20"], "give --line-delay or --exposure-time"),
                                     (["--exposures", "4", "--line-delay", "30", "--speed", "1"], "--exposure-time")):
                 self.assertIn(said, self.refused("snapshot", "--out", out, *arguments))
             pictures = []
-            for arguments in ([], ["--speed", "10", "--turning", "40", "--line-delay", "200"], ["--turning", "-40", "--exposure-time", "40"]):
+            for arguments in ([], ["--speed", "10", "--turning", "40", "--line-delay", "200"], ["--turning", "-40", "--exposure-time", "40"],
+                              ["--rain", "100", "--exposure-time", "1"], ["--rain", "100", "--exposure-time", "30"]):
                 done = run("snapshot", "--out", out, "--world", WORLD, "--bounced", "off", "--pose", "0,0,1", "--size", "64x48", *arguments)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 with open(out, "rb") as picture:
                     pictures.append(picture.read())
-            self.assertEqual(len(set(pictures)), 3)
+            self.assertEqual(len(set(pictures)), 5)
 
     def test_negative_numbers_are_values(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -31,7 +31,7 @@ inline std::vector<Field> fieldsOf(SurfaceState& state) {
        &state.snow_m,
        "m",
        {0, 0.5},
-       "depth of fresh snow: 0.02 covers two thirds of the ground, 0.1 all"},
+       "depth of fresh snow: 0.02 covers two thirds of the ground, 0.1 nearly all"},
       {"ground_seed", &state.seed, "", {0, 2147483647}, "another seed, other puddles and patches of snow"}};
 }
 
