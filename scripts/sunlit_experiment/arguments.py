@@ -121,8 +121,25 @@ def _clock_time(hour):
     return {"hour": seconds // 3600, "minute": seconds // 60 % 60, "second": float(seconds % 60)}
 
 
+def _on_its_day(name, differs, text):
+    """What differs in a condition, its date told as year, month and day."""
+    if "date" not in differs:
+        return differs
+    for part in ("year", "month", "day"):
+        if part in differs:
+            raise BadArgument("conditions", text, f"without {part} in {name}, which has a date")
+    day = differs["date"]
+    try:  # YAML makes a date of most of them by itself
+        day = day if type(day) is datetime.date else datetime.date.fromisoformat(day)  # pylint: disable=unidiomatic-typecheck
+    except (TypeError, ValueError):
+        raise BadArgument("conditions", text, f"with a date, year-month-day, such as 2024-07-01, in {name}") from None
+    return {**{key: value for key, value in differs.items() if key != "date"},
+            "year": day.year, "month": day.month, "day": day.day}
+
+
 def _at_clock_time(name, differs, text):
     """What differs in a condition, 12.5 told as half past twelve. What is no hour stays, for the node to refuse."""
+    differs = _on_its_day(name, differs, text)
     hour = differs.get("hour")
     if not _is_hour(hour) or hour == int(hour):
         return differs
@@ -141,7 +158,7 @@ CAMERA = {"vignetting": ("vignetting", "natural"), "glare": ("glare", "share"), 
           "adaptation": ("exposure", "adaptation"), "exposure": ("exposure", "mode"), "ev100": ("exposure", "ev100"),
           "noise": ("noise", "enabled"), "mosaic": ("mosaic", "pattern")}
 # Parameters of the sun's node that may differ, by their last parts, and groups of them; and those groups of the renderer.
-SUN = (*TIMES, "timezone", "rate", "start_stamp", "wait_for_subscriber", "latitude", "longitude", "elevation", "pressure",
+SUN = (*TIMES, "date", "timezone", "rate", "start_stamp", "wait_for_subscriber", "latitude", "longitude", "elevation", "pressure",
        "temperature", "atmospheric_refraction", "delta_ut1", "delta_t", "publish_rate", "tf_distance", "date_time", "site",
        "atmosphere", "earth", "frames")
 RENDERED = ("weather", *dict.fromkeys(group for group, _ in CAMERA.values()))
@@ -169,7 +186,7 @@ def conditions(text, hours):
         if not isinstance(differs, dict) or not _is_hour(differs.get("hour")):
             raise BadArgument("conditions", text, f"with an hour, at least 0 and below 24, for {name}: {allowed}")
         for key in differs:
-            known = (*TIMES, *WEATHER, *CAMERA)
+            known = (*TIMES, "date", *WEATHER, *CAMERA)
             if key not in known:
                 raise _unknown(text, key, name, known)
             if differs[key] is None:

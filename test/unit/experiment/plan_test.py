@@ -118,6 +118,19 @@ class Arguments(unittest.TestCase):
         self.assertEqual(arguments.conditions("{a: {hour: 9, minute: 5}}", arguments.USUAL_HOURS),
                          {"a": {"hour": 9, "minute": 5, "second": 0.0}})
 
+    def test_a_condition_may_have_a_date(self):
+        day = {"year": 2024, "month": 12, "day": 21}
+        noon = {"hour": 12, "minute": 0, "second": 0.0}
+        for typed in ("2024-12-21", "'2024-12-21'"):
+            text = "{a: {hour: 12, date: %s}}" % typed
+            self.assertEqual(arguments.conditions(text, arguments.USUAL_HOURS), {"a": {**noon, **day}})
+            self.assertEqual(arguments.of_sun(text, arguments.SUN), {"a": {"hour": 12, **day}})
+            self.assertEqual(arguments.of_renderer(text), ["a"])
+        for wrong, part in (("2024-02-30", "conditions"), ("noon", "with a date, year-month-day"), ("12", "with a date"),
+                            ("2024-12-21 10:00:00", "with a date"), ("2024-12-21, month: 12", "without month in a, which has a date")):
+            with self.assertRaisesRegex(arguments.BadArgument, part):
+                arguments.conditions("{a: {hour: 12, date: %s}}" % wrong, arguments.USUAL_HOURS)
+
     def test_conditions_of_render_launch_are_split_between_sun_and_renderer(self):
         typed = "{a: {hour: 9, cover: 8, glare: 0.03, site: {latitude: 10}}, b: {hour: 9, glare: {wings: 0.2}, blur: {}}, c: {}}"
         # The parameter server keeps no empty map, and the nodes read an empty text as one.
