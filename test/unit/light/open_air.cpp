@@ -30,7 +30,14 @@ World hall(bool open) {
     scene.meshes.push_back(outer);
   }
   World world = worldOf(std::move(scene));
-  world.transport = Transport::bake(world.geometry, TransportOptions());
+  TransportOptions options;
+  options.finest_m = 1.0;  // the hall is plain
+  world.transport = Transport::bake(world.geometry, options);
+  return world;
+}
+
+const World& closedHall() {
+  static const World world = hall(false);
   return world;
 }
 
@@ -63,7 +70,7 @@ Seen seen(const World& world, const Eigen::Vector3f& eye, const Eigen::Vector3f&
 }
 
 TEST(OpenAir, IsDarkInAClosedHall) {
-  const World world = hall(false);
+  const World& world = closedHall();
   const Eigen::Vector3f wall(20.0f, 0.7f, 2.1f);
   const Seen near = seen(world, {18.0f, 0.5f, 1.5f}, wall, -kEast, 1);
   const Seen far = seen(world, {-18.0f, 0.5f, 1.5f}, wall, -kEast, 1);
@@ -86,7 +93,7 @@ TEST(OpenAir, IsLitOutsideAndBeforeTheMouthOfAHall) {
 }
 
 TEST(OpenAir, IsAsItWasWhereNothingIsBaked) {
-  World world = hall(false);
+  const World& world = closedHall();
   const Surfaces surfaces = rowOf({{{20.0f, 0.7f, 2.1f}, -kEast, -kEast, 1}}, *world.geometry->scene);
   EXPECT_EQ(OpenAir(surfaces, *world.visibility, nullptr).before(LightPlace()), 1.0f);
 }
