@@ -123,17 +123,17 @@ def _clock_time(hour):
 
 def _on_its_day(name, differs, text):
     """What differs in a condition, its date told as year, month and day."""
-    if "date" not in differs:
+    if DATE not in differs:
         return differs
     for part in ("year", "month", "day"):
         if part in differs:
             raise BadArgument("conditions", text, f"without {part} in {name}, which has a date")
-    day = differs["date"]
+    day = differs[DATE]
     try:  # YAML makes a date of most of them by itself
         day = day if type(day) is datetime.date else datetime.date.fromisoformat(day)  # pylint: disable=unidiomatic-typecheck
     except (TypeError, ValueError):
         raise BadArgument("conditions", text, f"with a date, year-month-day, such as 2024-07-01, in {name}") from None
-    return {**{key: value for key, value in differs.items() if key != "date"},
+    return {**{key: value for key, value in differs.items() if key != DATE},
             "year": day.year, "month": day.month, "day": day.day}
 
 
@@ -150,6 +150,7 @@ def _at_clock_time(name, differs, text):
 
 
 TIMES = ("hour", "minute", "second", "year", "month", "day")
+DATE = "date"  # stands for the latter three
 WEATHER = ("cover", "optical_depth", "overcast", "visibility", "fog_top", "rain", "cloud_base", "wind", "wind_from", "cloud_seed",
            "wet", "puddles", "snow", "ground_seed")
 # What of its own a camera has in one of the conditions, by where the renderer has it.
@@ -158,7 +159,7 @@ CAMERA = {"vignetting": ("vignetting", "natural"), "glare": ("glare", "share"), 
           "adaptation": ("exposure", "adaptation"), "exposure": ("exposure", "mode"), "ev100": ("exposure", "ev100"),
           "noise": ("noise", "enabled"), "mosaic": ("mosaic", "pattern")}
 # Parameters of the sun's node that may differ, by their last parts, and groups of them; and those groups of the renderer.
-SUN = (*TIMES, "date", "timezone", "rate", "start_stamp", "wait_for_subscriber", "latitude", "longitude", "elevation", "pressure",
+SUN = (*TIMES, "timezone", "rate", "start_stamp", "wait_for_subscriber", "latitude", "longitude", "elevation", "pressure",
        "temperature", "atmospheric_refraction", "delta_ut1", "delta_t", "publish_rate", "tf_distance", "date_time", "site",
        "atmosphere", "earth", "frames")
 RENDERED = ("weather", *dict.fromkeys(group for group, _ in CAMERA.values()))
@@ -186,7 +187,7 @@ def conditions(text, hours):
         if not isinstance(differs, dict) or not _is_hour(differs.get("hour")):
             raise BadArgument("conditions", text, f"with an hour, at least 0 and below 24, for {name}: {allowed}")
         for key in differs:
-            known = (*TIMES, "date", *WEATHER, *CAMERA)
+            known = (*TIMES, DATE, *WEATHER, *CAMERA)
             if key not in known:
                 raise _unknown(text, key, name, known)
             if differs[key] is None:
@@ -345,8 +346,8 @@ def named_conditions(text, known=DIFFERING):
         if not isinstance(differs, dict):
             raise BadArgument("conditions", text, allowed)
         for key in differs:
-            if key not in known:
-                raise _unknown(text, key, name, known)
+            if key not in (*known, DATE):
+                raise _unknown(text, key, name, (*known, DATE))
     return {name: _at_clock_time(name, differs, text) for name, differs in asked.items()}
 
 
