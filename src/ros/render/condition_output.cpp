@@ -54,7 +54,8 @@ std::string ConditionOutput::lonelyTopic(const WantedSubscribers& wanted) const 
   std::string topic = lonely({wanted.audience(wanted.images), {}});
   if (topic.empty()) topic = capture_.ifLonely(wanted.audience(wanted.images));
   if (topic.empty()) topic = lonely({{}, wanted.audience(wanted.ofTruth())});
-  return topic.empty() && stereo_ ? stereo_->lonelyTopic(wanted.audience(wanted.right)) : topic;
+  if (!topic.empty() || !stereo_) return topic;
+  return stereo_->lonelyTopic(wanted.audience(wanted.left), wanted.audience(wanted.right));
 }
 
 }  // namespace sunlit::ros_interface

@@ -63,6 +63,7 @@ std::vector<Field> fieldsOf(WantedSubscribers& wanted) {
           {"poses", &wanted.poses, "", some, "of camera/pose"},
           {"truth", &wanted.truth, "", some, "of camera_info and camera/depth/image_raw"},
           {"others", &wanted.others, "", some, "of these, camera/depth/camera_info and /tf"},
+          {"left", &wanted.left, "", some, "of camera/left/image_raw and its camera_info"},
           {"right", &wanted.right, "", some, "of camera/right/image_raw and its camera_info"},
           {"of", &wanted.of, "", {}, "nodes that are counted; empty: whoever listens"}};
 }

@@ -60,7 +60,8 @@ struct WantedSubscribers {
   int poses = 0;   ///< of camera/pose
   int truth = 0;   ///< of camera/camera_info and camera/depth/image_raw
   int others = 0;  ///< of these, camera/depth/camera_info and TF
-  int right = 0;   ///< of camera/right/image_raw and camera/right/camera_info, where there is a right camera
+  int left = 0;    ///< of camera/left/image_raw and camera/left/camera_info, where there is a right camera
+  int right = 0;   ///< of camera/right/image_raw and camera/right/camera_info, likewise
   std::vector<std::string> of;  ///< which nodes are counted; empty: whoever
   /// Of camera/camera_info and camera/depth/image_raw.
   int ofTruth() const { return std::max(truth, others); }

@@ -25,8 +25,12 @@ void StereoOutput::publish(const Photograph& photograph) const {
   std::visit([&](const auto& images) { images.publish(photograph.right.value(), right); }, right_);
 }
 
-std::string StereoOutput::lonelyTopic(const Audience& wanted) const {
-  return std::visit([&](const auto& images) { return images.lonelyTopic({wanted, wanted}); }, right_);
+std::string StereoOutput::lonelyTopic(const Audience& left, const Audience& right) const {
+  const auto lonely = [](const PictureOutput& side, const Audience& wanted) {
+    return std::visit([&](const auto& images) { return images.lonelyTopic({wanted, wanted}); }, side);
+  };
+  const std::string topic = lonely(left_, left);
+  return topic.empty() ? lonely(right_, right) : topic;
 }
 
 }  // namespace sunlit::ros_interface

@@ -20,8 +20,8 @@ class StereoOutput {
 
   /// With a right picture.
   void publish(const Photograph& photograph) const;
-  /// The first topic of the right camera with fewer subscribers; empty if there is none.
-  std::string lonelyTopic(const Audience& wanted) const;
+  /// The first topic with too few subscribers; empty if there is none.
+  std::string lonelyTopic(const Audience& left, const Audience& right) const;
 
  private:
   OutputOptions options_;

@@ -34,7 +34,7 @@ def has_stereo_image_proc():
 
 def stereo(**changes):
     """An ideal pair in the built-in world, whose ground and trees have something to match."""
-    tree = parameters(conditions=["a"], subscribers={"images": 1, "others": 1, "right": 1},
+    tree = parameters(conditions=["a"], subscribers={"images": 1, "others": 1, "left": 1, "right": 1},
                       camera={"width": 320, "height": 240, "supersampling": 2, "baseline": BASELINE_M}, **changes)
     tree.update(world="race_track", path={"first": 40, "count": POSES}, transport={"enabled": False})
     return tree
@@ -68,7 +68,7 @@ class RenderStereo(RefusalTest):
         reader = StereoReader("pair")
         tree = parameters(conditions=["a"], path={"count": 2}, exposure={"mode": "auto"},
                           wait_for=["/reader/progress"], max_ahead=1,
-                          subscribers={"images": 1, "truth": 1, "others": 1, "right": 1})
+                          subscribers={"images": 1, "truth": 1, "others": 1, "left": 1, "right": 1})
         tree["camera"] = {"calibration": LEFT, "right": {"calibration": RIGHT}, "supersampling": 1}
         with RenderNode("pair", tree):
             left, right, image, info, left_info, usual_info = reader.one_of_each(
@@ -103,7 +103,7 @@ class RenderStereo(RefusalTest):
 
     def test_image_geometry_has_a_known_point_where_both_pictures_show_it(self):
         reader = StereoReader("known")
-        tree = parameters(conditions=["a"], path={"count": 1}, subscribers={"images": 1, "truth": 1, "others": 1, "right": 1})
+        tree = parameters(conditions=["a"], path={"count": 1}, subscribers={"images": 1, "truth": 1, "others": 1, "left": 1, "right": 1})
         tree["camera"].update(baseline=1.0, supersampling=4)
         with RenderNode("known", tree):
             left, right, left_info, right_info = reader.one_of_each(
@@ -134,16 +134,20 @@ class RenderStereo(RefusalTest):
         refused({"calibration": RIGHT, "right": {"calibration": LEFT}}, "is it the right one?")
         refused({"baseline": -0.1}, "/refused/camera/baseline is -0.1, but must be from 0 to 100 m")
 
-    def test_no_reader_of_the_right_pictures_no_pictures(self):
+    def test_no_reader_of_either_side_no_pictures(self):
         reader = Reader(["a"], node="/lonely")
         with RenderNode("lonely", stereo()) as node:
+            node.line_with("subscribers of /a/camera/left/image_raw")
+            left = [rospy.Subscriber("/a/camera/left/" + topic, kind) for topic, kind in (("image_raw", Image), ("camera_info", CameraInfo))]
             node.line_with("subscribers of /a/camera/right/image_raw")
         self.assertEqual(reader.of("/a/camera/image_raw"), [])
+        for subscriber in left:
+            subscriber.unregister()
         reader.close()
 
     def test_packed_pairs_are_packed_on_both_sides(self):
         packed = {side + "/image_raw/compressed": CompressedImage for side in ("left", "right")}
-        reader = StereoReader("packed", {**packed, "right/camera_info": CameraInfo}, compressed=True)
+        reader = StereoReader("packed", {**packed, "left/camera_info": CameraInfo, "right/camera_info": CameraInfo}, compressed=True)
         with RenderNode("packed", stereo(compressed=True)):
             left, right, usual = reader.one_of_each(
                 "left/image_raw/compressed", "right/image_raw/compressed", "image_raw/compressed")
