@@ -125,14 +125,14 @@ def _on_its_day(name, differs, text):
     """What differs in a condition, its date told as year, month and day."""
     if DATE not in differs:
         return differs
-    for part in ("year", "month", "day"):
+    for part in DAY:
         if part in differs:
             raise BadArgument("conditions", text, f"without {part} in {name}, which has a date")
     day = differs[DATE]
     try:  # YAML makes a date of most of them by itself
         day = day if type(day) is datetime.date else datetime.date.fromisoformat(day)  # pylint: disable=unidiomatic-typecheck
     except (TypeError, ValueError):
-        raise BadArgument("conditions", text, f"with a date, year-month-day, such as 2024-07-01, in {name}") from None
+        raise BadArgument("conditions", text, f"with {A_DATE}, in {name}") from None
     return {**{key: value for key, value in differs.items() if key != DATE},
             "year": day.year, "month": day.month, "day": day.day}
 
@@ -149,8 +149,10 @@ def _at_clock_time(name, differs, text):
     return {**differs, **_clock_time(hour)}
 
 
-TIMES = ("hour", "minute", "second", "year", "month", "day")
-DATE = "date"  # stands for the latter three
+DAY = ("year", "month", "day")
+DATE = "date"  # stands for these three
+A_DATE = "a date, year-month-day, such as 2024-07-01"
+TIMES = ("hour", "minute", "second", *DAY)
 WEATHER = ("cover", "optical_depth", "overcast", "visibility", "fog_top", "rain", "cloud_base", "wind", "wind_from", "cloud_seed",
            "wet", "puddles", "snow", "ground_seed")
 # What of its own a camera has in one of the conditions, by where the renderer has it.
@@ -234,7 +236,7 @@ def date_time(date, timezone):
     try:
         day = datetime.date.fromisoformat(date)
     except ValueError:
-        raise BadArgument("date", date, "a date, year-month-day, such as 2024-07-01") from None
+        raise BadArgument("date", date, A_DATE) from None
     allowed = "hours east of UTC, from -18 to 18"
     zone = parse("timezone", timezone, allowed)
     if not is_number(zone) or not -18 <= zone <= 18:

@@ -11,7 +11,7 @@ from sunlit_experiment import recording
 
 START_STAMP_S = 1000.0
 FRAME_RATE_HZ = 10.0
-EVALUATOR, RECORDER = "/evaluator", "/recorder"  # nodes
+EVALUATOR, RECORDER = "/evaluator", "/" + recording.NODE  # nodes
 # What the evaluator writes down beside its results, as it was typed.
 ABOUT = ("world", "robot", "path", "site", "date", "timezone", "hours", "conditions", "spacing", "offset", "yaw", "exposure", "ev100",
          "highlight_protection", "final_gather", "rasterizer", "night", "lamps", "noise", "noise_seed", "vignetting", "glare",
@@ -171,7 +171,7 @@ def _renderer(typed, given, places, beginning):
 
 
 def _main_renderer(typed, given, places, beginning):
-    readers = ["/evaluator/progress"]
+    readers = [EVALUATOR + "/progress"]
     if read.flag("self_test", typed["self_test"]):
         readers.append("/self_test/render/progress")  # counts as one, so that the two keep abreast
     recorders = 1 if read.flag("record", typed["record"]) else 0
@@ -189,7 +189,7 @@ def _main_renderer(typed, given, places, beginning):
         output_dir=places["output"],
         wait_for=readers,
         # Of each kind of topic before the first image leaves.
-        subscribers={"images": evaluators + recorders, "poses": evaluators + recorders,
+        subscribers={"images": len(counted), "poses": len(counted),
                      "truth": (evaluators if map_streams(typed) else 0) + recorders, "others": recorders, "of": counted})
     if _right(typed):
         tree["subscribers"]["right"] = recorders
@@ -203,7 +203,7 @@ def _self_test_renderer(typed, given, places, beginning):
     tree.update(
         resume_at=beginning.evaluated,
         exact_sky=True,
-        wait_for=["/evaluator/progress"],
+        wait_for=[EVALUATOR + "/progress"],
         subscribers={"images": 1, "of": [EVALUATOR]},
         sun_namespace="/",
         publish_tf=False,

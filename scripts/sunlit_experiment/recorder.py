@@ -35,7 +35,7 @@ class Recorder:
             # -b 0: its buffer may grow, so that nothing is dropped.
             self.process = subprocess.Popen(
                 [roslib.packages.find_node("rosbag", "record")[0], "-b", "0", "-o",
-                 os.path.join(output, recording.PREFIX[:-1]), "__name:=recorder"] + self.topics,
+                 os.path.join(output, recording.PREFIX[:-1]), "__name:=" + recording.NODE] + self.topics,
                 preexec_fn=end_with_parent, stdout=None if is_verbose else subprocess.DEVNULL)
 
     def check(self):

@@ -14,6 +14,7 @@ import time
 import psutil
 
 PREFIX = "recording_"
+NODE = "recorder"     # who records
 ACTIVE = ".bag.active"  # as rosbag record calls a bag that it still writes
 PATIENCE_S = 20.0       # for a recorder that closes its bag while its experiment has gone
 LOOK_EVERY_S = 0.1
