@@ -7,9 +7,7 @@ namespace sunlit::ros_interface {
 bool Subscribers::are(const Audience& wanted) const {
   int listen = 0;
   for (const auto& [node, links] : *links_) {
-    const bool counts =
-        wanted.of.empty() || std::find(wanted.of.begin(), wanted.of.end(), node) != wanted.of.end();
-    if (counts && links > 0) ++listen;
+    if (wanted.of.empty() || std::find(wanted.of.begin(), wanted.of.end(), node) != wanted.of.end()) ++listen;
   }
   return listen >= wanted.size;
 }

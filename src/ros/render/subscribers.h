@@ -26,12 +26,16 @@ class Subscribers {
   }
   template <typename Link>
   boost::function<void(const Link&)> leaving() const {
-    return [links = links_](const Link& link) { --(*links)[link.getSubscriberName()]; };
+    return [links = links_](const Link& link) {
+      const auto node = links->find(link.getSubscriberName());
+      if (node != links->end() && --node->second == 0) links->erase(node);
+    };
   }
   /// A node counts once, by how many transports it may listen.
   bool are(const Audience& wanted) const;
 
  private:
+  /// Of each node that listens now, at least one.
   std::shared_ptr<std::map<std::string, int>> links_ = std::make_shared<std::map<std::string, int>>();
 };
 
