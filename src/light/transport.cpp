@@ -59,7 +59,7 @@ Transport::Transport(const TransportOptions& options, std::unique_ptr<const Tran
     : options_(options),
       data_(std::move(data)),
       node_open_(std::make_shared<const std::vector<float>>(openSky(*data_))),
-      glint_nodes_(glintNodes(*data_)) {}
+      glint_nodes_(light::glintNodes(*data_)) {}
 Transport::~Transport() = default;
 
 std::vector<NodeLight> Transport::relight(const sky::Daylight& day, const std::vector<float>& lamp_shares,

@@ -335,7 +335,7 @@ scene::Scene BakedLooks::make(const std::function<void(double)>& done) const {
     pages[p].width = plan.pages[p][0];
     pages[p].height = plan.pages[p][1];
     pages[p].wrap_u = pages[p].wrap_v = scene::Wrap::kClamp;
-    pages[p].rgba.assign(4 * static_cast<std::size_t>(plan.pages[p].prod()), 255);
+    pages[p].rgba.own().assign(4 * static_cast<std::size_t>(plan.pages[p].prod()), 255);
   }
   const TexturePyramids pyramids(plan.scene);
   std::mutex telling;

@@ -125,7 +125,7 @@ void paintChart(const scene::Scene& scene, const TexturePyramid* texture, const 
   const int width = chart.room[0], height = chart.room[1];
   constexpr int kLanes = DetailPoints::kCount;
   for (int y = 0; y < height; ++y) {
-    std::uint8_t* texel = page->rgba.data() +
+    std::uint8_t* texel = page->rgba.own().data() +
                           4 * (static_cast<std::size_t>(chart.y + y) * static_cast<std::size_t>(page->width) +
                                static_cast<std::size_t>(chart.x));
     for (int begin = 0; begin < width; begin += kLanes) {

@@ -75,7 +75,7 @@ class Writer {
       image::Rgba8Image picture;
       picture.width = all[i]->width;
       picture.height = all[i]->height;
-      picture.data = all[i]->rgba;
+      picture.data.assign(all[i]->rgba.begin(), all[i]->rgba.end());
       pngs[i] = image::encodePng(picture);
     });
     for (std::size_t i = 0; i < pngs.size(); ++i) {

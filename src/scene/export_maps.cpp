@@ -62,8 +62,8 @@ TextureUse PackedMaps::packed(const TextureUse& rough, const TextureUse& metal) 
   made.width = size.x();
   made.height = size.y();
   const auto unknown = static_cast<std::uint8_t>(metal.channel == kDropped ? 0 : 255);
-  made.rgba.assign(4 * static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()), 255);
-  std::uint8_t* texel = made.rgba.data();
+  made.rgba.own().assign(4 * static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()), 255);
+  std::uint8_t* texel = made.rgba.own().data();
   for (int y = 0; y < size.y(); ++y) {
     for (int x = 0; x < size.x(); ++x, texel += 4) {
       texel[kBlue] = unknown;

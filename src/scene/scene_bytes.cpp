@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace sunlit::scene {
@@ -96,6 +98,7 @@ class Writer {
       std::apply([this](const auto&... part) { ((*this)(part), ...); }, partsOf(value));
   }
   void operator()(const std::string& text) const { list(text); }
+  void operator()(const Texels& texels) const { list(texels); }
   template <typename T>
   void operator()(const std::vector<T>& values) const {
     if constexpr (IsPlain<T>::value) return list(values);
@@ -114,7 +117,8 @@ class Writer {
 
 class Reader {
  public:
-  Reader(const std::byte* data, std::size_t size) : at_(data), left_(size) {}
+  Reader(const std::byte* data, std::size_t size, std::shared_ptr<const void> owner)
+      : at_(data), left_(size), owner_(std::move(owner)) {}
 
   template <typename T>
   void operator()(T& value) {
@@ -124,6 +128,12 @@ class Reader {
       std::apply([this](auto&... part) { ((*this)(part), ...); }, partsOf(value));
   }
   void operator()(std::string& text) { list(&text); }
+  void operator()(Texels& texels) {
+    if (!owner_) return list(&texels.own());
+    const std::size_t size = count(1);
+    texels = Texels::within(owner_, reinterpret_cast<const std::uint8_t*>(at_), size);
+    skip(size);
+  }
   template <typename T>
   void operator()(std::vector<T>& values) {
     if constexpr (IsPlain<T>::value) return list(&values);
@@ -136,6 +146,9 @@ class Reader {
   void take(void* to, std::size_t size) {
     if (size > left_) throw std::runtime_error("a scene's bytes end too soon");
     if (size > 0) std::memcpy(to, at_, size);
+    skip(size);
+  }
+  void skip(std::size_t size) {
     at_ += size;
     left_ -= size;
   }
@@ -154,6 +167,7 @@ class Reader {
 
   const std::byte* at_;
   std::size_t left_;
+  std::shared_ptr<const void> owner_;  ///< of the bytes; null: they are gone when all is read
 };
 
 }  // namespace
@@ -163,8 +177,8 @@ void writeBytes(const Scene& scene, const ByteSink& sink) {
   writer(scene);
 }
 
-Scene sceneOf(const std::byte* data, std::size_t size) {
-  Reader reader(data, size);
+Scene sceneOf(const std::byte* data, std::size_t size, std::shared_ptr<const void> owner) {
+  Reader reader(data, size, std::move(owner));
   Scene scene;
   reader(scene);
   if (!reader.atEnd()) throw std::runtime_error("more follows a scene's bytes");

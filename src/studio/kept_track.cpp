@@ -27,9 +27,9 @@ std::string maker() {
 }
 
 std::optional<scene::Scene> found(const SealedFiles& files, const std::string& name) {
-  const std::unique_ptr<const SealedFiles::Content> content = files.find(name);
+  const std::shared_ptr<const SealedFiles::Content> content = files.find(name);
   if (!content) return std::nullopt;
-  return scene::sceneOf(content->data(), content->size());
+  return scene::sceneOf(content->data(), content->size(), content);
 }
 
 }  // namespace
@@ -47,6 +47,8 @@ scene::Scene keptRaceTrack(const std::filesystem::path& folder, const Reports& r
     scene = scene::raceTrack();
     files.keep(name, [&](const SealedFiles::Sink& sink) { scene::writeBytes(*scene, sink); });
     files.tidy([&](const std::string& line) { tell(reports.warning, line); });
+    // That of the file, whose texels other processes share.
+    if (std::optional<scene::Scene> kept = found(files, name)) return *std::move(kept);
   } catch (const std::exception& problem) {
     tell(reports.warning, std::string("the built-in world is not kept: ") + problem.what());
   }

@@ -102,6 +102,9 @@ class Transport {
   /// Illumination::node_open.
   const std::shared_ptr<const std::vector<float>>& nodeOpen() const { return node_open_; }
 
+  /// Where relight() leaves out what polished floors throw, if it knows where discs shine; null: nowhere.
+  const std::shared_ptr<const GlintNodes>& glintNodes() const { return glint_nodes_; }
+
   /// All that the bake keeps, for those who light by it.
   const TransportData& data() const { return *data_; }
   const TransportOptions& options() const { return options_; }

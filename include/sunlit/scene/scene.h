@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sunlit/quantity/photometry.h"
+#include "sunlit/scene/texels.h"
 
 namespace sunlit::scene {
 
@@ -26,7 +27,7 @@ struct Texture {
   std::string name;
   int width = 0;   ///< px, > 0
   int height = 0;  ///< px, > 0
-  std::vector<std::uint8_t> rgba;
+  Texels rgba;
   /// Cut-outs repeat all the same.
   Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
 };

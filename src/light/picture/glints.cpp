@@ -1,7 +1,5 @@
 #include "light/picture/glints.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,8 +13,11 @@ namespace sunlit::light {
 
 std::unique_ptr<const Glints> Glints::of(const sky::DiscLight& disc, float least_lx, const Subject& subject) {
   if (!(disc.illuminance.value.maxCoeff() > least_lx)) return nullptr;
+  const Outlooks& outlooks = subject.ready.outlooks;
+  if (std::all_of(outlooks.begin(), outlooks.end(),
+                  [](const TileOutlooks& tile) { return tile.without_glints.empty(); }))
+    return nullptr;
   std::unique_ptr<Glints> glints(new Glints(disc, subject));
-  if (!glints->findWanted()) return nullptr;
   glints->look();
   return glints;
 }
@@ -28,21 +29,7 @@ Glints::Glints(const sky::DiscLight& disc, const Subject& subject)
       disc_radius_rad_(static_cast<float>(disc.angular_radius.rad())),
       floor_(
           std::make_shared<const FloorMirror>(subject.visibility, disc_towards_, std::tan(disc_radius_rad_))),
-      glass_(subject.visibility),
-      shares_(subject.ready.surfaces.tiles.size()) {}
-
-bool Glints::findWanted() {
-  std::vector<char> any(shares_.size(), 0);
-  tbb::parallel_for(std::size_t{0}, shares_.size(), [&](std::size_t t) {
-    const std::vector<Outlook>& outlooks = subject_.ready.outlooks[t].surfaces;
-    shares_[t].assign(outlooks.size(), 0.0f);
-    for (std::size_t i = 0; i < outlooks.size(); ++i) {
-      shares_[t][i] = subject_.nodes.at(outlooks[i].light);
-      if (shares_[t][i] > 0.0f) any[t] = 1;
-    }
-  });
-  return std::find(any.begin(), any.end(), 1) != any.end();
-}
+      glass_(subject.visibility) {}
 
 void Glints::look() {
   const float alpha = subject_.nodes.roughness * subject_.nodes.roughness;
@@ -52,16 +39,19 @@ void Glints::look() {
                             DiscPoints::inFloor(disc_towards_, disc_radius_rad_, alpha),
                             floor_,
                             {}};
-  for (const std::vector<float>& of_tile : shares_) {
-    disc.wanted.emplace_back();
-    for (const float share : of_tile) disc.wanted.back().push_back(share > 0.0f);
+  for (const TileOutlooks& tile : subject_.ready.outlooks) {
+    disc.wanted.emplace_back(tile.surfaces.size(), false);
+    for (std::size_t i = 0; i < tile.without_glints.size(); ++i)
+      disc.wanted.back()[i] = tile.without_glints[i] > 0.0f;
   }
   seen_ = std::make_unique<const DiscVisibility>(
       std::move(disc), DiscVisibility::Picture{subject_.ready.surfaces, subject_.ready.table});
 }
 
 Eigen::Array3f Glints::illuminance(std::size_t number, std::size_t index) const {
-  const float share = seen_->visibleShares(number)[index] * shares_[number][index];
+  const std::vector<float>& wanted = subject_.ready.outlooks[number].without_glints;
+  if (wanted.empty()) return Eigen::Array3f::Zero();
+  const float share = seen_->visibleShares(number)[index] * wanted[index];
   if (!(share > 0.0f)) return Eigen::Array3f::Zero();
   const Tile& tile = subject_.ready.surfaces.tiles[number];
   const Surface& surface = tile.surfaces[index];

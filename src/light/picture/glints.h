@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <vector>
 
 #include "light/picture/disc/disc_visibility.h"
 #include "light/picture/disc/floor_mirror.h"
@@ -35,7 +34,6 @@ class Glints {
 
  private:
   Glints(const sky::DiscLight& disc, const Subject& subject);
-  bool findWanted();
   void look();
 
   Subject subject_;
@@ -44,7 +42,6 @@ class Glints {
   float disc_radius_rad_;
   std::shared_ptr<const FloorMirror> floor_;
   GlassSheets glass_;
-  std::vector<std::vector<float>> shares_;  ///< of each surface: how much its nodes lack
   std::unique_ptr<const DiscVisibility> seen_;
 };
 

@@ -35,11 +35,24 @@ void findPlaces(const Geometry& geometry, const TransportData& data, const Tile&
   }
 }
 
+void findGlints(const GlintNodes& nodes, TileOutlooks* outlooks) {
+  const std::size_t count = outlooks->surfaces.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const float share = nodes.at(outlooks->surfaces[i].light);
+    if (!(share > 0.0f)) continue;
+    if (outlooks->without_glints.empty()) outlooks->without_glints.assign(count, 0.0f);
+    outlooks->without_glints[i] = share;
+  }
+}
+
 void findBaked(const Surfaces& surfaces, const OutlookSources& sources, Outlooks* outlooks) {
   const Geometry& geometry = *sources.world.geometry;
   const TransportData& data = sources.world.transport->data();
-  tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(),
-                    [&](std::size_t i) { findPlaces(geometry, data, surfaces.tiles[i], &(*outlooks)[i]); });
+  const GlintNodes* const glints = sources.world.transport->glintNodes().get();
+  tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(), [&](std::size_t i) {
+    findPlaces(geometry, data, surfaces.tiles[i], &(*outlooks)[i]);
+    if (glints) findGlints(*glints, &(*outlooks)[i]);
+  });
   if (sources.gather) sources.gather->look(surfaces, outlooks);
   tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(), [&](std::size_t i) {
     findMirrors(data, {*geometry.scene, surfaces.width, surfaces.tiles[i]}, &(*outlooks)[i]);

@@ -74,7 +74,8 @@ int Assembly::addPage(const std::string& name, const Sheet& sheet) {
   texture.name = name;
   texture.width = sheet.width_px;
   texture.height = sheet.height_px;
-  texture.rgba.resize(static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height) * 4);
+  texture.rgba.own().resize(static_cast<std::size_t>(texture.width) *
+                            static_cast<std::size_t>(texture.height) * 4);
   return addTexture(std::move(texture));
 }
 
@@ -118,12 +119,12 @@ Assembly::Shelf* Assembly::findShelf(Sheet* sheet, int width, int height) {
 void Assembly::copyTo(int texture, const Canvas& canvas, const Eigen::Vector2i& corner) {
   const Texture picture = canvas.texture("");
   Texture& page = scene_.textures[static_cast<std::size_t>(texture)];
+  std::uint8_t* const texels = page.rgba.own().data();
   const std::ptrdiff_t row = 4 * canvas.width();
   for (int y = 0; y < canvas.height(); ++y) {
     const auto from = picture.rgba.begin() + row * y;
-    std::copy(
-        from, from + row,
-        page.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(corner.y() + y) * page.width + corner.x()));
+    std::copy(from, from + row,
+              texels + 4 * (static_cast<std::ptrdiff_t>(corner.y() + y) * page.width + corner.x()));
   }
 }
 

@@ -152,11 +152,11 @@ Texture Canvas::texture(const std::string& name) const {
   texture.name = name;
   texture.width = width_;
   texture.height = height_;
-  texture.rgba.resize(colors_.size() * 4);
+  std::vector<std::uint8_t>& rgba = texture.rgba.own();
+  rgba.resize(colors_.size() * 4);
   for (std::size_t i = 0; i < colors_.size(); ++i) {
-    for (int c = 0; c < 3; ++c) texture.rgba[4 * i + c] = encode(colors_[i][c]);
-    texture.rgba[4 * i + 3] =
-        static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(alphas_[i], 0.0f, 1.0f)));
+    for (int c = 0; c < 3; ++c) rgba[4 * i + c] = encode(colors_[i][c]);
+    rgba[4 * i + 3] = static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(alphas_[i], 0.0f, 1.0f)));
   }
   return texture;
 }

@@ -116,7 +116,7 @@ TEST(AdaptiveProbe, AddsUpUnderAFineGrid) {
 TEST(AdaptiveProbe, LeavesNoRayOutThatMayMeetLeaves) {
   scene::Texture solid;
   solid.width = solid.height = 2;
-  solid.rgba.assign(16, 255);
+  solid.rgba.own().assign(16, 255);
   scene::Scene scene = leafSceneOf(solid);
   addPatch(&scene, 0, {-300.0f, -300.0f, 2.0f}, {600.0f, 0.0f, 0.0f}, {0.0f, 600.0f, 0.0f});
   const Both both = lookUp(std::move(scene), {0.1f, 0.2f, 0.0f});

@@ -29,8 +29,8 @@ scene::Scene tree(std::mt19937* random, std::vector<CrownShadows::Point>* points
   chequers.name = "chequers";
   chequers.width = chequers.height = 8;
   for (int i = 0; i < 64; ++i)
-    chequers.rgba.insert(chequers.rgba.end(),
-                         {255, 255, 255, static_cast<std::uint8_t>((i / 8 + i) % 2 == 0 ? 255 : 0)});
+    chequers.rgba.own().insert(chequers.rgba.own().end(),
+                               {255, 255, 255, static_cast<std::uint8_t>((i / 8 + i) % 2 == 0 ? 255 : 0)});
   scene::Scene scene = leafSceneOf(chequers);
   addGround(&scene, kBoard, 200.0f);
   addBlock(&scene, kBoard, {-0.1f, -0.1f, 0.0f}, {0.2f, 0.2f, 4.0f});

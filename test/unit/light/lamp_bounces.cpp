@@ -252,7 +252,7 @@ TEST(ShiningSurfaces, WithHolesGiveAsMuchAsIsThere) {
     stripes.width = 32;
     stripes.height = 32;
     for (int i = 0; i < 32 * 32; ++i)
-      stripes.rgba.insert(stripes.rgba.end(), {255, 255, 255, i / 4 % 2 == 0 ? clear : solid});
+      stripes.rgba.own().insert(stripes.rgba.own().end(), {255, 255, 255, i / 4 % 2 == 0 ? clear : solid});
     scene.textures.push_back(stripes);
     scene.materials[1].base_texture = 0;
     scene.materials[1].alpha_mode = mode;

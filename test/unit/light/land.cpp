@@ -51,10 +51,10 @@ TEST(Land, OfAChequerOfTwoTexturesIsTheirMean) {
   const auto texture = [](std::uint8_t one, std::uint8_t rest) {
     scene::Texture made;
     made.width = made.height = 2;
-    made.rgba.assign(16, rest);
+    made.rgba.own().assign(16, rest);
     for (std::size_t i = 0; i < 4; ++i) {
-      if (i < 3) made.rgba[i] = one;
-      made.rgba[4 * i + 3] = 255;
+      if (i < 3) made.rgba.own()[i] = one;
+      made.rgba.own()[4 * i + 3] = 255;
     }
     return made;
   };

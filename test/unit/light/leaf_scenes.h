@@ -15,7 +15,7 @@ inline scene::Scene leafScene() {
   scene::Texture solid;
   solid.name = "solid";
   solid.width = solid.height = 2;
-  solid.rgba.assign(16, 255);
+  solid.rgba.own().assign(16, 255);
   return leafSceneOf(solid);
 }
 

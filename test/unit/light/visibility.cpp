@@ -89,7 +89,7 @@ TEST(Rays, PassWhereAMaskIsCutOut) {
   scene.materials[0].base_texture = 0;
   scene.materials[0].alpha_mode = scene::AlphaMode::kMask;
   scene::Texture texture{"corner", 4, 4, std::vector<std::uint8_t>(64, 0)};
-  texture.rgba[4 * (4 * 0 + 3) + 3] = 255;  // only the top right texel is solid: s near 1, t near 0
+  texture.rgba.own()[4 * (4 * 0 + 3) + 3] = 255;  // only the top right texel is solid: s near 1, t near 0
   scene.textures = {texture};
   scene.meshes = {sheet(0, 0.0f, 0.0f, 5.0f)};
   const Visibility visibility(geometryOf(scene));

@@ -16,7 +16,7 @@ namespace {
 scene::Texture grey() {
   scene::Texture texture;
   texture.width = texture.height = 2;
-  texture.rgba.assign(16, 128);
+  texture.rgba.own().assign(16, 128);
   return texture;
 }
 
@@ -69,7 +69,7 @@ TEST(Fingerprint, ChangesWithAllThatPicturesShow) {
       [](Contents& c) { c.scene.lamps.emplace_back().group = "posts"; },
       [](Contents& c) { c.scene.materials[0].detail.contrast = 0.1f; },
       [](Contents& c) { c.scene.materials[0].detail.tint[2] = 0.9f; },
-      [](Contents& c) { c.scene.textures[0].rgba[5] = 129; },
+      [](Contents& c) { c.scene.textures[0].rgba.own()[5] = 129; },
       [](Contents& c) { c.bodies = {{plate(1.0f)}}; },
       [](Contents& c) { c.bodies = {{plate(1.1f)}}; },
       [](Contents& c) {

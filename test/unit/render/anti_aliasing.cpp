@@ -119,7 +119,7 @@ TEST(AntiAliasing, OfTexturesIsThatOfFourSamples) {
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 64; ++x) {
       const auto code = static_cast<std::uint8_t>((x / 8 + y / 8) % 2 == 0 ? 230 : 40);
-      checks.rgba.insert(checks.rgba.end(), {code, code, code, 255});
+      checks.rgba.own().insert(checks.rgba.own().end(), {code, code, code, 255});
     }
   }
   scene.textures.push_back(checks);

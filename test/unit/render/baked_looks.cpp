@@ -91,7 +91,7 @@ TEST(BakedLooks, KeepTheTextureBeneath) {
   for (int i = 0; i < 64; ++i) {
     const auto value = static_cast<std::uint8_t>((i / 8 + i) % 2 == 0 ? 255 : 60);
     for (const std::uint8_t channel : {value, value, value, std::uint8_t{255}})
-      texture.rgba.push_back(channel);
+      texture.rgba.own().push_back(channel);
   }
   scene.textures = {texture};
   scene.materials[0].base_texture = 0;
@@ -106,8 +106,8 @@ TEST(BakedLooks, TintWhatIsCutOut) {
   scene::Scene scene = colorful(0.0f);
   scene::Texture texture;
   texture.width = texture.height = 2;
-  texture.rgba.assign(16, 255);
-  texture.rgba[3] = 0;
+  texture.rgba.own().assign(16, 255);
+  texture.rgba.own()[3] = 0;
   scene.textures = {texture};
   scene.materials[0].base_texture = 0;
   scene.materials[0].alpha_mode = scene::AlphaMode::kMask;

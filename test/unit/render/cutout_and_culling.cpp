@@ -19,7 +19,7 @@ scene::Texture stencil() {
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 64; ++x) {
       const bool solid = x < 32 && y < 48;
-      texture.rgba[static_cast<std::size_t>(4 * (64 * y + x) + 3)] = solid ? 255 : 0;
+      texture.rgba.own()[static_cast<std::size_t>(4 * (64 * y + x) + 3)] = solid ? 255 : 0;
     }
   }
   return texture;
@@ -97,7 +97,7 @@ TEST(Mask, HasTheCutoffOfItsMaterialWhereTwoShareATexture) {
   EXPECT_NEAR(clear_first[1], 2.0f, 1e-3);
 }
 
-double solidShare(const std::vector<std::uint8_t>& rgba, float cutoff) {
+double solidShare(const scene::Texels& rgba, float cutoff) {
   std::size_t solid = 0;
   for (std::size_t i = 3; i < rgba.size(); i += 4)
     solid += static_cast<float>(rgba[i]) >= 255.0f * cutoff ? 1 : 0;
@@ -110,7 +110,7 @@ TEST(Mipmap, OfAMaskLetsAsMuchThroughAsTheFullTexture) {
   scene::Texture hedge{"hedge", 128, 128, std::vector<std::uint8_t>(128 * 128 * 4, 200)};
   std::minstd_rand random(3);
   for (std::size_t i = 0; i < 128 * 128; ++i)
-    hedge.rgba[4 * i + 3] = static_cast<std::uint8_t>(random() % 256);
+    hedge.rgba.own()[4 * i + 3] = static_cast<std::uint8_t>(random() % 256);
   const double share = solidShare(hedge.rgba, 0.8f);
   const auto levels = render::smallerLevels(hedge, 0.8f);
   ASSERT_EQ(levels.size(), 7u);

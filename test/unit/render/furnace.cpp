@@ -63,11 +63,11 @@ scene::Scene textured(const Codes& codes, float repeats) {
   scene::Texture chequer;
   chequer.name = "chequer";
   chequer.width = chequer.height = 2;
-  chequer.rgba.assign(16, 255);
+  chequer.rgba.own().assign(16, 255);
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t which = i == 1 || i == 2 ? 1 : 0;
-    chequer.rgba[4 * i + 1] = static_cast<std::uint8_t>(codes.rough[which]);
-    chequer.rgba[4 * i + 2] = static_cast<std::uint8_t>(codes.metal[which]);
+    chequer.rgba.own()[4 * i + 1] = static_cast<std::uint8_t>(codes.rough[which]);
+    chequer.rgba.own()[4 * i + 2] = static_cast<std::uint8_t>(codes.metal[which]);
   }
   scene.textures = {chequer};
   scene.materials[0].roughness = scene.materials[0].metalness = 1.0f;

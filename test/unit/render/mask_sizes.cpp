@@ -21,7 +21,7 @@ class Sheet {
         float times) {
     scene::Scene scene;
     scene::Texture texture{"leaves", kTexels, kTexels, {}};
-    texture.rgba.assign(4 * kTexels * kTexels, 255);
+    texture.rgba.own().assign(4 * kTexels * kTexels, 255);
     scene.textures.push_back(texture);
     const int leaves = addMaterial(&scene, {0.8f, 0.9f, 0.8f});
     scene.materials[0].base_texture = 0;

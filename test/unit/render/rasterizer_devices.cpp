@@ -19,7 +19,8 @@ scene::Scene fence() {
   scene::Scene scene;
   scene::Texture texture{"planks", 16, 16, {}};
   for (int i = 0; i < 16 * 16; ++i)
-    texture.rgba.insert(texture.rgba.end(), {90, 90, 90, static_cast<std::uint8_t>(16 * (i * 7 % 16))});
+    texture.rgba.own().insert(texture.rgba.own().end(),
+                              {90, 90, 90, static_cast<std::uint8_t>(16 * (i * 7 % 16))});
   scene.textures.push_back(texture);
   addGround(&scene, addMaterial(&scene, {0.4f, 0.4f, 0.4f}), 200.0f);
   const int planks = addMaterial(&scene, {0.8f, 0.8f, 0.8f});

@@ -104,7 +104,8 @@ scene::Scene town(const Eigen::Vector3f& origin) {
     return static_cast<float>(random()) / static_cast<float>(std::minstd_rand::max());
   };
   scene::Texture texture{"leaves", 64, 64, {}};
-  for (int i = 0; i < 4 * 64 * 64; ++i) texture.rgba.push_back(static_cast<std::uint8_t>(255.0f * uniform()));
+  for (int i = 0; i < 4 * 64 * 64; ++i)
+    texture.rgba.own().push_back(static_cast<std::uint8_t>(255.0f * uniform()));
   scene.textures.push_back(texture);
   const int plain = addMaterial(&scene, {0.4f, 0.3f, 0.2f}), leaves = addMaterial(&scene, {0.8f, 0.9f, 0.8f});
   scene.materials[1].base_texture = 0;

@@ -23,7 +23,7 @@ scene::Scene town() {
   };
   scene::Texture texture{"leaves", 64, 64, {}};
   for (int i = 0; i < 64 * 64; ++i) {
-    for (int c = 0; c < 4; ++c) texture.rgba.push_back(static_cast<std::uint8_t>(255.0f * uniform()));
+    for (int c = 0; c < 4; ++c) texture.rgba.own().push_back(static_cast<std::uint8_t>(255.0f * uniform()));
   }
   scene.textures.push_back(texture);
   const int plain = addMaterial(&scene, {0.4f, 0.3f, 0.2f});

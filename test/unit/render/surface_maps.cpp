@@ -18,7 +18,7 @@ scene::Texture textureOf(int width, int height, const std::function<Texel(int, i
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const Texel t = texel(x, y);
-      texture.rgba.insert(texture.rgba.end(), t.begin(), t.end());
+      texture.rgba.own().insert(texture.rgba.own().end(), t.begin(), t.end());
     }
   }
   return texture;

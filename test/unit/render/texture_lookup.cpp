@@ -16,7 +16,7 @@ scene::Texture someTexture() {
   scene::Texture texture;
   texture.width = 5;
   texture.height = 3;
-  for (int i = 0; i < 4 * 5 * 3; ++i) texture.rgba.push_back(static_cast<std::uint8_t>(i * 97 % 256));
+  for (int i = 0; i < 4 * 5 * 3; ++i) texture.rgba.own().push_back(static_cast<std::uint8_t>(i * 97 % 256));
   return texture;
 }
 

@@ -16,7 +16,7 @@ namespace {
 Scene sample() {
   Scene scene;
   Texture texture{"leaf \"1\"", 3, 2, {}};
-  for (int i = 0; i < 24; ++i) texture.rgba.push_back(static_cast<std::uint8_t>(10 * i));
+  for (int i = 0; i < 24; ++i) texture.rgba.own().push_back(static_cast<std::uint8_t>(10 * i));
   scene.textures.push_back(texture);
   Material leaf;
   leaf.name = "leaf";

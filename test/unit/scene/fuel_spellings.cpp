@@ -89,7 +89,7 @@ TEST_F(FuelSpellings, TexturesAreThoseOfTheirAddress) {
         "<model name='m'><link name='l'><visual name='v'><geometry><box><size>1 1 1</size></box></geometry>"
         "<material><pbr><metal><albedo_map>" +
         uri + "</albedo_map></metal></pbr></material></visual></link></model>");
-    return static_cast<int>(load(world, cached()).textures.at(0).rgba.at(0));
+    return static_cast<int>(load(world, cached()).textures.at(0).rgba[0]);
   };
   EXPECT_EQ(redOf(kServer + "o/models/plank/1/files/materials/textures/wood.png"), 200);
   paint("models/plank/materials/textures/wood.png", 100);

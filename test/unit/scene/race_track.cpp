@@ -27,7 +27,7 @@ const Scene& world() {
 
 std::string fingerprint(const Scene& scene) {
   image::ContentHash print;
-  for (const Texture& texture : scene.textures) print.add(texture.rgba);
+  for (const Texture& texture : scene.textures) print.addBytes(texture.rgba.data(), texture.rgba.size());
   for (const Mesh& mesh : scene.meshes) {
     print.add(mesh.positions);
     print.add(mesh.normals);
@@ -183,7 +183,7 @@ TEST(RaceTrackPictures, NoTwoAreAlike) {
   std::set<std::string> seen;
   for (const Texture& texture : world().textures) {
     image::ContentHash print;
-    print.add(texture.rgba);
+    print.addBytes(texture.rgba.data(), texture.rgba.size());
     EXPECT_TRUE(seen.insert(print.text()).second) << texture.name;
   }
 }
@@ -277,7 +277,7 @@ Eigen::Array3f shownAt(const Material& facade, const Eigen::Vector2f& place) {
   const Texture& texture = world().textures.at(static_cast<std::size_t>(facade.emission_map.texture));
   const auto x = static_cast<std::size_t>(place.x() * static_cast<float>(texture.width));
   const auto y = static_cast<std::size_t>(place.y() * static_cast<float>(texture.height));
-  const std::uint8_t* texel = &texture.rgba.at(4 * (y * static_cast<std::size_t>(texture.width) + x));
+  const std::uint8_t* texel = &texture.rgba[4 * (y * static_cast<std::size_t>(texture.width) + x)];
   return facade.emission.value * Eigen::Array3f(linearOf(texel[0]), linearOf(texel[1]), linearOf(texel[2]));
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -65,6 +66,22 @@ TEST(SceneBytes, MakeTheSameSceneAgain) {
   EXPECT_TRUE(again.meshes.at(1).positions.empty());
   EXPECT_FALSE(again.lamps.at(0).casts_shadows);
   EXPECT_EQ(again.warnings, scene.warnings);
+}
+
+TEST(SceneBytes, KeepTexelsWhereTheyAreForWhoeverOwnsThem) {
+  const auto bytes = std::make_shared<const std::string>(bytesOf(small()));
+  const auto* const data = reinterpret_cast<const std::byte*>(bytes->data());
+  Scene scene = sceneOf(data, bytes->size(), bytes);
+  const Texture copy = scene.textures.at(0);
+  EXPECT_EQ(copy.rgba, small().textures[0].rgba);
+  const auto* const texels = reinterpret_cast<const std::byte*>(copy.rgba.data());
+  EXPECT_TRUE(texels >= data && texels < data + bytes->size());
+  scene.textures[0].rgba.own()[1] = 20;  // from now on its own
+  EXPECT_EQ(scene.textures[0].rgba, Texels({1, 20, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(copy.rgba, small().textures[0].rgba);
+  EXPECT_EQ(bytesOf(sceneOf(data, bytes->size())), *bytes);
+  scene = Scene();
+  EXPECT_EQ(bytes.use_count(), 2);  // the copy's
 }
 
 TEST(SceneBytes, ThatEndTooSoonOrGoOnAreRefused) {

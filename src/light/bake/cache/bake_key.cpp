@@ -73,7 +73,8 @@ void addContents(const Geometry& geometry, image::ContentHash* hash) {
     const scene::Texture& texture = geometry.scene->textures[i];
     hash->add(texture.width);
     hash->add(texture.height);
-    hash->add(texture.rgba);
+    hash->add(static_cast<std::uint64_t>(texture.rgba.size()));
+    hash->addBytes(texture.rgba.data(), texture.rgba.size());
     if (texture.wrap_u != scene::Wrap::kRepeat || texture.wrap_v != scene::Wrap::kRepeat) {
       hash->add(texture.wrap_u);
       hash->add(texture.wrap_v);

@@ -47,17 +47,23 @@ DiscVisibility::DiscVisibility(Seen disc, const Picture& picture)
       surfaces_(picture.surfaces),
       tallies_(surfaces_.tiles.size()),
       shares_(surfaces_.tiles.size()),
-      met_(surfaces_.width, surfaces_.height),
-      mixed_(surfaces_.width, surfaces_.height),
-      lit_(surfaces_.width, surfaces_.height),
+      met_(mapOfPixels()),
+      mixed_(mapOfPixels()),
+      lit_(mapOfPixels()),
       gaps_(surfaces_.width / kBlock + 1, surfaces_.height / kBlock + 1) {
-  castAll();
+  if (disc_.shines) castAll();
+}
+
+PixelMap DiscVisibility::mapOfPixels() const {
+  return disc_.shines ? PixelMap(surfaces_.width, surfaces_.height) : PixelMap(0, 0);
 }
 
 void DiscVisibility::castAll() {
-  if (!disc_.shines) return;
-  const auto eachTile = [this](auto step) {
-    tbb::parallel_for(std::size_t{0}, surfaces_.tiles.size(), step);
+  std::vector<std::size_t> tiles;  // of a mirror's rays most have none
+  for (std::size_t i = 0; i < surfaces_.tiles.size(); ++i)
+    if (!surfaces_.tiles[i].surfaces.empty()) tiles.push_back(i);
+  const auto eachTile = [&tiles](auto step) {
+    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) { step(tiles[i]); });
   };
   eachTile([this](std::size_t tile) { probe(tile); });
   eachTile([this](std::size_t tile) { sample(tile); });

@@ -71,6 +71,8 @@ class DiscVisibility {
     kRefine,  ///< all points of the disc, in penumbrae, where neighbours tell nothing
   };
 
+  /// Of all pixels, where the disc shines.
+  PixelMap mapOfPixels() const;
   void castAll();
   void probe(std::size_t tile);
   void sample(std::size_t tile);

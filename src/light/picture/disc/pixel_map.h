@@ -25,6 +25,8 @@ class PixelMap {
   std::uint8_t& at(int x, int y) { return values_[place(x, y)]; }
   /// Also up to kMargin pixels beyond the picture, where it is 0.
   std::uint8_t at(int x, int y) const { return values_[place(x, y)]; }
+  /// That of (x, y), and of those right of it, up to kMargin pixels beyond the picture.
+  const std::uint8_t* from(int x, int y) const { return &values_[place(x, y)]; }
   /// All bits of the 5 × 5 pixels about each.
   OfTile bitsAround(const Tile& tile) const;
   /// How many of each pixel and its eight neighbours are marked with 1, where marks are 0 and 1.

@@ -1,7 +1,9 @@
 #include "light/picture/disc/share_windows.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 namespace sunlit::light {
 namespace {
@@ -36,17 +38,16 @@ struct ShareWindows::Chance {
 
 ShareWindows::ShareWindows(const PixelMap& lit, const Tile& tile) {
   std::array<std::array<std::uint8_t, kSide>, kSide> values;
-  bool light = false, shade = false;
+  std::uint8_t brightest = 0, darkest = 255;  // by rays; at 255 none takes part
   for (std::size_t y = 0; y < kSide; ++y) {
-    for (std::size_t x = 0; x < kSide; ++x) {
-      const std::uint8_t value =
-          lit.at(tile.x + static_cast<int>(x) - kReach, tile.y + static_cast<int>(y) - kReach);
-      values[y][x] = value;
-      light |= value > 1;
-      shade |= value > 0 && value < 1 + kRays;
+    std::memcpy(&values[y], lit.from(tile.x - kReach, tile.y + static_cast<int>(y) - kReach), kSide);
+    for (const std::uint8_t value : values[y]) {
+      brightest = std::max(brightest, value);
+      darkest = std::min(darkest, static_cast<std::uint8_t>(value - 1));
     }
   }
-  differ_ = light && shade;
+  const bool light = brightest > 1;
+  differ_ = light && darkest < kRays;
   of_all_ = light ? 1.0f : 0.0f;
   if (differ_) sumUp(values);
 }

@@ -60,6 +60,9 @@ struct TileOutlooks {
   std::vector<Outlook> surfaces;  ///< in the order of Tile::surfaces
   std::vector<Mirror> mirrors;
   std::vector<GatheredSky> gathered;  ///< empty where FinalGather did not look
+  /// Of each of `surfaces`, how much of what polished floors throw on it its nodes lack, 0 … 1: see
+  /// GlintNodes. Empty: nothing.
+  std::vector<float> without_glints;
 
   /// What was gathered for one of `surfaces`; null: nothing.
   const GatheredSky* gatheredFor(const Outlook& outlook) const {
@@ -70,6 +73,7 @@ struct TileOutlooks {
     surfaces.assign(count, Outlook());
     mirrors.clear();
     gathered.clear();
+    without_glints.clear();
   }
 };
 
