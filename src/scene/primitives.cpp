@@ -107,6 +107,14 @@ Mesh makeCylinder(double radius, double length) {
   return mesh;
 }
 
+Mesh makeCone(double radius, double length) {
+  Mesh mesh;
+  const Eigen::Vector3d scale(radius, radius, 0.5 * length);
+  addRevolution(mesh, {{0, 1, 2, 1, 0}, {1, -1, 2, 1, 1}}, scale);
+  addRevolution(mesh, {{1, -1, 0, -1, 0}, {0, -1, 0, -1, 1}}, scale);
+  return mesh;
+}
+
 Mesh makeCapsule(double radius, double length) {
   Mesh mesh;
   const double lift = 0.5 * length / radius;

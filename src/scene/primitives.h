@@ -12,6 +12,8 @@ namespace sunlit::scene {
 Mesh makeBox(const Eigen::Vector3d& size);
 Mesh makeEllipsoid(const Eigen::Vector3d& radii);
 Mesh makeCylinder(double radius, double length);
+/// Its tip is up.
+Mesh makeCone(double radius, double length);
 /// A cylinder of `length` with a half sphere on each end.
 Mesh makeCapsule(double radius, double length);
 /// A rectangle through the origin facing `normal`, which need not be of length 1.

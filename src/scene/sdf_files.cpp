@@ -154,6 +154,7 @@ const SdfFile& SdfFiles::open(const std::string& path) {
   file->path = path;
   open_.insert(path);
   XMLElement& sdf = *document->FirstChildElement("sdf");
+  keepFirstWorld(sdf, path, builder_);
   file->state = takeState(sdf);
   resolveIncludes(sdf, *file);
   mendSdf(sdf, path, builder_);

@@ -41,8 +41,9 @@ inline sdf::ElementPtr firstIn(sdf::Element& parent, const std::string& name) {
   return parent.HasElement(name) ? parent.GetElementImpl(name) : nullptr;
 }
 
-/// Half a capsule's width, and how far apart the centres of its ends are.
-struct CapsuleSize {
+/// Half the width of a round solid, and how long it is; of a capsule, how far apart the centres of its ends
+/// are.
+struct RoundSize {
   double radius, length;
 };
 
@@ -71,9 +72,9 @@ inline std::optional<Eigen::Vector3d> ellipsoidRadii(const sdf::Geometry& geomet
   if (geometry.Type() != sdf::GeometryType::ELLIPSOID) return std::nullopt;
   return toEigen(geometry.EllipsoidShape()->Radii());
 }
-inline std::optional<CapsuleSize> capsuleOf(const sdf::Geometry& geometry) {
+inline std::optional<RoundSize> capsuleOf(const sdf::Geometry& geometry) {
   if (geometry.Type() != sdf::GeometryType::CAPSULE) return std::nullopt;
-  return CapsuleSize{geometry.CapsuleShape()->Radius(), geometry.CapsuleShape()->Length()};
+  return RoundSize{geometry.CapsuleShape()->Radius(), geometry.CapsuleShape()->Length()};
 }
 
 #else
@@ -102,12 +103,20 @@ inline std::optional<Eigen::Vector3d> ellipsoidRadii(const sdf::Geometry& geomet
   if (!shape) return std::nullopt;
   return toEigen(shape->Get<ignition::math::Vector3d>("radii", ignition::math::Vector3d::One).first);
 }
-inline std::optional<CapsuleSize> capsuleOf(const sdf::Geometry& geometry) {
+inline std::optional<RoundSize> capsuleOf(const sdf::Geometry& geometry) {
   const sdf::ElementPtr shape = geometry.Element() ? firstIn(*geometry.Element(), "capsule") : nullptr;
   if (!shape) return std::nullopt;
-  return CapsuleSize{shape->Get<double>("radius", 0.5).first, shape->Get<double>("length", 1.0).first};
+  return RoundSize{shape->Get<double>("radius", 0.5).first, shape->Get<double>("length", 1.0).first};
 }
 
 #endif
+
+/// Of an element that is in the schema of neither, but of SDF 1.11.
+inline std::optional<RoundSize> coneOf(const sdf::Geometry& geometry) {
+  const sdf::ElementPtr shape = geometry.Element() ? firstIn(*geometry.Element(), "cone") : nullptr;
+  if (!shape) return std::nullopt;
+  const RoundSize size{shape->Get<double>("radius", 0.5).first, shape->Get<double>("length", 1.0).first};
+  return size.radius > 0.0 && size.length > 0.0 ? std::make_optional(size) : std::nullopt;
+}
 
 }  // namespace sunlit::scene

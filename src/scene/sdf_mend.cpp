@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "scene/sdf_xml.h"
@@ -20,7 +21,7 @@ struct Children {
   Words not_drawn;  ///< seen in a simulator
 };
 
-/// SDF 1.4 to 1.9, elements.
+/// SDF 1.4 to 1.9, elements, and the cone of 1.11.
 const std::map<std::string, Children> kChildren = {
     {"sdf", {{"world", "model", "light"}, {}, {"actor"}}},
     {"world",
@@ -42,8 +43,8 @@ const std::map<std::string, Children> kChildren = {
       {"frame", "laser_retro", "meta", "plugin", "visibility_flags"},
       {}}},
     {"geometry",
-     {{"box", "capsule", "cylinder", "ellipsoid", "empty", "heightmap", "image", "mesh", "plane", "polyline",
-       "sphere"},
+     {{"box", "capsule", "cone", "cylinder", "ellipsoid", "empty", "heightmap", "image", "mesh", "plane",
+       "polyline", "sphere"},
       {"frame"},
       {}}},
 };
@@ -269,6 +270,16 @@ void mendSdf(XMLElement& sdf, const std::string& file, SceneBuilder& builder) {
     version = kNewest;
   }
   Mender(file, version, builder).mend(sdf);
+}
+
+void keepFirstWorld(XMLElement& sdf, const std::string& file, SceneBuilder& builder) {
+  bool first = true;
+  for (XMLElement* world : childrenOf(sdf, "world")) {
+    if (std::exchange(first, false)) continue;
+    builder.warn("worlds were left out, of several in a file the first is drawn",
+                 attributeOf(*world, "name") + " at " + placeOf(file, *world));
+    sdf.DeleteChild(world);
+  }
 }
 
 std::unique_ptr<tinyxml2::XMLDocument> takeState(XMLElement& sdf) {

@@ -22,8 +22,9 @@ constexpr float kSeenThrough = 0.5f;
 
 std::optional<Mesh> primitive(const sdf::Geometry& geometry) {
   if (const std::optional<Eigen::Vector3d> radii = ellipsoidRadii(geometry)) return makeEllipsoid(*radii);
-  if (const std::optional<CapsuleSize> size = capsuleOf(geometry))
+  if (const std::optional<RoundSize> size = capsuleOf(geometry))
     return makeCapsule(size->radius, size->length);
+  if (const std::optional<RoundSize> size = coneOf(geometry)) return makeCone(size->radius, size->length);
   switch (geometry.Type()) {
     case sdf::GeometryType::BOX:
       return makeBox(toEigen(geometry.BoxShape()->Size()));

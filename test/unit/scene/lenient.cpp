@@ -96,6 +96,17 @@ TEST_F(Lenient, AWorldMayHaveAnyName) {
   }
 }
 
+TEST_F(Lenient, OfSeveralWorldsInAFileTheFirstIsDrawn) {
+  const std::string others = "</world>\n<world name='moon'>" + model(link(kVisual), "crater") +
+                             include("none") + "</world><world name='mars'>" + model(link(kVisual));
+  const Scene scene = load(worldFile(model(link(kVisual)) + others), {});
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  EXPECT_EQ(scene.meshes[0].name, "m::l::v");
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0], "2 worlds were left out, of several in a file the first is drawn: moon at " +
+                                   pathOf("test.world") + ":5; mars at " + pathOf("test.world") + ":5");
+}
+
 TEST_F(Lenient, WhatAnExplosionOfPhysicsCarriedFarAwayIsLeftOut) {
   const Scene scene =
       loaded(model(link(kVisual)) + model("<pose>1 1 343582.7 0 0 0</pose>" + link(kVisual), "n"));
@@ -139,9 +150,26 @@ TEST_F(Lenient, ANewerVersionIsReadAsTheNewestThatIsKnown) {
   }
 }
 
+TEST_F(Lenient, AConeIsDrawn) {
+  const auto cone = [](const std::string& size) {
+    return model(link("<visual name='c'><geometry><cone>" + size + "</cone></geometry></visual>"));
+  };
+  for (const char* version : {"1.6", "1.9", "1.11"}) {
+    const Scene scene = loaded(cone("<radius>2</radius><length>3</length>"), version);
+    ASSERT_EQ(scene.meshes.size(), 1u);
+    EXPECT_FLOAT_EQ(boundsOf(scene.meshes[0]).max().z(), 1.5f);
+    EXPECT_FLOAT_EQ(boundsOf(scene.meshes[0]).max().x(), 2.0f);
+    EXPECT_EQ(scene.warnings.size(), std::string(version) == "1.11" ? 1u : 0u);
+  }
+  EXPECT_FLOAT_EQ(boundsOf(loaded(cone("")).meshes.at(0)).max().z(), 0.5f);
+  const Scene flat = loaded(cone("<radius>0</radius>") + model(link(kVisual), "n"));
+  EXPECT_EQ(flat.triangleCount(), 12u);
+  EXPECT_EQ(flat.warnings.at(0), "1 visuals have no shape that can be drawn: m::l::c");
+}
+
 TEST_F(Lenient, AShapeThatIsNotKnownLeavesOutItsVisual) {
   const Scene scene =
-      loaded(model(link("<visual name='c'><geometry><cone><radius>1</radius></cone></geometry></visual>"
+      loaded(model(link("<visual name='c'><geometry><torus><radius>1</radius></torus></geometry></visual>"
                         "<visual name='d'/>" +
                         kVisual)));
   EXPECT_EQ(scene.triangleCount(), 12u);
@@ -149,7 +177,7 @@ TEST_F(Lenient, AShapeThatIsNotKnownLeavesOutItsVisual) {
     return std::count(scene.warnings.begin(), scene.warnings.end(), line) == 1;
   };
   EXPECT_TRUE(has("2 visuals have no shape that can be drawn: m::l::c; m::l::d"));
-  EXPECT_TRUE(has("1 elements were passed over, SDF has none of that name there: <cone> of " +
+  EXPECT_TRUE(has("1 elements were passed over, SDF has none of that name there: <torus> of " +
                   pathOf("test.world") + ":4 in <geometry>"));
 }
 

@@ -48,6 +48,18 @@ TEST(Primitives, EllipsoidFillsItsBounds) {
   expectOutward(ellipsoid);
 }
 
+TEST(Primitives, ConeHasItsTipUpAndSlopingSides) {
+  const Mesh cone = makeCone(0.5, 2.0);
+  const double volume = kPi * 0.25 * 2.0 / 3.0;
+  EXPECT_NEAR(volumeOf(cone), volume, kFacets * volume);
+  EXPECT_FLOAT_EQ(boundsOf(cone).max().z(), 1.0f);
+  EXPECT_FLOAT_EQ(boundsOf(cone).min().z(), -1.0f);
+  expectOutward(cone);
+  // At right angles to the side, which leads 0.5 m out over 2 m down.
+  const Eigen::Vector3f& normal = cone.normals[0];
+  EXPECT_NEAR(normal.head<2>().norm() * 0.5f - normal.z() * 2.0f, 0.0f, 1e-6f);
+}
+
 TEST(Primitives, CapsuleIsACylinderBetweenHalfSpheres) {
   const Mesh capsule = makeCapsule(0.5, 2.0);
   const double volume = kPi * 0.25 * 2.0 + 4.0 / 3.0 * kPi * 0.125;
