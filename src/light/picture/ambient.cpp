@@ -38,18 +38,18 @@ struct Irradiance {
 Irradiance irradianceOf(const Eigen::Vector3f& normal, const AmbientSources& sources,
                         const Illumination& light) {
   const Outlook& outlook = sources.outlook;
-  const LightPlace& behind = outlook.behind;
+  const LightPlace& behind = sources.sheet.behind;
+  const SkyOpenness& sky = sources.sheet.sky;
   const bool both = behind.known();
   Irradiance sum;
   if (sources.gathered && light.mirror_sky) {
     const GatheredLight open = gatheredLight(*sources.gathered, light.mirror_sky->patches(), normal);
     sum.front = withSurroundings(open.front, outlook.light, normal.z(), light);
     if (both) sum.behind = withSurroundings(open.behind, behind, -normal.z(), light);
-  } else if (outlook.sky.known && light.sky_sectors) {
+  } else if (sky.known && light.sky_sectors) {
     const SkySectors& sectors = *light.sky_sectors;
-    sum.front = withSurroundings(sectors.irradiance(outlook.sky, normal), outlook.light, normal.z(), light);
-    if (both)
-      sum.behind = withSurroundings(sectors.irradiance(outlook.sky, -normal), behind, -normal.z(), light);
+    sum.front = withSurroundings(sectors.irradiance(sky, normal), outlook.light, normal.z(), light);
+    if (both) sum.behind = withSurroundings(sectors.irradiance(sky, -normal), behind, -normal.z(), light);
   } else {
     sum.front = irradianceAt(outlook.light, *light.nodes);
     if (both) sum.behind = irradianceAt(behind, *light.nodes);

@@ -18,6 +18,7 @@ Mirrored mirroredBy(const Mirror& mirror, const MirrorSky& sky);
 /// What the light on a surface depends on beside the surface itself.
 struct AmbientSources {
   const Outlook& outlook;       ///< its own
+  const SheetOutlook& sheet;    ///< its own
   float roughness;              ///< of its material
   const Mirrored& mirrored;     ///< where the light is baked
   const GatheredSky* gathered;  ///< null: FinalGather did not look there

@@ -14,7 +14,7 @@
 namespace sunlit::light {
 namespace {
 
-/// Sets Outlook::light, Outlook::behind and Outlook::sky of surfaces of the scene that was baked.
+/// Sets Outlook::light and TileOutlooks::sheets of surfaces of the scene that was baked.
 void findPlaces(const Geometry& geometry, const TransportData& data, const Tile& tile,
                 TileOutlooks* outlooks) {
   const std::vector<scene::Material>& materials = geometry.scene->materials;
@@ -29,9 +29,13 @@ void findPlaces(const Geometry& geometry, const TransportData& data, const Tile&
     if (triangle != last) corners.emplace(geometry, last = triangle);
     const std::array<float, 3> within = corners->within(surface.position);
     outlook.light = lightPlace(data.mesh, {triangle, front}, within);
-    if (materials[static_cast<std::size_t>(surface.material)].transmission > 0.0f)
-      outlook.behind = lightPlace(data.mesh, {triangle, !front}, within);
-    if (data.leaves.known(triangle)) outlook.sky = data.leaves.at(triangle, within);
+    const bool thin = materials[static_cast<std::size_t>(surface.material)].transmission > 0.0f;
+    const bool leaf = data.leaves.known(triangle);
+    if (!thin && !leaf) continue;
+    outlook.sheet = static_cast<std::uint32_t>(outlooks->sheets.size());
+    SheetOutlook& sheet = outlooks->sheets.emplace_back();
+    if (thin) sheet.behind = lightPlace(data.mesh, {triangle, !front}, within);
+    if (leaf) sheet.sky = data.leaves.at(triangle, within);
   }
 }
 

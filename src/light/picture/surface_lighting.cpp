@@ -96,6 +96,7 @@ void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& b
       return glints ? glints->illuminance(number, i) : Eigen::Array3f(Eigen::Array3f::Zero());
     };
     const SurfaceParts parts{outlook,
+                             outlooks.sheetOf(outlook),
                              rows.ambient[i],
                              mirrored[outlook.mirror],
                              outlooks.gatheredFor(outlook),
@@ -136,8 +137,8 @@ Eigen::Array3f SurfaceLighting::luminance(const Surface& surface, const SurfaceP
   if (parts.lamps) leaving += *parts.lamps;
 
   const AmbientReflectance& by = parts.ambient;
-  AmbientLight from =
-      ambientLight(surface, {parts.outlook, reflection.roughness, parts.mirrored, parts.gathered}, light_);
+  AmbientLight from = ambientLight(
+      surface, {parts.outlook, parts.sheet, reflection.roughness, parts.mirrored, parts.gathered}, light_);
   if (parts.by_rays) from.mirrored += parts.by_rays->share * (parts.by_rays->luminance - from.mirrored);
   const Eigen::Array3f ambient =
       by.diffuse * from.front + by.through * from.behind + by.specular * from.mirrored;

@@ -44,6 +44,7 @@ class SurfaceLighting {
   /// What is known of a surface before it is lit.
   struct SurfaceParts {
     const Outlook& outlook;
+    const SheetOutlook& sheet;
     const AmbientReflectance& ambient;
     const Mirrored& mirrored;              ///< where the light is baked
     const GatheredSky* gathered;           ///< null: FinalGather did not look there

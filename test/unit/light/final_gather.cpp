@@ -37,7 +37,9 @@ struct Located {
     for (std::size_t t = 0; t < outlooks.size(); ++t) {
       for (std::size_t i = 0; i < outlooks[t].surfaces.size(); ++i) {
         outlooks[t].surfaces[i].light.node = {0, 0, 0};
-        outlooks[t].surfaces[i].sky.known = surfaces.tiles[t].surfaces[i].material == kLeaf;
+        if (surfaces.tiles[t].surfaces[i].material != kLeaf) continue;
+        outlooks[t].surfaces[i].sheet = static_cast<std::uint32_t>(outlooks[t].sheets.size());
+        outlooks[t].sheets.emplace_back().sky.known = true;
       }
     }
   }

@@ -188,7 +188,7 @@ class FinalGather::Implementation {
       const Outlook& outlook = outlooks.surfaces[i];
       if (surface.triangle >= geometry_->triangles.size() || !outlook.light.known()) continue;
       const float edge = edgeOf(*geometry_, surface.triangle);
-      if (!outlook.sky.known && edge > kLargest_m) continue;
+      if (!outlooks.sheetOf(outlook).sky.known && edge > kLargest_m) continue;
       const float span = spanOf(edge, longestEdge(*geometry_, surface.triangle));
       float step = kFinest_m;
       const float most = kPixels * camera.pixel * (surface.position - camera.eye).norm();

@@ -18,7 +18,7 @@ Mirror findView(const TransportData& data, const scene::Material& material, cons
   const bool sheet = material.transmission > 0.0f;
   const OpenPatches open = openPatches(data, surface, sky, material);
   if (surface.roughness < kLeastRough) return smoothMirror(surface, surface.roughness, sheet, open);
-  return roughMirror(surface, material, open, sky.outlook.sky.known);
+  return roughMirror(surface, material, open, sky.sheet.sky.known);
 }
 
 /// What surfaces of a tile mirror, found once for all that are alike.
@@ -27,13 +27,13 @@ class ViewsOfTile {
   ViewsOfTile(int picture_width, const Tile& tile) : picture_width_(picture_width), tile_(tile) {}
 
   /// A surface that mirrors what `surface` does, or null.
-  const Surface* like(const Surface& surface, const Outlook& outlook, bool leaf) {
-    if (outlook.gathered != Outlook::kNotGathered) return nullptr;  // differs from place to place
+  const Surface* like(const Surface& surface, const SkyInView& sky, bool leaf) {
+    if (sky.gathered) return nullptr;  // differs from place to place
     const Surface* const of_triangle = *triangle(surface);
     if (of_triangle && of_triangle->triangle == surface.triangle && near(*of_triangle, surface) &&
         alike(*of_triangle, surface, leaf))
       return of_triangle;
-    if (outlook.sky.known) return nullptr;  // differs from leaf to leaf
+    if (sky.sheet.sky.known) return nullptr;  // differs from leaf to leaf
     const Surface* const of_block = *block(surface);
     if (!of_block || !alike(*of_block, surface, leaf)) return nullptr;
     return *triangle(surface) = of_block;
@@ -84,14 +84,15 @@ void findMirrors(const TransportData& data, const TileToMirror& of, TileOutlooks
     Outlook& outlook = outlooks->surfaces[i];
     if (!outlook.light.known()) continue;
     const scene::Material& material = of.scene.materials[static_cast<std::size_t>(surface.material)];
-    const Surface* const like = views.like(surface, outlook, material.transmission > 0.0f);
+    const SkyInView sky{outlook, outlooks->sheetOf(outlook), outlooks->gatheredFor(outlook)};
+    const Surface* const like = views.like(surface, sky, material.transmission > 0.0f);
     if (like) {
       outlook.mirror = outlooks->surfaces[static_cast<std::size_t>(like - surfaces.data())].mirror;
       continue;
     }
     outlook.mirror = static_cast<std::uint16_t>(outlooks->mirrors.size());
-    outlooks->mirrors.push_back(findView(data, material, surface, {outlook, outlooks->gatheredFor(outlook)}));
-    if (outlook.gathered == Outlook::kNotGathered) views.keep(surface);
+    outlooks->mirrors.push_back(findView(data, material, surface, sky));
+    if (!sky.gathered) views.keep(surface);
   }
 }
 

@@ -95,7 +95,7 @@ OpenPatches openPatches(const TransportData& data, const Surface& surface, const
                         const scene::Material& material) {
   const float transmission = material.transmission;
   if (sky.gathered) return ofGathered(*sky.gathered, surface.geometric_normal, transmission > 0.0f);
-  if (sky.outlook.sky.known) return ofLeaf(data.leaves, surface, sky.outlook.sky);
+  if (sky.sheet.sky.known) return ofLeaf(data.leaves, surface, sky.sheet.sky);
   const SampleRows samples(data, sky.outlook.light, transmission);
   PatchValues sums;
   sums.fill(0.0f);

@@ -16,6 +16,7 @@ struct OpenPatches {
 /// What is known of the sky before a surface.
 struct SkyInView {
   const Outlook& outlook;       ///< its own
+  const SheetOutlook& sheet;    ///< its own
   const GatheredSky* gathered;  ///< null: nothing
 };
 /// By what was gathered there, if anything; else by the surface's view of the sky as a leaf, or by the

@@ -42,12 +42,18 @@ struct RoughMirror {
 /// What a surface mirrors.
 using Mirror = std::variant<SmoothMirror, RoughMirror>;
 
+/// What thin sheets and leaves have besides.
+struct SheetOutlook {
+  LightPlace behind;  ///< where the other side of a thin sheet lies in the bake
+  SkyOpenness sky;    ///< of leaves
+};
+
 /// Of one surface.
 struct Outlook {
   LightPlace light;          ///< where it lies in the bake; unknown: outside of it, or on a body that moves
-  LightPlace behind;         ///< of the other side of a thin sheet
-  SkyOpenness sky;           ///< of leaves
   std::uint16_t mirror = 0;  ///< what it mirrors: index into TileOutlooks::mirrors, where `light` is known
+  static constexpr std::uint32_t kNoSheet = 0xffffffffu;
+  std::uint32_t sheet = kNoSheet;  ///< index into TileOutlooks::sheets
   static constexpr std::uint32_t kNotGathered = 0xffffffffu;
   std::uint32_t gathered = kNotGathered;  ///< index into TileOutlooks::gathered
   static constexpr std::int32_t kNoBody = -1;
@@ -59,6 +65,7 @@ struct Outlook {
 struct TileOutlooks {
   std::vector<Outlook> surfaces;  ///< in the order of Tile::surfaces
   std::vector<Mirror> mirrors;
+  std::vector<SheetOutlook> sheets;
   std::vector<GatheredSky> gathered;  ///< empty where FinalGather did not look
   /// Of each of `surfaces`, how much of what polished floors throw on it its nodes lack, 0 … 1: see
   /// GlintNodes. Empty: nothing.
@@ -68,10 +75,16 @@ struct TileOutlooks {
   const GatheredSky* gatheredFor(const Outlook& outlook) const {
     return outlook.gathered == Outlook::kNotGathered ? nullptr : &gathered[outlook.gathered];
   }
+  /// Of one of `surfaces`; one of which nothing is known, where it is neither sheet nor leaf.
+  const SheetOutlook& sheetOf(const Outlook& outlook) const {
+    static const SheetOutlook none;
+    return outlook.sheet == Outlook::kNoSheet ? none : sheets[outlook.sheet];
+  }
   /// As of surfaces of which nothing is known. Keeps memory.
   void forget(std::size_t count) {
     surfaces.assign(count, Outlook());
     mirrors.clear();
+    sheets.clear();
     gathered.clear();
     without_glints.clear();
   }
