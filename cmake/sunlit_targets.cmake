@@ -61,7 +61,7 @@ if(SUNLIT_GOLD)
 endif()
 file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/test_headers.cpp CONTENT "")
 add_library(sunlit_test_headers OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/test_headers.cpp)
-target_link_libraries(sunlit_test_headers PRIVATE sunlit_flags Eigen3::Eigen)
+target_link_libraries(sunlit_test_headers PRIVATE sunlit_flags Eigen3::Eigen ${GTEST_LIBRARIES})
 target_precompile_headers(sunlit_test_headers PRIVATE ${sunlit_parsed_once} <gtest/gtest.h>)
 
 # sunlit_test(MODULE NAME [LIBRARIES library...])
