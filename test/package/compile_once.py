@@ -2,8 +2,7 @@
 """compile_once.py COMPILER ARGUMENT...: a compiler launcher that takes the object file of an earlier build where that one
 was made by the same command from the same files, byte for byte, and otherwise compiles.
 
-SUNLIT_COMPILED names the compile_commands.json of the earlier build, SUNLIT_LAUNCHER the words before its commands, with ":"
-between them, such as those of a compiler cache, SUNLIT_SAME_FOLDERS the folders that stand for one
+SUNLIT_COMPILED names the compile_commands.json of the earlier build, SUNLIT_SAME_FOLDERS the folders that stand for one
 another, as HERE=THERE:HERE=THERE, a folder before those around it."""
 import filecmp
 import json
@@ -13,7 +12,6 @@ import shutil
 import subprocess
 import sys
 
-LAUNCHER = [word for word in os.environ.get("SUNLIT_LAUNCHER", "").split(":") if word]
 DEPENDENCY_OPTIONS = {"-MD": 1, "-MMD": 1, "-MT": 2, "-MF": 2}  # and how many words they are
 
 
@@ -52,11 +50,13 @@ def earlier_object(words, output):
         commands = [entry["command"] for entry in json.load(file)
                     if entry["directory"] == folder and " -o %s " % output in entry["command"]]
     expected = [as_there(word) for word in without_dependencies(words)]
-    if [without_dependencies(shlex.split(command)) for command in commands] != [LAUNCHER + expected]:
+    if [without_dependencies(shlex.split(command)) for command in commands] != [expected]:
         return None
     made = os.path.join(folder, output)
     with open(made + ".d") as file:
-        read = file.read().replace("\\\n", " ").split(": ", 1)[1].split()
+        # A compiler cache may name files as they are seen from where it was called.
+        read = [os.path.normpath(os.path.join(folder, name))
+                for name in file.read().replace("\\\n", " ").split(": ", 1)[1].split()]
     return made if same_content(read, made, pairs) else None
 
 
@@ -68,7 +68,8 @@ def main():
     except (OSError, LookupError, ValueError):  # no such build, or one of another kind
         made = None
     if not made:
-        return subprocess.call(LAUNCHER + words)
+        usual = os.environ.get("CMAKE_CXX_COMPILER_LAUNCHER", "")  # a compiler cache
+        return subprocess.call([word for word in usual.split(";") if word] + words)
     shutil.copyfile(made, output)
     if "-MF" in words:
         shutil.copyfile(made + ".d", words[words.index("-MF") + 1])
