@@ -46,6 +46,12 @@ inline sdf::ElementPtr firstIn(sdf::Element& parent, const std::string& name) {
 struct RoundSize {
   double radius, length;
 };
+/// Of an element that is not in the schema; none where there is no such.
+inline std::optional<RoundSize> roundIn(const sdf::Geometry& geometry, const std::string& name) {
+  const sdf::ElementPtr shape = geometry.Element() ? firstIn(*geometry.Element(), name) : nullptr;
+  if (!shape) return std::nullopt;
+  return RoundSize{shape->Get<double>("radius", 0.5).first, shape->Get<double>("length", 1.0).first};
+}
 
 #if SDF_MAJOR_VERSION >= 12
 
@@ -104,19 +110,15 @@ inline std::optional<Eigen::Vector3d> ellipsoidRadii(const sdf::Geometry& geomet
   return toEigen(shape->Get<ignition::math::Vector3d>("radii", ignition::math::Vector3d::One).first);
 }
 inline std::optional<RoundSize> capsuleOf(const sdf::Geometry& geometry) {
-  const sdf::ElementPtr shape = geometry.Element() ? firstIn(*geometry.Element(), "capsule") : nullptr;
-  if (!shape) return std::nullopt;
-  return RoundSize{shape->Get<double>("radius", 0.5).first, shape->Get<double>("length", 1.0).first};
+  return roundIn(geometry, "capsule");
 }
 
 #endif
 
-/// Of an element that is in the schema of neither, but of SDF 1.11.
+/// Of SDF 1.11.
 inline std::optional<RoundSize> coneOf(const sdf::Geometry& geometry) {
-  const sdf::ElementPtr shape = geometry.Element() ? firstIn(*geometry.Element(), "cone") : nullptr;
-  if (!shape) return std::nullopt;
-  const RoundSize size{shape->Get<double>("radius", 0.5).first, shape->Get<double>("length", 1.0).first};
-  return size.radius > 0.0 && size.length > 0.0 ? std::make_optional(size) : std::nullopt;
+  const std::optional<RoundSize> size = roundIn(geometry, "cone");
+  return size && size->radius > 0.0 && size->length > 0.0 ? size : std::nullopt;
 }
 
 }  // namespace sunlit::scene
