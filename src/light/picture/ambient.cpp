@@ -37,21 +37,21 @@ struct Irradiance {
 };
 Irradiance irradianceOf(const Eigen::Vector3f& normal, const AmbientSources& sources,
                         const Illumination& light) {
-  const Outlook& outlook = sources.outlook;
-  const LightPlace& behind = sources.sheet.behind;
-  const SkyOpenness& sky = sources.sheet.sky;
+  const LightPlace& place = sources.outlook.own.light;
+  const LightPlace& behind = sources.outlook.sheet.behind;
+  const SkyOpenness& sky = sources.outlook.sheet.sky;
   const bool both = behind.known();
   Irradiance sum;
-  if (sources.gathered && light.mirror_sky) {
-    const GatheredLight open = gatheredLight(*sources.gathered, light.mirror_sky->patches(), normal);
-    sum.front = withSurroundings(open.front, outlook.light, normal.z(), light);
+  if (sources.outlook.gathered && light.mirror_sky) {
+    const GatheredLight open = gatheredLight(*sources.outlook.gathered, light.mirror_sky->patches(), normal);
+    sum.front = withSurroundings(open.front, place, normal.z(), light);
     if (both) sum.behind = withSurroundings(open.behind, behind, -normal.z(), light);
   } else if (sky.known && light.sky_sectors) {
     const SkySectors& sectors = *light.sky_sectors;
-    sum.front = withSurroundings(sectors.irradiance(sky, normal), outlook.light, normal.z(), light);
+    sum.front = withSurroundings(sectors.irradiance(sky, normal), place, normal.z(), light);
     if (both) sum.behind = withSurroundings(sectors.irradiance(sky, -normal), behind, -normal.z(), light);
   } else {
-    sum.front = irradianceAt(outlook.light, *light.nodes);
+    sum.front = irradianceAt(place, *light.nodes);
     if (both) sum.behind = irradianceAt(behind, *light.nodes);
   }
   if (!both) sum.behind = sum.front;
@@ -60,7 +60,7 @@ Irradiance irradianceOf(const Eigen::Vector3f& normal, const AmbientSources& sou
 
 /// As the bake knows it.
 AmbientLight bakedLight(const Surface& surface, const AmbientSources& sources, const Illumination& light) {
-  const Outlook& outlook = sources.outlook;
+  const Outlook& outlook = sources.outlook.own;
   const Irradiance arriving = irradianceOf(surface.shading_normal, sources, light);
   const Mirrored& mirrored = sources.mirrored;
   const Eigen::Array3f seen =
@@ -75,7 +75,7 @@ AmbientLight unbakedLight(const Surface& surface, const AmbientSources& sources,
   const Eigen::Array3f open = light.day.skyIlluminance(normal).value;
   Eigen::Array3f irradiance = open;
   if (body) irradiance = body->illuminance(normal);
-  irradiance *= sources.outlook.unhidden;
+  irradiance *= sources.outlook.own.unhidden;
   // A rough lobe spreads over the hemisphere, a smooth one mirrors a point of the sky.
   const Eigen::Array3f spread = irradiance / kPiFloat;
   const float smooth = std::max(0.0f, 1.0f - sources.roughness * sources.roughness * 1.5f);
@@ -112,7 +112,7 @@ Mirrored mirroredBy(const Mirror& mirror, const MirrorSky& sky) {
 }
 
 AmbientLight ambientLight(const Surface& surface, const AmbientSources& sources, const Illumination& light) {
-  const Outlook& outlook = sources.outlook;
+  const Outlook& outlook = sources.outlook.own;
   const bool moves = light.bodies && outlook.body != Outlook::kNoBody;
   if (light.nodes && outlook.light.known() && !moves) return bakedLight(surface, sources, light);
   const AroundLight* const body = moves ? &(*light.bodies)[static_cast<std::size_t>(outlook.body)] : nullptr;

@@ -17,11 +17,9 @@ Mirrored mirroredBy(const Mirror& mirror, const MirrorSky& sky);
 
 /// What the light on a surface depends on beside the surface itself.
 struct AmbientSources {
-  const Outlook& outlook;       ///< its own
-  const SheetOutlook& sheet;    ///< its own
+  const WholeOutlook& outlook;  ///< its own
   float roughness;              ///< of its material
   const Mirrored& mirrored;     ///< where the light is baked
-  const GatheredSky* gathered;  ///< null: FinalGather did not look there
 };
 
 /// What arrives from all around, without what comes directly from sun and moon.

@@ -91,15 +91,13 @@ void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& b
   for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
     const Surface& surface = tile.surfaces[i];
     const bool rays = next != by_rays.end() && next->surface == i;
-    const Outlook& outlook = outlooks.surfaces[i];
+    const WholeOutlook outlook = outlooks.whole(i);
     const auto glint = [&](const std::unique_ptr<const Glints>& glints) -> Eigen::Array3f {
       return glints ? glints->illuminance(number, i) : Eigen::Array3f(Eigen::Array3f::Zero());
     };
     const SurfaceParts parts{outlook,
-                             outlooks.sheetOf(outlook),
                              rows.ambient[i],
-                             mirrored[outlook.mirror],
-                             outlooks.gatheredFor(outlook),
+                             mirrored[outlook.own.mirror],
                              ofDisc(sun, tile, i),
                              ofDisc(moon, tile, i),
                              glint(sun_glints_),
@@ -137,8 +135,7 @@ Eigen::Array3f SurfaceLighting::luminance(const Surface& surface, const SurfaceP
   if (parts.lamps) leaving += *parts.lamps;
 
   const AmbientReflectance& by = parts.ambient;
-  AmbientLight from = ambientLight(
-      surface, {parts.outlook, parts.sheet, reflection.roughness, parts.mirrored, parts.gathered}, light_);
+  AmbientLight from = ambientLight(surface, {parts.outlook, reflection.roughness, parts.mirrored}, light_);
   if (parts.by_rays) from.mirrored += parts.by_rays->share * (parts.by_rays->luminance - from.mirrored);
   const Eigen::Array3f ambient =
       by.diffuse * from.front + by.through * from.behind + by.specular * from.mirrored;

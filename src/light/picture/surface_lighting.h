@@ -43,11 +43,9 @@ class SurfaceLighting {
  private:
   /// What is known of a surface before it is lit.
   struct SurfaceParts {
-    const Outlook& outlook;
-    const SheetOutlook& sheet;
+    const WholeOutlook& outlook;
     const AmbientReflectance& ambient;
     const Mirrored& mirrored;              ///< where the light is baked
-    const GatheredSky* gathered;           ///< null: FinalGather did not look there
     Eigen::Array3f sun, moon;              ///< shares of their discs that it sees, coloured by glass
     Eigen::Array3f sun_glint, moon_glint;  ///< by way of polished floors, lx on a plane facing them
     const Eigen::Array3f* lamps;           ///< its luminance by lamps; null: there are none

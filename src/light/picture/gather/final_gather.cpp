@@ -185,10 +185,10 @@ class FinalGather::Implementation {
     std::vector<Place> places;
     for (std::uint32_t i = 0; i < tile.surfaces.size(); ++i) {
       const Surface& surface = tile.surfaces[i];
-      const Outlook& outlook = outlooks.surfaces[i];
-      if (surface.triangle >= geometry_->triangles.size() || !outlook.light.known()) continue;
+      const WholeOutlook outlook = outlooks.whole(i);
+      if (surface.triangle >= geometry_->triangles.size() || !outlook.own.light.known()) continue;
       const float edge = edgeOf(*geometry_, surface.triangle);
-      if (!outlooks.sheetOf(outlook).sky.known && edge > kLargest_m) continue;
+      if (!outlook.sheet.sky.known && edge > kLargest_m) continue;
       const float span = spanOf(edge, longestEdge(*geometry_, surface.triangle));
       float step = kFinest_m;
       const float most = kPixels * camera.pixel * (surface.position - camera.eye).norm();

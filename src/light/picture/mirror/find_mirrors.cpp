@@ -14,11 +14,11 @@ namespace {
 constexpr float kLeastRough = 0.42f;
 
 Mirror findView(const TransportData& data, const scene::Material& material, const Surface& surface,
-                const SkyInView& sky) {
+                const WholeOutlook& outlook) {
   const bool sheet = material.transmission > 0.0f;
-  const OpenPatches open = openPatches(data, surface, sky, material);
+  const OpenPatches open = openPatches(data, surface, outlook, material);
   if (surface.roughness < kLeastRough) return smoothMirror(surface, surface.roughness, sheet, open);
-  return roughMirror(surface, material, open, sky.sheet.sky.known);
+  return roughMirror(surface, material, open, outlook.sheet.sky.known);
 }
 
 /// What surfaces of a tile mirror, found once for all that are alike.
@@ -27,13 +27,13 @@ class ViewsOfTile {
   ViewsOfTile(int picture_width, const Tile& tile) : picture_width_(picture_width), tile_(tile) {}
 
   /// A surface that mirrors what `surface` does, or null.
-  const Surface* like(const Surface& surface, const SkyInView& sky, bool leaf) {
-    if (sky.gathered) return nullptr;  // differs from place to place
+  const Surface* like(const Surface& surface, const WholeOutlook& outlook, bool leaf) {
+    if (outlook.gathered) return nullptr;  // differs from place to place
     const Surface* const of_triangle = *triangle(surface);
     if (of_triangle && of_triangle->triangle == surface.triangle && near(*of_triangle, surface) &&
         alike(*of_triangle, surface, leaf))
       return of_triangle;
-    if (sky.sheet.sky.known) return nullptr;  // differs from leaf to leaf
+    if (outlook.sheet.sky.known) return nullptr;  // differs from leaf to leaf
     const Surface* const of_block = *block(surface);
     if (!of_block || !alike(*of_block, surface, leaf)) return nullptr;
     return *triangle(surface) = of_block;
@@ -81,18 +81,18 @@ void findMirrors(const TransportData& data, const TileToMirror& of, TileOutlooks
   ViewsOfTile views(of.picture_width, of.tile);
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const Surface& surface = surfaces[i];
-    Outlook& outlook = outlooks->surfaces[i];
-    if (!outlook.light.known()) continue;
+    const WholeOutlook outlook = outlooks->whole(i);
+    if (!outlook.own.light.known()) continue;
     const scene::Material& material = of.scene.materials[static_cast<std::size_t>(surface.material)];
-    const SkyInView sky{outlook, outlooks->sheetOf(outlook), outlooks->gatheredFor(outlook)};
-    const Surface* const like = views.like(surface, sky, material.transmission > 0.0f);
+    const Surface* const like = views.like(surface, outlook, material.transmission > 0.0f);
+    std::uint16_t& mirror = outlooks->surfaces[i].mirror;
     if (like) {
-      outlook.mirror = outlooks->surfaces[static_cast<std::size_t>(like - surfaces.data())].mirror;
+      mirror = outlooks->surfaces[static_cast<std::size_t>(like - surfaces.data())].mirror;
       continue;
     }
-    outlook.mirror = static_cast<std::uint16_t>(outlooks->mirrors.size());
-    outlooks->mirrors.push_back(findView(data, material, surface, sky));
-    if (!sky.gathered) views.keep(surface);
+    mirror = static_cast<std::uint16_t>(outlooks->mirrors.size());
+    outlooks->mirrors.push_back(findView(data, material, surface, outlook));
+    if (!outlook.gathered) views.keep(surface);
   }
 }
 

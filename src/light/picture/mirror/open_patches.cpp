@@ -91,12 +91,12 @@ OpenPatches ofLeaf(const LeafOpenness& leaves, const Surface& surface, const Sky
 
 }  // namespace
 
-OpenPatches openPatches(const TransportData& data, const Surface& surface, const SkyInView& sky,
+OpenPatches openPatches(const TransportData& data, const Surface& surface, const WholeOutlook& outlook,
                         const scene::Material& material) {
   const float transmission = material.transmission;
-  if (sky.gathered) return ofGathered(*sky.gathered, surface.geometric_normal, transmission > 0.0f);
-  if (sky.sheet.sky.known) return ofLeaf(data.leaves, surface, sky.sheet.sky);
-  const SampleRows samples(data, sky.outlook.light, transmission);
+  if (outlook.gathered) return ofGathered(*outlook.gathered, surface.geometric_normal, transmission > 0.0f);
+  if (outlook.sheet.sky.known) return ofLeaf(data.leaves, surface, outlook.sheet.sky);
+  const SampleRows samples(data, outlook.own.light, transmission);
   PatchValues sums;
   sums.fill(0.0f);
   for (std::size_t i = 0; i < samples.count; ++i)

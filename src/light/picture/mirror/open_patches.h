@@ -13,15 +13,10 @@ struct OpenPatches {
   PatchValues known;  ///< 1, or 0 where the surface's samples don't tell, and `share` is 0
 };
 
-/// What is known of the sky before a surface.
-struct SkyInView {
-  const Outlook& outlook;       ///< its own
-  const SheetOutlook& sheet;    ///< its own
-  const GatheredSky* gathered;  ///< null: nothing
-};
 /// By what was gathered there, if anything; else by the surface's view of the sky as a leaf, or by the
-/// samples of `data` around it. `material` is its own; thin sheets see the sky on both sides, but by samples.
-OpenPatches openPatches(const TransportData& data, const Surface& surface, const SkyInView& sky,
+/// samples of `data` around it. `outlook` and `material` are its own; thin sheets see the sky on both sides,
+/// but by samples.
+OpenPatches openPatches(const TransportData& data, const Surface& surface, const WholeOutlook& outlook,
                         const scene::Material& material);
 
 }  // namespace sunlit::light

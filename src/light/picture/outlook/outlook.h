@@ -61,6 +61,13 @@ struct Outlook {
   float unhidden = 1.0f;        ///< share of the light from all around that bodies leave to it, 0 … 1
 };
 
+/// All that is known of one surface.
+struct WholeOutlook {
+  const Outlook& own;
+  const SheetOutlook& sheet;    ///< one of which nothing is known, where it is neither sheet nor leaf
+  const GatheredSky* gathered;  ///< null: FinalGather did not look there
+};
+
 /// Of the surfaces of one tile.
 struct TileOutlooks {
   std::vector<Outlook> surfaces;  ///< in the order of Tile::surfaces
@@ -71,14 +78,12 @@ struct TileOutlooks {
   /// GlintNodes. Empty: nothing.
   std::vector<float> without_glints;
 
-  /// What was gathered for one of `surfaces`; null: nothing.
-  const GatheredSky* gatheredFor(const Outlook& outlook) const {
-    return outlook.gathered == Outlook::kNotGathered ? nullptr : &gathered[outlook.gathered];
-  }
-  /// Of one of `surfaces`; one of which nothing is known, where it is neither sheet nor leaf.
-  const SheetOutlook& sheetOf(const Outlook& outlook) const {
+  /// Of one of `surfaces`. Holds until any of these vectors grows.
+  WholeOutlook whole(std::size_t surface) const {
     static const SheetOutlook none;
-    return outlook.sheet == Outlook::kNoSheet ? none : sheets[outlook.sheet];
+    const Outlook& own = surfaces[surface];
+    return {own, own.sheet == Outlook::kNoSheet ? none : sheets[own.sheet],
+            own.gathered == Outlook::kNotGathered ? nullptr : &gathered[own.gathered]};
   }
   /// As of surfaces of which nothing is known. Keeps memory.
   void forget(std::size_t count) {
