@@ -150,7 +150,7 @@ void addHouse(Assembly& assembly, const House& house) {
   addGableRoof(assembly, house, random);
 }
 
-// Looks at the track from `place`, set level on the highest ground under it.
+// Looks at the track from `place`, level, a step above the ground there.
 Frame facingTrackFrame(const TrackPlace& place, float twist) {
   const Eigen::Vector2d t = course().tangent(place.along);
   const float along = std::atan2(static_cast<float>(t.y()), static_cast<float>(t.x()));
@@ -211,7 +211,8 @@ void addPits(Assembly& assembly, const Plot& plot) {
   constexpr int kBays = 9;
   constexpr float kBay_m = 7.6f;
   constexpr float kDepth_m = 12.0f;
-  const Frame frame = facingTrackFrame(plot.place, 0.0f);
+  // So long that the ground's own ups and downs would show through the apron.
+  const Frame frame = shifted(facingTrackFrame(plot.place, 0.0f), {0.0f, 0.0f, 0.12f});
   const Palette& p = assembly.palette();
   for (int i = 0; i < kBays; ++i) {
     Random random(651u, static_cast<std::uint32_t>(i));
@@ -244,8 +245,8 @@ void addPits(Assembly& assembly, const Plot& plot) {
   const float width = kBays * kBay_m;
   addBox(assembly, {p.concrete, {0.34f, 0.33f, 0.31f}}, shifted(frame, {0, -0.2f, 7.3f}),
          {width + 1.0f, kDepth_m + 2.2f, 0.35f});
-  addBox(assembly, {p.concrete, {0.16f, 0.155f, 0.15f}}, shifted(frame, {0, 0, -0.6f}),
-         {width + 0.6f, kDepth_m + 0.8f, 0.62f});
+  addBox(assembly, {p.concrete, {0.16f, 0.155f, 0.15f}}, shifted(frame, {0, 0, -1.0f}),
+         {width + 0.6f, kDepth_m + 0.8f, 1.02f});
   addApron(assembly, frame, width, kDepth_m);
   addBox(assembly, {p.plaster, {0.42f, 0.41f, 0.38f}}, shifted(frame, {0, 0.5f * kDepth_m - 0.2f, 0.0f}),
          {width, 0.3f, 7.3f});

@@ -38,11 +38,15 @@ double hills(const Eigen::Vector2d& p) {
   return rolling + 125.0 * rise * std::max(0.05, ridges) * skyline(d);
 }
 
-// Earth banks behind the barriers, here and there.
+// Earth banks behind the barriers, here and there, but not at the start, where distances along the track
+// begin anew and a bank would break off.
 double bank(const TrackPlace& place) {
-  const float s = static_cast<float>(place.along);
+  const double length = course().length();
+  const float s = static_cast<float>(place.along - length * std::floor(place.along / length));
   const double side = std::abs(place.left);
-  const double presence = smoothStep(0.15f, 0.5f, noise(s / 70.0f, place.left > 0 ? 3.0f : 9.0f, 31u));
+  const float from_start = std::min(s, static_cast<float>(length) - s);
+  const double presence = smoothStep(0.15f, 0.5f, noise(s / 70.0f, place.left > 0 ? 3.0f : 9.0f, 31u)) *
+                          smoothStep(0.0f, 30.0f, from_start);
   const float across = static_cast<float>(side);
   return 2.2 * presence * smoothStep(14.0f, 20.0f, across) * (1.0 - smoothStep(21.0f, 27.0f, across));
 }

@@ -14,6 +14,7 @@
 
 #include "scene/noise.h"
 #include "scene/race_track/course.h"
+#include "scene/race_track/ground.h"
 #include "sunlit/image/content_hash.h"
 #include "sunlit/path/path.h"
 
@@ -137,6 +138,20 @@ TEST(RaceTrackCourse, NearestUndoesPoint) {
       EXPECT_NEAR(std::remainder(place.along - along, course.length()), 0.0, 0.05);
       EXPECT_NEAR(place.left, left, 0.01);
     }
+  }
+}
+
+TEST(RaceTrackGround, IsClosedAtTheStart) {
+  const double length = race_track::course().length();
+  for (double left = -40.0; left <= 40.0; left += 0.5) {
+    const double before = race_track::groundHeight(race_track::TrackPlace{length - 0.005, left});
+    const double after = race_track::groundHeight(race_track::TrackPlace{0.005, left});
+    // 1 cm further on: no slope of the land beside the track is steeper than 1 : 1.
+    EXPECT_NEAR(before, after, 0.01) << left;
+    // Distances along the track are cyclic, but for their own rounding.
+    EXPECT_NEAR(race_track::groundHeight(race_track::TrackPlace{-20.0, left}),
+                race_track::groundHeight(race_track::TrackPlace{length - 20.0, left}), 1e-6)
+        << left;
   }
 }
 
