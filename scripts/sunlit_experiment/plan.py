@@ -204,6 +204,7 @@ def _self_test_renderer(typed, given, places, beginning):
         resume_at=beginning.evaluated,
         exact_sky=True,
         wait_for=[EVALUATOR + "/progress"],
+        look_ahead=False,  # it has few poses and much time: less memory
         subscribers={"images": 1, "of": [EVALUATOR]},
         sun_namespace="/",
         publish_tf=False,

@@ -115,9 +115,14 @@ class Renderer::Implementation {
     const bool drawn_ahead = !ahead_.samples.empty() &&
                              ahead_.view.map_from_optical.matrix() == map_from_optical.matrix() &&
                              same(ahead_.map_from_body, map_from_body);
-    if (!drawn_ahead) lookAhead(map_from_optical, map_from_body);
-    std::swap(seen_, ahead_);
-    ahead_.samples.clear();
+    if (drawn_ahead) {
+      std::swap(seen_, ahead_);
+      ahead_.samples.clear();
+    } else {
+      // In the place of the last one, so that whoever never looks ahead keeps one pose in memory, not two.
+      const std::lock_guard<std::mutex> lock(drawing_);
+      draw({optics_, map_from_optical, map_from_body}, std::nullopt, seen_);
+    }
   }
 
   void lookAhead(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {

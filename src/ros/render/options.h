@@ -73,6 +73,7 @@ struct PacingOptions {
   double frame_rate = 10.0;             ///< stamps of consecutive poses differ by its inverse
   std::optional<double> start_stamp_s;  ///< stamp of pose 0, s; nothing: ROS time when it can be taken
   int max_ahead = 8;                    ///< poses ahead of the slowest of wait_for
+  bool looks_ahead = true;              ///< draws the next pose while this one is lit, with memory for both
   std::vector<std::string> wait_for;    ///< progress topics (std_msgs/UInt32): poses done since the first
   bool counts_skipped = false;          ///< whether those are all of the path; else those of path/stride
   WantedSubscribers subscribers;        ///< start only when each topic has as many

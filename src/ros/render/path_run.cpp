@@ -115,7 +115,7 @@ Step PathRun::step() {
     next_.reset();
     if (position_ < positions()) next_ = shotAt(position_);
     meterBefore(shot);
-    streams_.take(shot, next_);
+    streams_.take(shot, options_.looks_ahead ? next_ : std::nullopt);
     streams_.poseOutput().publishProgress(position());
     return Step::kTook;
   }

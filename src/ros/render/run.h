@@ -104,7 +104,7 @@ class PathRun : public Run {
   ros::Time start_;         ///< stamp of pose 0; zero until it is known
   bool announced_ = false;  ///< where this run begins
   int position_ = 0;
-  std::optional<Shot> next_;           ///< drawn ahead
+  std::optional<Shot> next_;           ///< drawn ahead, if options_ wants it
   render::BodyPlaces map_from_links_;  ///< of the latest shot
   std::string waits_for_;
 };
