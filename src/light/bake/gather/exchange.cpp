@@ -76,6 +76,21 @@ void store(const PartSums& sums, std::size_t sample, PassedOn* part) {
       luminance > 0.0f ? Eigen::Array3f(sums.color / luminance) : Eigen::Array3f(Eigen::Array3f::Ones());
 }
 
+Exchange::Exchange(const SceneSamples& samples, const SkyPatches& patches, const BakedRooms& rooms)
+    : seen(samples.receivers.size()),
+      mirrored_sums(samples.receivers.size(), 0.0f),
+      shining(samples.receivers.size()),
+      samples_(samples),
+      patches_(patches),
+      rooms_(rooms),
+      ground_(samples.receivers.size()) {
+  constexpr float kLevel = 0.97f;  // within 14°, half a patch
+  for (std::size_t i = 0; i < ground_.size(); ++i) {
+    const Receiver& receiver = samples.receivers[i];
+    ground_[i] = receiver.normal.z() > kLevel && !receiver.thin && samples.paints[i].metalness < 0.5f ? 1 : 0;
+  }
+}
+
 void Exchange::useRooms() {
   if (rooms_.samples.empty()) return;
   room_of_.assign(seen.size(), LightMesh::kNone);
@@ -102,12 +117,6 @@ void Exchange::passOver(const std::vector<bool>& useless) {
   tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
     for (SampleAndByte& hit : seen[i].hits) hit = SampleAndByte::of(usefulBeside(hit.sample()), hit.byte());
   });
-}
-
-bool Exchange::isGround(std::uint32_t sample) const {
-  constexpr float kLevel = 0.97f;  // within 14°, half a patch
-  const Receiver& receiver = samples_.receivers[sample];
-  return receiver.normal.z() > kLevel && !receiver.thin && samples_.paints[sample].metalness < 0.5f;
 }
 
 bool Exchange::isPolished(std::uint32_t sample) const {
@@ -158,11 +167,11 @@ PassedOnSums Exchange::received(const std::vector<SentSums>& sent, std::size_t s
   return sums;
 }
 
-Arrived Exchange::receivedOf(const std::vector<Eigen::Array3f>& sent, std::size_t sample) const {
+Arrived Exchange::receivedOf(const Sent& sent, std::size_t sample) const {
   Arrived sum;
-  const auto lit = [&](std::uint32_t other) { return !sent[other].isZero(0.0f); };
+  const auto lit = [&](std::uint32_t other) { return sent.any[other] != 0; };
   visitSeen(sample, lit, [&](const SampleSeen& other, bool up) {
-    (up ? sum.above : sum.below) += other.weight * sent[other.sample];
+    (up ? sum.above : sum.below) += other.weight * sent.light[other.sample];
   });
   return sum;
 }
@@ -175,15 +184,17 @@ std::vector<Sending> Exchange::sendings() const {
 
 std::vector<Arrived> Exchange::passedOn(const std::vector<Eigen::Array3f>& direct, int most) const {
   std::vector<Arrived> has(seen.size()), next(seen.size());
-  std::vector<Eigen::Array3f> sent(seen.size());
+  Sent sent{std::vector<Eigen::Array3f>(seen.size()), std::vector<std::uint8_t>(seen.size())};
   const std::vector<Sending> sends_of = sendings();
   const auto all = [&](std::size_t i) -> Eigen::Array3f { return direct[i] + has[i].above + has[i].below; };
   double change = 1.0;
   for (int bounce = 0; bounce < most && change > kNextToNothing; ++bounce) {
-    tbb::parallel_for(std::size_t{0}, sent.size(), [&](std::size_t i) {
+    tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
       const Sending& sends = sends_of[i];
-      sent[i] = sends.bounced * all(i);
-      if (sends.other != LightMesh::kNone) sent[i] += sends.through * all(sends.other);
+      Eigen::Array3f light = sends.bounced * all(i);
+      if (sends.other != LightMesh::kNone) light += sends.through * all(sends.other);
+      sent.light[i] = light;
+      sent.any[i] = light.isZero(0.0f) ? 0 : 1;
     });
     change = receiveAll(has, &next, [&](std::size_t i) { return receivedOf(sent, i); });
     has.swap(next);

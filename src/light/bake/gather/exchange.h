@@ -85,13 +85,7 @@ class Exchange {
   static constexpr std::size_t kMostSamples = std::size_t{1} << SampleAndByte::kSampleBits;
 
   /// Keeps references. `rooms` counts once useRooms() was called.
-  Exchange(const SceneSamples& samples, const SkyPatches& patches, const BakedRooms& rooms)
-      : seen(samples.receivers.size()),
-        mirrored_sums(samples.receivers.size(), 0.0f),
-        shining(samples.receivers.size()),
-        samples_(samples),
-        patches_(patches),
-        rooms_(rooms) {}
+  Exchange(const SceneSamples& samples, const SkyPatches& patches, const BakedRooms& rooms);
 
   /// To be called when `rooms` is filled: what they see is then known by their links, not by `seen`.
   void useRooms();
@@ -109,7 +103,7 @@ class Exchange {
     return other != LightMesh::kNone ? other : sample;
   }
   /// Whether a sample mirrors as GroundMirror says.
-  bool isGround(std::uint32_t sample) const;
+  bool isGround(std::uint32_t sample) const { return ground_[sample] != 0; }
   /// Whether it is level and so smooth that sun and moon in it are as in a mirror.
   bool isPolished(std::uint32_t sample) const;
   /// Ground scatters less towards a glancing ray than towards the mean one: Fresnel's share is larger there.
@@ -140,13 +134,19 @@ class Exchange {
  private:
   static_assert(SkyPatches::kAbove <= 256 && SkyPatches::kDown <= 256, "a direction fits above a sample");
 
-  Arrived receivedOf(const std::vector<Eigen::Array3f>& sent, std::size_t sample) const;
+  /// What each sample sends, luminance × π.
+  struct Sent {
+    std::vector<Eigen::Array3f> light;
+    std::vector<std::uint8_t> any;  ///< whether it is not 0: most are dark, and this fits a core's cache
+  };
+  Arrived receivedOf(const Sent& sent, std::size_t sample) const;
   /// sending() of all samples, for who needs it many times.
   std::vector<Sending> sendings() const;
 
   const SceneSamples& samples_;
   const SkyPatches& patches_;
   const BakedRooms& rooms_;
+  std::vector<std::uint8_t> ground_;    ///< of each sample: asked for along every ray, so kept close together
   std::vector<std::uint32_t> instead_;  ///< of each sample of no use: one that is, or LightMesh::kNone
   std::vector<std::uint32_t> room_of_;  ///< of each sample, or LightMesh::kNone; empty: there are none
 };
