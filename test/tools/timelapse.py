@@ -14,7 +14,7 @@ import unittest
 import cv2
 import rosunit
 
-WORLD = str(pathlib.Path(__file__).resolve().parents[1] / "support" / "worlds" / "two_boxes.world")
+WORLD = str(pathlib.Path(__file__).resolve().parents[1] / "support" / "worlds" / "two_boxes.urdf")
 INTERIOR = str(pathlib.Path(WORLD).with_name("interior.gltf"))
 VIEW = ["--world", WORLD, "--pose", "0,0,1", "--size", "96x64", "--fov", "60", "--bounced", "off"]
 # From moonlight over dusk into day.
@@ -98,7 +98,7 @@ class Timelapse(unittest.TestCase):
         self.assertEqual(sorted(os.listdir(self.path("a"))), before)
 
     def test_takes_no_frames_of_a_world_that_has_changed(self):
-        world = self.path("own.world")
+        world = self.path("own.urdf")
         shutil.copy(WORLD, world)
         arguments = ["--out", self.path("b"), *VIEW, *DAY, "--world", world, "--frames", "1"]
         self.assertEqual(run("timelapse", *arguments).returncode, 0)

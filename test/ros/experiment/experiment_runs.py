@@ -225,15 +225,15 @@ class ExperimentRuns(unittest.TestCase):
             self.assertEqual(self.bytes_of(output), self.bytes_of(self.output))
 
     def test_a_world_that_changed_meanwhile_is_not_mixed_with_the_old_one(self):
-        world = os.path.join(self.folder, "mine.world")
+        world = os.path.join(self.folder, "mine.urdf")
         shutil.copy(WORLD, world)
         output = self.killed("changed", world=world)
         before = self.bytes_of(output, "frames.csv")
         with open(world) as file:
             text = file.read()
-        self.assertIn("<size>2 4 2<", text)
+        self.assertIn('"2 4 2"', text)
         with open(world, "w") as file:
-            file.write(text.replace("<size>2 4 2<", "<size>2 4 3<"))  # one box grows
+            file.write(text.replace('"2 4 2"', '"2 4 3"'))  # one box grows
         again = small_experiment(output, world=world)
         self.assertNotEqual(again.end(), 0)
         self.assertIn("inputs.yaml: the run that was broken off in this folder was made from something else", again.said())
@@ -413,9 +413,9 @@ class ExperimentRuns(unittest.TestCase):
             self.assertEqual(run.left_running(), [])
 
     def test_a_world_that_cannot_be_loaded_is_a_failure_with_a_reason(self):
-        broken = os.path.join(self.folder, "broken.world")
+        broken = os.path.join(self.folder, "broken.urdf")
         with open(broken, "w") as file:
-            file.write("<sdf version='1.6'><world name='w'>")
+            file.write("<robot name='w'>")
         run = small_experiment(os.path.join(self.folder, "worldless"), world=broken)
         self.assertNotEqual(run.end(), 0)
         self.assertTrue([line for line in run.said().splitlines() if "FATAL" in line and broken in line])

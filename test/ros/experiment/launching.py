@@ -14,7 +14,7 @@ import uuid
 
 TIMEOUT_S = 240.0  # for runs that take seconds on an idle machine
 WORLDS = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support", "worlds")
-WORLD = os.path.join(WORLDS, "two_boxes.world")
+WORLD = os.path.join(WORLDS, "two_boxes.urdf")
 WAYPOINTS = os.path.join(WORLDS, "straight.csv")
 POSES = 20
 LONG = dict(spacing=0.05, poses=200)  # for runs that are disturbed, so that none is over before, however slow the machine

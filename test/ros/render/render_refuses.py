@@ -77,13 +77,17 @@ class RenderRefuses(RefusalTest):
         self.assert_refused(parameters(world=missing), "there is no world " + missing)
         self.assert_refused(parameters(world=missing, path={"file": ""}), "there is no world " + missing)
         self.assert_refused(parameters(world=WORLD, missing="ignore"), "/refused/missing", "ignore", "stop, warn")
+        self.assert_refused(parameters(world=self.file("world.txt", "")), "world.txt")
+
+    def test_worlds_of_sdf(self):
         broken = self.file("broken.world", "<sdf version='1.6'>\n<world name='w'>\n<model>\n</sdf>")
-        self.assert_refused(parameters(world=broken), broken)
+        said = self.assert_refused(parameters(world=broken), broken)
+        if "this build of sunlit reads no SDF" in said:
+            self.skipTest(said)
         mesh = self.file("broken.dae", "<COLLADA>\n<library")
         self.assert_refused(parameters(world=self.file("mesh.world", BOX % mesh)), "broken.dae")
         absent = os.path.join(self.folder, "absent.dae")
         self.assert_refused(parameters(world=self.file("absent.world", BOX % absent)), "absent.dae")
-        self.assert_refused(parameters(world=self.file("world.txt", "")), "world.txt")
 
     def test_waypoints(self):
         for text, place in (("0,0,0\nnan,1,0\n", ":2"), ("0,0,0\n", "two"), ("0,0,0\n1,0,0\n1,0,0\n", ":3"),

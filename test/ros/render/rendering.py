@@ -17,7 +17,7 @@ from tf2_msgs.msg import TFMessage
 TIMEOUT_S = 60.0  # how long a machine under load may take for what should be seconds
 PACKAGE = rospkg.RosPack().get_path("sunlit")
 SUPPORT = os.path.join(PACKAGE, "test", "support", "worlds")
-WORLD = os.path.join(SUPPORT, "two_boxes.world")
+WORLD = os.path.join(SUPPORT, "two_boxes.urdf")
 WAYPOINTS = os.path.join(SUPPORT, "straight.csv")
 BOX_FACE_M = 12.0  # x of the face that the camera drives towards
 
@@ -84,7 +84,7 @@ class RefusalTest(unittest.TestCase):
     """For tests of what ends a render node at once."""
 
     def assert_refused(self, tree, *parts):
-        """Its status is not 0, and its one fatal line holds all `parts`."""
+        """Its status is not 0, and its one fatal line, which is returned, holds all `parts`."""
         with RenderNode("refused", tree) as node:
             status, lines = node.end()
         self.assertNotEqual(status, 0)
@@ -92,6 +92,7 @@ class RefusalTest(unittest.TestCase):
         self.assertEqual(len(fatal), 1, lines)
         for part in parts:
             self.assertIn(part, fatal[0])
+        return fatal[0]
 
 
 class Sun:

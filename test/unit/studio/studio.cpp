@@ -19,7 +19,7 @@
 namespace sunlit::studio {
 namespace {
 
-constexpr const char* kBoxes = SUNLIT_SOURCE_DIR "/test/support/worlds/two_boxes.world";
+constexpr const char* kBoxes = SUNLIT_SOURCE_DIR "/test/support/worlds/two_boxes.urdf";
 
 /// Two boxes on a plain under an open sky, by a small camera.
 StudioOptions boxes() {
