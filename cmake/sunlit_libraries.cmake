@@ -20,6 +20,13 @@ elseif(NOT embree_FOUND)
   set(SUNLIT_EMBREE 4)
 endif()
 
+# Whether OpenCV has SIFT among what it always has: from 4.4 on.
+set(SUNLIT_SIFT ON)
+if(OpenCV_VERSION VERSION_LESS 4.4)
+  set(SUNLIT_SIFT OFF)
+  message(STATUS "OpenCV is ${OpenCV_VERSION}, and has no SIFT before 4.4: sunlit will have none, and tests that compare by it are left out")
+endif()
+
 # assimp::assimp. That of Assimp 5.0 names a folder of headers that is elsewhere.
 find_package(assimp REQUIRED)
 find_path(ASSIMP_INCLUDE_DIR assimp/scene.h REQUIRED)

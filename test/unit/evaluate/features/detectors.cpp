@@ -225,14 +225,14 @@ TEST(Detectors, StandSeveralTimesUnderNamesOfTheirOwn) {
 
 TEST(Detectors, RefuseNamesThatAreTakenOrNoWords) {
   Differences known;
-  for (const std::string name : {"sift", "boolean_rgb", "", "sift-2", "2sift", "a/b", "a b"}) {
+  for (const std::string name : {"orb", "boolean_rgb", "", "orb-2", "2orb", "a/b", "a b"}) {
     EXPECT_NE(messageOf([&] {
-                known.add(name, makeFeatureDifference(makeOwnDetector({"sift", ""})));
+                known.add(name, makeFeatureDifference(makeOwnDetector({"orb", ""})));
               }).find("the name of a difference is \"" + name + "\", but must be"),
               std::string::npos)
         << name;
   }
-  EXPECT_NE(messageOf([] { makeDetector("sfit"); }).find("one of [sift, "), std::string::npos);
+  EXPECT_NE(messageOf([] { makeDetector("rob"); }).find(" orb, brisk, "), std::string::npos);
 }
 
 }  // namespace

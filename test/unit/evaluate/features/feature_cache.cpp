@@ -78,8 +78,10 @@ TEST_F(Cache, TellsPicturesDetectorsAndOptionsApart) {
   const auto orb = makeDetector("orb");
   find(*orb, greyOf(1));
   EXPECT_FALSE(find(*orb, greyOf(2)).second);
+#ifdef SUNLIT_SIFT
   EXPECT_FALSE(find(*makeDetector("sift"), greyOf(1)).second);
   EXPECT_FALSE(find(*makeDetector("rootsift"), greyOf(1)).second) << "whose parameters are those of sift";
+#endif
   const auto other = makeDetector("orb");
   fieldOf(other->fields(), "scale_factor").set(1.2 + 1e-15, "");  // another number, in 16 digits
   EXPECT_FALSE(find(*other, greyOf(1)).second);

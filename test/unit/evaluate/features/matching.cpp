@@ -218,6 +218,9 @@ TEST_F(Leuven, GivesTheReferenceCounts) {
       {"brisk", 2, 4618, 3517, 1092, 0.8450, 0.8515}, {"brisk", 6, 4618, 1344, 255, 0.9553, 0.9620}};
   const double half_a_digit = 0.5e-4;  // the reference has four digits
   for (const Reference& r : table) {
+#ifndef SUNLIT_SIFT
+    if (r.detector == "sift") continue;
+#endif
     const std::unique_ptr<Detector> detector = makeDetector(r.detector);
     const Features a = detectFeatures(*detector, Picture{{}, grey(1)});
     const Features b = detectFeatures(*detector, Picture{{}, grey(r.other)});
@@ -375,7 +378,7 @@ TEST(Comparer, TakesADifferenceOfOnesOwnWithItsOptions) {
 // A detector costs seconds, and its inner loops must not be cut short where another difference fails.
 TEST(Comparer, ThrowsWhatADifferenceThrowsOnceTheOthersAreDone) {
   ComparerOptions options;
-  options.differences = {"sift", "euclidean_rgb", "orb"};
+  options.differences = {"brisk", "euclidean_rgb", "orb"};
   const cv::Mat narrow(40, 30, CV_8UC3, cv::Scalar::all(9));
   const cv::Mat wide(40, 50, CV_8UC3, cv::Scalar::all(9));
   const Comparer comparer(options);
