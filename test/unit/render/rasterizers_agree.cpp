@@ -1,5 +1,4 @@
 // OSMesa, EGL and our own rasterizer see the same triangles, each of them the test of the others.
-#include <filesystem>
 #include <random>
 #include <set>
 
@@ -10,15 +9,13 @@
 #include "sunlit/scene/load.h"
 #include "sunlit/scene/race_track.h"
 #include "support/compare_pictures.h"
+#include "support/needs.h"
 
 namespace sunlit::test {
 namespace {
 
 const std::string kAws = SUNLIT_SHARED_DIR "/worlds/aws_racetrack";
 const std::string kForza = SUNLIT_SHARED_DIR "/worlds/forza";
-
-#define SKIP_WITHOUT(folder) \
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here"
 
 /// Samples on an edge to within rounding, or of two surfaces that lie in each other.
 constexpr double kOpaqueShare = 1e-4;
@@ -67,6 +64,7 @@ TEST_P(Worlds, BuiltInIsSeenAlike) {
 }
 
 TEST_P(Worlds, AwsRaceTrackIsSeenAlike) {
+  SKIP_WITHOUT_SDF();
   SKIP_WITHOUT(kAws);
   expectAgreement(scene::load(kAws + "/worlds/racetrack_day.world", {}),
                   path::readWaypoints(SUNLIT_SOURCE_DIR "/config/paths/aws_racetrack.csv"));

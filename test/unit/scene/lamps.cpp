@@ -6,6 +6,7 @@
 
 #include "scene/scene_builder.h"
 #include "sunlit/scene/robot.h"
+#include "support/needs.h"
 #include "unit/scene/scene_files.h"
 
 namespace sunlit::scene {
@@ -35,6 +36,7 @@ const std::string kSpot =
     "<falloff>2.1</falloff></spot><cast_shadows>false</cast_shadows></light>";
 
 TEST_F(LampFiles, OfLinksStandInTheirFrameAndGoByTheirModel) {
+  SKIP_WITHOUT_SDF();
   const Scene scene = worldWith("", kSpot);
   ASSERT_EQ(scene.lamps.size(), 1u);
   const Lamp& lamp = scene.lamps[0];
@@ -57,6 +59,7 @@ TEST_F(LampFiles, OfLinksStandInTheirFrameAndGoByTheirModel) {
 }
 
 TEST_F(LampFiles, OfTheWorldArePointsToo) {
+  SKIP_WITHOUT_SDF();
   const Scene scene = worldWith(
       "<light name='bulb' type='point'><pose>1 2 3 0 0 0</pose><diffuse>1 1 1 1</diffuse>"
       "<attenuation><range>5</range><constant>1</constant></attenuation></light>");
@@ -68,6 +71,7 @@ TEST_F(LampFiles, OfTheWorldArePointsToo) {
 }
 
 TEST_F(LampFiles, GazebosSunIsNamedAndLeftToOurs) {
+  SKIP_WITHOUT_SDF();
   const Scene scene = worldWith("<light name='sun' type='directional'><direction>0 0 -1</direction></light>");
   EXPECT_TRUE(scene.lamps.empty());
   ASSERT_EQ(scene.warnings.size(), 1u);
@@ -76,6 +80,7 @@ TEST_F(LampFiles, GazebosSunIsNamedAndLeftToOurs) {
 }
 
 TEST_F(LampFiles, ThatCannotShineAreNamed) {
+  SKIP_WITHOUT_SDF();
   const Scene scene =
       worldWith("<light name='dead' type='point'><attenuation><range>0</range></attenuation></light>");
   EXPECT_TRUE(scene.lamps.empty());
@@ -103,6 +108,7 @@ TEST_F(LampFiles, OfNumbersThatNoLampHasAreNamedAndLeftOut) {
 }
 
 TEST_F(LampFiles, ThatPhysicsCarriedFarAwayAreNamed) {
+  SKIP_WITHOUT_SDF();
   const Scene scene = worldWith("<light name='lost' type='point'><pose>0 0 -1e7 0 0 0</pose></light>");
   EXPECT_TRUE(scene.lamps.empty());
   ASSERT_EQ(scene.warnings.size(), 1u);
@@ -169,6 +175,7 @@ TEST_F(LampFiles, OfGltfThatShareALightStandAtEachOfItsNodes) {
 }
 
 TEST_F(LampFiles, OfAUrdfStandInItsGazeboElements) {
+  SKIP_WITHOUT_SDF();
   const Robot robot = parseUrdf(
       "<?xml version='1.0'?><robot name='r'><link name='base'><visual><geometry><box size='1 1 "
       "1'/></geometry>"
@@ -187,6 +194,7 @@ TEST_F(LampFiles, OfAUrdfStandInItsGazeboElements) {
 }
 
 TEST_F(LampFiles, OfAnSdfRobotStandInItsLinks) {
+  SKIP_WITHOUT_SDF();
   const std::string file =
       write("robot.sdf",
             "<?xml version='1.0'?><sdf version='1.9'><model name='r'><link name='l'><pose>0 0 1 0 0 0</pose>"

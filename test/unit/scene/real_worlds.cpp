@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "sunlit/path/path.h"
+#include "support/needs.h"
 #include "unit/scene/measure.h"
 #include "unit/scene/scene_files.h"
 
@@ -13,9 +14,6 @@ namespace {
 
 const std::string kAws = SUNLIT_SHARED_DIR "/worlds/aws_racetrack";
 const std::string kForza = SUNLIT_SHARED_DIR "/worlds/forza";
-
-#define SKIP_WITHOUT(folder) \
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here"
 
 /// Both paths are on surfaces that were modelled as polygons of a few metres; waypoints of forza are given to
 /// the mm.
