@@ -8,14 +8,14 @@ if(NOT TARGET TBB::tbb)
   set_target_properties(TBB::tbb PROPERTIES IMPORTED_LOCATION ${TBB_LIBRARY})
 endif()
 
-# embree, and SUNLIT_EMBREE, 3 or 4. Packages of 3.8 may bring no CMake files.
+# embree, and SUNLIT_EMBREE, 3 or 4. Packages of 3.8 may bring no CMake files, and its own name no target.
 find_package(embree 3 QUIET)
-find_library(EMBREE3_LIBRARY embree3)
+find_library(EMBREE3_LIBRARY embree3 HINTS ${EMBREE_ROOT_DIR}/lib)
 set(SUNLIT_EMBREE 3)
-if(NOT embree_FOUND AND EMBREE3_LIBRARY)
+if(NOT TARGET embree AND EMBREE3_LIBRARY)
   add_library(embree UNKNOWN IMPORTED)
   set_target_properties(embree PROPERTIES IMPORTED_LOCATION ${EMBREE3_LIBRARY})
-elseif(NOT embree_FOUND)
+elseif(NOT TARGET embree)
   find_package(embree 4 REQUIRED)
   set(SUNLIT_EMBREE 4)
 endif()
