@@ -31,7 +31,7 @@ class RenderStreams(unittest.TestCase):
         cls.published_when_blocked = []
         with RenderNode("render", tree) as node:
             rospy.wait_for_service("/render/render_view", TIMEOUT_S)
-            view = rospy.ServiceProxy("/render/render_view", RenderView, persistent=True)
+            view = rospy.ServiceProxy("/render/render_view", RenderView)
             for done in range(POSES + 1):
                 cls.reader.done(done)
                 expected = min(done + MAX_AHEAD, POSES)
