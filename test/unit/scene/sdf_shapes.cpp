@@ -250,5 +250,21 @@ TEST_F(SdfShape, WhatIsNotThereOrNotDrawnIsNamed) {
   EXPECT_EQ(scene.warnings[1], "1 visuals have no shape that can be drawn: n::l::p (an <image>)");
 }
 
+TEST(TwoBoxes, AreTheSameAsSdfAndAsUrdf) {
+  const std::string file = SUNLIT_SOURCE_DIR "/test/support/worlds/two_boxes.";
+  const Scene sdf = load(file + "world", {}), urdf = load(file + "urdf", {});
+  ASSERT_EQ(sdf.meshes.size(), 3u);
+  ASSERT_EQ(urdf.meshes.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Mesh &a = sdf.meshes[i], &b = urdf.meshes[i];
+    EXPECT_TRUE(boundsOf(a).isApprox(boundsOf(b), 1e-6f)) << a.name;
+    EXPECT_NEAR(volumeOf(a), volumeOf(b), 1e-6 * volumeOf(a)) << a.name;
+    const auto colour = [](const Scene& scene, const Mesh& mesh) {
+      return scene.materials[static_cast<std::size_t>(mesh.material)].base_color.value;
+    };
+    EXPECT_TRUE((colour(sdf, a) == colour(urdf, b)).all()) << a.name;
+  }
+}
+
 }  // namespace
 }  // namespace sunlit::scene
