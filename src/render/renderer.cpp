@@ -120,14 +120,12 @@ class Renderer::Implementation {
       ahead_.samples.clear();
     } else {
       // In the place of the last one, so that whoever never looks ahead keeps one pose in memory, not two.
-      const std::lock_guard<std::mutex> lock(drawing_);
-      draw({optics_, map_from_optical, map_from_body}, std::nullopt, seen_);
+      drawWhole(map_from_optical, map_from_body, seen_);
     }
   }
 
   void lookAhead(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {
-    const std::lock_guard<std::mutex> lock(drawing_);
-    draw({optics_, map_from_optical, map_from_body}, std::nullopt, ahead_);
+    drawWhole(map_from_optical, map_from_body, ahead_);
   }
 
   image::LinearImage light(const light::Illumination& light, std::size_t state) const {
@@ -251,6 +249,12 @@ class Renderer::Implementation {
       seen.samples.clear();
       throw;
     }
+  }
+
+  /// All rows at once, in every state.
+  void drawWhole(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body, Pose& seen) {
+    const std::lock_guard<std::mutex> lock(drawing_);
+    draw({optics_, map_from_optical, map_from_body}, std::nullopt, seen);
   }
 
   /// What look() looks at, from where it is seen `seconds` later.
