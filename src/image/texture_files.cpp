@@ -165,6 +165,15 @@ std::vector<std::uint8_t> contentOf(const std::string& file) {
   return bytes;
 }
 
+Rgba8Image enlarged(const Rgba8Image& picture, int width, int height) {
+  if (picture.width == width && picture.height == height) return picture;
+  Rgba8Image large(width, height);
+  const cv::Mat from(picture.height, picture.width, CV_8UC4, const_cast<std::uint8_t*>(picture.data.data()));
+  cv::Mat to(height, width, CV_8UC4, large.data.data());
+  cv::resize(from, to, to.size(), 0.0, 0.0, cv::INTER_LINEAR);
+  return large;
+}
+
 }  // namespace
 
 Rgba8Image decodeRgba(const std::uint8_t* bytes, std::size_t size, const std::string& name) {
@@ -204,6 +213,19 @@ FittedImage decodeRgbaWithin(int longest_px, const std::uint8_t* bytes, std::siz
 FittedImage readRgbaWithin(int longest_px, const std::string& file) {
   const std::vector<std::uint8_t> bytes = contentOf(file);
   return decodeRgbaWithin(longest_px, bytes.data(), bytes.size(), file);
+}
+
+Rgba8Image coveredBy(const Rgba8Image& picture, const Rgba8Image& opacity) {
+  const int width = std::max(picture.width, opacity.width), height = std::max(picture.height, opacity.height);
+  bool has_alpha = false;
+  for (std::size_t i = 3; i < opacity.data.size() && !has_alpha; i += 4) has_alpha = opacity.data[i] < 255;
+  Rgba8Image covered = enlarged(picture, width, height);
+  const Rgba8Image by = enlarged(opacity, width, height);
+  for (std::size_t i = 0; i < covered.data.size(); i += 4) {
+    const int sum = by.data[i] + by.data[i + 1] + by.data[i + 2];
+    covered.data[i + 3] = has_alpha ? by.data[i + 3] : static_cast<std::uint8_t>((sum + 1) / 3);
+  }
+  return covered;
 }
 
 Picture<float, 1> readGreyWithin(int longest_px, const std::string& file) {

@@ -212,12 +212,17 @@ class Check {
     if (!has_corners) fail(primitive, "has no input of VERTEX");
     checkCounts(primitive, count, *parts[0]);
     const std::uint64_t least = is(primitive, "tristrips") ? 3 : is(primitive, "linestrips") ? 2 : 0;
+    std::uint64_t numbers = 0;
     for (const XMLElement* part : parts) {
-      const std::uint64_t corners = count == 0 ? 0 : indices(*part).size() / per_corner;
-      if (corners < least)
-        fail(*part, "has " + std::to_string(corners) + " corners, but must have " + std::to_string(least) +
-                        " or more");
+      const std::uint64_t given = count == 0 ? 0 : indices(*part).size();
+      numbers += given;
+      if (given / per_corner < least)
+        fail(*part, "has " + std::to_string(given / per_corner) + " corners, but must have " +
+                        std::to_string(least) + " or more");
     }
+    if (count > numbers)  // memory is taken for each that is counted
+      fail(primitive, "count is " + std::to_string(count) + ", but there are " + std::to_string(numbers) +
+                          " numbers in <p>");
   }
 
   /// Of corners of each polygon.

@@ -1,5 +1,6 @@
 #include "scene/gazebo_material.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <sstream>
@@ -11,68 +12,89 @@
 namespace sunlit::scene {
 namespace {
 
-struct NamedColor {
+struct NamedLook {
   const char* name;
   std::array<float, 3> display;  ///< as on a screen
+  float opacity = 1.0f;
+  bool glows = false;  ///< in that colour
 };
 
-/// Diffuse colours of Gazebo's own materials; those with a picture by a colour that looks like it.
-constexpr std::array<NamedColor, 37> kColors = {{{"Grey", {0.7f, 0.7f, 0.7f}},
-                                                 {"Gray", {0.7f, 0.7f, 0.7f}},
-                                                 {"DarkGrey", {0.175f, 0.175f, 0.175f}},
-                                                 {"DarkGray", {0.175f, 0.175f, 0.175f}},
-                                                 {"LightGrey", {0.8f, 0.8f, 0.8f}},
-                                                 {"White", {1.0f, 1.0f, 1.0f}},
-                                                 {"FlatBlack", {0.1f, 0.1f, 0.1f}},
-                                                 {"Black", {0.0f, 0.0f, 0.0f}},
-                                                 {"Red", {1.0f, 0.0f, 0.0f}},
-                                                 {"RedBright", {0.87f, 0.26f, 0.07f}},
-                                                 {"Green", {0.0f, 1.0f, 0.0f}},
-                                                 {"Blue", {0.0f, 0.0f, 1.0f}},
-                                                 {"SkyBlue", {0.13f, 0.44f, 0.70f}},
-                                                 {"Yellow", {1.0f, 1.0f, 0.0f}},
-                                                 {"ZincYellow", {0.97f, 0.95f, 0.21f}},
-                                                 {"DarkYellow", {0.7f, 0.7f, 0.0f}},
-                                                 {"DarkOrange", {0.7f, 0.36f, 0.03f}},
-                                                 {"Orange", {1.0f, 0.51f, 0.05f}},
-                                                 {"Purple", {1.0f, 0.0f, 1.0f}},
-                                                 {"DarkMagenta", {0.7f, 0.0f, 0.7f}},
-                                                 {"Turquoise", {0.0f, 1.0f, 1.0f}},
-                                                 {"Indigo", {0.33f, 0.0f, 0.5f}},
-                                                 {"Gold", {0.8f, 0.65f, 0.25f}},
-                                                 {"Wood", {0.55f, 0.42f, 0.28f}},
-                                                 {"WoodFloor", {0.60f, 0.45f, 0.30f}},
-                                                 {"WoodPallet", {0.62f, 0.48f, 0.32f}},
-                                                 {"Bricks", {0.58f, 0.33f, 0.26f}},
-                                                 {"CeilingTiled", {0.80f, 0.80f, 0.78f}},
-                                                 {"PaintedWall", {0.78f, 0.76f, 0.70f}},
-                                                 {"CloudySky", {0.60f, 0.70f, 0.80f}},
-                                                 {"Grass", {0.30f, 0.42f, 0.18f}},
-                                                 {"Road", {0.32f, 0.32f, 0.32f}},
-                                                 {"Asphalt", {0.30f, 0.30f, 0.30f}},
-                                                 {"Residential", {0.35f, 0.35f, 0.35f}},
-                                                 {"Pedestrian", {0.55f, 0.52f, 0.50f}},
-                                                 {"Rocky", {0.45f, 0.42f, 0.38f}},
-                                                 {"Chrome", {0.75f, 0.75f, 0.75f}}}};
+/// Gazebo's own materials by their diffuse colours (media/materials/scripts/gazebo.material of Gazebo
+/// classic), those with a picture by a colour that looks like it.
+constexpr NamedLook kLooks[] = {{"Grey", {0.7f, 0.7f, 0.7f}},
+                                {"Gray", {0.7f, 0.7f, 0.7f}},
+                                {"DarkGrey", {0.175f, 0.175f, 0.175f}},
+                                {"DarkGray", {0.175f, 0.175f, 0.175f}},
+                                {"LightGrey", {0.8f, 0.8f, 0.8f}},
+                                {"White", {1.0f, 1.0f, 1.0f}},
+                                {"FlatBlack", {0.1f, 0.1f, 0.1f}},
+                                {"Black", {0.0f, 0.0f, 0.0f}},
+                                {"Red", {1.0f, 0.0f, 0.0f}},
+                                {"RedBright", {0.87f, 0.26f, 0.07f}},
+                                {"Green", {0.0f, 1.0f, 0.0f}},
+                                {"Blue", {0.0f, 0.0f, 1.0f}},
+                                {"SkyBlue", {0.13f, 0.44f, 0.70f}},
+                                {"Yellow", {1.0f, 1.0f, 0.0f}},
+                                {"ZincYellow", {0.97f, 0.95f, 0.21f}},
+                                {"DarkYellow", {0.7f, 0.7f, 0.0f}},
+                                {"DarkOrange", {0.7f, 0.36f, 0.03f}},
+                                {"Orange", {1.0f, 0.51f, 0.05f}},
+                                {"Purple", {1.0f, 0.0f, 1.0f}},
+                                {"DarkMagenta", {0.7f, 0.0f, 0.7f}},
+                                {"Turquoise", {0.0f, 1.0f, 1.0f}},
+                                {"Indigo", {0.33f, 0.0f, 0.5f}},
+                                {"Gold", {0.8f, 0.65f, 0.25f}},
+                                {"Wood", {0.55f, 0.42f, 0.28f}},
+                                {"WoodFloor", {0.60f, 0.45f, 0.30f}},
+                                {"WoodPallet", {0.62f, 0.48f, 0.32f}},
+                                {"Bricks", {0.58f, 0.33f, 0.26f}},
+                                {"CeilingTiled", {0.80f, 0.80f, 0.78f}},
+                                {"PaintedWall", {0.78f, 0.76f, 0.70f}},
+                                {"CloudySky", {0.60f, 0.70f, 0.80f}},
+                                {"Grass", {0.30f, 0.42f, 0.18f}},
+                                {"Road", {0.32f, 0.32f, 0.32f}},
+                                {"Asphalt", {0.30f, 0.30f, 0.30f}},
+                                {"Residential", {0.35f, 0.35f, 0.35f}},
+                                {"Pedestrian", {0.55f, 0.52f, 0.50f}},
+                                {"Rocky", {0.45f, 0.42f, 0.38f}},
+                                {"Chrome", {0.75f, 0.75f, 0.75f}},
+                                {"WhiteGlow", {1.0f, 1.0f, 1.0f}, 1.0f, true},
+                                {"RedGlow", {1.0f, 0.0f, 0.0f}, 1.0f, true},
+                                {"GreenGlow", {0.0f, 1.0f, 0.0f}, 1.0f, true},
+                                {"BlueGlow", {0.0f, 0.0f, 1.0f}, 1.0f, true},
+                                {"YellowGlow", {1.0f, 1.0f, 0.0f}, 1.0f, true},
+                                {"PurpleGlow", {1.0f, 0.0f, 1.0f}, 1.0f, true},
+                                {"TurquoiseGlow", {0.0f, 1.0f, 1.0f}, 1.0f, true},
+                                {"LightOn", {0.0f, 1.0f, 0.0f}, 1.0f, true},
+                                {"LightOff", {1.0f, 0.0f, 0.0f}, 1.0f, true},
+                                {"RedTransparent", {1.0f, 0.0f, 0.0f}, 0.5f},
+                                {"GreenTransparent", {0.0f, 1.0f, 0.0f}, 0.5f},
+                                {"BlueTransparent", {0.0f, 0.0f, 1.0f}, 0.5f},
+                                {"GreyTransparent", {0.5f, 0.5f, 0.5f}, 0.5f},
+                                {"YellowTransparent", {1.0f, 1.0f, 0.0f}, 0.5f},
+                                {"OrangeTransparent", {1.0f, 0.44f, 0.0f}, 0.4f},
+                                {"BlueLaser", {0.0f, 0.0f, 1.0f}, 0.4f},
+                                {"PioneerBody", {1.0f, 0.0f, 0.0f}},
+                                {"Pioneer2Body", {0.68f, 0.0f, 0.0f}},
+                                {"WindowFrame", {0.60f, 0.55f, 0.50f}},
+                                {"Motorway", {0.32f, 0.32f, 0.32f}},
+                                {"Primary", {0.32f, 0.32f, 0.32f}},
+                                {"Secondary", {0.32f, 0.32f, 0.32f}},
+                                {"Tertiary", {0.35f, 0.35f, 0.35f}},
+                                {"Trunk", {0.32f, 0.32f, 0.32f}},
+                                {"Lanes_6", {0.32f, 0.32f, 0.32f}},
+                                {"Lanes_4", {0.32f, 0.32f, 0.32f}},
+                                {"Lanes_2", {0.32f, 0.32f, 0.32f}},
+                                {"Lane_1", {0.32f, 0.32f, 0.32f}},
+                                {"Footway", {0.55f, 0.52f, 0.50f}},
+                                {"Steps", {0.55f, 0.52f, 0.50f}}};
 
 /// What OGRE can do and we do not.
-const std::set<std::string> kLost = {"scene_blend",
-                                     "vertex_program_ref",
-                                     "fragment_program_ref",
-                                     "rtshader_system",
-                                     "env_map",
-                                     "scroll",
-                                     "scroll_anim",
-                                     "rotate_anim",
-                                     "wave_xform",
-                                     "rotate",
-                                     "scale",
-                                     "colour_op",
-                                     "colour_op_ex",
-                                     "cull_hardware",
-                                     "cull_software",
-                                     "tex_address_mode",
-                                     "tex_coord_set"};
+const std::set<std::string> kLost = {
+    "vertex_program_ref", "fragment_program_ref", "rtshader_system", "env_map",       "scroll",
+    "scroll_anim",        "rotate_anim",          "wave_xform",      "rotate",        "scale",
+    "colour_op",          "colour_op_ex",         "cull_hardware",   "cull_software", "tex_address_mode",
+    "tex_coord_set"};
 
 using Words = std::vector<std::string>;
 using Lines = std::vector<Words>;
@@ -96,14 +118,28 @@ Lines linesOf(const std::string& text) {
   return lines;
 }
 
+std::optional<float> numberOf(const std::string& word) {
+  std::istringstream stream(word);
+  float number;
+  if (!(stream >> number)) return std::nullopt;
+  return number;
+}
+
 std::optional<LinearRgb> colorOf(const Words& words) {
   if (words.size() < 4) return std::nullopt;
   std::array<float, 3> display{};
   for (std::size_t i = 0; i < 3; ++i) {
-    std::istringstream number(words[i + 1]);
-    if (!(number >> display[i])) return std::nullopt;
+    const std::optional<float> channel = numberOf(words[i + 1]);
+    if (!channel) return std::nullopt;
+    display[i] = *channel;
   }
   return linearFromSrgb(display);
+}
+
+/// OGRE's `alpha_op_ex source1 src_manual OTHER VALUE`: the value; none for other operations.
+std::optional<float> manualAlpha(const Words& words) {
+  if (words.size() < 5 || words[1] != "source1" || words[2] != "src_manual") return std::nullopt;
+  return numberOf(words[4]);
 }
 
 /// One line, or several written as one: a keyword may follow a brace.
@@ -111,7 +147,19 @@ void readLine(const Words& line, ScriptMaterial& material) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (i > 0 && line[i - 1] != "{" && line[i - 1] != "}") continue;
     const Words words(line.begin() + static_cast<std::ptrdiff_t>(i), line.end());
-    if (words[0] == "diffuse" && !material.diffuse) material.diffuse = colorOf(words);
+    if (words[0] == "diffuse" && !material.diffuse) {
+      material.diffuse = colorOf(words);
+      if (words.size() > 4) material.opacity = std::clamp(numberOf(words[4]).value_or(1.0f), 0.0f, 1.0f);
+    }
+    if (words[0] == "alpha_op_ex") {
+      const std::optional<float> alpha = manualAlpha(words);
+      if (alpha) material.opacity = std::clamp(*alpha, 0.0f, 1.0f);
+      if (!alpha) material.lost.insert(words[0]);
+    }
+    if (words[0] == "scene_blend") {
+      material.blends |= words.size() == 2 && words[1] == "alpha_blend";
+      if (!material.blends) material.lost.insert(words[0]);
+    }
     if (words[0] == "texture" && words.size() > 1 && !material.texture) material.texture = words[1];
     if (words[0] == "alpha_rejection") material.alpha_rejection = true;
     if (words[0] == "emissive" && !material.emissive) material.emissive = colorOf(words);
@@ -140,7 +188,11 @@ std::optional<ScriptMaterial> materialIn(const Lines& lines, std::size_t end, co
     for (const std::string& word : words) depth += word == "{" ? 1 : word == "}" ? -1 : 0;
   }
   if (!material || !inherited) return material;
-  if (!material->diffuse) material->diffuse = inherited->diffuse;
+  if (!material->diffuse) {
+    material->diffuse = inherited->diffuse;
+    material->opacity = std::min(material->opacity, inherited->opacity);
+  }
+  material->blends = material->blends || inherited->blends;
   if (!material->texture) material->texture = inherited->texture;
   material->alpha_rejection = material->alpha_rejection || inherited->alpha_rejection;
   if (!material->emissive) material->emissive = inherited->emissive;
@@ -150,11 +202,13 @@ std::optional<ScriptMaterial> materialIn(const Lines& lines, std::size_t end, co
 
 }  // namespace
 
-std::optional<LinearRgb> gazeboColor(const std::string& name) {
+std::optional<GazeboLook> gazeboLook(const std::string& name) {
   const std::string prefix = "Gazebo/";
   if (name.compare(0, prefix.size(), prefix) != 0) return std::nullopt;
-  for (const NamedColor& color : kColors) {
-    if (name.substr(prefix.size()) == color.name) return linearFromSrgb(color.display);
+  for (const NamedLook& look : kLooks) {
+    if (name.substr(prefix.size()) != look.name) continue;
+    const LinearRgb color = linearFromSrgb(look.display);
+    return GazeboLook{color, look.opacity, look.glows ? color : LinearRgb()};
   }
   return std::nullopt;
 }

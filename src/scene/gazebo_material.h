@@ -9,15 +9,23 @@
 
 namespace sunlit::scene {
 
-/// The look of a material that comes with Gazebo, such as "Gazebo/Grey"; textured ones by their mean colour.
-/// None for a name that Gazebo does not have.
-std::optional<LinearRgb> gazeboColor(const std::string& name);
+struct GazeboLook {
+  LinearRgb color;
+  float opacity = 1.0f;  ///< 0 … 1
+  LinearRgb emissive;    ///< as on a display
+};
+
+/// Of a material that comes with Gazebo, such as "Gazebo/Grey"; textured ones by their mean colour. None for
+/// a name that Gazebo does not have.
+std::optional<GazeboLook> gazeboLook(const std::string& name);
 
 /// What of an OGRE material matters here.
 struct ScriptMaterial {
   std::optional<LinearRgb> diffuse;
   std::optional<std::string> texture;  ///< as written in the script
   bool alpha_rejection = false;        ///< cut out where transparent
+  bool blends = false;                 ///< by its opacity
+  float opacity = 1.0f;                ///< times that of the texture, 0 … 1
   std::optional<LinearRgb> emissive;   ///< as on a display
   std::set<std::string> lost;          ///< keywords of what is not rendered
 };

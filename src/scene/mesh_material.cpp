@@ -12,6 +12,15 @@
 namespace sunlit::scene {
 namespace {
 
+/// None, with a warning, if there is no such file.
+std::optional<std::string> textureFile(const std::string& name, const MeshFileContext& context) {
+  const Found found = context.finder.findTexture(name, context.file);
+  if (!found.file) context.builder.warn(kMissingTextures, name + " of " + context.file);
+  if (found.file && found.other_case)
+    context.builder.warn(kSpeltOtherwise, name + " of " + context.file + " is " + *found.file);
+  return found.file;
+}
+
 /// Index of the texture `name`, or kNoTexture with a warning if there is no such file.
 int addTexture(const std::string& name, const aiScene& scene, const MeshFileContext& context,
                const Wraps& wraps) {
@@ -28,15 +37,8 @@ int addTexture(const std::string& name, const aiScene& scene, const MeshFileCont
         context.file + ": texture " + name + (label.empty() ? "" : " " + label),
         {begin, begin + embedded->mWidth}, wraps);
   }
-  const Found found = context.finder.findTexture(name, context.file);
-  if (!found.file) {
-    context.builder.warn(kMissingTextures, name + " of " + context.file);
-    return Material::kNoTexture;
-  }
-  if (found.other_case) {
-    context.builder.warn(kSpeltOtherwise, name + " of " + context.file + " is " + *found.file);
-  }
-  return context.builder.textureFromFile(*found.file, wraps);
+  const std::optional<std::string> file = textureFile(name, context);
+  return file ? context.builder.textureFromFile(*file, wraps) : Material::kNoTexture;
 }
 
 /// GetName(), which in Assimp 5.0 is not for constant materials.
@@ -60,12 +62,12 @@ void readPhong(const aiMaterial& source, Material& material) {
   if (shines) material.roughness = roughnessOfPhong(shininess);
 }
 
-/// An opacity of exactly 0 would make a material pointless; exporters write it when they take COLLADA's
-/// transparency the wrong way round.
-bool isSeenThrough(const aiMaterial& source) {
+/// Of 0 … 1. An opacity of exactly 0 would make a material pointless; exporters write it when they take
+/// COLLADA's transparency the wrong way round.
+float opacityOf(const aiMaterial& source) {
   float opacity = 1.0f;
   source.Get(AI_MATKEY_OPACITY, opacity);
-  return opacity > 0.0f && opacity < 0.5f;
+  return opacity > 0.0f && opacity < 1.0f ? opacity : 1.0f;
 }
 
 Wrap wrapOf(const aiMaterial& source, const char* key, aiTextureType type) {
@@ -76,14 +78,54 @@ Wrap wrapOf(const aiMaterial& source, const char* key, aiTextureType type) {
                                                                           : Wrap::kRepeat;
 }
 
+Wraps wrapsOf(const aiMaterial& source, aiTextureType type) {
+  return {wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE, type),
+          wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE, type)};
+}
+
 /// Adds the texture of `type`; kNone if the material has none, or it is missing.
 int addTexture(aiTextureType type, const aiMaterial& source, const aiScene& scene,
                const MeshFileContext& context) {
   aiString name;
   if (source.GetTexture(type, 0, &name) != aiReturn_SUCCESS || name.length == 0) return TextureUse::kNone;
-  const Wraps wraps{wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE, type),
-                    wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE, type)};
-  return addTexture(name.C_Str(), scene, context, wraps);
+  return addTexture(name.C_Str(), scene, context, wrapsOf(source, type));
+}
+
+/// What a COLLADA or OBJ file calls the picture of that type; empty: none.
+std::string pictureOf(const aiMaterial& source, aiTextureType type) {
+  aiString name;
+  source.GetTexture(type, 0, &name);
+  return name.C_Str();
+}
+
+/// The file of a picture of opacity, if that is another than the one of colour.
+std::optional<std::string> opacityFile(const aiMaterial& source, const std::string& color,
+                                       const aiScene& scene, const MeshFileContext& context) {
+  const std::string opacity = pictureOf(source, aiTextureType_OPACITY);
+  if (opacity.empty() || opacity == color || scene.GetEmbeddedTexture(opacity.c_str()) != nullptr)
+    return std::nullopt;
+  return textureFile(opacity, context);
+}
+
+/// Colour and opacity. A picture of colour that is missing makes the material neutral.
+void readColorMaps(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context,
+                   Material& material) {
+  const bool base = !pictureOf(source, aiTextureType_BASE_COLOR).empty();
+  const aiTextureType type = base ? aiTextureType_BASE_COLOR : aiTextureType_DIFFUSE;
+  const std::string color = pictureOf(source, type);
+  bool colored = false;
+  if (const std::optional<std::string> opacity = opacityFile(source, color, scene, context)) {
+    const std::optional<std::string> file = color.empty() ? std::nullopt : textureFile(color, context);
+    colored = file.has_value();
+    material.base_texture =
+        context.builder.textureFromFile(file.value_or(""), wrapsOf(source, type), *opacity);
+  } else {
+    material.base_texture = addTexture(type, source, scene, context);
+    colored = material.base_texture != Material::kNoTexture;
+  }
+  // The texture stands in the place of the colour.
+  if (colored) material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
+  if (!colored && !color.empty()) material.base_color = kNeutral;
 }
 
 /// What COLLADA and OBJ say beside colour and highlight: emission is rendered, the rest named.
@@ -112,29 +154,21 @@ void readPhongMaps(const aiMaterial& source, const aiScene& scene, const MeshFil
   name(aiTextureType_REFLECTION, "a picture of what it mirrors: it mirrors what there is");
 }
 
-std::optional<int> addPhong(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context) {
+int addPhong(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context) {
   Material material;
   material.name = nameOf(source);
-  if (isSeenThrough(source)) {
-    context.builder.warn("materials are more than half transparent, what has them was left out",
-                         material.name + " of " + context.file);
-    return std::nullopt;
-  }
   readPhong(source, material);
-  int textured = TextureUse::kNone;
-  aiString name;
-  for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
-    if (textured == TextureUse::kNone) textured = addTexture(type, source, scene, context);
-  }
-  material.base_texture = textured;
-  const bool wanted =
-      source.GetTexture(aiTextureType_DIFFUSE, 0, &name) == aiReturn_SUCCESS && name.length > 0;
-  // The texture stands in the place of the colour.
-  if (textured != TextureUse::kNone) material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
-  if (wanted && textured == TextureUse::kNone) material.base_color = kNeutral;
+  readColorMaps(source, scene, context, material);
   material.base_color.value = material.base_color.value.max(0.0f).min(1.0f);
   readPhongMaps(source, scene, context, material);
-  return context.builder.addMaterial(material, AlphaRule::kFromTexture, NormalsRule::kMaybeHeights);
+  const float opacity = opacityOf(source);
+  if (opacity < 0.5f)
+    context.builder.warn(
+        "materials are more than half transparent; where they should not be, their files mean opacity by it",
+        material.name + " of " + context.file);
+  const int opaque =
+      context.builder.addMaterial(material, AlphaRule::kFromTexture, NormalsRule::kMaybeHeights);
+  return context.builder.veiled(opaque, opacity);
 }
 
 aiTextureType typeOf(GltfMaterials::Slot slot) {
@@ -170,11 +204,7 @@ aiString textureOf(const aiMaterial& source, GltfMaterials::Slot slot) {
 std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
                                         const MeshFileContext& context) {
   const aiMaterial& source = *scene.mMaterials[index];
-  if (!context.gltf) {
-    const std::optional<int> material = addPhong(source, scene, context);
-    if (!material) return std::nullopt;
-    return MeshLook{*material, {CoordinateRecipe()}};
-  }
+  if (!context.gltf) return MeshLook{addPhong(source, scene, context), {CoordinateRecipe()}};
   const std::optional<GltfLook> look =
       context.gltf->look(context.gltf_order.at(index), [&](GltfMaterials::Slot slot, const Wraps& wraps) {
         const aiString name = textureOf(source, slot);

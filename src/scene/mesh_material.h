@@ -29,8 +29,7 @@ struct MeshLook {
 };
 
 /// Adds material `index` of `scene` to the builder. A missing texture is a warning and a neutral grey. None,
-/// with a warning, if nothing of it would be seen; and of COLLADA and OBJ, if it is more than half
-/// transparent: their files take transparency for opacity as often as not.
+/// with a warning, if nothing of it would be seen.
 std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene, const MeshFileContext& context);
 
 }  // namespace sunlit::scene

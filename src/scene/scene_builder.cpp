@@ -35,6 +35,25 @@ bool isCutOut(const Texture& texture) {
   return static_cast<double>(transparent) > kTransparentShare * static_cast<double>(texels);
 }
 
+bool isWhole(const Texture& texture) {
+  for (std::size_t i = 3; i < texture.rgba.size(); i += 4)
+    if (texture.rgba[i] < 255) return false;
+  return true;
+}
+
+image::Rgba8Image white(const image::Rgba8Image& as_large) {
+  image::Rgba8Image picture(as_large.width, as_large.height);
+  std::fill(picture.data.begin(), picture.data.end(), std::uint8_t{255});
+  return picture;
+}
+
+std::string canonical(const std::string& file) {
+  if (file.empty()) return file;
+  std::error_code error;
+  const std::filesystem::path path = std::filesystem::weakly_canonical(file, error);
+  return error ? file : path.string();
+}
+
 Eigen::Vector3d faceVector(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   const Eigen::Vector3d a = mesh.positions[triangle[0]].cast<double>();
   const Eigen::Vector3d b = mesh.positions[triangle[1]].cast<double>();
@@ -103,11 +122,11 @@ bool leansLittle(const Texture& texture) {
 
 }  // namespace
 
-int SceneBuilder::textureFromFile(const std::string& file, const Wraps& wraps) {
-  std::error_code error;
-  const std::filesystem::path canonical = std::filesystem::weakly_canonical(file, error);
-  const std::string key = error ? file : canonical.string();
-  return addTexture(key, TextureSource{key, {}, false, wraps});
+int SceneBuilder::textureFromFile(const std::string& file, const Wraps& wraps,
+                                  const std::string& opacity_file) {
+  const std::string color = canonical(file), opacity = canonical(opacity_file);
+  return addTexture(opacity.empty() ? color : color + " by " + opacity,
+                    TextureSource{color, {}, false, wraps, opacity});
 }
 
 int SceneBuilder::textureFromBytes(const std::string& name, std::vector<std::uint8_t> bytes,
@@ -138,6 +157,18 @@ int SceneBuilder::oneSided(int material) {
   Material front = scene_.materials[index];
   front.double_sided = false;
   return one_sided_[material] = addMaterial(front, alpha_rules_[index], normals_rules_[index]);
+}
+
+int SceneBuilder::veiled(int material, float opacity) {
+  if (opacity >= 1.0f) return material;
+  const auto known = veiled_.find({material, opacity});
+  if (known != veiled_.end()) return known->second;
+  const auto index = static_cast<std::size_t>(material);
+  Material veil = scene_.materials.at(index);
+  if (veil.alpha_mode != AlphaMode::kBlend) veil.alpha = 1.0f;
+  veil.alpha_mode = AlphaMode::kBlend;
+  veil.alpha *= opacity;
+  return veiled_[{material, opacity}] = addMaterial(veil, AlphaRule::kDeclared, normals_rules_[index]);
 }
 
 void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mesh) {
@@ -235,22 +266,37 @@ void SceneBuilder::warn(const std::string& what, const std::string& where) {
   if (kind.examples.size() < kExamples) kind.examples.push_back(where);
 }
 
+SceneBuilder::Decoded SceneBuilder::decoded(const TextureSource& source) {
+  image::FittedImage fitted;
+  if (source.embedded) {
+    fitted =
+        image::decodeRgbaWithin(kLongestTextureSide, source.bytes.data(), source.bytes.size(), source.name);
+  } else {
+    fitted = image::readRgbaWithin(kLongestTextureSide, source.name.empty() ? source.opacity : source.name);
+  }
+  image::Rgba8Image& picture = fitted.picture;
+  if (source.name.empty()) {
+    picture = image::coveredBy(white(picture), picture);
+  } else if (!source.opacity.empty()) {
+    picture = image::coveredBy(picture, image::readRgbaWithin(kLongestTextureSide, source.opacity).picture);
+  }
+  std::string size;
+  if (picture.width != fitted.width || picture.height != fitted.height)
+    size = std::to_string(fitted.width) + " × " + std::to_string(fitted.height) + " px";
+  return {{source.name.empty() ? source.opacity : source.name, picture.width, picture.height,
+           std::move(picture.data), source.wraps.u, source.wraps.v},
+          size};
+}
+
 void SceneBuilder::decodeTextures() {
   scene_.textures.resize(sources_.size());
   std::vector<std::string> errors(sources_.size());
   std::vector<std::string> sizes(sources_.size());
   tbb::parallel_for(std::size_t{0}, sources_.size(), [&](std::size_t i) {
-    const TextureSource& source = sources_[i];
     try {
-      image::FittedImage fitted = source.embedded
-                                      ? image::decodeRgbaWithin(kLongestTextureSide, source.bytes.data(),
-                                                                source.bytes.size(), source.name)
-                                      : image::readRgbaWithin(kLongestTextureSide, source.name);
-      image::Rgba8Image& picture = fitted.picture;
-      if (picture.width != fitted.width || picture.height != fitted.height)
-        sizes[i] = std::to_string(fitted.width) + " × " + std::to_string(fitted.height) + " px";
-      scene_.textures[i] = Texture{source.name,    picture.width, picture.height, std::move(picture.data),
-                                   source.wraps.u, source.wraps.v};
+      Decoded texture = decoded(sources_[i]);
+      scene_.textures[i] = std::move(texture.texture);
+      sizes[i] = std::move(texture.size_in_file);
     } catch (const std::runtime_error& error) {
       errors[i] = error.what();
     }
@@ -277,7 +323,7 @@ void SceneBuilder::forgetTexture(int texture) {
     if (material.base_texture != texture) continue;
     material.base_texture = Material::kNoTexture;
     material.base_color = kNeutral;
-    material.alpha_mode = AlphaMode::kOpaque;
+    if (material.alpha_mode == AlphaMode::kMask) material.alpha_mode = AlphaMode::kOpaque;
   }
 }
 
@@ -286,8 +332,14 @@ void SceneBuilder::settleAlpha() {
   for (std::size_t i = 0; i < cut_out.size(); ++i) cut_out[i] = isCutOut(scene_.textures[i]);
   for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
     Material& material = scene_.materials[i];
-    if (alpha_rules_[i] != AlphaRule::kFromTexture || material.base_texture == Material::kNoTexture) continue;
-    if (cut_out[static_cast<std::size_t>(material.base_texture)]) material.alpha_mode = AlphaMode::kMask;
+    const bool textured = material.base_texture != Material::kNoTexture;
+    if (material.alpha_mode == AlphaMode::kBlend) {
+      const bool whole =
+          !textured || isWhole(scene_.textures[static_cast<std::size_t>(material.base_texture)]);
+      if (whole && material.alpha >= 1.0f) material.alpha_mode = AlphaMode::kOpaque;
+    } else if (alpha_rules_[i] == AlphaRule::kFromTexture && textured) {
+      if (cut_out[static_cast<std::size_t>(material.base_texture)]) material.alpha_mode = AlphaMode::kMask;
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -46,6 +47,12 @@ bool canShine(const Lamp& lamp);
 /// "; " before each of the warnings of a scene in which there is nothing: why that is so.
 std::string reasonsOf(const std::vector<std::string>& warnings);
 
+/// Of each of the two faces by which a ray goes through a closed shape, so that both together cover a share
+/// of `opacity`, 0 … 1, of what is behind.
+inline float opacityOfFace(float opacity) {
+  return 1.0f - std::sqrt(1.0f - opacity);
+}
+
 /// How a texture goes on to the sides, and up and down.
 struct Wraps {
   Wrap u = Wrap::kRepeat, v = Wrap::kRepeat;
@@ -55,14 +62,17 @@ class SceneBuilder {
  public:
   explicit SceneBuilder(const std::string& name) { scene_.name = name; }
 
-  /// Index of the texture in `file`; the same for the same file and wraps. It is decoded in finish().
-  int textureFromFile(const std::string& file, const Wraps& wraps = {});
+  /// Index of the texture in `file`, by the opacity of another picture if there is one (image::coveredBy()),
+  /// then white if there is no `file`; the same for the same files and wraps. It is decoded in finish().
+  int textureFromFile(const std::string& file, const Wraps& wraps = {}, const std::string& opacity_file = "");
   /// Index of a texture inside another file, known as `name`; the same for the same name and wraps.
   int textureFromBytes(const std::string& name, std::vector<std::uint8_t> bytes, const Wraps& wraps = {});
 
   int addMaterial(const Material& material, AlphaRule alpha, NormalsRule normals = NormalsRule::kDeclared);
   /// The same, but invisible from behind; the same one each time.
   int oneSided(int material);
+  /// The same, but there by a share of `opacity`, 0 … 1; the same one each time for the same share.
+  int veiled(int material, float opacity);
   const Material& material(int index) const { return scene_.materials.at(static_cast<std::size_t>(index)); }
 
   /// `mesh` moved by `map_from_mesh`, without its broken triangles (counted for a warning of finish()).
@@ -91,10 +101,16 @@ class SceneBuilder {
 
  private:
   struct TextureSource {
-    std::string name;                 ///< path of the file, unless `bytes`
+    std::string name;                 ///< path of the file, unless `bytes`; empty: white
     std::vector<std::uint8_t> bytes;  ///< of an embedded picture
     bool embedded = false;
     Wraps wraps = {};
+    std::string opacity = {};  ///< path of the picture whose opacity it has; empty: its own
+  };
+  /// A texture as decoded, and the size that its file has if that is another.
+  struct Decoded {
+    Texture texture;
+    std::string size_in_file;
   };
   struct Kind {
     std::size_t times = 0;
@@ -102,6 +118,7 @@ class SceneBuilder {
     std::set<std::string> known;
   };
   int addTexture(const std::string& key, TextureSource source);
+  static Decoded decoded(const TextureSource& source);
   void repairCoordinates(std::vector<Eigen::Vector2f>& coordinates);
   void decodeTextures();
   void forgetTexture(int texture);
@@ -114,6 +131,7 @@ class SceneBuilder {
   std::vector<AlphaRule> alpha_rules_;                         ///< of each material
   std::vector<NormalsRule> normals_rules_;                     ///< of each material
   std::map<int, int> one_sided_;                               ///< of materials that are not
+  std::map<std::pair<int, float>, int> veiled_;                ///< by material and opacity
   std::map<std::string, Kind> kinds_;
 };
 

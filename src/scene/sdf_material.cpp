@@ -35,6 +35,12 @@ std::vector<std::string> scriptFiles(const std::string& place) {
   return files;
 }
 
+/// Times that of its texture.
+void setOpacity(float opacity, Material* material) {
+  material->alpha_mode = AlphaMode::kBlend;
+  material->alpha = opacity;
+}
+
 std::string contentOf(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -56,8 +62,10 @@ Material SdfMaterials::fromScript(const sdf::Material& source) {
   Material material;
   material.name = source.ScriptName();
   material.base_color = kNeutral;
-  if (const auto color = gazeboColor(material.name)) {
-    material.base_color = *color;
+  if (const std::optional<GazeboLook> look = gazeboLook(material.name)) {
+    material.base_color = look->color;
+    material.emission.value = kDisplayWhite_cd_per_m2 * look->emissive.value;
+    setOpacity(look->opacity, &material);
     return material;
   }
   // <script> may hold several <uri>; sdf::Material keeps the first only.
@@ -80,6 +88,7 @@ Material SdfMaterials::fromScript(const sdf::Material& source) {
       if (parsed->emissive) material.emission.value = kDisplayWhite_cd_per_m2 * parsed->emissive->value;
       for (const std::string& lost : parsed->lost)
         builder_.warn(kNotRendered, "script " + material.name + ": " + lost + ": without it");
+      if (parsed->blends) setOpacity(parsed->opacity, &material);
       if (parsed->alpha_rejection && textured) material.alpha_mode = AlphaMode::kMask;
       return material;
     }

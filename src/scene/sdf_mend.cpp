@@ -196,12 +196,17 @@ class Mender {
       world->SetAttribute("name", ("world " + std::to_string(++worlds)).c_str());
   }
 
-  /// A script that names no file is one of Gazebo's own; one that names no material says nothing.
+  /// A script that names no file is one of Gazebo's own; one that names no material says nothing. What is not
+  /// given, saved worlds call "__default__".
   static void mendMaterial(XMLElement& material) {
+    const auto isGiven = [](const XMLElement& script, const char* part) {
+      const std::string text = childText(script, part);
+      return !text.empty() && text != "__default__";
+    };
     for (XMLElement* script : childrenOf(material, "script")) {
-      if (childText(*script, "name").empty()) {
+      if (!isGiven(*script, "name")) {
         material.DeleteChild(script);
-      } else if (const std::string uri = childText(*script, "uri"); uri.empty() || uri == "__default__") {
+      } else if (!isGiven(*script, "uri")) {
         childIn(*script, "uri").SetText("file://media/materials/scripts/gazebo.material");
       }
     }

@@ -1,5 +1,6 @@
 #include "scene/sdf_visuals.h"
 
+#include <algorithm>
 #include <optional>
 #include <sdf/Box.hh>
 #include <sdf/Cylinder.hh>
@@ -16,9 +17,6 @@
 
 namespace sunlit::scene {
 namespace {
-
-/// More transparent than this and a visual is left out: we have surfaces and holes, nothing in between.
-constexpr float kSeenThrough = 0.5f;
 
 std::optional<Mesh> primitive(const sdf::Geometry& geometry) {
   if (const std::optional<Eigen::Vector3d> radii = ellipsoidRadii(geometry)) return makeEllipsoid(*radii);
@@ -39,6 +37,13 @@ std::optional<Mesh> primitive(const sdf::Geometry& geometry) {
     default:
       return std::nullopt;
   }
+}
+
+/// Level planes, below which no light comes to anything: Gazebo's own ground says that it casts no shadow.
+bool isGround(const sdf::Visual& visual, const Eigen::Affine3d& map_from_visual) {
+  if (visual.Geom() == nullptr || visual.Geom()->Type() != sdf::GeometryType::PLANE) return false;
+  const Eigen::Vector3d normal = toEigen(visual.Geom()->PlaneShape()->Normal());
+  return (map_from_visual.linear() * normal).normalized().z() > 0.99;
 }
 
 }  // namespace
@@ -126,21 +131,22 @@ void SdfVisuals::addLight(const sdf::Light& light, const Eigen::Affine3d& map_fr
 void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Affine3d& map_from_link,
                            const std::string& scope) {
   const std::string name = scope + visual.Name();
-  if (visual.Transparency() > kSeenThrough) {
-    builder_.warn("visuals were left out, they are more than half transparent", name);
+  const float opacity = std::min(1.0f - visual.Transparency(), 1.0f);
+  if (!(opacity > 0.0f)) {
+    builder_.warn("visuals were left out, they are wholly transparent", name);
     return;
   }
-  if (visual.Transparency() > 0.0f)
-    builder_.warn("visuals are drawn opaque, they are less than half transparent", name);
-  if (!visual.CastShadows())
-    builder_.count("visuals cast shadows although their files say that they should not");
   const Eigen::Affine3d map_from_visual = map_from_link * parentFrom(visual, name);
+  if (!visual.CastShadows() && !isGround(visual, map_from_visual))
+    builder_.count("visuals cast shadows although their files say that they should not");
   if (visual.Geom() != nullptr && visual.Geom()->Type() == sdf::GeometryType::MESH) {
-    addMeshShape(visual, map_from_visual, name);
+    addMeshShape(visual, map_from_visual, name, opacity);
   } else if (std::optional<Mesh> shape = shapeOf(visual, name)) {
     shape->name = name;
     // Gazebo overlooks where the model of a height map stands, and worlds are made to look right in it.
     const bool ground = heightmapOf(*visual.Geom()).has_value();
+    const bool sheet = ground || visual.Geom()->Type() == sdf::GeometryType::PLANE;
+    shape->material = builder_.veiled(shape->material, sheet ? opacity : opacityOfFace(opacity));
     if (ground && !map_from_visual.isApprox(Eigen::Affine3d::Identity()))
       builder_.warn("height maps stand where their <pos> says, not where their models do, as in Gazebo",
                     name);
@@ -196,14 +202,14 @@ int SdfVisuals::bareRoad() {
   if (!bare_road_) {
     Material asphalt;
     asphalt.name = "Gazebo/Road";
-    asphalt.base_color = gazeboColor(asphalt.name).value();
+    asphalt.base_color = gazeboLook(asphalt.name).value().color;
     bare_road_ = builder_.addMaterial(asphalt, AlphaRule::kDeclared);
   }
   return *bare_road_;
 }
 
 void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Affine3d& map_from_visual,
-                              const std::string& name) {
+                              const std::string& name, float opacity) {
   const sdf::Mesh& mesh = *visual.Geom()->MeshShape();
   const std::optional<int> material = materials_.add(visual.Material());
   const std::string& from = mesh.FilePath().empty() ? file_ : mesh.FilePath();
@@ -231,7 +237,7 @@ void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Affine3d& 
   }
   for (MeshPart& part : parts) {
     part.mesh.name = name + "/" + part.mesh.name;
-    if (material) part.mesh.material = *material;
+    part.mesh.material = builder_.veiled(material ? *material : part.mesh.material, opacity);
     builder_.addMesh(part.mesh, map_from_file * part.file_from_node);
   }
 }

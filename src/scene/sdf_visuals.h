@@ -55,7 +55,7 @@ class SdfVisuals {
   int bareRoad();
   std::optional<Mesh> shapeOf(const sdf::Visual& visual, const std::string& name);
   void addMeshShape(const sdf::Visual& visual, const Eigen::Affine3d& map_from_visual,
-                    const std::string& name);
+                    const std::string& name, float opacity);
 
   std::string file_;
   SdfState state_;

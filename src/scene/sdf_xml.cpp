@@ -30,12 +30,22 @@ class LineKeeper : public tinyxml2::XMLPrinter {
   int counted_ = 0;  ///< of the text, for its lines
 };
 
+/// Takes out an XML declaration that something stands before, such as a comment: Gazebo reads on, tinyxml2 does
+/// not.
+void dropLateDeclaration(std::string* text) {
+  const std::size_t begin = text->find("<?xml");
+  if (begin == std::string::npos || text->find('<') == begin) return;
+  const std::size_t end = text->find("?>", begin);
+  if (end != std::string::npos) text->erase(begin, end + 2 - begin);
+}
+
 }  // namespace
 
 std::unique_ptr<tinyxml2::XMLDocument> readSdfXml(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw std::runtime_error(file + ": cannot open this file");
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  dropLateDeclaration(&text);
   auto document = std::make_unique<tinyxml2::XMLDocument>();
   if (document->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     throw std::runtime_error(file + ":" + std::to_string(document->ErrorLineNum()) +

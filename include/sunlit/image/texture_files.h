@@ -35,6 +35,10 @@ FittedImage decodeRgbaWithin(int longest_px, const std::uint8_t* bytes, std::siz
 /// The same from a file. Throws std::runtime_error with its path also if it cannot be read.
 FittedImage readRgbaWithin(int longest_px, const std::string& file);
 
+/// `picture` with the opacity of another, that one's alpha if it has any below 255, else the mean of its red,
+/// green and blue; as wide as the wider and as high as the higher of them.
+Rgba8Image coveredBy(const Rgba8Image& picture, const Rgba8Image& opacity);
+
 /// One value a pixel, such as heights: 8 and 16 bit as shares of their full range, floats as they are; of
 /// colours the mean of red, green and blue. Throws std::runtime_error as readRgbaWithin() does.
 Picture<float, 1> readGreyWithin(int longest_px, const std::string& file);

@@ -1,5 +1,6 @@
 #include "scene/robot/urdf_visuals.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -13,9 +14,6 @@ namespace {
 
 /// What Assimp calls the material of a mesh whose file has none.
 constexpr const char* kNoMaterial = "DefaultMaterial";
-
-/// Less opaque than this and a visual is left out: we have surfaces and holes, nothing in between.
-constexpr float kSeenThrough = 0.5f;
 
 void checkPositive(double value, const std::string& what, const std::string& place) {
   if (std::isfinite(value) && value > 0.0) return;
@@ -39,9 +37,10 @@ Mesh primitive(const urdf::Geometry& geometry, const std::string& place) {
   return makeCylinder(cylinder.radius, cylinder.length);
 }
 
-bool isLeftOut(const urdf::Visual& visual) {
-  return visual.material && visual.material->texture_filename.empty() &&
-         visual.material->color.a < kSeenThrough;
+/// A texture brings its own.
+float opacityOf(const urdf::Visual& visual) {
+  const bool colored = visual.material && visual.material->texture_filename.empty();
+  return colored ? std::min(visual.material->color.a, 1.0f) : 1.0f;
 }
 
 }  // namespace
@@ -55,21 +54,22 @@ void UrdfVisuals::add(const urdf::Link& link, const std::string& place) {
 }
 
 void UrdfVisuals::addVisual(const urdf::Visual& visual, const std::string& name, const std::string& place) {
-  if (isLeftOut(visual)) {
-    builder_.warn("visuals were left out, they are more than half transparent", place);
+  const float opacity = opacityOf(visual);
+  if (!(opacity > 0.0f)) {
+    builder_.warn("visuals were left out, they are wholly transparent", place);
     return;
   }
   const std::optional<int> own_material = material(visual, place);
   const Eigen::Isometry3d link_from_visual = toEigen(visual.origin);
   if (!visual.geometry) throw std::runtime_error(place + ": it has no geometry");
   if (visual.geometry->type == urdf::Geometry::MESH) {
-    addMeshShape(static_cast<const urdf::Mesh&>(*visual.geometry), {own_material, link_from_visual}, name,
-                 place);
+    addMeshShape(static_cast<const urdf::Mesh&>(*visual.geometry), {own_material, opacity, link_from_visual},
+                 name, place);
     return;
   }
   Mesh mesh = primitive(*visual.geometry, place);
   mesh.name = name;
-  mesh.material = *own_material;
+  mesh.material = builder_.veiled(*own_material, opacityOfFace(opacity));
   builder_.addMesh(mesh, Eigen::Affine3d(link_from_visual));
 }
 
@@ -119,7 +119,7 @@ void UrdfVisuals::addMeshShape(const urdf::Mesh& shape, const MeshUse& use, cons
     part.mesh.name = name + "/" + part.mesh.name;
     // As RViz does: the material of the URDF is for meshes that bring none.
     if (use.own_material && builder_.material(part.mesh.material).name == kNoMaterial) {
-      part.mesh.material = *use.own_material;
+      part.mesh.material = builder_.veiled(*use.own_material, use.opacity);
     }
     builder_.addMesh(part.mesh, link_from_file * part.file_from_node);
   }

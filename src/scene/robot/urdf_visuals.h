@@ -36,6 +36,7 @@ class UrdfVisuals {
   void addVisual(const urdf::Visual& visual, const std::string& name, const std::string& place);
   struct MeshUse {
     std::optional<int> own_material;  ///< of the URDF, if it names one
+    float opacity;                    ///< of that
     Eigen::Isometry3d link_from_visual;
   };
   void addMeshShape(const urdf::Mesh& shape, const MeshUse& use, const std::string& name,

@@ -171,5 +171,16 @@ TEST(ReadRgbaWithin, NamesAMissingFile) {
   EXPECT_THROW(readRgbaWithin(8192, "/nowhere/leaf.png"), std::runtime_error);
 }
 
+TEST(CoveredBy, TakesTheOpacityOfAnotherPicture) {
+  Rgba8Image picture(1, 1), mask(2, 1), alpha(2, 1);
+  picture.data = {10, 20, 30, 255};
+  mask.data = {0, 0, 0, 255, 100, 101, 102, 255};  // no alpha: by its brightness
+  alpha.data = {255, 255, 255, 7, 0, 0, 0, 255};
+  using Bytes = std::vector<std::uint8_t>;
+  EXPECT_EQ(coveredBy(picture, mask).data, (Bytes{10, 20, 30, 0, 10, 20, 30, 101}));
+  EXPECT_EQ(coveredBy(picture, alpha).data, (Bytes{10, 20, 30, 7, 10, 20, 30, 255}));
+  EXPECT_EQ(coveredBy(alpha, picture).data, (Bytes{255, 255, 255, 20, 0, 0, 0, 20}));
+}
+
 }  // namespace
 }  // namespace sunlit::image

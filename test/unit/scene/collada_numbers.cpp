@@ -52,6 +52,8 @@ TEST_F(ColladaNumbers, OfPrimitivesMustBeWholeAndAsManyAsCounted) {
             "2: <p>: holds what is no whole number from 0 to 2147483647 behind 2 others");
   EXPECT_EQ(errorWith("<p>0 1 2</p>", ""),
             "2: <triangles>: count is 1, for which there must be 1 <p>, and there are 0");
+  EXPECT_EQ(errorWith("<triangles count='1'", "<triangles count='2147483647'"),
+            "2: <triangles>: count is 2147483647, but there are 3 numbers in <p>");
   EXPECT_EQ(errorWith("'VERTEX'", "'NORMAL'"), "2: <triangles>: has no input of VERTEX");
   EXPECT_EQ(errorWith("'POSITION'", "'NORMAL'"),
             "2: <triangles>: its mesh has 0 inputs of POSITION, but must have one");

@@ -31,13 +31,14 @@ material Other
 )";
 
 TEST(GazeboMaterial, KnowsTheColoursByName) {
-  ASSERT_TRUE(gazeboColor("Gazebo/Red"));
-  EXPECT_EQ(gazeboColor("Gazebo/Red")->value[0], 1.0f);
-  EXPECT_EQ(gazeboColor("Gazebo/Red")->value[1], 0.0f);
+  ASSERT_TRUE(gazeboLook("Gazebo/Red"));
+  EXPECT_EQ(gazeboLook("Gazebo/Red")->color.value[0], 1.0f);
+  EXPECT_EQ(gazeboLook("Gazebo/Red")->color.value[1], 0.0f);
+  EXPECT_EQ(gazeboLook("Gazebo/Red")->opacity, 1.0f);
   // 0.7 of a display's range is ((0.7 + 0.055) / 1.055)^2.4 = 0.448 of its light.
-  EXPECT_NEAR(gazeboColor("Gazebo/Grey")->value[0], 0.448f, 0.0005f);
-  EXPECT_FALSE(gazeboColor("Gazebo/Plaid"));
-  EXPECT_FALSE(gazeboColor("Red"));
+  EXPECT_NEAR(gazeboLook("Gazebo/Grey")->color.value[0], 0.448f, 0.0005f);
+  EXPECT_FALSE(gazeboLook("Gazebo/Plaid"));
+  EXPECT_FALSE(gazeboLook("Red"));
 }
 
 TEST(GazeboMaterial, ReadsOneMaterialOfAScript) {

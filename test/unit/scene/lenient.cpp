@@ -192,6 +192,13 @@ TEST_F(Lenient, AScriptWithoutAFileIsGazebosOwn) {
   EXPECT_TRUE(red.warnings.empty());
   EXPECT_EQ(loaded(painted("<uri>__default__</uri><name>Gazebo/Red</name>")).triangleCount(), 12u);
   EXPECT_EQ(loaded(painted("<uri>file://x.material</uri>")).triangleCount(), 12u);
+  EXPECT_EQ(loaded(painted("<uri>__default__</uri><name>__default__</name>")).triangleCount(), 12u);
+}
+
+TEST_F(Lenient, ACommentMayStandBeforeTheDeclaration) {
+  const std::string world = "<sdf version='1.6'><world name='w'>" + model(link(kVisual)) + "</world></sdf>";
+  const std::string file = write("late.world", "<!-- a use -->\n<?xml version='1.0' ?>\n" + world);
+  EXPECT_EQ(load(file, {}).triangleCount(), 12u);
 }
 
 TEST_F(Lenient, APoseMayStillNameAJoint) {

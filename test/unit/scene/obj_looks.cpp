@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "scene/color.h"
 #include "unit/scene/measure.h"
@@ -38,6 +39,36 @@ TEST_F(ObjLooks, EmissionIsBrighterThanAScreenWhereItSaysSo) {
   EXPECT_FLOAT_EQ(five[0], 5.0f * kDisplayWhite_cd_per_m2);
   EXPECT_EQ(five[2], 0.0f);
   EXPECT_FLOAT_EQ(materialOf(lookOf("Ke 1 1 1\n")).emission.value[1], kDisplayWhite_cd_per_m2);
+}
+
+TEST_F(ObjLooks, OpacityIsTheShareThatIsThere) {
+  EXPECT_EQ(materialOf(lookOf("d 1\n")).alpha_mode, AlphaMode::kOpaque);
+  const Scene tinted = lookOf("d 0.75\n"), faint = lookOf("d 0.25\n");
+  EXPECT_EQ(materialOf(tinted).alpha_mode, AlphaMode::kBlend);
+  EXPECT_EQ(materialOf(tinted).alpha, 0.75f);
+  EXPECT_TRUE(tinted.warnings.empty());
+  EXPECT_EQ(materialOf(faint).alpha, 0.25f);
+  ASSERT_EQ(faint.warnings.size(), 1u);
+  EXPECT_NE(faint.warnings[0].find("their files mean opacity by it: m of "), std::string::npos);
+}
+
+TEST_F(ObjLooks, OpacityMayBeAPictureOfItsOwn) {
+  paint("leaf.png", {10, 200, 30});
+  image::Rgba8Image mask(2, 1);
+  mask.data = {255, 255, 255, 255, 0, 0, 0, 255};
+  write("mask.png", image::encodePng(mask));
+  const Scene leaf = lookOf("map_Kd leaf.png\nmap_d mask.png\n");
+  ASSERT_EQ(leaf.textures.size(), 1u);
+  EXPECT_EQ(materialOf(leaf).alpha_mode, AlphaMode::kMask);
+  EXPECT_EQ(leaf.textures[0].rgba[1], 200);
+  const Scene shape = lookOf("map_d mask.png\n");
+  EXPECT_EQ(materialOf(shape).alpha_mode, AlphaMode::kMask);
+  EXPECT_EQ(materialOf(shape).base_color.value[0], 1.0f);
+  EXPECT_EQ(shape.textures.at(0).rgba, (std::vector<std::uint8_t>{255, 255, 255, 255, 255, 255, 255, 0}));
+  const Scene lost = lookOf("map_Kd leaf.png\nmap_d gone.png\n");
+  EXPECT_EQ(materialOf(lost).alpha_mode, AlphaMode::kOpaque);
+  ASSERT_EQ(lost.warnings.size(), 1u);
+  EXPECT_NE(lost.warnings[0].find("gone.png"), std::string::npos);
 }
 
 TEST_F(ObjLooks, PicturesThatAreNoNormalsAreNamed) {

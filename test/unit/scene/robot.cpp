@@ -122,10 +122,11 @@ TEST_F(UrdfFile, MaterialsAreColoursOrTextures) {
       "<material name='red'><color rgba='1 0 0.5 1'/></material>"
       "<material name='painted'><texture filename='paint.png'/></material>" +
       link("base", visual(kBox, "<material name='red'/>") + visual(kBox, "<material name='painted'/>") +
-                       visual(kBox, "<material name='ghost'><color rgba='1 1 1 0.1'/></material>") +
+                       visual(kBox, "<material name='none'><color rgba='1 1 1 0'/></material>") +
+                       visual(kBox, "<material name='ghost'><color rgba='1 1 1 0.36'/></material>") +
                        visual(kBox)));
   const std::vector<Mesh>& meshes = robot.links[0].meshes;
-  ASSERT_EQ(meshes.size(), 3u);
+  ASSERT_EQ(meshes.size(), 4u);
   const auto material = [&](std::size_t mesh) {
     return robot.materials[static_cast<std::size_t>(meshes[mesh].material)];
   };
@@ -133,11 +134,15 @@ TEST_F(UrdfFile, MaterialsAreColoursOrTextures) {
   EXPECT_NEAR(material(0).base_color.value[2], 0.214f, 0.001f);  // sRGB 0.5, IEC 61966-2-1
   ASSERT_EQ(material(1).base_texture, 0);
   EXPECT_EQ(robot.textures[0].width, 4);
-  EXPECT_EQ(material(2).base_texture, Material::kNoTexture);
+  // A ray meets two faces of a box, of which 0.8² of what is behind is left.
+  EXPECT_EQ(material(2).alpha_mode, AlphaMode::kBlend);
+  EXPECT_NEAR(material(2).alpha, 0.2f, 1e-6f);
+  EXPECT_EQ(material(3).base_texture, Material::kNoTexture);
+  EXPECT_EQ(material(3).alpha_mode, AlphaMode::kOpaque);
   ASSERT_EQ(robot.warnings.size(), 1u);
-  EXPECT_NE(robot.warnings[0].find("more than half transparent: " + pathOf("robot/r.urdf") +
-                                   ":3: link base, visual 3"),
-            std::string::npos)
+  EXPECT_NE(
+      robot.warnings[0].find("wholly transparent: " + pathOf("robot/r.urdf") + ":3: link base, visual 3"),
+      std::string::npos)
       << robot.warnings[0];
 }
 

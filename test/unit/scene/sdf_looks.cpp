@@ -1,6 +1,9 @@
 // What SDF visuals look like.
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "unit/scene/measure.h"
 #include "unit/scene/scene_files.h"
 
@@ -104,7 +107,7 @@ TEST_F(SdfLook, EmissiveGlowsAsADisplayWould) {
 TEST_F(SdfLook, WhatScriptsSayAndIsNotRenderedIsNamed) {
   write("models/field/materials/scripts/field.material",
         "material Field/Glass\n{\n  technique\n  {\n    pass\n    {\n      diffuse 1 0 0 1\n      "
-        "emissive 1 1 1 1\n      scene_blend alpha_blend\n    }\n  }\n}\n");
+        "emissive 1 1 1 1\n      scene_blend add\n    }\n  }\n}\n");
   const Scene scene = loaded(
       "<material><script><uri>model://field/materials/scripts</uri><name>Field/Glass</name></script>"
       "</material>");
@@ -127,14 +130,74 @@ TEST_F(SdfLook, AMeshKeepsItsOwnMaterialUnlessTheVisualHasOne) {
             1.0f);
 }
 
-TEST_F(SdfLook, MostlyTransparentVisualsAreLeftOut) {
+// A ray meets two faces of a box, and one of a plane; what is left of the light behind is the transparency.
+TEST_F(SdfLook, TransparentVisualsAreSeenThrough) {
+  const auto opacity = [&](const std::string& geometry, const std::string& transparency) {
+    const Scene scene = loaded("", "<transparency>" + transparency + "</transparency>", geometry);
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_EQ(look(scene).alpha_mode, AlphaMode::kBlend);
+    return look(scene).alpha;
+  };
+  const std::string box = "<box><size>1 1 1</size></box>", plane = "<plane><size>1 1</size></plane>";
+  write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_NEAR(opacity(box, "0.36"), 1.0f - 0.6f, 1e-6f);
+  EXPECT_NEAR(opacity(plane, "0.36"), 0.64f, 1e-6f);
+  EXPECT_NEAR(opacity("<mesh><uri>t.obj</uri></mesh>", "0.9"), 0.1f, 1e-6f);
+  EXPECT_EQ(look(loaded("", "<transparency>0</transparency>", box)).alpha_mode, AlphaMode::kOpaque);
+}
+
+TEST_F(SdfLook, AMaterialIsOpaqueInOneVisualAndNotInAnother) {
+  const Scene scene = loaded("<material><diffuse>1 0 0 1</diffuse></material>",
+                             "<geometry><box><size>1 1 1</size></box></geometry></visual><visual name='w'>"
+                             "<transparency>0.5</transparency>");
+  ASSERT_EQ(scene.meshes.size(), 2u);
+  const auto of = [&](std::size_t mesh) {
+    return scene.materials[static_cast<std::size_t>(scene.meshes[mesh].material)];
+  };
+  EXPECT_EQ(of(0).alpha_mode, AlphaMode::kOpaque);
+  EXPECT_EQ(of(1).alpha_mode, AlphaMode::kBlend);
+}
+
+TEST_F(SdfLook, WhollyTransparentVisualsAreLeftOut) {
   const std::string two =
-      "<transparency>0.9</transparency><geometry><box><size>9 9 9</size></box></geometry></visual><visual "
+      "<transparency>1</transparency><geometry><box><size>9 9 9</size></box></geometry></visual><visual "
       "name='w'>";
   const Scene scene = loaded("", two);
   EXPECT_EQ(scene.meshes.size(), 1u);
   ASSERT_EQ(scene.warnings.size(), 1u);
-  EXPECT_EQ(scene.warnings[0], "1 visuals were left out, they are more than half transparent: m::l::v");
+  EXPECT_EQ(scene.warnings[0], "1 visuals were left out, they are wholly transparent: m::l::v");
+}
+
+TEST_F(SdfLook, ShadowsThatSomebodyWouldSeeAreNamed) {
+  const std::string none = "<cast_shadows>false</cast_shadows>";
+  EXPECT_EQ(loaded("", none).warnings,
+            std::vector<std::string>{"1 visuals cast shadows although their files say that they should not"});
+  const auto plane = [](const std::string& normal) {
+    return "<plane><normal>" + normal + "</normal><size>9 9</size></plane>";
+  };
+  EXPECT_TRUE(loaded("", none, plane("0 0 1")).warnings.empty());
+  EXPECT_EQ(loaded("", none, plane("1 0 0")).warnings.size(), 1u);
+}
+
+TEST_F(SdfLook, ScriptsBlendByTheirAlpha) {
+  write("models/field/materials/scripts/field.material",
+        "material Field/Glass\n{ technique { pass {\n scene_blend alpha_blend\n diffuse 1 0 0 0.25\n } } }\n"
+        "material Field/Film\n{ technique { pass {\n scene_blend alpha_blend\n diffuse 1 0 0 1\n"
+        " texture_unit {\n alpha_op_ex source1 src_manual src_current 0.5\n } } } }\n"
+        "material Field/Wall\n{ technique { pass {\n scene_blend alpha_blend\n diffuse 1 0 0 1\n } } }\n");
+  const auto of = [&](const std::string& name) {
+    const Scene scene = loaded("<material><script><uri>model://field/materials/scripts</uri><name>" + name +
+                               "</name></script></material>");
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    return look(scene);
+  };
+  EXPECT_EQ(of("Field/Glass").alpha_mode, AlphaMode::kBlend);
+  EXPECT_EQ(of("Field/Glass").alpha, 0.25f);
+  EXPECT_EQ(of("Field/Film").alpha, 0.5f);
+  EXPECT_EQ(of("Field/Wall").alpha_mode, AlphaMode::kOpaque);
+  EXPECT_EQ(of("Gazebo/BlueTransparent").alpha, 0.5f);
+  EXPECT_EQ(of("Gazebo/WhiteGlow").emission.value[1], 80.0f);
+  EXPECT_EQ(of("Gazebo/WhiteGlow").alpha_mode, AlphaMode::kOpaque);
 }
 
 TEST_F(SdfLook, WarningsOfTheParserAreCollected) {
