@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "scene/gltf_floats.h"
 #include "scene/gltf_json.h"
 #include "scene/uri_text.h"
 
@@ -59,6 +60,20 @@ void giveMatrices(json& root, std::size_t most) {
   }
 }
 
+/// Gives textures that are WebP pictures these as their own, in the place of others for readers that have no
+/// WebP. Whether there are any.
+bool useWebp(json& root) {
+  bool any = false;
+  if (!child(root, "textures").is_array()) return any;
+  for (json& texture : root["textures"]) {
+    const json& picture = child(extension(texture, "EXT_texture_webp"), "source");
+    if (!picture.is_number_unsigned()) continue;
+    texture["source"] = std::size_t{picture};
+    any = true;
+  }
+  return any;
+}
+
 void appendWord(std::string& bytes, std::size_t value) {
   for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>((value >> shift) & 0xFF);
 }
@@ -103,18 +118,22 @@ void requireGltf2(const json& root, const std::string& file) {
 GltfInput::GltfInput(const std::string& file, const std::string& text, json root) : file_(file) {
   joints_ = jointsWithoutMatrices(root);
   const bool moves = root.erase("animations") > 0;  // whose numbers Assimp would not check, for nothing
-  if (joints_ == 0 && !moves) return;
+  floats_ = useFloats(root, file);
+  const bool webp = useWebp(root);
+  if (joints_ == 0 && floats_.empty() && !webp && !moves) return;
   if (joints_ > 0) giveMatrices(root, joints_);
   mended_ = withJson(file, root.dump(), text.size());
 }
 
 bool GltfInput::Exists(const char* path) const {
-  return hasEnding(path, kUnitMatrices) || DefaultIOSystem::Exists(placeOf(path).c_str());
+  return hasEnding(path, kUnitMatrices) || hasEnding(path, kFloats) ||
+         DefaultIOSystem::Exists(placeOf(path).c_str());
 }
 
 Assimp::IOStream* GltfInput::Open(const char* path, const char* mode) {
   if (!mended_.empty() && path == file_) return streamOf(mended_);
   if (hasEnding(path, kUnitMatrices)) return streamOf(unitMatrices(joints_));
+  if (hasEnding(path, kFloats)) return streamOf(floats_);
   return DefaultIOSystem::Open(placeOf(path).c_str(), mode);
 }
 

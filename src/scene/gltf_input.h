@@ -13,10 +13,10 @@ void requireGltf2(const nlohmann::json& root, const std::string& file);
 
 /// Opens the files of a glTF file such that Assimp 5.2 may read them: those whose addresses are written with
 /// escapes (RFC 3986), and skins without matrices of their own, which it does not expect, with those that
-/// section 3.7.3.1 gives them; and without animations.
+/// section 3.7.3.1 gives them; attributes as floats; textures of WebP; and without animations.
 class GltfInput : public Assimp::DefaultIOSystem {
  public:
-  /// `text` and `root` are those of `file`.
+  /// `text` and `root` are those of `file`. Throws as useFloats().
   GltfInput(const std::string& file, const std::string& text, nlohmann::json root);
 
   bool Exists(const char* path) const override;
@@ -28,6 +28,7 @@ class GltfInput : public Assimp::DefaultIOSystem {
   std::string file_;
   std::string mended_;      ///< instead of the file's bytes; empty: nothing to mend
   std::size_t joints_ = 0;  ///< that the largest skin without matrices has
+  std::string floats_;      ///< of useFloats()
 };
 
 }  // namespace sunlit::scene

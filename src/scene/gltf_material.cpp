@@ -328,9 +328,10 @@ std::string GltfMaterials::whatItNeeds() const {
 }
 
 std::vector<std::string> GltfMaterials::unknown(const char* list) const {
-  // Assimp reads the last two, or says that it was built without.
-  static const std::set<std::string> known = {"KHR_texture_transform", "KHR_lights_punctual",
-                                              "KHR_mesh_quantization", "KHR_draco_mesh_compression"};
+  // Assimp reads the last one, or says that it was built without.
+  static const std::set<std::string> known = {"KHR_texture_transform", "EXT_texture_webp",
+                                              "KHR_lights_punctual", "KHR_mesh_quantization",
+                                              "KHR_draco_mesh_compression"};
   std::vector<std::string> unknown;
   const json& used = child(json_->root, list);
   for (const json& name : used.is_array() ? used : json::array()) {

@@ -198,6 +198,22 @@ TEST_F(GltfMaterial, WhatIsNotRenderedIsNamedInOneLine) {
     EXPECT_NE(warnings.find(part), std::string::npos) << part << " in " << warnings;
 }
 
+TEST_F(GltfMaterial, PicturesOfWebpStandBeforeOthers) {
+  writeTexture("b.png");
+  const std::string whole = file("{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":1}}}",
+                                 "\"extensionsRequired\":[\"EXT_texture_webp\"],");
+  for (const char* other : {"\"source\":7,", ""}) {
+    std::string text = contentOf(whole);
+    const std::string plain = "{\"source\":1}";
+    text.replace(text.find(plain), plain.size(),
+                 std::string("{") + other + "\"extensions\":{\"EXT_texture_webp\":{\"source\":1}}}");
+    const Scene scene = load(write("webp.gltf", text), {});
+    EXPECT_TRUE(scene.warnings.empty()) << warningsOf(scene);
+    ASSERT_EQ(scene.textures.size(), 1u);
+    EXPECT_EQ(scene.textures[0].name, pathOf("b.png"));
+  }
+}
+
 TEST_F(GltfMaterial, AMissingMetallicTextureMakesNoMetal) {
   const Scene scene =
       load(file("{\"pbrMetallicRoughness\":{\"metallicRoughnessTexture\":{\"index\":0}}}"), {});

@@ -1,0 +1,70 @@
+#include "scene/gltf_buffers.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+
+#include "scene/gltf_json.h"
+#include "scene/uri_text.h"
+
+namespace sunlit::scene {
+namespace {
+
+/// Of the base64 alphabet (RFC 4648, section 4); −1 for any other letter.
+int valueOf(char letter) {
+  if (letter >= 'A' && letter <= 'Z') return letter - 'A';
+  if (letter >= 'a' && letter <= 'z') return letter - 'a' + 26;
+  if (letter >= '0' && letter <= '9') return letter - '0' + 52;
+  return letter == '+' ? 62 : letter == '/' ? 63 : -1;
+}
+
+/// Up to the first letter that is none of the alphabet's, such as the padding.
+std::string decodedBase64(const std::string& text, std::size_t begin) {
+  std::string bytes;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (std::size_t i = begin; i < text.size() && valueOf(text[i]) >= 0; ++i) {
+    bits = bits << 6 | static_cast<std::uint32_t>(valueOf(text[i]));
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes += static_cast<char>(bits >> count & 0xFF);
+  }
+  return bytes;
+}
+
+/// What follows the first chunk of a .glb and its own header.
+std::string secondChunk(const std::string& file) {
+  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+  const std::string all = bytesOf(file);
+  const std::size_t begin = kHeader + kChunkHeader + gltfText(file).size() + kChunkHeader;
+  if (all.compare(0, 4, "glTF") != 0 || begin > all.size())
+    throw std::runtime_error("a buffer has no address, and the file no bytes of its own");
+  return all.substr(begin);
+}
+
+}  // namespace
+
+const std::string& GltfBuffers::bytes(std::size_t buffer) {
+  const auto known = read_.find(buffer);
+  return known != read_.end() ? known->second : read_[buffer] = read(buffer);
+}
+
+std::string GltfBuffers::read(std::size_t buffer) const {
+  const nlohmann::json& list = child(root_, "buffers");
+  if (!list.is_array() || buffer >= list.size())
+    throw std::runtime_error("there is no buffer " + std::to_string(buffer));
+  const nlohmann::json& address = child(list[buffer], "uri");
+  if (!address.is_string()) return secondChunk(file_);
+  const std::string uri = address.get<std::string>();
+  if (uri.compare(0, 5, "data:") == 0) {
+    const std::size_t comma = uri.find(',');
+    return comma == std::string::npos ? "" : decodedBase64(uri, comma + 1);
+  }
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path folder = fs::path(file_).parent_path();
+  return bytesOf((fs::exists(folder / uri, error) ? folder / uri : folder / withoutEscapes(uri)).string());
+}
+
+}  // namespace sunlit::scene
