@@ -30,8 +30,8 @@ class LineKeeper : public tinyxml2::XMLPrinter {
   int counted_ = 0;  ///< of the text, for its lines
 };
 
-/// Takes out an XML declaration that something stands before, such as a comment: Gazebo reads on, tinyxml2 does
-/// not.
+/// Takes out an XML declaration that something stands before, such as a comment: Gazebo reads on, tinyxml2
+/// does not.
 void dropLateDeclaration(std::string* text) {
   const std::size_t begin = text->find("<?xml");
   if (begin == std::string::npos || text->find('<') == begin) return;
