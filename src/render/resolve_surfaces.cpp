@@ -141,7 +141,10 @@ class TileResolver {
   /// What is left of a sample behind all that it is seen through, which goes to Memory::veils.
   Eigen::Array3f passVeils(const Sample& sample, int column, int row) {
     const Eigen::Vector3f ray = relative({0, 1.0f}, column, row);
-    const float far = sample.sky() ? static_cast<float>(seen_.view.far_m) : sample.depth;
+    // What lies on a surface, such as the bottom of a box on the ground, is hidden by it, whatever rounding
+    // says.
+    constexpr float kBefore = 1.0f - 1e-4f;
+    const float far = sample.sky() ? static_cast<float>(seen_.view.far_m) : kBefore * sample.depth;
     seen_.veils->veils({eye_high_ + eye_low_, ray, static_cast<float>(seen_.view.near_m), far},
                        &memory_.hits);
     Eigen::Array3f left = Eigen::Array3f::Ones();

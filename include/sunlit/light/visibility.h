@@ -40,9 +40,10 @@ inline bool seenThrough(const scene::Material& material) {
 }
 
 /// Materials of AlphaMode::kMask let light through where the image shows them cut out; those of kBlend stop
-/// a share alpha of the rays, by a hash of where they meet them. Glass stops none: what it takes is for those
-/// to ask who add light up, by veils(). Surfaces stop light from both sides. Immutable after construction;
-/// queries may run on many threads at once and give the same bits on any number.
+/// a share alpha of the rays, by a hash of where they meet them, or none if so wished. Glass stops none. What
+/// they take of the light of rays that they do not stop is for those to ask who add it up, by veils().
+/// Surfaces stop light from both sides. Immutable after construction; queries may run on many threads at once
+/// and give the same bits on any number.
 class Visibility {
  public:
   /// Keeps `geometry` alive. Throws std::runtime_error if the ray library fails.
@@ -57,11 +58,13 @@ class Visibility {
   Visibility(const Visibility&) = delete;
   Visibility& operator=(const Visibility&) = delete;
 
+  /// What becomes of rays at what blends.
+  enum class Blends { kStopByChance, kLetPass };
   /// Sets blocked[i] to 1 where anything lies along ray i at any distance, else to 0. Fastest for similar
   /// neighbours.
-  void occluded(const Rays& rays, std::uint8_t* blocked) const;
+  void occluded(const Rays& rays, std::uint8_t* blocked, Blends blends = Blends::kStopByChance) const;
   /// The same of what lies between a ray's origin and origin + direction.
-  void occludedWithin(const Rays& rays, std::uint8_t* blocked) const;
+  void occludedWithin(const Rays& rays, std::uint8_t* blocked, Blends blends = Blends::kStopByChance) const;
   /// The first of them of what moves alone; nothing, where there is nothing that moves.
   void occludedByMoving(const Rays& rays, std::uint8_t* blocked) const;
   /// What stands still, and what moves, whose triangles are numbered after those; null: nothing moves.
@@ -93,7 +96,7 @@ class Visibility {
   bool hasGlass() const;
 
  private:
-  void occluded(const Rays& rays, float reach, std::uint8_t* blocked) const;
+  void occluded(const Rays& rays, float reach, Blends blends, std::uint8_t* blocked) const;
 
   class Implementation;
   std::shared_ptr<const Visibility> fixed_;  ///< null: there is nothing else

@@ -63,6 +63,17 @@ float hashed(float u, float v) {
   return static_cast<float>(h >> 8) * (1.0f / (1u << 24));
 }
 
+bool isListed(const scene::Material& material, Cutouts::Veils veils) {
+  switch (veils) {
+    case Cutouts::Veils::kLeftOut:
+      return !seenThrough(material);
+    case Cutouts::Veils::kBlendsOnly:
+      return material.alpha_mode == scene::AlphaMode::kBlend;
+    default:
+      return true;
+  }
+}
+
 }  // namespace
 
 Cutouts::Mask::Mask(const scene::Texture& source, float alpha_cutoff)
@@ -163,7 +174,7 @@ std::int32_t Cutouts::maskOf(const scene::Texture& texture, float alpha_cutoff, 
   return index;
 }
 
-Cutouts::Cutouts(const Geometry& geometry, Glass glass) {
+Cutouts::Cutouts(const Geometry& geometry, Veils veils) {
   const scene::Scene& scene = *geometry.scene;
   std::vector<std::int32_t> mask_of(scene.materials.size(), kNoMask);
   // Bodies share the materials of the whole scene and use few of them.
@@ -174,14 +185,14 @@ Cutouts::Cutouts(const Geometry& geometry, Glass glass) {
     const bool blends = material.alpha_mode == scene::AlphaMode::kBlend;
     const bool textured = material.base_texture != scene::Material::kNoTexture;
     const bool masks = material.alpha_mode == scene::AlphaMode::kMask && textured;
-    if (used[m] && isGlass(material)) {
-      mask_of[m] = kNowhere;
-      if (glass == Glass::kLeftOut) continue;
+    if (!isListed(material, veils)) mask_of[m] = kNowhere;
+    if (!used[m] || mask_of[m] == kNowhere) continue;
+    if (isGlass(material)) {
       const std::vector<float> shares = through(material);
       mask_of[m] = maskOf(white(), 0.0f, 1.0f - mean(shares), shares);
       continue;
     }
-    if (!used[m] || !(masks || blends)) continue;
+    if (!(masks || blends)) continue;
     const scene::Texture& texture =
         textured ? scene.textures[static_cast<std::size_t>(material.base_texture)] : white();
     mask_of[m] = maskOf(texture, material.alpha_cutoff, blends ? material.alpha : Mask::kCutOut);

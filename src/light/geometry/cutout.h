@@ -21,12 +21,14 @@ class Cutouts {
   struct Mask;
 
  public:
-  enum class Glass {
-    kByChance,  ///< as what blends: it stops so many rays as it keeps light back, by their angle where that
-                ///< is told, else on average over a half sphere
-    kLeftOut,   ///< in neither list
+  /// What becomes of glass and of what blends.
+  enum class Veils {
+    kByChance,    ///< masked; glass stops so many rays as it keeps light back, by their angle where that is
+                  ///< told, else on average over a half sphere
+    kLeftOut,     ///< in neither list
+    kBlendsOnly,  ///< what blends is masked, and nothing else is in either list
   };
-  explicit Cutouts(const Geometry& geometry, Glass glass = Glass::kByChance);
+  explicit Cutouts(const Geometry& geometry, Veils veils = Veils::kByChance);
 
   /// Indices into Geometry::triangles.
   const std::vector<std::uint32_t>& opaqueTriangles() const { return opaque_; }

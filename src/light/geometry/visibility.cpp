@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "light/geometry/cutout.h"
 #include "light/geometry/triangle_mesh.h"
+#include "light/geometry/veil_scene.h"
 
 namespace sunlit::light {
 namespace {
@@ -60,10 +63,6 @@ void passInvisible(const RTCFilterFunctionNArguments* arguments) {
         arguments->hit, arguments->N, i)])[RTCHitN_primID(arguments->hit, arguments->N, i)];
     const scene::Material& material =
         context.geometry->scene->materials[static_cast<std::size_t>(context.geometry->materials[triangle])];
-    if (material.alpha_mode == scene::AlphaMode::kBlend) {
-      arguments->valid[i] = 0;
-      continue;
-    }
     if (material.double_sided) continue;
     const Eigen::Vector3f direction(RTCRayN_dir_x(arguments->ray, arguments->N, i),
                                     RTCRayN_dir_y(arguments->ray, arguments->N, i),
@@ -108,33 +107,31 @@ class Visibility::Implementation {
   explicit Implementation(std::shared_ptr<const Geometry> geometry);
   /// Shares the device of `other`.
   Implementation(std::shared_ptr<const Geometry> geometry, const Implementation& other);
-  void occluded(const Rays& rays, float reach, std::uint8_t* blocked) const;
+  void occluded(const Rays& rays, float reach, Blends blends, std::uint8_t* blocked) const;
   void closest(const Rays& rays, Hit* hits) const;
   Hit firstSeen(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near) const;
-  void addVeils(const Sight& sight, std::uint32_t first_triangle, std::vector<Hit>* hits) const;
-  bool hasVeils() const { return !veils_.empty(); }
-  bool hasGlass() const { return has_glass_; }
+  const VeilScene& veils() const { return *veils_; }
   std::uint32_t triangleCount() const { return static_cast<std::uint32_t>(geometry_->triangles.size()); }
 
  private:
   void build(RTCBuildQuality quality);
   void attach(const std::vector<std::uint32_t>& triangles, unsigned number);
-
-  void buildVeils();
+  void stopped(RTCScene scene, const Rays& rays, float reach, std::uint8_t* blocked) const;
+  void buildBlends(RTCBuildQuality quality);
 
   std::shared_ptr<const Geometry> geometry_;
   Cutouts cutouts_;
-  std::vector<std::uint32_t> veils_;  ///< triangles that blend, and glass
-  bool has_glass_ = false;
+  std::optional<Cutouts> blends_;  ///< empty: nothing blends
   DevicePointer device_;
-  ScenePointer scene_;
-  ScenePointer veil_scene_;  ///< of them alone; null: none
-  bool wide_ = false;        ///< the CPU takes 16 rays at once
+  ScenePointer scene_;        ///< without veils
+  ScenePointer blend_scene_;  ///< of what blends; null: none
+  std::unique_ptr<VeilScene> veils_;
+  bool wide_ = false;  ///< the CPU takes 16 rays at once
 };
 
 Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geometry)
     : geometry_(std::move(geometry)),
-      cutouts_(*geometry_, Cutouts::Glass::kLeftOut),
+      cutouts_(*geometry_, Cutouts::Veils::kLeftOut),
       device_(rtcNewDevice(nullptr)) {
   if (!device_) {
     throw std::runtime_error("ray library (Embree): no device, error code " +
@@ -147,7 +144,7 @@ Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geome
 Visibility::Implementation::Implementation(std::shared_ptr<const Geometry> geometry,
                                            const Implementation& other)
     : geometry_(std::move(geometry)),
-      cutouts_(*geometry_, Cutouts::Glass::kLeftOut),
+      cutouts_(*geometry_, Cutouts::Veils::kLeftOut),
       device_(other.device_.get()),
       wide_(other.wide_) {
   rtcRetainDevice(device_.get());
@@ -162,7 +159,8 @@ void Visibility::Implementation::build(RTCBuildQuality quality) {
   rtcSetSceneBuildQuality(scene_.get(), quality);
   attach(cutouts_.opaqueTriangles(), kOpaque);
   attach(cutouts_.maskedTriangles(), kMasked);
-  buildVeils();
+  veils_ = std::make_unique<VeilScene>(*geometry_, device_.get());
+  buildBlends(quality);
   rtcCommitScene(scene_.get());
   const RTCError error = rtcGetDeviceError(device_.get());
   if (error != RTC_ERROR_NONE) {
@@ -171,49 +169,22 @@ void Visibility::Implementation::build(RTCBuildQuality quality) {
   }
 }
 
-void Visibility::Implementation::buildVeils() {
-  for (std::uint32_t t = 0; t < geometry_->triangles.size(); ++t) {
-    const scene::Material& material =
-        geometry_->scene->materials[static_cast<std::size_t>(geometry_->materials[t])];
-    if (seenThrough(material)) veils_.push_back(t);
-    has_glass_ |= isGlass(material);
+void Visibility::Implementation::buildBlends(RTCBuildQuality quality) {
+  if (!veils_->any()) return;
+  blends_.emplace(*geometry_, Cutouts::Veils::kBlendsOnly);
+  if (blends_->maskedTriangles().empty()) {
+    blends_.reset();
+    return;
   }
-  if (veils_.empty()) return;
-  veil_scene_.reset(rtcNewScene(device_.get()));
-  rtcSetSceneFlags(veil_scene_.get(), RTC_SCENE_FLAG_ROBUST);
-  light::attach(newTriangleMesh(device_.get(), *geometry_, veils_), veil_scene_.get(), 0);
-  rtcCommitScene(veil_scene_.get());
-}
-
-/// One after the other: each query begins just beyond the hit before.
-void Visibility::Implementation::addVeils(const Sight& sight, std::uint32_t first_triangle,
-                                          std::vector<Hit>* hits) const {
-  if (!veil_scene_) return;
-  RayContext context;
-  begin(&context);
-  float near = sight.near;
-  for (std::size_t count = 0; count < kMostVeils && near < sight.far;) {
-    RTCRayHit query{};
-    query.ray.org_x = sight.origin.x();
-    query.ray.org_y = sight.origin.y();
-    query.ray.org_z = sight.origin.z();
-    query.ray.dir_x = sight.direction.x();
-    query.ray.dir_y = sight.direction.y();
-    query.ray.dir_z = sight.direction.z();
-    query.ray.tnear = near;
-    query.ray.tfar = sight.far;
-    query.ray.mask = ~0u;
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    intersect(veil_scene_.get(), &context, &query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
-    near = std::nextafter(query.ray.tfar * (1.0f + 1e-6f), std::numeric_limits<float>::infinity());
-    const std::uint32_t triangle = veils_[query.hit.primID];
-    const auto material = static_cast<std::size_t>(geometry_->materials[triangle]);
-    const bool back = geometry_->planes[triangle].normal.dot(sight.direction) > 0.0f;
-    if (back && !sight.backs && !geometry_->scene->materials[material].double_sided) continue;
-    hits->push_back({first_triangle + triangle, query.hit.u, query.hit.v, query.ray.tfar});
-    ++count;
-  }
+  blend_scene_.reset(rtcNewScene(device_.get()));
+  rtcSetSceneFlags(blend_scene_.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(blend_scene_.get(), quality);
+  const TriangleMesh mesh = newTriangleMesh(device_.get(), *geometry_, blends_->maskedTriangles());
+  rtcSetGeometryUserData(mesh.handle, &*blends_);
+  rtcSetGeometryOccludedFilterFunction(mesh.handle, passCutouts);
+  rtcSetGeometryIntersectFilterFunction(mesh.handle, passCutouts);
+  light::attach(mesh, blend_scene_.get(), 0);
+  rtcCommitScene(blend_scene_.get());
 }
 
 void Visibility::Implementation::attach(const std::vector<std::uint32_t>& triangles, unsigned number) {
@@ -227,12 +198,23 @@ void Visibility::Implementation::attach(const std::vector<std::uint32_t>& triang
   light::attach(mesh, scene_.get(), number);
 }
 
-void Visibility::Implementation::occluded(const Rays& rays, float reach, std::uint8_t* blocked) const {
+void Visibility::Implementation::stopped(RTCScene scene, const Rays& rays, float reach,
+                                         std::uint8_t* blocked) const {
   if (wide_) {
-    occludedInPackets<RTCRay16, 16>(scene_.get(), rays, reach, blocked);
+    occludedInPackets<RTCRay16, 16>(scene, rays, reach, blocked);
   } else {
-    occludedInPackets<RTCRay8, 8>(scene_.get(), rays, reach, blocked);
+    occludedInPackets<RTCRay8, 8>(scene, rays, reach, blocked);
   }
+}
+
+void Visibility::Implementation::occluded(const Rays& rays, float reach, Blends blends,
+                                          std::uint8_t* blocked) const {
+  stopped(scene_.get(), rays, reach, blocked);
+  if (!blend_scene_ || blends == Blends::kLetPass) return;
+  thread_local std::vector<std::uint8_t> by_blends;
+  by_blends.resize(rays.count);
+  stopped(blend_scene_.get(), rays, reach, by_blends.data());
+  for (std::size_t i = 0; i < rays.count; ++i) blocked[i] |= by_blends[i];
 }
 
 void Visibility::Implementation::closest(const Rays& rays, Hit* hits) const {
@@ -251,8 +233,14 @@ void Visibility::Implementation::closest(const Rays& rays, Hit* hits) const {
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     intersect(scene_.get(), &context.embree, &query);
     hits[i] = Hit();
+    RTCRayHit blend = query;  // up to what was met
+    blend.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    if (blend_scene_) intersect(blend_scene_.get(), &context.embree, &blend);
+    const bool blends = blend.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    if (blends) query = blend;
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
-    hits[i].triangle = (*context.triangles[query.hit.geomID])[query.hit.primID];
+    hits[i].triangle =
+        (blends ? blends_->maskedTriangles() : *context.triangles[query.hit.geomID])[query.hit.primID];
     hits[i].u = query.hit.u;
     hits[i].v = query.hit.v;
     hits[i].distance = query.ray.tfar;
@@ -301,26 +289,26 @@ Visibility::Visibility(const Visibility& other, std::shared_ptr<const Geometry> 
     : geometry_(std::move(geometry)), implementation_(other.implementation_) {}
 Visibility::~Visibility() = default;
 
-void Visibility::occluded(const Rays& rays, std::uint8_t* blocked) const {
-  occluded(rays, kEndless, blocked);
+void Visibility::occluded(const Rays& rays, std::uint8_t* blocked, Blends blends) const {
+  occluded(rays, kEndless, blends, blocked);
 }
 
-void Visibility::occludedWithin(const Rays& rays, std::uint8_t* blocked) const {
-  occluded(rays, 1.0f, blocked);
+void Visibility::occludedWithin(const Rays& rays, std::uint8_t* blocked, Blends blends) const {
+  occluded(rays, 1.0f, blends, blocked);
 }
 
-void Visibility::occluded(const Rays& rays, float reach, std::uint8_t* blocked) const {
-  implementation_->occluded(rays, reach, blocked);
+void Visibility::occluded(const Rays& rays, float reach, Blends blends, std::uint8_t* blocked) const {
+  implementation_->occluded(rays, reach, blends, blocked);
   if (!fixed_) return;
   thread_local std::vector<std::uint8_t> by_moving;
   by_moving.assign(blocked, blocked + rays.count);
-  fixed_->occluded(rays, reach, blocked);
+  fixed_->occluded(rays, reach, blends, blocked);
   for (std::size_t i = 0; i < rays.count; ++i) blocked[i] |= by_moving[i];
 }
 
 void Visibility::occludedByMoving(const Rays& rays, std::uint8_t* blocked) const {
   if (fixed_) {
-    implementation_->occluded(rays, kEndless, blocked);
+    implementation_->occluded(rays, kEndless, Blends::kStopByChance, blocked);
   } else {
     std::fill(blocked, blocked + rays.count, std::uint8_t{0});
   }
@@ -359,8 +347,8 @@ std::optional<std::uint32_t> Visibility::firstSeen(const Eigen::Vector3f& origin
 
 void Visibility::veils(const Sight& sight, std::vector<Hit>* hits) const {
   hits->clear();
-  if (fixed_) fixed_->implementation_->addVeils(sight, 0, hits);
-  implementation_->addVeils(sight, fixed_ ? fixed_->implementation_->triangleCount() : 0, hits);
+  if (fixed_) fixed_->implementation_->veils().add(sight, 0, hits);
+  implementation_->veils().add(sight, fixed_ ? fixed_->implementation_->triangleCount() : 0, hits);
   if (!fixed_) return;
   std::stable_sort(hits->begin(), hits->end(),
                    [](const Hit& a, const Hit& b) { return a.distance < b.distance; });
@@ -368,11 +356,11 @@ void Visibility::veils(const Sight& sight, std::vector<Hit>* hits) const {
 }
 
 bool Visibility::hasGlass() const {
-  return implementation_->hasGlass() || (fixed_ && fixed_->implementation_->hasGlass());
+  return implementation_->veils().hasGlass() || (fixed_ && fixed_->implementation_->veils().hasGlass());
 }
 
 bool Visibility::hasVeils() const {
-  return implementation_->hasVeils() || (fixed_ && fixed_->implementation_->hasVeils());
+  return implementation_->veils().any() || (fixed_ && fixed_->implementation_->veils().any());
 }
 
 }  // namespace sunlit::light

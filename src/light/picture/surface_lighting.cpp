@@ -65,10 +65,10 @@ Eigen::Array3f SurfaceLighting::ofDisc(const Disc& disc, const Tile& tile, std::
   if (!(share > 0.0f)) return Eigen::Array3f::Constant(share);
   const Surface& surface = tile.surfaces[index];
   if (broken_cloud_) share *= light_.day.throughCloud(disc.light, surface.position);
-  if (!glass_.any()) return Eigen::Array3f::Constant(share);
+  if (!glass_.anyVeils()) return Eigen::Array3f::Constant(share);
   const Eigen::Vector3f& towards = disc.visibility.towards();
   const Eigen::Vector3f origin = rayStart(tile, surface.first_sample, surface, towards);
-  return share * glass_.through({origin, towards, 0.0f, std::numeric_limits<float>::infinity()});
+  return share * glass_.throughVeils({origin, towards, 0.0f, std::numeric_limits<float>::infinity()});
 }
 
 void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& by_rays,

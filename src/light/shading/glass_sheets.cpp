@@ -7,14 +7,19 @@ namespace sunlit::light {
 GlassSheets::GlassSheets(const Visibility& visibility)
     : vertices_(visibility.fixedGeometry(), visibility.movingGeometry()),
       visibility_(visibility),
-      any_(visibility.hasGlass()) {}
+      any_(visibility.hasGlass()),
+      any_veils_(visibility.hasVeils()) {}
+
+void GlassSheets::veils(const Visibility::Sight& sight, std::vector<Hit>* hits) const {
+  Visibility::Sight all = sight;
+  all.backs = true;
+  visibility_.veils(all, hits);
+}
 
 void GlassSheets::sheets(const Visibility::Sight& sight, std::vector<Hit>* hits) const {
   hits->clear();
   if (!any_) return;
-  Visibility::Sight all = sight;
-  all.backs = true;
-  visibility_.veils(all, hits);
+  veils(sight, hits);
   hits->erase(std::remove_if(hits->begin(), hits->end(),
                              [this](const Hit& hit) { return !isGlass(vertices_.material(hit)); }),
               hits->end());
@@ -25,6 +30,21 @@ Eigen::Array3f GlassSheets::through(const Visibility::Sight& sight) const {
   thread_local std::vector<Hit> hits;
   sheets(sight, &hits);
   for (const Hit& hit : hits) product *= straightThrough(at(hit, sight.direction.normalized()).reflection);
+  return product;
+}
+
+Eigen::Array3f GlassSheets::throughVeils(const Visibility::Sight& sight) const {
+  Eigen::Array3f product = Eigen::Array3f::Ones();
+  if (!any_veils_) return product;
+  thread_local std::vector<Hit> hits;
+  veils(sight, &hits);
+  for (const Hit& hit : hits) {
+    if (isGlass(vertices_.material(hit))) {
+      product *= straightThrough(at(hit, sight.direction.normalized()).reflection);
+    } else {
+      product *= 1.0f - vertices_.alpha(hit);
+    }
+  }
   return product;
 }
 

@@ -1,4 +1,4 @@
-/// Light on its way through sheets of glass.
+/// Light on its way through sheets of glass, and through what blends.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,25 +9,31 @@
 
 namespace sunlit::light {
 
-/// Beside Visibility, whose rays glass does not stop.
+/// Beside Visibility, whose rays glass does not stop, nor what blends where so wished.
 class GlassSheets {
  public:
   /// Keeps a reference.
   explicit GlassSheets(const Visibility& visibility);
 
   bool any() const { return any_; }
+  /// Whether there is glass, or anything that blends.
+  bool anyVeils() const { return any_veils_; }
   /// Share of the light that gets through along `sight` in all of its sheets, by channel. The ray may go
   /// either way.
   Eigen::Array3f through(const Visibility::Sight& sight) const;
+  /// The same with what blends, of rays by Visibility::Blends::kLetPass.
+  Eigen::Array3f throughVeils(const Visibility::Sight& sight) const;
   /// The sheets on its way, nearest first.
   void sheets(const Visibility::Sight& sight, std::vector<Hit>* hits) const;
   /// One of them, met along `direction`.
   Vertex at(const Hit& hit, const Eigen::Vector3f& direction) const { return vertices_.at(hit, direction); }
 
  private:
+  void veils(const Visibility::Sight& sight, std::vector<Hit>* hits) const;
+
   SceneVertices vertices_;
   const Visibility& visibility_;
-  bool any_;
+  bool any_, any_veils_;
 };
 
 }  // namespace sunlit::light

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 namespace sunlit::light {
 namespace {
@@ -159,6 +160,42 @@ TEST(FirstSeen, IsTheNearestVisibleTriangle) {
   EXPECT_EQ(height({0.1f, 0.2f, 9.0f}, {0.0f, 0.0f, -1.0f}, 0.05f), 8.0f);
   EXPECT_EQ(height({0.1f, 0.2f, 9.0f}, {0.0f, 0.0f, -1.0f}, 2.0f), 5.0f);
   EXPECT_EQ(height({5.0f, 0.2f, 9.0f}, {0.0f, 0.0f, -1.0f}, 0.05f), -1.0f);
+}
+
+TEST(Visibility, LetsRaysPassWhatBlendsIfSoWished) {
+  scene::Scene scene;
+  scene.materials = {plain(), plain()};
+  scene.materials[1].alpha_mode = scene::AlphaMode::kBlend;
+  scene.materials[1].alpha = 0.5f;
+  scene.meshes = {sheet(0, 0.0f, 0.0f, 2.0f), sheet(1, 0.5f, 0.0f, 1.0f)};
+  const Visibility visibility(geometryOf(scene));
+  // Rays up from the ground: below both sheets, below the one that blends alone, and beside both.
+  const std::vector<float> x(200, 0.2f), beside(200, 1.2f), none(200, 5.0f), zero(200, 0.0f), one(200, 1.0f);
+  std::vector<float> y;
+  for (int i = 0; i < 200; ++i) y.push_back(-0.9f + 0.009f * static_cast<float>(i));
+  const auto stopped = [&](const std::vector<float>& at_x, Visibility::Blends blends) {
+    std::vector<std::uint8_t> blocked(200, 7);
+    visibility.occluded({at_x.data(), y.data(), zero.data(), zero.data(), zero.data(), one.data(), 200},
+                        blocked.data(), blends);
+    return std::accumulate(blocked.begin(), blocked.end(), 0);
+  };
+  using Blends = Visibility::Blends;
+  EXPECT_EQ(stopped(x, Blends::kLetPass), 200);
+  EXPECT_EQ(stopped(x, Blends::kStopByChance), 200);
+  EXPECT_EQ(stopped(beside, Blends::kLetPass), 0);
+  EXPECT_NEAR(stopped(beside, Blends::kStopByChance), 100, 4 * 7.1);  // √(200 · 0.5 · 0.5)
+  EXPECT_EQ(stopped(none, Blends::kStopByChance), 0);
+  // The nearest is what blends where it stops the ray, else what lies behind.
+  std::vector<Hit> hits(200);
+  visibility.closest({x.data(), y.data(), zero.data(), zero.data(), zero.data(), one.data(), 200},
+                     hits.data());
+  int blending = 0;
+  for (const Hit& hit : hits) {
+    const bool blends = visibility.fixedGeometry().materials[hit.triangle] == 1;
+    EXPECT_EQ(hit.distance, blends ? 1.0f : 2.0f);
+    blending += blends ? 1 : 0;
+  }
+  EXPECT_NEAR(blending, 100, 4 * 7.1);
 }
 
 }  // namespace

@@ -314,16 +314,32 @@ double meanOfMiddle(const Seen& seen, const sky::Daylight& day) {
   return sum / 600.0;
 }
 
+TEST(Blending, IsNotSeenOnTheSurfaceThatItLiesOn) {
+  scene::Scene scene = pane(0.5f);
+  for (Eigen::Vector3f& position : scene.meshes[1].positions) position.z() = 0.0f;
+  const Seen seen(scene, {0.3, 0.2, 6.0});
+  for (const light::Tile& tile : seen.renderer.surfaces().tiles)
+    for (const light::Surface& surface : tile.surfaces) EXPECT_EQ(surface.material, 0);
+}
+
 TEST(Blending, ShadesTheGroundByItsShare) {
   // The sun stands so high that the shadow of the pane covers the middle. Without a bake all see the whole
   // sky, so that of the ground's light only the sun's is shaded.
   const sky::Daylight day = daylightAt(180.0, 80.0);
   const double open = meanOfMiddle(Seen(pane(0.0f)), day);
   const double sky = static_cast<double>(skyPart(day, Eigen::Vector3f::UnitZ(), Eigen::Array3f::Ones())[1]);
-  // The pane is black but for its reflection, 4 % of the light at most. Rays fall by a hash: over 600 pixels
-  // of at least four rays, one standard deviation of the share is √(0.25 · 0.75 / 2400) = 0.9 %.
+  // The pane is black but for its reflection, 4 % of the light at most.
   const double expected = 0.75 * (sky + 0.75 * (open - sky));
   EXPECT_NEAR(meanOfMiddle(Seen(pane(0.25f)), day) / expected, 1.0, 0.04);
+}
+
+// Rays that are stopped by chance would differ by some ten per cent from pixel to pixel.
+TEST(Blending, CastsAShadowWithoutGrain) {
+  const image::LinearImage image = Seen(pane(0.5f)).renderer.light(daylightAt(180.0, 80.0));
+  for (int y = 14; y < 34; ++y) {
+    for (int x = 17; x < 46; ++x)
+      EXPECT_NEAR(at(image, x, y)[1] / at(image, x + 1, y)[1], 1.0f, 2e-3f) << x << " " << y;
+  }
 }
 
 TEST(Blending, IsTheSameEveryTime) {

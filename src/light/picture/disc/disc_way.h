@@ -17,10 +17,10 @@ class DiscWay {
 
 class StraightWay : public DiscWay {
  public:
-  /// Keeps a reference.
+  /// Keeps a reference. What glass and what blends take of the light is not told.
   explicit StraightWay(const Visibility& visibility) : visibility_(visibility) {}
   void stopped(const Rays& rays, std::uint8_t* stopped) const override {
-    visibility_.occluded(rays, stopped);
+    visibility_.occluded(rays, stopped, Visibility::Blends::kLetPass);
   }
 
  private:

@@ -185,7 +185,7 @@ void LampLight::cast(const LampBeam& beam, const Tile& tile, const std::vector<T
     }
   }
   blocked.resize(rays.size());
-  picture_.visibility.occludedWithin(rays.rays(), blocked.data());
+  picture_.visibility.occludedWithin(rays.rays(), blocked.data(), Visibility::Blends::kLetPass);
   for (std::size_t i = 0; i < rays.size(); ++i) targets[rays.number()[i]]->lit += 1 - blocked[i];
 }
 
@@ -298,14 +298,14 @@ std::vector<LampLight::OfLamp> LampLight::targetsOf(const Tile& tile) const {
   return all;
 }
 
-Eigen::Array3f LampLight::throughGlass(const LampBeam& beam, const Tile& tile, const Surface& surface) const {
+Eigen::Array3f LampLight::throughVeils(const LampBeam& beam, const Tile& tile, const Surface& surface) const {
   const std::size_t at = surface.first_sample;
   const Eigen::Vector3f origin = rayStart(tile, at, surface, beam.ball() - rayStart(tile, at));
   const Eigen::Vector3f way = beam.ball() - origin;
   // What lies within the lamp's ball is part of it.
   const float reach = 1.0f - beam.radius_m() / std::max(way.norm(), 1e-6f);
   if (!(reach > 0.0f)) return Eigen::Array3f::Ones();
-  return glass_.through({origin, way, 0.0f, reach});
+  return glass_.throughVeils({origin, way, 0.0f, reach});
 }
 
 void LampLight::light(const Tile& tile, std::vector<Eigen::Array3f>* luminances) const {
@@ -324,8 +324,8 @@ void LampLight::light(const Tile& tile, std::vector<Eigen::Array3f>* luminances)
     if (beams_[of.lamp].castsShadows()) findShadows(of.lamp, tile, &of.targets);
     for (const Target& target : of.targets) {
       Eigen::Array3f arrives = target.seen * target.unhidden;
-      if (glass_.any() && target.seen > 0.0f)
-        arrives *= throughGlass(beams_[of.lamp], tile, tile.surfaces[target.surface]);
+      if (glass_.anyVeils() && target.seen > 0.0f)
+        arrives *= throughVeils(beams_[of.lamp], tile, tile.surfaces[target.surface]);
       (*luminances)[target.surface] += arrives;
       // Not less than what is there: rounding must not make it nothing.
       possible[target.surface] = std::max(possible[target.surface] - (1.0f - target.seen) * target.brightest,

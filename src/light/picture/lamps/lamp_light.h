@@ -80,7 +80,7 @@ class LampLight {
   void cast(const LampBeam& beam, const Tile& tile, const std::vector<Target*>& targets) const;
 
   /// Share of a lamp's light that glass on the way leaves to a surface.
-  Eigen::Array3f throughGlass(const LampBeam& beam, const Tile& tile, const Surface& surface) const;
+  Eigen::Array3f throughVeils(const LampBeam& beam, const Tile& tile, const Surface& surface) const;
 
   std::vector<LampBeam> beams_;
   float day_lx_;

@@ -1,0 +1,55 @@
+#include "light/geometry/veil_scene.h"
+
+#include <cmath>
+#include <limits>
+
+#include "light/geometry/embree.h"
+
+namespace sunlit::light {
+
+VeilScene::VeilScene(const Geometry& geometry, RTCDevice device) : geometry_(geometry) {
+  for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
+    const scene::Material& material =
+        geometry.scene->materials[static_cast<std::size_t>(geometry.materials[t])];
+    if (seenThrough(material)) triangles_.push_back(t);
+    has_glass_ |= isGlass(material);
+  }
+  if (triangles_.empty()) return;
+  scene_.reset(rtcNewScene(device));
+  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+  attach(newTriangleMesh(device, geometry, triangles_), scene_.get(), 0);
+  rtcCommitScene(scene_.get());
+}
+
+/// One after the other: each query begins just beyond the hit before.
+void VeilScene::add(const Visibility::Sight& sight, std::uint32_t first_triangle,
+                    std::vector<Hit>* hits) const {
+  if (!scene_) return;
+  RayContext context;
+  begin(&context);
+  float near = sight.near;
+  for (std::size_t count = 0; count < Visibility::kMostVeils && near < sight.far;) {
+    RTCRayHit query{};
+    query.ray.org_x = sight.origin.x();
+    query.ray.org_y = sight.origin.y();
+    query.ray.org_z = sight.origin.z();
+    query.ray.dir_x = sight.direction.x();
+    query.ray.dir_y = sight.direction.y();
+    query.ray.dir_z = sight.direction.z();
+    query.ray.tnear = near;
+    query.ray.tfar = sight.far;
+    query.ray.mask = ~0u;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    intersect(scene_.get(), &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
+    near = std::nextafter(query.ray.tfar * (1.0f + 1e-6f), std::numeric_limits<float>::infinity());
+    const std::uint32_t triangle = triangles_[query.hit.primID];
+    const auto material = static_cast<std::size_t>(geometry_.materials[triangle]);
+    const bool back = geometry_.planes[triangle].normal.dot(sight.direction) > 0.0f;
+    if (back && !sight.backs && !geometry_.scene->materials[material].double_sided) continue;
+    hits->push_back({first_triangle + triangle, query.hit.u, query.hit.v, query.ray.tfar});
+    ++count;
+  }
+}
+
+}  // namespace sunlit::light
