@@ -143,8 +143,7 @@ class TileResolver {
     const Eigen::Vector3f ray = relative({0, 1.0f}, column, row);
     // What lies on a surface, such as the bottom of a box on the ground, is hidden by it, whatever rounding
     // says.
-    constexpr float kBefore = 1.0f - 1e-4f;
-    const float far = sample.sky() ? static_cast<float>(seen_.view.far_m) : kBefore * sample.depth;
+    const float far = sample.sky() ? static_cast<float>(seen_.view.far_m) : 0.9999f * sample.depth;
     seen_.veils->veils({eye_high_ + eye_low_, ray, static_cast<float>(seen_.view.near_m), far},
                        &memory_.hits);
     Eigen::Array3f left = Eigen::Array3f::Ones();
@@ -155,14 +154,12 @@ class TileResolver {
       const Eigen::Array2f shares = triangle.sharesAt(point);
       const scene::Material& material = seen_.look(triangle.material());
       // Glass sends its own light whole, and lets through what it does not mirror.
-      float alpha = 1.0f;
-      Eigen::Array3f through = Eigen::Array3f::Zero();
-      if (light::isGlass(material)) {
-        through = throughGlass(triangle, {shares, step, false}, -ray.normalized());
-      } else {
-        alpha = seen_.maps.alpha(triangle.material(), triangle.placeOnMaps(seen_, shares, step, false));
-        through.setConstant(1.0f - alpha);
-      }
+      const bool glass = light::isGlass(material);
+      const float alpha =
+          glass ? 1.0f
+                : seen_.maps.alpha(triangle.material(), triangle.placeOnMaps(seen_, shares, step, false));
+      Eigen::Array3f through = Eigen::Array3f::Constant(1.0f - alpha);
+      if (glass) through = throughGlass(triangle, {shares, step, false}, -ray.normalized());
       if (!(alpha > 0.0f)) continue;
       std::vector<Veil>& veils = memory_.veils;
       auto veil =

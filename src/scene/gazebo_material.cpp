@@ -91,10 +91,9 @@ constexpr NamedLook kLooks[] = {{"Grey", {0.7f, 0.7f, 0.7f}},
 
 /// What OGRE can do and we do not.
 const std::set<std::string> kLost = {
-    "vertex_program_ref", "fragment_program_ref", "rtshader_system", "env_map",       "scroll",
-    "scroll_anim",        "rotate_anim",          "wave_xform",      "rotate",        "scale",
-    "colour_op",          "colour_op_ex",         "cull_hardware",   "cull_software", "tex_address_mode",
-    "tex_coord_set"};
+    "vertex_program_ref", "fragment_program_ref", "rtshader_system", "env_map",          "scroll",
+    "scroll_anim",        "rotate_anim",          "wave_xform",      "rotate",           "colour_op",
+    "colour_op_ex",       "cull_hardware",        "cull_software",   "tex_address_mode", "tex_coord_set"};
 
 using Words = std::vector<std::string>;
 using Lines = std::vector<Words>;
@@ -142,14 +141,36 @@ std::optional<float> manualAlpha(const Words& words) {
   return numberOf(words[4]);
 }
 
+/// OGRE's `scale U V`; none for what is no size.
+std::optional<Eigen::Array2f> scaleOf(const Words& words) {
+  if (words.size() < 3) return std::nullopt;
+  const Eigen::Array2f scale(numberOf(words[1]).value_or(0.0f), numberOf(words[2]).value_or(0.0f));
+  constexpr float kSmallest = 1e-4f;  // a texture that is repeated more often is noise
+  if (!(scale.abs() > kSmallest).all() || !scale.isFinite().all()) return std::nullopt;
+  return scale;
+}
+
+/// A material on the way, and in which of its texture units.
+struct Reading {
+  ScriptMaterial material;
+  int units = 0;
+};
+
 /// One line, or several written as one: a keyword may follow a brace.
-void readLine(const Words& line, ScriptMaterial& material) {
+void readLine(const Words& line, Reading& reading) {
+  ScriptMaterial& material = reading.material;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (i > 0 && line[i - 1] != "{" && line[i - 1] != "}") continue;
     const Words words(line.begin() + static_cast<std::ptrdiff_t>(i), line.end());
     if (words[0] == "diffuse" && !material.diffuse) {
       material.diffuse = colorOf(words);
       if (words.size() > 4) material.opacity = std::clamp(numberOf(words[4]).value_or(1.0f), 0.0f, 1.0f);
+    }
+    if (words[0] == "texture_unit") ++reading.units;
+    if (words[0] == "scale" && reading.units == 1) {
+      const std::optional<Eigen::Array2f> scale = scaleOf(words);
+      if (scale) material.texture_scale = *scale;
+      if (!scale) material.lost.insert(words[0]);
     }
     if (words[0] == "alpha_op_ex") {
       const std::optional<float> alpha = manualAlpha(words);
@@ -169,35 +190,42 @@ void readLine(const Words& line, ScriptMaterial& material) {
   }
 }
 
+/// What a material takes from its parent where it does not set it.
+void inherit(const ScriptMaterial& parent, ScriptMaterial* material) {
+  if (!material->diffuse) {
+    material->diffuse = parent.diffuse;
+    material->opacity = std::min(material->opacity, parent.opacity);
+  }
+  if (!material->texture) {
+    material->texture = parent.texture;
+    material->texture_scale = parent.texture_scale;
+  }
+  material->blends = material->blends || parent.blends;
+  material->alpha_rejection = material->alpha_rejection || parent.alpha_rejection;
+  if (!material->emissive) material->emissive = parent.emissive;
+  material->lost.insert(parent.lost.begin(), parent.lost.end());
+}
+
 /// The material `name` of the first `end` lines. OGRE wants a parent before its child, so it is looked for
 /// above only, and a circle cannot be.
 std::optional<ScriptMaterial> materialIn(const Lines& lines, std::size_t end, const std::string& name) {
-  std::optional<ScriptMaterial> material;
-  std::optional<ScriptMaterial> inherited;
+  std::optional<Reading> reading;
+  std::optional<ScriptMaterial> parent;
   int depth = 0;
   for (std::size_t i = 0; i < end; ++i) {
     const Words& words = lines[i];
     const bool starts = depth == 0 && words[0] == "material" && words.size() > 1;
-    if (starts && material) break;
+    if (starts && reading) break;
     if (starts && words[1] == name) {
-      material.emplace();
-      if (words.size() > 3 && words[2] == ":") inherited = materialIn(lines, i, words[3]);
-    } else if (material) {
-      readLine(words, *material);
+      reading.emplace();
+      if (words.size() > 3 && words[2] == ":") parent = materialIn(lines, i, words[3]);
     }
+    if (reading) readLine(words, *reading);
     for (const std::string& word : words) depth += word == "{" ? 1 : word == "}" ? -1 : 0;
   }
-  if (!material || !inherited) return material;
-  if (!material->diffuse) {
-    material->diffuse = inherited->diffuse;
-    material->opacity = std::min(material->opacity, inherited->opacity);
-  }
-  material->blends = material->blends || inherited->blends;
-  if (!material->texture) material->texture = inherited->texture;
-  material->alpha_rejection = material->alpha_rejection || inherited->alpha_rejection;
-  if (!material->emissive) material->emissive = inherited->emissive;
-  material->lost.insert(inherited->lost.begin(), inherited->lost.end());
-  return material;
+  if (!reading) return std::nullopt;
+  if (parent) inherit(*parent, &reading->material);
+  return reading->material;
 }
 
 }  // namespace

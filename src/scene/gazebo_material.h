@@ -1,6 +1,7 @@
 /// Gazebo's material scripts: the named colours that come with it, and OGRE .material files.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <set>
 #include <string>
@@ -26,8 +27,10 @@ struct ScriptMaterial {
   bool alpha_rejection = false;        ///< cut out where transparent
   bool blends = false;                 ///< by its opacity
   float opacity = 1.0f;                ///< times that of the texture, 0 … 1
-  std::optional<LinearRgb> emissive;   ///< as on a display
-  std::set<std::string> lost;          ///< keywords of what is not rendered
+  /// How many times as large as its coordinates say the texture shows, about its middle.
+  Eigen::Array2f texture_scale{1.0f, 1.0f};
+  std::optional<LinearRgb> emissive;  ///< as on a display
+  std::set<std::string> lost;         ///< keywords of what is not rendered
 };
 
 /// The material `name` in the text of a .material script, from its first technique and pass. None if it is

@@ -58,7 +58,7 @@ int SdfMaterials::texture(const std::string& name, const std::string& from_file)
   return builder_.textureFromFile(*found.file);
 }
 
-Material SdfMaterials::fromScript(const sdf::Material& source) {
+SdfMaterials::Scripted SdfMaterials::fromScript(const sdf::Material& source) {
   Material material;
   material.name = source.ScriptName();
   material.base_color = kNeutral;
@@ -66,7 +66,7 @@ Material SdfMaterials::fromScript(const sdf::Material& source) {
     material.base_color = look->color;
     material.emission.value = kDisplayWhite_cd_per_m2 * look->emissive.value;
     setOpacity(look->opacity, &material);
-    return material;
+    return {material};
   }
   // <script> may hold several <uri>; sdf::Material keeps the first only.
   std::vector<std::string> uris{source.ScriptUri()};
@@ -79,21 +79,25 @@ Material SdfMaterials::fromScript(const sdf::Material& source) {
     const Found found = finder_.find(uri, source.FilePath());
     if (!found.file) continue;
     for (const std::string& file : scriptFiles(*found.file)) {
-      const auto parsed = parseMaterialScript(contentOf(file), material.name);
-      if (!parsed) continue;
-      if (parsed->texture) material.base_texture = texture(*parsed->texture, file);
-      const bool textured = material.base_texture != Material::kNoTexture;
-      if (textured) material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
-      if (parsed->diffuse && !parsed->texture) material.base_color = *parsed->diffuse;
-      if (parsed->emissive) material.emission.value = kDisplayWhite_cd_per_m2 * parsed->emissive->value;
-      for (const std::string& lost : parsed->lost)
-        builder_.warn(kNotRendered, "script " + material.name + ": " + lost + ": without it");
-      if (parsed->blends) setOpacity(parsed->opacity, &material);
-      if (parsed->alpha_rejection && textured) material.alpha_mode = AlphaMode::kMask;
-      return material;
+      if (const auto parsed = parseMaterialScript(contentOf(file), material.name))
+        return {lookOf(*parsed, material, file), parsed->texture_scale};
     }
   }
   builder_.warn("material scripts are not known, a neutral material takes their place", material.name);
+  return {material};
+}
+
+/// `material`, as the script in `file` has it.
+Material SdfMaterials::lookOf(const ScriptMaterial& script, Material material, const std::string& file) {
+  if (script.texture) material.base_texture = texture(*script.texture, file);
+  const bool textured = material.base_texture != Material::kNoTexture;
+  if (textured) material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
+  if (script.diffuse && !script.texture) material.base_color = *script.diffuse;
+  if (script.emissive) material.emission.value = kDisplayWhite_cd_per_m2 * script.emissive->value;
+  for (const std::string& lost : script.lost)
+    builder_.warn(kNotRendered, "script " + material.name + ": " + lost + ": without it");
+  if (script.blends) setOpacity(script.opacity, &material);
+  if (script.alpha_rejection && textured) material.alpha_mode = AlphaMode::kMask;
   return material;
 }
 
@@ -146,8 +150,11 @@ std::optional<int> SdfMaterials::add(const sdf::Material* source) {
   const auto known = index_by_content_.find(content);
   if (known != index_by_content_.end()) return known->second;
   Material material;
+  Eigen::Array2f texture_scale(1.0f, 1.0f);
   if (scripted && !pbr) {
-    material = fromScript(*source);
+    const Scripted script = fromScript(*source);
+    material = script.material;
+    texture_scale = script.texture_scale;
   } else {
     material.name = "plain";
     // Ambient alone is how some files give a colour; the light around is computed here, not given by the
@@ -162,7 +169,17 @@ std::optional<int> SdfMaterials::add(const sdf::Material* source) {
     if (!plain) material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
     readPbr(*source, material);
   }
-  return index_by_content_[content] = builder_.addMaterial(material, AlphaRule::kFromTexture);
+  const int index = builder_.addMaterial(material, AlphaRule::kFromTexture);
+  if ((texture_scale != 1.0f).any()) texture_scales_[index] = texture_scale;
+  return index_by_content_[content] = index;
+}
+
+void SdfMaterials::put(int material, Mesh& mesh) const {
+  mesh.material = material;
+  const auto scale = texture_scales_.find(material);
+  if (scale == texture_scales_.end()) return;
+  for (Eigen::Vector2f& at : mesh.texture_coordinates)
+    at = ((at.array() - 0.5f) / scale->second + 0.5f).matrix();
 }
 
 int SdfMaterials::neutral() {

@@ -1,12 +1,14 @@
 /// The materials of SDF visuals.
 #pragma once
 
+#include <Eigen/Core>
 #include <map>
 #include <optional>
 #include <sdf/Material.hh>
 #include <sdf/Pbr.hh>
 #include <string>
 
+#include "scene/gazebo_material.h"
 #include "scene/resource_finder.h"
 #include "scene/scene_builder.h"
 
@@ -21,11 +23,19 @@ class SdfMaterials {
   /// shader, say): a mesh then keeps its own.
   std::optional<int> add(const sdf::Material* source);
 
+  /// Gives `mesh` a material of add(), with its texture as large as the script says.
+  void put(int material, Mesh& mesh) const;
+
   /// What a shape without any material gets.
   int neutral();
 
  private:
-  Material fromScript(const sdf::Material& source);
+  struct Scripted {
+    Material material;
+    Eigen::Array2f texture_scale{1.0f, 1.0f};  ///< ScriptMaterial::texture_scale
+  };
+  Scripted fromScript(const sdf::Material& source);
+  Material lookOf(const ScriptMaterial& script, Material material, const std::string& file);
   void readPbr(const sdf::Material& source, Material& material);
   void readMaps(const sdf::PbrWorkflow& metal, const sdf::Material& source, Material& material);
   int texture(const std::string& name, const std::string& from_file);
@@ -33,6 +43,7 @@ class SdfMaterials {
   const ResourceFinder& finder_;
   SceneBuilder& builder_;
   std::map<std::string, int> index_by_content_;
+  std::map<int, Eigen::Array2f> texture_scales_;  ///< of materials, where it is not 1
 };
 
 }  // namespace sunlit::scene

@@ -167,7 +167,7 @@ std::optional<Mesh> SdfVisuals::shapeOf(const sdf::Visual& visual, const std::st
   std::optional<Mesh> shape = geometry == nullptr ? std::nullopt : primitive(*geometry);
   if (!shape && element) shape = polylineOf(*element, name);
   if (shape) {
-    shape->material = material;
+    materials_.put(material, *shape);
   } else {
     const bool image = element && element->HasElement("image");
     builder_.warn("visuals have no shape that can be drawn", name + (image ? " (an <image>)" : ""));
@@ -191,7 +191,7 @@ void SdfVisuals::addRoads(const sdf::World& world) {
         builder_.warn("materials of roads cannot be read, they look like asphalt",
                       errors[0].Message() + " of " + name);
     }
-    mesh.material = material ? *material : bareRoad();
+    materials_.put(material ? *material : bareRoad(), mesh);
     if (mesh.triangles.empty()) builder_.warn("roads have less than two points, they were left out", name);
     builder_.addMesh(mesh, Eigen::Affine3d::Identity());
   }
@@ -237,7 +237,8 @@ void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Affine3d& 
   }
   for (MeshPart& part : parts) {
     part.mesh.name = name + "/" + part.mesh.name;
-    part.mesh.material = builder_.veiled(material ? *material : part.mesh.material, opacity);
+    if (material) materials_.put(*material, part.mesh);
+    part.mesh.material = builder_.veiled(part.mesh.material, opacity);
     builder_.addMesh(part.mesh, map_from_file * part.file_from_node);
   }
 }

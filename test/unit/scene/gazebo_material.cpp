@@ -50,6 +50,22 @@ TEST(GazeboMaterial, ReadsOneMaterialOfAScript) {
   EXPECT_FALSE(parseMaterialScript(kScript, "Gravel"));
 }
 
+TEST(GazeboMaterial, ReadsHowLargeItsFirstTextureIs) {
+  const auto of = [](const std::string& units) {
+    const auto material = parseMaterialScript("material A { technique { pass {" + units + "} } }\n", "A");
+    return material ? *material : ScriptMaterial();
+  };
+  const ScriptMaterial once = of("texture_unit {\n texture a.png\n scale 0.5 -2\n }");
+  EXPECT_EQ(once.texture_scale[0], 0.5f);
+  EXPECT_EQ(once.texture_scale[1], -2.0f);
+  EXPECT_TRUE(once.lost.empty());
+  // That of another texture is not rendered either.
+  EXPECT_EQ(of("texture_unit {\n texture a.png\n }\n texture_unit {\n scale 3 3\n }").texture_scale[0], 1.0f);
+  const ScriptMaterial none = of("texture_unit {\n scale 0 1\n }");
+  EXPECT_EQ(none.texture_scale[1], 1.0f);
+  EXPECT_EQ(none.lost.count("scale"), 1u);
+}
+
 TEST(GazeboMaterial, InheritsWhatItDoesNotSet) {
   const auto sand = parseMaterialScript(kScript, "Sand");
   ASSERT_TRUE(sand && sand->texture && sand->diffuse);

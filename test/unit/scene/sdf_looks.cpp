@@ -69,6 +69,27 @@ TEST_F(SdfLook, ScriptsOfModelsAreRead) {
   EXPECT_EQ(look(scene).base_texture, 0);
 }
 
+TEST_F(SdfLook, TexturesOfScriptsRepeatAsTheirScaleSays) {
+  write("models/field/materials/scripts/field.material",
+        "material Field/Sand\n{ technique { pass { texture_unit {\n texture sand.png\n scale 0.25 0.5\n } } "
+        "} }\n");
+  writeTexture("models/field/materials/textures/sand.png");
+  const std::string plane = "<plane><size>2 2</size></plane>";
+  const Scene plain = loaded("", "", plane);
+  const Scene scene = loaded(
+      "<material><script><uri>model://field/materials/scripts</uri><name>Field/Sand</name></script></"
+      "material>",
+      "", plane);
+  EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+  const std::vector<Eigen::Vector2f>& usual = plain.meshes.at(0).texture_coordinates;
+  ASSERT_EQ(scene.meshes.at(0).texture_coordinates.size(), usual.size());
+  // About the middle of the texture, four times to the side and twice up.
+  for (std::size_t i = 0; i < usual.size(); ++i) {
+    EXPECT_EQ(scene.meshes[0].texture_coordinates[i].x(), 4.0f * (usual[i].x() - 0.5f) + 0.5f);
+    EXPECT_EQ(scene.meshes[0].texture_coordinates[i].y(), 2.0f * (usual[i].y() - 0.5f) + 0.5f);
+  }
+}
+
 TEST_F(SdfLook, PbrMetalIsRead) {
   writeTexture("metal.png");
   const Scene scene = loaded(
