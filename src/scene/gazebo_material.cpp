@@ -87,7 +87,8 @@ constexpr NamedLook kLooks[] = {{"Grey", {0.7f, 0.7f, 0.7f}},
                                 {"Lanes_2", {0.32f, 0.32f, 0.32f}},
                                 {"Lane_1", {0.32f, 0.32f, 0.32f}},
                                 {"Footway", {0.55f, 0.52f, 0.50f}},
-                                {"Steps", {0.55f, 0.52f, 0.50f}}};
+                                {"Steps", {0.55f, 0.52f, 0.50f}},
+                                {"Runway", {0.30f, 0.30f, 0.30f}}};
 
 /// What OGRE can do and we do not.
 const std::set<std::string> kLost = {

@@ -83,6 +83,7 @@ class Mender {
 
   void mend(XMLElement& sdf) {
     if (version_ >= kOldestPruned) prune(sdf);
+    if (version_ < kOldestPruned) dropUnseen(sdf);
     forEachBelow(sdf, [&](XMLElement& element) { noteReferences(element); });
     mendBelow(sdf);
   }
@@ -107,6 +108,21 @@ class Mender {
                       described(*child, file_) + " in <" + parent.Value() + ">");
       }
       parent.DeleteChild(child);
+    }
+  }
+
+  /// Of older versions, whose elements stand elsewhere: what libsdformat is strict about in links, and nobody
+  /// sees.
+  static void dropUnseen(XMLElement& sdf) {
+    std::vector<XMLElement*> links;
+    forEachBelow(sdf, [&links](XMLElement& element) {
+      if (std::string(element.Value()) == "link") links.push_back(&element);
+    });
+    for (XMLElement* link : links) {
+      for (XMLElement* child : childrenOf(*link)) {
+        const std::string kind = child->Value();
+        if (kind == "collision" || kind == "inertial" || kind == "sensor") link->DeleteChild(child);
+      }
     }
   }
 

@@ -181,6 +181,16 @@ TEST_F(Lenient, AShapeThatIsNotKnownLeavesOutItsVisual) {
                   pathOf("test.world") + ":4 in <geometry>"));
 }
 
+TEST_F(Lenient, WhatNoCameraSeesStopsNothingOfOldVersionsEither) {
+  const std::string collision =
+      "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry></collision>";
+  for (const char* version : {"1.2", "1.3"}) {
+    const std::string content =
+        link("<inertial><mass>-1</mass></inertial>" + collision + collision + kVisual);
+    EXPECT_EQ(load(worldFile(model(content), version), {}).triangleCount(), 12u) << version;
+  }
+}
+
 TEST_F(Lenient, AScriptWithoutAFileIsGazebosOwn) {
   const auto painted = [](const std::string& script) {
     return model(
