@@ -11,7 +11,7 @@ PathRun::PathRun(ros::NodeHandle node, const PacingOptions& options, const Parts
       robot_(parts.robot),
       clock_(parts.clock),
       pacer_(node, options.wait_for, options.max_ahead) {
-  if (robot_ && robot_->jointsByTf()) tf_.emplace();
+  if (robot_ && robot_->jointsByTf()) tf_ = std::make_unique<TfInput>();
 }
 
 std::string PathRun::missing() {

@@ -98,7 +98,7 @@ class PathRun : public Run {
   const PathSource& path_;
   Streams& streams_;
   RobotPlaces* robot_;
-  std::optional<TfInput> tf_;  ///< where joints move
+  std::unique_ptr<TfInput> tf_;  ///< where joints move
   ClockSource* clock_;
   Pacer pacer_;
   ros::Time start_;         ///< stamp of pose 0; zero until it is known
