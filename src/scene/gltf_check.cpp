@@ -32,6 +32,8 @@ class Check {
   Check(const json& root, const std::string& file) : root_(root), file_(file) {}
 
   void run() {
+    for (std::size_t i = 0; i < list("bufferViews").size(); ++i)
+      checkView(list("bufferViews")[i], "view " + std::to_string(i));
     for (std::size_t i = 0; i < list("accessors").size(); ++i)
       checkAccessor(list("accessors")[i], "accessor " + std::to_string(i));
     for (std::size_t i = 0; i < list("meshes").size(); ++i) {
@@ -85,6 +87,18 @@ class Check {
       fail(place, "reaches to byte " + std::to_string(offset + bytes) + " of its view, which has " +
                       std::to_string(length));
     }
+  }
+
+  /// Assimp sees to it that buffers are as long as they say.
+  void checkView(const json& view, const std::string& place) const {
+    if (!view.is_object()) return;
+    const std::uint64_t end = whole(view, "byteOffset", 0, place) + whole(view, "byteLength", 0, place);
+    const json* const buffer = one("buffers", view, "buffer");
+    if (buffer == nullptr || !buffer->is_object()) return;
+    const std::uint64_t length = whole(*buffer, "byteLength", 0, place + ": its buffer");
+    if (end > length)
+      fail(place,
+           "reaches to byte " + std::to_string(end) + " of its buffer, which has " + std::to_string(length));
   }
 
   void checkAccessor(const json& accessor, const std::string& place) const {

@@ -183,6 +183,18 @@ TEST_F(GltfShape, BeyondItsNumbersIsRefused) {
   text.replace(text.find(type), type.size(), R"("count":3,"byteOffset":4,"type":"VEC3","min")");
   EXPECT_EQ(errorOf(write("t.gltf", text)),
             pathOf("t.gltf") + ": accessor 0 reaches to byte 40 of its view, which has 36");
+
+  const auto errorOfView = [&](const std::string& offset) {
+    std::string other = gltf({});
+    const std::string begin = R"("byteOffset":0,"byteLength":36)";
+    other.replace(other.find(begin), begin.size(), R"("byteOffset":)" + offset + R"(,"byteLength":36)");
+    return errorOf(write("t.gltf", other));
+  };
+  EXPECT_EQ(errorOfView("173"),
+            pathOf("t.gltf") + ": view 0 reaches to byte 209 of its buffer, which has 208");
+  EXPECT_NE(
+      errorOfView("18446744073709551615").find("view 0 has byteOffset 18446744073709551615, but it must be"),
+      std::string::npos);
 }
 
 TEST_F(GltfShape, OfAStripTooShortIsRefused) {
