@@ -210,28 +210,40 @@ class Check {
       if (input->GetLineNum() > parts[0]->GetLineNum()) fail(*input, "stands behind the <p> that it is for");
     }
     if (!has_corners) fail(primitive, "has no input of VERTEX");
-    checkCounts(primitive, count, *parts[0]);
     const std::uint64_t least = is(primitive, "tristrips") ? 3 : is(primitive, "linestrips") ? 2 : 0;
-    std::uint64_t numbers = 0;
+    std::uint64_t all = 0;
     for (const XMLElement* part : parts) {
-      const std::uint64_t given = count == 0 ? 0 : indices(*part).size();
-      numbers += given;
-      if (given / per_corner < least)
-        fail(*part, "has " + std::to_string(given / per_corner) + " corners, but must have " +
-                        std::to_string(least) + " or more");
+      const std::uint64_t corners = count == 0 ? 0 : indices(*part).size() / per_corner;
+      all += corners;
+      if (corners < least)
+        fail(*part, "has " + std::to_string(corners) + " corners, but must have " + std::to_string(least) +
+                        " or more");
     }
-    if (count > numbers)  // memory is taken for each that is counted
-      fail(primitive, "count is " + std::to_string(count) + ", but there are " + std::to_string(numbers) +
-                          " numbers in <p>");
+    // Memory is taken for what is counted.
+    if (count > all)
+      fail(primitive,
+           "count is " + std::to_string(count) + ", but its <p> have " + std::to_string(all) + " corners");
+    checkCounts(primitive, {count, all}, *parts[0]);
   }
 
+  struct Sizes {
+    std::uint64_t primitives, corners;
+  };
   /// Of corners of each polygon.
-  void checkCounts(XMLElement& primitive, std::uint64_t count, const XMLElement& first) const {
+  void checkCounts(XMLElement& primitive, const Sizes& sizes, const XMLElement& first) const {
     const std::vector<XMLElement*> lists = below(primitive, "vcount");
-    if (is(primitive, "polylist") && count > 0 &&
-        (lists.size() != 1 || indices(*lists[0]).size() < count || !standsBefore(*lists[0], first)))
-      fail(primitive, "must have one <vcount> of " + std::to_string(count) + " numbers before <p>");
-    for (const XMLElement* list : lists) indices(*list);
+    if (is(primitive, "polylist") && sizes.primitives > 0 &&
+        (lists.size() != 1 || indices(*lists[0]).size() < sizes.primitives ||
+         !standsBefore(*lists[0], first)))
+      fail(primitive,
+           "must have one <vcount> of " + std::to_string(sizes.primitives) + " numbers before <p>");
+    for (const XMLElement* list : lists) {
+      std::uint64_t sum = 0;
+      for (const std::uint64_t corners : indices(*list)) sum += corners;
+      if (sizes.primitives > 0 && sum > sizes.corners)
+        fail(*list,
+             "asks for " + std::to_string(sum) + " corners, but <p> has " + std::to_string(sizes.corners));
+    }
   }
 
   /// Both are within one parent.

@@ -53,10 +53,24 @@ TEST_F(ColladaNumbers, OfPrimitivesMustBeWholeAndAsManyAsCounted) {
   EXPECT_EQ(errorWith("<p>0 1 2</p>", ""),
             "2: <triangles>: count is 1, for which there must be 1 <p>, and there are 0");
   EXPECT_EQ(errorWith("<triangles count='1'", "<triangles count='2147483647'"),
-            "2: <triangles>: count is 2147483647, but there are 3 numbers in <p>");
+            "2: <triangles>: count is 2147483647, but its <p> have 3 corners");
+  EXPECT_EQ(errorWith("offset='0'", "offset='2147483646'"),
+            "2: <triangles>: count is 1, but its <p> have 0 corners");
   EXPECT_EQ(errorWith("'VERTEX'", "'NORMAL'"), "2: <triangles>: has no input of VERTEX");
   EXPECT_EQ(errorWith("'POSITION'", "'NORMAL'"),
             "2: <triangles>: its mesh has 0 inputs of POSITION, but must have one");
+}
+
+TEST_F(ColladaNumbers, OfCornersOfPolygonsAreNoMoreThanThereAre) {
+  const std::string triangles = "<triangles count='1'>", end = "<p>0 1 2</p></triangles>";
+  const auto polygons = [&](const std::string& counts) {
+    std::string text = kGood;
+    text.replace(text.find(triangles), triangles.size(), "<polylist count='1'>");
+    return text.replace(text.find(end), end.size(), "<vcount>" + counts + "</vcount><p>0 1 2</p></polylist>");
+  };
+  EXPECT_EQ(load(write("t.dae", polygons("3")), {}).triangleCount(), 1u);
+  EXPECT_EQ(errorOf(write("t.dae", polygons("2147483647"))),
+            pathOf("t.dae") + ":2: <vcount>: asks for 2147483647 corners, but <p> has 3");
 }
 
 TEST_F(ColladaNumbers, OfNodesThatContainThemselvesAreRefused) {
