@@ -141,20 +141,20 @@ class TileResolver {
   /// What is left of a sample behind all that it is seen through, which goes to Memory::veils.
   Eigen::Array3f passVeils(const Sample& sample, int column, int row) {
     const Eigen::Vector3f ray = relative({0, 1.0f}, column, row);
-    // What lies on a surface, such as the bottom of a box on the ground, is hidden by it, whatever rounding
-    // says.
-    const float far = sample.sky() ? static_cast<float>(seen_.view.far_m) : 0.9999f * sample.depth;
+    const float far = sample.sky() ? static_cast<float>(seen_.view.far_m) : sample.depth;
     seen_.veils->veils({eye_high_ + eye_low_, ray, static_cast<float>(seen_.view.near_m), far},
                        &memory_.hits);
     Eigen::Array3f left = Eigen::Array3f::Ones();
     for (const light::Hit& hit : memory_.hits) {
       const Eigen::Vector3f point = hit.distance * ray;
       const SeenTriangle& triangle = memory_.triangles.at(seen_, hit.triangle);
+      // What lies on a surface, as a box's bottom on the ground, is hidden, as from that surface's own rays.
+      const float above_m = (far - hit.distance) * std::abs(triangle.geometricNormal().dot(ray));
+      if (!sample.sky() && above_m < light::rayClearance_m(eye_high_ + point, far)) continue;
       const Footprint step = triangle.footprint(point, hit.distance, right_, down_);
       const Eigen::Array2f shares = triangle.sharesAt(point);
-      const scene::Material& material = seen_.look(triangle.material());
       // Glass sends its own light whole, and lets through what it does not mirror.
-      const bool glass = light::isGlass(material);
+      const bool glass = light::isGlass(seen_.look(triangle.material()));
       const float alpha =
           glass ? 1.0f
                 : seen_.maps.alpha(triangle.material(), triangle.placeOnMaps(seen_, shares, step, false));

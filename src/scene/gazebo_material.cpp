@@ -142,6 +142,15 @@ std::optional<float> manualAlpha(const Words& words) {
   return numberOf(words[4]);
 }
 
+/// OGRE's `scene_blend alpha_blend`, or the same in full.
+bool blendsByAlpha(const Words& words) {
+  const auto word = [&](std::size_t i) {
+    return i < words.size() && words[i] != "}" ? words[i] : std::string();
+  };
+  return (word(1) == "alpha_blend" && word(2).empty()) ||
+         (word(1) == "src_alpha" && word(2) == "one_minus_src_alpha");
+}
+
 /// OGRE's `scale U V`; none for what is no size.
 std::optional<Eigen::Array2f> scaleOf(const Words& words) {
   if (words.size() < 3) return std::nullopt;
@@ -168,8 +177,8 @@ void readLine(const Words& line, Reading& reading) {
       if (words.size() > 4) material.opacity = std::clamp(numberOf(words[4]).value_or(1.0f), 0.0f, 1.0f);
     }
     if (words[0] == "texture_unit") ++reading.units;
-    if (words[0] == "scale" && reading.units == 1) {
-      const std::optional<Eigen::Array2f> scale = scaleOf(words);
+    if (words[0] == "scale") {
+      const std::optional<Eigen::Array2f> scale = reading.units == 1 ? scaleOf(words) : std::nullopt;
       if (scale) material.texture_scale = *scale;
       if (!scale) material.lost.insert(words[0]);
     }
@@ -179,8 +188,9 @@ void readLine(const Words& line, Reading& reading) {
       if (!alpha) material.lost.insert(words[0]);
     }
     if (words[0] == "scene_blend") {
-      material.blends |= words.size() == 2 && words[1] == "alpha_blend";
-      if (!material.blends) material.lost.insert(words[0]);
+      const bool by_alpha = blendsByAlpha(words);
+      material.blends |= by_alpha;
+      if (!by_alpha) material.lost.insert(words[0]);
     }
     if (words[0] == "texture" && words.size() > 1 && !material.texture) material.texture = words[1];
     if (words[0] == "alpha_rejection") material.alpha_rejection = true;
@@ -199,7 +209,7 @@ void inherit(const ScriptMaterial& parent, ScriptMaterial* material) {
   }
   if (!material->texture) {
     material->texture = parent.texture;
-    material->texture_scale = parent.texture_scale;
+    if (!material->texture_scale) material->texture_scale = parent.texture_scale;
   }
   material->blends = material->blends || parent.blends;
   material->alpha_rejection = material->alpha_rejection || parent.alpha_rejection;

@@ -28,7 +28,7 @@ struct ScriptMaterial {
   bool blends = false;                 ///< by its opacity
   float opacity = 1.0f;                ///< times that of the texture, 0 … 1
   /// How many times as large as its coordinates say the texture shows, about its middle.
-  Eigen::Array2f texture_scale{1.0f, 1.0f};
+  std::optional<Eigen::Array2f> texture_scale;
   std::optional<LinearRgb> emissive;  ///< as on a display
   std::set<std::string> lost;         ///< keywords of what is not rendered
 };

@@ -55,6 +55,8 @@ std::string GltfBuffers::read(std::size_t buffer) const {
   if (!list.is_array() || buffer >= list.size())
     throw std::runtime_error("there is no buffer " + std::to_string(buffer));
   const nlohmann::json& address = child(list[buffer], "uri");
+  if (!address.is_string() && buffer > 0)
+    throw std::runtime_error("buffer " + std::to_string(buffer) + " has no address");
   if (!address.is_string()) return secondChunk(file_);
   const std::string uri = address.get<std::string>();
   if (uri.compare(0, 5, "data:") == 0) {

@@ -113,7 +113,7 @@ std::string useFloats(json& root, const std::string& file) {
       if (index >= child(root, "accessors").size()) continue;  // Assimp says so
       json& accessor = root["accessors"][index];
       const bool whole = componentOf(indexOf(accessor, "componentType", kFloat)).read != nullptr;
-      if (!whole || !accessor.contains("bufferView")) continue;
+      if (!whole || (!accessor.contains("bufferView") && !accessor.contains("sparse"))) continue;
       const std::size_t begin = floats.size();
       appendFloats(root, accessor, buffers, &floats);
       if (begin == floats.size()) continue;

@@ -311,7 +311,11 @@ std::optional<GltfLook> GltfMaterials::look(std::size_t index, const Picture& pi
 }
 
 std::unique_ptr<GltfInput> GltfMaterials::input() const {
-  return std::make_unique<GltfInput>(file_, json_->text, json_->root);
+  try {
+    return std::make_unique<GltfInput>(file_, json_->text, json_->root);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(error.what() + whatItNeeds());
+  }
 }
 
 void GltfMaterials::nameTheRest() const {

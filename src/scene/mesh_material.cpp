@@ -168,7 +168,7 @@ int addPhong(const aiMaterial& source, const aiScene& scene, const MeshFileConte
         material.name + " of " + context.file);
   const int opaque =
       context.builder.addMaterial(material, AlphaRule::kFromTexture, NormalsRule::kMaybeHeights);
-  return context.builder.veiled(opaque, opacity);
+  return context.builder.veiled(opaque, opacity, SceneBuilder::Faces::kOne);
 }
 
 aiTextureType typeOf(GltfMaterials::Slot slot) {

@@ -159,16 +159,17 @@ int SceneBuilder::oneSided(int material) {
   return one_sided_[material] = addMaterial(front, alpha_rules_[index], normals_rules_[index]);
 }
 
-int SceneBuilder::veiled(int material, float opacity) {
-  if (opacity >= 1.0f) return material;
-  const auto known = veiled_.find({material, opacity});
-  if (known != veiled_.end()) return known->second;
+int SceneBuilder::veiled(int material, float opacity, Faces faces) {
   const auto index = static_cast<std::size_t>(material);
   Material veil = scene_.materials.at(index);
-  if (veil.alpha_mode != AlphaMode::kBlend) veil.alpha = 1.0f;
+  const bool blends = veil.alpha_mode == AlphaMode::kBlend;
+  const float all = (blends ? veil.alpha : 1.0f) * opacity;
+  if (veil.glass > 0.0f || all >= 1.0f) return material;
+  const auto known = veiled_.find({material, opacity, faces});
+  if (known != veiled_.end()) return known->second;
   veil.alpha_mode = AlphaMode::kBlend;
-  veil.alpha *= opacity;
-  return veiled_[{material, opacity}] = addMaterial(veil, AlphaRule::kDeclared, normals_rules_[index]);
+  veil.alpha = faces == Faces::kTwo ? 1.0f - std::sqrt(1.0f - all) : all;
+  return veiled_[{material, opacity, faces}] = addMaterial(veil, AlphaRule::kDeclared, normals_rules_[index]);
 }
 
 void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mesh) {
@@ -267,36 +268,41 @@ void SceneBuilder::warn(const std::string& what, const std::string& where) {
 }
 
 SceneBuilder::Decoded SceneBuilder::decoded(const TextureSource& source) {
-  image::FittedImage fitted;
-  if (source.embedded) {
-    fitted =
-        image::decodeRgbaWithin(kLongestTextureSide, source.bytes.data(), source.bytes.size(), source.name);
-  } else {
-    fitted = image::readRgbaWithin(kLongestTextureSide, source.name.empty() ? source.opacity : source.name);
-  }
+  const auto read = [](const std::string& file) { return image::readRgbaWithin(kLongestTextureSide, file); };
+  const std::string& name = source.name.empty() ? source.opacity : source.name;
+  image::FittedImage fitted =
+      source.embedded
+          ? image::decodeRgbaWithin(kLongestTextureSide, source.bytes.data(), source.bytes.size(), name)
+          : read(name);
   image::Rgba8Image& picture = fitted.picture;
+  Decoded decoded;
+  if (picture.width != fitted.width || picture.height != fitted.height)
+    decoded.size_in_file = std::to_string(fitted.width) + " × " + std::to_string(fitted.height) + " px";
   if (source.name.empty()) {
     picture = image::coveredBy(white(picture), picture);
   } else if (!source.opacity.empty()) {
-    picture = image::coveredBy(picture, image::readRgbaWithin(kLongestTextureSide, source.opacity).picture);
+    try {
+      picture = image::coveredBy(picture, read(source.opacity).picture);
+    } catch (const std::runtime_error& error) {
+      decoded.lost_opacity = error.what();
+    }
   }
-  std::string size;
-  if (picture.width != fitted.width || picture.height != fitted.height)
-    size = std::to_string(fitted.width) + " × " + std::to_string(fitted.height) + " px";
-  return {{source.name.empty() ? source.opacity : source.name, picture.width, picture.height,
-           std::move(picture.data), source.wraps.u, source.wraps.v},
-          size};
+  decoded.texture = {name,           picture.width, picture.height, std::move(picture.data),
+                     source.wraps.u, source.wraps.v};
+  return decoded;
 }
 
 void SceneBuilder::decodeTextures() {
   scene_.textures.resize(sources_.size());
   std::vector<std::string> errors(sources_.size());
   std::vector<std::string> sizes(sources_.size());
+  std::vector<std::string> lost(sources_.size());
   tbb::parallel_for(std::size_t{0}, sources_.size(), [&](std::size_t i) {
     try {
       Decoded texture = decoded(sources_[i]);
       scene_.textures[i] = std::move(texture.texture);
       sizes[i] = std::move(texture.size_in_file);
+      lost[i] = std::move(texture.lost_opacity);
     } catch (const std::runtime_error& error) {
       errors[i] = error.what();
     }
@@ -304,6 +310,7 @@ void SceneBuilder::decodeTextures() {
   const std::string shrunk =
       "textures were scaled down to a longest side of " + std::to_string(kLongestTextureSide) + " px";
   for (std::size_t i = 0; i < sources_.size(); ++i) {
+    if (!lost[i].empty()) warn("pictures of opacity cannot be decoded, what has them is whole", lost[i]);
     if (!sizes[i].empty()) warn(shrunk, sources_[i].name + " of " + sizes[i]);
     if (errors[i].empty()) continue;
     warn("textures cannot be decoded, a neutral material takes their place", errors[i]);

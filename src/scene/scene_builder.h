@@ -2,12 +2,12 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -47,12 +47,6 @@ bool canShine(const Lamp& lamp);
 /// "; " before each of the warnings of a scene in which there is nothing: why that is so.
 std::string reasonsOf(const std::vector<std::string>& warnings);
 
-/// Of each of the two faces by which a ray goes through a closed shape, so that both together cover a share
-/// of `opacity`, 0 … 1, of what is behind.
-inline float opacityOfFace(float opacity) {
-  return 1.0f - std::sqrt(1.0f - opacity);
-}
-
 /// How a texture goes on to the sides, and up and down.
 struct Wraps {
   Wrap u = Wrap::kRepeat, v = Wrap::kRepeat;
@@ -71,8 +65,10 @@ class SceneBuilder {
   int addMaterial(const Material& material, AlphaRule alpha, NormalsRule normals = NormalsRule::kDeclared);
   /// The same, but invisible from behind; the same one each time.
   int oneSided(int material);
-  /// The same, but there by a share of `opacity`, 0 … 1; the same one each time for the same share.
-  int veiled(int material, float opacity);
+  enum class Faces { kOne, kTwo };  ///< that a ray meets on its way through a shape
+  /// The same, but there by a share of `opacity`, 0 … 1, of all faces of a shape together; the same one each
+  /// time for the same. Glass stays as clear as it is.
+  int veiled(int material, float opacity, Faces faces);
   const Material& material(int index) const { return scene_.materials.at(static_cast<std::size_t>(index)); }
 
   /// `mesh` moved by `map_from_mesh`, without its broken triangles (counted for a warning of finish()).
@@ -110,7 +106,7 @@ class SceneBuilder {
   /// A texture as decoded, and the size that its file has if that is another.
   struct Decoded {
     Texture texture;
-    std::string size_in_file;
+    std::string size_in_file, lost_opacity;  ///< the latter: why it cannot be decoded
   };
   struct Kind {
     std::size_t times = 0;
@@ -131,7 +127,7 @@ class SceneBuilder {
   std::vector<AlphaRule> alpha_rules_;                         ///< of each material
   std::vector<NormalsRule> normals_rules_;                     ///< of each material
   std::map<int, int> one_sided_;                               ///< of materials that are not
-  std::map<std::pair<int, float>, int> veiled_;                ///< by material and opacity
+  std::map<std::tuple<int, float, Faces>, int> veiled_;        ///< by material, opacity and faces
   std::map<std::string, Kind> kinds_;
 };
 

@@ -80,7 +80,7 @@ SdfMaterials::Scripted SdfMaterials::fromScript(const sdf::Material& source) {
     if (!found.file) continue;
     for (const std::string& file : scriptFiles(*found.file)) {
       if (const auto parsed = parseMaterialScript(contentOf(file), material.name))
-        return {lookOf(*parsed, material, file), parsed->texture_scale};
+        return {lookOf(*parsed, material, file), parsed->texture_scale.value_or(Eigen::Array2f::Ones())};
     }
   }
   builder_.warn("material scripts are not known, a neutral material takes their place", material.name);

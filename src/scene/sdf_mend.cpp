@@ -113,15 +113,14 @@ class Mender {
 
   /// Of older versions, whose elements stand elsewhere: what libsdformat is strict about in links, and nobody
   /// sees.
-  static void dropUnseen(XMLElement& sdf) {
-    std::vector<XMLElement*> links;
-    forEachBelow(sdf, [&links](XMLElement& element) {
-      if (std::string(element.Value()) == "link") links.push_back(&element);
-    });
-    for (XMLElement* link : links) {
-      for (XMLElement* child : childrenOf(*link)) {
-        const std::string kind = child->Value();
-        if (kind == "collision" || kind == "inertial" || kind == "sensor") link->DeleteChild(child);
+  static void dropUnseen(XMLElement& parent) {
+    const bool link = std::string(parent.Value()) == "link";
+    for (XMLElement* child : childrenOf(parent)) {
+      const std::string kind = child->Value();
+      if (link && (kind == "collision" || kind == "inertial" || kind == "sensor")) {
+        parent.DeleteChild(child);
+      } else {
+        dropUnseen(*child);
       }
     }
   }

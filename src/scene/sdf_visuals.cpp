@@ -146,7 +146,8 @@ void SdfVisuals::addVisual(const sdf::Visual& visual, const Eigen::Affine3d& map
     // Gazebo overlooks where the model of a height map stands, and worlds are made to look right in it.
     const bool ground = heightmapOf(*visual.Geom()).has_value();
     const bool sheet = ground || visual.Geom()->Type() == sdf::GeometryType::PLANE;
-    shape->material = builder_.veiled(shape->material, sheet ? opacity : opacityOfFace(opacity));
+    shape->material = builder_.veiled(shape->material, opacity,
+                                      sheet ? SceneBuilder::Faces::kOne : SceneBuilder::Faces::kTwo);
     if (ground && !map_from_visual.isApprox(Eigen::Affine3d::Identity()))
       builder_.warn("height maps stand where their <pos> says, not where their models do, as in Gazebo",
                     name);
@@ -238,7 +239,7 @@ void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Affine3d& 
   for (MeshPart& part : parts) {
     part.mesh.name = name + "/" + part.mesh.name;
     if (material) materials_.put(*material, part.mesh);
-    part.mesh.material = builder_.veiled(part.mesh.material, opacity);
+    part.mesh.material = builder_.veiled(part.mesh.material, opacity, SceneBuilder::Faces::kOne);
     builder_.addMesh(part.mesh, map_from_file * part.file_from_node);
   }
 }

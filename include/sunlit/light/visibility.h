@@ -40,10 +40,10 @@ inline bool seenThrough(const scene::Material& material) {
 }
 
 /// Materials of AlphaMode::kMask let light through where the image shows them cut out; those of kBlend stop
-/// a share alpha of the rays, by a hash of where they meet them, or none if so wished. Glass stops none. What
-/// they take of the light of rays that they do not stop is for those to ask who add it up, by veils().
-/// Surfaces stop light from both sides. Immutable after construction; queries may run on many threads at once
-/// and give the same bits on any number.
+/// a share alpha of the rays, by a hash of where they meet them, or none if so wished and alpha is the same
+/// everywhere. Glass stops none. What they take of the light of rays that they do not stop is for those to
+/// ask who add it up, by veils(). Surfaces stop light from both sides. Immutable after construction; queries
+/// may run on many threads at once and give the same bits on any number.
 class Visibility {
  public:
   /// Keeps `geometry` alive. Throws std::runtime_error if the ray library fails.
@@ -58,7 +58,7 @@ class Visibility {
   Visibility(const Visibility&) = delete;
   Visibility& operator=(const Visibility&) = delete;
 
-  /// What becomes of rays at what blends.
+  /// What becomes of rays at what blends evenly, by one alpha.
   enum class Blends { kStopByChance, kLetPass };
   /// Sets blocked[i] to 1 where anything lies along ray i at any distance, else to 0. Fastest for similar
   /// neighbours.
@@ -94,6 +94,9 @@ class Visibility {
   /// Whether anything blends or is glass at all, and whether anything is glass.
   bool hasVeils() const;
   bool hasGlass() const;
+  /// Whether anything blends evenly, and whether what a veil is, is such.
+  bool hasEvenBlends() const;
+  bool blendsEvenly(const Hit& veil) const;
 
  private:
   void occluded(const Rays& rays, float reach, Blends blends, std::uint8_t* blocked) const;

@@ -63,18 +63,27 @@ float hashed(float u, float v) {
   return static_cast<float>(h >> 8) * (1.0f / (1u << 24));
 }
 
-bool isListed(const scene::Material& material, Cutouts::Veils veils) {
+bool isListed(const scene::Scene& scene, const scene::Material& material, Cutouts::Veils veils) {
   switch (veils) {
     case Cutouts::Veils::kLeftOut:
-      return !seenThrough(material);
-    case Cutouts::Veils::kBlendsOnly:
-      return material.alpha_mode == scene::AlphaMode::kBlend;
+      return !isGlass(material) && !blendsEvenly(scene, material);
+    case Cutouts::Veils::kEvenOnly:
+      return blendsEvenly(scene, material);
     default:
       return true;
   }
 }
 
 }  // namespace
+
+bool blendsEvenly(const scene::Scene& scene, const scene::Material& material) {
+  if (material.alpha_mode != scene::AlphaMode::kBlend) return false;
+  if (material.base_texture == scene::Material::kNoTexture) return true;
+  const auto& rgba = scene.textures[static_cast<std::size_t>(material.base_texture)].rgba;
+  for (std::size_t i = 3; i < rgba.size(); i += 4)
+    if (rgba[i] != 255) return false;
+  return true;
+}
 
 Cutouts::Mask::Mask(const scene::Texture& source, float alpha_cutoff)
     : texture(&source),
@@ -185,8 +194,9 @@ Cutouts::Cutouts(const Geometry& geometry, Veils veils) {
     const bool blends = material.alpha_mode == scene::AlphaMode::kBlend;
     const bool textured = material.base_texture != scene::Material::kNoTexture;
     const bool masks = material.alpha_mode == scene::AlphaMode::kMask && textured;
-    if (!isListed(material, veils)) mask_of[m] = kNowhere;
-    if (!used[m] || mask_of[m] == kNowhere) continue;
+    if (!used[m]) continue;
+    if (!isListed(scene, material, veils)) mask_of[m] = kNowhere;
+    if (mask_of[m] == kNowhere) continue;
     if (isGlass(material)) {
       const std::vector<float> shares = through(material);
       mask_of[m] = maskOf(white(), 0.0f, 1.0f - mean(shares), shares);

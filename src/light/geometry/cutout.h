@@ -12,6 +12,9 @@
 
 namespace sunlit::light {
 
+/// Whether a material blends with the same alpha everywhere. Looks at all texels of its texture.
+bool blendsEvenly(const scene::Scene& scene, const scene::Material& material);
+
 /// Sorts a scene's triangles into opaque and masked ones, and answers for the latter by their texture's full
 /// resolution, bilinearly filtered as in the image. What blends is masked too: solid at a share of its points
 /// that is its alpha there, chosen by a hash of the point, so that of n rays a share of alpha ± √(alpha (1 −
@@ -23,10 +26,10 @@ class Cutouts {
  public:
   /// What becomes of glass and of what blends.
   enum class Veils {
-    kByChance,    ///< masked; glass stops so many rays as it keeps light back, by their angle where that is
-                  ///< told, else on average over a half sphere
-    kLeftOut,     ///< in neither list
-    kBlendsOnly,  ///< what blends is masked, and nothing else is in either list
+    kByChance,  ///< masked; glass stops so many rays as it keeps light back, by their angle where that is
+                ///< told, else on average over a half sphere
+    kLeftOut,   ///< glass and what blends evenly are in neither list
+    kEvenOnly,  ///< what blends evenly is masked, and nothing else is in either list
   };
   explicit Cutouts(const Geometry& geometry, Veils veils = Veils::kByChance);
 

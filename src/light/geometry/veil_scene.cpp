@@ -3,16 +3,25 @@
 #include <cmath>
 #include <limits>
 
+#include "light/geometry/cutout.h"
 #include "light/geometry/embree.h"
 
 namespace sunlit::light {
 
 VeilScene::VeilScene(const Geometry& geometry, RTCDevice device) : geometry_(geometry) {
+  const std::vector<scene::Material>& materials = geometry.scene->materials;
+  std::vector<bool> used(materials.size(), false);
   for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
-    const scene::Material& material =
-        geometry.scene->materials[static_cast<std::size_t>(geometry.materials[t])];
-    if (seenThrough(material)) triangles_.push_back(t);
-    has_glass_ |= isGlass(material);
+    const auto material = static_cast<std::size_t>(geometry.materials[t]);
+    if (seenThrough(materials[material])) triangles_.push_back(t);
+    used[material] = true;
+  }
+  even_.resize(materials.size());
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    if (!used[m]) continue;
+    even_[m] = light::blendsEvenly(*geometry.scene, materials[m]);
+    has_even_ = has_even_ || even_[m];
+    has_glass_ = has_glass_ || isGlass(materials[m]);
   }
   if (triangles_.empty()) return;
   scene_.reset(rtcNewScene(device));

@@ -16,6 +16,11 @@ class VeilScene {
 
   bool any() const { return !triangles_.empty(); }
   bool hasGlass() const { return has_glass_; }
+  bool hasEvenBlends() const { return has_even_; }
+  /// Of a triangle of `geometry`: see light::blendsEvenly().
+  bool blendsEvenly(std::uint32_t triangle) const {
+    return even_[static_cast<std::size_t>(geometry_.materials[triangle])];
+  }
   /// Adds what `sight` meets, nearest first, at most Visibility::kMostVeils, its triangles numbered from
   /// `first_triangle` on.
   void add(const Visibility::Sight& sight, std::uint32_t first_triangle, std::vector<Hit>* hits) const;
@@ -23,7 +28,8 @@ class VeilScene {
  private:
   const Geometry& geometry_;
   std::vector<std::uint32_t> triangles_;
-  bool has_glass_ = false;
+  std::vector<bool> even_;  ///< of each material that is used: whether it blends evenly
+  bool has_glass_ = false, has_even_ = false;
   ScenePointer scene_;  ///< null: there are none
 };
 

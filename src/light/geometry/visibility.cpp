@@ -63,6 +63,10 @@ void passInvisible(const RTCFilterFunctionNArguments* arguments) {
         arguments->hit, arguments->N, i)])[RTCHitN_primID(arguments->hit, arguments->N, i)];
     const scene::Material& material =
         context.geometry->scene->materials[static_cast<std::size_t>(context.geometry->materials[triangle])];
+    if (material.alpha_mode == scene::AlphaMode::kBlend) {
+      arguments->valid[i] = 0;
+      continue;
+    }
     if (material.double_sided) continue;
     const Eigen::Vector3f direction(RTCRayN_dir_x(arguments->ray, arguments->N, i),
                                     RTCRayN_dir_y(arguments->ray, arguments->N, i),
@@ -121,10 +125,10 @@ class Visibility::Implementation {
 
   std::shared_ptr<const Geometry> geometry_;
   Cutouts cutouts_;
-  std::optional<Cutouts> blends_;  ///< empty: nothing blends
+  std::optional<Cutouts> blends_;  ///< evenly; empty: nothing does
   DevicePointer device_;
-  ScenePointer scene_;        ///< without veils
-  ScenePointer blend_scene_;  ///< of what blends; null: none
+  ScenePointer scene_;        ///< without glass and what blends evenly
+  ScenePointer blend_scene_;  ///< of what blends evenly; null: none
   std::unique_ptr<VeilScene> veils_;
   bool wide_ = false;  ///< the CPU takes 16 rays at once
 };
@@ -170,12 +174,8 @@ void Visibility::Implementation::build(RTCBuildQuality quality) {
 }
 
 void Visibility::Implementation::buildBlends(RTCBuildQuality quality) {
-  if (!veils_->any()) return;
-  blends_.emplace(*geometry_, Cutouts::Veils::kBlendsOnly);
-  if (blends_->maskedTriangles().empty()) {
-    blends_.reset();
-    return;
-  }
+  if (!veils_->hasEvenBlends()) return;
+  blends_.emplace(*geometry_, Cutouts::Veils::kEvenOnly);
   blend_scene_.reset(rtcNewScene(device_.get()));
   rtcSetSceneFlags(blend_scene_.get(), RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(blend_scene_.get(), quality);
@@ -357,6 +357,17 @@ void Visibility::veils(const Sight& sight, std::vector<Hit>* hits) const {
 
 bool Visibility::hasGlass() const {
   return implementation_->veils().hasGlass() || (fixed_ && fixed_->implementation_->veils().hasGlass());
+}
+
+bool Visibility::hasEvenBlends() const {
+  return implementation_->veils().hasEvenBlends() ||
+         (fixed_ && fixed_->implementation_->veils().hasEvenBlends());
+}
+
+bool Visibility::blendsEvenly(const Hit& veil) const {
+  const std::uint32_t fixed = fixedTriangles();
+  if (veil.triangle >= fixed) return implementation_->veils().blendsEvenly(veil.triangle - fixed);
+  return (fixed_ ? *fixed_ : *this).implementation_->veils().blendsEvenly(veil.triangle);
 }
 
 bool Visibility::hasVeils() const {

@@ -67,8 +67,13 @@ Eigen::Array3f SurfaceLighting::ofDisc(const Disc& disc, const Tile& tile, std::
   if (broken_cloud_) share *= light_.day.throughCloud(disc.light, surface.position);
   if (!glass_.anyVeils()) return Eigen::Array3f::Constant(share);
   const Eigen::Vector3f& towards = disc.visibility.towards();
-  const Eigen::Vector3f origin = rayStart(tile, surface.first_sample, surface, towards);
-  return share * glass_.throughVeils({origin, towards, 0.0f, std::numeric_limits<float>::infinity()});
+  Eigen::Array3f through = Eigen::Array3f::Zero();
+  const std::uint32_t rays = glass_.raysOf(surface.samples);
+  for (std::uint32_t k = 0; k < rays; ++k) {
+    const Eigen::Vector3f origin = rayStart(tile, surface.first_sample + k, surface, towards);
+    through += glass_.throughVeils({origin, towards, 0.0f, std::numeric_limits<float>::infinity()});
+  }
+  return share * through / static_cast<float>(rays);
 }
 
 void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& by_rays,

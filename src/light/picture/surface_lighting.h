@@ -45,8 +45,8 @@ class SurfaceLighting {
   struct SurfaceParts {
     const WholeOutlook& outlook;
     const AmbientReflectance& ambient;
-    const Mirrored& mirrored;              ///< where the light is baked
-    Eigen::Array3f sun, moon;              ///< shares of their discs that it sees, coloured by glass
+    const Mirrored& mirrored;  ///< where the light is baked
+    Eigen::Array3f sun, moon;  ///< shares of their discs that it sees, coloured by glass and what blends
     Eigen::Array3f sun_glint, moon_glint;  ///< by way of polished floors, lx on a plane facing them
     const Eigen::Array3f* lamps;           ///< its luminance by lamps; null: there are none
     const SeenByRays* by_rays;             ///< null: none

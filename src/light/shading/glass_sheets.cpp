@@ -8,7 +8,8 @@ GlassSheets::GlassSheets(const Visibility& visibility)
     : vertices_(visibility.fixedGeometry(), visibility.movingGeometry()),
       visibility_(visibility),
       any_(visibility.hasGlass()),
-      any_veils_(visibility.hasVeils()) {}
+      blends_(visibility.hasEvenBlends()),
+      any_veils_(any_ || blends_) {}
 
 void GlassSheets::veils(const Visibility::Sight& sight, std::vector<Hit>* hits) const {
   Visibility::Sight all = sight;
@@ -39,10 +40,11 @@ Eigen::Array3f GlassSheets::throughVeils(const Visibility::Sight& sight) const {
   thread_local std::vector<Hit> hits;
   veils(sight, &hits);
   for (const Hit& hit : hits) {
-    if (isGlass(vertices_.material(hit))) {
+    const scene::Material& material = vertices_.material(hit);
+    if (isGlass(material)) {
       product *= straightThrough(at(hit, sight.direction.normalized()).reflection);
-    } else {
-      product *= 1.0f - vertices_.alpha(hit);
+    } else if (visibility_.blendsEvenly(hit)) {
+      product *= 1.0f - material.alpha;
     }
   }
   return product;

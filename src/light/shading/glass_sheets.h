@@ -1,4 +1,4 @@
-/// Light on its way through sheets of glass, and through what blends.
+/// Light on its way through sheets of glass, and through what blends evenly.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,19 +9,22 @@
 
 namespace sunlit::light {
 
-/// Beside Visibility, whose rays glass does not stop, nor what blends where so wished.
+/// Beside Visibility, whose rays glass does not stop, nor what blends evenly where so wished.
 class GlassSheets {
  public:
   /// Keeps a reference.
   explicit GlassSheets(const Visibility& visibility);
 
   bool any() const { return any_; }
-  /// Whether there is glass, or anything that blends.
+  /// Whether there is glass, or anything that blends evenly.
   bool anyVeils() const { return any_veils_; }
+  /// How many of `samples` rays of a surface are asked for what veils leave: edges of what blends are seen,
+  /// while glass hardly darkens.
+  std::uint32_t raysOf(std::uint32_t samples) const { return blends_ ? samples : 1; }
   /// Share of the light that gets through along `sight` in all of its sheets, by channel. The ray may go
   /// either way.
   Eigen::Array3f through(const Visibility::Sight& sight) const;
-  /// The same with what blends, of rays by Visibility::Blends::kLetPass.
+  /// The same with what blends evenly, of rays by Visibility::Blends::kLetPass.
   Eigen::Array3f throughVeils(const Visibility::Sight& sight) const;
   /// The sheets on its way, nearest first.
   void sheets(const Visibility::Sight& sight, std::vector<Hit>* hits) const;
@@ -33,7 +36,7 @@ class GlassSheets {
 
   SceneVertices vertices_;
   const Visibility& visibility_;
-  bool any_, any_veils_;
+  bool any_, blends_, any_veils_;
 };
 
 }  // namespace sunlit::light

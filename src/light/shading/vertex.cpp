@@ -70,12 +70,6 @@ const scene::Material& SceneVertices::material(const Hit& hit) const {
   return geometry.scene->materials[static_cast<std::size_t>(geometry.materials[here.triangle])];
 }
 
-float SceneVertices::alpha(const Hit& hit) const {
-  const scene::Material& of = material(hit);
-  const std::optional<Eigen::Array3f> texel_alpha = texel(pointOf(hit), {of.base_texture}, TexelKind::kAlpha);
-  return of.alpha * (texel_alpha ? (*texel_alpha)[0] : 1.0f);
-}
-
 Vertex SceneVertices::at(const Hit& at_hit, const Eigen::Vector3f& direction) const {
   const Point point = pointOf(at_hit);
   const auto& [geometry, hit] = point;
@@ -136,7 +130,6 @@ std::optional<Eigen::Array3f> SceneVertices::texel(const Point& point, const sce
     const std::uint8_t* rgba =
         texture.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width) +
                                    static_cast<std::size_t>(x));
-    if (kind == TexelKind::kAlpha) return Eigen::Array3f(Eigen::Array3f::Constant(rgba[3] / 255.0f));
     if (kind == TexelKind::kData) return Eigen::Array3f(Eigen::Array3f(rgba[0], rgba[1], rgba[2]) / 255.0f);
     return Eigen::Array3f(linear[rgba[0]], linear[rgba[1]], linear[rgba[2]]);
   };

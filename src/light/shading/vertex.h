@@ -40,14 +40,12 @@ class SceneVertices {
   explicit SceneVertices(const Geometry& geometry, const Geometry* bodies = nullptr);
 
   const scene::Material& material(const Hit& hit) const;
-  /// Of what blends: the share of the surface that is there, 0 … 1.
-  float alpha(const Hit& hit) const;
 
   /// Where a ray that came along unit vector `direction` ends.
   Vertex at(const Hit& hit, const Eigen::Vector3f& direction) const;
 
  private:
-  enum class TexelKind { kColor, kData, kAlpha };
+  enum class TexelKind { kColor, kData };
   /// A point of a triangle of one of the two.
   struct Point {
     const Geometry& geometry;

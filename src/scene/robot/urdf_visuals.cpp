@@ -69,7 +69,7 @@ void UrdfVisuals::addVisual(const urdf::Visual& visual, const std::string& name,
   }
   Mesh mesh = primitive(*visual.geometry, place);
   mesh.name = name;
-  mesh.material = builder_.veiled(*own_material, opacityOfFace(opacity));
+  mesh.material = builder_.veiled(*own_material, opacity, SceneBuilder::Faces::kTwo);
   builder_.addMesh(mesh, Eigen::Affine3d(link_from_visual));
 }
 
@@ -119,7 +119,7 @@ void UrdfVisuals::addMeshShape(const urdf::Mesh& shape, const MeshUse& use, cons
     part.mesh.name = name + "/" + part.mesh.name;
     // As RViz does: the material of the URDF is for meshes that bring none.
     if (use.own_material && builder_.material(part.mesh.material).name == kNoMaterial) {
-      part.mesh.material = builder_.veiled(*use.own_material, use.opacity);
+      part.mesh.material = builder_.veiled(*use.own_material, use.opacity, SceneBuilder::Faces::kOne);
     }
     builder_.addMesh(part.mesh, link_from_file * part.file_from_node);
   }

@@ -144,6 +144,30 @@ TEST(LampBehindGlass, IsDimmedByTheAngleAtWhichItPasses) {
   EXPECT_NEAR(seen(true) / seen(false), through(0.5f), 0.005f);  // the pixel sees it at 60 ± 0.2°
 }
 
+// What blends takes its share, and nothing from a lamp that casts no shadows.
+TEST(LampBehindWhatBlends, IsDimmedByItsShareIfItCastsShadows) {
+  const auto seen = [&](bool veiled, bool casts_shadows) {
+    scene::Scene scene;
+    addGround(&scene, addMaterial(&scene, {0.5f, 0.5f, 0.5f}), 50.0f);
+    const int veil = addMaterial(&scene, {0.5f, 0.5f, 0.5f});
+    scene.materials.back().alpha_mode = scene::AlphaMode::kBlend;
+    scene.materials.back().alpha = 0.3f;
+    if (veiled) addPatch(&scene, veil, {-30.0f, -30.0f, 3.0f}, {60.0f, 0.0f, 0.0f}, {0.0f, 60.0f, 0.0f});
+    light::World world(shared(scene));
+    render::Renderer renderer(world, smallCamera(33, 33, 5.0));
+    renderer.look(lookingAt({0.0, 0.0, 2.0}, {0.0, 0.0, 0.0}));
+    scene::Lamp lamp;
+    lamp.position = {1.0f, 0.0f, 5.0f};
+    lamp.intensity = LinearRgb(1000.0f, 1000.0f, 1000.0f);
+    lamp.casts_shadows = casts_shadows;
+    light::Illumination light(night());
+    light.lamps = std::make_shared<const std::vector<scene::Lamp>>(1, lamp);
+    return at(renderer.light(light), 16, 16)[1];
+  };
+  EXPECT_NEAR(seen(true, true) / seen(false, true), 0.7f, 1e-3f);
+  EXPECT_NEAR(seen(true, false) / seen(false, false), 1.0f, 1e-3f);
+}
+
 /// Pixel that shows `point`.
 Eigen::Vector2i pixelOf(const Eigen::Isometry3d& map_from_optical, const image::PinholeCamera& camera,
                         const Eigen::Vector3d& point) {

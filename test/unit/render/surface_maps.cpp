@@ -1,6 +1,7 @@
 // What textures beside the colour's make of a surface, against pencil and paper.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -335,11 +336,26 @@ TEST(Blending, ShadesTheGroundByItsShare) {
 
 // Rays that are stopped by chance would differ by some ten per cent from pixel to pixel.
 TEST(Blending, CastsAShadowWithoutGrain) {
-  const image::LinearImage image = Seen(pane(0.5f)).renderer.light(daylightAt(180.0, 80.0));
+  const sky::Daylight day = daylightAt(180.0, 80.0);
+  const image::LinearImage image = Seen(pane(0.5f)).renderer.light(day);
+  const image::LinearImage open = Seen(pane(0.0f)).renderer.light(day);
+  EXPECT_LT(at(image, 32, 24)[1], 0.4f * at(open, 32, 24)[1]);  // 0.5 of the ground, of which most is sun
   for (int y = 14; y < 34; ++y) {
     for (int x = 17; x < 46; ++x)
       EXPECT_NEAR(at(image, x, y)[1] / at(image, x + 1, y)[1], 1.0f, 2e-3f) << x << " " << y;
   }
+}
+
+// A poster 2 mm before a wall is no bottom of a box.
+TEST(Blending, IsSeenJustAboveASurface) {
+  scene::Scene scene = pane(0.5f);
+  for (Eigen::Vector3f& position : scene.meshes[1].positions) position.z() = 0.002f;
+  const Seen seen(scene, {0.0, 0.1, 30.0});
+  EXPECT_TRUE(std::any_of(seen.renderer.surfaces().tiles.begin(), seen.renderer.surfaces().tiles.end(),
+                          [](const light::Tile& tile) {
+                            return std::any_of(tile.surfaces.begin(), tile.surfaces.end(),
+                                               [](const light::Surface& s) { return s.material == 1; });
+                          }));
 }
 
 TEST(Blending, IsTheSameEveryTime) {

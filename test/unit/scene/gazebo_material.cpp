@@ -50,20 +50,33 @@ TEST(GazeboMaterial, ReadsOneMaterialOfAScript) {
   EXPECT_FALSE(parseMaterialScript(kScript, "Gravel"));
 }
 
+TEST(GazeboMaterial, BlendsByAlphaHoweverThatIsWritten) {
+  const auto of = [](const std::string& blend) {
+    return parseMaterialScript("material A { technique { pass { scene_blend " + blend + " } } }\n", "A")
+        .value();
+  };
+  EXPECT_TRUE(of("alpha_blend").blends);
+  EXPECT_TRUE(of("src_alpha one_minus_src_alpha").blends);
+  EXPECT_TRUE(of("alpha_blend").lost.empty());
+  EXPECT_FALSE(of("add").blends);
+  EXPECT_EQ(of("add").lost.count("scene_blend"), 1u);
+}
+
 TEST(GazeboMaterial, ReadsHowLargeItsFirstTextureIs) {
   const auto of = [](const std::string& units) {
     const auto material = parseMaterialScript("material A { technique { pass {" + units + "} } }\n", "A");
     return material ? *material : ScriptMaterial();
   };
   const ScriptMaterial once = of("texture_unit {\n texture a.png\n scale 0.5 -2\n }");
-  EXPECT_EQ(once.texture_scale[0], 0.5f);
-  EXPECT_EQ(once.texture_scale[1], -2.0f);
+  EXPECT_EQ(once.texture_scale->x(), 0.5f);
+  EXPECT_EQ(once.texture_scale->y(), -2.0f);
   EXPECT_TRUE(once.lost.empty());
   // That of another texture is not rendered either.
-  EXPECT_EQ(of("texture_unit {\n texture a.png\n }\n texture_unit {\n scale 3 3\n }").texture_scale[0], 1.0f);
-  const ScriptMaterial none = of("texture_unit {\n scale 0 1\n }");
-  EXPECT_EQ(none.texture_scale[1], 1.0f);
-  EXPECT_EQ(none.lost.count("scale"), 1u);
+  for (const std::string units : {"texture_unit {\n texture a.png\n }\n texture_unit {\n scale 3 3\n }",
+                                  "texture_unit {\n scale 0 1\n }", "scale 2 2\n"}) {
+    EXPECT_FALSE(of(units).texture_scale) << units;
+    EXPECT_EQ(of(units).lost.count("scale"), 1u) << units;
+  }
 }
 
 TEST(GazeboMaterial, InheritsWhatItDoesNotSet) {

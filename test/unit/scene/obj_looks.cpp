@@ -61,6 +61,12 @@ TEST_F(ObjLooks, OpacityMayBeAPictureOfItsOwn) {
   ASSERT_EQ(leaf.textures.size(), 1u);
   EXPECT_EQ(materialOf(leaf).alpha_mode, AlphaMode::kMask);
   EXPECT_EQ(leaf.textures[0].rgba[1], 200);
+  EXPECT_TRUE(leaf.warnings.empty());
+  write("broken.png", "no picture");
+  const Scene whole = lookOf("map_Kd leaf.png\nmap_d broken.png\n");
+  EXPECT_EQ(whole.textures.at(0).rgba, (std::vector<std::uint8_t>{10, 200, 30, 255}));
+  ASSERT_EQ(whole.warnings.size(), 1u);
+  EXPECT_NE(whole.warnings[0].find("broken.png"), std::string::npos);
   const Scene shape = lookOf("map_d mask.png\n");
   EXPECT_EQ(materialOf(shape).alpha_mode, AlphaMode::kMask);
   EXPECT_EQ(materialOf(shape).base_color.value[0], 1.0f);

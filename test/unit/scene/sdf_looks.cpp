@@ -208,7 +208,8 @@ TEST_F(SdfLook, ScriptsBlendByTheirAlpha) {
         "material Field/Wall\n{ technique { pass {\n scene_blend alpha_blend\n diffuse 1 0 0 1\n } } }\n");
   const auto of = [&](const std::string& name) {
     const Scene scene = loaded("<material><script><uri>model://field/materials/scripts</uri><name>" + name +
-                               "</name></script></material>");
+                                   "</name></script></material>",
+                               "", "<plane><size>1 1</size></plane>");
     EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
     return look(scene);
   };

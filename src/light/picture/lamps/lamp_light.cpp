@@ -299,13 +299,21 @@ std::vector<LampLight::OfLamp> LampLight::targetsOf(const Tile& tile) const {
 }
 
 Eigen::Array3f LampLight::throughVeils(const LampBeam& beam, const Tile& tile, const Surface& surface) const {
-  const std::size_t at = surface.first_sample;
-  const Eigen::Vector3f origin = rayStart(tile, at, surface, beam.ball() - rayStart(tile, at));
-  const Eigen::Vector3f way = beam.ball() - origin;
-  // What lies within the lamp's ball is part of it.
-  const float reach = 1.0f - beam.radius_m() / std::max(way.norm(), 1e-6f);
-  if (!(reach > 0.0f)) return Eigen::Array3f::Ones();
-  return glass_.throughVeils({origin, way, 0.0f, reach});
+  Eigen::Array3f through = Eigen::Array3f::Zero();
+  const std::uint32_t rays = glass_.raysOf(surface.samples);
+  for (std::uint32_t k = 0; k < rays; ++k) {
+    const std::size_t at = surface.first_sample + k;
+    const Eigen::Vector3f origin = rayStart(tile, at, surface, beam.ball() - rayStart(tile, at));
+    const Eigen::Vector3f way = beam.ball() - origin;
+    // What lies within the lamp's ball is part of it.
+    const Visibility::Sight sight{origin, way, 0.0f, 1.0f - beam.radius_m() / std::max(way.norm(), 1e-6f)};
+    if (!(sight.far > 0.0f)) {
+      through += 1.0f;
+    } else {
+      through += beam.castsShadows() ? glass_.throughVeils(sight) : glass_.through(sight);
+    }
+  }
+  return through / static_cast<float>(rays);
 }
 
 void LampLight::light(const Tile& tile, std::vector<Eigen::Array3f>* luminances) const {

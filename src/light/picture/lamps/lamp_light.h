@@ -79,7 +79,7 @@ class LampLight {
   void findShadows(std::uint32_t lamp, const Tile& tile, std::vector<Target>* targets) const;
   void cast(const LampBeam& beam, const Tile& tile, const std::vector<Target*>& targets) const;
 
-  /// Share of a lamp's light that glass on the way leaves to a surface.
+  /// Share of a lamp's light that glass, and of one that casts shadows what blends, leave to a surface.
   Eigen::Array3f throughVeils(const LampBeam& beam, const Tile& tile, const Surface& surface) const;
 
   std::vector<LampBeam> beams_;
