@@ -166,7 +166,7 @@ std::optional<Mesh> SdfVisuals::shapeOf(const sdf::Visual& visual, const std::st
       return terrainOf(*ground, {material, name}, builder_, finder_);
   }
   std::optional<Mesh> shape = geometry == nullptr ? std::nullopt : primitive(*geometry);
-  if (!shape && element) shape = polylineOf(*element, name);
+  if (!shape && element) shape = polylineOf(*element, file_ + ": visual " + name);
   if (shape) {
     materials_.put(material, *shape);
   } else {
@@ -181,7 +181,7 @@ void SdfVisuals::addRoads(const sdf::World& world) {
   for (sdf::ElementPtr road = element ? firstIn(*element, "road") : nullptr; road;
        road = road->GetNextElement("road")) {
     const auto name = road->Get<std::string>("name");
-    Mesh mesh = roadOf(*road, "road " + name);
+    Mesh mesh = roadOf(*road, file_ + ": road " + name);
     mesh.name = name;
     sdf::Material source;
     std::optional<int> material;

@@ -140,12 +140,13 @@ TEST_F(SdfShape, PolylinesAreSolidsWithHoles) {
   for (Eigen::Vector3f& position : mesh.positions) position.x() -= 100.0f;  // or volumes lose digits
   EXPECT_NEAR(volumeOf(mesh), 2.0 * (16.0 - 4.0), kTolerance);
   EXPECT_TRUE(scene.warnings.empty());
-  EXPECT_NE(
-      errorOf(write("test.world", "<sdf version='1.6'><world name='w'>" +
-                                      visual("<polyline><point>0 0</point><height>0</height></polyline>") +
-                                      "</world></sdf>"))
-          .find("m::l::v: its height is 0, but must be above 0 m"),
-      std::string::npos);
+  const auto errorOfWorld = [&](const std::string& content) {
+    return errorOf(write("test.world", "<sdf version='1.6'><world name='w'>" + content + "</world></sdf>"));
+  };
+  EXPECT_EQ(errorOfWorld(visual("<polyline><point>0 0</point><height>0</height></polyline>")),
+            pathOf("test.world") + ": visual m::l::v: its height is 0, but must be above 0 m");
+  EXPECT_EQ(errorOfWorld("<road name='r'><width>-0</width><point>0 0 0</point><point>9 0 0</point></road>"),
+            pathOf("test.world") + ": road r: its width is -0, but must be above 0 m");
 }
 
 TEST_F(SdfShape, RoadsAreRibbons) {
