@@ -33,14 +33,13 @@ std::string decodedBase64(const std::string& text, std::size_t begin) {
   return bytes;
 }
 
-/// What follows the first chunk of a .glb and its own header.
+/// The content of the second chunk of a .glb.
 std::string secondChunk(const std::string& file) {
-  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-  const std::string all = bytesOf(file);
-  const std::size_t begin = kHeader + kChunkHeader + gltfText(file).size() + kChunkHeader;
-  if (all.compare(0, 4, "glTF") != 0 || begin > all.size())
+  constexpr std::size_t kChunkHeader = 8;
+  const std::string rest = gltfParts(file).rest;
+  if (rest.size() < kChunkHeader)
     throw std::runtime_error("a buffer has no address, and the file no bytes of its own");
-  return all.substr(begin);
+  return rest.substr(kChunkHeader);
 }
 
 }  // namespace

@@ -78,17 +78,17 @@ void appendWord(std::string& bytes, std::size_t value) {
   for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>((value >> shift) & 0xFF);
 }
 
-/// `file` with another JSON: all of a .gltf, the first chunk of a .glb.
-std::string withJson(const std::string& file, std::string text, std::size_t old_length) {
-  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-  const std::string old = bytesOf(file);
-  if (old.compare(0, 4, "glTF") != 0) return text;
+/// The bytes of `file` with another JSON.
+std::string withJson(const std::string& file, std::string text) {
+  constexpr std::size_t kHeader = 12, kChunkHeader = 8, kVersion = 2;
+  const GltfParts old = gltfParts(file);
+  if (!old.binary) return text;
   text.resize((text.size() + 3) / 4 * 4, ' ');
-  const std::string rest = old.substr(std::min(old.size(), kHeader + kChunkHeader + old_length));
-  std::string bytes = old.substr(0, 8);
-  appendWord(bytes, kHeader + kChunkHeader + text.size() + rest.size());
+  std::string bytes = "glTF";
+  appendWord(bytes, kVersion);
+  appendWord(bytes, kHeader + kChunkHeader + text.size() + old.rest.size());
   appendWord(bytes, text.size());
-  return bytes + "JSON" + text + rest;
+  return bytes + "JSON" + text + old.rest;
 }
 
 /// As Assimp's destructor expects it.
@@ -115,14 +115,14 @@ void requireGltf2(const json& root, const std::string& file) {
                              ", and only 2.0 is read: convert it, by Blender or gltf-pipeline");
 }
 
-GltfInput::GltfInput(const std::string& file, const std::string& text, json root) : file_(file) {
+GltfInput::GltfInput(const std::string& file, json root) : file_(file) {
   joints_ = jointsWithoutMatrices(root);
   const bool moves = root.erase("animations") > 0;  // whose numbers Assimp would not check, for nothing
   floats_ = useFloats(root, file);
   const bool webp = useWebp(root);
   if (joints_ == 0 && floats_.empty() && !webp && !moves) return;
   if (joints_ > 0) giveMatrices(root, joints_);
-  mended_ = withJson(file, root.dump(), text.size());
+  mended_ = withJson(file, root.dump());
 }
 
 bool GltfInput::Exists(const char* path) const {

@@ -16,8 +16,8 @@ void requireGltf2(const nlohmann::json& root, const std::string& file);
 /// section 3.7.3.1 gives them; attributes as floats; textures of WebP; and without animations.
 class GltfInput : public Assimp::DefaultIOSystem {
  public:
-  /// `text` and `root` are those of `file`. Throws as useFloats().
-  GltfInput(const std::string& file, const std::string& text, nlohmann::json root);
+  /// `root` is that of `file`. Throws as useFloats().
+  GltfInput(const std::string& file, nlohmann::json root);
 
   bool Exists(const char* path) const override;
   Assimp::IOStream* Open(const char* path, const char* mode = "rb") override;

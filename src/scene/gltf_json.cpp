@@ -1,9 +1,11 @@
 #include "scene/gltf_json.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 namespace sunlit::scene {
 
@@ -16,14 +18,15 @@ std::string bytesOf(const std::string& file) {
   return bytes;
 }
 
-std::string gltfText(const std::string& file) {
-  const std::string text = bytesOf(file);
+GltfParts gltfParts(const std::string& file) {
+  std::string text = bytesOf(file);
   constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-  if (text.compare(0, 4, "glTF") != 0 || text.size() < kHeader + kChunkHeader) return text;
+  if (text.compare(0, 4, "glTF") != 0 || text.size() < kHeader + kChunkHeader) return {std::move(text), ""};
   std::size_t length = 0;
   for (std::size_t i = 0; i < 4; ++i)
     length |= static_cast<std::size_t>(static_cast<std::uint8_t>(text[kHeader + i])) << (8 * i);
-  return text.substr(kHeader + kChunkHeader, length);
+  const std::size_t end = std::min(kHeader + kChunkHeader + length, text.size());
+  return {text.substr(kHeader + kChunkHeader, length), text.substr(end), true};
 }
 
 json parseGltf(const std::string& text, const std::string& file) {

@@ -8,8 +8,14 @@ namespace sunlit::scene {
 
 /// All of a file. Throws std::runtime_error naming it if it cannot be read.
 std::string bytesOf(const std::string& file);
-/// The text of it: all of a .gltf, the first chunk of a .glb. Throws as bytesOf().
-std::string gltfText(const std::string& file);
+/// The JSON of a glTF file, and what stands behind it: nothing in a .gltf.
+struct GltfParts {
+  std::string json;
+  std::string rest;     ///< the other chunks, each of 4 bytes for its length, 4 for its type, and its content
+  bool binary = false;  ///< a .glb, whatever its name
+};
+/// Throws as bytesOf().
+GltfParts gltfParts(const std::string& file);
 /// Throws std::runtime_error naming `file`.
 nlohmann::json parseGltf(const std::string& text, const std::string& file);
 

@@ -85,7 +85,7 @@ class Reader {
 }  // namespace
 
 void addGltfLights(const std::string& file, const Eigen::Affine3d& up_from_file, SceneBuilder& builder) {
-  const std::string text = gltfText(file);
+  const std::string text = gltfParts(file).json;
   if (text.find(kLights) == std::string::npos) return;
   const json root = parseGltf(text, file);
   try {

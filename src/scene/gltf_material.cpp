@@ -275,21 +275,19 @@ class Reader {
 }  // namespace
 
 struct GltfMaterials::Json {
-  std::string text;
   json root;
 };
 
 GltfMaterials::GltfMaterials(const std::string& file, SceneBuilder& builder)
     : file_(file), builder_(builder) {
-  std::string text = gltfText(file);
-  json root = parseGltf(text, file);
+  json root = parseGltf(gltfParts(file).json, file);
   requireGltf2(root, file);
   try {
     requireReadableGltf(root, file);
   } catch (const json::exception& error) {
     throw std::runtime_error(file + ": its accessors, meshes and skins: " + error.what());
   }
-  json_ = std::make_unique<const Json>(Json{std::move(text), std::move(root)});
+  json_ = std::make_unique<const Json>(Json{std::move(root)});
 }
 
 GltfMaterials::~GltfMaterials() = default;
@@ -312,7 +310,7 @@ std::optional<GltfLook> GltfMaterials::look(std::size_t index, const Picture& pi
 
 std::unique_ptr<GltfInput> GltfMaterials::input() const {
   try {
-    return std::make_unique<GltfInput>(file_, json_->text, json_->root);
+    return std::make_unique<GltfInput>(file_, json_->root);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(error.what() + whatItNeeds());
   }
