@@ -94,6 +94,19 @@ TEST_F(GltfShape, OfASkinWithoutMatricesHasUnitMatrices) {
   EXPECT_LT((boundsOf(load(write("t.glb", glb), {})).min() - Eigen::Vector3f(3, 0, 5)).norm(), 1e-6f);
 }
 
+TEST_F(GltfShape, OfASkinMayHaveWeightsOfWholeNumbers) {
+  std::string json = gltf(skinned(""));
+  const std::string floats = R"({"bufferView":3,"componentType":5126)";
+  json.replace(json.find(floats), floats.size(), R"({"bufferView":3,"componentType":5123,"normalized":true)");
+  std::string numbers = kNumbers;
+  for (const std::size_t vertex : {0, 1, 2})
+    numbers.replace(96 + 8 * vertex, 8, std::string("\xff\xff\0\0\0\0\0\0", 8));
+  write("numbers.bin", numbers);
+  const Scene scene = load(write("t.gltf", json), {});
+  EXPECT_TRUE(scene.warnings.empty());
+  EXPECT_LT((boundsOf(scene).min() - Eigen::Vector3f(3, 0, 5)).norm(), 1e-6f);
+}
+
 TEST_F(GltfShape, OfMorphTargetsIsThatOfTheirWeights) {
   Parts parts;
   parts.primitive += R"(,"targets":[{"POSITION":1}])";
