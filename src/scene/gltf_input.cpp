@@ -68,7 +68,7 @@ bool useWebp(json& root) {
   for (json& texture : root["textures"]) {
     const json& picture = child(extension(texture, "EXT_texture_webp"), "source");
     if (!picture.is_number_unsigned()) continue;
-    texture["source"] = std::size_t{picture};
+    texture["source"] = picture.get<std::size_t>();
     any = true;
   }
   return any;
