@@ -192,7 +192,7 @@ TEST(Visibility, LetsRaysPassWhatBlendsIfSoWished) {
   int blending = 0;
   for (const Hit& hit : hits) {
     const bool blends = visibility.fixedGeometry().materials[hit.triangle] == 1;
-    EXPECT_EQ(hit.distance, blends ? 1.0f : 2.0f);
+    EXPECT_FLOAT_EQ(hit.distance, blends ? 1.0f : 2.0f);
     blending += blends ? 1 : 0;
   }
   EXPECT_NEAR(blending, 100, 4 * 7.1);
