@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "scene/gltf_json.h"
-#include "scene/uri_text.h"
 
 namespace sunlit::scene {
 namespace {
@@ -62,10 +61,7 @@ std::string GltfBuffers::read(std::size_t buffer) const {
     const std::size_t comma = uri.find(',');
     return comma == std::string::npos ? "" : decodedBase64(uri, comma + 1);
   }
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const fs::path folder = fs::path(file_).parent_path();
-  return bytesOf((fs::exists(folder / uri, error) ? folder / uri : folder / withoutEscapes(uri)).string());
+  return bytesOf(meantPath((std::filesystem::path(file_).parent_path() / uri).string()));
 }
 
 }  // namespace sunlit::scene

@@ -14,14 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-/// glTF 2.0, sections 3.6.2.2 and 3.6.2.3. Assimp takes unknown types for single numbers.
-std::uint64_t numbersOf(const std::string& type) {
-  static const std::map<std::string, std::uint64_t> kNumbers = {{"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4},
-                                                                {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
-  const auto found = kNumbers.find(type);
-  return found == kNumbers.end() ? 1 : found->second;
-}
-
 std::uint64_t bytesOfComponent(std::uint64_t type) {
   constexpr std::uint64_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123;
   return type == kByte || type == kUnsignedByte ? 1 : type == kShort || type == kUnsignedShort ? 2 : 4;
@@ -104,9 +96,8 @@ class Check {
   void checkAccessor(const json& accessor, const std::string& place) const {
     if (!accessor.is_object()) return;
     const std::uint64_t count = whole(accessor, "count", 0, place);
-    const json& type = child(accessor, "type");
-    const std::uint64_t element = bytesOfComponent(whole(accessor, "componentType", 0, place)) *
-                                  numbersOf(type.is_string() ? type.get<std::string>() : "");
+    const std::uint64_t element =
+        bytesOfComponent(whole(accessor, "componentType", 0, place)) * numbersOfElement(accessor);
     const std::uint64_t offset = whole(accessor, "byteOffset", 0, place);
     if (const json* const view = one("bufferViews", accessor, "bufferView")) {
       const std::uint64_t stride = whole(*view, "byteStride", 0, place + ": its view");

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -20,7 +19,7 @@ constexpr std::size_t kFloat = 5126;
 
 bool wantsFloats(const std::string& attribute) {
   for (const char* const kind : {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_", "WEIGHTS_"})
-    if (attribute.compare(0, std::string(kind).size(), kind) == 0) return true;
+    if (attribute.rfind(kind, 0) == 0) return true;
   return false;
 }
 
@@ -70,20 +69,13 @@ Component componentOf(std::size_t type) {
   }
 }
 
-std::size_t numbersOf(const json& accessor) {
-  static const std::map<std::string, std::size_t> kNumbers = {{"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}};
-  const json& type = child(accessor, "type");
-  const auto found = kNumbers.find(type.is_string() ? type.get<std::string>() : "");
-  return found == kNumbers.end() ? 1 : found->second;
-}
-
 /// Appends the numbers of an accessor of whole ones to `floats`.
 void appendFloats(const json& root, const json& accessor, GltfBuffers& buffers, std::string* floats) {
   const Component component = componentOf(indexOf(accessor, "componentType", kFloat));
   if (!child(accessor, "sparse").empty())
     throw std::runtime_error("sparse whole numbers are not read: export it without KHR_mesh_quantization");
   const json& view = child(root, "bufferViews").at(indexOf(accessor.at("bufferView")));
-  const std::size_t numbers = numbersOf(accessor), size = numbers * component.bytes;
+  const std::size_t numbers = numbersOfElement(accessor), size = numbers * component.bytes;
   const std::size_t stride = indexOf(view, "byteStride", size), count = indexOf(accessor.at("count"));
   const std::string& bytes = buffers.bytes(indexOf(view.at("buffer")));
   const std::size_t begin = indexOf(view, "byteOffset", 0) + indexOf(accessor, "byteOffset", 0);

@@ -3,13 +3,11 @@
 #include <assimp/MemoryIOWrapper.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <stdexcept>
 #include <vector>
 
 #include "scene/gltf_floats.h"
 #include "scene/gltf_json.h"
-#include "scene/uri_text.h"
 
 namespace sunlit::scene {
 namespace {
@@ -127,20 +125,14 @@ GltfInput::GltfInput(const std::string& file, json root) : file_(file) {
 
 bool GltfInput::Exists(const char* path) const {
   return hasEnding(path, kUnitMatrices) || hasEnding(path, kFloats) ||
-         DefaultIOSystem::Exists(placeOf(path).c_str());
+         DefaultIOSystem::Exists(meantPath(path).c_str());
 }
 
 Assimp::IOStream* GltfInput::Open(const char* path, const char* mode) {
   if (!mended_.empty() && path == file_) return streamOf(mended_);
   if (hasEnding(path, kUnitMatrices)) return streamOf(unitMatrices(joints_));
   if (hasEnding(path, kFloats)) return streamOf(floats_);
-  return DefaultIOSystem::Open(placeOf(path).c_str(), mode);
-}
-
-std::string GltfInput::placeOf(const std::string& path) const {
-  std::error_code error;
-  const std::string plain = withoutEscapes(path);
-  return std::filesystem::exists(path, error) || !std::filesystem::exists(plain, error) ? path : plain;
+  return DefaultIOSystem::Open(meantPath(path).c_str(), mode);
 }
 
 }  // namespace sunlit::scene

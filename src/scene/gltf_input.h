@@ -23,8 +23,6 @@ class GltfInput : public Assimp::DefaultIOSystem {
   Assimp::IOStream* Open(const char* path, const char* mode = "rb") override;
 
  private:
-  std::string placeOf(const std::string& path) const;
-
   std::string file_;
   std::string mended_;      ///< instead of the file's bytes; empty: nothing to mend
   std::size_t joints_ = 0;  ///< that the largest skin without matrices has

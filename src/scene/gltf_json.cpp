@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <stdexcept>
 #include <utility>
+
+#include "scene/uri_text.h"
 
 namespace sunlit::scene {
 
@@ -54,6 +58,20 @@ std::size_t indexOf(const json& number) {
 std::size_t indexOf(const json& from, const char* key, std::size_t usual) {
   const auto found = from.find(key);
   return found == from.end() ? usual : indexOf(*found);
+}
+
+std::size_t numbersOfElement(const json& accessor) {
+  static const std::map<std::string, std::size_t> kNumbers = {{"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4},
+                                                              {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
+  const json& type = child(accessor, "type");
+  const auto found = kNumbers.find(type.is_string() ? type.get<std::string>() : "");
+  return found == kNumbers.end() ? 1 : found->second;
+}
+
+std::string meantPath(const std::string& path) {
+  std::error_code error;
+  const std::string plain = withoutEscapes(path);
+  return std::filesystem::exists(path, error) || !std::filesystem::exists(plain, error) ? path : plain;
 }
 
 const json& extension(const json& from, const char* name) {

@@ -26,6 +26,11 @@ const nlohmann::json& child(const nlohmann::json& from, const char* key);
 std::size_t indexOf(const nlohmann::json& number);
 /// That of `key`; `usual` where there is none.
 std::size_t indexOf(const nlohmann::json& from, const char* key, std::size_t usual);
+/// How many numbers an element of an accessor has (glTF 2.0, section 3.6.2.3); 1 of what is no type, as
+/// Assimp has it.
+std::size_t numbersOfElement(const nlohmann::json& accessor);
+/// `path`, or, where nothing is there, the file that it names without its escapes (RFC 3986).
+std::string meantPath(const std::string& path);
 /// What `from` says in the words of an extension; empty if nothing.
 const nlohmann::json& extension(const nlohmann::json& from, const char* name);
 

@@ -12,6 +12,7 @@
 #include "scene/color.h"
 #include "sunlit/image/texture_files.h"
 #include "sunlit/scene/material_maps.h"
+#include "sunlit/scene/whole_texture.h"
 
 namespace sunlit::scene {
 namespace {
@@ -33,12 +34,6 @@ bool isCutOut(const Texture& texture) {
   std::size_t transparent = 0;
   for (std::size_t i = 0; i < texels; ++i) transparent += texture.rgba[4 * i + 3] < 128 ? 1 : 0;
   return static_cast<double>(transparent) > kTransparentShare * static_cast<double>(texels);
-}
-
-bool isWhole(const Texture& texture) {
-  for (std::size_t i = 3; i < texture.rgba.size(); i += 4)
-    if (texture.rgba[i] < 255) return false;
-  return true;
 }
 
 image::Rgba8Image white(const image::Rgba8Image& as_large) {

@@ -82,8 +82,11 @@ class Mender {
       : file_(file), version_(version), builder_(builder) {}
 
   void mend(XMLElement& sdf) {
-    if (version_ >= kOldestPruned) prune(sdf);
-    if (version_ < kOldestPruned) dropUnseen(sdf);
+    if (version_ >= kOldestPruned) {
+      prune(sdf);
+    } else {
+      dropUnseen(sdf);
+    }
     forEachBelow(sdf, [&](XMLElement& element) { noteReferences(element); });
     mendBelow(sdf);
   }

@@ -94,7 +94,7 @@ class Visibility {
   /// Whether anything blends or is glass at all, and whether anything is glass.
   bool hasVeils() const;
   bool hasGlass() const;
-  /// Whether anything blends evenly, and whether what a veil is, is such.
+  /// Whether anything blends evenly, and whether a veil does.
   bool hasEvenBlends() const;
   bool blendsEvenly(const Hit& veil) const;
 

@@ -6,6 +6,7 @@
 
 #include "sunlit/light/reflection.h"
 #include "sunlit/light/visibility.h"
+#include "sunlit/scene/whole_texture.h"
 
 namespace sunlit::light {
 namespace {
@@ -78,11 +79,8 @@ bool isListed(const scene::Scene& scene, const scene::Material& material, Cutout
 
 bool blendsEvenly(const scene::Scene& scene, const scene::Material& material) {
   if (material.alpha_mode != scene::AlphaMode::kBlend) return false;
-  if (material.base_texture == scene::Material::kNoTexture) return true;
-  const auto& rgba = scene.textures[static_cast<std::size_t>(material.base_texture)].rgba;
-  for (std::size_t i = 3; i < rgba.size(); i += 4)
-    if (rgba[i] != 255) return false;
-  return true;
+  return material.base_texture == scene::Material::kNoTexture ||
+         scene::isWhole(scene.textures[static_cast<std::size_t>(material.base_texture)]);
 }
 
 Cutouts::Mask::Mask(const scene::Texture& source, float alpha_cutoff)

@@ -8,8 +8,7 @@ GlassSheets::GlassSheets(const Visibility& visibility)
     : vertices_(visibility.fixedGeometry(), visibility.movingGeometry()),
       visibility_(visibility),
       any_(visibility.hasGlass()),
-      blends_(visibility.hasEvenBlends()),
-      any_veils_(any_ || blends_) {}
+      blends_(visibility.hasEvenBlends()) {}
 
 void GlassSheets::veils(const Visibility::Sight& sight, std::vector<Hit>* hits) const {
   Visibility::Sight all = sight;
@@ -36,7 +35,7 @@ Eigen::Array3f GlassSheets::through(const Visibility::Sight& sight) const {
 
 Eigen::Array3f GlassSheets::throughVeils(const Visibility::Sight& sight) const {
   Eigen::Array3f product = Eigen::Array3f::Ones();
-  if (!any_veils_) return product;
+  if (!anyVeils()) return product;
   thread_local std::vector<Hit> hits;
   veils(sight, &hits);
   for (const Hit& hit : hits) {

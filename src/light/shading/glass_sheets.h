@@ -17,7 +17,7 @@ class GlassSheets {
 
   bool any() const { return any_; }
   /// Whether there is glass, or anything that blends evenly.
-  bool anyVeils() const { return any_veils_; }
+  bool anyVeils() const { return any_ || blends_; }
   /// How many of `samples` rays of a surface are asked for what veils leave: edges of what blends are seen,
   /// while glass hardly darkens.
   std::uint32_t raysOf(std::uint32_t samples) const { return blends_ ? samples : 1; }
@@ -36,7 +36,7 @@ class GlassSheets {
 
   SceneVertices vertices_;
   const Visibility& visibility_;
-  bool any_, blends_, any_veils_;
+  bool any_, blends_;
 };
 
 }  // namespace sunlit::light
