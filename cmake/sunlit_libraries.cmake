@@ -51,3 +51,13 @@ elseif(sdformat9_FOUND)
 else()
   message(STATUS "Neither libsdformat 12 nor 9 was found: sunlit will read no SDF")
 endif()
+
+# SUNLIT_MESHOPTIMIZER, the target that unpacks glTF's EXT_meshopt_compression; empty where there is none, and then that
+# extension is one that is not read.
+set(SUNLIT_MESHOPTIMIZER)
+find_package(meshoptimizer QUIET)
+if(TARGET meshoptimizer::meshoptimizer)
+  set(SUNLIT_MESHOPTIMIZER meshoptimizer::meshoptimizer)
+else()
+  message(STATUS "meshoptimizer was not found: sunlit will read no glTF with EXT_meshopt_compression")
+endif()

@@ -1,6 +1,8 @@
 #include "sunlit/ros/parameter_reader.h"
 
+#include <ros/master.h>
 #include <ros/names.h>
+#include <ros/this_node.h>
 
 #include <algorithm>
 #include <numeric>
@@ -124,11 +126,27 @@ std::optional<std::string> firstUnknown(const XmlRpcValue& tree, const std::stri
   return std::nullopt;
 }
 
+/// Throws where the master does not say: roscpp tells that and no parameters alike, and a node would run by
+/// its defaults.
+bool hasAny(const std::string& name) {
+  XmlRpcValue request, response, answer;
+  request[0] = ros::this_node::getName();
+  request[1] = name;
+  if (!ros::master::execute("hasParam", request, response, answer, false))
+    throw std::runtime_error("the master at " + ros::master::getURI() + " does not tell the parameters of " +
+                             name + ": is it still running?");
+  return answer.getType() == XmlRpcValue::TypeBoolean && static_cast<bool>(answer);
+}
+
 XmlRpcValue fetch(const ros::NodeHandle& node) {
   XmlRpcValue tree;
   const std::string& name = node.getNamespace();
   // No parameters at all is an empty reader; a namespace cannot be anything but a map.
-  return node.getParam(name, tree) && tree.getType() == XmlRpcValue::TypeStruct ? tree : XmlRpcValue();
+  if (!hasAny(name)) return {};
+  if (!node.getParam(name, tree))
+    throw std::runtime_error("the master at " + ros::master::getURI() + " has parameters of " + name +
+                             ", but does not tell them: is it still running?");
+  return tree.getType() == XmlRpcValue::TypeStruct ? tree : XmlRpcValue();
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "scene/gltf_json.h"
 
@@ -41,11 +42,36 @@ std::string secondChunk(const std::string& file) {
   return rest.substr(kChunkHeader);
 }
 
+std::string addressOf(std::size_t made) {
+  return "sunlit_made_" + std::to_string(made) + ".bin";
+}
+
 }  // namespace
 
 const std::string& GltfBuffers::bytes(std::size_t buffer) {
+  if (const auto made = made_.find(buffer); made != made_.end()) return made->second;
   const auto known = read_.find(buffer);
   return known != read_.end() ? known->second : read_[buffer] = read(buffer);
+}
+
+std::size_t GltfBuffers::add(std::string bytes) {
+  const std::size_t buffer = root_["buffers"].size();
+  root_["buffers"].push_back(nlohmann::json::object());
+  make(buffer, std::move(bytes));
+  return buffer;
+}
+
+void GltfBuffers::make(std::size_t buffer, std::string bytes) {
+  root_["buffers"][buffer]["uri"] = addressOf(buffer);
+  root_["buffers"][buffer]["byteLength"] = bytes.size();
+  made_[buffer] = std::move(bytes);
+}
+
+std::map<std::string, std::string> GltfBuffers::takeMade() {
+  std::map<std::string, std::string> by_address;
+  for (auto& [buffer, bytes] : made_) by_address[addressOf(buffer)] = std::move(bytes);
+  made_.clear();
+  return by_address;
 }
 
 std::string GltfBuffers::read(std::size_t buffer) const {

@@ -3,24 +3,21 @@
 #include <assimp/MemoryIOWrapper.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
+#include "scene/gltf_buffers.h"
 #include "scene/gltf_floats.h"
+#include "scene/gltf_instances.h"
 #include "scene/gltf_json.h"
+#include "scene/gltf_unpack.h"
 
 namespace sunlit::scene {
 namespace {
 
 using nlohmann::json;
-
-/// The address of a file that is nowhere but here.
-constexpr const char* kUnitMatrices = "sunlit_unit_matrices.bin";
-
-bool hasEnding(const std::string& text, const std::string& ending) {
-  return text.size() >= ending.size() &&
-         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
-}
 
 bool lacksMatrices(const json& skin) {
   return skin.is_object() && !skin.contains("inverseBindMatrices");
@@ -41,11 +38,18 @@ std::size_t append(json& root, const char* list, Value value) {
   return root[list].size() - 1;
 }
 
-/// Gives skins without matrices some of `most` unit matrices.
-void giveMatrices(json& root, std::size_t most) {
-  constexpr std::size_t kMatrix_bytes = 64;
-  const std::size_t bytes = most * kMatrix_bytes;
-  const std::size_t buffer = append(root, "buffers", json{{"uri", kUnitMatrices}, {"byteLength", bytes}});
+std::string unitMatrices(std::size_t count) {
+  std::vector<float> numbers;
+  for (std::size_t i = 0; i < 16 * count; ++i) numbers.push_back(i % 16 % 5 == 0 ? 1.0f : 0.0f);
+  return {reinterpret_cast<const char*>(numbers.data()), sizeof(float) * numbers.size()};
+}
+
+/// Gives skins without matrices unit ones. Whether there were any.
+bool giveMatrices(json& root, GltfBuffers& buffers) {
+  const std::size_t most = jointsWithoutMatrices(root);
+  if (most == 0) return false;
+  std::string matrices = unitMatrices(most);
+  const std::size_t bytes = matrices.size(), buffer = buffers.add(std::move(matrices));
   const std::size_t view = append(root, "bufferViews", json{{"buffer", buffer}, {"byteLength", bytes}});
   for (json& skin : root["skins"]) {
     if (!lacksMatrices(skin)) continue;
@@ -56,6 +60,7 @@ void giveMatrices(json& root, std::size_t most) {
                     {"count", std::max(child(skin, "joints").size(), std::size_t{1})},
                     {"type", "MAT4"}});
   }
+  return true;
 }
 
 /// Gives textures that are WebP pictures these as their own, in the place of others for readers that have no
@@ -96,12 +101,6 @@ Assimp::IOStream* streamOf(const std::string& bytes) {
   return new Assimp::MemoryIOStream(copy, bytes.size(), true);
 }
 
-std::string unitMatrices(std::size_t count) {
-  std::vector<float> numbers;
-  for (std::size_t i = 0; i < 16 * count; ++i) numbers.push_back(i % 16 % 5 == 0 ? 1.0f : 0.0f);
-  return {reinterpret_cast<const char*>(numbers.data()), sizeof(float) * numbers.size()};
-}
-
 }  // namespace
 
 void requireGltf2(const json& root, const std::string& file) {
@@ -114,24 +113,36 @@ void requireGltf2(const json& root, const std::string& file) {
 }
 
 GltfInput::GltfInput(const std::string& file, json root) : file_(file) {
-  joints_ = jointsWithoutMatrices(root);
-  const bool moves = root.erase("animations") > 0;  // whose numbers Assimp would not check, for nothing
-  floats_ = useFloats(root, file);
-  const bool webp = useWebp(root);
-  if (joints_ == 0 && floats_.empty() && !webp && !moves) return;
-  if (joints_ > 0) giveMatrices(root, joints_);
+  GltfBuffers buffers(root, file);
+  bool mended = root.erase("animations") > 0;  // whose numbers Assimp would not check, for nothing
+  try {
+    mended |= unpackViews(root, buffers);
+    mended |= placeInstances(root, buffers);
+    mended |= useFloats(root, buffers);
+    mended |= giveMatrices(root, buffers);
+  } catch (const json::exception& error) {
+    throw std::runtime_error(file + ": an attribute is not as glTF has it: " + error.what());
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(file + ": " + error.what());
+  }
+  mended |= useWebp(root);
+  if (!mended) return;
+  made_ = buffers.takeMade();
   mended_ = withJson(file, root.dump());
 }
 
+const std::string* GltfInput::madeAt(const std::string& path) const {
+  const auto found = made_.find(std::filesystem::path(path).filename().string());
+  return found == made_.end() ? nullptr : &found->second;
+}
+
 bool GltfInput::Exists(const char* path) const {
-  return hasEnding(path, kUnitMatrices) || hasEnding(path, kFloats) ||
-         DefaultIOSystem::Exists(meantPath(path).c_str());
+  return madeAt(path) != nullptr || DefaultIOSystem::Exists(meantPath(path).c_str());
 }
 
 Assimp::IOStream* GltfInput::Open(const char* path, const char* mode) {
   if (!mended_.empty() && path == file_) return streamOf(mended_);
-  if (hasEnding(path, kUnitMatrices)) return streamOf(unitMatrices(joints_));
-  if (hasEnding(path, kFloats)) return streamOf(floats_);
+  if (const std::string* const made = madeAt(path)) return streamOf(*made);
   return DefaultIOSystem::Open(meantPath(path).c_str(), mode);
 }
 

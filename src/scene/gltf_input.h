@@ -3,6 +3,7 @@
 
 #include <assimp/DefaultIOSystem.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -13,20 +14,23 @@ void requireGltf2(const nlohmann::json& root, const std::string& file);
 
 /// Opens the files of a glTF file such that Assimp 5.2 may read them: those whose addresses are written with
 /// escapes (RFC 3986), and skins without matrices of their own, which it does not expect, with those that
-/// section 3.7.3.1 gives them; attributes as floats; textures of WebP; and without animations.
+/// section 3.7.3.1 gives them; views unpacked; attributes as floats; a node for each place of a mesh;
+/// textures of WebP; and without animations.
 class GltfInput : public Assimp::DefaultIOSystem {
  public:
-  /// `root` is that of `file`. Throws as useFloats().
+  /// `root` is that of `file`. Throws std::runtime_error that names it.
   GltfInput(const std::string& file, nlohmann::json root);
 
   bool Exists(const char* path) const override;
   Assimp::IOStream* Open(const char* path, const char* mode = "rb") override;
 
  private:
+  /// Null for files.
+  const std::string* madeAt(const std::string& path) const;
+
   std::string file_;
-  std::string mended_;      ///< instead of the file's bytes; empty: nothing to mend
-  std::size_t joints_ = 0;  ///< that the largest skin without matrices has
-  std::string floats_;      ///< of useFloats()
+  std::string mended_;                       ///< instead of the file's bytes; empty: nothing to mend
+  std::map<std::string, std::string> made_;  ///< buffers, by their addresses
 };
 
 }  // namespace sunlit::scene

@@ -14,6 +14,7 @@
 #include "scene/gltf_input.h"
 #include "scene/gltf_json.h"
 #include "scene/gltf_rest.h"
+#include "scene/gltf_unpack.h"
 
 namespace sunlit::scene {
 namespace {
@@ -331,15 +332,16 @@ std::string GltfMaterials::whatItNeeds() const {
 
 std::vector<std::string> GltfMaterials::unknown(const char* list) const {
   // Assimp reads the last one, or says that it was built without.
-  static const std::set<std::string> known = {"KHR_texture_transform", "EXT_texture_webp",
-                                              "KHR_lights_punctual", "KHR_mesh_quantization",
-                                              "KHR_draco_mesh_compression"};
+  static const std::set<std::string> known = {"KHR_texture_transform",   "EXT_texture_webp",
+                                              "KHR_lights_punctual",     "KHR_mesh_quantization",
+                                              "EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression"};
   std::vector<std::string> unknown;
   const json& used = child(json_->root, list);
   for (const json& name : used.is_array() ? used : json::array()) {
     const std::string text = name.is_string() ? name.get<std::string>() : name.dump();
     const bool of_materials = text.compare(0, 14, "KHR_materials_") == 0 && text != "KHR_materials_variants";
-    if (!of_materials && known.count(text) == 0) unknown.push_back(text);
+    const bool read = known.count(text) > 0 || (text == kPacked && unpacks());
+    if (!of_materials && !read) unknown.push_back(text);
   }
   return unknown;
 }

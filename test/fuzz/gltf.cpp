@@ -86,7 +86,19 @@ std::vector<std::string> seeds() {
   const std::string floats = R"("byteOffset":36,"componentType":5126)";
   whole.replace(whole.find(floats), floats.size(),
                 R"("byteOffset":36,"componentType":5123,"normalized":true)");
-  return {text(), whole, binary(), contentOf(SUNLIT_SOURCE_DIR "/test/support/worlds/interior.gltf")};
+  std::string instances = text();  // two, at the first two corners
+  const std::string node = R"({"mesh":0,"skin":0,"name":"n"})";
+  instances.replace(
+      instances.find(node), node.size(),
+      R"({"mesh":0,"name":"n","extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0,
+"SCALE":2,"ROTATION":3}}}})");
+  const std::string worlds = SUNLIT_SOURCE_DIR "/test/support/worlds/";
+  return {text(),
+          whole,
+          instances,
+          binary(),
+          contentOf(worlds + "interior.gltf"),
+          contentOf(worlds + "packed.gltf")};
 }
 
 void read(const std::string& input) {

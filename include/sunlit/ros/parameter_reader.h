@@ -24,7 +24,8 @@ std::string plainText(XmlRpc::XmlRpcValue value);
 /// Copies share the record of which keys were asked for.
 class ParameterReader {
  public:
-  /// All parameters below the namespace of `node`, usually ros::NodeHandle("~").
+  /// All parameters below the namespace of `node`, usually ros::NodeHandle("~"). Throws std::runtime_error
+  /// where the master does not tell whether there are any.
   explicit ParameterReader(const ros::NodeHandle& node);
   /// Parameters at hand, such as a file's; `name` stands before the keys in messages.
   ParameterReader(const XmlRpc::XmlRpcValue& tree, const std::string& name);

@@ -1,0 +1,19 @@
+/// Numbers that the accessors of glTF files tell.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "scene/gltf_buffers.h"
+
+namespace sunlit::scene {
+
+/// Whether the components of `accessor` are whole numbers of 8 or 16 bits.
+bool tellsWholeNumbers(const nlohmann::json& accessor);
+
+/// All numbers of `accessor`, whole ones of 8 or 16 bits as the floats that they stand for (glTF 2.0, section
+/// 3.6.2.2). Throws std::runtime_error where they reach beyond their buffer, are sparse or of other types,
+/// and nlohmann::json::exception where what tells them is missing.
+std::vector<float> floatsOf(const nlohmann::json& root, const nlohmann::json& accessor, GltfBuffers& buffers);
+
+}  // namespace sunlit::scene
