@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "sunlit/image/srgb.h"
@@ -122,16 +123,24 @@ float alphaScale(const LinearLevel& level, float cutoff, double share) {
   std::vector<float> alphas;
   alphas.reserve(level.size());
   for (std::size_t i = 0; i < level.size(); ++i) alphas.push_back(level.alpha(i));
-  std::sort(alphas.begin(), alphas.end(), std::greater<>());
   const double wanted = share * static_cast<double>(alphas.size());
-  if (std::lround(wanted) == 0) return 1.0f;
-  const float reached = alphas[static_cast<std::size_t>(std::lround(wanted)) - 1];
+  const auto count = std::lround(wanted);
+  if (count == 0) return 1.0f;
+  const auto last = alphas.begin() + (count - 1);
+  std::nth_element(alphas.begin(), last, alphas.end(), std::greater<>());
+  const float reached = *last;
   // Texels of equal alpha come or go together.
-  const auto equal = std::equal_range(alphas.begin(), alphas.end(), reached, std::greater<>());
-  const auto with = static_cast<double>(equal.second - alphas.begin());
-  const auto without = static_cast<double>(equal.first - alphas.begin());
+  float next = std::numeric_limits<float>::infinity();  // the least above
+  double without = 0.0, with = 0.0;
+  for (const float alpha : alphas) {
+    if (alpha > reached) {
+      next = std::min(next, alpha);
+      ++without;
+    }
+    if (alpha >= reached) ++with;
+  }
   const bool leave_out = without > 0.0 && wanted - without < with - wanted;
-  const float threshold = leave_out ? *(equal.first - 1) : reached;
+  const float threshold = leave_out ? next : reached;
   return threshold > 0.0f ? std::clamp(cutoff / threshold, 0.25f, 4.0f) : 1.0f;
 }
 
