@@ -25,6 +25,12 @@ PartSums sumsOf(const PassedOn& part, std::size_t sample) {
 
 constexpr float kNextToNothing = 2e-4f;  // of what the samples have, on average; more still follows
 
+/// Of ground towards a ray that comes down along `towards`, in what it scatters towards the mean one.
+float scatteredDown(const Eigen::Vector3f& towards) {
+  static const float mean = 1.0f - meanGrazing(kMeanView);
+  return (1.0f - meanGrazing(-towards.z())) / mean;
+}
+
 float relativeChange(const Eigen::Array3f& before, const Eigen::Array3f& after) {
   const float most = after.maxCoeff();
   return most > 0.0f ? (after - before).abs().maxCoeff() / most : 0.0f;
@@ -89,22 +95,14 @@ Exchange::Exchange(const SceneSamples& samples, const SkyPatches& patches, const
     const Receiver& receiver = samples.receivers[i];
     ground_[i] = receiver.normal.z() > kLevel && !receiver.thin && samples.paints[i].metalness < 0.5f ? 1 : 0;
   }
+  for (std::size_t direction = 0; direction < scattered_down_.size(); ++direction)
+    scattered_down_[direction] = scatteredDown(patches.coarseRays()[SkyPatches::kAbove + direction].towards);
 }
 
 void Exchange::useRooms() {
   if (rooms_.samples.empty()) return;
   room_of_.assign(seen.size(), LightMesh::kNone);
   for (std::uint32_t room = 0; room < rooms_.samples.size(); ++room) room_of_[rooms_.samples[room]] = room;
-}
-
-RaySeen Exchange::ray(std::size_t sample, std::size_t hit) const {
-  const SampleHits& view = seen[sample];
-  const bool up = hit < view.up;
-  const std::uint32_t direction = view.hits[hit].byte();
-  const SkyPatches::Ray& ray = patches_.coarseRays()[up ? direction : direction + SkyPatches::kAbove];
-  return {view.hits[hit].sample(), direction, ray.towards,  // the ray's own weight is in the scales
-          ray.solid_angle * samples_.receivers[sample].weight(ray.towards) *
-              (up ? view.scale_up : view.scale_down) / kPiFloat};
 }
 
 void Exchange::passOver(const std::vector<bool>& useless) {
@@ -125,9 +123,7 @@ bool Exchange::isPolished(std::uint32_t sample) const {
 }
 
 float Exchange::scattered(std::uint32_t from, const Eigen::Vector3f& towards) const {
-  if (towards.z() >= 0.0f || !isGround(from)) return 1.0f;
-  static const float mean = 1.0f - meanGrazing(kMeanView);
-  return (1.0f - meanGrazing(-towards.z())) / mean;
+  return towards.z() >= 0.0f || !isGround(from) ? 1.0f : scatteredDown(towards);
 }
 
 Sending Exchange::sending(std::size_t sample) const {

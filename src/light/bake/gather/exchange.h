@@ -2,12 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "light/bake/samples/scene_samples.h"
 #include "light/bake/samples/transport_data.h"
 #include "light/patches/sky_patches.h"
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
 
@@ -94,7 +96,15 @@ class Exchange {
   std::vector<float> mirrored_sums;  ///< sky by way of the ground as a mirror, without colour, lx
   std::vector<Arrived> shining;      ///< straight from surfaces that shine by themselves
 
-  RaySeen ray(std::size_t sample, std::size_t hit) const;
+  RaySeen ray(std::size_t sample, std::size_t hit) const {
+    const SampleHits& view = seen[sample];
+    const bool up = hit < view.up;
+    const std::uint32_t direction = view.hits[hit].byte();
+    const SkyPatches::Ray& ray = patches_.coarseRays()[up ? direction : direction + SkyPatches::kAbove];
+    return {view.hits[hit].sample(), direction, ray.towards,  // the ray's own weight is in the scales
+            ray.solid_angle * samples_.receivers[sample].weight(ray.towards) *
+                (up ? view.scale_up : view.scale_down) / kPiFloat};
+  }
   /// Of all that is `seen`, puts samples beside it in the place of those that are of no use. Parallel.
   void passOver(const std::vector<bool>& useless);
   /// The sample itself, or the one that passOver() puts in its place.
@@ -146,7 +156,8 @@ class Exchange {
   const SceneSamples& samples_;
   const SkyPatches& patches_;
   const BakedRooms& rooms_;
-  std::vector<std::uint8_t> ground_;    ///< of each sample: asked for along every ray, so kept close together
+  std::vector<std::uint8_t> ground_;  ///< of each sample: asked for along every ray, so kept close together
+  std::array<float, SkyPatches::kDown> scattered_down_;  ///< scattered() by ground, of each direction
   std::vector<std::uint32_t> instead_;  ///< of each sample of no use: one that is, or LightMesh::kNone
   std::vector<std::uint32_t> room_of_;  ///< of each sample, or LightMesh::kNone; empty: there are none
 };
@@ -163,7 +174,9 @@ void Exchange::visitSeen(std::size_t sample, const Wanted& wanted, const Visit& 
   for (std::size_t k = 0; k < view.hits.size(); ++k) {
     if (!wanted(view.hits[k].sample())) continue;
     const RaySeen along = ray(sample, k);
-    visit(SampleSeen{along.from, along.weight * scattered(along.from, along.towards)}, k < view.up);
+    const bool up = k < view.up;
+    const float scattered = up || !isGround(along.from) ? 1.0f : scattered_down_[along.direction];
+    visit(SampleSeen{along.from, along.weight * scattered}, up);
   }
 }
 
