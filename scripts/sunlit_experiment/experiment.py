@@ -81,6 +81,7 @@ class Experiment:
             self._await_evaluator()
             rows = summary.read(self.output, self.earlier)
             summary.check(rows, self.poses, self.self_test_every)
+            summary.check_localised(self.output)
             # What the evaluator has, the recorder may not have yet: only the renderer's end says so. With no pose left to
             # render it may have begun too late to hear of its end from an evaluator that had nothing to do.
             if self.recorder and self.recorder.has_poses_left:

@@ -3,6 +3,8 @@
 import csv
 import os
 
+import yaml
+
 from sunlit_experiment.launch import Failure
 
 WRITTEN = ("summary", "comparisons")  # of an evaluator at its end the first and the last
@@ -48,6 +50,18 @@ def check(rows, poses, self_test_every):
             raise Failure(f"{name} has {found} of {expected} poses; the reason stands above and in problems.csv")
         if is_self_test(row) and row["difference"] in DIRECT and float(row["mean"]) != 0.0:
             raise Failure(f"{name} is {row['mean']}, but two renderers of one sun must agree to the bit")
+
+
+def check_localised(folder):
+    """Every query was looked for, where any were to be."""
+    path = os.path.join(folder, "run.yaml")
+    with open(path, encoding="utf-8") as file:
+        outcome = yaml.safe_load(file)["outcome"]
+    if outcome.get("key_frames") == 0:
+        raise Failure(f"nothing was localised: the map has no key frame ({path}); the reason stands above and in problems.csv")
+    if outcome.get("not_localised"):
+        raise Failure(f"{outcome['not_localised']} queries were not looked for ({path}); the reason stands above and in "
+                      "problems.csv")
 
 
 def is_self_test(row):

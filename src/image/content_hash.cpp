@@ -6,11 +6,12 @@
 
 namespace sunlit::image {
 
-void ContentHash::addFile(const std::string& path) {
+bool ContentHash::addFile(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   std::array<char, 65536> part;
   while (stream.read(part.data(), part.size()) || stream.gcount() > 0)
     addBytes(part.data(), static_cast<std::size_t>(stream.gcount()));
+  return stream.is_open() && !stream.bad();
 }
 
 std::string ContentHash::text() const {

@@ -5,11 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
@@ -88,7 +88,10 @@ std::string readWholeFile(const std::string& path) {
   if (!in) {
     fail(path, "open");
   }
-  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::string bytes;
+  std::array<char, 65536> part;  // by read(), which tells of a fault without an exception that names no file
+  while (in.read(part.data(), part.size()) || in.gcount() > 0)
+    bytes.append(part.data(), static_cast<std::size_t>(in.gcount()));
   if (in.bad()) {
     fail(path, "read");
   }

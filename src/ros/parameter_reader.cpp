@@ -132,21 +132,21 @@ bool hasAny(const std::string& name) {
   XmlRpcValue request, response, answer;
   request[0] = ros::this_node::getName();
   request[1] = name;
-  if (!ros::master::execute("hasParam", request, response, answer, false))
+  if (!ros::master::execute("hasParam", request, response, answer, false) ||
+      answer.getType() != XmlRpcValue::TypeBoolean)
     throw std::runtime_error("the master at " + ros::master::getURI() + " does not tell the parameters of " +
                              name + ": is it still running?");
-  return answer.getType() == XmlRpcValue::TypeBoolean && static_cast<bool>(answer);
+  return static_cast<bool>(answer);
 }
 
 XmlRpcValue fetch(const ros::NodeHandle& node) {
   XmlRpcValue tree;
   const std::string& name = node.getNamespace();
-  // No parameters at all is an empty reader; a namespace cannot be anything but a map.
   if (!hasAny(name)) return {};
   if (!node.getParam(name, tree))
     throw std::runtime_error("the master at " + ros::master::getURI() + " has parameters of " + name +
                              ", but does not tell them: is it still running?");
-  return tree.getType() == XmlRpcValue::TypeStruct ? tree : XmlRpcValue();
+  return tree;
 }
 
 }  // namespace

@@ -94,8 +94,8 @@ std::string fileOf(const std::string& world, const SearchPath& search_path) {
 
 }  // namespace
 
-void requireWorld(const std::string& world, const SearchPath& search_path) {
-  if (world != kRaceTrack) fileOf(world, search_path);
+std::string requireWorld(const std::string& world, const SearchPath& search_path) {
+  return world == kRaceTrack ? std::string() : fileOf(world, search_path);
 }
 
 Scene load(const std::string& world, const SearchPath& search_path) {

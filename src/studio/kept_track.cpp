@@ -21,9 +21,7 @@ std::string maker() {
   Dl_info library{};
   if (dladdr(reinterpret_cast<const void*>(&scene::raceTrack), &library) == 0) return {};
   image::ContentHash hash;
-  const std::string none = hash.text();
-  hash.addFile(library.dli_fname);
-  return hash.text() == none ? std::string() : hash.text();
+  return library.dli_fname != nullptr && hash.addFile(library.dli_fname) ? hash.text() : std::string();
 }
 
 std::optional<scene::Scene> found(const SealedFiles& files, const std::string& name) {

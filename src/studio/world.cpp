@@ -18,8 +18,8 @@ scene::SearchPath WorldOptions::searchPath() const {
   return path;
 }
 
-void requireWorld(const WorldOptions& options) {
-  scene::requireWorld(options.name, options.searchPath());
+std::string requireWorld(const WorldOptions& options) {
+  return scene::requireWorld(options.name, options.searchPath());
 }
 
 scene::Scene loadScene(const WorldOptions& options, const std::string& cache_folder, const Reports& reports) {

@@ -298,7 +298,7 @@ std::optional<AtlasRunOptions> parseAtlasOptions(const std::vector<std::string>&
   options.atlas.has_query_drive = words.query_offset_m != 0.0;
   if (line.has("--stage")) options.stage = words.stage;
   if (words.slurm) options.slurm = words.slurm_options;
-  options.recipe = recipeOf(line, ofNoResult(), options.studio.world.name);
+  options.recipe = recipeOf(line, ofNoResult(), options.studio.world);
   options.again = againOf(line);
   return options;
 }

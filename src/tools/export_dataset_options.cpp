@@ -150,7 +150,7 @@ std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& 
         image::idealRight(image::calibrationOf(options.data_set.camera), options.data_set.baseline_m, "");
   options.data_set.rate_hz = options.rate_hz / words.path.selection.stride;
   layOut(words, &options);
-  options.recipe = recipeOf(line, {"--cache"}, options.studio.world.name);
+  options.recipe = recipeOf(line, {"--cache"}, options.studio.world);
   return options;
 }
 

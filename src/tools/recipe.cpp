@@ -8,7 +8,6 @@
 
 #include "sunlit/image/content_hash.h"
 #include "sunlit/image/files.h"
-#include "sunlit/scene/load.h"
 #include "tools/output_folder.h"
 
 namespace sunlit::tools {
@@ -18,7 +17,7 @@ namespace {
 /// A file may change while its name stays.
 std::string contentOf(const std::string& what, const std::string& file) {
   image::ContentHash print;
-  print.addFile(file);
+  if (!print.addFile(file)) throw std::runtime_error(file + ": cannot be read");
   return what + ' ' + print.text();
 }
 
@@ -48,7 +47,7 @@ std::string difference(const std::vector<std::string>& before, const std::vector
 }  // namespace
 
 std::vector<std::string> recipeOf(const studio::CommandLine& line, const std::set<std::string>& of_no_picture,
-                                  const std::string& world) {
+                                  const studio::WorldOptions& world) {
   auto sorted = line.given();
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -57,8 +56,10 @@ std::vector<std::string> recipeOf(const studio::CommandLine& line, const std::se
     if (of_no_picture.count(option) == 1) continue;
     recipe.push_back(option + ' ' + value);
     if (option == "--path") recipe.push_back(contentOf("content of the path", value));
+    if (option == "--calibration") recipe.push_back(contentOf("content of the calibration", value));
   }
-  if (world != scene::kRaceTrack) recipe.push_back(contentOf("content of the world", world));
+  const std::string file = studio::requireWorld(world);
+  if (!file.empty()) recipe.push_back(contentOf("content of the world", file));
   return recipe;
 }
 

@@ -6,14 +6,16 @@
 #include <vector>
 
 #include "sunlit/studio/command_line.h"
+#include "sunlit/studio/world.h"
 
 namespace sunlit::tools {
 
 /// What `line` was given, an option a line, sorted by options; one that may be repeated keeps its order.
 /// Without `of_no_picture`, options that do not change what pictures look like. With what tells the contents
-/// of the file of --path and of `world`, as scene::load() takes it, apart from other ones of that name.
+/// of the files of --path, --calibration and `world` apart from other ones of that name. Throws
+/// std::runtime_error where one cannot be read.
 std::vector<std::string> recipeOf(const studio::CommandLine& line, const std::set<std::string>& of_no_picture,
-                                  const std::string& world);
+                                  const studio::WorldOptions& world);
 
 /// Beside the pictures, in a file called after the tool: FOLDER/timelapse.txt.
 class FolderRecipe {

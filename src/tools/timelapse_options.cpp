@@ -105,7 +105,7 @@ std::optional<TimelapseOptions> parseTimelapseOptions(const std::vector<std::str
   options.view = view.options();
   options.view.studio.surfaces = {options.place.surfaces};
   requireSensibleSheet(options);
-  options.recipe = recipeOf(line, kOfNoFrame, options.view.studio.world.name);
+  options.recipe = recipeOf(line, kOfNoFrame, options.view.studio.world);
   return options;
 }
 

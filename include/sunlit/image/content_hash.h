@@ -31,8 +31,8 @@ class ContentHash {
     add(static_cast<std::uint64_t>(values.size()));
     addBytes(values.data(), values.size() * sizeof(Value));
   }
-  /// All bytes of a file; nothing of one that cannot be read.
-  void addFile(const std::string& path);
+  /// All bytes of a file. Whether it could be read.
+  [[nodiscard]] bool addFile(const std::string& path);
 
   struct Number {
     std::uint64_t high, low;

@@ -25,7 +25,8 @@ std::string plainText(XmlRpc::XmlRpcValue value);
 class ParameterReader {
  public:
   /// All parameters below the namespace of `node`, usually ros::NodeHandle("~"). Throws std::runtime_error
-  /// where the master does not tell whether there are any.
+  /// where the master does not tell whether there are any, and std::invalid_argument where a value stands in
+  /// the place of the namespace.
   explicit ParameterReader(const ros::NodeHandle& node);
   /// Parameters at hand, such as a file's; `name` stands before the keys in messages.
   ParameterReader(const XmlRpc::XmlRpcValue& tree, const std::string& name);

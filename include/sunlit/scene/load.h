@@ -42,7 +42,8 @@ struct SearchPath {
 /// std::runtime_error naming the file and place, and for a missing file where it was looked for.
 Scene load(const std::string& world, const SearchPath& search_path);
 
-/// Throws what load() throws where it finds no file by that name, or of no kind that it knows. Takes no time.
-void requireWorld(const std::string& world, const SearchPath& search_path);
+/// The file that load() would read; empty text for "race_track". Throws what load() throws where it finds
+/// none by that name, or of no kind that it knows. Takes no time.
+std::string requireWorld(const std::string& world, const SearchPath& search_path);
 
 }  // namespace sunlit::scene

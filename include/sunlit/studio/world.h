@@ -68,8 +68,8 @@ inline std::vector<Field> fieldsOf(BakeOptions& bake) {
 /// Where the bakes of these options are kept.
 light::BakeCache cacheOf(const BakeOptions& options);
 
-/// Throws what scene::requireWorld() throws.
-void requireWorld(const WorldOptions& options);
+/// As scene::requireWorld().
+std::string requireWorld(const WorldOptions& options);
 
 /// What scene::load() gives; its warnings become those of `reports`. Throws as it does. The built-in world is
 /// kept in `cache_folder`.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
@@ -128,12 +129,16 @@ void write(const fs::path& file, const std::string& bytes) {
 }
 
 /// Of the library that holds our detectors and preprocessing: after any change of them all is found anew, and
-/// nobody has to think of it.
+/// nobody has to think of it. Where it cannot be read, nothing is shared with other processes.
 std::string ourCode() {
   ContentHash hash;
   Dl_info where{};
-  if (dladdr(reinterpret_cast<const void*>(&featureKey), &where) != 0 && where.dli_fname != nullptr)
-    hash.addFile(where.dli_fname);
+  const bool is_known = dladdr(reinterpret_cast<const void*>(&featureKey), &where) != 0 &&
+                        where.dli_fname != nullptr && hash.addFile(where.dli_fname);
+  if (!is_known) {
+    hash.add(getpid());
+    hash.add(std::chrono::system_clock::now().time_since_epoch().count());
+  }
   return SUNLIT_VERSION + hash.text();
 }
 
@@ -163,6 +168,7 @@ FeatureCache::FeatureCache(const std::string& folder, std::uintmax_t limit_bytes
       limit_bytes_(limit_bytes),
       log_(std::move(log)),
       start_(fs::file_time_type::clock::now()) {
+  machine();  // now, lest another build takes the library's place before the first picture comes
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
+#include <filesystem>
 #include <stdexcept>
 
 #include "sunlit/image/files.h"
@@ -90,11 +89,8 @@ void AppendFile::close() {
 
 CsvLines readCsv(const std::string& path, const std::string& header) {
   CsvLines result;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return result;
-  std::stringstream content;
-  content << file.rdbuf();
-  const std::string text = content.str();
+  if (!std::filesystem::exists(path)) return result;
+  const std::string text = image::readWholeFile(path);
   const std::size_t expected = cut(header).size();
   std::size_t begin = 0;
   for (std::size_t number = 1; begin < text.size(); ++number) {

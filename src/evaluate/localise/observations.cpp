@@ -176,18 +176,6 @@ std::string payloadOf(const ObservationKey& key, const Observation& observation)
   return out.bytes();
 }
 
-bool readAt(int descriptor, void* data, std::size_t bytes, std::uint64_t offset) {
-  std::size_t done = 0;
-  while (done < bytes) {
-    const ssize_t got =
-        ::pread(descriptor, static_cast<char*>(data) + done, bytes - done, static_cast<off_t>(offset + done));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return false;
-    done += static_cast<std::size_t>(got);
-  }
-  return true;
-}
-
 bool writeAt(int descriptor, const std::string& bytes, std::uint64_t offset) {
   std::size_t done = 0;
   while (done < bytes.size()) {
@@ -218,12 +206,26 @@ ObservationFile::~ObservationFile() {
   ::close(descriptor_);
 }
 
+// False where the file ends before that.
+bool ObservationFile::readAt(void* data, std::size_t bytes, std::uint64_t offset) const {
+  std::size_t done = 0;
+  while (done < bytes) {
+    const ssize_t got = ::pread(descriptor_, static_cast<char*>(data) + done, bytes - done,
+                                static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) failWith(path_, "cannot be read");
+    if (got == 0) return false;
+    done += static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
 void ObservationFile::scan() {
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0) failWith(path_, "cannot be read");
   const auto size = static_cast<std::uint64_t>(status.st_size);
   std::uint64_t head[2];
-  while (size - end_ >= kHead && readAt(descriptor_, head, sizeof head, end_)) {
+  while (size - end_ >= kHead && readAt(head, sizeof head, end_)) {
     if (head[0] != kMagic)
       throw std::runtime_error(
           path_ + ": is not a file of observations of this version; another output folder is needed");
@@ -248,8 +250,7 @@ void ObservationFile::cutOff(std::uint64_t size) {
 
 std::string ObservationFile::payload(const Entry& entry, std::uint64_t beginning) const {
   std::string bytes(beginning, '\0');
-  if (!readAt(descriptor_, bytes.data(), bytes.size(), entry.offset + kHead))
-    failWith(path_, "cannot be read");
+  if (!readAt(bytes.data(), bytes.size(), entry.offset + kHead)) failWith(path_, "cannot be read");
   return bytes;
 }
 

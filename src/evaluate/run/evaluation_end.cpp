@@ -27,6 +27,7 @@ Outcome Evaluation::State::finish(Ending ending) {
   outcome.absent_poses = nameAbsentPoses();
   settleAndWrite(outcome);
   if (outcome.isWhole()) forgetLostFeatures();
+  finished_ = outcome;
   return outcome;
 }
 
@@ -85,7 +86,7 @@ void Evaluation::State::settleAndWrite(Outcome& outcome) {
   if (isVerifying()) outcome.verified = writeVerifiedSummaries();
   record_files_->finish(options_.streams, poses_);
   problems_->finish(poses_, [&](const Problem& problem) { return isMended(problem, evaluated); });
-  writeRunFile(file("run.yaml"), options_, &outcome);
+  writeRunFile(file("run.yaml"), options_, &outcome, nullptr);
 }
 
 // Of a run that is broken off, with hundreds of pairs, intervals may take longer than the patience of whoever

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "evaluate/run/evaluation_state.h"
+#include "evaluate/run/run_file.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -89,8 +90,8 @@ void Evaluation::State::observeMatched(const Work& work, const Matched& matched)
 LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbacks) {
   LocalisationOutcome outcome;
   if (!observer_) return outcome;
-  if (isLocalised()) {
-    localised_ = measuredOf(loadLocalisation(file(kRows)));
+  if (const std::vector<LocalisationRow> rows = localisedBefore(); !rows.empty()) {
+    localised_ = measuredOf(rows);
     if (isWholeAlone()) std::filesystem::remove(file(kObservations));  // the empty one of this run
     return outcome;
   }
@@ -113,6 +114,7 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   outcome.key_frames = result.key_frames;
   outcome.queries = result.rows.size();
   outcome.unobserved = unobserved(drives.streams, result.rows);
+  writeRunFile(file("run.yaml"), options_, &finished_, &outcome);
   if (result.rows.empty()) return outcome;
   localised_ = measuredOf(result.rows);
   outcome.summary = summariesOf(result.rows);
@@ -123,9 +125,20 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   return outcome;
 }
 
-// By a run that was whole, and has forgotten its observations.
-bool Evaluation::State::isLocalised() const {
-  return options_.merge.empty() && observer_->observations().keys().empty() &&
+// By a run that was whole, and has forgotten its observations; empty where this one has any, or others than
+// these poses were localised.
+std::vector<LocalisationRow> Evaluation::State::localisedBefore() const {
+  if (!options_.merge.empty() || !observer_->observations().keys().empty()) return {};
+  if (!std::filesystem::exists(file(kRows))) return {};
+  std::vector<LocalisationRow> rows = loadLocalisation(file(kRows));
+  if (unobserved(streamsOf(options_), rows) > 0) rows.clear();
+  return rows;
+}
+
+bool Evaluation::State::hasForgottenObservations() const {
+  const std::string kept = file(kObservations);
+  const bool is_kept = std::filesystem::exists(kept) && std::filesystem::file_size(kept) > 0;
+  return !options_.localisation.map.empty() && !records_.empty() && !is_kept &&
          std::filesystem::exists(file(kRows));
 }
 

@@ -139,7 +139,7 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
   makeFolder(options_.output_dir);
   claimFolder(options_.output_dir, settingsOf(options_));
   image::removeUnfinished(options_.output_dir);
-  writeRunFile(file("run.yaml"), options_, nullptr);
+  writeRunFile(file("run.yaml"), options_, nullptr, nullptr);
   takeUpEarlierRuns();
   problems_ = std::make_unique<ProblemFile>(options_.output_dir);
   prepareLocalisation();
@@ -170,15 +170,41 @@ void Evaluation::State::settleTakenUp() {
   }
 }
 
+void Evaluation::State::requireMergeable(const std::string& folder) const {
+  std::vector<std::string> needed = {"run.yaml", "frames.csv"};
+  if (isVerifying()) needed.emplace_back("verified.csv");
+  for (const std::string& name : needed) {
+    if (!std::filesystem::exists(folder + "/" + name))
+      throw std::invalid_argument("merge: " + folder + " holds no run that can be merged (no " + name + ")");
+  }
+  if (!holdsSettings(folder + "/run.yaml"))
+    throw std::invalid_argument("merge: " + folder +
+                                "/run.yaml tells no settings, so that it may be of others");
+  requireSameSettings(folder + "/run.yaml", settingsOf(options_));
+  if (isVerifying() && callbacks_.note && !holdsLost(folder + "/" + kLostFile))
+    callbacks_.note("merge: " + folder +
+                    " keeps no single features any more: lost_features.csv is without them");
+}
+
+// What single features and pictures a whole run saw it keeps in sums alone, to which those of further poses
+// cannot be added.
+void Evaluation::State::requireNothingForgotten() const {
+  const std::size_t wanted = options_.poses.size(), whole = completed_.size() - unexpected_poses_;
+  if (!has_forgotten_ || wanted <= whole) return;
+  throw std::invalid_argument(
+      "output_dir " + options_.output_dir + " holds a run of " + std::to_string(whole) +
+      " poses that has ended, of whose features sums alone were kept, so that it cannot "
+      "grow to " +
+      std::to_string(wanted) + ": choose another output_dir, or poses: " + std::to_string(whole));
+}
+
 void Evaluation::State::takeUpEarlierRuns() {
   record_files_ = std::make_unique<RecordFiles>(options_.output_dir, poses_);
   mendLostFile(file(kLostFile));
   std::size_t dropped_lines = takeUp(options_.output_dir);
+  has_forgotten_ = hasForgottenFeatures() || hasForgottenObservations();
   for (const std::string& folder : options_.merge) {
-    if (!std::filesystem::exists(folder + "/run.yaml")) {
-      throw std::invalid_argument("merge: " + folder + " holds no run (no run.yaml)");
-    }
-    requireSameSettings(folder + "/run.yaml", settingsOf(options_));
+    requireMergeable(folder);
     dropped_lines += takeUp(folder);
   }
   settleTakenUp();
@@ -190,6 +216,7 @@ void Evaluation::State::takeUpEarlierRuns() {
     }
     if (is_whole) markCompleted(record.pose);
   }
+  requireNothingForgotten();
   if (dropped_lines > 0 || !options_.merge.empty()) writeRecords();
   frames_file_.open(file("frames.csv"), framesHeader());
   if (isVerifying()) {

@@ -83,6 +83,8 @@ class Evaluation::State {
   static constexpr const char* kLostFile = "lost_features.bin";
   std::string file(const std::string& name) const { return options_.output_dir + "/" + name; }
   void takeUpEarlierRuns();
+  void requireMergeable(const std::string& folder) const;
+  void requireNothingForgotten() const;
   std::size_t takeUp(const std::string& folder);
   void settleTakenUp();
   std::size_t nameAbsentPoses();
@@ -118,7 +120,8 @@ class Evaluation::State {
   void addTruth(std::int64_t stamp_ns, const std::function<void(GroundTruth&)>& add);
   void observeSet(const StampSet& set, Work& work);
   std::size_t depthBytes() const { return observer_ ? observer_->truth().bytes() : 0; }
-  bool isLocalised() const;
+  std::vector<LocalisationRow> localisedBefore() const;
+  bool hasForgottenObservations() const;
   bool isWholeAlone() const;
   std::size_t unobserved(const ObservedStreams& streams, const std::vector<LocalisationRow>& rows) const;
   void observeMatched(const Work& work, const Matched& matched) const;
@@ -134,6 +137,7 @@ class Evaluation::State {
   void removeFallen();
   void keepFinalDrawn();
   void writeLostFeatures();
+  bool hasForgottenFeatures() const;
   void forgetLostFeatures();
   void withdrawVerified(std::int64_t stamp_ns, std::size_t pair);
   std::size_t takeUpVerified(const std::string& folder, std::vector<PairRecord>& frames);
@@ -162,6 +166,8 @@ class Evaluation::State {
   std::vector<PairRecord> records_;
   std::vector<VerifiedRecord> verified_;  // of the same stamps and pairs, where matches are verified
   std::vector<Measured> localised_;       // by localise()
+  Outcome finished_;                      // by finish()
+  bool has_forgotten_ = false;            // single features or observations of what was taken up
   EvaluatedPairs held_;                   // by what earlier runs left
   std::map<std::pair<std::int64_t, std::size_t>, std::int64_t>
       taken_;                         // by pose and pair: the stamp that counts, of those that came

@@ -119,7 +119,18 @@ void Evaluation::State::writeLostFeatures() {
       });
   const bool has_any =
       std::any_of(sums.begin(), sums.end(), [](const LostSum& sum) { return sum.poses > 0; });
-  if (has_any) writeLost(file("lost_features.csv"), verified_layout_, sums);
+  if (!has_any) return;
+  if (!has_forgotten_) return writeLost(file("lost_features.csv"), verified_layout_, sums);
+  if (callbacks_.note)
+    callbacks_.note("lost_features.csv stays that of the run before: its single features are kept no more");
+}
+
+// Where a pair was verified, and the record of which of its features were lost is gone.
+bool Evaluation::State::hasForgottenFeatures() const {
+  const bool has_any = std::any_of(verified_.begin(), verified_.end(), [this](const VerifiedRecord& record) {
+    return !isSelfTested(record.pair);
+  });
+  return isVerifying() && has_any && !verified_layout_.differences.empty() && !holdsLost(file(kLostFile));
 }
 
 void Evaluation::State::forgetLostFeatures() {

@@ -46,12 +46,16 @@ std::map<std::string, std::string> settingsIn(const std::string& path) {
   return settings;
 }
 
-std::string countersText(const EvaluationOptions& options, const Outcome& outcome) {
+std::string countersText(const EvaluationOptions& options, const Outcome& outcome,
+                         const LocalisationOutcome* localised) {
   std::ostringstream text;
   text << "outcome:\n  whole: " << (outcome.isWhole() ? "true" : "false")
        << "\n  completed_poses: " << outcome.counts.completed_poses
        << "\n  absent_poses: " << outcome.absent_poses
-       << "\n  unexpected_poses: " << outcome.counts.unexpected_poses << "\ncounters:\n  streams:\n";
+       << "\n  unexpected_poses: " << outcome.counts.unexpected_poses;
+  if (localised != nullptr)
+    text << "\n  key_frames: " << localised->key_frames << "\n  not_localised: " << localised->unobserved;
+  text << "\ncounters:\n  streams:\n";
   for (std::size_t i = 0; i < options.streams.size(); ++i) {
     const StreamCounts& c = outcome.counts.streams[i];
     text << "    " << yamlQuoted(options.streams[i]) << ": {received: " << c.received
@@ -80,6 +84,10 @@ Settings settingsOf(const EvaluationOptions& options) {
   for (const Field& field : decidingFieldsOf(present)) settings.emplace_back(field.key, field.text());
   for (const auto& item : options.about) settings.emplace_back("about/" + item.first, item.second);
   return settings;
+}
+
+bool holdsSettings(const std::string& path) {
+  return !settingsIn(path).empty();
 }
 
 void requireSameSettings(const std::string& path, const Settings& settings) {
@@ -139,7 +147,8 @@ void claimFolder(const std::string& folder, const Settings& settings) {
   }
 }
 
-void writeRunFile(const std::string& path, const EvaluationOptions& options, const Outcome* outcome) {
+void writeRunFile(const std::string& path, const EvaluationOptions& options, const Outcome* outcome,
+                  const LocalisationOutcome* localised) {
   std::string text =
       "# Settings decide the values; a folder is only taken up again with the same ones.\nsettings:\n";
   for (const auto& item : settingsOf(options))
@@ -149,7 +158,7 @@ void writeRunFile(const std::string& path, const EvaluationOptions& options, con
           "\npose_stride: " + std::to_string(options.poses.stride) + "\n";
   text += std::string("versions:\n  sunlit: ") + yamlQuoted(SUNLIT_VERSION) +
           "\n  opencv: " + yamlQuoted(CV_VERSION) + "\n";
-  if (outcome != nullptr) text += countersText(options, *outcome);
+  if (outcome != nullptr) text += countersText(options, *outcome, localised);
   image::writeFileAtomically(path, text);
 }
 

@@ -14,6 +14,9 @@ namespace sunlit::evaluate {
 using Settings = std::vector<std::pair<std::string, std::string>>;
 Settings settingsOf(const EvaluationOptions& options);
 
+/// Whether the run.yaml at `path` tells any settings.
+bool holdsSettings(const std::string& path);
+
 /// Throws std::invalid_argument, naming key and both values, where the run.yaml at `path` has other settings.
 /// Nothing where there is none.
 void requireSameSettings(const std::string& path, const Settings& settings);
@@ -22,7 +25,9 @@ void requireSameSettings(const std::string& path, const Settings& settings);
 /// what it left is removed.
 void claimFolder(const std::string& folder, const Settings& settings);
 
-/// `outcome` may be null: the run is still going on.
-void writeRunFile(const std::string& path, const EvaluationOptions& options, const Outcome* outcome);
+/// `outcome` may be null: the run is still going on; so may `localised`: nothing was to be localised, or not
+/// yet.
+void writeRunFile(const std::string& path, const EvaluationOptions& options, const Outcome* outcome,
+                  const LocalisationOutcome* localised);
 
 }  // namespace sunlit::evaluate

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <tuple>
 
@@ -65,6 +66,10 @@ std::string lostRecordOf(std::int64_t stamp_ns, std::size_t pair, std::size_t na
   return bytes;
 }
 
+bool holdsLost(const std::string& path) {
+  return std::filesystem::exists(path) && std::filesystem::file_size(path) > lostFileHeader().size() + 1;
+}
+
 std::size_t mendLostFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return 0;
@@ -90,7 +95,8 @@ std::vector<LostSum> sumsOfLost(const std::vector<std::string>& files, const Fra
   std::vector<LostSum> sums(layout.pairs.size() * names);
   std::set<std::tuple<std::int64_t, std::uint32_t, std::uint32_t>> seen;
   for (const std::string& path : files) {
-    std::ifstream file(path, std::ios::binary);
+    if (!std::filesystem::exists(path)) continue;
+    std::istringstream file(image::readWholeFile(path));
     std::string first;
     std::getline(file, first);
     Record record;

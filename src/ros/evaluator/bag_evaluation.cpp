@@ -11,6 +11,7 @@
 
 #include "ros/conversions/evaluation.h"
 #include "ros/conversions/received_images.h"
+#include "ros/evaluator/bag_message.h"
 #include "ros/evaluator/bag_topics.h"
 #include "ros/evaluator/folder_lock.h"
 #include "ros/evaluator/progress_log.h"
@@ -51,15 +52,14 @@ class BagSource {
       if (const auto found = images_.find(instance.getTopic()); found != images_.end()) {
         feedImage(evaluation, found->second, instance);
       } else if (const auto capture = captures_.find(instance.getTopic()); capture != captures_.end()) {
-        if (const auto message = instance.instantiate<Capture>()) {
-          evaluation.addCapture(capture->second, captureOf(*message));
-        }
+        evaluation.addCapture(capture->second, captureOf(*messageOf<Capture>(instance)));
       } else if (const auto camera = cameras_.find(instance.getTopic()); camera != cameras_.end()) {
-        if (const auto message = instance.instantiate<sensor_msgs::CameraInfo>())
-          evaluation.addCamera(camera->second, cameraOf(*message));
-      } else if (const auto depth = instance.instantiate<sensor_msgs::Image>()) {
+        evaluation.addCamera(camera->second, cameraOf(*messageOf<sensor_msgs::CameraInfo>(instance)));
+      } else if (instance.getTopic() != place_topic_) {
+        const auto depth = messageOf<sensor_msgs::Image>(instance);
         evaluation.addDepth(nanosecondsOf(depth->header.stamp), depthOf(*depth, max_pixels_));
-      } else if (const auto message = instance.instantiate<geometry_msgs::PoseStamped>()) {
+      } else {
+        const auto message = messageOf<geometry_msgs::PoseStamped>(instance);
         evaluation.addPlace(placeOf(*message));
         evaluation.addTruePose(nanosecondsOf(message->header.stamp), truePoseOf(*message));
       }

@@ -14,6 +14,7 @@
 #include "ros/conversions/geometry.h"
 #include "ros/conversions/images.h"
 #include "ros/conversions/received_images.h"
+#include "ros/evaluator/bag_message.h"
 #include "ros/evaluator/bag_topics.h"
 #include "ros/evaluator/bag_trajectory.h"
 #include "sunlit/evaluate/trajectory/trajectory.h"
@@ -43,13 +44,6 @@ void requireImage(const MessageInstance& instance, bool may_be_compressed) {
   if (may_be_compressed && instance.isType<sensor_msgs::CompressedImage>()) return;
   throw std::runtime_error(instance.getTopic() + " is " + instance.getDataType() + ", not sensor_msgs/Image" +
                            (may_be_compressed ? " or sensor_msgs/CompressedImage" : ""));
-}
-
-template <typename Message>
-boost::shared_ptr<Message> messageOf(const MessageInstance& instance) {
-  if (auto message = instance.instantiate<Message>()) return message;
-  throw std::runtime_error(instance.getTopic() + " is " + instance.getDataType() + ", not " +
-                           ros::message_traits::DataType<Message>::value());
 }
 
 /// The nearest to `stamp_ns`, the earlier of two; the end only where there is nothing.
@@ -155,7 +149,8 @@ void BagViews::readIndex() {
     } else if (topic == index.poses_topic) {
       const PoseMessage message = poseMessageOf(instance);
       index.poses.emplace(message.stamp_ns, message.pose);
-    } else if (const auto message = instance.instantiate<Capture>()) {
+    } else {
+      const auto message = messageOf<Capture>(instance);
       index.numbers.emplace(nanosecondsOf(message->header.stamp), message->pose_index);
     }
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <fstream>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "ros/evaluator/evaluator_options.h"
 
@@ -28,7 +30,11 @@ XmlRpcValue valueOf(const YAML::Node& node) {
     int i = 0;
     for (const YAML::Node& element : node) value[i++] = valueOf(element);
   } else if (node.IsMap()) {
-    for (const auto& member : node) value[member.first.as<std::string>()] = valueOf(member.second);
+    for (const auto& member : node) {
+      const auto key = member.first.as<std::string>();
+      if (value.hasMember(key)) throw YAML::Exception(member.first.Mark(), key + " is given twice");
+      value[key] = valueOf(member.second);
+    }
   }
   return value;
 }
@@ -44,7 +50,9 @@ ParameterReader parametersOfFile(const std::string& path) {
   };
   XmlRpcValue tree;
   try {
-    const YAML::Node root = YAML::Load(file);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(file);
+    if (documents.size() > 1) fail(documents[1].Mark(), "there are several documents");
+    const YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
     if (!root.IsMap()) fail(root.Mark(), "there are no keys");
     tree = valueOf(root);
   } catch (const YAML::Exception& error) {

@@ -16,6 +16,7 @@ import rostest
 import yaml
 from geometry_msgs.msg import PoseStamped
 from sensor_msgs.msg import CompressedImage
+from std_msgs.msg import String
 from sunlit.msg import Capture
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
@@ -337,6 +338,14 @@ about:
             file.write(CONFIG + 'ratio: [0.4\nimages: all\n')
         with open(self.path('list.yaml'), 'w') as file:
             file.write('- h04\n')
+        with open(self.path('twice.yaml'), 'w') as file:
+            file.write(CONFIG + 'features: {orb: {count: 100}}\nfeatures: {sift: {count: 100}}\n')
+        with open(self.path('two.yaml'), 'w') as file:
+            file.write(CONFIG + '---\nratio: 0.4\n')
+        for name, topic in (('capture.bag', '/h04/camera/capture'), ('pose.bag', '/camera/pose')):
+            shutil.copy(self.path('all.bag'), self.path(name))
+            with rosbag.Bag(self.path(name), 'a') as bag:
+                bag.write(topic, String(data='by somebody else'), stamp_of(0))
         os.mkdir(self.path('full'))
         with open(self.path('full/images'), 'w') as file:
             file.write('where the folder of the pictures should be')
@@ -350,6 +359,12 @@ about:
                   'broken.yaml:%d: ' % broken_line),
                  (['--config', self.path('list.yaml'), '--out', self.path('out'), self.path('one.bag')],
                   'list.yaml:1: is not a YAML map of parameters'),
+                 (['--config', self.path('twice.yaml'), '--out', self.path('out'), self.path('one.bag')],
+                  'twice.yaml:%d: is not a YAML map of parameters: features is given twice' % broken_line),
+                 (['--config', self.path('two.yaml'), '--out', self.path('out'), self.path('one.bag')],
+                  'there are several documents'),
+                 (start + [self.path('capture.bag')], '/h04/camera/capture is std_msgs/String, not sunlit/Capture'),
+                 (start + [self.path('pose.bag')], '/camera/pose is std_msgs/String, not geometry_msgs/PoseStamped'),
                  (['--config', self.path('no.yaml'), '--out', self.path('out'), self.path('one.bag')], 'no.yaml'),
                  (['--config', self.config, '--out', '/proc/out', self.path('all.bag')], '/proc/out'),
                  (['--config', self.config, '--out', self.path('full'), self.path('all.bag')],

@@ -16,16 +16,16 @@ FAILURE, ERROR, SUCCESS = 0, -1, 1  # of the master's API
 
 
 class SilentMaster(xmlrpc.server.SimpleXMLRPCServer):
-    """Takes whatever is registered, and knows no parameter but those of nodes, which it cannot tell."""
+    """Takes whatever is registered, and knows no parameter but what stands in the place of those of nodes."""
 
-    def __init__(self, has_param):
+    def __init__(self, has_param, param=(FAILURE, "out of order", 0)):
         super().__init__(("localhost", 0), logRequests=False, allow_none=True)
-        self.has_param = has_param
+        self.has_param, self.param = has_param, param
         self.register_instance(self)
 
     def _dispatch(self, method, params):
         if method in ("getParam", "hasParam") and params[1] == params[0]:  # a node's own
-            return self.has_param if method == "hasParam" else (FAILURE, "out of order", 0)
+            return self.has_param if method == "hasParam" else self.param
         if method == "hasParam":
             return SUCCESS, "", False
         if method in ("getParam", "lookupNode"):
@@ -63,6 +63,12 @@ class ParametersUntold(unittest.TestCase):
                     status, text = run(name + "_node", master)
                     self.assertEqual(status, 1, text)
                     self.assertIn("the master at http://localhost:%d%s" % (master.server_address[1], said), text)
+
+    def test_a_value_in_the_place_of_all_is_refused(self):
+        with SilentMaster((SUCCESS, "", True), (SUCCESS, "", 5)) as master:
+            status, text = run("render_node", master)
+            self.assertEqual(status, 1, text)
+            self.assertIn("/render is 5, but must be a map from names to values", text)
 
 
 if __name__ == "__main__":

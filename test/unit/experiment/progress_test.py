@@ -119,6 +119,20 @@ class AtTheEnd(unittest.TestCase):
                          "mean difference  h04-h12  h04-h20\norb              0.25000        -\n\n"
                          "with itself      h04\norb          0.00000")
 
+    def test_a_run_without_its_localisation_is_not_whole(self):
+        with tempfile.TemporaryDirectory() as folder:
+            def check(outcome):
+                with open(os.path.join(folder, "run.yaml"), "w") as file:
+                    file.write("settings:\n  a: 'b'\noutcome:\n  whole: true\n" + outcome)
+                summary.check_localised(folder)
+
+            check("")  # nothing was to be localised, or it was before
+            check("  key_frames: 3\n  not_localised: 0\n")
+            with self.assertRaisesRegex(Failure, "nothing was localised: the map has no key frame"):
+                check("  key_frames: 0\n  not_localised: 9\n")
+            with self.assertRaisesRegex(Failure, "^2 queries were not looked for"):
+                check("  key_frames: 3\n  not_localised: 2\n")
+
     def test_a_summary_is_this_run_s_by_being_another_file_whatever_the_clock_says(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "summary.csv")

@@ -30,8 +30,10 @@ TEST(ContentHash, IsOfAllBytesHoweverTheyCome) {
   const TemporaryFolder folder;
   setContent(folder.file("a"), text);
   ContentHash of_file;
-  of_file.addFile(folder.file("a"));
+  EXPECT_TRUE(of_file.addFile(folder.file("a")));
   EXPECT_EQ(of_file.text(), hashOf(text));
+  EXPECT_FALSE(of_file.addFile(folder.file("gone")));
+  EXPECT_FALSE(of_file.addFile(folder.file("")));
 }
 
 TEST(ContentHash, TellsWhereOneListEnds) {

@@ -76,6 +76,7 @@ class ObservationFile {
     std::uint64_t offset = 0;  // of the record
     std::uint64_t bytes = 0;   // of its payload
   };
+  bool readAt(void* data, std::size_t bytes, std::uint64_t offset) const;
   void scan();
   void cutOff(std::uint64_t size);
   Entry entryAt(std::size_t index) const;

@@ -32,6 +32,8 @@ LostFeatures lostFeatures(const FeaturePair& features, const PointMaps& maps, co
 /// line end; `name` and pair index the layout.
 std::string lostFileHeader();
 std::string lostRecordOf(std::int64_t stamp_ns, std::size_t pair, std::size_t name, const LostFeatures& lost);
+/// Whether there is such a file with records.
+bool holdsLost(const std::string& path);
 /// Cuts off a torn end; the bytes that it had. Nothing where there is no file. Throws std::runtime_error for
 /// a file of another kind.
 std::size_t mendLostFile(const std::string& path);

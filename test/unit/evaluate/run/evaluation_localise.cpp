@@ -232,6 +232,47 @@ TEST(EvaluationLocalise, ABrokenOffRunIsTakenUpAgain) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("out/comparisons.csv"))) << "never half of it";
 }
 
+// A whole run has forgotten what it observed: a longer one would be localised in a map of its new poses
+// alone.
+TEST(EvaluationLocalise, AWholeRunDoesNotGrow) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = localising(folder);
+  options.comparer.differences = {"boolean_rgb", "orb"};
+  options.verify.emplace();
+  options.poses.count = 2;
+  {
+    Evaluation evaluation(options, {});
+    feed(evaluation, 0, 2);
+    EXPECT_TRUE(finishAndLocalise(evaluation).isWhole());
+  }
+  options.poses.count = kPoses;
+  const std::string refusal =
+      "output_dir " + folder.file("out") +
+      " holds a run of 2 poses that has ended, of whose features sums alone were kept, so "
+      "that it cannot grow to 4: choose another output_dir, or poses: 2";
+  EXPECT_EQ(messageOf<std::invalid_argument>([&] { Evaluation(options, {}); }), refusal);
+  options.poses.count = 2;
+  {
+    Evaluation again(options, {});  // and is killed: what it began anew is empty
+    EXPECT_TRUE(again.isComplete());
+  }
+  options.poses.count = kPoses;
+  EXPECT_EQ(messageOf<std::invalid_argument>([&] { Evaluation(options, {}); }), refusal);
+}
+
+// Another tool may have left one in the same folder.
+TEST(EvaluationLocalise, RowsOfOthersAreNotTakenForThisRuns) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = localising(folder);
+  std::filesystem::create_directories(options.output_dir);
+  writeLocalisation(folder.file("out/localisation.csv"), {});
+  Evaluation evaluation(options, {});
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) feedImages(evaluation, pose);
+  const LocalisationOutcome outcome = finishAndLocalise(evaluation);
+  EXPECT_TRUE(outcome.is_asked);
+  EXPECT_FALSE(outcome.isWhole());
+}
+
 TEST(EvaluationLocalise, WhatIsMissingIsNamedAndCounted) {
   const TemporaryFolder folder;
   Evaluation evaluation(localising(folder), {});
@@ -250,6 +291,8 @@ TEST(EvaluationLocalise, WhatIsMissingIsNamedAndCounted) {
   const LocalisationOutcome outcome = evaluation.localise({});
   EXPECT_EQ(outcome.key_frames, 1u);
   EXPECT_EQ(outcome.unobserved, 2u) << "pose 1 of both queries";
+  EXPECT_NE(contentOf(folder.file("out/run.yaml")).find("\n  key_frames: 1\n  not_localised: 2\n"),
+            std::string::npos);
   EXPECT_FALSE(outcome.isWhole());
   const std::string problems = contentOf(folder.file("out/problems.csv"));
   EXPECT_TRUE(hasLine(problems, "unlocalised,1,500.100000000,dusk,camera/pose: holds what is not finite"));

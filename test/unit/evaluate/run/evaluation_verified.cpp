@@ -210,6 +210,36 @@ TEST(VerifiedRun, MergesShardsToTheBytesOfTheWhole) {
   expectSame(options.output_dir, expected);
 }
 
+TEST(VerifiedRun, MergesNothingOfWhichAPartIsMissing) {
+  const TemporaryFolder folder;
+  EvaluationOptions part = verifying(folder, "part");
+  {
+    Evaluation evaluation(part, {});
+    feedLit(evaluation, 0, 2);
+    evaluation.finish();
+  }
+  EvaluationOptions whole = verifying(folder);
+  whole.merge = {folder.file("part")};
+  const auto refusal = [&] { return messageOf<std::exception>([&] { Evaluation(whole, {}); }); };
+  const std::string verified = contentOf(folder.file("part/verified.csv"));
+  std::filesystem::remove(folder.file("part/verified.csv"));
+  EXPECT_EQ(refusal(),
+            "merge: " + folder.file("part") + " holds no run that can be merged (no verified.csv)");
+  setContent(folder.file("part/verified.csv"), verified);
+  setContent(folder.file("part/run.yaml"), "");
+  EXPECT_EQ(refusal(),
+            "merge: " + folder.file("part") + "/run.yaml tells no settings, so that it may be of others");
+}
+
+// Something else than a file of rows has none, and is no reason to write over it.
+TEST(VerifiedRun, WhatCannotBeReadIsNotTakenForNothing) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.file("out/frames.csv"));
+  const std::string error = messageOf<std::exception>([&] { Evaluation(verifying(folder), {}); });
+  EXPECT_NE(error.find(folder.file("out/frames.csv")), std::string::npos) << error;
+  EXPECT_TRUE(std::filesystem::is_directory(folder.file("out/frames.csv")));
+}
+
 TEST(VerifiedRun, CountsTheEarlierOfTwoStampsOfOnePose) {
   const TemporaryFolder folder;
   EvaluationOptions options = verifying(folder);
