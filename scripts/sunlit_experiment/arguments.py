@@ -25,25 +25,35 @@ class BadArgument(Exception):
         super().__init__(f"argument {name} is {value!r}, but must be {allowed}")
 
 
+class _Ambiguous(yaml.constructor.ConstructorError):
+    """What YAML understands otherwise than who wrote it."""
+
+
 class _Loader(yaml.SafeLoader):
-    """YAML whose maps have each key once: of two, one would be lost without a word."""
+    """YAML whose maps have each key once: of two, one would be lost without a word. Nor are 010 or 0b11 numbers."""
+
+    def construct_yaml_int(self, node):
+        if re.match(r"[-+]?0.", node.value):
+            raise _Ambiguous(None, None, f"a zero before {node.value.lstrip('+-')[1:]}", node.start_mark)
+        return super().construct_yaml_int(node)
 
     def construct_mapping(self, node, deep=False):
         keys = [self.construct_object(key, deep=True) for key, _ in node.value]
         twice = [key for i, key in enumerate(keys) if key in keys[:i]]
         if twice:
-            raise yaml.constructor.ConstructorError(None, None, f"{twice[0]} twice", node.start_mark)
+            raise _Ambiguous(None, None, f"{twice[0]} twice", node.start_mark)
         return super().construct_mapping(node, deep)
+
+
+_Loader.add_constructor("tag:yaml.org,2002:int", _Loader.construct_yaml_int)
 
 
 def parse(name, text, allowed):
     """`text` as YAML."""
     try:
         return yaml.load(text, Loader=_Loader)
-    except yaml.constructor.ConstructorError as error:
-        if error.problem and error.problem.endswith(" twice"):
-            raise BadArgument(name, text, f"without {error.problem}") from None
-        raise BadArgument(name, text, allowed) from None
+    except _Ambiguous as error:
+        raise BadArgument(name, text, f"without {error.problem}") from None
     except (yaml.YAMLError, ValueError, RecursionError):  # of a date that is none; of very many brackets
         raise BadArgument(name, text, allowed) from None
 

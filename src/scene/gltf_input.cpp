@@ -1,7 +1,5 @@
 #include "scene/gltf_input.h"
 
-#include <assimp/MemoryIOWrapper.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
@@ -13,6 +11,7 @@
 #include "scene/gltf_instances.h"
 #include "scene/gltf_json.h"
 #include "scene/gltf_unpack.h"
+#include "scene/memory_stream.h"
 
 namespace sunlit::scene {
 namespace {
@@ -92,13 +91,6 @@ std::string withJson(const std::string& file, std::string text) {
   appendWord(bytes, kHeader + kChunkHeader + text.size() + old.rest.size());
   appendWord(bytes, text.size());
   return bytes + "JSON" + text + old.rest;
-}
-
-/// As Assimp's destructor expects it.
-Assimp::IOStream* streamOf(const std::string& bytes) {
-  auto* const copy = new std::uint8_t[bytes.size()];
-  std::copy(bytes.begin(), bytes.end(), copy);
-  return new Assimp::MemoryIOStream(copy, bytes.size(), true);
 }
 
 }  // namespace

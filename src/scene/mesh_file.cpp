@@ -211,6 +211,15 @@ void warnOfFading(const Collector& collector, const std::string& file, SceneBuil
   }
 }
 
+void warnOfObj(const std::string& file, SceneBuilder& builder) {
+  const ObjLosses losses = lossesOfObj(file);
+  for (const std::string& material : losses.materials)
+    builder.warn("materials are not there, and neutral ones stand for them", material);
+  for (const std::string& library : losses.placed)
+    builder.warn("libraries of OBJ shift textures or repeat them by -o, -s or -t, which is not read",
+                 library);
+}
+
 /// Assimp would find no reader for a folder, and miss anything but content in an empty file.
 void requireContent(const std::string& file) {
   std::error_code error;
@@ -239,9 +248,11 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
     importer.SetIOHandler(gltf_materials->input().release());
   } else if (extension == ".obj") {
     importer.SetIOHandler(std::make_unique<ObjInput>().release());
+    warnOfObj(file, builder);
   }
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up_axis == UpAxis::kZ);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);  // in the place of what is not there
   importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCrease_deg);
   // Normals where the file has none: glTF 2.0, section 3.7.2.1, wants them flat.
   const unsigned normals = gltf ? aiProcess_GenNormals : aiProcess_GenSmoothNormals;

@@ -1,39 +1,148 @@
 #include "scene/obj_input.h"
 
+#include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
+#include <sstream>
 #include <stdexcept>
-#include <string>
 
+#include "scene/memory_stream.h"
 #include "scene/mesh_file.h"
 
 namespace sunlit::scene {
 namespace {
 
-/// Lines end as Assimp has it, and one that begins with a blank or a # is none.
-void requireMaterialFirst(const std::string& path) {
+const std::string kEnds("\n\r\f\0", 4);  ///< of lines, as Assimp has it
+
+std::string contentOf(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  const std::string ends("\n\r\f\0", 4);
-  std::size_t line = 1;
-  for (std::size_t at = 0; at < text.size(); ++line) {
-    if (std::isalpha(static_cast<unsigned char>(text[at])) != 0) {
-      if (text.compare(at, 6, "newmtl") == 0) return;
-      throw std::runtime_error(path + ":" + std::to_string(line) + ": '" +
-                               text.substr(at, text.find_first_of(" \t" + ends, at) - at) +
-                               "' stands before the first newmtl, and is of no material");
-    }
-    at = text.find_first_of(ends, at);
-    if (at != std::string::npos) ++at;
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Calls use(line, number), from 1 on, for each.
+template <typename Use>
+void forEachLine(const std::string& text, const Use& use) {
+  std::size_t number = 1;
+  for (std::size_t at = 0; at < text.size(); ++number) {
+    const std::size_t end = std::min(text.find_first_of(kEnds, at), text.size());
+    use(text.substr(at, end - at), number);
+    at = end + 1;
   }
+}
+
+/// Without a blank at its end; nothing where the line's first word is another.
+std::string behind(const std::string& line, const std::string& word) {
+  if (line.compare(0, word.size(), word) != 0 || line.size() == word.size()) return {};
+  if (line[word.size()] != ' ' && line[word.size()] != '\t') return {};
+  const std::size_t begin = line.find_first_not_of(" \t", word.size());
+  if (begin == std::string::npos) return {};
+  return line.substr(begin, line.find_last_not_of(" \t") + 1 - begin);
+}
+
+/// One that begins with a blank or a # is no line of a library.
+void requireMaterialFirst(const std::string& path, const std::string& text) {
+  bool has_material = false;
+  forEachLine(text, [&](const std::string& line, std::size_t number) {
+    if (has_material || line.empty() || std::isalpha(static_cast<unsigned char>(line[0])) == 0) return;
+    has_material = line.compare(0, 6, "newmtl") == 0;
+    if (!has_material)
+      throw std::runtime_error(path + ":" + std::to_string(number) + ": '" +
+                               line.substr(0, line.find_first_of(" \t")) +
+                               "' stands before the first newmtl, and is of no material");
+  });
+}
+
+void requireNoCommas(const std::string& path, const std::string& text) {
+  forEachLine(text, [&](const std::string& line, std::size_t number) {
+    const bool is_numbers =
+        line.compare(0, 2, "v ") == 0 || line.compare(0, 3, "vn ") == 0 || line.compare(0, 3, "vt ") == 0;
+    if (is_numbers && line.find(',') != std::string::npos && line.find(',') < line.find('#'))
+      throw std::runtime_error(path + ":" + std::to_string(number) + ": '" + line +
+                               "' has a comma; decimals stand behind a point");
+  });
+}
+
+bool isNumber(const std::string& word) {
+  return !word.empty() && word.find_first_not_of("0123456789+-.eE") == std::string::npos;
+}
+
+/// A line of a library without -o, -s and -t, each with its one to three numbers.
+std::string withoutPlacement(const std::string& line) {
+  std::istringstream words(line);
+  std::string first, word, rest;
+  words >> first;
+  if (first.compare(0, 4, "map_") != 0 && first != "norm" && first != "bump" && first != "disp") return line;
+  bool is_placement = false, is_changed = false;
+  int numbers = 0;
+  while (words >> word) {
+    if (is_placement && numbers < 3 && isNumber(word)) {
+      ++numbers;
+      continue;
+    }
+    is_placement = word == "-o" || word == "-s" || word == "-t";
+    numbers = 0;
+    is_changed = is_changed || is_placement;
+    if (!is_placement) rest += ' ' + word;
+  }
+  return is_changed ? first + rest : line;
+}
+
+std::string withoutPlacements(const std::string& text) {
+  std::string plain;
+  forEachLine(text, [&](const std::string& line, std::size_t) { plain += withoutPlacement(line) + '\n'; });
+  return plain;
+}
+
+std::string withoutMark(const std::string& text) {
+  return text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? text.substr(3) : text;
 }
 
 }  // namespace
 
 Assimp::IOStream* ObjInput::Open(const char* path, const char* mode) {
-  if (extensionOf(path) != ".obj" && Exists(path)) requireMaterialFirst(path);
-  return DefaultIOSystem::Open(path, mode);
+  if (!Exists(path)) return DefaultIOSystem::Open(path, mode);
+  const std::string text = withoutMark(contentOf(path));
+  if (extensionOf(path) == ".obj") return streamOf(text);
+  requireMaterialFirst(path, text);
+  return streamOf(withoutPlacements(text));
+}
+
+ObjLosses lossesOfObj(const std::string& file) {
+  std::set<std::string> used, known;
+  std::string missing;
+  ObjLosses losses;
+  const std::filesystem::path path(file);
+  const std::string object = withoutMark(contentOf(file));
+  requireNoCommas(file, object);
+  forEachLine(object, [&](const std::string& line, std::size_t) {
+    if (const std::string material = behind(line, "usemtl"); !material.empty()) used.insert(material);
+    const std::string name = behind(line, "mtllib");
+    if (name.empty()) return;
+    std::filesystem::path library = path.parent_path() / name;
+    if (!std::filesystem::exists(library)) {
+      missing += (missing.empty() ? "" : ", ") + name;
+      library = std::filesystem::path(path).replace_extension("mtl");  // which Assimp then looks for
+    }
+    const std::string text = withoutMark(contentOf(library.string()));
+    forEachLine(text, [&](const std::string& one, std::size_t) {
+      if (const std::string material = behind(one, "newmtl"); !material.empty()) known.insert(material);
+    });
+    bool is_placed = false;
+    forEachLine(text, [&](const std::string& one, std::size_t) {
+      is_placed = is_placed || withoutPlacement(one) != one;
+    });
+    if (is_placed) losses.placed.push_back(library.string());
+  });
+  for (const std::string& material : used) {
+    const bool is_none = material == "None" || material == "(null)";  // as exporters write it
+    if (!is_none && known.count(material) == 0)
+      losses.materials.push_back(material + " of " + file +
+                                 (missing.empty() ? "" : ", whose library is missing: " + missing));
+  }
+  return losses;
 }
 
 }  // namespace sunlit::scene

@@ -181,7 +181,9 @@ void RenderNode::keepTiming() {
 }
 
 void RenderNode::beginFolder() {
-  files_->keepInputs({light::fingerprint(studio_.world()), path_->fingerprint()});
+  const studio::StudioOptions seen = options_.studioOptions();
+  files_->keepInputs(
+      {light::fingerprint(studio_.world()), path_->fingerprint(), cameraPrint(seen.render, seen.right)});
   files_->keepRasterizer(studio_.rasterizer());
   files_->keepGround(sky_.groundAlbedo());
   map_due_ = !files_->hasMap();

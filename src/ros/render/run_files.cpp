@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sunlit/image/content_hash.h"
 #include "sunlit/image/files.h"
 #include "sunlit/quantity/range.h"
 #include "sunlit/quantity/yaml_text.h"
@@ -16,7 +17,8 @@ namespace sunlit::ros_interface {
 namespace {
 
 std::string inputsText(const RunInputs& inputs) {
-  return "sunlit: '" SUNLIT_VERSION "'\nworld: '" + inputs.world + "'\npath: '" + inputs.path + "'\n";
+  return "sunlit: '" SUNLIT_VERSION "'\nworld: '" + inputs.world + "'\npath: '" + inputs.path +
+         "'\ncamera: '" + inputs.camera + "'\n";
 }
 
 /// The first line of `text` that `other` does not have in its place; empty if it has all.
@@ -43,6 +45,24 @@ void requireWritable(const std::string& folder) {
 }
 
 }  // namespace
+
+std::string cameraPrint(const render::RenderOptions& left, const std::optional<image::RightCamera>& right) {
+  image::ContentHash print;
+  const auto add = [&print](const image::PinholeCamera& camera, const image::Distortion& distortion) {
+    print.add(camera.width);
+    print.add(camera.height);
+    for (const double number : {camera.fx, camera.fy, camera.cx, camera.cy}) print.add(number);
+    print.add(distortion.model);
+    print.add(distortion.coefficients);
+  };
+  add(left.camera, left.distortion);
+  if (right) {
+    add(right->calibration.camera, right->calibration.distortion);
+    const Eigen::Matrix4d placed = right->left_from_right.matrix();
+    for (Eigen::Index i = 0; i < placed.size(); ++i) print.add(placed(i));
+  }
+  return print.text();
+}
 
 RunFiles::RunFiles(const std::string& folder, bool goes_on)
     : folder_(folder), goes_on_(goes_on || holdsValues(folder)) {

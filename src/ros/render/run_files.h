@@ -1,6 +1,7 @@
 /// What a run leaves behind: what it was made from, and map and time sheet for the report.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,10 @@ namespace sunlit::ros_interface {
 /// What all pictures of a run are made from, as texts that differ wherever the contents do.
 struct RunInputs {
   std::string world, path;
+  std::string camera;  ///< as cameraPrint() has it
 };
+/// Of a camera with its lens, or of a pair: a calibration may change while its file's name stays.
+std::string cameraPrint(const render::RenderOptions& left, const std::optional<image::RightCamera>& right);
 
 /// Files in one folder. Everything here throws std::runtime_error naming the file that cannot be written.
 class RunFiles {

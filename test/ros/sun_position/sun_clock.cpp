@@ -42,6 +42,19 @@ TEST(SunClock, PausesAndJumpsBackWithRosTime) {
   EXPECT_EQ(clock.at(ros::Time(200.0)), later) << "no history";
 }
 
+// Whatever the time zone makes of them.
+TEST(SunClock, ShowsAllOfTheFirstAndTheLastDay) {
+  for (const CivilDateTime& civil :
+       {CivilDateTime{6000, 12, 31, 12, 0, 0.0, 0.0}, CivilDateTime{6000, 12, 31, 23, 59, 59.9, -18.0},
+        CivilDateTime{-2000, 1, 1, 0, 0, 0.0, 18.0}}) {
+    const Instant date = astronomy::instantOf(civil);
+    SunClock clock(date, 0.0);
+    clock.at(ros::Time(10.0));
+    EXPECT_EQ(clock.at(ros::Time(20.0)), date) << civil.year;
+    EXPECT_FALSE(clock.atLimit());
+  }
+}
+
 TEST(SunClock, IsHeldAtTheEndsOfTheSupportedYears) {
   SunClock clock(kNoon, 1e8);
   clock.at(ros::Time(1.0));

@@ -73,6 +73,7 @@ class Arguments(unittest.TestCase):
                            ("{a: {hour: 12, rain: }, b: {hour: 12}}", "with a value for rain in a"),
                            ("{a: {hour: 12}, a: {hour: 13}}", "without a twice"),
                            ("{a: {hour: 12, rain: 5, rain: 10}}", "without rain twice"),
+                           ("{a: {hour: 010}}", "without a zero before 10"),
                            ("{a: {hour: 12, ? [1] : 2}}", "a map from names"),
                            ("{a: {hour: 12.5, minute: 10}}", "without minute in a, whose hour 12.5 has a fraction")):
             self.assert_refused("argument conditions is", arguments.conditions, text, "[4]")

@@ -78,5 +78,17 @@ TEST_F(ColladaNumbers, OfNodesThatContainThemselvesAreRefused) {
             "2: <node>: contains an instance of itself");
 }
 
+// Assimp asserts not to meet it.
+TEST_F(ColladaNumbers, OfSkewsAreRefused) {
+  EXPECT_EQ(errorWith("<instance_geometry url='#g'/>", "<skew>30 1 0 0 0 1 0</skew>"),
+            "2: <skew>: is not read: export the node with a <matrix>");
+}
+
+// Assimp would show a solid of its own in their place.
+TEST_F(ColladaNumbers, WithoutGeometryThereIsNothing) {
+  const std::string error = errorWith("<instance_geometry url='#g'/>", "<instance_geometry url='#gone'/>");
+  EXPECT_NE(error.find("there is not a triangle in this file"), std::string::npos) << error;
+}
+
 }  // namespace
 }  // namespace sunlit::scene

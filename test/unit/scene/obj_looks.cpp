@@ -120,6 +120,43 @@ TEST_F(ObjLooks, AreRefusedWhereWordsStandBeforeTheFirstMaterial) {
   }
 }
 
+TEST_F(ObjLooks, MaterialsThatAreNotThereAreNamed) {
+  const std::string kind = "2 materials are not there, and neutral ones stand for them: ";
+  const std::string object = "usemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl blue\nf 1 3 2\n";
+  const std::string alone = write("w.obj", "mtllib gone.mtl\n" + object);
+  const std::string missing = " of " + alone + ", whose library is missing: gone.mtl";
+  EXPECT_EQ(load(alone, {}).warnings, std::vector<std::string>{kind + "blue" + missing + "; red" + missing});
+  write("m.mtl", "newmtl blue\nKd 0 0 1\n");
+  const std::string file = write("m.obj", "mtllib m.mtl\n" + object);
+  EXPECT_EQ(load(file, {}).warnings, std::vector<std::string>{"1" + kind.substr(1) + "red of " + file});
+  EXPECT_TRUE(load(write("n.obj", "usemtl None\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), {}).warnings.empty())
+      << "what Blender writes where there is none";
+}
+
+// By its options Assimp may lose the name of the picture.
+TEST_F(ObjLooks, TexturesAreFoundBehindTheirOptions) {
+  paint("t.png", {200, 100, 50});
+  for (const std::string options : {"-s 2 2", "-s 2 2 1 -o 0.25 0", "-o 0.5", "-clamp on -t 0 0 0"}) {
+    const Scene scene = lookOf("map_Kd " + options + " t.png\n");
+    EXPECT_NE(materialOf(scene).base_texture, Material::kNoTexture) << options;
+    EXPECT_EQ(scene.warnings,
+              std::vector<std::string>{"1 libraries of OBJ shift textures or repeat them by -o, -s or "
+                                       "-t, which is not read: " +
+                                       pathOf("m.mtl")});
+  }
+  EXPECT_TRUE(lookOf("map_Kd t.png\n").warnings.empty());
+}
+
+TEST_F(ObjLooks, AMarkOfByteOrderIsNoVertex) {
+  const Scene scene = load(write("b.obj", "\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), {});
+  EXPECT_EQ(scene.triangleCount(), 1u);
+}
+
+TEST_F(ObjLooks, DecimalCommasAreRefusedByTheirLine) {
+  const std::string error = errorOf(write("c.obj", "# 1,5\nv 0 0 0 # a, b\nv 1,5 0 0\nv 0 1 0\nf 1 2 3\n"));
+  EXPECT_NE(error.find("c.obj:3: 'v 1,5 0 0' has a comma"), std::string::npos) << error;
+}
+
 TEST_F(ObjLooks, OfNumbersThatAreNoneAreRefusedByTheNameOfTheFile) {
   write("m.mtl", "newmtl m\nKd 1 1 1\nKe nan 0 0\n");
   const std::string file = write("m.obj", "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
