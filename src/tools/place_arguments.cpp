@@ -12,8 +12,11 @@ astronomy::CivilDate dateOf(const std::string& option, const std::string& text, 
   astronomy::CivilDate date;
   int used = 0;
   const int fields = std::sscanf(text.c_str(), "%d-%d-%d%n", &date.year, &date.month, &date.day, &used);
-  if (fields != 3 || static_cast<std::size_t>(used) != text.size())
-    refuse(option, '"' + text + '"', "year-month-day, such as 2024-07-01");
+  constexpr std::size_t kDigits = 4;  // 24 may be meant as 2024
+  const bool is_negative = text[0] == '-';
+  if (fields != 3 || static_cast<std::size_t>(used) != text.size() ||
+      text.find('-', 1) < kDigits + (is_negative ? 1 : 0))
+    refuse(option, '"' + text + '"', "year-month-day with a year of four digits, such as 2024-07-01");
   date.timezone = timezone;
   try {
     astronomy::midnightOf(date);

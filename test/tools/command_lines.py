@@ -149,6 +149,7 @@ REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be fr
            ("--moon", "0,0,181", "phase is 181, but must be from 0 to 180 deg"),
            ("--time", "24:00", "hour is 24, but must be from 0 to 23 h"),
            ("--time", "04:30:60", "second is 60, but must be from 0 to less than 60 s"),
+           ("--date", "24-07-01", "must be year-month-day with a year of four digits"),
            ("--date", "2024-13-01", "month is 13, but must be from 1 to 12"),
            ("--site", "0,181", "longitude is 181, but must be from -180 to 180 deg"),
            ("--turbidity", "0", "--turbidity is 0, but must be from 1 to 10"),

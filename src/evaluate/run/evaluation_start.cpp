@@ -139,7 +139,6 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
   makeFolder(options_.output_dir);
   claimFolder(options_.output_dir, settingsOf(options_));
   image::removeUnfinished(options_.output_dir);
-  writeRunFile(file("run.yaml"), options_, nullptr, nullptr);
   takeUpEarlierRuns();
   problems_ = std::make_unique<ProblemFile>(options_.output_dir);
   prepareLocalisation();
@@ -217,6 +216,7 @@ void Evaluation::State::takeUpEarlierRuns() {
     if (is_whole) markCompleted(record.pose);
   }
   requireNothingForgotten();
+  writeRunFile(file("run.yaml"), options_, nullptr, nullptr);  // not before: what is refused changes nothing
   if (dropped_lines > 0 || !options_.merge.empty()) writeRecords();
   frames_file_.open(file("frames.csv"), framesHeader());
   if (isVerifying()) {

@@ -246,11 +246,13 @@ TEST(EvaluationLocalise, AWholeRunDoesNotGrow) {
     EXPECT_TRUE(finishAndLocalise(evaluation).isWhole());
   }
   options.poses.count = kPoses;
+  const std::string ended = contentOf(folder.file("out/run.yaml"));
   const std::string refusal =
       "output_dir " + folder.file("out") +
       " holds a run of 2 poses that has ended, of whose features sums alone were kept, so "
       "that it cannot grow to 4: choose another output_dir, or poses: 2";
   EXPECT_EQ(messageOf<std::invalid_argument>([&] { Evaluation(options, {}); }), refusal);
+  EXPECT_EQ(contentOf(folder.file("out/run.yaml")), ended);
   options.poses.count = 2;
   {
     Evaluation again(options, {});  // and is killed: what it began anew is empty
