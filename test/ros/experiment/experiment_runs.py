@@ -203,10 +203,11 @@ class ExperimentRuns(unittest.TestCase):
         self.assertEqual(len(warnings), 1, run.said())
         self.assertIn("[ WARN]", warnings[0])
 
-    def broken_off(self, name, poses, output=None):
-        """A folder that holds the first poses of the undisturbed run, as if it had been broken off there."""
-        output = output or os.path.join(self.folder, name)
-        shutil.copytree(self.output, output)
+    def broken_off(self, whole, poses):
+        """A folder that holds the first poses of a whole run, which keeps nothing of single features, as if it had been
+        broken off there."""
+        output = "%s_from_%d" % (whole, poses)
+        shutil.copytree(whole, output)
         os.remove(os.path.join(output, "summary.csv"))
         frames = os.path.join(output, "frames.csv")
         with open(frames) as file:
@@ -216,13 +217,28 @@ class ExperimentRuns(unittest.TestCase):
         return output
 
     def test_resumed_anywhere_between_two_poses_of_the_self_test(self):
+        whole = os.path.join(self.folder, "plain")
+        plain = dict(images="true", differences="[boolean_rgb, euclidean_grey]")
+        first = small_experiment(whole, **plain)
+        self.assertEqual(first.end(), 0, first.said())
         # The self-test, of every 5th of 20 poses, has none left; or its next is too far ahead for it to begin with.
         for poses, max_ahead in ((17, 12), (11, 2)):
-            output = self.broken_off("from_%d" % poses, poses)
-            again = small_experiment(output, images="true", max_ahead=max_ahead, verbose="true")
+            output = self.broken_off(whole, poses)
+            again = small_experiment(output, max_ahead=max_ahead, verbose="true", **plain)
             self.assertEqual(again.end(), 0, again.said())
             self.assertIn("Going on at pose %d" % poses, again.said())
-            self.assertEqual(self.bytes_of(output), self.bytes_of(self.output))
+            self.assertEqual(self.bytes_of(output), self.bytes_of(whole))
+
+    def test_a_whole_run_does_not_grow_and_stays_as_it_is(self):
+        output = os.path.join(self.folder, "grown")
+        first = small_experiment(output, self_test="false", poses=4)
+        self.assertEqual(first.end(), 0, first.said())
+        names = ("frames.csv", "run.yaml", "localisation.csv", "lost_features.csv")
+        before = [self.bytes_of(output, name) for name in names]
+        again = small_experiment(output, self_test="false", poses=6)
+        self.assertNotEqual(again.end(), 0)
+        self.assertIn("holds a run of 4 poses that has ended", again.said())
+        self.assertEqual([self.bytes_of(output, name) for name in names], before)
 
     def test_a_world_that_changed_meanwhile_is_not_mixed_with_the_old_one(self):
         world = os.path.join(self.folder, "mine.urdf")

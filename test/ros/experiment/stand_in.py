@@ -83,6 +83,8 @@ def evaluator():
         await_true(lambda: os.path.exists(os.path.join(output, "go")))
     with open(os.path.join(output, "summary.csv"), "w") as summary:
         summary.write("a,b,difference,n,undefined,mean,sd,ci_low,ci_high\nh10,h12,orb,%d,0,0.5,0.1,0.4,0.6\n" % POSES)
+    with open(os.path.join(output, "run.yaml"), "w") as run:
+        run.write("outcome:\n  whole: true\n")
     progress.unregister()
 
 
