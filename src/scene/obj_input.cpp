@@ -29,7 +29,7 @@ void forEachLine(const std::string& text, const Use& use) {
   for (std::size_t at = 0; at < text.size(); ++number) {
     const std::size_t end = std::min(text.find_first_of(kEnds, at), text.size());
     use(text.substr(at, end - at), number);
-    at = end + 1;
+    at = end + (text.compare(end, 2, "\r\n") == 0 ? 2 : 1);
   }
 }
 

@@ -155,6 +155,8 @@ TEST_F(ObjLooks, AMarkOfByteOrderIsNoVertex) {
 TEST_F(ObjLooks, DecimalCommasAreRefusedByTheirLine) {
   const std::string error = errorOf(write("c.obj", "# 1,5\nv 0 0 0 # a, b\nv 1,5 0 0\nv 0 1 0\nf 1 2 3\n"));
   EXPECT_NE(error.find("c.obj:3: 'v 1,5 0 0' has a comma"), std::string::npos) << error;
+  const std::string of_windows = errorOf(write("c.obj", "v 0 0 0\r\nv 1,5 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n"));
+  EXPECT_NE(of_windows.find("c.obj:2: 'v 1,5 0 0' has a comma"), std::string::npos) << of_windows;
 }
 
 TEST_F(ObjLooks, OfNumbersThatAreNoneAreRefusedByTheNameOfTheFile) {
