@@ -73,6 +73,11 @@ class Check {
     for (XMLElement* effect : below(root_, "effect")) checkParameters(*effect);
     for (const XMLElement* skew : below(root_, "skew"))  // which it asserts not to meet
       fail(*skew, "is not read: export the node with a <matrix>");
+    for (XMLElement* image : below(root_, "image")) {
+      for (const XMLElement* address : below(*image, "init_from"))  // which it asserts to have a letter
+        if (address->GetText() == nullptr && address->NoChildren())
+          fail(*address, "is empty: name a picture there, or leave out the image");
+    }
     checkNodes();
   }
 
