@@ -12,8 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kFloat = 5126;
-
 bool wantsFloats(const std::string& attribute) {
   for (const char* const kind : {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_", "WEIGHTS_"})
     if (attribute.rfind(kind, 0) == 0) return true;
@@ -53,7 +51,7 @@ bool useFloats(json& root, GltfBuffers& buffers) {
     accessor["bufferView"] = root["bufferViews"].size();
     root["bufferViews"].push_back(
         json{{"buffer", buffer}, {"byteOffset", all.size()}, {"byteLength", bytes}});
-    accessor["componentType"] = kFloat;
+    accessor["componentType"] = kFloatComponent;
     for (const char* const key : {"byteOffset", "normalized", "min", "max"}) accessor.erase(key);
     all.append(reinterpret_cast<const char*>(floats.data()), bytes);
   }

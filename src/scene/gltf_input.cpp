@@ -10,6 +10,7 @@
 #include "scene/gltf_floats.h"
 #include "scene/gltf_instances.h"
 #include "scene/gltf_json.h"
+#include "scene/gltf_numbers.h"
 #include "scene/gltf_unpack.h"
 #include "scene/memory_stream.h"
 
@@ -55,7 +56,7 @@ bool giveMatrices(json& root, GltfBuffers& buffers) {
     skin["inverseBindMatrices"] =
         append(root, "accessors",
                json{{"bufferView", view},
-                    {"componentType", 5126},
+                    {"componentType", kFloatComponent},
                     {"count", std::max(child(skin, "joints").size(), std::size_t{1})},
                     {"type", "MAT4"}});
   }

@@ -15,8 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kFloat = 5126;
-
 template <typename Component>
 float floatOf(const char* bytes, bool normalized) {
   Component value;
@@ -32,7 +30,7 @@ struct Component {
   float (*read)(const char* bytes, bool normalized) = nullptr;
 };
 Component componentOf(const json& accessor) {
-  switch (indexOf(accessor, "componentType", kFloat)) {
+  switch (indexOf(accessor, "componentType", kFloatComponent)) {
     case 5120:
       return {1, floatOf<std::int8_t>};
     case 5121:
@@ -41,7 +39,7 @@ Component componentOf(const json& accessor) {
       return {2, floatOf<std::int16_t>};
     case 5123:
       return {2, floatOf<std::uint16_t>};
-    case kFloat:
+    case kFloatComponent:
       return {4, floatOf<float>};
     default:
       return {};

@@ -1,12 +1,16 @@
 /// Numbers that the accessors of glTF files tell.
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "scene/gltf_buffers.h"
 
 namespace sunlit::scene {
+
+/// The componentType of floats.
+constexpr std::size_t kFloatComponent = 5126;
 
 /// Whether the components of `accessor` are whole numbers of 8 or 16 bits.
 bool tellsWholeNumbers(const nlohmann::json& accessor);

@@ -126,12 +126,9 @@ ObjLosses lossesOfObj(const std::string& file) {
       missing += (missing.empty() ? "" : ", ") + name;
       library = std::filesystem::path(path).replace_extension("mtl");  // which Assimp then looks for
     }
-    const std::string text = withoutMark(contentOf(library.string()));
-    forEachLine(text, [&](const std::string& one, std::size_t) {
-      if (const std::string material = behind(one, "newmtl"); !material.empty()) known.insert(material);
-    });
     bool is_placed = false;
-    forEachLine(text, [&](const std::string& one, std::size_t) {
+    forEachLine(withoutMark(contentOf(library.string())), [&](const std::string& one, std::size_t) {
+      if (const std::string material = behind(one, "newmtl"); !material.empty()) known.insert(material);
       is_placed = is_placed || withoutPlacement(one) != one;
     });
     if (is_placed) losses.placed.push_back(library.string());
