@@ -28,6 +28,23 @@ endif()
 set(sunlit_parsed_once <Eigen/Geometry> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory>
   <optional> <stdexcept> <string> <utility> <vector>)
 
+# For the same reason files of one library are compiled several at a time, so that names in their unnamed namespaces differ.
+# Not with a compiler cache either: whoever edits one file would compile its neighbours.
+if(CMAKE_CXX_COMPILER_LAUNCHER)
+  option(SUNLIT_UNITY "Compile files of a library several at a time" OFF)
+else()
+  option(SUNLIT_UNITY "Compile files of a library several at a time" ON)
+endif()
+# sunlit_together(TARGET)
+# Compiles the files of TARGET several at a time.
+function(sunlit_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SUNLIT_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  if(SUNLIT_UNITY AND CMAKE_COMPILER_IS_GNUCXX)
+    # What a class hides in its file looks like part of a header where that file is one of several.
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  endif()
+endfunction()
+
 # sunlit_library(MODULE SOURCES file... [PUBLIC library...] [PRIVATE library...])
 # The library sunlit_MODULE of src/MODULE, with headers in include/sunlit/MODULE.
 function(sunlit_library module)
@@ -36,6 +53,7 @@ function(sunlit_library module)
   target_include_directories(sunlit_${module} PUBLIC ${PROJECT_SOURCE_DIR}/include)
   target_link_libraries(sunlit_${module} PUBLIC Eigen3::Eigen ${ARG_PUBLIC} PRIVATE sunlit_flags ${ARG_PRIVATE})
   target_precompile_headers(sunlit_${module} PRIVATE ${sunlit_parsed_once})
+  sunlit_together(sunlit_${module})
   install(TARGETS sunlit_${module} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 endfunction()
 
@@ -44,6 +62,7 @@ endfunction()
 function(sunlit_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(sunlit_${name} ${ARG_SOURCES})
+  sunlit_together(sunlit_${name})
   set_target_properties(sunlit_${name} PROPERTIES
     OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
   target_link_libraries(sunlit_${name} PRIVATE sunlit_flags ${ARG_LIBRARIES})

@@ -14,7 +14,6 @@
 namespace sunlit::evaluate {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kCountedBlocks = 16;  // 2¹⁵ ways and their mirror images
 constexpr std::size_t kLeastBlocks = 6;     // of which p can be as low as 1/32
 constexpr std::size_t kBits = 8;            // signs looked up at a time

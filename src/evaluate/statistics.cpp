@@ -10,7 +10,6 @@
 namespace sunlit::evaluate {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kResamples = 2000;
 constexpr double kTail = 0.025;  // on either side of a 95 % interval
 

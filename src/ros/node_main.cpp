@@ -74,7 +74,7 @@ class EndsWithItsParent {
   std::thread watch_;
 };
 
-int refuse(const std::string& word, const std::string& name) {
+int refuseWord(const std::string& word, const std::string& name) {
   const bool help = word == "--help" || word == "-h";
   if (!help) std::fprintf(stderr, "%s: there is no option %s\n", name.c_str(), word.c_str());
   std::fprintf(help ? stdout : stderr,
@@ -89,7 +89,7 @@ int runNode(int argc, char** argv, const std::string& name, const std::function<
   std::optional<EndsWithItsParent> alone;
   if (isOfRoslaunch(argc, argv)) alone.emplace();
   ros::init(argc, argv, name);
-  if (argc > 1) return refuse(argv[1], name);  // ROS has taken what it knows
+  if (argc > 1) return refuseWord(argv[1], name);  // ROS has taken what it knows
   // roscpp and its console end with the last handle: without this one, an exception that destroys the node's
   // own handles on its way here could no longer be printed.
   std::signal(SIGTERM, onTermination);

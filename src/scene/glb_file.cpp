@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace sunlit::scene {
 namespace {
@@ -55,21 +56,27 @@ std::string jsonArray(const std::vector<std::string>& items) {
   return text + "]";
 }
 
-std::string glbFile(std::string json, const GlbBuffer& buffer) {
+std::string glbStart(std::string json, std::size_t size) {
   json.resize(paddedTo4(json.size()), ' ');
-  const std::size_t total = 12 + 8 + json.size() + 8 + buffer.bytes().size();
+  const std::size_t total = 12 + 8 + json.size() + size;
   if (total > std::numeric_limits<std::uint32_t>::max()) {
     throw std::length_error("the scene is larger than the 4 GiB that binary glTF can hold");
   }
   std::string text;
-  text.reserve(total);
+  text.reserve(total);  // what follows, too
   for (const std::size_t word : {std::size_t{kMagic}, std::size_t{2}, total}) appendWord(text, word);
   appendWord(text, json.size());
   appendWord(text, kJsonChunk);
   text += json;
+  return text;
+}
+
+std::string glbFile(std::string json, const GlbBuffer& buffer) {
+  std::string text = glbStart(std::move(json), 8 + buffer.bytes().size());
   appendWord(text, buffer.bytes().size());
   appendWord(text, kBinChunk);
-  return text + buffer.bytes();
+  text += buffer.bytes();
+  return text;
 }
 
 }  // namespace sunlit::scene

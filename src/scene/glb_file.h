@@ -28,6 +28,10 @@ std::string jsonString(const std::string& text);
 /// `items` as a JSON array.
 std::string jsonArray(const std::vector<std::string>& items);
 
+/// The header of a binary glTF file and its JSON, before other chunks of `size` bytes together, with their
+/// own headers. Throws std::length_error if all would be larger than the format can hold.
+std::string glbStart(std::string json, std::size_t size);
+
 /// The whole file. Throws std::length_error if it would be larger than the format can hold.
 std::string glbFile(std::string json, const GlbBuffer& buffer);
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/glb_file.h"
 #include "scene/gltf_buffers.h"
 #include "scene/gltf_floats.h"
 #include "scene/gltf_instances.h"
@@ -77,21 +78,10 @@ bool useWebp(json& root) {
   return any;
 }
 
-void appendWord(std::string& bytes, std::size_t value) {
-  for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>((value >> shift) & 0xFF);
-}
-
 /// The bytes of `file` with another JSON.
 std::string withJson(const std::string& file, std::string text) {
-  constexpr std::size_t kHeader = 12, kChunkHeader = 8, kVersion = 2;
   const GltfParts old = gltfParts(file);
-  if (!old.binary) return text;
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  std::string bytes = "glTF";
-  appendWord(bytes, kVersion);
-  appendWord(bytes, kHeader + kChunkHeader + text.size() + old.rest.size());
-  appendWord(bytes, text.size());
-  return bytes + "JSON" + text + old.rest;
+  return old.binary ? glbStart(std::move(text), old.rest.size()) + old.rest : text;
 }
 
 }  // namespace

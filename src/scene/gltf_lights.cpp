@@ -49,9 +49,9 @@ Lamp lampOf(const json& light, const Eigen::Affine3d& up_from_node) {
   return lamp;
 }
 
-class Reader {
+class LampReader {
  public:
-  Reader(const json& root, SceneBuilder& builder)
+  LampReader(const json& root, SceneBuilder& builder)
       : nodes_(child(root, "nodes")), lights_(child(extension(root, kLights), "lights")), builder_(builder) {}
 
   void read(const json& node, const Eigen::Affine3d& up_from_parent, int depth) {
@@ -89,7 +89,7 @@ void addGltfLights(const std::string& file, const Eigen::Affine3d& up_from_file,
   if (text.find(kLights) == std::string::npos) return;
   const json root = parseGltf(text, file);
   try {
-    Reader reader(root, builder);
+    LampReader reader(root, builder);
     const json& scenes = child(root, "scenes");
     if (scenes.empty()) return;
     const json& scene = scenes.at(indexOf(root, "scene", 0));

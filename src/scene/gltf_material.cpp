@@ -70,9 +70,9 @@ CoordinateRecipe recipeOf(const json& use) {
 }
 
 /// Makes a look of one material of the file.
-class Reader {
+class LookReader {
  public:
-  Reader(const json& root, const json& source, const GltfMaterials::Picture& picture)
+  LookReader(const json& root, const json& source, const GltfMaterials::Picture& picture)
       : root_(root), source_(source), picture_(picture) {}
 
   GltfLook read() {
@@ -297,7 +297,7 @@ std::optional<GltfLook> GltfMaterials::look(std::size_t index, const Picture& pi
   const json& materials = child(json_->root, "materials");
   if (index >= materials.size()) return std::nullopt;
   try {
-    Reader reader(json_->root, materials.at(index), picture);
+    LookReader reader(json_->root, materials.at(index), picture);
     GltfLook look = reader.read();
     for (const std::string& lost : reader.lost())
       builder_.warn(kNotRendered,

@@ -65,7 +65,7 @@ Set enclosed(const std::vector<Outline>& outlines) {
   return sets[0];
 }
 
-std::uint32_t addVertex(Mesh& mesh, const Eigen::Vector3d& position, const Eigen::Vector3d& normal,
+std::uint32_t addCorner(Mesh& mesh, const Eigen::Vector3d& position, const Eigen::Vector3d& normal,
                         const Eigen::Vector2d& coordinate) {
   mesh.positions.push_back(position.cast<float>());
   mesh.normals.push_back(normal.cast<float>());
@@ -77,7 +77,7 @@ std::uint32_t addVertex(Mesh& mesh, const Eigen::Vector3d& position, const Eigen
 void addFlat(Mesh& mesh, const std::vector<Eigen::Vector2d>& corners, double z, bool upwards) {
   const Eigen::Vector3d normal(0.0, 0.0, upwards ? 1.0 : -1.0);
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  for (const Eigen::Vector2d& corner : corners) addVertex(mesh, {corner.x(), corner.y(), z}, normal, corner);
+  for (const Eigen::Vector2d& corner : corners) addCorner(mesh, {corner.x(), corner.y(), z}, normal, corner);
   for (std::uint32_t i = 2; i < corners.size(); ++i) {
     if (upwards) {
       mesh.triangles.push_back({first, first + i - 1, first + i});
@@ -133,10 +133,10 @@ void addWalls(Mesh& mesh, const std::vector<Eigen::Vector2d>& loop, double heigh
     const Eigen::Vector2d& b = loop[(i + 1) % loop.size()];
     const double length = (b - a).norm();
     const Eigen::Vector3d normal((b - a).y() / length, -(b - a).x() / length, 0.0);
-    const std::uint32_t low_a = addVertex(mesh, {a.x(), a.y(), 0.0}, normal, {along, 0.0});
-    const std::uint32_t low_b = addVertex(mesh, {b.x(), b.y(), 0.0}, normal, {along + length, 0.0});
-    const std::uint32_t high_b = addVertex(mesh, {b.x(), b.y(), height}, normal, {along + length, -height});
-    const std::uint32_t high_a = addVertex(mesh, {a.x(), a.y(), height}, normal, {along, -height});
+    const std::uint32_t low_a = addCorner(mesh, {a.x(), a.y(), 0.0}, normal, {along, 0.0});
+    const std::uint32_t low_b = addCorner(mesh, {b.x(), b.y(), 0.0}, normal, {along + length, 0.0});
+    const std::uint32_t high_b = addCorner(mesh, {b.x(), b.y(), height}, normal, {along + length, -height});
+    const std::uint32_t high_a = addCorner(mesh, {a.x(), a.y(), height}, normal, {along, -height});
     mesh.triangles.push_back({low_a, low_b, high_b});
     mesh.triangles.push_back({low_a, high_b, high_a});
     along += length;

@@ -2,9 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace sunlit::evaluate {
+
+/// What is undefined, as the mean of no values.
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Statistics of a series. Undefined (NaN) values are counted and kept out of everything else.
 ///

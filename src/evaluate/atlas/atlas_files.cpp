@@ -37,7 +37,7 @@ std::vector<double> column(const std::vector<AtlasRow>& rows, double AtlasRow::*
   return values;
 }
 
-double meanOf(const std::vector<double>& values) {
+double averageOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
@@ -116,7 +116,7 @@ AtlasSummary summariseAtlas(const std::vector<AtlasCellKey>& keys,
   tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t i) {
     const std::vector<AtlasRow> rows = readAtlasRows(file_of(keys[i]));
     summary.cells[i] = cellOf(keys[i], rows);
-    ev100[i] = meanOf(column(rows, &AtlasRow::ev100));
+    ev100[i] = averageOf(column(rows, &AtlasRow::ev100));
   });
   for (std::size_t i = 0; i < keys.size(); ++i) summary.ev100.emplace(keys[i].query, ev100[i]);
   return summary;

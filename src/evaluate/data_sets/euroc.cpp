@@ -6,7 +6,7 @@ namespace {
 
 constexpr const char* kTruth = "mav0/state_groundtruth_estimate0/";
 
-std::string stampOf(const DataSetFrame& frame) {
+std::string eurocStamp(const DataSetFrame& frame) {
   return std::to_string(frame.stamp_ns);
 }
 
@@ -51,18 +51,18 @@ TextFile truthOf(const std::vector<DataSetFrame>& frames) {
     const Eigen::Vector3d p = frames[i].map_from_camera.translation();
     const Eigen::Quaterniond q = turnOf(frames[i].map_from_camera);
     const Eigen::Vector3d v = velocityOf(frames, i);
-    text += stampOf(frames[i]) + ',' + fixedTexts({p.x(), p.y(), p.z()}, ",") + ',' +
+    text += eurocStamp(frames[i]) + ',' + fixedTexts({p.x(), p.y(), p.z()}, ",") + ',' +
             fixedTexts({q.w(), q.x(), q.y(), q.z()}, ",", kQuaternionDigits) + ',' +
             fixedTexts({v.x(), v.y(), v.z(), 0, 0, 0, 0, 0, 0}, ",") + '\n';
   }
   return {std::string(kTruth) + "data.csv", text};
 }
 
-std::vector<TextFile> texts(const DataSetOptions& options, const std::vector<DataSetFrame>& frames) {
+std::vector<TextFile> eurocTexts(const DataSetOptions& options, const std::vector<DataSetFrame>& frames) {
   std::string list = "#timestamp [ns],filename\n", stamps;
   for (const DataSetFrame& frame : frames) {
-    list += stampOf(frame) + ',' + stampOf(frame) + ".png\n";
-    stamps += stampOf(frame) + '\n';
+    list += eurocStamp(frame) + ',' + eurocStamp(frame) + ".png\n";
+    stamps += eurocStamp(frame) + '\n';
   }
   const std::string depth = "\n# of the 16-bit pictures, 0 where there is none\ndepth_steps_per_metre: ";
   std::vector<TextFile> files{
@@ -90,7 +90,7 @@ std::vector<TextFile> texts(const DataSetOptions& options, const std::vector<Dat
 
 const DataSetLayout& eurocLayout() {
   static const DataSetLayout layout{
-      "mav0/cam0/data/", "mav0/depth0/data/", "mav0/cam1/data/", stampOf, true, false, texts};
+      "mav0/cam0/data/", "mav0/depth0/data/", "mav0/cam1/data/", eurocStamp, true, false, eurocTexts};
   return layout;
 }
 

@@ -7,7 +7,7 @@ namespace sunlit::evaluate {
 namespace {
 
 /// "1000.100000000": seconds, to the nanosecond.
-std::string stampOf(const DataSetFrame& frame) {
+std::string tumStamp(const DataSetFrame& frame) {
   constexpr std::int64_t kNanosecondsPerSecond = 1000000000;
   char text[40];
   std::snprintf(text, sizeof text, "%lld.%09lld",
@@ -24,7 +24,7 @@ std::string poseOf(const DataSetFrame& frame) {
          fixedTexts({q.x(), q.y(), q.z(), q.w()}, " ", kQuaternionDigits);
 }
 
-std::vector<TextFile> texts(const DataSetOptions& options, const std::vector<DataSetFrame>& frames) {
+std::vector<TextFile> tumTexts(const DataSetOptions& options, const std::vector<DataSetFrame>& frames) {
   TextFile rgb{"rgb.txt", "# color images\n# timestamp filename\n"};
   TextFile depth{"depth.txt", "# depth maps\n# timestamp filename\n"};
   TextFile both{"associations.txt", ""};
@@ -32,7 +32,7 @@ std::vector<TextFile> texts(const DataSetOptions& options, const std::vector<Dat
                  "# of the camera's optical frame (z forward, x right, y down), in map\n"
                  "# timestamp tx ty tz qx qy qz qw\n"};
   for (const DataSetFrame& frame : frames) {
-    const std::string stamp = stampOf(frame);
+    const std::string stamp = tumStamp(frame);
     const std::string of_rgb = stamp + " rgb/" + stamp + ".png";
     const std::string of_depth = stamp + " depth/" + stamp + ".png";
     rgb.text += of_rgb + '\n';
@@ -46,7 +46,7 @@ std::vector<TextFile> texts(const DataSetOptions& options, const std::vector<Dat
 }  // namespace
 
 const DataSetLayout& tumLayout() {
-  static const DataSetLayout layout{"rgb/", "depth/", "", stampOf, false, false, texts};
+  static const DataSetLayout layout{"rgb/", "depth/", "", tumStamp, false, false, tumTexts};
   return layout;
 }
 

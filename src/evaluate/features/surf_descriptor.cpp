@@ -9,9 +9,9 @@
 namespace sunlit::evaluate::surf {
 namespace {
 
-constexpr double kSigma = 3.3;  // scales, of the Gaussian about the key point
-constexpr int kCells = 4;       // along one side
-constexpr int kCellSide = 5;    // gradients along a cell's side
+constexpr double kDescriptorSigma = 3.3;  // scales, of the Gaussian about the key point
+constexpr int kCells = 4;                 // along one side
+constexpr int kCellSide = 5;              // gradients along a cell's side
 constexpr int kSide = kCells * kCellSide;
 
 // Column sums over the five rows of one row of cells; `kinds` of them, each kSide long.
@@ -70,7 +70,7 @@ void toUnitLength(float* out, int size) {
 }  // namespace
 
 Descriptor::Descriptor(bool extended) : extended_(extended), weights_() {
-  const cv::Mat gauss = cv::getGaussianKernel(kSide, kSigma, CV_32F);
+  const cv::Mat gauss = cv::getGaussianKernel(kSide, kDescriptorSigma, CV_32F);
   for (int i = 0; i < kSide; ++i) {
     for (int j = 0; j < kSide; ++j) weights_[i][j] = gauss.at<float>(i) * gauss.at<float>(j);
   }

@@ -8,9 +8,9 @@
 namespace sunlit::evaluate::surf {
 namespace {
 
-constexpr double kSigma = 2.5;  // scales, of the Gaussian about the key point
-constexpr int kStepDeg = 5;     // between directions of the window
-constexpr int kWindowDeg = 60;  // the window's width: open at both ends
+constexpr double kOrientationSigma = 2.5;  // scales, of the Gaussian about the key point
+constexpr int kStepDeg = 5;                // between directions of the window
+constexpr int kWindowDeg = 60;             // the window's width: open at both ends
 constexpr int kDirections = 360 / kStepDeg;
 constexpr int kHalf = kWindowDeg / 2 / kStepDeg;  // steps from the window's middle to its ends
 
@@ -48,7 +48,7 @@ void windowSums(const float* on, const float* between, float* __restrict out) {
 }  // namespace
 
 Orientation::Orientation() : samples_() {
-  const cv::Mat gauss = cv::getGaussianKernel(2 * kRadius + 1, kSigma, CV_32F);
+  const cv::Mat gauss = cv::getGaussianKernel(2 * kRadius + 1, kOrientationSigma, CV_32F);
   int n = 0;
   for (int dx = -kRadius; dx <= kRadius; ++dx) {
     for (int dy = -kRadius; dy <= kRadius; ++dy) {

@@ -7,6 +7,7 @@
 
 #include "evaluate/files/files.h"
 #include "evaluate/files/pair_rows.h"
+#include "sunlit/evaluate/statistics.h"
 #include "sunlit/image/files.h"
 #include "sunlit/quantity/eigen_ranges.h"
 #include "sunlit/quantity/frames.h"
@@ -16,7 +17,6 @@ namespace sunlit::evaluate {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 bool isLocalised(const LocalisationRow& row) {
   return row.result.status == LocalisationStatus::kLocalised;

@@ -9,7 +9,7 @@ namespace {
 
 const Range kCounts{0, 1e9};
 
-std::string textOf(const std::vector<PairSpec>& pairs) {
+std::string textOfPairs(const std::vector<PairSpec>& pairs) {
   std::string text;
   for (const PairSpec& pair : pairs) {
     const std::string every = pair.every == 1 ? "" : ", every: " + std::to_string(pair.every);
@@ -30,7 +30,7 @@ std::vector<Field> rowsWith(const std::vector<Field>& of_comparer, const std::ve
   return joined(
       {{{"streams", &options.streams, "", {}, "names: NAME/camera/image_raw; required"},
         {"pairs",
-         OwnForm{textOf(options.pairs)},
+         OwnForm{textOfPairs(options.pairs)},
          "",
          {},
          "a list of [a, b] or {a: name, b: name, every: 10}; [] for all"}},

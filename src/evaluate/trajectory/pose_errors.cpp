@@ -6,6 +6,7 @@
 #include <locale>
 #include <sstream>
 
+#include "sunlit/evaluate/statistics.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/range.h"
 
@@ -92,7 +93,6 @@ PoseErrors relativeErrors(const MatchedPoses& poses, const Delta& delta, PathOf 
 }
 
 ErrorStatistics statisticsOfErrors(const std::vector<double>& errors) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   ErrorStatistics result{errors.size(), kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, 0.0};
   if (errors.empty()) return result;
   const double n = static_cast<double>(errors.size());

@@ -94,11 +94,11 @@ MirrorLobe makeLobe(std::vector<Sample> samples) {
 }
 
 float meanGrazingOf(float n_v) {
-  constexpr int kRings = 32, kTurns = 64;
+  constexpr int kRadii = 32, kTurns = 64;
   const float sine = std::sqrt(std::max(0.0f, 1.0f - n_v * n_v));
   float sum = 0.0f;
-  for (int i = 0; i < kRings; ++i) {
-    const float sine2 = (static_cast<float>(i) + 0.5f) / kRings;
+  for (int i = 0; i < kRadii; ++i) {
+    const float sine2 = (static_cast<float>(i) + 0.5f) / kRadii;
     for (int k = 0; k < kTurns; ++k) {
       const float turn = kPiFloat * (static_cast<float>(k) + 0.5f) / kTurns;
       const float cosine =
@@ -106,7 +106,7 @@ float meanGrazingOf(float n_v) {
       sum += schlick(std::sqrt(std::max(0.0f, 0.5f * (1.0f + cosine))));
     }
   }
-  return sum / (kRings * kTurns);
+  return sum / (kRadii * kTurns);
 }
 
 /// Values at roughnesses by rows and views by columns.

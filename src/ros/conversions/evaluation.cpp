@@ -68,7 +68,7 @@ evaluate::Told<cv::Mat> depthOf(const sensor_msgs::Image& message, std::size_t m
 
 namespace {
 
-geometry_msgs::Pose poseOfLink(const Eigen::Isometry3d& map_from_optical) {
+geometry_msgs::Pose linkPose(const Eigen::Isometry3d& map_from_optical) {
   return toPose(map_from_optical * linkFromOptical().inverse());
 }
 
@@ -83,10 +83,10 @@ Localisation messageOf(const evaluate::LocalisationRow& row) {
   message.query = row.query;
   message.detector = row.detector;
   message.status = wordOf(result.status);
-  message.estimate.pose = poseOfLink(result.estimate.map_from_optical);
+  message.estimate.pose = linkPose(result.estimate.map_from_optical);
   for (int i = 0; i < 36; ++i)
     message.estimate.covariance[static_cast<std::size_t>(i)] = result.estimate.covariance(i / 6, i % 6);
-  message.truth = poseOfLink(row.truth);
+  message.truth = linkPose(row.truth);
   message.error = result.error_m;
   message.rotation_error = result.error_deg * kRadPerDeg;
   message.inliers = static_cast<std::uint32_t>(result.estimate.inliers.size());

@@ -9,7 +9,7 @@
 namespace sunlit::ros_interface {
 namespace {
 
-constexpr std::uint32_t kQueue = 100;
+constexpr std::uint32_t kOutputQueue = 100;
 constexpr double kLineWidth_m = 0.1;
 constexpr double kFailureSize_m = 0.6;
 
@@ -39,13 +39,13 @@ LocalisationOutput::LocalisationOutput(ros::NodeHandle private_node,
                                        const evaluate::EvaluationOptions& options)
     : is_used_(!options.localisation.map.empty()) {
   if (!is_used_) return;
-  queries_ = private_node.advertise<Localisation>(topics::kLocalisation, kQueue);
+  queries_ = private_node.advertise<Localisation>(topics::kLocalisation, kOutputQueue);
   summary_ = private_node.advertise<LocalisationSummary>(topics::kLocalisationSummary, 1, true);
   markers_ = private_node.advertise<visualization_msgs::MarkerArray>(topics::kLocalisationMarkers, 1, true);
   for (const std::string& query : queriesOf(options.localisation, options.streams)) {
     for (const std::string& detector : localisingDetectors(options.localisation, options.comparer)) {
       poses_[{query, detector}] = private_node.advertise<geometry_msgs::PoseWithCovarianceStamped>(
-          std::string(topics::kLocalisation) + "/" + query + "/" + detector + "/pose", kQueue);
+          std::string(topics::kLocalisation) + "/" + query + "/" + detector + "/pose", kOutputQueue);
     }
   }
   drawn_.markers = {marker("truth", visualization_msgs::Marker::POINTS, kLineWidth_m),

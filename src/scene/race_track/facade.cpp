@@ -6,7 +6,7 @@
 namespace sunlit::scene::race_track {
 namespace {
 
-constexpr float kScale = kFacadePixelsPerMetre;
+constexpr float kPixelsPerMetre = kFacadePixelsPerMetre;
 
 void layBricks(Canvas& canvas, const FacadePlan& plan, Random& random) {
   constexpr float kCourse_px = 2.6f;
@@ -115,17 +115,18 @@ void paintOpening(Canvas& canvas, const FacadePlan& plan, const Opening& opening
 }  // namespace
 
 Canvas emptyFront(const FacadePlan& plan, const Color& color) {
-  return Canvas(static_cast<int>(plan.width_m * kScale), static_cast<int>(plan.height_m * kScale), color);
+  return Canvas(static_cast<int>(plan.width_m * kPixelsPerMetre),
+                static_cast<int>(plan.height_m * kPixelsPerMetre), color);
 }
 
 OpeningPixels::OpeningPixels(const Opening& opening, float canvas_height)
-    : low(opening.x * kScale, canvas_height - (opening.z + opening.height) * kScale),
-      high((opening.x + opening.width) * kScale, canvas_height - opening.z * kScale) {}
+    : low(opening.x * kPixelsPerMetre, canvas_height - (opening.z + opening.height) * kPixelsPerMetre),
+      high((opening.x + opening.width) * kPixelsPerMetre, canvas_height - opening.z * kPixelsPerMetre) {}
 
 std::vector<Pane> panesOf(const FacadePlan& plan, const Opening& opening, float canvas_height) {
   const std::vector<bool> barred = WindowStyle(plan, opening).barred;
   const auto [low, high] = OpeningPixels(opening, canvas_height);
-  const float step = opening.width * kScale / static_cast<float>(barred.size());
+  const float step = opening.width * kPixelsPerMetre / static_cast<float>(barred.size());
   std::vector<Pane> panes;
   for (std::size_t i = 0; i < barred.size(); ++i) {
     const float x = low.x() + static_cast<float>(i) * step;
@@ -166,8 +167,8 @@ Canvas paintFacade(const FacadePlan& plan, const std::vector<Opening>& openings)
   const float h = static_cast<float>(canvas.height());
   const float w = static_cast<float>(canvas.width());
   // A darker foot, splashed by rain.
-  for (int y = static_cast<int>(h - 0.7f * kScale); y < h; ++y) {
-    const float wet = smoothStep(h - 0.7f * kScale, h, static_cast<float>(y));
+  for (int y = static_cast<int>(h - 0.7f * kPixelsPerMetre); y < h; ++y) {
+    const float wet = smoothStep(h - 0.7f * kPixelsPerMetre, h, static_cast<float>(y));
     for (int x = 0; x < w; ++x)
       canvas.blend(x, y,
                    {{0.11f, 0.10f, 0.085f}, 0.7f * wet * (0.6f + 0.4f * noise(0.06f * x, 0.1f * y, 635u))});

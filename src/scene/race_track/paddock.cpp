@@ -17,14 +17,14 @@ Frame crossing(double along) {
                   std::atan2(static_cast<float>(t.y()), static_cast<float>(t.x())) + 0.5f * kPiFloat);
 }
 
-struct Span {
+struct Girder {
   Point from;
   Point to;
   float size;  // of its square section
 };
 
 // A lattice girder: four chords and zigzag braces.
-void addGirder(Assembly& assembly, const Frame& frame, const Span& span, const Paint& paint) {
+void addGirder(Assembly& assembly, const Frame& frame, const Girder& span, const Paint& paint) {
   const Point axis = (span.to - span.from).normalized();
   const Point u = std::abs(axis.z()) > 0.9f ? Point::UnitX() : Point::UnitZ();
   const Point v = axis.cross(u);
@@ -43,7 +43,7 @@ void addGirder(Assembly& assembly, const Frame& frame, const Span& span, const P
 }
 
 // Boards on a beam across the track, to be read by drivers (who look to +y).
-void addCrossBoards(Assembly& assembly, const Frame& frame, const Span& span, std::uint32_t seed) {
+void addCrossBoards(Assembly& assembly, const Frame& frame, const Girder& span, std::uint32_t seed) {
   Random random(seed);
   const float length = (span.to - span.from).norm();
   const int count = std::max(1, static_cast<int>(length / 4.5f));
@@ -65,7 +65,7 @@ void addGantry(Assembly& assembly) {
   const Frame frame = crossing(3.0);
   const Paint steel{assembly.palette().metal, {0.48f, 0.49f, 0.50f}};
   for (const float x : {-9.6f, 9.6f}) addGirder(assembly, frame, {{x, 0, -0.5f}, {x, 0, 6.6f}, 0.7f}, steel);
-  const Span beam{{-9.6f, 0, 6.0f}, {9.6f, 0, 6.0f}, 0.9f};
+  const Girder beam{{-9.6f, 0, 6.0f}, {9.6f, 0, 6.0f}, 0.9f};
   addGirder(assembly, frame, beam, steel);
   addCrossBoards(assembly, frame, beam, 901u);
   // The five start lights.

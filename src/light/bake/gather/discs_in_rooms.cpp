@@ -22,9 +22,9 @@ constexpr double kLittle = 0.005;  // of a room's light, on average; less still 
 
 constexpr float kWhole = 0.999f;  ///< share of a source, but for rounding
 
-constexpr std::size_t kBlock = 256;  ///< of one task
+constexpr std::size_t kOfTask = 256;  ///< rooms, or their sources
 std::size_t blocks(std::size_t count) {
-  return (count + kBlock - 1) / kBlock;
+  return (count + kOfTask - 1) / kOfTask;
 }
 
 /// Towards the middle of the part of a disc that is above the horizon.
@@ -170,7 +170,7 @@ DiscsInRooms::DiscsInRooms(const TransportData& data, const sky::Daylight& day, 
   for (const auto& [disc, through_to] : shining) {
     const DiscOnSources work(data_, disc, visibility, through_to);
     tbb::parallel_for(std::size_t{0}, blocks(count), [&](std::size_t block) {
-      work.add(block * kBlock, std::min(count, (block + 1) * kBlock), &direct_);
+      work.add(block * kOfTask, std::min(count, (block + 1) * kOfTask), &direct_);
     });
     startFromPatches(disc, through_to);
     FloorGlints(data_, disc, visibility, through_to).addTo(&glints_);
@@ -229,7 +229,7 @@ double DiscsInRooms::receive() {
   const std::size_t count = rooms.samples.size();
   std::vector<double> changes(blocks(count), 0.0);
   tbb::parallel_for(std::size_t{0}, changes.size(), [&](std::size_t block) {
-    for (std::size_t room = block * kBlock; room < std::min(count, (block + 1) * kBlock); ++room) {
+    for (std::size_t room = block * kOfTask; room < std::min(count, (block + 1) * kOfTask); ++room) {
       Arrived sum;
       visitLinks(rooms, room, [&](const SampleSeen& other, bool up) {
         (up ? sum.above : sum.below) += other.weight * sent_[other.sample];

@@ -46,11 +46,10 @@ float relativeChange(const Arrived& before, const Arrived& after) {
 /// order for any number of threads.
 template <typename Value, typename Receive>
 double receiveAll(const std::vector<Value>& has, std::vector<Value>* next, const Receive& receive) {
-  constexpr std::size_t kBlock = 256;  // samples, of one task
   const std::size_t count = has.size();
-  std::vector<double> changes((count + kBlock - 1) / kBlock, 0.0);
+  std::vector<double> changes((count + kSamplesOfTask - 1) / kSamplesOfTask, 0.0);
   tbb::parallel_for(std::size_t{0}, changes.size(), [&](std::size_t block) {
-    for (std::size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
+    for (std::size_t i = block * kSamplesOfTask; i < std::min(count, (block + 1) * kSamplesOfTask); ++i) {
       (*next)[i] = receive(i);
       changes[block] += static_cast<double>(relativeChange(has[i], (*next)[i]));
     }

@@ -13,6 +13,9 @@
 
 namespace sunlit::light {
 
+/// Of one task of parallel work.
+constexpr std::size_t kSamplesOfTask = 256;
+
 /// What a sample's coarse rays hit.
 struct SampleHits {
   std::vector<SampleAndByte> hits;           ///< with the direction, of its half of the sphere

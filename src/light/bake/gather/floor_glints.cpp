@@ -15,7 +15,7 @@
 namespace sunlit::light {
 namespace {
 
-constexpr std::size_t kBlock = 64;  ///< rooms, of one task
+constexpr std::size_t kRoomsOfTask = 64;
 /// Rays of a room: the rest only where one of the first arrives.
 constexpr std::uint32_t kProbes = 16, kAll = 96;
 
@@ -33,26 +33,27 @@ FloorGlints::FloorGlints(const TransportData& data, const sky::DiscLight& disc, 
 
 void FloorGlints::addTo(std::vector<Eigen::Array3f>* rooms) const {
   const BakedArray<BakedRooms::Glossy>& glossy = data_.rooms.glossy;
-  tbb::parallel_for(std::size_t{0}, (glossy.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
-    const std::size_t first = block * kBlock, end = std::min(glossy.size(), first + kBlock);
-    std::vector<Way> ways;
-    std::vector<Sum> sums(end - first);
-    for (std::size_t g = first; g < end; ++g)
-      addWays(g, {static_cast<std::uint32_t>(g - first), 0, kProbes}, &ways);
-    follow(ways, sums.data());
-    ways.clear();
-    for (std::size_t g = first; g < end; ++g) {
-      if (sums[g - first].light.maxCoeff() > 0.0f)
-        addWays(g, {static_cast<std::uint32_t>(g - first), kProbes, kAll}, &ways);
-    }
-    follow(ways, sums.data());
-    for (std::size_t g = first; g < end; ++g) {
-      const Sum& sum = sums[g - first];
-      const std::uint32_t room = glossy[g].room;
-      if (sum.areas > 0.0f)
-        (*rooms)[room] += sum.light * illuminance_ / sum.areas * through_.at(data_.rooms.samples[room]);
-    }
-  });
+  tbb::parallel_for(
+      std::size_t{0}, (glossy.size() + kRoomsOfTask - 1) / kRoomsOfTask, [&](std::size_t block) {
+        const std::size_t first = block * kRoomsOfTask, end = std::min(glossy.size(), first + kRoomsOfTask);
+        std::vector<Way> ways;
+        std::vector<Sum> sums(end - first);
+        for (std::size_t g = first; g < end; ++g)
+          addWays(g, {static_cast<std::uint32_t>(g - first), 0, kProbes}, &ways);
+        follow(ways, sums.data());
+        ways.clear();
+        for (std::size_t g = first; g < end; ++g) {
+          if (sums[g - first].light.maxCoeff() > 0.0f)
+            addWays(g, {static_cast<std::uint32_t>(g - first), kProbes, kAll}, &ways);
+        }
+        follow(ways, sums.data());
+        for (std::size_t g = first; g < end; ++g) {
+          const Sum& sum = sums[g - first];
+          const std::uint32_t room = glossy[g].room;
+          if (sum.areas > 0.0f)
+            (*rooms)[room] += sum.light * illuminance_ / sum.areas * through_.at(data_.rooms.samples[room]);
+        }
+      });
 }
 
 void FloorGlints::addWays(std::size_t glossy, const Turn& turn, std::vector<Way>* ways) const {

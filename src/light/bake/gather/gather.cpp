@@ -24,22 +24,15 @@ namespace sunlit::light {
 namespace {
 
 constexpr std::size_t kPatches = SkyPatches::kCount;
-constexpr std::size_t kPacket = RayPacket::kSize;
 constexpr float kMostInside = 0.6f;  ///< share of rays that may end inside bodies
 /// Of what a sample looks at, by cosine, walls and the like: where they are less, most light comes from the
 /// sky, or in many parts through leaves.
 constexpr float kWalls = 0.8f;
 
-constexpr std::size_t kBlock = 256;  ///< samples, of one task
-
 /// Fewer were asked for to see just these.
 constexpr int kBouncesBeforeAll = 3;
 
 using Row = std::array<float, kPatches>;
-
-float luminanceOf(const Eigen::Array3f& rgb) {
-  return LinearRgb(rgb).luminance();
-}
 
 /// Adds a row of coefficients, each times `factor` and one of `shares`.
 SUNLIT_WIDE_VECTOR_CLONES
@@ -207,8 +200,8 @@ class Gatherer {
   void lookIntoGround(const TransportData& data) {
     const GroundMirror mirror(patches_);
     mirrored_.resize(count_);
-    tbb::parallel_for(std::size_t{0}, (count_ + kBlock - 1) / kBlock, [&](std::size_t block) {
-      for (std::size_t i = block * kBlock; i < std::min(count_, (block + 1) * kBlock); ++i) {
+    tbb::parallel_for(std::size_t{0}, (count_ + kSamplesOfTask - 1) / kSamplesOfTask, [&](std::size_t block) {
+      for (std::size_t i = block * kSamplesOfTask; i < std::min(count_, (block + 1) * kSamplesOfTask); ++i) {
         const Row row = mirroredBy(data, mirror, i, Exchange::all);
         mirrored_.set(i, row.data());
         for (const float value : row) exchange_.mirrored_sums[i] += value;
@@ -257,9 +250,9 @@ class Gatherer {
     sent.resize(count_);
     std::vector<SentSums> others(count_);
     const SumsOfAll has = sumsOf(*data);
-    const std::size_t blocks = (count_ + kBlock - 1) / kBlock;
+    const std::size_t blocks = (count_ + kSamplesOfTask - 1) / kSamplesOfTask;
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      for (std::size_t i = block * kBlock; i < std::min(count_, (block + 1) * kBlock); ++i) {
+      for (std::size_t i = block * kSamplesOfTask; i < std::min(count_, (block + 1) * kSamplesOfTask); ++i) {
         const Sending sends = exchange_.sending(i);
         others[i] = Exchange::sentBy(sends, has, i);
         sendRow(*data, sends, i, &sent);
@@ -267,7 +260,7 @@ class Gatherer {
     });
     step(0.2 * share);
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      for (std::size_t i = block * kBlock; i < std::min(count_, (block + 1) * kBlock); ++i)
+      for (std::size_t i = block * kSamplesOfTask; i < std::min(count_, (block + 1) * kSamplesOfTask); ++i)
         receive(sent, others, i, data);
       step(0.8 * share / static_cast<double>(blocks));
     });
@@ -278,7 +271,7 @@ class Gatherer {
     Row row{};
     const auto addCoefficients = [&](const Coefficients& coefficients, std::size_t from,
                                      const Eigen::Array3f& color) {
-      addTimes(luminanceOf(color) * coefficients.scales[from], coefficients.row(from), row.data());
+      addTimes(LinearRgb(color).luminance() * coefficients.scales[from], coefficients.row(from), row.data());
     };
     const auto add = [&](std::size_t from, const Eigen::Array3f& of_direct,
                          const Eigen::Array3f& of_bounced) {

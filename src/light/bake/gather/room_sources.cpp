@@ -13,8 +13,6 @@
 namespace sunlit::light {
 namespace {
 
-constexpr std::size_t kPacket = RayPacket::kSize;
-
 /// The part of a leaf that is nearest to one of its corners.
 struct LeafPart {
   const Eigen::Matrix3f& corners;  ///< of the leaf, m in `map`

@@ -15,7 +15,6 @@
 namespace sunlit::light {
 namespace {
 
-constexpr std::size_t kPacket = RayPacket::kSize;
 /// Over the sphere. A patch of the sun that takes a twentieth of what a wall looks at is met by fifty of
 /// them; fewer where there are many rooms, so that the links of the first 780,000 take 800 MB at most, about.
 constexpr std::size_t kMostDirections = 2048, kFewestDirections = 512;

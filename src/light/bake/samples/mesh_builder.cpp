@@ -11,7 +11,6 @@
 namespace sunlit::light {
 namespace {
 
-constexpr float kClear_m = 5e-3f;    ///< of a receiver above its surface
 constexpr float kInwards_m = 0.02f;  ///< of a receiver on an open edge, away from the edge
 /// Longest edge of a cell near which anything stands: no car may lie unseen amid it.
 constexpr float kCoarsest_m = 16.0f;
@@ -60,7 +59,7 @@ Receiver MeshNode::receiver() const {
   const Eigen::Vector3f origin = position + pull;
   Receiver receiver;
   receiver.origins.fill(origin);
-  receiver.lifts.fill(kClear_m * (face.isZero() ? normal : face));
+  receiver.lifts.fill(Receiver::kClear_m * (face.isZero() ? normal : face));
   receiver.normal = normal;
   receiver.face = face;
   return receiver;

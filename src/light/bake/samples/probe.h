@@ -28,6 +28,7 @@ inline bool sameFace(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
 /// A point that gathers light, or some that do it together.
 struct Receiver {
   static constexpr int kOrigins = 4;
+  static constexpr float kClear_m = 5e-3f;        ///< of where rays start, above the surface
   std::array<Eigen::Vector3f, kOrigins> origins;  ///< on the surface; rays take them in turn
   std::array<Eigen::Vector3f, kOrigins> lifts;    ///< from there to where rays of the lit side start
   Eigen::Vector3f normal;                         ///< unit, that the light is shaded by

@@ -22,6 +22,8 @@ struct RayPacket {
     valid[lane] = cast ? -1 : 0;
   }
 };
+/// Its size as a count of what is taken a packet at a time.
+constexpr std::size_t kPacket = RayPacket::kSize;
 
 struct HitPacket {
   static constexpr std::uint32_t kNothing = 0xffffffffu;

@@ -5,7 +5,7 @@
 
 namespace sunlit::light {
 namespace {
-constexpr std::size_t kMostShares = 4;
+constexpr std::size_t kMostOfPlace = 4;
 constexpr float kDeepest =
     1.5f;  ///< times the depth that receivers are shared over, one may still have a part
 }  // namespace
@@ -80,7 +80,7 @@ std::vector<LightMesh::Share> SampleCloud::around(const Eigen::Vector3f& positio
   std::sort(shares.begin(), shares.end(), [](const LightMesh::Share& a, const LightMesh::Share& b) {
     return a.weight != b.weight ? a.weight > b.weight : a.sample < b.sample;
   });
-  if (shares.size() > kMostShares) shares.resize(kMostShares);
+  if (shares.size() > kMostOfPlace) shares.resize(kMostOfPlace);
   float sum = 0.0f;
   for (const LightMesh::Share& share : shares) sum += share.weight;
   for (LightMesh::Share& share : shares) share.weight /= sum;

@@ -22,8 +22,7 @@ struct CloudRule {
 };
 constexpr CloudRule kSmallRule{TriangleKind::kSmall, 0.12f, 0.9f, 0.04f, 0.03f};
 constexpr CloudRule kFoliageRule{TriangleKind::kFoliage, 1.0f, 0.5f, 2.0f, 0.4f};
-constexpr float kClear_m = 5e-3f;
-constexpr std::size_t kMostShares = 6;
+constexpr std::size_t kMostOfVertex = 6;
 
 /// Equal samples put together, the smallest shares dropped, sum 1.
 void tidy(Shares* shares) {
@@ -39,7 +38,7 @@ void tidy(Shares* shares) {
   }
   std::stable_sort(merged.begin(), merged.end(),
                    [](const LightMesh::Share& a, const LightMesh::Share& b) { return a.weight > b.weight; });
-  if (merged.size() > kMostShares) merged.resize(kMostShares);
+  if (merged.size() > kMostOfVertex) merged.resize(kMostOfVertex);
   float sum = 0.0f;
   for (const LightMesh::Share& share : merged) sum += share.weight;
   for (LightMesh::Share& share : merged) share.weight /= sum;
@@ -165,7 +164,7 @@ class Sampler {
     Receiver receiver;
     receiver.origins.fill(isLeaf(traits_[t].kind) ? centre
                                                   : Eigen::Vector3f(position + 0.4f * (centre - position)));
-    receiver.lifts.fill(kClear_m * flat);
+    receiver.lifts.fill(Receiver::kClear_m * flat);
     receiver.normal = normal;
     receiver.coarse = isLeaf(traits_[t].kind);
     receiver.transmission = transmissionOf(t);
