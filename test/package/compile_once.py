@@ -25,13 +25,27 @@ def without_dependencies(words):
     return kept
 
 
+def as_there(text, pairs):
+    for here, there in pairs:
+        text = text.replace(here + "/", there + "/")
+    return text
+
+
+def same_file(here, there, pairs):
+    """Byte for byte, or but for the folders that a generated file names."""
+    if filecmp.cmp(here, there, shallow=False):
+        return True
+    with open(here, errors="replace") as ours, open(there, errors="replace") as theirs:
+        return as_there(ours.read(), pairs) == theirs.read()
+
+
 def same_content(read, made, pairs):
     """Whether all files that the earlier compilation `read` are older than what it made, and are ours too."""
     for name in read:
         here, there = next((pair for pair in pairs if name.startswith(pair[1] + "/")), ("", ""))
         if os.path.getmtime(name) > os.path.getmtime(made):
             return False
-        if here and not filecmp.cmp(here + name[len(there):], name, shallow=False):
+        if here and not same_file(here + name[len(there):], name, pairs):
             return False
     return True
 
@@ -39,17 +53,11 @@ def same_content(read, made, pairs):
 def earlier_object(words, output):
     """The object file that stands for what `words` would make, or None."""
     pairs = [pair.split("=") for pair in os.environ["SUNLIT_SAME_FOLDERS"].split(":")]
-
-    def as_there(text):
-        for here, there in pairs:
-            text = text.replace(here + "/", there + "/")
-        return text
-
-    folder = as_there(os.getcwd() + "/").rstrip("/")
+    folder = as_there(os.getcwd() + "/", pairs).rstrip("/")
     with open(os.environ["SUNLIT_COMPILED"]) as file:
         commands = [entry["command"] for entry in json.load(file)
                     if entry["directory"] == folder and " -o %s " % output in entry["command"]]
-    expected = [as_there(word) for word in without_dependencies(words)]
+    expected = [as_there(word, pairs) for word in without_dependencies(words)]
     if [without_dependencies(shlex.split(command)) for command in commands] != [expected]:
         return None
     made = os.path.join(folder, output)

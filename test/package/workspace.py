@@ -81,6 +81,7 @@ class Workspace(unittest.TestCase):
         self.run_in_workspace(f"catkin_make install -j{len(os.sched_getaffinity(0))} -DPYTHON_EXECUTABLE=/usr/bin/python3 "
                               "-DCATKIN_ENABLE_TESTING=OFF "
                               f"-DCMAKE_DISABLE_PRECOMPILE_HEADERS={os.environ.get('SUNLIT_NOT_PRECOMPILED') or 'OFF'} "
+                              f"-DSUNLIT_UNITY={os.environ.get('SUNLIT_UNITY') or 'OFF'} "
                               f"-DCMAKE_CXX_COMPILER_LAUNCHER={SOURCE}/test/package/compile_once.py")
         self.experiment("devel")
         shutil.move(str(self.folder / "src"), str(self.folder / "src_gone"))  # the install space stands alone
