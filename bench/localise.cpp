@@ -85,7 +85,7 @@ void query(benchmark::State& state, const std::string& detector, Retrieval retri
   const auto made = makeDetector(detector);
   LocaliserOptions options;
   options.retrieval = retrieval;
-  Localiser localiser(detector, made->norm(), options);
+  Localiser localiser(made->space(), options);
   std::vector<KeyFrame> frames;
   for (const PosedView& one : mapViews())
     frames.push_back(keyFrameOf(one, detectFeatures(*made, one.picture)));

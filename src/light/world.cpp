@@ -4,16 +4,16 @@
 #include "light/lamps/lamp_sets.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/light/transport.h"
+#include "sunlit/scene/scene_bytes.h"
 #include "sunlit/scene/weathering.h"
 
 namespace sunlit::light {
 namespace {
 
-/// What only pictures show of a surface.
-void addDetail(const scene::Detail& detail, image::ContentHash* hash) {
-  for (const float value : {detail.contrast, detail.coarsest_m, detail.finest_m, detail.gain})
-    hash->add(value);
-  for (const float channel : detail.tint) hash->add(channel);
+/// With what only pictures show of a surface, which a bake need not know.
+void addAll(const Geometry& geometry, image::ContentHash* hash) {
+  addContents(geometry, hash);
+  hash->add(geometry.tangents);
 }
 
 }  // namespace
@@ -56,15 +56,13 @@ Illumination illumination(const World& world, const sky::Daylight& day, const La
 
 std::string fingerprint(const World& world) {
   image::ContentHash hash;
-  if (world.transport)
-    hash = bakeKey(*world.geometry, world.transport->options());
-  else
-    addContents(*world.geometry, &hash);
-  for (const scene::Material& material : world.geometry->scene->materials) addDetail(material.detail, &hash);
-  if (!world.transport) addLamps(world.geometry->scene->lamps, &hash);
+  if (world.transport) hash = bakeKey(*world.geometry, world.transport->options());
+  addAll(*world.geometry, &hash);
+  scene::writeLooks(*world.geometry->scene,
+                    [&hash](const void* data, std::size_t size) { hash.addBytes(data, size); });
   if (world.bodies) {
     const std::vector<Eigen::Isometry3d> at_home(world.bodies->count(), Eigen::Isometry3d::Identity());
-    addContents(*world.bodies->placed(at_home), &hash);
+    addAll(*world.bodies->placed(at_home), &hash);
   }
   for (const std::vector<scene::Lamp>& of_body : world.lamps_of_bodies) {
     hash.add(static_cast<std::uint64_t>(of_body.size()));

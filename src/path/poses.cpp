@@ -96,11 +96,20 @@ std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const Path
 }
 
 Motion motionAt(const std::vector<Eigen::Isometry3d>& poses, int index, const Pace& pace) {
-  const int last = static_cast<int>(poses.size()) - 1;
-  if (last < 1) return {};
-  const auto from = static_cast<std::size_t>(std::min(index, last - 1));
-  const Motion by_rate = Motion::between(poses[from], poses[from + 1], 1.0 / pace.rate_hz);
-  return pace.speed_m_s ? by_rate.at(*pace.speed_m_s) : by_rate;
+  const std::size_t at = static_cast<std::size_t>(index), last = poses.size() - 1;
+  const double speed_m_s = pace.speed_m_s.value_or(pace.spacing_m * pace.rate_hz);
+  if (last < 1 || speed_m_s <= 0.0) return {};
+  // Poses of one segment look one way. Its last one may have the way to the next segment beside it, not
+  // before it.
+  const bool ends = at == last || poses[at].linear() != poses[at + 1].linear();
+  const bool came_along = at > 0 && (at == last || poses[at - 1].linear() == poses[at].linear());
+  const std::size_t from = ends && came_along ? at - 1 : at;
+  Motion motion;
+  motion.velocity_m_s = speed_m_s * (poses[from + 1].translation() - poses[from].translation()).normalized();
+  if (at < last)
+    motion.turning_rad_s =
+        Motion::between(poses[at], poses[at + 1], pace.spacing_m / speed_m_s).turning_rad_s;
+  return motion;
 }
 
 }  // namespace sunlit::path

@@ -177,6 +177,14 @@ void writeBytes(const Scene& scene, const ByteSink& sink) {
   writer(scene);
 }
 
+void writeLooks(const Scene& scene, const ByteSink& sink) {
+  const Writer writer(sink);
+  const auto all_but_name = [&writer](const auto& /*name*/, const auto&... part) { (writer(part), ...); };
+  for (const Texture& texture : scene.textures) std::apply(all_but_name, partsOf(texture));
+  for (const Material& material : scene.materials) std::apply(all_but_name, partsOf(material));
+  for (const Lamp& lamp : scene.lamps) std::apply(all_but_name, partsOf(lamp));
+}
+
 Scene sceneOf(const std::byte* data, std::size_t size, std::shared_ptr<const void> owner) {
   Reader reader(data, size, std::move(owner));
   Scene scene;

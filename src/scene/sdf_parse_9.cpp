@@ -224,7 +224,7 @@ sdf::Errors loadRoot(tinyxml2::XMLDocument& document, const std::vector<const Sd
   sdf::Errors errors;
   const sdf::SDFPtr parsed = emptySdf();
   parsed->Root()->SetFilePath(file.path);  // which its elements inherit
-  if (sdf::readString(textOf(document), parsed, errors)) {
+  if (sdf::readString(printed(document), parsed, errors)) {
     const sdf::Errors more = file.root.Load(parsed);
     errors.insert(errors.end(), more.begin(), more.end());
   } else if (errors.empty()) {

@@ -56,7 +56,7 @@ std::unique_ptr<tinyxml2::XMLDocument> readSdfXml(const std::string& file) {
   return document;
 }
 
-std::string textOf(const tinyxml2::XMLDocument& document) {
+std::string printed(const tinyxml2::XMLDocument& document) {
   LineKeeper printer;
   document.Accept(&printer);
   return printer.CStr();

@@ -16,7 +16,7 @@ std::unique_ptr<tinyxml2::XMLDocument> readSdfXml(const std::string& file);
 
 /// `document` as text in which each element begins on the line that it has in its file, whatever was taken
 /// out before it, so that libsdformat's errors name lines of the file. Comments are left out.
-std::string textOf(const tinyxml2::XMLDocument& document);
+std::string printed(const tinyxml2::XMLDocument& document);
 
 /// Empty where there is no such attribute, or child with a text.
 std::string attributeOf(const tinyxml2::XMLElement& element, const char* name);

@@ -1,5 +1,6 @@
 // A path at every time of the day, and what a map of each is worth at each other.
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <chrono>
@@ -50,12 +51,30 @@ class StageProgress {
   ProgressLine line_;
 };
 
+/// Comparing reads from all observations at once. Throws std::runtime_error where a process may not have so
+/// many files open, before hours are spent on them.
+void requireOpenFiles(const std::string& folder, std::size_t count) {
+  constexpr rlim_t kOthers = 100;
+  rlimit limit{};
+  const rlim_t wanted = count + kOthers;
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= wanted) return;
+  if (limit.rlim_max >= wanted) {
+    limit.rlim_cur = wanted;
+    if (::setrlimit(RLIMIT_NOFILE, &limit) == 0) return;
+  }
+  throw std::runtime_error(folder + ": would be " + std::to_string(count) +
+                           " units of observations, but a process may have no more than " +
+                           std::to_string(limit.rlim_max) +
+                           " files open here (ulimit -n); take larger --unit-poses or --unit-conditions");
+}
+
 /// A run of the program on one folder.
 class Atlas {
  public:
   explicit Atlas(const AtlasRunOptions& options)
       : options_(options), folder_(options), recipe_(options.output, "atlas", options.recipe) {
     recipe_.requireNoStranger(anythingIn(options.output));
+    requireOpenFiles(options.output, folder_.observeUnits().size());
   }
 
   /// Makes the world and its lights, and says what all will take. Throws where that cannot be.
@@ -66,7 +85,7 @@ class Atlas {
 
   void submit() {
     estimate();
-    recipe_.note();
+    recipe_.note(camera_->fingerprint());
     runBySlurm(options_, folder_);
   }
 
@@ -81,7 +100,7 @@ class Atlas {
     }
     if (wanted.empty()) return;
     estimate();
-    recipe_.note();
+    recipe_.note(camera_->fingerprint());
     makeFolder(folder_.observations());
     camera_->writeLights(folder_.lights());
     StageProgress progress("observing " + std::to_string(poses) + " poses", poses);

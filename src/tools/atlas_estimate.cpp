@@ -28,6 +28,7 @@ using evaluate::ObservationKey;
 
 constexpr std::size_t kMostPlaces = 3;
 constexpr std::size_t kMostPictures = 4;    // of each
+constexpr std::size_t kMostKeyFrames = 5;   // that a query is matched with here
 constexpr double kCellRow_bytes = 170.0;    // 17 digits each
 constexpr double kCellHead_bytes = 4096.0;  // a block of the disk
 
@@ -51,14 +52,14 @@ std::vector<std::size_t> someOf(std::size_t conditions) {
   return some;
 }
 
-/// A query is matched with as many key frames as it will be, so the one pose stands for several.
-void standForSeveral(int poses, std::int64_t number, ObservationFile* file) {
+/// A query is matched with several key frames, so the one pose stands for them all.
+void standForSeveral(std::size_t poses, std::int64_t number, ObservationFile* file) {
   const std::vector<ObservationKey> keys = file->keys();
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const Observation seen = file->read(i);
-    for (int copy = 1; copy < poses; ++copy) {
+    for (std::size_t copy = 1; copy < poses; ++copy) {
       ObservationKey key = keys[i];
-      key.pose = number + copy;
+      key.pose = number + static_cast<std::int64_t>(copy);
       file->add(key, seen);
     }
   }
@@ -94,8 +95,12 @@ AtlasCost measureAt(const AtlasPose& pose, const AtlasRunOptions& options, Atlas
   for (evaluate::AtlasView& view : camera->look(pose, lights)) observer.observe(std::move(view), file.get());
   cost.picture_s = std::max(0.0, secondsSince(begin) - cost.draw_s) / pictures;
   cost.picture_bytes = static_cast<double>(file->bytes()) / pictures;
-  standForSeveral(options.atlas.localiser.retrieved, pose.number, file.get());
+  const std::size_t matched =
+      std::min(static_cast<std::size_t>(options.atlas.localiser.retrieved), options.poses.size());
+  const std::size_t here = std::min(matched, kMostKeyFrames);
+  standForSeveral(here, pose.number, file.get());
   measureQueries(options, lights, *file, &cost);
+  cost.query_s *= static_cast<double>(matched) / static_cast<double>(here);
   return cost;
 }
 

@@ -25,6 +25,8 @@ class AtlasCamera {
   /// level ground under the whole sky. In one step; a file that is there stays.
   void writeLights(const std::string& file) const;
 
+  std::string fingerprint() const { return light::fingerprint(studio_.world()); }
+
  private:
   evaluate::AtlasView viewFrom(const Eigen::Isometry3d& map_from_camera, std::int64_t number,
                                const std::vector<std::size_t>& conditions);

@@ -98,6 +98,8 @@ class Camera {
     return taken;
   }
 
+  std::string fingerprint() const { return light::fingerprint(studio_.world()); }
+
  private:
   studio::Studio studio_;
   std::vector<light::Illumination> lights_;  ///< of each hour
@@ -121,7 +123,7 @@ void makePictures(const ExportOptions& options, const FolderRecipe& recipe, std:
     std::printf("%zu poses are there already\n", options.frames.size() - wanted.size());
   if (wanted.empty()) return;
   const auto camera = std::make_unique<Camera>(options);
-  recipe.note();  // not before the world was found to be one
+  recipe.note(camera->fingerprint());  // not before the world was found to be one
   const Clock::time_point begin = Clock::now();
   for (std::size_t done = 0; done < wanted.size();) {
     const DataSetFrame& frame = options.frames[wanted[done]];

@@ -89,7 +89,8 @@ void layOut(const Words& words, ExportOptions* options) {
   for (int i = selection.first; i < end; i += selection.stride) {
     options->frames.push_back(
         {i, kStart_ns + path::nanosecondsTo(i, options->rate_hz), poses[static_cast<std::size_t>(i)]});
-    options->motions.push_back(path::motionAt(poses, i, {options->rate_hz, words.speed_m_s}));
+    options->motions.push_back(
+        path::motionAt(poses, i, {options->rate_hz, words.speed_m_s, words.path.sampling.spacing_m}));
   }
 }
 

@@ -56,7 +56,6 @@ image::Rgb8Image FrameFolder::read(int frame) const {
 }
 
 void FrameFolder::write(int frame, const image::Rgb8Image& picture) {
-  recipe_.note();
   image::writePng(file(frame), picture);
 }
 

@@ -18,8 +18,9 @@ class FrameFolder {
   /// Whether the frame is there, whole, and of this size.
   bool has(int frame, int width, int height) const;
   image::Rgb8Image read(int frame) const;
-  /// The whole frame, or nothing. The first one makes the folder, and notes the recipe in it. Throws
-  /// std::runtime_error where nothing can be written.
+  /// As FolderRecipe::note(): before the first frame is written.
+  void begin(const std::string& fingerprint) const { recipe_.note(fingerprint); }
+  /// The whole frame, or nothing. Throws std::runtime_error where nothing can be written.
   void write(int frame, const image::Rgb8Image& picture);
 
  private:

@@ -21,13 +21,24 @@ std::string contentOf(const std::string& what, const std::string& file) {
   return what + ' ' + print.text();
 }
 
-std::vector<std::string> linesOf(const std::string& file) {
+/// Before the fingerprint of the world as it was read, which is known once it has been.
+const std::string kAsRead = "world as it was read ";
+
+struct Noted {
+  std::vector<std::string> recipe;
+  std::string as_read;  ///< empty: nobody noted it
+};
+
+Noted notedIn(const std::string& file) {
   std::ifstream in(file);
-  std::vector<std::string> lines;
+  Noted noted;
   for (std::string line; std::getline(in, line);) {
-    if (line.empty() || line[0] != '#') lines.push_back(line);
+    if (line.compare(0, kAsRead.size(), kAsRead) == 0)
+      noted.as_read = line;
+    else if (line.empty() || line[0] != '#')
+      noted.recipe.push_back(line);
   }
-  return lines;
+  return noted;
 }
 
 /// The first line of `a` that `b` lacks; empty if there is none.
@@ -68,7 +79,7 @@ FolderRecipe::FolderRecipe(const std::string& folder, const std::string& tool,
     : folder_(folder), tool_(tool), recipe_(std::move(recipe)) {
   requireFolderCanBeMade(folder_);
   if (!std::filesystem::exists(file())) return;
-  const std::vector<std::string> before = linesOf(file());
+  const std::vector<std::string> before = notedIn(file()).recipe;
   if (before == recipe_) return;
   throw std::runtime_error(folder_ + ": its pictures were made with other options (" +
                            difference(before, recipe_) + "); take another folder");
@@ -80,12 +91,21 @@ void FolderRecipe::requireNoStranger(const std::string& stranger) const {
                            ".txt that says how it was made; take another folder");
 }
 
-void FolderRecipe::note() const {
-  if (std::filesystem::exists(file())) return;
+void FolderRecipe::note(const std::string& fingerprint) const {
+  const std::string as_read = kAsRead + fingerprint;
+  if (std::filesystem::exists(file())) {
+    const std::string before = notedIn(file()).as_read;
+    if (before.empty() || before == as_read) return;
+    throw std::runtime_error(
+        folder_ +
+        ": its pictures show another world: a file that this one is made of, as a mesh or "
+        "a texture, or sunlit itself has changed; take another folder");
+  }
   makeFolder(folder_);
   std::string text =
       "# How these pictures were made. " + tool_ + " adds to them only with the same options.\n";
   for (const std::string& line : recipe_) text += line + '\n';
+  text += as_read + '\n';
   image::writeFileAtomically(file(), text);
 }
 

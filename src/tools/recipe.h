@@ -26,8 +26,10 @@ class FolderRecipe {
   /// Throws std::runtime_error where the folder has no recipe, but a file called `stranger`, by nobody knows
   /// whom. Nothing is called "".
   void requireNoStranger(const std::string& stranger) const;
-  /// Makes the folder, if there is none, and notes the recipe in it, if it is not. Throws as the constructor.
-  void note() const;
+  /// Makes the folder, if there is none, and notes the recipe in it, if it is not, with the `fingerprint` of
+  /// the world as it was read: one of its textures or meshes may change while the world's own file stays.
+  /// Throws as the constructor.
+  void note(const std::string& fingerprint) const;
 
  private:
   std::string file() const { return folder_ + '/' + tool_ + ".txt"; }

@@ -51,6 +51,8 @@ void takeSnapshot(const SnapshotOptions& options) {
   if (std::none_of(depth.data.begin(), depth.data.end(), [](float metres) { return std::isfinite(metres); }))
     std::fprintf(stderr, "warning: nothing of the world is in view, %s\n",
                  placeOf(*studio.world().geometry->scene).c_str());
+  else if (image::isBlack(developed.picture))
+    std::fprintf(stderr, "warning: the picture is black all over: %s\n", image::kWhyBlack);
   std::printf("%s: %zu triangles, EV100 %.2f, %.3g lx on level ground\n", options.output.c_str(),
               studio.world().geometry->scene->triangleCount(), developed.ev100,
               static_cast<double>(day.groundIlluminance().luminance()));

@@ -70,6 +70,8 @@ class Camera {
     return developed.picture;
   }
 
+  std::string fingerprint() const { return light::fingerprint(studio_.world()); }
+
  private:
   const TimelapseOptions& options_;
   studio::Studio studio_;
@@ -88,6 +90,7 @@ void makeFrames(const TimelapseOptions& options, FrameFolder* folder) {
   if (static_cast<int>(wanted.size()) < options.frames)
     std::printf("%d frames are there already\n", options.frames - static_cast<int>(wanted.size()));
   photographer = std::make_unique<Camera>(options);
+  folder->begin(photographer->fingerprint());
   const Clock::time_point begin = Clock::now();
   for (std::size_t done = 0; done < wanted.size();) {
     folder->write(wanted[done], photographer->take(wanted[done]));

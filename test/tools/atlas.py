@@ -5,6 +5,7 @@ import fcntl
 import os
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -60,10 +61,16 @@ class Atlas(unittest.TestCase):
     def boxes(cls):
         return [*BOXES, "--path", cls.path("boxes.csv")]
 
-    def refused(self, out, *arguments):
-        done = run("atlas", "--out", self.path(out), *arguments)
+    def refused(self, out, *arguments, **more):
+        done = run("atlas", "--out", self.path(out), *arguments, **more)
         self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
         return done.stderr
+
+    def test_more_units_than_files_can_be_open_are_refused_before_the_work(self):
+        limited = lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (103, 103))
+        self.assertIn("would be 4 units of observations, but a process may have no more than 103 files open here",
+                      self.refused("many", *self.boxes(), preexec_fn=limited))
+        self.assertFalse(os.path.exists(self.path("many")))
 
     def test_tells_what_it_will_take_and_writes_a_row_a_cell(self):
         self.assertRegex(self.said, r"km of path, 6 poses, 3 lights, 2 methods: 18 pictures, 18 cells\n")

@@ -108,6 +108,21 @@ class Timelapse(unittest.TestCase):
             file.write(text.replace(b"1", b"2", 1))
         self.assertIn("content of the world", self.refused(*arguments))
 
+    def test_takes_no_frames_of_a_world_whose_looks_have_changed_in_a_file_beside_it(self):
+        world = self.path("own.obj")
+        pathlib.Path(world).write_text("mtllib own.mtl\nv -9 -9 0\nv 9 -9 0\nv 9 9 0\nusemtl floor\nf 1 2 3\n", encoding="ascii")
+        looks = pathlib.Path(self.path("own.mtl"))
+        looks.write_text("newmtl floor\nKd 0.2 0.2 0.2\n", encoding="ascii")
+        arguments = ["--out", self.path("b"), *VIEW, *DAY, "--world", world, "--frames"]
+        self.assertEqual(run("timelapse", *arguments, "1").returncode, 0)
+        frame = pathlib.Path(self.path("b"), "frame_00000.png")
+        frame.unlink()
+        looks.write_text("newmtl floor\nKd 0.2 0.2 0.3\n", encoding="ascii")
+        self.assertIn("its pictures show another world", self.refused(*arguments, "1"))
+        self.assertFalse(frame.exists())
+        looks.write_text("newmtl floor\nKd 0.2 0.2 0.2\n", encoding="ascii")
+        self.assertEqual(run("timelapse", *arguments, "1").returncode, 0)
+
     def test_a_film_that_does_not_fit_on_the_disk_leaves_the_old_one(self):
         def little_room():
             resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300))

@@ -1,6 +1,7 @@
 /// The pictures that pass between modules, as plain arrays: row-major, top row first, no padding.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -34,5 +35,13 @@ using Rgb8Image = Picture<std::uint8_t, 3>;     ///< display-referred sRGB, 8 bi
 using Grey8Image = Picture<std::uint8_t, 1>;    ///< display-referred luminance, 8 bit
 using Grey16Image = Picture<std::uint16_t, 1>;  ///< numbers, such as depth in steps of a length
 using DepthImage = Picture<float, 1>;           ///< m along the optical axis (z); NaN where nothing was hit
+
+/// Whether all of it is 0.
+inline bool isBlack(const Rgb8Image& picture) {
+  return std::all_of(picture.data.begin(), picture.data.end(), [](std::uint8_t value) { return value == 0; });
+}
+/// What whoever gets such a picture by day is asked.
+constexpr const char* kWhyBlack =
+    "does the camera stand in a body or below the ground, or is the exposure for more light than there is?";
 
 }  // namespace sunlit::image

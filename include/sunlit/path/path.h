@@ -72,7 +72,8 @@ std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const Path
 /// How fast poses follow each other.
 struct Pace {
   double rate_hz = 10.0;
-  std::optional<double> speed_m_s = {};  ///< the same way at that speed; nothing: as the rate has it
+  std::optional<double> speed_m_s = {};  ///< nothing: a spacing in the time between two pictures
+  double spacing_m = 1.0;                ///< PathOptions::spacing_m of the poses
 };
 
 /// What people may ask for beside a rate, kept at `place`.
@@ -84,8 +85,9 @@ inline Field speedRow(std::optional<double>* place) {
           "of the camera while a picture is taken; auto: as stamps say"};
 }
 
-/// How a camera moves that is at `poses` one after another, when it leaves pose `index` towards the next; at
-/// the last, as it came there. None of a single pose.
+/// How a camera moves at pose `index` of posesAlong(): straight along the segment of the pose, always at one
+/// speed, though a segment's last pose may be nearer to the next than a spacing. Where the next pose is
+/// turned, it turns by as much within a spacing. None of a single pose.
 Motion motionAt(const std::vector<Eigen::Isometry3d>& poses, int index, const Pace& pace);
 
 /// Waypoints from a file: CSV (x,y,z or x,y a line, m; an optional header line; # comments) or TUM trajectory

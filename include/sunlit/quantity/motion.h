@@ -35,13 +35,6 @@ struct Motion {
     motion.turning_rad_s = turn.angle() / seconds * turn.axis();
     return motion;
   }
-
-  /// The same way at another speed, ≥ 0, turning in proportion; of what stands, itself.
-  Motion at(double speed_m_s) const {
-    const double now_m_s = velocity_m_s.norm();
-    if (now_m_s == 0.0) return *this;
-    return {velocity_m_s * (speed_m_s / now_m_s), turning_rad_s * (speed_m_s / now_m_s)};
-  }
 };
 
 }  // namespace sunlit

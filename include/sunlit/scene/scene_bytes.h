@@ -14,6 +14,9 @@ using ByteSink = std::function<void(const void* data, std::size_t size)>;
 
 void writeBytes(const Scene& scene, const ByteSink& sink);
 
+/// What surfaces and lamps look like, apart from their shapes, and whatever they and their files are called.
+void writeLooks(const Scene& scene, const ByteSink& sink);
+
 /// What writeBytes() wrote, all of it. Throws std::runtime_error where the bytes end too soon or go on behind
 /// it; whether they are those that were written is the caller's to know. Texels stay where they are if there
 /// is an `owner`, which keeps them there unchanged, and are copied if it is null.

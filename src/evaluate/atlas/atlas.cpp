@@ -105,9 +105,9 @@ AtlasMap::AtlasMap(const DriveIndex& observed, const AtlasOptions& options,
     : observed_(observed),
       options_(options),
       key_(of_map_and_method),
-      norm_(detectorOf(options.verify, key_.method)->norm()),
+      space_(detectorOf(options.verify, key_.method)->space()),
       drive_(observed.at(key_.map, key_.method)),
-      map_(mapOf(observed, {key_.map}, {key_.method, norm_, options.map_every_m, options.localiser})
+      map_(mapOf(observed, {key_.map}, {key_.method, space_, options.map_every_m, options.localiser})
                .localiser) {
   if (map_->frames().empty())
     throw std::runtime_error(key_.map + " by " + key_.method + " has no observations to make a map of");
@@ -129,7 +129,7 @@ const ObservedDrive& AtlasMap::driveOf(const std::string& condition) const {
 void AtlasMap::compare(std::int64_t pose, const Observation& lit_as_query, AtlasRow* row) const {
   const Observation lit_as_map = drive_.at(pose).read();
   const DescriptorPair descriptors = compactBoth(lit_as_map.features, lit_as_query.features);
-  const BothWays nearest = twoNearestBothWays(descriptors.a, descriptors.b, norm_);
+  const BothWays nearest = twoNearestBothWays(descriptors.a, descriptors.b, space_.norm);
   const Verified verified = verify({lit_as_map.features, lit_as_query.features, nearest},
                                    identityMaps({lit_as_query.camera.width, lit_as_query.camera.height}),
                                    options_.verify.ratio_test);

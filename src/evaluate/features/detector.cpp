@@ -40,6 +40,7 @@ class Fronted : public Detector {
  public:
   explicit Fronted(std::unique_ptr<Detector> detector) : detector_(std::move(detector)) {}
   int norm() const override { return detector_->norm(); }
+  bool histograms() const override { return detector_->histograms(); }
   cv::Mat seen(const Picture& picture) const override { return detector_->seen(picture); }
   cv::Ptr<cv::Feature2D> make() const override { return detector_->make(); }
   std::string version() const override { return detector_->version(); }

@@ -23,7 +23,7 @@ const ObservedDrive& DriveIndex::at(const std::string& stream, const std::string
 
 ObservedMap mapOf(const DriveIndex& drives, const std::vector<std::string>& streams,
                   const MapOptions& options, const StopToken& stop) {
-  ObservedMap map{std::make_unique<Localiser>(options.detector, options.norm, options.localiser), {}};
+  ObservedMap map{std::make_unique<Localiser>(options.space, options.localiser), {}};
   for (const std::string& stream : streams) {
     KeyFrameSpacing spacing(options.map_every_m);
     for (const auto& [pose, place] : drives.at(stream, options.detector)) {

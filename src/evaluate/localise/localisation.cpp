@@ -10,8 +10,8 @@
 namespace sunlit::evaluate {
 
 struct Localisation::PerDetector {
-  PerDetector(const std::string& name, const Detector& detector, const LocalisationOptions& options)
-      : pool(detector, options.cache), localiser(name, detector.norm(), options.localiser) {}
+  PerDetector(const Detector& detector, const LocalisationOptions& options)
+      : pool(detector, options.cache), localiser(detector.space(), options.localiser) {}
   mutable DetectorPool pool;
   Localiser localiser;
 };
@@ -41,7 +41,7 @@ const Detector& detectorOf(const LocalisationOptions& options, const std::string
 Localisation::Localisation(const LocalisationOptions& options) : options_(options) {
   requireFields(options_);
   for (const std::string& name : options_.detectors) {
-    detectors_.push_back(std::make_unique<PerDetector>(name, detectorOf(options_, name), options_));
+    detectors_.push_back(std::make_unique<PerDetector>(detectorOf(options_, name), options_));
   }
 }
 

@@ -110,8 +110,8 @@ std::string wordOf(LocalisationStatus status) {
   return "no_pose";
 }
 
-Localiser::Localiser(std::string detector, int norm, const LocaliserOptions& options)
-    : detector_(std::move(detector)), norm_(norm), options_(options) {
+Localiser::Localiser(const DescriptorSpace& space, const LocaliserOptions& options)
+    : space_(space), options_(options) {
   requireFields(options);
 }
 
@@ -122,8 +122,7 @@ void Localiser::add(KeyFrame frame) {
 }
 
 void Localiser::finish() {
-  if (options_.retrieval == Retrieval::kVlad)
-    index_ = std::make_unique<PlaceIndex>(detector_, norm_, frames_);
+  if (options_.retrieval == Retrieval::kVlad) index_ = std::make_unique<PlaceIndex>(space_, frames_);
 }
 
 std::vector<std::size_t> Localiser::retrieve(const LocalisationQuery& query,
@@ -157,7 +156,7 @@ std::vector<std::size_t> Localiser::mostMatched(const LocalisationQuery& query,
   const cv::Mat scouts = strongest(query.features.key_points, descriptors);
   std::vector<std::size_t> votes(frames_.size());
   tbb::parallel_for(std::size_t{0}, frames_.size(), [&](std::size_t i) {
-    const std::vector<Match> matches = matchesWith(frames_[i], scouts, norm_, options_.ratio_test);
+    const std::vector<Match> matches = matchesWith(frames_[i], scouts, space_.norm, options_.ratio_test);
     votes[i] = static_cast<std::size_t>(std::count_if(
         matches.begin(), matches.end(), [](const Match& match) { return !std::isinf(match.distance); }));
   });
@@ -171,7 +170,7 @@ Localiser::Matches Localiser::match(const cv::Mat& descriptors,
                                     const std::vector<std::size_t>& retrieved) const {
   std::vector<std::vector<Match>> by_frame(retrieved.size());
   tbb::parallel_for(std::size_t{0}, retrieved.size(), [&](std::size_t f) {
-    by_frame[f] = matchesWith(frames_[retrieved[f]], descriptors, norm_, options_.ratio_test);
+    by_frame[f] = matchesWith(frames_[retrieved[f]], descriptors, space_.norm, options_.ratio_test);
   });
   Matches matches;
   for (std::size_t i = 0; i < static_cast<std::size_t>(descriptors.rows); ++i) {

@@ -44,7 +44,7 @@ ObservedResult localiseObserved(const ObservedDrives& observed, const Localisati
   for (const std::string& detector : options.detectors)
     maps.push_back(
         mapOf(drives, streams.map,
-              {detector, detectorOf(options, detector).norm(), options.map_every_m, options.localiser},
+              {detector, detectorOf(options, detector).space(), options.map_every_m, options.localiser},
               progress.stop));
   ObservedResult result;
   result.key_frames = maps.at(0).origins.size();

@@ -5,8 +5,8 @@
 
 namespace sunlit::evaluate {
 
-Odometry::Odometry(std::string detector, int norm, const LocaliserOptions& options)
-    : detector_(std::move(detector)), norm_(norm), options_(options) {
+Odometry::Odometry(const DescriptorSpace& space, const LocaliserOptions& options)
+    : space_(space), options_(options) {
   options_.retrieval = Retrieval::kAll;
   requireFields(options_);
 }
@@ -36,7 +36,7 @@ Eigen::Isometry3d Odometry::follow(const PosedView& view, const Features& featur
 void Odometry::takeAsKeyFrame(const PosedView& view, const Features& features) {
   PosedView placed = view;
   placed.map_from_optical = map_from_optical_;
-  key_frame_ = std::make_unique<Localiser>(detector_, norm_, options_);
+  key_frame_ = std::make_unique<Localiser>(space_, options_);
   key_frame_->add(keyFrameOf(placed, features));
   shared_at_first_ = 0;
   ++key_frames_;

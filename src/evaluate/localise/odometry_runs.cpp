@@ -9,8 +9,8 @@
 namespace sunlit::evaluate {
 
 struct OdometryRuns::PerDetector {
-  PerDetector(const std::string& name, const Detector& detector, const LocalisationOptions& options)
-      : pool(detector, options.cache), odometry(name, detector.norm(), options.localiser) {}
+  PerDetector(const Detector& detector, const LocalisationOptions& options)
+      : pool(detector, options.cache), odometry(detector.space(), options.localiser) {}
   DetectorPool pool;
   Odometry odometry;
 };
@@ -18,7 +18,7 @@ struct OdometryRuns::PerDetector {
 OdometryRuns::OdometryRuns(const LocalisationOptions& options) : options_(options) {
   requireFields(options_);
   for (const std::string& name : options_.detectors) {
-    detectors_.push_back(std::make_unique<PerDetector>(name, detectorOf(options_, name), options_));
+    detectors_.push_back(std::make_unique<PerDetector>(detectorOf(options_, name), options_));
   }
 }
 

@@ -22,13 +22,12 @@ cv::Mat givenAs(int norm, const cv::Mat& descriptors) {
 
 }  // namespace
 
-PlaceIndex::PlaceIndex(std::string detector, int norm, const std::vector<KeyFrame>& frames)
-    : detector_(std::move(detector)), norm_(norm), frames_(frames.size()) {
+PlaceIndex::PlaceIndex(const DescriptorSpace& space, const std::vector<KeyFrame>& frames)
+    : space_(space), frames_(frames.size()) {
   std::vector<cv::Mat> descriptors;
   for (const KeyFrame& frame : frames) descriptors.push_back(frame.descriptors);
   const cv::Mat training = vladTrainingDescriptors(descriptors);
-  words_ =
-      trainVocabulary(vladPoints(detector_, norm_, givenAs(norm_, training)), kVisualWords, kVocabularySeed);
+  words_ = trainVocabulary(vladPoints(space_, givenAs(space_.norm, training)), kVisualWords, kVocabularySeed);
   tbb::parallel_for(std::size_t{0}, frames.size(),
                     [&](std::size_t i) { frames_[i] = encode(frames[i].descriptors); });
 }
@@ -48,7 +47,7 @@ std::vector<std::size_t> PlaceIndex::nearest(const cv::Mat& descriptors, std::si
 }
 
 cv::Mat PlaceIndex::encode(const cv::Mat& descriptors) const {
-  return vladOf(vladPoints(detector_, norm_, givenAs(norm_, descriptors)), words_);
+  return vladOf(vladPoints(space_, givenAs(space_.norm, descriptors)), words_);
 }
 
 }  // namespace sunlit::evaluate

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sunlit/evaluate/features/detector.h"
 #include "sunlit/evaluate/localise/map.h"
 
 namespace sunlit::evaluate {
@@ -13,9 +14,9 @@ namespace sunlit::evaluate {
 /// VLAD (see places/vlad.h) of the features that a map keeps, with words of that map alone.
 class PlaceIndex {
  public:
-  /// `norm` is that of the detector's descriptors. Throws std::invalid_argument where the frames have fewer
+  /// `space` is that of the detector's descriptors. Throws std::invalid_argument where the frames have fewer
   /// different descriptors than words.
-  PlaceIndex(std::string detector, int norm, const std::vector<KeyFrame>& frames);
+  PlaceIndex(const DescriptorSpace& space, const std::vector<KeyFrame>& frames);
   /// At most `count` indices, nearest first; of equally near ones the lower. Those without features are never
   /// found, and nothing is by a picture without any.
   std::vector<std::size_t> nearest(const cv::Mat& descriptors, std::size_t count) const;
@@ -23,8 +24,7 @@ class PlaceIndex {
  private:
   cv::Mat encode(const cv::Mat& descriptors) const;
 
-  std::string detector_;
-  int norm_;
+  DescriptorSpace space_;
   cv::Mat words_;
   std::vector<cv::Mat> frames_;
 };

@@ -123,8 +123,7 @@ const PlaceComparison::ThumbnailComparison& PlaceComparison::thumbnails() {
 
 FoundPlaces PlaceComparison::findByVlad(const std::string& detector) const {
   const std::unique_ptr<Detector> usual = makeDetector(DetectorKind::named(detector));
-  const std::string type = DetectorKind::named(detector).type;
-  const int norm = usual->norm();
+  const DescriptorSpace space = usual->space();
   DetectorPool detectors(*usual, cache_);
   const auto describe = [&](const std::string& file) {
     return detectors.detect(readPicture(file)).descriptors;
@@ -132,9 +131,9 @@ FoundPlaces PlaceComparison::findByVlad(const std::string& detector) const {
   std::vector<cv::Mat> map(map_.names.size()), queries(queries_.names.size());
   forEach(detector + " of the map", map_, [&](std::size_t i) { map[i] = describe(map_.file(i)); });
   const cv::Mat words =
-      trainVocabulary(vladPoints(type, norm, vladTrainingDescriptors(map)), kVisualWords, kVocabularySeed);
+      trainVocabulary(vladPoints(space, vladTrainingDescriptors(map)), kVisualWords, kVocabularySeed);
   const auto encode = [&](const cv::Mat& descriptors) {
-    return vladOf(vladPoints(type, norm, descriptors), words);
+    return vladOf(vladPoints(space, descriptors), words);
   };
   forEach("words of the map", map_, [&](std::size_t i) { map[i] = encode(map[i]); });
   forEach(detector + " of the queries", queries_,

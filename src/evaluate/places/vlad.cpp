@@ -61,10 +61,10 @@ bool isZero(const cv::Mat& vlad) {
 
 }  // namespace
 
-cv::Mat vladPoints(const std::string& type, int norm, const cv::Mat& descriptors) {
+cv::Mat vladPoints(const DescriptorSpace& space, const cv::Mat& descriptors) {
   if (descriptors.empty()) return {};
-  if (norm == cv::NORM_HAMMING || norm == cv::NORM_HAMMING2) return bitsOf(descriptors);
-  if (type == "sift") return rootSift(descriptors);
+  if (space.norm == cv::NORM_HAMMING || space.norm == cv::NORM_HAMMING2) return bitsOf(descriptors);
+  if (space.histograms) return rootSift(descriptors);
   cv::Mat points;
   descriptors.convertTo(points, CV_32FC1);
   return points;
@@ -79,7 +79,12 @@ cv::Mat vladTrainingDescriptors(const std::vector<cv::Mat>& by_picture) {
   for (const cv::Mat& descriptors : by_picture) {
     for (int row = 0; row < descriptors.rows; ++row, ++before) {
       if (taken == wanted || before != taken * all / wanted) continue;
-      chosen.push_back(descriptors.row(row));
+      cv::Mat next = descriptors.row(row);
+      if (!chosen.empty() && next.type() != chosen.type()) {
+        if (chosen.type() != CV_32FC1) chosen.convertTo(chosen, CV_32F);
+        if (next.type() != CV_32FC1) next.convertTo(next, CV_32F);
+      }
+      chosen.push_back(next);
       ++taken;
     }
   }

@@ -52,9 +52,10 @@ evaluate::Told<Eigen::Isometry3d> truePoseOf(const geometry_msgs::PoseStamped& m
   }
 }
 
-evaluate::Told<evaluate::ViewCamera> cameraOf(const sensor_msgs::CameraInfo& message) {
+evaluate::Told<evaluate::ViewCamera> cameraOf(const sensor_msgs::CameraInfo& message,
+                                              const std::string& topic) {
   try {
-    const image::Calibration read = fromCameraInfo(message);
+    const image::Calibration read = fromCameraInfo(message, topic);
     return evaluate::told(evaluate::ViewCamera(read.camera, read.distortion));
   } catch (const std::invalid_argument& error) {
     return evaluate::unusable<evaluate::ViewCamera>(error.what());
@@ -74,10 +75,10 @@ geometry_msgs::Pose linkPose(const Eigen::Isometry3d& map_from_optical) {
 
 }  // namespace
 
-Localisation messageOf(const evaluate::LocalisationRow& row) {
+Localisation messageOf(const evaluate::LocalisationRow& row, const std::string& map_frame) {
   const evaluate::LocalisedQuery& result = row.result;
   Localisation message;
-  message.header = headerOf(kMapFrame, timeOf(row.stamp_ns));
+  message.header = headerOf(map_frame, timeOf(row.stamp_ns));
   message.pose = static_cast<std::uint32_t>(row.pose);
   message.map = row.map;
   message.query = row.query;

@@ -24,13 +24,15 @@ evaluate::CaptureRecord captureOf(const Capture& message);
 evaluate::PlaceRecord placeOf(const geometry_msgs::PoseStamped& message);
 /// Where the camera's optical frame stood in `map`, from the pose of camera_link.
 evaluate::Told<Eigen::Isometry3d> truePoseOf(const geometry_msgs::PoseStamped& message);
-evaluate::Told<evaluate::ViewCamera> cameraOf(const sensor_msgs::CameraInfo& message);
+/// Of pictures of `topic`, which are rectified or not.
+evaluate::Told<evaluate::ViewCamera> cameraOf(const sensor_msgs::CameraInfo& message,
+                                              const std::string& topic);
 evaluate::Told<cv::Mat> depthOf(const sensor_msgs::Image& message, std::size_t max_pixels);
 PairDifference messageOf(const evaluate::EvaluationOptions& options, const evaluate::PairRecord& record);
 /// rgb8.
 sensor_msgs::ImagePtr messageOf(const cv::Mat& rgb, const std_msgs::Header& header);
-/// Poses of camera_link in `map`.
-Localisation messageOf(const evaluate::LocalisationRow& row);
+/// Poses of camera_link in `map_frame`.
+Localisation messageOf(const evaluate::LocalisationRow& row, const std::string& map_frame);
 LocalisationSummary messageOf(const std::vector<evaluate::LocalisationSummary>& rows);
 Summary messageOf(const std::vector<evaluate::SummaryRow>& rows, std::size_t poses);
 

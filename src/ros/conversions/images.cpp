@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <climits>
 #include <opencv2/core.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -88,6 +89,27 @@ image::Calibration fromCameraInfo(const sensor_msgs::CameraInfo& info) {
   read.distortion = distortionOf(info);
   std::copy(info.R.begin(), info.R.end(), read.rectification.begin());
   std::copy(info.P.begin(), info.P.end(), read.projection.begin());
+  return read;
+}
+
+bool isRectified(const std::string& topic) {
+  std::istringstream words(topic);
+  for (std::string word; std::getline(words, word, '/');)
+    if (word == "image_rect" || word == "image_rect_color" || word == "image_rect_raw") return true;
+  return false;
+}
+
+image::Calibration fromCameraInfo(const sensor_msgs::CameraInfo& info, const std::string& topic) {
+  image::Calibration read = fromCameraInfo(info);
+  if (!isRectified(topic)) return read;
+  if (info.P[0] == 0.0)
+    throw std::invalid_argument("camera_info has no P, but pictures of " + topic + " are rectified");
+  read.camera.fx = info.P[0];
+  read.camera.fy = info.P[5];
+  read.camera.cx = info.P[2];
+  read.camera.cy = info.P[6];
+  for (const Field& field : under("camera_info", fieldsOf(read.camera))) field.require();
+  read.distortion = {};
   return read;
 }
 

@@ -22,5 +22,11 @@ sensor_msgs::CameraInfo toCameraInfo(const image::Calibration& camera, const std
 /// that image::lensModelNames() does not have or another number of coefficients than it has, and for numbers
 /// out of the ranges of fieldsOf(PinholeCamera).
 image::Calibration fromCameraInfo(const sensor_msgs::CameraInfo& info);
+/// Whether the pictures of `topic` are straightened already, as ROS names such: image_rect, image_rect_color,
+/// and what transports send below these.
+bool isRectified(const std::string& topic);
+/// Of pictures of `topic`: where they are rectified the camera is that of P, without distortion. Throws
+/// likewise.
+image::Calibration fromCameraInfo(const sensor_msgs::CameraInfo& info, const std::string& topic);
 
 }  // namespace sunlit::ros_interface

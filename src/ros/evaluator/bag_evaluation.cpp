@@ -54,7 +54,8 @@ class BagSource {
       } else if (const auto capture = captures_.find(instance.getTopic()); capture != captures_.end()) {
         evaluation.addCapture(capture->second, captureOf(*messageOf<Capture>(instance)));
       } else if (const auto camera = cameras_.find(instance.getTopic()); camera != cameras_.end()) {
-        evaluation.addCamera(camera->second, cameraOf(*messageOf<sensor_msgs::CameraInfo>(instance)));
+        evaluation.addCamera(camera->second,
+                             cameraOf(*messageOf<sensor_msgs::CameraInfo>(instance), topics::kImage));
       } else if (instance.getTopic() != place_topic_) {
         const auto depth = messageOf<sensor_msgs::Image>(instance);
         evaluation.addDepth(nanosecondsOf(depth->header.stamp), depthOf(*depth, max_pixels_));

@@ -192,7 +192,7 @@ evaluate::ViewCamera BagViews::cameraAt(std::int64_t stamp_ns) const {
   const bool is_near = found != cameras.end() && std::abs(found->first - stamp_ns) <= toleranceOf(topics_);
   if (!is_near && cameras.size() != 1)
     throw std::invalid_argument(lackOf(calledOr(topics_.camera_info, "camera_info"), cameras, stamp_ns));
-  const image::Calibration read = fromCameraInfo(found->second);
+  const image::Calibration read = fromCameraInfo(found->second, index_->images_topic);
   return {read.camera, read.distortion};
 }
 

@@ -151,6 +151,7 @@ void EvaluatorNode::finish(const std::string& reason, evaluate::Ending ending) {
 
 // What is interrupted here is done anew by whoever takes the run up again.
 void EvaluatorNode::localise() {
+  if (const std::string frame = intake_->frameOfPoses(); !frame.empty()) localisation_.setFrame(frame);
   QueryLog log;
   evaluate::LocaliseCallbacks callbacks;
   callbacks.found = [this](const evaluate::LocalisationRow& row) { localisation_.publish(row); };

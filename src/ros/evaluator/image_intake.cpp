@@ -49,9 +49,16 @@ ImageIntake::ImageIntake(const ros::NodeHandle& node, const IntakeOptions& optio
         guarded([&] {
           evaluation_.addPlace(placeOf(*message));
           evaluation_.addTruePose(nanosecondsOf(message->header.stamp), truePoseOf(*message));
+          const std::lock_guard<std::mutex> lock(frame_mutex_);
+          frame_of_poses_ = message->header.frame_id;
         });
       });
   if (!evaluation_.options().localisation.map.empty()) subscribeToTruth();
+}
+
+std::string ImageIntake::frameOfPoses() const {
+  const std::lock_guard<std::mutex> lock(frame_mutex_);
+  return frame_of_poses_;
 }
 
 // Only what is localised needs depth, which is larger than an image.
@@ -65,8 +72,9 @@ void ImageIntake::subscribeToTruth() {
   for (std::size_t s = 0; s < streams_.size(); ++s) {
     streams_[s].cameras = node_.subscribe<sensor_msgs::CameraInfo>(
         evaluation_.options().streams[s] + "/" + topics::kCameraInfo, kQueue,
-        [this, s](const sensor_msgs::CameraInfo::ConstPtr& message) {
-          guarded([&] { evaluation_.addCamera(s, cameraOf(*message)); });
+        [this, s, images = node_.resolveName(evaluation_.options().streams[s] + "/" + topics::kImage)](
+            const sensor_msgs::CameraInfo::ConstPtr& message) {
+          guarded([&] { evaluation_.addCamera(s, cameraOf(*message, images)); });
         });
   }
 }

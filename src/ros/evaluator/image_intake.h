@@ -53,6 +53,8 @@ class ImageIntake {
 
   /// Since the last image came, or since the start.
   double secondsWithoutImage() const;
+  /// Of the latest true pose; empty: none has come.
+  std::string frameOfPoses() const;
   /// Throws what the evaluation threw at an image, such as that its disk is full.
   void rethrow() const;
 
@@ -85,6 +87,8 @@ class ImageIntake {
   std::exception_ptr fault_;
   std::vector<Stream> streams_;
   ros::Subscriber places_;
+  mutable std::mutex frame_mutex_;
+  std::string frame_of_poses_;
   ros::Subscriber depth_;
 };
 

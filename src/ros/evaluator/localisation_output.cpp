@@ -3,7 +3,6 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 
 #include "ros/conversions/evaluation.h"
-#include "sunlit/ros/frame_names.h"
 #include "sunlit/ros/topic_names.h"
 
 namespace sunlit::ros_interface {
@@ -24,7 +23,6 @@ std_msgs::ColorRGBA colour(float red, float green, float blue) {
 
 visualization_msgs::Marker marker(const std::string& name_space, int type, double width_m) {
   visualization_msgs::Marker marker;
-  marker.header.frame_id = kMapFrame;
   marker.ns = name_space;
   marker.type = type;
   marker.action = visualization_msgs::Marker::ADD;
@@ -56,9 +54,13 @@ LocalisationOutput::LocalisationOutput(ros::NodeHandle private_node,
   drawn_.markers[2].color = colour(0.84F, 0.37F, 0.0F);
 }
 
+void LocalisationOutput::setFrame(const std::string& frame) {
+  frame_ = frame;
+}
+
 // A line from the truth to the estimate; a point where there is none.
 void LocalisationOutput::publish(const evaluate::LocalisationRow& row) {
-  const Localisation message = messageOf(row);
+  const Localisation message = messageOf(row, frame_);
   queries_.publish(message);
   drawn_.markers[0].points.push_back(message.truth.position);
   if (row.result.status != evaluate::LocalisationStatus::kLocalised) {
@@ -81,6 +83,7 @@ void LocalisationOutput::publish(const std::vector<evaluate::LocalisationSummary
   visualization_msgs::MarkerArray shown = drawn_;  // of no points RViz would complain
   shown.markers.clear();
   for (visualization_msgs::Marker& one : drawn_.markers) {
+    one.header.frame_id = frame_;
     one.header.stamp = message.header.stamp;
     if (!one.points.empty()) shown.markers.push_back(one);
   }

@@ -12,6 +12,7 @@
 
 #include "sunlit/evaluate/localise/localisation_files.h"
 #include "sunlit/evaluate/run/evaluation_options.h"
+#include "sunlit/ros/frame_names.h"
 
 namespace sunlit::ros_interface {
 
@@ -21,11 +22,14 @@ class LocalisationOutput {
  public:
   /// Advertises where there is a map.
   LocalisationOutput(ros::NodeHandle private_node, const evaluate::EvaluationOptions& options);
+  /// What `frame` the poses are in.
+  void setFrame(const std::string& frame);
   void publish(const evaluate::LocalisationRow& row);
   void publish(const std::vector<evaluate::LocalisationSummary>& summary);
 
  private:
   bool is_used_;
+  std::string frame_ = kMapFrame;
   ros::Publisher queries_;
   ros::Publisher summary_;
   ros::Publisher markers_;

@@ -1,23 +1,27 @@
 #include <ros/console.h>
 #include <tf2/exceptions.h>
 
+#include <algorithm>
+
 #include "ros/render/run.h"
 
 namespace sunlit::ros_interface {
 
 namespace {
 
-/// How long one moment of the frame is kept for the robot's links to follow; far less than TF remembers.
-constexpr std::chrono::seconds kHold(1);
+/// How long one moment of the frame is kept for the robot's links to follow, at least and at most: less than
+/// the 10 s that TF remembers.
+constexpr std::chrono::duration<double> kLeastHold(1.0), kMostHold(8.0);
 
 }  // namespace
 
 FollowRun::FollowRun(const FollowOptions& options, Streams& streams, RobotPlaces* robot)
     : frames_(options.frames),
       period_(1.0 / options.frame_rate),
-      shutter_(options.shutter),
+      shows_motion_(options.shows_motion),
       streams_(streams),
-      robot_(robot) {
+      robot_(robot),
+      hold_(robot ? std::clamp(robot->patience(), kLeastHold, kMostHold) : kLeastHold) {
   if (options.publish_tf) optical_.emplace(frames_, options.right);
 }
 
@@ -27,9 +31,10 @@ bool FollowRun::begin() {
 }
 
 Motion FollowRun::motionOf(const FoundTransform& found) {
-  if (!shutter_ || found.stamp.isZero()) return {};  // static
+  if (!shows_motion_ || found.stamp.isZero()) return {};  // static
   // Over a moment that senders at 50 Hz know, or else slower ones.
   for (const double before_s : {0.02, 0.1, 0.5}) {
+    if (found.stamp.toSec() <= before_s) break;  // before the clock began; and zero would be the latest
     try {
       const FoundTransform earlier =
           lookUp(tf_.buffer, frames_.map, frames_.camera, found.stamp - ros::Duration(before_s));
@@ -45,7 +50,7 @@ Motion FollowRun::motionOf(const FoundTransform& found) {
 std::optional<Shot> FollowRun::nextShot() {
   const ros::Time now = ros::Time::now();
   try {
-    if (!held_ || Clock::now() - held_since_ > kHold) {
+    if (!held_ || Clock::now() - held_since_ > hold_) {
       held_ = lookUp(tf_.buffer, frames_.map, frames_.camera, ros::Time(0));
       held_since_ = Clock::now();
     }
@@ -84,8 +89,12 @@ Step FollowRun::step() {
   waits_for_ = streams_.waitsForSky();
   if (!waits_for_.empty()) return Step::kWaits;
   const ros::Time now = ros::Time::now();
-  // A clock that jumped back starts the rhythm anew.
-  if (next_ > now + period_) next_ = now;
+  // A clock that jumped back starts all anew: the sky of a moment ahead would be long in coming.
+  if (next_ > now + period_) {
+    next_ = now;
+    held_.reset();
+    shot_.reset();
+  }
   if (now < next_) return Step::kWaits;
 
   if (!shot_) shot_ = nextShot();

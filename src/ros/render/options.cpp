@@ -79,7 +79,7 @@ std::vector<Field> fieldsOf(PacingOptions& pacing) {
         {"start_stamp",
          NumberOrWord{&pacing.start_stamp_s, "now"},
          "s",
-         {0.001, 4e9},
+         {0.001, 2147483647},
          "of pose 0; now: ROS time when it can be rendered"},
         {"wait_for",
          &pacing.wait_for,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include "ros/render/run.h"
@@ -45,6 +46,15 @@ void PathRun::announce() {
 void PathRun::setStart(const ros::Time& start) {
   start_ = start;
   streams_.poseOutput().publishPath(path_, start_, options_.frame_rate);
+}
+
+ros::Time PathRun::startOfNow() const {
+  // The first pose to be rendered is to be that of now, and stamps are those of the whole path.
+  const auto now = static_cast<std::int64_t>(ros::Time::now().toNSec());
+  const std::int64_t ahead = path::nanosecondsTo(path_.first() + position_, options_.frame_rate);
+  ros::Time start;
+  start.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(now - ahead, 1)));
+  return start;
 }
 
 bool PathRun::isTime(const ros::Time& stamp) {
@@ -100,7 +110,7 @@ void PathRun::meterBefore(const Shot& shot) {
 }
 
 Step PathRun::step() {
-  if (start_.isZero()) setStart(ros::Time::now());
+  if (start_.isZero()) setStart(startOfNow());
   if (position_ >= positions()) {
     if (pacer_.allHave(counted(positions()))) return Step::kDone;
   } else if (pacer_.mayRender(counted(position_))) {
@@ -113,9 +123,9 @@ Step PathRun::step() {
     map_from_links_ = shot.map_from_links;
     position_ += path_.stride();
     next_.reset();
-    if (position_ < positions()) next_ = shotAt(position_);
+    if (options_.looks_ahead && position_ < positions()) next_ = shotAt(position_);
     meterBefore(shot);
-    streams_.take(shot, options_.looks_ahead ? next_ : std::nullopt);
+    streams_.take(shot, next_);
     streams_.poseOutput().publishProgress(position());
     return Step::kTook;
   }

@@ -28,7 +28,8 @@ PathSource::PathSource(ros::NodeHandle node, const PathSourceOptions& options, c
 }
 
 Motion PathSource::motionAt(int index, double frame_rate) const {
-  return path::motionAt(map_from_camera_, index, {frame_rate, options_.speed_m_s});
+  return path::motionAt(map_from_camera_, index,
+                        {frame_rate, options_.speed_m_s, options_.sampling.spacing_m});
 }
 
 std::string PathSource::fingerprint() const {

@@ -22,6 +22,7 @@ class CameraStatus {
     told_images_ = state.images;
     status.addf("images a second", "%.2f", rate);
     status.add("images", state.images);
+    status.add("black images", state.black);
     const std::size_t refused = streams_.refusedSkies(index_);
     status.add("messages of its sky refused", refused);
     if (state.images > 0) {
@@ -30,6 +31,8 @@ class CameraStatus {
     }
     if (refused > 0) {
       status.summaryf(Level::WARN, "messages of its sky refused: %zu", refused);
+    } else if (state.black > 0) {
+      status.summaryf(Level::WARN, "%zu of %zu images are black all over", state.black, state.images);
     } else {
       status.summaryf(Level::OK, "%zu images", state.images);
     }

@@ -92,7 +92,9 @@ RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
   } else {
     FollowOptions follow{options_.cameraFrames(), options_.pacing.frame_rate, options_.publish_tf,
                          options_.camera.right};
-    for (const studio::ChainOptions& chain : conditions.chains) follow.shutter |= !chain.shutter.none();
+    for (std::size_t i = 0; i < conditions.all.size(); ++i)
+      follow.shows_motion |=
+          !conditions.chains[i].shutter.none() || conditions.all[i].weather.rain_mm_per_h > 0.0;
     run_ = std::make_unique<FollowRun>(follow, streams_, robot_.get());
   }
   diagnostics_.watch({studio_, streams_, *run_, robot_.get()});
@@ -128,12 +130,19 @@ int RenderNode::run() {
   if (clock_) clock_->stop();  // what is published all the time is never delivered
   deliverTheLast();
   if (files_ && has_begun_) files_->writeTiming(studio_.stopwatch());
-  reportRobot();
+  reportLosses();
   return 0;
 }
 
-void RenderNode::reportRobot() const {
+void RenderNode::reportLosses() const {
   // Not through the log, which a signal has closed already.
+  for (std::size_t i = 0; i < streams_.size(); ++i) {
+    const StreamState& state = streams_.state(i);
+    if (state.black > 0)
+      std::fprintf(stderr, "Pictures%s that are black all over: %zu of %zu\n",
+                   (state.condition.empty() ? "" : " of " + state.condition).c_str(), state.black,
+                   state.images);
+  }
   if (robot_ && !robot_->missingLinks().empty()) std::fprintf(stderr, "%s\n", robot_->missingLinks().c_str());
 }
 
@@ -182,8 +191,8 @@ void RenderNode::keepTiming() {
 
 void RenderNode::beginFolder() {
   const studio::StudioOptions seen = options_.studioOptions();
-  files_->keepInputs(
-      {light::fingerprint(studio_.world()), path_->fingerprint(), cameraPrint(seen.render, seen.right)});
+  files_->keepInputs({light::fingerprint(studio_.world()), path_->fingerprint(),
+                      cameraPrint(seen.render, seen.right), robot_ ? robot_->print() : std::string()});
   files_->keepRasterizer(studio_.rasterizer());
   files_->keepGround(sky_.groundAlbedo());
   map_due_ = !files_->hasMap();

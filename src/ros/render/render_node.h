@@ -50,7 +50,7 @@ class RenderNode {
   void beginFolder();
   void drawMap();
   void finish();
-  void reportRobot() const;
+  void reportLosses() const;
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;

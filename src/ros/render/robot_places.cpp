@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "ros/render/tf_lookup.h"
+#include "sunlit/image/content_hash.h"
 
 namespace sunlit::ros_interface {
 
@@ -26,13 +27,21 @@ double lowestPoint(const scene::Robot& robot, const std::vector<Eigen::Isometry3
 }
 
 /// None where TF does not say, or says nothing that can be used.
-std::optional<Eigen::Isometry3d> lookUpOne(const tf2_ros::Buffer& tf, const std::string& parent,
-                                           const std::string& child, const ros::Time& stamp) {
+std::optional<FoundTransform> lookUpOne(const tf2_ros::Buffer& tf, const std::string& parent,
+                                        const std::string& child, const ros::Time& stamp) {
   try {
-    return lookUp(tf, parent, child, stamp).parent_from_child;
+    return lookUp(tf, parent, child, stamp);
   } catch (const tf2::TransformException&) {
     return std::nullopt;
   }
+}
+
+std::vector<std::optional<Eigen::Isometry3d>> transformsOf(
+    const std::vector<std::optional<FoundTransform>>& found) {
+  std::vector<std::optional<Eigen::Isometry3d>> transforms(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (found[i]) transforms[i] = found[i]->parent_from_child;
+  return transforms;
 }
 
 }  // namespace
@@ -92,10 +101,10 @@ render::BodyPlaces RobotPlaces::place(
   return map_from_links;
 }
 
-std::vector<std::optional<Eigen::Isometry3d>> RobotPlaces::lookUp(const tf2_ros::Buffer& tf,
-                                                                  const std::string& frame,
-                                                                  const ros::Time& stamp) const {
-  std::vector<std::optional<Eigen::Isometry3d>> frame_from_links(links_.size());
+std::vector<std::optional<FoundTransform>> RobotPlaces::lookUp(const tf2_ros::Buffer& tf,
+                                                               const std::string& frame,
+                                                               const ros::Time& stamp) const {
+  std::vector<std::optional<FoundTransform>> frame_from_links(links_.size());
   for (std::size_t i = 0; i < links_.size(); ++i) {
     frame_from_links[i] = lookUpOne(tf, frame, links_[i].name, stamp);
   }
@@ -107,9 +116,11 @@ render::BodyPlaces RobotPlaces::onPath(const Eigen::Isometry3d& map_from_camera,
       map_from_camera * Eigen::Isometry3d(Eigen::Translation3d(-camera_in_base_));
   std::vector<std::optional<Eigen::Isometry3d>> known(links_.size());
   if (tf) {
-    known = lookUp(*tf, links_[base_].name, ros::Time(0));
-    for (auto& base_from_link : known) {
-      if (base_from_link) base_from_link = map_from_base * *base_from_link;
+    const std::vector<std::optional<FoundTransform>> found = lookUp(*tf, links_[base_].name, ros::Time(0));
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      if (!found[i]) continue;
+      known[i] = map_from_base * found[i]->parent_from_child;
+      if (links_[i].visible && i != base_) countStanding(&links_[i], found[i]->stamp);
     }
     known[base_] = map_from_base;
     countMissing(known);
@@ -118,13 +129,13 @@ render::BodyPlaces RobotPlaces::onPath(const Eigen::Isometry3d& map_from_camera,
 }
 
 bool RobotPlaces::knowsJoints(const tf2_ros::Buffer& tf) {
-  std::vector<std::optional<Eigen::Isometry3d>> known = lookUp(tf, links_[base_].name, ros::Time(0));
+  auto known = transformsOf(lookUp(tf, links_[base_].name, ros::Time(0)));
   known[base_] = Eigen::Isometry3d::Identity();
   return !worthWaiting(known);
 }
 
 std::optional<render::BodyPlaces> RobotPlaces::byTf(const tf2_ros::Buffer& tf, const ros::Time& stamp) {
-  std::vector<std::optional<Eigen::Isometry3d>> known = lookUp(tf, frames_.map, stamp);
+  auto known = transformsOf(lookUp(tf, frames_.map, stamp));
   if (!known[base_]) {
     waits_for_ = "the TF frame " + links_[base_].name + " of the robot's base";
     return std::nullopt;
@@ -159,6 +170,20 @@ bool RobotPlaces::worthWaiting(const std::vector<std::optional<Eigen::Isometry3d
   return false;
 }
 
+void RobotPlaces::countStanding(Link* link, const ros::Time& stamp) const {
+  if (stamp.isZero()) return;  // static
+  const Clock::time_point now = Clock::now();
+  if (stamp != link->stamp) {
+    link->stamp = stamp;
+    link->renewed = now;
+  } else if (now - link->renewed > patience_ && link->standing++ == 0) {
+    ROS_WARN(
+        "The transform of the robot's link %s on TF is that of %.3f s and has not been renewed for %.1f s: "
+        "the link is drawn where it was",
+        link->name.c_str(), stamp.toSec(), patience_.count());
+  }
+}
+
 void RobotPlaces::countMissing(const std::vector<std::optional<Eigen::Isometry3d>>& known) {
   ++poses_;
   for (std::size_t i = 0; i < links_.size(); ++i) {
@@ -171,14 +196,30 @@ void RobotPlaces::countMissing(const std::vector<std::optional<Eigen::Isometry3d
   }
 }
 
+std::string RobotPlaces::print() const {
+  image::ContentHash print;
+  print.add(joints_by_tf_);
+  for (const double number : camera_in_base_) print.add(number);
+  for (const Eigen::Isometry3d& base_from_link : base_from_rest_)
+    for (Eigen::Index i = 0; i < 16; ++i) print.add(base_from_link.matrix()(i));
+  return print.text();
+}
+
 std::string RobotPlaces::missingLinks() const {
-  std::string text;
-  for (const Link& link : links_) {
-    if (link.missed == 0) continue;
-    text += (text.empty() ? "Links of the robot in rest position for want of a transform on TF: " : ", ") +
-            link.name + " in " + std::to_string(link.missed) + " of " + std::to_string(poses_) + " poses";
-  }
-  return text;
+  const auto counted = [this](const std::string& what, int Link::*count) {
+    std::string text;
+    for (const Link& link : links_) {
+      if (link.*count == 0) continue;
+      text += (text.empty() ? what : ", ") + link.name + " in " + std::to_string(link.*count) + " of " +
+              std::to_string(poses_) + " poses";
+    }
+    return text;
+  };
+  const std::string resting =
+      counted("Links of the robot in rest position for want of a transform on TF: ", &Link::missed);
+  const std::string standing =
+      counted("Links of the robot whose transform on TF was renewed no more: ", &Link::standing);
+  return resting + (resting.empty() || standing.empty() ? "" : "; ") + standing;
 }
 
 }  // namespace sunlit::ros_interface

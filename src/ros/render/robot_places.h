@@ -11,6 +11,7 @@
 
 #include "ros/render/camera_frames.h"
 #include "ros/render/robot_options.h"
+#include "ros/render/tf_lookup.h"
 #include "sunlit/render/renderer.h"
 #include "sunlit/scene/robot.h"
 
@@ -18,7 +19,7 @@ namespace sunlit::ros_interface {
 
 /// On a path the robot moves with the camera, level as it is, and the joints rest, or move as TF says. After
 /// a TF frame it stands where TF says. A link whose transform does not come stays in rest position relative
-/// to its parent; that is said once and counted.
+/// to its parent, and one whose transform is renewed no more where it was; that is said once and counted.
 class RobotPlaces {
  public:
   /// `camera_height_m`: of the camera above the path; nothing where there is no path. Without a
@@ -34,12 +35,17 @@ class RobotPlaces {
   /// By TF at `stamp`; zero: the latest. None while a transform is worth waiting for; see waitsFor().
   std::optional<render::BodyPlaces> byTf(const tf2_ros::Buffer& tf, const ros::Time& stamp);
 
+  /// Differs where links hang otherwise from their base, or the camera stands elsewhere on it.
+  std::string print() const;
   std::string waitsFor() const { return waits_for_; }
-  /// Which links had no transform in how many poses, in one line; empty if there is none.
+  /// Which links had no transform in how many poses, or an old one, in one line; empty if there is none.
   std::string missingLinks() const;
+  /// How long a link's transform is waited for.
+  std::chrono::duration<double> patience() const { return patience_; }
   bool jointsByTf() const { return joints_by_tf_; }
 
  private:
+  using Clock = std::chrono::steady_clock;
   struct Link {
     std::string name;
     std::size_t parent;  ///< the link's own index for the root
@@ -47,15 +53,18 @@ class RobotPlaces {
     bool visible;
     bool given_up = false;  ///< nobody waits for its transform any more
     int missed = 0;         ///< poses without its transform
+    ros::Time stamp{};      ///< of its latest transform
+    Clock::time_point renewed{};
+    int standing = 0;  ///< poses with a transform that nobody renews
   };
-  using Clock = std::chrono::steady_clock;
 
   void placeCamera(const scene::Robot& robot, const RobotOptions& options, double camera_height_m);
   render::BodyPlaces place(const Eigen::Isometry3d& map_from_base,
                            const std::vector<std::optional<Eigen::Isometry3d>>& map_from_known) const;
   bool worthWaiting(const std::vector<std::optional<Eigen::Isometry3d>>& known);
-  std::vector<std::optional<Eigen::Isometry3d>> lookUp(const tf2_ros::Buffer& tf, const std::string& frame,
-                                                       const ros::Time& stamp) const;
+  std::vector<std::optional<FoundTransform>> lookUp(const tf2_ros::Buffer& tf, const std::string& frame,
+                                                    const ros::Time& stamp) const;
+  void countStanding(Link* link, const ros::Time& stamp) const;
   void countMissing(const std::vector<std::optional<Eigen::Isometry3d>>& known);
 
   std::vector<Link> links_;

@@ -86,6 +86,7 @@ class PathRun : public Run {
  private:
   std::string missing();
   void setStart(const ros::Time& start);
+  ros::Time startOfNow() const;
   /// Whether the time of a pose has come.
   bool isTime(const ros::Time& stamp);
   Shot shotAt(int position);
@@ -114,7 +115,7 @@ struct FollowOptions {
   double frame_rate = 10.0;
   bool publish_tf = true;  ///< the optical frames, where nobody else does
   std::optional<image::RightCamera> right = {};
-  bool shutter = false;  ///< whether it matters to pictures how the camera moves
+  bool shows_motion = false;  ///< whether it matters to pictures how the camera moves
 };
 
 class FollowRun : public Run {
@@ -135,10 +136,11 @@ class FollowRun : public Run {
 
   CameraFrames frames_;
   ros::Duration period_;
-  bool shutter_;
+  bool shows_motion_;
   std::optional<OpticalFrames> optical_;
   Streams& streams_;
   RobotPlaces* robot_;
+  std::chrono::duration<double> hold_;
   TfInput tf_;
   // The frame's newest moment, kept while the robot's links of that moment are on their way: where links are
   // sent later than the frame, those of its newest moment would never be there.

@@ -18,7 +18,7 @@ namespace {
 
 std::string inputsText(const RunInputs& inputs) {
   return "sunlit: '" SUNLIT_VERSION "'\nworld: '" + inputs.world + "'\npath: '" + inputs.path +
-         "'\ncamera: '" + inputs.camera + "'\n";
+         "'\ncamera: '" + inputs.camera + "'\nrobot: '" + inputs.robot + "'\n";
 }
 
 /// The first line of `text` that `other` does not have in its place; empty if it has all.

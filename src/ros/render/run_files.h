@@ -14,6 +14,7 @@ namespace sunlit::ros_interface {
 struct RunInputs {
   std::string world, path;
   std::string camera;  ///< as cameraPrint() has it
+  std::string robot;   ///< as RobotPlaces::print() has it; empty: there is none
 };
 /// Of a camera with its lens, or of a pair: a calibration may change while its file's name stays.
 std::string cameraPrint(const render::RenderOptions& left, const std::optional<image::RightCamera>& right);

@@ -2,7 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+
+#include "sunlit/quantity/angle.h"
 
 namespace sunlit::ros_interface {
 
@@ -37,6 +40,22 @@ sky::MoonInSky between(const sky::MoonInSky& a, const sky::MoonInSky& b, double 
   moon.distance_m = between(a.distance_m, b.distance_m, share);
   moon.phase_angle = Angle::radians(between(a.phase_angle.rad(), b.phase_angle.rad(), share));
   return moon;
+}
+
+/// Whether `b` is what becomes of `a` within `seconds` of ROS time: nobody has set the clock in between, nor
+/// the place.
+bool runsOn(const SkyBodies& a, const SkyBodies& b, double seconds) {
+  constexpr double kTurn_rad_s = 2.0 * kPi / 86164.0;  // of the sky, and more than the sun's own
+  constexpr double kRounding_s = 2e-3;                 // civil time is sent in ms
+  constexpr double kSmall_rad = 1e-4;
+  const double passes_s = a.time.rate * seconds;
+  if (a.time.rate != b.time.rate || a.site_elevation_m != b.site_elevation_m) return false;
+  if (a.time.utc && b.time.utc &&
+      std::abs(b.time.utc->secondsSince(*a.time.utc) - passes_s) > kRounding_s + 1e-6 * std::abs(passes_s))
+    return false;
+  const double turned_rad =
+      std::acos(std::clamp(a.sun->geometric->vector().dot(b.sun->geometric->vector()), -1.0, 1.0));
+  return turned_rad <= kTurn_rad_s * std::abs(passes_s) + kSmall_rad;
 }
 
 }  // namespace
@@ -137,7 +156,9 @@ std::optional<SkyBodies> SkyMoments::at(const ros::Time& stamp) const {
   const auto before = std::prev(after);
   if (before->second.time.rate == 0.0) return before->second;
   if (after == whole_.end()) return std::nullopt;
-  const double share = (stamp - before->first).toSec() / (after->first - before->first).toSec();
+  const double seconds = (after->first - before->first).toSec();
+  if (!runsOn(before->second, after->second, seconds)) return before->second;
+  const double share = (stamp - before->first).toSec() / seconds;
   return interpolated(before->second, after->second, share);
 }
 

@@ -55,7 +55,8 @@ class SkyMoments {
 
   /// The sky of `stamp`: that of the moment of this very stamp; else, by the rule, of a sky that stands still
   /// that of the last moment before it, or of the first after it; of one that moves what is between the two.
-  /// A sky that moves is never continued beyond its moments.
+  /// A sky that moves is never continued beyond its moments; where its clock or its place was set between the
+  /// two it is that of the first until the second, since it never stood in between.
   std::optional<SkyBodies> at(const ros::Time& stamp) const;
   /// Whether at(stamp) has nothing, and no moment that is still to come will change that.
   bool missed(const ros::Time& stamp) const;

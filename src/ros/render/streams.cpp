@@ -1,5 +1,6 @@
 #include "ros/render/streams.h"
 
+#include <ros/console.h>
 #include <ros/names.h>
 
 #include <algorithm>
@@ -42,6 +43,13 @@ studio::Setting Streams::Stream::inTurn(std::int64_t index) {
   return in_turn;
 }
 
+void Streams::Stream::count(const Photograph& photograph) {
+  state = {name, state.images + 1, photograph.stamp, photograph.ev100, state.black};
+  if (!image::isBlack(photograph.picture) || state.black++ > 0) return;
+  ROS_WARN("The picture%s at pose %d is black all over: %s More like it are counted",
+           (name.empty() ? "" : " of " + name).c_str(), photograph.pose_index, image::kWhyBlack);
+}
+
 Streams::Streams(const RenderConditions& conditions, const StreamOptions& options, studio::Studio& studio,
                  studio::Sky& sky)
     : studio_(studio),
@@ -73,7 +81,7 @@ void Streams::expose(const Shot& shot) {
     if (studio_.hasRight())
       photograph.right = studio_.photographRight(light, name, photograph.ev100, stream->setting);
     stopwatch.measure("send", stream->name, [&] { stream->output.publish(photograph, {bodies, light.day}); });
-    stream->state = {stream->name, stream->state.images + 1, photograph.stamp, photograph.ev100};
+    stream->count(photograph);
   }
 }
 

@@ -43,6 +43,7 @@ struct StreamState {
   std::size_t images = 0;  ///< sent
   ros::Time stamp = {};    ///< of the newest
   double ev100 = 0.0;      ///< of the newest
+  std::size_t black = 0;   ///< images sent that are black all over
 };
 
 class Streams {
@@ -87,6 +88,7 @@ class Streams {
     Stream(const RenderConditions& conditions, std::size_t index, const StreamOptions& options);
     /// In what its picture is taken that metered so much, in its turn.
     studio::Setting inTurn(std::int64_t index);
+    void count(const Photograph& photograph);
     std::string name;
     sky::Weather weather;     ///< at the stamp that `light` is of
     studio::Setting setting;  ///< of a picture by itself

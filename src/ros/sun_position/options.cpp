@@ -34,7 +34,7 @@ std::vector<Field> fieldsOf(SunPositionOptions& options) {
         {"date_time/start_stamp",
          NumberOrWord{&options.start_stamp_s, "now"},
          "s",
-         {0.001, 4e9},
+         {0.001, 2147483647},
          "ROS time at which the clock shows date_time; now: the first that the node hears of"},
         {"date_time/wait_for_subscriber",
          &options.wait_for_subscriber,

@@ -24,6 +24,7 @@ from evaluator_runs import Evaluator, Streams, image_message, program, read, row
 
 STREAMS = ['noon', 'dusk']
 POSES = 6
+FRAME = 'odom'  # whatever the poses are sent in
 WIDTH, HEIGHT, FOCAL_PX = 160, 120, 100.0
 WALL_M = 5.0
 STEP_PX = 10  # a pose
@@ -69,7 +70,7 @@ def place(pose):
     """The link looks along x at the wall, so that the picture's right is −y."""
     message = PoseStamped()
     message.header.stamp = stamp_of(pose)
-    message.header.frame_id = 'map'
+    message.header.frame_id = FRAME
     message.pose.position.y = -STEP_M * pose
     message.pose.orientation.w = 1.0
     return message
@@ -194,7 +195,7 @@ class TestLocalise(unittest.TestCase):
         for row in found:
             message = by_key[int(row['pose']), row['detector']]
             self.assertEqual((message.map, message.query, message.status), ('noon', 'dusk', 'localised'))
-            self.assertEqual(message.header.frame_id, 'map')
+            self.assertEqual(message.header.frame_id, FRAME)
             self.assertEqual(message.error, float(row['error_m']))
             self.assertAlmostEqual(math.degrees(message.rotation_error), float(row['error_deg']), 9)
             # The message is of camera_link, whose y the wall lets slide.
@@ -206,6 +207,7 @@ class TestLocalise(unittest.TestCase):
             self.assertEqual((message.key_frame_stream, message.key_frame % 2), ('noon', 0))
             self.assertLessEqual(abs(message.key_frame - message.pose), 1)
         self.assertEqual([one.ns for one in listener.markers[-1].markers], ['truth', 'estimate'])
+        self.assertEqual({one.header.frame_id for one in listener.markers[-1].markers + listener.poses}, {FRAME})
         self.assertEqual(len(listener.markers[-1].markers[1].points), 2 * 2 * POSES)
         summary = {row.detector: row for row in listener.summaries[-1].rows}
         self.assertEqual((summary['sift'].queries, summary['sift'].failures, summary['sift'].within[0]), (POSES, 0, 1.0))

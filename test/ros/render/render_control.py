@@ -13,18 +13,13 @@ import rospy
 import rostest
 from geometry_msgs.msg import Pose, PoseStamped, TransformStamped
 from nav_msgs.msg import Path
-from rendering import BOX_FACE_M, Process, Reader, RenderNode, Sun, TIMEOUT_S, Transforms, instant_of, parameters
+from rendering import BOX_FACE_M, Process, Reader, RenderNode, Sun, TIMEOUT_S, Transforms, instant_of, parameters, service
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import CameraInfo, Image
 from std_srvs.srv import Trigger
 from sunlit.msg import Capture
 from sunlit.srv import RenderView
 from tf2_msgs.msg import TFMessage
-
-
-def service(name, kind):
-    rospy.wait_for_service(name, TIMEOUT_S)
-    return rospy.ServiceProxy(name, kind)
 
 
 def camera_at(x):
@@ -79,6 +74,24 @@ class RenderControl(unittest.TestCase):
             images = reader.wait("/a/camera/image_raw", 20)
             self.assertEqual([image.header.stamp.to_nsec() for image in images],
                              [1000 * 10**9 + pose * 125 * 10**6 for pose in range(20)])
+        reader.close()
+
+    def test_black_pictures_are_told_of(self):
+        reader = Reader(["a"], node="/within")
+        with tempfile.NamedTemporaryFile("w", suffix=".csv") as waypoints:
+            waypoints.write("x,y,z\n11,0,0\n14,0,0\n")
+            waypoints.flush()
+            tree = parameters(conditions=["a"], path={"file": waypoints.name, "spacing": 2.0, "count": 2},
+                              subscribers={"images": 1}, exit_when_done=True)
+            with RenderNode("within", tree) as node:  # the box is from 12 to 14 m
+                images = reader.wait("/a/camera/image_raw", 2)
+                status, said = node.end()
+        self.assertEqual(status, 0, said)
+        self.assertEqual([not any(image.data) for image in images], [False, True])
+        told = [line for line in said if "black all over" in line]
+        self.assertEqual(len(told), 2, said)
+        self.assertIn("The picture of a at pose 1 is black all over: does the camera stand in a body", told[0])
+        self.assertIn("Pictures of a that are black all over: 1 of 2", told[1])
         reader.close()
 
     def test_view_is_the_image_of_the_path_at_the_same_pose(self):

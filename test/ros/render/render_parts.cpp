@@ -82,18 +82,18 @@ TEST_F(RunFolder, StaysAsItIsUntilTheRunWritesToIt) {
 }
 
 TEST_F(RunFolder, WithValuesOfTheEvaluatorIsGoneOnWithWhateverTheOptionsSay) {
-  RunFiles(folder_, false).keepInputs({"0123", "4567", "89"});
+  RunFiles(folder_, false).keepInputs({"0123", "4567", "89", ""});
   after(2, false);
   std::ofstream(folder_ + "/frames.csv") << "heading\n";
   EXPECT_EQ(after(1, false), "stage,what,count,seconds\ngeometry,pose,1,2\n");
   std::ofstream(folder_ + "/frames.csv", std::ios::app) << "0,1000.0,a,b,orb,0.5,1,1,1,0\n";
   EXPECT_EQ(after(1, false), "stage,what,count,seconds\ngeometry,pose,2,4\n");
   EXPECT_EQ(messageOf<std::runtime_error>([&] {
-              RunFiles(folder_, false).keepInputs({"0123", "4567", "89"});
+              RunFiles(folder_, false).keepInputs({"0123", "4567", "89", ""});
             }),
             "");
   EXPECT_NE(messageOf<std::runtime_error>([&] {
-              RunFiles(folder_, false).keepInputs({"0124", "4567", "89"});
+              RunFiles(folder_, false).keepInputs({"0124", "4567", "89", ""});
             }),
             "");
 }
@@ -102,20 +102,21 @@ TEST_F(RunFolder, IsOnlyGoneOnWithFromTheSameInputs) {
   const auto keep = [&](bool goes_on, const RunInputs& inputs) {
     return messageOf<std::runtime_error>([&] { RunFiles(folder_, goes_on).keepInputs(inputs); });
   };
-  EXPECT_EQ(keep(false, {"0123", "4567", "89"}), "");
-  EXPECT_EQ(keep(true, {"0123", "4567", "89"}), "");
-  EXPECT_NE(keep(true, {"0123", "4567", "8a"}).find("camera: '8a'"), std::string::npos);
+  EXPECT_EQ(keep(false, {"0123", "4567", "89", ""}), "");
+  EXPECT_EQ(keep(true, {"0123", "4567", "89", ""}), "");
+  EXPECT_NE(keep(true, {"0123", "4567", "8a", ""}).find("camera: '8a'"), std::string::npos);
+  EXPECT_NE(keep(true, {"0123", "4567", "89", "ef"}).find("robot: 'ef'"), std::string::npos);
   for (const auto& [inputs, line] : std::map<std::pair<std::string, std::string>, std::string>{
            {{"0124", "4567"}, "world: '0124'"}, {{"0123", "4568"}, "path: '4568'"}}) {
-    const std::string error = keep(true, {inputs.first, inputs.second, "89"});
+    const std::string error = keep(true, {inputs.first, inputs.second, "89", ""});
     EXPECT_NE(error.find(folder_ + "/inputs.yaml: "), std::string::npos) << error;
     EXPECT_NE(error.find(line), std::string::npos) << error;
   }
-  EXPECT_EQ(keep(true, {"0123", "4567", "89"}), "");  // refused, and nothing lost
-  EXPECT_EQ(keep(false, {"89", "ab", "cd"}), "");     // begun anew
-  EXPECT_NE(keep(true, {"0123", "4567", "89"}), "");
+  EXPECT_EQ(keep(true, {"0123", "4567", "89", ""}), "");  // refused, and nothing lost
+  EXPECT_EQ(keep(false, {"89", "ab", "cd", ""}), "");     // begun anew
+  EXPECT_NE(keep(true, {"0123", "4567", "89", ""}), "");
   std::filesystem::remove(folder_ + "/inputs.yaml");
-  EXPECT_NE(keep(true, {"89", "ab", "cd"}), "");  // nobody knows any more
+  EXPECT_NE(keep(true, {"89", "ab", "cd", ""}), "");  // nobody knows any more
 }
 
 TEST_F(RunFolder, NamesTheLineOfATimeSheetThatItCannotRead) {

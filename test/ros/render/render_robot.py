@@ -4,12 +4,14 @@ import math
 import os
 import shutil
 import tempfile
+import time
 import unittest
 
 import rospy
 import rostest
 from geometry_msgs.msg import TransformStamped
-from rendering import SUPPORT, TIMEOUT_S, Reader, RefusalTest, RenderNode, Sun, Transforms, parameters
+from rendering import SUPPORT, TIMEOUT_S, Reader, RefusalTest, RenderNode, Sun, Transforms, parameters, service
+from std_srvs.srv import Trigger
 
 POLE = os.path.join(SUPPORT, "pole.urdf")
 POLE_HEIGHT_M, POLE_BEHIND_M = 3.0, 0.5
@@ -142,6 +144,37 @@ class RenderRobot(RefusalTest):
             status, said = node.end()
         self.assertEqual(status, 0, said)
         self.assertFalse(any("No transform" in line for line in said), said)
+        sender.close()
+        reader.close()
+
+    def test_joints_that_nobody_renews_on_a_path_are_told_of(self):
+        reader = Reader(["a"], node="/left_alone")
+        sender = Transforms()
+        patience_s = 0.3
+        tree = self.tree(autostart=False, path={"count": 3}, wait_for=["/reader/progress"], max_ahead=1, look_ahead=False,
+                         robot={"file": POLE, "joints": "tf", "tf_patience": patience_s})
+        links = lambda second: (transform("base_link", "pole", rospy.Time(second), x=-POLE_BEHIND_M),
+                                transform("pole", "weight", rospy.Time(second)))
+        with RenderNode("left_alone", tree) as node:
+            start = service("/left_alone/start", Trigger)
+            sender.wait_for_readers(2)  # the node, and the reader here
+            sender.send(*links(2000))
+            start()
+            for poses in (1, 2):
+                reader.wait("/a/camera/image_raw", poses)
+                time.sleep(2 * patience_s)
+                if poses == 1:
+                    sender.send(*links(2001))
+                    time.sleep(patience_s / 2)
+                reader.done(poses)
+            reader.wait("/a/camera/image_raw", 3)
+            reader.done(3)
+            status, said = node.end()
+        self.assertEqual(status, 0, said)
+        told = [line for line in said if "renewed" in line]
+        self.assertEqual(len(told), 3, said)
+        self.assertIn("link pole on TF is that of 2001.000 s and has not been renewed for 0.3 s", told[0])
+        self.assertIn("renewed no more: pole in 1 of 3 poses, weight in 1 of 3 poses", told[2])
         sender.close()
         reader.close()
 

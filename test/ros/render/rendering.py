@@ -31,6 +31,11 @@ def parameters(**changes):
     return tree
 
 
+def service(name, kind):
+    rospy.wait_for_service(name, TIMEOUT_S)
+    return rospy.ServiceProxy(name, kind)
+
+
 def instant_of(capture):
     """Of its `utc`; Python reads a Z from 3.11 on."""
     return datetime.datetime.fromisoformat(capture.utc.replace("Z", "+00:00"))

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 
 #include "sunlit/quantity/angle.h"
 
@@ -63,6 +64,27 @@ TEST(SkyMoments, OfASkyThatMovesAreNeverContinued) {
   EXPECT_NEAR(elevationDeg(moments.at(ros::Time(11))), 12.0, 1e-9);
   EXPECT_FALSE(moments.at(ros::Time(13)));
   EXPECT_FALSE(moments.missed(ros::Time(13)));  // it is on its way
+}
+
+TEST(SkyMoments, BetweenWhichClockOrPlaceWereSetNothingStood) {
+  const Instant noon(2460000, 0);
+  const SkyTime at_noon{noon, 1.0};
+  const auto halfWay = [&](const sky::SunInSky& sun, const SkyTime& time, double site_elevation_m) {
+    SkyMoments moments(false);
+    moments.put(ros::Time(10), sunAt(40.0), at_noon);
+    moments.put(ros::Time(11), sun, time, site_elevation_m);
+    const std::optional<SkyBodies> sky = moments.at(ros::Time(10, 500000000));
+    EXPECT_TRUE(sky);
+    return std::array<double, 3>{elevationDeg(sky), sky->site_elevation_m, sky->time.utc->secondsSince(noon)};
+  };
+  // A second on, as it should be.
+  EXPECT_NEAR(halfWay(sunAt(40.004), {noon.plusSeconds(1.0), 1.0}, 0.0)[0], 40.002, 1e-9);
+  const std::array<double, 3> first = halfWay(sunAt(40.0), at_noon, 0.0);
+  EXPECT_EQ(halfWay(sunAt(10.0), {noon.plusSeconds(6 * 3600.0), 1.0}, 0.0), first);           // another hour
+  EXPECT_EQ(halfWay(sunAt(40.0), {noon.plusSeconds(365 * 86400.0 + 1.0), 1.0}, 0.0), first);  // another year
+  EXPECT_EQ(halfWay(sunAt(20.0), {noon.plusSeconds(1.0), 1.0}, 0.0), first);                  // another place
+  EXPECT_EQ(halfWay(sunAt(40.0), {noon.plusSeconds(1.0), 1.0}, 2000.0), first);               // up a mountain
+  EXPECT_EQ(halfWay(sunAt(40.004), {noon.plusSeconds(1.0), 60.0}, 0.0), first);               // another rate
 }
 
 TEST(SkyMoments, WhereTheRuleIsExactAnswerForTheirOwnStampsAlone) {

@@ -3,7 +3,7 @@
 
 #include "baked_scene.h"
 #include "light/geometry/corners.h"
-#include "sunlit/sky/atmosphere.h"
+#include "support/usual_air.h"
 
 namespace sunlit::light {
 namespace {
@@ -40,8 +40,7 @@ std::vector<Looked> roundAbout(const Eigen::Vector3f& position) {
 }
 
 sky::Daylight dayWith(double sun_elevation_deg) {
-  static const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};  // takes seconds
-  return atmosphere.daylight(
+  return sky::usualAir().daylight(
       {Direction(Azimuth::degrees(kSunAzimuth_deg), Angle::degrees(sun_elevation_deg)), 1.0});
 }
 

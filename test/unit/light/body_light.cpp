@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "sunlit/quantity/angle.h"
-#include "sunlit/sky/atmosphere.h"
 #include "sunlit/sky/uniform_sky.h"
+#include "support/usual_air.h"
 
 namespace sunlit::light {
 namespace {
@@ -68,9 +68,8 @@ TEST(BodyLight, BelowABodyIsTheLightThatTheGroundSendsBack) {
   // So high that its own shadow is small; sun at 60°.
   const auto placed = world.bodies->placed({Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 5.0))});
   const auto views = body_light.look(*placed, std::make_shared<Visibility>(world.visibility, placed));
-  const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
   const sky::Daylight day =
-      atmosphere.daylight({Direction(Azimuth::degrees(100.0), Angle::degrees(60.0)), 1.0});
+      sky::usualAir().daylight({Direction(Azimuth::degrees(100.0), Angle::degrees(60.0)), 1.0});
   const std::vector<AroundLight> around = body_light.around(*views, day);
   ASSERT_EQ(around.size(), 1u);
   const Eigen::Array3f below = around[0].illuminance(-Eigen::Vector3f::UnitZ());

@@ -10,7 +10,7 @@
 #include "light/picture/sky/sky_pixel.h"
 #include "light/picture/sky/star_field.h"
 #include "sunlit/quantity/angle.h"
-#include "sunlit/sky/atmosphere.h"
+#include "support/usual_air.h"
 
 namespace sunlit::light {
 namespace {
@@ -134,11 +134,6 @@ TEST(Moon, ThatIsNewOrSetIsNotShown) {
   EXPECT_FALSE(DiscInView(camera, moon).near(moon.towards.vector().cast<float>()));
 }
 
-const sky::Atmosphere& air() {
-  static const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
-  return atmosphere;
-}
-
 /// A night, or any hour, with one star high in the north, and, if asked for, the full moon before it.
 sky::Daylight skyWithStar(double sun_elevation_deg, bool behind_moon = false) {
   auto stars = std::make_shared<std::vector<sky::Star>>();
@@ -150,7 +145,8 @@ sky::Daylight skyWithStar(double sun_elevation_deg, bool behind_moon = false) {
     night.moon.emplace();
     night.moon->apparent = Direction(Eigen::Vector3d(0.0, 0.5, std::sqrt(0.75)));
   }
-  return air().daylight({Direction(Azimuth::degrees(180.0), Angle::degrees(sun_elevation_deg)), 1.0}, night);
+  return sky::usualAir().daylight(
+      {Direction(Azimuth::degrees(180.0), Angle::degrees(sun_elevation_deg)), 1.0}, night);
 }
 
 /// What all spots of all tiles give, lx, and the brightest pixel, cd/m².

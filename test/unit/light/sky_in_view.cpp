@@ -9,7 +9,7 @@
 #include "light/picture/disc/pixel_map.h"
 #include "light/picture/sky/sky_pixel.h"
 #include "sunlit/quantity/angle.h"
-#include "sunlit/sky/atmosphere.h"
+#include "support/usual_air.h"
 
 namespace sunlit::light {
 namespace {
@@ -41,11 +41,10 @@ Surfaces levelCamera() {
 }
 
 TEST(SkyInView, IsTheSameInCellsAsPixelByPixel) {
-  const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
   const Surfaces surfaces = levelCamera();
   for (const double sun_deg : {8.0, -5.0}) {
     const sky::Daylight day =
-        atmosphere.daylight({Direction(Azimuth::degrees(80.0), Angle::degrees(sun_deg)), 1.0});
+        sky::usualAir().daylight({Direction(Azimuth::degrees(80.0), Angle::degrees(sun_deg)), 1.0});
     const SkyPixel sky(surfaces, day);
     image::LinearImage image(surfaces.width, surfaces.height);
     for (const Tile& tile : surfaces.tiles) sky.addTo(tile, &image);

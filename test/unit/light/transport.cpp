@@ -12,8 +12,8 @@
 #include "paper_scene.h"
 #include "sunlit/light/illumination.h"
 #include "sunlit/quantity/angle.h"
-#include "sunlit/sky/atmosphere.h"
 #include "support/message_of.h"
+#include "support/usual_air.h"
 
 namespace sunlit::light {
 namespace {
@@ -254,16 +254,16 @@ TEST(BakedLight, IsContinuousOverCellsOfUnequalSize) {
 
 TEST(BakedLight, BendsSmoothlyWithTheSun) {
   const World world = baked(shed());
-  const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
   const std::vector<Looked> points = {{{2.3f, 0.3f, 0.0f}, kUp, kUp}, {{-2.5f, 0.1f, 0.0f}, kUp, kUp}};
   std::vector<Eigen::Array3f> before;
   for (int i = 0; i < 60; ++i) {
     // 10 s of the sun's way: 0.04°, across the border of two rings of patches at 18° of elevation.
     const double angle = 17.4 + i * 0.0417 / 2;
-    const auto now = illuminances(
-        world,
-        atmosphere.daylight({Direction(Azimuth::degrees(120.0 + i * 0.0417), Angle::degrees(angle)), 1.0}),
-        points);
+    const auto now =
+        illuminances(world,
+                     sky::usualAir().daylight(
+                         {Direction(Azimuth::degrees(120.0 + i * 0.0417), Angle::degrees(angle)), 1.0}),
+                     points);
     for (std::size_t k = 0; i > 0 && k < now.size(); ++k) {
       // The light of day itself grows by 0.15 % a step here.
       ASSERT_NEAR(now[k][1] / before[k][1], 1.0f, 0.006f) << i;

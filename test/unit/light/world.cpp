@@ -70,6 +70,13 @@ TEST(Fingerprint, ChangesWithAllThatPicturesShow) {
       [](Contents& c) { c.scene.materials[0].detail.contrast = 0.1f; },
       [](Contents& c) { c.scene.materials[0].detail.tint[2] = 0.9f; },
       [](Contents& c) { c.scene.textures[0].rgba.own()[5] = 129; },
+      [](Contents& c) { c.scene.materials[0].normal_map.texture = 0; },
+      [](Contents& c) { c.scene.materials[0].normal_scale = 0.5f; },
+      [](Contents& c) { c.scene.materials[0].occlusion_map.texture = 0; },
+      [](Contents& c) { c.scene.materials[0].lamp_group = "posts"; },
+      [](Contents& c) {
+        c.scene.meshes[0].tangents.assign(4, {0.0f, 1.0f, 0.0f, 1.0f});
+      },
       [](Contents& c) { c.bodies = {{plate(1.0f)}}; },
       [](Contents& c) { c.bodies = {{plate(1.1f)}}; },
       [](Contents& c) {

@@ -119,6 +119,37 @@ TEST(PosesAlong, RefusesWhatIsNoPath) {
             "waypoint 2: it is less than 1 mm from the waypoint before it in plan view");
 }
 
+TEST(MotionAt, IsOfOneSpeedAndTurnsWithinASpacing) {
+  // Poses 2 m apart at x = 0, 2, 4 and, round the corner at (5, 0) to the left, at y = 0, 2.
+  const std::vector<Eigen::Isometry3d> poses = posesAlong({{0, 0, 0}, {5, 0, 0}, {5, 3, 0}}, {2.0, 0.0});
+  ASSERT_EQ(poses.size(), 5U);
+  Pace pace{10.0, 4.0, 2.0};
+  const auto expectMotion = [&](int index, const Eigen::Vector3d& velocity_m_s, double left_rad_s) {
+    const Motion motion = motionAt(poses, index, pace);
+    EXPECT_NEAR((motion.velocity_m_s - velocity_m_s).norm(), 0.0, kRounding) << index;
+    EXPECT_NEAR((motion.turning_rad_s - Eigen::Vector3d(0, 0, left_rad_s)).norm(), 0.0, kRounding) << index;
+  };
+  expectMotion(0, {4, 0, 0}, 0.0);
+  expectMotion(1, {4, 0, 0}, 0.0);
+  expectMotion(2, {4, 0, 0},
+               0.5 * kPi / 0.5);  // a quarter turn while it drives 2 m, though the next is 1 m away
+  expectMotion(3, {0, 4, 0}, 0.0);
+  expectMotion(4, {0, 4, 0}, 0.0);
+  pace.speed_m_s.reset();  // 2 m in 0.1 s
+  expectMotion(2, {20, 0, 0}, 0.5 * kPi / 0.1);
+  pace.speed_m_s = 0.0;
+  expectMotion(2, {0, 0, 0}, 0.0);
+  EXPECT_TRUE(motionAt({poses[0]}, 0, pace).none());
+}
+
+TEST(MotionAt, GoesAlongAndNotAcrossBesideThePath) {
+  PathOptions beside{1.0, 0.0};
+  beside.offset_m = 2.0;  // whose poses at a corner are apart
+  const std::vector<Eigen::Isometry3d> poses = posesAlong({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}}, beside);
+  const Motion motion = motionAt(poses, 1, {10.0, 1.0, 1.0});
+  EXPECT_NEAR((motion.velocity_m_s - Eigen::Vector3d::UnitX()).norm(), 0.0, kRounding);
+}
+
 TEST(PoseSelection, EndsWithThePathOrItsCount) {
   EXPECT_EQ((PoseSelection{}.end(991)), 991);
   EXPECT_EQ((PoseSelection{20, 0, 3}.end(991)), 991);

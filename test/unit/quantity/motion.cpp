@@ -33,17 +33,6 @@ TEST(Motion, OfWhatStandsIsNone) {
   const Eigen::Isometry3d pose = poseAt({1.0, 2.0, 3.0}, 70.0);
   EXPECT_TRUE(Motion().none());
   EXPECT_TRUE(Motion::between(pose, pose, 0.1).none());
-  EXPECT_TRUE(Motion().at(5.0).none());
-}
-
-TEST(Motion, TurnsInProportionToItsSpeed) {
-  Motion motion;
-  motion.velocity_m_s = {3.0, 4.0, 0.0};
-  motion.turning_rad_s = {0.0, 0.0, 1.0};
-  const Motion slow = motion.at(1.0);
-  EXPECT_TRUE(slow.velocity_m_s.isApprox(Eigen::Vector3d(0.6, 0.8, 0.0)));
-  EXPECT_TRUE(slow.turning_rad_s.isApprox(Eigen::Vector3d(0.0, 0.0, 0.2)));
-  EXPECT_TRUE(motion.at(0.0).none());
 }
 
 }  // namespace

@@ -4,19 +4,16 @@
 #include <cmath>
 
 #include "sunlit/light/transport.h"
+#include "support/usual_air.h"
 #include "test_scenes.h"
 
 namespace sunlit::test {
 namespace {
 
-const sky::Atmosphere& air() {
-  static const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
-  return atmosphere;
-}
-
 /// Under a sun at 30° in the east.
 sky::Daylight under(const sky::Weather& weather) {
-  return air().daylight({Direction(Azimuth::degrees(90.0), Angle::degrees(30.0)), 1.0}, {}, weather);
+  return sky::usualAir().daylight({Direction(Azimuth::degrees(90.0), Angle::degrees(30.0)), 1.0}, {},
+                                  weather);
 }
 
 /// A camera that looks from `eye` to `target`, and what it sees where a place lies.

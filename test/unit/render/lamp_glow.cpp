@@ -6,6 +6,7 @@
 #include <random>
 
 #include "sunlit/light/illumination.h"
+#include "support/usual_air.h"
 #include "test_scenes.h"
 
 namespace sunlit::test {
@@ -23,11 +24,11 @@ scene::Scene emptiness() {
 }
 
 sky::Daylight foggyNight(double visibility_m) {
-  static const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
   sky::Weather weather;
   weather.visibility_m = visibility_m;
   weather.fog_top_m = 3000.0;
-  return atmosphere.daylight({Direction(Azimuth::degrees(0.0), Angle::degrees(-40.0)), 1.0}, {}, weather);
+  return sky::usualAir().daylight({Direction(Azimuth::degrees(0.0), Angle::degrees(-40.0)), 1.0}, {},
+                                  weather);
 }
 
 scene::Lamp lampAt(const Eigen::Vector3f& position, float candela) {

@@ -7,6 +7,7 @@
 
 #include "sunlit/light/luminance_error.h"
 #include "sunlit/light/transport.h"
+#include "support/usual_air.h"
 #include "test_scenes.h"
 
 namespace sunlit::test {
@@ -39,11 +40,10 @@ TEST(FastLight, AgreesWithPathTracedLightFromNoonToTwilight) {
 
 TEST(FastLight, AgreesWithPathTracedLightUnderGapsAndCloudsAndInFog) {
   const light::World world = baked(yard());
-  const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
   std::vector<sky::Daylight> days;
   const auto add = [&](const sky::Weather& weather) {
-    days.push_back(
-        atmosphere.daylight({Direction(Azimuth::degrees(230.0), Angle::degrees(40.0)), 1.0}, {}, weather));
+    days.push_back(sky::usualAir().daylight({Direction(Azimuth::degrees(230.0), Angle::degrees(40.0)), 1.0},
+                                            {}, weather));
   };
   float least = 1e9f, most = 0.0f;
   for (int seed = 0; seed < 6; ++seed) {
@@ -103,10 +103,9 @@ std::vector<Hour> hours() {
 
 TEST(FastLight, AgreesWithPathTracedLightInAllWeather) {
   const light::World world = baked(yard());
-  const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
   std::vector<sky::Daylight> days;
   for (const Hour& hour : hours())
-    days.push_back(atmosphere.daylight(
+    days.push_back(sky::usualAir().daylight(
         {Direction(Azimuth::degrees(230.0), Angle::degrees(hour.sun_deg)), 1.0}, {}, hour.weather));
   const std::vector<light::LuminanceError> errors =
       errorsAgainstTraced(world, lookingAt({-5.0, -6.0, 1.6}, {4.0, 4.0, 1.5}), days, 128);
@@ -133,9 +132,8 @@ TEST(FastLight, AgreesWithPathTracedLightOfALampInFogUnderTheMoon) {
                             Angle::degrees(10.0)};
   sky::Weather fog;
   fog.visibility_m = 150.0;
-  const sky::Daylight night = sky::Atmosphere(sky::AtmosphereOptions())
-                                  .daylight({Direction(Azimuth::degrees(300.0), Angle::degrees(-40.0)), 1.0},
-                                            {moon, std::nullopt, nullptr}, fog);
+  const sky::Daylight night = sky::usualAir().daylight(
+      {Direction(Azimuth::degrees(300.0), Angle::degrees(-40.0)), 1.0}, {moon, std::nullopt, nullptr}, fog);
   render::Renderer renderer(world, smallCamera(64, 48, 90.0));
   renderer.look(lookingAt({-5.0, -6.0, 1.6}, {4.0, 4.0, 1.5}));
   const light::Illumination light = light::illumination(world, night);

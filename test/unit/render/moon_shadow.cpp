@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/usual_air.h"
 #include "test_scenes.h"
 
 namespace sunlit::test {
@@ -15,10 +16,9 @@ constexpr int kSize_px = 240;
 
 /// The sun deep below the horizon, opposite to where a full moon stands, if there is one.
 sky::Daylight nightOpposite(const Direction& moon, bool is_there) {
-  static const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
   sky::NightSky night;
   if (is_there) night.moon = sky::MoonInSky{moon, moon, 384400e3, Angle()};
-  return atmosphere.daylight({Direction(-moon.vector()), 1.0}, night);
+  return sky::usualAir().daylight({Direction(-moon.vector()), 1.0}, night);
 }
 
 /// Whether the way from `from` towards the moon, given by its direction, meets the cube grown by `by_m` on

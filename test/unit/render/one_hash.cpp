@@ -13,6 +13,7 @@
 #include "sunlit/light/transport.h"
 #include "sunlit/render/rasterizer_kind.h"
 #include "sunlit/scene/weathering.h"
+#include "support/usual_air.h"
 #include "test_scenes.h"
 
 namespace sunlit::test {
@@ -55,7 +56,6 @@ Subject stormyAndWet() {
             return light::weathered(light::World(shared(yard())), state);
           },
           [](int condition) {
-            static const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
             sky::Weather weather;
             weather.cover_oktas = condition == 0 ? 4.0 : 6.0;
             weather.wind_m_per_s = 10.0;
@@ -65,7 +65,7 @@ Subject stormyAndWet() {
             weather.fog_top_m = 40.0;
             const Direction sun(Azimuth::degrees(100.0 + 120.0 * condition),
                                 Angle::degrees(condition == 0 ? 50.0 : 6.0));
-            return atmosphere.daylight({sun, 1.0}, {}, weather);
+            return sky::usualAir().daylight({sun, 1.0}, {}, weather);
           }};
 }
 

@@ -13,6 +13,7 @@
 #include "sunlit/scene/scene.h"
 #include "sunlit/sky/atmosphere.h"
 #include "support/patches.h"
+#include "support/usual_air.h"
 
 namespace sunlit::test {
 
@@ -46,8 +47,8 @@ inline render::RenderOptions smallCamera(int width = 160, int height = 120, doub
 }
 
 inline sky::Daylight daylightAt(double azimuth_deg, double elevation_deg) {
-  static const sky::Atmosphere atmosphere{sky::AtmosphereOptions()};
-  return atmosphere.daylight({Direction(Azimuth::degrees(azimuth_deg), Angle::degrees(elevation_deg)), 1.0});
+  return sky::usualAir().daylight(
+      {Direction(Azimuth::degrees(azimuth_deg), Angle::degrees(elevation_deg)), 1.0});
 }
 
 inline std::shared_ptr<const scene::Scene> shared(scene::Scene scene) {

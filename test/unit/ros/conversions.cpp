@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "ros/conversions/geometry.h"
 #include "ros/conversions/images.h"
@@ -26,6 +27,29 @@ TEST(Messages, ADepthImageKeepsItsBits) {
   EXPECT_EQ(message->step, 12u);
   ASSERT_EQ(message->data.size(), 24u);
   EXPECT_EQ(std::memcmp(message->data.data(), depth.data.data(), 24), 0);
+}
+
+TEST(Messages, CameraInfoOfRectifiedPicturesIsItsP) {
+  sensor_msgs::CameraInfo info = toCameraInfo(
+      image::calibrationOf(image::PinholeCamera::fromFieldOfView(640, 480, Angle::degrees(60.0))), kHeader);
+  info.distortion_model = "plumb_bob";
+  info.D = {-0.3, 0.1, 0.0, 0.0, 0.0};
+  info.P = {400.0, 0.0, 310.0, 0.0, 0.0, 410.0, 230.0, 0.0, 0.0, 0.0, 1.0, 0.0};
+  for (const char* topic : {"/rgb/image_rect_color", "/rgb/image_rect/compressed", "image_rect"}) {
+    const image::Calibration read = fromCameraInfo(info, topic);
+    EXPECT_EQ((std::vector<double>{read.camera.fx, read.camera.fy, read.camera.cx, read.camera.cy}),
+              (std::vector<double>{400.0, 410.0, 310.0, 230.0}))
+        << topic;
+    EXPECT_TRUE(read.distortion.none()) << topic;
+  }
+  for (const char* topic : {"/rgb/image_raw", "/image_rectangle", ""}) {
+    const image::Calibration read = fromCameraInfo(info, topic);
+    EXPECT_EQ(read.camera.fx, info.K[0]) << topic;
+    EXPECT_EQ(read.distortion.coefficients, info.D) << topic;
+  }
+  info.P[0] = 0.0;
+  EXPECT_EQ(messageOf([&] { fromCameraInfo(info, "/image_rect"); }),
+            "camera_info has no P, but pictures of /image_rect are rectified");
 }
 
 TEST(Messages, CameraInfoProjectsLikeTheCamera) {

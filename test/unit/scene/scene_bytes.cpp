@@ -50,6 +50,26 @@ Scene small() {
   return scene;
 }
 
+TEST(SceneLooks, TellAllOfAMaterialButItsName) {
+  const auto looksOf = [](const Scene& scene) {
+    std::string bytes;
+    writeLooks(scene, [&](const void* data, std::size_t size) {
+      bytes.append(static_cast<const char*>(data), size);
+    });
+    return bytes;
+  };
+  const std::string looks = looksOf(small());
+  Scene other = small();
+  other.textures[0].name = other.materials[1].name = other.lamps[0].name = "else";
+  EXPECT_EQ(looksOf(other), looks);
+  other = small();
+  other.materials[1].normal_map.channel = 1;
+  EXPECT_NE(looksOf(other), looks);
+  other = small();
+  other.lamps[0].casts_shadows = true;
+  EXPECT_NE(looksOf(other), looks);
+}
+
 TEST(SceneBytes, MakeTheSameSceneAgain) {
   const Scene scene = small(), again = read(bytesOf(scene));
   EXPECT_EQ(bytesOf(again), bytesOf(scene));

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "clear_air.h"
+#include "directions.h"
 #include "sky/radiative_transfer.h"
 #include "sunlit/sky/atmosphere.h"
 
@@ -35,7 +35,7 @@ TEST(AirBetween, AgreesWithSmallStepsThroughTheSameAir) {
   const RadiativeTransfer transfer{MediumParameters{}};
   for (const double sun_deg : {40.0, 5.0, -4.0}) {
     const Direction sun = at(0.0, sun_deg);
-    const Daylight day = clearAir().daylight({sun, 1.0});
+    const Daylight day = usualAir().daylight({sun, 1.0});
     for (const double elevation_deg : {-40.0, -0.5, 0.0, 3.0, 20.0}) {
       for (const double azimuth_deg : {3.0, 40.0, 100.0, 180.0}) {
         const Direction sight = at(azimuth_deg, elevation_deg);
@@ -56,7 +56,7 @@ TEST(AirBetween, AgreesWithSmallStepsThroughTheSameAir) {
 }
 
 TEST(AirBetween, NoDistanceIsNoAir) {
-  const Daylight day = clearAir().daylight({at(0.0, 30.0), 1.0});
+  const Daylight day = usualAir().daylight({at(0.0, 30.0), 1.0});
   for (const double elevation_deg : {-90.0, 0.0, 33.0}) {
     const AirColumn air = day.airOver(at(20.0, elevation_deg).vector().cast<float>(), 0.0F);
     EXPECT_EQ(air.transmittance.minCoeff(), 1.0F);
@@ -67,7 +67,7 @@ TEST(AirBetween, NoDistanceIsNoAir) {
 TEST(AirBetween, ItDimsAsBeersLawSays) {
   // Green light over level ground: e^−(d · extinction at sea level), the last from the medium itself. Green
   // of sRGB spans 100 nm, and over 30 km the ray rises 70 m: 5 %.
-  const Daylight day = clearAir().daylight({at(0.0, 30.0), 1.0});
+  const Daylight day = usualAir().daylight({at(0.0, 30.0), 1.0});
   const float per_km = Medium(MediumParameters{}).at(0.0).extinction[5];
   for (const float distance_km : {1.0F, 10.0F, 30.0F}) {
     const AirColumn air = day.airOver({1.0F, 0.0F, 0.0F}, distance_km * 1e3F);
@@ -80,7 +80,7 @@ TEST(AirBetween, ABlackWallFarAwayIsTheHorizonsSky) {
   nights[1].moon = MoonInSky{at(60.0, 30.0), std::nullopt, 384400e3, Angle::degrees(20.0)};
   for (const double sun_deg : {40.0, 5.0, -4.0, -30.0}) {
     for (const NightSky& night : nights) {
-      const Daylight day = clearAir().daylight({at(0.0, sun_deg), 1.0}, night);
+      const Daylight day = usualAir().daylight({at(0.0, sun_deg), 1.0}, night);
       for (int azimuth_deg = 0; azimuth_deg < 360; azimuth_deg += 20) {
         const Eigen::Vector3f level = at(azimuth_deg, 0.0).vector().cast<float>();
         const AirColumn air = day.airOver(level, std::numeric_limits<float>::infinity());
@@ -95,7 +95,7 @@ TEST(AirBetween, ABlackWallFarAwayIsTheHorizonsSky) {
 }
 
 TEST(AirBetween, MoreAirDimsMoreAndShinesMore) {
-  const Daylight day = clearAir().daylight({at(0.0, 10.0), 1.0});
+  const Daylight day = usualAir().daylight({at(0.0, 10.0), 1.0});
   for (const double elevation_deg : {-30.0, -1.0, 0.0, 2.0, 30.0}) {
     const Eigen::Vector3f v = at(50.0, elevation_deg).vector().cast<float>();
     AirColumn before = day.airOver(v, 0.0F);
@@ -111,7 +111,7 @@ TEST(AirBetween, MoreAirDimsMoreAndShinesMore) {
 TEST(AirBetween, HasNoSeams) {
   // A hundredth of a degree and one part in a thousand of distance are next to nothing, wherever the table's
   // nodes lie.
-  const Daylight day = clearAir().daylight({at(137.0, 8.0), 1.0});
+  const Daylight day = usualAir().daylight({at(137.0, 8.0), 1.0});
   for (int i = 0; i < 2000; ++i) {
     const double azimuth_deg = 0.18 * i;
     const double elevation_deg = 40.0 * std::sin(0.37 * i);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "support/message_of.h"
+#include "support/usual_air.h"
 
 namespace sunlit::sky {
 namespace {
@@ -16,11 +17,6 @@ AtmosphereOptions withTurbidity(double turbidity) {
   AtmosphereOptions options;
   options.turbidity = turbidity;
   return options;
-}
-
-const Atmosphere& ordinaryAir() {
-  static const Atmosphere atmosphere{AtmosphereOptions{}};
-  return atmosphere;
 }
 
 SunInSky sunAt(double elevation_deg) {
@@ -44,7 +40,7 @@ TEST(AtmosphereOptions, BadValuesAreNamedWithTheirRange) {
 
 TEST(Atmosphere, ASunAtAnImpossibleDistanceIsRefused) {
   EXPECT_EQ(messageOf([] {
-              ordinaryAir().daylight({Direction(), 1.5});
+              usualAir().daylight({Direction(), 1.5});
             }),
             "distance_au is 1.5, but must be from 0.97 to 1.03 AU");
 }
@@ -55,7 +51,7 @@ TEST(Atmosphere, OzoneDimsTheSunALittleAndMakesDuskBlue) {
   const Atmosphere without(options);
   // 300 DU are 8.1e22 molecules/m², whose Chappuis bands take up 4.9e-25 m² each at their height near 600 nm
   // and some half of that in the mean over what the eye sees: 1.5 to 3 % of a sun overhead.
-  const float sun = ordinaryAir().daylight(sunAt(89.9)).sun().illuminance.luminance() /
+  const float sun = usualAir().daylight(sunAt(89.9)).sun().illuminance.luminance() /
                     without.daylight(sunAt(89.9)).sun().illuminance.luminance();
   EXPECT_GT(sun, 0.97F);
   EXPECT_LT(sun, 0.985F);
@@ -64,11 +60,11 @@ TEST(Atmosphere, OzoneDimsTheSunALittleAndMakesDuskBlue) {
     const LinearRgb zenith = atmosphere.daylight(sunAt(-4.0)).skyLuminance({0, 0, 1});
     return zenith.value[2] / zenith.value[0];
   };
-  EXPECT_GT(blueness(ordinaryAir()), 1.5F * blueness(without));
+  EXPECT_GT(blueness(usualAir()), 1.5F * blueness(without));
 }
 
 TEST(Atmosphere, HazeTakesFromTheSunAndGivesToTheSky) {
-  const Daylight clear = ordinaryAir().daylight(sunAt(40.0));
+  const Daylight clear = usualAir().daylight(sunAt(40.0));
   const Daylight hazy = Atmosphere(withTurbidity(6.0)).daylight(sunAt(40.0));
   EXPECT_LT(hazy.sun().illuminance.luminance(), 0.85F * clear.sun().illuminance.luminance());
   const Eigen::Vector3f up(0, 0, 1);
@@ -85,7 +81,7 @@ TEST(Atmosphere, OnAMountainTheSunIsStrongerAndTheSkyDarker) {
   AtmosphereOptions high;
   high.observer_height_m = 4000.0;
   const Daylight mountain = Atmosphere(high).daylight(sunAt(50.0));
-  const Daylight valley = ordinaryAir().daylight(sunAt(50.0));
+  const Daylight valley = usualAir().daylight(sunAt(50.0));
   EXPECT_GT(mountain.sun().illuminance.luminance(), valley.sun().illuminance.luminance());
   const Eigen::Vector3f up(0, 0, 1);
   EXPECT_LT(mountain.skyLuminance(up).luminance(), valley.skyLuminance(up).luminance());
@@ -96,7 +92,7 @@ TEST(Atmosphere, BrightLandBrightensTheSky) {
   snow.ground_albedo = 0.8;
   const Eigen::Vector3f up(0, 0, 1);
   EXPECT_GT(Atmosphere(snow).daylight(sunAt(30.0)).skyIlluminance(up).luminance(),
-            1.05F * ordinaryAir().daylight(sunAt(30.0)).skyIlluminance(up).luminance());
+            1.05F * usualAir().daylight(sunAt(30.0)).skyIlluminance(up).luminance());
 }
 
 }  // namespace

@@ -201,7 +201,7 @@ TEST(SilverLining, AThinEdgeBesideAHiddenSunIsBrighterThanAThickMiddle) {
   const Daylight day = under(kSun_deg, weather);
   const CloudMap map(weather.cover_oktas, opticalDepthOf(weather), 0);
   const auto sun =
-      static_cast<double>(clearAir().daylight({sunAt(kSun_deg), 1.0}).sun().illuminance.luminance());
+      static_cast<double>(usualAir().daylight({sunAt(kSun_deg), 1.0}).sun().illuminance.luminance());
   double thin = 0.0, once = 0.0, thick = 0.0;
   int edges = 0, middles = 0;
   for (int i = 0; i < 20000; ++i) {

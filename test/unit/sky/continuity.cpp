@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sunlit/sky/atmosphere.h"
+#include "support/usual_air.h"
 
 namespace sunlit::sky {
 namespace {
@@ -71,7 +71,7 @@ TEST(Continuity, NothingJumpsInTenSecondsOfADayAndANight) {
   // In 10 s the sun goes 0.042° along and 0.030° down. Twilight falls by a factor of 3.4 a degree, 4 %; the
   // red horizon's parts and the setting disc fall up to twice as fast. A jump would stand out: of refraction,
   // of the disc's edge, or of a light that is left out when it is drowned.
-  const Atmosphere atmosphere{AtmosphereOptions{}};
+  const Atmosphere& atmosphere = usualAir();
   for (const bool with_moon : {false, true}) {
     std::vector<double> times_s;
     for (double time_s = 0.0; time_s < 86164.0; time_s += 3000.0) {
@@ -95,7 +95,7 @@ TEST(Continuity, NothingJumpsInTenSecondsOfADayAndANight) {
 TEST(Continuity, WhatIsLeftOutByDayIsTooFaintToSee) {
   // The moon's sky is left out above 10° of sun, the night's glow above 0°, the sun's sky below −22°; each is
   // less than 1e-4 of what remains, far below a level of a picture (a 255th).
-  const Atmosphere atmosphere{AtmosphereOptions{}};
+  const Atmosphere& atmosphere = usualAir();
   NightSky night;
   night.moon =
       MoonInSky{Direction(Azimuth::degrees(90.0), Angle::degrees(70.0)), std::nullopt, 384400e3, Angle()};

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "clear_air.h"
+#include "directions.h"
 #include "sunlit/sky/atmosphere.h"
 
 namespace sunlit::sky {
@@ -17,7 +17,7 @@ namespace {
 constexpr double kSunAzimuth_deg = 137.0;
 
 Daylight daylightAt(double elevation_deg, double distance_au = 1.0) {
-  return clearAir().daylight(
+  return usualAir().daylight(
       {Direction(Azimuth::degrees(kSunAzimuth_deg), Angle::degrees(elevation_deg)), distance_au});
 }
 
@@ -59,7 +59,7 @@ TEST(Daylight, RefractionLiftsTheDiscButNotTheLightOfTheSky) {
   const auto at = [](double elevation_deg) {
     return Direction(Azimuth::degrees(kSunAzimuth_deg), Angle::degrees(elevation_deg));
   };
-  const Daylight seen = clearAir().daylight({at(-0.26), 1.0, at(-0.83)});
+  const Daylight seen = usualAir().daylight({at(-0.26), 1.0, at(-0.83)});
   EXPECT_GT(seen.sun().illuminance.luminance(), 0.0F);
   EXPECT_NEAR(seen.groundIlluminance().luminance(), groundLux(-0.83), 0.01 * groundLux(-0.83));
   EXPECT_LT(groundLux(-0.83), 0.8 * groundLux(-0.26));

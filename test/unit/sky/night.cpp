@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "clear_air.h"
+#include "directions.h"
 #include "sky/night_glow.h"
 #include "sky/spectrum.h"
 #include "sunlit/sky/atmosphere.h"
@@ -26,7 +26,7 @@ NightSky withMoon(const Direction& towards, double phase_angle_deg, double dista
 }
 
 DiscLight moonAt(const Direction& towards, double phase_angle_deg, double distance_m = 384400e3) {
-  return clearAir().daylight(kSetSun, withMoon(towards, phase_angle_deg, distance_m)).moon();
+  return usualAir().daylight(kSetSun, withMoon(towards, phase_angle_deg, distance_m)).moon();
 }
 
 TEST(Moon, ItsDiscIsAsLargeAsItIsNear) {
@@ -77,7 +77,7 @@ TEST(Moon, ItSetsAndReddensAsTheSunDoes) {
 TEST(Moon, ItIsALittleRedderThanTheSun) {
   // B − V of 0.92 and 0.65: a factor of 1.28 between 440 and 550 nm. Blue and green of sRGB lie 80 nm apart.
   const Eigen::Array3f moon = moonAt(at(90.0, 60.0), 0.0).illuminance.value;
-  const Eigen::Array3f sun = clearAir().daylight({at(90.0, 60.0), 1.0}).sun().illuminance.value;
+  const Eigen::Array3f sun = usualAir().daylight({at(90.0, 60.0), 1.0}).sun().illuminance.value;
   EXPECT_NEAR((moon[1] / moon[2]) / (sun[1] / sun[2]), 1.2, 0.1);
 }
 
@@ -85,9 +85,9 @@ TEST(Moon, TheAirScattersItsLightAsTheSuns) {
   // The same tables: a sky like the day's, 4e5 times darker and a little redder. So luminance is in
   // proportion up to what colour does to the parts of the sky: 5 %.
   const Direction towards = at(90.0, 30.0);
-  const Daylight night = clearAir().daylight(kSetSun, withMoon(towards, 0.0));
-  const Daylight dark = clearAir().daylight(kSetSun);
-  const Daylight day = clearAir().daylight({towards, 1.0});
+  const Daylight night = usualAir().daylight(kSetSun, withMoon(towards, 0.0));
+  const Daylight dark = usualAir().daylight(kSetSun);
+  const Daylight day = usualAir().daylight({towards, 1.0});
   const Eigen::Vector3f up(0.0F, 0.0F, 1.0F);
   const auto moonlit = [&](const Eigen::Vector3f& v) {
     return (night.skyLuminance(v).luminance() - dark.skyLuminance(v).luminance()) /
@@ -161,7 +161,7 @@ TEST(Glow, ADarkSkyHasItsMeasuredColour) {
   // (0.37, 0.37) and (0.35, 0.37). The sky of observatories' exposure calculators, which has the red oxygen
   // lines of the tropics, has (0.39, 0.35).
   const Eigen::Array3d rgb =
-      clearAir().daylight(kSetSun).skyLuminance({0.0F, 0.0F, 1.0F}).value.cast<double>();
+      usualAir().daylight(kSetSun).skyLuminance({0.0F, 0.0F, 1.0F}).value.cast<double>();
   Eigen::Matrix3d xyz_from_rgb;  // IEC 61966-2-1
   xyz_from_rgb << 0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505;
   const Eigen::Vector3d xyz = xyz_from_rgb * rgb.matrix();
@@ -175,9 +175,9 @@ TEST(Glow, ItTurnsWithTheSky) {
   const double turn = 2.0 * kPi / GlowSky::kColumns * 20;
   const Eigen::Matrix3d turned = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const SunInSky sun{at(0.0, -90.0), 1.0};  // turning about the vertical leaves it in its place
-  const Daylight before = clearAir().daylight(sun, NightSky{std::nullopt, tilted, nullptr});
+  const Daylight before = usualAir().daylight(sun, NightSky{std::nullopt, tilted, nullptr});
   const Daylight after =
-      clearAir().daylight(sun, NightSky{std::nullopt, Eigen::Matrix3d(turned * tilted), nullptr});
+      usualAir().daylight(sun, NightSky{std::nullopt, Eigen::Matrix3d(turned * tilted), nullptr});
   double least = 1.0;
   double most = 0.0;
   for (int azimuth_deg = 0; azimuth_deg < 360; azimuth_deg += 10) {
@@ -202,14 +202,14 @@ TEST(Stars, OnlyThoseAboveTheHorizonAreSeenBrightestFirst) {
   NightSky night;
   night.map_from_celestial = Eigen::Matrix3d::Identity();
   night.stars = starsTowards({{1, 0, 0.2}, {0, 0, 1}, {0, 1, -0.1}, {0, 1, 1}});
-  const std::vector<PointLight> seen = clearAir().daylight(kSetSun, night).stars();
+  const std::vector<PointLight> seen = usualAir().daylight(kSetSun, night).stars();
   ASSERT_EQ(seen.size(), 3U);
   for (std::size_t i = 1; i < seen.size(); ++i) {
     EXPECT_GE(seen[i - 1].illuminance.luminance(), seen[i].illuminance.luminance());
   }
   EXPECT_NEAR(seen[0].towards.z(), 1.0F, 1e-6F);  // the least air is overhead
   night.map_from_celestial = std::nullopt;
-  EXPECT_TRUE(clearAir().daylight(kSetSun, night).stars().empty());
+  EXPECT_TRUE(usualAir().daylight(kSetSun, night).stars().empty());
 }
 
 TEST(Stars, RefractionRaisesThemAndAirDimsThem) {
@@ -217,7 +217,7 @@ TEST(Stars, RefractionRaisesThemAndAirDimsThem) {
   night.map_from_celestial = Eigen::Matrix3d::Identity();
   const double true_deg = -0.4;
   night.stars = starsTowards({at(70.0, true_deg).vector(), at(70.0, 90.0).vector()});
-  const std::vector<PointLight> seen = clearAir().daylight(kSetSun, night).stars();
+  const std::vector<PointLight> seen = usualAir().daylight(kSetSun, night).stars();
   ASSERT_EQ(seen.size(), 2U);
   // A star 24′ below the horizon is seen 7′ above it (Meeus, Astronomical Algorithms, ch. 16).
   EXPECT_NEAR(std::asin(seen[1].towards.z()) / kRadPerDeg * 60.0, 7.0, 3.0);

@@ -93,7 +93,7 @@ TEST(CloudLayer, LetsThroughOfSunAndSkyWhatDiffusionTheorySays) {
   // t = 1 / (1.07 + 0.75 (1 − g) τ) in all; between land of 0.2 and the layer, which throws back 1 − t, it
   // goes to and fro.
   for (const auto& [sun_deg, depth] : {std::pair{10.0, 11.0}, {30.0, 38.0}, {60.0, 63.0}}) {
-    const Daylight clear = clearAir().daylight({sunAt(sun_deg), 1.0});
+    const Daylight clear = usualAir().daylight({sunAt(sun_deg), 1.0});
     const auto enters = [](double sine) { return 3.0 / 7.0 * (1.0 + 2.0 * sine); };
     const Eigen::Array3f sky =
         levelIlluminance(hemisphere(Eigen::Vector2f::UnitX()), [&](const Eigen::Vector3f& towards) {
@@ -142,7 +142,7 @@ TEST(CloudLayer, DimsTheMoonAsItDoesTheSun) {
     const NightSky night{MoonInSky{sunAt(moon_deg), std::nullopt, 384400e3, Angle::degrees(20.0)},
                          std::nullopt, nullptr};
     const auto moonlight = [&](const Weather& weather) {
-      return static_cast<double>(clearAir().daylight(set, night, weather).moon().illuminance.luminance());
+      return static_cast<double>(usualAir().daylight(set, night, weather).moon().illuminance.luminance());
     };
     const double mu = std::sin(moon_deg * kRadPerDeg);
     for (const double depth : {0.3, 1.0, 3.0}) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "clear_air.h"
+#include "directions.h"
 #include "sunlit/sky/atmosphere.h"
 
 namespace sunlit::sky {
@@ -58,7 +58,7 @@ struct ClearDay {
 };
 
 double ground_lx(double elevation_deg, const NightSky& night = {}) {
-  return clearAir().daylight({at(137.0, elevation_deg), 1.0}, night).groundIlluminance().luminance();
+  return usualAir().daylight({at(137.0, elevation_deg), 1.0}, night).groundIlluminance().luminance();
 }
 
 NightSky withMoon(double elevation_deg, double phase_angle_deg) {
@@ -100,7 +100,7 @@ TEST(PublishedLevels, TheClearDayOfLightingPractice) {
   // roundness.
   for (const double elevation_deg : {90.0, 60.0, 30.0, 20.0, 10.0}) {
     const ClearDay published(elevation_deg);
-    const Daylight light = clearAir().daylight({at(137.0, elevation_deg), 1.0});
+    const Daylight light = usualAir().daylight({at(137.0, elevation_deg), 1.0});
     EXPECT_NEAR(light.sun().illuminance.luminance(), published.sun_lx, 0.05 * published.sun_lx)
         << elevation_deg;
     EXPECT_NEAR(light.groundIlluminance().luminance(), published.ground_lx, 0.05 * published.ground_lx)
@@ -112,7 +112,7 @@ TEST(PublishedLevels, TheSettingSunIsARedDiscThatOneCanLookAt) {
   // 6e5 cd/m² is often quoted for the sun at the horizon, without a source; haze is worth a factor of 10
   // either way. It is far brighter than the sky beside it.
   for (const double elevation_deg : {0.5, 1.0}) {
-    const Daylight light = clearAir().daylight({at(137.0, elevation_deg), 1.0});
+    const Daylight light = usualAir().daylight({at(137.0, elevation_deg), 1.0});
     const DiscLight& sun = light.sun();
     const double disc = sun.illuminance.luminance() / (kPi * std::pow(sun.angular_radius.rad(), 2));
     EXPECT_GT(disc, 6e4) << elevation_deg;
@@ -131,7 +131,7 @@ double zenithOverParanal(double elevation_deg) {
 }
 
 double zenith(double elevation_deg) {
-  return clearAir().daylight({at(137.0, elevation_deg), 1.0}).skyLuminance({0.0F, 0.0F, 1.0F}).luminance();
+  return usualAir().daylight({at(137.0, elevation_deg), 1.0}).skyLuminance({0.0F, 0.0F, 1.0F}).luminance();
 }
 
 TEST(PublishedLevels, TheZenithFadesThroughTwilightAsMeasured) {
@@ -161,7 +161,7 @@ TEST(PublishedLevels, DeepTwilightPassesIntoTheNight) {
   }
   // A moonless night gives 1e-3 lx (Schlyter; Seidelmann 1992), the zenith 2e-4 cd/m², 21.8 mag a square
   // arc second.
-  const Daylight night = clearAir().daylight({at(0.0, -40.0), 1.0});
+  const Daylight night = usualAir().daylight({at(0.0, -40.0), 1.0});
   EXPECT_GT(night.groundIlluminance().luminance(), 0.5e-3F);
   EXPECT_LT(night.groundIlluminance().luminance(), 2e-3F);
   const float zenith = night.skyLuminance({0.0F, 0.0F, 1.0F}).luminance();
@@ -179,7 +179,7 @@ TEST(PublishedLevels, FullMoon) {
     EXPECT_NEAR(moon_lx, published, (elevation_deg > 45.0 ? 0.25 : 0.45) * published) << elevation_deg;
   }
   // Sky under a full moon: 5e-3 cd/m² away from it, within a factor of 2.
-  const Daylight night = clearAir().daylight({at(220.0, -40.0), 1.0}, withMoon(45.0, 0.0));
+  const Daylight night = usualAir().daylight({at(220.0, -40.0), 1.0}, withMoon(45.0, 0.0));
   const float sky = night.skyLuminance(at(220.0, 60.0).vector().cast<float>()).luminance();
   EXPECT_GT(sky, 2.5e-3F);
   EXPECT_LT(sky, 1e-2F);

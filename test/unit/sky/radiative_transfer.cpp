@@ -14,7 +14,7 @@
 namespace sunlit::sky {
 namespace {
 
-const RadiativeTransfer& clearAir() {
+const RadiativeTransfer& usualAir() {
   static const RadiativeTransfer transfer{MediumParameters{}};
   return transfer;
 }
@@ -51,7 +51,7 @@ Spectrum irradiance(const RadiativeTransfer& transfer, double altitude_km, doubl
 }
 
 TEST(RadiativeTransfer, ATransparentVerticalBeamFollowsBeersLaw) {
-  const RadiativeTransfer& transfer = clearAir();
+  const RadiativeTransfer& transfer = usualAir();
   const Spectrum depth = rayleighOpticalDepth() + aerosolOpticalDepth(MediumParameters{}.turbidity) +
                          (ozoneCrossSection_m2() * 1e25F) * static_cast<float>(300.0 * 2.6867e20 * 1e-25);
   const Spectrum passed = transfer.transmittance(0.0, 1.0);
@@ -177,7 +177,7 @@ TEST(RadiativeTransfer, AgreesWithLightPathsTracedThroughTheRealMedium) {
 }
 
 TEST(RadiativeTransfer, TheEarthsShadowIsDark) {
-  const Sunlight& sunlight = clearAir().sunlight();
+  const Sunlight& sunlight = usualAir().sunlight();
   const auto brightest = [&](double altitude_km, double sun_deg) {
     return sunlight.at(altitude_km, std::sin(sun_deg * kRadPerDeg)).scaled.maxCoeff();
   };
@@ -202,8 +202,8 @@ TEST(RadiativeTransfer, OzoneMakesTheBlueHour) {
         colourOf(radiance(transfer, {0.0, 1.0, std::sin(-6.0 * kRadPerDeg), std::sin(-6.0 * kRadPerDeg)}));
     return zenith.value[2] / zenith.value[0];
   };
-  EXPECT_GT(blueness(clearAir()), 2.5F);
-  EXPECT_LT(blueness(without), 0.6F * blueness(clearAir()));
+  EXPECT_GT(blueness(usualAir()), 2.5F);
+  EXPECT_LT(blueness(without), 0.6F * blueness(usualAir()));
   // By day its part is small: under a high sun the zenith is blue without it.
   const LineOfSight noon{0.0, 1.0, 0.8, 0.8};
   const LinearRgb blue = colourOf(radiance(without, noon));

@@ -15,7 +15,7 @@ namespace sunlit::sky {
 namespace {
 
 TEST(Weather, WithoutAnyTheSkyIsTheClearOneToTheBit) {
-  const Daylight clear = clearAir().daylight({sunAt(35.0), 1.0});
+  const Daylight clear = usualAir().daylight({sunAt(35.0), 1.0});
   Weather none;
   none.optical_depth = 20.0;  // of a cloud that is not there
   none.wind_m_per_s = 10.0;
@@ -56,7 +56,7 @@ TEST(Weather, TheStandardOvercastGoesOnThroughTheHorizon) {
 }
 
 TEST(Weather, AThickCoverHidesTheSunAndAThinOneDimsIt) {
-  const float clear = clearAir().daylight({sunAt(40.0), 1.0}).sun().illuminance.luminance();
+  const float clear = usualAir().daylight({sunAt(40.0), 1.0}).sun().illuminance.luminance();
   EXPECT_EQ(under(40.0, covered(8.0)).sun().illuminance.luminance(), 0.0F);
   const double mu = std::sin(40.0 * kRadPerDeg);
   EXPECT_NEAR(static_cast<double>(under(40.0, covered(8.0, 2.0)).sun().illuminance.luminance() / clear),
@@ -167,7 +167,7 @@ TEST(Weather, FogThinsOutAboveItsTop) {
   low.fog_top_m = 20.0;
   const Daylight day = under(35.0, low);
   const AirColumn up = day.airOver(towards(60.0), 5000.0F);
-  const AirColumn clear = clearAir().daylight({sunAt(35.0), 1.0}).airOver(towards(60.0), 5000.0F);
+  const AirColumn clear = usualAir().daylight({sunAt(35.0), 1.0}).airOver(towards(60.0), 5000.0F);
   const double depth = -std::log(0.05) / 150.0 * 20.0 / std::sin(60.0 * kRadPerDeg);
   EXPECT_NEAR(static_cast<double>(up.transmittance[1] / clear.transmittance[1]), std::exp(-depth), 0.01);
 }
@@ -209,7 +209,7 @@ TEST(Weather, TheMeanBelowBrokenCloudIsThatOfThePublishedFit) {
   // sin h) = 0.65, of one at 40° 0.98 of what it does of even light; and nothing enters by its sides, which
   // the low sun lights.
   for (const double sun_deg : {15.0, 40.0, 60.0}) {
-    const double clear = levelOf(clearAir().daylight({sunAt(sun_deg), 1.0}));
+    const double clear = levelOf(usualAir().daylight({sunAt(sun_deg), 1.0}));
     for (const double oktas : {2.0, 4.0, 6.0, 7.0, 8.0}) {
       const Daylight day = under(sun_deg, covered(oktas));
       if (oktas < 8.0) {
@@ -264,7 +264,7 @@ TEST(Weather, ShadowsMoveWithTheWind) {
 TEST(Weather, WhereTheSunIsSeenItShines) {
   constexpr double kSun_deg = 50.0;
   const Daylight day = under(kSun_deg, covered(4.0));
-  const float clear = clearAir().daylight({sunAt(kSun_deg), 1.0}).skyLuminance(towards(kSun_deg)).luminance();
+  const float clear = usualAir().daylight({sunAt(kSun_deg), 1.0}).skyLuminance(towards(kSun_deg)).luminance();
   int bright = 0, dark = 0;
   for (int i = 0; i < 400; ++i) {
     const Eigen::Vector3f place(static_cast<float>(i) * 170.0F, static_cast<float>(i) * 41.0F, 0.0F);

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "clear_air.h"
+#include "directions.h"
 
 namespace sunlit::sky {
 
@@ -16,7 +16,7 @@ inline Eigen::Vector3f towards(double elevation_deg, double azimuth_deg = 137.0)
 }
 
 inline Daylight under(double sun_deg, const Weather& weather) {
-  return clearAir().daylight({sunAt(sun_deg), 1.0}, {}, weather);
+  return usualAir().daylight({sunAt(sun_deg), 1.0}, {}, weather);
 }
 
 inline Weather covered(double oktas, std::optional<double> optical_depth = std::nullopt) {

@@ -113,7 +113,7 @@ class AtlasMap {
   const DriveIndex& observed_;
   AtlasOptions options_;
   AtlasCellKey key_;
-  int norm_;
+  DescriptorSpace space_;
   const ObservedDrive& drive_;
   std::unique_ptr<Localiser> map_;
 };

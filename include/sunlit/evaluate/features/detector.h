@@ -13,6 +13,12 @@
 
 namespace sunlit::evaluate {
 
+/// What descriptors are to whoever compares them.
+struct DescriptorSpace {
+  int norm = 0;  ///< a cv::NormTypes
+  bool histograms = false;
+};
+
 /// What finds key points and describes them, with its parameters.
 ///
 /// To add one: a file like src/evaluate/features/detectors/sift.cpp, and its row in the table of
@@ -25,6 +31,9 @@ class Detector {
   virtual std::vector<Field> fields() = 0;
   /// How its descriptors are compared: a cv::NormTypes.
   virtual int norm() const = 0;
+  /// Whether they are histograms, as SIFT's.
+  virtual bool histograms() const { return false; }
+  DescriptorSpace space() const { return {norm(), histograms()}; }
   /// The grey picture that it looks at, CV_8UC1.
   virtual cv::Mat seen(const Picture& picture) const { return picture.grey; }
   /// What does the work, with the present parameters, which are within their ranges. What it finds in a grey

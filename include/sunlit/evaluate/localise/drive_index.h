@@ -46,8 +46,8 @@ class DriveIndex {
 
 /// How key frames are made and looked into.
 struct MapOptions {
-  std::string detector;  ///< by its name, whose descriptors `norm` compares, a cv::NormTypes
-  int norm = 0;
+  std::string detector;      ///< by its name
+  DescriptorSpace space;     ///< of its descriptors
   double map_every_m = 5.0;  ///< for KeyFrameSpacing
   LocaliserOptions localiser;
 };

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sunlit/evaluate/features/detector.h"
 #include "sunlit/evaluate/features/features.h"
 #include "sunlit/evaluate/features/matching.h"
 #include "sunlit/evaluate/localise/map.h"
@@ -86,9 +87,8 @@ class PlaceIndex;
 /// The map of one detector.
 class Localiser {
  public:
-  /// `detector` by its name, whose descriptors `norm` compares, a cv::NormTypes. Throws std::invalid_argument
-  /// for options out of range.
-  Localiser(std::string detector, int norm, const LocaliserOptions& options);
+  /// `space` is that of the detector's descriptors. Throws std::invalid_argument for options out of range.
+  Localiser(const DescriptorSpace& space, const LocaliserOptions& options);
   ~Localiser();
 
   /// Behind those that are there.
@@ -112,8 +112,7 @@ class Localiser {
   Matches match(const cv::Mat& descriptors, const std::vector<std::size_t>& retrieved) const;
   void judge(const LocalisationQuery& query, LocalisedQuery& result) const;
 
-  std::string detector_;
-  int norm_;
+  DescriptorSpace space_;
   LocaliserOptions options_;
   std::vector<KeyFrame> frames_;
   std::unique_ptr<PlaceIndex> index_;  // where retrieval goes by it

@@ -20,9 +20,9 @@ constexpr double kSharedWithKeyFrame = 0.5;
 /// moved on as the view before it did, and becomes the next key frame.
 class Odometry {
  public:
-  /// `detector` and `norm` as a Localiser has them; of `options` the ratio test and how poses are found.
+  /// `space` as a Localiser has it; of `options` the ratio test and how poses are found.
   /// Throws std::invalid_argument for options out of range.
-  Odometry(std::string detector, int norm, const LocaliserOptions& options);
+  Odometry(const DescriptorSpace& space, const LocaliserOptions& options);
 
   /// The next view, whose pose is not used but for the first, where the estimate begins; it has depth. Its
   /// estimated map_from_optical. Throws std::invalid_argument for a view without depth.
@@ -34,8 +34,7 @@ class Odometry {
  private:
   void takeAsKeyFrame(const PosedView& view, const Features& features);
 
-  std::string detector_;
-  int norm_;
+  DescriptorSpace space_;
   LocaliserOptions options_;
   std::unique_ptr<Localiser> key_frame_;
   Eigen::Isometry3d map_from_optical_ = Eigen::Isometry3d::Identity();  ///< of the last view

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sunlit/evaluate/features/detector.h"
 #include "sunlit/evaluate/places/place_scores.h"
 
 namespace sunlit::evaluate {
@@ -19,15 +20,16 @@ constexpr std::size_t kMostTrainingDescriptors = 50000;
 constexpr std::uint64_t kVocabularySeed = 20121;  // any: what counts is that it is always the same
 constexpr int kMostRounds = 50;                   // of k-means; it ends sooner where nothing changes
 
-/// Descriptors of a detector of a `type` as points between which Euclidean distances mean something,
+/// Descriptors of a detector's `space` as points between which Euclidean distances mean something,
 /// CV_32FC1, one row each:
-/// - of SIFT its RootSIFT, as the detector `rootsift` has it;
+/// - of histograms, SIFT's, their RootSIFT, as the detector `rootsift` has it;
 /// - of descriptors compared by a Hamming norm (cv::NormTypes) their bits, 0 or 1, lowest first: squared
 ///   distances are Hamming distances then, and the mean of points, a word, is how often each bit is set;
 /// - of others, such as SURF, their numbers.
-cv::Mat vladPoints(const std::string& type, int norm, const cv::Mat& descriptors);
+cv::Mat vladPoints(const DescriptorSpace& space, const cv::Mat& descriptors);
 
 /// Every n-th of all descriptors, in the order of their pictures, so that kMostTrainingDescriptors are left.
+/// As floats where some pictures have bytes and others floats.
 cv::Mat vladTrainingDescriptors(const std::vector<cv::Mat>& by_picture);
 
 /// The words, CV_32FC1, one row each: k-means (Lloyd) from k-means++ beginnings (Arthur & Vassilvitskii

@@ -19,6 +19,7 @@ class Sift : public Detector {
             {"sigma", &sigma_, "px", {0.1, 10}, "of the Gaussian of octave 0"}};
   }
   int norm() const override { return cv::NORM_L2; }
+  bool histograms() const override { return true; }
   /// Its elements are whole numbers up to 255; as bytes they are the same numbers in a quarter of the memory.
   cv::Ptr<cv::Feature2D> make() const override {
     return cv::SIFT::create(n_features_, n_octave_layers_, contrast_threshold_, edge_threshold_, sigma_,
@@ -57,6 +58,7 @@ class RootSift : public Sift {
  public:
   std::unique_ptr<Detector> clone() const override { return std::make_unique<RootSift>(*this); }
   std::string version() const override { return "rootsift"; }
+  bool histograms() const override { return false; }  // roots of them
   cv::Ptr<cv::Feature2D> make() const override { return cv::makePtr<RootSiftWorker>(Sift::make()); }
 };
 

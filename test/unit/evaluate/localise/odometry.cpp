@@ -30,7 +30,7 @@ Features featuresOf(const PosedView& view) {
 }
 
 TEST(Odometry, FollowsACameraToMillimetres) {
-  Odometry odometry("sift", cv::NORM_L2, {});
+  Odometry odometry({cv::NORM_L2, true}, {});
   for (const PosedView& truth : drive()) {
     PosedView view = truth;
     if (odometry.keyFrames() > 0) view.map_from_optical = Eigen::Isometry3d::Identity();  // not to be used
@@ -46,7 +46,7 @@ TEST(Odometry, FollowsACameraToMillimetres) {
 
 TEST(Odometry, GoesOnAsBeforeThroughAPictureOfNothing) {
   const std::vector<PosedView> views = drive();
-  Odometry odometry("sift", cv::NORM_L2, {});
+  Odometry odometry({cv::NORM_L2, true}, {});
   odometry.follow(views[0], featuresOf(views[0]));
   const Eigen::Isometry3d first = odometry.follow(views[1], featuresOf(views[1]));
   const Eigen::Isometry3d moved = views[0].map_from_optical.inverse() * first;
@@ -58,7 +58,7 @@ TEST(Odometry, GoesOnAsBeforeThroughAPictureOfNothing) {
 TEST(Odometry, NeedsDepth) {
   PosedView view = drive()[0];
   view.depth = cv::Mat();
-  Odometry odometry("sift", cv::NORM_L2, {});
+  Odometry odometry({cv::NORM_L2, true}, {});
   EXPECT_EQ(messageOf([&] { odometry.follow(view, featuresOf(view)); }),
             "a view has no depth, but odometry needs it");
 }

@@ -36,7 +36,7 @@ bool sameBits(const cv::Mat& a, const cv::Mat& b) {
 }
 
 TEST(VladPoints, AreRootsOfSharesForSift) {
-  const cv::Mat points = vladPoints("sift", cv::NORM_L2, (cv::Mat_<std::uint8_t>(2, 3) << 9, 16, 0, 0, 0, 0));
+  const cv::Mat points = vladPoints({cv::NORM_L2, true}, (cv::Mat_<std::uint8_t>(2, 3) << 9, 16, 0, 0, 0, 0));
   EXPECT_EQ(points.at<float>(0, 0), 3.0F / 5.0F);
   EXPECT_EQ(points.at<float>(0, 1), 4.0F / 5.0F);
   EXPECT_EQ(cv::countNonZero(points.row(1)), 0);
@@ -44,7 +44,7 @@ TEST(VladPoints, AreRootsOfSharesForSift) {
 
 TEST(VladPoints, AreBitsWhereAHammingNormCompares) {
   const cv::Mat bytes = (cv::Mat_<std::uint8_t>(2, 2) << 0b00000101, 0b10000000, 0b11111111, 0);
-  const cv::Mat points = vladPoints("orb", cv::NORM_HAMMING, bytes);
+  const cv::Mat points = vladPoints({cv::NORM_HAMMING}, bytes);
   const cv::Mat expected = pointsOf(
       {{1, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}, {1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0}});
   EXPECT_TRUE(sameBits(points, expected));
@@ -54,8 +54,8 @@ TEST(VladPoints, AreBitsWhereAHammingNormCompares) {
 
 TEST(VladPoints, AreTheNumbersThemselvesOtherwise) {
   const cv::Mat numbers = pointsOf({{0.25F, -0.5F}});
-  EXPECT_TRUE(sameBits(vladPoints("surf", cv::NORM_L2, numbers), numbers));
-  EXPECT_TRUE(vladPoints("surf", cv::NORM_L2, {}).empty());
+  EXPECT_TRUE(sameBits(vladPoints({cv::NORM_L2}, numbers), numbers));
+  EXPECT_TRUE(vladPoints({cv::NORM_L2}, {}).empty());
 }
 
 TEST(Vocabulary, HasTheMeansOfGroupsThatLieApart) {

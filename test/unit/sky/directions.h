@@ -1,16 +1,11 @@
-/// What most tests of the sky look at.
+/// Where tests of the sky look, and through what air.
 #pragma once
 
 #include "sunlit/quantity/direction.h"
 #include "sunlit/sky/atmosphere.h"
+#include "support/usual_air.h"
 
 namespace sunlit::sky {
-
-/// The air of default options; made once a program, since it takes a second.
-inline const Atmosphere& clearAir() {
-  static const Atmosphere atmosphere{AtmosphereOptions{}};
-  return atmosphere;
-}
 
 inline Direction at(double azimuth_deg, double elevation_deg) {
   return Direction(Azimuth::degrees(azimuth_deg), Angle::degrees(elevation_deg));
