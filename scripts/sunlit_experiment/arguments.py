@@ -296,6 +296,9 @@ def differences(text, features_text="{}"):
     names = DIFFERENCES if text == "all" else parse("differences", text, allowed)
     if not isinstance(names, list) or not names or not set(map(str, names)) <= set(known):
         raise BadArgument("differences", text, allowed)
+    twice = [name for i, name in enumerate(names) if name in names[:i]]
+    if twice:
+        raise BadArgument("differences", text, f"without {twice[0]} twice")
     return names
 
 

@@ -205,6 +205,7 @@ class Plan(unittest.TestCase):
         self.assert_refused("argument ev100 is 'nan', but must be a number", ev100="nan")
         self.assert_refused("argument noise is 'yes', but must be true or false", noise="yes")
         self.assert_refused("argument differences is '[sfit]'", differences="[sfit]")
+        self.assert_refused("argument differences is '[orb, orb]', but must be without orb twice", differences="[orb, orb]")
         self.assert_refused("argument verify is '[surf]', but must be auto, or a list of some of sift:",
                             differences="[sift, boolean_rgb]", verify="[surf]")
         self.assert_refused("argument verify is 'sift', but must be auto, or a list of some of sift, surf, orb, brisk:", verify="sift")
