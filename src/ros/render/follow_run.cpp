@@ -89,12 +89,15 @@ Step FollowRun::step() {
   waits_for_ = streams_.waitsForSky();
   if (!waits_for_.empty()) return Step::kWaits;
   const ros::Time now = ros::Time::now();
-  // A clock that jumped back starts all anew: the sky of a moment ahead would be long in coming.
-  if (next_ > now + period_) {
+  // A clock that jumped back starts all anew: the sky of a moment ahead would be long in coming. TF's
+  // listener forgets such moments only when the next one comes.
+  if (now < seen_) {
+    tf_.buffer.clear();
     next_ = now;
     held_.reset();
     shot_.reset();
   }
+  seen_ = now;
   if (now < next_) return Step::kWaits;
 
   if (!shot_) shot_ = nextShot();

@@ -148,6 +148,7 @@ class FollowRun : public Run {
   std::optional<FoundTransform> held_;
   Clock::time_point held_since_;
   std::optional<Shot> shot_;  ///< that waits for its sky
+  ros::Time seen_;            ///< by the clock, last
   ros::Time next_;
   ros::Time latest_;
   int taken_ = 0;

@@ -3,12 +3,15 @@
 import os
 import tempfile
 import threading
+import time
 import unittest
 
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from rendering import SUPPORT, TIMEOUT_S, Process, Reader, RefusalTest, RenderNode, Sky, parameters
+from geometry_msgs.msg import TransformStamped
+from rendering import SUPPORT, TIMEOUT_S, Process, Reader, RefusalTest, RenderNode, Sky, Transforms, parameters
+from rosgraph_msgs.msg import Clock
 from sunlit.msg import SunPosition
 
 
@@ -50,6 +53,14 @@ def clock_owner(**changes):
 def sun_by_the_clock():
     """A sun for each time on /clock."""
     return Process("suns", {"conditions": ["a"], "date_time": {"rate": 0.0}}, "sun_position_node")
+
+
+def wait_until(reached):
+    end = time.monotonic() + TIMEOUT_S
+    while not reached():
+        if time.monotonic() > end:
+            raise AssertionError("it does not come")
+        time.sleep(0.01)
 
 
 class RenderDiagnostics(RefusalTest):
@@ -116,6 +127,44 @@ class RenderDiagnostics(RefusalTest):
             publisher.unregister()
         reader.close()
         diagnostics.close()
+
+    def test_a_camera_that_follows_goes_on_when_time_begins_anew(self):
+        clock = rospy.Publisher("/clock", Clock, queue_size=1, latch=True)
+        sky, sender = Sky("/a/"), Transforms()
+        tree = parameters(conditions=["a"], frame_rate=10.0, camera={"follow": "tf", "follow_frame": "robot"},
+                          subscribers={"images": 1}, shutter={"line_delay": 10.0})
+
+        def moment(now, suns=()):
+            clock.publish(Clock(rospy.Time.from_sec(now)))
+            wait_until(lambda: rospy.Time.now() == rospy.Time.from_sec(now))
+            for stamp in suns or [now]:
+                sky.send_sun(stamp, rate=1.0)
+            transform = TransformStamped()
+            transform.header.frame_id, transform.child_frame_id = "map", "robot"
+            transform.header.stamp = rospy.Time.from_sec(now)
+            transform.transform.translation.z = transform.transform.rotation.w = 1.0
+            sender.send(transform)
+
+        clock.publish(Clock(rospy.Time.from_sec(0.005)))
+        with RenderNode("again", tree) as node:
+            reader = Reader(["a"], node="/again")
+            sender.wait_for_readers(2)  # the node, and the reader here
+            moment(0.01)  # sooner after the beginning than a motion takes to be seen
+            reader.wait("/a/camera/image_raw", 1)
+            moment(100.0, suns=[99.0])  # its sky does not come any more
+            node.line_with("Waiting for the sky of 100")
+            for now in range(1, 50):  # what comes before the clock itself is lost
+                moment(now)
+                if len(reader.of("/a/camera/image_raw")) > 1:
+                    break
+                time.sleep(0.1)
+            first, second = [image.header.stamp.to_sec() for image in reader.wait("/a/camera/image_raw", 2)]
+            self.assertEqual(first, 0.01)
+            self.assertIn(second, range(1, 50))
+        for publisher in sky.publishers + [clock]:
+            publisher.unregister()
+        sender.close()
+        reader.close()
 
     def test_what_was_refused_or_guessed_is_a_warning(self):
         diagnostics = Diagnostics("guesses")

@@ -123,8 +123,8 @@ class Sky:
         message.header.stamp = rospy.Time.from_sec(stamp)
         self.publishers[index].publish(message)
 
-    def send_sun(self, stamp=1.0):
-        message = SunPosition(distance_au=1.0)
+    def send_sun(self, stamp=1.0, rate=0.0):
+        message = SunPosition(distance_au=1.0, rate=rate)
         message.direction.y, message.direction.z = 0.6, 0.8
         self._send(0, message, stamp)
 
