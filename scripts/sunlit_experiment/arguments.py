@@ -388,8 +388,9 @@ def folder(text):
 
 
 def file(text):
-    """Seen as a folder is. A name without a dot or slash, such as race_track, stays."""
-    return folder(text) if "/" in text or "." in text else text
+    """Seen as a folder is. A name without a dot or slash, such as race_track, stays, and so does what has a scheme, such as
+    model://, package:// or https://, which nodes look up."""
+    return folder(text) if ("/" in text or "." in text) and "://" not in text else text
 
 
 def folders(text):

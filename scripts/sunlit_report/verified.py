@@ -95,14 +95,14 @@ def drawn(output):
         for a, b in pairs(output):
             files = output.matches.get(f"{a}-{b}/{detector}", {})
             right = output.verified.poses.get((a, b, detector), {})
-            extremes = {one: sign for sign in (-1, 1) if (one := _extreme(right, files, sign))}
-            found.append([(right[pose], names.pair(a, b), pose, is_of_all, files[pose], sign)
-                          for (pose, is_of_all), sign in sorted(extremes.items(), key=lambda item: -item[1])])
+            found.append([(right[one[0]], names.pair(a, b), *one, files[one[0]], sign)
+                          for sign in (1, -1) if (one := _extreme(right, files, sign))])
         found = [row for row in found if row]
         if len(found) > PAIRS_DRAWN:
             ends = [one for row in found for one in row]
             found = [[min(one for one in ends if one[-1] > 0), max(one for one in ends if one[-1] < 0)]]
-        shown += [[_captioned(detector, one) for one in row] for row in found]
+        # Where all poses have as many right matches, one picture is both.
+        shown += [[_captioned(detector, one) for one in (row if row[0][:-1] != row[-1][:-1] else row[:1])] for row in found]
     return shown
 
 

@@ -219,6 +219,17 @@ void inherit(const ScriptMaterial& parent, ScriptMaterial* material) {
 
 /// The material `name` of the first `end` lines. OGRE wants a parent before its child, so it is looked for
 /// above only, and a circle cannot be.
+std::optional<ScriptMaterial> comesWithGazebo(const std::string& name) {
+  const std::optional<GazeboLook> look = gazeboLook(name);
+  if (!look) return std::nullopt;
+  ScriptMaterial material;
+  material.diffuse = look->color;
+  material.emissive = look->emissive;
+  material.blends = look->opacity < 1.0f;
+  material.opacity = look->opacity;
+  return material;
+}
+
 std::optional<ScriptMaterial> materialIn(const Lines& lines, std::size_t end, const std::string& name) {
   std::optional<Reading> reading;
   std::optional<ScriptMaterial> parent;
@@ -229,7 +240,13 @@ std::optional<ScriptMaterial> materialIn(const Lines& lines, std::size_t end, co
     if (starts && reading) break;
     if (starts && words[1] == name) {
       reading.emplace();
-      if (words.size() > 3 && words[2] == ":") parent = materialIn(lines, i, words[3]);
+      if (words.size() > 3 && words[2] == ":") {
+        parent = materialIn(lines, i, words[3]);
+        if (!parent) parent = comesWithGazebo(words[3]);
+        if (!parent)
+          reading->material.lost.insert("its parent " + words[3] +
+                                        ", which this file does not have before it");
+      }
     }
     if (reading) readLine(words, *reading);
     for (const std::string& word : words) depth += word == "{" ? 1 : word == "}" ? -1 : 0;

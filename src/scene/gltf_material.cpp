@@ -170,8 +170,10 @@ class LookReader {
     material.emission = color(source_, "emissiveFactor", LinearRgb());
     material.emission.value = material.emission.value.max(0.0f) * std::max(strength, 0.0f);
     if (!material.emission.value.allFinite()) material.emission = LinearRgb();
-    if (material.emission.value.maxCoeff() > 0.0f)
-      material.emission_map = use(source_, "emissiveTexture", GltfMaterials::Slot::kEmissive, 0);
+    if (!(material.emission.value.maxCoeff() > 0.0f)) return;
+    material.emission_map = use(source_, "emissiveTexture", GltfMaterials::Slot::kEmissive, 0);
+    // What shines by a picture is not to shine all over without it.
+    if (has(source_, "emissiveTexture") && !material.emission_map.given()) material.emission = LinearRgb();
   }
 
   void readNormalAndOcclusion() {

@@ -319,6 +319,8 @@ void SceneBuilder::forgetTexture(int texture) {
       Texture{sources_[static_cast<std::size_t>(texture)].name, 1, 1, {255, 255, 255, 255}};
   for (Material& material : scene_.materials) {
     if (material.metalness_map.texture == texture) material.metalness = 0.0f;
+    // What shines by a picture is not to shine all over without it.
+    if (material.emission_map.texture == texture) material.emission = LinearRgb();
     for (TextureUse* map : mapsOf(material)) {
       if (map->texture == texture) *map = TextureUse();
     }

@@ -129,7 +129,9 @@ void SdfMaterials::readMaps(const sdf::PbrWorkflow& metal, const sdf::Material& 
   material.metalness_map = map(metal.MetalnessMap());
   if (material.metalness_map.given()) material.metalness = 1.0f;
   material.emission_map = map(metal.EmissiveMap());
-  if (material.emission_map.given() && !source.Element()->HasElement("emissive"))
+  if (!metal.EmissiveMap().empty() && !material.emission_map.given())
+    material.emission = LinearRgb();  // not all over
+  else if (material.emission_map.given() && !source.Element()->HasElement("emissive"))
     material.emission.value.setConstant(kDisplayWhite_cd_per_m2);
   const std::string name = "PBR material of " + source.FilePath() + ": ";
   if (!metal.EnvironmentMap().empty())
@@ -155,6 +157,14 @@ std::optional<int> SdfMaterials::add(const sdf::Material* source) {
     const Scripted script = fromScript(*source);
     material = script.material;
     texture_scale = script.texture_scale;
+    // Gazebo applies the script, and then what stands beside it.
+    if (element->HasElement("diffuse")) {
+      if (material.base_texture == Material::kNoTexture)
+        material.base_color = toLinear(source->Diffuse());
+      else
+        builder_.warn(kNotRendered,
+                      "<diffuse> beside script " + material.name + ", which has a texture: without it");
+    }
   } else {
     material.name = "plain";
     // Ambient alone is how some files give a colour; the light around is computed here, not given by the

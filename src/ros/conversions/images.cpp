@@ -95,7 +95,7 @@ image::Calibration fromCameraInfo(const sensor_msgs::CameraInfo& info) {
 bool isRectified(const std::string& topic) {
   std::istringstream words(topic);
   for (std::string word; std::getline(words, word, '/');)
-    if (word == "image_rect" || word == "image_rect_color" || word == "image_rect_raw") return true;
+    if (word == "image_rect" || word.compare(0, 11, "image_rect_") == 0) return true;
   return false;
 }
 

@@ -167,6 +167,8 @@ class Arguments(unittest.TestCase):
         self.assertEqual(arguments.file("race_track"), "race_track")
         self.assertEqual(arguments.file("some.world"), os.path.join(os.getcwd(), "some.world"))
         self.assertEqual(arguments.file(""), "")
+        for looked_up in ("model://my_world", "package://mine/worlds/a.world", "https://fuel.gazebosim.org/1.0/them/worlds/A"):
+            self.assertEqual(arguments.file(looked_up), looked_up)
 
     def test_a_tilde_is_the_home_folder_for_every_file_and_folder(self):
         """bash leaves it as it is in NAME:=~/file."""

@@ -382,6 +382,20 @@ class Matches(InFolder):
         self.assertEqual([[caption for caption, _ in row] for row in verified.drawn(output)],
                          [["Fewest right matches of SIFT: 0, 12–20 h, pose 0.", "Most right matches of SIFT: 30, 4–20 h, pose 8."]])
 
+    def test_where_all_poses_are_alike_the_fewest_are_the_most(self):
+        made.write_all(self.folder)
+        output = self.read()
+        some = next(iter(output.matches["h04-h12/sift"].values()))
+        for a, b in made.PAIRS:
+            output.verified.poses[a, b, "sift"] = {7: 0, 8: 0}
+            output.matches[f"{a}-{b}/sift"] = {7: some}
+        self.assertEqual([[caption for caption, _ in row] for row in verified.drawn(output)],
+                         [[f"Fewest right matches of SIFT: 0, {pair} h, pose 7."] for pair in ("4–12", "4–20", "12–20")])
+        few, verified.PAIRS_DRAWN = verified.PAIRS_DRAWN, 2
+        self.addCleanup(setattr, verified, "PAIRS_DRAWN", few)
+        self.assertEqual([[caption for caption, _ in row] for row in verified.drawn(output)],
+                         [["Fewest right matches of SIFT: 0, 12–20 h, pose 7.", "Most right matches of SIFT: 0, 4–20 h, pose 7."]])
+
     def test_nothing_is_told_of_matches_that_nobody_verified(self):
         self.write("frames.csv", made.frames())
         output = self.read()

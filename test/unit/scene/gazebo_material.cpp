@@ -50,6 +50,17 @@ TEST(GazeboMaterial, ReadsOneMaterialOfAScript) {
   EXPECT_FALSE(parseMaterialScript(kScript, "Gravel"));
 }
 
+TEST(MaterialScript, InheritsFromWhatComesWithGazeboAndNamesAParentThatIsNotThere) {
+  const auto red = parseMaterialScript("material A : Gazebo/Red\n{\n}\n", "A");
+  ASSERT_TRUE(red && red->diffuse);
+  EXPECT_TRUE((red->diffuse->value == gazeboLook("Gazebo/Red")->color.value).all());
+  EXPECT_TRUE(red->lost.empty());
+  const auto orphan = parseMaterialScript("material A : Base\n{\n}\n", "A");
+  ASSERT_TRUE(orphan);
+  ASSERT_EQ(orphan->lost.size(), 1U);
+  EXPECT_EQ(*orphan->lost.begin(), "its parent Base, which this file does not have before it");
+}
+
 TEST(GazeboMaterial, BlendsByAlphaHoweverThatIsWritten) {
   const auto of = [](const std::string& blend) {
     return parseMaterialScript("material A { technique { pass { scene_blend " + blend + " } } }\n", "A")

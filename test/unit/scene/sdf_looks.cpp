@@ -138,6 +138,29 @@ TEST_F(SdfLook, WhatScriptsSayAndIsNotRenderedIsNamed) {
       << scene.warnings[0];
 }
 
+TEST_F(SdfLook, AColourBesideAScriptComesAfterIt) {
+  const std::string grey = "<script><name>Gazebo/Grey</name></script>";
+  EXPECT_EQ(look(loaded("<material>" + grey + "<diffuse>1 0 0 1</diffuse></material>")).base_color.value[1],
+            0.0f);
+  EXPECT_GT(look(loaded("<material>" + grey + "<ambient>1 0 0 1</ambient></material>")).base_color.value[1],
+            0.0f);
+  const Scene unknown =
+      loaded("<material><script><name>No/Such</name></script><diffuse>1 0 0 1</diffuse></material>");
+  EXPECT_EQ(look(unknown).base_color.value[0], 1.0f);
+}
+
+TEST_F(SdfLook, AMapOfEmissionThatIsMissingLeavesNothingThatShines) {
+  const Scene scene = loaded(
+      "<material><emissive>1 1 1 "
+      "1</emissive><pbr><metal><emissive_map>none.png</emissive_map></metal></pbr></material>");
+  EXPECT_TRUE(look(scene).emission.value.isZero());
+  write("broken.png", "no picture");
+  const Scene undecoded =
+      loaded("<material><pbr><metal><emissive_map>broken.png</emissive_map></metal></pbr></material>");
+  EXPECT_TRUE(look(undecoded).emission.value.isZero());
+  EXPECT_FALSE(look(undecoded).emission_map.given());
+}
+
 TEST_F(SdfLook, AMeshKeepsItsOwnMaterialUnlessTheVisualHasOne) {
   write("red.mtl", "newmtl red\nKd 1 0 0\n");
   write("t.obj", "mtllib red.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
