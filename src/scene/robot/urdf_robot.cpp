@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "scene/robot/link_meshes.h"
+#include "scene/robot/urdf_gazebo.h"
 #include "scene/robot/urdf_lamps.h"
 #include "scene/robot/urdf_text.h"
 #include "scene/robot/urdf_visuals.h"
@@ -71,12 +72,13 @@ Robot parseUrdf(const std::string& text, const std::string& origin, const Search
   if (urdf_text.model().getRoot()) appendLinks(*urdf_text.model().getRoot(), -1, urdf_text, &robot.links);
   LinkMeshes meshes(origin);
   UrdfVisuals visuals(origin, finder, meshes.builder());
+  std::map<std::string, std::string> of_gazebo = gazeboMaterialsOfLinks(text);
   for (const std::string& oddity : urdf_text.oddities()) meshes.builder().warn(origin + ": " + oddity);
   std::map<std::string, std::vector<Lamp>> lamps = urdfLamps(text, meshes.builder());
   for (std::size_t i = 0; i < robot.links.size(); ++i) {
     const std::string& name = robot.links[i].name;
     meshes.begin(i);
-    visuals.add(*urdf_text.model().getLink(name), urdf_text.place("link", name));
+    visuals.add(*urdf_text.model().getLink(name), urdf_text.place("link", name), of_gazebo[name]);
     for (Lamp& lamp : lamps[name]) meshes.builder().addLamp(std::move(lamp));
   }
   meshes.finish(&robot);

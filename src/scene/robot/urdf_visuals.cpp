@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "scene/color.h"
+#include "scene/gazebo_material.h"
 #include "scene/primitives.h"
 #include "sunlit/quantity/range.h"
 
@@ -45,7 +46,8 @@ float opacityOf(const urdf::Visual& visual) {
 
 }  // namespace
 
-void UrdfVisuals::add(const urdf::Link& link, const std::string& place) {
+void UrdfVisuals::add(const urdf::Link& link, const std::string& place, const std::string& of_gazebo) {
+  of_gazebo_ = of_gazebo;
   for (std::size_t i = 0; i < link.visual_array.size(); ++i) {
     const urdf::Visual& visual = *link.visual_array[i];
     const std::string name = visual.name.empty() ? std::to_string(i + 1) : visual.name;
@@ -80,6 +82,13 @@ std::optional<int> UrdfVisuals::material(const urdf::Visual& visual, const std::
     builder_.warn("materials do not exist, a neutral one takes their place",
                   visual.material_name + " of " + place);
   }
+  if (!of_gazebo_.empty()) {
+    if (source != nullptr)
+      builder_.warn(kNotRendered,
+                    "<gazebo> material " + of_gazebo_ + " of " + place + ", which has its own: without it");
+    else if (const std::optional<int> found = materialOfGazebo(of_gazebo_, place))
+      return found;
+  }
   if (source == nullptr && visual.geometry && visual.geometry->type == urdf::Geometry::MESH)
     return std::nullopt;
   std::ostringstream content;
@@ -106,6 +115,26 @@ std::optional<int> UrdfVisuals::material(const urdf::Visual& visual, const std::
     }
   }
   return material_by_content_[content.str()] = builder_.addMaterial(looks, AlphaRule::kFromTexture);
+}
+
+std::optional<int> UrdfVisuals::materialOfGazebo(const std::string& name, const std::string& place) {
+  const std::string content = "gazebo\n" + name;
+  const auto known = material_by_content_.find(content);
+  if (known != material_by_content_.end()) return known->second;
+  const std::optional<GazeboLook> look = gazeboLook(name);
+  if (!look) {
+    builder_.warn("materials do not exist, a neutral one takes their place", name + " of " + place);
+    return std::nullopt;
+  }
+  Material looks;
+  looks.name = name;
+  looks.base_color = look->color;
+  looks.emission.value = kDisplayWhite_cd_per_m2 * look->emissive.value;
+  if (look->opacity < 1.0f) {
+    looks.alpha_mode = AlphaMode::kBlend;
+    looks.alpha = look->opacity;
+  }
+  return material_by_content_[content] = builder_.addMaterial(looks, AlphaRule::kFromTexture);
 }
 
 void UrdfVisuals::addMeshShape(const urdf::Mesh& shape, const MeshUse& use, const std::string& name,

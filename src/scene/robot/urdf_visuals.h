@@ -29,8 +29,9 @@ class UrdfVisuals {
   UrdfVisuals(const std::string& origin, const ResourceFinder& finder, SceneBuilder& builder)
       : origin_(origin), finder_(finder), builder_(builder), meshes_(finder, builder) {}
 
-  /// Adds everything to see of `link`, in its frame. `place` names the link in messages.
-  void add(const urdf::Link& link, const std::string& place);
+  /// Adds everything to see of `link`, in its frame. `place` names the link in messages. Visuals without a
+  /// material of theirs have that of Gazebo's of the name `of_gazebo`, unless it is empty.
+  void add(const urdf::Link& link, const std::string& place, const std::string& of_gazebo);
 
  private:
   void addVisual(const urdf::Visual& visual, const std::string& name, const std::string& place);
@@ -42,8 +43,10 @@ class UrdfVisuals {
   void addMeshShape(const urdf::Mesh& shape, const MeshUse& use, const std::string& name,
                     const std::string& place);
   std::optional<int> material(const urdf::Visual& visual, const std::string& place);
+  std::optional<int> materialOfGazebo(const std::string& name, const std::string& place);
 
   std::string origin_;
+  std::string of_gazebo_;  ///< of the link
   const ResourceFinder& finder_;
   SceneBuilder& builder_;
   std::map<std::string, int> material_by_content_;

@@ -52,6 +52,26 @@ Eigen::AlignedBox3f bounds(const Robot& robot, const std::string& name) {
   return box;
 }
 
+TEST(Urdf, VisualsWithoutAColourHaveTheOneThatGazeboGivesTheirLink) {
+  const std::string blue = "<gazebo reference='base'><material> Gazebo/Blue </material></gazebo>";
+  const Robot robot = parsed(link("base", visual(kBox)) + blue);
+  EXPECT_TRUE(
+      (robot.materials.at(static_cast<std::size_t>(robot.links[0].meshes[0].material)).base_color.value ==
+       Eigen::Array3f(0.0f, 0.0f, 1.0f))
+          .all());
+  EXPECT_TRUE(robot.warnings.empty());
+  const Robot own =
+      parsed(link("base", visual(kBox, "<material name='red'><color rgba='1 0 0 1'/></material>")) + blue);
+  EXPECT_EQ(own.materials.at(static_cast<std::size_t>(own.links[0].meshes[0].material)).base_color.value[0],
+            1.0f);
+  ASSERT_EQ(own.warnings.size(), 1U);
+  EXPECT_NE(own.warnings[0].find("<gazebo> material Gazebo/Blue of "), std::string::npos) << own.warnings[0];
+  const Robot unknown =
+      parsed(link("base", visual(kBox)) + "<gazebo reference='base'><material>My/Own</material></gazebo>");
+  ASSERT_EQ(unknown.warnings.size(), 1U);
+  EXPECT_NE(unknown.warnings[0].find("My/Own of "), std::string::npos) << unknown.warnings[0];
+}
+
 TEST(Urdf, LinksHangFromTheirParents) {
   const Robot robot = parsed(
       link("base", visual(kBox)) + link("arm", visual(kBox)) + link("hand", visual(kBox)) +
