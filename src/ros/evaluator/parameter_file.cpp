@@ -22,22 +22,35 @@ XmlRpcValue valueOfText(const YAML::Node& node) {
   return node.Scalar();
 }
 
-XmlRpcValue valueOf(const YAML::Node& node) {
-  if (node.IsScalar()) return valueOfText(node);
-  XmlRpcValue value;
-  if (node.IsSequence()) {
-    value.setSize(static_cast<int>(node.size()));
-    int i = 0;
-    for (const YAML::Node& element : node) value[i++] = valueOf(element);
-  } else if (node.IsMap()) {
-    for (const auto& member : node) {
-      const auto key = member.first.as<std::string>();
-      if (value.hasMember(key)) throw YAML::Exception(member.first.Mark(), key + " is given twice");
-      value[key] = valueOf(member.second);
+/// Anchors let a few lines stand for any number of values, and hold themselves.
+class Values {
+ public:
+  XmlRpcValue of(const YAML::Node& node, int depth = 0) {
+    constexpr int kDeepest = 50;
+    constexpr std::size_t kMost = 1000000;
+    if (depth > kDeepest || ++count_ > kMost)
+      throw YAML::Exception(node.Mark(), "more than " + std::to_string(depth > kDeepest ? kDeepest : kMost) +
+                                             (depth > kDeepest ? " values within each other" : " values") +
+                                             "; does an anchor (&) hold itself?");
+    if (node.IsScalar()) return valueOfText(node);
+    XmlRpcValue value;
+    if (node.IsSequence()) {
+      value.setSize(static_cast<int>(node.size()));
+      int i = 0;
+      for (const YAML::Node& element : node) value[i++] = of(element, depth + 1);
+    } else if (node.IsMap()) {
+      for (const auto& member : node) {
+        const auto key = member.first.as<std::string>();
+        if (value.hasMember(key)) throw YAML::Exception(member.first.Mark(), key + " is given twice");
+        value[key] = of(member.second, depth + 1);
+      }
     }
+    return value;
   }
-  return value;
-}
+
+ private:
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
@@ -54,7 +67,7 @@ ParameterReader parametersOfFile(const std::string& path) {
     if (documents.size() > 1) fail(documents[1].Mark(), "there are several documents");
     const YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
     if (!root.IsMap()) fail(root.Mark(), "there are no keys");
-    tree = valueOf(root);
+    tree = Values().of(root);
   } catch (const YAML::Exception& error) {
     fail(error.mark, error.msg);
   }

@@ -342,6 +342,12 @@ about:
             file.write(CONFIG + 'features: {orb: {count: 100}}\nfeatures: {sift: {count: 100}}\n')
         with open(self.path('two.yaml'), 'w') as file:
             file.write(CONFIG + '---\nratio: 0.4\n')
+        with open(self.path('itself.yaml'), 'w') as file:
+            file.write(CONFIG + 'features: &all {orb: *all}\n')
+        with open(self.path('many.yaml'), 'w') as file:
+            file.write(CONFIG + 'a: &a [1]\n')
+            for letter, before in zip('bcdefghi', 'abcdefgh'):  # ten times as many each
+                file.write('%s: &%s [%s]\n' % (letter, letter, ', '.join(10 * ['*' + before])))
         for name, topic in (('capture.bag', '/h04/camera/capture'), ('pose.bag', '/camera/pose')):
             shutil.copy(self.path('all.bag'), self.path(name))
             with rosbag.Bag(self.path(name), 'a') as bag:
@@ -363,6 +369,10 @@ about:
                   'twice.yaml:%d: is not a YAML map of parameters: features is given twice' % broken_line),
                  (['--config', self.path('two.yaml'), '--out', self.path('out'), self.path('one.bag')],
                   'there are several documents'),
+                 (['--config', self.path('itself.yaml'), '--out', self.path('out'), self.path('one.bag')],
+                  'more than 50 values within each other; does an anchor (&) hold itself?'),
+                 (['--config', self.path('many.yaml'), '--out', self.path('out'), self.path('one.bag')],
+                  'more than 1000000 values'),
                  (start + [self.path('capture.bag')], '/h04/camera/capture is std_msgs/String, not sunlit/Capture'),
                  (start + [self.path('pose.bag')], '/camera/pose is std_msgs/String, not geometry_msgs/PoseStamped'),
                  (['--config', self.path('no.yaml'), '--out', self.path('out'), self.path('one.bag')], 'no.yaml'),
