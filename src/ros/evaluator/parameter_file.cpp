@@ -1,7 +1,10 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
+#include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -52,24 +55,40 @@ class Values {
   std::size_t count_ = 0;
 };
 
+/// The line, from 0, of the mark behind which a second document begins; −1: there is none. YAML::LoadAll()
+/// knows them too, but finds no end of documents in ",]".
+int secondDocument(const std::string& text) {
+  std::istringstream lines(text);
+  bool begun = false;
+  int number = 0;
+  for (std::string line; std::getline(lines, line); ++number) {
+    const bool marks = line.compare(0, 3, "---") == 0 &&
+                       (line.size() == 3 || std::isspace(static_cast<unsigned char>(line[3])));
+    if (marks && begun) return number;
+    const std::size_t first = line.find_first_not_of(" \t\r", marks ? 3 : 0);
+    begun |= first != std::string::npos && line[first] != '#' && line[0] != '%';
+  }
+  return -1;
+}
+
 }  // namespace
 
 ParameterReader parametersOfFile(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be opened");
-  const auto fail = [&](const YAML::Mark& mark, const std::string& reason) {
-    throw std::runtime_error(path + ":" + std::to_string(std::max(mark.line, 0) + 1) +
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto fail = [&](int line, const std::string& reason) {
+    throw std::runtime_error(path + ":" + std::to_string(std::max(line, 0) + 1) +
                              ": is not a YAML map of parameters: " + reason);
   };
   XmlRpcValue tree;
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(file);
-    if (documents.size() > 1) fail(documents[1].Mark(), "there are several documents");
-    const YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
-    if (!root.IsMap()) fail(root.Mark(), "there are no keys");
+    if (const int line = secondDocument(text); line >= 0) fail(line, "there are several documents");
+    const YAML::Node root = YAML::Load(text);
+    if (!root.IsMap()) fail(root.Mark().line, "there are no keys");
     tree = Values().of(root);
   } catch (const YAML::Exception& error) {
-    fail(error.mark, error.msg);
+    fail(error.mark.line, error.msg);
   }
   return ParameterReader(tree, path);
 }

@@ -344,6 +344,8 @@ about:
             file.write(CONFIG + '---\nratio: 0.4\n')
         with open(self.path('itself.yaml'), 'w') as file:
             file.write(CONFIG + 'features: &all {orb: *all}\n')
+        with open(self.path('endless.yaml'), 'w') as file:
+            file.write(',]')  # of which yaml-cpp makes documents without end
         with open(self.path('many.yaml'), 'w') as file:
             file.write(CONFIG + 'a: &a [1]\n')
             for letter, before in zip('bcdefghi', 'abcdefgh'):  # ten times as many each
@@ -371,6 +373,8 @@ about:
                   'there are several documents'),
                  (['--config', self.path('itself.yaml'), '--out', self.path('out'), self.path('one.bag')],
                   'more than 50 values within each other; does an anchor (&) hold itself?'),
+                 (['--config', self.path('endless.yaml'), '--out', self.path('out'), self.path('one.bag')],
+                  'endless.yaml:1: is not a YAML map of parameters: there are no keys'),
                  (['--config', self.path('many.yaml'), '--out', self.path('out'), self.path('one.bag')],
                   'more than 1000000 values'),
                  (start + [self.path('capture.bag')], '/h04/camera/capture is std_msgs/String, not sunlit/Capture'),
