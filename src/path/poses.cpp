@@ -98,7 +98,7 @@ std::vector<Eigen::Isometry3d> posesAlong(const Waypoints& waypoints, const Path
 Motion motionAt(const std::vector<Eigen::Isometry3d>& poses, int index, const Pace& pace) {
   const std::size_t at = static_cast<std::size_t>(index), last = poses.size() - 1;
   const double speed_m_s = pace.speed_m_s.value_or(pace.spacing_m * pace.rate_hz);
-  if (last < 1 || speed_m_s <= 0.0) return {};
+  if (poses.size() < 2 || speed_m_s <= 0.0) return {};
   // Poses of one segment look one way. Its last one may have the way to the next segment beside it, not
   // before it.
   const bool ends = at == last || poses[at].linear() != poses[at + 1].linear();

@@ -139,7 +139,9 @@ TEST(MotionAt, IsOfOneSpeedAndTurnsWithinASpacing) {
   expectMotion(2, {20, 0, 0}, 0.5 * kPi / 0.1);
   pace.speed_m_s = 0.0;
   expectMotion(2, {0, 0, 0}, 0.0);
+  pace.speed_m_s = 1.0;
   EXPECT_TRUE(motionAt({poses[0]}, 0, pace).none());
+  EXPECT_TRUE(motionAt({}, 0, pace).none());
 }
 
 TEST(MotionAt, GoesAlongAndNotAcrossBesideThePath) {
