@@ -68,10 +68,10 @@ void LayerSky::addSky(const DropletLayer& layer, const LightAbove& above) {
     float mu, angle;
     Eigen::Array3f illuminance;  // of planes facing it, all round together
   };
-  constexpr int kBelts = 24;
+  constexpr int kFacingBelts = 24;
   constexpr int kAzimuths = 24;
   std::vector<Belt> belts;
-  for (const Node& node : gaussLegendre(kBelts, 0.0, 1.0)) {
+  for (const Node& node : gaussLegendre(kFacingBelts, 0.0, 1.0)) {
     const auto mu = static_cast<float>(node.x);
     const float angle = std::acos(mu);
     Eigen::Array3f mean = Eigen::Array3f::Zero();

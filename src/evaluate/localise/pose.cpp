@@ -17,7 +17,7 @@ constexpr int kMostRefinements = 3;
 /// their own midst: coordinates of a large grid would lose their centimetres.
 class Problem {
  public:
-  Problem(const std::vector<Sighting>& sightings, const image::PinholeCamera& camera) : camera_(camera) {
+  Problem(const std::vector<Sighting>& sightings, const image::PinholeCamera& camera) {
     for (const Sighting& sighting : sightings) middle_ += sighting.point;
     middle_ /= static_cast<double>(sightings.size());
     for (const Sighting& sighting : sightings) {
@@ -56,7 +56,6 @@ class Problem {
   }
 
  private:
-  const image::PinholeCamera& camera_;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
   PoseSearch search_;
 };
