@@ -8,16 +8,6 @@
 #include "sunlit/scene/weathering.h"
 
 namespace sunlit::light {
-namespace {
-
-/// With what only pictures show of a surface, which a bake need not know.
-void addAll(const Geometry& geometry, image::ContentHash* hash) {
-  addContents(geometry, hash);
-  hash->add(geometry.tangents);
-}
-
-}  // namespace
-
 World::World(std::shared_ptr<const scene::Scene> scene,
              const std::vector<std::vector<scene::Mesh>>& meshes_of_bodies)
     : geometry(std::make_shared<Geometry>(std::move(scene))),
@@ -56,13 +46,19 @@ Illumination illumination(const World& world, const sky::Daylight& day, const La
 
 std::string fingerprint(const World& world) {
   image::ContentHash hash;
-  if (world.transport) hash = bakeKey(*world.geometry, world.transport->options());
-  addAll(*world.geometry, &hash);
+  // With what only pictures show, and a bake need not know: tangents, and all looks.
+  if (world.transport)
+    hash = bakeKey(*world.geometry, world.transport->options());
+  else
+    addContents(*world.geometry, &hash);
+  hash.add(world.geometry->tangents);
   scene::writeLooks(*world.geometry->scene,
                     [&hash](const void* data, std::size_t size) { hash.addBytes(data, size); });
   if (world.bodies) {
     const std::vector<Eigen::Isometry3d> at_home(world.bodies->count(), Eigen::Isometry3d::Identity());
-    addAll(*world.bodies->placed(at_home), &hash);
+    const auto bodies = world.bodies->placed(at_home);
+    addContents(*bodies, &hash);
+    hash.add(bodies->tangents);
   }
   for (const std::vector<scene::Lamp>& of_body : world.lamps_of_bodies) {
     hash.add(static_cast<std::uint64_t>(of_body.size()));

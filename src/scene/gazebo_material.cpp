@@ -258,6 +258,16 @@ std::optional<ScriptMaterial> materialIn(const Lines& lines, std::size_t end, co
 
 }  // namespace
 
+Material materialOf(const GazeboLook& look, const std::string& name) {
+  Material material;
+  material.name = name;
+  material.base_color = look.color;
+  material.emission.value = kDisplayWhite_cd_per_m2 * look.emissive.value;
+  material.alpha_mode = AlphaMode::kBlend;  // opaque, where there is nothing to be seen through
+  material.alpha = look.opacity;
+  return material;
+}
+
 std::optional<GazeboLook> gazeboLook(const std::string& name) {
   const std::string prefix = "Gazebo/";
   if (name.compare(0, prefix.size(), prefix) != 0) return std::nullopt;

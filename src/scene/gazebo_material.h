@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sunlit/quantity/photometry.h"
+#include "sunlit/scene/scene.h"
 
 namespace sunlit::scene {
 
@@ -19,6 +20,7 @@ struct GazeboLook {
 /// Of a material that comes with Gazebo, such as "Gazebo/Grey"; textured ones by their mean colour. None for
 /// a name that Gazebo does not have.
 std::optional<GazeboLook> gazeboLook(const std::string& name);
+Material materialOf(const GazeboLook& look, const std::string& name);
 
 /// What of an OGRE material matters here.
 struct ScriptMaterial {

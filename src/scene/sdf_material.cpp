@@ -59,15 +59,11 @@ int SdfMaterials::texture(const std::string& name, const std::string& from_file)
 }
 
 SdfMaterials::Scripted SdfMaterials::fromScript(const sdf::Material& source) {
+  if (const std::optional<GazeboLook> look = gazeboLook(source.ScriptName()))
+    return {materialOf(*look, source.ScriptName())};
   Material material;
   material.name = source.ScriptName();
   material.base_color = kNeutral;
-  if (const std::optional<GazeboLook> look = gazeboLook(material.name)) {
-    material.base_color = look->color;
-    material.emission.value = kDisplayWhite_cd_per_m2 * look->emissive.value;
-    setOpacity(look->opacity, &material);
-    return {material};
-  }
   // <script> may hold several <uri>; sdf::Material keeps the first only.
   std::vector<std::string> uris{source.ScriptUri()};
   const sdf::ElementPtr script = source.Element() ? firstIn(*source.Element(), "script") : nullptr;

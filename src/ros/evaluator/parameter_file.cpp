@@ -31,10 +31,8 @@ class Values {
   XmlRpcValue of(const YAML::Node& node, int depth = 0) {
     constexpr int kDeepest = 50;
     constexpr std::size_t kMost = 1000000;
-    if (depth > kDeepest || ++count_ > kMost)
-      throw YAML::Exception(node.Mark(), "more than " + std::to_string(depth > kDeepest ? kDeepest : kMost) +
-                                             (depth > kDeepest ? " values within each other" : " values") +
-                                             "; does an anchor (&) hold itself?");
+    if (depth > kDeepest) refuseMore(node, std::to_string(kDeepest) + " values within each other");
+    if (++count_ > kMost) refuseMore(node, std::to_string(kMost) + " values");
     if (node.IsScalar()) return valueOfText(node);
     XmlRpcValue value;
     if (node.IsSequence()) {
@@ -52,6 +50,9 @@ class Values {
   }
 
  private:
+  [[noreturn]] static void refuseMore(const YAML::Node& node, const std::string& than) {
+    throw YAML::Exception(node.Mark(), "more than " + than + "; does an anchor (&) hold itself?");
+  }
   std::size_t count_ = 0;
 };
 

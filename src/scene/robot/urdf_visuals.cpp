@@ -126,15 +126,8 @@ std::optional<int> UrdfVisuals::materialOfGazebo(const std::string& name, const 
     builder_.warn("materials do not exist, a neutral one takes their place", name + " of " + place);
     return std::nullopt;
   }
-  Material looks;
-  looks.name = name;
-  looks.base_color = look->color;
-  looks.emission.value = kDisplayWhite_cd_per_m2 * look->emissive.value;
-  if (look->opacity < 1.0f) {
-    looks.alpha_mode = AlphaMode::kBlend;
-    looks.alpha = look->opacity;
-  }
-  return material_by_content_[content] = builder_.addMaterial(looks, AlphaRule::kFromTexture);
+  return material_by_content_[content] =
+             builder_.addMaterial(materialOf(*look, name), AlphaRule::kFromTexture);
 }
 
 void UrdfVisuals::addMeshShape(const urdf::Mesh& shape, const MeshUse& use, const std::string& name,
