@@ -6,21 +6,27 @@
 
 namespace sunlit::scene {
 
-std::map<std::string, std::string> gazeboMaterialsOfLinks(const std::string& text) {
+void forEachGazebo(const std::string& text,
+                   const std::function<void(const std::string& link, const TiXmlElement& gazebo)>& use) {
   TiXmlDocument document;
   document.Parse(text.c_str(), nullptr, TIXML_ENCODING_UTF8);
-  std::map<std::string, std::string> names;
   const TiXmlElement* const robot = document.FirstChildElement("robot");
-  if (robot == nullptr) return names;
+  if (robot == nullptr) return;
   for (const TiXmlElement* gazebo = robot->FirstChildElement("gazebo"); gazebo != nullptr;
        gazebo = gazebo->NextSiblingElement("gazebo")) {
-    const char* const link = gazebo->Attribute("reference");
-    const TiXmlElement* const material = gazebo->FirstChildElement("material");
+    if (const char* const link = gazebo->Attribute("reference"); link != nullptr) use(link, *gazebo);
+  }
+}
+
+std::map<std::string, std::string> gazeboMaterialsOfLinks(const std::string& text) {
+  std::map<std::string, std::string> names;
+  forEachGazebo(text, [&](const std::string& link, const TiXmlElement& gazebo) {
+    const TiXmlElement* const material = gazebo.FirstChildElement("material");
     const char* const written = material == nullptr ? nullptr : material->GetText();
-    if (link == nullptr || written == nullptr) continue;
+    if (written == nullptr) return;
     std::istringstream words(written);
     words >> names[link];
-  }
+  });
   return names;
 }
 

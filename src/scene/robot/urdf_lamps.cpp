@@ -5,6 +5,7 @@
 #include <sdf/Light.hh>
 #include <sdf/Root.hh>
 
+#include "scene/robot/urdf_gazebo.h"
 #include "scene/sdf_library.h"
 #include "scene/sdf_light.h"
 #include "scene/sdf_pose.h"
@@ -35,19 +36,12 @@ void addLamp(const TiXmlElement& element, const std::string& link, SceneBuilder&
 }  // namespace
 
 std::map<std::string, std::vector<Lamp>> urdfLamps(const std::string& text, SceneBuilder& builder) {
-  TiXmlDocument document;
-  document.Parse(text.c_str(), nullptr, TIXML_ENCODING_UTF8);
   std::map<std::string, std::vector<Lamp>> lamps;
-  const TiXmlElement* const robot = document.FirstChildElement("robot");
-  if (robot == nullptr) return lamps;
-  for (const TiXmlElement* gazebo = robot->FirstChildElement("gazebo"); gazebo != nullptr;
-       gazebo = gazebo->NextSiblingElement("gazebo")) {
-    const char* const link = gazebo->Attribute("reference");
-    if (link == nullptr) continue;
-    for (const TiXmlElement* light = gazebo->FirstChildElement("light"); light != nullptr;
+  forEachGazebo(text, [&](const std::string& link, const TiXmlElement& gazebo) {
+    for (const TiXmlElement* light = gazebo.FirstChildElement("light"); light != nullptr;
          light = light->NextSiblingElement("light"))
       addLamp(*light, link, builder, &lamps[link]);
-  }
+  });
   return lamps;
 }
 

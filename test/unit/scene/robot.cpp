@@ -59,6 +59,8 @@ TEST(Urdf, VisualsWithoutAColourHaveTheOneThatGazeboGivesTheirLink) {
       (robot.materials.at(static_cast<std::size_t>(robot.links[0].meshes[0].material)).base_color.value ==
        Eigen::Array3f(0.0f, 0.0f, 1.0f))
           .all());
+  EXPECT_EQ(robot.materials[static_cast<std::size_t>(robot.links[0].meshes[0].material)].alpha_mode,
+            AlphaMode::kOpaque);
   EXPECT_TRUE(robot.warnings.empty());
   const Robot own =
       parsed(link("base", visual(kBox, "<material name='red'><color rgba='1 0 0 1'/></material>")) + blue);
