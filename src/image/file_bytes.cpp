@@ -92,7 +92,8 @@ FileBytes::FileBytes(const std::string& path) {
   if (size_ == 0) return;
   if (isLocal(file.number())) {
     data_ = mapped(size_, PROT_READ, MAP_SHARED, file.number());
-    if (data_ != nullptr) return;
+    mapped_ = data_ != nullptr;
+    if (mapped_) return;
   }
   data_ = mapped(size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1);
   if (data_ == nullptr) file.fail("read");
@@ -101,6 +102,14 @@ FileBytes::FileBytes(const std::string& path) {
   ::munmap(data_, size_);
   errno = error;
   file.fail("read");
+}
+
+void FileBytes::letGo(const void* first, std::size_t size) const {
+  if (!mapped_) return;  // of what was read there is nothing else
+  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  const auto from = reinterpret_cast<std::uintptr_t>(first);
+  const std::uintptr_t begin = (from + page - 1) / page * page, end = (from + size) / page * page;
+  if (begin < end) static_cast<void>(::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED));
 }
 
 FileBytes::~FileBytes() {

@@ -59,12 +59,16 @@ Transport::Transport(const TransportOptions& options, std::unique_ptr<const Tran
     : options_(options),
       data_(std::move(data)),
       node_open_(std::make_shared<const std::vector<float>>(openSky(*data_))),
-      glint_nodes_(light::glintNodes(*data_)) {}
+      glint_nodes_(light::glintNodes(*data_)) {
+  data_->letGo();
+}
 Transport::~Transport() = default;
 
 std::vector<NodeLight> Transport::relight(const sky::Daylight& day, const std::vector<float>& lamp_shares,
                                           const Visibility* visibility) const {
-  return light::relight(*data_, {day, lamp_shares, visibility});
+  std::vector<NodeLight> light = light::relight(*data_, {day, lamp_shares, visibility});
+  data_->letGo();
+  return light;
 }
 
 Illumination Transport::illumination(const sky::Daylight& day, const std::vector<float>& lamp_shares,

@@ -85,6 +85,20 @@ void addRows(const image::LinearImage& part, int first, float weight, image::Lin
   for (std::size_t i = 0; i < part.data.size(); ++i) to[i] += weight * part.data[i];
 }
 
+/// What becomes of a world's textures, for all its cameras.
+struct ReadyTextures {
+  explicit ReadyTextures(const light::World& world)
+      : pyramids(*world.geometry->scene),
+        maps(*world.geometry->scene,
+             world.transport ? static_cast<float>(light::TransportOptions().finest_m) : 0.0f) {
+    // A picture looks at few of them in their full size.
+    for (const scene::Texture& texture : world.geometry->scene->textures) texture.rgba.letGo();
+  }
+
+  TexturePyramids pyramids;
+  SurfaceMaps maps;
+};
+
 const light::World& firstOf(const std::vector<light::World>& states) {
   if (states.empty()) throw std::invalid_argument("states is empty, but must hold one world at least");
   return states.front();
@@ -100,16 +114,9 @@ bool same(const BodyPlaces& a, const BodyPlaces& b) {
 class Renderer::Implementation {
  public:
   Implementation(const std::vector<light::World>& states, const RenderOptions& options)
-      : options_(checked(options)),
-        optics_(opticsOf(options, options.camera)),
-        world_(firstOf(states)),
-        pyramids_(*world_.geometry->scene),
-        maps_(*world_.geometry->scene,
-              world_.transport ? static_cast<float>(light::TransportOptions().finest_m) : 0.0f),
-        rasterizer_(
-            makeRasterizer(options.rasterizer, {world_.geometry, pyramids_, options.texture_lod_bias})) {
-    for (const light::World& state : states) states_.emplace_back(state, options.final_gather);
-  }
+      : Implementation(states, checked(options), std::make_shared<const ReadyTextures>(firstOf(states))) {}
+  Implementation(const Implementation& beside, const RenderOptions& options)
+      : Implementation(beside.worlds(), checked(options), beside.textures_) {}
 
   void look(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {
     const bool drawn_ahead = !ahead_.samples.empty() &&
@@ -192,6 +199,23 @@ class Renderer::Implementation {
   }
 
  private:
+  Implementation(const std::vector<light::World>& states, const RenderOptions& options,
+                 std::shared_ptr<const ReadyTextures> textures)
+      : options_(options),
+        optics_(opticsOf(options, options.camera)),
+        world_(states.front()),
+        textures_(std::move(textures)),
+        rasterizer_(makeRasterizer(options.rasterizer,
+                                   {world_.geometry, textures_->pyramids, options.texture_lod_bias})) {
+    for (const light::World& state : states) states_.emplace_back(state, options.final_gather);
+  }
+
+  std::vector<light::World> worlds() const {
+    std::vector<light::World> worlds;
+    for (const State& state : states_) worlds.push_back(state.world);
+    return worlds;
+  }
+
   /// One pose, drawn.
   struct Pose {
     View view;
@@ -296,14 +320,10 @@ class Renderer::Implementation {
   }
 
   Seen bufferOf(const Pose& pose) const {
-    return {pose.view,
-            *world_.geometry,
-            pose.bodies.get(),
-            pyramids_,
-            maps_,
-            static_cast<float>(options_.texture_lod_bias),
-            pose.samples,
-            pose.visibility->hasVeils() ? pose.visibility.get() : nullptr};
+    return {pose.view,         *world_.geometry,
+            pose.bodies.get(), textures_->pyramids,
+            textures_->maps,   static_cast<float>(options_.texture_lod_bias),
+            pose.samples,      pose.visibility->hasVeils() ? pose.visibility.get() : nullptr};
   }
 
   void requireLook() const {
@@ -313,9 +333,8 @@ class Renderer::Implementation {
 
   RenderOptions options_;
   Optics optics_;
-  light::World world_;        // in the first of its states
-  TexturePyramids pyramids_;  // before the rasterizer, which refers to them
-  SurfaceMaps maps_;
+  light::World world_;                             // in the first of its states
+  std::shared_ptr<const ReadyTextures> textures_;  // before the rasterizer, which refers to them
   std::unique_ptr<Rasterizer> rasterizer_;
   std::deque<State> states_;  // which stay where they are
   Pose seen_;
@@ -332,6 +351,8 @@ Renderer::Renderer(const std::vector<light::World>& states, const RenderOptions&
     : implementation_(std::make_unique<Implementation>(states, options)) {}
 Renderer::Renderer(std::shared_ptr<const scene::Scene> scene, const RenderOptions& options)
     : Renderer(light::World(std::move(scene)), options) {}
+Renderer::Renderer(const Renderer& beside, const RenderOptions& options)
+    : implementation_(std::make_unique<Implementation>(*beside.implementation_, options)) {}
 Renderer::~Renderer() = default;
 
 void Renderer::look(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {

@@ -117,7 +117,7 @@ class Writer {
 
 class Reader {
  public:
-  Reader(const std::byte* data, std::size_t size, std::shared_ptr<const void> owner)
+  Reader(const std::byte* data, std::size_t size, std::shared_ptr<const image::FileBytes> owner)
       : at_(data), left_(size), owner_(std::move(owner)) {}
 
   template <typename T>
@@ -167,7 +167,7 @@ class Reader {
 
   const std::byte* at_;
   std::size_t left_;
-  std::shared_ptr<const void> owner_;  ///< of the bytes; null: they are gone when all is read
+  std::shared_ptr<const image::FileBytes> owner_;  ///< of the bytes; null: they are gone when all is read
 };
 
 }  // namespace
@@ -185,7 +185,7 @@ void writeLooks(const Scene& scene, const ByteSink& sink) {
   for (const Lamp& lamp : scene.lamps) std::apply(all_but_name, partsOf(lamp));
 }
 
-Scene sceneOf(const std::byte* data, std::size_t size, std::shared_ptr<const void> owner) {
+Scene sceneOf(const std::byte* data, std::size_t size, std::shared_ptr<const image::FileBytes> owner) {
   Reader reader(data, size, std::move(owner));
   Scene scene;
   reader(scene);

@@ -31,6 +31,15 @@ void Camera::enter(const std::vector<light::World>& worlds) {
   scene_ = worlds.front().geometry->scene;
 }
 
+void Camera::enterBeside(const Camera& other) {
+  renderer_ = other.renderer(render_);
+  scene_ = other.scene_;
+}
+
+std::unique_ptr<render::Renderer> Camera::renderer(const render::RenderOptions& render) const {
+  return std::make_unique<render::Renderer>(*renderer_, render);
+}
+
 void Camera::look(const Eigen::Isometry3d& map_from_optical, const render::BodyPlaces& map_from_links,
                   const Motion& motion) {
   renderer_->look(map_from_optical, map_from_links);

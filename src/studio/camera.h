@@ -26,6 +26,10 @@ class Camera {
   Camera(const render::RenderOptions& render, const std::vector<ChainOptions>& chains);
 
   void enter(const std::vector<light::World>& worlds);
+  /// Where `other` is.
+  void enterBeside(const Camera& other);
+  /// What draws the same worlds otherwise.
+  std::unique_ptr<render::Renderer> renderer(const render::RenderOptions& render) const;
   void look(const Eigen::Isometry3d& map_from_optical, const render::BodyPlaces& map_from_links,
             const Motion& motion);
   void lookAhead(const Eigen::Isometry3d& map_from_optical, const render::BodyPlaces& map_from_links);

@@ -27,7 +27,8 @@ std::string maker() {
 std::optional<scene::Scene> found(const SealedFiles& files, const std::string& name) {
   const std::shared_ptr<const SealedFiles::Content> content = files.find(name);
   if (!content) return std::nullopt;
-  return scene::sceneOf(content->data(), content->size(), content);
+  return scene::sceneOf(content->data(), content->size(),
+                        std::shared_ptr<const image::FileBytes>(content, &content->file()));
 }
 
 }  // namespace

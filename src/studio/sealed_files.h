@@ -26,6 +26,7 @@ class SealedFiles {
    public:
     explicit Content(const std::filesystem::path& file) : in_use_(file), bytes_(file.string()) {}
     const std::byte* data() const;
+    const image::FileBytes& file() const { return bytes_; }
     std::size_t size() const;
 
    private:

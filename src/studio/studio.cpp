@@ -75,7 +75,7 @@ Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& 
         stopwatch_.measure("load", "transport", [&] { return bake(world, options.bake, reports); });
   }
   stopwatch_.measure("load", "renderer", [&] { camera_->enter(worlds_); });
-  if (right_) stopwatch_.measure("load", "right", [&] { right_->enter(worlds_); });
+  if (right_) stopwatch_.measure("load", "right", [&] { right_->enterBeside(*camera_); });
 }
 
 Studio::~Studio() = default;
@@ -103,7 +103,7 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylig
   options.camera = {width, strip, focal_px, focal_px, 0.5 * (width - 1), 0.5 * (strip - 1)};
   options.near_m = 0.5 * distance_m;
   options.far_m = 2.0 * distance_m;
-  render::Renderer from_above(world(), options);
+  const std::unique_ptr<render::Renderer> from_above = camera_->renderer(options);
   Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
   map_from_optical.linear() =
       Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();  // right east, down south, forward down
@@ -114,8 +114,8 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylig
     const double from_north_m = (row + 0.5 * strip) / px_per_m;
     map_from_optical.translation() =
         Eigen::Vector3d(0.5 * (extent.x_min + extent.x_max), extent.y_max - from_north_m, top_m + distance_m);
-    from_above.look(map_from_optical);
-    const image::LinearImage part = from_above.light(light);
+    from_above->look(map_from_optical);
+    const image::LinearImage part = from_above->light(light);
     const int rows = std::min(strip, height - row);
     std::copy_n(part.data.begin(), rows * width * 3, whole.at(0, row));
   }

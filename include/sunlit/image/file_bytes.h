@@ -22,8 +22,14 @@ class FileBytes {
   const std::byte* data() const { return static_cast<const std::byte*>(data_); }
   std::size_t size() const { return size_; }
 
+  /// Takes `size` bytes from `first` on, as far as they fill pages of their own, out of this process' memory
+  /// if they are mapped: whoever looks at them has them back, mostly at once from what the system still
+  /// keeps.
+  void letGo(const void* first, std::size_t size) const;
+
  private:
   void* data_ = nullptr;
+  bool mapped_ = false;  ///< or read
   std::size_t size_ = 0;
 };
 

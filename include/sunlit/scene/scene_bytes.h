@@ -20,6 +20,7 @@ void writeLooks(const Scene& scene, const ByteSink& sink);
 /// What writeBytes() wrote, all of it. Throws std::runtime_error where the bytes end too soon or go on behind
 /// it; whether they are those that were written is the caller's to know. Texels stay where they are if there
 /// is an `owner`, which keeps them there unchanged, and are copied if it is null.
-Scene sceneOf(const std::byte* data, std::size_t size, std::shared_ptr<const void> owner = nullptr);
+Scene sceneOf(const std::byte* data, std::size_t size,
+              std::shared_ptr<const image::FileBytes> owner = nullptr);
 
 }  // namespace sunlit::scene

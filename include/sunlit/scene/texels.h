@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "sunlit/image/file_bytes.h"
+
 namespace sunlit::scene {
 
 /// Several processes that map one file share its texels. Copies of such are no copies of bytes.
@@ -17,8 +19,9 @@ class Texels {
   Texels() = default;
   Texels(std::vector<std::uint8_t> bytes) : own_(std::move(bytes)) {}
   Texels(std::initializer_list<std::uint8_t> bytes) : own_(bytes) {}
-  /// `size` bytes at `data`, which stay there unchanged as long as `owner`, not null, is kept.
-  static Texels within(std::shared_ptr<const void> owner, const std::uint8_t* data, std::size_t size) {
+  /// `size` bytes at `data`, within `owner`, not null.
+  static Texels within(std::shared_ptr<const image::FileBytes> owner, const std::uint8_t* data,
+                       std::size_t size) {
     Texels texels;
     texels.owner_ = std::move(owner);
     texels.data_ = data;
@@ -33,6 +36,11 @@ class Texels {
   const std::uint8_t* begin() const { return data(); }
   const std::uint8_t* end() const { return data() + size(); }
 
+  /// Nobody will look at all of them for a while: see image::FileBytes.
+  void letGo() const {
+    if (owner_) owner_->letGo(data_, size_);
+  }
+
   /// To be changed: where others own them, a copy from now on.
   std::vector<std::uint8_t>& own() {
     if (owner_) *this = std::vector<std::uint8_t>(begin(), end());
@@ -41,7 +49,7 @@ class Texels {
 
  private:
   std::vector<std::uint8_t> own_;
-  std::shared_ptr<const void> owner_;  ///< null: they are own_
+  std::shared_ptr<const image::FileBytes> owner_;  ///< null: they are own_
   const std::uint8_t* data_ = nullptr;
   std::size_t size_ = 0;
 };

@@ -32,8 +32,9 @@ GlRasterizer::GlRasterizer(std::shared_ptr<Device> device, const RasterizerWorld
       texels_factor_(static_cast<float>(std::exp2(2.0 * world.lod_bias))),
       list_(masks_, texels_factor_) {
   device_->run([this](const Functions& gl) { objects_ = std::make_unique<Objects>(gl, masks_); });
-  masks_.alpha = {};  // the device has them
-  masks_.rows = {};
+  // The device has them. By move: an empty list would keep their memory.
+  masks_.alpha = std::vector<std::uint8_t>();
+  masks_.rows = std::vector<std::int32_t>();
 }
 
 GlRasterizer::~GlRasterizer() {

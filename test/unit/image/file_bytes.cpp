@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
 
 #include "sunlit/image/files.h"
@@ -35,6 +37,37 @@ TEST(FileBytes, StayWhereTheFileIsReplacedOrRemoved) {
   EXPECT_EQ(textOf(bytes), "old");
   std::filesystem::remove(path);
   EXPECT_EQ(textOf(bytes), "old");
+}
+
+/// How much of what is mapped at `address` is in this process' memory, kB; −1: nothing is mapped from there.
+long resident_kB(const void* address) {
+  std::ostringstream wanted;
+  wanted << std::hex << reinterpret_cast<std::uintptr_t>(address) << '-';
+  std::ifstream maps("/proc/self/smaps");
+  bool here = false;
+  for (std::string line; std::getline(maps, line);) {
+    if (line.rfind(wanted.str(), 0) == 0) here = true;
+    if (here && line.rfind("Rss:", 0) == 0) return std::stol(line.substr(4));
+  }
+  return -1;
+}
+
+TEST(FileBytes, LeaveTheMemoryWhenTheyAreLetGoAndComeBack) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("some");
+  std::string text(1'000'000, 'x');
+  for (std::size_t i = 0; i < text.size(); ++i) text[i] = static_cast<char>(i * i >> 8);
+  image::writeFileAtomically(path, text);
+  const image::FileBytes bytes(path);
+  EXPECT_EQ(textOf(bytes), text);
+  const long all = resident_kB(bytes.data());
+  bytes.letGo(bytes.data() + 1, 3 * 4096);  // two pages whole
+  EXPECT_EQ(textOf(bytes), text);
+  bytes.letGo(bytes.data(), bytes.size());
+  if (all >= 976) {  // it is mapped, and alone so: its last page is not filled
+    EXPECT_LE(resident_kB(bytes.data()), 64);
+  }
+  EXPECT_EQ(textOf(bytes), text);
 }
 
 TEST(FileBytes, OfAnEmptyFileAreNone) {

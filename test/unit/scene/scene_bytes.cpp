@@ -6,6 +6,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "sunlit/image/files.h"
+#include "support/temporary_folder.h"
+
 namespace sunlit::scene {
 namespace {
 
@@ -89,17 +92,22 @@ TEST(SceneBytes, MakeTheSameSceneAgain) {
 }
 
 TEST(SceneBytes, KeepTexelsWhereTheyAreForWhoeverOwnsThem) {
-  const auto bytes = std::make_shared<const std::string>(bytesOf(small()));
-  const auto* const data = reinterpret_cast<const std::byte*>(bytes->data());
+  const std::string text = bytesOf(small());
+  const TemporaryFolder folder;
+  image::writeFileAtomically(folder.file("scene"), text);
+  const auto bytes = std::make_shared<const image::FileBytes>(folder.file("scene"));
+  const std::byte* const data = bytes->data();
   Scene scene = sceneOf(data, bytes->size(), bytes);
   const Texture copy = scene.textures.at(0);
   EXPECT_EQ(copy.rgba, small().textures[0].rgba);
   const auto* const texels = reinterpret_cast<const std::byte*>(copy.rgba.data());
   EXPECT_TRUE(texels >= data && texels < data + bytes->size());
+  copy.rgba.letGo();
+  EXPECT_EQ(copy.rgba, small().textures[0].rgba);
   scene.textures[0].rgba.own()[1] = 20;  // from now on its own
   EXPECT_EQ(scene.textures[0].rgba, Texels({1, 20, 3, 4, 5, 6, 7, 8}));
   EXPECT_EQ(copy.rgba, small().textures[0].rgba);
-  EXPECT_EQ(bytesOf(sceneOf(data, bytes->size())), *bytes);
+  EXPECT_EQ(bytesOf(sceneOf(data, bytes->size())), text);
   scene = Scene();
   EXPECT_EQ(bytes.use_count(), 2);  // the copy's
 }

@@ -38,38 +38,6 @@ std::size_t aligned(std::size_t offset) {
   throw std::runtime_error(file.string() + ": " + what);
 }
 
-template <typename Data, typename Visit>
-void visitArrays(Data& data, const Visit& visit) {
-  visit(data.mesh.roots);
-  visit(data.mesh.cells);
-  visit(data.mesh.first_share);
-  visit(data.mesh.shares);
-  visit(data.direct.rows);
-  visit(data.direct.scales);
-  for (auto* part : {&data.above, &data.below}) {
-    visit(part->coefficients.rows);
-    visit(part->coefficients.scales);
-    visit(part->tints);
-    visit(part->glows);
-    visit(part->hides);
-  }
-  visit(data.leaves.first);
-  visit(data.leaves.grids);
-  visit(data.lamps.first);
-  visit(data.lamps.blocks);
-  visit(data.lamps.light);
-  visit(data.rooms.samples);
-  visit(data.rooms.first);
-  visit(data.rooms.below);
-  visit(data.rooms.scales);
-  visit(data.rooms.links);
-  visit(data.rooms.mirrored.rows);
-  visit(data.rooms.mirrored.scales);
-  visit(data.rooms.sources);
-  visit(data.rooms.points);
-  visit(data.rooms.glossy);
-}
-
 template <typename Array>
 void addTo(const Array& values, image::ContentHash* checksum) {
   checksum->add(static_cast<std::uint64_t>(values.size()));
@@ -115,6 +83,7 @@ std::unique_ptr<const TransportData> readBake(const fs::path& file, const image:
     addTo(std::as_const(values), &checksum);
   });
   if (checksum.number() != header.checksum) fail(file, "is damaged");
+  data->letGo();
   return data;
 }
 

@@ -127,10 +127,15 @@ std::vector<NodeLight> sampleLight(const TransportData& data, const Conditions& 
   const Lights lights(conditions.day, through);
   const ByLamps by_lamps = lampLight(data, conditions.lamp_shares);
   std::vector<NodeLight> light(data.sampleCount());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, light.size(), 1024),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      lightSamples(data, lights, by_lamps, range, light.data());
-                    });
+  constexpr std::size_t kInMemory = 1u << 16;  // samples: some 40 MB of the file at a time
+  for (std::size_t begin = 0; begin < light.size(); begin += kInMemory) {
+    const std::size_t end = std::min(begin + kInMemory, light.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 1024),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        lightSamples(data, lights, by_lamps, range, light.data());
+                      });
+    data.letGoOfRows(begin, end);
+  }
   if (!conditions.visibility) return light;
   const DiscsInRooms discs(data, conditions.day, *conditions.visibility, through);
   if (discs.none()) return light;

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "sunlit/image/file_bytes.h"
+
 namespace sunlit::light {
 
 /// A std::vector to those who fill it. What lies in a file is only read; the first to write to it gets a
@@ -16,8 +18,8 @@ class BakedArray {
  public:
   BakedArray() = default;
   BakedArray(std::vector<T> values) : own_(std::move(values)) {}  // NOLINT: a vector is one
-  /// `count` of them from `first` on, as long as `holder` lives.
-  BakedArray(const T* first, std::size_t count, std::shared_ptr<const void> holder)
+  /// `count` of them from `first` on, within `holder`.
+  BakedArray(const T* first, std::size_t count, std::shared_ptr<const image::FileBytes> holder)
       : holder_(std::move(holder)), first_(first), count_(count) {}
 
   std::size_t size() const { return holder_ ? count_ : own_.size(); }
@@ -29,6 +31,11 @@ class BakedArray {
 
   friend bool operator==(const BakedArray& a, const BakedArray& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
+
+  /// Nobody will look at those from `begin` to `end` for a while: see image::FileBytes.
+  void letGo(std::size_t begin, std::size_t end) const {
+    if (holder_) holder_->letGo(first_ + begin, (end - begin) * sizeof(T));
   }
 
   T* data() { return own().data(); }
@@ -50,7 +57,7 @@ class BakedArray {
 
  private:
   std::vector<T> own_;
-  std::shared_ptr<const void> holder_;  ///< null: they are in own_
+  std::shared_ptr<const image::FileBytes> holder_;  ///< null: they are in own_
   const T* first_ = nullptr;
   std::size_t count_ = 0;
 };

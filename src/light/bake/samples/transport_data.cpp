@@ -135,6 +135,15 @@ void PassedOn::resize(std::size_t samples) {
   hides.assign(samples, 0.0f);
 }
 
+void TransportData::letGo() const {
+  visitArrays(*this, [](const auto& values) { values.letGo(0, values.size()); });
+}
+
+void TransportData::letGoOfRows(std::size_t begin, std::size_t end) const {
+  for (const Coefficients* part : {&direct, &above.coefficients, &below.coefficients})
+    part->rows.letGo(begin * SkyPatches::kCount, end * SkyPatches::kCount);
+}
+
 std::vector<float> openSky(const TransportData& data) {
   std::vector<float> of_samples(data.sampleCount()), of_nodes(data.mesh.nodeCount());
   tbb::parallel_for(std::size_t{0}, of_samples.size(), [&](std::size_t i) {

@@ -170,11 +170,48 @@ struct TransportData {
   std::size_t sampleCount() const { return direct.scales.size(); }
   /// Where each sample lies, about: at one of the nodes that have its light. Found when first asked for.
   const std::vector<Eigen::Vector3f>& places(const Geometry& geometry) const;
+  /// Whoever looked at all of it has done so; pictures look at a few places of it.
+  void letGo() const;
+  /// The same of some samples' coefficients, which are most of it.
+  void letGoOfRows(std::size_t begin, std::size_t end) const;
 
  private:
   mutable std::once_flag places_found_;
   mutable std::vector<Eigen::Vector3f> places_;
 };
+
+/// Calls `visit` with each array of a TransportData, in the order of the file.
+template <typename Data, typename Visit>
+void visitArrays(Data& data, const Visit& visit) {
+  visit(data.mesh.roots);
+  visit(data.mesh.cells);
+  visit(data.mesh.first_share);
+  visit(data.mesh.shares);
+  visit(data.direct.rows);
+  visit(data.direct.scales);
+  for (auto* part : {&data.above, &data.below}) {
+    visit(part->coefficients.rows);
+    visit(part->coefficients.scales);
+    visit(part->tints);
+    visit(part->glows);
+    visit(part->hides);
+  }
+  visit(data.leaves.first);
+  visit(data.leaves.grids);
+  visit(data.lamps.first);
+  visit(data.lamps.blocks);
+  visit(data.lamps.light);
+  visit(data.rooms.samples);
+  visit(data.rooms.first);
+  visit(data.rooms.below);
+  visit(data.rooms.scales);
+  visit(data.rooms.links);
+  visit(data.rooms.mirrored.rows);
+  visit(data.rooms.mirrored.scales);
+  visit(data.rooms.sources);
+  visit(data.rooms.points);
+  visit(data.rooms.glossy);
+}
 
 /// Nodes whose light is without what discs throw on them by way of polished floors. Its edges are as sharp as
 /// those of patches of sun, so that pictures look for it by rays of their own.
