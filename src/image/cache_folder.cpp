@@ -128,9 +128,13 @@ std::string usualCacheFolder() {
   return fs::temp_directory_path() / "sunlit";
 }
 
-CacheTurn CacheTurn::await(const fs::path& kept) {
+CacheTurn CacheTurn::await(const fs::path& kept, const std::function<void()>& waits) {
   const fs::path file = turnFile(kept);
-  const int descriptor = lockedFile(file, Patience::kWait);
+  int descriptor = lockedFile(file, Patience::kLeave);
+  if (descriptor < 0 && errno == EWOULDBLOCK) {
+    if (waits) waits();
+    descriptor = lockedFile(file, Patience::kWait);
+  }
   if (descriptor < 0) throw std::runtime_error(file.string() + ": " + reasonOf(errno));
   return CacheTurn(file, descriptor);
 }

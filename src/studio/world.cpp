@@ -77,8 +77,8 @@ std::shared_ptr<const light::Transport> bake(const light::World& world, const Ba
                                              const Reports& reports) {
   if (!options.enabled) return nullptr;
   const light::BakeCache cache = cacheOf(options);
-  auto transport =
-      light::Transport::cached(world.geometry, options.transport, cache, {reports.baking, reports.warning});
+  auto transport = light::Transport::cached(world.geometry, options.transport, cache,
+                                            {reports.baking, reports.warning, reports.note});
   tell(reports.note, "Sky light and bounced light at " + std::to_string(transport->sampleCount()) +
                          " samples, kept in " + cache.folder);
   return transport;

@@ -46,6 +46,7 @@ using BakeProgress = std::function<void(double share, double seconds_left)>;
 struct BakeListener {
   BakeProgress progress;                        ///< may be empty
   std::function<void(const std::string&)> log;  ///< one line of what did not go as it should; may be empty
+  std::function<void(const std::string&)> note = {};  ///< one line of what takes its time; may be empty
 };
 
 /// Where bakes are kept, and how much of the disk they may take.

@@ -5,98 +5,152 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
 
+#include "light/patches/random.h"
 #include "light/shading/shading.h"
-#include "sunlit/image/srgb.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/scene/weathering.h"
-#include "sunlit/scene/wrap.h"
 
 namespace sunlit::light {
 namespace {
 
-int squareOf(float coordinate, scene::Wrap wrap) {
-  return std::min(static_cast<int>(scene::wrapped(coordinate, wrap) * 32.0f), 31);
+/// Points over a triangle, as even as any number of the first of them can be and in no rhythm with what
+/// repeats: the additive sequence R2 of Roberts (2018), folded at the longest edge.
+template <std::size_t kCount>
+std::array<Eigen::Vector3f, kCount> evenPoints() {
+  constexpr double kPlastic = 1.32471795724474602596;  // p³ = p + 1
+  std::array<Eigen::Vector3f, kCount> points;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const double n = static_cast<double>(i) + 1.0;
+    double u = std::fmod(0.5 + n / kPlastic, 1.0), v = std::fmod(0.5 + n / (kPlastic * kPlastic), 1.0);
+    if (u + v > 1.0) {
+      u = 1.0 - u;
+      v = 1.0 - v;
+    }
+    points[i] = Eigen::Vector3d(1.0 - u - v, u, v).cast<float>();
+  }
+  return points;
 }
 
-/// Textures that roughness or metalness are taken from.
-std::vector<bool> usedAsData(const scene::Scene& scene) {
-  std::vector<bool> used(scene.textures.size(), false);
-  for (const scene::Material& material : scene.materials) {
-    for (const scene::TextureUse& use : {material.roughness_map, material.metalness_map})
-      if (use.given()) used[static_cast<std::size_t>(use.texture)] = true;
+/// Points of a part, from which on in evenPoints() it takes its own: those that all show the same of what
+/// repeats look at different places of it.
+std::size_t firstPoint(const Reflectances::Part& part, std::size_t of) {
+  std::uint64_t key = 0;
+  for (const float share : {part(1, 0), part(2, 0), part(1, 1), part(2, 1)}) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &share, sizeof(bits));
+    key = scrambled(key ^ bits);
   }
-  return used;
+  return static_cast<std::size_t>(key % of);
+}
+
+/// Calls visit(point) for as many points of a part as it takes that runs over so many cells of a texture, but
+/// `most` at most.
+template <typename Visit>
+void visitPoints(const Reflectances::Part& part, float cells, std::size_t most, const Visit& visit) {
+  static const std::array<Eigen::Vector3f, 1024> points = evenPoints<1024>();
+  if (cells < 1.0f) return visit(part.rowwise().mean());  // one colour, or two side by side
+  const auto count = std::min(most, static_cast<std::size_t>(4.0f * std::min(cells, 1e3f)));
+  const std::size_t first = firstPoint(part, points.size() - count);
+  for (std::size_t i = first; i < first + count; ++i) visit(part * points[i]);
 }
 
 }  // namespace
 
-Reflectances::Thumbnail Reflectances::shrink(const scene::Texture& texture, Kind kind) {
-  const std::array<float, 256>& linear = image::linearOfSrgb();
-  Thumbnail small;
-  small.pixels.resize(Thumbnail::kSize * Thumbnail::kSize);
-  Eigen::Array3f all = Eigen::Array3f::Zero();
-  float all_weight = 0.0f;
-  std::vector<float> weights(small.pixels.size(), 0.0f);
-  for (auto& pixel : small.pixels) pixel.setZero();
-  for (int y = 0; y < texture.height; ++y) {
-    for (int x = 0; x < texture.width; ++x) {
-      const std::uint8_t* rgba =
-          texture.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width) +
-                                     static_cast<std::size_t>(x));
-      const bool data = kind == Kind::kData;
-      const float weight = data ? 1.0f : static_cast<float>(rgba[3]) + 1e-3f;
-      Eigen::Array3f color(linear[rgba[0]], linear[rgba[1]], linear[rgba[2]]);
-      if (data) color = Eigen::Array3f(rgba[0], rgba[1], rgba[2]) / 255.0f;
-      const auto to = static_cast<std::size_t>(y * Thumbnail::kSize / texture.height * Thumbnail::kSize +
-                                               x * Thumbnail::kSize / texture.width);
-      small.pixels[to] += weight * color;
-      weights[to] += weight;
-      all += weight * color;
-      all_weight += weight;
-    }
+Reflectances::Reflectances(const Geometry& geometry) : geometry_(geometry) {
+  std::vector<Wanted> wanted;
+  for (const scene::Material& material : geometry.scene->materials) {
+    const bool opaque = material.alpha_mode == scene::AlphaMode::kOpaque;
+    Textures textures;
+    textures.base = numberOf({material.base_texture, 0, 0},
+                             opaque ? Thumbnail::Kind::kColor : Thumbnail::Kind::kSolidColor, &wanted);
+    textures.roughness = numberOf(material.roughness_map, Thumbnail::Kind::kData, &wanted);
+    textures.metalness = numberOf(material.metalness_map, Thumbnail::Kind::kData, &wanted);
+    textures.emission = numberOf(material.emission_map, Thumbnail::Kind::kColor, &wanted);
+    of_materials_.push_back(textures);
   }
-  for (std::size_t i = 0; i < small.pixels.size(); ++i) {
-    // Textures of less than 32 pixels leave squares empty.
-    small.pixels[i] = weights[i] > 0.0f ? Eigen::Array3f(small.pixels[i] / weights[i])
-                                        : Eigen::Array3f(all / std::max(all_weight, 1e-6f));
-  }
-  return small;
+  std::vector<std::optional<Thumbnail>> made(wanted.size());
+  tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
+    made[i].emplace(geometry.scene->textures[static_cast<std::size_t>(wanted[i].texture)], wanted[i].kind);
+  });
+  for (std::optional<Thumbnail>& one : made) thumbnails_.push_back(*std::move(one));
 }
 
-Reflectances::Reflectances(const Geometry& geometry) : geometry_(geometry) {
-  const std::vector<scene::Texture>& textures = geometry.scene->textures;
-  thumbnails_.resize(textures.size());
-  tbb::parallel_for(std::size_t{0}, textures.size(),
-                    [&](std::size_t i) { thumbnails_[i] = shrink(textures[i], Kind::kColor); });
-  const std::vector<bool> as_data = usedAsData(*geometry.scene);
-  data_thumbnails_.resize(textures.size());
-  tbb::parallel_for(std::size_t{0}, textures.size(), [&](std::size_t i) {
-    if (as_data[i]) data_thumbnails_[i] = shrink(textures[i], Kind::kData);
+int Reflectances::numberOf(const scene::TextureUse& use, Thumbnail::Kind kind,
+                           std::vector<Wanted>* wanted) const {
+  if (!use.given() || !geometry_.coordinates(use.coordinates)) return Textures::kNone;
+  const auto same = std::find_if(wanted->begin(), wanted->end(), [&](const Wanted& other) {
+    return other.texture == use.texture && other.kind == kind;
   });
+  const auto number = static_cast<int>(same - wanted->begin());
+  if (same == wanted->end()) wanted->push_back({use.texture, kind});
+  return number;
+}
+
+const scene::Material& Reflectances::materialOf(std::uint32_t triangle) const {
+  return geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[triangle])];
+}
+
+const Reflectances::Textures& Reflectances::texturesOf(std::uint32_t triangle) const {
+  return of_materials_[static_cast<std::size_t>(geometry_.materials[triangle])];
+}
+
+Reflectances::Shown Reflectances::shown(int thumbnail, const scene::TextureUse& use,
+                                        std::uint32_t triangle) const {
+  if (thumbnail == Textures::kNone) return {};
+  Shown of{&thumbnails_[static_cast<std::size_t>(thumbnail)], use.coordinates, use.channel};
+  // As by a palette, of which it shows a texel.
+  if (cells(of, triangle, Part::Identity()) < 1.0f) of.grain = Thumbnail::Grain::kTexels;
+  return of;
+}
+
+Reflectances::ShownPaint Reflectances::shownPaint(std::uint32_t triangle) const {
+  const scene::Material& material = materialOf(triangle);
+  const Textures& textures = texturesOf(triangle);
+  return {shown(textures.base, {material.base_texture, 0, 0}, triangle),
+          shown(textures.roughness, material.roughness_map, triangle),
+          shown(textures.metalness, material.metalness_map, triangle)};
 }
 
 Paint Reflectances::at(const TriangleSide& side, const Eigen::Vector3f& barycentric) const {
-  const std::uint32_t triangle = side.triangle;
-  const scene::Material& material =
-      geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[triangle])];
-  Eigen::Array3f albedo = Eigen::Array3f::Zero();
-  Eigen::Vector2f uv = Eigen::Vector2f::Zero();
-  for (int k = 0; k < 3; ++k) {
-    const std::uint32_t v = geometry_.triangles[triangle][static_cast<std::size_t>(k)];
-    albedo += barycentric[k] * geometry_.colors[v];
-    uv += barycentric[k] * geometry_.texture_coordinates[v];
-  }
-  albedo *= material.base_color.value;
-  if (material.base_texture != scene::Material::kNoTexture) {
-    albedo *= look(thumbnails_, material.base_texture, uv);
-  }
-  albedo *= 1.0f - material.glass;  // what goes straight through is not scattered
-  const Paint paint{albedo.max(0.0f).min(1.0f),
-                    std::max(material.roughness * data(material.roughness_map, triangle, barycentric),
-                             scene::Material::kSmoothest),
-                    material.metalness * data(material.metalness_map, triangle, barycentric)};
+  const Paint paint = dry(shownPaint(side.triangle), side.triangle, barycentric).paint;
   return geometry_.weathering ? weathered(paint, side, barycentric) : paint;
+}
+
+Paint Reflectances::mean(const TriangleSide& side, const Part& part) const {
+  const std::uint32_t triangle = side.triangle;
+  const ShownPaint shows = shownPaint(triangle);
+  const float most = std::max({cells(shows.base, triangle, part), cells(shows.roughness, triangle, part),
+                               cells(shows.metalness, triangle, part)});
+  Paint sum;
+  float solid = 0.0f;
+  constexpr std::size_t kMost = 16;  // a sample is the mean of several parts
+  visitPoints(part, most, kMost, [&](const Eigen::Vector3f& at) {
+    const Dry dry = this->dry(shows, triangle, at);
+    sum += dry.solid * dry.paint;
+    solid += dry.solid;
+  });
+  const Paint paint = (1.0f / solid) * sum;
+  return geometry_.weathering ? weathered(paint, side, part.rowwise().mean()) : paint;
+}
+
+Reflectances::Dry Reflectances::dry(const ShownPaint& shows, std::uint32_t triangle,
+                                    const Eigen::Vector3f& barycentric) const {
+  const scene::Material& material = materialOf(triangle);
+  const Eigen::Array4f base = look(shows.base, triangle, barycentric);
+  const auto data = [&](const Shown& of) { return look(of, triangle, barycentric)[of.channel]; };
+  Eigen::Array3f albedo = Eigen::Array3f::Zero();
+  for (int k = 0; k < 3; ++k)
+    albedo += barycentric[k] * geometry_.colors[geometry_.triangles[triangle][static_cast<std::size_t>(k)]];
+  albedo *= material.base_color.value * base.head<3>();
+  albedo *= 1.0f - material.glass;  // what goes straight through is not scattered
+  return {{albedo.max(0.0f).min(1.0f),
+           std::max(material.roughness * data(shows.roughness), scene::Material::kSmoothest),
+           material.metalness * data(shows.metalness)},
+          base[3]};
 }
 
 Paint Reflectances::weathered(const Paint& paint, const TriangleSide& side,
@@ -125,40 +179,48 @@ Eigen::Vector2f Reflectances::coordinates(std::uint32_t triangle, const Eigen::V
   return uv;
 }
 
-Eigen::Array3f Reflectances::look(const std::vector<Thumbnail>& thumbnails, int texture,
-                                  const Eigen::Vector2f& uv) const {
-  const auto number = static_cast<std::size_t>(texture);
-  const scene::Texture& source = geometry_.scene->textures[number];
-  return thumbnails[number].pixels[static_cast<std::size_t>(
-      squareOf(uv.y(), source.wrap_v) * Thumbnail::kSize + squareOf(uv.x(), source.wrap_u))];
+Eigen::Array4f Reflectances::look(const Shown& of, std::uint32_t triangle,
+                                  const Eigen::Vector3f& barycentric) const {
+  if (!of.thumbnail) return Eigen::Array4f::Ones();
+  return of.thumbnail->at(coordinates(triangle, barycentric, of.set), of.grain);
 }
 
-float Reflectances::data(const scene::TextureUse& use, std::uint32_t triangle,
-                         const Eigen::Vector3f& barycentric) const {
-  if (!use.given() || use.channel > 2 || !geometry_.coordinates(use.coordinates)) return 1.0f;
-  return look(data_thumbnails_, use.texture,
-              coordinates(triangle, barycentric, use.coordinates))[use.channel];
+float Reflectances::cells(const Shown& of, std::uint32_t triangle, const Part& part) const {
+  if (!of.thumbnail) return 0.0f;
+  Eigen::Array2f least = Eigen::Array2f::Constant(std::numeric_limits<float>::infinity()), most = -least;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Array2f uv = coordinates(triangle, part.col(k), of.set).array();
+    least = least.min(uv);
+    most = most.max(uv);
+  }
+  return ((most - least) * of.thumbnail->size(of.grain)).maxCoeff();
 }
 
-Eigen::Array3f Reflectances::emission(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const {
-  const scene::Material& material =
-      geometry_.scene->materials[static_cast<std::size_t>(geometry_.materials[triangle])];
-  const scene::TextureUse& use = material.emission_map;
-  if (!use.given() || !geometry_.coordinates(use.coordinates)) return material.emission.value;
-  return material.emission.value *
-         look(thumbnails_, use.texture, coordinates(triangle, barycentric, use.coordinates));
+Eigen::Array3f Reflectances::emission(std::uint32_t triangle, const Part& part) const {
+  const scene::Material& material = materialOf(triangle);
+  const Shown of = shown(texturesOf(triangle).emission, material.emission_map, triangle);
+  Eigen::Array3f sum = Eigen::Array3f::Zero();
+  float count = 0.0f;
+  constexpr std::size_t kMost = 256;
+  visitPoints(part, cells(of, triangle, part), kMost, [&](const Eigen::Vector3f& at) {
+    sum += look(of, triangle, at).head<3>();
+    ++count;
+  });
+  return material.emission.value * sum / count;
 }
 
-void Paint::add(float area, const Paint& other) {
-  albedo += area * other.albedo;
-  roughness += area * other.roughness;
-  metalness += area * other.metalness;
+Paint& Paint::operator+=(const Paint& other) {
+  albedo += other.albedo;
+  roughness += other.roughness;
+  metalness += other.metalness;
+  return *this;
 }
 
-void Paint::divide(float areas) {
-  albedo /= areas;
-  roughness /= areas;
-  metalness /= areas;
+Paint& Paint::operator*=(float factor) {
+  albedo *= factor;
+  roughness *= factor;
+  metalness *= factor;
+  return *this;
 }
 
 Reflectance reflectance(const Paint& paint, float n_v) {

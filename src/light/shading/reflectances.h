@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "light/geometry/triangle_side.h"
+#include "light/shading/thumbnail.h"
 #include "sunlit/light/geometry.h"
 
 namespace sunlit::light {
@@ -14,9 +15,12 @@ struct Paint {
   Eigen::Array3f albedo = Eigen::Array3f::Zero();
   float roughness = 0.0f, metalness = 0.0f;
 
-  void add(float area, const Paint& other);
-  void divide(float areas);
+  Paint& operator+=(const Paint& other);
+  Paint& operator*=(float factor);
 };
+inline Paint operator*(float factor, Paint paint) {
+  return paint *= factor;
+}
 
 /// Share of the arriving light that leaves again towards an eye.
 struct Reflectance {
@@ -33,30 +37,62 @@ class Reflectances {
  public:
   /// Keeps a reference.
   explicit Reflectances(const Geometry& geometry);
+
+  /// Part of a triangle: its corners' barycentric coordinates, a column each.
+  using Part = Eigen::Matrix3f;
+
   /// At a point of a triangle; of masked surfaces the solid part.
   Paint at(const TriangleSide& side, const Eigen::Vector3f& barycentric) const;
-  /// Luminance of its own there, cd/m².
-  Eigen::Array3f emission(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const;
+  /// Of a part, about: by some points of it where its textures differ within.
+  Paint mean(const TriangleSide& side, const Part& part) const;
+  /// Luminance of its own there, cd/m²: the mean in the same way.
+  Eigen::Array3f emission(std::uint32_t triangle, const Part& part) const;
 
  private:
-  /// A texture averaged over kSize × kSize squares, linear.
-  struct Thumbnail {
-    static constexpr int kSize = 32;
-    std::vector<Eigen::Array3f> pixels;
+  /// Textures of a material, by their numbers in thumbnails_.
+  struct Textures {
+    static constexpr int kNone = -1;
+    int base = kNone, roughness = kNone, metalness = kNone, emission = kNone;
   };
-  enum class Kind { kColor, kData };
-  static Thumbnail shrink(const scene::Texture& texture, Kind kind);
+  struct Wanted {
+    int texture;
+    Thumbnail::Kind kind;
+  };
+  int numberOf(const scene::TextureUse& use, Thumbnail::Kind kind, std::vector<Wanted>* wanted) const;
+
+  /// How a triangle shows a texture.
+  struct Shown {
+    const Thumbnail* thumbnail = nullptr;  ///< null: it shows none
+    int set = 0;                           ///< of texture coordinates
+    int channel = 0;
+    Thumbnail::Grain grain = Thumbnail::Grain::kSquares;
+  };
+  /// All that decides how it reflects.
+  struct ShownPaint {
+    Shown base, roughness, metalness;
+  };
+  Shown shown(int thumbnail, const scene::TextureUse& use, std::uint32_t triangle) const;
+  ShownPaint shownPaint(std::uint32_t triangle) const;
+  /// Value there, and the share that is solid; 1 without a texture.
+  Eigen::Array4f look(const Shown& of, std::uint32_t triangle, const Eigen::Vector3f& barycentric) const;
+  /// How many squares or texels of it a part runs over, along the axis where these are most.
+  float cells(const Shown& of, std::uint32_t triangle, const Part& part) const;
+
+  /// Before water and snow, and how much of it is solid.
+  struct Dry {
+    Paint paint;
+    float solid;
+  };
+  Dry dry(const ShownPaint& shows, std::uint32_t triangle, const Eigen::Vector3f& barycentric) const;
   /// What water and snow make of it.
   Paint weathered(const Paint& paint, const TriangleSide& side, const Eigen::Vector3f& barycentric) const;
+  const scene::Material& materialOf(std::uint32_t triangle) const;
+  const Textures& texturesOf(std::uint32_t triangle) const;
   Eigen::Vector2f coordinates(std::uint32_t triangle, const Eigen::Vector3f& barycentric, int set) const;
-  /// Of one of `thumbnails`, at a place in the texture `texture`.
-  Eigen::Array3f look(const std::vector<Thumbnail>& thumbnails, int texture, const Eigen::Vector2f& uv) const;
-  /// Value of a map of data there.
-  float data(const scene::TextureUse& use, std::uint32_t triangle, const Eigen::Vector3f& barycentric) const;
 
   const Geometry& geometry_;
+  std::vector<Textures> of_materials_;
   std::vector<Thumbnail> thumbnails_;
-  std::vector<Thumbnail> data_thumbnails_;  ///< of those that are used as data; others are empty
 };
 
 }  // namespace sunlit::light

@@ -8,6 +8,8 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <future>
+#include <optional>
 #include <thread>
 
 #include "light/bake/cache/cache_file.h"
@@ -180,6 +182,24 @@ TEST_F(TransportCache, IsBakedOnceByThoseWhoWantItTogether) {
   second.join();
   third.join();
   EXPECT_EQ(bakes, 1);
+  EXPECT_EQ(files().size(), 1u);
+}
+
+TEST_F(TransportCache, SaysThatItWaitsForAnotherProcess) {
+  const World world = worldOf(wallOnGround());
+  light(world);
+  const fs::path file = files().at(0);
+  fs::remove(file);
+  std::promise<std::string> note;
+  std::optional<image::CacheTurn> other = image::CacheTurn::await(file);
+  std::thread one([&] {
+    Transport::cached(world.geometry, {}, folder_.string(),
+                      {nullptr, nullptr, [&](const std::string& line) { note.set_value(line); }});
+  });
+  const std::string line = note.get_future().get();
+  other.reset();
+  one.join();
+  EXPECT_NE(line.find("waiting for " + file.string()), std::string::npos) << line;
   EXPECT_EQ(files().size(), 1u);
 }
 

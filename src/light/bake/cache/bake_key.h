@@ -10,8 +10,8 @@
 
 namespace sunlit::light {
 
-/// Goes up whenever the bake or the layout of its file changes.
-constexpr std::uint32_t kBakeVersion = 27;
+/// Goes up whenever the bake, scene::Weathering or the layout of the file changes.
+constexpr std::uint32_t kBakeVersion = 28;
 
 /// Shape, and of the looks what decides how light goes on from it.
 void addContents(const Geometry& geometry, image::ContentHash* hash);

@@ -36,11 +36,14 @@ std::optional<fs::path> usableFolder(const std::string& folder, const Log& log) 
   return std::nullopt;
 }
 
-std::optional<image::CacheTurn> turnFor(const fs::path& file, const Log& log) {
+std::optional<image::CacheTurn> turnFor(const fs::path& file, const BakeListener& listener) {
   try {
-    return image::CacheTurn::await(file);
+    return image::CacheTurn::await(file, [&] {
+      if (listener.note)
+        listener.note("Another process bakes the light of this world: waiting for " + file.string());
+    });
   } catch (const std::exception& problem) {
-    if (log) log(std::string("baked light is not kept: ") + problem.what());
+    if (listener.log) listener.log(std::string("baked light is not kept: ") + problem.what());
     return std::nullopt;
   }
 }
@@ -68,7 +71,7 @@ std::uintmax_t BakeCache::usedBytes() const {
 std::shared_ptr<const Transport> Transport::cached(std::shared_ptr<const Geometry> geometry,
                                                    const TransportOptions& options, const BakeCache& cache,
                                                    const BakeListener& listener) {
-  const auto& [progress, log] = listener;
+  const auto& [progress, log, note] = listener;
   validate(options);
   const std::optional<fs::path> folder = usableFolder(cache.folder, log);
   if (!folder) return bake(std::move(geometry), options, progress);
@@ -79,7 +82,7 @@ std::shared_ptr<const Transport> Transport::cached(std::shared_ptr<const Geometr
   std::unique_ptr<const TransportData> data = readIfThere(file, key, nullptr);
   std::optional<image::CacheTurn> turn;
   if (!data) {
-    turn = turnFor(file, log);
+    turn = turnFor(file, listener);
     if (!turn) return bake(std::move(geometry), options, progress);
     data = readIfThere(file, key, log);  // another process may have finished it meanwhile
   }

@@ -57,9 +57,21 @@ double receiveAll(const std::vector<Value>& has, std::vector<Value>* next, const
   return count > 0 ? std::accumulate(changes.begin(), changes.end(), 0.0) / static_cast<double>(count) : 0.0;
 }
 
+/// Of a sample that only later bounces reach nobody knows where in the sky its light is from.
+void setEven(float sum, std::size_t sample, Coefficients* coefficients) {
+  std::array<float, SkyPatches::kCount> row{};
+  for (int patch = 0; patch < SkyPatches::kAbove; ++patch)
+    row[static_cast<std::size_t>(patch)] = sum * SkyPatches::solidAngle(patch) / (2.0f * kPiFloat);
+  coefficients->set(sample, row.data());
+}
+
 void brighten(const PartSums& traced, const PartSums& all, std::size_t sample, PassedOn* part) {
-  const float before = luminanceOf(traced.color);
-  if (before > 0.0f) part->coefficients.scales[sample] *= luminanceOf(all.color) / before;
+  const float before = luminanceOf(traced.color), after = luminanceOf(all.color);
+  if (before > 0.0f) {
+    part->coefficients.scales[sample] *= after / before;
+  } else if (after > 0.0f) {
+    setEven(after, sample, &part->coefficients);
+  }
   store(all, sample, part);
 }
 

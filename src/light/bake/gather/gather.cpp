@@ -108,8 +108,15 @@ class Gatherer {
   /// Of two samples on both sides of a sheet, rays of the first serve both.
   void findStarts() {
     for (std::uint32_t i = 0; i < count_; ++i) {
-      if (samples_.other_side[i].sample > i) starts_.push_back(i);  // or there is none
+      const OtherSide& other = samples_.other_side[i];
+      if (!other.shares_rays || other.sample > i) starts_.push_back(i);
     }
+  }
+
+  /// The sample behind one that its rays serve, too, or LightMesh::kNone.
+  std::uint32_t servedToo(std::uint32_t sample) const {
+    const OtherSide& other = samples_.other_side[sample];
+    return other.shares_rays ? other.sample : LightMesh::kNone;
   }
 
   void lookAround(std::size_t first, TransportData* data) {
@@ -120,21 +127,21 @@ class Gatherer {
       const std::uint32_t sample = starts_[first + i];
       receivers[i] = samples_.receivers[sample];
       // Half: both sides' rays count alike. Doubled again below, for each sample has one side to itself.
-      if (samples_.other_side[sample].sample != LightMesh::kNone) receivers[i].transmission = 0.5f;
+      if (servedToo(sample) != LightMesh::kNone) receivers[i].transmission = 0.5f;
     }
     const auto& rays = patches_.rays();
-    probe_.look({receivers.data(), static_cast<int>(count)}, [&](int lane, std::size_t r, float weight,
-                                                                 const HitPacket& hits) {
-      const auto i = static_cast<std::size_t>(lane);
-      const std::uint32_t sample = starts_[first + i], behind = samples_.other_side[sample].sample;
-      const bool two_sided = behind != LightMesh::kNone;
-      const bool turned = two_sided && receivers[i].normal.dot(rays[r].towards) < 0.0f;
-      if (two_sided) weight *= 2.0f;
-      note(rays[r], {receivers[i].normal, rays[r].towards, weight, hits, lane}, turned ? behind : sample,
-           &looks[i][turned ? 1 : 0]);
-    });
+    probe_.look({receivers.data(), static_cast<int>(count)},
+                [&](int lane, std::size_t r, float weight, const HitPacket& hits) {
+                  const auto i = static_cast<std::size_t>(lane);
+                  const std::uint32_t sample = starts_[first + i], behind = servedToo(sample);
+                  const bool two_sided = behind != LightMesh::kNone;
+                  const bool turned = two_sided && receivers[i].normal.dot(rays[r].towards) < 0.0f;
+                  if (two_sided) weight *= 2.0f;
+                  note(rays[r], {receivers[i].normal, rays[r].towards, weight, hits, lane},
+                       turned ? behind : sample, &looks[i][turned ? 1 : 0]);
+                });
     for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t sample = starts_[first + i], behind = samples_.other_side[sample].sample;
+      const std::uint32_t sample = starts_[first + i], behind = servedToo(sample);
       finish(sample, &looks[i][0], data);
       if (behind != LightMesh::kNone) finish(behind, &looks[i][1], data);
     }
@@ -321,7 +328,8 @@ std::vector<bool> gatherLight(const BakeScene& scene, const SceneSamples& sample
                               const GatherOptions& options, TransportData* data) {
   if (samples.receivers.size() > Exchange::kMostSamples) {
     throw std::runtime_error("bake of light: the scene takes " + std::to_string(samples.receivers.size()) +
-                             " samples, of at most " + std::to_string(Exchange::kMostSamples));
+                             " samples, of at most " + std::to_string(Exchange::kMostSamples) +
+                             ": its meshes need fewer triangles, or no light is baked");
   }
   return Gatherer(scene, samples, options, data->rooms).gather(data);
 }

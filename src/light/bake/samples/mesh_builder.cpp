@@ -6,16 +6,13 @@
 #include <cmath>
 
 #include "light/bake/samples/burial_test.h"
+#include "light/patches/random.h"
 #include "sunlit/quantity/photometry.h"
 
 namespace sunlit::light {
 namespace {
 
 constexpr float kInwards_m = 0.02f;  ///< of a receiver on an open edge, away from the edge
-/// Longest edge of a cell near which anything stands: no car may lie unseen amid it.
-constexpr float kCoarsest_m = 16.0f;
-/// Longest edge of a cell where nothing does.
-constexpr float kEmptiest_m = 128.0f;
 /// Longest edge of a cell, in harmonic mean distances of what its corners see.
 constexpr float kReachShare = 0.6f;
 /// Longest edge of a cell, in distances of the closest thing that its corners see.
@@ -85,33 +82,6 @@ std::uint32_t NodeIndex::at(const Eigen::Vector3f& position, const Eigen::Vector
   nodes.push_back(node);
   next_.push_back(LightMesh::kNone);
   return added;
-}
-
-Occupancy::Occupancy(const Geometry& geometry, const std::vector<TriangleTraits>& traits) {
-  constexpr float kTerrain_m2 = 60.0f;  ///< larger triangles are no things on the ground, but the ground
-  for (std::uint32_t t = 0; t < traits.size(); ++t) {
-    if (isLeaf(traits[t].kind)) continue;
-    const auto& corners = geometry.triangles[t];
-    const Eigen::Vector3f a = geometry.positions[corners[0]];
-    const Eigen::Vector3f b = geometry.positions[corners[1]], c = geometry.positions[corners[2]];
-    if (0.5f * (b - a).cross(c - a).norm() > kTerrain_m2) continue;
-    const Eigen::Vector3f middle = (a + b + c) / 3.0f;
-    squares_.insert(square(step(middle.x()), step(middle.y())));
-  }
-}
-
-bool Occupancy::near(const std::vector<MeshNode>& nodes, const LightMesh::Cell& cell) const {
-  Eigen::AlignedBox3f box;
-  for (std::uint32_t node : cell.corner) box.extend(nodes[node].position);
-  constexpr int kMost = 32;  // squares an axis; larger cells are halved in any case
-  const int left = step(box.min().x()) - 1, right = std::min(step(box.max().x()) + 1, left + kMost);
-  const int low = step(box.min().y()) - 1, high = std::min(step(box.max().y()) + 1, low + kMost);
-  for (int x = left; x <= right; ++x) {
-    for (int y = low; y <= high; ++y) {
-      if (squares_.count(square(x, y)) != 0) return true;
-    }
-  }
-  return false;
 }
 
 MeshBuilder::MeshBuilder(const BakeScene& scene, const ShiningSurfaces& shining)
@@ -241,16 +211,18 @@ float MeshBuilder::shoneUnevenly(const LightMesh::Cell& cell) const {
 float MeshBuilder::urgency(const LightMesh::Cell& cell, float finest_m, Pass pass) const {
   float longest = 0.0f, reach = 1e9f, nearest = 1e9f;
   int valid = 0;
+  Eigen::AlignedBox3f box;
   for (std::size_t k = 0; k < 3; ++k) {
     const MeshNode& node = index.nodes[cell.corner[k]];
     longest = std::max(longest, (node.position - index.nodes[cell.corner[(k + 1) % 3]].position).norm());
+    box.extend(node.position);
     if (!node.valid) continue;
     ++valid;
     reach = std::min(reach, node.reach_m);
     nearest = std::min(nearest, node.nearest_m);
   }
   if (longest <= finest_m) return 0.0f;
-  const float coarse = longest / (occupied_.near(index.nodes, cell) ? kCoarsest_m : kEmptiest_m);
+  const float coarse = longest / occupied_.coarsest_m(box);
   if (valid == 0) return coarse;
   if (valid < 3) reach = std::min(reach, finest_m * 2.0f);
   const float least = 1.0f / kMostLarger;
@@ -363,8 +335,14 @@ void MeshBuilder::halveMostUrgent(const RefineLimits& limits, Pass pass) {
   active_.clear();
   if (splits.size() > room) {
     std::sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) {
-      return a.urgency != b.urgency ? a.urgency > b.urgency : a.cell < b.cell;
+      // Of equally urgent ones, some from everywhere.
+      return a.urgency != b.urgency ? a.urgency > b.urgency : scrambled(a.cell) < scrambled(b.cell);
     });
+    // Halves of neighbours share a node, so that there may be room for others yet. A hundredth of all nodes
+    // is not worth another look at every cell.
+    constexpr std::size_t kWorthIt = 100;
+    if (room > limits.nodes / kWorthIt)
+      for (std::size_t i = room; i < splits.size(); ++i) active_.push_back(splits[i].cell);
     splits.resize(room);
   }
   for (const Split& s : splits) split(s.cell);

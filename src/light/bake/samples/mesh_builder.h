@@ -1,13 +1,12 @@
 /// Refines large triangles until light may be interpolated between their nodes.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
+#include "light/bake/samples/occupancy.h"
 #include "light/bake/samples/probe.h"
 #include "light/bake/samples/shining_surfaces.h"
 #include "light/bake/samples/transport_data.h"
@@ -45,22 +44,6 @@ class NodeIndex {
  private:
   std::unordered_map<std::uint64_t, std::uint32_t> first_;  ///< by place
   std::vector<std::uint32_t> next_;                         ///< of the same place
-};
-
-/// Where things stand, on a map of squares.
-class Occupancy {
- public:
-  Occupancy(const Geometry& geometry, const std::vector<TriangleTraits>& traits);
-  /// Whether anything stands on or beside the cell.
-  bool near(const std::vector<MeshNode>& nodes, const LightMesh::Cell& cell) const;
-
- private:
-  static constexpr float kSquare_m = 32.0f;
-  static int step(float coordinate) { return static_cast<int>(std::floor(coordinate / kSquare_m)); }
-  static std::uint64_t square(int x, int y) {
-    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 | static_cast<std::uint32_t>(y);
-  }
-  std::unordered_set<std::uint64_t> squares_;
 };
 
 struct RefineLimits {

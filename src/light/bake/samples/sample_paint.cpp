@@ -78,18 +78,18 @@ void paintSamples(const Geometry& geometry, SceneSamples* samples) {
       visitLeaves(mesh, root, Eigen::Matrix3f::Identity(),
                   [&](const LightMesh::Cell& cell, const Eigen::Matrix3f& corners) {
                     const std::optional<Paint>& pane = glass[static_cast<std::size_t>(geometry.materials[t])];
-                    const Paint paint = pane ? *pane : reflectances.at({t, front}, corners.rowwise().mean());
+                    const Paint paint = pane ? *pane : reflectances.mean({t, front}, corners);
                     const float area = whole * std::abs(corners.determinant());
                     for (std::uint32_t node : cell.corner) {
                       const std::uint32_t sample = samples->nearest_sample[node];
-                      samples->paints[sample].add(area, paint);
+                      samples->paints[sample] += area * paint;
                       areas[sample] += area;
                     }
                   });
     }
   }
   for (std::size_t i = 0; i < areas.size(); ++i) {
-    if (areas[i] > 0.0f) samples->paints[i].divide(areas[i]);
+    if (areas[i] > 0.0f) samples->paints[i] *= 1.0f / areas[i];
     areas[i] /= 6.0f;  // half of the cross product, and a third of each cell
   }
   samples->areas_m2 = std::move(areas);

@@ -6,6 +6,7 @@
 #include "light/bake/samples/sample_cloud.h"
 #include "light/bake/samples/sample_order.h"
 #include "light/bake/samples/sample_paint.h"
+#include "light/bake/samples/thin_sheets.h"
 
 namespace sunlit::light {
 namespace {
@@ -51,14 +52,16 @@ class Sampler {
       : geometry_(scene.geometry), traits_(scene.traits), builder_(scene, shining) {}
 
   SceneSamples sample(const RefineLimits& limits, const std::function<void(double)>& progress) {
-    const SampleCloud small = cloudOf(kSmallRule), foliage = cloudOf(kFoliageRule);
+    CloudRule small_rule = kSmallRule, foliage_rule = kFoliageRule;
+    const SampleCloud small = cloudWithin(limits.nodes, &small_rule),
+                      foliage = cloudWithin(limits.nodes, &foliage_rule);
     const std::size_t taken = small.receivers().size() + foliage.receivers().size() + countCardSides();
     builder_.refine(withoutTaken(limits, taken), progress);
     sampleTrees();
     fillInvalid();
     hang();
-    addCloud(kSmallRule, small);
-    addCloud(kFoliageRule, foliage);
+    addCloud(small_rule, small);
+    addCloud(foliage_rule, foliage);
     addCards();
     SceneSamples samples = finish();
     orderSamples(&samples);
@@ -167,10 +170,26 @@ class Sampler {
     receiver.lifts.fill(Receiver::kClear_m * flat);
     receiver.normal = normal;
     receiver.coarse = isLeaf(traits_[t].kind);
-    receiver.transmission = transmissionOf(t);
+    // Of other sheets, each side has its own light: see coupleSheets().
+    receiver.transmission = receiver.coarse ? transmissionOf(t) : 0.0f;
     receiver.thin = receiver.transmission > 0.0f;
     if (!receiver.thin && !receiver.coarse) receiver.face = boundingFace(normal, flat);
     return {position, normal, receiver};
+  }
+
+  /// Equal for corners that share a node; others have the same by a chance of 2⁻⁶⁴.
+  static std::uint64_t keyOf(const Corner& corner, float merge_m) {
+    std::uint64_t key = 0;
+    const auto add = [&key](float value) {
+      key = (key ^ static_cast<std::uint64_t>(std::lround(value))) * 0x9e3779b97f4a7c15ull;
+      key ^= key >> 29;
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      add(corner.position[axis] / merge_m);
+      add(1.5f * corner.normal[axis]);
+      add(1.5f * corner.receiver.face[axis]);
+    }
+    return key;
   }
 
   float transmissionOf(std::uint32_t t) const {
@@ -197,21 +216,30 @@ class Sampler {
     return cloud;
   }
 
+  /// Of `most` samples, about, as far as normals allow: coarser than the rule says where the scene is too
+  /// finely cut for it.
+  SampleCloud cloudWithin(std::size_t most, CloudRule* rule) const {
+    constexpr int kMostTries = 4;
+    SampleCloud cloud = cloudOf(*rule);
+    for (int i = 0; i < kMostTries && cloud.receivers().size() > most; ++i) {
+      const auto over = static_cast<float>(cloud.receivers().size()) / static_cast<float>(most);
+      const float coarser = 1.1f * std::sqrt(over);  // samples lie on surfaces
+      rule->spacing_m *= coarser;
+      rule->depth_m *= coarser;
+      rule->merge_m *= coarser;
+      cloud = cloudOf(*rule);
+    }
+    return cloud;
+  }
+
   void addCloud(const CloudRule& rule, const SampleCloud& cloud) {
     const auto base = static_cast<std::uint32_t>(receivers_.size());
     receivers_.insert(receivers_.end(), cloud.receivers().begin(), cloud.receivers().end());
     std::unordered_map<std::uint64_t, std::uint32_t> node_of;
     std::array<std::uint32_t, 3> nodes;
     visitCorners(rule.kind, [&](std::uint32_t t, int side, std::size_t k, const Corner& corner) {
-      std::uint64_t key = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto place =
-            static_cast<std::uint64_t>(std::lround(corner.position[axis] / rule.merge_m)) & 0x3ffff;
-        const auto tilt = static_cast<std::uint64_t>(std::lround(corner.normal[axis] * 1.5f) + 2) & 7;
-        const auto slope = static_cast<std::uint64_t>(std::lround(corner.receiver.face[axis] * 1.5f) + 2) & 7;
-        key = ((key << 18 | place) * 31 + tilt) * 31 + slope;
-      }
-      const auto [entry, fresh] = node_of.try_emplace(key, static_cast<std::uint32_t>(shares_.size()));
+      const auto [entry, fresh] =
+          node_of.try_emplace(keyOf(corner, rule.merge_m), static_cast<std::uint32_t>(shares_.size()));
       if (fresh) {
         Shares shares = cloud.around(corner.position, corner.receiver);
         for (LightMesh::Share& share : shares) share.sample += base;
@@ -312,7 +340,7 @@ class Sampler {
     samples.other_side.resize(samples.receivers.size());
     for (const Card& card : cards_) {
       for (std::size_t side = 0; side < 2; ++side)
-        samples.other_side[card.sample(side)] = {card.sample(1 - side), card.transmission};
+        samples.other_side[card.sample(side)] = {card.sample(1 - side), card.transmission, true};
     }
     samples.mesh.first_share.push_back(0);
     std::vector<LightMesh::Share>& all = samples.mesh.shares.own();
@@ -349,7 +377,9 @@ std::uint32_t sampleAt(const BakeScene& scene, const SceneSamples& samples, cons
 
 SceneSamples sampleScene(const BakeScene& scene, const ShiningSurfaces& shining, const RefineLimits& limits,
                          const std::function<void(double)>& progress) {
-  return Sampler(scene, shining).sample(limits, progress);
+  SceneSamples samples = Sampler(scene, shining).sample(limits, progress);
+  coupleSheets(scene, &samples);
+  return samples;
 }
 
 }  // namespace sunlit::light

@@ -15,7 +15,8 @@ namespace sunlit::light {
 /// The sample on the other side of a thin sheet.
 struct OtherSide {
   std::uint32_t sample = LightMesh::kNone;
-  float share = 0.0f;  ///< of its diffuse light that comes out on this side
+  float share = 0.0f;        ///< of its diffuse light that comes out on this side
+  bool shares_rays = false;  ///< both look from the same places, so that rays of one serve the other, too
 };
 
 struct SceneSamples {

@@ -146,12 +146,15 @@ void ShiningSurfaces::add(const Geometry& geometry, const std::vector<TriangleTr
     const Eigen::Vector3f ab = geometry.positions[corners[1]] - a, ac = geometry.positions[corners[2]] - a;
     const int across = isUneven(t) ? most_across : 1;
     for (const auto& part : partsOf(across)) {
-      const Eigen::Vector2f middle = (part[0] + part[1] + part[2]) / 3.0f;
       Piece piece;
-      for (std::size_t k = 0; k < 3; ++k) piece.corner[k] = a + part[k].x() * ab + part[k].y() * ac;
+      Reflectances::Part corners_of_part;
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        const Eigen::Vector2f& at = part[static_cast<std::size_t>(k)];
+        piece.corner[static_cast<std::size_t>(k)] = a + at.x() * ab + at.y() * ac;
+        corners_of_part.col(k) << 1.0f - at.sum(), at.x(), at.y();
+      }
       piece.normal = geometry.planes[t].normal;
-      piece.luminance =
-          solidity.share(t, part) * reflectances.emission(t, {1.0f - middle.sum(), middle.x(), middle.y()});
+      piece.luminance = solidity.share(t, part) * reflectances.emission(t, corners_of_part);
       piece.both = material.double_sided && !traits[t].sealed[1];
       const float area = 0.5f * ab.cross(ac).norm() / static_cast<float>(across * across);
       piece.power = LinearRgb(piece.luminance).luminance() * area * (piece.both ? 2.0f : 1.0f);

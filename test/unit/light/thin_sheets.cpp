@@ -1,0 +1,58 @@
+// Light that passes cloth and paper, beside the path tracer.
+#include <gtest/gtest.h>
+
+#include "baked_scene.h"
+
+namespace sunlit::light {
+namespace {
+
+constexpr int kGround = 0, kCloth = 1;
+
+/// An awning of 6 × 6 m, 2.5 m above the ground, of so many pieces a side.
+scene::Scene awning(int pieces) {
+  scene::Scene scene;
+  scene.materials = {paint(0.3f), paint(0.8f)};
+  scene.materials[kCloth].transmission = 0.4f;
+  scene.materials[kCloth].double_sided = true;
+  addGround(&scene, kGround, 100.0f);
+  const float side = 6.0f / static_cast<float>(pieces);
+  for (int x = 0; x < pieces; ++x)
+    for (int y = 0; y < pieces; ++y)
+      addPatch(&scene, kCloth,
+               {-3.0f + side * static_cast<float>(x), -3.0f + side * static_cast<float>(y), 2.5f},
+               {side, 0.0f, 0.0f}, {0.0f, side, 0.0f});
+  return scene;
+}
+
+const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ();
+
+class Awning : public ::testing::TestWithParam<int> {};
+
+/// Of one piece whose sides have cells of their own, and of pieces so small that they share samples.
+INSTANTIATE_TEST_SUITE_P(Pieces, Awning, ::testing::Values(1, 12));
+
+TEST_P(Awning, LetsItsShareOfTheSkyThroughToTheGround) {
+  const World world = baked(awning(GetParam()));
+  std::vector<Looked> ground;
+  for (const float x : {0.1f, 0.9f, 1.9f})
+    ground.push_back({{x, 0.3f, 0.0f}, kUp, {0.3f, 0.1f, 1.0f}, kGround});
+  const Errors found =
+      errors(fast(world, ground, uniformDay(100.0f)), traced(world, ground, uniformDay(100.0f), 30000));
+  EXPECT_LT(found.mean, 0.04) << found.bias;
+}
+
+TEST_P(Awning, ShowsEitherSideTheLightOfBoth) {
+  const World world = baked(awning(GetParam()));
+  std::vector<Looked> cloth;
+  for (const float x : {0.1f, 1.1f, 2.1f}) {
+    cloth.push_back({{x, 0.3f, 2.5f}, kUp, {0.3f, 0.1f, 1.0f}, kCloth});
+    cloth.push_back({{x, 0.3f, 2.5f}, -kUp, {0.3f, 0.1f, -1.0f}, kCloth});
+  }
+  const Errors found =
+      errors(fast(world, cloth, uniformDay(100.0f)), traced(world, cloth, uniformDay(100.0f), 30000));
+  EXPECT_LT(found.mean, 0.04) << found.bias;
+  EXPECT_LT(found.worst, 0.08);
+}
+
+}  // namespace
+}  // namespace sunlit::light
