@@ -91,11 +91,4 @@ evaluate::StampedPose poseOfLink(std::int64_t stamp_ns, const Eigen::Isometry3d&
   return {stamp_ns, map_from_link.translation(), Eigen::Quaterniond(map_from_link.linear())};
 }
 
-void writeTruth(const std::string& folder, const BagViews& views, const std::vector<std::size_t>& entries) {
-  evaluate::Trajectory truth;
-  for (const std::size_t i : entries)
-    truth.push_back(poseOfLink(views.entries()[i].stamp_ns, views.entries()[i].map_from_optical));
-  writeTrajectory(folder + "/truth_" + views.stream().name + ".tum", truth);
-}
-
 }  // namespace sunlit::ros_interface
