@@ -124,6 +124,7 @@ class Evaluation::State {
   bool hasForgottenObservations() const;
   bool isWholeAlone() const;
   std::size_t unobserved(const ObservedStreams& streams, const std::vector<LocalisationRow>& rows) const;
+  std::vector<std::string> uncompared(const ObservedStreams& streams) const;
   void observeMatched(const Work& work, const Matched& matched) const;
   void verifyMatched(const Work& work, const Matched& matched, Values& values) const;
   std::string drawnName(std::size_t pair, std::size_t detector) const;

@@ -138,11 +138,18 @@ std::string localisationTable(const std::vector<evaluate::LocalisationSummary>& 
 
 std::string faultsOf(const evaluate::LocalisationOutcome& outcome) {
   if (outcome.isWhole()) return "";
+  std::string line, uncompared;
+  const auto add = [&](const std::string& text) { line += (line.empty() ? "" : "; ") + text; };
+  for (const std::string& stream : outcome.uncompared)
+    uncompared += (uncompared.empty() ? "" : ", ") + stream;
+  if (!uncompared.empty()) add("not localised, since no image of it was evaluated in a pair: " + uncompared);
   if (outcome.key_frames == 0)
-    return "nothing localised: the map has no key frame, for which depth, pose and camera_info must have "
-           "come with its images";
-  return std::to_string(outcome.unobserved) +
-         " queries were not looked for, for want of pose or camera_info: see problems.csv";
+    add("nothing localised: the map has no key frame, for which its images must be evaluated in a pair, and "
+        "depth, pose and camera_info have come with them");
+  if (outcome.key_frames > 0 && outcome.unobserved > 0)
+    add(std::to_string(outcome.unobserved) +
+        " queries were not looked for, for want of pose or camera_info: see problems.csv");
+  return line;
 }
 
 std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate::Outcome& outcome) {

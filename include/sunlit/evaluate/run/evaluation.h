@@ -106,8 +106,10 @@ struct LocalisationOutcome {
   std::size_t queries = 0;     ///< looked for, one for each detector
   /// Evaluated pictures that could not be looked for, for want of depth, pose or camera.
   std::size_t unobserved = 0;
+  /// Streams of the map and of the queries of which no picture was evaluated in any pair.
+  std::vector<std::string> uncompared;
   std::vector<LocalisationSummary> summary;
-  bool isWhole() const { return !is_asked || (key_frames > 0 && unobserved == 0); }
+  bool isWhole() const { return !is_asked || (key_frames > 0 && unobserved == 0 && uncompared.empty()); }
 };
 
 /// Each is called by one thread at a time.

@@ -53,6 +53,12 @@ struct EvaluationOptions {
 /// What `verify` comes to.
 std::vector<std::string> verifiedDetectors(const EvaluationOptions& options);
 
+/// Of a stream's pictures features are found where they are compared, so that without a pair it is neither
+/// map nor query.
+bool isInPair(const EvaluationOptions& options, const std::string& stream);
+/// What `localisation.queries` come to.
+std::vector<std::string> queriesOf(const EvaluationOptions& options);
+
 /// All ordered pairs of streams (first before second), each pose.
 std::vector<PairSpec> allPairs(const std::vector<std::string>& streams);
 

@@ -304,6 +304,43 @@ TEST(EvaluationLocalise, WhatIsMissingIsNamedAndCounted) {
       << problems;
 }
 
+TEST(EvaluationLocalise, SaysWhatIsLeftOutSinceItIsNotCompared) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = localising(folder);
+  options.streams = {"noon", "dusk", "night", "dawn"};
+  options.pairs = {{"noon", "dusk", 2}, {"noon", "night"}};
+  std::vector<std::string> notes;
+  EvaluationCallbacks callbacks;
+  callbacks.note = [&](const std::string& line) { notes.push_back(line); };
+  Evaluation evaluation(options, callbacks);
+  EXPECT_EQ(notes, (std::vector<std::string>{
+                       "dusk: looked for at the poses of its pairs alone: every 2 of noon-dusk",
+                       "dawn: not looked for in the map, since it is in no pair"}));
+  feed(evaluation, 0, kPoses);
+  const LocalisationOutcome outcome = finishAndLocalise(evaluation);
+  EXPECT_TRUE(outcome.isWhole());
+  std::vector<std::size_t> found;
+  for (const LocalisationSummary& summary : outcome.summary) found.push_back(summary.n);
+  EXPECT_EQ(found, (std::vector<std::size_t>{2, 2, 4, 4})) << "of dusk and night, by SIFT and ORB";
+}
+
+TEST(EvaluationLocalise, SaysOfWhichStreamNothingWasEvaluated) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(localising(folder), {});
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+    feedTruth(evaluation, pose);
+    for (std::size_t s = 0; s < 2; ++s) {
+      evaluation.addCamera(s, told(viewOf(pose).camera));
+      evaluation.addImage(s, stampOf(pose), lit(pose, s));
+    }
+  }
+  evaluation.finish();
+  const LocalisationOutcome outcome = evaluation.localise({});
+  EXPECT_EQ(outcome.key_frames, 2u);
+  EXPECT_EQ(outcome.uncompared, std::vector<std::string>{"night"});
+  EXPECT_FALSE(outcome.isWhole());
+}
+
 TEST(EvaluationLocalise, WithoutAKeyFrameNothingIsClaimed) {
   const TemporaryFolder folder;
   Evaluation evaluation(localising(folder), {});
@@ -355,6 +392,23 @@ TEST(EvaluationLocalise, AsksForStreamsAndDetectorsThatThereAre) {
   options = localising(folder);
   options.localisation.queries = {"noon"};
   EXPECT_NE(messageOf([&] { Evaluation(options, {}); }).find("localisation/queries"), std::string::npos);
+  // Features are found of what is compared.
+  options = localising(folder);
+  options.pairs = {{"dusk", "night"}};
+  EXPECT_EQ(
+      messageOf([&] { Evaluation(options, {}); }),
+      "localisation/map is \"noon\", but must be of streams that are in pairs, and noon is in none: add "
+      "one of it to pairs");
+  options.pairs = {{"noon", "dusk"}};
+  options.localisation.queries = {"dusk", "night"};
+  EXPECT_EQ(
+      messageOf([&] { Evaluation(options, {}); }),
+      "localisation/queries is [dusk, night], but must be of streams that are in pairs, and night is in "
+      "none: add one of it to pairs");
+  options.localisation.map = "noon+dusk";
+  options.localisation.queries.clear();
+  EXPECT_NE(messageOf([&] { Evaluation(options, {}); }).find("one is left to be looked for"),
+            std::string::npos);
   options = localising(folder);
   options.localisation.detectors = std::vector<std::string>{"brisk"};
   EXPECT_NE(messageOf([&] { Evaluation(options, {}); }).find("localisation/detectors is [brisk]"),
