@@ -273,6 +273,16 @@ class LocaliseBags(unittest.TestCase):
         for arguments in (["--map", noon, "--query", dusk, other], ["--odometry", dusk, other]):
             self.assertIn("stereo/dusk and stereo_dusk are both stereo_dusk in names of files", self.refused(*arguments))
 
+    def test_images_without_stamps_are_no_success(self):
+        noon, dusk = self.bags()
+        with rosbag.Bag(dusk) as bag, rosbag.Bag(self.path("unstamped.bag"), "w") as unstamped:
+            for topic, one, stamp in bag.read_messages():
+                one.header.stamp = rospy.Time(0)
+                unstamped.write(topic, one, stamp)
+        _, done = self.localise("out", "--map", noon, "--query", self.path("unstamped.bag"), "--detectors", "sift", status=3)
+        self.assertIn("h20 at 0.000000000: all 5 images have stamp 0.000000000, so that one counts: does the driver set",
+                      done.stderr)
+
     def test_what_lacks_a_part_is_named_and_the_rest_goes_on(self):
         noon = self.write("noon.bag", "h12/", [0.0, 1.0, 2.0, 3.0], without={("depth/image_raw", 1), ("pose", 2)})
         dusk = self.write("dusk.bag", "h20/", [0.5, 1.5, 2.5], without={("camera_info", 0), ("pose", 2)})

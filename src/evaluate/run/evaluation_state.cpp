@@ -276,6 +276,8 @@ void Evaluation::State::complete(std::int64_t pose) {
 Counts Evaluation::State::counts() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   Counts counts = counts_;
+  for (std::size_t s = 0; s < counts.streams.size(); ++s)
+    counts.streams[s].only_stamp_ns = sets_.onlyStamp(s);
   counts.completed_poses = completed_.size();
   counts.waiting_images = sets_.waitingImages();
   counts.unexpected_poses = unexpected_poses_;

@@ -28,6 +28,12 @@ std::unique_ptr<BagViews> ViewSource::open(const BagStream& stream) const {
 }
 
 std::vector<std::size_t> ViewSource::usable(const BagViews& views, bool needs_depth) {
+  evaluate::StreamCounts counts;
+  counts.received = views.entries().size() + views.repeated();
+  counts.duplicate = views.repeated();
+  if (views.entries().size() == 1) counts.only_stamp_ns = views.entries()[0].stamp_ns;
+  if (const std::string fault = faultOfStamps(counts); !fault.empty())
+    addProblem(views.stream(), needs_depth, views.entries()[0].stamp_ns, fault);
   std::vector<std::size_t> entries;
   for (std::size_t i = 0; i < views.entries().size(); ++i) {
     const BagViews::Entry& entry = views.entries()[i];
