@@ -124,7 +124,7 @@ class TestLocalise(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
-    def write_bag(self, name, with_truth=True):
+    def write_bag(self, name, depths=range(POSES)):
         with rosbag.Bag(self.path(name), 'w') as bag:
             for pose in range(POSES):
                 for stream, called in enumerate(STREAMS):
@@ -132,8 +132,8 @@ class TestLocalise(unittest.TestCase):
                               stamp_of(pose))
                     bag.write('/%s/camera/camera_info' % called, camera_info(pose), stamp_of(pose))
                 bag.write('/camera/pose', place(pose), stamp_of(pose))
-                if with_truth:
-                    bag.write('/camera/depth/image_raw', depth(pose), stamp_of(pose))
+            for pose in depths:
+                bag.write('/camera/depth/image_raw', depth(pose), stamp_of(pose))
 
     def evaluate_bags(self, *arguments):
         return subprocess.run([program('evaluate_bags')] + list(arguments), stdout=subprocess.PIPE,
@@ -212,8 +212,16 @@ class TestLocalise(unittest.TestCase):
         summary = {row.detector: row for row in listener.summaries[-1].rows}
         self.assertEqual((summary['sift'].queries, summary['sift'].failures, summary['sift'].within[0]), (POSES, 0, 1.0))
 
+    def test_bags_without_a_topic_to_localise_by_are_refused(self):
+        self.write_bag('blind.bag', depths=[])
+        done = self.evaluate_bags('--out', self.path('blind'), '--config', self.config(), self.path('blind.bag'))
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn('localisation/map is "noon", but must be empty for bags without /camera/depth/image_raw; they hold: '
+                      '/camera/pose, /dusk/camera/camera_info', done.stdout)
+        self.assertFalse(os.path.exists(self.path('blind/run.yaml')))
+
     def test_without_depth_the_status_says_so(self):
-        self.write_bag('blind.bag', with_truth=False)
+        self.write_bag('blind.bag', depths=[POSES])  # of a stamp that no image has
         done = self.evaluate_bags('--out', self.path('blind'), '--config', self.config(), self.path('blind.bag'))
         self.assertEqual(done.returncode, 3, done.stdout)
         self.assertIn('the map has no key frame', done.stdout)

@@ -364,6 +364,31 @@ TEST(EvaluationLocalise, DepthWithoutImagesStaysWithinTheMemory) {
   EXPECT_LE(evaluation.counts().bytes, options.memory_limit_bytes);
 }
 
+TEST(EvaluationLocalise, ComparesWithoutItWhereWhatItIsLocalisedByNeverComes) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = localising(folder);
+  options.comparer.differences = {"boolean_rgb", "orb"};
+  options.verify.emplace();
+  options.images = KeptImages::kNone;
+  options.poses.count = 20;
+  options.memory_limit_bytes = std::size_t{8} * 3 * 200 * 150 * 3;
+  Evaluation evaluation(options, {});
+  for (std::int64_t pose = 0; pose < 20; ++pose) {
+    for (std::size_t s = 0; s < 3; ++s) evaluation.addImage(s, stampOf(pose), lit(pose % kPoses, s));
+    EXPECT_LE(evaluation.counts().bytes, options.memory_limit_bytes);
+    evaluation.waitForRoom(0);  // as a bag does
+  }
+  EXPECT_EQ(evaluation.counts().waiting_images, 3u * (4u + 1u)) << "in half of the memory, and the newest";
+  const Outcome outcome = evaluation.finish();
+  for (const PairCounts& pair : outcome.counts.pairs) EXPECT_EQ(pair.evaluated, 20u);
+  for (const StreamCounts& stream : outcome.counts.streams) {
+    EXPECT_EQ(stream.dropped, 0u);
+    EXPECT_EQ(stream.unlocalised, 20u);
+  }
+  EXPECT_TRUE(outcome.isWhole());
+  EXPECT_FALSE(evaluation.localise({}).isWhole());
+}
+
 TEST(EvaluationLocalise, NothingIsAskedOfARunThatDoesNotLocalise) {
   const TemporaryFolder folder;
   EvaluationOptions options = localising(folder);
