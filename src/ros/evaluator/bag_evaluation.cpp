@@ -168,7 +168,9 @@ int evaluateBags(const BagEvaluationOptions& options) {
   if (!remarks.empty()) std::fprintf(stderr, "%s\n", remarks.c_str());
   const evaluate::LocalisationOutcome localised = localise(evaluation);
   evaluation.compareMethods();
-  const std::string faults = faultsOf(evaluation.options(), outcome) + faultsOf(localised);
+  std::string faults = faultsOf(evaluation.options(), outcome);
+  const std::string of_queries = faultsOf(localised);
+  faults += (faults.empty() || of_queries.empty() ? "" : "; ") + of_queries;
   if (faults.empty()) return 0;
   std::fprintf(stderr, "%s\n", faults.c_str());
   return kNotWholeStatus;
