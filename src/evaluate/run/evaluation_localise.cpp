@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kObservations = "observations.bin";
 constexpr const char* kRows = "localisation.csv";
+constexpr const char* kSummary = "localisation_summary.csv";
 
 LocalisationOptions optionsOf(const EvaluationOptions& options) {
   const LocalisationOfRun& asked = options.localisation;
@@ -126,6 +127,8 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   if (!observer_) return outcome;
   if (const std::vector<LocalisationRow> rows = localisedBefore(); !rows.empty()) {
     localised_ = measuredOf(rows);
+    // Not of the rows, which lack what its last columns are made of.
+    if (std::filesystem::exists(file(kSummary))) outcome.summary = loadLocalisationSummary(file(kSummary));
     if (isWholeAlone()) std::filesystem::remove(file(kObservations));  // the empty one of this run
     return outcome;
   }
@@ -155,7 +158,7 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   outcome.summary = summariesOf(result.rows);
   writeLocalisation(file(kRows), result.rows);
   writeLocalisationPoses(file("localisation_poses.csv"), result.rows);
-  writeLocalisationSummary(file("localisation_summary.csv"), outcome.summary);
+  writeLocalisationSummary(file(kSummary), outcome.summary);
   if (outcome.isWhole() && isWholeAlone()) std::filesystem::remove(file(kObservations));
   return outcome;
 }

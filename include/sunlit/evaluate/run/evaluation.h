@@ -115,7 +115,7 @@ struct LocalisationOutcome {
   std::size_t unobserved = 0;
   /// Streams of the map and of the queries of which no picture was evaluated in any pair.
   std::vector<std::string> uncompared;
-  std::vector<LocalisationSummary> summary;
+  std::vector<LocalisationSummary> summary;  ///< also where it was done before
   bool isWhole() const { return !is_asked || (key_frames > 0 && unobserved == 0 && uncompared.empty()); }
 };
 

@@ -223,6 +223,10 @@ TEST(EvaluationLocalise, ABrokenOffRunIsTakenUpAgain) {
   EXPECT_TRUE(again.isComplete());
   const LocalisationOutcome outcome = finishAndLocalise(again);
   EXPECT_FALSE(outcome.is_asked);
+  writeLocalisationSummary(folder.file("told.csv"), outcome.summary);
+  EXPECT_EQ(contentOf(folder.file("told.csv")), contentOf(folder.file("out/localisation_summary.csv")))
+      << "and is told of again";
+  EXPECT_EQ(outcome.summary.size(), 4u);
   EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
   EXPECT_FALSE(std::filesystem::exists(folder.file("out/observations.bin"))) << "nor is an empty file left";
   again.compareMethods();
