@@ -104,7 +104,9 @@ class Experiment:
         if not self.report:
             return [f"all is evaluated\n{summary.tables(rows)}"]
         self._say("reporting")
-        done = subprocess.run([self.report, self.output], stdout=subprocess.PIPE, check=False)
+        # Whatever letters the terminal has, so that it is only in our own line that some may be replaced.
+        done = subprocess.run([self.report, self.output], stdout=subprocess.PIPE, check=False,
+                              env=dict(os.environ, PYTHONIOENCODING="utf-8"))
         if done.returncode != 0:
             raise Failure(f"there is no report of {self.output}; the reason stands above")
         return ["all is evaluated\n" + done.stdout.decode(errors="replace").rstrip()]

@@ -86,12 +86,24 @@ def counts(output):
     return rows
 
 
-def _range(values, digits):
+def significant(value):
+    """Three digits that count, or all before the point: lux of nights and of noons alike."""
+    if not value:
+        return "0"
+    digits = 2 - math.floor(math.log10(abs(float(f"{value:.2e}"))))
+    return f"{value:.{max(digits, 0)}f}"
+
+
+def _range(values, shown):
     values = values[~np.isnan(values)]
     if not len(values):
         return MISSING
-    low, high = f"{values.min():.{digits}f}", f"{values.max():.{digits}f}"
+    low, high = shown(values.min()), shown(values.max())
     return low if low == high else f"{low} to {high}"
+
+
+def _two_decimals(value):
+    return f"{value:.2f}"
 
 
 def conditions(output):
@@ -99,11 +111,9 @@ def conditions(output):
     for stream in output.conditions:
         capture = output.captures.get(stream)
         if capture is not None:
-            illuminance = capture["scene_illuminance"]
-            digits = 0 if np.nanmin(np.append(illuminance, math.inf)) >= 100 else 3
-            rows.append([names.condition(stream), str(len(capture["pose"])), _range(capture["sun_azimuth_deg"], 2),
-                         _range(capture["sun_elevation_deg"], 2), _range(illuminance, digits),
-                         _range(capture["ev100"], 2)])
+            rows.append([names.condition(stream), str(len(capture["pose"])), _range(capture["sun_azimuth_deg"], _two_decimals),
+                         _range(capture["sun_elevation_deg"], _two_decimals),
+                         _range(capture["scene_illuminance"], significant), _range(capture["ev100"], _two_decimals)])
     return rows
 
 

@@ -333,15 +333,29 @@ class Check {
   }
 
   void checkNodes() {
-    for (XMLElement* node : below(root_, "node")) {
-      for (const char* name : {"id", "name", "sid"}) {
-        const std::string called = attributeOf(*node, name);
-        if (!called.empty()) nodes_[called].push_back(node);
+    for (XMLElement* library : below(root_, "library_nodes")) {
+      for (XMLElement* node : childrenOf(*library)) library_[attributeOf(*node, "id")].push_back(node);
+    }
+    for (XMLElement* scene : below(root_, "visual_scene"))
+      library_[attributeOf(*scene, "id")].push_back(scene);
+    for (const char* kind : {"visual_scene", "node"}) {
+      for (XMLElement* node : below(root_, kind)) {
+        for (const char* name : {"id", "name"}) nodes_[attributeOf(*node, name)].push_back(node);
       }
     }
     for (XMLElement* scene : below(root_, "visual_scene")) {
       if (sizeOf(*scene) > kMostNodes) fail(*scene, "has more than 1000000 nodes, by way of its instances");
     }
+  }
+
+  /// All that Assimp may take: of libraries and scenes by id, and only where there is none, what in a scene
+  /// has that id or name.
+  std::vector<XMLElement*> instancedBy(const XMLElement& instance) const {
+    const std::string id = idOf(attributeOf(instance, "url"));
+    for (const auto* called : {&library_, &nodes_}) {
+      if (const auto found = called->find(id); found != called->end()) return found->second;
+    }
+    return {};
   }
 
   /// How many nodes there are below and in place of the instances in it.
@@ -352,10 +366,8 @@ class Check {
     for (XMLElement* child : childrenOf(node)) {
       if (is(*child, "node")) size += sizeOf(*child);
       if (!is(*child, "instance_node")) continue;
-      const auto found = nodes_.find(idOf(attributeOf(*child, "url")));
       std::uint64_t largest = 0;
-      for (XMLElement* one : found == nodes_.end() ? std::vector<XMLElement*>() : found->second)
-        largest = std::max(largest, sizeOf(*one));
+      for (XMLElement* one : instancedBy(*child)) largest = std::max(largest, sizeOf(*one));
       size += largest;
     }
     open_.erase(&node);
@@ -365,7 +377,7 @@ class Check {
   const std::string& file_;
   XMLElement& root_;
   std::map<std::string, Source> arrays_, sources_;
-  std::map<std::string, std::vector<XMLElement*>> nodes_;
+  std::map<std::string, std::vector<XMLElement*>> library_, nodes_;
   std::map<const XMLElement*, std::uint64_t> sizes_;
   std::set<const XMLElement*> open_;
 };

@@ -256,6 +256,33 @@ class LocaliseBags(unittest.TestCase):
                       self.refused("--map", both + ":h12", "--query", both + ":h20,h20"))
         self.assertIn("holds no stream but the map's", self.refused("--map", both + ":h12,h20", "--query", both))
 
+    def test_streams_of_names_in_parts_have_files_and_none_writes_over_another(self):
+        drive = [0.4 * k for k in range(40)]
+        noon = self.write("noon.bag", "stereo/noon/", [0.0, 1.0, 2.0])
+        dusk = self.write("dusk.bag", "stereo/dusk/", drive)
+        rows, _ = self.localise("found", "--map", noon, "--query", dusk, "--detectors", "sift")
+        self.assertEqual({(row["map"], row["query"]) for row in rows}, {("stereo/noon", "stereo/dusk")})
+        for name in ("truth_stereo_dusk.tum", "estimate_stereo_dusk_sift.tum"):
+            self.assertTrue(os.path.exists(self.path("found/" + name)), name)
+        done = run("evaluate_bags", "--odometry", dusk, "--detectors", "sift", "--out", self.path("followed"))
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual([row["stream"] for row in self.rows("followed", "odometry.csv")], ["stereo/dusk"])
+        for name in ("truth_stereo_dusk.tum", "odometry_stereo_dusk_sift.tum"):
+            self.assertTrue(os.path.exists(self.path("followed/" + name)), name)
+        other = self.write("other.bag", "stereo_dusk/", [0.5])
+        for arguments in (["--map", noon, "--query", dusk, other], ["--odometry", dusk, other]):
+            self.assertIn("stereo/dusk and stereo_dusk are both stereo_dusk in names of files", self.refused(*arguments))
+
+    def test_images_without_stamps_are_no_success(self):
+        noon, dusk = self.bags()
+        with rosbag.Bag(dusk) as bag, rosbag.Bag(self.path("unstamped.bag"), "w") as unstamped:
+            for topic, one, stamp in bag.read_messages():
+                one.header.stamp = rospy.Time(0)
+                unstamped.write(topic, one, stamp)
+        _, done = self.localise("out", "--map", noon, "--query", self.path("unstamped.bag"), "--detectors", "sift", status=3)
+        self.assertIn("h20 at 0.000000000: all 5 images have stamp 0.000000000, so that one counts: does the driver set",
+                      done.stderr)
+
     def test_what_lacks_a_part_is_named_and_the_rest_goes_on(self):
         noon = self.write("noon.bag", "h12/", [0.0, 1.0, 2.0, 3.0], without={("depth/image_raw", 1), ("pose", 2)})
         dusk = self.write("dusk.bag", "h20/", [0.5, 1.5, 2.5], without={("camera_info", 0), ("pose", 2)})

@@ -57,11 +57,12 @@ std::vector<Pair> pairsOfHours(const Group& group, const std::vector<std::string
   };
   std::vector<Pair> pairs = pairsOf(group, isOfOneMethod);
   if (pairs.size() <= kMostCompared || references.empty()) return pairs;
-  return pairsOf(group, [&](const Measured& a, const Measured& b) {
+  const std::vector<Pair> with_reference = pairsOf(group, [&](const Measured& a, const Measured& b) {
     return isOfOneMethod(a, b) &&
            std::any_of(references.begin(), references.end(),
                        [&](const std::string& one) { return has(a, one) && has(b, one); });
   });
+  return with_reference.empty() ? pairs : with_reference;  // that they are left out is said of them
 }
 
 /// Values of both at the poses that both have.

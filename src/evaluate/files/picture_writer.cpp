@@ -84,6 +84,7 @@ std::vector<std::int64_t> PictureWriter::posesOf(const std::string& stream) cons
 }
 
 void PictureWriter::finish(const std::function<std::int64_t(std::int64_t, std::int64_t)>& settled_pose) {
+  const std::lock_guard<std::mutex> lock(stamps_mutex_);
   // By way of other names, since numbers may change places.
   std::vector<std::pair<std::string, std::string>> moves;
   for (const auto& item : stamps_) {

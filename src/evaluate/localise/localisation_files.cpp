@@ -64,6 +64,49 @@ LocalisationRow rowOf(const std::vector<std::string>& fields) {
   return row;
 }
 
+LocalisationSummary summaryRowOf(const std::vector<std::string>& fields) {
+  LocalisationSummary summary;
+  std::size_t at = 0;
+  const auto text = [&] { return fields.at(at++); };
+  const auto count = [&] { return static_cast<std::size_t>(parseCount(text())); };
+  const auto number = [&] { return parseNumber(text()); };
+  summary.map = text();
+  summary.query = text();
+  summary.detector = text();
+  summary.n = count();
+  summary.failures = count();
+  for (Statistics& share : summary.within) {
+    for (double* const value : {&share.mean, &share.ci_low, &share.ci_high}) *value = number();
+  }
+  summary.median_error_m = number();
+  summary.median_error_deg = number();
+  summary.n_relative = count();
+  for (double& auc : summary.auc) auc = number();
+  return summary;
+}
+
+std::string summaryHeader() {
+  std::string header =
+      "map,query,detector,n,failures" + reachColumns() + ",median_error_m,median_error_deg,n_relative";
+  for (const double angle : kAucAngles_deg) header += ",auc_" + sunlit::textOf(angle) + "deg";
+  return header;
+}
+
+/// Rows of a file with this header; errors of `of` are those of their line.
+template <typename Of>
+auto rowsOf(const std::string& path, const std::string& header, const Of& of) {
+  std::vector<decltype(of(std::vector<std::string>()))> rows;
+  const CsvLines lines = readCsv(path, header);
+  for (std::size_t i = 0; i < lines.rows.size(); ++i) {
+    try {
+      rows.push_back(of(lines.rows[i]));
+    } catch (const std::exception& error) {
+      throw std::runtime_error(path + ":" + std::to_string(i + 2) + ": " + error.what());
+    }
+  }
+  return rows;
+}
+
 constexpr const char* kHeader = "pose,stamp,map,query,detector,error_m,error_deg,inliers,retrieved,status";
 
 }  // namespace
@@ -179,23 +222,11 @@ void writeLocalisationPoses(const std::string& path, const std::vector<Localisat
 }
 
 std::vector<LocalisationRow> loadLocalisation(const std::string& path) {
-  std::vector<LocalisationRow> rows;
-  const CsvLines lines = readCsv(path, kHeader);
-  for (std::size_t i = 0; i < lines.rows.size(); ++i) {
-    try {
-      rows.push_back(rowOf(lines.rows[i]));
-    } catch (const std::exception& error) {
-      throw std::runtime_error(path + ":" + std::to_string(i + 2) + ": " + error.what());
-    }
-  }
-  return rows;
+  return rowsOf(path, kHeader, rowOf);
 }
 
 void writeLocalisationSummary(const std::string& path, const std::vector<LocalisationSummary>& summaries) {
-  std::string text = "map,query,detector,n,failures" + reachColumns();
-  text += ",median_error_m,median_error_deg,n_relative";
-  for (const double angle : kAucAngles_deg) text += ",auc_" + sunlit::textOf(angle) + "deg";
-  text += "\n";
+  std::string text = summaryHeader() + "\n";
   for (const LocalisationSummary& s : summaries) {
     text += csvField(s.map) + "," + csvField(s.query) + "," + s.detector + "," + std::to_string(s.n) + "," +
             std::to_string(s.failures) + withIntervals(s.within);
@@ -205,6 +236,10 @@ void writeLocalisationSummary(const std::string& path, const std::vector<Localis
     text += "\n";
   }
   image::writeFileAtomically(path, text);
+}
+
+std::vector<LocalisationSummary> loadLocalisationSummary(const std::string& path) {
+  return rowsOf(path, summaryHeader(), summaryRowOf);
 }
 
 void writeLocalisationProblems(const std::string& path, const std::vector<LocalisationProblem>& problems) {

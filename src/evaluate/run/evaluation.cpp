@@ -1,5 +1,7 @@
 #include "sunlit/evaluate/run/evaluation.h"
 
+#include <algorithm>
+
 #include "evaluate/run/evaluation_state.h"
 
 namespace sunlit::evaluate {
@@ -18,7 +20,9 @@ bool Outcome::isWhole() const {
     if (pair.notEvaluated() > 0) return false;
     evaluated += pair.evaluated + pair.resumed;
   }
-  return absent_poses == 0 && evaluated > 0;
+  const bool repeats = std::any_of(counts.streams.begin(), counts.streams.end(),
+                                   [](const StreamCounts& stream) { return stream.isMostlyDuplicate(); });
+  return absent_poses == 0 && evaluated > 0 && !repeats;
 }
 
 Evaluation::Evaluation(const EvaluationOptions& options, EvaluationCallbacks callbacks)

@@ -5,6 +5,7 @@
 #include "evaluate/run/evaluation_state.h"
 #include "evaluate/run/run_file.h"
 #include "sunlit/evaluate/comparisons/comparisons.h"
+#include "sunlit/evaluate/localise/map.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -119,7 +120,9 @@ void Evaluation::State::compareMethods(const StopToken& stop) {
     for (Measured& one : measuredOf(verified_layout_, verified_)) measured.push_back(std::move(one));
   }
   measured.insert(measured.end(), localised_.begin(), localised_.end());
-  const Comparisons compared = comparisonsOf(measured, mapStreamsOf(options_.localisation), stop);
+  std::vector<std::string> references = mapStreamsOf(options_.localisation);
+  references.push_back(nameOfMap(references));  // in which queries are localised, of several streams, too
+  const Comparisons compared = comparisonsOf(measured, references, stop);
   writeComparisons(path, compared.rows);
   for (const std::string& line : compared.left_out) {
     if (callbacks_.note) callbacks_.note(line);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kObservations = "observations.bin";
 constexpr const char* kRows = "localisation.csv";
+constexpr const char* kSummary = "localisation_summary.csv";
 
 LocalisationOptions optionsOf(const EvaluationOptions& options) {
   const LocalisationOfRun& asked = options.localisation;
@@ -20,7 +21,38 @@ LocalisationOptions optionsOf(const EvaluationOptions& options) {
 }
 
 ObservedStreams streamsOf(const EvaluationOptions& options) {
-  return {mapStreamsOf(options.localisation), queriesOf(options.localisation, options.streams)};
+  return {mapStreamsOf(options.localisation), queriesOf(options)};
+}
+
+bool isAmong(const std::vector<std::string>& streams, const std::string& stream) {
+  return std::count(streams.begin(), streams.end(), stream) > 0;
+}
+
+/// Of a stream whose pairs are all thinned: "every 10 of h04-h12"; empty where one is not.
+std::string thinnedBy(const std::vector<PairSpec>& pairs, const std::string& stream) {
+  std::string text;
+  for (const PairSpec& pair : pairs) {
+    if (pair.a != stream && pair.b != stream) continue;
+    if (pair.every == 1) return "";
+    text += (text.empty() ? "every " : ", every ") + std::to_string(pair.every) + " of " + pair.name();
+  }
+  return text;
+}
+
+/// What is not localised, or not at each pose, since pictures that are not compared have no features.
+std::vector<std::string> notesOfPairs(const EvaluationOptions& options) {
+  std::vector<std::string> notes;
+  const ObservedStreams roles = streamsOf(options);
+  for (const std::string& stream : options.streams) {
+    const bool is_of_map = isAmong(roles.map, stream);
+    if (!is_of_map && options.localisation.queries.empty() && !isInPair(options, stream))
+      notes.push_back(stream + ": not looked for in the map, since it is in no pair");
+    const std::string thinned = thinnedBy(options.pairs, stream);
+    if (thinned.empty() || !(is_of_map || isAmong(roles.queries, stream))) continue;
+    notes.push_back(stream + (is_of_map ? ": key frames" : ": looked for") +
+                    " at the poses of its pairs alone: " + thinned);
+  }
+  return notes;
 }
 
 }  // namespace
@@ -30,6 +62,9 @@ void Evaluation::State::prepareLocalisation() {
   observer_ = std::make_unique<Observer>(
       Observer::Setup{options_.streams, streamsOf(options_),
                       localisingDetectors(options_.localisation, options_.comparer), file(kObservations)});
+  for (const std::string& line : notesOfPairs(options_)) {
+    if (callbacks_.note) callbacks_.note(line);
+  }
   const std::size_t torn = observer_->observations().torn();
   if (torn > 0 && callbacks_.note)
     callbacks_.note(file(kObservations) + ": " + std::to_string(torn) + " bytes of a torn end were left out");
@@ -92,6 +127,8 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   if (!observer_) return outcome;
   if (const std::vector<LocalisationRow> rows = localisedBefore(); !rows.empty()) {
     localised_ = measuredOf(rows);
+    // Not of the rows, which lack what its last columns are made of.
+    if (std::filesystem::exists(file(kSummary))) outcome.summary = loadLocalisationSummary(file(kSummary));
     if (isWholeAlone()) std::filesystem::remove(file(kObservations));  // the empty one of this run
     return outcome;
   }
@@ -114,14 +151,15 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   outcome.key_frames = result.key_frames;
   outcome.queries = result.rows.size();
   outcome.unobserved = unobserved(drives.streams, result.rows);
+  outcome.uncompared = uncompared(drives.streams);
   writeRunFile(file("run.yaml"), options_, &finished_, &outcome);
   if (result.rows.empty()) return outcome;
   localised_ = measuredOf(result.rows);
   outcome.summary = summariesOf(result.rows);
   writeLocalisation(file(kRows), result.rows);
   writeLocalisationPoses(file("localisation_poses.csv"), result.rows);
-  writeLocalisationSummary(file("localisation_summary.csv"), outcome.summary);
-  if (outcome.unobserved == 0 && isWholeAlone()) std::filesystem::remove(file(kObservations));
+  writeLocalisationSummary(file(kSummary), outcome.summary);
+  if (outcome.isWhole() && isWholeAlone()) std::filesystem::remove(file(kObservations));
   return outcome;
 }
 
@@ -159,11 +197,25 @@ std::size_t Evaluation::State::unobserved(const ObservedStreams& streams,
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const PairRecord& record : records_) {
     for (const std::string& stream : {options_.pairs[record.pair].a, options_.pairs[record.pair].b}) {
-      const bool is_query = std::count(streams.queries.begin(), streams.queries.end(), stream) > 0;
-      if (is_query && looked_for.count({stream, record.pose}) == 0) lacking.emplace(stream, record.pose);
+      if (isAmong(streams.queries, stream) && looked_for.count({stream, record.pose}) == 0)
+        lacking.emplace(stream, record.pose);
     }
   }
   return lacking.size();
+}
+
+std::vector<std::string> Evaluation::State::uncompared(const ObservedStreams& streams) const {
+  std::set<std::string> compared;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const PairRecord& record : records_)
+    compared.insert({options_.pairs[record.pair].a, options_.pairs[record.pair].b});
+  std::vector<std::string> others;
+  for (const auto* some : {&streams.map, &streams.queries}) {
+    for (const std::string& stream : *some) {
+      if (compared.count(stream) == 0) others.push_back(stream);
+    }
+  }
+  return others;
 }
 
 }  // namespace sunlit::evaluate

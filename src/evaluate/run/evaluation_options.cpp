@@ -61,6 +61,23 @@ std::vector<std::string> verifiedDetectors(const EvaluationOptions& options) {
   return options.verify ? *options.verify : usualDetectors(options.comparer);
 }
 
+bool isInPair(const EvaluationOptions& options, const std::string& stream) {
+  return options.pairs.empty() ||
+         std::any_of(options.pairs.begin(), options.pairs.end(),
+                     [&](const PairSpec& pair) { return pair.a == stream || pair.b == stream; });
+}
+
+std::vector<std::string> queriesOf(const EvaluationOptions& options) {
+  if (!options.localisation.queries.empty()) return options.localisation.queries;
+  const std::vector<std::string> map = mapStreamsOf(options.localisation);
+  std::vector<std::string> others;
+  for (const std::string& stream : options.streams) {
+    if (std::count(map.begin(), map.end(), stream) == 0 && isInPair(options, stream))
+      others.push_back(stream);
+  }
+  return others;
+}
+
 std::vector<Field> decidingFieldsOf(EvaluationOptions& options) {
   const std::vector<Field> of_localisation = fieldsOf(options.localisation, options.comparer);
   return rowsWith(decidingFieldsOf(options.comparer),

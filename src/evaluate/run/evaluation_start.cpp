@@ -58,6 +58,16 @@ void requireDetectors(const std::string& key, const std::vector<std::string>& as
   }
 }
 
+/// `streams` under `key` of localisation.
+void requireInPairs(const std::string& key, const std::string& value, const std::vector<std::string>& streams,
+                    const EvaluationOptions& options) {
+  for (const std::string& stream : streams) {
+    if (!isInPair(options, stream))
+      refuse(key, value,
+             "of streams that are in pairs, and " + stream + " is in none: add one of it to pairs");
+  }
+}
+
 void requireLocalisation(const EvaluationOptions& options) {
   const LocalisationOfRun& asked = options.localisation;
   if (asked.map.empty()) return;
@@ -75,9 +85,11 @@ void requireLocalisation(const EvaluationOptions& options) {
     if (times(map, query) > 0 || times(asked.queries, query) > 1)
       refuse("localisation/queries", textOf(asked.queries), "a list without the map, and of nothing twice");
   }
-  if (queriesOf(asked, options.streams).empty())
+  requireInPairs("localisation/map", "\"" + asked.map + "\"", map, options);
+  requireInPairs("localisation/queries", textOf(asked.queries), asked.queries, options);
+  if (queriesOf(options).empty())
     refuse("localisation/map", "\"" + asked.map + "\"",
-           "some of the streams, so that one is left to be looked for");
+           "some of the streams in pairs, so that one is left to be looked for");
   const std::vector<std::string> detectors = localisingDetectors(asked, options.comparer);
   requireDetectors("localisation/detectors", detectors, options);
   if (detectors.empty())

@@ -71,18 +71,46 @@ void Evaluation::State::turnAway(std::size_t stream, std::int64_t stamp_ns, std:
       {"unexpected", pose, stamp_ns, options_.streams[stream], "is not one of the expected poses; left out"});
 }
 
-// What is whole will be compared and makes room by itself; what waits may wait for ever.
+// What is whole will be compared and makes room by itself; what waits may wait for ever. Half of the memory
+// is kept from images that wait for nothing but pose, depth or camera, so that they turn no other away.
 void Evaluation::State::keepWithinMemory(std::int64_t newest_ns) {
   const auto isTooMuch = [&] {
     return sets_.reservedBytes() + queued_bytes_ + depthBytes() > options_.memory_limit_bytes;
   };
+  const bool is_busy = queued_bytes_ > 0;
+  handOverComplete(isTooMuch() && !is_busy ? 0 : options_.memory_limit_bytes / 2, newest_ns);
   while (sets_.reservedBytes() > 0 && isTooMuch()) {
-    const bool is_newest = queued_bytes_ > 0 && sets_.find(newest_ns) != nullptr;
+    const bool is_newest = is_busy && sets_.find(newest_ns) != nullptr;
     const std::int64_t stamp = is_newest ? newest_ns : *sets_.oldest();
-    close(stamp, poses_.of(stamp), Reason::kMemory);
+    const std::optional<std::int64_t> pose = poses_.of(stamp);
+    const bool is_complete = pose && hasAllImages(*sets_.find(stamp), *pose);
+    close(stamp, pose, is_complete ? Reason::kWhole : Reason::kMemory);
   }
   while (depthBytes() > 0 && isTooMuch())
     observer_->truth().take(observer_->truth().oldest());  // whose images may never come
+}
+
+// The oldest of the sets to which only what they are localised by is missing, until the others take
+// `most_bytes`: they are compared without.
+void Evaluation::State::handOverComplete(std::size_t most_bytes, std::int64_t newest_ns) {
+  if (!observer_ || sets_.reservedBytes() <= most_bytes) return;
+  const auto bytesAt = [&](std::int64_t stamp) {
+    std::size_t bytes = 0;
+    for (const Arrival& arrival : sets_.find(stamp)->streams) bytes += bytesOf(arrival.rgb);
+    return bytes;
+  };
+  std::vector<std::int64_t> complete;
+  std::size_t bytes = 0;
+  for (const std::int64_t stamp : sets_.openStamps()) {
+    const std::optional<std::int64_t> pose = poses_.of(stamp);
+    if (stamp == newest_ns || !pose || !hasAllImages(*sets_.find(stamp), *pose)) continue;
+    complete.push_back(stamp);
+    bytes += bytesAt(stamp);
+  }
+  for (std::size_t i = 0; i < complete.size() && bytes > most_bytes; ++i) {
+    bytes -= bytesAt(complete[i]);
+    close(complete[i], poses_.of(complete[i]), Reason::kWhole);
+  }
 }
 
 void Evaluation::State::addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns) {
@@ -120,12 +148,16 @@ void Evaluation::State::add(const PlaceRecord& place) {
   record_files_->add(place);
 }
 
-bool Evaluation::State::isWhole(const StampSet& set, std::int64_t pose) const {
+bool Evaluation::State::hasAllImages(const StampSet& set, std::int64_t pose) const {
   const std::vector<char> is_needed = neededStreams(pose);
   for (std::size_t s = 0; s < is_needed.size(); ++s) {
     if (is_needed[s] && !set.streams[s].has_come) return false;
   }
-  return !observer_ || observer_->isReady(set.stamp_ns, is_needed);
+  return true;
+}
+
+bool Evaluation::State::isWhole(const StampSet& set, std::int64_t pose) const {
+  return hasAllImages(set, pose) && (!observer_ || observer_->isReady(set.stamp_ns, neededStreams(pose)));
 }
 
 void Evaluation::State::closeIfWhole(std::int64_t stamp_ns) {
@@ -276,6 +308,8 @@ void Evaluation::State::complete(std::int64_t pose) {
 Counts Evaluation::State::counts() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   Counts counts = counts_;
+  for (std::size_t s = 0; s < counts.streams.size(); ++s)
+    counts.streams[s].only_stamp_ns = sets_.onlyStamp(s);
   counts.completed_poses = completed_.size();
   counts.waiting_images = sets_.waitingImages();
   counts.unexpected_poses = unexpected_poses_;

@@ -91,11 +91,13 @@ class Evaluation::State {
   bool isWanted(std::size_t pair, std::int64_t pose) const;
   bool isHeld(std::size_t pair, std::int64_t pose) const;
   std::vector<char> neededStreams(std::int64_t pose) const;
+  bool hasAllImages(const StampSet& set, std::int64_t pose) const;
   bool isWhole(const StampSet& set, std::int64_t pose) const;
   void closeIfWhole(std::int64_t stamp_ns);
   void addLate(std::size_t stream, std::int64_t stamp_ns, std::optional<std::int64_t> pose);
   void turnAway(std::size_t stream, std::int64_t stamp_ns, std::int64_t pose);
   void keepWithinMemory(std::int64_t newest_ns);
+  void handOverComplete(std::size_t most_bytes, std::int64_t newest_ns);
   void close(std::int64_t stamp_ns, std::optional<std::int64_t> pose, Reason reason);
   bool hasBoth(const StampSet& set, std::size_t pair) const;
   bool takes(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair);
@@ -124,6 +126,7 @@ class Evaluation::State {
   bool hasForgottenObservations() const;
   bool isWholeAlone() const;
   std::size_t unobserved(const ObservedStreams& streams, const std::vector<LocalisationRow>& rows) const;
+  std::vector<std::string> uncompared(const ObservedStreams& streams) const;
   void observeMatched(const Work& work, const Matched& matched) const;
   void verifyMatched(const Work& work, const Matched& matched, Values& values) const;
   std::string drawnName(std::size_t pair, std::size_t detector) const;

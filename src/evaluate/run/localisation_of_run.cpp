@@ -1,6 +1,5 @@
 #include "sunlit/evaluate/run/localisation_of_run.h"
 
-#include <algorithm>
 #include <sstream>
 
 namespace sunlit::evaluate {
@@ -18,7 +17,11 @@ std::vector<Field> fieldsOf(LocalisationOfRun& options, const ComparerOptions& c
                 {},
                 "stream whose images, with depth and poses, make a map that the others are looked for in "
                 "once all is evaluated, or several, h04+h12; empty: nothing is localised"},
-               {"queries", &options.queries, "", {}, "streams that are looked for; [] for all others"},
+               {"queries",
+                &options.queries,
+                "",
+                {},
+                "streams that are looked for; [] for all others that are in a pair"},
                {"detectors",
                 detectors,
                 "",
@@ -40,16 +43,6 @@ std::vector<std::string> mapStreamsOf(const LocalisationOfRun& options) {
   std::istringstream text(options.map);
   for (std::string stream; std::getline(text, stream, '+');) streams.push_back(stream);
   return streams;
-}
-
-std::vector<std::string> queriesOf(const LocalisationOfRun& options,
-                                   const std::vector<std::string>& streams) {
-  if (!options.queries.empty()) return options.queries;
-  const std::vector<std::string> map = mapStreamsOf(options);
-  std::vector<std::string> others;
-  std::copy_if(streams.begin(), streams.end(), std::back_inserter(others),
-               [&](const std::string& stream) { return std::count(map.begin(), map.end(), stream) == 0; });
-  return others;
 }
 
 }  // namespace sunlit::evaluate

@@ -21,6 +21,11 @@ bool StampSets::isOutOfOrder(std::size_t stream, std::int64_t stamp_ns) const {
   return newest_.at(stream) && stamp_ns < *newest_[stream];
 }
 
+std::optional<std::int64_t> StampSets::onlyStamp(std::size_t stream) const {
+  if (seen_.at(stream).size() != 1) return std::nullopt;
+  return *seen_[stream].begin();
+}
+
 StampSets::Outcome StampSets::add(std::size_t stream, std::int64_t stamp_ns, Arrival arrival) {
   auto& newest = newest_.at(stream);
   newest = std::max(newest.value_or(stamp_ns), stamp_ns);

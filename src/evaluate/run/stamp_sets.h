@@ -44,6 +44,8 @@ class StampSets {
   Outcome add(std::size_t stream, std::int64_t stamp_ns, Arrival arrival);
   /// True where an earlier stamp of this stream came after a later one. Call before add().
   bool isOutOfOrder(std::size_t stream, std::int64_t stamp_ns) const;
+  /// That all images of a stream have, where it is one alone.
+  std::optional<std::int64_t> onlyStamp(std::size_t stream) const;
   bool isTaken(std::int64_t stamp_ns) const { return taken_.count(stamp_ns) != 0; }
   const StampSet* find(std::int64_t stamp_ns) const;
   StampSet take(std::int64_t stamp_ns);

@@ -97,11 +97,15 @@ DecodedDepth decodeDepth(const sensor_msgs::Image& message, std::size_t max_pixe
   decoded.fault = faultOfSize(message.width, message.height, max_pixels);
   if (decoded.fault.empty()) decoded.fault = faultOfData(message);
   if (!decoded.fault.empty()) return decoded;
-  const cv::Mat numbers = cv_bridge::toCvCopy(message)->image;
-  if (is_metres) {
-    decoded.metres = numbers;
-  } else {
-    numbers.convertTo(decoded.metres, CV_32F, kMetresPerMillimetre);
+  try {
+    const cv::Mat numbers = cv_bridge::toCvCopy(message)->image;
+    if (is_metres) {
+      decoded.metres = numbers;
+    } else {
+      numbers.convertTo(decoded.metres, CV_32F, kMetresPerMillimetre);
+    }
+  } catch (const std::exception& error) {  // of cv_bridge and of OpenCV, as for a step within a number
+    decoded.fault = "depth cannot be read: " + std::string(error.what());
   }
   return decoded;
 }

@@ -23,11 +23,31 @@ namespace {
 // Enough to keep all processors busy, few enough to keep the memory flat.
 constexpr std::size_t kPosesInWork = 8;
 
+/// What the images wait for, all in vain: better said now than once the bags are read.
+void requireToLocaliseBy(const evaluate::EvaluationOptions& options, const std::string& root,
+                         const std::set<std::string>& held) {
+  if (options.localisation.map.empty()) return;
+  std::vector<std::string> needed = {root + topics::kDepth, root + topics::kPose};
+  for (const auto& streams : {mapStreamsOf(options.localisation), queriesOf(options)}) {
+    for (const std::string& stream : streams) needed.push_back(topicOf(root, stream, topics::kCameraInfo));
+  }
+  std::set<std::string> absent;
+  for (const std::string& topic : needed) {
+    if (held.count(topic) == 0) absent.insert(topic);
+  }
+  if (!absent.empty()) {
+    throw std::runtime_error("localisation/map is \"" + options.localisation.map +
+                             "\", but must be empty for bags without " + topicsInWords(absent) +
+                             "; they hold: " + topicsInWords(held));
+  }
+}
+
 class BagSource {
  public:
   explicit BagSource(const BagEvaluationOptions& options) : max_pixels_(options.intake.max_pixels) {
     const std::string root = rootOf(options.name_space);
     const std::set<std::string> held = topicsIn(options.bags);
+    requireToLocaliseBy(options.evaluation, root, held);
     place_topic_ = root + topics::kPose;
     std::vector<std::string> wanted = {place_topic_};
     for (std::size_t s = 0; s < options.evaluation.streams.size(); ++s) {
@@ -148,7 +168,9 @@ int evaluateBags(const BagEvaluationOptions& options) {
   if (!remarks.empty()) std::fprintf(stderr, "%s\n", remarks.c_str());
   const evaluate::LocalisationOutcome localised = localise(evaluation);
   evaluation.compareMethods();
-  const std::string faults = faultsOf(evaluation.options(), outcome) + faultsOf(localised);
+  std::string faults = faultsOf(evaluation.options(), outcome);
+  const std::string of_queries = faultsOf(localised);
+  faults += (faults.empty() || of_queries.empty() ? "" : "; ") + of_queries;
   if (faults.empty()) return 0;
   std::fprintf(stderr, "%s\n", faults.c_str());
   return kNotWholeStatus;

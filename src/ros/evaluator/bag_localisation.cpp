@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 #include "ros/evaluator/bag_streams.h"
 #include "ros/evaluator/folder_lock.h"
@@ -36,11 +37,19 @@ class BagLocalisation {
     writeLocalisationPoses(fileOf("localisation_poses.csv"), rows_);
     writeLocalisationSummary(fileOf("localisation_summary.csv"), summaries);
     writeComparisons(fileOf("comparisons.csv"), comparisonsOf(measuredOf(rows_), {map_name_}).rows);
+    for (const Found& found : found_) writeTrajectories(found);
     std::printf("\n%s\n%s\n", localisationTable(summaries).c_str(), fileOf("localisation.csv").c_str());
     return source_.finish();
   }
 
  private:
+  /// What came of one query stream.
+  struct Found {
+    std::string file_name;
+    evaluate::Trajectory truth;
+    std::size_t first_row = 0, end_row = 0;  // among rows_
+  };
+
   static std::string nameOf(const std::vector<BagStream>& streams) {
     std::vector<std::string> names;
     for (const BagStream& stream : streams) names.push_back(stream.name);
@@ -81,15 +90,16 @@ class BagLocalisation {
   void find(const BagStream& stream) {
     const auto views = source_.open(stream);
     const std::vector<std::size_t> usable = source_.usable(*views, false);
-    const std::size_t first_row = rows_.size();
+    Found found{stream.fileName(), {}, rows_.size()};
     source_.forEach(*views, usable, {"queries localised", false, [&](const auto& which, const auto& read) {
                                        const auto results = localisation_.localise(read);
                                        for (std::size_t q = 0; q < which.size(); ++q)
                                          addRows(*views, which[q], results[q]);
                                      }});
-    writeTruth(options_.output_dir, *views, usable);
-    for (const std::string& detector : options_.localisation.detectors)
-      writeEstimate(stream.name, detector, first_row);
+    found.end_row = rows_.size();
+    for (const std::size_t i : usable)
+      found.truth.push_back(poseOfLink(views->entries()[i].stamp_ns, views->entries()[i].map_from_optical));
+    found_.push_back(std::move(found));
   }
 
   void addRows(const BagViews& views, std::size_t number,
@@ -102,14 +112,17 @@ class BagLocalisation {
     }
   }
 
-  void writeEstimate(const std::string& query, const std::string& detector, std::size_t first_row) const {
-    evaluate::Trajectory estimate;
-    for (std::size_t r = first_row; r < rows_.size(); ++r) {
-      const LocalisationRow& row = rows_[r];
-      if (row.detector == detector && row.result.status == evaluate::LocalisationStatus::kLocalised)
-        estimate.push_back(poseOfLink(row.stamp_ns, row.result.estimate.map_from_optical));
+  void writeTrajectories(const Found& found) const {
+    writeTrajectory(fileOf("truth_" + found.file_name + ".tum"), found.truth);
+    for (const std::string& detector : options_.localisation.detectors) {
+      evaluate::Trajectory estimate;
+      for (std::size_t r = found.first_row; r < found.end_row; ++r) {
+        const LocalisationRow& row = rows_[r];
+        if (row.detector == detector && row.result.status == evaluate::LocalisationStatus::kLocalised)
+          estimate.push_back(poseOfLink(row.stamp_ns, row.result.estimate.map_from_optical));
+      }
+      writeTrajectory(fileOf("estimate_" + found.file_name + "_" + detector + ".tum"), estimate);
     }
-    writeTrajectory(fileOf("estimate_" + query + "_" + detector + ".tum"), estimate);
   }
 
   const BagLocalisationOptions& options_;
@@ -119,6 +132,7 @@ class BagLocalisation {
   std::string map_name_;
   std::vector<evaluate::KeyFrameOrigin> origins_;  // of each key frame of the map
   std::vector<LocalisationRow> rows_;
+  std::vector<Found> found_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 #include "ros/evaluator/bag_streams.h"
 #include "ros/evaluator/folder_lock.h"
@@ -54,13 +55,15 @@ class BagOdometry {
                      }});
     if (truth.empty())
       throw std::runtime_error(stream.name + ": nothing to follow: " + source_.problemsInWords());
-    writeTrajectory(options_.output_dir + "/truth_" + stream.name + ".tum", truth);
-    for (std::size_t d = 0; d < estimates.size(); ++d) add(stream.name, d, {truth, estimates[d]}, runs);
+    trajectories_.emplace_back("truth_" + stream.fileName(), truth);
+    for (std::size_t d = 0; d < estimates.size(); ++d) add(stream, d, {truth, estimates[d]}, runs);
   }
 
   int finish() const {
     const std::string file = options_.output_dir + "/odometry.csv";
     writeOdometry(file, rows_);
+    for (const auto& [name, trajectory] : trajectories_)
+      writeTrajectory(options_.output_dir + "/" + name + ".tum", trajectory);
     std::printf("\n%-8s %-9s %5s %5s %10s %9s %14s %16s %12s\n", "stream", "detector", "n", "lost",
                 "key frames", "length m", "drift per 10 m", "turn per 10 m", "end error m");
     for (const evaluate::OdometryRow& row : rows_) {
@@ -73,22 +76,22 @@ class BagOdometry {
   }
 
  private:
-  void add(const std::string& stream, std::size_t d, const evaluate::MatchedPoses& poses,
+  void add(const BagStream& stream, std::size_t d, const evaluate::MatchedPoses& poses,
            const evaluate::OdometryRuns& runs) {
     evaluate::OdometryRow row = rowOf(poses.truth, poses.estimate);
-    row.stream = stream;
+    row.stream = stream.name;
     row.detector = options_.localisation.detectors[d];
     row.n = poses.estimate.size();
     row.lost = runs.at(d).lost();
     row.key_frames = runs.at(d).keyFrames();
     rows_.push_back(row);
-    writeTrajectory(options_.output_dir + "/odometry_" + stream + "_" + row.detector + ".tum",
-                    poses.estimate);
+    trajectories_.emplace_back("odometry_" + stream.fileName() + "_" + row.detector, poses.estimate);
   }
 
   const BagLocalisationOptions& options_;
   ViewSource source_;
   std::vector<evaluate::OdometryRow> rows_;
+  std::vector<std::pair<std::string, evaluate::Trajectory>> trajectories_;  // of each file
 };
 
 }  // namespace

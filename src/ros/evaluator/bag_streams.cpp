@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -122,6 +123,18 @@ std::vector<BagStream> toldApart(const std::vector<BagStream>& streams, const st
   return apart;
 }
 
+/// A file of one would else be written over by that of another, and only once all is done.
+void requireOwnFiles(const std::vector<BagStream>& streams) {
+  std::map<std::string, std::string> names;
+  for (const BagStream& stream : streams) {
+    const auto [other, is_first] = names.emplace(stream.fileName(), stream.name);
+    if (!is_first) {
+      throw std::invalid_argument(other->second + " and " + stream.name + " are both " + stream.fileName() +
+                                  " in names of files: each needs a run and an --out of its own");
+    }
+  }
+}
+
 /// A misspelt topic would else count for nothing.
 void requireHeld(const ViewTopics& topics, const std::vector<BagStream>& streams) {
   if (topics.images.empty() && topics.camera_info.empty() && topics.depth.empty() && topics.poses.empty())
@@ -142,6 +155,12 @@ void requireHeld(const ViewTopics& topics, const std::vector<BagStream>& streams
 
 }  // namespace
 
+std::string BagStream::fileName() const {
+  std::string file = name;
+  std::replace(file.begin(), file.end(), '/', '_');
+  return file;
+}
+
 LocalisationStreams localisationStreams(const std::vector<std::string>& maps,
                                         const std::vector<std::string>& queries, const ViewTopics& topics) {
   LocalisationStreams streams;
@@ -154,7 +173,9 @@ LocalisationStreams localisationStreams(const std::vector<std::string>& maps,
   std::vector<BagStream> all = streams.map;
   all.insert(all.end(), streams.queries.begin(), streams.queries.end());
   requireHeld(topics, all);
-  return {toldApart(streams.map, all), toldApart(streams.queries, all)};
+  streams = {toldApart(streams.map, all), toldApart(streams.queries, all)};
+  requireOwnFiles(streams.queries);
+  return streams;
 }
 
 }  // namespace sunlit::ros_interface

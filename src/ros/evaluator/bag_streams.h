@@ -11,7 +11,10 @@ namespace sunlit::ros_interface {
 struct BagStream {
   std::string bag;     ///< path
   std::string stream;  ///< a condition's name; empty: that of topics without one, camera/image_raw
-  std::string name;    ///< what it is called in tables, and in names of files
+  std::string name;    ///< what it is called in tables
+  /// What it is called in names of files: stereo_left of stereo/left, since a file lies in no folder of its
+  /// stream.
+  std::string fileName() const;
 };
 
 struct LocalisationStreams {
@@ -22,7 +25,8 @@ struct LocalisationStreams {
 /// BAG without streams must have one only; of a query's, all count but those of the same bag that the map is
 /// made of. Streams are called by their names; those without a name, and those of several bags that have one
 /// name, by that of the bag, too. Throws std::runtime_error for a bag that cannot be read or has no such
-/// streams, and std::invalid_argument where the map, the queries or names of their own are missing.
+/// streams, and std::invalid_argument where the map, the queries or names of their own, in tables or
+/// in files, are missing.
 LocalisationStreams localisationStreams(const std::vector<std::string>& maps,
                                         const std::vector<std::string>& queries, const ViewTopics& topics);
 

@@ -45,15 +45,19 @@ void EvaluatorDiagnostics::tell(WallUpdater::Status& status) {
     const evaluate::StreamCounts& c = counts.streams[s];
     const double rate = elapsed_s > 0.0 ? static_cast<double>(c.received - received_[s]) / elapsed_s : 0.0;
     received_[s] = c.received;
-    const std::size_t faults = c.dropped + c.late + c.lost + c.undecodable;
-    failures += faults;
+    failures += c.dropped + c.late + c.lost + c.duplicate + c.undecodable;
     status.addf(options.streams[s],
-                "%.1f images/s, %zu received, %zu dropped, %zu late, %zu lost, %zu unusable", rate,
-                c.received, c.dropped, c.late, c.lost, c.undecodable);
+                "%.1f images/s, %zu received, %zu dropped, %zu late, %zu lost, %zu duplicate, %zu unusable",
+                rate, c.received, c.dropped, c.late, c.lost, c.duplicate, c.undecodable);
   }
+  std::size_t not_evaluated = 0;
+  for (const evaluate::PairCounts& pair : counts.pairs) not_evaluated += pair.notEvaluated();
+  status.add("pairs that could not be evaluated", not_evaluated);
   using Status = diagnostic_msgs::DiagnosticStatus;
-  if (failures > 0) {
-    status.summaryf(Status::WARN, "%zu images dropped, late, lost or unusable", failures);
+  if (failures + not_evaluated > 0) {
+    status.summaryf(Status::WARN,
+                    "%zu images dropped, late, lost, duplicate or unusable; %zu pairs could not be evaluated",
+                    failures, not_evaluated);
   } else {
     status.summaryf(Status::OK, "%zu poses evaluated", counts.completed_poses);
   }

@@ -9,7 +9,7 @@
 namespace sunlit::ros_interface {
 
 /// Once a second: images a second and losses of each stream, backlog, progress, and what is waited for. A
-/// warning once anything was dropped, lost or could not be used.
+/// warning once anything was dropped, lost or left out, or could not be used or evaluated.
 class EvaluatorDiagnostics {
  public:
   EvaluatorDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,

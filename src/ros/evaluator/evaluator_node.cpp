@@ -163,7 +163,7 @@ void EvaluatorNode::localise() {
   callbacks.stop = evaluate::StopToken([] { return isInterrupted(); });
   try {
     const evaluate::LocalisationOutcome outcome = evaluation_->localise(callbacks);
-    localisation_.publish(outcome.summary);
+    if (outcome.is_asked || !outcome.summary.empty()) localisation_.publish(outcome.summary);
     if (!outcome.summary.empty()) ROS_INFO("\n%s", localisationTable(outcome.summary).c_str());
     const std::string faults = faultsOf(outcome);
     if (faults.empty()) return;

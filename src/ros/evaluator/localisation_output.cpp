@@ -40,7 +40,7 @@ LocalisationOutput::LocalisationOutput(ros::NodeHandle private_node,
   queries_ = private_node.advertise<Localisation>(topics::kLocalisation, kOutputQueue);
   summary_ = private_node.advertise<LocalisationSummary>(topics::kLocalisationSummary, 1, true);
   markers_ = private_node.advertise<visualization_msgs::MarkerArray>(topics::kLocalisationMarkers, 1, true);
-  for (const std::string& query : queriesOf(options.localisation, options.streams)) {
+  for (const std::string& query : queriesOf(options)) {
     for (const std::string& detector : localisingDetectors(options.localisation, options.comparer)) {
       poses_[{query, detector}] = private_node.advertise<geometry_msgs::PoseWithCovarianceStamped>(
           std::string(topics::kLocalisation) + "/" + query + "/" + detector + "/pose", kOutputQueue);

@@ -7,6 +7,8 @@
 #include <map>
 #include <set>
 
+#include "ros/conversions/received_images.h"
+#include "ros/conversions/time.h"
 #include "sunlit/quantity/duration.h"
 
 namespace sunlit::ros_interface {
@@ -138,15 +140,38 @@ std::string localisationTable(const std::vector<evaluate::LocalisationSummary>& 
 
 std::string faultsOf(const evaluate::LocalisationOutcome& outcome) {
   if (outcome.isWhole()) return "";
+  std::string line, uncompared;
+  const auto add = [&](const std::string& text) { line += (line.empty() ? "" : "; ") + text; };
+  for (const std::string& stream : outcome.uncompared)
+    uncompared += (uncompared.empty() ? "" : ", ") + stream;
+  if (!uncompared.empty()) add("not localised, since no image of it was evaluated in a pair: " + uncompared);
   if (outcome.key_frames == 0)
-    return "nothing localised: the map has no key frame, for which depth, pose and camera_info must have "
-           "come with its images";
-  return std::to_string(outcome.unobserved) +
-         " queries were not looked for, for want of pose or camera_info: see problems.csv";
+    add("nothing localised: the map has no key frame, for which its images must be evaluated in a pair, and "
+        "depth, pose and camera_info have come with them");
+  if (outcome.key_frames > 0 && outcome.unobserved > 0)
+    add(std::to_string(outcome.unobserved) +
+        " queries were not looked for, for want of pose or camera_info: see problems.csv");
+  return line;
+}
+
+std::string faultOfStamps(const evaluate::StreamCounts& counts) {
+  if (!counts.isMostlyDuplicate()) return "";
+  if (!counts.only_stamp_ns) {
+    return std::to_string(counts.duplicate) + " of " + std::to_string(counts.received) +
+           " images have a stamp that had come before, and were left out";
+  }
+  return "all " + std::to_string(counts.received) + " images have stamp " +
+         textOfStamp(timeOf(*counts.only_stamp_ns)) +
+         ", so that one counts: does the driver set header.stamp?";
 }
 
 std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate::Outcome& outcome) {
   if (outcome.isWhole()) return "";
+  std::string stamps;
+  for (std::size_t s = 0; s < options.streams.size(); ++s) {
+    const std::string fault = faultOfStamps(outcome.counts.streams[s]);
+    if (!fault.empty()) stamps += (stamps.empty() ? "" : "; ") + options.streams[s] + ": " + fault;
+  }
   std::string line;
   const auto add = [&](const std::string& name, std::size_t count) {
     if (count > 0) line += (line.empty() ? "" : ", ") + std::to_string(count) + " " + name;
@@ -163,8 +188,9 @@ std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate:
     add("unplaced" + pair, c.unplaced);
     add("duplicate" + pair, c.duplicate);
   }
-  if (line.empty()) return "no pair of images came at all";
-  return "not evaluated: " + line + "; each is named in " + options.output_dir + "/problems.csv";
+  if (line.empty()) return stamps.empty() ? "no pair of images came at all" : stamps;
+  return stamps + (stamps.empty() ? "" : "; ") + "not evaluated: " + line + "; each is named in " +
+         options.output_dir + "/problems.csv";
 }
 
 std::string remarksOf(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts) {
@@ -176,6 +202,8 @@ std::string remarksOf(const evaluate::EvaluationOptions& options, const evaluate
   for (std::size_t s = 0; s < options.streams.size(); ++s) {
     const evaluate::StreamCounts& c = counts.streams[s];
     add(c.dropped, "dropped, since memory_limit was reached", options.streams[s]);
+    if (!c.isMostlyDuplicate())  // else it is a fault
+      add(c.duplicate, "of a stamp that had come before, left out", options.streams[s]);
     add(c.late, "late, after their stamp had been given up", options.streams[s]);
     add(c.lost, "sent, but lost on the way", options.streams[s]);
     add(c.unexpected, "of poses that are not expected, left out", options.streams[s]);

@@ -65,6 +65,8 @@ std::string verifiedTable(const std::vector<evaluate::VerifiedSummaryRow>& rows)
 std::string localisationTable(const std::vector<evaluate::LocalisationSummary>& summaries);
 /// One line of what kept queries from being looked for; empty where nothing did.
 std::string faultsOf(const evaluate::LocalisationOutcome& outcome);
+/// Of a stream whose images were mostly left out, since their stamps had come before; empty for any other.
+std::string faultOfStamps(const evaluate::StreamCounts& counts);
 /// One line of counts of what could not be evaluated; empty where everything was.
 std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate::Outcome& outcome);
 

@@ -28,6 +28,12 @@ std::unique_ptr<BagViews> ViewSource::open(const BagStream& stream) const {
 }
 
 std::vector<std::size_t> ViewSource::usable(const BagViews& views, bool needs_depth) {
+  evaluate::StreamCounts counts;
+  counts.received = views.entries().size() + views.repeated();
+  counts.duplicate = views.repeated();
+  if (views.entries().size() == 1) counts.only_stamp_ns = views.entries()[0].stamp_ns;
+  if (const std::string fault = faultOfStamps(counts); !fault.empty())
+    addProblem(views.stream(), needs_depth, views.entries()[0].stamp_ns, fault);
   std::vector<std::size_t> entries;
   for (std::size_t i = 0; i < views.entries().size(); ++i) {
     const BagViews::Entry& entry = views.entries()[i];
@@ -89,13 +95,6 @@ int ViewSource::finish() const {
 evaluate::StampedPose poseOfLink(std::int64_t stamp_ns, const Eigen::Isometry3d& map_from_optical) {
   const Eigen::Isometry3d map_from_link = map_from_optical * linkFromOptical().inverse();
   return {stamp_ns, map_from_link.translation(), Eigen::Quaterniond(map_from_link.linear())};
-}
-
-void writeTruth(const std::string& folder, const BagViews& views, const std::vector<std::size_t>& entries) {
-  evaluate::Trajectory truth;
-  for (const std::size_t i : entries)
-    truth.push_back(poseOfLink(views.entries()[i].stamp_ns, views.entries()[i].map_from_optical));
-  writeTrajectory(folder + "/truth_" + views.stream().name + ".tum", truth);
 }
 
 }  // namespace sunlit::ros_interface

@@ -57,7 +57,5 @@ class ViewSource {
 
 /// Of camera_link.
 evaluate::StampedPose poseOfLink(std::int64_t stamp_ns, const Eigen::Isometry3d& map_from_optical);
-/// truth_NAME.tum in `folder`: poses of camera_link.
-void writeTruth(const std::string& folder, const BagViews& views, const std::vector<std::size_t>& entries);
 
 }  // namespace sunlit::ros_interface

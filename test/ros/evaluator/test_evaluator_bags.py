@@ -328,6 +328,30 @@ about:
         self.assertEqual({r['value'] for r in frames if r['a'] == 'h04' and r['b'] == 'other/h04' and
                           r['difference'] == 'boolean_rgb'}, {'0'})
 
+    def test_images_without_stamps_are_no_success(self):
+        def write(name, stamps):
+            with rosbag.Bag(self.path(name), 'w') as bag:
+                for image in range(7):
+                    for stream in range(2):
+                        bag.write('/%s/camera/image_raw' % STREAMS[stream],
+                                  image_message(rospy.Time(stamps[image]), picture(image, stream)), stamp_of(image))
+
+        write('unstamped.bag', 7 * [0])
+        done = self.evaluate_bags('--out', self.path('unstamped'), self.path('unstamped.bag'))
+        self.assertEqual(done.returncode, 3, done.stdout)
+        self.assertIn('h04: all 7 images have stamp 0.000000000, so that one counts: does the driver set header.stamp?; '
+                      'h12: all 7 images', done.stdout)
+        self.assertEqual(len(rows(self.path('unstamped'), 'problems.csv')), 2)  # of one stamp, a line each stream
+        self.assertFalse(yaml.safe_load(read(self.path('unstamped'), 'run.yaml'))['outcome']['whole'])
+        write('slow.bag', [1, 2, 2, 2, 3, 3, 3])
+        done = self.evaluate_bags('--out', self.path('slow'), self.path('slow.bag'))
+        self.assertEqual(done.returncode, 3, done.stdout)
+        self.assertIn('h04: 4 of 7 images have a stamp that had come before, and were left out; h12: 4 of', done.stdout)
+        write('few.bag', [1, 2, 3, 4, 5, 6, 6])
+        done = self.evaluate_bags('--out', self.path('few'), self.path('few.bag'))
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn('h04: 1 images of a stamp that had come before, left out; h12: 1 images', done.stdout)
+
     def test_bad_bags_and_arguments_are_one_clear_line(self):
         self.write_bags({'one.bag': [2], 'all.bag': [0, 1, 2]}, range(2))
         with open(self.path('no.bag'), 'w') as file:

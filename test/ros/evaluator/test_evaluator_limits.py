@@ -15,7 +15,7 @@ import rosgraph
 import rospy
 import rostest
 import yaml
-from diagnostic_msgs.msg import DiagnosticArray
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from sensor_msgs.msg import CompressedImage, Image
 from std_srvs.srv import Trigger
 
@@ -332,6 +332,12 @@ class TestLimits(unittest.TestCase):
         values = tells(completed_poses='2', waits_for='images of h12')
         self.assertEqual((values['expected poses'], values['images that wait for a partner']), ('10', '1'))
         self.assertIn('3 received, 0 dropped', values['h04'])
+        self.assertEqual(values['pairs that could not be evaluated'], '0')
+        # What cannot be compared is no success, nor is an image that comes again.
+        self.streams.send(1, stamp_of(2), picture(2, 1, 32, 24))
+        self.streams.send(0, stamp_of(0), picture(0, 0))
+        wait_until(lambda: any('1 images dropped, late, lost, duplicate or unusable; 1 pairs could not be evaluated' == s.message
+                               and s.level == DiagnosticStatus.WARN for s in told), 'a warning')
         subscriber.unregister()
         evaluator.kill()
 

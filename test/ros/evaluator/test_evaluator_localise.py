@@ -124,16 +124,17 @@ class TestLocalise(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
-    def write_bag(self, name, with_truth=True):
+    def write_bag(self, name, depths=range(POSES), without=()):
         with rosbag.Bag(self.path(name), 'w') as bag:
             for pose in range(POSES):
                 for stream, called in enumerate(STREAMS):
-                    bag.write('/%s/camera/image_raw' % called, image_message(stamp_of(pose), picture(pose, stream)),
-                              stamp_of(pose))
+                    if (called, pose) not in without:
+                        bag.write('/%s/camera/image_raw' % called, image_message(stamp_of(pose), picture(pose, stream)),
+                                  stamp_of(pose))
                     bag.write('/%s/camera/camera_info' % called, camera_info(pose), stamp_of(pose))
                 bag.write('/camera/pose', place(pose), stamp_of(pose))
-                if with_truth:
-                    bag.write('/camera/depth/image_raw', depth(pose), stamp_of(pose))
+            for pose in depths:
+                bag.write('/camera/depth/image_raw', depth(pose), stamp_of(pose))
 
     def evaluate_bags(self, *arguments):
         return subprocess.run([program('evaluate_bags')] + list(arguments), stdout=subprocess.PIPE,
@@ -172,6 +173,15 @@ class TestLocalise(unittest.TestCase):
             self.assertEqual(row['status'], 'localised', row)
             self.assertLess(float(row['error_m']), 0.05, row)
         self.check_messages(listener, found)
+        # Taken up when it is whole, it is told of again.
+        again = Evaluator(dict(PARAMETERS, output_dir=self.path('live'), frame_rate=10.0, stamp_start='1000.0'))
+        told = Listener(again.name)
+        wait_until(lambda: told.summaries, 'the summary')
+        again.process.terminate()
+        status, output = again.wait()
+        self.assertEqual(status, 0, output)
+        self.assertEqual(told.summaries[-1].rows, listener.summaries[-1].rows)
+        self.assertIn('AUC@5/10/20 deg', output)
 
         self.write_bag('all.bag')
         done = self.evaluate_bags('--out', self.path('bag'), '--config', self.config(), self.path('all.bag'))
@@ -212,11 +222,20 @@ class TestLocalise(unittest.TestCase):
         summary = {row.detector: row for row in listener.summaries[-1].rows}
         self.assertEqual((summary['sift'].queries, summary['sift'].failures, summary['sift'].within[0]), (POSES, 0, 1.0))
 
+    def test_bags_without_a_topic_to_localise_by_are_refused(self):
+        self.write_bag('blind.bag', depths=[])
+        done = self.evaluate_bags('--out', self.path('blind'), '--config', self.config(), self.path('blind.bag'))
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn('localisation/map is "noon", but must be empty for bags without /camera/depth/image_raw; they hold: '
+                      '/camera/pose, /dusk/camera/camera_info', done.stdout)
+        self.assertFalse(os.path.exists(self.path('blind/run.yaml')))
+
     def test_without_depth_the_status_says_so(self):
-        self.write_bag('blind.bag', with_truth=False)
+        self.write_bag('blind.bag', depths=[POSES], without=[('dusk', 0)])  # of a stamp that no image has
         done = self.evaluate_bags('--out', self.path('blind'), '--config', self.config(), self.path('blind.bag'))
         self.assertEqual(done.returncode, 3, done.stdout)
-        self.assertIn('the map has no key frame', done.stdout)
+        self.assertIn('1 missing_partner (noon-dusk); each is named in %s/problems.csv; nothing localised: the map has no key '
+                      'frame' % self.path('blind'), done.stdout)
         named = rows(self.path('blind'), 'problems.csv')
         self.assertEqual({row['where'] for row in named if row['kind'] == 'unlocalised'}, {'noon'})
         self.assertFalse(os.path.exists(self.path('blind/localisation.csv')))

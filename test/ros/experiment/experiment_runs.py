@@ -387,6 +387,11 @@ class ExperimentRuns(unittest.TestCase):
         self.assertEqual(again.end(), 0, again.said())
         self.assertEqual(self.bytes_of(self.output, "frames.csv"), before)
 
+    def test_letters_that_a_terminal_lacks_are_replaced(self):
+        again = small_experiment(self.output, {"PYTHONIOENCODING": "ascii"}, report="true")
+        self.assertEqual(again.end(), 0, again.said())
+        self.assertIn("Report: ", again.said())
+
     def test_a_start_that_is_refused_leaves_the_finished_run_as_it_is(self):
         def files():
             return {os.path.join(folder, name): self.bytes_of(folder, name)

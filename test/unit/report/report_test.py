@@ -535,6 +535,23 @@ class Page(InFolder):
         with open(os.path.join(self.folder, "report.html"), encoding="utf-8") as file:
             return file.read()
 
+    def test_a_terminal_that_lacks_letters_is_no_reason_to_fail(self):
+        made.write_all(self.folder)
+        self.write("captures.csv", [files.CAPTURES, "h04,0,0,14,0,-11,0,0,0,0.00084"])
+        for encoding, dash in (("ascii", "?"), ("iso-8859-1", "?"), ("utf-8", "–")):
+            done = subprocess.run([sys.executable, REPORT, self.folder], capture_output=True, check=False,
+                                  env=dict(os.environ, PYTHONIOENCODING=encoding))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(dash, done.stdout.decode(encoding))
+            self.assertIn("Report: ", done.stdout.decode(encoding))
+
+    def test_the_light_of_nights_has_as_many_digits_as_that_of_noons(self):
+        shown = [tables.significant(value) for value in (0.00084, 0.0009996, 0.25, 12.346, 99.96, 150.4, 98765.4, 0.0)]
+        self.assertEqual(shown, ["0.000840", "0.00100", "0.250", "12.3", "100", "150", "98765", "0"])
+        made.write_all(self.folder)
+        self.write("captures.csv", [files.CAPTURES, "h04,0,0,14,0,-11,0,0,0,0.00084", "h04,1,1,14,0,-11,0,0,0,0.00251"])
+        self.assertEqual(tables.conditions(self.read())[0][4], "0.000840 to 0.00251")
+
     def test_whole_folder_gives_one_self_contained_page(self):
         made.write_all(self.folder)
         done = self.run_report(self.folder)

@@ -5,10 +5,12 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ros/conversions/geometry.h"
 #include "ros/conversions/images.h"
+#include "ros/conversions/received_images.h"
 #include "ros/conversions/sky.h"
 #include "ros/conversions/time.h"
 #include "sunlit/astronomy/civil_time.h"
@@ -27,6 +29,20 @@ TEST(Messages, ADepthImageKeepsItsBits) {
   EXPECT_EQ(message->step, 12u);
   ASSERT_EQ(message->data.size(), 24u);
   EXPECT_EQ(std::memcmp(message->data.data(), depth.data.data(), 24), 0);
+}
+
+TEST(Messages, ADepthImageWhoseRowsBeginWithinANumberIsAFault) {
+  for (const auto& [encoding, step] : {std::pair<const char*, std::uint32_t>{"16UC1", 7}, {"32FC1", 14}}) {
+    sensor_msgs::Image message;
+    message.encoding = encoding;
+    message.width = 3;
+    message.height = 2;
+    message.step = step;
+    message.data.resize(std::size_t{2} * step);
+    const DecodedDepth decoded = decodeDepth(message, 100);
+    EXPECT_TRUE(decoded.metres.empty());
+    EXPECT_EQ(decoded.fault.rfind("depth cannot be read: ", 0), 0u) << decoded.fault;
+  }
 }
 
 TEST(Messages, CameraInfoOfRectifiedPicturesIsItsP) {

@@ -78,6 +78,29 @@ TEST_F(ColladaNumbers, OfNodesThatContainThemselvesAreRefused) {
             "2: <node>: contains an instance of itself");
 }
 
+// By Assimp ids of a library come first, and then whatever in the scene has that id or name.
+TEST_F(ColladaNumbers, OfNodesThatAreCalledAsWhatTheyShowAreNoCircle) {
+  const auto withNodes = [](const std::string& library, const std::string& scene) {
+    std::string text = kGood;
+    const std::string end = "</library_geometries>",
+                      node = "<node id='n'><instance_geometry url='#g'/></node>";
+    text.replace(text.find(node), node.size(), scene);
+    return text.replace(text.find(end), end.size(), end + "<library_nodes>" + library + "</library_nodes>");
+  };
+  const std::string wheel = "<node id='wheel'><instance_geometry url='#g'/></node>";
+  const std::string inside = "><instance_node url='#wheel'/></node>";
+  for (const std::string called : {"name", "sid"})
+    EXPECT_EQ(load(write("t.dae", withNodes(wheel, "<node id='n' " + called + "='wheel'" + inside)), {})
+                  .triangleCount(),
+              1u);
+  const std::string circle = pathOf("t.dae") + ":2: <node>: contains an instance of itself";
+  const std::string second = "<node id='other'>" + wheel + "</node>";
+  EXPECT_EQ(errorOf(write("t.dae", withNodes("<node id='wheel'" + inside, "<node id='n'" + inside))), circle);
+  EXPECT_NE(errorOf(write("t.dae", withNodes(second, "<node id='n' name='wheel'" + inside))), "")
+      << "which Assimp finds only below a scene, not below a node of a library";
+  EXPECT_NE(errorWith("<instance_geometry url='#g'/>", "<instance_node url='#s'/>"), "") << "the scene";
+}
+
 // Assimp asserts not to meet it.
 TEST_F(ColladaNumbers, OfSkewsAreRefused) {
   EXPECT_EQ(errorWith("<instance_geometry url='#g'/>", "<skew>30 1 0 0 0 1 0</skew>"),

@@ -98,6 +98,9 @@ std::vector<LocalisationRow> loadLocalisation(const std::string& path);
 /// auc_20deg. In one step.
 void writeLocalisationSummary(const std::string& path, const std::vector<LocalisationSummary>& summaries);
 
+/// Its rows, of whose shares only mean and interval are there. Throws std::runtime_error with path and line.
+std::vector<LocalisationSummary> loadLocalisationSummary(const std::string& path);
+
 /// localisation_problems.csv: stream,role,stamp,fault, role being map or query. In one step.
 void writeLocalisationProblems(const std::string& path, const std::vector<LocalisationProblem>& problems);
 

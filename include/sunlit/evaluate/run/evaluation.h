@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,10 @@ struct StreamCounts {
   std::size_t unexpected = 0;   ///< of a pose that is not one of those expected
   std::size_t lossy = 0;        ///< compressed with loss
   std::size_t unlocalised = 0;  ///< could be neither key frame nor query, for want of depth, pose or camera
+  std::optional<std::int64_t> only_stamp_ns;  ///< that all of them have, where they have one alone
+  /// Most were left out, as those of a driver that sets no stamps are: what was evaluated is not what was
+  /// sent.
+  bool isMostlyDuplicate() const { return duplicate > received - duplicate; }
 };
 
 /// evaluated + resumed + the others = pairs asked for.
@@ -87,7 +92,9 @@ struct Outcome {
   std::vector<SummaryRow> summary;
   std::vector<VerifiedSummaryRow> verified;
   std::size_t absent_poses = 0;  ///< of those expected: no image at all came
-  bool isWhole() const;  ///< every pair of every pose was evaluated (or is undefined), and there was one
+  /// Every pair of every pose was evaluated (or is undefined), there was one, and no stream was mostly
+  /// duplicates.
+  bool isWhole() const;
 };
 
 /// Called from the threads that add images and from workers. Each of them is called one at a time, but one
@@ -106,8 +113,10 @@ struct LocalisationOutcome {
   std::size_t queries = 0;     ///< looked for, one for each detector
   /// Evaluated pictures that could not be looked for, for want of depth, pose or camera.
   std::size_t unobserved = 0;
-  std::vector<LocalisationSummary> summary;
-  bool isWhole() const { return !is_asked || (key_frames > 0 && unobserved == 0); }
+  /// Streams of the map and of the queries of which no picture was evaluated in any pair.
+  std::vector<std::string> uncompared;
+  std::vector<LocalisationSummary> summary;  ///< also where it was done before
+  bool isWhole() const { return !is_asked || (key_frames > 0 && unobserved == 0 && uncompared.empty()); }
 };
 
 /// Each is called by one thread at a time.

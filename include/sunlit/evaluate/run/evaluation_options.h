@@ -43,7 +43,8 @@ struct EvaluationOptions {
   std::int64_t stamp_start_ns = 0;  ///< stamp of pose 0, where a frame rate is given
   /// Bytes of images that wait for a partner or for being compared, at 3 a pixel, ≥ 1. A stamp that waits
   /// counts as if all streams had come. Beyond, a stamp is given up, counted and named: the newest while what
-  /// is being compared will make room, else the oldest.
+  /// is being compared will make room, else the oldest. Stamps that wait for nothing but what they are
+  /// localised by are compared without it once they take half of that.
   std::size_t memory_limit_bytes = 1000000000;
   std::vector<std::string>
       merge;  ///< folders of other runs with the same settings, whose values are taken over
@@ -52,6 +53,12 @@ struct EvaluationOptions {
 
 /// What `verify` comes to.
 std::vector<std::string> verifiedDetectors(const EvaluationOptions& options);
+
+/// Of a stream's pictures features are found where they are compared, so that without a pair it is neither
+/// map nor query.
+bool isInPair(const EvaluationOptions& options, const std::string& stream);
+/// What `localisation.queries` come to.
+std::vector<std::string> queriesOf(const EvaluationOptions& options);
 
 /// All ordered pairs of streams (first before second), each pose.
 std::vector<PairSpec> allPairs(const std::vector<std::string>& streams);

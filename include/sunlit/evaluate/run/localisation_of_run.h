@@ -14,7 +14,7 @@ namespace sunlit::evaluate {
 struct LocalisationOfRun {
   /// Stream whose images make the map, or several, "h04+h12"; empty: nothing is localised.
   std::string map;
-  std::vector<std::string> queries;  ///< streams; empty: all others
+  std::vector<std::string> queries;  ///< streams; empty: all others that are in a pair
   /// Some of the compared differences; nothing given: sift and orb, where they are among them.
   std::optional<std::vector<std::string>> detectors;
   double map_every_m = 5.0;
@@ -24,10 +24,9 @@ struct LocalisationOfRun {
 /// Rows "localisation/…"; the choice of detectors is among those of `comparer`, which must outlive the rows.
 std::vector<Field> fieldsOf(LocalisationOfRun& options, const ComparerOptions& comparer);
 
-/// What `detectors`, `map` and `queries` come to.
+/// What `detectors` and `map` come to; of `queries` see queriesOf().
 std::vector<std::string> localisingDetectors(const LocalisationOfRun& options,
                                              const ComparerOptions& comparer);
 std::vector<std::string> mapStreamsOf(const LocalisationOfRun& options);
-std::vector<std::string> queriesOf(const LocalisationOfRun& options, const std::vector<std::string>& streams);
 
 }  // namespace sunlit::evaluate

@@ -173,6 +173,7 @@ TEST(Comparisons, OfTooManyHoursAreThoseWithTheMap) {
   ASSERT_EQ(without.left_out.size(), 1u);
   EXPECT_NE(without.left_out[0].find("6072 comparisons of d between hours"), std::string::npos)
       << without.left_out[0];
+  EXPECT_EQ(comparisonsOf(manyHours(24), {"dusk"}).left_out, without.left_out) << "never without a word";
 }
 
 TEST(Comparisons, DoNotDependOnTheNumberOfThreads) {

@@ -115,6 +115,25 @@ TEST(LocalisationRows, AreReadAgainAsTheyStand) {
   EXPECT_THROW(loadLocalisation(folder.file("bad.csv")), std::runtime_error);
 }
 
+TEST(LocalisationSummary, IsReadAgainAsItStands) {
+  const TemporaryFolder folder;
+  std::vector<LocalisationRow> rows = {row(0, 0.25, 2.0), row(1, 0.1, 3.0), row(2, kNone, kNone),
+                                       row(3, kNone, kNone)};
+  rows.push_back(row(0, 0.1, 1.0));
+  rows.back().query = "a, b";
+  rows.back().result.has_baseline = false;
+  writeLocalisationSummary(folder.file("s.csv"), summariesOf(rows));
+  const std::vector<LocalisationSummary> read = loadLocalisationSummary(folder.file("s.csv"));
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_EQ(read[0].failures, 2u);
+  EXPECT_EQ(read[0].median_error_m, kInfinity);
+  EXPECT_EQ(read[1].query, "a, b");
+  writeLocalisationSummary(folder.file("again.csv"), read);
+  EXPECT_EQ(contentOf(folder.file("again.csv")), contentOf(folder.file("s.csv")));
+  setContent(folder.file("bad.csv"), contentOf(folder.file("s.csv")) + "h12,h04,sift,1\n");
+  EXPECT_THROW(loadLocalisationSummary(folder.file("bad.csv")), std::runtime_error);
+}
+
 TEST(LocalisationPoses, AreOfTheLinkBesideTheTruth) {
   const TemporaryFolder folder;
   LocalisationRow found = row(0, 0.5, 1.0);

@@ -119,6 +119,21 @@ TEST(Evaluation, CountsAndNamesEverythingThatCannotBeEvaluated) {
   EXPECT_TRUE(hasLine(problems, "duplicate,4,500.400000000,h04,"));
 }
 
+TEST(Evaluation, IsNotWholeWhereMostImagesOfAStreamHaveStampsThatHadComeBefore) {
+  for (const int distinct : {1, 2, 3}) {
+    const TemporaryFolder folder;
+    Evaluation evaluation(optionsFor(folder), {});
+    for (int image = 0; image < 6; ++image) feedPose(evaluation, image % distinct);
+    const Outcome outcome = evaluation.finish();
+    const StreamCounts& stream = outcome.counts.streams[0];
+    EXPECT_EQ(stream.received - stream.duplicate, static_cast<std::size_t>(distinct));
+    EXPECT_EQ(outcome.counts.pairs[0].evaluated, static_cast<std::size_t>(distinct));
+    EXPECT_EQ(stream.isMostlyDuplicate(), distinct < 3);
+    EXPECT_EQ(outcome.isWhole(), distinct == 3) << "as many of each";
+    EXPECT_EQ(stream.only_stamp_ns, distinct == 1 ? std::make_optional(stampOf(0)) : std::nullopt);
+  }
+}
+
 TEST(Evaluation, TakesUpARunThatWasCutOff) {
   const int poses = 30;
   const std::string expected = undisturbedSummary(poses);

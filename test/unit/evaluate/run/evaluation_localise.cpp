@@ -223,6 +223,10 @@ TEST(EvaluationLocalise, ABrokenOffRunIsTakenUpAgain) {
   EXPECT_TRUE(again.isComplete());
   const LocalisationOutcome outcome = finishAndLocalise(again);
   EXPECT_FALSE(outcome.is_asked);
+  writeLocalisationSummary(folder.file("told.csv"), outcome.summary);
+  EXPECT_EQ(contentOf(folder.file("told.csv")), contentOf(folder.file("out/localisation_summary.csv")))
+      << "and is told of again";
+  EXPECT_EQ(outcome.summary.size(), 4u);
   EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
   EXPECT_FALSE(std::filesystem::exists(folder.file("out/observations.bin"))) << "nor is an empty file left";
   again.compareMethods();
@@ -304,6 +308,43 @@ TEST(EvaluationLocalise, WhatIsMissingIsNamedAndCounted) {
       << problems;
 }
 
+TEST(EvaluationLocalise, SaysWhatIsLeftOutSinceItIsNotCompared) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = localising(folder);
+  options.streams = {"noon", "dusk", "night", "dawn"};
+  options.pairs = {{"noon", "dusk", 2}, {"noon", "night"}};
+  std::vector<std::string> notes;
+  EvaluationCallbacks callbacks;
+  callbacks.note = [&](const std::string& line) { notes.push_back(line); };
+  Evaluation evaluation(options, callbacks);
+  EXPECT_EQ(notes, (std::vector<std::string>{
+                       "dusk: looked for at the poses of its pairs alone: every 2 of noon-dusk",
+                       "dawn: not looked for in the map, since it is in no pair"}));
+  feed(evaluation, 0, kPoses);
+  const LocalisationOutcome outcome = finishAndLocalise(evaluation);
+  EXPECT_TRUE(outcome.isWhole());
+  std::vector<std::size_t> found;
+  for (const LocalisationSummary& summary : outcome.summary) found.push_back(summary.n);
+  EXPECT_EQ(found, (std::vector<std::size_t>{2, 2, 4, 4})) << "of dusk and night, by SIFT and ORB";
+}
+
+TEST(EvaluationLocalise, SaysOfWhichStreamNothingWasEvaluated) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(localising(folder), {});
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+    feedTruth(evaluation, pose);
+    for (std::size_t s = 0; s < 2; ++s) {
+      evaluation.addCamera(s, told(viewOf(pose).camera));
+      evaluation.addImage(s, stampOf(pose), lit(pose, s));
+    }
+  }
+  evaluation.finish();
+  const LocalisationOutcome outcome = evaluation.localise({});
+  EXPECT_EQ(outcome.key_frames, 2u);
+  EXPECT_EQ(outcome.uncompared, std::vector<std::string>{"night"});
+  EXPECT_FALSE(outcome.isWhole());
+}
+
 TEST(EvaluationLocalise, WithoutAKeyFrameNothingIsClaimed) {
   const TemporaryFolder folder;
   Evaluation evaluation(localising(folder), {});
@@ -325,6 +366,31 @@ TEST(EvaluationLocalise, DepthWithoutImagesStaysWithinTheMemory) {
   for (std::int64_t pose = 0; pose < 100; ++pose)
     evaluation.addDepth(stampOf(pose), told(cv::Mat(150, 200, CV_32FC1, cv::Scalar(1))));
   EXPECT_LE(evaluation.counts().bytes, options.memory_limit_bytes);
+}
+
+TEST(EvaluationLocalise, ComparesWithoutItWhereWhatItIsLocalisedByNeverComes) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = localising(folder);
+  options.comparer.differences = {"boolean_rgb", "orb"};
+  options.verify.emplace();
+  options.images = KeptImages::kNone;
+  options.poses.count = 20;
+  options.memory_limit_bytes = std::size_t{8} * 3 * 200 * 150 * 3;
+  Evaluation evaluation(options, {});
+  for (std::int64_t pose = 0; pose < 20; ++pose) {
+    for (std::size_t s = 0; s < 3; ++s) evaluation.addImage(s, stampOf(pose), lit(pose % kPoses, s));
+    EXPECT_LE(evaluation.counts().bytes, options.memory_limit_bytes);
+    evaluation.waitForRoom(0);  // as a bag does
+  }
+  EXPECT_EQ(evaluation.counts().waiting_images, 3u * (4u + 1u)) << "in half of the memory, and the newest";
+  const Outcome outcome = evaluation.finish();
+  for (const PairCounts& pair : outcome.counts.pairs) EXPECT_EQ(pair.evaluated, 20u);
+  for (const StreamCounts& stream : outcome.counts.streams) {
+    EXPECT_EQ(stream.dropped, 0u);
+    EXPECT_EQ(stream.unlocalised, 20u);
+  }
+  EXPECT_TRUE(outcome.isWhole());
+  EXPECT_FALSE(evaluation.localise({}).isWhole());
 }
 
 TEST(EvaluationLocalise, NothingIsAskedOfARunThatDoesNotLocalise) {
@@ -355,6 +421,23 @@ TEST(EvaluationLocalise, AsksForStreamsAndDetectorsThatThereAre) {
   options = localising(folder);
   options.localisation.queries = {"noon"};
   EXPECT_NE(messageOf([&] { Evaluation(options, {}); }).find("localisation/queries"), std::string::npos);
+  // Features are found of what is compared.
+  options = localising(folder);
+  options.pairs = {{"dusk", "night"}};
+  EXPECT_EQ(
+      messageOf([&] { Evaluation(options, {}); }),
+      "localisation/map is \"noon\", but must be of streams that are in pairs, and noon is in none: add "
+      "one of it to pairs");
+  options.pairs = {{"noon", "dusk"}};
+  options.localisation.queries = {"dusk", "night"};
+  EXPECT_EQ(
+      messageOf([&] { Evaluation(options, {}); }),
+      "localisation/queries is [dusk, night], but must be of streams that are in pairs, and night is in "
+      "none: add one of it to pairs");
+  options.localisation.map = "noon+dusk";
+  options.localisation.queries.clear();
+  EXPECT_NE(messageOf([&] { Evaluation(options, {}); }).find("one is left to be looked for"),
+            std::string::npos);
   options = localising(folder);
   options.localisation.detectors = std::vector<std::string>{"brisk"};
   EXPECT_NE(messageOf([&] { Evaluation(options, {}); }).find("localisation/detectors is [brisk]"),
