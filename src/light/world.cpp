@@ -54,6 +54,7 @@ std::string fingerprint(const World& world) {
   hash.add(world.geometry->tangents);
   scene::writeLooks(*world.geometry->scene,
                     [&hash](const void* data, std::size_t size) { hash.addBytes(data, size); });
+  scene::letGoOfTexels(*world.geometry->scene);
   if (world.bodies) {
     const std::vector<Eigen::Isometry3d> at_home(world.bodies->count(), Eigen::Isometry3d::Identity());
     const auto bodies = world.bodies->placed(at_home);

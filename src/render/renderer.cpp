@@ -91,8 +91,7 @@ struct ReadyTextures {
       : pyramids(*world.geometry->scene),
         maps(*world.geometry->scene,
              world.transport ? static_cast<float>(light::TransportOptions().finest_m) : 0.0f) {
-    // A picture looks at few of them in their full size.
-    for (const scene::Texture& texture : world.geometry->scene->textures) texture.rgba.letGo();
+    scene::letGoOfTexels(*world.geometry->scene);
   }
 
   TexturePyramids pyramids;

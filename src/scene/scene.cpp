@@ -171,6 +171,10 @@ void checkLamp(const Lamp& lamp) {
 
 }  // namespace
 
+void letGoOfTexels(const Scene& scene) {
+  for (const Texture& texture : scene.textures) texture.rgba.letGo();
+}
+
 void validate(const Scene& scene) {
   for (const Texture& texture : scene.textures) checkTexture(texture);
   for (const Material& material : scene.materials) checkMaterial(material, scene.textures.size());

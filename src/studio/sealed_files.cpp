@@ -43,6 +43,7 @@ bool SealedFiles::Content::isOf(const std::string& name) const {
   std::memcpy(&seal, data() + size(), sizeof(seal));
   image::ContentHash hash = sealBegun(name);
   hash.addBytes(data(), size());
+  bytes_.letGo(data(), size());
   return seal == hash.number();
 }
 

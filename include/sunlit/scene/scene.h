@@ -166,6 +166,9 @@ struct Scene {
   }
 };
 
+/// For who has looked at all texels of `scene`, of which pictures look at few: see Texels::letGo().
+void letGoOfTexels(const Scene& scene);
+
 /// Throws std::invalid_argument naming mesh, material or lamp and what is wrong: an index out of range,
 /// arrays of unequal length, a value that is not finite or out of the range given above.
 void validate(const Scene& scene);

@@ -77,6 +77,7 @@ Reflectances::Reflectances(const Geometry& geometry) : geometry_(geometry) {
     made[i].emplace(geometry.scene->textures[static_cast<std::size_t>(wanted[i].texture)], wanted[i].kind);
   });
   for (std::optional<Thumbnail>& one : made) thumbnails_.push_back(*std::move(one));
+  scene::letGoOfTexels(*geometry.scene);
 }
 
 int Reflectances::numberOf(const scene::TextureUse& use, Thumbnail::Kind kind,

@@ -81,9 +81,9 @@ std::unique_ptr<const TransportData> readBake(const fs::path& file, const image:
     values = Array(reinterpret_cast<const Value*>(bytes->data() + offset), count, bytes);
     offset += count * sizeof(Value);
     addTo(std::as_const(values), &checksum);
+    std::as_const(values).letGo(0, count);
   });
   if (checksum.number() != header.checksum) fail(file, "is damaged");
-  data->letGo();
   return data;
 }
 

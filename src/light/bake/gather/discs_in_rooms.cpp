@@ -203,7 +203,12 @@ void DiscsInRooms::startFromPatches(const sky::DiscLight& disc, const ThroughClo
                       Eigen::Map<const Eigen::Array3f>(part->tints[sample].data());
     }
   };
-  tbb::parallel_for(std::size_t{0}, asked_.size(), [&](std::size_t k) { add(asked_[k]); });
+  constexpr std::size_t kInMemory = 1u << 14;  // samples, with others between them
+  for (std::size_t begin = 0; begin < asked_.size(); begin += kInMemory) {
+    const std::size_t end = std::min(begin + kInMemory, asked_.size());
+    tbb::parallel_for(begin, end, [&](std::size_t k) { add(asked_[k]); });
+    data_.letGoOfRows(asked_[begin], asked_[end - 1] + 1);
+  }
   const Coefficients& mirrored = data_.rooms.mirrored;
   tbb::parallel_for(std::size_t{0}, mirrored_.size(), [&](std::size_t room) {
     mirrored_[room] +=
