@@ -10,6 +10,7 @@
 
 #include "light/bake/gather/gather.h"
 #include "light/bake/gather/relight.h"
+#include "light/bake/samples/node_lights.h"
 #include "light/bake/samples/scene_samples.h"
 #include "light/patches/mirror_sky.h"
 #include "light/patches/sky_sectors.h"
@@ -74,7 +75,7 @@ std::vector<NodeLight> Transport::relight(const sky::Daylight& day, const std::v
 Illumination Transport::illumination(const sky::Daylight& day, const std::vector<float>& lamp_shares,
                                      const Visibility* visibility) const {
   Illumination light(day);
-  light.nodes = std::make_shared<const std::vector<NodeLight>>(relight(day, lamp_shares, visibility));
+  light.nodes = std::make_shared<const NodeLights>(relight(day, lamp_shares, visibility));
   light.node_open = node_open_;
   if (visibility) light.glint_nodes = glint_nodes_;
   light.sky_sectors = std::make_shared<const SkySectors>(day);

@@ -14,6 +14,7 @@ namespace sunlit::light {
 class AroundLight;
 struct GlintNodes;
 class MirrorSky;
+class NodeLights;
 class SkySectors;
 
 /// Mean luminance, cd/m², of the surfaces that a place has before it above the horizon, and of all that lies
@@ -37,7 +38,7 @@ struct Illumination {
 
   sky::Daylight day;
   /// Of the Transport that made it; null: open sky.
-  std::shared_ptr<const std::vector<NodeLight>> nodes;
+  std::shared_ptr<const NodeLights> nodes;
   /// Share of the sky's light, by cosine, that reaches each node straight if the sky is even, 0 … 1; null as
   /// `nodes`.
   std::shared_ptr<const std::vector<float>> node_open;

@@ -13,11 +13,10 @@ namespace sunlit::light {
 namespace {
 
 /// What shares of surfaces above and below the horizon add up to.
-Eigen::Array3f seenAround(const LightPlace& place, float above, float below,
-                          const std::vector<NodeLight>& nodes) {
+Eigen::Array3f seenAround(const LightPlace& place, float above, float below, const NodeLights& nodes) {
   Eigen::Array3f sum = Eigen::Array3f::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
-    const Surroundings& around = nodes[place.node[k]].around;
+    const Surroundings around = nodes.around(place.node[k]);
     sum += place.weight[k] * (above * around.above + below * around.below);
   }
   return sum;

@@ -4,10 +4,9 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <vector>
 
+#include "light/bake/samples/node_lights.h"
 #include "light/geometry/triangle_side.h"
-#include "sunlit/light/illumination.h"
 
 namespace sunlit::light {
 
@@ -26,9 +25,9 @@ struct LightPlace {
 LightPlace lightPlace(const LightMesh& mesh, const TriangleSide& side, const std::array<float, 3>& within);
 
 /// Illuminance at a place between `nodes`, lx.
-inline Eigen::Array3f irradianceAt(const LightPlace& place, const std::vector<NodeLight>& nodes) {
+inline Eigen::Array3f irradianceAt(const LightPlace& place, const NodeLights& nodes) {
   Eigen::Array3f sum = Eigen::Array3f::Zero();
-  for (std::size_t k = 0; k < 3; ++k) sum += place.weight[k] * nodes[place.node[k]].irradiance;
+  for (std::size_t k = 0; k < 3; ++k) sum += place.weight[k] * nodes.irradiance(place.node[k]);
   return sum;
 }
 
