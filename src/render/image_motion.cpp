@@ -1,6 +1,7 @@
 #include "render/image_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -43,16 +44,21 @@ int bandCount(double skew_px, int height) {
 
 image::PinholeCamera shifted(const image::PinholeCamera& camera, int pattern) {
   if (pattern == 0) return camera;
-  // Bits of a number from the last to the first are far apart for numbers that follow each other: the points
-  // of Hammersley, of which any few are spread over the square.
-  int turned = 0;
-  for (int bit = 1, to = kPatterns / 2; bit < kPatterns; bit *= 2, to /= 2)
-    turned += (pattern & bit) != 0 ? to : 0;
-  constexpr int kApart = 7;  // without a common divisor: neither do those along x follow each other
+  // A lattice that is its own opposite: point 15 - i lies across the middle from point i. Pairs that follow
+  // each other are far apart.
+  constexpr std::array<int, kPatterns / 2> kFirst = {0, 4, 2, 6, 1, 5, 3, 7};
+  constexpr int kAlong = 7, kFrom = 3;
+  const int pair = (pattern - 1) / 2, first = kFirst[static_cast<std::size_t>(pair)];
+  const int point = pattern % 2 == 1 ? first : kPatterns - 1 - first;
   image::PinholeCamera aside = camera;
-  aside.cx += (turned + 0.5) / kPatterns - 0.5;
-  aside.cy += (pattern * kApart % kPatterns + 0.5) / kPatterns - 0.5;
+  aside.cx += (point + 0.5) / kPatterns - 0.5;
+  aside.cy += ((point * kAlong + kFrom) % kPatterns + 0.5) / kPatterns - 0.5;
   return aside;
+}
+
+int patternOf(int exposure, int exposures) {
+  if (exposures % 2 == 0) return 1 + exposure % kPatterns;
+  return exposure == 0 ? 0 : 1 + (exposure - 1) % kPatterns;
 }
 
 image::PinholeCamera rowsOf(const image::PinholeCamera& camera, int first, int count) {

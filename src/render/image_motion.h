@@ -21,9 +21,12 @@ int bandCount(double skew_px, int height);
 constexpr int kMostBands = 64;
 
 /// `camera`, whose pixels look a part of a pixel aside: number 0 nowhere, 1 to kPatterns each otherwise,
-/// evenly over the pixel.
+/// evenly over the pixel; 2 k opposite to 2 k − 1.
 constexpr int kPatterns = 16;
 image::PinholeCamera shifted(const image::PinholeCamera& camera, int pattern);
+
+/// Which of these an exposure of several has: as different ones as there are, whose mean is none.
+int patternOf(int exposure, int exposures);
 
 /// The camera of some rows of `camera`.
 image::PinholeCamera rowsOf(const image::PinholeCamera& camera, int first, int count);

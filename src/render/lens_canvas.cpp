@@ -128,8 +128,9 @@ void LensCanvas::findCells() {
   });
 }
 
-void LensCanvas::draw(Rasterizer* rasterizer, const Seen& seen, std::vector<Sample>* samples) {
-  drawn_.resize(faces_.size());
+void LensCanvas::draw(Rasterizer* rasterizer, const Seen& seen, Drawn* drawn,
+                      std::vector<Sample>* samples) const {
+  drawn->resize(std::max(drawn->size(), faces_.size()));
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     if (faces_[f].camera.fx == 0.0) continue;
     View view = seen.view;
@@ -137,32 +138,32 @@ void LensCanvas::draw(Rasterizer* rasterizer, const Seen& seen, std::vector<Samp
     view.camera = faces_[f].camera;
     view.supersampling = 1;
     view.map_from_optical.linear() = seen.view.map_from_optical.linear() * faces_[f].optical_from_face;
-    rasterizer->draw(view, seen.bodies, &drawn_[f]);
+    rasterizer->draw(view, seen.bodies, &(*drawn)[f]);
   }
   samples->resize(rays_.size());
   tbb::parallel_for(0, rows_, [&](int row) {
-    for (std::size_t i = index(0, row); i < index(0, row + 1); ++i) (*samples)[i] = sampleAt(seen, i);
+    for (std::size_t i = index(0, row); i < index(0, row + 1); ++i) (*samples)[i] = sampleAt(seen, *drawn, i);
   });
 }
 
-Sample LensCanvas::sampleAt(const Seen& seen, std::size_t i) const {
+Sample LensCanvas::sampleAt(const Seen& seen, const Drawn& drawn, std::size_t i) const {
   const Cell& cell = cells_[i];
-  const Sample* const top = &drawn_[cell.face][cell.first];
+  const Sample* const top = &drawn[cell.face][cell.first];
   const Sample* const bottom = top + faces_[cell.face].camera.width;
   const std::uint32_t triangle = top[0].triangle;
   if (top[1].triangle != triangle || bottom[0].triangle != triangle || bottom[1].triangle != triangle)
-    return atEdge(seen, i);
+    return atEdge(seen, drawn, i);
   if (triangle == 0) return {0, static_cast<float>(seen.view.far_m)};
   const double depth =
       planeDepth(seen, triangle - 1, seen.view.map_from_optical.linear() * rays_[i].cast<double>());
   // Corners that rasterizers round may let it pass beside a triangle that is seen from the side.
-  if (!(depth > 0.0 && depth < seen.view.far_m)) return drawnNearest(seen, i);
+  if (!(depth > 0.0 && depth < seen.view.far_m)) return drawnNearest(seen, drawn, i);
   return {triangle, static_cast<float>(depth)};
 }
 
-Sample LensCanvas::atEdge(const Seen& seen, std::size_t i) const {
+Sample LensCanvas::atEdge(const Seen& seen, const Drawn& drawn, std::size_t i) const {
   const Cell& cell = cells_[i];
-  const Sample* const top = &drawn_[cell.face][cell.first];
+  const Sample* const top = &drawn[cell.face][cell.first];
   const Sample* const bottom = top + faces_[cell.face].camera.width;
   const std::array<std::uint32_t, 4> about = {top[0].triangle, top[1].triangle, bottom[0].triangle,
                                               bottom[1].triangle};
@@ -185,19 +186,19 @@ Sample LensCanvas::atEdge(const Seen& seen, std::size_t i) const {
   }
   if (seen_first != 0) return {seen_first, static_cast<float>(least)};
   if (sky) return {0, static_cast<float>(seen.view.far_m)};
-  return drawnNearest(seen, i);
+  return drawnNearest(seen, drawn, i);
 }
 
 /// The nearest drawn sample, at its own depth.
-Sample LensCanvas::drawnNearest(const Seen& seen, std::size_t i) const {
+Sample LensCanvas::drawnNearest(const Seen& seen, const Drawn& drawn, std::size_t i) const {
   const Cell& cell = cells_[i];
   const Face& face = faces_[cell.face];
-  const Sample& drawn =
-      drawn_[cell.face][cell.first + (cell.nearest & 1u) +
-                        (cell.nearest >> 1) * static_cast<std::uint32_t>(face.camera.width)];
-  if (drawn.sky()) return {0, static_cast<float>(seen.view.far_m)};
+  const Sample& nearest =
+      drawn[cell.face][cell.first + (cell.nearest & 1u) +
+                       (cell.nearest >> 1) * static_cast<std::uint32_t>(face.camera.width)];
+  if (nearest.sky()) return {0, static_cast<float>(seen.view.far_m)};
   const double along = face.optical_from_face.col(2).dot(rays_[i].cast<double>());
-  return {drawn.triangle, static_cast<float>(static_cast<double>(drawn.depth) / along)};
+  return {nearest.triangle, static_cast<float>(static_cast<double>(nearest.depth) / along)};
 }
 
 }  // namespace sunlit::render

@@ -22,7 +22,7 @@ struct Seen;
 /// drawn sample.
 class LensCanvas {
  public:
-  /// Throws as image::Lens::widest().
+  /// Of two rows and columns at least. Throws as image::Lens::widest().
   LensCanvas(const image::Lens& lens, int supersampling);
 
   const std::shared_ptr<const light::PixelRays>& pixels() const { return pixels_; }
@@ -36,8 +36,11 @@ class LensCanvas {
   };
   const std::vector<Face>& faces() const { return faces_; }
 
-  /// Draws `seen`, but for its samples, which go to `samples`. One call at a time.
-  void draw(Rasterizer* rasterizer, const Seen& seen, std::vector<Sample>* samples);
+  /// What the rasterizer drew on each face; of no use after draw().
+  using Drawn = std::vector<std::vector<Sample>>;
+  /// Draws `seen`, but for its samples, which go to `samples`. Whoever has several of these keeps one
+  /// `drawn`.
+  void draw(Rasterizer* rasterizer, const Seen& seen, Drawn* drawn, std::vector<Sample>* samples) const;
 
  private:
   /// The four drawn samples about a ray, by the first of them, and which is nearest.
@@ -53,16 +56,15 @@ class LensCanvas {
   void layOutFaces(bool cube);
   void findRays();
   void findCells();
-  Sample sampleAt(const Seen& seen, std::size_t i) const;
-  Sample atEdge(const Seen& seen, std::size_t i) const;
-  Sample drawnNearest(const Seen& seen, std::size_t i) const;
+  Sample sampleAt(const Seen& seen, const Drawn& drawn, std::size_t i) const;
+  Sample atEdge(const Seen& seen, const Drawn& drawn, std::size_t i) const;
+  Sample drawnNearest(const Seen& seen, const Drawn& drawn, std::size_t i) const;
 
   std::shared_ptr<const light::PixelRays> pixels_;
   int supersampling_, columns_, rows_;
   std::vector<Eigen::Vector3f> rays_;
   std::vector<Face> faces_;
   std::vector<Cell> cells_;
-  std::vector<std::vector<Sample>> drawn_;  ///< by face
 };
 
 }  // namespace sunlit::render

@@ -160,14 +160,14 @@ MipLevel encoded(const LinearLevel& level, float alpha_scale) {
 std::vector<MipLevel> smallerLevels(const scene::Texture& texture, float cutoff) {
   std::vector<MipLevel> levels;
   if (texture.width <= 1 && texture.height <= 1) return levels;
-  const bool masked = cutoff >= 0.0f;
+  const bool masked = cutoff >= 0.0f, weigh_by_alpha = masked || cutoff == kBlends;
   const Linearised whole(texture);
   const double share = masked ? shareAbove(whole, cutoff) : 0.0;
-  LinearLevel level = halved(whole, masked);
+  LinearLevel level = halved(whole, weigh_by_alpha);
   const auto add = [&] {
     levels.push_back(encoded(level, masked ? alphaScale(level, cutoff, share) : 1.0f));
   };
-  for (add(); level.width > 1 || level.height > 1; add()) level = halved(level, masked);
+  for (add(); level.width > 1 || level.height > 1; add()) level = halved(level, weigh_by_alpha);
   return levels;
 }
 

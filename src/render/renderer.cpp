@@ -1,7 +1,9 @@
 #include "sunlit/render/renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <deque>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -28,8 +30,8 @@ const RenderOptions& checked(const RenderOptions& options) {
 
 /// What a camera sees by, wherever it stands.
 struct Optics {
-  View view;                         // without a pose
-  std::shared_ptr<LensCanvas> lens;  // null: a pinhole
+  View view;                               // without a pose
+  std::shared_ptr<const LensCanvas> lens;  // null: a pinhole
 };
 
 /// Of `options`, by another camera of the same lens.
@@ -71,10 +73,10 @@ std::vector<Band> bandsOf(RenderOptions options, const Division& division) {
   std::vector<Band> bands;
   options.supersampling = division.samples;
   options.camera = shifted(options.camera, division.pattern);
-  const int count = division.bands, rows = (options.camera.height + count - 1) / count;
-  for (int first = 0; first < options.camera.height; first += rows) {
-    const int of_band = std::min(rows, options.camera.height - first);
-    bands.push_back({first, of_band, opticsOf(options, rowsOf(options.camera, first, of_band))});
+  const int height = options.camera.height;
+  for (int i = 0; i < division.bands; ++i) {
+    const int first = i * height / division.bands, rows = (i + 1) * height / division.bands - first;
+    bands.push_back({first, rows, opticsOf(options, rowsOf(options.camera, first, rows))});
   }
   return bands;
 }
@@ -152,7 +154,7 @@ class Renderer::Implementation {
     const bool many = exposures >= options_.supersampling * options_.supersampling;
     for (int i = 0; i < exposures; ++i) {
       const double moment_s = ((i + 0.5) / exposures - 0.5) * way.exposure_s;
-      const Division division{bands, many ? 1 : options_.supersampling, many ? 1 + i % kPatterns : 0};
+      const Division division{bands, many ? 1 : options_.supersampling, many ? patternOf(i, exposures) : 0};
       for (const Band& band : dividedInto(division)) {
         drawMoved(band.optics, way.motion, moment_s + band.middle_s(way.line_delay_s), state);
         addRows(moved_.pictures.at(state).illuminate(light), band.first_row,
@@ -264,7 +266,7 @@ class Renderer::Implementation {
     seen.view.map_from_optical = from.map_from_optical;
     try {
       if (from.optics.lens)
-        from.optics.lens->draw(rasterizer_.get(), bufferOf(seen), &seen.samples);
+        from.optics.lens->draw(rasterizer_.get(), bufferOf(seen), &drawn_faces_, &seen.samples);
       else
         rasterizer_->draw(seen.view, seen.bodies.get(), &seen.samples);
       resolve(only, seen);
@@ -298,6 +300,13 @@ class Renderer::Implementation {
   }
 
   const std::vector<Band>& dividedInto(const Division& division) {
+    // Before a lens each of them takes tens of megabytes: those of this number of bands and of the one before
+    // stay, between which a camera that changes its speed goes to and fro.
+    if (division.bands != kept_bands_[0]) kept_bands_ = {division.bands, kept_bands_[0]};
+    for (auto known = bands_.begin(); known != bands_.end();) {
+      const int of = known->first.bands;
+      known = of == kept_bands_[0] || of == kept_bands_[1] ? std::next(known) : bands_.erase(known);
+    }
     std::vector<Band>& bands = bands_[division];
     if (bands.empty()) bands = bandsOf(options_, division);
     return bands;
@@ -342,6 +351,8 @@ class Renderer::Implementation {
   Pose ahead_;
   Pose moved_;                                   // a part of what a moving camera sees
   std::map<Division, std::vector<Band>> bands_;  // once needed
+  std::array<int, 2> kept_bands_ = {0, 0};       // numbers of them that bands_ may have
+  LensCanvas::Drawn drawn_faces_;
 };
 
 Renderer::Renderer(const light::World& world, const RenderOptions& options)

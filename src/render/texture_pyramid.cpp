@@ -67,8 +67,9 @@ TexturePyramid::TexturePyramid(const scene::Texture& texture, float alpha_cutoff
       cutoff_(alpha_cutoff * 255.0f),
       wrap_u_(texture.wrap_u),
       wrap_v_(texture.wrap_v),
-      repeats_(wrap_u_ == scene::Wrap::kRepeat && wrap_v_ == scene::Wrap::kRepeat) {
-  const bool masked = alpha_cutoff != kNoCutoff;
+      repeats_(wrap_u_ == scene::Wrap::kRepeat && wrap_v_ == scene::Wrap::kRepeat),
+      blends_(alpha_cutoff == kBlends) {
+  const bool masked = alpha_cutoff >= 0.0f;
   levels_.emplace_back(texture.width, texture.height, texture.rgba.data(), masked);
   for (const MipLevel& level : smaller_)
     levels_.emplace_back(level.width, level.height, level.rgba.data(), masked);
@@ -84,30 +85,63 @@ struct Texels {
   int width, height;
 };
 
-/// Between the four texels about a point, `u` and `v` of a whole turn.
+/// The four texels about a point, `u` and `v` of a whole turn, and how far it lies between them.
+struct Corners {
+  const std::uint8_t *a, *b, *c, *d;  ///< top left, top right, bottom left, bottom right
+  float right, down;
+
+  Corners(const Texels& texels, float u, float v) {
+    const int width = texels.width, height = texels.height;
+    // Texel centres lie at half-integers; half a texel less and one more keeps what is rounded positive.
+    const float x = u * static_cast<float>(width) + 0.5f, y = v * static_cast<float>(height) + 0.5f;
+    const int left = static_cast<int>(x), above = static_cast<int>(y);
+    right = x - static_cast<float>(left);
+    down = y - static_cast<float>(above);
+    // Rounding may take a coordinate just below a whole number to the end of the row.
+    const int x0 = left == 0 ? width - 1 : std::min(left, width) - 1;
+    const int y0 = above == 0 ? height - 1 : std::min(above, height) - 1;
+    const int x1 = x0 + 1 == width ? 0 : x0 + 1, y1 = y0 + 1 == height ? 0 : y0 + 1;
+    const auto at = [&](int column, int row) {
+      return texels.rgba + 4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                                static_cast<std::size_t>(column));
+    };
+    a = at(x0, y0);
+    b = at(x1, y0);
+    c = at(x0, y1);
+    d = at(x1, y1);
+  }
+};
+
 Texel bilinear(const Texels& texels, float u, float v) {
-  const int width = texels.width, height = texels.height;
-  // Texel centres lie at half-integers; half a texel less and one more keeps what is rounded positive.
-  const float x = u * static_cast<float>(width) + 0.5f, y = v * static_cast<float>(height) + 0.5f;
-  const int left = static_cast<int>(x), above = static_cast<int>(y);
-  const float right = x - static_cast<float>(left), down = y - static_cast<float>(above);
-  // Rounding may take a coordinate just below a whole number to the end of the row.
-  const int x0 = left == 0 ? width - 1 : std::min(left, width) - 1;
-  const int y0 = above == 0 ? height - 1 : std::min(above, height) - 1;
-  const int x1 = x0 + 1 == width ? 0 : x0 + 1, y1 = y0 + 1 == height ? 0 : y0 + 1;
-  const auto at = [&](int column, int row) {
-    return texels.rgba + 4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                              static_cast<std::size_t>(column));
-  };
-  const std::uint8_t *const a = at(x0, y0), *const b = at(x1, y0), *const c = at(x0, y1),
-                            *const d = at(x1, y1);
+  const Corners at(texels, u, v);
   const float* const linear = image::linearOfSrgb().data();
   Texel sum;
   for (int i = 0; i < 3; ++i) {
-    const float first = linear[a[i]] + down * (linear[c[i]] - linear[a[i]]);
-    const float second = linear[b[i]] + down * (linear[d[i]] - linear[b[i]]);
-    sum[i] = first + right * (second - first);
+    const float first = linear[at.a[i]] + at.down * (linear[at.c[i]] - linear[at.a[i]]);
+    const float second = linear[at.b[i]] + at.down * (linear[at.d[i]] - linear[at.b[i]]);
+    sum[i] = first + at.right * (second - first);
   }
+  return sum;
+}
+
+/// Colour times alpha, and alpha; a little of it where there is none, so that this has a colour, too.
+Eigen::Array4f bilinearOfWhatIsThere(const Texels& texels, float u, float v) {
+  constexpr float kLeast = 1e-3f;
+  const Corners at(texels, u, v);
+  const float* const linear = image::linearOfSrgb().data();
+  const auto texel = [&](const std::uint8_t* t, float weight) -> Eigen::Array4f {
+    const float there = weight * (static_cast<float>(t[3]) + kLeast);
+    return {there * linear[t[0]], there * linear[t[1]], there * linear[t[2]], there};
+  };
+  return texel(at.a, (1.0f - at.right) * (1.0f - at.down)) + texel(at.b, at.right * (1.0f - at.down)) +
+         texel(at.c, (1.0f - at.right) * at.down) + texel(at.d, at.right * at.down);
+}
+
+/// Of two sizes, the larger first, of which the smaller counts `share`.
+template <typename Look, typename Level>
+auto mixed(const Look& look, const Level* levels, float share) {
+  auto sum = look(levels[share < 1.0f ? 0 : 1]);
+  if (share > 0.0f && share < 1.0f) sum += share * (look(levels[1]) - sum);
   return sum;
 }
 
@@ -124,18 +158,25 @@ Eigen::Array3f TexturePyramid::color(const Eigen::Array2f& at, float level) cons
   // level does not show, and half of all look-ups need but one size.
   const float between = clamped - static_cast<float>(lower);
   const float share = std::clamp(2.0f * between - 0.5f, 0.0f, 1.0f);
+  // Half a texel from an edge that does not repeat, its texels alone are seen.
+  const auto inset = [](float coordinate, int size, scene::Wrap wrap) {
+    const float half = 0.5f / static_cast<float>(size);
+    return wrap == scene::Wrap::kRepeat ? coordinate : std::clamp(coordinate, half, 1.0f - half);
+  };
+  const Level* const levels = &levels_[lower];
+  if (blends_) {
+    const auto look = [&](const Level& l) {
+      return bilinearOfWhatIsThere({l.rgba, l.width, l.height}, inset(u, l.width, wrap_u_),
+                                   inset(v, l.height, wrap_v_));
+    };
+    const Eigen::Array4f sum = mixed(look, levels, share);
+    return sum.head<3>() / sum[3];
+  }
   const auto look = [&](const Level& l) {
     if (repeats_) return bilinear({l.rgba, l.width, l.height}, u, v);
-    // Half a texel from an edge that does not repeat, its texels alone are seen.
-    const auto inset = [](float coordinate, int size, scene::Wrap wrap) {
-      const float half = 0.5f / static_cast<float>(size);
-      return wrap == scene::Wrap::kRepeat ? coordinate : std::clamp(coordinate, half, 1.0f - half);
-    };
     return bilinear({l.rgba, l.width, l.height}, inset(u, l.width, wrap_u_), inset(v, l.height, wrap_v_));
   };
-  Texel sum = look(levels_[share < 1.0f ? lower : lower + 1]);
-  if (share > 0.0f && share < 1.0f) sum += share * (look(levels_[lower + 1]) - sum);
-  return sum;
+  return mixed(look, levels, share);
 }
 
 TexturePyramid::Mask TexturePyramid::mask(float texels_squared) const {
@@ -177,8 +218,10 @@ TexturePyramids::TexturePyramids(const scene::Scene& scene) {
     of_material_.push_back(kNone);
     if (material.base_texture == scene::Material::kNoTexture) continue;
     const auto texture = static_cast<std::size_t>(material.base_texture);
-    const std::pair<std::size_t, float> mine(
-        texture, isMasked(material) ? material.alpha_cutoff : first_cutoffs[texture]);
+    const bool blends = material.alpha_mode == scene::AlphaMode::kBlend;
+    const std::pair<std::size_t, float> mine(texture, isMasked(material) ? material.alpha_cutoff
+                                                      : blends           ? kBlends
+                                                                         : first_cutoffs[texture]);
     const auto same = std::find(wanted.begin(), wanted.end(), mine);
     of_material_.back() = static_cast<std::int32_t>(same - wanted.begin());
     if (same == wanted.end()) wanted.push_back(mine);

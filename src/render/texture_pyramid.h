@@ -18,16 +18,16 @@ inline bool isMasked(const scene::Material& material) {
 
 class TexturePyramid {
  public:
-  /// `alpha_cutoff` 0 … 1, or kNoCutoff for a texture that masks nothing. Looks up the full size in `texture`
-  /// itself, which must outlive it.
+  /// `alpha_cutoff` 0 … 1, or kNoCutoff or kBlends for a texture that masks nothing. Looks up the full size
+  /// in `texture` itself, which must outlive it.
   TexturePyramid(const scene::Texture& texture, float alpha_cutoff);
   TexturePyramid(scene::Texture&&, float) = delete;
 
   /// Of the full size, in texels.
   Eigen::Array2f size() const { return size_; }
 
-  /// Linear colour about texture coordinate `at`: bilinear within a level, linear between two in
-  /// the half about their middle. `level` 0 is the full size, each next one half of it.
+  /// Linear colour about texture coordinate `at`, of what is there if it blends: bilinear within a level,
+  /// linear between two in the half about their middle. `level` 0 is the full size, each next one half of it.
   Eigen::Array3f color(const Eigen::Array2f& at, float level) const;
 
   /// A masked texture at one size.
@@ -64,6 +64,7 @@ class TexturePyramid {
   float cutoff_;                 ///< of alpha, 0 … 255
   scene::Wrap wrap_u_, wrap_v_;  ///< of its colour
   bool repeats_;                 ///< in both directions
+  bool blends_;
 };
 
 /// Of all textures that a scene's materials use: one a texture and cutoff.

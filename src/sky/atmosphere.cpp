@@ -144,10 +144,7 @@ void Atmosphere::addWeather(const Weather& weather, const Lamps& lamps, SkyTable
   const auto dim = [&](double z, LinearRgb* light) { *light = *light * made->passed(static_cast<float>(z)); };
   dim(table->sun.towards.vector().z(), &table->sun.illuminance);
   dim(table->moon.towards.vector().z(), &table->moon.illuminance);
-  const Eigen::Vector3f origin = Eigen::Vector3f::Zero();
-  for (PointLight& star : table->stars)
-    star.illuminance =
-        star.illuminance * (made->passed(star.towards.z()) * made->passedThere({star.towards, origin}));
+  for (PointLight& star : table->stars) dim(star.towards.z(), &star.illuminance);
   table->weather = made;
 }
 

@@ -19,9 +19,11 @@ Daylight Daylight::seenFrom(const Eigen::Vector3f& place) const {
 }
 
 float Daylight::throughCloud(const DiscLight& disc, const Eigen::Vector3f& place) const {
-  if (!table_->weather) return 1.0F;
-  const Eigen::Vector3f towards = disc.towards.vector().cast<float>();
-  return table_->weather->passedThere({towards, place});
+  return throughCloud(disc.towards.vector().cast<float>(), place);
+}
+
+float Daylight::throughCloud(const Eigen::Vector3f& towards, const Eigen::Vector3f& place) const {
+  return table_->weather ? table_->weather->passedThere({towards, place}) : 1.0F;
 }
 
 Rain Daylight::rain() const {

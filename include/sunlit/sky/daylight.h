@@ -59,6 +59,8 @@ class Daylight {
   /// By how much sun or moon are brighter at a place, under gaps and clouds, than DiscLight::illuminance,
   /// which is the mean over all places; 1 without broken cloud.
   float throughCloud(const DiscLight& disc, const Eigen::Vector3f& place) const;
+  /// The same of anything far away that stands `towards`, as a star.
+  float throughCloud(const Eigen::Vector3f& towards, const Eigen::Vector3f& place) const;
 
   /// Luminance of the sky behind the scene by sun, moon and night glow, cd/m², without the discs and stars.
   /// Below the horizon: the luminance of the ground far away, continuous at the horizon.

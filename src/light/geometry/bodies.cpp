@@ -76,6 +76,9 @@ std::shared_ptr<const Geometry> Bodies::placed(const std::vector<Eigen::Isometry
     for (std::uint32_t i = first_vertices_[body]; i < first_vertices_[body + 1]; ++i) {
       shape->positions[i] = (place * at_home_.positions[i].cast<double>()).cast<float>();
       shape->normals[i] = (place.linear() * at_home_.normals[i].cast<double>()).cast<float>();
+      if (shape->tangents.empty()) continue;
+      shape->tangents[i].head<3>() =
+          (place.linear() * at_home_.tangents[i].head<3>().cast<double>()).cast<float>();
     }
   }
   for (std::size_t t = 0; t < shape->triangles.size(); ++t) {

@@ -97,16 +97,19 @@ void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& b
     const Surface& surface = tile.surfaces[i];
     const bool rays = next != by_rays.end() && next->surface == i;
     const WholeOutlook outlook = outlooks.whole(i);
-    const auto glint = [&](const std::unique_ptr<const Glints>& glints) -> Eigen::Array3f {
-      return glints ? glints->illuminance(number, i) : Eigen::Array3f(Eigen::Array3f::Zero());
+    const auto glint = [&](const std::unique_ptr<const Glints>& glints,
+                           const sky::DiscLight& disc) -> Eigen::Array3f {
+      if (!glints) return Eigen::Array3f::Zero();
+      const Eigen::Array3f light = glints->illuminance(number, i);
+      return broken_cloud_ ? Eigen::Array3f(light * light_.day.throughCloud(disc, surface.position)) : light;
     };
     const SurfaceParts parts{outlook,
                              rows.ambient[i],
                              mirrored[outlook.own.mirror],
                              ofDisc(sun, tile, i),
                              ofDisc(moon, tile, i),
-                             glint(sun_glints_),
-                             glint(moon_glints_),
+                             glint(sun_glints_, sun.light),
+                             glint(moon_glints_, moon.light),
                              by_lamps.empty() ? nullptr : &by_lamps[i],
                              rays ? &*next++ : nullptr};
     (*luminances)[i] = luminance(surface, parts);

@@ -84,6 +84,39 @@ TEST(BodyLight, BelowABodyIsTheLightThatTheGroundSendsBack) {
   EXPECT_LT((above / sky - 1.0f).abs().maxCoeff(), 0.12f) << above.transpose() << "\n" << sky.transpose();
 }
 
+TEST(BodyLight, BelowABodyIsWhatTheGroundHasUnderTheCloudThatStandsThere) {
+  auto scene = std::make_shared<scene::Scene>();
+  scene->materials.resize(1);
+  scene->materials[0].base_color = LinearRgb(0.5f, 0.5f, 0.5f);
+  scene->materials[0].roughness = 1.0f;
+  scene->meshes = {square(Eigen::Vector3f::Zero(), 20000.0f)};
+  const World world(scene, {{square(Eigen::Vector3f::Zero(), 0.1f)}});
+  const BodyLight body_light(world);
+  sky::Weather weather;
+  weather.cover_oktas = 4.0;
+  const sky::Daylight day =
+      sky::usualAir().daylight({Direction(Azimuth::degrees(100.0), Angle::degrees(60.0)), 1.0}, {}, weather);
+  ASSERT_TRUE(day.hasBrokenCloud());
+  const auto below = [&](float x) {
+    const auto placed = world.bodies->placed({Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 5.0))});
+    const auto views = body_light.look(*placed, std::make_shared<Visibility>(world.visibility, placed));
+    return body_light.around(*views, day)[0].illuminance(-Eigen::Vector3f::UnitZ())[1];
+  };
+  // Where it shines most and least along a line, every 100 m.
+  float sunny = 0.0f, shady = 0.0f;
+  const auto through = [&](float x) { return day.throughCloud(day.sun(), {x, 0.0f, 0.0f}); };
+  for (float x = 0.0f; x < 8000.0f; x += 100.0f) {
+    if (through(x) > through(sunny)) sunny = x;
+    if (through(x) < through(shady)) shady = x;
+  }
+  ASSERT_GT(through(sunny), 1.5f);
+  ASSERT_LT(through(shady), 0.3f);
+  const float sun = day.sun().illuminance.value[1] * day.sun().towards.vector().cast<float>().z();
+  const float difference = 0.5f * sun * (through(sunny) - through(shady));
+  // The sky's light is alike. 15 %: places some metres aside have other clouds.
+  EXPECT_NEAR(below(sunny) - below(shady), difference, 0.15f * difference);
+}
+
 /// A matt floor without edges, a plate of 0.2 m above it, and darkness.
 struct PlateAboveFloor {
   std::shared_ptr<scene::Scene> scene = std::make_shared<scene::Scene>();
@@ -174,6 +207,20 @@ TEST(Bodies, NumberTheirTrianglesAlikeWhereverTheyStand) {
       EXPECT_NEAR(placed->planes[t].normal.z() * placed->planes[t].offset, 7.0, 1e-5);
     }
   }
+}
+
+TEST(Bodies, TurnTheirTangentsWithThem) {
+  auto scene = std::make_shared<scene::Scene>();
+  scene->materials.resize(1);
+  scene::Mesh plate = square(Eigen::Vector3f::Zero(), 1.0f);
+  plate.tangents.assign(plate.positions.size(), Eigen::Vector4f(1.0f, 0.0f, 0.0f, -1.0f));
+  const Bodies bodies(scene, {{plate}});
+  Eigen::Isometry3d place(Eigen::Translation3d(10.0, 20.0, 3.0));
+  place.rotate(Eigen::AngleAxisd(0.5 * kPi, Eigen::Vector3d::UnitZ()));
+  const auto placed = bodies.placed({place});
+  ASSERT_EQ(placed->tangents.size(), placed->positions.size());
+  for (const Eigen::Vector4f& tangent : placed->tangents)
+    EXPECT_LT((tangent - Eigen::Vector4f(0.0f, 1.0f, 0.0f, -1.0f)).norm(), 1e-6f);
 }
 
 }  // namespace

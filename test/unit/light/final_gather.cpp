@@ -291,6 +291,20 @@ TEST(PicturePreparer, RefusesANumberOfRaysOutOfRange) {
   }
 }
 
+TEST(KeptNodes, KeepsWhatAPoseSawWhileItIsAskedForInParts) {
+  KeptNodes kept;
+  std::vector<KeptNodes::Key> whole;
+  for (KeptNodes::Key key = 0; key < 640; ++key) whole.push_back(key);
+  EXPECT_EQ(kept.require(whole).size(), whole.size());
+  for (int pass = 0; pass < 5; ++pass) {
+    for (KeptNodes::Key band = 0; band < 64; ++band) {
+      const std::vector<KeptNodes::Key> part(whole.begin() + static_cast<std::ptrdiff_t>(10 * band),
+                                             whole.begin() + static_cast<std::ptrdiff_t>(10 * band + 10));
+      EXPECT_TRUE(kept.require(part).empty()) << pass << " " << band;
+    }
+  }
+}
+
 TEST(KeptNodes, ForgetsWhatNoRecentPoseHasAskedFor) {
   KeptNodes kept;
   EXPECT_EQ(kept.require({1, 2, 3}), (std::vector<KeptNodes::Key>{1, 2, 3}));

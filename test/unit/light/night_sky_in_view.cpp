@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -167,6 +168,31 @@ Shown shown(const Surfaces& surfaces, const sky::Daylight& day) {
     }
   }
   return sum;
+}
+
+TEST(Stars, AreHiddenByTheCloudsBeforeThem) {
+  auto stars = std::make_shared<std::vector<sky::Star>>();
+  stars->push_back({Eigen::Vector3f(0.0f, 0.5f, std::sqrt(0.75f)), sky::starIlluminance(3.0, 0.6)});
+  sky::NightSky night;
+  night.stars = stars;
+  night.map_from_celestial = Eigen::Matrix3d::Identity();
+  sky::Weather weather;
+  weather.cover_oktas = 4.0;
+  const sky::Daylight day = sky::usualAir().daylight(
+      {Direction(Azimuth::degrees(180.0), Angle::degrees(-30.0)), 1.0}, night, weather);
+  ASSERT_EQ(day.stars().size(), 1u);
+  const Eigen::Vector3f& towards = day.stars()[0].towards;
+  std::vector<float> shares;
+  for (float x = 0.0f; x < 6000.0f; x += 400.0f) {
+    Surfaces surfaces = cameraTowards(towards.cast<double>(), 20.0);
+    surfaces.eye = Eigen::Vector3f(x, 0.0f, 0.0f);
+    const float share = day.throughCloud(towards, surfaces.eye);
+    shares.push_back(share);
+    const double alone = day.stars()[0].illuminance.luminance();
+    EXPECT_NEAR(shown(surfaces, day).illuminance, alone * static_cast<double>(share), 0.02 * alone) << x;
+  }
+  EXPECT_LT(*std::min_element(shares.begin(), shares.end()), 0.3f);
+  EXPECT_GT(*std::max_element(shares.begin(), shares.end()), 1.3f);
 }
 
 TEST(Stars, DoNotTwinkleAsTheCameraTurnsByPartsOfAPixel) {

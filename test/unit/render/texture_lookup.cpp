@@ -52,6 +52,22 @@ TEST(Textures, AreInterpolatedInLinearLightAndRepeat) {
   }
 }
 
+TEST(Textures, ThatBlendHaveTheColourOfWhatIsThere) {
+  // Every other texel is not there, and black as most programs leave it.
+  scene::Texture texture;
+  texture.width = texture.height = 8;
+  for (int i = 0; i < 64; ++i) {
+    const std::uint8_t there = (i + i / 8) % 2 == 0 ? 255 : 0;
+    texture.rgba.own().insert(texture.rgba.own().end(), {there, there, there, there});
+  }
+  const render::TexturePyramid blends(texture, render::kBlends), opaque(texture, render::kNoCutoff);
+  for (const float level : {0.0f, 0.5f, 1.0f, 2.0f, 3.0f}) {
+    for (const float u : {0.1f, 0.33f, 0.52f})
+      EXPECT_GT(blends.color({u, 0.4f}, level).minCoeff(), 0.99f) << level << ' ' << u;
+  }
+  EXPECT_NEAR(opaque.color({0.3f, 0.4f}, 2.0f)[0], 0.5f, 0.01f);
+}
+
 TEST(Textures, AreMixedBetweenTwoSizes) {
   const scene::Texture texture = someTexture();
   const render::TexturePyramid pyramid(texture, render::kNoCutoff);

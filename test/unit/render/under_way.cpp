@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
+#include "render/image_motion.h"
 #include "test_scenes.h"
 
 namespace sunlit::test {
@@ -174,6 +177,45 @@ TEST(UnderWay, EachBandIsWhatACameraSeesThatStandsThere) {
       // sun's disc begin anew in each band.
       EXPECT_LT(mean, 2e-3) << first << " " << options.distortion.none() << " worst " << worst;
     }
+  }
+}
+
+TEST(UnderWay, BandsBeforeALensAreAlikeWhateverTheHeight) {
+  // 126 rows in 31 bands: not one of them of a single row, which has no next one to tell directions by.
+  render::RenderOptions options = smallCamera(160, 126);
+  options.distortion.coefficients = {-0.28, 0.07, 2e-4, 2e-5, 0.0};
+  const Eigen::Isometry3d pose = lookingAt({-4.0, -6.0, 1.5}, {4.0, 2.0, 1.0});
+  const light::Illumination light(daylightAt(140.0, 35.0));
+  Renderer renderer(shared(yard()), options), standing(shared(yard()), options);
+  renderer.look(pose);
+  const UnderWay way = turning(120.0, 0.03 / 126);
+  const image::LinearImage rolled = renderer.light(light, 0, way);
+  constexpr int kFirst = 30 * 126 / 31;
+  standing.look(way.motion.after((kFirst + 2) * way.line_delay_s, pose.translation()) * pose);
+  const image::LinearImage still = standing.light(light);
+  double off = 0.0;
+  for (int row = kFirst; row < 126; ++row)
+    for (int x = 0; x < still.width; ++x)
+      off += std::abs(*rolled.at(x, row) / *still.at(x, row) - 1.0f) / (5.0 * still.width);
+  EXPECT_LT(off, 4e-3);
+}
+
+TEST(UnderWay, ExposuresLookAroundTheirPixelsEvenly) {
+  const image::PinholeCamera camera = smallCamera(64, 48).camera;
+  for (int exposures = 1; exposures <= 40; ++exposures) {
+    double x = 0.0, y = 0.0;
+    std::set<double> different;
+    for (int i = 0; i < exposures; ++i) {
+      const image::PinholeCamera aside = render::shifted(camera, render::patternOf(i, exposures));
+      x += aside.cx - camera.cx;
+      y += aside.cy - camera.cy;
+      EXPECT_LT(std::max(std::abs(aside.cx - camera.cx), std::abs(aside.cy - camera.cy)), 0.5);
+      different.insert(aside.cx);
+    }
+    // Whole pairs, whatever their number: but for those that go round once more.
+    const double allowed = exposures <= 17 ? 1e-9 : 0.5 / exposures;
+    EXPECT_LT(std::max(std::abs(x), std::abs(y)) / exposures, allowed) << exposures;
+    EXPECT_EQ(different.size(), static_cast<std::size_t>(std::min(exposures, 16 + exposures % 2)));
   }
 }
 

@@ -61,10 +61,10 @@ class BodyLight::Implementation {
   void keep(std::uint32_t body, std::uint32_t direction, const Hit& hit, Views* views) const;
   static Eigen::Array3f arriving(const Met& met, const Illumination& light);
   /// Adds the light of a disc to the illuminance of each place that it reaches.
-  static void addDisc(const Views& views, const sky::DiscLight& disc,
+  static void addDisc(const Views& views, const sky::Daylight& day, const sky::DiscLight& disc,
                       std::vector<Eigen::Array3f>* illuminance);
   /// The same by way of polished floors, where nodes lack that light.
-  static void addGlints(const Views& views, const sky::DiscLight& disc, const GlintNodes& nodes,
+  static void addGlints(const Views& views, const Illumination& light, const sky::DiscLight& disc,
                         std::vector<Eigen::Array3f>* illuminance);
   /// The same of lamps, and of surfaces that pass their light on.
   static void addLamps(const Views& views, const Illumination& light,
@@ -137,7 +137,8 @@ Eigen::Array3f BodyLight::Implementation::arriving(const Met& met, const Illumin
   return irradianceAt(met.light, *light.nodes);
 }
 
-void BodyLight::Implementation::addDisc(const Views& views, const sky::DiscLight& disc,
+void BodyLight::Implementation::addDisc(const Views& views, const sky::Daylight& day,
+                                        const sky::DiscLight& disc,
                                         std::vector<Eigen::Array3f>* illuminance) {
   if (!(disc.illuminance.value.maxCoeff() > 0.0f)) return;
   const Eigen::Vector3f towards = disc.towards.vector().cast<float>();
@@ -154,13 +155,16 @@ void BodyLight::Implementation::addDisc(const Views& views, const sky::DiscLight
                              blocked.data());
   for (std::size_t i = 0; i < count; ++i) {
     const float cosine = views.met[i].normal.dot(towards);
-    if (!blocked[i] && cosine > 0.0f) (*illuminance)[i] += cosine * disc.illuminance.value;
+    if (!blocked[i] && cosine > 0.0f)
+      (*illuminance)[i] += cosine * day.throughCloud(disc, views.met[i].origin) * disc.illuminance.value;
   }
 }
 
-void BodyLight::Implementation::addGlints(const Views& views, const sky::DiscLight& disc,
-                                          const GlintNodes& nodes, std::vector<Eigen::Array3f>* illuminance) {
-  if (!(disc.illuminance.value.maxCoeff() > 0.0f)) return;
+void BodyLight::Implementation::addGlints(const Views& views, const Illumination& light,
+                                          const sky::DiscLight& disc,
+                                          std::vector<Eigen::Array3f>* illuminance) {
+  if (!light.glint_nodes || !(disc.illuminance.value.maxCoeff() > 0.0f)) return;
+  const GlintNodes& nodes = *light.glint_nodes;
   const Eigen::Vector3f to_disc = disc.towards.vector().cast<float>(), down = FloorMirror::mirrored(to_disc);
   const FloorMirror mirror(*views.visibility, to_disc, 0.0f);
   RayList rays;
@@ -176,7 +180,8 @@ void BodyLight::Implementation::addGlints(const Views& views, const sky::DiscLig
     if (stopped[k] != 0) continue;
     const auto floor = mirror.floorAlong(met.origin, down);
     if (floor) {
-      (*illuminance)[i] += nodes.at(met.light) * met.normal.dot(down) * disc.illuminance.value *
+      (*illuminance)[i] += nodes.at(met.light) * met.normal.dot(down) *
+                           light.day.throughCloud(disc, met.origin) * disc.illuminance.value *
                            mirroredShare(*floor, to_disc.z());
     }
   }
@@ -206,11 +211,9 @@ std::vector<AroundLight> BodyLight::Implementation::around(const Views& views,
   }
   std::vector<Eigen::Array3f> illuminance;
   for (const Met& met : views.met) illuminance.push_back(arriving(met, light));
-  addDisc(views, light.day.sun(), &illuminance);
-  addDisc(views, light.day.moon(), &illuminance);
-  if (light.glint_nodes) {
-    addGlints(views, light.day.sun(), *light.glint_nodes, &illuminance);
-    addGlints(views, light.day.moon(), *light.glint_nodes, &illuminance);
+  for (const sky::DiscLight* disc : {&light.day.sun(), &light.day.moon()}) {
+    addDisc(views, light.day, *disc, &illuminance);
+    addGlints(views, light, *disc, &illuminance);
   }
   addLamps(views, light, &illuminance);
   for (std::size_t i = 0; i < views.met.size(); ++i) {

@@ -15,8 +15,8 @@ class KeptNodes {
  public:
   using Key = std::uint64_t;
 
-  /// A pose needs all of `keys`, each once. Returns those that are new: their skies are to be filled in. Ends
-  /// the validity of references.
+  /// A pose, or a part of one, needs all of `keys`, each once. Returns those that are new: their skies are to
+  /// be filled in. Ends the validity of references.
   std::vector<Key> require(const std::vector<Key>& keys);
 
   /// Of a node that the present pose needs.
@@ -30,6 +30,7 @@ class KeptNodes {
   struct Age {
     std::unordered_map<Key, std::uint32_t> number;
     std::vector<GatheredSky> skies;
+    std::size_t largest = 0;  ///< nodes of the largest pose
   };
   Age now_, before_;
 };

@@ -34,7 +34,8 @@ StarField::StarField(const Surfaces& surfaces, const sky::Daylight& day, const D
     if (!(pixel.x() > -2.0 && pixel.x() < surfaces.width + 1.0 && pixel.y() > -2.0 &&
           pixel.y() < surfaces.height + 1.0))
       continue;
-    const Eigen::Array3f luminance = star.illuminance.value / static_cast<float>(place->solid_angle);
+    const Eigen::Array3f luminance = star.illuminance.value * day.throughCloud(star.towards, surfaces.eye) /
+                                     static_cast<float>(place->solid_angle);
     if (LinearRgb(luminance).luminance() < kOutshone * day.skyLuminance(star.towards).luminance()) continue;
     if (moon.hides(star.towards)) continue;
     add(surfaces, pixel, luminance);
