@@ -1,17 +1,14 @@
 #include "sunlit/render/renderer.h"
 
 #include <algorithm>
-#include <array>
 #include <deque>
-#include <iterator>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "render/bands.h"
 #include "render/image_motion.h"
 #include "render/lens_canvas.h"
 #include "render/rasterizer.h"
@@ -26,59 +23,6 @@ namespace {
 const RenderOptions& checked(const RenderOptions& options) {
   validate(options);
   return options;
-}
-
-/// What a camera sees by, wherever it stands.
-struct Optics {
-  View view;                               // without a pose
-  std::shared_ptr<const LensCanvas> lens;  // null: a pinhole
-};
-
-/// Of `options`, by another camera of the same lens.
-Optics opticsOf(const RenderOptions& options, const image::PinholeCamera& camera) {
-  Optics optics;
-  optics.view.camera = camera;
-  optics.view.supersampling = options.supersampling;
-  optics.view.near_m = options.near_m;
-  optics.view.far_m = options.far_m;
-  if (!options.distortion.none()) {
-    optics.lens =
-        std::make_shared<LensCanvas>(image::Lens(camera, options.distortion), options.supersampling);
-    optics.view.lens = optics.lens;
-  }
-  return optics;
-}
-
-/// Rows of the picture that see at one moment.
-struct Band {
-  int first_row, rows;
-  Optics optics;
-
-  /// After the first row of the picture.
-  double middle_s(double line_delay_s) const { return (first_row + 0.5 * (rows - 1)) * line_delay_s; }
-};
-
-/// How a picture is divided.
-struct Division {
-  int bands;
-  int samples;  ///< per pixel and axis
-  int pattern;  ///< that shifts them, see shifted()
-
-  bool operator<(const Division& other) const {
-    return std::tie(bands, samples, pattern) < std::tie(other.bands, other.samples, other.pattern);
-  }
-};
-
-std::vector<Band> bandsOf(RenderOptions options, const Division& division) {
-  std::vector<Band> bands;
-  options.supersampling = division.samples;
-  options.camera = shifted(options.camera, division.pattern);
-  const int height = options.camera.height;
-  for (int i = 0; i < division.bands; ++i) {
-    const int first = i * height / division.bands, rows = (i + 1) * height / division.bands - first;
-    bands.push_back({first, rows, opticsOf(options, rowsOf(options.camera, first, rows))});
-  }
-  return bands;
 }
 
 /// Adds `part` to the rows of `whole` from `first` on.
@@ -155,7 +99,7 @@ class Renderer::Implementation {
     for (int i = 0; i < exposures; ++i) {
       const double moment_s = ((i + 0.5) / exposures - 0.5) * way.exposure_s;
       const Division division{bands, many ? 1 : options_.supersampling, many ? patternOf(i, exposures) : 0};
-      for (const Band& band : dividedInto(division)) {
+      for (const Band& band : bands_.of(division)) {
         drawMoved(band.optics, way.motion, moment_s + band.middle_s(way.line_delay_s), state);
         addRows(moved_.pictures.at(state).illuminate(light), band.first_row,
                 1.0f / static_cast<float>(exposures), &mean);
@@ -207,7 +151,8 @@ class Renderer::Implementation {
         world_(states.front()),
         textures_(std::move(textures)),
         rasterizer_(makeRasterizer(options.rasterizer,
-                                   {world_.geometry, textures_->pyramids, options.texture_lod_bias})) {
+                                   {world_.geometry, textures_->pyramids, options.texture_lod_bias})),
+        bands_(options) {
     for (const light::World& state : states) states_.emplace_back(state, options.final_gather);
   }
 
@@ -299,19 +244,6 @@ class Renderer::Implementation {
         {optical_from_map * way.motion.velocity_m_s, optical_from_map * way.motion.turning_rad_s});
   }
 
-  const std::vector<Band>& dividedInto(const Division& division) {
-    // Before a lens each of them takes tens of megabytes: those of this number of bands and of the one before
-    // stay, between which a camera that changes its speed goes to and fro.
-    if (division.bands != kept_bands_[0]) kept_bands_ = {division.bands, kept_bands_[0]};
-    for (auto known = bands_.begin(); known != bands_.end();) {
-      const int of = known->first.bands;
-      known = of == kept_bands_[0] || of == kept_bands_[1] ? std::next(known) : bands_.erase(known);
-    }
-    std::vector<Band>& bands = bands_[division];
-    if (bands.empty()) bands = bandsOf(options_, division);
-    return bands;
-  }
-
   void resolve(std::optional<std::size_t> only, Pose& seen) {
     seen.pictures.resize(states_.size());
     const std::size_t begin = only ? *only : 0, end = only ? *only + 1 : states_.size();
@@ -349,9 +281,8 @@ class Renderer::Implementation {
   mutable std::mutex depth_;  // of seen_
   std::mutex drawing_;        // of all below, and of rasterizer_, lenses and preparers
   Pose ahead_;
-  Pose moved_;                                   // a part of what a moving camera sees
-  std::map<Division, std::vector<Band>> bands_;  // once needed
-  std::array<int, 2> kept_bands_ = {0, 0};       // numbers of them that bands_ may have
+  Pose moved_;  // a part of what a moving camera sees
+  Bands bands_;
   LensCanvas::Drawn drawn_faces_;
 };
 

@@ -9,7 +9,6 @@
 
 #include "light/lamps/lamp_beam.h"
 #include "light/patches/disc_area.h"
-#include "light/patches/random.h"
 #include "light/reference/emitters.h"
 #include "light/reference/sky_sampler.h"
 #include "light/shading/ggx.h"
@@ -17,6 +16,7 @@
 #include "light/shading/scatter.h"
 #include "light/shading/vertex.h"
 #include "sunlit/light/reference.h"
+#include "sunlit/quantity/random.h"
 
 namespace sunlit::light {
 

@@ -9,9 +9,9 @@
 #include <limits>
 #include <optional>
 
-#include "light/patches/random.h"
 #include "light/shading/shading.h"
 #include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/random.h"
 #include "sunlit/scene/weathering.h"
 
 namespace sunlit::light {

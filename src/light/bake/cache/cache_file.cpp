@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "light/bake/samples/transport_arrays.h"
 #include "sunlit/image/file_bytes.h"
 #include "sunlit/image/unfinished_file.h"
 

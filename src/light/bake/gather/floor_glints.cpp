@@ -7,10 +7,10 @@
 #include <limits>
 
 #include "light/geometry/ray_list.h"
-#include "light/patches/random.h"
 #include "light/shading/ggx.h"
 #include "light/shading/polished_floor.h"
 #include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/random.h"
 
 namespace sunlit::light {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "light/bake/gather/rooms.h"
 #include "light/bake/samples/mesh_leaves.h"
-#include "light/patches/random.h"
 #include "sunlit/light/surfaces.h"
+#include "sunlit/quantity/random.h"
 
 namespace sunlit::light {
 namespace {

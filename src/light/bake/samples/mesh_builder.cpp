@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "light/bake/samples/burial_test.h"
-#include "light/patches/random.h"
 #include "sunlit/quantity/photometry.h"
+#include "sunlit/quantity/random.h"
 
 namespace sunlit::light {
 namespace {

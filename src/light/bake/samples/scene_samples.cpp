@@ -7,6 +7,7 @@
 #include "light/bake/samples/sample_order.h"
 #include "light/bake/samples/sample_paint.h"
 #include "light/bake/samples/thin_sheets.h"
+#include "sunlit/quantity/random.h"
 
 namespace sunlit::light {
 namespace {
@@ -181,8 +182,7 @@ class Sampler {
   static std::uint64_t keyOf(const Corner& corner, float merge_m) {
     std::uint64_t key = 0;
     const auto add = [&key](float value) {
-      key = (key ^ static_cast<std::uint64_t>(std::lround(value))) * 0x9e3779b97f4a7c15ull;
-      key ^= key >> 29;
+      key = scrambled(key ^ static_cast<std::uint64_t>(std::lround(value)));
     };
     for (int axis = 0; axis < 3; ++axis) {
       add(corner.position[axis] / merge_m);

@@ -5,10 +5,10 @@
 #include <unordered_map>
 
 #include "light/geometry/cutout.h"
-#include "light/patches/random.h"
 #include "light/shading/reflectances.h"
 #include "sunlit/light/surfaces.h"
 #include "sunlit/quantity/photometry.h"
+#include "sunlit/quantity/random.h"
 
 namespace sunlit::light {
 namespace {

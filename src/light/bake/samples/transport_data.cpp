@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/bake/samples/transport_arrays.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/vector_clones.h"
 

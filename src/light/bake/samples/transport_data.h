@@ -10,6 +10,7 @@
 #include "light/bake/samples/baked_array.h"
 #include "light/bake/samples/leaf_openness.h"
 #include "light/bake/samples/light_place.h"
+#include "light/bake/samples/sample_and_byte.h"
 #include "light/patches/sky_patches.h"
 
 namespace sunlit::light {
@@ -102,16 +103,6 @@ struct BakedLamps {
   std::size_t setCount() const { return first.empty() ? 0 : first.size() - 1; }
 };
 
-/// The number of a sample, and something about it below 256, in four bytes.
-struct SampleAndByte {
-  static constexpr std::uint32_t kSampleBits = 24;
-  std::uint32_t both;
-
-  static SampleAndByte of(std::uint32_t sample, std::uint32_t byte) { return {byte << kSampleBits | sample}; }
-  std::uint32_t sample() const { return both & ((1u << kSampleBits) - 1); }
-  std::uint32_t byte() const { return both >> kSampleBits; }
-};
-
 /// Samples that see little but other surfaces, as in rooms, streets and tunnels, where the sun lights few
 /// places and these the rest: which samples they see, so that light of sun and moon comes from where it
 /// really lies.
@@ -179,39 +170,6 @@ struct TransportData {
   mutable std::once_flag places_found_;
   mutable std::vector<Eigen::Vector3f> places_;
 };
-
-/// Calls `visit` with each array of a TransportData, in the order of the file.
-template <typename Data, typename Visit>
-void visitArrays(Data& data, const Visit& visit) {
-  visit(data.mesh.roots);
-  visit(data.mesh.cells);
-  visit(data.mesh.first_share);
-  visit(data.mesh.shares);
-  visit(data.direct.rows);
-  visit(data.direct.scales);
-  for (auto* part : {&data.above, &data.below}) {
-    visit(part->coefficients.rows);
-    visit(part->coefficients.scales);
-    visit(part->tints);
-    visit(part->glows);
-    visit(part->hides);
-  }
-  visit(data.leaves.first);
-  visit(data.leaves.grids);
-  visit(data.lamps.first);
-  visit(data.lamps.blocks);
-  visit(data.lamps.light);
-  visit(data.rooms.samples);
-  visit(data.rooms.first);
-  visit(data.rooms.below);
-  visit(data.rooms.scales);
-  visit(data.rooms.links);
-  visit(data.rooms.mirrored.rows);
-  visit(data.rooms.mirrored.scales);
-  visit(data.rooms.sources);
-  visit(data.rooms.points);
-  visit(data.rooms.glossy);
-}
 
 /// Nodes whose light is without what discs throw on them by way of polished floors. Its edges are as sharp as
 /// those of patches of sun, so that pictures look for it by rays of their own.

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "light/patches/random.h"
 #include "light/shading/ggx.h"
 #include "light/shading/mirror_lobe.h"
 #include "light/shading/schlick.h"
 #include "light/shading/shading.h"
+#include "sunlit/quantity/random.h"
 
 namespace sunlit::light {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace sunlit::light {
+namespace sunlit {
 
 /// Finaliser of SplitMix64: Steele, Lea, Flood, Fast Splittable Pseudorandom Number Generators, OOPSLA 2014.
 inline std::uint64_t scrambled(std::uint64_t x) {
@@ -41,4 +41,4 @@ struct EvenPoints {
   }
 };
 
-}  // namespace sunlit::light
+}  // namespace sunlit
