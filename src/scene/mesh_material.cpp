@@ -48,17 +48,34 @@ std::string nameOf(const aiMaterial& source) {
   return name.C_Str();
 }
 
+struct Highlight {
+  aiColor4D color{0.0f, 0.0f, 0.0f, 1.0f};
+  float shininess = 0.0f;
+};
+
+/// Dark where the file gives none. Of COLLADA, Assimp hands on a highlight for every effect: for those that
+/// have none, and for phong and blinn without the elements for it, the one that its own effects begin with.
+Highlight highlightOf(const aiMaterial& source, bool collada) {
+  Highlight highlight;
+  source.Get(AI_MATKEY_COLOR_SPECULAR, highlight.color);
+  source.Get(AI_MATKEY_SHININESS, highlight.shininess);
+  if (!collada) return highlight;
+  int shading = aiShadingMode_Phong;
+  source.Get(AI_MATKEY_SHADING_MODEL, shading);
+  const bool matt =
+      shading == aiShadingMode_Gouraud || shading == aiShadingMode_NoShading;  // lambert, constant
+  const bool of_assimp = highlight.color == aiColor4D(0.4f, 0.4f, 0.4f, 1.0f) && highlight.shininess == 10.0f;
+  return matt || of_assimp ? Highlight() : highlight;
+}
+
 /// Phong-style materials of COLLADA and OBJ. Their colours are display values.
-void readPhong(const aiMaterial& source, Material& material) {
+void readPhong(const aiMaterial& source, bool collada, Material& material) {
   aiColor4D diffuse(0.8f, 0.8f, 0.8f, 1.0f);
   source.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
   material.base_color = linearFromSrgb({diffuse.r, diffuse.g, diffuse.b});
   material.roughness = 0.9f;
-  aiColor4D specular(0.0f, 0.0f, 0.0f, 1.0f);
-  float shininess = 0.0f;
-  source.Get(AI_MATKEY_COLOR_SPECULAR, specular);
-  source.Get(AI_MATKEY_SHININESS, shininess);
-  const bool shines = std::max({specular.r, specular.g, specular.b}) > 0.0f && shininess > 1.0f;
+  const auto [color, shininess] = highlightOf(source, collada);
+  const bool shines = std::max({color.r, color.g, color.b}) > 0.0f && shininess > 1.0f;
   if (shines) material.roughness = roughnessOfPhong(shininess);
 }
 
@@ -157,7 +174,7 @@ void readPhongMaps(const aiMaterial& source, const aiScene& scene, const MeshFil
 int addPhong(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context) {
   Material material;
   material.name = nameOf(source);
-  readPhong(source, material);
+  readPhong(source, extensionOf(context.file) == ".dae", material);
   readColorMaps(source, scene, context, material);
   material.base_color.value = material.base_color.value.max(0.0f).min(1.0f);
   readPhongMaps(source, scene, context, material);
