@@ -164,6 +164,7 @@ struct Collector {
       if (!look || !hasSurface(source)) continue;
       MeshPart part{node.mName.C_Str(), source.mName.C_Str(), {}, up_from_node};
       part.mesh = toMesh(source, *look, gltf);
+      part.bare = look->bare;
       if (gltf) takeRest(source, part);
       part.mesh.name = part.node.empty() ? part.geometry : part.node;
       if (hasAlpha(source.mColors[0], source.mNumVertices)) fading.push_back(parts.size());

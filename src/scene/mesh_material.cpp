@@ -221,7 +221,11 @@ aiString textureOf(const aiMaterial& source, GltfMaterials::Slot slot) {
 std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
                                         const MeshFileContext& context) {
   const aiMaterial& source = *scene.mMaterials[index];
-  if (!context.gltf) return MeshLook{addPhong(source, scene, context), {CoordinateRecipe()}};
+  if (!context.gltf) {
+    // What Assimp gives a mesh whose file has none.
+    const bool bare = nameOf(source) == AI_DEFAULT_MATERIAL_NAME;
+    return MeshLook{addPhong(source, scene, context), {CoordinateRecipe()}, bare};
+  }
   const std::optional<GltfLook> look =
       context.gltf->look(context.gltf_order.at(index), [&](GltfMaterials::Slot slot, const Wraps& wraps) {
         const aiString name = textureOf(source, slot);
@@ -241,14 +245,15 @@ std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
     material.roughness = 1.0f;
     material.metalness = 1.0f;
     material.double_sided = false;
-    return MeshLook{context.builder.addMaterial(material, AlphaRule::kDeclared), {CoordinateRecipe()}};
+    return MeshLook{context.builder.addMaterial(material, AlphaRule::kDeclared), {CoordinateRecipe()}, true};
   }
   if (look->vanishes) {
     context.builder.warn("materials are invisible by their alpha, and left out",
                          look->material.name + " of " + context.file);
     return std::nullopt;
   }
-  return MeshLook{context.builder.addMaterial(look->material, AlphaRule::kDeclared), look->coordinates};
+  return MeshLook{context.builder.addMaterial(look->material, AlphaRule::kDeclared), look->coordinates,
+                  false};
 }
 
 }  // namespace sunlit::scene
