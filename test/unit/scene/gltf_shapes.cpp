@@ -218,6 +218,18 @@ TEST_F(GltfShape, OfAStripTooShortIsRefused) {
       << error;
 }
 
+// Each way to a node would be one more of it: here 2^39 of the last.
+TEST_F(GltfShape, OfNodesBelowTwoOthersIsRefused) {
+  Parts parts;
+  parts.nodes = "[";
+  for (int i = 1; i < 40; ++i)
+    parts.nodes += R"({"children":[)" + std::to_string(i) + "," + std::to_string(i) + "]},";
+  parts.nodes += R"({"mesh":0}])";
+  EXPECT_EQ(errorOfParts(parts), pathOf("t.gltf") + ": node 1 is below two others");
+  parts.nodes = R"([{"children":[1,2]},{"children":[3]},{"children":[3]},{"mesh":0}])";
+  EXPECT_EQ(errorOfParts(parts), pathOf("t.gltf") + ": node 3 is below two others");
+}
+
 TEST_F(GltfShape, OfAnIndexThatCountsNothingIsRefused) {
   for (const std::string number : {"-1e308", "-1", "0.5", "[0]"}) {
     std::string text = gltf({});
