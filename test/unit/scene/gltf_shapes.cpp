@@ -94,6 +94,17 @@ TEST_F(GltfShape, OfASkinWithoutMatricesHasUnitMatrices) {
   EXPECT_LT((boundsOf(load(write("t.glb", glb), {})).min() - Eigen::Vector3f(3, 0, 5)).norm(), 1e-6f);
 }
 
+// Assimp tells joints by their names.
+TEST_F(GltfShape, OfASkinIsWhereItsJointHoldsItWhateverElseIsCalledSo) {
+  for (const std::string name : {R"("name":"j",)", R"("name":"",)", ""}) {
+    Parts parts = skinned("");
+    parts.nodes = R"([{"children":[1,2,3]},{"mesh":0,"skin":0},{)" + name + R"("translation":[9,9,9]},{)" +
+                  name + R"("translation":[3,5,0]}])";
+    parts.more = R"("skins":[{"joints":[3]}],)";
+    EXPECT_LT((boundsOf(loaded(parts)).min() - Eigen::Vector3f(3, 0, 5)).norm(), 1e-6f) << name;
+  }
+}
+
 TEST_F(GltfShape, OfASkinMayHaveWeightsOfWholeNumbers) {
   std::string json = gltf(skinned(""));
   const std::string floats = R"({"bufferView":3,"componentType":5126)";
