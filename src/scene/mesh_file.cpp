@@ -151,9 +151,10 @@ struct Collector {
   const std::vector<std::optional<MeshLook>>& looks;  ///< by material
   bool gltf;
   const Eigen::Affine3d up_from_file;
-  std::vector<MeshPart> parts;
-  std::size_t lines_and_points = 0;  ///< left out
-  std::vector<std::size_t> fading;   ///< parts whose vertex colours have an alpha
+  std::vector<MeshPart> parts = {};
+  std::size_t lines_and_points = 0;           ///< left out
+  std::vector<std::size_t> fading = {};       ///< parts whose vertex colours have an alpha
+  std::vector<std::string> loose_skins = {};  ///< names of parts whose joints are not known
 
   void collect(const aiNode& node, const Eigen::Affine3d& up_from_parent) {
     const Eigen::Affine3d up_from_node = up_from_parent * toEigen(node.mTransformation);
@@ -165,7 +166,7 @@ struct Collector {
       MeshPart part{node.mName.C_Str(), source.mName.C_Str(), {}, up_from_node};
       part.mesh = toMesh(source, *look, gltf);
       part.bare = look->bare;
-      if (gltf) takeRest(source, part);
+      takeRest(source, part);
       part.mesh.name = part.node.empty() ? part.geometry : part.node;
       if (hasAlpha(source.mColors[0], source.mNumVertices)) fading.push_back(parts.size());
       parts.push_back(std::move(part));
@@ -173,10 +174,15 @@ struct Collector {
     for (unsigned i = 0; i < node.mNumChildren; ++i) collect(*node.mChildren[i], up_from_node);
   }
 
-  /// Of glTF: its shape at rest, and the vertices for that.
-  void takeRest(const aiMesh& source, MeshPart& part) const {
-    blendTargets(source, part.mesh);
-    if (standOnBones(source, scene, part.mesh)) part.file_from_node = up_from_file;
+  /// Its shape at rest, and the vertices for that.
+  void takeRest(const aiMesh& source, MeshPart& part) {
+    if (gltf) blendTargets(source, part.mesh);
+    // COLLADA may leave joints without a name, or with one that others have, too.
+    if (!gltf && !hasItsJoints(source, scene))
+      loose_skins.push_back(part.node.empty() ? part.geometry : part.node);
+    else if (standOnBones(source, scene, part.mesh))
+      part.file_from_node = up_from_file;
+    if (!gltf) return;
     if (part.mesh.normals.empty())
       partTriangles(part.mesh);  // glTF 2.0, section 3.7.2.1: flat
     else
@@ -244,12 +250,19 @@ void readCollada(const std::string& file, Assimp::Importer& importer, SceneBuild
     builder.warn("meshes have polygons with holes, which are filled", file);
 }
 
-/// Alpha of vertex colours, where it would matter.
-void warnOfFading(const Collector& collector, const std::string& file, SceneBuilder& builder) {
+/// What of the parts is lost; alpha of vertex colours, where it would matter.
+void warnOfLosses(const Collector& collector, const std::string& file, SceneBuilder& builder) {
   for (const std::size_t i : collector.fading) {
     const Mesh& mesh = collector.parts[i].mesh;
     if (builder.material(mesh.material).alpha_mode != AlphaMode::kOpaque)
       builder.warn("alpha of vertex colours was left out", mesh.name + " of " + file);
+  }
+  for (const std::string& skin : collector.loose_skins)
+    builder.warn("skins have joints that cannot be told apart, they stand where their nodes do",
+                 skin + " of " + file);
+  if (collector.lines_and_points > 0) {
+    builder.warn("files have lines and points, which have no surface and are left out",
+                 std::to_string(collector.lines_and_points) + " in " + file);
   }
 }
 
@@ -313,15 +326,11 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up.
   const bool y_up = gltf || (collada && up_axis == UpAxis::kAsDeclared);
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();
-  Collector collector{*scene, looks, gltf, up_from_file, {}, 0, {}};
+  Collector collector{*scene, looks, gltf, up_from_file};
   collector.collect(*scene->mRootNode, up_from_file);
-  warnOfFading(collector, file, builder);
+  warnOfLosses(collector, file, builder);
   if (up_axis == UpAxis::kAsDeclared && gltf) addGltfLights(file, up_from_file, builder);
   if (up_axis == UpAxis::kAsDeclared && !gltf) addLamps(*scene, up_from_file, builder);
-  if (collector.lines_and_points > 0) {
-    builder.warn("files have lines and points, which have no surface and are left out",
-                 std::to_string(collector.lines_and_points) + " in " + file);
-  }
   if (!gltf) partBackToBack(collector.parts, builder);  // which says itself what is one-sided
   return std::move(collector.parts);
 }
