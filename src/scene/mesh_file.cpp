@@ -270,6 +270,8 @@ void warnOfObj(const std::string& file, SceneBuilder& builder) {
   const ObjLosses losses = lossesOfObj(file);
   for (const std::string& material : losses.materials)
     builder.warn("materials are not there, and neutral ones stand for them", material);
+  for (const std::string& material : losses.mirroring)
+    builder.warn(kNotRendered, material + ": a picture of what it mirrors: it mirrors what there is");
   for (const std::string& library : losses.placed)
     builder.warn("libraries of OBJ shift textures or repeat them by -o, -s or -t, which is not read",
                  library);

@@ -171,6 +171,36 @@ void readPhongMaps(const aiMaterial& source, const aiScene& scene, const MeshFil
   name(aiTextureType_REFLECTION, "a picture of what it mirrors: it mirrors what there is");
 }
 
+/// What libraries of OBJ say beyond MTL: roughness and metalness as glTF has them, which come before the
+/// highlight. A map stands in the place of the number, as in SDF.
+void readRoughMetal(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context,
+                    Material& material) {
+  // Assimp 5.0 has no names for these keys.
+  source.Get("$mat.roughnessFactor", 0, 0, material.roughness);
+  source.Get("$mat.metallicFactor", 0, 0, material.metalness);
+  material.roughness_map.texture = addTexture(aiTextureType_DIFFUSE_ROUGHNESS, source, scene, context);
+  material.metalness_map.texture = addTexture(aiTextureType_METALNESS, source, scene, context);
+  if (material.roughness_map.given()) material.roughness = 1.0f;
+  if (material.metalness_map.given()) material.metalness = 1.0f;
+  // The least of what is no number at all.
+  material.roughness = std::fmin(std::fmax(material.roughness, Material::kSmoothest), 1.0f);
+  material.metalness = std::fmin(std::fmax(material.metalness, 0.0f), 1.0f);
+}
+
+/// Names where COLLADA shifts, turns or repeats textures by extensions of modellers.
+void warnOfPlacement(const aiMaterial& source, const std::string& name, const MeshFileContext& context) {
+  for (const aiTextureType type :
+       {aiTextureType_DIFFUSE, aiTextureType_EMISSIVE, aiTextureType_NORMALS, aiTextureType_OPACITY}) {
+    aiUVTransform placed;
+    source.Get(_AI_MATKEY_UVTRANSFORM_BASE, static_cast<unsigned>(type), 0, placed);
+    const bool identity = placed.mTranslation == aiVector2D(0.0f, 0.0f) &&
+                          placed.mScaling == aiVector2D(1.0f, 1.0f) && placed.mRotation == 0.0f;
+    if (!identity)
+      context.builder.warn(kNotRendered, name + " of " + context.file +
+                                             ": textures that are shifted, turned or repeated: without that");
+  }
+}
+
 int addPhong(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context) {
   Material material;
   material.name = nameOf(source);
@@ -178,6 +208,8 @@ int addPhong(const aiMaterial& source, const aiScene& scene, const MeshFileConte
   readColorMaps(source, scene, context, material);
   material.base_color.value = material.base_color.value.max(0.0f).min(1.0f);
   readPhongMaps(source, scene, context, material);
+  if (extensionOf(context.file) == ".obj") readRoughMetal(source, scene, context, material);
+  if (extensionOf(context.file) == ".dae") warnOfPlacement(source, material.name, context);
   const float opacity = opacityOf(source);
   if (opacity < 0.5f)
     context.builder.warn(

@@ -114,6 +114,21 @@ TEST_F(MeshFile, ColoursAreTakenForDisplayValues) {
   EXPECT_EQ(scene.materials[0].base_texture, Material::kNoTexture);
 }
 
+TEST_F(MeshFile, ShiftedTexturesOfColladaAreNamed) {
+  writeTexture("paint.png");
+  const auto loaded = [&](const std::string& repeats) {
+    std::string text = collada(kCentimetresZUp, "paint.png");
+    const std::string use = "texcoord='uv'/>";
+    text.replace(text.find(use), use.size(),
+                 "texcoord='uv'><extra><technique profile='MAYA'><wrapU>1</wrapU><repeatU>" + repeats +
+                     "</repeatU></technique></extra></texture>");
+    return load(write("t.dae", text), {});
+  };
+  EXPECT_TRUE(loaded("1").warnings.empty());
+  expectOneWarning(loaded("4"),
+                   "paint of " + pathOf("t.dae") + ": textures that are shifted, turned or repeated");
+}
+
 TEST_F(MeshFile, ColladaShinesOnlyWhereItSaysSo) {
   const auto roughnessOf = [&](const std::string& shading, const std::string& highlight) {
     std::string text = collada(kCentimetresZUp);
