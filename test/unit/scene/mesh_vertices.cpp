@@ -55,32 +55,45 @@ TEST_F(MeshVertices, AreOneWhereNothingOfThemDiffers) {
   EXPECT_EQ(load(file, {}).meshes.at(0).positions.size(), 4u);
 }
 
-// Two faces that lean on each other, as a roof, of four vertices and their indices; a fifth is of no face.
-TEST_F(MeshVertices, OfGltfWithoutNormalsAreFlat) {
-  const std::vector<float> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 9, 9, 9};
-  const std::vector<float> colors = {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 0, 1, 1, 1};
-  const std::vector<std::uint16_t> indices = {0, 1, 2, 0, 3, 1};
-  const auto bytes = [](const auto& numbers) {
-    return std::string(reinterpret_cast<const char*>(numbers.data()), sizeof(numbers[0]) * numbers.size());
-  };
-  write("n.bin", bytes(positions) + bytes(colors) + bytes(indices));
-  const Scene scene =
-      load(write("t.gltf",
-                 R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
-      "meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1},"indices":2}]}],
-      "accessors":[{"bufferView":0,"componentType":5126,"count":5,"type":"VEC3","min":[0,0,0],"max":[9,9,9]},
-      {"bufferView":1,"componentType":5126,"count":5,"type":"VEC3"},
-      {"bufferView":2,"componentType":5123,"count":6,"type":"SCALAR"}],
-      "bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":60},{"buffer":0,"byteOffset":60,"byteLength":60},
-      {"buffer":0,"byteOffset":120,"byteLength":12}],"buffers":[{"byteLength":132,"uri":"n.bin"}]})"),
-           {});
-  const Mesh& mesh = scene.meshes.at(0);
+class GltfVertices : public MeshVertices {
+ protected:
+  /// Two faces that lean on each other, of four vertices and their indices; a fifth is of no face. Each
+  /// vertex has three more numbers, which are an attribute of that name.
+  Mesh roof(const std::string& attribute) const {
+    const std::vector<float> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 9, 9, 9};
+    const std::vector<float> more = {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 0, 1, 1, 1};
+    const std::vector<std::uint16_t> indices = {0, 1, 2, 0, 3, 1};
+    const auto bytes = [](const auto& numbers) {
+      return std::string(reinterpret_cast<const char*>(numbers.data()), sizeof(numbers[0]) * numbers.size());
+    };
+    write("n.bin", bytes(positions) + bytes(more) + bytes(indices));
+    const std::string text =
+        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0,")" +
+        attribute + R"(":1},"indices":2}]}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":5,"type":"VEC3","min":[0,0,0],"max":[9,9,9]},
+        {"bufferView":1,"componentType":5126,"count":5,"type":"VEC3"},
+        {"bufferView":2,"componentType":5123,"count":6,"type":"SCALAR"}],
+        "bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":60},{"buffer":0,"byteOffset":60,"byteLength":60},
+        {"buffer":0,"byteOffset":120,"byteLength":12}],"buffers":[{"byteLength":132,"uri":"n.bin"}]})";
+    return load(write("t.gltf", text), {}).meshes.at(0);
+  }
+};
+
+TEST_F(GltfVertices, WithoutNormalsAreFlat) {
+  const Mesh mesh = roof("COLOR_0");
   ASSERT_EQ(mesh.triangles.size(), 2u);
   EXPECT_EQ(mesh.positions.size(), 6u);
   expectFlat(mesh);
   // z up: the file's z runs towards −y.
   EXPECT_LT((mesh.positions[mesh.triangles[1][1]] - Eigen::Vector3f(0, -1, 0)).norm(), 1e-6f);
   EXPECT_TRUE((mesh.colors.at(mesh.triangles[1][1]) == Eigen::Array3f(1, 1, 0)).all());
+}
+
+TEST_F(GltfVertices, WithNormalsAreThoseThatFacesUse) {
+  const Mesh mesh = roof("NORMAL");
+  ASSERT_EQ(mesh.positions.size(), 4u);
+  EXPECT_LT((mesh.normals[mesh.triangles[1][2]] - Eigen::Vector3f(0, 0, 1)).norm(), 1e-6f);
 }
 
 // Exporters of STL leave normals to their reader by writing none of any length.
