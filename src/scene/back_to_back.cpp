@@ -4,8 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <map>
 #include <utility>
+
+#include "scene/mesh_vertices.h"
 
 namespace sunlit::scene {
 namespace {
@@ -76,33 +77,6 @@ std::vector<std::vector<bool>> twinsIn(const std::vector<MeshPart>& parts) {
     for (; begin != end; ++begin) twins[begin->part][begin->triangle] = both;
   }
   return twins;
-}
-
-template <typename Value>
-void keep(const std::vector<std::uint32_t>& vertices, std::vector<Value>& values) {
-  if (values.empty()) return;
-  std::vector<Value> kept;
-  for (const std::uint32_t vertex : vertices) kept.push_back(values[vertex]);
-  values = std::move(kept);
-}
-
-/// Drops the vertices that no triangle uses.
-void keepUsed(Mesh& mesh) {
-  std::map<std::uint32_t, std::uint32_t> place;
-  std::vector<std::uint32_t> vertices;
-  for (auto& triangle : mesh.triangles) {
-    for (std::uint32_t& corner : triangle) {
-      const auto [known, is_new] = place.emplace(corner, static_cast<std::uint32_t>(vertices.size()));
-      if (is_new) vertices.push_back(corner);
-      corner = known->second;
-    }
-  }
-  keep(vertices, mesh.positions);
-  keep(vertices, mesh.normals);
-  keep(vertices, mesh.texture_coordinates);
-  for (auto& more : mesh.more_texture_coordinates) keep(vertices, more);
-  keep(vertices, mesh.tangents);
-  keep(vertices, mesh.colors);
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ class Check {
     }
     for (std::size_t i = 0; i < list("skins").size(); ++i)
       checkSkin(list("skins")[i], "skin " + std::to_string(i));
+    checkParents();
     checkLevels();
   }
 
@@ -155,6 +156,21 @@ class Check {
     const std::size_t joints = child(skin, "joints").size();
     if (countOf(skin, "inverseBindMatrices", place) < joints)
       fail(place, "has fewer matrices than its " + std::to_string(joints) + " joints");
+  }
+
+  /// Nodes form strict trees (glTF 2.0, section 3.5.2). Where they do not, each way to a node would be one
+  /// more of it: 2ⁿ of n nodes that are below each other twice.
+  void checkParents() const {
+    const json& nodes = list("nodes");
+    std::vector<bool> has_parent(nodes.size(), false);
+    for (const json& node : nodes) {
+      for (const json& one : child(node, "children")) {
+        if (!one.is_number_unsigned() || one.get<std::size_t>() >= nodes.size()) continue;
+        const auto below = one.get<std::size_t>();
+        if (has_parent[below]) fail("node " + std::to_string(below), "is below two others");
+        has_parent[below] = true;
+      }
+    }
   }
 
   /// Of nodes below each other. Circles Assimp finds itself.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -64,6 +66,40 @@ bool giveMatrices(json& root, GltfBuffers& buffers) {
   return true;
 }
 
+/// Below the size of `nodes`.
+std::set<std::size_t> jointsOf(const json& root) {
+  std::set<std::size_t> joints;
+  for (const json& skin : child(root, "skins")) {
+    for (const json& joint : child(skin, "joints")) {
+      if (joint.is_number_unsigned() && joint.get<std::size_t>() < child(root, "nodes").size())
+        joints.insert(joint.get<std::size_t>());
+    }
+  }
+  return joints;
+}
+
+/// Gives joints that share their name with another node one of their own, by which Assimp tells them. Whether
+/// there were any.
+bool nameJoints(json& root) {
+  const auto nameOf = [](const json& node) {
+    const json& name = child(node, "name");
+    return name.is_string() ? name.get<std::string>() : std::string();
+  };
+  std::map<std::string, std::size_t> times;
+  for (const json& node : child(root, "nodes")) ++times[nameOf(node)];
+  bool any = false;
+  for (const std::size_t joint : jointsOf(root)) {
+    std::string name = nameOf(root["nodes"][joint]);
+    if (name.empty() || times[name] == 1) continue;  // Assimp names those without a name itself
+    do name += "#" + std::to_string(joint);
+    while (times.count(name) > 0);
+    times[name] = 1;
+    root["nodes"][joint]["name"] = name;
+    any = true;
+  }
+  return any;
+}
+
 /// Gives textures that are WebP pictures these as their own, in the place of others for readers that have no
 /// WebP. Whether there are any.
 bool useWebp(json& root) {
@@ -103,6 +139,7 @@ GltfInput::GltfInput(const std::string& file, json root) : file_(file) {
     mended |= placeInstances(root, buffers);
     mended |= useFloats(root, buffers);
     mended |= giveMatrices(root, buffers);
+    mended |= nameJoints(root);
   } catch (const json::exception& error) {
     throw std::runtime_error(file + ": an attribute is not as glTF has it: " + error.what());
   } catch (const std::runtime_error& error) {

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "scene/assimp_nodes.h"
 #include "scene/back_to_back.h"
@@ -23,16 +24,16 @@
 #include "scene/gltf_order.h"
 #include "scene/mesh_material.h"
 #include "scene/mesh_rest.h"
+#include "scene/mesh_vertices.h"
 #include "scene/obj_input.h"
 #include "scene/uri_text.h"
 
 namespace sunlit::scene {
 namespace {
 
-constexpr unsigned kSteps = aiProcess_Triangulate |            // polygons to triangles
-                            aiProcess_JoinIdenticalVertices |  // COLLADA and OBJ index each array apart
-                            aiProcess_SortByPType |            // so that points and lines can be left out
-                            aiProcess_FlipUVs;                 // texture coordinates from the top left corner
+constexpr unsigned kSteps = aiProcess_Triangulate |  // polygons to triangles
+                            aiProcess_SortByPType |  // so that points and lines can be left out
+                            aiProcess_FlipUVs;       // texture coordinates from the top left corner
 
 /// Where a file without normals has edges, and where it is round.
 constexpr float kCrease_deg = 35.0f;
@@ -111,15 +112,49 @@ bool hasSurface(const aiMesh& mesh) {
   return (mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) != 0;
 }
 
+/// Whether most of its normals are of no length, as STL has them where it leaves them to its reader.
+bool hasVoidNormals(const aiMesh& mesh) {
+  if (!mesh.HasNormals()) return false;
+  const auto is_void = [](const aiVector3D& normal) { return !(normal.SquareLength() > 0.0f); };  // NaN too
+  return 2 * std::count_if(mesh.mNormals, mesh.mNormals + mesh.mNumVertices, is_void) > mesh.mNumVertices;
+}
+
+void setUp(Assimp::Importer& importer, UpAxis up_axis) {
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up_axis == UpAxis::kZ);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);  // in the place of what is not there
+  importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCrease_deg);
+}
+
+/// The scene that `importer` has read, as it is used here; null where Assimp fails.
+const aiScene* prepared(Assimp::Importer& importer, bool gltf) {
+  const aiScene* const scene = importer.GetScene();
+  if (scene == nullptr) return nullptr;
+  bool is_colored = false;
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
+    aiMesh& mesh = *scene->mMeshes[i];
+    is_colored = is_colored || mesh.HasVertexColors(0);
+    if (hasVoidNormals(mesh)) delete[] std::exchange(mesh.mNormals, nullptr);
+  }
+  unsigned steps = kSteps;
+  if (!gltf) {
+    steps |= aiProcess_GenSmoothNormals;
+    // COLLADA and OBJ index each array apart. Assimp 5.2 joins vertices of different colours, too.
+    if (!is_colored) steps |= aiProcess_JoinIdenticalVertices;
+  }
+  return importer.ApplyPostProcessing(steps);
+}
+
 /// The parts below `node`, in the order of the file.
 struct Collector {
   const aiScene& scene;
   const std::vector<std::optional<MeshLook>>& looks;  ///< by material
   bool gltf;
   const Eigen::Affine3d up_from_file;
-  std::vector<MeshPart> parts;
-  std::size_t lines_and_points = 0;  ///< left out
-  std::vector<std::size_t> fading;   ///< parts whose vertex colours have an alpha
+  std::vector<MeshPart> parts = {};
+  std::size_t lines_and_points = 0;           ///< left out
+  std::vector<std::size_t> fading = {};       ///< parts whose vertex colours have an alpha
+  std::vector<std::string> loose_skins = {};  ///< names of parts whose joints are not known
 
   void collect(const aiNode& node, const Eigen::Affine3d& up_from_parent) {
     const Eigen::Affine3d up_from_node = up_from_parent * toEigen(node.mTransformation);
@@ -130,13 +165,28 @@ struct Collector {
       if (!look || !hasSurface(source)) continue;
       MeshPart part{node.mName.C_Str(), source.mName.C_Str(), {}, up_from_node};
       part.mesh = toMesh(source, *look, gltf);
-      if (gltf) blendTargets(source, part.mesh);
-      if (gltf && standOnBones(source, scene, part.mesh)) part.file_from_node = up_from_file;
+      part.bare = look->bare;
+      takeRest(source, part);
       part.mesh.name = part.node.empty() ? part.geometry : part.node;
       if (hasAlpha(source.mColors[0], source.mNumVertices)) fading.push_back(parts.size());
       parts.push_back(std::move(part));
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i) collect(*node.mChildren[i], up_from_node);
+  }
+
+  /// Its shape at rest, and the vertices for that.
+  void takeRest(const aiMesh& source, MeshPart& part) {
+    if (gltf) blendTargets(source, part.mesh);
+    // COLLADA may leave joints without a name, or with one that others have, too.
+    if (!gltf && !hasItsJoints(source, scene))
+      loose_skins.push_back(part.node.empty() ? part.geometry : part.node);
+    else if (standOnBones(source, scene, part.mesh))
+      part.file_from_node = up_from_file;
+    if (!gltf) return;
+    if (part.mesh.normals.empty())
+      partTriangles(part.mesh);  // glTF 2.0, section 3.7.2.1: flat
+    else
+      keepUsed(part.mesh);  // several primitives may share the vertices of all
   }
 };
 
@@ -186,28 +236,33 @@ void addLamps(const aiScene& scene, const Eigen::Affine3d& up_from_file, SceneBu
   }
 }
 
-/// What Assimp makes of a COLLADA file, as it stands or, where it refuses that, mended; null for nothing.
-const aiScene* readCollada(const std::string& file, unsigned steps, Assimp::Importer& importer,
-                           SceneBuilder& builder) {
+/// Has Assimp read a COLLADA file, as it stands or, where it refuses that, mended.
+void readCollada(const std::string& file, Assimp::Importer& importer, SceneBuilder& builder) {
   std::ifstream stream(file, std::ios::binary);
   const std::string text =
       withoutAnimations({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()});
   requireReadableCollada(text, file);
-  const aiScene* scene = importer.ReadFileFromMemory(text.data(), text.size(), steps, "dae");
-  if (scene != nullptr) return scene;
+  if (importer.ReadFileFromMemory(text.data(), text.size(), 0, "dae") != nullptr) return;
   const ColladaText readable = readableCollada(text);
-  scene = importer.ReadFileFromMemory(readable.text.data(), readable.text.size(), steps, "dae");
+  const aiScene* const scene =
+      importer.ReadFileFromMemory(readable.text.data(), readable.text.size(), 0, "dae");
   if (scene != nullptr && readable.holes > 0)
     builder.warn("meshes have polygons with holes, which are filled", file);
-  return scene;
 }
 
-/// Alpha of vertex colours, where it would matter.
-void warnOfFading(const Collector& collector, const std::string& file, SceneBuilder& builder) {
+/// What of the parts is lost; alpha of vertex colours, where it would matter.
+void warnOfLosses(const Collector& collector, const std::string& file, SceneBuilder& builder) {
   for (const std::size_t i : collector.fading) {
     const Mesh& mesh = collector.parts[i].mesh;
     if (builder.material(mesh.material).alpha_mode != AlphaMode::kOpaque)
       builder.warn("alpha of vertex colours was left out", mesh.name + " of " + file);
+  }
+  for (const std::string& skin : collector.loose_skins)
+    builder.warn("skins have joints that cannot be told apart, they stand where their nodes do",
+                 skin + " of " + file);
+  if (collector.lines_and_points > 0) {
+    builder.warn("files have lines and points, which have no surface and are left out",
+                 std::to_string(collector.lines_and_points) + " in " + file);
   }
 }
 
@@ -215,6 +270,8 @@ void warnOfObj(const std::string& file, SceneBuilder& builder) {
   const ObjLosses losses = lossesOfObj(file);
   for (const std::string& material : losses.materials)
     builder.warn("materials are not there, and neutral ones stand for them", material);
+  for (const std::string& material : losses.mirroring)
+    builder.warn(kNotRendered, material + ": a picture of what it mirrors: it mirrors what there is");
   for (const std::string& library : losses.placed)
     builder.warn("libraries of OBJ shift textures or repeat them by -o, -s or -t, which is not read",
                  library);
@@ -250,14 +307,12 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
     importer.SetIOHandler(std::make_unique<ObjInput>().release());
     warnOfObj(file, builder);
   }
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up_axis == UpAxis::kZ);
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);  // in the place of what is not there
-  importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCrease_deg);
-  // Normals where the file has none: glTF 2.0, section 3.7.2.1, wants them flat.
-  const unsigned normals = gltf ? aiProcess_GenNormals : aiProcess_GenSmoothNormals;
-  const aiScene* scene = collada ? readCollada(file, kSteps | normals, importer, builder)
-                                 : importer.ReadFile(file, kSteps | normals);
+  setUp(importer, up_axis);
+  if (collada)
+    readCollada(file, importer, builder);
+  else
+    importer.ReadFile(file, 0);
+  const aiScene* const scene = prepared(importer, gltf);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw std::runtime_error(file + ": cannot read this mesh: " + importer.GetErrorString() +
                              (gltf ? gltf_materials->whatItNeeds() : ""));
@@ -273,15 +328,11 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up.
   const bool y_up = gltf || (collada && up_axis == UpAxis::kAsDeclared);
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();
-  Collector collector{*scene, looks, gltf, up_from_file, {}, 0, {}};
+  Collector collector{*scene, looks, gltf, up_from_file};
   collector.collect(*scene->mRootNode, up_from_file);
-  warnOfFading(collector, file, builder);
+  warnOfLosses(collector, file, builder);
   if (up_axis == UpAxis::kAsDeclared && gltf) addGltfLights(file, up_from_file, builder);
   if (up_axis == UpAxis::kAsDeclared && !gltf) addLamps(*scene, up_from_file, builder);
-  if (collector.lines_and_points > 0) {
-    builder.warn("files have lines and points, which have no surface and are left out",
-                 std::to_string(collector.lines_and_points) + " in " + file);
-  }
   if (!gltf) partBackToBack(collector.parts, builder);  // which says itself what is one-sided
   return std::move(collector.parts);
 }

@@ -23,6 +23,7 @@ struct MeshPart {
   std::string geometry;  ///< name of the mesh in the file
   Mesh mesh;             ///< `material` is an index into the builder's materials
   Eigen::Affine3d file_from_node = Eigen::Affine3d::Identity();  ///< to z up, m
+  bool bare = false;  ///< the file gives it no material: the mesh has what its format says of such
 };
 
 /// The ending of a file's name in lower case, with its dot; empty if it has none.

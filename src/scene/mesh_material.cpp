@@ -48,17 +48,34 @@ std::string nameOf(const aiMaterial& source) {
   return name.C_Str();
 }
 
+struct Highlight {
+  aiColor4D color{0.0f, 0.0f, 0.0f, 1.0f};
+  float shininess = 0.0f;
+};
+
+/// Dark where the file gives none. Of COLLADA, Assimp hands on a highlight for every effect: for those that
+/// have none, and for phong and blinn without the elements for it, the one that its own effects begin with.
+Highlight highlightOf(const aiMaterial& source, bool collada) {
+  Highlight highlight;
+  source.Get(AI_MATKEY_COLOR_SPECULAR, highlight.color);
+  source.Get(AI_MATKEY_SHININESS, highlight.shininess);
+  if (!collada) return highlight;
+  int shading = aiShadingMode_Phong;
+  source.Get(AI_MATKEY_SHADING_MODEL, shading);
+  const bool matt =
+      shading == aiShadingMode_Gouraud || shading == aiShadingMode_NoShading;  // lambert, constant
+  const bool of_assimp = highlight.color == aiColor4D(0.4f, 0.4f, 0.4f, 1.0f) && highlight.shininess == 10.0f;
+  return matt || of_assimp ? Highlight() : highlight;
+}
+
 /// Phong-style materials of COLLADA and OBJ. Their colours are display values.
-void readPhong(const aiMaterial& source, Material& material) {
+void readPhong(const aiMaterial& source, bool collada, Material& material) {
   aiColor4D diffuse(0.8f, 0.8f, 0.8f, 1.0f);
   source.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
   material.base_color = linearFromSrgb({diffuse.r, diffuse.g, diffuse.b});
   material.roughness = 0.9f;
-  aiColor4D specular(0.0f, 0.0f, 0.0f, 1.0f);
-  float shininess = 0.0f;
-  source.Get(AI_MATKEY_COLOR_SPECULAR, specular);
-  source.Get(AI_MATKEY_SHININESS, shininess);
-  const bool shines = std::max({specular.r, specular.g, specular.b}) > 0.0f && shininess > 1.0f;
+  const auto [color, shininess] = highlightOf(source, collada);
+  const bool shines = std::max({color.r, color.g, color.b}) > 0.0f && shininess > 1.0f;
   if (shines) material.roughness = roughnessOfPhong(shininess);
 }
 
@@ -154,13 +171,45 @@ void readPhongMaps(const aiMaterial& source, const aiScene& scene, const MeshFil
   name(aiTextureType_REFLECTION, "a picture of what it mirrors: it mirrors what there is");
 }
 
+/// What libraries of OBJ say beyond MTL: roughness and metalness as glTF has them, which come before the
+/// highlight. A map stands in the place of the number, as in SDF.
+void readRoughMetal(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context,
+                    Material& material) {
+  // Assimp 5.0 has no names for these keys.
+  source.Get("$mat.roughnessFactor", 0, 0, material.roughness);
+  source.Get("$mat.metallicFactor", 0, 0, material.metalness);
+  material.roughness_map.texture = addTexture(aiTextureType_DIFFUSE_ROUGHNESS, source, scene, context);
+  material.metalness_map.texture = addTexture(aiTextureType_METALNESS, source, scene, context);
+  if (material.roughness_map.given()) material.roughness = 1.0f;
+  if (material.metalness_map.given()) material.metalness = 1.0f;
+  // The least of what is no number at all.
+  material.roughness = std::fmin(std::fmax(material.roughness, Material::kSmoothest), 1.0f);
+  material.metalness = std::fmin(std::fmax(material.metalness, 0.0f), 1.0f);
+}
+
+/// Names where COLLADA shifts, turns or repeats textures by extensions of modellers.
+void warnOfPlacement(const aiMaterial& source, const std::string& name, const MeshFileContext& context) {
+  for (const aiTextureType type :
+       {aiTextureType_DIFFUSE, aiTextureType_EMISSIVE, aiTextureType_NORMALS, aiTextureType_OPACITY}) {
+    aiUVTransform placed;
+    source.Get(_AI_MATKEY_UVTRANSFORM_BASE, static_cast<unsigned>(type), 0, placed);
+    const bool identity = placed.mTranslation == aiVector2D(0.0f, 0.0f) &&
+                          placed.mScaling == aiVector2D(1.0f, 1.0f) && placed.mRotation == 0.0f;
+    if (!identity)
+      context.builder.warn(kNotRendered, name + " of " + context.file +
+                                             ": textures that are shifted, turned or repeated: without that");
+  }
+}
+
 int addPhong(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context) {
   Material material;
   material.name = nameOf(source);
-  readPhong(source, material);
+  readPhong(source, extensionOf(context.file) == ".dae", material);
   readColorMaps(source, scene, context, material);
   material.base_color.value = material.base_color.value.max(0.0f).min(1.0f);
   readPhongMaps(source, scene, context, material);
+  if (extensionOf(context.file) == ".obj") readRoughMetal(source, scene, context, material);
+  if (extensionOf(context.file) == ".dae") warnOfPlacement(source, material.name, context);
   const float opacity = opacityOf(source);
   if (opacity < 0.5f)
     context.builder.warn(
@@ -204,7 +253,11 @@ aiString textureOf(const aiMaterial& source, GltfMaterials::Slot slot) {
 std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
                                         const MeshFileContext& context) {
   const aiMaterial& source = *scene.mMaterials[index];
-  if (!context.gltf) return MeshLook{addPhong(source, scene, context), {CoordinateRecipe()}};
+  if (!context.gltf) {
+    // What Assimp gives a mesh whose file has none.
+    const bool bare = nameOf(source) == AI_DEFAULT_MATERIAL_NAME;
+    return MeshLook{addPhong(source, scene, context), {CoordinateRecipe()}, bare};
+  }
   const std::optional<GltfLook> look =
       context.gltf->look(context.gltf_order.at(index), [&](GltfMaterials::Slot slot, const Wraps& wraps) {
         const aiString name = textureOf(source, slot);
@@ -224,14 +277,15 @@ std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
     material.roughness = 1.0f;
     material.metalness = 1.0f;
     material.double_sided = false;
-    return MeshLook{context.builder.addMaterial(material, AlphaRule::kDeclared), {CoordinateRecipe()}};
+    return MeshLook{context.builder.addMaterial(material, AlphaRule::kDeclared), {CoordinateRecipe()}, true};
   }
   if (look->vanishes) {
     context.builder.warn("materials are invisible by their alpha, and left out",
                          look->material.name + " of " + context.file);
     return std::nullopt;
   }
-  return MeshLook{context.builder.addMaterial(look->material, AlphaRule::kDeclared), look->coordinates};
+  return MeshLook{context.builder.addMaterial(look->material, AlphaRule::kDeclared), look->coordinates,
+                  false};
 }
 
 }  // namespace sunlit::scene

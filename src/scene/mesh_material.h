@@ -26,6 +26,7 @@ struct MeshFileContext {
 struct MeshLook {
   int material;
   std::vector<CoordinateRecipe> coordinates;  ///< the first is Mesh::texture_coordinates
+  bool bare = false;                          ///< MeshPart::bare
 };
 
 /// Adds material `index` of `scene` to the builder. A missing texture is a warning and a neutral grey. None,

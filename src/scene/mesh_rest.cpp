@@ -30,6 +30,12 @@ std::vector<Eigen::Matrix4d> fileFromVertices(const aiMesh& source, const aiScen
   return poses;
 }
 
+std::size_t timesOf(const aiString& name, const aiNode& node) {
+  std::size_t times = node.mName == name ? 1 : 0;
+  for (unsigned i = 0; i < node.mNumChildren; ++i) times += timesOf(name, *node.mChildren[i]);
+  return times;
+}
+
 }  // namespace
 
 void blendTargets(const aiMesh& source, Mesh& mesh) {
@@ -44,6 +50,13 @@ void blendTargets(const aiMesh& source, Mesh& mesh) {
         mesh.normals[i] += weight * vectorOf(target.mNormals[i] - source.mNormals[i]);
     }
   }
+}
+
+bool hasItsJoints(const aiMesh& source, const aiScene& scene) {
+  for (unsigned i = 0; i < source.mNumBones; ++i) {
+    if (timesOf(source.mBones[i]->mName, *scene.mRootNode) != 1) return false;
+  }
+  return true;
 }
 
 bool standOnBones(const aiMesh& source, const aiScene& scene, Mesh& mesh) {

@@ -127,8 +127,13 @@ ObjLosses lossesOfObj(const std::string& file) {
       library = std::filesystem::path(path).replace_extension("mtl");  // which Assimp then looks for
     }
     bool is_placed = false;
+    std::string current;
     forEachLine(withoutMark(contentOf(library.string())), [&](const std::string& one, std::size_t) {
-      if (const std::string material = behind(one, "newmtl"); !material.empty()) known.insert(material);
+      if (const std::string material = behind(one, "newmtl"); !material.empty()) {
+        current = material;
+        known.insert(material);
+      }
+      if (!behind(one, "refl").empty()) losses.mirroring.push_back(current + " of " + library.string());
       is_placed = is_placed || withoutPlacement(one) != one;
     });
     if (is_placed) losses.placed.push_back(library.string());

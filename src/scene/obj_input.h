@@ -20,6 +20,7 @@ class ObjInput : public Assimp::DefaultIOSystem {
 /// What of an OBJ file's looks is lost.
 struct ObjLosses {
   std::vector<std::string> materials;  ///< that it uses, but no library has; each with what is known of why
+  std::vector<std::string> mirroring;  ///< that libraries give a picture of what they mirror, by `refl`
   std::vector<std::string> placed;     ///< libraries that shift textures or say how often they repeat
 };
 /// Throws std::runtime_error naming the line where decimals stand behind a comma: Assimp cuts them off there.

@@ -187,10 +187,26 @@ std::string placesTried(const Found& found) {
   return listed(found.tried);
 }
 
+std::vector<std::string> gazeboFolders(const std::string& share) {
+  const std::string start = "gazebo-";
+  std::vector<std::pair<double, std::string>> versions;
+  std::error_code error;
+  for (fs::directory_iterator entry(share, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.rfind(start, 0) == 0 && entry->is_directory(error))
+      versions.emplace_back(-std::atof(name.c_str() + start.size()), entry->path().string());
+  }
+  std::sort(versions.begin(), versions.end());
+  std::vector<std::string> folders;
+  for (const auto& version : versions) folders.push_back(version.second);
+  return folders;
+}
+
 SearchPath SearchPath::withEnvironment(std::vector<std::string> folders) {
   SearchPath search_path{std::move(folders)};
-  constexpr std::array<const char*, 4> kVariables = {"SUNLIT_MODEL_PATH", "GAZEBO_MODEL_PATH",
-                                                     "GAZEBO_RESOURCE_PATH", "SDF_PATH"};
+  constexpr std::array<const char*, 6> kVariables = {"SUNLIT_MODEL_PATH",    "GAZEBO_MODEL_PATH",
+                                                     "GAZEBO_RESOURCE_PATH", "SDF_PATH",
+                                                     "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH"};
   for (const char* variable : kVariables) {
     const char* value = std::getenv(variable);
     std::istringstream list(value == nullptr ? "" : value);
@@ -200,6 +216,7 @@ SearchPath SearchPath::withEnvironment(std::vector<std::string> folders) {
   }
   if (const char* home = std::getenv("HOME"))
     search_path.folders.push_back(std::string(home) + "/.gazebo/models");
+  for (const std::string& folder : gazeboFolders("/usr/share")) search_path.folders.push_back(folder);
   const std::string own = packageFolder("sunlit");
   if (!own.empty()) search_path.folders.push_back(own + "/worlds/models");
   search_path.package_folder = packageFolder;

@@ -57,4 +57,8 @@ class ResourceFinder {
 /// "a, b and c", for messages about where something was looked for.
 std::string placesTried(const Found& found);
 
+/// Where versions of Gazebo classic keep their models and media: the folders gazebo-VERSION in `share`,
+/// newest first.
+std::vector<std::string> gazeboFolders(const std::string& share);
+
 }  // namespace sunlit::scene

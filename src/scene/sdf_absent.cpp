@@ -5,6 +5,7 @@
 
 #include "scene/robot/sdf_robot.h"
 #include "scene/robot/urdf_lamps.h"
+#include "scene/robot/urdf_looks.h"
 #include "scene/sdf_world.h"
 
 namespace sunlit::scene {
@@ -37,6 +38,21 @@ std::map<std::string, std::vector<Lamp>> urdfLamps(const std::string& text, Scen
       builder.warn("lights of <gazebo> elements are not read by this build, which has no libsdformat", link);
   }
   return {};
+}
+
+class UrdfLooks::Reader {};
+
+UrdfLooks::UrdfLooks(const std::string&, const ResourceFinder&, SceneBuilder& builder) : builder_(builder) {}
+
+UrdfLooks::~UrdfLooks() = default;
+
+std::optional<int> UrdfLooks::add(const std::string&, const std::string& place) {
+  builder_.warn("materials of <gazebo> elements are not read by this build, which has no libsdformat", place);
+  return std::nullopt;
+}
+
+void UrdfLooks::put(int material, Mesh& mesh) const {
+  mesh.material = material;
 }
 
 }  // namespace sunlit::scene

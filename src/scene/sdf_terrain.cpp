@@ -81,6 +81,10 @@ std::optional<Mesh> terrainOf(const SdfHeightmap& source, const TerrainUse& use,
     grid.size = {source.Size().X(), source.Size().Y()};
     if (grid.width < 2 || grid.depth < 2 || !(grid.size.minCoeff() > 0.0))
       throw std::runtime_error(place + ": its height map has no area");
+    if (source.Size() ==
+        ignition::math::Vector3d::One)  // which Gazebo takes for the size of a DEM's own land
+      builder.warn("height maps without a <size> are taken as 1 × 1 × 1 m, elevation models need one, too",
+                   use.visual);
     if (source.Sampling() > 1)
       builder.warn(
           "height maps ask for a <sampling> that adds nothing to them, they have a vertex for each pixel",

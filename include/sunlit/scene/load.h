@@ -31,9 +31,10 @@ struct SearchPath {
   /// `gz fuel download` makes them. Nothing is fetched from the network.
   std::vector<std::string> fuel_caches = {};
   /// `folders`, then those of the environment variables SUNLIT_MODEL_PATH, GAZEBO_MODEL_PATH,
-  /// GAZEBO_RESOURCE_PATH and SDF_PATH (colon-separated), then ~/.gazebo/models, then this package's own
-  /// worlds/models, which has the `sun` and `ground_plane` that most Gazebo worlds include. Packages are
-  /// those below the folders in ROS_PACKAGE_PATH, then Debian's.
+  /// GAZEBO_RESOURCE_PATH, SDF_PATH, GZ_SIM_RESOURCE_PATH and IGN_GAZEBO_RESOURCE_PATH (colon-separated),
+  /// then ~/.gazebo/models, then /usr/share/gazebo-VERSION, then this package's own worlds/models, which has
+  /// the `sun` and `ground_plane` that most Gazebo worlds include. Packages are those below the folders in
+  /// ROS_PACKAGE_PATH, then Debian's.
   static SearchPath withEnvironment(std::vector<std::string> folders);
 };
 

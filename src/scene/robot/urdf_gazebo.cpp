@@ -18,16 +18,22 @@ void forEachGazebo(const std::string& text,
   }
 }
 
-std::map<std::string, std::string> gazeboMaterialsOfLinks(const std::string& text) {
-  std::map<std::string, std::string> names;
+std::map<std::string, GazeboMaterial> gazeboMaterialsOfLinks(const std::string& text) {
+  std::map<std::string, GazeboMaterial> materials;
   forEachGazebo(text, [&](const std::string& link, const TiXmlElement& gazebo) {
     const TiXmlElement* const material = gazebo.FirstChildElement("material");
-    const char* const written = material == nullptr ? nullptr : material->GetText();
-    if (written == nullptr) return;
-    std::istringstream words(written);
-    words >> names[link];
+    if (const char* const written = material == nullptr ? nullptr : material->GetText())
+      std::istringstream(written) >> materials[link].name;
+    for (const TiXmlElement* visual = gazebo.FirstChildElement("visual"); visual != nullptr;
+         visual = visual->NextSiblingElement("visual")) {
+      const TiXmlElement* const look = visual->FirstChildElement("material");
+      if (look == nullptr || look->FirstChildElement() == nullptr) continue;
+      TiXmlPrinter printer;
+      look->Accept(&printer);
+      materials[link].element = printer.CStr();
+    }
   });
-  return names;
+  return materials;
 }
 
 }  // namespace sunlit::scene

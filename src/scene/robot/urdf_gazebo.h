@@ -13,7 +13,14 @@ namespace sunlit::scene {
 void forEachGazebo(const std::string& text,
                    const std::function<void(const std::string& link, const TiXmlElement& gazebo)>& use);
 
-/// Names of Gazebo's materials, such as Gazebo/Blue, by the links that these give them to.
-std::map<std::string, std::string> gazeboMaterialsOfLinks(const std::string& text);
+/// How Gazebo's elements have the visuals of a link look.
+struct GazeboMaterial {
+  std::string name;  ///< of <material>: that of one of Gazebo's, such as Gazebo/Blue; empty: none
+  std::string
+      element;  ///< of <visual>: a whole <material> as SDF has it; empty: none. It comes before the name
+};
+
+/// By the links that these are given to.
+std::map<std::string, GazeboMaterial> gazeboMaterialsOfLinks(const std::string& text);
 
 }  // namespace sunlit::scene

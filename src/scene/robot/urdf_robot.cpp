@@ -72,7 +72,7 @@ Robot parseUrdf(const std::string& text, const std::string& origin, const Search
   if (urdf_text.model().getRoot()) appendLinks(*urdf_text.model().getRoot(), -1, urdf_text, &robot.links);
   LinkMeshes meshes(origin);
   UrdfVisuals visuals(origin, finder, meshes.builder());
-  std::map<std::string, std::string> of_gazebo = gazeboMaterialsOfLinks(text);
+  std::map<std::string, GazeboMaterial> of_gazebo = gazeboMaterialsOfLinks(text);
   for (const std::string& oddity : urdf_text.oddities()) meshes.builder().warn(origin + ": " + oddity);
   std::map<std::string, std::vector<Lamp>> lamps = urdfLamps(text, meshes.builder());
   for (std::size_t i = 0; i < robot.links.size(); ++i) {

@@ -13,9 +13,6 @@
 namespace sunlit::scene {
 namespace {
 
-/// What Assimp calls the material of a mesh whose file has none.
-constexpr const char* kNoMaterial = "DefaultMaterial";
-
 void checkPositive(double value, const std::string& what, const std::string& place) {
   if (std::isfinite(value) && value > 0.0) return;
   throw std::runtime_error(refusal(place + ": its " + what, textOf(value), "above 0 m"));
@@ -46,7 +43,7 @@ float opacityOf(const urdf::Visual& visual) {
 
 }  // namespace
 
-void UrdfVisuals::add(const urdf::Link& link, const std::string& place, const std::string& of_gazebo) {
+void UrdfVisuals::add(const urdf::Link& link, const std::string& place, const GazeboMaterial& of_gazebo) {
   of_gazebo_ = of_gazebo;
   for (std::size_t i = 0; i < link.visual_array.size(); ++i) {
     const urdf::Visual& visual = *link.visual_array[i];
@@ -65,13 +62,14 @@ void UrdfVisuals::addVisual(const urdf::Visual& visual, const std::string& name,
   const Eigen::Isometry3d link_from_visual = toEigen(visual.origin);
   if (!visual.geometry) throw std::runtime_error(place + ": it has no geometry");
   if (visual.geometry->type == urdf::Geometry::MESH) {
-    addMeshShape(static_cast<const urdf::Mesh&>(*visual.geometry), {own_material, opacity, link_from_visual},
-                 name, place);
+    addMeshShape(static_cast<const urdf::Mesh&>(*visual.geometry),
+                 {own_material, visual.material == nullptr, opacity, link_from_visual}, name, place);
     return;
   }
   Mesh mesh = primitive(*visual.geometry, place);
   mesh.name = name;
-  mesh.material = builder_.veiled(*own_material, opacity, SceneBuilder::Faces::kTwo);
+  looks_.put(*own_material, mesh);
+  mesh.material = builder_.veiled(mesh.material, opacity, SceneBuilder::Faces::kTwo);
   builder_.addMesh(mesh, Eigen::Affine3d(link_from_visual));
 }
 
@@ -82,11 +80,10 @@ std::optional<int> UrdfVisuals::material(const urdf::Visual& visual, const std::
     builder_.warn("materials do not exist, a neutral one takes their place",
                   visual.material_name + " of " + place);
   }
-  if (!of_gazebo_.empty()) {
+  if (!of_gazebo_.name.empty() || !of_gazebo_.element.empty()) {
     if (source != nullptr)
-      builder_.warn(kNotRendered,
-                    "<gazebo> material " + of_gazebo_ + " of " + place + ", which has its own: without it");
-    else if (const std::optional<int> found = materialOfGazebo(of_gazebo_, place))
+      builder_.warn(kNotRendered, gazeboMaterialOf(place) + ", which has its own: without it");
+    else if (const std::optional<int> found = materialOfGazebo(place))
       return found;
   }
   if (source == nullptr && visual.geometry && visual.geometry->type == urdf::Geometry::MESH)
@@ -117,7 +114,15 @@ std::optional<int> UrdfVisuals::material(const urdf::Visual& visual, const std::
   return material_by_content_[content.str()] = builder_.addMaterial(looks, AlphaRule::kFromTexture);
 }
 
-std::optional<int> UrdfVisuals::materialOfGazebo(const std::string& name, const std::string& place) {
+/// For messages.
+std::string UrdfVisuals::gazeboMaterialOf(const std::string& place) const {
+  const std::string name = of_gazebo_.element.empty() ? of_gazebo_.name : "within <visual>";
+  return "<gazebo> material " + name + " of " + place;
+}
+
+std::optional<int> UrdfVisuals::materialOfGazebo(const std::string& place) {
+  if (!of_gazebo_.element.empty()) return looks_.add(of_gazebo_.element, place);
+  const std::string& name = of_gazebo_.name;
   const std::string content = "gazebo\n" + name;
   const auto known = material_by_content_.find(content);
   if (known != material_by_content_.end()) return known->second;
@@ -140,8 +145,11 @@ void UrdfVisuals::addMeshShape(const urdf::Mesh& shape, const MeshUse& use, cons
   for (MeshPart part : *parts) {
     part.mesh.name = name + "/" + part.mesh.name;
     // As RViz does: the material of the URDF is for meshes that bring none.
-    if (use.own_material && builder_.material(part.mesh.material).name == kNoMaterial) {
-      part.mesh.material = builder_.veiled(*use.own_material, use.opacity, SceneBuilder::Faces::kOne);
+    if (use.own_material && part.bare) {
+      looks_.put(*use.own_material, part.mesh);
+      part.mesh.material = builder_.veiled(part.mesh.material, use.opacity, SceneBuilder::Faces::kOne);
+    } else if (use.own_material && use.is_of_gazebo) {
+      builder_.warn(kNotRendered, gazeboMaterialOf(place) + ", whose mesh has its own: without it");
     }
     builder_.addMesh(part.mesh, link_from_file * part.file_from_node);
   }

@@ -11,6 +11,8 @@
 
 #include "scene/model_meshes.h"
 #include "scene/resource_finder.h"
+#include "scene/robot/urdf_gazebo.h"
+#include "scene/robot/urdf_looks.h"
 #include "scene/scene_builder.h"
 
 namespace sunlit::scene {
@@ -27,30 +29,37 @@ class UrdfVisuals {
  public:
   /// `origin` is the file of the text, or what stands for it.
   UrdfVisuals(const std::string& origin, const ResourceFinder& finder, SceneBuilder& builder)
-      : origin_(origin), finder_(finder), builder_(builder), meshes_(finder, builder) {}
+      : origin_(origin),
+        finder_(finder),
+        builder_(builder),
+        meshes_(finder, builder),
+        looks_(origin, finder, builder) {}
 
   /// Adds everything to see of `link`, in its frame. `place` names the link in messages. Visuals without a
-  /// material of theirs have that of Gazebo's of the name `of_gazebo`, unless it is empty.
-  void add(const urdf::Link& link, const std::string& place, const std::string& of_gazebo);
+  /// material of theirs have what `of_gazebo` says, if anything.
+  void add(const urdf::Link& link, const std::string& place, const GazeboMaterial& of_gazebo);
 
  private:
   void addVisual(const urdf::Visual& visual, const std::string& name, const std::string& place);
   struct MeshUse {
     std::optional<int> own_material;  ///< of the URDF, if it names one
+    bool is_of_gazebo;                ///< that
     float opacity;                    ///< of that
     Eigen::Isometry3d link_from_visual;
   };
   void addMeshShape(const urdf::Mesh& shape, const MeshUse& use, const std::string& name,
                     const std::string& place);
   std::optional<int> material(const urdf::Visual& visual, const std::string& place);
-  std::optional<int> materialOfGazebo(const std::string& name, const std::string& place);
+  std::string gazeboMaterialOf(const std::string& place) const;
+  std::optional<int> materialOfGazebo(const std::string& place);
 
   std::string origin_;
-  std::string of_gazebo_;  ///< of the link
+  GazeboMaterial of_gazebo_;  ///< of the link
   const ResourceFinder& finder_;
   SceneBuilder& builder_;
   std::map<std::string, int> material_by_content_;
   ModelMeshes meshes_;
+  UrdfLooks looks_;
 };
 
 }  // namespace sunlit::scene

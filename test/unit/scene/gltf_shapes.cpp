@@ -94,6 +94,17 @@ TEST_F(GltfShape, OfASkinWithoutMatricesHasUnitMatrices) {
   EXPECT_LT((boundsOf(load(write("t.glb", glb), {})).min() - Eigen::Vector3f(3, 0, 5)).norm(), 1e-6f);
 }
 
+// Assimp tells joints by their names.
+TEST_F(GltfShape, OfASkinIsWhereItsJointHoldsItWhateverElseIsCalledSo) {
+  for (const std::string name : {R"("name":"j",)", R"("name":"",)", ""}) {
+    Parts parts = skinned("");
+    parts.nodes = R"([{"children":[1,2,3]},{"mesh":0,"skin":0},{)" + name + R"("translation":[9,9,9]},{)" +
+                  name + R"("translation":[3,5,0]}])";
+    parts.more = R"("skins":[{"joints":[3]}],)";
+    EXPECT_LT((boundsOf(loaded(parts)).min() - Eigen::Vector3f(3, 0, 5)).norm(), 1e-6f) << name;
+  }
+}
+
 TEST_F(GltfShape, OfASkinMayHaveWeightsOfWholeNumbers) {
   std::string json = gltf(skinned(""));
   const std::string floats = R"({"bufferView":3,"componentType":5126)";
@@ -216,6 +227,18 @@ TEST_F(GltfShape, OfAStripTooShortIsRefused) {
   const std::string error = errorOfParts(parts);
   EXPECT_NE(error.find("a strip, loop or fan of 1 corners, but it must have 3 or more"), std::string::npos)
       << error;
+}
+
+// Each way to a node would be one more of it: here 2^39 of the last.
+TEST_F(GltfShape, OfNodesBelowTwoOthersIsRefused) {
+  Parts parts;
+  parts.nodes = "[";
+  for (int i = 1; i < 40; ++i)
+    parts.nodes += R"({"children":[)" + std::to_string(i) + "," + std::to_string(i) + "]},";
+  parts.nodes += R"({"mesh":0}])";
+  EXPECT_EQ(errorOfParts(parts), pathOf("t.gltf") + ": node 1 is below two others");
+  parts.nodes = R"([{"children":[1,2]},{"children":[3]},{"children":[3]},{"mesh":0}])";
+  EXPECT_EQ(errorOfParts(parts), pathOf("t.gltf") + ": node 3 is below two others");
 }
 
 TEST_F(GltfShape, OfAnIndexThatCountsNothingIsRefused) {

@@ -114,6 +114,44 @@ TEST_F(MeshFile, ColoursAreTakenForDisplayValues) {
   EXPECT_EQ(scene.materials[0].base_texture, Material::kNoTexture);
 }
 
+TEST_F(MeshFile, ShiftedTexturesOfColladaAreNamed) {
+  writeTexture("paint.png");
+  const auto loaded = [&](const std::string& repeats) {
+    std::string text = collada(kCentimetresZUp, "paint.png");
+    const std::string use = "texcoord='uv'/>";
+    text.replace(text.find(use), use.size(),
+                 "texcoord='uv'><extra><technique profile='MAYA'><wrapU>1</wrapU><repeatU>" + repeats +
+                     "</repeatU></technique></extra></texture>");
+    return load(write("t.dae", text), {});
+  };
+  EXPECT_TRUE(loaded("1").warnings.empty());
+  expectOneWarning(loaded("4"),
+                   "paint of " + pathOf("t.dae") + ": textures that are shifted, turned or repeated");
+}
+
+TEST_F(MeshFile, ColladaShinesOnlyWhereItSaysSo) {
+  const auto roughnessOf = [&](const std::string& shading, const std::string& highlight) {
+    std::string text = collada(kCentimetresZUp);
+    for (const std::string mark : {"<lambert>", "</lambert>"}) {
+      const bool end = mark[1] == '/';
+      text.replace(text.find(mark), mark.size(),
+                   end ? highlight + "</" + shading + ">" : "<" + shading + ">");
+    }
+    return load(write("h.dae", text), {}).materials.at(0).roughness;
+  };
+  const std::string highlight =
+      "<specular><color>0.2 0.2 0.2 1</color></specular><shininess><float>50</float></shininess>";
+  // What these two have no element for does not count.
+  for (const char* shading : {"lambert", "constant"}) {
+    EXPECT_EQ(roughnessOf(shading, ""), 0.9f) << shading;
+    EXPECT_EQ(roughnessOf(shading, highlight), 0.9f) << shading;
+  }
+  for (const char* shading : {"phong", "blinn"}) {
+    EXPECT_EQ(roughnessOf(shading, ""), 0.9f) << shading;
+    EXPECT_LT(roughnessOf(shading, highlight), 0.5f) << shading;
+  }
+}
+
 TEST_F(MeshFile, TexturesAreLookedForInTheUsualPlaces) {
   const std::string mesh = write("model/meshes/t.dae", collada(kCentimetresZUp, "C:\\artist\\paint.png"));
   writeTexture("model/materials/textures/paint.png");

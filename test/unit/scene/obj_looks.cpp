@@ -41,6 +41,40 @@ TEST_F(ObjLooks, EmissionIsBrighterThanAScreenWhereItSaysSo) {
   EXPECT_FLOAT_EQ(materialOf(lookOf("Ke 1 1 1\n")).emission.value[1], kDisplayWhite_cd_per_m2);
 }
 
+TEST_F(ObjLooks, RoughnessAndMetalnessAreNumbersOrPictures) {
+#ifdef SUNLIT_OLD_ASSIMP
+  GTEST_SKIP() << "Assimp 5.0 does not know Pr and Pm";
+#endif
+  const Scene numbers = lookOf("Ks 1 1 1\nNs 900\nPr 0.4\nPm 0.75\n");
+  EXPECT_TRUE(numbers.warnings.empty());
+  EXPECT_FLOAT_EQ(materialOf(numbers).roughness, 0.4f);
+  EXPECT_FLOAT_EQ(materialOf(numbers).metalness, 0.75f);
+  EXPECT_EQ(materialOf(lookOf("Pr 0\nPm 7\n")).roughness, Material::kSmoothest);
+  EXPECT_EQ(materialOf(lookOf("Pr 0\nPm 7\n")).metalness, 1.0f);
+  EXPECT_EQ(materialOf(lookOf("")).metalness, 0.0f);
+  EXPECT_EQ(materialOf(lookOf("Pr nan\n")).roughness, Material::kSmoothest);
+
+  paint("rough.png", {90, 90, 90});
+  paint("metal.png", {200, 200, 200});
+  const Scene pictures = lookOf("Pr 0.4\nPm 0.1\nmap_Pr rough.png\nmap_Pm metal.png\n");
+  EXPECT_TRUE(pictures.warnings.empty());
+  const Material& look = materialOf(pictures);
+  ASSERT_TRUE(look.roughness_map.given());
+  ASSERT_TRUE(look.metalness_map.given());
+  EXPECT_EQ(pictures.textures.at(static_cast<std::size_t>(look.roughness_map.texture)).rgba[0], 90);
+  EXPECT_EQ(pictures.textures.at(static_cast<std::size_t>(look.metalness_map.texture)).rgba[0], 200);
+  EXPECT_EQ(look.roughness, 1.0f);
+  EXPECT_EQ(look.metalness, 1.0f);
+}
+
+TEST_F(ObjLooks, PicturesOfWhatIsMirroredAreNamed) {
+  const Scene scene = lookOf("refl -type sphere sky.png\n");
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("m of " + pathOf("m.mtl") + ": a picture of what it mirrors"),
+            std::string::npos)
+      << scene.warnings[0];
+}
+
 TEST_F(ObjLooks, OpacityIsTheShareThatIsThere) {
   EXPECT_EQ(materialOf(lookOf("d 1\n")).alpha_mode, AlphaMode::kOpaque);
   const Scene tinted = lookOf("d 0.75\n"), faint = lookOf("d 0.25\n");

@@ -176,6 +176,19 @@ TEST_F(SdfShape, AHeightMapIsGround) {
   EXPECT_NEAR(nearestOnVertical(scene, {0, 3, 5})->z, 5.0, 0.01 * 8.0);
 }
 
+TEST_F(SdfShape, AHeightMapWithoutASizeIsOfAMetreAndNamed) {
+  writePicture("hills.png", 5, -1, 0);
+  const auto namedIn = [&](const std::string& size) {
+    const Scene scene = loaded(visual("<heightmap><uri>hills.png</uri>" + size + "</heightmap>"));
+    EXPECT_NEAR(boundsOf(scene).sizes().x(), size.empty() ? 1.0f : 40.0f, kTolerance);
+    return std::count(scene.warnings.begin(), scene.warnings.end(),
+                      "1 height maps without a <size> are taken as 1 × 1 × 1 m, elevation models need one, "
+                      "too: m::l::v");
+  };
+  EXPECT_EQ(namedIn(""), 1);
+  EXPECT_EQ(namedIn("<size>40 20 8</size>"), 0);
+}
+
 TEST_F(SdfShape, AHeightMapHasAVertexForEachPixelWhateverItsSampling) {
   writePicture("hills.png", 5, -1, 0);
   const auto with = [&](const std::string& sampling) {
