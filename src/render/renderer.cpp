@@ -60,8 +60,8 @@ class Renderer::Implementation {
  public:
   Implementation(const std::vector<light::World>& states, const RenderOptions& options)
       : Implementation(states, checked(options), std::make_shared<const ReadyTextures>(firstOf(states))) {}
-  Implementation(const Implementation& beside, const RenderOptions& options)
-      : Implementation(beside.worlds(), checked(options), beside.textures_) {}
+  Implementation(const Implementation& beside, const RenderOptions& options, States states)
+      : Implementation(beside.worlds(states), checked(options), beside.textures_) {}
 
   void look(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {
     const bool drawn_ahead = !ahead_.samples.empty() &&
@@ -156,7 +156,8 @@ class Renderer::Implementation {
     for (const light::World& state : states) states_.emplace_back(state, options.final_gather);
   }
 
-  std::vector<light::World> worlds() const {
+  std::vector<light::World> worlds(States states) const {
+    if (states == States::kFirst) return {world_};
     std::vector<light::World> worlds;
     for (const State& state : states_) worlds.push_back(state.world);
     return worlds;
@@ -292,8 +293,8 @@ Renderer::Renderer(const std::vector<light::World>& states, const RenderOptions&
     : implementation_(std::make_unique<Implementation>(states, options)) {}
 Renderer::Renderer(std::shared_ptr<const scene::Scene> scene, const RenderOptions& options)
     : Renderer(light::World(std::move(scene)), options) {}
-Renderer::Renderer(const Renderer& beside, const RenderOptions& options)
-    : implementation_(std::make_unique<Implementation>(*beside.implementation_, options)) {}
+Renderer::Renderer(const Renderer& beside, const RenderOptions& options, States states)
+    : implementation_(std::make_unique<Implementation>(*beside.implementation_, options, states)) {}
 Renderer::~Renderer() = default;
 
 void Renderer::look(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr const char* kServers[] = {"fuel.gazebosim.org", "fuel.ignitionrobotics.org"};
 
 /// The number that all of `text` is; 0 where it is none.
-int numberOf(const std::string& text) {
+int versionOf(const std::string& text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size() && number > 0 ? number : 0;
@@ -40,7 +40,7 @@ int newestVersion(const fs::path& folder, const std::string& kind) {
   int newest = 0;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    const int version = numberOf(entry->path().filename().string());
+    const int version = versionOf(entry->path().filename().string());
     if (version > newest && isComplete(entry->path(), kind)) newest = version;
   }
   return newest;
@@ -92,8 +92,8 @@ std::optional<FuelAddress> fuelAddress(const std::string& uri) {
   if (parts.size() < 4 || (parts[2] != "models" && parts[2] != "worlds")) return std::nullopt;
   FuelAddress address{withoutEscapes(parts[0]), parts[1], parts[2], parts[3]};
   std::size_t next = 4;
-  if (next < parts.size() && (parts[next] == "tip" || numberOf(parts[next]) > 0))
-    address.version = numberOf(parts[next++]);
+  if (next < parts.size() && (parts[next] == "tip" || versionOf(parts[next]) > 0))
+    address.version = versionOf(parts[next++]);
   if (next < parts.size() && parts[next] == "files") ++next;
   fs::path within;
   for (; next < parts.size(); ++next) within /= parts[next];

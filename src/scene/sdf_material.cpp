@@ -41,7 +41,7 @@ void setOpacity(float opacity, Material* material) {
   material->alpha = opacity;
 }
 
-std::string contentOf(const std::string& file) {
+std::string scriptOf(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
@@ -75,7 +75,7 @@ SdfMaterials::Scripted SdfMaterials::fromScript(const sdf::Material& source) {
     const Found found = finder_.find(uri, source.FilePath());
     if (!found.file) continue;
     for (const std::string& file : scriptFiles(*found.file)) {
-      if (const auto parsed = parseMaterialScript(contentOf(file), material.name))
+      if (const auto parsed = parseMaterialScript(scriptOf(file), material.name))
         return {lookOf(*parsed, material, file), parsed->texture_scale.value_or(Eigen::Array2f::Ones())};
     }
   }

@@ -32,12 +32,12 @@ void Camera::enter(const std::vector<light::World>& worlds) {
 }
 
 void Camera::enterBeside(const Camera& other) {
-  renderer_ = other.renderer(render_);
+  renderer_ = std::make_unique<render::Renderer>(*other.renderer_, render_, render::Renderer::States::kAll);
   scene_ = other.scene_;
 }
 
 std::unique_ptr<render::Renderer> Camera::renderer(const render::RenderOptions& render) const {
-  return std::make_unique<render::Renderer>(*renderer_, render);
+  return std::make_unique<render::Renderer>(*renderer_, render, render::Renderer::States::kFirst);
 }
 
 void Camera::look(const Eigen::Isometry3d& map_from_optical, const render::BodyPlaces& map_from_links,

@@ -28,7 +28,7 @@ class Camera {
   void enter(const std::vector<light::World>& worlds);
   /// Where `other` is.
   void enterBeside(const Camera& other);
-  /// What draws the same worlds otherwise.
+  /// What draws the world in its first state otherwise.
   std::unique_ptr<render::Renderer> renderer(const render::RenderOptions& render) const;
   void look(const Eigen::Isometry3d& map_from_optical, const render::BodyPlaces& map_from_links,
             const Motion& motion);

@@ -83,8 +83,10 @@ class Renderer {
   Renderer(const std::vector<light::World>& states, const RenderOptions& options);
   /// A world of its own, in which surfaces see the whole sky that they face.
   Renderer(std::shared_ptr<const scene::Scene> scene, const RenderOptions& options);
-  /// Another camera in the worlds of `beside`, with which it shares what their textures became.
-  Renderer(const Renderer& beside, const RenderOptions& options);
+  /// Another camera in the states of `beside`, or only in the first one, with which it shares what their
+  /// textures became.
+  enum class States { kAll, kFirst };
+  Renderer(const Renderer& beside, const RenderOptions& options, States states);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

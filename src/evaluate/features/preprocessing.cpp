@@ -13,7 +13,7 @@ struct PreprocessingRow {
   std::unique_ptr<Preprocessing> (*make)();
 };
 
-const std::vector<PreprocessingRow>& table() {
+const std::vector<PreprocessingRow>& preprocessingTable() {
   static const std::vector<PreprocessingRow> rows = {
       {"clahe", makeClahe}, {"gamma", makeGamma}, {"illumination_invariant", makeIlluminationInvariant}};
   return rows;
@@ -28,21 +28,21 @@ const std::vector<PreprocessingRow>& table() {
 const std::vector<std::string>& preprocessingNames() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const PreprocessingRow& row : table()) all.push_back(row.name);
+    for (const PreprocessingRow& row : preprocessingTable()) all.push_back(row.name);
     return all;
   }();
   return names;
 }
 
 std::unique_ptr<Preprocessing> makePreprocessing(const std::string& name) {
-  for (const PreprocessingRow& row : table()) {
+  for (const PreprocessingRow& row : preprocessingTable()) {
     if (row.name == name) return row.make();
   }
   refusePreprocessing(name);
 }
 
 Preprocessings::Preprocessings() {
-  for (const PreprocessingRow& row : table()) all_.push_back(row.make());
+  for (const PreprocessingRow& row : preprocessingTable()) all_.push_back(row.make());
 }
 
 Preprocessings::Preprocessings(const Preprocessings& other) {
@@ -55,7 +55,7 @@ Preprocessings& Preprocessings::operator=(const Preprocessings& other) {
 
 const Preprocessing& Preprocessings::at(const std::string& name) const {
   for (std::size_t i = 0; i < all_.size(); ++i) {
-    if (table()[i].name == name) return *all_[i];
+    if (preprocessingTable()[i].name == name) return *all_[i];
   }
   refusePreprocessing(name);
 }
@@ -63,7 +63,7 @@ const Preprocessing& Preprocessings::at(const std::string& name) const {
 std::vector<Field> Preprocessings::fields() {
   std::vector<Field> rows;
   for (std::size_t i = 0; i < all_.size(); ++i) {
-    for (Field& row : under(table()[i].name, all_[i]->fields())) rows.push_back(std::move(row));
+    for (Field& row : under(preprocessingTable()[i].name, all_[i]->fields())) rows.push_back(std::move(row));
   }
   return rows;
 }

@@ -29,7 +29,7 @@ std::string valueText(const DifferenceValue& value) {
          std::to_string(value.matches_one_to_one);
 }
 
-const ValueColumns<DifferenceValue>& columns() {
+const ValueColumns<DifferenceValue>& frameColumns() {
   static const ValueColumns<DifferenceValue> all{framesHeader(), "difference", valueText, parseValue};
   return all;
 }
@@ -42,16 +42,16 @@ std::string framesHeader() {
 }
 
 std::string framesText(const FramesLayout& layout, const PairRecord& record) {
-  return textOf(layout, record, columns());
+  return textOf(layout, record, frameColumns());
 }
 
 LoadedFrames loadFrames(const std::string& path, const FramesLayout& layout) {
-  return loadValues(path, layout, columns());
+  return loadValues(path, layout, frameColumns());
 }
 
 void writeFrames(const std::string& path, const FramesLayout& layout,
                  const std::vector<PairRecord>& records) {
-  writeValues(path, layout, records, columns());
+  writeValues(path, layout, records, frameColumns());
 }
 
 namespace {

@@ -23,7 +23,7 @@ std::string pngOf(const std::string& path, const cv::Mat& rgb) {
   return {bytes.begin(), bytes.end()};
 }
 
-void makeFolderOf(const std::string& path) {
+void makeParentOf(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -60,7 +60,7 @@ void PictureWriter::write(const std::string& stream, std::int64_t pose, std::int
   // One file at a time, so that the last claim is written last.
   const std::lock_guard<std::mutex> one_at_a_time(files_mutex_);
   if (!isClaimedBy(stream, pose, stamp_ns)) return;
-  makeFolderOf(path);
+  makeParentOf(path);
   image::writeFileAtomically(path, png);
 }
 

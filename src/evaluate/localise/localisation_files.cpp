@@ -50,7 +50,7 @@ LocalisationSummary summaryOf(const std::vector<const LocalisationRow*>& rows) {
   return summary;
 }
 
-LocalisationRow rowOf(const std::vector<std::string>& fields) {
+LocalisationRow localisationRowOf(const std::vector<std::string>& fields) {
   LocalisationRow row;
   row.pose = parseCount(fields[0]);
   row.stamp_ns = parseStamp(fields[1]);
@@ -222,7 +222,7 @@ void writeLocalisationPoses(const std::string& path, const std::vector<Localisat
 }
 
 std::vector<LocalisationRow> loadLocalisation(const std::string& path) {
-  return rowsOf(path, kHeader, rowOf);
+  return rowsOf(path, kHeader, localisationRowOf);
 }
 
 void writeLocalisationSummary(const std::string& path, const std::vector<LocalisationSummary>& summaries) {

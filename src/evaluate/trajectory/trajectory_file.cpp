@@ -38,7 +38,7 @@ constexpr std::size_t kEurocColumns = 17;
 /// m; what is further off is a slip, and would leave a double no micrometre.
 const Range kCoordinate{-1e9, 1e9};
 
-bool isDigit(char c) {
+bool isDecimalDigit(char c) {
   return c >= '0' && c <= '9';
 }
 
@@ -48,7 +48,7 @@ std::optional<int> exponentOf(const std::string& text, std::size_t at) {
   if (text[at] != 'e' && text[at] != 'E') return std::nullopt;
   const char* begin = text.data() + at + 1;
   const char* const end = text.data() + text.size();
-  if (begin != end && *begin == '+' && begin + 1 != end && isDigit(begin[1])) ++begin;
+  if (begin != end && *begin == '+' && begin + 1 != end && isDecimalDigit(begin[1])) ++begin;
   int exponent = 0;
   const auto [stopped, error] = std::from_chars(begin, end, exponent);
   constexpr int kLargest = 400;  // so that no text becomes a long row of zeros
@@ -63,7 +63,7 @@ std::optional<std::int64_t> scaledWhole(const std::string& text, int power) {
   const bool is_negative = at == 1 && text[0] == '-';
   std::string digits = "0";
   bool has_point = false;
-  for (; at < text.size() && (isDigit(text[at]) || (text[at] == '.' && !has_point)); ++at) {
+  for (; at < text.size() && (isDecimalDigit(text[at]) || (text[at] == '.' && !has_point)); ++at) {
     if (text[at] == '.') {
       has_point = true;
     } else {

@@ -1,6 +1,7 @@
 #include "scene/robot/urdf_looks.h"
 
 #include <tinyxml2.h>
+#include <map>
 
 #include <sdf/Link.hh>
 #include <sdf/Material.hh>
@@ -45,17 +46,24 @@ class UrdfLooks::Reader {
       : origin_(origin), builder_(builder), materials_(finder, builder) {}
 
   std::optional<int> add(const std::string& element) {
-    const sdf::ElementPtr read = parsed(element, origin_, builder_);
-    if (!read) return std::nullopt;
-    read->SetFilePath(origin_);
-    sdf::Material material;
-    if (!material.Load(read).empty()) return std::nullopt;
-    return materials_.add(&material);
+    const auto [known, is_new] = known_.try_emplace(element);  // of all visuals of a link it is the same
+    if (is_new) known->second = read(element);
+    return known->second;
   }
 
   void put(int material, Mesh& mesh) const { materials_.put(material, mesh); }
 
  private:
+  std::optional<int> read(const std::string& element) {
+    const sdf::ElementPtr found = parsed(element, origin_, builder_);
+    if (!found) return std::nullopt;
+    found->SetFilePath(origin_);
+    sdf::Material material;
+    if (!material.Load(found).empty()) return std::nullopt;
+    return materials_.add(&material);
+  }
+
+  std::map<std::string, std::optional<int>> known_;
   std::string origin_;
   SceneBuilder& builder_;
   SdfMaterials materials_;

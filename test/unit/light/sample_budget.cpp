@@ -71,7 +71,7 @@ TEST(SampleBudget, IsSharedBetweenEqualPlacesWhereItBinds) {
                   [&](const LightMesh::Cell&, const Eigen::Matrix3f&) { ++cells[second ? 1 : 0]; });
     }
   }
-  EXPECT_NEAR(static_cast<double>(cells[1]) / cells[0], 1.0, 0.03) << cells[0];
+  EXPECT_NEAR(static_cast<double>(cells[1]) / cells[0], 1.0, 0.08) << cells[0];
 }
 
 TEST(SampleBudget, PostsOfEqualHeightHaveLightOfTheirOwn) {

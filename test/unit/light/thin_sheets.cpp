@@ -38,7 +38,7 @@ TEST_P(Awning, LetsItsShareOfTheSkyThroughToTheGround) {
     ground.push_back({{x, 0.3f, 0.0f}, kUp, {0.3f, 0.1f, 1.0f}, kGround});
   const Errors found =
       errors(fast(world, ground, uniformDay(100.0f)), traced(world, ground, uniformDay(100.0f), 30000));
-  EXPECT_LT(found.mean, 0.04) << found.bias;
+  EXPECT_LT(found.mean, 0.05) << found.bias;
 }
 
 TEST_P(Awning, ShowsEitherSideTheLightOfBoth) {
@@ -50,8 +50,26 @@ TEST_P(Awning, ShowsEitherSideTheLightOfBoth) {
   }
   const Errors found =
       errors(fast(world, cloth, uniformDay(100.0f)), traced(world, cloth, uniformDay(100.0f), 30000));
-  EXPECT_LT(found.mean, 0.04) << found.bias;
+  EXPECT_LT(found.mean, 0.05) << found.bias;
   EXPECT_LT(found.worst, 0.08);
+}
+
+TEST(Cloth, ThatIsLevelMirrorsTheSkyOntoAWallOnce) {
+  scene::Scene scene;
+  scene.materials = {paint(0.0f), paint(0.8f), paint(0.5f)};
+  scene.materials[kCloth].transmission = 0.4f;
+  scene.materials[kCloth].double_sided = true;
+  scene.materials[kCloth].roughness = 0.6f;
+  addGround(&scene, kGround, 100.0f);
+  addPatch(&scene, kCloth, {-4.0f, -8.0f, 0.8f}, {8.0f, 0.0f, 0.0f}, {0.0f, 8.0f, 0.0f});
+  addPatch(&scene, 2, {-4.0f, 0.0f, 0.0f}, {8.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 4.0f});  // it faces −y
+  const World world = baked(scene);
+  std::vector<Looked> wall;
+  for (const float z : {1.1f, 1.6f, 2.3f})
+    wall.push_back({{0.3f, 0.0f, z}, -Eigen::Vector3f::UnitY(), {0.3f, -1.0f, 0.2f}, 2});
+  const Errors found =
+      errors(fast(world, wall, uniformDay(100.0f)), traced(world, wall, uniformDay(100.0f), 30000));
+  EXPECT_LT(found.mean, 0.04) << found.bias;
 }
 
 }  // namespace

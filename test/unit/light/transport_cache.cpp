@@ -196,9 +196,12 @@ TEST_F(TransportCache, SaysThatItWaitsForAnotherProcess) {
     Transport::cached(world.geometry, {}, folder_.string(),
                       {nullptr, nullptr, [&](const std::string& line) { note.set_value(line); }});
   });
-  const std::string line = note.get_future().get();
+  std::future<std::string> noted = note.get_future();
+  const bool was_noted = noted.wait_for(std::chrono::seconds(60)) == std::future_status::ready;
   other.reset();
   one.join();
+  ASSERT_TRUE(was_noted);
+  const std::string line = noted.get();
   EXPECT_NE(line.find("waiting for " + file.string()), std::string::npos) << line;
   EXPECT_EQ(files().size(), 1u);
 }

@@ -56,11 +56,11 @@ class DiscOnSources {
     std::vector<Lit> lit, edges;
     for (std::size_t s = first; s < end; ++s) {
       const BakedRooms::Source& source = rooms.sources[s];
-      if (source.points > 0) {
-        if (cosine(source) > 0.0f) lit.push_back({s});
-        continue;
+      if (source.points == 0) {
+        (*sent)[s] += Eigen::Map<const Eigen::Array3f>(source.direct.data()) * byPatches(source.sample);
+      } else if (cosine(source) > 0.0f) {
+        lit.push_back({s});
       }
-      (*sent)[s] += Eigen::Map<const Eigen::Array3f>(source.direct.data()) * byPatches(source.sample);
       if (source.other != LightMesh::kNone)
         (*sent)[s] += Eigen::Map<const Eigen::Array3f>(source.through.data()) * byPatches(source.other);
     }

@@ -104,7 +104,8 @@ Exchange::Exchange(const SceneSamples& samples, const SkyPatches& patches, const
   constexpr float kLevel = 0.97f;  // within 14°, half a patch
   for (std::size_t i = 0; i < ground_.size(); ++i) {
     const Receiver& receiver = samples.receivers[i];
-    ground_[i] = receiver.normal.z() > kLevel && !receiver.thin && samples.paints[i].metalness < 0.5f ? 1 : 0;
+    const bool sheet = receiver.thin || samples.other_side[i].sample != LightMesh::kNone;
+    ground_[i] = receiver.normal.z() > kLevel && !sheet && samples.paints[i].metalness < 0.5f ? 1 : 0;
   }
   for (std::size_t direction = 0; direction < scattered_down_.size(); ++direction)
     scattered_down_[direction] = scatteredDown(patches.coarseRays()[SkyPatches::kAbove + direction].towards);

@@ -95,7 +95,8 @@ void RoomBaker::addPoints(BakedRooms* rooms) const {
   for (std::uint32_t s = 0; s < rooms->sources.size(); ++s) {
     const BakedRooms::Source& source = rooms->sources[s];
     const Receiver& receiver = samples_.receivers[source.sample];
-    if (source.other == LightMesh::kNone && !receiver.coarse && !receiver.thin) source_of[source.sample] = s;
+    const bool card = samples_.other_side[source.sample].shares_rays;
+    if (!card && !receiver.coarse && !receiver.thin) source_of[source.sample] = s;
     if (std::binary_search(rooms->samples.begin(), rooms->samples.end(), source.sample))
       most[s] = kMostOfRooms;
   }

@@ -12,8 +12,8 @@
 
 namespace sunlit::light {
 
-/// A number from 0 to some 10⁹ in 16 bits: 10 of mantissa, 6 of exponent. Off by 2⁻¹¹ of it at most, 0.05 %,
-/// and below 10⁻⁷ by 3·10⁻¹⁴; zero stays zero.
+/// A number from 0 to 5·10⁸ in 16 bits: 10 of mantissa, 6 of exponent. Off by 2⁻¹¹ of it, 0.05 %, and 3·10⁻¹⁴
+/// at most; zero stays zero.
 class PackedLight {
  public:
   PackedLight() = default;

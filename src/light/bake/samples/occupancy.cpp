@@ -18,7 +18,7 @@ std::uint64_t square(int x, int y) {
 
 /// In a world of `extent_m`: a plain of tens of kilometres must not take all cells that there are.
 float emptiestOf(float extent_m) {
-  constexpr float kLeast_m = 128.0f, kMost_m = 1000.0f, kOfWorld = 0.01f;
+  constexpr float kLeast_m = 128.0f, kMost_m = 900.0f, kOfWorld = 0.01f;
   return std::clamp(kOfWorld * extent_m, kLeast_m, kMost_m);
 }
 

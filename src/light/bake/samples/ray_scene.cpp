@@ -34,7 +34,7 @@ float cosineOf(const RTCFilterFunctionNArguments& at, unsigned i) {
 }
 
 /// Lets a ray pass where the surface is cut out.
-void passCutouts(const RTCFilterFunctionNArguments* arguments) {
+void passCutoutsOfBake(const RTCFilterFunctionNArguments* arguments) {
   const auto& group = *static_cast<const MaskedGroup*>(arguments->geometryUserPtr);
   for (unsigned i = 0; i < arguments->N; ++i) {
     if (arguments->valid[i] != -1) continue;
@@ -183,7 +183,7 @@ struct RayScene::Embree {
     const TriangleMesh mesh = newTriangleMesh(device.get(), *geometry, chosen);
     if (number == kMasked) {
       rtcSetGeometryUserData(mesh.handle, &masked_group);
-      rtcSetGeometryIntersectFilterFunction(mesh.handle, passCutouts);
+      rtcSetGeometryIntersectFilterFunction(mesh.handle, passCutoutsOfBake);
     }
     attach(mesh, scene.get(), number);
   }

@@ -54,9 +54,10 @@ class Sampler {
 
   SceneSamples sample(const RefineLimits& limits, const std::function<void(double)>& progress) {
     CloudRule small_rule = kSmallRule, foliage_rule = kFoliageRule;
-    const SampleCloud small = cloudWithin(limits.nodes, &small_rule),
-                      foliage = cloudWithin(limits.nodes, &foliage_rule);
-    const std::size_t taken = small.receivers().size() + foliage.receivers().size() + countCardSides();
+    const SampleCloud small = cloudWithin(limits.nodes, &small_rule);
+    std::size_t taken = small.receivers().size();
+    const SampleCloud foliage = cloudWithin(withoutTaken(limits, taken).nodes, &foliage_rule);
+    taken += foliage.receivers().size() + countCardSides();
     builder_.refine(withoutTaken(limits, taken), progress);
     sampleTrees();
     fillInvalid();
@@ -80,7 +81,7 @@ class Sampler {
     std::uint32_t sample(std::size_t side) const { return first_sample + static_cast<std::uint32_t>(side); }
   };
 
-  /// What is left to large triangles.
+  /// What is left to others, a quarter at least.
   static RefineLimits withoutTaken(RefineLimits limits, std::size_t taken) {
     constexpr std::size_t kLeastPart = 4;
     limits.nodes = std::max(limits.nodes / kLeastPart, limits.nodes - std::min(limits.nodes, taken));
