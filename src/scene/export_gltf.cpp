@@ -32,7 +32,7 @@ class Writer {
     for (const Lamp& lamp : scene_.lamps) addLamp(lamp);
     std::vector<std::string> roots;
     for (std::size_t i = 0; i < nodes_.size(); ++i) roots.push_back(std::to_string(i));
-    std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"sunlit\"}";
+    std::string text = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"sunlit\"}";
     std::vector<std::string> used;
     if (!lights_.empty()) used.push_back("\"KHR_lights_punctual\"");
     if (transmits_) used.push_back("\"KHR_materials_diffuse_transmission\"");
@@ -42,28 +42,28 @@ class Writer {
       used.push_back("\"KHR_materials_specular\"");
     }
     if (glazed_) used.push_back("\"KHR_materials_transmission\"");
-    append(json, "extensionsUsed", used);
+    append(text, "extensionsUsed", used);
     if (!lights_.empty())
-      json += ",\"extensions\":{\"KHR_lights_punctual\":{\"lights\":" + jsonArray(lights_) + "}}";
-    json += ",\"scene\":0,\"scenes\":[{\"nodes\":" + jsonArray(roots) + "}]";
-    append(json, "nodes", nodes_);
-    append(json, "meshes", meshes_);
-    append(json, "materials", materials_);
-    append(json, "samplers", samplers_);
-    append(json, "textures", textures_);
-    append(json, "images", images_);
-    append(json, "accessors", accessors_);
-    append(json, "bufferViews", buffer_.views());
-    json += ",\"buffers\":[{\"byteLength\":" + std::to_string(buffer_.bytes().size()) + "}]}";
-    return glbFile(json, buffer_);
+      text += ",\"extensions\":{\"KHR_lights_punctual\":{\"lights\":" + jsonArray(lights_) + "}}";
+    text += ",\"scene\":0,\"scenes\":[{\"nodes\":" + jsonArray(roots) + "}]";
+    append(text, "nodes", nodes_);
+    append(text, "meshes", meshes_);
+    append(text, "materials", materials_);
+    append(text, "samplers", samplers_);
+    append(text, "textures", textures_);
+    append(text, "images", images_);
+    append(text, "accessors", accessors_);
+    append(text, "bufferViews", buffer_.views());
+    text += ",\"buffers\":[{\"byteLength\":" + std::to_string(buffer_.bytes().size()) + "}]}";
+    return glbFile(text, buffer_);
   }
 
   /// What the file does not say.
   std::vector<std::string> lost() const { return losses_.lines(); }
 
  private:
-  static void append(std::string& json, const char* key, const std::vector<std::string>& items) {
-    if (!items.empty()) json += ",\"" + std::string(key) + "\":" + jsonArray(items);
+  static void append(std::string& text, const char* key, const std::vector<std::string>& items) {
+    if (!items.empty()) text += ",\"" + std::string(key) + "\":" + jsonArray(items);
   }
 
   void addTextures() {
@@ -99,39 +99,39 @@ class Writer {
 
   void addMaterial(const Material& material) {
     const Eigen::Array3f base = material.base_color.value;
-    std::string json = "{\"name\":" + jsonString(material.name) +
+    std::string text = "{\"name\":" + jsonString(material.name) +
                        ",\"pbrMetallicRoughness\":{\"baseColorFactor\":" +
                        jsonArray({number(base[0]), number(base[1]), number(base[2]),
                                   number(material.alpha_mode == AlphaMode::kBlend ? material.alpha : 1.0f)}) +
                        ",\"metallicFactor\":" + number(material.metalness) +
                        ",\"roughnessFactor\":" + number(material.roughness);
     if (material.base_texture != Material::kNoTexture) {
-      json += ",\"baseColorTexture\":{\"index\":" + std::to_string(material.base_texture) + "}";
+      text += ",\"baseColorTexture\":{\"index\":" + std::to_string(material.base_texture) + "}";
     }
-    json += mapJson("metallicRoughnessTexture", packed_[materials_.size()]);
-    json += std::string("},\"doubleSided\":") + (material.double_sided ? "true" : "false");
+    text += mapJson("metallicRoughnessTexture", packed_[materials_.size()]);
+    text += std::string("},\"doubleSided\":") + (material.double_sided ? "true" : "false");
     if (material.alpha_mode == AlphaMode::kMask) {
-      json += ",\"alphaMode\":\"MASK\",\"alphaCutoff\":" + number(material.alpha_cutoff);
+      text += ",\"alphaMode\":\"MASK\",\"alphaCutoff\":" + number(material.alpha_cutoff);
     }
-    if (material.alpha_mode == AlphaMode::kBlend) json += ",\"alphaMode\":\"BLEND\"";
-    json += mapJson("normalTexture", material.normal_map, ",\"scale\":" + number(material.normal_scale));
+    if (material.alpha_mode == AlphaMode::kBlend) text += ",\"alphaMode\":\"BLEND\"";
+    text += mapJson("normalTexture", material.normal_map, ",\"scale\":" + number(material.normal_scale));
     const TextureUse& occlusion = material.occlusion_map;
-    json += mapJson("occlusionTexture", occlusion.channel == 0 ? occlusion : TextureUse(),
+    text += mapJson("occlusionTexture", occlusion.channel == 0 ? occlusion : TextureUse(),
                     ",\"strength\":" + number(material.occlusion_strength));
-    json += mapJson("emissiveTexture", material.emission_map);
+    text += mapJson("emissiveTexture", material.emission_map);
     const float strength = material.emission.value.maxCoeff();
     if (strength > 0.0f) {
       emits_ = true;
-      json += ",\"emissiveFactor\":" + vector3(material.emission.value / strength);
+      text += ",\"emissiveFactor\":" + vector3(material.emission.value / strength);
     }
-    json += extensionsJson(material, strength);
+    text += extensionsJson(material, strength);
     noteLosses(material);
     glazed_ = glazed_ || material.glass > 0.0f;
     transmits_ = transmits_ || material.transmission > 0.0f;
     specular_ = specular_ || hasOwnDielectric(material);
     if (material.detail.contrast > 0.0f)
-      json += ",\"extras\":{\"sunlit_detail\":" + detailJson(material.detail) + "}";
-    materials_.push_back(json + "}");
+      text += ",\"extras\":{\"sunlit_detail\":" + detailJson(material.detail) + "}";
+    materials_.push_back(text + "}");
   }
 
   static std::string mapJson(const char* key, const TextureUse& use, const std::string& more = "") {
@@ -171,20 +171,20 @@ class Writer {
   }
 
   static std::string extensionsJson(const Material& material, float emissive_strength) {
-    std::string json;
+    std::string text;
     if (material.transmission > 0.0f) {
-      json += ",\"KHR_materials_diffuse_transmission\":{\"diffuseTransmissionFactor\":" +
+      text += ",\"KHR_materials_diffuse_transmission\":{\"diffuseTransmissionFactor\":" +
               number(material.transmission) +
               ",\"diffuseTransmissionColorFactor\":" + vector3(material.base_color.value) + "}";
     }
     if (material.glass > 0.0f) {
-      json += ",\"KHR_materials_transmission\":{\"transmissionFactor\":" + number(material.glass) + "}";
+      text += ",\"KHR_materials_transmission\":{\"transmissionFactor\":" + number(material.glass) + "}";
     }
     if (emissive_strength > 0.0f) {
-      json += ",\"KHR_materials_emissive_strength\":{\"emissiveStrength\":" + number(emissive_strength) + "}";
+      text += ",\"KHR_materials_emissive_strength\":{\"emissiveStrength\":" + number(emissive_strength) + "}";
     }
-    if (hasOwnDielectric(material)) json += dielectricJson(material);
-    return json.empty() ? json : ",\"extensions\":{" + json.substr(1) + "}";
+    if (hasOwnDielectric(material)) text += dielectricJson(material);
+    return text.empty() ? text : ",\"extensions\":{" + text.substr(1) + "}";
   }
 
   static std::string detailJson(const Detail& detail) {
