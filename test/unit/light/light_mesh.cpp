@@ -63,6 +63,7 @@ TEST(Exchange, RaysThatMeetUselessSamplesMeetThoseBeside) {
   samples.mesh = strip(11);
   samples.receivers.resize(11);
   samples.paints.resize(11);
+  samples.other_side.resize(11);
   samples.nearest_sample.resize(11);
   std::iota(samples.nearest_sample.begin(), samples.nearest_sample.end(), 0u);
   const SkyPatches patches(1);
