@@ -43,8 +43,7 @@ std::uint64_t placeKey(const Eigen::Vector3f& position) {
   std::uint64_t key = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto step = static_cast<std::int64_t>(std::lround(static_cast<double>(position[axis]) * 1000.0));
-    key = (key ^ static_cast<std::uint64_t>(step & 0x1fffffffffff)) * 0x9e3779b97f4a7c15ull;
-    key ^= key >> 29;
+    key = scrambled(key ^ static_cast<std::uint64_t>(step));
   }
   return key;
 }

@@ -363,6 +363,12 @@ class Sampler {
 
 }  // namespace
 
+std::uint32_t sampleOn(const SceneSamples& samples, std::uint32_t root, const Eigen::Vector3f& within) {
+  const LightMesh::Place place = samples.mesh.locate(root, {within[0], within[1], within[2]});
+  const auto largest = std::max_element(place.weight.begin(), place.weight.end()) - place.weight.begin();
+  return samples.nearest_sample[place.node[static_cast<std::size_t>(largest)]];
+}
+
 std::uint32_t sampleAt(const BakeScene& scene, const SceneSamples& samples, const LaneHit& hit) {
   const std::uint32_t t = hit.hits.triangle[hit.lane];
   const std::size_t side = scene.geometry.planes[t].normal.dot(hit.towards) > 0.0f ? 1 : 0;
@@ -371,9 +377,7 @@ std::uint32_t sampleAt(const BakeScene& scene, const SceneSamples& samples, cons
   if (!LightMesh::isCell(root)) root = samples.mesh.roots[t][1 - side];
   if (!LightMesh::isCell(root)) return LightMesh::kNone;
   const float u = hit.hits.u[hit.lane], v = hit.hits.v[hit.lane];
-  const LightMesh::Place place = samples.mesh.locate(root, {1.0f - u - v, u, v});
-  const auto largest = std::max_element(place.weight.begin(), place.weight.end()) - place.weight.begin();
-  return samples.nearest_sample[place.node[static_cast<std::size_t>(largest)]];
+  return sampleOn(samples, root, {1.0f - u - v, u, v});
 }
 
 SceneSamples sampleScene(const BakeScene& scene, const ShiningSurfaces& shining, const RefineLimits& limits,

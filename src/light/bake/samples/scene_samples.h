@@ -28,6 +28,10 @@ struct SceneSamples {
   std::vector<std::uint32_t> nearest_sample;  ///< the one of most weight, of each node
 };
 
+/// The sample that counts most at a place of a triangle's side, given by the root of its cells and
+/// barycentric coordinates.
+std::uint32_t sampleOn(const SceneSamples& samples, std::uint32_t root, const Eigen::Vector3f& within);
+
 /// One lane of rays that were cast.
 struct LaneHit {
   const HitPacket& hits;

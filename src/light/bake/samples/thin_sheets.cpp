@@ -1,20 +1,8 @@
 #include "light/bake/samples/thin_sheets.h"
 
-#include <algorithm>
-
 #include "light/bake/samples/mesh_leaves.h"
 
 namespace sunlit::light {
-namespace {
-
-/// The sample that counts most at a place of a triangle's side.
-std::uint32_t sampleOf(const SceneSamples& samples, std::uint32_t root, const Eigen::Vector3f& within) {
-  const LightMesh::Place place = samples.mesh.locate(root, {within[0], within[1], within[2]});
-  const auto most = std::max_element(place.weight.begin(), place.weight.end()) - place.weight.begin();
-  return samples.nearest_sample[place.node[static_cast<std::size_t>(most)]];
-}
-
-}  // namespace
 
 void coupleSheets(const BakeScene& scene, SceneSamples* samples) {
   const LightMesh& mesh = samples->mesh;
@@ -32,7 +20,7 @@ void coupleSheets(const BakeScene& scene, SceneSamples* samples) {
                       const std::uint32_t sample = samples->nearest_sample[node];
                       OtherSide& other = samples->other_side[sample];
                       if (other.sample != LightMesh::kNone) continue;
-                      const std::uint32_t behind = sampleOf(*samples, roots[1 - side], corners.col(k));
+                      const std::uint32_t behind = sampleOn(*samples, roots[1 - side], corners.col(k));
                       if (behind != sample) other = {behind, transmission};
                     }
                   });
