@@ -1,5 +1,7 @@
 #include "sunlit/sky/atmosphere.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -42,6 +44,12 @@ LinearRgb discIlluminance(const RadiativeTransfer& transfer, double altitude_km,
 // By day the moon's sky is at most 3e-5 of the sun's, and the night's glow at most 3e-6.
 constexpr double kMoonSkyDrowned = 0.17;  // sine of 10°
 constexpr double kGlowDrowned = 0.0;
+
+/// Of a lamp's elevation without refraction.
+template <typename Lamp>
+float sineOf(const Lamp& lamp) {
+  return static_cast<float>(lamp.geometric.value_or(lamp.apparent).vector().z());
+}
 
 }  // namespace
 
@@ -123,19 +131,24 @@ Daylight Atmosphere::daylight(const SunInSky& sun, const NightSky& night, const 
   return Daylight(std::move(table));
 }
 
+void Atmosphere::makeForWeather() const {
+  tables_->droplets = std::make_unique<const Droplets>(tables_->store);
+  const Direction east(Azimuth::degrees(90.0), Angle());
+  tables_->clear_at_horizon_lx = daylight({east, 1.0}).skyIlluminance(Eigen::Vector3f::UnitZ()).luminance();
+}
+
 void Atmosphere::addWeather(const Weather& weather, const Lamps& lamps, SkyTable* table) const {
   const Tables& tables = *tables_;
-  std::call_once(tables.weather_once, [&] {
-    tables.droplets = std::make_unique<const Droplets>(tables.store);
-    const Direction east(Azimuth::degrees(90.0), Angle());
-    tables.clear_at_horizon_lx = daylight({east, 1.0}).groundIlluminance().luminance();
-  });
+  // By itself: a thread that waits for the loops within would else take up another daylight, and come here.
+  std::call_once(tables.weather_once, [&] { tbb::this_task_arena::isolate([&] { makeForWeather(); }); });
   const double distance_au = lamps.sun.distance_au;
-  CieLevels levels{static_cast<float>(1.0 / (distance_au * distance_au)), 0.0F, tables.clear_at_horizon_lx};
+  CieLevels levels;
+  levels.clear_at_horizon_lx = tables.clear_at_horizon_lx;
+  levels.sun = {static_cast<float>(1.0 / (distance_au * distance_au)), sineOf(lamps.sun)};
   if (lamps.night.moon) {
-    levels.moon = static_cast<float>(
-        static_cast<double>(colourOf(moonStrength(*lamps.night.moon, distance_au)).luminance()) /
-        kLuminousSolarConstant_lx);
+    const auto strength =
+        static_cast<double>(colourOf(moonStrength(*lamps.night.moon, distance_au)).luminance());
+    levels.moon = {static_cast<float>(strength / kLuminousSolarConstant_lx), sineOf(*lamps.night.moon)};
   }
   const WeatherTables made_of{*tables.droplets, isBroken(weather) ? tables.clouds.of(weather) : nullptr,
                               levels, static_cast<float>(tables.transfer.medium().parameters().ground_albedo),

@@ -75,7 +75,7 @@ BrokenCover::BrokenCover(const CloudPlace& place, const LightAbove& above, const
     skies_[i].addFromBelow(layers[i], level_ * (albedo_below / static_cast<float>(kPi)));
   for (const DiscLight& disc : above.discs) {
     const Eigen::Vector3f towards = disc.towards.vector().cast<float>();
-    if (towards.z() <= 0.0F || disc.illuminance.value.maxCoeff() <= 0.0F) continue;
+    if (disc.illuminance.value.maxCoeff() <= 0.0F) continue;
     const float cosine = wayUp(towards, Eigen::Vector3f::Zero()).cosine;
     shadows_.push_back(
         {towards.z(), meanPassed(towards.z()), place_.map->passed(static_cast<double>(cosine))});
@@ -116,7 +116,6 @@ BrokenCover::Seen BrokenCover::seen(const Eigen::Vector3f& towards, const Eigen:
 }
 
 float BrokenCover::passed(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const {
-  if (towards.z() <= 0.0F) return meanPassed(0.0F);
   const Way way = wayUp(towards, from);
   for (const Shadows& shadows : shadows_) {
     if (shadows.z != towards.z()) continue;

@@ -34,7 +34,8 @@ class BrokenCover {
   };
   Seen seen(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const;
   /// What of light from straight `towards` comes through to a place: of a disc of the width of sun and moon
-  /// that is one of those above, or else through a thin line. The mean from below the horizon.
+  /// that is one of those above, or else through a thin line. From below the horizon as from it: the rim of a
+  /// disc still shines whose middle has set.
   float passed(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const;
   /// The mean of that over all places.
   float meanPassed(float z) const;

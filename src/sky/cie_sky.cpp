@@ -25,12 +25,21 @@ double levelOfZenith() {
   return sum;
 }
 
-/// What one lamp gives level ground, directly and by the clear sky, in its colour; scaled to the overcast.
-Eigen::Array3f overcast(const Eigen::Array3f& clear, float sine, float strength, float at_horizon_share) {
-  const float luminance = LinearRgb(clear).luminance();
+/// What one lamp gives level ground under the clear sky.
+struct ClearLight {
+  Eigen::Array3f direct, scattered;
+};
+
+/// In its colour, as bright as the overcast is.
+Eigen::Array3f overcast(const ClearLight& clear, const CieLevels::Lamp& lamp, float at_horizon_share) {
+  const Eigen::Array3f both = clear.direct + clear.scattered;
+  const float luminance = LinearRgb(both).luminance();
   if (luminance <= 0.0F) return Eigen::Array3f::Zero();
-  if (sine < 0.0F) return clear * at_horizon_share;
-  return clear * (cieIlluminance_lx(sine) * strength / luminance);
+  // The disc is seen below the horizon, too, raised by refraction; what scatters its light knows nothing of
+  // that.
+  const float level_lx = lamp.sine < 0.0F ? LinearRgb(clear.scattered).luminance() * at_horizon_share
+                                          : cieIlluminance_lx(lamp.sine) * lamp.strength;
+  return both * (level_lx / luminance);
 }
 
 }  // namespace
@@ -48,12 +57,12 @@ CieSky::CieSky(const SkyTable& clear, const CieLevels& levels) {
   const auto pieces = hemisphere(headingOf(clear.sun.towards.vector().cast<float>()));
   const float share = cieIlluminance_lx(0.0F) / levels.clear_at_horizon_lx;
   Eigen::Array3f level = Eigen::Array3f::Zero();
-  const auto add = [&](const DiscLight& disc, const auto& scattered, float strength) {
-    Eigen::Array3f lit = onLevelGround(disc);
+  const auto add = [&](const DiscLight& disc, const auto& scattered, const CieLevels::Lamp& lamp) {
+    ClearLight light{onLevelGround(disc), Eigen::Array3f::Zero()};
     if (scattered)
-      lit += levelIlluminance(pieces,
-                              [&](const Eigen::Vector3f& towards) { return scattered->luminance(towards); });
-    level += overcast(lit, static_cast<float>(disc.towards.vector().z()), strength, share);
+      light.scattered = levelIlluminance(
+          pieces, [&](const Eigen::Vector3f& towards) { return scattered->luminance(towards); });
+    level += overcast(light, lamp, share);
   };
   add(clear.sun, clear.sun_sky, levels.sun);
   add(clear.moon, clear.moon_sky, levels.moon);

@@ -11,9 +11,12 @@ struct SkyTable;
 
 /// What the standard sky needs to know of the lamps above it.
 struct CieLevels {
-  float sun = 1.0F;   ///< strength above the air, relative to the sun at 1 AU
-  float moon = 0.0F;  ///< likewise
-  /// Of level ground under the clear sky with the sun on the horizon, lx.
+  struct Lamp {
+    float strength;  ///< above the air, relative to the sun at 1 AU
+    float sine;      ///< of its elevation without refraction, which rules how bright the sky is
+  };
+  Lamp sun{1.0F, 1.0F}, moon{0.0F, -1.0F};
+  /// Of level ground by the clear sky, without the disc, with the sun's middle on the horizon, lx.
   float clear_at_horizon_lx = 1.0F;
 };
 
@@ -30,7 +33,8 @@ struct Gradation {
 float cieIlluminance_lx(float sine_of_elevation);
 
 /// CIE S 011/E:2003 type 1, the same all round. As bright as cieIlluminance_lx() says,
-/// of the colour of the clear hour; below the horizon, sun and moon keep the share that they had there.
+/// of the colour of the clear hour; below the horizon, of the clear sky's light sun and moon keep the share
+/// that they had there.
 class CieSky {
  public:
   CieSky(const SkyTable& clear, const CieLevels& levels);

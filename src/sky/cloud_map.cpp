@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -112,14 +113,21 @@ std::shared_ptr<const CloudMap> CloudMaps::of(const Weather& weather) {
   constexpr std::size_t kMost = 8;  // of 5 MB
   const double depth = opticalDepthOf(weather);
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (const Kept& kept : kept_) {
-    if (kept.cover_oktas == weather.cover_oktas && kept.optical_depth == depth && kept.seed == weather.seed)
-      return kept.map;
+  const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
+    return kept.cover_oktas == weather.cover_oktas && kept.optical_depth == depth &&
+           kept.seed == weather.seed;
+  });
+  if (known != kept_.end()) {
+    std::rotate(known, known + 1, kept_.end());
+    return kept_.back().map;
   }
   if (kept_.size() == kMost) kept_.erase(kept_.begin());
-  kept_.push_back({weather.cover_oktas, depth, weather.seed,
-                   std::make_shared<const CloudMap>(weather.cover_oktas, depth,
-                                                    static_cast<std::uint32_t>(weather.seed))});
+  // By itself: a thread that waits for the loops within would else take up other work, and may come here.
+  tbb::this_task_arena::isolate([&] {
+    kept_.push_back({weather.cover_oktas, depth, weather.seed,
+                     std::make_shared<const CloudMap>(weather.cover_oktas, depth,
+                                                      static_cast<std::uint32_t>(weather.seed))});
+  });
   return kept_.back().map;
 }
 

@@ -146,6 +146,10 @@ float passedStraight(float optical_depth, float mu) {
   return std::exp(-optical_depth / std::max(mu, kGrazing));
 }
 
+float stoppedOf(float optical_depth, float mu) {
+  return -std::expm1(-optical_depth / std::max(mu, kGrazing));
+}
+
 Droplets::Droplets(const TableStore& kept) {
   std::vector<double> cosines{1.0}, weights{0.0};
   for (const Node& node : gaussLegendre(kNodes - 1, 0.0, 1.0)) {
@@ -202,16 +206,20 @@ DropletLayer::DropletLayer(const Droplets& droplets, double optical_depth)
   std::array<float, Droplets::kDepths> steps;
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = static_cast<float>(i);
   const double step = 2.0 * std::log2(optical_depth / Droplets::kLeastDepth);
-  auto [first, weights] = cubic(steps, static_cast<float>(std::max(0.0, step)));
+  constexpr double kLastStep = Droplets::kDepths - 1;
+  auto [first, weights] = cubic(steps, static_cast<float>(std::clamp(step, 0.0, kLastStep)));
   // Of thinner layers than the thinnest: what is scattered once goes with their depth, twice with its square.
   const auto thinner = static_cast<float>(std::exp2(0.5 * std::min(0.0, step)));
+  // Of thicker ones than the thickest: what comes through goes with 1 / depth, all else is thrown back.
+  const auto thicker = static_cast<float>(std::exp2(-0.5 * std::max(0.0, step - kLastStep)));
   for (std::size_t k = 0; k < 4; ++k) {
     const auto depth = static_cast<int>(first + k);
     const float* transmitted = droplets.transmitted(depth, 0);
-    for (float& sum : transmitted_) sum += weights[k] * thinner * thinner * *transmitted++;
+    for (float& sum : transmitted_) sum += weights[k] * thinner * thinner * thicker * *transmitted++;
     for (std::size_t i = 0; i < reflected_.size(); ++i)
       reflected_[i] += weights[k] * thinner * droplets.reflected(depth)[i];
   }
+  for (float& reflected : reflected_) reflected = 1.0F - thicker * (1.0F - reflected);
   double sum = 0.0;
   for (const Node& node : gaussLegendre(Droplets::kNodes - 1, 0.0, 1.0))
     sum += 2.0 * node.x * node.weight * static_cast<double>(reflected(static_cast<float>(std::acos(node.x))));

@@ -51,6 +51,8 @@ class Droplets {
 
 /// Share of light that goes straight through a layer at a cosine from the vertical of `mu` ≥ 0.
 float passedStraight(float optical_depth, float mu);
+/// What does not, to all digits also where that is next to nothing.
+float stoppedOf(float optical_depth, float mu);
 
 /// One of these layers, of any depth.
 class DropletLayer {

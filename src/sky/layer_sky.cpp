@@ -63,6 +63,10 @@ float LayerSky::passed(float z) const {
   return passedStraight(depth_, z);
 }
 
+float LayerSky::stopped(float z) const {
+  return stoppedOf(depth_, z);
+}
+
 void LayerSky::addSky(const DropletLayer& layer, const LightAbove& above) {
   struct Belt {
     float mu, angle;

@@ -49,6 +49,8 @@ class LayerSky {
   Eigen::Array3f scattered(const Place& place) const;
   /// What of the light above goes straight through at an elevation of sine `z`.
   float passed(float z) const;
+  /// What does not, to all digits also where that is next to nothing.
+  float stopped(float z) const;
 
  private:
   static constexpr int kRows = 64;

@@ -44,9 +44,8 @@ WeatherSky::WeatherSky(const Weather& weather, const WeatherTables& tables, cons
                               ? fogPerMetre(*weather.visibility_m, static_cast<double>(tables.haze_per_m))
                               : 0.0;
     const double per_m = of_rain + of_fog;
-    // One layer for both: as high as the one that takes more of the light from above.
-    const bool rain_rules = of_rain * weather.cloud_base_m > of_fog * weather.fog_top_m;
-    const double top_m = rain_rules ? weather.cloud_base_m : weather.fog_top_m;
+    // One layer for both, so high that it takes from above what both do.
+    const double top_m = (of_rain * weather.cloud_base_m + of_fog * weather.fog_top_m) / per_m;
     fog_per_m_ = static_cast<float>(per_m);
     fog_top_m_ = static_cast<float>(top_m);
     fog.emplace(tables.droplets, per_m * top_m);
@@ -131,7 +130,7 @@ AirColumn WeatherSky::airOver(const AirColumn& clear_air, const Eigen::Vector3f&
   const float way_m = towards.z() > 0.0F ? std::min(distance_m, fog_top_m_ / towards.z()) : distance_m;
   const float straight = std::exp(-fog_per_m_ * way_m);
   // All the way up, fog puts in what it puts into the sky; of a part of the way, as much as that takes out.
-  const float source = (1.0F - straight) / (1.0F - fog_->passed(towards.z()));
+  const float source = -std::expm1(-fog_per_m_ * way_m) / fog_->stopped(towards.z());
   air.airlight = fog_->scattered(towards) * source + air.airlight * straight;
   air.transmittance *= straight;
   return air;

@@ -16,7 +16,7 @@ inline Angle horizonElevation(const Air& air) {
 }
 
 /// Δe, to be added to the geometric (topocentric) elevation; 0 without air. Not below 0, but for the last
-/// 0.1° before the zenith: −3e-5° there.
+/// 0.1° before the zenith: −3e-5° there at the default air.
 ///
 /// From the zenith down to where the sun has set, exactly Reda & Andreas (2008), eq. 42:
 ///   Δe = P/1010 · 283/(273 + T) · 1.02 / (60 tan(e0 + 10.3/(e0 + 5.11))), angles in degrees.

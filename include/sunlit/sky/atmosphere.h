@@ -41,7 +41,7 @@ inline std::vector<Field> fieldsOf(AtmosphereOptions& options) {
            "",
            {0, 1},
            "of the land around the scene; auto: as the world is from above"},
-          {"observer_height", &options.observer_height_m, "m", {0, 8000}, "above sea level"}};
+          {"observer_height", &options.observer_height_m, "m", {0, 12000}, "above sea level"}};
 }
 
 /// Throws std::invalid_argument naming key, value and range.
@@ -79,6 +79,7 @@ class Atmosphere {
     const SunInSky& sun;
     const NightSky& night;
   };
+  void makeForWeather() const;
   void addWeather(const Weather& weather, const Lamps& lamps, SkyTable* table) const;
   void addMoon(const MoonInSky& moon, const SunInSky& sun, SkyTable* table) const;
   std::unique_ptr<const Tables> tables_;

@@ -35,7 +35,7 @@ TEST(AtmosphereOptions, BadValuesAreNamedWithTheirRange) {
   EXPECT_EQ(messageOf([&] { validate(options); }), "ozone is 601, but must be from 0 to 600 DU");
   options = {};
   options.observer_height_m = -1.0;
-  EXPECT_EQ(messageOf([&] { validate(options); }), "observer_height is -1, but must be from 0 to 8000 m");
+  EXPECT_EQ(messageOf([&] { validate(options); }), "observer_height is -1, but must be from 0 to 12000 m");
 }
 
 TEST(Atmosphere, ASunAtAnImpossibleDistanceIsRefused) {

@@ -155,6 +155,21 @@ INSTANTIATE_TEST_SUITE_P(
                       Shadows{30.0, 89.9, 2000.0, 0.05}, Shadows{30.0, 30.0, 1000.0, 0.07},
                       Shadows{30.0, 30.0, 2000.0, 0.07}, Shadows{10.0, 15.0, 1500.0, 0.11}));
 
+TEST(CloudShadows, StayWhileTheDiscSetsThroughTheHorizon) {
+  // Half of it still shines when its middle has set: places in gaps and below clouds keep what they had.
+  const Weather weather = covered(4.0);
+  const Daylight before = under(0.01, weather), after = under(-0.01, weather);
+  int differ = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3f place(static_cast<float>(i) * 331.0F, static_cast<float>(i) * 57.0F, 0.0F);
+    const float through = before.throughCloud(before.sun(), place);
+    // 0.02° of a way of some 130 km to the cloud.
+    EXPECT_NEAR(after.throughCloud(after.sun(), place), through, 0.25F) << i;
+    differ += std::abs(through - 1.0F) > 0.3F ? 1 : 0;
+  }
+  EXPECT_GT(differ, 100);
+}
+
 /// What comes straight through from an elevation above the sun's azimuth, in parts.
 double passed(const Daylight& day, const CloudMap& map, double elevation_deg, const Eigen::Vector3f& place) {
   DiscLight light = day.sun();

@@ -34,7 +34,7 @@ Direction raised(const Direction& towards) {
 }
 
 /// The light `time_s` after noon of an equinox; a moon, if any, 10 days old.
-Daylight lightAt(const Atmosphere& atmosphere, double time_s, bool with_moon) {
+Daylight lightAt(const Atmosphere& atmosphere, double time_s, bool with_moon, const Weather& weather = {}) {
   const double turned_deg = time_s * kTurn_deg_per_s;
   const Direction sun = standing(turned_deg, 0.0);
   NightSky night;
@@ -42,7 +42,7 @@ Daylight lightAt(const Atmosphere& atmosphere, double time_s, bool with_moon) {
     const Direction moon = standing(turned_deg - 122.0, 12.0);
     night.moon = MoonInSky{raised(moon), moon, 384400e3, Angle::degrees(58.0)};
   }
-  return atmosphere.daylight({raised(sun), 1.0, sun}, night);
+  return atmosphere.daylight({raised(sun), 1.0, sun}, night, weather);
 }
 
 /// What pictures are made of. The discs' light comes as a part of what the ground gets, since a setting disc
@@ -89,6 +89,21 @@ TEST(Continuity, NothingJumpsInTenSecondsOfADayAndANight) {
             << "value " << i << " after " << time_s << " s" << (with_moon ? ", moon" : "");
       }
     }
+  }
+}
+
+TEST(Continuity, NothingJumpsUnderTheStandardOvercast) {
+  // Through sunset, with refraction: the sun's middle is seen on the horizon 0.57° before the sky takes it to
+  // stand there.
+  Weather grey;
+  grey.cover_oktas = 8.0;
+  grey.overcast = Overcast::kCie;
+  const double sunset_s = 90.0 / kTurn_deg_per_s;
+  for (double time_s = sunset_s - 200.0; time_s < sunset_s + 300.0; time_s += kStep_s) {
+    const float before = lightAt(usualAir(), time_s, false, grey).groundIlluminance().luminance();
+    const float after = lightAt(usualAir(), time_s + kStep_s, false, grey).groundIlluminance().luminance();
+    // As above; below the horizon by the clear sky's twilight.
+    EXPECT_NEAR(after / before, 1.0F, 0.08F) << time_s - sunset_s;
   }
 }
 

@@ -36,7 +36,7 @@ float levelOf(const LayerSky& sky,
 }
 
 TEST(Droplets, WhatIsNotThrownBackOfEvenLightComesThrough) {
-  for (const double depth : {0.01, 0.3, 1.0, 7.0, 30.0, 100.0}) {
+  for (const double depth : {0.01, 0.3, 1.0, 7.0, 30.0, 100.0, 800.0}) {
     const DropletLayer layer(droplets(), depth);
     const LightAbove even{{}, [](const Eigen::Vector3f&) { return Eigen::Array3f(Eigen::Array3f::Ones()); }};
     const LayerSky sky(layer, even, 0.0F);
@@ -48,7 +48,8 @@ TEST(Droplets, WhatIsNotThrownBackOfEvenLightComesThrough) {
 
 TEST(Droplets, AThickLayerLetsThroughWhatDiffusionTheorySays) {
   // Kokhanovsky & Nauss 2006 (ACP 6, 5537): 1 / (1.07 + 0.75 (1 − g) τ), for even light within 2 % at τ ≥ 10.
-  for (const double depth : {10.0, 20.0, 50.0, 100.0}) {
+  // The tables end at 362.
+  for (const double depth : {10.0, 20.0, 50.0, 100.0, 350.0, 512.0, 800.0}) {
     const DropletLayer layer(droplets(), depth);
     const double expected = 1.0 / (1.07 + 0.75 * (1.0 - kDropletAsymmetry) * depth);
     EXPECT_NEAR(1.0 - static_cast<double>(layer.sphericalAlbedo()), expected, 0.03 * expected) << depth;

@@ -144,11 +144,41 @@ TEST(Weather, ALittleHazeMakesNoRainThinner) {
   hazy.visibility_m = 40000.0;
   const double rain = under(40.0, rainy).groundIlluminance().luminance();
   EXPECT_NEAR(under(40.0, hazy).groundIlluminance().luminance(), rain, 0.02 * rain);
-  // Dense fog is as high as it is, whatever falls through it.
-  Weather foggy = rainy;
-  foggy.rain_mm_per_h = 1.0;
-  foggy.visibility_m = 100.0;
-  EXPECT_EQ(under(40.0, foggy).fog().top_m, 300.0F);
+}
+
+/// From the ground up.
+double depthOf(const Fog& fog) {
+  return static_cast<double>(fog.per_m) * static_cast<double>(fog.top_m);
+}
+
+TEST(Weather, RainAndFogTakeTogetherWhatEachDoes) {
+  // A layer of fog 10 m high, and rain that takes more from above than that from some rate on: nothing jumps.
+  for (const double mm_per_h : {0.5, 1.0, 2.5, 20.0}) {
+    Weather both = fog(100.0), rain;
+    both.fog_top_m = 10.0;
+    const double of_fog = depthOf(under(40.0, both).fog());
+    rain.rain_mm_per_h = both.rain_mm_per_h = mm_per_h;
+    const double of_rain = depthOf(under(40.0, rain).fog());
+    const Fog found = under(40.0, both).fog();
+    EXPECT_NEAR(depthOf(found), of_rain + of_fog, 1e-5 * (of_rain + of_fog)) << mm_per_h;
+    EXPECT_NEAR(static_cast<double>(found.per_m), of_rain / rain.cloud_base_m + of_fog / 10.0, 1e-7)
+        << mm_per_h;
+  }
+}
+
+TEST(Weather, FogThatIsNextToNothingIsSeenAsNothing) {
+  // The clear air's own limit is 48,318 m: of a metre less, fog takes 3e-8 over its 10 m.
+  Weather thin = fog(48317.0);
+  thin.fog_top_m = 10.0;
+  const Daylight hazy = under(35.0, thin), clear = under(35.0, {});
+  for (const double elevation_deg : {2.0, 30.0, 80.0}) {
+    for (const float way_m : {3.0F, 500.0F}) {
+      const Eigen::Array3f found = hazy.airOver(towards(elevation_deg), way_m).airlight;
+      const Eigen::Array3f expected = clear.airOver(towards(elevation_deg), way_m).airlight;
+      // Of the sky's some thousand cd/m² so little is put in.
+      EXPECT_LT((found - expected).abs().maxCoeff(), 1e-2F) << elevation_deg << " " << way_m;
+    }
+  }
 }
 
 TEST(Weather, WindNearTheGroundIsThatOfTheCloudsByThePowerLaw) {

@@ -71,9 +71,9 @@ std::vector<std::string> notesOf(const SkyOptions& options, const std::vector<do
   return notes;
 }
 
-TEST(Sky, BelowTheSeaAndAboveTheHighestAirHasTheNearestThatThereIs) {
-  EXPECT_EQ(notesOf({}, {-430.0, 0.0, 8849.0, 8000.0}),
-            (std::vector<std::string>{"Air of a height of 0 m", "Air of a height of 8000 m"}));
+TEST(Sky, BelowTheSeaHasTheAirOfTheSea) {
+  EXPECT_EQ(notesOf({}, {-430.0, 0.0, 8849.0}),
+            (std::vector<std::string>{"Air of a height of 0 m", "Air of a height of 8849 m"}));
 }
 
 TEST(Sky, OfAFixedHeightDoesNotHeedTheSite) {
