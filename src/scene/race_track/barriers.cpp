@@ -74,8 +74,10 @@ void addConcrete(Assembly& assembly, const BarrierStretch& stretch, Random& rand
     };
     for (int k = 0; k + 1 < 6; ++k)
       addQuad(assembly, paint, facingTrack(stretch.side, {at(a, k), at(b, k), at(b, k + 1), at(a, k + 1)}));
-    for (const Point& end : {a, b})
-      addQuad(assembly, paint, {at(end, 0), at(end, 3), at(end, 4), at(end, 5)});
+    for (const Point& end : {a, b}) {
+      addQuad(assembly, paint, {at(end, 0), at(end, 1), at(end, 2), at(end, 5)});
+      addQuad(assembly, paint, {at(end, 2), at(end, 3), at(end, 4), at(end, 5)});
+    }
     if (random.chance(0.75f)) {
       const Picture picture = assembly.addPicture(paintPoster({256, 44}, random.bits()));
       const Point lift = 0.012f * in;

@@ -139,8 +139,9 @@ void addRoof(Assembly& assembly, const Stand& stand) {
             picture.rect);
   }
   for (float x = -0.5f * stand.width; x < 0.5f * stand.width - 0.1f; x += 6.0f) {
+    const float length = std::min(6.0f, 0.5f * stand.width - x);
     addBox(assembly, {p.plaster, Color(0.40f, 0.40f, 0.41f) * random.range(0.8f, 1.1f)},
-           shifted(f, {x + 3.0f, depth + 0.15f, -0.5f}), {5.97f, 0.2f, top - 1.2f});
+           shifted(f, {x + 0.5f * length, depth + 0.15f, -0.5f}), {length - 0.03f, 0.2f, top - 1.2f});
   }
 }
 

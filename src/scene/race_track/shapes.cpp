@@ -21,10 +21,10 @@ Point faceNormal(const Point& a, const Point& b, const Point& c) {
   return length > 1e-12f ? Point(n / length) : Point::UnitZ();
 }
 
-// Two directions that span the plane across `axis`.
-std::array<Point, 2> across(const Point& axis) {
-  const Point u = axis.unitOrthogonal();
-  return {u, axis.cross(u)};
+// A direction across `axis`, as near to `before` as there is: rings that follow each other are not twisted.
+Point across(const Point& axis, const Point& before) {
+  const Point u = before - axis.dot(before) * axis;
+  return u.norm() > 1e-3f ? Point(u.normalized()) : Point(axis.unitOrthogonal());
 }
 
 }  // namespace
@@ -74,10 +74,13 @@ void addTube(Assembly& assembly, const Paint& paint, const std::vector<Ring>& ri
   Mesh& mesh = assembly.mesh(paint.material, rings.front().centre);
   const std::uint32_t first = static_cast<std::uint32_t>(mesh.positions.size());
   const std::uint32_t around = static_cast<std::uint32_t>(sides);
+  Point u = Point::Zero();
   for (std::size_t i = 0; i < rings.size(); ++i) {
     const Point& before = rings[i > 0 ? i - 1 : 0].centre;
     const Point& after = rings[i + 1 < rings.size() ? i + 1 : i].centre;
-    const auto [u, v] = across((after - before).normalized());
+    const Point axis = (after - before).normalized();
+    u = across(axis, u);
+    const Point v = axis.cross(u);
     for (int k = 0; k < sides; ++k) {
       const float angle = 2.0f * kPiFloat * static_cast<float>(k) / static_cast<float>(sides);
       const Point out = std::cos(angle) * u + std::sin(angle) * v;

@@ -8,7 +8,8 @@ namespace {
 
 void addWheel(Assembly& assembly, const Frame& body, const Point& hub, float radius) {
   Frame frame = shifted(body, hub);
-  frame.rotate(Eigen::AngleAxisf(0.5f * kPiFloat, Point::UnitX()));
+  // Its z outwards: tubes are closed at their last ring.
+  frame.rotate(Eigen::AngleAxisf((hub.y() > 0.0f ? -0.5f : 0.5f) * kPiFloat, Point::UnitX()));
   const Palette& p = assembly.palette();
   const auto ring = [&](float z, float r) { return Ring{frame * Point(0, 0, z), r}; };
   addTube(
