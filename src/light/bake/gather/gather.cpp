@@ -205,7 +205,7 @@ class Gatherer {
 
   /// The sky that each sample sees mirrored by the ground.
   void lookIntoGround(const TransportData& data) {
-    const GroundMirror mirror(patches_);
+    const GroundMirror& mirror = GroundMirror::get();
     mirrored_.resize(count_);
     tbb::parallel_for(std::size_t{0}, (count_ + kSamplesOfTask - 1) / kSamplesOfTask, [&](std::size_t block) {
       for (std::size_t i = block * kSamplesOfTask; i < std::min(count_, (block + 1) * kSamplesOfTask); ++i) {
@@ -223,7 +223,7 @@ class Gatherer {
     for (std::size_t room = 0; room < rooms.samples.size(); ++room)
       rooms.mirrored.copy(mirrored_, rooms.samples[room], room);
     if (rooms.glossy.empty()) return;
-    const GroundMirror mirror(patches_);
+    const GroundMirror& mirror = GroundMirror::get();
     tbb::parallel_for(std::size_t{0}, rooms.glossy.size(), [&](std::size_t g) {
       const std::uint32_t room = rooms.glossy[g].room;
       const auto rough = [this](std::uint32_t ground) { return !exchange_.isPolished(ground); };

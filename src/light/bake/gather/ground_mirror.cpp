@@ -1,6 +1,7 @@
 #include "light/bake/gather/ground_mirror.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 
@@ -16,12 +17,24 @@ constexpr int kAcross = 4;  ///< points of a patch along each of its sides
 /// Of what each point stands for, rad: highlights of smooth ground are narrower than their distance.
 constexpr float kPointRadius_rad = 0.03f;
 
+/// Of each patch above the horizon.
+struct Points {
+  std::array<std::array<Eigen::Vector3f, kAcross * kAcross>, SkyPatches::kAbove> in;
+
+  Points() {
+    for (int patch = 0; patch < SkyPatches::kAbove; ++patch) {
+      for (int i = 0; i < kAcross * kAcross; ++i)
+        in[static_cast<std::size_t>(patch)][static_cast<std::size_t>(i)] =
+            SkyPatches::pointIn(patch, (i % kAcross + 0.5) / kAcross, (i / kAcross + 0.5) / kAcross);
+    }
+  }
+};
+
 /// Mean over a patch by cosine to the zenith, as the patch's own light is.
-float mirroredOf(int patch, const Reflection& ground) {
+template <typename Points>
+float mirroredOf(const Points& patch, const Reflection& ground) {
   float sum = 0.0f, weights = 0.0f;
-  for (int i = 0; i < kAcross * kAcross; ++i) {
-    const Eigen::Vector3f to_light =
-        SkyPatches::pointIn(patch, (i % kAcross + 0.5) / kAcross, (i / kAcross + 0.5) / kAcross);
+  for (const Eigen::Vector3f& to_light : patch) {
     sum += directReflectance(ground, to_light, kPointRadius_rad)[0];  // black: mirrors alike in all colours
     weights += to_light.z();
   }
@@ -30,7 +43,15 @@ float mirroredOf(int patch, const Reflection& ground) {
 
 }  // namespace
 
-GroundMirror::GroundMirror(const SkyPatches& patches) : rows_(kRoughnesses * SkyPatches::kDown) {
+const GroundMirror& GroundMirror::get() {
+  // By itself: a thread that waits for the loop within would else take up other work, and may come here.
+  static const GroundMirror only = tbb::this_task_arena::isolate([] { return GroundMirror(); });
+  return only;
+}
+
+GroundMirror::GroundMirror() : rows_(kRoughnesses * SkyPatches::kDown) {
+  const SkyPatches patches(1);
+  const Points points;
   tbb::parallel_for(std::size_t{0}, rows_.size(), [&](std::size_t i) {
     const SkyPatches::Ray& ray = patches.coarseRays()[SkyPatches::kAbove + i % SkyPatches::kDown];
     Reflection ground;
@@ -39,8 +60,8 @@ GroundMirror::GroundMirror(const SkyPatches& patches) : rows_(kRoughnesses * Sky
     ground.albedo.setZero();
     ground.roughness =
         kSmoothest + (1.0f - kSmoothest) * static_cast<float>(i / SkyPatches::kDown) / (kRoughnesses - 1);
-    for (int patch = 0; patch < SkyPatches::kAbove; ++patch)
-      rows_[i][static_cast<std::size_t>(patch)] = mirroredOf(patch, ground);
+    for (std::size_t patch = 0; patch < points.in.size(); ++patch)
+      rows_[i][patch] = mirroredOf(points.in[patch], ground);
     rows_[i][SkyPatches::kBelow] = 0.0f;
   });
 }

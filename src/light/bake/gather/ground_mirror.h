@@ -16,13 +16,16 @@ class GroundMirror {
   /// Luminance × π, mirrored towards one direction, for 1 lx from each patch; a dielectric's.
   using Row = std::array<float, SkyPatches::kCount>;
 
-  explicit GroundMirror(const SkyPatches& patches);
+  /// The one that there is: made when first asked for, in 0.4 s of processor time.
+  static const GroundMirror& get();
 
   /// Towards where ray `down` of the patches' coarse rays below the horizon, 0 … SkyPatches::kDown − 1, comes
   /// from.
   const Row& towards(std::size_t down, float roughness) const;
 
  private:
+  GroundMirror();
+
   static constexpr std::size_t kRoughnesses = 16;
   std::vector<Row> rows_;  ///< by roughness, then ray
 };
