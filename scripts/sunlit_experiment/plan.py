@@ -166,6 +166,7 @@ def _renderer(typed, given, places, beginning):
         "start_stamp": START_STAMP_S,
         "compressed": read.flag("compressed", typed["compressed"]),
         "max_ahead": read.whole("max_ahead", typed["max_ahead"]),
+        "look_ahead": False,  # while poses are evaluated all cores are busy: it would only take memory
         "exit_when_done": True,
     }
 
@@ -204,7 +205,6 @@ def _self_test_renderer(typed, given, places, beginning):
         resume_at=beginning.evaluated,
         exact_sky=True,
         wait_for=[EVALUATOR + "/progress"],
-        look_ahead=False,  # it has few poses and much time: less memory
         subscribers={"images": 1, "of": [EVALUATOR]},
         sun_namespace="/",
         publish_tf=False,
