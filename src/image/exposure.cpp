@@ -1,12 +1,12 @@
 #include "sunlit/image/exposure.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/combinable.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 #include "display_curve.h"
@@ -26,6 +26,48 @@ constexpr double kBurningPart = 0.7;
 /// Stops above that beyond which a pixel, such as of the sun's disc, is not missed any more.
 constexpr double kLargestBurn = 4.0;
 
+/// How much there is of each of several luminances, from the darkest on.
+class LuminanceSpread {
+ public:
+  void add(double log_luminance, double count) { bins_.push_back({log_luminance, count}); }
+
+  /// Mean over the whole weight of the octaves by which luminances exceed 2^`log_limit`, each counted up to
+  /// `most`.
+  double meanExcess(double log_limit, double most) const {
+    double total = 0.0;
+    double sum = 0.0;
+    for (const Bin& bin : bins_) {
+      total += bin.count;
+      sum += bin.count * std::clamp(bin.log_luminance - log_limit, 0.0, most);
+    }
+    return sum / total;
+  }
+
+  /// Mean of log2(luminance) of the weight between the two parts of the whole. At least one pixel was added.
+  double trimmedLogMean(double low_part, double high_part) const {
+    double total = 0.0;
+    for (const Bin& bin : bins_) total += bin.count;
+    const double low = low_part * total;
+    const double high = high_part * total;
+    double before = 0.0;
+    double sum = 0.0;
+    for (const Bin& bin : bins_) {
+      const double after = before + bin.count;
+      const double inside = std::min(after, high) - std::max(before, low);
+      if (inside > 0.0) sum += inside * bin.log_luminance;
+      before = after;
+    }
+    return sum / (high - low);
+  }
+
+ private:
+  struct Bin {
+    double log_luminance;  ///< log2 of cd/m²
+    double count;
+  };
+  std::vector<Bin> bins_;
+};
+
 /// Luminances counted by the leading bits of their float: 256 steps an octave, without a logarithm a pixel.
 /// Counts are integers, so the order of pixels does not matter.
 class LuminanceHistogram {
@@ -33,37 +75,15 @@ class LuminanceHistogram {
   LuminanceHistogram() : counts_(kSteps, 0) {}
 
   void add(float luminance, std::int64_t weight) { counts_[step(luminance)] += weight; }
-
-  /// Mean over the whole weight of the octaves by which luminances exceed 2^`log_limit`, each counted up to
-  /// `most`.
-  double meanExcess(double log_limit, double most) const {
-    double total = 0.0;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < kSteps; ++i) {
-      if (counts_[i] == 0) continue;
-      const auto count = static_cast<double>(counts_[i]);
-      total += count;
-      sum += count * std::clamp(logMiddle(i) - log_limit, 0.0, most);
-    }
-    return sum / total;
+  void add(const LuminanceHistogram& other) {
+    for (std::size_t i = 0; i < kSteps; ++i) counts_[i] += other.counts_[i];
   }
 
-  /// Mean of log2(luminance) of the weight between the two parts of the whole. At least one pixel was added.
-  double trimmedLogMean(double low_part, double high_part) const {
-    const auto total = static_cast<double>(std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0}));
-    const double low = low_part * total;
-    const double high = high_part * total;
-    double before = 0.0;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < kSteps; ++i) {
-      const double after = before + static_cast<double>(counts_[i]);
-      const double inside = std::min(after, high) - std::max(before, low);
-      if (inside > 0.0) {
-        sum += inside * logMiddle(i);
-      }
-      before = after;
-    }
-    return sum / (high - low);
+  LuminanceSpread spread() const {
+    LuminanceSpread spread;
+    for (std::size_t i = 0; i < kSteps; ++i)
+      if (counts_[i] != 0) spread.add(logMiddle(i), static_cast<double>(counts_[i]));
+    return spread;
   }
 
  private:
@@ -107,15 +127,44 @@ std::vector<std::int64_t> columnWeights(int width) {
   return weights;
 }
 
+/// A picture's luminances by their weights, and its pixels' largest channels.
+struct Counts {
+  LuminanceHistogram metered, largest;
+};
+
+Counts countsOf(const LinearImage& image) {
+  const std::vector<std::int64_t> row_weights = rowWeights(image.height);
+  const std::vector<std::int64_t> column_weights = columnWeights(image.width);
+  tbb::combinable<Counts> parts;
+  tbb::parallel_for(tbb::blocked_range<int>(0, image.height, 16), [&](const auto& rows) {
+    Counts& counts = parts.local();
+    for (int y = rows.begin(); y < rows.end(); ++y) {
+      const float* p = image.at(0, y);
+      const std::int64_t row_weight = row_weights[static_cast<std::size_t>(y)];
+      for (int x = 0; x < image.width; ++x, p += 3) {
+        counts.metered.add(LinearRgb(p[0], p[1], p[2]).luminance(),
+                           row_weight * column_weights[static_cast<std::size_t>(x)]);
+        counts.largest.add(std::max({p[0], p[1], p[2]}), 1);
+      }
+    }
+  });
+  Counts all;
+  parts.combine_each([&](const Counts& part) {
+    all.metered.add(part.metered);
+    all.largest.add(part.largest);
+  });
+  return all;
+}
+
 /// By how many stops an exposure of `ev100` is to be cut: d = strength · (mean burn at ev100 + d). The burn
 /// falls as d grows, so there is one answer, and it moves continuously with every pixel's light.
-double highlightCut(const LuminanceHistogram& histogram, double ev100, double strength) {
+double highlightCut(const LuminanceSpread& largest, double ev100, double strength) {
   const double log_limit = std::log2(kBurningPart * saturationLuminance(ev100));
   double low = 0.0;
-  double high = strength * histogram.meanExcess(log_limit, kLargestBurn);
+  double high = strength * largest.meanExcess(log_limit, kLargestBurn);
   for (int i = 0; i < 30 && high - low > 1e-4; ++i) {
     const double middle = 0.5 * (low + high);
-    (strength * histogram.meanExcess(log_limit + middle, kLargestBurn) > middle ? low : high) = middle;
+    (strength * largest.meanExcess(log_limit + middle, kLargestBurn) > middle ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
@@ -138,25 +187,14 @@ double chooseEv100(const LinearImage& image, const ExposureOptions& options) {
   if (image.data.empty()) {
     return options.min_ev100;
   }
-  LuminanceHistogram metered;
-  LuminanceHistogram whole;
-  const std::vector<std::int64_t> row_weights = rowWeights(image.height);
-  const std::vector<std::int64_t> column_weights = columnWeights(image.width);
-  for (int y = 0; y < image.height; ++y) {
-    const float* p = image.at(0, y);
-    const std::int64_t row_weight = row_weights[static_cast<std::size_t>(y)];
-    for (int x = 0; x < image.width; ++x, p += 3) {
-      const float luminance = LinearRgb(p[0], p[1], p[2]).luminance();
-      metered.add(luminance, row_weight * column_weights[static_cast<std::size_t>(x)]);
-      whole.add(std::max({p[0], p[1], p[2]}), 1);
-    }
-  }
+  const Counts counts = countsOf(image);
+  const LuminanceSpread metered = counts.metered.spread(), largest = counts.largest.spread();
   // The sun's disc, a lamp or a black hole in the picture lies in the ends cut off here.
   const double log_mean = metered.trimmedLogMean(0.05, 0.95);
   const double darkening =
       std::clamp(options.night_darkening * (kDuskLogLuminance - log_mean), 0.0, kLargestDarkening);
   const double ev100 = log_mean - std::log2(kMeteredPart * saturationLuminance(0.0)) + darkening;
-  const double cut = highlightCut(whole, ev100, options.highlight_protection);
+  const double cut = highlightCut(largest, ev100, options.highlight_protection);
   return std::clamp(ev100 + cut - options.compensation_ev, options.min_ev100, options.max_ev100);
 }
 

@@ -107,17 +107,19 @@ Developed Camera::photograph(const Lit& lit, std::optional<double> ev100, Stopwa
   const ChainOptions& chain = chainOf(lit).options;
   const double known_s = ev100 ? image::smearTime_s(chain.shutter, *ev100) : knownSmear_s(chain.shutter);
   image::LinearImage arriving = beforeLens(lit, known_s, stopwatch);
-  image::LinearImage luminance = throughLens(lit, arriving, stopwatch);
+  const bool rains = lit.light.day.rain().mm_per_h > 0.0;
+  image::LinearImage before;  // the same once more, where it may be needed
+  if (rains || !motion_.none()) before = arriving;
+  image::LinearImage luminance = throughLens(lit, std::move(arriving), stopwatch);
   const double meters = metered(lit, luminance, stopwatch);
   const double exposed = ev100 ? *ev100 : lit.setting.adapted ? lit.setting.adapted(meters) : meters;
   // How long the shutter is open is known only now, and with it what smears and how far drops fall.
   const double smear_s = image::smearTime_s(chain.shutter, exposed);
   const bool smears =
       smear_s != known_s && !motion_.none() && renderer_->exposures(wayOf(chainOf(lit), smear_s)) > 1;
-  const bool rains = lit.light.day.rain().mm_per_h > 0.0;
-  if (smears) arriving = beforeLens(lit, smear_s, stopwatch);
-  if (rains) stopwatch->measure("develop", lit.name.series, [&] { addRain(lit, exposed, &arriving); });
-  if (smears || rains) luminance = throughLens(lit, std::move(arriving), stopwatch);
+  if (smears) before = beforeLens(lit, smear_s, stopwatch);
+  if (rains) stopwatch->measure("develop", lit.name.series, [&] { addRain(lit, exposed, &before); });
+  if (smears || rains) luminance = throughLens(lit, std::move(before), stopwatch);
   return stopwatch->measure("develop", lit.name.series, [&] {
     if (chain.noise.enabled) image::addSensorNoise(exposed, chain.noise, lit.name, &luminance);
     return Developed{image::throughMosaic(image::develop(luminance, exposed), chain.mosaic), exposed};

@@ -5,20 +5,22 @@
 namespace sunlit::light {
 namespace {
 
-constexpr std::uint32_t kSide = 32;  // columns, there and back in every second row
+/// Columns, there and back in every second row: fewer of few rays, which would be alone in theirs.
+constexpr std::uint32_t kMostSide = 32, kFewSide = 8;
+constexpr std::size_t kFew = 512;
 
 using Places = Eigen::ArrayXf;
 
-/// The column of each ray.
-void findColumns(const Places& x, const Places& y, std::vector<std::uint32_t>* columns) {
+/// The column of each ray, of side × side.
+void findColumns(const Places& x, const Places& y, std::uint32_t side, std::vector<std::uint32_t>* columns) {
   const float low_x = x.minCoeff(), low_y = y.minCoeff();
   const float widest = std::max({x.maxCoeff() - low_x, y.maxCoeff() - low_y, 1e-3f});
-  const float scale = (static_cast<float>(kSide) - 0.5f) / widest;
+  const float scale = (static_cast<float>(side) - 0.5f) / widest;
   for (std::size_t i = 0; i < columns->size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     const auto column = static_cast<std::uint32_t>(static_cast<std::int32_t>((x[at] - low_x) * scale));
     const auto row = static_cast<std::uint32_t>(static_cast<std::int32_t>((y[at] - low_y) * scale));
-    (*columns)[i] = row * kSide + (row % 2 == 0 ? column : kSide - 1 - column);
+    (*columns)[i] = row * side + (row % 2 == 0 ? column : side - 1 - column);
   }
 }
 
@@ -44,10 +46,13 @@ void RayList::setInColumns(const RayList& other, const Eigen::Vector3f& across, 
   places_x = along(across);
   places_y = along(up);
   columns.resize(size_);
-  findColumns(places_x, places_y, &columns);
-  std::array<std::uint32_t, kSide * kSide + 1> begins{};
+  const std::uint32_t side = size_ < kFew ? kFewSide : kMostSide;
+  findColumns(places_x, places_y, side, &columns);
+  std::array<std::uint32_t, kMostSide * kMostSide + 1> begins;
+  const std::size_t count_of_columns = side * side;
+  std::fill_n(begins.begin(), count_of_columns + 1, 0u);
   for (const std::uint32_t column : columns) ++begins[column + 1];
-  for (std::size_t i = 1; i < begins.size(); ++i) begins[i] += begins[i - 1];
+  for (std::size_t i = 1; i <= count_of_columns; ++i) begins[i] += begins[i - 1];
   for (std::size_t i = 0; i < size_; ++i) {
     const std::uint32_t to = begins[columns[i]]++;
     number_[to] = other.number_[i];

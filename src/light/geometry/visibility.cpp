@@ -22,9 +22,9 @@ constexpr int kAccepted = 1;
 enum GeometryNumber : unsigned { kOpaque = 0, kMasked = 1 };
 
 /// Lets a ray pass where the surface is cut out.
-void passCutouts(const RTCFilterFunctionNArguments* arguments) {
+inline __attribute__((always_inline)) void passCutoutsOf(unsigned count,
+                                                         const RTCFilterFunctionNArguments* arguments) {
   const auto& cutouts = *static_cast<const Cutouts*>(arguments->geometryUserPtr);
-  const unsigned count = arguments->N;
   int* const valid = arguments->valid;
   unsigned i = 0;
   while (i < count && valid[i] != -1) ++i;
@@ -43,6 +43,12 @@ void passCutouts(const RTCFilterFunctionNArguments* arguments) {
   }
   for (i = 0; i < count; ++i)
     if (valid[i] == kAccepted) valid[i] = -1;
+}
+
+void passCutouts(const RTCFilterFunctionNArguments* arguments) {
+  constexpr unsigned kMost = 16;  // most packets are full, and where values lie is known then
+  if (arguments->N == kMost) return passCutoutsOf(kMost, arguments);
+  passCutoutsOf(arguments->N, arguments);
 }
 
 /// What a query for the first triangle needs to know, beside Embree's own context (which must come first).
@@ -80,22 +86,24 @@ constexpr float kEndless = std::numeric_limits<float>::infinity();
 /// `Packet` holds kWidth rays, which reach so many times their direction's length.
 template <typename Packet, int kWidth>
 void occludedInPackets(RTCScene scene, const Rays& rays, float reach, std::uint8_t* blocked) {
-  alignas(64) Packet packet{};
+  alignas(64) Packet packet{};  // from 0 on
   alignas(64) int valid[kWidth];
+  for (unsigned& mask : packet.mask) mask = ~0u;
   for (std::size_t begin = 0; begin < rays.count; begin += kWidth) {
     const int in_use = static_cast<int>(std::min<std::size_t>(kWidth, rays.count - begin));
+    const auto put = [&](const float* values, float* to) {
+      values += begin;
+      for (int i = 0; i < kWidth; ++i) to[i] = in_use == kWidth ? values[i] : values[std::min(i, in_use - 1)];
+    };
+    put(rays.origin_x, packet.org_x);
+    put(rays.origin_y, packet.org_y);
+    put(rays.origin_z, packet.org_z);
+    put(rays.direction_x, packet.dir_x);
+    put(rays.direction_y, packet.dir_y);
+    put(rays.direction_z, packet.dir_z);
     for (int i = 0; i < kWidth; ++i) {
-      const std::size_t ray = begin + static_cast<std::size_t>(std::min(i, in_use - 1));
       valid[i] = i < in_use ? -1 : 0;
-      packet.org_x[i] = rays.origin_x[ray];
-      packet.org_y[i] = rays.origin_y[ray];
-      packet.org_z[i] = rays.origin_z[ray];
-      packet.dir_x[i] = rays.direction_x[ray];
-      packet.dir_y[i] = rays.direction_y[ray];
-      packet.dir_z[i] = rays.direction_z[ray];
-      packet.tnear[i] = 0.0f;
       packet.tfar[i] = reach;
-      packet.mask[i] = ~0u;
     }
     light::occluded<kCoherent>(valid, scene, &packet);
     for (int i = 0; i < in_use; ++i) {

@@ -89,13 +89,20 @@ SkySectors::SkySectors(const sky::Daylight& day) : table_(kCells * kCount, Eigen
   });
 }
 
-Eigen::Array4f SkySectors::irradiance(const SkyOpenness& view, const Eigen::Vector3f& normal) const {
+const Eigen::Array4f* SkySectors::rowOf(const Eigen::Vector3f& normal) const {
   const auto cell = static_cast<std::size_t>(sky::octahedralCell(kSide, normal.x(), normal.y(), normal.z()));
-  const Eigen::Array4f* row = table_.data() + cell * kCount;
-  Eigen::Array4f sum = Eigen::Array4f::Zero();
-  for (std::size_t sector = 0; sector < kCount; ++sector)
-    sum += row[sector] * static_cast<float>(view.open[sector]);
-  return sum / 255.0f;
+  return table_.data() + cell * kCount;
+}
+
+SkySectors::OfBothSides SkySectors::irradiance(const SkyOpenness& view, const Eigen::Vector3f& normal) const {
+  const Eigen::Array4f *const front = rowOf(normal), *const behind = rowOf(-normal);
+  OfBothSides sum{Eigen::Array4f::Zero(), Eigen::Array4f::Zero()};
+  for (std::size_t sector = 0; sector < kCount; ++sector) {
+    const auto open = static_cast<float>(view.open[sector]);
+    sum.front += front[sector] * open;
+    sum.behind += behind[sector] * open;
+  }
+  return {sum.front / 255.0f, sum.behind / 255.0f};
 }
 
 }  // namespace sunlit::light

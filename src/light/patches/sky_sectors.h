@@ -27,11 +27,18 @@ class SkySectors {
   /// What is open of each sector, as SkyOpenness::open, by what is of its patches.
   static std::array<std::uint8_t, kCount> openOf(const PatchBytes& patches);
 
-  /// Illuminance by the sky that `view` leaves open, lx; fourth: the share of the half sphere about the unit
-  /// vector `normal`, by cosine, that is open sky. To within 2° of the normal.
-  Eigen::Array4f irradiance(const SkyOpenness& view, const Eigen::Vector3f& normal) const;
+  /// Illuminance by the sky that `view` leaves open, lx; fourth: the share of the half sphere about a normal,
+  /// by cosine, that is open sky.
+  struct OfBothSides {
+    Eigen::Array4f front, behind;
+  };
+  /// Of a leaf whose normal is the unit vector `normal`, to within 2° of it.
+  OfBothSides irradiance(const SkyOpenness& view, const Eigen::Vector3f& normal) const;
 
  private:
+  /// Its entry of the first sector.
+  const Eigen::Array4f* rowOf(const Eigen::Vector3f& normal) const;
+
   using Table = std::vector<Eigen::Array4f, Eigen::aligned_allocator<Eigen::Array4f>>;
   Table table_;  ///< kCount for each cell of an octahedral map of normals, row by row
 };

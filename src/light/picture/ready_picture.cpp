@@ -14,13 +14,48 @@
 namespace sunlit::light {
 namespace {
 
+/// Asks memory for what findPlaces() will look up of surfaces further on: each lies elsewhere.
+class LookAhead {
+ public:
+  LookAhead(const Geometry& geometry, const TransportData& data, const std::vector<Surface>& surfaces)
+      : geometry_(geometry), data_(data), surfaces_(surfaces) {}
+
+  void from(std::size_t i) const {
+    constexpr std::size_t kNear = 8, kFar = 16;
+    if (i + kFar < surfaces_.size() && known(i + kFar)) {
+      const std::uint32_t triangle = surfaces_[i + kFar].triangle;
+      __builtin_prefetch(&geometry_.triangles[triangle]);
+      __builtin_prefetch(&geometry_.planes[triangle]);
+      __builtin_prefetch(&data_.mesh.roots[triangle]);
+      if (!data_.leaves.first.empty()) __builtin_prefetch(&data_.leaves.first[triangle]);
+    }
+    if (i + kNear < surfaces_.size() && known(i + kNear)) {
+      const std::uint32_t triangle = surfaces_[i + kNear].triangle;
+      for (const std::uint32_t corner : geometry_.triangles[triangle])
+        __builtin_prefetch(&geometry_.positions[corner]);
+      for (const std::uint32_t root : data_.mesh.roots[triangle])
+        if (LightMesh::isCell(root)) __builtin_prefetch(&data_.mesh.cells[root]);
+      if (data_.leaves.known(triangle)) __builtin_prefetch(&data_.leaves.grids[data_.leaves.first[triangle]]);
+    }
+  }
+
+ private:
+  bool known(std::size_t i) const { return surfaces_[i].triangle < geometry_.triangles.size(); }
+
+  const Geometry& geometry_;
+  const TransportData& data_;
+  const std::vector<Surface>& surfaces_;
+};
+
 /// Sets Outlook::light and TileOutlooks::sheets of surfaces of the scene that was baked.
 void findPlaces(const Geometry& geometry, const TransportData& data, const Tile& tile,
                 TileOutlooks* outlooks) {
   const std::vector<scene::Material>& materials = geometry.scene->materials;
   std::uint32_t last = 0xffffffffu;  // neighbours often lie on one triangle
   std::optional<Corners> corners;
+  const LookAhead ahead(geometry, data, tile.surfaces);
   for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
+    ahead.from(i);
     const Surface& surface = tile.surfaces[i];
     const std::uint32_t triangle = surface.triangle;
     if (triangle >= geometry.triangles.size()) continue;  // a body that moves: see BodyLight
@@ -53,14 +88,17 @@ void findBaked(const Surfaces& surfaces, const OutlookSources& sources, Outlooks
   const Geometry& geometry = *sources.world.geometry;
   const TransportData& data = sources.world.transport->data();
   const GlintNodes* const glints = sources.world.transport->glintNodes().get();
+  const auto findMirrorsOf = [&](std::size_t i) {
+    findMirrors(data, {*geometry.scene, surfaces.width, surfaces.tiles[i]}, &(*outlooks)[i]);
+  };
   tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(), [&](std::size_t i) {
     findPlaces(geometry, data, surfaces.tiles[i], &(*outlooks)[i]);
     if (glints) findGlints(*glints, &(*outlooks)[i]);
+    if (!sources.gather) findMirrorsOf(i);
   });
-  if (sources.gather) sources.gather->look(surfaces, outlooks);
-  tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(), [&](std::size_t i) {
-    findMirrors(data, {*geometry.scene, surfaces.width, surfaces.tiles[i]}, &(*outlooks)[i]);
-  });
+  if (!sources.gather) return;
+  sources.gather->look(surfaces, outlooks);
+  tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(), findMirrorsOf);
 }
 
 void makeReady(const OutlookSources& sources, ReadySurfaces* ready) {

@@ -76,6 +76,29 @@ Eigen::Array3f SurfaceLighting::ofDisc(const Disc& disc, const Tile& tile, std::
   return share * through / static_cast<float>(rays);
 }
 
+void SurfaceLighting::addDisc(const Disc& disc, const Tile& tile,
+                              std::vector<Eigen::Array3f>* luminances) const {
+  if (disc.shares.empty()) return;
+  thread_local std::vector<Reflection> lit;
+  thread_local std::vector<std::uint32_t> indices;
+  thread_local std::vector<Eigen::Array3f> shares, reflectances;
+  lit.clear();
+  indices.clear();
+  shares.clear();
+  for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
+    const Eigen::Array3f share = ofDisc(disc, tile, i);
+    if (!(share.maxCoeff() > 0.0f)) continue;
+    const Surface& surface = tile.surfaces[i];
+    lit.push_back(reflectionOf(surface, scene_.materials[static_cast<std::size_t>(surface.material)]));
+    indices.push_back(static_cast<std::uint32_t>(i));
+    shares.push_back(share);
+  }
+  reflectances.resize(lit.size());
+  directReflectances(lit, {disc.visibility.towards(), disc.visibility.radius_rad()}, reflectances.data());
+  for (std::size_t k = 0; k < lit.size(); ++k)
+    (*luminances)[indices[k]] += reflectances[k] * (shares[k] * disc.light.illuminance.value);
+}
+
 void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& by_rays,
                             std::vector<Eigen::Array3f>* luminances) const {
   const Tile& tile = surfaces_.tiles[number];
@@ -89,7 +112,10 @@ void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& b
     for (std::size_t i = 0; i < outlooks.mirrors.size(); ++i)
       mirrored[i] = mirroredBy(outlooks.mirrors[i], *light_.mirror_sky);
   }
-  thread_local std::vector<Eigen::Array3f> by_lamps;
+  thread_local std::vector<Eigen::Array3f> by_discs, by_lamps;
+  by_discs.assign(tile.surfaces.size(), Eigen::Array3f::Zero());
+  addDisc(sun, tile, &by_discs);
+  addDisc(moon, tile, &by_discs);
   lamps_.light(tile, &by_lamps);
   luminances->resize(tile.surfaces.size());
   auto next = by_rays.begin();
@@ -106,8 +132,7 @@ void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& b
     const SurfaceParts parts{outlook,
                              rows.ambient[i],
                              mirrored[outlook.own.mirror],
-                             ofDisc(sun, tile, i),
-                             ofDisc(moon, tile, i),
+                             by_discs[i],
                              glint(sun_glints_, sun.light),
                              glint(moon_glints_, moon.light),
                              by_lamps.empty() ? nullptr : &by_lamps[i],
@@ -120,17 +145,10 @@ void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& b
 //   Lₑ + Σ f(l) V E + f₊ E₊ + f₋ E₋ + fₘ Lₘ
 Eigen::Array3f SurfaceLighting::luminance(const Surface& surface, const SurfaceParts& parts) const {
   const scene::Material& material = scene_.materials[static_cast<std::size_t>(surface.material)];
-  const Reflection reflection = reflectionOf(surface, material);
-  const auto direct = [&](const DiscVisibility& disc, const sky::DiscLight& lamp,
-                          const Eigen::Array3f& share) -> Eigen::Array3f {
-    return directReflectance(reflection, disc.towards(), disc.radius_rad()) *
-           (share * lamp.illuminance.value);
-  };
-  Eigen::Array3f leaving = Eigen::Array3f::Zero();
-  if (glows_[static_cast<std::size_t>(surface.material)]) leaving = surface.emission;
-  if (parts.sun.maxCoeff() > 0.0f) leaving += direct(sun_, light_.day.sun(), parts.sun);
-  if (parts.moon.maxCoeff() > 0.0f) leaving += direct(moon_, light_.day.moon(), parts.moon);
+  Eigen::Array3f leaving = parts.discs;
+  if (glows_[static_cast<std::size_t>(surface.material)]) leaving += surface.emission;
   const auto byFloor = [&](const Glints& glints, const Eigen::Array3f& lux) -> Eigen::Array3f {
+    const Reflection reflection = reflectionOf(surface, material);
     Eigen::Array3f all = directReflectance(reflection, glints.towards(), glints.radius_rad());
     if (parts.by_rays) {  // which show the floor, with the disc in it
       const float cosine = std::max(reflection.normal.dot(glints.towards()), 0.0f);
@@ -143,7 +161,7 @@ Eigen::Array3f SurfaceLighting::luminance(const Surface& surface, const SurfaceP
   if (parts.lamps) leaving += *parts.lamps;
 
   const AmbientReflectance& by = parts.ambient;
-  AmbientLight from = ambientLight(surface, {parts.outlook, reflection.roughness, parts.mirrored}, light_);
+  AmbientLight from = ambientLight(surface, {parts.outlook, surface.roughness, parts.mirrored}, light_);
   if (parts.by_rays) from.mirrored += parts.by_rays->share * (parts.by_rays->luminance - from.mirrored);
   const Eigen::Array3f ambient =
       by.diffuse * from.front + by.through * from.behind + by.specular * from.mirrored;

@@ -45,8 +45,8 @@ class SurfaceLighting {
   struct SurfaceParts {
     const WholeOutlook& outlook;
     const AmbientReflectance& ambient;
-    const Mirrored& mirrored;  ///< where the light is baked
-    Eigen::Array3f sun, moon;  ///< shares of their discs that it sees, coloured by glass and what blends
+    const Mirrored& mirrored;              ///< where the light is baked
+    Eigen::Array3f discs;                  ///< its luminance straight by sun and moon
     Eigen::Array3f sun_glint, moon_glint;  ///< by way of polished floors, lx on a plane facing them
     const Eigen::Array3f* lamps;           ///< its luminance by lamps; null: there are none
     const SeenByRays* by_rays;             ///< null: none
@@ -59,6 +59,8 @@ class SurfaceLighting {
     const std::vector<float>& shares;  ///< of a tile's surfaces; empty: it gives too little
   };
   Eigen::Array3f ofDisc(const Disc& disc, const Tile& tile, std::size_t index) const;
+  /// Adds what it makes of the surfaces of `tile` to their luminances.
+  void addDisc(const Disc& disc, const Tile& tile, std::vector<Eigen::Array3f>* luminances) const;
 
   const Surfaces& surfaces_;
   const Outlooks& outlooks_;

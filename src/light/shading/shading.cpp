@@ -9,6 +9,7 @@
 #include "light/shading/ggx.h"
 #include "light/shading/mirror_lobe.h"
 #include "light/shading/schlick.h"
+#include "light/shading/wide_disc.h"
 #include "sunlit/quantity/angle.h"
 
 namespace sunlit::light {
@@ -74,18 +75,16 @@ float meanOverEllipse(const Reflection& r, const Eigen::Vector3f& to_light, cons
 /// The mirror-like part without Fresnel, 1/sr.
 float lobe(const Reflection& r, const Eigen::Vector3f& to_light, const Eigen::Vector3f& half,
            float radius_rad) {
-  // Of the disc's facets: beside the lobe's, and beside how far off they are. What is wider than a small disc
-  // in the sky, such as a lamp close by, has no ellipse of facets.
-  constexpr float kWide = 0.3f, kFar = 12.0f, kDisc_rad = 0.05f;
+  constexpr float kFar = 12.0f;  // how far off the disc's facets are, of their width
   const float n_l = r.normal.dot(to_light);
   // A shading normal may turn away from the eye near silhouettes; the surface is seen all the same.
   const float n_v = std::max(r.normal.dot(r.to_eye), 1e-3f);
   const float n_h = std::clamp(r.normal.dot(half), 0.0f, 1.0f);
   const float v_h = std::clamp(r.to_eye.dot(half), 1e-3f, 1.0f);
   const auto facets = Ggx<float>::ofRoughness(r.roughness);
-  const float width = 0.5f * radius_rad / v_h;
-  const bool wide = radius_rad < kDisc_rad && width > kWide * r.roughness * r.roughness &&
-                    1.0f - n_h * n_h < kFar * width * kFar * width;
+  const float width = widthOfFacets(radius_rad, v_h);
+  const bool wide =
+      showsEllipse(r.roughness, v_h, radius_rad) && 1.0f - n_h * n_h < kFar * width * kFar * width;
   const float distribution =
       wide ? meanOverEllipse(r, to_light, half, radius_rad) : facets.meanDistribution(n_h, v_h, radius_rad);
   return distribution * facets.visibility(n_l, n_v);

@@ -54,7 +54,7 @@ SkyOpenness viewAt(const Geometry& geometry, const LeafOpenness& leaves, const E
 
 /// Share of the half sphere about `normal`, by cosine, that is open sky.
 float openAround(const SkyOpenness& view, const Eigen::Vector3f& normal) {
-  return SkySectors(uniformDay(1.0f)).irradiance(view, normal)[3];
+  return SkySectors(uniformDay(1.0f)).irradiance(view, normal).front[3];
 }
 
 // Of a share: normals to within 2°, of which half counts towards a half sphere cut by the horizon, the sum

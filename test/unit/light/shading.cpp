@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include "sunlit/quantity/angle.h"
 
@@ -136,6 +138,38 @@ double underEvenLight(const Reflection& reflection, bool only_behind = false) {
     }
   }
   return sum * 4.0 * kPi / (kHeights * kAzimuths);
+}
+
+TEST(ManyReflections, AreTheSameToTheBitAsOneByOne) {
+  std::mt19937 random(7);
+  const auto number = [&](float low, float high) {
+    return low + (high - low) * static_cast<float>(random() % 4097) / 4096.0f;
+  };
+  const auto direction = [&] {
+    return Eigen::Vector3f(number(-1.0f, 1.0f), number(-1.0f, 1.0f), number(-1.0f, 1.0f)).normalized();
+  };
+  for (const float radius_rad : {0.0f, 0.00465f, 0.3f}) {
+    std::vector<Reflection> reflections;
+    const Eigen::Vector3f to_light = direction();
+    for (int i = 0; i < 5003; ++i) {
+      Reflection r{direction(), direction(), Eigen::Array3f(number(0, 1), number(0, 1), number(0, 1))};
+      r.roughness = i % 3 == 0 ? number(0.05f, 0.2f) : number(0.2f, 1.0f);
+      r.metalness = i % 2 == 0 ? 0.0f : number(0, 1);
+      r.transmission = i % 5 == 0 ? number(0, 1) : 0.0f;
+      r.dielectric_grazing = i % 7 == 0 ? number(0, 1) : 1.0f;
+      r.glass = i % 11 == 0 ? number(0, 1) : 0.0f;
+      if (i % 13 == 0) r.to_eye = -to_light;  // there is no half vector
+      if (i % 17 == 0) r.to_eye = (2.0f * r.normal.dot(to_light) * r.normal - to_light).normalized();
+      reflections.push_back(r);
+    }
+    std::vector<Eigen::Array3f> found(reflections.size());
+    directReflectances(reflections, {to_light, radius_rad}, found.data());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const Eigen::Array3f expected = directReflectance(reflections[i], to_light, radius_rad);
+      ASSERT_TRUE((found[i] == expected).all())
+          << i << ": " << found[i].transpose() << ", " << expected.transpose();
+    }
+  }
 }
 
 TEST(Ambient, IsTheSumOfDirectLightOverTheHemisphere) {

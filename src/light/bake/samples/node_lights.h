@@ -23,11 +23,17 @@ class PackedLight {
     std::memcpy(&bits, &shifted, sizeof(bits));
     code_ = static_cast<std::uint16_t>(((bits + kHalf) >> kDropped) - (kLeastBits >> kDropped));
   }
-  float value() const {
-    const std::uint32_t bits = (static_cast<std::uint32_t>(code_) << kDropped) + kLeastBits;
-    float shifted = 0.0f;
-    std::memcpy(&shifted, &bits, sizeof(shifted));
-    return shifted - kLeast;
+  float value() const { return valuesOf<1>(this)[0]; }
+  /// Of so many, side by side.
+  template <std::size_t N>
+  static std::array<float, N> valuesOf(const PackedLight* packed) {
+    std::array<std::uint32_t, N> bits;
+    for (std::size_t i = 0; i < N; ++i)
+      bits[i] = (static_cast<std::uint32_t>(packed[i].code_) << kDropped) + kLeastBits;
+    std::array<float, N> values;
+    std::memcpy(values.data(), bits.data(), sizeof(values));
+    for (float& value : values) value -= kLeast;
+    return values;
   }
 
  private:
@@ -44,27 +50,25 @@ class NodeLights {
   explicit NodeLights(const std::vector<NodeLight>& nodes) : nodes_(nodes.size()) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const NodeLight& from = nodes[i];
-      nodes_[i] = {packed(from.irradiance), packed(from.around.above), packed(from.around.below)};
+      PackedLight* to = nodes_[i].data();
+      for (const Eigen::Array3f& light : {from.irradiance, from.around.above, from.around.below})
+        for (Eigen::Index c = 0; c < 3; ++c) *to++ = PackedLight(light[c]);
     }
   }
 
   std::size_t size() const { return nodes_.size(); }
-  Eigen::Array3f irradiance(std::size_t node) const { return unpacked(nodes_[node].irradiance); }
-  Surroundings around(std::size_t node) const {
-    return {unpacked(nodes_[node].above), unpacked(nodes_[node].below)};
+  NodeLight at(std::size_t node) const {
+    const std::array<float, kValues> v = PackedLight::valuesOf<kValues>(nodes_[node].data());
+    return {{v[0], v[1], v[2]}, {{v[3], v[4], v[5]}, {v[6], v[7], v[8]}}};
+  }
+  Eigen::Array3f irradiance(std::size_t node) const {
+    const std::array<float, 3> v = PackedLight::valuesOf<3>(nodes_[node].data());
+    return {v[0], v[1], v[2]};
   }
 
  private:
-  using Packed = std::array<PackedLight, 3>;
-  struct Node {
-    Packed irradiance, above, below;
-  };
-  static Packed packed(const Eigen::Array3f& light) {
-    return {PackedLight(light[0]), PackedLight(light[1]), PackedLight(light[2])};
-  }
-  static Eigen::Array3f unpacked(const Packed& light) {
-    return {light[0].value(), light[1].value(), light[2].value()};
-  }
+  static constexpr std::size_t kValues = 9;
+  using Node = std::array<PackedLight, kValues>;
 
   std::vector<Node> nodes_;
 };

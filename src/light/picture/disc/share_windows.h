@@ -20,33 +20,18 @@ class ShareWindows {
   ShareWindows(const PixelMap& lit, const Tile& tile);
 
   /// Of the pixel in column x and row y of the tile; negative if its neighbours tell nothing about it.
-  float share(int x, int y) const;
+  float share(int x, int y) const {
+    return differ_ ? shares_[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] : of_all_;
+  }
+
+  static constexpr int kReach = 8;  ///< of windows
+  static constexpr std::size_t kSide = Surfaces::kTileSize + 2 * kReach;
+  using Rays = std::array<std::array<std::uint8_t, kSide>, kSide>;
 
  private:
-  static constexpr int kReach = 8;
-  static constexpr std::size_t kSide = Surfaces::kTileSize + 2 * kReach;
-  /// Sums over all pixels above and to the left.
-  using Sums = std::array<std::array<std::int16_t, kSide + 1>, kSide + 1>;
-  /// Of (2 across + 1) × (2 down + 1) pixels about (x, y).
-  struct Window {
-    int x, y, across, down;
-
-    int pixels() const { return (2 * across + 1) * (2 * down + 1); }
-    Window part(int part_across, int part_down) const { return {x, y, part_across, part_down}; }
-  };
-  struct Chance;
-
-  static int sumOf(const Sums& sums, const Window& window);
-  void sumUp(const std::array<std::array<std::uint8_t, kSide>, kSide>& lit);
-  int lit(const Window& window) const { return sumOf(lit_, window); }
-  bool isEven(const Window& window) const;
-  bool hasLine(const Window& window, const Chance& chance) const;
-  bool hasSlantingEdge(const Window& window, const Chance& chance) const;
-  float mean(const Window& window) const;
-
   bool differ_;   ///< there is both light and shade, else
   float of_all_;  ///< is the share everywhere
-  Sums lit_, squares_, pixels_;
+  std::array<std::array<float, Surfaces::kTileSize>, Surfaces::kTileSize> shares_;
 };
 
 }  // namespace sunlit::light

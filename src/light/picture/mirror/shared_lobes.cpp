@@ -39,6 +39,14 @@ struct RoughOnes {
   std::vector<std::uint32_t> first;         ///< of a pixel, and of one beyond the last
 };
 
+bool anyFillsLobe(const Surfaces& surfaces, const Reflections& reflections) {
+  for (std::size_t t = 0; t < reflections.tiles.size(); ++t) {
+    for (const Reflections::Mirroring& mirroring : reflections.tiles[t].surfaces)
+      if (fillsLobe(surfaces.tiles[t].surfaces[mirroring.surface])) return true;
+  }
+  return false;
+}
+
 RoughOnes collect(const Surfaces& surfaces, const Reflections& reflections, MirroredLuminances* luminances) {
   RoughOnes ones;
   const auto width = static_cast<std::uint32_t>(surfaces.width);
@@ -159,8 +167,8 @@ std::vector<Shown> shared(const RoughOnes& ones, const std::vector<Shown>& shown
 }  // namespace
 
 void shareLobes(const Surfaces& surfaces, const Reflections& reflections, MirroredLuminances* luminances) {
+  if (!anyFillsLobe(surfaces, reflections)) return;
   RoughOnes ones = collect(surfaces, reflections, luminances);
-  if (ones.all.empty()) return;
   const LobePixels pixels = lobePixels(surfaces);
   const auto pixel = [&](int x, int y) { return static_cast<std::size_t>(y * surfaces.width + x); };
   findReaches(surfaces, pixel, &ones);

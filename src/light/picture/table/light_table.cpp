@@ -5,18 +5,24 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "light/shading/surface_reflection.h"
 
 namespace sunlit::light {
 namespace {
 
+/// Nodes lie at powers of √2: the octave is the exponent of a float, its half is told by its mantissa.
 LightTable::AirPlace airPlace(float distance_m) {
+  constexpr int kMantissaBits = 23, kBias = 127;
+  constexpr std::uint32_t kMantissa = (1u << kMantissaBits) - 1u;
+  constexpr std::uint32_t kRootOfTwo = 0x3504f3u;  // 1.41421354, twice 0.70710677
   int node = 0;
   if (distance_m >= 1.0f) {
-    int exponent = 0;
-    const float mantissa = std::frexp(distance_m, &exponent);  // 0.5 … 1
-    node = std::min(1 + 2 * (exponent - 1) + (mantissa >= 0.70710678f ? 1 : 0), kAirNodes - 2);
+    std::uint32_t bits;
+    std::memcpy(&bits, &distance_m, sizeof(bits));
+    const int octave = static_cast<int>(bits >> kMantissaBits) - kBias;
+    node = std::min(1 + 2 * octave + ((bits & kMantissa) >= kRootOfTwo ? 1 : 0), kAirNodes - 2);
   }
   const float near = airDistance_m(node);
   return {node, std::min((distance_m - near) / (airDistance_m(node + 1) - near), 1.0f)};
@@ -58,9 +64,15 @@ LightTable::Rows rowsOf(const Surfaces& surfaces, const Tile& tile, const TileOu
 }  // namespace
 
 float airDistance_m(int node) {
-  if (node == 0) return 0.0f;
-  const float octave = std::ldexp(1.0f, (node - 1) / 2);
-  return node % 2 == 1 ? octave : octave * 1.41421356f;
+  static const std::array<float, kAirNodes> distances_m = [] {
+    std::array<float, kAirNodes> all{};
+    for (int i = 1; i < kAirNodes; ++i) {
+      const float octave = std::ldexp(1.0f, (i - 1) / 2);
+      all[static_cast<std::size_t>(i)] = i % 2 == 1 ? octave : octave * 1.41421356f;
+    }
+    return all;
+  }();
+  return distances_m[static_cast<std::size_t>(node)];
 }
 
 LightTable::LightTable(const Surfaces& surfaces, const Outlooks& outlooks, const scene::Scene& scene)
