@@ -102,6 +102,18 @@ def whole(name, text, at_least=None):
     return value
 
 
+# Words of which a parameter of the renderer is one; those of conditions too, by the same names.
+CHOICES = {"missing": ("stop", "warn"), "exposure": ("fixed", "auto"), "rasterizer": ("osmesa", "egl", "builtin"),
+           "lamps": ("auto", "on", "off"), "vignetting": ("none", "cos4"), "mosaic": ("none", "rggb", "bggr", "grbg", "gbrg"),
+           "overcast": ("layer", "cie")}
+
+
+def choice(name, text):
+    if text not in CHOICES[name]:
+        raise BadArgument(name, text, f"one of {', '.join(CHOICES[name])}")
+    return text
+
+
 def clock_times(text):
     """'[4, 4.5]' -> {'h04': {hour: 4, ...}, 'h04_30': {hour: 4, minute: 30, ...}}, in the order given."""
     allowed = "a list of different hours, at least 0 and below 24, such as [4, 12, 20]"
@@ -159,6 +171,19 @@ def _at_clock_time(name, differs, text):
     return {**differs, **_clock_time(hour)}
 
 
+def _check_name(name, text):
+    """Refuses what no topic or frame can be called."""
+    if not isinstance(name, str) or not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name):
+        raise BadArgument("conditions", text, f"with names of letters, digits and _, a letter first, not {name!r}")
+
+
+def _check_choices(name, differs, text):
+    """Refuses other words than those of a choice."""
+    for key, words in CHOICES.items():
+        if key in differs and not isinstance(differs[key], dict) and differs[key] not in words:
+            raise BadArgument("conditions", text, f"with {key} as one of {', '.join(words)} in {name}, not {differs[key]!r}")
+
+
 DAY = ("year", "month", "day")
 DATE = "date"  # stands for these three
 A_DATE = "a date, year-month-day, such as 2024-07-01"
@@ -194,8 +219,7 @@ def conditions(text, hours):
         return clock_times(hours)
     found = {}
     for name, differs in asked.items():
-        if not isinstance(name, str) or not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name):
-            raise BadArgument("conditions", text, f"with names of letters, digits and _, a letter first, not {name!r}")
+        _check_name(name, text)
         if not isinstance(differs, dict) or not _is_hour(differs.get("hour")):
             raise BadArgument("conditions", text, f"with an hour, at least 0 and below 24, for {name}: {allowed}")
         for key in differs:
@@ -204,6 +228,7 @@ def conditions(text, hours):
                 raise _unknown(text, key, name, known)
             if differs[key] is None:
                 raise BadArgument("conditions", text, f"with a value for {key} in {name}")
+        _check_choices(name, differs, text)
         found[name] = {**_clock_time(differs["hour"]), **_at_clock_time(name, differs, text)}
     instead = "left out beside conditions, which have hours of their own: " + ", ".join(found)
     if parse("hours", hours, instead) != parse("hours", USUAL_HOURS, instead):
@@ -355,6 +380,8 @@ def named_conditions(text, known=DIFFERING):
     asked = parse("conditions", text, allowed)
     if not isinstance(asked, (list, dict)):
         raise BadArgument("conditions", text, allowed)
+    for name in asked:
+        _check_name(name, text)
     if isinstance(asked, list):
         return asked
     for name, differs in asked.items():
@@ -413,6 +440,8 @@ def robot(text, robots):
 
 def output_folder(text):
     """Made here, so that a folder that cannot be written stops everything before it begins."""
+    if not text.strip():  # which would be the current one
+        raise BadArgument("output", text, "a folder")
     path = folder(text)
     try:
         os.makedirs(path, exist_ok=True)
@@ -421,6 +450,15 @@ def output_folder(text):
     except OSError as error:
         raise BadArgument("output", text, f"a folder that can be written ({path}: {error.strerror})") from None
     return path
+
+
+def handed_on(words):
+    """NAME:=VALUE ... as a launch file hands them on, whose $(eval) makes True and False of true and false."""
+    lost = [word for word in words if ":=" not in word]
+    if lost:
+        raise BadArgument("planned", " ".join(words), f"words NAME:=VALUE, not {lost[0]!r}")
+    values = dict(word.split(":=", 1) for word in words)
+    return {name: {"True": "true", "False": "false"}.get(value, value) for name, value in values.items()}
 
 
 def roslaunch_words():
@@ -442,7 +480,8 @@ def given(launch_file, words):
     if not any((before == "sunlit" and word == os.path.basename(ours)) or os.path.realpath(word) == ours
                for before, word in zip(words, words[1:])):
         return {}  # started by a launch file of the user's, whose arguments these are
-    typed = dict(word.split(":=", 1) for word in words if ":=" in word and not word.startswith("_"))
+    parts = [word.split(":=", 1) for word in words if ":=" in word and not word.startswith("_")]
+    typed = {name.strip(): value.strip() for name, value in parts}  # as roslaunch takes them
     known = [arg.get("name") for arg in ElementTree.parse(launch_file).iter("arg") if "value" not in arg.attrib]
     for name, value in typed.items():
         if name not in known:

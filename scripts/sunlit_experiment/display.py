@@ -20,7 +20,32 @@ WHOLE_SCREEN = "\x1b[r"
 def restore(stream):
     """Gives a terminal all its rows back: for whoever remains when a Foot was killed."""
     if stream.isatty() and _knows_rows():
-        os.write(stream.fileno(), (SAVE + WHOLE_SCREEN + RESTORE).encode())
+        _write(stream.fileno(), SAVE + WHOLE_SCREEN + RESTORE)
+
+
+def say(text, stream):
+    """Prints it. A run goes on where nobody reads any more, and all that is written to `stream` is then lost."""
+    try:
+        print(text, file=stream, flush=True)
+    except OSError:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, stream.fileno())  # or Python would try once more as it ends, and end with another status
+        os.close(nowhere)
+
+
+def _write(descriptor, text):
+    try:
+        os.write(descriptor, text.encode())
+    except OSError:
+        pass  # the terminal or the reader has gone
+
+
+def _size(descriptor):
+    """Of a terminal; None where it has gone."""
+    try:
+        return os.get_terminal_size(descriptor)
+    except OSError:
+        return None
 
 
 def _knows_rows():
@@ -36,31 +61,27 @@ class Foot:
         self.shown = None
 
     def show(self, status, _now):
-        size = os.get_terminal_size(self.descriptor)
+        size = _size(self.descriptor)
+        if size is None:
+            return
         if size != self.size:
             self._reserve(size)
         text = progress.fitted(status, size.columns - 1)  # a full row would wrap
         if text != self.shown:
-            self._write(f"{SAVE}\x1b[{size.lines};1H{CLEAR_LINE}{text}{RESTORE}")
+            _write(self.descriptor, f"{SAVE}\x1b[{size.lines};1H{CLEAR_LINE}{text}{RESTORE}")
             self.shown = text
 
     def _reserve(self, size):
         """A new row first, lest the cursor stands in the one that is taken."""
         has_grown = self.size and self.size.lines < size.lines
         old = f"{SAVE}\x1b[{self.size.lines};1H{CLEAR_LINE}{RESTORE}" if has_grown else ""
-        self._write(f"{old}\n{SAVE}\x1b[1;{max(size.lines - 1, 1)}r{RESTORE}\x1b[1A")
+        _write(self.descriptor, f"{old}\n{SAVE}\x1b[1;{max(size.lines - 1, 1)}r{RESTORE}\x1b[1A")
         self.size, self.shown = size, None
 
     def close(self):
         if self.size:
-            self._write(f"{SAVE}{WHOLE_SCREEN}\x1b[{self.size.lines};1H{CLEAR_LINE}{RESTORE}")
+            _write(self.descriptor, f"{SAVE}{WHOLE_SCREEN}\x1b[{self.size.lines};1H{CLEAR_LINE}{RESTORE}")
             self.size = None
-
-    def _write(self, text):
-        try:
-            os.write(self.descriptor, text.encode())
-        except OSError:
-            pass  # the terminal has gone
 
 
 class Lines:
@@ -75,10 +96,7 @@ class Lines:
         if status.doing == self.doing and now - self.latest < LINE_EVERY_S:
             return
         self.doing, self.latest = status.doing, now
-        try:
-            os.write(self.descriptor, f"experiment: {progress.line(status)}\n".encode())
-        except OSError:
-            pass  # the reader has gone
+        _write(self.descriptor, f"experiment: {progress.line(status)}\n")
 
     def close(self):
         pass
@@ -88,7 +106,8 @@ class Display:
     """What a user sees of a run, on `stream`."""
 
     def __init__(self, stream):
-        in_place = stream.isatty() and _knows_rows() and os.get_terminal_size(stream.fileno()).lines >= LOWEST
+        size = _size(stream.fileno()) if stream.isatty() and _knows_rows() else None
+        in_place = size is not None and size.lines >= LOWEST
         self.place = (Foot if in_place else Lines)(stream.fileno())
         self.pace = progress.Pace()
 

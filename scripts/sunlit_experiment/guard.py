@@ -36,7 +36,9 @@ class Guard:
             self._start()
 
     def dismiss(self):
-        """Before the node leaves in order."""
+        """Before the node leaves in order; once is enough."""
+        if self.process.stdin.closed:
+            return
         with contextlib.suppress(BrokenPipeError):
             self.process.communicate(IN_ORDER)
 

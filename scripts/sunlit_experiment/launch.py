@@ -15,6 +15,8 @@ import xmlrpc.client
 
 import psutil
 
+from sunlit_experiment import display
+
 NO_ANSWER = (OSError, http.client.HTTPException, xml.parsers.expat.ExpatError)  # the last: it ended in mid-answer
 GRACE_S = 20.0  # a process that has not ended so long after SIGINT is killed
 
@@ -145,16 +147,13 @@ class Launch:
         for what a shell says. Does not come back where there is a roslaunch to end."""
         said = f"experiment: FAILED: {reason}"
         if not self.may_end_children:
-            print(said, file=sys.stderr, flush=True)
+            display.say(said, sys.stderr)
             return
         if not self.is_gone():
             os.kill(self.pid, signal.SIGSTOP)  # or it would end by itself, with status 0, once its nodes have
         self._end_children(masters=False)
         self._end_children(masters=True)
-        try:
-            print(said, file=sys.stderr, flush=True)
-        except OSError:
-            pass  # the terminal has gone with roslaunch
+        display.say(said, sys.stderr)
         if not self.is_gone():
             os.kill(self.pid, signal.SIGUSR1)
             os.kill(self.pid, signal.SIGCONT)

@@ -33,8 +33,8 @@ class Beginning:
         return self.evaluated >= self.poses
 
 
-def check(typed):
-    """Everything that can be refused by its text alone. `typed`: texts by name."""
+def check(typed, given=()):
+    """Everything that can be refused by its text alone. `typed`: texts by name; `given`: names of those that the user gave."""
     for name in ("self_test", "record", "report", "images", "night", "noise", "compressed", "rviz", "verbose"):
         read.flag(name, typed[name])
     for name in ("width", "height", "noise_seed", "final_gather", "max_ahead"):
@@ -44,6 +44,10 @@ def check(typed):
         read.number(name, typed[name])
     for name in ("ground_albedo", "exposure_time", "speed"):
         read.number_or_auto(name, typed[name])
+    for name in ("missing", "exposure", "lamps", "vignetting", "mosaic"):
+        read.choice(name, typed[name])
+    if typed["rasterizer"]:
+        read.choice("rasterizer", typed["rasterizer"])
     read.date_time(typed["date"], typed["timezone"])
     read.site(typed["site"])
     read.folders(typed["model_path"])
@@ -51,6 +55,16 @@ def check(typed):
     read.verified(typed["verify"], typed["differences"], typed["features"])
     map_streams(typed)
     pairs(typed)
+    _check_effect(typed, given)
+
+
+def _check_effect(typed, given):
+    """What is given for nothing is refused, by all conditions."""
+    ones = conditions(typed).values()
+    if "ev100" in given and not any(one.get("exposure", typed["exposure"]) != "auto" for one in ones):
+        raise read.BadArgument("ev100", typed["ev100"], "left out where exposure is auto")
+    if "noise_seed" in given and not any(one.get("noise", read.flag("noise", typed["noise"])) for one in ones):
+        raise read.BadArgument("noise_seed", typed["noise_seed"], "left out where noise is false")
 
 
 def conditions(typed):

@@ -124,6 +124,7 @@ def ranges(numbers):
 
 def _writer_of(path):
     """The process that has a file open; None where none of ours has."""
+    path = os.path.realpath(path)  # as the kernel tells what is open, whatever links the folder has
     for process in psutil.process_iter():
         with contextlib.suppress(psutil.Error):
             if any(open_file.path == path for open_file in process.open_files()):

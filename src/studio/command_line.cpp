@@ -149,8 +149,10 @@ bool CommandLine::has(const std::string& option) const {
   return std::any_of(given_.begin(), given_.end(), [&](const auto& pair) { return pair.first == option; });
 }
 
-void CommandLine::requireWith(const std::string& option, const std::string& other) const {
-  if (has(option) && !has(other)) throw std::invalid_argument(option + " needs " + other + " too");
+void CommandLine::requireWith(const std::string& option, const std::vector<std::string>& others) const {
+  if (!has(option)) return;
+  if (std::any_of(others.begin(), others.end(), [&](const std::string& other) { return has(other); })) return;
+  throw std::invalid_argument(option + " needs " + joinedBy(" or ", others) + " too");
 }
 
 const Option* CommandLine::find(const std::string& name) const {

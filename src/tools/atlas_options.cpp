@@ -179,8 +179,7 @@ std::vector<TimeOfDay> timesOf(const Words& words) {
   if (count > static_cast<double>(kMostConditions))
     throw std::invalid_argument("--step would make more than " + std::to_string(kMostConditions) + " times");
   for (int i = 0; i < static_cast<int>(count); ++i) {
-    const double second = words.from_hour * 3600.0 + i * words.step_minutes * 60.0;
-    times.push_back({static_cast<int>(std::lround(second))});
+    times.push_back(TimeOfDay::at(words.from_hour * 3600.0 + i * words.step_minutes * 60.0));
   }
   return times;
 }
@@ -225,9 +224,9 @@ void requireSense(const studio::CommandLine& line, const Words& words, const Atl
   }
   if (line.has("--dates") && line.has("--date"))
     throw std::invalid_argument("--dates and --date are both given; one of them");
-  line.requireWith("--shard", "--stage");
+  line.requireWith("--shard", {"--stage"});
   for (const std::string option : {"--slurm-tasks", "--slurm-option", "--submit"})
-    line.requireWith(option, "--slurm");
+    line.requireWith(option, {"--slurm"});
   const int parts = (line.has("--stage") ? 1 : 0) + (options.merge ? 1 : 0) + (words.slurm ? 1 : 0) +
                     (options.estimate ? 1 : 0);
   if (parts > 1)
@@ -286,6 +285,7 @@ std::optional<AtlasRunOptions> parseAtlasOptions(const std::vector<std::string>&
   addWork(&line, &options, &words);
   addShared(&line, &options, &words);
   if (!line.read(arguments)) return std::nullopt;
+  requireWeather(line);
   if (!line.has("--out")) throw std::invalid_argument("--out FOLDER is missing; --help lists all options");
   requireSense(line, words, options);
   options.studio.render = words.camera.options();
@@ -298,7 +298,8 @@ std::optional<AtlasRunOptions> parseAtlasOptions(const std::vector<std::string>&
   options.atlas.has_query_drive = words.query_offset_m != 0.0;
   if (line.has("--stage")) options.stage = words.stage;
   if (words.slurm) options.slurm = words.slurm_options;
-  options.recipe = recipeOf(line, ofNoResult(), options.studio.world);
+  options.recipe =
+      recipeOf(line, {ofNoResult(), {"--path", "--calibration", "--onnx-model"}}, options.studio.world);
   options.again = againOf(line);
   return options;
 }

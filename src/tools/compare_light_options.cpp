@@ -7,6 +7,7 @@
 
 #include "sunlit/studio/command_line.h"
 #include "tools/camera_arguments.h"
+#include "tools/every_nth_pixel.h"
 #include "tools/place_arguments.h"
 #include "tools/world_arguments.h"
 
@@ -98,6 +99,7 @@ std::optional<CompareLightOptions> parseCompareLightOptions(const std::vector<st
   addLamps(&line, &options.lamps);
   addWeather(&line, &options.weather, &options.surfaces);
   if (!line.read(arguments)) return std::nullopt;
+  requireWeather(line);
   requireThatAllCount(line, options);
   if (options.skies.empty()) {
     for (const TypedBody& sun : {TypedBody{170, 60}, {250, 20}, {285, 4}, {290, -4}, {295, -9}})
@@ -106,6 +108,8 @@ std::optional<CompareLightOptions> parseCompareLightOptions(const std::vector<st
   }
   words.camera.requireSense(options.bake);
   options.render = words.camera.options();
+  const int shorter_side = std::min(options.render.camera.width, options.render.camera.height);
+  require("--every", options.every, {1.0, 1.0 * EveryNthPixel::largest(shorter_side)}, "px");
   render::validate(options.render);
   light::validate(options.reference);
   return options;

@@ -15,7 +15,9 @@ namespace {
 
 using namespace sunlit;
 
-constexpr const char* kUsage = "usage: count_poses WORLD WAYPOINT_FILE SPACING_M POSES\n";
+constexpr const char* kUsage = "usage: count_poses WORLD WAYPOINT_FILE SPACING_M POSES [MODEL_PATH...]\n";
+
+constexpr int kNeeded = 4;  ///< words
 
 struct CountOptions {
   path::PathOptions sampling;
@@ -36,16 +38,19 @@ void printHelp() {
                "  WAYPOINT_FILE  CSV or TUM; empty: the path of race_track\n"
                "  SPACING_M      "
             << studio::Option("spacing", rows[0].doc, {rows[0]}).help() << '\n'
-            << "  POSES          " << studio::Option("poses", rows[1].doc, {rows[1]}).help() << '\n';
+            << "  POSES          " << studio::Option("poses", rows[1].doc, {rows[1]}).help() << '\n'
+            << "  MODEL_PATH     folders searched first for model:// addresses\n";
 }
 
-std::size_t countPoses(const std::string& world, const std::string& file, const std::string& spacing,
-                       const std::string& poses) {
+/// `words`: as kUsage has them.
+std::size_t countPoses(const std::vector<std::string>& words) {
+  const std::string &world = words[0], &file = words[1], &spacing = words[2], &poses = words[3];
+  const std::vector<std::string> model_path(words.begin() + kNeeded, words.end());
   CountOptions options;
   const std::vector<Field> rows = fieldsOf(options);
   fieldOf(rows, "spacing").setText(spacing, "argument spacing");
   fieldOf(rows, "poses").setText(poses, "argument poses");
-  scene::requireWorld(world, scene::SearchPath::withEnvironment({}));
+  scene::requireWorld(world, scene::SearchPath::withEnvironment(model_path));
   if (file.empty() && world != scene::kRaceTrack) {
     throw std::invalid_argument("argument path is empty, but only the world " +
                                 std::string(scene::kRaceTrack) +
@@ -67,12 +72,12 @@ int main(int argc, char** argv) {
     printHelp();
     return 0;
   }
-  if (argc != 5) {
+  if (argc <= kNeeded) {
     std::cerr << kUsage;
     return 2;
   }
   try {
-    std::cout << countPoses(argv[1], argv[2], argv[3], argv[4]) << '\n';
+    std::cout << countPoses({argv + 1, argv + argc}) << '\n';
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "sunlit: " << error.what() << '\n';

@@ -12,6 +12,8 @@ namespace sunlit::tools {
 class EveryNthPixel {
  public:
   explicit EveryNthPixel(int step) : step_(step) {}
+  /// The largest step by which a picture that is so wide, or so high, has any.
+  static constexpr int largest(int size) { return 2 * size - 1; }
 
   /// The same picture, in which only these pixels see anything.
   light::Surfaces of(light::Surfaces surfaces) const {

@@ -138,6 +138,7 @@ std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& 
   addBounced(&line, &options.studio.bake);
   addLamps(&line, &options.studio.lamps);
   if (!line.read(arguments)) return std::nullopt;
+  requireWeather(line);
   requireSense(line, words, options);
   options.output = outputOf(words.places);
   options.studio.render = words.camera.options();
@@ -151,7 +152,7 @@ std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& 
         image::idealRight(image::calibrationOf(options.data_set.camera), options.data_set.baseline_m, "");
   options.data_set.rate_hz = options.rate_hz / words.path.selection.stride;
   layOut(words, &options);
-  options.recipe = recipeOf(line, {"--cache"}, options.studio.world);
+  options.recipe = recipeOf(line, {{"--cache"}, {"--path", "--calibration"}}, options.studio.world);
   return options;
 }
 

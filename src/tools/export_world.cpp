@@ -51,7 +51,7 @@ std::optional<ExportOptions> parse(const std::vector<std::string>& arguments) {
   line.add("--lamps-colour LX", fieldOf(fieldsOf(options.lamps), "lamps_colour"));
   if (!line.read(arguments)) return std::nullopt;
   if (!line.has("--out")) throw std::invalid_argument("--out FILE.glb is missing; --help lists all options");
-  line.requireWith("--path", "--texel");
+  line.requireWith("--path", {"--texel"});
   options.bakes = line.has("--texel");
   return options;
 }

@@ -52,6 +52,16 @@ void addWeather(studio::CommandLine* line, sky::Weather* weather, scene::Surface
   line->add("--ground-seed N", fieldOf(left, "ground_seed"));
 }
 
+void requireWeather(const studio::CommandLine& line) {
+  for (const char* of_cloud : {"--optical-depth", "--overcast"}) line.requireWith(of_cloud, {"--cover"});
+  line.requireWith("--fog-top", {"--visibility"});
+  // Rain falls from the cloud base, is slanted by the wind, and has drops by the seed.
+  for (const char* of_both : {"--cloud-base", "--wind", "--cloud-seed"})
+    line.requireWith(of_both, {"--cover", "--rain"});
+  line.requireWith("--wind-from", {"--wind"});
+  line.requireWith("--ground-seed", {"--puddles", "--snow"});
+}
+
 void addPlace(studio::CommandLine* line, PlaceOptions* options) {
   line->group("Place, day and air");
   line->add("--site LAT,LON[,ELEVATION]", "", fieldsOf(options->site));

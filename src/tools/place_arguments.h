@@ -28,6 +28,9 @@ std::string textOf(const astronomy::CivilDate& date);
 /// --cover, --visibility and the other rows of the weather, --wet, --snow and those of what it leaves.
 void addWeather(studio::CommandLine* line, sky::Weather* weather, scene::SurfaceState* surfaces);
 
+/// Throws std::invalid_argument where such a row is given that only tells more of weather that is not.
+void requireWeather(const studio::CommandLine& line);
+
 /// --site, --date, --timezone, --turbidity, --ozone, --ground-albedo and the weather.
 void addPlace(studio::CommandLine* line, PlaceOptions* options);
 

@@ -1,5 +1,7 @@
-/// One line at a terminal that is written over.
+/// How far a work is, on stderr: one line at a terminal, written over, and whole lines in a file or pipe.
 #pragma once
+
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
@@ -9,7 +11,7 @@
 
 namespace sunlit::tools {
 
-/// "baking light: 40 %, 12 s left" on stderr; silent for a work of a moment.
+/// "baking light: 40 %, 12 s left"; silent for a work of a moment. Of one thread.
 class ProgressLine {
  public:
   ProgressLine() = default;
@@ -21,22 +23,39 @@ class ProgressLine {
   void show(const std::string& work, double share, double seconds_left) {
     const int percent = static_cast<int>(100.0 * share);
     constexpr std::chrono::seconds kMoment(1);
-    if (percent_ < 0) begin_ = Clock::now();
-    const bool lasts = seconds_left >= 1.0 || Clock::now() - begin_ >= kMoment;
+    const Clock::time_point now = Clock::now();
+    if (percent_ < 0) begin_ = now;
+    const bool lasts = seconds_left >= 1.0 || now - begin_ >= kMoment;
     if (percent == percent_ || (!shown_ && !lasts)) return;
     percent_ = percent;
+    const std::string text = work + ": " + std::to_string(percent) + " %" + textOfTimeLeft(seconds_left);
+    if (::isatty(STDERR_FILENO) == 1) {
+      std::fprintf(stderr, "\r%s      ", text.c_str());
+      is_open_ = true;
+    } else if (!shown_ || now - latest_ >= kBetweenLines) {
+      std::fprintf(stderr, "%s\n", text.c_str());
+      latest_ = now;
+    }
     shown_ = true;
-    std::fprintf(stderr, "\r%s: %d %%%s      ", work.c_str(), percent, textOfTimeLeft(seconds_left).c_str());
   }
-  /// What follows stands below it.
+  /// The work has ended: what is shown next is of another one.
   void end() {
-    if (shown_) std::fputc('\n', stderr);
+    if (shown_) leave();
     shown_ = false;
+    percent_ = -1;
+  }
+  /// What follows on stderr stands below the line, whoever shows one.
+  static void leave() {
+    if (is_open_) std::fputc('\n', stderr);
+    is_open_ = false;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  Clock::time_point begin_;  ///< of the work
+  static constexpr std::chrono::seconds kBetweenLines{30};
+  inline static bool is_open_ = false;  ///< a line at the terminal, whose end has not been written
+  Clock::time_point begin_;             ///< of the work
+  Clock::time_point latest_;            ///< line in a file
   int percent_ = -1;
   bool shown_ = false;
 };

@@ -57,17 +57,17 @@ std::string difference(const std::vector<std::string>& before, const std::vector
 
 }  // namespace
 
-std::vector<std::string> recipeOf(const studio::CommandLine& line, const std::set<std::string>& of_no_picture,
+std::vector<std::string> recipeOf(const studio::CommandLine& line, const RecipeOptions& options,
                                   const studio::WorldOptions& world) {
   auto sorted = line.given();
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> recipe;
   for (const auto& [option, value] : sorted) {
-    if (of_no_picture.count(option) == 1) continue;
+    if (options.of_no_picture.count(option) == 1) continue;
     recipe.push_back(option + ' ' + value);
-    if (option == "--path") recipe.push_back(contentOf("content of the path", value));
-    if (option == "--calibration") recipe.push_back(contentOf("content of the calibration", value));
+    if (options.files.count(option) == 1)
+      recipe.push_back(contentOf("content of the " + option.substr(2), value));
   }
   const std::string file = studio::requireWorld(world);
   if (!file.empty()) recipe.push_back(contentOf("content of the world", file));

@@ -10,11 +10,16 @@
 
 namespace sunlit::tools {
 
-/// What `line` was given, an option a line, sorted by options; one that may be repeated keeps its order.
-/// Without `of_no_picture`, options that do not change what pictures look like. With what tells the contents
-/// of the files of --path, --calibration and `world` apart from other ones of that name. Throws
-/// std::runtime_error where one cannot be read.
-std::vector<std::string> recipeOf(const studio::CommandLine& line, const std::set<std::string>& of_no_picture,
+/// What options mean to a recipe; the others stand in it as they were typed.
+struct RecipeOptions {
+  std::set<std::string> of_no_picture;  ///< do not change what pictures look like, and are left out
+  std::set<std::string> files;          ///< take the name of a file, whose content counts
+};
+
+/// What `line` was given, an option a line, sorted by options; one that may be repeated keeps its order. With
+/// what tells the contents of `options.files` and of the file of `world` apart from other ones of that name.
+/// Throws std::runtime_error where one cannot be read.
+std::vector<std::string> recipeOf(const studio::CommandLine& line, const RecipeOptions& options,
                                   const studio::WorldOptions& world);
 
 /// Beside the pictures, in a file called after the tool: FOLDER/timelapse.txt.

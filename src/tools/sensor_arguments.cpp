@@ -38,10 +38,10 @@ void SensorWords::putInto(studio::StudioOptions* options) const {
 
 void SensorWords::requireSense(const studio::CommandLine& line) const {
   if (line.has("--compensation") && ev100) throw std::invalid_argument("--compensation needs --ev auto");
-  line.requireWith("--glare-wings", "--glare");
-  line.requireWith("--hood", "--glare");
-  line.requireWith("--demosaic", "--mosaic");
-  line.requireWith("--exposures", "--exposure-time");
+  line.requireWith("--glare-wings", {"--glare"});
+  line.requireWith("--hood", {"--glare"});
+  line.requireWith("--demosaic", {"--mosaic"});
+  line.requireWith("--exposures", {"--exposure-time"});
 }
 
 void addSensor(studio::CommandLine* line, SensorWords* words) {

@@ -10,8 +10,8 @@ namespace sunlit::tools {
 studio::Reports onTerminal() {
   const auto line = std::make_shared<ProgressLine>();
   studio::Reports reports;
-  reports.warning = [line](const std::string& text) {
-    line->end();
+  reports.warning = [](const std::string& text) {
+    ProgressLine::leave();
     std::fprintf(stderr, "warning: %s\n", text.c_str());
   };
   reports.baking = [line](double share, double seconds_left) {

@@ -16,6 +16,10 @@ constexpr int kSecondsPerDay = 24 * 3600;
 
 }  // namespace
 
+TimeOfDay TimeOfDay::at(double seconds) {
+  return {std::min(static_cast<int>(std::lround(seconds)), kSecondsPerDay - 1)};
+}
+
 std::string TimeOfDay::name() const {
   const int h = second_of_day / 3600, m = second_of_day / 60 % 60, s = second_of_day % 60;
   char text[16];
@@ -35,8 +39,7 @@ std::vector<TimeOfDay> timesOf(const std::string& option, const std::string& tex
   for (const std::string& part : splitAtCommas(text)) {
     double hour = 0.0;
     Field{"hour", &hour, "h", Range::below(0, 24), ""}.setText(part, option);
-    const auto second = static_cast<int>(std::lround(hour * 3600.0));
-    times.push_back({std::min(second, kSecondsPerDay - 1)});
+    times.push_back(TimeOfDay::at(hour * 3600.0));
     const auto is_same = [&](const TimeOfDay& other) {
       return other.second_of_day == times.back().second_of_day;
     };

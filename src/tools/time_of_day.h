@@ -9,6 +9,9 @@ namespace sunlit::tools {
 struct TimeOfDay {
   int second_of_day = 12 * 3600;  ///< 0 … 86399
 
+  /// So many seconds after midnight, rounded, but never into the next day.
+  static TimeOfDay at(double seconds);
+
   double hour() const { return second_of_day / 3600.0; }
   /// As experiments call their conditions: "h04", "h04_30".
   std::string name() const;

@@ -106,7 +106,7 @@ void ViewArguments::requireThatAllCount() const {
     what = "--look-at turns the camera already; leave YAW and PITCH out of --pose";
   }
   if (what != nullptr) throw std::invalid_argument(what);
-  line_->requireWith("--path", "--path-pose");
+  line_->requireWith("--path", {"--path-pose"});
   const bool has_shutter = line_->has("--line-delay") || line_->has("--exposure-time");
   const bool moves = line_->has("--speed") || line_->has("--turning");
   // To a camera that stands, only drops move.

@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
 """rosrun finds every program that people type."""
+import os
+import pathlib
+import re
 import subprocess
 import sys
 import unittest
@@ -18,6 +21,16 @@ class Programs(unittest.TestCase):
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
             self.assertEqual(done.returncode, 0, f"{program}: {done.stdout}")
             self.assertIn(program, done.stdout.splitlines()[0])
+
+    def test_scripts_refuse_no_folder_and_know_their_build_from_everywhere(self):
+        scripts = pathlib.Path(os.environ["SUNLIT_SOURCE_DIR"], "scripts")
+        # The last word stops it before it does anything.
+        done = subprocess.run([str(scripts / "demo"), "--output", "", "--stop"], stderr=subprocess.PIPE, text=True)
+        self.assertEqual((done.returncode, done.stderr), (2, "demo: --output needs a folder\n"))
+        told = [line for script in scripts.iterdir() if script.is_file()
+                for line in re.findall(r"^build_dir=.*\$\{(?:1|SUNLIT_BUILD_DIR):.*$", script.read_text(), re.MULTILINE)]
+        self.assertGreaterEqual(len(told), 5)
+        self.assertEqual([line for line in told if not line.startswith('build_dir=$(realpath -m "')], [])
 
 
 if __name__ == "__main__":

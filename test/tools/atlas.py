@@ -155,6 +155,11 @@ class Atlas(unittest.TestCase):
         os.mkdir(self.path("mine"))
         pathlib.Path(self.path("mine/thesis.tex")).write_text("years", encoding="utf-8")
         self.assertIn("holds thesis.tex, but no atlas.txt", self.refused("mine", *TRACK))
+        network = str(pathlib.Path(__file__).resolve().parents[1] / "golden" / "bright_pixel.onnx")
+        os.mkdir(self.path("of_network"))
+        pathlib.Path(self.path("of_network/atlas.txt")).write_text("--detectors onnx\n--onnx-model %s\n" % network, encoding="utf-8")
+        self.assertIn("made with other options (without content of the onnx-model ",
+                      self.refused("of_network", "--detectors", "onnx", "--onnx-model", network))
 
     def test_estimate_leaves_nothing_and_names_both_numbers_where_there_is_no_room(self):
         said = self.make("estimated", *self.boxes(), "--estimate")
@@ -234,6 +239,7 @@ class Atlas(unittest.TestCase):
                 (["--step", "0"], "--step is 0, but must be above 0"), (["--step", "25h"], "--step is 1500, but must be from"),
                 (["--step", "soon"], '--step is "soon"'), (["--step", "1s"], "--step would make more than 5000 times"),
                 (["--dates", "2024-02-30"], "--dates is"), (["--dates", "2024-03-20,"], "--dates is"),
+                (["--dates", "2024-03-20,2024-03-20", "--from", "23.99999"], "the light 2024-03-20_h23_59_59 is asked for twice"),
                 (["--dates", "2024-03-20,2024-03-20"], "the light 2024-03-20_h00 is asked for twice"),
                 (["--dates", "2024-03-20", "--date", "2024-03-20"], "--dates and --date are both given"),
                 (["--shard", "1/2"], "--shard needs --stage too"),

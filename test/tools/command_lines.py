@@ -215,6 +215,14 @@ class CommandLines(unittest.TestCase):
         for path in ("", "nowhere.csv"):  # the world comes first
             self.assertIn("sunlit: there is no world nowhere.world; it was looked for as ",
                           run("count_poses", "nowhere.world", path, "1", "0").stderr)
+        with tempfile.TemporaryDirectory() as folder:  # with models, as the renderer's model_path
+            pathlib.Path(folder, "place").mkdir()
+            pathlib.Path(folder, "place", "my.world").touch()
+            pathlib.Path(folder, "path.csv").write_text("0,0\n3,0\n", encoding="utf-8")
+            words = ("count_poses", "model://place/my.world", folder + "/path.csv", "1", "0")
+            self.assertIn("there is no world model://place/my.world", run(*words).stderr)
+            done = run(*words, "/nowhere", folder)
+            self.assertEqual((done.returncode, done.stdout), (0, "3\n"), done.stderr)
 
     def test_what_is_out_of_range_is_refused_by_every_tool_that_has_the_option(self):
         for option, value, said in REFUSED:
@@ -222,6 +230,22 @@ class CommandLines(unittest.TestCase):
             self.assertTrue(programs, option)
             for program in programs:
                 self.assertIn(said, self.refused(program, option, value))
+
+    def test_weather_that_only_tells_more_of_another_needs_it(self):
+        sky, ground = {"--cover": "4", "--rain": "3"}, {"--puddles": "0.1", "--snow": "0.1"}
+        for option, value, others in (("--optical-depth", "20", {"--cover": "4"}), ("--overcast", "cie", {"--cover": "8"}),
+                                      ("--fog-top", "50", {"--visibility": "900"}), ("--cloud-base", "900", sky), ("--wind", "3", sky),
+                                      ("--cloud-seed", "2", sky), ("--ground-seed", "2", ground)):
+            needed = " needs %s too" % " or ".join(others)
+            for program in [program for program, options in OPTIONS.items() if option in options]:
+                self.assertIn(option + needed, self.refused(program, option, value))
+                for other in others.items():  # each is enough, and then something else is missed
+                    self.assertNotIn(needed, self.refused(program, option, value, *other))
+        self.assertIn("--wind-from needs --wind too", self.refused("snapshot", "--rain", "3", "--wind-from", "90"))
+
+    def test_some_of_the_pixels_are_compared(self):
+        self.assertIn("--every is 64, but must be from 1 to 31 px",
+                      self.refused("compare_light", "--out", "nowhere", "--size", "640x16", "--every", "64"))
 
     def test_a_calibration_goes_with_nothing_that_it_contradicts(self):
         file = str(ROOT / "test/support/cameras/euroc.yaml")

@@ -124,7 +124,7 @@ class LocaliseBags(unittest.TestCase):
     def test_detectors_of_a_file_localise_too(self):
         noon, dusk = self.bags()
         with open(self.path("own.yaml"), "w") as file:
-            file.write("{streams: [h12], output_dir: unused, features: {many: {type: orb, n_features: 1000}}}")
+            file.write("{features: {many: {type: orb, n_features: 1000}}}")
         drives = ["--map", noon, "--query", dusk, "--detectors", "many,orb"]
         rows, _ = self.localise("found", *drives, "--config", self.path("own.yaml"))
         inliers = {name: sum(int(row["inliers"]) for row in rows if row["detector"] == name) for name in ("many", "orb")}

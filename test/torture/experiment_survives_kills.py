@@ -6,15 +6,19 @@ scripts/torture does the same at random moments, as often as one likes.
 import os
 import random
 import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
+from types import SimpleNamespace
+from unittest import mock
 
 import rosunit
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import kills  # noqa: E402  pylint: disable=wrong-import-position
+import soak  # noqa: E402  pylint: disable=wrong-import-position
 from trial import Trial, kill_leftovers  # noqa: E402  pylint: disable=wrong-import-position
 
 FEW = dict(poses=20)
@@ -41,6 +45,13 @@ class ExperimentSurvivesKills(unittest.TestCase):
             print(done)
             self.assertFalse(done.is_hole(), done)
         self.assertEqual(killer.complete(), "")
+
+    def test_a_soak_whose_master_does_not_start_ends(self):
+        start = lambda nodes, *_: nodes.processes.append(subprocess.Popen(["false"], start_new_session=True))
+        asked = SimpleNamespace(csv=os.path.join(self.folder, "soak.csv"))
+        with mock.patch.dict(os.environ), mock.patch.object(soak.Nodes, "_start", start):
+            with self.assertRaisesRegex(SystemExit, "soak: there is no master"), soak.Nodes(asked):
+                pass
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ WARM_UP = 0.2          # of the time
 GROWTH_MB = 20.0       # of memory between the halves after it: what allocators do anyway
 GROWTH_SHARE = 0.03
 STARTING_S = 600.0     # a bake may be among it
+MASTER_S = 60.0
 MEGABYTE = 1024.0 ** 2
 
 
@@ -52,13 +53,27 @@ class Nodes:
         port = free_port()
         os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
         self.log = open(self.asked.csv + ".log", "w")
-        self.master = self._start("rosmaster", "--core", "-p", str(port))
+        try:
+            self._start_all(port)
+        except BaseException:
+            self.__exit__()
+            raise
+        return self
+
+    def _await_master(self):
+        deadline = time.monotonic() + MASTER_S
         while True:
             try:
                 rospy.get_master().getPid()
-                break
+                return
             except OSError:
+                if self.processes[0].poll() is not None or time.monotonic() > deadline:
+                    raise SystemExit("soak: there is no master; the reason stands in %s.log" % self.asked.csv) from None
                 time.sleep(0.1)
+
+    def _start_all(self, port):
+        self.master = self._start("rosmaster", "--core", "-p", str(port))
+        self._await_master()
         rospy.set_param("/sun_position", {"date_time": {"year": 2024, "month": 7, "day": 1, "hour": 3, "minute": 0, "second": 0.0,
                                                         "timezone": 3.0, "rate": self.asked.rate}})
         # A given start, so that the path is known before it.
@@ -66,7 +81,6 @@ class Nodes:
                                     "autostart": False, "camera": {"width": self.asked.width, "height": self.asked.width * 3 // 4}})
         self.sun = self._start("rosrun", "sunlit", "sun_position_node", "__name:=sun_position")
         self.render = self._start("rosrun", "sunlit", "render_node", "__name:=render")
-        return self
 
     def __exit__(self, *_):
         for number in (signal.SIGINT, signal.SIGKILL):

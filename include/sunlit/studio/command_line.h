@@ -78,8 +78,8 @@ class CommandLine {
   /// What read() took, as typed, in its order: "--fov" and "60".
   const std::vector<std::pair<std::string, std::string>>& given() const { return given_; }
   bool has(const std::string& option) const;
-  /// Throws std::invalid_argument where `option` is given, but not `other`.
-  void requireWith(const std::string& option, const std::string& other) const;
+  /// Throws std::invalid_argument where `option` is given, but none of `others`.
+  void requireWith(const std::string& option, const std::vector<std::string>& others) const;
 
  private:
   struct Group {

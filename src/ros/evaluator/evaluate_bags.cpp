@@ -17,15 +17,19 @@ namespace {
 using namespace sunlit;
 using namespace sunlit::ros_interface;
 
-ParameterReader defaultsFor(const BagEvaluationOptions& options) {
-  const std::vector<std::string> streams = streamsIn(options.bags, options.name_space);
-  if (streams.empty())
-    throw std::runtime_error("the bags hold no " + options.name_space +
-                             "<stream>/camera/image_raw, nor that with /compressed");
+/// The parameters that a node needs, as the command line and what is recorded tell them.
+XmlRpc::XmlRpcValue usualParameters(const std::vector<std::string>& streams) {
   XmlRpc::XmlRpcValue tree;
   for (std::size_t i = 0; i < streams.size(); ++i) tree["streams"][static_cast<int>(i)] = streams[i];
   tree["output_dir"] = "by --out";
-  return ParameterReader(tree, "defaults");
+  return tree;
+}
+
+std::vector<std::string> streamsOf(const BagEvaluationOptions& options) {
+  const std::vector<std::string> streams = streamsIn(options.bags, options.name_space);
+  if (!streams.empty()) return streams;
+  throw std::runtime_error("the bags hold no " + options.name_space +
+                           "<stream>/camera/image_raw, nor that with /compressed");
 }
 
 /// What is typed: bags to be evaluated, or a map and queries to be localised in it.
@@ -55,6 +59,16 @@ void completeLocalisation(Options* options) {
   if (options->read) localisation.intake = options->read->intake;
 }
 
+/// Of the file, if there is one, or the defaults; without streams there, all that the bags hold.
+EvaluatorOptions parametersFor(const Options& options) {
+  const BagEvaluationOptions& evaluation = options.evaluation;
+  if (options.config.empty())
+    return readEvaluatorOptions(ParameterReader(usualParameters(streamsOf(evaluation)), "defaults"));
+  const bool by_bags = !parametersOfFile(options.config).has("streams") && !evaluation.bags.empty();
+  return readEvaluatorOptions(parametersOfFile(
+      options.config, usualParameters(by_bags ? streamsOf(evaluation) : std::vector<std::string>())));
+}
+
 /// Of what is evaluated.
 void completeEvaluation(Options* options) {
   BagEvaluationOptions& evaluation = options->evaluation;
@@ -62,8 +76,7 @@ void completeEvaluation(Options* options) {
     throw std::invalid_argument("no bag given, nor --merge with --config; --help lists all options");
   const std::string output = evaluation.evaluation.output_dir;
   const std::vector<std::string> folders = evaluation.evaluation.merge;
-  const EvaluatorOptions read =
-      options->read ? *options->read : readEvaluatorOptions(defaultsFor(evaluation));
+  const EvaluatorOptions read = parametersFor(*options);
   evaluation.evaluation = read.evaluation;
   evaluation.intake = read.intake;
   evaluation.evaluation.output_dir = output;
@@ -76,6 +89,14 @@ std::string optionOf(std::string key) {
   return "--" + key;
 }
 
+/// Throws std::invalid_argument for what only localisation and odometry heed.
+void refuseLocalisation(const studio::CommandLine& line, Options* options) {
+  for (const std::vector<Field>& rows :
+       {fieldsOf(options->localisation.localisation), fieldsOf(options->localisation.topics)}) {
+    for (const Field& row : rows) line.requireWith(optionOf(row.key), {"--map", "--odometry"});
+  }
+}
+
 /// Before the others: which detectors they may name stands in the file.
 void readConfig(const std::vector<std::string>& arguments, Options* options) {
   const std::string option = "--config";
@@ -84,7 +105,8 @@ void readConfig(const std::vector<std::string>& arguments, Options* options) {
     if (arguments[i].rfind(option + "=", 0) == 0) options->config = arguments[i].substr(option.size() + 1);
   }
   if (options->config.empty()) return;
-  options->read = readEvaluatorOptions(parametersOfFile(options->config));
+  // Which streams there are is not asked here.
+  options->read = readEvaluatorOptions(parametersOfFile(options->config, usualParameters({"any"})));
   options->localisation.localisation.known = options->read->evaluation.comparer.known;
   options->features_cache_gb = options->read->features_cache_gb;
 }
@@ -107,8 +129,8 @@ std::optional<Options> optionsOf(const std::vector<std::string>& arguments) {
             "",
             {},
             "parameters of evaluator_node: config/evaluator.yaml is an example, and list_parameters prints "
-            "all; without it their defaults, and all streams that the bags hold; localisation takes those of "
-            "detectors from it"});
+            "all; without it their defaults, and without streams in it all that the bags hold; localisation "
+            "takes those of detectors from it"});
   line.add("--namespace NAME", fieldOf(rows, "namespace"));
   line.add("--merge DIR", fieldOf(rows, "merge"));
   line.add("--features-cache-limit GB", evaluate::featuresCacheRow(&options.features_cache_gb));
@@ -127,6 +149,7 @@ std::optional<Options> optionsOf(const std::vector<std::string>& arguments) {
   if (!line.read(arguments)) return std::nullopt;
   if (!line.has("--out")) throw std::invalid_argument("--out DIR is missing; --help lists all options");
   const bool localises = line.has("--map") || line.has("--query") || line.has("--odometry");
+  if (!localises) refuseLocalisation(line, &options);
   localises ? completeLocalisation(&options) : completeEvaluation(&options);
   return options;
 }

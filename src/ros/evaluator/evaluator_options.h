@@ -1,6 +1,8 @@
 /// The parameters of the evaluator, from a parameter server or a file.
 #pragma once
 
+#include <xmlrpcpp/XmlRpcValue.h>
+
 #include <string>
 #include <vector>
 
@@ -30,8 +32,8 @@ std::vector<Field> fieldsOfOwnDetector(evaluate::Preprocessings& preprocessings)
 /// allowed.
 EvaluatorOptions readEvaluatorOptions(const ParameterReader& parameters);
 
-/// A YAML file as parameters, for programs without a master: what rosparam would read in it, but for tags.
-/// Throws std::runtime_error with path and line.
-ParameterReader parametersOfFile(const std::string& path);
+/// A YAML file as parameters, for programs without a master: what rosparam would read in it, but for tags;
+/// and those of `usual`, a map, that it lacks. Throws std::runtime_error with path and line.
+ParameterReader parametersOfFile(const std::string& path, XmlRpc::XmlRpcValue usual = {});
 
 }  // namespace sunlit::ros_interface

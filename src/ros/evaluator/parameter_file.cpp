@@ -74,7 +74,7 @@ int secondDocument(const std::string& text) {
 
 }  // namespace
 
-ParameterReader parametersOfFile(const std::string& path) {
+ParameterReader parametersOfFile(const std::string& path, XmlRpcValue usual) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be opened");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -90,6 +90,11 @@ ParameterReader parametersOfFile(const std::string& path) {
     tree = Values().of(root);
   } catch (const YAML::Exception& error) {
     fail(error.mark.line, error.msg);
+  }
+  if (usual.valid()) {
+    for (const auto& [key, value] : usual) {
+      if (!tree.hasMember(key)) tree[key] = value;
+    }
   }
   return ParameterReader(tree, path);
 }

@@ -237,6 +237,15 @@ class TestBags(unittest.TestCase):
         self.assertTrue({'boolean_rgb', 'boolean_grey', 'euclidean_rgb', 'euclidean_grey', 'sift', 'orb', 'brisk'} <=
                         {r['difference'] for r in summary})
 
+    def test_a_config_without_streams_is_of_all_that_the_bags_hold(self):
+        self.write_bags({'all.bag': [2, 0]}, range(2))
+        with open(self.path('short.yaml'), 'w') as file:
+            file.write('differences: [boolean_rgb]\n')
+        done = self.evaluate_bags('--config', self.path('short.yaml'), '--out', self.path('out'), self.path('all.bag'))
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual([(r['a'], r['b'], r['difference']) for r in rows(self.path('out'), 'summary.csv')],
+                         [('h04', 'h20', 'boolean_rgb')])
+
     def test_the_shipped_file_is_accepted_and_states_the_defaults(self):
         self.write_bags({'all.bag': [0, 1, 2]}, range(2))
         shipped = os.path.join(rospkg.RosPack().get_path('sunlit'), 'config', 'evaluator.yaml')
@@ -360,6 +369,8 @@ about:
             file.write(CONFIG + 'ratoi: 0.4\n')
         with open(self.path('broken.yaml'), 'w') as file:
             file.write(CONFIG + 'ratio: [0.4\nimages: all\n')
+        with open(self.path('streamless.yaml'), 'w') as file:
+            file.write('ratio: 0.4\n')
         with open(self.path('list.yaml'), 'w') as file:
             file.write('- h04\n')
         with open(self.path('twice.yaml'), 'w') as file:
@@ -408,6 +419,11 @@ about:
                  (['--config', self.config, '--out', self.path('full'), self.path('all.bag')],
                   'full/images/h04: folder cannot be made'),
                  (start, 'no bag given'),
+                 (start + ['--detectors', 'orb', self.path('all.bag')], '--detectors needs --map or --odometry too'),
+                 (start + ['--depth', '/depth', self.path('all.bag')], '--depth needs --map or --odometry too'),
+                 (start + ['--merge', self.folder.name, '--ratio', '0.7'], '--ratio needs --map or --odometry too'),
+                 (['--config', self.path('streamless.yaml'), '--out', self.path('out'), '--merge', self.folder.name],
+                  'streamless.yaml/streams is missing, but must be a list of names'),
                  (start + ['--merge', self.folder.name], 'holds no run'),
                  (['--colour'], '--colour')]
         for arguments, expected in cases:

@@ -106,6 +106,16 @@ class ExperimentArguments(unittest.TestCase):
             self.assertEqual(found["/evaluator/poses"], 3)
             self.assertEqual(found["/render/path/file"], os.path.join(home, "w.csv"))
 
+    def test_worlds_and_paths_have_any_letters_and_are_found_as_the_renderer_finds_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            models, path = os.path.join(folder, "my 'models'"), os.path.join(folder, "it's.csv")
+            os.makedirs(os.path.join(models, "place"))
+            open(os.path.join(models, "place", "my.world"), "w").close()
+            with open(path, "w") as waypoints:
+                waypoints.write("0,0,0\n3,0,0\n")
+            found = self.parameters("world:=model://place/my.world", "path:=" + path, 'model_path:=["%s"]' % models)
+            self.assertEqual((found["/evaluator/poses"], found["/render/model_path"], found["/render/path/file"]), (3, [models], path))
+
     def test_only_what_was_typed_counts_as_given(self):
         given = {key for key in self.parameters("noise:=true") if key.startswith("/experiment/arguments/")}
         self.assertEqual(given, {"/experiment/arguments/noise", "/experiment/arguments/output"})

@@ -70,6 +70,15 @@ class LaunchFilesStart(unittest.TestCase):
     def parameters(self, name, *arguments):
         return yaml.safe_load(subprocess.check_output(["roslaunch", "--dump-params", "sunlit", name + ".launch", *arguments]))
 
+    def test_quotes_and_apostrophes_reach_the_nodes(self):
+        folder = self.folder()
+        found = self.parameters("render", "world:=%s/it's.world" % folder, "path:=%s/a 'b'.csv" % folder,
+                                """conditions:={a: {date: '2024-12-21'}, b: {overcast: "cie"}}""")
+        self.assertEqual([found["/render/" + key] for key in ("world", "path/file", "conditions")],
+                         [folder + "/it's.world", folder + "/a 'b'.csv", {"a": "", "b": {"overcast": "cie"}}])
+        self.assertEqual(found["/sun_position/conditions"]["a"], {"year": 2024, "month": 12, "day": 21})
+        self.assertEqual(self.parameters("evaluator", "output:=%s/it's" % folder)["/evaluator/output_dir"], folder + "/it's")
+
     def test_a_file_of_parameters_counts_but_for_what_is_typed(self):
         folder = self.folder()
         for name, node, tree, typed in (

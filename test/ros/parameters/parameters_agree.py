@@ -166,6 +166,13 @@ class ParametersAgree(unittest.TestCase):
             with self.subTest(name=name):
                 self.assertIn(group + "/" + row, rows)
 
+    def test_words_of_choices_of_launch_files(self):
+        rows = programmed()["render_node"]
+        keys = {"missing": "missing", "exposure": "exposure/mode", "rasterizer": "camera/rasterizer", "lamps": "lamps",
+                "vignetting": "vignetting/natural", "mosaic": "mosaic/pattern", "overcast": "weather/overcast"}
+        self.assertEqual({name: ", ".join(words) for name, words in arguments.CHOICES.items()},
+                         {name: rows[key]["allowed"] for name, key in keys.items()})
+
     def test_parameters_that_launch_files_set(self):
         """Each is a parameter of its node, and the argument that it comes from names no other range."""
         checked = 0

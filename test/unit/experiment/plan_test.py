@@ -11,6 +11,7 @@ from unittest import mock
 from xml.etree import ElementTree
 
 import rosunit
+from roslaunch import substitution_args
 
 sys.dont_write_bytecode = True
 SOURCE = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", ".."))
@@ -27,6 +28,15 @@ def defaults(**typed):
     """The arguments of experiment.launch, as texts."""
     texts = {arg.get("name"): arg.get("default") for arg in ElementTree.parse(LAUNCH_FILE).iter("arg") if "default" in arg.attrib}
     return dict(texts, **typed)
+
+
+def handed_on(**typed):
+    """All arguments as the launch file hands them on where these are typed."""
+    context = {"arg": dict(defaults(**typed))}
+    for arg in ElementTree.parse(LAUNCH_FILE).iter("arg"):
+        if arg.get("name") in ("names", "planned"):
+            context["arg"][arg.get("name")] = substitution_args.resolve_args(arg.get("value"), context)
+    return arguments.handed_on(shlex.split(context["arg"]["planned"]))
 
 
 def planned(beginning=plan.Beginning(991), **typed):
@@ -106,6 +116,8 @@ class Arguments(unittest.TestCase):
 
     def test_conditions_are_a_list_or_a_map(self):
         self.assertEqual(arguments.condition_names("{a: {hour: 4}, b: {}}"), ["a", "b"])
+        for text, name in (("{4: {hour: 4}}", "4"), ("[a, b-c]", "'b-c'"), ("[a, [b]]", "['b']"), ("{a/b: {}}", "'a/b'")):
+            self.assert_refused("with names of letters, digits and _, a letter first, not " + name, arguments.condition_names, text)
         for text in ("morning", "5"):  # not the letters m, o, r ...
             self.assert_refused("argument conditions is '%s', but must be a list of names" % text,
                                 arguments.condition_names, text)
@@ -177,6 +189,12 @@ class Arguments(unittest.TestCase):
             self.assertEqual(arguments.folders("[~/a, b]"), [os.path.join(home, "a"), os.path.join(os.getcwd(), "b")])
             self.assertEqual(arguments.output_folder("~/results"), os.path.join(home, "results"))
 
+    def test_an_empty_folder_for_results_is_not_the_current_one(self):
+        for text in ("", " "):
+            self.assert_refused("argument output is %r, but must be a folder" % text, arguments.output_folder, text)
+        words = ["/usr/bin/roslaunch", "sunlit", "experiment.launch", "output:="]  # of which roslaunch makes the default
+        self.assertEqual(arguments.given(LAUNCH_FILE, words), {"output": ""})
+
     def test_what_was_typed_is_known_and_a_misspelt_name_is_not(self):
         words = ["/usr/bin/python3", "/usr/bin/roslaunch", "-p", "11311", "sunlit", "experiment.launch"]
         self.assertEqual(arguments.given(LAUNCH_FILE, words + ["hours:=[4, 12]", "__name:=x"]), {"hours": "[4, 12]"})
@@ -195,8 +213,36 @@ class Plan(unittest.TestCase):
 
     def test_every_argument_of_the_launch_file_is_planned_with(self):
         """An argument that is documented but never handed on would be taken without a word."""
-        handed_on = next(arg.get("value") for arg in ElementTree.parse(LAUNCH_FILE).iter("arg") if arg.get("name") == "planned")
-        self.assertEqual(["%s:=$(arg %s)" % (name, name) for name in defaults()], shlex.split(handed_on))
+        self.assertEqual(list(handed_on()), list(defaults()))
+
+    def test_what_is_handed_on_is_as_it_was_typed_whatever_quotes_are_in_it(self):
+        self.assertEqual(handed_on(), defaults())
+        typed = {"model_path": "['/home/u/my models']", "world": "it's.world", "output": "my \"best\" 'run' \\ $HOME",
+                 "conditions": "12", "noise": "true"}
+        self.assertEqual(handed_on(**typed), defaults(**typed))
+
+    def test_other_words_than_names_and_values_are_refused(self):
+        with self.assertRaisesRegex(arguments.BadArgument, "must be words NAME:=VALUE, not 'models'"):
+            arguments.handed_on(["world:=my", "models"])
+
+    def test_words_that_are_no_choice_are_refused(self):
+        for name, word, words in (("exposure", "14", "fixed, auto"), ("missing", "skip", "stop, warn"), ("lamps", "true", "auto, on, off"),
+                                  ("rasterizer", "gpu", "osmesa, egl, builtin"), ("vignetting", "cos", "none, cos4"),
+                                  ("mosaic", "rgbg", "none, rggb, bggr, grbg, gbrg")):
+            self.assert_refused("argument %s is %r, but must be one of %s" % (name, word, words), **{name: word})
+        self.assert_refused("with overcast as one of layer, cie in a, not 'cei'", conditions="{a: {hour: 4, overcast: cei}}")
+        self.assert_refused("with exposure as one of fixed, auto in a, not 14", conditions="{a: {hour: 4, exposure: 14}}")
+        planned(conditions="{a: {hour: 4, exposure: {mode: auto}}, b: {hour: 5, mosaic: rggb, overcast: layer}}")
+
+    def test_what_is_given_for_nothing_is_refused(self):
+        for name, typed, part in (("ev100", {"ev100": "9", "exposure": "auto"}, "argument ev100 is '9', but must be left out where"),
+                                  ("noise_seed", {"noise_seed": "7"}, "argument noise_seed is '7', but must be left out where")):
+            with self.assertRaisesRegex(arguments.BadArgument, part):
+                plan.check(defaults(**typed), typed)
+            plan.check(defaults(**typed))  # by a launch file that gives all of them, it may be
+        for typed in ({"ev100": "9", "exposure": "auto", "conditions": "{a: {hour: 4}, b: {hour: 4, exposure: fixed}}"},
+                      {"ev100": "9"}, {"noise_seed": "7", "noise": "1"}, {"noise_seed": "7", "conditions": "{a: {hour: 4, noise: true}}"}):
+            plan.check(defaults(**typed), typed)
 
     def test_defaults_are_no_bad_arguments(self):
         plan.check(defaults())

@@ -6,6 +6,7 @@ import math
 import os
 import pty
 import struct
+import subprocess
 import sys
 import tempfile
 import termios
@@ -22,6 +23,7 @@ sys.path[:0] = [os.path.join(SOURCE, "test", "support"), os.path.join(SOURCE, "s
 
 from screen import Screen  # noqa: E402
 from sunlit_experiment import display, progress, summary  # noqa: E402
+from sunlit_experiment.guard import Guard  # noqa: E402
 from sunlit_experiment.launch import Failure  # noqa: E402
 
 
@@ -253,7 +255,39 @@ class OnATerminal(unittest.TestCase):
         self.assertEqual(self.written(), "experiment: rendering: 1 of 991 poses (0 %)\r\n")
 
 
+    def test_a_terminal_that_hangs_up_does_not_end_the_run(self):
+        shown = display.Display(self.stream)
+        shown.show(rendering(1))
+        self.written()
+        with open(os.devnull, "rb") as nowhere:
+            os.dup2(nowhere.fileno(), self.master)
+        shown.show(rendering(2))
+        shown.close()
+        display.restore(self.stream)
+        display.say("done", self.stream)
+        display.Display(self.stream).show(rendering(3))
+
+
+class Watched(unittest.TestCase):
+
+    def test_a_guard_may_be_dismissed_again(self):
+        guard = Guard(SimpleNamespace(pid=os.getpid(), log_folder="nowhere"))
+        guard.dismiss()
+        guard.dismiss()
+        self.assertEqual(guard.process.returncode, 0)
+
+
 class InAFile(unittest.TestCase):
+
+    def test_what_nobody_reads_any_more_is_lost_and_the_run_goes_on(self):
+        """Also as Python ends, which writes what it still has."""
+        words = "import sys; from sunlit_experiment import display; [display.say('x' * 99999, sys.stdout) for _ in range(3)]"
+        read, write = os.pipe()
+        os.close(read)
+        done = subprocess.run([sys.executable, "-c", words], cwd=os.path.join(SOURCE, "scripts"), stdout=write, stderr=subprocess.PIPE,
+                              check=False)
+        os.close(write)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
 
     def test_a_line_at_each_turn_and_every_half_minute(self):
         read, write = os.pipe()

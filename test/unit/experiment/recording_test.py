@@ -117,6 +117,16 @@ class Recording(unittest.TestCase):
 
     def test_a_bag_that_is_still_being_written_is_waited_for(self):
         """A recorder outlives its experiment by the time that it needs to close its bag."""
+        self.check_that_a_writer_is_waited_for()
+
+    def test_nor_is_one_taken_away_whose_folder_is_linked(self):
+        linked = self.folder + "_linked"
+        os.symlink(self.folder, linked)
+        self.addCleanup(os.remove, linked)
+        self.folder = linked
+        self.check_that_a_writer_is_waited_for()
+
+    def check_that_a_writer_is_waited_for(self):
         self.write("recording_1.bag", range(3))
         active = self.path("recording_1.bag.active")
         os.rename(self.path("recording_1.bag"), active)
