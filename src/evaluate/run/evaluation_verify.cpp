@@ -24,10 +24,11 @@ void Evaluation::State::verifyMatched(const Work& work, const Matched& matched, 
   verified = verify(features, maps, test);
   const std::size_t pair = work.pairs[matched.pair];
   if (isSelfTested(pair)) return;
+  const std::vector<AcceptedMatch> accepted = acceptedMatches(features, maps, test);
   values.lost[matched.pair][detector] =
-      lostFeatures(features, maps, test, {images.rgb_a.cols, images.rgb_a.rows});
+      lostFeatures(features, accepted, maps, {images.rgb_a.cols, images.rgb_a.rows});
   if (isToBeDrawn(work, pair, detector, verified))
-    values.drawn[matched.pair][detector] = drawVerified(images, features, maps, test);
+    values.drawn[matched.pair][detector] = drawVerified(images, features, accepted);
 }
 
 bool Evaluation::State::isSelfTested(std::size_t pair) const {
