@@ -152,7 +152,7 @@ void Evaluation::State::claimDrawn(const Work& work) {
 
 void Evaluation::State::writeDrawn(const Work& work, const Values& values) {
   for (std::size_t i = 0; i < values.drawn.size(); ++i) {
-    for (std::size_t d = 0; d < values.drawn[i].size(); ++d) {
+    for (std::size_t d = 0; !values.faults[i] && d < values.drawn[i].size(); ++d) {
       if (values.drawn[i][d].empty()) continue;
       const std::shared_lock<std::shared_mutex> writing(writing_);
       stop_.check();
