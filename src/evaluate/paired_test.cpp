@@ -66,6 +66,12 @@ class SignedSums {
   std::vector<std::array<double, 1U << kBits>> tables_;
 };
 
+/// From that of the bootstrap of `n` values.
+std::size_t blockLengthOfSigns(std::size_t n, std::size_t block_length) {
+  const std::size_t longest = std::max<std::size_t>(1, n / kLeastBlocks);
+  return std::min(2 * block_length, longest);
+}
+
 }  // namespace
 
 double signFlipP(const std::vector<double>& differences, std::size_t block_length) {
@@ -91,8 +97,7 @@ double signFlipP(const std::vector<double>& differences, std::size_t block_lengt
 }
 
 std::size_t signBlockLength(const std::vector<double>& differences) {
-  const std::size_t longest = std::max<std::size_t>(1, differences.size() / kLeastBlocks);
-  return std::min(2 * blockLength(differences), longest);
+  return blockLengthOfSigns(differences.size(), blockLength(differences));
 }
 
 PairedTest pairedTest(const std::vector<double>& a, const std::vector<double>& b) {
@@ -115,7 +120,7 @@ PairedTest pairedTest(const std::vector<double>& a, const std::vector<double>& b
   test.high = statistics.ci_high;
   test.p = kNaN;
   if (test.n < 2) return test;
-  test.block_length = signBlockLength(differences);
+  test.block_length = blockLengthOfSigns(test.n, statistics.block_length);
   test.p = signFlipP(differences, test.block_length);
   return test;
 }

@@ -11,7 +11,8 @@ namespace sunlit::evaluate {
 namespace {
 
 constexpr std::size_t kResamples = 2000;
-constexpr double kTail = 0.025;  // on either side of a 95 % interval
+constexpr double kTail = 0.025;                        // on either side of a 95 % interval
+constexpr double kNormalQuantile = 1.959963984540054;  // of 1 - kTail
 
 std::vector<double> definedOf(const std::vector<double>& values) {
   std::vector<double> series;
@@ -138,13 +139,24 @@ Statistics statisticsOf(const std::vector<double>& values) {
   if (result.n < 2) return result;
   if (result.sd == 0.0) {  // so would all resampled means be, to the bit
     result.ci_low = result.ci_high = result.mean;
+    result.block_length = 1;
     return result;
   }
   const std::vector<double> series = definedOf(values);
-  std::vector<double> means = resampledMeans(series, blockLength(series));
+  result.block_length = blockLength(series);
+  std::vector<double> means = resampledMeans(series, result.block_length);
   std::sort(means.begin(), means.end());
   result.ci_low = quantile(means, kTail);
   result.ci_high = quantile(means, 1.0 - kTail);
+  return result;
+}
+
+Statistics shareOf(const std::vector<double>& successes) {
+  Statistics result = statisticsOf(successes);
+  if (result.n < 2 || result.sd > 0.0) return result;
+  const double n = static_cast<double>(result.n);
+  const double wide = kNormalQuantile * kNormalQuantile / (n + kNormalQuantile * kNormalQuantile);
+  (result.mean > 0.5 ? result.ci_low : result.ci_high) = result.mean > 0.5 ? 1.0 - wide : wide;
   return result;
 }
 

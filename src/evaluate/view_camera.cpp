@@ -15,32 +15,22 @@ std::optional<Eigen::Vector2d> straight(const ViewCamera& camera, const cv::Poin
   return camera.image::PinholeCamera::project(*ray);
 }
 
-/// Those features, after move(key point, where the pinhole has it).
-template <typename Move>
-Features keepStraight(const Features& features, const ViewCamera& camera, const Move& move) {
-  if (!camera.lens) return features;
-  Features ones;
+}  // namespace
+
+StraightFeatures straightOnes(const Features& features, const ViewCamera& camera) {
+  if (!camera.lens) return {features, features};
+  StraightFeatures ones;
   for (std::size_t i = 0; i < features.key_points.size(); ++i) {
     cv::KeyPoint key_point = features.key_points[i];
     const std::optional<Eigen::Vector2d> at = straight(camera, key_point.pt);
     if (!at) continue;
-    move(&key_point, *at);
-    ones.key_points.push_back(key_point);
-    ones.descriptors.push_back(features.descriptors.row(static_cast<int>(i)));
+    ones.seen.key_points.push_back(key_point);
+    ones.seen.descriptors.push_back(features.descriptors.row(static_cast<int>(i)));
+    key_point.pt = {static_cast<float>(at->x()), static_cast<float>(at->y())};
+    ones.straight.key_points.push_back(key_point);
   }
+  ones.straight.descriptors = ones.seen.descriptors;
   return ones;
-}
-
-}  // namespace
-
-Features straightOnes(const Features& features, const ViewCamera& camera) {
-  return keepStraight(features, camera, [](cv::KeyPoint*, const Eigen::Vector2d&) {});
-}
-
-Features straightened(const Features& features, const ViewCamera& camera) {
-  return keepStraight(features, camera, [](cv::KeyPoint* key_point, const Eigen::Vector2d& at) {
-    key_point->pt = {static_cast<float>(at.x()), static_cast<float>(at.y())};
-  });
 }
 
 }  // namespace sunlit::evaluate

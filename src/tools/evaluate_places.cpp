@@ -176,8 +176,10 @@ void evaluatePlaces(const PlacesOptions& options) {
   }
   evaluate::writePlaces(options.output + "/places.csv", rows);
   if (rows[0].scores.without_truth > 0) {
-    std::printf("%zu queries have no true place within %zu frames: missed by every recall, left out of PR\n",
-                rows[0].scores.without_truth, options.tolerance);
+    std::printf(
+        "%zu queries have no true place within %zu frames: missed by every recall@N, not in PR's recall, but "
+        "their guesses count against its precision\n",
+        rows[0].scores.without_truth, options.tolerance);
   }
   print(rows);
 }

@@ -21,13 +21,18 @@ struct Statistics {
   double sd = 0.0;            ///< s, (2), divided by n − 1; NaN where n < 2
   double ci_low = 0.0;        ///< 95 % confidence interval of the mean; NaN where n < 2
   double ci_high = 0.0;
+  std::size_t block_length = 0;  ///< of the bootstrap that gives it; 0 where n < 2
 };
 
 /// `values` in the order of the path. Neighbouring frames see nearly the same place, so the interval is that
 /// of a circular moving-block bootstrap (blockLength(), 2000 resamples, percentiles, a fixed seed): same
 /// values, same interval.
 Statistics statisticsOf(const std::vector<double>& values);
-/// The same, but for the interval: it is NaN.
+/// Of successes, 1 or 0 each: the same, but where all are alike, which resampling takes for certain, Wilson's
+/// interval (E. B. Wilson, J. Am. Stat. Assoc. 22 (1927), 209-212) of n trials: what does not vary tells of
+/// no correlation, so its blocks are of length 1.
+Statistics shareOf(const std::vector<double>& successes);
+/// As statisticsOf(), but for the interval: it is NaN.
 Statistics momentsOf(const std::vector<double>& values);
 
 /// Length of the blocks that keep the correlation of neighbours: the automatic rule of Politis and White

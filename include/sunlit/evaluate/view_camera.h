@@ -11,7 +11,7 @@
 namespace sunlit::evaluate {
 
 /// The pinhole is what the picture would be of without distortion: where it is asked for alone, key points
-/// must be straightened() first.
+/// must be those of straightOnes().
 struct ViewCamera : image::PinholeCamera {
   ViewCamera() = default;
   ViewCamera(const image::PinholeCamera& pinhole) : image::PinholeCamera(pinhole) {}
@@ -23,7 +23,8 @@ struct ViewCamera : image::PinholeCamera {
 
   std::shared_ptr<const image::Lens> lens;  ///< null: none
 
-  /// Of a point in the optical frame, z > 0; none where the lens shows nothing of it.
+  /// Of a point in the optical frame; none where the lens shows nothing of it. Without a lens, z > 0; a wide
+  /// one looks beside and behind itself.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const {
     return lens ? lens->project(point) : image::PinholeCamera::project(point);
   }
@@ -41,9 +42,13 @@ struct ViewCamera : image::PinholeCamera {
 /// is 4 there across and 9 outwards.
 inline constexpr double kStraightWithin_deg = 70.0;
 
-/// Those features that lie within it and that the lens shows; all, where there is no lens.
-Features straightOnes(const Features& features, const ViewCamera& camera);
-/// Of these, with each key point where the pinhole alone would show it.
-Features straightened(const Features& features, const ViewCamera& camera);
+/// Features that lie within it, twice.
+struct StraightFeatures {
+  Features seen;      ///< with each key point where it is in the picture
+  Features straight;  ///< with each where the pinhole alone would show it
+};
+
+/// Of what the lens shows; all, where there is none.
+StraightFeatures straightOnes(const Features& features, const ViewCamera& camera);
 
 }  // namespace sunlit::evaluate

@@ -5,7 +5,6 @@
 #include <map>
 #include <opencv2/core.hpp>
 #include <stdexcept>
-#include <tuple>
 
 #include "evaluate/features/detector_pool.h"
 
@@ -16,14 +15,6 @@ constexpr std::int64_t kSecond_ns = 1000000000;
 
 cv::Mat matOfDepth(image::DepthImage& depth) {
   return cv::Mat(depth.height, depth.width, CV_32FC1, depth.data.data());
-}
-
-using Known = std::set<std::tuple<std::string, std::string, std::int64_t>>;  // condition, method, pose
-
-Known knownIn(const ObservationFile& file) {
-  Known known;
-  for (const ObservationKey& key : file.keys()) known.emplace(key.stream, key.detector, key.pose);
-  return known;
 }
 
 /// As few bytes as both can be told by, since that is faster and gives the same distances.
@@ -60,7 +51,6 @@ AtlasObserver::AtlasObserver(const AtlasOptions& options) {
 AtlasObserver::~AtlasObserver() = default;
 
 void AtlasObserver::observe(AtlasView view, ObservationFile* file) const {
-  const Known known = knownIn(*file);
   std::vector<PosedView> seen;
   for (AtlasView::Lit& lit : view.lit)
     seen.push_back(
@@ -68,11 +58,13 @@ void AtlasObserver::observe(AtlasView view, ObservationFile* file) const {
   for (const PosedView& one : seen) requireWhole(one);
   const std::size_t methods = methods_.size();
   std::vector<Observation> found(seen.size() * methods);
-  const auto isKnown = [&](std::size_t task) {
-    return known.count({view.lit[task / methods].condition, methods_[task % methods]->name, view.pose}) > 0;
-  };
+  std::vector<char> is_known(found.size());
+  for (std::size_t task = 0; task < found.size(); ++task) {
+    is_known[task] =
+        file->holds(view.lit[task / methods].condition, methods_[task % methods]->name, view.pose) ? 1 : 0;
+  }
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t task) {
-    if (isKnown(task)) return;
+    if (is_known[task]) return;
     const PosedView& one = seen[task / methods];
     Observation& observation = found[task];
     observation.camera = view.camera;
@@ -82,7 +74,7 @@ void AtlasObserver::observe(AtlasView view, ObservationFile* file) const {
     observation.ev100 = view.lit[task / methods].ev100;
   });
   for (std::size_t task = 0; task < found.size(); ++task) {
-    if (isKnown(task)) continue;
+    if (is_known[task]) continue;
     file->add({view.lit[task / methods].condition, methods_[task % methods]->name, view.pose,
                view.pose * kSecond_ns},
               found[task]);
@@ -91,11 +83,11 @@ void AtlasObserver::observe(AtlasView view, ObservationFile* file) const {
 
 std::set<std::pair<std::string, std::int64_t>> observedWhole(const ObservationFile& file,
                                                              std::size_t methods) {
-  std::map<std::pair<std::string, std::int64_t>, std::size_t> counts;
-  for (const auto& [condition, method, pose] : knownIn(file)) ++counts[{condition, pose}];
+  std::map<std::pair<std::string, std::int64_t>, std::set<std::string>> known;
+  for (const ObservationKey& key : file.keys()) known[{key.stream, key.pose}].insert(key.detector);
   std::set<std::pair<std::string, std::int64_t>> whole;
-  for (const auto& [picture, count] : counts) {
-    if (count == methods) whole.insert(picture);
+  for (const auto& [picture, by] : known) {
+    if (by.size() == methods) whole.insert(picture);
   }
   return whole;
 }

@@ -74,7 +74,7 @@ AtlasCell cellOf(const AtlasCellKey& key, const std::vector<AtlasRow>& rows) {
   }));
   const std::vector<double> metres = errors(rows, &AtlasRow::error_m);
   const std::vector<double> degrees = errors(rows, &AtlasRow::error_deg);
-  for (std::size_t r = 0; r < kReaches.size(); ++r) cell.within[r] = statisticsOf(hits(rows, kReaches[r]));
+  for (std::size_t r = 0; r < kReaches.size(); ++r) cell.within[r] = shareOf(hits(rows, kReaches[r]));
   cell.median_error_m = medianError(metres);
   cell.median_error_deg = medianError(degrees);
   cell.difference = statisticsOf(column(rows, &AtlasRow::difference));

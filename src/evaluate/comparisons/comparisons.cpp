@@ -51,7 +51,14 @@ bool shareStream(const Measured& a, const Measured& b) {
                      [&](const std::string& stream) { return has(b, stream); });
 }
 
-std::vector<Pair> pairsOfHours(const Group& group, const std::vector<std::string>& references) {
+std::string leftOut(std::size_t count, const std::string& metric, const std::string& between) {
+  return "comparisons.csv: " + std::to_string(count) + " comparisons of " + metric + " between " + between +
+         " were left out, since of more than " + std::to_string(kMostCompared) +
+         " together none could be told from chance";
+}
+
+std::vector<Pair> pairsOfHours(const Group& group, const std::vector<std::string>& references,
+                               std::vector<std::string>* left_out) {
   const auto isOfOneMethod = [](const Measured& a, const Measured& b) {
     return a.method == b.method && a.hours != b.hours && shareStream(a, b);
   };
@@ -62,7 +69,10 @@ std::vector<Pair> pairsOfHours(const Group& group, const std::vector<std::string
            std::any_of(references.begin(), references.end(),
                        [&](const std::string& one) { return has(a, one) && has(b, one); });
   });
-  return with_reference.empty() ? pairs : with_reference;  // that they are left out is said of them
+  if (with_reference.empty()) return pairs;  // that they are left out is said of them
+  left_out->push_back(leftOut(pairs.size() - with_reference.size(), group.front()->metric,
+                              "hours that do not share the map"));
+  return with_reference;
 }
 
 /// Values of both at the poses that both have.
@@ -92,9 +102,7 @@ void addFamily(const std::string& name, const std::vector<Pair>& pairs, Comparis
   if (pairs.empty()) return;
   const std::string& metric = pairs.front().first->metric;
   if (pairs.size() > kMostCompared) {
-    result.left_out.push_back("comparisons.csv: " + std::to_string(pairs.size()) + " comparisons of " +
-                              metric + " between " + name + " were left out, since of more than " +
-                              std::to_string(kMostCompared) + " together none could be told from chance");
+    result.left_out.push_back(leftOut(pairs.size(), metric, name));
     return;
   }
   const bool is_of_methods = name == "methods";
@@ -128,8 +136,9 @@ Comparisons comparisonsOf(const std::vector<Measured>& measured, const std::vect
   Comparisons result;
   std::vector<Pair> compared;
   for (const Group& group : byMetric(measured)) {
-    for (const auto& [name, pairs] : {std::make_pair("methods", pairsOfMethods(group)),
-                                      std::make_pair("hours", pairsOfHours(group, references))}) {
+    for (const auto& [name, pairs] :
+         {std::make_pair("methods", pairsOfMethods(group)),
+          std::make_pair("hours", pairsOfHours(group, references, &result.left_out))}) {
       const std::size_t before = result.rows.size();
       addFamily(name, pairs, result);
       if (result.rows.size() > before) compared.insert(compared.end(), pairs.begin(), pairs.end());

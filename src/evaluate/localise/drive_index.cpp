@@ -34,7 +34,7 @@ ObservedMap mapOf(const DriveIndex& drives, const std::vector<std::string>& stre
       map.origins.push_back({stream, pose});
     }
   }
-  if (!map.origins.empty()) map.localiser->finish();
+  map.localiser->finish();
   return map;
 }
 

@@ -1,11 +1,10 @@
 #include "sunlit/evaluate/localise/localisation.h"
 
-#include <tbb/parallel_for.h>
-
 #include <stdexcept>
 #include <utility>
 
 #include "evaluate/features/detector_pool.h"
+#include "evaluate/localise/each_detector.h"
 
 namespace sunlit::evaluate {
 
@@ -47,19 +46,22 @@ Localisation::Localisation(const LocalisationOptions& options) : options_(option
 
 Localisation::~Localisation() = default;
 
-void Localisation::addKeyFrames(const std::vector<PosedView>& views) {
+DetectorFaults Localisation::addKeyFrames(const std::vector<PosedView>& views) {
   for (const PosedView& view : views) {
     requireWhole(view);
     if (view.depth.empty()) throw std::invalid_argument("a view has no depth, but a map needs it");
   }
   std::vector<KeyFrame> frames(views.size() * detectors_.size());
-  tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t task) {
-    const PosedView& view = views[task / detectors_.size()];
-    PerDetector& detector = *detectors_[task % detectors_.size()];
-    frames[task] = keyFrameOf(view, detector.pool.detect(view.picture));
+  DetectorFaults faults = forEachDetector(views, options_.detectors, [&](std::size_t v, std::size_t d) {
+    frames[v * detectors_.size() + d] = keyFrameOf(views[v], detectors_[d]->pool.detect(views[v].picture));
   });
-  for (std::size_t task = 0; task < frames.size(); ++task)
-    detectors_[task % detectors_.size()]->localiser.add(std::move(frames[task]));
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    for (std::size_t d = 0; d < detectors_.size(); ++d) {
+      if (faults.count({v, d}) == 0)
+        detectors_[d]->localiser.add(std::move(frames[v * detectors_.size() + d]));
+    }
+  }
+  return faults;
 }
 
 void Localisation::finishMap() {
@@ -81,18 +83,17 @@ std::vector<MapSize> Localisation::mapSizes() const {
   return sizes;
 }
 
-std::vector<std::vector<LocalisedQuery>> Localisation::localise(const std::vector<PosedView>& queries) const {
+LocalisedQueries Localisation::localise(const std::vector<PosedView>& queries) const {
   for (const PosedView& query : queries) requireWhole(query);
-  std::vector<std::vector<LocalisedQuery>> results(queries.size(),
-                                                   std::vector<LocalisedQuery>(detectors_.size()));
-  tbb::parallel_for(std::size_t{0}, queries.size() * detectors_.size(), [&](std::size_t task) {
-    const PosedView& query = queries[task / detectors_.size()];
-    PerDetector& detector = *detectors_[task % detectors_.size()];
-    const Features features = straightened(detector.pool.detect(query.picture), query.camera);
-    results[task / detectors_.size()][task % detectors_.size()] =
-        detector.localiser.localise({features, query.camera, query.map_from_optical});
+  LocalisedQueries localised;
+  localised.results.assign(queries.size(), std::vector<LocalisedQuery>(detectors_.size()));
+  localised.faults = forEachDetector(queries, options_.detectors, [&](std::size_t q, std::size_t d) {
+    const PosedView& query = queries[q];
+    const Features found = straightOnes(detectors_[d]->pool.detect(query.picture), query.camera).straight;
+    localised.results[q][d] =
+        detectors_[d]->localiser.localise({found, query.camera, query.map_from_optical});
   });
-  return results;
+  return localised;
 }
 
 }  // namespace sunlit::evaluate

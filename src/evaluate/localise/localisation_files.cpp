@@ -40,7 +40,7 @@ LocalisationSummary summaryOf(const std::vector<const LocalisationRow*>& rows) {
   for (std::size_t r = 0; r < kReaches.size(); ++r) {
     std::vector<double> hits;
     for (const LocalisationRow* row : rows) hits.push_back(isWithin(row->result, kReaches[r]) ? 1.0 : 0.0);
-    summary.within[r] = statisticsOf(hits);
+    summary.within[r] = shareOf(hits);
   }
   summary.median_error_m = medianError(metres);
   summary.median_error_deg = medianError(degrees);

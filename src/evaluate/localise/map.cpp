@@ -35,7 +35,8 @@ KeyFrame keyFrameOf(const Eigen::Isometry3d& map_from_optical, const Features& f
 }
 
 KeyFrame keyFrameOf(const PosedView& view, const Features& features) {
-  return keyFrameOf(view.map_from_optical, features, pointsOf(view, features));
+  const Features seen = straightOnes(features, view.camera).seen;
+  return keyFrameOf(view.map_from_optical, seen, pointsOf(view, seen));
 }
 
 std::string nameOfMap(const std::vector<std::string>& streams) {

@@ -234,8 +234,7 @@ void ObservationFile::scan() {
     const std::string bytes = payload(entry, std::min(entry.bytes, kLongestHead));
     Reader in(bytes, path_);
     entry.key = takeKey(in);
-    entries_.push_back(std::move(entry));
-    end_ += kHead + head[1];
+    append(entry);
   }
   cutOff(size);
 }
@@ -267,8 +266,18 @@ void ObservationFile::add(const ObservationKey& key, const Observation& observat
     errno = reason;
     failWith(path_, is_mended ? "cannot be written" : "cannot be written, and ends torn");
   }
-  entries_.push_back({key, end_, bytes.size()});
-  end_ += record.bytes().size();
+  append({key, end_, bytes.size()});
+}
+
+void ObservationFile::append(const Entry& entry) {
+  entries_.push_back(entry);
+  held_.emplace(entry.key.stream, entry.key.detector, entry.key.pose);
+  end_ += kHead + entry.bytes;
+}
+
+bool ObservationFile::holds(const std::string& stream, const std::string& detector, std::int64_t pose) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return held_.count({stream, detector, pose}) > 0;
 }
 
 std::vector<ObservationKey> ObservationFile::keys() const {

@@ -47,7 +47,7 @@ ObservedResult localiseObserved(const ObservedDrives& observed, const Localisati
               {detector, detectorOf(options, detector).space(), options.map_every_m, options.localiser},
               progress.stop));
   ObservedResult result;
-  result.key_frames = maps.at(0).origins.size();
+  for (const ObservedMap& map : maps) result.key_frames = std::max(result.key_frames, map.origins.size());
   if (result.key_frames == 0) return result;
   const std::vector<Query> queries = queriesIn(drives, streams, options.detectors);
   result.rows.resize(queries.size());

@@ -19,7 +19,7 @@ Eigen::Isometry3d Odometry::follow(const PosedView& view, const Features& featur
     takeAsKeyFrame(view, features);
     return map_from_optical_;
   }
-  const Features straight = straightened(features, view.camera);
+  const Features straight = straightOnes(features, view.camera).straight;
   const LocalisedQuery found = key_frame_->localise({straight, view.camera, map_from_optical_});
   const bool is_lost = found.status != LocalisationStatus::kLocalised;
   const Eigen::Isometry3d before = map_from_optical_;

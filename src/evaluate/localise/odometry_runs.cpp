@@ -4,6 +4,7 @@
 
 #include "evaluate/features/detector_pool.h"
 #include "evaluate/files/files.h"
+#include "evaluate/localise/each_detector.h"
 #include "sunlit/image/files.h"
 
 namespace sunlit::evaluate {
@@ -24,19 +25,18 @@ OdometryRuns::OdometryRuns(const LocalisationOptions& options) : options_(option
 
 OdometryRuns::~OdometryRuns() = default;
 
-std::vector<std::vector<Eigen::Isometry3d>> OdometryRuns::follow(const std::vector<PosedView>& views) {
+FollowedViews OdometryRuns::follow(const std::vector<PosedView>& views) {
   std::vector<std::vector<Features>> features(detectors_.size(), std::vector<Features>(views.size()));
-  tbb::parallel_for(std::size_t{0}, detectors_.size() * views.size(), [&](std::size_t task) {
-    const std::size_t d = task % detectors_.size();
-    const std::size_t view = task / detectors_.size();
-    features[d][view] = detectors_[d]->pool.detect(views[view].picture);
+  FollowedViews followed;
+  followed.faults = forEachDetector(views, options_.detectors, [&](std::size_t v, std::size_t d) {
+    features[d][v] = detectors_[d]->pool.detect(views[v].picture);
   });
-  std::vector<std::vector<Eigen::Isometry3d>> poses(detectors_.size());
+  followed.poses.resize(detectors_.size());
   tbb::parallel_for(std::size_t{0}, detectors_.size(), [&](std::size_t d) {
     for (std::size_t i = 0; i < views.size(); ++i)
-      poses[d].push_back(detectors_[d]->odometry.follow(views[i], features[d][i]));
+      followed.poses[d].push_back(detectors_[d]->odometry.follow(views[i], features[d][i]));
   });
-  return poses;
+  return followed;
 }
 
 const Odometry& OdometryRuns::at(std::size_t detector) const {

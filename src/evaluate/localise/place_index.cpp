@@ -5,19 +5,22 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <opencv2/core.hpp>
-#include <utility>
+#include <set>
 
 #include "sunlit/evaluate/places/vlad.h"
 
 namespace sunlit::evaluate {
 namespace {
 
-/// As detectors give them; key frames keep some as bytes.
-cv::Mat givenAs(int norm, const cv::Mat& descriptors) {
-  cv::Mat given = descriptors;
-  if (norm == cv::NORM_L2 && !descriptors.empty()) descriptors.convertTo(given, CV_32F);
-  return given;
+/// One for every two different points where these are few: a feature tells by how far it is off its word.
+int wordsFor(const cv::Mat& points) {
+  std::set<std::string> different;
+  const std::size_t enough = 2 * kVisualWords;
+  for (int i = 0; i < points.rows && different.size() < enough; ++i) {
+    const auto* const row = points.ptr<char>(i);
+    different.emplace(row, row + static_cast<std::size_t>(points.cols) * points.elemSize());
+  }
+  return static_cast<int>(different.size() / 2);
 }
 
 }  // namespace
@@ -26,13 +29,16 @@ PlaceIndex::PlaceIndex(const DescriptorSpace& space, const std::vector<KeyFrame>
     : space_(space), frames_(frames.size()) {
   std::vector<cv::Mat> descriptors;
   for (const KeyFrame& frame : frames) descriptors.push_back(frame.descriptors);
-  const cv::Mat training = vladTrainingDescriptors(descriptors);
-  words_ = trainVocabulary(vladPoints(space_, givenAs(space_.norm, training)), kVisualWords, kVocabularySeed);
+  const cv::Mat training = vladPoints(space_, vladTrainingDescriptors(descriptors));
+  const int words = wordsFor(training);
+  if (words == 0) return;
+  words_ = trainVocabulary(training, words, kVocabularySeed);
   tbb::parallel_for(std::size_t{0}, frames.size(),
                     [&](std::size_t i) { frames_[i] = encode(frames[i].descriptors); });
 }
 
 std::vector<std::size_t> PlaceIndex::nearest(const cv::Mat& descriptors, std::size_t count) const {
+  if (words_.empty()) return {};
   const PlaceMatrix distances = vladDistances({encode(descriptors)}, frames_);
   const auto distance = [&](std::size_t i) { return distances(0, static_cast<Eigen::Index>(i)); };
   std::vector<std::size_t> order(frames_.size());
@@ -47,7 +53,7 @@ std::vector<std::size_t> PlaceIndex::nearest(const cv::Mat& descriptors, std::si
 }
 
 cv::Mat PlaceIndex::encode(const cv::Mat& descriptors) const {
-  return vladOf(vladPoints(space_, givenAs(space_.norm, descriptors)), words_);
+  return vladOf(vladPoints(space_, descriptors), words_);
 }
 
 }  // namespace sunlit::evaluate

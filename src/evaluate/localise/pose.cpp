@@ -117,16 +117,16 @@ std::optional<PoseEstimate> estimatePose(const std::vector<Sighting>& sightings,
   if (!problem.search(options)) return std::nullopt;
   PoseEstimate estimate;
   for (int round = 0;; ++round) {
-    estimate.map_from_optical = problem.mapFromOptical();
-    std::vector<std::size_t> inliers =
-        inliersOf(sightings, camera, estimate.map_from_optical, options.reprojection_px);
-    if (inliers.size() < least) return std::nullopt;
+    const Eigen::Isometry3d pose = problem.mapFromOptical();
+    std::vector<std::size_t> inliers = inliersOf(sightings, camera, pose, options.reprojection_px);
+    if (inliers.size() < least) break;  // least squares may push some out: the pose before has enough
     const bool is_settled = inliers == estimate.inliers;
+    estimate.map_from_optical = pose;
     estimate.inliers = std::move(inliers);
     if (is_settled || round == kMostRefinements) break;
     problem.refine(estimate.inliers);
   }
-  if (!estimate.map_from_optical.matrix().allFinite()) return std::nullopt;
+  if (estimate.inliers.empty() || !estimate.map_from_optical.matrix().allFinite()) return std::nullopt;
   estimate.covariance = covarianceOf(sightings, camera, estimate);
   return estimate;
 }

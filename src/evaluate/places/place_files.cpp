@@ -14,14 +14,15 @@
 namespace sunlit::evaluate {
 
 void writePlaces(const std::string& path, const std::vector<PlaceRow>& rows) {
-  std::string text = "method,queries,recall_1,recall_5,recall_10,pr_auc,recall_at_100_precision\n";
+  std::string text =
+      "method,queries,recall_1,recall_5,recall_10,pr_auc,recall_at_100_precision,without_truth\n";
   for (const PlaceRow& row : rows) {
     const PlaceScores& scores = row.scores;
     text += csvField(row.method) + ',' + std::to_string(scores.queries);
     for (const double value :
          {scores.recall_1, scores.recall_5, scores.recall_10, scores.pr_auc, scores.recall_at_100_precision})
       text += ',' + formatNumber(value);
-    text += '\n';
+    text += ',' + std::to_string(scores.without_truth) + '\n';
   }
   image::writeFileAtomically(path, text);
 }

@@ -104,22 +104,18 @@ void Evaluation::State::observeSet(const StampSet& set, Work& work) {
     if (set.streams[s].rgb.empty()) continue;
     const std::string fault = observer_->faultOf(s, work.truth, set.streams[s].rgb.size());
     work.observed[s] = fault.empty() ? 1 : 0;
-    if (fault.empty()) continue;
-    ++counts_.streams[s].unlocalised;
-    report({"unlocalised", work.pose, set.stamp_ns, options_.streams[s], fault});
+    if (!fault.empty()) reportUnlocalised(work, s, fault);
   }
 }
 
-void Evaluation::State::observeMatched(const Work& work, const Matched& matched) const {
-  if (!observer_) return;
-  const std::string& detector = layout_.differences[matched.difference];
-  const auto& [stream_a, stream_b] = pair_streams_[work.pairs[matched.pair]];
-  const auto observe = [&](std::size_t stream, const Features& features) {
-    if (work.observed[stream] != 0 && observer_->observes(stream, detector))
-      observer_->observe({stream, work.pose, work.stamp_ns}, work.truth, detector, features);
-  };
-  observe(stream_a, matched.a);
-  observe(stream_b, matched.b);
+void Evaluation::State::reportUnlocalised(const Work& work, std::size_t stream, const std::string& fault) {
+  ++counts_.streams[stream].unlocalised;
+  report({"unlocalised", work.pose, work.stamp_ns, options_.streams[stream], fault});
+}
+
+bool Evaluation::State::isObserved(const Work& work, std::size_t stream, std::size_t difference) const {
+  return observer_ && work.observed[stream] != 0 &&
+         observer_->observes(stream, layout_.differences[difference]);
 }
 
 LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbacks) {

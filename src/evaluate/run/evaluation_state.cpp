@@ -99,17 +99,18 @@ void Evaluation::State::handOverComplete(std::size_t most_bytes, std::int64_t ne
     for (const Arrival& arrival : sets_.find(stamp)->streams) bytes += bytesOf(arrival.rgb);
     return bytes;
   };
-  std::vector<std::int64_t> complete;
+  std::vector<std::pair<std::int64_t, std::size_t>> complete;  // stamps, with their bytes
   std::size_t bytes = 0;
   for (const std::int64_t stamp : sets_.openStamps()) {
     const std::optional<std::int64_t> pose = poses_.of(stamp);
     if (stamp == newest_ns || !pose || !hasAllImages(*sets_.find(stamp), *pose)) continue;
-    complete.push_back(stamp);
-    bytes += bytesAt(stamp);
+    complete.emplace_back(stamp, bytesAt(stamp));
+    bytes += complete.back().second;
   }
   for (std::size_t i = 0; i < complete.size() && bytes > most_bytes; ++i) {
-    bytes -= bytesAt(complete[i]);
-    close(complete[i], poses_.of(complete[i]), Reason::kWhole);
+    const auto [stamp, bytes_of_it] = complete[i];
+    bytes -= bytes_of_it;
+    close(stamp, poses_.of(stamp), Reason::kWhole);
   }
 }
 

@@ -45,8 +45,7 @@ class Evaluation::State {
   LocalisationOutcome localise(const LocaliseCallbacks& callbacks);
   void compareMethods(const StopToken& stop);
   void addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns);
-  /// The stream's next image was compressed with loss.
-  void noteLossy(std::size_t stream);
+  void noteLossy(std::size_t stream);  // its next image was compressed with loss
   const StopToken& stopToken() const { return stop_; }
   Counts counts() const;
   bool isComplete() const;
@@ -77,7 +76,9 @@ class Evaluation::State {
     std::vector<std::vector<DifferenceValue>> differences;
     std::vector<std::vector<Verified>> verified;
     std::vector<std::vector<LostFeatures>> lost;
-    std::vector<std::vector<cv::Mat>> drawn;  // empty where nothing is drawn
+    std::vector<std::vector<cv::Mat>> drawn;         // empty where nothing is drawn
+    std::vector<std::optional<std::string>> faults;  // of pairs that could not be compared
+    std::map<std::size_t, std::string> unobserved;   // by stream: why one of its detectors has nothing
   };
 
   static constexpr const char* kLostFile = "lost_features.bin";
@@ -106,13 +107,12 @@ class Evaluation::State {
   bool isSample(std::int64_t pose) const;
   std::vector<std::size_t> keptPictures(const StampSet& set, std::int64_t pose, bool is_evaluated);
   void writePictures(const Work& work);
-  std::vector<ImagePair> imagePairs(const Work& work) const;
   void evaluate(const Work& work);
   void evaluatePairs(const Work& work);
+  Values noValues(const Work& work) const;
   Values compare(const Work& work) const;
-  std::vector<PairRecord> keepAll(const Work& work, const Values& values, const std::string& fault);
-  bool keep(const PairRecord& record, const VerifiedRecord& verified, const std::vector<LostFeatures>& lost,
-            const std::string& fault);
+  std::vector<PairRecord> keepAll(const Work& work, const Values& values);
+  std::optional<PairRecord> keep(const Work& work, const Values& values, std::size_t i);
   void settle(const Work& work);
   void tell(const Work& work, const std::vector<PairRecord>& records);
   void waitForWork();
@@ -127,7 +127,8 @@ class Evaluation::State {
   bool isWholeAlone() const;
   std::size_t unobserved(const ObservedStreams& streams, const std::vector<LocalisationRow>& rows) const;
   std::vector<std::string> uncompared(const ObservedStreams& streams) const;
-  void observeMatched(const Work& work, const Matched& matched) const;
+  bool isObserved(const Work& work, std::size_t stream, std::size_t difference) const;
+  void reportUnlocalised(const Work& work, std::size_t stream, const std::string& fault);
   void verifyMatched(const Work& work, const Matched& matched, Values& values) const;
   std::string drawnName(std::size_t pair, std::size_t detector) const;
   void claimDrawn(const Work& work);

@@ -24,10 +24,11 @@ void Evaluation::State::verifyMatched(const Work& work, const Matched& matched, 
   verified = verify(features, maps, test);
   const std::size_t pair = work.pairs[matched.pair];
   if (isSelfTested(pair)) return;
+  const std::vector<AcceptedMatch> accepted = acceptedMatches(features, maps, test);
   values.lost[matched.pair][detector] =
-      lostFeatures(features, maps, test, {images.rgb_a.cols, images.rgb_a.rows});
+      lostFeatures(features, accepted, maps, {images.rgb_a.cols, images.rgb_a.rows});
   if (isToBeDrawn(work, pair, detector, verified))
-    values.drawn[matched.pair][detector] = drawVerified(images, features, maps, test);
+    values.drawn[matched.pair][detector] = drawVerified(images, features, accepted);
 }
 
 bool Evaluation::State::isSelfTested(std::size_t pair) const {
@@ -151,7 +152,7 @@ void Evaluation::State::claimDrawn(const Work& work) {
 
 void Evaluation::State::writeDrawn(const Work& work, const Values& values) {
   for (std::size_t i = 0; i < values.drawn.size(); ++i) {
-    for (std::size_t d = 0; d < values.drawn[i].size(); ++d) {
+    for (std::size_t d = 0; !values.faults[i] && d < values.drawn[i].size(); ++d) {
       if (values.drawn[i][d].empty()) continue;
       const std::shared_lock<std::shared_mutex> writing(writing_);
       stop_.check();

@@ -2,10 +2,25 @@
 #include <tbb/parallel_invoke.h>
 
 #include <exception>
+#include <optional>
+#include <utility>
 
 #include "evaluate/run/evaluation_state.h"
 
 namespace sunlit::evaluate {
+namespace {
+
+// In words; what is no std::exception goes on.
+std::optional<std::string> faultOf(const std::exception_ptr& thrown) {
+  if (!thrown) return std::nullopt;
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
 
 void Evaluation::State::writePictures(const Work& work) {
   for (const std::size_t s : work.pictures) {
@@ -13,12 +28,6 @@ void Evaluation::State::writePictures(const Work& work) {
     if (is_broken_off_) return;
     pictures_->write(options_.streams[s], work.pose, work.stamp_ns, work.images[s]);
   }
-}
-
-std::vector<ImagePair> Evaluation::State::imagePairs(const Work& work) const {
-  std::vector<ImagePair> pairs;
-  for (const std::size_t p : work.pairs) pairs.push_back(pair_streams_[p]);
-  return pairs;
 }
 
 void Evaluation::State::evaluate(const Work& work) {
@@ -29,37 +38,50 @@ void Evaluation::State::evaluate(const Work& work) {
   }
 }
 
-Evaluation::State::Values Evaluation::State::compare(const Work& work) const {
+Evaluation::State::Values Evaluation::State::noValues(const Work& work) const {
   const std::size_t detectors = verified_layout_.differences.size();
   Values values;
+  values.differences.resize(work.pairs.size());
   values.verified.resize(work.pairs.size(), std::vector<Verified>(detectors));
   values.lost.resize(work.pairs.size(), std::vector<LostFeatures>(detectors));
   values.drawn.resize(work.pairs.size(), std::vector<cv::Mat>(detectors));
-  MatchedVisit visit;
-  if (isVerifying() || observer_) {
-    visit = [&](const Matched& matched) {
-      verifyMatched(work, matched, values);
-      observeMatched(work, matched);
-    };
+  values.faults.resize(work.pairs.size());
+  return values;
+}
+
+Evaluation::State::Values Evaluation::State::compare(const Work& work) const {
+  Values values = noValues(work);
+  CompareVisits visits;
+  visits.found = [&](const Found& found) {
+    if (!isObserved(work, found.image, found.difference)) return;
+    observer_->observe({found.image, work.pose, work.stamp_ns}, work.truth,
+                       layout_.differences[found.difference], found.features);
+  };
+  if (isVerifying()) visits.matched = [&](const Matched& matched) { verifyMatched(work, matched, values); };
+  std::vector<ImagePair> pairs;
+  for (const std::size_t p : work.pairs) pairs.push_back(pair_streams_[p]);
+  Compared compared = comparer_.compareEach(work.images, pairs, stop_, visits);
+  values.differences = std::move(compared.values);
+  for (std::size_t i = 0; i < work.pairs.size(); ++i) values.faults[i] = faultOf(compared.faults[i]);
+  for (std::size_t d = 0; d < compared.image_faults.size(); ++d) {
+    for (std::size_t s = 0; s < work.images.size(); ++s) {
+      const auto fault = faultOf(compared.image_faults[d][s]);
+      if (fault && isObserved(work, s, d)) values.unobserved.emplace(s, *fault);
+    }
   }
-  values.differences = comparer_.compare(work.images, imagePairs(work), stop_, visit);
   return values;
 }
 
 // A pose's rows come after its pictures: whoever takes up a killed run does not ask for this pose again.
 void Evaluation::State::evaluatePairs(const Work& work) {
-  Values values;
-  std::string fault;
+  Values values = noValues(work);
   std::exception_ptr picture_fault;
   const auto compare_all = [&] {
     try {
       values = compare(work);
     } catch (const Stopped&) {  // keepAll() will see it
     } catch (const std::exception& error) {
-      fault = error.what();
-      values.differences.resize(work.pairs.size());
-      values.verified.resize(work.pairs.size());
-      values.lost.resize(work.pairs.size());
+      values.faults.assign(work.pairs.size(), error.what());
     }
   };
   const auto write = [&] {
@@ -72,22 +94,20 @@ void Evaluation::State::evaluatePairs(const Work& work) {
   tbb::parallel_invoke(write, compare_all);
   if (picture_fault) std::rethrow_exception(picture_fault);
   writeDrawn(work, values);
-  const std::vector<PairRecord> kept = keepAll(work, values, fault);
+  const std::vector<PairRecord> kept = keepAll(work, values);
   removeFallen();
   tell(work, kept);
 }
 
-std::vector<PairRecord> Evaluation::State::keepAll(const Work& work, const Values& values,
-                                                   const std::string& fault) {
+std::vector<PairRecord> Evaluation::State::keepAll(const Work& work, const Values& values) {
   const std::shared_lock<std::shared_mutex> writing(writing_);
   stop_.check();
   std::vector<PairRecord> kept;
   for (std::size_t i = 0; i < work.pairs.size(); ++i) {
-    const PairRecord record{work.pose, work.stamp_ns, work.pairs[i], values.differences[i]};
-    if (keep(record, {work.pose, work.stamp_ns, work.pairs[i], values.verified[i]}, values.lost[i], fault))
-      kept.push_back(record);
+    if (auto record = keep(work, values, i)) kept.push_back(std::move(*record));
   }
   const std::lock_guard<std::mutex> lock(mutex_);
+  for (const auto& [stream, fault] : values.unobserved) reportUnlocalised(work, stream, fault);
   settle(work);
   return kept;
 }
@@ -121,24 +141,26 @@ void Evaluation::State::giveUp(const Work& work) {
   if (callbacks_.progress) callbacks_.progress(completed_.size());
 }
 
-// False where there is nothing to keep: the comparison failed, or another stamp counts by now. The rows of
-// frames.csv come last: without them, whoever takes up a killed run asks for the pair again.
-bool Evaluation::State::keep(const PairRecord& record, const VerifiedRecord& verified,
-                             const std::vector<LostFeatures>& lost, const std::string& fault) {
+// The i-th pair of `work`. None where there is nothing to keep: the comparison failed, or another stamp
+// counts by now. The rows of frames.csv come last: without them, whoever takes up a killed run asks for the
+// pair again.
+std::optional<PairRecord> Evaluation::State::keep(const Work& work, const Values& values, std::size_t i) {
+  const PairRecord record{work.pose, work.stamp_ns, work.pairs[i], values.differences[i]};
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (taken_.at({record.pose, record.pair}) != record.stamp_ns) return false;
-  if (!fault.empty()) {
+  if (taken_.at({record.pose, record.pair}) != record.stamp_ns) return std::nullopt;
+  if (values.faults[i]) {
     ++counts_.pairs[record.pair].failed;
-    report({"failed", record.pose, record.stamp_ns, options_.pairs[record.pair].name(), fault});
-    return false;
+    report({"failed", record.pose, record.stamp_ns, options_.pairs[record.pair].name(), *values.faults[i]});
+    return std::nullopt;
   }
   if (isVerifying()) {
     if (!isSelfTested(record.pair)) {
       std::string bytes;
-      for (std::size_t d = 0; d < lost.size(); ++d)
-        bytes += lostRecordOf(record.stamp_ns, record.pair, d, lost[d]);
+      for (std::size_t d = 0; d < values.lost[i].size(); ++d)
+        bytes += lostRecordOf(record.stamp_ns, record.pair, d, values.lost[i][d]);
       lost_file_.append(bytes);
     }
+    const VerifiedRecord verified{record.pose, record.stamp_ns, record.pair, values.verified[i]};
     rankKept(verified);
     verified_file_.append(verifiedText(verified_layout_, verified));
     verified_.push_back(verified);
@@ -146,7 +168,7 @@ bool Evaluation::State::keep(const PairRecord& record, const VerifiedRecord& ver
   frames_file_.append(framesText(layout_, record));
   records_.push_back(record);
   ++counts_.pairs[record.pair].evaluated;
-  return true;
+  return record;
 }
 
 }  // namespace sunlit::evaluate

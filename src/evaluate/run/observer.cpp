@@ -1,7 +1,7 @@
 #include "evaluate/run/observer.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "sunlit/evaluate/posed_view.h"
 
@@ -71,18 +71,14 @@ bool Observer::observes(std::size_t stream, const std::string& detector) const {
 
 void Observer::observe(const ObservedPicture& picture, const GroundTruth::View& truth,
                        const std::string& detector, const Features& features) {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (!kept_.emplace(picture.stream, picture.stamp_ns, detector).second) return;
-  }
   PosedView view;
   view.camera = truth.cameras.at(picture.stream).value;
   view.map_from_optical = truth.map_from_optical.value;
   view.depth = truth.depth.value;
   // From here on the camera is a pinhole, and so are its key points.
-  Observation observation{view.camera, view.map_from_optical, straightened(features, view.camera), {}};
-  if (roles_[picture.stream] == Role::kMap)
-    observation.points = pointsOf(view, straightOnes(features, view.camera));
+  StraightFeatures ones = straightOnes(features, view.camera);
+  Observation observation{view.camera, view.map_from_optical, std::move(ones.straight), {}};
+  if (roles_[picture.stream] == Role::kMap) observation.points = pointsOf(view, ones.seen);
   file_.add({setup_.streams[picture.stream], detector, picture.pose, picture.stamp_ns}, observation);
 }
 

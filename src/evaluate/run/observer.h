@@ -3,11 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
 #include <opencv2/core/mat.hpp>
-#include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "evaluate/run/ground_truth.h"
@@ -42,7 +39,7 @@ class Observer {
   /// Why a picture of this size can be no key frame or query; empty where it can, or need not.
   std::string faultOf(std::size_t stream, const GroundTruth::View& truth, const cv::Size& size) const;
   bool observes(std::size_t stream, const std::string& detector) const;
-  /// Keeps what `detector` found in a picture without fault, once. Thread-safe.
+  /// Keeps what `detector` found in a picture without fault. Thread-safe.
   void observe(const ObservedPicture& picture, const GroundTruth::View& truth, const std::string& detector,
                const Features& features);
 
@@ -54,8 +51,6 @@ class Observer {
   std::vector<Role> roles_;  // by stream
   GroundTruth truth_;
   ObservationFile file_;
-  std::mutex mutex_;
-  std::set<std::tuple<std::size_t, std::int64_t, std::string>> kept_;  // stream, stamp, detector
 };
 
 }  // namespace sunlit::evaluate

@@ -48,11 +48,18 @@ Similarity umeyama(const Centred& x, const Centred& y, bool with_scale) {
   if (!(d[1] > kDegenerate * d[0])) {
     throw std::invalid_argument(
         "the positions of the truth or of the estimate are all on one line or at one point, which leaves "
-        "open "
-        "how to turn the estimate; align by yaw, or not at all");
+        "open how to turn the estimate; align by yaw, or not at all");
   }
   Eigen::Vector3d s(1.0, 1.0, 1.0);  // eq. 43
-  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) s[2] = -1.0;
+  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) {
+    s[2] = -1.0;
+    if (!(d[1] - d[2] > kDegenerate * d[0])) {
+      throw std::invalid_argument(
+          "the estimate is the truth mirrored, and as long along one axis as along another, which leaves "
+          "open "
+          "how to turn it; align by yaw, or not at all");
+    }
+  }
   Similarity result;
   result.rotation = svd.matrixU() * s.asDiagonal() * svd.matrixV().transpose();  // eq. 40
   if (with_scale) result.scale = d.dot(s) / (squares(x.points) / n);             // eq. 42, 36
@@ -67,9 +74,8 @@ Similarity yaw(const Centred& a, const Centred& b) {
   const double all = std::sqrt(squares(a.points) * squares(b.points));
   if (!(std::hypot(along, across) > kDegenerate * all)) {
     throw std::invalid_argument(
-        "the positions of the truth or of the estimate are all at one place seen from above, which leaves "
-        "open "
-        "how to turn the estimate; do not align");
+        "the positions of the truth or of the estimate are all at one place seen from above, or one is the "
+        "other mirrored there, which leaves open how to turn the estimate; do not align");
   }
   Similarity result;
   result.rotation = Eigen::AngleAxisd(std::atan2(across, along), Eigen::Vector3d::UnitZ()).toRotationMatrix();

@@ -5,11 +5,11 @@
 
 namespace sunlit::evaluate {
 
-cv::Mat drawVerified(const ImagesToVerify& images, const FeaturePair& features, const PointMaps& maps,
-                     const RatioTest& test) {
+cv::Mat drawVerified(const ImagesToVerify& images, const FeaturePair& features,
+                     const std::vector<AcceptedMatch>& accepted) {
   std::vector<cv::DMatch> right;
   std::vector<cv::DMatch> wrong;
-  for (const AcceptedMatch& match : acceptedMatches(features, maps, test)) {
+  for (const AcceptedMatch& match : accepted) {
     (match.is_right ? right : wrong)
         .emplace_back(static_cast<int>(match.a), static_cast<int>(match.b), match.distance);
   }

@@ -36,11 +36,11 @@ void count(std::uint16_t& cell) {
 
 }  // namespace
 
-LostFeatures lostFeatures(const FeaturePair& features, const PointMaps& maps, const RatioTest& test,
-                          const PictureSize& size_a) {
+LostFeatures lostFeatures(const FeaturePair& features, const std::vector<AcceptedMatch>& accepted,
+                          const PointMaps& maps, const PictureSize& size_a) {
   const std::vector<cv::KeyPoint>& points = features.a.key_points;
   std::vector<char> is_kept(points.size(), 0);
-  for (const AcceptedMatch& match : acceptedMatches(features, maps, test)) {
+  for (const AcceptedMatch& match : accepted) {
     if (match.is_right) is_kept[match.a] = 1;
   }
   LostFeatures result;

@@ -1,5 +1,6 @@
 #include "ros/evaluator/bag_localisation.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
@@ -24,7 +25,8 @@ class BagLocalisation {
         streams_(localisationStreams(options.maps, options.queries, options.topics)),
         localisation_(options.localisation),
         source_({options.topics, options.intake, options.output_dir}),
-        map_name_(nameOf(streams_.map)) {}
+        map_name_(nameOf(streams_.map)),
+        origins_(options.localisation.detectors.size()) {}
 
   int run() {
     for (const BagStream& stream : streams_.map) addToMap(stream);
@@ -36,7 +38,9 @@ class BagLocalisation {
     writeLocalisation(fileOf("localisation.csv"), rows_);
     writeLocalisationPoses(fileOf("localisation_poses.csv"), rows_);
     writeLocalisationSummary(fileOf("localisation_summary.csv"), summaries);
-    writeComparisons(fileOf("comparisons.csv"), comparisonsOf(measuredOf(rows_), {map_name_}).rows);
+    const evaluate::Comparisons compared = comparisonsOf(measuredOf(rows_), {map_name_});
+    writeComparisons(fileOf("comparisons.csv"), compared.rows);
+    for (const std::string& line : compared.left_out) std::printf("%s\n", line.c_str());
     for (const Found& found : found_) writeTrajectories(found);
     std::printf("\n%s\n%s\n", localisationTable(summaries).c_str(), fileOf("localisation.csv").c_str());
     return source_.finish();
@@ -70,20 +74,31 @@ class BagLocalisation {
       if (spacing.takes(views->entries()[i].map_from_optical.translation())) chosen.push_back(i);
     }
     source_.forEach(*views, chosen, {"key frames made", true, [&](const auto& which, const auto& read) {
-                                       localisation_.addKeyFrames(read);
-                                       for (const std::size_t i : which)
-                                         origins_.push_back(originOf(stream, views->entries()[i]));
+                                       auto faults = localisation_.addKeyFrames(read);
+                                       for (std::size_t v = 0; v < which.size(); ++v)
+                                         addOrigins(originOf(stream, views->entries()[which[v]]), v, faults);
+                                       return faults;
                                      }});
   }
 
+  void addOrigins(const evaluate::KeyFrameOrigin& origin, std::size_t view,
+                  const evaluate::DetectorFaults& faults) {
+    for (std::size_t d = 0; d < origins_.size(); ++d) {
+      if (faults.count({view, d}) == 0) origins_[d].push_back(origin);
+    }
+  }
+
   void tellMap() const {
-    for (const evaluate::MapSize& size : localisation_.mapSizes()) {
-      if (size.key_frames == 0)
-        throw std::runtime_error("the map has no key frame: " + source_.problemsInWords());
+    const std::vector<evaluate::MapSize> sizes = localisation_.mapSizes();
+    const bool is_empty = std::all_of(sizes.begin(), sizes.end(),
+                                      [](const evaluate::MapSize& size) { return size.key_frames == 0; });
+    if (is_empty) throw std::runtime_error("the map has no key frame: " + source_.problemsInWords());
+    for (const evaluate::MapSize& size : sizes) {
       std::printf("map %s, %s: %zu key frames with %zu points, %.1f MB (%.0f kB a key frame)\n",
                   map_name_.c_str(), size.detector.c_str(), size.key_frames, size.points,
                   static_cast<double>(size.bytes) / 1e6,
-                  static_cast<double>(size.bytes) / 1e3 / static_cast<double>(size.key_frames));
+                  static_cast<double>(size.bytes) / 1e3 /
+                      static_cast<double>(std::max<std::size_t>(size.key_frames, 1)));
     }
   }
 
@@ -92,9 +107,10 @@ class BagLocalisation {
     const std::vector<std::size_t> usable = source_.usable(*views, false);
     Found found{stream.fileName(), {}, rows_.size()};
     source_.forEach(*views, usable, {"queries localised", false, [&](const auto& which, const auto& read) {
-                                       const auto results = localisation_.localise(read);
+                                       auto found = localisation_.localise(read);
                                        for (std::size_t q = 0; q < which.size(); ++q)
-                                         addRows(*views, which[q], results[q]);
+                                         addRows(*views, which[q], q, found);
+                                       return found.faults;
                                      }});
     found.end_row = rows_.size();
     for (const std::size_t i : usable)
@@ -102,13 +118,15 @@ class BagLocalisation {
     found_.push_back(std::move(found));
   }
 
-  void addRows(const BagViews& views, std::size_t number,
-               const std::vector<evaluate::LocalisedQuery>& results) {
+  void addRows(const BagViews& views, std::size_t number, std::size_t query,
+               const evaluate::LocalisedQueries& localised) {
     const BagViews::Entry& entry = views.entries()[number];
+    const std::vector<evaluate::LocalisedQuery>& results = localised.results[query];
     for (std::size_t d = 0; d < results.size(); ++d) {
+      if (localised.faults.count({query, d}) > 0) continue;
       rows_.push_back({entry.pose, entry.stamp_ns, map_name_, views.stream().name,
                        options_.localisation.detectors[d], results[d], entry.map_from_optical,
-                       evaluate::originOf(results[d], origins_)});
+                       evaluate::originOf(results[d], origins_[d])});
     }
   }
 
@@ -130,7 +148,7 @@ class BagLocalisation {
   evaluate::Localisation localisation_;
   ViewSource source_;
   std::string map_name_;
-  std::vector<evaluate::KeyFrameOrigin> origins_;  // of each key frame of the map
+  std::vector<std::vector<evaluate::KeyFrameOrigin>> origins_;  // by detector, of its key frames
   std::vector<LocalisationRow> rows_;
   std::vector<Found> found_;
 };

@@ -27,8 +27,8 @@ std::vector<Field> fieldsOf(BagLocalisationOptions& options);
 /// Makes the map, finds the queries, writes localisation.csv, localisation_summary.csv, what could not be
 /// used (localisation_problems.csv), and for each query stream its truth and each detector's estimate as TUM
 /// files (truth_NAME.tum, estimate_NAME_DETECTOR.tum; of camera_link), and prints a table. The exit status of
-/// the program: 0, or 3 where an image could not be used. Throws std::runtime_error for a bag that cannot be
-/// read, and where no key frame or no query is left.
+/// the program: 0, or 3 where an image could not be used, or not by each detector. Throws std::runtime_error
+/// for a bag that cannot be read, and where no key frame or no query is left.
 int localiseBags(const BagLocalisationOptions& options);
 
 }  // namespace sunlit::ros_interface

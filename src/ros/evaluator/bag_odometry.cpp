@@ -45,13 +45,14 @@ class BagOdometry {
     std::vector<evaluate::Trajectory> estimates(options_.localisation.detectors.size());
     source_.forEach(*views, source_.usable(*views, true),
                     {"poses followed", true, [&](const auto& entries, const auto& read) {
-                       const auto poses = runs.follow(read);
+                       const auto followed = runs.follow(read);
                        for (std::size_t i = 0; i < entries.size(); ++i) {
                          const BagViews::Entry& entry = views->entries()[entries[i]];
                          truth.push_back(poseOfLink(entry.stamp_ns, entry.map_from_optical));
                          for (std::size_t d = 0; d < estimates.size(); ++d)
-                           estimates[d].push_back(poseOfLink(entry.stamp_ns, poses[d][i]));
+                           estimates[d].push_back(poseOfLink(entry.stamp_ns, followed.poses[d][i]));
                        }
+                       return followed.faults;
                      }});
     if (truth.empty())
       throw std::runtime_error(stream.name + ": nothing to follow: " + source_.problemsInWords());

@@ -208,7 +208,9 @@ std::string remarksOf(const evaluate::EvaluationOptions& options, const evaluate
     add(c.lost, "sent, but lost on the way", options.streams[s]);
     add(c.unexpected, "of poses that are not expected, left out", options.streams[s]);
     add(c.lossy, "compressed with loss (JPEG)", options.streams[s]);
-    add(c.unlocalised, "not localised, for want of a usable depth, pose or camera", options.streams[s]);
+    add(c.unlocalised,
+        "not localised, for want of a usable depth, pose or camera, or since a detector failed",
+        options.streams[s]);
   }
   return line;
 }

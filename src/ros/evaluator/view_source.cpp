@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
+#include <utility>
 
 #include "ros/conversions/received_images.h"
 #include "ros/conversions/time.h"
@@ -63,7 +65,9 @@ void ViewSource::forEach(const BagViews& views, const std::vector<std::size_t>& 
         addProblem(views.stream(), job.needs_depth, views.entries()[entries[i]].stamp_ns, one.fault);
       }
     }
-    job.hand(which, read);
+    for (const auto& [view_and_detector, fault] : job.hand(which, read))
+      addProblem(views.stream(), job.needs_depth, views.entries()[which[view_and_detector.first]].stamp_ns,
+                 fault);
     log.update(end);
   }
 }
@@ -75,7 +79,10 @@ void ViewSource::addProblem(const BagStream& stream, bool needs_depth, std::int6
 
 std::string ViewSource::problemsInWords() const {
   if (problems_.empty()) return "there is none";
-  std::string text = std::to_string(problems_.size()) + " images could not be used (" + options_.output_dir +
+  std::set<std::pair<std::string, std::int64_t>> images;  // of which several detectors may fail
+  for (const evaluate::LocalisationProblem& problem : problems_)
+    images.emplace(problem.stream, problem.stamp_ns);
+  std::string text = std::to_string(images.size()) + " images could not be used (" + options_.output_dir +
                      kProblemsFile + "): ";
   for (std::size_t i = 0; i < std::min(problems_.size(), kProblemsShown); ++i) {
     const evaluate::LocalisationProblem& problem = problems_[i];

@@ -11,6 +11,7 @@
 
 #include "ros/evaluator/bag_views.h"
 #include "ros/evaluator/view_topics.h"
+#include "sunlit/evaluate/localise/localisation.h"
 #include "sunlit/evaluate/localise/localisation_files.h"
 #include "sunlit/evaluate/trajectory/trajectory.h"
 
@@ -32,12 +33,12 @@ class ViewSource {
   /// Entries that have a camera and a pose and, where it `needs_depth`, depth. The others are problems.
   std::vector<std::size_t> usable(const BagViews& views, bool needs_depth);
   /// Hands on the views of `entries`, with the entries that they are of, a few at a time; those that cannot
-  /// be read are problems. `work` as in "queries localised".
+  /// be read are problems, as is what detectors threw. `work` as in "queries localised".
   struct Job {
     std::string work;
     bool needs_depth = false;
-    std::function<void(const std::vector<std::size_t>& entries,
-                       const std::vector<evaluate::PosedView>& views)>
+    std::function<evaluate::DetectorFaults(const std::vector<std::size_t>& entries,
+                                           const std::vector<evaluate::PosedView>& views)>
         hand;
   };
   void forEach(const BagViews& views, const std::vector<std::size_t>& entries, const Job& job);

@@ -109,6 +109,21 @@ TEST(ConfidenceInterval, WithoutBlocksWouldHoldItFarTooSeldom) {
   EXPECT_LT(held / 300.0, 0.5);
 }
 
+TEST(ConfidenceInterval, OfAShareIsNeverWithoutWidth) {
+  // 0 of 10 by Wilson's formula: 1.96² / (10 + 1.96²) = 0.2775.
+  const Statistics none = shareOf(std::vector<double>(10, 0.0)), all = shareOf(std::vector<double>(10, 1.0));
+  EXPECT_EQ(none.mean, 0.0);
+  EXPECT_EQ(none.ci_low, 0.0);
+  EXPECT_NEAR(none.ci_high, 0.2775, 5e-5);
+  EXPECT_EQ(all.ci_high, 1.0);
+  EXPECT_NEAR(all.ci_low, 1.0 - 0.2775, 5e-5);
+  EXPECT_TRUE(std::isnan(shareOf({1.0}).ci_low));
+  // The others are as they were.
+  const std::vector<double> some = {1, 1, 0, 1, 1, 1, 0, 0, 1, 1, 1, 1};
+  EXPECT_EQ(shareOf(some).ci_low, statisticsOf(some).ci_low);
+  EXPECT_EQ(shareOf(some).ci_high, statisticsOf(some).ci_high);
+}
+
 TEST(BlockLength, GrowsWithCorrelation) {
   std::mt19937_64 generator(7);
   const std::size_t none = blockLength(autoregressive(2000, 0.0, generator));

@@ -1,11 +1,10 @@
-// Key points of a lens go where OpenCV's own functions undistort them to, and views meet through lenses.
+// Key points of a lens go where OpenCV's own functions undistort them to, and depth meets through lenses.
 #include "sunlit/evaluate/view_camera.h"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/calib3d.hpp>
 
-#include "sunlit/evaluate/verify/depth_maps.h"
 #include "support/published_lenses.h"
 #include "support/textured_scene.h"
 
@@ -28,7 +27,7 @@ Features grid(const image::PinholeCamera& camera) {
 TEST(ViewCamera, StraightensKeyPointsAsOpenCvDoes) {
   for (const PublishedLens& published : {eurocLens(), kittiLens(), tumLens(), tumViLens()}) {
     const ViewCamera camera(published.camera, published.distortion);
-    const Features bent = grid(published.camera), straight = straightened(bent, camera);
+    const Features bent = grid(published.camera), straight = straightOnes(bent, camera).straight;
     const cv::Matx33d k(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
     ASSERT_GT(straight.key_points.size(), bent.key_points.size() / 2) << published.name;
     for (std::size_t i = 0; i < straight.key_points.size(); ++i) {
@@ -50,16 +49,18 @@ TEST(ViewCamera, StraightensKeyPointsAsOpenCvDoes) {
 
 TEST(ViewCamera, LeavesOutWhatIsTooFarFromTheAxisAndKeepsAllOfAPinhole) {
   const ViewCamera fisheye(tumViLens().camera, tumViLens().distortion);
-  for (const cv::KeyPoint& key_point : straightOnes(grid(fisheye), fisheye).key_points) {
+  for (const cv::KeyPoint& key_point : straightOnes(grid(fisheye), fisheye).seen.key_points) {
     const Eigen::Vector3d ray = fisheye.unproject({key_point.pt.x, key_point.pt.y}).value();
     EXPECT_LT(std::acos(ray.z()), (kStraightWithin_deg + 1e-6) * kRadPerDeg);
   }
   const ViewCamera pinhole(d435iLens().camera, d435iLens().distortion);
   EXPECT_EQ(pinhole.lens, nullptr);
-  EXPECT_EQ(straightened(grid(pinhole), pinhole).key_points.size(), grid(pinhole).key_points.size());
+  for (const Features& features :
+       {straightOnes(grid(pinhole), pinhole).seen, straightOnes(grid(pinhole), pinhole).straight})
+    EXPECT_EQ(features.key_points.size(), grid(pinhole).key_points.size());
 }
 
-// Two views of a wall: where depth says that a pixel's place is seen, the other camera's own ray hits it.
+// Two views of a wall: where depth says that a pixel's place is, the other camera sees it at the same depth.
 TEST(ViewCamera, ViewsMeetThroughTheirLenses) {
   for (const image::Distortion& distortion :
        {image::Distortion{image::LensModel::kPlumbBob, {-0.283, 0.074, 2e-4, 2e-5}},
@@ -68,17 +69,21 @@ TEST(ViewCamera, ViewsMeetThroughTheirLenses) {
     const TexturedScene wall({{{10, 40, 40}, {0, -80, 0}, {0, 0, -80}, 1}});
     const PosedView a = wall.seenFrom(lookingAlongX({0, 0, 0}), camera);
     const PosedView b = wall.seenFrom(lookingAlongX({1.0, 0.7, -0.3}, 0.1), camera);
-    const PointMaps maps = depthMaps(a, b);
     int met = 0;
     for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(80, 60), {50, 40}, {110.5, 90.25}, {60, 100}}) {
-      const auto there = maps.b_from_a(pixel);
-      if (!there) continue;
-      ++met;
+      const auto seen = pointAt(a, pixel);
+      if (!seen) continue;
       const Eigen::Vector3d of_a = a.map_from_optical.linear() * camera.unproject(pixel).value();
       const Eigen::Vector3d place = a.map_from_optical.translation() + of_a * (10.0 / of_a.x());
+      const Eigen::Vector3d of_b = b.map_from_optical.inverse() * *seen;
+      const auto there = camera.project(of_b);
       const auto expected = camera.project(b.map_from_optical.inverse() * place);
-      ASSERT_TRUE(expected);
+      ASSERT_TRUE(there && expected);
       EXPECT_LT((*there - *expected).norm(), 0.02);  // depth is interpolated between pixels
+      const auto shown = depthAt(b.depth, *there);
+      if (!shown) continue;
+      ++met;
+      EXPECT_NEAR(*shown, camera.depthOf(of_b), 0.01 * *shown);
     }
     EXPECT_GE(met, 3);
   }

@@ -25,7 +25,7 @@ struct Comparison {
 
 struct Comparisons {
   std::vector<Comparison> rows;       ///< by metric, then family, in the order of what is measured
-  std::vector<std::string> left_out;  ///< families of more than kMostCompared, and why, in words
+  std::vector<std::string> left_out;  ///< of families of more than kMostCompared what, and why, in words
 };
 
 /// Of more in one family the least p, 1 / (1 + kSignFlips), could not become 0.05.

@@ -58,8 +58,8 @@ struct ObservedMap {
   std::vector<KeyFrameOrigin> origins;
 };
 
-/// Of the drive of each stream the first, and one every map_every_m; finished, where there is any. Of other
-/// poses no features are read. Throws Stopped.
+/// Of the drive of each stream the first, and one every map_every_m; finished. Of other poses no features are
+/// read. Throws Stopped.
 ObservedMap mapOf(const DriveIndex& drives, const std::vector<std::string>& streams,
                   const MapOptions& options, const StopToken& stop = {});
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sunlit/evaluate/differences/comparer.h"
@@ -39,6 +41,16 @@ struct MapSize {
   std::size_t bytes = 0;
 };
 
+/// What detectors threw, "sift: …", by view and detector: it costs that view of that detector alone.
+using DetectorFaults = std::map<std::pair<std::size_t, std::size_t>, std::string>;
+
+/// Of each query: [query][detector], in the order of LocalisationOptions::detectors; of no use where there is
+/// a fault.
+struct LocalisedQueries {
+  std::vector<std::vector<LocalisedQuery>> results;
+  DetectorFaults faults;
+};
+
 /// A map, and queries found in it. Results are the same to the bit for any number of threads.
 class Localisation {
  public:
@@ -49,16 +61,16 @@ class Localisation {
   Localisation& operator=(const Localisation&) = delete;
 
   const LocalisationOptions& options() const { return options_; }
-  /// Each view becomes a key frame of every detector, in their order. Of a view features with their points
-  /// stay, no pixels. Runs in parallel. Throws std::invalid_argument for what requireWhole() refuses, and for
-  /// a view without depth.
-  void addKeyFrames(const std::vector<PosedView>& views);
-  /// Needed once, behind the last key frame and before the first query. Throws std::invalid_argument where
-  /// Retrieval::kVlad finds too few different features.
+  /// Each view becomes a key frame of every detector, in their order, but of those that throw. Of a view
+  /// features with their points stay, no pixels. Runs in parallel. Throws std::invalid_argument for what
+  /// requireWhole() refuses, and for a view without depth.
+  DetectorFaults addKeyFrames(const std::vector<PosedView>& views);
+  /// Needed once, behind the last key frame and before the first query.
   void finishMap();
   std::vector<MapSize> mapSizes() const;
-  /// [query][detector], in the order of options().detectors. Depth of queries is not used. Runs in parallel.
-  std::vector<std::vector<LocalisedQuery>> localise(const std::vector<PosedView>& queries) const;
+  /// Depth of queries is not used. Runs in parallel. Throws std::invalid_argument for what requireWhole()
+  /// refuses.
+  LocalisedQueries localise(const std::vector<PosedView>& queries) const;
 
  private:
   struct PerDetector;

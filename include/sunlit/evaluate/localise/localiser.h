@@ -94,8 +94,8 @@ class Localiser {
   /// Behind those that are there.
   void add(KeyFrame frame);
   const std::vector<KeyFrame>& frames() const { return frames_; }
-  /// Needed once all frames are there: learns what Retrieval::kVlad goes by. Throws std::invalid_argument
-  /// where they have too few different features for that.
+  /// Needed once all frames are there: learns what Retrieval::kVlad goes by. Where they have fewer than two
+  /// different features, that retrieves nothing.
   void finish();
 
   /// Of each feature that matches in several key frames the nearest match counts, of equally near ones that

@@ -33,7 +33,7 @@ std::vector<Eigen::Vector3d> pointsOf(const PosedView& view, const Features& fea
 /// Of those features whose `points`, one a feature, are known.
 KeyFrame keyFrameOf(const Eigen::Isometry3d& map_from_optical, const Features& features,
                     const std::vector<Eigen::Vector3d>& points);
-/// By pointsOf().
+/// By pointsOf(), of straightOnes() alone: so far from the axis as queries are looked for.
 KeyFrame keyFrameOf(const PosedView& view, const Features& features);
 
 /// What a map made of several streams is called: "h04+h12".

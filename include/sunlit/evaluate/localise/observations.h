@@ -7,7 +7,9 @@
 #include <limits>
 #include <mutex>
 #include <opencv2/core/mat.hpp>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "sunlit/evaluate/features/features.h"
@@ -61,6 +63,8 @@ class ObservationFile {
   void add(const ObservationKey& key, const Observation& observation);
   /// Those in the file, in the order in which they came.
   std::vector<ObservationKey> keys() const;
+  /// Whether there is one of this picture and detector, whatever its stamp.
+  bool holds(const std::string& stream, const std::string& detector, std::int64_t pose) const;
   /// The one of keys()[index].
   Observation read(std::size_t index) const;
   /// Of the same, for few hundred bytes of reading.
@@ -78,6 +82,7 @@ class ObservationFile {
   };
   bool readAt(void* data, std::size_t bytes, std::uint64_t offset) const;
   void scan();
+  void append(const Entry& entry);
   void cutOff(std::uint64_t size);
   Entry entryAt(std::size_t index) const;
   std::string payload(const Entry& entry, std::uint64_t beginning) const;
@@ -89,6 +94,7 @@ class ObservationFile {
   mutable std::mutex mutex_;
   std::uint64_t end_ = 0;
   std::vector<Entry> entries_;
+  std::set<std::tuple<std::string, std::string, std::int64_t>> held_;  // stream, detector, pose of entries_
 };
 
 }  // namespace sunlit::evaluate

@@ -34,7 +34,7 @@ struct ObservedDrives {
 };
 
 struct ObservedResult {
-  std::size_t key_frames = 0;         ///< of the map, each with features of every detector
+  std::size_t key_frames = 0;         ///< of the detector that has most: one that threw lacks some
   std::vector<LocalisationRow> rows;  ///< none without a key frame
 };
 

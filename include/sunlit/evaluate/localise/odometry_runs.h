@@ -13,14 +13,20 @@
 
 namespace sunlit::evaluate {
 
+/// Of each view: [detector][view]. One that a detector throws on is followed as one without features.
+struct FollowedViews {
+  std::vector<std::vector<Eigen::Isometry3d>> poses;
+  DetectorFaults faults;
+};
+
 class OdometryRuns {
  public:
   /// Throws std::invalid_argument as Localisation does.
   explicit OdometryRuns(const LocalisationOptions& options);
   ~OdometryRuns();
 
-  /// The next views: [detector][view], see Odometry::follow(). Runs in parallel, to the same bits.
-  std::vector<std::vector<Eigen::Isometry3d>> follow(const std::vector<PosedView>& views);
+  /// The next views, see Odometry::follow(). Runs in parallel, to the same bits.
+  FollowedViews follow(const std::vector<PosedView>& views);
   const Odometry& at(std::size_t detector) const;
 
  private:

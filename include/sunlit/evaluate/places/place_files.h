@@ -15,7 +15,7 @@ struct PlaceRow {
   PlaceScores scores;
 };
 
-/// Columns: method, queries, recall_1, recall_5, recall_10, pr_auc, recall_at_100_precision.
+/// Columns: method, queries, recall_1, recall_5, recall_10, pr_auc, recall_at_100_precision, without_truth.
 void writePlaces(const std::string& path, const std::vector<PlaceRow>& rows);
 
 /// The names of the pictures beside a matrix.

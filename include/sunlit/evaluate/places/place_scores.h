@@ -28,7 +28,7 @@ std::vector<PlaceGuess> nearestPlaces(const PlaceMatrix& distances);
 /// Accepted are all guesses up to some doubt.
 struct CurvePoint {
   double recall = 0.0;     ///< right guesses / queries that have a true place
-  double precision = 1.0;  ///< right guesses / accepted ones
+  double precision = 1.0;  ///< right guesses / accepted ones, those of queries without a true place too
 };
 
 /// From (0, 1) on, one point for each doubt that occurs, least first: equal doubts are accepted together. The
@@ -47,7 +47,9 @@ struct PlaceScores {
   double recall_1 = 0.0, recall_5 = 0.0, recall_10 = 0.0;
   double pr_auc = 0.0;
   double recall_at_100_precision = 0.0;
-  std::size_t without_truth = 0;  ///< queries that no picture of the map belongs to: beyond its end
+  /// Queries that no picture of the map belongs to, since they are beyond its end: every recall among the
+  /// first N misses them; of the curve they are not in the recall, but their guesses in the precision.
+  std::size_t without_truth = 0;
   std::size_t without_guess = 0;  ///< queries without a candidate
 };
 

@@ -46,8 +46,10 @@ std::size_t leastPoses(Alignment alignment);
 /// Throws std::invalid_argument, saying what is wrong and what would do, for fewer than leastPoses(), and
 /// where the rotation is anybody's choice. For kSe3 and kSim3 that is: positions of either that are all the
 /// same or all on a line; told by the second singular value of the covariance being at most 1e-12 of the
-/// first, as for a drive that leaves its line by a millionth of its length. For kYaw: positions of either
-/// that are all above each other, told by √(S² + C²) being at most 1e-12 of the sum of all squares.
+/// first, as for a drive that leaves its line by a millionth of its length; or a reflection that is nearer,
+/// with a second and third singular value that differ by no more. For kYaw: positions of either that are all
+/// above each other, or of which one is, from above, such a mirror image of the other that all angles are as
+/// good; told by √(S² + C²) being at most 1e-12 of √(Σ ‖â‖² Σ ‖b̂‖²).
 Similarity truthFromEstimate(Alignment alignment, const MatchedPoses& poses);
 
 /// `estimate` in the frame of the truth. Orientations are turned, not scaled.

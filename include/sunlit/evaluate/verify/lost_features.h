@@ -25,8 +25,9 @@ struct LostFeatures {
   Cells<std::uint16_t> lost{};  ///< of them: those without a match that passes the ratio test and is right
 };
 
-LostFeatures lostFeatures(const FeaturePair& features, const PointMaps& maps, const RatioTest& test,
-                          const PictureSize& size_a);
+/// `accepted` of `features` by the same maps, see acceptedMatches().
+LostFeatures lostFeatures(const FeaturePair& features, const std::vector<AcceptedMatch>& accepted,
+                          const PointMaps& maps, const PictureSize& size_a);
 
 /// The bytes by which one pair of one pose stands in a file of them, which begins with lostFileHeader() and a
 /// line end; `name` and pair index the layout.

@@ -80,7 +80,7 @@ std::vector<LocalisedQuery> localised(const std::string& map, const std::string&
   localisation.addKeyFrames({drive(map)[0], drive(map)[2]});
   localisation.finishMap();
   std::vector<LocalisedQuery> found;
-  for (const auto& by_detector : localisation.localise(drive(query))) found.push_back(by_detector[0]);
+  for (const auto& by_detector : localisation.localise(drive(query)).results) found.push_back(by_detector[0]);
   return found;
 }
 
@@ -228,6 +228,9 @@ TEST(Atlas, ACellCountsFailuresAndWhatIsUndefined) {
   EXPECT_EQ(cell.n, 4u);
   EXPECT_EQ(cell.failures, 2u);
   EXPECT_DOUBLE_EQ(cell.within[0].mean, 0.25);
+  const AtlasCell lost = cellOf({"m", "q", "sift"}, std::vector<AtlasRow>(10));
+  EXPECT_EQ(lost.within[0].mean, 0.0);
+  EXPECT_NEAR(lost.within[0].ci_high, 0.2775, 5e-5) << "none of ten is no certainty";
   EXPECT_DOUBLE_EQ(cell.within[1].mean, 0.5);
   EXPECT_DOUBLE_EQ(cell.within[2].mean, 0.5);
   EXPECT_TRUE(std::isinf(cell.median_error_m)) << "half of them are failures";

@@ -4,16 +4,20 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <thread>
 
 #include "sunlit/evaluate/differences/comparer.h"
 #include "sunlit/evaluate/differences/feature_difference.h"
 #include "support/message_of.h"
+#include "support/moody_detector.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -386,6 +390,65 @@ TEST(Comparer, ThrowsWhatADifferenceThrowsOnceTheOthersAreDone) {
               comparer.compare({narrow, wide}, {{0, 1}});
             }).find("30×40 and 50×40 px"),
             std::string::npos);
+}
+
+/// Throws its name, after a while.
+class Throws : public Difference {
+ public:
+  explicit Throws(const char* name, int wait_ms) : name_(name), wait_ms_(wait_ms) {}
+  std::unique_ptr<Difference> clone() const override { return std::make_unique<Throws>(*this); }
+  std::vector<Field> fields() override { return {}; }
+  DifferenceValue between(const View&, const View&, const Matching&, const StopToken&) const override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms_));
+    throw std::runtime_error(name_);
+  }
+
+ private:
+  const char* name_;
+  int wait_ms_;
+};
+
+TEST(Comparer, NamesTheFaultOfTheFirstDifferenceWhicheverIsQuicker) {
+  ComparerOptions options;
+  options.known.add("slow", std::make_unique<Throws>("slow", 30));
+  options.known.add("quick", std::make_unique<Throws>("quick", 0));
+  options.differences = {"slow", "quick"};
+  const cv::Mat picture(4, 4, CV_8UC3, cv::Scalar::all(9));
+  const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
+  EXPECT_EQ(messageOf<std::runtime_error>([&] {
+              Comparer(options).compare({picture, picture}, {{0, 1}});
+            }),
+            "slow");
+}
+
+TEST(Comparer, FailsThePairsOfAPictureThatADetectorThrowsAtAndNoOther) {
+  ComparerOptions options;
+  options.known.add("moody", makeFeatureDifference(moodyDetector()));
+  options.differences = {"boolean_rgb", "moody"};
+  const cv::Mat dark(60, 80, CV_8UC3, cv::Scalar::all(9)), bright(60, 80, CV_8UC3, cv::Scalar::all(99));
+  std::vector<std::size_t> found, matched;
+  std::mutex mutex;
+  CompareVisits visits;
+  visits.found = [&](const Found& one) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    found.push_back(one.image);
+  };
+  visits.matched = [&](const Matched& one) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    matched.push_back(one.pair);
+  };
+  const Compared compared =
+      Comparer(options).compareEach({dark, marked(dark), bright}, {{0, 1}, {0, 2}, {1, 2}}, {}, visits);
+  for (const std::size_t failed : {0, 2}) {
+    EXPECT_EQ(messageOf<std::runtime_error>([&] { std::rethrow_exception(compared.faults[failed]); }), kMood);
+  }
+  EXPECT_FALSE(compared.faults[1]);
+  EXPECT_EQ(compared.values[1][0].value, 1.0);
+  EXPECT_TRUE(compared.image_faults[1][1]);
+  EXPECT_FALSE(compared.image_faults[0][1] || compared.image_faults[1][0] || compared.image_faults[1][2]);
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(matched, std::vector<std::size_t>{1});
 }
 
 TEST(Comparer, StopsBeforeItsFirstTaskWhereItIsTooLate) {

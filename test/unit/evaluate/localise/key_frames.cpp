@@ -5,6 +5,7 @@
 #include "sunlit/evaluate/features/detector.h"
 #include "sunlit/evaluate/features/matching.h"
 #include "sunlit/evaluate/localise/map.h"
+#include "sunlit/quantity/angle.h"
 #include "support/textured_scene.h"
 
 namespace sunlit::evaluate {
@@ -35,6 +36,22 @@ TEST(KeyFrame, KnowsWhereItsFeaturesAreAndLeavesOutTheSky) {
   }
   EXPECT_LT(in_corners, frame.points.size() / 20);
   EXPECT_EQ(bytesOf(frame), below * (3 * 8 + 128));  // SIFT's 128 numbers are bytes
+}
+
+TEST(KeyFrame, LeavesOutWhatIsTooFarFromTheAxisOfALens) {
+  const ViewCamera fisheye({320, 320, 100.0, 100.0, 159.5, 159.5},
+                           {image::LensModel::kEquidistant, {0, 0, 0, 0}});
+  ASSERT_NE(fisheye.lens, nullptr);
+  const PosedView view = corridor().seenFrom(lookingAlongX({0, 0, 0}), fisheye);
+  const Features features = detectFeatures(*makeDetector("sift"), view.picture);
+  std::size_t straight = 0, others = 0;  // with a place
+  for (const cv::KeyPoint& key_point : features.key_points) {
+    if (!pointAt(view, {key_point.pt.x, key_point.pt.y})) continue;
+    const double off = std::hypot(key_point.pt.x - 159.5, key_point.pt.y - 159.5);
+    ++(off <= 100.0 * kStraightWithin_deg * kRadPerDeg ? straight : others);  // r = f θ
+  }
+  ASSERT_GT(others, 0u);
+  EXPECT_EQ(keyFrameOf(view, features).points.size(), straight);
 }
 
 TEST(KeyFrame, CompactDescriptorsAreAsFarApartAsBefore) {

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "sunlit/evaluate/differences/feature_difference.h"
 #include "support/message_of.h"
+#include "support/moody_detector.h"
 #include "support/textured_scene.h"
 
 namespace sunlit::evaluate {
@@ -42,7 +44,7 @@ std::vector<LocalisedQuery> localised(const std::vector<PosedView>& map, const P
   Localisation localisation(options);
   localisation.addKeyFrames(map);
   localisation.finishMap();
-  return localisation.localise({view}).at(0);
+  return localisation.localise({view}).results.at(0);
 }
 
 TEST(Localisation, FindsAQueryOffTheLineToMillimetres) {
@@ -104,7 +106,9 @@ TEST(Localisation, GivesNoRightPoseFromAMapWhoseDepthIsWrong) {
   for (PosedView& view : map) {
     cv::Mat shuffled = view.depth.clone();
     cv::randShuffle(shuffled);
-    view.depth = shuffled;
+    const cv::Mat is_wrong = cv::abs(shuffled - view.depth) > 0.3 * view.depth;
+    view.depth *= 2.0;  // what is right by chance
+    shuffled.copyTo(view.depth, is_wrong);
   }
   // Directions stay right, so that a pose may be supported: but not the one where the query is.
   for (const LocalisedQuery& result : localised(map, query())) {
@@ -202,13 +206,67 @@ TEST(Localisation, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
+PosedView at(PosedView view, cv::Mat (*change)(const cv::Mat&)) {
+  view.picture = makePicture(change(view.picture.rgb));
+  return view;
+}
+
+TEST(Localisation, GoesOnWithoutAPictureThatADetectorThrowsAt) {
+  LocalisationOptions options;
+  options.known.add("moody", makeFeatureDifference(moodyDetector()));
+  options.detectors = {"moody", "orb"};
+  const DetectorFaults of_second = {{{1, 0}, std::string("moody: ") + kMood}};
+  for (const std::size_t threads : {1, 4}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Localisation localisation(options);
+    EXPECT_EQ(localisation.addKeyFrames({drive()[0], at(drive()[1], marked), drive()[2]}), of_second);
+    localisation.finishMap();
+    EXPECT_EQ(localisation.mapSizes()[0].key_frames, 2u);
+    EXPECT_EQ(localisation.mapSizes()[1].key_frames, 3u);
+    const LocalisedQueries found = localisation.localise({query(), at(query(), marked)});
+    EXPECT_EQ(found.faults, of_second);
+    EXPECT_EQ(found.results[0][0].status, LocalisationStatus::kLocalised);
+    EXPECT_EQ(found.results[0][1].status, LocalisationStatus::kLocalised);
+    EXPECT_EQ(found.results[1][1].status, LocalisationStatus::kLocalised);
+  }
+}
+
+/// All but one blob: a picture of few features.
+cv::Mat dark(const cv::Mat& rgb) {
+  cv::Mat picture(rgb.size(), rgb.type(), cv::Scalar::all(0));
+  const cv::Rect lit(120, 90, 45, 40);
+  rgb(lit).copyTo(picture(lit));
+  return picture;
+}
+
+TEST(Localisation, RetrievesByLooksInAMapInTheDark) {
+  LocalisationOptions options = both();
+  options.detectors = {"sift"};
+  options.localiser.retrieval = Retrieval::kVlad;
+  options.localiser.pose.min_inliers = 4;
+  Localisation localisation(options);
+  localisation.addKeyFrames({at(drive()[0], dark)});
+  const MapSize size = localisation.mapSizes()[0];
+  ASSERT_GT(size.points, 3u);
+  ASSERT_LT(size.points, 64u);  // fewer than the usual words
+  localisation.finishMap();
+  EXPECT_EQ(localisation.localise({drive()[0]}).results[0][0].status, LocalisationStatus::kLocalised);
+  // Of nothing at all nothing is retrieved.
+  Localisation blind(options);
+  PosedView black = drive()[0];
+  black.picture = makePicture(cv::Mat(240, 320, CV_8UC3, cv::Scalar::all(0)));
+  blind.addKeyFrames({black, black});
+  blind.finishMap();
+  EXPECT_EQ(blind.localise({query()}).results[0][0].status, LocalisationStatus::kNotRetrieved);
+}
+
 TEST(Localisation, RefusesViewsAndOptionsThatDoNotDo) {
   Localisation localisation(both());
   std::vector<PosedView> map = drive();
   map[1].depth = cv::Mat();
   EXPECT_EQ(messageOf([&] { localisation.addKeyFrames(map); }), "a view has no depth, but a map needs it");
   EXPECT_EQ(localisation.mapSizes()[0].key_frames, 0u);
-  EXPECT_EQ(localisation.localise({query()})[0][0].status, LocalisationStatus::kNotRetrieved);
+  EXPECT_EQ(localisation.localise({query()}).results[0][0].status, LocalisationStatus::kNotRetrieved);
   LocalisationOptions options = both();
   options.localiser.ratio_test.ratio = 1.5;
   EXPECT_EQ(messageOf([&] { Localisation none(options); }), "ratio is 1.5, but must be above 0 and up to 1");

@@ -67,6 +67,8 @@ TEST(LocalisationSummary, KeepsQueriesAndDetectorsApart) {
   EXPECT_EQ(summaries[0].detector, "sift");
   EXPECT_EQ(summaries[0].n, 2u);
   EXPECT_EQ(summaries[1].within[2].mean, 0.0);
+  EXPECT_EQ(summaries[0].within[2].mean, 1.0);
+  EXPECT_LT(summaries[0].within[2].ci_low, 0.5) << "two of two are no certainty";
 }
 
 TEST(AreaUnderRecall, IsTheTrapezoidOfGlueFactory) {

@@ -58,6 +58,8 @@ TEST(ObservationFile, GivesBackWhatWasAddedToTheBit) {
   EXPECT_EQ(keys[1].detector, "rootsift");
   EXPECT_EQ(keys[1].pose, 4);
   EXPECT_EQ(keys[1].stamp_ns, 600);
+  EXPECT_TRUE(file.holds("h12", "orb", 4));
+  EXPECT_FALSE(file.holds("h04", "orb", 4) || file.holds("h12", "sift", 4) || file.holds("h12", "orb", 3));
   expectSame(observation(1.0F), file.read(0));
   expectSame(observation(0.3F), file.read(1));
   EXPECT_TRUE(file.read(2).features.descriptors.empty());

@@ -4,8 +4,11 @@
 
 #include <opencv2/core.hpp>
 
+#include "sunlit/evaluate/differences/feature_difference.h"
 #include "sunlit/evaluate/features/detector.h"
+#include "sunlit/evaluate/localise/odometry_runs.h"
 #include "support/message_of.h"
+#include "support/moody_detector.h"
 #include "support/textured_scene.h"
 
 namespace sunlit::evaluate {
@@ -53,6 +56,20 @@ TEST(Odometry, GoesOnAsBeforeThroughAPictureOfNothing) {
   const Eigen::Isometry3d guessed = odometry.follow(views[2], {});
   EXPECT_EQ(odometry.lost(), 1u);
   EXPECT_TRUE(guessed.isApprox(first * moved, 1e-9));
+}
+
+TEST(Odometry, GoesOnThroughAPictureThatADetectorThrowsAt) {
+  LocalisationOptions options;
+  options.known.add("moody", makeFeatureDifference(moodyDetector()));
+  options.detectors = {"sift", "moody"};
+  std::vector<PosedView> views = drive();
+  views[2].picture = makePicture(marked(views[2].picture.rgb));
+  OdometryRuns runs(options);
+  const FollowedViews followed = runs.follow(views);
+  EXPECT_EQ(followed.faults, (DetectorFaults{{{2, 1}, std::string("moody: ") + kMood}}));
+  for (const auto& poses : followed.poses) EXPECT_EQ(poses.size(), views.size());
+  EXPECT_EQ(runs.at(0).lost(), 0u);
+  EXPECT_GE(runs.at(1).lost(), 1u);
 }
 
 TEST(Odometry, NeedsDepth) {

@@ -244,10 +244,11 @@ TEST(PlaceFiles, HoldAllThatWasFound) {
   scores.recall_10 = 0.75;
   scores.pr_auc = 0.125;
   scores.recall_at_100_precision = 0.0625;
+  scores.without_truth = 3;
   writePlaces(folder.file("places.csv"), {{"vlad:sift", scores}});
   EXPECT_EQ(contentOf(folder.file("places.csv")),
-            "method,queries,recall_1,recall_5,recall_10,pr_auc,recall_at_100_precision\n"
-            "vlad:sift,4,0.25,0.5,0.75,0.125,0.0625\n");
+            "method,queries,recall_1,recall_5,recall_10,pr_auc,recall_at_100_precision,without_truth\n"
+            "vlad:sift,4,0.25,0.5,0.75,0.125,0.0625,3\n");
   PlaceMatrix matrix(2, 3);
   matrix << 1.0, 2.0, 3.0, std::numeric_limits<double>::infinity(), 1.5, 1.0;
   writeMatrix(folder.file("m.csv"), matrix, {{"p.png", "q.png"}, {"a,1.png", "b.png", "c.png"}});

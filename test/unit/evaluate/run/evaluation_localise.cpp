@@ -7,8 +7,10 @@
 #include <set>
 #include <utility>
 
+#include "sunlit/evaluate/differences/feature_difference.h"
 #include "sunlit/evaluate/localise/localisation.h"
 #include "support/message_of.h"
+#include "support/moody_detector.h"
 #include "support/textured_scene.h"
 #include "unit/evaluate/run/small_evaluation.h"
 
@@ -28,18 +30,24 @@ std::vector<PosedView> driveBy(const ViewCamera& camera) {
   return all;
 }
 
-/// Whether all of what follows is seen through kBent; while it lives.
+const ViewCamera kFisheye({200, 200, 62.0, 62.0, 99.0, 100.0},
+                          {image::LensModel::kEquidistant, {0.0035, 0.0007, -0.002, 0.0002}});
+
+/// All of what follows is seen through it, while it lives.
 class ThroughLens {
  public:
-  ThroughLens() { is_on = true; }
-  ~ThroughLens() { is_on = false; }
-  static inline bool is_on = false;
+  explicit ThroughLens(const ViewCamera& camera = kBent) : drive_(driveBy(camera)) { drive = &drive_; }
+  ~ThroughLens() { drive = nullptr; }
+  static inline const std::vector<PosedView>* drive = nullptr;
+
+ private:
+  std::vector<PosedView> drive_;
 };
 
 /// A drive along the corridor, half a metre a pose.
 const PosedView& viewOf(std::int64_t pose) {
-  static const std::vector<PosedView> straight = driveBy(kCamera), bent = driveBy(kBent);
-  return (ThroughLens::is_on ? bent : straight).at(static_cast<std::size_t>(pose));
+  static const std::vector<PosedView> straight = driveBy(kCamera);
+  return (ThroughLens::drive ? *ThroughLens::drive : straight).at(static_cast<std::size_t>(pose));
 }
 
 /// Stream 0 is the map; the others are darker.
@@ -90,7 +98,7 @@ std::string expectedRows(Retrieval retrieval = Retrieval::kTruth, std::size_t ma
   for (std::size_t s = map_streams; s < kStreams.size(); ++s) {
     for (std::int64_t pose = 0; pose < kPoses; ++pose) {
       const PosedView view = litView(pose, s);
-      const auto results = localisation.localise({view})[0];
+      const auto results = localisation.localise({view}).results[0];
       for (std::size_t d = 0; d < results.size(); ++d) {
         LocalisationRow row;
         row.pose = static_cast<std::size_t>(pose);
@@ -143,6 +151,17 @@ TEST(EvaluationLocalise, GivesWhatThePicturesThemselvesGive) {
 
 TEST(EvaluationLocalise, GivesTheSameThroughALens) {
   const ThroughLens lens;
+  const TemporaryFolder folder;
+  Evaluation evaluation(localising(folder), {});
+  feed(evaluation, 0, kPoses);
+  const LocalisationOutcome outcome = finishAndLocalise(evaluation);
+  EXPECT_EQ(outcome.summary.at(0).failures, 0u);
+  EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
+}
+
+// Beyond 140 degrees across, where a pinhole's pixels tell no more where the lens looks.
+TEST(EvaluationLocalise, GivesTheSameThroughAFisheye) {
+  const ThroughLens lens(kFisheye);
   const TemporaryFolder folder;
   Evaluation evaluation(localising(folder), {});
   feed(evaluation, 0, kPoses);
@@ -343,6 +362,60 @@ TEST(EvaluationLocalise, SaysOfWhichStreamNothingWasEvaluated) {
   EXPECT_EQ(outcome.key_frames, 2u);
   EXPECT_EQ(outcome.uncompared, std::vector<std::string>{"night"});
   EXPECT_FALSE(outcome.isWhole());
+}
+
+/// Rows of one query stream by one detector.
+std::size_t rowsOf(const LocalisationOutcome& outcome, const std::string& query,
+                   const std::string& detector) {
+  for (const LocalisationSummary& summary : outcome.summary) {
+    if (summary.query == query && summary.detector == detector) return summary.n;
+  }
+  return 0;
+}
+
+/// With a detector that throws at marked pictures.
+EvaluationOptions moody(const TemporaryFolder& folder) {
+  EvaluationOptions options = localising(folder);
+  options.comparer.known.add("moody", makeFeatureDifference(moodyDetector()));
+  options.comparer.differences = {"boolean_rgb", "moody", "orb"};
+  options.localisation.detectors = std::vector<std::string>{"moody", "orb"};
+  return options;
+}
+
+TEST(EvaluationLocalise, APictureThatADetectorThrowsAtCostsItsOwnPairsAlone) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(moody(folder), {});
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+    feedTruth(evaluation, pose);
+    for (std::size_t s = 0; s < 3; ++s) {
+      const bool is_marked = static_cast<std::int64_t>(s) == pose && s < 2;
+      evaluation.addCamera(s, told(viewOf(pose).camera));
+      evaluation.addImage(s, stampOf(pose), is_marked ? marked(lit(pose, s)) : lit(pose, s));
+    }
+    evaluation.waitForRoom(0);
+  }
+  const Outcome whole = evaluation.finish();
+  EXPECT_FALSE(whole.isWhole());
+  std::vector<std::size_t> evaluated, failed, unlocalised;
+  for (const PairCounts& pair : whole.counts.pairs) {
+    evaluated.push_back(pair.evaluated);
+    failed.push_back(pair.failed);
+  }
+  for (const StreamCounts& stream : whole.counts.streams) unlocalised.push_back(stream.unlocalised);
+  EXPECT_EQ(failed, (std::vector<std::size_t>{2, 1, 1})) << "noon-dusk, noon-night, dusk-night";
+  EXPECT_EQ(evaluated, (std::vector<std::size_t>{2, 3, 3}));
+  EXPECT_EQ(unlocalised, (std::vector<std::size_t>{1, 1, 0}));
+  const std::string problems = contentOf(folder.file("out/problems.csv"));
+  for (const char* line : {"failed,0,500.000000000,noon-dusk,", "failed,0,500.000000000,noon-night,",
+                           "unlocalised,0,500.000000000,noon,", "failed,1,500.100000000,noon-dusk,",
+                           "failed,1,500.100000000,dusk-night,", "unlocalised,1,500.100000000,dusk,"})
+    EXPECT_TRUE(hasLine(problems, line + std::string(kMood))) << line << "\n" << problems;
+  const LocalisationOutcome outcome = evaluation.localise({});
+  EXPECT_EQ(outcome.key_frames, 2u);
+  EXPECT_EQ(rowsOf(outcome, "dusk", "moody"), 3u);
+  EXPECT_EQ(rowsOf(outcome, "dusk", "orb"), 4u) << "what the other detector finds there is kept";
+  EXPECT_EQ(rowsOf(outcome, "night", "moody"), 4u) << "and what is found in the others";
+  EXPECT_EQ(rowsOf(outcome, "night", "orb"), 4u);
 }
 
 TEST(EvaluationLocalise, WithoutAKeyFrameNothingIsClaimed) {

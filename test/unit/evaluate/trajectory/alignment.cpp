@@ -213,6 +213,26 @@ TEST(Alignment, OfYawAboveOnePlaceIsRefused) {
   }
 }
 
+// Of what is mirrored, half a turn about any of many axes is as good.
+TEST(Alignment, OfAMirroredPathThatIsAsLongAsWideIsRefused) {
+  const Points cross{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
+  Points mirrored = cross;
+  for (Eigen::Vector3d& point : mirrored) point.x() = -point.x();
+  EXPECT_NE(messageOf([&] { align(Alignment::kYaw, cross, mirrored); }).find("or one is the other mirrored"),
+            std::string::npos);
+  // In the plane se3 turns it over; in space, as deep as wide, nothing does.
+  EXPECT_NO_THROW(align(Alignment::kSe3, cross, mirrored));
+  const Points star{{3, 0, 0}, {-3, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  Points reflected = star;
+  for (Eigen::Vector3d& point : reflected) point.x() = -point.x();
+  for (const Alignment alignment : {Alignment::kSe3, Alignment::kSim3}) {
+    EXPECT_NE(
+        messageOf([&] { align(alignment, star, reflected); }).find("the estimate is the truth mirrored"),
+        std::string::npos);
+    EXPECT_NO_THROW(align(alignment, star, star)) << "where nothing is mirrored, nothing is open";
+  }
+}
+
 TEST(Alignment, OfTooFewPosesIsRefused) {
   const Points two{{0, 0, 0}, {1, 0, 0}};
   EXPECT_EQ(messageOf([&] { align(Alignment::kSe3, two, two); }),

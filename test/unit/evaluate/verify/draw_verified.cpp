@@ -27,7 +27,7 @@ TEST(DrawVerified, ShowsRightMatchesGreenAndWrongOnesRed) {
   EXPECT_TRUE(accepted[0].is_right);
   EXPECT_FALSE(accepted[1].is_right);
   EXPECT_FALSE(accepted[2].is_right);
-  const cv::Mat drawn = drawVerified({black, black}, features, same, {});
+  const cv::Mat drawn = drawVerified({black, black}, features, accepted);
   ASSERT_EQ(drawn.size(), cv::Size(160, 60));
   // Half-way between (10, 10) and (92, 10), (10, 30) and (90, 34); lines may be smoothed.
   const auto strongest = [&](int x, int y) {
@@ -46,7 +46,7 @@ TEST(DrawVerified, ShowsBothPicturesWhereNothingMatches) {
   const cv::Mat grey(60, 80, CV_8UC3, cv::Scalar::all(90));
   const Features none;
   const BothWays nearest;
-  const cv::Mat drawn = drawVerified({grey, grey}, {none, none, nearest}, identityMaps({80, 60}), {});
+  const cv::Mat drawn = drawVerified({grey, grey}, {none, none, nearest}, {});
   EXPECT_EQ(drawn.size(), cv::Size(160, 60));
   EXPECT_EQ(drawn.at<cv::Vec3b>(30, 120), cv::Vec3b(90, 90, 90));
 }

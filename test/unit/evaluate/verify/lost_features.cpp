@@ -28,7 +28,7 @@ constexpr PictureSize kSize{32, 24};
 
 LostFeatures lostOf(const Features& a, const Features& b, const PointMaps& maps) {
   const BothWays nearest = twoNearestBothWays(a.descriptors, b.descriptors, cv::NORM_L2);
-  return lostFeatures({a, b, nearest}, maps, {}, kSize);
+  return lostFeatures({a, b, nearest}, acceptedMatches({a, b, nearest}, maps, {}), maps, kSize);
 }
 
 TEST(LostFeatures, AreThoseWithoutARightMatchWhereTheyStand) {
