@@ -7,24 +7,21 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <regex>
 #include <set>
-#include <stdexcept>
 #include <system_error>
+#include <thread>
 #include <tuple>
 #include <utility>
 #include <vector>
-
-#include "sunlit/image/files.h"
 
 namespace sunlit::image {
 namespace {
 
 namespace fs = std::filesystem;
 using Log = std::function<void(const std::string&)>;
-
-enum class Patience { kWait, kLeave };
 
 bool lock(int descriptor, int how) {
   while (flock(descriptor, how) != 0) {
@@ -40,12 +37,12 @@ bool isStillThere(const fs::path& file, int descriptor) {
          by_name.st_ino == by_descriptor.st_ino && by_name.st_dev == by_descriptor.st_dev;
 }
 
-/// A descriptor that holds the lock, or −1 with errno.
-int lockedFile(const fs::path& file, Patience patience) {
+/// A descriptor that holds the lock, or −1 with errno, EWOULDBLOCK where another holds it.
+int lockedFile(const fs::path& file) {
   while (true) {
     const int descriptor = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
     if (descriptor < 0) return -1;
-    if (lock(descriptor, patience == Patience::kWait ? LOCK_EX : LOCK_EX | LOCK_NB)) {
+    if (lock(descriptor, LOCK_EX | LOCK_NB)) {
       if (isStillThere(file, descriptor)) return descriptor;
       close(descriptor);
       continue;
@@ -130,18 +127,20 @@ std::string usualCacheFolder() {
 
 CacheTurn CacheTurn::await(const fs::path& kept, const std::function<void()>& waits) {
   const fs::path file = turnFile(kept);
-  int descriptor = lockedFile(file, Patience::kLeave);
-  if (descriptor < 0 && errno == EWOULDBLOCK) {
+  constexpr std::chrono::milliseconds kGlance(50);
+  int descriptor = lockedFile(file);
+  while (descriptor < 0 && errno == EWOULDBLOCK) {
     if (waits) waits();
-    descriptor = lockedFile(file, Patience::kWait);
+    std::this_thread::sleep_for(kGlance);
+    descriptor = lockedFile(file);
   }
-  if (descriptor < 0) throw std::runtime_error(file.string() + ": " + reasonOf(errno));
+  if (descriptor < 0) throw std::system_error(errno, std::generic_category(), file.string());
   return CacheTurn(file, descriptor);
 }
 
 std::optional<CacheTurn> CacheTurn::ifFree(const fs::path& kept) {
   const fs::path file = turnFile(kept);
-  const int descriptor = lockedFile(file, Patience::kLeave);
+  const int descriptor = lockedFile(file);
   if (descriptor < 0) return std::nullopt;
   return CacheTurn(file, descriptor);
 }

@@ -10,12 +10,18 @@
 #include <mutex>
 
 #include "ros/socket_traffic.h"
+#include "sunlit/ros/node_main.h"
 
 namespace sunlit::ros_interface {
 
 namespace {
 
 constexpr std::chrono::seconds kPatience(30);
+
+/// Whether nobody wants this process to end at once.
+bool mayWait() {
+  return ros::ok() && !isInterrupted();
+}
 
 /// Counts the rounds of roscpp's thread that writes to sockets.
 class Rounds {
@@ -26,12 +32,12 @@ class Rounds {
   Rounds& operator=(const Rounds&) = delete;
 
   /// Waits until a round has begun and ended since the call; false if ROS shuts down, after which there is
-  /// none.
+  /// none, or on an interrupt.
   bool awaitWhole() {
     constexpr std::chrono::milliseconds kGlance(100);
     std::unique_lock<std::mutex> lock(mutex_);
     const std::uint64_t next = begun_ + 1;
-    while (ros::ok() && begun_ <= next) changed_.wait_for(lock, kGlance);
+    while (mayWait() && begun_ <= next) changed_.wait_for(lock, kGlance);
     return begun_ > next;
   }
 
@@ -71,7 +77,7 @@ bool waitUntilDelivered() {
 }  // namespace
 
 void deliverTheLast() {
-  if (waitUntilDelivered() || !ros::ok()) return;
+  if (waitUntilDelivered() || !mayWait()) return;
   const SentBytes sent = sentByThisProcess();
   ROS_WARN("A reader has taken nothing for %d s: %llu bytes and what waits behind them are not delivered",
            static_cast<int>(kPatience.count()),

@@ -78,7 +78,7 @@ std::shared_ptr<const light::Transport> bake(const light::World& world, const Ba
   if (!options.enabled) return nullptr;
   const light::BakeCache cache = cacheOf(options);
   auto transport = light::Transport::cached(world.geometry, options.transport, cache,
-                                            {reports.baking, reports.warning, reports.note});
+                                            {reports.baking, reports.warning, reports.note, reports.check});
   tell(reports.note, "Sky light and bounced light at " + std::to_string(transport->sampleCount()) +
                          " samples, kept in " + cache.folder);
   return transport;

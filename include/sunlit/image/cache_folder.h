@@ -21,8 +21,8 @@ std::string usualCacheFolder();
 /// when a process dies. Its own file is there only while somebody holds it or waits for it.
 class CacheTurn {
  public:
-  /// Waits for its turn to make `kept`, and calls `waits` before if another has it. Throws std::runtime_error
-  /// with the path if its file can't be made.
+  /// Waits for its turn to make `kept`, and calls `waits` again and again while another has it: what that
+  /// throws ends the wait. Throws std::system_error with the path if its file can't be made.
   static CacheTurn await(const std::filesystem::path& kept, const std::function<void()>& waits = nullptr);
   /// Nothing while another has the turn, or if its file can't be made.
   static std::optional<CacheTurn> ifFree(const std::filesystem::path& kept);

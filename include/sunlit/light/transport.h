@@ -39,7 +39,7 @@ inline std::vector<Field> fieldsOf(TransportOptions& options) {
 void validate(const TransportOptions& options);
 
 /// How far a bake is: share done, 0 … 1, and seconds left by the time taken so far, NaN while too little is
-/// done to tell. Never called by two threads at once.
+/// done to tell. Never called by two threads at once. What it throws ends the bake, and comes out of it.
 using BakeProgress = std::function<void(double share, double seconds_left)>;
 
 /// Who is told of a bake.
@@ -47,6 +47,9 @@ struct BakeListener {
   BakeProgress progress;                        ///< may be empty
   std::function<void(const std::string&)> log;  ///< one line of what did not go as it should; may be empty
   std::function<void(const std::string&)> note = {};  ///< one line of what takes its time; may be empty
+  /// Called again and again while another process makes the same bake; what it throws ends the wait, and
+  /// comes out of it. May be empty.
+  std::function<void()> check = {};
 };
 
 /// Where bakes are kept, and how much of the disk they may take.

@@ -13,6 +13,8 @@ struct Reports {
   std::function<void(const std::string& line)> note;     ///< what was done, or is about to be
   std::function<void(const std::string& line)> warning;  ///< what was amiss, and was made good
   light::BakeProgress baking;                            ///< how far a bake is, many times a second
+  /// Called many times a second while another process bakes; what it throws, or `baking`, ends the work.
+  std::function<void()> check = {};
 };
 
 }  // namespace sunlit::studio

@@ -19,8 +19,9 @@ std::string awaited(const evaluate::EvaluationOptions& options, const evaluate::
 }  // namespace
 
 EvaluatorDiagnostics::EvaluatorDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                                           const evaluate::Evaluation& evaluation)
+                                           const evaluate::Evaluation& evaluation, const ImageIntake& intake)
     : evaluation_(evaluation),
+      intake_(intake),
       updater_(node, private_node),
       received_(evaluation.options().streams.size(), 0) {
   updater_.add("evaluation", [this](WallUpdater::Status& status) { tell(status); });
@@ -58,6 +59,8 @@ void EvaluatorDiagnostics::tell(WallUpdater::Status& status) {
     status.summaryf(Status::WARN,
                     "%zu images dropped, late, lost, duplicate or unusable; %zu pairs could not be evaluated",
                     failures, not_evaluated);
+  } else if (const std::string unheard = intake_.unheardStreams(); !unheard.empty()) {
+    status.summary(Status::WARN, "nobody publishes images of " + unheard);
   } else {
     status.summaryf(Status::OK, "%zu poses evaluated", counts.completed_poses);
   }

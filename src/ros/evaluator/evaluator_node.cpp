@@ -82,7 +82,7 @@ EvaluatorNode::EvaluatorNode(ros::NodeHandle node, ros::NodeHandle private_node,
   publishProgress(evaluation_->counts().completed_poses);
 
   intake_ = std::make_unique<ImageIntake>(node, options.intake, *evaluation_);
-  diagnostics_ = std::make_unique<EvaluatorDiagnostics>(node, private_node, *evaluation_);
+  diagnostics_ = std::make_unique<EvaluatorDiagnostics>(node, private_node, *evaluation_, *intake_);
   finish_ = private_node.advertiseService("finish", &EvaluatorNode::onFinish, this);
 }
 

@@ -145,6 +145,16 @@ std::size_t ImageIntake::senders(std::size_t stream) const {
   return s.images ? s.images.getNumPublishers() : s.compressed.getNumPublishers();
 }
 
+std::string ImageIntake::unheardStreams() const {
+  const evaluate::Counts counts = evaluation_.counts();
+  std::string names;
+  for (std::size_t s = 0; s < streams_.size(); ++s) {
+    if (counts.streams[s].received > 0 || senders(s) > 0) continue;
+    names += (names.empty() ? "" : ", ") + evaluation_.options().streams[s];
+  }
+  return names;
+}
+
 // Senders number their messages one by one. Two of them at once have two counts, and one that begins anew a
 // lower one: neither tells of a loss.
 void ImageIntake::countGap(std::size_t stream, const std_msgs::Header& header) {

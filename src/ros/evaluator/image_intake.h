@@ -53,6 +53,8 @@ class ImageIntake {
 
   /// Since the last image came, or since the start.
   double secondsWithoutImage() const;
+  /// Those of which nobody sends images and none has come, in words; empty: none of them.
+  std::string unheardStreams() const;
   /// Of the latest true pose; empty: none has come.
   std::string frameOfPoses() const;
   /// Throws what the evaluation threw at an image, such as that its disk is full.

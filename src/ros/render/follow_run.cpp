@@ -56,7 +56,8 @@ std::optional<Shot> FollowRun::nextShot() {
     }
   } catch (const tf2::TransformException& error) {
     held_.reset();
-    waits_for_ = "the TF frame " + frames_.camera + ": " + error.what();
+    const std::string wanted = "the TF frame " + frames_.camera;
+    waits_for_ = {wanted + ": " + error.what(), wanted};
     return std::nullopt;
   }
   if (optical_) optical_->publishWhereMissing(tf_.buffer);
@@ -85,6 +86,18 @@ std::optional<Shot> FollowRun::nextShot() {
   return shot;
 }
 
+void FollowRun::watchSkies(const ros::Time& stamp) {
+  constexpr int kMany = 10;  // a message may be lost, or late
+  constexpr double kJitter = 1.2;
+  const double spacing_s = streams_.skySpacing(stamp);
+  sparse_ = spacing_s > kJitter * period_.toSec() ? sparse_ + 1 : 0;
+  if (sparse_ < kMany) return;
+  ROS_WARN_ONCE(
+      "frame_rate asks for a picture every %.3f s, but the sun comes every %.3f s, and a picture under a sun "
+      "that moves waits for the next one: a higher publish_rate of sun_position gives more",
+      period_.toSec(), spacing_s);
+}
+
 Step FollowRun::step() {
   waits_for_ = streams_.waitsForSky();
   if (!waits_for_.empty()) return Step::kWaits;
@@ -98,7 +111,10 @@ Step FollowRun::step() {
     shot_.reset();
   }
   seen_ = now;
-  if (now < next_) return Step::kWaits;
+  if (now < next_) {
+    waits_for_ = time_wait_.until(next_, "the next picture", period_);
+    return Step::kWaits;
+  }
 
   if (!shot_) shot_ = nextShot();
   if (!shot_) return Step::kWaits;
@@ -114,6 +130,7 @@ Step FollowRun::step() {
   next_ = next_ + period_ < now ? now + period_ : next_ + period_;
   latest_ = shot.stamp;
   map_from_links_ = shot.map_from_links;
+  watchSkies(shot.stamp);
   streams_.take(shot);
   taken_ += 1;
   streams_.poseOutput().publishProgress(taken_);

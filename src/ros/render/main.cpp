@@ -20,7 +20,11 @@ int run() {
   std::optional<tbb::global_control> limit;
   if (options.threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
-  return RenderNode(node, private_node, options, conditions).run();
+  try {
+    return RenderNode(node, private_node, options, conditions).run();
+  } catch (const Interrupted&) {
+    return 0;  // as between two pictures
+  }
 }
 
 }  // namespace

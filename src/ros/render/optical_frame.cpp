@@ -8,6 +8,7 @@
 #include "ros/conversions/geometry.h"
 #include "ros/render/tf_lookup.h"
 #include "sunlit/quantity/frames.h"
+#include "sunlit/quantity/range.h"
 
 namespace sunlit::ros_interface {
 
@@ -19,10 +20,12 @@ constexpr std::chrono::seconds kPatience(1);
 }  // namespace
 
 OpticalFrames::OpticalFrames(const CameraFrames& frames, const std::optional<image::RightCamera>& right)
-    : frames_(frames), opticals_{{frames.optical, "frames/optical", linkFromOptical()}} {
-  if (right)
-    opticals_.push_back(
-        {frames.right_optical, "frames/right_optical", linkFromOptical() * right->left_from_right});
+    : frames_(frames), opticals_{{frames.optical, "frames/optical", "", linkFromOptical()}} {
+  if (!right) return;
+  const double baseline_m = right->left_from_right.translation().norm();
+  opticals_.push_back({frames.right_optical, "frames/right_optical",
+                       textOf(baseline_m, 3) + " m to the right of ",
+                       linkFromOptical() * right->left_from_right});
 }
 
 void OpticalFrames::publish() {
@@ -59,9 +62,9 @@ void OpticalFrames::compare(const tf2_ros::Buffer& tf, const Optical& optical) c
   } catch (const tf2::TransformException&) {  // not of one tree
   }
   ROS_WARN(
-      "The frame %s on TF is not where pictures are taken from, which is %s, with z forward, x right and y "
-      "down: give another camera/follow_frame, or another name as frames/optical",
-      frames_.optical.c_str(), frames_.camera.c_str());
+      "The frame %s on TF is not where pictures are taken from, which is %s%s, with z forward, x right and y "
+      "down: give another camera/follow_frame, or another name as %s",
+      optical.frame.c_str(), optical.beside.c_str(), frames_.camera.c_str(), optical.row.c_str());
 }
 
 }  // namespace sunlit::ros_interface

@@ -28,6 +28,7 @@ class OpticalFrames {
  private:
   struct Optical {
     std::string frame, row;  ///< what it is called, and by which parameter
+    std::string beside;      ///< what stands before frames.camera where that is not its place
     Eigen::Isometry3d link_from_optical;
     bool is_settled = false;  ///< it is published, or others have it
   };

@@ -226,21 +226,32 @@ void requireExactSky(const ParameterReader& parameters, PacingOptions* pacing) {
 }
 
 /// Throws for what only a run along a path can heed, where the camera follows TF instead.
-void refuseWithoutPath(const ParameterReader& parameters, const PacingOptions& pacing) {
-  const PacingOptions usual;
-  const std::pair<const char*, bool> given[] = {
-      {"wait_for", !pacing.wait_for.empty()},
-      {"count_skipped", pacing.counts_skipped != usual.counts_skipped},
-      {"max_ahead", pacing.max_ahead != usual.max_ahead},
-      {"resume_at", pacing.resume_at != usual.resume_at},
-      {"exit_when_done", pacing.exit_when_done != usual.exit_when_done},
-      {"publish_clock", pacing.publish_clock},
-      {"exact_sky", pacing.exact_sky}};
-  for (const auto& [key, is_given] : given) {
-    if (!is_given) continue;
-    throw std::invalid_argument(
-        "parameter " + parameters.fullName(key) + " is given, but " + parameters.fullName("camera/follow") +
-        " is tf: only a path can be waited on, taken up again, come to its end or make time");
+void refuseWithoutPath(const ParameterReader& parameters, RenderNodeOptions options) {
+  RenderNodeOptions usual;
+  const auto rows = [](RenderNodeOptions& of) {
+    PacingOptions& pacing = of.pacing;
+    pacing.subscribers = {};  // these are waited for in any case, as the next two count in any case
+    pacing.frame_rate = PacingOptions().frame_rate;
+    pacing.autostart = true;
+    return joined({under("path", fieldsOf(of.path)), fieldsOf(pacing)});
+  };
+  const std::vector<Field> given = rows(options), left_out = rows(usual);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (given[i].text() == left_out[i].text()) continue;
+    throw std::invalid_argument("parameter " + parameters.fullName(given[i].key) + " is given, but " +
+                                parameters.fullName("camera/follow") +
+                                " is tf: only a camera on a path can heed it");
+  }
+}
+
+/// Throws where readers of a right camera are waited for that is not there.
+void refuseWithoutRight(const ParameterReader& parameters, const WantedSubscribers& wanted) {
+  for (const auto& [key, count] : {std::pair("left", wanted.left), std::pair("right", wanted.right)}) {
+    if (count == 0) continue;
+    throw std::invalid_argument("parameter " + parameters.fullName(std::string("subscribers/") + key) +
+                                " is " + std::to_string(count) + ", but there is no right camera: give " +
+                                parameters.fullName("camera/baseline") + " or " +
+                                parameters.fullName("camera/right/calibration"));
   }
 }
 
@@ -347,7 +358,8 @@ RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters) {
   requireFrames(parameters, options);
   requireOnePath(parameters, options.path);
   requireBakeForGather(parameters, options);
-  if (options.camera.follow_tf) refuseWithoutPath(parameters, options.pacing);
+  if (options.camera.follow_tf) refuseWithoutPath(parameters, options);
+  if (!options.camera.right) refuseWithoutRight(parameters, options.pacing.subscribers);
   requireExactSky(parameters, &options.pacing);
   nameSubscribers(parameters, &options.pacing.subscribers);
   if (options.world.name != scene::kRaceTrack && options.path.file.empty() && options.path.topic.empty() &&

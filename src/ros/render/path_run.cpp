@@ -49,8 +49,11 @@ void PathRun::setStart(const ros::Time& start) {
 }
 
 ros::Time PathRun::startOfNow() const {
-  // The first pose to be rendered is to be that of now, and stamps are those of the whole path.
-  const auto now = static_cast<std::int64_t>(ros::Time::now().toNSec());
+  // The first pose to be rendered is to be that of now, and stamps are those of the whole path. But a sky
+  // that moves, by a clock ahead of ours or while time stands still, may have nothing for now any more.
+  ros::Time first = ros::Time::now();
+  if (streams_.missedSky(first)) first = streams_.newestSky();
+  const auto now = static_cast<std::int64_t>(first.toNSec());
   const std::int64_t ahead = path::nanosecondsTo(path_.first() + position_, options_.frame_rate);
   ros::Time start;
   start.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(now - ahead, 1)));
@@ -73,18 +76,21 @@ bool PathRun::begin() {
   return true;
 }
 
-Shot PathRun::shotAt(int position) {
+RobotPlaces::Joints PathRun::joints() const {
+  return tf_ ? robot_->joints(tf_->buffer) : RobotPlaces::Joints();
+}
+
+Shot PathRun::shotAt(int position) const {
   const int index = path_.first() + position;
   Shot shot{index, stampOfPose(start_, index, options_.frame_rate), path_.mapFromCamera(index)};
   shot.chance = index;
   shot.motion = path_.motionAt(index, options_.frame_rate);
-  if (robot_) shot.map_from_links = robot_->onPath(shot.map_from_camera, tf_ ? &tf_->buffer : nullptr);
+  if (robot_) shot.map_from_links = robot_->onPath(shot.map_from_camera, joints());
   return shot;
 }
 
 render::BodyPlaces PathRun::mapFromLinks() {
-  if (map_from_links_.empty() && path_.ready()) map_from_links_ = shotAt(0).map_from_links;
-  return map_from_links_;
+  return map_from_links_.empty() && path_.ready() ? shotAt(0).map_from_links : map_from_links_;
 }
 
 int PathRun::counted(int position) const {
@@ -106,7 +112,43 @@ void PathRun::meterBefore(const Shot& shot) {
   // What a run that began earlier, or passes over fewer poses, has metered, under the sky that is there.
   for (auto index = static_cast<int>(streams_.firstUnmetered(shot.pose_index)); index < shot.pose_index;
        ++index)
-    streams_.meter(shotAt(index - path_.first()), shot.stamp);
+    streams_.meter(shotAt(index - path_.first()), shot);
+}
+
+void PathRun::warnOfOtherParent() {
+  if (warned_) return;
+  const std::string warning = streams_.poseOutput().otherParent(tf_->buffer);
+  if (warning.empty()) return;
+  warned_ = true;
+  ROS_WARN("%s", warning.c_str());
+}
+
+Step PathRun::render() {
+  if (!next_) next_ = shotAt(position_);
+  waits_for_ = Wait();
+  if (!isTime(next_->stamp)) {
+    waits_for_ = time_wait_.until(next_->stamp, "pose " + std::to_string(next_->pose_index),
+                                  ros::Duration(1.0 / options_.frame_rate));
+    return Step::kWaits;
+  }
+  waits_for_ = streams_.waitsForSky(next_->stamp);
+  if (!waits_for_.empty()) return Step::kWaits;
+  Shot shot = *next_;
+  if (tf_) {
+    // Not earlier: they move while the pose waits for its time, its sky and its readers.
+    const RobotPlaces::Joints found = joints();
+    robot_->count(found);
+    shot.map_from_links = robot_->onPath(shot.map_from_camera, found);
+    warnOfOtherParent();
+  }
+  map_from_links_ = shot.map_from_links;
+  position_ += path_.stride();
+  next_.reset();
+  if (options_.looks_ahead && !tf_ && position_ < positions()) next_ = shotAt(position_);
+  meterBefore(shot);
+  streams_.take(shot, next_);
+  streams_.poseOutput().publishProgress(position());
+  return Step::kTook;
 }
 
 Step PathRun::step() {
@@ -114,21 +156,9 @@ Step PathRun::step() {
   if (position_ >= positions()) {
     if (pacer_.allHave(counted(positions()))) return Step::kDone;
   } else if (pacer_.mayRender(counted(position_))) {
-    if (!next_) next_ = shotAt(position_);
-    waits_for_.clear();
-    if (!isTime(next_->stamp)) return Step::kWaits;
-    waits_for_ = streams_.waitsForSky(next_->stamp);
-    if (!waits_for_.empty()) return Step::kWaits;
-    const Shot shot = *next_;
-    map_from_links_ = shot.map_from_links;
-    position_ += path_.stride();
-    next_.reset();
-    if (options_.looks_ahead && position_ < positions()) next_ = shotAt(position_);
-    meterBefore(shot);
-    streams_.take(shot, next_);
-    streams_.poseOutput().publishProgress(position());
-    return Step::kTook;
+    return render();
   }
+  // A reader that makes progress, however slowly, is no reason to wonder: where it stands is part of the key.
   waits_for_ =
       "progress on " + pacer_.slowestTopic() + ", which stands at " + std::to_string(pacer_.slowest());
   return Step::kWaits;

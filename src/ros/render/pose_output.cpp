@@ -55,6 +55,15 @@ void PoseOutput::publishProgress(int poses) const {
   progress_.publish(progress);
 }
 
+std::string PoseOutput::otherParent(const tf2_ros::Buffer& tf) const {
+  std::string parent;
+  if (!tf_ || !tf._getParent(options_.frames.camera, ros::Time(0), parent) || parent == options_.frames.map)
+    return std::string();
+  return "Others send the frame " + options_.frames.camera + " below " + parent +
+         " on TF, and this node below " + options_.frames.map +
+         ": a frame has one parent. With publish_tf: false it is left to them";
+}
+
 std::string PoseOutput::lonelyTopic(const WantedSubscribers& wanted) const {
   std::string topic = pose_.ifLonely(wanted.audience(wanted.poses));
   if (topic.empty() && tf_) topic = tf_->ifLonely(wanted.audience(wanted.others));

@@ -107,7 +107,11 @@ studio::Reports RenderNode::reports() {
   activity_.say("loading", options_.world.name);
   diagnostics_.update();
   studio::Reports reports = loggedReports();
-  reports.baking = [this, log = reports.baking](double share, double seconds_left) {
+  reports.check = [] {
+    if (!ros::ok()) throw Interrupted();
+  };
+  reports.baking = [this, log = reports.baking, check = reports.check](double share, double seconds_left) {
+    check();
     if (log) log(share, seconds_left);
     activity_.say("baking", "", {share, seconds_left});
     diagnostics_.update();
@@ -150,8 +154,9 @@ Step RenderNode::step() {
   if (finished_) return Step::kWaits;
   run_->announce();
   if (paused_) {
-    wait_log_.report("the service " + private_node_.resolveName("start"));
-    activity_.say("waiting", "the service " + private_node_.resolveName("start"));
+    const std::string start = "the service " + private_node_.resolveName("start");
+    wait_log_.report(start);
+    activity_.say("waiting", start);
     return Step::kWaits;
   }
   if (!has_begun_) {
@@ -168,8 +173,9 @@ Step RenderNode::step() {
 }
 
 void RenderNode::report(Step step) {
-  const bool waits_long = wait_log_.report(step == Step::kWaits ? run_->waitsFor() : std::string());
-  if (waits_long) activity_.say("waiting", run_->waitsFor());
+  const Wait wait = step == Step::kWaits ? run_->waitsFor() : Wait();
+  if (wait_log_.report(wait)) activity_.say("waiting", wait.words);
+  if (wait.empty() && activity_.latest().doing == "waiting") activity_.say("rendering");
   if (step != Step::kTook) return;
   drawMap();
   keepTiming();
@@ -221,6 +227,10 @@ void RenderNode::finish() {
 bool RenderNode::onStart(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
   response.success = true;
   response.message = paused_ ? "started" : "was running already";
+  if (paused_) {
+    pose_log_ = PoseLog();  // a pause is no time that poses take
+    activity_.say("rendering");
+  }
   paused_ = false;
   return true;
 }

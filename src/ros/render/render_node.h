@@ -5,6 +5,7 @@
 #include <std_srvs/Trigger.h>
 
 #include <chrono>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -25,10 +26,17 @@
 
 namespace sunlit::ros_interface {
 
+/// What ends work that takes its time where ROS shuts down.
+class Interrupted : public std::exception {
+ public:
+  const char* what() const noexcept override { return "interrupted while the world was loaded"; }
+};
+
 /// ROS callbacks have their turn between two frames, on the thread that renders: what they change never
 /// changes within a frame.
 class RenderNode {
  public:
+  /// Loads and bakes, which takes its time; throws Interrupted where ROS shuts down meanwhile.
   RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
              const RenderNodeOptions& options, const RenderConditions& conditions);
 
@@ -39,7 +47,7 @@ class RenderNode {
   bool onStart(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onPause(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onView(RenderView::Request& request, RenderView::Response& response);
-  /// Of work that takes its time: to the log, and as activity.
+  /// Of work that takes its time: to the log, and as activity. Throws Interrupted from there.
   studio::Reports reports();
   Step step();
   /// Tells people and topics what came of it.

@@ -101,35 +101,35 @@ render::BodyPlaces RobotPlaces::place(
   return map_from_links;
 }
 
-std::vector<std::optional<FoundTransform>> RobotPlaces::lookUp(const tf2_ros::Buffer& tf,
-                                                               const std::string& frame,
-                                                               const ros::Time& stamp) const {
-  std::vector<std::optional<FoundTransform>> frame_from_links(links_.size());
+RobotPlaces::Joints RobotPlaces::lookUp(const tf2_ros::Buffer& tf, const std::string& frame,
+                                        const ros::Time& stamp) const {
+  Joints frame_from_links(links_.size());
   for (std::size_t i = 0; i < links_.size(); ++i) {
     frame_from_links[i] = lookUpOne(tf, frame, links_[i].name, stamp);
   }
   return frame_from_links;
 }
 
-render::BodyPlaces RobotPlaces::onPath(const Eigen::Isometry3d& map_from_camera, const tf2_ros::Buffer* tf) {
+render::BodyPlaces RobotPlaces::onPath(const Eigen::Isometry3d& map_from_camera, const Joints& joints) const {
   const Eigen::Isometry3d map_from_base =
       map_from_camera * Eigen::Isometry3d(Eigen::Translation3d(-camera_in_base_));
   std::vector<std::optional<Eigen::Isometry3d>> known(links_.size());
-  if (tf) {
-    const std::vector<std::optional<FoundTransform>> found = lookUp(*tf, links_[base_].name, ros::Time(0));
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      if (!found[i]) continue;
-      known[i] = map_from_base * found[i]->parent_from_child;
-      if (links_[i].visible && i != base_) countStanding(&links_[i], found[i]->stamp);
-    }
-    known[base_] = map_from_base;
-    countMissing(known);
-  }
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    if (joints[i]) known[i] = map_from_base * joints[i]->parent_from_child;
+  known[base_] = map_from_base;
   return place(map_from_base, known);
 }
 
+void RobotPlaces::count(const Joints& joints) {
+  for (std::size_t i = 0; i < links_.size(); ++i)
+    if (joints[i] && links_[i].visible && i != base_) countStanding(&links_[i], joints[i]->stamp);
+  auto known = transformsOf(joints);
+  known[base_] = Eigen::Isometry3d::Identity();
+  countMissing(known);
+}
+
 bool RobotPlaces::knowsJoints(const tf2_ros::Buffer& tf) {
-  auto known = transformsOf(lookUp(tf, links_[base_].name, ros::Time(0)));
+  auto known = transformsOf(joints(tf));
   known[base_] = Eigen::Isometry3d::Identity();
   return !worthWaiting(known);
 }

@@ -28,8 +28,14 @@ class RobotPlaces {
   RobotPlaces(const scene::Robot& robot, const RobotOptions& options, const CameraFrames& frames,
               std::optional<double> camera_height_m);
 
-  /// map_from_link of each link for a camera on a path. `tf`: where joints move; null: they rest.
-  render::BodyPlaces onPath(const Eigen::Isometry3d& map_from_camera, const tf2_ros::Buffer* tf);
+  /// base_from_link of each link that TF knows; empty: joints rest.
+  using Joints = std::vector<std::optional<FoundTransform>>;
+  /// The latest.
+  Joints joints(const tf2_ros::Buffer& tf) const { return lookUp(tf, links_[base_].name, ros::Time(0)); }
+  /// map_from_link of each link for a camera on a path.
+  render::BodyPlaces onPath(const Eigen::Isometry3d& map_from_camera, const Joints& joints) const;
+  /// Counts, and says once, which of them a pose lacks that is rendered.
+  void count(const Joints& joints);
   /// Whether all links that are to be seen were heard of, or waited for long enough.
   bool knowsJoints(const tf2_ros::Buffer& tf);
   /// By TF at `stamp`; zero: the latest. None while a transform is worth waiting for; see waitsFor().
@@ -62,8 +68,7 @@ class RobotPlaces {
   render::BodyPlaces place(const Eigen::Isometry3d& map_from_base,
                            const std::vector<std::optional<Eigen::Isometry3d>>& map_from_known) const;
   bool worthWaiting(const std::vector<std::optional<Eigen::Isometry3d>>& known);
-  std::vector<std::optional<FoundTransform>> lookUp(const tf2_ros::Buffer& tf, const std::string& frame,
-                                                    const ros::Time& stamp) const;
+  Joints lookUp(const tf2_ros::Buffer& tf, const std::string& frame, const ros::Time& stamp) const;
   void countStanding(Link* link, const ros::Time& stamp) const;
   void countMissing(const std::vector<std::optional<Eigen::Isometry3d>>& known);
 

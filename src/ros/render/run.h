@@ -18,6 +18,7 @@
 #include "ros/render/robot_places.h"
 #include "ros/render/streams.h"
 #include "ros/render/tf_lookup.h"
+#include "ros/render/wait.h"
 
 namespace sunlit::ros_interface {
 
@@ -45,8 +46,8 @@ class Run {
   /// it until it says so, and step() only from then on.
   virtual bool begin() = 0;
   virtual Step step() = 0;
-  /// Why the latest step waited, in words; empty where that needs no words.
-  virtual std::string waitsFor() const = 0;
+  /// Why the latest step waited; empty where that needs no words.
+  virtual Wait waitsFor() const = 0;
   /// Whether what it waits for will never come.
   virtual bool isStuck() const { return false; }
   virtual RunProgress progress() const = 0;
@@ -74,7 +75,7 @@ class PathRun : public Run {
   void announce() override;
   bool begin() override;
   Step step() override;
-  std::string waitsFor() const override { return waits_for_; }
+  Wait waitsFor() const override { return waits_for_; }
   bool isStuck() const override { return next_ && streams_.missedSky(next_->stamp); }
   RunProgress progress() const override;
   render::BodyPlaces mapFromLinks() override;
@@ -89,9 +90,14 @@ class PathRun : public Run {
   ros::Time startOfNow() const;
   /// Whether the time of a pose has come.
   bool isTime(const ros::Time& stamp);
-  Shot shotAt(int position);
+  /// Links stand as TF has them at the call, where joints go by it.
+  Shot shotAt(int position) const;
+  RobotPlaces::Joints joints() const;
+  /// A step at the next pose, which no reader holds up.
+  Step render();
   /// Lets exposures that lag see what comes before `shot`.
   void meterBefore(const Shot& shot);
+  void warnOfOtherParent();
   /// The poses before `position` as readers count them.
   int counted(int position) const;
 
@@ -105,9 +111,11 @@ class PathRun : public Run {
   ros::Time start_;         ///< stamp of pose 0; zero until it is known
   bool announced_ = false;  ///< where this run begins
   int position_ = 0;
-  std::optional<Shot> next_;           ///< drawn ahead, if options_ wants it
+  std::optional<Shot> next_;           ///< drawn ahead, if options_ wants it; joints by TF are of then
   render::BodyPlaces map_from_links_;  ///< of the latest shot
-  std::string waits_for_;
+  TimeWait time_wait_;
+  Wait waits_for_;
+  bool warned_ = false;  ///< of a frame with two parents
 };
 
 struct FollowOptions {
@@ -124,7 +132,7 @@ class FollowRun : public Run {
   FollowRun(const FollowOptions& options, Streams& streams, RobotPlaces* robot);
   bool begin() override;
   Step step() override;
-  std::string waitsFor() const override { return waits_for_; }
+  Wait waitsFor() const override { return waits_for_; }
   RunProgress progress() const override { return {taken_, std::nullopt, std::nullopt}; }
   render::BodyPlaces mapFromLinks() override { return map_from_links_; }
 
@@ -133,6 +141,8 @@ class FollowRun : public Run {
   std::optional<Shot> nextShot();
   /// By TF just before.
   Motion motionOf(const FoundTransform& found);
+  /// Says once that skies come too seldom for the frame rate.
+  void watchSkies(const ros::Time& stamp);
 
   CameraFrames frames_;
   ros::Duration period_;
@@ -152,8 +162,10 @@ class FollowRun : public Run {
   ros::Time next_;
   ros::Time latest_;
   int taken_ = 0;
+  int sparse_ = 0;                     ///< shots in a row that were between skies too far apart
   render::BodyPlaces map_from_links_;  ///< of the latest shot
-  std::string waits_for_;
+  TimeWait time_wait_;
+  Wait waits_for_;
 };
 
 }  // namespace sunlit::ros_interface

@@ -9,8 +9,7 @@ namespace sunlit::ros_interface {
 namespace {
 
 constexpr std::chrono::seconds kInterval(5);
-constexpr std::chrono::seconds kPatience(2);
-constexpr std::chrono::seconds kUsual(30);
+constexpr double kPatience_s = 2.0, kUsual_s = 30.0;
 
 /// Says every few seconds how far a bake is.
 class BakeLog {
@@ -54,17 +53,16 @@ void PoseLog::report(int position, int positions) {
            1e3 * per_pose_s, textOfDuration(seconds_left_).c_str());
 }
 
-bool WaitLog::report(const std::string& waits_for) {
-  const Clock::time_point now = Clock::now();
-  if (waits_for != waits_for_)
-    begin_ = now;  // a reader that makes progress, however slowly, is no reason to wonder
-  waits_for_ = waits_for;
-  if (waits_for.empty() || now - begin_ < kPatience) return false;
-  if (now - latest_ >= kInterval) {
-    latest_ = now;
-    const bool is_usual = now - begin_ < kUsual;
+bool WaitLog::report(const Wait& waits_for) {
+  const double now_s = clock_();
+  if (waits_for.key != key_) begin_s_ = now_s;
+  key_ = waits_for.key;
+  if (waits_for.empty() || now_s - begin_s_ < kPatience_s) return false;
+  if (!latest_s_ || now_s - *latest_s_ >= std::chrono::duration<double>(kInterval).count()) {
+    latest_s_ = now_s;
+    const bool is_usual = now_s - begin_s_ < kUsual_s;
     ROS_LOG(is_usual ? ros::console::levels::Info : ros::console::levels::Warn, ROSCONSOLE_DEFAULT_NAME,
-            "Waiting for %s", waits_for.c_str());
+            "Waiting for %s", waits_for.words.c_str());
   }
   return true;
 }

@@ -3,9 +3,13 @@
 
 #include <chrono>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 
+#include "ros/render/wait.h"
 #include "sunlit/studio/reports.h"
+#include "sunlit/studio/stopwatch.h"
 
 namespace sunlit::ros_interface {
 
@@ -29,14 +33,16 @@ class PoseLog {
 /// longer than other nodes take to load.
 class WaitLog {
  public:
+  explicit WaitLog(studio::Stopwatch::Clock clock = studio::Stopwatch::steadyTime)
+      : clock_(std::move(clock)) {}
   /// What is waited for now; empty: nothing. Whether it has been for so long that it is worth a word.
-  bool report(const std::string& waits_for);
+  bool report(const Wait& waits_for);
 
  private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point begin_;
-  Clock::time_point latest_;
-  std::string waits_for_;
+  studio::Stopwatch::Clock clock_;
+  double begin_s_ = 0.0;
+  std::optional<double> latest_s_;
+  std::string key_;
 };
 
 /// What the studio tells, in the log; how far a bake is every few seconds.

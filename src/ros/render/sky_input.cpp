@@ -38,8 +38,9 @@ void SkyInput::take(const Message& message, Topic<Message>* topic) {
     topic->heard = true;
   } catch (const std::invalid_argument& error) {
     ++refused_;
-    ROS_ERROR_THROTTLE(5.0, "Refused %s on %s: %s", topic->what.c_str(), topic->subscriber.getTopic().c_str(),
-                       error.what());
+    if (refusals_.isTime(topic->what))
+      ROS_ERROR("Refused %s on %s: %s", topic->what.c_str(), topic->subscriber.getTopic().c_str(),
+                error.what());
   }
 }
 
@@ -69,16 +70,17 @@ std::string SkyInput::missing() const {
          moon_.subscriber.getTopic() + " and " + celestial_.subscriber.getTopic();
 }
 
-std::string SkyInput::missing(const ros::Time& stamp) const {
+Wait SkyInput::missing(const ros::Time& stamp) const {
   if (newest() == nullptr) return missing();
-  if (moments_.at(stamp)) return std::string();
+  if (moments_.at(stamp)) return {};
+  // Neither the stamp of a camera that goes on nor that of a sky that does makes it another wait.
+  const std::string key = "a sky on " + sun_.subscriber.getTopic();
   const std::string wanted = "the sky of " + textOfStamp(stamp) + " on " + sun_.subscriber.getTopic();
-  const auto& moments = moments_.whole();
-  if (moments_.missed(stamp)) {
-    return wanted + ", which has begun with " + textOfStamp(moments.begin()->first) + " and gone on to " +
-           textOfStamp(moments.rbegin()->first) + " without it";
-  }
-  return wanted + ", which stands at " + textOfStamp(moments.rbegin()->first);
+  const std::string newest = textOfStamp(newestStamp());
+  if (!moments_.missed(stamp)) return {wanted + ", which stands at " + newest, key};
+  return {wanted + ", which has begun with " + textOfStamp(moments_.whole().begin()->first) +
+              " and gone on to " + newest + " without it",
+          key};
 }
 
 }  // namespace sunlit::ros_interface

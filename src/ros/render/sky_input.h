@@ -8,6 +8,7 @@
 
 #include "ros/conversions/sky.h"
 #include "ros/render/sky_moments.h"
+#include "ros/render/wait.h"
 
 namespace sunlit::ros_interface {
 
@@ -36,8 +37,11 @@ class SkyInput {
   std::optional<SkyBodies> at(const ros::Time& stamp) const { return moments_.at(stamp); }
   bool missed(const ros::Time& stamp) const { return moments_.missed(stamp); }
   void forgetBefore(const ros::Time& stamp) { moments_.forgetBefore(stamp); }
-  /// What must come before there is a sky of `stamp`, in words; empty then.
-  std::string missing(const ros::Time& stamp) const;
+  double spacing(const ros::Time& stamp) const { return moments_.spacing(stamp); }
+  /// Of newest(), which is there.
+  ros::Time newestStamp() const { return moments_.whole().rbegin()->first; }
+  /// What must come before there is a sky of `stamp`; empty then.
+  Wait missing(const ros::Time& stamp) const;
 
  private:
   template <typename Message>
@@ -57,6 +61,7 @@ class SkyInput {
   SkyMoments moments_;
   std::string map_frame_;
   std::size_t refused_ = 0;
+  Throttle refusals_{5.0};  ///< that are told of, by topic
   Topic<SunPosition> sun_{"a sun"};
   Topic<MoonPosition> moon_{"a moon"};
   Topic<geometry_msgs::QuaternionStamped> celestial_{"the turn of the stars"};

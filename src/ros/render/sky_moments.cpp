@@ -166,6 +166,13 @@ bool SkyMoments::missed(const ros::Time& stamp) const {
   return !whole_.empty() && stamp < whole_.rbegin()->first && !at(stamp);
 }
 
+double SkyMoments::spacing(const ros::Time& stamp) const {
+  const auto after = whole_.lower_bound(stamp);
+  if (after == whole_.begin() || after == whole_.end() || after->first == stamp) return 0.0;
+  const auto before = std::prev(after);
+  return before->second.time.rate == 0.0 ? 0.0 : (after->first - before->first).toSec();
+}
+
 void SkyMoments::forgetBefore(const ros::Time& stamp) {
   const auto after = whole_.upper_bound(stamp);
   if (after != whole_.begin()) whole_.erase(whole_.begin(), std::prev(after));

@@ -60,6 +60,8 @@ class SkyMoments {
   std::optional<SkyBodies> at(const ros::Time& stamp) const;
   /// Whether at(stamp) has nothing, and no moment that is still to come will change that.
   bool missed(const ros::Time& stamp) const;
+  /// s from the moment before `stamp` to that after it, where the sky moves between them; else 0.
+  double spacing(const ros::Time& stamp) const;
   /// Nobody will ask for a stamp before this one any more.
   void forgetBefore(const ros::Time& stamp);
 

@@ -93,11 +93,11 @@ std::int64_t Streams::firstUnmetered(std::int64_t index) const {
   return first;
 }
 
-void Streams::meter(const Shot& shot, const ros::Time& sky_stamp) {
+void Streams::meter(const Shot& shot, const Shot& target) {
   studio_.look(shot.map_from_camera, shot.map_from_links, shot.motion);
   for (const auto& stream : streams_) {
-    if (stream->lag.firstMissing(shot.pose_index) > shot.pose_index) continue;
-    const light::Illumination& light = lightOf(*stream, stream->sky.at(sky_stamp).value(), shot.stamp);
+    if (shot.pose_index < stream->lag.firstMissing(target.pose_index)) continue;
+    const light::Illumination& light = lightOf(*stream, stream->sky.at(target.stamp).value(), shot.stamp);
     stream->lag.add(shot.pose_index, studio_.meter(light, {shot.pose_index, stream->name}, stream->setting));
   }
 }
@@ -150,12 +150,24 @@ std::string Streams::waitsForSky() const {
   return std::string();
 }
 
-std::string Streams::waitsForSky(const ros::Time& stamp) const {
+Wait Streams::waitsForSky(const ros::Time& stamp) const {
   for (const auto& stream : streams_) {
-    std::string missing = stream->sky.missing(stamp);
+    Wait missing = stream->sky.missing(stamp);
     if (!missing.empty()) return missing;
   }
-  return std::string();
+  return {};
+}
+
+ros::Time Streams::newestSky() const {
+  ros::Time newest;
+  for (const auto& stream : streams_) newest = std::max(newest, stream->sky.newestStamp());
+  return newest;
+}
+
+double Streams::skySpacing(const ros::Time& stamp) const {
+  double spacing = 0.0;
+  for (const auto& stream : streams_) spacing = std::max(spacing, stream->sky.spacing(stamp));
+  return spacing;
 }
 
 bool Streams::missedSky(const ros::Time& stamp) const {

@@ -59,8 +59,9 @@ class Streams {
   /// The first picture before that of pose `index` which an exposure that lags must meter() before it;
   /// `index` itself where none is missing.
   std::int64_t firstUnmetered(std::int64_t index) const;
-  /// Lets exposures that lag see what nobody gets a picture of. Under the sky of `stamp`, which is there.
-  void meter(const Shot& shot, const ros::Time& sky_stamp);
+  /// Lets exposures that lag see what nobody gets a picture of, where they miss it before `target`, under
+  /// whose sky it is metered.
+  void meter(const Shot& shot, const Shot& target);
   /// One image of `condition` under its newest sky, exposed as if it had been looking there for long. Throws
   /// std::invalid_argument naming what is wrong with the condition.
   Photograph view(const Shot& shot, const std::string& condition);
@@ -76,10 +77,14 @@ class Streams {
   double siteElevation() const { return streams_.front()->sky.newest()->site_elevation_m; }
   /// The condition of which nothing was heard yet, and what is missing, in words; empty if nothing is.
   std::string waitsForSky() const;
-  /// What is missing before an image of that stamp can be taken, in words; empty if nothing is.
-  std::string waitsForSky(const ros::Time& stamp) const;
+  /// What is missing before an image of that stamp can be taken; empty if nothing is.
+  Wait waitsForSky(const ros::Time& stamp) const;
   /// Whether it will never come.
   bool missedSky(const ros::Time& stamp) const;
+  /// Of the newest sky that is there; every sky is.
+  ros::Time newestSky() const;
+  /// s between the two skies around `stamp`, at most: the longest that a picture waits for one that moves.
+  double skySpacing(const ros::Time& stamp) const;
   /// What is missing before a first image would reach everybody, in words; empty if nothing is.
   std::string waitsForSubscribers() const;
 

@@ -4,6 +4,7 @@
 #include <tf2/exceptions.h>
 
 #include "ros/conversions/geometry.h"
+#include "ros/steady.h"
 
 namespace sunlit::ros_interface {
 
@@ -12,8 +13,10 @@ FoundTransform lookUp(const tf2_ros::Buffer& tf, const std::string& parent, cons
   const geometry_msgs::TransformStamped found = tf.lookupTransform(parent, child, stamp);
   const Eigen::Isometry3d parent_from_child = fromTransform(found.transform);
   if (!parent_from_child.matrix().allFinite()) {
-    ROS_WARN_THROTTLE(5.0, "The transform from %s to %s on TF is not finite: it is not used", parent.c_str(),
-                      child.c_str());
+    static Throttle told(5.0);
+    if (told.isTime(child))
+      ROS_WARN("The transform from %s to %s on TF is not finite: it is not used", parent.c_str(),
+               child.c_str());
     throw tf2::InvalidArgumentException("its transform from " + parent + " is not finite");
   }
   return {parent_from_child, found.header.stamp};

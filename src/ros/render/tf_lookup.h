@@ -15,7 +15,8 @@ struct FoundTransform {
 };
 
 /// At `stamp`; zero: the latest. Throws tf2::TransformException where TF does not know, and, with a warning
-/// that names the frame, where what it knows is not finite: it lets infinite translations pass.
+/// that names the frame, where what it knows is not finite: it lets infinite translations pass. One thread at
+/// a time.
 FoundTransform lookUp(const tf2_ros::Buffer& tf, const std::string& parent, const std::string& child,
                       const ros::Time& stamp);
 

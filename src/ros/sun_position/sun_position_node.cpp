@@ -80,6 +80,7 @@ void SunPositionNode::onClock(const ros::Time& now) {
   if (now == now_) return;
   standing_.stop();
   now_ = now;
+  watch_.standsFor(now_);
   const bool jumped_back = now_ < last_now_;
   if (jumped_back || (now_ - last_now_).toSec() >= 1.0 / options_.publish_rate_hz) return publish();
   standing_.start();
@@ -123,9 +124,9 @@ void SunPositionNode::publish() {
                                         toTransform(celestial, options_.celestial_frame)});
   sun_marker_publisher_.publish(toMarker(sun_, options_.sun_frame, options_.tf_distance_m));
   moon_marker_publisher_.publish(toMarker(moon_, options_.moon_frame, options_.tf_distance_m));
-  if (clock_.atLimit()) {
-    ROS_ERROR_THROTTLE(60.0, "The clock of %s has left the years %g to %g; it is held there",
-                       options_.sun_frame.c_str(), kYears.low, kYears.high);
+  if (clock_.atLimit() && limit_told_.isTime()) {
+    ROS_ERROR("The clock of %s has left the years %g to %g; it is held there", options_.sun_frame.c_str(),
+              kYears.low, kYears.high);
   }
 }
 
@@ -178,10 +179,22 @@ bool SunPositionNode::onGetSunTimes(GetSunTimes::Request& request, GetSunTimes::
   });
 }
 
+std::string SunPositionNode::hindrance() {
+  constexpr double kStill_s = 3.0;
+  if (!ros::Time::isSimTime() || clock_.rate() == 0.0 || waiting_) return std::string();
+  if (now_.isZero())
+    return "the sun stands still, since no time comes on /clock, by which /use_sim_time tells to go";
+  if (watch_.standsFor(now_) <= kStill_s) return std::string();
+  return "the sun stands still, since /clock stands at " + textOfStamp(now_);
+}
+
 void SunPositionNode::describe(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::string hindered = hindrance();
   if (clock_.atLimit()) {
     status.summary(diagnostic_msgs::DiagnosticStatus::ERROR,
                    "the clock is held at the end of the supported years");
+  } else if (!hindered.empty()) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, hindered);
   } else {
     const char* motion = clock_.rate() == 0.0 ? "the sun stands still" : "the sun moves";
     status.summary(diagnostic_msgs::DiagnosticStatus::OK,

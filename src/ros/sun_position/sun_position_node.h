@@ -6,6 +6,7 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "ros/conversions/requests.h"
+#include "ros/steady.h"
 #include "ros/sun_position/answers.h"
 #include "ros/sun_position/options.h"
 #include "ros/sun_position/sun_clock.h"
@@ -35,6 +36,8 @@ class SunPositionNode {
   void publish();
   ros::Time nextStamp();
   void describe(diagnostic_updater::DiagnosticStatusWrapper& status);
+  /// What keeps a sun from moving that should; empty: nothing.
+  std::string hindrance();
 
   SunPositionOptions options_;
   SunClock clock_;
@@ -45,6 +48,8 @@ class SunPositionNode {
   ros::Time now_;       ///< as last heard
   ros::Time last_now_;  ///< of what was published last
   ros::Time last_stamp_;
+  ClockWatch watch_;
+  Throttle limit_told_{60.0};
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;

@@ -6,6 +6,8 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 import unittest
 from xmlrpc.client import ServerProxy
 
@@ -18,6 +20,7 @@ import yaml
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from sensor_msgs.msg import CompressedImage, Image
 from std_srvs.srv import Trigger
+from sunlit.msg import PairDifference
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from evaluator_runs import (DIRECT, LONGEST_WAIT_S, Evaluator, Streams, image_message, picture, program, read,  # noqa: E402
@@ -119,6 +122,30 @@ class TestLimits(unittest.TestCase):
 
     def test_a_fast_sender_stays_within_the_memory_limit_and_ctrl_c_writes_all_files(self):
         self.check_fast_sender(signal.SIGINT)
+
+    def test_ctrl_c_ends_the_wait_for_a_reader_that_takes_nothing(self):
+        has_one, read_on = threading.Event(), threading.Event()
+
+        def take(_):
+            has_one.set()
+            read_on.wait(LONGEST_WAIT_S)  # it takes nothing more from its socket
+        evaluator = self.start(poses=3, exit_when_done=True)
+        reader = rospy.Subscriber('/%s/pair_difference' % evaluator.name, PairDifference, take, queue_size=None)
+        wait_until(lambda: reader.get_num_connections() > 0, 'a connection')
+        for pose in range(3):
+            for stream in range(2):
+                self.streams.send(stream, stamp_of(pose), picture(pose, stream))
+            self.assertTrue(has_one.wait(LONGEST_WAIT_S))
+        wait_until(lambda: os.path.exists(self.out + '/summary.csv'), 'the results')
+        time.sleep(0.5)
+        self.assertIsNone(evaluator.process.poll())  # it waits for 30 s
+        interrupted = time.monotonic()
+        evaluator.process.send_signal(signal.SIGINT)
+        status, output = evaluator.wait()
+        self.assertLess(time.monotonic() - interrupted, 10.0)
+        self.assertEqual(status, 0, output)
+        read_on.set()
+        reader.unregister()
 
     def test_ctrl_c_in_the_middle_of_a_long_matching_does_not_try_the_patience_of_roslaunch(self):
         launch = subprocess.Popen(['roslaunch', 'sunlit', 'evaluator.launch', 'streams:=[h04, h12]', 'output:=' + self.out],
@@ -316,7 +343,13 @@ class TestLimits(unittest.TestCase):
     def test_diagnostics_tell_progress_backlog_and_what_is_awaited(self):
         told = []
         subscriber = rospy.Subscriber('/diagnostics', DiagnosticArray, lambda m: told.extend(m.status))
+        misspelt = Evaluator({'streams': ['h04', 'noon', 'h20'], 'output_dir': self.folder.name + '/misspelt'})
         evaluator = self.start(poses=10)
+        wait_until(lambda: any('nobody publishes images of noon, h20' == s.message and s.level == DiagnosticStatus.WARN
+                               and s.name.startswith(misspelt.name) for s in told), 'a warning')
+        misspelt.kill()
+        wait_until(lambda: any('0 poses evaluated' == s.message and s.level == DiagnosticStatus.OK
+                               and s.name.startswith(evaluator.name) for s in told), 'a status')
         for pose in range(3):
             for stream in range(2 if pose < 2 else 1):
                 self.streams.send(stream, stamp_of(pose), picture(pose, stream))

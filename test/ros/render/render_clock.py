@@ -6,6 +6,7 @@ import math
 import os
 import subprocess
 import tempfile
+import time
 import unittest
 import xmlrpc.client
 
@@ -18,7 +19,7 @@ import tf2_py
 from rendering import Process, Reader, RenderNode, TIMEOUT_S, instant_of, parameters
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Trigger
-from sunlit.msg import Capture
+from sunlit.msg import Activity, Capture
 from tf2_msgs.msg import TFMessage
 
 POSES = 20
@@ -179,6 +180,31 @@ class RenderClock(unittest.TestCase):
         self.assertEqual(times, sorted(times))
         self.assertEqual(times[0], round(1e9 * (START_S - 1.0 / FRAME_RATE)))  # while the world loads
         self.assertLessEqual({stamp.to_nsec() for stamp in images}, set(times))
+
+    def test_ctrl_c_while_light_is_baked_or_waited_for_ends_at_once_and_takes_the_clock_back(self):
+        with tempfile.TemporaryDirectory() as cache:
+            # Would take a minute.
+            long = {"transport": {"cache_dir": cache, "rays": 64, "samples": 10000000, "finest": 0.02}}
+            other = parameters(conditions=["a"], **long)
+            with RenderNode("owner", moving(**long)) as owner:
+                says = rospy.wait_for_message("/owner/activity", Activity, TIMEOUT_S).doing
+                while says != "baking":
+                    says = rospy.wait_for_message("/owner/activity", Activity, TIMEOUT_S).doing
+                with RenderNode("second", other) as waiting:
+                    waiting.line_with("Another process bakes the light of this world")
+                    self.interrupt(waiting)
+                self.assertTrue(rospy.has_param("/use_sim_time"))
+                self.interrupt(owner)
+            self.assertFalse(rospy.has_param("/use_sim_time"))
+            self.assertEqual(os.listdir(cache), [])
+
+    def interrupt(self, node):
+        begin = time.monotonic()
+        node.process.send_signal(2)
+        status, said = node.end()
+        self.assertEqual(status, 0, said)
+        self.assertFalse([line for line in said if "ERROR" in line or "FATAL" in line], said)
+        self.assertLess(time.monotonic() - begin, 15.0)  # after which roslaunch loses its patience
 
     def test_there_is_one_clock(self):
         other = rospy.Publisher("/clock", Clock, queue_size=1)

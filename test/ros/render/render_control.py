@@ -1,11 +1,14 @@
 #!/usr/bin/python3
 """Start, pause, single views, following a TF frame, and what the node says while it waits."""
+import copy
 import datetime
 import math
 import os
+import re
 import struct
 import tempfile
 import threading
+import time
 import unittest
 
 import rosbag
@@ -13,7 +16,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Pose, PoseStamped, TransformStamped
 from nav_msgs.msg import Path
-from rendering import BOX_FACE_M, Process, Reader, RenderNode, Sun, TIMEOUT_S, Transforms, instant_of, parameters, service
+from rendering import BOX_FACE_M, Process, Reader, RenderNode, Sky, Sun, TIMEOUT_S, Transforms, following, instant_of, parameters, service
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import CameraInfo, Image
 from std_srvs.srv import Trigger
@@ -55,7 +58,7 @@ class RenderControl(unittest.TestCase):
         reader = Reader(["a"], node="/controlled")
         tree = parameters(conditions=["a"], autostart=False, wait_for=["/reader/progress"], max_ahead=3,
                           subscribers={"images": 1})
-        with RenderNode("controlled", tree):
+        with RenderNode("controlled", tree) as node:
             view = service("/controlled/render_view", RenderView)
             reader.wait("/path", 1)  # known before the start
             for _ in range(3):
@@ -70,8 +73,13 @@ class RenderControl(unittest.TestCase):
                 self.assertTrue(view(pose=camera_at(2.0), condition="a").success)
             self.assertEqual(reader.of("/controlled/progress")[-1].data, 3)
 
+            time.sleep(1.0)
+            resumed = time.monotonic()
             service("/controlled/start", Trigger)()
             images = reader.wait("/a/camera/image_raw", 20)
+            # A pause is no time that poses take: 16 of the 17 are told of, since the first one begins.
+            a_pose_ms = float(re.search(r"\), (\d+) ms a pose", node.line_with("pose 20 of 20 (100 %)")).group(1))
+            self.assertLess(16 * (a_pose_ms - 0.5), 1000.0 * (time.monotonic() - resumed))
             self.assertEqual([image.header.stamp.to_nsec() for image in images],
                              [1000 * 10**9 + pose * 125 * 10**6 for pose in range(20)])
         reader.close()
@@ -116,8 +124,7 @@ class RenderControl(unittest.TestCase):
 
     def test_follows_a_frame_with_its_stamps(self):
         sender = Transforms()
-        tree = parameters(conditions=["a"], frame_rate=1000.0, camera={"follow": "tf", "follow_frame": "robot"},
-                          subscribers={"images": 1})
+        tree = following(conditions=["a"], frame_rate=1000.0, camera={"follow_frame": "robot"}, subscribers={"images": 1})
         stamps = [rospy.Time(2000 + second) for second in range(5)]
         with RenderNode("follower", tree) as node:
             node.line_with("Waiting for subscribers of /a/camera/image_raw")
@@ -137,28 +144,45 @@ class RenderControl(unittest.TestCase):
             static, = reader.wait("/tf_static", 1)[0].transforms
             self.assertEqual((static.header.frame_id, static.child_frame_id), ("robot", "camera_optical_frame"))
             self.assertEqual({t.child_frame_id for m in reader.of("/tf") for t in m.transforms}, {"robot"})
+            # Under a sun that moves there is one picture for each of its places, whatever frame_rate asks for.
+            sky = Sky("/a/")
+            for index in range(12):  # the first may be under the sun before
+                sky.send_sun(2010.0 + index, rate=1.0)
+                sender.send(robot_at(0.0, rospy.Time.from_sec(2010.5 + index)))
+                sky.send_sun(2011.0 + index, rate=1.0)
+                reader.wait("/a/camera/image_raw", 6 + index)
+            self.assertIn("a picture every 0.001 s, but the sun comes every 1.000 s", node.line_with("frame_rate asks"))
+            for publisher in sky.publishers:
+                publisher.unregister()
         reader.close()
         sender.close()
 
     def test_leaves_the_optical_frame_to_the_robot_that_has_it(self):
-        tree = parameters(conditions=["a"], frame_rate=1000.0, camera={"follow": "tf", "follow_frame": "robot"})
+        tree = following(conditions=["a"], frame_rate=1000.0, camera={"follow_frame": "robot", "baseline": 0.5})
         for turned, warned in ((True, False), (False, True)):
             reader, sender = Reader(["a"], node="/follower"), Transforms()
             optical = robot_at(0.0, rospy.Time(2000))
             optical.header.frame_id, optical.child_frame_id, optical.transform.translation.z = "robot", "camera_optical_frame", 0.0
+            right = copy.deepcopy(optical)
+            right.child_frame_id, right.transform.translation.y = "camera_right_optical_frame", -0.5
             if turned:  # z forward, x right, y down
-                q = optical.transform.rotation
-                q.x, q.y, q.z, q.w = -0.5, 0.5, -0.5, 0.5
+                for q in (optical.transform.rotation, right.transform.rotation):
+                    q.x, q.y, q.z, q.w = -0.5, 0.5, -0.5, 0.5
             with RenderNode("follower", tree) as node:
                 node.line_with("Waiting for the TF frame robot")
                 sender.wait_for_readers(2)
-                sender.send(robot_at(0.0, rospy.Time(2000)), optical)
+                sender.send(robot_at(0.0, rospy.Time(2000)), optical, right)
                 reader.wait("/a/camera/image_raw", 1)
                 node.process.send_signal(2)
                 status, said = node.end()
             self.assertEqual(status, 0, said)
             self.assertTrue(any("TF has the frame camera_optical_frame below robot: it is left" in line for line in said), said)
             self.assertEqual(any("is not where pictures are taken from, which is robot" in line for line in said), warned, said)
+            of_right = [line for line in said if "WARN" in line and "camera_right_optical_frame" in line]
+            self.assertEqual(len(of_right), warned, said)
+            for line in of_right:
+                self.assertIn("which is 0.5 m to the right of robot,", line)
+                self.assertIn("another name as frames/right_optical", line)
             self.assertEqual(reader.of("/tf_static"), [])
             reader.close()
             sender.close()
@@ -222,6 +246,22 @@ class RenderControl(unittest.TestCase):
         for now, capture in arrivals:
             self.assertGreaterEqual(now, capture.header.stamp)
         listener.unregister()
+        reader.close()
+
+    def test_begins_with_the_first_sky_where_that_is_ahead_of_its_clock(self):
+        reader, sky = Reader(["c"], node="/behind"), Sky("/c/")
+        with RenderNode("behind", parameters(conditions=["c"], start_stamp="now", subscribers={"images": 1})):
+            ahead = []
+            for _ in range(int(TIMEOUT_S / 0.05)):
+                if reader.of("/c/camera/image_raw"):
+                    break
+                ahead.append(rospy.Time.now() + rospy.Duration(0.5))
+                sky.send_sun(ahead[-1].to_sec(), rate=1.0)
+                time.sleep(0.05)
+            first = reader.wait("/c/camera/image_raw", 1)[0].header.stamp
+        self.assertGreaterEqual(first.to_sec(), ahead[0].to_sec())
+        for publisher in sky.publishers:
+            publisher.unregister()
         reader.close()
 
     def test_says_which_sun_it_waits_for(self):

@@ -10,9 +10,13 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import TransformStamped
-from rendering import SUPPORT, TIMEOUT_S, Process, Reader, RefusalTest, RenderNode, Sky, Transforms, parameters
+from rendering import SUPPORT, TIMEOUT_S, Process, Reader, RefusalTest, RenderNode, Sky, Transforms, following, parameters, service
 from rosgraph_msgs.msg import Clock
+from std_srvs.srv import Trigger
 from sunlit.msg import SunPosition
+
+
+EARLY = "ROS time to reach %s, the stamp of pose %d"
 
 
 class Diagnostics:
@@ -119,11 +123,45 @@ class RenderDiagnostics(RefusalTest):
         diagnostics = Diagnostics("stuck")
         reader = Reader(["a"], node="/stuck")
         sky = Sky("/a/")
+        ended = threading.Event()
+
+        def go_on():
+            stamp = 2000.0
+            while not ended.wait(0.1):  # as a sun does; what the node says holds the newest
+                sky.send_sun(stamp, rate=1.0)
+                stamp += 0.1
+        sun = threading.Thread(target=go_on)
+        sun.start()
+        self.addCleanup(sun.join)
+        self.addCleanup(ended.set)
         with RenderNode("stuck", clock_owner()):
-            sky.send_sun(stamp=2000.0)
             status = diagnostics.wait("run", DiagnosticStatus.ERROR, poses_done="0")[0][1]
             self.assertTrue(status.message.startswith("cannot go on without the sky of 1000.000000000 on /a/sun"), status)
+        ended.set()
+        sun.join()
         for publisher in sky.publishers:
+            publisher.unregister()
+        reader.close()
+        diagnostics.close()
+
+    def test_a_pose_whose_time_does_not_come_is_told_of(self):
+        clock, sky, diagnostics = rospy.Publisher("/clock", Clock, queue_size=1, latch=True), Sky("/a/"), Diagnostics("early")
+        reader = Reader(["a"], node="/early")
+        clock.publish(Clock(rospy.Time(5)))
+        sky.send_sun(5.0)
+        with RenderNode("early", parameters(conditions=["a"], diagnostic_period=0.05, path={"count": 2}, subscribers={"images": 1},
+                                            autostart=False)):
+            diagnostics.wait("run", DiagnosticStatus.WARN, waits_for="the service /early/start")
+            service("/early/start", Trigger)()
+            diagnostics.wait("run", DiagnosticStatus.OK, activity="rendering")
+            status = diagnostics.wait("run", DiagnosticStatus.WARN, poses_done="0", waits_for=EARLY % ("1000.000000000", 0))[0][1]
+            self.assertTrue(status.message.startswith("waits for ROS time to reach 1000"), status)
+            clock.publish(Clock(rospy.Time(1000)))  # where it stops
+            diagnostics.wait("run", DiagnosticStatus.OK, poses_done="1", waits_for="nothing")
+            diagnostics.wait("run", DiagnosticStatus.WARN, poses_done="1", waits_for=EARLY % ("1000.125000000", 1))
+            clock.publish(Clock(rospy.Time(1001)))
+            reader.wait("/a/camera/image_raw", 2)
+        for publisher in sky.publishers + [clock]:
             publisher.unregister()
         reader.close()
         diagnostics.close()
@@ -131,8 +169,8 @@ class RenderDiagnostics(RefusalTest):
     def test_a_camera_that_follows_goes_on_when_time_begins_anew(self):
         clock = rospy.Publisher("/clock", Clock, queue_size=1, latch=True)
         sky, sender = Sky("/a/"), Transforms()
-        tree = parameters(conditions=["a"], frame_rate=10.0, camera={"follow": "tf", "follow_frame": "robot"},
-                          subscribers={"images": 1}, shutter={"line_delay": 10.0})
+        tree = following(conditions=["a"], frame_rate=10.0, camera={"follow_frame": "robot"},
+                         subscribers={"images": 1}, shutter={"line_delay": 10.0})
 
         def moment(now, suns=()):
             clock.publish(Clock(rospy.Time.from_sec(now)))

@@ -6,7 +6,7 @@ import unittest
 import rospy
 import rostest
 import tf2_py
-from rendering import Process, Reader, RefusalTest, RenderNode, Sun, TIMEOUT_S, parameters
+from rendering import Process, Reader, RefusalTest, RenderNode, Sun, TIMEOUT_S, following, parameters
 
 POSES = 3
 
@@ -69,19 +69,23 @@ class RenderFrames(RefusalTest):
             self.assertEqual({m.header.frame_id for m in messages}, {side + "/" + frame}, topic)
 
     def test_a_sky_of_another_map_is_refused(self):
-        sun = Sun("/a/sun")  # of `map`
-        with RenderNode("elsewhere", parameters(conditions=["a"], frames={"map": "world"})) as node:
-            self.assertIn('frame_id is "map", but must be "world"', node.line_with("Refused a sun on /a/sun"))
-        sun.publisher.unregister()
+        suns = [Sun("/a/sun"), Sun("/b/sun")]  # of `map`
+        with RenderNode("elsewhere", parameters(conditions=["a", "b"], frames={"map": "world"})) as node:
+            said = node.line_with("Refused a sun on /") + node.line_with("Refused a sun on /")
+            self.assertEqual(said.count('frame_id is "map", but must be "world"'), 2, said)
+            for condition in ("a", "b"):  # none of them hides the other
+                self.assertIn("Refused a sun on /%s/sun" % condition, said)
+        for sun in suns:
+            sun.publisher.unregister()
 
     def test_names_that_make_no_tree_are_refused(self):
         for key in ("map", "camera", "optical"):
             self.assert_refused(parameters(frames={key: ""}), "/refused/frames/" + key, "name of a TF frame")
             self.assert_refused(parameters(frames={key: "/" + key}), "/refused/frames/" + key, "without a slash in front")
         self.assert_refused(parameters(frames={"optical": "map"}), "/refused/frames/optical", "/refused/frames/map is called so")
-        self.assert_refused(parameters(camera={"follow": "tf", "follow_frame": "map"}), "/refused/camera/follow_frame",
+        self.assert_refused(following(camera={"follow_frame": "map"}), "/refused/camera/follow_frame",
                             "/refused/frames/map is called so")
-        self.assert_refused(parameters(camera={"follow": "tf"}, frames={"camera": "eye"}), "/refused/frames/camera is given",
+        self.assert_refused(following(frames={"camera": "eye"}), "/refused/frames/camera is given",
                             "/refused/camera/follow_frame")
 
 

@@ -13,6 +13,7 @@
 #include "ros/render/path_source.h"
 #include "ros/render/run_files.h"
 #include "ros/render/run_log.h"
+#include "ros/steady.h"
 #include "support/message_of.h"
 
 namespace sunlit::ros_interface {
@@ -43,6 +44,52 @@ TEST(Options, WithoutParametersAreTheDefaultsOfTheBuiltInWorld) {
   EXPECT_EQ(options.studioOptions().render.camera.width, 640);
   EXPECT_FALSE(options.pacing.start_stamp_s.has_value());
   EXPECT_EQ(options.chain.exposure.mode, image::ExposureMode::kAuto);
+}
+
+class Waiting : public testing::Test {
+ protected:
+  /// Whether it is worth a word, so many seconds later.
+  bool after(double seconds, const Wait& wait) {
+    now_s_ += seconds;
+    return log_.report(wait);
+  }
+  double now_s_ = 100.0;
+  WaitLog log_{[this] { return now_s_; }};
+};
+
+TEST_F(Waiting, ForTheSameIsWorthAWordHoweverItsWordsChange) {
+  EXPECT_FALSE(after(0.0, {"a sky, which stands at 0", "a sky"}));
+  EXPECT_FALSE(after(1.9, {"a sky, which stands at 1.9", "a sky"}));
+  EXPECT_TRUE(after(0.1, {"a sky, which stands at 2", "a sky"}));
+  EXPECT_TRUE(after(0.1, {"a sky, which stands at 2.1", "a sky"}));
+}
+
+TEST_F(Waiting, ForSomethingElseOrForNothingBeginsAnew) {
+  after(0.0, std::string("progress, which stands at 3"));
+  EXPECT_FALSE(after(3.0, std::string("progress, which stands at 4")));
+  EXPECT_TRUE(after(2.0, std::string("progress, which stands at 4")));
+  EXPECT_FALSE(after(5.0, {}));
+  EXPECT_FALSE(after(0.0, std::string("progress, which stands at 4")));
+}
+
+TEST(Throttle, GoesByTheSteadyClockAndForEachByItself) {
+  Throttle throttle(5.0);
+  const ros::SteadyTime begin(100, 0);
+  const auto after = [&](double seconds) { return begin + ros::WallDuration(seconds); };
+  EXPECT_TRUE(throttle.isTime("a sun", begin));
+  EXPECT_TRUE(throttle.isTime("a moon", after(1.0)));
+  EXPECT_FALSE(throttle.isTime("a sun", after(4.9)));
+  EXPECT_TRUE(throttle.isTime("a sun", after(5.0)));
+  EXPECT_FALSE(throttle.isTime("a moon", after(5.5)));
+}
+
+TEST(ClockWatch, TellsForHowLongTimeHasStoodStill) {
+  ClockWatch watch;
+  EXPECT_EQ(watch.standsFor(ros::Time(7), ros::SteadyTime(100, 0)), 0.0);
+  EXPECT_EQ(watch.standsFor(ros::Time(7), ros::SteadyTime(102, 0)), 2.0);
+  EXPECT_EQ(watch.standsFor(ros::Time(8), ros::SteadyTime(103, 0)), 0.0);
+  EXPECT_EQ(watch.standsFor(ros::Time(7), ros::SteadyTime(104, 0)), 0.0);  // jumped back
+  EXPECT_EQ(watch.standsFor(ros::Time(7), ros::SteadyTime(105, 0)), 1.0);
 }
 
 class RunFolder : public testing::Test {

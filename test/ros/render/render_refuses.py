@@ -9,7 +9,7 @@ import unittest
 import rospy
 import rostest
 import yaml
-from rendering import PACKAGE, WORLD, RefusalTest, RenderNode, parameters
+from rendering import PACKAGE, WORLD, RefusalTest, RenderNode, following, parameters
 
 BOX = """<sdf version="1.6"><world name="w"><model name="m"><link name="l"><visual name="v"><geometry>
 <mesh><uri>file://%s</uri></mesh></geometry></visual></link></model></world></sdf>"""
@@ -36,6 +36,8 @@ class RenderRefuses(RefusalTest):
         self.assert_refused(parameters(exposure={"mode": "bright"}), "/refused/exposure/mode", "bright", "fixed, auto")
         self.assert_refused(parameters(subscribers={"of": ["my recorder"]}), "/refused/subscribers/of", "'my recorder'", "no node's name")
         self.assert_refused(parameters(subscribers={"of": [""]}), "/refused/subscribers/of", "''", "empty")
+        for side in ("left", "right"):
+            self.assert_refused(parameters(subscribers={side: 1}), "/refused/subscribers/%s is 1" % side, "there is no right camera")
         self.assert_refused(parameters(subscribers={"images": 2, "of": ["/recorder"]}), "/refused/subscribers/images is 2", "names 1")
         self.assert_refused(parameters(camera={"rasterizer": "mesa"}), "/refused/camera/rasterizer", "mesa",
                             "osmesa, egl, builtin")
@@ -53,9 +55,12 @@ class RenderRefuses(RefusalTest):
 
     def test_what_only_a_path_can_heed_where_a_frame_is_followed(self):
         for key, value in (("wait_for", ["/reader/progress"]), ("count_skipped", True), ("max_ahead", 3), ("resume_at", 5),
-                           ("exit_when_done", True)):
-            self.assert_refused(parameters(camera={"follow": "tf"}, **{key: value}), "/refused/" + key + " is given",
-                                "/refused/camera/follow is tf")
+                           ("exit_when_done", True), ("start_stamp", 1000.0), ("look_ahead", False), ("path/count", 3)):
+            tree = following()
+            place = tree.setdefault("path", {}) if key.startswith("path/") else tree
+            place[key.rpartition("/")[2]] = value
+            self.assert_refused(tree, "/refused/" + key + " is given", "/refused/camera/follow is tf")
+        self.assert_refused(parameters(camera={"follow": "tf"}), "/refused/path/file is given")
 
     def test_every_parameter_is_explained_in_the_shipped_file(self):
         def keys(tree, prefix=""):

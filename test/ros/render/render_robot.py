@@ -9,9 +9,10 @@ import unittest
 
 import rospy
 import rostest
-from geometry_msgs.msg import TransformStamped
-from rendering import SUPPORT, TIMEOUT_S, Reader, RefusalTest, RenderNode, Sun, Transforms, parameters, service
+from geometry_msgs.msg import Point, Pose, Quaternion, TransformStamped
+from rendering import SUPPORT, TIMEOUT_S, Reader, RefusalTest, RenderNode, Sun, Transforms, following, parameters, service
 from std_srvs.srv import Trigger
+from sunlit.srv import RenderView
 
 POLE = os.path.join(SUPPORT, "pole.urdf")
 POLE_HEIGHT_M, POLE_BEHIND_M = 3.0, 0.5
@@ -50,6 +51,9 @@ class RenderRobot(RefusalTest):
     def tree(self, **changes):
         return parameters(**dict(dict(conditions=["a"], exposure=FIXED, subscribers={"images": 1}, exit_when_done=True),
                                  **changes))
+
+    def following(self, **changes):
+        return following(conditions=["a"], exposure=FIXED, subscribers={"images": 1}, frame_rate=1000.0, **changes)
 
     def images(self, name, count, **changes):
         """The first images along the path, and what the node said."""
@@ -99,8 +103,8 @@ class RenderRobot(RefusalTest):
         bare, _ = self.images("bare", 1, path={"count": 1})
         reader = Reader(["a"], node="/followed")
         sender = Transforms()
-        tree = self.tree(exit_when_done=False, frame_rate=1000.0, camera={"follow": "tf", "follow_frame": "eye"},
-                         robot={"file": POLE, "tf_patience": 0.2})
+        tree = self.following(camera={"follow_frame": "eye"},
+                              robot={"file": POLE, "tf_patience": 0.2})
         with RenderNode("followed", tree) as node:
             node.line_with("Waiting for the TF frame eye")
             sender.wait_for_readers(2)  # the node, and the reader here
@@ -127,8 +131,8 @@ class RenderRobot(RefusalTest):
     def test_links_that_are_always_sent_later_than_the_frame_are_waited_for(self):
         reader = Reader(["a"], node="/lagging")
         sender = Transforms()
-        tree = self.tree(exit_when_done=False, frame_rate=1000.0, camera={"follow": "tf", "follow_frame": "eye"},
-                         robot={"file": POLE, "tf_patience": TIMEOUT_S})
+        tree = self.following(camera={"follow_frame": "eye"},
+                              robot={"file": POLE, "tf_patience": TIMEOUT_S})
         arrived = lambda: reader.messages["/a/camera/image_raw"]
         with RenderNode("lagging", tree) as node:
             node.line_with("Waiting for the TF frame eye")
@@ -151,26 +155,39 @@ class RenderRobot(RefusalTest):
         reader = Reader(["a"], node="/left_alone")
         sender = Transforms()
         patience_s = 0.3
-        tree = self.tree(autostart=False, path={"count": 3}, wait_for=["/reader/progress"], max_ahead=1, look_ahead=False,
+        tree = self.tree(autostart=False, path={"count": 3}, wait_for=["/reader/progress"], max_ahead=1,
                          robot={"file": POLE, "joints": "tf", "tf_patience": patience_s})
-        links = lambda second: (transform("base_link", "pole", rospy.Time(second), x=-POLE_BEHIND_M),
-                                transform("pole", "weight", rospy.Time(second)))
+        links = lambda second, left: (transform("base_link", "pole", rospy.Time(second), x=-POLE_BEHIND_M, y=left),
+                                      transform("pole", "weight", rospy.Time(second)),
+                                      transform("base_link", "camera_link", rospy.Time(second), z=CAMERA_HEIGHT_M))
+        is_at = lambda image, left: brightness(image, 3.0, left) < 0.7 * brightness(image, 3.0, -left)
+        eye = Pose(Point(0.0, 0.0, CAMERA_HEIGHT_M), Quaternion(0.0, 0.0, 0.0, 1.0))
         with RenderNode("left_alone", tree) as node:
             start = service("/left_alone/start", Trigger)
+            view = service("/left_alone/render_view", RenderView)
             sender.wait_for_readers(2)  # the node, and the reader here
-            sender.send(*links(2000))
+            self.assertFalse(is_at(view(pose=eye).image, 0.8))  # counts for nothing, and nothing stays as it was
+            sender.send(*links(2000, 0.8))
+            for _ in range(int(TIMEOUT_S / 0.1)):
+                if is_at(view(pose=eye).image, 0.8):
+                    break
+                time.sleep(0.1)
             start()
-            for poses in (1, 2):
-                reader.wait("/a/camera/image_raw", poses)
+            for poses, left in ((1, 0.8), (2, -0.8)):
+                self.assertTrue(is_at(reader.wait("/a/camera/image_raw", poses)[-1], left), poses)
                 time.sleep(2 * patience_s)
                 if poses == 1:
-                    sender.send(*links(2001))
+                    sender.send(*links(2001, -0.8))
                     time.sleep(patience_s / 2)
                 reader.done(poses)
             reader.wait("/a/camera/image_raw", 3)
             reader.done(3)
             status, said = node.end()
         self.assertEqual(status, 0, said)
+        told = [line for line in said if "WARN" in line and "the frame camera_link" in line]
+        self.assertEqual(len(told), 1, said)
+        self.assertIn("Others send the frame camera_link below base_link on TF, and this node below map", told[0])
+        self.assertIn("publish_tf: false", told[0])
         told = [line for line in said if "renewed" in line]
         self.assertEqual(len(told), 3, said)
         self.assertIn("link pole on TF is that of 2001.000 s and has not been renewed for 0.3 s", told[0])

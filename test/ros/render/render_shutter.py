@@ -1,6 +1,10 @@
 #!/usr/bin/python3
 """What moves, and what comes late, by the topics: rows that see one after another, smear, and an exposure that depends on
 poses that nobody gets."""
+import csv
+import os
+import tempfile
+
 import numpy
 import rospy
 import rostest
@@ -76,7 +80,12 @@ class RenderShutter(RefusalTest):
             self.assertAlmostEqual(found, by_hand, delta=1e-9, msg=i)
         self.assertNotEqual(evs[-1], metered[-1])
         part, _ = self.taken("part", conditions, 4, path={"first": 8, "count": 4})
-        nth, _ = self.taken("nth", conditions, 3, path={"count": 12, "stride": 5})
+        with tempfile.TemporaryDirectory() as folder:
+            nth, _ = self.taken("nth", conditions, 3, path={"count": 12, "stride": 5}, output_dir=folder)
+            with open(os.path.join(folder, "timing.csv")) as file:
+                lit = {row["what"]: int(row["count"]) for row in csv.DictReader(file) if row["stage"] == "daylight"}
+        # What is skipped is lit where it is metered: from 0 to 10.
+        self.assertEqual(lit, {"late": 11, "at_once": 3})
         for found, indices in ((part, range(8, 12)), (nth, (0, 5, 10))):
             for name in conditions:
                 self.assertEqual([capture.ev100 for capture in found[name][1]],

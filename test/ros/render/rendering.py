@@ -31,6 +31,14 @@ def parameters(**changes):
     return tree
 
 
+def following(**changes):
+    """The same camera after a TF frame, without what is for a path alone."""
+    tree = parameters(**changes)
+    tree["camera"]["follow"] = "tf"
+    del tree["path"], tree["start_stamp"]
+    return tree
+
+
 def service(name, kind):
     rospy.wait_for_service(name, TIMEOUT_S)
     return rospy.ServiceProxy(name, kind)

@@ -135,6 +135,16 @@ TEST(SkyMoments, StayBoundedHoweverFarAReaderIsBehind) {
   EXPECT_NEAR(elevationDeg(moments.at(ros::Time(1000 + kCount))), 90.0, 1e-5);  // asin near its end
 }
 
+TEST(SkyMoments, TellHowFarApartTheyAreWhereTheSkyMoves) {
+  SkyMoments moments(false);
+  moments.put(ros::Time(10), sunAt(10.0), kMoving);
+  moments.put(ros::Time(12), sunAt(14.0), kMoving);
+  moments.put(ros::Time(13), sunAt(14.0));
+  moments.put(ros::Time(15), sunAt(14.0));
+  EXPECT_EQ(moments.spacing(ros::Time(11)), 2.0);
+  for (const double stamp : {9.0, 10.0, 12.0, 14.0, 16.0}) EXPECT_EQ(moments.spacing(ros::Time(stamp)), 0.0);
+}
+
 TEST(SkyMoments, ShineAlikeWhateverTimeItIs) {
   SkyBodies a;
   a.sun = sunAt(3.0);

@@ -5,6 +5,7 @@ import unittest
 import rospy
 import rostest
 import tf2_ros
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import QuaternionStamped
 from rosgraph_msgs.msg import Clock
 from sun_reading import Latest
@@ -28,6 +29,7 @@ class SunFollowsClock(unittest.TestCase):
         cls.sun = Latest("/sun", SunPosition)
         cls.moon = Latest("/moon", MoonPosition)
         cls.celestial = Latest("/celestial", QuaternionStamped)
+        cls.diagnostics = Latest("/diagnostics", DiagnosticArray)
         cls.tf = tf2_ros.Buffer()
         # Not a TransformListener: its waiting needs a clock that runs.
         cls.transforms = Latest("/tf", TFMessage, lambda message: [cls.tf.set_transform(transform, "test")
@@ -62,7 +64,8 @@ class SunFollowsClock(unittest.TestCase):
         self.celestial.wait(lambda celestial: celestial.header.stamp == sun.header.stamp)
 
     def test_rate_pause_and_jump_back(self):
-        # Before any clock the sun stands at its date_time.
+        # Before any clock the sun stands at its date_time, and says why.
+        self.wait_for_warning("no time comes on /clock")
         self.assertEqual(vector(self.sun.wait().direction), self.direction_at(0))
         self.assertEqual(vector(self.go_to(START_S).direction), self.direction_at(0))
         for ros_second in (START_S + 10, START_S + 300):
@@ -93,6 +96,11 @@ class SunFollowsClock(unittest.TestCase):
             sun_second = 3600 + RATE * (later - ros_second)
             self.assertEqual(vector(sun.direction), self.direction_at(sun_second))
             self.assertEqual(vector(self.moon.message.direction), self.direction_at(sun_second, self.get_moon))
+        self.wait_for_warning("since /clock stands at %d.0" % later)
+
+    def wait_for_warning(self, text):
+        self.diagnostics.wait(lambda array: any(status.name.startswith("sun_position") and status.level == DiagnosticStatus.WARN
+                                                and text in status.message for status in array.status))
 
     def test_waits_for_its_first_subscriber_where_told_to(self):
         # Later than all of the other test, which runs first, since it needs a time without a clock.

@@ -206,6 +206,30 @@ TEST_F(TransportCache, SaysThatItWaitsForAnotherProcess) {
   EXPECT_EQ(files().size(), 1u);
 }
 
+TEST_F(TransportCache, EndsByWhatAListenerThrows) {
+  struct Enough : std::exception {};
+  const World world = worldOf(wallOnGround());
+  BakeListener listener;
+  listener.progress = [](double share, double) {
+    if (share > 0.5) throw Enough();
+  };
+  EXPECT_THROW(Transport::cached(world.geometry, {}, folder_.string(), listener), Enough);
+  EXPECT_TRUE(files().empty());  // nor does a lock remain
+
+  light(world);
+  const fs::path file = files().at(0);
+  fs::remove(file);
+  const image::CacheTurn other = image::CacheTurn::await(file);
+  int noted = 0, checked = 0;
+  listener = {nullptr, nullptr, [&](const std::string&) { ++noted; }};
+  listener.check = [&] {
+    if (++checked == 3) throw Enough();
+  };
+  EXPECT_THROW(Transport::cached(world.geometry, {}, folder_.string(), listener), Enough);
+  EXPECT_EQ(noted, 1);
+  EXPECT_FALSE(fs::exists(file));
+}
+
 // Bakes of rooms whose walls differ in colour, all of one size.
 class CacheLimit : public TransportCache {
  protected:

@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 #include "light/bake/cache/cache_file.h"
 #include "sunlit/image/cache_folder.h"
@@ -37,12 +39,15 @@ std::optional<fs::path> usableFolder(const std::string& folder, const Log& log) 
 }
 
 std::optional<image::CacheTurn> turnFor(const fs::path& file, const BakeListener& listener) {
+  bool is_noted = false;
+  const auto waits = [&] {
+    if (listener.note && !std::exchange(is_noted, true))
+      listener.note("Another process bakes the light of this world: waiting for " + file.string());
+    if (listener.check) listener.check();
+  };
   try {
-    return image::CacheTurn::await(file, [&] {
-      if (listener.note)
-        listener.note("Another process bakes the light of this world: waiting for " + file.string());
-    });
-  } catch (const std::exception& problem) {
+    return image::CacheTurn::await(file, waits);
+  } catch (const std::system_error& problem) {
     if (listener.log) listener.log(std::string("baked light is not kept: ") + problem.what());
     return std::nullopt;
   }
@@ -71,7 +76,8 @@ std::uintmax_t BakeCache::usedBytes() const {
 std::shared_ptr<const Transport> Transport::cached(std::shared_ptr<const Geometry> geometry,
                                                    const TransportOptions& options, const BakeCache& cache,
                                                    const BakeListener& listener) {
-  const auto& [progress, log, note] = listener;
+  const BakeProgress& progress = listener.progress;
+  const Log& log = listener.log;
   validate(options);
   const std::optional<fs::path> folder = usableFolder(cache.folder, log);
   if (!folder) return bake(std::move(geometry), options, progress);
