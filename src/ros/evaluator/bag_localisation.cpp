@@ -107,10 +107,10 @@ class BagLocalisation {
     const std::vector<std::size_t> usable = source_.usable(*views, false);
     Found found{stream.fileName(), {}, rows_.size()};
     source_.forEach(*views, usable, {"queries localised", false, [&](const auto& which, const auto& read) {
-                                       auto found = localisation_.localise(read);
+                                       auto localised = localisation_.localise(read);
                                        for (std::size_t q = 0; q < which.size(); ++q)
-                                         addRows(*views, which[q], q, found);
-                                       return found.faults;
+                                         addRows(*views, which[q], q, localised);
+                                       return localised.faults;
                                      }});
     found.end_row = rows_.size();
     for (const std::size_t i : usable)
