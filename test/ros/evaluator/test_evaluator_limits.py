@@ -20,7 +20,7 @@ from sensor_msgs.msg import CompressedImage, Image
 from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from evaluator_runs import (DIRECT, LONGEST_WAIT_S, Evaluator, Streams, image_message, picture, program, read,  # noqa: E402
+from evaluator_runs import (DIRECT, LONGEST_WAIT_S, Evaluator, Streams, image_message, located, picture, read,  # noqa: E402
                             rows, stamp_of, wait_until)
 
 STREAMS = ['h04', 'h12']
@@ -146,7 +146,7 @@ class TestLimits(unittest.TestCase):
         self.check_fast_sender(signal.SIGTERM)
 
     def test_other_nodes_end_in_order_at_sigterm_too(self):
-        node = subprocess.Popen([program('sun_position_node'), '__name:=sun_that_is_ended'],
+        node = subprocess.Popen([located('sun_position_node'), '__name:=sun_that_is_ended'],
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         rospy.wait_for_service('/sun_that_is_ended/get_sun_position', LONGEST_WAIT_S)
         node.send_signal(signal.SIGTERM)

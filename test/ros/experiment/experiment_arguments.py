@@ -2,13 +2,16 @@
 """What roslaunch makes of the arguments of experiment.launch, without starting anything; test/unit/experiment has the rest."""
 import os
 import subprocess
+import sys
 import tempfile
 import unittest
 
-import roslib.packages
 import rosunit
 import shown
 import yaml
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support"))
+from programs import located  # noqa: E402
 
 SOURCE = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", ".."))
 
@@ -24,7 +27,7 @@ class ExperimentArguments(unittest.TestCase):
                           "sun_position.yaml"])  # sun_refuses_parameters.py
 
     def test_every_shipped_waypoint_file_is_a_path(self):
-        count_poses = roslib.packages.find_node("sunlit", "count_poses")[0]
+        count_poses = located("count_poses")
         paths = os.path.join(SOURCE, "config", "paths")
         self.assertTrue(os.listdir(paths))
         for name in os.listdir(paths):
