@@ -108,8 +108,7 @@ class ExperimentRuns(unittest.TestCase):
         output = os.path.join(self.folder, "replayed")
         evaluator = Launched("evaluator.launch", streams="[h10, h12]", differences=DIFFERENCES, poses=POSES, output=output,
                              exit_when_done="true")
-        evaluator.wait_for(lambda: "/h10/camera/image_raw" in evaluator.ros("rosnode", "info", "/evaluator").stdout,
-                           "subscribed")
+        evaluator.wait_for(lambda: "/evaluator" in evaluator.subscribers("/h10/camera/image_raw"), "subscribed")
         # Only what the evaluator hears, since the player waits for subscribers of all that it plays.
         topics = ["/camera/pose"] + ["/%s/camera/%s" % (hour, topic) for hour in ("h10", "h12")
                                      for topic in ("image_raw", "capture")]

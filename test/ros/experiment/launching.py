@@ -150,6 +150,13 @@ class Launched:
         except OSError:
             return set()
 
+    def subscribers(self, topic):
+        """The nodes that hear it."""
+        try:
+            return dict(self.master().getSystemState()[1]).get(topic, [])
+        except OSError:
+            return []
+
     def has_service(self, name):
         try:
             return bool(self.master().lookupService(name))
