@@ -113,7 +113,9 @@ class LaunchFilesStart(unittest.TestCase):
         self.assertNotEqual(usual, clear)  # of noon, as the shipped file has it
         by_hand = launched.ros("rosservice", "call", service,
                                "{condition: clear, pose: {position: {z: 1.0}, orientation: {w: 1.0}}}")
-        self.assertEqual(yaml.safe_load(by_hand.stdout)["image"]["data"], clear)
+        again = yaml.safe_load(by_hand.stdout)["image"]["data"]
+        self.assertEqual(len(again), len(clear))
+        self.assertLess(sum(abs(a - b) for a, b in zip(again, clear)), 0.1 * len(clear))  # the sun has gone on a little
         self.finish(launched)
 
     def view_of(self, launched, service, condition):
