@@ -87,8 +87,17 @@ target_precompile_headers(sunlit_test_headers PRIVATE ${sunlit_parsed_once} <gte
 # The unit test NAME.cpp of the current folder, run by `run_tests`. SUNLIT_SOURCE_DIR and SUNLIT_SHARED_DIR (real test
 # input, which may be absent) are defined for it.
 function(sunlit_test module name)
-  cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
-  catkin_add_gtest(test_${module}_${name} ${name}.cpp)
+  sunlit_tests(${module} ${name} FILES ${name} ${ARGN})
+endfunction()
+
+# sunlit_tests(MODULE NAME FILES name... [LIBRARIES library...])
+# Unit tests in one program, which is compiled and linked in a fraction of the time of one each. Not for what changes more
+# than its own state, such as the environment or a limit of its process.
+function(sunlit_tests module name)
+  cmake_parse_arguments(ARG "" "" "FILES;LIBRARIES" ${ARGN})
+  list(TRANSFORM ARG_FILES APPEND .cpp)
+  catkin_add_gtest(test_${module}_${name} ${ARG_FILES})
+  sunlit_together(test_${module}_${name})
   target_compile_definitions(test_${module}_${name} PRIVATE
     SUNLIT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" SUNLIT_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
   target_precompile_headers(test_${module}_${name} REUSE_FROM sunlit_test_headers)

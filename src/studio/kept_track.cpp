@@ -33,17 +33,18 @@ std::optional<scene::Scene> found(const SealedFiles& files, const std::string& n
 
 }  // namespace
 
-scene::Scene keptRaceTrack(const std::filesystem::path& folder, const Reports& reports) {
+scene::Scene keptRaceTrack(const std::filesystem::path& folder, const Reports& reports,
+                           const std::function<scene::Scene()>& make) {
   constexpr std::uintmax_t kLimit_bytes = 500'000'000;  // that of two builds
   const std::string name = maker();
-  if (name.empty()) return scene::raceTrack();
+  if (name.empty()) return make();
   std::optional<scene::Scene> scene;
   try {
     const SealedFiles files(folder, ".scene", kLimit_bytes);
     if ((scene = found(files, name))) return *std::move(scene);
     const image::CacheTurn turn = files.turn(name);
     if ((scene = found(files, name))) return *std::move(scene);
-    scene = scene::raceTrack();
+    scene = make();
     files.keep(name, [&](const SealedFiles::Sink& sink) { scene::writeBytes(*scene, sink); });
     files.tidy([&](const std::string& line) { tell(reports.warning, line); });
     // That of the file, whose texels other processes share.
@@ -51,7 +52,7 @@ scene::Scene keptRaceTrack(const std::filesystem::path& folder, const Reports& r
   } catch (const std::exception& problem) {
     tell(reports.warning, std::string("the built-in world is not kept: ") + problem.what());
   }
-  return scene ? *std::move(scene) : scene::raceTrack();
+  return scene ? *std::move(scene) : make();
 }
 
 }  // namespace sunlit::studio

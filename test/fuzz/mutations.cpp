@@ -14,6 +14,7 @@
 
 #include "fuzz/mutate.h"
 #include "fuzz/reader.h"
+#include "fuzz/trial.h"
 #include "support/temporary_folder.h"
 
 namespace sunlit::fuzz {
@@ -58,7 +59,7 @@ std::string faultOfSeed(const std::string& seed) {
   if (std::freopen("/dev/null", "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr)
     ::_exit(2);
   const std::vector<std::string> all = seeds();
-  for (std::size_t i = first; i < SUNLIT_FUZZ_CASES; ++i) {
+  for (std::size_t i = first; i < kTrial.cases; ++i) {
     const std::string input = inputOf(i, all);
     shared->number = i;
     shared->size = input.size();
@@ -84,7 +85,7 @@ std::string told(int status, const Shared& shared) {
 /// The file that keeps what `shared` holds.
 std::string keep(const Shared& shared) {
   const std::string file =
-      std::string(SUNLIT_FUZZ_KEPT) + "/" + SUNLIT_FUZZ_READER + "_" + std::to_string(shared.number);
+      std::string(SUNLIT_FUZZ_KEPT) + "/" + kTrial.reader + "_" + std::to_string(shared.number);
   setContent(file, std::string(shared.input, shared.size));
   return file;
 }
@@ -97,14 +98,14 @@ TEST(SlightlyWrongInputs, AreReadOrRefused) {
   ASSERT_NE(memory, MAP_FAILED);
   auto* const shared = static_cast<Shared*>(memory);
   std::size_t first = 0;
-  for (std::size_t faults = 0; first < SUNLIT_FUZZ_CASES && faults < kMostFaults; ++faults) {
+  for (std::size_t faults = 0; first < kTrial.cases && faults < kMostFaults; ++faults) {
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) readAll(first, shared);
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) break;
-    ADD_FAILURE() << SUNLIT_FUZZ_READER << ", input " << shared->number << " " << told(status, *shared)
+    ADD_FAILURE() << kTrial.reader << ", input " << shared->number << " " << told(status, *shared)
                   << "\nIt is kept in " << keep(*shared);
     first = shared->number + 1;
   }

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """The tools, as people type them; above all timelapse."""
 import csv
-import functools
 import os
 import pathlib
 import resource
@@ -14,19 +13,14 @@ import unittest
 import cv2
 import rosunit
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from programs import located  # noqa: E402
+
 WORLD = str(pathlib.Path(__file__).resolve().parents[1] / "support" / "worlds" / "two_boxes.urdf")
 INTERIOR = str(pathlib.Path(WORLD).with_name("interior.gltf"))
 VIEW = ["--world", WORLD, "--pose", "0,0,1", "--size", "96x64", "--fov", "60", "--bounced", "off"]
 # From moonlight over dusk into day.
 DAY = ["--date", "2024-12-16", "--from", "4", "--to", "12", "--frames", "4", "--caption", "hour", "--noise", "3"]
-
-
-@functools.lru_cache()
-def located(program):
-    """As rosrun finds it, but once: looking takes longer than most of these runs."""
-    found = subprocess.run(["catkin_find", "--first-only", "--libexec", "sunlit", program], stdout=subprocess.PIPE,
-                           text=True, check=True)
-    return found.stdout.strip()
 
 
 def run(program, *arguments, **more):

@@ -2,29 +2,25 @@
 import os
 import signal
 import subprocess
+import sys
 import time
 import warnings
 
 import numpy
-import roslib.packages
 import rospy
 from sensor_msgs.msg import Image
 from std_msgs.msg import UInt32
 
 from sunlit.msg import Capture
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', '..', 'support'))
+from programs import located  # noqa: E402
+
 # A publisher without a queue is what we want; see Streams.
 warnings.filterwarnings('ignore', message='The publisher should be created')
 
 LONGEST_WAIT_S = 120.0  # far above what any step takes; only bounds a failure
 DIRECT = ['boolean_rgb', 'boolean_grey', 'euclidean_rgb', 'euclidean_grey']
-
-
-def program(name):
-    found = roslib.packages.find_node('sunlit', name)
-    if not found:
-        raise RuntimeError('no program %s in the package sunlit' % name)
-    return found[0]
 
 
 def wait_until(condition, what):
@@ -67,7 +63,7 @@ class Evaluator:
         rospy.set_param('/' + self.name, parameters)
         self.progress = 0
         self.subscriber = rospy.Subscriber('/' + self.name + '/progress', UInt32, self.on_progress)
-        self.process = subprocess.Popen([program('evaluator_node'), '__name:=' + self.name],
+        self.process = subprocess.Popen([located('evaluator_node'), '__name:=' + self.name],
                                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
     def on_progress(self, message):

@@ -20,7 +20,7 @@ from std_msgs.msg import String
 from sunlit.msg import Capture
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from evaluator_runs import Evaluator, Streams, image_message, picture, program, read, rows, stamp_of  # noqa: E402
+from evaluator_runs import Evaluator, Streams, image_message, located, picture, read, rows, stamp_of  # noqa: E402
 
 POSES = 60
 NETWORK = os.path.join(rospkg.RosPack().get_path('sunlit'), 'test', 'golden', 'bright_pixel.onnx')
@@ -71,7 +71,7 @@ class TestBags(unittest.TestCase):
                         bag.write(topic + 'capture', capture, stamp_of(pose))
 
     def evaluate_bags(self, *arguments, **environment):
-        return subprocess.run([program('evaluate_bags')] + list(arguments), stdout=subprocess.PIPE,
+        return subprocess.run([located('evaluate_bags')] + list(arguments), stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, timeout=100, env={**os.environ, **environment})
 
     def evaluator(self, name):

@@ -16,7 +16,7 @@ import yaml
 from sensor_msgs.msg import CameraInfo
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from evaluator_runs import Evaluator, Streams, image_message, program, read, rows, stamp_of  # noqa: E402
+from evaluator_runs import Evaluator, Streams, image_message, located, read, rows, stamp_of  # noqa: E402
 from test_evaluator_localise import PARAMETERS, POSES, STEP_M, STREAMS, WALL_M, Truth, place  # noqa: E402
 
 SCALE = 0.4  # of EuRoC's 752 x 480
@@ -94,7 +94,7 @@ class TestLens(unittest.TestCase):
                 bag.write('/camera/depth/image_raw', drive.depth(pose), stamp_of(pose))
         with open(self.path('config.yaml'), 'w') as file:
             yaml.safe_dump(dict(PARAMETERS, output_dir='by --out'), file)
-        done = subprocess.run([program('evaluate_bags'), '--out', self.path(name), '--config', self.path('config.yaml'),
+        done = subprocess.run([located('evaluate_bags'), '--out', self.path(name), '--config', self.path('config.yaml'),
                                self.path(name + '.bag')], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100)
         self.assertEqual(done.returncode, 0, done.stdout)
         return self.errors(name)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Senders that do not wait, and what they may send: memory stays within its limit, an end in the middle writes all
 files, all that was lost is counted and named."""
+import functools
 import os
 import signal
 import subprocess
@@ -23,20 +24,21 @@ from std_srvs.srv import Trigger
 from sunlit.msg import PairDifference
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from evaluator_runs import (DIRECT, LONGEST_WAIT_S, Evaluator, Streams, image_message, picture, program, read,  # noqa: E402
+from evaluator_runs import (DIRECT, LONGEST_WAIT_S, Evaluator, Streams, image_message, located, picture, read,  # noqa: E402
                             rows, stamp_of, wait_until)
 
 STREAMS = ['h04', 'h12']
 FILES = ['frames.csv', 'problems.csv', 'run.yaml', 'summary.csv']
 
 
+@functools.lru_cache(maxsize=None)
 def large(pose, stream):
     """0.9 MB, with enough to find for every detector."""
     return cv2.GaussianBlur(cv2.resize(picture(pose, stream), (640, 480), interpolation=cv2.INTER_NEAREST), (0, 0), 1.5)
 
 
 def full_of_features(pose, stream):
-    """1920x1080 with 20,000 to 100,000 key points, by detector: two of BRISK are matched in half a minute and more."""
+    """1920x1080 with 100,000 key points of BRISK: two are matched in half a minute and more."""
     return numpy.repeat(numpy.repeat(numpy.random.RandomState(10 * pose + stream).randint(
         0, 256, (135, 240, 3)).astype(numpy.uint8), 8, 0), 8, 1)
 
@@ -89,7 +91,7 @@ class TestLimits(unittest.TestCase):
         with open('/proc/%d/status' % evaluator.process.pid) as status:
             return next(int(line.split()[1]) for line in status if line.startswith('VmHWM')) / 1000.0
 
-    def check_fast_sender(self, number):
+    def check_fast_sender(self, number, poses):
         limit_mb = 20.0
         # As much as is ever in work at once, without anything that waits.
         paced = self.start(differences=['sift', 'orb'], output_dir=self.folder.name + '/paced')
@@ -98,9 +100,9 @@ class TestLimits(unittest.TestCase):
             wait_until(lambda: paced.progress >= pose + 2, 'progress')
         at_work_mb = self.most_memory_mb(paced)
         paced.kill()
-        # 300 MB, as fast as they can be sent.
+        # 1.8 MB each, as fast as they can be sent.
         fast = self.start(differences=['sift', 'orb'], memory_limit=limit_mb / 1000.0)
-        self.send_large(range(160))
+        self.send_large(range(poses))
         most_mb = self.most_memory_mb(fast)
         fast.process.send_signal(number)
         status, output = fast.wait()
@@ -121,7 +123,7 @@ class TestLimits(unittest.TestCase):
         self.assertIn('interrupted; writing results', output)
 
     def test_a_fast_sender_stays_within_the_memory_limit_and_ctrl_c_writes_all_files(self):
-        self.check_fast_sender(signal.SIGINT)
+        self.check_fast_sender(signal.SIGINT, 160)
 
     def test_ctrl_c_ends_the_wait_for_a_reader_that_takes_nothing(self):
         has_one, read_on = threading.Event(), threading.Event()
@@ -148,15 +150,16 @@ class TestLimits(unittest.TestCase):
         reader.unregister()
 
     def test_ctrl_c_in_the_middle_of_a_long_matching_does_not_try_the_patience_of_roslaunch(self):
-        launch = subprocess.Popen(['roslaunch', 'sunlit', 'evaluator.launch', 'streams:=[h04, h12]', 'output:=' + self.out],
+        launch = subprocess.Popen(['roslaunch', 'sunlit', 'evaluator.launch', 'streams:=[h04, h12]', 'differences:=[brisk]',
+                                   'verify:=[]', 'output:=' + self.out],
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         wait_until(lambda: all(p.impl.has_connection('/evaluator') for p in self.streams.images), 'connections')
         poses = 3
         for pose in range(poses):
             for stream in range(2):
                 self.streams.send(stream, stamp_of(pose), full_of_features(pose, stream))
-        # All detectors have done with two poses after 20, the matchers after 100.
-        wait_until(lambda: processor_seconds('/evaluator') > 30, 'the matching')
+        # Six pictures have their key points after 13 at most, 2.1 each; the first match takes 30 more.
+        wait_until(lambda: processor_seconds('/evaluator') > 14, 'the matching')
         launch.send_signal(signal.SIGINT)
         output, _ = launch.communicate(timeout=LONGEST_WAIT_S)
         self.assertNotIn('escalating', output)  # to SIGTERM, after 15 s
@@ -170,10 +173,10 @@ class TestLimits(unittest.TestCase):
                          [(pose, 'h04-h12', 'the run was broken off before it was compared') for pose in range(poses)])
 
     def test_sigterm_is_as_ctrl_c(self):
-        self.check_fast_sender(signal.SIGTERM)
+        self.check_fast_sender(signal.SIGTERM, 40)
 
     def test_other_nodes_end_in_order_at_sigterm_too(self):
-        node = subprocess.Popen([program('sun_position_node'), '__name:=sun_that_is_ended'],
+        node = subprocess.Popen([located('sun_position_node'), '__name:=sun_that_is_ended'],
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         rospy.wait_for_service('/sun_that_is_ended/get_sun_position', LONGEST_WAIT_S)
         node.send_signal(signal.SIGTERM)

@@ -20,7 +20,7 @@ from sunlit.msg import Localisation, LocalisationSummary
 from visualization_msgs.msg import MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from evaluator_runs import Evaluator, Streams, image_message, program, read, rows, stamp_of, wait_until  # noqa: E402
+from evaluator_runs import Evaluator, Streams, image_message, located, read, rows, stamp_of, wait_until  # noqa: E402
 
 STREAMS = ['noon', 'dusk']
 POSES = 6
@@ -137,7 +137,7 @@ class TestLocalise(unittest.TestCase):
                 bag.write('/camera/depth/image_raw', depth(pose), stamp_of(pose))
 
     def evaluate_bags(self, *arguments):
-        return subprocess.run([program('evaluate_bags')] + list(arguments), stdout=subprocess.PIPE,
+        return subprocess.run([located('evaluate_bags')] + list(arguments), stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, timeout=100)
 
     def config(self):

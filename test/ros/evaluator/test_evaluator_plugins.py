@@ -11,7 +11,7 @@ import rostest
 import yaml
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from evaluator_runs import Evaluator, Streams, picture, program, read, rows, stamp_of  # noqa: E402
+from evaluator_runs import Evaluator, Streams, located, picture, read, rows, stamp_of  # noqa: E402
 
 CORNERS = 'example_detectors/Corners'
 
@@ -22,7 +22,7 @@ class TestPlugins(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.output = folder.name + '/out'
         # The package as a workspace would hold it, for those who are started here alone.
-        example = pathlib.Path(program('evaluator_node')).resolve().parents[3] / 'example_detectors'
+        example = pathlib.Path(located('evaluator_node')).resolve().parents[3] / 'example_detectors'
         self.assertTrue((example / 'lib' / 'libexample_detectors.so').exists())
         before = os.environ['ROS_PACKAGE_PATH']
         self.addCleanup(os.environ.__setitem__, 'ROS_PACKAGE_PATH', before)

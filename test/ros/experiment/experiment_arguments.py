@@ -2,13 +2,17 @@
 """What roslaunch makes of the arguments of experiment.launch, without starting anything; test/unit/experiment has the rest."""
 import os
 import subprocess
+import sys
 import tempfile
 import unittest
+from xml.etree import ElementTree
 
-import roslib.packages
 import rosunit
 import shown
 import yaml
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support"))
+from programs import located  # noqa: E402
 
 SOURCE = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", ".."))
 
@@ -24,7 +28,7 @@ class ExperimentArguments(unittest.TestCase):
                           "sun_position.yaml"])  # sun_refuses_parameters.py
 
     def test_every_shipped_waypoint_file_is_a_path(self):
-        count_poses = roslib.packages.find_node("sunlit", "count_poses")[0]
+        count_poses = located("count_poses")
         paths = os.path.join(SOURCE, "config", "paths")
         self.assertTrue(os.listdir(paths))
         for name in os.listdir(paths):
@@ -96,6 +100,21 @@ class ExperimentArguments(unittest.TestCase):
                 done = subprocess.run(["roslaunch", "--dump-params", name, "nosie:=true", "output:=" + folder], cwd=where,
                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
                 self.assertIn("argument nosie is 'true'", done.stderr)
+
+    def test_what_is_nowhere_is_refused_by_name(self):
+        launch_file = os.path.join(SOURCE, "launch", "experiment.launch")
+        texts = {arg.get("name"): arg.get("default") for arg in ElementTree.parse(launch_file).iter("arg") if "default" in arg.attrib}
+        for name, text, words in (("path", "/nowhere.csv", "/nowhere.csv"), ("robot", "cat", "argument robot is 'cat'"),
+                                  ("world", "/nowhere.world", "there is no world /nowhere.world")):
+            with tempfile.TemporaryDirectory() as folder:
+                typed = ["%s:=%s" % item for item in dict(texts, output=folder, **{name: text}).items()]
+                done = subprocess.run([os.path.join(SOURCE, "scripts", "experiment_parameters"), "plan", os.path.join(folder, "plan"),
+                                       launch_file, located("count_poses"), *typed], stdout=subprocess.PIPE,
+                                      stderr=subprocess.PIPE, universal_newlines=True)
+                self.assertEqual((done.returncode, done.stdout, os.listdir(folder)), (1, "", []), done.stderr)
+                self.assertIn("sunlit: ", done.stderr)
+                self.assertIn(words, done.stderr)
+
     def test_a_tilde_is_the_home_folder(self):
         """bash leaves it as it is in NAME:=~/file."""
         with tempfile.TemporaryDirectory() as home:

@@ -10,7 +10,9 @@ import rospkg
 import rosunit
 import shown
 import yaml
+from geometry_msgs.msg import Point, Pose, Quaternion
 from launching import WAYPOINTS, WORLD, Launched, kill_leftovers
+from sunlit.srv import RenderView
 
 
 class LaunchFilesStart(unittest.TestCase):
@@ -22,15 +24,14 @@ class LaunchFilesStart(unittest.TestCase):
     def check(self, launched, *topics, conditions=None):
         """Each topic gets a message, and what RViz shows of `conditions`, as typed, is there."""
         for topic in topics:
-            launched.wait_for(lambda: launched.ros("rostopic", "info", topic).returncode == 0, "advertised " + topic)
+            launched.wait_for(lambda: topic in launched.topics(), "advertised " + topic)
             heard = launched.ros("rostopic", "echo", "-n", "1", "--noarr", topic)
             self.assertEqual(heard.returncode, 0, heard.stdout)
             self.assertIn("header", heard.stdout)
         if conditions is not None:
             wanted = shown.topics("sunlit.rviz", "conditions", conditions)
             self.assertIn("/camera/depth/camera_info", wanted)
-            launched.wait_for(lambda: wanted <= set(launched.ros("rostopic", "list", "-p").stdout.split()),
-                              "had all of " + ", ".join(sorted(wanted)))
+            launched.wait_for(lambda: wanted <= launched.topics(), "had all of " + ", ".join(sorted(wanted)))
         self.finish(launched)
 
     def folder(self):
@@ -115,22 +116,26 @@ class LaunchFilesStart(unittest.TestCase):
         launched = Launched("render.launch", config=config,
                             conditions="{clear: {hour: 9}, grey: {hour: 9, cover: 8, overcast: cie}, usual: {}}")
         service = "/render/render_view"
-        launched.wait_for(lambda: launched.ros("rosservice", "info", service).returncode == 0, "advertised " + service)
+        launched.wait_for(lambda: launched.has_service(service), "advertised " + service)
         grey, clear, usual = (self.view_of(launched, service, condition) for condition in ("grey", "clear", "usual"))
         self.assertLess(sum(grey), 0.7 * sum(clear))
         self.assertNotEqual(usual, clear)  # of noon, as the shipped file has it
+        by_hand = launched.ros("rosservice", "call", service,
+                               "{condition: clear, pose: {position: {z: 1.0}, orientation: {w: 1.0}}}")
+        again = yaml.safe_load(by_hand.stdout)["image"]["data"]
+        self.assertEqual(len(again), len(clear))
+        self.assertLess(sum(abs(a - b) for a, b in zip(again, clear)), 0.1 * len(clear))  # the sun has gone on a little
         self.finish(launched)
 
     def view_of(self, launched, service, condition):
-        request = "{condition: %s, pose: {position: {z: 1.0}, orientation: {w: 1.0}}}" % condition
+        pose = Pose(position=Point(z=1.0), orientation=Quaternion(w=1.0))
         replies = []
 
         def answered():
-            said = launched.ros("rosservice", "call", service, request)
-            replies.append(yaml.safe_load(said.stdout) if said.returncode == 0 else {})
-            return replies[-1].get("success")  # not until its sun has been heard
+            replies.append(launched.call(service, RenderView, pose=pose, condition=condition))
+            return replies[-1].success  # not until its sun has been heard
         launched.wait_for(answered, "rendered " + condition)
-        return replies[-1]["image"]["data"]
+        return list(replies[-1].image.data)
 
     def test_render_with_a_robot(self):
         launched = Launched("render.launch", world=os.path.relpath(WORLD), path=os.path.relpath(WAYPOINTS), robot="rover")
@@ -145,8 +150,8 @@ class LaunchFilesStart(unittest.TestCase):
 
     def test_evaluator(self):
         launched = Launched("evaluator.launch", streams="[a, b]", output=self.folder())
-        launched.wait_for(lambda: "data: 0" in launched.ros("rostopic", "echo", "-n", "1",
-                                                            "/evaluator/progress").stdout, "said its progress")
+        launched.wait_for(lambda: "/evaluator/progress" in launched.topics(), "advertised its progress")
+        self.assertIn("data: 0", launched.ros("rostopic", "echo", "-n", "1", "/evaluator/progress").stdout)
         self.finish(launched)
 
 

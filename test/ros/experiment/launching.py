@@ -10,7 +10,11 @@ import tempfile
 import termios
 import threading
 import time
+import unittest.mock
 import uuid
+
+import rosgraph
+import rospy
 
 TIMEOUT_S = 240.0  # for runs that take seconds on an idle machine
 WORLDS = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support", "worlds")
@@ -134,6 +138,35 @@ class Launched:
                 self.kill()
                 raise AssertionError("never %s:\n%s" % (what, self.said()))
             time.sleep(0.02)
+
+    def master(self):
+        """Of this launch, to be asked without a program for each question."""
+        return rosgraph.Master("/test", self.environment["ROS_MASTER_URI"])
+
+    def topics(self):
+        """All that are published; none where the master is not there yet."""
+        try:
+            return {topic for topic, _ in self.master().getPublishedTopics("")}
+        except OSError:
+            return set()
+
+    def subscribers(self, topic):
+        """The nodes that hear it."""
+        try:
+            return dict(self.master().getSystemState()[1]).get(topic, [])
+        except OSError:
+            return []
+
+    def has_service(self, name):
+        try:
+            return bool(self.master().lookupService(name))
+        except (OSError, rosgraph.MasterException):
+            return False
+
+    def call(self, service, kind, **request):
+        """The answer of a service of this launch."""
+        with unittest.mock.patch.dict(os.environ, ROS_MASTER_URI=self.environment["ROS_MASTER_URI"]):
+            return rospy.ServiceProxy(service, kind)(**request)
 
     def ros(self, *command):
         """A ROS command line tool on the master of this launch."""

@@ -9,19 +9,14 @@ import sys
 import tempfile
 import unittest
 
-import roslib.packages
 import rosunit
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support"))
+from programs import located  # noqa: E402
 
 NODES = ("evaluator_node", "render_node", "sun_position_node")
 LONG_s = 30.0  # far more than a node takes to notice
 MEANWHILE_s = 1.5  # some rounds of the watch
-
-
-def path_of(node):
-    found = roslib.packages.find_node("sunlit", node)
-    if not found:
-        raise AssertionError("sunlit has no node %s" % node)
-    return found[0]
 
 
 def free_port():
@@ -37,7 +32,7 @@ class Orphan:
         environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % free_port(),
                            ROS_LOG_DIR=tempfile.gettempdir())
         self._said, writes = os.pipe()
-        parent = subprocess.Popen(["sh", "-c", '"$@" & echo $!; wait', "sh", path_of(node)] + list(words),
+        parent = subprocess.Popen(["sh", "-c", '"$@" & echo $!; wait', "sh", located(node)] + list(words),
                                   env=environment, stdout=subprocess.PIPE, stderr=writes, text=True)
         os.close(writes)
         self._node = int(parent.stdout.readline())

@@ -11,7 +11,7 @@ import numpy
 import rospy
 import rostest
 from geometry_msgs.msg import Pose
-from rendering import Process, RenderNode, TIMEOUT_S, WORLD, parameters
+from rendering import Process, RenderNode, TIMEOUT_S, WORLD, located, parameters
 from sunlit.srv import RenderView, SetSite
 
 # Late afternoon: the sun is at 10 degrees.
@@ -23,7 +23,7 @@ HIGH_M = 1830.14
 def snapshot(elevation_m):
     with tempfile.TemporaryDirectory() as folder:
         picture = os.path.join(folder, "picture.png")
-        subprocess.run(["rosrun", "sunlit", "snapshot", "--world", WORLD, "--bounced", "off", "--size", "96x64", "--fov", "60",
+        subprocess.run([located("snapshot"), "--world", WORLD, "--bounced", "off", "--size", "96x64", "--fov", "60",
                         "--pose", "0,0,1", "--ev", "12", "--site", "%.10g,%.10g,%.10g" % (LATITUDE, LONGITUDE, elevation_m),
                         "--date", "2003-10-17", "--timezone", "-7", "--time", "16:20", "--out", picture], check=True,
                        stdout=subprocess.DEVNULL)

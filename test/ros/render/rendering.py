@@ -2,6 +2,7 @@
 import datetime
 import os
 import subprocess
+import sys
 import threading
 import unittest
 
@@ -13,6 +14,9 @@ from sensor_msgs.msg import CameraInfo, CompressedImage, Image
 from std_msgs.msg import UInt32
 from sunlit.msg import Capture, MoonPosition, SunPosition
 from tf2_msgs.msg import TFMessage
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support"))
+from programs import located  # noqa: E402
 
 TIMEOUT_S = 60.0  # how long a machine under load may take for what should be seconds
 PACKAGE = rospkg.RosPack().get_path("sunlit")
@@ -55,7 +59,7 @@ class Process:
     def __init__(self, name, tree, program, namespace="", package="sunlit", arguments=()):
         self.name = ("/" + namespace if namespace else "") + "/" + name
         self.tree = tree
-        self.command = ["rosrun", package, program, "__name:=" + name, *arguments]
+        self.command = [located(program, package), "__name:=" + name, *arguments]
 
     def __enter__(self):
         rospy.set_param(self.name, self.tree)

@@ -3,6 +3,7 @@
 import os
 import re
 import subprocess
+import sys
 import unittest
 
 import rospkg
@@ -11,12 +12,15 @@ import rostest
 import yaml
 from sun_reading import TIMEOUT_S
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "support"))
+from programs import located  # noqa: E402
+
 
 def start(parameters):
     """Runs the node with these private parameters until it gives up."""
     rospy.set_param("/bad_sun", parameters)
     try:
-        return subprocess.run(["rosrun", "sunlit", "sun_position_node", "__name:=bad_sun"], stdout=subprocess.PIPE,
+        return subprocess.run([located("sun_position_node"), "__name:=bad_sun"], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT_S)
     finally:
         rospy.delete_param("/bad_sun")

@@ -252,6 +252,7 @@ class Plan(unittest.TestCase):
         self.assert_refused("argument self_test_every is 0, but must be a whole number of at least 1", self_test_every="0")
         self.assert_refused("argument ev100 is 'nan', but must be a number", ev100="nan")
         self.assert_refused("argument noise is 'yes', but must be true or false", noise="yes")
+        self.assert_refused("argument verbose is 'loudly', but must be true or false", verbose="loudly")
         self.assert_refused("argument differences is '[sfit]'", differences="[sfit]")
         self.assert_refused("argument differences is '[orb, orb]', but must be without orb twice", differences="[orb, orb]")
         self.assert_refused("argument verify is '[surf]', but must be auto, or a list of some of sift:",
@@ -259,6 +260,12 @@ class Plan(unittest.TestCase):
         self.assert_refused("argument verify is 'sift', but must be auto, or a list of some of sift, surf, orb, brisk:", verify="sift")
         for text in ("sift", "[sift]", "{mine: sift}", "{mine: {}}", "{1: {type: sift}}", "{mine: {type"):
             self.assert_refused("argument features is %r, but must be a map of detectors by name" % text, features=text)
+
+    def test_what_is_no_time_or_place_is_refused_by_name(self):
+        self.assert_refused("argument hours is '[4, x]'", hours="[4, x]")
+        self.assert_refused("argument hours is 'h12', but must be two hours or more", hours="[12]", self_test="false")
+        self.assert_refused("argument date is '2024-02-31'", date="2024-02-31")
+        self.assert_refused("argument site is '[91]'", site="[91]")
 
     def test_the_land_beyond_the_world_reflects_as_typed_or_as_the_world_does(self):
         for typed, told in (({}, "auto"), ({"ground_albedo": "0.6"}, 0.6)):

@@ -14,7 +14,7 @@
 namespace sunlit::light {
 namespace {
 
-constexpr int kRays = 3;  // a patch
+constexpr int kPatchRays = 3;  // a patch
 
 /// What a point on the ground sees of the sky.
 struct Outcome {
@@ -50,7 +50,7 @@ Both lookUp(scene::Scene scene, const Eigen::Vector3f& origin) {
       std::make_shared<const Geometry>(std::make_shared<const scene::Scene>(std::move(scene)));
   const BakeRays rays(geometry);
   const std::vector<TriangleTraits> traits = triangleTraits(*geometry, rays);
-  const SkyPatches patches(kRays);
+  const SkyPatches patches(kPatchRays);
   Receiver receiver;
   receiver.origins.fill(origin);
   receiver.lifts.fill(0.005f * Eigen::Vector3f::UnitZ());
@@ -81,8 +81,8 @@ TEST(AdaptiveProbe, SeesAnOpenSkyAsAllRaysDo) {
     EXPECT_NEAR(both.adaptive.open[p], both.whole.open[p], 1e-6f) << p;
   // One ray a patch, and all along the horizon.
   EXPECT_EQ(both.adaptive.rays.size(),
-            static_cast<std::size_t>(SkyPatches::kAbove + (kRays - 1) * SkyPatches::kRings[0].patches));
-  EXPECT_EQ(both.whole.rays.size(), static_cast<std::size_t>(kRays * SkyPatches::kAbove));
+            static_cast<std::size_t>(SkyPatches::kAbove + (kPatchRays - 1) * SkyPatches::kRings[0].patches));
+  EXPECT_EQ(both.whole.rays.size(), static_cast<std::size_t>(kPatchRays * SkyPatches::kAbove));
 }
 
 TEST(AdaptiveProbe, FindsTheEdgeOfAWall) {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "built_in_world.h"
 #include "lamp_scene.h"
-#include "sunlit/scene/race_track.h"
 
 namespace sunlit::light {
 namespace {
@@ -70,7 +70,7 @@ TEST(LampRanges, AreThoseOfTracedPaths) {
 }
 
 TEST(LampRanges, OfTheBuiltInWorldAreNoEdges) {
-  for (const scene::Lamp& lamp : scene::raceTrack().lamps) EXPECT_FALSE(lamp.ends_sharply) << lamp.name;
+  for (const scene::Lamp& lamp : builtInWorld().lamps) EXPECT_FALSE(lamp.ends_sharply) << lamp.name;
 }
 
 }  // namespace

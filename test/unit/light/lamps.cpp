@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "built_in_world.h"
 #include "lamp_scene.h"
-#include "sunlit/scene/race_track.h"
 
 namespace sunlit::light {
 namespace {
@@ -234,7 +234,7 @@ TEST(LampGroups, AreSwitchedOffByName) {
 }
 
 TEST(LampGroups, OfTheBuiltInWorldsWindowsDarkenItsPanes) {
-  const scene::Scene world = scene::raceTrack();
+  const scene::Scene& world = builtInWorld();
   std::size_t panes = 0;
   const auto shining = [&](const LampOptions& options) {
     const std::vector<scene::Lamp> lamps = burning(world.lamps, options);

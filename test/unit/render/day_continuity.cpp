@@ -27,12 +27,13 @@ const astronomy::CivilDate kDay{2024, 3, 25, 0.0};
 class Day {
  public:
   sky::Daylight at(double time_s, const sky::Weather& weather = {}) {
-    return sky_.daylight(studio::bodiesAt(midnight_.plusSeconds(time_s), kSite), weather);
+    const studio::SkyBodies bodies = studio::bodiesAt(midnight_.plusSeconds(time_s), kSite);
+    return sky::usualAir().daylight(bodies.sun, {bodies.moon, bodies.map_from_celestial, stars_}, weather);
   }
 
  private:
   Instant midnight_ = astronomy::midnightOf(kDay);
-  studio::Sky sky_{studio::SkyOptions{}};
+  std::shared_ptr<const std::vector<sky::Star>> stars_ = studio::loadStars({});
 };
 
 /// Striped ground, walls to all sides, a gap under a roof, a slender post: light from everywhere and shadows
@@ -105,20 +106,32 @@ std::vector<double> stretch(double from_s, double to_s) {
 
 class DayOfPictures : public testing::Test {
  protected:
-  DayOfPictures() : world_(shared(yard())), renderer_(prepared(world_), smallCamera(64, 48, 70.0)) {
-    // To the north: sun and moon stay out of view here, and what they light is in it. Most of it is ground,
-    // so that the median is one of its many shades at any hour.
-    renderer_.look(lookingAt({0.0, 0.0, 2.0}, {0.3, 10.0, -1.0}));
-  }
-  static light::World& prepared(light::World& world) {
-    light::TransportOptions options;
-    options.samples = 4000;
-    world.transport = light::Transport::bake(world.geometry, options);
-    return world;
-  }
-  Statistics at(double time_s) { return of(day().at(time_s)); }
-  Statistics of(const sky::Daylight& light) {
-    return statisticsOf(renderer_.light(light::illumination(world_, light)));
+  /// What all cases look at, which takes seconds to prepare.
+  struct View {
+    View() : world(baked()), renderer(world, smallCamera(64, 48, 70.0)) {
+      // To the north: sun and moon stay out of view here, and what they light is in it. Most of it is ground,
+      // so that the median is one of its many shades at any hour.
+      renderer.look(lookingAt({0.0, 0.0, 2.0}, {0.3, 10.0, -1.0}));
+    }
+    static light::World baked() {
+      light::World world(shared(yard()));
+      light::TransportOptions options;
+      options.samples = 4000;
+      world.transport = light::Transport::bake(world.geometry, options);
+      return world;
+    }
+
+    Day day;
+    light::World world;
+    render::Renderer renderer;
+  };
+  static void SetUpTestSuite() { view_ = std::make_unique<View>(); }
+  static void TearDownTestSuite() { view_.reset(); }
+
+  static Day& day() { return view_->day; }
+  static Statistics at(double time_s) { return of(day().at(time_s)); }
+  static Statistics of(const sky::Daylight& light) {
+    return statisticsOf(view_->renderer.light(light::illumination(view_->world, light)));
   }
 
   // In twilight a step's change itself goes from 3 to 5.6 % over 70 steps, less than a thousandth each; the
@@ -153,13 +166,7 @@ class DayOfPictures : public testing::Test {
     }
   }
 
-  static Day& day() {
-    static Day the_day;  // its sky takes seconds
-    return the_day;
-  }
-
-  light::World world_;
-  render::Renderer renderer_;
+  inline static std::unique_ptr<View> view_;
 };
 
 TEST_F(DayOfPictures, NothingJumpsThroughDawnAndSunrise) {

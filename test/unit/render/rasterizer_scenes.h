@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -25,14 +26,29 @@ struct Disagreement {
   }
 };
 
+/// A scene as rasterizers take it.
+struct Drawable {
+  explicit Drawable(scene::Scene scene)
+      : geometry(std::make_shared<const light::Geometry>(shared(std::move(scene)))),
+        pyramids(*geometry->scene) {}
+
+  std::unique_ptr<render::Rasterizer> by(render::RasterizerKind rasterizer) const {
+    return render::makeRasterizer(rasterizer, {geometry, pyramids, 0.0});
+  }
+
+  std::shared_ptr<const light::Geometry> geometry;
+  render::TexturePyramids pyramids;
+};
+
 /// A scene and two that draw it.
 class SideBySide {
  public:
+  SideBySide(std::shared_ptr<const Drawable> scene, render::RasterizerKind rasterizer)
+      : scene_(std::move(scene)),
+        tested_(scene_->by(rasterizer)),
+        builtin_(scene_->by(render::RasterizerKind::kBuiltin)) {}
   SideBySide(scene::Scene scene, render::RasterizerKind rasterizer)
-      : geometry_(std::make_shared<const light::Geometry>(shared(std::move(scene)))),
-        pyramids_(*geometry_->scene),
-        tested_(render::makeRasterizer(rasterizer, {geometry_, pyramids_, 0.0})),
-        builtin_(render::makeRasterizer(render::RasterizerKind::kBuiltin, {geometry_, pyramids_, 0.0})) {}
+      : SideBySide(std::make_shared<const Drawable>(std::move(scene)), rasterizer) {}
 
   /// Adds what differs in the picture of `view`.
   void compare(const render::View& view, Disagreement* sum, const light::Geometry* bodies = nullptr) {
@@ -55,13 +71,13 @@ class SideBySide {
 
  private:
   bool isMasked(const render::Sample& sample) const {
-    if (sample.sky() || sample.triangle > geometry_->materials.size()) return false;
-    const auto material = static_cast<std::size_t>(geometry_->materials[sample.triangle - 1]);
-    return render::isMasked(geometry_->scene->materials[material]);
+    const light::Geometry& geometry = *scene_->geometry;
+    if (sample.sky() || sample.triangle > geometry.materials.size()) return false;
+    const auto material = static_cast<std::size_t>(geometry.materials[sample.triangle - 1]);
+    return render::isMasked(geometry.scene->materials[material]);
   }
 
-  std::shared_ptr<const light::Geometry> geometry_;
-  render::TexturePyramids pyramids_;
+  std::shared_ptr<const Drawable> scene_;
   std::unique_ptr<render::Rasterizer> tested_, builtin_;
   std::vector<render::Sample> samples_, by_builtin_;
 };
@@ -97,7 +113,16 @@ inline std::string rasterizerName(const ::testing::TestParamInfo<render::Rasteri
   return render::nameOf(info.param);
 }
 
+/// Those that there are beside our own, which they are compared with.
+inline std::vector<render::RasterizerKind> otherRasterizers() {
+  std::vector<render::RasterizerKind> kinds = render::builtRasterizers();
+  kinds.erase(std::remove(kinds.begin(), kinds.end(), render::RasterizerKind::kBuiltin), kinds.end());
+  return kinds;
+}
+
 #define SUNLIT_INSTANTIATE_FOR_ALL(suite) \
   INSTANTIATE_TEST_SUITE_P(By, suite, ::testing::ValuesIn(render::builtRasterizers()), rasterizerName)
+#define SUNLIT_INSTANTIATE_FOR_OTHERS(suite) \
+  INSTANTIATE_TEST_SUITE_P(By, suite, ::testing::ValuesIn(otherRasterizers()), rasterizerName)
 
 }  // namespace sunlit::test

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Functions in unnamed namespaces of one library differ by name or parameters: its files are compiled several at a time."""
+"""Functions in unnamed namespaces of one library differ by name or parameters: its files are compiled several at a time, and so are
+those of test programs."""
 import collections
 import pathlib
 import re
@@ -16,6 +17,11 @@ DEFINITION = re.compile(
     r"[A-Za-z_][\w:<>,&*\[\] ]*?[ &*](\w+)\(((?:[^()]|\([^()]*\))*)\)(?: const)?(?: noexcept)?(?: ->[^{]*)? \{",
     re.MULTILINE)
 UNNAMED = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.MULTILINE | re.DOTALL)
+CONSTANTS = re.compile(r"^(?:inline |static )?const(?:expr)? [^;]*", re.MULTILINE)
+CONSTANT = re.compile(r"\b(k[A-Z]\w*)(?:\[\w*\])? ?(?:=(?!=)|\{)")
+TYPE = re.compile(r"^(?:struct|class|enum class|enum|using) (\w+)(?! *\()\b", re.MULTILINE)
+PROGRAM = re.compile(r"sunlit_tests\(([a-z]+) (\w+)\s+FILES ([a-z0-9_ ]+?)\s*(?:LIBRARIES [^)]*)?\)")
+OF_THE_PROCESS = re.compile(r"\b(?:setenv|unsetenv|setrlimit|fork|chdir|current_path|popen)\(")
 
 
 def parameters(text):
@@ -42,6 +48,13 @@ def functions(text):
             for block in UNNAMED.findall(text) for match in DEFINITION.finditer(block)}
 
 
+def named(text):
+    """Constants and types of a file's unnamed namespaces."""
+    blocks = UNNAMED.findall(text)
+    return {name for block in blocks for name in TYPE.findall(block)} | {
+        name for block in blocks for declared in CONSTANTS.findall(block) for name in CONSTANT.findall(declared)}
+
+
 class Unnamed(unittest.TestCase):
     def test_is_told(self):
         text = "namespace {\nint of(const A& a, int b = 3) {\n}\nstd::map<A, B> of(\n    A* a) const {\n}\n}  // namespace\n"
@@ -63,6 +76,23 @@ class Unnamed(unittest.TestCase):
             for function, names in sorted(files.items()):
                 self.assertEqual(len(names), 1, f"{library.name}: {function[0]}() stands in {', '.join(sorted(names))}")
         self.assertGreater(seen, 1000)
+
+    def test_files_of_a_test_program_differ_and_change_no_more_than_themselves(self):
+        self.assertEqual(named("namespace {\nconstexpr double kA = 1, kG = kH;\nconst B kC{2};\nstruct D : E {\n};\nusing F = G;\n}  // namespace\n"),
+                         {"kA", "kC", "kG", "D", "F"})
+        grouped = 0
+        for lists in sorted((SOURCE / "test" / "unit").rglob("CMakeLists.txt")):
+            for module, program, names in PROGRAM.findall(lists.read_text()):
+                files = collections.defaultdict(set)
+                for path in [lists.with_name(name + ".cpp") for name in names.split()]:
+                    text = path.read_text()
+                    self.assertIsNone(OF_THE_PROCESS.search(text), f"{path} changes its process, so it needs one of its own")
+                    for told in functions(text) | named(text):
+                        files[told].add(path.name)
+                    grouped += 1
+                for told, paths in sorted(files.items(), key=str):
+                    self.assertEqual(len(paths), 1, f"test_{module}_{program}: {told} stands in {', '.join(sorted(paths))}")
+        self.assertGreater(grouped, 100)
 
 
 if __name__ == "__main__":

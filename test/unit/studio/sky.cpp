@@ -11,6 +11,7 @@
 #include "support/message_of.h"
 #include "support/patches.h"
 #include "support/temporary_folder.h"
+#include "support/usual_air.h"
 
 namespace sunlit::studio {
 namespace {
@@ -38,7 +39,7 @@ std::vector<float> figuresOf(const sky::Daylight& day) {
 std::vector<float> figuresAt(double height_m) {
   sky::AtmosphereOptions air;
   air.observer_height_m = height_m;
-  return figuresOf(sky::Atmosphere(air).daylight(lowSunOver(0.0).sun));
+  return figuresOf(sky::Atmosphere(air, sky::TablesOfThisBuild().store()).daylight(lowSunOver(0.0).sun));
 }
 
 TEST(Sky, HasTheAirOfTheSitesElevationMadeOnceForEach) {
@@ -61,6 +62,14 @@ TEST(Sky, HasTheAirOfTheSitesElevationMadeOnceForEach) {
   EXPECT_LT(high[1] / low[1], 1.8f);
 }
 
+/// What one case has made is there for the next one.
+SkyOptions kept() {
+  static const TemporaryFolder folder;
+  SkyOptions options;
+  options.cache_dir = folder.path();
+  return options;
+}
+
 /// The notes of a sky over sites of these elevations.
 std::vector<std::string> notesOf(const SkyOptions& options, const std::vector<double>& elevations_m) {
   std::vector<std::string> notes;
@@ -72,12 +81,12 @@ std::vector<std::string> notesOf(const SkyOptions& options, const std::vector<do
 }
 
 TEST(Sky, BelowTheSeaHasTheAirOfTheSea) {
-  EXPECT_EQ(notesOf({}, {-430.0, 0.0, 8849.0}),
+  EXPECT_EQ(notesOf(kept(), {-430.0, 0.0, 8849.0}),
             (std::vector<std::string>{"Air of a height of 0 m", "Air of a height of 8849 m"}));
 }
 
 TEST(Sky, OfAFixedHeightDoesNotHeedTheSite) {
-  SkyOptions options;
+  SkyOptions options = kept();
   options.fixed_height_m = 500.0;
   EXPECT_EQ(notesOf(options, {0.0, 1830.14}), std::vector<std::string>{"Air of a height of 500 m"});
 }
@@ -94,7 +103,7 @@ TEST(Sky, TakesTheLandBeyondFromTheWorldUnlessItIsFixed) {
   std::string said;
   Reports reports;
   reports.note = [&](const std::string& line) { said = line; };
-  Sky sky({}, reports);
+  Sky sky(kept(), reports);
   const float unknown = sky.daylight(lowSunOver(0.0)).skyLuminance(-Eigen::Vector3f::UnitZ()).value[1];
   sky.over({snowfield()});
   EXPECT_NEAR(sky.groundAlbedo(), 0.8, 0.03);  // with what its face mirrors

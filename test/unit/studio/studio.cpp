@@ -13,8 +13,8 @@
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/frames.h"
 #include "sunlit/scene/shelter.h"
-#include "sunlit/studio/sky.h"
 #include "support/message_of.h"
+#include "support/usual_air.h"
 
 namespace sunlit::studio {
 namespace {
@@ -93,7 +93,7 @@ Taken inRain() {
   return {{7, "noon"},
           Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 1.0)),
           {{0.0, 2.0, 0.0}, {0.0, 0.0, 2.0}},
-          Sky({}).daylight({kHighSun}, rainy)};
+          sky::usualAir().daylight(kHighSun, {}, rainy)};
 }
 
 /// The steps of the first chain one by one; `glare_first`: before the vignetting.
@@ -161,7 +161,7 @@ TEST(Studio, TakesPicturesWithAsManyChainsAsItHas) {
   Studio studio(options);
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
   map_from_camera.translation().z() = 1.0;
-  const light::Illumination light = studio.illumination(Sky({}).daylight({kHighSun}));
+  const light::Illumination light = studio.illumination(sky::usualAir().daylight(kHighSun));
   const auto taken = [&](std::size_t chain, const Motion& motion) {
     studio.look(map_from_camera, {}, motion);
     return studio.photograph(light, {}, {0, chain}).picture.data;
@@ -198,7 +198,7 @@ TEST(Studio, TheRightCameraOfOneThatTurnsIsCarriedAlong) {
   motion.velocity_m_s = {1.0, 0.0, 0.0};
   motion.turning_rad_s = {0.0, 0.0, 2.0};
   studio.look(map_from_camera, {}, motion);
-  const light::Illumination light = studio.illumination(Sky({}).daylight({kHighSun}));
+  const light::Illumination light = studio.illumination(sky::usualAir().daylight(kHighSun));
   const Developed left = studio.photograph(light, {});
 
   // Alone in the right one's place, which lies at y = −2 m and so goes forward by 4 m/s more.
@@ -217,7 +217,7 @@ TEST(Studio, TheRightCameraSeesWhatOneInItsPlaceWouldAtTheLeftsExposureWithGrain
   options.chains[0].noise.enabled = true;
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
   map_from_camera.translation().z() = 1.0;
-  const sky::Daylight day = Sky({}).daylight({kHighSun});
+  const sky::Daylight day = sky::usualAir().daylight(kHighSun);
   const image::PictureName name{7, "noon"};
   Studio alone(options);
   alone.look(map_from_camera);
@@ -258,7 +258,7 @@ TEST(Studio, AMapLeavesWhatTheCameraLooksAt) {
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
   map_from_camera.translation().z() = 1.0;
   studio.look(map_from_camera);
-  const sky::Daylight day = Sky({}).daylight({kHighSun});
+  const sky::Daylight day = sky::usualAir().daylight(kHighSun);
   const light::Illumination light = studio.illumination(day);
   const Developed before = studio.photograph(light, {});
   const image::Rgb8Image map = studio.mapFromAbove({-20.0, 20.0, -10.0, 10.0}, day);
