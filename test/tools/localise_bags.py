@@ -75,10 +75,11 @@ class LocaliseBags(unittest.TestCase):
                 stamp = rospy.Time(100 + index)
                 picture, depth = wall_picture(self.texture, x, yaw)
                 picture = cv2.convertScaleAbs(picture, alpha=brightness)
-                if "size" in changes:  # of the top left
-                    picture, depth = (array[:changes["size"][1], :changes["size"][0]] for array in (picture, depth))
-                info = CameraInfo(width=picture.shape[1], height=picture.shape[0], distortion_model="plumb_bob",
-                                  K=[FOCAL, 0, (WIDTH - 1) / 2, 0, FOCAL, (HEIGHT - 1) / 2, 0, 0, 1],
+                width, height = changes.get("size", (WIDTH, HEIGHT))  # of its middle
+                left, top = (WIDTH - width) // 2, (HEIGHT - height) // 2
+                picture, depth = (array[top:top + height, left:left + width] for array in (picture, depth))
+                info = CameraInfo(width=width, height=height, distortion_model="plumb_bob",
+                                  K=[FOCAL, 0, (width - 1) / 2, 0, FOCAL, (height - 1) / 2, 0, 0, 1],
                                   D=changes.get("distortion", [0.0] * 5))
                 pose = PoseStamped()
                 pose.pose.position.x = x
@@ -300,9 +301,12 @@ class LocaliseBags(unittest.TestCase):
 
     def test_a_detector_that_throws_at_pictures_ends_nothing(self):
         noon, _ = self.bags()
-        tiny = self.write("tiny.bag", "h20/", [0.5, 1.5], size=(8, 6))  # too small for BRISK
+        tiny = self.write("tiny.bag", "h20/", [0.5, 1.5], size=(16, 16))  # too small for six octaves of BRISK
+        with open(self.path("own.yaml"), "w") as file:
+            file.write("{streams: [h12], output_dir: unused, features: {brisk: {n_octaves: 6}}}")
+        by = ["--detectors", "brisk,orb", "--config", self.path("own.yaml")]
         drive = self.write("drive.bag", "h22/", [0.5])
-        rows, done = self.localise("out", "--map", noon, "--query", drive, tiny, "--detectors", "brisk,orb", status=3)
+        rows, done = self.localise("out", "--map", noon, "--query", drive, tiny, *by, status=3)
         self.assertEqual([(row["query"], row["detector"], row["status"]) for row in rows],
                          [("h22", "brisk", "localised"), ("h22", "orb", "localised"),
                           ("h20", "orb", "no_features"), ("h20", "orb", "no_features")])
@@ -310,10 +314,10 @@ class LocaliseBags(unittest.TestCase):
         self.assertEqual([(row["stream"], row["role"], row["stamp"], row["fault"][:7]) for row in problems],
                          [("h20", "query", "100.000000000", "brisk: "), ("h20", "query", "101.000000000", "brisk: ")])
         self.assertIn("2 images could not be used", done.stderr)
-        rows, _ = self.localise("other", "--map", tiny, "--query", drive, "--detectors", "brisk,orb", status=3)
+        rows, _ = self.localise("other", "--map", tiny, "--query", drive, *by, status=3)
         self.assertEqual([(row["detector"], row["status"]) for row in rows],
                          [("brisk", "not_retrieved"), ("orb", "too_few_matches")])
-        done = run("evaluate_bags", "--odometry", tiny, "--detectors", "brisk,orb", "--out", self.path("followed"))
+        done = run("evaluate_bags", "--odometry", tiny, *by, "--out", self.path("followed"))
         self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
         self.assertEqual([(row["detector"], row["n"], row["lost"]) for row in self.rows("followed", "odometry.csv")],
                          [("brisk", "2", "1"), ("orb", "2", "1")])

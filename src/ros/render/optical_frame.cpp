@@ -1,6 +1,7 @@
 #include "ros/render/optical_frame.h"
 
 #include <ros/console.h>
+#include <ros/init.h>
 #include <tf2/exceptions.h>
 
 #include <algorithm>
@@ -36,7 +37,8 @@ void OpticalFrames::publish() {
     transforms.push_back(
         toTransform(optical.link_from_optical, headerOf(frames_.camera, ros::Time::now()), optical.frame));
   }
-  if (!transforms.empty()) broadcaster_.sendTransform(transforms);
+  // A topic that was advertised after the shutdown is none, and to publish on it would end the process.
+  if (!transforms.empty() && !ros::isShuttingDown()) broadcaster_.sendTransform(transforms);
 }
 
 void OpticalFrames::publishWhereMissing(const tf2_ros::Buffer& tf) {

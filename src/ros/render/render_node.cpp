@@ -42,6 +42,11 @@ studio::StudioOptions studioOptions(const RenderNodeOptions& options, const Rend
   return studio;
 }
 
+/// Topics that are advertised from the shutdown on are none, and to publish on them ends the process.
+void throwIfInterrupted() {
+  if (ros::isShuttingDown()) throw Interrupted();
+}
+
 /// Where this node is the time of all, there is no other to begin at than the wall clock's.
 RenderNodeOptions withStart(RenderNodeOptions options) {
   PacingOptions& pacing = options.pacing;
@@ -101,17 +106,16 @@ RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
   services_ = {private_node_.advertiseService("start", &RenderNode::onStart, this),
                private_node_.advertiseService("pause", &RenderNode::onPause, this),
                private_node_.advertiseService("render_view", &RenderNode::onView, this)};
+  throwIfInterrupted();
 }
 
 studio::Reports RenderNode::reports() {
   activity_.say("loading", options_.world.name);
   diagnostics_.update();
   studio::Reports reports = loggedReports();
-  reports.check = [] {
-    if (!ros::ok()) throw Interrupted();
-  };
-  reports.baking = [this, log = reports.baking, check = reports.check](double share, double seconds_left) {
-    check();
+  reports.check = throwIfInterrupted;
+  reports.baking = [this, log = reports.baking](double share, double seconds_left) {
+    throwIfInterrupted();
     if (log) log(share, seconds_left);
     activity_.say("baking", "", {share, seconds_left});
     diagnostics_.update();

@@ -182,9 +182,13 @@ class RenderClock(unittest.TestCase):
         self.assertLessEqual({stamp.to_nsec() for stamp in images}, set(times))
 
     def test_ctrl_c_while_light_is_baked_or_waited_for_ends_at_once_and_takes_the_clock_back(self):
-        with tempfile.TemporaryDirectory() as cache:
-            # Would take a minute.
-            long = {"transport": {"cache_dir": cache, "rays": 64, "samples": 10000000, "finest": 0.02}}
+        with tempfile.TemporaryDirectory() as cache, tempfile.NamedTemporaryFile("w", suffix=".urdf") as world:
+            boxes = "".join('<visual><origin xyz="%d %d 1"/><geometry><box size="1 1 2"/></geometry></visual>' % (3 * x, 3 * y)
+                            for x in range(10, 30) for y in range(-10, 10))
+            world.write('<robot name="boxes"><link name="boxes">%s</link></robot>' % boxes)
+            world.flush()
+            # Would take minutes.
+            long = {"world": world.name, "transport": {"cache_dir": cache, "rays": 64, "samples": 10000000, "finest": 0.02}}
             other = parameters(conditions=["a"], **long)
             with RenderNode("owner", moving(**long)) as owner:
                 says = rospy.wait_for_message("/owner/activity", Activity, TIMEOUT_S).doing
