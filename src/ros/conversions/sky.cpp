@@ -76,6 +76,13 @@ Direction directionOf(const geometry_msgs::Vector3& message) {
 
 Direction geometricOf(const Direction& apparent, double elevation_geometric) {
   require("elevation_geometric", elevation_geometric, {-0.5 * kPi, 0.5 * kPi}, "rad");
+  // 1.9 at the most; one that was left at 0 would light a high sun's sky as at dusk.
+  constexpr double kMostRefraction_deg = 5.0;
+  const double seen = apparent.elevation().rad();
+  if (std::abs(elevation_geometric - seen) > kMostRefraction_deg * kRadPerDeg) {
+    refuse("elevation_geometric", textOf(elevation_geometric) + " rad",
+           "within " + textOf(kMostRefraction_deg) + " deg of that of direction, " + textOf(seen) + " rad");
+  }
   return Direction(apparent.azimuth(), Angle::radians(elevation_geometric));
 }
 

@@ -1,5 +1,6 @@
 """A render node under test: its process, its suns, and a reader of all its streams."""
 import datetime
+import math
 import os
 import subprocess
 import sys
@@ -120,6 +121,7 @@ class Sun:
         message = SunPosition(distance_au=1.0)
         message.header.frame_id = "map"
         message.direction.x, message.direction.y, message.direction.z = east, north, up
+        message.elevation_geometric = math.asin(up)
         self.publisher.publish(message)
 
 
@@ -136,12 +138,12 @@ class Sky:
         self.publishers[index].publish(message)
 
     def send_sun(self, stamp=1.0, rate=0.0):
-        message = SunPosition(distance_au=1.0, rate=rate)
+        message = SunPosition(distance_au=1.0, rate=rate, elevation_geometric=math.asin(0.8))
         message.direction.y, message.direction.z = 0.6, 0.8
         self._send(0, message, stamp)
 
     def send_moon(self, stamp=1.0, distance=3.844e8):
-        message = MoonPosition(distance=distance)
+        message = MoonPosition(distance=distance, elevation_geometric=math.asin(0.8))
         message.direction.y, message.direction.z = -0.6, 0.8
         self._send(1, message, stamp)
 

@@ -161,6 +161,10 @@ TEST(SkyMessages, ThatCannotBeAreRefusedInWords) {
   SunPosition sun = sunMessage();
   sun.distance_au = 0.5;
   EXPECT_EQ(refusal(sun), "distance_au is 0.5, but must be from 0.97 to 1.03 au");
+  sun = sunMessage();
+  sun.elevation_geometric = 0.0;  // as it is where nobody set it
+  EXPECT_EQ(refusal(sun),
+            "elevation_geometric is 0 rad, but must be within 5 deg of that of direction, 1.570796327 rad");
   geometry_msgs::QuaternionStamped celestial = celestialMessage();
   celestial.quaternion.w = nan;
   EXPECT_EQ(refusal(celestial), "quaternion is of length nan, but must be of length 1");

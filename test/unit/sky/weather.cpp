@@ -9,6 +9,7 @@
 
 #include "sky/cie_sky.h"
 #include "sky/cloud_map.h"
+#include "support/message_of.h"
 #include "weathers.h"
 
 namespace sunlit::sky {
@@ -146,6 +147,10 @@ TEST(Weather, ALittleHazeMakesNoRainThinner) {
   EXPECT_NEAR(under(40.0, hazy).groundIlluminance().luminance(), rain, 0.02 * rain);
 }
 
+std::string refused(const Weather& weather) {
+  return messageOf([&] { under(30.0, weather); });
+}
+
 /// From the ground up.
 double depthOf(const Fog& fog) {
   return static_cast<double>(fog.per_m) * static_cast<double>(fog.top_m);
@@ -167,16 +172,19 @@ TEST(Weather, RainAndFogTakeTogetherWhatEachDoes) {
 }
 
 TEST(Weather, FogThatIsNextToNothingIsSeenAsNothing) {
-  // The clear air's own limit is 48,318 m: of a metre less, fog takes 3e-8 over its 10 m.
-  Weather thin = fog(48317.0);
+  // A metre less than the clear air's own range, which the refusal of a longer one tells: 5e-8 over 20 m.
+  const std::string beyond = refused(fog(100000.0));
+  const std::size_t number = beyond.find("less than the ");
+  ASSERT_NE(number, std::string::npos) << beyond;
+  Weather thin = fog(std::stod(beyond.substr(number + 14)) - 1.0);
   thin.fog_top_m = 10.0;
   const Daylight hazy = under(35.0, thin), clear = under(35.0, {});
   for (const double elevation_deg : {2.0, 30.0, 80.0}) {
     for (const float way_m : {3.0F, 500.0F}) {
       const Eigen::Array3f found = hazy.airOver(towards(elevation_deg), way_m).airlight;
       const Eigen::Array3f expected = clear.airOver(towards(elevation_deg), way_m).airlight;
-      // Of the sky's some thousand cd/m² so little is put in.
-      EXPECT_LT((found - expected).abs().maxCoeff(), 1e-2F) << elevation_deg << " " << way_m;
+      // Near the sun droplets send 6 / sr of its 1e5 lx.
+      EXPECT_LT((found - expected).abs().maxCoeff(), 0.1F) << elevation_deg << " " << way_m;
     }
   }
 }
@@ -315,14 +323,6 @@ TEST(Weather, WhereTheSunIsSeenItShines) {
 }
 
 TEST(Weather, WhatCannotBeIsRefused) {
-  const auto refused = [](const Weather& weather) {
-    try {
-      under(30.0, weather);
-    } catch (const std::invalid_argument& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
   EXPECT_EQ(refused(covered(9.0)), "cover is 9, but must be from 0 to 8 oktas");
   EXPECT_EQ(refused(covered(1e-30)), "cover is 1e-30, but must be 0 or from 0.01 to 8 oktas");
   Weather drizzle;
