@@ -20,7 +20,7 @@ struct SmallSource {
 /// source's size. Below the horizon of the surface: the transmitted light of a thin sheet, else zero.
 Eigen::Array3f directReflectance(const Reflection& reflection, const Eigen::Vector3f& to_light,
                                  float source_radius_rad);
-/// The same of many surfaces, to the bit, in a fifth of the time. `reflectances` has room for all.
+/// The same of many surfaces, to the bit, sixteen at a time. `reflectances` has room for all.
 void directReflectances(const std::vector<Reflection>& reflections, const SmallSource& source,
                         Eigen::Array3f* reflectances);
 
