@@ -55,9 +55,8 @@ Similarity umeyama(const Centred& x, const Centred& y, bool with_scale) {
     s[2] = -1.0;
     if (!(d[1] - d[2] > kDegenerate * d[0])) {
       throw std::invalid_argument(
-          "the estimate is the truth mirrored, and as long along one axis as along another, which leaves "
-          "open "
-          "how to turn it; align by yaw, or not at all");
+          "the estimate is the truth mirrored, and as long along one axis as along another, which "
+          "leaves open how to turn it; align by yaw, or not at all");
     }
   }
   Similarity result;

@@ -80,17 +80,17 @@ RobotPlaces::Joints PathRun::joints() const {
   return tf_ ? robot_->joints(tf_->buffer) : RobotPlaces::Joints();
 }
 
-Shot PathRun::shotAt(int position) const {
+Shot PathRun::shotAt(int position, const RobotPlaces::Joints& joints) const {
   const int index = path_.first() + position;
   Shot shot{index, stampOfPose(start_, index, options_.frame_rate), path_.mapFromCamera(index)};
   shot.chance = index;
   shot.motion = path_.motionAt(index, options_.frame_rate);
-  if (robot_) shot.map_from_links = robot_->onPath(shot.map_from_camera, joints());
+  if (robot_) shot.map_from_links = robot_->onPath(shot.map_from_camera, joints);
   return shot;
 }
 
 render::BodyPlaces PathRun::mapFromLinks() {
-  return map_from_links_.empty() && path_.ready() ? shotAt(0).map_from_links : map_from_links_;
+  return map_from_links_.empty() && path_.ready() ? shotAt(0, joints()).map_from_links : map_from_links_;
 }
 
 int PathRun::counted(int position) const {
@@ -112,7 +112,7 @@ void PathRun::meterBefore(const Shot& shot) {
   // What a run that began earlier, or passes over fewer poses, has metered, under the sky that is there.
   for (auto index = static_cast<int>(streams_.firstUnmetered(shot.pose_index)); index < shot.pose_index;
        ++index)
-    streams_.meter(shotAt(index - path_.first()), shot);
+    streams_.meter(shotAt(index - path_.first(), joints()), shot);
 }
 
 void PathRun::warnOfOtherParent() {
@@ -124,7 +124,7 @@ void PathRun::warnOfOtherParent() {
 }
 
 Step PathRun::render() {
-  if (!next_) next_ = shotAt(position_);
+  if (!next_) next_ = shotAt(position_, {});
   waits_for_ = Wait();
   if (!isTime(next_->stamp)) {
     waits_for_ = time_wait_.until(next_->stamp, "pose " + std::to_string(next_->pose_index),
@@ -138,13 +138,13 @@ Step PathRun::render() {
     // Not earlier: they move while the pose waits for its time, its sky and its readers.
     const RobotPlaces::Joints found = joints();
     robot_->count(found);
-    shot.map_from_links = robot_->onPath(shot.map_from_camera, found);
+    shot = shotAt(position_, found);
     warnOfOtherParent();
   }
   map_from_links_ = shot.map_from_links;
   position_ += path_.stride();
   next_.reset();
-  if (options_.looks_ahead && !tf_ && position_ < positions()) next_ = shotAt(position_);
+  if (options_.looks_ahead && !tf_ && position_ < positions()) next_ = shotAt(position_, {});
   meterBefore(shot);
   streams_.take(shot, next_);
   streams_.poseOutput().publishProgress(position());

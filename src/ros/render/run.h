@@ -90,8 +90,8 @@ class PathRun : public Run {
   ros::Time startOfNow() const;
   /// Whether the time of a pose has come.
   bool isTime(const ros::Time& stamp);
-  /// Links stand as TF has them at the call, where joints go by it.
-  Shot shotAt(int position) const;
+  Shot shotAt(int position, const RobotPlaces::Joints& joints) const;
+  /// As TF has them now, where joints go by it; else at rest.
   RobotPlaces::Joints joints() const;
   /// A step at the next pose, which no reader holds up.
   Step render();
@@ -111,7 +111,7 @@ class PathRun : public Run {
   ros::Time start_;         ///< stamp of pose 0; zero until it is known
   bool announced_ = false;  ///< where this run begins
   int position_ = 0;
-  std::optional<Shot> next_;           ///< drawn ahead, if options_ wants it; joints by TF are of then
+  std::optional<Shot> next_;           ///< drawn ahead, if options_ wants it; joints by TF still rest
   render::BodyPlaces map_from_links_;  ///< of the latest shot
   TimeWait time_wait_;
   Wait waits_for_;

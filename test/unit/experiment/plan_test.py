@@ -217,7 +217,7 @@ class Plan(unittest.TestCase):
 
     def test_what_is_handed_on_is_as_it_was_typed_whatever_quotes_are_in_it(self):
         self.assertEqual(handed_on(), defaults())
-        typed = {"model_path": "['/home/u/my models']", "world": "it's.world", "output": "my \"best\" 'run' \\ $HOME",
+        typed = {"model_path": "['my models']", "world": "it's.world", "output": "my \"best\" 'run' \\ $HOME",
                  "conditions": "12", "noise": "true"}
         self.assertEqual(handed_on(**typed), defaults(**typed))
 

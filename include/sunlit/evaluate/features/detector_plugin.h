@@ -20,8 +20,7 @@ namespace sunlit::evaluate {
 ///   that changes. Each has the parameters of the first.
 /// - What is found depends on the picture and the parameters alone: the same bits in every run, whatever was
 ///   found before, and for any number of threads.
-/// - Whatever goes wrong is thrown, as a std::exception whose what() says in one line what it is. The pairs
-/// of
+/// - Whatever goes wrong is thrown, as a std::exception whose what() says in one line what it is. Pairs of
 ///   that picture then count as failed, and it is not localised by it; nothing else is lost.
 /// - A result that breaks what is said below is refused likewise.
 class DetectorPlugin {

@@ -17,9 +17,11 @@ constexpr int kAcross = 4;  ///< points of a patch along each of its sides
 /// Of what each point stands for, rad: highlights of smooth ground are narrower than their distance.
 constexpr float kPointRadius_rad = 0.03f;
 
+using PointsOfPatch = std::array<Eigen::Vector3f, kAcross * kAcross>;
+
 /// Of each patch above the horizon.
 struct Points {
-  std::array<std::array<Eigen::Vector3f, kAcross * kAcross>, SkyPatches::kAbove> in;
+  std::array<PointsOfPatch, SkyPatches::kAbove> in;
 
   Points() {
     for (int patch = 0; patch < SkyPatches::kAbove; ++patch) {
@@ -31,8 +33,7 @@ struct Points {
 };
 
 /// Mean over a patch by cosine to the zenith, as the patch's own light is.
-template <typename Points>
-float mirroredOf(const Points& patch, const Reflection& ground) {
+float mirroredOf(const PointsOfPatch& patch, const Reflection& ground) {
   float sum = 0.0f, weights = 0.0f;
   for (const Eigen::Vector3f& to_light : patch) {
     sum += directReflectance(ground, to_light, kPointRadius_rad)[0];  // black: mirrors alike in all colours

@@ -39,12 +39,25 @@ struct RoughOnes {
   std::vector<std::uint32_t> first;         ///< of a pixel, and of one beyond the last
 };
 
-bool anyFillsLobe(const Surfaces& surfaces, const Reflections& reflections) {
+/// visit(surface, tile, index of what it mirrors in the tile) of each that fills its lobe, until it says no.
+template <typename Visit>
+void forEachRough(const Surfaces& surfaces, const Reflections& reflections, const Visit& visit) {
   for (std::size_t t = 0; t < reflections.tiles.size(); ++t) {
-    for (const Reflections::Mirroring& mirroring : reflections.tiles[t].surfaces)
-      if (fillsLobe(surfaces.tiles[t].surfaces[mirroring.surface])) return true;
+    const std::vector<Reflections::Mirroring>& mirroring = reflections.tiles[t].surfaces;
+    for (std::size_t i = 0; i < mirroring.size(); ++i) {
+      const Surface& surface = surfaces.tiles[t].surfaces[mirroring[i].surface];
+      if (fillsLobe(surface) && !visit(surface, t, i)) return;
+    }
   }
-  return false;
+}
+
+bool anyFillsLobe(const Surfaces& surfaces, const Reflections& reflections) {
+  bool any = false;
+  forEachRough(surfaces, reflections, [&](const Surface&, std::size_t, std::size_t) {
+    any = true;
+    return false;
+  });
+  return any;
 }
 
 RoughOnes collect(const Surfaces& surfaces, const Reflections& reflections, MirroredLuminances* luminances) {
@@ -52,22 +65,18 @@ RoughOnes collect(const Surfaces& surfaces, const Reflections& reflections, Mirr
   const auto width = static_cast<std::uint32_t>(surfaces.width);
   ones.first.assign(static_cast<std::size_t>(surfaces.width) * static_cast<std::size_t>(surfaces.height) + 1,
                     0);
-  const auto forEach = [&](const auto& visit) {
-    for (std::size_t t = 0; t < reflections.tiles.size(); ++t) {
-      const std::vector<Reflections::Mirroring>& mirroring = reflections.tiles[t].surfaces;
-      for (std::size_t i = 0; i < mirroring.size(); ++i) {
-        const Surface& surface = surfaces.tiles[t].surfaces[mirroring[i].surface];
-        if (fillsLobe(surface)) visit(surface, mirroring[i], &(*luminances)[t][i]);
-      }
-    }
-  };
-  forEach([&](const Surface& surface, const auto&, const auto*) { ++ones.first[surface.pixel + 1]; });
+  forEachRough(surfaces, reflections, [&](const Surface& surface, std::size_t, std::size_t) {
+    ++ones.first[surface.pixel + 1];
+    return true;
+  });
   for (std::size_t i = 1; i < ones.first.size(); ++i) ones.first[i] += ones.first[i - 1];
   ones.all.resize(ones.first.back());
   ones.shown.resize(ones.all.size());
   ones.luminances.resize(ones.all.size());
   std::vector<std::uint32_t> next = ones.first;
-  forEach([&](const Surface& surface, const Reflections::Mirroring& mirroring, Eigen::Array3f* luminance) {
+  forEachRough(surfaces, reflections, [&](const Surface& surface, std::size_t tile, std::size_t i) {
+    const Reflections::Mirroring& mirroring = reflections.tiles[tile].surfaces[i];
+    Eigen::Array3f* const luminance = &(*luminances)[tile][i];
     const std::uint32_t at = next[surface.pixel]++;
     ones.all[at] = {surface.position,
                     surface.shading_normal,
@@ -79,6 +88,7 @@ RoughOnes collect(const Surfaces& surfaces, const Reflections& reflections, Mirr
                     static_cast<int>(surface.pixel / width)};
     ones.shown[at] = {mirroring.weight * *luminance, mirroring.weight};
     ones.luminances[at] = luminance;
+    return true;
   });
   return ones;
 }
