@@ -197,6 +197,12 @@ float Reflectances::cells(const Shown& of, std::uint32_t triangle, const Part& p
   return ((most - least) * of.thumbnail->size(of.grain)).maxCoeff();
 }
 
+Eigen::Array3f Reflectances::emissionAt(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const {
+  const scene::Material& material = materialOf(triangle);
+  const Shown of = shown(texturesOf(triangle).emission, material.emission_map, triangle);
+  return material.emission.value * look(of, triangle, barycentric).head<3>();
+}
+
 Eigen::Array3f Reflectances::emission(std::uint32_t triangle, const Part& part) const {
   const scene::Material& material = materialOf(triangle);
   const Shown of = shown(texturesOf(triangle).emission, material.emission_map, triangle);

@@ -45,7 +45,9 @@ class Reflectances {
   Paint at(const TriangleSide& side, const Eigen::Vector3f& barycentric) const;
   /// Of a part, about: by some points of it where its textures differ within.
   Paint mean(const TriangleSide& side, const Part& part) const;
-  /// Luminance of its own there, cd/m²: the mean in the same way.
+  /// Luminance of its own at a point of a triangle, cd/m².
+  Eigen::Array3f emissionAt(std::uint32_t triangle, const Eigen::Vector3f& barycentric) const;
+  /// The same of a part: the mean in the same way.
   Eigen::Array3f emission(std::uint32_t triangle, const Part& part) const;
 
  private:

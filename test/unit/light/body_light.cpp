@@ -167,6 +167,32 @@ TEST(BodyLight, BelowABodyIsTheLightOfLampsThatTheFloorSendsBack) {
   EXPECT_EQ(stage.around(kHeight_m, light).illuminance(-Eigen::Vector3f::UnitZ()).maxCoeff(), 0.0f);
 }
 
+TEST(BodyLight, IsThatOfAScreenWhereItsMapHasItShine) {
+  // A floor that shines on its half of positive x alone, and one that is seen from below only.
+  const auto below = [](const scene::Material& material) {
+    auto scene = std::make_shared<scene::Scene>();
+    scene->materials = {material};
+    scene->textures = {{"halves", 2, 1, {0, 0, 0, 255, 255, 255, 255, 255}}};
+    scene->meshes = {square(Eigen::Vector3f::Zero(), 500.0f)};
+    scene->meshes[0].texture_coordinates = {{0.0f, 0.0f}, {1.0f, 0.0f}, {1.0f, 1.0f}, {0.0f, 1.0f}};
+    const World world(scene, {{square(Eigen::Vector3f::Zero(), 0.1f)}});
+    const auto placed = world.bodies->placed({Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 5.0))});
+    const BodyLight body_light(world);
+    const auto views = body_light.look(*placed, std::make_shared<Visibility>(world.visibility, placed));
+    return body_light.around(*views, sky::uniformDaylight({}))[0].illuminance(-Eigen::Vector3f::UnitZ())[1];
+  };
+  scene::Material screen;
+  screen.base_color = LinearRgb(0.0f, 0.0f, 0.0f);
+  screen.emission = LinearRgb(100.0f, 100.0f, 100.0f);
+  const float whole = below(screen);
+  EXPECT_NEAR(whole, 100.0f * kPiFloat, 3.0f * kPiFloat);  // of the second order
+  screen.emission_map.texture = 0;
+  // The texels run into each other between their middles, 250 m from the body's: half on average.
+  EXPECT_NEAR(below(screen) / whole, 0.5f, 0.02f);
+  screen.double_sided = false;
+  EXPECT_NEAR(below(screen) / whole, 0.5f, 0.02f);
+}
+
 TEST(BodyLight, IsInTheShadeWhereItHidesTheLampFromTheFloor) {
   const PlateAboveFloor stage;
   // A narrow spot straight down at the plate: what passes its edges lights the floor, the rest does not.

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "light/bake/gather/exchange.h"
+#include "light/bake/samples/light_place.h"
 #include "light/bake/samples/transport_data.h"
 
 namespace sunlit::light {
@@ -21,6 +22,18 @@ LightMesh strip(std::uint32_t nodes) {
   }
   mesh.first_share.push_back(nodes);
   return mesh;
+}
+
+TEST(LightPlace, OfASideThatCannotBeSeenIsThatOfTheOther) {
+  LightMesh mesh = strip(3);
+  mesh.roots.own() = {{0, LightMesh::kNone}, {LightMesh::kSealed, 0}, {LightMesh::kNone, LightMesh::kNone}};
+  const auto weights = [&](std::uint32_t triangle, bool front) {
+    const LightPlace place = lightPlace(mesh, {triangle, front}, {0.5f, 0.25f, 0.25f});
+    return place.known() ? place.weight[0] : -1.0f;
+  };
+  EXPECT_EQ(weights(0, false), 0.5f);
+  EXPECT_EQ(weights(1, true), 0.0f);  // dark
+  EXPECT_EQ(weights(2, true), -1.0f);
 }
 
 TEST(LightMesh, ANodeWithoutUsefulSamplesHasThatOfTheNearest) {

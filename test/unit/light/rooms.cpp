@@ -153,6 +153,18 @@ TEST(Rooms, GetBackWhatTheirPanesMirror) {
   EXPECT_LT(of_all.mean, 0.055);
 }
 
+TEST(Rooms, GetNoLightOfTheFacadeFromPanesThatAreSeenFromOutsideAlone) {
+  const std::vector<Looked> ceiling = {{{0.5f, 1.5f, 3.0f}, -kUp, {0.2f, 0.3f, -0.9f}},
+                                       {{-1.5f, 0.0f, 3.0f}, -kUp, {0.2f, 0.3f, -0.9f}}};
+  std::array<std::vector<double>, 2> found;
+  for (const bool both : {false, true}) {
+    scene::Scene scene = roomWithAPane(0.0f);
+    scene.materials[1].double_sided = both;
+    found[both ? 1 : 0] = fast(baked(std::move(scene)), ceiling, onlySun(180.0, 50.0));
+  }
+  EXPECT_EQ(found[0], found[1]);
+}
+
 TEST(Rooms, StreetsAreLitByTheSideThatTheSunShinesOn) {
   // 12 m wide, between walls of 20 m.
   scene::Scene scene;

@@ -54,6 +54,14 @@ TEST_P(Awning, ShowsEitherSideTheLightOfBoth) {
   EXPECT_LT(found.worst, 0.08);
 }
 
+TEST_P(Awning, LetsAsMuchThroughThatIsSeenFromAboveAlone) {
+  scene::Scene one_sided = awning(GetParam());
+  one_sided.materials[kCloth].double_sided = false;
+  const std::vector<Looked> ground = {{{0.9f, 0.3f, 0.0f}, kUp, {0.3f, 0.1f, 1.0f}, kGround}};
+  EXPECT_EQ(fast(baked(one_sided), ground, uniformDay(100.0f)),
+            fast(baked(awning(GetParam())), ground, uniformDay(100.0f)));
+}
+
 TEST(Cloth, ThatIsLevelMirrorsTheSkyOntoAWallOnce) {
   scene::Scene scene;
   scene.materials = {paint(0.0f), paint(0.8f), paint(0.5f)};

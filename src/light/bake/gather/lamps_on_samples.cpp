@@ -133,8 +133,9 @@ class LampsOnTriangles {
           static_cast<int>(std::ceil(0.5f * longest / std::max(kSpacing * away, 1e-3f))), 1, kMostAcross);
       for (std::size_t k = 0; k < 3; ++k) {
         float points = 0.0f;
+        const float through = samples_.receivers[samples_.nearest_sample[cell.corner[k]]].transmission;
         visitPart(k, across, [&](const Eigen::Vector3f& b) {
-          aim(lamp, within * b);
+          aim({lamp, within * b, through});
           points += 1.0f;
         });
         weights_.push_back(part_m2 / points);
@@ -146,22 +147,30 @@ class LampsOnTriangles {
       if (sums[k].maxCoeff() > 0.0f) arrivals->push_back({samples_.nearest_sample[cell.corner[k]], sums[k]});
   }
 
+  struct Aim {
+    std::uint32_t lamp;
+    const Eigen::Vector3f& within;
+    float through;  ///< Receiver::transmission of the sample that it is for
+  };
   /// Adds a ray from a point of the triangle to the lamp, unless it turns away.
-  void aim(std::uint32_t number, const Eigen::Vector3f& within) {
-    const LampBeam& lamp = lamps_[number];
-    const Eigen::Vector3f point = at_ * within;
+  void aim(const Aim& aim) {
+    const LampBeam& lamp = lamps_[aim.lamp];
+    const Eigen::Vector3f point = at_ * aim.within;
     const Eigen::Vector3f way = lamp.position() - point;
     const float distance_m = way.norm();
-    if (face_.dot(way) <= 0.0f) return;
-    Eigen::Vector3f normal = normals_ * within;
+    const bool before = face_.dot(way) > 0.0f;
+    if (!before && !(aim.through > 0.0f)) return;
+    Eigen::Vector3f normal = normals_ * aim.within;
     if (normal.dot(face_) < 0.0f) normal = -normal;
     if (!(normal.squaredNorm() > 1e-6f)) normal = face_;
     const float cosine = normal.normalized().dot(way) / std::max(distance_m, 1e-6f);
-    if (!(cosine > 0.0f)) return;
+    const float counts = cosine > 0.0f ? (1.0f - aim.through) * cosine : -aim.through * cosine;
+    if (!(counts > 0.0f)) return;
     const float clearance_m = rayClearance_m(point, distance_m);
     const float reach = 1.0f - (lamp.radius_m() + clearance_m) / std::max(distance_m, 1e-6f);
-    sights_.push_back({point + clearance_m * face_, way, std::max(reach, 0.0f)});
-    light_.push_back(cosine * lamp.at(point));
+    const float off = before ? clearance_m : -clearance_m;
+    sights_.push_back({point + off * face_, way, std::max(reach, 0.0f)});
+    light_.push_back(counts * lamp.at(point));
   }
 
   /// Casts the rays that were aimed, and adds what arrives.

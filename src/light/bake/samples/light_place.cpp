@@ -6,7 +6,9 @@ namespace sunlit::light {
 
 LightPlace lightPlace(const LightMesh& mesh, const TriangleSide& side, const std::array<float, 3>& within) {
   LightPlace light;
-  const std::uint32_t root = mesh.roots[side.triangle][side.front ? 0 : 1];
+  const auto& roots = mesh.roots[side.triangle];
+  std::uint32_t root = roots[side.front ? 0 : 1];
+  if (root == LightMesh::kNone) root = roots[side.front ? 1 : 0];
   if (root == LightMesh::kSealed && mesh.nodeCount() > 0) {
     light.node.fill(0);
     light.weight.fill(0.0f);

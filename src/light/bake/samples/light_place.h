@@ -21,7 +21,8 @@ struct LightPlace {
   bool known() const { return node[0] != kNowhere; }
 };
 
-/// Of a point of a side, given by its barycentric coordinates.
+/// Of a point of a side, given by its barycentric coordinates. A side that cannot be seen, but is met by
+/// light or in a mirror, has the light of the other.
 LightPlace lightPlace(const LightMesh& mesh, const TriangleSide& side, const std::array<float, 3>& within);
 
 /// Illuminance at a place between `nodes`, lx.

@@ -27,8 +27,9 @@ constexpr int kDirections = 256;
 struct Met {
   std::uint32_t body;
   std::uint32_t direction;
-  std::size_t material;
   Eigen::Array3f reflectance;
+  Eigen::Array3f
+      emission;  ///< luminance of its own, cd/m², but of lamps' own glass, of which they are the light
   Eigen::Vector3f normal;  ///< on the side that was met
   Eigen::Vector3f origin;  ///< of shadow rays: clear of the surface
   LightPlace light;
@@ -93,9 +94,13 @@ void BodyLight::Implementation::keep(std::uint32_t body, std::uint32_t direction
     const std::array<float, 3> within = Corners(geometry, hit.triangle).within(position);
     light = lightPlace(world_.transport->data().mesh, {hit.triangle, front}, within);
   }
-  views->met.push_back({body, direction, static_cast<std::size_t>(geometry.materials[hit.triangle]),
-                        reflectanceAt({hit.triangle, front}, weights), normal, position + clear * normal,
-                        light});
+  const scene::Material& material =
+      geometry.scene->materials[static_cast<std::size_t>(geometry.materials[hit.triangle])];
+  Eigen::Array3f emission = Eigen::Array3f::Zero();
+  if (material.lamp_group.empty() && (front || material.double_sided))
+    emission = reflectances_.emissionAt(hit.triangle, weights);
+  views->met.push_back({body, direction, reflectanceAt({hit.triangle, front}, weights), emission, normal,
+                        position + clear * normal, light});
 }
 
 void BodyLight::Implementation::castFrom(std::uint32_t body, const Eigen::Vector3f& middle,
@@ -218,11 +223,8 @@ std::vector<AroundLight> BodyLight::Implementation::around(const Views& views,
   addLamps(views, light, &illuminance);
   for (std::size_t i = 0; i < views.met.size(); ++i) {
     const Met& met = views.met[i];
-    const scene::Material& material = world_.geometry->scene->materials[met.material];
-    Eigen::Array3f luminance = illuminance[i] * met.reflectance / kPiFloat;
-    // Of lamps' own glass the lamps are the light.
-    if (material.lamp_group.empty()) luminance += material.emission.value;
-    lights[met.body].add(directions_[met.direction], kSolidAngle, luminance);
+    lights[met.body].add(directions_[met.direction], kSolidAngle,
+                         illuminance[i] * met.reflectance / kPiFloat + met.emission);
   }
   return lights;
 }

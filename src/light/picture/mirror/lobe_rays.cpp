@@ -7,6 +7,7 @@
 #include "light/shading/mirror_lobe.h"
 #include "light/shading/schlick.h"
 #include "light/shading/shading.h"
+#include "sunlit/quantity/photometry.h"
 #include "sunlit/quantity/random.h"
 
 namespace sunlit::light {
@@ -75,7 +76,9 @@ LobeRay lobeRay(const Surface& surface, const Eigen::Vector3f& to_eye, const Lob
   const Eigen::Vector3f to = 2.0f * v_h * half - eye;
   const Eigen::Vector3f towards = MirrorFrame(normal, to_eye).inMap(to);
   if (!(to.z() > 1e-4f)) return {towards.normalized(), 0.0f};
-  const float fresnel = kDielectricF0 + (1.0f - kDielectricF0) * schlick(v_h);
+  const float luminance = LinearRgb(surface.albedo).luminance();
+  const float f0 = kDielectricF0 + (luminance - kDielectricF0) * surface.metalness;
+  const float fresnel = f0 + (1.0f - f0) * schlick(v_h);
   return {towards.normalized(), fresnel * facets.shadowing(to.z(), n_v)};
 }
 

@@ -16,17 +16,15 @@ struct SampleRows {
   std::array<Row, 24> rows;
   std::size_t count = 0;
 
-  /// Samples of thin sheets take but part of their light from this side.
-  SampleRows(const TransportData& data, const LightPlace& place, float transmission) {
+  SampleRows(const TransportData& data, const LightPlace& place) {
     const LightMesh& mesh = data.mesh;
-    const float scale = 1.0f / (1.0f - std::min(transmission, 0.9f));
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t node = place.node[k];
       for (std::uint32_t s = mesh.first_share[node]; s < mesh.first_share[node + 1]; ++s) {
         if (count == rows.size()) break;  // a node of more samples than this needs no more of them
         const std::uint32_t sample = mesh.shares[s].sample;
         rows[count++] = {data.direct.row(sample),
-                         scale * place.weight[k] * mesh.shares[s].weight * data.direct.scales[sample]};
+                         place.weight[k] * mesh.shares[s].weight * data.direct.scales[sample]};
       }
     }
   }
@@ -93,16 +91,15 @@ OpenPatches ofLeaf(const LeafOpenness& leaves, const Surface& surface, const Sky
 
 OpenPatches openPatches(const TransportData& data, const Surface& surface, const WholeOutlook& outlook,
                         const scene::Material& material) {
-  const float transmission = material.transmission;
-  if (outlook.gathered) return ofGathered(*outlook.gathered, surface.geometric_normal, transmission > 0.0f);
+  const bool thin = material.transmission > 0.0f;
+  if (outlook.gathered) return ofGathered(*outlook.gathered, surface.geometric_normal, thin);
   if (outlook.sheet.sky.known) return ofLeaf(data.leaves, surface, outlook.sheet.sky);
-  const SampleRows samples(data, outlook.own.light, transmission);
+  const SampleRows samples(data, outlook.own.light);
   PatchValues sums;
   sums.fill(0.0f);
   for (std::size_t i = 0; i < samples.count; ++i)
     addTimes(samples.rows[i].weight, samples.rows[i].values, sums.data());
-  const Eigen::Vector3f& normal =
-      transmission > 0.0f ? surface.shading_normal : bakedNormal(surface, material);
+  const Eigen::Vector3f& normal = thin ? surface.shading_normal : bakedNormal(surface, material);
   OpenPatches open;
   divideByWhole(normal.data(), sums.data(), open.share.data(), open.known.data());
   return open;
