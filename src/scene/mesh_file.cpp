@@ -325,8 +325,8 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   const std::vector<std::optional<MeshLook>> looks =
       addMaterials(*scene, MeshFileContext{file, gltf ? &*gltf_materials : nullptr, finder, builder,
                                            gltf ? materialsInFile(file, names) : std::vector<std::size_t>()});
-  // Assimp turns a COLLADA file whose up_axis it honours to +Y up.
-  const bool y_up = gltf || (collada && up_axis == UpAxis::kAsDeclared);
+  // Assimp turns a COLLADA file whose up_axis it honours to +Y up. glTF always is.
+  const bool y_up = (gltf || collada) && up_axis == UpAxis::kAsDeclared;
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();
   Collector collector{*scene, looks, gltf, up_from_file};
   collector.collect(*scene->mRootNode, up_from_file);

@@ -10,11 +10,12 @@
 
 namespace sunlit::scene {
 
-/// Who decides which axis of a COLLADA file is up. A glTF file's is +Y by definition; an OBJ file says
-/// nothing and is taken as z up, as ROS tools do.
+/// Who decides which axis of a file is up. An OBJ file says nothing and is taken as z up, as ROS tools do.
 enum class UpAxis {
-  kAsDeclared,  ///< the file's up_axis
-  kZ,           ///< z, whatever the file declares: what Gazebo does with the meshes of its models
+  kAsDeclared,  ///< COLLADA's up_axis; of glTF +Y
+  /// Coordinates as they stand, whatever the file declares: what Gazebo does with the meshes of its models,
+  /// and RViz of ROS 1, whose users turn their visuals so that it fits.
+  kZ,
 };
 
 /// One piece of a mesh file: its triangles in the frame of their node, and where that stands in the file.

@@ -201,11 +201,24 @@ void warnOfPlacement(const aiMaterial& source, const std::string& name, const Me
   }
 }
 
+/// What Assimp gives a mesh whose file has none.
+bool isBare(const aiMaterial& source) {
+  return nameOf(source) == AI_DEFAULT_MATERIAL_NAME;
+}
+
+bool hasColors(const aiScene& scene) {
+  return std::any_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes,
+                     [](const aiMesh* mesh) { return mesh->HasVertexColors(0); });
+}
+
 int addPhong(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context) {
   Material material;
   material.name = nameOf(source);
   readPhong(source, extensionOf(context.file) == ".dae", material);
   readColorMaps(source, scene, context, material);
+  // STL and PLY come out as white as nothing is.
+  if (isBare(source) && material.base_color.value.minCoeff() >= 1.0f && !hasColors(scene))
+    material.base_color = kNeutral;
   material.base_color.value = material.base_color.value.max(0.0f).min(1.0f);
   readPhongMaps(source, scene, context, material);
   if (extensionOf(context.file) == ".obj") readRoughMetal(source, scene, context, material);
@@ -254,9 +267,7 @@ std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
                                         const MeshFileContext& context) {
   const aiMaterial& source = *scene.mMaterials[index];
   if (!context.gltf) {
-    // What Assimp gives a mesh whose file has none.
-    const bool bare = nameOf(source) == AI_DEFAULT_MATERIAL_NAME;
-    return MeshLook{addPhong(source, scene, context), {CoordinateRecipe()}, bare};
+    return MeshLook{addPhong(source, scene, context), {CoordinateRecipe()}, isBare(source)};
   }
   const std::optional<GltfLook> look =
       context.gltf->look(context.gltf_order.at(index), [&](GltfMaterials::Slot slot, const Wraps& wraps) {

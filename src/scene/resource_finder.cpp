@@ -9,6 +9,7 @@
 
 #include "scene/fuel_cache.h"
 #include "scene/package_folder.h"
+#include "scene/sdf_model_folder.h"
 #include "scene/uri_text.h"
 
 namespace sunlit::scene {
@@ -18,9 +19,10 @@ namespace {
 constexpr const char* kPackageScheme = "package://";
 constexpr const char* kFileScheme = "file://";
 
-bool isFile(const fs::path& path) {
+bool isThere(const fs::path& path, Wanted wanted) {
   std::error_code error;
-  return fs::exists(path, error);
+  if (!fs::exists(path, error)) return false;
+  return wanted != Wanted::kModel || !modelFileOf(path.string()).empty();
 }
 
 /// The entry of `path`'s folder whose name differs from path's in case only.
@@ -37,19 +39,20 @@ std::optional<fs::path> inOtherCase(const fs::path& path) {
 }
 
 /// Tries `candidates` as written, then ignoring the case of the file name.
-Found firstOf(const std::vector<fs::path>& candidates) {
+Found firstOf(const std::vector<fs::path>& candidates, Wanted wanted = Wanted::kAnything) {
   Found found;
   for (const fs::path& candidate : candidates) {
     const std::string place = candidate.lexically_normal().string();
     if (std::find(found.tried.begin(), found.tried.end(), place) != found.tried.end()) continue;
     found.tried.push_back(place);
-    if (isFile(candidate)) {
+    if (isThere(candidate, wanted)) {
       found.file = place;
       return found;
     }
   }
   for (const std::string& place : found.tried) {
-    if (const auto other = inOtherCase(place)) {
+    const auto other = inOtherCase(place);
+    if (other && isThere(*other, wanted)) {
       found.file = other->string();
       found.other_case = true;
       return found;
@@ -108,25 +111,26 @@ ResourceFinder::ResourceFinder(const SearchPath& search_path, const std::string&
   roots_.insert(roots_.end(), search_path.folders.begin(), search_path.folders.end());
 }
 
-Found ResourceFinder::find(const std::string& uri, const std::string& from_file) const {
-  Found found = findAsWritten(uri, from_file);
+Found ResourceFinder::find(const std::string& uri, const std::string& from_file, Wanted wanted) const {
+  Found found = findAsWritten(uri, from_file, wanted);
   const std::string plain = plainAddress(uri);
   if (found.file || plain == uri) return found;
-  const Found meant = findAsWritten(plain, from_file);
+  const Found meant = findAsWritten(plain, from_file, wanted);
   return meant.file ? meant : found;
 }
 
-Found ResourceFinder::findAsWritten(const std::string& uri, const std::string& from_file) const {
+Found ResourceFinder::findAsWritten(const std::string& uri, const std::string& from_file,
+                                    Wanted wanted) const {
   if (const std::optional<FuelAddress> fuel = fuelAddress(uri)) {
     const std::vector<std::string> places = fuelPlaces(*fuel, fuel_caches_);
     Found found = firstOf({places.begin(), places.end()});
     if (found.file || stockModel(*fuel).empty()) return found;
-    const Found own = findAsWritten("model://" + stockModel(*fuel), from_file);
+    const Found own = findAsWritten("model://" + stockModel(*fuel), from_file, wanted);
     return own.file ? own : found;
   }
   const fs::path path = withoutScheme(uri);
   if (path.empty()) return {};
-  if (path.is_absolute()) return firstOf({path});
+  if (path.is_absolute()) return firstOf({path}, wanted);
   std::vector<std::string> roots = folderAndParents(from_file);
   roots.insert(roots.end(), roots_.begin(), roots_.end());
   std::vector<fs::path> candidates;
@@ -138,7 +142,7 @@ Found ResourceFinder::findAsWritten(const std::string& uri, const std::string& f
     candidates.push_back(fs::path(root) / path);
     candidates.push_back(fs::path(root) / "models" / path);
   }
-  const Found found = firstOf(candidates);
+  const Found found = firstOf(candidates, wanted);
   if (found.file) return found;
   // Where Gazebo classic looks besides, and hardly anyone keeps anything: not worth telling.
   std::vector<fs::path> media;
@@ -146,7 +150,7 @@ Found ResourceFinder::findAsWritten(const std::string& uri, const std::string& f
     for (const char* folder : {"media/models", "Media/models"})
       media.push_back(fs::path(root) / folder / path);
   }
-  const Found besides = firstOf(media);
+  const Found besides = firstOf(media, wanted);
   return besides.file ? besides : found;
 }
 

@@ -17,6 +17,12 @@ struct Found {
   bool other_case = false;  ///< found only by ignoring upper and lower case
 };
 
+/// What is looked for. A folder of that name may well be something else.
+enum class Wanted {
+  kAnything,
+  kModel,  ///< a file, or a folder that has one of a model
+};
+
 class ResourceFinder {
  public:
   /// `scene_file` is the file that is loaded; its folder and that folder's parents are looked through as
@@ -29,7 +35,7 @@ class ResourceFinder {
   /// http(s)://SERVER/…/models/NAME/…, is looked for in Fuel's caches alone, but for "Ground Plane" and "Sun"
   /// of OpenRobotics, which are model://ground_plane and model://sun besides. Where nothing is found, \ is
   /// taken for / and escapes (%20) for what they stand for.
-  Found find(const std::string& uri, const std::string& from_file) const;
+  Found find(const std::string& uri, const std::string& from_file, Wanted wanted = Wanted::kAnything) const;
 
   /// The picture that the mesh in `mesh_file` calls `name`: at that address, if it is one of a model, package
   /// or Fuel; else beside the mesh, in the textures folders that models usually have, then as find() does,
@@ -45,7 +51,7 @@ class ResourceFinder {
   Missing missing() const { return missing_; }
 
  private:
-  Found findAsWritten(const std::string& uri, const std::string& from_file) const;
+  Found findAsWritten(const std::string& uri, const std::string& from_file, Wanted wanted) const;
 
   std::vector<std::string> roots_;  ///< the scene's folder, those above it, and those that were named
   std::size_t parents_;             ///< how many are above it

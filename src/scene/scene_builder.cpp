@@ -10,6 +10,7 @@
 
 #include "scene/cofactors.h"
 #include "scene/color.h"
+#include "scene/texture_alpha.h"
 #include "sunlit/image/texture_files.h"
 #include "sunlit/scene/material_maps.h"
 #include "sunlit/scene/whole_texture.h"
@@ -17,24 +18,12 @@
 namespace sunlit::scene {
 namespace {
 
-/// A texture whose alpha is below one half in more than this share of its texels is a cut-out. Formats
-/// without an alpha mode carry the channel by accident often enough (smooth edges, unused channels) for a
-/// stray texel not to count.
-constexpr double kTransparentShare = 0.01;
-
 /// Twice the area, m², below which a triangle is taken for none: no camera sees a hundredth of a square
 /// millimetre.
 constexpr double kNoArea_m2 = 1e-12;
 
 /// As many a person reads of a kind.
 constexpr std::size_t kExamples = 3;
-
-bool isCutOut(const Texture& texture) {
-  const std::size_t texels = texture.rgba.size() / 4;
-  std::size_t transparent = 0;
-  for (std::size_t i = 0; i < texels; ++i) transparent += texture.rgba[4 * i + 3] < 128 ? 1 : 0;
-  return static_cast<double>(transparent) > kTransparentShare * static_cast<double>(texels);
-}
 
 image::Rgba8Image white(const image::Rgba8Image& as_large) {
   image::Rgba8Image picture(as_large.width, as_large.height);
@@ -332,8 +321,8 @@ void SceneBuilder::forgetTexture(int texture) {
 }
 
 void SceneBuilder::settleAlpha() {
-  std::vector<bool> cut_out(scene_.textures.size());
-  for (std::size_t i = 0; i < cut_out.size(); ++i) cut_out[i] = isCutOut(scene_.textures[i]);
+  std::vector<AlphaMeans> means(scene_.textures.size());
+  for (std::size_t i = 0; i < means.size(); ++i) means[i] = meaningOf(scene_.textures[i]);
   for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
     Material& material = scene_.materials[i];
     const bool textured = material.base_texture != Material::kNoTexture;
@@ -342,7 +331,17 @@ void SceneBuilder::settleAlpha() {
           !textured || isWhole(scene_.textures[static_cast<std::size_t>(material.base_texture)]);
       if (whole && material.alpha >= 1.0f) material.alpha_mode = AlphaMode::kOpaque;
     } else if (alpha_rules_[i] == AlphaRule::kFromTexture && textured) {
-      if (cut_out[static_cast<std::size_t>(material.base_texture)]) material.alpha_mode = AlphaMode::kMask;
+      const auto texture = static_cast<std::size_t>(material.base_texture);
+      const std::string name = material.name + ": " + sources_[texture].name + ", whose alpha is ";
+      if (means[texture] == AlphaMeans::kCutOut) {
+        material.alpha_mode = AlphaMode::kMask;
+      } else if (means[texture] == AlphaMeans::kVeil) {
+        material.alpha_mode = AlphaMode::kBlend;
+        warn(kNotRendered,
+             name + "below one half all over: what lies behind shows through instead of nothing");
+      } else if (means[texture] == AlphaMeans::kAccident) {
+        warn(kNotRendered, name + "0 all over: drawn as opaque");
+      }
     }
   }
 }

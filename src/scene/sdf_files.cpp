@@ -211,7 +211,7 @@ const SdfFile* SdfFiles::included(const XMLElement& include, const SdfFile& file
     builder_.warn("includes were passed over, they have no address", place);
     return nullptr;
   }
-  const Found found = finder_.find(uri, file.path);
+  const Found found = finder_.find(uri, file.path, Wanted::kModel);
   const std::string path = found.file ? modelFileOf(*found.file) : "";
   if (path.empty()) {
     if (finder_.missing() == Missing::kStop) {

@@ -45,6 +45,11 @@ std::optional<Lamp> lampOf(const sdf::Light& light, const Eigen::Affine3d& map_f
     builder.warn("directional lights were not read: the sun of the sky takes their place", name.name);
     return std::nullopt;
   }
+  const sdf::ElementPtr on = light.Element() ? firstIn(*light.Element(), "light_on") : nullptr;
+  if (on && !on->Get<bool>()) {
+    builder.warn("lights are switched off by <light_on> and were left out", name.name);
+    return std::nullopt;
+  }
   const bool spot = light.Type() == sdf::LightType::SPOT;
   const auto factor = [](double value) { return std::max(static_cast<float>(value), 0.0f); };
   Lamp lamp;

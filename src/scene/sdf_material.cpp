@@ -135,6 +135,25 @@ void SdfMaterials::readMaps(const sdf::PbrWorkflow& metal, const sdf::Material& 
   if (!lightMapOf(metal).empty()) builder_.warn(kNotRendered, name + "a light map: light is computed");
 }
 
+/// As gz-sim has it. Files of Gazebo Classic, which never looks at it, often have a 0 there.
+void SdfMaterials::readOpacity(float alpha, Material* material) {
+  if (alpha >= 1.0f) return;
+  if (alpha > 0.0f)
+    setOpacity(alpha, material);
+  else
+    builder_.warn(kNotRendered,
+                  "material " + material->name + ": <diffuse> of an alpha of 0: drawn as opaque");
+}
+
+void SdfMaterials::nameLost(const sdf::Material& source, const std::string& name) {
+  const auto lost = [&](const std::string& what) {
+    builder_.warn(kNotRendered, "material " + name + " of " + source.FilePath() + ": " + what);
+  };
+  if (source.Element()->HasElement("lighting") && !source.Lighting())
+    lost("<lighting> false: lit like any other");
+  if (!source.NormalMap().empty()) lost("the normal map of its <shader>: without it");
+}
+
 std::optional<int> SdfMaterials::add(const sdf::Material* source) {
   const sdf::ElementPtr element = source != nullptr ? source->Element() : nullptr;
   if (!element) return std::nullopt;
@@ -169,12 +188,14 @@ std::optional<int> SdfMaterials::add(const sdf::Material* source) {
     const ignition::math::Color specular = source->Specular();
     if (std::max({specular.R(), specular.G(), specular.B()}) > 0.3f) material.roughness = 0.5f;
   }
+  if (element->HasElement("diffuse")) readOpacity(source->Diffuse().A(), &material);
   if (element->HasElement("emissive"))
     material.emission.value = kDisplayWhite_cd_per_m2 * toLinear(source->Emissive()).value;
   if (pbr) {
     if (!plain) material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
     readPbr(*source, material);
   }
+  nameLost(*source, material.name);
   const int index = builder_.addMaterial(material, AlphaRule::kFromTexture);
   if ((texture_scale != 1.0f).any()) texture_scales_[index] = texture_scale;
   return index_by_content_[content] = index;

@@ -37,6 +37,8 @@ class SdfMaterials {
   Scripted fromScript(const sdf::Material& source);
   Material lookOf(const ScriptMaterial& script, Material material, const std::string& file);
   void readPbr(const sdf::Material& source, Material& material);
+  void readOpacity(float alpha, Material* material);
+  void nameLost(const sdf::Material& source, const std::string& name);
   void readMaps(const sdf::PbrWorkflow& metal, const sdf::Material& source, Material& material);
   int texture(const std::string& name, const std::string& from_file);
 

@@ -39,7 +39,7 @@ void printHelp() {
                "  SPACING_M      "
             << studio::Option("spacing", rows[0].doc, {rows[0]}).help() << '\n'
             << "  POSES          " << studio::Option("poses", rows[1].doc, {rows[1]}).help() << '\n'
-            << "  MODEL_PATH     folders searched first for model:// addresses\n";
+            << "  MODEL_PATH     folders searched for model:// addresses, after that of the file\n";
 }
 
 /// `words`: as kUsage has them.

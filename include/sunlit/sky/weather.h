@@ -52,7 +52,7 @@ inline std::vector<Field> fieldsOf(Weather& weather) {
            NumberOrWord{&weather.visibility_m, "clear"},
            "m",
            {50, 100000},
-           "meteorological optical range (contrast 5 %); clear: of the clear air"},
+           "meteorological optical range (contrast 5 %), less than the clear air's; clear: of the clear air"},
           {"fog_top", &weather.fog_top_m, "m", {10, 3000}, "height of the fog or haze above the ground"},
           {"rain",
            &weather.rain_mm_per_h,

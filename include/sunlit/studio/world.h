@@ -27,18 +27,21 @@ struct WorldOptions {
 };
 
 inline std::vector<Field> fieldsOf(WorldOptions& world) {
-  return {
-      {"world",
-       &world.name,
-       "",
-       {},
-       "race_track (built in), or a file: .world .sdf .urdf .dae .gltf .glb .obj"},
-      {"model_path", &world.model_path, "", {}, "folders searched first for model:// and relative addresses"},
-      {"missing",
-       choiceOf(&world.missing, {"stop", "warn"}),
-       "",
-       {},
-       "for a model or mesh that is not there or cannot be read; warn: the rest is drawn"}};
+  return {{"world",
+           &world.name,
+           "",
+           {},
+           "race_track (built in), or a file: .world .sdf .urdf .dae .gltf .glb .obj"},
+          {"model_path",
+           &world.model_path,
+           "",
+           {},
+           "folders searched for model:// and relative addresses, after that of the file that names them"},
+          {"missing",
+           choiceOf(&world.missing, {"stop", "warn"}),
+           "",
+           {},
+           "for a model or mesh that is not there or cannot be read; warn: the rest is drawn"}};
 }
 
 /// Sky light and bounced light, baked once per world.

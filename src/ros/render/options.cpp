@@ -321,7 +321,11 @@ std::vector<Field> fieldsOf(RenderNodeOptions& options) {
          {},
          "pictures in PNG, without loss, on camera/image_raw/compressed instead of camera/image_raw"}},
        under("frames", fieldsOf(options.frames)),
-       {{"output_dir", &options.output_dir, "", {}, "for map.png, map.yaml and timing.csv; empty: nowhere"},
+       {{"output_dir",
+         &options.output_dir,
+         "",
+         {},
+         "for map.png, map.yaml, timing.csv and what a resumed run goes by; empty: nowhere"},
         {"threads", &options.threads, "", {0, 1024}, "0: as many as there are cores"},
         diagnosticPeriodRow(&options.diagnostic_period_s)}});
 }

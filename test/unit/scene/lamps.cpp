@@ -88,6 +88,18 @@ TEST_F(LampFiles, ThatCannotShineAreNamed) {
   EXPECT_NE(scene.warnings[0].find("dead"), std::string::npos);
 }
 
+TEST_F(LampFiles, ThatAreSwitchedOffAreNamed) {
+  SKIP_WITHOUT_SDF();
+  const std::string light =
+      "<light name='porch' type='point'><attenuation><range>5</range></attenuation><light_on>";
+  EXPECT_EQ(worldWith(light + "true</light_on></light>").lamps.size(), 1u);
+  const Scene scene = worldWith(light + "false</light_on></light>");
+  EXPECT_TRUE(scene.lamps.empty());
+  EXPECT_NE(std::find(scene.warnings.begin(), scene.warnings.end(),
+                      "1 lights are switched off by <light_on> and were left out: porch"),
+            scene.warnings.end());
+}
+
 TEST_F(LampFiles, OfNumbersThatNoLampHasAreNamedAndLeftOut) {
   SceneBuilder builder("numbers");
   const auto add = [&](float constant, float linear, float inner) {

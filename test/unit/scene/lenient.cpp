@@ -277,6 +277,12 @@ TEST_F(Lenient, WhatLibsdformatAssertsIsAnErrorThatNamesTheFile) {
   EXPECT_EQ(errorOf(file).find(file + ": libsdformat gives up: "), 0u) << errorOf(file);
 }
 
+TEST_F(Lenient, AFolderOfAModelsNameThatHoldsNoneIsPassedOver) {
+  write("rover/CMakeLists.txt", "");
+  includeModel("rover", model(link(kVisual), "rover"));  // in models/
+  EXPECT_EQ(loaded(include("rover")).meshes.size(), 1u);
+}
+
 TEST_F(Lenient, AModelThatIncludesItselfIsAnError) {
   includeModel("a", model(link(kVisual) + include("b"), "a"));
   includeModel("b", model(link(kVisual) + include("a"), "b"));

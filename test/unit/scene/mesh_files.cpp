@@ -215,6 +215,23 @@ TEST_F(MeshFile, ATextureWithHolesIsCutOut) {
   EXPECT_EQ(load(pathOf("t.dae"), {}).materials[0].alpha_mode, AlphaMode::kOpaque);
 }
 
+TEST_F(MeshFile, ATextureThatIsNowhereSolidIsNoCutOut) {
+  const std::string mesh = write("t.dae", collada(kCentimetresZUp, "paint.png"));
+  const auto loaded = [&](std::uint8_t alpha) {
+    image::Rgba8Image picture(4, 4);
+    for (std::size_t i = 0; i < picture.data.size(); ++i) picture.data[i] = i % 4 == 3 ? alpha : 200;
+    write("paint.png", image::encodePng(picture));
+    return load(mesh, {});
+  };
+  const Scene tinted = loaded(80), unused = loaded(0);
+  EXPECT_EQ(tinted.materials[0].alpha_mode, AlphaMode::kBlend);
+  EXPECT_EQ(unused.materials[0].alpha_mode, AlphaMode::kOpaque);
+  for (const Scene& scene : {tinted, unused}) {
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("paint.png, whose alpha is "), std::string::npos) << scene.warnings[0];
+  }
+}
+
 TEST_F(MeshFile, ABrokenTextureIsANamedWarningAndANeutralMaterial) {
   const std::string mesh = write("t.dae", collada(kCentimetresZUp, "paint.png"));
   for (const char* content : {"this is not a picture", ""}) {
@@ -228,7 +245,9 @@ TEST_F(MeshFile, ABrokenTextureIsANamedWarningAndANeutralMaterial) {
 }
 
 TEST_F(MeshFile, ATextureThatIsTooLargeIsScaledDownWithAWarning) {
-  write("paint.png", image::encodePng(image::Rgba8Image(2 * kLongestTextureSide, 2)));
+  image::Rgba8Image picture(2 * kLongestTextureSide, 2);
+  std::fill(picture.data.begin(), picture.data.end(), std::uint8_t{255});
+  write("paint.png", image::encodePng(picture));
   const Scene scene = load(write("t.dae", collada(kCentimetresZUp, "paint.png")), {});
   ASSERT_EQ(scene.textures.size(), 1u);
   EXPECT_EQ(scene.textures[0].width, kLongestTextureSide);

@@ -15,11 +15,12 @@ namespace {
 class MeshVertices : public SceneFiles {
  protected:
   /// The one mesh of a robot that shows `file`.
-  Mesh shownBy(const std::string& file) const {
+  Mesh shownBy(const std::string& file) const { return robotOf(file).links.at(0).meshes.at(0); }
+  Robot robotOf(const std::string& file) const {
     const std::string robot =
         write("r.urdf", "<robot name='r'><link name='base'><visual><geometry><mesh filename='" + file +
                             "'/></geometry></visual></link></robot>");
-    return loadRobot(robot, {}).links.at(0).meshes.at(0);
+    return loadRobot(robot, {});
   }
 };
 
@@ -115,7 +116,9 @@ TEST_F(MeshVertices, OfStlWithoutNormalsHaveEdges) {
       text += "endloop\nendfacet\n";
     }
   }
-  const Mesh mesh = shownBy(write("box.stl", text + "endsolid box\n"));
+  const std::string file = write("box.stl", text + "endsolid box\n");
+  EXPECT_EQ(robotOf(file).materials.at(0).base_color.value[0], 0.18f);  // as a box without a material
+  const Mesh mesh = shownBy(file);
   EXPECT_EQ(mesh.triangles.size(), 12u);
   expectFlat(mesh);
 }

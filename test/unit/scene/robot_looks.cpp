@@ -87,6 +87,10 @@ TEST_F(RobotLooks, OfAMeshWithoutMaterialsAreThoseOfTheUrdf) {
   write("robot/m.gltf", gltf("", ""));
   const std::string mesh = visual("<mesh filename='m.gltf'/>", kRed);
   EXPECT_EQ(materialOf(robot(mesh, "")).name, "red");
+  // Its y stays y, as in RViz; of the file alone it is up.
+  const auto top = [](const std::vector<Mesh>& meshes) { return meshes.at(0).positions.at(2); };
+  EXPECT_LT((top(robot(mesh, "").links.at(0).meshes) - Eigen::Vector3f(0, 1, 0)).norm(), 1e-6f);
+  EXPECT_LT((top(load(pathOf("robot/m.gltf"), {}).meshes) - Eigen::Vector3f(0, 0, 1)).norm(), 1e-6f);
   // One that is called as what Assimp calls none is one.
   write("robot/m.gltf", gltf(R"("materials":[{"name":"DefaultMaterial"}],)", R"(,"material":0)"));
   EXPECT_NE(materialOf(robot(mesh, "")).name, "red");

@@ -1,6 +1,7 @@
 // What SDF visuals look like.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,25 @@ TEST_F(SdfLook, PlainColoursAreDisplayValues) {
   EXPECT_EQ(look(scene).base_color.value[0], 1.0f);
   EXPECT_NEAR(look(scene).base_color.value[1], 0.2140f, 5e-5f);  // ((0.5 + 0.055) / 1.055)^2.4
   EXPECT_EQ(look(scene).base_color.value[2], 0.0f);
+}
+
+TEST_F(SdfLook, AlphaOfDiffuseLetsThrough) {
+  const Material& pane = look(loaded("<material><diffuse>1 1 1 0.3</diffuse></material>"));
+  EXPECT_EQ(pane.alpha_mode, AlphaMode::kBlend);
+  // A ray meets two faces of a sphere, which let 0.7 through together.
+  EXPECT_NEAR(1.0f - pane.alpha, std::sqrt(0.7f), 1e-6f);
+  const Scene forgotten = loaded("<material><diffuse>1 1 1 0</diffuse></material>");
+  EXPECT_EQ(look(forgotten).alpha_mode, AlphaMode::kOpaque);
+  ASSERT_EQ(forgotten.warnings.size(), 1u);
+}
+
+TEST_F(SdfLook, LightingThatIsOffAndNormalMapsOfShadersAreNamed) {
+  const Scene scene = loaded(
+      "<material><lighting>false</lighting><diffuse>1 1 1 1</diffuse>"
+      "<shader type='normal_map_tangent_space'><normal_map>n.png</normal_map></shader></material>");
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("<lighting> false"), std::string::npos) << scene.warnings[0];
+  EXPECT_NE(scene.warnings[0].find("<shader>"), std::string::npos) << scene.warnings[0];
 }
 
 TEST_F(SdfLook, WithoutMaterialIsNeutral) {
