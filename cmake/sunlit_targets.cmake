@@ -20,13 +20,18 @@ if(SUNLIT_FUZZ)
   target_link_options(sunlit_flags INTERFACE ${sunlit_sanitizers})
 endif()
 
-# Parsing takes most of the time of compiling: what nearly all files include is parsed once a library, and once for all tests.
-# Not with a compiler cache, which would need settings of its own for that.
+# Parsing takes most of the time of compiling: what nearly all files include is parsed once for all libraries, and once for all
+# tests. Not with a compiler cache, which would need settings of its own for that.
 if(CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED CMAKE_DISABLE_PRECOMPILE_HEADERS)
   set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
 set(sunlit_parsed_once <Eigen/Geometry> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory>
   <optional> <stdexcept> <string> <utility> <vector>)
+file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/library_headers.cpp CONTENT "")
+add_library(sunlit_library_headers OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/library_headers.cpp)
+set_target_properties(sunlit_library_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
+target_link_libraries(sunlit_library_headers PRIVATE sunlit_flags Eigen3::Eigen)
+target_precompile_headers(sunlit_library_headers PRIVATE ${sunlit_parsed_once})
 
 # For the same reason files of one library are compiled several at a time, so that names in their unnamed namespaces differ.
 # Not with a compiler cache either: whoever edits one file would compile its neighbours.
@@ -45,14 +50,19 @@ function(sunlit_together target)
   endif()
 endfunction()
 
-# sunlit_library(MODULE SOURCES file... [PUBLIC library...] [PRIVATE library...])
-# The library sunlit_MODULE of src/MODULE, with headers in include/sunlit/MODULE.
+# sunlit_library(MODULE SOURCES file... [PUBLIC library...] [PRIVATE library...] [OPTIONS option...])
+# The library sunlit_MODULE of src/MODULE, with headers in include/sunlit/MODULE; compiled with these further options.
 function(sunlit_library module)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;OPTIONS" ${ARGN})
   add_library(sunlit_${module} SHARED ${ARG_SOURCES})
   target_include_directories(sunlit_${module} PUBLIC ${PROJECT_SOURCE_DIR}/include)
   target_link_libraries(sunlit_${module} PUBLIC Eigen3::Eigen ${ARG_PUBLIC} PRIVATE sunlit_flags ${ARG_PRIVATE})
-  target_precompile_headers(sunlit_${module} PRIVATE ${sunlit_parsed_once})
+  if(ARG_OPTIONS)  # headers that were parsed without them do not serve
+    target_compile_options(sunlit_${module} PRIVATE ${ARG_OPTIONS})
+    target_precompile_headers(sunlit_${module} PRIVATE ${sunlit_parsed_once})
+  else()
+    target_precompile_headers(sunlit_${module} REUSE_FROM sunlit_library_headers)
+  endif()
   sunlit_together(sunlit_${module})
   install(TARGETS sunlit_${module} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 endfunction()
