@@ -20,13 +20,18 @@ if(SUNLIT_FUZZ)
   target_link_options(sunlit_flags INTERFACE ${sunlit_sanitizers})
 endif()
 
-# Parsing takes most of the time of compiling: what nearly all files include is parsed once a library, and once for all tests.
-# Not with a compiler cache, which would need settings of its own for that.
+# Parsing takes most of the time of compiling: what nearly all files include is parsed once for all libraries, and once for all
+# tests. Not with a compiler cache, which would need settings of its own for that.
 if(CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED CMAKE_DISABLE_PRECOMPILE_HEADERS)
   set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
 set(sunlit_parsed_once <Eigen/Geometry> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory>
   <optional> <stdexcept> <string> <utility> <vector>)
+file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/library_headers.cpp CONTENT "")
+add_library(sunlit_library_headers OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/library_headers.cpp)
+set_target_properties(sunlit_library_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
+target_link_libraries(sunlit_library_headers PRIVATE sunlit_flags Eigen3::Eigen)
+target_precompile_headers(sunlit_library_headers PRIVATE ${sunlit_parsed_once})
 
 # For the same reason files of one library are compiled several at a time, so that names in their unnamed namespaces differ.
 # Not with a compiler cache either: whoever edits one file would compile its neighbours.
@@ -45,14 +50,19 @@ function(sunlit_together target)
   endif()
 endfunction()
 
-# sunlit_library(MODULE SOURCES file... [PUBLIC library...] [PRIVATE library...])
-# The library sunlit_MODULE of src/MODULE, with headers in include/sunlit/MODULE.
+# sunlit_library(MODULE SOURCES file... [PUBLIC library...] [PRIVATE library...] [OPTIONS option...])
+# The library sunlit_MODULE of src/MODULE, with headers in include/sunlit/MODULE; compiled with these further options.
 function(sunlit_library module)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;OPTIONS" ${ARGN})
   add_library(sunlit_${module} SHARED ${ARG_SOURCES})
   target_include_directories(sunlit_${module} PUBLIC ${PROJECT_SOURCE_DIR}/include)
   target_link_libraries(sunlit_${module} PUBLIC Eigen3::Eigen ${ARG_PUBLIC} PRIVATE sunlit_flags ${ARG_PRIVATE})
-  target_precompile_headers(sunlit_${module} PRIVATE ${sunlit_parsed_once})
+  if(ARG_OPTIONS)  # headers that were parsed without them do not serve
+    target_compile_options(sunlit_${module} PRIVATE ${ARG_OPTIONS})
+    target_precompile_headers(sunlit_${module} PRIVATE ${sunlit_parsed_once})
+  else()
+    target_precompile_headers(sunlit_${module} REUSE_FROM sunlit_library_headers)
+  endif()
   sunlit_together(sunlit_${module})
   install(TARGETS sunlit_${module} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 endfunction()
@@ -69,18 +79,22 @@ function(sunlit_program name)
   install(TARGETS sunlit_${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endfunction()
 
-# Test programs are linked by gold where there is one, in a tenth of the time: there are hundreds.
+# Test programs are linked by gold where there is one, in a tenth of the time: there are hundreds. And compiled with fewer
+# optimisations: they call what computes. Their copies of inline functions are theirs alone, so that a library goes on with its
+# own, which are faster.
 include(CheckCXXSourceCompiles)
 set(CMAKE_REQUIRED_LINK_OPTIONS -fuse-ld=gold)
 check_cxx_source_compiles("int main() { return 0; }" SUNLIT_GOLD)
 unset(CMAKE_REQUIRED_LINK_OPTIONS)
-add_library(sunlit_test_linker INTERFACE)
+add_library(sunlit_test_flags INTERFACE)
+target_link_libraries(sunlit_test_flags INTERFACE sunlit_flags)
+target_compile_options(sunlit_test_flags INTERFACE $<$<CONFIG:Release>:-O1> -fvisibility-inlines-hidden)
 if(SUNLIT_GOLD)
-  target_link_options(sunlit_test_linker INTERFACE -fuse-ld=gold)
+  target_link_options(sunlit_test_flags INTERFACE -fuse-ld=gold)
 endif()
 file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/test_headers.cpp CONTENT "")
 add_library(sunlit_test_headers OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/test_headers.cpp)
-target_link_libraries(sunlit_test_headers PRIVATE sunlit_flags Eigen3::Eigen ${GTEST_LIBRARIES})
+target_link_libraries(sunlit_test_headers PRIVATE sunlit_test_flags Eigen3::Eigen ${GTEST_LIBRARIES})
 target_precompile_headers(sunlit_test_headers PRIVATE ${sunlit_parsed_once} <gtest/gtest.h>)
 
 # sunlit_test(MODULE NAME [LIBRARIES library...])
@@ -102,5 +116,5 @@ function(sunlit_tests module name)
     SUNLIT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" SUNLIT_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
   target_precompile_headers(test_${module}_${name} REUSE_FROM sunlit_test_headers)
   target_include_directories(test_${module}_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test)
-  target_link_libraries(test_${module}_${name} sunlit_flags sunlit_test_linker sunlit_${module} ${ARG_LIBRARIES} gtest_main)
+  target_link_libraries(test_${module}_${name} sunlit_test_flags sunlit_${module} ${ARG_LIBRARIES} gtest_main)
 endfunction()

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Every launch file starts, does its work and ends with status 0 at Ctrl-C."""
+"""Every launch file starts, does its work and ends with status 0 at Ctrl-C; run from an install space by workspace.py."""
 import os
 import subprocess
 import sys
@@ -156,5 +156,5 @@ class LaunchFilesStart(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    # Each launch file has a master of its own, so this needs none; also run from an install space.
+    # Each launch file has a master of its own, so this needs none.
     rosunit.unitrun("sunlit", "launch_files_start", LaunchFilesStart, sysargs=sys.argv)

@@ -138,6 +138,14 @@ def positions():
     return lines
 
 
+def captures():
+    """Lines of captures.csv: the sun sinks from hour to hour."""
+    return ["stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,"
+            "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance"] + [
+        f"{hour},{k},{k / 10},12.5,{90 + 10 * n},{5 - 4 * n},nan,nan,nan,4321"
+        for n, hour in enumerate(HOURS) for k in range(POSES)]
+
+
 def write(folder, name, lines):
     path = os.path.join(folder, name)
     os.makedirs(os.path.dirname(path), exist_ok=True)
@@ -162,11 +170,7 @@ def write_all(folder):
             Image.new("RGB", (128, 48), (60, pose, 60)).save(path)
     write(folder, "path.csv",
           ["pose,stamp,x,y,z,yaw_deg"] + [f"{k},{k / 10},{k},{k % 7},1.0,0" for k in range(POSES)])
-    write(folder, "captures.csv",
-          ["stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,"
-           "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance"]
-          + [f"{hour},{k},{k / 10},12.5,{90 + 10 * n},{5 - 4 * n},nan,nan,nan,4321"
-             for n, hour in enumerate(HOURS) for k in range(POSES)])
+    write(folder, "captures.csv", captures())
     write(folder, "run.yaml",
           ["settings:", "  ratio: '0.5'", "  about/world: 'race_track'", "versions:", "  sunlit: '9.8.7'",
            "counters:", "  streams:", "    'h04': {received: 40, late: 17}"])

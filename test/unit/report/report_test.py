@@ -397,7 +397,7 @@ class Matches(InFolder):
                          [["Fewest right matches of SIFT: 0, 12–20 h, pose 7.", "Most right matches of SIFT: 0, 4–20 h, pose 7."]])
 
     def test_nothing_is_told_of_matches_that_nobody_verified(self):
-        self.write("frames.csv", made.frames())
+        self.write("frames.csv", made.frames(differences=["sift"]))
         output = self.read()
         self.assertEqual(page.matches(output), {"verified_rows": []})
         self.assertNotIn("Are the matches right?", page.render(output, findings.judge(output)))
@@ -462,14 +462,16 @@ class Elevation(InFolder):
         self.assertAlmostEqual(judged[1][3].mean, 0.97)
 
     def test_without_captures_there_is_no_such_figure(self):
-        self.write("frames.csv", made.frames())
+        self.write("frames.csv", made.frames(differences=made.METHODS))
         self.write("localisation.csv", made.queries())
         output = self.read()
         self.assertEqual(localisation.judged_twice(output), {})
         self.assertNotIn("over the elevation", page.render(output, findings.judge(output)))
 
     def test_weathers_of_one_hour_have_no_such_figure(self):
-        made.write_all(self.folder)
+        self.write("frames.csv", made.frames(differences=made.METHODS))
+        self.write("localisation.csv", made.queries())
+        self.write("captures.csv", made.captures())
         with open(os.path.join(self.folder, "captures.csv"), encoding="utf-8") as file:
             heading, *rows = [line.split(",") for line in file.read().splitlines()]
         column = heading.index("sun_elevation_deg")
@@ -509,7 +511,7 @@ class Comparisons(InFolder):
                          ["error / m", "SIFT", "4 h in 12 h", "20 h in 12 h", "30", "8 failed, 2 alone"])
 
     def test_few_of_many_are_shown_and_that_is_said(self):
-        self.write("frames.csv", made.frames())
+        self.write("frames.csv", made.frames(differences=["sift"]))
         lines = [f"d,methods,x{k},sift,orb,39,0,0,0,1,1,1,{k / 10000},{k / 10000},3" for k in range(100)]
         self.write("comparisons.csv", [made.COMPARISONS_HEADER, *lines, "d,methods,y,sift,orb,0,9,0,0,nan,nan,nan,nan,nan,0"])
         output = self.read()
@@ -519,7 +521,7 @@ class Comparisons(InFolder):
         self.assertIn(f"the {comparisons.SHOWN} surest of 100", page.render(output, findings.judge(output)))
 
     def test_without_any_there_is_no_word_of_it(self):
-        self.write("frames.csv", made.frames())
+        self.write("frames.csv", made.frames(differences=["sift"]))
         for lines in ([], [made.COMPARISONS_HEADER]):
             if lines:
                 self.write("comparisons.csv", lines)
@@ -536,7 +538,7 @@ class Page(InFolder):
             return file.read()
 
     def test_a_terminal_that_lacks_letters_is_no_reason_to_fail(self):
-        made.write_all(self.folder)
+        self.write("frames.csv", made.frames(differences=["sift"]))
         self.write("captures.csv", [files.CAPTURES, "h04,0,0,14,0,-11,0,0,0,0.00084"])
         for encoding, dash in (("ascii", "?"), ("iso-8859-1", "?"), ("utf-8", "–")):
             done = subprocess.run([sys.executable, REPORT, self.folder], capture_output=True, check=False,
