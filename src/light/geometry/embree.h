@@ -44,13 +44,6 @@ inline void intersect(const int* valid, RTCScene scene, const QueryFilter& query
   rtcIntersect16(valid, scene, query.context, packet);
 }
 
-/// Filters of geometries are given `context`, which has begun.
-template <auto coherence>
-void intersect(const int* valid, RTCScene scene, RayContext* context, RTCRayHit16* packet) {
-  context->flags = coherence;
-  rtcIntersect16(valid, scene, context, packet);
-}
-
 /// Asks `query` for a packet.
 template <auto coherence, auto query, typename Packet>
 void ask(const int* valid, RTCScene scene, Packet* packet) {
@@ -84,15 +77,6 @@ inline void intersect(const int* valid, RTCScene scene, const QueryFilter& query
   arguments.flags = static_cast<RTCRayQueryFlags>(kIncoherent | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
   arguments.context = query.context;
   arguments.filter = query.filter;
-  rtcIntersect16(valid, scene, packet, &arguments);
-}
-
-template <auto coherence>
-void intersect(const int* valid, RTCScene scene, RayContext* context, RTCRayHit16* packet) {
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
-  arguments.flags = coherence;
-  arguments.context = context;
   rtcIntersect16(valid, scene, packet, &arguments);
 }
 

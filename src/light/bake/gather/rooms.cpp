@@ -164,7 +164,7 @@ class RoomBaker::Looking {
  private:
   using Lanes = ReceiverGroup::Lanes;
   struct Met {
-    Lanes cast = 0, open = 0, veiled = 0;
+    Lanes cast = 0, open = 0;
     std::array<float, kPacket> weights;
     HitPacket hits;
   };
@@ -176,17 +176,14 @@ class RoomBaker::Looking {
 
   void cast(std::size_t turn, const Sphere::Direction& direction, Lanes lanes, Met* met) const {
     met->cast = lanes & group_.weigh(direction.towards, met->weights.data());
-    met->open = met->veiled = 0;
+    met->open = 0;
     if (met->cast == 0) return;
     group_.cast(baker_.scene_.rays, {turn, direction.towards, met->cast}, &met->hits);
     for (int lane = 0; lane < group_.count(); ++lane)
       if (met->hits.triangle[lane] == HitPacket::kNothing) met->open |= Lanes{1} << lane;
     met->open &= met->cast;
-    met->veiled = met->hits.veiled & met->cast;
   }
-  /// Those for whom sky ends at a coarse direction or beside it, or who look through glass: if chance at a
-  /// pane told where to look closer, what panes send back would be left to those few rays that have no others
-  /// beside them.
+  /// Those for whom sky ends at a coarse direction or beside it.
   static Lanes edgesAt(const Sphere& sphere, std::size_t r, const std::vector<Met>& all) {
     Lanes open = all[r].open, shut = all[r].cast & ~all[r].open;
     for (std::uint32_t k = sphere.first_beside[r]; k < sphere.first_beside[r + 1]; ++k) {
@@ -194,7 +191,7 @@ class RoomBaker::Looking {
       open |= other.open;
       shut |= other.cast & ~other.open;
     }
-    return (open & shut) | all[r].veiled;
+    return open & shut;
   }
   void add(const Sphere::Direction& direction, const Met& met, const Takers& takers) {
     for (int lane = 0; lane < group_.count(); ++lane) {

@@ -40,10 +40,9 @@ void AdaptiveProbe::castCoarse(const ReceiverGroup& receivers, AllCoarseHits* al
     CoarseHits& met = (*all)[p];
     const std::size_t ray = parts_[p].coarse;
     met.cast = receivers.weigh(rays_[ray].towards, weights.data());
-    met.open = met.leaf = met.veiled = 0;
+    met.open = met.leaf = 0;
     if (met.cast == 0) continue;
     receivers.cast(scene_, {turn(p, ray), rays_[ray].towards, met.cast}, &met.hits);
-    met.veiled = met.hits.veiled & met.cast;
     for (int i = 0; i < receivers.count(); ++i) {
       const std::uint32_t hit = met.hits.triangle[i];
       if (hit == HitPacket::kNothing) {
@@ -66,7 +65,7 @@ std::size_t AdaptiveProbe::turn(std::size_t number, std::size_t ray) const {
 AdaptiveProbe::Lanes AdaptiveProbe::mixed(const AllCoarseHits& all, std::size_t part) const {
   if (parts_[part].always) return ~Lanes{0};
   const CoarseHits& here = all[part];
-  Lanes lanes = here.leaf | here.veiled;
+  Lanes lanes = here.leaf;
   for (const int other : parts_[part].beside) {
     const CoarseHits& there = all[static_cast<std::size_t>(other)];
     lanes |= here.cast & there.cast & (here.open ^ there.open);

@@ -12,8 +12,7 @@ namespace sunlit::light {
 
 /// Most of the sky that a point sees is all open or all hidden, and there one ray of a patch tells as much as
 /// several. All rays of a patch are cast only where its coarse ray tells otherwise than that of a patch
-/// beside it, or meets a leaf, for gaps between leaves are finer than patches, or glass, where that would be
-/// left to chance, and along the horizon.
+/// beside it, or meets a leaf, for gaps between leaves are finer than patches, and along the horizon.
 class AdaptiveProbe {
  public:
   /// What a ray has met: the index of the receiver; that of the ray among SkyPatches::rays();
@@ -40,7 +39,7 @@ class AdaptiveProbe {
   };
   /// What the coarse ray of a part met.
   struct CoarseHits {
-    Lanes cast, open, leaf, veiled;
+    Lanes cast, open, leaf;
     HitPacket hits;
   };
   using AllCoarseHits = std::array<CoarseHits, SkyPatches::kCoarse>;

@@ -30,8 +30,6 @@ struct HitPacket {
   std::uint32_t triangle[RayPacket::kSize];        ///< index into Geometry::triangles, or kNothing
   float u[RayPacket::kSize], v[RayPacket::kSize];  ///< shares of the triangle's second and third corner
   float distance[RayPacket::kSize];                ///< in lengths of the direction
-  /// One bit for each ray that met glass or what blends, whether that stopped it or, by chance, did not.
-  std::uint32_t veiled;
 };
 
 /// How far along their directions rays are looked at, in lengths of these.

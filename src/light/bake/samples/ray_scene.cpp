@@ -2,11 +2,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -35,31 +33,15 @@ float cosineOf(const RTCFilterFunctionNArguments& at, unsigned i) {
   return std::abs(normal.normalized().dot(way.normalized()));
 }
 
-/// What a query finds besides hits.
-struct BakeQuery {
-  RayContext context;  ///< first, so that its address is that of the whole
-  std::array<float, RayPacket::kSize> first_veil;
-
-  BakeQuery() {
-    begin(&context);
-    first_veil.fill(std::numeric_limits<float>::max());
-  }
-};
-
 /// Lets a ray pass where the surface is cut out.
 void passCutoutsOfBake(const RTCFilterFunctionNArguments* arguments) {
   const auto& group = *static_cast<const MaskedGroup*>(arguments->geometryUserPtr);
-  auto& query = *reinterpret_cast<BakeQuery*>(arguments->context);
   for (unsigned i = 0; i < arguments->N; ++i) {
     if (arguments->valid[i] != -1) continue;
     const float u = RTCHitN_u(arguments->hit, arguments->N, i);
     const float v = RTCHitN_v(arguments->hit, arguments->N, i);
     const std::uint32_t masked = group.masked[RTCHitN_primID(arguments->hit, arguments->N, i)];
     const Cutouts::Query surface(*group.cutouts, masked);
-    if (surface.isGlass() || surface.blends()) {
-      float& first = query.first_veil[RTCRayN_id(arguments->ray, arguments->N, i)];
-      first = std::min(first, RTCRayN_tfar(arguments->ray, arguments->N, i));
-    }
     const bool solid = surface.isGlass() ? surface.solid(u, v, cosineOf(*arguments, i)) : surface.solid(u, v);
     if (!solid) arguments->valid[i] = 0;
   }
@@ -67,7 +49,7 @@ void passCutoutsOfBake(const RTCFilterFunctionNArguments* arguments) {
 
 /// A query for what is seen from one side.
 struct FacingQuery {
-  BakeQuery whole;  ///< first, so that its address is that of the context
+  RayContext context;  ///< first, so that its address is that of the whole
   const Geometry* geometry;
   const std::vector<std::uint32_t>* triangles;  ///< as RayScene::Embree has them
   RayScene::Facing facing;
@@ -102,8 +84,7 @@ RTCRayHit16 packetOf(const RayPacket& rays, const RayReach& reach) {
   for (int i = 0; i < RayPacket::kSize; ++i) {
     packet.ray.time[i] = 0.0f;
     packet.ray.mask[i] = ~0u;
-    packet.ray.id[i] = static_cast<unsigned>(i);
-    packet.ray.flags[i] = 0;
+    packet.ray.id[i] = packet.ray.flags[i] = 0;
     packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
@@ -235,11 +216,8 @@ struct RayScene::Embree {
   }
 
   /// What the rays of `packet` met.
-  void read(const RTCRayHit16& packet, const RayPacket& rays, const BakeQuery& query, HitPacket* hits) const {
-    hits->veiled = 0;
+  void read(const RTCRayHit16& packet, const RayPacket& rays, HitPacket* hits) const {
     for (int i = 0; i < RayPacket::kSize; ++i) {
-      // A veil behind what was met is asked or not, as the ray library goes about it.
-      if (query.first_veil[static_cast<std::size_t>(i)] <= packet.ray.tfar[i]) hits->veiled |= 1u << i;
       const unsigned number = packet.hit.geomID[i];
       if (!rays.valid[i] || number == RTC_INVALID_GEOMETRY_ID) {
         hits->triangle[i] = HitPacket::kNothing;
@@ -275,20 +253,20 @@ const Geometry& RayScene::geometry() const {
 
 void RayScene::cast(const RayPacket& rays, HitPacket* hits) const {
   alignas(64) RTCRayHit16 packet = packetOf(rays, RayReach());
-  BakeQuery query;
   // Rays of one direction from places metres apart soon part among leaves.
-  intersect<kIncoherent>(rays.valid, embree_->scene.get(), &query.context, &packet);
-  embree_->read(packet, rays, query, hits);
+  intersect<kIncoherent>(rays.valid, embree_->scene.get(), &packet);
+  embree_->read(packet, rays, hits);
 }
 
 void RayScene::castAmong(Facing facing, const RayPacket& rays, const RayReach& reach, HitPacket* hits) const {
   alignas(64) RTCRayHit16 packet = packetOf(rays, reach);
   FacingQuery query;
+  begin(&query.context);
   query.geometry = embree_->geometry.get();
   query.triangles = embree_->triangles;
   query.facing = facing;
-  intersect(rays.valid, embree_->scene.get(), {passOthers, &query.whole.context}, &packet);
-  embree_->read(packet, rays, query.whole, hits);
+  intersect(rays.valid, embree_->scene.get(), {passOthers, &query.context}, &packet);
+  embree_->read(packet, rays, hits);
 }
 
 }  // namespace sunlit::light
