@@ -36,10 +36,10 @@ TEST_F(SdfLook, PlainColoursAreDisplayValues) {
 }
 
 TEST_F(SdfLook, AlphaOfDiffuseLetsThrough) {
-  const Material& pane = look(loaded("<material><diffuse>1 1 1 0.3</diffuse></material>"));
-  EXPECT_EQ(pane.alpha_mode, AlphaMode::kBlend);
+  const Scene pane = loaded("<material><diffuse>1 1 1 0.3</diffuse></material>");
+  EXPECT_EQ(look(pane).alpha_mode, AlphaMode::kBlend);
   // A ray meets two faces of a sphere, which let 0.7 through together.
-  EXPECT_NEAR(1.0f - pane.alpha, std::sqrt(0.7f), 1e-6f);
+  EXPECT_NEAR(1.0f - look(pane).alpha, std::sqrt(0.7f), 1e-6f);
   const Scene forgotten = loaded("<material><diffuse>1 1 1 0</diffuse></material>");
   EXPECT_EQ(look(forgotten).alpha_mode, AlphaMode::kOpaque);
   ASSERT_EQ(forgotten.warnings.size(), 1u);

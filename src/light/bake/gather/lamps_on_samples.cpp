@@ -164,7 +164,7 @@ class LampsOnTriangles {
     if (normal.dot(face_) < 0.0f) normal = -normal;
     if (!(normal.squaredNorm() > 1e-6f)) normal = face_;
     const float cosine = normal.normalized().dot(way) / std::max(distance_m, 1e-6f);
-    const float counts = cosine > 0.0f ? (1.0f - aim.through) * cosine : -aim.through * cosine;
+    const float counts = countedCosine(cosine, aim.through);
     if (!(counts > 0.0f)) return;
     const float clearance_m = rayClearance_m(point, distance_m);
     const float reach = 1.0f - (lamp.radius_m() + clearance_m) / std::max(distance_m, 1e-6f);

@@ -25,6 +25,12 @@ inline bool sameFace(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
   return (a - b).squaredNorm() < kFar;
 }
 
+/// What light counts that meets a surface by this cosine to its normal, if it takes `transmission` of its
+/// light from behind.
+inline float countedCosine(float cosine, float transmission) {
+  return cosine > 0.0f ? (1.0f - transmission) * cosine : -transmission * cosine;
+}
+
 /// A point that gathers light, or some that do it together.
 struct Receiver {
   static constexpr int kOrigins = 4;
@@ -43,8 +49,7 @@ struct Receiver {
   /// open().
   float weight(const Eigen::Vector3f& towards) const {
     if (face.dot(towards) < 0.0f) return 0.0f;
-    const float cosine = normal.dot(towards);
-    return cosine > 0.0f ? (1.0f - transmission) * cosine : -transmission * cosine;
+    return countedCosine(normal.dot(towards), transmission);
   }
   /// Share of what lies before `normal`, by cosine, that lies before `face` too.
   float open() const { return face.isZero() ? 1.0f : 0.5f * (1.0f + normal.dot(face)); }

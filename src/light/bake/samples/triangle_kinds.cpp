@@ -41,13 +41,13 @@ struct Side {
   int side;
 };
 
-/// Whether a camera may see the side, or light that gets through its sheet. Leaves have both in one.
-bool matters(const Geometry& geometry, const Side& side) {
+/// Whether a camera may see the side of a triangle of that kind, or light that gets through its sheet. Leaves
+/// have both in one.
+bool matters(const Geometry& geometry, const Side& side, TriangleKind kind) {
   const auto number = static_cast<std::size_t>(geometry.materials[side.triangle]);
   const scene::Material& material = geometry.scene->materials[number];
   const bool lets_through = isGlass(material) || material.transmission > 0.0f;
-  return side.side == 0 || material.double_sided ||
-         (lets_through && !isLeaf(triangleKind(geometry, side.triangle)));
+  return side.side == 0 || material.double_sided || (lets_through && !isLeaf(kind));
 }
 
 /// What is looked at, and along which rays.
@@ -147,14 +147,14 @@ std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeR
       to.used[sides[i].side] = useless[i] == 0;
       to.sealed[sides[i].side] = sealed[i] != 0 && (place == 0 || to.sealed[sides[i].side]);
       const bool large = to.kind == TriangleKind::kLarge;
-      if (useless[i] != 0 && (large || place + 1 < kPlacesOfSmall) && matters(geometry, sides[i]))
+      if (useless[i] != 0 && (large || place + 1 < kPlacesOfSmall) && matters(geometry, sides[i], to.kind))
         left.push_back(sides[i]);
     }
     sides.swap(left);
   }
   for (std::uint32_t t = 0; t < traits.size(); ++t) {
     for (int side = 0; side < 2; ++side)
-      traits[t].used[side] = traits[t].used[side] && matters(geometry, {t, side});
+      traits[t].used[side] = traits[t].used[side] && matters(geometry, {t, side}, traits[t].kind);
   }
   return traits;
 }

@@ -28,10 +28,9 @@ struct Met {
   std::uint32_t body;
   std::uint32_t direction;
   Eigen::Array3f reflectance;
-  Eigen::Array3f
-      emission;  ///< luminance of its own, cd/m², but of lamps' own glass, of which they are the light
-  Eigen::Vector3f normal;  ///< on the side that was met
-  Eigen::Vector3f origin;  ///< of shadow rays: clear of the surface
+  Eigen::Array3f emission;  ///< luminance of its own, cd/m²; 0 of lamps' glass: the lamps are its light
+  Eigen::Vector3f normal;   ///< on the side that was met
+  Eigen::Vector3f origin;   ///< of shadow rays: clear of the surface
   LightPlace light;
 };
 

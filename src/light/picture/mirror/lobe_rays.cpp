@@ -76,8 +76,7 @@ LobeRay lobeRay(const Surface& surface, const Eigen::Vector3f& to_eye, const Lob
   const Eigen::Vector3f to = 2.0f * v_h * half - eye;
   const Eigen::Vector3f towards = MirrorFrame(normal, to_eye).inMap(to);
   if (!(to.z() > 1e-4f)) return {towards.normalized(), 0.0f};
-  const float luminance = LinearRgb(surface.albedo).luminance();
-  const float f0 = kDielectricF0 + (luminance - kDielectricF0) * surface.metalness;
+  const float f0 = normalReflectance(LinearRgb(surface.albedo).luminance(), surface.metalness);
   const float fresnel = f0 + (1.0f - f0) * schlick(v_h);
   return {towards.normalized(), fresnel * facets.shadowing(to.z(), n_v)};
 }

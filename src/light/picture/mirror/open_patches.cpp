@@ -1,7 +1,5 @@
 #include "light/picture/mirror/open_patches.h"
 
-#include <algorithm>
-
 #include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::light {

@@ -137,7 +137,7 @@ void fill(const LobeSums& sums, const float* __restrict open, RoughMirror* mirro
 Lobe lobeOf(const Surface& surface, const scene::Material& material) {
   const Eigen::Vector3f outside =
       material.transmission > 0.0f ? Eigen::Vector3f(Eigen::Vector3f::Zero()) : surface.geometric_normal;
-  const float f0 = kDielectricF0 + (material.base_color.luminance() - kDielectricF0) * surface.metalness;
+  const float f0 = normalReflectance(material.base_color.luminance(), surface.metalness);
   const float n_v = std::max(surface.shading_normal.dot(surface.to_eye), 1e-3f);
   const GgxOfView<float> facets(surface.roughness * surface.roughness, n_v);
   return {surface.shading_normal, surface.to_eye, outside, f0, facets};
