@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <regex>
 #include <set>
@@ -52,6 +54,22 @@ int lockedFile(const fs::path& file) {
     errno = why;
     return -1;
   }
+}
+
+/// Of a fixed length, so that each hides the one before.
+constexpr const char* kProgressFormat = "%.6f %15.3f\n";
+using ProgressText = std::array<char, 32>;
+
+CacheProgress toldIn(const fs::path& turn_file) {
+  ProgressText text{};
+  CacheProgress told;
+  const int descriptor = open(turn_file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return told;
+  const bool has_any = read(descriptor, text.data(), text.size() - 1) > 0;
+  close(descriptor);
+  CacheProgress read;
+  if (has_any && std::sscanf(text.data(), "%lf %lf", &read.share, &read.seconds_left) == 2) told = read;
+  return told;
 }
 
 fs::path turnFile(const fs::path& kept) {
@@ -125,12 +143,12 @@ std::string usualCacheFolder() {
   return fs::temp_directory_path() / "sunlit";
 }
 
-CacheTurn CacheTurn::await(const fs::path& kept, const std::function<void()>& waits) {
+CacheTurn CacheTurn::await(const fs::path& kept, const Waits& waits) {
   const fs::path file = turnFile(kept);
   constexpr std::chrono::milliseconds kGlance(50);
   int descriptor = lockedFile(file);
   while (descriptor < 0 && errno == EWOULDBLOCK) {
-    if (waits) waits();
+    if (waits) waits(toldIn(file));
     std::this_thread::sleep_for(kGlance);
     descriptor = lockedFile(file);
   }
@@ -158,6 +176,15 @@ CacheTurn::~CacheTurn() {
   if (descriptor_ < 0) return;
   unlink(file_.c_str());
   close(descriptor_);
+}
+
+void CacheTurn::tell(const CacheProgress& progress) const {
+  ProgressText text;
+  const int length =
+      std::snprintf(text.data(), text.size(), kProgressFormat, progress.share, progress.seconds_left);
+  if (length <= 0 || static_cast<std::size_t>(length) >= text.size()) return;
+  [[maybe_unused]] const ssize_t written =
+      pwrite(descriptor_, text.data(), static_cast<std::size_t>(length), 0);
 }
 
 CacheUse::CacheUse(const fs::path& kept) : descriptor_(open(kept.c_str(), O_RDONLY | O_CLOEXEC)) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -17,19 +18,29 @@ namespace sunlit::image {
 /// folder.
 std::string usualCacheFolder();
 
+/// How far whoever has the turn to make a file is with it.
+struct CacheProgress {
+  double share = std::numeric_limits<double>::quiet_NaN();         ///< 0 … 1; NaN: not told
+  double seconds_left = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not told
+};
+
 /// The turn to make a file: held by one process at a time, as long as it lives, and given back by the system
 /// when a process dies. Its own file is there only while somebody holds it or waits for it.
 class CacheTurn {
  public:
+  using Waits = std::function<void(const CacheProgress&)>;  ///< takes what the other one told last
   /// Waits for its turn to make `kept`, and calls `waits` again and again while another has it: what that
   /// throws ends the wait. Throws std::system_error with the path if its file can't be made.
-  static CacheTurn await(const std::filesystem::path& kept, const std::function<void()>& waits = nullptr);
+  static CacheTurn await(const std::filesystem::path& kept, const Waits& waits = nullptr);
   /// Nothing while another has the turn, or if its file can't be made.
   static std::optional<CacheTurn> ifFree(const std::filesystem::path& kept);
 
   CacheTurn(CacheTurn&& other) noexcept;
   CacheTurn& operator=(CacheTurn&& other) noexcept;
   ~CacheTurn();
+
+  /// Tells those who wait. That it can't is no error.
+  void tell(const CacheProgress& progress) const;
 
  private:
   CacheTurn(std::filesystem::path file, int descriptor) : file_(std::move(file)), descriptor_(descriptor) {}

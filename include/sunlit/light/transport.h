@@ -39,7 +39,8 @@ inline std::vector<Field> fieldsOf(TransportOptions& options) {
 void validate(const TransportOptions& options);
 
 /// How far a bake is: share done, 0 … 1, and seconds left by the time taken so far, NaN while too little is
-/// done to tell. Never called by two threads at once. What it throws ends the bake, and comes out of it.
+/// done to tell; of the bake of another process, too, while it is waited for. Never called by two threads at
+/// once. What it throws ends the bake or the wait, and comes out of it.
 using BakeProgress = std::function<void(double share, double seconds_left)>;
 
 /// Who is told of a bake.

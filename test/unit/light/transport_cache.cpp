@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <future>
 #include <optional>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "light/bake/cache/cache_file.h"
 #include "paper_scene.h"
@@ -173,9 +176,11 @@ TEST_F(TransportCache, IsBakedOnceByThoseWhoWantItTogether) {
   const World world = worldOf(wallOnGround());
   std::atomic<int> bakes{0};
   const auto want = [&] {
-    bool baked = false;
-    Transport::cached(world.geometry, {}, folder_.string(), {[&](double, double) { baked = true; }, nullptr});
-    if (baked) ++bakes;
+    bool was_told = false, waited = false;
+    Transport::cached(
+        world.geometry, {}, folder_.string(),
+        {[&](double, double) { was_told = true; }, nullptr, [&](const std::string&) { waited = true; }});
+    if (was_told && !waited) ++bakes;
   };
   std::thread first(want), second(want), third(want);
   first.join();
@@ -204,6 +209,28 @@ TEST_F(TransportCache, SaysThatItWaitsForAnotherProcess) {
   const std::string line = noted.get();
   EXPECT_NE(line.find("waiting for " + file.string()), std::string::npos) << line;
   EXPECT_EQ(files().size(), 1u);
+}
+
+TEST_F(TransportCache, TellsHowFarAnotherProcessIs) {
+  struct Enough : std::exception {};
+  const World world = worldOf(wallOnGround());
+  light(world);
+  const fs::path file = files().at(0);
+  fs::remove(file);
+  const image::CacheTurn other = image::CacheTurn::await(file);
+  std::vector<std::pair<double, double>> told;
+  BakeListener listener;
+  listener.progress = [&](double share, double seconds_left) { told.emplace_back(share, seconds_left); };
+  int checked = 0;
+  listener.check = [&] {
+    if (++checked == 2) other.tell({0.25, std::nan("")});
+    if (checked == 4) other.tell({0.5, 12.5});
+    if (told.size() > 3) throw Enough();
+  };
+  EXPECT_THROW(Transport::cached(world.geometry, {}, folder_.string(), listener), Enough);
+  EXPECT_EQ(told.front().first, 0.25);
+  EXPECT_TRUE(std::isnan(told.front().second));
+  EXPECT_EQ(told.back(), std::make_pair(0.5, 12.5));
 }
 
 TEST_F(TransportCache, EndsByWhatAListenerThrows) {

@@ -1,4 +1,5 @@
 // A bake is looked for on disk first, and left there.
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -40,10 +41,11 @@ std::optional<fs::path> usableFolder(const std::string& folder, const Log& log) 
 
 std::optional<image::CacheTurn> turnFor(const fs::path& file, const BakeListener& listener) {
   bool is_noted = false;
-  const auto waits = [&] {
+  const auto waits = [&](const image::CacheProgress& other) {
     if (listener.note && !std::exchange(is_noted, true))
       listener.note("Another process bakes the light of this world: waiting for " + file.string());
     if (listener.check) listener.check();
+    if (listener.progress && !std::isnan(other.share)) listener.progress(other.share, other.seconds_left);
   };
   try {
     return image::CacheTurn::await(file, waits);
@@ -76,11 +78,10 @@ std::uintmax_t BakeCache::usedBytes() const {
 std::shared_ptr<const Transport> Transport::cached(std::shared_ptr<const Geometry> geometry,
                                                    const TransportOptions& options, const BakeCache& cache,
                                                    const BakeListener& listener) {
-  const BakeProgress& progress = listener.progress;
   const Log& log = listener.log;
   validate(options);
   const std::optional<fs::path> folder = usableFolder(cache.folder, log);
-  if (!folder) return bake(std::move(geometry), options, progress);
+  if (!folder) return bake(std::move(geometry), options, listener.progress);
   const image::ContentHash key = bakeKey(*geometry, options);
   const fs::path file = *folder / (key.text() + kEnding);
   auto kept = std::make_shared<KeptTransport>();
@@ -89,10 +90,14 @@ std::shared_ptr<const Transport> Transport::cached(std::shared_ptr<const Geometr
   std::optional<image::CacheTurn> turn;
   if (!data) {
     turn = turnFor(file, listener);
-    if (!turn) return bake(std::move(geometry), options, progress);
+    if (!turn) return bake(std::move(geometry), options, listener.progress);
     data = readIfThere(file, key, log);  // another process may have finished it meanwhile
   }
   if (!data) {
+    const auto progress = [&](double share, double seconds_left) {
+      turn->tell({share, seconds_left});
+      if (listener.progress) listener.progress(share, seconds_left);
+    };
     kept->transport = bake(std::move(geometry), options, progress);
     keep(file, key, *kept->transport->data_, log);
     data = readIfThere(file, key, nullptr);  // whose memory is shared
