@@ -209,6 +209,7 @@ void inherit(const ScriptMaterial& parent, ScriptMaterial* material) {
   }
   if (!material->texture) {
     material->texture = parent.texture;
+    material->texture_from = parent.texture_from;
     if (!material->texture_scale) material->texture_scale = parent.texture_scale;
   }
   material->blends = material->blends || parent.blends;
@@ -217,8 +218,6 @@ void inherit(const ScriptMaterial& parent, ScriptMaterial* material) {
   material->lost.insert(parent.lost.begin(), parent.lost.end());
 }
 
-/// The material `name` of the first `end` lines. OGRE wants a parent before its child, so it is looked for
-/// above only, and a circle cannot be.
 std::optional<ScriptMaterial> comesWithGazebo(const std::string& name) {
   const std::optional<GazeboLook> look = gazeboLook(name);
   if (!look) return std::nullopt;
@@ -230,22 +229,29 @@ std::optional<ScriptMaterial> comesWithGazebo(const std::string& name) {
   return material;
 }
 
-std::optional<ScriptMaterial> materialIn(const Lines& lines, std::size_t end, const std::string& name) {
+/// A script, and what is not in it.
+struct Script {
+  const Lines& lines;
+  const ScriptOf& elsewhere;
+};
+
+/// The material `name` of the first `end` lines. In one script a parent is looked for above its child only,
+/// so that a circle cannot be.
+std::optional<ScriptMaterial> materialIn(const Script& script, std::size_t end, const std::string& name) {
   std::optional<Reading> reading;
   std::optional<ScriptMaterial> parent;
   int depth = 0;
   for (std::size_t i = 0; i < end; ++i) {
-    const Words& words = lines[i];
+    const Words& words = script.lines[i];
     const bool starts = depth == 0 && words[0] == "material" && words.size() > 1;
     if (starts && reading) break;
     if (starts && words[1] == name) {
       reading.emplace();
       if (words.size() > 3 && words[2] == ":") {
-        parent = materialIn(lines, i, words[3]);
+        parent = materialIn(script, i, words[3]);
         if (!parent) parent = comesWithGazebo(words[3]);
-        if (!parent)
-          reading->material.lost.insert("its parent " + words[3] +
-                                        ", which this file does not have before it");
+        if (!parent && script.elsewhere) parent = script.elsewhere(words[3]);
+        if (!parent) reading->material.lost.insert("its parent " + words[3] + ", which no script has");
       }
     }
     if (reading) readLine(words, *reading);
@@ -279,9 +285,10 @@ std::optional<GazeboLook> gazeboLook(const std::string& name) {
   return std::nullopt;
 }
 
-std::optional<ScriptMaterial> parseMaterialScript(const std::string& text, const std::string& name) {
+std::optional<ScriptMaterial> parseMaterialScript(const std::string& text, const std::string& name,
+                                                  const ScriptOf& elsewhere) {
   const Lines lines = linesOf(text);
-  return materialIn(lines, lines.size(), name);
+  return materialIn({lines, elsewhere}, lines.size(), name);
 }
 
 }  // namespace sunlit::scene

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -26,6 +27,7 @@ Material materialOf(const GazeboLook& look, const std::string& name);
 struct ScriptMaterial {
   std::optional<LinearRgb> diffuse;
   std::optional<std::string> texture;  ///< as written in the script
+  std::string texture_from;            ///< the file of that script, where one is known
   bool alpha_rejection = false;        ///< cut out where transparent
   bool blends = false;                 ///< by its opacity
   float opacity = 1.0f;                ///< times that of the texture, 0 … 1
@@ -35,9 +37,13 @@ struct ScriptMaterial {
   std::set<std::string> lost;         ///< keywords of what is not rendered
 };
 
+/// A material by its name; none where there is none.
+using ScriptOf = std::function<std::optional<ScriptMaterial>(const std::string& name)>;
+
 /// The material `name` in the text of a .material script, from its first technique and pass. None if it is
-/// not there. A material that inherits (`material A : B`) takes what it does not set from B in the same
-/// script.
-std::optional<ScriptMaterial> parseMaterialScript(const std::string& text, const std::string& name);
+/// not there. A material that inherits (`material A : B`) takes what it does not set from B: before it in the
+/// text, else one that comes with Gazebo, else of `elsewhere`.
+std::optional<ScriptMaterial> parseMaterialScript(const std::string& text, const std::string& name,
+                                                  const ScriptOf& elsewhere = nullptr);
 
 }  // namespace sunlit::scene

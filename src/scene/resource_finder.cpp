@@ -131,8 +131,7 @@ Found ResourceFinder::findAsWritten(const std::string& uri, const std::string& f
   const fs::path path = withoutScheme(uri);
   if (path.empty()) return {};
   if (path.is_absolute()) return firstOf({path}, wanted);
-  std::vector<std::string> roots = folderAndParents(from_file);
-  roots.insert(roots.end(), roots_.begin(), roots_.end());
+  const std::vector<std::string> roots = rootsFrom(from_file);
   std::vector<fs::path> candidates;
   if (package_folder_ && uri.rfind(kPackageScheme, 0) == 0) {
     const std::string folder = package_folder_(path.begin()->string());
@@ -175,6 +174,27 @@ Found ResourceFinder::findTexture(const std::string& name, const std::string& me
       if (i == 0 || i > parents) candidates.push_back(fs::path(roots_[i]) / path);
   }
   return firstOf(candidates);
+}
+
+std::vector<std::string> ResourceFinder::rootsFrom(const std::string& from_file) const {
+  std::vector<std::string> roots = folderAndParents(from_file);
+  roots.insert(roots.end(), roots_.begin(), roots_.end());
+  return roots;
+}
+
+std::vector<std::string> ResourceFinder::mediaFolders(const std::string& part,
+                                                      const std::string& from_file) const {
+  std::vector<std::string> folders;
+  for (const std::string& root : rootsFrom(from_file)) {
+    for (const char* media : {"media", "Media"}) {
+      const std::string folder = (fs::path(root) / media / "materials" / part).lexically_normal().string();
+      std::error_code error;
+      if (fs::is_directory(folder, error) &&
+          std::find(folders.begin(), folders.end(), folder) == folders.end())
+        folders.push_back(folder);
+    }
+  }
+  return folders;
 }
 
 std::string ResourceFinder::roots() const {

@@ -43,6 +43,10 @@ class ResourceFinder {
   /// is dropped if need be.
   Found findTexture(const std::string& name, const std::string& mesh_file) const;
 
+  /// The folders media/materials/PART (or Media/…), of Gazebo classic, that are there in the folders that
+  /// find() goes through for what is written in `from_file`, in that order.
+  std::vector<std::string> mediaFolders(const std::string& part, const std::string& from_file) const;
+
   /// The folders that find() goes through for what the scene file names: "a, b and c".
   std::string roots() const;
   /// Those that find() goes through for `uri` there; of an address of Fuel also that nothing is fetched.
@@ -52,6 +56,8 @@ class ResourceFinder {
 
  private:
   Found findAsWritten(const std::string& uri, const std::string& from_file, Wanted wanted) const;
+
+  std::vector<std::string> rootsFrom(const std::string& from_file) const;
 
   std::vector<std::string> roots_;  ///< the scene's folder, those above it, and those that were named
   std::size_t parents_;             ///< how many are above it

@@ -1,11 +1,7 @@
 #include "scene/sdf_material.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sdf/Pbr.hh>
-#include <vector>
 
 #include "scene/color.h"
 #include "scene/gazebo_material.h"
@@ -14,36 +10,14 @@
 namespace sunlit::scene {
 namespace {
 
-namespace fs = std::filesystem;
-
 LinearRgb toLinear(const ignition::math::Color& color) {
   return linearFromSrgb({color.R(), color.G(), color.B()});
-}
-
-/// The .material files that `uri` names: itself, or all in that folder and its scripts.
-std::vector<std::string> scriptFiles(const std::string& place) {
-  std::vector<std::string> files;
-  std::error_code error;
-  if (fs::is_regular_file(place, error)) files.push_back(place);
-  for (const char* folder : {".", "scripts", "materials/scripts"}) {
-    for (fs::directory_iterator entry(fs::path(place) / folder, error), end; !error && entry != end;
-         entry.increment(error)) {
-      if (entry->path().extension() == ".material") files.push_back(entry->path().string());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
 }
 
 /// Times that of its texture.
 void setOpacity(float opacity, Material* material) {
   material->alpha_mode = AlphaMode::kBlend;
   material->alpha = opacity;
-}
-
-std::string scriptOf(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
 }  // namespace
@@ -61,31 +35,30 @@ int SdfMaterials::texture(const std::string& name, const std::string& from_file)
 SdfMaterials::Scripted SdfMaterials::fromScript(const sdf::Material& source) {
   if (const std::optional<GazeboLook> look = gazeboLook(source.ScriptName()))
     return {materialOf(*look, source.ScriptName())};
-  Material material;
-  material.name = source.ScriptName();
-  material.base_color = kNeutral;
   // <script> may hold several <uri>; sdf::Material keeps the first only.
-  std::vector<std::string> uris{source.ScriptUri()};
+  ScriptUse use{source.ScriptName(), {}, source.FilePath()};
   const sdf::ElementPtr script = source.Element() ? firstIn(*source.Element(), "script") : nullptr;
   for (sdf::ElementPtr uri = script ? firstIn(*script, "uri") : nullptr; uri;
-       uri = uri->GetNextElement("uri")) {
-    uris.push_back(uri->Get<std::string>());
-  }
-  for (const std::string& uri : uris) {
-    const Found found = finder_.find(uri, source.FilePath());
-    if (!found.file) continue;
-    for (const std::string& file : scriptFiles(*found.file)) {
-      if (const auto parsed = parseMaterialScript(scriptOf(file), material.name))
-        return {lookOf(*parsed, material, file), parsed->texture_scale.value_or(Eigen::Array2f::Ones())};
-    }
-  }
-  builder_.warn("material scripts are not known, a neutral material takes their place", material.name);
-  return {material};
+       uri = uri->GetNextElement("uri"))
+    use.uris.push_back(uri->Get<std::string>());
+  if (const std::optional<ScriptMaterial> found = scripts_.find(use))
+    return {lookOf(*found, use), found->texture_scale.value_or(Eigen::Array2f::Ones())};
+  builder_.warn("material scripts are not known, a neutral material takes their place", use.name);
+  Material neutral;
+  neutral.name = use.name;
+  neutral.base_color = kNeutral;
+  return {neutral};
 }
 
-/// `material`, as the script in `file` has it.
-Material SdfMaterials::lookOf(const ScriptMaterial& script, Material material, const std::string& file) {
-  if (script.texture) material.base_texture = texture(*script.texture, file);
+Material SdfMaterials::lookOf(const ScriptMaterial& script, const ScriptUse& use) {
+  Material material;
+  material.name = use.name;
+  material.base_color = kNeutral;
+  if (script.texture) {
+    const std::optional<std::string> file = scripts_.texture(script, use);
+    if (file) material.base_texture = builder_.textureFromFile(*file);
+    if (!file) builder_.warn(kMissingTextures, *script.texture + " of " + script.texture_from);
+  }
   const bool textured = material.base_texture != Material::kNoTexture;
   if (textured) material.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
   if (script.diffuse && !script.texture) material.base_color = *script.diffuse;

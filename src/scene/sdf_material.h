@@ -11,13 +11,15 @@
 #include "scene/gazebo_material.h"
 #include "scene/resource_finder.h"
 #include "scene/scene_builder.h"
+#include "scene/sdf_script.h"
 
 namespace sunlit::scene {
 
 /// Turns <material> elements into ours, each different one once.
 class SdfMaterials {
  public:
-  SdfMaterials(const ResourceFinder& finder, SceneBuilder& builder) : finder_(finder), builder_(builder) {}
+  SdfMaterials(const ResourceFinder& finder, SceneBuilder& builder)
+      : finder_(finder), builder_(builder), scripts_(finder) {}
 
   /// Index of the material in the builder. None if `source` is null or says nothing about the look (a bare
   /// shader, say): a mesh then keeps its own.
@@ -35,7 +37,7 @@ class SdfMaterials {
     Eigen::Array2f texture_scale{1.0f, 1.0f};  ///< ScriptMaterial::texture_scale
   };
   Scripted fromScript(const sdf::Material& source);
-  Material lookOf(const ScriptMaterial& script, Material material, const std::string& file);
+  Material lookOf(const ScriptMaterial& script, const ScriptUse& use);
   void readPbr(const sdf::Material& source, Material& material);
   void readOpacity(float alpha, Material* material);
   void nameLost(const sdf::Material& source, const std::string& name);
@@ -44,6 +46,7 @@ class SdfMaterials {
 
   const ResourceFinder& finder_;
   SceneBuilder& builder_;
+  MaterialScripts scripts_;
   std::map<std::string, int> index_by_content_;
   std::map<int, Eigen::Array2f> texture_scales_;  ///< of materials, where it is not 1
 };

@@ -127,6 +127,8 @@ std::optional<int> UrdfVisuals::materialOfGazebo(const std::string& place) {
   const auto known = material_by_content_.find(content);
   if (known != material_by_content_.end()) return known->second;
   const std::optional<GazeboLook> look = gazeboLook(name);
+  if (!look && scripts_.find({name, {}, origin_}))
+    return looks_.add("<material><script><name>" + name + "</name></script></material>", place);
   if (!look) {
     builder_.warn("materials do not exist, a neutral one takes their place", name + " of " + place);
     return std::nullopt;

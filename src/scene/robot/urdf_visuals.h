@@ -14,6 +14,7 @@
 #include "scene/robot/urdf_gazebo.h"
 #include "scene/robot/urdf_looks.h"
 #include "scene/scene_builder.h"
+#include "scene/sdf_script.h"
 
 namespace sunlit::scene {
 
@@ -33,7 +34,8 @@ class UrdfVisuals {
         finder_(finder),
         builder_(builder),
         meshes_(finder, builder),
-        looks_(origin, finder, builder) {}
+        looks_(origin, finder, builder),
+        scripts_(finder) {}
 
   /// Adds everything to see of `link`, in its frame. `place` names the link in messages. Visuals without a
   /// material of theirs have what `of_gazebo` says, if anything.
@@ -60,6 +62,7 @@ class UrdfVisuals {
   std::map<std::string, int> material_by_content_;
   ModelMeshes meshes_;
   UrdfLooks looks_;
+  MaterialScripts scripts_;
 };
 
 }  // namespace sunlit::scene

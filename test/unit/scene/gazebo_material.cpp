@@ -58,7 +58,7 @@ TEST(MaterialScript, InheritsFromWhatComesWithGazeboAndNamesAParentThatIsNotTher
   const auto orphan = parseMaterialScript("material A : Base\n{\n}\n", "A");
   ASSERT_TRUE(orphan);
   ASSERT_EQ(orphan->lost.size(), 1U);
-  EXPECT_EQ(*orphan->lost.begin(), "its parent Base, which this file does not have before it");
+  EXPECT_EQ(*orphan->lost.begin(), "its parent Base, which no script has");
 }
 
 TEST(GazeboMaterial, BlendsByAlphaHoweverThatIsWritten) {

@@ -56,6 +56,15 @@ TEST_F(RobotLooks, AreThoseThatGazebosVisualsGiveTheirLink) {
   EXPECT_EQ(materialOf(scripted).name, "Gazebo/Blue");
 }
 
+TEST_F(RobotLooks, AreThoseOfScriptsInMediaByTheirName) {
+  SKIP_WITHOUT_SDF();
+  write("media/materials/scripts/own.material",
+        "material My/Green\n{ technique { pass { diffuse 0 1 0 } } }\n");
+  const Robot green = robot(visual(kBox), "<gazebo reference='base'><material>My/Green</material></gazebo>");
+  EXPECT_TRUE(green.warnings.empty()) << green.warnings[0];
+  EXPECT_TRUE((materialOf(green).base_color.value == Eigen::Array3f(0, 1, 0)).all());
+}
+
 TEST_F(RobotLooks, AreNamedWhereGazebosAreNotShown) {
   const std::string blue = "<gazebo reference='base'><material>Gazebo/Blue</material></gazebo>";
   const Robot own = robot(visual(kBox, kRed), gazebo("<diffuse>0 0 1 1</diffuse>"));
