@@ -1,9 +1,9 @@
 #include "scene/glb_file.h"
 
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -35,19 +35,8 @@ std::size_t GlbBuffer::add(const void* data, std::size_t size) {
 }
 
 std::string jsonString(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char letter : text) {
-    if (letter == '"' || letter == '\\') {
-      quoted += std::string("\\") + letter;
-    } else if (static_cast<unsigned char>(letter) < 0x20) {
-      char escape[8];
-      std::snprintf(escape, sizeof(escape), "\\u%04x", static_cast<unsigned>(letter));
-      quoted += escape;
-    } else {
-      quoted += letter;
-    }
-  }
-  return quoted + "\"";
+  using nlohmann::json;
+  return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 std::string jsonArray(const std::vector<std::string>& items) {

@@ -22,7 +22,8 @@ class GlbBuffer {
   std::vector<std::string> views_;
 };
 
-/// `text` as a JSON string, quotes included.
+/// `text` as a JSON string, quotes included. What is no UTF-8, which JSON has to be (RFC 8259, section 8.1),
+/// becomes U+FFFD.
 std::string jsonString(const std::string& text);
 
 /// `items` as a JSON array.

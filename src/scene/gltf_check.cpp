@@ -8,11 +8,14 @@
 #include <vector>
 
 #include "scene/gltf_json.h"
+#include "scene/triangle_budget.h"
 
 namespace sunlit::scene {
 namespace {
 
 using nlohmann::json;
+
+constexpr std::uint64_t kTriangles = 4;  ///< the mode of a primitive (glTF 2.0, section 5.24)
 
 std::uint64_t bytesOfComponent(std::uint64_t type) {
   constexpr std::uint64_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123;
@@ -128,15 +131,25 @@ class Check {
     return accessor == nullptr ? 0 : whole(*accessor, "count", 0, place);
   }
 
-  void checkPrimitive(const json& primitive, const std::string& place) const {
+  /// Assimp makes a face of each triangle, line and point, and gives each primitive vertices of its own, once
+  /// more for each of its targets.
+  void checkSize(const json& primitive, std::uint64_t corners, const std::string& place) {
+    const std::uint64_t vertices = countOf(child(primitive, "attributes"), "POSITION", place);
+    const std::uint64_t mode = whole(primitive, "mode", kTriangles, place);
+    budget_.take(mode == kTriangles ? corners / 3 : corners,
+                 vertices * (1 + child(primitive, "targets").size()), file_ + ": " + place);
+  }
+
+  void checkPrimitive(const json& primitive, const std::string& place) {
     const json& attributes = child(primitive, "attributes");
-    const std::uint64_t mode = whole(primitive, "mode", 4, place);
+    const std::uint64_t mode = whole(primitive, "mode", kTriangles, place);
     const std::uint64_t corners = primitive.contains("indices") ? countOf(primitive, "indices", place)
                                                                 : countOf(attributes, "POSITION", place);
     const std::uint64_t least = mode == 2 || mode == 3 ? 2 : mode == 5 || mode == 6 ? 3 : 0;
     if (corners < least)
       fail(place, "has a strip, loop or fan of " + std::to_string(corners) + " corners, but it must have " +
                       std::to_string(least) + " or more");
+    checkSize(primitive, corners, place);
     const std::uint64_t weights = countOf(attributes, "WEIGHTS_0", place);
     std::size_t sets[2] = {0, 0};
     for (const auto& [name, value] : attributes.items()) {
@@ -194,6 +207,7 @@ class Check {
 
   const json& root_;
   const std::string& file_;
+  TriangleBudget budget_;
 };
 
 }  // namespace

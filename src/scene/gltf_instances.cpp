@@ -8,6 +8,7 @@
 
 #include "scene/gltf_json.h"
 #include "scene/gltf_numbers.h"
+#include "sunlit/quantity/range.h"
 
 namespace sunlit::scene {
 namespace {
@@ -50,6 +51,15 @@ std::optional<std::vector<json>> placesOf(const json& root, const json& attribut
   return places;
 }
 
+/// How many places a node has that tells `attributes`.
+std::size_t countIn(const json& root, const json& attributes) {
+  for (const Attribute& attribute : kAttributes) {
+    if (attributes.contains(attribute.name))
+      return indexOf(child(root, "accessors").at(indexOf(attributes.at(attribute.name))).at("count"));
+  }
+  return 0;
+}
+
 }  // namespace
 
 bool placeInstances(json& root, GltfBuffers& buffers) {
@@ -62,14 +72,16 @@ bool placeInstances(json& root, GltfBuffers& buffers) {
     if (attributes.empty() || !root["nodes"][n].contains("mesh")) continue;
     std::optional<std::vector<json>> places;
     try {
+      placed += countIn(root, attributes);
+      if (placed > kMost)
+        throw std::runtime_error(refusal("the number of meshes up to here", std::to_string(placed),
+                                         "from 0 to " + std::to_string(kMost)));
       places = placesOf(root, attributes, buffers);
     } catch (const std::runtime_error& error) {
       throw std::runtime_error("node " + std::to_string(n) + ": " + kInstancing + ": " + error.what());
     }
     if (!places) continue;
     any = true;
-    placed += places->size();
-    if (placed > kMost) throw std::runtime_error(std::string(kInstancing) + " shows more than 100000 meshes");
     const json mesh = root["nodes"][n]["mesh"], name = root["nodes"][n].value("name", "");
     root["nodes"][n].erase("mesh");
     for (json& place : *places) {

@@ -26,6 +26,7 @@
 #include "scene/mesh_rest.h"
 #include "scene/mesh_vertices.h"
 #include "scene/obj_input.h"
+#include "scene/triangle_budget.h"
 #include "scene/uri_text.h"
 
 namespace sunlit::scene {
@@ -190,6 +191,16 @@ struct Collector {
   }
 };
 
+/// Asks for what is made of `node` and those below it: a mesh of a file may be shown by any number of nodes.
+void askFor(const aiNode& node, const aiScene& scene, const std::string& file, TriangleBudget& budget) {
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
+    if (hasSurface(mesh))
+      budget.take(mesh.mNumFaces, mesh.mNumVertices, file + ": node " + node.mName.C_Str());
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) askFor(*node.mChildren[i], scene, file, budget);
+}
+
 /// By their index in `scene`; none for those that no mesh uses, which Assimp adds of its own too.
 std::vector<std::optional<MeshLook>> addMaterials(const aiScene& scene, const MeshFileContext& context) {
   std::vector<std::optional<MeshLook>> looks(scene.mNumMaterials);
@@ -328,6 +339,8 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up. glTF always is.
   const bool y_up = (gltf || collada) && up_axis == UpAxis::kAsDeclared;
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();
+  TriangleBudget budget;
+  askFor(*scene->mRootNode, *scene, file, budget);
   Collector collector{*scene, looks, gltf, up_from_file};
   collector.collect(*scene->mRootNode, up_from_file);
   warnOfLosses(collector, file, builder);

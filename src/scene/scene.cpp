@@ -129,6 +129,19 @@ void checkVertex(const Mesh& mesh, std::size_t i) {
     checkRange("colour", mesh.colors[i][k], {0.0, 2.0}, failHere);
 }
 
+void checkCounts(const Scene& scene) {
+  std::size_t triangles = 0, vertices = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    triangles += mesh.triangles.size();
+    vertices += mesh.positions.size();
+    if (triangles > kMostTriangles || vertices > kMostVertices)
+      fail("mesh", mesh.name,
+           "up to it there are " + std::to_string(triangles) + " triangles and " + std::to_string(vertices) +
+               " vertices, but there must be at most " + std::to_string(kMostTriangles) + " and " +
+               std::to_string(kMostVertices));
+  }
+}
+
 void checkMesh(const Mesh& mesh, std::size_t material_count) {
   const std::size_t count = mesh.positions.size();
   if (mesh.material < 0 || static_cast<std::size_t>(mesh.material) >= material_count) {
@@ -178,6 +191,7 @@ void letGoOfTexels(const Scene& scene) {
 void validate(const Scene& scene) {
   for (const Texture& texture : scene.textures) checkTexture(texture);
   for (const Material& material : scene.materials) checkMaterial(material, scene.textures.size());
+  checkCounts(scene);
   for (const Mesh& mesh : scene.meshes) checkMesh(mesh, scene.materials.size());
   for (const Lamp& lamp : scene.lamps) checkLamp(lamp);
 }

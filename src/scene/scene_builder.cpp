@@ -157,6 +157,7 @@ int SceneBuilder::veiled(int material, float opacity, Faces faces) {
 }
 
 void SceneBuilder::addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mesh) {
+  budget_.take(mesh.triangles.size(), mesh.positions.size(), scene_.name + ": mesh " + mesh.name);
   Mesh moved = mesh;
   const Eigen::Matrix3d linear = map_from_mesh.linear();
   Eigen::Matrix3d normals_linear = cofactors(linear);

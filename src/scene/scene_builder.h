@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/triangle_budget.h"
 #include "sunlit/scene/scene.h"
 
 namespace sunlit::scene {
@@ -72,6 +73,7 @@ class SceneBuilder {
   const Material& material(int index) const { return scene_.materials.at(static_cast<std::size_t>(index)); }
 
   /// `mesh` moved by `map_from_mesh`, without its broken triangles (counted for a warning of finish()).
+  /// Throws as TriangleBudget::take().
   void addMesh(const Mesh& mesh, const Eigen::Affine3d& map_from_mesh);
 
   /// Not one that is too far away, which is counted for a warning of finish().
@@ -122,6 +124,7 @@ class SceneBuilder {
   void dropHeights();
 
   Scene scene_;
+  TriangleBudget budget_;
   std::vector<TextureSource> sources_;
   std::map<std::pair<std::string, int>, int> texture_by_key_;  ///< by name and wraps
   std::vector<AlphaRule> alpha_rules_;                         ///< of each material

@@ -19,12 +19,17 @@
 #include "scene/sdf_parse.h"
 #include "scene/sdf_pose.h"
 #include "scene/sdf_xml.h"
+#include "sunlit/quantity/range.h"
 
 namespace sunlit::scene {
 namespace {
 
 namespace fs = std::filesystem;
 using tinyxml2::XMLElement;
+
+/// Of a file, with all that it includes: files that include each other twice double it at each level, and
+/// libsdformat takes a millisecond for each.
+constexpr std::size_t kMostModels = 20000;
 
 /// As many missing models as a person reads of.
 constexpr std::size_t kNamed = 5;
@@ -163,19 +168,25 @@ const SdfFile& SdfFiles::open(const std::string& path) {
   return *(files_[path] = std::move(file));
 }
 
-void SdfFiles::resolveIncludes(XMLElement& sdf, const SdfFile& file) {
+void SdfFiles::resolveIncludes(XMLElement& sdf, SdfFile& file) {
   std::vector<XMLElement*> includes;
   forEachBelow(sdf, [&](XMLElement& element) {
     if (std::string(element.Value()) == "include") includes.push_back(&element);
+    if (std::string(element.Value()) == "model") ++file.models;
   });
   for (XMLElement* include : includes) resolveInclude(*include, file);
 }
 
 /// Puts a token into the place of the address, or a light into that of the include, or takes it out.
-void SdfFiles::resolveInclude(XMLElement& include, const SdfFile& file) {
+void SdfFiles::resolveInclude(XMLElement& include, SdfFile& file) {
   const SdfFile* found = included(include, file);
   tinyxml2::XMLNode& parent = *include.Parent();
   if (found != nullptr && modelOf(found->root) != nullptr) {
+    file.models += found->models;
+    if (file.models > kMostModels)
+      throw std::runtime_error(refusal(placeOf(file.path, include) + ": the number of models up to here",
+                                       std::to_string(file.models),
+                                       "from 0 to " + std::to_string(kMostModels)));
     fillIn(include, *found);
     if (include.BoolAttribute("merge") && std::string(parent.Value()) == "model")
       merge(include, *found, placeOf(file.path, include), builder_);

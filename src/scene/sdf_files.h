@@ -40,6 +40,7 @@ struct SdfFile {
   sdf::Root root;
   std::string placement_frame;  ///< of modelOf(root)
   std::vector<Included> included;
+  std::size_t models = 0;  ///< in it and in all that it includes, each as often as it is included
   std::unique_ptr<tinyxml2::XMLDocument> state;  ///< a <state> element; null where the world has none
 };
 
@@ -58,8 +59,8 @@ class SdfFiles {
 
  private:
   const SdfFile& open(const std::string& path);
-  void resolveIncludes(tinyxml2::XMLElement& sdf, const SdfFile& file);
-  void resolveInclude(tinyxml2::XMLElement& include, const SdfFile& file);
+  void resolveIncludes(tinyxml2::XMLElement& sdf, SdfFile& file);
+  void resolveInclude(tinyxml2::XMLElement& include, SdfFile& file);
   const SdfFile* included(const tinyxml2::XMLElement& include, const SdfFile& file);
   void parse(tinyxml2::XMLDocument& document, SdfFile& file);
 

@@ -99,6 +99,11 @@ struct Material {
   Detail detail;
 };
 
+/// Of all meshes of a scene together. A triangle of corners of its own takes some 0.4 kB here and among the
+/// rays, which makes 20 GB of so many; their numbers have 32 bits.
+constexpr std::size_t kMostTriangles = 50000000;
+constexpr std::size_t kMostVertices = 3 * kMostTriangles;
+
 /// m from the origin along an axis, where single precision still knows a centimetre.
 constexpr float kFarthest_m = 1e5f;
 
@@ -170,7 +175,8 @@ struct Scene {
 void letGoOfTexels(const Scene& scene);
 
 /// Throws std::invalid_argument naming mesh, material or lamp and what is wrong: an index out of range,
-/// arrays of unequal length, a value that is not finite or out of the range given above.
+/// arrays of unequal length, a value that is not finite or out of the range given above, more triangles or
+/// vertices than a scene may have.
 void validate(const Scene& scene);
 
 }  // namespace sunlit::scene

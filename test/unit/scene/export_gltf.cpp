@@ -112,6 +112,20 @@ TEST_F(ExportGltf, MaterialsAndTexturesComeBack) {
   EXPECT_EQ(back.textures[0].rgba, scene.textures[0].rgba);
 }
 
+// Files of other tools have names in Latin-1, and JSON is UTF-8.
+TEST_F(ExportGltf, NamesAreTextWhateverTheirBytes) {
+  Scene scene = sample();
+  scene.meshes[0].name = "caf\xE9 \x01\n\x1F\t";
+  scene.materials[0].name = "\xFF\"";
+  scene.textures[0].name = "gr\xC3\xB6\xC3";  // ö, and half of a letter
+  writeGltf(scene, pathOf("scene.glb"));
+  const std::string text = contentOf(pathOf("scene.glb"));
+  EXPECT_NE(text.find("\"name\":\"caf\xEF\xBF\xBD \\u0001\\n\\u001f\\t\""), std::string::npos);
+  EXPECT_NE(text.find("\"name\":\"\xEF\xBF\xBD\\\"\""), std::string::npos);
+  EXPECT_NE(text.find("\"name\":\"gr\xC3\xB6\xEF\xBF\xBD\""), std::string::npos);
+  EXPECT_EQ(load(pathOf("scene.glb"), {}).meshes.size(), 2u);
+}
+
 TEST_F(ExportGltf, MaterialsComeBackWhateverTheCaseOfTheEnding) {
   writeGltf(sample(), pathOf("scene.glb"));
   std::filesystem::rename(pathOf("scene.glb"), pathOf("SCENE.GLB"));

@@ -87,5 +87,22 @@ TEST_F(GltfInstances, WhatDoesNotFitIsNamed) {
             std::string::npos);
 }
 
+// Before there is a node for each, of a kilobyte.
+TEST_F(GltfInstances, OfTooManyMeshesAreRefused) {
+  std::string text = gltf(R"("TRANSLATION":1)");
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace(R"({"bufferView":1,"componentType":5126,"count":2,)",
+          R"({"bufferView":5,"componentType":5126,"count":100001,)");
+  replace(R"("byteLength":24}],)", R"("byteLength":24},{"buffer":1,"byteLength":1200012}],)");
+  replace("\"}]}", R"("},{"byteLength":1200012,"uri":"places.bin"}]})");
+  write("places.bin", std::string(1200012, '\0'));
+  EXPECT_EQ(errorOf(write("t.gltf", text)), pathOf("t.gltf") +
+                                                ": node 0: EXT_mesh_gpu_instancing: the number of meshes up "
+                                                "to here is 100001, but must be from 0 to "
+                                                "100000");
+}
+
 }  // namespace
 }  // namespace sunlit::scene

@@ -241,6 +241,48 @@ TEST_F(GltfShape, OfNodesBelowTwoOthersIsRefused) {
   EXPECT_EQ(errorOfParts(parts), pathOf("t.gltf") + ": node 3 is below two others");
 }
 
+// A mesh of 30,000 triangles, shown by 2,000 nodes.
+TEST_F(GltfShape, OfMoreTrianglesThanASceneHoldsIsRefused) {
+  std::string text =
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"children":[1)";
+  for (int i = 2; i <= 2000; ++i) text += "," + std::to_string(i);
+  text += "]}";
+  for (int i = 1; i <= 2000; ++i) text += R"(,{"name":"n)" + std::to_string(i) + R"(","mesh":0})";
+  text +=
+      R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[
+{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+{"bufferView":1,"componentType":5121,"count":90000,"type":"SCALAR"}],"bufferViews":[{"buffer":0,"byteLength":36},
+{"buffer":1,"byteLength":90000}],"buffers":[{"byteLength":208,"uri":"numbers.bin"},{"byteLength":90000,"uri":"corners.bin"}]})";
+  write("numbers.bin", kNumbers);
+  std::string corners;
+  for (int i = 0; i < 90000; ++i) corners += static_cast<char>(i % 3);
+  write("corners.bin", corners);
+  // 1,666 of them have 49,980,000.
+  EXPECT_EQ(
+      errorOf(write("t.gltf", text)),
+      pathOf("t.gltf") +
+          ": node n1667: the number of triangles up to here is 50010000, but must be from 0 to 50000000");
+}
+
+// Of zeros, which need no bytes (glTF 2.0, section 3.6.2.3).
+TEST_F(GltfShape, OfMoreVerticesThanASceneHoldsIsRefused) {
+  std::string text = gltf({});
+  const std::string bytes = R"({"bufferView":0,"componentType":5126,"count":3)";
+  text.replace(text.find(bytes), bytes.size(), R"({"componentType":5126,"count":4000000000)");
+  write("numbers.bin", kNumbers);
+  EXPECT_EQ(errorOf(write("t.gltf", text)),
+            pathOf("t.gltf") +
+                ": mesh 0: the number of triangles up to here is 1333333333, but must be from 0 to 50000000");
+  // Each primitive has vertices of its own in Assimp.
+  Parts parts;
+  for (int i = 0; i < 20; ++i) parts.primitive += R"(},{"attributes":{"POSITION":0},"indices":1)";
+  text = gltf(parts);
+  text.replace(text.find(bytes), bytes.size(), R"({"componentType":5126,"count":9000000)");
+  EXPECT_EQ(errorOf(write("t.gltf", text)),
+            pathOf("t.gltf") +
+                ": mesh 0: the number of vertices up to here is 153000000, but must be from 0 to 150000000");
+}
+
 TEST_F(GltfShape, OfAnIndexThatCountsNothingIsRefused) {
   for (const std::string number : {"-1e308", "-1", "0.5", "[0]"}) {
     std::string text = gltf({});

@@ -291,6 +291,21 @@ TEST_F(Lenient, AModelThatIncludesItselfIsAnError) {
             pathOf("models/b/model.sdf") + ":2: " + pathOf("models/a/model.sdf") + " includes itself here");
 }
 
+// Ten times as many at each level, of which nothing need be seen.
+TEST_F(Lenient, ModelsThatMultiplyAtEachLevelAreAnError) {
+  includeModel("m0", model(link(""), "m0"));
+  for (int i = 1; i <= 9; ++i) {
+    std::string content;
+    for (int k = 0; k < (i < 4 ? 10 : 20); ++k)
+      content += include("m" + std::to_string(i - 1), "<name>n" + std::to_string(k) + "</name>") + "\n";
+    includeModel("m" + std::to_string(i), model(content, "m" + std::to_string(i)));
+  }
+  // The third has 1111, of which the fourth has 18 before it has too many.
+  EXPECT_EQ(errorOf(worldFile(include("m9"))),
+            pathOf("models/m4/model.sdf") +
+                ":20: the number of models up to here is 21110, but must be from 0 to 20000");
+}
+
 TEST_F(Lenient, MissingModelsAndMeshesAreLeftOutWithALineEach) {
   includeModel("broken", "<model");
   std::string content = model(link(kVisual) + include("nowhere"));
