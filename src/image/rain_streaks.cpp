@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "random_sequence.h"
+#include "sunlit/image/picture_name.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/raindrops.h"
 
@@ -128,7 +129,7 @@ class Rain {
         focal_px_(std::sqrt(view.lens.camera().fx * view.lens.camera().fy)),
         slope_(raindropSlope(rain.mm_per_h)),
         in_cell_(kRaindropsAtZero / slope_ * std::exp(-slope_ * kSmallest_mm) * kCell_m * kCell_m * kCell_m),
-        start_(randomStart(rain.seed, rain.moment)) {}
+        start_(randomStart(rain.seed, {rain.moment, ""})) {}
 
   /// Those of a cell, from lowest corner on.
   void fallIn(const Eigen::Vector3d& cell, Painter* painter) const {

@@ -88,7 +88,7 @@ void Camera::addRain(const Lit& lit, double ev100, image::LinearImage* luminance
   const Eigen::Array3f above = day.groundIlluminance().value / kPiFloat;
   const image::RainStreaks streaks{rain.mm_per_h,
                                    rain.seed,
-                                   lit.moment,
+                                   lit.name.index,
                                    image::streakTime_s(chainOf(lit).options.shutter, ev100),
                                    0.5f * (before + above),
                                    rain.wind_m_s};

@@ -16,7 +16,6 @@ namespace sunlit::studio {
 struct Lit {
   const light::Illumination& light;
   const image::PictureName& name;
-  const image::PictureName& moment;  ///< the name of the left picture of a pair
   const Setting& setting;
 };
 

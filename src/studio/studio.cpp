@@ -150,19 +150,19 @@ light::Illumination Studio::illumination(const sky::Daylight& daylight, std::siz
 
 Developed Studio::photograph(const light::Illumination& light, const image::PictureName& name,
                              const Setting& setting) {
-  return camera_->photograph({light, name, name, setting}, std::nullopt, &stopwatch_);
+  return camera_->photograph({light, name, setting}, std::nullopt, &stopwatch_);
 }
 
 double Studio::meter(const light::Illumination& light, const image::PictureName& name,
                      const Setting& setting) {
-  return camera_->meter({light, name, name, setting}, &stopwatch_);
+  return camera_->meter({light, name, setting}, &stopwatch_);
 }
 
 image::Rgb8Image Studio::photographRight(const light::Illumination& light, const image::PictureName& name,
                                          double ev100, const Setting& setting) {
   // No name of a condition has a space.
   const image::PictureName of_right{name.index, name.series + " right"};
-  return right_->photograph({light, of_right, name, setting}, ev100, &stopwatch_).picture;
+  return right_->photograph({light, of_right, setting}, ev100, &stopwatch_).picture;
 }
 
 std::string Studio::rasterizer() const {

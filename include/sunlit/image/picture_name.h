@@ -6,8 +6,8 @@
 
 namespace sunlit::image {
 
-/// Which picture of a series it is: pictures that differ in either have grain, and drops of rain, that are
-/// independent.
+/// Which picture of a series it is: pictures that differ in either have grain that is independent. Drops of
+/// rain go by the index alone.
 struct PictureName {
   std::int64_t index = 0;
   std::string series;

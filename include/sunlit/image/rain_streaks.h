@@ -7,7 +7,6 @@
 
 #include "sunlit/image/images.h"
 #include "sunlit/image/lens.h"
-#include "sunlit/image/picture_name.h"
 #include "sunlit/quantity/motion.h"
 
 namespace sunlit::image {
@@ -15,7 +14,9 @@ namespace sunlit::image {
 struct RainStreaks {
   double mm_per_h = 0.0;  ///< ≥ 0
   std::uint64_t seed = 0;
-  PictureName moment = {};  ///< another one, other drops: cameras that share a moment see the same
+  /// Another one, other drops. Cameras that share a moment see the same, and so do conditions: their pictures
+  /// of one pose differ by light, not by chance.
+  std::int64_t moment = 0;
   double exposure_s = 0.001;
   /// What a drop shows, cd/m²: it gathers light from nearly all that is before it.
   Eigen::Array3f luminance = Eigen::Array3f::Zero();

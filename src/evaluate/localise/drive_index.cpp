@@ -7,9 +7,11 @@ DriveIndex::DriveIndex(const std::vector<const ObservationFile*>& files, const P
     const std::vector<ObservationKey> keys = file->keys();
     for (std::size_t i = 0; i < keys.size(); ++i) {
       const ObservationKey& key = keys[i];
+      const std::optional<std::int64_t> pose = settled(key.stamp_ns, key.pose);
+      if (!pose) continue;
       const Observed observed{file, i, key.stamp_ns};
       ObservedDrive& drive = drives_[{key.stream, key.detector}];
-      const auto [found, is_new] = drive.emplace(settled(key.stamp_ns, key.pose), observed);
+      const auto [found, is_new] = drive.emplace(*pose, observed);
       if (!is_new && key.stamp_ns < found->second.stamp_ns) found->second = observed;
     }
   }

@@ -83,7 +83,16 @@ void Evaluation::State::addDepth(std::int64_t stamp_ns, const Told<cv::Mat>& dep
 }
 
 void Evaluation::State::addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d>& map_from_optical) {
-  addTruth(stamp_ns, [&](GroundTruth& truth) { truth.addPose(stamp_ns, map_from_optical); });
+  Told<Eigen::Isometry3d> pose = map_from_optical;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (is_finished_) return;
+    const bool is_known = pose.has_come && pose.fault.empty();
+    if (is_known && places_.isBroken(stamp_ns, pose.value)) separate(stamp_ns);
+    if (const std::string fault = places_.fault(stamp_ns); !fault.empty())
+      pose = unusable<Eigen::Isometry3d>(fault);
+  }
+  addTruth(stamp_ns, [&](GroundTruth& truth) { truth.addPose(stamp_ns, pose); });
 }
 
 void Evaluation::State::addCamera(std::size_t stream, const Told<ViewCamera>& camera) {
@@ -129,10 +138,11 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
     return outcome;
   }
   std::vector<std::unique_ptr<ObservationFile>> merged;
-  ObservedDrives drives{
-      {&observer_->observations()}, streamsOf(options_), [this](std::int64_t stamp, std::int64_t pose) {
-        return poses_.settled(stamp, pose);
-      }};
+  const auto counting = [this](std::int64_t stamp, std::int64_t pose) -> std::optional<std::int64_t> {
+    if (!places_.fault(stamp).empty()) return std::nullopt;
+    return poses_.settled(stamp, pose);
+  };
+  ObservedDrives drives{{&observer_->observations()}, streamsOf(options_), counting};
   for (const std::string& folder : options_.merge) {
     const std::string path = folder + "/" + kObservations;
     if (!std::filesystem::exists(path))

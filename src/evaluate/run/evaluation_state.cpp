@@ -209,6 +209,7 @@ bool Evaluation::State::canCompare(const StampSet& set, std::size_t pair, std::o
     report({"size_mismatch", pose, set.stamp_ns, where, size(a.rgb) + " against " + size(b.rgb)});
     return false;
   }
+  if (isOfTwoPlaces(set.stamp_ns, pose, pair)) return false;
   if (!pose) {
     ++counts.unplaced;
     report({"unplaced", pose, set.stamp_ns, where,
@@ -247,6 +248,27 @@ void Evaluation::State::withdraw(std::int64_t stamp_ns, std::size_t pair) {
   records_.erase(found);
   withdrawVerified(stamp_ns, pair);
   --counts_.pairs[pair].evaluated;
+}
+
+// Counts and names it where it is. A stream is where it is itself.
+bool Evaluation::State::isOfTwoPlaces(std::int64_t stamp_ns, std::optional<std::int64_t> pose,
+                                      std::size_t pair) {
+  const std::string fault = places_.fault(stamp_ns);
+  if (isSelfTested(pair) || fault.empty()) return false;
+  ++counts_.pairs[pair].two_places;
+  report({"two_places", pose, stamp_ns, options_.pairs[pair].name(), fault});
+  return true;
+}
+
+// What was evaluated before the second pose came. What earlier runs evaluated is not of this run's images.
+void Evaluation::State::separate(std::int64_t stamp_ns) {
+  std::vector<PairRecord> evaluated;
+  for (const PairRecord& record : records_) {
+    if (record.stamp_ns == stamp_ns && !isHeld(record.pair, record.pose)) evaluated.push_back(record);
+  }
+  for (const PairRecord& record : evaluated) {
+    if (isOfTwoPlaces(stamp_ns, record.pose, record.pair)) withdraw(stamp_ns, record.pair);
+  }
 }
 
 void Evaluation::State::close(std::int64_t stamp_ns, std::optional<std::int64_t> pose, Reason reason) {

@@ -16,6 +16,7 @@
 #include "evaluate/files/picture_writer.h"
 #include "evaluate/run/extreme_poses.h"
 #include "evaluate/run/observer.h"
+#include "evaluate/run/one_place.h"
 #include "evaluate/run/pose_index.h"
 #include "evaluate/run/record_files.h"
 #include "evaluate/run/stamp_sets.h"
@@ -49,10 +50,7 @@ class Evaluation::State {
   const StopToken& stopToken() const { return stop_; }
   Counts counts() const;
   bool isComplete() const;
-  void waitForRoom(std::size_t queued_poses) const {
-    queue_.waitForAtMost(queued_poses);
-    queue_.rethrow();
-  }
+  void waitForRoom(std::size_t queued_poses) const;
   Outcome finish(Ending ending);
 
  private:
@@ -103,6 +101,8 @@ class Evaluation::State {
   bool hasBoth(const StampSet& set, std::size_t pair) const;
   bool takes(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair);
   void withdraw(std::int64_t stamp_ns, std::size_t pair);
+  bool isOfTwoPlaces(std::int64_t stamp_ns, std::optional<std::int64_t> pose, std::size_t pair);
+  void separate(std::int64_t stamp_ns);
   bool canCompare(const StampSet& set, std::size_t pair, std::optional<std::int64_t> pose, Reason reason);
   bool isSample(std::int64_t pose) const;
   std::vector<std::size_t> keptPictures(const StampSet& set, std::int64_t pose, bool is_evaluated);
@@ -166,6 +166,7 @@ class Evaluation::State {
   mutable std::mutex callback_mutex_;
   PoseIndex poses_;
   StampSets sets_;
+  OnePlace places_;
   Counts counts_;
   std::vector<PairRecord> records_;
   std::vector<VerifiedRecord> verified_;  // of the same stamps and pairs, where matches are verified
@@ -173,11 +174,10 @@ class Evaluation::State {
   Outcome finished_;                      // by finish()
   bool has_forgotten_ = false;            // single features or observations of what was taken up
   EvaluatedPairs held_;                   // by what earlier runs left
-  std::map<std::pair<std::int64_t, std::size_t>, std::int64_t>
-      taken_;                         // by pose and pair: the stamp that counts, of those that came
-  std::set<std::int64_t> completed_;  // poses
-  std::size_t unexpected_poses_ = 0;  // of them
-  std::size_t queued_bytes_ = 0;      // of images in queue_
+  std::map<std::pair<std::int64_t, std::size_t>, std::int64_t> taken_;  // the stamp that counts of those come
+  std::set<std::int64_t> completed_;                                    // poses
+  std::size_t unexpected_poses_ = 0;                                    // of them
+  std::size_t queued_bytes_ = 0;                                        // of images in queue_
   bool is_finished_ = false;
   std::atomic<bool> is_broken_off_{false};
   StopToken stop_{[this] { return is_broken_off_.load(); }};

@@ -71,7 +71,7 @@ std::string countersText(const EvaluationOptions& options, const Outcome& outcom
          << ", resumed: " << c.resumed << ", missing_partner: " << c.missing_partner
          << ", undecodable: " << c.undecodable << ", size_mismatch: " << c.size_mismatch
          << ", dropped: " << c.dropped << ", failed: " << c.failed << ", unplaced: " << c.unplaced
-         << ", duplicate: " << c.duplicate << "}\n";
+         << ", duplicate: " << c.duplicate << ", two_places: " << c.two_places << "}\n";
   }
   return text.str();
 }

@@ -187,6 +187,7 @@ std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate:
     add("failed" + pair, c.failed);
     add("unplaced" + pair, c.unplaced);
     add("duplicate" + pair, c.duplicate);
+    add("two_places" + pair, c.two_places);
   }
   if (line.empty()) return stamps.empty() ? "no pair of images came at all" : stamps;
   return stamps + (stamps.empty() ? "" : "; ") + "not evaluated: " + line + "; each is named in " +

@@ -30,7 +30,7 @@ Spread taken(double mm_per_h, double exposure_s, int pictures) {
     image::RainStreaks rain;
     rain.mm_per_h = mm_per_h;
     rain.seed = 11;
-    rain.moment.index = i;
+    rain.moment = i;
     rain.exposure_s = exposure_s;
     image::addRain(rain, {lens, level, Motion(), depth}, &picture);
     for (std::size_t p = 0; p < picture.data.size(); p += 3) {

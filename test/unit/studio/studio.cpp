@@ -122,9 +122,9 @@ Developed byHand(const StudioOptions& options, const Taken& taken, bool glare_fi
   const Eigen::Array3f before = image::meanLuminance(luminance).cast<float>();
   const Eigen::Array3f above = taken.day.groundIlluminance().value / kPiFloat;
   const sky::Rain rain = taken.day.rain();
-  const image::RainStreaks streaks{
-      rain.mm_per_h,           rain.seed,    taken.name, image::streakTime_s(chain.shutter, ev100),
-      0.5F * (before + above), rain.wind_m_s};
+  const image::RainStreaks streaks{rain.mm_per_h,           rain.seed,
+                                   taken.name.index,        image::streakTime_s(chain.shutter, ev100),
+                                   0.5F * (before + above), rain.wind_m_s};
   const scene::Shelter shelter(*world.geometry->scene);
   image::addRain(streaks,
                  {lens, taken.map_from_camera * linkFromOptical(), taken.motion, renderer.depth(),
@@ -149,6 +149,18 @@ TEST(Studio, TakesThePictureThatItsPartsMakeInTheirOrder) {
   EXPECT_EQ(developed.picture.data, expected.picture.data);
   // It would show if glare came first.
   EXPECT_NE(byHand(options, taken, true).picture.data, expected.picture.data);
+}
+
+TEST(Studio, TheSameDropsFallInEveryConditionOfOneMoment) {
+  Studio studio(boxes());  // without grain, which is each picture's own
+  const Taken taken = inRain();
+  studio.look(taken.map_from_camera, {}, taken.motion);
+  const light::Illumination light = studio.illumination(taken.day);
+  const auto pictureOf = [&](const image::PictureName& name) {
+    return studio.photograph(light, name).picture.data;
+  };
+  EXPECT_EQ(pictureOf({7, "noon"}), pictureOf({7, "dusk"}));
+  EXPECT_NE(pictureOf({7, "noon"}), pictureOf({8, "noon"}));
 }
 
 TEST(Studio, TakesPicturesWithAsManyChainsAsItHas) {

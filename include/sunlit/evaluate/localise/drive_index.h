@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,8 +17,9 @@
 
 namespace sunlit::evaluate {
 
-/// The number that counts of a pose, from its stamp and the number that it was observed with.
-using PoseOfStamp = std::function<std::int64_t(std::int64_t stamp_ns, std::int64_t pose)>;
+/// The number that counts of a pose, from its stamp and the number that it was observed with; nothing where
+/// what was observed then does not count.
+using PoseOfStamp = std::function<std::optional<std::int64_t>(std::int64_t stamp_ns, std::int64_t pose)>;
 
 /// Where an observation is.
 struct Observed {

@@ -65,12 +65,14 @@ struct PairCounts {
   std::size_t missing_partner = 0;  ///< one image never came, or both
   std::size_t undecodable = 0;
   std::size_t size_mismatch = 0;
-  std::size_t dropped = 0;    ///< given up to bound the memory, or since the run was broken off
-  std::size_t failed = 0;     ///< the comparison itself failed
-  std::size_t unplaced = 0;   ///< no capture said which pose it is, or the stamp lies before the first
-  std::size_t duplicate = 0;  ///< an earlier stamp is of the same pose; that one counts
+  std::size_t dropped = 0;     ///< given up to bound the memory, or since the run was broken off
+  std::size_t failed = 0;      ///< the comparison itself failed
+  std::size_t unplaced = 0;    ///< no capture said which pose it is, or the stamp lies before the first
+  std::size_t duplicate = 0;   ///< an earlier stamp is of the same pose; that one counts
+  std::size_t two_places = 0;  ///< poses of its stamp differ: its images may be of two recordings
   std::size_t notEvaluated() const {
-    return missing_partner + undecodable + size_mismatch + dropped + failed + unplaced + duplicate;
+    return missing_partner + undecodable + size_mismatch + dropped + failed + unplaced + duplicate +
+           two_places;
   }
 };
 
@@ -164,6 +166,8 @@ class Evaluation {
   /// where the camera stood, and a stream's camera. Of what comes twice the last counts. Stamps wait for
   /// them.
   void addDepth(std::int64_t stamp_ns, const Told<cv::Mat>& depth);
+  /// Whatever is localised: pairs of a stamp of which poses of different places come are not evaluated (more
+  /// than 1 cm or 0.1° apart), but for those of one stream with itself, and nothing of it is localised.
   void addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d>& map_from_optical);
   void addCamera(std::size_t stream, const Told<ViewCamera>& camera);
 

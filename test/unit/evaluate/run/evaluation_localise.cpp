@@ -327,6 +327,27 @@ TEST(EvaluationLocalise, WhatIsMissingIsNamedAndCounted) {
       << problems;
 }
 
+TEST(EvaluationLocalise, PicturesOfTwoPlacesAreNeitherKeyFrameNorQuery) {
+  for (const bool is_late : {false, true}) {
+    const TemporaryFolder folder;
+    Evaluation evaluation(localising(folder), {});
+    const auto other = [&] { evaluation.addTruePose(stampOf(2), told(viewOf(3).map_from_optical)); };
+    for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+      feedTruth(evaluation, pose);
+      if (pose == 2 && !is_late) other();
+      feedImages(evaluation, pose);
+    }
+    evaluation.waitForRoom(0);
+    if (is_late) other();
+    const Outcome outcome = evaluation.finish();
+    for (const PairCounts& pair : outcome.counts.pairs) EXPECT_EQ(pair.two_places, 1u);
+    const LocalisationOutcome localised = evaluation.localise({});
+    EXPECT_EQ(localised.queries, 12u) << "3 poses of 2 streams by 2 detectors";
+    const std::string rows = contentOf(folder.file("out/localisation.csv"));
+    EXPECT_FALSE(hasLine(rows, "2,500.200000000,")) << rows;
+  }
+}
+
 TEST(EvaluationLocalise, SaysWhatIsLeftOutSinceItIsNotCompared) {
   const TemporaryFolder folder;
   EvaluationOptions options = localising(folder);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "sunlit/quantity/angle.h"
 #include "unit/evaluate/run/small_evaluation.h"
 
 namespace sunlit::evaluate {
@@ -191,6 +192,63 @@ TEST(WhereTheCameraStood, IsLeftOutAndNamedWhereItIsNoPlace) {
   const std::string problems = contentOf(folder.file("out/problems.csv"));
   EXPECT_TRUE(hasLine(problems, "unusable,,500.100000000,pose,")) << problems;
   EXPECT_TRUE(hasLine(problems, "unusable,,500.200000000,pose,")) << problems;
+}
+
+/// At x, looking so far to the left.
+Told<Eigen::Isometry3d> stoodAt(double x_m, double left_deg = 0.0) {
+  Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
+  map_from_optical.translate(Eigen::Vector3d(x_m, 2.0, 1.0));
+  map_from_optical.rotate(Eigen::AngleAxisd(left_deg * kRadPerDeg, Eigen::Vector3d::UnitZ()));
+  return told(map_from_optical);
+}
+
+/// Two recordings: their stamps coincide at pose 1, the second of them is of `other`.
+Outcome ofTwoRecordings(const TemporaryFolder& folder, const Told<Eigen::Isometry3d>& other, bool is_late) {
+  EvaluationOptions options = optionsFor(folder);
+  options.pairs = {{"h04", "h12", 1}, {"h04", "h04", 1}};
+  options.poses.count = 3;
+  Evaluation evaluation(options, {});
+  for (std::int64_t pose = 0; pose < 3; ++pose) {
+    evaluation.addTruePose(stampOf(pose), stoodAt(0.0));
+    if (pose == 1 && !is_late) evaluation.addTruePose(stampOf(pose), other);
+    feedPose(evaluation, pose);
+  }
+  evaluation.waitForRoom(0);
+  if (is_late) evaluation.addTruePose(stampOf(1), other);
+  EXPECT_TRUE(evaluation.isComplete());
+  return evaluation.finish();
+}
+
+TEST(OnePlace, ImagesOfOneStampButTwoPlacesAreNotComparedWheneverThatIsKnown) {
+  for (const bool is_late : {false, true}) {
+    const TemporaryFolder folder;
+    const Outcome outcome = ofTwoRecordings(folder, stoodAt(2.5, 10.0), is_late);
+    EXPECT_FALSE(outcome.isWhole());
+    EXPECT_EQ(outcome.counts.pairs[0].two_places, 1u) << is_late;
+    EXPECT_EQ(outcome.counts.pairs[0].evaluated, 2u) << is_late;
+    EXPECT_EQ(outcome.counts.pairs[1].two_places, 0u) << "a stream is where it is itself";
+    EXPECT_EQ(outcome.counts.pairs[1].evaluated, 3u) << is_late;
+    const std::string frames = contentOf(folder.file("out/frames.csv"));
+    EXPECT_FALSE(hasLine(frames, "1,500.100000000,h04,h12,")) << frames;
+    EXPECT_TRUE(hasLine(frames, "1,500.100000000,h04,h04,")) << frames;
+    const std::string problems = contentOf(folder.file("out/problems.csv"));
+    EXPECT_TRUE(hasLine(problems,
+                        "two_places,1,500.100000000,h04-h12,two poses of this stamp are 2.5 m and 10 deg "
+                        "apart: are these two recordings?"))
+        << problems;
+    EXPECT_NE(contentOf(folder.file("out/run.yaml")).find("two_places: 1}"), std::string::npos);
+  }
+}
+
+TEST(OnePlace, IsTheSameWithinWhatHardlyMovesAPixel) {
+  const auto two_places = [](const Told<Eigen::Isometry3d>& other) {
+    const TemporaryFolder folder;
+    return ofTwoRecordings(folder, other, false).counts.pairs[0].two_places;
+  };
+  EXPECT_EQ(two_places(stoodAt(0.0)), 0u) << "sent twice";
+  EXPECT_EQ(two_places(stoodAt(0.009, 0.09)), 0u);
+  EXPECT_EQ(two_places(stoodAt(0.011)), 1u);
+  EXPECT_EQ(two_places(stoodAt(0.0, 0.11)), 1u);
 }
 
 }  // namespace
