@@ -129,6 +129,8 @@ std::string withJson(const std::string& file, std::string text) {
 }  // namespace
 
 void requireGltf2(const json& root, const std::string& file) {
+  if (!root.contains("asset"))
+    throw std::runtime_error(file + ": this is no glTF file: it has no \"asset\", which tells its version");
   const json& version = child(child(root, "asset"), "version");
   if (!version.is_string()) return;  // Assimp says what it misses
   const std::string text = version.get<std::string>();

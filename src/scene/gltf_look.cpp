@@ -319,7 +319,8 @@ class LookReader {
     name("KHR_materials_clearcoat", "clearcoatFactor", "a clear coat: without it");
     name("KHR_materials_sheen", "sheenColorFactor", "sheen: without it");
     name("KHR_materials_volume", "thicknessFactor",
-         "a volume: as if it were hollow, its surface coloured as its depth");
+         look_.material.glass > 0.0f ? "a volume: as if it were hollow, its surface coloured as its depth"
+                                     : "a volume: as if it were hollow");
     name("KHR_materials_iridescence", "iridescenceFactor", "iridescence: without it");
     name("KHR_materials_anisotropy", "anisotropyStrength", "anisotropy: the same in all directions");
     name("KHR_materials_dispersion", "dispersion", "dispersion: without it");

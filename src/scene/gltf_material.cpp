@@ -57,7 +57,7 @@ GltfMaterials::GltfMaterials(const std::string& file, SceneBuilder& builder)
     builder_.warn("glTF files turn nodes by quaternions that are not of length 1, which they are made",
                   std::to_string(mends.turns) + " in " + file);
   if (mends.primitives > 0)
-    builder_.warn("glTF files have parts of meshes without a corner, which are left out",
+    builder_.warn("glTF files have parts of meshes with no or too few corners, which are left out",
                   std::to_string(mends.primitives) + " in " + file);
   try {
     requireReadableGltf(root, file);
@@ -101,11 +101,19 @@ void GltfMaterials::addLights(const Eigen::Affine3d& up_from_file) const {
   addGltfLights(json_->root, file_, up_from_file, builder_);
 }
 
-void GltfMaterials::nameTheRest() const {
+void GltfMaterials::nameTheRest(std::uint64_t triangles) const {
   for (const std::string& name : unknown("extensionsUsed"))
     builder_.warn("glTF extensions are not read", name + " of " + file_);
   for (const std::string& lost : shapesNotRead(json_->root, file_))
     builder_.warn("nodes have a shape that is not read whole", lost);
+  try {
+    const std::uint64_t told = trianglesOfScene(json_->root);
+    if (told > triangles)
+      builder_.warn("files have triangles of vertices that are not there, they are left out",
+                    std::to_string(told - triangles) + " in " + file_);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(file_ + ": its scene, nodes and meshes: " + error.what());
+  }
 }
 
 std::string GltfMaterials::whatItNeeds() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -59,8 +60,9 @@ class GltfMaterials {
   /// addGltfLights() of the file.
   void addLights(const Eigen::Affine3d& up_from_file) const;
 
-  /// Warns of what the file says beside its materials, and neither this package nor Assimp reads.
-  void nameTheRest() const;
+  /// Warns of what the file says beside its materials, and neither this package nor Assimp reads, which has
+  /// made so many triangles.
+  void nameTheRest(std::uint64_t triangles) const;
   /// "; it needs …" with the extensions that are not read, which the file says it cannot do without; or
   /// nothing.
   std::string whatItNeeds() const;

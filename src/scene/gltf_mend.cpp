@@ -27,23 +27,27 @@ std::size_t leaveOutExtras(json& root) {
   return count;
 }
 
-/// Of an accessor; one where it does not say so, which is wrong in other ways.
+/// Of an accessor; many where it does not say so, which is wrong in other ways.
 std::uint64_t countOf(const json& root, const json& index) {
+  constexpr std::uint64_t kMany = 3;
   const json& accessors = child(root, "accessors");
-  if (!index.is_number_unsigned() || !accessors.is_array()) return 1;
+  if (!index.is_number_unsigned() || !accessors.is_array()) return kMany;
   const auto number = index.get<std::uint64_t>();
-  if (number >= accessors.size()) return 1;
+  if (number >= accessors.size()) return kMany;
   const json& count = child(accessors[number], "count");
-  return count.is_number_unsigned() ? count.get<std::uint64_t>() : 1;
+  return count.is_number_unsigned() ? count.get<std::uint64_t>() : kMany;
 }
 
-/// Positions are optional (glTF 2.0, section 3.7.2.1); without, nothing is drawn.
+/// Positions are optional (glTF 2.0, section 3.7.2.1); without, or with too few corners, nothing is drawn.
 bool isVoid(const json& root, const json& primitive) {
   if (!primitive.is_object()) return false;
   const json& attributes = child(primitive, "attributes");
   if (!attributes.is_object() || !attributes.contains("POSITION")) return true;
+  const json& mode = child(primitive, "mode");
+  const std::uint64_t kind = mode.is_number_unsigned() ? mode.get<std::uint64_t>() : 4;
+  const std::uint64_t least = kind == 0 ? 1 : kind < 4 ? 2 : 3;  // points, lines, triangles
   return countOf(root, attributes["POSITION"]) == 0 ||
-         (primitive.contains("indices") && countOf(root, primitive["indices"]) == 0);
+         countOf(root, primitive.contains("indices") ? primitive["indices"] : attributes["POSITION"]) < least;
 }
 
 std::size_t leaveOutPrimitives(json& root) {

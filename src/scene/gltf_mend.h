@@ -8,7 +8,7 @@ namespace sunlit::scene {
 /// What was changed.
 struct GltfMends {
   std::size_t extras = 0;      ///< of other types than objects, which glTF 2.0 allows, left out
-  std::size_t primitives = 0;  ///< of no triangle, line or point, left out
+  std::size_t primitives = 0;  ///< of too few corners for a triangle, line or point, left out
   std::size_t turns = 0;       ///< of nodes, whose quaternions would have scaled them
   bool scene = false;          ///< there was none: now there is one of all nodes
 

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -189,6 +190,13 @@ struct Collector {
   }
 };
 
+std::uint64_t trianglesIn(const aiScene& scene) {
+  std::uint64_t count = 0;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i)
+    count += hasSurface(*scene.mMeshes[i]) ? scene.mMeshes[i]->mNumFaces : 0;
+  return count;
+}
+
 /// Asks for what is made of `node` and those below it: a mesh of a file may be shown by any number of nodes.
 void askFor(const aiNode& node, const aiScene& scene, const std::string& file, TriangleBudget& budget) {
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
@@ -324,7 +332,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
                              (gltf ? gltf_materials->whatItNeeds() : ""));
   }
 
-  if (gltf) gltf_materials->nameTheRest();
+  if (gltf) gltf_materials->nameTheRest(trianglesIn(*scene));
   std::vector<std::string> names;
   for (unsigned i = 0; i < scene->mNumMaterials; ++i)
     names.emplace_back(scene->mMaterials[i]->GetName().C_Str());
