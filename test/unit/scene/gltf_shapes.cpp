@@ -235,6 +235,9 @@ TEST_F(GltfShape, OfTooFewCornersIsThatOfTheOthers) {
 
 // Indices beyond the vertices, and attributes of fewer: Assimp passes over both without a word.
 TEST_F(GltfShape, WithNumbersThatDoNotFitIsNamed) {
+#ifdef SUNLIT_OLD_ASSIMP
+  GTEST_SKIP() << "Assimp 5.0 takes indices as they are";
+#endif
   write("numbers.bin", kNumbers);
   Parts parts;
   parts.primitive = R"("attributes":{"POSITION":0,"NORMAL":4},"indices":5)";
