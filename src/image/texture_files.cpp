@@ -9,9 +9,12 @@
 #include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "image/tga.h"
 
 namespace sunlit::image {
 namespace {
@@ -96,6 +99,7 @@ Size sizeInHeader(const std::uint8_t* bytes, std::size_t size) {
     const auto height = static_cast<std::int32_t>(littleEndian(bytes + 22));  // below 0: top row first
     return {littleEndian(bytes + 18), std::abs(std::int64_t{height})};
   }
+  if (const std::optional<TgaSize> tga = sizeOfTga(bytes, size)) return {tga->width, tga->height};
   return isJpeg(bytes, size) ? sizeOfJpeg(bytes, size) : Size{};
 }
 
@@ -112,7 +116,31 @@ int decodingFlags(int longest_px, const std::uint8_t* bytes, std::size_t size) {
   return cv::IMREAD_UNCHANGED;
 }
 
+/// What the bytes are that OpenCV does not decode: a format that textures have elsewhere, by what its files
+/// begin with; empty for others.
+std::string formatOf(const std::uint8_t* bytes, std::size_t size) {
+  struct Format {
+    std::size_t at;
+    std::string begin;
+    const char* name;
+  };
+  static const std::vector<Format> formats = {
+      {0, "DDS ", "DDS"},      {0, "GIF8", "GIF"},       {0, "\xABKTX 20", "KTX2"}, {0, "\xABKTX 11", "KTX"},
+      {0, "sB", "Basis"},      {0, "8BPS", "Photoshop"}, {4, "ftypavif", "AVIF"},   {4, "ftyphei", "HEIF"},
+      {0, "gimp xcf", "GIMP"}, {0, "<svg", "SVG"}};
+  for (const Format& format : formats) {
+    const std::size_t length = format.begin.size();
+    if (size >= format.at + length && std::memcmp(bytes + format.at, format.begin.data(), length) == 0)
+      return format.name;
+  }
+  return "";
+}
+
 cv::Mat decode(const std::uint8_t* bytes, std::size_t size, const std::string& name, int flags) {
+  if (const std::optional<TgaSize> tga = sizeOfTga(bytes, size)) {
+    std::vector<std::uint8_t> bgra = decodeTga(bytes, size, name);
+    return cv::Mat(tga->height, tga->width, CV_8UC4, bgra.data()).clone();
+  }
   cv::Mat decoded;
   const std::vector<std::uint8_t> kept = withoutProfile(bytes, size);
   if (!kept.empty()) {
@@ -124,8 +152,13 @@ cv::Mat decode(const std::uint8_t* bytes, std::size_t size, const std::string& n
     }
   }
   if (decoded.empty()) {
-    throw std::runtime_error(name +
-                             ": cannot decode this picture; PNG, JPEG, BMP, TIFF and WebP are understood");
+    const std::string format = formatOf(bytes, size);
+    const std::string read = "PNG, JPEG, BMP, TIFF, TGA and WebP are understood";
+    if (format.empty()) throw std::runtime_error(name + ": cannot decode this picture; " + read);
+    const bool packed = format.compare(0, 3, "KTX") == 0 || format == "Basis";
+    throw std::runtime_error(name + ": this is a " + format + " picture, and not read; " + read +
+                             ", whatever the file's name: convert it to PNG, by " +
+                             (packed ? "ktx extract or basisu -unpack" : "ImageMagick or GIMP"));
   }
   return decoded;
 }

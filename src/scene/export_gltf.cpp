@@ -173,9 +173,11 @@ class Writer {
   static std::string extensionsJson(const Material& material, float emissive_strength) {
     std::string text;
     if (material.transmission > 0.0f) {
+      // What comes out on the other side has the colour of the surface here.
       text += ",\"KHR_materials_diffuse_transmission\":{\"diffuseTransmissionFactor\":" +
               number(material.transmission) +
-              ",\"diffuseTransmissionColorFactor\":" + vector3(material.base_color.value) + "}";
+              ",\"diffuseTransmissionColorFactor\":" + vector3(material.base_color.value) +
+              mapJson("diffuseTransmissionColorTexture", TextureUse{material.base_texture}) + "}";
     }
     if (material.glass > 0.0f) {
       text += ",\"KHR_materials_transmission\":{\"transmissionFactor\":" + number(material.glass) + "}";

@@ -131,25 +131,16 @@ class Check {
     return accessor == nullptr ? 0 : whole(*accessor, "count", 0, place);
   }
 
-  /// Assimp makes a face of each triangle, line and point, and gives each primitive vertices of its own, once
-  /// more for each of its targets.
-  void checkSize(const json& primitive, std::uint64_t corners, const std::string& place) {
-    const std::uint64_t vertices = countOf(child(primitive, "attributes"), "POSITION", place);
-    const std::uint64_t mode = whole(primitive, "mode", kTriangles, place);
-    budget_.take(mode == kTriangles ? corners / 3 : corners,
-                 vertices * (1 + child(primitive, "targets").size()), file_ + ": " + place);
-  }
-
   void checkPrimitive(const json& primitive, const std::string& place) {
     const json& attributes = child(primitive, "attributes");
     const std::uint64_t mode = whole(primitive, "mode", kTriangles, place);
     const std::uint64_t corners = primitive.contains("indices") ? countOf(primitive, "indices", place)
                                                                 : countOf(attributes, "POSITION", place);
-    const std::uint64_t least = mode == 2 || mode == 3 ? 2 : mode == 5 || mode == 6 ? 3 : 0;
-    if (corners < least)
-      fail(place, "has a strip, loop or fan of " + std::to_string(corners) + " corners, but it must have " +
-                      std::to_string(least) + " or more");
-    checkSize(primitive, corners, place);
+    // Assimp makes a face of each triangle, line and point, and gives each primitive vertices of its own,
+    // once more for each of its targets.
+    const std::uint64_t vertices = countOf(attributes, "POSITION", place);
+    budget_.take(mode == kTriangles ? corners / 3 : corners,
+                 vertices * (1 + child(primitive, "targets").size()), file_ + ": " + place);
     const std::uint64_t weights = countOf(attributes, "WEIGHTS_0", place);
     std::size_t sets[2] = {0, 0};
     for (const auto& [name, value] : attributes.items()) {

@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 
 bool wantsFloats(const std::string& attribute) {
-  for (const char* const kind : {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_", "WEIGHTS_"})
+  for (const char* const kind : {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_", "WEIGHTS_", "COLOR_"})
     if (attribute.rfind(kind, 0) == 0) return true;
   return false;
 }
@@ -52,7 +52,7 @@ bool useFloats(json& root, GltfBuffers& buffers) {
     root["bufferViews"].push_back(
         json{{"buffer", buffer}, {"byteOffset", all.size()}, {"byteLength", bytes}});
     accessor["componentType"] = kFloatComponent;
-    for (const char* const key : {"byteOffset", "normalized", "min", "max"}) accessor.erase(key);
+    for (const char* const key : {"byteOffset", "normalized", "sparse", "min", "max"}) accessor.erase(key);
     all.append(reinterpret_cast<const char*>(floats.data()), bytes);
   }
   if (all.empty()) return false;

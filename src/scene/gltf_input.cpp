@@ -101,15 +101,21 @@ bool nameJoints(json& root) {
 }
 
 /// Gives textures that are WebP pictures these as their own, in the place of others for readers that have no
-/// WebP. Whether there are any.
-bool useWebp(json& root) {
+/// WebP; those of formats that are not read only where there is no other, so that these are named. Whether
+/// there are any.
+bool usePictures(json& root) {
   bool any = false;
   if (!child(root, "textures").is_array()) return any;
   for (json& texture : root["textures"]) {
-    const json& picture = child(extension(texture, "EXT_texture_webp"), "source");
-    if (!picture.is_number_unsigned()) continue;
-    texture["source"] = picture.get<std::size_t>();
-    any = true;
+    for (const char* const name :
+         {"EXT_texture_webp", "KHR_texture_basisu", "MSFT_texture_dds", "EXT_texture_avif"}) {
+      const json& picture = child(extension(texture, name), "source");
+      const bool wanted = std::string(name) == "EXT_texture_webp" || !texture.contains("source");
+      if (!picture.is_number_unsigned() || !wanted) continue;
+      texture["source"] = picture.get<std::size_t>();
+      any = true;
+      break;
+    }
   }
   return any;
 }
@@ -123,6 +129,8 @@ std::string withJson(const std::string& file, std::string text) {
 }  // namespace
 
 void requireGltf2(const json& root, const std::string& file) {
+  if (!root.contains("asset"))
+    throw std::runtime_error(file + ": this is no glTF file: it has no \"asset\", which tells its version");
   const json& version = child(child(root, "asset"), "version");
   if (!version.is_string()) return;  // Assimp says what it misses
   const std::string text = version.get<std::string>();
@@ -131,9 +139,9 @@ void requireGltf2(const json& root, const std::string& file) {
                              ", and only 2.0 is read: convert it, by Blender or gltf-pipeline");
 }
 
-GltfInput::GltfInput(const std::string& file, json root) : file_(file) {
+GltfInput::GltfInput(const std::string& file, json root, bool mended) : file_(file) {
   GltfBuffers buffers(root, file);
-  bool mended = root.erase("animations") > 0;  // whose numbers Assimp would not check, for nothing
+  mended |= root.erase("animations") > 0;  // whose numbers Assimp would not check, for nothing
   try {
     mended |= unpackViews(root, buffers);
     mended |= placeInstances(root, buffers);
@@ -145,7 +153,7 @@ GltfInput::GltfInput(const std::string& file, json root) : file_(file) {
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(file + ": " + error.what());
   }
-  mended |= useWebp(root);
+  mended |= usePictures(root);
   if (!mended) return;
   made_ = buffers.takeMade();
   mended_ = withJson(file, root.dump());

@@ -15,11 +15,13 @@ void requireGltf2(const nlohmann::json& root, const std::string& file);
 /// Opens the files of a glTF file such that Assimp 5.2 may read them: those whose addresses are written with
 /// escapes (RFC 3986), and skins without matrices of their own, which it does not expect, with those that
 /// section 3.7.3.1 gives them, and joints with names of their own; views unpacked; attributes as floats; a
-/// node for each place of a mesh; textures of WebP; and without animations.
+/// node for each place of a mesh; textures of WebP, and those of extensions where there are no others; and
+/// without animations.
 class GltfInput : public Assimp::DefaultIOSystem {
  public:
-  /// `root` is that of `file`. Throws std::runtime_error that names it.
-  GltfInput(const std::string& file, nlohmann::json root);
+  /// `root` is that of `file`, or, `mended`, what is to be read in its place. Throws std::runtime_error that
+  /// names it.
+  GltfInput(const std::string& file, nlohmann::json root, bool mended);
 
   bool Exists(const char* path) const override;
   Assimp::IOStream* Open(const char* path, const char* mode = "rb") override;

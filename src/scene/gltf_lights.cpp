@@ -84,10 +84,9 @@ class LampReader {
 
 }  // namespace
 
-void addGltfLights(const std::string& file, const Eigen::Affine3d& up_from_file, SceneBuilder& builder) {
-  const std::string text = gltfParts(file).json;
-  if (text.find(kLights) == std::string::npos) return;
-  const json root = parseGltf(text, file);
+void addGltfLights(const json& root, const std::string& file, const Eigen::Affine3d& up_from_file,
+                   SceneBuilder& builder) {
+  if (extension(root, kLights).empty()) return;
   try {
     LampReader reader(root, builder);
     const json& scenes = child(root, "scenes");

@@ -1,7 +1,8 @@
 /// What a glTF file says of its materials, read from its JSON: Assimp hands on but a part.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -32,6 +33,7 @@ struct GltfLook {
   Material material;
   std::vector<CoordinateRecipe> coordinates;
   bool vanishes = false;  ///< its alpha is below its cutoff everywhere
+  bool fades = false;     ///< alpha counts, that of its vertices, too
 };
 
 class GltfMaterials {
@@ -52,8 +54,15 @@ class GltfMaterials {
   /// What Assimp reads the file through.
   std::unique_ptr<GltfInput> input() const;
 
-  /// Warns of what the file says beside its materials, and neither this package nor Assimp reads.
-  void nameTheRest() const;
+  /// materialsInFile().
+  std::vector<std::size_t> order(const std::vector<std::string>& names) const;
+
+  /// addGltfLights() of the file.
+  void addLights(const Eigen::Affine3d& up_from_file) const;
+
+  /// Warns of what the file says beside its materials, and neither this package nor Assimp reads, which has
+  /// made so many triangles.
+  void nameTheRest(std::uint64_t triangles) const;
   /// "; it needs …" with the extensions that are not read, which the file says it cannot do without; or
   /// nothing.
   std::string whatItNeeds() const;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "scene/gltf_json.h"
 
@@ -46,6 +47,46 @@ Component componentOf(const json& accessor) {
   }
 }
 
+/// What stands in a view: `count` elements of `bytes` each.
+struct Elements {
+  std::size_t count, bytes;
+};
+
+/// The first of the elements that `from`, an accessor or a part of a sparse one, tells, and the bytes from
+/// each to the next.
+std::pair<const char*, std::size_t> found(const json& root, const json& from, const Elements& elements,
+                                          GltfBuffers& buffers) {
+  const json& view = child(root, "bufferViews").at(indexOf(from.at("bufferView")));
+  const std::size_t stride = indexOf(view, "byteStride", elements.bytes);
+  const std::string& bytes = buffers.bytes(indexOf(view.at("buffer")));
+  const std::size_t begin = indexOf(view, "byteOffset", 0) + indexOf(from, "byteOffset", 0);
+  if (elements.count == 0) return {nullptr, stride};
+  if (begin > bytes.size() || stride == 0 || (bytes.size() - begin) / stride + 1 < elements.count ||
+      begin + (elements.count - 1) * stride + elements.bytes > bytes.size())
+    throw std::runtime_error("an attribute reaches beyond its buffer");
+  return {bytes.data() + begin, stride};
+}
+
+/// Which elements a sparse accessor changes, each below `count`.
+std::vector<std::size_t> changedBy(const json& root, const json& sparse, std::size_t count,
+                                   GltfBuffers& buffers) {
+  const json& told = sparse.at("indices");
+  const std::size_t type = indexOf(told.at("componentType")), bytes = type == 5121 ? 1 : type == 5123 ? 2 : 4;
+  const Elements elements{indexOf(sparse.at("count")), bytes};
+  const auto [first, stride] = found(root, told, elements, buffers);
+  std::vector<std::size_t> changed;
+  for (std::size_t i = 0; i < elements.count; ++i) {
+    std::size_t index = 0;
+    for (std::size_t k = bytes; k-- > 0;)  // little-endian
+      index = index << 8 | static_cast<std::uint8_t>(first[i * stride + k]);
+    if (index >= count)
+      throw std::runtime_error("a sparse attribute changes element " + std::to_string(index) + " of " +
+                               std::to_string(count));
+    changed.push_back(index);
+  }
+  return changed;
+}
+
 }  // namespace
 
 bool tellsWholeNumbers(const json& accessor) {
@@ -57,24 +98,23 @@ std::vector<float> floatsOf(const json& root, const json& accessor, GltfBuffers&
   const Component component = componentOf(accessor);
   if (component.read == nullptr)
     throw std::runtime_error("an attribute is neither of floats nor of whole numbers of 8 or 16 bits");
-  if (!child(accessor, "sparse").empty())
-    throw std::runtime_error("sparse whole numbers are not read: export it without KHR_mesh_quantization");
-  const json& view = child(root, "bufferViews").at(indexOf(accessor.at("bufferView")));
-  const std::size_t numbers = numbersOfElement(accessor), size = numbers * component.bytes;
-  const std::size_t stride = indexOf(view, "byteStride", size), count = indexOf(accessor.at("count"));
-  const std::string& bytes = buffers.bytes(indexOf(view.at("buffer")));
-  const std::size_t begin = indexOf(view, "byteOffset", 0) + indexOf(accessor, "byteOffset", 0);
-  std::vector<float> floats;
-  if (count == 0) return floats;
-  if (begin > bytes.size() || stride == 0 || (bytes.size() - begin) / stride + 1 < count ||
-      begin + (count - 1) * stride + size > bytes.size())
-    throw std::runtime_error("an attribute reaches beyond its buffer");
+  const std::size_t numbers = numbersOfElement(accessor), count = indexOf(accessor.at("count"));
+  const Elements elements{count, numbers * component.bytes};
   const bool normalized = accessor.value("normalized", false);
-  floats.reserve(count * numbers);
-  for (std::size_t i = 0; i < count; ++i) {
+  const bool in_view = accessor.contains("bufferView");
+  const auto [base, step] =
+      in_view ? found(root, accessor, elements, buffers) : std::pair<const char*, std::size_t>();
+  std::vector<float> floats(count * numbers, 0.0f);
+  const auto read = [&](const char* from, std::size_t element) {
     for (std::size_t k = 0; k < numbers; ++k)
-      floats.push_back(component.read(bytes.data() + begin + i * stride + k * component.bytes, normalized));
-  }
+      floats[element * numbers + k] = component.read(from + k * component.bytes, normalized);
+  };
+  for (std::size_t i = 0; in_view && i < count; ++i) read(base + i * step, i);
+  const json& sparse = child(accessor, "sparse");
+  if (sparse.empty()) return floats;
+  const std::vector<std::size_t> changed = changedBy(root, sparse, count, buffers);
+  const auto [first, stride] = found(root, sparse.at("values"), {changed.size(), elements.bytes}, buffers);
+  for (std::size_t i = 0; i < changed.size(); ++i) read(first + i * stride, changed[i]);
   return floats;
 }
 

@@ -59,8 +59,8 @@ bool fits(const std::vector<std::size_t>& order, const json& materials,
 
 }  // namespace
 
-std::vector<std::size_t> materialsInFile(const std::string& file, const std::vector<std::string>& names) {
-  const json root = parseGltf(gltfParts(file).json, file);
+std::vector<std::size_t> materialsInFile(const json& root, const std::string& file,
+                                         const std::vector<std::string>& names) {
   const json& materials = child(root, "materials");
   std::vector<std::size_t> order;
   try {

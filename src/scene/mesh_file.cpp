@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -20,8 +21,6 @@
 #include "scene/collada_check.h"
 #include "scene/collada_text.h"
 #include "scene/color.h"
-#include "scene/gltf_lights.h"
-#include "scene/gltf_order.h"
 #include "scene/mesh_material.h"
 #include "scene/mesh_rest.h"
 #include "scene/mesh_vertices.h"
@@ -154,7 +153,7 @@ struct Collector {
   const Eigen::Affine3d up_from_file;
   std::vector<MeshPart> parts = {};
   std::size_t lines_and_points = 0;           ///< left out
-  std::vector<std::size_t> fading = {};       ///< parts whose vertex colours have an alpha
+  std::vector<std::string> fading = {};       ///< names of parts that lose the alpha of vertex colours
   std::vector<std::string> loose_skins = {};  ///< names of parts whose joints are not known
 
   void collect(const aiNode& node, const Eigen::Affine3d& up_from_parent) {
@@ -169,7 +168,7 @@ struct Collector {
       part.bare = look->bare;
       takeRest(source, part);
       part.mesh.name = part.node.empty() ? part.geometry : part.node;
-      if (hasAlpha(source.mColors[0], source.mNumVertices)) fading.push_back(parts.size());
+      if (look->fades && hasAlpha(source.mColors[0], source.mNumVertices)) fading.push_back(part.mesh.name);
       parts.push_back(std::move(part));
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i) collect(*node.mChildren[i], up_from_node);
@@ -190,6 +189,13 @@ struct Collector {
       keepUsed(part.mesh);  // several primitives may share the vertices of all
   }
 };
+
+std::uint64_t trianglesIn(const aiScene& scene) {
+  std::uint64_t count = 0;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i)
+    count += hasSurface(*scene.mMeshes[i]) ? scene.mMeshes[i]->mNumFaces : 0;
+  return count;
+}
 
 /// Asks for what is made of `node` and those below it: a mesh of a file may be shown by any number of nodes.
 void askFor(const aiNode& node, const aiScene& scene, const std::string& file, TriangleBudget& budget) {
@@ -261,13 +267,10 @@ void readCollada(const std::string& file, Assimp::Importer& importer, SceneBuild
     builder.warn("meshes have polygons with holes, which are filled", file);
 }
 
-/// What of the parts is lost; alpha of vertex colours, where it would matter.
+/// What of the parts is lost.
 void warnOfLosses(const Collector& collector, const std::string& file, SceneBuilder& builder) {
-  for (const std::size_t i : collector.fading) {
-    const Mesh& mesh = collector.parts[i].mesh;
-    if (builder.material(mesh.material).alpha_mode != AlphaMode::kOpaque)
-      builder.warn("alpha of vertex colours was left out", mesh.name + " of " + file);
-  }
+  for (const std::string& mesh : collector.fading)
+    builder.warn("alpha of vertex colours was left out", mesh + " of " + file);
   for (const std::string& skin : collector.loose_skins)
     builder.warn("skins have joints that cannot be told apart, they stand where their nodes do",
                  skin + " of " + file);
@@ -329,13 +332,13 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
                              (gltf ? gltf_materials->whatItNeeds() : ""));
   }
 
-  if (gltf) gltf_materials->nameTheRest();
+  if (gltf) gltf_materials->nameTheRest(trianglesIn(*scene));
   std::vector<std::string> names;
   for (unsigned i = 0; i < scene->mNumMaterials; ++i)
     names.emplace_back(scene->mMaterials[i]->GetName().C_Str());
   const std::vector<std::optional<MeshLook>> looks =
       addMaterials(*scene, MeshFileContext{file, gltf ? &*gltf_materials : nullptr, finder, builder,
-                                           gltf ? materialsInFile(file, names) : std::vector<std::size_t>()});
+                                           gltf ? gltf_materials->order(names) : std::vector<std::size_t>()});
   // Assimp turns a COLLADA file whose up_axis it honours to +Y up. glTF always is.
   const bool y_up = (gltf || collada) && up_axis == UpAxis::kAsDeclared;
   const Eigen::Affine3d up_from_file = y_up ? zUpFromYUp() : Eigen::Affine3d::Identity();
@@ -344,7 +347,7 @@ std::vector<MeshPart> readMeshFile(const std::string& file, UpAxis up_axis, cons
   Collector collector{*scene, looks, gltf, up_from_file};
   collector.collect(*scene->mRootNode, up_from_file);
   warnOfLosses(collector, file, builder);
-  if (up_axis == UpAxis::kAsDeclared && gltf) addGltfLights(file, up_from_file, builder);
+  if (up_axis == UpAxis::kAsDeclared && gltf) gltf_materials->addLights(up_from_file);
   if (up_axis == UpAxis::kAsDeclared && !gltf) addLamps(*scene, up_from_file, builder);
   if (!gltf) partBackToBack(collector.parts, builder);  // which says itself what is one-sided
   return std::move(collector.parts);

@@ -267,7 +267,9 @@ std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
                                         const MeshFileContext& context) {
   const aiMaterial& source = *scene.mMaterials[index];
   if (!context.gltf) {
-    return MeshLook{addPhong(source, scene, context), {CoordinateRecipe()}, isBare(source)};
+    const int material = addPhong(source, scene, context);
+    const bool fades = context.builder.material(material).alpha_mode != AlphaMode::kOpaque;
+    return MeshLook{material, {CoordinateRecipe()}, isBare(source), fades};
   }
   const std::optional<GltfLook> look =
       context.gltf->look(context.gltf_order.at(index), [&](GltfMaterials::Slot slot, const Wraps& wraps) {
@@ -295,8 +297,8 @@ std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
                          look->material.name + " of " + context.file);
     return std::nullopt;
   }
-  return MeshLook{context.builder.addMaterial(look->material, AlphaRule::kDeclared), look->coordinates,
-                  false};
+  return MeshLook{context.builder.addMaterial(look->material, AlphaRule::kDeclared), look->coordinates, false,
+                  look->fades};
 }
 
 }  // namespace sunlit::scene

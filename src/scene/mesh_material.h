@@ -19,7 +19,7 @@ struct MeshFileContext {
   const GltfMaterials* gltf;  ///< null: COLLADA or OBJ, whose materials mean other things
   const ResourceFinder& finder;
   SceneBuilder& builder;
-  std::vector<std::size_t> gltf_order = {};  ///< materialsInFile() of a glTF file
+  std::vector<std::size_t> gltf_order = {};  ///< GltfMaterials::order() of a glTF file
 };
 
 /// A material in the builder, and the texture coordinates that it wants of its meshes.
@@ -27,6 +27,7 @@ struct MeshLook {
   int material;
   std::vector<CoordinateRecipe> coordinates;  ///< the first is Mesh::texture_coordinates
   bool bare = false;                          ///< MeshPart::bare
+  bool fades = false;                         ///< alpha counts, that of its vertices, too
 };
 
 /// Adds material `index` of `scene` to the builder. A missing texture is a warning and a neutral grey. None,

@@ -10,6 +10,7 @@
 
 #include "scene/cofactors.h"
 #include "scene/color.h"
+#include "scene/square_texels.h"
 #include "scene/texture_alpha.h"
 #include "sunlit/image/texture_files.h"
 #include "sunlit/scene/material_maps.h"
@@ -119,7 +120,8 @@ int SceneBuilder::textureFromBytes(const std::string& name, std::vector<std::uin
 }
 
 int SceneBuilder::addTexture(const std::string& key, TextureSource source) {
-  const int wraps = 3 * static_cast<int>(source.wraps.u) + static_cast<int>(source.wraps.v);
+  const int wraps = 3 * static_cast<int>(source.wraps.u) + static_cast<int>(source.wraps.v) +
+                    (source.wraps.squares ? 9 : 0);
   const auto [place, is_new] =
       texture_by_key_.emplace(std::make_pair(key, wraps), static_cast<int>(sources_.size()));
   if (is_new) sources_.push_back(std::move(source));
@@ -272,6 +274,8 @@ SceneBuilder::Decoded SceneBuilder::decoded(const TextureSource& source) {
       decoded.lost_opacity = error.what();
     }
   }
+  decoded.blended = source.wraps.squares && std::max(picture.width, picture.height) > kLongestOfSquares;
+  if (source.wraps.squares) picture = withSquares(picture);
   decoded.texture = {name,           picture.width, picture.height, std::move(picture.data),
                      source.wraps.u, source.wraps.v};
   return decoded;
@@ -282,12 +286,14 @@ void SceneBuilder::decodeTextures() {
   std::vector<std::string> errors(sources_.size());
   std::vector<std::string> sizes(sources_.size());
   std::vector<std::string> lost(sources_.size());
+  std::vector<char> blended(sources_.size(), 0);
   tbb::parallel_for(std::size_t{0}, sources_.size(), [&](std::size_t i) {
     try {
       Decoded texture = decoded(sources_[i]);
       scene_.textures[i] = std::move(texture.texture);
       sizes[i] = std::move(texture.size_in_file);
       lost[i] = std::move(texture.lost_opacity);
+      blended[i] = texture.blended ? 1 : 0;
     } catch (const std::runtime_error& error) {
       errors[i] = error.what();
     }
@@ -297,6 +303,8 @@ void SceneBuilder::decodeTextures() {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     if (!lost[i].empty()) warn("pictures of opacity cannot be decoded, what has them is whole", lost[i]);
     if (!sizes[i].empty()) warn(shrunk, sources_[i].name + " of " + sizes[i]);
+    if (blended[i])
+      warn("textures are too large for hard edges between texels, they are blended", sources_[i].name);
     if (errors[i].empty()) continue;
     warn("textures cannot be decoded, a neutral material takes their place", errors[i]);
     forgetTexture(static_cast<int>(i));

@@ -48,9 +48,11 @@ bool canShine(const Lamp& lamp);
 /// "; " before each of the warnings of a scene in which there is nothing: why that is so.
 std::string reasonsOf(const std::vector<std::string>& warnings);
 
-/// How a texture goes on to the sides, and up and down.
+/// How a texture goes on to the sides, and up and down, and whether its texels are squares with nothing
+/// blended between them.
 struct Wraps {
   Wrap u = Wrap::kRepeat, v = Wrap::kRepeat;
+  bool squares = false;
 };
 
 class SceneBuilder {
@@ -109,6 +111,7 @@ class SceneBuilder {
   struct Decoded {
     Texture texture;
     std::string size_in_file, lost_opacity;  ///< the latter: why it cannot be decoded
+    bool blended = false;                    ///< although its texels were to be squares
   };
   struct Kind {
     std::size_t times = 0;

@@ -11,9 +11,9 @@ namespace sunlit::image {
 
 using Rgba8Image = Picture<std::uint8_t, 4>;  ///< colour sRGB-encoded, alpha linear, not premultiplied
 
-/// Decodes a PNG, JPEG, BMP, TIFF, or WebP picture held in memory. Grey becomes three equal channels, 16 bit
-/// is rounded to 8, a missing alpha is 255. Throws std::runtime_error naming `name` if the bytes cannot be
-/// decoded.
+/// Decodes a PNG, JPEG, BMP, TIFF, TGA or WebP picture held in memory, by its content. Grey becomes three
+/// equal channels, 16 bit is rounded to 8, a missing alpha is 255. Throws std::runtime_error naming `name` if
+/// the bytes cannot be decoded.
 Rgba8Image decodeRgba(const std::uint8_t* bytes, std::size_t size, const std::string& name);
 
 /// A picture, and the size, px, that it has in its file.
@@ -28,8 +28,8 @@ constexpr std::int64_t kMostPixels = std::int64_t{1} << 29;
 
 /// As decodeRgba(), but a picture with a side of more than `longest_px` comes as the mean of its pixels with
 /// a longest side of `longest_px`. Also throws for one of more than kMostPixels, as far as its first bytes
-/// tell (PNG, JPEG and BMP; others OpenCV refuses beyond 2^30). One large picture is decoded at a time, for
-/// the memory that it takes.
+/// tell (PNG, JPEG, BMP and TGA; others OpenCV refuses beyond 2^30). One large picture is decoded at a time,
+/// for the memory that it takes.
 FittedImage decodeRgbaWithin(int longest_px, const std::uint8_t* bytes, std::size_t size,
                              const std::string& name);
 /// The same from a file. Throws std::runtime_error with its path also if it cannot be read.

@@ -97,10 +97,86 @@ TEST(DecodeRgba, AColourProfileIsIgnoredInSilence) {
 
 TEST(DecodeRgba, NamesWhatCannotBeDecoded) {
   for (const std::string& broken :
-       {std::string(), std::string("GIF89a"), onePixel(8, 2, bytes({1, 2, 3})).substr(0, 20)}) {
+       {std::string(), std::string("GIF"), onePixel(8, 2, bytes({1, 2, 3})).substr(0, 20)}) {
     const std::string error = messageOf<std::runtime_error>([&] { texelOf(broken); });
     EXPECT_EQ(error.find("test: cannot decode this picture"), 0u) << error;
   }
+}
+
+/// The header of a TGA, of 2 × 2 px unless `size` says otherwise.
+std::string tgaHeader(int type, int bits, int descriptor, const std::string& size = bytes({2, 0, 2, 0})) {
+  return bytes({0, 0, type}) + std::string(9, '\0') + size + bytes({bits, descriptor});
+}
+
+TEST(DecodeRgba, ReadsTgaOfAllKinds) {
+  constexpr int kFromTop = 0x20;
+  const std::vector<int> colors = {3, 2, 1, 255, 6, 5, 4, 255, 9, 8, 7, 255, 12, 11, 10, 255};
+  const std::string bgr = bytes({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+  EXPECT_EQ(texelOf(tgaHeader(2, 24, kFromTop) + bgr), colors);
+  // From the bottom, as most are, and from the right.
+  EXPECT_EQ(texelOf(tgaHeader(2, 24, 0) + bytes({7, 8, 9, 10, 11, 12, 1, 2, 3, 4, 5, 6})), colors);
+  EXPECT_EQ(texelOf(tgaHeader(2, 24, 0x30) + bytes({4, 5, 6, 1, 2, 3, 10, 11, 12, 7, 8, 9})), colors);
+  // Alpha; where it is 0 all over and the header tells of none, there is none.
+  const std::string bgra = bytes({1, 2, 3, 40, 4, 5, 6, 50, 7, 8, 9, 60, 10, 11, 12, 70});
+  EXPECT_EQ(texelOf(tgaHeader(2, 32, kFromTop | 8) + bgra),
+            (std::vector<int>{3, 2, 1, 40, 6, 5, 4, 50, 9, 8, 7, 60, 12, 11, 10, 70}));
+  EXPECT_EQ(texelOf(tgaHeader(2, 32, kFromTop) + bytes({1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 9, 0, 10, 11, 12, 0})),
+            colors);
+  // Grey.
+  EXPECT_EQ(texelOf(tgaHeader(3, 8, kFromTop) + bytes({0, 7, 128, 255})),
+            (std::vector<int>{0, 0, 0, 255, 7, 7, 7, 255, 128, 128, 128, 255, 255, 255, 255, 255}));
+  // 5 bits a channel: blue, green, red, white.
+  EXPECT_EQ(texelOf(tgaHeader(2, 16, kFromTop) + bytes({0x1F, 0, 0xE0, 3, 0, 0x7C, 0xFF, 0x7F})),
+            (std::vector<int>{0, 0, 255, 255, 0, 255, 0, 255, 255, 0, 0, 255, 255, 255, 255, 255}));
+}
+
+TEST(DecodeRgba, ReadsTgaOfPacketsAndOfColoursByNumber) {
+  // Three of one colour, over the end of a row, then one as it is; an identification of two bytes.
+  std::string runs = tgaHeader(10, 24, 0x20) + "id" + bytes({0x82, 1, 2, 3, 0x00, 4, 5, 6});
+  runs[0] = 2;
+  EXPECT_EQ(texelOf(runs), (std::vector<int>{3, 2, 1, 255, 3, 2, 1, 255, 3, 2, 1, 255, 6, 5, 4, 255}));
+  // Colours 5 and 6.
+  const std::string map = bytes({5, 0, 2, 0, 24}), palette = bytes({1, 2, 3, 4, 5, 6});
+  const std::string indexed =
+      bytes({0, 1, 1}) + map + std::string(4, '\0') + bytes({2, 0, 2, 0, 8, 0x20}) + palette;
+  EXPECT_EQ(texelOf(indexed + bytes({5, 6, 6, 5})),
+            (std::vector<int>{3, 2, 1, 255, 6, 5, 4, 255, 6, 5, 4, 255, 3, 2, 1, 255}));
+  EXPECT_EQ(messageOf<std::runtime_error>([&] {
+              texelOf(indexed + bytes({5, 6, 7, 5}));
+            }),
+            "test: this TGA picture has a pixel of colour 7, which is none of its own");
+  EXPECT_EQ(messageOf<std::runtime_error>([&] {
+              texelOf(indexed + bytes({5, 6, 4, 5}));
+            }),
+            "test: this TGA picture has a pixel of colour 4, which is none of its own");
+}
+
+TEST(DecodeRgba, NamesTgaThatIsCutOff) {
+  for (const std::string& file :
+       {tgaHeader(2, 24, 0) + bytes({1, 2, 3}), tgaHeader(10, 24, 0) + bytes({0x81, 1, 2, 3, 0x81, 1}),
+        tgaHeader(10, 24, 0) + bytes({0x81, 1, 2, 3}),
+        tgaHeader(10, 24, 0, bytes({255, 255, 255, 255})) + bytes({0x81, 1, 2, 3})})
+    EXPECT_EQ(messageOf<std::runtime_error>([&] { texelOf(file); }), "test: this TGA picture is cut off");
+  const std::string large = tgaHeader(10, 24, 0, bytes({255, 255, 255, 255}));
+  EXPECT_NE(messageOf<std::runtime_error>([&] {
+              decodeRgbaWithin(8, reinterpret_cast<const std::uint8_t*>(large.data()), large.size(), "test");
+            }).find("test: this picture has 65535 × 65535 px"),
+            std::string::npos);
+}
+
+TEST(DecodeRgba, NamesFormatsThatAreNotReadAndWhatToDo) {
+  const auto error = [](const std::string& format, const std::string& program) {
+    return "test: this is a " + format +
+           " picture, and not read; PNG, JPEG, BMP, TIFF, TGA and WebP are understood, whatever the file's "
+           "name: "
+           "convert it to PNG, by " +
+           program;
+  };
+  EXPECT_EQ(messageOf<std::runtime_error>([] { texelOf("DDS |" + std::string(124, '\0')); }),
+            error("DDS", "ImageMagick or GIMP"));
+  EXPECT_EQ(
+      messageOf<std::runtime_error>([] { texelOf("\xABKTX 20\xBB\r\n\x1A\n" + std::string(60, '\0')); }),
+      error("KTX2", "ktx extract or basisu -unpack"));
 }
 
 TEST(EncodePng, LosesNothing) {

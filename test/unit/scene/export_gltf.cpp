@@ -152,6 +152,7 @@ TEST_F(ExportGltf, TransmissionComesBack) {
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   EXPECT_NE(text.find("\"KHR_materials_diffuse_transmission\":{\"diffuseTransmissionFactor\":0.25"),
             std::string::npos);
+  EXPECT_NE(text.find("\"diffuseTransmissionColorTexture\":{\"index\":0,"), std::string::npos);
   const Scene back = load(pathOf("scene.glb"), {});
   EXPECT_TRUE(back.warnings.empty());
   EXPECT_EQ(back.materials[0].transmission, 0.25f);

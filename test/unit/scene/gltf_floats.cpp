@@ -102,17 +102,70 @@ TEST_F(GltfFloats, LowestBytesAreNotBelowMinusOne) {
   EXPECT_EQ(boundsOf(scene).max(), Eigen::Vector3f(1, 0, 1));
 }
 
+/// A view more, of numbers that a sparse accessor tells, and `sparse` in that of the positions.
+std::string sparse(const std::string& base, const std::string& of_it) {
+  const std::string numbers = bytesOf<std::uint16_t>({2, 0}) + bytesOf<std::int16_t>({100, 200, 0, 0});
+  Parts parts;
+  parts.position = R"("componentType":5122,"count":3,"sparse":)" + of_it;
+  std::string text = gltf(parts);
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace(R"({"bufferView":0,"componentType":5122)", "{" + base + R"("componentType":5122)");
+  replace(R"("byteLength":12}],)",
+          R"("byteLength":12},{"buffer":1,"byteLength":2},{"buffer":1,"byteOffset":4,"byteLength":6}],)");
+  replace(R"("byteLength":48})",
+          R"("byteLength":48},{"byteLength":12,"uri":"data:;base64,)" + base64(numbers) + "\"}");
+  return text;
+}
+
+// Section 3.6.2.3: what changes, by its number, and what it becomes.
+TEST_F(GltfFloats, OfSparseAccessorsAreThoseThatAreChanged) {
+  write("numbers.bin", kNumbers);
+  const std::string one =
+      R"({"count":1,"indices":{"bufferView":3,"componentType":5123},"values":{"bufferView":4}})";
+  const Scene changed = load(write("t.gltf", sparse(R"("bufferView":0,)", one)), {});
+  EXPECT_TRUE(changed.warnings.empty());
+  EXPECT_LT((boundsOf(changed).min() - Eigen::Vector3f(-1, 0, 0)).norm(), 1e-6f);
+  EXPECT_LT((boundsOf(changed).max() - Eigen::Vector3f(3, 0, 2)).norm(), 1e-6f);
+  EXPECT_NEAR(areaOf(changed.meshes[0]), 4.0, 1e-6);  // the third corner is (1, 2) instead of (−1, 2)
+  EXPECT_NEAR(changed.meshes[0].positions[2].x(), 1.0f, 1e-6f);
+
+  const std::string beyond =
+      R"({"count":1,"indices":{"bufferView":4,"componentType":5123},"values":{"bufferView":4}})";
+  EXPECT_EQ(errorOf(write("t.gltf", sparse("", beyond))),
+            pathOf("t.gltf") + ": a sparse attribute changes element 100 of 3");
+}
+
+// Unsigned bytes, normalised; three of them in four.
+TEST_F(GltfFloats, OfColoursAreSharesOfTheirLargest) {
+  Parts parts;
+  std::string text = gltf(parts);
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace(R"("TEXCOORD_0":2)", R"("TEXCOORD_0":2,"COLOR_0":3)");
+  replace(
+      R"("type":"VEC2"}])",
+      R"("type":"VEC2"},{"bufferView":3,"componentType":5121,"normalized":true,"count":3,"type":"VEC3"}])");
+  replace(R"("byteLength":12}],)", R"("byteLength":12},{"buffer":1,"byteLength":12,"byteStride":4}],)");
+  replace(R"("byteLength":48})",
+          R"("byteLength":48},{"byteLength":12,"uri":"data:;base64,)" +
+              base64(bytesOf<std::uint8_t>({51, 102, 255, 7, 51, 102, 255, 7, 0, 0, 0, 7})) + "\"}");
+  write("numbers.bin", kNumbers);
+  const Scene scene = load(write("t.gltf", text), {});
+  EXPECT_TRUE(scene.warnings.empty());
+  ASSERT_EQ(scene.meshes.at(0).colors.size(), 3u);
+  EXPECT_LT((scene.meshes[0].colors[0] - Eigen::Array3f(0.2f, 0.4f, 1.0f)).abs().maxCoeff(), 1e-6f);
+  EXPECT_EQ(scene.meshes[0].colors[2].maxCoeff(), 0.0f);
+}
+
 TEST_F(GltfFloats, WhatIsNotThereIsNamed) {
   const auto error = [&](const Parts& parts) {
     write("numbers.bin", kNumbers);
     return errorOf(write("t.gltf", gltf(parts)));
   };
   Parts parts;
-  parts.position +=
-      R"(,"sparse":{"count":1,"indices":{"bufferView":2,"componentType":5123},"values":{"bufferView":0}})";
-  EXPECT_EQ(error(parts), pathOf("t.gltf") +
-                              ": sparse whole numbers are not read: export it without KHR_mesh_quantization");
-  parts = Parts();
   parts.uri = "\"uri\":\"gone.bin\",";
   EXPECT_EQ(error(parts), pathOf("t.gltf") + ": " + pathOf("gone.bin") + ": cannot read this file");
   parts.uri = "\"uri\":\"data:;base64,AAAA\",";

@@ -36,7 +36,7 @@ class GltfMaterial : public SceneFiles {
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1,\"TEXCOORD_1\":2" +
             attributes + "},\"material\":0}]}],\"materials\":[" + material +
             "],\"textures\":[{\"source\":0,\"sampler\":0},{\"source\":1}],"
-            "\"samplers\":[{\"wrapS\":33071,\"wrapT\":33648}],"
+            "\"samplers\":[{\"wrapS\":33071,\"wrapT\":33648},{\"magFilter\":9728}],"
             "\"images\":[{\"uri\":\"a.png\"},{\"uri\":\"b.png\"}]," +
             more + "\"accessors\":[" + accessor(0, "VEC3") + ",\"min\":[0,0,0],\"max\":[1,1,0]}," +
             accessor(1, "VEC2") + "}," + accessor(2, "VEC2") + "}," + accessor(3, "VEC3") + "}," +
@@ -69,6 +69,11 @@ TEST_F(GltfMaterial, WhoseVerticesFadeIsNamedIfItAsksForAlpha) {
                "", ",\"COLOR_0\":4"));
   };
   EXPECT_NE(warnings("BLEND").find(warning), std::string::npos) << warnings("BLEND");
+  // Also where nothing else says an alpha.
+  for (const char* mode : {"BLEND", "MASK"}) {
+    const Scene scene = loaded("{\"alphaMode\":\"" + std::string(mode) + "\"}", "", ",\"COLOR_0\":4");
+    EXPECT_NE(warningsOf(scene).find(warning), std::string::npos) << mode << warningsOf(scene);
+  }
   EXPECT_EQ(warnings("OPAQUE").find(warning), std::string::npos) << warnings("OPAQUE");
 }
 
@@ -95,6 +100,117 @@ TEST_F(GltfMaterial, OfSpecularAndGlossinessIsADielectricAndNamed) {
   EXPECT_TRUE((material.dielectric.value == Eigen::Array3f(0.25f, 0.5f, 0.75f)).all());
   EXPECT_EQ(material.roughness, 0.25f);
   EXPECT_EQ(material.metalness, 0.0f);
+}
+
+// Alpha is that of the diffuse colour and its texture.
+TEST_F(GltfMaterial, OfSpecularAndGlossinessHasTheAlphaOfItsDiffuseColour) {
+  const auto older = [&](const std::string& content, const std::string& mode) {
+    return loaded("{\"alphaMode\":\"" + mode +
+                      "\",\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{" + content + "}}}",
+                  "\"extensionsUsed\":[\"KHR_materials_pbrSpecularGlossiness\"],");
+  };
+  const Scene pane = older("\"diffuseFactor\":[1,1,1,0.25]", "BLEND");
+  EXPECT_EQ(pane.materials[0].alpha_mode, AlphaMode::kBlend);
+  EXPECT_EQ(pane.materials[0].alpha, 0.25f);
+  const Scene leaf = older("\"diffuseFactor\":[1,1,1,0.5],\"diffuseTexture\":{\"index\":0}", "MASK");
+  EXPECT_EQ(leaf.materials[0].alpha_mode, AlphaMode::kMask);
+  EXPECT_EQ(leaf.materials[0].alpha_cutoff, 1.0f);  // 0.5 / 0.5
+  EXPECT_NE(warningsOf(leaf).find("wrap mode of a texture that cuts out"), std::string::npos);
+}
+
+// Whose factors are 1 unless told, which alone would be a mirror.
+TEST_F(GltfMaterial, OfATextureOfSpecularAndGlossinessIsNoMirror) {
+  const Scene scene = loaded(
+      "{\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{\"specularGlossinessTexture\":{\"index\":0}}"
+      "}}");
+  EXPECT_NEAR(scene.materials[0].dielectric.value.maxCoeff(), 0.04f, 1e-6f);
+  EXPECT_EQ(scene.materials[0].roughness, 0.5f);
+  EXPECT_NE(warningsOf(scene).find("as if their own texture were 0.04 and one half"), std::string::npos);
+}
+
+std::string throughJson(const std::string& diffuse, const std::string& more = "") {
+  return "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.25,0.125,1],\"metallicFactor\":0,"
+         "\"roughnessFactor\":0},\"extensions\":{\"KHR_materials_diffuse_transmission\":{" +
+         diffuse + "}" + more + "}}";
+}
+
+TEST_F(GltfMaterial, WhoseLightComesOutInAnotherColourIsNamed) {
+  const std::string lost = "a colour of its diffuse transmission";
+  const std::string same =
+      "\"diffuseTransmissionFactor\":0.5,\"diffuseTransmissionColorFactor\":[0.5,0.25,0.125]";
+  EXPECT_EQ(warningsOf(loaded(throughJson(same))), "");
+  EXPECT_EQ(warningsOf(loaded(throughJson(""))), "");  // by no share
+  const std::string white = warningsOf(loaded(throughJson("\"diffuseTransmissionFactor\":0.5")));
+  EXPECT_NE(white.find(lost), std::string::npos) << white;
+  const std::string picture =
+      warningsOf(loaded(throughJson(same + ",\"diffuseTransmissionColorTexture\":{\"index\":1}")));
+  EXPECT_NE(picture.find(lost), std::string::npos) << picture;
+}
+
+// Of what transmission leaves, diffuse transmission has its share: of 0.8 here 0.1, of 0.2 then 0.4.
+TEST_F(GltfMaterial, OfBothTransmissionsHasTheLargerAndNamesTheOther) {
+  const auto both = [&](const std::string& clear) {
+    return loaded(
+        throughJson("\"diffuseTransmissionFactor\":0.5,\"diffuseTransmissionColorFactor\":[0.5,0.25,0.125]",
+                    ",\"KHR_materials_transmission\":{\"transmissionFactor\":" + clear + "}"));
+  };
+  const Scene glass = both("0.8"), leaf = both("0.2");
+  EXPECT_EQ(glass.materials[0].glass, 0.8f);
+  EXPECT_EQ(glass.materials[0].transmission, 0.0f);
+  EXPECT_NE(warningsOf(glass).find("diffuse transmission beside transmission: without it"),
+            std::string::npos);
+  EXPECT_EQ(leaf.materials[0].glass, 0.0f);
+  EXPECT_EQ(leaf.materials[0].transmission, 0.5f);
+  EXPECT_NE(warningsOf(leaf).find("transmission beside diffuse transmission"), std::string::npos);
+}
+
+TEST_F(GltfMaterial, OfAVolumeHasTheColourOfItsDepth) {
+  const auto bottle = [&](const std::string& volume, const char* sides) {
+    return loaded("{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0},\"doubleSided\":" +
+                  std::string(sides) +
+                  ",\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":1},"
+                  "\"KHR_materials_volume\":{" +
+                  volume + "}}}");
+  };
+  const std::string green = "\"attenuationDistance\":0.5,\"attenuationColor\":[0.25,1,0.25]";
+  // Twice that distance by one face, or once by each of two.
+  const Scene one = bottle("\"thicknessFactor\":1," + green, "false");
+  EXPECT_NEAR(one.materials[0].base_color.value[0], 0.0625f, 1e-6f);
+  EXPECT_EQ(one.materials[0].base_color.value[1], 1.0f);
+  EXPECT_NE(warningsOf(one).find("a volume: as if it were hollow"), std::string::npos);
+  const Scene two = bottle("\"thicknessFactor\":1," + green, "true");
+  EXPECT_NEAR(two.materials[0].base_color.value[2], 0.25f, 1e-6f);
+  // A thin wall has no depth, and nothing is lost.
+  const Scene thin = bottle(green, "false");
+  EXPECT_EQ(thin.materials[0].base_color.value[0], 1.0f);
+  EXPECT_EQ(warningsOf(thin), "");
+  EXPECT_EQ(bottle("\"thicknessFactor\":1", "false").materials[0].base_color.value[0], 1.0f);
+}
+
+// The texture is 4 × 4 px; of a square of 16, all but its borders have its colour.
+TEST_F(GltfMaterial, TexelsWithHardEdgesAreSquares) {
+  writeTexture("a.png", 1);
+  std::string text = contentOf(file("{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}"));
+  const std::string usual = "\"sampler\":0";
+  text.replace(text.find(usual), usual.size(), "\"sampler\":1");
+  const Scene scene = load(write("hard.gltf", text), {});
+  EXPECT_EQ(warningsOf(scene), "");
+  ASSERT_EQ(scene.textures.size(), 1u);
+  const Texture& texture = scene.textures[0];
+  ASSERT_EQ(texture.width, 64);
+  ASSERT_EQ(texture.height, 64);
+  for (const int x : {0, 15, 16, 63})
+    EXPECT_EQ(texture.rgba[4 * static_cast<std::size_t>(x) + 3], x < 16 ? 0 : 255);
+}
+
+TEST_F(GltfMaterial, PicturesOfOtherFormatsAreNamed) {
+  std::string text = contentOf(file("{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":1}}}",
+                                    "\"extensionsRequired\":[\"KHR_texture_basisu\"],"));
+  write("b.png", std::string("\xABKTX 20\xBB\r\n\x1A\n", 12) + std::string(80, '\0'));
+  const std::string plain = "{\"source\":1}";
+  text.replace(text.find(plain), plain.size(), "{\"extensions\":{\"KHR_texture_basisu\":{\"source\":1}}}");
+  const std::string warnings = warningsOf(load(write("ktx.gltf", text), {}));
+  EXPECT_NE(warnings.find(pathOf("b.png") + ": this is a KTX2 picture"), std::string::npos) << warnings;
 }
 
 TEST_F(GltfMaterial, AllItsTexturesAreFound) {
@@ -189,12 +305,24 @@ TEST_F(GltfMaterial, IndexAndSpecularSetWhatADielectricReflects) {
 TEST_F(GltfMaterial, WhatIsNotRenderedIsNamedInOneLine) {
   const Scene scene = loaded(
       "{\"name\":\"lacquer\",\"extensions\":{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":1},"
-      "\"KHR_materials_sheen\":{},\"KHR_materials_unlit\":{}}}",
+      "\"KHR_materials_sheen\":{\"sheenColorFactor\":[0,0.5,0]},\"KHR_materials_iridescence\":{},"
+      "\"KHR_materials_anisotropy\":{\"anisotropyStrength\":0},\"KHR_materials_unlit\":{}}}",
       "\"extensionsUsed\":[\"KHR_materials_clearcoat\",\"EXT_something\"],");
   const std::string warnings = warningsOf(scene);
   EXPECT_EQ(scene.warnings.size(), 2u) << warnings;
   for (const char* part : {"3 materials have what is not rendered", "lacquer of ", "a clear coat: without it",
                            "sheen: without it", "unlit: lit as matt paint", "EXT_something"})
+    EXPECT_NE(warnings.find(part), std::string::npos) << part << " in " << warnings;
+}
+
+// Also of the one family of extensions that all others here are of.
+TEST_F(GltfMaterial, ExtensionsOfMaterialsThatNobodyKnowsAreNamed) {
+  const Scene scene =
+      loaded("{\"name\":\"wax\",\"extensions\":{\"KHR_materials_of_mine\":{\"depth\":1},\"VENDOR_toon\":{}}}",
+             "\"extensionsUsed\":[\"KHR_materials_of_mine\"],");
+  const std::string warnings = warningsOf(scene);
+  for (const char* part : {"1 glTF extensions are not read: KHR_materials_of_mine of ",
+                           "KHR_materials_of_mine: without it", "VENDOR_toon: without it"})
     EXPECT_NE(warnings.find(part), std::string::npos) << part << " in " << warnings;
 }
 

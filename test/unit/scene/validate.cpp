@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "scene/triangle_budget.h"
 #include "sunlit/scene/scene.h"
 #include "support/message_of.h"
 
@@ -45,6 +46,18 @@ TEST(Validate, AcceptsASoundScene) {
               scene.meshes[0].colors.clear();
             }),
             "");
+}
+
+// Counted, not made.
+TEST(Validate, NoMoreThanASceneMayHoldIsAskedFor) {
+  TriangleBudget budget;
+  budget.take(kMostTriangles - 1, kMostVertices, "a");
+  budget.take(1, 0, "b");
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { budget.take(1, 0, "w.sdf: mesh c"); }),
+            "w.sdf: mesh c: the number of triangles up to here is 50000001, but must be from 0 to 50000000");
+  TriangleBudget other;
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { other.take(1, kMostVertices + 1, "d"); }),
+            "d: the number of vertices up to here is 150000001, but must be from 0 to 150000000");
 }
 
 TEST(Validate, NamesTheMesh) {

@@ -1,0 +1,20 @@
+/// Oddities of glTF files that Assimp refuses, though they mean something, or nothing at all.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+namespace sunlit::scene {
+
+/// What was changed.
+struct GltfMends {
+  std::size_t extras = 0;      ///< of other types than objects, which glTF 2.0 allows, left out
+  std::size_t primitives = 0;  ///< of too few corners for a triangle, line or point, left out
+  std::size_t turns = 0;       ///< of nodes, whose quaternions would have scaled them
+  bool scene = false;          ///< there was none: now there is one of all nodes
+
+  bool any() const { return extras > 0 || primitives > 0 || turns > 0 || scene; }
+};
+
+GltfMends mendGltf(nlohmann::json& root);
+
+}  // namespace sunlit::scene
