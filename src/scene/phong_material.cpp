@@ -97,9 +97,15 @@ class PhongReader {
       material_.base_color = kNeutral;
     material_.base_color.value = material_.base_color.value.max(0.0f).min(1.0f);
     readMaps();
-    if (extension_ == ".obj") readRoughMetal();
-    if (extension_ == ".dae") warnOfPlacement();
     const float opacity = opacityOf(source_);
+    if (extension_ == ".obj") {
+      readRoughMetal();
+      nameRestOfObj(opacity);
+    } else if (extension_ == ".dae") {
+      warnOfPlacement();
+      nameReflection();
+      nameIndex(opacity < 1.0f);
+    }
     if (opacity < 0.5f)
       context_.builder.warn(
           "materials are more than half transparent; where they should not be, their files mean opacity by "
@@ -154,6 +160,13 @@ class PhongReader {
     return textureFile(opacity, context_);
   }
 
+  /// What stands beside a picture: of OBJ the colour multiplies it, as MTL, OGRE (Gazebo, RViz) and three.js
+  /// have it; a black one, as exporters leave it, would make the picture pointless. Of COLLADA there is none.
+  LinearRgb factorOf(const LinearRgb& color) const {
+    const bool multiplies = extension_ == ".obj" && color.value.maxCoeff() > 0.0f;
+    return multiplies ? color : LinearRgb(1.0f, 1.0f, 1.0f);
+  }
+
   /// Colour and opacity. A picture of colour that is missing makes the material neutral.
   void readColorMaps() {
     const bool base = !pictureOf(source_, aiTextureType_BASE_COLOR).empty();
@@ -170,8 +183,7 @@ class PhongReader {
       material_.base_texture = addTexture(type);
       colored = material_.base_texture != Material::kNoTexture;
     }
-    // The texture stands in the place of the colour.
-    if (colored) material_.base_color = LinearRgb(1.0f, 1.0f, 1.0f);
+    if (colored) material_.base_color = factorOf(material_.base_color);
     if (!colored && !color.empty()) material_.base_color = kNeutral;
   }
 
@@ -180,9 +192,11 @@ class PhongReader {
     aiColor4D emission(0.0f, 0.0f, 0.0f, 1.0f);
     source_.Get(AI_MATKEY_COLOR_EMISSIVE, emission);
     material_.emission_map = addMap(aiTextureType_EMISSIVE);
-    material_.emission = material_.emission_map.given()
-                             ? LinearRgb(1.0f, 1.0f, 1.0f)
-                             : linearFromBright({emission.r, emission.g, emission.b});
+    material_.emission = linearFromBright({emission.r, emission.g, emission.b});
+    if (material_.emission_map.given())
+      material_.emission = factorOf(material_.emission);
+    else if (!pictureOf(source_, aiTextureType_EMISSIVE).empty())
+      material_.emission = LinearRgb();  // not all over
     material_.emission.value *= kDisplayWhite_cd_per_m2;
     material_.normal_map = addMap(aiTextureType_NORMALS);
     const auto name = [&](aiTextureType type, const char* what) {
@@ -211,6 +225,58 @@ class PhongReader {
     // The least of what is no number at all.
     material_.roughness = std::fmin(std::fmax(material_.roughness, Material::kSmoothest), 1.0f);
     material_.metalness = std::fmin(std::fmax(material_.metalness, 0.0f), 1.0f);
+  }
+
+  /// Of refraction. 1 is what there is where a file says nothing.
+  void nameIndex(bool is_transparent) {
+    constexpr float kUsual = 1.5f,
+                    kAlike = 0.1f;  // changes the reflectance by less than a quarter of a hundredth
+    float index = 1.0f;
+    source_.Get(AI_MATKEY_REFRACTI, index);
+    if (!(index > 1.0f)) return;
+    if (is_transparent)
+      warnOf("an index of refraction: what is behind is not bent");
+    else if (!(std::abs(index - kUsual) <= kAlike))
+      warnOf("an index of refraction: it mirrors by one of 1.5");
+  }
+
+  /// What MTL says beyond colours, and the bits of it that mean nothing else.
+  void nameRestOfObj(float opacity) {
+    int model = 2;
+    source_.Get("$mat.illum", 0, 0, model);  // Assimp 5.0 has no name for it, and does not hand it on
+    const std::string illum = "illum " + std::to_string(model);
+    const bool is_glass = model == 4 || model == 6 || model == 7 || model == 9;
+    const bool mirrors = model == 3 || model == 5 || model == 8;
+    aiColor4D specular(0.0f, 0.0f, 0.0f, 1.0f), filter(1.0f, 1.0f, 1.0f, 1.0f);
+    source_.Get(AI_MATKEY_COLOR_SPECULAR, specular);
+    source_.Get(AI_MATKEY_COLOR_TRANSPARENT, filter);
+    if (model == 0) warnOf(illum + ", a colour without any light: lit like any other");
+    if (is_glass && opacity >= 1.0f) warnOf(illum + ", glass: drawn as opaque");
+    if (mirrors && material_.metalness <= 0.0f && !specular.IsBlack())
+      warnOf(illum + ", a mirror by Ks: it mirrors as paint does");
+    if (model == 10) warnOf(illum + ", nothing but the shadows on it: drawn like any other");
+    const bool is_transparent = is_glass || opacity < 1.0f;
+    nameIndex(is_transparent);
+    if (is_transparent && !filter.IsBlack() && filter != aiColor4D(1.0f, 1.0f, 1.0f, filter.a))
+      warnOf("Tf, the colour of what passes through: all colours pass alike");
+    const std::string ambient = pictureOf(source_, aiTextureType_AMBIENT);
+    if (!ambient.empty() && ambient != pictureOf(source_, aiTextureType_DIFFUSE))
+      warnOf("map_Ka, a picture of ambient light: light is computed");
+    float coat = 0.0f;
+    aiColor4D sheen(0.0f, 0.0f, 0.0f, 1.0f);
+    source_.Get("$mat.clearcoat.factor", 0, 0, coat);
+    source_.Get("$clr.sheen.factor", 0, 0, sheen);
+    if (coat > 0.0f || !sheen.IsBlack()) warnOf("a clear coat or a sheen: without it");
+  }
+
+  /// Of COLLADA: a share, of a colour.
+  void nameReflection() {
+    aiColor4D color(0.0f, 0.0f, 0.0f, 0.0f);
+    float share = 0.0f;
+    source_.Get(AI_MATKEY_COLOR_REFLECTIVE, color);
+    source_.Get(AI_MATKEY_REFLECTIVITY, share);
+    if (share > 0.0f && std::max({color.r, color.g, color.b}) > 0.0f)
+      warnOf("<reflective>, a share that it mirrors: it mirrors as paint does");
   }
 
   /// Names where COLLADA shifts, turns or repeats textures by extensions of modellers.
