@@ -23,7 +23,8 @@ bool isOneOf(const std::string& extension, std::initializer_list<const char*> kn
 
 Scene loadMeshFile(const std::string& file, const ResourceFinder& finder) {
   SceneBuilder builder(file);
-  for (const MeshPart& part : readMeshFile(file, UpAxis::kAsDeclared, finder, builder)) {
+  for (MeshPart& part : readMeshFile(file, UpAxis::kAsDeclared, finder, builder)) {
+    leaveCoordinates(true, part);
     builder.addMesh(part.mesh, part.file_from_node);
   }
   Scene scene = builder.finish();

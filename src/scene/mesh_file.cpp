@@ -19,6 +19,7 @@
 #include "scene/assimp_nodes.h"
 #include "scene/back_to_back.h"
 #include "scene/collada_check.h"
+#include "scene/collada_sets.h"
 #include "scene/collada_text.h"
 #include "scene/color.h"
 #include "scene/mesh_material.h"
@@ -53,11 +54,12 @@ Eigen::Array3f vertexColor(const aiColor4D& color, bool linear) {
   return linearFromSrgb({color.r, color.g, color.b}).value;
 }
 
-std::vector<Eigen::Vector2f> coordinatesOf(const aiMesh& source, const CoordinateRecipe& recipe) {
+/// Of COLLADA, the first set stands for one that the mesh has not: its materials may but guess its number.
+std::vector<Eigen::Vector2f> coordinatesOf(const aiMesh& source, const CoordinateRecipe& recipe, bool gltf) {
   std::vector<Eigen::Vector2f> coordinates;
-  const auto set = static_cast<unsigned>(recipe.set);
-  if (recipe.set < 0 || set >= AI_MAX_NUMBER_OF_TEXTURECOORDS || !source.HasTextureCoords(set))
-    return coordinates;
+  auto set = static_cast<unsigned>(recipe.set);
+  if (!gltf && (set >= AI_MAX_NUMBER_OF_TEXTURECOORDS || !source.HasTextureCoords(set))) set = 0;
+  if (set >= AI_MAX_NUMBER_OF_TEXTURECOORDS || !source.HasTextureCoords(set)) return coordinates;
   for (unsigned i = 0; i < source.mNumVertices; ++i)
     coordinates.push_back(recipe({source.mTextureCoords[set][i].x, source.mTextureCoords[set][i].y}));
   return coordinates;
@@ -87,9 +89,9 @@ Mesh toMesh(const aiMesh& source, const MeshLook& look, bool gltf) {
     }
     if (source.HasVertexColors(0)) mesh.colors.push_back(vertexColor(source.mColors[0][i], gltf));
   }
-  mesh.texture_coordinates = coordinatesOf(source, look.coordinates.front());
+  mesh.texture_coordinates = coordinatesOf(source, look.coordinates.front(), gltf);
   for (std::size_t i = 1; i < look.coordinates.size(); ++i)
-    mesh.more_texture_coordinates.push_back(coordinatesOf(source, look.coordinates[i]));
+    mesh.more_texture_coordinates.push_back(coordinatesOf(source, look.coordinates[i], gltf));
   if (gltf) mesh.tangents = tangentsOf(source);
   mesh.triangles.reserve(source.mNumFaces);
   for (unsigned i = 0; i < source.mNumFaces; ++i) {
@@ -166,6 +168,8 @@ struct Collector {
       MeshPart part{node.mName.C_Str(), source.mName.C_Str(), {}, up_from_node};
       part.mesh = toMesh(source, *look, gltf);
       part.bare = look->bare;
+      part.has_spare = !(look->coordinates.front() == CoordinateRecipe());
+      if (part.has_spare) part.mesh.more_texture_coordinates.push_back(coordinatesOf(source, {}, gltf));
       takeRest(source, part);
       part.mesh.name = part.node.empty() ? part.geometry : part.node;
       if (look->fades && hasAlpha(source.mColors[0], source.mNumVertices)) fading.push_back(part.mesh.name);
@@ -256,9 +260,10 @@ void addLamps(const aiScene& scene, const Eigen::Affine3d& up_from_file, SceneBu
 /// Has Assimp read a COLLADA file, as it stands or, where it refuses that, mended.
 void readCollada(const std::string& file, Assimp::Importer& importer, SceneBuilder& builder) {
   std::ifstream stream(file, std::ios::binary);
-  const std::string text =
+  std::string text =
       withoutAnimations({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()});
   requireReadableCollada(text, file);
+  text = withKnownSets(text);
   if (importer.ReadFileFromMemory(text.data(), text.size(), 0, "dae") != nullptr) return;
   const ColladaText readable = readableCollada(text);
   const aiScene* const scene =
@@ -301,6 +306,13 @@ void requireContent(const std::string& file) {
 }
 
 }  // namespace
+
+void leaveCoordinates(bool of_own_material, MeshPart& part) {
+  if (!std::exchange(part.has_spare, false)) return;
+  std::vector<std::vector<Eigen::Vector2f>>& more = part.mesh.more_texture_coordinates;
+  if (!of_own_material) part.mesh.texture_coordinates = std::move(more.back());
+  more.pop_back();
+}
 
 std::string extensionOf(const std::string& file) {
   return lowerCase(std::filesystem::path(file).extension().string());

@@ -24,8 +24,15 @@ struct MeshPart {
   std::string geometry;  ///< name of the mesh in the file
   Mesh mesh;             ///< `material` is an index into the builder's materials
   Eigen::Affine3d file_from_node = Eigen::Affine3d::Identity();  ///< to z up, m
+  /// The last of mesh.more_texture_coordinates are the first set as it stands in the file, which its own
+  /// material has no use for, and any other wants: see leaveCoordinates().
+  bool has_spare = false;
   bool bare = false;  ///< the file gives it no material: the mesh has what its format says of such
 };
+
+/// Leaves the mesh the texture coordinates that one kind of material wants: its own, or one that is put on
+/// it.
+void leaveCoordinates(bool of_own_material, MeshPart& part);
 
 /// The ending of a file's name in lower case, with its dot; empty if it has none.
 std::string extensionOf(const std::string& file);

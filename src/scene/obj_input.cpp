@@ -1,6 +1,7 @@
 #include "scene/obj_input.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
@@ -96,6 +97,29 @@ std::string withoutPlacements(const std::string& text) {
   return plain;
 }
 
+/// Materials that have a picture of colour and no colour get a white one, which multiplies it; Assimp's is
+/// 0.6.
+std::string withColors(const std::string& text) {
+  std::vector<std::array<bool, 2>> has{
+      {}};  // Kd and map_Kd, of what is before the first material and of each
+  const auto is = [](const std::string& line, const char* word) {
+    const std::size_t begin = line.find_first_not_of(" \t");
+    return begin != std::string::npos && !behind(line.substr(begin), word).empty();
+  };
+  forEachLine(text, [&](const std::string& line, std::size_t) {
+    if (is(line, "newmtl")) has.emplace_back();
+    has.back()[0] |= is(line, "Kd");
+    has.back()[1] |= is(line, "map_Kd");
+  });
+  std::string colored;
+  std::size_t material = 0;
+  forEachLine(text, [&](const std::string& line, std::size_t) {
+    colored += line + '\n';
+    if (is(line, "newmtl") && has[++material][1] && !has[material][0]) colored += "Kd 1 1 1\n";
+  });
+  return colored;
+}
+
 std::string withoutMark(const std::string& text) {
   return text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? text.substr(3) : text;
 }
@@ -107,7 +131,7 @@ Assimp::IOStream* ObjInput::Open(const char* path, const char* mode) {
   const std::string text = withoutMark(contentOf(path));
   if (extensionOf(path) == ".obj") return streamOf(text);
   requireMaterialFirst(path, text);
-  return streamOf(withoutPlacements(text));
+  return streamOf(withColors(withoutPlacements(text)));
 }
 
 ObjLosses lossesOfObj(const std::string& file) {

@@ -12,6 +12,7 @@
 #include "scene/color.h"
 #include "scene/square_texels.h"
 #include "scene/texture_alpha.h"
+#include "scene/texture_looks.h"
 #include "sunlit/image/texture_files.h"
 #include "sunlit/scene/material_maps.h"
 #include "sunlit/scene/whole_texture.h"
@@ -85,24 +86,6 @@ void repairNormals(Mesh& mesh) {
     }
     mesh.normals[i].normalize();
   }
-}
-
-/// Of normals x, y and z are hardly equal anywhere: they would lean by 55°.
-bool isGrey(const Texture& texture) {
-  constexpr int kCompressed = 12;  // by as much a JPEG may tint a grey
-  for (std::size_t i = 0; i < texture.rgba.size(); i += 4) {
-    const auto [low, high] = std::minmax({texture.rgba[i], texture.rgba[i + 1], texture.rgba[i + 2]});
-    if (high - low > kCompressed) return false;
-  }
-  return true;
-}
-
-/// Normals lean by less than 60° in the mean; what does more is a picture of something else.
-bool leansLittle(const Texture& texture) {
-  std::size_t sum = 0;
-  for (std::size_t i = 2; i < texture.rgba.size(); i += 4) sum += texture.rgba[i];
-  const double texels = static_cast<double>(texture.rgba.size()) / 4.0;
-  return 2.0 * static_cast<double>(sum) / (255.0 * texels) - 1.0 >= 0.5;
 }
 
 }  // namespace
@@ -372,10 +355,34 @@ void SceneBuilder::dropHeights() {
   }
 }
 
+/// Without coordinates all of a mesh would have the colour of a corner of its picture.
+void SceneBuilder::paintByMeans() {
+  std::map<int, int> painted;  // materials without their picture
+  for (Mesh& mesh : scene_.meshes) {
+    const auto index = static_cast<std::size_t>(mesh.material);
+    const int texture = scene_.materials[index].base_texture;
+    if (texture == Material::kNoTexture || !mesh.texture_coordinates.empty()) continue;
+    warn("meshes have no texture coordinates, the mean colour of their picture is on them",
+         mesh.name + ": " + sources_[static_cast<std::size_t>(texture)].name);
+    const auto [known, is_new] = painted.try_emplace(mesh.material);
+    if (is_new) {
+      const Eigen::Array4f mean = meanOf(scene_.textures[static_cast<std::size_t>(texture)]);
+      Material plain = scene_.materials[index];
+      plain.base_texture = Material::kNoTexture;
+      plain.base_color.value *= mean.head<3>();
+      if (plain.alpha_mode == AlphaMode::kMask) plain.alpha_mode = AlphaMode::kOpaque;
+      plain.alpha *= mean[3];
+      known->second = addMaterial(plain, AlphaRule::kDeclared);
+    }
+    mesh.material = known->second;
+  }
+}
+
 Scene SceneBuilder::finish() {
   decodeTextures();
   dropHeights();
   settleAlpha();
+  paintByMeans();
   for (const auto& [what, kind] : kinds_) {
     std::string line = std::to_string(kind.times) + " " + what;
     for (std::size_t i = 0; i < kind.examples.size(); ++i) line += (i == 0 ? ": " : "; ") + kind.examples[i];

@@ -95,8 +95,9 @@ class SceneBuilder {
 
   /// Decodes the textures, settles the cut-outs and checks the scene. A texture with a side of more than
   /// kLongestTextureSide is scaled down, one that cannot be decoded makes room for a neutral grey, and a
-  /// normal map that is all grey, or may be one of heights and looks like no normals, is dropped; all are
-  /// warnings. The builder is empty afterwards.
+  /// normal map that is all grey, or may be one of heights and looks like no normals, is dropped; a mesh
+  /// without texture coordinates has the mean colour of its picture; all are warnings. The builder is empty
+  /// afterwards.
   Scene finish();
 
  private:
@@ -125,6 +126,7 @@ class SceneBuilder {
   void forgetTexture(int texture);
   void settleAlpha();
   void dropHeights();
+  void paintByMeans();
 
   Scene scene_;
   TriangleBudget budget_;

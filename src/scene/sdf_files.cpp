@@ -18,6 +18,7 @@
 #include "scene/sdf_model_folder.h"
 #include "scene/sdf_parse.h"
 #include "scene/sdf_pose.h"
+#include "scene/sdf_urdf.h"
 #include "scene/sdf_xml.h"
 #include "sunlit/quantity/range.h"
 
@@ -154,7 +155,8 @@ const SdfFile& SdfFiles::read(const std::string& file) {
 const SdfFile& SdfFiles::open(const std::string& path) {
   const auto known = files_.find(path);
   if (known != files_.end()) return *known->second;
-  const std::unique_ptr<tinyxml2::XMLDocument> document = readSdfXml(path);
+  std::unique_ptr<tinyxml2::XMLDocument> document = readSdfXml(path);
+  if (isUrdf(*document)) document = sdfOfUrdf(*document, path, finder_, builder_);
   auto file = std::make_unique<SdfFile>();
   file->path = path;
   open_.insert(path);
@@ -181,6 +183,11 @@ void SdfFiles::resolveIncludes(XMLElement& sdf, SdfFile& file) {
 void SdfFiles::resolveInclude(XMLElement& include, SdfFile& file) {
   const SdfFile* found = included(include, file);
   tinyxml2::XMLNode& parent = *include.Parent();
+  for (XMLElement* parameters : childrenOf(include, "experimental:params")) {
+    builder_.warn("includes have <experimental:params>, their models are drawn as they are without them",
+                  childText(include, "uri") + " at " + placeOf(file.path, include));
+    include.DeleteChild(parameters);
+  }
   if (found != nullptr && modelOf(found->root) != nullptr) {
     file.models += found->models;
     if (file.models > kMostModels)

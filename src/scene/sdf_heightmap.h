@@ -32,9 +32,10 @@ class SdfHeightmap {
  public:
   struct Texture {
     double size;
-    std::string diffuse;
+    std::string diffuse, normal;
     double Size() const { return size; }
     const std::string& Diffuse() const { return diffuse; }
+    const std::string& Normal() const { return normal; }
   };
   struct Blend {
     double min_height, fade_distance;
@@ -68,7 +69,8 @@ inline SdfHeightmap::SdfHeightmap(sdf::Element& element)
       position_(element.Get<ignition::math::Vector3d>("pos", ignition::math::Vector3d::Zero).first),
       sampling_(element.HasElement("sampling") ? element.Get<unsigned>("sampling") : 1) {
   for (sdf::ElementPtr one = firstIn(element, "texture"); one; one = one->GetNextElement("texture"))
-    textures_.push_back({one->Get<double>("size", 10.0).first, one->Get<std::string>("diffuse", "").first});
+    textures_.push_back({one->Get<double>("size", 10.0).first, one->Get<std::string>("diffuse", "").first,
+                         one->Get<std::string>("normal", "").first});
   for (sdf::ElementPtr one = firstIn(element, "blend"); one; one = one->GetNextElement("blend"))
     blends_.push_back({one->Get<double>("min_height", 0.0).first, one->Get<double>("fade_dist", 0.0).first});
 }

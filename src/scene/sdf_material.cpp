@@ -90,7 +90,13 @@ void SdfMaterials::readMaps(const sdf::PbrWorkflow& metal, const sdf::Material& 
   const auto map = [&](const std::string& name) {
     return TextureUse{name.empty() ? TextureUse::kNone : texture(name, source.FilePath())};
   };
-  material.normal_map = map(metal.NormalMap());
+  const std::string name = "PBR material of " + source.FilePath() + ": ";
+  // An attribute that not all versions of libsdformat have a word for.
+  const sdf::ElementPtr normals = metal.Element() ? firstIn(*metal.Element(), "normal_map") : nullptr;
+  if (normals && normals->Get<std::string>("type", "tangent").first == "object")
+    builder_.warn(kNotRendered, name + "a normal map in the space of its object: without it");
+  else
+    material.normal_map = map(metal.NormalMap());
   material.occlusion_map = map(metal.AmbientOcclusionMap());
   // Grey pictures; a factor beside them would be the default that they stand in for.
   material.roughness_map = map(metal.RoughnessMap());
@@ -102,7 +108,6 @@ void SdfMaterials::readMaps(const sdf::PbrWorkflow& metal, const sdf::Material& 
     material.emission = LinearRgb();  // not all over
   else if (material.emission_map.given() && !source.Element()->HasElement("emissive"))
     material.emission.value.setConstant(kDisplayWhite_cd_per_m2);
-  const std::string name = "PBR material of " + source.FilePath() + ": ";
   if (!metal.EnvironmentMap().empty())
     builder_.warn(kNotRendered, name + "an environment map: it mirrors what there is");
   if (!lightMapOf(metal).empty()) builder_.warn(kNotRendered, name + "a light map: light is computed");

@@ -1,5 +1,7 @@
 #include "scene/sdf_mend.h"
 
+#include <cmath>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <sstream>
@@ -49,6 +51,9 @@ const std::map<std::string, Children> kChildren = {
       {}}},
 };
 
+/// The flags of a visual that has none.
+constexpr std::uint32_t kEveryCamera = 0xFFFFFFFF;
+
 /// The newest version that libsdformat 12 reads is 1.9, and the elements above are those from 1.4 on.
 constexpr int kNewest = 9;
 constexpr int kOldestPruned = 4;
@@ -82,6 +87,7 @@ class Mender {
       : file_(file), version_(version), builder_(builder) {}
 
   void mend(XMLElement& sdf) {
+    forEachBelow(sdf, [&](XMLElement& element) { nameOtherwise(element); });
     if (version_ >= kOldestPruned) {
       prune(sdf);
     } else {
@@ -112,6 +118,42 @@ class Mender {
       }
       parent.DeleteChild(child);
     }
+  }
+
+  /// Names what a simulator's cameras see otherwise. What worlds have as they are made is nothing that they
+  /// ask for.
+  void nameOtherwise(XMLElement& element) {
+    const std::string kind = element.Value();
+    if (kind == "visibility_flags") {
+      std::istringstream text(element.GetText() == nullptr ? "" : element.GetText());
+      std::uint32_t flags = kEveryCamera;
+      if (text >> flags && flags != kEveryCamera)
+        builder_.warn("visuals have <visibility_flags>, every camera sees them", placeOf(file_, element));
+    }
+    if (kind != "scene") return;
+    const auto name = [&](const XMLElement& part, const std::string& instead) {
+      builder_.warn("elements of <scene> are not rendered", described(part, file_) + ": " + instead);
+    };
+    for (XMLElement* fog : childrenOf(element, "fog")) {
+      const std::string type = childText(*fog, "type");
+      if (!type.empty() && type != "none") name(*fog, "fog is a parameter of the weather");
+    }
+    for (const XMLElement* background : childrenOf(element, "background")) {
+      if (element.FirstChildElement("sky") == nullptr && !isUsualBackground(*background))
+        name(*background, "the sky is computed");
+    }
+    for (const XMLElement* shadows : childrenOf(element, "shadows")) {
+      if (!shadows->BoolText(true)) name(*shadows, "everything casts shadows");
+    }
+  }
+
+  static bool isUsualBackground(const XMLElement& background) {
+    constexpr float kGrey = 0.7f;
+    std::istringstream text(background.GetText() == nullptr ? "" : background.GetText());
+    bool is_usual = true;
+    float channel = kGrey;
+    for (int i = 0; i < 3 && text >> channel; ++i) is_usual = is_usual && std::abs(channel - kGrey) < 1e-3f;
+    return is_usual;
   }
 
   /// Of older versions, whose elements stand elsewhere: what libsdformat is strict about in links, and nobody
@@ -230,10 +272,10 @@ class Mender {
     }
   }
 
-  /// libsdformat wants a normal map, which is not read.
+  /// libsdformat wants a normal map.
   static void mendHeightmap(XMLElement& heightmap) {
     for (XMLElement* texture : childrenOf(heightmap, "texture")) {
-      if (childText(*texture, "normal").empty()) childIn(*texture, "normal").SetText("none");
+      if (childText(*texture, "normal").empty()) childIn(*texture, "normal").SetText(kNoNormals);
     }
   }
 

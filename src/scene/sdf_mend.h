@@ -10,6 +10,9 @@
 
 namespace sunlit::scene {
 
+/// What a height map's texture has for a picture of normals that it does not have.
+constexpr const char* kNoNormals = "none";
+
 /// libsdformat checks a world as a simulator needs it: one inertia that no body can have, one name that two
 /// links share, and nothing of it is read. A renderer has no use for most of that. Takes out of `sdf`, the
 /// root element of `file`, what no camera sees (collisions, inertias, joints, sensors, plugins …), and what

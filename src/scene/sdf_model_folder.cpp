@@ -34,6 +34,8 @@ std::string fileNamedBy(const fs::path& manifest) {
     name = sdf->GetText();
     best = worth;
   }
+  const auto* const urdf = name.empty() && model != nullptr ? model->FirstChildElement("urdf") : nullptr;
+  if (urdf != nullptr && urdf->GetText() != nullptr) name = urdf->GetText();
   const std::size_t begin = name.find_first_not_of(" \t\r\n");
   return begin == std::string::npos ? "" : name.substr(begin, name.find_last_not_of(" \t\r\n") + 1 - begin);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/color.h"
+#include "scene/sdf_mend.h"
 #include "scene/sdf_pose.h"
 #include "scene/terrain.h"
 #include "sunlit/image/texture_files.h"
@@ -15,6 +16,14 @@ namespace {
 
 /// px of the one picture of several layers.
 constexpr int kBakedSide = 2048;
+
+/// Gazebo's own flat one, which most height maps have, says nothing.
+bool hasNormals(const std::string& picture) {
+  const std::string flat = "flat_normal.png";
+  const bool is_flat =
+      picture.size() >= flat.size() && picture.compare(picture.size() - flat.size(), flat.size(), flat) == 0;
+  return !picture.empty() && picture != kNoNormals && picture != "__default__" && !is_flat;
+}
 
 /// Those whose pictures are there.
 std::vector<TerrainLayer> layersOf(const SdfHeightmap& source, SceneBuilder& builder,
@@ -36,6 +45,9 @@ std::vector<TerrainLayer> layersOf(const SdfHeightmap& source, SceneBuilder& bui
       layer.fade_m = source.BlendByIndex(i - 1)->FadeDistance();
     }
     layers.push_back(std::move(layer));
+    if (hasNormals(texture.Normal()) && finder.find(texture.Normal(), source.FilePath()).file)
+      builder.warn(kNotRendered, "a height map of " + source.FilePath() + ": its normal map " +
+                                     texture.Normal() + ": without it");
   }
   return layers;
 }

@@ -238,6 +238,7 @@ void SdfVisuals::addMeshShape(const sdf::Visual& visual, const Eigen::Affine3d& 
   }
   for (MeshPart& part : parts) {
     part.mesh.name = name + "/" + part.mesh.name;
+    leaveCoordinates(!material, part);
     if (material) materials_.put(*material, part.mesh);
     part.mesh.material = builder_.veiled(part.mesh.material, opacity, SceneBuilder::Faces::kOne);
     builder_.addMesh(part.mesh, map_from_file * part.file_from_node);

@@ -51,9 +51,14 @@ std::unique_ptr<tinyxml2::XMLDocument> readSdfXml(const std::string& file) {
     throw std::runtime_error(file + ":" + std::to_string(document->ErrorLineNum()) +
                              ": the XML is broken here (" + document->ErrorName() + ")");
   }
-  if (document->FirstChildElement("sdf") == nullptr)
+  if (document->FirstChildElement("sdf") == nullptr && !isUrdf(*document))
     throw std::runtime_error(file + ":1: there is no <sdf> element in this file");
   return document;
+}
+
+bool isUrdf(const tinyxml2::XMLDocument& document) {
+  const tinyxml2::XMLElement* const root = document.RootElement();
+  return root != nullptr && std::string(root->Value()) == "robot";
 }
 
 std::string printed(const tinyxml2::XMLDocument& document) {

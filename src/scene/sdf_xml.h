@@ -10,9 +10,12 @@
 
 namespace sunlit::scene {
 
-/// The file as it stands, with an <sdf> element. Throws std::runtime_error naming file and line of what is
-/// wrong.
+/// The file as it stands, with an <sdf> element, or the <robot> of a URDF. Throws std::runtime_error naming
+/// file and line of what is wrong.
 std::unique_ptr<tinyxml2::XMLDocument> readSdfXml(const std::string& file);
+
+/// Whether it is a URDF.
+bool isUrdf(const tinyxml2::XMLDocument& document);
 
 /// `document` as text in which each element begins on the line that it has in its file, whatever was taken
 /// out before it, so that libsdformat's errors name lines of the file. Comments are left out.

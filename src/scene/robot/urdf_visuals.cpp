@@ -146,6 +146,7 @@ void UrdfVisuals::addMeshShape(const urdf::Mesh& shape, const MeshUse& use, cons
   if (parts->empty()) builder_.warn("meshes have nothing to draw", shape.filename + " of " + place);
   for (MeshPart part : *parts) {
     part.mesh.name = name + "/" + part.mesh.name;
+    leaveCoordinates(true, part);
     // As RViz does: the material of the URDF is for meshes that bring none.
     if (use.own_material && part.bare) {
       looks_.put(*use.own_material, part.mesh);

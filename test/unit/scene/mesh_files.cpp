@@ -386,6 +386,22 @@ TEST_F(MeshFile, MapsOfColladaAreRenderedOrNamed) {
   }
 }
 
+TEST_F(MeshFile, ReflectionOfColladaIsNamedWhereItIsAny) {
+  const auto with = [&](const std::string& reflection) {
+    std::string text = collada(kCentimetresZUp);
+    return load(write("m.dae", text.insert(text.find("</lambert>"), reflection)), {});
+  };
+  const auto reflection = [](const std::string& color, const std::string& share, const std::string& index) {
+    return "<reflective><color>" + color + "</color></reflective><reflectivity><float>" + share +
+           "</float></reflectivity><index_of_refraction><float>" + index + "</float></index_of_refraction>";
+  };
+  expectOneWarning(with(reflection("1 1 1 1", "0.2", "1")), "<reflective>");
+  expectOneWarning(with(reflection("0 0 0 1", "0", "2.4")), "an index of refraction");
+  for (const std::string& nothing :
+       {reflection("0 0 0 1", "0.5", "1"), reflection("1 1 1 1", "0", "1.45"), std::string()})
+    EXPECT_TRUE(with(nothing).warnings.empty()) << with(nothing).warnings[0];
+}
+
 TEST_F(MeshFile, BrokenTrianglesAreLeftOutAndCounted) {
   const Scene scene =
       load(write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n"), {});

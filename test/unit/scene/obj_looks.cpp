@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/color.h"
@@ -65,6 +66,71 @@ TEST_F(ObjLooks, RoughnessAndMetalnessAreNumbersOrPictures) {
   EXPECT_EQ(pictures.textures.at(static_cast<std::size_t>(look.metalness_map.texture)).rgba[0], 200);
   EXPECT_EQ(look.roughness, 1.0f);
   EXPECT_EQ(look.metalness, 1.0f);
+}
+
+// As MTL says, and OGRE does in Gazebo and RViz.
+TEST_F(ObjLooks, NumbersMultiplyTheirPictures) {
+  paint("t.png", {200, 100, 50});
+  const auto colorOf = [&](const std::string& lines) {
+    write("m.mtl", "newmtl m\n" + lines + "map_Kd t.png\nnewmtl other\nKd 0 1 0\n");
+    return materialOf(load(write("m.obj",
+                                 "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\n"
+                                 "vt 0 1\nf 1/1 2/2 3/3\n"),
+                           {}))
+        .base_color.value;
+  };
+  EXPECT_LT((colorOf("Kd 1 0.5 0\n") - Eigen::Array3f(1.0f, 0.21404f, 0.0f)).abs().maxCoeff(), 1e-5f);
+  EXPECT_TRUE((colorOf("Ka 1 1 1\n") == 1.0f).all()) << "where there is none";
+  EXPECT_TRUE((colorOf("\tKd 0 0 0\n") == 1.0f).all()) << "which would leave nothing of the picture";
+  const auto glowOf = [&](const std::string& lines) {
+    return Eigen::Array3f(materialOf(lookOf(lines)).emission.value / kDisplayWhite_cd_per_m2);
+  };
+  EXPECT_LT((glowOf("Ke 2 1 0\nmap_Ke t.png\n") - Eigen::Array3f(2.0f, 0.42808f, 0.0f)).abs().maxCoeff(),
+            1e-5f)
+      << "the brightest channel counts, the others by their share of it";
+  EXPECT_TRUE((glowOf("Ke 0 0 0\nmap_Ke t.png\n") == 1.0f).all());
+  EXPECT_TRUE((glowOf("Ke 1 1 1\nmap_Ke gone.png\n") == 0.0f).all()) << "not all over";
+}
+
+TEST_F(ObjLooks, WithoutCoordinatesAreTheMeanOfTheirPicture) {
+  image::Rgba8Image picture(2, 1);
+  picture.data = {255, 0, 0, 255, 0, 255, 0, 255};
+  write("t.png", image::encodePng(picture));
+  write("m.mtl", "newmtl m\nKd 1 1 1\nmap_Kd t.png\n");
+  const Scene scene =
+      load(write("m.obj", "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), {});
+  EXPECT_EQ(materialOf(scene).base_texture, Material::kNoTexture);
+  EXPECT_TRUE((materialOf(scene).base_color.value == Eigen::Array3f(0.5f, 0.5f, 0.0f)).all());
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("1 meshes have no texture coordinates"), std::string::npos)
+      << scene.warnings[0];
+}
+
+TEST_F(ObjLooks, WhatMeansSomethingAndIsNotRenderedIsNamed) {
+  paint("t.png", {200, 100, 50});
+  paint("a.png", {100, 100, 50});
+  const std::vector<std::pair<std::string, std::string>> lost = {
+      {"illum 0\n", "illum 0"},
+      {"illum 4\n", "illum 4, glass"},
+      {"Ks 1 1 1\nillum 3\n", "illum 3, a mirror"},
+      {"d 0.75\nNi 1.45\n", "what is behind is not bent"},
+      {"Ni 2.4\n", "it mirrors by one of 1.5"},
+      {"d 0.75\nTf 1 0.5 0.5\n", "Tf, "},
+      {"map_Kd t.png\nmap_Ka a.png\n", "map_Ka"},
+      {"map_Ka a.png\n", "map_Ka"},
+#ifndef SUNLIT_OLD_ASSIMP
+      {"Pc 0.5\n", "a clear coat"},
+#endif
+  };
+  for (const auto& [lines, name] : lost) {
+    const Scene scene = lookOf(lines);
+    ASSERT_EQ(scene.warnings.size(), 1u) << lines;
+    EXPECT_NE(scene.warnings[0].find(name), std::string::npos) << scene.warnings[0];
+  }
+  // As exporters write of any material.
+  for (const std::string lines : {"illum 2\nNi 1.45\nTf 1 1 1\n", "illum 1\nNi 1\nTf 0 0 0\nPc 0\nPs 0 0 0\n",
+                                  "map_Kd t.png\nmap_Ka t.png\n", "d 0.75\nTf 1 1 1\nNi 1\n"})
+    EXPECT_TRUE(lookOf(lines).warnings.empty()) << lookOf(lines).warnings[0];
 }
 
 TEST_F(ObjLooks, PicturesOfWhatIsMirroredAreNamed) {

@@ -138,6 +138,49 @@ TEST_F(SdfLook, MapsOfPbrMetalAreRead) {
   EXPECT_NE(scene.warnings[0].find("an environment map"), std::string::npos) << scene.warnings[0];
 }
 
+TEST_F(SdfLook, NormalMapsInTheSpaceOfTheirObjectAreNamed) {
+  writeTexture("n.png");
+  const auto with = [&](const std::string& type) {
+    return loaded("<material><pbr><metal><normal_map" + type +
+                  ">n.png</normal_map></metal></pbr></material>");
+  };
+  EXPECT_TRUE(look(with(" type='tangent'")).normal_map.given());
+  EXPECT_FALSE(look(with(" type='object'")).normal_map.given());
+  ASSERT_EQ(with(" type='object'").warnings.size(), 1u);
+  EXPECT_NE(with(" type='object'").warnings[0].find("in the space of its object"), std::string::npos);
+}
+
+TEST_F(SdfLook, VisibilityForSomeCamerasAloneIsNamed) {
+  EXPECT_TRUE(loaded("", "<visibility_flags>4294967295</visibility_flags>").warnings.empty());
+  const Scene scene = loaded("", "<visibility_flags>1</visibility_flags>");
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("every camera sees them"), std::string::npos) << scene.warnings[0];
+}
+
+TEST_F(SdfLook, WhatAWorldsSceneAsksForIsNamedWhereItIsNotUsual) {
+  const auto warningsOf = [&](const std::string& scene) {
+    return load(
+               write("scene.world",
+                     "<sdf version='1.6'><world name='w'><scene>" + scene +
+                         "</scene><model name='m'><link name='l'><visual name='v'><geometry><sphere><radius>1"
+                         "</radius></sphere></geometry></visual></link></model></world></sdf>"),
+               {})
+        .warnings;
+  };
+  EXPECT_TRUE(
+      warningsOf("<ambient>0.4 0.4 0.4 1</ambient><background>0.7 0.7 0.7 1</background><shadows>1</shadows>"
+                 "<fog><type>none</type></fog>")
+          .empty());
+  EXPECT_TRUE(warningsOf("<background>0 0 1 1</background><sky/>").empty());
+  for (const std::string lost :
+       {"<background>0 0 1 1</background>", "<shadows>false</shadows>", "<fog><type>linear</type></fog>"}) {
+    ASSERT_EQ(warningsOf(lost).size(), 1u) << lost;
+    EXPECT_NE(warningsOf(lost)[0].find("1 elements of <scene> are not rendered: <"), std::string::npos)
+        << warningsOf(lost)[0];
+  }
+}
+
 TEST_F(SdfLook, EmissiveGlowsAsADisplayWould) {
   const Scene scene = loaded("<material><diffuse>1 1 1 1</diffuse><emissive>1 0.5 0 1</emissive></material>");
   EXPECT_NEAR(look(scene).emission.value[0], 80.0f, 1e-3f);

@@ -248,7 +248,7 @@ TEST_F(Sdf, AWrongValueNamesTheLine) {
 }
 
 TEST_F(Sdf, AnythingElseIsNoWorld) {
-  const std::string file = write("test.world", "<robot name='r'/>");
+  const std::string file = write("test.world", "<page/>");
   EXPECT_EQ(errorOf(file), file + ":1: there is no <sdf> element in this file");
 }
 

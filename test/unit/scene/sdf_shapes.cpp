@@ -244,6 +244,24 @@ TEST_F(SdfShape, LayersOfAHeightMapAreMixedByHeight) {
   EXPECT_FLOAT_EQ(one.meshes[0].texture_coordinates.back().x(), 10.0f);
 }
 
+TEST_F(SdfShape, NormalMapsOfHeightMapsAreNamedUnlessTheyAreFlat) {
+  writePicture("hills.png", 5, -1, 0);
+  writePicture("bumps.png", 8, 128, 128);
+  writePicture("flat_normal.png", 8, 128, 128);
+  const auto named = [&](const std::string& normal) {
+    const Scene scene = loaded(
+        visual("<heightmap><uri>hills.png</uri><size>40 40 8</size><texture><diffuse>bumps.png</diffuse>"
+               "<normal>" +
+               normal + "</normal><size>4</size></texture></heightmap>"));
+    return std::count_if(scene.warnings.begin(), scene.warnings.end(), [](const std::string& warning) {
+      return warning.find("its normal map bumps.png: without it") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(named("bumps.png"), 1);
+  EXPECT_EQ(named("flat_normal.png"), 0);
+  EXPECT_EQ(named(""), 0);
+}
+
 TEST_F(SdfShape, WhatIsNotThereOrNotDrawnIsNamed) {
   const std::string map = visual("<heightmap><uri>gone.png</uri></heightmap>");
   const std::string file =

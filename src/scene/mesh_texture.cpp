@@ -1,0 +1,40 @@
+#include "scene/mesh_texture.h"
+
+#include <assimp/material.h>
+
+namespace sunlit::scene {
+
+std::optional<std::string> textureFile(const std::string& name, const MeshFileContext& context) {
+  const Found found = context.finder.findTexture(name, context.file);
+  if (!found.file) context.builder.warn(kMissingTextures, name + " of " + context.file);
+  if (found.file && found.other_case)
+    context.builder.warn(kSpeltOtherwise, name + " of " + context.file + " is " + *found.file);
+  return found.file;
+}
+
+int addMeshTexture(const std::string& name, const aiScene& scene, const MeshFileContext& context,
+                   const Wraps& wraps) {
+  if (const aiTexture* embedded = scene.GetEmbeddedTexture(name.c_str())) {
+    if (embedded->mHeight != 0) {
+      context.builder.warn(
+          "textures are embedded as raw texels, which are not read, a neutral material takes their place",
+          name + " of " + context.file);
+      return Material::kNoTexture;
+    }
+    const auto* begin = reinterpret_cast<const std::uint8_t*>(embedded->pcData);
+    const std::string label = embedded->mFilename.length > 0 ? embedded->mFilename.C_Str() : "";
+    return context.builder.textureFromBytes(
+        context.file + ": texture " + name + (label.empty() ? "" : " " + label),
+        {begin, begin + embedded->mWidth}, wraps);
+  }
+  const std::optional<std::string> file = textureFile(name, context);
+  return file ? context.builder.textureFromFile(*file, wraps) : Material::kNoTexture;
+}
+
+std::string nameOf(const aiMaterial& source) {
+  aiString name;
+  source.Get(AI_MATKEY_NAME, name);
+  return name.C_Str();
+}
+
+}  // namespace sunlit::scene

@@ -1,0 +1,308 @@
+#include "scene/phong_material.h"
+
+#include <assimp/material.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/color.h"
+#include "scene/mesh_file.h"
+#include "scene/mesh_texture.h"
+
+namespace sunlit::scene {
+namespace {
+
+struct Highlight {
+  aiColor4D color{0.0f, 0.0f, 0.0f, 1.0f};
+  float shininess = 0.0f;
+};
+
+/// Dark where the file gives none. Of COLLADA, Assimp hands on a highlight for every effect: for those that
+/// have none, and for phong and blinn without the elements for it, the one that its own effects begin with.
+Highlight highlightOf(const aiMaterial& source, bool collada) {
+  Highlight highlight;
+  source.Get(AI_MATKEY_COLOR_SPECULAR, highlight.color);
+  source.Get(AI_MATKEY_SHININESS, highlight.shininess);
+  if (!collada) return highlight;
+  int shading = aiShadingMode_Phong;
+  source.Get(AI_MATKEY_SHADING_MODEL, shading);
+  const bool matt =
+      shading == aiShadingMode_Gouraud || shading == aiShadingMode_NoShading;  // lambert, constant
+  const bool of_assimp = highlight.color == aiColor4D(0.4f, 0.4f, 0.4f, 1.0f) && highlight.shininess == 10.0f;
+  return matt || of_assimp ? Highlight() : highlight;
+}
+
+/// Of 0 … 1. An opacity of exactly 0 would make a material pointless; exporters write it when they take
+/// COLLADA's transparency the wrong way round.
+float opacityOf(const aiMaterial& source) {
+  float opacity = 1.0f;
+  source.Get(AI_MATKEY_OPACITY, opacity);
+  return opacity > 0.0f && opacity < 1.0f ? opacity : 1.0f;
+}
+
+Wrap wrapOf(const aiMaterial& source, const char* key, aiTextureType type) {
+  int mode = aiTextureMapMode_Wrap;
+  source.Get(key, static_cast<unsigned>(type), 0, mode);
+  return mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal ? Wrap::kClamp
+         : mode == aiTextureMapMode_Mirror                                ? Wrap::kMirror
+                                                                          : Wrap::kRepeat;
+}
+
+Wraps wrapsOf(const aiMaterial& source, aiTextureType type) {
+  return {wrapOf(source, _AI_MATKEY_MAPPINGMODE_U_BASE, type),
+          wrapOf(source, _AI_MATKEY_MAPPINGMODE_V_BASE, type)};
+}
+
+/// Which set of coordinates the texture of `type` wants; of COLLADA the first number in what the effect calls
+/// them, see withKnownSets().
+CoordinateRecipe recipeOf(const aiMaterial& source, aiTextureType type) {
+  CoordinateRecipe recipe;
+  source.Get(_AI_MATKEY_UVWSRC_BASE, static_cast<unsigned>(type), 0, recipe.set);
+  return recipe;
+}
+
+/// What a COLLADA or OBJ file calls the picture of that type; empty: none.
+std::string pictureOf(const aiMaterial& source, aiTextureType type) {
+  aiString name;
+  source.GetTexture(type, 0, &name);
+  return name.C_Str();
+}
+
+/// What Assimp gives a mesh whose file has none.
+bool isBare(const aiMaterial& source) {
+  return nameOf(source) == AI_DEFAULT_MATERIAL_NAME;
+}
+
+bool hasColors(const aiScene& scene) {
+  return std::any_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes,
+                     [](const aiMesh* mesh) { return mesh->HasVertexColors(0); });
+}
+
+/// Makes a look of one material.
+class PhongReader {
+ public:
+  PhongReader(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context)
+      : source_(source), scene_(scene), context_(context), extension_(extensionOf(context.file)) {
+    material_.name = nameOf(source);
+  }
+
+  MeshLook read() {
+    readColors();
+    readColorMaps();
+    // STL and PLY come out as white as nothing is.
+    if (isBare(source_) && material_.base_color.value.minCoeff() >= 1.0f && !hasColors(scene_))
+      material_.base_color = kNeutral;
+    material_.base_color.value = material_.base_color.value.max(0.0f).min(1.0f);
+    readMaps();
+    const float opacity = opacityOf(source_);
+    if (extension_ == ".obj") {
+      readRoughMetal();
+      nameRestOfObj(opacity);
+    } else if (extension_ == ".dae") {
+      warnOfPlacement();
+      nameReflection();
+      nameIndex(opacity < 1.0f);
+    }
+    if (opacity < 0.5f)
+      context_.builder.warn(
+          "materials are more than half transparent; where they should not be, their files mean opacity by "
+          "it",
+          material_.name + " of " + context_.file);
+    const int opaque =
+        context_.builder.addMaterial(material_, AlphaRule::kFromTexture, NormalsRule::kMaybeHeights);
+    return {context_.builder.veiled(opaque, opacity, SceneBuilder::Faces::kOne), coordinates_,
+            isBare(source_)};
+  }
+
+ private:
+  void warnOf(const std::string& lost) {
+    context_.builder.warn(kNotRendered, material_.name + " of " + context_.file + ": " + lost);
+  }
+
+  /// Phong's; they are display values.
+  void readColors() {
+    aiColor4D diffuse(0.8f, 0.8f, 0.8f, 1.0f);
+    source_.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
+    material_.base_color = linearFromSrgb({diffuse.r, diffuse.g, diffuse.b});
+    material_.roughness = 0.9f;
+    const auto [color, shininess] = highlightOf(source_, extension_ == ".dae");
+    const bool shines = std::max({color.r, color.g, color.b}) > 0.0f && shininess > 1.0f;
+    if (shines) material_.roughness = roughnessOfPhong(shininess);
+  }
+
+  /// The texture of that type; kNone if there is none, or it is missing.
+  int addTexture(aiTextureType type) {
+    const std::string name = pictureOf(source_, type);
+    return name.empty() ? TextureUse::kNone : addMeshTexture(name, scene_, context_, wrapsOf(source_, type));
+  }
+
+  TextureUse addMap(aiTextureType type) {
+    const int texture = addTexture(type);
+    if (texture == TextureUse::kNone) return {};
+    const CoordinateRecipe recipe = recipeOf(source_, type);
+    const auto same = std::find(coordinates_.begin(), coordinates_.end(), recipe);
+    const auto index = static_cast<int>(same - coordinates_.begin());
+    if (same == coordinates_.end()) coordinates_.push_back(recipe);
+    return {texture, index};
+  }
+
+  /// The file of a picture of opacity, if that is another than the one of colour.
+  std::optional<std::string> opacityFile(aiTextureType color_type) {
+    const std::string opacity = pictureOf(source_, aiTextureType_OPACITY),
+                      color = pictureOf(source_, color_type);
+    if (opacity.empty() || opacity == color || scene_.GetEmbeddedTexture(opacity.c_str()) != nullptr)
+      return std::nullopt;
+    if (!color.empty() && !(recipeOf(source_, aiTextureType_OPACITY) == recipeOf(source_, color_type)))
+      warnOf("texture coordinates of its picture of opacity: those of the colour");
+    return textureFile(opacity, context_);
+  }
+
+  /// What stands beside a picture: of OBJ the colour multiplies it, as MTL, OGRE (Gazebo, RViz) and three.js
+  /// have it; a black one, as exporters leave it, would make the picture pointless. Of COLLADA there is none.
+  LinearRgb factorOf(const LinearRgb& color) const {
+    const bool multiplies = extension_ == ".obj" && color.value.maxCoeff() > 0.0f;
+    return multiplies ? color : LinearRgb(1.0f, 1.0f, 1.0f);
+  }
+
+  /// Colour and opacity. A picture of colour that is missing makes the material neutral.
+  void readColorMaps() {
+    const bool base = !pictureOf(source_, aiTextureType_BASE_COLOR).empty();
+    const aiTextureType type = base ? aiTextureType_BASE_COLOR : aiTextureType_DIFFUSE;
+    const std::string color = pictureOf(source_, type);
+    bool colored = false;
+    coordinates_ = {recipeOf(source_, color.empty() ? aiTextureType_OPACITY : type)};
+    if (const std::optional<std::string> opacity = opacityFile(type)) {
+      const std::optional<std::string> file = color.empty() ? std::nullopt : textureFile(color, context_);
+      colored = file.has_value();
+      material_.base_texture =
+          context_.builder.textureFromFile(file.value_or(""), wrapsOf(source_, type), *opacity);
+    } else {
+      material_.base_texture = addTexture(type);
+      colored = material_.base_texture != Material::kNoTexture;
+    }
+    if (colored) material_.base_color = factorOf(material_.base_color);
+    if (!colored && !color.empty()) material_.base_color = kNeutral;
+  }
+
+  /// What there is beside colour and highlight: emission is rendered, the rest named.
+  void readMaps() {
+    aiColor4D emission(0.0f, 0.0f, 0.0f, 1.0f);
+    source_.Get(AI_MATKEY_COLOR_EMISSIVE, emission);
+    material_.emission_map = addMap(aiTextureType_EMISSIVE);
+    material_.emission = linearFromBright({emission.r, emission.g, emission.b});
+    if (material_.emission_map.given())
+      material_.emission = factorOf(material_.emission);
+    else if (!pictureOf(source_, aiTextureType_EMISSIVE).empty())
+      material_.emission = LinearRgb();  // not all over
+    material_.emission.value *= kDisplayWhite_cd_per_m2;
+    material_.normal_map = addMap(aiTextureType_NORMALS);
+    const auto name = [&](aiTextureType type, const char* what) {
+      if (source_.GetTextureCount(type) > 0) warnOf(what);
+    };
+    // Assimp may give one picture both ways.
+    if (!material_.normal_map.given() ||
+        pictureOf(source_, aiTextureType_HEIGHT) != pictureOf(source_, aiTextureType_NORMALS))
+      name(aiTextureType_HEIGHT, "a bump map: without it");
+    name(aiTextureType_SPECULAR, "a texture of its highlights: without it");
+    name(aiTextureType_SHININESS, "a texture of its shininess: without it");
+    name(aiTextureType_DISPLACEMENT, "displacement: flat");
+    name(aiTextureType_REFLECTION, "a picture of what it mirrors: it mirrors what there is");
+  }
+
+  /// What libraries of OBJ say beyond MTL: roughness and metalness as glTF has them, which come before the
+  /// highlight. A map stands in the place of the number, as in SDF.
+  void readRoughMetal() {
+    // Assimp 5.0 has no names for these keys.
+    source_.Get("$mat.roughnessFactor", 0, 0, material_.roughness);
+    source_.Get("$mat.metallicFactor", 0, 0, material_.metalness);
+    material_.roughness_map = addMap(aiTextureType_DIFFUSE_ROUGHNESS);
+    material_.metalness_map = addMap(aiTextureType_METALNESS);
+    if (material_.roughness_map.given()) material_.roughness = 1.0f;
+    if (material_.metalness_map.given()) material_.metalness = 1.0f;
+    // The least of what is no number at all.
+    material_.roughness = std::fmin(std::fmax(material_.roughness, Material::kSmoothest), 1.0f);
+    material_.metalness = std::fmin(std::fmax(material_.metalness, 0.0f), 1.0f);
+  }
+
+  /// Of refraction. 1 is what there is where a file says nothing.
+  void nameIndex(bool is_transparent) {
+    constexpr float kUsual = 1.5f,
+                    kAlike = 0.1f;  // changes the reflectance by less than a quarter of a hundredth
+    float index = 1.0f;
+    source_.Get(AI_MATKEY_REFRACTI, index);
+    if (!(index > 1.0f)) return;
+    if (is_transparent)
+      warnOf("an index of refraction: what is behind is not bent");
+    else if (!(std::abs(index - kUsual) <= kAlike))
+      warnOf("an index of refraction: it mirrors by one of 1.5");
+  }
+
+  /// What MTL says beyond colours, and the bits of it that mean nothing else.
+  void nameRestOfObj(float opacity) {
+    int model = 2;
+    source_.Get("$mat.illum", 0, 0, model);  // Assimp 5.0 has no name for it, and does not hand it on
+    const std::string illum = "illum " + std::to_string(model);
+    const bool is_glass = model == 4 || model == 6 || model == 7 || model == 9;
+    const bool mirrors = model == 3 || model == 5 || model == 8;
+    aiColor4D specular(0.0f, 0.0f, 0.0f, 1.0f), filter(1.0f, 1.0f, 1.0f, 1.0f);
+    source_.Get(AI_MATKEY_COLOR_SPECULAR, specular);
+    source_.Get(AI_MATKEY_COLOR_TRANSPARENT, filter);
+    if (model == 0) warnOf(illum + ", a colour without any light: lit like any other");
+    if (is_glass && opacity >= 1.0f) warnOf(illum + ", glass: drawn as opaque");
+    if (mirrors && material_.metalness <= 0.0f && !specular.IsBlack())
+      warnOf(illum + ", a mirror by Ks: it mirrors as paint does");
+    if (model == 10) warnOf(illum + ", nothing but the shadows on it: drawn like any other");
+    const bool is_transparent = is_glass || opacity < 1.0f;
+    nameIndex(is_transparent);
+    if (is_transparent && !filter.IsBlack() && filter != aiColor4D(1.0f, 1.0f, 1.0f, filter.a))
+      warnOf("Tf, the colour of what passes through: all colours pass alike");
+    const std::string ambient = pictureOf(source_, aiTextureType_AMBIENT);
+    if (!ambient.empty() && ambient != pictureOf(source_, aiTextureType_DIFFUSE))
+      warnOf("map_Ka, a picture of ambient light: light is computed");
+    float coat = 0.0f;
+    aiColor4D sheen(0.0f, 0.0f, 0.0f, 1.0f);
+    source_.Get("$mat.clearcoat.factor", 0, 0, coat);
+    source_.Get("$clr.sheen.factor", 0, 0, sheen);
+    if (coat > 0.0f || !sheen.IsBlack()) warnOf("a clear coat or a sheen: without it");
+  }
+
+  /// Of COLLADA: a share, of a colour.
+  void nameReflection() {
+    aiColor4D color(0.0f, 0.0f, 0.0f, 0.0f);
+    float share = 0.0f;
+    source_.Get(AI_MATKEY_COLOR_REFLECTIVE, color);
+    source_.Get(AI_MATKEY_REFLECTIVITY, share);
+    if (share > 0.0f && std::max({color.r, color.g, color.b}) > 0.0f)
+      warnOf("<reflective>, a share that it mirrors: it mirrors as paint does");
+  }
+
+  /// Names where COLLADA shifts, turns or repeats textures by extensions of modellers.
+  void warnOfPlacement() {
+    for (const aiTextureType type :
+         {aiTextureType_DIFFUSE, aiTextureType_EMISSIVE, aiTextureType_NORMALS, aiTextureType_OPACITY}) {
+      aiUVTransform placed;
+      source_.Get(_AI_MATKEY_UVTRANSFORM_BASE, static_cast<unsigned>(type), 0, placed);
+      const bool identity = placed.mTranslation == aiVector2D(0.0f, 0.0f) &&
+                            placed.mScaling == aiVector2D(1.0f, 1.0f) && placed.mRotation == 0.0f;
+      if (!identity) warnOf("textures that are shifted, turned or repeated: without that");
+    }
+  }
+
+  const aiMaterial& source_;
+  const aiScene& scene_;
+  const MeshFileContext& context_;
+  const std::string extension_;
+  Material material_;
+  std::vector<CoordinateRecipe> coordinates_;  ///< of MeshLook
+};
+
+}  // namespace
+
+MeshLook phongLook(const aiMaterial& source, const aiScene& scene, const MeshFileContext& context) {
+  return PhongReader(source, scene, context).read();
+}
+
+}  // namespace sunlit::scene

@@ -1,0 +1,90 @@
+// URDF files that SDF includes.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "unit/scene/measure.h"
+#include "unit/scene/scene_files.h"
+#include "unit/scene/sdf_texts.h"
+
+namespace sunlit::scene {
+namespace {
+
+const std::string kMass =
+    "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>";
+const std::string kUnitBox = "<geometry><box size='1 1 1'/></geometry>";
+
+std::string linkOf(const std::string& name, const std::string& visual) {
+  return "<link name='" + name + "'><visual>" + visual + "</visual>" + kMass + "</link>";
+}
+
+class SdfUrdf : public SceneFiles {
+ protected:
+  Scene included(const std::string& include, const SearchPath& search_path = {}) const {
+    return load(write("w.world", world("<include>" + include + "</include>")), search_path);
+  }
+  static const Material& look(const Scene& scene) {
+    return scene.materials.at(static_cast<std::size_t>(scene.meshes.at(0).material));
+  }
+};
+
+TEST_F(SdfUrdf, IsAModelByAManifestOrByItself) {
+  write("models/shed/model.config", "<model><name>shed</name><sdf version='1.6'>shed.urdf</sdf></model>");
+  write("models/named/model.config", "<model><name>named</name><urdf>../shed/shed.urdf</urdf></model>");
+  write("models/shed/shed.urdf",
+        "<robot name='shed'>" +
+            linkOf("base", kUnitBox + "<material name='red'><color rgba='1 0 0 1'/></material>") +
+            linkOf("arm", kUnitBox) +
+            "<joint name='j' type='revolute'><parent link='base'/><child link='arm'/><origin xyz='0 0 2'/>"
+            "<axis xyz='1 0 0'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint></robot>");
+  for (const std::string uri : {"model://shed", "model://named", "models/shed/shed.urdf"}) {
+    const Scene scene = included("<uri>" + uri + "</uri><name>s</name><pose>10 0 0 0 0 0</pose>");
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    ASSERT_EQ(scene.meshes.size(), 2u) << uri;
+    EXPECT_TRUE((look(scene).base_color.value == Eigen::Array3f(1, 0, 0)).all());
+    EXPECT_LT((boundsOf(scene).min() - Eigen::Vector3f(9.5f, -0.5f, -0.5f)).norm(), 1e-5f);
+    EXPECT_LT((boundsOf(scene).max() - Eigen::Vector3f(10.5f, 0.5f, 2.5f)).norm(), 1e-5f);
+  }
+}
+
+TEST_F(SdfUrdf, HasMeshesOfPackagesAndNoPictures) {
+  write("packages/p/meshes/m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string picture = "<material name='bark'><texture filename='bark.png'/></material>";
+  write("tree.urdf", "<robot name='tree'>" + picture +
+                         linkOf("base",
+                                "<geometry><mesh filename='package://p/meshes/m.obj'/></geometry>"
+                                "<material name='bark'/>") +
+                         "</robot>");
+  SearchPath search_path;
+  search_path.package_folder = [&](const std::string& package) { return pathOf("packages/" + package); };
+  const Scene scene = included("<uri>tree.urdf</uri>", search_path);
+  EXPECT_EQ(scene.triangleCount(), 1u);
+  EXPECT_GT(look(scene).base_color.value.minCoeff(), 0.1f);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("material bark of " + pathOf("tree.urdf")), std::string::npos)
+      << scene.warnings[0];
+}
+
+TEST_F(SdfUrdf, ThatCannotBeReadIsAnErrorThatNamesIt) {
+  const std::string around = world("<include><uri>r.urdf</uri></include>");
+  write("r.urdf", "<robot name='r' xmlns:xacro='x'>\n<xacro:include filename='a'/></robot>");
+  const std::string macro = errorOf(write("w.world", around));
+  EXPECT_NE(macro.find("r.urdf:2: <xacro:include> is a macro"), std::string::npos) << macro;
+  write("r.urdf", "<robot name='r'><link name='a'/><link name='b'/></robot>");
+  const std::string two_roots = errorOf(write("w.world", around));
+  EXPECT_NE(two_roots.find("r.urdf: "), std::string::npos) << two_roots;
+}
+
+TEST_F(SdfUrdf, ParametersOfIncludesAreNamed) {
+  write("models/crate/model.sdf",
+        "<sdf version='1.9'><model name='crate'><link name='l'>" + boxVisual() + "</link></model></sdf>");
+  const Scene scene = included(
+      "<uri>model://crate</uri><experimental:params><visual element_id='l::v' action='remove'/>"
+      "</experimental:params>");
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("<experimental:params>"), std::string::npos) << scene.warnings[0];
+}
+
+}  // namespace
+}  // namespace sunlit::scene
