@@ -51,6 +51,7 @@ struct StreamCounts {
   std::size_t lost = 0;         ///< sent but never here, as far as told by addLost(); not among the received
   std::size_t unexpected = 0;   ///< of a pose that is not one of those expected
   std::size_t lossy = 0;        ///< compressed with loss
+  std::size_t no_features = 0;  ///< a detector found nothing in it; once for each that did not
   std::size_t unlocalised = 0;  ///< could be neither key frame nor query, or not for all detectors
   std::optional<std::int64_t> only_stamp_ns;  ///< that all of them have, where they have one alone
   /// Most were left out, as those of a driver that sets no stamps are: what was evaluated is not what was
