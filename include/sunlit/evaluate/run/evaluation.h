@@ -24,6 +24,7 @@ struct CaptureRecord {
   std::int64_t pose = 0;
   std::int64_t stamp_ns = 0;
   double ev100 = 0.0;
+  std::string exposure_mode;               ///< how that was chosen: "fixed" or "auto"
   double sun_azimuth_deg = 0.0;            ///< clockwise from north
   double sun_elevation_deg = 0.0;          ///< apparent
   double moon_azimuth_deg = 0.0;           ///< clockwise from north; NaN, as the next two, without a night
@@ -35,9 +36,7 @@ struct CaptureRecord {
 /// Where the camera stood, in `map`.
 struct PlaceRecord {
   std::int64_t stamp_ns = 0;
-  double x_m = 0.0;
-  double y_m = 0.0;
-  double z_m = 0.0;
+  double x_m = 0.0, y_m = 0.0, z_m = 0.0;
   double yaw_deg = 0.0;  ///< of the camera's x axis, counter-clockwise from east
 };
 
