@@ -237,6 +237,7 @@ def _evaluator(typed, places, beginning):
     tree = {"streams": names, "pairs": pairs(typed), "poses": beginning.poses,
             "frame_rate": FRAME_RATE_HZ, "stamp_start": START_STAMP_S, "output_dir": places["output"],
             "images": "all" if read.flag("images", typed["images"]) else "samples", "exit_when_done": True,
+            "report": False,  # the experiment draws it, once its recording is complete, too
             "about": dict({name: typed[name] for name in ABOUT},
                           camera=f"{_about_camera(typed)}, {typed['camera_height']} m")}
     if read.flag("compressed", typed["compressed"]):

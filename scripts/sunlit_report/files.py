@@ -19,8 +19,10 @@ OLD_FRAMES = "pose,stamp,a,b,difference,value,features_a,features_b,matches,zero
 FRAMES = OLD_FRAMES + ",symmetric,one_to_one,matches_back,matches_one_to_one"
 OLD_SUMMARY = "a,b,difference,n,undefined,mean,sd,ci_low,ci_high"
 SUMMARY = OLD_SUMMARY + ",symmetric_mean,symmetric_sd,one_to_one_mean,one_to_one_sd,overmatched"
-CAPTURES = ("stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,"
-            "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance")
+_SKY = "sun_azimuth_deg,sun_elevation_deg,moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance"
+# Older captures do not tell how their exposure was chosen.
+OLD_CAPTURES = f"stream,pose,stamp,ev100,{_SKY}"
+CAPTURES = f"stream,pose,stamp,ev100,exposure_mode,{_SKY}"
 PATH = "pose,stamp,x,y,z,yaw_deg"
 PROBLEMS = "kind,pose,stamp,where,reason"
 TIMING = "stage,what,count,seconds"
@@ -209,9 +211,9 @@ def read_captures(path):
     names = ["pose", "ev100", "sun_azimuth_deg", "sun_elevation_deg", "moon_azimuth_deg", "moon_elevation_deg",
              "moon_illuminated_fraction", "scene_illuminance"]
     streams = {}
-    for row in rows(path, CAPTURES, {name: whole if name == "pose" else number for name in names}):
-        streams.setdefault(row["stream"], []).append(row)
-    return {stream: columns(found, names) for stream, found in streams.items()}
+    for row in rows(path, CAPTURES, {name: whole if name == "pose" else number for name in names}, older=OLD_CAPTURES):
+        streams.setdefault(row["stream"], []).append({"exposure_mode": "", **row})
+    return {stream: columns(found, [*names, "exposure_mode"]) for stream, found in streams.items()}
 
 
 def read_path(path):

@@ -113,7 +113,8 @@ def conditions(output):
         if capture is not None:
             rows.append([names.condition(stream), str(len(capture["pose"])), _range(capture["sun_azimuth_deg"], _two_decimals),
                          _range(capture["sun_elevation_deg"], _two_decimals),
-                         _range(capture["scene_illuminance"], significant), _range(capture["ev100"], _two_decimals)])
+                         _range(capture["scene_illuminance"], significant), _range(capture["ev100"], _two_decimals),
+                         ", ".join(sorted(set(capture["exposure_mode"]) - {""}))])
     return rows
 
 

@@ -41,6 +41,26 @@ LinearRgb discIlluminance(const RadiativeTransfer& transfer, double altitude_km,
   return inGamut(colourOf(passedOfDisc(transfer, altitude_km, disc) * strength));
 }
 
+MediumParameters mediumOf(const AtmosphereOptions& options) {
+  MediumParameters parameters;
+  parameters.turbidity = options.turbidity;
+  parameters.ozone_du = options.ozone_du;
+  parameters.ground_albedo = options.ground_albedo;
+  return parameters;
+}
+
+/// Extinction of the clear air at a height, 1/km.
+Eigen::Array3f hazePerKm(const Medium& medium, double altitude_km) {
+  const LinearRgb clear = colourOf((medium.at(altitude_km).extinction * -1.0F).exp());
+  const LinearRgb white = colourOf(Spectrum::Ones());
+  return -(clear.value / white.value).log();
+}
+
+/// The same by luminance, 1/m.
+float hazePerMetre(const Eigen::Array3f& haze_per_km) {
+  return LinearRgb(haze_per_km).luminance() * 1e-3F;
+}
+
 // By day the moon's sky is at most 3e-5 of the sun's, and the night's glow at most 3e-6.
 constexpr double kMoonSkyDrowned = 0.17;  // sine of 10°
 constexpr double kGlowDrowned = 0.0;
@@ -62,14 +82,6 @@ struct Atmosphere::Tables {
         sights(std::make_shared<AirSights>(transfer, altitude_km)),
         store(kept) {}
 
-  static MediumParameters mediumOf(const AtmosphereOptions& options) {
-    MediumParameters parameters;
-    parameters.turbidity = options.turbidity;
-    parameters.ozone_du = options.ozone_du;
-    parameters.ground_albedo = options.ground_albedo;
-    return parameters;
-  }
-
   double altitude_km;
   RadiativeTransfer transfer;
   Extinction extinction;
@@ -85,6 +97,14 @@ struct Atmosphere::Tables {
 
 void validate(const AtmosphereOptions& options) {
   requireFields(options);
+}
+
+void validate(const Weather& weather, const AtmosphereOptions& air) {
+  validate(weather);
+  validate(air);
+  if (!weather.visibility_m) return;
+  const Eigen::Array3f haze_per_km = hazePerKm(Medium(mediumOf(air)), 1e-3 * air.observer_height_m);
+  fogPerMetre(*weather.visibility_m, static_cast<double>(hazePerMetre(haze_per_km)));
 }
 
 Atmosphere::Atmosphere(const AtmosphereOptions& options, const TableStore& kept) {
@@ -121,10 +141,7 @@ Daylight Atmosphere::daylight(const SunInSky& sun, const NightSky& night, const 
     table->glow = tables.glow.sky(night, sun_lights);
   }
   table->stars = starsAbove(night, tables.extinction);
-  const LocalMedium air = tables.transfer.medium().at(tables.altitude_km);
-  const LinearRgb clear = colourOf((air.extinction * -1.0F).exp());
-  const LinearRgb white = colourOf(Spectrum::Ones());
-  table->haze_per_km = -(clear.value / white.value).log();
+  table->haze_per_km = hazePerKm(tables.transfer.medium(), tables.altitude_km);
   validate(weather);
   if (!isClear(weather)) addWeather(weather, {sun, night}, table.get());
   gatherIlluminance(static_cast<float>(tables.transfer.medium().parameters().ground_albedo), table.get());
@@ -152,7 +169,7 @@ void Atmosphere::addWeather(const Weather& weather, const Lamps& lamps, SkyTable
   }
   const WeatherTables made_of{*tables.droplets, isBroken(weather) ? tables.clouds.of(weather) : nullptr,
                               levels, static_cast<float>(tables.transfer.medium().parameters().ground_albedo),
-                              LinearRgb(table->haze_per_km).luminance() * 1e-3F};
+                              hazePerMetre(table->haze_per_km)};
   const auto made = std::make_shared<const WeatherSky>(weather, made_of, *table);
   const auto dim = [&](double z, LinearRgb* light) { *light = *light * made->passed(static_cast<float>(z)); };
   dim(table->sun.towards.vector().z(), &table->sun.illuminance);

@@ -12,17 +12,6 @@ namespace {
 /// Optical depth over which contrast falls to the 5 % of the meteorological optical range.
 const double kRangeDepth = -std::log(0.05);
 
-/// Droplets in a metre of the fog, beside the clear air.
-double fogPerMetre(double visibility_m, double haze_per_m) {
-  const double fog = kRangeDepth / visibility_m - haze_per_m;
-  if (fog <= 0.0) {
-    refuse("visibility", textOf(visibility_m) + " m",
-           "less than the " + textOf(std::floor(kRangeDepth / haze_per_m)) +
-               " m that the clear air of this turbidity has; or clear");
-  }
-  return fog;
-}
-
 /// In whole millimetres, and of a wind that has blown for any time.
 Eigen::Vector2d driftOf(const Weather& weather) {
   const double way_m = weather.wind_m_per_s * weather.clock_s;
@@ -33,6 +22,16 @@ Eigen::Vector2d driftOf(const Weather& weather) {
 const Eigen::Vector3f kOrigin = Eigen::Vector3f::Zero();
 
 }  // namespace
+
+double fogPerMetre(double visibility_m, double haze_per_m) {
+  const double fog = kRangeDepth / visibility_m - haze_per_m;
+  if (fog <= 0.0) {
+    refuse("visibility", textOf(visibility_m) + " m",
+           "less than the " + textOf(std::floor(kRangeDepth / haze_per_m)) +
+               " m that the clear air of this turbidity has; or clear");
+  }
+  return fog;
+}
 
 WeatherSky::WeatherSky(const Weather& weather, const WeatherTables& tables, const SkyTable& clear)
     : rain_{weather.rain_mm_per_h, static_cast<std::uint64_t>(weather.seed), windNearGround(weather)} {

@@ -25,6 +25,10 @@ struct WeatherTables {
   float haze_per_m;  ///< extinction of the clear air near the ground, by luminance
 };
 
+/// Extinction of the fog of a meteorological optical range, 1/m, beside that of the clear air. Throws
+/// std::invalid_argument where that alone lets one see no farther.
+double fogPerMetre(double visibility_m, double haze_per_m);
+
 /// A line of sight: towards a unit vector, from a place in `map`.
 struct Sight {
   const Eigen::Vector3f& towards;

@@ -86,12 +86,10 @@ void Camera::addRain(const Lit& lit, double ev100, image::LinearImage* luminance
   // A drop gathers what is before the camera, and what is above.
   const Eigen::Array3f before = image::meanLuminance(*luminance).cast<float>();
   const Eigen::Array3f above = day.groundIlluminance().value / kPiFloat;
-  const image::RainStreaks streaks{rain.mm_per_h,
-                                   rain.seed,
-                                   lit.name.index,
-                                   image::streakTime_s(chainOf(lit).options.shutter, ev100),
-                                   0.5f * (before + above),
-                                   rain.wind_m_s};
+  const image::RainStreaks streaks{
+      rain.mm_per_h,           rain.seed,
+      lit.name.index,          image::streakTime_s(chainOf(lit).options.shutter, ev100),
+      0.5f * (before + above), rain.wind_m_s};
   image::addRain(streaks,
                  {lens_, map_from_optical_, motion_, renderer_->depth(),
                   [this](const Eigen::Vector3d& place) { return shelter_->open(place); }},

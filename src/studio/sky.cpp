@@ -81,13 +81,18 @@ sky::Daylight Sky::daylight(const SkyBodies& bodies, const sky::Weather& weather
       .daylight(bodies.sun, {bodies.moon, bodies.map_from_celestial, stars_}, weather);
 }
 
-sky::AtmosphereOptions Sky::airAt(double site_elevation_m, std::size_t state) const {
-  sky::AtmosphereOptions air = options_.air;
-  air.ground_albedo = groundAlbedo(state);
+sky::AtmosphereOptions airOf(const SkyOptions& options, double site_elevation_m) {
+  sky::AtmosphereOptions air = options.air;
   const std::vector<Field> rows = fieldsOf(air);
   const Range& allowed = fieldOf(rows, "observer_height").range;
   air.observer_height_m =
-      options_.fixed_height_m.value_or(std::clamp(site_elevation_m, allowed.low, allowed.high));
+      options.fixed_height_m.value_or(std::clamp(site_elevation_m, allowed.low, allowed.high));
+  return air;
+}
+
+sky::AtmosphereOptions Sky::airAt(double site_elevation_m, std::size_t state) const {
+  sky::AtmosphereOptions air = airOf(options_, site_elevation_m);
+  air.ground_albedo = groundAlbedo(state);
   return air;
 }
 

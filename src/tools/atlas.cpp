@@ -1,7 +1,5 @@
 // A path at every time of the day, and what a map of each is worth at each other.
-#include <spawn.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 
 #include <chrono>
 #include <cstdio>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "sunlit/evaluate/atlas/atlas_files.h"
+#include "sunlit/evaluate/files/report.h"
 #include "sunlit/image/files.h"
 #include "sunlit/quantity/duration.h"
 #include "sunlit/studio/command_line.h"
@@ -24,8 +23,6 @@
 #include "tools/output_folder.h"
 #include "tools/progress_line.h"
 #include "tools/recipe.h"
-
-extern char** environ;
 
 namespace sunlit::tools {
 namespace {
@@ -181,24 +178,11 @@ class Atlas {
     image::writeFileAtomically(folder_.file("conditions.csv"), text);
   }
 
-  /// By the report, which stands beside this program where both are installed.
   void draw() const {
-    const std::filesystem::path beside =
-        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "report";
-    std::vector<std::string> words = {"rosrun", "sunlit", "report", options_.output};
-    if (std::filesystem::exists(beside)) words = {beside.string(), options_.output};
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    pid_t child = 0;
-    int status = 1;
-    const bool has_run =
-        ::posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ) == 0 &&
-        ::waitpid(child, &status, 0) == child;
-    if (!has_run || status != 0)
-      throw std::runtime_error(options_.output +
-                               ": all is computed, but the heat maps were not drawn; rosrun sunlit report " +
-                               options_.output + " does it");
+    if (evaluate::drawReport(options_.output, evaluate::ReportTables::kShown)) return;
+    throw std::runtime_error(options_.output +
+                             ": all is computed, but the heat maps were not drawn; rosrun sunlit report " +
+                             options_.output + " does it");
   }
 
   const AtlasRunOptions& options_;

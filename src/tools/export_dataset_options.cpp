@@ -138,7 +138,7 @@ std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& 
   addBounced(&line, &options.studio.bake);
   addLamps(&line, &options.studio.lamps);
   if (!line.read(arguments)) return std::nullopt;
-  requireWeather(line);
+  requireWeather(line, options.place.weather, airOf(options.place));
   requireSense(line, words, options);
   options.output = outputOf(words.places);
   options.studio.render = words.camera.options();

@@ -32,6 +32,18 @@ std::string textOf(const astronomy::CivilDate& date) {
   return text;
 }
 
+namespace {
+
+studio::SkyOptions skyOptionsOf(const PlaceOptions& place) {
+  return {place.air, std::nullopt, place.ground_albedo};
+}
+
+}  // namespace
+
+sky::AtmosphereOptions airOf(const PlaceOptions& place) {
+  return airOf(skyOptionsOf(place), place.site.elevation_m);
+}
+
 void addWeather(studio::CommandLine* line, sky::Weather* weather, scene::SurfaceState* surfaces) {
   line->group("Weather");
   const std::vector<Field> rows = fieldsOf(*weather);
@@ -52,7 +64,8 @@ void addWeather(studio::CommandLine* line, sky::Weather* weather, scene::Surface
   line->add("--ground-seed N", fieldOf(left, "ground_seed"));
 }
 
-void requireWeather(const studio::CommandLine& line) {
+void requireWeather(const studio::CommandLine& line, const sky::Weather& weather,
+                    const sky::AtmosphereOptions& air) {
   for (const char* of_cloud : {"--optical-depth", "--overcast"}) line.requireWith(of_cloud, {"--cover"});
   line.requireWith("--fog-top", {"--visibility"});
   // Rain falls from the cloud base, is slanted by the wind, and has drops by the seed.
@@ -60,6 +73,7 @@ void requireWeather(const studio::CommandLine& line) {
     line.requireWith(of_both, {"--cover", "--rain"});
   line.requireWith("--wind-from", {"--wind"});
   line.requireWith("--ground-seed", {"--puddles", "--snow"});
+  validate(weather, air);
 }
 
 void addPlace(studio::CommandLine* line, PlaceOptions* options) {
@@ -82,7 +96,10 @@ void addPlace(studio::CommandLine* line, PlaceOptions* options) {
 }
 
 studio::Sky skyOver(const studio::Studio& studio, const PlaceOptions& place, bool stars) {
-  studio::Sky sky({place.air, std::nullopt, place.ground_albedo, stars, studio.cacheFolder()}, onTerminal());
+  studio::SkyOptions options = skyOptionsOf(place);
+  options.stars = stars;
+  options.cache_dir = studio.cacheFolder();
+  studio::Sky sky(options, onTerminal());
   sky.over(studio.worlds());
   std::printf("albedo of the land beyond the world: %g%s\n", sky.groundAlbedo(),
               place.ground_albedo ? ", as given" : "");

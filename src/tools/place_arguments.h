@@ -20,6 +20,9 @@ struct PlaceOptions {
   scene::SurfaceState surfaces;
 };
 
+/// That of the site's height, but for the ground.
+sky::AtmosphereOptions airOf(const PlaceOptions& place);
+
 /// "2024-07-01". Throws std::invalid_argument naming `option` for a day that there is not.
 astronomy::CivilDate dateOf(const std::string& option, const std::string& text, double timezone);
 /// As a person would type it.
@@ -28,8 +31,10 @@ std::string textOf(const astronomy::CivilDate& date);
 /// --cover, --visibility and the other rows of the weather, --wet, --snow and those of what it leaves.
 void addWeather(studio::CommandLine* line, sky::Weather* weather, scene::SurfaceState* surfaces);
 
-/// Throws std::invalid_argument where such a row is given that only tells more of weather that is not.
-void requireWeather(const studio::CommandLine& line);
+/// Throws std::invalid_argument where such a row is given that only tells more of weather that is not, and
+/// for weather that this `air` cannot have.
+void requireWeather(const studio::CommandLine& line, const sky::Weather& weather,
+                    const sky::AtmosphereOptions& air);
 
 /// --site, --date, --timezone, --turbidity, --ozone, --ground-albedo and the weather.
 void addPlace(studio::CommandLine* line, PlaceOptions* options);

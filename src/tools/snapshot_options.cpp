@@ -41,7 +41,7 @@ std::optional<SnapshotOptions> parseSnapshotOptions(const std::vector<std::strin
   addPlace(&line, &options.place);
   const ViewArguments view(&line);
   if (!line.read(arguments)) return std::nullopt;
-  requireWeather(line);
+  requireWeather(line, options.place.weather, airOf(options.place));
   if (!line.has("--out")) throw std::invalid_argument("--out FILE is missing; --help lists all options");
   if (line.has("--sun") && line.has("--time"))
     throw std::invalid_argument("--sun and --time are both given; one of them");

@@ -95,7 +95,7 @@ std::optional<TimelapseOptions> parseTimelapseOptions(const std::vector<std::str
   addPlace(&line, &options.place);
   const ViewArguments view(&line);
   if (!line.read(arguments)) return std::nullopt;
-  requireWeather(line);
+  requireWeather(line, options.place.weather, airOf(options.place));
   if (!line.has("--out")) throw std::invalid_argument("--out FOLDER is missing; --help lists all options");
   line.requireWith("--fps", {"--video"});
   line.requireWith("--columns", {"--contact-sheet"});

@@ -312,11 +312,20 @@ class LocaliseBags(unittest.TestCase):
                           ("h20", "orb", "no_features"), ("h20", "orb", "no_features")])
         problems = self.rows("out", "localisation_problems.csv")
         self.assertEqual([(row["stream"], row["role"], row["stamp"], row["fault"][:7]) for row in problems],
-                         [("h20", "query", "100.000000000", "brisk: "), ("h20", "query", "101.000000000", "brisk: ")])
+                         [("h20", "query", "100.000000000", "no_feat"), ("h20", "query", "101.000000000", "no_feat"),
+                          ("h20", "query", "100.000000000", "brisk: "), ("h20", "query", "101.000000000", "brisk: ")])
+        self.assertEqual(problems[0]["fault"], "no_features: orb found nothing in it")
         self.assertIn("2 images could not be used", done.stderr)
+        self.assertIn("2 times a detector found nothing in an image", done.stderr)
         rows, _ = self.localise("other", "--map", tiny, "--query", drive, *by, status=3)
         self.assertEqual([(row["detector"], row["status"]) for row in rows],
                          [("brisk", "not_retrieved"), ("orb", "too_few_matches")])
+        self.assertEqual(self.rows("other", "localisation_problems.csv")[0],
+                         {"stream": "h20", "role": "map", "stamp": "100.000000000",
+                          "fault": "no_features: orb found nothing in it whose place its depth tells"})
+        rows, done = self.localise("blind", "--map", noon, "--query", tiny, "--detectors", "orb")
+        self.assertEqual([row["status"] for row in rows], ["no_features", "no_features"], "which is no fault of the bags")
+        self.assertEqual(len(self.rows("blind", "localisation_problems.csv")), 2)
         done = run("evaluate_bags", "--odometry", tiny, *by, "--out", self.path("followed"))
         self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
         self.assertEqual([(row["detector"], row["n"], row["lost"]) for row in self.rows("followed", "odometry.csv")],

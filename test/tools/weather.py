@@ -51,6 +51,14 @@ class Weather(unittest.TestCase):
         clear, grey = self.files("snapshot", *VIEW, *EXPOSED)
         self.assert_darker(clear, grey, "*.png", 1)
 
+    def test_weather_that_cannot_be_is_refused_before_anything_is_made(self):
+        for program, out, of_its_own in (("snapshot", "it.png", []), ("timelapse", "it", ["--frames", "2"])):
+            for weather, told in ((["--visibility", "90000"], "visibility is 90000 m, but must be less than the "),
+                                  (["--cover", "4", "--overcast", "cie"], "cover is 4, but must be 8 where overcast is cie")):
+                done = run(program, "--out", str(self.folder / out), *VIEW, *of_its_own, *weather)
+                self.assertEqual((done.returncode, done.stdout), (1, ""), done.stderr)
+                self.assertIn(told, done.stderr)
+
     def test_timelapse(self):
         clear, grey = self.files("timelapse", *VIEW, *EXPOSED, "--from", "11", "--to", "12", "--frames", "2")
         self.assert_darker(clear, grey, "frame_*.png", 2)

@@ -47,6 +47,10 @@ inline std::vector<Field> fieldsOf(AtmosphereOptions& options) {
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const AtmosphereOptions& options);
 
+/// All that Atmosphere(air).daylight() would refuse of this weather, at once: throws as validate() does for
+/// either, and for a visibility that the clear air does not have.
+void validate(const Weather& weather, const AtmosphereOptions& air);
+
 /// Where the sun stands and how far away it is.
 struct SunInSky {
   Direction apparent;        ///< with refraction: where the disc and its aureole are seen

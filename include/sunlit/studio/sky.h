@@ -47,6 +47,9 @@ struct SkyOptions {
   std::string cache_dir = {};
 };
 
+/// The air over a site, but for the ground below it.
+sky::AtmosphereOptions airOf(const SkyOptions& options, double site_elevation_m);
+
 /// Makes the tables of the air when they are first needed, which takes two or three seconds where the
 /// cache does not have them, says so, and keeps those of the heights that were used last. One thread at a
 /// time.

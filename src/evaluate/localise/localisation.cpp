@@ -46,22 +46,25 @@ Localisation::Localisation(const LocalisationOptions& options) : options_(option
 
 Localisation::~Localisation() = default;
 
-DetectorFaults Localisation::addKeyFrames(const std::vector<PosedView>& views) {
+AddedKeyFrames Localisation::addKeyFrames(const std::vector<PosedView>& views) {
   for (const PosedView& view : views) {
     requireWhole(view);
     if (view.depth.empty()) throw std::invalid_argument("a view has no depth, but a map needs it");
   }
   std::vector<KeyFrame> frames(views.size() * detectors_.size());
-  DetectorFaults faults = forEachDetector(views, options_.detectors, [&](std::size_t v, std::size_t d) {
+  AddedKeyFrames added;
+  added.faults = forEachDetector(views, options_.detectors, [&](std::size_t v, std::size_t d) {
     frames[v * detectors_.size() + d] = keyFrameOf(views[v], detectors_[d]->pool.detect(views[v].picture));
   });
   for (std::size_t v = 0; v < views.size(); ++v) {
     for (std::size_t d = 0; d < detectors_.size(); ++d) {
-      if (faults.count({v, d}) == 0)
-        detectors_[d]->localiser.add(std::move(frames[v * detectors_.size() + d]));
+      if (added.faults.count({v, d}) > 0) continue;
+      KeyFrame& frame = frames[v * detectors_.size() + d];
+      if (frame.points.empty()) added.empty.emplace(v, d);
+      detectors_[d]->localiser.add(std::move(frame));
     }
   }
-  return faults;
+  return added;
 }
 
 void Localisation::finishMap() {

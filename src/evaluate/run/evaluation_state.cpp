@@ -9,6 +9,10 @@ namespace {
 
 constexpr std::int64_t kSampleStride = 200;  // of a path of unknown length
 
+bool hasBoth(const StampSet& set, const ImagePair& pair) {
+  return set.streams[pair.first].has_come && set.streams[pair.second].has_come;
+}
+
 }  // namespace
 
 bool Evaluation::State::isWanted(std::size_t pair, std::int64_t pose) const {
@@ -220,10 +224,6 @@ bool Evaluation::State::canCompare(const StampSet& set, std::size_t pair, std::o
   return true;
 }
 
-bool Evaluation::State::hasBoth(const StampSet& set, std::size_t pair) const {
-  return set.streams[pair_streams_[pair].first].has_come && set.streams[pair_streams_[pair].second].has_come;
-}
-
 // Two stamps may round to one pose. The earlier one counts, in whatever order they come; the later one is
 // counted and named.
 bool Evaluation::State::takes(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair) {
@@ -281,7 +281,7 @@ void Evaluation::State::close(std::int64_t stamp_ns, std::optional<std::int64_t>
   for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
     if (pose && !isWanted(p, *pose)) continue;
     const bool is_held = pose && isHeld(p, *pose);
-    if (is_held ? !hasBoth(set, p) : !canCompare(set, p, pose, reason)) continue;
+    if (is_held ? !hasBoth(set, pair_streams_[p]) : !canCompare(set, p, pose, reason)) continue;
     if (takes(stamp_ns, *pose, p) && !is_held) work.pairs.push_back(p);
   }
   if (!pose) return;

@@ -77,6 +77,7 @@ class Evaluation::State {
     std::vector<std::vector<cv::Mat>> drawn;         // empty where nothing is drawn
     std::vector<std::optional<std::string>> faults;  // of pairs that could not be compared
     std::map<std::size_t, std::string> unobserved;   // by stream: why one of its detectors has nothing
+    std::vector<std::vector<char>> is_featureless;   // [stream][difference]
   };
 
   static constexpr const char* kLostFile = "lost_features.bin";
@@ -98,7 +99,6 @@ class Evaluation::State {
   void keepWithinMemory(std::int64_t newest_ns);
   void handOverComplete(std::size_t most_bytes, std::int64_t newest_ns);
   void close(std::int64_t stamp_ns, std::optional<std::int64_t> pose, Reason reason);
-  bool hasBoth(const StampSet& set, std::size_t pair) const;
   bool takes(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair);
   void withdraw(std::int64_t stamp_ns, std::size_t pair);
   bool isOfTwoPlaces(std::int64_t stamp_ns, std::optional<std::int64_t> pose, std::size_t pair);

@@ -51,6 +51,7 @@ Evaluation::State::Values Evaluation::State::noValues(const Work& work) const {
   values.lost.resize(work.pairs.size(), std::vector<LostFeatures>(detectors));
   values.drawn.resize(work.pairs.size(), std::vector<cv::Mat>(detectors));
   values.faults.resize(work.pairs.size());
+  values.is_featureless.assign(work.images.size(), std::vector<char>(layout_.differences.size()));
   return values;
 }
 
@@ -58,6 +59,7 @@ Evaluation::State::Values Evaluation::State::compare(const Work& work) const {
   Values values = noValues(work);
   CompareVisits visits;
   visits.found = [&](const Found& found) {
+    values.is_featureless[found.image][found.difference] = found.features.key_points.empty() ? 1 : 0;
     if (!isObserved(work, found.image, found.difference)) return;
     observer_->observe({found.image, work.pose, work.stamp_ns}, work.truth,
                        layout_.differences[found.difference], found.features);
@@ -104,15 +106,28 @@ void Evaluation::State::evaluatePairs(const Work& work) {
   tell(work, kept);
 }
 
+// What is wrong with a picture comes before the rows of its pairs: whoever takes up a killed run does not ask
+// for them again.
 std::vector<PairRecord> Evaluation::State::keepAll(const Work& work, const Values& values) {
   const std::shared_lock<std::shared_mutex> writing(writing_);
   stop_.check();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& [stream, fault] : values.unobserved) reportUnlocalised(work, stream, fault);
+    for (std::size_t s = 0; s < values.is_featureless.size(); ++s) {
+      for (std::size_t d = 0; d < layout_.differences.size(); ++d) {
+        if (!values.is_featureless[s][d]) continue;
+        ++counts_.streams[s].no_features;  // compared and looked for all the same
+        report({"no_features", work.pose, work.stamp_ns, options_.streams[s],
+                layout_.differences[d] + " found nothing in it"});
+      }
+    }
+  }
   std::vector<PairRecord> kept;
   for (std::size_t i = 0; i < work.pairs.size(); ++i) {
     if (auto record = keep(work, values, i)) kept.push_back(std::move(*record));
   }
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (const auto& [stream, fault] : values.unobserved) reportUnlocalised(work, stream, fault);
   settle(work);
   return kept;
 }

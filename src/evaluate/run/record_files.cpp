@@ -9,15 +9,15 @@ namespace sunlit::evaluate {
 namespace {
 
 const char* const kCapturesHeader =
-    "stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,"
+    "stream,pose,stamp,ev100,exposure_mode,sun_azimuth_deg,sun_elevation_deg,"
     "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance";
 const char* const kPathHeader = "pose,stamp,x,y,z,yaw_deg";
 const char* const kProblemsHeader = "kind,pose,stamp,where,reason";
 
 std::string lineOf(const std::string& stream, const CaptureRecord& c) {
   return csvField(stream) + "," + std::to_string(c.pose) + "," + formatStamp(c.stamp_ns) + "," +
-         formatNumber(c.ev100) + "," + formatNumber(c.sun_azimuth_deg) + "," +
-         formatNumber(c.sun_elevation_deg) + "," + formatNumber(c.moon_azimuth_deg) + "," +
+         formatNumber(c.ev100) + "," + csvField(c.exposure_mode) + "," + formatNumber(c.sun_azimuth_deg) +
+         "," + formatNumber(c.sun_elevation_deg) + "," + formatNumber(c.moon_azimuth_deg) + "," +
          formatNumber(c.moon_elevation_deg) + "," + formatNumber(c.moon_illuminated_fraction) + "," +
          formatNumber(c.scene_illuminance_lx) + "\n";
 }
@@ -46,9 +46,9 @@ void RecordFiles::merge(const std::string& other_folder, PoseIndex& poses) {
 void RecordFiles::read(const std::string& folder, PoseIndex& poses) {
   forEachCsvRow(folder + "/captures.csv", kCapturesHeader, [&](const std::vector<std::string>& f) {
     requireStreamName(f[0], "stream");
-    const CaptureRecord capture{parsePose(f[1]),   parseStamp(f[2]),  parseNumber(f[3]),
-                                parseNumber(f[4]), parseNumber(f[5]), parseNumber(f[6]),
-                                parseNumber(f[7]), parseNumber(f[8]), parseNumber(f[9])};
+    const CaptureRecord capture{parsePose(f[1]),   parseStamp(f[2]),  parseNumber(f[3]), f[4],
+                                parseNumber(f[5]), parseNumber(f[6]), parseNumber(f[7]), parseNumber(f[8]),
+                                parseNumber(f[9]), parseNumber(f[10])};
     captures_[{f[0], capture.pose}] = capture;
     poses.learn(capture.stamp_ns, capture.pose);
   });

@@ -62,7 +62,7 @@ std::string countersText(const EvaluationOptions& options, const Outcome& outcom
          << ", duplicate: " << c.duplicate << ", out_of_order: " << c.out_of_order
          << ", undecodable: " << c.undecodable << ", late: " << c.late << ", dropped: " << c.dropped
          << ", lost: " << c.lost << ", unexpected: " << c.unexpected << ", lossy: " << c.lossy
-         << ", unlocalised: " << c.unlocalised << "}\n";
+         << ", no_features: " << c.no_features << ", unlocalised: " << c.unlocalised << "}\n";
   }
   text << "  pairs:\n";
   for (std::size_t i = 0; i < options.pairs.size(); ++i) {

@@ -20,6 +20,7 @@ evaluate::CaptureRecord captureOf(const Capture& message) {
   record.pose = message.pose_index;
   record.stamp_ns = nanosecondsOf(message.header.stamp);
   record.ev100 = message.ev100;
+  record.exposure_mode = message.exposure_mode;
   record.sun_azimuth_deg = message.sun_azimuth / kRadPerDeg;
   record.sun_elevation_deg = message.sun_elevation / kRadPerDeg;
   record.moon_azimuth_deg = message.moon_azimuth / kRadPerDeg;

@@ -168,6 +168,9 @@ int evaluateBags(const BagEvaluationOptions& options) {
   if (!remarks.empty()) std::fprintf(stderr, "%s\n", remarks.c_str());
   const evaluate::LocalisationOutcome localised = localise(evaluation);
   evaluation.compareMethods();
+  const std::string unreported =
+      options.report ? drawnReport(evaluation.options(), outcome.counts) : std::string();
+  if (!unreported.empty()) std::fprintf(stderr, "%s\n", unreported.c_str());
   std::string faults = faultsOf(evaluation.options(), outcome);
   const std::string of_queries = faultsOf(localised);
   faults += (faults.empty() || of_queries.empty() ? "" : "; ") + of_queries;

@@ -74,17 +74,21 @@ class BagLocalisation {
       if (spacing.takes(views->entries()[i].map_from_optical.translation())) chosen.push_back(i);
     }
     source_.forEach(*views, chosen, {"key frames made", true, [&](const auto& which, const auto& read) {
-                                       auto faults = localisation_.addKeyFrames(read);
+                                       const auto added = localisation_.addKeyFrames(read);
                                        for (std::size_t v = 0; v < which.size(); ++v)
-                                         addOrigins(originOf(stream, views->entries()[which[v]]), v, faults);
-                                       return faults;
+                                         addOrigins(*views, which[v], v, added);
+                                       return added.faults;
                                      }});
   }
 
-  void addOrigins(const evaluate::KeyFrameOrigin& origin, std::size_t view,
-                  const evaluate::DetectorFaults& faults) {
+  void addOrigins(const BagViews& views, std::size_t number, std::size_t view,
+                  const evaluate::AddedKeyFrames& added) {
+    const BagViews::Entry& entry = views.entries()[number];
     for (std::size_t d = 0; d < origins_.size(); ++d) {
-      if (faults.count({view, d}) == 0) origins_[d].push_back(origin);
+      if (added.faults.count({view, d}) > 0) continue;
+      origins_[d].push_back(originOf(views.stream(), entry));
+      if (added.empty.count({view, d}) > 0)
+        source_.addFeatureless(views.stream(), true, entry.stamp_ns, options_.localisation.detectors[d]);
     }
   }
 
@@ -124,6 +128,8 @@ class BagLocalisation {
     const std::vector<evaluate::LocalisedQuery>& results = localised.results[query];
     for (std::size_t d = 0; d < results.size(); ++d) {
       if (localised.faults.count({query, d}) > 0) continue;
+      if (results[d].status == evaluate::LocalisationStatus::kNoFeatures)
+        source_.addFeatureless(views.stream(), false, entry.stamp_ns, options_.localisation.detectors[d]);
       rows_.push_back({entry.pose, entry.stamp_ns, map_name_, views.stream().name,
                        options_.localisation.detectors[d], results[d], entry.map_from_optical,
                        evaluate::originOf(results[d], origins_[d])});

@@ -79,6 +79,7 @@ void completeEvaluation(Options* options) {
   const EvaluatorOptions read = parametersFor(*options);
   evaluation.evaluation = read.evaluation;
   evaluation.intake = read.intake;
+  evaluation.report = read.report;
   evaluation.evaluation.output_dir = output;
   evaluation.evaluation.merge = folders;
 }

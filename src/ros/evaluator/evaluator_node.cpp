@@ -146,6 +146,7 @@ void EvaluatorNode::finish(const std::string& reason, evaluate::Ending ending) {
   if (!remarks.empty()) ROS_WARN("%s", remarks.c_str());
   if (ending == evaluate::Ending::kCompared) localise();
   compareMethods(ending);
+  if (options_.report && ending == evaluate::Ending::kCompared && !isInterrupted()) drawReport(outcome);
   status_ = faults_.empty() ? 0 : kNotWholeStatus;
 }
 
@@ -185,6 +186,12 @@ void EvaluatorNode::compareMethods(evaluate::Ending ending) {
         "interrupted before methods and hours were compared: there is no comparisons.csv; the same run again "
         "writes it");
   }
+}
+
+void EvaluatorNode::drawReport(const evaluate::Outcome& outcome) {
+  activity_.say("reporting");
+  const std::string fault = drawnReport(evaluation_->options(), outcome.counts);
+  if (!fault.empty()) ROS_WARN("%s", fault.c_str());
 }
 
 int EvaluatorNode::run() {

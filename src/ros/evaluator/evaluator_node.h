@@ -36,6 +36,7 @@ class EvaluatorNode {
   /// Why it is time to finish; empty while it is not.
   std::string reasonToFinish() const;
   void localise();
+  void drawReport(const evaluate::Outcome& outcome);
   void compareMethods(evaluate::Ending ending);
   void finish(const std::string& reason, evaluate::Ending ending = evaluate::Ending::kCompared);
 

@@ -20,6 +20,7 @@ struct EvaluatorOptions {
   double idle_timeout_s =
       0.0;  ///< without any image, after which the node ends with what is missing named; 0: never
   double diagnostic_period_s = 1.0;  ///< read by diagnostic_updater itself
+  bool report = true;                ///< draw report.html when all is evaluated
   bool exit_when_done = false;       ///< end the process when all expected poses are accounted for
 };
 

@@ -9,6 +9,7 @@
 
 #include "ros/conversions/received_images.h"
 #include "ros/conversions/time.h"
+#include "sunlit/evaluate/files/report.h"
 #include "sunlit/quantity/duration.h"
 
 namespace sunlit::ros_interface {
@@ -194,6 +195,16 @@ std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate:
          options.output_dir + "/problems.csv";
 }
 
+std::string drawnReport(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts) {
+  const bool has_any =
+      std::any_of(counts.pairs.begin(), counts.pairs.end(),
+                  [](const evaluate::PairCounts& pair) { return pair.evaluated + pair.resumed > 0; });
+  const std::string& folder = options.output_dir;
+  if (!has_any || evaluate::drawReport(folder, evaluate::ReportTables::kHidden)) return "";
+  return folder + ": the results are there, but report.html was not drawn; rosrun sunlit report " + folder +
+         " does it";
+}
+
 std::string remarksOf(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts) {
   std::string line;
   const auto add = [&](std::size_t count, const char* what, const std::string& stream) {
@@ -209,6 +220,9 @@ std::string remarksOf(const evaluate::EvaluationOptions& options, const evaluate
     add(c.lost, "sent, but lost on the way", options.streams[s]);
     add(c.unexpected, "of poses that are not expected, left out", options.streams[s]);
     add(c.lossy, "compressed with loss (JPEG)", options.streams[s]);
+    if (c.no_features > 0)
+      line += (line.empty() ? "" : "; ") + options.streams[s] + ": " + std::to_string(c.no_features) +
+              " times a detector found nothing in an image (no_features)";
     add(c.unlocalised,
         "not localised, for want of a usable depth, pose or camera, or since a detector failed",
         options.streams[s]);

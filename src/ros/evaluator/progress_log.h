@@ -70,6 +70,9 @@ std::string faultOfStamps(const evaluate::StreamCounts& counts);
 /// One line of counts of what could not be evaluated; empty where everything was.
 std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate::Outcome& outcome);
 
+/// Draws report.html, unless nothing was evaluated, of which there is none. One line where that failed, else
+/// empty.
+std::string drawnReport(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts);
 /// One line of what came and was not used, never came, or was compressed with loss, by stream; empty where
 /// nothing was.
 std::string remarksOf(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts);

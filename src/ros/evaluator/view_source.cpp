@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -77,24 +78,42 @@ void ViewSource::addProblem(const BagStream& stream, bool needs_depth, std::int6
   problems_.push_back({stream.name, needs_depth, stamp_ns, fault});
 }
 
+void ViewSource::addFeatureless(const BagStream& stream, bool is_of_map, std::int64_t stamp_ns,
+                                const std::string& detector) {
+  const std::string of_depth = is_of_map ? " whose place its depth tells" : "";
+  problems_.push_back({stream.name, is_of_map, stamp_ns,
+                       "no_features: " + detector + " found nothing in it" + of_depth, true});
+}
+
+std::vector<evaluate::LocalisationProblem> ViewSource::unusable() const {
+  std::vector<evaluate::LocalisationProblem> all;
+  std::copy_if(problems_.begin(), problems_.end(), std::back_inserter(all),
+               [](const evaluate::LocalisationProblem& problem) { return !problem.is_used; });
+  return all;
+}
+
 std::string ViewSource::problemsInWords() const {
-  if (problems_.empty()) return "there is none";
+  const std::vector<evaluate::LocalisationProblem> all = unusable();
+  if (all.empty()) return "there is none";
   std::set<std::pair<std::string, std::int64_t>> images;  // of which several detectors may fail
-  for (const evaluate::LocalisationProblem& problem : problems_)
-    images.emplace(problem.stream, problem.stamp_ns);
+  for (const evaluate::LocalisationProblem& problem : all) images.emplace(problem.stream, problem.stamp_ns);
   std::string text = std::to_string(images.size()) + " images could not be used (" + options_.output_dir +
                      kProblemsFile + "): ";
-  for (std::size_t i = 0; i < std::min(problems_.size(), kProblemsShown); ++i) {
-    const evaluate::LocalisationProblem& problem = problems_[i];
+  for (std::size_t i = 0; i < std::min(all.size(), kProblemsShown); ++i) {
+    const evaluate::LocalisationProblem& problem = all[i];
     text += (i == 0 ? "" : "; ") + problem.stream + " at " + textOfStamp(timeOf(problem.stamp_ns)) + ": " +
             problem.fault;
   }
-  return text + (problems_.size() > kProblemsShown ? "; …" : "");
+  return text + (all.size() > kProblemsShown ? "; …" : "");
 }
 
 int ViewSource::finish() const {
   writeLocalisationProblems(options_.output_dir + kProblemsFile, problems_);
-  if (problems_.empty()) return 0;
+  const std::size_t unused = unusable().size(), featureless = problems_.size() - unused;
+  if (featureless > 0)
+    std::fprintf(stderr, "%zu times a detector found nothing in an image (%s%s)\n", featureless,
+                 options_.output_dir.c_str(), kProblemsFile);
+  if (unused == 0) return 0;
   std::fprintf(stderr, "%s\n", problemsInWords().c_str());
   return kNotWholeStatus;
 }

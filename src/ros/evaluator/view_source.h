@@ -43,13 +43,18 @@ class ViewSource {
   };
   void forEach(const BagViews& views, const std::vector<std::size_t>& entries, const Job& job);
 
-  const std::vector<evaluate::LocalisationProblem>& problems() const { return problems_; }
-  /// Counts them and names the first.
+  /// A detector finds nothing in an image, or in one of the map nothing whose place its depth tells. It is
+  /// used all the same.
+  void addFeatureless(const BagStream& stream, bool is_of_map, std::int64_t stamp_ns,
+                      const std::string& detector);
+
+  /// Counts images that cannot be used and names the first.
   std::string problemsInWords() const;
   /// Writes localisation_problems.csv and says what there is. The exit status of the program.
   int finish() const;
 
  private:
+  std::vector<evaluate::LocalisationProblem> unusable() const;
   void addProblem(const BagStream& stream, bool needs_depth, std::int64_t stamp_ns, const std::string& fault);
 
   ViewSourceOptions options_;

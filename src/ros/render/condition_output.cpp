@@ -36,6 +36,7 @@ void ConditionOutput::publish(const Photograph& photograph, const SkyMoment& sky
   if (sky.bodies.time.utc) capture.utc = toUtc(*sky.bodies.time.utc);
   capture.pose_index = static_cast<std::uint32_t>(photograph.pose_index);
   capture.ev100 = photograph.ev100;
+  capture.exposure_mode = photograph.exposure_mode;
   capture.sun_azimuth = sky.bodies.sun->apparent.azimuth().rad();
   capture.sun_elevation = sky.bodies.sun->apparent.elevation().rad();
   fillMoon(sky.bodies.moon, &capture);

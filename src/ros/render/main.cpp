@@ -15,7 +15,7 @@ int run() {
   const ros::NodeHandle private_node("~");
   const ParameterReader parameters(private_node);
   const RenderNodeOptions options = readRenderNodeOptions(parameters);
-  const RenderConditions conditions = readRenderConditions(parameters);
+  const RenderConditions conditions = readRenderConditions(parameters, options.sky);
   parameters.rejectUnknown();
   std::optional<tbb::global_control> limit;
   if (options.threads > 0)

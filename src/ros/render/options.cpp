@@ -1,5 +1,6 @@
 #include "ros/render/options.h"
 
+#include <ros/console.h>
 #include <ros/names.h>
 
 #include <set>
@@ -193,6 +194,20 @@ void requireBakeForGather(const ParameterReader& parameters, const RenderNodeOpt
                               " is false: it looks closer where light is baked");
 }
 
+/// As far as can be told before the sun's node has said how high the site is.
+void requireWeather(const sky::Weather& weather, const studio::SkyOptions& sky) {
+  if (sky.fixed_height_m) return validate(weather, airOf(sky, *sky.fixed_height_m));
+  validate(weather);
+  try {
+    validate(weather, airOf(sky, 0.0));
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN(
+        "At sea level %s. A site that is high enough has it; at another this node ends once the sun "
+        "tells where it is",
+        error.what());
+  }
+}
+
 /// Makes whole names of the nodes that are counted, of which there must be enough.
 void nameSubscribers(const ParameterReader& parameters, WantedSubscribers* wanted) {
   const std::string of = parameters.fullName("subscribers/of");
@@ -330,14 +345,14 @@ std::vector<Field> fieldsOf(RenderNodeOptions& options) {
         diagnosticPeriodRow(&options.diagnostic_period_s)}});
 }
 
-RenderConditions readRenderConditions(const ParameterReader& parameters) {
+RenderConditions readRenderConditions(const ParameterReader& parameters, const studio::SkyOptions& sky) {
   RenderConditions conditions;
   for (const Condition& named : readConditions(parameters)) {
     sky::Weather weather;
     scene::SurfaceState surfaces;
     studio::ChainOptions chain;
     named.parameters.read(under("weather", joined({fieldsOf(weather), fieldsOf(surfaces)})));
-    named.parameters.check("weather", [&] { sky::validate(weather); });
+    named.parameters.check("weather", [&] { requireWeather(weather, sky); });
     named.parameters.read(fieldsOf(chain));
     checkChain(named.parameters, chain);
     conditions.chains.push_back(chain);

@@ -130,8 +130,8 @@ struct RenderConditions {
 };
 
 /// ~conditions, whose weathers and chains may differ. Throws std::invalid_argument with name, value and what
-/// is allowed.
-RenderConditions readRenderConditions(const ParameterReader& parameters);
+/// is allowed; warns of weather that a site under `sky` must be high to have, where its height is not known.
+RenderConditions readRenderConditions(const ParameterReader& parameters, const studio::SkyOptions& sky);
 
 /// All parameters but ~conditions. Throws std::invalid_argument with name, value and what is allowed.
 RenderNodeOptions readRenderNodeOptions(const ParameterReader& parameters);

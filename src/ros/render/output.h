@@ -19,6 +19,7 @@ struct Photograph {
   ros::Time stamp;
   double ev100 = 0.0;
   image::Rgb8Image picture;
+  std::string exposure_mode = {};              ///< how ev100 was chosen, as the parameter calls it
   std::optional<image::Rgb8Image> right = {};  ///< of a stereo camera, whose left picture is the other
 };
 

@@ -21,12 +21,18 @@ std::string skyPrefix(const Condition& condition, const StreamOptions& options) 
   return ros::names::append(options.sun_namespace, condition.name) + "/";
 }
 
+/// As the parameter calls it.
+std::string modeOf(image::ExposureOptions exposure) {
+  return fieldOf(fieldsOf(exposure), "mode").text();
+}
+
 }  // namespace
 
 Streams::Stream::Stream(const RenderConditions& conditions, std::size_t index, const StreamOptions& options)
     : name(conditions.all[index].named.name),
       weather(conditions.all[index].weather),
       setting{conditions.all[index].state, index},
+      exposure_mode(modeOf(conditions.chains[index].exposure)),
       lag(conditions.chains[index].exposure),
       sky(skyNode(conditions.all[index].named, options),
           {skyPrefix(conditions.all[index].named, options), options.night, options.sky,
@@ -77,7 +83,8 @@ void Streams::expose(const Shot& shot) {
     const light::Illumination& light = lightOf(*stream, bodies, shot.stamp);
     const image::PictureName name{shot.chance, stream->name};
     studio::Developed developed = studio_.photograph(light, name, stream->inTurn(shot.pose_index));
-    Photograph photograph{shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture)};
+    Photograph photograph{shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture),
+                          stream->exposure_mode};
     if (studio_.hasRight())
       photograph.right = studio_.photographRight(light, name, photograph.ev100, stream->setting);
     stopwatch.measure("send", stream->name, [&] { stream->output.publish(photograph, {bodies, light.day}); });

@@ -97,6 +97,7 @@ class Streams {
     std::string name;
     sky::Weather weather;     ///< at the stamp that `light` is of
     studio::Setting setting;  ///< of a picture by itself
+    std::string exposure_mode;
     image::ExposureLag lag;
     SkyInput sky;
     ConditionOutput output;

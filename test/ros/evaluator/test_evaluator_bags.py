@@ -37,6 +37,7 @@ differences: [boolean_rgb, euclidean_grey, sift, orb]
 ratio: 0.5
 output_dir: unused
 inclusive: false
+report: false
 '''
 
 
@@ -53,13 +54,13 @@ class TestBags(unittest.TestCase):
     def path(self, name):
         return self.folder.name + '/' + name
 
-    def write_bags(self, names, poses=range(POSES)):
+    def write_bags(self, names, poses=range(POSES), begin=0.0):
         for name, streams in names.items():
             with rosbag.Bag(self.path(name), 'w') as bag:
                 for pose in poses:
                     place = PoseStamped()
                     place.header.stamp = stamp_of(pose)
-                    place.pose.position.x = pose
+                    place.pose.position.x = begin + pose
                     place.pose.orientation.w = 1.0
                     bag.write('/camera/pose', place, stamp_of(pose))
                     for stream in streams:
@@ -227,6 +228,40 @@ class TestBags(unittest.TestCase):
         done = self.evaluate_bags('--config', self.path('about.yaml'), '--out', self.path('out'), self.path('all.bag'))
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn('another setting: about/weather was "rain,\\nthen: sun # and \\"wind\\"\\n", now "rain,', done.stdout)
+
+    def test_a_report_stands_beside_the_results_unless_it_is_not_wanted(self):
+        self.write_bags({'all.bag': [0, 1, 2]}, range(2))
+        with open(self.path('reported.yaml'), 'w') as file:
+            file.write(CONFIG.replace('report: false', 'report: true').replace('[boolean_rgb, euclidean_grey, sift, orb]', '[orb]'))
+        for config, is_there in ((self.config, False), (self.path('reported.yaml'), True)):
+            out = self.path('out_%d' % is_there)
+            done = self.evaluate_bags('--config', config, '--out', out, self.path('all.bag'))
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertEqual(os.path.exists(out + '/report.html'), is_there, done.stdout)
+        self.assertTrue(read(out, 'report.html').startswith(b'<!DOCTYPE html>'))
+        streams = Streams(STREAMS[:2])
+        live = Evaluator({'streams': STREAMS[:2], 'differences': ['orb'], 'output_dir': self.path('live'), 'poses': 1, 'report': True,
+                          'exit_when_done': True})
+        streams.wait_for(live)
+        for stream in range(2):
+            streams.send_capture(stream, stamp_of(0), 0)
+            streams.send(stream, stamp_of(0), picture(0, stream, 160, 120))
+        status, output = live.wait()
+        streams.close()
+        self.assertEqual(status, 0, output)
+        self.assertTrue(read(self.path('live'), 'report.html').startswith(b'<!DOCTYPE html>'), output)
+
+    def test_two_recordings_of_one_stamp_are_not_taken_for_one_place(self):
+        self.write_bags({'morning.bag': [0]}, range(3))
+        self.write_bags({'noon.bag': [1]}, range(3), begin=2.0)
+        with open(self.path('both.yaml'), 'w') as file:
+            file.write('{streams: [h04, h12], output_dir: unused, differences: [boolean_rgb], report: false}')
+        done = self.evaluate_bags('--config', self.path('both.yaml'), '--out', self.path('out'), self.path('morning.bag'),
+                                  self.path('noon.bag'))
+        self.assertEqual(done.returncode, 3, done.stdout)
+        self.assertIn('3 two_places (h04-h12)', done.stdout)
+        self.assertEqual([row['reason'] for row in rows(self.path('out'), 'problems.csv')],
+                         3 * ['two poses of this stamp are 2 m and 0 deg apart: are these two recordings?'])
 
     def test_without_a_config_all_streams_of_the_bags_are_compared_by_all_differences(self):
         self.write_bags({'all.bag': [2, 0, 1]}, range(2))

@@ -142,7 +142,7 @@ class TestLocalise(unittest.TestCase):
 
     def config(self):
         with open(self.path('config.yaml'), 'w') as file:
-            yaml.safe_dump(dict(PARAMETERS, output_dir='by --out'), file)
+            yaml.safe_dump(dict(PARAMETERS, output_dir='by --out', report=False), file)
         return self.path('config.yaml')
 
     def live(self, name, exit_when_done=False):

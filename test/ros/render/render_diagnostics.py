@@ -109,6 +109,7 @@ class RenderDiagnostics(RefusalTest):
                 newest = reader.wait("/a/camera/capture", 5)[4]
                 camera = diagnostics.wait("a/camera", DiagnosticStatus.OK, images="5")[0][2]
                 self.assertEqual(camera["EV100 of the newest"], "%.3f" % newest.ev100)
+                self.assertEqual(newest.exposure_mode, "auto")
                 self.assertEqual(camera["age of the newest by ROS time, s"], "0.000")
                 rates = [float(values.get("images a second", 0)) for _, _, values in diagnostics.told]
                 self.assertGreater(max(rates), 0.0)

@@ -48,6 +48,7 @@ class RenderShutter(RefusalTest):
         # From the side of the path: 4 m/s beside a box, turned by 60 degrees.
         path = {"count": 2, "yaw": 40.0}
         plain, depth = self.taken("plain", {"a": {"cover": 0}}, 2, path=path, exposure=FIXED)
+        self.assertEqual({capture.exposure_mode for capture in plain["a"][1]}, {"fixed"})
         several, same_depth = self.taken("several", {"a": {"cover": 0}, "rolls": {"line_delay": 1000.0},
                                                      "smears": {"shutter": {"exposure_time": 300.0}},
                                                      "stands": {"line_delay": 0.0, "exposure_time": "auto"}}, 2,
@@ -69,6 +70,7 @@ class RenderShutter(RefusalTest):
         conditions = {"late": {"adaptation": 0.3, "delay": 1}, "at_once": {"cover": 0}}
         whole, _ = self.taken("whole", conditions, 12, path={"count": 12})
         evs = [capture.ev100 for capture in whole["late"][1]]
+        self.assertEqual({capture.exposure_mode for capture in whole["late"][1]}, {"auto"})
         metered = [capture.ev100 for capture in whole["at_once"][1]]
         # By hand, of what each meters.
         ev, expected = metered[0], []

@@ -136,6 +136,8 @@ class RenderWeather(RefusalTest):
     def test_weather_that_cannot_be_is_refused(self):
         self.assert_refused(parameters(weather={"cover": 9}), "/refused/weather/cover", "9", "8")
         self.assert_refused(parameters(weather={"overcast": "cie"}), "cover is 0", "8 where overcast is cie")
+        self.assert_refused(parameters(weather={"visibility": 90000}, atmosphere={"observer_height": 100}),
+                            "/refused/weather/visibility", "90000 m", "that the clear air of this turbidity has")
         self.assert_refused(parameters(conditions={"a": {"visibility": 10}}), "/refused/conditions/a/visibility", "10", "50")
         self.assert_refused(parameters(conditions={"a": {"snow": 2}}), "/refused/conditions/a/snow", "2", "0.5")
         self.assert_refused(parameters(conditions={"a": {"covr": 3}}), "covr", "did you mean cover?")

@@ -343,6 +343,7 @@ class Plan(unittest.TestCase):
         self.assertEqual(tree["render"]["wait_for"], ["/evaluator/progress"])
         self.assertNotIn("self_test/render", tree["experiment"]["needed"])
         self.assertEqual(tree["evaluator"]["streams"], ["h04", "h12", "h20"])
+        self.assertFalse(tree["evaluator"]["report"], "which is the experiment's, at its very end")
 
     def test_other_hours_are_looked_for_in_the_map_of_the_one_nearest_to_noon(self):
         tree = planned()["evaluator"]["localisation"]

@@ -203,7 +203,7 @@ class Files(InFolder):
         told = [one for one in warnings.warnings(self.read()) if "single feature" in one]
         self.assertEqual(len(told), 1)
         self.assertIn("picture of 0 h: is it black", told[0])
-        self.write("captures.csv", [files.CAPTURES, "h00,0,0,14,0,-11,0,0,0,0.25"])
+        self.write("captures.csv", [files.CAPTURES, "h00,0,0,14,auto,0,-11,0,0,0,0.25"])
         told = [one for one in warnings.warnings(self.read()) if "single feature" in one]
         self.assertIn("0 h (0.25 lx, exposed at EV100 14.0)", told[0])
 
@@ -233,7 +233,7 @@ class Files(InFolder):
     def test_malformed_other_files_are_named(self):
         self.write("frames.csv", made.frames())
         for name, lines, where in [("path.csv", [files.PATH, "0,0,east,0,0,0"], ":2: x is 'east'"),
-                                   ("captures.csv", [files.CAPTURES, "h04,0,0,bright,0,0,0,0,0,0"], ":2: ev100"),
+                                   ("captures.csv", [files.CAPTURES, "h04,0,0,bright,auto,0,0,0,0,0,0"], ":2: ev100"),
                                    ("timing.csv", ["stage,seconds"], ":1"),
                                    ("run.yaml", ["settings:", "  a: [1,"], "run.yaml:"),
                                    ("map.yaml", ["x_min: 0"], "x_max"),
@@ -539,7 +539,7 @@ class Page(InFolder):
 
     def test_a_terminal_that_lacks_letters_is_no_reason_to_fail(self):
         self.write("frames.csv", made.frames(differences=["sift"]))
-        self.write("captures.csv", [files.CAPTURES, "h04,0,0,14,0,-11,0,0,0,0.00084"])
+        self.write("captures.csv", [files.CAPTURES, "h04,0,0,14,auto,0,-11,0,0,0,0.00084"])
         for encoding, dash in (("ascii", "?"), ("iso-8859-1", "?"), ("utf-8", "–")):
             done = subprocess.run([sys.executable, REPORT, self.folder], capture_output=True, check=False,
                                   env=dict(os.environ, PYTHONIOENCODING=encoding))
@@ -551,7 +551,7 @@ class Page(InFolder):
         shown = [tables.significant(value) for value in (0.00084, 0.0009996, 0.25, 12.346, 99.96, 150.4, 98765.4, 0.0)]
         self.assertEqual(shown, ["0.000840", "0.00100", "0.250", "12.3", "100", "150", "98765", "0"])
         made.write_all(self.folder)
-        self.write("captures.csv", [files.CAPTURES, "h04,0,0,14,0,-11,0,0,0,0.00084", "h04,1,1,14,0,-11,0,0,0,0.00251"])
+        self.write("captures.csv", [files.CAPTURES, "h04,0,0,14,auto,0,-11,0,0,0,0.00084", "h04,1,1,14,auto,0,-11,0,0,0,0.00251"])
         self.assertEqual(tables.conditions(self.read())[0][4], "0.000840 to 0.00251")
 
     def test_whole_folder_gives_one_self_contained_page(self):

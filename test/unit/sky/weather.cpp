@@ -341,5 +341,29 @@ TEST(Weather, WhatCannotBeIsRefused) {
   EXPECT_NE(refused(fog(std::nan(""))).find("visibility is nan"), std::string::npos);
 }
 
+TEST(Weather, IsJudgedBeforeAnythingIsMadeAsTheAirWouldJudgeIt) {
+  const auto refusal = [](const Weather& weather, const AtmosphereOptions& air) {
+    return messageOf([&] { validate(weather, air); });
+  };
+  for (const double turbidity : {2.0, 4.0}) {
+    AtmosphereOptions air;
+    air.turbidity = turbidity;
+    const std::string beyond = refusal(fog(100000.0), air);
+    if (turbidity == 2.0) {  // that of the usual air
+      EXPECT_EQ(beyond, refused(fog(100000.0)));
+    }
+    const std::string least = "less than the ";
+    ASSERT_NE(beyond.find(least), std::string::npos) << beyond;
+    const double clear_m = std::stod(beyond.substr(beyond.find(least) + least.size()));
+    EXPECT_EQ(refusal(fog(clear_m - 1.0), air), "");
+    EXPECT_NE(refusal(fog(clear_m + 1.0), air), "");
+    air.observer_height_m = 3000.0;
+    EXPECT_EQ(refusal(fog(clear_m + 1.0), air), "") << "one sees farther in thin air";
+  }
+  Weather coverless;
+  coverless.overcast = Overcast::kCie;
+  EXPECT_NE(refusal(coverless, {}), "");
+}
+
 }  // namespace
 }  // namespace sunlit::sky

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +45,13 @@ struct MapSize {
 /// What detectors threw, "sift: …", by view and detector: it costs that view of that detector alone.
 using DetectorFaults = std::map<std::pair<std::size_t, std::size_t>, std::string>;
 
+/// What came of views that were to become key frames.
+struct AddedKeyFrames {
+  DetectorFaults faults;
+  /// By view and detector: key frames without a point, since nothing was found whose place depth tells.
+  std::set<std::pair<std::size_t, std::size_t>> empty;
+};
+
 /// Of each query: [query][detector], in the order of LocalisationOptions::detectors; of no use where there is
 /// a fault.
 struct LocalisedQueries {
@@ -64,7 +72,7 @@ class Localisation {
   /// Each view becomes a key frame of every detector, in their order, but of those that throw. Of a view
   /// features with their points stay, no pixels. Runs in parallel. Throws std::invalid_argument for what
   /// requireWhole() refuses, and for a view without depth.
-  DetectorFaults addKeyFrames(const std::vector<PosedView>& views);
+  AddedKeyFrames addKeyFrames(const std::vector<PosedView>& views);
   /// Needed once, behind the last key frame and before the first query.
   void finishMap();
   std::vector<MapSize> mapSizes() const;

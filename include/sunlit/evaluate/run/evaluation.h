@@ -24,6 +24,7 @@ struct CaptureRecord {
   std::int64_t pose = 0;
   std::int64_t stamp_ns = 0;
   double ev100 = 0.0;
+  std::string exposure_mode;               ///< how that was chosen: "fixed" or "auto"
   double sun_azimuth_deg = 0.0;            ///< clockwise from north
   double sun_elevation_deg = 0.0;          ///< apparent
   double moon_azimuth_deg = 0.0;           ///< clockwise from north; NaN, as the next two, without a night
@@ -35,9 +36,7 @@ struct CaptureRecord {
 /// Where the camera stood, in `map`.
 struct PlaceRecord {
   std::int64_t stamp_ns = 0;
-  double x_m = 0.0;
-  double y_m = 0.0;
-  double z_m = 0.0;
+  double x_m = 0.0, y_m = 0.0, z_m = 0.0;
   double yaw_deg = 0.0;  ///< of the camera's x axis, counter-clockwise from east
 };
 
@@ -51,6 +50,7 @@ struct StreamCounts {
   std::size_t lost = 0;         ///< sent but never here, as far as told by addLost(); not among the received
   std::size_t unexpected = 0;   ///< of a pose that is not one of those expected
   std::size_t lossy = 0;        ///< compressed with loss
+  std::size_t no_features = 0;  ///< a detector found nothing in it; once for each that did not
   std::size_t unlocalised = 0;  ///< could be neither key frame nor query, or not for all detectors
   std::optional<std::int64_t> only_stamp_ns;  ///< that all of them have, where they have one alone
   /// Most were left out, as those of a driver that sets no stamps are: what was evaluated is not what was

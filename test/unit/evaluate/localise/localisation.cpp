@@ -219,7 +219,7 @@ TEST(Localisation, GoesOnWithoutAPictureThatADetectorThrowsAt) {
   for (const std::size_t threads : {1, 4}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     Localisation localisation(options);
-    EXPECT_EQ(localisation.addKeyFrames({drive()[0], at(drive()[1], marked), drive()[2]}), of_second);
+    EXPECT_EQ(localisation.addKeyFrames({drive()[0], at(drive()[1], marked), drive()[2]}).faults, of_second);
     localisation.finishMap();
     EXPECT_EQ(localisation.mapSizes()[0].key_frames, 2u);
     EXPECT_EQ(localisation.mapSizes()[1].key_frames, 3u);
@@ -252,10 +252,14 @@ TEST(Localisation, RetrievesByLooksInAMapInTheDark) {
   localisation.finishMap();
   EXPECT_EQ(localisation.localise({drive()[0]}).results[0][0].status, LocalisationStatus::kLocalised);
   // Of nothing at all nothing is retrieved.
-  Localisation blind(options);
+  Localisation half_blind(options);
   PosedView black = drive()[0];
   black.picture = makePicture(cv::Mat(240, 320, CV_8UC3, cv::Scalar::all(0)));
-  blind.addKeyFrames({black, black});
+  const AddedKeyFrames added = half_blind.addKeyFrames({black, drive()[1]});
+  EXPECT_TRUE(added.faults.empty());
+  EXPECT_EQ(added.empty, (std::set<std::pair<std::size_t, std::size_t>>{{0, 0}})) << "black alone";
+  Localisation blind(options);
+  EXPECT_EQ(blind.addKeyFrames({black, black}).empty.size(), 2u);
   blind.finishMap();
   EXPECT_EQ(blind.localise({query()}).results[0][0].status, LocalisationStatus::kNotRetrieved);
 }

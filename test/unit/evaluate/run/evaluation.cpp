@@ -276,6 +276,7 @@ TEST(Evaluation, NumbersPosesByTheirCaptures) {
     CaptureRecord capture;
     capture.pose = pose;
     capture.stamp_ns = stampOf(7 * pose);
+    capture.exposure_mode = pose % 2 == 0 ? "fixed" : "auto";
     capture.moon_azimuth_deg = std::nan("");  // as without a night
     capture.moon_elevation_deg = -12.5;
     capture.moon_illuminated_fraction = 0.75;
@@ -288,8 +289,9 @@ TEST(Evaluation, NumbersPosesByTheirCaptures) {
   EXPECT_TRUE(outcome.isWhole());
   EXPECT_EQ(outcome.counts.pairs[0].evaluated, 4u);  // 0, 10, 20, 30
   EXPECT_TRUE(hasLine(contentOf(folder.file("out/frames.csv")), "30,521.000000000,h04,h12,boolean_rgb"));
-  EXPECT_TRUE(
-      hasLine(contentOf(folder.file("out/captures.csv")), "h12,35,524.500000000,0,0,0,nan,-12.5,0.75,0"));
+  const std::string captures = contentOf(folder.file("out/captures.csv"));
+  EXPECT_TRUE(hasLine(captures, "h12,34,523.800000000,0,fixed,0,0,nan,-12.5,0.75,0"));
+  EXPECT_TRUE(hasLine(captures, "h12,35,524.500000000,0,auto,0,0,nan,-12.5,0.75,0"));
 }
 
 TEST(Evaluation, NumbersPosesByTheFrameRate) {

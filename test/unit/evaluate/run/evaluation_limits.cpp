@@ -296,7 +296,9 @@ TEST(StreamNames, AreAskedForByEveryDoor) {
   options.streams = {"h04", "h12"};
   {
     Evaluation other(options, {});
-    other.addCapture(0, {0, stampOf(0)});
+    CaptureRecord capture;
+    capture.stamp_ns = stampOf(0);
+    other.addCapture(0, capture);
     feedPose(other, 0);
     other.finish();
   }
@@ -321,11 +323,16 @@ TEST(TakenUpRun, NamesFileAndLineOfWhatItCannotRead) {
             out + "/path.csv:2: \"\" is not a number");
   EXPECT_EQ(refusal("problems.csv", "kind,pose,stamp,where,reason\nlost,9223372036854775808,,a,b\n"),
             out + "/problems.csv:2: \"9223372036854775808\" is not a pose number");
-  EXPECT_EQ(
+  EXPECT_EQ(refusal("captures.csv",
+                    "stream,pose,stamp,ev100,exposure_mode,sun_azimuth_deg,sun_elevation_deg,"
+                    "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance\n"
+                    "h04,0,1,14,auto,90,20,nan,nan,nan,5\n"),
+            out + "/captures.csv:2: \"1\" is not a stamp with nine digits after the point");
+  const std::string older =
       refusal("captures.csv",
               "stream,pose,stamp,ev100,sun_azimuth_deg,sun_elevation_deg,moon_azimuth_deg,moon_elevation_deg,"
-              "moon_illuminated_fraction,scene_illuminance\nh04,0,1,14,90,20,nan,nan,nan,5\n"),
-      out + "/captures.csv:2: \"1\" is not a stamp with nine digits after the point");
+              "moon_illuminated_fraction,scene_illuminance\nh04,0,1000.000000000,14,90,20,nan,nan,nan,5\n");
+  EXPECT_EQ(older.rfind(out + "/captures.csv:1: was written by another version", 0), 0u) << older;
 }
 
 }  // namespace

@@ -69,6 +69,26 @@ std::vector<std::vector<std::string>> rowsOf(const std::string& path) {
   return readCsv(path, text.substr(0, text.find('\n'))).rows;
 }
 
+TEST(VerifiedRun, CountsAndNamesPicturesInWhichADetectorFindsNothing) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = verifying(folder);
+  options.comparer.differences = {"boolean_rgb", "orb", "sift"};
+  Evaluation evaluation(options, {});
+  feedLit(evaluation, 0, 1);
+  const cv::Mat black(120, 150, CV_8UC3, cv::Scalar::all(0));
+  for (std::size_t s = 0; s < 2; ++s) evaluation.addImage(s, stampOf(1), lit(1, s));
+  evaluation.addImage(2, stampOf(1), black);
+  const Outcome outcome = evaluation.finish();
+  EXPECT_TRUE(outcome.isWhole()) << "it is compared all the same";
+  EXPECT_EQ(outcome.counts.streams[1].no_features, 0u);
+  EXPECT_EQ(outcome.counts.streams[2].no_features, 2u) << "once a detector";
+  EXPECT_EQ(contentOf(folder.file("out/problems.csv")),
+            "kind,pose,stamp,where,reason\n"
+            "no_features,1,500.100000000,h20,orb found nothing in it\n"
+            "no_features,1,500.100000000,h20,sift found nothing in it\n");
+  EXPECT_NE(contentOf(folder.file("out/run.yaml")).find(", no_features: 2, "), std::string::npos);
+}
+
 TEST(VerifiedRun, TellsOfEachPairAndDetectorWhatVerifyImagesTells) {
   const TemporaryFolder folder;
   const EvaluationOptions options = verifying(folder);
