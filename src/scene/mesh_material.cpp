@@ -41,12 +41,7 @@ aiString textureOf(const aiMaterial& source, GltfMaterials::Slot slot) {
 std::optional<MeshLook> addMeshMaterial(unsigned index, const aiScene& scene,
                                         const MeshFileContext& context) {
   const aiMaterial& source = *scene.mMaterials[index];
-  if (!context.gltf) {
-    const int material = addPhong(source, scene, context);
-    const bool fades = context.builder.material(material).alpha_mode != AlphaMode::kOpaque;
-    return MeshLook{material, {CoordinateRecipe()}, isBare(source), fades};
-    return phongLook(source, scene, context);
-  }
+  if (!context.gltf) return phongLook(source, scene, context);
   const std::optional<GltfLook> look =
       context.gltf->look(context.gltf_order.at(index), [&](GltfMaterials::Slot slot, const Wraps& wraps) {
         const aiString name = textureOf(source, slot);

@@ -113,8 +113,9 @@ class PhongReader {
           material_.name + " of " + context_.file);
     const int opaque =
         context_.builder.addMaterial(material_, AlphaRule::kFromTexture, NormalsRule::kMaybeHeights);
-    return {context_.builder.veiled(opaque, opacity, SceneBuilder::Faces::kOne), coordinates_,
-            isBare(source_)};
+    const int material = context_.builder.veiled(opaque, opacity, SceneBuilder::Faces::kOne);
+    const bool fades = context_.builder.material(material).alpha_mode != AlphaMode::kOpaque;
+    return {material, coordinates_, isBare(source_), fades};
   }
 
  private:

@@ -10,6 +10,7 @@
 
 #include "scene/cofactors.h"
 #include "scene/color.h"
+#include "scene/mesh_directions.h"
 #include "scene/square_texels.h"
 #include "scene/texture_alpha.h"
 #include "scene/texture_looks.h"
@@ -40,52 +41,10 @@ std::string canonical(const std::string& file) {
   return error ? file : path.string();
 }
 
-Eigen::Vector3d faceVector(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
-  const Eigen::Vector3d a = mesh.positions[triangle[0]].cast<double>();
-  const Eigen::Vector3d b = mesh.positions[triangle[1]].cast<double>();
-  const Eigen::Vector3d c = mesh.positions[triangle[2]].cast<double>();
-  return (b - a).cross(c - a);
-}
-
 bool isFar(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   return std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t corner) {
     return !(mesh.positions[corner].array().abs() <= kFarthest_m).all();
   });
-}
-
-/// Without all of them if one is broken: those that follow from the coordinates are better than some.
-void turnTangents(const Eigen::Matrix3d& linear, Mesh& mesh) {
-  const float hand = linear.determinant() < 0.0 ? -1.0f : 1.0f;
-  bool broken = false;
-  for (Eigen::Vector4f& tangent : mesh.tangents) {
-    tangent.head<3>() = (linear * tangent.head<3>().cast<double>()).normalized().cast<float>();
-    tangent.w() *= hand;
-    broken |= !(std::abs(tangent.head<3>().norm() - 1.0f) < 1e-3f);
-  }
-  if (broken) mesh.tangents.clear();
-}
-
-/// Normals that are missing, zero or not finite are replaced by the mean of the adjoining faces.
-void repairNormals(Mesh& mesh) {
-  mesh.normals.resize(mesh.positions.size(), Eigen::Vector3f::Zero());
-  const auto broken = [](const Eigen::Vector3f& normal) {
-    return !(normal.norm() > 1e-6f) || !normal.allFinite();
-  };
-  std::vector<Eigen::Vector3d> sums;
-  if (std::any_of(mesh.normals.begin(), mesh.normals.end(), broken)) {
-    sums.assign(mesh.positions.size(), Eigen::Vector3d::Zero());
-    for (const auto& triangle : mesh.triangles) {
-      for (const std::uint32_t corner : triangle) sums[corner] += faceVector(mesh, triangle);
-    }
-  }
-  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
-    if (broken(mesh.normals[i])) {
-      const Eigen::Vector3d mean =
-          sums[i].norm() > 0.0 ? sums[i].normalized() : Eigen::Vector3d(0.0, 0.0, 1.0);
-      mesh.normals[i] = mean.cast<float>();
-    }
-    mesh.normals[i].normalize();
-  }
 }
 
 }  // namespace
