@@ -57,6 +57,21 @@ void dropPictures(XMLElement& robot, const std::string& file, SceneBuilder& buil
   }
 }
 
+/// libsdformat says nothing of links that it leaves out. Those at fixed joints are in the names of their
+/// visuals.
+void nameLinksLeftOut(XMLElement& robot, const std::string& made, const std::string& file,
+                      SceneBuilder& builder) {
+  for (XMLElement* link : childrenOf(robot, "link")) {
+    const std::string name = attributeOf(*link, "name");
+    const bool is_there = made.find("<link name='" + name + "'") != std::string::npos ||
+                          made.find("_fixed_joint_lump__" + name + "_") != std::string::npos;
+    if (link->FirstChildElement("visual") != nullptr && !is_there)
+      builder.warn(
+          "links of URDF files within SDF were left out, they or what they hang from have no <inertial>",
+          name + " of " + file);
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<tinyxml2::XMLDocument> sdfOfUrdf(tinyxml2::XMLDocument& urdf, const std::string& file,
@@ -88,6 +103,7 @@ std::unique_ptr<tinyxml2::XMLDocument> sdfOfUrdf(tinyxml2::XMLDocument& urdf, co
   for (const std::string& line : lines) builder.warn("× libsdformat, of a URDF", line);
   // On one line, since none is one of the file.
   std::string text = made->Root()->ToString("");
+  nameLinksLeftOut(robot, text, file, builder);
   std::replace(text.begin(), text.end(), '\n', ' ');
   auto document = std::make_unique<tinyxml2::XMLDocument>();
   document->Parse(text.data(), text.size());

@@ -65,6 +65,22 @@ TEST_F(SdfUrdf, HasMeshesOfPackagesAndNoPictures) {
       << scene.warnings[0];
 }
 
+TEST_F(SdfUrdf, LinksWithoutAMassAreLeftOutAndNamedButAtFixedJoints) {
+  const auto jointed = [&](const std::string& type) {
+    write("r.urdf", "<robot name='r'>" + linkOf("base", kUnitBox) + "<link name='arm'><visual>" + kUnitBox +
+                        "</visual></link><joint name='j' type='" + type +
+                        "'><parent link='base'/><child link='arm'/></joint></robot>");
+    return included("<uri>r.urdf</uri>");
+  };
+  EXPECT_EQ(jointed("fixed").meshes.size(), 2u);
+  EXPECT_TRUE(jointed("fixed").warnings.empty()) << jointed("fixed").warnings[0];
+  const Scene scene = jointed("continuous");
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("no <inertial>: arm of " + pathOf("r.urdf")), std::string::npos)
+      << scene.warnings[0];
+}
+
 TEST_F(SdfUrdf, ThatCannotBeReadIsAnErrorThatNamesIt) {
   const std::string around = world("<include><uri>r.urdf</uri></include>");
   write("r.urdf", "<robot name='r' xmlns:xacro='x'>\n<xacro:include filename='a'/></robot>");
