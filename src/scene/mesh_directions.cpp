@@ -1,5 +1,7 @@
 #include "scene/mesh_directions.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
