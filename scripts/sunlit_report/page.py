@@ -15,7 +15,7 @@ def render(output, findings):
         title=title(output), until_which=names.until_which(output.conditions), facts=facts(output), warnings=warnings.warnings(output), verdict_class=_verdict_class,
         main_tables=tables.main_tables(output), self_tables=tables.self_tables(output), counts=tables.counts(output),
         conditions=tables.conditions(output), timing=tables.timing(output), problems=tables.problems(output),
-        shown_problems=output.problems[:SHOWN_PROBLEMS], counters=tables.counters(output.run),
+        shown_problems=tables.gravest_first(output.problems)[:SHOWN_PROBLEMS], counters=tables.counters(output.run),
         settings=settings(output), versions=tables.flattened(tables.mapping(output.run, "versions")),
         grid=pictures.grid(output), smoothed_over=figures.SMOOTHED_OVER,
         comparison_counts=comparisons.count_rows(output), counts_header=comparisons.COUNTS_HEADER,

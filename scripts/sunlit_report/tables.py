@@ -133,6 +133,11 @@ def timing(output):
             for (stage, what), (number, seconds) in merged.items()]
 
 
+def gravest_first(problems):
+    """Those that took something from the results, and then what is no fault: pictures without features."""
+    return sorted(problems, key=lambda row: row.kind == "no_features")
+
+
 def problems(output):
     """Number of problems by kind."""
     kinds = {}

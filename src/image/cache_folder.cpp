@@ -45,7 +45,11 @@ int lockedFile(const fs::path& file) {
     const int descriptor = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
     if (descriptor < 0) return -1;
     if (lock(descriptor, LOCK_EX | LOCK_NB)) {
-      if (isStillThere(file, descriptor)) return descriptor;
+      if (isStillThere(file, descriptor)) {
+        // How far somebody was who died with it is past. That it can't be removed is no error.
+        [[maybe_unused]] const int emptied = ftruncate(descriptor, 0);
+        return descriptor;
+      }
       close(descriptor);
       continue;
     }

@@ -256,7 +256,7 @@ bool Evaluation::State::isOfTwoPlaces(std::int64_t stamp_ns, std::optional<std::
   const std::string fault = places_.fault(stamp_ns);
   if (isSelfTested(pair) || fault.empty()) return false;
   ++counts_.pairs[pair].two_places;
-  report({"two_places", pose, stamp_ns, options_.pairs[pair].name(), fault});
+  report({kTwoPlaces, pose, stamp_ns, options_.pairs[pair].name(), fault});
   return true;
 }
 

@@ -101,6 +101,14 @@ void RecordFiles::finish(const std::vector<std::string>& streams, const PoseInde
   }
 }
 
+std::set<std::pair<std::int64_t, std::string>> pairsOfTwoPlaces(const std::string& folder) {
+  std::set<std::pair<std::int64_t, std::string>> pairs;
+  forEachCsvRow(folder + "/problems.csv", kProblemsHeader, [&](const std::vector<std::string>& f) {
+    if (f[0] == kTwoPlaces && !f[2].empty()) pairs.emplace(parseStamp(f[2]), f[3]);
+  });
+  return pairs;
+}
+
 ProblemFile::ProblemFile(const std::string& folder) : path_(folder + "/problems.csv") {
   forEachCsvRow(path_, kProblemsHeader, [&](const std::vector<std::string>& f) {
     Problem problem{f[0], std::nullopt, std::nullopt, f[3], f[4]};

@@ -46,6 +46,12 @@ struct Problem {
   std::string reason;
 };
 
+/// Problem::kind of images of one stamp that were taken at two places.
+inline constexpr const char* kTwoPlaces = "two_places";
+
+/// Stamps and names of pairs of that kind, by problems.csv of `folder`.
+std::set<std::pair<std::int64_t, std::string>> pairsOfTwoPlaces(const std::string& folder);
+
 /// problems.csv of this run and of those that it takes up. Each problem stands there once, however often it
 /// was met.
 class ProblemFile {

@@ -148,6 +148,7 @@ void EvaluatorNode::finish(const std::string& reason, evaluate::Ending ending) {
   compareMethods(ending);
   if (options_.report && ending == evaluate::Ending::kCompared && !isInterrupted()) drawReport(outcome);
   status_ = faults_.empty() ? 0 : kNotWholeStatus;
+  activity_.say("done", "", {1.0, 0.0});
 }
 
 // What is interrupted here is done anew by whoever takes the run up again.
@@ -190,8 +191,13 @@ void EvaluatorNode::compareMethods(evaluate::Ending ending) {
 
 void EvaluatorNode::drawReport(const evaluate::Outcome& outcome) {
   activity_.say("reporting");
-  const std::string fault = drawnReport(evaluation_->options(), outcome.counts);
-  if (!fault.empty()) ROS_WARN("%s", fault.c_str());
+  try {
+    const evaluate::StopToken stop([] { return isInterrupted(); });
+    const std::string fault = drawnReport(evaluation_->options(), outcome.counts, stop);
+    if (!fault.empty()) ROS_WARN("%s", fault.c_str());
+  } catch (const evaluate::Stopped&) {
+    ROS_WARN("interrupted before the report was drawn; the same run again draws it");
+  }
 }
 
 int EvaluatorNode::run() {

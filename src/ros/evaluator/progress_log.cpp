@@ -195,12 +195,13 @@ std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate:
          options.output_dir + "/problems.csv";
 }
 
-std::string drawnReport(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts) {
+std::string drawnReport(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts,
+                        const evaluate::StopToken& stop) {
   const bool has_any =
       std::any_of(counts.pairs.begin(), counts.pairs.end(),
                   [](const evaluate::PairCounts& pair) { return pair.evaluated + pair.resumed > 0; });
   const std::string& folder = options.output_dir;
-  if (!has_any || evaluate::drawReport(folder, evaluate::ReportTables::kHidden)) return "";
+  if (!has_any || evaluate::drawReport(folder, evaluate::ReportTables::kHidden, stop)) return "";
   return folder + ": the results are there, but report.html was not drawn; rosrun sunlit report " + folder +
          " does it";
 }

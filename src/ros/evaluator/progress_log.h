@@ -71,8 +71,9 @@ std::string faultOfStamps(const evaluate::StreamCounts& counts);
 std::string faultsOf(const evaluate::EvaluationOptions& options, const evaluate::Outcome& outcome);
 
 /// Draws report.html, unless nothing was evaluated, of which there is none. One line where that failed, else
-/// empty.
-std::string drawnReport(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts);
+/// empty. Throws evaluate::Stopped as drawReport() does.
+std::string drawnReport(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts,
+                        const evaluate::StopToken& stop = {});
 /// One line of what came and was not used, never came, or was compressed with loss, by stream; empty where
 /// nothing was.
 std::string remarksOf(const evaluate::EvaluationOptions& options, const evaluate::Counts& counts);

@@ -240,6 +240,28 @@ TEST(OnePlace, ImagesOfOneStampButTwoPlacesAreNotComparedWheneverThatIsKnown) {
   }
 }
 
+TEST(OnePlace, IsToldAgainWhereTheRunThatFoundItWasKilled) {
+  const TemporaryFolder folder;
+  {
+    Evaluation killed(optionsFor(folder), {});
+    feedPose(killed, 0);
+    killed.addTruePose(stampOf(0), stoodAt(0.0));
+    killed.waitForRoom(0);
+    killed.addTruePose(stampOf(0), stoodAt(2.5));
+  }
+  ASSERT_TRUE(hasLine(contentOf(folder.file("out/frames.csv")), "0,500.000000000,h04,h12,"));
+  Evaluation evaluation(optionsFor(folder), {});
+  evaluation.addTruePose(stampOf(0), stoodAt(0.0));
+  feedPose(evaluation, 0);
+  evaluation.waitForRoom(0);
+  evaluation.addTruePose(stampOf(0), stoodAt(2.5));
+  const Outcome outcome = evaluation.finish();
+  EXPECT_EQ(outcome.counts.pairs[0].resumed, 0u);
+  EXPECT_EQ(outcome.counts.pairs[0].two_places, 1u);
+  EXPECT_FALSE(hasLine(contentOf(folder.file("out/frames.csv")), "0,500.000000000,h04,h12,"));
+  EXPECT_TRUE(hasLine(contentOf(folder.file("out/problems.csv")), "two_places,0,500.000000000,h04-h12,"));
+}
+
 TEST(OnePlace, IsTheSameWithinWhatHardlyMovesAPixel) {
   const auto two_places = [](const Told<Eigen::Isometry3d>& other) {
     const TemporaryFolder folder;
