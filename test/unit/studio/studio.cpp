@@ -119,12 +119,11 @@ Developed byHand(const StudioOptions& options, const Taken& taken, bool glare_fi
   image::LinearImage dry = luminance;
   passLens(&dry);
   const double ev100 = image::chooseEv100(dry, chain.exposure);
-  const Eigen::Array3f before = image::meanLuminance(luminance).cast<float>();
-  const Eigen::Array3f above = taken.day.groundIlluminance().value / kPiFloat;
+  const Eigen::Array3f drops = image::dropLuminance(luminance, taken.day.groundIlluminance().value);
   const sky::Rain rain = taken.day.rain();
-  const image::RainStreaks streaks{rain.mm_per_h,           rain.seed,
-                                   taken.name.index,        image::streakTime_s(chain.shutter, ev100),
-                                   0.5F * (before + above), rain.wind_m_s};
+  const image::RainStreaks streaks{
+      rain.mm_per_h, rain.seed,    taken.name.index, image::streakTime_s(chain.shutter, ev100),
+      drops,         rain.wind_m_s};
   const scene::Shelter shelter(*world.geometry->scene);
   image::addRain(streaks,
                  {lens, taken.map_from_camera * linkFromOptical(), taken.motion, renderer.depth(),
