@@ -278,6 +278,27 @@ TEST(Studio, AMapLeavesWhatTheCameraLooksAt) {
   EXPECT_EQ(studio.photograph(light, {}).picture.data, before.picture.data);
 }
 
+TEST(Studio, MapsPathsOfAnyLength) {
+  // A camera may look 1e7 m far and see nothing within 1e6: a path of 200 km is not seen from 20 times that.
+  Studio studio(boxes());
+  const MapExtent extent = widened({0.0, 2e5, -40.0, 40.0});
+  const image::Rgb8Image map = studio.mapFromAbove(extent, sky::usualAir().daylight(kHighSun));
+  EXPECT_EQ(map.width, 1600);
+  EXPECT_EQ(map.height, 16);
+}
+
+TEST(MapExtents, AreAsWideAsTheirMapsShow) {
+  const MapExtent straight = widened({0.0, 16000.0, -40.0, 40.0});
+  EXPECT_EQ(straight.x_min, 0.0);
+  EXPECT_EQ(straight.x_max, 16000.0);
+  EXPECT_DOUBLE_EQ(straight.y_min, -80.0);
+  EXPECT_DOUBLE_EQ(straight.y_max, 80.0);
+  const MapExtent usual = widened({-30.0, 50.0, -40.0, 400.0});
+  EXPECT_EQ(usual.x_min, -30.0);
+  EXPECT_EQ(usual.x_max, 50.0);
+  EXPECT_EQ(usual.y_max, 400.0);
+}
+
 TEST(Studio, TellsWhatItLoadsToWhoListens) {
   std::vector<std::string> notes;
   Reports reports;
