@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "png_chunks.h"
+
 namespace sunlit::image {
 namespace {
 
@@ -12,13 +14,23 @@ std::uint32_t bigEndian(const std::uint8_t* bytes, int count) {
   return value;
 }
 
+// Some writers leave more behind the last chunk.
+bool hasEndOfPng(const std::uint8_t* bytes, std::size_t size) {
+  std::size_t at = kPngSignature.size();
+  while (const std::optional<PngChunk> chunk = pngChunkAt(at, bytes, size)) {
+    if (chunk->name == "IEND") return true;
+    at = chunk->end;
+  }
+  return false;
+}
+
 // PNG (ISO/IEC 15948), 5.2 and 11.2.2: a signature, then the chunk IHDR, which begins with width and height.
 std::optional<EncodedPicture> ofPng(const std::uint8_t* bytes, std::size_t size) {
   constexpr std::array<std::uint8_t, 16> kStart = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n',
                                                    0,    0,   0,   13,  'I',  'H',  'D',  'R'};
   constexpr std::size_t kEnd = 24;
   if (size < kEnd || !std::equal(kStart.begin(), kStart.end(), bytes)) return std::nullopt;
-  return EncodedPicture{bigEndian(bytes + 16, 4), bigEndian(bytes + 20, 4)};
+  return EncodedPicture{bigEndian(bytes + 16, 4), bigEndian(bytes + 20, 4), false, !hasEndOfPng(bytes, size)};
 }
 
 // SOF0 … SOF15 but for DHT (C4), JPG (C8) and DAC (CC), which lie among them.

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -23,8 +24,9 @@ namespace {
   throw std::runtime_error(path + ": " + what + ": " + reasonOf(errno));
 }
 
-/// Whether a file of this name was left by an UnfinishedFile of a process that has ended.
-bool isAbandoned(const std::string& name) {
+/// Whether a file of this name is an UnfinishedFile of a process that does not run here. It may run in
+/// another container, or on another computer.
+bool hasNoProcess(const std::string& name) {
   static const std::regex form(std::string(R"(.+\.([0-9]{1,9})\.[0-9]+\)") + UnfinishedFile::kEnding);
   std::smatch match;
   if (!std::regex_match(name, match, form)) return false;
@@ -134,9 +136,14 @@ void removeUnfinished(const std::string& folder) {
   std::vector<fs::path> abandoned;
   fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, ignored), end;
   for (; !ignored && entry != end; entry.increment(ignored)) {
-    if (isAbandoned(entry->path().filename().string())) abandoned.push_back(entry->path());
+    if (hasNoProcess(entry->path().filename().string())) abandoned.push_back(entry->path());
   }
-  for (const fs::path& path : abandoned) fs::remove(path, ignored);
+  for (const fs::path& path : abandoned) {
+    const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+    if (file < 0) continue;
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) fs::remove(path, ignored);
+    ::close(file);
+  }
 }
 
 void writePfm(const std::string& path, const LinearImage& image) {

@@ -229,11 +229,11 @@ std::optional<Eigen::Vector3d> Lens::unproject(const Eigen::Vector2d& pixel) con
 }
 
 Angle Lens::acrossWidth() const {
-  const auto angleAt = [&](double x) {
+  const auto angleAt = [&](double x) {  // to the right
     const std::optional<Eigen::Vector3d> ray = unproject({x, camera_.cy});
-    return ray ? std::atan2(std::abs(ray->x()), ray->z()) : fold_.rad();
+    return ray ? std::atan2(ray->x(), ray->z()) : std::copysign(fold_.rad(), x - camera_.cx);
   };
-  return Angle::radians(angleAt(-0.5) + angleAt(camera_.width - 0.5));
+  return Angle::radians(angleAt(camera_.width - 0.5) - angleAt(-0.5));
 }
 
 Angle Lens::widest() const {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "random_sequence.h"
+#include "sunlit/image/mean_luminance.h"
 #include "sunlit/image/picture_name.h"
 #include "sunlit/quantity/angle.h"
 #include "sunlit/quantity/raindrops.h"
@@ -13,48 +14,117 @@ namespace sunlit::image {
 namespace {
 
 constexpr double kSmallest_mm = 1.0, kFarthest_m = 5.0, kNearest_m = 0.1;
-constexpr double kCell_m = 1.0;  ///< of `map`, that drops are counted in
+constexpr double kCell_m = 1.0;        ///< of `map`, that drops are counted in
+constexpr double kFastest_m_s = 9.65;  ///< that none falls faster than
 
-/// One drop in the picture.
+/// m, in the optical frame.
 struct Drop {
-  double u, v;     ///< px, where it is at the middle of the exposure
-  double depth_m;  ///< as the picture's are
-  double diameter_px;
-  Eigen::Vector2d path_px;  ///< during the exposure
+  Eigen::Vector3d middle;  ///< where it is at the middle of the exposure
+  Eigen::Vector3d half;    ///< its way from there to the end of the exposure
+  double diameter_m;
+
+  Eigen::Vector3d at(double time) const { return middle + time * half; }
 };
 
-/// Opacity of one drop, put on pixel after pixel.
+/// Opacity of drops, put on pixel after pixel.
 class Painter {
  public:
   Painter(const RainStreaks& rain, const RainedView& view, LinearImage* picture)
-      : rain_(rain), view_(view), picture_(*picture) {}
+      : rain_(rain),
+        view_(view),
+        picture_(*picture),
+        focal_px_(std::sqrt(view.lens.camera().fx * view.lens.camera().fy)) {}
 
-  void paint(const Drop& drop) {
-    // The drop's shadow, in pixels' areas, spread along its way in steps of half its width.
-    const double width = std::max(drop.diameter_px, 1.0);
-    const Eigen::Vector2d reach = 0.5 * drop.path_px.cwiseAbs().array() + width;
-    if (drop.u + reach.x() < 0.0 || drop.u - reach.x() > picture_.width) return;
-    if (drop.v + reach.y() < 0.0 || drop.v - reach.y() > picture_.height) return;
-    const double area = 0.25 * kPi * drop.diameter_px * drop.diameter_px;
-    const int steps = 1 + static_cast<int>(2.0 * drop.path_px.norm() / width);
-    for (int i = 0; i < steps; ++i) {
-      const double along = (i + 0.5) / steps - 0.5;
-      splat(drop.u + along * drop.path_px.x(), drop.v + along * drop.path_px.y(), drop.depth_m,
-            {width, area / steps});
-    }
-  }
+  void paint(const Drop& drop) { follow({drop, momentOf(drop, -1.0), momentOf(drop, 1.0)}, kHalvings); }
 
  private:
+  static constexpr int kHalvings = 10;
+  struct Moment {
+    double time;  ///< −1 … 1 from begin to end of the exposure
+    Eigen::Vector3d place;
+    std::optional<Eigen::Vector2d> pixel;  ///< nothing where the lens does not show it
+  };
+  struct Part {
+    const Drop& drop;
+    Moment from, to;
+  };
   struct Mark {
     double width_px, area_px;
   };
+
+  Moment momentOf(const Drop& drop, double time) const {
+    Moment moment{time, drop.at(time), view_.lens.project(drop.at(time))};
+    // Nearly beside a camera that shows no more than a half-space.
+    constexpr double kFarOutside_px = 1e6;
+    if (moment.pixel && !(moment.pixel->cwiseAbs().maxCoeff() < kFarOutside_px)) moment.pixel.reset();
+    return moment;
+  }
+  double depthOf(const Eigen::Vector3d& place) const { return view_.lens.wide() ? place.norm() : place.z(); }
+  double diameterOf(const Drop& drop, const Eigen::Vector3d& place) const {
+    return drop.diameter_m * focal_px_ / depthOf(place);
+  }
+
+  /// A part of a drop's way, halved until each half is straight and evenly passed in the picture. What lies
+  /// beside the picture is left out, and so is what the lens does not show, to a thousandth of the exposure.
+  void follow(const Part& part, int halvings) {
+    const Moment middle = momentOf(part.drop, 0.5 * (part.from.time + part.to.time));
+    if (std::max(part.from.place.norm(), part.to.place.norm()) < kNearest_m) return;
+    if (!part.from.pixel && !middle.pixel && !part.to.pixel) return;
+    if (part.from.pixel && middle.pixel && part.to.pixel) {
+      const double begin_m = depthOf(part.from.place), end_m = depthOf(part.to.place);
+      const double bend = (*middle.pixel - 0.5 * (*part.from.pixel + *part.to.pixel)).norm();
+      const double width =
+          std::max({diameterOf(part.drop, part.from.place), diameterOf(part.drop, part.to.place), 1.0});
+      if (isBeside(part, bend + width)) return;
+      constexpr double kStraight_px = 0.1, kEven = 1.1;
+      const bool is_even = std::max(begin_m, end_m) < kEven * std::min(begin_m, end_m);
+      if ((bend < kStraight_px && is_even) || halvings == 0) return paintStraight(part, width);
+    }
+    if (halvings == 0) return;
+    follow({part.drop, part.from, middle}, halvings - 1);
+    follow({part.drop, middle, part.to}, halvings - 1);
+  }
+
+  /// Whether the picture has nothing of what lies within `reach_px` of the straight line.
+  bool isBeside(const Part& part, double reach_px) const {
+    const Eigen::Array2d size(picture_.width, picture_.height);
+    const Eigen::Array2d from = part.from.pixel->array(), to = part.to.pixel->array();
+    return (from.max(to) + reach_px < 0.0).any() || (from.min(to) - reach_px > size).any();
+  }
+
+  /// The drop's shadow, in pixels' areas, spread along its way in steps of half its width, `width_px` at
+  /// most.
+  void paintStraight(const Part& part, double width_px) {
+    const Eigen::Vector2d from = *part.from.pixel, way = *part.to.pixel - from;
+    const int steps = 1 + static_cast<int>(2.0 * way.norm() / width_px);
+    // Those in the picture: a way may be far longer.
+    const Eigen::Vector2d size(picture_.width, picture_.height);
+    double first = 0.0, last = 1.0;
+    for (int i = 0; i < 2; ++i) {
+      if (way[i] == 0.0) continue;
+      const double low = (-width_px - from[i]) / way[i], high = (size[i] + width_px - from[i]) / way[i];
+      first = std::clamp(std::min(low, high), first, 1.0);
+      last = std::clamp(std::max(low, high), 0.0, last);
+    }
+    const double share = 0.5 * (part.to.time - part.from.time) / steps;  // of the exposure
+    for (int i = static_cast<int>(first * steps); i < std::ceil(last * steps); ++i) {
+      const double along = (i + 0.5) / steps;
+      const Eigen::Vector3d place = part.from.place + along * (part.to.place - part.from.place);
+      if (place.norm() < kNearest_m) continue;
+      const double diameter_px = diameterOf(part.drop, place);
+      splat(from + along * way, depthOf(place),
+            {std::max(diameter_px, 1.0), share * 0.25 * kPi * diameter_px * diameter_px});
+    }
+  }
+
   /// A disc whose edge is a pixel wide; of a pixel or two a square, whose middle is where it should be.
-  void splat(double u, double v, double depth_m, const Mark& mark) {
+  void splat(const Eigen::Vector2d& middle, double depth_m, const Mark& mark) {
+    const double u = middle.x(), v = middle.y();
     const double reach = 0.5 * mark.width_px + 0.5;
     const int left = static_cast<int>(std::ceil(u - reach)), right = static_cast<int>(std::floor(u + reach));
     const int top = static_cast<int>(std::ceil(v - reach)), bottom = static_cast<int>(std::floor(v + reach));
-    const auto overlap = [&](double middle, int pixel) {
-      return std::clamp(reach - std::abs(pixel - middle), 0.0, std::min(1.0, mark.width_px));
+    const auto overlap = [&](double place, int pixel) {
+      return std::clamp(reach - std::abs(pixel - place), 0.0, std::min(1.0, mark.width_px));
     };
     constexpr double kDisc_px = 2.5;
     const bool disc = mark.width_px > kDisc_px;
@@ -79,15 +149,19 @@ class Painter {
   const RainStreaks& rain_;
   const RainedView& view_;
   LinearImage& picture_;
+  double focal_px_;
 };
 
 /// Cells of space about a camera.
 class Cells {
  public:
-  explicit Cells(const RainedView& view)
+  Cells(const RainStreaks& rain, const RainedView& view)
       : eye_(view.map_from_optical.translation()),
         axis_(view.map_from_optical.linear().col(2)),
-        widest_rad_(view.lens.widest().rad()) {}
+        widest_rad_(view.lens.widest().rad()),
+        way_m_(0.5 * rain.exposure_s *
+               (kFastest_m_s + rain.wind_m_s.norm() + view.motion.velocity_m_s.norm())),
+        turn_rad_(0.5 * rain.exposure_s * view.motion.turning_rad_s.norm()) {}
 
   /// Calls visit(lowest corner) for those that the camera may see drops in.
   template <typename Visit>
@@ -102,21 +176,22 @@ class Cells {
   }
 
  private:
-  /// By the ball about a cell.
+  /// By the ball about a cell, and about where its drops come from and go to.
   bool seen(const Eigen::Vector3d& cell) const {
     const double radius_m = 0.5 * std::sqrt(3.0) * kCell_m;
     const Eigen::Vector3d middle = kCell_m * (cell.array() + 0.5).matrix() - eye_;
     const double away_m = middle.norm();
-    if (away_m <= radius_m) return true;
+    if (away_m <= radius_m + way_m_) return true;
     if (away_m > kFarthest_m + radius_m) return false;
-    // A streak begins up to this far out of the picture.
+    // A drop's edge is seen while its middle is up to this far out of the picture.
     constexpr double kMargin_rad = 0.1;
     const double off_rad = std::acos(std::clamp(middle.dot(axis_) / away_m, -1.0, 1.0));
-    return off_rad <= widest_rad_ + kMargin_rad + std::asin(radius_m / away_m);
+    return off_rad <= widest_rad_ + kMargin_rad + turn_rad_ + std::asin((radius_m + way_m_) / away_m);
   }
 
   Eigen::Vector3d eye_, axis_;
   double widest_rad_;
+  double way_m_, turn_rad_;  ///< of half the exposure, at most
 };
 
 /// Drops as a camera sees them.
@@ -126,7 +201,6 @@ class Rain {
       : rain_(rain),
         view_(view),
         optical_from_map_(view.map_from_optical.inverse()),
-        focal_px_(std::sqrt(view.lens.camera().fx * view.lens.camera().fy)),
         slope_(raindropSlope(rain.mm_per_h)),
         in_cell_(kRaindropsAtZero / slope_ * std::exp(-slope_ * kSmallest_mm) * kCell_m * kCell_m * kCell_m),
         start_(randomStart(rain.seed, {rain.moment, ""})) {}
@@ -137,41 +211,31 @@ class Rain {
     for (const double coordinate : {cell.x(), cell.y(), cell.z()})
       place = mixed(place ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(coordinate)));
     RandomSequence random(place, 0);
-    const double count = random.poisson(in_cell_);
+    const double count = std::floor(random.poisson(in_cell_) + 0.5);
     for (double i = 0.0; i < count; i += 1.0) {
       const double x = random.uniform(), y = random.uniform(), z = random.uniform();
       const double diameter_mm = kSmallest_mm - std::log1p(-random.uniform()) / slope_;
-      if (const auto drop = seen(kCell_m * (cell + Eigen::Vector3d(x, y, z)), diameter_mm))
+      if (const auto drop = dropAt(kCell_m * (cell + Eigen::Vector3d(x, y, z)), diameter_mm))
         painter->paint(*drop);
     }
   }
 
  private:
-  /// At `place` in the middle of the exposure.
-  std::optional<Drop> seen(const Eigen::Vector3d& place, double diameter_mm) const {
+  /// At `place` in the middle of the exposure; nothing where it is too far away, or under a roof.
+  std::optional<Drop> dropAt(const Eigen::Vector3d& place, double diameter_mm) const {
     const Eigen::Vector3d middle = optical_from_map_ * place;
-    const double away_m = middle.norm();
-    if (away_m < kNearest_m || away_m > kFarthest_m) return std::nullopt;
-    if (view_.open && !view_.open(place)) return std::nullopt;
+    if (middle.norm() > kFarthest_m || (view_.open && !view_.open(place))) return std::nullopt;
     const Eigen::Vector3d from_eye = place - view_.map_from_optical.translation();
-    const double speed = 9.65 - 10.3 * std::exp(-0.6 * diameter_mm);
+    const double speed = kFastest_m_s - 10.3 * std::exp(-0.6 * diameter_mm);
     const Eigen::Vector3d falls(rain_.wind_m_s.x(), rain_.wind_m_s.y(), -speed);
     const Eigen::Vector3d past =
         falls - view_.motion.velocity_m_s - view_.motion.turning_rad_s.cross(from_eye);
-    const Eigen::Vector3d half = 0.5 * rain_.exposure_s * (optical_from_map_.linear() * past);
-    const std::optional<Eigen::Vector2d> at = view_.lens.project(middle);
-    if (!at) return std::nullopt;
-    const std::optional<Eigen::Vector2d> from = view_.lens.project(middle - half),
-                                         to = view_.lens.project(middle + half);
-    if (!from || !to) return std::nullopt;  // passes the camera itself
-    const double depth_m = view_.lens.wide() ? away_m : middle.z();
-    return Drop{at->x(), at->y(), depth_m, 1e-3 * diameter_mm * focal_px_ / depth_m, *to - *from};
+    return Drop{middle, 0.5 * rain_.exposure_s * (optical_from_map_.linear() * past), 1e-3 * diameter_mm};
   }
 
   const RainStreaks& rain_;
   const RainedView& view_;
   Eigen::Isometry3d optical_from_map_;
-  double focal_px_;
   double slope_;
   double in_cell_;  ///< drops, in the mean
   std::uint64_t start_;
@@ -179,11 +243,23 @@ class Rain {
 
 }  // namespace
 
+Eigen::Array3f dropLuminance(const LinearImage& picture, const Eigen::Array3f& illuminance_lx) {
+  constexpr float kLampLit_cd_m2 = 1000.0f;
+  const Eigen::Array3f most = illuminance_lx.max(kLampLit_cd_m2);
+  LinearImage before = picture;
+  for (std::size_t i = 0; i < before.data.size(); ++i) {
+    float& value = before.data[i];
+    const float limit = most[static_cast<Eigen::Index>(i % 3)];
+    if (value > limit) value = limit;
+  }
+  return 0.5f * (meanLuminance(before).cast<float>() + illuminance_lx / kPiFloat);
+}
+
 void addRain(const RainStreaks& rain, const RainedView& view, LinearImage* picture) {
   if (!(rain.mm_per_h > 0.0)) return;
   const Rain drops(rain, view);
   Painter painter(rain, view, picture);
-  Cells(view).forEach([&](const Eigen::Vector3d& cell) { drops.fallIn(cell, &painter); });
+  Cells(rain, view).forEach([&](const Eigen::Vector3d& cell) { drops.fallIn(cell, &painter); });
 }
 
 }  // namespace sunlit::image

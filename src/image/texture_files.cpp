@@ -14,7 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "png_chunks.h"
 #include "image/tga.h"
+#include "sunlit/image/encoded_size.h"
 
 namespace sunlit::image {
 namespace {
@@ -39,19 +41,13 @@ cv::Mat toEightBit(const cv::Mat& decoded, const std::string& name) {
 /// The bytes of a PNG file without its colour profile: textures are sRGB whatever it says, and libpng prints
 /// a line about each profile that it does not like. Anything else comes back as it is.
 std::vector<std::uint8_t> withoutProfile(const std::uint8_t* bytes, std::size_t size) {
-  constexpr std::size_t kSignature = 8;
-  constexpr std::size_t kAroundData = 12;  // length, name and checksum of a chunk
-  const std::uint8_t signature[kSignature] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-  if (size < kSignature || !std::equal(signature, signature + kSignature, bytes))
+  std::size_t at = kPngSignature.size();
+  if (size < at || !std::equal(kPngSignature.begin(), kPngSignature.end(), bytes))
     return {bytes, bytes + size};
-  std::vector<std::uint8_t> kept(bytes, bytes + kSignature);
-  std::size_t at = kSignature;
-  while (at + kAroundData <= size) {
-    const std::size_t data = std::size_t{bytes[at]} << 24 | std::size_t{bytes[at + 1]} << 16 |
-                             std::size_t{bytes[at + 2]} << 8 | std::size_t{bytes[at + 3]};
-    const std::size_t end = std::min(size, at + kAroundData + data);
-    if (std::memcmp(bytes + at + 4, "iCCP", 4) != 0) kept.insert(kept.end(), bytes + at, bytes + end);
-    at = end;
+  std::vector<std::uint8_t> kept(bytes, bytes + at);
+  while (const std::optional<PngChunk> chunk = pngChunkAt(at, bytes, size)) {
+    if (chunk->name != "iCCP") kept.insert(kept.end(), bytes + at, bytes + chunk->end);
+    at = chunk->end;
   }
   kept.insert(kept.end(), bytes + at, bytes + size);
   return kept;
@@ -64,50 +60,28 @@ struct Size {
   std::int64_t longest() const { return std::max(width, height); }
 };
 
-std::int64_t bigEndian(const std::uint8_t* bytes, std::size_t count) {
-  std::int64_t value = 0;
-  for (std::size_t i = 0; i < count; ++i) value = value << 8 | bytes[i];
-  return value;
-}
-
 std::int64_t littleEndian(const std::uint8_t* bytes) {
   return std::int64_t{bytes[3]} << 24 | std::int64_t{bytes[2]} << 16 | std::int64_t{bytes[1]} << 8 | bytes[0];
 }
 
-bool isJpeg(const std::uint8_t* bytes, std::size_t size) {
-  return size > 3 && bytes[0] == 0xFF && bytes[1] == 0xD8 && bytes[2] == 0xFF;
-}
-
-/// From the frame header, which follows any number of other segments (ITU-T T.81, B.1.1.4 and B.2.2).
-Size sizeOfJpeg(const std::uint8_t* bytes, std::size_t size) {
-  std::size_t at = 2;
-  while (at + 9 <= size && bytes[at] == 0xFF) {
-    const int marker = bytes[at + 1];
-    const bool is_frame =
-        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
-    if (is_frame) return {bigEndian(bytes + at + 7, 2), bigEndian(bytes + at + 5, 2)};
-    at += marker == 0xFF ? 1 : 2 + static_cast<std::size_t>(bigEndian(bytes + at + 2, 2));
-  }
-  return {};
-}
-
 /// As the first bytes tell it; 0 × 0 where they do not.
 Size sizeInHeader(const std::uint8_t* bytes, std::size_t size) {
-  if (size >= 24 && std::memcmp(bytes + 1, "PNG", 3) == 0 && std::memcmp(bytes + 12, "IHDR", 4) == 0)
-    return {bigEndian(bytes + 16, 4), bigEndian(bytes + 20, 4)};
+  if (const std::optional<EncodedPicture> picture = encodedPicture(bytes, size))
+    return {picture->width, picture->height};
   if (size >= 26 && bytes[0] == 'B' && bytes[1] == 'M') {
     const auto height = static_cast<std::int32_t>(littleEndian(bytes + 22));  // below 0: top row first
     return {littleEndian(bytes + 18), std::abs(std::int64_t{height})};
   }
   if (const std::optional<TgaSize> tga = sizeOfTga(bytes, size)) return {tga->width, tga->height};
-  return isJpeg(bytes, size) ? sizeOfJpeg(bytes, size) : Size{};
+  return {};
 }
 
 /// As it is in the file, or, of a JPEG that is far too large, already smaller: libjpeg leaves out the finest
 /// waves by itself, without ever having the whole picture.
 int decodingFlags(int longest_px, const std::uint8_t* bytes, std::size_t size) {
-  if (!isJpeg(bytes, size)) return cv::IMREAD_UNCHANGED;
-  const std::int64_t longest = sizeOfJpeg(bytes, size).longest();
+  const std::optional<EncodedPicture> picture = encodedPicture(bytes, size);
+  if (!picture || !picture->is_lossy) return cv::IMREAD_UNCHANGED;
+  const std::int64_t longest = std::max(picture->width, picture->height);
   for (const auto& [divisor, flag] : {std::pair{8, cv::IMREAD_REDUCED_COLOR_8},
                                       {4, cv::IMREAD_REDUCED_COLOR_4},
                                       {2, cv::IMREAD_REDUCED_COLOR_2}}) {

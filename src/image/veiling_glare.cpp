@@ -12,8 +12,20 @@
 namespace sunlit::image {
 namespace {
 
-double cosineFromAxis(const Eigen::Vector3d& ray) {
-  return ray.z() / ray.norm();
+/// A light fades over so much at least, also where the picture shows as much as the hood lets in, or more.
+constexpr double kLeastFade_deg = 5.0;
+
+double fromAxis_rad(const Eigen::Vector3d& ray) {
+  return std::acos(std::clamp(ray.z() / ray.norm(), -1.0, 1.0));
+}
+
+/// Of a light that has passed the edge, both from the axis, rad: what is left of it.
+double fadedPart(double light, double edge, double hood) {
+  const double end = std::max(hood, edge + kLeastFade_deg * kRadPerDeg);
+  if (!(light < end)) return 0.0;
+  // Lenses that show nearly a half-space and more have fronts that face to the side.
+  const double facing = std::max(0.0, edge + (kLeastFade_deg - 90.0) * kRadPerDeg);
+  return (end - light) / (end - edge) * std::max(0.0, std::cos(light - facing) / std::cos(edge - facing));
 }
 
 /// sr
@@ -57,29 +69,24 @@ LinearRgb VeilingGlare::meanOf(const LightOutside& light) const {
   const Lens& lens = vignetting_.lens();
   const Eigen::Vector2d pixel = edgeTowards(light.towards);
   const std::optional<Eigen::Vector3d> ray = lens.unproject(pixel);
-  const double cosine = light.towards.z();
-  if (!ray || !(cosine > 0.0)) return {};
-  const double edge_cosine = cosineFromAxis(*ray), solid_angle = solidAngleAt(lens, pixel, *ray);
-  if (!(edge_cosine > 0.0) || !(solid_angle > 0.0)) return {};
-  const double edge = std::acos(std::min(edge_cosine, 1.0)), angle = std::acos(std::min(cosine, 1.0));
-  double part = 1.0;
-  if (angle > edge) {
-    if (!(angle < options_.hood.rad())) return {};
-    part = (options_.hood.rad() - angle) / (options_.hood.rad() - edge) * cosine / edge_cosine;
-  }
+  if (!ray) return {};
+  const double edge = fromAxis_rad(*ray), angle = fromAxis_rad(light.towards);
+  const double part = angle > edge ? fadedPart(angle, edge, options_.hood.rad()) : 1.0;
+  const double solid_angle = solidAngleAt(lens, pixel, *ray);
+  if (part == 0.0 || !(solid_angle > 0.0)) return {};
   const double pixels = static_cast<double>(lens.camera().width) * lens.camera().height;
   return light.illuminance * static_cast<float>(part * vignetting_.at(pixel) / (solid_angle * pixels));
 }
 
-WingsFromBeyond VeilingGlare::wingsOf(const LightOutside& light) const {
+WingsFromBeyond VeilingGlare::wingsOf(const LightOutside& light, const LinearRgb& mean) const {
   const Lens& lens = vignetting_.lens();
   const PinholeCamera& camera = lens.camera();
   const Eigen::Vector2d edge = edgeTowards(light.towards);
   const std::optional<Eigen::Vector3d> ray = lens.unproject(edge);
-  const double edge_rad = ray ? std::acos(std::min(cosineFromAxis(*ray), 1.0)) : 0.0;
-  const double away_rad = std::max(std::acos(std::min(light.towards.z(), 1.0)) - edge_rad, 0.0);
+  const double edge_rad = ray ? fromAxis_rad(*ray) : 0.0;
+  const double away_rad = std::max(fromAxis_rad(light.towards) - edge_rad, 0.0);
   const float pixels = static_cast<float>(camera.width) * static_cast<float>(camera.height);
-  return {edge, away_rad * std::sqrt(camera.fx * camera.fy), pixels * meanOf(light).value};
+  return {edge, away_rad * std::sqrt(camera.fx * camera.fy), pixels * mean.value};
 }
 
 void VeilingGlare::apply(const std::vector<LightOutside>& outside, LinearImage* picture) const {
@@ -90,9 +97,10 @@ void VeilingGlare::apply(const std::vector<LightOutside>& outside, LinearImage* 
   LinearImage with_wings;
   if (wings > 0.0f) with_wings = glareWings(*picture);
   for (const LightOutside& light : outside) {
+    const LinearRgb mean = meanOf(light);
     double evenly = 1.0;
-    if (wings > 0.0f) evenly += options_.wings * (addWings(wingsOf(light), &with_wings) - 1.0);
-    even += evenly * meanOf(light).value.cast<double>();
+    if (wings > 0.0f) evenly += options_.wings * (addWings(wingsOf(light, mean), &with_wings) - 1.0);
+    even += evenly * mean.value.cast<double>();
   }
   const Eigen::Array3f veil = (options_.share * even).cast<float>();
   const LinearImage& blurred = wings > 0.0f ? with_wings : *picture;

@@ -55,7 +55,7 @@ LensCanvas::LensCanvas(const image::Lens& lens, int supersampling)
       columns_(lens.camera().width * supersampling),
       rows_(lens.camera().height * supersampling) {
   findRays();
-  layOutFaces(lens.widest().deg() > kOnePinhole_deg);
+  layOutFaces();
   findCells();
 }
 
@@ -77,9 +77,16 @@ std::size_t LensCanvas::faceOf(const Eigen::Vector3d& ray) const {
   return ray.y() > 0.0 ? 3 : 4;
 }
 
-void LensCanvas::layOutFaces(bool cube) {
+/// Whether one pinhole would have to show too much.
+bool LensCanvas::needsCube() const {
+  const auto narrowest = static_cast<float>(std::cos(kOnePinhole_deg * kRadPerDeg));
+  return std::any_of(rays_.begin(), rays_.end(),
+                     [&](const Eigen::Vector3f& ray) { return ray.z() < narrowest * ray.norm(); });
+}
+
+void LensCanvas::layOutFaces() {
   faces_.push_back({{}, Eigen::Matrix3d::Identity()});
-  if (cube) {
+  if (needsCube()) {
     for (const auto& [across, down] : {std::pair{90.0, 0.0}, {-90.0, 0.0}, {0.0, -90.0}, {0.0, 90.0}})
       faces_.push_back({{}, turned(across, down)});
   }

@@ -22,7 +22,8 @@ struct Seen;
 /// drawn sample.
 class LensCanvas {
  public:
-  /// Of two rows and columns at least. Throws as image::Lens::widest().
+  /// Of two rows and columns at least. `lens` shows all of its picture, see image::Lens::widest(), but for
+  /// less than half a pixel at its edge.
   LensCanvas(const image::Lens& lens, int supersampling);
 
   const std::shared_ptr<const light::PixelRays>& pixels() const { return pixels_; }
@@ -53,7 +54,8 @@ class LensCanvas {
            static_cast<std::size_t>(column);
   }
   std::size_t faceOf(const Eigen::Vector3d& ray) const;
-  void layOutFaces(bool cube);
+  bool needsCube() const;
+  void layOutFaces();
   void findRays();
   void findCells();
   Sample sampleAt(const Seen& seen, const Drawn& drawn, std::size_t i) const;

@@ -22,13 +22,14 @@ struct View {
   Eigen::Vector3d ray(double u, double v) const {
     return map_from_optical.linear() * (lens ? throughLens(u, v) : camera.unproject({u, v}));
   }
-  /// From one pixel to the next along a row or column, at depth 1 m; of a lens, about the middle.
+  /// From one pixel to the next along a row or column, at depth 1 m; of a lens, about its axis.
   Eigen::Vector3d pixelRight() const;
   Eigen::Vector3d pixelDown() const;
   /// Pixel coordinate of sample `i` of a row or column of samples.
   double pixelOfSample(int i) const { return (i + 0.5) / supersampling - 0.5; }
 
  private:
+  Eigen::Vector3d aboutAxis(const Eigen::Vector2d& step_px) const;
   Eigen::Vector3d throughLens(double u, double v) const;
 };
 

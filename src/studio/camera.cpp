@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "sunlit/image/mean_luminance.h"
 #include "sunlit/image/rain_streaks.h"
 #include "sunlit/quantity/angle.h"
 
@@ -83,13 +82,12 @@ void Camera::addRain(const Lit& lit, double ev100, image::LinearImage* luminance
   const sky::Daylight& day = lit.light.day;
   const sky::Rain rain = day.rain();
   std::call_once(rained_, [this] { shelter_ = std::make_unique<const scene::Shelter>(*scene_); });
-  // A drop gathers what is before the camera, and what is above.
-  const Eigen::Array3f before = image::meanLuminance(*luminance).cast<float>();
-  const Eigen::Array3f above = day.groundIlluminance().value / kPiFloat;
-  const image::RainStreaks streaks{
-      rain.mm_per_h,           rain.seed,
-      lit.name.index,          image::streakTime_s(chainOf(lit).options.shutter, ev100),
-      0.5f * (before + above), rain.wind_m_s};
+  const image::RainStreaks streaks{rain.mm_per_h,
+                                   rain.seed,
+                                   lit.name.index,
+                                   image::streakTime_s(chainOf(lit).options.shutter, ev100),
+                                   image::dropLuminance(*luminance, day.groundIlluminance().value),
+                                   rain.wind_m_s};
   image::addRain(streaks,
                  {lens_, map_from_optical_, motion_, renderer_->depth(),
                   [this](const Eigen::Vector3d& place) { return shelter_->open(place); }},
@@ -104,20 +102,26 @@ double Camera::meter(const Lit& lit, Stopwatch* stopwatch) const {
 Developed Camera::photograph(const Lit& lit, std::optional<double> ev100, Stopwatch* stopwatch) const {
   const ChainOptions& chain = chainOf(lit).options;
   const double known_s = ev100 ? image::smearTime_s(chain.shutter, *ev100) : knownSmear_s(chain.shutter);
-  image::LinearImage arriving = beforeLens(lit, known_s, stopwatch);
+  image::LinearImage before = beforeLens(lit, known_s, stopwatch);
   const bool rains = lit.light.day.rain().mm_per_h > 0.0;
-  image::LinearImage before;  // the same once more, where it may be needed
-  if (rains || !motion_.none()) before = arriving;
-  image::LinearImage luminance = throughLens(lit, std::move(arriving), stopwatch);
-  const double meters = metered(lit, luminance, stopwatch);
-  const double exposed = ev100 ? *ev100 : lit.setting.adapted ? lit.setting.adapted(meters) : meters;
-  // How long the shutter is open is known only now, and with it what smears and how far drops fall.
-  const double smear_s = image::smearTime_s(chain.shutter, exposed);
-  const bool smears =
-      smear_s != known_s && !motion_.none() && renderer_->exposures(wayOf(chainOf(lit), smear_s)) > 1;
-  if (smears) before = beforeLens(lit, smear_s, stopwatch);
+  const bool may_smear = !motion_.none() && !chain.shutter.exposure_ms;
+  image::LinearImage luminance;
+  double exposed = ev100.value_or(0.0);
+  bool is_due = true;  // `before`, to pass the lens
+  if (!ev100) {
+    is_due = rains;
+    luminance = throughLens(lit, rains || may_smear ? before : std::move(before), stopwatch);
+    const double meters = metered(lit, luminance, stopwatch);
+    exposed = lit.setting.adapted ? lit.setting.adapted(meters) : meters;
+    // How long the shutter is open is known only now, and with it what smears and how far drops fall.
+    const double smear_s = image::smearTime_s(chain.shutter, exposed);
+    if (may_smear && smear_s != known_s && renderer_->exposures(wayOf(chainOf(lit), smear_s)) > 1) {
+      before = beforeLens(lit, smear_s, stopwatch);
+      is_due = true;
+    }
+  }
   if (rains) stopwatch->measure("develop", lit.name.series, [&] { addRain(lit, exposed, &before); });
-  if (smears || rains) luminance = throughLens(lit, std::move(before), stopwatch);
+  if (is_due) luminance = throughLens(lit, std::move(before), stopwatch);
   return stopwatch->measure("develop", lit.name.series, [&] {
     if (chain.noise.enabled) image::addSensorNoise(exposed, chain.noise, lit.name, &luminance);
     return Developed{image::throughMosaic(image::develop(luminance, exposed), chain.mosaic), exposed};

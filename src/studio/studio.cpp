@@ -31,6 +31,15 @@ double topOf(const scene::Scene& scene) {
   return static_cast<double>(top);
 }
 
+constexpr double kLeastMapSide = 0.01;  ///< of the longer one
+
+/// To both sides.
+void widen(double least_m, double* low, double* high) {
+  const double missing_m = std::max(0.0, least_m - (*high - *low));
+  *low -= 0.5 * missing_m;
+  *high += 0.5 * missing_m;
+}
+
 /// Before anything that takes time. Throws std::invalid_argument.
 const StudioOptions& checked(const StudioOptions& options) {
   for (const ChainOptions& chain : options.chains) validate(chain);
@@ -80,17 +89,26 @@ Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& 
 
 Studio::~Studio() = default;
 
+MapExtent widened(MapExtent extent) {
+  const double least_m = kLeastMapSide * std::max(extent.x_max - extent.x_min, extent.y_max - extent.y_min);
+  widen(least_m, &extent.x_min, &extent.x_max);
+  widen(least_m, &extent.y_min, &extent.y_max);
+  return extent;
+}
+
 image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylight& daylight) const {
   constexpr double kLongSidePx = 1600.0;
-  // From so many extents away rays are within 1.5° of parallel.
-  constexpr double kDistance = 20.0;
+  // From so many extents away rays are within 1.5° of parallel; of what is wider than a camera may be away,
+  // less so.
+  constexpr double kDistance = 20.0, kFarthest_m = 1.9e6;
   const double east_m = extent.x_max - extent.x_min;
   const double north_m = extent.y_max - extent.y_min;
   const double longest_m = std::max(east_m, north_m);
-  const double distance_m = kDistance * longest_m;
+  const double distance_m = std::min(kDistance * longest_m, kFarthest_m);
   const double px_per_m = kLongSidePx / longest_m;
-  const int width = std::max(16, static_cast<int>(std::lround(east_m * px_per_m)));
-  const int height = std::max(16, static_cast<int>(std::lround(north_m * px_per_m)));
+  constexpr int kShortSidePx = static_cast<int>(kLeastMapSide * kLongSidePx);
+  const int width = std::max(kShortSidePx, static_cast<int>(std::lround(east_m * px_per_m)));
+  const int height = std::max(kShortSidePx, static_cast<int>(std::lround(north_m * px_per_m)));
 
   // From above one strip after another, each by a camera over its own middle: a whole map at once would take
   // a gigabyte.

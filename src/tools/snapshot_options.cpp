@@ -12,12 +12,13 @@ void addOwn(studio::CommandLine* line, SnapshotOptions* options, CivilDateTime* 
       .then([](const std::string& option, const std::string& file) {
         studio::requireFile(option, file, ".png");
       });
-  line->add("--depth FILE.pfm",
-            {"depth",
-             &options->depth_output,
-             "",
-             {},
-             "depth too: portable float map, m along the optical axis, NaN where there is none"})
+  line->add("--depth FILE.pfm", {"depth",
+                                 &options->depth_output,
+                                 "",
+                                 {},
+                                 "depth too: portable float map, m along the optical axis (equidistant and "
+                                 "omni: from the camera), NaN "
+                                 "where there is none"})
       .then([](const std::string& option, const std::string& file) {
         studio::requireFile(option, file, ".pfm");
       });

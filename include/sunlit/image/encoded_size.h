@@ -11,9 +11,8 @@ namespace sunlit::image {
 struct EncodedPicture {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  bool is_lossy = false;  ///< JPEG
-  bool is_cut_short =
-      false;  ///< a JPEG without end of image; decoders fill up what is missing, and say nothing
+  bool is_lossy = false;      ///< JPEG
+  bool is_cut_short = false;  ///< without its end; decoders fill up what is missing, and say nothing
 };
 
 /// Nothing where `bytes` are neither, or end before the size is told.

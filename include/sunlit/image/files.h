@@ -19,7 +19,8 @@ void writeFileAtomically(const std::string& path, const std::string& bytes);
 std::string readWholeFile(const std::string& path);
 
 /// Removes what writers of files were killed in the midst of, in `folder` and below. What belongs to a
-/// process that still runs stays.
+/// process that still runs stays, also of another container or computer that writes to the same folder, where
+/// its file system knows locks (flock) of all of them.
 void removeUnfinished(const std::string& folder);
 
 /// Makes `finished`, a whole file that nobody writes to any more, durable (fsync), gives it the name `path`

@@ -34,7 +34,8 @@ using LinearImage = Picture<float, 3>;          ///< linear RGB (see LinearRgb),
 using Rgb8Image = Picture<std::uint8_t, 3>;     ///< display-referred sRGB, 8 bit
 using Grey8Image = Picture<std::uint8_t, 1>;    ///< display-referred luminance, 8 bit
 using Grey16Image = Picture<std::uint16_t, 1>;  ///< numbers, such as depth in steps of a length
-using DepthImage = Picture<float, 1>;           ///< m along the optical axis (z); NaN where nothing was hit
+using DepthImage =
+    Picture<float, 1>;  ///< m along the optical axis, or see Lens::wide(); NaN: nothing was hit
 
 /// Whether all of it is 0.
 inline bool isBlack(const Rgb8Image& picture) {

@@ -33,8 +33,8 @@ inline std::vector<Field> fieldsOf(MosaicOptions& options) {
 
 /// Keeps of each pixel of `picture` the colour that its sensor sees, and has the other two found again from
 /// those around (OpenCV's demosaicing, of 8 bits, as image_proc does with a camera that sends bayer_rggb8,
-/// its display curve on). Grey pictures stay as they are. At least 8 × 8 px; without a pattern unchanged. The
-/// same bits for any thread count.
+/// its display curve on). A picture of one grey stays as it is. At least 8 × 8 px; without a pattern
+/// unchanged. The same bits for any thread count.
 Rgb8Image throughMosaic(Rgb8Image picture, const MosaicOptions& options);
 
 }  // namespace sunlit::image

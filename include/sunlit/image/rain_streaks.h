@@ -33,6 +33,13 @@ struct RainedView {
   std::function<bool(const Eigen::Vector3d&)> open = {};
 };
 
+/// What drops show before the camera that sees `picture` (cd/m²), where level ground has `illuminance_lx`:
+/// half of what is before it, in the mean of all pixels, and half of what is above. No pixel counts more than
+/// a level surface could shine back to the one side, or than what lamps light: of the sun's disc and its
+/// mirror images drops have their share from above, which does not hang on how small a part of the sky is
+/// seen.
+Eigen::Array3f dropLuminance(const LinearImage& picture, const Eigen::Array3f& illuminance_lx);
+
 /// Drops of one moment, apart from those of others, each at its place in `map`. Diameters are distributed as
 /// Marshall & Palmer (1948) found, N(D) = 8000 e^(−4.1 R^−0.21 D) per m³ and mm; each falls by 9.65 − 10.3
 /// e^(−0.6 D) m/s (Atlas, Srivastava & Sekhon 1973), R in mm/h, D in mm, straight down in `map` or slanted by

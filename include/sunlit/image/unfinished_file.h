@@ -8,8 +8,8 @@ namespace sunlit::image {
 
 /// Written beside its place under another name, NAME.PROCESS.NUMBER.part, and removed again unless it is
 /// kept: what was in its place stays there until then, even if the process is killed or the power fails. What
-/// killed ones leave removeUnfinished() takes away. Throws std::runtime_error "path: what failed: why", of
-/// the path that was meant.
+/// killed ones leave removeUnfinished() takes away; those that still write hold a lock (flock). Throws
+/// std::runtime_error "path: what failed: why", of the path that was meant.
 class UnfinishedFile {
  public:
   static constexpr const char* kEnding = ".part";

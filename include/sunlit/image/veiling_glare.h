@@ -22,21 +22,22 @@ struct GlareOptions {
 };
 
 inline std::vector<Field> fieldsOf(GlareOptions& options) {
-  return {{"share",
-           &options.share,
-           "",
-           {0, 0.2},
-           "of the light that goes astray (ISO 9358); 0.01 to 0.05 are usual"},
-          {"wings",
-           &options.wings,
-           "",
-           {0, 1},
-           "of that, what stays around where it comes from; the rest lies evenly"},
-          {"hood",
-           &options.hood,
-           "deg",
-           {0, 90},
-           "from the axis, up to which light outside of the picture gets in"}};
+  return {
+      {"share",
+       &options.share,
+       "",
+       {0, 0.2},
+       "of the light that goes astray (ISO 9358); 0.01 to 0.05 are usual"},
+      {"wings",
+       &options.wings,
+       "",
+       {0, 1},
+       "of that, what stays around where it comes from; the rest lies evenly"},
+      {"hood",
+       &options.hood,
+       "deg",
+       {0, 90},
+       "from the axis, up to which light outside of the picture gets in; to 5 deg past its edge at least"}};
 }
 
 /// Throws std::invalid_argument naming key, value and range.
@@ -54,7 +55,9 @@ struct LightOutside {
 /// same edge, so the sum of all pixels stays. A light outside is added as if its image lay on the edge
 /// nearest to it, where it passes on without a step to one that is seen; of each Gaussian what reaches the
 /// edge lies about there, all else evenly. From the edge on it fades by its cosine and evenly with the angle
-/// up to the hood, where the last of the lens lies in its shadow.
+/// up to the hood, where the last of the lens lies in its shadow, and over 5° at least, also where the
+/// picture shows more than the hood lets in; from 85° on the front of the lens is taken to face as far to the
+/// side.
 class VeilingGlare {
  public:
   /// Keeps what it needs of `vignetting`, which the picture has been through. Throws as validate().
@@ -68,7 +71,7 @@ class VeilingGlare {
   LinearRgb meanOf(const LightOutside& light) const;
 
  private:
-  WingsFromBeyond wingsOf(const LightOutside& light) const;
+  WingsFromBeyond wingsOf(const LightOutside& light, const LinearRgb& mean) const;
   Eigen::Vector2d edgeTowards(const Eigen::Vector3d& towards) const;
 
   Vignetting vignetting_;

@@ -10,7 +10,7 @@ namespace sunlit::light {
 
 class PixelRays {
  public:
-  /// Throws as image::Lens::widest().
+  /// `lens` shows all of its picture, see image::Lens::widest(), but for less than half a pixel at its edge.
   explicit PixelRays(const image::Lens& lens);
 
   const image::Lens& lens() const { return lens_; }

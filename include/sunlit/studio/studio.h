@@ -53,6 +53,8 @@ struct MapExtent {
   double y_min = 0.0;
   double y_max = 0.0;
 };
+/// `extent`, or more to both sides where it is narrower than a map can be, a hundredth of its length.
+MapExtent widened(MapExtent extent);
 
 class Camera;
 
@@ -68,7 +70,8 @@ class Studio {
   Studio(const Studio&) = delete;
   Studio& operator=(const Studio&) = delete;
 
-  /// A picture from above, north up, close to orthographic. Leaves alone what look() looked at.
+  /// A picture from above of what is widened(), north up, close to orthographic up to 100 km, and from within
+  /// 1900 km whatever the extent. Leaves alone what look() looked at.
   image::Rgb8Image mapFromAbove(const MapExtent& extent, const sky::Daylight& daylight) const;
 
   /// `map_from_camera`: of its link, x forward, z up. `map_from_links`: of the robot; empty: it is not there.

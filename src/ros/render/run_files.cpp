@@ -134,7 +134,8 @@ studio::MapExtent extentOf(const PathSource& path) {
     extent.y_min = std::min(extent.y_min, at.y());
     extent.y_max = std::max(extent.y_max, at.y());
   }
-  return {extent.x_min - kMarginM, extent.x_max + kMarginM, extent.y_min - kMarginM, extent.y_max + kMarginM};
+  return studio::widened(
+      {extent.x_min - kMarginM, extent.x_max + kMarginM, extent.y_min - kMarginM, extent.y_max + kMarginM});
 }
 
 }  // namespace sunlit::ros_interface

@@ -44,6 +44,15 @@ TEST(EncodedSize, IsNoneOfOtherBytesAndOfAHeadCutShort) {
   EXPECT_TRUE(of({png.begin(), png.begin() + 24}));
 }
 
+TEST(EncodedSize, TellsWhetherAPngIsWhole) {
+  const auto png = encoded(".png", 8, 8);
+  for (std::size_t size = 24; size < png.size(); ++size)
+    EXPECT_TRUE(of({png.begin(), png.begin() + static_cast<std::ptrdiff_t>(size)})->is_cut_short) << size;
+  auto filled = png;
+  filled.resize(filled.size() + 7, 0);
+  EXPECT_FALSE(of(filled)->is_cut_short);
+}
+
 // Memory checkers see where anything beyond the end is read.
 TEST(EncodedSize, StaysWithinAnyPartOfAJpeg) {
   const auto jpeg = encoded(".jpg", 8, 8);

@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "sunlit/image/unfinished_file.h"
 #include "support/message_of.h"
 #include "support/temporary_folder.h"
 
@@ -69,6 +70,23 @@ TEST_F(Files, LeftUnfinishedByProcessesThatHaveEndedAreRemoved) {
   }
   for (const std::string& name : others) EXPECT_TRUE(fs::exists(path(name))) << name;
   removeUnfinished(path("nowhere"));  // nothing to do
+}
+
+TEST_F(Files, BeingWrittenByProcessesThatAreNotSeenHereStay) {
+  // In a container, or on another computer: their numbers are of no process here.
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+  const std::string elsewhere = path("frames.csv." + std::to_string(child) + ".7.part");
+  {
+    const UnfinishedFile file(path("frames.csv"));
+    ASSERT_EQ(fileCount(), 1u);
+    fs::rename(fs::directory_iterator(folder_.path())->path(), elsewhere);
+    removeUnfinished(folder_.path());
+    EXPECT_TRUE(fs::exists(elsewhere));
+  }
+  removeUnfinished(folder_.path());
+  EXPECT_FALSE(fs::exists(elsewhere));
 }
 
 TEST_F(Files, WhatFindsNoRoomLeavesTheOldFileAndSaysWhatToDo) {
@@ -218,6 +236,15 @@ TEST_F(Files, UnreadablePngsSayWhichAndWhy) {
   put("cut.png", whole.substr(0, whole.size() / 2));
   EXPECT_EQ(messageOf<std::runtime_error>([&] { readPng(path("cut.png")); }),
             path("cut.png") + ": read: the file is cut off");
+  put("head.png", whole.substr(0, 10));
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { readPng(path("head.png")); }),
+            path("head.png") + ": read: the file is cut off");
+}
+
+TEST_F(Files, PngsMayHaveMoreBehindTheirEnd) {
+  put("more.png", encodePng(pattern()) + std::string(7, '\0'));
+  EXPECT_EQ(readPng(path("more.png")).data, pattern().data);
+  EXPECT_EQ(readPhotograph(path("more.png")).data, pattern().data);
 }
 
 TEST_F(Files, FloatMapsAreExactToTheBit) {

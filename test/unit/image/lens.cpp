@@ -137,6 +137,15 @@ TEST(Lens, PublishedPicturesAreAsWideAsTheirAuthorsSay) {
   EXPECT_NEAR(t265Lens().lens().widest().deg(), 120.0, 1.0);
 }
 
+// A part of a picture, whose axis passes beside it: both edges lie to the right of it.
+TEST(Lens, IsAsWideAsFromEdgeToEdgeWhereverItsAxisIs) {
+  const double expected_deg = (std::atan(739.5 / 500.0) - std::atan(99.5 / 500.0)) / kRadPerDeg;  // 44.6
+  const PinholeCamera right{640, 480, 500.0, 500.0, -100.0, 239.5},
+      left{640, 480, 500.0, 500.0, 739.0, 239.5};
+  for (const PinholeCamera& camera : {right, left})
+    EXPECT_NEAR(Lens(camera, {}).acrossWidth().deg(), expected_deg, 1e-9);
+}
+
 TEST(Lens, RefusesWhatNoModelHas) {
   const PinholeCamera camera = eurocLens().camera;
   const auto refused = [&](LensModel model, std::vector<double> k, const std::vector<std::string>& words) {

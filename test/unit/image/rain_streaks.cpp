@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "sunlit/quantity/frames.h"
@@ -21,6 +22,11 @@ Eigen::Isometry3d level(const Eigen::Vector3d& eye) {
 
 Lens pinhole() {
   return Lens(PinholeCamera::fromFieldOfView(kWidth, kHeight, Angle::degrees(60.0)), {});
+}
+
+Lens wideLens() {
+  return Lens({kWidth, kHeight, 100.0, 100.0, 159.5, 119.5},
+              {LensModel::kEquidistant, {0.01, -0.002, 0.0, 0.0}});
 }
 
 LinearImage grey(float luminance) {
@@ -155,8 +161,7 @@ bool isDot(const Blot& blot) {
 // Its place is then known, and a fisheye has it where its formula says.
 TEST(RainStreaks, ArePlacesInSpaceForEveryCamera) {
   const Lens lens = pinhole();
-  const Lens fisheye({kWidth, kHeight, 100.0, 100.0, 159.5, 119.5},
-                     {LensModel::kEquidistant, {0.01, -0.002, 0.0, 0.0}});
+  const Lens fisheye = wideLens();
   int dots = 0;
   for (std::int64_t i = 0; i < 400; ++i) {
     const Blot left = drizzled(i, lens, {0.0, 0.02, 1.0});
@@ -209,6 +214,145 @@ TEST(RainStreaks, GoWithTheWindAsPastACameraThatGoesAgainstIt) {
   const std::vector<float> blown = picture({4.0, -7.0}, {});
   EXPECT_EQ(blown, picture({0.0, 0.0}, {{-4.0, 7.0, 0.0}, Eigen::Vector3d::Zero()}));
   EXPECT_NE(blown, picture({0.0, 0.0}, {}));
+}
+
+TEST(RainStreaks, ShineByWhatTheySeeWhateverTheSunsDiscTakesOfThePicture) {
+  const Eigen::Array3f lux(1e5f, 9e4f, 8e4f);
+  LinearImage picture = grey(1000.0f);
+  const auto shown = [&] { return dropLuminance(picture, lux); };
+  const Eigen::Array3f without = 0.5f * (1000.0f + lux / kPiFloat);
+  EXPECT_LT((shown() / without - 1.0f).abs().maxCoeff(), 1e-6f);
+  // Of 0.53° before a camera of 60° the disc has 5 px across, before one of 12° 25: seven and 300 lx / π.
+  for (const int across_px : {5, 25}) {
+    for (int y = 0; y < across_px; ++y)
+      for (int x = 0; x < across_px; ++x) std::fill_n(picture.at(x, y), 3, 1.6e9f);
+    EXPECT_TRUE((shown() >= without).all());
+    EXPECT_TRUE((shown() < 1.1f * without).all()) << shown().transpose();
+  }
+  // By night lamps light what drops see.
+  picture = grey(2.0f);
+  EXPECT_NEAR(dropLuminance(picture, Eigen::Array3f::Constant(1e-3f))[0], 1.0f, 1e-3f);
+}
+
+/// All places of drops of a moment, in `map`.
+std::vector<Eigen::Vector3d> placesOf(const RainStreaks& rain, const Lens& lens, const Motion& motion) {
+  std::vector<Eigen::Vector3d> places;
+  LinearImage picture(kWidth, kHeight);
+  const DepthImage sky = at(std::numeric_limits<float>::quiet_NaN());
+  const auto note = [&](const Eigen::Vector3d& place) {
+    places.push_back(place);
+    return false;
+  };
+  addRain(rain, {lens, level(Eigen::Vector3d::Zero()), motion, sky, note}, &picture);
+  return places;
+}
+
+/// That drop alone, on black.
+Blot alone(const Eigen::Vector3d& drop, const RainStreaks& rain, const Lens& lens, const Motion& motion) {
+  LinearImage picture(kWidth, kHeight);
+  const DepthImage sky = at(std::numeric_limits<float>::quiet_NaN());
+  addRain(rain,
+          {lens, level(Eigen::Vector3d::Zero()), motion, sky,
+           [&](const Eigen::Vector3d& place) { return place == drop; }},
+          &picture);
+  return blotIn(picture);
+}
+
+/// What a drop of `diameter_m` leaves of itself from moment to moment: the mean of a thousand.
+std::optional<Blot> onPaper(const Eigen::Vector3d& middle, const Eigen::Vector3d& half, double diameter_m,
+                            const Lens& lens) {
+  Blot blot;
+  constexpr int kMoments = 1000;
+  constexpr double kWithin_px = 8.0;
+  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
+  for (int i = 0; i < kMoments; ++i) {
+    const Eigen::Vector3d place = middle + (2.0 * (i + 0.5) / kMoments - 1.0) * half;
+    const std::optional<Eigen::Vector2d> pixel = lens.project(place);
+    if (!pixel || pixel->minCoeff() < kWithin_px || pixel->x() > kWidth - kWithin_px ||
+        pixel->y() > kHeight - kWithin_px)
+      return std::nullopt;
+    const double across_px = diameter_m * lens.camera().fx / (lens.wide() ? place.norm() : place.z());
+    const double area = 0.25 * kPi * across_px * across_px / kMoments;
+    blot.sum += area;
+    blot.middle += area * *pixel;
+    squares += area * pixel->cwiseProduct(*pixel);
+  }
+  blot.middle /= blot.sum;
+  blot.variance = squares / blot.sum - blot.middle.cwiseProduct(blot.middle);
+  return blot;
+}
+
+// A car drives 10 m/s for 1/30 s, a third of a metre: what it passes grows, and runs the faster the nearer it
+// is. What a drop takes is faint, so that it hardly takes from itself.
+TEST(RainStreaks, GrowAndBendAsTheCameraDrivesPast) {
+  const Motion drives{{10.0, 0.0, 0.0}, {0.0, 0.0, 0.3}};
+  for (const Lens& lens : {pinhole(), wideLens()}) {
+    RainStreaks rain{3.0, 7, 1, 1.0 / 30.0};
+    rain.luminance.setOnes();
+    RainStreaks frozen = rain;
+    frozen.exposure_s = 1e-7;
+    int streaks = 0;
+    for (const Eigen::Vector3d& place : placesOf(rain, lens, drives)) {
+      const Eigen::Vector3d middle(-place.y(), -place.z(), place.x());
+      if (place.x() < 0.3 || place.norm() > 1.5) continue;
+      // A drop of 1 mm is 3 px wide 0.1 m before the pinhole: its area tells its diameter, within a percent.
+      const double depth_m = lens.wide() ? middle.norm() : middle.z();
+      const double area = alone(place, frozen, lens, {}).sum;
+      const double diameter_m = std::sqrt(area / (0.25 * kPi)) * depth_m / lens.camera().fx;
+      const double falls_m_s = 9.65 - 10.3 * std::exp(-600.0 * diameter_m);
+      const Eigen::Vector3d past =
+          Eigen::Vector3d(0.0, 0.0, -falls_m_s) - drives.velocity_m_s - drives.turning_rad_s.cross(place);
+      const Eigen::Vector3d half = 0.5 * rain.exposure_s * Eigen::Vector3d(-past.y(), -past.z(), past.x());
+      const std::optional<Blot> expected = onPaper(middle, half, diameter_m, lens);
+      if (!expected) continue;
+      ++streaks;
+      const Blot drawn = alone(place, rain, lens, drives);
+      EXPECT_NEAR(drawn.sum, expected->sum, 0.03 * expected->sum) << place.transpose();
+      EXPECT_LT((drawn.middle - expected->middle).norm(), 0.3) << place.transpose();
+      // And a drop's own width, squared.
+      for (int i = 0; i < 2; ++i) {
+        const double wider = drawn.variance[i] - expected->variance[i];
+        EXPECT_GT(wider, -0.02 * expected->variance[i]) << place.transpose();
+        EXPECT_LT(wider, 4.0 + 0.02 * expected->variance[i]) << place.transpose();
+      }
+    }
+    EXPECT_GT(streaks, 10) << nameOf(lens.distortion().model);
+  }
+}
+
+TEST(RainStreaks, ShowDropsUntilTheCameraHasPassedThem) {
+  // 0.15 m ahead at the middle of the exposure, in whose second half the camera drives 0.17 m.
+  const Motion drives{{10.0, 0.0, 0.0}, Eigen::Vector3d::Zero()};
+  RainStreaks rain{100.0, 7, 0, 1.0 / 30.0};
+  rain.luminance.setOnes();
+  int passed = 0;
+  for (; rain.moment < 60; ++rain.moment) {
+    for (const Eigen::Vector3d& place : placesOf(rain, pinhole(), drives)) {
+      if (place.x() < 0.12 || place.x() > 0.16 || std::hypot(place.y(), place.z()) > 0.03) continue;
+      ++passed;
+      EXPECT_GT(alone(place, rain, pinhole(), drives).sum, 0.5) << place.transpose();
+    }
+  }
+  EXPECT_GT(passed, 5);
+}
+
+TEST(RainStreaks, AreAsManyAsTheirDistributionHas) {
+  // 8000 / Λ e^−Λ of more than 1 mm in a cubic metre, Λ = 4.1 /mm at 1 mm/h: 32.3. In a pyramid before the
+  // camera, of 0.8 x² m² across.
+  constexpr int kMoments = 400;
+  constexpr double kFrom_m = 1.0, kTo_m = 4.0;
+  double count = 0.0;
+  for (int i = 0; i < kMoments; ++i) {
+    for (const Eigen::Vector3d& place : placesOf({1.0, 7, i, 1e-6}, pinhole(), {})) {
+      const bool is_between = place.x() > kFrom_m && place.x() < kTo_m;
+      const bool is_beside = std::abs(place.y()) > 0.5 * place.x() || std::abs(place.z()) > 0.4 * place.x();
+      count += is_between && !is_beside ? 1.0 : 0.0;
+    }
+  }
+  const double volume_m3 = 0.8 * (std::pow(kTo_m, 3) - std::pow(kFrom_m, 3)) / 3.0;
+  const double expected = 8000.0 / 4.1 * std::exp(-4.1) * volume_m3 * kMoments;
+  // Three standard deviations of 217,000. Half a drop more a cell were 1.5 %.
+  EXPECT_NEAR(count, expected, 3.0 * std::sqrt(expected));
 }
 
 }  // namespace

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "support/message_of.h"
 #include "support/published_lenses.h"
@@ -161,7 +163,7 @@ TEST(VeilingGlare, OfALightOutsideFadesUpToTheHood) {
   }
   EXPECT_EQ(veil.meanOf(at(50.1, 0.0)).value[1], 0.0F);
   EXPECT_EQ(veil.meanOf({-Eigen::Vector3d::UnitZ(), LinearRgb(1e5F, 1e5F, 1e5F)}).value[1], 0.0F);
-  // Of every lens; what shows more than the hood's angle lets nothing in from beside.
+  // Of every lens.
   for (const PublishedLens& published : publishedLenses()) {
     const VeilingGlare of_lens = before(published.lens(), glare(0.01, 0.5, 60.0));
     for (double angle_deg = 0.0; angle_deg < 180.0; angle_deg += 7.0) {
@@ -170,6 +172,27 @@ TEST(VeilingGlare, OfALightOutsideFadesUpToTheHood) {
           of_lens.meanOf({{std::sin(angle), 0.0, std::cos(angle)}, LinearRgb(1.0F, 1.0F, 1.0F)});
       EXPECT_TRUE(mean.value[0] >= 0.0F && mean.value[0] < 20.0F) << published.name << " " << angle_deg;
     }
+  }
+}
+
+// In steps of a tenth of a degree over 5 at least, by the cosine too: (2 / 5 per degree) / 10 at most.
+TEST(VeilingGlare, FadesWithoutAStepAlsoWhereThePictureIsAsWideAsTheHoodOrWider) {
+  std::vector<PublishedLens> lenses = publishedLenses();
+  lenses.push_back({"130 degrees", PinholeCamera::fromFieldOfView(640, 480, Angle::degrees(130.0)), {}});
+  for (const PublishedLens& published : lenses) {
+    const VeilingGlare veil = before(published.lens(), glare(0.01, 0.5, 60.0));
+    const auto meanOf = [&](double angle_deg) {
+      const double angle = angle_deg * kRadPerDeg;
+      const LightOutside light{{std::sin(angle), 0.0, std::cos(angle)}, LinearRgb(1.0F, 1.0F, 1.0F)};
+      return static_cast<double>(veil.meanOf(light).value[0]);
+    };
+    constexpr double kFrom_deg = 20.0, kStep_deg = 0.1;
+    const double inside = meanOf(kFrom_deg);
+    EXPECT_GT(inside, 0.0) << published.name;
+    for (double angle_deg = kFrom_deg; angle_deg < 180.0; angle_deg += kStep_deg)
+      EXPECT_LE(std::abs(meanOf(angle_deg + kStep_deg) - meanOf(angle_deg)), 0.045 * inside)
+          << published.name << " " << angle_deg;
+    EXPECT_EQ(meanOf(std::max(60.0, published.lens().widest().deg() + 5.0)), 0.0) << published.name;
   }
 }
 

@@ -119,12 +119,11 @@ Developed byHand(const StudioOptions& options, const Taken& taken, bool glare_fi
   image::LinearImage dry = luminance;
   passLens(&dry);
   const double ev100 = image::chooseEv100(dry, chain.exposure);
-  const Eigen::Array3f before = image::meanLuminance(luminance).cast<float>();
-  const Eigen::Array3f above = taken.day.groundIlluminance().value / kPiFloat;
+  const Eigen::Array3f drops = image::dropLuminance(luminance, taken.day.groundIlluminance().value);
   const sky::Rain rain = taken.day.rain();
-  const image::RainStreaks streaks{rain.mm_per_h,           rain.seed,
-                                   taken.name.index,        image::streakTime_s(chain.shutter, ev100),
-                                   0.5F * (before + above), rain.wind_m_s};
+  const image::RainStreaks streaks{
+      rain.mm_per_h, rain.seed,    taken.name.index, image::streakTime_s(chain.shutter, ev100),
+      drops,         rain.wind_m_s};
   const scene::Shelter shelter(*world.geometry->scene);
   image::addRain(streaks,
                  {lens, taken.map_from_camera * linkFromOptical(), taken.motion, renderer.depth(),
@@ -277,6 +276,27 @@ TEST(Studio, AMapLeavesWhatTheCameraLooksAt) {
   EXPECT_EQ(map.width, 1600);
   EXPECT_EQ(map.height, 800);
   EXPECT_EQ(studio.photograph(light, {}).picture.data, before.picture.data);
+}
+
+TEST(Studio, MapsPathsOfAnyLength) {
+  // A camera may look 1e7 m far and see nothing within 1e6: a path of 200 km is not seen from 20 times that.
+  Studio studio(boxes());
+  const MapExtent extent = widened({0.0, 2e5, -40.0, 40.0});
+  const image::Rgb8Image map = studio.mapFromAbove(extent, sky::usualAir().daylight(kHighSun));
+  EXPECT_EQ(map.width, 1600);
+  EXPECT_EQ(map.height, 16);
+}
+
+TEST(MapExtents, AreAsWideAsTheirMapsShow) {
+  const MapExtent straight = widened({0.0, 16000.0, -40.0, 40.0});
+  EXPECT_EQ(straight.x_min, 0.0);
+  EXPECT_EQ(straight.x_max, 16000.0);
+  EXPECT_DOUBLE_EQ(straight.y_min, -80.0);
+  EXPECT_DOUBLE_EQ(straight.y_max, 80.0);
+  const MapExtent usual = widened({-30.0, 50.0, -40.0, 400.0});
+  EXPECT_EQ(usual.x_min, -30.0);
+  EXPECT_EQ(usual.x_max, 50.0);
+  EXPECT_EQ(usual.y_max, 400.0);
 }
 
 TEST(Studio, TellsWhatItLoadsToWhoListens) {

@@ -16,7 +16,6 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }  // namespace
 
 PixelRays::PixelRays(const image::Lens& lens) : lens_(lens) {
-  lens.widest();
   const int width = lens.camera().width, height = lens.camera().height;
   nodes_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   std::vector<double> widest(static_cast<std::size_t>(height), 0.0);
