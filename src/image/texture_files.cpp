@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "png_chunks.h"
-#include "image/tga.h"
 #include "sunlit/image/encoded_size.h"
+#include "tga.h"
 
 namespace sunlit::image {
 namespace {

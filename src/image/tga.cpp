@@ -1,4 +1,4 @@
-#include "image/tga.h"
+#include "tga.h"
 
 #include <algorithm>
 #include <stdexcept>
