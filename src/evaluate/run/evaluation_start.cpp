@@ -125,6 +125,21 @@ void makeFolder(const std::string& path) {
   }
 }
 
+/// Leaves out of `frames`, which `folder` holds, what problems.csv there names: a run that was killed had no
+/// time to take these rows out. They are asked for again. Returns how many lines they had.
+std::size_t leaveOutTwoPlaces(const std::string& folder, const std::vector<PairSpec>& pairs,
+                              std::vector<PairRecord>& frames) {
+  const auto named = pairsOfTwoPlaces(folder);
+  std::size_t dropped_lines = 0;
+  const auto is_left_out = [&](const PairRecord& record) {
+    if (named.count({record.stamp_ns, pairs[record.pair].name()}) == 0) return false;
+    dropped_lines += record.values.size();
+    return true;
+  };
+  frames.erase(std::remove_if(frames.begin(), frames.end(), is_left_out), frames.end());
+  return dropped_lines;
+}
+
 }  // namespace
 
 Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks callbacks)
@@ -162,7 +177,7 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
 // Reads what a run left in `folder`; the lines of a torn end that it had to leave out.
 std::size_t Evaluation::State::takeUp(const std::string& folder) {
   LoadedFrames loaded = loadFrames(folder + "/frames.csv", layout_);
-  loaded.dropped_lines += leaveOutTwoPlaces(folder, loaded.records);
+  loaded.dropped_lines += leaveOutTwoPlaces(folder, options_.pairs, loaded.records);
   loaded.dropped_lines += takeUpVerified(folder, loaded.records);
   if (folder != options_.output_dir) record_files_->merge(folder, poses_);
   for (PairRecord& record : loaded.records) {
@@ -170,20 +185,6 @@ std::size_t Evaluation::State::takeUp(const std::string& folder) {
     records_.push_back(std::move(record));
   }
   return loaded.dropped_lines;
-}
-
-// A run that was killed had no time to take their rows out. They are asked for again.
-std::size_t Evaluation::State::leaveOutTwoPlaces(const std::string& folder,
-                                                 std::vector<PairRecord>& frames) const {
-  const auto pairs = pairsOfTwoPlaces(folder);
-  std::size_t dropped_lines = 0;
-  const auto is_left_out = [&](const PairRecord& record) {
-    if (pairs.count({record.stamp_ns, options_.pairs[record.pair].name()}) == 0) return false;
-    dropped_lines += record.values.size();
-    return true;
-  };
-  frames.erase(std::remove_if(frames.begin(), frames.end(), is_left_out), frames.end());
-  return dropped_lines;
 }
 
 // Once the stamps and captures of all folders are known: each may have numbered its poses from 0.

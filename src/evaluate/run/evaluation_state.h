@@ -86,7 +86,6 @@ class Evaluation::State {
   void requireMergeable(const std::string& folder) const;
   void requireNothingForgotten() const;
   std::size_t takeUp(const std::string& folder);
-  std::size_t leaveOutTwoPlaces(const std::string& folder, std::vector<PairRecord>& frames) const;
   void settleTakenUp();
   std::size_t nameAbsentPoses();
   bool isWanted(std::size_t pair, std::int64_t pose) const;
