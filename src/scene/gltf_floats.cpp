@@ -1,6 +1,6 @@
 #include "scene/gltf_floats.h"
 
-#include <set>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,19 +12,24 @@ namespace {
 
 using nlohmann::json;
 
+bool begins(const std::string& attribute, const char* kind) {
+  return attribute.rfind(kind, 0) == 0;
+}
+
 bool wantsFloats(const std::string& attribute) {
   for (const char* const kind : {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_", "WEIGHTS_", "COLOR_"})
-    if (attribute.rfind(kind, 0) == 0) return true;
+    if (begins(attribute, kind)) return true;
   return false;
 }
 
-/// Indices of the accessors of attributes that are floats elsewhere.
-std::set<std::size_t> accessorsOfFloats(const json& root) {
-  std::set<std::size_t> found;
+/// Indices of the accessors of attributes that are floats elsewhere, and whether they are colours.
+std::map<std::size_t, bool> accessorsOfFloats(const json& root) {
+  std::map<std::size_t, bool> found;
   const auto note = [&found](const json& attributes) {
     if (!attributes.is_object()) return;
     for (const auto& [name, accessor] : attributes.items())
-      if (wantsFloats(name) && accessor.is_number_unsigned()) found.insert(accessor.get<std::size_t>());
+      if (wantsFloats(name) && accessor.is_number_unsigned())
+        found[accessor.get<std::size_t>()] |= begins(name, "COLOR_");
   };
   for (const json& mesh : child(root, "meshes")) {
     for (const json& primitive : child(mesh, "primitives")) {
@@ -40,11 +45,13 @@ std::set<std::size_t> accessorsOfFloats(const json& root) {
 bool useFloats(json& root, GltfBuffers& buffers) {
   std::string all;
   const std::size_t buffer = child(root, "buffers").size();  // that will be theirs
-  for (const std::size_t index : accessorsOfFloats(root)) {
+  for (const auto& [index, is_color] : accessorsOfFloats(root)) {
     if (index >= child(root, "accessors").size()) continue;  // Assimp says so
     json& accessor = root["accessors"][index];
     if (!tellsWholeNumbers(accessor) || (!accessor.contains("bufferView") && !accessor.contains("sparse")))
       continue;
+    // No colour is meant as 255 whole ones, though files may forget to say so; other readers divide all.
+    if (is_color) accessor["normalized"] = true;
     const std::vector<float> floats = floatsOf(root, accessor, buffers);
     if (floats.empty()) continue;
     const std::size_t bytes = sizeof(float) * floats.size();

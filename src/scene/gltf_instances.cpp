@@ -27,7 +27,7 @@ struct Attribute {
 constexpr std::array<Attribute, 3> kAttributes = {
     {{"TRANSLATION", "translation", 3}, {"ROTATION", "rotation", 4}, {"SCALE", "scale", 3}}};
 
-/// What nodes have that stand where `attributes` tell; nothing where these tell no places.
+/// What nodes have that stand where `attributes` tell, by countIn() places; nothing where these tell none.
 std::optional<std::vector<json>> placesOf(const json& root, const json& attributes, GltfBuffers& buffers) {
   std::optional<std::vector<json>> places;
   for (const Attribute& attribute : kAttributes) {
@@ -39,9 +39,6 @@ std::optional<std::vector<json>> placesOf(const json& root, const json& attribut
     const std::vector<float> numbers = floatsOf(root, accessor, buffers);
     const std::size_t count = numbers.size() / attribute.numbers;
     if (!places) places.emplace(count, json::object());
-    if (places->size() != count)
-      throw std::runtime_error(std::string(attribute.name) + " has " + std::to_string(count) +
-                               " places, and another attribute " + std::to_string(places->size()));
     for (std::size_t i = 0; i < count; ++i) {
       const auto from = numbers.begin() + static_cast<std::ptrdiff_t>(i * attribute.numbers);
       (*places)[i][attribute.of_node] =
@@ -51,13 +48,19 @@ std::optional<std::vector<json>> placesOf(const json& root, const json& attribut
   return places;
 }
 
-/// How many places a node has that tells `attributes`.
+/// How many places a node has that tells `attributes`, which all must have as many.
 std::size_t countIn(const json& root, const json& attributes) {
+  std::optional<std::size_t> count;
   for (const Attribute& attribute : kAttributes) {
-    if (attributes.contains(attribute.name))
-      return indexOf(child(root, "accessors").at(indexOf(attributes.at(attribute.name))).at("count"));
+    if (!attributes.contains(attribute.name)) continue;
+    const std::size_t told =
+        indexOf(child(root, "accessors").at(indexOf(attributes.at(attribute.name))).at("count"));
+    if (count && told != *count)
+      throw std::runtime_error(std::string(attribute.name) + " has " + std::to_string(told) +
+                               " places, and another attribute " + std::to_string(*count));
+    count = told;
   }
-  return 0;
+  return count.value_or(0);
 }
 
 }  // namespace

@@ -117,6 +117,13 @@ void merge(XMLElement& include, const SdfFile& source, const std::string& place,
   }
 }
 
+/// What stands there goes with the include, or changes its model: nothing is included by it.
+bool isWithinInclude(const XMLElement& element) {
+  for (const tinyxml2::XMLNode* above = element.Parent(); above != nullptr; above = above->Parent())
+    if (above->ToElement() != nullptr && std::string(above->Value()) == "include") return true;
+  return false;
+}
+
 }  // namespace
 
 bool isMerged(const std::string& full_name) {
@@ -173,7 +180,7 @@ const SdfFile& SdfFiles::open(const std::string& path) {
 void SdfFiles::resolveIncludes(XMLElement& sdf, SdfFile& file) {
   std::vector<XMLElement*> includes;
   forEachBelow(sdf, [&](XMLElement& element) {
-    if (std::string(element.Value()) == "include") includes.push_back(&element);
+    if (std::string(element.Value()) == "include" && !isWithinInclude(element)) includes.push_back(&element);
     if (std::string(element.Value()) == "model") ++file.models;
   });
   for (XMLElement* include : includes) resolveInclude(*include, file);

@@ -137,27 +137,28 @@ TEST_F(GltfFloats, OfSparseAccessorsAreThoseThatAreChanged) {
             pathOf("t.gltf") + ": a sparse attribute changes element 100 of 3");
 }
 
-// Unsigned bytes, normalised; three of them in four.
+// Unsigned bytes, normalised whether the file says so or not; three of them in four.
 TEST_F(GltfFloats, OfColoursAreSharesOfTheirLargest) {
-  Parts parts;
-  std::string text = gltf(parts);
-  const auto replace = [&text](const std::string& from, const std::string& to) {
-    text.replace(text.find(from), from.size(), to);
-  };
-  replace(R"("TEXCOORD_0":2)", R"("TEXCOORD_0":2,"COLOR_0":3)");
-  replace(
-      R"("type":"VEC2"}])",
-      R"("type":"VEC2"},{"bufferView":3,"componentType":5121,"normalized":true,"count":3,"type":"VEC3"}])");
-  replace(R"("byteLength":12}],)", R"("byteLength":12},{"buffer":1,"byteLength":12,"byteStride":4}],)");
-  replace(R"("byteLength":48})",
-          R"("byteLength":48},{"byteLength":12,"uri":"data:;base64,)" +
-              base64(bytesOf<std::uint8_t>({51, 102, 255, 7, 51, 102, 255, 7, 0, 0, 0, 7})) + "\"}");
-  write("numbers.bin", kNumbers);
-  const Scene scene = load(write("t.gltf", text), {});
-  EXPECT_TRUE(scene.warnings.empty());
-  ASSERT_EQ(scene.meshes.at(0).colors.size(), 3u);
-  EXPECT_LT((scene.meshes[0].colors[0] - Eigen::Array3f(0.2f, 0.4f, 1.0f)).abs().maxCoeff(), 1e-6f);
-  EXPECT_EQ(scene.meshes[0].colors[2].maxCoeff(), 0.0f);
+  for (const char* const normalized : {R"("normalized":true,)", ""}) {
+    Parts parts;
+    std::string text = gltf(parts);
+    const auto replace = [&text](const std::string& from, const std::string& to) {
+      text.replace(text.find(from), from.size(), to);
+    };
+    replace(R"("TEXCOORD_0":2)", R"("TEXCOORD_0":2,"COLOR_0":3)");
+    replace(R"("type":"VEC2"}])", R"("type":"VEC2"},{"bufferView":3,"componentType":5121,)" +
+                                      std::string(normalized) + R"("count":3,"type":"VEC3"}])");
+    replace(R"("byteLength":12}],)", R"("byteLength":12},{"buffer":1,"byteLength":12,"byteStride":4}],)");
+    replace(R"("byteLength":48})",
+            R"("byteLength":48},{"byteLength":12,"uri":"data:;base64,)" +
+                base64(bytesOf<std::uint8_t>({51, 102, 255, 7, 51, 102, 255, 7, 0, 0, 0, 7})) + "\"}");
+    write("numbers.bin", kNumbers);
+    const Scene scene = load(write("t.gltf", text), {});
+    EXPECT_TRUE(scene.warnings.empty());
+    ASSERT_EQ(scene.meshes.at(0).colors.size(), 3u);
+    EXPECT_LT((scene.meshes[0].colors[0] - Eigen::Array3f(0.2f, 0.4f, 1.0f)).abs().maxCoeff(), 1e-6f);
+    EXPECT_EQ(scene.meshes[0].colors[2].maxCoeff(), 0.0f);
+  }
 }
 
 TEST_F(GltfFloats, WhatIsNotThereIsNamed) {

@@ -87,6 +87,15 @@ TEST_F(GltfInstances, WhatDoesNotFitIsNamed) {
             std::string::npos);
 }
 
+// 64 GB of zeros, of which the file has none.
+TEST_F(GltfInstances, AttributesOfOtherNumbersAreRefusedBeforeTheyAreRead) {
+  std::string text = gltf(R"("TRANSLATION":1,"ROTATION":2)");
+  const std::string there = R"({"bufferView":2,"componentType":5126,"count":2,)";
+  text.replace(text.find(there), there.size(), R"({"componentType":5126,"count":4000000000,)");
+  EXPECT_NE(errorOf(write("t.gltf", text)).find("ROTATION has 4000000000 places, and another attribute 2"),
+            std::string::npos);
+}
+
 // Before there is a node for each, of a kilobyte.
 TEST_F(GltfInstances, OfTooManyMeshesAreRefused) {
   std::string text = gltf(R"("TRANSLATION":1)");

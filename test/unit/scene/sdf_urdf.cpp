@@ -100,6 +100,12 @@ TEST_F(SdfUrdf, ParametersOfIncludesAreNamed) {
   EXPECT_EQ(scene.meshes.size(), 1u);
   ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_NE(scene.warnings[0].find("<experimental:params>"), std::string::npos) << scene.warnings[0];
+  // What they would include goes with them.
+  const Scene nested = included(
+      "<uri>model://crate</uri><experimental:params><include><uri>model://crate</uri></include>"
+      "</experimental:params>");
+  EXPECT_EQ(nested.meshes.size(), 1u);
+  EXPECT_EQ(nested.warnings, scene.warnings);
 }
 
 }  // namespace
