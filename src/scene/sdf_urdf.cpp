@@ -34,26 +34,35 @@ void resolvePackages(XMLElement& robot, const std::string& file, const ResourceF
   });
 }
 
-/// libsdformat knows no pictures of URDF, and would make them black.
+/// libsdformat knows no pictures of URDF, and would make them black: a material keeps the colour that stands
+/// beside its picture, and is left out where it has none.
 void dropPictures(XMLElement& robot, const std::string& file, SceneBuilder& builder) {
-  std::set<std::string> pictured;
+  std::vector<XMLElement*> plain;  // materials without pictures
+  std::vector<XMLElement*> with_texture;
+  std::set<std::string> colored, dropped;  // names
   forEachBelow(robot, [&](XMLElement& element) {
-    if (std::string(element.Value()) == "material" && element.FirstChildElement("texture") != nullptr)
-      pictured.insert(attributeOf(element, "name"));
+    if (std::string(element.Value()) != "material") return;
+    if (element.FirstChildElement("color") != nullptr) colored.insert(attributeOf(element, "name"));
+    (element.FirstChildElement("texture") == nullptr ? plain : with_texture).push_back(&element);
   });
-  std::vector<XMLElement*> visuals;
-  forEachBelow(robot, [&](XMLElement& element) {
-    if (std::string(element.Value()) == "visual") visuals.push_back(&element);
-  });
-  for (XMLElement* visual : visuals) {
-    for (XMLElement* material : childrenOf(*visual, "material")) {
-      const std::string name = attributeOf(*material, "name");
-      if (pictured.count(name) == 0) continue;
-      builder.warn(kNotRendered,
-                   "material " + name + " of " + file +
-                       ": its texture, which a URDF has none of within SDF: without the material");
-      visual->DeleteChild(material);
+  for (XMLElement* material : with_texture) {
+    XMLElement* const texture = material->FirstChildElement("texture");
+    const std::string name = attributeOf(*material, "name");
+    const bool has_color = material->FirstChildElement("color") != nullptr;
+    if (!attributeOf(*texture, "filename").empty())
+      builder.warn(kNotRendered, "material " + name + " of " + file +
+                                     ": its texture, which a URDF has none of within SDF: " +
+                                     (has_color ? "in its colour" : "without the material"));
+    if (has_color) {
+      material->DeleteChild(texture);
+    } else {
+      if (!name.empty()) dropped.insert(name);
+      material->Parent()->DeleteChild(material);
     }
+  }
+  for (XMLElement* material : plain) {
+    const std::string name = attributeOf(*material, "name");
+    if (dropped.count(name) == 1 && colored.count(name) == 0) material->Parent()->DeleteChild(material);
   }
 }
 

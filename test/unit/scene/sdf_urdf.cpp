@@ -65,6 +65,33 @@ TEST_F(SdfUrdf, HasMeshesOfPackagesAndNoPictures) {
       << scene.warnings[0];
 }
 
+// Exporters of modellers write an empty picture beside each colour, and no names.
+TEST_F(SdfUrdf, ColoursBesidePicturesRemain) {
+  const std::string red = "<color rgba='1 0 0 1'/>", green = "<color rgba='0 1 0 1'/>";
+  const auto made = [&](const std::string& global, const std::string& own) {
+    write("r.urdf", "<robot name='r'>" + global + linkOf("base", kUnitBox + own) + "</robot>");
+    return included("<uri>r.urdf</uri>");
+  };
+  const auto named = [](const std::string& name, const std::string& content) {
+    return "<material name='" + name + "'>" + content + "</material>";
+  };
+  const std::string none = "<texture filename=''/>", picture = "<texture filename='bark.png'/>";
+  const Scene exported = made("", named("", red + none));
+  EXPECT_TRUE(exported.warnings.empty()) << exported.warnings[0];
+  EXPECT_TRUE((look(exported).base_color.value == Eigen::Array3f(1, 0, 0)).all());
+  // What has no name is not what else has none.
+  const Scene other = made(named("", picture), named("", green));
+  EXPECT_TRUE((look(other).base_color.value == Eigen::Array3f(0, 1, 0)).all());
+  const Scene both = made(named("bark", red + picture), named("bark", ""));
+  EXPECT_TRUE((look(both).base_color.value == Eigen::Array3f(1, 0, 0)).all());
+  ASSERT_EQ(both.warnings.size(), 1u);
+  EXPECT_NE(both.warnings[0].find(": in its colour"), std::string::npos) << both.warnings[0];
+  // A picture that is nowhere is no loss, and no black.
+  const Scene neither = made("", named("", none));
+  EXPECT_TRUE(neither.warnings.empty()) << neither.warnings[0];
+  EXPECT_GT(look(neither).base_color.value.minCoeff(), 0.1f);
+}
+
 TEST_F(SdfUrdf, LinksWithoutAMassAreLeftOutAndNamedButAtFixedJoints) {
   const auto jointed = [&](const std::string& type) {
     write("r.urdf", "<robot name='r'>" + linkOf("base", kUnitBox) + "<link name='arm'><visual>" + kUnitBox +
