@@ -1,6 +1,7 @@
 #include "scene/sdf_urdf.h"
 
 #include <algorithm>
+#include <map>
 #include <sdf/Exception.hh>
 #include <set>
 #include <stdexcept>
@@ -66,14 +67,40 @@ void dropPictures(XMLElement& robot, const std::string& file, SceneBuilder& buil
   }
 }
 
-/// libsdformat says nothing of links that it leaves out. Those at fixed joints are in the names of their
-/// visuals.
+/// The links that libsdformat makes one with the links that they hang from at fixed joints, by name. It
+/// leaves joints as they are where an extension of Gazebo's says so, and at the world.
+std::map<std::string, std::string> lumpedInto(XMLElement& robot) {
+  std::set<std::string> kept_joints;
+  for (const XMLElement* gazebo : childrenOf(robot, "gazebo")) {
+    for (const char* const flag : {"preserveFixedJoint", "disableFixedJointLumping"}) {
+      const std::string value = childText(*gazebo, flag);
+      if (value == "true" || value == "1") kept_joints.insert(attributeOf(*gazebo, "reference"));
+    }
+  }
+  const auto linkOf = [](XMLElement& joint, const char* end) {
+    const XMLElement* const named = joint.FirstChildElement(end);
+    return named == nullptr ? "" : attributeOf(*named, "link");
+  };
+  std::map<std::string, std::string> parents;
+  for (XMLElement* joint : childrenOf(robot, "joint")) {
+    const std::string parent = linkOf(*joint, "parent");
+    if (attributeOf(*joint, "type") == "fixed" && parent != "world" &&
+        kept_joints.count(attributeOf(*joint, "name")) == 0)
+      parents.emplace(linkOf(*joint, "child"), parent);
+  }
+  return parents;
+}
+
+/// libsdformat says nothing of links that it leaves out.
 void nameLinksLeftOut(XMLElement& robot, const std::string& made, const std::string& file,
                       SceneBuilder& builder) {
+  const std::map<std::string, std::string> lumped_into = lumpedInto(robot);
   for (XMLElement* link : childrenOf(robot, "link")) {
     const std::string name = attributeOf(*link, "name");
-    const bool is_there = made.find("<link name='" + name + "'") != std::string::npos ||
-                          made.find("_fixed_joint_lump__" + name + "_") != std::string::npos;
+    std::string drawn_by = name;  // it has no cycles, or libsdformat would not have read it
+    for (auto to = lumped_into.find(drawn_by); to != lumped_into.end(); to = lumped_into.find(drawn_by))
+      drawn_by = to->second;
+    const bool is_there = made.find("<link name='" + drawn_by + "'") != std::string::npos;
     if (link->FirstChildElement("visual") != nullptr && !is_there)
       builder.warn(
           "links of URDF files within SDF were left out, they or what they hang from have no <inertial>",

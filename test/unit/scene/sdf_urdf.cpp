@@ -108,6 +108,30 @@ TEST_F(SdfUrdf, LinksWithoutAMassAreLeftOutAndNamedButAtFixedJoints) {
       << scene.warnings[0];
 }
 
+// By whatever name their visuals have.
+TEST_F(SdfUrdf, LinksAtFixedJointsAreLeftOutWithWhatTheyHangFrom) {
+  const auto hung = [&](const std::string& type, const std::string& more = "") {
+    write("r.urdf", "<robot name='r'>" + linkOf("base", kUnitBox) +
+                        "<link name='arm'/><link name='cover'><visual name='shell'>" + kUnitBox +
+                        "</visual></link><joint name='j' type='" + type +
+                        "'><parent link='base'/><child link='arm'/></joint><joint name='k' "
+                        "type='fixed'><parent link='arm'/>"
+                        "<child link='cover'/></joint>" +
+                        more + "</robot>");
+    return included("<uri>r.urdf</uri>");
+  };
+  EXPECT_EQ(hung("fixed").meshes.size(), 2u);
+  EXPECT_TRUE(hung("fixed").warnings.empty()) << hung("fixed").warnings[0];
+  for (const Scene& scene :
+       {hung("continuous"),
+        hung("fixed", "<gazebo reference='k'><preserveFixedJoint>true</preserveFixedJoint></gazebo>")}) {
+    EXPECT_EQ(scene.meshes.size(), 1u);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("no <inertial>: cover of " + pathOf("r.urdf")), std::string::npos)
+        << scene.warnings[0];
+  }
+}
+
 TEST_F(SdfUrdf, ThatCannotBeReadIsAnErrorThatNamesIt) {
   const std::string around = world("<include><uri>r.urdf</uri></include>");
   write("r.urdf", "<robot name='r' xmlns:xacro='x'>\n<xacro:include filename='a'/></robot>");
