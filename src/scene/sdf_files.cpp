@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <iomanip>
 #include <regex>
 #include <sdf/Exception.hh>
@@ -54,6 +55,14 @@ void remark(const std::string& line, SceneBuilder& builder) {
     builder.count("× libsdformat: " + line);
   } else {
     builder.warn("× libsdformat: " + kind, line);
+  }
+}
+
+/// Each element below `parent` but those within includes, which may be taken out with their includes.
+void forEachOutsideIncludes(XMLElement& parent, const std::function<void(XMLElement&)>& use) {
+  for (XMLElement* child : childrenOf(parent)) {
+    use(*child);
+    if (std::string(child->Value()) != "include") forEachOutsideIncludes(*child, use);
   }
 }
 
@@ -172,7 +181,7 @@ const SdfFile& SdfFiles::open(const std::string& path) {
 
 void SdfFiles::resolveIncludes(XMLElement& sdf, SdfFile& file) {
   std::vector<XMLElement*> includes;
-  forEachBelow(sdf, [&](XMLElement& element) {
+  forEachOutsideIncludes(sdf, [&](XMLElement& element) {
     if (std::string(element.Value()) == "include") includes.push_back(&element);
     if (std::string(element.Value()) == "model") ++file.models;
   });

@@ -153,5 +153,22 @@ TEST_F(SdfUrdf, ParametersOfIncludesAreNamed) {
   EXPECT_NE(scene.warnings[0].find("<experimental:params>"), std::string::npos) << scene.warnings[0];
 }
 
+// Whether the include that they are of is drawn or taken out.
+TEST_F(SdfUrdf, IncludesWithinParametersOfIncludesAreNotLookedFor) {
+  write("models/crate/model.sdf",
+        "<sdf version='1.9'><model name='crate'><link name='l'>" + boxVisual() + "</link></model></sdf>");
+  write("models/empty/model.sdf",
+        "<sdf version='1.9'><light type='point' name='lamp'><diffuse>1 1 1 1</diffuse></light></sdf>");
+  const std::string parameters =
+      "<experimental:params><include><uri>model://none</uri></include></experimental:params>";
+  const Scene scene = included("<uri>model://crate</uri>" + parameters +
+                               "</include><include><uri>model://empty</uri>" + parameters);
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  ASSERT_FALSE(scene.warnings.empty());
+  EXPECT_NE((scene.warnings[0] + scene.warnings.back()).find("2 includes have <experimental:params>"),
+            std::string::npos)
+      << scene.warnings[0];
+}
+
 }  // namespace
 }  // namespace sunlit::scene
