@@ -97,8 +97,10 @@ void nameLinksLeftOut(XMLElement& robot, const std::string& made, const std::str
   const std::map<std::string, std::string> lumped_into = lumpedInto(robot);
   for (XMLElement* link : childrenOf(robot, "link")) {
     const std::string name = attributeOf(*link, "name");
-    std::string drawn_by = name;  // it has no cycles, or libsdformat would not have read it
-    for (auto to = lumped_into.find(drawn_by); to != lumped_into.end(); to = lumped_into.find(drawn_by))
+    std::string drawn_by = name;
+    std::set<std::string> passed;  // joints may go in circles
+    for (auto to = lumped_into.find(drawn_by); to != lumped_into.end() && passed.insert(drawn_by).second;
+         to = lumped_into.find(drawn_by))
       drawn_by = to->second;
     const bool is_there = made.find("<link name='" + drawn_by + "'") != std::string::npos;
     if (link->FirstChildElement("visual") != nullptr && !is_there)

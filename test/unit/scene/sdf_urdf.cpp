@@ -132,6 +132,20 @@ TEST_F(SdfUrdf, LinksAtFixedJointsAreLeftOutWithWhatTheyHangFrom) {
   }
 }
 
+TEST_F(SdfUrdf, LinksThatHangFromEachOtherAreLeftOut) {
+  const auto joint = [](const std::string& parent, const std::string& child) {
+    return "<joint name='" + parent + child + "' type='fixed'><parent link='" + parent + "'/><child link='" +
+           child + "'/></joint>";
+  };
+  write("r.urdf", "<robot name='r'>" + linkOf("base", kUnitBox) + linkOf("a", kUnitBox) +
+                      linkOf("b", kUnitBox) + joint("a", "b") + joint("b", "a") + "</robot>");
+  const Scene scene = included("<uri>r.urdf</uri>");
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0].find("2 links of URDF files within SDF were left out"), 0u)
+      << scene.warnings[0];
+}
+
 TEST_F(SdfUrdf, ThatCannotBeReadIsAnErrorThatNamesIt) {
   const std::string around = world("<include><uri>r.urdf</uri></include>");
   write("r.urdf", "<robot name='r' xmlns:xacro='x'>\n<xacro:include filename='a'/></robot>");
