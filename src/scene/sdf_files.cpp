@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <iomanip>
 #include <regex>
 #include <sdf/Exception.hh>
@@ -54,6 +55,14 @@ void remark(const std::string& line, SceneBuilder& builder) {
     builder.count("× libsdformat: " + line);
   } else {
     builder.warn("× libsdformat: " + kind, line);
+  }
+}
+
+/// Each element below `parent` but those within includes, which may be taken out with their includes.
+void forEachOutsideIncludes(XMLElement& parent, const std::function<void(XMLElement&)>& use) {
+  for (XMLElement* child : childrenOf(parent)) {
+    use(*child);
+    if (std::string(child->Value()) != "include") forEachOutsideIncludes(*child, use);
   }
 }
 
@@ -117,13 +126,6 @@ void merge(XMLElement& include, const SdfFile& source, const std::string& place,
   }
 }
 
-/// What stands there goes with the include, or changes its model: nothing is included by it.
-bool isWithinInclude(const XMLElement& element) {
-  for (const tinyxml2::XMLNode* above = element.Parent(); above != nullptr; above = above->Parent())
-    if (above->ToElement() != nullptr && std::string(above->Value()) == "include") return true;
-  return false;
-}
-
 }  // namespace
 
 bool isMerged(const std::string& full_name) {
@@ -179,8 +181,8 @@ const SdfFile& SdfFiles::open(const std::string& path) {
 
 void SdfFiles::resolveIncludes(XMLElement& sdf, SdfFile& file) {
   std::vector<XMLElement*> includes;
-  forEachBelow(sdf, [&](XMLElement& element) {
-    if (std::string(element.Value()) == "include" && !isWithinInclude(element)) includes.push_back(&element);
+  forEachOutsideIncludes(sdf, [&](XMLElement& element) {
+    if (std::string(element.Value()) == "include") includes.push_back(&element);
     if (std::string(element.Value()) == "model") ++file.models;
   });
   for (XMLElement* include : includes) resolveInclude(*include, file);

@@ -147,13 +147,12 @@ class Mender {
     }
   }
 
+  /// Of any grey: Gazebo classic writes 0.7, its successor 0.8.
   static bool isUsualBackground(const XMLElement& background) {
-    constexpr float kGrey = 0.7f;
     std::istringstream text(background.GetText() == nullptr ? "" : background.GetText());
-    bool is_usual = true;
-    float channel = kGrey;
-    for (int i = 0; i < 3 && text >> channel; ++i) is_usual = is_usual && std::abs(channel - kGrey) < 1e-3f;
-    return is_usual;
+    float red = 0.0f, green = 0.0f, blue = 0.0f;
+    if (!(text >> red >> green >> blue)) return true;  // libsdformat speaks of what it cannot read
+    return std::abs(red - green) < 1e-3f && std::abs(green - blue) < 1e-3f;
   }
 
   /// Of older versions, whose elements stand elsewhere: what libsdformat is strict about in links, and nobody

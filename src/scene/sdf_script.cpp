@@ -18,7 +18,8 @@ std::vector<std::string> scriptFiles(const std::string& place) {
   for (const char* folder : {".", "scripts", "materials/scripts"}) {
     for (fs::directory_iterator entry(fs::path(place) / folder, error), end; !error && entry != end;
          entry.increment(error)) {
-      if (entry->path().extension() == ".material")
+      std::error_code unknown;
+      if (entry->path().extension() == ".material" && entry->is_regular_file(unknown))
         files.push_back(entry->path().lexically_normal().string());
     }
   }

@@ -1,6 +1,7 @@
 #include "scene/sdf_urdf.h"
 
 #include <algorithm>
+#include <map>
 #include <sdf/Exception.hh>
 #include <set>
 #include <stdexcept>
@@ -34,37 +35,74 @@ void resolvePackages(XMLElement& robot, const std::string& file, const ResourceF
   });
 }
 
-/// libsdformat knows no pictures of URDF, and would make them black.
+/// libsdformat knows no pictures of URDF, and would make them black: a material keeps the colour that stands
+/// beside its picture, and is left out where it has none.
 void dropPictures(XMLElement& robot, const std::string& file, SceneBuilder& builder) {
-  std::set<std::string> pictured;
+  std::vector<XMLElement*> plain;  // materials without pictures
+  std::vector<XMLElement*> with_texture;
+  std::set<std::string> colored, dropped;  // names
   forEachBelow(robot, [&](XMLElement& element) {
-    if (std::string(element.Value()) == "material" && element.FirstChildElement("texture") != nullptr)
-      pictured.insert(attributeOf(element, "name"));
+    if (std::string(element.Value()) != "material") return;
+    if (element.FirstChildElement("color") != nullptr) colored.insert(attributeOf(element, "name"));
+    (element.FirstChildElement("texture") == nullptr ? plain : with_texture).push_back(&element);
   });
-  std::vector<XMLElement*> visuals;
-  forEachBelow(robot, [&](XMLElement& element) {
-    if (std::string(element.Value()) == "visual") visuals.push_back(&element);
-  });
-  for (XMLElement* visual : visuals) {
-    for (XMLElement* material : childrenOf(*visual, "material")) {
-      const std::string name = attributeOf(*material, "name");
-      if (pictured.count(name) == 0) continue;
-      builder.warn(kNotRendered,
-                   "material " + name + " of " + file +
-                       ": its texture, which a URDF has none of within SDF: without the material");
-      visual->DeleteChild(material);
+  for (XMLElement* material : with_texture) {
+    XMLElement* const texture = material->FirstChildElement("texture");
+    const std::string name = attributeOf(*material, "name");
+    const bool has_color = material->FirstChildElement("color") != nullptr;
+    if (!attributeOf(*texture, "filename").empty())
+      builder.warn(kNotRendered, "material " + name + " of " + file +
+                                     ": its texture, which a URDF has none of within SDF: " +
+                                     (has_color ? "in its colour" : "without the material"));
+    if (has_color) {
+      material->DeleteChild(texture);
+    } else {
+      if (!name.empty()) dropped.insert(name);
+      material->Parent()->DeleteChild(material);
     }
+  }
+  for (XMLElement* material : plain) {
+    const std::string name = attributeOf(*material, "name");
+    if (dropped.count(name) == 1 && colored.count(name) == 0) material->Parent()->DeleteChild(material);
   }
 }
 
-/// libsdformat says nothing of links that it leaves out. Those at fixed joints are in the names of their
-/// visuals.
+/// The links that libsdformat makes one with the links that they hang from at fixed joints, by name. It
+/// leaves joints as they are where an extension of Gazebo's says so, and at the world.
+std::map<std::string, std::string> lumpedInto(XMLElement& robot) {
+  std::set<std::string> kept_joints;
+  for (const XMLElement* gazebo : childrenOf(robot, "gazebo")) {
+    for (const char* const flag : {"preserveFixedJoint", "disableFixedJointLumping"}) {
+      const std::string value = childText(*gazebo, flag);
+      if (value == "true" || value == "1") kept_joints.insert(attributeOf(*gazebo, "reference"));
+    }
+  }
+  const auto linkOf = [](XMLElement& joint, const char* end) {
+    const XMLElement* const named = joint.FirstChildElement(end);
+    return named == nullptr ? "" : attributeOf(*named, "link");
+  };
+  std::map<std::string, std::string> parents;
+  for (XMLElement* joint : childrenOf(robot, "joint")) {
+    const std::string parent = linkOf(*joint, "parent");
+    if (attributeOf(*joint, "type") == "fixed" && parent != "world" &&
+        kept_joints.count(attributeOf(*joint, "name")) == 0)
+      parents.emplace(linkOf(*joint, "child"), parent);
+  }
+  return parents;
+}
+
+/// libsdformat says nothing of links that it leaves out.
 void nameLinksLeftOut(XMLElement& robot, const std::string& made, const std::string& file,
                       SceneBuilder& builder) {
+  const std::map<std::string, std::string> lumped_into = lumpedInto(robot);
   for (XMLElement* link : childrenOf(robot, "link")) {
     const std::string name = attributeOf(*link, "name");
-    const bool is_there = made.find("<link name='" + name + "'") != std::string::npos ||
-                          made.find("_fixed_joint_lump__" + name + "_") != std::string::npos;
+    std::string drawn_by = name;
+    std::set<std::string> passed;  // joints may go in circles
+    for (auto to = lumped_into.find(drawn_by); to != lumped_into.end() && passed.insert(drawn_by).second;
+         to = lumped_into.find(drawn_by))
+      drawn_by = to->second;
+    const bool is_there = made.find("<link name='" + drawn_by + "'") != std::string::npos;
     if (link->FirstChildElement("visual") != nullptr && !is_there)
       builder.warn(
           "links of URDF files within SDF were left out, they or what they hang from have no <inertial>",

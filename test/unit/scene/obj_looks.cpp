@@ -114,6 +114,8 @@ TEST_F(ObjLooks, WhatMeansSomethingAndIsNotRenderedIsNamed) {
       {"illum 4\n", "illum 4, glass"},
       {"Ks 1 1 1\nillum 3\n", "illum 3, a mirror"},
       {"d 0.75\nNi 1.45\n", "what is behind is not bent"},
+      {"Ni 1.39\n", "it mirrors by one of 1.5"},
+      {"Ni 1.61\n", "it mirrors by one of 1.5"},
       {"Ni 2.4\n", "it mirrors by one of 1.5"},
       {"d 0.75\nTf 1 0.5 0.5\n", "Tf, "},
       {"map_Kd t.png\nmap_Ka a.png\n", "map_Ka"},
@@ -128,8 +130,9 @@ TEST_F(ObjLooks, WhatMeansSomethingAndIsNotRenderedIsNamed) {
     EXPECT_NE(scene.warnings[0].find(name), std::string::npos) << scene.warnings[0];
   }
   // As exporters write of any material.
-  for (const std::string lines : {"illum 2\nNi 1.45\nTf 1 1 1\n", "illum 1\nNi 1\nTf 0 0 0\nPc 0\nPs 0 0 0\n",
-                                  "map_Kd t.png\nmap_Ka t.png\n", "d 0.75\nTf 1 1 1\nNi 1\n"})
+  for (const std::string lines :
+       {"illum 2\nNi 1.45\nTf 1 1 1\n", "Ni 1.4\n", "Ni 1.6\n", "illum 1\nNi 1\nTf 0 0 0\nPc 0\nPs 0 0 0\n",
+        "map_Kd t.png\nmap_Ka t.png\n", "d 0.75\nTf 1 1 1\nNi 1\n"})
     EXPECT_TRUE(lookOf(lines).warnings.empty()) << lookOf(lines).warnings[0];
 }
 

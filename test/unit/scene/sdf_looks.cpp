@@ -172,6 +172,7 @@ TEST_F(SdfLook, WhatAWorldsSceneAsksForIsNamedWhereItIsNotUsual) {
       warningsOf("<ambient>0.4 0.4 0.4 1</ambient><background>0.7 0.7 0.7 1</background><shadows>1</shadows>"
                  "<fog><type>none</type></fog>")
           .empty());
+  EXPECT_TRUE(warningsOf("<background>0.8 0.8 0.8</background>").empty());
   EXPECT_TRUE(warningsOf("<background>0 0 1 1</background><sky/>").empty());
   for (const std::string lost :
        {"<background>0 0 1 1</background>", "<shadows>false</shadows>", "<fog><type>linear</type></fog>"}) {

@@ -252,6 +252,17 @@ TEST_F(Sdf, AnythingElseIsNoWorld) {
   EXPECT_EQ(errorOf(file), file + ":1: there is no <sdf> element in this file");
 }
 
+TEST_F(Sdf, AWorldFileMayBeARobotOfUrdf) {
+  const std::string good =
+      write("test.world",
+            "<robot name='r'><link name='l'><visual><geometry><box size='2 4 6'/></geometry>"
+            "</visual><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
+            "iyz='0' izz='1'/></inertial></link></robot>");
+  expectBounds(load(good, {}), {-1, -2, -3}, {1, 2, 3});
+  const std::string bad = write("test.world", "<robot name='r'/>");
+  EXPECT_EQ(errorOf(bad).find(bad + ": libsdformat cannot read this URDF: "), 0u) << errorOf(bad);
+}
+
 TEST_F(Sdf, AWorldWithNothingToSeeIsAnError) {
   const std::string file = write("test.world", world(""));
   EXPECT_EQ(errorOf(file), file + ": there is nothing to see in this file");

@@ -47,6 +47,12 @@ TEST_F(SdfScripts, AreFoundInMediaOfTheSearchPathAndAboveTheWorld) {
                 "1 material scripts are not known, a neutral material takes their place: My/Green"});
 }
 
+TEST_F(SdfScripts, MayStandBesideFoldersOfSuchNames) {
+  write("share/m/scripts/a.material/readme.txt", "My/Paint");
+  write("share/m/scripts/own.material", script("My/Paint", "diffuse 0 1 0 1"));
+  EXPECT_EQ(look(loaded("My/Paint", uri("model://m/scripts"))).base_color.value[1], 1.0f);
+}
+
 TEST_F(SdfScripts, OfTheAddressesComeBeforeThoseOfMedia) {
   write("share/media/materials/scripts/own.material", script("My/Paint", "diffuse 1 0 0 1"));
   write("share/m/scripts/own.material", script("My/Paint", "diffuse 0 1 0 1"));

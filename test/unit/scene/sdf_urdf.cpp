@@ -65,6 +65,33 @@ TEST_F(SdfUrdf, HasMeshesOfPackagesAndNoPictures) {
       << scene.warnings[0];
 }
 
+// Exporters of modellers write an empty picture beside each colour, and no names.
+TEST_F(SdfUrdf, ColoursBesidePicturesRemain) {
+  const std::string red = "<color rgba='1 0 0 1'/>", green = "<color rgba='0 1 0 1'/>";
+  const auto made = [&](const std::string& global, const std::string& own) {
+    write("r.urdf", "<robot name='r'>" + global + linkOf("base", kUnitBox + own) + "</robot>");
+    return included("<uri>r.urdf</uri>");
+  };
+  const auto named = [](const std::string& name, const std::string& content) {
+    return "<material name='" + name + "'>" + content + "</material>";
+  };
+  const std::string none = "<texture filename=''/>", picture = "<texture filename='bark.png'/>";
+  const Scene exported = made("", named("", red + none));
+  EXPECT_TRUE(exported.warnings.empty()) << exported.warnings[0];
+  EXPECT_TRUE((look(exported).base_color.value == Eigen::Array3f(1, 0, 0)).all());
+  // What has no name is not what else has none.
+  const Scene other = made(named("", picture), named("", green));
+  EXPECT_TRUE((look(other).base_color.value == Eigen::Array3f(0, 1, 0)).all());
+  const Scene both = made(named("bark", red + picture), named("bark", ""));
+  EXPECT_TRUE((look(both).base_color.value == Eigen::Array3f(1, 0, 0)).all());
+  ASSERT_EQ(both.warnings.size(), 1u);
+  EXPECT_NE(both.warnings[0].find(": in its colour"), std::string::npos) << both.warnings[0];
+  // A picture that is nowhere is no loss, and no black.
+  const Scene neither = made("", named("", none));
+  EXPECT_TRUE(neither.warnings.empty()) << neither.warnings[0];
+  EXPECT_GT(look(neither).base_color.value.minCoeff(), 0.1f);
+}
+
 TEST_F(SdfUrdf, LinksWithoutAMassAreLeftOutAndNamedButAtFixedJoints) {
   const auto jointed = [&](const std::string& type) {
     write("r.urdf", "<robot name='r'>" + linkOf("base", kUnitBox) + "<link name='arm'><visual>" + kUnitBox +
@@ -78,6 +105,44 @@ TEST_F(SdfUrdf, LinksWithoutAMassAreLeftOutAndNamedButAtFixedJoints) {
   EXPECT_EQ(scene.meshes.size(), 1u);
   ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_NE(scene.warnings[0].find("no <inertial>: arm of " + pathOf("r.urdf")), std::string::npos)
+      << scene.warnings[0];
+}
+
+// By whatever name their visuals have.
+TEST_F(SdfUrdf, LinksAtFixedJointsAreLeftOutWithWhatTheyHangFrom) {
+  const auto hung = [&](const std::string& type, const std::string& more = "") {
+    write("r.urdf", "<robot name='r'>" + linkOf("base", kUnitBox) +
+                        "<link name='arm'/><link name='cover'><visual name='shell'>" + kUnitBox +
+                        "</visual></link><joint name='j' type='" + type +
+                        "'><parent link='base'/><child link='arm'/></joint><joint name='k' "
+                        "type='fixed'><parent link='arm'/>"
+                        "<child link='cover'/></joint>" +
+                        more + "</robot>");
+    return included("<uri>r.urdf</uri>");
+  };
+  EXPECT_EQ(hung("fixed").meshes.size(), 2u);
+  EXPECT_TRUE(hung("fixed").warnings.empty()) << hung("fixed").warnings[0];
+  for (const Scene& scene :
+       {hung("continuous"),
+        hung("fixed", "<gazebo reference='k'><preserveFixedJoint>true</preserveFixedJoint></gazebo>")}) {
+    EXPECT_EQ(scene.meshes.size(), 1u);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("no <inertial>: cover of " + pathOf("r.urdf")), std::string::npos)
+        << scene.warnings[0];
+  }
+}
+
+TEST_F(SdfUrdf, LinksThatHangFromEachOtherAreLeftOut) {
+  const auto joint = [](const std::string& parent, const std::string& child) {
+    return "<joint name='" + parent + child + "' type='fixed'><parent link='" + parent + "'/><child link='" +
+           child + "'/></joint>";
+  };
+  write("r.urdf", "<robot name='r'>" + linkOf("base", kUnitBox) + linkOf("a", kUnitBox) +
+                      linkOf("b", kUnitBox) + joint("a", "b") + joint("b", "a") + "</robot>");
+  const Scene scene = included("<uri>r.urdf</uri>");
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0].find("2 links of URDF files within SDF were left out"), 0u)
       << scene.warnings[0];
 }
 
@@ -106,6 +171,23 @@ TEST_F(SdfUrdf, ParametersOfIncludesAreNamed) {
       "</experimental:params>");
   EXPECT_EQ(nested.meshes.size(), 1u);
   EXPECT_EQ(nested.warnings, scene.warnings);
+}
+
+// Whether the include that they are of is drawn or taken out.
+TEST_F(SdfUrdf, IncludesWithinParametersOfIncludesAreNotLookedFor) {
+  write("models/crate/model.sdf",
+        "<sdf version='1.9'><model name='crate'><link name='l'>" + boxVisual() + "</link></model></sdf>");
+  write("models/empty/model.sdf",
+        "<sdf version='1.9'><light type='point' name='lamp'><diffuse>1 1 1 1</diffuse></light></sdf>");
+  const std::string parameters =
+      "<experimental:params><include><uri>model://none</uri></include></experimental:params>";
+  const Scene scene = included("<uri>model://crate</uri>" + parameters +
+                               "</include><include><uri>model://empty</uri>" + parameters);
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  ASSERT_FALSE(scene.warnings.empty());
+  EXPECT_NE((scene.warnings[0] + scene.warnings.back()).find("2 includes have <experimental:params>"),
+            std::string::npos)
+      << scene.warnings[0];
 }
 
 }  // namespace
