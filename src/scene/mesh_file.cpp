@@ -205,8 +205,11 @@ std::uint64_t trianglesIn(const aiScene& scene) {
 void askFor(const aiNode& node, const aiScene& scene, const std::string& file, TriangleBudget& budget) {
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
-    if (hasSurface(mesh))
-      budget.take(mesh.mNumFaces, mesh.mNumVertices, file + ": node " + node.mName.C_Str());
+    if (!hasSurface(mesh)) continue;
+    // Vertices that no face has are not kept: primitives may share those of a whole file.
+    const std::uint64_t triangles = mesh.mNumFaces;
+    budget.take(triangles, std::min<std::uint64_t>(mesh.mNumVertices, 3 * triangles),
+                file + ": node " + node.mName.C_Str());
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) askFor(*node.mChildren[i], scene, file, budget);
 }
