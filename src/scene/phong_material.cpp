@@ -230,9 +230,8 @@ class PhongReader {
 
   /// Of refraction. 1 is what there is where a file says nothing.
   void nameIndex(bool is_transparent) {
-    constexpr float kUsual = 1.5f,
-                    kAlike = 0.1001f;  // from 1.4 to 1.6 as decimals are read; changes the reflectance by
-                                       // less than a quarter of a hundredth
+    constexpr float kUsual = 1.5f;
+    constexpr float kAlike = 0.1001f;  // from 1.4 to 1.6 as floats; changes the reflectance by 0.0133 at most
     float index = 1.0f;
     source_.Get(AI_MATKEY_REFRACTI, index);
     if (!(index > 1.0f)) return;

@@ -1,5 +1,7 @@
 #include "scene/robot/urdf_visuals.h"
 
+#include <tinyxml2.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -39,6 +41,15 @@ Mesh primitive(const urdf::Geometry& geometry, const std::string& place) {
 float opacityOf(const urdf::Visual& visual) {
   const bool colored = visual.material && visual.material->texture_filename.empty();
   return colored ? std::min(visual.material->color.a, 1.0f) : 1.0f;
+}
+
+/// The <material> of SDF that names this one of a script.
+std::string scriptElement(const std::string& name) {
+  tinyxml2::XMLPrinter printer;  // which escapes what the name may have
+  for (const char* const element : {"material", "script", "name"}) printer.OpenElement(element);
+  printer.PushText(name.c_str());
+  for (int i = 0; i < 3; ++i) printer.CloseElement();
+  return printer.CStr();
 }
 
 }  // namespace
@@ -123,18 +134,19 @@ std::string UrdfVisuals::gazeboMaterialOf(const std::string& place) const {
 std::optional<int> UrdfVisuals::materialOfGazebo(const std::string& place) {
   if (!of_gazebo_.element.empty()) return looks_.add(of_gazebo_.element, place);
   const std::string& name = of_gazebo_.name;
-  const std::string content = "gazebo\n" + name;
-  const auto known = material_by_content_.find(content);
-  if (known != material_by_content_.end()) return known->second;
-  const std::optional<GazeboLook> look = gazeboLook(name);
-  if (!look && scripts_.find({name, {}, origin_}))
-    return looks_.add("<material><script><name>" + name + "</name></script></material>", place);
-  if (!look) {
+  const auto [known, is_new] = gazebo_material_by_name_.try_emplace(name);
+  if (is_new) known->second = gazeboMaterialCalled(name, place);
+  if (!known->second)
     builder_.warn("materials do not exist, a neutral one takes their place", name + " of " + place);
-    return std::nullopt;
-  }
-  return material_by_content_[content] =
-             builder_.addMaterial(materialOf(*look, name), AlphaRule::kFromTexture);
+  return known->second;
+}
+
+/// Looks through folders, so that it is asked once for each name.
+std::optional<int> UrdfVisuals::gazeboMaterialCalled(const std::string& name, const std::string& place) {
+  if (const std::optional<GazeboLook> look = gazeboLook(name))
+    return builder_.addMaterial(materialOf(*look, name), AlphaRule::kFromTexture);
+  if (!scripts_.find({name, {}, origin_})) return std::nullopt;
+  return looks_.add(scriptElement(name), place);
 }
 
 void UrdfVisuals::addMeshShape(const urdf::Mesh& shape, const MeshUse& use, const std::string& name,

@@ -54,12 +54,14 @@ class UrdfVisuals {
   std::optional<int> material(const urdf::Visual& visual, const std::string& place);
   std::string gazeboMaterialOf(const std::string& place) const;
   std::optional<int> materialOfGazebo(const std::string& place);
+  std::optional<int> gazeboMaterialCalled(const std::string& name, const std::string& place);
 
   std::string origin_;
   GazeboMaterial of_gazebo_;  ///< of the link
   const ResourceFinder& finder_;
   SceneBuilder& builder_;
   std::map<std::string, int> material_by_content_;
+  std::map<std::string, std::optional<int>> gazebo_material_by_name_;  ///< none where there is none
   ModelMeshes meshes_;
   UrdfLooks looks_;
   MaterialScripts scripts_;

@@ -65,6 +65,22 @@ TEST_F(RobotLooks, AreThoseOfScriptsInMediaByTheirName) {
   EXPECT_TRUE((materialOf(green).base_color.value == Eigen::Array3f(0, 1, 0)).all());
 }
 
+TEST_F(RobotLooks, OfScriptsAreLookedForOnceWhateverTheirName) {
+  SKIP_WITHOUT_SDF();
+  write("media/materials/scripts/own.material", "material A<B\n{ technique { pass { diffuse 0 1 0 } } }\n");
+  const auto two = [&](const std::string& name) {
+    return robot(visual(kBox) + visual(kBox),
+                 "<gazebo reference='base'><material>" + name + "</material></gazebo>");
+  };
+  const Robot green = two("A&lt;B");
+  EXPECT_TRUE(green.warnings.empty()) << green.warnings[0];
+  EXPECT_EQ(green.materials.size(), 1u);
+  EXPECT_TRUE((materialOf(green).base_color.value == Eigen::Array3f(0, 1, 0)).all());
+  const Robot none = two("My/None");  // each visual counts
+  ASSERT_EQ(none.warnings.size(), 1u);
+  EXPECT_EQ(none.warnings[0].find("2 materials do not exist"), 0u) << none.warnings[0];
+}
+
 TEST_F(RobotLooks, AreNamedWhereGazebosAreNotShown) {
   const std::string blue = "<gazebo reference='base'><material>Gazebo/Blue</material></gazebo>";
   const Robot own = robot(visual(kBox, kRed), gazebo("<diffuse>0 0 1 1</diffuse>"));
