@@ -135,7 +135,7 @@ def timing(output):
 
 def gravest_first(problems):
     """Those that took something from the results, and then what is no fault: pictures without features."""
-    return sorted(problems, key=lambda row: row.kind == "no_features")
+    return sorted(problems, key=lambda row: row["kind"] == "no_features")
 
 
 def problems(output):

@@ -751,6 +751,13 @@ class Atlas(InFolder):
         self.refused("atlas.csv:2: n is 'many', but must be a whole number")
 
 
+class Problems(unittest.TestCase):
+    def test_those_that_are_no_fault_come_last_in_the_order_that_they_had(self):
+        kinds = ["no_features", "two_places", "no_features", "failed"]
+        rows = [{"kind": kind, "pose": pose} for pose, kind in enumerate(kinds)]
+        self.assertEqual([row["pose"] for row in tables.gravest_first(rows)], [1, 3, 0, 2])
+
+
 if __name__ == "__main__":
     import rosunit
     rosunit.unitrun("sunlit", "report", "report_test")
