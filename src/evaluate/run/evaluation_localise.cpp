@@ -70,8 +70,8 @@ void Evaluation::State::prepareLocalisation() {
     callbacks_.note(file(kObservations) + ": " + std::to_string(torn) + " bytes of a torn end were left out");
 }
 
+// Under mutex_.
 void Evaluation::State::addTruth(std::int64_t stamp_ns, const std::function<void(GroundTruth&)>& add) {
-  const std::lock_guard<std::mutex> lock(mutex_);
   if (is_finished_ || !observer_ || sets_.isTaken(stamp_ns)) return;
   add(observer_->truth());
   closeIfWhole(stamp_ns);
@@ -79,19 +79,18 @@ void Evaluation::State::addTruth(std::int64_t stamp_ns, const std::function<void
 }
 
 void Evaluation::State::addDepth(std::int64_t stamp_ns, const Told<cv::Mat>& depth) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   addTruth(stamp_ns, [&](GroundTruth& truth) { truth.addDepth(stamp_ns, depth); });
 }
 
 void Evaluation::State::addTruePose(std::int64_t stamp_ns, const Told<Eigen::Isometry3d>& map_from_optical) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_finished_) return;
   Told<Eigen::Isometry3d> pose = map_from_optical;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (is_finished_) return;
-    const bool is_known = pose.has_come && pose.fault.empty();
-    if (is_known && places_.isBroken(stamp_ns, pose.value)) separate(stamp_ns);
-    if (const std::string fault = places_.fault(stamp_ns); !fault.empty())
-      pose = unusable<Eigen::Isometry3d>(fault);
-  }
+  const bool is_known = pose.has_come && pose.fault.empty();
+  if (is_known && places_.isBroken(stamp_ns, pose.value)) separate(stamp_ns);
+  if (const std::string fault = places_.fault(stamp_ns); !fault.empty())
+    pose = unusable<Eigen::Isometry3d>(fault);
   addTruth(stamp_ns, [&](GroundTruth& truth) { truth.addPose(stamp_ns, pose); });
 }
 
