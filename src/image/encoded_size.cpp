@@ -26,10 +26,11 @@ bool hasEndOfPng(const std::uint8_t* bytes, std::size_t size) {
 
 // PNG (ISO/IEC 15948), 5.2 and 11.2.2: a signature, then the chunk IHDR, which begins with width and height.
 std::optional<EncodedPicture> ofPng(const std::uint8_t* bytes, std::size_t size) {
-  constexpr std::array<std::uint8_t, 16> kStart = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n',
-                                                   0,    0,   0,   13,  'I',  'H',  'D',  'R'};
+  constexpr std::array<std::uint8_t, 8> kHeader = {0, 0, 0, 13, 'I', 'H', 'D', 'R'};
   constexpr std::size_t kEnd = 24;
-  if (size < kEnd || !std::equal(kStart.begin(), kStart.end(), bytes)) return std::nullopt;
+  if (size < kEnd || !isPng(bytes, size) ||
+      !std::equal(kHeader.begin(), kHeader.end(), bytes + kPngSignature.size()))
+    return std::nullopt;
   return EncodedPicture{bigEndian(bytes + 16, 4), bigEndian(bytes + 20, 4), false, !hasEndOfPng(bytes, size)};
 }
 

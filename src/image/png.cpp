@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "png_chunks.h"
 #include "sunlit/image/encoded_size.h"
 #include "sunlit/image/files.h"
 #include "sunlit/image/texture_files.h"
@@ -52,11 +53,6 @@ void writePng(const std::string& path, const Grey16Image& picture) {
 
 namespace {
 
-bool isPng(const std::string& bytes) {
-  static const std::string kSignature = "\x89PNG\r\n\x1a\n";
-  return bytes.compare(0, kSignature.size(), kSignature) == 0;
-}
-
 const std::uint8_t* beginOf(const std::string& bytes) {
   return reinterpret_cast<const std::uint8_t*>(bytes.data());
 }
@@ -64,14 +60,14 @@ const std::uint8_t* beginOf(const std::string& bytes) {
 // Decoders fill what a cut-off file lacks with black or grey.
 void requireWhole(const std::string& bytes, const std::string& path) {
   const std::optional<EncodedPicture> encoded = encodedPicture(beginOf(bytes), bytes.size());
-  if (encoded ? encoded->is_cut_short : isPng(bytes))
+  if (encoded ? encoded->is_cut_short : isPng(beginOf(bytes), bytes.size()))
     throw std::runtime_error(path + ": read: the file is cut off");
 }
 
 /// As `flags` of cv::imdecode() have it; not empty.
 cv::Mat decodedPng(const std::string& path, int flags) {
   const std::string bytes = readWholeFile(path);
-  if (!isPng(bytes)) throw std::runtime_error(path + ": read: not a PNG file");
+  if (!isPng(beginOf(bytes), bytes.size())) throw std::runtime_error(path + ": read: not a PNG file");
   requireWhole(bytes, path);
   const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
   cv::Mat decoded;

@@ -1,6 +1,7 @@
 /// The parts of a PNG file (ISO/IEC 15948, 5).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +11,10 @@
 namespace sunlit::image {
 
 constexpr std::array<std::uint8_t, 8> kPngSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+
+inline bool isPng(const std::uint8_t* bytes, std::size_t size) {
+  return size >= kPngSignature.size() && std::equal(kPngSignature.begin(), kPngSignature.end(), bytes);
+}
 
 struct PngChunk {
   std::string_view name;

@@ -41,9 +41,8 @@ cv::Mat toEightBit(const cv::Mat& decoded, const std::string& name) {
 /// The bytes of a PNG file without its colour profile: textures are sRGB whatever it says, and libpng prints
 /// a line about each profile that it does not like. Anything else comes back as it is.
 std::vector<std::uint8_t> withoutProfile(const std::uint8_t* bytes, std::size_t size) {
+  if (!isPng(bytes, size)) return {bytes, bytes + size};
   std::size_t at = kPngSignature.size();
-  if (size < at || !std::equal(kPngSignature.begin(), kPngSignature.end(), bytes))
-    return {bytes, bytes + size};
   std::vector<std::uint8_t> kept(bytes, bytes + at);
   while (const std::optional<PngChunk> chunk = pngChunkAt(at, bytes, size)) {
     if (chunk->name != "iCCP") kept.insert(kept.end(), bytes + at, bytes + chunk->end);
