@@ -147,7 +147,7 @@ void draw(benchmark::State& state) {
   for (std::size_t i = 0; i < pose; ++i) {
     s->view.map_from_optical = s->poses[i % s->poses.size()];
     const render::Frustum frustum(s->view);
-    for (const light::Chunk& chunk : s->world.geometry->chunks)
+    for (const scene::Chunk& chunk : s->world.geometry->chunks)
       triangles += frustum.touches(chunk.box) ? chunk.count : 0;
   }
   state.SetLabel(render::nameOf(kind) + " " + rasterizer->device());

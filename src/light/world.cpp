@@ -10,7 +10,11 @@
 namespace sunlit::light {
 World::World(std::shared_ptr<const scene::Scene> scene,
              const std::vector<std::vector<scene::Mesh>>& meshes_of_bodies)
-    : geometry(std::make_shared<Geometry>(std::move(scene))),
+    : World(scene, std::make_shared<const scene::Shape>(*scene), meshes_of_bodies) {}
+
+World::World(std::shared_ptr<const scene::Scene> scene, std::shared_ptr<const scene::Shape> shape,
+             const std::vector<std::vector<scene::Mesh>>& meshes_of_bodies)
+    : geometry(std::make_shared<Geometry>(std::move(scene), std::move(shape))),
       visibility(std::make_shared<Visibility>(geometry)),
       bodies(meshes_of_bodies.empty() ? nullptr
                                       : std::make_shared<Bodies>(geometry->scene, meshes_of_bodies)) {}
@@ -20,7 +24,8 @@ World weathered(const World& dry, const scene::SurfaceState& state) {
   world.transport = nullptr;
   if (scene::isDry(state)) return world;
   auto geometry = std::make_shared<Geometry>(*dry.geometry);
-  geometry->weathering = std::make_shared<const scene::Weathering>(*geometry->scene, state);
+  geometry->weathering =
+      std::make_shared<const scene::Weathering>(*geometry->shape, geometry->scene->materials, state);
   world.geometry = std::move(geometry);
   world.visibility = std::make_shared<Visibility>(*dry.visibility, world.geometry);
   return world;

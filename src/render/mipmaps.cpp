@@ -144,8 +144,8 @@ float alphaScale(const LinearLevel& level, float cutoff, double share) {
   return threshold > 0.0f ? std::clamp(cutoff / threshold, 0.25f, 4.0f) : 1.0f;
 }
 
-MipLevel encoded(const LinearLevel& level, float alpha_scale) {
-  MipLevel mip{level.width, level.height, std::vector<std::uint8_t>(4 * level.size())};
+scene::TextureSize encoded(const LinearLevel& level, float alpha_scale) {
+  scene::TextureSize mip{level.width, level.height, std::vector<std::uint8_t>(4 * level.size())};
   const SrgbEncoder encoder;
   std::uint8_t* code = mip.rgba.data();
   for (const Eigen::Array4f& texel : level.texels) {
@@ -157,8 +157,8 @@ MipLevel encoded(const LinearLevel& level, float alpha_scale) {
 
 }  // namespace
 
-std::vector<MipLevel> smallerLevels(const scene::Texture& texture, float cutoff) {
-  std::vector<MipLevel> levels;
+std::vector<scene::TextureSize> smallerLevels(const scene::Texture& texture, float cutoff) {
+  std::vector<scene::TextureSize> levels;
   if (texture.width <= 1 && texture.height <= 1) return levels;
   const bool masked = cutoff >= 0.0f, weigh_by_alpha = masked || cutoff == kBlends;
   const Linearised whole(texture);

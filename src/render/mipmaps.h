@@ -1,18 +1,11 @@
 /// Ever smaller versions of a texture, averaged in linear light.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
 #include "sunlit/scene/scene.h"
 
 namespace sunlit::render {
-
-struct MipLevel {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> rgba;  ///< as scene::Texture
-};
 
 /// No mask: alpha is averaged like a colour.
 constexpr float kNoCutoff = -1.0f;
@@ -23,6 +16,6 @@ constexpr float kBlends = -2.0f;
 /// mask or it blends, so that what was cut out does not bleed in. With `cutoff` (0 … 1) each level's alpha is
 /// scaled so that the mask lets as much through as level 0 does: without that, leaves and fences thin out
 /// with distance.
-std::vector<MipLevel> smallerLevels(const scene::Texture& texture, float cutoff);
+std::vector<scene::TextureSize> smallerLevels(const scene::Texture& texture, float cutoff);
 
 }  // namespace sunlit::render

@@ -25,7 +25,7 @@ struct Seen {
   const std::vector<Sample>& samples;
   const light::Visibility* veils;  ///< knows what is seen through; null: nothing is
 
-  const light::Plane& plane(std::uint32_t triangle) const {
+  const scene::Plane& plane(std::uint32_t triangle) const {
     return of(triangle).planes[triangle - before(triangle)];
   }
   std::int32_t material(std::uint32_t triangle) const {

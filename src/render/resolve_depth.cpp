@@ -68,7 +68,7 @@ float centreDepth(const Seen& seen, const light::Visibility& visibility, int x, 
 }  // namespace
 
 double planeDepth(const Seen& seen, std::uint32_t triangle, const Eigen::Vector3d& ray) {
-  const light::Plane& plane = seen.plane(triangle);
+  const scene::Plane& plane = seen.plane(triangle);
   const Eigen::Vector3d normal = plane.normal.cast<double>();
   return (plane.offset - normal.dot(seen.view.eye())) / normal.dot(ray);
 }

@@ -86,7 +86,7 @@ void ScreenProjection::append(const Batch& batch, ScreenTriangles* out) const {
         all([&](const auto& p) { return p.x() > right * p.z(); }) ||
         all([&](const auto& p) { return p.y() > bottom * p.z(); }))
       continue;
-    const light::Plane& plane = geometry.planes[t];
+    const scene::Plane& plane = geometry.planes[t];
     const Eigen::Vector3d normal = plane.normal.cast<double>();
     const double distance = plane.offset - normal.dot(eye_);  // > 0: the eye is behind it
     if (distance == 0.0 || (!batch.material.double_sided && distance > 0.0)) continue;

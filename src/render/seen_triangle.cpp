@@ -10,7 +10,7 @@ namespace sunlit::render {
 SeenTriangle::SeenTriangle(const Seen& seen, std::uint32_t number) {
   const light::Geometry& geometry = seen.of(number);
   const auto& vertices = geometry.triangles[number - seen.before(number)];
-  const light::Plane& plane = seen.plane(number);
+  const scene::Plane& plane = seen.plane(number);
   material_ = seen.material(number);
   const Eigen::Vector3d eye = seen.view.eye();
   number_ = number;
@@ -56,7 +56,7 @@ Eigen::Array3f SeenTriangle::albedo(const Seen& seen, const Eigen::Array2f& shar
 
 SeenTriangle::CornerCoordinates SeenTriangle::coordinates(const Seen& seen, int set) const {
   const light::Geometry& geometry = seen.of(number_);
-  const std::vector<Eigen::Vector2f>* const of_vertices = geometry.coordinates(set);
+  const image::ArrayView<Eigen::Vector2f>* const of_vertices = geometry.coordinates(set);
   if (!of_vertices || of_vertices->empty()) return {};
   const auto& v = geometry.triangles[number_ - seen.before(number_)];
   const Eigen::Array2f a = (*of_vertices)[v[0]].array();

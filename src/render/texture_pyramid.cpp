@@ -11,6 +11,7 @@
 
 #include "sunlit/image/srgb.h"
 #include "sunlit/quantity/whole.h"
+#include "sunlit/render/texture_sizes.h"
 #include "sunlit/scene/wrap.h"
 
 namespace sunlit::render {
@@ -52,6 +53,42 @@ std::vector<float> firstCutoffs(const scene::Scene& scene) {
   return values;
 }
 
+/// Which sizes of which textures a scene's materials need.
+struct Wanted {
+  struct Pyramid {
+    std::size_t texture;
+    float cutoff;
+    bool first;  ///< of its texture
+  };
+  std::vector<Pyramid> pyramids;
+  std::vector<std::int32_t> of_material;  ///< index into pyramids, or kNoPyramid
+
+  explicit Wanted(const scene::Scene& scene) {
+    const std::vector<float> first_cutoffs = firstCutoffs(scene);
+    for (const scene::Material& material : scene.materials) {
+      of_material.push_back(kNoPyramid);
+      if (material.base_texture == scene::Material::kNoTexture) continue;
+      const auto texture = static_cast<std::size_t>(material.base_texture);
+      const bool blends = material.alpha_mode == scene::AlphaMode::kBlend;
+      of_material.back() = numberOf(texture, isMasked(material) ? material.alpha_cutoff
+                                             : blends           ? kBlends
+                                                                : first_cutoffs[texture]);
+    }
+  }
+
+ private:
+  std::int32_t numberOf(std::size_t texture, float cutoff) {
+    bool first = true;
+    for (std::size_t i = 0; i < pyramids.size(); ++i) {
+      if (pyramids[i].texture != texture) continue;
+      if (pyramids[i].cutoff == cutoff) return static_cast<std::int32_t>(i);
+      first = false;
+    }
+    pyramids.push_back({texture, cutoff, first});
+    return static_cast<std::int32_t>(pyramids.size() - 1);
+  }
+};
+
 }  // namespace
 
 TexturePyramid::Level::Level(int columns, int rows, const std::uint8_t* texels, bool masked)
@@ -61,9 +98,9 @@ TexturePyramid::Level::Level(int columns, int rows, const std::uint8_t* texels, 
   for (std::size_t i = 0; i < alpha.size(); ++i) alpha[i] = rgba[4 * i + 3];
 }
 
-TexturePyramid::TexturePyramid(const scene::Texture& texture, float alpha_cutoff)
-    : smaller_(smallerLevels(texture, alpha_cutoff)),
-      size_(static_cast<float>(texture.width), static_cast<float>(texture.height)),
+TexturePyramid::TexturePyramid(const scene::Texture& texture, float alpha_cutoff,
+                               const std::vector<scene::TextureSize>& smaller)
+    : size_(static_cast<float>(texture.width), static_cast<float>(texture.height)),
       cutoff_(alpha_cutoff * 255.0f),
       wrap_u_(texture.wrap_u),
       wrap_v_(texture.wrap_v),
@@ -71,8 +108,15 @@ TexturePyramid::TexturePyramid(const scene::Texture& texture, float alpha_cutoff
       blends_(alpha_cutoff == kBlends) {
   const bool masked = alpha_cutoff >= 0.0f;
   levels_.emplace_back(texture.width, texture.height, texture.rgba.data(), masked);
-  for (const MipLevel& level : smaller_)
-    levels_.emplace_back(level.width, level.height, level.rgba.data(), masked);
+  for (const scene::TextureSize& size : smaller)
+    levels_.emplace_back(size.width, size.height, size.rgba.data(), masked);
+}
+
+TexturePyramid::TexturePyramid(const scene::Texture& texture, float alpha_cutoff)
+    : TexturePyramid(texture, alpha_cutoff, std::vector<scene::TextureSize>()) {
+  smaller_ = smallerLevels(texture, alpha_cutoff);
+  for (const scene::TextureSize& size : std::as_const(smaller_))
+    levels_.emplace_back(size.width, size.height, size.rgba.data(), alpha_cutoff >= 0.0f);
 }
 
 namespace {
@@ -212,26 +256,28 @@ bool TexturePyramid::solid(float u, float v) const {
 }
 
 TexturePyramids::TexturePyramids(const scene::Scene& scene) {
-  const std::vector<float> first_cutoffs = firstCutoffs(scene);
-  std::vector<std::pair<std::size_t, float>> wanted;  // texture and cutoff
-  for (const scene::Material& material : scene.materials) {
-    of_material_.push_back(kNone);
-    if (material.base_texture == scene::Material::kNoTexture) continue;
-    const auto texture = static_cast<std::size_t>(material.base_texture);
-    const bool blends = material.alpha_mode == scene::AlphaMode::kBlend;
-    const std::pair<std::size_t, float> mine(texture, isMasked(material) ? material.alpha_cutoff
-                                                      : blends           ? kBlends
-                                                                         : first_cutoffs[texture]);
-    const auto same = std::find(wanted.begin(), wanted.end(), mine);
-    of_material_.back() = static_cast<std::int32_t>(same - wanted.begin());
-    if (same == wanted.end()) wanted.push_back(mine);
-  }
-  std::vector<std::optional<TexturePyramid>> made(wanted.size());
+  const Wanted wanted(scene);
+  of_material_ = wanted.of_material;
+  std::vector<std::optional<TexturePyramid>> made(wanted.pyramids.size());
   tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t i) {
-    made[i].emplace(scene.textures[wanted[i].first], wanted[i].second);
+    const Wanted::Pyramid& one = wanted.pyramids[i];
+    const scene::Texture& texture = scene.textures[one.texture];
+    if (one.first && !texture.smaller.empty())
+      made[i].emplace(texture, one.cutoff, texture.smaller);
+    else
+      made[i].emplace(texture, one.cutoff);
   });
   pyramids_.reserve(made.size());
   for (auto& pyramid : made) pyramids_.push_back(std::move(*pyramid));
+}
+
+void addSmallerSizes(scene::Scene* scene) {
+  const Wanted wanted(*scene);
+  tbb::parallel_for(std::size_t{0}, wanted.pyramids.size(), [&](std::size_t i) {
+    const Wanted::Pyramid& one = wanted.pyramids[i];
+    scene::Texture& texture = scene->textures[one.texture];
+    if (one.first) texture.smaller = smallerLevels(texture, one.cutoff);
+  });
 }
 
 }  // namespace sunlit::render

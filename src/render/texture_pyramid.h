@@ -22,6 +22,9 @@ class TexturePyramid {
   /// in `texture` itself, which must outlive it.
   TexturePyramid(const scene::Texture& texture, float alpha_cutoff);
   TexturePyramid(scene::Texture&&, float) = delete;
+  /// Of smaller sizes that outlive it, too: smallerLevels() for this cutoff.
+  TexturePyramid(const scene::Texture& texture, float alpha_cutoff,
+                 const std::vector<scene::TextureSize>& smaller);
 
   /// Of the full size, in texels.
   Eigen::Array2f size() const { return size_; }
@@ -58,14 +61,17 @@ class TexturePyramid {
   };
   Mask maskOf(const Level& level) const;
 
-  std::vector<MipLevel> smaller_;
-  std::vector<Level> levels_;  ///< of the texture and of smaller_
+  std::vector<scene::TextureSize> smaller_;  ///< empty: they are kept elsewhere
+  std::vector<Level> levels_;                ///< of the texture and of its smaller sizes
   Eigen::Array2f size_;
   float cutoff_;                 ///< of alpha, 0 … 255
   scene::Wrap wrap_u_, wrap_v_;  ///< of its colour
   bool repeats_;                 ///< in both directions
   bool blends_;
 };
+
+/// The number of what has no texture.
+constexpr std::int32_t kNoPyramid = -1;
 
 /// Of all textures that a scene's materials use: one a texture and cutoff.
 class TexturePyramids {
@@ -78,11 +84,10 @@ class TexturePyramids {
   /// mask, if there is any.
   const TexturePyramid* of(std::int32_t material) const {
     const std::int32_t number = of_material_[static_cast<std::size_t>(material)];
-    return number == kNone ? nullptr : &pyramids_[static_cast<std::size_t>(number)];
+    return number == kNoPyramid ? nullptr : &pyramids_[static_cast<std::size_t>(number)];
   }
 
  private:
-  static constexpr std::int32_t kNone = -1;
   std::vector<TexturePyramid> pyramids_;
   std::vector<std::int32_t> of_material_;  ///< index into pyramids_
 };

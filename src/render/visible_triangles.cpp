@@ -20,8 +20,8 @@ void VisibleTriangles::addVisible(const View& view, const light::Geometry& geome
                                   std::uint32_t first_number) {
   const Frustum frustum(view);
   const Eigen::Vector3f eye = view.eye().cast<float>();
-  std::vector<std::pair<float, const light::Chunk*>> near_first;
-  for (const light::Chunk& chunk : geometry.chunks) {
+  std::vector<std::pair<float, const scene::Chunk*>> near_first;
+  for (const scene::Chunk& chunk : geometry.chunks) {
     const auto material = static_cast<std::size_t>(chunk.material);
     const bool veils = light::seenThrough(geometry.scene->materials[material]);
     if (!veils && frustum.touches(chunk.box))

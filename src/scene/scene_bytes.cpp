@@ -26,8 +26,14 @@ auto partsOf(T& rgb) {
 
 template <typename T, IfIs<T, Texture>* = nullptr>
 auto partsOf(T& texture) {
-  auto& [name, width, height, rgba, wrap_u, wrap_v] = texture;
-  return std::tie(name, width, height, rgba, wrap_u, wrap_v);
+  auto& [name, width, height, rgba, wrap_u, wrap_v, smaller] = texture;
+  return std::tie(name, width, height, rgba, wrap_u, wrap_v, smaller);
+}
+
+template <typename T, IfIs<T, TextureSize>* = nullptr>
+auto partsOf(T& size) {
+  auto& [width, height, rgba] = size;
+  return std::tie(width, height, rgba);
 }
 
 template <typename T, IfIs<T, TextureUse>* = nullptr>
@@ -62,6 +68,20 @@ auto partsOf(T& mesh) {
                   colors, triangles);
 }
 
+template <typename T, IfIs<T, Shape>* = nullptr>
+auto partsOf(T& shape) {
+  auto& [positions, normals, texture_coordinates, more_texture_coordinates, tangents, colors, triangles,
+         planes, materials, chunks] = shape;
+  return std::tie(positions, normals, texture_coordinates, more_texture_coordinates, tangents, colors,
+                  triangles, planes, materials, chunks);
+}
+
+template <typename T, IfIs<T, FlatScene>* = nullptr>
+auto partsOf(T& flat) {
+  auto& [scene, shape] = flat;
+  return std::tie(scene, shape);
+}
+
 template <typename T, IfIs<T, Lamp>* = nullptr>
 auto partsOf(T& lamp) {
   auto& [name, group, position, direction, intensity, relative, constant, linear, quadratic, range_m,
@@ -85,22 +105,37 @@ template <typename T, int rows, int options>
 struct IsPlain<Eigen::Matrix<T, rows, 1, options>> : std::bool_constant<(rows > 0)> {};
 template <typename T, int rows, int options>
 struct IsPlain<Eigen::Array<T, rows, 1, options>> : std::bool_constant<(rows > 0)> {};
+template <>
+struct IsPlain<Plane> : std::true_type {};
+template <>
+struct IsPlain<Chunk> : std::true_type {};
+
+/// Arrays begin at multiples of it, for those who read them where they lie.
+std::size_t aligned(std::size_t offset) {
+  return (offset + kBytesAlignment - 1) / kBytesAlignment * kBytesAlignment;
+}
 
 class Writer {
  public:
   explicit Writer(const ByteSink& sink) : sink_(sink) {}
 
   template <typename T>
-  void operator()(const T& value) const {
+  void operator()(const T& value) {
     if constexpr (IsPlain<T>::value)
-      sink_(&value, sizeof(value));
+      write(&value, sizeof(value));
     else
       std::apply([this](const auto&... part) { ((*this)(part), ...); }, partsOf(value));
   }
-  void operator()(const std::string& text) const { list(text); }
-  void operator()(const Texels& texels) const { list(texels); }
+  void operator()(const std::string& text) { list(text); }
   template <typename T>
-  void operator()(const std::vector<T>& values) const {
+  void operator()(const image::KeptArray<T>& values) {
+    (*this)(static_cast<std::uint64_t>(values.size()));
+    constexpr char kZeros[kBytesAlignment] = {};
+    write(kZeros, aligned(written_) - written_);
+    write(values.data(), values.size() * sizeof(T));
+  }
+  template <typename T>
+  void operator()(const std::vector<T>& values) {
     if constexpr (IsPlain<T>::value) return list(values);
     (*this)(static_cast<std::uint64_t>(values.size()));
     for (const T& value : values) (*this)(value);
@@ -108,17 +143,22 @@ class Writer {
 
  private:
   template <typename List>
-  void list(const List& values) const {
+  void list(const List& values) {
     (*this)(static_cast<std::uint64_t>(values.size()));
-    sink_(values.data(), values.size() * sizeof(*values.data()));
+    write(values.data(), values.size() * sizeof(*values.data()));
+  }
+  void write(const void* data, std::size_t size) {
+    sink_(data, size);
+    written_ += size;
   }
   const ByteSink& sink_;
+  std::size_t written_ = 0;
 };
 
 class Reader {
  public:
   Reader(const std::byte* data, std::size_t size, std::shared_ptr<const image::FileBytes> owner)
-      : at_(data), left_(size), owner_(std::move(owner)) {}
+      : first_(data), at_(data), left_(size), owner_(std::move(owner)) {}
 
   template <typename T>
   void operator()(T& value) {
@@ -128,11 +168,18 @@ class Reader {
       std::apply([this](auto&... part) { ((*this)(part), ...); }, partsOf(value));
   }
   void operator()(std::string& text) { list(&text); }
-  void operator()(Texels& texels) {
-    if (!owner_) return list(&texels.own());
-    const std::size_t size = count(1);
-    texels = Texels::within(owner_, reinterpret_cast<const std::uint8_t*>(at_), size);
-    skip(size);
+  template <typename T>
+  void operator()(image::KeptArray<T>& values) {
+    const std::size_t number = count(sizeof(T)), behind = static_cast<std::size_t>(at_ - first_);
+    const std::size_t gap = aligned(behind) - behind;
+    if (gap > left_ || number > (left_ - gap) / sizeof(T)) endsTooSoon();
+    skip(gap);
+    if (owner_)
+      values = image::KeptArray<T>(reinterpret_cast<const T*>(at_), number, owner_);
+    else
+      values.own().resize(number);
+    if (owner_) return skip(number * sizeof(T));
+    take(static_cast<void*>(values.data()), number * sizeof(T));
   }
   template <typename T>
   void operator()(std::vector<T>& values) {
@@ -143,8 +190,9 @@ class Reader {
   bool atEnd() const { return left_ == 0; }
 
  private:
+  [[noreturn]] static void endsTooSoon() { throw std::runtime_error("a scene's bytes end too soon"); }
   void take(void* to, std::size_t size) {
-    if (size > left_) throw std::runtime_error("a scene's bytes end too soon");
+    if (size > left_) endsTooSoon();
     if (size > 0) std::memcpy(to, at_, size);
     skip(size);
   }
@@ -156,7 +204,7 @@ class Reader {
   std::size_t count(std::size_t bytes_each) {
     std::uint64_t number = 0;
     (*this)(number);
-    if (number > left_ / bytes_each) throw std::runtime_error("a scene's bytes end too soon");
+    if (number > left_ / bytes_each) endsTooSoon();
     return static_cast<std::size_t>(number);
   }
   template <typename List>
@@ -165,6 +213,7 @@ class Reader {
     take(static_cast<void*>(values->data()), values->size() * sizeof(*values->data()));
   }
 
+  const std::byte* const first_;
   const std::byte* at_;
   std::size_t left_;
   std::shared_ptr<const image::FileBytes> owner_;  ///< of the bytes; null: they are gone when all is read
@@ -172,25 +221,30 @@ class Reader {
 
 }  // namespace
 
-void writeBytes(const Scene& scene, const ByteSink& sink) {
+void writeBytes(const FlatScene& flat, const ByteSink& sink) {
   Writer writer(sink);
-  writer(scene);
+  writer(flat);
 }
 
 void writeLooks(const Scene& scene, const ByteSink& sink) {
-  const Writer writer(sink);
+  Writer writer(sink);
   const auto all_but_name = [&writer](const auto& /*name*/, const auto&... part) { (writer(part), ...); };
-  for (const Texture& texture : scene.textures) std::apply(all_but_name, partsOf(texture));
+  for (const Texture& texture : scene.textures) {
+    const auto& [name, width, height, rgba, wrap_u, wrap_v, smaller] = texture;
+    static_cast<void>(smaller);  // which follow from the others
+    all_but_name(name, width, height, rgba, wrap_u, wrap_v);
+  }
   for (const Material& material : scene.materials) std::apply(all_but_name, partsOf(material));
   for (const Lamp& lamp : scene.lamps) std::apply(all_but_name, partsOf(lamp));
 }
 
-Scene sceneOf(const std::byte* data, std::size_t size, std::shared_ptr<const image::FileBytes> owner) {
+FlatScene flatSceneOf(const std::byte* data, std::size_t size,
+                      std::shared_ptr<const image::FileBytes> owner) {
   Reader reader(data, size, std::move(owner));
-  Scene scene;
-  reader(scene);
+  FlatScene flat;
+  reader(flat);
   if (!reader.atEnd()) throw std::runtime_error("more follows a scene's bytes");
-  return scene;
+  return flat;
 }
 
 }  // namespace sunlit::scene

@@ -4,7 +4,8 @@
 
 namespace sunlit::scene {
 
-Shelter::Shelter(const Scene& scene) : tops_(std::make_unique<const TopHeights>(scene)) {}
+Shelter::Shelter(const Shape& shape, const std::vector<Material>& materials)
+    : tops_(std::make_unique<const TopHeights>(shape, materials)) {}
 Shelter::~Shelter() = default;
 
 bool Shelter::open(const Eigen::Vector3d& place) const {

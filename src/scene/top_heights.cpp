@@ -22,15 +22,21 @@ bool shelters(const Material& material) {
 
 }  // namespace
 
-TopHeights::TopHeights(const Scene& scene) {
-  Eigen::Array2f low = Eigen::Array2f::Constant(1e9f), high = -low;
-  for (const Mesh& mesh : scene.meshes) {
-    if (!shelters(scene.materials[static_cast<std::size_t>(mesh.material)])) continue;
-    for (const Eigen::Vector3f& position : mesh.positions) {
-      low = low.min(position.head<2>().array());
-      high = high.max(position.head<2>().array());
+TopHeights::TopHeights(const Shape& shape, const std::vector<Material>& materials) {
+  const auto forEach = [&](const auto& take) {
+    for (std::size_t t = 0; t < shape.triangles.size(); ++t) {
+      if (!shelters(materials[static_cast<std::size_t>(shape.materials[t])])) continue;
+      const auto& [a, b, c] = shape.triangles[t];
+      take(shape.positions[a], shape.positions[b], shape.positions[c]);
     }
-  }
+  };
+  Eigen::Array2f low = Eigen::Array2f::Constant(1e9f), high = -low;
+  forEach([&](const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
+    for (const Eigen::Vector3f* corner : {&a, &b, &c}) {
+      low = low.min(corner->head<2>().array());
+      high = high.max(corner->head<2>().array());
+    }
+  });
   if ((low > high).any()) return;
   const Eigen::Array2f middle = 0.5f * (low + high);
   low = low.max(middle - 0.5f * kWidest_m);
@@ -40,10 +46,8 @@ TopHeights::TopHeights(const Scene& scene) {
   columns_ = static_cast<int>((high - low).x() / cell_m_) + 1;
   rows_ = static_cast<int>((high - low).y() / cell_m_) + 1;
   height_m_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), kNothing);
-  for (const Mesh& mesh : scene.meshes) {
-    if (!shelters(scene.materials[static_cast<std::size_t>(mesh.material)])) continue;
-    for (const auto& [a, b, c] : mesh.triangles) add(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
-  }
+  forEach(
+      [&](const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) { add(a, b, c); });
 }
 
 void TopHeights::add(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sunlit/scene/scene.h"
+#include "sunlit/scene/shape.h"
 
 namespace sunlit::scene {
 
@@ -18,7 +19,7 @@ class TopHeights {
   static constexpr float kSlack_m = 0.15f;
 
   /// The same bits for any number of threads.
-  explicit TopHeights(const Scene& scene);
+  TopHeights(const Shape& shape, const std::vector<Material>& materials);
 
   bool empty() const { return columns_ == 0; }
   float cell_m() const { return cell_m_; }

@@ -77,8 +77,8 @@ float Weathering::Patches::cover(float x, float y, float width_m, float lift) co
   return mixed(sharp, share, together);
 }
 
-Weathering::Weathering(const Scene& scene, const SurfaceState& state)
-    : state_(state), tops_(std::make_shared<const TopHeights>(scene)) {
+Weathering::Weathering(const Shape& shape, const std::vector<Material>& materials, const SurfaceState& state)
+    : state_(state), tops_(std::make_shared<const TopHeights>(shape, materials)) {
   validate(state);
   constexpr float kPuddle_m = 3.0f, kSnow_m = 1.2f;
   constexpr double kRoughGround_m = 0.01;

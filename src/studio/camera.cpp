@@ -27,12 +27,12 @@ Camera::Camera(const render::RenderOptions& render, const std::vector<ChainOptio
 
 void Camera::enter(const std::vector<light::World>& worlds) {
   renderer_ = std::make_unique<render::Renderer>(worlds, render_);
-  scene_ = worlds.front().geometry->scene;
+  geometry_ = worlds.front().geometry;
 }
 
 void Camera::enterBeside(const Camera& other) {
   renderer_ = std::make_unique<render::Renderer>(*other.renderer_, render_, render::Renderer::States::kAll);
-  scene_ = other.scene_;
+  geometry_ = other.geometry_;
 }
 
 std::unique_ptr<render::Renderer> Camera::renderer(const render::RenderOptions& render) const {
@@ -81,7 +81,9 @@ double Camera::metered(const Lit& lit, const image::LinearImage& on_sensor, Stop
 void Camera::addRain(const Lit& lit, double ev100, image::LinearImage* luminance) const {
   const sky::Daylight& day = lit.light.day;
   const sky::Rain rain = day.rain();
-  std::call_once(rained_, [this] { shelter_ = std::make_unique<const scene::Shelter>(*scene_); });
+  std::call_once(rained_, [this] {
+    shelter_ = std::make_unique<const scene::Shelter>(*geometry_->shape, geometry_->scene->materials);
+  });
   const image::RainStreaks streaks{rain.mm_per_h,
                                    rain.seed,
                                    lit.name.index,

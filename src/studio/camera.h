@@ -59,7 +59,7 @@ class Camera {
   image::Lens lens_;
   std::vector<Chain> chains_;
   std::unique_ptr<render::Renderer> renderer_;  ///< once the world is there, as the next
-  std::shared_ptr<const scene::Scene> scene_;
+  std::shared_ptr<const light::Geometry> geometry_;
   mutable std::once_flag rained_;
   mutable std::unique_ptr<const scene::Shelter> shelter_;  ///< once it has
   Eigen::Isometry3d map_from_optical_ = Eigen::Isometry3d::Identity();

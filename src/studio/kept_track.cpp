@@ -10,6 +10,7 @@
 #include "studio/sealed_files.h"
 #include "studio/tell.h"
 #include "sunlit/image/content_hash.h"
+#include "sunlit/render/texture_sizes.h"
 #include "sunlit/scene/race_track.h"
 #include "sunlit/scene/scene_bytes.h"
 
@@ -24,35 +25,36 @@ std::string maker() {
   return library.dli_fname != nullptr && hash.addFile(library.dli_fname) ? hash.text() : std::string();
 }
 
-std::optional<scene::Scene> found(const SealedFiles& files, const std::string& name) {
+std::optional<scene::FlatScene> found(const SealedFiles& files, const std::string& name) {
   const std::shared_ptr<const SealedFiles::Content> content = files.find(name);
   if (!content) return std::nullopt;
-  return scene::sceneOf(content->data(), content->size(),
-                        std::shared_ptr<const image::FileBytes>(content, &content->file()));
+  return scene::flatSceneOf(content->data(), content->size(),
+                            std::shared_ptr<const image::FileBytes>(content, &content->file()));
 }
 
 }  // namespace
 
-scene::Scene keptRaceTrack(const std::filesystem::path& folder, const Reports& reports,
-                           const std::function<scene::Scene()>& make) {
-  constexpr std::uintmax_t kLimit_bytes = 500'000'000;  // that of two builds
+scene::FlatScene keptRaceTrack(const std::filesystem::path& folder, const Reports& reports,
+                               const std::function<scene::Scene()>& make) {
+  constexpr std::uintmax_t kLimit_bytes = 600'000'000;  // that of two builds
   const std::string name = maker();
-  if (name.empty()) return make();
-  std::optional<scene::Scene> scene;
+  if (name.empty()) return scene::flattened(make());
+  std::optional<scene::FlatScene> scene;
   try {
     const SealedFiles files(folder, ".scene", kLimit_bytes);
     if ((scene = found(files, name))) return *std::move(scene);
     const image::CacheTurn turn = files.turn(name);
     if ((scene = found(files, name))) return *std::move(scene);
-    scene = make();
+    scene = scene::flattened(make());
+    render::addSmallerSizes(&scene->scene);
     files.keep(name, [&](const SealedFiles::Sink& sink) { scene::writeBytes(*scene, sink); });
     files.tidy([&](const std::string& line) { tell(reports.warning, line); });
-    // That of the file, whose texels other processes share.
-    if (std::optional<scene::Scene> kept = found(files, name)) return *std::move(kept);
+    // That of the file, which other processes share.
+    if (std::optional<scene::FlatScene> kept = found(files, name)) return *std::move(kept);
   } catch (const std::exception& problem) {
     tell(reports.warning, std::string("the built-in world is not kept: ") + problem.what());
   }
-  return scene ? *std::move(scene) : make();
+  return scene ? *std::move(scene) : scene::flattened(make());
 }
 
 }  // namespace sunlit::studio

@@ -22,12 +22,10 @@ std::string textOf(scene::SurfaceState state) {
   return text;
 }
 
-/// The highest point of the scene.
-double topOf(const scene::Scene& scene) {
+/// The highest point of the world.
+double topOf(const light::Geometry& geometry) {
   float top = -1e9f;
-  for (const scene::Mesh& mesh : scene.meshes) {
-    for (const Eigen::Vector3f& position : mesh.positions) top = std::max(top, position.z());
-  }
+  for (const Eigen::Vector3f& position : geometry.positions) top = std::max(top, position.z());
   return static_cast<double>(top);
 }
 
@@ -126,7 +124,7 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylig
   map_from_optical.linear() =
       Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();  // right east, down south, forward down
   const light::Illumination light = illumination(daylight);
-  const double top_m = topOf(*world().geometry->scene);
+  const double top_m = topOf(*world().geometry);
   image::LinearImage whole(width, height);
   for (int row = 0; row < height; row += strip) {
     const double from_north_m = (row + 0.5 * strip) / px_per_m;

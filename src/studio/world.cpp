@@ -1,5 +1,6 @@
 #include "sunlit/studio/world.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -11,6 +12,17 @@
 #include "sunlit/light/lamps.h"
 
 namespace sunlit::studio {
+namespace {
+
+void tellOf(const WorldOptions& options, const scene::Scene& scene, std::size_t triangles,
+            const Reports& reports) {
+  for (const std::string& warning : scene.warnings) tell(reports.warning, options.name + ": " + warning);
+  tell(reports.note, "World " + options.name + ": " + std::to_string(triangles) + " triangles, " +
+                         std::to_string(scene.textures.size()) + " textures, " +
+                         std::to_string(scene.lamps.size()) + " lamps");
+}
+
+}  // namespace
 
 scene::SearchPath WorldOptions::searchPath() const {
   scene::SearchPath path = scene::SearchPath::withEnvironment(model_path);
@@ -22,22 +34,22 @@ std::string requireWorld(const WorldOptions& options) {
   return scene::requireWorld(options.name, options.searchPath());
 }
 
-scene::Scene loadScene(const WorldOptions& options, const std::string& cache_folder, const Reports& reports) {
-  scene::Scene scene = options.name == scene::kRaceTrack ? keptRaceTrack(cache_folder, reports)
-                                                         : scene::load(options.name, options.searchPath());
-  for (const std::string& warning : scene.warnings) tell(reports.warning, options.name + ": " + warning);
-  tell(reports.note, "World " + options.name + ": " + std::to_string(scene.triangleCount()) + " triangles, " +
-                         std::to_string(scene.textures.size()) + " textures, " +
-                         std::to_string(scene.lamps.size()) + " lamps");
+scene::Scene loadScene(const WorldOptions& options, const Reports& reports) {
+  scene::Scene scene = scene::load(options.name, options.searchPath());
+  tellOf(options, scene, scene.triangleCount(), reports);
   return scene;
 }
 
 light::World loadWorld(const WorldOptions& options, const std::string& cache_folder,
                        const std::optional<scene::Robot>& robot, const Reports& reports) {
-  auto scene = std::make_shared<scene::Scene>(loadScene(options, cache_folder, reports));
+  scene::FlatScene flat = options.name == scene::kRaceTrack
+                              ? keptRaceTrack(cache_folder, reports)
+                              : scene::flattened(scene::load(options.name, options.searchPath()));
+  tellOf(options, flat.scene, flat.shape.triangles.size(), reports);
+  const auto scene = std::make_shared<scene::Scene>(std::move(flat.scene));
   std::vector<std::vector<scene::Mesh>> meshes_of_links;
   if (robot) meshes_of_links = scene::addLooks(*robot, scene.get());
-  light::World world(std::move(scene), meshes_of_links);
+  light::World world(scene, std::make_shared<const scene::Shape>(std::move(flat.shape)), meshes_of_links);
   if (robot) {
     for (const scene::RobotLink& link : robot->links) world.lamps_of_bodies.push_back(link.lamps);
   }

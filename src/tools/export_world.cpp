@@ -92,7 +92,7 @@ scene::Scene withBakedLooks(const scene::Scene& world, const ExportOptions& opti
 
 void exportWorld(const ExportOptions& options) {
   const studio::Reports reports = onTerminal();
-  scene::Scene world = studio::loadScene(options.world, image::usualCacheFolder(), reports);
+  scene::Scene world = studio::loadScene(options.world, reports);
   world.lamps = light::burning(world.lamps, options.lamps);  // in cd
   if (options.bakes) world = withBakedLooks(world, options, reports);
   for (const std::string& lost : scene::writeGltf(world, options.output)) reports.warning(lost);

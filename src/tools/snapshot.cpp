@@ -26,11 +26,9 @@ sky::Daylight daylightOf(const SnapshotOptions& options, const studio::Studio& s
 }
 
 /// Where a camera would find the world: "which reaches from …".
-std::string placeOf(const scene::Scene& scene) {
+std::string placeOf(const light::Geometry& geometry) {
   Eigen::AlignedBox3f box;
-  for (const scene::Mesh& mesh : scene.meshes) {
-    for (const Eigen::Vector3f& position : mesh.positions) box.extend(position);
-  }
+  for (const Eigen::Vector3f& position : geometry.positions) box.extend(position);
   const auto corner = [](const Eigen::Vector3f& point) {
     return sunlit::textOf(point.x(), 4) + "," + sunlit::textOf(point.y(), 4) + "," +
            sunlit::textOf(point.z(), 4);
@@ -50,11 +48,11 @@ void takeSnapshot(const SnapshotOptions& options) {
   if (!options.depth_output.empty()) image::writePfm(options.depth_output, depth);
   if (std::none_of(depth.data.begin(), depth.data.end(), [](float metres) { return std::isfinite(metres); }))
     std::fprintf(stderr, "warning: nothing of the world is in view, %s\n",
-                 placeOf(*studio.world().geometry->scene).c_str());
+                 placeOf(*studio.world().geometry).c_str());
   else if (image::isBlack(developed.picture))
     std::fprintf(stderr, "warning: the picture is black all over: %s\n", image::kWhyBlack);
   std::printf("%s: %zu triangles, EV100 %.2f, %.3g lx on level ground\n", options.output.c_str(),
-              studio.world().geometry->scene->triangleCount(), developed.ev100,
+              studio.world().geometry->triangles.size(), developed.ev100,
               static_cast<double>(day.groundIlluminance().luminance()));
 }
 

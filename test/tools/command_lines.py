@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """What the tools' command lines take, refuse and explain."""
+import collections
 import pathlib
 import re
 import shlex
@@ -224,12 +225,17 @@ class CommandLines(unittest.TestCase):
             done = run(*words, "/nowhere", folder)
             self.assertEqual((done.returncode, done.stdout), (0, "3\n"), done.stderr)
 
-    def test_what_is_out_of_range_is_refused_by_every_tool_that_has_the_option(self):
+    def test_what_is_out_of_range_is_refused(self):
+        # Tools share their options' rows: one of those that have an option is asked, each tool in its turn, since to start one takes
+        # longer than what it says.
+        asked = collections.Counter()
         for option, value, said in REFUSED:
             programs = [program for program, options in OPTIONS.items() if option in options]
             self.assertTrue(programs, option)
-            for program in programs:
-                self.assertIn(said, self.refused(program, option, value))
+            program = min(programs, key=lambda one: asked[one])
+            asked[program] += 1
+            self.assertIn(said, self.refused(program, option, value))
+        self.assertEqual(set(OPTIONS) - set(asked), set())
 
     def test_weather_that_only_tells_more_of_another_needs_it(self):
         sky, ground = {"--cover": "4", "--rain": "3"}, {"--puddles": "0.1", "--snow": "0.1"}

@@ -20,16 +20,15 @@ class ContentHash {
   ~ContentHash();
 
   void addBytes(const void* data, std::size_t size);
+  /// A number, or a list of elements without padding: how many there are, and they.
   template <typename Value>
   void add(const Value& value) {
-    static_assert(std::is_arithmetic_v<Value> || std::is_enum_v<Value>);
-    addBytes(&value, sizeof(value));
-  }
-  /// Their number, and elements without padding.
-  template <typename Value>
-  void add(const std::vector<Value>& values) {
-    add(static_cast<std::uint64_t>(values.size()));
-    addBytes(values.data(), values.size() * sizeof(Value));
+    if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>) {
+      addBytes(&value, sizeof(value));
+    } else {
+      add(static_cast<std::uint64_t>(value.size()));
+      addBytes(value.data(), value.size() * sizeof(*value.data()));
+    }
   }
   /// All bytes of a file. Whether it could be read.
   [[nodiscard]] bool addFile(const std::string& path);

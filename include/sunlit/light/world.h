@@ -23,6 +23,9 @@ struct World {
   /// The world's own lamps are those of `scene`.
   explicit World(std::shared_ptr<const scene::Scene> scene,
                  const std::vector<std::vector<scene::Mesh>>& meshes_of_bodies = {});
+  /// Of a scene that was flattened before, and need not have its meshes any more.
+  World(std::shared_ptr<const scene::Scene> scene, std::shared_ptr<const scene::Shape> shape,
+        const std::vector<std::vector<scene::Mesh>>& meshes_of_bodies);
 
   std::shared_ptr<const Geometry> geometry;
   std::shared_ptr<const Visibility> visibility;

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "sunlit/image/kept_array.h"
 #include "sunlit/quantity/photometry.h"
-#include "sunlit/scene/texels.h"
 
 namespace sunlit::scene {
 
@@ -19,6 +19,15 @@ enum class Wrap {
   kRepeat,
   kMirror,  ///< every second repeat is turned about
   kClamp,   ///< the texels at the edge
+};
+
+/// The bytes of a texture.
+using Texels = image::KeptArray<std::uint8_t>;
+
+/// One of the ever smaller versions of a texture.
+struct TextureSize {
+  int width = 0, height = 0;  ///< px
+  Texels rgba;                ///< as those of the texture
 };
 
 /// 8-bit RGBA: colour sRGB-encoded, alpha linear; used as data, all four linear. Row-major, top row first;
@@ -30,6 +39,8 @@ struct Texture {
   Texels rgba;
   /// Cut-outs repeat all the same.
   Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
+  /// By render::addSmallerSizes(); empty: whoever draws it makes them.
+  std::vector<TextureSize> smaller = {};
 };
 
 /// Where a surface takes one of its properties from.

@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
 #include "sunlit/scene/scene.h"
+#include "sunlit/scene/shape.h"
 
 namespace sunlit::scene {
 
@@ -16,7 +18,7 @@ class TopHeights;
 class Shelter {
  public:
   /// Takes tenths of a second.
-  explicit Shelter(const Scene& scene);
+  Shelter(const Shape& shape, const std::vector<Material>& materials);
   ~Shelter();
 
   bool open(const Eigen::Vector3d& place) const;

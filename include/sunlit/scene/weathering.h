@@ -8,6 +8,7 @@
 
 #include "sunlit/quantity/field.h"
 #include "sunlit/scene/scene.h"
+#include "sunlit/scene/shape.h"
 
 namespace sunlit::scene {
 
@@ -49,7 +50,7 @@ class TopHeights;
 class Weathering {
  public:
   /// Takes tenths of a second, about one with puddles. The same bits for any number of threads.
-  Weathering(const Scene& scene, const SurfaceState& state);
+  Weathering(const Shape& shape, const std::vector<Material>& materials, const SurfaceState& state);
 
   /// What is looked at.
   struct Place {

@@ -74,11 +74,11 @@ light::BakeCache cacheOf(const BakeOptions& options);
 /// As scene::requireWorld().
 std::string requireWorld(const WorldOptions& options);
 
-/// What scene::load() gives; its warnings become those of `reports`. Throws as it does. The built-in world is
-/// kept in `cache_folder`.
-scene::Scene loadScene(const WorldOptions& options, const std::string& cache_folder, const Reports& reports);
+/// What scene::load() gives; its warnings become those of `reports`. Throws as it does.
+scene::Scene loadScene(const WorldOptions& options, const Reports& reports);
 
-/// With the `robot`, if there is one, as what moves in it. Bakes nothing. Throws what scene::load() throws.
+/// That, flattened; with the `robot`, if there is one, as what moves in it. Bakes nothing. The built-in world
+/// is kept in `cache_folder`. Throws what scene::load() throws.
 light::World loadWorld(const WorldOptions& options, const std::string& cache_folder,
                        const std::optional<scene::Robot>& robot, const Reports& reports);
 

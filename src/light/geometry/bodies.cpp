@@ -11,7 +11,7 @@ Geometry geometryOf(std::shared_ptr<const scene::Scene> scene,
   scene::Scene meshes_only;
   for (const auto& meshes : meshes_of_bodies)
     meshes_only.meshes.insert(meshes_only.meshes.end(), meshes.begin(), meshes.end());
-  return Geometry(std::move(scene), std::make_shared<const Shape>(meshes_only));
+  return Geometry(std::move(scene), std::make_shared<const scene::Shape>(meshes_only));
 }
 
 std::vector<std::uint32_t> firstVertices(const std::vector<std::vector<scene::Mesh>>& meshes_of_bodies) {
@@ -27,13 +27,13 @@ std::vector<std::uint32_t> firstVertices(const std::vector<std::vector<scene::Me
 
 /// The plane that the corners of triangle `t` lie in; `before` turned by `rotation` where rounding has left
 /// it no area.
-Plane placedPlane(const Shape& shape, std::size_t t, const Eigen::Vector3f& before,
-                  const Eigen::Matrix3d& rotation) {
+scene::Plane placedPlane(const scene::Shape& shape, std::size_t t, const Eigen::Vector3f& before,
+                         const Eigen::Matrix3d& rotation) {
   const auto& corners = shape.triangles[t];
   const Eigen::Vector3f& a = shape.positions[corners[0]];
-  if (const auto plane = planeThrough(a, shape.positions[corners[1]], shape.positions[corners[2]]))
+  if (const auto plane = scene::planeThrough(a, shape.positions[corners[1]], shape.positions[corners[2]]))
     return *plane;
-  Plane plane;
+  scene::Plane plane;
   plane.normal = (rotation * before.cast<double>()).cast<float>().normalized();
   plane.offset = plane.normal.cast<double>().dot(a.cast<double>());
   return plane;
@@ -68,7 +68,8 @@ std::shared_ptr<const Geometry> Bodies::placed(const std::vector<Eigen::Isometry
     throw std::invalid_argument("map_from_body holds " + std::to_string(map_from_body.size()) +
                                 " transforms, but there are " + std::to_string(count()) + " bodies");
   }
-  auto shape = std::make_shared<Shape>(*at_home_.shape);
+  auto shape = std::make_shared<scene::Shape>(*at_home_.shape);
+  shape->makeRoomBehind();
   for (std::size_t body = 0; body < count(); ++body) {
     const Eigen::Isometry3d& place = map_from_body[body];
     if (!place.matrix().allFinite())
@@ -85,7 +86,7 @@ std::shared_ptr<const Geometry> Bodies::placed(const std::vector<Eigen::Isometry
     const Eigen::Isometry3d& place = map_from_body[bodyOf(static_cast<std::uint32_t>(t))];
     shape->planes[t] = placedPlane(*shape, t, at_home_.planes[t].normal, place.linear());
   }
-  for (Chunk& chunk : shape->chunks) {
+  for (scene::Chunk& chunk : shape->chunks) {
     chunk.box.setEmpty();
     for (std::uint32_t t = chunk.first; t < chunk.first + chunk.count; ++t) {
       for (const std::uint32_t vertex : shape->triangles[t]) chunk.box.extend(shape->positions[vertex]);

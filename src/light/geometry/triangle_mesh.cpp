@@ -1,38 +1,52 @@
 #include "light/geometry/triangle_mesh.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 
 namespace sunlit::light {
+
+namespace {
+
+using Indices = std::array<std::uint32_t, 3>;
+
+[[noreturn]] void giveUp(RTCDevice device, RTCGeometry handle) {
+  rtcReleaseGeometry(handle);
+  throw std::runtime_error("ray library (Embree): out of memory, error code " +
+                           std::to_string(static_cast<int>(rtcGetDeviceError(device))));
+}
+
+Indices* newTriangles(RTCGeometry handle, std::size_t count) {
+  return static_cast<Indices*>(
+      rtcSetNewGeometryBuffer(handle, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Indices), count));
+}
+
+}  // namespace
 
 TriangleMesh newTriangleMesh(RTCDevice device, std::size_t vertices, std::size_t triangles) {
   TriangleMesh mesh;
   mesh.handle = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   mesh.vertices = static_cast<Eigen::Vector3f*>(rtcSetNewGeometryBuffer(
       mesh.handle, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Eigen::Vector3f), vertices));
-  mesh.triangles = static_cast<std::array<std::uint32_t, 3>*>(rtcSetNewGeometryBuffer(
-      mesh.handle, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles));
-  if (!mesh.vertices || !mesh.triangles) {
-    rtcReleaseGeometry(mesh.handle);
-    throw std::runtime_error("ray library (Embree): out of memory, error code " +
-                             std::to_string(static_cast<int>(rtcGetDeviceError(device))));
-  }
+  mesh.triangles = newTriangles(mesh.handle, triangles);
+  if (!mesh.vertices || !mesh.triangles) giveUp(device, mesh.handle);
   return mesh;
 }
 
-TriangleMesh newTriangleMesh(RTCDevice device, const Geometry& geometry,
-                             const std::vector<std::uint32_t>& chosen) {
-  const TriangleMesh mesh = newTriangleMesh(device, geometry.positions.size(), chosen.size());
-  std::copy(geometry.positions.begin(), geometry.positions.end(), mesh.vertices);
-  for (std::size_t i = 0; i < chosen.size(); ++i) mesh.triangles[i] = geometry.triangles[chosen[i]];
-  return mesh;
+RTCGeometry triangleMesh(RTCDevice device, const Geometry& geometry,
+                         const std::vector<std::uint32_t>& chosen) {
+  const RTCGeometry handle = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  rtcSetSharedGeometryBuffer(handle, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, geometry.positions.data(),
+                             0, sizeof(Eigen::Vector3f), geometry.positions.size());
+  Indices* const triangles = newTriangles(handle, chosen.size());
+  if (!triangles) giveUp(device, handle);
+  for (std::size_t i = 0; i < chosen.size(); ++i) triangles[i] = geometry.triangles[chosen[i]];
+  return handle;
 }
 
-void attach(const TriangleMesh& mesh, RTCScene scene, unsigned number) {
-  rtcCommitGeometry(mesh.handle);
-  rtcAttachGeometryByID(scene, mesh.handle, number);
-  rtcReleaseGeometry(mesh.handle);
+void attach(RTCGeometry mesh, RTCScene scene, unsigned number) {
+  rtcCommitGeometry(mesh);
+  rtcAttachGeometryByID(scene, mesh, number);
+  rtcReleaseGeometry(mesh);
 }
 
 }  // namespace sunlit::light

@@ -33,10 +33,11 @@ struct TriangleMesh {
 
 /// Throws std::runtime_error where memory runs out.
 TriangleMesh newTriangleMesh(RTCDevice device, std::size_t vertices, std::size_t triangles);
-/// Filled with the triangles `chosen` of `geometry`, in their order.
-TriangleMesh newTriangleMesh(RTCDevice device, const Geometry& geometry,
-                             const std::vector<std::uint32_t>& chosen);
-/// Commits the mesh, hands it over to `scene` under `number`, and releases it.
-void attach(const TriangleMesh& mesh, RTCScene scene, unsigned number);
+/// The triangles `chosen` of `geometry`, in their order, not yet committed; whoever makes it releases it.
+/// Their vertices are those of `geometry`, which must outlive all that it is attached to. Throws as above.
+RTCGeometry triangleMesh(RTCDevice device, const Geometry& geometry,
+                         const std::vector<std::uint32_t>& chosen);
+/// Commits a mesh, hands it over to `scene` under `number`, and releases it.
+void attach(RTCGeometry mesh, RTCScene scene, unsigned number);
 
 }  // namespace sunlit::light

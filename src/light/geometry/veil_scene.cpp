@@ -26,7 +26,7 @@ VeilScene::VeilScene(const Geometry& geometry, RTCDevice device) : geometry_(geo
   if (triangles_.empty()) return;
   scene_.reset(rtcNewScene(device));
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-  attach(newTriangleMesh(device, geometry, triangles_), scene_.get(), 0);
+  attach(triangleMesh(device, geometry, triangles_), scene_.get(), 0);
   rtcCommitScene(scene_.get());
 }
 

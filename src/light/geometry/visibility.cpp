@@ -187,22 +187,22 @@ void Visibility::Implementation::buildBlends(RTCBuildQuality quality) {
   blend_scene_.reset(rtcNewScene(device_.get()));
   rtcSetSceneFlags(blend_scene_.get(), RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(blend_scene_.get(), quality);
-  const TriangleMesh mesh = newTriangleMesh(device_.get(), *geometry_, blends_->maskedTriangles());
-  rtcSetGeometryUserData(mesh.handle, &*blends_);
-  rtcSetGeometryOccludedFilterFunction(mesh.handle, passCutouts);
-  rtcSetGeometryIntersectFilterFunction(mesh.handle, passCutouts);
+  const RTCGeometry mesh = triangleMesh(device_.get(), *geometry_, blends_->maskedTriangles());
+  rtcSetGeometryUserData(mesh, &*blends_);
+  rtcSetGeometryOccludedFilterFunction(mesh, passCutouts);
+  rtcSetGeometryIntersectFilterFunction(mesh, passCutouts);
   light::attach(mesh, blend_scene_.get(), 0);
   rtcCommitScene(blend_scene_.get());
 }
 
 void Visibility::Implementation::attach(const std::vector<std::uint32_t>& triangles, unsigned number) {
   if (triangles.empty()) return;
-  const TriangleMesh mesh = newTriangleMesh(device_.get(), *geometry_, triangles);
+  const RTCGeometry mesh = triangleMesh(device_.get(), *geometry_, triangles);
   if (number == kMasked) {
-    rtcSetGeometryUserData(mesh.handle, &cutouts_);
-    rtcSetGeometryOccludedFilterFunction(mesh.handle, passCutouts);
+    rtcSetGeometryUserData(mesh, &cutouts_);
+    rtcSetGeometryOccludedFilterFunction(mesh, passCutouts);
   }
-  rtcSetGeometryIntersectFilterFunction(mesh.handle, passInvisible);
+  rtcSetGeometryIntersectFilterFunction(mesh, passInvisible);
   light::attach(mesh, scene_.get(), number);
 }
 

@@ -174,7 +174,7 @@ Paint Reflectances::weathered(const Paint& paint, const TriangleSide& side,
 Eigen::Vector2f Reflectances::coordinates(std::uint32_t triangle, const Eigen::Vector3f& barycentric,
                                           int set) const {
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
-  const std::vector<Eigen::Vector2f>* const of_vertices = geometry_.coordinates(set);
+  const image::ArrayView<Eigen::Vector2f>* const of_vertices = geometry_.coordinates(set);
   for (int k = 0; of_vertices && k < 3; ++k)
     uv += barycentric[k] * (*of_vertices)[geometry_.triangles[triangle][static_cast<std::size_t>(k)]];
   return uv;

@@ -35,7 +35,7 @@ struct Texels {
 };
 
 template <typename Value>
-Value interpolated(const std::vector<Value>& of_vertices, const std::array<std::uint32_t, 3>& corners,
+Value interpolated(const image::ArrayView<Value>& of_vertices, const std::array<std::uint32_t, 3>& corners,
                    const Hit& hit) {
   return (1.0f - hit.u - hit.v) * of_vertices[corners[0]] + hit.u * of_vertices[corners[1]] +
          hit.v * of_vertices[corners[2]];

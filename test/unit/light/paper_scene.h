@@ -72,7 +72,7 @@ struct Looked {
 inline std::uint32_t triangleAt(const Geometry& geometry, const Eigen::Vector3f& point,
                                 const Eigen::Vector3f& normal) {
   for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
-    const Plane& plane = geometry.planes[t];
+    const scene::Plane& plane = geometry.planes[t];
     if (std::abs(plane.normal.dot(normal)) < 0.9999f) continue;
     if (std::abs(static_cast<double>(plane.normal.dot(point)) - plane.offset) > 1e-3) continue;
     bool inside = true;

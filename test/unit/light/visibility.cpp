@@ -47,7 +47,7 @@ TEST(Geometry, ChunksHoldEachTriangleOnceByMaterialAndPlace) {
   const auto geometry = geometryOf(scene);
   EXPECT_EQ(geometry->triangles.size(), 20u);
   std::uint32_t next = 0;
-  for (const Chunk& chunk : geometry->chunks) {
+  for (const scene::Chunk& chunk : geometry->chunks) {
     EXPECT_EQ(chunk.first, next);
     next += chunk.count;
     for (std::uint32_t t = chunk.first; t < next; ++t) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include "render/mipmaps.h"
 #include "render/texture_pyramid.h"
 #include "sunlit/image/srgb.h"
+#include "sunlit/render/texture_sizes.h"
 
 namespace sunlit {
 namespace {
@@ -49,6 +51,35 @@ TEST(Textures, AreInterpolatedInLinearLightAndRepeat) {
       // Single precision of a coordinate up to 4 times 5 texels.
       EXPECT_NEAR(color[c], between(texture, u, v, c), 5e-6) << u << ' ' << v;
     }
+  }
+}
+
+TEST(Textures, MadeSmallerBeforeLookTheSame) {
+  scene::Scene made;
+  made.textures = {someTexture(), someTexture()};
+  made.materials.resize(4);
+  const std::array<float, 3> cutoffs = {0.6f, 0.2f, 0.6f};
+  for (std::size_t m = 0; m < 3; ++m) {
+    made.materials[m].base_texture = m < 2 ? 0 : 1;
+    made.materials[m].alpha_mode = scene::AlphaMode::kMask;
+    made.materials[m].alpha_cutoff = cutoffs[m];
+  }
+  made.materials[3].base_texture = 1;
+  scene::Scene before = made;
+  render::addSmallerSizes(&before);
+  EXPECT_EQ(before.textures[0].smaller.size(), 2u);  // 2 × 1 and 1 × 1
+  const render::TexturePyramids own(made), kept(before);
+  for (std::int32_t m = 0; m < 4; ++m) {
+    const render::TexturePyramid &a = *own.of(m), &b = *kept.of(m);
+    ASSERT_EQ(a.sizes(), b.sizes());
+    for (const float level : {0.0f, 0.7f, 1.3f, 2.0f}) {
+      const Eigen::Array2f at(0.3f, 0.6f);
+      EXPECT_EQ(a.color(at, level).matrix(), b.color(at, level).matrix()) << m << ' ' << level;
+    }
+    const auto masks = a.masks(), same = b.masks();
+    for (std::size_t i = 0; m < 3 && i < masks.size(); ++i)
+      EXPECT_TRUE(
+          std::equal(masks[i].alpha, masks[i].alpha + masks[i].width * masks[i].height, same[i].alpha));
   }
 }
 

@@ -12,15 +12,15 @@
 namespace sunlit::scene {
 namespace {
 
-std::string bytesOf(const Scene& scene) {
+std::string bytesOf(const FlatScene& flat) {
   std::string bytes;
-  writeBytes(scene,
+  writeBytes(flat,
              [&](const void* data, std::size_t size) { bytes.append(static_cast<const char*>(data), size); });
   return bytes;
 }
 
-Scene read(const std::string& bytes) {
-  return sceneOf(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size());
+FlatScene read(const std::string& bytes) {
+  return flatSceneOf(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size());
 }
 
 /// With something in every list.
@@ -74,46 +74,60 @@ TEST(SceneLooks, TellAllOfAMaterialButItsName) {
 }
 
 TEST(SceneBytes, MakeTheSameSceneAgain) {
-  const Scene scene = small(), again = read(bytesOf(scene));
-  EXPECT_EQ(bytesOf(again), bytesOf(scene));
-  EXPECT_EQ(again.name, "small");
-  EXPECT_EQ(again.textures.at(0).rgba, scene.textures[0].rgba);
-  EXPECT_EQ(again.textures[0].wrap_v, Wrap::kClamp);
-  EXPECT_EQ(again.materials.at(1).lamp_group, "windows");
-  EXPECT_EQ(again.materials[1].normal_map.channel, 2);
-  EXPECT_FALSE(again.materials[1].double_sided);
-  EXPECT_EQ(again.materials[1].detail.tint[2], 0.25f);
-  EXPECT_EQ(again.meshes.at(0).positions, scene.meshes[0].positions);
-  EXPECT_EQ(again.meshes[0].more_texture_coordinates, scene.meshes[0].more_texture_coordinates);
-  EXPECT_EQ(again.meshes[0].triangles, scene.meshes[0].triangles);
-  EXPECT_TRUE(again.meshes.at(1).positions.empty());
-  EXPECT_FALSE(again.lamps.at(0).casts_shadows);
-  EXPECT_EQ(again.warnings, scene.warnings);
+  const FlatScene flat = flattened(small());
+  const auto [scene, shape] = read(bytesOf(flat));
+  EXPECT_EQ(bytesOf({scene, shape}), bytesOf(flat));
+  EXPECT_EQ(scene.name, "small");
+  EXPECT_EQ(scene.textures.at(0).rgba, flat.scene.textures[0].rgba);
+  EXPECT_EQ(scene.textures[0].wrap_v, Wrap::kClamp);
+  EXPECT_EQ(scene.materials.at(1).lamp_group, "windows");
+  EXPECT_EQ(scene.materials[1].normal_map.channel, 2);
+  EXPECT_FALSE(scene.materials[1].double_sided);
+  EXPECT_EQ(scene.materials[1].detail.tint[2], 0.25f);
+  EXPECT_TRUE(scene.meshes.empty());
+  const Mesh mesh = small().meshes[0];
+  EXPECT_EQ(shape.positions, image::KeptArray(mesh.positions));
+  EXPECT_EQ(shape.more_texture_coordinates.at(1), image::KeptArray(mesh.more_texture_coordinates[1]));
+  EXPECT_EQ(shape.tangents, image::KeptArray(mesh.tangents));
+  EXPECT_EQ(shape.triangles, image::KeptArray(mesh.triangles));
+  EXPECT_EQ(shape.planes[0].normal, Eigen::Vector3f::UnitZ().eval());
+  EXPECT_EQ(shape.chunks[0].material, 1);
+  EXPECT_FALSE(scene.lamps.at(0).casts_shadows);
+  EXPECT_EQ(scene.warnings, flat.scene.warnings);
 }
 
-TEST(SceneBytes, KeepTexelsWhereTheyAreForWhoeverOwnsThem) {
-  const std::string text = bytesOf(small());
+TEST(SceneBytes, StayWhereTheyAreForWhoeverOwnsThem) {
+  const std::string text = bytesOf(flattened(small()));
   const TemporaryFolder folder;
   image::writeFileAtomically(folder.file("scene"), text);
   const auto bytes = std::make_shared<const image::FileBytes>(folder.file("scene"));
   const std::byte* const data = bytes->data();
-  Scene scene = sceneOf(data, bytes->size(), bytes);
-  const Texture copy = scene.textures.at(0);
+  FlatScene flat = flatSceneOf(data, bytes->size(), bytes);
+  const auto isThere = [&](const auto& values) {
+    const auto* const first = reinterpret_cast<const std::byte*>(values.data());
+    const auto* const end = reinterpret_cast<const std::byte*>(values.end());
+    return first >= data && end <= data + bytes->size() &&
+           static_cast<std::size_t>(first - data) % kBytesAlignment == 0;
+  };
+  const Shape& shape = flat.shape;
+  EXPECT_TRUE(isThere(shape.normals) && isThere(shape.tangents) && isThere(shape.planes));
+  ASSERT_TRUE(isThere(shape.positions));
+  EXPECT_LT(reinterpret_cast<const std::byte*>(shape.positions.end()) + sizeof(float), data + bytes->size());
+  const Texture copy = flat.scene.textures.at(0);
   EXPECT_EQ(copy.rgba, small().textures[0].rgba);
-  const auto* const texels = reinterpret_cast<const std::byte*>(copy.rgba.data());
-  EXPECT_TRUE(texels >= data && texels < data + bytes->size());
+  EXPECT_TRUE(isThere(copy.rgba));
   copy.rgba.letGo();
   EXPECT_EQ(copy.rgba, small().textures[0].rgba);
-  scene.textures[0].rgba.own()[1] = 20;  // from now on its own
-  EXPECT_EQ(scene.textures[0].rgba, Texels({1, 20, 3, 4, 5, 6, 7, 8}));
+  flat.scene.textures[0].rgba.own()[1] = 20;  // from now on its own
+  EXPECT_EQ(flat.scene.textures[0].rgba, Texels({1, 20, 3, 4, 5, 6, 7, 8}));
   EXPECT_EQ(copy.rgba, small().textures[0].rgba);
-  EXPECT_EQ(bytesOf(sceneOf(data, bytes->size())), text);
-  scene = Scene();
+  EXPECT_EQ(bytesOf(flatSceneOf(data, bytes->size())), text);
+  flat = FlatScene();
   EXPECT_EQ(bytes.use_count(), 2);  // the copy's
 }
 
 TEST(SceneBytes, ThatEndTooSoonOrGoOnAreRefused) {
-  const std::string bytes = bytesOf(small());
+  const std::string bytes = bytesOf(flattened(small()));
   for (std::size_t size = 0; size < bytes.size(); ++size)
     EXPECT_THROW(read(bytes.substr(0, size)), std::runtime_error) << size;
   EXPECT_THROW(read(bytes + '\0'), std::runtime_error);

@@ -31,6 +31,10 @@ Scene roofedGround() {
   return scene;
 }
 
+Weathering weathered(const Scene& scene, const SurfaceState& state) {
+  return {Shape(scene), scene.materials, state};
+}
+
 Weathering::Look dryLook(float albedo, float roughness = 0.9f) {
   return {Eigen::Array3f::Constant(albedo), kUp, roughness, 0.0f};
 }
@@ -52,7 +56,7 @@ SurfaceState state(double wet, double puddles, double snow_m, int seed = 0) {
 }
 
 TEST(Wet, ASoakedSurfaceIsAsDarkAsLeknerAndDorfFound) {
-  const Weathering soaked(roofedGround(), state(1.0, 0.0, 0.0));
+  const Weathering soaked = weathered(roofedGround(), state(1.0, 0.0, 0.0));
   for (const double albedo : {0.05, 0.1, 0.2, 0.3, 0.5}) {
     const auto look = seen(soaked, {20.0f, 20.0f, 0.0f}, kUp, static_cast<float>(albedo));
     // Absorbed: (1 − R) a / (1 − p (1 − a)), a = 1 − ρ; the film mirrors R, the rest is scattered. What is
@@ -71,7 +75,7 @@ TEST(Wet, ASoakedSurfaceHasThePublishedShareOfItsDryLight) {
   constexpr struct {
     double albedo, share;
   } kPublished[] = {{0.05, 0.5269}, {0.1, 0.5400}, {0.2, 0.5684}, {0.3, 0.5998}, {0.5, 0.6745}};
-  const Weathering soaked(roofedGround(), state(1.0, 0.0, 0.0));
+  const Weathering soaked = weathered(roofedGround(), state(1.0, 0.0, 0.0));
   for (const auto& [albedo, share] : kPublished) {
     const auto look = seen(soaked, {20.0f, 20.0f, 0.0f}, kUp, static_cast<float>(albedo));
     const double through_film = 1.0 - static_cast<double>(Weathering::kFilmReflectance);
@@ -80,12 +84,12 @@ TEST(Wet, ASoakedSurfaceHasThePublishedShareOfItsDryLight) {
 }
 
 TEST(Wet, WhatSendsBackEverythingStillDoes) {
-  const Weathering soaked(roofedGround(), state(1.0, 0.0, 0.0));
+  const Weathering soaked = weathered(roofedGround(), state(1.0, 0.0, 0.0));
   EXPECT_NEAR(seen(soaked, {20.0f, 20.0f, 0.0f}, kUp, 1.0f).albedo[0], 1.0f, 1e-6f);
 }
 
 TEST(Wet, BelowARoofItIsDryAndOnItWet) {
-  const Weathering soaked(roofedGround(), state(1.0, 0.5, 0.1));
+  const Weathering soaked = weathered(roofedGround(), state(1.0, 0.5, 0.1));
   const auto below = seen(soaked, {0.0f, 0.0f, 0.0f});
   EXPECT_EQ(below.albedo[0], 0.2f);
   EXPECT_EQ(below.roughness, 0.9f);
@@ -99,7 +103,7 @@ TEST(Wet, LeavesHoldNoFilmAndLetRainThrough) {
   scene.materials.push_back(Material());
   scene.materials[1].transmission = 0.3f;
   scene.meshes[1].material = 1;
-  const Weathering soaked(scene, state(1.0, 0.0, 0.0));
+  const Weathering soaked = weathered(scene, state(1.0, 0.0, 0.0));
   EXPECT_EQ(seen(soaked, {0.0f, 0.0f, 0.0f}).film, 1.0f);
   Weathering::Look leaf = dryLook(0.2f);
   soaked.apply({{0.0f, 0.0f, 3.0f}, kUp, 0.01f}, scene.materials[1], &leaf);
@@ -110,7 +114,7 @@ TEST(Wet, LeavesHoldNoFilmAndLetRainThrough) {
 
 TEST(Wet, AWallUnderTheSkyIsHalfWetAndARoofedOneDry) {
   Scene scene = roofedGround();
-  const Weathering soaked(scene, state(1.0, 0.0, 0.0));
+  const Weathering soaked = weathered(scene, state(1.0, 0.0, 0.0));
   const Eigen::Vector3f north = Eigen::Vector3f::UnitY();
   EXPECT_NEAR(seen(soaked, {0.0f, 5.0f, 2.0f}, north).film, 0.5f,
               1e-3f);  // below the roof's edge, facing out
@@ -132,7 +136,8 @@ double shareOf(const Weathering& weathering, const What& what) {
 }
 
 TEST(Shelter, IsUnderRoofs) {
-  const Shelter shelter(roofedGround());
+  const Scene scene = roofedGround();
+  const Shelter shelter(Shape(scene), scene.materials);
   EXPECT_FALSE(shelter.open({0.0, 0.0, 1.0}));
   EXPECT_TRUE(shelter.open({0.0, 0.0, 3.2}));
   EXPECT_TRUE(shelter.open({20.0, 20.0, 0.5}));
@@ -142,16 +147,16 @@ TEST(Shelter, IsUnderRoofs) {
 
 TEST(Puddles, CoverTheShareAskedFor) {
   for (const double share : {0.05, 0.2, 0.5}) {
-    const Weathering flooded(roofedGround(), state(0.0, share, 0.0));
+    const Weathering flooded = weathered(roofedGround(), state(0.0, share, 0.0));
     // Of the ground that is there; under the roof it is dry.
     EXPECT_NEAR(shareOf(flooded, [](const auto& look) { return look.film > 0.5f; }), share, 0.03) << share;
   }
 }
 
 TEST(Puddles, LieElsewhereByAnotherSeedAndInTheSamePlacesByTheSame) {
-  const Weathering one(roofedGround(), state(0.0, 0.3, 0.0, 1)),
-      same(roofedGround(), state(0.0, 0.3, 0.0, 1));
-  const Weathering other(roofedGround(), state(0.0, 0.3, 0.0, 2));
+  const Weathering one = weathered(roofedGround(), state(0.0, 0.3, 0.0, 1));
+  const Weathering same = weathered(roofedGround(), state(0.0, 0.3, 0.0, 1));
+  const Weathering other = weathered(roofedGround(), state(0.0, 0.3, 0.0, 2));
   int differ = 0;
   for (float x = 7.0f; x < 49.0f; x += 0.5f) {
     EXPECT_EQ(seen(one, {x, 3.0f, 0.0f}).film, seen(same, {x, 3.0f, 0.0f}).film);
@@ -161,7 +166,7 @@ TEST(Puddles, LieElsewhereByAnotherSeedAndInTheSamePlacesByTheSame) {
 }
 
 TEST(Puddles, AreFlatAndNotOnSlopes) {
-  const Weathering flooded(roofedGround(), state(0.0, 0.9, 0.0));
+  const Weathering flooded = weathered(roofedGround(), state(0.0, 0.9, 0.0));
   Weathering::Look rough = dryLook(0.2f);
   rough.normal = Eigen::Vector3f(0.3f, 0.0f, 0.95f).normalized();
   const Eigen::Vector3f slope = Eigen::Vector3f(0.2f, 0.0f, 1.0f).normalized();
@@ -199,7 +204,7 @@ Scene waves() {
 }
 
 TEST(Puddles, GatherInHollows) {
-  const Weathering flooded(waves(), state(0.0, 0.3, 0.0));
+  const Weathering flooded = weathered(waves(), state(0.0, 0.3, 0.0));
   int places = 0, wet = 0, in_hollows = 0, on_crests = 0;
   for (float x = -31.0f; x < 31.0f; x += 0.31f) {
     for (float y = -31.0f; y < 31.0f; y += 0.31f) {
@@ -220,7 +225,8 @@ TEST(Puddles, GatherInHollows) {
 TEST(Puddles, DoNotKnowOfWallsBesideThem) {
   Scene walled = roofedGround();
   walled.meshes[1] = level(0.0f, -50.0f, 0.5f, 2.0f);  // the top of a wall on the ground beside it
-  const Weathering beside(walled, state(0.0, 0.3, 0.0)), without(roofedGround(), state(0.0, 0.3, 0.0));
+  const Weathering beside = weathered(walled, state(0.0, 0.3, 0.0));
+  const Weathering without = weathered(roofedGround(), state(0.0, 0.3, 0.0));
   int differ = 0;
   for (float y = -49.0f; y < -6.0f; y += 0.5f)
     differ +=
@@ -231,12 +237,12 @@ TEST(Puddles, DoNotKnowOfWallsBesideThem) {
 
 TEST(Snow, CoversTheShareOfYangAndLiesOnWhatFacesUp) {
   for (const double depth_m : {0.005, 0.02, 0.1}) {
-    const Weathering snowed(roofedGround(), state(0.0, 0.0, depth_m));
+    const Weathering snowed = weathered(roofedGround(), state(0.0, 0.0, depth_m));
     const double share = std::tanh(depth_m / 0.025);
     EXPECT_NEAR(shareOf(snowed, [](const auto& look) { return look.albedo[0] > 0.55f; }), share, 0.03)
         << depth_m;
   }
-  const Weathering deep(roofedGround(), state(0.0, 0.0, 0.3));
+  const Weathering deep = weathered(roofedGround(), state(0.0, 0.0, 0.3));
   EXPECT_NEAR(seen(deep, {20.0f, 20.0f, 0.0f}).albedo[0], 0.9f, 1e-6f);
   const auto tilted = [](double degrees) {
     return Eigen::Vector3d(std::sin(degrees * kRadPerDeg), 0.0, std::cos(degrees * kRadPerDeg))
@@ -248,7 +254,7 @@ TEST(Snow, CoversTheShareOfYangAndLiesOnWhatFacesUp) {
 }
 
 TEST(Snow, FromFarAwayThereIsItsShare) {
-  const Weathering snowed(roofedGround(), state(0.0, 0.0, 0.02));
+  const Weathering snowed = weathered(roofedGround(), state(0.0, 0.0, 0.02));
   Weathering::Look look = dryLook(0.2f);
   snowed.apply({{20.0f, 20.0f, 0.0f}, kUp, 50.0f}, Material(), &look);
   EXPECT_NEAR(static_cast<double>(look.albedo[0]), 0.2 + std::tanh(0.8) * 0.7, 1e-5);

@@ -124,7 +124,7 @@ Developed byHand(const StudioOptions& options, const Taken& taken, bool glare_fi
   const image::RainStreaks streaks{
       rain.mm_per_h, rain.seed,    taken.name.index, image::streakTime_s(chain.shutter, ev100),
       drops,         rain.wind_m_s};
-  const scene::Shelter shelter(*world.geometry->scene);
+  const scene::Shelter shelter(*world.geometry->shape, world.geometry->scene->materials);
   image::addRain(streaks,
                  {lens, taken.map_from_camera * linkFromOptical(), taken.motion, renderer.depth(),
                   [&](const Eigen::Vector3d& place) { return shelter.open(place); }},
@@ -303,7 +303,7 @@ TEST(Studio, TellsWhatItLoadsToWhoListens) {
   std::vector<std::string> notes;
   Reports reports;
   reports.note = [&](const std::string& line) { notes.push_back(line); };
-  const scene::Scene scene = loadScene(boxes().world, "", reports);
+  const scene::Scene scene = loadScene(boxes().world, reports);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find(std::to_string(scene.triangleCount()) + " triangles"), std::string::npos)
       << notes[0];

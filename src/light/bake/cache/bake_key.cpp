@@ -73,8 +73,7 @@ void addContents(const Geometry& geometry, image::ContentHash* hash) {
     const scene::Texture& texture = geometry.scene->textures[i];
     hash->add(texture.width);
     hash->add(texture.height);
-    hash->add(static_cast<std::uint64_t>(texture.rgba.size()));
-    hash->addBytes(texture.rgba.data(), texture.rgba.size());
+    hash->add(texture.rgba);
     if (texture.wrap_u != scene::Wrap::kRepeat || texture.wrap_v != scene::Wrap::kRepeat) {
       hash->add(texture.wrap_u);
       hash->add(texture.wrap_v);
@@ -100,7 +99,7 @@ void addLamps(const std::vector<scene::Lamp>& lamps, image::ContentHash* hash) {
     hash->addBytes(fades.data(), fades.size());
     hash->add(static_cast<int>(lamp.relative));
     hash->add(static_cast<int>(lamp.casts_shadows));
-    hash->add(std::vector<char>(lamp.group.begin(), lamp.group.end()));
+    hash->add(lamp.group);
   }
 }
 

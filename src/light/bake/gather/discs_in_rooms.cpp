@@ -217,7 +217,7 @@ void DiscsInRooms::startFromPatches(const sky::DiscLight& disc, const ThroughClo
 }
 
 void DiscsInRooms::send() {
-  const BakedArray<BakedRooms::Source>& sources = data_.rooms.sources;
+  const image::KeptArray<BakedRooms::Source>& sources = data_.rooms.sources;
   tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t s) {
     const BakedRooms::Source& source = sources[s];
     Eigen::Array3f sum =

@@ -32,7 +32,7 @@ FloorGlints::FloorGlints(const TransportData& data, const sky::DiscLight& disc, 
       glass_(visibility) {}
 
 void FloorGlints::addTo(std::vector<Eigen::Array3f>* rooms) const {
-  const BakedArray<BakedRooms::Glossy>& glossy = data_.rooms.glossy;
+  const image::KeptArray<BakedRooms::Glossy>& glossy = data_.rooms.glossy;
   tbb::parallel_for(
       std::size_t{0}, (glossy.size() + kRoomsOfTask - 1) / kRoomsOfTask, [&](std::size_t block) {
         const std::size_t first = block * kRoomsOfTask, end = std::min(glossy.size(), first + kRoomsOfTask);

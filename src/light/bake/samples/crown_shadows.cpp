@@ -85,7 +85,7 @@ void CrownShadows::addBlockers() {
   const Geometry& geometry = world_.geometry;
   std::vector<Blocker> found;
   const std::vector<std::uint32_t>& masked = world_.cutouts.maskedTriangles();
-  for (const Chunk& chunk : geometry.chunks) {
+  for (const scene::Chunk& chunk : geometry.chunks) {
     if (!chunk.box.intersects(box_)) continue;
     for (std::uint32_t t = chunk.first; t < chunk.first + chunk.count; ++t) {
       Eigen::AlignedBox3f around;

@@ -7,10 +7,10 @@
 #include <memory>
 #include <vector>
 
-#include "light/bake/samples/baked_array.h"
 #include "light/bake/samples/triangle_kinds.h"
 #include "light/patches/sky_openness.h"
 #include "light/patches/sky_patches.h"
+#include "sunlit/image/kept_array.h"
 #include "sunlit/light/geometry.h"
 
 namespace sunlit::light {
@@ -21,10 +21,10 @@ struct LeafOpenness {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::size_t kNodeBytes = SkyPatches::kCount / 8;
 
-  BakedArray<std::uint32_t> first;  ///< of each triangle, into `grids`; kNone: it has none. Or empty
+  image::KeptArray<std::uint32_t> first;  ///< of each triangle, into `grids`; kNone: it has none. Or empty
   /// For each grid the number of steps along an edge, and a bit for each patch at each node: node after node
   /// along the third corner's edge, row after row towards the second.
-  BakedArray<std::uint8_t> grids;
+  image::KeptArray<std::uint8_t> grids;
 
   bool known(std::uint32_t triangle) const { return !first.empty() && first[triangle] != kNone; }
   /// Between the nodes around a point, by its barycentric coordinates, of a triangle that is known().

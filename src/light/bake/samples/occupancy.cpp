@@ -36,7 +36,7 @@ Occupancy::Occupancy(const Geometry& geometry, const std::vector<TriangleTraits>
     squares_.insert(square(step(middle.x()), step(middle.y())));
   }
   Eigen::AlignedBox3f world;
-  for (const Chunk& chunk : geometry.chunks) world.extend(chunk.box);
+  for (const scene::Chunk& chunk : geometry.chunks) world.extend(chunk.box);
   emptiest_m_ = emptiestOf(world.isEmpty() ? 0.0f : world.sizes().maxCoeff());
 }
 

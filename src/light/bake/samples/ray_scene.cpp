@@ -180,10 +180,10 @@ struct RayScene::Embree {
   void attachWhole(GeometryNumber number) {
     const std::vector<std::uint32_t>& chosen = triangles[number];
     if (chosen.empty()) return;
-    const TriangleMesh mesh = newTriangleMesh(device.get(), *geometry, chosen);
+    const RTCGeometry mesh = triangleMesh(device.get(), *geometry, chosen);
     if (number == kMasked) {
-      rtcSetGeometryUserData(mesh.handle, &masked_group);
-      rtcSetGeometryIntersectFilterFunction(mesh.handle, passCutoutsOfBake);
+      rtcSetGeometryUserData(mesh, &masked_group);
+      rtcSetGeometryIntersectFilterFunction(mesh, passCutoutsOfBake);
     }
     attach(mesh, scene.get(), number);
   }
@@ -212,7 +212,7 @@ struct RayScene::Embree {
         mesh.triangles[i][k] = static_cast<std::uint32_t>(3 * i + k);
       }
     }
-    attach(mesh, scene.get(), kLeaves);
+    attach(mesh.handle, scene.get(), kLeaves);
   }
 
   /// What the rays of `packet` met.

@@ -7,11 +7,11 @@
 #include <mutex>
 #include <vector>
 
-#include "light/bake/samples/baked_array.h"
 #include "light/bake/samples/leaf_openness.h"
 #include "light/bake/samples/light_place.h"
 #include "light/bake/samples/sample_and_byte.h"
 #include "light/patches/sky_patches.h"
+#include "sunlit/image/kept_array.h"
 
 namespace sunlit::light {
 
@@ -37,10 +37,10 @@ struct LightMesh {
 
   /// Of each triangle's front and back: a cell; kNone, if nobody sees it or it sees but the void; kSealed, if
   /// it lies within a closed body, where it is dark.
-  BakedArray<std::array<std::uint32_t, 2>> roots;
-  BakedArray<Cell> cells;
-  BakedArray<std::uint32_t> first_share;  ///< of each node, and the end
-  BakedArray<Share> shares;               ///< weights of a node sum to 1
+  image::KeptArray<std::array<std::uint32_t, 2>> roots;
+  image::KeptArray<Cell> cells;
+  image::KeptArray<std::uint32_t> first_share;  ///< of each node, and the end
+  image::KeptArray<Share> shares;               ///< weights of a node sum to 1
 
   static bool isCell(std::uint32_t root) { return root < kSealed; }
   std::size_t nodeCount() const { return first_share.size() - 1; }
@@ -63,8 +63,8 @@ struct LightMesh {
 /// Illuminance of each sample for 1 cd/m² of each sky patch, lx.
 struct Coefficients {
   /// One row of SkyPatches::kCount bytes a sample; times the sample's scale.
-  BakedArray<std::uint8_t> rows;
-  BakedArray<float> scales;
+  image::KeptArray<std::uint8_t> rows;
+  image::KeptArray<float> scales;
 
   void resize(std::size_t samples);
   /// Stores `row` of SkyPatches::kCount values ≥ 0.
@@ -81,10 +81,10 @@ void addTimes(float factor, const std::uint8_t* coefficients, float* row);
 
 /// What surfaces pass on to each sample.
 struct PassedOn {
-  Coefficients coefficients;               ///< luminance of it
-  BakedArray<std::array<float, 3>> tints;  ///< its colour, of luminance 1
-  BakedArray<std::array<float, 3>> glows;  ///< illuminance, lx, from surfaces that shine by themselves
-  BakedArray<float> hides;  ///< share of an even sphere's light, by cosine, that these surfaces hide
+  Coefficients coefficients;                     ///< luminance of it
+  image::KeptArray<std::array<float, 3>> tints;  ///< its colour, of luminance 1
+  image::KeptArray<std::array<float, 3>> glows;  ///< illuminance, lx, from surfaces that shine by themselves
+  image::KeptArray<float> hides;  ///< share of an even sphere's light, by cosine, that these surfaces hide
 
   void resize(std::size_t samples);
 };
@@ -96,9 +96,9 @@ struct BakedLamps {
   /// Illuminance, lx, r g b: from surfaces above the horizon, from those below it.
   using Light = std::array<float, 6>;
 
-  BakedArray<std::uint32_t> first;   ///< of each set, into `blocks`; and the end
-  BakedArray<std::uint32_t> blocks;  ///< their numbers
-  BakedArray<Light> light;           ///< kBlock of each block
+  image::KeptArray<std::uint32_t> first;   ///< of each set, into `blocks`; and the end
+  image::KeptArray<std::uint32_t> blocks;  ///< their numbers
+  image::KeptArray<Light> light;           ///< kBlock of each block
 
   std::size_t setCount() const { return first.empty() ? 0 : first.size() - 1; }
 };
@@ -115,11 +115,11 @@ struct BakedRooms {
     return root * root;
   }
 
-  BakedArray<std::uint32_t> samples;  ///< that look so, in rising order: below called rooms
-  BakedArray<std::uint32_t> first;    ///< of each room, into `links`; and the end
-  BakedArray<std::uint32_t> below;    ///< of each, into `links`: the first that is seen below the horizon
-  BakedArray<float> scales;           ///< of each room's weights
-  BakedArray<Link> links;
+  image::KeptArray<std::uint32_t> samples;  ///< that look so, in rising order: below called rooms
+  image::KeptArray<std::uint32_t> first;    ///< of each room, into `links`; and the end
+  image::KeptArray<std::uint32_t> below;  ///< of each, into `links`: the first that is seen below the horizon
+  image::KeptArray<float> scales;         ///< of each room's weights
+  image::KeptArray<Link> links;
 
   /// Of each room: sky by way of the ground as a mirror, without colour; of those in `glossy` but for floors
   /// that are polished.
@@ -143,9 +143,9 @@ struct BakedRooms {
     std::uint32_t source;  ///< the same sample, as it is seen
     float roughness;       ///< of the floor, in the mean
   };
-  BakedArray<Source> sources;  ///< in rising order of samples
-  BakedArray<Point> points;
-  BakedArray<Glossy> glossy;  ///< in rising order of rooms
+  image::KeptArray<Source> sources;  ///< in rising order of samples
+  image::KeptArray<Point> points;
+  image::KeptArray<Glossy> glossy;  ///< in rising order of rooms
 };
 
 struct TransportData {

@@ -59,7 +59,7 @@ struct BodyShade::RayList {
 BodyShade::BodyShade(const Bodies& bodies, const Geometry& placed, const Visibility& visibility)
     : bodies_(bodies), visibility_(visibility), first_triangle_(visibility.fixedTriangles()) {
   Eigen::AlignedBox3f box;
-  for (const Chunk& chunk : placed.chunks) box.extend(chunk.box);
+  for (const scene::Chunk& chunk : placed.chunks) box.extend(chunk.box);
   if (box.isEmpty()) return;
   centre_ = box.center();
   for (const Eigen::Vector3f& position : placed.positions)

@@ -1,25 +1,27 @@
-/// Numbers of a bake: in memory while they are made, or where their file is mapped.
+/// Many values of one kind: in memory while they are made, or where a file that holds them is mapped.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <initializer_list>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "sunlit/image/file_bytes.h"
 
-namespace sunlit::light {
+namespace sunlit::image {
 
-/// A std::vector to those who fill it. What lies in a file is only read; the first to write to it gets a
-/// copy.
+/// A std::vector to those who fill it. What lies in a file is only read, and several processes share it; the
+/// first to write to it gets a copy.
 template <typename T>
-class BakedArray {
+class KeptArray {
  public:
-  BakedArray() = default;
-  BakedArray(std::vector<T> values) : own_(std::move(values)) {}  // NOLINT: a vector is one
-  /// `count` of them from `first` on, within `holder`.
-  BakedArray(const T* first, std::size_t count, std::shared_ptr<const image::FileBytes> holder)
+  KeptArray() = default;
+  KeptArray(std::vector<T> values) : own_(std::move(values)) {}  // NOLINT: a vector is one
+  KeptArray(std::initializer_list<T> values) : own_(values) {}
+  /// `count` of them from `first` on, aligned as they need be, within `holder`, not null.
+  KeptArray(const T* first, std::size_t count, std::shared_ptr<const FileBytes> holder)
       : holder_(std::move(holder)), first_(first), count_(count) {}
 
   std::size_t size() const { return holder_ ? count_ : own_.size(); }
@@ -29,7 +31,7 @@ class BakedArray {
   const T* begin() const { return data(); }
   const T* end() const { return data() + size(); }
 
-  friend bool operator==(const BakedArray& a, const BakedArray& b) {
+  friend bool operator==(const KeptArray& a, const KeptArray& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end());
   }
 
@@ -37,6 +39,7 @@ class BakedArray {
   void letGo(std::size_t begin, std::size_t end) const {
     if (holder_) holder_->letGo(first_ + begin, (end - begin) * sizeof(T));
   }
+  void letGo() const { letGo(0, size()); }
 
   T* data() { return own().data(); }
   T& operator[](std::size_t i) { return own()[i]; }
@@ -57,9 +60,28 @@ class BakedArray {
 
  private:
   std::vector<T> own_;
-  std::shared_ptr<const image::FileBytes> holder_;  ///< null: they are in own_
+  std::shared_ptr<const FileBytes> holder_;  ///< null: they are in own_
   const T* first_ = nullptr;
   std::size_t count_ = 0;
 };
 
-}  // namespace sunlit::light
+/// Where values lie that somebody else keeps, and no longer changes.
+template <typename T>
+class ArrayView {
+ public:
+  ArrayView() = default;
+  ArrayView(const KeptArray<T>& values) : first_(values.data()), count_(values.size()) {}  // NOLINT
+
+  std::size_t size() const { return count_; }
+  bool empty() const { return count_ == 0; }
+  const T* data() const { return first_; }
+  const T& operator[](std::size_t i) const { return first_[i]; }
+  const T* begin() const { return first_; }
+  const T* end() const { return first_ + count_; }
+
+ private:
+  const T* first_ = nullptr;
+  std::size_t count_ = 0;
+};
+
+}  // namespace sunlit::image
