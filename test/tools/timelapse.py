@@ -3,6 +3,7 @@
 import csv
 import os
 import pathlib
+import re
 import resource
 import shutil
 import subprocess
@@ -78,6 +79,14 @@ class Timelapse(unittest.TestCase):
 
     def test_does_not_mix_frames_of_other_options(self):
         self.assertIn("--ev 9", self.refused("--out", self.path("a"), *VIEW, *DAY, "--ev", "9"))
+
+    def test_takes_no_frames_of_another_sunlit(self):
+        recipe = pathlib.Path(self.path("a"), "timelapse.txt")
+        text = recipe.read_text(encoding="utf-8")
+        ours = re.search("^sunlit [0-9.]+, pictures [0-9]+$", text, re.MULTILINE).group()
+        for other, told in ((ours + "0", ours + "0"), ("#", "an older sunlit")):
+            recipe.write_text(text.replace(ours, other), encoding="utf-8")
+            self.assertIn("were made by %s, and %s may make others" % (told, ours), self.refused("--out", self.path("a"), *VIEW, *DAY))
 
     def refused(self, *arguments):
         """The one line that timelapse gives up with."""
