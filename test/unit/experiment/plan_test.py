@@ -85,6 +85,11 @@ class Arguments(unittest.TestCase):
                            ("{a: {hour: 12, rain: 5, rain: 10}}", "without rain twice"),
                            ("{a: {hour: 010}}", "without a zero before 10"),
                            ("{a: {hour: 12, ? [1] : 2}}", "a map from names"),
+                           ("{a: {hour: 12, minute: half}}", "with minute as a whole number from 0 to 59 in a, not 'half'"),
+                           ("{a: {hour: 12, minute: 60}}", "with minute as a whole number from 0 to 59 in a, not 60"),
+                           ("{a: {hour: 12, minute: 0.5}}", "with minute as a whole number from 0 to 59 in a, not 0.5"),
+                           ("{a: {hour: 12, second: 30s}}", "with second as a number, at least 0 and below 60 in a, not '30s'"),
+                           ("{a: {hour: 12, second: [1]}}", "with second as a number, at least 0 and below 60 in a, not [1]"),
                            ("{a: {hour: 12.5, minute: 10}}", "without minute in a, whose hour 12.5 has a fraction")):
             self.assert_refused("argument conditions is", arguments.conditions, text, "[4]")
             self.assert_refused(part, arguments.conditions, text, "[4]")
