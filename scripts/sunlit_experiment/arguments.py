@@ -462,12 +462,11 @@ def output_folder(text):
 
 
 def handed_on(words):
-    """NAME:=VALUE ... as a launch file hands them on, whose $(eval) makes True and False of true and false."""
+    """NAME:=VALUE ... as a launch file hands them on."""
     lost = [word for word in words if ":=" not in word]
     if lost:
         raise BadArgument("planned", " ".join(words), f"words NAME:=VALUE, not {lost[0]!r}")
-    values = dict(word.split(":=", 1) for word in words)
-    return {name: {"True": "true", "False": "false"}.get(value, value) for name, value in values.items()}
+    return dict(word.split(":=", 1) for word in words)
 
 
 def roslaunch_words():
