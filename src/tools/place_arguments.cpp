@@ -65,14 +65,22 @@ void addWeather(studio::CommandLine* line, sky::Weather* weather, scene::Surface
 }
 
 void requireWeather(const studio::CommandLine& line, const sky::Weather& weather,
-                    const sky::AtmosphereOptions& air) {
-  for (const char* of_cloud : {"--optical-depth", "--overcast"}) line.requireWith(of_cloud, {"--cover"});
-  line.requireWith("--fog-top", {"--visibility"});
+                    const scene::SurfaceState& surfaces, const sky::AtmosphereOptions& air) {
+  const auto requireUse = [&line](const std::string& option, bool is_of_use, const std::string& needs) {
+    if (line.has(option) && !is_of_use) throw std::invalid_argument(option + " needs " + needs + " too");
+  };
+  const bool has_cloud = weather.cover_oktas > 0.0;
+  requireUse("--optical-depth", has_cloud, "--cover above 0");
+  // Of the standard overcast sky validate() says more, where there is any cloud.
+  requireUse("--overcast", has_cloud && (!isBroken(weather) || weather.overcast == sky::Overcast::kCie),
+             "--cover 8");
+  requireUse("--fog-top", weather.visibility_m.has_value(), "--visibility in m");
   // Rain falls from the cloud base, is slanted by the wind, and has drops by the seed.
   for (const char* of_both : {"--cloud-base", "--wind", "--cloud-seed"})
-    line.requireWith(of_both, {"--cover", "--rain"});
-  line.requireWith("--wind-from", {"--wind"});
-  line.requireWith("--ground-seed", {"--puddles", "--snow"});
+    requireUse(of_both, isBroken(weather) || weather.rain_mm_per_h > 0.0,
+               "--cover above 0 and below 8, or --rain above 0,");
+  requireUse("--wind-from", weather.wind_m_per_s > 0.0, "--wind above 0");
+  requireUse("--ground-seed", surfaces.puddles > 0.0 || surfaces.snow_m > 0.0, "--puddles or --snow above 0");
   validate(weather, air);
 }
 

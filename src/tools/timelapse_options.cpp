@@ -95,7 +95,7 @@ std::optional<TimelapseOptions> parseTimelapseOptions(const std::vector<std::str
   addPlace(&line, &options.place);
   const ViewArguments view(&line);
   if (!line.read(arguments)) return std::nullopt;
-  requireWeather(line, options.place.weather, airOf(options.place));
+  requireWeather(line, options.place.weather, options.place.surfaces, airOf(options.place));
   if (!line.has("--out")) throw std::invalid_argument("--out FOLDER is missing; --help lists all options");
   line.requireWith("--fps", {"--video"});
   line.requireWith("--columns", {"--contact-sheet"});
@@ -103,7 +103,7 @@ std::optional<TimelapseOptions> parseTimelapseOptions(const std::vector<std::str
   if (line.has("--frames") && line.has("--step"))
     throw std::invalid_argument("--frames and --step are both given; one of them");
   divide(span, &options);
-  options.view = view.options();
+  options.view = view.options(options.place.weather);
   options.view.studio.surfaces = {options.place.surfaces};
   requireSensibleSheet(options);
   options.recipe = recipeOf(line, {kOfNoFrame, {"--path", "--calibration"}}, options.view.studio.world);

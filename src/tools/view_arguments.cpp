@@ -89,7 +89,22 @@ void ViewArguments::placeFree(ViewOptions* options) const {
   options->map_from_camera = map_from_camera;
 }
 
-void ViewArguments::requireThatAllCount() const {
+void ViewArguments::requireThatMotionShows(bool rains) const {
+  const image::ShutterOptions& shutter = sensor_.chain.shutter;
+  const bool moves = drive_.speed_m_s != 0.0 || drive_.turning_deg_s != 0.0;
+  // To a camera that stands, only drops move.
+  const bool streaks = rains && shutter.line_delay_us == 0.0;
+  if (!shutter.none() && !moves && !streaks)
+    throw std::invalid_argument(
+        "--line-delay and --exposure-time are of a camera that moves; give --speed or --turning (or "
+        "--exposure-time with --rain, for its streaks)");
+  if (moves && shutter.none() && !rains)
+    throw std::invalid_argument(
+        "--speed and --turning show in a picture that takes time, and in streaks of rain; give --line-delay "
+        "or --exposure-time, or --rain");
+}
+
+void ViewArguments::requireThatAllCount(bool rains) const {
   const bool has_pose = line_->has("--pose");
   const bool has_look_at = line_->has("--look-at");
   const bool has_top_down = line_->has("--top-down");
@@ -107,23 +122,13 @@ void ViewArguments::requireThatAllCount() const {
   }
   if (what != nullptr) throw std::invalid_argument(what);
   line_->requireWith("--path", {"--path-pose"});
-  const bool has_shutter = line_->has("--line-delay") || line_->has("--exposure-time");
-  const bool moves = line_->has("--speed") || line_->has("--turning");
-  // To a camera that stands, only drops move.
-  const bool streaks = line_->has("--exposure-time") && line_->has("--rain") && !line_->has("--line-delay");
-  if (has_shutter && !moves && !streaks)
-    throw std::invalid_argument(
-        "--line-delay and --exposure-time are of a camera that moves; give --speed or --turning (or "
-        "--exposure-time with --rain, for its streaks)");
-  if (moves && !has_shutter)
-    throw std::invalid_argument(
-        "--speed and --turning show in a picture that takes time; give --line-delay or --exposure-time");
+  requireThatMotionShows(rains);
   sensor_.requireSense(*line_);
   camera_.requireSense(options_.studio.bake);
 }
 
-ViewOptions ViewArguments::options() const {
-  requireThatAllCount();
+ViewOptions ViewArguments::options(const sky::Weather& weather) const {
+  requireThatAllCount(weather.rain_mm_per_h > 0.0);
   ViewOptions options = options_;
   options.studio.render = camera_.options();
   sensor_.putInto(&options.studio);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sunlit/sky/weather.h"
 #include "sunlit/studio/command_line.h"
 #include "sunlit/studio/studio.h"
 #include "tools/camera_arguments.h"
@@ -54,15 +55,16 @@ class ViewArguments {
   ViewArguments(const ViewArguments&) = delete;
   ViewArguments& operator=(const ViewArguments&) = delete;
 
-  /// What the line has read. Throws std::invalid_argument for words that do not go together; what
-  /// path::readWaypoints() throws.
-  ViewOptions options() const;
+  /// What the line has read, to be looked at in this weather. Throws std::invalid_argument for words that do
+  /// not go together; what path::readWaypoints() throws.
+  ViewOptions options(const sky::Weather& weather) const;
 
  private:
   void addPlaces();
   void addDrive();
   /// Throws for an option that another one makes meaningless.
-  void requireThatAllCount() const;
+  void requireThatAllCount(bool rains) const;
+  void requireThatMotionShows(bool rains) const;
   void placeTopDown(ViewOptions* options) const;
   void placeOnPath(ViewOptions* options) const;
   void placeFree(ViewOptions* options) const;
