@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "sunlit/image/files.h"
 #include "sunlit/image/picture_series.h"
 #include "sunlit/quantity/duration.h"
 #include "sunlit/studio/command_line.h"
@@ -104,6 +105,10 @@ void makeFrames(const TimelapseOptions& options, FrameFolder* folder) {
 
 void makeTimelapse(const TimelapseOptions& options) {
   FrameFolder folder(options.output, options.recipe);
+  image::removeUnfinished(options.output);
+  for (const std::string& beside : {options.video, options.contact_sheet}) {
+    if (!beside.empty()) image::removeUnfinishedOf(beside);
+  }
   makeFrames(options, &folder);
   const image::PictureSeries frames{options.frames, [&](int frame) { return folder.read(frame); }};
   if (!options.video.empty()) image::writeFilm(options.video, options.frame_rate, frames);

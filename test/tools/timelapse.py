@@ -72,7 +72,13 @@ class Timelapse(unittest.TestCase):
             broken.write(whole[1][:100])
         kept = os.path.join(self.path("a"), "frame_00002.png")
         os.utime(kept, (1, 1))
-        self.assertIn("2 frames are there already", self.make(self.path("a")))
+        film = self.path("film.avi")
+        # What a kill left; no process has so high a number.
+        killed = [os.path.join(self.path("a"), "frame_00003.png.99999999.0.part"), film + ".99999999.1.part.avi"]
+        for file in killed:
+            pathlib.Path(file).write_bytes(b"half")
+        self.assertIn("2 frames are there already", self.make(self.path("a"), "--video", film))
+        self.assertEqual([os.path.exists(file) for file in [*killed, film]], [False, False, True])
         self.assertEqual(self.frames("a"), whole)
         self.assertEqual(os.stat(kept).st_mtime, 1)
         self.assertNotIn("frame 1 of", self.make(self.path("a")))  # nothing is left to do
