@@ -163,6 +163,14 @@ class Timelapse(unittest.TestCase):
         self.make(self.path("a"), "--contact-sheet", sheet, "--columns", "3", "--thumbnail", "48")
         self.assertEqual(cv2.imread(sheet).shape, (2 * 32 + 2, 3 * 48 + 4, 3))  # gaps of 2 px
 
+    def test_films_and_sheets_may_lie_in_the_folder_that_is_yet_to_be_made(self):
+        out = self.path("new")
+        done = run("timelapse", "--video", out + "/film.avi", "--contact-sheet", self.path("a/../new/sheet.png"), "--out", out + "/",
+                   *VIEW, *DAY, "--frames", "1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(sorted(os.listdir(out)), ["film.avi", "frame_00000.png", "sheet.png", "timelapse.txt"])
+        self.assertIn("in a folder that exists", self.refused("--out", self.path("x"), "--video", self.path("x/y/film.avi")))
+
     def test_bad_arguments_are_one_line(self):
         out = ["--out", self.path("x")]
         for arguments, parts in (([], ["--out FOLDER is missing"]),
