@@ -1,6 +1,7 @@
 #include "tools/place_arguments.h"
 
 #include <cstdio>
+#include <regex>
 #include <stdexcept>
 #include <string>
 
@@ -9,15 +10,12 @@
 namespace sunlit::tools {
 
 astronomy::CivilDate dateOf(const std::string& option, const std::string& text, double timezone) {
-  astronomy::CivilDate date;
-  int used = 0;
-  const int fields = std::sscanf(text.c_str(), "%d-%d-%d%n", &date.year, &date.month, &date.day, &used);
-  constexpr std::size_t kDigits = 4;  // 24 may be meant as 2024
-  const bool is_negative = text[0] == '-';
-  if (fields != 3 || static_cast<std::size_t>(used) != text.size() ||
-      text.find('-', 1) < kDigits + (is_negative ? 1 : 0))
+  // 24 may be meant as 2024; of more than nine digits no int is made.
+  static const std::regex form("(-?[0-9]{4,9})-([0-9]{1,2})-([0-9]{1,2})");
+  std::smatch found;
+  if (!std::regex_match(text, found, form))
     refuse(option, '"' + text + '"', "year-month-day with a year of four digits, such as 2024-07-01");
-  date.timezone = timezone;
+  const astronomy::CivilDate date{std::stoi(found[1]), std::stoi(found[2]), std::stoi(found[3]), timezone};
   try {
     astronomy::midnightOf(date);
   } catch (const std::invalid_argument& error) {
