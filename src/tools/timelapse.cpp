@@ -51,7 +51,7 @@ class Camera {
       : options_(options),
         studio_(options.view.studio, std::nullopt, onTerminal()),
         sky_(skyOver(studio_, options.place)) {
-    studio_.look(options.view.map_from_camera, {}, options.view.motion);
+    studio_.look(options.view.placeIn(studio_), {}, options.view.motion);
   }
 
   image::Rgb8Image take(int frame) {

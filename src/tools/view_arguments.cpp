@@ -40,7 +40,8 @@ void ViewArguments::addPlaces() {
              {"path", &path_file_, "", {}, "that path: CSV or TUM; without it the path of race_track"});
   line_
       ->add("--top-down X,Y,EXTENT",
-            "from straight above, north up, with a field of view of its own instead of --fov",
+            "from straight above, north up, by a field of view of its own instead of --fov, without the air "
+            "before it",
             fieldsOf(top_down_))
       .withoutDefault();
 }
@@ -49,17 +50,6 @@ void ViewArguments::addDrive() {
   line_->add("--speed M/S", {"speed", &drive_.speed_m_s, "m/s", {-1000, 1000}, "of the camera, forward"});
   line_->add("--turning DEG/S",
              {"turning", &drive_.turning_deg_s, "deg/s", {-3600, 3600}, "of the camera, to the left"});
-}
-
-void ViewArguments::placeTopDown(ViewOptions* options) const {
-  // From so far up that the picture is close to a map: parallel rays within 3 degrees.
-  const double height = 10.0 * top_down_.extent_m;
-  options->studio.render.camera = image::PinholeCamera::fromFieldOfView(
-      camera_.render.camera.width, camera_.render.camera.height, Angle::radians(2.0 * std::atan(0.05)));
-  options->studio.render.near_m = 0.5 * height;
-  options->studio.render.far_m = 2.0 * height;
-  options->map_from_camera.linear() << 0, -1, 0, 0, 0, 1, -1, 0, 0;  // forward down, left west, up north
-  options->map_from_camera.translation() = Eigen::Vector3d(top_down_.x, top_down_.y, height);
 }
 
 void ViewArguments::placeOnPath(ViewOptions* options) const {
@@ -133,7 +123,8 @@ ViewOptions ViewArguments::options(const sky::Weather& weather) const {
   options.studio.render = camera_.options();
   sensor_.putInto(&options.studio);
   if (line_->has("--top-down")) {
-    placeTopDown(&options);
+    options.studio.top_down = top_down_;
+    options.map_from_camera.linear() = studio::topDownAxes();
   } else if (line_->has("--path-pose")) {
     placeOnPath(&options);
   } else {

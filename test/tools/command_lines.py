@@ -38,7 +38,7 @@ SENSOR = {"--ev": "-16 … 24 EV, default auto", "--compensation": "-8 … 8 EV,
           "--mosaic": "none|rggb|bggr|grbg|gbrg", "--demosaic": "bilinear|vng|edge_aware"}
 SHUTTER = {"--line-delay": "0 … 1000 us, default 0", "--exposure-time": "0 … 1000 ms, default 0", "--exposures": "2 … 64, default 16"}
 VIEW = {**SENSOR, **SHUTTER, "--speed": "-1000 … 1000 m/s, default 0", "--turning": "-3600 … 3600 deg/s, default 0", "--pose": "(default 0,0,1,0,0)", "--look-at": "towards a point", "--path-pose": "≥ 0",
-        "--path": "CSV or TUM", "--top-down": "> 0 m"}
+        "--path": "CSV or TUM", "--top-down": "> 0 … 200000 m"}
 # By detector, behind its name.
 SIFT = {"n-features": "0 … 1000000, default 0", "n-octave-layers": "1 … 10, default 3",
         "contrast-threshold": "0 … 1, default 0.04", "edge-threshold": "0.001 … 1000000, default 10",
@@ -144,7 +144,7 @@ REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be fr
            ("--pose", "1,2", "must be 3 to 5 numbers separated by ',': X,Y,Z[,YAW[,PITCH]]"),
            ("--pose", "1,,3", 'y is "", but must be a number in m'),
            ("--view", "1,2,3,4,5,6", "must be 3 to 5 numbers"),
-           ("--top-down", "0,0,0", "extent is 0, but must be above 0 m"),
+           ("--top-down", "0,0,0", "extent is 0, but must be above 0 and up to 200000 m"),
            ("--sun", "285,-91", '--sun is "285,-91": elevation is -91, but must be from -90 to 90 deg'),
            ("--moon", "0,0,181", "phase is 181, but must be from 0 to 180 deg"),
            ("--time", "24:00", "hour is 24, but must be from 0 to 23 h"),
