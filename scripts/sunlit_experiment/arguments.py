@@ -177,6 +177,14 @@ def _check_name(name, text):
         raise BadArgument("conditions", text, f"with names of letters, digits and _, a letter first, not {name!r}")
 
 
+def _check_clock(name, differs, text):
+    """Refuses minutes and seconds that are none: the sun's node would as well, but by them hours are compared here."""
+    for key, allowed in (("minute", "a whole number from 0 to 59"), ("second", "a number, at least 0 and below 60")):
+        value = differs.get(key, 0)
+        if not is_number(value) or not 0 <= value < 60 or (key == "minute" and value != int(value)):
+            raise BadArgument("conditions", text, f"with {key} as {allowed} in {name}, not {value!r}")
+
+
 def _check_choices(name, differs, text):
     """Refuses other words than those of a choice."""
     for key, words in CHOICES.items():
@@ -210,7 +218,7 @@ USUAL_HOURS = "[4, 12, 20]"  # of experiment.launch: roslaunch does not tell wha
 
 def conditions(text, hours):
     """'{grey: {hour: 12.5, cover: 8}}' -> {'grey': {hour: 12, minute: 30, second: 0.0, cover: 8}}, in the order given; those
-    of `hours` where there are none, and not both. The range of all but the hour is the business of the node that gets it."""
+    of `hours` where there are none, and not both. The range of all but the clock is the business of the node that gets it."""
     allowed = "a map from names to what differs, such as {noon: {hour: 12}, grey: {hour: 12, cover: 8, overcast: cie}}"
     asked = parse("conditions", text, allowed) if text.strip() else {}
     if not isinstance(asked, dict):
@@ -228,6 +236,7 @@ def conditions(text, hours):
                 raise _unknown(text, key, name, known)
             if differs[key] is None:
                 raise BadArgument("conditions", text, f"with a value for {key} in {name}")
+        _check_clock(name, differs, text)
         _check_choices(name, differs, text)
         found[name] = {**_clock_time(differs["hour"]), **_at_clock_time(name, differs, text)}
     instead = "left out beside conditions, which have hours of their own: " + ", ".join(found)
@@ -453,12 +462,11 @@ def output_folder(text):
 
 
 def handed_on(words):
-    """NAME:=VALUE ... as a launch file hands them on, whose $(eval) makes True and False of true and false."""
+    """NAME:=VALUE ... as a launch file hands them on."""
     lost = [word for word in words if ":=" not in word]
     if lost:
         raise BadArgument("planned", " ".join(words), f"words NAME:=VALUE, not {lost[0]!r}")
-    values = dict(word.split(":=", 1) for word in words)
-    return {name: {"True": "true", "False": "false"}.get(value, value) for name, value in values.items()}
+    return dict(word.split(":=", 1) for word in words)
 
 
 def roslaunch_words():

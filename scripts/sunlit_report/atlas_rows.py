@@ -1,6 +1,7 @@
 """atlas.csv and conditions.csv: what a map of each light is worth under each other."""
 
 import dataclasses
+import functools
 import os
 
 import numpy as np
@@ -35,12 +36,12 @@ class Conditions:
     def __len__(self):
         return len(self.name)
 
-    @property
+    @functools.cached_property
     def hours(self):
         """Of the day, as numbers."""
         return [sum(float(part) / 60**place for place, part in enumerate(text.split(":"))) for text in self.time]
 
-    @property
+    @functools.cached_property
     def dates(self):
         return list(dict.fromkeys(self.date))
 
@@ -86,7 +87,9 @@ def read(folder):
     kinds.update(n=whole, failures=whole)
     matrices = {}
     for line, row in enumerate(rows(path, HEADER, kinds), start=2):
-        of_method = matrices.setdefault(row["method"], {name: np.full((len(place),) * 2, np.nan) for name in SHOWN})
+        of_method = matrices.get(row["method"])
+        if of_method is None:
+            of_method = matrices[row["method"]] = {name: np.full((len(place),) * 2, np.nan) for name in SHOWN}
         if row["map"] not in place or row["query"] not in place:
             raise ReportError(f"{path}:{line}: {row['map']} or {row['query']} is not in conditions.csv")
         at = place[row["map"]], place[row["query"]]

@@ -10,7 +10,7 @@ import numpy as np
 import yaml
 
 from . import choice, comparison_rows, lost, queries, verified_rows
-from .csv_rows import ReportError, number, optional_whole, rows, whole
+from .csv_rows import ReportError, by_pose, number, optional_whole, rows, whole
 
 DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "brisk", "orb"]
 
@@ -170,20 +170,12 @@ def read_output(folder):
 
 def read_frames(path):
     counts = ("features_a", "features_b", "matches", "zero_second")
-    collected = {}
-    seen = {}
     forms = ("symmetric", "one_to_one")
     kinds = {"pose": whole, "value": number, **{name: whole for name in counts}, **{name: number for name in forms}}
-    for line, row in enumerate(rows(path, FRAMES, kinds, older=OLD_FRAMES), start=2):
-        key = (row["a"], row["b"], row["difference"])
-        if (first := seen.setdefault((key, row["pose"]), line)) != line:
-            raise ReportError(
-                f"{path}:{line}: pose {row['pose']} of {', '.join(key)} was given on line {first} already")
-        collected.setdefault(key, []).append(
-            (row["pose"], row["value"], *(row[name] for name in counts), *(row.get(name, math.nan) for name in forms)))
-    if not collected:
+    found = by_pose(path, FRAMES, ("a", "b", "difference"), kinds, older=OLD_FRAMES)
+    if not found:
         raise ReportError(f"{path}: holds no results")
-    return {key: Series(*(np.array(column) for column in zip(*sorted(values)))) for key, values in collected.items()}
+    return {key: Series(**columns) for key, columns in found.items()}
 
 
 def summarise(series):

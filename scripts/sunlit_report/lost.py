@@ -46,8 +46,10 @@ def read(path):
     for line, row in enumerate(rows(path, HEADER, kinds), start=2):
         if not (0 <= row["column"] < COLUMNS and 0 <= row["row"] < ROWS and 0 <= row["lost"] <= row["features"]):
             raise ReportError(f"{path}:{line}: column, row and lost must be below {COLUMNS}, {ROWS} and features")
-        one = found.setdefault((row["a"], row["b"], row["detector"]),
-                               Lost(row["poses"], np.zeros((ROWS, COLUMNS)), np.zeros((ROWS, COLUMNS))))
+        key = (row["a"], row["b"], row["detector"])
+        one = found.get(key)
+        if one is None:
+            one = found[key] = Lost(row["poses"], np.zeros((ROWS, COLUMNS)), np.zeros((ROWS, COLUMNS)))
         one.features[row["row"], row["column"]] = row["features"]
         one.lost[row["row"], row["column"]] = row["lost"]
     return found
@@ -63,9 +65,10 @@ def shown_pairs(lost):
 
 
 def table_rows(output):
+    shown = set(shown_pairs(output.lost))
     return [[names.pair(a, b), names.difference(detector), str(one.poses), f"{one.features.sum():.0f}", f"{one.lost.sum():.0f}",
              MISSING if np.isnan(one.share_of_all) else f"{100 * one.share_of_all:.1f}"]
-            for (a, b, detector), one in output.lost.items() if (a, b) in shown_pairs(output.lost)]
+            for (a, b, detector), one in output.lost.items() if (a, b) in shown]
 
 
 def _background(output, stream):

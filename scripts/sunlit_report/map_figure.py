@@ -5,6 +5,7 @@ import math
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib import patheffects
+from matplotlib.collections import LineCollection
 from PIL import Image
 
 from . import names
@@ -84,9 +85,9 @@ def _draw_found(axis, positions):
     near = error <= NEAR_M
     axis.plot(*truth.T, color="#777777", linewidth=0.7, label="true path", zorder=1)
     far = ~lost & ~near
-    for index, (true, estimate) in enumerate(zip(truth[far], found[far])):
-        axis.plot(*np.array([true, estimate]).T, color=PARTLY_DARK, linewidth=0.6, zorder=2,
-                  label="from the truth to an estimate further off" if index == 0 else None)
+    if far.any():
+        axis.add_collection(LineCollection(np.stack((truth[far], found[far]), axis=1), colors=PARTLY_DARK, linewidths=0.6, zorder=2,
+                                           label="from the truth to an estimate further off"))
     axis.plot(*found[far].T, ".", color=PARTLY_DARK, markersize=3, zorder=3)
     axis.plot(*found[near].T, ".", color=USABLE, markersize=3, label=f"found within {NEAR_M:g} m", zorder=4)
     axis.plot(*truth[lost].T, "x", color=LOST, markersize=4, markeredgewidth=0.9, label="no pose found, at the true place", zorder=5)

@@ -4,12 +4,13 @@ import dataclasses
 
 import numpy as np
 
-from .csv_rows import ReportError, number, rows, whole
+from .csv_rows import by_pose, number, rows, whole
 
 WITHIN = [(0.25, 2.0), (0.5, 5.0), (5.0, 10.0)]  # m and deg: those of visuallocalization.net and hloc
 BOUNDS = [f"within_{metres:g}m_{degrees:g}deg" for metres, degrees in WITHIN]
 SUMMARY = ("map,query,detector,n,failures," + ",".join(f"{name},{name}_low,{name}_high" for name in BOUNDS)
            + ",median_error_m,median_error_deg,n_relative,auc_5deg,auc_10deg,auc_20deg")
+KEYS = ("map", "query", "detector")
 HEADER = "pose,stamp,map,query,detector,error_m,error_deg,inliers,retrieved,status"
 
 POSITIONS = "pose,stamp,map,query,detector,x,y,z,qx,qy,qz,qw,true_x,true_y,true_z"
@@ -37,14 +38,7 @@ class Queries:
 def read(path):
     """{(map, query, detector): Queries}; empty where there is no file. Raises ReportError naming file and line."""
     kinds = {"pose": whole, "error_m": number, "error_deg": number, "inliers": whole}
-    collected, seen = {}, {}
-    for line, row in enumerate(rows(path, HEADER, kinds), start=2):
-        key = (row["map"], row["query"], row["detector"])
-        if (first := seen.setdefault((key, row["pose"]), line)) != line:
-            raise ReportError(
-                f"{path}:{line}: pose {row['pose']} of {', '.join(key)} was given on line {first} already")
-        collected.setdefault(key, []).append((row["pose"], row["error_m"], row["error_deg"], row["inliers"]))
-    return {key: Queries(*(np.array(column) for column in zip(*sorted(values)))) for key, values in collected.items()}
+    return {key: Queries(**columns) for key, columns in by_pose(path, HEADER, KEYS, kinds).items()}
 
 
 @dataclasses.dataclass
@@ -57,12 +51,9 @@ class Positions:
 
 def read_positions(path):
     """{(map, query, detector): Positions}, by rising pose; empty where there is no file."""
-    collected = {}
-    for row in rows(path, POSITIONS, {"pose": whole, **{name: number for name in POSITIONS.split(",")[5:]}}):
-        collected.setdefault((row["map"], row["query"], row["detector"]), []).append(
-            (row["pose"], row["x"], row["y"], row["true_x"], row["true_y"]))
-    found = {key: np.array(sorted(values)) for key, values in collected.items()}
-    return {key: Positions(values[:, 1:3], values[:, 3:5]) for key, values in found.items()}
+    kinds = {"pose": whole, **{name: number for name in POSITIONS.split(",")[5:]}}
+    return {key: Positions(np.column_stack((one["x"], one["y"])), np.column_stack((one["true_x"], one["true_y"])))
+            for key, one in by_pose(path, POSITIONS, KEYS, kinds).items()}
 
 
 def read_intervals(path):

@@ -6,7 +6,7 @@ import os
 
 import numpy as np
 
-from .csv_rows import ReportError, number, rows, whole
+from .csv_rows import by_pose, number, rows, whole
 
 ACCURACY_PX = list(range(1, 11))
 MEASURES = (["repeatability", "matching_score_3px"] + [f"mma_{t}px" for t in ACCURACY_PX]
@@ -48,18 +48,14 @@ def read(folder):
     """Empty where there is no verified.csv. Raises ReportError naming file and line."""
     path = os.path.join(folder, "verified.csv")
     kinds = {"pose": whole, **{name: whole if name in COUNTS else number for name in HEADER.split(",")[5:]}}
-    poses, series, seen = {}, {}, {}
-    for line, row in enumerate(rows(path, HEADER, kinds), start=2):
-        key = (row["a"], row["b"], row["detector"])
-        if (first := seen.setdefault((key, row["pose"]), line)) != line:
-            raise ReportError(
-                f"{path}:{line}: pose {row['pose']} of {', '.join(key)} was given on line {first} already")
-        right = 0 if math.isnan(row["precision_3px"]) else round(row["precision_3px"] * row["ratio_matches"])
-        poses.setdefault(key, {})[row["pose"]] = right
-        series.setdefault(key, []).append([row[measure] for measure in MEASURES])
+    series = by_pose(path, HEADER, ("a", "b", "detector"), kinds)
+    poses = {}
+    for key, one in series.items():
+        right = np.rint(np.nan_to_num(one["precision_3px"] * one["ratio_matches"])).astype(int)  # none of no matches
+        poses[key] = dict(zip(one["pose"].tolist(), right.tolist()))
     told = _read_summary(os.path.join(folder, "verified_summary.csv"))
     # Without that file, as while a run goes on, means have no intervals.
-    return Verified(poses, {key: told.get(key) or _means(values) for key, values in series.items()})
+    return Verified(poses, {key: told.get(key) or _means(one) for key, one in series.items()})
 
 
 def _read_summary(path):
@@ -71,9 +67,10 @@ def _read_summary(path):
     return means
 
 
-def _means(values):
+def _means(columns):
     means = {}
-    for measure, column in zip(MEASURES, np.array(values, dtype=float).T):
+    for measure in MEASURES:
+        column = columns[measure]
         defined = column[~np.isnan(column)]
         means[measure] = Mean(len(defined), len(column) - len(defined), float(defined.mean()) if len(defined) else math.nan)
     return means

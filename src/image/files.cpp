@@ -27,10 +27,22 @@ namespace {
 /// Whether a file of this name is an UnfinishedFile of a process that does not run here. It may run in
 /// another container, or on another computer.
 bool hasNoProcess(const std::string& name) {
-  static const std::regex form(std::string(R"(.+\.([0-9]{1,9})\.[0-9]+\)") + UnfinishedFile::kEnding);
+  static const std::regex form(std::string(R"(.+\.([0-9]{1,9})\.[0-9]+\)") + UnfinishedFile::kEnding +
+                               R"((\.[a-z0-9]+)?)");
   std::smatch match;
   if (!std::regex_match(name, match, form)) return false;
   return ::kill(static_cast<pid_t>(std::stol(match[1])), 0) != 0 && errno == ESRCH;
+}
+
+/// But those that somebody writes to.
+void removeUnlocked(const std::vector<std::filesystem::path>& paths) {
+  std::error_code ignored;
+  for (const std::filesystem::path& path : paths) {
+    const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+    if (file < 0) continue;
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) std::filesystem::remove(path, ignored);
+    ::close(file);
+  }
 }
 
 template <int kChannels>
@@ -138,12 +150,20 @@ void removeUnfinished(const std::string& folder) {
   for (; !ignored && entry != end; entry.increment(ignored)) {
     if (hasNoProcess(entry->path().filename().string())) abandoned.push_back(entry->path());
   }
-  for (const fs::path& path : abandoned) {
-    const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
-    if (file < 0) continue;
-    if (::flock(file, LOCK_EX | LOCK_NB) == 0) fs::remove(path, ignored);
-    ::close(file);
+  removeUnlocked(abandoned);
+}
+
+void removeUnfinishedOf(const std::string& path) {
+  namespace fs = std::filesystem;
+  const std::string name = fs::path(path).filename().string() + '.';
+  std::error_code ignored;  // as above
+  std::vector<fs::path> abandoned;
+  fs::directory_iterator entry(fs::absolute(path).parent_path(), ignored), end;
+  for (; !ignored && entry != end; entry.increment(ignored)) {
+    const std::string found = entry->path().filename().string();
+    if (found.compare(0, name.size(), name) == 0 && hasNoProcess(found)) abandoned.push_back(entry->path());
   }
+  removeUnlocked(abandoned);
 }
 
 void writePfm(const std::string& path, const LinearImage& image) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "sunlit/image/files.h"
+#include "sunlit/image/unfinished_file.h"
 #include "sunlit/quantity/range.h"
 
 namespace sunlit::image {
@@ -77,22 +78,6 @@ cv::Mat evenSided(const cv::Mat& picture) {
   return even;
 }
 
-/// A file that goes again unless it was moved away.
-class Unfinished {
- public:
-  explicit Unfinished(std::string path) : path_(std::move(path)) {}
-  ~Unfinished() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  Unfinished(const Unfinished&) = delete;
-  Unfinished& operator=(const Unfinished&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 /// How many frames of this size can be read from a film; 0 for what is no film.
 int framesIn(const std::string& path, const cv::Size& size) {
   cv::VideoCapture reader(path);
@@ -130,7 +115,7 @@ void requireFilmName(const std::string& key, const std::string& path) {
 void writeFilm(const std::string& path, double frame_rate_hz, const PictureSeries& series) {
   const Film& film = filmOf("film", path);
   const QuietOpenCv quiet;
-  const Unfinished unfinished(path + ".part" + film.ending);
+  UnfinishedFile unfinished(path, film.ending);
   cv::VideoWriter writer;
   cv::Size size;
   for (int i = 0; i < series.count; ++i) {
@@ -139,7 +124,7 @@ void writeFilm(const std::string& path, double frame_rate_hz, const PictureSerie
     cv::cvtColor(evenSided(matOf(&picture)), bgr, cv::COLOR_RGB2BGR);
     size = bgr.size();
     if (!writer.isOpened()) {
-      writer = opened(film, unfinished.path(), frame_rate_hz, size);
+      writer = opened(film, unfinished.path().string(), frame_rate_hz, size);
       if (!writer.isOpened())
         throw std::runtime_error(
             path + ": cannot be written: OpenCV has no codec for it here, or nothing can be written there");
@@ -148,13 +133,13 @@ void writeFilm(const std::string& path, double frame_rate_hz, const PictureSerie
   }
   writer.release();
   // Where a disk was full, say, no writer of films tells.
-  const int whole = framesIn(unfinished.path(), size);
+  const int whole = framesIn(unfinished.path().string(), size);
   if (whole != series.count) {
     throw std::runtime_error(path + ": cannot be written: of " + std::to_string(series.count) +
                              " frames only " + std::to_string(whole) +
                              " can be read back; is the disk full?");
   }
-  moveIntoPlace(unfinished.path(), path);
+  unfinished.keep();
 }
 
 PictureSize sheetSize(const SheetLayout& layout, int count, double height_over_width) {

@@ -30,11 +30,13 @@ bool isLocked(int descriptor) {
 
 }  // namespace
 
-UnfinishedFile::UnfinishedFile(std::filesystem::path place) : place_(std::move(place)) {
+UnfinishedFile::UnfinishedFile(std::filesystem::path place, const std::string& kind)
+    : place_(std::move(place)) {
   static std::atomic<unsigned> count{0};  // two threads may write the same file
   do {  // beside what one of the same number has left: in containers all begin with the same numbers
     if (descriptor_ >= 0) ::close(descriptor_);
-    path_ = place_.string() + "." + std::to_string(::getpid()) + "." + std::to_string(count++) + kEnding;
+    path_ =
+        place_.string() + "." + std::to_string(::getpid()) + "." + std::to_string(count++) + kEnding + kind;
     descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0 && errno != EEXIST) fail(place_, "create");
   } while (descriptor_ < 0 || !isLocked(descriptor_));

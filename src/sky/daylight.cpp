@@ -18,6 +18,12 @@ Daylight Daylight::seenFrom(const Eigen::Vector3f& place) const {
   return there;
 }
 
+Daylight Daylight::withoutAir() const {
+  Daylight there = *this;
+  there.has_air_ = false;
+  return there;
+}
+
 float Daylight::throughCloud(const DiscLight& disc, const Eigen::Vector3f& place) const {
   return throughCloud(disc.towards.vector().cast<float>(), place);
 }
@@ -31,7 +37,7 @@ Rain Daylight::rain() const {
 }
 
 Fog Daylight::fog() const {
-  return table_->weather ? table_->weather->fog() : Fog();
+  return table_->weather && has_air_ ? table_->weather->fog() : Fog();
 }
 
 bool Daylight::hasBrokenCloud() const {
@@ -55,6 +61,7 @@ const std::vector<PointLight>& Daylight::stars() const {
 }
 
 AirColumn Daylight::airOver(const Eigen::Vector3f& towards, float distance_m) const {
+  if (!has_air_) return {Eigen::Array3f::Ones(), Eigen::Array3f::Zero()};
   return table_->airOver(towards, distance_m);
 }
 

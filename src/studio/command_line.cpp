@@ -243,10 +243,14 @@ Field explainedAs(Field row, std::string doc) {
   return row;
 }
 
-void requireFile(const std::string& option, const std::string& file, const std::string& ending) {
+void requireEnding(const std::string& option, const std::string& file, const std::string& ending) {
   const bool ends = file.size() > ending.size() &&
                     file.compare(file.size() - ending.size(), std::string::npos, ending) == 0;
   if (!ends) refuse(option, '"' + file + '"', "a name that ends in " + ending);
+}
+
+void requireFile(const std::string& option, const std::string& file, const std::string& ending) {
+  requireEnding(option, file, ending);
   requireFolderOf(option, file);
 }
 

@@ -5,6 +5,7 @@
 
 #include "studio/camera.h"
 #include "studio/tell.h"
+#include "studio/top_down.h"
 #include "sunlit/quantity/frames.h"
 
 namespace sunlit::studio {
@@ -22,13 +23,6 @@ std::string textOf(scene::SurfaceState state) {
   return text;
 }
 
-/// The highest point of the world.
-double topOf(const light::Geometry& geometry) {
-  float top = -1e9f;
-  for (const Eigen::Vector3f& position : geometry.positions) top = std::max(top, position.z());
-  return static_cast<double>(top);
-}
-
 constexpr double kLeastMapSide = 0.01;  ///< of the longer one
 
 /// To both sides.
@@ -42,6 +36,7 @@ void widen(double least_m, double* low, double* high) {
 const StudioOptions& checked(const StudioOptions& options) {
   for (const ChainOptions& chain : options.chains) validate(chain);
   render::validate(options.render);
+  if (options.top_down) requireFields(*options.top_down);
   light::validate(options.bake.transport);
   light::validate(options.lamps);
   for (const scene::SurfaceState& state : options.surfaces) scene::validate(state);
@@ -74,6 +69,12 @@ Studio::Studio(const StudioOptions& options, const std::optional<scene::Robot>& 
   const light::World dry = stopwatch_.measure(
       "load", "world", [&] { return loadWorld(options.world, cacheFolder(), robot, reports); });
   requireGroups(dry, options.lamps, reports);
+  if (options.top_down) {
+    const Overlook overlook = overlooking(dry, *options.top_down, options.render);
+    options_.render = overlook.render;
+    map_from_top_down_ = overlook.map_from_camera;
+    camera_ = std::make_unique<Camera>(options_.render, options.chains);
+  }
   for (const scene::SurfaceState& state : options.surfaces) {
     light::World& world = worlds_.emplace_back(
         stopwatch_.measure("load", "surfaces", [&] { return light::weathered(dry, state); }));
@@ -123,8 +124,8 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylig
   Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
   map_from_optical.linear() =
       Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();  // right east, down south, forward down
-  const light::Illumination light = illumination(daylight);
-  const double top_m = topOf(*world().geometry);
+  const light::Illumination light = illumination(daylight.withoutAir());
+  const double top_m = heightsOf(world()).top;
   image::LinearImage whole(width, height);
   for (int row = 0; row < height; row += strip) {
     const double from_north_m = (row + 0.5 * strip) / px_per_m;
@@ -161,7 +162,8 @@ void Studio::lookAhead(const Eigen::Isometry3d& map_from_camera, const render::B
 }
 
 light::Illumination Studio::illumination(const sky::Daylight& daylight, std::size_t state) const {
-  return light::illumination(worlds_.at(state), daylight, options_.lamps);
+  return light::illumination(worlds_.at(state), options_.top_down ? daylight.withoutAir() : daylight,
+                             options_.lamps);
 }
 
 Developed Studio::photograph(const light::Illumination& light, const image::PictureName& name,

@@ -285,7 +285,7 @@ std::optional<AtlasRunOptions> parseAtlasOptions(const std::vector<std::string>&
   addWork(&line, &options, &words);
   addShared(&line, &options, &words);
   if (!line.read(arguments)) return std::nullopt;
-  requireWeather(line, options.place.weather, airOf(options.place));
+  requireWeather(line, options.place.weather, options.place.surfaces, airOf(options.place));
   if (!line.has("--out")) throw std::invalid_argument("--out FOLDER is missing; --help lists all options");
   requireSense(line, words, options);
   options.studio.render = words.camera.options();

@@ -99,7 +99,7 @@ std::optional<CompareLightOptions> parseCompareLightOptions(const std::vector<st
   addLamps(&line, &options.lamps);
   addWeather(&line, &options.weather, &options.surfaces);
   if (!line.read(arguments)) return std::nullopt;
-  requireWeather(line, options.weather, {});
+  requireWeather(line, options.weather, options.surfaces, {});
   requireThatAllCount(line, options);
   if (options.skies.empty()) {
     for (const TypedBody& sun : {TypedBody{170, 60}, {250, 20}, {285, 4}, {290, -4}, {295, -9}})

@@ -106,6 +106,12 @@ void requireSense(const studio::CommandLine& line, const Words& words, const Exp
                                      [](DataSetFormat format) { return format == DataSetFormat::kEuroc; });
   if (options.data_set.baseline_m > 0.0 && !has_right)
     throw std::invalid_argument("--baseline is of euroc; tum and colmap have one camera");
+  if (line.has("--speed") && words.sensor.chain.shutter.none() &&
+      !(options.place.weather.rain_mm_per_h > 0.0))
+    throw std::invalid_argument(
+        "--speed shows in pictures that take time, and in streaks of rain; give --line-delay, "
+        "--exposure-time "
+        "or --rain");
   words.sensor.requireSense(line);
   words.camera.requireSense(options.studio.bake);
 }
@@ -138,7 +144,7 @@ std::optional<ExportOptions> parseExportOptions(const std::vector<std::string>& 
   addBounced(&line, &options.studio.bake);
   addLamps(&line, &options.studio.lamps);
   if (!line.read(arguments)) return std::nullopt;
-  requireWeather(line, options.place.weather, airOf(options.place));
+  requireWeather(line, options.place.weather, options.place.surfaces, airOf(options.place));
   requireSense(line, words, options);
   options.output = outputOf(words.places);
   options.studio.render = words.camera.options();

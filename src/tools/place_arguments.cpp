@@ -1,6 +1,7 @@
 #include "tools/place_arguments.h"
 
 #include <cstdio>
+#include <regex>
 #include <stdexcept>
 #include <string>
 
@@ -9,15 +10,12 @@
 namespace sunlit::tools {
 
 astronomy::CivilDate dateOf(const std::string& option, const std::string& text, double timezone) {
-  astronomy::CivilDate date;
-  int used = 0;
-  const int fields = std::sscanf(text.c_str(), "%d-%d-%d%n", &date.year, &date.month, &date.day, &used);
-  constexpr std::size_t kDigits = 4;  // 24 may be meant as 2024
-  const bool is_negative = text[0] == '-';
-  if (fields != 3 || static_cast<std::size_t>(used) != text.size() ||
-      text.find('-', 1) < kDigits + (is_negative ? 1 : 0))
+  // 24 may be meant as 2024; of more than nine digits no int is made.
+  static const std::regex form("(-?[0-9]{4,9})-([0-9]{1,2})-([0-9]{1,2})");
+  std::smatch found;
+  if (!std::regex_match(text, found, form))
     refuse(option, '"' + text + '"', "year-month-day with a year of four digits, such as 2024-07-01");
-  date.timezone = timezone;
+  const astronomy::CivilDate date{std::stoi(found[1]), std::stoi(found[2]), std::stoi(found[3]), timezone};
   try {
     astronomy::midnightOf(date);
   } catch (const std::invalid_argument& error) {
@@ -65,14 +63,22 @@ void addWeather(studio::CommandLine* line, sky::Weather* weather, scene::Surface
 }
 
 void requireWeather(const studio::CommandLine& line, const sky::Weather& weather,
-                    const sky::AtmosphereOptions& air) {
-  for (const char* of_cloud : {"--optical-depth", "--overcast"}) line.requireWith(of_cloud, {"--cover"});
-  line.requireWith("--fog-top", {"--visibility"});
+                    const scene::SurfaceState& surfaces, const sky::AtmosphereOptions& air) {
+  const auto requireUse = [&line](const std::string& option, bool is_of_use, const std::string& needs) {
+    if (line.has(option) && !is_of_use) throw std::invalid_argument(option + " needs " + needs + " too");
+  };
+  const bool has_cloud = weather.cover_oktas > 0.0;
+  requireUse("--optical-depth", has_cloud, "--cover above 0");
+  // Of the standard overcast sky validate() says more, where there is any cloud.
+  requireUse("--overcast", has_cloud && (!isBroken(weather) || weather.overcast == sky::Overcast::kCie),
+             "--cover 8");
+  requireUse("--fog-top", weather.visibility_m.has_value(), "--visibility in m");
   // Rain falls from the cloud base, is slanted by the wind, and has drops by the seed.
   for (const char* of_both : {"--cloud-base", "--wind", "--cloud-seed"})
-    line.requireWith(of_both, {"--cover", "--rain"});
-  line.requireWith("--wind-from", {"--wind"});
-  line.requireWith("--ground-seed", {"--puddles", "--snow"});
+    requireUse(of_both, isBroken(weather) || weather.rain_mm_per_h > 0.0,
+               "--cover above 0 and below 8, or --rain above 0,");
+  requireUse("--wind-from", weather.wind_m_per_s > 0.0, "--wind above 0");
+  requireUse("--ground-seed", surfaces.puddles > 0.0 || surfaces.snow_m > 0.0, "--puddles or --snow above 0");
   validate(weather, air);
 }
 

@@ -31,10 +31,10 @@ std::string textOf(const astronomy::CivilDate& date);
 /// --cover, --visibility and the other rows of the weather, --wet, --snow and those of what it leaves.
 void addWeather(studio::CommandLine* line, sky::Weather* weather, scene::SurfaceState* surfaces);
 
-/// Throws std::invalid_argument where such a row is given that only tells more of weather that is not, and
-/// for weather that this `air` cannot have.
+/// Throws std::invalid_argument where such a row is given that only tells more of weather that is not, by the
+/// values of the others, and for weather that this `air` cannot have.
 void requireWeather(const studio::CommandLine& line, const sky::Weather& weather,
-                    const sky::AtmosphereOptions& air);
+                    const scene::SurfaceState& surfaces, const sky::AtmosphereOptions& air);
 
 /// --site, --date, --timezone, --turbidity, --ozone, --ground-albedo and the weather.
 void addPlace(studio::CommandLine* line, PlaceOptions* options);

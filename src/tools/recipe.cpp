@@ -8,6 +8,7 @@
 
 #include "sunlit/image/content_hash.h"
 #include "sunlit/image/files.h"
+#include "sunlit/studio/picture_maker.h"
 #include "tools/output_folder.h"
 
 namespace sunlit::tools {
@@ -24,7 +25,15 @@ std::string contentOf(const std::string& what, const std::string& file) {
 /// Before the fingerprint of the world as it was read, which is known once it has been.
 const std::string kAsRead = "world as it was read ";
 
+/// Before studio::pictureMaker().
+const std::string kMadeBy = "sunlit ";
+
+bool beginsWith(const std::string& line, const std::string& words) {
+  return line.compare(0, words.size(), words) == 0;
+}
+
 struct Noted {
+  std::string made_by;  ///< empty: nobody noted it, as before pictures had a version
   std::vector<std::string> recipe;
   std::string as_read;  ///< empty: nobody noted it
 };
@@ -33,8 +42,10 @@ Noted notedIn(const std::string& file) {
   std::ifstream in(file);
   Noted noted;
   for (std::string line; std::getline(in, line);) {
-    if (line.compare(0, kAsRead.size(), kAsRead) == 0)
+    if (beginsWith(line, kAsRead))
       noted.as_read = line;
+    else if (beginsWith(line, kMadeBy))
+      noted.made_by = line;
     else if (line.empty() || line[0] != '#')
       noted.recipe.push_back(line);
   }
@@ -76,13 +87,17 @@ std::vector<std::string> recipeOf(const studio::CommandLine& line, const RecipeO
 
 FolderRecipe::FolderRecipe(const std::string& folder, const std::string& tool,
                            std::vector<std::string> recipe)
-    : folder_(folder), tool_(tool), recipe_(std::move(recipe)) {
+    : folder_(folder), tool_(tool), made_by_(kMadeBy + studio::pictureMaker()), recipe_(std::move(recipe)) {
   requireFolderCanBeMade(folder_);
   if (!std::filesystem::exists(file())) return;
-  const std::vector<std::string> before = notedIn(file()).recipe;
-  if (before == recipe_) return;
+  const Noted before = notedIn(file());
+  if (before.made_by != made_by_)
+    throw std::runtime_error(folder_ + ": its pictures were made by " +
+                             (before.made_by.empty() ? "an older sunlit" : before.made_by) + ", and " +
+                             made_by_ + " may make others; take another folder");
+  if (before.recipe == recipe_) return;
   throw std::runtime_error(folder_ + ": its pictures were made with other options (" +
-                           difference(before, recipe_) + "); take another folder");
+                           difference(before.recipe, recipe_) + "); take another folder");
 }
 
 void FolderRecipe::requireNoStranger(const std::string& stranger) const {
@@ -103,7 +118,8 @@ void FolderRecipe::note(const std::string& fingerprint) const {
   }
   makeFolder(folder_);
   std::string text =
-      "# How these pictures were made. " + tool_ + " adds to them only with the same options.\n";
+      "# How these pictures were made. " + tool_ + " adds to them only with the same options and version.\n";
+  text += made_by_ + '\n';
   for (const std::string& line : recipe_) text += line + '\n';
   text += as_read + '\n';
   image::writeFileAtomically(file(), text);

@@ -25,7 +25,8 @@ std::vector<std::string> recipeOf(const studio::CommandLine& line, const RecipeO
 /// Beside the pictures, in a file called after the tool: FOLDER/timelapse.txt.
 class FolderRecipe {
  public:
-  /// Throws std::runtime_error where the folder has another recipe, or cannot be made.
+  /// Throws std::runtime_error where the folder has another recipe, was made by a sunlit of other pictures
+  /// (studio::pictureMaker()), or cannot be made.
   FolderRecipe(const std::string& folder, const std::string& tool, std::vector<std::string> recipe);
 
   /// Throws std::runtime_error where the folder has no recipe, but a file called `stranger`, by nobody knows
@@ -39,7 +40,7 @@ class FolderRecipe {
  private:
   std::string file() const { return folder_ + '/' + tool_ + ".txt"; }
 
-  std::string folder_, tool_;
+  std::string folder_, tool_, made_by_;
   std::vector<std::string> recipe_;
 };
 

@@ -41,7 +41,7 @@ void takeSnapshot(const SnapshotOptions& options) {
   const ViewOptions& view = options.view;
   studio::Studio studio(view.studio, std::nullopt, onTerminal());
   const sky::Daylight day = daylightOf(options, studio);
-  studio.look(view.map_from_camera, {}, view.motion);
+  studio.look(view.placeIn(studio), {}, view.motion);
   const studio::Developed developed = studio.photograph(studio.illumination(day), {});
   image::writePng(options.output, developed.picture);
   const image::DepthImage depth = studio.depth();

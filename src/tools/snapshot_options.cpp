@@ -42,13 +42,13 @@ std::optional<SnapshotOptions> parseSnapshotOptions(const std::vector<std::strin
   addPlace(&line, &options.place);
   const ViewArguments view(&line);
   if (!line.read(arguments)) return std::nullopt;
-  requireWeather(line, options.place.weather, airOf(options.place));
+  requireWeather(line, options.place.weather, options.place.surfaces, airOf(options.place));
   if (!line.has("--out")) throw std::invalid_argument("--out FILE is missing; --help lists all options");
   if (line.has("--sun") && line.has("--time"))
     throw std::invalid_argument("--sun and --time are both given; one of them");
   for (const char* option : {"--site", "--date", "--timezone"}) line.requireWith(option, {"--time"});
   if (line.has("--time")) options.hour = clock.hour + clock.minute / 60.0 + clock.second / 3600.0;
-  options.view = view.options();
+  options.view = view.options(options.place.weather);
   options.view.studio.surfaces = {options.place.surfaces};
   return options;
 }

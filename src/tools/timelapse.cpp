@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "sunlit/image/files.h"
 #include "sunlit/image/picture_series.h"
 #include "sunlit/quantity/duration.h"
 #include "sunlit/studio/command_line.h"
@@ -50,7 +51,7 @@ class Camera {
       : options_(options),
         studio_(options.view.studio, std::nullopt, onTerminal()),
         sky_(skyOver(studio_, options.place)) {
-    studio_.look(options.view.map_from_camera, {}, options.view.motion);
+    studio_.look(options.view.placeIn(studio_), {}, options.view.motion);
   }
 
   image::Rgb8Image take(int frame) {
@@ -104,6 +105,10 @@ void makeFrames(const TimelapseOptions& options, FrameFolder* folder) {
 
 void makeTimelapse(const TimelapseOptions& options) {
   FrameFolder folder(options.output, options.recipe);
+  image::removeUnfinished(options.output);
+  for (const std::string& beside : {options.video, options.contact_sheet}) {
+    if (!beside.empty()) image::removeUnfinishedOf(beside);
+  }
   makeFrames(options, &folder);
   const image::PictureSeries frames{options.frames, [&](int frame) { return folder.read(frame); }};
   if (!options.video.empty()) image::writeFilm(options.video, options.frame_rate, frames);

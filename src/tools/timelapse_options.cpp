@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <stdexcept>
 
@@ -26,14 +27,11 @@ void addOutput(studio::CommandLine* line, TimelapseOptions* options) {
   line->add("--out FOLDER", fieldOf(rows, "out"));
   line->add("--caption", fieldOf(rows, "caption"));
   line->add("--video FILE", fieldOf(rows, "video"))
-      .then([](const std::string& option, const std::string& file) {
-        image::requireFilmName(option, file);
-        studio::requireFolderOf(option, file);
-      });
+      .then([](const std::string& option, const std::string& file) { image::requireFilmName(option, file); });
   line->add("--fps NUMBER", fieldOf(rows, "fps"));
   line->add("--contact-sheet FILE.png", fieldOf(rows, "contact-sheet"))
       .then([](const std::string& option, const std::string& file) {
-        studio::requireFile(option, file, ".png");
+        studio::requireEnding(option, file, ".png");
       });
   line->add("--columns N", fieldOf(rows, "columns"));
   line->add("--thumbnail WIDTH", fieldOf(rows, "thumbnail"));
@@ -78,6 +76,16 @@ void requireSensibleSheet(const TimelapseOptions& options) {
                               " px wide and high; fewer frames, a smaller --thumbnail or other --columns");
 }
 
+/// Throws unless `file`, where it is named, can be written: its folder is there, or will be made.
+void requireRoomFor(const std::string& option, const std::string& file, const std::string& output) {
+  namespace fs = std::filesystem;
+  // Whichever way they are spelt; with a slash at the end.
+  const auto spelt = [](const fs::path& folder) {
+    return (fs::weakly_canonical(fs::absolute(folder)) / "").lexically_normal();
+  };
+  if (spelt(fs::absolute(file).parent_path()) != spelt(output)) studio::requireFolderOf(option, file);
+}
+
 /// Options that do not change what frames look like.
 const std::set<std::string> kOfNoFrame = {"--cache",         "--out",     "--video",    "--fps",
                                           "--contact-sheet", "--columns", "--thumbnail"};
@@ -95,15 +103,17 @@ std::optional<TimelapseOptions> parseTimelapseOptions(const std::vector<std::str
   addPlace(&line, &options.place);
   const ViewArguments view(&line);
   if (!line.read(arguments)) return std::nullopt;
-  requireWeather(line, options.place.weather, airOf(options.place));
+  requireWeather(line, options.place.weather, options.place.surfaces, airOf(options.place));
   if (!line.has("--out")) throw std::invalid_argument("--out FOLDER is missing; --help lists all options");
+  if (line.has("--video")) requireRoomFor("--video", options.video, options.output);
+  if (line.has("--contact-sheet")) requireRoomFor("--contact-sheet", options.contact_sheet, options.output);
   line.requireWith("--fps", {"--video"});
   line.requireWith("--columns", {"--contact-sheet"});
   line.requireWith("--thumbnail", {"--contact-sheet"});
   if (line.has("--frames") && line.has("--step"))
     throw std::invalid_argument("--frames and --step are both given; one of them");
   divide(span, &options);
-  options.view = view.options();
+  options.view = view.options(options.place.weather);
   options.view.studio.surfaces = {options.place.surfaces};
   requireSensibleSheet(options);
   options.recipe = recipeOf(line, {kOfNoFrame, {"--path", "--calibration"}}, options.view.studio.world);

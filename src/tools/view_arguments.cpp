@@ -40,7 +40,8 @@ void ViewArguments::addPlaces() {
              {"path", &path_file_, "", {}, "that path: CSV or TUM; without it the path of race_track"});
   line_
       ->add("--top-down X,Y,EXTENT",
-            "from straight above, north up, with a field of view of its own instead of --fov",
+            "from straight above, north up, by a field of view of its own instead of --fov, without the air "
+            "before it",
             fieldsOf(top_down_))
       .withoutDefault();
 }
@@ -49,17 +50,6 @@ void ViewArguments::addDrive() {
   line_->add("--speed M/S", {"speed", &drive_.speed_m_s, "m/s", {-1000, 1000}, "of the camera, forward"});
   line_->add("--turning DEG/S",
              {"turning", &drive_.turning_deg_s, "deg/s", {-3600, 3600}, "of the camera, to the left"});
-}
-
-void ViewArguments::placeTopDown(ViewOptions* options) const {
-  // From so far up that the picture is close to a map: parallel rays within 3 degrees.
-  const double height = 10.0 * top_down_.extent_m;
-  options->studio.render.camera = image::PinholeCamera::fromFieldOfView(
-      camera_.render.camera.width, camera_.render.camera.height, Angle::radians(2.0 * std::atan(0.05)));
-  options->studio.render.near_m = 0.5 * height;
-  options->studio.render.far_m = 2.0 * height;
-  options->map_from_camera.linear() << 0, -1, 0, 0, 0, 1, -1, 0, 0;  // forward down, left west, up north
-  options->map_from_camera.translation() = Eigen::Vector3d(top_down_.x, top_down_.y, height);
 }
 
 void ViewArguments::placeOnPath(ViewOptions* options) const {
@@ -89,7 +79,22 @@ void ViewArguments::placeFree(ViewOptions* options) const {
   options->map_from_camera = map_from_camera;
 }
 
-void ViewArguments::requireThatAllCount() const {
+void ViewArguments::requireThatMotionShows(bool rains) const {
+  const image::ShutterOptions& shutter = sensor_.chain.shutter;
+  const bool moves = drive_.speed_m_s != 0.0 || drive_.turning_deg_s != 0.0;
+  // To a camera that stands, only drops move.
+  const bool streaks = rains && shutter.line_delay_us == 0.0;
+  if (!shutter.none() && !moves && !streaks)
+    throw std::invalid_argument(
+        "--line-delay and --exposure-time are of a camera that moves; give --speed or --turning (or "
+        "--exposure-time with --rain, for its streaks)");
+  if (moves && shutter.none() && !rains)
+    throw std::invalid_argument(
+        "--speed and --turning show in a picture that takes time, and in streaks of rain; give --line-delay "
+        "or --exposure-time, or --rain");
+}
+
+void ViewArguments::requireThatAllCount(bool rains) const {
   const bool has_pose = line_->has("--pose");
   const bool has_look_at = line_->has("--look-at");
   const bool has_top_down = line_->has("--top-down");
@@ -107,28 +112,19 @@ void ViewArguments::requireThatAllCount() const {
   }
   if (what != nullptr) throw std::invalid_argument(what);
   line_->requireWith("--path", {"--path-pose"});
-  const bool has_shutter = line_->has("--line-delay") || line_->has("--exposure-time");
-  const bool moves = line_->has("--speed") || line_->has("--turning");
-  // To a camera that stands, only drops move.
-  const bool streaks = line_->has("--exposure-time") && line_->has("--rain") && !line_->has("--line-delay");
-  if (has_shutter && !moves && !streaks)
-    throw std::invalid_argument(
-        "--line-delay and --exposure-time are of a camera that moves; give --speed or --turning (or "
-        "--exposure-time with --rain, for its streaks)");
-  if (moves && !has_shutter)
-    throw std::invalid_argument(
-        "--speed and --turning show in a picture that takes time; give --line-delay or --exposure-time");
+  requireThatMotionShows(rains);
   sensor_.requireSense(*line_);
   camera_.requireSense(options_.studio.bake);
 }
 
-ViewOptions ViewArguments::options() const {
-  requireThatAllCount();
+ViewOptions ViewArguments::options(const sky::Weather& weather) const {
+  requireThatAllCount(weather.rain_mm_per_h > 0.0);
   ViewOptions options = options_;
   options.studio.render = camera_.options();
   sensor_.putInto(&options.studio);
   if (line_->has("--top-down")) {
-    placeTopDown(&options);
+    options.studio.top_down = top_down_;
+    options.map_from_camera.linear() = studio::topDownAxes();
   } else if (line_->has("--path-pose")) {
     placeOnPath(&options);
   } else {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sunlit/sky/weather.h"
 #include "sunlit/studio/command_line.h"
 #include "sunlit/studio/studio.h"
 #include "tools/camera_arguments.h"
@@ -15,8 +16,14 @@ namespace sunlit::tools {
 
 struct ViewOptions {
   studio::StudioOptions studio;
-  Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();  ///< x forward, z up
-  Motion motion;                                                      ///< of the camera
+  /// x forward, z up; but of --top-down, whose place the studio knows once its world is there.
+  Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
+  Motion motion;  ///< of the camera
+
+  /// Where the camera stands in the world of `of_this`, which is made of `studio`.
+  Eigen::Isometry3d placeIn(const studio::Studio& of_this) const {
+    return of_this.mapFromTopDown().value_or(map_from_camera);
+  }
 };
 
 /// How a camera drives.
@@ -34,18 +41,6 @@ inline std::vector<Field> fieldsOf(LookAt& point) {
   return {{"x", &point.x, "m", {}, ""}, {"y", &point.y, "m", {}, ""}, {"z", &point.z, "m", {}, ""}};
 }
 
-/// The ground that a view from straight above shows.
-struct TopDown {
-  double x = 0.0, y = 0.0;  ///< of its middle
-  double extent_m = 1.0;
-};
-
-inline std::vector<Field> fieldsOf(TopDown& ground) {
-  return {{"x", &ground.x, "m", {}, ""},
-          {"y", &ground.y, "m", {}, ""},
-          {"extent", &ground.extent_m, "m", Range::above(0), "from west to east"}};
-}
-
 /// Collects words until the camera can be placed.
 class ViewArguments {
  public:
@@ -54,16 +49,16 @@ class ViewArguments {
   ViewArguments(const ViewArguments&) = delete;
   ViewArguments& operator=(const ViewArguments&) = delete;
 
-  /// What the line has read. Throws std::invalid_argument for words that do not go together; what
-  /// path::readWaypoints() throws.
-  ViewOptions options() const;
+  /// What the line has read, to be looked at in this weather. Throws std::invalid_argument for words that do
+  /// not go together; what path::readWaypoints() throws.
+  ViewOptions options(const sky::Weather& weather) const;
 
  private:
   void addPlaces();
   void addDrive();
   /// Throws for an option that another one makes meaningless.
-  void requireThatAllCount() const;
-  void placeTopDown(ViewOptions* options) const;
+  void requireThatAllCount(bool rains) const;
+  void requireThatMotionShows(bool rains) const;
   void placeOnPath(ViewOptions* options) const;
   void placeFree(ViewOptions* options) const;
 
@@ -72,7 +67,7 @@ class ViewArguments {
   TypedPose pose_;
   bool turned_ = false;  ///< by the yaw of `pose_`
   LookAt look_at_;
-  TopDown top_down_;
+  studio::TopDown top_down_;
   int path_pose_ = 0;
   std::string path_file_;
   Drive drive_;

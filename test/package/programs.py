@@ -3,8 +3,10 @@
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import rosunit
@@ -31,6 +33,18 @@ class Programs(unittest.TestCase):
                 for line in re.findall(r"^build_dir=.*\$\{(?:1|SUNLIT_BUILD_DIR):.*$", script.read_text(), re.MULTILINE)]
         self.assertGreaterEqual(len(told), 5)
         self.assertEqual([line for line in told if not line.startswith('build_dir=$(realpath -m "')], [])
+
+    def test_a_build_knows_its_checkout_whatever_signs_are_in_its_path(self):
+        with tempfile.TemporaryDirectory() as folder:
+            checkout = pathlib.Path(folder, "it's [1.0] $HOME & #2 \\ ^")
+            (checkout / "scripts").mkdir(parents=True)
+            shutil.copy(pathlib.Path(os.environ["SUNLIT_SOURCE_DIR"], "scripts", "build"), checkout / "scripts")
+            subprocess.run([str(checkout / "scripts/build")], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # nothing to configure
+            hook = checkout / "build/devel/etc/catkin/profile.d/50.rosrun.sh"
+            path = "/opt/one:%s/build/devel:/opt/two"
+            found = subprocess.run(["sh", "-c", '. "$0"; printf %s "$CMAKE_PREFIX_PATH"', str(hook)], stdout=subprocess.PIPE,
+                                   env={**os.environ, "CMAKE_PREFIX_PATH": path % checkout}, text=True, check=True).stdout
+            self.assertEqual(found, path % (str(checkout) + "/"))
 
 
 if __name__ == "__main__":

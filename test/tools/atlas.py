@@ -157,7 +157,9 @@ class Atlas(unittest.TestCase):
         self.assertIn("holds thesis.tex, but no atlas.txt", self.refused("mine", *TRACK))
         network = str(pathlib.Path(__file__).resolve().parents[1] / "golden" / "bright_pixel.onnx")
         os.mkdir(self.path("of_network"))
-        pathlib.Path(self.path("of_network/atlas.txt")).write_text("--detectors onnx\n--onnx-model %s\n" % network, encoding="utf-8")
+        made_by = pathlib.Path(self.path("whole/atlas.txt")).read_text(encoding="utf-8").splitlines()[1]
+        pathlib.Path(self.path("of_network/atlas.txt")).write_text(
+            "%s\n--detectors onnx\n--onnx-model %s\n" % (made_by, network), encoding="utf-8")
         self.assertIn("made with other options (without content of the onnx-model ",
                       self.refused("of_network", "--detectors", "onnx", "--onnx-model", network))
 

@@ -39,7 +39,7 @@ SENSOR = {"--ev": "-16 … 24 EV, default auto", "--compensation": "-8 … 8 EV,
           "--mosaic": "none|rggb|bggr|grbg|gbrg", "--demosaic": "bilinear|vng|edge_aware"}
 SHUTTER = {"--line-delay": "0 … 1000 us, default 0", "--exposure-time": "0 … 1000 ms, default 0", "--exposures": "2 … 64, default 16"}
 VIEW = {**SENSOR, **SHUTTER, "--speed": "-1000 … 1000 m/s, default 0", "--turning": "-3600 … 3600 deg/s, default 0", "--pose": "(default 0,0,1,0,0)", "--look-at": "towards a point", "--path-pose": "≥ 0",
-        "--path": "CSV or TUM", "--top-down": "> 0 m"}
+        "--path": "CSV or TUM", "--top-down": "> 0 … 200000 m"}
 # By detector, behind its name.
 SIFT = {"n-features": "0 … 1000000, default 0", "n-octave-layers": "1 … 10, default 3",
         "contrast-threshold": "0 … 1, default 0.04", "edge-threshold": "0.001 … 1000000, default 10",
@@ -145,7 +145,7 @@ REFUSED = (("--size", "10x480", '--size is "10x480": width is 10, but must be fr
            ("--pose", "1,2", "must be 3 to 5 numbers separated by ',': X,Y,Z[,YAW[,PITCH]]"),
            ("--pose", "1,,3", 'y is "", but must be a number in m'),
            ("--view", "1,2,3,4,5,6", "must be 3 to 5 numbers"),
-           ("--top-down", "0,0,0", "extent is 0, but must be above 0 m"),
+           ("--top-down", "0,0,0", "extent is 0, but must be above 0 and up to 200000 m"),
            ("--sun", "285,-91", '--sun is "285,-91": elevation is -91, but must be from -90 to 90 deg'),
            ("--moon", "0,0,181", "phase is 181, but must be from 0 to 180 deg"),
            ("--time", "24:00", "hour is 24, but must be from 0 to 23 h"),
@@ -238,17 +238,21 @@ class CommandLines(unittest.TestCase):
         self.assertEqual(set(OPTIONS) - set(asked), set())
 
     def test_weather_that_only_tells_more_of_another_needs_it(self):
-        sky, ground = {"--cover": "4", "--rain": "3"}, {"--puddles": "0.1", "--snow": "0.1"}
-        for option, value, others in (("--optical-depth", "20", {"--cover": "4"}), ("--overcast", "cie", {"--cover": "8"}),
-                                      ("--fog-top", "50", {"--visibility": "900"}), ("--cloud-base", "900", sky), ("--wind", "3", sky),
-                                      ("--cloud-seed", "2", sky), ("--ground-seed", "2", ground)):
-            needed = " needs %s too" % " or ".join(others)
-            self.assertIn(option + needed, self.refused("snapshot", option, value))
-            for other in others.items():  # each is enough, and then something else is missed
-                self.assertNotIn(needed, self.refused("snapshot", option, value, *other))
+        sky = ("--cover above 0 and below 8, or --rain above 0,", ["--cover=4", "--rain=3"], ["--cover=8", "--cover=0", "--rain=0"])
+        ground = ("--puddles or --snow above 0", ["--puddles=0.1", "--snow=0.1"], ["--puddles=0", "--wet=1"])
+        for option, (needs, enough, too_little) in (
+                ("--optical-depth=20", ("--cover above 0", ["--cover=4"], ["--cover=0"])),
+                ("--overcast=layer", ("--cover 8", ["--cover=8"], ["--cover=7"])), ("--overcast=cie", ("--cover 8", ["--cover=8"], [])),
+                ("--fog-top=50", ("--visibility in m", ["--visibility=900"], ["--visibility=clear"])),
+                ("--cloud-base=900", sky), ("--wind=3", sky), ("--cloud-seed=2", sky), ("--ground-seed=2", ground)):
+            needed = "%s needs %s too" % (option.split("=")[0], needs)
+            for other in ([], *([one] for one in too_little)):
+                self.assertIn(needed, self.refused("snapshot", option, *other))
+            for other in enough:  # and then something else is missed
+                self.assertNotIn(needed, self.refused("snapshot", option, other))
         for program in [program for program, options in OPTIONS.items() if "--fog-top" in options]:
-            self.assertIn("--fog-top needs --visibility too", self.refused(program, "--fog-top", "50"))
-        self.assertIn("--wind-from needs --wind too", self.refused("snapshot", "--rain", "3", "--wind-from", "90"))
+            self.assertIn("--fog-top needs --visibility in m too", self.refused(program, "--fog-top", "50"))
+        self.assertIn("--wind-from needs --wind above 0 too", self.refused("snapshot", "--rain", "3", "--wind", "0", "--wind-from", "90"))
 
     def test_some_of_the_pixels_are_compared(self):
         self.assertIn("--every is 64, but must be from 1 to 31 px",
@@ -295,11 +299,16 @@ class CommandLines(unittest.TestCase):
                                     (["--exposure-time", "auto", "--compensation", "1"], "give --speed or --turning"),
                                     (["--rain", "5", "--line-delay", "30", "--exposure-time", "1"], "give --speed or --turning"),
                                     (["--turning", "20"], "give --line-delay or --exposure-time"),
+                                    (["--turning", "20", "--line-delay", "0", "--rain", "0"], "give --line-delay or --exposure-time"),
                                     (["--exposures", "4", "--line-delay", "30", "--speed", "1"], "--exposure-time")):
                 self.assertIn(said, self.refused("snapshot", "--out", out, *arguments))
+            for nothing in ([], ["--rain", "0"], ["--exposure-time", "0"]):
+                self.assertIn("--speed shows in pictures that take time",
+                              self.refused("export_dataset", "--format", "tum", folder + "/set", "--speed", "5", *nothing))
             pictures = []
             for arguments in ([], ["--speed", "10", "--turning", "40", "--line-delay", "200"], ["--turning", "-40", "--exposure-time", "40"],
-                              ["--rain", "100", "--exposure-time", "1"], ["--rain", "100", "--exposure-time", "30"]):
+                              ["--rain", "100", "--exposure-time", "1"], ["--rain", "100", "--exposure-time", "30"],
+                              ["--rain", "100"], ["--rain", "100", "--speed", "10"]):
                 done = run("snapshot", "--out", out, "--world", WORLD, "--bounced", "off", "--pose", "0,0,1", "--size", "64x48", *arguments)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 with open(out, "rb") as picture:

@@ -3,6 +3,7 @@
 import csv
 import os
 import pathlib
+import re
 import resource
 import shutil
 import subprocess
@@ -71,13 +72,27 @@ class Timelapse(unittest.TestCase):
             broken.write(whole[1][:100])
         kept = os.path.join(self.path("a"), "frame_00002.png")
         os.utime(kept, (1, 1))
-        self.assertIn("2 frames are there already", self.make(self.path("a")))
+        film = self.path("film.avi")
+        # What a kill left; no process has so high a number.
+        killed = [os.path.join(self.path("a"), "frame_00003.png.99999999.0.part"), film + ".99999999.1.part.avi"]
+        for file in killed:
+            pathlib.Path(file).write_bytes(b"half")
+        self.assertIn("2 frames are there already", self.make(self.path("a"), "--video", film))
+        self.assertEqual([os.path.exists(file) for file in [*killed, film]], [False, False, True])
         self.assertEqual(self.frames("a"), whole)
         self.assertEqual(os.stat(kept).st_mtime, 1)
         self.assertNotIn("frame 1 of", self.make(self.path("a")))  # nothing is left to do
 
     def test_does_not_mix_frames_of_other_options(self):
         self.assertIn("--ev 9", self.refused("--out", self.path("a"), *VIEW, *DAY, "--ev", "9"))
+
+    def test_takes_no_frames_of_another_sunlit(self):
+        recipe = pathlib.Path(self.path("a"), "timelapse.txt")
+        text = recipe.read_text(encoding="utf-8")
+        ours = re.search("^sunlit [0-9.]+, pictures [0-9]+$", text, re.MULTILINE).group()
+        for other, told in ((ours + "0", ours + "0"), ("#", "an older sunlit")):
+            recipe.write_text(text.replace(ours, other), encoding="utf-8")
+            self.assertIn("were made by %s, and %s may make others" % (told, ours), self.refused("--out", self.path("a"), *VIEW, *DAY))
 
     def refused(self, *arguments):
         """The one line that timelapse gives up with."""
@@ -148,6 +163,14 @@ class Timelapse(unittest.TestCase):
         self.make(self.path("a"), "--contact-sheet", sheet, "--columns", "3", "--thumbnail", "48")
         self.assertEqual(cv2.imread(sheet).shape, (2 * 32 + 2, 3 * 48 + 4, 3))  # gaps of 2 px
 
+    def test_films_and_sheets_may_lie_in_the_folder_that_is_yet_to_be_made(self):
+        out = self.path("new")
+        done = run("timelapse", "--video", out + "/film.avi", "--contact-sheet", self.path("a/../new/sheet.png"), "--out", out + "/",
+                   *VIEW, *DAY, "--frames", "1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(sorted(os.listdir(out)), ["film.avi", "frame_00000.png", "sheet.png", "timelapse.txt"])
+        self.assertIn("in a folder that exists", self.refused("--out", self.path("x"), "--video", self.path("x/y/film.avi")))
+
     def test_bad_arguments_are_one_line(self):
         out = ["--out", self.path("x")]
         for arguments, parts in (([], ["--out FOLDER is missing"]),
@@ -162,6 +185,9 @@ class Timelapse(unittest.TestCase):
                                  (out + ["--frames", "1.5"], ["--frames", "1.5", "whole number"]),
                                  (out + ["--date", "2024-02-30"], ["--date", "2024-02-30"]),
                                  (out + ["--date", "today"], ["--date", "today", "2024-07-01"]),
+                                 (out + ["--date", "4294969320-07-01"], ["--date", "4294969320", "2024-07-01"]),
+                                 (out + ["--date", "2024- 7-1"], ["--date", "2024- 7-1", "2024-07-01"]),
+                                 (out + ["--date", "9999999-07-01"], ["--date", "9999999", "year", "6000"]),
                                  (out + ["--site", "91,0"], ["--site", "91", "latitude"]),
                                  (out + ["--video", "film.gif"], ["--video", "film.gif", ".mp4"]),
                                  (out + ["--contact-sheet", "day.jpg"], ["--contact-sheet", "day.jpg", ".png"]),

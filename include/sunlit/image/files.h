@@ -22,6 +22,8 @@ std::string readWholeFile(const std::string& path);
 /// process that still runs stays, also of another container or computer that writes to the same folder, where
 /// its file system knows locks (flock) of all of them.
 void removeUnfinished(const std::string& folder);
+/// The same of the file `path` alone.
+void removeUnfinishedOf(const std::string& path);
 
 /// Makes `finished`, a whole file that nobody writes to any more, durable (fsync), gives it the name `path`
 /// in the same folder, and makes that name durable too. Where that fails `finished` is still there.

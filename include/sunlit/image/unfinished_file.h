@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 
 namespace sunlit::image {
 
@@ -14,14 +15,17 @@ class UnfinishedFile {
  public:
   static constexpr const char* kEnding = ".part";
 
-  /// The folder of `place` must exist.
-  explicit UnfinishedFile(std::filesystem::path place);
+  /// The folder of `place` must exist. `kind`, such as ".mp4", stands behind kEnding, for others that write
+  /// to the file by the end of its name.
+  explicit UnfinishedFile(std::filesystem::path place, const std::string& kind = "");
   ~UnfinishedFile();
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
 
+  /// Where it is until it is kept.
+  const std::filesystem::path& path() const { return path_; }
   void write(const void* data, std::size_t size);
-  /// What has been written so far.
+  /// What write() has written so far.
   std::size_t size() const { return size_; }
   /// Makes it durable (fsync), and gives it its name. Nothing can be written any more.
   void keep();

@@ -54,6 +54,8 @@ class Daylight {
 
   /// The same light, but that clouds are seen from a place in `map`; else they are seen from its origin.
   Daylight seenFrom(const Eigen::Vector3f& place) const;
+  /// The same light, but that no air lies between the eye and what it sees: for views from far above.
+  Daylight withoutAir() const;
   /// Whether there is cloud with gaps in it, so that sun and moon do not shine alike everywhere.
   bool hasBrokenCloud() const;
   /// By how much sun or moon are brighter at a place, under gaps and clouds, than DiscLight::illuminance,
@@ -80,12 +82,13 @@ class Daylight {
   /// Illuminance of level, open ground: sun, moon and sky together, lx.
   LinearRgb groundIlluminance() const;
   Rain rain() const;
-  /// That airOver() has in it.
+  /// That airOver() has in it; none of withoutAir().
   Fog fog() const;
 
  private:
   std::shared_ptr<const SkyTable> table_;
   Eigen::Vector3f from_ = Eigen::Vector3f::Zero();
+  bool has_air_ = true;
 };
 
 }  // namespace sunlit::sky

@@ -98,9 +98,10 @@ class CommandLine {
 Field explainedAs(Field row, std::string doc);
 
 /// `file` can be written: it ends in `ending`, such as ".png", since what is written is of that kind,
-/// whatever the name; and its folder is there, which is better known before the work than after it. Both
+/// whatever the name; and its folder is there, which is better known before the work than after it. All
 /// throw as Option::take() does.
 void requireFile(const std::string& option, const std::string& file, const std::string& ending);
+void requireEnding(const std::string& option, const std::string& file, const std::string& ending);
 void requireFolderOf(const std::string& option, const std::string& file);
 
 /// What main() is called with, and the program's name.

@@ -20,6 +20,23 @@
 
 namespace sunlit::studio {
 
+/// Ground that is seen from straight above, north up.
+struct TopDown {
+  double x = 0.0, y = 0.0;  ///< of its middle, m in `map`
+  double extent_m = 1.0;
+};
+
+inline std::vector<Field> fieldsOf(TopDown& ground) {
+  return {{"x", &ground.x, "m", {}, ""},
+          {"y", &ground.y, "m", {}, ""},
+          {"extent", &ground.extent_m, "m", Range::above(0, 2e5), "from west to east"}};
+}
+
+/// Of a camera that looks straight down, north up: x forward, z up.
+inline Eigen::Matrix3d topDownAxes() {
+  return (Eigen::Matrix3d() << 0, -1, 0, 0, 0, 1, -1, 0, 0).finished();
+}
+
 struct StudioOptions {
   WorldOptions world;
   BakeOptions bake;
@@ -30,6 +47,9 @@ struct StudioOptions {
   /// What they are taken with, one at least.
   std::vector<ChainOptions> chains = {{}};
   std::optional<image::RightCamera> right = {};  ///< beside the camera of `render`, which is the left one
+  /// Set: `render` has a lens by which this ground is seen, whatever the height of the world, and no air lies
+  /// before it.
+  std::optional<TopDown> top_down = {};
 };
 
 /// In what, and with what, a picture is taken.
@@ -70,8 +90,11 @@ class Studio {
   Studio(const Studio&) = delete;
   Studio& operator=(const Studio&) = delete;
 
+  /// Where the camera of StudioOptions::top_down stands, from where it sees that ground; unset without it.
+  const std::optional<Eigen::Isometry3d>& mapFromTopDown() const { return map_from_top_down_; }
+
   /// A picture from above of what is widened(), north up, close to orthographic up to 100 km, and from within
-  /// 1900 km whatever the extent. Leaves alone what look() looked at.
+  /// 1900 km whatever the extent; without the air before it. Leaves alone what look() looked at.
   image::Rgb8Image mapFromAbove(const MapExtent& extent, const sky::Daylight& daylight) const;
 
   /// `map_from_camera`: of its link, x forward, z up. `map_from_links`: of the robot; empty: it is not there.
@@ -80,7 +103,7 @@ class Studio {
             const Motion& motion = {});
   /// Draws what look() will look at later. Another thread may photograph() meanwhile.
   void lookAhead(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links = {});
-  /// What does not depend on the camera.
+  /// What does not depend on the camera, but that one of top_down sees no air.
   light::Illumination illumination(const sky::Daylight& daylight, std::size_t state = 0) const;
   /// What look() looks at under `light`, which is of the same state: rows see one after another while the
   /// camera moves, the lens takes light away and strews some, the sensor counts what it gets. The picture's
@@ -114,6 +137,7 @@ class Studio {
   std::unique_ptr<Camera> camera_;
   std::unique_ptr<Camera> right_;  // null: there is none
   std::vector<light::World> worlds_;
+  std::optional<Eigen::Isometry3d> map_from_top_down_;
 };
 
 }  // namespace sunlit::studio

@@ -11,13 +11,14 @@
 #include "sunlit/image/files.h"
 #include "sunlit/quantity/range.h"
 #include "sunlit/quantity/yaml_text.h"
+#include "sunlit/studio/picture_maker.h"
 
 namespace sunlit::ros_interface {
 
 namespace {
 
 std::string inputsText(const RunInputs& inputs) {
-  return "sunlit: '" SUNLIT_VERSION "'\nworld: '" + inputs.world + "'\npath: '" + inputs.path +
+  return "sunlit: '" + studio::pictureMaker() + "'\nworld: '" + inputs.world + "'\npath: '" + inputs.path +
          "'\ncamera: '" + inputs.camera + "'\nrobot: '" + inputs.robot + "'\n";
 }
 

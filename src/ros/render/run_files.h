@@ -27,8 +27,8 @@ class RunFiles {
   /// broken off, whose times count too; so does a run into a folder that holds values of the evaluator.
   RunFiles(const std::string& folder, bool goes_on);
 
-  /// inputs.yaml. A run that goes on with another must have its inputs and version of sunlit: else throws
-  /// std::runtime_error saying what differs.
+  /// inputs.yaml. A run that goes on with another must have its inputs and studio::pictureMaker(): else
+  /// throws std::runtime_error saying what differs.
   void keepInputs(const RunInputs& inputs) const;
   /// rasterizer.yaml: what draws, see render::Renderer::rasterizer().
   void keepRasterizer(const std::string& rasterizer) const;

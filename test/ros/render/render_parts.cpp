@@ -14,7 +14,9 @@
 #include "ros/render/run_files.h"
 #include "ros/render/run_log.h"
 #include "ros/steady.h"
+#include "sunlit/studio/picture_maker.h"
 #include "support/message_of.h"
+#include "support/temporary_folder.h"
 
 namespace sunlit::ros_interface {
 namespace {
@@ -162,6 +164,11 @@ TEST_F(RunFolder, IsOnlyGoneOnWithFromTheSameInputs) {
   EXPECT_EQ(keep(true, {"0123", "4567", "89", ""}), "");  // refused, and nothing lost
   EXPECT_EQ(keep(false, {"89", "ab", "cd", ""}), "");     // begun anew
   EXPECT_NE(keep(true, {"0123", "4567", "89", ""}), "");
+  std::string text = contentOf(folder_ + "/inputs.yaml");
+  const std::string ours = "sunlit: '" + studio::pictureMaker();
+  ASSERT_EQ(text.compare(0, ours.size(), ours), 0) << text;
+  std::ofstream(folder_ + "/inputs.yaml") << text.insert(ours.size(), "0");  // other pictures
+  EXPECT_NE(keep(true, {"89", "ab", "cd", ""}).find(ours), std::string::npos);
   std::filesystem::remove(folder_ + "/inputs.yaml");
   EXPECT_NE(keep(true, {"89", "ab", "cd", ""}), "");  // nobody knows any more
 }

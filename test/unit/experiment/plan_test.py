@@ -32,11 +32,16 @@ def defaults(**typed):
 
 def handed_on(**typed):
     """All arguments as the launch file hands them on where these are typed."""
-    context = {"arg": dict(defaults(**typed))}
-    for arg in ElementTree.parse(LAUNCH_FILE).iter("arg"):
-        if arg.get("name") in ("names", "planned"):
+    return arguments.handed_on(shlex.split(resolved(LAUNCH_FILE, **defaults(**typed))["planned"]))
+
+
+def resolved(launch_file, **typed):
+    """The arguments of a launch file as roslaunch resolves those that hand on what is typed."""
+    context = {"arg": dict(typed)}
+    for arg in ElementTree.parse(launch_file).iter("arg"):
+        if re.match("typed|planned|quoted_", arg.get("name")):
             context["arg"][arg.get("name")] = substitution_args.resolve_args(arg.get("value"), context)
-    return arguments.handed_on(shlex.split(context["arg"]["planned"]))
+    return context["arg"]
 
 
 def planned(beginning=plan.Beginning(991), **typed):
@@ -85,6 +90,11 @@ class Arguments(unittest.TestCase):
                            ("{a: {hour: 12, rain: 5, rain: 10}}", "without rain twice"),
                            ("{a: {hour: 010}}", "without a zero before 10"),
                            ("{a: {hour: 12, ? [1] : 2}}", "a map from names"),
+                           ("{a: {hour: 12, minute: half}}", "with minute as a whole number from 0 to 59 in a, not 'half'"),
+                           ("{a: {hour: 12, minute: 60}}", "with minute as a whole number from 0 to 59 in a, not 60"),
+                           ("{a: {hour: 12, minute: 0.5}}", "with minute as a whole number from 0 to 59 in a, not 0.5"),
+                           ("{a: {hour: 12, second: 30s}}", "with second as a number, at least 0 and below 60 in a, not '30s'"),
+                           ("{a: {hour: 12, second: [1]}}", "with second as a number, at least 0 and below 60 in a, not [1]"),
                            ("{a: {hour: 12.5, minute: 10}}", "without minute in a, whose hour 12.5 has a fraction")):
             self.assert_refused("argument conditions is", arguments.conditions, text, "[4]")
             self.assert_refused(part, arguments.conditions, text, "[4]")
@@ -220,6 +230,16 @@ class Plan(unittest.TestCase):
         typed = {"model_path": "['my models']", "world": "it's.world", "output": "my \"best\" 'run' \\ $HOME",
                  "conditions": "12", "noise": "true"}
         self.assertEqual(handed_on(**typed), defaults(**typed))
+        for text in ("0701", "2024.10", "1e3", "True", "true"):  # not as numbers or truths
+            self.assertEqual(handed_on(output=text, world=text), defaults(output=text, world=text))
+
+    def test_texts_of_the_other_launch_files_are_handed_on_as_typed(self):
+        for file, names in (("evaluator", ["output"]), ("demo", ["world", "path"]),
+                            ("render", ["world", "robot", "path", "calibration", "right_calibration"])):
+            for text in ("0701", "2024.10", "True", "it's", ""):
+                found = resolved(os.path.join(SOURCE, "launch", file + ".launch"), conditions="", **dict.fromkeys(names, text))
+                for name in names:
+                    self.assertEqual(shlex.split("'%s'" % found["quoted_" + name]), [text], (file, name))
 
     def test_other_words_than_names_and_values_are_refused(self):
         with self.assertRaisesRegex(arguments.BadArgument, "must be words NAME:=VALUE, not 'models'"):

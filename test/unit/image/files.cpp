@@ -60,16 +60,26 @@ TEST_F(Files, LeftUnfinishedByProcessesThatHaveEndedAreRemoved) {
     put(name + ended, "half");
     put(name + alive, "half");
   }
+  for (const std::string name : {"film.mp4", "film.mp4.notes.mp4"}) {
+    put(name + ended + ".mp4", "half");
+    put(name + alive + ".mp4", "half");
+  }
+  removeUnfinishedOf(path("film.mp4"));  // that alone
+  EXPECT_FALSE(fs::exists(path("film.mp4" + ended + ".mp4")));
+  EXPECT_TRUE(fs::exists(path("film.mp4" + alive + ".mp4")));
+  EXPECT_TRUE(fs::exists(path("frames.csv" + ended)));
   const std::vector<std::string> others = {"notes.part", ".1.2.part", "frames.csv", "a.99.part",
                                            "a.x.1.part"};
   for (const std::string& name : others) put(name, "whole");
   removeUnfinished(folder_.path());
+  EXPECT_FALSE(fs::exists(path("film.mp4.notes.mp4" + ended + ".mp4")));
   for (const std::string name : {"frames.csv", "images/h12/000001.png"}) {
     EXPECT_FALSE(fs::exists(path(name + ended)));
     EXPECT_TRUE(fs::exists(path(name + alive)));
   }
   for (const std::string& name : others) EXPECT_TRUE(fs::exists(path(name))) << name;
   removeUnfinished(path("nowhere"));  // nothing to do
+  removeUnfinishedOf(path("nowhere/film.mp4"));
 }
 
 TEST_F(Files, BeingWrittenByProcessesThatAreNotSeenHereStay) {

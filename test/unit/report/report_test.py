@@ -9,8 +9,11 @@ import re
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
+from unittest import mock
 
+import matplotlib.pyplot as plt
 import numpy as np
 from PIL import Image
 
@@ -219,7 +222,7 @@ class Files(InFolder):
     def test_malformed_lines_are_named(self):
         good = made.frames()[:3]
         for bad, what in [("1,2,3", "3 fields"), (good[2].replace(",h04", ",h04,h04"), "15 fields"),
-                          ("x" + good[2], "pose is 'x1'"),
+                          ("x" + good[2], "pose is 'x1'"), ("9" * 20 + good[2], "pose is '99999999999999999999"),
                           (good[2].replace(",0,0,0,", ",0,0.5,0,"), "features_b is '0.5'"),
                           (re.sub(r"boolean_rgb,[^,]*", "boolean_rgb,inf", good[2]), "value is 'inf'"),
                           (good[1], "pose 0 of h04, h12, boolean_rgb was given on line 2")]:
@@ -227,8 +230,16 @@ class Files(InFolder):
             self.assert_refused(f"{path}:3", what)
         path = self.write("frames.csv", ["pose,value"] + good[1:])
         self.assert_refused(f"{path}:1", files.FRAMES)
+        path = self.write("frames.csv", [good[0], *reversed(made.frames()[1:]), good[2]])  # of series that lie within each other
+        count = len(made.frames())
+        self.assert_refused(f"{path}:{count + 1}: pose 1 of h04, h12, boolean_rgb was given on line {count - 1} already")
         self.write("frames.csv", good[:1])
         self.assert_refused("no results")
+
+    def test_poses_rise_whatever_their_order_in_the_file(self):
+        self.write("frames.csv", [made.FRAMES_HEADER, *reversed(made.frames()[1:])])
+        for one in self.read().series.values():
+            self.assertEqual(one.pose.tolist(), list(range(made.POSES)))
 
     def test_malformed_other_files_are_named(self):
         self.write("frames.csv", made.frames())
@@ -451,6 +462,9 @@ class Lost(InFolder):
     def test_of_many_pairs_those_that_lose_most_are_shown(self):
         some = {(f"h{k:02d}", "h23", "sift"): lost.Lost(1, np.full((12, 16), 100), np.full((12, 16), k)) for k in range(9)}
         self.assertEqual([a for a, _ in lost.shown_pairs(some)], [f"h{k:02d}" for k in range(3, 9)])
+        with mock.patch.object(lost, "shown_pairs", wraps=lost.shown_pairs) as asked:
+            self.assertEqual(len(lost.table_rows(types.SimpleNamespace(lost=some))), 6)
+        self.assertEqual(asked.call_count, 1)
 
 
 class Elevation(InFolder):
@@ -492,6 +506,15 @@ class Elevation(InFolder):
         picture, shown, hours = map_figure.found_on_map(output)
         self.assertEqual((shown, hours), (6, 20))
         self.assertIn("<svg", picture)
+
+    def test_lines_from_the_truth_to_estimates_far_off_are_drawn_at_once(self):
+        truth = np.arange(600.0).reshape(300, 2)
+        figure, axis = plt.subplots()
+        map_figure._draw_found(axis, queries.Positions(truth + 5, truth))  # pylint: disable=protected-access
+        (drawn,) = axis.collections
+        self.assertEqual(np.array(drawn.get_segments()).tolist(), np.stack((truth, truth + 5), axis=1).tolist())
+        self.assertLess(len(axis.lines), 10)
+        plt.close(figure)
 
 
 class Comparisons(InFolder):

@@ -55,6 +55,20 @@ TEST(AirBetween, AgreesWithSmallStepsThroughTheSameAir) {
   }
 }
 
+TEST(AirBetween, IsLeftOutWhereItIsNotAskedFor) {
+  Weather foggy;
+  foggy.visibility_m = 200.0;
+  const Daylight day = usualAir().daylight({at(0.0, 30.0), 1.0}, {}, foggy);
+  const Daylight clear = day.withoutAir().seenFrom({1.0F, 2.0F, 3.0F});
+  const Eigen::Vector3f towards = at(20.0, -90.0).vector().cast<float>();
+  EXPECT_LT(day.airOver(towards, 1e4F).transmittance.maxCoeff(), 0.1F);
+  EXPECT_EQ(clear.airOver(towards, 1e4F).transmittance.minCoeff(), 1.0F);
+  EXPECT_EQ(clear.airOver(towards, 1e4F).airlight.maxCoeff(), 0.0F);
+  EXPECT_GT(day.fog().per_m, 0.0F);
+  EXPECT_EQ(clear.fog().per_m, 0.0F);
+  EXPECT_EQ(clear.groundIlluminance().luminance(), day.groundIlluminance().luminance());
+}
+
 TEST(AirBetween, NoDistanceIsNoAir) {
   const Daylight day = usualAir().daylight({at(0.0, 30.0), 1.0});
   for (const double elevation_deg : {-90.0, 0.0, 33.0}) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -14,6 +15,7 @@
 #include "sunlit/quantity/frames.h"
 #include "sunlit/scene/shelter.h"
 #include "support/message_of.h"
+#include "support/temporary_folder.h"
 #include "support/usual_air.h"
 
 namespace sunlit::studio {
@@ -276,6 +278,52 @@ TEST(Studio, AMapLeavesWhatTheCameraLooksAt) {
   EXPECT_EQ(map.width, 1600);
   EXPECT_EQ(map.height, 800);
   EXPECT_EQ(studio.photograph(light, {}).picture.data, before.picture.data);
+}
+
+/// Dark land at 300 m with a white square of 25 m in its middle, and a post that rises so far above it.
+std::string highLand(const TemporaryFolder& folder, const std::string& post_top) {
+  setContent(folder.file("land.mtl"), "newmtl dark\nKd 0.05 0.05 0.05\nnewmtl white\nKd 0.9 0.9 0.9\n");
+  const std::string file = folder.file("land_" + post_top + ".obj");
+  setContent(file,
+             "mtllib land.mtl\nv -200 -200 300\nv 200 -200 300\nv 200 200 300\nv -200 200 300\n"
+             "v -12.5 -12.5 300.01\nv 12.5 -12.5 300.01\nv 12.5 12.5 300.01\nv -12.5 12.5 300.01\n"
+             "v 150 150 300\nv 151 150 300\nv 150 150 " +
+                 post_top + "\nusemtl dark\nf 1 2 3 4\nf 9 10 11\nusemtl white\nf 5 6 7 8\n");
+  return file;
+}
+
+/// Of 50 m of that land from straight above, in haze.
+image::Rgb8Image seenFromAbove(const std::string& world) {
+  StudioOptions options = boxes();
+  options.world.name = world;
+  options.top_down = TopDown{0.0, 0.0, 50.0};
+  options.render.camera = image::PinholeCamera::fromFieldOfView(80, 60, Angle::degrees(90.0));
+  options.chains[0].exposure.mode = image::ExposureMode::kFixed;
+  options.chains[0].exposure.ev100 = 14.0;
+  Studio studio(options);
+  studio.look(studio.mapFromTopDown().value());
+  sky::Weather hazy;
+  hazy.visibility_m = 2000.0;
+  const image::DepthImage depth = studio.depth();
+  EXPECT_TRUE(std::isfinite(depth.data.front()) && std::isfinite(depth.data.back()));
+  return studio.photograph(studio.illumination(sky::usualAir().daylight(kHighSun, {}, hazy)), {}).picture;
+}
+
+TEST(Studio, SeesAsMuchGroundFromAboveAsAskedForWhateverItsHeightAndWithoutHaze) {
+  const TemporaryFolder folder;
+  const image::Rgb8Image low = seenFromAbove(highLand(folder, "310"));
+  const auto isWhite = [&](int x, int y) { return *low.at(x, y) > 150; };
+  // 80 px are 50 m, so the square is 40 px wide, from 20 to 60; up to the pixels that its edges lie in.
+  for (const int side : {0, 1}) {
+    EXPECT_FALSE(isWhite(side ? 61 : 18, 30));
+    EXPECT_TRUE(isWhite(side ? 58 : 21, 30));
+    EXPECT_FALSE(isWhite(40, side ? 51 : 8));
+    EXPECT_TRUE(isWhite(40, side ? 48 : 11));
+  }
+  // From 3.5 km above, where the haze of 2 km would hide all.
+  const image::Rgb8Image high = seenFromAbove(highLand(folder, "3300"));
+  EXPECT_NEAR(*high.at(40, 30), *low.at(40, 30), 1);
+  EXPECT_NEAR(*high.at(5, 5), *low.at(5, 5), 1);
 }
 
 TEST(Studio, MapsPathsOfAnyLength) {
