@@ -33,7 +33,10 @@ std::vector<char> Evaluation::State::neededStreams(std::int64_t pose) const {
 
 void Evaluation::State::add(std::size_t stream, std::int64_t stamp_ns, Arrival arrival) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (is_finished_) return;
+  if (is_finished_) {
+    ++counts_.after_end;
+    return;
+  }
   StreamCounts& counts = counts_.streams.at(stream);
   const std::string& name = options_.streams[stream];
   const std::optional<std::int64_t> pose = poses_.of(stamp_ns);
@@ -128,7 +131,8 @@ void Evaluation::State::addLost(std::size_t stream, std::size_t images, std::int
   if (is_finished_) return;
   counts_.streams.at(stream).lost += images;
   report({"lost", std::nullopt, stamp_ns, options_.streams[stream],
-          std::to_string(images) + " images sent before this one did not come (by their sequence numbers)"});
+          "by their sequence numbers " + std::to_string(images) +
+              " images before this one are missing (lost, or left out by a throttle)"});
 }
 
 void Evaluation::State::noteLossy(std::size_t stream) {
