@@ -114,12 +114,20 @@ std::string suggestion(const std::string& unknown, const std::set<std::string>& 
   return nearest.empty() ? "" : " (did you mean " + nearest + "?)";
 }
 
+/// Nothing stands there, and keys below it are asked for: `{}`, or all of them are commented out.
+bool isEmptyGroup(const XmlRpcValue& value, const std::string& key, const std::set<std::string>& asked) {
+  const bool is_struct = value.getType() == XmlRpcValue::TypeStruct;
+  if (value.valid() && (!is_struct || value.size() > 0)) return false;
+  const auto below = asked.lower_bound(key + "/");
+  return below != asked.end() && below->compare(0, key.size() + 1, key + "/") == 0;
+}
+
 /// The first leaf of `tree` that no asked key equals or contains.
 std::optional<std::string> firstUnknown(const XmlRpcValue& tree, const std::string& prefix,
                                         const std::set<std::string>& asked) {
   for (const auto& [name, value] : withMembers(tree)) {
     const std::string key = prefix + name;
-    if (asked.count(key) != 0) continue;
+    if (asked.count(key) != 0 || isEmptyGroup(value, key, asked)) continue;
     if (value.getType() != XmlRpcValue::TypeStruct || value.size() == 0) return key;
     if (auto unknown = firstUnknown(value, key + "/", asked)) return unknown;
   }

@@ -90,6 +90,10 @@ sky::AtmosphereOptions airOf(const SkyOptions& options, double site_elevation_m)
   return air;
 }
 
+void Sky::requireWeather(const sky::Weather& weather, double site_elevation_m) const {
+  sky::validate(weather, airOf(options_, site_elevation_m));
+}
+
 sky::AtmosphereOptions Sky::airAt(double site_elevation_m, std::size_t state) const {
   sky::AtmosphereOptions air = airOf(options_, site_elevation_m);
   air.ground_albedo = groundAlbedo(state);

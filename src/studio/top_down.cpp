@@ -12,7 +12,7 @@ double groundUnder(const light::World& world, const TopDown& ground, const Heigh
   const Eigen::Vector3d above(ground.x, ground.y, heights.top + 1.0);
   const auto seen = world.visibility->firstSeen(above.cast<float>(), -Eigen::Vector3f::UnitZ(), 0.0f);
   if (!seen) return heights.bottom;
-  const light::Plane& plane = world.geometry->planes[*seen];
+  const scene::Plane& plane = world.geometry->planes[*seen];
   const Eigen::Vector3d normal = plane.normal.cast<double>();
   const double z = (plane.offset - normal.head<2>().dot(above.head<2>())) / normal.z();
   return std::clamp(z, heights.bottom, heights.top);  // of a plane that is nearly upright
@@ -21,7 +21,7 @@ double groundUnder(const light::World& world, const TopDown& ground, const Heigh
 }  // namespace
 
 Heights heightsOf(const light::World& world) {
-  const std::vector<Eigen::Vector3f>& positions = world.geometry->positions;
+  const auto& positions = world.geometry->positions;
   if (positions.empty()) return {};
   const auto [low, high] =
       std::minmax_element(positions.begin(), positions.end(),

@@ -63,6 +63,9 @@ class Sky {
   void over(const std::vector<light::World>& states);
   double groundAlbedo(std::size_t state = 0) const { return ground_albedos_.at(state); }
 
+  /// Throws std::invalid_argument where the air of a site cannot have this weather, and daylight() would.
+  void requireWeather(const sky::Weather& weather, double site_elevation_m) const;
+
   /// Over the land in its state number `state`.
   sky::Daylight daylight(const SkyBodies& bodies, const sky::Weather& weather = {}, std::size_t state = 0);
   /// Makes the air that daylight() of the same site will need, if it is not there.

@@ -85,7 +85,10 @@ void Evaluation::State::settleAndWrite(Outcome& outcome) {
   outcome.summary = summarise(layout_, records_);
   writeSummary(file("summary.csv"), outcome.summary);
   if (isVerifying()) outcome.verified = writeVerifiedSummaries();
-  record_files_->finish(options_.streams, poses_);
+  const std::size_t left_out = record_files_->finish(options_.streams);
+  if (left_out > 0 && callbacks_.note)
+    callbacks_.note(file("path.csv") + ": " + std::to_string(left_out) +
+                    " poses of stamps without an image left out");
   problems_->finish(poses_, [&](const Problem& problem) { return isMended(problem, evaluated); });
   writeRunFile(file("run.yaml"), options_, &outcome, nullptr);
 }

@@ -33,11 +33,16 @@ std::vector<char> Evaluation::State::neededStreams(std::int64_t pose) const {
 
 void Evaluation::State::add(std::size_t stream, std::int64_t stamp_ns, Arrival arrival) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (is_finished_) return;
+  if (is_finished_) {
+    ++counts_.after_end;
+    return;
+  }
   StreamCounts& counts = counts_.streams.at(stream);
   const std::string& name = options_.streams[stream];
   const std::optional<std::int64_t> pose = poses_.of(stamp_ns);
   ++counts.received;
+  places_.noteImage(stamp_ns);
+  record_files_->noteImage(stamp_ns);
   if (!arrival.fault.empty()) {
     ++counts.undecodable;
     report({"undecodable", pose, stamp_ns, name, arrival.fault});
@@ -79,9 +84,12 @@ void Evaluation::State::turnAway(std::size_t stream, std::int64_t stamp_ns, std:
 // is kept from images that wait for nothing but pose, depth or camera, so that they turn no other away.
 void Evaluation::State::keepWithinMemory(std::int64_t newest_ns) {
   const auto isTooMuch = [&] {
-    return sets_.reservedBytes() + queued_bytes_ + depthBytes() > options_.memory_limit_bytes;
+    return sets_.reservedBytes() + queued_bytes_ + truthBytes() > options_.memory_limit_bytes;
   };
   const bool is_busy = queued_bytes_ > 0;
+  // Poses older than all images that wait: theirs will hardly come.
+  if (truthBytes() > 0 && isTooMuch())
+    observer_->truth().forgetPosesBefore(sets_.oldest().value_or(newest_ns));
   handOverComplete(isTooMuch() && !is_busy ? 0 : options_.memory_limit_bytes / 2, newest_ns);
   while (sets_.reservedBytes() > 0 && isTooMuch()) {
     const bool is_newest = is_busy && sets_.find(newest_ns) != nullptr;
@@ -90,7 +98,7 @@ void Evaluation::State::keepWithinMemory(std::int64_t newest_ns) {
     const bool is_complete = pose && hasAllImages(*sets_.find(stamp), *pose);
     close(stamp, pose, is_complete ? Reason::kWhole : Reason::kMemory);
   }
-  while (depthBytes() > 0 && isTooMuch())
+  while (truthBytes() > 0 && isTooMuch())
     observer_->truth().take(observer_->truth().oldest());  // whose images may never come
 }
 
@@ -123,7 +131,8 @@ void Evaluation::State::addLost(std::size_t stream, std::size_t images, std::int
   if (is_finished_) return;
   counts_.streams.at(stream).lost += images;
   report({"lost", std::nullopt, stamp_ns, options_.streams[stream],
-          std::to_string(images) + " images sent before this one did not come (by their sequence numbers)"});
+          "by their sequence numbers " + std::to_string(images) +
+              " images before this one are missing (lost, or left out by a throttle)"});
 }
 
 void Evaluation::State::noteLossy(std::size_t stream) {
@@ -337,7 +346,7 @@ Counts Evaluation::State::counts() const {
   counts.waiting_images = sets_.waitingImages();
   counts.unexpected_poses = unexpected_poses_;
   counts.queued_poses = under_way_.size();
-  counts.bytes = sets_.reservedBytes() + queued_bytes_ + depthBytes();
+  counts.bytes = sets_.reservedBytes() + queued_bytes_ + truthBytes();
   if (const auto oldest = sets_.oldest()) {
     const StampSet& set = *sets_.find(*oldest);
     for (std::size_t s = 0; s < set.streams.size(); ++s) {

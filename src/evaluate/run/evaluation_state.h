@@ -121,7 +121,7 @@ class Evaluation::State {
   void prepareLocalisation();
   void addTruth(std::int64_t stamp_ns, const std::function<void(GroundTruth&)>& add);
   void observeSet(const StampSet& set, Work& work);
-  std::size_t depthBytes() const { return observer_ ? observer_->truth().bytes() : 0; }
+  std::size_t truthBytes() const { return observer_ ? observer_->truth().bytes() : 0; }
   std::vector<LocalisationRow> localisedBefore() const;
   bool hasForgottenObservations() const;
   bool isWholeAlone() const;

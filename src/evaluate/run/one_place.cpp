@@ -7,11 +7,18 @@
 namespace sunlit::evaluate {
 
 bool OnePlace::isBroken(std::int64_t stamp_ns, const Eigen::Isometry3d& map_from_optical) {
-  const auto [found, is_first] = first_.emplace(stamp_ns, map_from_optical);
-  if (is_first || faults_.count(stamp_ns) != 0) return false;
-  const Eigen::Isometry3d& first = found->second;
-  const double metres = (map_from_optical.translation() - first.translation()).norm();
-  const Eigen::Matrix3d turned = first.linear().transpose() * map_from_optical.linear();
+  const auto of_image = first_.find(stamp_ns);
+  const bool has_image = of_image != first_.end();
+  const Eigen::Isometry3d* first = waiting_.find(stamp_ns);
+  if (has_image && of_image->second) first = &*of_image->second;
+  if (first == nullptr) {
+    if (has_image) of_image->second = map_from_optical;
+    if (!has_image) waiting_.add(stamp_ns, map_from_optical);
+    return false;
+  }
+  if (faults_.count(stamp_ns) != 0) return false;
+  const double metres = (map_from_optical.translation() - first->translation()).norm();
+  const Eigen::Matrix3d turned = first->linear().transpose() * map_from_optical.linear();
   const double degrees = Eigen::AngleAxisd(turned).angle() / kRadPerDeg;
   if (metres <= kSamePlace_m && degrees <= kSamePlace_deg) return false;
   char text[128];
@@ -20,6 +27,11 @@ bool OnePlace::isBroken(std::int64_t stamp_ns, const Eigen::Isometry3d& map_from
                 degrees);
   faults_.emplace(stamp_ns, text);
   return true;
+}
+
+void OnePlace::noteImage(std::int64_t stamp_ns) {
+  const auto [found, is_first] = first_.emplace(stamp_ns, std::nullopt);
+  if (is_first) found->second = waiting_.take(stamp_ns);
 }
 
 std::string OnePlace::fault(std::int64_t stamp_ns) const {

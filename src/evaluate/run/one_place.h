@@ -4,7 +4,10 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
+
+#include "evaluate/run/recent.h"
 
 namespace sunlit::evaluate {
 
@@ -19,13 +22,17 @@ constexpr double kSamePlace_deg = 0.1;
 /// are of different places: nobody can tell which is whose.
 class OnePlace {
  public:
-  /// True where this pose is the first that is of another place than the stamp's first pose.
+  /// True where this pose is the first that is of another place than the stamp's first pose. Where no image
+  /// has come, that is remembered as Recent does.
   bool isBroken(std::int64_t stamp_ns, const Eigen::Isometry3d& map_from_optical);
+  /// An image of this stamp came.
+  void noteImage(std::int64_t stamp_ns);
   /// How far apart the poses of the stamp are, in words; empty where they are of one place.
   std::string fault(std::int64_t stamp_ns) const;
 
  private:
-  std::map<std::int64_t, Eigen::Isometry3d> first_;
+  std::map<std::int64_t, std::optional<Eigen::Isometry3d>> first_;  // of images; empty: none has come
+  Recent<Eigen::Isometry3d> waiting_;                               // for an image
   std::map<std::int64_t, std::string> faults_;
 };
 

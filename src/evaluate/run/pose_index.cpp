@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
+#include <utility>
 
 namespace sunlit::evaluate {
 
@@ -26,7 +28,7 @@ std::optional<std::int64_t> PoseIndex::byRate(std::int64_t stamp_ns) const {
 }
 
 std::optional<std::int64_t> PoseIndex::of(std::int64_t stamp_ns) {
-  if (frame_rate_ > 0.0) return byRate(stamp_ns);
+  if (hasRate()) return byRate(stamp_ns);
   if (!learnt_.empty()) {
     const auto found = learnt_.find(stamp_ns);
     if (found == learnt_.end()) return std::nullopt;
@@ -37,15 +39,25 @@ std::optional<std::int64_t> PoseIndex::of(std::int64_t stamp_ns) {
   return inserted.first->second;
 }
 
-std::int64_t PoseIndex::settled(std::int64_t stamp_ns, std::int64_t fallback) const {
-  if (frame_rate_ > 0.0) return byRate(stamp_ns).value_or(fallback);
+std::optional<std::int64_t> PoseIndex::known(std::int64_t stamp_ns) const {
+  if (hasRate()) return byRate(stamp_ns);
   if (!learnt_.empty()) {
     const auto found = learnt_.find(stamp_ns);
-    return found == learnt_.end() ? fallback : found->second;
+    if (found == learnt_.end()) return std::nullopt;
+    return found->second;
   }
   const auto found = by_appearance_.find(stamp_ns);
-  if (found == by_appearance_.end()) return fallback;
+  if (found == by_appearance_.end()) return std::nullopt;
   return expected_.at(static_cast<std::size_t>(std::distance(by_appearance_.begin(), found)));
+}
+
+bool PoseIndex::isNearer(std::int64_t stamp_ns, std::int64_t other_ns) const {
+  if (!hasRate()) return true;
+  const auto miss = [&](std::int64_t stamp) {
+    const double pose = static_cast<double>(byRate(stamp).value_or(0));
+    return std::abs(stamp - stamp_start_ns_ - std::llround(1e9 * pose / frame_rate_));
+  };
+  return std::make_pair(miss(stamp_ns), stamp_ns) <= std::make_pair(miss(other_ns), other_ns);
 }
 
 }  // namespace sunlit::evaluate

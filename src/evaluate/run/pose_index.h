@@ -24,8 +24,16 @@ class PoseIndex {
   /// The pose, or nothing while it is still to be learnt from a capture, and for a stamp before the start. By
   /// order, stamps are numbered as they first appear here; settled() puts that right.
   std::optional<std::int64_t> of(std::int64_t stamp_ns);
-  /// The pose once all stamps are known; by order: the rank of the stamp.
-  std::int64_t settled(std::int64_t stamp_ns, std::int64_t fallback) const;
+  /// The pose once all stamps are known; by order: the rank of the stamp. Nothing for one that is of no image
+  /// as far as known, or before the start.
+  std::optional<std::int64_t> known(std::int64_t stamp_ns) const;
+  std::int64_t settled(std::int64_t stamp_ns, std::int64_t fallback) const {
+    return known(stamp_ns).value_or(fallback);
+  }
+  bool hasRate() const { return frame_rate_ > 0.0; }
+  /// Whether a place of one stamp counts before an earlier one of `other_ns`, of the same pose: by a rate
+  /// where it is nearer to the stamp that this gives the pose, or as near and not later; else always.
+  bool isNearer(std::int64_t stamp_ns, std::int64_t other_ns) const;
 
  private:
   std::optional<std::int64_t> byRate(std::int64_t stamp_ns) const;

@@ -11,7 +11,6 @@ namespace {
 const char* const kCapturesHeader =
     "stream,pose,stamp,ev100,exposure_mode,sun_azimuth_deg,sun_elevation_deg,"
     "moon_azimuth_deg,moon_elevation_deg,moon_illuminated_fraction,scene_illuminance";
-const char* const kPathHeader = "pose,stamp,x,y,z,yaw_deg";
 const char* const kProblemsHeader = "kind,pose,stamp,where,reason";
 
 std::string lineOf(const std::string& stream, const CaptureRecord& c) {
@@ -22,11 +21,6 @@ std::string lineOf(const std::string& stream, const CaptureRecord& c) {
          formatNumber(c.scene_illuminance_lx) + "\n";
 }
 
-std::string lineOf(std::int64_t pose, const PlaceRecord& p) {
-  return std::to_string(pose) + "," + formatStamp(p.stamp_ns) + "," + formatNumber(p.x_m) + "," +
-         formatNumber(p.y_m) + "," + formatNumber(p.z_m) + "," + formatNumber(p.yaw_deg) + "\n";
-}
-
 std::string lineOf(const Problem& p) {
   return p.kind + "," + (p.pose ? std::to_string(*p.pose) : "") + "," +
          (p.stamp_ns ? formatStamp(*p.stamp_ns) : "") + "," + csvField(p.where) + "," + csvField(p.reason) +
@@ -35,12 +29,14 @@ std::string lineOf(const Problem& p) {
 
 }  // namespace
 
-RecordFiles::RecordFiles(const std::string& folder, PoseIndex& poses) : folder_(folder) {
+RecordFiles::RecordFiles(const std::string& folder, PoseIndex& poses)
+    : folder_(folder), path_(folder, poses) {
   read(folder, poses);
 }
 
 void RecordFiles::merge(const std::string& other_folder, PoseIndex& poses) {
   read(other_folder, poses);
+  path_.merge(other_folder);
 }
 
 void RecordFiles::read(const std::string& folder, PoseIndex& poses) {
@@ -52,53 +48,35 @@ void RecordFiles::read(const std::string& folder, PoseIndex& poses) {
     captures_[{f[0], capture.pose}] = capture;
     poses.learn(capture.stamp_ns, capture.pose);
   });
-  forEachCsvRow(folder + "/path.csv", kPathHeader, [&](const std::vector<std::string>& f) {
-    const PlaceRecord place{parseStamp(f[1]), parseNumber(f[2]), parseNumber(f[3]), parseNumber(f[4]),
-                            parseNumber(f[5])};
-    places_[place.stamp_ns] = place;
-  });
-  if (!captures_.empty() || !places_.empty()) finish({}, poses);  // without torn ends, before going on
+  if (!captures_.empty()) writeCaptures({});  // without torn ends, before going on
 }
 
 void RecordFiles::add(const std::string& stream, const CaptureRecord& capture) {
   if (captures_.empty()) captures_file_.open(folder_ + "/captures.csv", kCapturesHeader);
   captures_[{stream, capture.pose}] = capture;
   captures_file_.append(lineOf(stream, capture));
+  noteImage(capture.stamp_ns);  // even if it never comes
 }
 
-void RecordFiles::add(const PlaceRecord& place) {
-  if (places_.empty()) path_file_.open(folder_ + "/path.csv", kPathHeader);
-  places_[place.stamp_ns] = place;
-  path_file_.append(lineOf(0, place));
-}
-
-void RecordFiles::finish(const std::vector<std::string>& streams, const PoseIndex& poses) {
+void RecordFiles::writeCaptures(const std::vector<std::string>& streams) {
   captures_file_.close();
-  path_file_.close();
-  if (!captures_.empty()) {
-    const auto rank = [&](const std::string& stream) {
-      return std::find(streams.begin(), streams.end(), stream) - streams.begin();
-    };
-    std::vector<std::pair<std::string, CaptureRecord>> sorted;
-    for (const auto& item : captures_) sorted.emplace_back(item.first.first, item.second);
-    std::stable_sort(sorted.begin(), sorted.end(), [&](const auto& l, const auto& r) {
-      return std::make_pair(rank(l.first), l.second.pose) < std::make_pair(rank(r.first), r.second.pose);
-    });
-    std::string text = std::string(kCapturesHeader) + "\n";
-    for (const auto& item : sorted) text += lineOf(item.first, item.second);
-    image::writeFileAtomically(folder_ + "/captures.csv", text);
-    captures_file_.open(folder_ + "/captures.csv", kCapturesHeader);
-  }
-  if (!places_.empty()) {
-    // A pose that an earlier run saw under another stamp is the same place.
-    std::map<std::int64_t, PlaceRecord> by_pose;
-    std::int64_t rank = 0;
-    for (const auto& item : places_) by_pose[poses.settled(item.first, rank++)] = item.second;
-    std::string text = std::string(kPathHeader) + "\n";
-    for (const auto& item : by_pose) text += lineOf(item.first, item.second);
-    image::writeFileAtomically(folder_ + "/path.csv", text);
-    path_file_.open(folder_ + "/path.csv", kPathHeader);
-  }
+  const auto rank = [&](const std::string& stream) {
+    return std::find(streams.begin(), streams.end(), stream) - streams.begin();
+  };
+  std::vector<std::pair<std::string, CaptureRecord>> sorted;
+  for (const auto& item : captures_) sorted.emplace_back(item.first.first, item.second);
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const auto& l, const auto& r) {
+    return std::make_pair(rank(l.first), l.second.pose) < std::make_pair(rank(r.first), r.second.pose);
+  });
+  std::string text = std::string(kCapturesHeader) + "\n";
+  for (const auto& item : sorted) text += lineOf(item.first, item.second);
+  image::writeFileAtomically(folder_ + "/captures.csv", text);
+  captures_file_.open(folder_ + "/captures.csv", kCapturesHeader);
+}
+
+std::size_t RecordFiles::finish(const std::vector<std::string>& streams) {
+  if (!captures_.empty()) writeCaptures(streams);
+  return path_.finish();
 }
 
 std::set<std::pair<std::int64_t, std::string>> pairsOfTwoPlaces(const std::string& folder) {

@@ -1,6 +1,7 @@
 /// captures.csv, path.csv and problems.csv: what is known of the images beside their differences.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -12,29 +13,33 @@
 #include <vector>
 
 #include "evaluate/files/files.h"
+#include "evaluate/run/path_file.h"
 #include "evaluate/run/pose_index.h"
 #include "sunlit/evaluate/run/evaluation.h"
 
 namespace sunlit::evaluate {
 
-/// captures.csv and path.csv. Both grow while images come in and are sorted, without doubles, at the end.
+/// captures.csv and path.csv. They grow while images come in and are sorted, without doubles, at the end.
 class RecordFiles {
  public:
-  /// Reads what an earlier run left in `folder`, tells `poses`, and goes on from there.
+  /// Reads what an earlier run left in `folder`, tells `poses`, which outlives this, and goes on from there.
   RecordFiles(const std::string& folder, PoseIndex& poses);
   /// Adds what a run in another folder left.
   void merge(const std::string& other_folder, PoseIndex& poses);
   void add(const std::string& stream, const CaptureRecord& capture);
-  void add(const PlaceRecord& place);
-  void finish(const std::vector<std::string>& streams, const PoseIndex& poses);
+  void add(const PlaceRecord& place) { path_.add(place); }
+  /// An image of this stamp came.
+  void noteImage(std::int64_t stamp_ns) { path_.noteImage(stamp_ns); }
+  /// How many places were left out, since they are of no image.
+  std::size_t finish(const std::vector<std::string>& streams);
 
  private:
   void read(const std::string& folder, PoseIndex& poses);
+  void writeCaptures(const std::vector<std::string>& streams);
   std::string folder_;
   AppendFile captures_file_;
-  AppendFile path_file_;
   std::map<std::pair<std::string, std::int64_t>, CaptureRecord> captures_;  // by stream and pose
-  std::map<std::int64_t, PlaceRecord> places_;                              // by stamp
+  PathFile path_;
 };
 
 /// One thing that did not go as it should.

@@ -54,8 +54,11 @@ void EvaluatorDiagnostics::tell(WallUpdater::Status& status) {
   std::size_t not_evaluated = 0;
   for (const evaluate::PairCounts& pair : counts.pairs) not_evaluated += pair.notEvaluated();
   status.add("pairs that could not be evaluated", not_evaluated);
+  status.add("images after the end", counts.after_end);
   using Status = diagnostic_msgs::DiagnosticStatus;
-  if (failures + not_evaluated > 0) {
+  if (counts.after_end > 0) {
+    status.summaryf(Status::WARN, "%zu images came after the end, and were left out", counts.after_end);
+  } else if (failures + not_evaluated > 0) {
     status.summaryf(Status::WARN,
                     "%zu images dropped, late, lost, duplicate or unusable; %zu pairs could not be evaluated",
                     failures, not_evaluated);

@@ -10,8 +10,8 @@
 namespace sunlit::ros_interface {
 
 /// Once a second: images a second and losses of each stream, backlog, progress, and what is waited for. A
-/// warning once anything was dropped, lost or left out, or could not be used or evaluated, and while nobody
-/// sends a stream.
+/// warning once anything was dropped, lost or left out, or could not be used or evaluated, or came after the
+/// end, and while nobody sends a stream.
 class EvaluatorDiagnostics {
  public:
   /// Both outlive this.

@@ -4,6 +4,7 @@
 #include <ros/console.h>
 #include <std_msgs/UInt32.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -67,26 +68,31 @@ EvaluatorNode::EvaluatorNode(ros::NodeHandle node, ros::NodeHandle private_node,
   progress_ = private_node.advertise<std_msgs::UInt32>(topics::kProgress, 1, true);
   matches_image_ = private_node.advertise<sensor_msgs::Image>(topics::kMatchesImage, 2);
 
-  const auto publishProgress = [this](std::size_t completed) {
-    std_msgs::UInt32 message;
-    message.data = static_cast<std::uint32_t>(completed);
-    progress_.publish(message);
-  };
   evaluate::EvaluationCallbacks callbacks;
-  callbacks.progress = publishProgress;
+  callbacks.progress = [this](std::size_t completed) { publishProgress(completed); };
   callbacks.note = [](const std::string& line) { ROS_INFO("%s", line.c_str()); };
   callbacks.pair_done = [this](const evaluate::PairRecord& record, const cv::Mat& a, const cv::Mat& b) {
     onPairDone(record, a, b);
   };
   evaluation_ = std::make_unique<evaluate::Evaluation>(options_.evaluation, callbacks);
-  publishProgress(evaluation_->counts().completed_poses);
 
   intake_ = std::make_unique<ImageIntake>(node, options.intake, *evaluation_);
+  // Not before it listens: who waits for our progress begins to send.
+  publishProgress(evaluation_->counts().completed_poses);
   diagnostics_ = std::make_unique<EvaluatorDiagnostics>(node, private_node, *evaluation_, *intake_);
   finish_ = private_node.advertiseService("finish", &EvaluatorNode::onFinish, this);
 }
 
 EvaluatorNode::~EvaluatorNode() = default;
+
+// From several threads, of which one may be overtaken; it never falls.
+void EvaluatorNode::publishProgress(std::size_t completed) {
+  const std::lock_guard<std::mutex> lock(progress_mutex_);
+  completed_ = std::max(completed_, completed);
+  std_msgs::UInt32 message;
+  message.data = static_cast<std::uint32_t>(completed_);
+  progress_.publish(message);
+}
 
 void EvaluatorNode::onPairDone(const evaluate::PairRecord& record, const cv::Mat& a, const cv::Mat& b) {
   PairDifference message = messageOf(evaluation_->options(), record);
@@ -214,6 +220,9 @@ int EvaluatorNode::run() {
       log_.update(options_.evaluation, evaluation_->counts());
       const std::string reason = reasonToFinish();
       if (!reason.empty()) finish(reason);
+    } else if (!has_warned_ && evaluation_->counts().after_end > 0) {
+      has_warned_ = true;
+      ROS_WARN("Images come after the end and are left out: only a node that is started anew takes them");
     }
     if (is_finished_ && options_.exit_when_done) {
       deliverTheLast();

@@ -6,8 +6,10 @@
 #include <ros/service_server.h>
 #include <std_srvs/Trigger.h>
 
+#include <cstddef>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "ros/activity.h"
@@ -30,6 +32,7 @@ class EvaluatorNode {
   int run();
 
  private:
+  void publishProgress(std::size_t completed);
   void onPairDone(const evaluate::PairRecord& record, const cv::Mat& a, const cv::Mat& b);
   bool onFinish(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool isIdle() const;
@@ -45,6 +48,8 @@ class EvaluatorNode {
   ros::Publisher pair_difference_;
   ros::Publisher summary_;
   ros::Publisher progress_;
+  std::mutex progress_mutex_;
+  std::size_t completed_ = 0;  // as told
   ros::Publisher matches_image_;
   LocalisationOutput localisation_;
   ActivityOutput activity_;
@@ -54,6 +59,7 @@ class EvaluatorNode {
   ros::ServiceServer finish_;
   ProgressLog log_;
   bool is_finished_ = false;
+  bool has_warned_ = false;   // of images after the end
   std::exception_ptr fault_;  // that kept ~finish from writing
   std::string faults_;        // what could not be evaluated
   int status_ = 0;

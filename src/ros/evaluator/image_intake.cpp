@@ -3,6 +3,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <image_transport/exception.h>
 #include <ros/console.h>
+#include <ros/message_event.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sunlit/Capture.h>
 
@@ -90,20 +91,33 @@ void ImageIntake::subscribe(std::size_t stream) {
         guarded([&] { evaluation_.addCapture(stream, captureOf(*message)); });
       },
       nullptr, hints);
-  if (options_.transport != kCompressed) return subscribeByPlugin(stream, root + topics::kImage);
-  streams_[stream].compressed = node_.subscribe<sensor_msgs::CompressedImage>(
-      root + topics::kCompressedImage, kQueue,
-      [this, stream](const sensor_msgs::CompressedImage::ConstPtr& message) { take(stream, *message); },
-      nullptr, hints);
+  if (options_.transport == kRaw) {
+    streams_[stream].images = imagesOf<sensor_msgs::Image>(stream, root + topics::kImage);
+  } else if (options_.transport == kCompressed) {
+    streams_[stream].images = imagesOf<sensor_msgs::CompressedImage>(stream, root + topics::kCompressedImage);
+  } else {
+    subscribeByPlugin(stream, root + topics::kImage);
+  }
+}
+
+template <typename Message>
+ros::Subscriber ImageIntake::imagesOf(std::size_t stream, const std::string& topic) {
+  using Event = ros::MessageEvent<const Message>;
+  const boost::function<void(const Event&)> taken = [this, stream](const Event& event) {
+    take(stream, *event.getMessage(), event.getPublisherName());
+  };
+  return node_.subscribe<Message, const Event&>(topic, kQueue, taken, nullptr,
+                                                ros::TransportHints().tcpNoDelay());
 }
 
 void ImageIntake::subscribeByPlugin(std::size_t stream, const std::string& topic) {
   const image_transport::TransportHints hints(options_.transport, ros::TransportHints().tcpNoDelay(),
                                               ros::NodeHandle("~"));
   try {
-    streams_[stream].images = transport_.subscribe(
-        topic, kQueue, [this, stream](const sensor_msgs::ImageConstPtr& message) { take(stream, *message); },
-        nullptr, hints);
+    streams_[stream].plugged = transport_.subscribe(
+        topic, kQueue,
+        [this, stream](const sensor_msgs::ImageConstPtr& message) { take(stream, *message, ""); }, nullptr,
+        hints);
   } catch (const image_transport::Exception&) {
     refuse("image_transport", '"' + options_.transport + '"',
            "one of those that are installed: " + transportsToBeHad(transport_));
@@ -122,10 +136,10 @@ void ImageIntake::guarded(const Call& call) {
 }
 
 template <typename Message>
-void ImageIntake::take(std::size_t stream, const Message& message) {
+void ImageIntake::take(std::size_t stream, const Message& message, const std::string& sender) {
   guarded([&] {
     last_image_s_ = ros::SteadyTime::now().toSec();
-    countGap(stream, message.header);
+    countGap(stream, message.header, sender);
     const DecodedImage decoded = decode(message, options_.max_pixels);
     const std::int64_t stamp_ns = nanosecondsOf(message.header.stamp);
     if (!decoded.fault.empty()) {
@@ -142,7 +156,7 @@ void ImageIntake::take(std::size_t stream, const Message& message) {
 
 std::size_t ImageIntake::senders(std::size_t stream) const {
   const Stream& s = streams_[stream];
-  return s.images ? s.images.getNumPublishers() : s.compressed.getNumPublishers();
+  return s.images ? s.images.getNumPublishers() : s.plugged.getNumPublishers();
 }
 
 std::string ImageIntake::unheardStreams() const {
@@ -155,13 +169,11 @@ std::string ImageIntake::unheardStreams() const {
   return names;
 }
 
-// Senders number their messages one by one. Two of them at once have two counts, and one that begins anew a
-// lower one: neither tells of a loss.
-void ImageIntake::countGap(std::size_t stream, const std_msgs::Header& header) {
-  std::optional<std::uint32_t>& last = streams_[stream].sequence;
-  if (last && header.seq > *last + 1 && senders(stream) == 1)
-    evaluation_.addLost(stream, header.seq - *last - 1, nanosecondsOf(header.stamp));
-  last = header.seq;
+// Two senders at once have two counts, and of a plug-in's images nobody tells which is whose.
+void ImageIntake::countGap(std::size_t stream, const std_msgs::Header& header, const std::string& sender) {
+  const SequenceGaps::Gap gap = streams_[stream].gaps[sender].add(header.seq, nanosecondsOf(header.stamp));
+  if (gap.images > 0 && (!sender.empty() || senders(stream) == 1))
+    evaluation_.addLost(stream, gap.images, gap.stamp_ns);
 }
 
 double ImageIntake::secondsWithoutImage() const {

@@ -9,11 +9,12 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
+#include <map>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "ros/evaluator/sequence_gaps.h"
 #include "sunlit/evaluate/run/evaluation.h"
 
 namespace sunlit::ros_interface {
@@ -62,21 +63,23 @@ class ImageIntake {
 
  private:
   struct Stream {
-    image_transport::Subscriber images;
-    ros::Subscriber compressed;
+    ros::Subscriber images;               // raw or compressed
+    image_transport::Subscriber plugged;  // of another transport
     ros::Subscriber captures;
     ros::Subscriber cameras;
-    std::optional<std::uint32_t> sequence;  // of the last image
+    std::map<std::string, SequenceGaps> gaps;  // by sender; of a plug-in, which tells none, all of them
   };
 
   void subscribe(std::size_t stream);
+  template <typename Message>
+  ros::Subscriber imagesOf(std::size_t stream, const std::string& topic);
   void subscribeToTruth();
   void subscribeByPlugin(std::size_t stream, const std::string& topic);
   template <typename Message>
-  void take(std::size_t stream, const Message& message);
+  void take(std::size_t stream, const Message& message, const std::string& sender);
   template <typename Call>
   void guarded(const Call& call);
-  void countGap(std::size_t stream, const std_msgs::Header& header);
+  void countGap(std::size_t stream, const std_msgs::Header& header, const std::string& sender);
   std::size_t senders(std::size_t stream) const;
 
   ImmediateQueue queue_;
@@ -87,10 +90,11 @@ class ImageIntake {
   std::atomic<double> last_image_s_;  // of the steady clock
   mutable std::mutex fault_mutex_;
   std::exception_ptr fault_;
-  std::vector<Stream> streams_;
-  ros::Subscriber places_;
   mutable std::mutex frame_mutex_;
   std::string frame_of_poses_;
+  // Last, so that they end before what their callbacks use.
+  std::vector<Stream> streams_;
+  ros::Subscriber places_;
   ros::Subscriber depth_;
 };
 

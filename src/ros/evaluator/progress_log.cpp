@@ -218,7 +218,7 @@ std::string remarksOf(const evaluate::EvaluationOptions& options, const evaluate
     if (!c.isMostlyDuplicate())  // else it is a fault
       add(c.duplicate, "of a stamp that had come before, left out", options.streams[s]);
     add(c.late, "late, after their stamp had been given up", options.streams[s]);
-    add(c.lost, "sent, but lost on the way", options.streams[s]);
+    add(c.lost, "missing by their sequence numbers (lost, or left out by a throttle)", options.streams[s]);
     add(c.unexpected, "of poses that are not expected, left out", options.streams[s]);
     add(c.lossy, "compressed with loss (JPEG)", options.streams[s]);
     if (c.no_features > 0)

@@ -1,3 +1,5 @@
+#include <ros/console.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -58,6 +60,38 @@ ros::Time PathRun::startOfNow() const {
   ros::Time start;
   start.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(now - ahead, 1)));
   return start;
+}
+
+// Of a simulation that is reset, or a bag that is played again. Less than a pose is no more than a wait.
+void PathRun::heedClock() {
+  const ros::Time now = ros::Time::now();
+  const ros::Time before = seen_;
+  seen_ = now;
+  if (clock_ != nullptr || now + ros::Duration(1.0 / options_.frame_rate) >= before) return;
+  const bool is_told = !set_back_from_.isZero();
+  set_back_from_ = before;
+  if (is_told) return;
+  ROS_WARN("The clock was set back from %s to %s: %s", textOfStamp(before).c_str(), textOfStamp(now).c_str(),
+           options_.start_stamp_s
+               ? "start_stamp stands, so that the next pose waits until that time comes again"
+               : "start_stamp is now, so that the path goes on by stamps of that time");
+}
+
+// For a moment its sky is still that of before.
+Step PathRun::beginAnew() {
+  waits_for_ = streams_.waitsForSky();
+  if (!waits_for_.empty()) return Step::kWaits;
+  const ros::Time now = ros::Time::now();
+  const ros::Time sky = streams_.newestSky();
+  if (streams_.missedSky(now) && (sky - now).toSec() > (set_back_from_ - sky).toSec()) {
+    waits_for_ = std::string("a sky of the time to which the clock was set back");
+    return Step::kWaits;
+  }
+  set_back_from_ = ros::Time();
+  next_.reset();
+  if (tf_) tf_->buffer.clear();
+  setStart(startOfNow());
+  return Step::kWaits;
 }
 
 bool PathRun::isTime(const ros::Time& stamp) {
@@ -126,6 +160,7 @@ void PathRun::warnOfOtherParent() {
 Step PathRun::render() {
   if (!next_) next_ = shotAt(position_, {});
   waits_for_ = Wait();
+  waits_set_back_ = !set_back_from_.isZero();
   if (!isTime(next_->stamp)) {
     waits_for_ = time_wait_.until(next_->stamp, "pose " + std::to_string(next_->pose_index),
                                   ros::Duration(1.0 / options_.frame_rate));
@@ -133,6 +168,8 @@ Step PathRun::render() {
   }
   waits_for_ = streams_.waitsForSky(next_->stamp);
   if (!waits_for_.empty()) return Step::kWaits;
+  waits_set_back_ = false;
+  set_back_from_ = ros::Time();
   Shot shot = *next_;
   if (tf_) {
     // Not earlier: they move while the pose waits for its time, its sky and its readers.
@@ -152,6 +189,9 @@ Step PathRun::render() {
 }
 
 Step PathRun::step() {
+  heedClock();
+  waits_set_back_ = false;
+  if (!set_back_from_.isZero() && !options_.start_stamp_s && position_ < positions()) return beginAnew();
   if (start_.isZero()) setStart(startOfNow());
   if (position_ >= positions()) {
     if (pacer_.allHave(counted(positions()))) return Step::kDone;

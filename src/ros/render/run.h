@@ -76,7 +76,7 @@ class PathRun : public Run {
   bool begin() override;
   Step step() override;
   Wait waitsFor() const override { return waits_for_; }
-  bool isStuck() const override { return next_ && streams_.missedSky(next_->stamp); }
+  bool isStuck() const override { return next_ && (streams_.missedSky(next_->stamp) || waits_set_back_); }
   RunProgress progress() const override;
   render::BodyPlaces mapFromLinks() override;
 
@@ -88,6 +88,10 @@ class PathRun : public Run {
   std::string missing();
   void setStart(const ros::Time& start);
   ros::Time startOfNow() const;
+  /// Sees a clock that jumps back.
+  void heedClock();
+  /// After such a jump, where the path begins by the clock.
+  Step beginAnew();
   /// Whether the time of a pose has come.
   bool isTime(const ros::Time& stamp);
   Shot shotAt(int position, const RobotPlaces::Joints& joints) const;
@@ -108,8 +112,11 @@ class PathRun : public Run {
   std::unique_ptr<TfInput> tf_;  ///< where joints move
   ClockSource* clock_;
   Pacer pacer_;
-  ros::Time start_;         ///< stamp of pose 0; zero until it is known
-  bool announced_ = false;  ///< where this run begins
+  ros::Time start_;              ///< stamp of pose 0; zero until it is known
+  ros::Time seen_;               ///< by the clock, last
+  ros::Time set_back_from_;      ///< by the clock, and no pose was taken since; zero: it was not
+  bool waits_set_back_ = false;  ///< for what was to come before the clock was set back
+  bool announced_ = false;       ///< where this run begins
   int position_ = 0;
   std::optional<Shot> next_;           ///< drawn ahead, if options_ wants it; joints by TF still rest
   render::BodyPlaces map_from_links_;  ///< of the latest shot

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "ros/conversions/time.h"
+#include "sunlit/quantity/range.h"
 #include "sunlit/ros/topic_names.h"
 
 namespace sunlit::ros_interface {
@@ -17,7 +18,9 @@ constexpr std::uint32_t kQueueSize = 20000;
 }  // namespace
 
 SkyInput::SkyInput(const ros::NodeHandle& node, const SkyInputOptions& options)
-    : moments_(options.night, options.rule), map_frame_(options.map_frame) {
+    : moments_(options.night, options.rule),
+      map_frame_(options.map_frame),
+      require_site_(options.require_site) {
   subscribe(node, options.prefix + topics::kSun, &sun_);
   if (!options.night) return;
   subscribe(node, options.prefix + topics::kMoon, &moon_);
@@ -46,7 +49,22 @@ void SkyInput::take(const Message& message, Topic<Message>* topic) {
 
 void SkyInput::put(const SunPosition& message) {
   const SkyTime time{fromUtc(message.utc), message.rate};
-  moments_.put(message.header.stamp, fromMessage(message, map_frame_), time, siteElevationOf(message));
+  const sky::SunInSky sun = fromMessage(message, map_frame_);
+  const double elevation_m = siteElevationOf(message);
+  requireSite(elevation_m);
+  moments_.put(message.header.stamp, sun, time, elevation_m);
+  site_elevation_m_ = elevation_m;
+}
+
+// A site where a run begins ends it, as any parameter that does not fit; one that is set later does not.
+void SkyInput::requireSite(double elevation_m) {
+  if (!site_elevation_m_ || *site_elevation_m_ == elevation_m) return;
+  try {
+    require_site_(elevation_m);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("at the elevation of its site, " + textOf(elevation_m) + " m, " +
+                                error.what() + ". Until the site is set again its suns do not count");
+  }
 }
 
 void SkyInput::put(const MoonPosition& message) {

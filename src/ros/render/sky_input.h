@@ -3,6 +3,7 @@
 
 #include <ros/node_handle.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -18,6 +19,8 @@ struct SkyInputOptions {
   bool night = true;   ///< moon and stars too
   SkyRule rule = SkyRule::kAround;
   std::string map_frame;  ///< that all of them speak of
+  /// Throws std::invalid_argument for a site, by its elevation, of which no sky can be made.
+  std::function<void(double site_elevation_m)> require_site = [](double) {};
 };
 
 class SkyInput {
@@ -58,8 +61,12 @@ class SkyInput {
   void put(const MoonPosition& message);
   void put(const geometry_msgs::QuaternionStamped& message);
 
+  void requireSite(double site_elevation_m);
+
   SkyMoments moments_;
   std::string map_frame_;
+  std::function<void(double)> require_site_;
+  std::optional<double> site_elevation_m_;  ///< of the latest sun that could be used
   std::size_t refused_ = 0;
   Throttle refusals_{5.0};  ///< that are told of, by topic
   Topic<SunPosition> sun_{"a sun"};

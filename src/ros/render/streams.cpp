@@ -28,7 +28,8 @@ std::string modeOf(image::ExposureOptions exposure) {
 
 }  // namespace
 
-Streams::Stream::Stream(const RenderConditions& conditions, std::size_t index, const StreamOptions& options)
+Streams::Stream::Stream(const RenderConditions& conditions, std::size_t index, const StreamOptions& options,
+                        const studio::Sky& skies)
     : name(conditions.all[index].named.name),
       weather(conditions.all[index].weather),
       setting{conditions.all[index].state, index},
@@ -36,7 +37,8 @@ Streams::Stream::Stream(const RenderConditions& conditions, std::size_t index, c
       lag(conditions.chains[index].exposure),
       sky(skyNode(conditions.all[index].named, options),
           {skyPrefix(conditions.all[index].named, options), options.night, options.sky,
-           options.output.frames.map}),
+           options.output.frames.map,
+           [this, &skies](double site_elevation_m) { skies.requireWeather(weather, site_elevation_m); }}),
       output(conditions.all[index].named.node(), options.output),
       state{name} {}
 
@@ -63,7 +65,7 @@ Streams::Streams(const RenderConditions& conditions, const StreamOptions& option
       wanted_(options.wanted_subscribers),
       pose_output_(ros::NodeHandle(), ros::NodeHandle("~"), options.output) {
   for (std::size_t i = 0; i < conditions.all.size(); ++i)
-    streams_.push_back(std::make_unique<Stream>(conditions, i, options));
+    streams_.push_back(std::make_unique<Stream>(conditions, i, options, sky_));
 }
 
 void Streams::take(const Shot& shot, const std::optional<Shot>& next) {

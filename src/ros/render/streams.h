@@ -90,7 +90,8 @@ class Streams {
 
  private:
   struct Stream {
-    Stream(const RenderConditions& conditions, std::size_t index, const StreamOptions& options);
+    Stream(const RenderConditions& conditions, std::size_t index, const StreamOptions& options,
+           const studio::Sky& skies);
     /// In what its picture is taken that metered so much, in its turn.
     studio::Setting inTurn(std::int64_t index);
     void count(const Photograph& photograph);

@@ -247,7 +247,7 @@ class TestLimits(unittest.TestCase):
         row, = self.problems('lost')
         self.assertEqual((row['where'], row['stamp']), ('h04', '1000.200000000'))
         evaluator.process.send_signal(signal.SIGINT)
-        self.assertIn('h04: 3 images sent, but lost on the way', evaluator.wait()[1])
+        self.assertIn('h04: 3 images missing by their sequence numbers (lost, or left out by a throttle)', evaluator.wait()[1])
 
     def test_too_many_pixels_and_nonsense_sizes_are_refused_before_anything_is_allocated(self):
         evaluator = self.start(max_pixels=64 * 48, poses=5, exit_when_done=True)
@@ -374,8 +374,15 @@ class TestLimits(unittest.TestCase):
         self.streams.send(0, stamp_of(0), picture(0, 0))
         wait_until(lambda: any('1 images dropped, late, lost, duplicate or unusable; 1 pairs could not be evaluated' == s.message
                                and s.level == DiagnosticStatus.WARN for s in told), 'a warning')
+        # Nor is what comes after the end.
+        self.assertTrue(rospy.ServiceProxy('/%s/finish' % evaluator.name, Trigger)().success)
+        for pose in (3, 4):
+            self.streams.send(0, stamp_of(pose), picture(pose, 0))
+        wait_until(lambda: any('2 images came after the end, and were left out' == s.message
+                               and s.level == DiagnosticStatus.WARN for s in told), 'a warning')
         subscriber.unregister()
-        evaluator.kill()
+        evaluator.process.send_signal(signal.SIGINT)
+        self.assertEqual(evaluator.wait()[1].count('Images come after the end and are left out'), 1)
 
 
 if __name__ == '__main__':

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import unittest
 import xml.etree.ElementTree
+import xmlrpc.client
 
 import rosunit
 import yaml
@@ -139,6 +140,17 @@ class ParametersAgree(unittest.TestCase):
 
     def test_evaluator(self):
         self.check_file("evaluator_node", "evaluator.yaml")
+
+    def test_examples_in_comments_are_what_roslaunch_hands_on(self):
+        checked = 0
+        for name in ("sun_position.yaml", "render.yaml", "evaluator.yaml"):
+            with open(os.path.join(SOURCE, "config", name)) as file:
+                examples = re.findall(r"^ *# *([a-z_0-9]+: [\[{].*[\]}])", file.read(), re.MULTILINE)
+            for example in examples:
+                with self.subTest(file=name, example=example):
+                    self.assertTrue(xmlrpc.client.dumps((yaml.safe_load(example),)))
+                    checked += 1
+        self.assertGreater(checked, 5)
 
     def test_arguments_of_the_experiment(self):
         rows = programmed()["render_node"]

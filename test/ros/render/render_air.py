@@ -88,6 +88,26 @@ class RenderAir(unittest.TestCase):
             self.assertIn("1830.14 m", node.line_with("Air of a height"))
             self.assertIn("of 0 m", node.line_with("Air of a height"))
 
+    def test_a_site_whose_air_cannot_have_the_weather_is_refused_and_the_camera_goes_on(self):
+        set_site = rospy.ServiceProxy("/hill_sky/set_site", SetSite)
+        place = {"latitude": LATITUDE, "longitude": LONGITUDE, "pressure": 1013.25, "temperature": 0.0}
+        with render_node("far_sighted", weather={"visibility": 50000.0}) as node:
+            camera = Camera("far_sighted")
+            while camera.picture() is None:
+                rospy.rostime.wallsleep(0.2)
+            before = camera.picture()
+            self.assertTrue(set_site(elevation=0.0, **place).success)
+            line = node.line_with("Refused a sun on ")
+            self.assertIn("at the elevation of its site, 0 m, visibility is 50000 m, but must be less than the ", line)
+            self.assertTrue((camera.picture() == before).all())
+            self.assertTrue(set_site(elevation=HIGH_M + 500.0, **place).success)
+            end = time.monotonic() + TIMEOUT_S
+            while (camera.picture() == before).all():
+                self.assertLess(time.monotonic(), end)
+                rospy.rostime.wallsleep(0.2)
+            self.assertTrue(set_site(elevation=HIGH_M, **place).success)
+            camera.until_it_is(before)
+
     def test_a_height_that_is_given_is_kept(self):
         # What differs beside the air is the sun's parallax, far less than a level, which may turn a rounding.
         with render_node("diver", atmosphere={"observer_height": 0.0}):

@@ -150,8 +150,8 @@ class RenderDiagnostics(RefusalTest):
         reader = Reader(["a"], node="/early")
         clock.publish(Clock(rospy.Time(5)))
         sky.send_sun(5.0)
-        with RenderNode("early", parameters(conditions=["a"], diagnostic_period=0.05, path={"count": 2}, subscribers={"images": 1},
-                                            autostart=False)):
+        with RenderNode("early", parameters(conditions=["a"], diagnostic_period=0.05, path={"count": 3}, subscribers={"images": 1},
+                                            autostart=False)) as node:
             diagnostics.wait("run", DiagnosticStatus.WARN, waits_for="the service /early/start")
             service("/early/start", Trigger)()
             diagnostics.wait("run", DiagnosticStatus.OK, activity="rendering")
@@ -160,12 +160,51 @@ class RenderDiagnostics(RefusalTest):
             clock.publish(Clock(rospy.Time(1000)))  # where it stops
             diagnostics.wait("run", DiagnosticStatus.OK, poses_done="1", waits_for="nothing")
             diagnostics.wait("run", DiagnosticStatus.WARN, poses_done="1", waits_for=EARLY % ("1000.125000000", 1))
+            clock.publish(Clock(rospy.Time(5)))  # as a simulation that is reset
+            self.assertIn("set back from 1000.000000000 to 5.000000000: start_stamp stands", node.line_with("The clock was"))
+            diagnostics.wait("run", DiagnosticStatus.ERROR, poses_done="1", waits_for=EARLY % ("1000.125000000", 1))
+            clock.publish(Clock(rospy.Time.from_sec(1000.125)))
+            diagnostics.wait("run", DiagnosticStatus.WARN, poses_done="2", waits_for=EARLY % ("1000.250000000", 2))
             clock.publish(Clock(rospy.Time(1001)))
-            reader.wait("/a/camera/image_raw", 2)
+            reader.wait("/a/camera/image_raw", 3)
         for publisher in sky.publishers + [clock]:
             publisher.unregister()
         reader.close()
         diagnostics.close()
+
+    def test_a_camera_on_a_path_that_began_now_goes_on_when_time_begins_anew(self):
+        clock, sky = rospy.Publisher("/clock", Clock, queue_size=1, latch=True), Sky("/a/")
+        tree = parameters(conditions=["a"], start_stamp="now", path={"count": 4}, subscribers={"images": 1})
+
+        def moment(now):
+            clock.publish(Clock(rospy.Time.from_sec(now)))
+            wait_until(lambda: rospy.Time.now() == rospy.Time.from_sec(now))
+            sky.send_sun(now, rate=1.0)
+
+        moment(100.0)
+        with RenderNode("loop", tree) as node:
+            reader = Reader(["a"], node="/loop")
+            reader.wait("/a/camera/image_raw", 1)
+            moment(100.125)
+            reader.wait("/a/camera/image_raw", 2)
+            clock.publish(Clock(rospy.Time.from_sec(7.0)))  # the sun is still that of before
+            self.assertIn("set back from 100.125000000 to 7.000000000: start_stamp is now", node.line_with("The clock was"))
+            for step in range(200):
+                moment(7.125 + 0.125 * step)
+                if len(reader.of("/a/camera/image_raw")) == 4:
+                    break
+                time.sleep(0.1)
+            stamps = [image.header.stamp.to_sec() for image in reader.wait("/a/camera/image_raw", 4)]
+            self.assertEqual(stamps[:2], [100.0, 100.125])
+            self.assertLess(stamps[2], 50.0)
+            self.assertEqual(stamps[3], stamps[2] + 0.125)
+            poses = [capture.pose_index for capture in reader.wait("/a/camera/capture", 4)]
+            self.assertEqual(poses, [0, 1, 2, 3])
+            path = reader.of("/path")[-1]
+            self.assertEqual(path.poses[2].header.stamp.to_sec(), stamps[2])
+        for publisher in sky.publishers + [clock]:
+            publisher.unregister()
+        reader.close()
 
     def test_a_camera_that_follows_goes_on_when_time_begins_anew(self):
         clock = rospy.Publisher("/clock", Clock, queue_size=1, latch=True)

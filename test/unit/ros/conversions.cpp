@@ -13,6 +13,7 @@
 #include "ros/conversions/received_images.h"
 #include "ros/conversions/sky.h"
 #include "ros/conversions/time.h"
+#include "ros/evaluator/sequence_gaps.h"
 #include "sunlit/astronomy/civil_time.h"
 #include "support/message_of.h"
 
@@ -192,6 +193,36 @@ TEST(CivilTime, ThatCannotBeIsRefusedInWords) {
               "utc is \"" + std::string(bad) + "\", but must read like 2024-07-01T09:00:00.000Z");
   }
   EXPECT_NE(messageOf([&] { fromUtc("2024-02-31T01:30:07.250Z"); }).find("day is 31"), std::string::npos);
+}
+
+/// How many images are missing of one sender.
+std::uint32_t missingOf(const std::vector<std::uint32_t>& numbers) {
+  SequenceGaps gaps;
+  std::uint32_t missing = 0;
+  for (const std::uint32_t number : numbers) missing += gaps.add(number, 0).images;
+  return missing;
+}
+
+TEST(SequenceGaps, AreWhatIsMissingOfNumbersThatGoUpOneByOne) {
+  EXPECT_EQ(missingOf({7, 8, 9, 10}), 0u);
+  EXPECT_EQ(missingOf({7, 8, 12, 13}), 3u);
+  EXPECT_EQ(missingOf({7, 11, 12, 13}), 3u) << "before any step is known";
+  EXPECT_EQ(missingOf({7, 8, 12, 13, 0, 1, 3}), 4u) << "a sender that began anew";
+  EXPECT_EQ(missingOf({7, 7, 8}), 0u);
+}
+
+TEST(SequenceGaps, ASteadyStepIsNoLoss) {
+  EXPECT_EQ(missingOf({0, 10, 20, 30}), 0u);
+  EXPECT_EQ(missingOf({0, 10, 19, 30, 41}), 0u) << "as a throttle goes by time";
+  EXPECT_EQ(missingOf({0, 10, 20, 50}), 2u);
+}
+
+TEST(SequenceGaps, HaveTheStampOfTheImageBehindThem) {
+  SequenceGaps gaps;
+  gaps.add(1, 100);
+  gaps.add(4, 200);
+  EXPECT_EQ(gaps.add(5, 300).stamp_ns, 200) << "known one later";
+  EXPECT_EQ(gaps.add(8, 400).stamp_ns, 400);
 }
 
 }  // namespace

@@ -76,6 +76,20 @@ TEST(ParameterReader, AnUnknownKeyIsAnErrorThatListsTheKnownOnes) {
             "site/latitude");
 }
 
+TEST(ParameterReader, AGroupInWhichNothingStandsIsNoUnknownKey) {
+  XmlRpcValue tree;
+  tree["features"];  // as of `features: {}` and `features:` in a file
+  tree["site"]["air"];
+  const ParameterReader reader(tree, "/node");
+  EXPECT_EQ(reader.integer("features/orb/n_features", 500), 500);
+  EXPECT_EQ(reader.number("site/air/pressure", 1013.25), 1013.25);
+  EXPECT_NO_THROW(reader.rejectUnknown());
+  tree["feature"];
+  const ParameterReader wrong(tree, "/node");
+  wrong.integer("features/orb/n_features", 500);
+  EXPECT_NE(messageOf([&] { wrong.rejectUnknown(); }).find("/node/feature is unknown"), std::string::npos);
+}
+
 TEST(ParameterReader, AKeyLikeNoOtherHasNoSuggestion) {
   XmlRpcValue tree;
   tree["colour"] = 1;

@@ -42,6 +42,15 @@ std::vector<float> figuresAt(double height_m) {
   return figuresOf(sky::Atmosphere(air, sky::TablesOfThisBuild().store()).daylight(lowSunOver(0.0).sun));
 }
 
+TEST(Sky, SaysWhatWeatherTheAirOfASiteCannotHave) {
+  const Sky sky({}, {});
+  sky::Weather weather;
+  weather.visibility_m = 50000.0;
+  EXPECT_NO_THROW(sky.requireWeather(weather, 1830.14));
+  EXPECT_NE(messageOf([&] { sky.requireWeather(weather, 0.0); }).find("visibility is 50000 m"),
+            std::string::npos);
+}
+
 TEST(Sky, HasTheAirOfTheSitesElevationMadeOnceForEach) {
   std::vector<std::string> notes;
   Reports reports;

@@ -45,9 +45,9 @@ struct StreamCounts {
   std::size_t duplicate = 0;     ///< stamp had come before
   std::size_t out_of_order = 0;  ///< used all the same
   std::size_t undecodable = 0;
-  std::size_t late = 0;         ///< came after its stamp had been given up
-  std::size_t dropped = 0;      ///< given up to bound the memory, or since the run was broken off
-  std::size_t lost = 0;         ///< sent but never here, as far as told by addLost(); not among the received
+  std::size_t late = 0;     ///< came after its stamp had been given up
+  std::size_t dropped = 0;  ///< given up to bound the memory, or since the run was broken off
+  std::size_t lost = 0;  ///< or left out by a throttle, as far as told by addLost(); not among the received
   std::size_t unexpected = 0;   ///< of a pose that is not one of those expected
   std::size_t lossy = 0;        ///< compressed with loss
   std::size_t no_features = 0;  ///< a detector found nothing in it; once for each that did not
@@ -83,6 +83,7 @@ struct Counts {
   std::size_t unexpected_poses = 0;          ///< of them: not among those expected
   std::size_t waiting_images = 0;            ///< for a partner
   std::size_t queued_poses = 0;              ///< whole, but not compared yet
+  std::size_t after_end = 0;                 ///< images that came after finish(), and were left out
   std::size_t bytes = 0;                     ///< of what waits, as the memory limit counts them
   std::vector<std::size_t> awaited_streams;  ///< that the oldest waiting stamp lacks
   bool awaits_truth = false;  ///< it has all streams, but lacks the pose, depth or camera to localise by
@@ -149,14 +150,14 @@ class Evaluation {
   Evaluation(const EvaluationOptions& options, EvaluationCallbacks callbacks);
   ~Evaluation();
 
-  /// An image of options().streams[stream], CV_8UC3, red first. What comes after finish() is ignored, here
-  /// and below.
+  /// An image of options().streams[stream], CV_8UC3, red first. What comes after finish() is left out,
+  /// here and below; images are counted.
   void addImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb);
   /// The same of one that was compressed with loss, as JPEG: said once for each stream, and counted.
   void addLossyImage(std::size_t stream, std::int64_t stamp_ns, const cv::Mat& rgb);
   /// An image that could not be decoded, and why.
   void addBadImage(std::size_t stream, std::int64_t stamp_ns, const std::string& fault);
-  /// `images` of a stream were sent before that of this stamp, but did not come.
+  /// `images` of a stream are missing before that of this stamp, by their sequence numbers.
   void addLost(std::size_t stream, std::size_t images, std::int64_t stamp_ns);
   void addCapture(std::size_t stream, const CaptureRecord& capture);
   /// One that is not finite is named, and left out.

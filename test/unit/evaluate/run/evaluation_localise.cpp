@@ -462,6 +462,27 @@ TEST(EvaluationLocalise, DepthWithoutImagesStaysWithinTheMemory) {
   EXPECT_LE(evaluation.counts().bytes, options.memory_limit_bytes);
 }
 
+TEST(EvaluationLocalise, PosesWithoutImagesCountAndTurnNoImageAway) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = localising(folder);
+  options.memory_limit_bytes = 1000000;  // of a few images, or of about 5000 poses
+  Evaluation evaluation(options, {});
+  for (std::int64_t before = 9000; before > 0; --before) {
+    evaluation.addTruePose(stampOf(-before), told(viewOf(0).map_from_optical));
+    EXPECT_GT(evaluation.counts().bytes, 0u);
+    EXPECT_LE(evaluation.counts().bytes, options.memory_limit_bytes);
+  }
+  for (std::int64_t pose = 0; pose < kPoses; ++pose) {
+    feedImages(evaluation, pose);
+    feedTruth(evaluation, pose);
+    evaluation.waitForRoom(0);
+  }
+  for (const StreamCounts& stream : evaluation.finish().counts.streams) {
+    EXPECT_EQ(stream.dropped, 0u);
+    EXPECT_EQ(stream.unlocalised, 0u);
+  }
+}
+
 TEST(EvaluationLocalise, ComparesWithoutItWhereWhatItIsLocalisedByNeverComes) {
   const TemporaryFolder folder;
   EvaluationOptions options = localising(folder);

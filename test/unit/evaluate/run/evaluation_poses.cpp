@@ -194,6 +194,78 @@ TEST(WhereTheCameraStood, IsLeftOutAndNamedWhereItIsNoPlace) {
   EXPECT_TRUE(hasLine(problems, "unusable,,500.200000000,pose,")) << problems;
 }
 
+constexpr int kPlacesAPose = 5;  // a camera/pose of 50 Hz beside images of 10 Hz
+
+/// The i-th of those places, which stands at x = i, comes so late.
+PlaceRecord placeOf50Hz(std::int64_t i, std::int64_t late_ns = 0) {
+  return {stampOf(0) + i * kFrameNs / kPlacesAPose + late_ns, static_cast<double>(i), 2.0, 3.0, 90.0};
+}
+
+/// path.csv where x is 5 times the pose, and the stamp so late.
+std::string pathOf(std::int64_t poses, const std::string& late = "00000000") {
+  std::string text = "pose,stamp,x,y,z,yaw_deg\n";
+  for (std::int64_t pose = 0; pose < poses; ++pose) {
+    const std::string tenths = std::to_string(5000 + pose);
+    text += std::to_string(pose) + "," + tenths.substr(0, 3) + "." + tenths.substr(3) + late + "," +
+            std::to_string(kPlacesAPose * pose) + ",2,3,90\n";
+  }
+  return text;
+}
+
+/// `poses` images and places of twice as many, as they come; says what is noted.
+std::string feedPlaces(const EvaluationOptions& options, std::int64_t poses, std::int64_t late_ns,
+                       bool is_killed = false) {
+  std::string notes;
+  EvaluationCallbacks callbacks;
+  callbacks.note = [&](const std::string& line) { notes += line + "\n"; };
+  Evaluation evaluation(options, callbacks);
+  for (std::int64_t i = 0; i < 2 * poses * kPlacesAPose; ++i) {
+    const std::int64_t pose = i / kPlacesAPose;
+    const bool is_first_half = pose % 2 == 0;  // of these the image comes first
+    if (i % kPlacesAPose == 0 && is_first_half && pose < poses) feedPose(evaluation, pose);
+    evaluation.addPlace(placeOf50Hz(i, late_ns));
+    if (i % kPlacesAPose == 0 && !is_first_half && pose < poses) feedPose(evaluation, pose);
+  }
+  evaluation.waitForRoom(0);
+  if (!is_killed) evaluation.finish();
+  return notes;
+}
+
+TEST(WhereTheCameraStood, IsThatOfTheStampsOfImagesAndTheRestIsNamedOnce) {
+  const TemporaryFolder folder;
+  const std::string notes = feedPlaces(optionsFor(folder), 20, 0);
+  EXPECT_EQ(contentOf(folder.file("out/path.csv")), pathOf(20));
+  EXPECT_NE(notes.find("/path.csv: 180 poses of stamps without an image left out\n"), std::string::npos)
+      << notes;
+}
+
+TEST(WhereTheCameraStood, IsTheNearestToWhatTheFrameRateGivesAPose) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = optionsFor(folder);
+  options.frame_rate = 10.0;
+  options.stamp_start_ns = stampOf(0);
+  feedPlaces(options, 20, 3000000);  // 3 ms, of the 20 ms between places
+  EXPECT_EQ(contentOf(folder.file("out/path.csv")), pathOf(20, "03000000"));
+}
+
+TEST(WhereTheCameraStood, IsTheSameWhereARunWasCutOff) {
+  const TemporaryFolder folder;
+  feedPlaces(optionsFor(folder), 10, 0, true);
+  feedPlaces(optionsFor(folder), 20, 0);
+  EXPECT_EQ(contentOf(folder.file("out/path.csv")), pathOf(20));
+}
+
+TEST(WhereTheCameraStood, IsForgottenWhereNoImageComesForLong) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(optionsFor(folder), {});
+  for (std::int64_t i = 0; i < 66000; ++i) evaluation.addPlace(placeOf50Hz(i));  // 22 min
+  feedPose(evaluation, 0);
+  feedPose(evaluation, 13000);
+  evaluation.finish();
+  EXPECT_EQ(contentOf(folder.file("out/path.csv")),
+            "pose,stamp,x,y,z,yaw_deg\n1,1800.000000000,65000,2,3,90\n");
+}
+
 /// At x, looking so far to the left.
 Told<Eigen::Isometry3d> stoodAt(double x_m, double left_deg = 0.0) {
   Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();
@@ -260,6 +332,18 @@ TEST(OnePlace, IsToldAgainWhereTheRunThatFoundItWasKilled) {
   EXPECT_EQ(outcome.counts.pairs[0].two_places, 1u);
   EXPECT_FALSE(hasLine(contentOf(folder.file("out/frames.csv")), "0,500.000000000,h04,h12,"));
   EXPECT_TRUE(hasLine(contentOf(folder.file("out/problems.csv")), "two_places,0,500.000000000,h04-h12,"));
+}
+
+TEST(OnePlace, IsForgottenWhereNoImageComesForLong) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(optionsFor(folder), {});
+  feedPose(evaluation, 1);
+  for (std::int64_t pose = 0; pose < 66000; ++pose) evaluation.addTruePose(stampOf(pose), stoodAt(0.0));
+  for (std::int64_t pose = 0; pose < 2; ++pose) evaluation.addTruePose(stampOf(pose), stoodAt(2.5));
+  feedPose(evaluation, 0);
+  const Outcome outcome = evaluation.finish();
+  EXPECT_EQ(outcome.counts.pairs[0].two_places, 1u) << "of the image that came before";
+  EXPECT_EQ(outcome.counts.pairs[0].evaluated, 1u);
 }
 
 TEST(OnePlace, IsTheSameWithinWhatHardlyMovesAPixel) {
