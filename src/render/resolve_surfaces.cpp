@@ -18,9 +18,10 @@ class TileResolver {
   /// One part of a triangle that is seen through, within a pixel.
   struct Veil {
     std::uint32_t triangle;
+    float depth;
+    std::vector<Eigen::Vector3f> relatives = {};
     Eigen::Array3f covered = Eigen::Array3f::Zero();  ///< sum over the samples of what is seen of it
-    float depth = 0.0f;
-    std::vector<Eigen::Vector3f> relatives;
+    Eigen::Array3f stopped = Eigen::Array3f::Zero();  ///< likewise, of what it hides of what is behind
   };
 
   /// What stays from tile to tile, one a thread.
@@ -121,19 +122,17 @@ class TileResolver {
     const int s = seen_.view.supersampling;
     memory_.veils.clear();
     Eigen::Array3f sky = Eigen::Array3f::Zero();
-    int of_sky = 0;
     for (int k = 0; k < s * s; ++k) {
       const int column = x * s + k % s, row = y * s + k / s;
       const Sample& sample = seen_.sample(column, row);
       const Eigen::Array3f left = passVeils(sample, column, row);
       unveiled_[static_cast<std::size_t>(k)] = left;
       if (sample.sky()) sky += left;
-      if (sample.sky()) ++of_sky;
     }
     const std::uint8_t samples = pixel(x, y);
-    if (of_sky > 0)
+    if (samples > 0)
       tile_.sky_share[static_cast<std::size_t>((y - tile_.y) * tile_.width + x - tile_.x)] =
-          sky / static_cast<float>(of_sky);
+          sky / static_cast<float>(samples);
     for (const Veil& veil : memory_.veils) appendVeil(veil, x, y);
     return samples;
   }
@@ -164,11 +163,11 @@ class TileResolver {
       std::vector<Veil>& veils = memory_.veils;
       auto veil =
           std::find_if(veils.begin(), veils.end(), [&](const Veil& v) { return v.triangle == hit.triangle; });
-      if (veil == veils.end())
-        veil = veils.insert(veil, Veil{hit.triangle, Eigen::Array3f::Zero(), hit.distance, {}});
+      if (veil == veils.end()) veil = veils.insert(veil, Veil{hit.triangle, hit.distance});
       if (veil->relatives.size() == kMostSamples) continue;
       veil->relatives.push_back(point);
       veil->covered += left * alpha;
+      veil->stopped += left * (1.0f - through);
       left *= through;
     }
     return left;
@@ -202,6 +201,7 @@ class TileResolver {
     cluster.shading_normal.normalize();
     cluster.unveiled = veil.covered;
     append(cluster, x, y);
+    tile_.surfaces.back().air_share = veil.stopped / static_cast<float>(cluster.samples);
   }
 
   /// Returns the number of samples that see the sky.
@@ -324,7 +324,7 @@ class TileResolver {
     surface.pixel = static_cast<std::uint32_t>(y * seen_.view.camera.width + x);
     surface.first_sample = static_cast<std::uint32_t>(origins_);
     surface.samples = cluster.samples;
-    if (seen_.veils) surface.share = share * cluster.unveiled;
+    if (seen_.veils) surface.share = surface.air_share = share * cluster.unveiled;
     if (scene_detail_.has(surface.material)) {
       const Seeing& seeing = cluster.first;
       memory_.detail.add({number, surface.material, seeing.footprint,

@@ -33,6 +33,9 @@ struct Surface {
   /// Of its samples' light that it sends, by channel: what is not hidden, or coloured, by what one sees
   /// through.
   Eigen::Array3f share = Eigen::Array3f::Ones();
+  /// Of its samples, what part of the light behind it does not come past it, by channel: what lies behind
+  /// glass brings the air before the glass along. Else as `share`.
+  Eigen::Array3f air_share = Eigen::Array3f::Ones();
   float clearance_m = 0.0f;        ///< how far off its triangle its rays start, along geometric_normal
   std::int32_t material = 0;       ///< index into Scene::materials
   std::uint32_t pixel = 0;         ///< y · width + x

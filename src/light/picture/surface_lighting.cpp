@@ -55,8 +55,7 @@ SurfaceLighting::SurfaceLighting(const Subject& subject, const Illumination& lig
             {surfaces_, table_}),
       sun_glints_(glintsOf(light.day.sun(), subject, light)),
       moon_glints_(glintsOf(light.day.moon(), subject, light)),
-      lamps_({lampsOf(light), bouncedOf(light)}, light.day.groundIlluminance().value.maxCoeff(),
-             {surfaces_, scene_, subject.visibility}),
+      lamps_({lampsOf(light), bouncedOf(light)}, {surfaces_, scene_, subject.visibility}),
       glass_(subject.visibility),
       broken_cloud_(light.day.hasBrokenCloud()) {}
 
@@ -76,8 +75,7 @@ Eigen::Array3f SurfaceLighting::ofDisc(const Disc& disc, const Tile& tile, std::
   return share * through / static_cast<float>(rays);
 }
 
-void SurfaceLighting::addDisc(const Disc& disc, const Tile& tile,
-                              std::vector<Eigen::Array3f>* luminances) const {
+void SurfaceLighting::addDisc(const Disc& disc, const Tile& tile, ByDiscs* by) const {
   if (disc.shares.empty()) return;
   thread_local std::vector<Reflection> lit;
   thread_local std::vector<std::uint32_t> indices;
@@ -95,8 +93,12 @@ void SurfaceLighting::addDisc(const Disc& disc, const Tile& tile,
   }
   reflectances.resize(lit.size());
   directReflectances(lit, {disc.visibility.towards(), disc.visibility.radius_rad()}, reflectances.data());
-  for (std::size_t k = 0; k < lit.size(); ++k)
-    (*luminances)[indices[k]] += reflectances[k] * (shares[k] * disc.light.illuminance.value);
+  for (std::size_t k = 0; k < lit.size(); ++k) {
+    const Eigen::Array3f facing = shares[k] * disc.light.illuminance.value;
+    by->luminances[indices[k]] += reflectances[k] * facing;
+    by->illuminances[indices[k]] +=
+        std::abs(lit[k].normal.dot(disc.visibility.towards())) * facing.maxCoeff();
+  }
 }
 
 void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& by_rays,
@@ -112,11 +114,13 @@ void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& b
     for (std::size_t i = 0; i < outlooks.mirrors.size(); ++i)
       mirrored[i] = mirroredBy(outlooks.mirrors[i], *light_.mirror_sky);
   }
-  thread_local std::vector<Eigen::Array3f> by_discs, by_lamps;
-  by_discs.assign(tile.surfaces.size(), Eigen::Array3f::Zero());
+  thread_local ByDiscs by_discs;
+  by_discs.luminances.assign(tile.surfaces.size(), Eigen::Array3f::Zero());
+  by_discs.illuminances.assign(tile.surfaces.size(), 0.0f);
   addDisc(sun, tile, &by_discs);
   addDisc(moon, tile, &by_discs);
-  lamps_.light(tile, &by_lamps);
+  // What each surface gets without lamps.
+  std::vector<float>& other_lx = by_discs.illuminances;
   luminances->resize(tile.surfaces.size());
   auto next = by_rays.begin();
   for (std::size_t i = 0; i < tile.surfaces.size(); ++i) {
@@ -129,19 +133,21 @@ void SurfaceLighting::light(std::size_t number, const std::vector<SeenByRays>& b
       const Eigen::Array3f light = glints->illuminance(number, i);
       return broken_cloud_ ? Eigen::Array3f(light * light_.day.throughCloud(disc, surface.position)) : light;
     };
-    const SurfaceParts parts{outlook,
-                             rows.ambient[i],
-                             mirrored[outlook.own.mirror],
-                             by_discs[i],
+    const AmbientLight around =
+        ambientLight(surface, {outlook, surface.roughness, mirrored[outlook.own.mirror]}, light_);
+    const SurfaceParts parts{rows.ambient[i],
+                             around,
+                             by_discs.luminances[i],
                              glint(sun_glints_, sun.light),
                              glint(moon_glints_, moon.light),
-                             by_lamps.empty() ? nullptr : &by_lamps[i],
                              rays ? &*next++ : nullptr};
     (*luminances)[i] = luminance(surface, parts);
+    other_lx[i] += surface.cavity * around.front.max(around.behind).maxCoeff();
   }
+  lamps_.addTo(tile, other_lx, luminances);
 }
 
-// The light equation, which doc/equations.md explains, term by term, without the air:
+// The light equation, which doc/equations.md explains, term by term, without the air and without lamps:
 //   Lₑ + Σ f(l) V E + f₊ E₊ + f₋ E₋ + fₘ Lₘ
 Eigen::Array3f SurfaceLighting::luminance(const Surface& surface, const SurfaceParts& parts) const {
   const scene::Material& material = scene_.materials[static_cast<std::size_t>(surface.material)];
@@ -158,13 +164,12 @@ Eigen::Array3f SurfaceLighting::luminance(const Surface& surface, const SurfaceP
   };
   if (parts.sun_glint.maxCoeff() > 0.0f) leaving += byFloor(*sun_glints_, parts.sun_glint);
   if (parts.moon_glint.maxCoeff() > 0.0f) leaving += byFloor(*moon_glints_, parts.moon_glint);
-  if (parts.lamps) leaving += *parts.lamps;
 
   const AmbientReflectance& by = parts.ambient;
-  AmbientLight from = ambientLight(surface, {parts.outlook, surface.roughness, parts.mirrored}, light_);
-  if (parts.by_rays) from.mirrored += parts.by_rays->share * (parts.by_rays->luminance - from.mirrored);
+  Eigen::Array3f mirrored = parts.around.mirrored;
+  if (parts.by_rays) mirrored += parts.by_rays->share * (parts.by_rays->luminance - mirrored);
   const Eigen::Array3f ambient =
-      by.diffuse * from.front + by.through * from.behind + by.specular * from.mirrored;
+      by.diffuse * parts.around.front + by.through * parts.around.behind + by.specular * mirrored;
   return leaving + surface.cavity * ambient;
 }
 

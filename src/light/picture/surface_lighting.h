@@ -43,14 +43,13 @@ class SurfaceLighting {
  private:
   /// What is known of a surface before it is lit.
   struct SurfaceParts {
-    const WholeOutlook& outlook;
     const AmbientReflectance& ambient;
-    const Mirrored& mirrored;              ///< where the light is baked
-    Eigen::Array3f discs;                  ///< its luminance straight by sun and moon
+    const AmbientLight& around;
+    const Eigen::Array3f& discs;           ///< its luminance straight by sun and moon
     Eigen::Array3f sun_glint, moon_glint;  ///< by way of polished floors, lx on a plane facing them
-    const Eigen::Array3f* lamps;           ///< its luminance by lamps; null: there are none
     const SeenByRays* by_rays;             ///< null: none
   };
+  /// But by lamps.
   Eigen::Array3f luminance(const Surface& surface, const SurfaceParts& parts) const;
   /// Share of a disc's light that one of a tile's surfaces gets.
   struct Disc {
@@ -59,8 +58,12 @@ class SurfaceLighting {
     const std::vector<float>& shares;  ///< of a tile's surfaces; empty: it gives too little
   };
   Eigen::Array3f ofDisc(const Disc& disc, const Tile& tile, std::size_t index) const;
-  /// Adds what it makes of the surfaces of `tile` to their luminances.
-  void addDisc(const Disc& disc, const Tile& tile, std::vector<Eigen::Array3f>* luminances) const;
+  /// Of each of a tile's surfaces by sun and moon.
+  struct ByDiscs {
+    std::vector<Eigen::Array3f> luminances;
+    std::vector<float> illuminances;  ///< lx, the largest channels
+  };
+  void addDisc(const Disc& disc, const Tile& tile, ByDiscs* by) const;
 
   const Surfaces& surfaces_;
   const Outlooks& outlooks_;

@@ -95,9 +95,10 @@ void TileLighting::addSurfaces(std::size_t number, image::LinearImage* image) co
     const Surface& surface = tile.surfaces[i];
     const sky::AirColumn before = air_.before(number, i);
     const Eigen::Array3f luminance =
-        leaving[i] * before.transmittance + open_air_.before(outlooks.surfaces[i].light) * before.airlight;
+        surface.share * leaving[i] * before.transmittance +
+        surface.air_share * open_air_.before(outlooks.surfaces[i].light) * before.airlight;
     Eigen::Map<Eigen::Array3f> pixel(image->data.data() + 3 * static_cast<std::size_t>(surface.pixel));
-    pixel += luminance * (weight * static_cast<float>(surface.samples) * surface.share);
+    pixel += luminance * (weight * static_cast<float>(surface.samples));
   }
 }
 

@@ -42,17 +42,17 @@ void traceTile(const Picture& picture, const Tile& tile, Halves* halves) {
   Paths paths(scene);
   for (const Surface& surface : tile.surfaces) {
     // What is seen through stands before others, in the same samples.
-    const Eigen::Array3f share =
-        surface.share * static_cast<float>(surface.samples) / static_cast<float>(surfaces.samples_per_pixel);
-    const float distance = (surface.position - surfaces.eye).norm();
+    const float part = static_cast<float>(surface.samples) / static_cast<float>(surfaces.samples_per_pixel);
     const float open = open_air.before(placeOf(surface, world));
+    const Eigen::Array3f share = part * surface.share, air_share = part * open * surface.air_share;
+    const float distance = (surface.position - surfaces.eye).norm();
     const std::array<Radiances, 2> traced = paths.luminance(tile, surface);
     for (std::size_t day = 0; day < scene.days.size(); ++day) {
       const sky::AirColumn air = scene.days[day].airOver(-surface.to_eye, distance);
       for (std::size_t half = 0; half < 2; ++half) {
         float* data = (*halves)[half][day].data.data() + 3 * static_cast<std::size_t>(surface.pixel);
         Eigen::Map<Eigen::Array3f> pixel(data);
-        pixel += share * (traced[half][day] * air.transmittance + open * air.airlight);
+        pixel += share * traced[half][day] * air.transmittance + air_share * air.airlight;
       }
     }
   }

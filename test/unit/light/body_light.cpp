@@ -126,7 +126,11 @@ struct PlateAboveFloor {
     scene->materials.resize(1);
     scene->materials[0].base_color = LinearRgb(0.5f, 0.4f, 0.3f);
     scene->materials[0].roughness = 1.0f;
-    scene->meshes = {square(Eigen::Vector3f::Zero(), 500.0f)};
+    add(square(Eigen::Vector3f::Zero(), 500.0f));
+  }
+  /// Adds `mesh` to the scene.
+  void add(const scene::Mesh& mesh) {
+    scene->meshes.push_back(mesh);
     const std::vector<std::vector<scene::Mesh>> plate = {{square(Eigen::Vector3f::Zero(), 0.1f)}};
     world = std::make_unique<const World>(scene, plate);
     body_light = std::make_unique<const BodyLight>(*world);
@@ -165,6 +169,26 @@ TEST(BodyLight, BelowABodyIsTheLightOfLampsThatTheFloorSendsBack) {
   }
   light.lamps = nullptr;
   EXPECT_EQ(stage.around(kHeight_m, light).illuminance(-Eigen::Vector3f::UnitZ()).maxCoeff(), 0.0f);
+}
+
+TEST(BodyLight, HoldsLampsUnderARoofByDayAsByNight) {
+  PlateAboveFloor stage;
+  const auto below = [&](bool by_day) {
+    sky::UniformSky sky;
+    sky.sun.towards = Direction(Azimuth::degrees(180.0), Angle::degrees(60.0));
+    if (by_day) sky.sun.illuminance = LinearRgb(1e5f, 1e5f, 1e5f);
+    scene::Lamp lamp;
+    lamp.position = {3.0f, 0.0f, 4.0f};
+    lamp.intensity = LinearRgb(400.0f, 400.0f, 400.0f);
+    Illumination light(sky::uniformDaylight(sky));
+    light.lamps = std::make_shared<const std::vector<scene::Lamp>>(1, lamp);
+    return stage.around(1.5, light).illuminance(-Eigen::Vector3f::UnitZ())[1];
+  };
+  const float open = below(true);
+  stage.add(square({0.0f, 0.0f, 10.0f}, 600.0f));  // the sun reaches all of the floor, or nothing
+  EXPECT_GT(open, 100.0f * below(true));
+  EXPECT_GT(below(false), 0.0f);
+  EXPECT_EQ(below(true), below(false));
 }
 
 TEST(BodyLight, IsThatOfAScreenWhereItsMapHasItShine) {

@@ -189,6 +189,41 @@ TEST(Lamps, AreLeftOutOnlyWhereTheyMatterLittle) {
   }
 }
 
+/// A sun of 100 klx and no sky.
+sky::Daylight noon() {
+  sky::UniformSky sky;
+  sky.sun = onlySun(180.0, 60.0).sun();
+  sky.sun.illuminance = LinearRgb(1e5f, 1e5f, 1e5f);
+  return sky::uniformDaylight(sky);
+}
+
+TEST(Lamps, AreLeftOutByTheDaylightThatReachesASurface) {
+  // A hall without walls, whose roof ends above the middle of the row: the sun, in the south, reaches the
+  // floor from 10 m / tan 60° = 5.8 m beyond it on.
+  scene::Scene scene;
+  scene.materials = {paint(0.5f), paint(0.0f)};
+  addGround(&scene, 0, 100.0f);
+  addPatch(&scene, 1, {-100.0f, -100.0f, 10.0f}, {0.0f, 100.0f, 0.0f}, {200.0f, 0.0f, 0.0f});
+  const World world = worldOf(std::move(scene));
+  std::vector<scene::Lamp> row;  // each gives less than 0.1 % of the sun, at most
+  for (int i = -2; i <= 2; ++i) row.push_back(lampAt({2.0f * static_cast<float>(i), -8.0f, 6.0f}, 1500.0f));
+  std::vector<Looked> points;
+  for (int i = 0; i < 8; ++i) points.push_back(floorAt(0.0f, -8.0f));
+  for (int i = 0; i < 8; ++i) points.push_back(floorAt(0.0f, 8.0f));
+  const Surfaces surfaces = rowOf(points, *world.geometry->scene);
+  const auto seen = [&](const sky::Daylight& day, const std::vector<scene::Lamp>& lamps) {
+    Illumination light(day);
+    light.lamps = std::make_shared<const std::vector<scene::Lamp>>(lamps);
+    return rowValues(surfaces, world, light);
+  };
+  const std::vector<double> night = seen(uniformDay(0.0f), row), sun = seen(noon(), {}),
+                            both = seen(noon(), row);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_TRUE(i < 8 ? sun[i] == 0.0 : sun[i] > 100.0 * night[i]) << i;
+    EXPECT_NEAR(both[i], sun[i] + night[i], 0.01 * (sun[i] + night[i])) << i;  // LampLight::kLeftOut
+  }
+}
+
 TEST(Lamps, GiveTheSameBitsForAnyNumberOfThreads) {
   const World world = wallWorld();
   std::vector<Looked> points;

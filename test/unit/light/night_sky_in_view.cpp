@@ -91,6 +91,35 @@ TEST(Moon, ShinesAsMuchAsItsIlluminanceAtEveryPhaseAndSize) {
   }
 }
 
+TEST(Moon, TakesNoMoreWorkInAWideViewAndShinesAsMuch) {
+  // A pinhole of 170°: pixels are 2° wide in its middle, 0.06° by 0.4° where the moon is last.
+  for (const double aside_deg : {0.0, 50.0, 80.0}) {
+    const sky::DiscLight moon = moonOfPhase(40.0);
+    const Eigen::Vector3d towards = moon.towards.vector(), east = Eigen::Vector3d::UnitX();
+    const double aside = aside_deg * kRadPerDeg;
+    Surfaces camera = cameraTowards(std::cos(aside) * towards + std::sin(aside) * east, 170.0);
+    constexpr int kWidth = 640, kHeight = 400;
+    const float finer = static_cast<float>(camera.width) / kWidth;
+    const Eigen::Vector3f middle = camera.pixel_origin + 31.5f * (camera.pixel_right + camera.pixel_down);
+    camera.width = kWidth;
+    camera.height = kHeight;
+    camera.pixel_right *= finer;
+    camera.pixel_down *= finer;
+    camera.pixel_origin =
+        middle - 0.5f * (kWidth - 1) * camera.pixel_right - 0.5f * (kHeight - 1) * camera.pixel_down;
+    const DiscInView disc(camera, moon);
+    // Solid angles differ by 2 % within a pixel at 80°.
+    EXPECT_NEAR(received(camera, disc), 1.0, 0.02) << aside_deg;
+    int points = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) points += disc.points(x, y);
+    // At most four pixels of 256 points an axis; elsewhere 32 points to the radius fill its square by 4096,
+    // or pixels of at least 4 points an axis.
+    EXPECT_LE(points, 4 * 256 * 256) << aside_deg;
+    EXPECT_GE(points, 64 * 64 / 2) << aside_deg;
+  }
+}
+
 TEST(Moon, KeepsItsIlluminanceWhileItSets) {
   // `illuminance` is what the part above the horizon gives; the rest of the disc is not shown.
   for (const double elevation_deg : {0.2, 0.0, -0.15}) {

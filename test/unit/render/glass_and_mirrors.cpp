@@ -1,6 +1,7 @@
 // Panes and mirrors whose light can be worked out on paper, and a room with both beside path-traced light.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "light/picture/mirror/reflections.h"
@@ -100,6 +101,58 @@ TEST(Glass, IsSeenThroughFromTheSky) {
   const sky::Daylight even = sky::uniformDaylight({LinearRgb(1000.0f, 1000.0f, 1000.0f), 1.0, {}});
   // What it lets through of an even sphere and what it mirrors of it are all of it.
   EXPECT_NEAR(at(renderer.light(even), 16, 16)[1], 1000.0f, 5.0f);
+}
+
+/// The light of the air, and of a lamp's glow in it, before black walls and panes that mirror nothing, seen
+/// along the x axis: in the picture, and by the reference.
+struct Foggy {
+  explicit Foggy(double wall_m) {
+    const auto x = static_cast<float>(wall_m);
+    addPatch(&scene, addGlow(&scene, 0.0f), {x, -90.0f, -90.0f}, {0.0f, 0.0f, 180.0f}, {0.0f, 180.0f, 0.0f});
+  }
+  Foggy& behindPane(double pane_m, float through) {
+    const int pane = addGlass(&scene, Eigen::Array3f::Constant(through));
+    scene.materials.back().dielectric = LinearRgb(0.0f, 0.0f, 0.0f);
+    scene.materials.back().dielectric_grazing = 0.0f;
+    addPane(&scene, pane, static_cast<float>(pane_m), 0.0);
+    return *this;
+  }
+  std::array<float, 2> seen(double sun_deg) const {
+    const light::World world(shared(scene));
+    render::Renderer renderer(world, smallCamera(16, 16, 1.0));
+    renderer.look(lookingAt({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}));
+    sky::Weather weather;
+    weather.visibility_m = 150.0;
+    light::Illumination light(sky::usualAir().daylight(
+        {Direction(Azimuth::degrees(0.0), Angle::degrees(sun_deg)), 1.0}, {}, weather));
+    scene::Lamp lamp;
+    lamp.position = {5.0f, 3.0f, 0.0f};
+    lamp.intensity = LinearRgb(1000.0f, 1000.0f, 1000.0f);
+    light::ReferenceOptions reference;
+    reference.samples_per_pixel = 2;
+    if (sun_deg < 0.0) reference.lamps = {lamp};
+    light.lamps = std::make_shared<const std::vector<scene::Lamp>>(reference.lamps);
+    const auto traced = light::traceReference(renderer.surfaces(), world, {light.day}, reference);
+    return {at(renderer.light(light), 8, 8)[1], at(traced[0].luminance, 8, 8)[1]};
+  }
+  scene::Scene scene;
+};
+
+TEST(GlassInFog, HasTheAirBeforeItButOnce) {
+  for (const double sun_deg : {30.0, -40.0}) {
+    const auto near = Foggy(30.0).seen(sun_deg), middle = Foggy(45.0).seen(sun_deg),
+               far = Foggy(60.0).seen(sun_deg);
+    const auto clear = Foggy(60.0).behindPane(30.0, 1.0f).seen(sun_deg);
+    const auto grey = Foggy(60.0).behindPane(30.0, 0.5f).seen(sun_deg);
+    const auto two = Foggy(60.0).behindPane(30.0, 0.5f).behindPane(45.0, 0.4f).seen(sun_deg);
+    for (std::size_t k = 0; k < 2; ++k) {  // air is interpolated, within 0.5 %
+      ASSERT_GT(near[k], 0.0f);
+      EXPECT_NEAR(clear[k], far[k], 0.01f * far[k]) << sun_deg << ' ' << k;
+      EXPECT_NEAR(grey[k], 0.5f * (near[k] + far[k]), 0.01f * far[k]) << sun_deg << ' ' << k;
+      const float behind = 0.6f * middle[k] + 0.4f * far[k];
+      EXPECT_NEAR(two[k], 0.5f * (near[k] + behind), 0.01f * far[k]) << sun_deg << ' ' << k;
+    }
+  }
 }
 
 TEST(SunBehindGlass, IsDimmedByTheAngleAtWhichItPasses) {

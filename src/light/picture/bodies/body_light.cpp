@@ -66,7 +66,8 @@ class BodyLight::Implementation {
   /// The same by way of polished floors, where nodes lack that light.
   static void addGlints(const Views& views, const Illumination& light, const sky::DiscLight& disc,
                         std::vector<Eigen::Array3f>* illuminance);
-  /// The same of lamps, and of surfaces that pass their light on.
+  /// The same of lamps, and of surfaces that pass their light on. To be called last: those that matter little
+  /// beside what is there are left out.
   static void addLamps(const Views& views, const Illumination& light,
                        std::vector<Eigen::Array3f>* illuminance);
 
@@ -201,8 +202,7 @@ void BodyLight::Implementation::addLamps(const Views& views, const Illumination&
   if (beams.empty()) return;
   std::vector<LitPlace> places;
   for (const Met& met : views.met) places.push_back({met.origin, met.normal});
-  addLampLight({beams, light.day.groundIlluminance().value.maxCoeff(), *views.visibility}, places,
-               illuminance);
+  addLampLight({beams, *views.visibility}, places, illuminance);
 }
 
 std::vector<AroundLight> BodyLight::Implementation::around(const Views& views,

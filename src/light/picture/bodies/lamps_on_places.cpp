@@ -28,9 +28,11 @@ struct Columns {
 
 void addLampLight(const LampsOnPlaces& from, const std::vector<LitPlace>& places,
                   std::vector<Eigen::Array3f>* illuminance) {
-  const auto& [lamps, day_lx, visibility] = from;
+  const auto& [lamps, visibility] = from;
   const Columns columns(places);
-  std::vector<float> shares(places.size()), least_lx(places.size(), day_lx);
+  std::vector<float> shares(places.size()), least_lx;
+  least_lx.reserve(places.size());
+  for (const Eigen::Array3f& lx : *illuminance) least_lx.push_back(lx.maxCoeff());
   for (const LampBeam& lamp : lamps) {
     lamp.shares(columns.points(), shares.data());
     for (std::size_t i = 0; i < places.size(); ++i) least_lx[i] += shares[i] * lamp.brightest();

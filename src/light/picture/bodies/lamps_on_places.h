@@ -17,13 +17,12 @@ struct LitPlace {
 /// What shines at places, and what may stand in the way.
 struct LampsOnPlaces {
   const std::vector<LampBeam>& lamps;
-  float day_lx;  ///< on level, open ground, without them
   const Visibility& visibility;
 };
 
-/// Adds to `illuminance` of each place, lx, what it gets of the lamps, by a ray to the middle of each. Lamps
-/// are left out of a place that would give it less than their share of a hundredth of what all of them and
-/// the day give it, were nothing in the way. Glass passes all.
+/// Adds to `illuminance` of each place, lx, which holds all other light, what it gets of the lamps, by a ray
+/// to the middle of each. Lamps are left out of a place that would give it less than their share of a
+/// hundredth of what it has and all of them would give it, were nothing in their way. Glass passes all.
 void addLampLight(const LampsOnPlaces& from, const std::vector<LitPlace>& places,
                   std::vector<Eigen::Array3f>* illuminance);
 

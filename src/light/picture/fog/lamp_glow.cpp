@@ -226,7 +226,7 @@ void LampGlow::addTo(const Tile& tile, const SkyPixel& sky, image::LinearImage* 
       for (; surface != tile.surfaces.end() && surface->pixel == number; ++surface) {
         const float distance_m = (surface->position - surfaces_.eye).norm();
         pixel += at(profile, slices_.place(distance_m)) *
-                 (weight * static_cast<float>(surface->samples) * surface->share);
+                 (weight * static_cast<float>(surface->samples) * surface->air_share);
       }
       if (SkyPixel::skySamples(tile, x, y) > 0) pixel += profile.back() * sky.skyShare(tile, x, y);
     }

@@ -111,19 +111,16 @@ class Met {
 
 }  // namespace
 
-LampLight::LampLight(const Sources& sources, float day_lx, const Picture& picture)
-    : beams_(sources.lamps.begin(), sources.lamps.end()),
-      day_lx_(day_lx),
-      picture_(picture),
-      glass_(picture.visibility) {
+LampLight::LampLight(const Sources& sources, const Picture& picture)
+    : beams_(sources.lamps.begin(), sources.lamps.end()), picture_(picture), glass_(picture.visibility) {
   for (const BouncedLight& bounced : sources.bounced) beams_.emplace_back(bounced);
 }
 
 /// Without those, weakest first, whose sum is at most half of kLeftOut everywhere in the tile.
-std::vector<std::uint32_t> LampLight::lampsOf(const Tile& tile) const {
+std::vector<std::uint32_t> LampLight::lampsOf(const Tile& tile, const std::vector<float>& other_lx) const {
   const Eigen::AlignedBox3f box = boxOf(tile);
   std::vector<std::pair<float, std::uint32_t>> at_most;
-  float certain = day_lx_;
+  float certain = *std::min_element(other_lx.begin(), other_lx.end());
   for (std::uint32_t i = 0; i < beams_.size(); ++i) {
     const LampBeam::Bounds bounds = beams_[i].within(box);
     certain += bounds.low;
@@ -264,8 +261,9 @@ std::vector<LampLight::Target> LampLight::targetsOf(const LitRows::Reflected& re
   return targets;
 }
 
-std::vector<LampLight::OfLamp> LampLight::targetsOf(const Tile& tile) const {
-  const std::vector<std::uint32_t> lamps = lampsOf(tile);
+std::vector<LampLight::OfLamp> LampLight::targetsOf(const Tile& tile,
+                                                    const std::vector<float>& other_lx) const {
+  const std::vector<std::uint32_t> lamps = lampsOf(tile, other_lx);
   if (lamps.empty()) return {};
   thread_local LitRows rows;
   thread_local LitRows::Reflected reflected;
@@ -274,7 +272,8 @@ std::vector<LampLight::OfLamp> LampLight::targetsOf(const Tile& tile) const {
   const std::vector<Place> places = placesOf(tile);
   const std::size_t stride = rows.stride();
   shares.resize(lamps.size() * stride);
-  least_lx.assign(stride, day_lx_);
+  least_lx.assign(other_lx.begin(), other_lx.end());
+  least_lx.resize(stride, 0.0f);
   for (std::size_t k = 0; k < lamps.size(); ++k) {
     const LampBeam& beam = beams_[lamps[k]];
     float* const of_lamp = shares.data() + k * stride;
@@ -316,12 +315,13 @@ Eigen::Array3f LampLight::throughVeils(const LampBeam& beam, const Tile& tile, c
   return through / static_cast<float>(rays);
 }
 
-void LampLight::light(const Tile& tile, std::vector<Eigen::Array3f>* luminances) const {
-  luminances->clear();
+void LampLight::addTo(const Tile& tile, const std::vector<float>& other_lx,
+                      std::vector<Eigen::Array3f>* luminances) const {
   if (beams_.empty() || tile.surfaces.empty()) return;
-  std::vector<OfLamp> all = targetsOf(tile);
+  std::vector<OfLamp> all = targetsOf(tile, other_lx);
   if (all.empty()) return;
-  luminances->assign(tile.surfaces.size(), Eigen::Array3f::Zero());
+  thread_local std::vector<Eigen::Array3f> by_lamps;
+  by_lamps.assign(tile.surfaces.size(), Eigen::Array3f::Zero());
   // What may reach each surface: what did, and what lamps not yet looked at give where nothing is in the way.
   std::vector<float> possible(tile.surfaces.size(), 0.0f);
   for (const OfLamp& of : all)
@@ -334,12 +334,13 @@ void LampLight::light(const Tile& tile, std::vector<Eigen::Array3f>* luminances)
       Eigen::Array3f arrives = target.seen * target.unhidden;
       if (glass_.anyVeils() && target.seen > 0.0f)
         arrives *= throughVeils(beams_[of.lamp], tile, tile.surfaces[target.surface]);
-      (*luminances)[target.surface] += arrives;
+      by_lamps[target.surface] += arrives;
       // Not less than what is there: rounding must not make it nothing.
       possible[target.surface] = std::max(possible[target.surface] - (1.0f - target.seen) * target.brightest,
-                                          (*luminances)[target.surface].maxCoeff());
+                                          by_lamps[target.surface].maxCoeff());
     }
   }
+  for (std::size_t i = 0; i < by_lamps.size(); ++i) (*luminances)[i] += by_lamps[i];
 }
 
 }  // namespace sunlit::light

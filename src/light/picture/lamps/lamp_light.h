@@ -22,7 +22,7 @@ namespace sunlit::light {
 class LampLight {
  public:
   /// Lamps are left out of a surface that together would give a plane facing them at most this share of what
-  /// all lamps and the sky would give it, were nothing in the way.
+  /// it gets of other light and all lamps would give it, were nothing in their way.
   static constexpr float kLeftOut = 0.01f;
 
   struct Picture {
@@ -34,12 +34,14 @@ class LampLight {
     const std::vector<scene::Lamp>& lamps;
     const std::vector<BouncedLight>& bounced;
   };
-  /// Keeps references to all of `picture`. `day_lx`: illuminance of level, open ground without lamps.
-  LampLight(const Sources& sources, float day_lx, const Picture& picture);
+  /// Keeps references to all of `picture`.
+  LampLight(const Sources& sources, const Picture& picture);
 
-  /// Luminance of each of the tile's surfaces by the lamps, cd/m², without the air before it; empty where no
-  /// lamp matters.
-  void light(const Tile& tile, std::vector<Eigen::Array3f>* luminances) const;
+  /// Adds what the lamps give to the luminance of each of the tile's surfaces, cd/m², without the air before
+  /// it. `other_lx` is the illuminance of each by all other light: a hall's is no more than its windows let
+  /// in.
+  void addTo(const Tile& tile, const std::vector<float>& other_lx,
+             std::vector<Eigen::Array3f>* luminances) const;
 
  private:
   /// How closely one looks for shadows, by the share that a lamp may have of the light that reaches a
@@ -62,7 +64,7 @@ class LampLight {
     float seen = 1.0f;  ///< share of the lamp that is not hidden
   };
 
-  std::vector<std::uint32_t> lampsOf(const Tile& tile) const;
+  std::vector<std::uint32_t> lampsOf(const Tile& tile, const std::vector<float>& other_lx) const;
   /// Of all surfaces.
   std::vector<Place> placesOf(const Tile& tile) const;
   /// Of those to which a lamp gives light.
@@ -75,7 +77,7 @@ class LampLight {
     float sum;  ///< of all of its targets
     std::vector<Target> targets;
   };
-  std::vector<OfLamp> targetsOf(const Tile& tile) const;
+  std::vector<OfLamp> targetsOf(const Tile& tile, const std::vector<float>& other_lx) const;
   void findShadows(std::uint32_t lamp, const Tile& tile, std::vector<Target>* targets) const;
   void cast(const LampBeam& beam, const Tile& tile, const std::vector<Target*>& targets) const;
 
@@ -83,7 +85,6 @@ class LampLight {
   Eigen::Array3f throughVeils(const LampBeam& beam, const Tile& tile, const Surface& surface) const;
 
   std::vector<LampBeam> beams_;
-  float day_lx_;
   Picture picture_;
   GlassSheets glass_;
 };

@@ -14,6 +14,8 @@ constexpr double kPointsPerRadius = 32.0;
 /// Points across a crescent's width, at least, until kMostPointsPerRadius are not enough.
 constexpr double kPointsPerCrescent = 16.0;
 constexpr double kMostPointsPerRadius = 128.0;
+/// A pixel, at least and at most, along an axis.
+constexpr double kLeastPoints = 4.0, kMostPoints = 256.0;
 
 /// Brightness of a whole Lommel-Seeliger sphere at a phase angle, relative to full: 1 − sin(α/2) tan(α/2)
 /// ln cot(α/4) (Lester, McCall and Tatum 1979).
@@ -28,6 +30,7 @@ double lommelSeeligerPhase(double alpha) {
 DiscInView::DiscInView(const Surfaces& surfaces, const sky::DiscLight& disc)
     : surfaces_(surfaces), towards_(disc.towards.vector().cast<float>()), centre_(disc.towards.vector()) {
   const double radius = disc.angular_radius.rad();
+  radius_rad_ = radius;
   disc_cosine_ = static_cast<float>(std::cos(radius));
   disc_sine_ = std::sin(radius);
   // Of a pinhole no pixel spans a larger angle than at the image centre, where it is its size at depth 1.
@@ -36,19 +39,17 @@ DiscInView::DiscInView(const Surfaces& surfaces, const sky::DiscLight& disc)
   near_cosine_ = static_cast<float>(std::cos(std::min(radius + 2.0 * pixel, kPi)));
   const double above = sky::discSegment(disc.towards.elevation().rad() / radius);
   double lit = 1.0;
-  double points_per_radius = kPointsPerRadius;
+  points_per_radius_ = kPointsPerRadius;
   if (disc.lit_from) {
     lit_from_ = disc.lit_from->vector();
     const double cosine = -disc.lit_from->vector().dot(disc.towards.vector());
     lit = lommelSeeligerPhase(std::acos(std::clamp(cosine, -1.0, 1.0)));
     const double width = std::max(1.0 + cosine, 1e-3);  // of the lit part, in radii
-    points_per_radius = std::clamp(kPointsPerCrescent / width, kPointsPerRadius, kMostPointsPerRadius);
+    points_per_radius_ = std::clamp(kPointsPerCrescent / width, kPointsPerRadius, kMostPointsPerRadius);
     // At full phase µ0 = µ: one half everywhere.
     brightness_scale_ = 2.0 / std::max(lit, 1e-9);
   }
   shines_ = disc.illuminance.value.maxCoeff() > 0.0f && above > 1e-4 && lit > 1e-6;
-  const double radius_px = radius * std::sqrt(2.0) / pixel;
-  grid_ = static_cast<int>(std::clamp(std::ceil(points_per_radius / radius_px), 4.0, 256.0));
   // The disc fills a solid angle of 2π (1 − cos r), here without cancellation.
   const double half_sine = std::sin(0.5 * radius);
   mean_luminance_ =
@@ -67,25 +68,55 @@ double DiscInView::brightness(const Eigen::Vector3d& towards) const {
   return mu0 > 0.0 ? brightness_scale_ * mu0 / (mu0 + mu) : 0.0;
 }
 
-Eigen::Array3f DiscInView::luminance(int x, int y) const {
-  Eigen::Vector3d right = surfaces_.pixel_right.cast<double>();
-  Eigen::Vector3d down = surfaces_.pixel_down.cast<double>();
-  const double step = 1.0 / grid_;
-  Eigen::Vector3d corner =
-      surfaces_.pixel_origin.cast<double>() + (x - 0.5 + 0.5 * step) * right + (y - 0.5 + 0.5 * step) * down;
-  if (surfaces_.bent) {  // straight within a pixel
-    right = surfaces_.map_from_optical * surfaces_.bent->right(x, y);
-    down = surfaces_.map_from_optical * surfaces_.bent->down(x, y);
-    corner = surfaces_.map_from_optical * surfaces_.bent->at(x, y) + (0.5 * step - 0.5) * (right + down);
+DiscInView::Pixel DiscInView::pixel(int x, int y) const {
+  if (surfaces_.bent) {
+    const PixelRays& rays = *surfaces_.bent;
+    const Eigen::Matrix3d& turned = surfaces_.map_from_optical;
+    return {turned * rays.at(x, y), turned * rays.right(x, y), turned * rays.down(x, y)};
   }
+  const Eigen::Vector3d right = surfaces_.pixel_right.cast<double>();
+  const Eigen::Vector3d down = surfaces_.pixel_down.cast<double>();
+  return {surfaces_.pixel_origin.cast<double>() + x * right + y * down, right, down};
+}
+
+/// Pixels differ in size by far in a wide view, and so do the two axes of one that is near its edge.
+DiscInView::Grid DiscInView::gridOf(const Pixel& pixel) const {
+  const auto angle = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::acos(std::clamp(a.normalized().dot(b.normalized()), -1.0, 1.0));
+  };
+  const auto& [middle, right, down] = pixel;
+  double reach = 0.0;
+  for (const Eigen::Vector3d& corner : {Eigen::Vector3d(right + down), Eigen::Vector3d(right - down)})
+    reach = std::max({reach, angle(middle, middle + 0.5 * corner), angle(middle, middle - 0.5 * corner)});
+  if (!shines_ || angle(middle, centre_) > radius_rad_ + reach) return {};
+  const auto along = [&](const Eigen::Vector3d& side) {
+    const double across_rad = angle(middle - 0.5 * side, middle + 0.5 * side);
+    const double points = std::ceil(points_per_radius_ * across_rad / radius_rad_);
+    return static_cast<int>(std::clamp(points, kLeastPoints, kMostPoints));
+  };
+  return {along(right), along(down)};
+}
+
+int DiscInView::points(int x, int y) const {
+  const Grid grid = gridOf(pixel(x, y));
+  return grid.across * grid.down;
+}
+
+Eigen::Array3f DiscInView::luminance(int x, int y) const {
+  const auto [middle, right, down] = pixel(x, y);
+  const Grid grid = gridOf({middle, right, down});
+  if (grid.across == 0) return Eigen::Array3f::Zero();
+  const double step_right = 1.0 / grid.across, step_down = 1.0 / grid.down;
   double sum = 0.0;
-  for (int j = 0; j < grid_; ++j) {
-    for (int i = 0; i < grid_; ++i) {
-      const Eigen::Vector3d towards = (corner + i * step * right + j * step * down).normalized();
+  for (int j = 0; j < grid.down; ++j) {
+    for (int i = 0; i < grid.across; ++i) {
+      const Eigen::Vector3d towards =
+          (middle + ((i + 0.5) * step_right - 0.5) * right + ((j + 0.5) * step_down - 0.5) * down)
+              .normalized();
       if (towards.z() > 0.0) sum += brightness(towards);
     }
   }
-  return static_cast<float>(sum * step * step) * mean_luminance_;
+  return static_cast<float>(sum * step_right * step_down) * mean_luminance_;
 }
 
 }  // namespace sunlit::light

@@ -24,8 +24,19 @@ class DiscInView {
   bool hides(const Eigen::Vector3f& towards) const { return shines_ && towards.dot(towards_) > disc_cosine_; }
   /// Its part of the mean luminance of pixel (x, y), cd/m².
   Eigen::Array3f luminance(int x, int y) const;
+  /// How many points of the pixel luminance() looks at: none where it does not touch the disc.
+  int points(int x, int y) const;
 
  private:
+  /// The part of the view that a pixel shows, straight within it.
+  struct Pixel {
+    Eigen::Vector3d middle, right, down;  ///< its rays are middle + i right + j down, |i|, |j| ≤ ½
+  };
+  Pixel pixel(int x, int y) const;
+  struct Grid {
+    int across = 0, down = 0;  ///< points
+  };
+  Grid gridOf(const Pixel& pixel) const;
   double brightness(const Eigen::Vector3d& towards) const;
 
   const Surfaces& surfaces_;
@@ -35,11 +46,12 @@ class DiscInView {
   float near_cosine_;  ///< of the angle beyond which none of those touches the disc
   // Double: the disc is small, and a crescent a small part of it.
   Eigen::Vector3d centre_;                   ///< unit
-  double disc_sine_;                         ///< of the disc's radius
+  double radius_rad_;                        ///< of the disc
+  double disc_sine_;                         ///< of that
   std::optional<Eigen::Vector3d> lit_from_;  ///< unit; empty: shines all over
   Eigen::Array3f mean_luminance_;            ///< cd/m², over the part of the disc above the horizon
   double brightness_scale_ = 1.0;            ///< so that brightness() has a mean of 1 over the disc
-  int grid_;                                 ///< points a pixel and axis
+  double points_per_radius_;                 ///< to be looked at, where a pixel is not too wide for it
 };
 
 }  // namespace sunlit::light
