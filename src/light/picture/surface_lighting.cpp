@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "light/geometry/ray_start.h"
+#include "light/patches/least_disc.h"
 #include "light/shading/direct_parts.h"
 #include "light/shading/shading.h"
 #include "light/shading/surface_reflection.h"
@@ -26,12 +27,6 @@ std::vector<bool> glowing(const SurfaceLighting::Subject& subject, const std::ve
   for (const scene::Material& material : subject.scene.materials)
     are.push_back(glows(material, lamps) && (!subject.in_mirrors || material.lamp_group.empty()));
   return are;
-}
-
-/// A disc that gives less, on a plane facing it, than a thousandth of what lies on the ground changes no
-/// pixel by a visible amount: such as the moon by day.
-float leastDisc_lx(const sky::Daylight& day) {
-  return 1e-3f * day.groundIlluminance().value.maxCoeff();
 }
 
 std::unique_ptr<const Glints> glintsOf(const sky::DiscLight& disc, const SurfaceLighting::Subject& subject,

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 
 #include "light/bake/gather/floor_glints.h"
 #include "light/bake/gather/small_light.h"
 #include "light/geometry/ray_list.h"
 #include "light/patches/disc_above_horizon.h"
+#include "light/patches/least_disc.h"
 #include "light/shading/glass_sheets.h"
 
 namespace sunlit::light {
@@ -18,7 +18,7 @@ namespace {
 
 /// Bounces that are followed: of white walls' light a sixth is left to be as the patches told.
 constexpr int kMostBounces = 8;
-constexpr double kLittle = 0.005;  // of a room's light, on average; less still follows
+constexpr double kLittle = 0.005;  // of rooms' light, on average over neighbours; less still follows
 
 constexpr float kWhole = 0.999f;  ///< share of a source, but for rounding
 
@@ -158,7 +158,7 @@ DiscsInRooms::DiscsInRooms(const TransportData& data, const sky::Daylight& day, 
   };
   std::vector<Shining> shining;
   for (const Shining& one : {Shining{day.sun(), through.sun}, Shining{day.moon(), through.moon}})
-    if (one.disc.illuminance.value.maxCoeff() > 0.0f) shining.push_back(one);
+    if (one.disc.illuminance.value.maxCoeff() > leastDisc_lx(day)) shining.push_back(one);
   if (count == 0 || shining.empty()) return;
   direct_.resize(count, Eigen::Array3f::Zero());
   has_.resize(data_.sampleCount(), Eigen::Array3f::Zero());
@@ -228,13 +228,15 @@ void DiscsInRooms::send() {
   });
 }
 
-/// Returns by how much the light of rooms has changed, as a share of it, on average over rooms.
+/// Returns by how much the light of rooms has changed, as a share of it, on average over those of a block:
+/// the most of all blocks, for most of a land may be of rooms that have all their light at once.
 double DiscsInRooms::receive() {
   const BakedRooms& rooms = data_.rooms;
   const std::size_t count = rooms.samples.size();
   std::vector<double> changes(blocks(count), 0.0);
   tbb::parallel_for(std::size_t{0}, changes.size(), [&](std::size_t block) {
-    for (std::size_t room = block * kOfTask; room < std::min(count, (block + 1) * kOfTask); ++room) {
+    const std::size_t first = block * kOfTask, end = std::min(count, first + kOfTask);
+    for (std::size_t room = first; room < end; ++room) {
       Arrived sum;
       visitLinks(rooms, room, [&](const SampleSeen& other, bool up) {
         (up ? sum.above : sum.below) += other.weight * sent_[other.sample];
@@ -247,8 +249,9 @@ double DiscsInRooms::receive() {
       if (most > 0.0f) changes[block] += static_cast<double>((all - has).abs().maxCoeff() / most);
       has = all;
     }
+    changes[block] /= static_cast<double>(end - first);
   });
-  return std::accumulate(changes.begin(), changes.end(), 0.0) / static_cast<double>(count);
+  return *std::max_element(changes.begin(), changes.end());
 }
 
 }  // namespace sunlit::light

@@ -22,7 +22,8 @@ class DiscsInRooms {
   DiscsInRooms(const TransportData& data, const sky::Daylight& day, const Visibility& visibility,
                const DiscsThroughCloud& through);
 
-  /// Whether neither shines at all, or no room is to be followed; at() must not be asked then.
+  /// Whether neither shines by more than leastDisc_lx(), or no room is to be followed; at() must not be asked
+  /// then.
   bool none() const { return arrived_.empty(); }
   /// Illuminance of a room's sample by surfaces, lx; of those in BakedRooms::glossy but not straight from
   /// discs by way of polished floors, which pictures add: see GlintNodes.

@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "light/shading/mirror_lobe.h"
 #include "light/shading/polished_floor.h"
@@ -23,7 +22,9 @@ PartSums sumsOf(const PassedOn& part, std::size_t sample) {
           Eigen::Map<const Eigen::Array3f>(part.glows[sample].data())};
 }
 
-constexpr float kNextToNothing = 2e-4f;  // of what the samples have, on average; more still follows
+/// Of what the samples of a block have, on average; more still follows. By blocks, and not of all samples: a
+/// white room in a wide land would be left after a few bounces.
+constexpr float kNextToNothing = 2e-4f;
 
 /// Of ground towards a ray that comes down along `towards`, in what it scatters towards the mean one.
 float scatteredDown(const Eigen::Vector3f& towards) {
@@ -42,20 +43,56 @@ float relativeChange(const Arrived& before, const Arrived& after) {
   return relativeChange(before.above + before.below, after.above + after.below);
 }
 
-/// Sets all of `next` by `receive`, and returns the mean relative change from `has`. Parallel; sums in one
-/// order for any number of threads.
-template <typename Value, typename Receive>
-double receiveAll(const std::vector<Value>& has, std::vector<Value>* next, const Receive& receive) {
-  const std::size_t count = has.size();
-  std::vector<double> changes((count + kSamplesOfTask - 1) / kSamplesOfTask, 0.0);
-  tbb::parallel_for(std::size_t{0}, changes.size(), [&](std::size_t block) {
-    for (std::size_t i = block * kSamplesOfTask; i < std::min(count, (block + 1) * kSamplesOfTask); ++i) {
-      (*next)[i] = receive(i);
-      changes[block] += static_cast<double>(relativeChange(has[i], (*next)[i]));
-    }
-  });
-  return count > 0 ? std::accumulate(changes.begin(), changes.end(), 0.0) / static_cast<double>(count) : 0.0;
-}
+/// Blocks of kSamplesOfTask samples, neighbours mostly, and which of them still change as light goes on from
+/// surface to surface. Parallel; the same bits for any number of threads.
+class ChangingBlocks {
+ public:
+  /// visit(sample, see) is to call see() with all samples whose light a sample gets.
+  template <typename Visit>
+  ChangingBlocks(std::size_t samples, const Visit& visit)
+      : samples_(samples), seen_((samples + kSamplesOfTask - 1) / kSamplesOfTask), changed_(seen_.size(), 1) {
+    tbb::parallel_for(std::size_t{0}, seen_.size(), [&](std::size_t block) {
+      std::vector<std::uint8_t> is_seen(seen_.size(), 0);
+      for (std::size_t i = block * kSamplesOfTask; i < end(block); ++i)
+        visit(i, [&](std::uint32_t sample) { is_seen[sample / kSamplesOfTask] = 1; });
+      for (std::uint32_t other = 0; other < is_seen.size(); ++other)
+        if (is_seen[other] != 0) seen_[block].push_back(other);
+    });
+  }
+  /// Whether the last bounce changed anything.
+  bool any() const { return std::find(changed_.begin(), changed_.end(), 1) != changed_.end(); }
+  /// Sets `has` of those samples whose light changes by `receive`; `next` is as long, for what is under way.
+  template <typename Value, typename Receive>
+  void receive(const Receive& receive, std::vector<Value>* has, std::vector<Value>* next) {
+    std::vector<std::uint8_t> changes(seen_.size(), 0);
+    std::vector<std::uint8_t> is_new(seen_.size(), 0);
+    tbb::parallel_for(std::size_t{0}, seen_.size(), [&](std::size_t block) {
+      is_new[block] = std::any_of(seen_[block].begin(), seen_[block].end(),
+                                  [&](std::uint32_t other) { return changed_[other] != 0; });
+      if (is_new[block] == 0) return;
+      float change = 0.0f;
+      for (std::size_t i = block * kSamplesOfTask; i < end(block); ++i) {
+        (*next)[i] = receive(i);
+        change += relativeChange((*has)[i], (*next)[i]);
+      }
+      changes[block] = change > kNextToNothing * static_cast<float>(end(block) - block * kSamplesOfTask);
+    });
+    tbb::parallel_for(std::size_t{0}, seen_.size(), [&](std::size_t block) {
+      if (is_new[block] == 0) return;
+      const auto first = static_cast<std::ptrdiff_t>(block * kSamplesOfTask);
+      std::copy(next->begin() + first, next->begin() + static_cast<std::ptrdiff_t>(end(block)),
+                has->begin() + first);
+    });
+    changed_.swap(changes);
+  }
+
+ private:
+  std::size_t end(std::size_t block) const { return std::min(samples_, (block + 1) * kSamplesOfTask); }
+
+  std::size_t samples_;
+  std::vector<std::vector<std::uint32_t>> seen_;  ///< blocks whose light each block gets
+  std::vector<std::uint8_t> changed_;             ///< whether the last bounce changed it
+};
 
 /// Of a sample that only later bounces reach nobody knows where in the sky its light is from.
 void setEven(float sum, std::size_t sample, Coefficients* coefficients) {
@@ -184,6 +221,15 @@ Arrived Exchange::receivedOf(const Sent& sent, std::size_t sample) const {
   return sum;
 }
 
+template <typename See>
+void Exchange::visitSenders(std::size_t sample, const See& see) const {
+  visitSeen(sample, all, [&](const SampleSeen& other, bool) {
+    see(other.sample);
+    const std::uint32_t behind = samples_.other_side[other.sample].sample;
+    if (behind != LightMesh::kNone) see(behind);
+  });
+}
+
 std::vector<Sending> Exchange::sendings() const {
   std::vector<Sending> all(seen.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { all[i] = sending(i); });
@@ -195,8 +241,8 @@ std::vector<Arrived> Exchange::passedOn(const std::vector<Eigen::Array3f>& direc
   Sent sent{std::vector<Eigen::Array3f>(seen.size()), std::vector<std::uint8_t>(seen.size())};
   const std::vector<Sending> sends_of = sendings();
   const auto all = [&](std::size_t i) -> Eigen::Array3f { return direct[i] + has[i].above + has[i].below; };
-  double change = 1.0;
-  for (int bounce = 0; bounce < most && change > kNextToNothing; ++bounce) {
+  ChangingBlocks changing(seen.size(), [&](std::size_t i, const auto& see) { visitSenders(i, see); });
+  for (int bounce = 0; bounce < most && changing.any(); ++bounce) {
     tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
       const Sending& sends = sends_of[i];
       Eigen::Array3f light = sends.bounced * all(i);
@@ -204,8 +250,7 @@ std::vector<Arrived> Exchange::passedOn(const std::vector<Eigen::Array3f>& direc
       sent.light[i] = light;
       sent.any[i] = light.isZero(0.0f) ? 0 : 1;
     });
-    change = receiveAll(has, &next, [&](std::size_t i) { return receivedOf(sent, i); });
-    has.swap(next);
+    changing.receive([&](std::size_t i) { return receivedOf(sent, i); }, &has, &next);
   }
   return has;
 }
@@ -217,11 +262,10 @@ void Exchange::addLaterBounces(TransportData* data) const {
   std::vector<PassedOnSums> next(count);
   std::vector<SentSums> sent(count);
   const std::vector<Sending> sends_of = sendings();
-  double change = 1.0;
-  for (int bounce = 0; bounce < kAllBounces && change > kNextToNothing; ++bounce) {
+  ChangingBlocks changing(count, [&](std::size_t i, const auto& see) { visitSenders(i, see); });
+  for (int bounce = 0; bounce < kAllBounces && changing.any(); ++bounce) {
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { sent[i] = sentBy(sends_of[i], has, i); });
-    change = receiveAll(has.passed_on, &next, [&](std::size_t i) { return received(sent, i); });
-    has.passed_on.swap(next);
+    changing.receive([&](std::size_t i) { return received(sent, i); }, &has.passed_on, &next);
   }
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     brighten(traced[i].above, has.passed_on[i].above, i, &data->above);

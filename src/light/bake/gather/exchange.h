@@ -153,6 +153,9 @@ class Exchange {
     std::vector<std::uint8_t> any;  ///< whether it is not 0: most are dark, and this fits a core's cache
   };
   Arrived receivedOf(const Sent& sent, std::size_t sample) const;
+  /// Calls see(number) with all samples whose light a sample gets.
+  template <typename See>
+  void visitSenders(std::size_t sample, const See& see) const;
   /// sending() of all samples, for who needs it many times.
   std::vector<Sending> sendings() const;
 

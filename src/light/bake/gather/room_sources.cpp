@@ -25,13 +25,15 @@ struct LeafPart {
 /// Scattered over the part, for edges of shadows may run along any rows. Their shares are areas, m².
 void addPart(const LeafPart& part, std::vector<BakedRooms::Point>* points) {
   constexpr float kEach_m2 = 0.01f;
-  constexpr int kMostOfPart = 24, kCoarsely = 2;
+  constexpr float kMostOfPart = 24.0f;
+  constexpr int kCoarsely = 2;
   const Eigen::Vector3f own = part.corners.col(static_cast<Eigen::Index>(part.nearest));
   const Eigen::Vector3f one = part.corners.col(static_cast<Eigen::Index>((part.nearest + 1) % 3)) - own;
   const Eigen::Vector3f two = part.corners.col(static_cast<Eigen::Index>((part.nearest + 2) % 3)) - own;
   const float part_m2 = one.cross(two).norm() / 6.0f;
+  // Clamped before it is a whole number, which a large part has no room in.
   const int count =
-      part.finely ? std::clamp(static_cast<int>(part_m2 / kEach_m2), 1, kMostOfPart) : kCoarsely;
+      part.finely ? static_cast<int>(std::clamp(part_m2 / kEach_m2, 1.0f, kMostOfPart)) : kCoarsely;
   const EvenPoints even(part.key);
   for (int i = 0; i < count; ++i) {
     // In a parallelogram, folded to the half that lies at the corner: one of the two triangles that meet in

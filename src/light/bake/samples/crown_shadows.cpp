@@ -7,13 +7,17 @@
 #include <numeric>
 #include <utility>
 
+#include "sunlit/light/surfaces.h"
 #include "sunlit/quantity/vector_clones.h"
 
 namespace sunlit::light {
 namespace {
 
-constexpr float kClear_m = 1e-3f;  ///< points lie that far off their leaf
-constexpr float kEdgeOn = 1e-4f;   ///< cosine below which a triangle hides nothing
+/// So far off their leaf points lie.
+float clearance_m(const Eigen::Vector3f& point) {
+  return std::max(1e-3f, rayClearance_m(point, 0.0f));
+}
+constexpr float kEdgeOn = 1e-4f;  ///< cosine below which a triangle hides nothing
 /// After each of so many parts of the triangles, points that are shaded by then are dropped.
 constexpr std::size_t kParts = 4;
 constexpr std::size_t kLanes = 32;                    ///< points that meet a triangle at once
@@ -74,8 +78,9 @@ CrownShadows::CrownShadows(const World& world, std::vector<Point> points, float 
     : world_(world), points_(std::move(points)), cell_m_(cell_m), open_(points_.size()) {
   if (points_.empty()) return;
   for (const Point& point : points_) box_.extend(point.position);
-  box_.min().array() -= 2.0f * kClear_m;
-  box_.max().array() += 2.0f * kClear_m;
+  const float around_m = 2.0f * std::max(clearance_m(box_.min()), clearance_m(box_.max()));
+  box_.min().array() -= around_m;
+  box_.max().array() += around_m;
   middle_ = box_.center();
   cell_m_ = std::max(cell_m_, box_.diagonal().norm() / kMostCells);
   addBlockers();
@@ -137,8 +142,8 @@ void CrownShadows::project(const Eigen::Vector3f& towards) {
   low_x_ = low_y_ = lowest_ = kShaded;
   for (std::size_t i = 0; i < count; ++i) {
     const Point& point = points_[i];
-    const float side = point.normal.dot(towards) > 0.0f ? kClear_m : -kClear_m;
-    const Eigen::Vector3f at = point.position + side * point.normal - middle_;
+    const float clear = clearance_m(point.position), side = point.normal.dot(towards) > 0.0f ? clear : -clear;
+    const Eigen::Vector3f at = point.position - middle_ + side * point.normal;
     const float x = across_.dot(at), y = up_.dot(at), height = towards.dot(at);
     unsorted_x_[i] = x;
     unsorted_y_[i] = y;

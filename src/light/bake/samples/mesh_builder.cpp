@@ -55,7 +55,7 @@ Receiver MeshNode::receiver() const {
   const Eigen::Vector3f origin = position + pull;
   Receiver receiver;
   receiver.origins.fill(origin);
-  receiver.lifts.fill(Receiver::kClear_m * (face.isZero() ? normal : face));
+  receiver.lifts.fill(Receiver::clearance_m(origin) * (face.isZero() ? normal : face));
   receiver.normal = normal;
   receiver.face = face;
   return receiver;

@@ -7,6 +7,7 @@
 
 #include "light/bake/samples/bake_rays.h"
 #include "light/patches/sky_patches.h"
+#include "sunlit/light/surfaces.h"
 
 namespace sunlit::light {
 
@@ -34,7 +35,10 @@ inline float countedCosine(float cosine, float transmission) {
 /// A point that gathers light, or some that do it together.
 struct Receiver {
   static constexpr int kOrigins = 4;
-  static constexpr float kClear_m = 5e-3f;        ///< of where rays start, above the surface
+  /// How far above its surface, there, rays start.
+  static float clearance_m(const Eigen::Vector3f& origin) {
+    return std::max(5e-3f, rayClearance_m(origin, 0.0f));
+  }
   std::array<Eigen::Vector3f, kOrigins> origins;  ///< on the surface; rays take them in turn
   std::array<Eigen::Vector3f, kOrigins> lifts;    ///< from there to where rays of the lit side start
   Eigen::Vector3f normal;                         ///< unit, that the light is shaded by

@@ -169,7 +169,7 @@ class Sampler {
     Receiver receiver;
     receiver.origins.fill(isLeaf(traits_[t].kind) ? centre
                                                   : Eigen::Vector3f(position + 0.4f * (centre - position)));
-    receiver.lifts.fill(Receiver::kClear_m * flat);
+    receiver.lifts.fill(Receiver::clearance_m(receiver.origins[0]) * flat);
     receiver.normal = normal;
     receiver.coarse = isLeaf(traits_[t].kind);
     // Of other sheets, each side has its own light: see coupleSheets().

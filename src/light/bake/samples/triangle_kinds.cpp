@@ -8,6 +8,7 @@
 
 #include "light/bake/samples/probe.h"
 #include "light/bake/samples/triangle_places.h"
+#include "sunlit/light/surfaces.h"
 #include "sunlit/light/visibility.h"
 
 namespace sunlit::light {
@@ -18,7 +19,7 @@ constexpr float kLargeArea_m2 = 0.3f;
 constexpr float kLargestLeaf_m2 = 2.0f;
 constexpr float kSmallestSpray_m2 = 0.3f;
 constexpr float kLargestSpray_m2 = 4.0f;
-constexpr float kClear_m = 2e-3f;
+constexpr float kClear_m = 2e-3f;  ///< of where rays start, at least
 
 /// Shares of what one side of a triangle sees from its middle.
 struct Outlook {
@@ -65,8 +66,9 @@ Outlooks outlooks(const Surrounding& around, const Side* first, int count, const
   for (int i = 0; i < count; ++i) {
     Receiver& receiver = receivers[static_cast<std::size_t>(i)];
     receiver.normal = sideNormal(geometry, first[i].triangle, first[i].side);
-    receiver.lifts.fill(kClear_m * receiver.normal);
-    receiver.origins.fill(placeOn(geometry, first[i].triangle, place));
+    const Eigen::Vector3f origin = placeOn(geometry, first[i].triangle, place);
+    receiver.origins.fill(origin);
+    receiver.lifts.fill(std::max(kClear_m, rayClearance_m(origin, 0.0f)) * receiver.normal);
   }
   Outlooks result;
   probe(around.rays, pattern, {receivers.data(), count},
