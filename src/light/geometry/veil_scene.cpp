@@ -1,5 +1,6 @@
 #include "light/geometry/veil_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -7,6 +8,36 @@
 #include "light/geometry/embree.h"
 
 namespace sunlit::light {
+namespace {
+
+/// By far more than rounding makes of what a ray meets 10 km away: how much larger boxes are, and rays
+/// longer.
+constexpr float kClear_m = 0.01f, kClear = 1e-5f, kLonger = 1.0f + 1e-5f;
+
+Eigen::AlignedBox3f boxOf(const Geometry& geometry, const std::vector<std::uint32_t>& triangles) {
+  Eigen::AlignedBox3f box;
+  for (const std::uint32_t triangle : triangles)
+    for (const std::uint32_t corner : geometry.triangles[triangle]) box.extend(geometry.positions[corner]);
+  const float largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  const Eigen::Vector3f clear = Eigen::Vector3f::Constant(kClear_m + kClear * largest);
+  return {box.min() - clear, box.max() + clear};
+}
+
+/// False where `sight` misses `box` for sure.
+bool mayMeet(const Eigen::AlignedBox3f& box, const Visibility::Sight& sight) {
+  float near = sight.near, far = sight.far;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const float per_direction = 1.0f / sight.direction[axis];
+    const float a = (box.min()[axis] - sight.origin[axis]) * per_direction;
+    const float b = (box.max()[axis] - sight.origin[axis]) * per_direction;
+    // Of a sight along the planes of a face both are infinite.
+    near = std::max(near, std::min(a, b));
+    far = std::min(far, std::max(a, b) * kLonger);
+  }
+  return near <= far;
+}
+
+}  // namespace
 
 VeilScene::VeilScene(const Geometry& geometry, RTCDevice device) : geometry_(geometry) {
   const std::vector<scene::Material>& materials = geometry.scene->materials;
@@ -24,6 +55,7 @@ VeilScene::VeilScene(const Geometry& geometry, RTCDevice device) : geometry_(geo
     has_glass_ = has_glass_ || isGlass(materials[m]);
   }
   if (triangles_.empty()) return;
+  box_ = boxOf(geometry, triangles_);
   scene_.reset(rtcNewScene(device));
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
   attach(triangleMesh(device, geometry, triangles_), scene_.get(), 0);
@@ -33,7 +65,8 @@ VeilScene::VeilScene(const Geometry& geometry, RTCDevice device) : geometry_(geo
 /// One after the other: each query begins just beyond the hit before.
 void VeilScene::add(const Visibility::Sight& sight, std::uint32_t first_triangle,
                     std::vector<Hit>* hits) const {
-  if (!scene_) return;
+  // From most places most rays meet none, which a box tells sooner than the ray library.
+  if (!scene_ || !mayMeet(box_, sight)) return;
   RayContext context;
   begin(&context);
   float near = sight.near;

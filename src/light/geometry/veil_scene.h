@@ -1,6 +1,7 @@
 /// What rays see through: what blends, and glass.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
@@ -28,7 +29,8 @@ class VeilScene {
  private:
   const Geometry& geometry_;
   std::vector<std::uint32_t> triangles_;
-  std::vector<bool> even_;  ///< of each material that is used: whether it blends evenly
+  Eigen::AlignedBox3f box_;  ///< about all of them, and a little more
+  std::vector<bool> even_;   ///< of each material that is used: whether it blends evenly
   bool has_glass_ = false, has_even_ = false;
   ScenePointer scene_;  ///< null: there are none
 };

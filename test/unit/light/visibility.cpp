@@ -5,7 +5,9 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <random>
 #include <vector>
 
 namespace sunlit::light {
@@ -196,6 +198,42 @@ TEST(Visibility, LetsRaysPassWhatBlendsIfSoWished) {
     blending += blends ? 1 : 0;
   }
   EXPECT_NEAR(blending, 100, 4 * 7.1);
+}
+
+TEST(Veils, AreMetFromWhereverRaysCome) {
+  // A level and an upright pane, far from each other.
+  scene::Scene scene;
+  scene.materials = {plain()};
+  scene.materials[0].glass = 1.0f;
+  scene.meshes = {sheet(0, -100.0f, 30.0f, 2.0f), sheet(0, 80.0f, -60.0f, 0.0f)};
+  for (Eigen::Vector3f& position : scene.meshes[1].positions) std::swap(position.y(), position.z());
+  const auto geometry = geometryOf(scene);
+  const Visibility visibility(geometry);
+  std::mt19937 random(7);
+  const auto within = [&](float low, float high) {
+    return std::uniform_real_distribution<float>(low, high)(random);
+  };
+  constexpr float kEndless = std::numeric_limits<float>::infinity();
+  std::vector<Hit> hits;
+  for (std::size_t i = 0; i < 2000; ++i) {
+    // To a point within a triangle, also near its corners; some along axes, of which one is the pane's own.
+    const auto& corners = geometry->triangles[i % 4];
+    const float a = i % 2 == 0 ? 1e-3f : within(1e-3f, 0.998f), b = within(1e-3f, 0.999f - a);
+    const Eigen::Vector3f& first = geometry->positions[corners[0]];
+    const Eigen::Vector3f at =
+        first + a * (geometry->positions[corners[1]] - first) + b * (geometry->positions[corners[2]] - first);
+    Eigen::Vector3f origin(within(-1000.0f, 1000.0f), within(-1000.0f, 1000.0f), within(-900.0f, 900.0f));
+    if (i % 5 == 0) origin.head<2>() = at.head<2>();
+    if (i % 5 == 1) origin.tail<2>() = at.tail<2>();
+    const Eigen::Vector3f way = at - origin;
+    if (std::abs(geometry->planes[i % 4].normal.dot(way)) < 0.01f * way.norm()) continue;
+    visibility.veils({origin, way, 0.0f, 1.001f}, &hits);
+    EXPECT_GE(hits.size(), 1u) << i;
+    visibility.veils({origin, way.normalized(), 0.0f, kEndless}, &hits);
+    EXPECT_GE(hits.size(), 1u) << i;
+    visibility.veils({origin, -way, 0.0f, kEndless}, &hits);
+    EXPECT_EQ(hits.size(), 0u) << i;
+  }
 }
 
 }  // namespace
