@@ -228,14 +228,15 @@ class CommandLines(unittest.TestCase):
     def test_what_is_out_of_range_is_refused(self):
         # Tools share their options' rows: one of those that have an option is asked, each tool in its turn, since to start one takes
         # longer than what it says.
-        asked = collections.Counter()
+        asked, able = collections.Counter(), set()
         for option, value, said in REFUSED:
             programs = [program for program, options in OPTIONS.items() if option in options]
             self.assertTrue(programs, option)
+            able.update(programs)
             program = min(programs, key=lambda one: asked[one])
             asked[program] += 1
             self.assertIn(said, self.refused(program, option, value))
-        self.assertEqual(set(OPTIONS) - set(asked), set())
+        self.assertEqual(set(asked), able)
 
     def test_weather_that_only_tells_more_of_another_needs_it(self):
         sky = ("--cover above 0 and below 8, or --rain above 0,", ["--cover=4", "--rain=3"], ["--cover=8", "--cover=0", "--rain=0"])
@@ -313,7 +314,7 @@ class CommandLines(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, done.stderr)
                 with open(out, "rb") as picture:
                     pictures.append(picture.read())
-            self.assertEqual(len(set(pictures)), 5)
+            self.assertEqual(len(set(pictures)), len(pictures))
 
     def test_negative_numbers_are_values(self):
         with tempfile.TemporaryDirectory() as folder:
