@@ -22,11 +22,13 @@ inline Paint operator*(float factor, Paint paint) {
   return paint *= factor;
 }
 
+/// Never quite all of what arrives, so that light dies out.
+constexpr float kMostReflected = 0.98f;
+
 /// Share of the arriving light that leaves again towards an eye.
 struct Reflectance {
   Eigen::Array3f diffuse, mirrored;
-  /// Never quite all of what arrives, so that light dies out.
-  Eigen::Array3f all() const { return (diffuse + mirrored).min(0.98f); }
+  Eigen::Array3f all() const { return (diffuse + mirrored).min(kMostReflected); }
 };
 /// `n_v`: cosine between normal and eye. Without transmission.
 Reflectance reflectance(const Paint& paint, float n_v);

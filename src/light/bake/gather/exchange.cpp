@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "light/bake/gather/room_mirrors.h"
 #include "light/shading/mirror_lobe.h"
 #include "light/shading/polished_floor.h"
 #include "light/shading/reflectances.h"
@@ -15,11 +16,6 @@ namespace {
 
 float luminanceOf(const Eigen::Array3f& rgb) {
   return LinearRgb(rgb).luminance();
-}
-
-PartSums sumsOf(const PassedOn& part, std::size_t sample) {
-  return {part.coefficients.sum(sample) * Eigen::Map<const Eigen::Array3f>(part.tints[sample].data()),
-          Eigen::Map<const Eigen::Array3f>(part.glows[sample].data())};
 }
 
 /// Of what the samples of a block have, on average; more still follows. By blocks, and not of all samples: a
@@ -114,22 +110,6 @@ void brighten(const PartSums& traced, const PartSums& all, std::size_t sample, P
 
 }  // namespace
 
-SumsOfAll sumsOf(const TransportData& data) {
-  SumsOfAll sums{std::vector<float>(data.sampleCount()), std::vector<PassedOnSums>(data.sampleCount())};
-  tbb::parallel_for(std::size_t{0}, data.sampleCount(), [&](std::size_t i) {
-    sums.direct[i] = data.direct.sum(i);
-    sums.passed_on[i] = {sumsOf(data.above, i), sumsOf(data.below, i)};
-  });
-  return sums;
-}
-
-void store(const PartSums& sums, std::size_t sample, PassedOn* part) {
-  part->glows[sample] = {sums.glow[0], sums.glow[1], sums.glow[2]};
-  const float luminance = luminanceOf(sums.color);
-  Eigen::Map<Eigen::Array3f>(part->tints[sample].data()) =
-      luminance > 0.0f ? Eigen::Array3f(sums.color / luminance) : Eigen::Array3f(Eigen::Array3f::Ones());
-}
-
 Exchange::Exchange(const SceneSamples& samples, const SkyPatches& patches, const BakedRooms& rooms)
     : seen(samples.receivers.size()),
       mirrored_sums(samples.receivers.size(), 0.0f),
@@ -137,11 +117,13 @@ Exchange::Exchange(const SceneSamples& samples, const SkyPatches& patches, const
       samples_(samples),
       patches_(patches),
       rooms_(rooms),
-      ground_(samples.receivers.size()) {
+      ground_(samples.receivers.size()),
+      mirrors_(samples.receivers.size()) {
   constexpr float kLevel = 0.97f;  // within 14°, half a patch
   for (std::size_t i = 0; i < ground_.size(); ++i) {
     const Receiver& receiver = samples.receivers[i];
     const bool sheet = receiver.thin || samples.other_side[i].sample != LightMesh::kNone;
+    mirrors_[i] = !sheet && !receiver.coarse && mirrorsRays(samples.paints[i]) ? 1 : 0;
     ground_[i] = receiver.normal.z() > kLevel && !sheet && samples.paints[i].metalness < 0.5f ? 1 : 0;
   }
   for (std::size_t direction = 0; direction < scattered_down_.size(); ++direction)
@@ -152,6 +134,13 @@ void Exchange::useRooms() {
   if (rooms_.samples.empty()) return;
   room_of_.assign(seen.size(), LightMesh::kNone);
   for (std::uint32_t room = 0; room < rooms_.samples.size(); ++room) room_of_[rooms_.samples[room]] = room;
+  std::vector<std::uint8_t> found(seen.size(), 0);
+  for (const BakedRooms::Link link : rooms_.links) found[link.sample()] = mirrors_[link.sample()];
+  if (std::find(found.begin(), found.end(), 1) == found.end()) return;
+  for (std::uint32_t i = 0; i < found.size(); ++i) {
+    sent_to_rooms_.push_back(found[i] != 0 ? static_cast<std::uint32_t>(sentCount()) : i);
+    if (found[i] != 0) seen_mirrors_.push_back(i);
+  }
 }
 
 void Exchange::passOver(const std::vector<bool>& useless) {
@@ -182,15 +171,22 @@ Sending Exchange::sending(std::size_t sample) const {
   if (other.sample == LightMesh::kNone) {
     // The sky that the ground mirrors has gone its own way.
     const bool ground = isGround(static_cast<std::uint32_t>(sample));
-    return {ground ? mean.diffuse : all, all, Eigen::Array3f::Zero(), other.sample};
+    return {ground ? mean.diffuse : all, all, all, Eigen::Array3f::Zero(), other.sample};
   }
   const Eigen::Array3f through = other.share * mean.diffuse.min(all);  // what is mirrored stays on its side
-  return {all - through, all - through, through, other.sample};
+  return {all - through, all - through, all - through, through, other.sample};
 }
 
-SentSums Exchange::sentBy(const Sending& sends, const SumsOfAll& has, std::size_t sample) {
+Sending Exchange::sendingToRooms(std::size_t sample) const {
+  Sending sends = sending(sample);
+  if (mirrors_[sample] != 0) sends.bounced = reflectance(samples_.paints[sample], kMeanView).diffuse;
+  return sends;
+}
+
+SentSums Exchange::sentBy(const Sending& sends, const SumsOfAll& has, std::size_t sample) const {
+  const Eigen::Array3f shining_there = shining[sample].above + shining[sample].below;
   SentSums sent{sends.direct * has.direct[sample] + sends.bounced * has.passed_on[sample].color(),
-                sends.bounced * has.passed_on[sample].glow()};
+                sends.bounced * has.passed_on[sample].glow() + (sends.lamps - sends.bounced) * shining_there};
   if (sends.other != LightMesh::kNone) {
     const PassedOnSums& behind = has.passed_on[sends.other];
     sent.color += sends.through * (has.direct[sends.other] + behind.color());
@@ -224,29 +220,31 @@ Arrived Exchange::receivedOf(const Sent& sent, std::size_t sample) const {
 template <typename See>
 void Exchange::visitSenders(std::size_t sample, const See& see) const {
   visitSeen(sample, all, [&](const SampleSeen& other, bool) {
-    see(other.sample);
-    const std::uint32_t behind = samples_.other_side[other.sample].sample;
+    const std::uint32_t sender = senderOf(other.sample), behind = samples_.other_side[sender].sample;
+    see(sender);
     if (behind != LightMesh::kNone) see(behind);
   });
 }
 
 std::vector<Sending> Exchange::sendings() const {
-  std::vector<Sending> all(seen.size());
-  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { all[i] = sending(i); });
+  std::vector<Sending> all(sentCount());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) { all[i] = sendingOf(i); });
   return all;
 }
 
 std::vector<Arrived> Exchange::passedOn(const std::vector<Eigen::Array3f>& direct, int most) const {
   std::vector<Arrived> has(seen.size()), next(seen.size());
-  Sent sent{std::vector<Eigen::Array3f>(seen.size()), std::vector<std::uint8_t>(seen.size())};
+  Sent sent{std::vector<Eigen::Array3f>(sentCount()), std::vector<std::uint8_t>(sentCount())};
   const std::vector<Sending> sends_of = sendings();
-  const auto all = [&](std::size_t i) -> Eigen::Array3f { return direct[i] + has[i].above + has[i].below; };
+  const auto bounced = [&](std::size_t i) -> Eigen::Array3f { return has[i].above + has[i].below; };
   ChangingBlocks changing(seen.size(), [&](std::size_t i, const auto& see) { visitSenders(i, see); });
   for (int bounce = 0; bounce < most && changing.any(); ++bounce) {
-    tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
+    tbb::parallel_for(std::size_t{0}, sentCount(), [&](std::size_t i) {
       const Sending& sends = sends_of[i];
-      Eigen::Array3f light = sends.bounced * all(i);
-      if (sends.other != LightMesh::kNone) light += sends.through * all(sends.other);
+      const std::uint32_t sender = senderOf(i);
+      Eigen::Array3f light = sends.lamps * direct[sender] + sends.bounced * bounced(sender);
+      if (sends.other != LightMesh::kNone)
+        light += sends.through * (direct[sends.other] + bounced(sends.other));
       sent.light[i] = light;
       sent.any[i] = light.isZero(0.0f) ? 0 : 1;
     });
@@ -260,11 +258,12 @@ void Exchange::addLaterBounces(TransportData* data) const {
   SumsOfAll has = sumsOf(*data);
   const std::vector<PassedOnSums> traced = has.passed_on;
   std::vector<PassedOnSums> next(count);
-  std::vector<SentSums> sent(count);
+  std::vector<SentSums> sent(sentCount());
   const std::vector<Sending> sends_of = sendings();
   ChangingBlocks changing(count, [&](std::size_t i, const auto& see) { visitSenders(i, see); });
   for (int bounce = 0; bounce < kAllBounces && changing.any(); ++bounce) {
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { sent[i] = sentBy(sends_of[i], has, i); });
+    tbb::parallel_for(std::size_t{0}, sent.size(),
+                      [&](std::size_t i) { sent[i] = sentBy(sends_of[i], has, senderOf(i)); });
     changing.receive([&](std::size_t i) { return received(sent, i); }, &has.passed_on, &next);
   }
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "light/bake/gather/sent_light.h"
 #include "light/bake/samples/scene_samples.h"
 #include "light/bake/samples/transport_data.h"
 #include "light/patches/sky_patches.h"
@@ -38,43 +39,6 @@ struct RaySeen {
   Eigen::Vector3f towards;
   float weight;  ///< of the luminance × π that arrives along it, in the sample's illuminance
 };
-
-/// What a sample reflects of its own light, and passes on of that of the other side of its sheet.
-struct Sending {
-  Eigen::Array3f direct, bounced;  ///< shares of light straight from the sky, and of other surfaces'
-  Eigen::Array3f through;
-  std::uint32_t other;  ///< the sample on the other side, or LightMesh::kNone
-};
-
-/// By the sum over the patches of the sky: what a sample sends, as luminance × π.
-struct SentSums {
-  Eigen::Array3f color;  ///< of light of the sky
-  Eigen::Array3f glow;   ///< of what shines by itself, that it reflects
-};
-
-/// Likewise, light that a sample has from the surfaces of one part, as illuminance.
-struct PartSums {
-  Eigen::Array3f color = Eigen::Array3f::Zero(), glow = Eigen::Array3f::Zero();
-};
-struct PassedOnSums {
-  PartSums above, below;
-  Eigen::Array3f color() const { return above.color + below.color; }
-  Eigen::Array3f glow() const { return above.glow + below.glow; }
-};
-/// Illuminance by surfaces, lx.
-struct Arrived {
-  Eigen::Array3f above = Eigen::Array3f::Zero(), below = Eigen::Array3f::Zero();
-};
-
-/// Of every sample.
-struct SumsOfAll {
-  std::vector<float> direct;
-  std::vector<PassedOnSums> passed_on;
-};
-SumsOfAll sumsOf(const TransportData& data);
-
-/// Writes tint and glow of a sample's part, not its coefficients.
-void store(const PartSums& sums, std::size_t sample, PassedOn* part);
 
 /// Calls visit(SampleSeen, whether it is seen above the horizon) for all that a room sees.
 template <typename Visit>
@@ -119,17 +83,31 @@ class Exchange {
   bool isGround(std::uint32_t sample) const { return ground_[sample] != 0; }
   /// Whether it is level and so smooth that sun and moon in it are as in a mirror.
   bool isPolished(std::uint32_t sample) const;
+  /// Whether rays of rooms go on from a sample as mirroredRay() says, and find there what it mirrors.
+  bool mirrors(std::uint32_t sample) const { return mirrors_[sample] != 0; }
   /// Ground scatters less towards a glancing ray than towards the mean one: Fresnel's share is larger there.
   float scattered(std::uint32_t from, const Eigen::Vector3f& towards) const;
-  /// Calls visit(SampleSeen, whether it is seen above the horizon) for those samples with wanted(number) that
-  /// light reaches a sample from.
+  /// What is sent has numbers of its own: those of the samples, and behind them one for each mirror that
+  /// rooms see, of what it sends these.
+  std::size_t sentCount() const { return seen.size() + seen_mirrors_.size(); }
+  std::uint32_t senderOf(std::size_t sent) const {
+    return sent < seen.size() ? static_cast<std::uint32_t>(sent) : seen_mirrors_[sent - seen.size()];
+  }
+  /// Calls visit(SampleSeen, whether it is seen above the horizon) for what is sent with wanted(number) to a
+  /// sample.
   template <typename Wanted, typename Visit>
   void visitSeen(std::size_t sample, const Wanted& wanted, const Visit& visit) const;
   static bool all(std::uint32_t) { return true; }
 
   Sending sending(std::size_t sample) const;
+  /// The same towards rooms: of a mirror without what their links find in it.
+  Sending sendingToRooms(std::size_t sample) const;
+  /// By the number of what is sent.
+  Sending sendingOf(std::size_t sent) const {
+    return sent < seen.size() ? sending(sent) : sendingToRooms(senderOf(sent));
+  }
   /// The sums of what a sample has, and of what it has from the other side.
-  static SentSums sentBy(const Sending& sends, const SumsOfAll& has, std::size_t sample);
+  SentSums sentBy(const Sending& sends, const SumsOfAll& has, std::size_t sample) const;
   /// What a sample gets of all that is sent, and of the ground's mirror.
   PassedOnSums received(const std::vector<SentSums>& sent, std::size_t sample) const;
 
@@ -147,7 +125,7 @@ class Exchange {
  private:
   static_assert(SkyPatches::kAbove <= 256 && SkyPatches::kDown <= 256, "a direction fits above a sample");
 
-  /// What each sample sends, luminance × π.
+  /// Luminance × π.
   struct Sent {
     std::vector<Eigen::Array3f> light;
     std::vector<std::uint8_t> any;  ///< whether it is not 0: most are dark, and this fits a core's cache
@@ -156,13 +134,16 @@ class Exchange {
   /// Calls see(number) with all samples whose light a sample gets.
   template <typename See>
   void visitSenders(std::size_t sample, const See& see) const;
-  /// sending() of all samples, for who needs it many times.
+  /// sendingOf() all, for who needs it many times.
   std::vector<Sending> sendings() const;
 
   const SceneSamples& samples_;
   const SkyPatches& patches_;
   const BakedRooms& rooms_;
-  std::vector<std::uint8_t> ground_;  ///< of each sample: asked for along every ray, so kept close together
+  std::vector<std::uint8_t> ground_;   ///< of each sample: asked for along every ray, so kept close together
+  std::vector<std::uint8_t> mirrors_;  ///< of each sample
+  std::vector<std::uint32_t> seen_mirrors_;   ///< those that rooms see
+  std::vector<std::uint32_t> sent_to_rooms_;  ///< of each sample, its number; empty: no room sees a mirror
   std::array<float, SkyPatches::kDown> scattered_down_;  ///< scattered() by ground, of each direction
   std::vector<std::uint32_t> instead_;  ///< of each sample of no use: one that is, or LightMesh::kNone
   std::vector<std::uint32_t> room_of_;  ///< of each sample, or LightMesh::kNone; empty: there are none
@@ -173,7 +154,8 @@ void Exchange::visitSeen(std::size_t sample, const Wanted& wanted, const Visit& 
   const std::uint32_t room = room_of_.empty() ? LightMesh::kNone : room_of_[sample];
   if (room != LightMesh::kNone) {
     return visitLinks(rooms_, room, [&](const SampleSeen& other, bool up) {
-      if (wanted(other.sample)) visit(other, up);
+      const std::uint32_t sent = sent_to_rooms_.empty() ? other.sample : sent_to_rooms_[other.sample];
+      if (wanted(sent)) visit(SampleSeen{sent, other.weight}, up);
     });
   }
   const SampleHits& view = seen[sample];

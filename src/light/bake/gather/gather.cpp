@@ -254,18 +254,18 @@ class Gatherer {
   /// Adds one bounce: what every sample passes on of all that it has by now.
   void passOn(TransportData* data, double share) {
     Coefficients sent;  // luminance × π
-    sent.resize(count_);
-    std::vector<SentSums> others(count_);
+    const std::size_t all = exchange_.sentCount();
+    sent.resize(all);
+    std::vector<SentSums> others(all);
     const SumsOfAll has = sumsOf(*data);
-    const std::size_t blocks = (count_ + kSamplesOfTask - 1) / kSamplesOfTask;
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      for (std::size_t i = block * kSamplesOfTask; i < std::min(count_, (block + 1) * kSamplesOfTask); ++i) {
-        const Sending sends = exchange_.sending(i);
-        others[i] = Exchange::sentBy(sends, has, i);
-        sendRow(*data, sends, i, &sent);
-      }
+    tbb::parallel_for(std::size_t{0}, all, [&](std::size_t i) {
+      const Sending sends = exchange_.sendingOf(i);
+      const std::uint32_t sender = exchange_.senderOf(i);
+      others[i] = exchange_.sentBy(sends, has, sender);
+      sent.set(i, sentRow(*data, sends, sender).data());
     });
     step(0.2 * share);
+    const std::size_t blocks = (count_ + kSamplesOfTask - 1) / kSamplesOfTask;
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
       for (std::size_t i = block * kSamplesOfTask; i < std::min(count_, (block + 1) * kSamplesOfTask); ++i)
         receive(sent, others, i, data);
@@ -274,7 +274,7 @@ class Gatherer {
   }
 
   /// The coefficients of what a sample sends.
-  void sendRow(const TransportData& data, const Sending& sends, std::size_t i, Coefficients* sent) const {
+  Row sentRow(const TransportData& data, const Sending& sends, std::size_t i) const {
     Row row{};
     const auto addCoefficients = [&](const Coefficients& coefficients, std::size_t from,
                                      const Eigen::Array3f& color) {
@@ -290,7 +290,7 @@ class Gatherer {
     };
     add(i, sends.direct, sends.bounced);
     if (sends.other != LightMesh::kNone) add(sends.other, sends.through, sends.through);
-    sent->set(i, row.data());
+    return row;
   }
 
   void receive(const Coefficients& sent, const std::vector<SentSums>& others, std::size_t i,

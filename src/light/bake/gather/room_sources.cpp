@@ -85,7 +85,7 @@ void RoomBaker::addSources(BakedRooms* rooms) const {
   for (const BakedRooms::Link link : rooms->links) seen[link.sample()] = true;
   for (std::uint32_t i = 0; i < seen.size(); ++i) {
     if (!seen[i]) continue;
-    const Sending sends = exchange_.sending(i);
+    const Sending sends = exchange_.sendingToRooms(i);
     rooms->sources.push_back({i, sends.other, stored(sends.direct), stored(sends.bounced),
                               stored(sends.through), stored(samples_.receivers[i].normal.array()), 0, 0, 0});
   }

@@ -9,8 +9,10 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "light/bake/gather/room_mirrors.h"
 #include "light/patches/even_directions.h"
 #include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/random.h"
 
 namespace sunlit::light {
 namespace {
@@ -105,6 +107,8 @@ struct RoomBaker::View {
     hidden[up ? 0 : 1] += other.weight;
     seen[up ? 0 : 1].push_back({other.sample, other.weight * scattered});
   }
+  /// By way of a mirror, which hides what is there: above the horizon or below it is where that is.
+  void addMirrored(const SampleSeen& other, bool up) { seen[up ? 0 : 1].push_back(other); }
   /// Makes sums of weights illuminance for a luminance of 1 / π, with what fewer rays have told before.
   void finish(const Receiver& receiver, std::size_t sample, TransportData* data) {
     const float all = std::accumulate(open.begin(), open.end(), hidden[0] + hidden[1]);
@@ -147,15 +151,16 @@ class RoomBaker::Looking {
 
   std::vector<View> around(const Sphere& sphere) {
     std::vector<Met> all(sphere.coarse.size());
+    const auto count = static_cast<std::uint32_t>(all.size());
     for (std::size_t r = 0; r < all.size(); ++r) cast(r, sphere.coarse[r], ~Lanes{0}, &all[r]);
     Met met;
     for (std::size_t r = 0; r < all.size(); ++r) {
       const Lanes edges = edgesAt(sphere, r, all);
       const std::uint32_t first = sphere.first_fine[r], end = sphere.first_fine[r + 1];
-      add(sphere.coarse[r], all[r], {~edges, static_cast<float>(end - first)});
+      add(sphere.coarse[r], all[r], {~edges, static_cast<float>(end - first), static_cast<std::uint32_t>(r)});
       for (std::uint32_t f = first; f < end && edges != 0; ++f) {
         cast(r + f, sphere.fine[f], edges, &met);
-        add(sphere.fine[f], met, {edges, 1.0f});
+        add(sphere.fine[f], met, {edges, 1.0f, count + f});
       }
     }
     return std::move(views_);
@@ -172,6 +177,7 @@ class RoomBaker::Looking {
   struct Takers {
     Lanes lanes;
     float directions;
+    std::uint32_t number;  ///< of the direction
   };
 
   void cast(std::size_t turn, const Sphere::Direction& direction, Lanes lanes, Met* met) const {
@@ -193,21 +199,88 @@ class RoomBaker::Looking {
     }
     return open & shut;
   }
+  /// Rays that have met mirrors.
+  struct InMirrors {
+    Lanes lanes = 0;
+    HitPacket hits;
+    std::array<Eigen::Vector3f, kPacket> towards;
+    std::array<float, kPacket> weights;          ///< with all mirrors on the way
+    std::array<std::uint32_t, kPacket> samples;  ///< of the mirrors
+  };
+
   void add(const Sphere::Direction& direction, const Met& met, const Takers& takers) {
+    InMirrors in_mirrors;
     for (int lane = 0; lane < group_.count(); ++lane) {
       if (!ReceiverGroup::has(takers.lanes & met.cast, lane)) continue;
-      const float weight = takers.directions * met.weights[static_cast<std::size_t>(lane)];
-      View& view = views_[static_cast<std::size_t>(lane)];
+      const auto i = static_cast<std::size_t>(lane);
+      const float weight = takers.directions * met.weights[i];
       if (ReceiverGroup::has(met.open, lane)) {
-        view.open[static_cast<std::size_t>(direction.patch)] += weight;
+        views_[i].open[static_cast<std::size_t>(direction.patch)] += weight;
         continue;
       }
-      const LaneHit hit{met.hits, lane, direction.towards};
-      const std::uint32_t sample = sampleAt(baker_.scene_, baker_.samples_, hit);
-      if (sample == LightMesh::kNone) continue;
-      const std::uint32_t from = baker_.exchange_.usefulBeside(sample);
-      view.add({from, weight}, baker_.exchange_.scattered(from, direction.towards),
-               direction.patch != SkyPatches::kBelow);
+      const std::uint32_t from = senderAt({met.hits, lane, direction.towards});
+      if (from == LightMesh::kNone) continue;
+      views_[i].add({from, weight}, baker_.exchange_.scattered(from, direction.towards),
+                    direction.patch != SkyPatches::kBelow);
+      if (!baker_.exchange_.mirrors(from)) continue;
+      in_mirrors.lanes |= Lanes{1} << lane;
+      in_mirrors.weights[i] = weight;
+      in_mirrors.samples[i] = from;
+    }
+    if (in_mirrors.lanes == 0) return;
+    in_mirrors.hits = met.hits;
+    in_mirrors.towards.fill(direction.towards);
+    followMirrors(direction, takers.number, &in_mirrors);
+  }
+
+  /// LightMesh::kNone: inside a body.
+  std::uint32_t senderAt(const LaneHit& hit) const {
+    const std::uint32_t sample = sampleAt(baker_.scene_, baker_.samples_, hit);
+    return sample == LightMesh::kNone ? sample : baker_.exchange_.usefulBeside(sample);
+  }
+
+  /// Adds what mirrors show, and mirrors in these. The sky in them others add: GroundMirror, and
+  /// Sending::direct of those that are not level.
+  void followMirrors(const Sphere::Direction& direction, std::uint32_t number, InMirrors* in_mirrors) {
+    // The same facets for all samples: what chance does to one would be seen beside the next.
+    static const EvenPoints even(0);
+    constexpr std::size_t kMostMirrors = 3;
+    for (std::size_t mirror = 0; mirror < kMostMirrors && in_mirrors->lanes != 0; ++mirror) {
+      castOn({even.at(number, 2 * mirror), even.at(number, 2 * mirror + 1)}, in_mirrors);
+      for (int lane = 0; lane < group_.count(); ++lane) {
+        if (!ReceiverGroup::has(in_mirrors->lanes, lane)) continue;
+        const auto i = static_cast<std::size_t>(lane);
+        const std::uint32_t from = senderAt({in_mirrors->hits, lane, in_mirrors->towards[i]});
+        const bool known = from != LightMesh::kNone;
+        if (known) {
+          views_[i].addMirrored(
+              {from, in_mirrors->weights[i] * baker_.exchange_.scattered(from, in_mirrors->towards[i])},
+              direction.patch != SkyPatches::kBelow);
+        }
+        in_mirrors->samples[i] = from;
+        if (!known || !baker_.exchange_.mirrors(from)) in_mirrors->lanes &= ~(Lanes{1} << lane);
+      }
+    }
+  }
+
+  /// Casts rays on from the mirrors that were met. Those that meet nothing are gone.
+  void castOn(const Eigen::Vector2f& facet, InMirrors* in_mirrors) const {
+    RayPacket rays;
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      rays.set(i, Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitZ(), false);
+      const int lane = static_cast<int>(i);
+      if (!ReceiverGroup::has(in_mirrors->lanes, lane)) continue;
+      const MirroredRay ray =
+          mirroredRay(baker_.scene_.geometry, baker_.samples_.paints[in_mirrors->samples[i]],
+                      {in_mirrors->hits, lane, in_mirrors->towards[i]}, facet);
+      rays.set(i, ray.origin, ray.towards, ray.share > 0.0f);
+      in_mirrors->towards[i] = ray.towards;
+      in_mirrors->weights[i] *= ray.share;
+    }
+    baker_.scene_.rays.cast(rays, &in_mirrors->hits);
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      if (rays.valid[i] == 0 || in_mirrors->hits.triangle[i] == HitPacket::kNothing)
+        in_mirrors->lanes &= ~(Lanes{1} << i);
     }
   }
 
