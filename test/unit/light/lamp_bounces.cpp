@@ -133,6 +133,37 @@ TEST(LampBounces, LightTheShadeAsTracedPathsDo) {
   expectAlike(points, fast, slow, 0.3);
 }
 
+TEST(LampBounces, OfANightLampAreThereWhateverShinesBehindTheWall) {
+  scene::Scene scene;
+  scene.materials = {paint(0.5f)};
+  addRoom(&scene, 0, {-2.0f, -2.0f, 0.0f}, {4.0f, 4.0f, 3.0f});
+  scene.lamps = {lampAt({0.0f, 0.0f, 2.0f}, 5.0f)};
+  const std::vector<Looked> places = {{{0.3f, 0.3f, 0.0f}, kUp, kUp}, {{-1.3f, 1.3f, 0.0f}, kUp, kUp}};
+  const std::vector<double> alone = illuminances(baked(scene), places);
+  // Each would give a floor without walls over it sixteen times as much as that one does.
+  for (int i = 0; i < 10; ++i)
+    scene.lamps.push_back(lampAt({6.0f, static_cast<float>(i) - 4.5f, 2.0f}, 1000.0f));
+  const std::vector<double> beside = illuminances(baked(scene), places);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    EXPECT_GT(alone[i], 0.0);
+    EXPECT_NEAR(beside[i], alone[i], 1e-3 * alone[i]);
+  }
+}
+
+TEST(LampBounces, OfASheetOfOneSideStayBeforeIt) {
+  // The lamp stands east of it, where its front is.
+  scene::Scene scene;
+  scene.materials = {paint(0.1f), paint(0.8f)};
+  scene.materials[1].double_sided = false;
+  addGround(&scene, 0, 20.0f);
+  addPatch(&scene, 1, {0.0f, -20.0f, 0.0f}, {0.0f, 40.0f, 0.0f}, {0.0f, 0.0f, 10.0f});
+  scene.lamps = {lampAt({2.0f, 0.0f, 1.5f}, 100.0f)};
+  const std::vector<double> found = illuminances(
+      baked(std::move(scene)), {{{1.0f, 0.0f, 0.0f}, kUp, kUp}, {{-1.0f, 0.0f, 0.0f}, kUp, kUp}});
+  EXPECT_GT(found[0], 1.0);
+  EXPECT_LT(found[1], 0.01 * found[0]);  // behind it nothing is lit
+}
+
 TEST(LampBounces, GoThroughSmallLeaves) {
   // A roof of leaves over dark ground: a block in its shade is lit by what gets through them.
   scene::Scene scene;

@@ -105,6 +105,19 @@ TEST(Rooms, PolishedFloorsThrowTheSunOnWalls) {
   for (std::size_t i = 0; i < places.size(); ++i) EXPECT_NEAR(seen[i], truth[i], 0.06 * truth[i]) << i;
 }
 
+TEST(Rooms, PolishedFloorsShowWallsThePatchOfTheSunOnOtherWalls) {
+  const World world = baked(roomWithAFloor(0.1f));
+  // From the west through the hole to the east wall, 0.9 to 1.6 m high. The floor shows it to the west wall
+  // at a glancing angle, where Fresnel's share is several times that of an even reflection.
+  const sky::Daylight day = onlySun(270.0, 30.0);
+  const Eigen::Vector3f east = Eigen::Vector3f::UnitX();
+  std::vector<Looked> places;
+  for (const float y : {-1.2f, -0.4f, 0.4f, 1.2f})
+    for (const float z : {0.4f, 0.8f, 1.2f, 1.6f}) places.push_back({{-3.0f, y, z}, east, east});
+  const Errors found = errors(fast(world, places, day), traced(world, places, day, 60000));
+  EXPECT_LT(std::abs(found.bias), 0.03);
+}
+
 TEST(Rooms, AreLitByTheSkyThatTheirOpeningsShow) {
   const World world = baked(roomWithAHole(0.6f));
   const std::vector<Looked> places = aroundTheRoom();

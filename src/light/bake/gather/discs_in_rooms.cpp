@@ -67,13 +67,19 @@ class DiscOnSources {
     look([](const BakedRooms::Source& source) { return source.probes; }, &lit);
     for (const Lit& here : lit) {
       const BakedRooms::Source& source = rooms.sources[here.source];
-      if (here.share > 0.0f && here.share < kWhole && source.probes < source.points)
+      if (here.share > 0.0f && here.share < kWhole && source.probes < source.points) {
         edges.push_back(here);
-      else
+        edges.back().lit_probes =
+            static_cast<std::uint32_t>(here.share * static_cast<float>(source.probes) + 0.5f);
+      } else {
         send(here, sent);
+      }
     }
     look([](const BakedRooms::Source& source) { return source.points; }, &edges);
-    for (const Lit& here : edges) send(here, sent);
+    for (Lit& here : edges) {
+      if (here.lit_probes == 1) makeUpForUnseen(&here);
+      send(here, sent);
+    }
   }
 
  private:
@@ -82,7 +88,17 @@ class DiscOnSources {
     std::size_t source;
     float share = 0.0f;       ///< of it that the disc shines on
     std::uint32_t point = 0;  ///< one of its points that it shines on
+    std::uint32_t lit_probes = 0;
   };
+
+  /// Of small patches of light many are missed by all n probes. Those that one probe has met make up for it:
+  /// where probes meet a share s each by itself, none does with a chance of (1 − s)ⁿ, one with n s (1 −
+  /// s)ⁿ⁻¹, so that the sum over all sources is right if of the other points (1 − s) / n more is lit then.
+  void makeUpForUnseen(Lit* lit) const {
+    const BakedRooms::Source& source = data_.rooms.sources[lit->source];
+    const auto probes = static_cast<float>(source.probes), points = static_cast<float>(source.points);
+    lit->share += (1.0f - probes / points) * (1.0f - lit->share) / probes;
+  }
 
   /// Sets `share` and `point`, by pointsOf(source) of the points of each.
   template <typename PointsOf>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "light/bake/samples/mesh_leaves.h"
@@ -15,6 +16,8 @@ namespace {
 
 /// Of what all lamps give: less is left out.
 constexpr float kLeftOut = 0.01f;
+/// So many, the brightest, are left out only for what others were found to give: walls may hide these.
+constexpr std::size_t kNotLeftOut = 16;
 /// lx of all that is left out beyond that: a tenth of what a moonless sky gives.
 constexpr float kNextToNothing_lx = 1e-4f;
 /// Points lie so far apart, at most, as a share of the distance to the lamp: its light, the cosine and 1 /
@@ -80,7 +83,7 @@ class LampsOnTriangles {
       box.extend(scene_.geometry.positions[corners[k]]);
     }
     all_.resize(lamps_.size());
-    for (std::size_t i = 0; i < all_.size(); ++i) all_[i] = static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < all_.size(); ++i) all_[i] = {0.0f, static_cast<std::uint32_t>(i)};
     choose(box, all_, &of_triangle_);
     if (of_triangle_.empty()) return;
     triangle_ = triangle;
@@ -97,23 +100,25 @@ class LampsOnTriangles {
   }
 
  private:
-  /// Those of `from` that matter somewhere in `box`.
-  void choose(const Eigen::AlignedBox3f& box, const std::vector<std::uint32_t>& from,
-              std::vector<std::uint32_t>* chosen) {
-    at_most_.clear();
-    float certain = 0.0f, left_out = 0.0f;
-    for (const std::uint32_t i : from) {
-      const LampBeam::Bounds bounds = lamps_[i].within(box);
-      certain += bounds.low;
-      if (bounds.high > 0.0f) at_most_.emplace_back(bounds.high, i);
-    }
-    std::sort(at_most_.begin(), at_most_.end());
+  /// A lamp and what it gives at most, lx.
+  using AtMost = std::pair<float, std::uint32_t>;
+
+  /// Those of `from` that may matter somewhere in `box`, the brightest first.
+  void choose(const Eigen::AlignedBox3f& box, const std::vector<AtMost>& from, std::vector<AtMost>* chosen) {
     chosen->clear();
-    for (const auto& [high, lamp] : at_most_) {
-      left_out += high;
-      if (left_out > std::max(kLeftOut * certain, kNextToNothing_lx)) chosen->push_back(lamp);
+    float unhidden = 0.0f, left_out = 0.0f;
+    for (const auto& [any, lamp] : from) {
+      const LampBeam::Bounds bounds = lamps_[lamp].within(box);
+      unhidden += bounds.low;
+      if (bounds.high > 0.0f) chosen->emplace_back(bounds.high, lamp);
     }
-    std::sort(chosen->begin(), chosen->end());
+    std::sort(chosen->begin(), chosen->end(), std::greater<>());
+    while (!chosen->empty()) {
+      left_out += chosen->back().first;
+      const float little = chosen->size() > kNotLeftOut ? kLeftOut * unhidden : 0.0f;
+      if (left_out > std::max(little, kNextToNothing_lx)) break;
+      chosen->pop_back();
+    }
   }
 
   void lightLeaf(const LightMesh::Cell& cell, const Eigen::Matrix3f& within, std::vector<Arrival>* arrivals) {
@@ -125,7 +130,11 @@ class LampsOnTriangles {
     const float part_m2 = whole_m2_ * std::abs(within.determinant()) / 3.0f;
     std::array<Eigen::Array3f, 3> sums;
     sums.fill(Eigen::Array3f::Zero());
-    for (const std::uint32_t lamp : of_leaf_) {
+    float left = 0.0f, found = 0.0f;  // lx: of lamps to come, at most; where least has arrived
+    for (const AtMost& one : of_leaf_) left += one.first;
+    for (const auto& [high, lamp] : of_leaf_) {
+      if (left < kLeftOut * found) break;
+      left -= high;
       const float away = std::max(box.exteriorDistance(lamps_[lamp].position()), lamps_[lamp].radius_m());
       const float longest = box.diagonal().norm();
       // Of each corner's part, half as wide as the leaf.
@@ -142,6 +151,7 @@ class LampsOnTriangles {
         ends_.push_back(sights_.size());
       }
       cast(lamps_[lamp].castsShadows(), &sums);
+      found = std::min({sums[0].maxCoeff(), sums[1].maxCoeff(), sums[2].maxCoeff()}) / part_m2;
     }
     for (std::size_t k = 0; k < 3; ++k)
       if (sums[k].maxCoeff() > 0.0f) arrivals->push_back({samples_.nearest_sample[cell.corner[k]], sums[k]});
@@ -195,8 +205,7 @@ class LampsOnTriangles {
   Eigen::Matrix3f at_, normals_;  ///< of the triangle's corners
   Eigen::Vector3f face_;          ///< of the side that is lit
   float whole_m2_ = 0.0f;
-  std::vector<std::uint32_t> all_, of_triangle_, of_leaf_;
-  std::vector<std::pair<float, std::uint32_t>> at_most_;
+  std::vector<AtMost> all_, of_triangle_, of_leaf_;
   std::vector<BakeSight> sights_;
   std::vector<Eigen::Array3f> light_;  ///< lx, of each sight if nothing hides the lamp
   std::vector<std::uint8_t> hidden_;

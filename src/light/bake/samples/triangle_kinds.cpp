@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include "light/bake/samples/probe.h"
@@ -56,22 +57,27 @@ struct Surrounding {
   const Geometry& geometry;
   const BakeRays& rays;
   std::vector<SkyPatches::Ray> pattern;
+  /// Of each triangle, whether a side that matters looks at its back. Set by many threads.
+  std::vector<std::atomic<bool>> backs_seen;
 };
 
 /// Of up to a packet of sides from `first` on, each seen from one place on its triangle.
-Outlooks outlooks(const Surrounding& around, const Side* first, int count, const Eigen::Vector3f& place) {
-  const Geometry& geometry = around.geometry;
-  const std::vector<SkyPatches::Ray>& pattern = around.pattern;
+Outlooks outlooks(const Side* first, int count, const Eigen::Vector3f& place, Surrounding* around) {
+  const Geometry& geometry = around->geometry;
+  const std::vector<SkyPatches::Ray>& pattern = around->pattern;
   std::array<Receiver, RayPacket::kSize> receivers;
+  std::array<bool, RayPacket::kSize> matter{};
   for (int i = 0; i < count; ++i) {
     Receiver& receiver = receivers[static_cast<std::size_t>(i)];
+    matter[static_cast<std::size_t>(i)] =
+        matters(geometry, first[i], triangleKind(geometry, first[i].triangle));
     receiver.normal = sideNormal(geometry, first[i].triangle, first[i].side);
     const Eigen::Vector3f origin = placeOn(geometry, first[i].triangle, place);
     receiver.origins.fill(origin);
     receiver.lifts.fill(std::max(kClear_m, rayClearance_m(origin, 0.0f)) * receiver.normal);
   }
   Outlooks result;
-  probe(around.rays, pattern, {receivers.data(), count},
+  probe(around->rays, pattern, {receivers.data(), count},
         [&](int i, std::size_t r, float weight, const HitPacket& hits) {
           Outlook& outlook = result[static_cast<std::size_t>(i)];
           const std::uint32_t hit = hits.triangle[i];
@@ -82,9 +88,21 @@ Outlooks outlooks(const Surrounding& around, const Side* first, int count, const
             const bool back = geometry.planes[hit].normal.dot(pattern[r].towards) > 0.0f &&
                               !isLeaf(triangleKind(geometry, hit));
             (back ? outlook.backs : outlook.fronts) += weight;
+            if (back && matter[static_cast<std::size_t>(i)])
+              around->backs_seen[hit].store(true, std::memory_order_relaxed);
           }
         });
   return result;
+}
+
+/// No camera sees the back of a sheet of one side, but what looks at it has light from there.
+void useWhatMatters(const Surrounding& around, std::vector<TriangleTraits>* traits) {
+  for (std::uint32_t t = 0; t < traits->size(); ++t) {
+    TriangleTraits& to = (*traits)[t];
+    const bool back_matters = around.backs_seen[t] && !to.solid && !isLeaf(to.kind);
+    to.used[0] = to.used[0] && matters(around.geometry, {t, 0}, to.kind);
+    to.used[1] = to.used[1] && (back_matters || matters(around.geometry, {t, 1}, to.kind));
+  }
 }
 
 bool isClear(const Geometry& geometry, std::uint32_t t) {
@@ -120,7 +138,7 @@ std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeR
     sides.push_back({t, 1});
   }
   std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.side < b.side; });
-  Surrounding around{geometry, rays, {}};
+  Surrounding around{geometry, rays, {}, std::vector<std::atomic<bool>>(traits.size())};
   const SkyPatches patches(1);
   for (std::size_t i = 0; i < patches.coarseRays().size(); i += 6)
     around.pattern.push_back(patches.coarseRays()[i]);
@@ -131,7 +149,7 @@ std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeR
       const std::size_t first = p * RayPacket::kSize;
       const std::size_t end = std::min(first + RayPacket::kSize, sides.size());
       const Outlooks from_there =
-          outlooks(around, sides.data() + first, static_cast<int>(end - first), kTrianglePlaces[place]);
+          outlooks(sides.data() + first, static_cast<int>(end - first), kTrianglePlaces[place], &around);
       for (std::size_t i = first; i < end; ++i) {
         const Outlook& outlook = from_there[i - first];
         if (place == 0 && sides[i].side == 1) {
@@ -154,10 +172,7 @@ std::vector<TriangleTraits> triangleTraits(const Geometry& geometry, const BakeR
     }
     sides.swap(left);
   }
-  for (std::uint32_t t = 0; t < traits.size(); ++t) {
-    for (int side = 0; side < 2; ++side)
-      traits[t].used[side] = traits[t].used[side] && matters(geometry, {t, side}, traits[t].kind);
-  }
+  useWhatMatters(around, &traits);
   return traits;
 }
 
