@@ -110,11 +110,6 @@ struct IsPlain<Plane> : std::true_type {};
 template <>
 struct IsPlain<Chunk> : std::true_type {};
 
-/// Arrays begin at multiples of it, for those who read them where they lie.
-std::size_t aligned(std::size_t offset) {
-  return (offset + kBytesAlignment - 1) / kBytesAlignment * kBytesAlignment;
-}
-
 class Writer {
  public:
   explicit Writer(const ByteSink& sink) : sink_(sink) {}
@@ -130,8 +125,8 @@ class Writer {
   template <typename T>
   void operator()(const image::KeptArray<T>& values) {
     (*this)(static_cast<std::uint64_t>(values.size()));
-    constexpr char kZeros[kBytesAlignment] = {};
-    write(kZeros, aligned(written_) - written_);
+    constexpr char kZeros[image::kKeptAlignment] = {};
+    write(kZeros, image::aligned(written_) - written_);
     write(values.data(), values.size() * sizeof(T));
   }
   template <typename T>
@@ -171,14 +166,14 @@ class Reader {
   template <typename T>
   void operator()(image::KeptArray<T>& values) {
     const std::size_t number = count(sizeof(T)), behind = static_cast<std::size_t>(at_ - first_);
-    const std::size_t gap = aligned(behind) - behind;
+    const std::size_t gap = image::aligned(behind) - behind;
     if (gap > left_ || number > (left_ - gap) / sizeof(T)) endsTooSoon();
     skip(gap);
-    if (owner_)
+    if (owner_) {
       values = image::KeptArray<T>(reinterpret_cast<const T*>(at_), number, owner_);
-    else
-      values.own().resize(number);
-    if (owner_) return skip(number * sizeof(T));
+      return skip(number * sizeof(T));
+    }
+    values.resize(number);
     take(static_cast<void*>(values.data()), number * sizeof(T));
   }
   template <typename T>

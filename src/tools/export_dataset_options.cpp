@@ -110,8 +110,7 @@ void requireSense(const studio::CommandLine& line, const Words& words, const Exp
       !(options.place.weather.rain_mm_per_h > 0.0))
     throw std::invalid_argument(
         "--speed shows in pictures that take time, and in streaks of rain; give --line-delay, "
-        "--exposure-time "
-        "or --rain");
+        "--exposure-time or --rain");
   words.sensor.requireSense(line);
   words.camera.requireSense(options.studio.bake);
 }

@@ -12,6 +12,13 @@
 
 namespace sunlit::image {
 
+/// Arrays in files begin at multiples of it, for those who read them where they lie.
+constexpr std::size_t kKeptAlignment = 64;
+/// Where the next array begins, from `offset` on.
+constexpr std::size_t aligned(std::size_t offset) {
+  return (offset + kKeptAlignment - 1) / kKeptAlignment * kKeptAlignment;
+}
+
 /// A std::vector to those who fill it. What lies in a file is only read, and several processes share it; the
 /// first to write to it gets a copy.
 template <typename T>

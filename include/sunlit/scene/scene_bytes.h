@@ -21,9 +21,8 @@ void writeLooks(const Scene& scene, const ByteSink& sink);
 /// What writeBytes() wrote, all of it. Throws std::runtime_error where the bytes end too soon or go on behind
 /// it; whether they are those that were written is the caller's to know. Texels and the shape stay where they
 /// are if there is an `owner`, which keeps them there unchanged, and are copied if it is null. With an owner
-/// `data` lies at a multiple of kBytesAlignment.
+/// `data` lies at a multiple of image::kKeptAlignment.
 FlatScene flatSceneOf(const std::byte* data, std::size_t size,
                       std::shared_ptr<const image::FileBytes> owner = nullptr);
-constexpr std::size_t kBytesAlignment = 64;
 
 }  // namespace sunlit::scene

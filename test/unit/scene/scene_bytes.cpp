@@ -107,7 +107,7 @@ TEST(SceneBytes, StayWhereTheyAreForWhoeverOwnsThem) {
     const auto* const first = reinterpret_cast<const std::byte*>(values.data());
     const auto* const end = reinterpret_cast<const std::byte*>(values.end());
     return first >= data && end <= data + bytes->size() &&
-           static_cast<std::size_t>(first - data) % kBytesAlignment == 0;
+           static_cast<std::size_t>(first - data) % image::kKeptAlignment == 0;
   };
   const Shape& shape = flat.shape;
   EXPECT_TRUE(isThere(shape.normals) && isThere(shape.tangents) && isThere(shape.planes));

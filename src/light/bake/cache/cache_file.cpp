@@ -9,6 +9,7 @@
 
 #include "light/bake/samples/transport_arrays.h"
 #include "sunlit/image/file_bytes.h"
+#include "sunlit/image/kept_array.h"
 #include "sunlit/image/unfinished_file.h"
 
 namespace sunlit::light {
@@ -28,12 +29,6 @@ struct Header {
   Number checksum;                       ///< of all that follows
 };
 static_assert(sizeof(Header) == 296, "no padding goes to the file");
-
-/// Arrays begin at multiples of it, for those who read them where they lie.
-constexpr std::size_t kAlignment = 64;
-std::size_t aligned(std::size_t offset) {
-  return (offset + kAlignment - 1) / kAlignment * kAlignment;
-}
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what) {
   throw std::runtime_error(file.string() + ": " + what);
@@ -59,7 +54,7 @@ Header checkedHeader(const fs::path& file, const image::FileBytes& bytes, const 
   visitArrays(empty, [&](const auto& values) {
     const std::uint64_t count = header.counts.at(array++);
     if (count >> 40 != 0) fail(file, "is damaged");  // and the sum of sizes would overflow
-    expected = aligned(expected) + count * sizeof(values[0]);
+    expected = image::aligned(expected) + count * sizeof(values[0]);
   });
   if (bytes.size() != expected)
     fail(file, bytes.size() < expected ? "is cut short" : "is longer than it should be");
@@ -78,7 +73,7 @@ std::unique_ptr<const TransportData> readBake(const fs::path& file, const image:
     using Array = std::remove_reference_t<decltype(values)>;
     using Value = std::remove_cv_t<std::remove_reference_t<decltype(values[0])>>;
     const std::uint64_t count = header.counts.at(array++);
-    offset = aligned(offset);
+    offset = image::aligned(offset);
     values = Array(reinterpret_cast<const Value*>(bytes->data() + offset), count, bytes);
     offset += count * sizeof(Value);
     addTo(std::as_const(values), &checksum);
@@ -104,8 +99,8 @@ void writeBake(const fs::path& file, const image::ContentHash& key, const Transp
   image::UnfinishedFile unfinished(file);
   unfinished.write(&header, sizeof(header));
   visitArrays(data, [&](const auto& values) {
-    constexpr char kZeros[kAlignment] = {};
-    unfinished.write(kZeros, aligned(unfinished.size()) - unfinished.size());
+    constexpr char kZeros[image::kKeptAlignment] = {};
+    unfinished.write(kZeros, image::aligned(unfinished.size()) - unfinished.size());
     unfinished.write(values.data(), values.size() * sizeof(values[0]));
   });
   unfinished.keep();
