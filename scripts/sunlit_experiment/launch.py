@@ -19,6 +19,8 @@ from sunlit_experiment import display
 
 NO_ANSWER = (OSError, http.client.HTTPException, xml.parsers.expat.ExpatError)  # the last: it ended in mid-answer
 GRACE_S = 20.0  # a process that has not ended so long after SIGINT is killed
+BEGIN_S = 60.0  # roslaunch has started its nodes well within it
+GONE = 0  # instead of the process id of a roslaunch that went before anybody looked
 
 
 class Failure(Exception):
@@ -51,21 +53,34 @@ def is_roslaunch(process):
     return any(os.path.basename(word) in ("roslaunch", "roscore") for word in words_of(process))
 
 
+def pid_of_parent(log_folder):
+    """Of who started us; GONE where that was a roslaunch, since we log where its nodes do, and somebody inherited us."""
+    pid = os.getppid()
+    with contextlib.suppress(psutil.Error, OSError):
+        inherited = pid <= 1 or os.getsid(pid) != os.getsid(0)  # roslaunch's nodes are of its session
+        ancestors = psutil.Process().parents()
+        by_rostest = any("rostest" in os.path.basename(word) for word in words_of(ancestors[0])) if ancestors else False
+        if log_folder and inherited and not by_rostest and not any(is_roslaunch(ancestor) for ancestor in ancestors):
+            return GONE
+    return pid
+
+
 class Launch:
     """The roslaunch process `pid`, and what it started but for ourselves."""
 
     def __init__(self, pid, log_folder):
-        """`log_folder`: where its nodes log, of which roslaunch has one a master."""
+        """`pid`: of a parent, or GONE. `log_folder`: where its nodes log, of which roslaunch has one a master."""
         self.pid = pid
         self.log_folder = log_folder
-        try:
-            self.process = psutil.Process(pid)
-        except psutil.Error:
-            self.process = None
+        self.process, self.began = None, time.time() - BEGIN_S
+        if pid != GONE:
+            with contextlib.suppress(psutil.Error):
+                self.process = psutil.Process(pid)
+                self.began = self.process.create_time()
         self.server = None
         self.children = set()
         # Whoever else it is, its children are none of our business. Process 1 inherits those of others.
-        self.may_end_children = self.pid > 1 and self.is_roslaunch()
+        self.may_end_children = pid == GONE or (pid > 1 and self.is_roslaunch())
         self.look()
 
     def look(self):
@@ -124,7 +139,7 @@ class Launch:
                 with contextlib.suppress(psutil.Error):
                     parent = process.parent()
                     is_of_another = parent is not None and is_roslaunch(parent)
-                    if not is_of_another and process.create_time() >= self.process.create_time():
+                    if not is_of_another and process.create_time() >= self.began:
                         yield process
 
     def _end_children(self, masters):

@@ -276,6 +276,29 @@ class Watched(unittest.TestCase):
         guard.dismiss()
         self.assertEqual(guard.process.returncode, 0)
 
+    def test_what_a_roslaunch_started_ends_where_it_had_gone_before_the_node_looked(self):
+        """As when its master is killed while it starts nodes: it goes at once, and leaves those that it started."""
+        with tempfile.TemporaryDirectory() as folder:
+            other = subprocess.Popen(["sleep", "60"], preexec_fn=os.setpgrp)  # logs elsewhere
+            left = "import signal, time; signal.signal(signal.SIGINT, signal.SIG_DFL); print('up', flush=True); time.sleep(60)"
+            node = ("import os, time; from sunlit_experiment.launch import Launch, pid_of_parent\n"
+                    "while not os.path.exists('%s/gone'): time.sleep(0.01)\n"
+                    "Launch(pid_of_parent('%s'), '%s').break_off('interrupted')" % (folder, folder, folder))
+            launcher = os.path.join(folder, "roslaunch")
+            with open(launcher, "w") as file:
+                file.write("import os, subprocess, sys\nfor word in sys.argv[1:]:\n"
+                           "  subprocess.Popen([sys.executable, '-c', word, '__log:=%s/it.log'], preexec_fn=os.setpgrp)\n" % folder)
+            launched = subprocess.Popen([sys.executable, launcher, left, node], cwd=os.path.join(SOURCE, "scripts"),
+                                        start_new_session=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.assertEqual(launched.stdout.readline(), "up\n")
+            launched.wait()
+            open(os.path.join(folder, "gone"), "w").close()
+            # Its end is seen once both have closed what they wrote to.
+            self.assertEqual(launched.communicate(timeout=50), ("", "experiment: FAILED: interrupted\n"))
+            self.assertIsNone(other.poll())
+            other.kill()
+            other.wait()
+
 
 class InAFile(unittest.TestCase):
 
