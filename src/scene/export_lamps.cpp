@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/export_json.h"
+#include "sunlit/quantity/turn.h"
 
 namespace sunlit::scene {
 namespace {
@@ -55,8 +56,7 @@ std::string lightJson(const Lamp& lamp, ExportLosses* losses) {
 
 std::string lampNodeJson(const Lamp& lamp, std::size_t index) {
   const Eigen::Vector3d ahead = yUp(lamp.direction).cast<double>();
-  const Eigen::Quaternionf turn =
-      Eigen::Quaterniond::FromTwoVectors(-Eigen::Vector3d::UnitZ(), ahead).cast<float>();
+  const Eigen::Quaternionf turn = turnBetween(-Eigen::Vector3d::UnitZ(), ahead).cast<float>();
   return "{\"name\":" + jsonString(lamp.name) + ",\"translation\":" + vector3(yUp(lamp.position)) +
          ",\"rotation\":" +
          jsonArray({number(turn.x()), number(turn.y()), number(turn.z()), number(turn.w())}) +

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/turn.h"
 
 namespace sunlit::scene {
 namespace {
@@ -127,7 +128,7 @@ Mesh makeCapsule(double radius, double length) {
 
 Mesh makePlane(const Eigen::Vector2d& size, const Eigen::Vector3d& normal) {
   Mesh mesh;
-  const Eigen::Quaterniond turned = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal);
+  const Eigen::Quaterniond turned = turnBetween(Eigen::Vector3d::UnitZ(), normal);
   addRectangle(mesh, Eigen::Vector3d::Zero(), turned * Eigen::Vector3d(0.5 * size.x(), 0, 0),
                turned * Eigen::Vector3d(0, 0.5 * size.y(), 0));
   return mesh;

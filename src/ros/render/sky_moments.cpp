@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "sunlit/quantity/angle.h"
+#include "sunlit/quantity/turn.h"
 
 namespace sunlit::ros_interface {
 
@@ -24,7 +25,7 @@ double between(double a, double b, double share) {
 }
 
 Direction between(const Direction& a, const Direction& b, double share) {
-  const auto turn = Eigen::Quaterniond::FromTwoVectors(a.vector(), b.vector());
+  const Eigen::Quaterniond turn = turnBetween(a.vector(), b.vector());
   return Direction(Eigen::Quaterniond::Identity().slerp(share, turn) * a.vector());
 }
 

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "sunlit/quantity/turn.h"
 #include "support/published_lenses.h"
 #include "test_scenes.h"
 
@@ -59,7 +60,7 @@ BoardPictures boardPictures(const PublishedLens& published, int pictures) {
     const Eigen::Vector2d at(published.camera.width * (0.5 + out * std::cos(turn)),
                              published.camera.height * (0.5 + out * std::sin(turn)));
     const Eigen::Vector3d towards = lens.unproject(at).value().normalized() * (0.5 + 0.08 * (n % 4));
-    const Eigen::Matrix3d turned = (Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), towards) *
+    const Eigen::Matrix3d turned = (turnBetween(Eigen::Vector3d::UnitZ(), towards) *
                                     Eigen::AngleAxisd(0.5 * std::sin(1.7 * n), Eigen::Vector3d::UnitX()) *
                                     Eigen::AngleAxisd(0.5 * std::cos(1.1 * n), Eigen::Vector3d::UnitY()))
                                        .toRotationMatrix();
