@@ -199,17 +199,5 @@ TEST(LeafOpenness, EachSideOfALeafHasLightOfItsOwn) {
   EXPECT_NEAR(light(false), kReflectance * kPiFloat, 0.08f * kReflectance * kPiFloat);
 }
 
-TEST(LeafOpenness, LightsACrownAsTracedPathsDo) {
-  std::vector<Looked> points;
-  World world = worldOf(crown(&points));
-  world.transport = Transport::bake(world.geometry, {});
-  const sky::Daylight day = uniformDay(1000.0f);
-  const std::vector<double> fast = rowValues(onTriangles(points, world), world, illumination(world, day));
-  const std::vector<double> slow = traced(world, points, day, 512);
-  // 0.125 measured; by the nodes alone, without grids, 0.20. What is left: edges of shade within a step of
-  // the grids, light passed on, and 1 % noise of the traced light.
-  EXPECT_LT(differenceOf(fast, slow), 0.13);
-}
-
 }  // namespace
 }  // namespace sunlit::light

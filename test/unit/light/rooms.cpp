@@ -51,8 +51,14 @@ std::vector<Looked> aroundTheRoom() {
   return places;
 }
 
+/// Baked once for all that ask for it.
+const World& greyRoom() {
+  static const World world = baked(roomWithAHole(0.6f));
+  return world;
+}
+
 TEST(Rooms, AreLitByThePatchOfTheSunFromWhereItLies) {
-  const World world = baked(roomWithAHole(0.6f));
+  const World& world = greyRoom();
   const std::vector<Looked> places = aroundTheRoom();
   // Amid a patch of the sky, between four of them, and such that its light falls on a wall.
   for (const auto& [azimuth_deg, elevation_deg] : {std::pair(180.0, 66.0), {225.0, 60.0}, {250.0, 45.0}}) {
@@ -87,8 +93,13 @@ scene::Scene roomWithAFloor(float roughness) {
   return scene;
 }
 
+const World& polishedRoom() {
+  static const World world = baked(roomWithAFloor(0.1f));
+  return world;
+}
+
 TEST(Rooms, PolishedFloorsThrowTheSunOnWalls) {
-  const World world = baked(roomWithAFloor(0.1f));
+  const World& world = polishedRoom();
   // From the west: down through the hole to the floor at x = 1.73 m, up again to the east wall, 2.2 m high.
   const sky::Daylight day = onlySun(270.0, 60.0);
   const auto height = static_cast<float>(3.0 * std::tan(kPi / 3.0) - 3.0);
@@ -106,7 +117,7 @@ TEST(Rooms, PolishedFloorsThrowTheSunOnWalls) {
 }
 
 TEST(Rooms, PolishedFloorsShowWallsThePatchOfTheSunOnOtherWalls) {
-  const World world = baked(roomWithAFloor(0.1f));
+  const World& world = polishedRoom();
   // From the west through the hole to the east wall, 0.9 to 1.6 m high. The floor shows it to the west wall
   // at a glancing angle, where Fresnel's share is several times that of an even reflection.
   const sky::Daylight day = onlySun(270.0, 30.0);
@@ -119,7 +130,7 @@ TEST(Rooms, PolishedFloorsShowWallsThePatchOfTheSunOnOtherWalls) {
 }
 
 TEST(Rooms, AreLitByTheSkyThatTheirOpeningsShow) {
-  const World world = baked(roomWithAHole(0.6f));
+  const World& world = greyRoom();
   const std::vector<Looked> places = aroundTheRoom();
   const sky::Daylight day = uniformDay(100.0f);
   const Errors found = errors(fast(world, places, day), traced(world, places, day, 30000));

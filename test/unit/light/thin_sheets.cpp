@@ -1,6 +1,8 @@
 // Light that passes cloth and paper, beside the path tracer.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "baked_scene.h"
 
 namespace sunlit::light {
@@ -26,30 +28,37 @@ scene::Scene awning(int pieces) {
 
 const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ();
 
-class Awning : public ::testing::TestWithParam<int> {};
+class Awning : public ::testing::TestWithParam<int> {
+ protected:
+  /// Of that many pieces, baked once.
+  static const World& world() {
+    static std::map<int, World> known;
+    const auto at = known.find(GetParam());
+    return at != known.end() ? at->second
+                             : known.emplace(GetParam(), baked(awning(GetParam()))).first->second;
+  }
+};
 
 /// Of one piece whose sides have cells of their own, and of pieces so small that they share samples.
 INSTANTIATE_TEST_SUITE_P(Pieces, Awning, ::testing::Values(1, 12));
 
 TEST_P(Awning, LetsItsShareOfTheSkyThroughToTheGround) {
-  const World world = baked(awning(GetParam()));
   std::vector<Looked> ground;
   for (const float x : {0.1f, 0.9f, 1.9f})
     ground.push_back({{x, 0.3f, 0.0f}, kUp, {0.3f, 0.1f, 1.0f}, kGround});
   const Errors found =
-      errors(fast(world, ground, uniformDay(100.0f)), traced(world, ground, uniformDay(100.0f), 30000));
+      errors(fast(world(), ground, uniformDay(100.0f)), traced(world(), ground, uniformDay(100.0f), 30000));
   EXPECT_LT(found.mean, 0.05) << found.bias;
 }
 
 TEST_P(Awning, ShowsEitherSideTheLightOfBoth) {
-  const World world = baked(awning(GetParam()));
   std::vector<Looked> cloth;
   for (const float x : {0.1f, 1.1f, 2.1f}) {
     cloth.push_back({{x, 0.3f, 2.5f}, kUp, {0.3f, 0.1f, 1.0f}, kCloth});
     cloth.push_back({{x, 0.3f, 2.5f}, -kUp, {0.3f, 0.1f, -1.0f}, kCloth});
   }
   const Errors found =
-      errors(fast(world, cloth, uniformDay(100.0f)), traced(world, cloth, uniformDay(100.0f), 30000));
+      errors(fast(world(), cloth, uniformDay(100.0f)), traced(world(), cloth, uniformDay(100.0f), 30000));
   EXPECT_LT(found.mean, 0.05) << found.bias;
   EXPECT_LT(found.worst, 0.08);
 }
@@ -58,8 +67,7 @@ TEST_P(Awning, LetsAsMuchThroughThatIsSeenFromAboveAlone) {
   scene::Scene one_sided = awning(GetParam());
   one_sided.materials[kCloth].double_sided = false;
   const std::vector<Looked> ground = {{{0.9f, 0.3f, 0.0f}, kUp, {0.3f, 0.1f, 1.0f}, kGround}};
-  EXPECT_EQ(fast(baked(one_sided), ground, uniformDay(100.0f)),
-            fast(baked(awning(GetParam())), ground, uniformDay(100.0f)));
+  EXPECT_EQ(fast(baked(one_sided), ground, uniformDay(100.0f)), fast(world(), ground, uniformDay(100.0f)));
 }
 
 TEST(Cloth, ThatIsLevelMirrorsTheSkyOntoAWallOnce) {

@@ -357,7 +357,7 @@ TEST(BakedLight, PassesGlass) {
   double baked_light[2], traced_light[2];
   for (const bool glazed : {true, false}) {
     const light::World world = baked(glazedRoom(glazed, 0.9f));
-    render::Renderer renderer(world, smallCamera(32, 24, 60.0));
+    render::Renderer renderer(world, smallCamera(24, 18, 60.0));
     renderer.look(lookingAt({2.5, 1.0, 1.5}, {2.5, 4.0, 2.2}));
     baked_light[glazed] = meanOf(renderer.light(light::illumination(world, even)));
     light::ReferenceOptions reference;
@@ -373,7 +373,7 @@ TEST(BakedLight, PassesGlass) {
 
 TEST(GlazedRoom, AgreesWithPathTracedLight) {
   const light::World world = baked(glazedRoom(true, 0.1f));
-  render::Renderer renderer(world, smallCamera(64, 48, 90.0));
+  render::Renderer renderer(world, smallCamera(48, 36, 90.0));
   std::vector<sky::Daylight> days = {daylightAt(200.0, 45.0), daylightAt(240.0, 5.0)};
   light::ReferenceOptions reference;
   reference.samples_per_pixel = 512;

@@ -173,7 +173,7 @@ class LensPictureBy : public testing::TestWithParam<render::RasterizerKind> {
 // slant of 70°; at the room's edges either wall.
 TEST_P(LensPictureBy, AWallsDepthIsItsPlanesOutToTheWidestAngle) {
   for (const PublishedLens& published : publishedLenses()) {
-    render::RenderOptions options = cameraOf(published, 2);
+    render::RenderOptions options = cameraOf(published, 1);
     options.rasterizer = GetParam();
     render::Renderer renderer(shared(room()), options);
     const Eigen::Isometry3d map_from_optical = lookingAt(kEye, kTarget);

@@ -21,8 +21,14 @@ light::World baked(const scene::Scene& scene) {
   return world;
 }
 
+/// Baked once for all that ask for it.
+const light::World& bakedYard() {
+  static const light::World world = baked(yard());
+  return world;
+}
+
 TEST(FastLight, AgreesWithPathTracedLightFromNoonToTwilight) {
-  const light::World world = baked(yard());
+  const light::World& world = bakedYard();
   const std::vector<double> elevations = {60.0, 20.0, 4.0, -4.0};
   const std::vector<light::LuminanceError> errors =
       errorsAgainstTraced(world, lookingAt({-5.0, -6.0, 1.6}, {4.0, 4.0, 1.5}), elevations, 128);
@@ -39,7 +45,7 @@ TEST(FastLight, AgreesWithPathTracedLightFromNoonToTwilight) {
 }
 
 TEST(FastLight, AgreesWithPathTracedLightUnderGapsAndCloudsAndInFog) {
-  const light::World world = baked(yard());
+  const light::World& world = bakedYard();
   std::vector<sky::Daylight> days;
   const auto add = [&](const sky::Weather& weather) {
     days.push_back(sky::usualAir().daylight({Direction(Azimuth::degrees(230.0), Angle::degrees(40.0)), 1.0},
@@ -102,7 +108,7 @@ std::vector<Hour> hours() {
 }
 
 TEST(FastLight, AgreesWithPathTracedLightInAllWeather) {
-  const light::World world = baked(yard());
+  const light::World& world = bakedYard();
   std::vector<sky::Daylight> days;
   for (const Hour& hour : hours())
     days.push_back(sky::usualAir().daylight(
