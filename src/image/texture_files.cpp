@@ -109,6 +109,31 @@ std::string formatOf(const std::uint8_t* bytes, std::size_t size) {
   return "";
 }
 
+/// What a grey PNG cuts out (ISO/IEC 15948, 11.3.2.1), in samples as OpenCV decodes them, which leaves that
+/// out; nothing for other pictures. The bytes are those of a picture that it has decoded.
+std::optional<int> greyCutOut(const std::vector<std::uint8_t>& bytes) {
+  constexpr std::size_t kBitDepth = 24, kColorType = 25, kToData = 8, kOneLevel = 14;  // bytes
+  if (!isPng(bytes.data(), bytes.size()) || bytes[kColorType] != 0) return std::nullopt;
+  std::size_t at = kPngSignature.size();
+  while (const std::optional<PngChunk> chunk = pngChunkAt(at, bytes.data(), bytes.size())) {
+    if (chunk->name == "tRNS" && chunk->end == at + kOneLevel) {
+      const int grey = bytes[at + kToData] << 8 | bytes[at + kToData + 1], full = (1 << bytes[kBitDepth]) - 1;
+      return full < 255 ? (grey & full) * (255 / full) : grey & full;
+    }
+    at = chunk->end;
+  }
+  return std::nullopt;
+}
+
+/// With an alpha of 0 where `grey` is `cut_out`, else the largest.
+cv::Mat withCutOut(const cv::Mat& grey, int cut_out) {
+  cv::Mat alpha, picture;
+  cv::compare(grey, cv::Scalar(cut_out), alpha, cv::CMP_NE);
+  if (grey.depth() == CV_16U) alpha.convertTo(alpha, CV_16U, 65535.0 / 255.0);
+  cv::merge(std::vector<cv::Mat>{grey, grey, grey, alpha}, picture);
+  return picture;
+}
+
 cv::Mat decode(const std::uint8_t* bytes, std::size_t size, const std::string& name, int flags) {
   if (const std::optional<TgaSize> tga = sizeOfTga(bytes, size)) {
     std::vector<std::uint8_t> bgra = decodeTga(bytes, size, name);
@@ -133,7 +158,8 @@ cv::Mat decode(const std::uint8_t* bytes, std::size_t size, const std::string& n
                              ", whatever the file's name: convert it to PNG, by " +
                              (packed ? "ktx extract or basisu -unpack" : "ImageMagick or GIMP"));
   }
-  return decoded;
+  const std::optional<int> cut_out = decoded.channels() == 1 ? greyCutOut(kept) : std::nullopt;
+  return cut_out ? withCutOut(decoded, *cut_out) : decoded;
 }
 
 Rgba8Image toRgba(const cv::Mat& decoded, const std::string& name) {

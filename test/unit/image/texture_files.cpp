@@ -79,6 +79,25 @@ TEST(DecodeRgba, GreyBecomesThreeEqualChannels) {
   EXPECT_EQ(texelOf(onePixel(8, 4, bytes({77, 5}))), (std::vector<int>{77, 77, 77, 5}));
 }
 
+// ISO/IEC 15948, 11.3.2.1: a tRNS chunk has two bytes for any depth, of which the low bits count.
+TEST(DecodeRgba, GreyMayCutOutOneOfItsLevels) {
+  const auto alphaOf = [](int bits, const std::string& sample, const std::string& level) {
+    return texelOf(onePixel(bits, 0, sample, chunk("tRNS", level))).at(3);
+  };
+  EXPECT_EQ(texelOf(onePixel(8, 0, bytes({77}), chunk("tRNS", bytes({0, 77})))),
+            (std::vector<int>{77, 77, 77, 0}));
+  EXPECT_EQ(alphaOf(8, bytes({78}), bytes({0, 77})), 255);
+  // Two levels of 16 bits that are one of 8.
+  EXPECT_EQ(alphaOf(16, bytes({0x80, 0x01}), bytes({0x80, 0x01})), 0);
+  EXPECT_EQ(alphaOf(16, bytes({0x80, 0x02}), bytes({0x80, 0x01})), 255);
+  // The pixel is the highest bits of its byte: 1, 2 and 9.
+  EXPECT_EQ(alphaOf(1, bytes({0x80}), bytes({0, 1})), 0);
+  EXPECT_EQ(alphaOf(1, bytes({0x80}), bytes({0, 0})), 255);
+  EXPECT_EQ(alphaOf(2, bytes({0x80}), bytes({0, 2})), 0);
+  EXPECT_EQ(texelOf(onePixel(4, 0, bytes({0x90}), chunk("tRNS", bytes({0, 9})))),
+            (std::vector<int>{153, 153, 153, 0}));
+}
+
 TEST(DecodeRgba, SixteenBitsAreRoundedToEight) {
   // 65535 is white and 0x8000 = 32768 of it is 127.5 of 255.
   const std::vector<int> texel = texelOf(onePixel(16, 2, bytes({0xFF, 0xFF, 0x80, 0x00, 0x00, 0x00})));
