@@ -16,6 +16,7 @@
 
 #include "png_chunks.h"
 #include "sunlit/image/encoded_size.h"
+#include "sunlit/image/files.h"
 #include "tga.h"
 
 namespace sunlit::image {
@@ -191,6 +192,7 @@ cv::Mat shrunk(const cv::Mat& decoded, int longest_px) {
 }
 
 std::vector<std::uint8_t> contentOf(const std::string& file) {
+  requireNoDevice(file);
   std::ifstream stream(file, std::ios::binary);
   std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (!stream.is_open() || stream.bad()) throw std::runtime_error(file + ": cannot read this picture");

@@ -16,6 +16,7 @@
 #include "scene/gltf_numbers.h"
 #include "scene/gltf_unpack.h"
 #include "scene/memory_stream.h"
+#include "sunlit/image/files.h"
 
 namespace sunlit::scene {
 namespace {
@@ -171,7 +172,9 @@ bool GltfInput::Exists(const char* path) const {
 Assimp::IOStream* GltfInput::Open(const char* path, const char* mode) {
   if (!mended_.empty() && path == file_) return streamOf(mended_);
   if (const std::string* const made = madeAt(path)) return streamOf(*made);
-  return DefaultIOSystem::Open(meantPath(path).c_str(), mode);
+  const std::string meant = meantPath(path);
+  image::requireNoDevice(meant);
+  return DefaultIOSystem::Open(meant.c_str(), mode);
 }
 
 }  // namespace sunlit::scene

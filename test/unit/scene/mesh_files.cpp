@@ -471,5 +471,25 @@ TEST_F(MeshFile, APipeIsRefusedInsteadOfWaitedFor) {
   }
 }
 
+TEST_F(MeshFile, APipeThatAFileNamesIsRefusedInsteadOfWaitedFor) {
+  const auto refusal = [this](const std::string& name) {
+    return pathOf(name) + ": this is a pipe or a device, and no file";
+  };
+  for (const char* name : {"p.png", "p.bin", "p.mtl"}) ASSERT_EQ(::mkfifo(pathOf(name).c_str(), 0600), 0);
+  expectOneWarning(load(write("t.dae", collada(kCentimetresZUp, "p.png")), {}),
+                   "1 textures cannot be decoded, a neutral material takes their place: " + refusal("p.png"));
+  EXPECT_EQ(errorOf(write("t.obj", "mtllib p.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), refusal("p.mtl"));
+  // Floats are read by Assimp, whole numbers before it.
+  for (const std::string type : {"5126", "5122"}) {
+    const std::string error =
+        errorOf(write("t.gltf", R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"accessors":[{"bufferView":0,"componentType":)" +
+                                    type + R"(,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":"p.bin"}]})"));
+    EXPECT_NE(error.find(refusal("p.bin")), std::string::npos) << error;
+  }
+}
+
 }  // namespace
 }  // namespace sunlit::scene
