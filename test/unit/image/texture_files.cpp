@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "support/message_of.h"
+#include "support/temporary_folder.h"
 
 namespace sunlit::image {
 namespace {
@@ -196,6 +197,28 @@ TEST(DecodeRgba, NamesFormatsThatAreNotReadAndWhatToDo) {
   EXPECT_EQ(
       messageOf<std::runtime_error>([] { texelOf("\xABKTX 20\xBB\r\n\x1A\n" + std::string(60, '\0')); }),
       error("KTX2", "ktx extract or basisu -unpack"));
+}
+
+/// Of 2 × 2 px, all of the same number.
+std::string ofFloats(const char* ending, int type, double number) {
+  std::vector<std::uint8_t> bytes;
+  EXPECT_TRUE(cv::imencode(ending, cv::Mat(2, 2, type, cv::Scalar::all(number)), bytes));
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST(DecodeRgba, FloatsAreNoValuesOfADisplay) {
+  const auto error = [](const std::string& what) {
+    return "test: this is a " + what +
+           "picture of floats, and not read as a texture; PNG, JPEG, BMP, TIFF, TGA and WebP are understood "
+           "with 8 or 16 bits a channel: convert it to PNG, by ImageMagick or GIMP";
+  };
+  const std::string hdr = ofFloats(".hdr", CV_32FC3, 0.18), tiff = ofFloats(".tiff", CV_32FC1, 0.18);
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { texelOf(hdr); }), error("Radiance HDR "));
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { texelOf(tiff); }), error(""));
+  const TemporaryFolder folder;
+  setContent(folder.file("heights.tiff"), tiff);
+  EXPECT_FLOAT_EQ(*readGreyWithin(8, folder.file("heights.tiff")).at(1, 1), 0.18f);
+  EXPECT_THROW(readRgbaWithin(8, folder.file("heights.tiff")), std::runtime_error);
 }
 
 TEST(EncodePng, LosesNothing) {
