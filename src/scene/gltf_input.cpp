@@ -13,6 +13,7 @@
 #include "scene/gltf_floats.h"
 #include "scene/gltf_instances.h"
 #include "scene/gltf_json.h"
+#include "scene/gltf_mend.h"
 #include "scene/gltf_numbers.h"
 #include "scene/gltf_unpack.h"
 #include "scene/memory_stream.h"
@@ -146,6 +147,7 @@ GltfInput::GltfInput(const std::string& file, json root, bool mended) : file_(fi
   try {
     mended |= unpackViews(root, buffers);
     mended |= placeInstances(root, buffers);
+    turned_of_instances_ = makeUnit(root);  // those of nodes of the file are by now
     mended |= useFloats(root, buffers);
     mended |= giveMatrices(root, buffers);
     mended |= nameJoints(root);
