@@ -444,6 +444,16 @@ TEST_F(MeshFile, APictureWithoutAFileIsAMissingTexture) {
   expectOneWarning(scene, "1 textures are missing, a neutral material takes their place: not given of ");
 }
 
+TEST_F(MeshFile, EmptyAnimationsEndWhereTheyBegin) {
+  std::string text = collada(kCentimetresZUp);
+  const std::string geometries = "<library_geometries>", scenes = "<library_visual_scenes>";
+  text.insert(text.find(scenes), "<library_animations><animation/></library_animations>");
+  text.insert(text.find(geometries), "<library_animations/><library_animations id='none' />");
+  const Scene scene = load(write("t.dae", text), {});
+  EXPECT_EQ(scene.triangleCount(), 1u);
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
 TEST_F(MeshFile, AnEmptyFileIsSaidToBeEmpty) {
   for (const char* name : {"e.dae", "e.glb", "e.gltf", "e.obj"})
     EXPECT_EQ(errorOf(write(name, "")), pathOf(name) + ": this file is empty");
