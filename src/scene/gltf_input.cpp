@@ -17,7 +17,6 @@
 #include "scene/gltf_numbers.h"
 #include "scene/gltf_unpack.h"
 #include "scene/memory_stream.h"
-#include "sunlit/image/files.h"
 
 namespace sunlit::scene {
 namespace {
@@ -145,6 +144,7 @@ GltfInput::GltfInput(const std::string& file, json root, bool mended) : file_(fi
   GltfBuffers buffers(root, file);
   mended |= root.erase("animations") > 0;  // whose numbers Assimp would not check, for nothing
   try {
+    buffers.requireNoDevices();
     mended |= unpackViews(root, buffers);
     mended |= placeInstances(root, buffers);
     turned_of_instances_ = makeUnit(root);  // those of nodes of the file are by now
@@ -174,9 +174,7 @@ bool GltfInput::Exists(const char* path) const {
 Assimp::IOStream* GltfInput::Open(const char* path, const char* mode) {
   if (!mended_.empty() && path == file_) return streamOf(mended_);
   if (const std::string* const made = madeAt(path)) return streamOf(*made);
-  const std::string meant = meantPath(path);
-  image::requireNoDevice(meant);
-  return DefaultIOSystem::Open(meant.c_str(), mode);
+  return DefaultIOSystem::Open(meantPath(path).c_str(), mode);
 }
 
 }  // namespace sunlit::scene

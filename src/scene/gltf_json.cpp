@@ -10,14 +10,12 @@
 #include <utility>
 
 #include "scene/uri_text.h"
-#include "sunlit/image/files.h"
 
 namespace sunlit::scene {
 
 using nlohmann::json;
 
 std::string bytesOf(const std::string& file) {
-  image::requireNoDevice(file);
   std::ifstream stream(file, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (!stream.is_open() || stream.bad()) throw std::runtime_error(file + ": cannot read this file");
