@@ -96,6 +96,14 @@ std::string reasonOf(int error) {
   return said;
 }
 
+void requireNoDevice(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
+    throw std::runtime_error(path + ": this is a pipe or a device, and no file");
+}
+
 std::string readWholeFile(const std::string& path) {
   errno = 0;
   std::ifstream in(path, std::ios::binary);

@@ -16,6 +16,7 @@
 
 #include "png_chunks.h"
 #include "sunlit/image/encoded_size.h"
+#include "sunlit/image/files.h"
 #include "tga.h"
 
 namespace sunlit::image {
@@ -30,11 +31,8 @@ cv::Mat toEightBit(const cv::Mat& decoded, const std::string& name) {
     case CV_16U:
       decoded.convertTo(eight_bit, CV_8U, 255.0 / 65535.0);
       return eight_bit;
-    case CV_32F:
-      decoded.convertTo(eight_bit, CV_8U, 255.0);
-      return eight_bit;
     default:
-      throw std::runtime_error(name + ": a texture must have 8 or 16 bits, or floats, a channel");
+      throw std::runtime_error(name + ": a texture must have 8 or 16 bits a channel");
   }
 }
 
@@ -89,8 +87,8 @@ int decodingFlags(int longest_px, const std::uint8_t* bytes, std::size_t size) {
   return cv::IMREAD_UNCHANGED;
 }
 
-/// What the bytes are that OpenCV does not decode: a format that textures have elsewhere, by what its files
-/// begin with; empty for others.
+/// What the bytes are that make no texture: a format that textures have elsewhere, by what its files begin
+/// with; empty for others.
 std::string formatOf(const std::uint8_t* bytes, std::size_t size) {
   struct Format {
     std::size_t at;
@@ -100,13 +98,41 @@ std::string formatOf(const std::uint8_t* bytes, std::size_t size) {
   static const std::vector<Format> formats = {
       {0, "DDS ", "DDS"},      {0, "GIF8", "GIF"},       {0, "\xABKTX 20", "KTX2"}, {0, "\xABKTX 11", "KTX"},
       {0, "sB", "Basis"},      {0, "8BPS", "Photoshop"}, {4, "ftypavif", "AVIF"},   {4, "ftyphei", "HEIF"},
-      {0, "gimp xcf", "GIMP"}, {0, "<svg", "SVG"}};
+      {0, "gimp xcf", "GIMP"}, {0, "<svg", "SVG"},       {0, "#?", "Radiance HDR"}, {0, "v/1\x01", "OpenEXR"},
+      {0, "PF", "PFM"},        {0, "Pf", "PFM"}};
   for (const Format& format : formats) {
     const std::size_t length = format.begin.size();
     if (size >= format.at + length && std::memcmp(bytes + format.at, format.begin.data(), length) == 0)
       return format.name;
   }
   return "";
+}
+
+constexpr const char* kAreRead = "PNG, JPEG, BMP, TIFF, TGA and WebP are understood";
+
+/// What a grey PNG cuts out (ISO/IEC 15948, 11.3.2.1), in samples as OpenCV decodes them, which leaves that
+/// out; nothing for other pictures. The bytes are those of a picture that it has decoded.
+std::optional<int> greyCutOut(const std::vector<std::uint8_t>& bytes) {
+  constexpr std::size_t kBitDepth = 24, kColorType = 25, kToData = 8, kOneLevel = 14;  // bytes
+  if (!isPng(bytes.data(), bytes.size()) || bytes[kColorType] != 0) return std::nullopt;
+  std::size_t at = kPngSignature.size();
+  while (const std::optional<PngChunk> chunk = pngChunkAt(at, bytes.data(), bytes.size())) {
+    if (chunk->name == "tRNS" && chunk->end == at + kOneLevel) {
+      const int grey = bytes[at + kToData] << 8 | bytes[at + kToData + 1], full = (1 << bytes[kBitDepth]) - 1;
+      return full < 255 ? (grey & full) * (255 / full) : grey & full;
+    }
+    at = chunk->end;
+  }
+  return std::nullopt;
+}
+
+/// With an alpha of 0 where `grey` is `cut_out`, else the largest.
+cv::Mat withCutOut(const cv::Mat& grey, int cut_out) {
+  cv::Mat alpha, picture;
+  cv::compare(grey, cv::Scalar(cut_out), alpha, cv::CMP_NE);
+  if (grey.depth() == CV_16U) alpha.convertTo(alpha, CV_16U, 65535.0 / 255.0);
+  cv::merge(std::vector<cv::Mat>{grey, grey, grey, alpha}, picture);
+  return picture;
 }
 
 cv::Mat decode(const std::uint8_t* bytes, std::size_t size, const std::string& name, int flags) {
@@ -126,14 +152,24 @@ cv::Mat decode(const std::uint8_t* bytes, std::size_t size, const std::string& n
   }
   if (decoded.empty()) {
     const std::string format = formatOf(bytes, size);
-    const std::string read = "PNG, JPEG, BMP, TIFF, TGA and WebP are understood";
-    if (format.empty()) throw std::runtime_error(name + ": cannot decode this picture; " + read);
+    if (format.empty()) throw std::runtime_error(name + ": cannot decode this picture; " + kAreRead);
     const bool packed = format.compare(0, 3, "KTX") == 0 || format == "Basis";
-    throw std::runtime_error(name + ": this is a " + format + " picture, and not read; " + read +
+    throw std::runtime_error(name + ": this is a " + format + " picture, and not read; " + kAreRead +
                              ", whatever the file's name: convert it to PNG, by " +
                              (packed ? "ktx extract or basisu -unpack" : "ImageMagick or GIMP"));
   }
-  return decoded;
+  const std::optional<int> cut_out = decoded.channels() == 1 ? greyCutOut(kept) : std::nullopt;
+  return cut_out ? withCutOut(decoded, *cut_out) : decoded;
+}
+
+/// Floats are amounts of light, in units that files do not tell, and no values of a display.
+void requireNoFloats(const cv::Mat& decoded, const std::uint8_t* bytes, std::size_t size,
+                     const std::string& name) {
+  if (decoded.depth() != CV_32F && decoded.depth() != CV_64F) return;
+  const std::string format = formatOf(bytes, size);
+  throw std::runtime_error(name + ": this is a " + (format.empty() ? "" : format + " ") +
+                           "picture of floats, and not read as a texture; " + kAreRead +
+                           " with 8 or 16 bits a channel: convert it to PNG, by ImageMagick or GIMP");
 }
 
 Rgba8Image toRgba(const cv::Mat& decoded, const std::string& name) {
@@ -165,6 +201,7 @@ cv::Mat shrunk(const cv::Mat& decoded, int longest_px) {
 }
 
 std::vector<std::uint8_t> contentOf(const std::string& file) {
+  requireNoDevice(file);
   std::ifstream stream(file, std::ios::binary);
   std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (!stream.is_open() || stream.bad()) throw std::runtime_error(file + ": cannot read this picture");
@@ -183,7 +220,9 @@ Rgba8Image enlarged(const Rgba8Image& picture, int width, int height) {
 }  // namespace
 
 Rgba8Image decodeRgba(const std::uint8_t* bytes, std::size_t size, const std::string& name) {
-  return toRgba(decode(bytes, size, name, cv::IMREAD_UNCHANGED), name);
+  const cv::Mat decoded = decode(bytes, size, name, cv::IMREAD_UNCHANGED);
+  requireNoFloats(decoded, bytes, size, name);
+  return toRgba(decoded, name);
 }
 
 namespace {
@@ -208,6 +247,7 @@ FittedImage decodeRgbaWithin(int longest_px, const std::uint8_t* bytes, std::siz
   std::unique_lock<std::mutex> lock(one_large_at_a_time, std::defer_lock);
   if (isLarge(told, longest_px, name)) lock.lock();
   cv::Mat decoded = decode(bytes, size, name, decodingFlags(longest_px, bytes, size));
+  requireNoFloats(decoded, bytes, size, name);
   FittedImage fitted;
   fitted.width = told.width > 0 ? static_cast<int>(told.width) : decoded.cols;
   fitted.height = told.height > 0 ? static_cast<int>(told.height) : decoded.rows;

@@ -48,9 +48,14 @@ std::string withoutAnimations(const std::string& text) {
   const std::string begin = "<library_animations", end = "</library_animations>";
   std::string kept = text;
   for (std::size_t from = kept.find(begin); from != std::string::npos; from = kept.find(begin, from)) {
-    const std::size_t found = kept.find(end, from);
-    if (found == std::string::npos) return text;  // XML that is broken, or empty elements
-    const std::size_t to = found + end.size();
+    const std::size_t tag = kept.find('>', from);
+    if (tag == std::string::npos) return text;  // XML that is broken
+    std::size_t to = tag + 1;
+    if (kept[tag - 1] != '/') {  // else it is empty, and has no end of its own
+      const std::size_t found = kept.find(end, tag);
+      if (found == std::string::npos) return text;
+      to = found + end.size();
+    }
     const auto lines = std::count(kept.begin() + static_cast<std::ptrdiff_t>(from),
                                   kept.begin() + static_cast<std::ptrdiff_t>(to), '\n');
     kept.replace(from, to - from, static_cast<std::size_t>(lines), '\n');

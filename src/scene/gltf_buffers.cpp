@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scene/gltf_json.h"
+#include "sunlit/image/files.h"
 
 namespace sunlit::scene {
 namespace {
@@ -40,6 +41,10 @@ std::string secondChunk(const std::string& file) {
   if (rest.size() < kChunkHeader)
     throw std::runtime_error("a buffer has no address, and the file no bytes of its own");
   return rest.substr(kChunkHeader);
+}
+
+bool isInline(const std::string& uri) {
+  return uri.compare(0, 5, "data:") == 0;
 }
 
 std::string addressOf(std::size_t made) {
@@ -83,11 +88,26 @@ std::string GltfBuffers::read(std::size_t buffer) const {
     throw std::runtime_error("buffer " + std::to_string(buffer) + " has no address");
   if (!address.is_string()) return secondChunk(file_);
   const std::string uri = address.get<std::string>();
-  if (uri.compare(0, 5, "data:") == 0) {
+  if (isInline(uri)) {
     const std::size_t comma = uri.find(',');
     return comma == std::string::npos ? "" : decodedBase64(uri, comma + 1);
   }
-  return bytesOf(meantPath((std::filesystem::path(file_).parent_path() / uri).string()));
+  return bytesOf(pathOf(uri));
+}
+
+std::string GltfBuffers::pathOf(const std::string& uri) const {
+  return meantPath((std::filesystem::path(file_).parent_path() / uri).string());
+}
+
+void GltfBuffers::requireNoDevices() const {
+  const nlohmann::json& list = child(root_, "buffers");
+  if (!list.is_array()) return;
+  for (const nlohmann::json& buffer : list) {
+    const nlohmann::json& address = child(buffer, "uri");
+    if (!address.is_string()) continue;
+    const auto& uri = address.get_ref<const std::string&>();
+    if (!isInline(uri)) image::requireNoDevice(pathOf(uri));
+  }
 }
 
 }  // namespace sunlit::scene

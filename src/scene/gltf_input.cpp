@@ -13,6 +13,7 @@
 #include "scene/gltf_floats.h"
 #include "scene/gltf_instances.h"
 #include "scene/gltf_json.h"
+#include "scene/gltf_mend.h"
 #include "scene/gltf_numbers.h"
 #include "scene/gltf_unpack.h"
 #include "scene/memory_stream.h"
@@ -143,8 +144,10 @@ GltfInput::GltfInput(const std::string& file, json root, bool mended) : file_(fi
   GltfBuffers buffers(root, file);
   mended |= root.erase("animations") > 0;  // whose numbers Assimp would not check, for nothing
   try {
+    buffers.requireNoDevices();
     mended |= unpackViews(root, buffers);
     mended |= placeInstances(root, buffers);
+    turned_of_instances_ = makeUnit(root);  // those of nodes of the file are by now
     mended |= useFloats(root, buffers);
     mended |= giveMatrices(root, buffers);
     mended |= nameJoints(root);

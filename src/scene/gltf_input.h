@@ -3,6 +3,7 @@
 
 #include <assimp/DefaultIOSystem.h>
 
+#include <cstddef>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -23,6 +24,10 @@ class GltfInput : public Assimp::DefaultIOSystem {
   /// names it.
   GltfInput(const std::string& file, nlohmann::json root, bool mended);
 
+  /// How many meshes that a node shows at many places had quaternions that were not of length 1: now they
+  /// are.
+  std::size_t turnedOfInstances() const { return turned_of_instances_; }
+
   bool Exists(const char* path) const override;
   Assimp::IOStream* Open(const char* path, const char* mode = "rb") override;
 
@@ -31,6 +36,7 @@ class GltfInput : public Assimp::DefaultIOSystem {
   const std::string* madeAt(const std::string& path) const;
 
   std::string file_;
+  std::size_t turned_of_instances_ = 0;
   std::string mended_;                       ///< instead of the file's bytes; empty: nothing to mend
   std::map<std::string, std::string> made_;  ///< buffers, by their addresses
 };

@@ -26,6 +26,9 @@ struct GltfMaterials::Json {
 
 namespace {
 
+constexpr const char* kTurns =
+    "glTF files turn nodes by quaternions that are not of length 1, which they are made";
+
 /// Assimp tells the two kinds by their names.
 void requireName(const GltfParts& parts, const std::string& file) {
   const bool named_binary = extensionOf(file) == ".glb";
@@ -53,9 +56,7 @@ GltfMaterials::GltfMaterials(const std::string& file, SceneBuilder& builder)
   requireGltf2(root, file);
   const GltfMends mends = mendGltf(root);
   if (mends.scene) builder_.warn("glTF files have no scene, all that is in them is shown", file);
-  if (mends.turns > 0)
-    builder_.warn("glTF files turn nodes by quaternions that are not of length 1, which they are made",
-                  std::to_string(mends.turns) + " in " + file);
+  if (mends.turns > 0) builder_.warn(kTurns, std::to_string(mends.turns) + " in " + file);
   if (mends.primitives > 0)
     builder_.warn("glTF files have parts of meshes with no or too few corners, which are left out",
                   std::to_string(mends.primitives) + " in " + file);
@@ -87,7 +88,10 @@ std::optional<GltfLook> GltfMaterials::look(std::size_t index, const Picture& pi
 
 std::unique_ptr<GltfInput> GltfMaterials::input() const {
   try {
-    return std::make_unique<GltfInput>(file_, json_->root, json_->mended);
+    auto input = std::make_unique<GltfInput>(file_, json_->root, json_->mended);
+    if (input->turnedOfInstances() > 0)
+      builder_.warn(kTurns, std::to_string(input->turnedOfInstances()) + " instances in " + file_);
+    return input;
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(error.what() + whatItNeeds());
   }

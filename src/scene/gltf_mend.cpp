@@ -65,25 +65,6 @@ std::size_t leaveOutPrimitives(json& root) {
   return count;
 }
 
-std::size_t makeUnit(json& root) {
-  constexpr double kOff = 0.01;  // whole numbers of 8 bits are off by that
-  std::size_t count = 0;
-  if (!child(root, "nodes").is_array()) return count;
-  for (json& node : root["nodes"]) {
-    const json& turn = child(node, "rotation");
-    const auto is_number = [](const json& one) { return one.is_number(); };
-    if (!turn.is_array() || turn.size() != 4 || !std::all_of(turn.begin(), turn.end(), is_number)) continue;
-    Eigen::Vector4d quaternion;
-    for (int i = 0; i < 4; ++i) quaternion[i] = turn[static_cast<std::size_t>(i)].get<double>();
-    const double length = quaternion.norm();
-    if (!std::isfinite(length) || std::abs(length - 1.0) < kOff) continue;
-    ++count;
-    quaternion = length > 0.0 ? Eigen::Vector4d(quaternion / length) : Eigen::Vector4d(0.0, 0.0, 0.0, 1.0);
-    node["rotation"] = std::vector<double>(quaternion.data(), quaternion.data() + 4);
-  }
-  return count;
-}
-
 /// Of all nodes that are below no other.
 bool makeScene(json& root) {
   const json& nodes = child(root, "nodes");
@@ -104,6 +85,25 @@ bool makeScene(json& root) {
 }
 
 }  // namespace
+
+std::size_t makeUnit(json& root) {
+  constexpr double kOff = 0.01;  // whole numbers of 8 bits are off by that
+  std::size_t count = 0;
+  if (!child(root, "nodes").is_array()) return count;
+  for (json& node : root["nodes"]) {
+    const json& turn = child(node, "rotation");
+    const auto is_number = [](const json& one) { return one.is_number(); };
+    if (!turn.is_array() || turn.size() != 4 || !std::all_of(turn.begin(), turn.end(), is_number)) continue;
+    Eigen::Vector4d quaternion;
+    for (int i = 0; i < 4; ++i) quaternion[i] = turn[static_cast<std::size_t>(i)].get<double>();
+    const double length = quaternion.norm();
+    if (!std::isfinite(length) || std::abs(length - 1.0) < kOff) continue;
+    ++count;
+    quaternion = length > 0.0 ? Eigen::Vector4d(quaternion / length) : Eigen::Vector4d(0.0, 0.0, 0.0, 1.0);
+    node["rotation"] = std::vector<double>(quaternion.data(), quaternion.data() + 4);
+  }
+  return count;
+}
 
 GltfMends mendGltf(json& root) {
   GltfMends mends;

@@ -1,6 +1,7 @@
 /// Oddities of glTF files that Assimp refuses, though they mean something, or nothing at all.
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 
 namespace sunlit::scene {
@@ -16,5 +17,8 @@ struct GltfMends {
 };
 
 GltfMends mendGltf(nlohmann::json& root);
+
+/// Makes quaternions of nodes that are not of length 1 such ones, of no turn where they are zero: how many.
+std::size_t makeUnit(nlohmann::json& root);
 
 }  // namespace sunlit::scene

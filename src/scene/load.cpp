@@ -11,6 +11,7 @@
 #include "scene/resource_finder.h"
 #include "scene/scene_builder.h"
 #include "scene/sdf_world.h"
+#include "sunlit/image/files.h"
 #include "sunlit/scene/race_track.h"
 #include "sunlit/scene/robot.h"
 
@@ -85,8 +86,7 @@ std::string fileOf(const std::string& world, const SearchPath& search_path) {
   if (!found.file)
     throw std::runtime_error("there is no world " + world + "; it was looked for as " + placesTried(found));
   const std::string file = std::filesystem::is_directory(*found.file) ? worldIn(*found.file) : *found.file;
-  if (std::filesystem::is_fifo(file) || std::filesystem::is_character_file(file))
-    throw std::runtime_error(file + ": this is a pipe or a device, and no file");
+  image::requireNoDevice(file);
   if (isOneOf(extensionOf(file), {".world", ".sdf", ".urdf", ".dae", ".gltf", ".glb", ".obj"})) return file;
   throw std::runtime_error(file +
                            ": cannot tell its format; its name must end in .world, .sdf, .urdf, .dae, .gltf, "

@@ -28,6 +28,7 @@
 #include "scene/obj_input.h"
 #include "scene/triangle_budget.h"
 #include "scene/uri_text.h"
+#include "sunlit/image/files.h"
 
 namespace sunlit::scene {
 namespace {
@@ -301,6 +302,7 @@ void warnOfObj(const std::string& file, SceneBuilder& builder) {
 
 /// Assimp would find no reader for a folder, and miss anything but content in an empty file.
 void requireContent(const std::string& file) {
+  image::requireNoDevice(file);
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw std::runtime_error(file + ": this is a folder, and no mesh");

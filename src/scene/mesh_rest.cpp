@@ -1,7 +1,9 @@
 #include "scene/mesh_rest.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "scene/assimp_nodes.h"
@@ -36,6 +38,14 @@ std::size_t timesOf(const aiString& name, const aiNode& node) {
   return times;
 }
 
+/// Swaps two corners of triangles that most of their vertices mirror, so that their front stays outside.
+void turnMirrored(const std::vector<bool>& mirrored, Mesh& mesh) {
+  for (auto& triangle : mesh.triangles) {
+    if (std::count_if(triangle.begin(), triangle.end(), [&](auto corner) { return mirrored[corner]; }) >= 2)
+      std::swap(triangle[1], triangle[2]);
+  }
+}
+
 }  // namespace
 
 void blendTargets(const aiMesh& source, Mesh& mesh) {
@@ -62,6 +72,7 @@ bool hasItsJoints(const aiMesh& source, const aiScene& scene) {
 bool standOnBones(const aiMesh& source, const aiScene& scene, Mesh& mesh) {
   if (!source.HasBones()) return false;
   const std::vector<Eigen::Matrix4d> poses = fileFromVertices(source, scene);
+  std::vector<bool> mirrored(poses.size(), false);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const double total = poses[i](3, 3);
     if (!(total > 1e-6)) continue;  // no bone holds it
@@ -69,12 +80,17 @@ bool standOnBones(const aiMesh& source, const aiScene& scene, Mesh& mesh) {
     const Eigen::Matrix3d linear = pose.topLeftCorner<3, 3>();
     mesh.positions[i] =
         (linear * mesh.positions[i].cast<double>() + pose.topRightCorner<3, 1>()).cast<float>();
+    mirrored[i] = linear.determinant() < 0.0;
+    const double hand = mirrored[i] ? -1.0 : 1.0;
     if (i < mesh.normals.size())
-      mesh.normals[i] = (cofactors(linear) * mesh.normals[i].cast<double>()).cast<float>();
-    if (i < mesh.tangents.size())
+      mesh.normals[i] = (hand * cofactors(linear) * mesh.normals[i].cast<double>()).cast<float>();
+    if (i < mesh.tangents.size()) {
       mesh.tangents[i].head<3>() =
           (linear * mesh.tangents[i].head<3>().cast<double>()).normalized().cast<float>();
+      mesh.tangents[i].w() *= static_cast<float>(hand);
+    }
   }
+  turnMirrored(mirrored, mesh);
   return true;
 }
 

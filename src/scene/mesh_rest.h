@@ -13,8 +13,9 @@ void blendTargets(const aiMesh& source, Mesh& mesh);
 /// Whether each bone's joint is there, and no other node is called so. A mesh without bones has all of them.
 bool hasItsJoints(const aiMesh& source, const aiScene& scene);
 
-/// Moves `mesh`, made of `source`, to where its bones hold it in the frame of the file. False: it has none.
-/// What the node of a mesh with bones says of its place does not count (glTF 2.0, section 3.7.3.1).
+/// Moves `mesh`, made of `source`, to where its bones hold it in the frame of the file, its outside kept
+/// where they mirror it. False: it has none. What the node of a mesh with bones says of its place does not
+/// count (glTF 2.0, section 3.7.3.1).
 bool standOnBones(const aiMesh& source, const aiScene& scene, Mesh& mesh);
 
 }  // namespace sunlit::scene

@@ -12,6 +12,7 @@
 
 #include "scene/memory_stream.h"
 #include "scene/mesh_file.h"
+#include "sunlit/image/files.h"
 
 namespace sunlit::scene {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 const std::string kEnds("\n\r\f\0", 4);  ///< of lines, as Assimp has it
 
 std::string contentOf(const std::string& path) {
+  image::requireNoDevice(path);
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }

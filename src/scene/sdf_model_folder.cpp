@@ -21,8 +21,10 @@ int minorVersion(const tinyxml2::XMLElement& sdf) {
 /// What a manifest names.
 std::string fileNamedBy(const fs::path& manifest) {
   constexpr int kNewest = 9;  // that libsdformat 12 reads
+  std::error_code error;
   tinyxml2::XMLDocument document;
-  if (document.LoadFile(manifest.c_str()) != tinyxml2::XML_SUCCESS) return {};
+  if (!fs::is_regular_file(manifest, error) || document.LoadFile(manifest.c_str()) != tinyxml2::XML_SUCCESS)
+    return {};
   const tinyxml2::XMLElement* model = document.FirstChildElement("model");
   std::string name;
   int best = -1;

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "sunlit/image/files.h"
+
 namespace sunlit::scene {
 namespace {
 
@@ -42,6 +44,7 @@ void dropLateDeclaration(std::string* text) {
 }  // namespace
 
 std::unique_ptr<tinyxml2::XMLDocument> readSdfXml(const std::string& file) {
+  image::requireNoDevice(file);
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw std::runtime_error(file + ": cannot open this file");
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};

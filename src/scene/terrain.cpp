@@ -18,7 +18,7 @@ float encoded(float linear) {
 /// A layer as wide in px as its tile is in the baked picture, so that texels are means of what they cover.
 struct Tile {
   image::Rgba8Image picture;
-  double texels_per_m;
+  Eigen::Vector2d texels_per_m;  ///< by axis: a tile is square, whatever its picture is
 };
 
 Tile tileOf(const TerrainLayer& layer, double texels_per_m) {
@@ -26,7 +26,7 @@ Tile tileOf(const TerrainLayer& layer, double texels_per_m) {
   const double side_px = std::clamp(layer.tile_m * texels_per_m, 1.0, kLargest_px);
   Tile tile;
   tile.picture = image::readRgbaWithin(static_cast<int>(std::lround(side_px)), layer.file).picture;
-  tile.texels_per_m = tile.picture.width / layer.tile_m;
+  tile.texels_per_m = Eigen::Vector2d(tile.picture.width, tile.picture.height) / layer.tile_m;
   return tile;
 }
 
@@ -46,11 +46,12 @@ double heightAt(const TerrainGrid& grid, double x, double y) {
 }
 
 const std::uint8_t* texelAt(const Tile& tile, const Eigen::Vector2d& metres) {
-  const auto wrapped = [&](double m, int size) {
-    const int index = static_cast<int>(std::floor(m * tile.texels_per_m)) % size;
+  const auto wrapped = [](double texels, int size) {
+    const int index = static_cast<int>(std::floor(texels)) % size;
     return index < 0 ? index + size : index;
   };
-  return tile.picture.at(wrapped(metres.x(), tile.picture.width), wrapped(metres.y(), tile.picture.height));
+  const Eigen::Vector2d texels = metres.cwiseProduct(tile.texels_per_m);
+  return tile.picture.at(wrapped(texels.x(), tile.picture.width), wrapped(texels.y(), tile.picture.height));
 }
 
 }  // namespace

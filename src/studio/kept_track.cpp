@@ -17,12 +17,17 @@
 namespace sunlit::studio {
 namespace {
 
-/// Of the library that makes the world: another build may make another one. Empty where it cannot be found.
+/// Of the libraries that make the world and its textures' smaller sizes: another build may make others. Empty
+/// where one cannot be found.
 std::string maker() {
-  Dl_info library{};
-  if (dladdr(reinterpret_cast<const void*>(&scene::raceTrack), &library) == 0) return {};
   image::ContentHash hash;
-  return library.dli_fname != nullptr && hash.addFile(library.dli_fname) ? hash.text() : std::string();
+  for (const void* const one : {reinterpret_cast<const void*>(&scene::raceTrack),
+                                reinterpret_cast<const void*>(&render::addSmallerSizes)}) {
+    Dl_info library{};
+    if (dladdr(one, &library) == 0 || library.dli_fname == nullptr || !hash.addFile(library.dli_fname))
+      return {};
+  }
+  return hash.text();
 }
 
 std::optional<scene::FlatScene> found(const SealedFiles& files, const std::string& name) {

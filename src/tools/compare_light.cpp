@@ -1,8 +1,11 @@
 // The error of the fast picture's light, view by view and sun by sun.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 
 #include "sunlit/image/files.h"
 #include "sunlit/image/flip.h"
@@ -71,6 +74,7 @@ class Comparer {
     const EveryNthPixel chosen(options_.every);
     const light::Surfaces surfaces = chosen.of(renderer_.surfaces());
     const std::vector<light::Traced> traced = trace(surfaces);
+    const std::size_t first = rows_.size();
     for (std::size_t i = 0; i < days_.size(); ++i) {
       const image::LinearImage fast = renderer_.light(light::illumination(world_, days_[i], options_.lamps));
       const image::Picture<float, 1> errors = light::relativeErrors(fast, traced[i], surfaces);
@@ -82,6 +86,8 @@ class Comparer {
       image::writePng(options_.output + "/view_" + std::to_string(view) + "_" + name + ".png",
                       sideBySide(chosen.of(fast), chosen.of(traced[i].luminance), chosen.of(errors)));
     }
+    if (rows_[first].error.pixels == 0)
+      std::fprintf(stderr, "warning: view %d has no pixel that is compared and sees a surface\n", view);
     by_material_.write(options_.output, *world_.geometry->scene);
     writeTables(options_.output, rows_);
   }
@@ -115,6 +121,23 @@ class Comparer {
   ErrorByMaterial by_material_;
 };
 
+/// Nothing where none of `rows` has pixels.
+std::optional<double> worstOf(const std::vector<ComparisonRow>& rows) {
+  std::optional<double> worst;
+  for (const ComparisonRow& row : rows) {
+    if (row.error.pixels > 0) worst = std::max(worst.value_or(0.0), row.error.mean);
+  }
+  return worst;
+}
+
+void tellProgress(std::size_t done, std::size_t views, double elapsed_s, std::optional<double> worst) {
+  const double left_s = elapsed_s / static_cast<double>(done) * static_cast<double>(views - done);
+  char text[64] = "no surface seen so far";
+  if (worst) std::snprintf(text, sizeof text, "worst mean error so far %.1f %%", 100.0 * *worst);
+  std::printf("view %zu of %zu: %s, %s left\n", done, views, text, textOfDuration(left_s).c_str());
+  std::fflush(stdout);
+}
+
 void run(const CompareLightOptions& options) {
   makeFolder(options.output);
   const auto load_start = Clock::now();
@@ -129,15 +152,11 @@ void run(const CompareLightOptions& options) {
   const auto start = Clock::now();
   for (std::size_t i = 0; i < views.size(); ++i) {
     comparer.compare(static_cast<int>(i), views[i]);
-    const double elapsed = secondsSince(start);
-    double worst = 0.0;
-    for (const ComparisonRow& row : comparer.rows()) worst = std::max(worst, row.error.mean);
-    std::printf(
-        "view %zu of %zu: worst mean error so far %.1f %%, %s left\n", i + 1, views.size(), 100.0 * worst,
-        textOfDuration(elapsed / static_cast<double>(i + 1) * static_cast<double>(views.size() - i - 1))
-            .c_str());
-    std::fflush(stdout);
+    tellProgress(i + 1, views.size(), secondsSince(start), worstOf(comparer.rows()));
   }
+  if (!worstOf(comparer.rows()))
+    throw std::runtime_error(
+        "no view has a pixel that is compared and sees a surface: there is no error to tell of");
   std::printf("%s/table.md\n", options.output.c_str());
 }
 

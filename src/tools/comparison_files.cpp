@@ -11,21 +11,32 @@
 namespace sunlit::tools {
 namespace {
 
-std::string line(const char* format, const ComparisonRow& row) {
-  char text[256];
+/// Of a row: its light, its errors, and what stands for these where it has no pixels.
+struct Format {
+  const char *light, *errors, *none;
+};
+constexpr Format kCsv = {",%.5g", ",%.3f,%.3f,%.3f,%.3f,%.3f,%.4f\n", ",,,,,,\n"};
+constexpr Format kMarkdown = {" | %.4g", " | %.2f | %.2f | %.2f | %+.2f | %.2f | %.3f |\n",
+                              " | – | – | – | – | – | – |\n"};
+
+std::string line(const Format& format, const ComparisonRow& row) {
+  char light[64], errors[256];
+  std::snprintf(light, sizeof light, format.light, row.illuminance_lx);
   const light::LuminanceError& e = row.error;
-  std::snprintf(text, sizeof text, format, row.illuminance_lx, 100.0 * e.mean, 100.0 * e.median,
-                100.0 * e.p95, 100.0 * e.bias, 100.0 * e.noise, row.flip);
-  return text;
+  std::snprintf(errors, sizeof errors, format.errors, 100.0 * e.mean, 100.0 * e.median, 100.0 * e.p95,
+                100.0 * e.bias, 100.0 * e.noise, row.flip);
+  return std::string(light) + (e.pixels > 0 ? errors : format.none);
 }
 
-/// The mean of `rows`, which say the same of different views.
+/// The mean of `rows`, which say the same of different views. Those that see no surface have no error.
 ComparisonRow meanOf(const std::vector<const ComparisonRow*>& rows) {
   ComparisonRow mean = *rows.front();
   mean.error = {};
   mean.flip = 0.0;
-  const auto count = static_cast<double>(rows.size());
+  const auto has_pixels = [](const ComparisonRow* row) { return row->error.pixels > 0; };
+  const auto count = static_cast<double>(std::count_if(rows.begin(), rows.end(), has_pixels));
   for (const ComparisonRow* row : rows) {
+    if (!has_pixels(row)) continue;
     mean.error.pixels += row->error.pixels;
     mean.error.mean += row->error.mean / count;
     mean.error.median += row->error.median / count;
@@ -41,13 +52,11 @@ std::string csv(const std::vector<ComparisonRow>& rows) {
   std::string text =
       "view,sky,pixels,illuminance_lx,mean_pct,median_pct,p95_pct,bias_pct,noise_pct,hdr_flip\n";
   for (const ComparisonRow& row : rows) {
-    text += std::to_string(row.view) + "," + row.sky + "," + std::to_string(row.error.pixels) +
-            line(",%.5g,%.3f,%.3f,%.3f,%.3f,%.3f,%.4f\n", row);
+    text +=
+        std::to_string(row.view) + "," + row.sky + "," + std::to_string(row.error.pixels) + line(kCsv, row);
   }
   return text;
 }
-
-constexpr const char* kCells = " | %.4g | %.2f | %.2f | %.2f | %+.2f | %.2f | %.3f |\n";
 
 std::string markdown(const std::vector<ComparisonRow>& rows) {
   std::string text =
@@ -59,15 +68,15 @@ std::string markdown(const std::vector<ComparisonRow>& rows) {
   for (const ComparisonRow& row : rows) {
     if (by_sky[row.sky].empty()) skies.push_back(row.sky);
     by_sky[row.sky].push_back(&row);
-    text += "| " + std::to_string(row.view) + " | " + row.sky + line(kCells, row);
+    text += "| " + std::to_string(row.view) + " | " + row.sky + line(kMarkdown, row);
   }
-  for (const std::string& sky : skies) text += "| **all** | " + sky + line(kCells, meanOf(by_sky[sky]));
+  for (const std::string& sky : skies) text += "| **all** | " + sky + line(kMarkdown, meanOf(by_sky[sky]));
   std::vector<const ComparisonRow*> all;
   for (const ComparisonRow& row : rows) all.push_back(&row);
   if (!all.empty()) {
     ComparisonRow mean = meanOf(all);
     mean.illuminance_lx = NAN;  // of different skies: no mean is told
-    std::string cells = line(kCells, mean);
+    std::string cells = line(kMarkdown, mean);
     text += "| **all** | **all**" + cells.replace(cells.find("nan"), 3, "–");
   }
   return text;

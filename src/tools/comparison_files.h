@@ -38,7 +38,8 @@ class ErrorByMaterial {
   std::map<std::int32_t, Sum> sums_;
 };
 
-/// table.csv and table.md in `folder`: every row, and their means by sky.
+/// table.csv and table.md in `folder`: every row, and their means by sky. A row without pixels has no errors:
+/// nothing in the one, – in the other.
 void writeTables(const std::string& folder, const std::vector<ComparisonRow>& rows);
 
 /// Both pictures as a camera would take them, and the signed error beside them: red where `fast` is too

@@ -258,6 +258,26 @@ class Timelapse(unittest.TestCase):
             self.assertIn(part, done.stderr)
         self.assertFalse(os.path.exists(self.path("other")))
 
+    def test_compare_light_tells_no_error_of_views_that_see_no_surface(self):
+        few = ["--world", WORLD, "--size", "32x24", "--every", "1", "--sun", "170,40", "--bounced", "off", "--samples", "4",
+               "--bounces", "1"]
+        ground, up = ["--view", "0,0,1"], ["--view", "0,0,1,0,89"]
+        done = run("compare_light", "--out", self.path("both"), *few, *ground, *up)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("warning: view 1 has no pixel that is compared and sees a surface\n", done.stderr)
+        with open(os.path.join(self.path("both"), "table.csv"), newline="") as table:
+            rows = list(csv.DictReader(table))
+        self.assertGreater(float(rows[0]["mean_pct"]), 0.0)
+        self.assertEqual([rows[1][name] for name in ("pixels", "mean_pct", "noise_pct", "hdr_flip")], ["0", "", "", ""])
+        told = [line.split(" | ") for line in pathlib.Path(self.path("both"), "table.md").read_text(encoding="utf-8").splitlines()]
+        first, second, of_sky, of_all = told[-4:]
+        self.assertEqual(second[3:], ["–"] * 5 + ["– |"])
+        for mean in (of_sky, of_all):  # of the one that there is
+            self.assertEqual(mean[3:], first[3:])
+        done = run("compare_light", "--out", self.path("sky"), *few, *up)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("no view has a pixel that is compared and sees a surface", done.stderr)
+
     def test_export_world_finds_models_as_the_others_do(self):
         done = run("export_world", "--world", "model://sun_less", "--model-path", self.folder, "--model-path", "elsewhere",
                    "--out", self.path("world.glb"))

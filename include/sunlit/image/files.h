@@ -15,6 +15,10 @@ std::string reasonOf(int error);
 /// exist.
 void writeFileAtomically(const std::string& path, const std::string& bytes);
 
+/// Throws std::runtime_error where `path` is there, but neither a file nor a folder: whoever reads a pipe or
+/// a device may never be done. For files that other files name.
+void requireNoDevice(const std::string& path);
+
 /// All bytes of a file. Throws std::runtime_error with path and reason.
 std::string readWholeFile(const std::string& path);
 

@@ -12,8 +12,9 @@ namespace sunlit::image {
 using Rgba8Image = Picture<std::uint8_t, 4>;  ///< colour sRGB-encoded, alpha linear, not premultiplied
 
 /// Decodes a PNG, JPEG, BMP, TIFF, TGA or WebP picture held in memory, by its content. Grey becomes three
-/// equal channels, 16 bit is rounded to 8, a missing alpha is 255. Throws std::runtime_error naming `name` if
-/// the bytes cannot be decoded.
+/// equal channels, with an alpha of 0 where it is the level that a PNG cuts out; 16 bit is rounded to 8, a
+/// missing alpha is 255. Throws std::runtime_error naming `name` if the bytes cannot be decoded, or are
+/// floats, which are no values of a display.
 Rgba8Image decodeRgba(const std::uint8_t* bytes, std::size_t size, const std::string& name);
 
 /// A picture, and the size, px, that it has in its file.

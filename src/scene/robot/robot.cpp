@@ -8,6 +8,7 @@
 #include "scene/mesh_file.h"
 #include "scene/resource_finder.h"
 #include "scene/robot/sdf_robot.h"
+#include "sunlit/image/files.h"
 #include "sunlit/scene/material_maps.h"
 
 namespace sunlit::scene {
@@ -45,6 +46,7 @@ Robot loadRobot(const std::string& file, const SearchPath& search_path) {
   if (!found.file || std::filesystem::is_directory(*found.file)) {
     throw std::runtime_error("there is no robot " + file + "; it was looked for as " + placesTried(found));
   }
+  image::requireNoDevice(*found.file);
   const std::string extension = extensionOf(*found.file);
   if (extension == ".sdf") return loadSdfRobot(*found.file, ResourceFinder(search_path, *found.file));
   if (extension == ".urdf" || extension == ".xml") {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "support/message_of.h"
+#include "support/temporary_folder.h"
 
 namespace sunlit::image {
 namespace {
@@ -77,6 +78,25 @@ TEST(DecodeRgba, KeepsTheOrderOfChannels) {
 TEST(DecodeRgba, GreyBecomesThreeEqualChannels) {
   EXPECT_EQ(texelOf(onePixel(8, 0, bytes({77}))), (std::vector<int>{77, 77, 77, 255}));
   EXPECT_EQ(texelOf(onePixel(8, 4, bytes({77, 5}))), (std::vector<int>{77, 77, 77, 5}));
+}
+
+// ISO/IEC 15948, 11.3.2.1: a tRNS chunk has two bytes for any depth, of which the low bits count.
+TEST(DecodeRgba, GreyMayCutOutOneOfItsLevels) {
+  const auto alphaOf = [](int bits, const std::string& sample, const std::string& level) {
+    return texelOf(onePixel(bits, 0, sample, chunk("tRNS", level))).at(3);
+  };
+  EXPECT_EQ(texelOf(onePixel(8, 0, bytes({77}), chunk("tRNS", bytes({0, 77})))),
+            (std::vector<int>{77, 77, 77, 0}));
+  EXPECT_EQ(alphaOf(8, bytes({78}), bytes({0, 77})), 255);
+  // Two levels of 16 bits that are one of 8.
+  EXPECT_EQ(alphaOf(16, bytes({0x80, 0x01}), bytes({0x80, 0x01})), 0);
+  EXPECT_EQ(alphaOf(16, bytes({0x80, 0x02}), bytes({0x80, 0x01})), 255);
+  // The pixel is the highest bits of its byte: 1, 2 and 9.
+  EXPECT_EQ(alphaOf(1, bytes({0x80}), bytes({0, 1})), 0);
+  EXPECT_EQ(alphaOf(1, bytes({0x80}), bytes({0, 0})), 255);
+  EXPECT_EQ(alphaOf(2, bytes({0x80}), bytes({0, 2})), 0);
+  EXPECT_EQ(texelOf(onePixel(4, 0, bytes({0x90}), chunk("tRNS", bytes({0, 9})))),
+            (std::vector<int>{153, 153, 153, 0}));
 }
 
 TEST(DecodeRgba, SixteenBitsAreRoundedToEight) {
@@ -177,6 +197,28 @@ TEST(DecodeRgba, NamesFormatsThatAreNotReadAndWhatToDo) {
   EXPECT_EQ(
       messageOf<std::runtime_error>([] { texelOf("\xABKTX 20\xBB\r\n\x1A\n" + std::string(60, '\0')); }),
       error("KTX2", "ktx extract or basisu -unpack"));
+}
+
+/// Of 2 × 2 px, all of the same number.
+std::string ofFloats(const char* ending, int type, double number) {
+  std::vector<std::uint8_t> bytes;
+  EXPECT_TRUE(cv::imencode(ending, cv::Mat(2, 2, type, cv::Scalar::all(number)), bytes));
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST(DecodeRgba, FloatsAreNoValuesOfADisplay) {
+  const auto error = [](const std::string& what) {
+    return "test: this is a " + what +
+           "picture of floats, and not read as a texture; PNG, JPEG, BMP, TIFF, TGA and WebP are understood "
+           "with 8 or 16 bits a channel: convert it to PNG, by ImageMagick or GIMP";
+  };
+  const std::string hdr = ofFloats(".hdr", CV_32FC3, 0.18), tiff = ofFloats(".tiff", CV_32FC1, 0.18);
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { texelOf(hdr); }), error("Radiance HDR "));
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { texelOf(tiff); }), error(""));
+  const TemporaryFolder folder;
+  setContent(folder.file("heights.tiff"), tiff);
+  EXPECT_FLOAT_EQ(*readGreyWithin(8, folder.file("heights.tiff")).at(1, 1), 0.18f);
+  EXPECT_THROW(readRgbaWithin(8, folder.file("heights.tiff")), std::runtime_error);
 }
 
 TEST(EncodePng, LosesNothing) {

@@ -72,6 +72,23 @@ TEST_F(GltfInstances, OfTurnsByBytes) {
   EXPECT_LT((boundsOf(scene.meshes[1]).max() - Eigen::Vector3f(20, 2, 6)).norm(), 0.01f);
 }
 
+// By which they would be scaled: zero to nothing, and 2 by 4.
+TEST_F(GltfInstances, AreTurnedByQuaternionsOfAnyLength) {
+  std::string numbers = kNumbers;
+  numbers.replace(60, 32, bytesOf<float>({0, 0, 0, 0, 0, 1.41421356f, 0, 1.41421356f}));
+  std::string text = gltf(R"("TRANSLATION":1,"ROTATION":2)");
+  text.replace(text.find(base64(kNumbers)), base64(kNumbers).size(), base64(numbers));
+  const Scene scene = load(write("t.gltf", text), {});
+  ASSERT_EQ(scene.meshes.size(), 2u);
+  expectBounds(scene.meshes[0], {10, 1, 0}, {11, 1, 1});
+  expectBounds(scene.meshes[1], {20, 1, 5}, {20, 2, 6});
+  EXPECT_EQ(scene.warnings,
+            (std::vector<std::string>{
+                "1 glTF files turn nodes by quaternions that are not of length 1, which they are "
+                "made: 2 instances in " +
+                pathOf("t.gltf")}));
+}
+
 TEST_F(GltfInstances, WithoutAPlaceTheMeshStandsAtItsNode) {
   const Scene scene = loaded(R"("_COLOR":1)");
   ASSERT_EQ(scene.meshes.size(), 1u);

@@ -105,6 +105,26 @@ TEST_F(GltfShape, OfASkinIsWhereItsJointHoldsItWhateverElseIsCalledSo) {
   }
 }
 
+// A copy of the other arm, say: joints and mesh below a node that mirrors.
+TEST_F(GltfShape, OfASkinIsNotTurnedInsideOutByJointsThatMirrorIt) {
+  Parts parts = skinned("");
+  parts.nodes.insert(2, R"("scale":[-1,1,1],)");
+  parts.primitive = R"("attributes":{"POSITION":0,"NORMAL":1,"TANGENT":3,"JOINTS_0":2,"WEIGHTS_0":3})";
+  std::string numbers = kNumbers;
+  numbers.replace(36, 36, bytesOfFloats({0, 0, 1, 0, 0, 1, 0, 0, 1}));
+  // Tangents along x, right-handed; as weights of joints, of which all four are one.
+  numbers.replace(96, 48, bytesOfFloats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}));
+  write("numbers.bin", numbers);
+  const Scene scene = load(write("t.gltf", gltf(parts)), {});
+  ASSERT_EQ(scene.triangleCount(), 1u);
+  const Mesh& mesh = scene.meshes[0];
+  EXPECT_LT((boundsOf(scene).min() - Eigen::Vector3f(-4, 0, 5)).norm(), 1e-6f);
+  EXPECT_LT((mesh.normals[0] - Eigen::Vector3f(0, -1, 0)).norm(), 1e-6f);
+  EXPECT_LT(faceVector(mesh, mesh.triangles[0]).y(), 0.0);  // towards the viewer, as it was
+  ASSERT_EQ(mesh.tangents.size(), 3u);
+  EXPECT_LT((mesh.tangents[0] - Eigen::Vector4f(-1, 0, 0, -1)).norm(), 1e-6f);
+}
+
 TEST_F(GltfShape, OfASkinMayHaveWeightsOfWholeNumbers) {
   std::string json = gltf(skinned(""));
   const std::string floats = R"({"bufferView":3,"componentType":5126)";

@@ -1,5 +1,6 @@
 // What a renderer has no use for stops no world, and what is missing stops it only if so wished.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <string>
@@ -370,6 +371,26 @@ TEST_F(Lenient, AWorldMayBeAUrdf) {
     const auto& triangle = scene.meshes[0].triangles[i];
     EXPECT_GT(faceVector(scene.meshes[0], triangle).dot(scene.meshes[0].normals[triangle[0]].cast<double>()),
               0.0);
+  }
+}
+
+// Nobody writes to them: whoever opens one to read waits for ever.
+TEST_F(Lenient, PipesThatAWorldNamesAreNone) {
+  write("models/n/model.sdf", "<sdf version='1.9'>" + model(link(kVisual)) + "</sdf>");
+  for (const char* name : {"p.sdf", "p.stl", "p.png", "models/n/model.config"})
+    ASSERT_EQ(::mkfifo(pathOf(name).c_str(), 0600), 0);
+  const auto visual = [](const std::string& name, const std::string& shape) {
+    return model(link("<visual name='v'><geometry>" + shape + "</geometry></visual>"), name);
+  };
+  const Scene scene =
+      loaded("<include><uri>p.sdf</uri></include>" + visual("a", "<mesh><uri>p.stl</uri></mesh>") +
+             visual("b", "<heightmap><uri>p.png</uri></heightmap>") + include("n"));
+  EXPECT_EQ(scene.triangleCount(), 12u);
+  for (const char* name : {"p.sdf", "p.stl", "p.png"}) {
+    const std::string refusal = pathOf(name) + ": this is a pipe or a device, and no file";
+    EXPECT_TRUE(std::any_of(scene.warnings.begin(), scene.warnings.end(), [&](const std::string& warning) {
+      return warning.find(refusal) != std::string::npos;
+    })) << name;
   }
 }
 

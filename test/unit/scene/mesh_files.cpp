@@ -444,6 +444,16 @@ TEST_F(MeshFile, APictureWithoutAFileIsAMissingTexture) {
   expectOneWarning(scene, "1 textures are missing, a neutral material takes their place: not given of ");
 }
 
+TEST_F(MeshFile, EmptyAnimationsEndWhereTheyBegin) {
+  std::string text = collada(kCentimetresZUp);
+  const std::string geometries = "<library_geometries>", scenes = "<library_visual_scenes>";
+  text.insert(text.find(scenes), "<library_animations><animation/></library_animations>");
+  text.insert(text.find(geometries), "<library_animations/><library_animations id='none' />");
+  const Scene scene = load(write("t.dae", text), {});
+  EXPECT_EQ(scene.triangleCount(), 1u);
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
 TEST_F(MeshFile, AnEmptyFileIsSaidToBeEmpty) {
   for (const char* name : {"e.dae", "e.glb", "e.gltf", "e.obj"})
     EXPECT_EQ(errorOf(write(name, "")), pathOf(name) + ": this file is empty");
@@ -468,6 +478,26 @@ TEST_F(MeshFile, APipeIsRefusedInsteadOfWaitedFor) {
     const std::string refusal = pipe + ": this is a pipe or a device, and no file";
     EXPECT_EQ(errorOf(pipe), refusal);
     EXPECT_EQ(messageOf<std::runtime_error>([&] { requireWorld(pipe, {}); }), refusal);
+  }
+}
+
+TEST_F(MeshFile, APipeThatAFileNamesIsRefusedInsteadOfWaitedFor) {
+  const auto refusal = [this](const std::string& name) {
+    return pathOf(name) + ": this is a pipe or a device, and no file";
+  };
+  for (const char* name : {"p.png", "p.bin", "p.mtl"}) ASSERT_EQ(::mkfifo(pathOf(name).c_str(), 0600), 0);
+  expectOneWarning(load(write("t.dae", collada(kCentimetresZUp, "p.png")), {}),
+                   "1 textures cannot be decoded, a neutral material takes their place: " + refusal("p.png"));
+  EXPECT_EQ(errorOf(write("t.obj", "mtllib p.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), refusal("p.mtl"));
+  // Floats are read by Assimp, whole numbers before it.
+  for (const std::string type : {"5126", "5122"}) {
+    const std::string error =
+        errorOf(write("t.gltf", R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"accessors":[{"bufferView":0,"componentType":)" +
+                                    type + R"(,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":"p.bin"}]})"));
+    EXPECT_NE(error.find(refusal("p.bin")), std::string::npos) << error;
   }
 }
 

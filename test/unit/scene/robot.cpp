@@ -2,6 +2,7 @@
 #include "sunlit/scene/robot.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "measure.h"
 #include "support/message_of.h"
@@ -207,6 +208,12 @@ TEST_F(UrdfFile, WithNothingToSeeSaysWhy) {
   const std::string error = messageOf<std::runtime_error>([&] { loadRobot(file, lenient); });
   EXPECT_EQ(error.find(file + ": there is nothing to see of this robot; "), 0u) << error;
   EXPECT_NE(error.find("package://unknown/none.stl"), std::string::npos) << error;
+}
+
+TEST_F(UrdfFile, APipeIsRefusedInsteadOfWaitedFor) {
+  const std::string pipe = pathOf("p.urdf");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(errorOfRobot(pipe), pipe + ": this is a pipe or a device, and no file");
 }
 
 TEST(Urdf, WhatIsWrongIsNamedWithItsPlace) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/outline.h"
@@ -242,6 +243,22 @@ TEST_F(SdfShape, LayersOfAHeightMapAreMixedByHeight) {
                     "<normal/><size>4</size></texture></heightmap>"));
   EXPECT_EQ(one.textures.at(0).width, 8);
   EXPECT_FLOAT_EQ(one.meshes[0].texture_coordinates.back().x(), 10.0f);
+}
+
+// As makeTerrain() has a single one: a tile is square, whatever its picture is.
+TEST_F(SdfShape, LayersOfAHeightMapAreSquareWhateverTheirPictures) {
+  for (const auto& [width, height] : {std::pair{8, 4}, {4, 8}}) {
+    image::Rgba8Image halves(width, height);  // red above, green below
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) halves.at(x, y)[2 * y < height ? 0 : 1] = 255;
+    }
+    TerrainLayer layer;
+    layer.file = write("halves.png", image::encodePng(halves));
+    layer.tile_m = 4.0;
+    const image::Rgba8Image baked =
+        bakedLayers({2, 2, std::vector<float>(4, 0.0f), {40.0, 40.0}}, {layer}, 80);
+    for (int y = 0; y < 80; ++y) EXPECT_EQ(baked.at(11, y)[0], y % 8 < 4 ? 255 : 0) << y;
+  }
 }
 
 TEST_F(SdfShape, NormalMapsOfHeightMapsAreNamedUnlessTheyAreFlat) {

@@ -1,11 +1,15 @@
 #include "studio/kept_track.h"
 
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "studio/sealed_files.h"
 #include "sunlit/image/content_hash.h"
 #include "sunlit/image/files.h"
 #include "sunlit/render/texture_sizes.h"
@@ -65,6 +69,21 @@ TEST(KeptTrack, IsTheOneThatIsMadeAlsoFromAFileAndBesideADamagedOne) {
   EXPECT_NE(contentOf(files[0]), damaged);
   EXPECT_EQ(filesIn(cache), files);
   EXPECT_NE(std::filesystem::last_write_time(files[0]), written);
+}
+
+// Of another build of either library is another file: each makes a part of what is kept.
+TEST(KeptTrack, IsCalledByTheLibrariesThatMakeItAndItsSmallerSizes) {
+  constexpr std::uintmax_t kNoLimit_bytes = std::numeric_limits<std::uintmax_t>::max();
+  const TemporaryFolder folder;
+  keptRaceTrack(folder.path(), {}, painted);
+  image::ContentHash makers;
+  for (const void* const maker : {reinterpret_cast<const void*>(&scene::raceTrack),
+                                  reinterpret_cast<const void*>(&render::addSmallerSizes)}) {
+    Dl_info library{};
+    ASSERT_NE(dladdr(maker, &library), 0);
+    ASSERT_TRUE(makers.addFile(library.dli_fname));
+  }
+  EXPECT_NE(SealedFiles(folder.path(), ".scene", kNoLimit_bytes).find(makers.text()), nullptr);
 }
 
 TEST(KeptTrack, ThatCannotBeKeptIsWarnedOf) {
