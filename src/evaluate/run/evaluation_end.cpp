@@ -72,6 +72,7 @@ bool Evaluation::State::isMended(const Problem& problem, const EvaluatedPairs& e
 void Evaluation::State::settleAndWrite(Outcome& outcome) {
   const std::lock_guard<std::mutex> lock(mutex_);
   EvaluatedPairs evaluated;
+  poses_.rank();
   settleRecords();
   for (const PairRecord& record : records_) evaluated.emplace(record.pose, record.pair);
   const auto settled = [this](std::int64_t stamp, std::int64_t pose) { return poses_.settled(stamp, pose); };

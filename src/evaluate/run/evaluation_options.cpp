@@ -33,7 +33,8 @@ std::vector<Field> rowsWith(const std::vector<Field>& of_comparer, const std::ve
          OwnForm{textOfPairs(options.pairs)},
          "",
          {},
-         "a list of [a, b] or {a: name, b: name, every: 10}; [] for all"}},
+         "a list of [a, b] or {a: name, b: name, every: 10}; [] for all. every needs captures or a "
+         "frame_rate"}},
        of_comparer,
        {{"verify",
          verifiedOf(options),
@@ -59,6 +60,12 @@ std::vector<Field> rowsWith(const std::vector<Field>& of_comparer, const std::ve
 
 std::vector<std::string> verifiedDetectors(const EvaluationOptions& options) {
   return options.verify ? *options.verify : usualDetectors(options.comparer);
+}
+
+const PairSpec* thinnedPair(const EvaluationOptions& options) {
+  const auto found = std::find_if(options.pairs.begin(), options.pairs.end(),
+                                  [](const PairSpec& pair) { return pair.every > 1; });
+  return found == options.pairs.end() ? nullptr : &*found;
 }
 
 bool isInPair(const EvaluationOptions& options, const std::string& stream) {

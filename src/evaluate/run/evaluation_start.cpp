@@ -148,7 +148,7 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
       comparer_(options_.comparer),
       layout_(layoutOf(options_, options_.comparer.differences)),
       verified_layout_(layoutOf(options_, verifiedDetectors(options_))),
-      poses_(options_.frame_rate, options_.stamp_start_ns, options_.poses),
+      poses_(options_.frame_rate, options_.stamp_start_ns, options_.poses, !thinnedPair(options_)),
       sets_(options_.streams.size()),
       queue_(kPosesAtOnce) {
   for (const PairSpec& pair : options_.pairs) {
@@ -184,14 +184,16 @@ std::size_t Evaluation::State::takeUp(const std::string& folder) {
     poses_.remember(record.stamp_ns, record.pose);
     records_.push_back(std::move(record));
   }
+  // Images that were not evaluated have their place among the others, too.
+  for (const auto& [stamp, pose] : posesOfProblems(folder)) poses_.remember(stamp, pose);
   return loaded.dropped_lines;
 }
 
-// Once the stamps and captures of all folders are known: each may have numbered its poses from 0.
+// Once the stamps and captures of all folders are known.
 void Evaluation::State::settleTakenUp() {
+  poses_.settleRemembered();
   settleRecords();
   for (const PairRecord& record : records_) {
-    poses_.remember(record.stamp_ns, record.pose);
     held_.emplace(record.pose, record.pair);
     ++counts_.pairs[record.pair].resumed;
   }

@@ -77,7 +77,7 @@ void Evaluation::State::addLate(std::size_t stream, std::int64_t stamp_ns, std::
 void Evaluation::State::turnAway(std::size_t stream, std::int64_t stamp_ns, std::int64_t pose) {
   ++counts_.streams[stream].unexpected;
   report(
-      {"unexpected", pose, stamp_ns, options_.streams[stream], "is not one of the expected poses; left out"});
+      {kUnexpected, pose, stamp_ns, options_.streams[stream], "is not one of the expected poses; left out"});
 }
 
 // What is whole will be compared and makes room by itself; what waits may wait for ever. Half of the memory
@@ -227,6 +227,8 @@ bool Evaluation::State::canCompare(const StampSet& set, std::size_t pair, std::o
     ++counts.unplaced;
     report({"unplaced", pose, set.stamp_ns, where,
             options_.frame_rate > 0.0 ? "its stamp lies before stamp_start"
+            : thinnedPair(options_)   ? "no capture of this stamp says which pose it is, as every of a pair "
+                                        "needs, or a frame_rate"
                                       : "no capture of this stamp says which pose it is"});
     return false;
   }

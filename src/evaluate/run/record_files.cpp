@@ -87,6 +87,15 @@ std::set<std::pair<std::int64_t, std::string>> pairsOfTwoPlaces(const std::strin
   return pairs;
 }
 
+std::map<std::int64_t, std::int64_t> posesOfProblems(const std::string& folder) {
+  std::map<std::int64_t, std::int64_t> poses;
+  forEachCsvRow(folder + "/problems.csv", kProblemsHeader, [&](const std::vector<std::string>& f) {
+    if (f[0] != kUnexpected && !f[1].empty() && !f[2].empty())
+      poses.emplace(parseStamp(f[2]), parsePose(f[1]));
+  });
+  return poses;
+}
+
 ProblemFile::ProblemFile(const std::string& folder) : path_(folder + "/problems.csv") {
   forEachCsvRow(path_, kProblemsHeader, [&](const std::vector<std::string>& f) {
     Problem problem{f[0], std::nullopt, std::nullopt, f[3], f[4]};

@@ -54,7 +54,13 @@ struct Problem {
 /// Problem::kind of images of one stamp that were taken at two places.
 inline constexpr const char* kTwoPlaces = "two_places";
 
-/// Stamps and names of pairs of that kind, by problems.csv of `folder`.
+/// The same of an image of a pose that is none of those expected.
+inline constexpr const char* kUnexpected = "unexpected";
+
+/// Poses by the stamps of images that problems.csv of `folder` names, but of unexpected ones.
+std::map<std::int64_t, std::int64_t> posesOfProblems(const std::string& folder);
+
+/// Stamps and names of pairs of two places, by problems.csv of `folder`.
 std::set<std::pair<std::int64_t, std::string>> pairsOfTwoPlaces(const std::string& folder);
 
 /// problems.csv of this run and of those that it takes up. Each problem stands there once, however often it

@@ -19,7 +19,7 @@ namespace sunlit::evaluate {
 struct PairSpec {
   std::string a;
   std::string b;
-  int every = 1;  ///< only poses 0, every, 2·every, … are compared; ≥ 1
+  int every = 1;  ///< only poses 0, every, 2·every, … are compared; ≥ 1; see thinnedPair()
   /// "a-b"
   std::string name() const { return a + "-" + b; }
 };
@@ -53,6 +53,10 @@ struct EvaluationOptions {
 
 /// What `verify` comes to.
 std::vector<std::string> verifiedDetectors(const EvaluationOptions& options);
+
+/// The first pair that is not compared at each pose; null: there is none. Where there is one, a frame rate or
+/// captures must tell the poses, since their order is known when all have come.
+const PairSpec* thinnedPair(const EvaluationOptions& options);
 
 /// Of a stream's pictures features are found where they are compared, so that without a pair it is neither
 /// map nor query.

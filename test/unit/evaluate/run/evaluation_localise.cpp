@@ -353,6 +353,8 @@ TEST(EvaluationLocalise, SaysWhatIsLeftOutSinceItIsNotCompared) {
   EvaluationOptions options = localising(folder);
   options.streams = {"noon", "dusk", "night", "dawn"};
   options.pairs = {{"noon", "dusk", 2}, {"noon", "night"}};
+  options.frame_rate = 10.0;
+  options.stamp_start_ns = stampOf(0);
   std::vector<std::string> notes;
   EvaluationCallbacks callbacks;
   callbacks.note = [&](const std::string& line) { notes.push_back(line); };
