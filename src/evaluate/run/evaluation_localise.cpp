@@ -133,7 +133,7 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
     localised_ = measuredOf(rows);
     // Not of the rows, which lack what its last columns are made of.
     if (std::filesystem::exists(file(kSummary))) outcome.summary = loadLocalisationSummary(file(kSummary));
-    if (isWholeAlone()) std::filesystem::remove(file(kObservations));  // the empty one of this run
+    if (isWholePath()) std::filesystem::remove(file(kObservations));  // the empty one of this run
     return outcome;
   }
   std::vector<std::unique_ptr<ObservationFile>> merged;
@@ -164,7 +164,7 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   writeLocalisation(file(kRows), result.rows);
   writeLocalisationPoses(file("localisation_poses.csv"), result.rows);
   writeLocalisationSummary(file(kSummary), outcome.summary);
-  if (outcome.isWhole() && isWholeAlone()) std::filesystem::remove(file(kObservations));
+  if (outcome.isWhole() && isWholePath()) std::filesystem::remove(file(kObservations));
   return outcome;
 }
 
@@ -178,19 +178,18 @@ std::vector<LocalisationRow> Evaluation::State::localisedBefore() const {
   return rows;
 }
 
-bool Evaluation::State::hasForgottenObservations() const {
-  const std::string kept = file(kObservations);
+// It was localised, and what it observed is gone.
+bool Evaluation::State::hasForgottenObservations(const std::string& folder) const {
+  const std::string kept = folder + "/" + kObservations;
   const bool is_kept = std::filesystem::exists(kept) && std::filesystem::file_size(kept) > 0;
-  return !options_.localisation.map.empty() && !records_.empty() && !is_kept &&
-         std::filesystem::exists(file(kRows));
+  return !options_.localisation.map.empty() && !is_kept && std::filesystem::exists(folder + "/" + kRows);
 }
 
-// All poses are here, so that no other run will ask for what was observed.
-bool Evaluation::State::isWholeAlone() const {
+// All poses are here, and there are no others, so that no other run will ask for what was observed.
+bool Evaluation::State::isWholePath() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const PoseRange& poses = options_.poses;
-  return poses.size() > 0 && poses.first == 0 && poses.stride == 1 &&
-         completed_.size() - unexpected_poses_ >= poses.size();
+  const std::size_t expected = options_.poses.size();
+  return options_.is_whole_path && expected > 0 && completed_.size() - unexpected_poses_ >= expected;
 }
 
 // Evaluated pictures of query streams that no row tells of.

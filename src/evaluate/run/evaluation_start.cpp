@@ -210,6 +210,12 @@ void Evaluation::State::requireMergeable(const std::string& folder) const {
     throw std::invalid_argument("merge: " + folder +
                                 "/run.yaml tells no settings, so that it may be of others");
   requireSameSettings(folder + "/run.yaml", settingsOf(options_));
+  if (hasForgottenObservations(folder))
+    throw std::invalid_argument(
+        "merge: " + folder +
+        " keeps no observations.bin, so that its poses cannot be localised with others: "
+        "merge the runs that it was merged of, or evaluate them in another folder without "
+        "whole_path");
   if (isVerifying() && callbacks_.note && !holdsLost(folder + "/" + kLostFile))
     callbacks_.note("merge: " + folder +
                     " keeps no single features any more: lost_features.csv is without them");
@@ -231,7 +237,8 @@ void Evaluation::State::takeUpEarlierRuns() {
   record_files_ = std::make_unique<RecordFiles>(options_.output_dir, poses_);
   mendLostFile(file(kLostFile));
   std::size_t dropped_lines = takeUp(options_.output_dir);
-  has_forgotten_ = hasForgottenFeatures() || hasForgottenObservations();
+  has_forgotten_ =
+      hasForgottenFeatures() || (!records_.empty() && hasForgottenObservations(options_.output_dir));
   for (const std::string& folder : options_.merge) {
     requireMergeable(folder);
     dropped_lines += takeUp(folder);

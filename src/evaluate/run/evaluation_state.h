@@ -123,8 +123,8 @@ class Evaluation::State {
   void observeSet(const StampSet& set, Work& work);
   std::size_t truthBytes() const { return observer_ ? observer_->truth().bytes() : 0; }
   std::vector<LocalisationRow> localisedBefore() const;
-  bool hasForgottenObservations() const;
-  bool isWholeAlone() const;
+  bool hasForgottenObservations(const std::string& folder) const;
+  bool isWholePath() const;
   std::size_t unobserved(const ObservedStreams& streams, const std::vector<LocalisationRow>& rows) const;
   std::vector<std::string> uncompared(const ObservedStreams& streams) const;
   bool isObserved(const Work& work, std::size_t stream, std::size_t difference) const;

@@ -37,6 +37,9 @@ struct EvaluationOptions {
   LocalisationOfRun localisation;
   std::string output_dir;  ///< made where it does not exist
   PoseRange poses;         ///< those expected; what comes of others is counted, named and left out
+  /// `poses` are all that there are, so that nobody will merge others with them: once they are evaluated,
+  /// what merging needs (observations.bin, lost_features.bin) is removed.
+  bool is_whole_path = false;
   KeptImages images =
       KeptImages::kSamples;  ///< samples: five evenly spread poses, or every 200th of an unknown number
   double frame_rate = 0.0;   ///< Hz; 0: poses are numbered by captures, or else by the order of the stamps

@@ -63,6 +63,7 @@ EvaluationOptions localising(const TemporaryFolder& folder) {
   options.output_dir = folder.file("out");
   options.comparer.differences = {"boolean_rgb", "sift", "orb"};
   options.poses.count = kPoses;
+  options.is_whole_path = true;
   options.localisation.map = "noon";
   options.localisation.map_every_m = 1.0;
   return options;
@@ -283,6 +284,39 @@ TEST(EvaluationLocalise, AWholeRunDoesNotGrow) {
   }
   options.poses.count = kPoses;
   EXPECT_EQ(messageOf<std::invalid_argument>([&] { Evaluation(options, {}); }), refusal);
+}
+
+// The first begins where a whole path does.
+TEST(EvaluationLocalise, SharesOfAPathAreLocalisedTogether) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = localising(folder);
+  options.is_whole_path = false;
+  options.poses.count = 2;
+  for (const auto& [name, first] :
+       std::vector<std::pair<std::string, std::int64_t>>{{"start", 0}, {"end", 2}}) {
+    options.output_dir = folder.file(name);
+    options.poses.first = first;
+    Evaluation share(options, {});
+    feed(share, first, first + 2);
+    EXPECT_TRUE(finishAndLocalise(share).isWhole());
+  }
+  EvaluationOptions merging = localising(folder);
+  merging.merge = {folder.file("start"), folder.file("end")};
+  Evaluation merged(merging, {});
+  EXPECT_TRUE(merged.isComplete());
+  EXPECT_TRUE(finishAndLocalise(merged).isWhole());
+  EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
+  EXPECT_TRUE(hasLine(contentOf(folder.file("out/lost_features.csv")), "noon,dusk,sift,4,"))
+      << contentOf(folder.file("out/lost_features.csv"));
+  // Nobody can localise more with what has none of it.
+  merging.merge = {folder.file("out")};
+  merging.output_dir = folder.file("again");
+  EXPECT_EQ(
+      messageOf<std::invalid_argument>([&] { Evaluation(merging, {}); }),
+      "merge: " + folder.file("out") +
+          " keeps no observations.bin, so that its poses cannot be localised with others: merge the runs "
+          "that it was merged of, or evaluate them in another folder without whole_path");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("again/run.yaml")));
 }
 
 // Another tool may have left one in the same folder.

@@ -417,6 +417,7 @@ TEST(VerifiedRun, DrawsTheSameWhateverCameFirstAndHoweverOftenItWasKilled) {
   const TemporaryFolder folder;
   EvaluationOptions options = verifying(folder);
   options.poses.count = kPoses;
+  options.is_whole_path = true;
   options.frame_rate = 10.0;
   options.stamp_start_ns = stampOf(0);
   for (const std::int64_t pose : {6, 1, 3}) {
