@@ -194,7 +194,7 @@ void Evaluation::State::settleTakenUp() {
   poses_.settleRemembered();
   settleRecords();
   for (const PairRecord& record : records_) {
-    held_.emplace(record.pose, record.pair);
+    held_.emplace(std::make_pair(record.pose, record.pair), record.stamp_ns);
     ++counts_.pairs[record.pair].resumed;
   }
 }
@@ -248,7 +248,7 @@ void Evaluation::State::takeUpEarlierRuns() {
   for (const PairRecord& record : records_) {
     bool is_whole = true;
     for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
-      is_whole = is_whole && (!isWanted(p, record.pose) || isHeld(p, record.pose));
+      is_whole = is_whole && (!isWanted(p, record.pose) || held_.count({record.pose, p}) != 0);
     }
     if (is_whole) markCompleted(record.pose);
   }

@@ -35,10 +35,12 @@ class RecordFiles {
 
  private:
   void read(const std::string& folder, PoseIndex& poses);
+  void keep(const std::string& stream, const CaptureRecord& capture);
   void writeCaptures(const std::vector<std::string>& streams);
   std::string folder_;
   AppendFile captures_file_;
-  std::map<std::pair<std::string, std::int64_t>, CaptureRecord> captures_;  // by stream and pose
+  std::map<std::pair<std::string, std::int64_t>, CaptureRecord>
+      captures_;  // by stream and pose: of the earliest stamp, as frames.csv
   PathFile path_;
 };
 
