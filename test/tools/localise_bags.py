@@ -375,6 +375,14 @@ class LocaliseBags(unittest.TestCase):
         self.assertEqual([(row["stream"], row["role"], row["stamp"]) for row in told], named)
         self.assertIn("the map has no key frame", self.refused("--map", bent, "--query", noon))
         self.assertEqual([row["role"] for row in self.rows("out", "localisation_problems.csv")], ["map"])
+        os.mkdir(self.path("run"))
+        pathlib.Path(self.path("run/run.yaml")).write_text("settings:\n  ratio: '0.5'\n")
+        pathlib.Path(self.path("run/frames.csv")).write_text("header\nrow\n")
+        for arguments in (["--map", noon, "--query", dusk], ["--odometry", noon]):
+            done = run("evaluate_bags", "--out", self.path("run"), *arguments)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("run: this folder holds the results of an evaluation (run.yaml)", done.stderr)
+            self.assertEqual(sorted(os.listdir(self.path("run"))), ["frames.csv", "run.yaml"])
         for arguments in (["--map", noon], ["--query", dusk]):
             self.assertIn("--map and --query need each other", self.refused(*arguments))
         self.assertIn("absent.bag: is not a bag that can be read", self.refused("--map", self.path("absent.bag"), "--query", dusk))

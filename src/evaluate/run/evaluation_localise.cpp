@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <stdexcept>
 
 #include "evaluate/run/evaluation_state.h"
 #include "evaluate/run/run_file.h"
+#include "sunlit/evaluate/localise/map.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -53,6 +55,25 @@ std::vector<std::string> notesOfPairs(const EvaluationOptions& options) {
                     " at the poses of its pairs alone: " + thinned);
   }
   return notes;
+}
+
+/// Whether `rows` are of the pictures in `records`. Others may have localised some of the same names, in
+/// another map, by other detectors or of other times.
+bool areOf(const EvaluationOptions& options, const std::vector<PairRecord>& records,
+           const std::vector<LocalisationRow>& rows) {
+  std::set<std::pair<std::string, std::int64_t>> evaluated;  // streams and stamps
+  for (const PairRecord& record : records) {
+    evaluated.emplace(options.pairs[record.pair].a, record.stamp_ns);
+    evaluated.emplace(options.pairs[record.pair].b, record.stamp_ns);
+  }
+  const std::string map = nameOfMap(mapStreamsOf(options.localisation));
+  std::set<std::string> detectors;
+  for (const LocalisationRow& row : rows) {
+    if (row.map != map || evaluated.count({row.query, row.stamp_ns}) == 0) return false;
+    detectors.insert(row.detector);
+  }
+  const std::vector<std::string> asked = localisingDetectors(options.localisation, options.comparer);
+  return detectors == std::set<std::string>(asked.begin(), asked.end());
 }
 
 }  // namespace
@@ -173,9 +194,12 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
 std::vector<LocalisationRow> Evaluation::State::localisedBefore() const {
   if (!options_.merge.empty() || !observer_->observations().keys().empty()) return {};
   if (!std::filesystem::exists(file(kRows))) return {};
-  std::vector<LocalisationRow> rows = loadLocalisation(file(kRows));
-  if (unobserved(streamsOf(options_), rows) > 0) rows.clear();
-  return rows;
+  const std::vector<LocalisationRow> rows = loadLocalisation(file(kRows));
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!areOf(options_, records_, rows)) return {};
+  }
+  return unobserved(streamsOf(options_), rows) == 0 ? rows : std::vector<LocalisationRow>();
 }
 
 // It was localised, and what it observed is gone.

@@ -11,6 +11,7 @@
 #include "sunlit/evaluate/comparisons/comparisons.h"
 #include "sunlit/evaluate/localise/localisation_files.h"
 #include "sunlit/evaluate/localise/map.h"
+#include "sunlit/evaluate/run/run_folder.h"
 
 namespace sunlit::ros_interface {
 namespace {
@@ -185,6 +186,7 @@ std::vector<Field> fieldsOf(BagLocalisationOptions& options) {
 int localiseBags(const BagLocalisationOptions& options) {
   BagLocalisation localisation(options);
   const FolderLock lock(options.output_dir);
+  evaluate::requireNoRun(options.output_dir);
   return localisation.run();
 }
 

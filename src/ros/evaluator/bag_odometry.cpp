@@ -8,6 +8,7 @@
 #include "ros/evaluator/progress_log.h"
 #include "ros/evaluator/view_source.h"
 #include "sunlit/evaluate/localise/odometry_runs.h"
+#include "sunlit/evaluate/run/run_folder.h"
 #include "sunlit/evaluate/trajectory/trajectory_evaluation.h"
 
 namespace sunlit::ros_interface {
@@ -107,6 +108,7 @@ class BagOdometry {
 int odometryOfBags(const BagLocalisationOptions& options) {
   const LocalisationStreams streams = localisationStreams({}, options.odometry, options.topics);
   const FolderLock lock(options.output_dir);
+  evaluate::requireNoRun(options.output_dir);
   BagOdometry odometry(options);
   for (const BagStream& stream : streams.queries) odometry.follow(stream);
   return odometry.finish();

@@ -9,6 +9,7 @@
 
 #include "sunlit/evaluate/differences/feature_difference.h"
 #include "sunlit/evaluate/localise/localisation.h"
+#include "sunlit/evaluate/run/run_folder.h"
 #include "support/message_of.h"
 #include "support/moody_detector.h"
 #include "support/textured_scene.h"
@@ -330,6 +331,47 @@ TEST(EvaluationLocalise, RowsOfOthersAreNotTakenForThisRuns) {
   const LocalisationOutcome outcome = finishAndLocalise(evaluation);
   EXPECT_TRUE(outcome.is_asked);
   EXPECT_FALSE(outcome.isWhole());
+}
+
+TEST(EvaluationLocalise, RowsOfOtherMapsDetectorsAndTimesAreNotTakenForThisRuns) {
+  const TemporaryFolder folder;
+  const EvaluationOptions options = localising(folder);
+  const auto isAskedAgain = [&] {
+    Evaluation evaluation(options, {});
+    if (!evaluation.isComplete()) feed(evaluation, 0, kPoses);
+    return finishAndLocalise(evaluation).is_asked;
+  };
+  EXPECT_TRUE(isAskedAgain());
+  const std::string file = folder.file("out/localisation.csv");
+  const std::vector<LocalisationRow> ours = loadLocalisation(file);
+  EXPECT_FALSE(isAskedAgain());
+  const auto isAskedAfter = [&](const std::function<void(LocalisationRow&)>& change) {
+    std::vector<LocalisationRow> rows = ours;
+    for (LocalisationRow& row : rows) change(row);
+    writeLocalisation(file, rows);
+    return isAskedAgain();
+  };
+  EXPECT_FALSE(isAskedAfter([](LocalisationRow&) {}));
+  EXPECT_TRUE(isAskedAfter([](LocalisationRow& row) { row.map = "dawn"; }));
+  EXPECT_TRUE(isAskedAfter([](LocalisationRow& row) { row.detector = "sift"; }));
+  EXPECT_TRUE(isAskedAfter([](LocalisationRow& row) { row.stamp_ns += kFrameNs / 2; }));
+}
+
+// Nobody else writes what would be taken for this run's.
+TEST(EvaluationLocalise, AFolderWithARunIsNoPlaceForOthers) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(messageOf<std::exception>([&] { requireNoRun(folder.file("out")); }), "") << "is not there";
+  const EvaluationOptions options = localising(folder);
+  Evaluation(options, {}).finish();  // nothing came
+  EXPECT_EQ(messageOf<std::exception>([&] { requireNoRun(folder.file("out")); }), "");
+  Evaluation evaluation(options, {});
+  feed(evaluation, 0, 1);
+  evaluation.finish();
+  EXPECT_EQ(
+      messageOf<std::invalid_argument>([&] { requireNoRun(folder.file("out")); }),
+      folder.file("out") +
+          ": this folder holds the results of an evaluation (run.yaml), which would be mixed with those "
+          "of others; choose another");
 }
 
 TEST(EvaluationLocalise, WhatIsMissingIsNamedAndCounted) {
