@@ -234,7 +234,7 @@ def _evaluator(typed, places, beginning):
     names = list(conditions(typed))
     if read.flag("self_test", typed["self_test"]):
         names += [read.self_test_stream(name) for name in names]
-    tree = {"streams": names, "pairs": pairs(typed), "poses": beginning.poses,
+    tree = {"streams": names, "pairs": pairs(typed), "poses": beginning.poses, "whole_path": True,
             "frame_rate": FRAME_RATE_HZ, "stamp_start": START_STAMP_S, "output_dir": places["output"],
             "images": "all" if read.flag("images", typed["images"]) else "samples", "exit_when_done": True,
             "report": False,  # the experiment draws it, once its recording is complete, too

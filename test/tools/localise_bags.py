@@ -348,6 +348,16 @@ class LocaliseBags(unittest.TestCase):
             self.assertGreaterEqual(int(row["key_frames"]), 2)
             self.assertLess(float(row["end_error_m"]), 0.03 * int(row["key_frames"]))
             self.assertLess(float(row["rpe_10m_m"]), 0.03 * int(row["key_frames"]))
+        self.write("bent.bag", "bent/", [0.5, 1.5], distortion=[0.1, 0, 0])
+        done = run("evaluate_bags", "--odometry", self.path("dusk.bag"), self.path("bent.bag"), "--detectors", "sift",
+                   "--out", self.path("half"))
+        self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+        self.assertIn("bent: nothing to follow\n2 images could not be used", done.stderr)
+        self.assertEqual(self.rows("half", "odometry.csv"), rows[:1], "what was followed stays")
+        refused = run("evaluate_bags", "--odometry", self.path("bent.bag"), "--detectors", "sift", "--out", self.path("none"))
+        self.assertEqual((refused.returncode, refused.stderr.count("\n")), (1, 1), refused.stderr)
+        self.assertIn("no stream can be followed: 2 images could not be used", refused.stderr)
+        self.assertEqual(len(self.rows("none", "localisation_problems.csv")), 2)
         done = run("evaluate_trajectory", "--truth", self.path("out/truth_h20.tum"), "--estimate",
                    self.path("out/odometry_h20_sift.tum"), "--out", self.path("trajectory"))
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -360,7 +370,19 @@ class LocaliseBags(unittest.TestCase):
         self.assertIn("no query can be used: 1 images could not be used", self.refused("--map", noon, "--query", bent))
         self.assertIn("camera_info/D is 3 numbers, but must be 4 or 5, k1 k2 p1 p2 [k3], for plumb_bob",
                       self.refused("--map", noon, "--query", bent))
+        named = [("h20", "query", "100.000000000")]  # in the file that the line speaks of
+        told = self.rows("out", "localisation_problems.csv")
+        self.assertEqual([(row["stream"], row["role"], row["stamp"]) for row in told], named)
         self.assertIn("the map has no key frame", self.refused("--map", bent, "--query", noon))
+        self.assertEqual([row["role"] for row in self.rows("out", "localisation_problems.csv")], ["map"])
+        os.mkdir(self.path("run"))
+        pathlib.Path(self.path("run/run.yaml")).write_text("settings:\n  ratio: '0.5'\n")
+        pathlib.Path(self.path("run/frames.csv")).write_text("header\nrow\n")
+        for arguments in (["--map", noon, "--query", dusk], ["--odometry", noon]):
+            done = run("evaluate_bags", "--out", self.path("run"), *arguments)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("run: this folder holds the results of an evaluation (run.yaml)", done.stderr)
+            self.assertEqual(sorted(os.listdir(self.path("run"))), ["frames.csv", "run.yaml"])
         for arguments in (["--map", noon], ["--query", dusk]):
             self.assertIn("--map and --query need each other", self.refused(*arguments))
         self.assertIn("absent.bag: is not a bag that can be read", self.refused("--map", self.path("absent.bag"), "--query", dusk))

@@ -95,16 +95,10 @@ void writeAtlasRows(const std::string& path, const std::vector<AtlasRow>& rows) 
 }
 
 std::vector<AtlasRow> readAtlasRows(const std::string& path) {
-  const CsvLines lines = readCsv(path, kRowsHeader);
-  if (lines.torn > 0 || lines.rows.empty()) throw std::runtime_error(path + ": is not whole; remove it");
   std::vector<AtlasRow> rows;
-  for (const std::vector<std::string>& fields : lines.rows) {
-    try {
-      rows.push_back(rowOf(fields));
-    } catch (const std::exception& error) {
-      throw std::runtime_error(path + ":" + std::to_string(rows.size() + 2) + ": " + error.what());
-    }
-  }
+  const std::size_t torn =
+      forEachCsvRow(path, kRowsHeader, [&](const auto& fields) { rows.push_back(rowOf(fields)); });
+  if (torn > 0 || rows.empty()) throw std::runtime_error(path + ": is not whole; remove it");
   return rows;
 }
 

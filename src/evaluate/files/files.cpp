@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
 #include "sunlit/image/files.h"
@@ -87,48 +88,33 @@ void AppendFile::close() {
   descriptor_ = -1;
 }
 
-CsvLines readCsv(const std::string& path, const std::string& header) {
-  CsvLines result;
-  if (!std::filesystem::exists(path)) return result;
-  const std::string text = image::readWholeFile(path);
+std::size_t forEachCsvRow(const std::string& path, const std::string& header,
+                          const std::function<void(const std::vector<std::string>& fields)>& use) {
+  if (!std::filesystem::exists(path)) return 0;
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) failWith(path, "cannot be opened");
   const std::size_t expected = cut(header).size();
-  std::size_t begin = 0;
-  for (std::size_t number = 1; begin < text.size(); ++number) {
-    const std::size_t end = text.find('\n', begin);
-    if (end == std::string::npos) {
-      result.torn = 1;
-      break;
-    }
-    const std::string line = text.substr(begin, end - begin);
-    begin = end + 1;
+  std::string line;
+  for (std::size_t number = 1; std::getline(file, line); ++number) {
+    if (file.eof()) return 1;
     if (number == 1) {
-      if (line != header)
-        throw std::runtime_error(
-            path + ":1: was written by another version, or is no file of ours: expected the header " +
-            header);
-      continue;
+      if (line == header) continue;
+      throw std::runtime_error(
+          path + ":1: was written by another version, or is no file of ours: expected the header " + header);
     }
-    std::vector<std::string> fields = cut(line);
-    if (fields.size() != expected) {
-      throw std::runtime_error(path + ":" + std::to_string(number) + ": has " +
-                               std::to_string(fields.size()) + " fields instead of " +
-                               std::to_string(expected));
-    }
-    result.rows.push_back(std::move(fields));
-  }
-  return result;
-}
-
-void forEachCsvRow(const std::string& path, const std::string& header,
-                   const std::function<void(const std::vector<std::string>& fields)>& use) {
-  const CsvLines lines = readCsv(path, header);
-  for (std::size_t i = 0; i < lines.rows.size(); ++i) {
     try {
-      use(lines.rows[i]);
+      const std::vector<std::string> fields = cut(line);
+      if (fields.size() != expected)
+        throw std::runtime_error("has " + std::to_string(fields.size()) + " fields instead of " +
+                                 std::to_string(expected));
+      use(fields);
     } catch (const std::exception& error) {
-      throw std::runtime_error(path + ":" + std::to_string(i + 2) + ": " + error.what());
+      throw std::runtime_error(path + ":" + std::to_string(number) + ": " + error.what());
     }
   }
+  if (file.bad()) failWith(path, "cannot be read");
+  return 0;
 }
 
 std::string formatNumber(double value) {

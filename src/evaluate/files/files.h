@@ -30,19 +30,12 @@ class AppendFile {
   bool is_broken_ = false;
 };
 
-/// The lines of a CSV file after its header, cut at the commas.
-struct CsvLines {
-  std::vector<std::vector<std::string>> rows;
-  std::size_t torn = 0;  ///< 1 where the file ends within a line, which is left out
-};
-/// Nothing where the file does not exist. Throws std::runtime_error, with path and line, for another header
-/// or number of fields.
-CsvLines readCsv(const std::string& path, const std::string& header);
-
-/// Calls `use` with the fields of each row of a file as readCsv() reads it. What `use` throws becomes
-/// std::runtime_error with path and line.
-void forEachCsvRow(const std::string& path, const std::string& header,
-                   const std::function<void(const std::vector<std::string>& fields)>& use);
+/// Calls `use` with the fields of each row of a CSV file after its header, cut at the commas; of one that
+/// does not exist never. Never holds more than a row. Returns how many lines were left out: 1 where the file
+/// ends within one. Throws std::runtime_error, with path and line, for another header or number of fields,
+/// and for what `use` throws.
+std::size_t forEachCsvRow(const std::string& path, const std::string& header,
+                          const std::function<void(const std::vector<std::string>& fields)>& use);
 
 /// 17 digits, so that reading gives the same number back; "nan" for NaN.
 std::string formatNumber(double value);

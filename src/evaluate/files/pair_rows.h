@@ -80,18 +80,12 @@ struct PartialValues {
 template <typename Value>
 LoadedValues<Value> loadValues(const std::string& path, const FramesLayout& layout,
                                const ValueColumns<Value>& columns) {
-  const CsvLines lines = readCsv(path, columns.header);
   LoadedValues<Value> loaded;
-  loaded.dropped_lines = lines.torn;
   std::map<std::pair<std::int64_t, std::size_t>, PartialValues<Value>> partial;
-  for (std::size_t i = 0; i < lines.rows.size(); ++i) {
-    try {
-      const PairRow row = pairRowOf(layout, lines.rows[i], columns.called);
-      partial[{row.stamp_ns, row.pair}].add(row, layout.differences.size(), columns.parse(lines.rows[i]));
-    } catch (const std::exception& error) {
-      throw std::runtime_error(path + ":" + std::to_string(i + 2) + ": " + error.what());
-    }
-  }
+  loaded.dropped_lines = forEachCsvRow(path, columns.header, [&](const std::vector<std::string>& fields) {
+    const PairRow row = pairRowOf(layout, fields, columns.called);
+    partial[{row.stamp_ns, row.pair}].add(row, layout.differences.size(), columns.parse(fields));
+  });
   for (auto& [key, entry] : partial) {
     if (entry.isWhole()) {
       loaded.records.push_back(std::move(entry.record));

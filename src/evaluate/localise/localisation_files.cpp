@@ -96,14 +96,7 @@ std::string summaryHeader() {
 template <typename Of>
 auto rowsOf(const std::string& path, const std::string& header, const Of& of) {
   std::vector<decltype(of(std::vector<std::string>()))> rows;
-  const CsvLines lines = readCsv(path, header);
-  for (std::size_t i = 0; i < lines.rows.size(); ++i) {
-    try {
-      rows.push_back(of(lines.rows[i]));
-    } catch (const std::exception& error) {
-      throw std::runtime_error(path + ":" + std::to_string(i + 2) + ": " + error.what());
-    }
-  }
+  forEachCsvRow(path, header, [&](const std::vector<std::string>& fields) { rows.push_back(of(fields)); });
   return rows;
 }
 

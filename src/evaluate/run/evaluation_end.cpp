@@ -60,7 +60,7 @@ std::size_t Evaluation::State::nameAbsentPoses() {
 }
 
 // By an image that came after all, as an earlier run was taken up.
-bool Evaluation::State::isMended(const Problem& problem, const EvaluatedPairs& evaluated) const {
+bool Evaluation::State::isMended(const Problem& problem, const StampsOfPairs& evaluated) const {
   if (!problem.pose || problem.kind == "duplicate") return false;
   for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
     const bool is_meant = problem.kind == "absent" || problem.where == options_.pairs[p].name();
@@ -71,9 +71,10 @@ bool Evaluation::State::isMended(const Problem& problem, const EvaluatedPairs& e
 
 void Evaluation::State::settleAndWrite(Outcome& outcome) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  EvaluatedPairs evaluated;
+  StampsOfPairs evaluated;
+  poses_.rank();
   settleRecords();
-  for (const PairRecord& record : records_) evaluated.emplace(record.pose, record.pair);
+  for (const PairRecord& record : records_) evaluated[{record.pose, record.pair}] = record.stamp_ns;
   const auto settled = [this](std::int64_t stamp, std::int64_t pose) { return poses_.settled(stamp, pose); };
   if (pictures_) pictures_->finish(settled);
   if (drawn_) drawn_->finish(settled);

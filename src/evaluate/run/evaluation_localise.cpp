@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <stdexcept>
 
 #include "evaluate/run/evaluation_state.h"
 #include "evaluate/run/run_file.h"
+#include "sunlit/evaluate/localise/map.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -53,6 +55,25 @@ std::vector<std::string> notesOfPairs(const EvaluationOptions& options) {
                     " at the poses of its pairs alone: " + thinned);
   }
   return notes;
+}
+
+/// Whether `rows` are of the pictures in `records`. Others may have localised some of the same names, in
+/// another map, by other detectors or of other times.
+bool areOf(const EvaluationOptions& options, const std::vector<PairRecord>& records,
+           const std::vector<LocalisationRow>& rows) {
+  std::set<std::pair<std::string, std::int64_t>> evaluated;  // streams and stamps
+  for (const PairRecord& record : records) {
+    evaluated.emplace(options.pairs[record.pair].a, record.stamp_ns);
+    evaluated.emplace(options.pairs[record.pair].b, record.stamp_ns);
+  }
+  const std::string map = nameOfMap(mapStreamsOf(options.localisation));
+  std::set<std::string> detectors;
+  for (const LocalisationRow& row : rows) {
+    if (row.map != map || evaluated.count({row.query, row.stamp_ns}) == 0) return false;
+    detectors.insert(row.detector);
+  }
+  const std::vector<std::string> asked = localisingDetectors(options.localisation, options.comparer);
+  return detectors == std::set<std::string>(asked.begin(), asked.end());
 }
 
 }  // namespace
@@ -133,7 +154,7 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
     localised_ = measuredOf(rows);
     // Not of the rows, which lack what its last columns are made of.
     if (std::filesystem::exists(file(kSummary))) outcome.summary = loadLocalisationSummary(file(kSummary));
-    if (isWholeAlone()) std::filesystem::remove(file(kObservations));  // the empty one of this run
+    if (isWholePath()) std::filesystem::remove(file(kObservations));  // the empty one of this run
     return outcome;
   }
   std::vector<std::unique_ptr<ObservationFile>> merged;
@@ -164,7 +185,7 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
   writeLocalisation(file(kRows), result.rows);
   writeLocalisationPoses(file("localisation_poses.csv"), result.rows);
   writeLocalisationSummary(file(kSummary), outcome.summary);
-  if (outcome.isWhole() && isWholeAlone()) std::filesystem::remove(file(kObservations));
+  if (outcome.isWhole() && isWholePath()) std::filesystem::remove(file(kObservations));
   return outcome;
 }
 
@@ -173,24 +194,26 @@ LocalisationOutcome Evaluation::State::localise(const LocaliseCallbacks& callbac
 std::vector<LocalisationRow> Evaluation::State::localisedBefore() const {
   if (!options_.merge.empty() || !observer_->observations().keys().empty()) return {};
   if (!std::filesystem::exists(file(kRows))) return {};
-  std::vector<LocalisationRow> rows = loadLocalisation(file(kRows));
-  if (unobserved(streamsOf(options_), rows) > 0) rows.clear();
-  return rows;
+  const std::vector<LocalisationRow> rows = loadLocalisation(file(kRows));
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!areOf(options_, records_, rows)) return {};
+  }
+  return unobserved(streamsOf(options_), rows) == 0 ? rows : std::vector<LocalisationRow>();
 }
 
-bool Evaluation::State::hasForgottenObservations() const {
-  const std::string kept = file(kObservations);
+// It was localised, and what it observed is gone.
+bool Evaluation::State::hasForgottenObservations(const std::string& folder) const {
+  const std::string kept = folder + "/" + kObservations;
   const bool is_kept = std::filesystem::exists(kept) && std::filesystem::file_size(kept) > 0;
-  return !options_.localisation.map.empty() && !records_.empty() && !is_kept &&
-         std::filesystem::exists(file(kRows));
+  return !options_.localisation.map.empty() && !is_kept && std::filesystem::exists(folder + "/" + kRows);
 }
 
-// All poses are here, so that no other run will ask for what was observed.
-bool Evaluation::State::isWholeAlone() const {
+// All poses are here, and there are no others, so that no other run will ask for what was observed.
+bool Evaluation::State::isWholePath() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const PoseRange& poses = options_.poses;
-  return poses.size() > 0 && poses.first == 0 && poses.stride == 1 &&
-         completed_.size() - unexpected_poses_ >= poses.size();
+  const std::size_t expected = options_.poses.size();
+  return options_.is_whole_path && expected > 0 && completed_.size() - unexpected_poses_ >= expected;
 }
 
 // Evaluated pictures of query streams that no row tells of.

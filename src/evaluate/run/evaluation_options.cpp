@@ -33,7 +33,8 @@ std::vector<Field> rowsWith(const std::vector<Field>& of_comparer, const std::ve
          OwnForm{textOfPairs(options.pairs)},
          "",
          {},
-         "a list of [a, b] or {a: name, b: name, every: 10}; [] for all"}},
+         "a list of [a, b] or {a: name, b: name, every: 10}; [] for all. every needs captures or a "
+         "frame_rate"}},
        of_comparer,
        {{"verify",
          verifiedOf(options),
@@ -59,6 +60,12 @@ std::vector<Field> rowsWith(const std::vector<Field>& of_comparer, const std::ve
 
 std::vector<std::string> verifiedDetectors(const EvaluationOptions& options) {
   return options.verify ? *options.verify : usualDetectors(options.comparer);
+}
+
+const PairSpec* thinnedPair(const EvaluationOptions& options) {
+  const auto found = std::find_if(options.pairs.begin(), options.pairs.end(),
+                                  [](const PairSpec& pair) { return pair.every > 1; });
+  return found == options.pairs.end() ? nullptr : &*found;
 }
 
 bool isInPair(const EvaluationOptions& options, const std::string& stream) {
@@ -95,6 +102,11 @@ std::vector<Field> fieldsOf(EvaluationOptions& options) {
         {"poses", &options.poses.count, "", kCounts, "indices of poses to expect; 0: unknown"},
         {"first_pose", &options.poses.first, "", kCounts, "the first of them"},
         {"pose_stride", &options.poses.stride, "", {1, 1e9}, "only every n-th of them"},
+        {"whole_path",
+         &options.is_whole_path,
+         "",
+         {},
+         "these are all poses that there are: what merging with others needs is removed at the end"},
         {"images",
          choiceOf(&options.images, {"none", "samples", "all"}),
          "",

@@ -148,7 +148,7 @@ Evaluation::State::State(const EvaluationOptions& options, EvaluationCallbacks c
       comparer_(options_.comparer),
       layout_(layoutOf(options_, options_.comparer.differences)),
       verified_layout_(layoutOf(options_, verifiedDetectors(options_))),
-      poses_(options_.frame_rate, options_.stamp_start_ns, options_.poses),
+      poses_(options_.frame_rate, options_.stamp_start_ns, options_.poses, !thinnedPair(options_)),
       sets_(options_.streams.size()),
       queue_(kPosesAtOnce) {
   for (const PairSpec& pair : options_.pairs) {
@@ -184,15 +184,17 @@ std::size_t Evaluation::State::takeUp(const std::string& folder) {
     poses_.remember(record.stamp_ns, record.pose);
     records_.push_back(std::move(record));
   }
+  // Images that were not evaluated have their place among the others, too.
+  for (const auto& [stamp, pose] : posesOfProblems(folder)) poses_.remember(stamp, pose);
   return loaded.dropped_lines;
 }
 
-// Once the stamps and captures of all folders are known: each may have numbered its poses from 0.
+// Once the stamps and captures of all folders are known.
 void Evaluation::State::settleTakenUp() {
+  poses_.settleRemembered();
   settleRecords();
   for (const PairRecord& record : records_) {
-    poses_.remember(record.stamp_ns, record.pose);
-    held_.emplace(record.pose, record.pair);
+    held_.emplace(std::make_pair(record.pose, record.pair), record.stamp_ns);
     ++counts_.pairs[record.pair].resumed;
   }
 }
@@ -208,6 +210,12 @@ void Evaluation::State::requireMergeable(const std::string& folder) const {
     throw std::invalid_argument("merge: " + folder +
                                 "/run.yaml tells no settings, so that it may be of others");
   requireSameSettings(folder + "/run.yaml", settingsOf(options_));
+  if (hasForgottenObservations(folder))
+    throw std::invalid_argument(
+        "merge: " + folder +
+        " keeps no observations.bin, so that its poses cannot be localised with others: "
+        "merge the runs that it was merged of, or evaluate them in another folder without "
+        "whole_path");
   if (isVerifying() && callbacks_.note && !holdsLost(folder + "/" + kLostFile))
     callbacks_.note("merge: " + folder +
                     " keeps no single features any more: lost_features.csv is without them");
@@ -229,7 +237,8 @@ void Evaluation::State::takeUpEarlierRuns() {
   record_files_ = std::make_unique<RecordFiles>(options_.output_dir, poses_);
   mendLostFile(file(kLostFile));
   std::size_t dropped_lines = takeUp(options_.output_dir);
-  has_forgotten_ = hasForgottenFeatures() || hasForgottenObservations();
+  has_forgotten_ =
+      hasForgottenFeatures() || (!records_.empty() && hasForgottenObservations(options_.output_dir));
   for (const std::string& folder : options_.merge) {
     requireMergeable(folder);
     dropped_lines += takeUp(folder);
@@ -239,7 +248,7 @@ void Evaluation::State::takeUpEarlierRuns() {
   for (const PairRecord& record : records_) {
     bool is_whole = true;
     for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
-      is_whole = is_whole && (!isWanted(p, record.pose) || isHeld(p, record.pose));
+      is_whole = is_whole && (!isWanted(p, record.pose) || held_.count({record.pose, p}) != 0);
     }
     if (is_whole) markCompleted(record.pose);
   }

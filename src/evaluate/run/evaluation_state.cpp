@@ -19,8 +19,11 @@ bool Evaluation::State::isWanted(std::size_t pair, std::int64_t pose) const {
   return pose % options_.pairs[pair].every == 0;
 }
 
-bool Evaluation::State::isHeld(std::size_t pair, std::int64_t pose) const {
-  return held_.count({pose, pair}) != 0;
+// So that this stamp is not evaluated. By a rate the earlier of two stamps of a pose counts, even where that
+// other one was evaluated before; without one, a run may give a pose another stamp than the run before.
+bool Evaluation::State::isHeld(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair) const {
+  const auto held = held_.find({pose, pair});
+  return held != held_.end() && (!poses_.hasRate() || held->second <= stamp_ns);
 }
 
 std::vector<char> Evaluation::State::neededStreams(std::int64_t pose) const {
@@ -58,6 +61,10 @@ void Evaluation::State::add(std::size_t stream, std::int64_t stamp_ns, Arrival a
       ++counts.duplicate;
       report({"duplicate", pose, stamp_ns, name, "this stamp had come before; the first image counts"});
       break;
+    case StampSets::Outcome::kReplaced:
+      report({"replaced", pose, stamp_ns, name,
+              "an image of this stamp had come before that could not be used; this one counts"});
+      break;
     case StampSets::Outcome::kClosed:
       return addLate(stream, stamp_ns, pose);
   }
@@ -77,7 +84,7 @@ void Evaluation::State::addLate(std::size_t stream, std::int64_t stamp_ns, std::
 void Evaluation::State::turnAway(std::size_t stream, std::int64_t stamp_ns, std::int64_t pose) {
   ++counts_.streams[stream].unexpected;
   report(
-      {"unexpected", pose, stamp_ns, options_.streams[stream], "is not one of the expected poses; left out"});
+      {kUnexpected, pose, stamp_ns, options_.streams[stream], "is not one of the expected poses; left out"});
 }
 
 // What is whole will be compared and makes room by itself; what waits may wait for ever. Half of the memory
@@ -227,24 +234,31 @@ bool Evaluation::State::canCompare(const StampSet& set, std::size_t pair, std::o
     ++counts.unplaced;
     report({"unplaced", pose, set.stamp_ns, where,
             options_.frame_rate > 0.0 ? "its stamp lies before stamp_start"
+            : thinnedPair(options_)   ? "no capture of this stamp says which pose it is, as every of a pair "
+                                        "needs, or a frame_rate"
                                       : "no capture of this stamp says which pose it is"});
     return false;
   }
   return true;
 }
 
-// Two stamps may round to one pose. The earlier one counts, in whatever order they come; the later one is
-// counted and named.
+// Whether it is to be evaluated. Two stamps may round to one pose. The earlier one counts, in whatever order
+// they come; the later one is counted and named.
 bool Evaluation::State::takes(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair) {
-  const auto inserted = taken_.emplace(std::make_pair(pose, pair), stamp_ns);
-  if (inserted.second) return true;
-  std::int64_t& counting = inserted.first->second;
-  ++counts_.pairs[pair].duplicate;
-  report({"duplicate", pose, std::max(stamp_ns, counting), options_.pairs[pair].name(),
-          "an earlier stamp is of this pose too, and counts"});
-  if (stamp_ns > counting) return false;
-  withdraw(counting, pair);
-  counting = stamp_ns;
+  const auto held = held_.find({pose, pair});
+  const auto [taken, is_first] = taken_.emplace(std::make_pair(pose, pair), stamp_ns);
+  if (!is_first) {
+    ++counts_.pairs[pair].duplicate;
+    report({"duplicate", pose, std::max(stamp_ns, taken->second), options_.pairs[pair].name(),
+            "an earlier stamp is of this pose too, and counts"});
+    if (stamp_ns > taken->second) return false;
+    if (held == held_.end()) withdraw(taken->second, pair);
+    taken->second = stamp_ns;
+  }
+  if (isHeld(stamp_ns, pose, pair)) return false;
+  if (held == held_.end()) return true;
+  withdraw(held->second, pair);
+  held_.erase(held);
   return true;
 }
 
@@ -254,9 +268,10 @@ void Evaluation::State::withdraw(std::int64_t stamp_ns, std::size_t pair) {
     return record.stamp_ns == stamp_ns && record.pair == pair;
   });
   if (found == records_.end()) return;
+  PairCounts& counts = counts_.pairs[pair];
+  --(held_.count({found->pose, pair}) != 0 ? counts.resumed : counts.evaluated);
   records_.erase(found);
   withdrawVerified(stamp_ns, pair);
-  --counts_.pairs[pair].evaluated;
 }
 
 // Counts and names it where it is. A stream is where it is itself.
@@ -273,7 +288,8 @@ bool Evaluation::State::isOfTwoPlaces(std::int64_t stamp_ns, std::optional<std::
 void Evaluation::State::separate(std::int64_t stamp_ns) {
   std::vector<PairRecord> evaluated;
   for (const PairRecord& record : records_) {
-    if (record.stamp_ns == stamp_ns && !isHeld(record.pair, record.pose)) evaluated.push_back(record);
+    if (record.stamp_ns == stamp_ns && held_.count({record.pose, record.pair}) == 0)
+      evaluated.push_back(record);
   }
   for (const PairRecord& record : evaluated) {
     if (isOfTwoPlaces(stamp_ns, record.pose, record.pair)) withdraw(stamp_ns, record.pair);
@@ -289,9 +305,9 @@ void Evaluation::State::close(std::int64_t stamp_ns, std::optional<std::int64_t>
   work.stamp_ns = stamp_ns;
   for (std::size_t p = 0; p < options_.pairs.size(); ++p) {
     if (pose && !isWanted(p, *pose)) continue;
-    const bool is_held = pose && isHeld(p, *pose);
+    const bool is_held = pose && isHeld(stamp_ns, *pose, p);
     if (is_held ? !hasBoth(set, pair_streams_[p]) : !canCompare(set, p, pose, reason)) continue;
-    if (takes(stamp_ns, *pose, p) && !is_held) work.pairs.push_back(p);
+    if (takes(stamp_ns, *pose, p)) work.pairs.push_back(p);
   }
   if (!pose) return;
   work.pose = *pose;

@@ -55,7 +55,7 @@ class Evaluation::State {
 
  private:
   enum class Reason { kWhole, kEnd, kMemory };
-  using EvaluatedPairs = std::set<std::pair<std::int64_t, std::size_t>>;  // pose and pair
+  using StampsOfPairs = std::map<std::pair<std::int64_t, std::size_t>, std::int64_t>;  // by pose and pair
   /// Images of one set that go to the comparer.
   struct Work {
     std::int64_t pose = 0;
@@ -89,7 +89,7 @@ class Evaluation::State {
   void settleTakenUp();
   std::size_t nameAbsentPoses();
   bool isWanted(std::size_t pair, std::int64_t pose) const;
-  bool isHeld(std::size_t pair, std::int64_t pose) const;
+  bool isHeld(std::int64_t stamp_ns, std::int64_t pose, std::size_t pair) const;
   std::vector<char> neededStreams(std::int64_t pose) const;
   bool hasAllImages(const StampSet& set, std::int64_t pose) const;
   bool isWhole(const StampSet& set, std::int64_t pose) const;
@@ -123,8 +123,8 @@ class Evaluation::State {
   void observeSet(const StampSet& set, Work& work);
   std::size_t truthBytes() const { return observer_ ? observer_->truth().bytes() : 0; }
   std::vector<LocalisationRow> localisedBefore() const;
-  bool hasForgottenObservations() const;
-  bool isWholeAlone() const;
+  bool hasForgottenObservations(const std::string& folder) const;
+  bool isWholePath() const;
   std::size_t unobserved(const ObservedStreams& streams, const std::vector<LocalisationRow>& rows) const;
   std::vector<std::string> uncompared(const ObservedStreams& streams) const;
   bool isObserved(const Work& work, std::size_t stream, std::size_t difference) const;
@@ -151,7 +151,7 @@ class Evaluation::State {
   void markCompleted(std::int64_t pose);
   void complete(std::int64_t pose);
   void report(const Problem& problem) { problems_->add(problem); }
-  bool isMended(const Problem& problem, const EvaluatedPairs& evaluated) const;
+  bool isMended(const Problem& problem, const StampsOfPairs& evaluated) const;
   void settleAndWrite(Outcome& outcome);
   std::vector<VerifiedSummaryRow> writeVerifiedSummaries() const;
 
@@ -173,11 +173,11 @@ class Evaluation::State {
   std::vector<Measured> localised_;       // by localise()
   Outcome finished_;                      // by finish()
   bool has_forgotten_ = false;            // single features or observations of what was taken up
-  EvaluatedPairs held_;                   // by what earlier runs left
-  std::map<std::pair<std::int64_t, std::size_t>, std::int64_t> taken_;  // the stamp that counts of those come
-  std::set<std::int64_t> completed_;                                    // poses
-  std::size_t unexpected_poses_ = 0;                                    // of them
-  std::size_t queued_bytes_ = 0;                                        // of images in queue_
+  StampsOfPairs held_;                    // what earlier runs left
+  StampsOfPairs taken_;                   // the stamp that counts of those come
+  std::set<std::int64_t> completed_;      // poses
+  std::size_t unexpected_poses_ = 0;      // of them
+  std::size_t queued_bytes_ = 0;          // of images in queue_
   bool is_finished_ = false;
   std::atomic<bool> is_broken_off_{false};
   StopToken stop_{[this] { return is_broken_off_.load(); }};

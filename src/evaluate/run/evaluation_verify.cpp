@@ -135,7 +135,7 @@ bool Evaluation::State::hasForgottenFeatures() const {
 }
 
 void Evaluation::State::forgetLostFeatures() {
-  if (isVerifying() && isWholeAlone()) std::filesystem::remove(file(kLostFile));
+  if (isVerifying() && isWholePath()) std::filesystem::remove(file(kLostFile));
 }
 
 std::string Evaluation::State::drawnName(std::size_t pair, std::size_t detector) const {

@@ -2,22 +2,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
-#include <iterator>
 #include <utility>
 
 namespace sunlit::evaluate {
 
-PoseIndex::PoseIndex(double frame_rate, std::int64_t stamp_start_ns, const PoseRange& expected)
-    : frame_rate_(frame_rate), stamp_start_ns_(stamp_start_ns), expected_(expected), next_(expected.first) {}
+PoseIndex::PoseIndex(double frame_rate, std::int64_t stamp_start_ns, const PoseRange& expected, bool by_order)
+    : frame_rate_(frame_rate),
+      stamp_start_ns_(stamp_start_ns),
+      expected_(expected),
+      by_order_(by_order),
+      next_(expected.first) {}
 
 void PoseIndex::learn(std::int64_t stamp_ns, std::int64_t pose) {
   learnt_[stamp_ns] = pose;
 }
 
 void PoseIndex::remember(std::int64_t stamp_ns, std::int64_t pose) {
-  by_appearance_[stamp_ns] = pose;
-  next_ = std::max(next_, pose + expected_.stride);
+  numbered_.emplace(stamp_ns, pose);
+}
+
+void PoseIndex::settleRemembered() {
+  for (const auto& item : numbered_) remembered_.insert(item.second);
+  const bool are_expected = std::all_of(remembered_.begin(), remembered_.end(),
+                                        [this](std::int64_t pose) { return expected_.holds(pose); });
+  if (are_expected && remembered_.size() == numbered_.size()) return;
+  rank();
+  remembered_.clear();
+  next_ = expected_.at(numbered_.size());
+}
+
+void PoseIndex::rank() {
+  std::size_t rank = 0;
+  for (auto& item : numbered_) item.second = expected_.at(rank++);
 }
 
 std::optional<std::int64_t> PoseIndex::byRate(std::int64_t stamp_ns) const {
@@ -28,27 +46,19 @@ std::optional<std::int64_t> PoseIndex::byRate(std::int64_t stamp_ns) const {
 }
 
 std::optional<std::int64_t> PoseIndex::of(std::int64_t stamp_ns) {
-  if (hasRate()) return byRate(stamp_ns);
-  if (!learnt_.empty()) {
-    const auto found = learnt_.find(stamp_ns);
-    if (found == learnt_.end()) return std::nullopt;
-    return found->second;
+  if (by_order_ && !hasRate() && learnt_.empty()) {
+    while (remembered_.count(next_) != 0) next_ += expected_.stride;
+    if (numbered_.emplace(stamp_ns, next_).second) next_ += expected_.stride;
   }
-  const auto inserted = by_appearance_.emplace(stamp_ns, next_);
-  if (inserted.second) next_ += expected_.stride;
-  return inserted.first->second;
+  return known(stamp_ns);
 }
 
 std::optional<std::int64_t> PoseIndex::known(std::int64_t stamp_ns) const {
   if (hasRate()) return byRate(stamp_ns);
-  if (!learnt_.empty()) {
-    const auto found = learnt_.find(stamp_ns);
-    if (found == learnt_.end()) return std::nullopt;
-    return found->second;
-  }
-  const auto found = by_appearance_.find(stamp_ns);
-  if (found == by_appearance_.end()) return std::nullopt;
-  return expected_.at(static_cast<std::size_t>(std::distance(by_appearance_.begin(), found)));
+  const auto& told = learnt_.empty() ? numbered_ : learnt_;
+  const auto found = told.find(stamp_ns);
+  if (found == told.end()) return std::nullopt;
+  return found->second;
 }
 
 bool PoseIndex::isNearer(std::int64_t stamp_ns, std::int64_t other_ns) const {

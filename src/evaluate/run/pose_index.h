@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "sunlit/evaluate/run/pose_range.h"
 
@@ -11,21 +12,25 @@ namespace sunlit::evaluate {
 
 /// Three rules, the first that applies: by `stamp_start` and `frame_rate` where a rate is given; as the
 /// captures say, once any capture came; else by the order of the stamps, as the expected poses follow each
-/// other.
+/// other. That is only known at the end, so that what must know a pose earlier rules it out.
 class PoseIndex {
  public:
-  /// `frame_rate` in Hz; 0: not given.
-  PoseIndex(double frame_rate, std::int64_t stamp_start_ns, const PoseRange& expected = {});
+  /// `frame_rate` in Hz; 0: not given. `by_order`: the third rule may apply.
+  PoseIndex(double frame_rate, std::int64_t stamp_start_ns, const PoseRange& expected, bool by_order);
 
   /// A capture said so.
   void learn(std::int64_t stamp_ns, std::int64_t pose);
-  /// An earlier run said so; only used where neither rate nor capture does.
+  /// An earlier run said so; only used where neither rate nor capture does. Of several the first counts.
   void remember(std::int64_t stamp_ns, std::int64_t pose);
+  /// All is remembered. Numbers stay, as pictures bear them; but each of several runs may have begun at 0, or
+  /// expected others: then they become ranks.
+  void settleRemembered();
   /// The pose, or nothing while it is still to be learnt from a capture, and for a stamp before the start. By
-  /// order, stamps are numbered as they first appear here; settled() puts that right.
+  /// order, stamps get the next number that is free as they first appear here; rank() puts that right.
   std::optional<std::int64_t> of(std::int64_t stamp_ns);
-  /// The pose once all stamps are known; by order: the rank of the stamp. Nothing for one that is of no image
-  /// as far as known, or before the start.
+  /// All stamps are known: by order, numbers become ranks.
+  void rank();
+  /// The same as of(), but by order nothing for a stamp that is of no image as far as known.
   std::optional<std::int64_t> known(std::int64_t stamp_ns) const;
   std::int64_t settled(std::int64_t stamp_ns, std::int64_t fallback) const {
     return known(stamp_ns).value_or(fallback);
@@ -42,8 +47,10 @@ class PoseIndex {
   std::int64_t stamp_start_ns_;
   PoseRange expected_;
   std::map<std::int64_t, std::int64_t> learnt_;
-  std::map<std::int64_t, std::int64_t> by_appearance_;
-  std::int64_t next_;
+  bool by_order_;
+  std::map<std::int64_t, std::int64_t> numbered_;  // by order
+  std::set<std::int64_t> remembered_;              // numbers
+  std::int64_t next_;                              // number
 };
 
 }  // namespace sunlit::evaluate

@@ -45,7 +45,7 @@ void RecordFiles::read(const std::string& folder, PoseIndex& poses) {
     const CaptureRecord capture{parsePose(f[1]),   parseStamp(f[2]),  parseNumber(f[3]), f[4],
                                 parseNumber(f[5]), parseNumber(f[6]), parseNumber(f[7]), parseNumber(f[8]),
                                 parseNumber(f[9]), parseNumber(f[10])};
-    captures_[{f[0], capture.pose}] = capture;
+    keep(f[0], capture);
     poses.learn(capture.stamp_ns, capture.pose);
   });
   if (!captures_.empty()) writeCaptures({});  // without torn ends, before going on
@@ -53,9 +53,14 @@ void RecordFiles::read(const std::string& folder, PoseIndex& poses) {
 
 void RecordFiles::add(const std::string& stream, const CaptureRecord& capture) {
   if (captures_.empty()) captures_file_.open(folder_ + "/captures.csv", kCapturesHeader);
-  captures_[{stream, capture.pose}] = capture;
+  keep(stream, capture);
   captures_file_.append(lineOf(stream, capture));
   noteImage(capture.stamp_ns);  // even if it never comes
+}
+
+void RecordFiles::keep(const std::string& stream, const CaptureRecord& capture) {
+  const auto [held, is_first] = captures_.emplace(std::make_pair(stream, capture.pose), capture);
+  if (!is_first && capture.stamp_ns <= held->second.stamp_ns) held->second = capture;
 }
 
 void RecordFiles::writeCaptures(const std::vector<std::string>& streams) {
@@ -85,6 +90,15 @@ std::set<std::pair<std::int64_t, std::string>> pairsOfTwoPlaces(const std::strin
     if (f[0] == kTwoPlaces && !f[2].empty()) pairs.emplace(parseStamp(f[2]), f[3]);
   });
   return pairs;
+}
+
+std::map<std::int64_t, std::int64_t> posesOfProblems(const std::string& folder) {
+  std::map<std::int64_t, std::int64_t> poses;
+  forEachCsvRow(folder + "/problems.csv", kProblemsHeader, [&](const std::vector<std::string>& f) {
+    if (f[0] != kUnexpected && !f[1].empty() && !f[2].empty())
+      poses.emplace(parseStamp(f[2]), parsePose(f[1]));
+  });
+  return poses;
 }
 
 ProblemFile::ProblemFile(const std::string& folder) : path_(folder + "/problems.csv") {

@@ -35,10 +35,12 @@ class RecordFiles {
 
  private:
   void read(const std::string& folder, PoseIndex& poses);
+  void keep(const std::string& stream, const CaptureRecord& capture);
   void writeCaptures(const std::vector<std::string>& streams);
   std::string folder_;
   AppendFile captures_file_;
-  std::map<std::pair<std::string, std::int64_t>, CaptureRecord> captures_;  // by stream and pose
+  std::map<std::pair<std::string, std::int64_t>, CaptureRecord>
+      captures_;  // by stream and pose: of the earliest stamp, as frames.csv
   PathFile path_;
 };
 
@@ -54,7 +56,13 @@ struct Problem {
 /// Problem::kind of images of one stamp that were taken at two places.
 inline constexpr const char* kTwoPlaces = "two_places";
 
-/// Stamps and names of pairs of that kind, by problems.csv of `folder`.
+/// The same of an image of a pose that is none of those expected.
+inline constexpr const char* kUnexpected = "unexpected";
+
+/// Poses by the stamps of images that problems.csv of `folder` names, but of unexpected ones.
+std::map<std::int64_t, std::int64_t> posesOfProblems(const std::string& folder);
+
+/// Stamps and names of pairs of two places, by problems.csv of `folder`.
 std::set<std::pair<std::int64_t, std::string>> pairsOfTwoPlaces(const std::string& folder);
 
 /// problems.csv of this run and of those that it takes up. Each problem stands there once, however often it

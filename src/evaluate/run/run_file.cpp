@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "evaluate/files/files.h"
+#include "sunlit/evaluate/run/run_folder.h"
 #include "sunlit/image/files.h"
 #include "sunlit/quantity/yaml_text.h"
 
@@ -122,7 +123,7 @@ bool hasRows(const std::string& csv) {
   return std::getline(file, heading) && std::getline(file, row);
 }
 
-bool holdsFiles(const std::string& folder) {
+bool holdsAnyFile(const std::string& folder) {
   std::error_code none;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, none)) {
     if (!entry.is_directory()) return true;
@@ -130,16 +131,28 @@ bool holdsFiles(const std::string& folder) {
   return false;
 }
 
+/// More than a run leaves that ended before anything came.
+bool holdsResults(const std::string& folder) {
+  for (const char* name : {"/frames.csv", "/captures.csv", "/path.csv"}) {
+    if (hasRows(folder + name)) return true;
+  }
+  return holdsAnyFile(folder + "/images");
+}
+
 }  // namespace
+
+void requireNoRun(const std::string& folder) {
+  if (holdsSettings(folder + "/run.yaml") && holdsResults(folder))
+    throw std::invalid_argument(folder +
+                                ": this folder holds the results of an evaluation (run.yaml), which would be "
+                                "mixed with those of others; choose another");
+}
 
 void claimFolder(const std::string& folder, const Settings& settings) {
   try {
     requireSameSettings(folder + "/run.yaml", settings);
   } catch (const std::invalid_argument&) {
-    for (const char* name : {"/frames.csv", "/captures.csv", "/path.csv"}) {
-      if (hasRows(folder + name)) throw;
-    }
-    if (holdsFiles(folder + "/images")) throw;
+    if (holdsResults(folder)) throw;
     for (const char* name :
          {"/run.yaml", "/problems.csv", "/summary.csv", "/verified.csv", "/verified_summary.csv",
           "/comparisons.csv", "/lost_features.bin", "/lost_features.csv"})

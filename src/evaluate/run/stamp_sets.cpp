@@ -44,7 +44,7 @@ StampSets::Outcome StampSets::add(std::size_t stream, std::int64_t stamp_ns, Arr
   slot.has_come = true;
   reserved_bytes_ += reservedFor(set);
   if (!slot.rgb.empty()) ++waiting_images_;
-  return is_first ? Outcome::kKept : Outcome::kDuplicate;
+  return is_first ? Outcome::kKept : Outcome::kReplaced;
 }
 
 const StampSet* StampSets::find(std::int64_t stamp_ns) const {

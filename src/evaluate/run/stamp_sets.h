@@ -35,8 +35,8 @@ class StampSets {
  public:
   enum class Outcome {
     kKept,
-    kDuplicate,  ///< this stream already delivered this stamp; the first stays, unless it was unusable and
-                 ///< still waits
+    kDuplicate,  ///< this stream already delivered this stamp; the first stays
+    kReplaced,   ///< the same, but the first was unusable and still waited: this one stays
     kClosed      ///< the set was taken before
   };
 

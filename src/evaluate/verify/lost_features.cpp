@@ -6,7 +6,6 @@
 #include <fstream>
 #include <limits>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <tuple>
 
@@ -96,7 +95,7 @@ std::vector<LostSum> sumsOfLost(const std::vector<std::string>& files, const Fra
   std::set<std::tuple<std::int64_t, std::uint32_t, std::uint32_t>> seen;
   for (const std::string& path : files) {
     if (!std::filesystem::exists(path)) continue;
-    std::istringstream file(image::readWholeFile(path));
+    std::ifstream file(path, std::ios::binary);
     std::string first;
     std::getline(file, first);
     Record record;
@@ -112,6 +111,7 @@ std::vector<LostSum> sumsOfLost(const std::vector<std::string>& files, const Fra
         sum.lost[cell] += record.lost.lost[cell];
       }
     }
+    if (file.bad() || !file.eof()) throw std::runtime_error(path + ": cannot be read");
   }
   return sums;
 }

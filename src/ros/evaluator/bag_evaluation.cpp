@@ -3,6 +3,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -42,12 +43,29 @@ void requireToLocaliseBy(const evaluate::EvaluationOptions& options, const std::
   }
 }
 
+/// Which poses are every n-th only captures or a rate tell: better said now than of each image at the end.
+void requireToCountBy(const evaluate::EvaluationOptions& options, const std::string& root,
+                      const std::set<std::string>& held) {
+  const evaluate::PairSpec* const thinned = thinnedPair(options);
+  if (thinned == nullptr || options.frame_rate > 0.0) return;
+  std::set<std::string> captures;
+  for (const std::string& stream : options.streams) captures.insert(topicOf(root, stream, topics::kCapture));
+  const bool has_any = std::any_of(captures.begin(), captures.end(),
+                                   [&](const std::string& topic) { return held.count(topic) != 0; });
+  if (has_any) return;
+  throw std::runtime_error("every of the pair " + thinned->name() + " is " + std::to_string(thinned->every) +
+                           ", but must be 1 for bags without " + topicsInWords(captures) +
+                           ", unless frame_rate and stamp_start tell which pose an image is of; they hold: " +
+                           topicsInWords(held));
+}
+
 class BagSource {
  public:
   explicit BagSource(const BagEvaluationOptions& options) : max_pixels_(options.intake.max_pixels) {
     const std::string root = rootOf(options.name_space);
     const std::set<std::string> held = topicsIn(options.bags);
     requireToLocaliseBy(options.evaluation, root, held);
+    requireToCountBy(options.evaluation, root, held);
     place_topic_ = root + topics::kPose;
     std::vector<std::string> wanted = {place_topic_};
     for (std::size_t s = 0; s < options.evaluation.streams.size(); ++s) {

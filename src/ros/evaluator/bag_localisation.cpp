@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <stdexcept>
 #include <utility>
 
 #include "ros/evaluator/bag_streams.h"
@@ -12,6 +11,7 @@
 #include "sunlit/evaluate/comparisons/comparisons.h"
 #include "sunlit/evaluate/localise/localisation_files.h"
 #include "sunlit/evaluate/localise/map.h"
+#include "sunlit/evaluate/run/run_folder.h"
 
 namespace sunlit::ros_interface {
 namespace {
@@ -33,7 +33,7 @@ class BagLocalisation {
     tellMap();
     localisation_.finishMap();
     for (const BagStream& stream : streams_.queries) find(stream);
-    if (rows_.empty()) throw std::runtime_error("no query can be used: " + source_.problemsInWords());
+    if (rows_.empty()) source_.fail("no query can be used");
     const std::vector<evaluate::LocalisationSummary> summaries = summariesOf(rows_);
     writeLocalisation(fileOf("localisation.csv"), rows_);
     writeLocalisationPoses(fileOf("localisation_poses.csv"), rows_);
@@ -96,7 +96,7 @@ class BagLocalisation {
     const std::vector<evaluate::MapSize> sizes = localisation_.mapSizes();
     const bool is_empty = std::all_of(sizes.begin(), sizes.end(),
                                       [](const evaluate::MapSize& size) { return size.key_frames == 0; });
-    if (is_empty) throw std::runtime_error("the map has no key frame: " + source_.problemsInWords());
+    if (is_empty) source_.fail("the map has no key frame");
     for (const evaluate::MapSize& size : sizes) {
       std::printf("map %s, %s: %zu key frames with %zu points, %.1f MB (%.0f kB a key frame)\n",
                   map_name_.c_str(), size.detector.c_str(), size.key_frames, size.points,
@@ -186,6 +186,7 @@ std::vector<Field> fieldsOf(BagLocalisationOptions& options) {
 int localiseBags(const BagLocalisationOptions& options) {
   BagLocalisation localisation(options);
   const FolderLock lock(options.output_dir);
+  evaluate::requireNoRun(options.output_dir);
   return localisation.run();
 }
 

@@ -1,13 +1,14 @@
 #include "ros/evaluator/bag_odometry.h"
 
 #include <cstdio>
-#include <stdexcept>
 #include <utility>
 
 #include "ros/evaluator/bag_streams.h"
 #include "ros/evaluator/folder_lock.h"
+#include "ros/evaluator/progress_log.h"
 #include "ros/evaluator/view_source.h"
 #include "sunlit/evaluate/localise/odometry_runs.h"
+#include "sunlit/evaluate/run/run_folder.h"
 #include "sunlit/evaluate/trajectory/trajectory_evaluation.h"
 
 namespace sunlit::ros_interface {
@@ -54,13 +55,16 @@ class BagOdometry {
                        }
                        return followed.faults;
                      }});
-    if (truth.empty())
-      throw std::runtime_error(stream.name + ": nothing to follow: " + source_.problemsInWords());
+    if (truth.empty()) {
+      not_followed_.push_back(stream.name);
+      return;
+    }
     trajectories_.emplace_back("truth_" + stream.fileName(), truth);
     for (std::size_t d = 0; d < estimates.size(); ++d) add(stream, d, {truth, estimates[d]}, runs);
   }
 
   int finish() const {
+    if (rows_.empty()) source_.fail("no stream can be followed");
     const std::string file = options_.output_dir + "/odometry.csv";
     writeOdometry(file, rows_);
     for (const auto& [name, trajectory] : trajectories_)
@@ -73,7 +77,10 @@ class BagOdometry {
                   row.rpe_10m_deg, row.end_error_m);
     }
     std::printf("%s\n", file.c_str());
-    return source_.finish();
+    for (const std::string& stream : not_followed_)
+      std::fprintf(stderr, "%s: nothing to follow\n", stream.c_str());
+    const int status = source_.finish();
+    return not_followed_.empty() ? status : kNotWholeStatus;
   }
 
  private:
@@ -91,6 +98,7 @@ class BagOdometry {
 
   const BagLocalisationOptions& options_;
   ViewSource source_;
+  std::vector<std::string> not_followed_;  // streams of which nothing can be used
   std::vector<evaluate::OdometryRow> rows_;
   std::vector<std::pair<std::string, evaluate::Trajectory>> trajectories_;  // of each file
 };
@@ -100,6 +108,7 @@ class BagOdometry {
 int odometryOfBags(const BagLocalisationOptions& options) {
   const LocalisationStreams streams = localisationStreams({}, options.odometry, options.topics);
   const FolderLock lock(options.output_dir);
+  evaluate::requireNoRun(options.output_dir);
   BagOdometry odometry(options);
   for (const BagStream& stream : streams.queries) odometry.follow(stream);
   return odometry.finish();

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <iterator>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include "ros/conversions/received_images.h"
@@ -107,8 +108,17 @@ std::string ViewSource::problemsInWords() const {
   return text + (all.size() > kProblemsShown ? "; …" : "");
 }
 
-int ViewSource::finish() const {
+void ViewSource::writeProblems() const {
   writeLocalisationProblems(options_.output_dir + kProblemsFile, problems_);
+}
+
+void ViewSource::fail(const std::string& what) const {
+  writeProblems();
+  throw std::runtime_error(what + ": " + problemsInWords());
+}
+
+int ViewSource::finish() const {
+  writeProblems();
   const std::size_t unused = unusable().size(), featureless = problems_.size() - unused;
   if (featureless > 0)
     std::fprintf(stderr, "%zu times a detector found nothing in an image (%s%s)\n", featureless,

@@ -48,13 +48,16 @@ class ViewSource {
   void addFeatureless(const BagStream& stream, bool is_of_map, std::int64_t stamp_ns,
                       const std::string& detector);
 
-  /// Counts images that cannot be used and names the first.
-  std::string problemsInWords() const;
+  /// Writes localisation_problems.csv and throws std::runtime_error of `what`, with the problems in words.
+  [[noreturn]] void fail(const std::string& what) const;
   /// Writes localisation_problems.csv and says what there is. The exit status of the program.
   int finish() const;
 
  private:
   std::vector<evaluate::LocalisationProblem> unusable() const;
+  /// Counts images that cannot be used and names the first.
+  std::string problemsInWords() const;
+  void writeProblems() const;
   void addProblem(const BagStream& stream, bool needs_depth, std::int64_t stamp_ns, const std::string& fault);
 
   ViewSourceOptions options_;

@@ -428,6 +428,8 @@ about:
             shutil.copy(self.path('all.bag'), self.path(name))
             with rosbag.Bag(self.path(name), 'a') as bag:
                 bag.write(topic, String(data='by somebody else'), stamp_of(0))
+        self.write_image_bag('plain.bag', [('/%s/camera/image_raw' % stream, image_message(stamp_of(0), picture(0, 0)))
+                                           for stream in STREAMS])
         os.mkdir(self.path('full'))
         with open(self.path('full/images'), 'w') as file:
             file.write('where the folder of the pictures should be')
@@ -436,6 +438,7 @@ about:
         cases = [(start + [self.path('no.bag')], 'no.bag: is not a bag'),
                  (start + [self.path('absent.bag')], 'absent.bag'),
                  (start + [self.path('one.bag')], 'the bags hold neither /h04/camera/image_raw nor'),
+                 (start + [self.path('plain.bag')], 'every of the pair h12-h20 is 10, but must be 1 for bags without '),
                  (['--config', self.path('wrong.yaml'), '--out', self.path('out'), self.path('one.bag')], 'ratoi'),
                  (['--config', self.path('broken.yaml'), '--out', self.path('out'), self.path('one.bag')],
                   'broken.yaml:%d: ' % broken_line),

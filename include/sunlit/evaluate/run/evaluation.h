@@ -186,7 +186,7 @@ class Evaluation {
   Outcome finish(Ending ending = Ending::kCompared);
   /// Looks for the queries in the map, after finish(), and writes localisation.csv and
   /// localisation_summary.csv. Nothing where options().localisation has no map, or where they are there
-  /// already. A whole run then forgets observations.bin, which holds what was found in every picture.
+  /// already. A run of a whole path then forgets observations.bin: what was found in every picture.
   LocalisationOutcome localise(const LocaliseCallbacks& callbacks);
   /// Writes comparisons.csv, after finish() and what localise() found. Throws Stopped once `stop` says so,
   /// and then there is no such file.

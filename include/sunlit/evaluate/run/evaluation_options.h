@@ -19,7 +19,7 @@ namespace sunlit::evaluate {
 struct PairSpec {
   std::string a;
   std::string b;
-  int every = 1;  ///< only poses 0, every, 2·every, … are compared; ≥ 1
+  int every = 1;  ///< only poses 0, every, 2·every, … are compared; ≥ 1; see thinnedPair()
   /// "a-b"
   std::string name() const { return a + "-" + b; }
 };
@@ -37,6 +37,9 @@ struct EvaluationOptions {
   LocalisationOfRun localisation;
   std::string output_dir;  ///< made where it does not exist
   PoseRange poses;         ///< those expected; what comes of others is counted, named and left out
+  /// `poses` are all that there are, so that nobody will merge others with them: once they are evaluated,
+  /// what merging needs (observations.bin, lost_features.bin) is removed.
+  bool is_whole_path = false;
   KeptImages images =
       KeptImages::kSamples;  ///< samples: five evenly spread poses, or every 200th of an unknown number
   double frame_rate = 0.0;   ///< Hz; 0: poses are numbered by captures, or else by the order of the stamps
@@ -53,6 +56,10 @@ struct EvaluationOptions {
 
 /// What `verify` comes to.
 std::vector<std::string> verifiedDetectors(const EvaluationOptions& options);
+
+/// The first pair that is not compared at each pose; null: there is none. Where there is one, a frame rate or
+/// captures must tell the poses, since their order is known when all have come.
+const PairSpec* thinnedPair(const EvaluationOptions& options);
 
 /// Of a stream's pictures features are found where they are compared, so that without a pair it is neither
 /// map nor query.

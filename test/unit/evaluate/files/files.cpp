@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <fstream>
 #include <limits>
 
 #include "sunlit/evaluate/files/frames_file.h"
@@ -139,6 +140,33 @@ TEST(FramesFile, NamesPathAndLineOfWhatItCannotRead) {
   EXPECT_NE(messageOf(path).find("frames.csv:3: the pair h12, h04"), std::string::npos);
   setContent(path, start + "0,1.000000000,h04,h12,orb,half,1,1,1,0,0.5,0.5,1,1\n");
   EXPECT_NE(messageOf(path).find("frames.csv:3: \"half\""), std::string::npos);
+}
+
+// A run of many hours has millions of rows, of which what is kept of them takes far less.
+TEST(CsvRows, AreReadOneByOne) {
+  constexpr int kRows = 300000;
+  constexpr long kMost_kB = 16384;  // held as text, they are 6 MB, and cut, more than 50
+  const TemporaryFolder folder;
+  const std::string path = folder.file("rows.csv");
+  {
+    std::ofstream file(path);
+    file << "a,b,c,d,e\n";
+    for (int i = 0; i < kRows; ++i) file << i << ",1,2,3,4\n";
+    file << "torn";
+  }
+  const auto peak_kB = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+  };
+  const long before_kB = peak_kB();
+  int rows = 0;
+  const std::size_t torn = forEachCsvRow(path, "a,b,c,d,e", [&](const std::vector<std::string>& fields) {
+    EXPECT_EQ(fields[0], std::to_string(rows++));
+  });
+  EXPECT_EQ(rows, kRows);
+  EXPECT_EQ(torn, 1u);
+  EXPECT_LT(peak_kB() - before_kB, kMost_kB);
 }
 
 TEST(Summary, OfShardsIsThatOfTheWhole) {

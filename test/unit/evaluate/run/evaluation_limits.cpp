@@ -276,6 +276,26 @@ TEST(Evaluation, CountsWhatItIsToldWasLostOrCompressed) {
   EXPECT_NE(contentOf(folder.file("out/run.yaml")).find("lossy: 2"), std::string::npos);
 }
 
+TEST(Evaluation, TakesAnImageInThePlaceOfOneThatCannotBeUsedAndSaysSo) {
+  const TemporaryFolder folder;
+  Evaluation evaluation(optionsFor(folder), {});
+  evaluation.addBadImage(0, stampOf(0), "cut short");
+  feedPose(evaluation, 0);
+  evaluation.addImage(0, stampOf(0), picture(9, 0));  // is none the less a second one
+  feedPose(evaluation, 1);
+  const Outcome outcome = evaluation.finish();
+  EXPECT_TRUE(outcome.isWhole());
+  EXPECT_EQ(outcome.counts.streams[0].received, 4u);
+  EXPECT_EQ(outcome.counts.streams[0].undecodable, 1u);
+  EXPECT_EQ(outcome.counts.streams[0].duplicate, 1u);
+  const std::string problems = contentOf(folder.file("out/problems.csv"));
+  EXPECT_TRUE(hasLine(problems,
+                      "replaced,0,500.000000000,h04,an image of this stamp had come before that could not be "
+                      "used; this one counts"))
+      << problems;
+  EXPECT_TRUE(hasLine(problems, "undecodable,0,500.000000000,h04,cut short"));
+}
+
 TEST(StreamNames, AreThoseThatLeadNowhereElse) {
   for (const char* name : {"h04", "h04_30", "self_test/h04", "a/1", "B_2/c"})
     EXPECT_TRUE(isStreamName(name)) << name;

@@ -9,6 +9,7 @@
 
 #include "sunlit/evaluate/differences/feature_difference.h"
 #include "sunlit/evaluate/localise/localisation.h"
+#include "sunlit/evaluate/run/run_folder.h"
 #include "support/message_of.h"
 #include "support/moody_detector.h"
 #include "support/textured_scene.h"
@@ -63,6 +64,7 @@ EvaluationOptions localising(const TemporaryFolder& folder) {
   options.output_dir = folder.file("out");
   options.comparer.differences = {"boolean_rgb", "sift", "orb"};
   options.poses.count = kPoses;
+  options.is_whole_path = true;
   options.localisation.map = "noon";
   options.localisation.map_every_m = 1.0;
   return options;
@@ -285,6 +287,39 @@ TEST(EvaluationLocalise, AWholeRunDoesNotGrow) {
   EXPECT_EQ(messageOf<std::invalid_argument>([&] { Evaluation(options, {}); }), refusal);
 }
 
+// The first begins where a whole path does.
+TEST(EvaluationLocalise, SharesOfAPathAreLocalisedTogether) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = localising(folder);
+  options.is_whole_path = false;
+  options.poses.count = 2;
+  for (const auto& [name, first] :
+       std::vector<std::pair<std::string, std::int64_t>>{{"start", 0}, {"end", 2}}) {
+    options.output_dir = folder.file(name);
+    options.poses.first = first;
+    Evaluation share(options, {});
+    feed(share, first, first + 2);
+    EXPECT_TRUE(finishAndLocalise(share).isWhole());
+  }
+  EvaluationOptions merging = localising(folder);
+  merging.merge = {folder.file("start"), folder.file("end")};
+  Evaluation merged(merging, {});
+  EXPECT_TRUE(merged.isComplete());
+  EXPECT_TRUE(finishAndLocalise(merged).isWhole());
+  EXPECT_EQ(contentOf(folder.file("out/localisation.csv")), expectedRows());
+  EXPECT_TRUE(hasLine(contentOf(folder.file("out/lost_features.csv")), "noon,dusk,sift,4,"))
+      << contentOf(folder.file("out/lost_features.csv"));
+  // Nobody can localise more with what has none of it.
+  merging.merge = {folder.file("out")};
+  merging.output_dir = folder.file("again");
+  EXPECT_EQ(
+      messageOf<std::invalid_argument>([&] { Evaluation(merging, {}); }),
+      "merge: " + folder.file("out") +
+          " keeps no observations.bin, so that its poses cannot be localised with others: merge the runs "
+          "that it was merged of, or evaluate them in another folder without whole_path");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("again/run.yaml")));
+}
+
 // Another tool may have left one in the same folder.
 TEST(EvaluationLocalise, RowsOfOthersAreNotTakenForThisRuns) {
   const TemporaryFolder folder;
@@ -296,6 +331,47 @@ TEST(EvaluationLocalise, RowsOfOthersAreNotTakenForThisRuns) {
   const LocalisationOutcome outcome = finishAndLocalise(evaluation);
   EXPECT_TRUE(outcome.is_asked);
   EXPECT_FALSE(outcome.isWhole());
+}
+
+TEST(EvaluationLocalise, RowsOfOtherMapsDetectorsAndTimesAreNotTakenForThisRuns) {
+  const TemporaryFolder folder;
+  const EvaluationOptions options = localising(folder);
+  const auto isAskedAgain = [&] {
+    Evaluation evaluation(options, {});
+    if (!evaluation.isComplete()) feed(evaluation, 0, kPoses);
+    return finishAndLocalise(evaluation).is_asked;
+  };
+  EXPECT_TRUE(isAskedAgain());
+  const std::string file = folder.file("out/localisation.csv");
+  const std::vector<LocalisationRow> ours = loadLocalisation(file);
+  EXPECT_FALSE(isAskedAgain());
+  const auto isAskedAfter = [&](const std::function<void(LocalisationRow&)>& change) {
+    std::vector<LocalisationRow> rows = ours;
+    for (LocalisationRow& row : rows) change(row);
+    writeLocalisation(file, rows);
+    return isAskedAgain();
+  };
+  EXPECT_FALSE(isAskedAfter([](LocalisationRow&) {}));
+  EXPECT_TRUE(isAskedAfter([](LocalisationRow& row) { row.map = "dawn"; }));
+  EXPECT_TRUE(isAskedAfter([](LocalisationRow& row) { row.detector = "sift"; }));
+  EXPECT_TRUE(isAskedAfter([](LocalisationRow& row) { row.stamp_ns += kFrameNs / 2; }));
+}
+
+// Nobody else writes what would be taken for this run's.
+TEST(EvaluationLocalise, AFolderWithARunIsNoPlaceForOthers) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(messageOf<std::exception>([&] { requireNoRun(folder.file("out")); }), "") << "is not there";
+  const EvaluationOptions options = localising(folder);
+  Evaluation(options, {}).finish();  // nothing came
+  EXPECT_EQ(messageOf<std::exception>([&] { requireNoRun(folder.file("out")); }), "");
+  Evaluation evaluation(options, {});
+  feed(evaluation, 0, 1);
+  evaluation.finish();
+  EXPECT_EQ(
+      messageOf<std::invalid_argument>([&] { requireNoRun(folder.file("out")); }),
+      folder.file("out") +
+          ": this folder holds the results of an evaluation (run.yaml), which would be mixed with those "
+          "of others; choose another");
 }
 
 TEST(EvaluationLocalise, WhatIsMissingIsNamedAndCounted) {
@@ -353,6 +429,8 @@ TEST(EvaluationLocalise, SaysWhatIsLeftOutSinceItIsNotCompared) {
   EvaluationOptions options = localising(folder);
   options.streams = {"noon", "dusk", "night", "dawn"};
   options.pairs = {{"noon", "dusk", 2}, {"noon", "night"}};
+  options.frame_rate = 10.0;
+  options.stamp_start_ns = stampOf(0);
   std::vector<std::string> notes;
   EvaluationCallbacks callbacks;
   callbacks.note = [&](const std::string& line) { notes.push_back(line); };

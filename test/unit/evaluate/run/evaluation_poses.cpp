@@ -133,6 +133,61 @@ TEST(TwoStampsOfOnePose, GiveTheSameFilesWhereARunWasCutOff) {
   EXPECT_EQ(results.problems, expected.problems);
 }
 
+// Stamp 50, which counts, had not been evaluated yet.
+TEST(TwoStampsOfOnePose, GiveTheSameFilesWhereARunWasCutOffBetweenThem) {
+  const Results expected = resultsOf(inOrder(), true);
+  std::vector<int> backwards = inOrder();
+  std::reverse(backwards.begin(), backwards.end());
+  for (const std::vector<int>& order : {inOrder(), backwards}) {
+    const TemporaryFolder folder;
+    {
+      Evaluation evaluation(fastCameraOptions(folder), {});
+      for (const int i : {49, 51}) feedFastCamera(evaluation, i);
+      evaluation.waitForRoom(0);
+    }
+    Evaluation evaluation(fastCameraOptions(folder), {});
+    for (const int i : order) feedFastCamera(evaluation, i);
+    const Results results = resultsOf(folder, evaluation.finish());
+    EXPECT_EQ(results.frames, expected.frames);
+    EXPECT_EQ(results.picture_of_50, expected.picture_of_50);
+    EXPECT_EQ(linesOf(results.problems, "duplicate"), linesOf(expected.problems, "duplicate"));
+    for (const PairCounts& pair : results.outcome.counts.pairs) {
+      EXPECT_EQ(pair.resumed, 1u);
+      EXPECT_EQ(pair.evaluated, kStamps - 2u);
+      EXPECT_EQ(pair.duplicate, 1u);
+    }
+  }
+}
+
+TEST(TwoStampsOfOnePose, HaveTheCaptureOfTheOneThatCounts) {
+  const TemporaryFolder folder;
+  const auto evaluate = [&](const std::string& out, const std::vector<std::int64_t>& stamps,
+                            const std::vector<std::string>& merge) {
+    EvaluationOptions options = optionsFor(folder);
+    options.output_dir = folder.file(out);
+    options.merge = merge;
+    Evaluation evaluation(options, {});
+    for (const std::int64_t stamp : stamps) {
+      CaptureRecord capture;
+      capture.pose = 7;
+      capture.stamp_ns = stampOf(stamp);
+      capture.ev100 = static_cast<double>(stamp);
+      evaluation.addCapture(1, capture);
+      feedPose(evaluation, stamp);
+    }
+    evaluation.finish();
+    return options.output_dir;
+  };
+  const std::string earlier = evaluate("earlier", {5}, {}), later = evaluate("later", {6}, {});
+  for (const std::string& out : {evaluate("in_order", {5, 6}, {}), evaluate("backwards", {6, 5}, {}),
+                                 evaluate("merged", {}, {earlier, later})}) {
+    EXPECT_TRUE(hasLine(contentOf(out + "/frames.csv"), "7,500.500000000,h04,h12,")) << out;
+    const std::string captures = contentOf(out + "/captures.csv");
+    EXPECT_TRUE(hasLine(captures, "h12,7,500.500000000,5,")) << out << "\n" << captures;
+    EXPECT_FALSE(hasLine(captures, "h12,7,500.600000000,")) << out << "\n" << captures;
+  }
+}
+
 // The folder of a run that evaluated some stamps only.
 std::string shard(const TemporaryFolder& folder, const std::string& name, int begin, int end) {
   EvaluationOptions options = optionsFor(folder);

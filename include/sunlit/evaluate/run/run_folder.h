@@ -1,0 +1,12 @@
+/// Whose a folder of results is.
+#pragma once
+
+#include <string>
+
+namespace sunlit::evaluate {
+
+/// Throws std::invalid_argument, naming it, where `folder` holds what an Evaluation found: what others write
+/// there would be taken for the results of the same images, or stand in their place.
+void requireNoRun(const std::string& folder);
+
+}  // namespace sunlit::evaluate
