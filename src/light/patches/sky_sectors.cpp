@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "sunlit/quantity/angle.h"
 #include "sunlit/sky/octahedral.h"
@@ -20,27 +21,37 @@ struct Sectors {
   int count;
 };
 constexpr std::array<Sectors, SkyPatches::kRings.size()> kOfRing = {
-    {{0, 10}, {0, 10}, {10, 6}, {10, 6}, {16, 6}, {16, 6}, {22, 2}, {22, 2}, {22, 2}}};
+    {{0, 10}, {0, 10}, {10, 6}, {10, 6}, {16, 6}, {16, 6}, {22, 2}, {22, 2}, {22, 1}}};
 
-/// Neighbouring patches, alike in size, of one sector.
-struct Run {
-  int begin, end;
-  std::size_t sector;
-  float share;  ///< each one's of the sector
-};
-std::vector<Run> runsOfSectors() {
+using Shares = std::array<float, SkyPatches::kAbove>;
+/// Of each patch, its share of its sector.
+Shares sharesOfSectors() {
   std::array<float, SkySectors::kCount> whole{};
-  std::vector<Run> runs;
-  for (int p = 0; p < SkyPatches::kAbove; ++p) {
-    const std::size_t sector = SkySectors::of(p);
-    whole[sector] += SkyPatches::solidAngle(p);
-    if (runs.empty() || runs.back().sector != sector ||
-        SkyPatches::ringOf(p) != SkyPatches::ringOf(runs.back().begin))
-      runs.push_back({p, p, sector, 0.0f});
-    ++runs.back().end;
+  for (int p = 0; p < SkyPatches::kAbove; ++p) whole[SkySectors::of(p)] += SkyPatches::solidAngle(p);
+  Shares shares;
+  for (int p = 0; p < SkyPatches::kAbove; ++p)
+    shares[static_cast<std::size_t>(p)] = SkyPatches::solidAngle(p) / whole[SkySectors::of(p)];
+  return shares;
+}
+
+using Sums = std::array<float, SkySectors::kCount>;
+/// Adds what is open of a ring, whose patches are alike. Every leaf asks for it, so that how many there are
+/// is known to the compiler.
+template <std::size_t kRing>
+void addRing(const PatchBytes& patches, const Shares& shares, Sums* sums) {
+  constexpr Sectors sectors = kOfRing[kRing];
+  constexpr auto kFirst = static_cast<std::size_t>(SkyPatches::kRings[kRing].first);
+  constexpr auto kEach = static_cast<std::size_t>(SkyPatches::kRings[kRing].patches / sectors.count);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(sectors.count); ++k) {
+    const std::size_t begin = kFirst + kEach * k;
+    int bytes = 0;
+    for (std::size_t p = begin; p < begin + kEach; ++p) bytes += patches[p];
+    (*sums)[sectors.first + k] += shares[begin] * static_cast<float>(bytes);
   }
-  for (Run& run : runs) run.share = SkyPatches::solidAngle(run.begin) / whole[run.sector];
-  return runs;
+}
+template <std::size_t... kRing>
+void addRings(const PatchBytes& patches, const Shares& shares, std::index_sequence<kRing...>, Sums* sums) {
+  (addRing<kRing>(patches, shares, sums), ...);
 }
 
 }  // namespace
@@ -53,14 +64,10 @@ std::size_t SkySectors::of(int patch) {
 }
 
 std::array<std::uint8_t, SkySectors::kCount> SkySectors::openOf(const PatchBytes& patches) {
-  static const std::vector<Run> runs = runsOfSectors();
-  std::array<float, kCount> sum;
+  static const Shares shares = sharesOfSectors();
+  Sums sum;
   sum.fill(0.5f);
-  for (const Run& run : runs) {
-    int bytes = 0;
-    for (int p = run.begin; p < run.end; ++p) bytes += patches[static_cast<std::size_t>(p)];
-    sum[run.sector] += run.share * static_cast<float>(bytes);
-  }
+  addRings(patches, shares, std::make_index_sequence<kOfRing.size()>(), &sum);
   std::array<std::uint8_t, kCount> open;
   for (std::size_t sector = 0; sector < kCount; ++sector)
     open[sector] = static_cast<std::uint8_t>(std::min(sum[sector], 255.0f));

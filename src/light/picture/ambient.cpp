@@ -13,60 +13,43 @@
 namespace sunlit::light {
 namespace {
 
-/// The light of the nodes about a place.
-class NodesAbout {
- public:
-  NodesAbout(const LightPlace& place, const NodeLights& nodes)
-      : weight_(place.weight),
-        nodes_{nodes.at(place.node[0]), nodes.at(place.node[1]), nodes.at(place.node[2])} {}
-
-  Eigen::Array3f irradiance() const {
-    Eigen::Array3f sum = Eigen::Array3f::Zero();
-    for (std::size_t k = 0; k < 3; ++k) sum += weight_[k] * nodes_[k].irradiance;
-    return sum;
-  }
-  /// What shares of surfaces above and below the horizon add up to.
-  Eigen::Array3f around(float above, float below) const {
-    Eigen::Array3f sum = Eigen::Array3f::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Surroundings& around = nodes_[k].around;
-      sum += weight_[k] * (above * around.above + below * around.below);
-    }
-    return sum;
-  }
-
- private:
-  std::array<float, 3> weight_;
-  std::array<NodeLight, 3> nodes_;
-};
+/// What shares of the surfaces above and below the horizon that stand about a place add up to.
+Eigen::Array3f aroundOf(const LightPlace& place, const NodeLights& nodes, float above, float below) {
+  Eigen::Array4f sum = Eigen::Array4f::Zero();
+  for (std::size_t k = 0; k < 3; ++k)
+    sum += place.weight[k] * (above * nodes.above(place.node[k]) + below * nodes.below(place.node[k]));
+  return sum.head<3>();
+}
 
 /// By light of the sky, lx, and the share of the half sphere that it comes from. What hides the rest is as
 /// bright as what the nodes have around them.
-Eigen::Array3f withSurroundings(const Eigen::Array4f& open, const NodesAbout& nodes, float normal_z) {
+Eigen::Array3f withSurroundings(const Eigen::Array4f& open, const LightPlace& place, const NodeLights& nodes,
+                                float normal_z) {
   const float up = 0.5f * (1.0f + normal_z);  // of an even sphere's light by cosine
-  return open.head<3>() + kPiFloat * nodes.around(std::max(up - open[3], 0.0f), 1.0f - up);
+  return open.head<3>() + kPiFloat * aroundOf(place, nodes, std::max(up - open[3], 0.0f), 1.0f - up);
 }
 
 /// What arrives at a surface and, where light gets through it, behind it.
 struct Irradiance {
   Eigen::Array3f front, behind;
 };
-Irradiance irradianceOf(const Eigen::Vector3f& normal, const NodesAbout& nodes, const AmbientSources& sources,
+Irradiance irradianceOf(const Eigen::Vector3f& normal, const AmbientSources& sources,
                         const Illumination& light) {
+  const LightPlace& front = sources.outlook.own.light;
   const LightPlace& behind = sources.outlook.sheet.behind;
   const SkyOpenness& sky = sources.outlook.sheet.sky;
   const bool both = behind.known();
   Irradiance sum;
   const auto fromOpenSky = [&](const auto& open) {
-    sum.front = withSurroundings(open.front, nodes, normal.z());
-    if (both) sum.behind = withSurroundings(open.behind, {behind, *light.nodes}, -normal.z());
+    sum.front = withSurroundings(open.front, front, *light.nodes, normal.z());
+    if (both) sum.behind = withSurroundings(open.behind, behind, *light.nodes, -normal.z());
   };
   if (sources.outlook.gathered && light.mirror_sky) {
     fromOpenSky(gatheredLight(*sources.outlook.gathered, light.mirror_sky->patches(), normal));
   } else if (sky.known && light.sky_sectors) {
     fromOpenSky(light.sky_sectors->irradiance(sky, normal));
   } else {
-    sum.front = nodes.irradiance();
+    sum.front = irradianceAt(front, *light.nodes);
     if (both) sum.behind = irradianceAt(behind, *light.nodes);
   }
   if (!both) sum.behind = sum.front;
@@ -76,10 +59,10 @@ Irradiance irradianceOf(const Eigen::Vector3f& normal, const NodesAbout& nodes, 
 /// As the bake knows it.
 AmbientLight bakedLight(const Surface& surface, const AmbientSources& sources, const Illumination& light) {
   const Outlook& outlook = sources.outlook.own;
-  const NodesAbout nodes(outlook.light, *light.nodes);
-  const Irradiance arriving = irradianceOf(surface.shading_normal, nodes, sources, light);
+  const Irradiance arriving = irradianceOf(surface.shading_normal, sources, light);
   const Mirrored& mirrored = sources.mirrored;
-  const Eigen::Array3f seen = mirrored.sky + nodes.around(mirrored.hidden_above, mirrored.hidden_below);
+  const Eigen::Array3f seen =
+      mirrored.sky + aroundOf(outlook.light, *light.nodes, mirrored.hidden_above, mirrored.hidden_below);
   return {arriving.front * outlook.unhidden, arriving.behind * outlook.unhidden, seen * outlook.unhidden};
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace sunlit::light {
 namespace {
@@ -37,6 +38,23 @@ TEST(PackedLight, OfWhatItGaveIsTheSame) {
   for (float value = 1e-6f; value < 1e6f; value *= 1.37f) {
     const float once = PackedLight(value).value();
     EXPECT_EQ(PackedLight(once).value(), once);
+  }
+}
+
+TEST(NodeLights, KeepsWhatArrivesFromWhere) {
+  std::vector<NodeLight> nodes;
+  for (float first = 1.0f; first < 30.0f; first += 9.0f) {
+    const auto next = [first](float i) {
+      return Eigen::Array3f(first + i, first + i + 1.0f, first + i + 2.0f);
+    };
+    nodes.push_back({next(0.0f), {next(3.0f), next(6.0f)}});
+  }
+  const NodeLights kept(nodes);
+  ASSERT_EQ(kept.size(), nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {  // whole numbers up to 1024 keep their bits
+    EXPECT_TRUE((kept.irradiance(i).head<3>() == nodes[i].irradiance).all());
+    EXPECT_TRUE((kept.above(i).head<3>() == nodes[i].around.above).all());
+    EXPECT_TRUE((kept.below(i).head<3>() == nodes[i].around.below).all());
   }
 }
 

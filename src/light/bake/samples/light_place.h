@@ -27,9 +27,9 @@ LightPlace lightPlace(const LightMesh& mesh, const TriangleSide& side, const std
 
 /// Illuminance at a place between `nodes`, lx.
 inline Eigen::Array3f irradianceAt(const LightPlace& place, const NodeLights& nodes) {
-  Eigen::Array3f sum = Eigen::Array3f::Zero();
+  Eigen::Array4f sum = Eigen::Array4f::Zero();
   for (std::size_t k = 0; k < 3; ++k) sum += place.weight[k] * nodes.irradiance(place.node[k]);
-  return sum;
+  return sum.head<3>();
 }
 
 }  // namespace sunlit::light

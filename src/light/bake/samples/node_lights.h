@@ -23,17 +23,23 @@ class PackedLight {
     std::memcpy(&bits, &shifted, sizeof(bits));
     code_ = static_cast<std::uint16_t>(((bits + kHalf) >> kDropped) - (kLeastBits >> kDropped));
   }
-  float value() const { return valuesOf<1>(this)[0]; }
-  /// Of so many, side by side.
-  template <std::size_t N>
-  static std::array<float, N> valuesOf(const PackedLight* packed) {
-    std::array<std::uint32_t, N> bits;
-    for (std::size_t i = 0; i < N; ++i)
-      bits[i] = (static_cast<std::uint32_t>(packed[i].code_) << kDropped) + kLeastBits;
-    std::array<float, N> values;
-    std::memcpy(values.data(), bits.data(), sizeof(values));
-    for (float& value : values) value -= kLeast;
-    return values;
+  float value() const {
+    const std::uint32_t bits = (static_cast<std::uint32_t>(code_) << kDropped) + kLeastBits;
+    float shifted = 0.0f;
+    std::memcpy(&shifted, &bits, sizeof(shifted));
+    return shifted - kLeast;
+  }
+  /// Of four, side by side, in vector code: left to themselves, compilers take them apart one by one.
+  static Eigen::Array4f valuesOf(const PackedLight* four) {
+    using Codes = std::uint16_t __attribute__((vector_size(4 * sizeof(std::uint16_t))));
+    using Bits = std::uint32_t __attribute__((vector_size(4 * sizeof(std::uint32_t))));
+    static_assert(sizeof(Codes) == 4 * sizeof(PackedLight));
+    Codes codes;
+    std::memcpy(&codes, four, sizeof(codes));
+    const Bits bits = (__builtin_convertvector(codes, Bits) << kDropped) + kLeastBits;
+    Eigen::Array4f shifted;
+    std::memcpy(shifted.data(), &bits, sizeof(bits));
+    return shifted - kLeast;
   }
 
  private:
@@ -47,30 +53,29 @@ class PackedLight {
 /// Each as NodeLight, rounded.
 class NodeLights {
  public:
-  explicit NodeLights(const std::vector<NodeLight>& nodes) : nodes_(nodes.size()) {
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const NodeLight& from = nodes[i];
-      PackedLight* to = nodes_[i].data();
-      for (const Eigen::Array3f& light : {from.irradiance, from.around.above, from.around.below})
-        for (Eigen::Index c = 0; c < 3; ++c) *to++ = PackedLight(light[c]);
-    }
+  explicit NodeLights(const std::vector<NodeLight>& nodes) : count_(nodes.size()) {
+    values_.reserve(count_ * kValues + 1);
+    for (const NodeLight& node : nodes)
+      for (const Eigen::Array3f& light : {node.irradiance, node.around.above, node.around.below})
+        for (Eigen::Index c = 0; c < 3; ++c) values_.emplace_back(light[c]);
+    values_.emplace_back();  // what is read behind the last node
   }
 
-  std::size_t size() const { return nodes_.size(); }
-  NodeLight at(std::size_t node) const {
-    const std::array<float, kValues> v = PackedLight::valuesOf<kValues>(nodes_[node].data());
-    return {{v[0], v[1], v[2]}, {{v[3], v[4], v[5]}, {v[6], v[7], v[8]}}};
-  }
-  Eigen::Array3f irradiance(std::size_t node) const {
-    const std::array<float, 3> v = PackedLight::valuesOf<3>(nodes_[node].data());
-    return {v[0], v[1], v[2]};
-  }
+  std::size_t size() const { return count_; }
+  /// As NodeLight; the fourth value is of no meaning.
+  Eigen::Array4f irradiance(std::size_t node) const { return at(node, 0); }
+  Eigen::Array4f above(std::size_t node) const { return at(node, 3); }
+  Eigen::Array4f below(std::size_t node) const { return at(node, 6); }
 
  private:
   static constexpr std::size_t kValues = 9;
-  using Node = std::array<PackedLight, kValues>;
 
-  std::vector<Node> nodes_;
+  Eigen::Array4f at(std::size_t node, std::size_t first) const {
+    return PackedLight::valuesOf(&values_[node * kValues + first]);
+  }
+
+  std::size_t count_;
+  std::vector<PackedLight> values_;
 };
 
 }  // namespace sunlit::light
