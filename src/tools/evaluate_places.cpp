@@ -2,9 +2,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "sunlit/evaluate/places/place_comparison.h"
@@ -148,9 +151,24 @@ void printNotes(const std::string& method, const FoundPlaces& found, const evalu
     std::printf("%s: %zu queries found no place\n", method.c_str(), scores.without_guess);
 }
 
+/// Matrices are drawn as pictures: among those that are read they would be places of the next run.
+void requireFolderOfItsOwn(const PlacesOptions& options) {
+  for (const auto& [option, pictures] : {std::pair{"--map", &options.map}, {"--query", &options.queries}}) {
+    std::error_code none;  // no such folder yet: another
+    if (std::filesystem::equivalent(options.output, *pictures, none)) {
+      refuse(
+          "--out", '"' + options.output + '"',
+          std::string("another folder than that of ") + option +
+              ", in which a matrix that is drawn (difference_*.png) would be a place of the next run: give "
+              "a new one, or one of results alone");
+    }
+  }
+}
+
 void evaluatePlaces(const PlacesOptions& options) {
   const PictureFolder map = evaluate::openPictureFolder(options.map);
   const PictureFolder queries = evaluate::openPictureFolder(options.queries);
+  requireFolderOfItsOwn(options);
   requireFolderCanBeMade(options.output);
   PlacesProgress progress;
   PlaceComparison comparison(

@@ -147,6 +147,22 @@ class Places(unittest.TestCase):
         self.query = os.path.join(self.folder.name, "empty")
         self.assertIn(self.query + ": holds no pictures", self.refused("--method", "sad"))
 
+    def test_does_not_draw_among_the_pictures_that_it_reads(self):
+        link = os.path.join(self.folder.name, "link")
+        os.symlink(self.query, link)
+        before = content(self.map), content(self.query)
+        for out, option in ((self.map, "--map"), (os.path.join(self.map, "..", "query"), "--query"), (link, "--query")):
+            done = self.evaluate("--method", "sad", out=out)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
+            self.assertIn('--out is "%s", but must be another folder than that of %s, ' % (out, option), done.stderr)
+            self.assertEqual((content(self.map), content(self.query)), before)
+        below = os.path.join(self.map, "results")  # only what lies in a folder itself is read
+        for _ in range(2):
+            done = self.evaluate("--method", "sad", out=below)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            with open(os.path.join(below, "difference_sad.csv")) as file:
+                self.assertEqual(len(next(csv.reader(file))), 1 + PICTURES)
+
 
 if __name__ == "__main__":
     rosunit.unitrun("sunlit", "tools_evaluate_places", Places, sysargs=sys.argv)

@@ -4,6 +4,7 @@ import csv
 import math
 import os
 import pathlib
+import shutil
 import sys
 import tempfile
 import unittest
@@ -388,6 +389,22 @@ class LocaliseBags(unittest.TestCase):
         self.assertIn("absent.bag: is not a bag that can be read", self.refused("--map", self.path("absent.bag"), "--query", dusk))
         pathlib.Path(self.path("text.bag")).write_text("no bag")
         self.assertIn("text.bag: is not a bag that can be read", self.refused("--map", noon, "--query", self.path("text.bag")))
+        whole = pathlib.Path(noon).read_bytes()
+        pathlib.Path(self.path("cut.bag")).write_bytes(whole[:-50])  # within the index, which is the end
+        pathlib.Path(self.path("half.bag")).write_bytes(whole[:len(whole) // 2])
+        with rosbag.Bag(self.path("recorded.bag"), "w") as bag:
+            bag.write("/h20/camera/pose", PoseStamped(), rospy.Time(1))
+            bag.flush()
+            shutil.copy(self.path("recorded.bag"), self.path("left.bag.active"))
+        for name, reason in (("cut.bag", "Error reading from file"), ("half.bag", "Error reading from file"),
+                             ("left.bag.active", "Bag unindexed")):
+            for arguments in (["--map", noon, "--query", self.path(name)], [self.path(name)]):
+                told = self.refused(*arguments)
+                self.assertIn(name + ": is not a bag that can be read: " + reason, told)
+                self.assertIn("; its end is missing: it is still being recorded, or was cut off while it was recorded or "
+                              "copied; copy it again, or mend what is there by rosbag reindex " + self.path(name), told)
+        for name in ("absent.bag", "text.bag"):
+            self.assertNotIn("reindex", self.refused(self.path(name)))
         with rosbag.Bag(self.path("empty.bag"), "w"):
             pass
         self.assertIn("empty.bag: holds no image below /", self.refused("--map", noon, "--query", self.path("empty.bag")))

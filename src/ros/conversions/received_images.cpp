@@ -3,6 +3,7 @@
 #include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
 
+#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -33,6 +34,21 @@ std::string faultOfData(const sensor_msgs::Image& message) {
   return "";
 }
 
+/// What cv_bridge makes of it. Of numbers in the other order of bytes it makes 8-bit channels, one a byte, so
+/// they are swapped before. Throws what it and OpenCV throw.
+cv::Mat numbersOf(const sensor_msgs::Image& message, const std::string& encoding) {
+  constexpr bool kIsBigEndian = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+  const std::size_t bytes = CV_ELEM_SIZE1(cv_bridge::getCvType(message.encoding));
+  if (bytes == 1 || (message.is_bigendian != 0) == kIsBigEndian)
+    return cv_bridge::toCvCopy(message, encoding)->image;
+  sensor_msgs::Image swapped = message;
+  swapped.is_bigendian = kIsBigEndian;
+  // Rows begin with a number, or OpenCV refuses them.
+  for (std::size_t i = 0; i + bytes <= swapped.data.size(); i += bytes)
+    std::reverse(&swapped.data[i], &swapped.data[i] + bytes);
+  return cv_bridge::toCvCopy(swapped, encoding)->image;
+}
+
 }  // namespace
 
 std::int64_t nanosecondsOf(const ros::Time& time) {
@@ -49,8 +65,7 @@ DecodedImage decode(const sensor_msgs::Image& message, std::size_t max_pixels) {
   try {
     decoded.fault = faultOfSize(message.width, message.height, max_pixels);
     if (decoded.fault.empty()) decoded.fault = faultOfData(message);
-    if (decoded.fault.empty())
-      decoded.rgb = cv_bridge::toCvCopy(message, sensor_msgs::image_encodings::RGB8)->image;
+    if (decoded.fault.empty()) decoded.rgb = numbersOf(message, sensor_msgs::image_encodings::RGB8);
   } catch (const std::exception& error) {  // of cv_bridge and of OpenCV
     decoded.fault =
         "encoding \"" + message.encoding + "\" cannot be converted to rgb8: " + std::string(error.what());
@@ -98,7 +113,7 @@ DecodedDepth decodeDepth(const sensor_msgs::Image& message, std::size_t max_pixe
   if (decoded.fault.empty()) decoded.fault = faultOfData(message);
   if (!decoded.fault.empty()) return decoded;
   try {
-    const cv::Mat numbers = cv_bridge::toCvCopy(message)->image;
+    const cv::Mat numbers = numbersOf(message, message.encoding);
     if (is_metres) {
       decoded.metres = numbers;
     } else {

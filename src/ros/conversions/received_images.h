@@ -23,8 +23,9 @@ struct DecodedImage {
 };
 
 /// Whatever cv_bridge can convert to rgb8: rgb, bgr, with alpha (left out), mono, Bayer, yuv422, of 8 or 16
-/// bit. 16 bit become v · 255 / 65535, rounded. All else is a fault that names it: other encodings, more than
-/// `max_pixels` pixels, data that do not fit the size. Nothing is allocated before the size is checked.
+/// bit in either order of bytes. 16 bit become v · 255 / 65535, rounded. All else is a fault that names it:
+/// other encodings, more than `max_pixels` pixels, data that do not fit the size. Nothing is allocated before
+/// the size is checked.
 DecodedImage decode(const sensor_msgs::Image& message, std::size_t max_pixels);
 /// PNG and JPEG, of grey or colour, 8 or 16 bit as above; by the data, whatever the message calls its format.
 DecodedImage decode(const sensor_msgs::CompressedImage& message, std::size_t max_pixels);
@@ -35,7 +36,8 @@ struct DecodedDepth {
   std::string fault;
 };
 
-/// Encodings 32FC1, m, and 16UC1, mm with 0 for nothing (REP-118). All else is a fault, as above.
+/// Encodings 32FC1, m, and 16UC1, mm with 0 for nothing (REP-118), in either order of bytes. All else is a
+/// fault, as above.
 DecodedDepth decodeDepth(const sensor_msgs::Image& message, std::size_t max_pixels);
 
 }  // namespace sunlit::ros_interface

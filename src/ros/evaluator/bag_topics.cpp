@@ -3,6 +3,7 @@
 #include <rosbag/view.h>
 
 #include <cstdio>
+#include <fstream>
 #include <stdexcept>
 
 #include "sunlit/evaluate/files/stream_name.h"
@@ -16,12 +17,38 @@ std::string topicsInWords(const std::set<std::string>& topics) {
   return text.empty() ? "nothing" : text;
 }
 
+namespace {
+
+/// Whether it begins as bags do.
+bool isBegunAsBag(const std::string& path) {
+  const std::string kBegin = "#ROSBAG V";
+  std::string begin(kBegin.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin == kBegin;
+}
+
+/// The index of a bag is its end, which is missing where it was cut off: it is unindexed, or its reading
+/// fails.
+bool lacksItsEnd(const std::string& path, const rosbag::BagException& error) {
+  return dynamic_cast<const rosbag::BagUnindexedException*>(&error) != nullptr ||
+         (dynamic_cast<const rosbag::BagIOException*>(&error) != nullptr && isBegunAsBag(path));
+}
+
+}  // namespace
+
 std::unique_ptr<rosbag::Bag> openBag(const std::string& path) {
   auto bag = std::make_unique<rosbag::Bag>();
   try {
     bag->open(path, rosbag::bagmode::Read);
   } catch (const rosbag::BagException& error) {
-    throw std::runtime_error(path + ": is not a bag that can be read: " + error.what());
+    std::string told = path + ": is not a bag that can be read: " + error.what();
+    if (lacksItsEnd(path, error)) {
+      told +=
+          "; its end is missing: it is still being recorded, or was cut off while it was recorded or copied; "
+          "copy it again, or mend what is there by rosbag reindex " +
+          path;
+    }
+    throw std::runtime_error(told);
   }
   return bag;
 }

@@ -10,7 +10,8 @@
 
 namespace sunlit::ros_interface {
 
-/// Throws std::runtime_error with path and reason for a bag that cannot be read.
+/// Throws std::runtime_error with path and reason for a bag that cannot be read, and what mends one that was
+/// cut off.
 std::unique_ptr<rosbag::Bag> openBag(const std::string& path);
 
 /// "/" or "/name/…/".

@@ -28,8 +28,13 @@ XmlRpc::XmlRpcValue usualParameters(const std::vector<std::string>& streams) {
 std::vector<std::string> streamsOf(const BagEvaluationOptions& options) {
   const std::vector<std::string> streams = streamsIn(options.bags, options.name_space);
   if (!streams.empty()) return streams;
-  throw std::runtime_error("the bags hold no " + options.name_space +
-                           "<stream>/camera/image_raw, nor that with /compressed");
+  const std::string root = rootOf(options.name_space);
+  throw std::runtime_error(
+      "the bags hold neither " + root + "<stream>/camera/image_raw nor that with /compressed; they hold: " +
+      topicsInWords(topicsIn(options.bags)) +
+      "; say what stands before <stream> by --namespace, or record a bag anew under such names: rosbag play "
+      "BAG TOPIC:=" +
+      root + "STREAM/camera/image_raw while rosbag record -a runs");
 }
 
 /// What is typed: bags to be evaluated, or a map and queries to be localised in it.

@@ -430,6 +430,7 @@ about:
                 bag.write(topic, String(data='by somebody else'), stamp_of(0))
         self.write_image_bag('plain.bag', [('/%s/camera/image_raw' % stream, image_message(stamp_of(0), picture(0, 0)))
                                            for stream in STREAMS])
+        self.write_image_bag('robot.bag', [('/front/image', image_message(stamp_of(0), picture(0, 0)))])
         os.mkdir(self.path('full'))
         with open(self.path('full/images'), 'w') as file:
             file.write('where the folder of the pictures should be')
@@ -467,6 +468,12 @@ about:
                  (['--config', self.path('streamless.yaml'), '--out', self.path('out'), '--merge', self.folder.name],
                   'streamless.yaml/streams is missing, but must be a list of names'),
                  (start + ['--merge', self.folder.name], 'holds no run'),
+                 (['--out', self.path('out'), self.path('robot.bag')],
+                  'the bags hold neither /<stream>/camera/image_raw nor that with /compressed; they hold: /front/image; '
+                  'say what stands before <stream> by --namespace, or record a bag anew under such names: rosbag play '
+                  'BAG TOPIC:=/STREAM/camera/image_raw while rosbag record -a runs'),
+                 (['--namespace', 'h08', '--out', self.path('out'), self.path('robot.bag')],
+                  'the bags hold neither /h08/<stream>/camera/image_raw nor'),
                  (['--colour'], '--colour')]
         for arguments, expected in cases:
             done = self.evaluate_bags(*arguments)

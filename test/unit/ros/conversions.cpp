@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -43,6 +44,71 @@ TEST(Messages, ADepthImageWhoseRowsBeginWithinANumberIsAFault) {
     const DecodedDepth decoded = decodeDepth(message, 100);
     EXPECT_TRUE(decoded.metres.empty());
     EXPECT_EQ(decoded.fault.rfind("depth cannot be read: ", 0), 0u) << decoded.fault;
+  }
+}
+
+/// One pixel of each of these numbers beside the other, of which `channels` make a pixel.
+sensor_msgs::Image imageOf(const std::string& encoding, std::uint32_t channels,
+                           const std::vector<std::string>& numbers) {
+  sensor_msgs::Image message;
+  message.encoding = encoding;
+  message.height = 1;
+  message.width = static_cast<std::uint32_t>(numbers.size()) / channels;
+  for (const std::string& number : numbers)
+    message.data.insert(message.data.end(), number.begin(), number.end());
+  message.step = static_cast<std::uint32_t>(message.data.size());
+  return message;
+}
+
+/// The same numbers, of the other order of bytes.
+sensor_msgs::Image inOtherOrder(sensor_msgs::Image message, std::size_t bytes_of_number) {
+  message.is_bigendian = message.is_bigendian == 0 ? 1 : 0;
+  for (auto at = message.data.begin(); at != message.data.end(); at += bytes_of_number)
+    std::reverse(at, at + bytes_of_number);
+  return message;
+}
+
+/// The high byte of these is the value of 8 bit: v · 255 / 65535 is v / 257, and 0x4040 is 64 · 257.
+TEST(Messages, ImagesOf16BitAreReadInEitherOrderOfBytes) {
+  for (const auto& [encoding, channels] :
+       {std::pair<const char*, std::uint32_t>{"mono16", 1}, {"rgb16", 3}}) {
+    sensor_msgs::Image little = imageOf(encoding, channels, {"\x40\x40", "\x41\x40", "\x30\x20"});
+    for (const sensor_msgs::Image& message : {little, inOtherOrder(little, 2)}) {
+      const DecodedImage decoded = decode(message, 100);
+      EXPECT_EQ(decoded.fault, "") << encoding << " " << int{message.is_bigendian};
+      ASSERT_EQ(decoded.rgb.type(), CV_8UC3);
+      ASSERT_EQ(decoded.rgb.cols, static_cast<int>(3 / channels));
+      const std::vector<int> expected = {64, 64, 32};  // 0x4041 and 0x2030 are rounded
+      for (int i = 0; i < 3; ++i) {
+        const int pixel = channels == 3 ? 0 : i;
+        EXPECT_EQ(decoded.rgb.at<cv::Vec3b>(0, pixel)[channels == 3 ? i : 0], expected[i])
+            << encoding << " " << int{message.is_bigendian};
+      }
+    }
+  }
+}
+
+TEST(Messages, ImagesOf8BitHaveNoOrderOfBytes) {
+  sensor_msgs::Image message = imageOf("rgb8", 3, {"\x01", "\x02", "\x03"});
+  message.is_bigendian = 1;
+  const DecodedImage decoded = decode(message, 100);
+  ASSERT_EQ(decoded.fault, "");
+  EXPECT_EQ(decoded.rgb.at<cv::Vec3b>(0, 0), cv::Vec3b(1, 2, 3));
+}
+
+/// 0x0102 mm, and 0x3fc00000, which is 1.5.
+TEST(Messages, DepthIsReadInEitherOrderOfBytes) {
+  using namespace std::string_literals;
+  const sensor_msgs::Image millimetres = imageOf("16UC1", 1, {"\x02\x01"});
+  const sensor_msgs::Image metres = imageOf("32FC1", 1, {"\0\0\xc0\x3f"s});
+  for (const auto& [message, expected] : {std::pair{millimetres, 0.258f},
+                                          {inOtherOrder(millimetres, 2), 0.258f},
+                                          {metres, 1.5f},
+                                          {inOtherOrder(metres, 4), 1.5f}}) {
+    const DecodedDepth decoded = decodeDepth(message, 100);
+    ASSERT_EQ(decoded.fault, "") << message.encoding;
+    ASSERT_EQ(decoded.metres.type(), CV_32FC1) << message.encoding << " " << int{message.is_bigendian};
+    EXPECT_FLOAT_EQ(decoded.metres.at<float>(0, 0), expected);
   }
 }
 
