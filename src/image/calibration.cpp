@@ -6,9 +6,11 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
+#include "sunlit/quantity/columns.h"
 #include "sunlit/quantity/field.h"
 #include "sunlit/quantity/range.h"
 
@@ -17,6 +19,18 @@ namespace {
 
 /// No calibration is a tenth as long; what is, is another file.
 constexpr std::size_t kLongest = 1 << 16;
+
+/// Whether camera_calibration wrote it in its other form: a comment with this name stands first, and a
+/// section in brackets before all values.
+bool looksLikeIni(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    line = trimmed(line);
+    if (line.compare(0, 5, "# oST") == 0) return true;
+    if (!line.empty() && line.front() != '#') return line.front() == '[' && line.back() == ']';
+  }
+  return false;
+}
 
 /// One file while it is read; all that it refuses begins with file and line.
 class CalibrationFile {
@@ -32,9 +46,12 @@ class CalibrationFile {
     try {
       root_ = YAML::Load(text);
     } catch (const YAML::Exception& error) {
+      refuseIni(text);
       fail(error.mark, "is not YAML: " + error.msg);
     }
-    if (!root_.IsMap()) fail(root_.Mark(), "is no calibration: there are no keys");
+    if (root_.IsMap()) return;
+    refuseIni(text);
+    fail(root_.Mark(), "is no calibration: there are no keys");
   }
 
   Calibration read() const {
@@ -58,6 +75,12 @@ class CalibrationFile {
   }
 
  private:
+  void refuseIni(const std::string& text) const {
+    if (!looksLikeIni(text)) return;
+    throw std::runtime_error(file_ +
+                             ": is a calibration in the form .ini, and only that in YAML is read; "
+                             "rosrun camera_calibration_parsers convert cal.ini cal.yaml makes one of it");
+  }
   [[noreturn]] void fail(const YAML::Mark& mark, const std::string& what) const {
     throw std::runtime_error(file_ + ":" + std::to_string(std::max(mark.line, 0) + 1) + ": " + what);
   }

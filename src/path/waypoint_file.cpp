@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <locale>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -26,12 +28,26 @@ bool isHeader(const Fields& fields) {
   return lower == Fields{"x", "y"} || lower == Fields{"x", "y", "z"};
 }
 
+std::optional<double> finiteNumber(const std::string& text) {
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());  // a decimal point, whatever the user's language
+  double value = 0.0;
+  // Streams take neither "nan" nor "inf", so those end up here as well.
+  if (!(stream >> value) || stream.peek() != std::char_traits<char>::eof() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
 /// A waypoint file being read.
 class Reader {
  public:
   explicit Reader(const std::string& file) : file_(file) {}
 
   Waypoints read() {
+    // Which opens as a file does.
+    std::error_code unknown;
+    if (std::filesystem::is_directory(file_, unknown))
+      throw std::runtime_error(file_ + ": this is a folder, and no waypoint file");
     std::ifstream stream(file_);
     if (!stream) throw std::runtime_error(file_ + ": cannot open this waypoint file");
     for (std::string line; std::getline(stream, line);) {
@@ -50,14 +66,9 @@ class Reader {
   }
 
   double number(const std::string& text) const {
-    std::istringstream stream(text);
-    stream.imbue(std::locale::classic());  // a decimal point, whatever the user's language
-    double value = 0.0;
-    // Streams take neither "nan" nor "inf", so those end up here as well.
-    if (!(stream >> value) || stream.peek() != std::char_traits<char>::eof() || !std::isfinite(value)) {
-      fail("'" + text + "' is not a finite number");
-    }
-    return value;
+    const std::optional<double> value = finiteNumber(text);
+    if (!value) fail("'" + text + "' is not a finite number");
+    return *value;
   }
 
   void readLine(const std::string& line) {
@@ -74,6 +85,8 @@ class Reader {
             std::to_string(columns_) + (columns_ == 1 ? " column" : " columns"));
       }
       if (is_csv_ && isHeader(fields)) return;
+      if (is_csv_ && std::none_of(fields.begin(), fields.end(), finiteNumber))
+        fail("the header is " + line + ", but must be x,y,z or x,y, of columns in that order and in m");
     }
     if (fields.size() != columns_) {
       fail("expected " + std::to_string(columns_) + " columns as above, found " +

@@ -241,7 +241,11 @@ void ParameterReader::check(const std::string& group, const std::function<void()
   try {
     check();
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("parameter " + fullName(group) + "/" + error.what());
+    const std::string what = error.what(), key = what.substr(0, what.find(' '));
+    const std::string name = fullName(group + "/" + key), &top = layers_.front()->name;
+    const bool is_below = layers_.front()->by_last_part && name.compare(0, top.size() + 1, top + "/") != 0;
+    throw std::invalid_argument("parameter " + name + (is_below ? ", in " + top + "," : "") +
+                                what.substr(key.size()));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/sdf_xml.h"
+#include "sunlit/quantity/columns.h"
 
 namespace sunlit::scene {
 namespace {
@@ -50,6 +51,8 @@ const std::map<std::string, Children> kChildren = {
       {"frame"},
       {}}},
 };
+
+const Words kLightTypes = {"point", "spot", "directional"};
 
 /// The flags of a visual that has none.
 constexpr std::uint32_t kEveryCamera = 0xFFFFFFFF;
@@ -188,8 +191,20 @@ class Mender {
     if (kind == "visual") mendVisual(parent);
     if (kind == "material") mendMaterial(parent);
     if (kind == "heightmap") mendHeightmap(parent);
+    dropUnknownLights(parent);
     if (kind == "world" || kind == "model" || kind == "link") nameChildren(parent);
     for (XMLElement* child : childrenOf(parent)) mendBelow(*child);
+  }
+
+  /// libsdformat gives up a world of one whose type it does not know.
+  void dropUnknownLights(XMLElement& parent) {
+    for (XMLElement* light : childrenOf(parent, "light")) {
+      const std::string type = trimmed(attributeOf(*light, "type"));
+      if (kLightTypes.count(type) == 1) continue;
+      builder_.warn("lights were left out, they are of none of the types point, spot and directional",
+                    described(*light, file_) + (type.empty() ? " has no type" : " has type " + type));
+      parent.DeleteChild(light);
+    }
   }
 
   /// Whether others that include this file may refer to a joint, which must then not be one that

@@ -16,10 +16,10 @@ constexpr const char* kNoNormals = "none";
 /// libsdformat checks a world as a simulator needs it: one inertia that no body can have, one name that two
 /// links share, and nothing of it is read. A renderer has no use for most of that. Takes out of `sdf`, the
 /// root element of `file`, what no camera sees (collisions, inertias, joints, sensors, plugins …), and what
-/// cannot be drawn or SDF does not know, each kind of these a warning of `builder`; gives names that are
-/// missing, reserved or taken a form that libsdformat accepts, which is another warning; and takes versions
-/// that it does not know for its newest. Joints to which poses refer, or others that
-/// include the file may, become frames.
+/// cannot be drawn or SDF does not know (elements, types of lights), each kind of these a warning of
+/// `builder`; gives names that are missing, reserved or taken a form that libsdformat accepts, which is
+/// another warning; and takes versions that it does not know for its newest. Joints to which poses refer, or
+/// others that include the file may, become frames.
 void mendSdf(tinyxml2::XMLElement& sdf, const std::string& file, SceneBuilder& builder);
 
 /// Leaves the first world of `sdf`, the root element of `file`: each of several has a place of its own. The

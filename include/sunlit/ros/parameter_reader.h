@@ -38,7 +38,8 @@ class ParameterReader {
   /// Sets every row for which there is a parameter of its key; the others stay as they are. A row of a form
   /// of its own only becomes known: value() reads it.
   void read(const std::vector<Field>& rows) const;
-  /// Calls `check`, and puts "parameter", this node and `group` before the key that its refusal begins with.
+  /// Calls `check`, whose refusals begin with a key of `group`: it gets "parameter" and its full name, behind
+  /// which the overrides are named where it is none of theirs.
   void check(const std::string& group, const std::function<void()>& check) const;
 
   bool has(const std::string& key) const;

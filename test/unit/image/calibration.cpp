@@ -116,6 +116,19 @@ TEST_F(CalibrationFile, IsRefusedByItsLineAndKey) {
   EXPECT_NE(refusalOf(std::string(1 << 17, '#')).find("too long"), std::string::npos);
 }
 
+// The other form that camera_calibration writes; with and without the line that it begins with.
+TEST_F(CalibrationFile, OfTheFormIniIsToldHowToConvertIt) {
+  const std::string ini =
+      "\n[image]\n\nwidth\n640\n\nheight\n480\n\n[narrow_stereo]\n\ncamera matrix\n500.0 0.0 320.0\n";
+  for (const std::string& text :
+       {"# oST version 5.0 parameters\n\n" + ini, ini, std::string("# mine\n\n  [image]\r\nwidth 640")}) {
+    expect(refusalOf(text), {"in the form .ini", "only that in YAML is read",
+                             "rosrun camera_calibration_parsers convert cal.ini cal.yaml"});
+  }
+  for (const char* text : {"a: [1\n[2", "# a list\n- 1\n", "width\n640"})
+    EXPECT_EQ(refusalOf(text).find(".ini"), std::string::npos) << text;
+}
+
 TEST_F(CalibrationFile, IsNotContradictedByWhatIsTypedBeside) {
   const Calibration read = readCalibration(kEuroc);
   const auto refusal = [&](const std::string& key, double value) {

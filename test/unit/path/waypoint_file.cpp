@@ -60,8 +60,19 @@ TEST_F(WaypointFile, NamesTheLineOfWhatIsNoNumber) {
   EXPECT_EQ(errorOf("1,2,3\n4,five,6\n"), ":2: 'five' is not a finite number");
   EXPECT_EQ(errorOf("1,2,3\n4,5m,6\n"), ":2: '5m' is not a finite number");
   EXPECT_EQ(errorOf("1,2,3\n4,,6\n"), ":2: '' is not a finite number");
-  EXPECT_EQ(errorOf("a,b,c\n1,2,3\n4,5,6\n"), ":1: 'a' is not a finite number");
+  EXPECT_EQ(errorOf("1,b,c\n1,2,3\n4,5,6\n"), ":1: 'b' is not a finite number");
   EXPECT_EQ(errorOf("0 1 2 3 0 0 0 1\n1 x 2 3 0 0 0 1\n"), ":2: 'x' is not a finite number");
+}
+
+TEST_F(WaypointFile, NamesAHeaderOfOtherColumns) {
+  const auto said = [](const std::string& header) {
+    return ":1: the header is " + header + ", but must be x,y,z or x,y, of columns in that order and in m";
+  };
+  EXPECT_EQ(errorOf("y,x,z\n1,2,3\n4,5,6\n"), said("y,x,z"));
+  EXPECT_EQ(errorOf("lat,lon\n1,2\n4,5\n"), said("lat,lon"));
+  EXPECT_EQ(errorOf("\"x\",\"y\",\"z\"\n1,2,3\n4,5,6\n"), said("\"x\",\"y\",\"z\""));
+  EXPECT_EQ(errorOf("x [m], y [m]\r\n1,2\n4,5\n"), said("x [m], y [m]"));
+  EXPECT_EQ(errorOf("1,2,3\ny,x,z\n"), ":2: 'y' is not a finite number");
 }
 
 TEST_F(WaypointFile, NamesTheLineOfWrongColumns) {
@@ -84,6 +95,14 @@ TEST_F(WaypointFile, NeedsTwoDifferentPoints) {
 TEST(WaypointFiles, AMissingOneIsNamed) {
   EXPECT_EQ(messageOf<std::runtime_error>([] { readWaypoints("/nowhere/track.csv"); }),
             "/nowhere/track.csv: cannot open this waypoint file");
+}
+
+TEST(WaypointFiles, AFolderIsNamed) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("dir.csv");
+  fs::create_directory(path);
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { readWaypoints(path); }),
+            path + ": this is a folder, and no waypoint file");
 }
 
 TEST(WaypointFiles, TheCentreLineOfForzaIsRead) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 #include "sunlit/ros/conditions.h"
@@ -143,6 +144,30 @@ TEST(Conditions, AreAListOfNamesOrAMapOrASingleUnnamedOne) {
   const auto single = readConditions(ParameterReader(exampleTree(), "/node"));
   ASSERT_EQ(single.size(), 1u);
   EXPECT_EQ(single[0].frame("sun"), "sun");
+}
+
+// Of a rule that two keys break together, the refusal begins with one of them.
+TEST(Conditions, AreNamedWhereValuesContradictEachOther) {
+  XmlRpcValue tree;
+  tree["weather"]["cover"] = 3;
+  tree["conditions"]["noon"]["cover"] = 4;
+  tree["conditions"]["whole"]["weather"]["cover"] = 4;
+  tree["conditions"]["closed"]["overcast"] = std::string("cie");
+  tree["conditions"]["usual"] = std::string();
+  const auto refusal = [](const ParameterReader& reader) {
+    reader.has("weather/cover");
+    return messageOf(
+        [&] { reader.check("weather", [] { throw std::invalid_argument("cover is 4, but must be 8"); }); });
+  };
+  const ParameterReader base(tree, "/node");
+  EXPECT_EQ(refusal(base), "parameter /node/weather/cover is 4, but must be 8");
+  std::map<std::string, std::string> said;
+  for (const Condition& condition : readConditions(base))
+    said[condition.name] = refusal(condition.parameters);
+  EXPECT_EQ(said["noon"], "parameter /node/conditions/noon/cover is 4, but must be 8");
+  EXPECT_EQ(said["whole"], "parameter /node/conditions/whole/weather/cover is 4, but must be 8");
+  EXPECT_EQ(said["closed"], "parameter /node/weather/cover, in /node/conditions/closed, is 4, but must be 8");
+  EXPECT_EQ(said["usual"], "parameter /node/weather/cover, in /node/conditions/usual, is 4, but must be 8");
 }
 
 TEST(Conditions, BadNamesAreRefused) {

@@ -79,6 +79,37 @@ TEST_F(LampFiles, GazebosSunIsNamedAndLeftToOurs) {
             "1 directional lights were not read: the sun of the sky takes their place: sun");
 }
 
+TEST_F(LampFiles, OfATypeThatSdfHasNotAreNamedAndStopNothing) {
+  SKIP_WITHOUT_SDF();
+  const Scene scene = worldWith(
+      "\n<light name='panel' type='area'><pose>8 0 3 0 0 0</pose></light>\n<light name='bulb' type=' point'>"
+      "<attenuation><range>5</range></attenuation></light>",
+      "\n<light name='bare'/>\n<light type=''/>");
+  ASSERT_EQ(scene.lamps.size(), 1u);
+  EXPECT_EQ(scene.lamps[0].name, "bulb");
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  const std::string file = pathOf("test.world");
+  EXPECT_EQ(scene.warnings,
+            (std::vector<std::string>{"3 lights were left out, they are of none of the types point, spot and "
+                                      "directional: <light> panel of " +
+                                      file + ":2 has type area; <light> bare of " + file +
+                                      ":4 has no type; <light> of " + file + ":5 has no type"}));
+}
+
+TEST_F(LampFiles, OfNoTypeThatSdfHasStopNothingFromFilesOfTheirOwn) {
+  SKIP_WITHOUT_SDF();
+  write("models/panel/model.config", "<model><name>panel</name><sdf version='1.6'>model.sdf</sdf></model>");
+  write("models/panel/model.sdf", "<sdf version='1.6'>\n<light name='panel' type='area'/></sdf>");
+  const Scene scene = worldWith("<include><uri>model://panel</uri></include>");
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  EXPECT_EQ(scene.warnings, (std::vector<std::string>{
+                                "1 includes were left out, there is no model in them: model://panel at " +
+                                    pathOf("test.world") + ":1",
+                                "1 lights were left out, they are of none of the types point, spot and "
+                                "directional: <light> panel of " +
+                                    pathOf("models/panel/model.sdf") + ":2 has type area"}));
+}
+
 TEST_F(LampFiles, ThatCannotShineAreNamed) {
   SKIP_WITHOUT_SDF();
   const Scene scene =
