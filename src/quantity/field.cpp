@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "sunlit/quantity/columns.h"
+
 namespace sunlit {
 namespace {
 
@@ -79,19 +81,6 @@ Type checkedType(const Field& field, const Value& value, const std::string& call
   const Type* typed = std::get_if<Type>(&value);
   if (typed == nullptr) refuse(called, quoted(value), field.allowed());
   return *typed;
-}
-
-/// "a,b" as a list.
-std::vector<std::string> wordsOf(const std::string& text) {
-  std::vector<std::string> words(1);
-  for (const char c : text) {
-    if (c == ',') {
-      words.emplace_back();
-    } else {
-      words.back() += c;
-    }
-  }
-  return words;
 }
 
 /// Some of the words, each once.
@@ -174,7 +163,7 @@ void Field::setText(const std::string& text, const std::string& called) const {
     return set(text, called);
   if (std::holds_alternative<bool*>(place))
     return text == "true" || text == "false" ? set(text == "true", called) : set(text, called);
-  if (std::holds_alternative<Choices>(place)) return set(wordsOf(text), called);
+  if (std::holds_alternative<Choices>(place)) return set(splitAtCommas(text), called);
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
   const bool is_number = !text.empty() && *end == '\0' && std::isfinite(number);

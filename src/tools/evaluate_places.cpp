@@ -12,6 +12,7 @@
 
 #include "sunlit/evaluate/places/place_comparison.h"
 #include "sunlit/evaluate/places/place_files.h"
+#include "sunlit/quantity/columns.h"
 #include "sunlit/studio/command_line.h"
 #include "tools/output_folder.h"
 #include "tools/progress_line.h"
@@ -55,15 +56,13 @@ std::string methodNames() {
 
 /// Of a list by commas.
 void addMethods(const std::string& option, const std::string& names, std::vector<PlaceMethod>* methods) {
-  for (std::size_t begin = 0; begin <= names.size();) {
-    const std::size_t end = std::min(names.find(',', begin), names.size());
-    const PlaceMethod method = evaluate::placeMethod(names.substr(begin, end - begin), option);
+  for (const std::string& name : splitAtCommas(names)) {
+    const PlaceMethod method = evaluate::placeMethod(name, option);
     const bool is_there = std::any_of(methods->begin(), methods->end(), [&](const PlaceMethod& other) {
       return other.name() == method.name();
     });
     if (is_there) throw std::invalid_argument(option + " names " + method.name() + " twice");
     methods->push_back(method);
-    begin = end + 1;
   }
 }
 

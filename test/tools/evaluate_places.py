@@ -53,7 +53,7 @@ class Places(unittest.TestCase):
             return list(csv.DictReader(file))
 
     def test_one_row_a_method_and_a_matrix_of_each(self):
-        done = self.evaluate("--method", "sad,seqslam", "--method", "vlad:sift,vlad:orb", "--tolerance", "0")
+        done = self.evaluate("--method", "sad, seqslam", "--method", "vlad:sift,vlad:orb", "--tolerance", "0")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         rows = self.rows()
         self.assertEqual(list(rows[0]), ["method", "queries", "recall_1", "recall_5", "recall_10", "pr_auc",

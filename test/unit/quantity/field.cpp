@@ -89,6 +89,8 @@ TEST(Field, OfSeveralWordsTakesEachOnce) {
   EXPECT_EQ(refusalOf("colours", std::string("red")), "colours is \"red\"" + allowed);
   colours.setText("blue,red", "--colours");
   EXPECT_EQ(options.colours, (std::vector<std::string>{"blue", "red"}));
+  colours.setText(" red , green ", "--colours");
+  EXPECT_EQ(options.colours, (std::vector<std::string>{"red", "green"}));
   EXPECT_EQ(messageOf([&] { colours.setText("blue,,red", "--colours"); }),
             "--colours is [blue, , red]" + allowed);
 }
