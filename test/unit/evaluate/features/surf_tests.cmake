@@ -1,7 +1,7 @@
 # Tests of our SURF. Its sources are built a second time without vector clones, with the outer namespace renamed so that
 # both fit into one program: the two must agree to the bit.
 include(${PROJECT_SOURCE_DIR}/src/evaluate/features/surf_sources.cmake)
-set(sunlit_quantity_sources field.cpp range.cpp)  # of the options
+set(sunlit_quantity_sources columns.cpp field.cpp range.cpp)  # of the options
 list(TRANSFORM sunlit_surf_sources PREPEND ${PROJECT_SOURCE_DIR}/src/evaluate/ OUTPUT_VARIABLE surf_plain_sources)
 list(TRANSFORM sunlit_quantity_sources PREPEND ${PROJECT_SOURCE_DIR}/src/quantity/ OUTPUT_VARIABLE quantity_plain_sources)
 add_library(sunlit_surf_plain STATIC EXCLUDE_FROM_ALL ${surf_plain_sources} ${quantity_plain_sources})
