@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ros/evaluator/bag_topics.h"
+#include "sunlit/quantity/columns.h"
 #include "sunlit/ros/topic_names.h"
 
 namespace sunlit::ros_interface {
@@ -29,9 +30,7 @@ NamedBag namedBag(const std::string& text) {
     return named;
   }
   named.bag = text.substr(0, colon);
-  std::string rest = text.substr(colon + 1) + ',';
-  for (std::size_t comma = 0; (comma = rest.find(',')) != std::string::npos; rest.erase(0, comma + 1))
-    named.streams.push_back(rest.substr(0, comma));
+  named.streams = splitAtCommas(text.substr(colon + 1));
   return named;
 }
 
