@@ -13,6 +13,7 @@
 #include "light/bake/samples/probe.h"
 #include "light/bake/samples/transport_data.h"
 #include "light/picture/ready_picture.h"
+#include "sunlit/image/cache_folder.h"
 #include "sunlit/light/transport.h"
 #include "sunlit/light/world.h"
 #include "sunlit/quantity/frames.h"
@@ -49,9 +50,11 @@ Stage* stage(benchmark::State& state) {
   return stages[which].get();
 }
 
+/// With the bake of the usual cache, or made there first.
 Stage* bakedStage(benchmark::State& state) {
   Stage* s = stage(state);
-  if (s && !s->transport) s->transport = light::Transport::bake(s->world.geometry, {});
+  if (s && !s->transport)
+    s->transport = light::Transport::cached(s->world.geometry, {}, image::usualCacheFolder());
   return s;
 }
 
