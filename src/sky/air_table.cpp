@@ -50,7 +50,7 @@ AirSights::AirSights(const RadiativeTransfer& transfer, double altitude_km) {
     const double length_km = cos_zenith < 0.0 ? kFarBelow_km : segment(altitude_km, cos_zenith).length_km;
     Sight sight;
     const std::vector<double> edges_km = edgesWithCuts(length_km, &sight.steps_to_cut);
-    sight.path = sightPath(transfer.medium(), altitude_km, cos_zenith, edges_km);
+    sight.path = sightPath(transfer.medium(), transfer.sunlight(), {altitude_km, cos_zenith}, edges_km);
     Spectrum depth = Spectrum::Zero();
     std::size_t step = 0;
     for (const std::size_t cut : sight.steps_to_cut) {

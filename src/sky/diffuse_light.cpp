@@ -186,13 +186,15 @@ bool DiffuseLight::take(const std::vector<float>& numbers) {
   return true;
 }
 
-std::vector<DiffuseLight::Ray> DiffuseLight::raysFrom(const Medium& medium, double altitude_km) const {
+std::vector<DiffuseLight::Ray> DiffuseLight::raysFrom(const Medium& medium, const Sunlight& sunlight,
+                                                      double altitude_km) const {
   // The horizon is an edge, so each side has its own quadrature.
   const double horizon = horizonCosZenith(altitude_km);
   std::vector<Ray> rays;
   const auto add = [&](const Node& node) {
-    rays.push_back({sightPath(medium, altitude_km, node.x, sightEdges(medium, altitude_km, node.x, kSteps)),
-                    static_cast<float>(0.5 * node.weight)});
+    rays.push_back(
+        {sightPath(medium, sunlight, {altitude_km, node.x}, sightEdges(medium, altitude_km, node.x, kSteps)),
+         static_cast<float>(0.5 * node.weight)});
   };
   for (const Node& node : gaussLegendre(kRaysNearHorizon, horizon, horizon + kNearHorizon)) {
     add(node);
@@ -231,7 +233,7 @@ DiffuseLight::Gathered DiffuseLight::gather(const std::vector<Ray>& rays, double
 void DiffuseLight::scatterOnce(const Medium& medium, const Sunlight& sunlight) {
   tbb::parallel_for(0, kHeights, [&](int i) {
     std::vector<Ray>& rays = rays_[static_cast<std::size_t>(i)];
-    rays = raysFrom(medium, heightOf(i, kHeights));
+    rays = raysFrom(medium, sunlight, heightOf(i, kHeights));
     for (int j = 1; j < kSuns; ++j) {  // below the lowest sun it is night
       const float sun_cos_zenith = sunCosZenith(j);
       const Gathered gathered =
@@ -241,7 +243,7 @@ void DiffuseLight::scatterOnce(const Medium& medium, const Sunlight& sunlight) {
             Spectrum sum = Spectrum::Zero();
             for (const SightStep& step : path.steps) {
               sum += (step.by_air * air + step.by_aerosol * aerosol) *
-                     sunlight.at(step.middle.altitude_km, sun.cosineTo(step.middle.up)).scaled;
+                     sunlight.at(step.sunlight, sun.cosineTo(step.middle.up)).scaled;
             }
             return sum;
           });
@@ -306,13 +308,12 @@ float DiffuseLight::addOrder(Spectra* gained, Spectra* rest) {
 
 Spectrum DiffuseLight::towardsEye(const SightStep& step, const SunAlong& sun) const {
   const double sun_up = sun.cosineTo(step.middle.up);
-  const double z = step.middle.direction.dot(step.middle.up);
   const double sun_level = std::sqrt(std::max(1e-6, 1.0 - sun_up * sun_up));
-  const double level = std::sqrt(std::max(0.0, 1.0 - z * z));
-  const double x = std::clamp((sun.cosineTo(step.middle.direction) - z * sun_up) / sun_level, -level, level);
-  const std::array<float, kMoments> shape = harmonics(static_cast<float>(z), static_cast<float>(x));
+  const double x = std::clamp((sun.cosineTo(step.middle.direction) - step.z * sun_up) / sun_level,
+                              -step.level, step.level);
+  const std::array<float, kMoments> shape = harmonics(static_cast<float>(step.z), static_cast<float>(x));
 
-  const TablePlace height = heightPlace(step.middle.altitude_km, kHeights);
+  const TablePlace height = heightPlace(step.height_root, kHeights);
   const TablePlace place = placeAt(sunCoordinate(static_cast<float>(sun_up)), kSuns);
   const Moments* low = &field_[at(height.index, place.index)];
   const std::array<const Moments*, 4> nodes = {low, low + 1, low + kSuns, low + kSuns + 1};

@@ -49,7 +49,7 @@ class DiffuseLight {
   void compute(const Medium& medium, const Sunlight& sunlight);
   std::vector<float> numbers() const;
   bool take(const std::vector<float>& numbers);
-  std::vector<Ray> raysFrom(const Medium& medium, double altitude_km) const;
+  std::vector<Ray> raysFrom(const Medium& medium, const Sunlight& sunlight, double altitude_km) const;
   template <typename Radiance>
   Gathered gather(const std::vector<Ray>& rays, double sun_cos_zenith, const Radiance& radiance) const;
   void scatterOnce(const Medium& medium, const Sunlight& sunlight);

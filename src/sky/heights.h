@@ -14,9 +14,13 @@ inline double heightOf(int index, int count) {
   return kAtmosphereHeight_km * x * x;
 }
 
-inline TablePlace heightPlace(double altitude_km, int count) {
-  const double x = std::sqrt(std::clamp(altitude_km / kAtmosphereHeight_km, 0.0, 1.0));
-  return placeAt(static_cast<float>(x * (count - 1)), count);
+/// √(altitude / top), 0 … 1.
+inline double heightRoot(double altitude_km) {
+  return std::sqrt(std::clamp(altitude_km / kAtmosphereHeight_km, 0.0, 1.0));
+}
+
+inline TablePlace heightPlace(double root, int count) {
+  return placeAt(static_cast<float>(root * (count - 1)), count);
 }
 
 }  // namespace sunlit::sky

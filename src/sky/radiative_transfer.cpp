@@ -24,7 +24,7 @@ Spectrum RadiativeTransfer::transmittance(double altitude_km, double cos_zenith)
 }
 
 SightPath RadiativeTransfer::sightFrom(double altitude_km, double cos_zenith) const {
-  return sightPath(medium_, altitude_km, cos_zenith,
+  return sightPath(medium_, sunlight_, {altitude_km, cos_zenith},
                    sightEdges(medium_, altitude_km, cos_zenith, kSightSteps));
 }
 
@@ -37,7 +37,7 @@ void RadiativeTransfer::addStep(const SightStep& step, const SunAlong& sun, doub
                                 Scattered* sum) const {
   const auto cosine = static_cast<float>(sun_cos_angle);
   sum->smooth += diffuse_.towardsEye(step, sun);
-  const Beam beam = sunlight_.at(step.middle.altitude_km, sun.cosineTo(step.middle.up));
+  const Beam beam = sunlight_.at(step.sunlight, sun.cosineTo(step.middle.up));
   if (beam.scaled[kBands - 1] <= 0.0F) {
     return;
   }

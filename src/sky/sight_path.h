@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ray_path.h"
-#include "table_place.h"
+#include "sunlight.h"
 
 namespace sunlit::sky {
 
@@ -16,6 +16,10 @@ struct SightStep {
   Spectrum by_aerosol;  // of aerosol, all that it scatters
   RayPoint middle;
   float aerosol_km;  // from the eye to the middle, in km of sea level aerosol
+  // Of the middle, what light from every sun asks for:
+  double height_root;  // heightRoot()
+  double z, level;     // of the direction: upwards there, and the rest
+  Sunlight::Height sunlight;
 };
 
 struct SightPath {
@@ -26,7 +30,7 @@ struct SightPath {
   RayPoint end;
 };
 
-SightPath sightPath(const Medium& medium, double altitude_km, double cos_zenith,
+SightPath sightPath(const Medium& medium, const Sunlight& sunlight, const SightStart& start,
                     const std::vector<double>& edges_km);
 
 /// The sun as seen along one line of sight: in the frame of that line's plane.

@@ -97,26 +97,32 @@ Sunlight::Sunlight(const Medium& medium) {
   });
 }
 
-Beam Sunlight::at(double altitude_km, double sun_cos_zenith) const {
-  const TablePlace height = heightPlace(altitude_km, kHeights);
-  const auto row = static_cast<std::size_t>(height.index);
-  const double lift = lift_[row] + (lift_[row + 1] - lift_[row]) * height.fraction;
+Sunlight::Height Sunlight::heightAt(double altitude_km) const {
+  const TablePlace place = heightPlace(heightRoot(altitude_km), kHeights);
+  const auto row = static_cast<std::size_t>(place.index);
+  const double lift = lift_[row] + (lift_[row + 1] - lift_[row]) * place.fraction;
   // cos(a + lift) of the straight horizon's angle a, to third order in `lift`.
   const double straight = horizonCosZenith(altitude_km);
   const double sine = std::sqrt(1.0 - straight * straight);
   const double horizon = straight * (1.0 - 0.5 * lift * lift) - sine * lift;
-  const double above = sun_cos_zenith - horizon;
-  const auto part = static_cast<float>(discSegment(above / (kSunRadiusAtOneAu.rad() * sine)));
+  return {place, horizon, kSunRadiusAtOneAu.rad() * sine};
+}
+
+Beam Sunlight::at(const Height& height, double sun_cos_zenith) const {
+  const double above = sun_cos_zenith - height.horizon;
+  const auto part = static_cast<float>(discSegment(above / height.radius));
   if (part <= 0.0F) {
     return {Spectrum::Zero(), 0.0F};
   }
-  const double x = std::sqrt(std::max(0.0, above) / (1.0 - horizon));
+  const double x = std::sqrt(std::max(0.0, above) / (1.0 - height.horizon));
   const TablePlace angle = placeAt(static_cast<float>(x * (kAngles - 1)), kAngles);
-  const std::size_t first = row * kAngles + static_cast<std::size_t>(angle.index);
-  const float a = (1.0F - angle.fraction) * (1.0F - height.fraction);
-  const float b = angle.fraction * (1.0F - height.fraction);
-  const float c = (1.0F - angle.fraction) * height.fraction;
-  const float d = angle.fraction * height.fraction;
+  const std::size_t first =
+      static_cast<std::size_t>(height.row.index) * kAngles + static_cast<std::size_t>(angle.index);
+  const float up = height.row.fraction;
+  const float a = (1.0F - angle.fraction) * (1.0F - up);
+  const float b = angle.fraction * (1.0F - up);
+  const float c = (1.0F - angle.fraction) * up;
+  const float d = angle.fraction * up;
   const Spectrum* low = &depth_[first];
   const Spectrum* high = low + kAngles;
   const float* low_km = &aerosol_km_[first];

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "medium.h"
+#include "table_place.h"
 
 namespace sunlit::sky {
 
@@ -21,8 +22,19 @@ class Sunlight {
  public:
   explicit Sunlight(const Medium& medium);
 
+  /// What all suns share at one height.
+  struct Height {
+    TablePlace row;
+    double horizon;  ///< cosine of zenith of a sun half of which is seen
+    double radius;   ///< of the disc there, as a difference of cosines of zenith
+  };
+  Height heightAt(double altitude_km) const;
+
   /// Towards the sun's disc, part of which may be below the horizon of that height. Without refraction.
-  Beam at(double altitude_km, double sun_cos_zenith) const;
+  Beam at(const Height& height, double sun_cos_zenith) const;
+  Beam at(double altitude_km, double sun_cos_zenith) const {
+    return at(heightAt(altitude_km), sun_cos_zenith);
+  }
 
  private:
   struct Row;

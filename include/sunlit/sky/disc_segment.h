@@ -12,8 +12,9 @@ namespace sunlit::sky {
 /// from the line; on the other side where `height` is negative. Smooth where the line leaves the disc, at −1
 /// and 1.
 inline double discSegment(double height) {
-  const double h = std::clamp(height, -1.0, 1.0);
-  return 0.5 + (h * std::sqrt(1.0 - h * h) + std::asin(h)) / kPi;
+  if (height >= 1.0) return 1.0;
+  if (height <= -1.0) return 0.0;
+  return 0.5 + (height * std::sqrt(1.0 - height * height) + std::asin(height)) / kPi;
 }
 
 }  // namespace sunlit::sky

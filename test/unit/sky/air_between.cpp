@@ -21,7 +21,8 @@ LinearRgb slowAirlight(const RadiativeTransfer& transfer, const Direction& sun, 
   for (int i = 0; i <= kSteps; ++i) {
     edges_km.push_back(distance_km * i / kSteps);
   }
-  const SightPath path = sightPath(transfer.medium(), 0.0, sight.vector().z(), edges_km);
+  const SightPath path =
+      sightPath(transfer.medium(), transfer.sunlight(), {0.0, sight.vector().z()}, edges_km);
   const double cos_angle = sight.vector().dot(sun.vector());
   const SunAlong sun_along(path, sun.vector().z(), cos_angle);
   Scattered light;
