@@ -49,7 +49,7 @@ def found_on_map(output):
     shown = evenly_spread(hours, SHOWN_HOURS)
     keys = [key for pair in shown for key in output.positions if key[:2] == pair]
     columns = min(len(keys), max(1, len({key[2] for key in output.positions if key[:2] in shown})), 3)
-    truth = np.concatenate([one.truth for one in output.positions.values()])
+    truth = np.concatenate([one.truth[:, :2] for one in output.positions.values()])
     with plt.rc_context({**STYLE, "axes.grid": False}):
         left, right, bottom, top = _around(truth)
         shape = np.clip((top - bottom) / (right - left), 0.3, 1.2)
@@ -79,8 +79,8 @@ def _around(places):
 
 
 def _draw_found(axis, positions):
-    truth, found = positions.truth, positions.found
-    error = np.hypot(*(found - truth).T)
+    error = np.linalg.norm(positions.found - positions.truth, axis=1)  # as error_m, with the height
+    truth, found = positions.truth[:, :2], positions.found[:, :2]
     lost = np.isnan(error)
     near = error <= NEAR_M
     axis.plot(*truth.T, color="#777777", linewidth=0.7, label="true path", zorder=1)

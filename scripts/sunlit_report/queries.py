@@ -43,7 +43,7 @@ def read(path):
 
 @dataclasses.dataclass
 class Positions:
-    """Where queries were found and where they were, x and y in columns; NaN where they were not found."""
+    """Where queries were found and where they were, x, y and z in columns; NaN where they were not found."""
 
     found: np.ndarray
     truth: np.ndarray
@@ -52,7 +52,7 @@ class Positions:
 def read_positions(path):
     """{(map, query, detector): Positions}, by rising pose; empty where there is no file."""
     kinds = {"pose": whole, **{name: number for name in POSITIONS.split(",")[5:]}}
-    return {key: Positions(np.column_stack((one["x"], one["y"])), np.column_stack((one["true_x"], one["true_y"])))
+    return {key: Positions(np.column_stack([one[axis] for axis in "xyz"]), np.column_stack([one["true_" + axis] for axis in "xyz"]))
             for key, one in by_pose(path, POSITIONS, KEYS, kinds).items()}
 
 

@@ -15,7 +15,9 @@ std::uint64_t numberOf(const std::string& series) {
 }  // namespace
 
 std::uint64_t randomStart(std::uint64_t seed, const PictureName& name) {
-  return mixed(mixed(mixed(seed) ^ static_cast<std::uint64_t>(name.index)) ^ numberOf(name.series));
+  const std::uint64_t start =
+      mixed(mixed(mixed(seed) ^ static_cast<std::uint64_t>(name.index)) ^ numberOf(name.series));
+  return name.drive.empty() ? start : mixed(start ^ numberOf(name.drive));
 }
 
 }  // namespace sunlit::image

@@ -203,7 +203,7 @@ class Rain {
         optical_from_map_(view.map_from_optical.inverse()),
         slope_(raindropSlope(rain.mm_per_h)),
         in_cell_(kRaindropsAtZero / slope_ * std::exp(-slope_ * kSmallest_mm) * kCell_m * kCell_m * kCell_m),
-        start_(randomStart(rain.seed, {rain.moment, ""})) {}
+        start_(randomStart(rain.seed, {rain.moment, "", rain.drive})) {}
 
   /// Those of a cell, from lowest corner on.
   void fallIn(const Eigen::Vector3d& cell, Painter* painter) const {

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "path/waypoint_check.h"
@@ -43,6 +44,15 @@ std::string tooFew(std::size_t count) {
 
 void validate(const PathOptions& options) {
   requireFields(options);
+}
+
+std::string driveOf(const PathOptions& options) {
+  if (options.offset_m == 0.0 && options.yaw == Angle()) return "";
+  char text[80];
+  // + 0: a zero has no sign.
+  std::snprintf(text, sizeof text, "offset %.9g m, yaw %.9g deg", options.offset_m + 0.0,
+                options.yaw.deg() + 0.0);
+  return text;
 }
 
 void requireWithin(const PoseSelection& selection, int poses, const std::string& prefix) {

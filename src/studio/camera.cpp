@@ -89,7 +89,8 @@ void Camera::addRain(const Lit& lit, double ev100, image::LinearImage* luminance
                                    lit.name.index,
                                    image::streakTime_s(chainOf(lit).options.shutter, ev100),
                                    image::dropLuminance(*luminance, day.groundIlluminance().value),
-                                   rain.wind_m_s};
+                                   rain.wind_m_s,
+                                   lit.name.drive};
   image::addRain(streaks,
                  {lens_, map_from_optical_, motion_, renderer_->depth(),
                   [this](const Eigen::Vector3d& place) { return shelter_->open(place); }},

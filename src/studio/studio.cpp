@@ -179,7 +179,7 @@ double Studio::meter(const light::Illumination& light, const image::PictureName&
 image::Rgb8Image Studio::photographRight(const light::Illumination& light, const image::PictureName& name,
                                          double ev100, const Setting& setting) {
   // No name of a condition has a space.
-  const image::PictureName of_right{name.index, name.series + " right"};
+  const image::PictureName of_right{name.index, name.series + " right", name.drive};
   return right_->photograph({light, of_right, setting}, ev100, &stopwatch_).picture;
 }
 

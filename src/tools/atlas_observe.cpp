@@ -59,17 +59,18 @@ AtlasCamera::AtlasCamera(const AtlasRunOptions& options)
   }
 }
 
-evaluate::AtlasView AtlasCamera::viewFrom(const Eigen::Isometry3d& map_from_camera, std::int64_t number,
+evaluate::AtlasView AtlasCamera::viewFrom(const Eigen::Isometry3d& map_from_camera,
+                                          const image::PictureName& place,
                                           const std::vector<std::size_t>& conditions) {
   studio_.look(map_from_camera);
   evaluate::AtlasView view;
-  view.pose = number;
+  view.pose = place.index;
   view.camera = studio_.camera();
   view.map_from_optical = map_from_camera * linkFromOptical();
   view.depth = studio_.depth();
   for (const std::size_t c : conditions) {
     const std::string& name = options_.conditions[c].name;
-    studio::Developed developed = studio_.photograph(lights_[c], {number, name});
+    studio::Developed developed = studio_.photograph(lights_[c], {place.index, name, place.drive});
     view.lit.push_back({name, std::move(developed.picture), developed.ev100});
   }
   return view;
@@ -77,9 +78,9 @@ evaluate::AtlasView AtlasCamera::viewFrom(const Eigen::Isometry3d& map_from_came
 
 std::vector<evaluate::AtlasView> AtlasCamera::look(const AtlasPose& pose,
                                                    const std::vector<std::size_t>& conditions) {
-  std::vector<evaluate::AtlasView> views = {viewFrom(pose.map_from_camera, pose.number, conditions)};
+  std::vector<evaluate::AtlasView> views = {viewFrom(pose.map_from_camera, {pose.number}, conditions)};
   if (!options_.atlas.has_query_drive) return views;
-  views.push_back(viewFrom(pose.map_from_query_camera, pose.number, conditions));
+  views.push_back(viewFrom(pose.map_from_query_camera, {pose.number, "", "query"}, conditions));
   for (evaluate::AtlasView::Lit& lit : views.back().lit)
     lit.condition = evaluate::queryDriveOf(lit.condition);
   return views;

@@ -28,7 +28,8 @@ class AtlasCamera {
   std::string fingerprint() const { return light::fingerprint(studio_.world()); }
 
  private:
-  evaluate::AtlasView viewFrom(const Eigen::Isometry3d& map_from_camera, std::int64_t number,
+  /// `place` is without a series: that is the light's.
+  evaluate::AtlasView viewFrom(const Eigen::Isometry3d& map_from_camera, const image::PictureName& place,
                                const std::vector<std::size_t>& conditions);
 
   const AtlasRunOptions& options_;

@@ -195,6 +195,15 @@ class Atlas(unittest.TestCase):
             self.assertEqual(float(row["matching_score_3px"]), 1)
             self.assertTrue(row["status"] != "localised" or float(row["error_m"]) > 1e-4)
 
+    def test_the_second_drive_has_grain_of_its_own(self):
+        # A micrometre beside the first, where nothing but the grain differs: a clean query is the map's own picture.
+        noon = [*SMALL, "--count", "1", "--hours", "12", "--detectors", "sift", "--map-every", "0", "--query-offset", "1e-6"]
+        self.make("clean", *noon)
+        self.make("grainy", *noon, "--noise", "3")
+        (clean,), (grainy,) = (table(self.path(name), "cells/sift/h12/h12.csv") for name in ("clean", "grainy"))
+        self.assertLess(float(clean["error_m"]), 1e-4)  # measured 1e-6, and of equal grain too
+        self.assertGreater(float(grainy["error_m"]), 1e-4)  # measured 8e-3
+
     def test_slurm_jobs_make_the_same_atlas(self):
         self.make("alone", *self.boxes())
         binaries = pathlib.Path(self.path("bin"))

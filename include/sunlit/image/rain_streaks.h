@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include "sunlit/image/images.h"
 #include "sunlit/image/lens.h"
@@ -21,6 +22,7 @@ struct RainStreaks {
   /// What a drop shows, cd/m²: it gathers light from nearly all that is before it.
   Eigen::Array3f luminance = Eigen::Array3f::Zero();
   Eigen::Vector2d wind_m_s = Eigen::Vector2d::Zero();  ///< x and y in `map`; drops go with it
+  std::string drive = {};  ///< that the moment is of: PictureName::drive; in another one fall other drops
 };
 
 /// What a camera looks at, from where, and how it moves.

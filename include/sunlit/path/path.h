@@ -33,6 +33,10 @@ inline std::vector<Field> fieldsOf(PathOptions& options) {
 /// Throws std::invalid_argument naming key, value and range.
 void validate(const PathOptions& options);
 
+/// What tells the pictures of a drive beside the path, or of a camera that is turned, from those of its poses
+/// on the path: image::PictureName::drive. Empty where there is neither an offset nor a yaw.
+std::string driveOf(const PathOptions& options);
+
 /// Which poses of a path are taken. Each keeps its index, and so its stamp, among all poses of the path.
 struct PoseSelection {
   int first = 0;

@@ -3,8 +3,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <set>
 #include <utility>
 
+#include "evaluate/comparisons/pairing.h"
 #include "evaluate/files/files.h"
 #include "sunlit/image/files.h"
 
@@ -75,29 +78,6 @@ std::vector<Pair> pairsOfHours(const Group& group, const std::vector<std::string
   return with_reference;
 }
 
-/// Values of both at the poses that both have.
-struct Paired {
-  std::vector<double> a;
-  std::vector<double> b;
-  std::size_t unpaired = 0;
-};
-
-Paired pairedOf(const Measured& first, const Measured& second) {
-  Paired paired;
-  auto a = first.values.begin();
-  auto b = second.values.begin();
-  while (a != first.values.end() && b != second.values.end()) {
-    if (a->first == b->first) {
-      paired.a.push_back(a++->second);
-      paired.b.push_back(b++->second);
-    } else {
-      a->first < b->first ? ++a : ++b;
-    }
-  }
-  paired.unpaired = first.values.size() + second.values.size() - 2 * paired.a.size();
-  return paired;
-}
-
 void addFamily(const std::string& name, const std::vector<Pair>& pairs, Comparisons& result) {
   if (pairs.empty()) return;
   const std::string& metric = pairs.front().first->metric;
@@ -114,6 +94,23 @@ void addFamily(const std::string& name, const std::vector<Pair>& pairs, Comparis
     row.a = is_of_methods ? a->method : a->hours;
     row.b = is_of_methods ? b->method : b->hours;
     result.rows.push_back(row);
+  }
+}
+
+/// Once for each two drives' hours: metrics and methods are of the same poses, but where a detector threw.
+void tellPairedByPlace(const std::vector<Pair>& compared, Comparisons& result) {
+  std::set<std::pair<std::string, std::string>> told;
+  for (std::size_t i = 0; i < compared.size(); ++i) {
+    const auto& [a, b] = compared[i];
+    if (a->drive == b->drive || !told.emplace(a->hours, b->hours).second) continue;
+    char distance[16];
+    std::snprintf(distance, sizeof distance, "%g m", kSharedPlace_m);
+    const Comparison& row = result.rows[i];
+    const std::size_t pairs = (a->values.size() + b->values.size() - row.unpaired) / 2;
+    result.paired_by_place.push_back(
+        "comparisons.csv: " + a->hours + " and " + b->hours +
+        " are of two drives, and were paired by place: " + std::to_string(pairs) + " pairs, " +
+        std::to_string(row.unpaired) + " queries without one, nearest to each other within " + distance);
   }
 }
 
@@ -151,6 +148,7 @@ Comparisons comparisonsOf(const std::vector<Measured>& measured, const std::vect
     result.rows[i].unpaired = paired.unpaired;
   });
   adjust(result.rows);
+  tellPairedByPlace(compared, result);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "evaluate/verify/measures.h"
@@ -44,6 +45,19 @@ const Measure& measureNamed(const std::string& name) {
                        [&](const Measure& measure) { return measure.name == name; });
 }
 
+/// By rising pose, values with their places.
+void sort(Measured& series) {
+  std::vector<std::size_t> order(series.values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t l, std::size_t r) { return series.values[l] < series.values[r]; });
+  Measured unsorted = series;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    series.values[i] = unsorted.values[order[i]];
+    series.places[i] = unsorted.places[order[i]];
+  }
+}
+
 double errorOf(const LocalisedQuery& result) {
   return result.status == LocalisationStatus::kLocalised ? result.error_m : kInfinity;
 }
@@ -61,9 +75,12 @@ void addSeries(const std::vector<LocalisationRow>& rows, const std::string& metr
       series.hours = row.query + " in " + row.map;
       series.streams = {row.map};
       series.method = row.detector;
+      series.drive = row.drive;
       all.push_back(series);
     }
-    all[found->second].values.emplace_back(static_cast<std::int64_t>(row.pose), of(row.result));
+    Measured& series = all[found->second];
+    series.values.emplace_back(static_cast<std::int64_t>(row.pose), of(row.result));
+    series.places.push_back({row.truth.translation(), row.truth.linear().col(2)});
   }
 }
 
@@ -98,7 +115,7 @@ std::vector<Measured> measuredOf(const std::vector<LocalisationRow>& rows) {
         [&](const LocalisedQuery& result) { return isWithin(result, reach) ? 1.0 : 0.0; }, all);
   }
   addSeries(rows, "error_m", errorOf, all);
-  for (Measured& one : all) std::sort(one.values.begin(), one.values.end());
+  for (Measured& one : all) sort(one);
   return all;
 }
 

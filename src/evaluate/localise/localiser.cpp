@@ -225,7 +225,8 @@ void Localiser::judge(const LocalisationQuery& query, LocalisedQuery& result) co
   double nearest = std::numeric_limits<double>::infinity();
   for (const KeyFrame& frame : frames_) {
     const double distance = distanceBetween(truth, frame.map_from_optical);
-    if (distance < kLeastBaseline_m || distance >= nearest) continue;
+    if (distance < kLeastBaseline_m * (1.0 - kLengthRounding)) continue;
+    if (distance >= nearest * (1.0 - kLengthRounding)) continue;
     reference = &frame;
     nearest = distance;
   }

@@ -4,12 +4,6 @@
 #include <opencv2/core.hpp>
 
 namespace sunlit::evaluate {
-namespace {
-
-/// A path of whole steps must not lose a key frame by the rounding of their lengths' sum.
-constexpr double kRounding = 1e-6;
-
-}  // namespace
 
 std::vector<Eigen::Vector3d> pointsOf(const PosedView& view, const Features& features) {
   std::vector<Eigen::Vector3d> points;
@@ -67,7 +61,7 @@ bool KeyFrameSpacing::takes(const Eigen::Vector3d& position) {
   const bool is_first = !before_;
   if (!is_first) since_last_m_ += (position - *before_).norm();
   before_ = position;
-  if (!is_first && since_last_m_ < spacing_m_ * (1.0 - kRounding)) return false;
+  if (!is_first && since_last_m_ < spacing_m_ * (1.0 - kLengthRounding)) return false;
   since_last_m_ = 0.0;
   return true;
 }

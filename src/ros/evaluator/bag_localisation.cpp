@@ -40,7 +40,8 @@ class BagLocalisation {
     writeLocalisationSummary(fileOf("localisation_summary.csv"), summaries);
     const evaluate::Comparisons compared = comparisonsOf(measuredOf(rows_), {map_name_});
     writeComparisons(fileOf("comparisons.csv"), compared.rows);
-    for (const std::string& line : compared.left_out) std::printf("%s\n", line.c_str());
+    for (const auto* lines : {&compared.left_out, &compared.paired_by_place})
+      for (const std::string& line : *lines) std::printf("%s\n", line.c_str());
     for (const Found& found : found_) writeTrajectories(found);
     std::printf("\n%s\n%s\n", localisationTable(summaries).c_str(), fileOf("localisation.csv").c_str());
     return source_.finish();
@@ -132,7 +133,7 @@ class BagLocalisation {
         source_.addFeatureless(views.stream(), false, entry.stamp_ns, options_.localisation.detectors[d]);
       rows_.push_back({entry.pose, entry.stamp_ns, map_name_, views.stream().name,
                        options_.localisation.detectors[d], results[d], entry.map_from_optical,
-                       evaluate::originOf(results[d], origins_[d])});
+                       evaluate::originOf(results[d], origins_[d]), views.stream().bag});
     }
   }
 

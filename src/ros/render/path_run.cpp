@@ -118,6 +118,7 @@ Shot PathRun::shotAt(int position, const RobotPlaces::Joints& joints) const {
   const int index = path_.first() + position;
   Shot shot{index, stampOfPose(start_, index, options_.frame_rate), path_.mapFromCamera(index)};
   shot.chance = index;
+  shot.drive = path_.drive();
   shot.motion = path_.motionAt(index, options_.frame_rate);
   if (robot_) shot.map_from_links = robot_->onPath(shot.map_from_camera, joints);
   return shot;

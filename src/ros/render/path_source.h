@@ -33,6 +33,8 @@ class PathSource {
   }
   /// As path::motionAt(), at the speed that the options ask for.
   Motion motionAt(int index, double frame_rate) const;
+  /// As path::driveOf().
+  std::string drive() const { return path::driveOf(options_.sampling); }
   /// Tells paths apart by all their poses; 16 hexadecimal digits.
   std::string fingerprint() const;
   int size() const { return static_cast<int>(map_from_camera_.size()); }

@@ -83,7 +83,7 @@ void Streams::expose(const Shot& shot) {
     stream->sky.forgetBefore(shot.stamp);
     const SkyBodies bodies = stream->sky.at(shot.stamp).value();
     const light::Illumination& light = lightOf(*stream, bodies, shot.stamp);
-    const image::PictureName name{shot.chance, stream->name};
+    const image::PictureName name{shot.chance, stream->name, shot.drive};
     studio::Developed developed = studio_.photograph(light, name, stream->inTurn(shot.pose_index));
     Photograph photograph{shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture),
                           stream->exposure_mode};

@@ -26,7 +26,8 @@ struct Shot {
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
   render::BodyPlaces map_from_links = {};  ///< of the robot; empty: it is not there
   Motion motion = {};                      ///< of the camera, with the robot
-  std::int64_t chance = 0;  ///< what makes its grain and drops of rain differ from other shots'
+  std::int64_t chance = 0;  ///< what makes its grain and drops of rain differ from other shots' of its drive
+  std::string drive = {};   ///< image::PictureName::drive
 };
 
 struct StreamOptions {

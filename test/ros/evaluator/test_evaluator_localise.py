@@ -124,9 +124,9 @@ class TestLocalise(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
-    def write_bag(self, name, depths=range(POSES), without=()):
+    def write_bag(self, name, depths=range(POSES), without=(), first=0):
         with rosbag.Bag(self.path(name), 'w') as bag:
-            for pose in range(POSES):
+            for pose in range(first, POSES):
                 for stream, called in enumerate(STREAMS):
                     if (called, pose) not in without:
                         bag.write('/%s/camera/image_raw' % called, image_message(stamp_of(pose), picture(pose, stream)),
@@ -198,6 +198,20 @@ class TestLocalise(unittest.TestCase):
         of_queries = [line for line in compared if ',dusk in noon,' in line]
         self.assertEqual(len(of_queries), 4)  # SIFT and ORB, within three reaches and in metres
         self.assertEqual(compared[:1] + of_queries, read(self.path('map'), 'comparisons.csv').decode().splitlines())
+
+    def test_queries_of_two_bags_are_compared_where_they_are_of_one_place(self):
+        # The later drive begins two poses further on, so that its images have other numbers at the same places.
+        self.write_bag('first.bag')
+        self.write_bag('later.bag', first=2)
+        done = self.evaluate_bags('--out', self.path('two'), '--map', self.path('first.bag:noon'), '--query',
+                                  self.path('first.bag:dusk'), '--query', self.path('later.bag:dusk'), '--map-every', '1')
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertRegex(done.stdout, 'are of two drives, and were paired by place: %d pairs, 2 queries without one' % (POSES - 2))
+        hours = [row for row in rows(self.path('two'), 'comparisons.csv') if row['family'] == 'hours']
+        self.assertEqual(len(hours), 4 * 2)
+        for row in hours:
+            self.assertEqual((row['n'], row['unpaired']), (str(POSES - 2), '2'), row)
+            self.assertEqual(float(row['mean_difference']), 0.0, row)  # they are the same pictures
 
     def check_messages(self, listener, found):
         by_key = {(message.pose, message.detector): message for message in listener.queries}

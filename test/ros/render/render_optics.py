@@ -15,10 +15,10 @@ FIXED = {"mode": "fixed", "ev100": 15.0}
 
 class RenderOptics(RefusalTest):
 
-    def picture(self, name, sun, **changes):
+    def picture(self, name, sun, offset=0.0, **changes):
         source = Sun("/a/sun", *sun)
         reader = Reader(["a"], node="/" + name)
-        with RenderNode(name, parameters(conditions=["a"], path={"count": 1}, exit_when_done=True, subscribers={"images": 1},
+        with RenderNode(name, parameters(conditions=["a"], path={"count": 1, "offset": offset}, exit_when_done=True, subscribers={"images": 1},
                                          exposure=FIXED, **changes)) as node:
             image, = reader.wait("/a/camera/image_raw", 1)
             status, said = node.end()
@@ -60,6 +60,18 @@ class RenderOptics(RefusalTest):
         for left_out in everything:
             others = {key: value for key, value in everything.items() if key != left_out}
             self.assertNotEqual(self.picture("without_" + left_out, sun, **others).data, first.data, left_out)
+
+    def test_a_second_drive_has_grain_of_its_own(self):
+        # A micrometre to the left, so that nothing but the grain differs.
+        sun = (0.6, 0.0, 0.8)
+
+        def differing(name, **changes):
+            first = self.picture(name + "_first", sun, **changes)
+            second = self.picture(name + "_second", sun, offset=1e-6, **changes)
+            return sum(a != b for a, b in zip(first.data, second.data)) / len(first.data)
+
+        self.assertLess(differing("clean"), 0.01)
+        self.assertGreater(differing("grainy", noise={"enabled": True}), 0.3)
 
     def test_what_no_lens_has_is_refused_by_its_name(self):
         self.assert_refused(parameters(glare={"share": 0.3}), "/refused/glare/share is 0.3, but must be from 0 to 0.2")

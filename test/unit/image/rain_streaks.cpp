@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sunlit/quantity/frames.h"
@@ -109,14 +110,18 @@ TEST(RainStreaks, AreNoneUnderARoof) {
 TEST(RainStreaks, OfOneMomentAreTheSameAgainAndOfAnotherOthers) {
   const Lens lens = pinhole();
   const DepthImage sky = at(std::numeric_limits<float>::quiet_NaN());
-  const auto pictureOf = [&](std::uint64_t seed, std::int64_t moment) {
+  const auto pictureOf = [&](std::uint64_t seed, std::int64_t moment, const std::string& drive = "") {
+    RainStreaks rain{30.0, seed, moment, 0.002};
+    rain.drive = drive;
     LinearImage picture = grey(1.0f);
-    addRain({30.0, seed, moment, 0.002}, {lens, level({0.0, 0.0, 1.0}), Motion(), sky}, &picture);
+    addRain(rain, {lens, level({0.0, 0.0, 1.0}), Motion(), sky}, &picture);
     return picture.data;
   };
   EXPECT_EQ(pictureOf(1, 5), pictureOf(1, 5));
   EXPECT_NE(pictureOf(1, 5), pictureOf(1, 6));
   EXPECT_NE(pictureOf(1, 5), pictureOf(2, 5));
+  EXPECT_NE(pictureOf(1, 5), pictureOf(1, 5, "beside"));
+  EXPECT_EQ(pictureOf(1, 5, "beside"), pictureOf(1, 5, "beside"));
 }
 
 /// What is brighter than black, in the mean: how much, where, and how wide.

@@ -105,7 +105,7 @@ double correlation(const LinearImage& a, const LinearImage& b) {
   return sum / std::sqrt(of_a.variance * of_b.variance);
 }
 
-TEST(SensorNoise, OfOtherSeedsPicturesAndSeriesIsIndependent) {
+TEST(SensorNoise, OfOtherSeedsPicturesSeriesAndDrivesIsIndependent) {
   const LinearImage first = noisy(0.5, 0.0, switchedOn(), {7, "h04"});
   EXPECT_EQ(noisy(0.5, 0.0, switchedOn(), {7, "h04"}).data, first.data);
   NoiseOptions other_seed = switchedOn();
@@ -114,6 +114,7 @@ TEST(SensorNoise, OfOtherSeedsPicturesAndSeriesIsIndependent) {
   EXPECT_NEAR(correlation(first, noisy(0.5, 0.0, other_seed, {7, "h04"})), 0.0, 0.014);
   EXPECT_NEAR(correlation(first, noisy(0.5, 0.0, switchedOn(), {8, "h04"})), 0.0, 0.014);
   EXPECT_NEAR(correlation(first, noisy(0.5, 0.0, switchedOn(), {7, "h12"})), 0.0, 0.014);
+  EXPECT_NEAR(correlation(first, noisy(0.5, 0.0, switchedOn(), {7, "h04", "beside"})), 0.0, 0.014);
 }
 
 TEST(SensorNoise, OfNeighbouringValuesIsIndependent) {

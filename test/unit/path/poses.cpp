@@ -104,6 +104,19 @@ TEST(PosesAlong, LieBesideThePathAndLookAside) {
   EXPECT_TRUE(poses[3].linear().col(2).isApprox(Eigen::Vector3d::UnitZ()));
 }
 
+TEST(DriveOf, TellsDrivesBesideThePathApart) {
+  const auto driveAt = [](double offset_m, double yaw_deg) {
+    PathOptions options;
+    options.offset_m = offset_m;
+    options.yaw = Angle::degrees(yaw_deg);
+    return driveOf(options);
+  };
+  EXPECT_EQ(driveAt(0.0, 0.0), "");
+  EXPECT_EQ(driveAt(-0.0, -0.0), "");
+  EXPECT_EQ(driveAt(0.5, 10.0), "offset 0.5 m, yaw 10 deg");
+  EXPECT_EQ(driveAt(-0.0, -7.3), "offset 0 m, yaw -7.3 deg");
+}
+
 TEST(PosesAlong, RefusesWhatIsNoPath) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(messageOf({}), "a path needs two waypoints or more, there are 0");

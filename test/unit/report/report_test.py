@@ -502,18 +502,28 @@ class Elevation(InFolder):
         lines = [f"{k},0.0,h12,q{hour:02d},sift,{k}.1,0,1,0,0,0,1,{k},0,1" for hour in range(20) for k in range(3)]
         self.write("localisation_poses.csv", [queries.POSITIONS, *lines, "3,0.0,h12,q00,sift,nan,nan,nan,nan,nan,nan,nan,3,0,1"])
         output = self.read()
-        self.assertEqual(output.positions["h12", "q00", "sift"].truth.tolist(), [[0, 0], [1, 0], [2, 0], [3, 0]])
+        self.assertEqual(output.positions["h12", "q00", "sift"].truth.tolist(), [[0, 0, 1], [1, 0, 1], [2, 0, 1], [3, 0, 1]])
         picture, shown, hours = map_figure.found_on_map(output)
         self.assertEqual((shown, hours), (6, 20))
         self.assertIn("<svg", picture)
 
     def test_lines_from_the_truth_to_estimates_far_off_are_drawn_at_once(self):
-        truth = np.arange(600.0).reshape(300, 2)
+        truth = np.arange(900.0).reshape(300, 3)
         figure, axis = plt.subplots()
         map_figure._draw_found(axis, queries.Positions(truth + 5, truth))  # pylint: disable=protected-access
         (drawn,) = axis.collections
-        self.assertEqual(np.array(drawn.get_segments()).tolist(), np.stack((truth, truth + 5), axis=1).tolist())
+        self.assertEqual(np.array(drawn.get_segments()).tolist(), np.stack((truth, truth + 5), axis=1)[:, :, :2].tolist())
         self.assertLess(len(axis.lines), 10)
+        plt.close(figure)
+
+    def test_what_is_found_too_high_is_not_found_within_half_a_metre(self):
+        # As error_m has it: above the very place by 2 m, by 0.4 m, and beside and above it by 0.4 m each.
+        truth = np.array([[0.0, 0.0, 1.0], [10.0, 0.0, 1.0], [20.0, 0.0, 1.0]])
+        found = truth + [[0.0, 0.0, 2.0], [0.0, 0.0, 0.4], [0.4, 0.0, 0.4]]
+        figure, axis = plt.subplots()
+        map_figure._draw_found(axis, queries.Positions(found, truth))  # pylint: disable=protected-access
+        (near,) = [line for line in axis.lines if str(line.get_label()).startswith("found within")]
+        self.assertEqual(near.get_xdata().tolist(), [10.0])
         plt.close(figure)
 
 
@@ -645,7 +655,7 @@ class Page(InFolder):
             output.images[hour] = {pose: noise for pose in (0, 248, 495, 742, 990)}
             for detector in made.METHODS:
                 errors = random.uniform(0, 1, 991)
-                places = random.uniform(0, 500, (991, 2))
+                places = random.uniform(0, 500, (991, 3))
                 output.queries["h12", hour, detector] = queries.Queries(poses, errors, errors, count)
                 output.positions["h12", hour, detector] = queries.Positions(places + 0.1, places)
         output.path = {"pose": poses, "x": poses * 1.0, "y": poses * 0.5}

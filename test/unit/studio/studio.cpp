@@ -162,6 +162,8 @@ TEST(Studio, TheSameDropsFallInEveryConditionOfOneMoment) {
   };
   EXPECT_EQ(pictureOf({7, "noon"}), pictureOf({7, "dusk"}));
   EXPECT_NE(pictureOf({7, "noon"}), pictureOf({8, "noon"}));
+  // A second drive, past the same place at another time.
+  EXPECT_NE(pictureOf({7, "noon"}), pictureOf({7, "noon", "beside"}));
 }
 
 TEST(Studio, TakesPicturesWithAsManyChainsAsItHas) {

@@ -11,7 +11,12 @@
 
 namespace sunlit::evaluate {
 
-/// What is compared along the same poses: `a` less `b`.
+/// Two drives are at one place where they are no further apart: as places that are recognised, by default.
+constexpr double kSharedPlace_m = 5.0;
+
+/// What is compared along the same poses: `a` less `b`. Series of two drives (Measured::drive) have the same
+/// pose where their places are nearest to each other, both ways, of those within kSharedPlace_m that look the
+/// same way, within kSameWay_deg.
 struct Comparison {
   std::string metric;
   std::string family;  ///< "methods" between the same hours, or "hours" of the same method
@@ -26,6 +31,8 @@ struct Comparison {
 struct Comparisons {
   std::vector<Comparison> rows;       ///< by metric, then family, in the order of what is measured
   std::vector<std::string> left_out;  ///< of families of more than kMostCompared what, and why, in words
+  /// Of each two series' hours that are of two drives how many poses they share, in words.
+  std::vector<std::string> paired_by_place;
 };
 
 /// Of more in one family the least p, 1 / (1 + kSignFlips), could not become 0.05.

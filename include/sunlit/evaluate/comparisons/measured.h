@@ -1,6 +1,7 @@
 /// What a run measured, in the one form in which methods and hours are compared.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -12,6 +13,12 @@
 
 namespace sunlit::evaluate {
 
+/// Where a value was measured.
+struct MeasuredPlace {
+  Eigen::Vector3d position;   ///< of the camera in `map`, m
+  Eigen::Vector3d direction;  ///< of its axis there, of length 1
+};
+
 /// One metric of one method between the same hours, along the path.
 struct Measured {
   std::string metric;                ///< name of a column of a result file
@@ -20,6 +27,8 @@ struct Measured {
   std::string method;
   bool is_of_features = true;  ///< a difference of pixels is no method to localise by
   std::vector<std::pair<std::int64_t, double>> values;  ///< by rising pose; NaN undefined, infinite failed
+  std::string drive = {};  ///< of which the values are: those of one have the same poses at the same numbers
+  std::vector<MeasuredPlace> places = {};  ///< one a value, of queries; else none, and all is of one drive
 };
 
 /// "d", of the records that writeFrames() takes. `detectors` are those of the differences that match

@@ -23,6 +23,7 @@ struct LocalisationRow {
   LocalisedQuery result;
   Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();  ///< map_from_optical
   KeyFrameOrigin key_frame;  ///< that with the most inliers; none unless localised
+  std::string drive = {};    ///< rows of one drive have the same place at the same pose; in no file
 };
 
 /// Of LocalisedQuery::key_frame; none unless localised. `origins` of all key frames of the map, one by one.

@@ -74,7 +74,8 @@ struct LocalisedQuery {
   double error_deg = kUndefined;  ///< angle of R_truthᵀ R
   /// As of a relative pose, against one key frame: the larger of error_deg and the angle between the
   /// directions from it to the estimate and to the truth. For equal poses there is no direction, so the key
-  /// frame is the nearest to the truth of those at least kLeastBaseline_m away; NaN without one, too.
+  /// frame is the nearest to the truth of those at least kLeastBaseline_m away, of equally near ones the
+  /// first, within kLengthRounding; NaN without one, too.
   double relative_deg = kUndefined;
   bool has_baseline = false;  ///< there is such a key frame
 };

@@ -14,6 +14,10 @@
 
 namespace sunlit::evaluate {
 
+/// Lengths that differ by this part are equal: places of a path of whole steps are whole steps apart, but for
+/// the rounding of coordinates and sums, which must not decide what is far enough, and what nearer.
+constexpr double kLengthRounding = 1e-6;
+
 /// Of one detector.
 struct KeyFrame {
   Eigen::Isometry3d map_from_optical = Eigen::Isometry3d::Identity();

@@ -100,6 +100,48 @@ TEST(Comparisons, AreMadeOfMatchesToo) {
   }
 }
 
+TEST(Comparisons, OfTwoDrivesAreOfQueriesAtOnePlace) {
+  // Along x, a metre a pose; the second begins 3 m further on and half a metre to the side, so that its pose
+  // k is where the first's k + 3 is, and ends 10 m further. Its error is always 1 m more than there.
+  std::vector<LocalisationRow> rows;
+  const auto add = [&](std::size_t pose, const std::string& bag, const Eigen::Vector3d& place,
+                       double error_m) {
+    rows.push_back(query(pose, bag, "sift", error_m));
+    rows.back().drive = bag + ".bag";
+    rows.back().truth.translation() = place;
+  };
+  for (std::size_t k = 0; k < 20; ++k)
+    add(k, "dusk", {static_cast<double>(k), 0, 0}, static_cast<double>(k % 5));
+  for (std::size_t k = 0; k < 27; ++k)
+    add(k, "dawn", {static_cast<double>(k) + 3.0, 0.5, 0}, static_cast<double>((k + 3) % 5) + 1.0);
+  const Comparisons found = comparisonsOf(measuredOf(rows), {"h12"});
+  const Comparison& row = found.rows.back();
+  EXPECT_EQ(nameOf(row), "error_m hours sift: dusk in h12, dawn in h12");
+  EXPECT_EQ(row.test.n, 17u);
+  EXPECT_EQ(row.unpaired, 3u + 10u);
+  EXPECT_EQ(row.test.mean_difference, -1.0);
+  EXPECT_EQ(
+      found.paired_by_place,
+      std::vector<std::string>{"comparisons.csv: dusk in h12 and dawn in h12 are of two drives, and were "
+                               "paired by place: 17 pairs, 13 queries without one, nearest to each other "
+                               "within 5 m"});
+  // Who drives back looks the other way; who drives elsewhere is further away.
+  for (LocalisationRow& one : rows) {
+    if (one.query == "dawn") one.truth.linear() = Eigen::Vector3d(-1, 1, -1).asDiagonal();
+  }
+  EXPECT_EQ(comparisonsOf(measuredOf(rows), {"h12"}).rows.back().test.n, 0u);
+  for (LocalisationRow& one : rows) {
+    one.truth.linear().setIdentity();
+    if (one.query == "dawn") one.truth.translation().y() = 5.1;
+  }
+  EXPECT_EQ(comparisonsOf(measuredOf(rows), {"h12"}).rows.back().test.n, 0u);
+  // Of one bag they are those of one number, wherever that is.
+  for (LocalisationRow& one : rows) one.drive = "both.bag";
+  const Comparisons of_one = comparisonsOf(measuredOf(rows), {"h12"});
+  EXPECT_EQ(of_one.rows.back().test.n, 20u);
+  EXPECT_TRUE(of_one.paired_by_place.empty());
+}
+
 TEST(Comparisons, CountQueriesThatFail) {
   std::vector<LocalisationRow> rows;
   for (std::size_t pose = 0; pose < 3; ++pose) {

@@ -35,13 +35,17 @@ Features featuresOf(const cv::Ptr<cv::Feature2D>& worker, const cv::Mat& grey) {
   return features;
 }
 
+/// Our key points are moved to where they are in the picture: pixel_centres.cpp.
+constexpr double kMostMoved_px = 3.0;
+
 void expectSame(const Features& found, const Features& expected) {
   ASSERT_EQ(found.key_points.size(), expected.key_points.size());
   ASSERT_GT(found.key_points.size(), 20u);
   for (std::size_t i = 0; i < found.key_points.size(); ++i) {
     const cv::KeyPoint& a = found.key_points[i];
     const cv::KeyPoint& b = expected.key_points[i];
-    ASSERT_TRUE(a.pt == b.pt && a.size == b.size && a.angle == b.angle && a.response == b.response) << i;
+    ASSERT_TRUE(a.size == b.size && a.angle == b.angle && a.response == b.response) << i;
+    ASSERT_LT(cv::norm(a.pt - b.pt), kMostMoved_px) << i;
   }
   ASSERT_EQ(found.descriptors.size(), expected.descriptors.size());
   cv::Mat a;

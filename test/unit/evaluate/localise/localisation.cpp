@@ -104,6 +104,7 @@ TEST(Localisation, StandsAnotherExposure) {
 TEST(Localisation, GivesNoRightPoseFromAMapWhoseDepthIsWrong) {
   std::vector<PosedView> map = drive();
   for (PosedView& view : map) {
+    view.depth = view.depth.clone();  // lest it be wrong in the tests that follow
     cv::Mat shuffled = view.depth.clone();
     cv::randShuffle(shuffled);
     const cv::Mat is_wrong = cv::abs(shuffled - view.depth) > 0.3 * view.depth;
@@ -187,6 +188,23 @@ TEST(Localisation, MeasuresDirectionsFromAKeyFrameThatIsApart) {
   EXPECT_FALSE(alone.has_baseline);
   EXPECT_TRUE(std::isnan(alone.relative_deg));
   EXPECT_LT(alone.error_m, 1e-4);
+}
+
+TEST(Localisation, MeasuresDirectionsFromTheSameKeyFrameHoweverLengthsAreRounded) {
+  // Key frames at 0 and 2 m; said to be taken midway, where rounding puts one or the other nearer, and one of
+  // them less than a metre away. In truth it was taken 0.2 m further and 0.1 m to the side.
+  const std::vector<PosedView> map{drive()[0], drive()[2]};
+  PosedView view = corridor().seenFrom(lookingAlongX({1.2, 0.1, 0}), kCamera);
+  for (const double off : {-1e-9, 0.0, 1e-9}) {
+    view.map_from_optical = lookingAlongX({1.0 + off, 0, 0});
+    for (const LocalisedQuery& result : localised(map, view)) {
+      // By the first: 4.8 deg; by the other 7.1. A centimetre of error is half a degree.
+      EXPECT_NEAR(result.relative_deg, std::atan2(0.1, 1.2) / kRadPerDeg, 0.5) << off;
+    }
+  }
+  // A millimetre is no rounding.
+  view.map_from_optical = lookingAlongX({0.999, 0, 0});
+  EXPECT_FALSE(localised({drive()[0]}, view)[0].has_baseline);
 }
 
 TEST(Localisation, IsTheSameForAnyNumberOfThreads) {
