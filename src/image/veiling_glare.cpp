@@ -1,5 +1,6 @@
 #include "sunlit/image/veiling_glare.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -40,6 +41,44 @@ double solidAngleAt(const Lens& lens, const Eigen::Vector2d& pixel, const Eigen:
   return std::abs(sides.determinant()) / std::pow(ray.norm(), 3);
 }
 
+Eigen::Vector2d axisOf(const PinholeCamera& camera) {
+  return {camera.cx, camera.cy};
+}
+
+Eigen::Vector2d lastOf(const PinholeCamera& camera) {
+  return {camera.width - 1.0, camera.height - 1.0};
+}
+
+bool showsAxis(const PinholeCamera& camera) {
+  const Eigen::Array2d axis = axisOf(camera), last = lastOf(camera);
+  return (axis >= 0.0).all() && (axis <= last).all();
+}
+
+/// From the axis towards where a light would lie, px.
+Eigen::Vector2d wayTo(const PinholeCamera& camera, const Eigen::Vector3d& towards) {
+  return {camera.fx * towards.x(), camera.fy * towards.y()};
+}
+
+/// The pixel at the edge of a picture that shows its axis, on the way from there to a light.
+Eigen::Vector2d edgeFromAxis(const PinholeCamera& camera, const Eigen::Vector3d& towards) {
+  const Eigen::Vector2d axis = axisOf(camera), last = lastOf(camera), way = wayTo(camera, towards);
+  double reach = way.isZero() ? 0.0 : 1e300;
+  for (int i = 0; i < 2; ++i) {
+    if (way[i] > 0.0) reach = std::min(reach, (last[i] - axis[i]) / way[i]);
+    if (way[i] < 0.0) reach = std::min(reach, -axis[i] / way[i]);
+  }
+  return axis + reach * way;
+}
+
+/// The pixel nearest to where a light would lie. Other pictures are not on the way from their axis to it, or
+/// only behind it.
+Eigen::Vector2d nearestTo(const Lens& lens, const Eigen::Vector3d& towards) {
+  constexpr double kFar_px = 1e9;
+  const PinholeCamera& camera = lens.camera();
+  const Eigen::Vector2d far = axisOf(camera) + kFar_px * wayTo(camera, towards).normalized();
+  return lens.project(towards).value_or(far).cwiseMax(0.0).cwiseMin(lastOf(camera));
+}
+
 }  // namespace
 
 void validate(const GlareOptions& options) {
@@ -51,42 +90,38 @@ VeilingGlare::VeilingGlare(const Vignetting& vignetting, const GlareOptions& opt
   validate(options);
 }
 
-/// The pixel at the edge of the picture on the way from its middle to where `towards` would lie.
-Eigen::Vector2d VeilingGlare::edgeTowards(const Eigen::Vector3d& towards) const {
-  const PinholeCamera& camera = vignetting_.lens().camera();
-  const Eigen::Vector2d last(camera.width - 1.0, camera.height - 1.0);
-  const Eigen::Vector2d middle = Eigen::Vector2d(camera.cx, camera.cy).cwiseMax(0.0).cwiseMin(last);
-  const Eigen::Vector2d way(camera.fx * towards.x(), camera.fy * towards.y());
-  double reach = way.isZero() ? 0.0 : 1e300;
-  for (int i = 0; i < 2; ++i) {
-    if (way[i] > 0.0) reach = std::min(reach, (last[i] - middle[i]) / way[i]);
-    if (way[i] < 0.0) reach = std::min(reach, -middle[i] / way[i]);
-  }
-  return middle + reach * way;
+VeilingGlare::Passed VeilingGlare::passedBy(const Eigen::Vector3d& towards) const {
+  const Lens& lens = vignetting_.lens();
+  const bool shows_axis = showsAxis(lens.camera());
+  Passed edge;
+  edge.pixel = shows_axis ? edgeFromAxis(lens.camera(), towards) : nearestTo(lens, towards);
+  edge.ray = lens.unproject(edge.pixel);
+  if (!edge.ray) return edge;
+  edge.edge_rad = fromAxis_rad(*edge.ray);
+  edge.light_rad = shows_axis
+                       ? fromAxis_rad(towards)
+                       : edge.edge_rad + std::atan2(edge.ray->cross(towards).norm(), edge.ray->dot(towards));
+  return edge;
 }
 
 LinearRgb VeilingGlare::meanOf(const LightOutside& light) const {
-  const Lens& lens = vignetting_.lens();
-  const Eigen::Vector2d pixel = edgeTowards(light.towards);
-  const std::optional<Eigen::Vector3d> ray = lens.unproject(pixel);
-  if (!ray) return {};
-  const double edge = fromAxis_rad(*ray), angle = fromAxis_rad(light.towards);
-  const double part = angle > edge ? fadedPart(angle, edge, options_.hood.rad()) : 1.0;
-  const double solid_angle = solidAngleAt(lens, pixel, *ray);
+  const Passed edge = passedBy(light.towards);
+  if (!edge.ray) return {};
+  const bool has_passed = edge.light_rad > edge.edge_rad;
+  const double part = has_passed ? fadedPart(edge.light_rad, edge.edge_rad, options_.hood.rad()) : 1.0;
+  const double solid_angle = solidAngleAt(vignetting_.lens(), edge.pixel, *edge.ray);
   if (part == 0.0 || !(solid_angle > 0.0)) return {};
-  const double pixels = static_cast<double>(lens.camera().width) * lens.camera().height;
-  return light.illuminance * static_cast<float>(part * vignetting_.at(pixel) / (solid_angle * pixels));
+  const PinholeCamera& camera = vignetting_.lens().camera();
+  const double pixels = static_cast<double>(camera.width) * camera.height;
+  return light.illuminance * static_cast<float>(part * vignetting_.at(edge.pixel) / (solid_angle * pixels));
 }
 
 WingsFromBeyond VeilingGlare::wingsOf(const LightOutside& light, const LinearRgb& mean) const {
-  const Lens& lens = vignetting_.lens();
-  const PinholeCamera& camera = lens.camera();
-  const Eigen::Vector2d edge = edgeTowards(light.towards);
-  const std::optional<Eigen::Vector3d> ray = lens.unproject(edge);
-  const double edge_rad = ray ? fromAxis_rad(*ray) : 0.0;
-  const double away_rad = std::max(fromAxis_rad(light.towards) - edge_rad, 0.0);
+  const PinholeCamera& camera = vignetting_.lens().camera();
+  const Passed edge = passedBy(light.towards);
+  const double away_rad = std::max(edge.light_rad - edge.edge_rad, 0.0);
   const float pixels = static_cast<float>(camera.width) * static_cast<float>(camera.height);
-  return {edge, away_rad * std::sqrt(camera.fx * camera.fy), pixels * mean.value};
+  return {edge.pixel, away_rad * std::sqrt(camera.fx * camera.fy), pixels * mean.value};
 }
 
 void VeilingGlare::apply(const std::vector<LightOutside>& outside, LinearImage* picture) const {

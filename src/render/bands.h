@@ -1,10 +1,12 @@
 /// The rows of a picture that see at one moment, where its camera moves.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "render/lens_canvas.h"
@@ -18,8 +20,36 @@ struct Optics {
   View view;                               ///< without a pose
   std::shared_ptr<const LensCanvas> lens;  ///< null: a pinhole
 };
-/// Of `options`, by another camera of the same lens.
-Optics opticsOf(const RenderOptions& options, const image::PinholeCamera& camera);
+
+/// The canvases of one lens for all cameras that have it, made when first asked for. They take 12 bytes a
+/// sample, and of several samples a pixel 12 a pixel more. Safe from any thread.
+class LensCanvases {
+ public:
+  /// `most_bytes` are kept: those that were asked for first, since what moves asks for all in turn, and would
+  /// find none of those that it asked for last.
+  explicit LensCanvases(const RenderOptions& options, std::size_t most_bytes = kMostBytes);
+  static constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+
+  /// Whether `options` have this lens.
+  bool areOf(const RenderOptions& options) const;
+  /// Of the whole picture, of so many samples per pixel and axis, shifted() by `pattern`; null of a pinhole.
+  std::shared_ptr<const LensCanvas> of(int samples, int pattern);
+  /// Whether that one is kept; a pinhole's is.
+  bool keep(int samples, int pattern) const;
+  std::size_t bytes() const;
+
+ private:
+  using Key = std::pair<int, int>;  ///< samples and pattern
+
+  image::PinholeCamera camera_;
+  image::Distortion distortion_;
+  std::size_t most_bytes_, bytes_ = 0;
+  mutable std::mutex mutex_;  ///< of bytes_ and kept_
+  std::map<Key, std::shared_ptr<const LensCanvas>> kept_;
+};
+
+/// Of the whole picture.
+Optics opticsOf(const RenderOptions& options, LensCanvases* canvases);
 
 struct Band {
   int first_row, rows;
@@ -40,12 +70,11 @@ struct Division {
   }
 };
 
-/// Made when first asked for. Before a lens each division takes tens of megabytes: those of the number of
-/// bands that was asked for last and of the one before it stay, between which a camera that changes its speed
-/// goes to and fro.
+/// Made when first asked for, and kept where their canvas is, to which they add next to nothing.
 class Bands {
  public:
-  explicit Bands(const RenderOptions& options) : options_(options) {}
+  Bands(const RenderOptions& options, std::shared_ptr<LensCanvases> canvases)
+      : options_(options), canvases_(std::move(canvases)) {}
 
   /// From the first row to the last, as high as each other but for a row. Until the next call.
   const std::vector<Band>& of(const Division& division);
@@ -54,8 +83,9 @@ class Bands {
   std::vector<Band> made(const Division& division) const;
 
   RenderOptions options_;
+  std::shared_ptr<LensCanvases> canvases_;
   std::map<Division, std::vector<Band>> kept_;
-  std::array<int, 2> kept_numbers_ = {0, 0};
+  std::vector<Band> passing_;  ///< of a canvas that is not kept
 };
 
 }  // namespace sunlit::render

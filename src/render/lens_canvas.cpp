@@ -54,19 +54,36 @@ LensCanvas::LensCanvas(const image::Lens& lens, int supersampling)
       supersampling_(supersampling),
       columns_(lens.camera().width * supersampling),
       rows_(lens.camera().height * supersampling) {
-  findRays();
+  if (supersampling > 1) findRays();
+  rays_ = found_ ? found_->data() : pixels_->row(0);
   layOutFaces();
-  findCells();
+}
+
+LensCanvas::LensCanvas(const LensCanvas& whole, const image::Lens& rows, int first)
+    : pixels_(std::make_shared<const light::PixelRays>(*whole.pixels_, rows, first)),
+      supersampling_(whole.supersampling_),
+      columns_(whole.columns_),
+      rows_(rows.camera().height * supersampling_),
+      found_(whole.found_),
+      rays_(&whole.ray(0, first * supersampling_)) {
+  layOutFaces();
 }
 
 void LensCanvas::findRays() {
-  rays_.resize(index(0, rows_));
+  const auto found = std::make_shared<std::vector<Eigen::Vector3f>>(samples());
   const image::Lens& lens = pixels_->lens();
   const auto pixel = [&](int sample) { return (sample + 0.5) / supersampling_ - 0.5; };
   tbb::parallel_for(0, rows_, [&](int row) {
     for (int column = 0; column < columns_; ++column)
-      rays_[index(column, row)] = lens.unproject({pixel(column), pixel(row)}).value().cast<float>();
+      (*found)[index(column, row)] = lens.unproject({pixel(column), pixel(row)}).value().cast<float>();
   });
+  found_ = found;
+}
+
+std::size_t LensCanvas::bytes() const {
+  const image::PinholeCamera& camera = pixels_->lens().camera();
+  const auto pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+  return (pixels + (found_ ? found_->size() : 0)) * sizeof(Eigen::Vector3f);
 }
 
 std::size_t LensCanvas::faceOf(const Eigen::Vector3d& ray) const {
@@ -80,7 +97,7 @@ std::size_t LensCanvas::faceOf(const Eigen::Vector3d& ray) const {
 /// Whether one pinhole would have to show too much.
 bool LensCanvas::needsCube() const {
   const auto narrowest = static_cast<float>(std::cos(kOnePinhole_deg * kRadPerDeg));
-  return std::any_of(rays_.begin(), rays_.end(),
+  return std::any_of(rays_, rays_ + samples(),
                      [&](const Eigen::Vector3f& ray) { return ray.z() < narrowest * ray.norm(); });
 }
 
@@ -119,20 +136,16 @@ void LensCanvas::layOutFaces() {
   }
 }
 
-void LensCanvas::findCells() {
-  cells_.resize(rays_.size());
-  tbb::parallel_for(std::size_t{0}, rays_.size(), [&](std::size_t i) {
-    const Eigen::Vector3d here = rays_[i].cast<double>();
-    const std::size_t f = faceOf(here);
-    const Face& face = faces_[f];
-    const Eigen::Vector2d at = onFace(face.optical_from_face, here);
-    const double column = face.camera.fx * at.x() + face.camera.cx;
-    const double row = face.camera.fy * at.y() + face.camera.cy;
-    const int left = static_cast<int>(std::floor(column)), top = static_cast<int>(std::floor(row));
-    const int nearest = (column - left > 0.5 ? 1 : 0) + (row - top > 0.5 ? 2 : 0);
-    cells_[i] = {static_cast<std::uint32_t>(top * face.camera.width + left), static_cast<std::uint8_t>(f),
-                 static_cast<std::uint8_t>(nearest)};
-  });
+LensCanvas::Cell LensCanvas::cellOf(const Eigen::Vector3d& ray) const {
+  const std::size_t f = faceOf(ray);
+  const Face& face = faces_[f];
+  const Eigen::Vector2d at = onFace(face.optical_from_face, ray);
+  const double column = face.camera.fx * at.x() + face.camera.cx;
+  const double row = face.camera.fy * at.y() + face.camera.cy;
+  const int left = static_cast<int>(std::floor(column)), top = static_cast<int>(std::floor(row));
+  const int nearest = (column - left > 0.5 ? 1 : 0) + (row - top > 0.5 ? 2 : 0);
+  return {ray, static_cast<std::uint32_t>(top * face.camera.width + left), static_cast<std::uint8_t>(f),
+          static_cast<std::uint8_t>(nearest)};
 }
 
 void LensCanvas::draw(Rasterizer* rasterizer, const Seen& seen, Drawn* drawn,
@@ -147,35 +160,33 @@ void LensCanvas::draw(Rasterizer* rasterizer, const Seen& seen, Drawn* drawn,
     view.map_from_optical.linear() = seen.view.map_from_optical.linear() * faces_[f].optical_from_face;
     rasterizer->draw(view, seen.bodies, &(*drawn)[f]);
   }
-  samples->resize(rays_.size());
+  samples->resize(this->samples());
   tbb::parallel_for(0, rows_, [&](int row) {
-    for (std::size_t i = index(0, row); i < index(0, row + 1); ++i) (*samples)[i] = sampleAt(seen, *drawn, i);
+    for (std::size_t i = index(0, row); i < index(0, row + 1); ++i)
+      (*samples)[i] = sampleAt(seen, *drawn, cellOf(rays_[i].cast<double>()));
   });
 }
 
-Sample LensCanvas::sampleAt(const Seen& seen, const Drawn& drawn, std::size_t i) const {
-  const Cell& cell = cells_[i];
+Sample LensCanvas::sampleAt(const Seen& seen, const Drawn& drawn, const Cell& cell) const {
   const Sample* const top = &drawn[cell.face][cell.first];
   const Sample* const bottom = top + faces_[cell.face].camera.width;
   const std::uint32_t triangle = top[0].triangle;
   if (top[1].triangle != triangle || bottom[0].triangle != triangle || bottom[1].triangle != triangle)
-    return atEdge(seen, drawn, i);
+    return atEdge(seen, drawn, cell);
   if (triangle == 0) return {0, static_cast<float>(seen.view.far_m)};
-  const double depth =
-      planeDepth(seen, triangle - 1, seen.view.map_from_optical.linear() * rays_[i].cast<double>());
+  const double depth = planeDepth(seen, triangle - 1, seen.view.map_from_optical.linear() * cell.ray);
   // Corners that rasterizers round may let it pass beside a triangle that is seen from the side.
-  if (!(depth > 0.0 && depth < seen.view.far_m)) return drawnNearest(seen, drawn, i);
+  if (!(depth > 0.0 && depth < seen.view.far_m)) return drawnNearest(seen, drawn, cell);
   return {triangle, static_cast<float>(depth)};
 }
 
-Sample LensCanvas::atEdge(const Seen& seen, const Drawn& drawn, std::size_t i) const {
-  const Cell& cell = cells_[i];
+Sample LensCanvas::atEdge(const Seen& seen, const Drawn& drawn, const Cell& cell) const {
   const Sample* const top = &drawn[cell.face][cell.first];
   const Sample* const bottom = top + faces_[cell.face].camera.width;
   const std::array<std::uint32_t, 4> about = {top[0].triangle, top[1].triangle, bottom[0].triangle,
                                               bottom[1].triangle};
   const std::uint32_t nearest = about[cell.nearest];
-  const Eigen::Vector3d ray = seen.view.map_from_optical.linear() * rays_[i].cast<double>();
+  const Eigen::Vector3d ray = seen.view.map_from_optical.linear() * cell.ray;
   double least = std::numeric_limits<double>::infinity();
   std::uint32_t seen_first = 0;
   bool sky = false;
@@ -193,18 +204,17 @@ Sample LensCanvas::atEdge(const Seen& seen, const Drawn& drawn, std::size_t i) c
   }
   if (seen_first != 0) return {seen_first, static_cast<float>(least)};
   if (sky) return {0, static_cast<float>(seen.view.far_m)};
-  return drawnNearest(seen, drawn, i);
+  return drawnNearest(seen, drawn, cell);
 }
 
 /// The nearest drawn sample, at its own depth.
-Sample LensCanvas::drawnNearest(const Seen& seen, const Drawn& drawn, std::size_t i) const {
-  const Cell& cell = cells_[i];
+Sample LensCanvas::drawnNearest(const Seen& seen, const Drawn& drawn, const Cell& cell) const {
   const Face& face = faces_[cell.face];
   const Sample& nearest =
       drawn[cell.face][cell.first + (cell.nearest & 1u) +
                        (cell.nearest >> 1) * static_cast<std::uint32_t>(face.camera.width)];
   if (nearest.sky()) return {0, static_cast<float>(seen.view.far_m)};
-  const double along = face.optical_from_face.col(2).dot(rays_[i].cast<double>());
+  const double along = face.optical_from_face.col(2).dot(cell.ray);
   return {nearest.triangle, static_cast<float>(static_cast<double>(nearest.depth) / along)};
 }
 

@@ -25,10 +25,15 @@ class LensCanvas {
   /// Of two rows and columns at least. `lens` shows all of its picture, see image::Lens::widest(), but for
   /// less than half a pixel at its edge.
   LensCanvas(const image::Lens& lens, int supersampling);
+  /// Of `rows`, the lens of some rows of the picture of `whole` from `first` on, two at least: keeps no rays
+  /// of its own.
+  LensCanvas(const LensCanvas& whole, const image::Lens& rows, int first);
 
   const std::shared_ptr<const light::PixelRays>& pixels() const { return pixels_; }
   /// Of a sample of the picture, in the optical frame, of depth 1 m.
   const Eigen::Vector3f& ray(int column, int row) const { return rays_[index(column, row)]; }
+  /// Of all rays that are kept here.
+  std::size_t bytes() const;
 
   /// A picture by a pinhole, one sample a pixel.
   struct Face {
@@ -44,8 +49,10 @@ class LensCanvas {
   void draw(Rasterizer* rasterizer, const Seen& seen, Drawn* drawn, std::vector<Sample>* samples) const;
 
  private:
-  /// The four drawn samples about a ray, by the first of them, and which is nearest.
+  /// The four drawn samples about a ray, by the first of them, and which is nearest: to find them costs less
+  /// than to keep them.
   struct Cell {
+    Eigen::Vector3d ray;
     std::uint32_t first;
     std::uint8_t face, nearest;
   };
@@ -53,20 +60,21 @@ class LensCanvas {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
   }
+  std::size_t samples() const { return index(0, rows_); }
   std::size_t faceOf(const Eigen::Vector3d& ray) const;
   bool needsCube() const;
   void layOutFaces();
   void findRays();
-  void findCells();
-  Sample sampleAt(const Seen& seen, const Drawn& drawn, std::size_t i) const;
-  Sample atEdge(const Seen& seen, const Drawn& drawn, std::size_t i) const;
-  Sample drawnNearest(const Seen& seen, const Drawn& drawn, std::size_t i) const;
+  Cell cellOf(const Eigen::Vector3d& ray) const;
+  Sample sampleAt(const Seen& seen, const Drawn& drawn, const Cell& cell) const;
+  Sample atEdge(const Seen& seen, const Drawn& drawn, const Cell& cell) const;
+  Sample drawnNearest(const Seen& seen, const Drawn& drawn, const Cell& cell) const;
 
   std::shared_ptr<const light::PixelRays> pixels_;
   int supersampling_, columns_, rows_;
-  std::vector<Eigen::Vector3f> rays_;
+  std::shared_ptr<const std::vector<Eigen::Vector3f>> found_;  ///< null: those of pixels_, one sample each
+  const Eigen::Vector3f* rays_ = nullptr;                      ///< of samples, by rows
   std::vector<Face> faces_;
-  std::vector<Cell> cells_;
 };
 
 }  // namespace sunlit::render

@@ -59,9 +59,14 @@ bool same(const BodyPlaces& a, const BodyPlaces& b) {
 class Renderer::Implementation {
  public:
   Implementation(const std::vector<light::World>& states, const RenderOptions& options)
-      : Implementation(states, checked(options), std::make_shared<const ReadyTextures>(firstOf(states))) {}
+      : Implementation(states, checked(options),
+                       {std::make_shared<const ReadyTextures>(firstOf(states)),
+                        std::make_shared<LensCanvases>(options)}) {}
   Implementation(const Implementation& beside, const RenderOptions& options, States states)
-      : Implementation(beside.worlds(states), checked(options), beside.textures_) {}
+      : Implementation(
+            beside.worlds(states), checked(options),
+            {beside.textures_, beside.canvases_->areOf(options) ? beside.canvases_
+                                                                : std::make_shared<LensCanvases>(options)}) {}
 
   void look(const Eigen::Isometry3d& map_from_optical, const BodyPlaces& map_from_body) {
     const bool drawn_ahead = !ahead_.samples.empty() &&
@@ -144,15 +149,20 @@ class Renderer::Implementation {
   }
 
  private:
-  Implementation(const std::vector<light::World>& states, const RenderOptions& options,
-                 std::shared_ptr<const ReadyTextures> textures)
+  /// With cameras beside it.
+  struct Shared {
+    std::shared_ptr<const ReadyTextures> textures;
+    std::shared_ptr<LensCanvases> canvases;  ///< of the same lens
+  };
+  Implementation(const std::vector<light::World>& states, const RenderOptions& options, const Shared& shared)
       : options_(options),
-        optics_(opticsOf(options, options.camera)),
+        canvases_(shared.canvases),
+        optics_(opticsOf(options, canvases_.get())),
         world_(states.front()),
-        textures_(std::move(textures)),
+        textures_(shared.textures),
         rasterizer_(makeRasterizer(options.rasterizer,
                                    {world_.geometry, textures_->pyramids, options.texture_lod_bias})),
-        bands_(options) {
+        bands_(options, canvases_) {
     for (const light::World& state : states) states_.emplace_back(state, options.final_gather);
   }
 
@@ -273,6 +283,7 @@ class Renderer::Implementation {
   }
 
   RenderOptions options_;
+  std::shared_ptr<LensCanvases> canvases_;
   Optics optics_;
   light::World world_;                             // in the first of its states
   std::shared_ptr<const ReadyTextures> textures_;  // before the rasterizer, which refers to them

@@ -15,6 +15,15 @@ double knownSmear_s(const image::ShutterOptions& shutter) {
   return 1e-3 * shutter.exposure_ms.value_or(0.0);
 }
 
+bool isFixed(const ChainOptions& chain) {
+  return chain.exposure.mode == image::ExposureMode::kFixed;
+}
+
+/// EV100 that a picture is exposed with which metered so much.
+double exposedBy(const Setting& setting, double metered_ev100) {
+  return setting.adapted ? setting.adapted(metered_ev100) : metered_ev100;
+}
+
 }  // namespace
 
 Camera::Chain::Chain(const image::Lens& lens, const ChainOptions& chain)
@@ -98,12 +107,15 @@ void Camera::addRain(const Lit& lit, double ev100, image::LinearImage* luminance
 }
 
 double Camera::meter(const Lit& lit, Stopwatch* stopwatch) const {
-  const double smear_s = knownSmear_s(chainOf(lit).options.shutter);
+  const ChainOptions& chain = chainOf(lit).options;
+  if (isFixed(chain)) return chain.exposure.ev100;
+  const double smear_s = knownSmear_s(chain.shutter);
   return metered(lit, throughLens(lit, beforeLens(lit, smear_s, stopwatch), stopwatch), stopwatch);
 }
 
 Developed Camera::photograph(const Lit& lit, std::optional<double> ev100, Stopwatch* stopwatch) const {
   const ChainOptions& chain = chainOf(lit).options;
+  if (!ev100 && isFixed(chain)) ev100 = exposedBy(lit.setting, chain.exposure.ev100);
   const double known_s = ev100 ? image::smearTime_s(chain.shutter, *ev100) : knownSmear_s(chain.shutter);
   image::LinearImage before = beforeLens(lit, known_s, stopwatch);
   const bool rains = lit.light.day.rain().mm_per_h > 0.0;
@@ -114,8 +126,7 @@ Developed Camera::photograph(const Lit& lit, std::optional<double> ev100, Stopwa
   if (!ev100) {
     is_due = rains;
     luminance = throughLens(lit, rains || may_smear ? before : std::move(before), stopwatch);
-    const double meters = metered(lit, luminance, stopwatch);
-    exposed = lit.setting.adapted ? lit.setting.adapted(meters) : meters;
+    exposed = exposedBy(lit.setting, metered(lit, luminance, stopwatch));
     // How long the shutter is open is known only now, and with it what smears and how far drops fall.
     const double smear_s = image::smearTime_s(chain.shutter, exposed);
     if (may_smear && smear_s != known_s && renderer_->exposures(wayOf(chainOf(lit), smear_s)) > 1) {

@@ -139,10 +139,15 @@ image::Rgb8Image Studio::mapFromAbove(const MapExtent& extent, const sky::Daylig
   return image::develop(whole, image::chooseEv100(whole, image::ExposureOptions{}));
 }
 
-void Studio::look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links,
-                  const Motion& motion) {
+void Studio::lookByLeft(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links,
+                        const Motion& motion) {
   stopwatch_.measure("geometry", "pose",
                      [&] { camera_->look(map_from_camera * linkFromOptical(), map_from_links, motion); });
+}
+
+void Studio::look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links,
+                  const Motion& motion) {
+  lookByLeft(map_from_camera, map_from_links, motion);
   if (right_) {
     stopwatch_.measure("geometry", "right", [&] {
       const Eigen::Isometry3d map_from_right = mapFromRight(map_from_camera, options_);

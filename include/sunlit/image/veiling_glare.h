@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "sunlit/image/images.h"
@@ -57,7 +58,8 @@ struct LightOutside {
 /// edge lies about there, all else evenly. From the edge on it fades by its cosine and evenly with the angle
 /// up to the hood, where the last of the lens lies in its shadow, and over 5° at least, also where the
 /// picture shows more than the hood lets in; from 85° on the front of the lens is taken to face as far to the
-/// side.
+/// side. Beside a picture without its axis it fades as if it had gone on outwards from the edge by the angle
+/// between the two.
 class VeilingGlare {
  public:
   /// Keeps what it needs of `vignetting`, which the picture has been through. Throws as validate().
@@ -72,7 +74,17 @@ class VeilingGlare {
 
  private:
   WingsFromBeyond wingsOf(const LightOutside& light, const LinearRgb& mean) const;
-  Eigen::Vector2d edgeTowards(const Eigen::Vector3d& towards) const;
+  /// Where a light has left the picture. Without a ray, which no pixel of a lens lacks that shows all of its
+  /// picture, the angles are 0.
+  struct Passed {
+    Eigen::Vector2d pixel;               ///< on the edge
+    std::optional<Eigen::Vector3d> ray;  ///< of that
+    double edge_rad = 0.0;               ///< of that, from the axis
+    double light_rad = 0.0;              ///< of the light, from the axis, as far as it fades by
+  };
+  /// By a light in the direction `towards`, a unit vector. Where the axis is in the picture, it is on the way
+  /// from there to the light; else it is what lies nearest to the light.
+  Passed passedBy(const Eigen::Vector3d& towards) const;
 
   Vignetting vignetting_;
   GlareOptions options_;

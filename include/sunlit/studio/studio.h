@@ -101,6 +101,9 @@ class Studio {
   /// `motion`: of the camera, and the robot with it.
   void look(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links = {},
             const Motion& motion = {});
+  /// The same for the left camera, or the only one: all but photographRight() then speaks of that.
+  void lookByLeft(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links = {},
+                  const Motion& motion = {});
   /// Draws what look() will look at later. Another thread may photograph() meanwhile.
   void lookAhead(const Eigen::Isometry3d& map_from_camera, const render::BodyPlaces& map_from_links = {});
   /// What does not depend on the camera, but that one of top_down sees no air.
@@ -113,7 +116,7 @@ class Studio {
   /// EV100 that photograph() would develop with by itself.
   double meter(const light::Illumination& light, const image::PictureName& name, const Setting& setting = {});
   /// What the right camera sees, where there is one: exposed like the left one's picture of that name and
-  /// setting, with grain of its own. Both are looked at by look() and lookAhead().
+  /// setting, with grain of its own. Of the pose of look().
   image::Rgb8Image photographRight(const light::Illumination& light, const image::PictureName& name,
                                    double ev100, const Setting& setting = {});
   /// At the moment of look(), all rows at once.

@@ -4,8 +4,10 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include <algorithm>
+#include <boost/make_shared.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 
 #include "sunlit/image/encoded_size.h"
 
@@ -49,6 +51,36 @@ cv::Mat numbersOf(const sensor_msgs::Image& message, const std::string& encoding
   return cv_bridge::toCvCopy(swapped, encoding)->image;
 }
 
+/// What the camera called it, where compressed_image_transport sent it: its formats read like "rgb8; jpeg
+/// compressed bgr8".
+std::string encodingIn(const std::string& format) {
+  return format.substr(0, format.find(';'));
+}
+
+/// A Bayer mosaic is compressed as it is, in one channel. Throws what cv_bridge and OpenCV throw, and
+/// std::runtime_error for what is no such mosaic.
+cv::Mat mosaicOf(const sensor_msgs::CompressedImage& message) {
+  const std::string encoding = encodingIn(message.format);
+  const auto mosaic = boost::make_shared<cv_bridge::CvImage>(message.header, encoding);
+  mosaic->image = cv::imdecode(message.data, cv::IMREAD_UNCHANGED);
+  if (mosaic->image.empty()) return {};
+  const int type = cv_bridge::getCvType(encoding);
+  if (mosaic->image.type() != type)
+    throw std::runtime_error("the data are of type " + cv::typeToString(mosaic->image.type()) + ", but " +
+                             encoding + " is " + cv::typeToString(type));
+  return cv_bridge::cvtColor(mosaic, sensor_msgs::image_encodings::RGB8)->image;
+}
+
+/// Throws what OpenCV throws.
+cv::Mat pictureOf(const sensor_msgs::CompressedImage& message) {
+  cv::Mat bgr =
+      cv::imdecode(message.data, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
+  if (bgr.depth() == CV_16U) bgr.convertTo(bgr, CV_8U, 255.0 / 65535.0);
+  cv::Mat rgb;
+  if (!bgr.empty()) cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+  return rgb;
+}
+
 }  // namespace
 
 std::int64_t nanosecondsOf(const ros::Time& time) {
@@ -84,19 +116,13 @@ DecodedImage decode(const sensor_msgs::CompressedImage& message, std::size_t max
   decoded.fault = faultOfSize(head->width, head->height, max_pixels);
   if (head->is_cut_short) decoded.fault = "format \"" + message.format + "\": the data are cut short";
   if (!decoded.fault.empty()) return decoded;
-  cv::Mat bgr;
   try {
-    bgr = cv::imdecode(message.data, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception& error) {
-    decoded.fault = error.what();
-    return decoded;
+    const bool is_mosaic = sensor_msgs::image_encodings::isBayer(encodingIn(message.format));
+    decoded.rgb = is_mosaic ? mosaicOf(message) : pictureOf(message);
+    if (decoded.rgb.empty()) decoded.fault = "format \"" + message.format + "\": the data cannot be decoded";
+  } catch (const std::exception& error) {  // of cv_bridge, of OpenCV and ours
+    decoded.fault = "format \"" + message.format + "\": " + error.what();
   }
-  if (bgr.empty()) {
-    decoded.fault = "format \"" + message.format + "\": the data cannot be decoded";
-    return decoded;
-  }
-  if (bgr.depth() == CV_16U) bgr.convertTo(bgr, CV_8U, 255.0 / 65535.0);
-  cv::cvtColor(bgr, decoded.rgb, cv::COLOR_BGR2RGB);
   return decoded;
 }
 

@@ -28,6 +28,8 @@ struct DecodedImage {
 /// the size is checked.
 DecodedImage decode(const sensor_msgs::Image& message, std::size_t max_pixels);
 /// PNG and JPEG, of grey or colour, 8 or 16 bit as above; by the data, whatever the message calls its format.
+/// But where that begins with a Bayer encoding, as in "bayer_rggb8; png compressed ", the data are a mosaic
+/// of one channel, as compressed_image_transport sends it, and the image is that of the raw one.
 DecodedImage decode(const sensor_msgs::CompressedImage& message, std::size_t max_pixels);
 
 /// Depth as CV_32FC1, m, or why it could not be had.

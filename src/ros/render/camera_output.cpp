@@ -1,7 +1,6 @@
 #include "ros/render/camera_output.h"
 
 #include <image_transport/camera_common.h>
-#include <sensor_msgs/CompressedImage.h>
 
 #include "ros/conversions/images.h"
 
@@ -20,11 +19,21 @@ image_transport::CameraPublisher advertised(const ros::NodeHandle& node, const s
 
 }  // namespace
 
+const sensor_msgs::ImagePtr& OutgoingPicture::raw() {
+  if (!raw_) raw_ = toImageMessage(picture_, header_);
+  return raw_;
+}
+
+const sensor_msgs::CompressedImagePtr& OutgoingPicture::png() {
+  if (!png_) png_ = toPngMessage(picture_, header_);
+  return png_;
+}
+
 CameraOutput::CameraOutput(const ros::NodeHandle& node, const std::string& topic, std::uint32_t queue_size)
     : publisher_(advertised(node, topic, queue_size, subscribers_)) {}
 
-void CameraOutput::publish(const image::Rgb8Image& picture, const sensor_msgs::CameraInfo& info) const {
-  publisher_.publish(toImageMessage(picture, info.header), boost::make_shared<sensor_msgs::CameraInfo>(info));
+void CameraOutput::publish(OutgoingPicture* picture, const sensor_msgs::CameraInfo& info) const {
+  publisher_.publish(picture->raw(), boost::make_shared<sensor_msgs::CameraInfo>(info));
 }
 
 void CameraOutput::publish(const image::DepthImage& depth, const sensor_msgs::CameraInfo& info) const {
@@ -42,8 +51,9 @@ PngOutput::PngOutput(ros::NodeHandle node, const std::string& topic, std::uint32
       infos_(HeardTopic::of<sensor_msgs::CameraInfo>(node, image_transport::getCameraInfoTopic(topic),
                                                      queue_size)) {}
 
-void PngOutput::publish(const image::Rgb8Image& picture, const sensor_msgs::CameraInfo& info) const {
-  images_.publisher.publish(toPngMessage(picture, info.header));
+void PngOutput::publish(OutgoingPicture* picture, const sensor_msgs::CameraInfo& info) const {
+  // By what is connected now: `subscribers` hears of it only once callbacks are served.
+  if (images_.publisher.getNumSubscribers() > 0) images_.publisher.publish(picture->png());
   infos_.publisher.publish(info);
 }
 

@@ -3,6 +3,7 @@
 
 #include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
+#include <sensor_msgs/CompressedImage.h>
 
 #include <string>
 #include <variant>
@@ -23,13 +24,29 @@ struct CameraAudience {
   Audience infos;
 };
 
+/// A picture on its way to several topics: each of its messages is made when first asked for, and once.
+class OutgoingPicture {
+ public:
+  /// `picture` outlives this.
+  OutgoingPicture(const image::Rgb8Image& picture, const std_msgs::Header& header)
+      : picture_(picture), header_(header) {}
+  const sensor_msgs::ImagePtr& raw();
+  const sensor_msgs::CompressedImagePtr& png();
+
+ private:
+  const image::Rgb8Image& picture_;
+  std_msgs::Header header_;
+  sensor_msgs::ImagePtr raw_;
+  sensor_msgs::CompressedImagePtr png_;
+};
+
 /// `topic` by an image_transport::CameraPublisher, with camera_info beside it.
 class CameraOutput {
  public:
   /// `queue_size` messages are kept for a subscriber that is slow to read.
   CameraOutput(const ros::NodeHandle& node, const std::string& topic, std::uint32_t queue_size);
 
-  void publish(const image::Rgb8Image& picture, const sensor_msgs::CameraInfo& info) const;
+  void publish(OutgoingPicture* picture, const sensor_msgs::CameraInfo& info) const;
   void publish(const image::DepthImage& depth, const sensor_msgs::CameraInfo& info) const;
   /// Whether anybody listens to either.
   bool isHeard() const { return subscribers_.images.are({1, {}}) || subscribers_.infos.are({1, {}}); }
@@ -47,7 +64,8 @@ class PngOutput {
  public:
   PngOutput(ros::NodeHandle node, const std::string& topic, std::uint32_t queue_size);
 
-  void publish(const image::Rgb8Image& picture, const sensor_msgs::CameraInfo& info) const;
+  /// The picture only where somebody is there to get it: PNG takes its time.
+  void publish(OutgoingPicture* picture, const sensor_msgs::CameraInfo& info) const;
   bool isHeard() const { return images_.subscribers.are({1, {}}) || infos_.subscribers.are({1, {}}); }
   std::string lonelyTopic(const CameraAudience& wanted) const;
 

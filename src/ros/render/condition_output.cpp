@@ -44,8 +44,9 @@ void ConditionOutput::publish(const Photograph& photograph, const SkyMoment& sky
   // Before the image: who has that can expect it.
   capture_.publisher.publish(capture);
   const sensor_msgs::CameraInfo info = toCameraInfo(options_.camera, header);
-  std::visit([&](const auto& images) { images.publish(photograph.picture, info); }, images_);
-  if (stereo_) stereo_->publish(photograph);
+  OutgoingPicture picture(photograph.picture, header);
+  std::visit([&](const auto& images) { images.publish(&picture, info); }, images_);
+  if (stereo_) stereo_->publish(photograph, &picture);
 }
 
 std::string ConditionOutput::lonelyTopic(const WantedSubscribers& wanted) const {

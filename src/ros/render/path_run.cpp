@@ -143,11 +143,16 @@ RunProgress PathRun::progress() const {
   return progress;
 }
 
-void PathRun::meterBefore(const Shot& shot) {
+bool PathRun::metersBefore(const Shot& shot) {
   // What a run that began earlier, or passes over fewer poses, has metered, under the sky that is there.
-  for (auto index = static_cast<int>(streams_.firstUnmetered(shot.pose_index)); index < shot.pose_index;
-       ++index)
-    streams_.meter(shotAt(index - path_.first(), joints()), shot);
+  const auto index = static_cast<int>(streams_.firstUnmetered(shot.pose_index));
+  if (index == shot.pose_index) return false;
+  const std::string wanted = "an exposure that lags to meter ", before = std::to_string(shot.pose_index);
+  waits_for_ = {wanted + "poses " + std::to_string(index) + " to " + std::to_string(shot.pose_index - 1) +
+                    " before pose " + before,
+                wanted + "what is before pose " + before};
+  streams_.meter(shotAt(index - path_.first(), joints()), shot);
+  return true;
 }
 
 void PathRun::warnOfOtherParent() {
@@ -171,6 +176,7 @@ Step PathRun::render() {
   if (!waits_for_.empty()) return Step::kWaits;
   waits_set_back_ = false;
   set_back_from_ = ros::Time();
+  if (metersBefore(*next_)) return Step::kMetered;
   Shot shot = *next_;
   if (tf_) {
     // Not earlier: they move while the pose waits for its time, its sky and its readers.
@@ -183,7 +189,6 @@ Step PathRun::render() {
   position_ += path_.stride();
   next_.reset();
   if (options_.looks_ahead && !tf_ && position_ < positions()) next_ = shotAt(position_, {});
-  meterBefore(shot);
   streams_.take(shot, next_);
   streams_.poseOutput().publishProgress(position());
   return Step::kTook;

@@ -129,7 +129,8 @@ int RenderNode::run() {
   Step latest = Step::kWaits;
   while (ros::ok()) {
     // After a frame only what is there already; else wait a moment for something to come.
-    callbacks.callAvailable(latest == Step::kTook ? ros::WallDuration() : patience);
+    const bool is_busy = latest == Step::kTook || latest == Step::kMetered;
+    callbacks.callAvailable(is_busy ? ros::WallDuration() : patience);
     latest = step();
     diagnostics_.update();
     if (latest == Step::kDone && !finished_) finish();
@@ -177,7 +178,7 @@ Step RenderNode::step() {
 }
 
 void RenderNode::report(Step step) {
-  const Wait wait = step == Step::kWaits ? run_->waitsFor() : Wait();
+  const Wait wait = step == Step::kWaits || step == Step::kMetered ? run_->waitsFor() : Wait();
   if (wait_log_.report(wait)) activity_.say("waiting", wait.words);
   if (wait.empty() && activity_.latest().doing == "waiting") activity_.say("rendering");
   if (step != Step::kTook) return;

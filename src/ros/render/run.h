@@ -24,9 +24,10 @@ namespace sunlit::ros_interface {
 
 /// What became of one step.
 enum class Step {
-  kTook,   ///< one pose was rendered
-  kWaits,  ///< see Run::waitsFor()
-  kDone,   ///< there is nothing left to render
+  kTook,     ///< one pose was rendered
+  kMetered,  ///< one was metered that nobody gets; for what, see Run::waitsFor()
+  kWaits,    ///< see Run::waitsFor()
+  kDone,     ///< there is nothing left to render
 };
 
 /// How far a run is, in poses that it renders.
@@ -36,7 +37,7 @@ struct RunProgress {
   std::optional<int> ahead;  ///< of the slowest reader; nothing: none is waited for
 };
 
-/// Renders one pose a step, when it may.
+/// Renders or meters one pose a step, when it may.
 class Run {
  public:
   virtual ~Run() = default;
@@ -46,7 +47,7 @@ class Run {
   /// it until it says so, and step() only from then on.
   virtual bool begin() = 0;
   virtual Step step() = 0;
-  /// Why the latest step waited; empty where that needs no words.
+  /// Why the latest step rendered nothing; empty where that needs no words.
   virtual Wait waitsFor() const = 0;
   /// Whether what it waits for will never come.
   virtual bool isStuck() const { return false; }
@@ -99,8 +100,8 @@ class PathRun : public Run {
   RobotPlaces::Joints joints() const;
   /// A step at the next pose, which no reader holds up.
   Step render();
-  /// Lets exposures that lag see what comes before `shot`.
-  void meterBefore(const Shot& shot);
+  /// Lets exposures that lag see the next pose that they miss before `shot`; false where they miss none.
+  bool metersBefore(const Shot& shot);
   void warnOfOtherParent();
   /// The poses before `position` as readers count them.
   int counted(int position) const;

@@ -18,8 +18,8 @@ class StereoOutput {
   /// `options.right` is there.
   StereoOutput(const ros::NodeHandle& node, const OutputOptions& options);
 
-  /// With a right picture.
-  void publish(const Photograph& photograph) const;
+  /// With a right picture; `left` is its other one, of the left frame.
+  void publish(const Photograph& photograph, OutgoingPicture* left) const;
   /// The first topic with too few subscribers; empty if there is none.
   std::string lonelyTopic(const Audience& left, const Audience& right) const;
 

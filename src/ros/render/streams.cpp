@@ -103,7 +103,7 @@ std::int64_t Streams::firstUnmetered(std::int64_t index) const {
 }
 
 void Streams::meter(const Shot& shot, const Shot& target) {
-  studio_.look(shot.map_from_camera, shot.map_from_links, shot.motion);
+  studio_.lookByLeft(shot.map_from_camera, shot.map_from_links, shot.motion);
   for (const auto& stream : streams_) {
     if (shot.pose_index < stream->lag.firstMissing(target.pose_index)) continue;
     const light::Illumination& light = lightOf(*stream, stream->sky.at(target.stamp).value(), shot.stamp);
@@ -145,7 +145,7 @@ Photograph Streams::view(const Shot& shot, const std::string& condition) {
     throw std::invalid_argument("condition \"" + condition + "\" has no sky yet: it waits for " +
                                 stream.sky.missing());
   }
-  studio_.look(shot.map_from_camera, shot.map_from_links, shot.motion);
+  studio_.lookByLeft(shot.map_from_camera, shot.map_from_links, shot.motion);
   studio::Developed developed = studio_.photograph(lightOf(stream, *stream.sky.newest(), shot.stamp),
                                                    {shot.pose_index, stream.name}, stream.setting);
   return {shot.pose_index, shot.stamp, developed.ev100, std::move(developed.picture)};

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "ros/render/camera_output.h"
 #include "ros/render/options.h"
 #include "ros/render/path_source.h"
 #include "ros/render/run_files.h"
@@ -38,6 +39,20 @@ TEST(StampOfPose, NeverRepeats) {
     ASSERT_LT(before, stamp) << index;
     before = stamp;
   }
+}
+
+TEST(OutgoingPicture, MakesEachMessageOnce) {
+  image::Rgb8Image picture(3, 2);
+  picture.data[4] = 200;
+  std_msgs::Header header;
+  header.frame_id = "camera_optical_frame";
+  OutgoingPicture outgoing(picture, header);
+  EXPECT_EQ(outgoing.png(), outgoing.png());
+  EXPECT_EQ(outgoing.raw(), outgoing.raw());
+  EXPECT_EQ(outgoing.raw()->data, picture.data);
+  EXPECT_EQ(outgoing.raw()->header.frame_id, header.frame_id);
+  EXPECT_EQ(outgoing.png()->header.frame_id, header.frame_id);
+  EXPECT_EQ(outgoing.png()->format, "rgb8; png compressed bgr8");
 }
 
 TEST(Options, WithoutParametersAreTheDefaultsOfTheBuiltInWorld) {

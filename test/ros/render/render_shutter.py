@@ -8,9 +8,10 @@ import tempfile
 import numpy
 import rospy
 import rostest
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import Pose, Quaternion, TransformStamped
 from pixels import right_edge
-from rendering import BOX_FACE_M, Reader, RefusalTest, RenderNode, Sun, Transforms, parameters
+from rendering import BOX_FACE_M, Reader, RefusalTest, RenderNode, Sun, Transforms, parameters, service
+from sunlit.srv import RenderView
 
 FIXED = {"mode": "fixed", "ev100": 15.0}
 SUN = (-0.6, 0.0, 0.8)
@@ -93,6 +94,31 @@ class RenderShutter(RefusalTest):
                 self.assertEqual([capture.ev100 for capture in found[name][1]],
                                  [whole[name][1][i].ev100 for i in indices], name)
                 self.assertEqual([image.data for image in found[name][0]], [whole[name][0][i].data for i in indices], name)
+
+    def test_a_late_exposure_meters_pose_by_pose_and_hears_meanwhile(self):
+        sun = Sun("/a/sun", *SUN)
+        reader = Reader(["a"], node="/metering")
+        # 112 poses that nobody gets, of a tenth of a second or so each.
+        with tempfile.TemporaryDirectory() as folder:
+            tree = parameters(conditions={"a": {"adaptation": 0.05}}, path={"first": 150, "count": 1, "spacing": 0.05},
+                              camera={"width": 1280, "height": 960, "baseline": 0.2}, output_dir=folder, exit_when_done=True,
+                              subscribers={"images": 1})
+            with RenderNode("metering", tree) as node:
+                line = node.line_with("Waiting for an exposure that lags to meter poses ")
+                self.assertIn(" to 149 before pose 150", line)
+                answer = service("/metering/render_view", RenderView)(pose=Pose(orientation=Quaternion(w=1.0)), condition="a")
+                self.assertTrue(answer.success, answer.message)
+                node.process.send_signal(2)
+                status, said = node.end()
+            with open(os.path.join(folder, "timing.csv")) as file:
+                drawn = {row["what"]: int(row["count"]) for row in csv.DictReader(file) if row["stage"] == "geometry"}
+        self.assertEqual(status, 0, said)
+        self.assertEqual(reader.of("/a/camera/image_raw"), [])
+        # Neither what is metered nor a view has a picture of the right camera.
+        self.assertEqual(list(drawn), ["pose"])
+        self.assertLess(drawn["pose"], 112)
+        reader.close()
+        sun.publisher.unregister()
 
     def follow(self, name, before):
         """The picture of a camera CAMERA_X_M east, which TF knows from `before`, metres north of there 20 ms earlier, too."""

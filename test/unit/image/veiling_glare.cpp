@@ -222,6 +222,54 @@ TEST(VeilingGlare, LiesAboutTheEdgeThatALightHasPassed) {
   EXPECT_NEAR(far.at(630, 240)[1] / far.at(10, 240)[1], 1.0, 0.1);
 }
 
+/// Its axis lies 160 px to the right of the picture.
+Lens besideItsAxis() {
+  return Lens({640, 480, 500.0, 500.0, 800.0, 239.5}, {});
+}
+
+/// That comes to lie there, or would.
+LightOutside lightAt(const Lens& lens, double x, double y) {
+  return {lens.unproject({x, y}).value().normalized(), LinearRgb(1e5F, 1e5F, 1e5F)};
+}
+
+TEST(VeilingGlare, LiesAboutTheNearestEdgeAlsoWhereTheAxisIsNotInThePicture) {
+  const Lens lens = besideItsAxis();
+  const VeilingGlare veil = before(lens, glare(0.05, 0.5));
+  const struct {
+    int x, y;
+    double beyond_x, beyond_y;
+  } edges[] = {
+      {639, 240, 639.5, 240.0}, {0, 240, -0.5, 240.0}, {300, 0, 300.0, -0.5}, {639, 479, 639.5, 479.5}};
+  for (const auto& edge : edges) {
+    LinearImage inside = sunAt(lens, edge.x, edge.y), outside = even(lens, 0.0F);
+    veil.apply({}, &inside);
+    veil.apply({lightAt(lens, edge.beyond_x, edge.beyond_y)}, &outside);
+    for (int y = 20; y < 480; y += 40)
+      for (int x = 20; x < 640; x += 40) {
+        const float seen = inside.at(x, y)[1];
+        EXPECT_NEAR(outside.at(x, y)[1], seen, 0.06F * seen)  // as above
+            << x << " " << y << " " << edge.x << " " << edge.y;
+      }
+  }
+}
+
+TEST(VeilingGlare, FadesFromThatEdgeOnWithoutAStepOnBothSidesOfTheAxis) {
+  const Lens lens = besideItsAxis();
+  const VeilingGlare veil = before(lens, glare(0.05, 0.5));
+  const double inside = sumOf(sunAt(lens, 639, 240)) / 307200.0;
+  double brighter = veil.meanOf(lightAt(lens, 639.5, 240.0)).value[1];
+  EXPECT_NEAR(brighter, inside, 0.006 * inside);  // half a pixel
+  // Over the axis, up to 42.2 degrees from the edge, which is itself at 17.8: the hood is of 60. From pixel
+  // to pixel, of 0.11 degrees at most, by 0.11 / 42 of it, and of the cosine's ratio.
+  for (int x = 640; x < 1400; ++x) {
+    const double mean = veil.meanOf(lightAt(lens, x, 240.0)).value[1];
+    EXPECT_LE(mean, brighter) << x;
+    EXPECT_LE(brighter - mean, 0.006 * inside) << x;
+    brighter = mean;
+  }
+  EXPECT_EQ(brighter, 0.0);
+}
+
 TEST(VeilingGlare, OfALightOutsideLiesEvenlyAndInItsColour) {
   LinearImage picture = even(usual(), 100.0F);
   LightOutside lamp = at(31.0, 5.0);

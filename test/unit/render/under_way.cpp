@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "render/bands.h"
 #include "render/image_motion.h"
 #include "test_scenes.h"
 
@@ -294,22 +293,6 @@ TEST(UnderWay, SmearsPicturesThatReachTheirLensesEnd) {
   EXPECT_GT(renderer.exposures(way), 1);
   const image::LinearImage smeared = renderer.light(light, 0, way);
   EXPECT_GT(*smeared.at(300, 153), *smeared.at(5, 153));
-}
-
-TEST(UnderWay, RowsOfALensKnowTheSizeOfPixelsAsTheWholePictureDoes) {
-  for (const auto& [model, coefficients] :
-       {std::pair(image::LensModel::kPlumbBob, std::vector<double>{-0.28, 0.07, 2e-4, 2e-5, 0.0}),
-        std::pair(image::LensModel::kEquidistant, std::vector<double>{0.0, 0.0, 0.0, 0.0})}) {
-    render::RenderOptions options = camera(1);
-    options.distortion = {model, coefficients};
-    const render::View whole = render::opticsOf(options, options.camera).view;
-    for (const int first : {0, 60, 225}) {
-      const render::View rows = render::opticsOf(options, render::rowsOf(options.camera, first, 15)).view;
-      // Of floats about 1, 3e-3 apart.
-      EXPECT_LT((rows.pixelRight() - whole.pixelRight()).norm(), 1e-4 * whole.pixelRight().norm()) << first;
-      EXPECT_LT((rows.pixelDown() - whole.pixelDown()).norm(), 1e-4 * whole.pixelDown().norm()) << first;
-    }
-  }
 }
 
 }  // namespace

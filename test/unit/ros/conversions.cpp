@@ -1,9 +1,11 @@
+#include <cv_bridge/cv_bridge.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -86,6 +88,64 @@ TEST(Messages, ImagesOf16BitAreReadInEitherOrderOfBytes) {
       }
     }
   }
+}
+
+/// A mosaic of numbers that differ from place to place, `bytes` each.
+sensor_msgs::Image mosaicOf(const std::string& encoding, std::uint32_t bytes) {
+  sensor_msgs::Image message;
+  message.encoding = encoding;
+  message.width = 12;
+  message.height = 8;
+  message.step = message.width * bytes;
+  for (std::uint32_t i = 0; i < message.step * message.height; ++i)
+    message.data.push_back(static_cast<std::uint8_t>(7 + 37 * i));
+  return message;
+}
+
+/// As compressed_image_transport sends it.
+sensor_msgs::CompressedImage compressedOf(const sensor_msgs::Image& raw, const std::string& kind) {
+  sensor_msgs::CompressedImage message;
+  message.format = raw.encoding + "; " + kind + " compressed ";
+  cv::imencode("." + kind, cv_bridge::toCvCopy(raw)->image, message.data);
+  return message;
+}
+
+TEST(Messages, CompressedMosaicsAreThePicturesThatTheRawOnesAre) {
+  for (const auto& [encoding, bytes] :
+       {std::pair<const char*, std::uint32_t>{"bayer_rggb8", 1}, {"bayer_gbrg8", 1}, {"bayer_bggr16", 2}}) {
+    const sensor_msgs::Image raw = mosaicOf(encoding, bytes);
+    const DecodedImage expected = decode(raw, 100), decoded = decode(compressedOf(raw, "png"), 100);
+    ASSERT_EQ(expected.fault, "");
+    ASSERT_EQ(decoded.fault, "") << encoding;
+    ASSERT_EQ(decoded.rgb.type(), CV_8UC3);
+    EXPECT_EQ(cv::norm(decoded.rgb, expected.rgb, cv::NORM_INF), 0.0) << encoding;
+  }
+}
+
+/// A flat colour, whose mosaic is coarse: what JPEG loses of it is little beside that between the channels.
+TEST(Messages, MosaicsInJpegHaveTheirColours) {
+  sensor_msgs::Image raw = mosaicOf("bayer_rggb8", 1);
+  for (std::uint32_t y = 0; y < raw.height; ++y)
+    for (std::uint32_t x = 0; x < raw.width; ++x)
+      raw.data[y * raw.step + x] = y % 2 == 0 && x % 2 == 0 ? 200 : y % 2 == 1 && x % 2 == 1 ? 40 : 100;
+  const DecodedImage decoded = decode(compressedOf(raw, "jpeg"), 100);
+  ASSERT_EQ(decoded.fault, "");
+  EXPECT_TRUE(decoded.is_lossy);
+  const cv::Scalar mean = cv::mean(decoded.rgb);
+  EXPECT_NEAR(mean[0], 200.0, 10.0);
+  EXPECT_NEAR(mean[1], 100.0, 10.0);
+  EXPECT_NEAR(mean[2], 40.0, 10.0);
+}
+
+TEST(Messages, ThatSpeakOfAMosaicButHoldAnotherPictureAreFaults) {
+  sensor_msgs::CompressedImage message = *toPngMessage(image::Rgb8Image(4, 2), kHeader);
+  message.format = "bayer_rggb8; png compressed bgr8";
+  EXPECT_EQ(decode(message, 100).fault,
+            "format \"bayer_rggb8; png compressed bgr8\": the data are of type CV_8UC3, but bayer_rggb8 is "
+            "CV_8UC1");
+  message = compressedOf(mosaicOf("bayer_rggb8", 1), "png");
+  message.format = "bayer_rggb16; png compressed ";
+  EXPECT_NE(decode(message, 100).fault, "");
 }
 
 TEST(Messages, ImagesOf8BitHaveNoOrderOfBytes) {

@@ -201,6 +201,38 @@ TEST(Studio, TakesPicturesWithAsManyChainsAsItHas) {
   EXPECT_EQ(studio.meter(light, {}), studio.photograph(light, {}).ev100);
 }
 
+TEST(Studio, AFixedExposureIsLitOnceAlsoWhereItsTimeIsItsOwn) {
+  StudioOptions options = boxes();
+  ChainOptions fixed;
+  fixed.shutter.exposure_ms = std::nullopt;
+  ChainOptions metered = fixed;
+  fixed.exposure.mode = image::ExposureMode::kFixed;
+  fixed.exposure.ev100 = 10.0;  // 8 ms
+  options.chains = {fixed, metered};
+  Studio studio(options);
+  Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
+  map_from_camera.translation().z() = 1.0;
+  Motion fast;
+  fast.turning_rad_s = {0.0, 0.0, 20.0};
+  studio.look(map_from_camera, {}, fast);
+  const light::Illumination light = studio.illumination(sky::usualAir().daylight(kHighSun));
+  const Developed once = studio.photograph(light, {0, "fixed"}, {0, 0});
+  Setting same_exposure{0, 1};
+  same_exposure.adapted = [](double) { return 10.0; };
+  const Developed twice = studio.photograph(light, {0, "metered"}, same_exposure);
+  EXPECT_EQ(once.ev100, 10.0);
+  EXPECT_EQ(once.picture.data, twice.picture.data);
+  EXPECT_EQ(studio.meter(light, {0, "fixed"}, {0, 0}), 10.0);
+  const auto litOf = [&](const std::string& series) {
+    int count = 0;
+    for (const Stopwatch::Entry& entry : studio.stopwatch().entries())
+      if (entry.stage == "light" && entry.what == series) count += entry.count;
+    return count;
+  };
+  EXPECT_EQ(litOf("fixed"), 1);
+  EXPECT_EQ(litOf("metered"), 2);  // of a smear that only its exposure tells
+}
+
 TEST(Studio, TheRightCameraOfOneThatTurnsIsCarriedAlong) {
   StudioOptions options = boxes();
   options.chains[0].shutter.line_delay_us = 1000.0;

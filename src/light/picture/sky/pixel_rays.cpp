@@ -17,13 +17,26 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 PixelRays::PixelRays(const image::Lens& lens) : lens_(lens) {
   const int width = lens.camera().width, height = lens.camera().height;
-  nodes_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  std::vector<double> widest(static_cast<std::size_t>(height), 0.0);
+  const auto nodes = std::make_shared<std::vector<Eigen::Vector3f>>(static_cast<std::size_t>(width) *
+                                                                    static_cast<std::size_t>(height));
   tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x)
-      nodes_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
+      (*nodes)[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
           lens.unproject({x, y}).value().cast<float>();
   });
+  nodes_ = nodes;
+  first_ = nodes_->data();
+  findWidest();
+}
+
+PixelRays::PixelRays(const PixelRays& whole, const image::Lens& rows, int first)
+    : lens_(rows), nodes_(whole.nodes_), first_(whole.row(first)) {
+  findWidest();
+}
+
+void PixelRays::findWidest() {
+  const int width = lens_.camera().width, height = lens_.camera().height;
+  std::vector<double> widest(static_cast<std::size_t>(height), 0.0);
   tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const double across = angleBetween(at(x - 0.5, y), at(x + 0.5, y));
