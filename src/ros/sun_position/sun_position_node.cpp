@@ -56,6 +56,7 @@ SunPositionNode::SunPositionNode(const ros::NodeHandle& node, const ros::NodeHan
   ROS_INFO("%s starts at %s, rate %g, at latitude %g, longitude %g; delta_t %s", options_.sun_frame.c_str(),
            textOfDate(options_.date_time).c_str(), options_.rate, options_.site.latitude.deg(),
            options_.site.longitude.deg(), options_.earth.delta_t_s ? "as given" : kPolynomials);
+  warnOfDeltaT();
   now_ = ros::Time::now();
   publish();
   if (ros::Time::isSimTime()) {
@@ -138,7 +139,9 @@ bool SunPositionNode::onSetDateTime(SetDateTime::Request& request, SetDateTime::
     clock_ = SunClock(astronomy::instantOf(civil), request.rate);
     options_.date_time = civil;
     publish();
-    return "the sun's clock is set to " + textOfDate(civil) + ", rate " + textOf(request.rate);
+    const std::string warning = warnOfDeltaT();
+    return "the sun's clock is set to " + textOfDate(civil) + ", rate " + textOf(request.rate) +
+           (warning.empty() ? "" : "; " + warning);
   });
 }
 
@@ -179,6 +182,14 @@ bool SunPositionNode::onGetSunTimes(GetSunTimes::Request& request, GetSunTimes::
   });
 }
 
+std::string SunPositionNode::warnOfDeltaT() const {
+  const std::string fault = deltaTFault(options_.earth, astronomy::instantOf(options_.date_time));
+  if (!fault.empty())
+    ROS_WARN("%s at %s: %s", options_.sun_frame.c_str(), textOfDate(options_.date_time).c_str(),
+             fault.c_str());
+  return fault;
+}
+
 std::string SunPositionNode::hindrance() {
   constexpr double kStill_s = 3.0;
   if (!ros::Time::isSimTime() || clock_.rate() == 0.0 || waiting_) return std::string();
@@ -200,6 +211,8 @@ void SunPositionNode::describe(diagnostic_updater::DiagnosticStatusWrapper& stat
     status.summary(diagnostic_msgs::DiagnosticStatus::OK,
                    waiting_ ? "the sun waits for its first subscriber" : motion);
   }
+  const std::string delta_t_fault = deltaTFault(options_.earth, sun_time_);
+  if (!delta_t_fault.empty()) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, delta_t_fault);
   status.add("date and time", textOfDate(astronomy::civilOf(sun_time_, options_.date_time.timezone)));
   status.addf("rate", "%g", clock_.rate());
   status.addf("azimuth, deg", "%.6f", sun_.azimuth / kRadPerDeg);

@@ -36,6 +36,8 @@ class SunPositionNode {
   void publish();
   ros::Time nextStamp();
   void describe(diagnostic_updater::DiagnosticStatusWrapper& status);
+  /// Of its date_time; empty: none. Says it, too.
+  std::string warnOfDeltaT() const;
   /// What keeps a sun from moving that should; empty: nothing.
   std::string hindrance();
 
