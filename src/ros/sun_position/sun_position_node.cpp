@@ -103,7 +103,12 @@ ros::Time SunPositionNode::nextStamp() {
   return last_stamp_;
 }
 
+bool SunPositionNode::waitsForTime() const {
+  return now_.isZero() && options_.start_stamp_s && clock_.rate() != 0.0;
+}
+
 void SunPositionNode::publish() {
+  if (waitsForTime()) return;
   waiting_ = waiting_ && sun_publisher_.getNumSubscribers() == 0;
   sun_time_ = clock_.at(waiting_ ? ros::Time() : now_);
   const std_msgs::Header header = headerOf(options_.map_frame, nextStamp());
@@ -138,6 +143,7 @@ bool SunPositionNode::onSetDateTime(SetDateTime::Request& request, SetDateTime::
     if (!ros::Time::isSimTime()) now_ = ros::Time::now();
     clock_ = SunClock(astronomy::instantOf(civil), request.rate);
     options_.date_time = civil;
+    options_.start_stamp_s.reset();
     publish();
     const std::string warning = warnOfDeltaT();
     return "the sun's clock is set to " + textOfDate(civil) + ", rate " + textOf(request.rate) +
@@ -193,6 +199,8 @@ std::string SunPositionNode::warnOfDeltaT() const {
 std::string SunPositionNode::hindrance() {
   constexpr double kStill_s = 3.0;
   if (!ros::Time::isSimTime() || clock_.rate() == 0.0 || waiting_) return std::string();
+  if (waitsForTime())
+    return "no sun is published before a time comes on /clock, since it depends on start_stamp";
   if (now_.isZero())
     return "the sun stands still, since no time comes on /clock, by which /use_sim_time tells to go";
   if (watch_.standsFor(now_) <= kStill_s) return std::string();
@@ -211,6 +219,7 @@ void SunPositionNode::describe(diagnostic_updater::DiagnosticStatusWrapper& stat
     status.summary(diagnostic_msgs::DiagnosticStatus::OK,
                    waiting_ ? "the sun waits for its first subscriber" : motion);
   }
+  if (waitsForTime()) return;
   const std::string delta_t_fault = deltaTFault(options_.earth, sun_time_);
   if (!delta_t_fault.empty()) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, delta_t_fault);
   status.add("date and time", textOfDate(astronomy::civilOf(sun_time_, options_.date_time.timezone)));
