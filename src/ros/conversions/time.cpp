@@ -9,6 +9,22 @@
 
 namespace sunlit::ros_interface {
 
+namespace {
+
+/// What the first and last local days of some time zones reach beyond kYears, in UTC: taken a day nearer.
+CivilDateTime withinYears(CivilDateTime civil, int* days_off) {
+  if (civil.year == static_cast<int>(kYears.low) - 1 && civil.month == 12 && civil.day == 31) {
+    *days_off = -1;
+    civil = {civil.year + 1, 1, 1, civil.hour, civil.minute, civil.second, civil.timezone};
+  } else if (civil.year == static_cast<int>(kYears.high) + 1 && civil.month == 1 && civil.day == 1) {
+    *days_off = 1;
+    civil = {civil.year - 1, 12, 31, civil.hour, civil.minute, civil.second, civil.timezone};
+  }
+  return civil;
+}
+
+}  // namespace
+
 std::string toUtc(const Instant& instant) {
   constexpr std::int64_t kNanosecondsPerMillisecond = 1000000;
   const std::int64_t milliseconds =
@@ -32,7 +48,9 @@ std::optional<Instant> fromUtc(const std::string& utc) {
     throw std::invalid_argument("utc is \"" + utc + "\", but must read like 2024-07-01T09:00:00.000Z");
   civil.timezone = 0.0;
   try {
-    return astronomy::instantOf(civil);
+    int days_off = 0;
+    const Instant instant = astronomy::instantOf(withinYears(civil, &days_off));
+    return instant.plusNanoseconds(days_off * Instant::kNanosecondsPerDay);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument("utc is \"" + utc + "\": " + error.what());
   }

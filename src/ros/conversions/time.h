@@ -14,8 +14,8 @@ namespace sunlit::ros_interface {
 /// as in CivilDateTime.
 std::string toUtc(const Instant& instant);
 
-/// What toUtc() writes, with any number of decimals; empty: nothing is known. Throws std::invalid_argument
-/// for anything else.
+/// What toUtc() writes of the days of kYears in any time zone, so up to a day beyond, with any number of
+/// decimals; empty: nothing is known. Throws std::invalid_argument for anything else.
 std::optional<Instant> fromUtc(const std::string& utc);
 
 /// "2024-07-01 04:00:00.000 UTC+03:00".

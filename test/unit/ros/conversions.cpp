@@ -253,6 +253,18 @@ TEST(CivilTime, SurvivesTheWayThereAndBackInAllYears) {
   }
 }
 
+TEST(CivilTime, OfTheFirstAndLastDaysOfAllTimeZonesIsUnderstood) {
+  for (const CivilDateTime& civil :
+       {CivilDateTime{6000, 12, 31, 22, 0, 0.25, -5.0}, CivilDateTime{6000, 12, 31, 23, 59, 59.999, -18.0},
+        CivilDateTime{-2000, 1, 1, 0, 0, 0.0, 18.0}, CivilDateTime{-2000, 1, 1, 2, 59, 59.0, 3.0}}) {
+    const Instant instant = astronomy::instantOf(civil);
+    EXPECT_EQ(messageOf([&] { fromUtc(toUtc(instant)); }), "");
+    EXPECT_EQ(fromUtc(toUtc(instant)), instant) << toUtc(instant);
+  }
+  for (const char* beyond : {"6001-01-02T00:00:00.000Z", "-2001-12-30T23:00:00.000Z"})
+    EXPECT_NE(messageOf([&] { fromUtc(beyond); }).find("year is "), std::string::npos) << beyond;
+}
+
 TEST(CivilTime, ThatCannotBeIsRefusedInWords) {
   for (const char* bad : {"noon", "2024-07-01", "2024-07-01T01:30:07.250", "2024-07-01T01:30:07.250Z "}) {
     EXPECT_EQ(messageOf([&] { fromUtc(bad); }),
