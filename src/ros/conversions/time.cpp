@@ -23,14 +23,18 @@ CivilDateTime withinYears(CivilDateTime civil, int* days_off) {
   return civil;
 }
 
-}  // namespace
-
-std::string toUtc(const Instant& instant) {
+/// To 1 ms, so that no second is printed as 60.000.
+Instant rounded(const Instant& instant) {
   constexpr std::int64_t kNanosecondsPerMillisecond = 1000000;
   const std::int64_t milliseconds =
       (instant.nanosecondsOfDay() + kNanosecondsPerMillisecond / 2) / kNanosecondsPerMillisecond;
-  const Instant rounded(instant.julianDay(), milliseconds * kNanosecondsPerMillisecond);
-  const CivilDateTime civil = astronomy::civilOf(rounded, 0.0);
+  return Instant(instant.julianDay(), milliseconds * kNanosecondsPerMillisecond);
+}
+
+}  // namespace
+
+std::string toUtc(const Instant& instant) {
+  const CivilDateTime civil = astronomy::civilOf(rounded(instant), 0.0);
   char text[64];
   std::snprintf(text, sizeof(text), "%s%04d-%02d-%02dT%02d:%02d:%06.3fZ", civil.year < 0 ? "-" : "",
                 civil.year < 0 ? -civil.year : civil.year, civil.month, civil.day, civil.hour, civil.minute,
@@ -56,12 +60,15 @@ std::optional<Instant> fromUtc(const std::string& utc) {
   }
 }
 
-std::string textOfDate(const CivilDateTime& civil) {
-  const long minutes = std::lround(std::abs(civil.timezone) * 60.0);
+std::string textOfDate(const Instant& instant, double timezone) {
+  constexpr double kSecondsPerHour = 3600.0;
+  const CivilDateTime civil =
+      astronomy::civilOf(rounded(instant.plusSeconds(timezone * kSecondsPerHour)), 0.0);
+  const long minutes = std::lround(std::abs(timezone) * 60.0);
   char text[96];
   std::snprintf(text, sizeof(text), "%d-%02d-%02d %02d:%02d:%06.3f UTC%c%02ld:%02ld", civil.year, civil.month,
-                civil.day, civil.hour, civil.minute, civil.second, civil.timezone < 0.0 ? '-' : '+',
-                minutes / 60, minutes % 60);
+                civil.day, civil.hour, civil.minute, civil.second, timezone < 0.0 ? '-' : '+', minutes / 60,
+                minutes % 60);
   return text;
 }
 

@@ -18,8 +18,8 @@ std::string toUtc(const Instant& instant);
 /// decimals; empty: nothing is known. Throws std::invalid_argument for anything else.
 std::optional<Instant> fromUtc(const std::string& utc);
 
-/// "2024-07-01 04:00:00.000 UTC+03:00".
-std::string textOfDate(const CivilDateTime& civil);
+/// "2024-07-01 04:00:00.000 UTC+03:00", rounded to 1 ms; `timezone` in h east of UTC.
+std::string textOfDate(const Instant& instant, double timezone);
 
 /// "1719792000.000000000", s.
 std::string textOfStamp(const ros::Time& stamp);

@@ -54,8 +54,9 @@ SunPositionNode::SunPositionNode(const ros::NodeHandle& node, const ros::NodeHan
   diagnostics_.add("sun", this, &SunPositionNode::describe);
   advertiseServices();
   ROS_INFO("%s starts at %s, rate %g, at latitude %g, longitude %g; delta_t %s", options_.sun_frame.c_str(),
-           textOfDate(options_.date_time).c_str(), options_.rate, options_.site.latitude.deg(),
-           options_.site.longitude.deg(), options_.earth.delta_t_s ? "as given" : kPolynomials);
+           textOfDate(astronomy::instantOf(options_.date_time), options_.date_time.timezone).c_str(),
+           options_.rate, options_.site.latitude.deg(), options_.site.longitude.deg(),
+           options_.earth.delta_t_s ? "as given" : kPolynomials);
   warnOfDeltaT();
   now_ = ros::Time::now();
   publish();
@@ -146,8 +147,8 @@ bool SunPositionNode::onSetDateTime(SetDateTime::Request& request, SetDateTime::
     options_.start_stamp_s.reset();
     publish();
     const std::string warning = warnOfDeltaT();
-    return "the sun's clock is set to " + textOfDate(civil) + ", rate " + textOf(request.rate) +
-           (warning.empty() ? "" : "; " + warning);
+    return "the sun's clock is set to " + textOfDate(astronomy::instantOf(civil), civil.timezone) +
+           ", rate " + textOf(request.rate) + (warning.empty() ? "" : "; " + warning);
   });
 }
 
@@ -191,7 +192,8 @@ bool SunPositionNode::onGetSunTimes(GetSunTimes::Request& request, GetSunTimes::
 std::string SunPositionNode::warnOfDeltaT() const {
   const std::string fault = deltaTFault(options_.earth, astronomy::instantOf(options_.date_time));
   if (!fault.empty())
-    ROS_WARN("%s at %s: %s", options_.sun_frame.c_str(), textOfDate(options_.date_time).c_str(),
+    ROS_WARN("%s at %s: %s", options_.sun_frame.c_str(),
+             textOfDate(astronomy::instantOf(options_.date_time), options_.date_time.timezone).c_str(),
              fault.c_str());
   return fault;
 }
@@ -222,7 +224,7 @@ void SunPositionNode::describe(diagnostic_updater::DiagnosticStatusWrapper& stat
   if (waitsForTime()) return;
   const std::string delta_t_fault = deltaTFault(options_.earth, sun_time_);
   if (!delta_t_fault.empty()) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, delta_t_fault);
-  status.add("date and time", textOfDate(astronomy::civilOf(sun_time_, options_.date_time.timezone)));
+  status.add("date and time", textOfDate(sun_time_, options_.date_time.timezone));
   status.addf("rate", "%g", clock_.rate());
   status.addf("azimuth, deg", "%.6f", sun_.azimuth / kRadPerDeg);
   status.addf("apparent elevation, deg", "%.6f", sun_.elevation / kRadPerDeg);

@@ -245,6 +245,18 @@ TEST(CivilTime, ReadsAsIsoSays) {
   EXPECT_EQ(toUtc(astronomy::instantOf({0, 3, 2, 0, 0, 0.0, 0.0})), "0000-03-02T00:00:00.000Z");
 }
 
+TEST(CivilTime, InWordsIsRoundedAndCarried) {
+  const auto text = [](const CivilDateTime& civil) {
+    return textOfDate(astronomy::instantOf(civil), civil.timezone);
+  };
+  EXPECT_EQ(text({2024, 7, 1, 4, 30, 7.25, 3.0}), "2024-07-01 04:30:07.250 UTC+03:00");
+  EXPECT_EQ(text({2024, 7, 1, 12, 0, 59.9996, 3.0}), "2024-07-01 12:01:00.000 UTC+03:00");
+  EXPECT_EQ(text({2024, 12, 31, 23, 59, 59.9999, -3.5}), "2025-01-01 00:00:00.000 UTC-03:30");
+  // A zone of no whole milliseconds.
+  EXPECT_EQ(text({2024, 7, 1, 12, 0, 59.9999, 3.3333333}), "2024-07-01 12:01:00.000 UTC+03:20");
+  EXPECT_EQ(text({-1000, 7, 1, 12, 0, 59.9994, 0.0}), "-1000-07-01 12:00:59.999 UTC+00:00");
+}
+
 TEST(CivilTime, SurvivesTheWayThereAndBackInAllYears) {
   EXPECT_FALSE(fromUtc(""));
   for (int year = -2000; year <= 6000; year += 7) {
