@@ -3,6 +3,7 @@
 #include "light/bake/cache/bake_key.h"
 #include "light/lamps/lamp_sets.h"
 #include "sunlit/light/illumination.h"
+#include "sunlit/light/land.h"
 #include "sunlit/light/transport.h"
 #include "sunlit/scene/scene_bytes.h"
 #include "sunlit/scene/weathering.h"
@@ -17,7 +18,8 @@ World::World(std::shared_ptr<const scene::Scene> scene, std::shared_ptr<const sc
     : geometry(std::make_shared<Geometry>(std::move(scene), std::move(shape))),
       visibility(std::make_shared<Visibility>(geometry)),
       bodies(meshes_of_bodies.empty() ? nullptr
-                                      : std::make_shared<Bodies>(geometry->scene, meshes_of_bodies)) {}
+                                      : std::make_shared<Bodies>(geometry->scene, meshes_of_bodies)),
+      ground_m(groundLevel(*geometry, *visibility)) {}
 
 World weathered(const World& dry, const scene::SurfaceState& state) {
   World world = dry;
@@ -35,8 +37,9 @@ Illumination illumination(const World& world, const sky::Daylight& day, const La
   const bool burn = burnUnder(lamps, day);
   const std::vector<float> shares =
       burn ? burningShares(world.geometry->scene->lamps, lamps) : std::vector<float>();
-  Illumination light = world.transport ? world.transport->illumination(day, shares, world.visibility.get())
-                                       : Illumination(day);
+  const sky::Daylight here = day.overGround(world.ground_m);
+  Illumination light = world.transport ? world.transport->illumination(here, shares, world.visibility.get())
+                                       : Illumination(here);
   if (!burn) return light;
   light.lamps =
       std::make_shared<const std::vector<scene::Lamp>>(burning(world.geometry->scene->lamps, lamps));

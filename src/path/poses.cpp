@@ -112,7 +112,12 @@ Motion motionAt(const std::vector<Eigen::Isometry3d>& poses, int index, const Pa
   // Poses of one segment look one way. Its last one may have the way to the next segment beside it, not
   // before it.
   const bool ends = at == last || poses[at].linear() != poses[at + 1].linear();
-  const bool came_along = at > 0 && (at == last || poses[at - 1].linear() == poses[at].linear());
+  const bool came_along = at > 0 && poses[at - 1].linear() == poses[at].linear();
+  if (at == last && !came_along) {
+    // Alone on its segment, of which only its heading tells: it goes as the one before, turned by as much.
+    const Eigen::Matrix3d turned = poses[at].linear() * poses[at - 1].linear().transpose();
+    return {turned * motionAt(poses, index - 1, pace).velocity_m_s, Eigen::Vector3d::Zero()};
+  }
   const std::size_t from = ends && came_along ? at - 1 : at;
   Motion motion;
   motion.velocity_m_s = speed_m_s * (poses[from + 1].translation() - poses[from].translation()).normalized();

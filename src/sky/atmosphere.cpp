@@ -171,10 +171,15 @@ void Atmosphere::addWeather(const Weather& weather, const Lamps& lamps, SkyTable
                               levels, static_cast<float>(tables.transfer.medium().parameters().ground_albedo),
                               hazePerMetre(table->haze_per_km)};
   const auto made = std::make_shared<const WeatherSky>(weather, made_of, *table);
-  const auto dim = [&](double z, LinearRgb* light) { *light = *light * made->passed(static_cast<float>(z)); };
-  dim(table->sun.towards.vector().z(), &table->sun.illuminance);
-  dim(table->moon.towards.vector().z(), &table->moon.illuminance);
-  for (PointLight& star : table->stars) dim(star.towards.z(), &star.illuminance);
+  const auto dim = [&](DiscLight* disc, LinearRgb* above_fog) {
+    const auto z = static_cast<float>(disc->towards.vector().z());
+    *above_fog = disc->illuminance * made->passedCover(z);
+    disc->illuminance = disc->illuminance * made->passed(z);
+  };
+  dim(&table->sun, &table->sun_above_fog);
+  dim(&table->moon, &table->moon_above_fog);
+  for (PointLight& star : table->stars)
+    star.illuminance = star.illuminance * made->passedCover(star.towards.z());
   table->weather = made;
 }
 

@@ -83,7 +83,8 @@ BrokenCover::BrokenCover(const CloudPlace& place, const LightAbove& above, const
 }
 
 BrokenCover::Way BrokenCover::wayUp(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const {
-  // To a shell around the Earth, from somewhat below it: high ground may reach into the cloud.
+  // To a shell around the Earth, from below it: an eye on high ground or in the air, at the cloud or above
+  // it, has it 50 m above itself, too.
   const double height_m = std::max(place_.base_m - static_cast<double>(from.z()), 50.0);
   const double radius_m = kEarthRadius_km * 1e3;
   const double z = std::max(static_cast<double>(towards.z()), 0.0);

@@ -1,5 +1,6 @@
 #include "sunlit/sky/daylight.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "sky_table.h"
@@ -9,13 +10,28 @@ namespace sunlit::sky {
 Daylight::Daylight(std::shared_ptr<const SkyTable> table) : table_(std::move(table)) {}
 
 LinearRgb Daylight::skyLuminance(const Eigen::Vector3f& towards) const {
-  return LinearRgb(table_->luminance(towards, from_));
+  return LinearRgb(table_->luminance({towards, from_, height_m_}));
+}
+
+LinearRgb Daylight::skyLuminance(const Eigen::Vector3f& towards, const Eigen::Vector3f& place) const {
+  return LinearRgb(table_->luminance({towards, place, heightOf(place)}));
 }
 
 Daylight Daylight::seenFrom(const Eigen::Vector3f& place) const {
   Daylight there = *this;
   there.from_ = place;
+  there.height_m_ = heightOf(place);
   return there;
+}
+
+Daylight Daylight::overGround(float level_m) const {
+  Daylight there = *this;
+  there.ground_m_ = level_m;
+  return there;
+}
+
+float Daylight::heightOf(const Eigen::Vector3f& place) const {
+  return std::max(place.z() - ground_m_, 0.0F);
 }
 
 Daylight Daylight::withoutAir() const {
@@ -25,11 +41,15 @@ Daylight Daylight::withoutAir() const {
 }
 
 float Daylight::throughCloud(const DiscLight& disc, const Eigen::Vector3f& place) const {
-  return throughCloud(disc.towards.vector().cast<float>(), place);
+  if (!table_->weather) return 1.0F;
+  const Eigen::Vector3f towards = disc.towards.vector().cast<float>();
+  return table_->weather->passedThere({towards, place, heightOf(place)});
 }
 
-float Daylight::throughCloud(const Eigen::Vector3f& towards, const Eigen::Vector3f& place) const {
-  return table_->weather ? table_->weather->passedThere({towards, place}) : 1.0F;
+float Daylight::passedHere(const Eigen::Vector3f& towards) const {
+  if (!table_->weather) return 1.0F;
+  const Sight sight{towards, from_, height_m_};
+  return table_->weather->passedFog(sight) * table_->weather->passedThere(sight);
 }
 
 Rain Daylight::rain() const {
@@ -37,7 +57,7 @@ Rain Daylight::rain() const {
 }
 
 Fog Daylight::fog() const {
-  return table_->weather && has_air_ ? table_->weather->fog() : Fog();
+  return table_->weather && has_air_ ? table_->weather->fog(height_m_) : Fog();
 }
 
 bool Daylight::hasBrokenCloud() const {
@@ -56,13 +76,31 @@ const DiscLight& Daylight::moon() const {
   return table_->moon;
 }
 
+DiscLight Daylight::sunSeen() const {
+  DiscLight sun = table_->sun;
+  if (table_->weather)
+    sun.illuminance = table_->sun_above_fog * passedHere(sun.towards.vector().cast<float>());
+  return sun;
+}
+
+DiscLight Daylight::moonSeen() const {
+  DiscLight moon = table_->moon;
+  if (table_->weather)
+    moon.illuminance = table_->moon_above_fog * passedHere(moon.towards.vector().cast<float>());
+  return moon;
+}
+
+LinearRgb Daylight::starSeen(const PointLight& star) const {
+  return star.illuminance * passedHere(star.towards);
+}
+
 const std::vector<PointLight>& Daylight::stars() const {
   return table_->stars;
 }
 
 AirColumn Daylight::airOver(const Eigen::Vector3f& towards, float distance_m) const {
   if (!has_air_) return {Eigen::Array3f::Ones(), Eigen::Array3f::Zero()};
-  return table_->airOver(towards, distance_m);
+  return table_->airOver({towards, from_, height_m_}, distance_m);
 }
 
 LinearRgb Daylight::groundIlluminance() const {

@@ -47,6 +47,7 @@ class LayerSky {
   /// cd/m²; of the horizon below it.
   Eigen::Array3f scattered(const Eigen::Vector3f& towards) const { return scattered(placeOf(towards)); }
   Eigen::Array3f scattered(const Place& place) const;
+  float depth() const { return depth_; }  ///< optical
   /// What of the light above goes straight through at an elevation of sine `z`.
   float passed(float z) const;
   /// What does not, to all digits also where that is next to nothing.

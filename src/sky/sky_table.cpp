@@ -14,6 +14,8 @@
 namespace sunlit::sky {
 namespace {
 
+const Eigen::Vector3f kOrigin = Eigen::Vector3f::Zero();
+
 std::size_t nodeIndex(int row, int column, int columns) {
   return static_cast<std::size_t>(row * columns + column);
 }
@@ -32,8 +34,8 @@ using LitPieces = std::vector<LitPiece, Eigen::aligned_allocator<LitPiece>>;
 LitPieces litPieces(const SkyTable& table) {
   LitPieces pieces;
   for (const SkyPiece& piece : hemisphere(headingOf(table.sun.towards.vector().cast<float>())))
-    pieces.push_back({piece.towards, padded(table.skyLuminance(piece.towards, Eigen::Vector3f::Zero()) *
-                                            piece.solid_angle)});
+    pieces.push_back(
+        {piece.towards, padded(table.skyLuminance({piece.towards, kOrigin, 0.0F}) * piece.solid_angle)});
   return pieces;
 }
 
@@ -67,8 +69,8 @@ void gatherIlluminance(float ground_albedo, SkyTable* table) {
   });
 }
 
-Eigen::Array3f SkyTable::skyLuminance(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const {
-  return weather ? weather->luminance(*this, {towards, from}) : clearLuminance(towards);
+Eigen::Array3f SkyTable::skyLuminance(const Sight& sight) const {
+  return weather ? weather->luminance(*this, sight) : clearLuminance(sight.towards);
 }
 
 Eigen::Array3f SkyTable::clearLuminance(const Eigen::Vector3f& towards) const {
@@ -85,28 +87,35 @@ Eigen::Array3f SkyTable::clearLuminance(const Eigen::Vector3f& towards) const {
   return sum;
 }
 
-Eigen::Array3f SkyTable::luminance(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const {
-  Eigen::Array3f above = skyLuminance(towards, from);
+Eigen::Array3f SkyTable::luminance(const Sight& sight) const {
+  const Eigen::Vector3f& towards = sight.towards;
+  const Eigen::Array3f above = skyLuminance(sight);
   if (towards.z() >= 0.0F) {
     return above;
   }
-  // Ground seen from a hill of this height, through haze that takes on the colour of the horizon (Koschmieder
-  // 1924).
-  constexpr float kEye_km = 0.1F;
-  const float across = std::sqrt(towards.x() * towards.x() + towards.y() * towards.y());
-  const float distance_km = kEye_km * across / -towards.z();
-  Eigen::Array3f per_km = haze_per_km;
-  if (weather) {
-    const Fog fog = weather->fog();
-    per_km += 1e3F * fog.per_m * std::min(1.0F, fog.top_m / (1e3F * kEye_km));
+  // Ground seen from a hill of this height, or from where one is in fog, through haze that takes on the
+  // colour of the horizon (Koschmieder 1924).
+  constexpr float kHill_km = 0.1F;
+  float eye_km = kHill_km, above_fog_km = 0.0F;
+  Eigen::Array3f per_km = haze_per_km, below = above;
+  const Fog fog = weather ? weather->fog(0.0F) : Fog();
+  if (fog.per_m > 0.0F) {
+    eye_km = std::max(kHill_km, 1e-3F * std::min(sight.height_m, fog.top_m));
+    above_fog_km = 1e-3F * std::max(sight.height_m - fog.top_m, 0.0F);
+    per_km += 1e3F * fog.per_m * std::min(1.0F, fog.top_m / (1e3F * eye_km));
+    // What lies below an eye lies in the whole of the fog.
+    if (sight.height_m > 0.0F) below = skyLuminance({towards, sight.from, 0.0F});
   }
-  const Eigen::Array3f clear = (per_km * -distance_km).exp();
-  return above * (1.0F - clear) + ground_luminance * clear;
+  const float across = std::sqrt(towards.x() * towards.x() + towards.y() * towards.y());
+  const Eigen::Array3f clear = (per_km * (-eye_km * across / -towards.z())).exp();
+  const Eigen::Array3f seen = below * (1.0F - clear) + ground_luminance * clear;
+  if (above_fog_km <= 0.0F) return seen;
+  const Eigen::Array3f over = (haze_per_km * (-above_fog_km * across / -towards.z())).exp();
+  return above * (1.0F - over) + seen * over;
 }
 
-AirColumn SkyTable::airOver(const Eigen::Vector3f& towards, float distance_m) const {
-  const AirColumn clear = clearAir(towards, distance_m);
-  return weather ? weather->airOver(clear, towards, distance_m) : clear;
+AirColumn SkyTable::airOver(const Sight& sight, float distance_m) const {
+  return weather ? weather->airOver(*this, sight, distance_m) : clearAir(sight.towards, distance_m);
 }
 
 AirColumn SkyTable::clearAir(const Eigen::Vector3f& towards, float distance_m) const {

@@ -26,8 +26,9 @@ struct SkyTable {
   Eigen::Array3f even = Eigen::Array3f::Zero();  // cd/m², the same from everywhere above
   DiscLight sun;
   DiscLight moon;
+  LinearRgb sun_above_fog, moon_above_fog;    // illuminance in weather
   std::shared_ptr<const WeatherSky> weather;  // null: clear
-  std::vector<PointLight> stars;
+  std::vector<PointLight> stars;              // above the fog
   std::vector<Eigen::Array4f, Eigen::aligned_allocator<Eigen::Array4f>>
       illuminance;                                             // lx, by normal, in `map`
   Eigen::Array3f ground_luminance = Eigen::Array3f::Zero();    // cd/m²
@@ -36,11 +37,11 @@ struct SkyTable {
 
   /// Of the sky without weather; below the horizon, of the horizon.
   Eigen::Array3f clearLuminance(const Eigen::Vector3f& towards) const;
-  /// Of the sky, seen from a place in `map`; below the horizon, of the horizon.
-  Eigen::Array3f skyLuminance(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const;
-  Eigen::Array3f luminance(const Eigen::Vector3f& towards, const Eigen::Vector3f& from) const;
+  /// Of the sky; below the horizon, of the horizon.
+  Eigen::Array3f skyLuminance(const Sight& sight) const;
+  Eigen::Array3f luminance(const Sight& sight) const;
   Eigen::Array3f illuminanceOn(const Eigen::Vector3f& normal) const;
-  AirColumn airOver(const Eigen::Vector3f& towards, float distance_m) const;
+  AirColumn airOver(const Sight& sight, float distance_m) const;
   /// Without weather.
   AirColumn clearAir(const Eigen::Vector3f& towards, float distance_m) const;
 };

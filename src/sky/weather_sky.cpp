@@ -55,7 +55,7 @@ WeatherSky::WeatherSky(const Weather& weather, const WeatherTables& tables, cons
                    [&](const Eigen::Vector3f& towards) { return clear.clearLuminance(towards); }};
   if (weather.cover_oktas > 0.0) cover(weather, {tables, clear, below}, &above);
   if (!fog) return;
-  above.luminance = [&](const Eigen::Vector3f& towards) { return covered(clear, {towards, kOrigin}); };
+  above.luminance = [&](const Eigen::Vector3f& towards) { return covered(clear, {towards, kOrigin, 0.0F}); };
   fog_.emplace(*fog, above, tables.ground_albedo);
 }
 
@@ -81,8 +81,15 @@ void WeatherSky::cover(const Weather& weather, const Around& around, LightAbove*
 
 Eigen::Array3f WeatherSky::luminance(const SkyTable& clear, const Sight& sight) const {
   Eigen::Array3f light = covered(clear, sight);
-  if (fog_) light = fog_->scattered(sight.towards) + light * fog_->passed(sight.towards.z());
-  return light;
+  const float depth = depthAbove(sight);
+  if (depth <= 0.0F) return light;
+  // The part of the layer that is above the eye puts in as much of its light as it takes out of others.
+  const float z = sight.towards.z(), source = stoppedOf(depth, z) / fog_->stopped(z);
+  return fog_->scattered(sight.towards) * source + light * passedStraight(depth, z);
+}
+
+float WeatherSky::depthAbove(const Sight& sight) const {
+  return fog_ ? fog_->depth() * std::max(1.0F - sight.height_m / fog_top_m_, 0.0F) : 0.0F;
 }
 
 Eigen::Array3f WeatherSky::covered(const SkyTable& clear, const Sight& sight) const {
@@ -106,10 +113,18 @@ Eigen::Array3f WeatherSky::between(const SkyTable& clear, const Sight& sight) co
 }
 
 float WeatherSky::passed(float z) const {
+  const float passed = (fog_ ? fog_->passed(z) : 1.0F) * passedCover(z);
+  return passed > kNothing ? passed : 0.0F;
+}
+
+float WeatherSky::passedCover(float z) const {
   if (cie_) return 0.0F;
-  float passed = fog_ ? fog_->passed(z) : 1.0F;
-  if (cover_) passed *= cover_->passed(z);
-  if (broken_) passed *= broken_->meanPassed(z);
+  const float passed = cover_ ? cover_->passed(z) : broken_ ? broken_->meanPassed(z) : 1.0F;
+  return passed > kNothing ? passed : 0.0F;
+}
+
+float WeatherSky::passedFog(const Sight& sight) const {
+  const float passed = passedStraight(depthAbove(sight), sight.towards.z());
   return passed > kNothing ? passed : 0.0F;
 }
 
@@ -119,18 +134,28 @@ float WeatherSky::passedThere(const Sight& sight) const {
   return mean > 0.0F ? broken_->passed(sight.towards, sight.from) / mean : 1.0F;
 }
 
-AirColumn WeatherSky::airOver(const AirColumn& clear_air, const Eigen::Vector3f& towards,
-                              float distance_m) const {
-  AirColumn air = clear_air;
+AirColumn WeatherSky::airBelowCover(const SkyTable& clear, const Eigen::Vector3f& towards,
+                                    float distance_m) const {
+  AirColumn air = clear.clearAir(towards, distance_m);
   if (cie_) air.airlight = cie_->luminance(towards.z()) * (1.0F - air.transmittance);
   if (cover_) air.airlight = cover_->scattered(towards) * (1.0F - air.transmittance);
   if (broken_) air.airlight *= broken_share_;
-  if (!fog_) return air;
-  const float way_m = towards.z() > 0.0F ? std::min(distance_m, fog_top_m_ / towards.z()) : distance_m;
+  return air;
+}
+
+AirColumn WeatherSky::airOver(const SkyTable& clear, const Sight& sight, float distance_m) const {
+  const Eigen::Vector3f& towards = sight.towards;
+  AirColumn air = airBelowCover(clear, towards, distance_m);
+  const Fog seen = fog(sight.height_m);
+  const float way_m = seen.within(towards.z(), distance_m);
+  if (!fog_ || way_m <= 0.0F) return air;
   const float straight = std::exp(-fog_per_m_ * way_m);
   // All the way up, fog puts in what it puts into the sky; of a part of the way, as much as that takes out.
   const float source = -std::expm1(-fog_per_m_ * way_m) / fog_->stopped(towards.z());
-  air.airlight = fog_->scattered(towards) * source + air.airlight * straight;
+  AirColumn before{Eigen::Array3f::Ones(), Eigen::Array3f::Zero()};
+  if (seen.begins(towards.z()) > 0.0F) before = airBelowCover(clear, towards, seen.begins(towards.z()));
+  air.airlight = before.airlight + before.transmittance * fog_->scattered(towards) * source +
+                 (air.airlight - before.airlight) * straight;
   air.transmittance *= straight;
   return air;
 }

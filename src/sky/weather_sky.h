@@ -33,6 +33,7 @@ double fogPerMetre(double visibility_m, double haze_per_m);
 struct Sight {
   const Eigen::Vector3f& towards;
   const Eigen::Vector3f& from;
+  float height_m;  ///< above the ground that fog lies on, ≥ 0
 };
 
 /// Cloud above all air that counts, and fog from the ground up, one after another: each throws light back at
@@ -46,21 +47,31 @@ class WeatherSky {
 
   /// cd/m² of the sky above the horizon; of the horizon below it.
   Eigen::Array3f luminance(const SkyTable& clear, const Sight& sight) const;
-  /// What goes straight through at an elevation of sine `z`; of broken cloud the mean over all places.
+  /// What goes straight through to the ground at an elevation of sine `z`; of broken cloud the mean over all
+  /// places.
   float passed(float z) const;
+  /// The same to the top of the fog.
+  float passedCover(float z) const;
+  /// What the fog above the eye lets through.
+  float passedFog(const Sight& sight) const;
   /// Whether it differs from place to place.
   bool isBroken() const { return broken_.has_value(); }
   /// How much more than that comes through to a place from a disc that stands `towards`.
   float passedThere(const Sight& sight) const;
   const Rain& rain() const { return rain_; }
-  Fog fog() const { return {fog_per_m_, fog_top_m_}; }
-  /// The air on the first `distance_m` of the way, `clear_air` without weather.
-  AirColumn airOver(const AirColumn& clear_air, const Eigen::Vector3f& towards, float distance_m) const;
+  /// For an eye so high above the ground.
+  Fog fog(float height_m) const { return {fog_per_m_, fog_top_m_ - height_m}; }
+  /// The air on the first `distance_m` of the way; what it is without weather, `clear` knows.
+  AirColumn airOver(const SkyTable& clear, const Sight& sight, float distance_m) const;
 
  private:
   /// Below the cloud, above the fog.
   Eigen::Array3f covered(const SkyTable& clear, const Sight& sight) const;
   Eigen::Array3f between(const SkyTable& clear, const Sight& sight) const;
+  /// Without fog.
+  AirColumn airBelowCover(const SkyTable& clear, const Eigen::Vector3f& towards, float distance_m) const;
+  /// Optical depth of what of the fog lies above the eye.
+  float depthAbove(const Sight& sight) const;
   struct Around {
     const WeatherTables& tables;
     const SkyTable& clear;

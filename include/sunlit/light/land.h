@@ -14,4 +14,8 @@ namespace sunlit::light {
 /// of a second, and the same number for any number of threads.
 std::optional<double> albedoFromAbove(const World& world);
 
+/// z of the ground in `map`, m: half of all that an eye high above sees of what stands still, by level area,
+/// lies no higher. 0 where nothing is seen. By 2^12 places, in some milliseconds.
+float groundLevel(const Geometry& geometry, const Visibility& visibility);
+
 }  // namespace sunlit::light

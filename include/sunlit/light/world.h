@@ -33,6 +33,7 @@ struct World {
   std::vector<std::vector<scene::Lamp>>
       lamps_of_bodies;                         ///< in their frames; one list a body, or none at all
   std::shared_ptr<const Transport> transport;  ///< of sky and bounced light; null: an open sky is assumed
+  float ground_m = 0.0f;                       ///< z of its ground, groundLevel(), from which fog reaches up
 };
 
 /// The same world with its surfaces in another state; what moves stays dry. `dry` is so, and what it was

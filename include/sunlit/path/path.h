@@ -91,7 +91,8 @@ inline Field speedRow(std::optional<double>* place) {
 
 /// How a camera moves at pose `index` of posesAlong(): straight along the segment of the pose, always at one
 /// speed, though a segment's last pose may be nearer to the next than a spacing. Where the next pose is
-/// turned, it turns by as much within a spacing. None of a single pose.
+/// turned, it turns by as much within a spacing. The last pose, where its segment has no other, climbs as the
+/// segment before it. None of a single pose.
 Motion motionAt(const std::vector<Eigen::Isometry3d>& poses, int index, const Pace& pace);
 
 /// Waypoints from a file: CSV (x,y,z or x,y a line, m; an optional header line; # comments) or TUM trajectory

@@ -52,8 +52,13 @@ class Daylight {
  public:
   explicit Daylight(std::shared_ptr<const SkyTable> table);
 
-  /// The same light, but that clouds are seen from a place in `map`; else they are seen from its origin.
+  /// The same light, but that clouds and fog are seen from a place in `map`; else clouds are seen from its
+  /// origin, fog from the ground. Of fog an eye has above it what lies between its height and the layer's
+  /// top, or looks down on it; below the ground's level it has all, as on the ground.
   Daylight seenFrom(const Eigen::Vector3f& place) const;
+  /// The same light over ground at this height in `map`, from which fog reaches up; else it is at 0. Before
+  /// seenFrom().
+  Daylight overGround(float level_m) const;
   /// The same light, but that no air lies between the eye and what it sees: for views from far above.
   Daylight withoutAir() const;
   /// Whether there is cloud with gaps in it, so that sun and moon do not shine alike everywhere.
@@ -61,23 +66,29 @@ class Daylight {
   /// By how much sun or moon are brighter at a place, under gaps and clouds, than DiscLight::illuminance,
   /// which is the mean over all places; 1 without broken cloud.
   float throughCloud(const DiscLight& disc, const Eigen::Vector3f& place) const;
-  /// The same of anything far away that stands `towards`, as a star.
-  float throughCloud(const Eigen::Vector3f& towards, const Eigen::Vector3f& place) const;
 
   /// Luminance of the sky behind the scene by sun, moon and night glow, cd/m², without the discs and stars.
   /// Below the horizon: the luminance of the ground far away, continuous at the horizon.
   LinearRgb skyLuminance(const Eigen::Vector3f& towards) const;
+  /// The same, seen from a place in `map`.
+  LinearRgb skyLuminance(const Eigen::Vector3f& towards, const Eigen::Vector3f& place) const;
   /// Illuminance, lx, of an unoccluded surface facing `normal`: from the sky above the horizon and from
   /// ground of the model's albedo below it; without the discs' direct light.
   LinearRgb skyIlluminance(const Eigen::Vector3f& normal) const;
   const DiscLight& sun() const;
   /// Without illuminance where there is no moon, or it is set or new.
   const DiscLight& moon() const;
-  /// Stars above the horizon, brightest first; their light is not in skyLuminance().
+  /// As they shine on the place that they are seen from: through clouds and gaps, and the fog above it.
+  DiscLight sunSeen() const;
+  DiscLight moonSeen() const;
+  LinearRgb starSeen(const PointLight& star) const;
+  /// Stars above the horizon, brightest first, as they shine above any fog; their light is not in
+  /// skyLuminance().
   const std::vector<PointLight>& stars() const;
   /// The air on the first `distance_m` ≥ 0 metres of the way `towards`, seen from the observer: within 5 % of
   /// small steps through the same air; far away at the horizon it becomes skyLuminance(). No surface shades
-  /// it. Below the observer's sea level the air goes on as there. A table look-up of some 40 ns.
+  /// it. Below the observer's sea level the air goes on as there. Fog below the eye is as bright as fog at
+  /// the horizon. A table look-up of some 40 ns.
   AirColumn airOver(const Eigen::Vector3f& towards, float distance_m) const;
   /// Illuminance of level, open ground: sun, moon and sky together, lx.
   LinearRgb groundIlluminance() const;
@@ -86,8 +97,13 @@ class Daylight {
   Fog fog() const;
 
  private:
+  float heightOf(const Eigen::Vector3f& place) const;
+  /// Of light from above the fog.
+  float passedHere(const Eigen::Vector3f& towards) const;
+
   std::shared_ptr<const SkyTable> table_;
   Eigen::Vector3f from_ = Eigen::Vector3f::Zero();
+  float ground_m_ = 0.0F, height_m_ = 0.0F;  ///< z in `map`; of from_ above that, ≥ 0
   bool has_air_ = true;
 };
 

@@ -21,8 +21,8 @@ class Outside {
   Outside(const Surfaces& surfaces, const Visibility& visibility, float nearest_m)
       : surfaces_(surfaces), visibility_(visibility), nearest_m_(nearest_m), pixels_(surfaces) {}
 
-  /// Of sun or moon, under clouds as they stand over the camera.
-  void add(const sky::DiscLight& disc, const sky::Daylight& day) {
+  /// Of sun or moon, as they shine on the camera.
+  void add(const sky::DiscLight& disc) {
     if (!(disc.illuminance.value.maxCoeff() > 0.0f)) return;
     const Eigen::Vector3f middle = disc.towards.vector().cast<float>();
     const DiscPoints points(middle, static_cast<float>(disc.angular_radius.rad()));
@@ -40,8 +40,7 @@ class Outside {
     visibility_.occluded(rays.rays(), blocked.data());
     float open = 0.0f;
     for (const std::uint8_t hidden : blocked) open += hidden ? 0.0f : 1.0f;
-    add(middle, disc.illuminance * (day.throughCloud(disc, surfaces_.eye) * open /
-                                    static_cast<float>(kRows * DiscPoints::kPoints)));
+    add(middle, disc.illuminance * (open / static_cast<float>(kRows * DiscPoints::kPoints)));
   }
 
   /// Small enough to be seen whole or not at all.
@@ -91,8 +90,9 @@ class Outside {
 std::vector<image::LightOutside> lightsOutside(const Surfaces& surfaces, const Visibility& visibility,
                                                const Illumination& light, float nearest_m) {
   Outside outside(surfaces, visibility, nearest_m);
-  outside.add(light.day.sun(), light.day);
-  outside.add(light.day.moon(), light.day);
+  const sky::Daylight day = light.day.seenFrom(surfaces.eye);
+  outside.add(day.sunSeen());
+  outside.add(day.moonSeen());
   if (light.lamps) {
     for (const scene::Lamp& lamp : *light.lamps) outside.add(lamp);
   }

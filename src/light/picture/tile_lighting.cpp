@@ -27,10 +27,10 @@ TileLighting::TileLighting(const ReadyPicture& picture, const Surroundings& in, 
       lit_({picture.seen, in.scene, in.visibility}, light),
       in_mirrors_(lightingInMirrors(picture, in, light)),
       mirrored_(allMirrored()),
-      air_(picture.seen.surfaces, picture.seen.table, light.day),
+      air_(picture.seen.surfaces, picture.seen.table, day_),
       open_air_(picture.seen.surfaces, in.visibility, light.node_open.get()),
       sky_(picture.seen.surfaces, light.day),
-      glow_(light.lamps.get(), light.day.fog(), picture.seen.surfaces, in.visibility) {}
+      glow_(light.lamps.get(), day_.fog(), picture.seen.surfaces, in.visibility) {}
 
 void TileLighting::light(std::size_t tile, image::LinearImage* image) const {
   sky_.addTo(picture_.seen.surfaces.tiles[tile], image);
@@ -63,12 +63,15 @@ void TileLighting::lightMirrored(const TileInMirrors& tile, const std::vector<Ei
   thread_local std::vector<Eigen::Array3f> leaving;
   in_mirrors_[depth]->light(number, seenByRays(number, depth + 1, deeper), &leaving);
   const std::vector<Surface>& met = mirrors.met.surfaces.tiles[number].surfaces;
+  const Surfaces& before = depth == 0 ? picture_.seen.surfaces : picture_.mirrors[depth - 1].met.surfaces;
   for (const Reflections::Mirroring& mirroring : reflections.surfaces) {
     Eigen::Array3f sum = Eigen::Array3f::Zero();
     for (std::uint32_t i = mirroring.first; i < mirroring.first + mirroring.count; ++i)
       sum += leaving[i] * met[i].share;
+    // Seen from the mirror, which lies in fog that the eye may be above.
+    const Eigen::Vector3f& place = before.tiles[number].surfaces[mirroring.surface].position;
     for (std::uint32_t i = mirroring.first_open; i < mirroring.first_open + mirroring.open_count; ++i)
-      sum += reflections.open[i].share * day_.skyLuminance(reflections.open[i].towards).value;
+      sum += reflections.open[i].share * day_.skyLuminance(reflections.open[i].towards, place).value;
     luminances->push_back(sum);
   }
 }

@@ -22,6 +22,7 @@ struct Picture {
   const Surfaces& surfaces;
   const World& world;
   const PathScene& scene;
+  const std::vector<sky::Daylight>& seen;  ///< from the eye
   OpenAir open_air;
 };
 
@@ -38,7 +39,7 @@ LightPlace placeOf(const Surface& surface, const World& world) {
 using Halves = std::array<std::vector<image::LinearImage>, 2>;
 
 void traceTile(const Picture& picture, const Tile& tile, Halves* halves) {
-  const auto& [surfaces, world, scene, open_air] = picture;
+  const auto& [surfaces, world, scene, seen, open_air] = picture;
   Paths paths(scene);
   for (const Surface& surface : tile.surfaces) {
     // What is seen through stands before others, in the same samples.
@@ -48,7 +49,7 @@ void traceTile(const Picture& picture, const Tile& tile, Halves* halves) {
     const float distance = (surface.position - surfaces.eye).norm();
     const std::array<Radiances, 2> traced = paths.luminance(tile, surface);
     for (std::size_t day = 0; day < scene.days.size(); ++day) {
-      const sky::AirColumn air = scene.days[day].airOver(-surface.to_eye, distance);
+      const sky::AirColumn air = seen[day].airOver(-surface.to_eye, distance);
       for (std::size_t half = 0; half < 2; ++half) {
         float* data = (*halves)[half][day].data.data() + 3 * static_cast<std::size_t>(surface.pixel);
         Eigen::Map<Eigen::Array3f> pixel(data);
@@ -82,8 +83,14 @@ void validate(const ReferenceOptions& options) {
 }
 
 std::vector<Traced> traceReference(const Surfaces& surfaces, const World& world,
-                                   const std::vector<sky::Daylight>& days, const ReferenceOptions& options) {
+                                   const std::vector<sky::Daylight>& all_days,
+                                   const ReferenceOptions& options) {
   validate(options);
+  std::vector<sky::Daylight> days, seen;
+  for (const sky::Daylight& day : all_days) {
+    days.push_back(day.overGround(world.ground_m));
+    seen.push_back(days.back().seenFrom(surfaces.eye));
+  }
   const PathScene scene(world, days, options, surfaces.samples_per_pixel);
   Halves halves;
   for (auto& half : halves) half.assign(days.size(), image::LinearImage(surfaces.width, surfaces.height));
@@ -91,12 +98,12 @@ std::vector<Traced> traceReference(const Surfaces& surfaces, const World& world,
   skies.reserve(days.size());
   std::vector<LampGlow> glows;  // like the air, what lies before surfaces is the picture's
   glows.reserve(days.size());
-  for (const sky::Daylight& day : days) {
+  for (const sky::Daylight& day : seen) {
     skies.emplace_back(surfaces, day);
     glows.emplace_back(&options.lamps, day.fog(), surfaces, *world.visibility);
   }
   const std::vector<float>* const node_open = world.transport ? world.transport->nodeOpen().get() : nullptr;
-  const Picture picture{surfaces, world, scene, OpenAir(surfaces, *world.visibility, node_open)};
+  const Picture picture{surfaces, world, scene, seen, OpenAir(surfaces, *world.visibility, node_open)};
   tbb::parallel_for(std::size_t{0}, surfaces.tiles.size(), [&](std::size_t i) {
     const Tile& tile = surfaces.tiles[i];
     for (auto& half : halves) {

@@ -14,12 +14,12 @@ namespace sunlit::ros_interface {
 /// as in CivilDateTime.
 std::string toUtc(const Instant& instant);
 
-/// What toUtc() writes, with any number of decimals; empty: nothing is known. Throws std::invalid_argument
-/// for anything else.
+/// What toUtc() writes of the days of kYears in any time zone, so up to a day beyond, with any number of
+/// decimals; empty: nothing is known. Throws std::invalid_argument for anything else.
 std::optional<Instant> fromUtc(const std::string& utc);
 
-/// "2024-07-01 04:00:00.000 UTC+03:00".
-std::string textOfDate(const CivilDateTime& civil);
+/// "2024-07-01 04:00:00.000 UTC+03:00", rounded to 1 ms; `timezone` in h east of UTC.
+std::string textOfDate(const Instant& instant, double timezone);
 
 /// "1719792000.000000000", s.
 std::string textOfStamp(const ros::Time& stamp);

@@ -1,8 +1,10 @@
 #include "ros/sun_position/answers.h"
 
+#include <cmath>
 #include <limits>
 
 #include "ros/conversions/requests.h"
+#include "sunlit/astronomy/delta_t.h"
 
 namespace sunlit::ros_interface {
 namespace {
@@ -23,7 +25,18 @@ const char* nameOf(astronomy::SunState state) {
   return "normal";
 }
 
+/// s: polynomials are a few off today's, and differ by so much by 2060.
+constexpr double kFarOff_s = 60.0;
+
 }  // namespace
+
+std::string deltaTFault(const astronomy::EarthRotation& earth, const Instant& instant) {
+  if (!earth.delta_t_s) return std::string();
+  const double of_date_s = astronomy::deltaT(instant);
+  if (std::abs(*earth.delta_t_s - of_date_s) <= kFarOff_s) return std::string();
+  return "delta_t is " + textOf(*earth.delta_t_s) + " s, as given, but of that date it is about " +
+         textOf(std::round(of_date_s)) + " s, which auto takes";
+}
 
 ComputedSun computeSun(const Instant& instant, const astronomy::EarthRotation& earth, const Site& site,
                        const Air& air) {

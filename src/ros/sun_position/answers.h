@@ -15,6 +15,10 @@ namespace sunlit::ros_interface {
 ComputedSun computeSun(const Instant& instant, const astronomy::EarthRotation& earth, const Site& site,
                        const Air& air);
 
+/// Where a delta_t that was given is more than a minute off that of the date, which `auto` takes: both, in
+/// words. The moon of such a date is more than 0.01° off. Else empty.
+std::string deltaTFault(const astronomy::EarthRotation& earth, const Instant& instant);
+
 /// Fills `response` from everything in `request`; `header` names the ENU frame. Throws std::invalid_argument
 /// naming field, value and range.
 void answer(const GetSunPosition::Request& request, const std_msgs::Header& header,

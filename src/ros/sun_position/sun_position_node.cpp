@@ -54,8 +54,10 @@ SunPositionNode::SunPositionNode(const ros::NodeHandle& node, const ros::NodeHan
   diagnostics_.add("sun", this, &SunPositionNode::describe);
   advertiseServices();
   ROS_INFO("%s starts at %s, rate %g, at latitude %g, longitude %g; delta_t %s", options_.sun_frame.c_str(),
-           textOfDate(options_.date_time).c_str(), options_.rate, options_.site.latitude.deg(),
-           options_.site.longitude.deg(), options_.earth.delta_t_s ? "as given" : kPolynomials);
+           textOfDate(astronomy::instantOf(options_.date_time), options_.date_time.timezone).c_str(),
+           options_.rate, options_.site.latitude.deg(), options_.site.longitude.deg(),
+           options_.earth.delta_t_s ? "as given" : kPolynomials);
+  warnOfDeltaT();
   now_ = ros::Time::now();
   publish();
   if (ros::Time::isSimTime()) {
@@ -102,7 +104,12 @@ ros::Time SunPositionNode::nextStamp() {
   return last_stamp_;
 }
 
+bool SunPositionNode::waitsForTime() const {
+  return now_.isZero() && options_.start_stamp_s && clock_.rate() != 0.0;
+}
+
 void SunPositionNode::publish() {
+  if (waitsForTime()) return;
   waiting_ = waiting_ && sun_publisher_.getNumSubscribers() == 0;
   sun_time_ = clock_.at(waiting_ ? ros::Time() : now_);
   const std_msgs::Header header = headerOf(options_.map_frame, nextStamp());
@@ -137,8 +144,11 @@ bool SunPositionNode::onSetDateTime(SetDateTime::Request& request, SetDateTime::
     if (!ros::Time::isSimTime()) now_ = ros::Time::now();
     clock_ = SunClock(astronomy::instantOf(civil), request.rate);
     options_.date_time = civil;
+    options_.start_stamp_s.reset();
     publish();
-    return "the sun's clock is set to " + textOfDate(civil) + ", rate " + textOf(request.rate);
+    const std::string warning = warnOfDeltaT();
+    return "the sun's clock is set to " + textOfDate(astronomy::instantOf(civil), civil.timezone) +
+           ", rate " + textOf(request.rate) + (warning.empty() ? "" : "; " + warning);
   });
 }
 
@@ -179,9 +189,20 @@ bool SunPositionNode::onGetSunTimes(GetSunTimes::Request& request, GetSunTimes::
   });
 }
 
+std::string SunPositionNode::warnOfDeltaT() const {
+  const std::string fault = deltaTFault(options_.earth, astronomy::instantOf(options_.date_time));
+  if (!fault.empty())
+    ROS_WARN("%s at %s: %s", options_.sun_frame.c_str(),
+             textOfDate(astronomy::instantOf(options_.date_time), options_.date_time.timezone).c_str(),
+             fault.c_str());
+  return fault;
+}
+
 std::string SunPositionNode::hindrance() {
   constexpr double kStill_s = 3.0;
   if (!ros::Time::isSimTime() || clock_.rate() == 0.0 || waiting_) return std::string();
+  if (waitsForTime())
+    return "no sun is published before a time comes on /clock, since it depends on start_stamp";
   if (now_.isZero())
     return "the sun stands still, since no time comes on /clock, by which /use_sim_time tells to go";
   if (watch_.standsFor(now_) <= kStill_s) return std::string();
@@ -200,7 +221,10 @@ void SunPositionNode::describe(diagnostic_updater::DiagnosticStatusWrapper& stat
     status.summary(diagnostic_msgs::DiagnosticStatus::OK,
                    waiting_ ? "the sun waits for its first subscriber" : motion);
   }
-  status.add("date and time", textOfDate(astronomy::civilOf(sun_time_, options_.date_time.timezone)));
+  if (waitsForTime()) return;
+  const std::string delta_t_fault = deltaTFault(options_.earth, sun_time_);
+  if (!delta_t_fault.empty()) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, delta_t_fault);
+  status.add("date and time", textOfDate(sun_time_, options_.date_time.timezone));
   status.addf("rate", "%g", clock_.rate());
   status.addf("azimuth, deg", "%.6f", sun_.azimuth / kRadPerDeg);
   status.addf("apparent elevation, deg", "%.6f", sun_.elevation / kRadPerDeg);

@@ -15,7 +15,8 @@ namespace sunlit::ros_interface {
 
 /// Under the wall clock it publishes `publish_rate` times a second. Under /clock it does so too, and besides
 /// for each time at which /clock stands still for a moment: who waits with the clock, as the render node does
-/// that owns it, gets the sky of exactly that time, however fast or slow both are.
+/// that owns it, gets the sky of exactly that time, however fast or slow both are. Before the first /clock it
+/// publishes the sky of its date_time, but with a `start_stamp` nothing, since that sky is of that stamp.
 ///
 /// Publishes `sun`, `moon` and `celestial` (latched), TF from map to a frame of each, `sun_marker` and
 /// `moon_marker` below `node`, all with one stamp; offers `set_date_time`, `set_site`, `get_sun_position`,
@@ -36,6 +37,10 @@ class SunPositionNode {
   void publish();
   ros::Time nextStamp();
   void describe(diagnostic_updater::DiagnosticStatusWrapper& status);
+  /// Whether its date_time is that of a stamp alone, and no time has come yet that tells how far it is.
+  bool waitsForTime() const;
+  /// Of its date_time; empty: none. Says it, too.
+  std::string warnOfDeltaT() const;
   /// What keeps a sun from moving that should; empty: nothing.
   std::string hindrance();
 

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Sun, moon and stars follow /clock: at its rate, through a pause and back in time. This test is the clock."""
+import time
 import unittest
 
 import rospy
@@ -10,7 +11,7 @@ from geometry_msgs.msg import QuaternionStamped
 from rosgraph_msgs.msg import Clock
 from sun_reading import Latest
 from sunlit.msg import MoonPosition, SunPosition
-from sunlit.srv import GetMoonPosition, GetSunPosition, SetDateTime
+from sunlit.srv import GetMoonPosition, GetSunPosition, SetDateTime, SetSite
 from tf2_msgs.msg import TFMessage
 
 START_S = 1000
@@ -27,6 +28,8 @@ class SunFollowsClock(unittest.TestCase):
     def setUpClass(cls):
         cls.clock = rospy.Publisher("/clock", Clock, queue_size=1, latch=True)
         cls.sun = Latest("/sun", SunPosition)
+        cls.stamped = []
+        cls.stamped_subscriber = rospy.Subscriber("/stamped/sun", SunPosition, cls.stamped.append)
         cls.moon = Latest("/moon", MoonPosition)
         cls.celestial = Latest("/celestial", QuaternionStamped)
         cls.diagnostics = Latest("/diagnostics", DiagnosticArray)
@@ -66,8 +69,16 @@ class SunFollowsClock(unittest.TestCase):
     def test_rate_pause_and_jump_back(self):
         # Before any clock the sun stands at its date_time, and says why.
         self.wait_for_warning("no time comes on /clock")
+        # One whose date is that of a stamp knows of none yet, whatever it is asked.
+        self.wait_for_warning("no sun is published before a time comes on /clock")
+        set_site = rospy.ServiceProxy("/stamped/sun_position/set_site", SetSite)
+        self.assertTrue(set_site(latitude=55.792115, longitude=49.122254, elevation=90.0, pressure=1013.25,
+                                 temperature=0.0).success)
         self.assertEqual(vector(self.sun.wait().direction), self.direction_at(0))
         self.assertEqual(vector(self.go_to(START_S).direction), self.direction_at(0))
+        first = self.stamped_sun()
+        self.assertEqual(first.header.stamp.secs, START_S)
+        self.assertEqual(vector(first.direction), self.direction_at(RATE * (START_S - 900)))
         for ros_second in (START_S + 10, START_S + 300):
             self.assertEqual(vector(self.go_to(ros_second).direction), self.direction_at(RATE * (ros_second - START_S)))
 
@@ -98,8 +109,15 @@ class SunFollowsClock(unittest.TestCase):
             self.assertEqual(vector(self.moon.message.direction), self.direction_at(sun_second, self.get_moon))
         self.wait_for_warning("since /clock stands at %d.0" % later)
 
+    def stamped_sun(self):
+        """The first of all that it published."""
+        deadline = time.monotonic() + 30.0
+        while not self.stamped and time.monotonic() < deadline:
+            time.sleep(0.01)
+        return self.stamped[0]
+
     def wait_for_warning(self, text):
-        self.diagnostics.wait(lambda array: any(status.name.startswith("sun_position") and status.level == DiagnosticStatus.WARN
+        self.diagnostics.wait(lambda array: any("sun_position" in status.name and status.level == DiagnosticStatus.WARN
                                                 and text in status.message for status in array.status))
 
     def test_waits_for_its_first_subscriber_where_told_to(self):

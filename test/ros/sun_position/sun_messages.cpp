@@ -168,5 +168,19 @@ TEST(GetSunPosition, DeltaTOfNanIsAutomatic) {
   EXPECT_NEAR(given.position.azimuth, automatic.position.azimuth, 1e-6);  // 64.5 s, not 67 s
 }
 
+TEST(DeltaT, IsNamedWhereItIsNotThatOfTheDate) {
+  const auto fault = [](int year, std::optional<double> delta_t_s) {
+    return deltaTFault({0.0, delta_t_s}, astronomy::instantOf({year, 7, 1, 12, 0, 0.0, 0.0}));
+  };
+  const double usual_s = *SunPositionOptions().earth.delta_t_s;
+  // Espenak & Meeus: 29 s in 1950, 75 s in 2024, 93 s in 2050, 204 s in mid-2100; 25,400 s in -1000.
+  for (const int year : {1950, 2024, 2050}) EXPECT_EQ(fault(year, usual_s), "") << year;
+  EXPECT_EQ(fault(2100, usual_s),
+            "delta_t is 69.184 s, as given, but of that date it is about 204 s, which auto takes");
+  EXPECT_NE(fault(-1000, usual_s).find("about 25"), std::string::npos) << fault(-1000, usual_s);
+  EXPECT_EQ(fault(-1000, std::nullopt), "");
+  EXPECT_EQ(fault(-1000, 25400.0), "");
+}
+
 }  // namespace
 }  // namespace sunlit::ros_interface

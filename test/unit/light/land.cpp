@@ -37,6 +37,18 @@ TEST(Land, OfNothingIsUnknown) {
   EXPECT_FALSE(albedoFromAbove(worldOf(wall)));
 }
 
+TEST(Land, HasTheLevelOfMostOfWhatIsSeenFromAbove) {
+  scene::Scene scene;
+  scene.materials = {paint(0.5f)};
+  EXPECT_EQ(worldOf(scene).ground_m, 0.0f);
+  addPatch(&scene, 0, {0, 0, 300}, {100, 0, 0}, {0, 100, 0});
+  addPatch(&scene, 0, {0, 0, 320}, {40, 0, 0}, {0, 100, 0});      // roofs
+  addPatch(&scene, 0, {-200, 0, 250}, {200, 0, 0}, {0, 0, 150});  // a wall
+  addPatch(&scene, 0, {0, 0, -900}, {100, 0, 0}, {0, 100, 0});    // nobody sees it
+  // Singles of shares that add up to 1, times 300.
+  EXPECT_NEAR(worldOf(scene).ground_m, 300.0f, 1e-3f);
+}
+
 TEST(Land, IsTheMeanByLevelArea) {
   scene::Scene scene;
   scene.materials = {paint(0.1f), paint(0.7f)};

@@ -157,6 +157,21 @@ TEST(MotionAt, IsOfOneSpeedAndTurnsWithinASpacing) {
   EXPECT_TRUE(motionAt({}, 0, pace).none());
 }
 
+TEST(MotionAt, OfALastPoseAloneOnItsSegmentGoesWhereThatLeads) {
+  // Of 1 m and less, which the pose at its start is all of.
+  const std::vector<Eigen::Isometry3d> poses = posesAlong({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}}, {1.0, 0.0});
+  ASSERT_EQ(poses.size(), 4U);
+  const Motion motion = motionAt(poses, 3, {10.0, 4.0, 1.0});
+  EXPECT_NEAR((motion.velocity_m_s - Eigen::Vector3d(0, 4, 0)).norm(), 0.0, kRounding);
+  EXPECT_TRUE(motion.turning_rad_s.isZero(0.0));
+  PathOptions turned{1.0, 0.0};
+  turned.yaw = Angle::degrees(90.0);  // the camera looks to the left of where it goes
+  const auto aside = posesAlong({{0, 0, 0}, {0.5, 0, 0}, {0.5, 0.5, 0}}, turned);
+  ASSERT_EQ(aside.size(), 2U);
+  EXPECT_NEAR((motionAt(aside, 1, {10.0, 1.0, 1.0}).velocity_m_s - Eigen::Vector3d::UnitY()).norm(), 0.0,
+              kRounding);
+}
+
 TEST(MotionAt, GoesAlongAndNotAcrossBesideThePath) {
   PathOptions beside{1.0, 0.0};
   beside.offset_m = 2.0;  // whose poses at a corner are apart

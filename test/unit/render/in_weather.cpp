@@ -139,5 +139,29 @@ TEST(StandardOvercast, CastsNoShadowOfAPost) {
   }
 }
 
+TEST(Fog, IsAboveMirrorsOnTheGroundThatAreSeenFromAboveIt) {
+  scene::Scene scene;
+  const int metal = addMaterial(&scene, {0.9f, 0.9f, 0.9f});
+  scene.materials.back().metalness = 1.0f;
+  scene.materials.back().roughness = scene::Material::kSmoothest;
+  addGround(&scene, metal, 300.0f);
+  sky::Weather weather;
+  weather.visibility_m = kVisibility_m;
+  weather.fog_top_m = 30.0;
+  const sky::Daylight day = under(weather);
+  const Eigen::Vector3d eye(0.0, 0.0, 100.0), place(0.0, 100.0, 0.0);
+  const View view(light::World(shared(scene)), eye, place, smallCamera());
+  const double seen = view.at(view.picture(light::Illumination(day)), place);
+  const Eigen::Vector3f down = (place - eye).normalized().cast<float>(), up(down.x(), down.y(), -down.z());
+  const sky::AirColumn air = day.seenFrom(eye.cast<float>()).airOver(down, 141.421f);
+  const Eigen::Array3f foggy = day.skyLuminance(up).value, clear = under({}).skyLuminance(up).value;
+  const auto through = [&](const Eigen::Array3f& sky) {
+    return static_cast<double>(
+        LinearRgb(Eigen::Array3f(0.9f * sky * air.transmittance + air.airlight)).luminance());
+  };
+  EXPECT_NEAR(seen, through(foggy), 0.03 * through(foggy));  // the lobe's tables: 2 %
+  EXPECT_GT(std::abs(through(clear) / through(foggy) - 1.0), 0.1);
+}
+
 }  // namespace
 }  // namespace sunlit::test

@@ -208,6 +208,29 @@ TEST_F(LampGlow, IsEvenWhereCellsAndTilesMeet) {
   EXPECT_LT(worst, 0.04);
 }
 
+TEST_F(LampGlow, IsSeenFromAboveAsFromWhereOneLooksIntoTheFog) {
+  sky::Weather weather;
+  weather.visibility_m = 50.0;
+  weather.fog_top_m = 30.0;
+  const sky::Daylight night =
+      sky::usualAir().daylight({Direction(Azimuth::degrees(0.0), Angle::degrees(-40.0)), 1.0}, {}, weather);
+  const auto glowFrom = [&](const Eigen::Isometry3d& map_from_optical) {
+    renderer_.look(map_from_optical);
+    light::Illumination light(night);
+    const image::LinearImage dark = renderer_.light(light);
+    light.lamps = std::make_shared<const std::vector<scene::Lamp>>(1, lampAt({0.0f, 0.0f, 15.0f}, 1000.0f));
+    const image::LinearImage lit = renderer_.light(light);
+    return static_cast<double>(*lit.at(330, 240) - *dark.at(330, 240));
+  };
+  // Straight down beside a lamp; the same ray begins for the one eye where it enters the fog for the other.
+  Eigen::Isometry3d from_above = lookingAt({1.0, 0.0, 130.0}, {1.0, 0.0, 0.0}), from_top = from_above;
+  const Eigen::Vector3d ray = from_above.linear() * Eigen::Vector3d(10.5, 0.5, kFocal_px);
+  from_top.translation() += 100.0 / -ray.z() * ray;
+  const double there = glowFrom(from_top);
+  EXPECT_GT(there, 0.0);
+  EXPECT_NEAR(glowFrom(from_above) / there, 1.0, 0.04);  // what cells and tiles differ by
+}
+
 TEST_F(LampGlow, EndsAtWhatIsInTheWayAndCastsShadowsIntoTheFog) {
   // A wall at 10 m across the whole picture, a lamp 10 m behind it, and one before it.
   scene::Scene scene = emptiness();

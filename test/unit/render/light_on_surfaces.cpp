@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "sunlit/light/illumination.h"
 #include "sunlit/quantity/angle.h"
+#include "support/usual_air.h"
 #include "test_scenes.h"
 
 namespace sunlit::test {
@@ -72,6 +74,32 @@ TEST(Emission, ComesOnTopOfReflectedLight) {
   EXPECT_NEAR(difference[0], 1000.0f * air[0], 0.1f);
   EXPECT_NEAR(difference[1], 2000.0f * air[1], 0.1f);
   EXPECT_NEAR(difference[2], 3000.0f * air[2], 0.1f);
+}
+
+TEST(Emission, IsSeenThroughThePartOfItsWayThatLiesInFog) {
+  // A square at 300 m that the camera looks down on from 120 m above it, under fog of 30 m.
+  scene::Scene scene;
+  const int material = addMaterial(&scene, Eigen::Array3f::Constant(0.2f));
+  addPatch(&scene, material, {-200.0f, -200.0f, 300.0f}, {400.0f, 0.0f, 0.0f}, {0.0f, 400.0f, 0.0f});
+  const light::World dark(shared(scene));
+  scene.materials[static_cast<std::size_t>(material)].emission = LinearRgb(1e5f, 1e5f, 1e5f);
+  const light::World glowing(shared(scene));
+  sky::Weather weather;
+  weather.visibility_m = 50.0;
+  weather.fog_top_m = 30.0;
+  const sky::Daylight day =
+      sky::usualAir().daylight({Direction(Azimuth::degrees(140.0), Angle::degrees(40.0)), 1.0}, {}, weather);
+  const auto seen = [&](const light::World& world, double height_m) {
+    render::Renderer renderer(world, smallCamera());
+    renderer.look(lookingAt({0.0, 0.0, 300.0 + height_m}, {0.0, 1e-3, 300.0}));
+    return at(renderer.light(light::illumination(world, day)), 80, 60)[1];
+  };
+  for (const double height_m : {120.0, 60.0, 20.0}) {
+    const double depth = std::min(height_m, 30.0) * static_cast<double>(day.fog().per_m);
+    const double passed = static_cast<double>((seen(glowing, height_m) - seen(dark, height_m)) / 1e5f);
+    // Air that is not fog takes 1 %, and what the camera looks at askew another.
+    EXPECT_NEAR(passed / std::exp(-depth), 1.0, 0.02) << height_m;
+  }
 }
 
 TEST(Leaf, LitFromBehindGlowsByWhatItLetsThrough) {

@@ -305,12 +305,36 @@ TEST(CivilTime, ReadsAsIsoSays) {
   EXPECT_EQ(toUtc(astronomy::instantOf({0, 3, 2, 0, 0, 0.0, 0.0})), "0000-03-02T00:00:00.000Z");
 }
 
+TEST(CivilTime, InWordsIsRoundedAndCarried) {
+  const auto text = [](const CivilDateTime& civil) {
+    return textOfDate(astronomy::instantOf(civil), civil.timezone);
+  };
+  EXPECT_EQ(text({2024, 7, 1, 4, 30, 7.25, 3.0}), "2024-07-01 04:30:07.250 UTC+03:00");
+  EXPECT_EQ(text({2024, 7, 1, 12, 0, 59.9996, 3.0}), "2024-07-01 12:01:00.000 UTC+03:00");
+  EXPECT_EQ(text({2024, 12, 31, 23, 59, 59.9999, -3.5}), "2025-01-01 00:00:00.000 UTC-03:30");
+  // A zone of no whole milliseconds.
+  EXPECT_EQ(text({2024, 7, 1, 12, 0, 59.9999, 3.3333333}), "2024-07-01 12:01:00.000 UTC+03:20");
+  EXPECT_EQ(text({-1000, 7, 1, 12, 0, 59.9994, 0.0}), "-1000-07-01 12:00:59.999 UTC+00:00");
+}
+
 TEST(CivilTime, SurvivesTheWayThereAndBackInAllYears) {
   EXPECT_FALSE(fromUtc(""));
   for (int year = -2000; year <= 6000; year += 7) {
     const Instant instant = astronomy::instantOf({year, 11, 30, 23, 59, 59.999, 0.0});
     ASSERT_EQ(fromUtc(toUtc(instant)), instant) << toUtc(instant);
   }
+}
+
+TEST(CivilTime, OfTheFirstAndLastDaysOfAllTimeZonesIsUnderstood) {
+  for (const CivilDateTime& civil :
+       {CivilDateTime{6000, 12, 31, 22, 0, 0.25, -5.0}, CivilDateTime{6000, 12, 31, 23, 59, 59.999, -18.0},
+        CivilDateTime{-2000, 1, 1, 0, 0, 0.0, 18.0}, CivilDateTime{-2000, 1, 1, 2, 59, 59.0, 3.0}}) {
+    const Instant instant = astronomy::instantOf(civil);
+    EXPECT_EQ(messageOf([&] { fromUtc(toUtc(instant)); }), "");
+    EXPECT_EQ(fromUtc(toUtc(instant)), instant) << toUtc(instant);
+  }
+  for (const char* beyond : {"6001-01-02T00:00:00.000Z", "-2001-12-30T23:00:00.000Z"})
+    EXPECT_NE(messageOf([&] { fromUtc(beyond); }).find("year is "), std::string::npos) << beyond;
 }
 
 TEST(CivilTime, ThatCannotBeIsRefusedInWords) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "sky/cie_sky.h"
 #include "sky/cloud_map.h"
@@ -208,6 +209,85 @@ TEST(Weather, FogThinsOutAboveItsTop) {
   const AirColumn clear = usualAir().daylight({sunAt(35.0), 1.0}).airOver(towards(60.0), 5000.0F);
   const double depth = -std::log(0.05) / 150.0 * 20.0 / std::sin(60.0 * kRadPerDeg);
   EXPECT_NEAR(static_cast<double>(up.transmittance[1] / clear.transmittance[1]), std::exp(-depth), 0.01);
+}
+
+/// Fog of 200 m and 30 m high, over ground at 300 m, seen from a height above that.
+Daylight lowFogFrom(float height_m) {
+  Weather low = fog(200.0);
+  low.fog_top_m = 30.0;
+  return under(35.0, low).overGround(300.0F).seenFrom({7.0F, -5.0F, 300.0F + height_m});
+}
+
+TEST(Weather, FogIsLookedDownOnFromAboveIt) {
+  const Daylight high = lowFogFrom(120.0F), clear = usualAir().daylight({sunAt(35.0), 1.0});
+  const Eigen::Vector3f down = towards(-90.0), slope = towards(-30.0), up = towards(30.0);
+  const double depth = 30.0 * static_cast<double>(high.fog().per_m);
+  const auto passed = [&](const Eigen::Vector3f& way, float distance_m) {
+    return static_cast<double>(high.airOver(way, distance_m).transmittance[1] /
+                               clear.airOver(way, distance_m).transmittance[1]);
+  };
+  // Of 120 m straight down 30 lie in fog: e^-0.45 = 0.64 with the clear air's haze. Singles, of numbers near
+  // 100.
+  EXPECT_NEAR(passed(down, 120.0F), std::exp(-depth), 1e-4);
+  EXPECT_NEAR(passed(slope, 240.0F), std::exp(-2.0 * depth), 1e-4);
+  EXPECT_EQ(passed(slope, 179.0F), 1.0);
+  for (const float distance_m : {100.0F, 1e4F, std::numeric_limits<float>::infinity()}) {
+    EXPECT_TRUE((high.airOver(up, distance_m).airlight == clear.airOver(up, distance_m).airlight).all());
+    EXPECT_TRUE((high.airOver(towards(0.0), distance_m).transmittance ==
+                 clear.airOver(towards(0.0), distance_m).transmittance)
+                    .all());
+  }
+  for (const double elevation : {0.0, 5.0, 60.0})
+    EXPECT_TRUE(
+        (high.skyLuminance(towards(elevation)).value == clear.skyLuminance(towards(elevation)).value).all());
+  EXPECT_TRUE((high.sunSeen().illuminance.value == clear.sun().illuminance.value).all());
+  EXPECT_LT(high.sun().illuminance.luminance(), 0.5F * clear.sun().illuminance.luminance());
+}
+
+TEST(Weather, FogOfAnEyeAtItsGroundIsTheWholeLayer) {
+  Weather low = fog(200.0);
+  low.fog_top_m = 30.0;
+  const Daylight whole = under(35.0, low);
+  // Also in a hollow.
+  for (const float height_m : {0.0F, -40.0F}) {
+    const Daylight here = lowFogFrom(height_m);
+    EXPECT_EQ(here.fog().top_m, whole.fog().top_m);
+    for (const double elevation : {-50.0, -3.0, 0.0, 3.0, 50.0}) {
+      const Eigen::Vector3f way = towards(elevation);
+      EXPECT_TRUE((here.skyLuminance(way).value == whole.skyLuminance(way).value).all()) << elevation;
+      EXPECT_TRUE((here.airOver(way, 90.0F).airlight == whole.airOver(way, 90.0F).airlight).all())
+          << elevation;
+    }
+    // Shares of cover and fog one after another, and both at once: the last digit.
+    EXPECT_NEAR(here.sunSeen().illuminance.luminance() / whole.sun().illuminance.luminance(), 1.0F, 1e-6F);
+  }
+}
+
+TEST(Weather, NothingJumpsAsAnEyeLeavesTheFog) {
+  // By 2 mm about its top: of 0.015 a metre, 0.1 % of light at 1°, 0.1 mm of rounding at 330 m.
+  const Daylight below = lowFogFrom(29.999F), above = lowFogFrom(30.001F);
+  const auto ratio = [](float a, float b) { return a / b; };
+  const float fog_luminance = below.skyLuminance(towards(0.0)).luminance();
+  for (const double elevation : {-90.0, -20.0, -1.0, 1.0, 20.0, 90.0}) {
+    const Eigen::Vector3f way = towards(elevation);
+    EXPECT_NEAR(ratio(below.skyLuminance(way).luminance(), above.skyLuminance(way).luminance()), 1.0F, 3e-3F)
+        << elevation;
+    for (const float distance_m : {5.0F, 60.0F, 3000.0F}) {
+      const AirColumn from_below = below.airOver(way, distance_m),
+                      from_above = above.airOver(way, distance_m);
+      EXPECT_NEAR(from_below.transmittance[1], from_above.transmittance[1], 3e-3F) << elevation;
+      EXPECT_NEAR(from_below.airlight[1], from_above.airlight[1], 3e-3F * fog_luminance) << elevation;
+    }
+  }
+  EXPECT_NEAR(ratio(below.sunSeen().illuminance.luminance(), above.sunSeen().illuminance.luminance()), 1.0F,
+              1e-3F);
+}
+
+TEST(Weather, LandFarBelowIsSeenThroughTheClearAirAboveFogToo) {
+  // Towards the horizon the sky above it, then fog, whose own horizon is another.
+  const Daylight high = lowFogFrom(500.0F), clear = usualAir().daylight({sunAt(35.0), 1.0});
+  const float horizon = clear.skyLuminance(towards(0.0)).luminance();
+  EXPECT_NEAR(high.skyLuminance(towards(-0.02)).luminance(), horizon, 0.01F * horizon);
 }
 
 TEST(Weather, CloudMapsCoverExactlyTheOktasAskedFor) {

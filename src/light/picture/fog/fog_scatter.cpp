@@ -23,13 +23,14 @@ FogSlices::FogSlices(const sky::Fog& fog) {
 }
 
 float FogSlices::place(float distance_m) const {
-  const float share = std::min(distance_m / last(), 1.0f);
+  const float share = std::clamp(distance_m / last(), 0.0f, 1.0f);
   return std::log1p(kGrowth * share) / std::log1p(kGrowth) * kCount;
 }
 
 struct FogScatter::Line {
-  Line(const FogScatter& of, const Eigen::Vector3f& towards) {
-    const Eigen::Vector3f way = of.beam_.position() - of.eye_;
+  Line(const FogScatter& of, const Eigen::Vector3f& towards)
+      : start(of.eye_ + of.fog_.begins(towards.z()) * towards) {
+    const Eigen::Vector3f way = of.beam_.position() - start;
     nearest_m = towards.dot(way);
     beside_m = std::max((way - nearest_m * towards).norm(), std::max(of.beam_.radius_m(), 1e-3f));
     angle_rad = std::atan2(beside_m, nearest_m);
@@ -38,21 +39,25 @@ struct FogScatter::Line {
   float angleAt(float distance_m) const { return std::atan((distance_m - nearest_m) / beside_m); }
   float distanceAt(float angle) const { return nearest_m + beside_m * std::tan(angle); }
 
-  float nearest_m;  ///< from the eye to where the line is nearest to the lamp; behind it below 0
+  Eigen::Vector3f start;
+  float nearest_m;  ///< from the start to where the line is nearest to the lamp; behind it below 0
   float beside_m;   ///< from there to the lamp
-  float angle_rad;  ///< between the line and the lamp
+  float angle_rad;  ///< between the line and the lamp, at the start
 };
 
 FogScatter::FogScatter(const LampBeam& beam, const sky::Fog& fog, const Eigen::Vector3f& eye)
     : beam_(beam), fog_(fog), eye_(eye) {}
 
-float FogScatter::middle(const Eigen::Vector3f& towards, const FogSlices& slices, std::size_t slice) const {
+Eigen::Vector3f FogScatter::middle(const Eigen::Vector3f& towards, const FogSlices& slices,
+                                   std::size_t slice) const {
   const Line line(*this, towards);
-  return line.distanceAt(0.5f * (line.angleAt(slices.end(slice)) + line.angleAt(slices.end(slice + 1))));
+  const float angle = 0.5f * (line.angleAt(slices.end(slice)) + line.angleAt(slices.end(slice + 1)));
+  return line.start + line.distanceAt(angle) * towards;
 }
 
 void FogScatter::addAlong(const Eigen::Vector3f& towards, const FogSlices& slices, const OpenSlices& open,
                           GlowProfile* profile) const {
+  if (!std::isfinite(fog_.begins(towards.z()))) return;
   const Line line(*this, towards);
   const float per_m = fog_.per_m * std::max(1.0f / (1.0f + line.angle_rad / kHalved_rad), kLeastExtinction);
   Eigen::Array3f sum = Eigen::Array3f::Zero();
@@ -65,7 +70,7 @@ void FogScatter::addAlong(const Eigen::Vector3f& towards, const FogSlices& slice
       // By equal angles from the lamp its 1 / r² is met: ds = r² / D dθ.
       const float distance_m =
           line.distanceAt(from + (to - from) * (static_cast<float>(k) + 0.5f) / static_cast<float>(steps));
-      const Eigen::Vector3f point = eye_ + distance_m * towards;
+      const Eigen::Vector3f point = line.start + distance_m * towards;
       if (point.z() - eye_.z() > fog_.top_m) continue;
       const Eigen::Vector3f away = point - beam_.position();
       const float r = std::max(away.norm(), line.beside_m);

@@ -10,8 +10,8 @@
 
 namespace sunlit::light {
 
-/// Distances from the eye between which light is summed up: from 0 to where hardly anything more comes
-/// through, longer the farther away.
+/// Distances from the eye, or from where its way enters the fog, between which light is summed up: from 0 to
+/// where hardly anything more comes through, longer the farther away.
 class FogSlices {
  public:
   static constexpr std::size_t kCount = 32;
@@ -19,7 +19,7 @@ class FogSlices {
   explicit FogSlices(const sky::Fog& fog);
   float end(std::size_t i) const { return ends_[i]; }  ///< i ≤ kCount; end(0) is 0
   float last() const { return ends_.back(); }
-  /// Of the slice that `distance_m` lies in, from its number: 3.5 is the middle of number 3.
+  /// Of the slice that `distance_m` lies in, from its number: 3.5 is the middle of number 3. Below 0 it is 0.
   float place(float distance_m) const;
 
  private:
@@ -47,12 +47,13 @@ class FogScatter {
   /// Adds the lamp's light on the way `towards`, a unit vector, to the slices' ends.
   void addAlong(const Eigen::Vector3f& towards, const FogSlices& slices, const OpenSlices& open,
                 GlowProfile* profile) const;
-  /// Where a slice's light comes from, m from the eye: the middle of the angles at which the lamp sees it.
-  float middle(const Eigen::Vector3f& towards, const FogSlices& slices, std::size_t slice) const;
+  /// Where a slice's light comes from, in `map`: the middle of the angles at which the lamp sees it.
+  /// `towards` meets fog.
+  Eigen::Vector3f middle(const Eigen::Vector3f& towards, const FogSlices& slices, std::size_t slice) const;
   const LampBeam& beam() const { return beam_; }
 
  private:
-  /// A line of sight, seen from the lamp.
+  /// A line of sight from where fog begins, seen from the lamp.
   struct Line;
 
   const LampBeam& beam_;

@@ -34,9 +34,11 @@ std::vector<LampBeam> worthSeeing(const std::vector<scene::Lamp>& lamps, const s
   std::vector<float> most;
   for (const scene::Lamp& lamp : lamps) {
     const LampBeam& beam = beams.emplace_back(lamp);
-    const float distance_m = std::max((beam.position() - eye).norm(), 1.0f);
+    const Eigen::Vector3f way = beam.position() - eye;
+    const float distance_m = std::max(way.norm(), 1.0f),
+                in_fog_m = fog.within(way.z() / distance_m, distance_m);
     most.push_back(beam.brightest() / distance_m *
-                   std::exp(-FogScatter::kLeastExtinction * fog.per_m * distance_m));
+                   std::exp(-FogScatter::kLeastExtinction * fog.per_m * in_fog_m));
   }
   std::vector<std::size_t> order(beams.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -86,6 +88,7 @@ LampGlow::Among LampGlow::among(const Lattice& lattice, float x, float y) {
 LampGlow::LampGlow(const std::vector<scene::Lamp>* lamps, const sky::Fog& fog, const Surfaces& surfaces,
                    const Visibility& visibility)
     : surfaces_(surfaces),
+      fog_(fog),
       slices_(fog),
       corners_(surfaces, kCell),
       shadow_corners_(surfaces, kCell * kCellsOfShadow) {
@@ -118,8 +121,9 @@ void LampGlow::findShadows(std::size_t lamp, const Visibility& visibility) {
   rays.reserve(open.size() * FogSlices::kCount);
   for (std::size_t i = 0; i < open.size(); ++i) {
     const Eigen::Vector3f towards = surfaces_.towards(shadow_corners_.x(i), shadow_corners_.y(i));
+    if (!std::isfinite(fog_.begins(towards.z()))) continue;
     for (std::size_t slice = 0; slice < FogSlices::kCount; ++slice) {
-      const Eigen::Vector3f point = surfaces_.eye + scatter_[lamp].middle(towards, slices_, slice) * towards;
+      const Eigen::Vector3f point = scatter_[lamp].middle(towards, slices_, slice);
       const Eigen::Vector3f way = beam.ball() - point;
       const float distance_m = way.norm();
       if (distance_m <= beam.radius_m()) continue;
@@ -224,7 +228,8 @@ void LampGlow::addTo(const Tile& tile, const SkyPixel& sky, image::LinearImage* 
       of_tile.find(x, y, &profile);
       const auto number = static_cast<std::uint32_t>(y * surfaces_.width + x);
       for (; surface != tile.surfaces.end() && surface->pixel == number; ++surface) {
-        const float distance_m = (surface->position - surfaces_.eye).norm();
+        const float distance_m =
+            (surface->position - surfaces_.eye).norm() - fog_.begins(-surface->to_eye.z());
         pixel += at(profile, slices_.place(distance_m)) *
                  (weight * static_cast<float>(surface->samples) * surface->air_share);
       }

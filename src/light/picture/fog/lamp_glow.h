@@ -61,6 +61,7 @@ class LampGlow {
   class OfTile;
 
   const Surfaces& surfaces_;
+  sky::Fog fog_;
   FogSlices slices_;
   std::vector<LampBeam> beams_;
   std::vector<FogScatter> scatter_;      ///< of each

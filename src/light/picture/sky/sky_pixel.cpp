@@ -8,12 +8,6 @@ namespace {
 /// How far, in parts of it, the sky in the middle of a cell may be from the mean of its corners.
 constexpr float kMostBent = 1e-3f;
 
-/// As it shines on the camera, through gaps and clouds.
-sky::DiscLight seenThroughCloud(const sky::Daylight& day, sky::DiscLight disc, const Eigen::Vector3f& eye) {
-  disc.illuminance = disc.illuminance * day.throughCloud(disc, eye);
-  return disc;
-}
-
 }  // namespace
 
 struct SkyPixel::Cell {
@@ -42,8 +36,8 @@ struct SkyPixel::Cell {
 SkyPixel::SkyPixel(const Surfaces& surfaces, const sky::Daylight& day)
     : surfaces_(surfaces),
       daylight_(day.seenFrom(surfaces.eye)),
-      sun_(surfaces, seenThroughCloud(day, day.sun(), surfaces.eye)),
-      moon_(surfaces, seenThroughCloud(day, day.moon(), surfaces.eye)),
+      sun_(surfaces, daylight_.sunSeen()),
+      moon_(surfaces, daylight_.moonSeen()),
       stars_(surfaces, daylight_, moon_) {}
 
 Eigen::Array3f SkyPixel::luminance(int x, int y) const {

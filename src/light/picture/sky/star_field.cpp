@@ -25,6 +25,7 @@ std::array<float, 4> splineWeights(double t) {
 StarField::StarField(const Surfaces& surfaces, const sky::Daylight& day, const DiscInView& moon)
     : columns_((surfaces.width + Surfaces::kTileSize - 1) / Surfaces::kTileSize) {
   if (day.stars().empty()) return;
+  const sky::Daylight seen = day.seenFrom(surfaces.eye);
   tiles_.resize(surfaces.tiles.size());
   const PixelOfDirection pixels(surfaces);
   for (const sky::PointLight& star : day.stars()) {
@@ -34,9 +35,8 @@ StarField::StarField(const Surfaces& surfaces, const sky::Daylight& day, const D
     if (!(pixel.x() > -2.0 && pixel.x() < surfaces.width + 1.0 && pixel.y() > -2.0 &&
           pixel.y() < surfaces.height + 1.0))
       continue;
-    const Eigen::Array3f luminance = star.illuminance.value * day.throughCloud(star.towards, surfaces.eye) /
-                                     static_cast<float>(place->solid_angle);
-    if (LinearRgb(luminance).luminance() < kOutshone * day.skyLuminance(star.towards).luminance()) continue;
+    const Eigen::Array3f luminance = seen.starSeen(star).value / static_cast<float>(place->solid_angle);
+    if (LinearRgb(luminance).luminance() < kOutshone * seen.skyLuminance(star.towards).luminance()) continue;
     if (moon.hides(star.towards)) continue;
     add(surfaces, pixel, luminance);
   }
