@@ -10,6 +10,8 @@
 #include "moonlight.h"
 #include "sky_table.h"
 #include "stars.h"
+#include "sunlit/quantity/turn.h"
+#include "sunlit/sky/eclipse.h"
 
 namespace sunlit::sky {
 namespace {
@@ -64,6 +66,32 @@ float hazePerMetre(const Eigen::Array3f& haze_per_km) {
 // By day the moon's sky is at most 3e-5 of the sun's, and the night's glow at most 3e-6.
 constexpr double kMoonSkyDrowned = 0.17;  // sine of 10°
 constexpr double kGlowDrowned = 0.0;
+
+/// Sunlight above the air, relative to that at 1 AU.
+struct SunStrength {
+  double disc;  ///< of what is seen of it
+  double sky;   ///< that lights the air
+};
+
+SunStrength strengthOf(const SunInSky& sun, const NightSky& night) {
+  const double alone = 1.0 / (sun.distance_au * sun.distance_au);
+  if (!night.moon) return {alone, alone};
+  const double uncovered = uncoveredSunlight(sunBehindMoon(sun, *night.moon));
+  return {alone * uncovered, alone * (uncovered + kSkyInTotality * (1.0 - uncovered))};
+}
+
+Spectrum evenly(double strength) {
+  return Spectrum::Constant(static_cast<float>(strength));
+}
+
+/// The moon where it covers some of the sun. Refraction, which presses both alike, must not move them apart.
+std::optional<DiscCover> coverOf(const SunInSky& sun, const NightSky& night) {
+  if (!night.moon || !sunBehindMoon(sun, *night.moon).touch()) return std::nullopt;
+  const Eigen::Vector3d to_moon = night.moon->geometric.value_or(night.moon->apparent).vector();
+  const Eigen::Vector3d to_sun = sun.geometric.value_or(sun.apparent).vector();
+  return DiscCover{Direction(turnBetween(to_sun, sun.apparent.vector()) * to_moon),
+                   moonAngularRadius(*night.moon)};
+}
 
 /// Of a lamp's elevation without refraction.
 template <typename Lamp>
@@ -125,12 +153,13 @@ Daylight Atmosphere::daylight(const SunInSky& sun, const NightSky& night, const 
   table->sights = tables.sights;
 
   table->sun.towards = sun.apparent;
-  table->sun.angular_radius = Angle::radians(std::asin(sin(kSunRadiusAtOneAu) / sun.distance_au));
-  const Spectrum sun_strength =
-      Spectrum::Constant(static_cast<float>(1.0 / (sun.distance_au * sun.distance_au)));
-  table->sun.illuminance = discIlluminance(tables.transfer, tables.altitude_km, table->sun, sun_strength);
+  table->sun.angular_radius = sunAngularRadius(sun.distance_au);
+  table->sun.cover = coverOf(sun, night);
+  const SunStrength strength = strengthOf(sun, night);
+  table->sun.illuminance =
+      discIlluminance(tables.transfer, tables.altitude_km, table->sun, evenly(strength.disc));
   if (sun_height > DiffuseLight::kLowestSun) {
-    const AirLamp lamp{sun.apparent, sun_lights, sun_strength};
+    const AirLamp lamp{sun.apparent, sun_lights, evenly(strength.sky)};
     table->sun_sky.emplace(tables.transfer, tables.altitude_km, lamp);
     table->sun_air.emplace(tables.transfer, *tables.sights, lamp);
   }
@@ -158,13 +187,12 @@ void Atmosphere::addWeather(const Weather& weather, const Lamps& lamps, SkyTable
   const Tables& tables = *tables_;
   // By itself: a thread that waits for the loops within would else take up another daylight, and come here.
   std::call_once(tables.weather_once, [&] { tbb::this_task_arena::isolate([&] { makeForWeather(); }); });
-  const double distance_au = lamps.sun.distance_au;
   CieLevels levels;
   levels.clear_at_horizon_lx = tables.clear_at_horizon_lx;
-  levels.sun = {static_cast<float>(1.0 / (distance_au * distance_au)), sineOf(lamps.sun)};
+  levels.sun = {static_cast<float>(strengthOf(lamps.sun, lamps.night).sky), sineOf(lamps.sun)};
   if (lamps.night.moon) {
     const auto strength =
-        static_cast<double>(colourOf(moonStrength(*lamps.night.moon, distance_au)).luminance());
+        static_cast<double>(colourOf(moonStrength(*lamps.night.moon, lamps.sun)).luminance());
     levels.moon = {static_cast<float>(strength / kLuminousSolarConstant_lx), sineOf(*lamps.night.moon)};
   }
   const WeatherTables made_of{*tables.droplets, isBroken(weather) ? tables.clouds.of(weather) : nullptr,
@@ -187,7 +215,7 @@ void Atmosphere::addMoon(const MoonInSky& moon, const SunInSky& sun, SkyTable* t
   validate(moon);
   const Direction sun_lights = sun.geometric.value_or(sun.apparent);
   const Direction lights = moon.geometric.value_or(moon.apparent);
-  const Spectrum strength = moonStrength(moon, sun.distance_au);
+  const Spectrum strength = moonStrength(moon, sun);
   table->moon.towards = moon.apparent;
   table->moon.angular_radius = moonAngularRadius(moon);
   table->moon.lit_from = moonLitFrom(moon, sun_lights);

@@ -7,6 +7,7 @@
 
 #include "sunlit/quantity/moon.h"
 #include "sunlit/quantity/range.h"
+#include "sunlit/sky/eclipse.h"
 
 namespace sunlit::sky {
 namespace {
@@ -22,6 +23,14 @@ Spectrum albedoColour() {
   return albedo * (colourOf(Spectrum::Ones()).luminance() / colourOf(albedo).luminance());
 }
 
+/// Sunlight in the umbra, as bright as the sun: it has passed the air twice, as low as some 5 km above the
+/// ground, where it is bent far enough. Ozone, which makes the rim of the umbra blue, is left out.
+Spectrum umbraColour() {
+  constexpr double kAirMass = 2.0 * 38.0 * 0.54;  // of the horizon (Kasten & Young 1989), and exp(−5 / 8)
+  const Spectrum passed = (rayleighOpticalDepth() * static_cast<float>(-kAirMass)).exp();
+  return passed * (colourOf(Spectrum::Ones()).luminance() / colourOf(passed).luminance());
+}
+
 }  // namespace
 
 void validate(const MoonInSky& moon) {
@@ -29,15 +38,19 @@ void validate(const MoonInSky& moon) {
   require("moon phase_angle", moon.phase_angle.deg(), {0.0, 180.0}, "deg");
 }
 
-Spectrum moonStrength(const MoonInSky& moon, double sun_distance_au) {
+Spectrum moonStrength(const MoonInSky& moon, const SunInSky& sun) {
   const double alpha = moon.phase_angle.deg();
   const double magnitude = -12.73 + 0.026 * alpha + 4e-9 * std::pow(alpha, 4);
   const double t = std::clamp((180.0 - alpha) / 30.0, 0.0, 1.0);
   const double fade = t * t * (3.0 - 2.0 * t);
-  const double nearness = kMeanMoonDistance_m / (moon.distance_m * sun_distance_au);
+  const double nearness = kMeanMoonDistance_m / (moon.distance_m * sun.distance_au);
   const double lux = kZeroMagnitude_lx * std::pow(10.0, -0.4 * magnitude) * fade * nearness * nearness;
   static const Spectrum colour = albedoColour();
-  return colour * static_cast<float>(lux / kLuminousSolarConstant_lx);
+  const Spectrum strength = colour * static_cast<float>(lux / kLuminousSolarConstant_lx);
+  const double straight = sunlightOnMoon(sun, moon);
+  if (straight >= 1.0) return strength;
+  static const Spectrum bent = umbraColour() * static_cast<float>(kMoonInUmbra);
+  return strength * (static_cast<float>(straight) + static_cast<float>(1.0 - straight) * bent);
 }
 
 Angle moonAngularRadius(const MoonInSky& moon) {

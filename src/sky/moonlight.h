@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scattered_sky.h"
-#include "sunlit/sky/daylight.h"
+#include "sunlit/sky/atmosphere.h"
 #include "sunlit/sky/night.h"
 
 namespace sunlit::sky {
@@ -14,8 +14,8 @@ void validate(const MoonInSky& moon);
 /// 4e-9 α⁴ (α in degrees, mean distance; Allen 1976, eq. 9 of Krisciunas & Schaefer 1991) is within 0.2 mag
 /// of measurements to 150°; beyond, it fades smoothly to nothing at the new moon. The opposition surge of the
 /// last 7° (up to a third more) is left out. Redder than sunlight: albedo ∝ λ^1.1, from B − V = 0.92 of the
-/// moon and 0.65 of the sun.
-Spectrum moonStrength(const MoonInSky& moon, double sun_distance_au);
+/// moon and 0.65 of the sun. In the Earth's shadow it is dimmed by sunlightOnMoon(), down to kMoonInUmbra.
+Spectrum moonStrength(const MoonInSky& moon, const SunInSky& sun);
 
 /// Of kMoonRadius_m.
 Angle moonAngularRadius(const MoonInSky& moon);

@@ -1,10 +1,12 @@
 #include "tools/place_arguments.h"
 
+#include <cmath>
 #include <cstdio>
 #include <regex>
 #include <stdexcept>
 #include <string>
 
+#include "sunlit/sky/eclipse.h"
 #include "tools/terminal.h"
 
 namespace sunlit::tools {
@@ -121,6 +123,23 @@ sky::Weather weatherAt(const PlaceOptions& place, double hour) {
 
 studio::SkyBodies bodiesOf(const PlaceOptions& place, double hour) {
   return studio::bodiesAt(astronomy::midnightOf(place.date).plusSeconds(hour * 3600.0), place.site);
+}
+
+std::string textOfEclipse(const studio::SkyBodies& bodies) {
+  if (!bodies.moon) return std::string();
+  const auto percent = [](double share) {
+    char text[16];
+    std::snprintf(text, sizeof text, "%.1f %%",
+                  std::floor(1e3 * share) / 10.0);  // only what is total has 100.0
+    return std::string(text);
+  };
+  std::string text;
+  const double covered = 1.0 - sky::uncoveredArea(sky::sunBehindMoon(bodies.sun, *bodies.moon));
+  if (covered > 0.0 && bodies.sun.apparent.vector().z() > 0.0)
+    text += ", sun " + percent(covered) + " covered";
+  const double lost = 1.0 - sky::sunlightOnMoon(bodies.sun, *bodies.moon);
+  if (lost > 0.0 && bodies.moon->apparent.vector().z() > 0.0) text += ", moon dimmed by " + percent(lost);
+  return text;
 }
 
 }  // namespace sunlit::tools

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "sunlit/astronomy/civil_time.h"
 #include "sunlit/quantity/site.h"
@@ -48,5 +49,9 @@ sky::Weather weatherAt(const PlaceOptions& place, double hour);
 /// What is in the sky over `place` at an `hour` of its day, −24 … 72; outside 0 … 24 it is of the days before
 /// and after.
 studio::SkyBodies bodiesOf(const PlaceOptions& place, double hour);
+
+/// ", sun 97.2 % covered" or ", moon dimmed by 55.0 %" where an eclipse is seen above the horizon; else
+/// nothing.
+std::string textOfEclipse(const studio::SkyBodies& bodies);
 
 }  // namespace sunlit::tools

@@ -51,9 +51,11 @@ void takeSnapshot(const SnapshotOptions& options) {
                  placeOf(*studio.world().geometry).c_str());
   else if (image::isBlack(developed.picture))
     std::fprintf(stderr, "warning: the picture is black all over: %s\n", image::kWhyBlack);
-  std::printf("%s: %zu triangles, EV100 %.2f, %.3g lx on level ground\n", options.output.c_str(),
+  const std::string eclipse =
+      options.hour ? textOfEclipse(bodiesOf(options.place, *options.hour)) : std::string();
+  std::printf("%s: %zu triangles, EV100 %.2f, %.3g lx on level ground%s\n", options.output.c_str(),
               studio.world().geometry->triangles.size(), developed.ev100,
-              static_cast<double>(day.groundIlluminance().luminance()));
+              static_cast<double>(day.groundIlluminance().luminance()), eclipse.c_str());
 }
 
 }  // namespace

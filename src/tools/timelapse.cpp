@@ -64,10 +64,10 @@ class Camera {
       const double height = options_.caption == Caption::kHour ? 1.0 / 18.0 : 1.0 / 24.0;
       image::writeInto(captionOf(options_.caption, hour, sun), height, &developed.picture);
     }
-    std::printf("frame %d of %d: %s, sun %+.2f deg, moon %+.1f deg, %.0f %% lit, %.3g lx, EV100 %.2f",
+    std::printf("frame %d of %d: %s, sun %+.2f deg, moon %+.1f deg, %.0f %% lit%s, %.3g lx, EV100 %.2f",
                 frame + 1, options_.frames, clockTime(hour).c_str(), sun.elevation_deg,
                 bodies.moon->apparent.elevation().deg(), 50.0 * (1.0 + cos(bodies.moon->phase_angle)),
-                sun.lux, developed.ev100);
+                textOfEclipse(bodies).c_str(), sun.lux, developed.ev100);
     return developed.picture;
   }
 

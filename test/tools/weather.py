@@ -51,6 +51,16 @@ class Weather(unittest.TestCase):
         clear, grey = self.files("snapshot", *VIEW, *EXPOSED)
         self.assert_darker(clear, grey, "*.png", 1)
 
+    def test_eclipses_are_told_of(self):
+        dallas = ["--site", "32.78,-96.8", "--date", "2024-04-08", "--timezone", "-5"]
+        for time, told in (("12:00", None), ("13:22", "sun 71."), ("13:42", "sun 100.0 % covered")):
+            done = run("snapshot", "--out", str(self.folder / "it.png"), *CAMERA, *dallas, "--time", time)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            (self.assertIn if told else self.assertNotIn)(told or "covered", done.stdout)
+        moon = ["--site", "32.78,-96.8", "--date", "2025-03-14", "--timezone", "0", "--time", "06:59"]
+        done = run("snapshot", "--out", str(self.folder / "it.png"), *CAMERA, *moon)
+        self.assertIn("moon dimmed by 100.0 %", done.stdout)
+
     def test_weather_that_cannot_be_is_refused_before_anything_is_made(self):
         for program, out, of_its_own in (("snapshot", "it.png", []), ("timelapse", "it", ["--frames", "2"])):
             for weather, told in ((["--visibility", "90000"], "visibility is 90000 m, but must be less than the "),

@@ -73,6 +73,7 @@ class Atmosphere {
   /// Sun, moon and glow together. What is drowned is left out: the moon's sky with the sun above 10°, the
   /// glow with the sun up, and the sun's sky with the sun below −22°. Throws std::invalid_argument for a
   /// distance or phase angle outside its range.
+  /// A moon before the sun dims all of its light, and the Earth's shadow the moon's: see eclipse.h.
   /// Cloud and fog change only what they are in the way of. Throws also what validate() does, and for a
   /// visibility beyond that of the clear air.
   Daylight daylight(const SunInSky& sun, const NightSky& night = {}, const Weather& weather = {}) const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -17,16 +18,26 @@ namespace sunlit::sky {
 
 /// Angular radius of the sun seen from 1 AU: 959.63″ (Astronomical Almanac).
 constexpr Angle kSunRadiusAtOneAu = Angle::degrees(0.2666);
+inline Angle sunAngularRadius(double distance_au) {
+  return Angle::radians(std::asin(sin(kSunRadiusAtOneAu) / distance_au));
+}
+
+/// What stands before a distant light: the moon before the sun.
+struct DiscCover {
+  Direction towards;  ///< its centre
+  Angle angular_radius;
+};
 
 /// A distant light of visible size, such as the sun.
 struct DiscLight {
   Direction towards;                         ///< apparent centre, may lie below the horizon
   Angle angular_radius = kSunRadiusAtOneAu;  ///< true angular radius of the disc
-  LinearRgb illuminance;  ///< lx on a plane facing it, at the ground, its unobscured disc; zero when the
-                          ///< whole disc is set
+  LinearRgb illuminance;  ///< lx on a plane facing it, at the ground, if nothing in the scene obscures it;
+                          ///< zero when the whole disc is set or covered
   /// What lights the disc itself: for the moon the direction of the sun as seen from it, of which it shows
   /// the phase. Empty for the sun, which shines all over.
   std::optional<Direction> lit_from = std::nullopt;
+  std::optional<DiscCover> cover = std::nullopt;  ///< that hides some of it, which `illuminance` lacks
 };
 
 /// What the air between the eye and a surface does to the surface's luminance L: L · transmittance +

@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
@@ -63,6 +64,15 @@ std::unique_ptr<ClockSource> clockSource(const ros::NodeHandle& node, const Paci
   return std::make_unique<ClockSource>(node, ros::Time(before_s > 0.0 ? before_s : 0.5 * start_s));
 }
 
+/// The robot goes as path/yaw says, and its camera may be turned on it.
+PathSourceOptions pathOfCamera(const RenderNodeOptions& options, const std::optional<scene::Robot>& robot) {
+  PathSourceOptions path = options.path;
+  const Angle turn = robot ? cameraYaw(*robot, options.robot, options.cameraFrames()) : Angle();
+  if (turn != Angle())
+    path.sampling.yaw = Angle::radians(std::remainder(path.sampling.yaw.rad() + turn.rad(), 2.0 * kPi));
+  return path;
+}
+
 }  // namespace
 
 RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
@@ -76,10 +86,11 @@ RenderNode::RenderNode(const ros::NodeHandle& node, const ros::NodeHandle& priva
                  ? nullptr
                  : std::make_unique<RunFiles>(options.output_dir, options.pacing.resume_at > 0)),
       clock_(clockSource(node, options_.pacing)),
-      path_(options.camera.follow_tf ? nullptr
-                                     : std::make_unique<PathSource>(node, options.path, options.frames.map)),
-      sky_(options.sky, reports()),
       robot_model_(loadRobot(options.robot, options.world.searchPath())),
+      path_(options.camera.follow_tf ? nullptr
+                                     : std::make_unique<PathSource>(node, pathOfCamera(options, robot_model_),
+                                                                    options.frames.map)),
+      sky_(options.sky, reports()),
       studio_(studioOptions(options, conditions), robot_model_, reports()),
       streams_(conditions, streamOptions(options), studio_, sky_),
       paused_(!options.pacing.autostart) {

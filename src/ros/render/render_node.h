@@ -68,10 +68,10 @@ class RenderNode {
   // Before the scene: an unwritable folder, a second clock or a bad waypoint should not cost its loading. And
   // a clock is waited for by all others.
   std::unique_ptr<RunFiles> files_;
-  std::unique_ptr<ClockSource> clock_;  // where this node is the time of all
-  std::unique_ptr<PathSource> path_;    // not where a TF frame is followed
-  studio::Sky sky_;
+  std::unique_ptr<ClockSource> clock_;       // where this node is the time of all
   std::optional<scene::Robot> robot_model_;  // where the options name one
+  std::unique_ptr<PathSource> path_;         // not where a TF frame is followed
+  studio::Sky sky_;
   studio::Studio studio_;
   Streams streams_;
   std::unique_ptr<RobotPlaces> robot_;  // where there is one

@@ -44,11 +44,57 @@ std::vector<std::optional<Eigen::Isometry3d>> transformsOf(
   return transforms;
 }
 
+/// The link that carries the camera on a path, if one does.
+std::optional<std::size_t> carrierOf(const scene::Robot& robot, const RobotOptions& options,
+                                     const CameraFrames& frames) {
+  if (options.camera_in_base) return std::nullopt;
+  return robot.indexOf(options.camera_link.empty() ? frames.camera : options.camera_link);
+}
+
+std::size_t baseOf(const scene::Robot& robot, const RobotOptions& options) {
+  return options.base_frame.empty() ? 0 : robot.indexOf(options.base_frame).value();
+}
+
+/// Where a camera on a link looks, and what is up for it.
+struct Outlook {
+  Eigen::Vector3d forward, up;
+};
+
+Outlook outlookOf(const scene::RobotLink& link, const Eigen::Isometry3d& base_from_link) {
+  const Eigen::Matrix3d& turned = base_from_link.linear();
+  if (link.name.find("optical") != std::string::npos) return {turned.col(2), -turned.col(1)};
+  return {turned.col(0), turned.col(2)};
+}
+
+/// What turns and offsets of links come to by rounding, rad.
+constexpr double kRounding_rad = 1e-6;
+
+void warnUnlessLevel(const scene::RobotLink& link, const Outlook& outlook) {
+  constexpr double kLevel_rad = 0.1 * kRadPerDeg;
+  const double tilt_rad = std::acos(std::clamp(outlook.up.z(), -1.0, 1.0));
+  if (tilt_rad < kLevel_rad) return;
+  ROS_WARN(
+      "The robot's link %s, which carries the camera, is tilted by %.1f deg: on a path the camera is level, "
+      "and "
+      "looks where the link does from above",
+      link.name.c_str(), tilt_rad / kRadPerDeg);
+}
+
 }  // namespace
+
+Angle cameraYaw(const scene::Robot& robot, const RobotOptions& options, const CameraFrames& frames) {
+  const std::optional<std::size_t> carrier = carrierOf(robot, options, frames);
+  if (!carrier) return Angle();
+  const std::vector<Eigen::Isometry3d> base_from_links = robot.baseFromLinks(baseOf(robot, options));
+  const Eigen::Vector3d forward = outlookOf(robot.links[*carrier], base_from_links[*carrier]).forward;
+  if (forward.head<2>().norm() < kRounding_rad) return Angle();
+  const double yaw_rad = std::atan2(forward.y(), forward.x());
+  return Angle::radians(std::abs(yaw_rad) < kRounding_rad ? 0.0 : yaw_rad);
+}
 
 RobotPlaces::RobotPlaces(const scene::Robot& robot, const RobotOptions& options, const CameraFrames& frames,
                          std::optional<double> camera_height_m)
-    : base_(options.base_frame.empty() ? 0 : robot.indexOf(options.base_frame).value()),
+    : base_(baseOf(robot, options)),
       frames_(frames),
       joints_by_tf_(options.joints_by_tf),
       patience_(options.tf_patience_s) {
@@ -66,12 +112,13 @@ void RobotPlaces::placeCamera(const scene::Robot& robot, const RobotOptions& opt
   /// A wheel that sinks in or hovers by more than this is worth a word.
   constexpr double kUnevenness_m = 0.05;
   const double lowest_m = lowestPoint(robot, base_from_rest_);
-  const std::string link = options.camera_link.empty() ? frames_.camera : options.camera_link;
-  const std::optional<std::size_t> carrier = robot.indexOf(link);
+  const std::optional<std::size_t> carrier = carrierOf(robot, options, frames_);
   if (options.camera_in_base) {
     camera_in_base_ = *options.camera_in_base;
   } else if (carrier) {
     camera_in_base_ = base_from_rest_[*carrier].translation();
+    camera_yaw_ = cameraYaw(robot, options, frames_);
+    warnUnlessLevel(robot.links[*carrier], outlookOf(robot.links[*carrier], base_from_rest_[*carrier]));
   } else {
     camera_in_base_ = {0.0, 0.0, lowest_m + camera_height_m};
   }
@@ -111,8 +158,9 @@ RobotPlaces::Joints RobotPlaces::lookUp(const tf2_ros::Buffer& tf, const std::st
 }
 
 render::BodyPlaces RobotPlaces::onPath(const Eigen::Isometry3d& map_from_camera, const Joints& joints) const {
-  const Eigen::Isometry3d map_from_base =
-      map_from_camera * Eigen::Isometry3d(Eigen::Translation3d(-camera_in_base_));
+  const Eigen::Isometry3d camera_from_base = Eigen::AngleAxisd(-camera_yaw_.rad(), Eigen::Vector3d::UnitZ()) *
+                                             Eigen::Translation3d(-camera_in_base_);
+  const Eigen::Isometry3d map_from_base = map_from_camera * camera_from_base;
   std::vector<std::optional<Eigen::Isometry3d>> known(links_.size());
   for (std::size_t i = 0; i < joints.size(); ++i)
     if (joints[i]) known[i] = map_from_base * joints[i]->parent_from_child;
@@ -200,6 +248,7 @@ std::string RobotPlaces::print() const {
   image::ContentHash print;
   print.add(joints_by_tf_);
   for (const double number : camera_in_base_) print.add(number);
+  if (camera_yaw_ != Angle()) print.add(camera_yaw_.rad());  // other folders keep the print that they have
   for (const Eigen::Isometry3d& base_from_link : base_from_rest_)
     for (Eigen::Index i = 0; i < 16; ++i) print.add(base_from_link.matrix()(i));
   return print.text();

@@ -12,10 +12,16 @@
 #include "ros/render/camera_frames.h"
 #include "ros/render/robot_options.h"
 #include "ros/render/tf_lookup.h"
+#include "sunlit/quantity/angle.h"
 #include "sunlit/render/renderer.h"
 #include "sunlit/scene/robot.h"
 
 namespace sunlit::ros_interface {
+
+/// How far to the left of the robot's own x axis the camera looks on a path: as the link that carries it, a
+/// camera_link (x forward) or, where "optical" is in its name, an optical frame (z forward; REP-103). 0 where
+/// the place of the camera is given in numbers, no link carries it, or that looks straight up or down.
+Angle cameraYaw(const scene::Robot& robot, const RobotOptions& options, const CameraFrames& frames);
 
 /// On a path the robot moves with the camera, level as it is, and the joints rest, or move as TF says. After
 /// a TF frame it stands where TF says. A link whose transform does not come stays in rest position relative
@@ -24,7 +30,8 @@ class RobotPlaces {
  public:
   /// `camera_height_m`: of the camera above the path; nothing where there is no path. Without a
   /// camera_in_base the camera is on the link frames.camera, if there is one; else above the base, so that
-  /// the robot's lowest point is on the path.
+  /// the robot's lowest point is on the path. The camera stands there turned by cameraYaw(), and level: a
+  /// link that is not is told of.
   RobotPlaces(const scene::Robot& robot, const RobotOptions& options, const CameraFrames& frames,
               std::optional<double> camera_height_m);
 
@@ -77,6 +84,7 @@ class RobotPlaces {
   std::size_t base_;
   CameraFrames frames_;
   Eigen::Vector3d camera_in_base_ = Eigen::Vector3d::Zero();
+  Angle camera_yaw_;  ///< from the base to the camera
   bool joints_by_tf_;
   std::chrono::duration<double> patience_;
   std::optional<Clock::time_point> waiting_since_;

@@ -10,6 +10,7 @@
 #include "sunlit/astronomy/civil_time.h"
 #include "sunlit/astronomy/delta_t.h"
 #include "sunlit/ros/topic_names.h"
+#include "sunlit/sky/eclipse.h"
 
 namespace sunlit::ros_interface {
 namespace {
@@ -19,6 +20,14 @@ constexpr char kPolynomials[] = "from the polynomials of Espenak and Meeus (2006
 constexpr std::uint32_t kQueueSize = 10000;
 /// /clock stands still, and does not only take its time from one value to the next.
 const ros::WallDuration kStandstill(0.005);
+
+void tellEclipses(const sky::SunInSky& sun, const sky::MoonInSky& moon,
+                  diagnostic_updater::DiagnosticStatusWrapper* status) {
+  status->addf("sun, fraction that the moon covers", "%.4f",
+               1.0 - sky::uncoveredArea(sky::sunBehindMoon(sun, moon)));
+  status->addf("moon, fraction of its light lost to the Earth's shadow", "%.4f",
+               1.0 - sky::sunlightOnMoon(sun, moon));
+}
 
 /// A bad request changes nothing and is answered in words.
 template <typename Response, typename Action>
@@ -231,6 +240,8 @@ void SunPositionNode::describe(diagnostic_updater::DiagnosticStatusWrapper& stat
   status.addf("moon's azimuth, deg", "%.6f", moon_.azimuth / kRadPerDeg);
   status.addf("moon's apparent elevation, deg", "%.6f", moon_.elevation / kRadPerDeg);
   status.addf("moon, lit fraction", "%.4f", moon_.illuminated_fraction);
+  if (!sun_.header.frame_id.empty())
+    tellEclipses(fromMessage(sun_, options_.map_frame), fromMessage(moon_, options_.map_frame), &status);
   status.addf("latitude, deg", "%.6f", options_.site.latitude.deg());
   status.addf("longitude, deg", "%.6f", options_.site.longitude.deg());
   if (options_.earth.delta_t_s) {

@@ -12,6 +12,7 @@
 #include "ros/render/camera_output.h"
 #include "ros/render/options.h"
 #include "ros/render/path_source.h"
+#include "ros/render/robot_places.h"
 #include "ros/render/run_files.h"
 #include "ros/render/run_log.h"
 #include "ros/steady.h"
@@ -21,6 +22,53 @@
 
 namespace sunlit::ros_interface {
 namespace {
+
+/// A robot with a camera half a metre before its base and one metre above it.
+scene::Robot robotWithCamera(const std::string& link, const std::string& rpy) {
+  const std::string body = "<visual><geometry><box size='1 1 1'/></geometry></visual>";
+  return scene::parseUrdf("<robot name='r'><link name='base_link'>" + body + "</link><link name='" + link +
+                              "'/><joint name='j' type='fixed'><parent link='base_link'/><child link='" +
+                              link + "'/><origin xyz='0.5 0 1' rpy='" + rpy + "'/></joint></robot>",
+                          "here", {});
+}
+
+TEST(CameraYaw, IsThatOfTheLinkThatCarriesTheCamera) {
+  const auto yawOf = [](const std::string& link, const std::string& rpy) {
+    RobotOptions options;
+    options.camera_link = link;
+    return cameraYaw(robotWithCamera(link, rpy), options, {}).deg();
+  };
+  constexpr double kExact = 1e-6;  // the numbers below have ten digits
+  EXPECT_EQ(yawOf("eye", "0 0 0"), 0.0);
+  EXPECT_NEAR(yawOf("eye", "0 0 1.5707963268"), 90.0, kExact);
+  EXPECT_NEAR(std::abs(yawOf("eye", "0 0 3.1415926536")), 180.0, kExact);
+  EXPECT_NEAR(yawOf("eye", "0.1 0.3 -0.7853981634"), -45.0, kExact);  // level or not
+  EXPECT_EQ(yawOf("eye", "0 1.5707963268 0.5"), 0.0);                 // straight down: nowhere
+  EXPECT_EQ(yawOf("eye_optical_frame", "-1.5707963268 0 -1.5707963268"), 0.0);
+  EXPECT_NEAR(yawOf("eye_optical_frame", "-1.5707963268 0 0"), 90.0, kExact);
+}
+
+TEST(CameraYaw, IsNoneWhereNoLinkCarriesTheCamera) {
+  const scene::Robot robot = robotWithCamera("camera_link", "0 0 1");
+  RobotOptions options;
+  EXPECT_NEAR(cameraYaw(robot, options, {}).rad(), 1.0, 1e-9);  // auto
+  options.camera_in_base = Eigen::Vector3d(0.0, 0.0, 1.0);
+  EXPECT_EQ(cameraYaw(robot, options, {}).rad(), 0.0);
+  options.camera_in_base.reset();
+  EXPECT_EQ(cameraYaw(robotWithCamera("eye", "0 0 1"), options, {}).rad(), 0.0);
+}
+
+TEST(RobotPlaces, StandWithTheCameraOnItsLinkHoweverThatIsTurned) {
+  for (const char* rpy : {"0 0 0", "0 0 2.5", "0 0 3.1415926536"}) {
+    const scene::Robot robot = robotWithCamera("camera_link", rpy);
+    const RobotPlaces places(robot, {}, {}, 1.0);
+    Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();
+    map_from_camera.translate(Eigen::Vector3d(3.0, -2.0, 1.0));
+    map_from_camera.rotate(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()));
+    const render::BodyPlaces links = places.onPath(map_from_camera, {});
+    EXPECT_TRUE(links[1].isApprox(map_from_camera, 1e-9)) << rpy;
+  }
+}
 
 TEST(StampOfPose, IsStartPlusIndexOverRateToTheNanosecond) {
   const ros::Time start(1000, 250000000);

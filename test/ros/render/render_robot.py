@@ -95,6 +95,39 @@ class RenderRobot(RefusalTest):
         self.assertLess(brightness(moved[0], 3.0, -0.5), 0.7 * brightness(from_file[0], 3.0, -0.5))
         self.assertGreater(brightness(moved[0], 3.0, 0.1), 1.4 * brightness(from_file[0], 3.0, 0.1))
 
+    def with_camera(self, rpy):
+        """The pole's robot with its camera on a link turned so."""
+        turned = os.path.join(self.folder, "turned.urdf")
+        with open(POLE) as file:
+            text = file.read()
+        with open(turned, "w") as file:
+            file.write(text.replace("</robot>", """<link name="camera_link"/><joint name="eye" type="fixed">
+              <parent link="base_link"/><child link="camera_link"/><origin xyz="0 0 1" rpy="%s"/></joint></robot>""" % rpy))
+        return turned
+
+    def test_a_camera_looks_where_its_link_does(self):
+        ahead, said = self.images("ahead", 1, path={"count": 1}, robot={"file": self.with_camera("0 0 0")})
+        self.assertFalse(any("tilted" in line for line in said), said)
+        plain, _ = self.images("plain", 1, path={"count": 1}, robot={"file": POLE})
+        self.assertEqual(ahead[0].data, plain[0].data)
+        for name, rpy, path in (("back", "0 0 3.14159265359", {}), ("aside", "0 0 0.5", {"yaw": 160.0})):
+            reader = Reader(["a"], node="/" + name)
+            with RenderNode(name, self.tree(path=dict(path, count=1), robot={"file": self.with_camera(rpy)})) as node:
+                pose, = reader.wait("/camera/pose", 1)
+                image, = reader.wait("/a/camera/image_raw", 1)
+                status, said = node.end()
+            reader.close()
+            self.assertEqual(status, 0, said)
+            turn = 2.0 * math.atan2(pose.pose.orientation.z, pose.pose.orientation.w)
+            expected = math.radians(path.get("yaw", 0.0)) + float(rpy.split()[2])
+            self.assertAlmostEqual(math.cos(turn - expected), 1.0, 6)
+            if not path:  # at the pole's shaded side, which fills the picture
+                self.assertLess(brightness(image, 3.0, 0.0), 0.7 * brightness(plain[0], 3.0, 0.6))
+
+    def test_a_link_that_is_not_level_is_told_of(self):
+        _, said = self.images("tilted", 1, path={"count": 1}, robot={"file": self.with_camera("0 0.2 0")})
+        self.assertTrue(any("WARN" in line and "camera_link" in line and "tilted by 11.5 deg" in line for line in said), said)
+
     def test_one_that_hovers_is_told_of(self):
         _, said = self.images("hovering", 1, path={"count": 1}, robot={"file": POLE, "camera_in_base": [0, 0, 0.4]})
         self.assertTrue(any("WARN" in line and "0.60 m above the path" in line for line in said), said)

@@ -6,7 +6,7 @@ import unittest
 import rospy
 import rostest
 import tf2_ros
-from diagnostic_msgs.msg import DiagnosticArray
+from diagnostic_msgs.msg import DiagnosticArray, KeyValue
 from geometry_msgs.msg import QuaternionStamped
 from sun_reading import Latest, TIMEOUT_S, by_hand
 from sunlit.msg import MoonPosition, SunPosition
@@ -260,6 +260,19 @@ class SunServices(unittest.TestCase):
         for name in self.suns:
             Latest("/diagnostics", DiagnosticArray).wait(
                 lambda array: any(status.name.startswith(name + "/sun_position") for status in array.status))
+
+    def test_diagnostics_tell_of_an_eclipse(self):
+        def tells(covered):
+            value = KeyValue("sun, fraction that the moon covers", covered)
+            Latest("/diagnostics", DiagnosticArray).wait(
+                lambda array: any(status.name.startswith("h12/sun_position") and value in status.values for status in array.status))
+        prefix = "/h12/sun_position/"
+        tells("0.0000")
+        # Total at Dallas.
+        self.assertTrue(service(prefix + "set_site", SetSite)(**dict(TRACK, latitude=32.78, longitude=-96.8)).success)
+        date = dict(FIRST_OF_JULY, month=4, day=8, minute=42, timezone=-5.0)
+        self.assertTrue(service(prefix + "set_date_time", SetDateTime)(hour=13, rate=0.0, **date).success)
+        tells("1.0000")
 
 
 if __name__ == "__main__":

@@ -76,6 +76,40 @@ sky::DiscLight moonOfPhase(double phase_deg, double elevation_deg = 30.0) {
   return moon;
 }
 
+/// A sun of 1 lx at 30° of elevation in the north, of which a moon covers some from above.
+sky::DiscLight sunCovered(double apart_deg, double cover_deg) {
+  sky::DiscLight sun;
+  sun.towards = Direction(Azimuth::degrees(0.0), Angle::degrees(30.0));
+  sun.illuminance = LinearRgb(1.0f, 1.0f, 1.0f);
+  sun.cover = sky::DiscCover{Direction(Azimuth::degrees(0.0), Angle::degrees(30.0 + apart_deg)),
+                             Angle::degrees(cover_deg)};
+  return sun;
+}
+
+TEST(CoveredSun, ShinesAsMuchAsItsIlluminanceWhateverIsLeft) {
+  for (const double apart_deg : {0.0, 0.03, 0.1, 0.3, 0.5}) {
+    for (const double cover_deg : {0.25, 0.28}) {
+      if (apart_deg + 0.2666 < cover_deg) continue;  // total
+      for (const double fov_deg : {1.0, 10.0}) {
+        const sky::DiscLight sun = sunCovered(apart_deg, cover_deg);
+        const Surfaces camera = cameraTowards(sun.towards.vector(), fov_deg);
+        // As of thin crescents of the moon.
+        EXPECT_NEAR(received(camera, DiscInView(camera, sun)), 1.0, 0.05)
+            << apart_deg << " " << cover_deg << " " << fov_deg;
+      }
+    }
+  }
+}
+
+TEST(CoveredSun, IsDarkWhereTheMoonIs) {
+  const sky::DiscLight sun = sunCovered(0.15, 0.26);
+  const Surfaces camera = cameraTowards(sun.towards.vector(), 1.0);  // 64 px to a degree
+  const DiscInView disc(camera, sun);
+  const int above = 32 - 10, below = 32 + 14;
+  EXPECT_EQ(LinearRgb(disc.luminance(32, above)).luminance(), 0.0f);
+  EXPECT_GT(LinearRgb(disc.luminance(32, below)).luminance(), 0.0f);
+}
+
 TEST(Moon, ShinesAsMuchAsItsIlluminanceAtEveryPhaseAndSize) {
   for (const double phase_deg : {0.0, 40.0, 90.0, 140.0, 165.0}) {
     for (const double fov_deg : {60.0, 20.0, 2.0}) {  // a radius of 0.3, 0.8 and 8 pixels

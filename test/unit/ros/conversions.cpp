@@ -18,6 +18,7 @@
 #include "ros/conversions/time.h"
 #include "ros/evaluator/sequence_gaps.h"
 #include "sunlit/astronomy/civil_time.h"
+#include "sunlit/sky/eclipse.h"
 #include "support/message_of.h"
 
 namespace sunlit::ros_interface {
@@ -260,6 +261,28 @@ TEST(SkyMessages, AreWhatTheySay) {
       (fromMessage(celestialMessage(), "map") * Eigen::Vector3d::UnitY() - Eigen::Vector3d::UnitZ()).norm(),
       1e-15);
   EXPECT_NEAR(fromMessage(sunMessage(), "map").geometric->elevation().rad(), 1.5, 1e-8);  // asin near its end
+}
+
+TEST(SkyMessages, TellOfAnEclipseAsTheSkyDoesThatTheyCameFrom) {
+  // Over Dallas, in a crescent that is gone a minute later.
+  const Instant instant = astronomy::midnightOf({2024, 4, 8, 0.0}).plusSeconds(18 * 3600 + 39 * 60 + 43);
+  const Site site{Angle::degrees(32.78), Angle::degrees(-96.80), 130.0};
+  ComputedSun sun{instant, astronomy::solarCoordinates(instant, {}), {}, site.elevation_m};
+  sun.position = astronomy::sunPosition(sun.coordinates, site, {});
+  const ComputedMoon moon{instant, astronomy::moonPosition(instant, {}, site, {})};
+  std_msgs::Header header;
+  header.frame_id = "map";
+  const sky::Overlap told = sky::sunBehindMoon(fromMessage(toMessage(sun, header), "map"),
+                                               fromMessage(toMessage(moon, header), "map"));
+  const sky::Overlap is = sky::sunBehindMoon(
+      {sun.position.direction(), sun.coordinates.distance_au,
+       Direction(sun.position.azimuth, sun.position.elevation_geometric)},
+      {moon.position.direction(), moon.position.geometricDirection(), moon.position.distance_m, Angle()});
+  EXPECT_NEAR(told.apart.rad(), is.apart.rad(), 1e-12);  // 1e-7 of the sun's width
+  EXPECT_EQ(told.cover_radius.rad(), is.cover_radius.rad());
+  EXPECT_EQ(told.radius.rad(), is.radius.rad());
+  EXPECT_GT(sky::uncoveredArea(told), 0.0);
+  EXPECT_LT(sky::uncoveredArea(told), 0.02);
 }
 
 template <typename Message>

@@ -5,6 +5,7 @@
 
 #include "sunlit/quantity/angle.h"
 #include "sunlit/sky/disc_segment.h"
+#include "sunlit/sky/eclipse.h"
 
 namespace sunlit::light {
 namespace {
@@ -44,10 +45,16 @@ DiscInView::DiscInView(const Surfaces& surfaces, const sky::DiscLight& disc)
     lit_from_ = disc.lit_from->vector();
     const double cosine = -disc.lit_from->vector().dot(disc.towards.vector());
     lit = lommelSeeligerPhase(std::acos(std::clamp(cosine, -1.0, 1.0)));
-    const double width = std::max(1.0 + cosine, 1e-3);  // of the lit part, in radii
-    points_per_radius_ = std::clamp(kPointsPerCrescent / width, kPointsPerRadius, kMostPointsPerRadius);
     // At full phase µ0 = µ: one half everywhere.
-    brightness_scale_ = 2.0 / std::max(lit, 1e-9);
+    showPart(lit, 1.0 + cosine);
+    brightness_scale_ *= 2.0;
+  }
+  if (disc.cover) {
+    cover_ = disc.cover->towards.vector();
+    cover_chord_ = 2.0 * std::sin(0.5 * disc.cover->angular_radius.rad());
+    const double apart = 2.0 * std::asin(std::min(0.5 * (*cover_ - centre_).norm(), 1.0));
+    lit = sky::uncoveredArea({Angle::radians(apart), disc.angular_radius, disc.cover->angular_radius});
+    showPart(lit, 1.0 + (apart - disc.cover->angular_radius.rad()) / radius);
   }
   shines_ = disc.illuminance.value.maxCoeff() > 0.0f && above > 1e-4 && lit > 1e-6;
   // The disc fills a solid angle of 2π (1 − cos r), here without cancellation.
@@ -56,12 +63,19 @@ DiscInView::DiscInView(const Surfaces& surfaces, const sky::DiscLight& disc)
       disc.illuminance.value / static_cast<float>(4.0 * kPi * half_sine * half_sine * std::max(above, 1e-4));
 }
 
+void DiscInView::showPart(double lit, double width) {
+  const double points = kPointsPerCrescent / std::max(width, 1e-3);
+  points_per_radius_ = std::clamp(points, kPointsPerRadius, kMostPointsPerRadius);
+  brightness_scale_ = 1.0 / std::max(lit, 1e-9);
+}
+
 double DiscInView::brightness(const Eigen::Vector3d& towards) const {
   // Where on the disc this is seen, in radii from its centre.
   const Eigen::Vector3d across = (towards - towards.dot(centre_) * centre_) / disc_sine_;
   const double square = across.squaredNorm();
   if (square > 1.0) return 0.0;
-  if (!lit_from_) return 1.0;
+  if (cover_ && (towards - *cover_).squaredNorm() < cover_chord_ * cover_chord_) return 0.0;
+  if (!lit_from_) return brightness_scale_;
   // The normal of the sphere there has this cosine to the line of sight.
   const double mu = std::sqrt(1.0 - square);
   const double mu0 = (across - mu * centre_).dot(*lit_from_);

@@ -11,7 +11,8 @@ namespace sunlit::light {
 
 /// The sun shines evenly, the moon by the Lommel-Seeliger law µ0 / (µ0 + µ) over its lit part: dark, rough
 /// ground is as bright towards its rim as in the middle. Either way what all pixels together receive is
-/// DiscLight::illuminance. What of the disc is below the level horizon is not shown.
+/// DiscLight::illuminance. What of the disc is below the level horizon, or behind its cover, is not shown; of
+/// a covered sun at the horizon, where both cut it, all pixels together may receive more or less.
 class DiscInView {
  public:
   /// Keeps a reference to `surfaces`.
@@ -38,6 +39,8 @@ class DiscInView {
   };
   Grid gridOf(const Pixel& pixel) const;
   double brightness(const Eigen::Vector3d& towards) const;
+  /// Where only the share `lit` of the disc's light is left, in a part that is as narrow as `width`, radii.
+  void showPart(double lit, double width);
 
   const Surfaces& surfaces_;
   bool shines_;
@@ -49,6 +52,8 @@ class DiscInView {
   double radius_rad_;                        ///< of the disc
   double disc_sine_;                         ///< of that
   std::optional<Eigen::Vector3d> lit_from_;  ///< unit; empty: shines all over
+  std::optional<Eigen::Vector3d> cover_;     ///< unit, its centre; empty: none
+  double cover_chord_ = 0.0;                 ///< between its centre and its rim, on the unit sphere
   Eigen::Array3f mean_luminance_;            ///< cd/m², over the part of the disc above the horizon
   double brightness_scale_ = 1.0;            ///< so that brightness() has a mean of 1 over the disc
   double points_per_radius_;                 ///< to be looked at, where a pixel is not too wide for it
