@@ -33,6 +33,11 @@ def _left_out(row):
     return ", ".join(told) or "0"
 
 
+def _signed(row, difference):
+    """Errors are of millimetres or of metres."""
+    return f"{difference:+.3g}" if row.metric == "error_m" else f"{difference:+.3f}"
+
+
 def _row(row, pairs):
     is_of_methods = row.family == "methods"
     hours = [_hours(name, pairs) for name in ((row.same,) if is_of_methods else (row.a, row.b))]
@@ -40,8 +45,8 @@ def _row(row, pairs):
     same, (a, b) = (hours[0], methods) if is_of_methods else (methods[0], hours)
     has_interval = not math.isnan(row.low)
     return [METRICS.get(row.metric, row.metric), same, a, b, str(row.n), _left_out(row),
-            MISSING if math.isnan(row.mean_difference) else f"{row.mean_difference:+.3f}",
-            f"[{row.low:+.3f}, {row.high:+.3f}]" if has_interval else MISSING, _p(row.p), _p(row.p_holm)]
+            MISSING if math.isnan(row.mean_difference) else _signed(row, row.mean_difference),
+            f"[{_signed(row, row.low)}, {_signed(row, row.high)}]" if has_interval else MISSING, _p(row.p), _p(row.p_holm)]
 
 
 FAMILIES = ("methods", "hours")

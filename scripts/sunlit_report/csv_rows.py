@@ -75,11 +75,18 @@ def by_pose(path, header, keys, kinds, older=None):
     return found
 
 
+def _opened(path):
+    try:
+        return open(path, newline="", encoding="utf-8", errors="replace")
+    except OSError as error:
+        raise ReportError(f"{path}: cannot be read: {error.strerror}") from None
+
+
 def _lines(path, header, kinds, older):
     """First the names of the columns, then each row's fields."""
     if not os.path.exists(path):
         return
-    with open(path, newline="", encoding="utf-8", errors="replace") as file:
+    with _opened(path) as file:
         lines = csv.reader(file, strict=True)
         try:
             names = next(lines, None)

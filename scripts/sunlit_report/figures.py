@@ -4,6 +4,7 @@ import io
 
 import matplotlib
 
+matplotlib.rcdefaults()  # not by a matplotlibrc of the user's: LaTeX and other layouts break figures
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend must be chosen first)
 import numpy as np  # noqa: E402

@@ -221,6 +221,8 @@ def read_yaml(path):
     try:
         with open(path, encoding="utf-8") as file:
             content = yaml.safe_load(file)
+    except OSError as error:
+        raise ReportError(f"{path}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError as error:
         raise ReportError(f"{path}: byte {error.start} is no UTF-8") from None
     except ValueError as error:  # a date that is none

@@ -4,11 +4,11 @@ import dataclasses
 
 import matplotlib.pyplot as plt
 import numpy as np
-from PIL import Image
 
 from . import names
 from .csv_rows import ReportError, rows, whole
 from .figures import STYLE, grid_of, svg
+from .pictures import picture_of
 from .tables import MISSING
 
 HEADER = "a,b,detector,poses,column,row,features,lost"
@@ -75,11 +75,8 @@ def _background(output, stream):
     """Mean of the kept pictures, grey and pale; None where there are none."""
     total, count = None, 0
     for file in output.images.get(stream, {}).values():
-        try:
-            with Image.open(file) as image:
-                picture = image.convert("L").resize((BACKGROUND_WIDTH, round(BACKGROUND_WIDTH * image.height / image.width)))
-        except OSError as error:
-            raise ReportError(f"{file}: cannot be read as a picture: {error}") from None
+        picture = picture_of(file, "L")
+        picture = picture.resize((BACKGROUND_WIDTH, round(BACKGROUND_WIDTH * picture.height / picture.width)))
         values = np.asarray(picture, dtype=float)
         if total is None or total.shape == values.shape:
             total, count = values if total is None else total + values, count + 1

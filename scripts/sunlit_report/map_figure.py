@@ -10,9 +10,9 @@ from PIL import Image
 
 from . import names
 from .choice import evenly_spread
-from .csv_rows import ReportError
 from .figures import STYLE, distance_along, grid_of, legend_above, svg
 from .localisation import LOST, USABLE
+from .pictures import picture_of
 from .queries import WITHIN
 
 LARGEST_SIDE = 1400  # px of the picture of the world
@@ -94,11 +94,7 @@ def _draw_found(axis, positions):
 
 
 def _picture(file, largest_side=LARGEST_SIDE):
-    try:
-        with Image.open(file) as image:
-            picture = image.convert("RGB")
-    except OSError as error:
-        raise ReportError(f"{file}: cannot be read as a picture: {error}") from None
+    picture = picture_of(file, "RGB")
     picture.thumbnail((largest_side, largest_side), Image.LANCZOS)
     return np.asarray(picture)
 

@@ -23,13 +23,18 @@ def svg_uri(text):
     return data_uri("image/svg+xml", text.encode())
 
 
+def picture_of(path, mode):
+    """Whole, in a mode of Pillow."""
+    try:
+        with Image.open(path) as image:
+            return image.convert(mode)
+    except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:  # SyntaxError: damaged parts of PNG
+        raise ReportError(f"{path}: cannot be read as a picture: {error}") from None
+
+
 def embedded(file, largest_width=LARGEST_WIDTH):
     """A picture file, as JPEG within the page."""
-    try:
-        with Image.open(file) as image:
-            picture = image.convert("RGB")
-    except OSError as error:
-        raise ReportError(f"{file}: cannot be read as a picture: {error}") from None
+    picture = picture_of(file, "RGB")
     if picture.width > largest_width:
         height = round(picture.height * largest_width / picture.width)
         picture = picture.resize((largest_width, height), Image.LANCZOS)

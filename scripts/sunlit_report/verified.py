@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 
 from . import choice, names, pictures
 from .files import is_self_test
-from .figures import STYLE, colour_of, grid_of, legend_above, svg
+from .figures import COLOURS, STYLE, colour_of, grid_of, legend_above, svg
 from .tables import MISSING
 from .verified_rows import ACCURACY_PX
 
@@ -54,6 +54,9 @@ def table_rows(output):
     return rows
 
 
+MARKERS = ("o-", "s--", "^:", "x-.")  # where colours begin anew
+
+
 def accuracy(output):
     """MMA over its threshold, one panel a pair, one line a detector with its interval."""
     shown = shown_pairs(output)
@@ -65,7 +68,7 @@ def accuracy(output):
                 if means is None:
                     continue
                 steps = [means[f"mma_{t}px"] for t in ACCURACY_PX]
-                axis.plot(ACCURACY_PX, [step.mean for step in steps], "o-", markersize=2.5, linewidth=1.2,
+                axis.plot(ACCURACY_PX, [step.mean for step in steps], MARKERS[index // len(COLOURS) % len(MARKERS)], markersize=2.5, linewidth=1.2,
                           color=colour_of(index), label=names.difference(detector))
                 axis.fill_between(ACCURACY_PX, [step.ci_low for step in steps], [step.ci_high for step in steps],
                                   color=colour_of(index), alpha=0.18, linewidth=0)

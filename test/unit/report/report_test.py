@@ -553,6 +553,12 @@ class Comparisons(InFolder):
         self.assertEqual(comparisons.count_rows(output)[0][2:6], ["101", "100", "0 to 39", "0 to 9"])
         self.assertIn(f"the {comparisons.SHOWN} surest of 100", page.render(output, findings.judge(output)))
 
+    def test_errors_of_millimetres_are_no_zeros(self):
+        self.write("frames.csv", made.frames(differences=["sift"]))
+        self.write("comparisons.csv", [made.COMPARISONS_HEADER,
+                                       "error_m,hours,sift,h04,h12,39,0,0,0,0.00031,0.00012,0.00049,0.00001,0.00001,3"])
+        self.assertEqual(comparisons._row(self.read().comparisons[0], made.PAIRS)[6:8], ["+0.00031", "[+0.00012, +0.00049]"])
+
     def test_without_any_there_is_no_word_of_it(self):
         self.write("frames.csv", made.frames(differences=["sift"]))
         for lines in ([], [made.COMPARISONS_HEADER]):
@@ -682,6 +688,38 @@ class Page(InFolder):
         target = os.path.join(self.folder, "elsewhere.html")
         self.assertEqual(self.run_report(self.folder, "--out", target).returncode, 0)
         self.assertEqual(sorted(os.listdir(self.folder)), ["elsewhere.html", "frames.csv"])
+
+    def test_what_a_user_likes_of_figures_does_not_reach_them(self):
+        self.write("frames.csv", made.frames())
+        self.assertEqual(self.run_report(self.folder).returncode, 0)
+        usual = self.page()
+        with tempfile.TemporaryDirectory() as liked:
+            with open(os.path.join(liked, "matplotlibrc"), "w", encoding="utf-8") as file:
+                file.write("text.usetex: True\nfigure.autolayout: True\n")
+            done = subprocess.run([sys.executable, REPORT, self.folder], capture_output=True, check=False,
+                                  env=dict(os.environ, MPLCONFIGDIR=liked))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.page(), usual)
+
+    def test_a_folder_whose_name_is_no_text_has_a_page(self):
+        folder = os.path.join(os.fsencode(self.folder), b"fol\xfcder")
+        os.mkdir(folder)
+        with open(os.path.join(folder, b"frames.csv"), "w", encoding="utf-8") as file:
+            file.write("\n".join(made.frames(differences=["sift"])) + "\n")
+        done = subprocess.run([sys.executable, REPORT, folder], capture_output=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(sorted(os.listdir(folder)), [b"frames.csv", b"report.html"])
+
+    def test_a_damaged_picture_is_named(self):
+        made.write_all(self.folder)
+        picture = next(iter(next(iter(self.read().images.values())).values()))
+        with open(picture, "rb") as file:
+            whole = file.read()
+        at = whole.index(b"IDAT")
+        with open(picture, "wb") as file:
+            file.write(whole[:at] + b"\x00\x01\x02\x03" + whole[at + 4:])
+        with self.assertRaisesRegex(ReportError, "cannot be read as a picture"):
+            pictures.picture_of(picture, "RGB")
 
     def test_failures_end_with_one_line_and_a_status(self):
         unwritable = os.path.join(self.folder, "no", "such", "place.html")
