@@ -75,9 +75,10 @@ def by_pose(path, header, keys, kinds, older=None):
     return found
 
 
-def _opened(path):
+def opened(path, errors="strict"):
+    """A file of text, with its line ends as they are."""
     try:
-        return open(path, newline="", encoding="utf-8", errors="replace")
+        return open(path, newline="", encoding="utf-8", errors=errors)
     except OSError as error:
         raise ReportError(f"{path}: cannot be read: {error.strerror}") from None
 
@@ -86,7 +87,7 @@ def _lines(path, header, kinds, older):
     """First the names of the columns, then each row's fields."""
     if not os.path.exists(path):
         return
-    with _opened(path) as file:
+    with opened(path, errors="replace") as file:
         lines = csv.reader(file, strict=True)
         try:
             names = next(lines, None)

@@ -10,7 +10,7 @@ import numpy as np
 import yaml
 
 from . import choice, comparison_rows, lost, queries, verified_rows
-from .csv_rows import ReportError, by_pose, number, optional_whole, rows, whole
+from .csv_rows import ReportError, by_pose, number, opened, optional_whole, rows, whole
 
 DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "brisk", "orb"]
 
@@ -219,10 +219,8 @@ def read_yaml(path):
     if not os.path.exists(path):
         return {}
     try:
-        with open(path, encoding="utf-8") as file:
+        with opened(path) as file:
             content = yaml.safe_load(file)
-    except OSError as error:
-        raise ReportError(f"{path}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError as error:
         raise ReportError(f"{path}: byte {error.start} is no UTF-8") from None
     except ValueError as error:  # a date that is none

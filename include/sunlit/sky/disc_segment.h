@@ -1,7 +1,6 @@
 /// A disc that a line cuts, as the horizon cuts sun and moon.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "sunlit/quantity/angle.h"

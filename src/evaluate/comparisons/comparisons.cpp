@@ -3,13 +3,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 #include <utility>
 
 #include "evaluate/comparisons/pairing.h"
 #include "evaluate/files/files.h"
 #include "sunlit/image/files.h"
+#include "sunlit/quantity/range.h"
 
 namespace sunlit::evaluate {
 namespace {
@@ -103,14 +103,13 @@ void tellPairedByPlace(const std::vector<Pair>& compared, Comparisons& result) {
   for (std::size_t i = 0; i < compared.size(); ++i) {
     const auto& [a, b] = compared[i];
     if (a->drive == b->drive || !told.emplace(a->hours, b->hours).second) continue;
-    char distance[16];
-    std::snprintf(distance, sizeof distance, "%g m", kSharedPlace_m);
     const Comparison& row = result.rows[i];
     const std::size_t pairs = (a->values.size() + b->values.size() - row.unpaired) / 2;
     result.paired_by_place.push_back(
         "comparisons.csv: " + a->hours + " and " + b->hours +
         " are of two drives, and were paired by place: " + std::to_string(pairs) + " pairs, " +
-        std::to_string(row.unpaired) + " queries without one, nearest to each other within " + distance);
+        std::to_string(row.unpaired) + " queries without one, nearest to each other within " +
+        textOf(kSharedPlace_m) + " m");
   }
 }
 

@@ -75,8 +75,7 @@ void warnUnlessLevel(const scene::RobotLink& link, const Outlook& outlook) {
   if (tilt_rad < kLevel_rad) return;
   ROS_WARN(
       "The robot's link %s, which carries the camera, is tilted by %.1f deg: on a path the camera is level, "
-      "and "
-      "looks where the link does from above",
+      "and looks where the link does from above",
       link.name.c_str(), tilt_rad / kRadPerDeg);
 }
 

@@ -196,6 +196,17 @@ TEST(VeilingGlare, FadesWithoutAStepAlsoWhereThePictureIsAsWideAsTheHoodOrWider)
   }
 }
 
+/// The veil of a light at the edge and of one just beyond it.
+void expectLike(const LinearImage& inside, const LinearImage& outside) {
+  for (int y = 20; y < 480; y += 40) {
+    for (int x = 20; x < 640; x += 40) {
+      const float seen = inside.at(x, y)[1];
+      // By a Gaussian for five taps, which are a twentieth off, and the half pixel of the edge.
+      EXPECT_NEAR(outside.at(x, y)[1], seen, 0.06F * seen) << x << " " << y;
+    }
+  }
+}
+
 TEST(VeilingGlare, LiesAboutTheEdgeThatALightHasPassed) {
   const Lens lens = usual();
   const VeilingGlare veil = before(lens, glare(0.05, 0.5));
@@ -207,14 +218,8 @@ TEST(VeilingGlare, LiesAboutTheEdgeThatALightHasPassed) {
     LinearImage inside = sunAt(lens, edge.x, edge.y), outside = even(lens, 0.0F);
     veil.apply({}, &inside);
     veil.apply({at(edge.right_deg, edge.up_deg)}, &outside);
-    for (int y = 20; y < 480; y += 40) {
-      for (int x = 20; x < 640; x += 40) {
-        const float seen = inside.at(x, y)[1];
-        // By a Gaussian for five taps, which are a twentieth off, and the half pixel of the edge.
-        EXPECT_NEAR(outside.at(x, y)[1], seen, 0.06F * seen)
-            << x << " " << y << " " << edge.x << " " << edge.y;
-      }
-    }
+    SCOPED_TRACE(std::to_string(edge.x) + " " + std::to_string(edge.y));
+    expectLike(inside, outside);
   }
   // Far beyond, 250 px, it is even but for what the widest Gaussian, of 146 px, has left there.
   LinearImage far = even(lens, 0.0F);
@@ -244,12 +249,8 @@ TEST(VeilingGlare, LiesAboutTheNearestEdgeAlsoWhereTheAxisIsNotInThePicture) {
     LinearImage inside = sunAt(lens, edge.x, edge.y), outside = even(lens, 0.0F);
     veil.apply({}, &inside);
     veil.apply({lightAt(lens, edge.beyond_x, edge.beyond_y)}, &outside);
-    for (int y = 20; y < 480; y += 40)
-      for (int x = 20; x < 640; x += 40) {
-        const float seen = inside.at(x, y)[1];
-        EXPECT_NEAR(outside.at(x, y)[1], seen, 0.06F * seen)  // as above
-            << x << " " << y << " " << edge.x << " " << edge.y;
-      }
+    SCOPED_TRACE(std::to_string(edge.x) + " " + std::to_string(edge.y));
+    expectLike(inside, outside);
   }
 }
 
