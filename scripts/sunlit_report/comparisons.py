@@ -17,8 +17,9 @@ COUNTS_HEADER = ["between", "metric", "compared", "more than chance", "n", "unde
 
 def _hours(name, pairs):
     """'h04-h12' -> '4–12 h', 'h04 in h12' -> '4 h in 12 h'; stream names may hold a dash of their own."""
-    if " in " in name:
-        return " in ".join(names.condition(part) for part in name.split(" in "))
+    query, is_in, map_name = name.partition(" in ")
+    if is_in:
+        return f"{names.condition(query)} in {names.condition_of_map(map_name)}"
     found = [pair for pair in pairs if "-".join(pair) == name]
     return names.pair(*found[0]) if found else name
 

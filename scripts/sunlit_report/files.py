@@ -9,7 +9,7 @@ import re
 import numpy as np
 import yaml
 
-from . import choice, comparison_rows, lost, queries, verified_rows
+from . import choice, comparison_rows, lost, names, queries, verified_rows
 from .csv_rows import ReportError, by_pose, number, opened, optional_whole, rows, whole
 
 DIFFERENCES = ["boolean_rgb", "boolean_grey", "euclidean_rgb", "euclidean_grey", "sift", "surf", "brisk", "orb"]
@@ -104,7 +104,12 @@ class Output:
     @property
     def shown_pairs(self):
         """Those of different conditions that tables and figures have; the self-tests where there is nothing else."""
-        return choice.shown_pairs(self.pairs or self.self_pairs, {key[0] for key in self.queries})
+        return choice.shown_pairs(self.pairs or self.self_pairs, self.mapped)
+
+    @property
+    def mapped(self):
+        """Conditions that maps are made of."""
+        return {part for key in self.queries for part in names.parts_of_map(key[0])}
 
     @property
     def differences(self):
@@ -118,7 +123,7 @@ class Output:
             return list(dict.fromkeys(name for pair in self.pairs for name in pair))
         if self.self_pairs:
             return list(dict.fromkeys(a for a, _ in self.self_pairs))
-        return list(dict.fromkeys(name for key in self.queries for name in key[:2]))
+        return list(dict.fromkeys(name for key in self.queries for name in [*names.parts_of_map(key[0]), key[1]]))
 
     @property
     def poses(self):

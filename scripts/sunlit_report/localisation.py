@@ -140,9 +140,10 @@ def errors_along_path(output, shown_pairs):
 
 
 def _pair_of(output, map_name, query, detector):
-    """D of a query and the map, either way round; None where they were not compared."""
-    return next((output.summary[a, b, detector] for a, b in ((query, map_name), (map_name, query))
-                 if (a, b, detector) in output.summary), None)
+    """D of a query and the map, either way round, and of a map of several hours the least; None where they were not compared."""
+    compared = [output.summary[a, b, detector] for part in names.parts_of_map(map_name) for a, b in ((query, part), (part, query))
+                if (a, b, detector) in output.summary]
+    return min(compared, key=lambda one: (math.isnan(one.mean), one.mean), default=None)
 
 
 def _elevation_of(output, stream):
@@ -180,7 +181,7 @@ def over_elevation(output):
         figure, axes = grid_of(len(judged), min(len(judged), 2), (4.6, 2.5))
         for axis, ((map_name, detector), values) in zip(axes, judged.items()):
             _draw_judged(axis, values)
-            axis.set_title(f"{names.difference(detector)}, map of {names.condition(map_name)}", loc="left")
+            axis.set_title(f"{names.difference(detector)}, map of {names.condition_of_map(map_name)}", loc="left")
             axis.set_xlabel("elevation of the sun / °")
             axis.set_ylim(-0.02, 1.08)
         legend_above(figure, axes)

@@ -63,7 +63,7 @@ def found_on_map(output):
             axis.set_xlim(left, right)
             axis.set_ylim(bottom, top)
             axis.set_aspect("equal")
-            axis.set_title(f"{names.condition(key[1])} in the map of {names.condition(key[0])}, {names.difference(key[2])}", loc="left")
+            axis.set_title(f"{names.condition(key[1])} in the map of {names.condition_of_map(key[0])}, {names.difference(key[2])}", loc="left")
             axis.tick_params(labelsize=6)
         legend_above(figure, axes)
         return svg(figure), len(shown), len(hours)

@@ -26,7 +26,7 @@ def pairs(output):
 
 def shown_pairs(output):
     """Of which tables and figures tell."""
-    return choice.shown_pairs(pairs(output), {key[0] for key in output.queries})
+    return choice.shown_pairs(pairs(output), output.mapped)
 
 
 def _keys(output):

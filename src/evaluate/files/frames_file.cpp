@@ -42,7 +42,7 @@ std::string framesHeader() {
 }
 
 std::string framesText(const FramesLayout& layout, const PairRecord& record) {
-  return textOf(layout, record, frameColumns());
+  return rowsOf(layout, record, frameColumns());
 }
 
 LoadedFrames loadFrames(const std::string& path, const FramesLayout& layout) {

@@ -45,7 +45,7 @@ PairRow pairRowOf(const FramesLayout& layout, const std::vector<std::string>& fi
                   const std::string& called);
 
 template <typename Value>
-std::string textOf(const FramesLayout& layout, const PairValues<Value>& record,
+std::string rowsOf(const FramesLayout& layout, const PairValues<Value>& record,
                    const ValueColumns<Value>& columns) {
   const auto& pair = layout.pairs.at(record.pair);
   const std::string start = std::to_string(record.pose) + "," + formatStamp(record.stamp_ns) + "," +
@@ -103,7 +103,7 @@ void writeValues(const std::string& path, const FramesLayout& layout,
   std::vector<std::string> parts((records.size() + kRecordsAtOnce - 1) / kRecordsAtOnce);
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
     for (std::size_t i = p * kRecordsAtOnce; i < std::min((p + 1) * kRecordsAtOnce, records.size()); ++i)
-      parts[p] += textOf(layout, records[i], columns);
+      parts[p] += rowsOf(layout, records[i], columns);
   });
   std::string text = columns.header + "\n";
   for (const std::string& part : parts) text += part;

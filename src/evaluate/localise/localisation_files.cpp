@@ -88,7 +88,7 @@ LocalisationSummary summaryRowOf(const std::vector<std::string>& fields) {
 std::string summaryHeader() {
   std::string header =
       "map,query,detector,n,failures" + reachColumns() + ",median_error_m,median_error_deg,n_relative";
-  for (const double angle : kAucAngles_deg) header += ",auc_" + sunlit::textOf(angle) + "deg";
+  for (const double angle : kAucAngles_deg) header += ",auc_" + textOf(angle) + "deg";
   return header;
 }
 
@@ -118,7 +118,7 @@ KeyFrameOrigin originOf(const LocalisedQuery& result, const std::vector<KeyFrame
 }
 
 std::string nameOf(const Reach& reach) {
-  return "within_" + sunlit::textOf(reach.metres) + "m_" + sunlit::textOf(reach.degrees) + "deg";
+  return "within_" + textOf(reach.metres) + "m_" + textOf(reach.degrees) + "deg";
 }
 
 bool isWithin(const LocalisedQuery& result, const Reach& reach) {

@@ -50,7 +50,7 @@ std::string verifiedHeader() {
 }
 
 std::string verifiedText(const FramesLayout& layout, const VerifiedRecord& record) {
-  return textOf(layout, record, columns());
+  return rowsOf(layout, record, columns());
 }
 
 LoadedVerified loadVerified(const std::string& path, const FramesLayout& layout) {

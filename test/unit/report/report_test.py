@@ -330,6 +330,21 @@ class Localisation(InFolder):
         figure = localisation.usable_hours(output)
         self.assertEqual(figure.count("stroke-dasharray"), 2, "one dashed line an hour of the map")
 
+    def test_pairs_and_elevations_of_a_map_of_several_hours_are_those_of_its_hours(self):
+        made.write_all(self.folder)
+        # A map of 4 and 12 h, whose D to 20 h is that of the most alike.
+        self.write("localisation.csv", [line.replace(",h12,", ",h04+h12,") for line in made.queries() if ",h04," not in line])
+        output = self.read()
+        self.assertEqual(output.mapped, {"h04", "h12"})
+        ((elevation, query, _, least),) = localisation.judged_twice(output)["h04+h12", "orb"]
+        self.assertEqual((elevation, query), (-3.0, "h20"))
+        compared = [output.summary[pair].mean for pair in (("h04", "h20", "orb"), ("h12", "h20", "orb"))]
+        self.assertNotEqual(*compared)
+        self.assertEqual(least.mean, min(compared))
+        os.remove(os.path.join(self.folder, "frames.csv"))
+        self.assertEqual(self.read().conditions, ["h04", "h12", "h20"])
+        self.assertEqual(comparisons._hours("h20 in h04+h12", []), "20 h in 4 and 12 h")
+
 
 class Matrices(InFolder):
     def test_each_pair_stands_in_the_row_of_the_first_and_the_column_of_the_second(self):
