@@ -260,6 +260,21 @@ class LocaliseBags(unittest.TestCase):
                       self.refused("--map", both + ":h12", "--query", both + ":h20,h20"))
         self.assertIn("holds no stream but the map's", self.refused("--map", both + ":h12,h20", "--query", both))
 
+    def test_streams_of_a_bag_that_nobody_numbered_are_compared_where_they_were_taken(self):
+        noon, _ = self.bags()
+        xs = [0.5 + 2 * k for k in range(5)]
+        both = self.write("both.bag", "h16/", xs, without={("image_raw", 0)})
+        with rosbag.Bag(both, "a") as bag, rosbag.Bag(self.write("other.bag", "h18/", xs, brightness=0.5)) as other:
+            for topic, one, stamp in other.read_messages():
+                if topic.startswith("/h18"):
+                    bag.write(topic, one, stamp)
+        _, done = self.localise("out", "--map", noon, "--query", both, "--detectors", "sift", "--map-every", "0")
+        compared = [row for row in self.rows("out", "comparisons.csv") if row["metric"] == "error_m" and row["family"] == "hours"]
+        # By rank the first of one would have stood against the second of the other.
+        self.assertEqual([(row["n"], row["unpaired"]) for row in compared], [("4", "1")])
+        self.assertIn("have no common numbers of poses, and were paired by place: 4 pairs, 1 queries without one",
+                      done.stdout + done.stderr)
+
     def test_streams_of_names_in_parts_have_files_and_none_writes_over_another(self):
         drive = [0.4 * k for k in range(40)]
         noon = self.write("noon.bag", "stereo/noon/", [0.0, 1.0, 2.0])

@@ -107,7 +107,7 @@ void tellPairedByPlace(const std::vector<Pair>& compared, Comparisons& result) {
     const std::size_t pairs = (a->values.size() + b->values.size() - row.unpaired) / 2;
     result.paired_by_place.push_back(
         "comparisons.csv: " + a->hours + " and " + b->hours +
-        " are of two drives, and were paired by place: " + std::to_string(pairs) + " pairs, " +
+        " have no common numbers of poses, and were paired by place: " + std::to_string(pairs) + " pairs, " +
         std::to_string(row.unpaired) + " queries without one, nearest to each other within " +
         textOf(kSharedPlace_m) + " m");
   }

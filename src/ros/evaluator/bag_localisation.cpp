@@ -133,7 +133,7 @@ class BagLocalisation {
         source_.addFeatureless(views.stream(), false, entry.stamp_ns, options_.localisation.detectors[d]);
       rows_.push_back({entry.pose, entry.stamp_ns, map_name_, views.stream().name,
                        options_.localisation.detectors[d], results[d], entry.map_from_optical,
-                       evaluate::originOf(results[d], origins_[d]), views.stream().bag});
+                       evaluate::originOf(results[d], origins_[d]), views.drive()});
     }
   }
 

@@ -166,7 +166,9 @@ void BagViews::makeEntries() {
                    (entries_.empty() || entries_.back().pose < entry.pose);
     entries_.push_back(entry);
   }
+  drive_ = stream_.bag;
   if (are_numbered) return;
+  drive_ += ":" + stream_.stream;
   for (std::size_t i = 0; i < entries_.size(); ++i) entries_[i].pose = i;
 }
 

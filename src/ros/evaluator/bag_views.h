@@ -44,6 +44,8 @@ class BagViews {
 
   const BagStream& stream() const { return stream_; }
   const std::vector<Entry>& entries() const { return entries_; }  ///< by rising stamp
+  /// Of which pictures have one place at one number: the bag, or the stream where captures do not number it.
+  const std::string& drive() const { return drive_; }
   std::size_t repeated() const { return repeated_; }  ///< images left out, of a stamp that was there
   /// "no camera/depth/image_raw of this stamp".
   std::string lackOfDepth(const Entry& entry) const;
@@ -70,6 +72,7 @@ class BagViews {
   std::unique_ptr<rosbag::Bag> bag_;
   std::unique_ptr<Index> index_;
   std::vector<Entry> entries_;
+  std::string drive_;
   std::size_t repeated_ = 0;
 };
 

@@ -122,8 +122,8 @@ TEST(Comparisons, OfTwoDrivesAreOfQueriesAtOnePlace) {
   EXPECT_EQ(row.test.mean_difference, -1.0);
   EXPECT_EQ(
       found.paired_by_place,
-      std::vector<std::string>{"comparisons.csv: dusk in h12 and dawn in h12 are of two drives, and were "
-                               "paired by place: 17 pairs, 13 queries without one, nearest to each other "
+      std::vector<std::string>{"comparisons.csv: dusk in h12 and dawn in h12 have no common numbers of "
+                               "poses, and were paired by place: 17 pairs, 13 queries without one, nearest to each other "
                                "within 5 m"});
   // Who drives back looks the other way; who drives elsewhere is further away.
   for (LocalisationRow& one : rows) {
