@@ -32,9 +32,10 @@ class Recorder:
         self.has_poses_left = plan["begin"] < poses
         self.process = None
         if self.has_poses_left:
-            # -b 0: its buffer may grow, so that nothing is dropped.
+            # -b 0: its buffer may grow, so that nothing is dropped. Below --min-space (1 GB by default) it would go on without
+            # recording; so a full disk ends it, and the run with it.
             self.process = subprocess.Popen(
-                [roslib.packages.find_node("rosbag", "record")[0], "-b", "0", "-o",
+                [roslib.packages.find_node("rosbag", "record")[0], "-b", "0", "--min-space=1", "-o",
                  os.path.join(output, recording.PREFIX[:-1]), "__name:=" + recording.NODE] + self.topics,
                 preexec_fn=end_with_parent, stdout=None if is_verbose else subprocess.DEVNULL)
 

@@ -5,6 +5,7 @@
 #include <ros/this_node.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <numeric>
 #include <set>
 #include <sstream>
@@ -77,6 +78,19 @@ std::optional<Field::Value> asFieldValue(const XmlRpcValue& value) {
     words.push_back(static_cast<std::string>(list[i]));
   }
   return words;
+}
+
+/// As shells do at the beginning of a word, but not within NAME:=~/folder.
+void expandHome(std::string* text) {
+  const char* const home = std::getenv("HOME");
+  if (home != nullptr && text->compare(0, 2, "~/") == 0) text->replace(0, 1, home);
+}
+
+void expandHome(Field::Value* value) {
+  if (auto* text = std::get_if<std::string>(value)) expandHome(text);
+  if (auto* words = std::get_if<std::vector<std::string>>(value)) {
+    for (std::string& word : *words) expandHome(&word);
+  }
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -231,8 +245,9 @@ void ParameterReader::read(const std::vector<Field>& rows) const {
     const bool is_list = std::holds_alternative<std::vector<std::string>*>(field.place);
     if (is_list && value->getType() == XmlRpcValue::TypeString)
       reject(field.key, *value, field.allowed() + ", not a text (as which rosrun passes on _name:=value)");
-    const std::optional<Field::Value> typed = asFieldValue(*value);
+    std::optional<Field::Value> typed = asFieldValue(*value);
     if (!typed) reject(field.key, *value, field.allowed());
+    expandHome(&*typed);
     field.set(*typed, "parameter " + fullName(field.key));
   }
 }

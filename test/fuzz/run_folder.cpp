@@ -23,7 +23,7 @@ evaluate::EvaluationOptions options() {
 /// Takes up what lies in the folder, and ends at once.
 void takeUp() {
   evaluate::Evaluation evaluation(options(), {});
-  evaluation.finish(evaluate::Ending::kBrokenOff);
+  evaluation.finish(evaluate::StopToken([] { return true; }));
 }
 
 /// As a run that found nothing leaves it.

@@ -20,9 +20,10 @@ class StopToken {
   StopToken() = default;  ///< of work that is always wanted
   /// `is_stopped` is called from all threads that work, and stays true once it is.
   explicit StopToken(std::function<bool()> is_stopped) : is_stopped_(std::move(is_stopped)) {}
+  bool isStopped() const { return is_stopped_ && is_stopped_(); }
   /// Throws Stopped where the result is no longer wanted.
   void check() const {
-    if (is_stopped_ && is_stopped_()) throw Stopped();
+    if (isStopped()) throw Stopped();
   }
 
  private:

@@ -35,8 +35,9 @@ class ParameterReader {
   /// (`latitude`), and here where they say nothing. Its rejectUnknown() speaks of the overrides.
   ParameterReader withOverrides(const XmlRpc::XmlRpcValue& overrides, const std::string& name) const;
 
-  /// Sets every row for which there is a parameter of its key; the others stay as they are. A row of a form
-  /// of its own only becomes known: value() reads it.
+  /// Sets every row for which there is a parameter of its key; the others stay as they are. Texts that begin
+  /// with ~/ begin with the home folder then. A row of a form of its own only becomes known: value() reads
+  /// it.
   void read(const std::vector<Field>& rows) const;
   /// Calls `check`, whose refusals begin with a key of `group`: it gets "parameter" and its full name, behind
   /// which the overrides are named where it is none of theirs.

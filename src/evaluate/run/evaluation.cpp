@@ -111,8 +111,8 @@ void Evaluation::waitForRoom(std::size_t queued_poses) const {
   state_->waitForRoom(queued_poses);
 }
 
-Outcome Evaluation::finish(Ending ending) {
-  return state_->finish(ending);
+Outcome Evaluation::finish(const StopToken& broken_off) {
+  return state_->finish(broken_off);
 }
 
 }  // namespace sunlit::evaluate

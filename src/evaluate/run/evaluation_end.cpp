@@ -11,19 +11,21 @@ namespace sunlit::evaluate {
 namespace {
 
 constexpr std::chrono::seconds kSummingAtMost{2};
+constexpr std::chrono::milliseconds kAskedEach{100};  // whether a run is broken off
 
 }  // namespace
 
-Outcome Evaluation::State::finish(Ending ending) {
+Outcome Evaluation::State::finish(const StopToken& broken_off) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_finished_ = true;
-    is_broken_off_ = ending == Ending::kBrokenOff;
+    is_broken_off_ = broken_off.isStopped();
     for (const std::int64_t stamp : sets_.openStamps()) close(stamp, poses_.of(stamp), Reason::kEnd);
   }
-  waitForWork();
+  waitForWork(broken_off);
   queue_.rethrow();
   Outcome outcome;
+  outcome.is_broken_off = is_broken_off_;
   outcome.counts = counts();
   outcome.absent_poses = nameAbsentPoses();
   settleAndWrite(outcome);
@@ -33,8 +35,11 @@ Outcome Evaluation::State::finish(Ending ending) {
 }
 
 // Of a run that is broken off only for what is being written, which is soon done.
-void Evaluation::State::waitForWork() {
-  if (!is_broken_off_) return queue_.waitForAtMost(0);
+void Evaluation::State::waitForWork(const StopToken& broken_off) {
+  while (!is_broken_off_) {
+    if (queue_.waitForAtMost(0, kAskedEach)) return;
+    is_broken_off_ = broken_off.isStopped();
+  }
   const std::lock_guard<std::shared_mutex> nobody_writes(writing_);
   giveUpWork();
 }

@@ -51,7 +51,7 @@ class Evaluation::State {
   Counts counts() const;
   bool isComplete() const;
   void waitForRoom(std::size_t queued_poses) const;
-  Outcome finish(Ending ending);
+  Outcome finish(const StopToken& broken_off);
 
  private:
   enum class Reason { kWhole, kEnd, kMemory };

@@ -33,7 +33,12 @@ std::size_t WorkQueue::size() const {
 
 void WorkQueue::waitForAtMost(std::size_t tasks) const {
   std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait(lock, [&] { return fault_ || tasks_.size() + running_ <= tasks; });
+  changed_.wait(lock, [&] { return hasAtMost(tasks); });
+}
+
+bool WorkQueue::waitForAtMost(std::size_t tasks, std::chrono::milliseconds longest) const {
+  std::unique_lock<std::mutex> lock(mutex_);
+  return changed_.wait_for(lock, longest, [&] { return hasAtMost(tasks); });
 }
 
 void WorkQueue::rethrow() const {

@@ -1,6 +1,7 @@
 /// Threads that take tasks in order, until one throws.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -20,10 +21,13 @@ class WorkQueue {
   std::size_t size() const;
   /// Blocks until at most `tasks` wait or run, or a task has thrown.
   void waitForAtMost(std::size_t tasks) const;
+  /// The same, but no longer than so: false if it was not long enough.
+  bool waitForAtMost(std::size_t tasks, std::chrono::milliseconds longest) const;
   /// Throws what a task threw.
   void rethrow() const;
 
  private:
+  bool hasAtMost(std::size_t tasks) const { return fault_ || tasks_.size() + running_ <= tasks; }
   void run();
 
   mutable std::mutex mutex_;

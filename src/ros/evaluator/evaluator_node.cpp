@@ -133,10 +133,15 @@ std::string EvaluatorNode::reasonToFinish() const {
   return "";
 }
 
-void EvaluatorNode::finish(const std::string& reason, evaluate::Ending ending) {
+// What is left to compare may take minutes: whoever interrupts meanwhile is heeded.
+void EvaluatorNode::finish(const std::string& reason) {
   ROS_INFO("%s; writing results", reason.c_str());
   is_finished_ = true;
-  const evaluate::Outcome outcome = evaluation_->finish(ending);
+  const evaluate::Outcome outcome = evaluation_->finish(evaluate::StopToken([this] {
+    diagnostics_->update();
+    log_.update(options_.evaluation, evaluation_->counts());
+    return isInterrupted() || !ros::ok();
+  }));
   Summary message = messageOf(outcome.summary, outcome.counts.completed_poses);
   message.header.stamp = ros::Time::now();
   summary_.publish(message);
@@ -150,9 +155,9 @@ void EvaluatorNode::finish(const std::string& reason, evaluate::Ending ending) {
   if (!faults_.empty()) ROS_ERROR("%s", faults_.c_str());
   const std::string remarks = remarksOf(evaluation_->options(), outcome.counts);
   if (!remarks.empty()) ROS_WARN("%s", remarks.c_str());
-  if (ending == evaluate::Ending::kCompared) localise();
-  compareMethods(ending);
-  if (options_.report && ending == evaluate::Ending::kCompared && !isInterrupted()) drawReport(outcome);
+  if (!outcome.is_broken_off) localise();
+  compareMethods(outcome.is_broken_off);
+  if (options_.report && !outcome.is_broken_off && !isInterrupted()) drawReport(outcome);
   status_ = faults_.empty() ? 0 : kNotWholeStatus;
   activity_.say("done", "", {1.0, 0.0});
 }
@@ -184,8 +189,8 @@ void EvaluatorNode::localise() {
 }
 
 // Of a run that is broken off, whatever takes no longer than who breaks it off has patience.
-void EvaluatorNode::compareMethods(evaluate::Ending ending) {
-  const Patience patience(kComparingAtMost_s, ending == evaluate::Ending::kBrokenOff);
+void EvaluatorNode::compareMethods(bool is_broken_off) {
+  const Patience patience(kComparingAtMost_s, is_broken_off);
   try {
     evaluation_->compareMethods(evaluate::StopToken([&] { return patience.isOver(); }));
   } catch (const evaluate::Stopped&) {
@@ -229,7 +234,7 @@ int EvaluatorNode::run() {
       return status_;
     }
   }
-  if (!is_finished_) finish(isInterrupted() ? "interrupted" : "shut down", evaluate::Ending::kBrokenOff);
+  if (!is_finished_) finish(isInterrupted() ? "interrupted" : "shut down");
   return status_;
 }
 

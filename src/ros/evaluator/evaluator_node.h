@@ -40,8 +40,8 @@ class EvaluatorNode {
   std::string reasonToFinish() const;
   void localise();
   void drawReport(const evaluate::Outcome& outcome);
-  void compareMethods(evaluate::Ending ending);
-  void finish(const std::string& reason, evaluate::Ending ending = evaluate::Ending::kCompared);
+  void compareMethods(bool is_broken_off);
+  void finish(const std::string& reason);
 
   EvaluatorOptions options_;
   FolderLock lock_;  // before the evaluation, which mends an unfinished run as it starts

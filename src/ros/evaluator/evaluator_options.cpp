@@ -186,6 +186,7 @@ EvaluatorOptions readEvaluatorOptions(const ParameterReader& parameters) {
   e.stamp_start_ns = readStampStart(parameters, fieldOf(rows, "stamp_start"));
   e.about = readAbout(parameters, fieldOf(rows, "about"));
   e.memory_limit_bytes = static_cast<std::size_t>(kBytesPerGigabyte * options.memory_limit_gb);
+  parameters.value(options.intake.transport);  // of its plug-in, which may have left some here
   parameters.rejectUnknown();
   return options;
 }

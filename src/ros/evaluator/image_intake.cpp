@@ -62,6 +62,13 @@ std::string ImageIntake::frameOfPoses() const {
   return frame_of_poses_;
 }
 
+// As it is subscribed to, and may be remapped.
+std::string ImageIntake::imagesTopicOf(const std::string& stream) const {
+  if (options_.transport == kRaw) return stream + "/" + topics::kImage;
+  if (options_.transport == kCompressed) return stream + "/" + topics::kCompressedImage;
+  return stream + "/" + topics::kImage + "/" + options_.transport;
+}
+
 // Only what is localised needs depth, which is larger than an image.
 void ImageIntake::subscribeToTruth() {
   depth_ = node_.subscribe<sensor_msgs::Image>(
@@ -73,7 +80,7 @@ void ImageIntake::subscribeToTruth() {
   for (std::size_t s = 0; s < streams_.size(); ++s) {
     streams_[s].cameras = node_.subscribe<sensor_msgs::CameraInfo>(
         evaluation_.options().streams[s] + "/" + topics::kCameraInfo, kQueue,
-        [this, s, images = node_.resolveName(evaluation_.options().streams[s] + "/" + topics::kImage)](
+        [this, s, images = node_.resolveName(imagesTopicOf(evaluation_.options().streams[s]))](
             const sensor_msgs::CameraInfo::ConstPtr& message) {
           guarded([&] { evaluation_.addCamera(s, cameraOf(*message, images)); });
         });
@@ -91,10 +98,11 @@ void ImageIntake::subscribe(std::size_t stream) {
         guarded([&] { evaluation_.addCapture(stream, captureOf(*message)); });
       },
       nullptr, hints);
+  const std::string images = imagesTopicOf(evaluation_.options().streams[stream]);
   if (options_.transport == kRaw) {
-    streams_[stream].images = imagesOf<sensor_msgs::Image>(stream, root + topics::kImage);
+    streams_[stream].images = imagesOf<sensor_msgs::Image>(stream, images);
   } else if (options_.transport == kCompressed) {
-    streams_[stream].images = imagesOf<sensor_msgs::CompressedImage>(stream, root + topics::kCompressedImage);
+    streams_[stream].images = imagesOf<sensor_msgs::CompressedImage>(stream, images);
   } else {
     subscribeByPlugin(stream, root + topics::kImage);
   }

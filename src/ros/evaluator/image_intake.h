@@ -75,6 +75,7 @@ class ImageIntake {
   ros::Subscriber imagesOf(std::size_t stream, const std::string& topic);
   void subscribeToTruth();
   void subscribeByPlugin(std::size_t stream, const std::string& topic);
+  std::string imagesTopicOf(const std::string& stream) const;
   template <typename Message>
   void take(std::size_t stream, const Message& message, const std::string& sender);
   template <typename Call>

@@ -35,6 +35,10 @@ std::string otherPublisher(const std::string& topic) {
 
 }  // namespace
 
+void takeBackSimTime() {
+  if (otherPublisher(topics::kClock).empty()) ros::param::del(kSimTime);
+}
+
 ClockSource::ClockSource(ros::NodeHandle node, const ros::Time& time) : time_(time) {
   if (!ros::Time::isSimTime()) {
     throw std::invalid_argument(
@@ -61,7 +65,7 @@ void ClockSource::stop() {
   ended_.notify_all();
   if (!thread_.joinable()) return;
   thread_.join();
-  ros::param::del(kSimTime);
+  takeBackSimTime();
 }
 
 void ClockSource::advanceTo(const ros::Time& time) {

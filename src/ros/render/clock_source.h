@@ -38,4 +38,8 @@ class ClockSource {
   std::thread thread_;  // the last member: it uses all others
 };
 
+/// Of a node that publishes the time, or was to and could not begin: the master forgets /use_sim_time, so
+/// that nodes that start on it later do not wait for ever. Not where somebody else publishes /clock.
+void takeBackSimTime();
+
 }  // namespace sunlit::ros_interface

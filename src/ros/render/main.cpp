@@ -1,8 +1,10 @@
 #include <tbb/global_control.h>
 
+#include <exception>
 #include <optional>
 #include <string>
 
+#include "ros/render/clock_source.h"
 #include "ros/render/render_node.h"
 #include "sunlit/ros/node_main.h"
 
@@ -10,9 +12,8 @@ namespace {
 
 using namespace sunlit::ros_interface;
 
-int run() {
+int run(const ros::NodeHandle& private_node) {
   const ros::NodeHandle node;
-  const ros::NodeHandle private_node("~");
   const ParameterReader parameters(private_node);
   const RenderNodeOptions options = readRenderNodeOptions(parameters);
   const RenderConditions conditions = readRenderConditions(parameters, options.sky);
@@ -27,8 +28,23 @@ int run() {
   }
 }
 
+bool isMeantToBeTheTime(const ros::NodeHandle& private_node) {
+  bool publishes_clock = false;
+  return private_node.getParam("publish_clock", publishes_clock) && publishes_clock;
+}
+
+int runOrTakeBackSimTime() {
+  const ros::NodeHandle private_node("~");
+  try {
+    return run(private_node);
+  } catch (const std::exception&) {
+    if (isMeantToBeTheTime(private_node)) takeBackSimTime();
+    throw;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  return runNode(argc, argv, "render", run);
+  return runNode(argc, argv, "render", runOrTakeBackSimTime);
 }

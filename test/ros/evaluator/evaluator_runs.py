@@ -57,7 +57,7 @@ class Evaluator:
     """One process of evaluator_node, with parameters of its own."""
     count = 0
 
-    def __init__(self, parameters):
+    def __init__(self, parameters, remapped=()):
         """Without a report, which takes seconds, unless they ask for it."""
         Evaluator.count += 1
         parameters = dict({'report': False}, **parameters)
@@ -65,7 +65,7 @@ class Evaluator:
         rospy.set_param('/' + self.name, parameters)
         self.progress = 0
         self.subscriber = rospy.Subscriber('/' + self.name + '/progress', UInt32, self.on_progress)
-        self.process = subprocess.Popen([located('evaluator_node'), '__name:=' + self.name],
+        self.process = subprocess.Popen([located('evaluator_node'), '__name:=' + self.name, *remapped],
                                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
     def on_progress(self, message):

@@ -210,6 +210,13 @@ class RenderClock(unittest.TestCase):
         self.assertFalse([line for line in said if "ERROR" in line or "FATAL" in line], said)
         self.assertLess(time.monotonic() - begin, 15.0)  # after which roslaunch loses its patience
 
+    def test_who_refuses_a_parameter_leaves_no_clock_to_wait_for(self):
+        with RenderNode("owner", moving(frame_rate=-1.0)) as node:
+            status, said = node.end()
+        self.assertEqual(status, 1, said)
+        self.assertTrue(any("frame_rate is -1" in line for line in said), said)
+        self.assertFalse(rospy.has_param("/use_sim_time"))
+
     def test_there_is_one_clock(self):
         other = rospy.Publisher("/clock", Clock, queue_size=1)
         with RenderNode("owner", moving()) as node:

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -35,6 +36,19 @@ TEST(ParameterReader, ReadsValuesAndFallsBackToDefaults) {
   EXPECT_FALSE(reader.numberOr("earth/delta_t", "auto", 69.0).has_value());
   EXPECT_EQ(reader.numberOr("earth/delta_ut1", "auto", 0.5).value(), 0.5);
   EXPECT_NO_THROW(reader.rejectUnknown());
+}
+
+TEST(ParameterReader, TextsBeginInTheHomeFolderWhereTheySaySo) {
+  XmlRpcValue tree;
+  tree["folder"] = std::string("~/run");
+  tree["folders"][0] = std::string("~/models");
+  tree["folders"][1] = std::string("/~/models");
+  tree["backup"] = std::string("run~");
+  const ParameterReader reader(tree, "/node");
+  const std::string home = std::getenv("HOME");
+  EXPECT_EQ(reader.text("folder", ""), home + "/run");
+  EXPECT_EQ(reader.texts("folders", {}), (std::vector<std::string>{home + "/models", "/~/models"}));
+  EXPECT_EQ(reader.text("backup", ""), "run~");
 }
 
 TEST(ParameterReader, NamesKeyValueAndRangeOfABadValue) {

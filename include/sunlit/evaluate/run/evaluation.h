@@ -95,6 +95,7 @@ struct Outcome {
   std::vector<SummaryRow> summary;
   std::vector<VerifiedSummaryRow> verified;
   std::size_t absent_poses = 0;  ///< of those expected: no image at all came
+  bool is_broken_off = false;    ///< before all that was whole was compared
   /// Every pair of every pose was evaluated (or is undefined), there was one, and no stream was mostly
   /// duplicates.
   bool isWhole() const;
@@ -127,13 +128,6 @@ struct LocaliseCallbacks {
   std::function<void(const LocalisationRow& row)> found;
   std::function<void(std::size_t done, std::size_t all)> progress;
   StopToken stop;  ///< throws Stopped
-};
-
-/// What becomes of images that are whole, but not compared yet.
-enum class Ending {
-  kCompared,  ///< they are compared first
-  kBrokenOff  ///< they are given up, counted and named, as is what is being compared now. No matter how long
-              ///< a detector still takes, the files are written at once; the destructor waits for it
 };
 
 /// Thread-safe. Images are shared, not copied, and must not change afterwards.
@@ -182,8 +176,11 @@ class Evaluation {
   /// Blocks until at most `queued_poses` wait for being compared: for sources that can wait. Rethrows as
   /// isComplete().
   void waitForRoom(std::size_t queued_poses) const;
-  /// Accounts for everything that still waits, writes all files and stops. Once.
-  Outcome finish(Ending ending = Ending::kCompared);
+  /// Accounts for everything that still waits, writes all files and stops. Once. What is whole is compared
+  /// first, until `broken_off`, which this thread asks ten times a second, says so: then it is given up,
+  /// counted and named, as is what is being compared. No matter how long a detector still takes, the files
+  /// are written at once; the destructor waits for it.
+  Outcome finish(const StopToken& broken_off = {});
   /// Looks for the queries in the map, after finish(), and writes localisation.csv and
   /// localisation_summary.csv. Nothing where options().localisation has no map, or where they are there
   /// already. A run of a whole path then forgets observations.bin: what was found in every picture.

@@ -6,6 +6,7 @@
 #include <ros/node_handle.h>
 #include <ros/this_node.h>
 
+#include <algorithm>
 #include <boost/function.hpp>
 #include <cstdarg>
 #include <cstdio>
@@ -22,6 +23,15 @@ class DiagnosticStatusWrapper : public diagnostic_msgs::DiagnosticStatus {
   void summary(unsigned char new_level, const std::string& text) {
     level = new_level;
     message = text;
+  }
+  /// The worse level and what it says, or both texts where both are well or neither is.
+  void mergeSummary(unsigned char other_level, const std::string& text) {
+    if ((other_level == OK) == (level == OK)) {
+      message += (message.empty() ? "" : "; ") + text;
+    } else if (other_level > level) {
+      message = text;
+    }
+    level = std::max(level, other_level);
   }
   __attribute__((format(printf, 3, 4))) void summaryf(unsigned char new_level, const char* format, ...) {
     std::va_list arguments;

@@ -14,6 +14,7 @@ namespace sunlit::evaluate {
 namespace {
 
 constexpr std::size_t kSetBytes = 3 * 32 * 24 * 3;  // of three streams
+const StopToken kAtOnce([] { return true; });
 
 /// Holds who passes by until it is let go.
 class Held {
@@ -117,7 +118,7 @@ TEST(Evaluation, WritesAllFilesAtOnceWhereItIsBrokenOff) {
   const int poses = 40;
   for (int pose = 0; pose < poses; ++pose) feedPose(evaluation, pose);
   held.waitUntilReached();
-  const Outcome outcome = evaluation.finish(Ending::kBrokenOff);
+  const Outcome outcome = evaluation.finish(kAtOnce);
   held.letGo();
   EXPECT_EQ(outcome.counts.completed_poses, static_cast<std::size_t>(poses));
   EXPECT_EQ(outcome.counts.queued_poses, 0u);
@@ -180,13 +181,25 @@ TEST(Evaluation, DoesNotWaitForADetectorWhereItIsBrokenOff) {
     Evaluation evaluation(slowOptions(folder, Slow::Kind::kHeld, &held), {});
     for (int pose = 0; pose < 5; ++pose) feedPose(evaluation, pose);
     held.waitUntilReached();
-    expectAllGivenUp(evaluation.finish(Ending::kBrokenOff), folder, 5);
+    expectAllGivenUp(evaluation.finish(kAtOnce), folder, 5);
     files_at_the_end = contentOf(folder.file("out/frames.csv")) + contentOf(folder.file("out/problems.csv"));
     held.letGo();
   }
   // What it found after all is not written.
   EXPECT_EQ(contentOf(folder.file("out/frames.csv")) + contentOf(folder.file("out/problems.csv")),
             files_at_the_end);
+}
+
+TEST(Evaluation, IsBrokenOffWhileItWaitsForWhatIsLeft) {
+  const TemporaryFolder folder;
+  Held held;
+  Evaluation evaluation(slowOptions(folder, Slow::Kind::kEndless, &held), {});
+  for (int pose = 0; pose < 5; ++pose) feedPose(evaluation, pose);
+  held.waitUntilReached();
+  int asked = 0;
+  const Outcome outcome = evaluation.finish(StopToken([&] { return ++asked > 2; }));
+  EXPECT_TRUE(outcome.is_broken_off);
+  expectAllGivenUp(outcome, folder, 5);
 }
 
 TEST(Evaluation, StopsWhatIsBeingComparedWhereItIsBrokenOffOrGone) {
@@ -196,7 +209,7 @@ TEST(Evaluation, StopsWhatIsBeingComparedWhereItIsBrokenOffOrGone) {
     Evaluation evaluation(slowOptions(folder, Slow::Kind::kEndless, &held), {});
     feedPose(evaluation, 0);
     held.waitUntilReached();
-    expectAllGivenUp(evaluation.finish(Ending::kBrokenOff), folder, 1);
+    expectAllGivenUp(evaluation.finish(kAtOnce), folder, 1);
   }
   Held again;
   Evaluation evaluation(slowOptions(folder, Slow::Kind::kEndless, &again), {});
