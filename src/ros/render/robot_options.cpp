@@ -77,7 +77,8 @@ std::vector<Field> fieldsOf(RobotOptions& robot) {
            &robot.tf_patience_s,
            "s",
            {0, 60},
-           "that a link's transform is waited for before it is drawn at rest"}};
+           "that a link's transform is waited for before it is drawn at rest"},
+          {"tf_prefix", &robot.tf_prefix, "", {}, "of links on TF, as robot_state_publisher's: PREFIX/LINK"}};
 }
 
 void readRobotForms(const ParameterReader& parameters, bool follows_tf, RobotOptions* robot) {

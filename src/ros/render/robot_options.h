@@ -26,6 +26,7 @@ struct RobotOptions {
   Joints joints = Joints::kAuto;
   bool joints_by_tf = false;  ///< what joints comes to; else in rest position
   double tf_patience_s = 1.0;
+  std::string tf_prefix;  ///< "a" where TF calls the link b "a/b"; empty: "b"
 
   bool none() const { return description.empty() && file.empty(); }
 };

@@ -26,6 +26,11 @@ double lowestPoint(const scene::Robot& robot, const std::vector<Eigen::Isometry3
   return lowest;
 }
 
+std::string frameOf(const std::string& link, const std::string& prefix) {
+  const std::size_t end = prefix.find_last_not_of('/');
+  return end == std::string::npos ? link : prefix.substr(0, end + 1) + "/" + link;
+}
+
 /// None where TF does not say, or says nothing that can be used.
 std::optional<FoundTransform> lookUpOne(const tf2_ros::Buffer& tf, const std::string& parent,
                                         const std::string& child, const ros::Time& stamp) {
@@ -99,8 +104,9 @@ RobotPlaces::RobotPlaces(const scene::Robot& robot, const RobotOptions& options,
       patience_(options.tf_patience_s) {
   for (std::size_t i = 0; i < robot.links.size(); ++i) {
     const scene::RobotLink& link = robot.links[i];
-    links_.push_back({link.name, link.parent < 0 ? i : static_cast<std::size_t>(link.parent),
-                      link.parent_from_link, !link.meshes.empty()});
+    links_.push_back({frameOf(link.name, options.tf_prefix),
+                      link.parent < 0 ? i : static_cast<std::size_t>(link.parent), link.parent_from_link,
+                      !link.meshes.empty()});
   }
   base_from_rest_ = robot.baseFromLinks(base_);
   if (camera_height_m) placeCamera(robot, options, *camera_height_m);
@@ -151,7 +157,7 @@ RobotPlaces::Joints RobotPlaces::lookUp(const tf2_ros::Buffer& tf, const std::st
                                         const ros::Time& stamp) const {
   Joints frame_from_links(links_.size());
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    frame_from_links[i] = lookUpOne(tf, frame, links_[i].name, stamp);
+    frame_from_links[i] = lookUpOne(tf, frame, links_[i].frame, stamp);
   }
   return frame_from_links;
 }
@@ -184,7 +190,7 @@ bool RobotPlaces::knowsJoints(const tf2_ros::Buffer& tf) {
 std::optional<render::BodyPlaces> RobotPlaces::byTf(const tf2_ros::Buffer& tf, const ros::Time& stamp) {
   auto known = transformsOf(lookUp(tf, frames_.map, stamp));
   if (!known[base_]) {
-    waits_for_ = "the TF frame " + links_[base_].name + " of the robot's base";
+    waits_for_ = "the TF frame " + links_[base_].frame + " of the robot's base";
     return std::nullopt;
   }
   const Eigen::Isometry3d map_from_base = *known[base_];
@@ -201,7 +207,7 @@ std::optional<render::BodyPlaces> RobotPlaces::byTf(const tf2_ros::Buffer& tf, c
 bool RobotPlaces::worthWaiting(const std::vector<std::optional<Eigen::Isometry3d>>& known) {
   std::string missing;
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    if (links_[i].visible && !known[i] && !links_[i].given_up) missing = links_[i].name;
+    if (links_[i].visible && !known[i] && !links_[i].given_up) missing = links_[i].frame;
   }
   if (missing.empty()) {
     waiting_since_.reset();
@@ -227,7 +233,7 @@ void RobotPlaces::countStanding(Link* link, const ros::Time& stamp) const {
     ROS_WARN(
         "The transform of the robot's link %s on TF is that of %.3f s and has not been renewed for %.1f s: "
         "the link is drawn where it was",
-        link->name.c_str(), stamp.toSec(), patience_.count());
+        link->frame.c_str(), stamp.toSec(), patience_.count());
   }
 }
 
@@ -238,7 +244,7 @@ void RobotPlaces::countMissing(const std::vector<std::optional<Eigen::Isometry3d
     if (!links_[i].visible || known[i]) continue;
     if (links_[i].missed++ == 0) {
       ROS_WARN("No transform of the robot's link %s on TF: it is drawn in rest position",
-               links_[i].name.c_str());
+               links_[i].frame.c_str());
     }
   }
 }
@@ -258,7 +264,7 @@ std::string RobotPlaces::missingLinks() const {
     std::string text;
     for (const Link& link : links_) {
       if (link.*count == 0) continue;
-      text += (text.empty() ? what : ", ") + link.name + " in " + std::to_string(link.*count) + " of " +
+      text += (text.empty() ? what : ", ") + link.frame + " in " + std::to_string(link.*count) + " of " +
               std::to_string(poses_) + " poses";
     }
     return text;

@@ -60,7 +60,7 @@ class RobotPlaces {
  private:
   using Clock = std::chrono::steady_clock;
   struct Link {
-    std::string name;
+    std::string frame;   ///< as TF calls it
     std::size_t parent;  ///< the link's own index for the root
     Eigen::Isometry3d parent_from_link;
     bool visible;

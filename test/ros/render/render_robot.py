@@ -137,26 +137,26 @@ class RenderRobot(RefusalTest):
         reader = Reader(["a"], node="/followed")
         sender = Transforms()
         tree = self.following(camera={"follow_frame": "eye"},
-                              robot={"file": POLE, "tf_patience": 0.2})
+                              robot={"file": POLE, "tf_patience": 0.2, "tf_prefix": "first"})
         with RenderNode("followed", tree) as node:
             node.line_with("Waiting for the TF frame eye")
             sender.wait_for_readers(2)  # the node, and the reader here
             for index, left in enumerate((0.0, 0.8, -0.8)):
                 stamp = rospy.Time(2000 + index)
                 # The pole goes aside; the weight is not heard of, or nothing that can be.
-                sender.send(transform("map", "eye", stamp, z=CAMERA_HEIGHT_M), transform("map", "base_link", stamp),
-                            transform("base_link", "pole", stamp, x=-POLE_BEHIND_M, y=left),
-                            *([transform("pole", "weight", stamp, z=math.inf)] if index > 0 else []))
+                sender.send(transform("map", "eye", stamp, z=CAMERA_HEIGHT_M), transform("map", "first/base_link", stamp),
+                            transform("first/base_link", "first/pole", stamp, x=-POLE_BEHIND_M, y=left),
+                            *([transform("first/pole", "first/weight", stamp, z=math.inf)] if index > 0 else []))
                 image = reader.wait("/a/camera/image_raw", index + 1)[index]
                 for place in (-0.8, 0.0, 0.8):
                     self.assertEqual(self.shaded(image, bare[0], 3.0, place), place == left, (left, place))
             node.process.send_signal(2)
             status, said = node.end()
         self.assertEqual(status, 0, said)
-        self.assertTrue(any("to weight on TF is not finite" in line for line in said), said)
+        self.assertTrue(any("to first/weight on TF is not finite" in line for line in said), said)
         warnings = [line for line in said if "weight" in line and "Waiting" not in line and "finite" not in line]
         self.assertEqual(len(warnings), 2, said)
-        self.assertIn("No transform of the robot's link weight on TF", warnings[0])
+        self.assertIn("No transform of the robot's link first/weight on TF", warnings[0])
         self.assertIn("weight in 3 of 3 poses", warnings[1])
         sender.close()
         reader.close()
