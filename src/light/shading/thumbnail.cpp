@@ -21,6 +21,14 @@ Eigen::Array4f valueOf(const std::uint8_t* rgba, Thumbnail::Kind kind) {
           kind == Thumbnail::Kind::kSolidColor ? solid : 1.0f};
 }
 
+/// Of so many squares the first of the texels of each, and behind them the number of all texels.
+std::vector<int> beginsOf(int squares, int texels) {
+  std::vector<int> begins;
+  for (int square = 0; square <= squares; ++square)
+    begins.push_back((square * texels + squares - 1) / squares);
+  return begins;
+}
+
 std::size_t numberOf(float coordinate, scene::Wrap wrap, int size) {
   const auto number = static_cast<int>(scene::wrapped(coordinate, wrap) * static_cast<float>(size));
   return static_cast<std::size_t>(std::min(number, size - 1));
@@ -34,21 +42,26 @@ Thumbnail::Thumbnail(const scene::Texture& texture, Kind kind)
       width_(std::min(texture.width, kMost)),
       height_(std::min(texture.height, kMost)),
       squares_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), Eigen::Array4f::Zero()) {
-  std::vector<int> counts(squares_.size(), 0);
+  const std::vector<int> columns = beginsOf(width_, texture.width), rows = beginsOf(height_, texture.height);
   const std::uint8_t* rgba = texture.rgba.data();
-  for (int y = 0; y < texture.height; ++y) {
-    for (int x = 0; x < texture.width; ++x, rgba += 4) {
-      const auto to =
-          static_cast<std::size_t>(y * height_ / texture.height * width_ + x * width_ / texture.width);
-      const Eigen::Array4f value = valueOf(rgba, kind);
-      squares_[to].head<3>() += value[3] * value.head<3>();
-      squares_[to][3] += value[3];
-      ++counts[to];
+  Eigen::Array4f* square = squares_.data();
+  for (std::size_t row = 0; row + 1 < rows.size(); ++row, square += width_) {
+    for (int y = rows[row]; y < rows[row + 1]; ++y) {
+      for (std::size_t column = 0; column + 1 < columns.size(); ++column) {
+        Eigen::Array4f sum = square[column];
+        for (int x = columns[column]; x < columns[column + 1]; ++x, rgba += 4) {
+          const Eigen::Array4f value = valueOf(rgba, kind);
+          sum += Eigen::Array4f(value[0], value[1], value[2], 1.0f) * value[3];
+        }
+        square[column] = sum;
+      }
     }
-  }
-  for (std::size_t i = 0; i < squares_.size(); ++i) {
-    squares_[i].head<3>() /= squares_[i][3];
-    squares_[i][3] /= static_cast<float>(counts[i]);
+    for (std::size_t column = 0; column + 1 < columns.size(); ++column) {
+      Eigen::Array4f& sum = square[column];
+      const int texels = (columns[column + 1] - columns[column]) * (rows[row + 1] - rows[row]);
+      sum.head<3>() /= sum[3];
+      sum[3] /= static_cast<float>(texels);
+    }
   }
 }
 
