@@ -115,7 +115,7 @@ class Evaluation::State {
   std::optional<PairRecord> keep(const Work& work, const Values& values, std::size_t i);
   void settle(const Work& work);
   void tell(const Work& work, const std::vector<PairRecord>& records);
-  void waitForWork();
+  void waitForWork(const StopToken& broken_off);
   void giveUpWork();
   bool isVerifying() const { return !verified_layout_.differences.empty(); }
   void prepareLocalisation();

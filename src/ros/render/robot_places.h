@@ -38,7 +38,7 @@ class RobotPlaces {
   /// base_from_link of each link that TF knows; empty: joints rest.
   using Joints = std::vector<std::optional<FoundTransform>>;
   /// The latest.
-  Joints joints(const tf2_ros::Buffer& tf) const { return lookUp(tf, links_[base_].name, ros::Time(0)); }
+  Joints joints(const tf2_ros::Buffer& tf) const { return lookUp(tf, links_[base_].frame, ros::Time(0)); }
   /// map_from_link of each link for a camera on a path.
   render::BodyPlaces onPath(const Eigen::Isometry3d& map_from_camera, const Joints& joints) const;
   /// Counts, and says once, which of them a pose lacks that is rendered.
