@@ -127,6 +127,17 @@ class EvaluateTrajectory(unittest.TestCase):
         self.assertEqual((done.returncode, self.table()["ate"]["max"]), (0, "0"))
         self.assertRegex(done.stdout, "estimate .*; 1 more left out, whose stamps repeat\n")
 
+    def test_how_many_stamps_repeat_is_said_also_where_nothing_can_be_evaluated(self):
+        first, second = bend(50)[:2]
+        estimate = self.write("estimate.txt", tum([first] * 40 + [second]))
+        said = "; %s has 2 poses; 39 more left out, whose stamps repeat\n" % estimate
+        for more, wrong in ((["--align", "se3"], "needs 3 pairs of poses, but has 2"), ([], "no pose of the estimate")):
+            done = self.evaluate(estimate, *more)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1))
+            self.assertIn(wrong, done.stderr)
+            self.assertTrue(done.stderr.endswith(said), done.stderr)
+            self.truth = self.write("late.txt", tum([(t + 100, x, y, z) for t, x, y, z in bend(50)]))
+
     def test_the_map_is_read_before_anything_is_written(self):
         self.assertIn(self.path("map.yaml") + ": cannot be opened", self.evaluate(self.truth, "--map", self.folder).stderr)
         self.assertFalse(os.path.exists(self.path("out")))

@@ -95,11 +95,16 @@ struct Input {
     }
   }
 
+  /// In words; empty where that is nothing.
+  std::string leftOut() const {
+    if (repeated.empty()) return "";
+    return "; " + std::to_string(repeated.size()) + " more left out, whose stamps repeat";
+  }
+
   void tell(std::size_t without_partner) const {
     std::printf("%-8s  %s: %zu poses, %.3f m", name.c_str(), file.c_str(), poses.size(), lengthOf(poses));
     if (without_partner > 0) std::printf("; %zu without a partner", without_partner);
-    if (!repeated.empty()) std::printf("; %zu more left out, whose stamps repeat", repeated.size());
-    std::printf("\n");
+    std::printf("%s\n", leftOut().c_str());
   }
 
   std::string name, file;
@@ -125,12 +130,30 @@ void tellRows(const std::vector<TrajectoryRow>& rows) {
   }
 }
 
+/// Where that fails, poses that were left out may be why.
+TrajectoryEvaluation evaluationOf(const Input& truth, const Input& estimate,
+                                  const TrajectoryOptions& options) {
+  try {
+    return evaluateTrajectory(truth.poses, estimate.poses, options);
+  } catch (const std::invalid_argument& error) {
+    std::string text = error.what();
+    for (const Input* input : {&truth, &estimate}) {
+      const std::string left_out = input->leftOut();
+      if (left_out.empty()) continue;
+      const std::size_t count = input->poses.size();
+      text +=
+          "; " + input->file + " has " + std::to_string(count) + (count == 1 ? " pose" : " poses") + left_out;
+    }
+    throw std::invalid_argument(text);
+  }
+}
+
 void run(const Options& options) {
   const Input truth("truth", options.truth, options.takes_first_of_stamp);
   const Input estimate("estimate", options.estimate, options.takes_first_of_stamp);
   std::optional<MapPicture> map;
   if (!options.map.empty()) map = readMapPicture(options.map);
-  const TrajectoryEvaluation evaluation = evaluateTrajectory(truth.poses, estimate.poses, options.evaluation);
+  const TrajectoryEvaluation evaluation = evaluationOf(truth, estimate, options.evaluation);
   const FolderLock lock(options.output);
   writeTrajectoryTable(options.output + "/trajectory.csv", evaluation);
   writePoseErrors(options.output + "/trajectory_poses.csv", truth.poses, estimate.poses, evaluation);
