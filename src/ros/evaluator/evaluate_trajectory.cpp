@@ -86,19 +86,25 @@ struct Input {
   Input(std::string the_name, const std::string& the_file, bool takes_first_of_stamp)
       : name(std::move(the_name)),
         file(the_file),
-        poses(isOfBag(the_file) ? readBagTrajectory(the_file, &repeated)
-                                : readTrajectory(the_file, takes_first_of_stamp ? &repeated : nullptr)) {
-    if (!takes_first_of_stamp && !repeated.empty()) {
+        poses(isOfBag(the_file)
+                  ? readBagTrajectory(the_file, &left_out)
+                  : readTrajectory(the_file, takes_first_of_stamp ? &left_out.repeated : nullptr)) {
+    if (!takes_first_of_stamp && !left_out.repeated.empty()) {
       throw std::runtime_error(
-          file + ": " + std::to_string(repeated.size()) +
+          file + ": " + std::to_string(left_out.repeated.size()) +
           " poses have the stamp of the one before; --repeated-stamps first leaves them out");
     }
   }
 
   /// In words; empty where that is nothing.
   std::string leftOut() const {
-    if (repeated.empty()) return "";
-    return "; " + std::to_string(repeated.size()) + " more left out, whose stamps repeat";
+    std::string text;
+    if (!left_out.repeated.empty())
+      text += "; " + std::to_string(left_out.repeated.size()) + " more left out, whose stamps repeat";
+    if (left_out.unusable > 0)
+      text += "; " + std::to_string(left_out.unusable) +
+              " more left out, which cannot be used, the first is " + left_out.first_unusable;
+    return text;
   }
 
   void tell(std::size_t without_partner) const {
@@ -108,7 +114,7 @@ struct Input {
   }
 
   std::string name, file;
-  std::vector<std::int64_t> repeated;
+  LeftOutPoses left_out;
   Trajectory poses;
 };
 
@@ -138,11 +144,11 @@ TrajectoryEvaluation evaluationOf(const Input& truth, const Input& estimate,
   } catch (const std::invalid_argument& error) {
     std::string text = error.what();
     for (const Input* input : {&truth, &estimate}) {
-      const std::string left_out = input->leftOut();
-      if (left_out.empty()) continue;
+      const std::string words = input->leftOut();
+      if (words.empty()) continue;
       const std::size_t count = input->poses.size();
       text +=
-          "; " + input->file + " has " + std::to_string(count) + (count == 1 ? " pose" : " poses") + left_out;
+          "; " + input->file + " has " + std::to_string(count) + (count == 1 ? " pose" : " poses") + words;
     }
     throw std::invalid_argument(text);
   }
