@@ -138,6 +138,23 @@ class EvaluateTrajectory(unittest.TestCase):
             self.assertTrue(done.stderr.endswith(said), done.stderr)
             self.truth = self.write("late.txt", tum([(t + 100, x, y, z) for t, x, y, z in bend(50)]))
 
+    def test_nanoseconds_and_optical_frames_are_taken_for_what_they_are(self):
+        """What ORB-SLAM3 makes of EuRoC's form: truth of the link, estimate of the optical frame, z forward, in ns."""
+        turned = self.write("f_run.txt", "".join("%.6f %.9f %.9f %.9f -0.5 0.5 -0.5 0.5\n" % (round(t * 10) * 1e8, x, y, z)
+                                                 for t, x, y, z in bend(50)))
+        found = {}
+        for of in ("link", "optical"):
+            done = self.evaluate(turned, "--estimate-of", of)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            found[of] = self.table()
+            self.assertLess(float(found[of]["ate"]["max"]), 1e-8)
+        self.assertAlmostEqual(float(found["link"]["ate_deg"]["min"]), 120, 6)
+        self.assertLess(float(found["optical"]["ate_deg"]["max"]), 1e-5)
+        straight, self.truth = self.truth, turned
+        self.assertEqual(self.evaluate(straight, "--truth-of", "optical").returncode, 0)
+        self.assertLess(float(self.table()["ate_deg"]["max"]), 1e-5)
+        self.assertIn('--truth-of is "base", but must be one of link, optical', self.evaluate(straight, "--truth-of", "base").stderr)
+
     def test_the_map_is_read_before_anything_is_written(self):
         self.assertIn(self.path("map.yaml") + ": cannot be opened", self.evaluate(self.truth, "--map", self.folder).stderr)
         self.assertFalse(os.path.exists(self.path("out")))
