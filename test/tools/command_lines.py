@@ -39,7 +39,7 @@ SENSOR = {"--ev": "-16 … 24 EV, default auto", "--compensation": "-8 … 8 EV,
           "--mosaic": "none|rggb|bggr|grbg|gbrg", "--demosaic": "bilinear|vng|edge_aware"}
 SHUTTER = {"--line-delay": "0 … 1000 us, default 0", "--exposure-time": "0 … 1000 ms, default 0", "--exposures": "2 … 64, default 16"}
 VIEW = {**SENSOR, **SHUTTER, "--speed": "-1000 … 1000 m/s, default 0", "--turning": "-3600 … 3600 deg/s, default 0", "--pose": "(default 0,0,1,0,0)", "--look-at": "towards a point", "--path-pose": "≥ 0",
-        "--path": "CSV or TUM", "--top-down": "> 0 … 200000 m"}
+        "--path": "CSV or TUM", "--height": "-1000 … 1000 m, default 1", "--top-down": "> 0 … 200000 m"}
 # By detector, behind its name.
 SIFT = {"n-features": "0 … 1000000, default 0", "n-octave-layers": "1 … 10, default 3",
         "contrast-threshold": "0 … 1, default 0.04", "edge-threshold": "0.001 … 1000000, default 10",
